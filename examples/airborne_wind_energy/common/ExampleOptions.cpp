@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ExampleOptions.h"
+
+#include <cmath>
+#include <limits>
+
+// Resources of a static library are found only by programs that ask for them, outside of any namespace.
+static void loadSignals()
+{
+    Q_INIT_RESOURCE(signals);
+}
+
+namespace awe {
+
+namespace {
+
+const char *const modelOptions[] = {"wind", "turbulence", "seed"};
+const char *const autopilotOptions[] = {"gains", "force-limit", "dead-time"};
+
+void add(QPlcCoreApplication &application, const char *name, const QString &description, const char *valueName,
+         const char *defaultValue)
+{
+    application.addOption(QCommandLineOption(QString::fromLatin1(name), description, QString::fromLatin1(valueName),
+                                             QString::fromLatin1(defaultValue)));
+}
+
+template <std::size_t N>
+QStringList given(const QPlcCoreApplication &application, const char *const (&names)[N])
+{
+    QStringList arguments;
+    for (const char *latin1 : names) {
+        const QString name = QString::fromLatin1(latin1);
+        if (application.isSet(name))
+            arguments << QStringLiteral("--%1=%2").arg(name, application.value(name));
+    }
+    return arguments;
+}
+
+bool readVector(QPlcCoreApplication &application, const QString &option, Eigen::Vector3d *vector)
+{
+    const QPlcValue read = QPlcValue::fromString(QPlcSignalType(QPlcSignalType::Real64, 3), application.value(option));
+    const QString text = application.value(option);
+    if (!read.isValid() || !read.isFinite() || text.count(QLatin1Char(',')) != 2) {
+        application.usageError(QStringLiteral("--%1 %2: use three numbers X,Y,Z").arg(option, text));
+        return false;
+    }
+    *vector = Eigen::Vector3d(read.toReal(0), read.toReal(1), read.toReal(2));
+    return true;
+}
+
+bool accept(QPlcCoreApplication &application, const std::string &error)
+{
+    if (error.empty())
+        return true;
+    application.usageError(QString::fromStdString(error));
+    return false;
+}
+
+} // namespace
+
+QString builtInSignals()
+{
+    loadSignals();
+    return QStringLiteral(":/signals/airborne_wind_energy.ini");
+}
+
+void addModelOptions(QPlcCoreApplication &application)
+{
+    add(application, "wind", QStringLiteral("Mean wind velocity, x east, y north, z up [m/s]."), "X,Y,Z", "5,3,0");
+    add(application, "turbulence", QStringLiteral("Turbulence intensity, 0 ... 1."), "TI", "0");
+    add(application, "seed", QStringLiteral("Chooses one course of the turbulence."), "N", "1");
+}
+
+bool readModelOptions(QPlcCoreApplication &application, ModelSettings *settings)
+{
+    qint64 seed = 0;
+    if (!readVector(application, QStringLiteral("wind"), &settings->wind.meanVelocity)
+        || !application.number(QStringLiteral("turbulence"), 0.0, 1.0, &settings->wind.turbulenceIntensity)
+        || !application.integer(QStringLiteral("seed"), 0, std::numeric_limits<qint64>::max(), &seed))
+        return false;
+    settings->wind.seed = std::uint64_t(seed);
+    settings->plant.groundContact = GroundContact::Hold;
+    const double azimuth
+        = std::atan2(settings->wind.meanVelocity.y(), settings->wind.meanVelocity.x()) * 180.0 / 3.14159265358979323846;
+    settings->plant.initialState = PlantParameters::stateAtRest(30.0, azimuth, 100.0);
+    return accept(application, settings->wind.validate()) && accept(application, settings->plant.validate());
+}
+
+void addAutopilotOptions(QPlcCoreApplication &application)
+{
+    add(application, "gains", QStringLiteral("Gain set: default (more height) or tuned (more power)."), "SET",
+        "default");
+    add(application, "force-limit", QStringLiteral("Upper limit of the tether force [N]. Without one there is none."),
+        "N", "");
+    add(application, "dead-time", QStringLiteral("Cycles from sensor to actuator. The two links cost 2."), "CYCLES",
+        "2");
+}
+
+bool readAutopilotOptions(QPlcCoreApplication &application, AutopilotSettings *settings)
+{
+    const QString gains = application.value(QStringLiteral("gains"));
+    if (gains != QLatin1String("default") && gains != QLatin1String("tuned")) {
+        application.usageError(QStringLiteral("--gains %1: use default or tuned").arg(gains));
+        return false;
+    }
+    settings->gains = gains == QLatin1String("tuned") ? AutopilotGains::tuned() : AutopilotGains::safe();
+    if (application.isSet(QStringLiteral("force-limit"))
+        && !application.number(QStringLiteral("force-limit"), 100.0, 1e6, &settings->gains.forceLimit))
+        return false;
+    qint64 deadTime = 0;
+    if (!application.integer(QStringLiteral("dead-time"), linkDeadTime, 100, &deadTime))
+        return false;
+    settings->extraDeadTime = int(deadTime) - linkDeadTime;
+    return accept(application, settings->gains.validate());
+}
+
+QStringList givenModelOptions(const QPlcCoreApplication &application)
+{
+    return given(application, modelOptions);
+}
+
+QStringList givenAutopilotOptions(const QPlcCoreApplication &application)
+{
+    return given(application, autopilotOptions);
+}
+
+} // namespace awe

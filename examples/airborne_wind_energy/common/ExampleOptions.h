@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "AutopilotGains.h"
+#include "PlantParameters.h"
+#include "WindParameters.h"
+
+#include <QtPlcCore>
+
+namespace awe {
+
+/// What can be said of the model on the command line.
+struct ModelSettings
+{
+    PlantParameters plant;
+    WindParameters wind;
+};
+
+/// What can be said of the autopilot on the command line.
+struct AutopilotSettings
+{
+    AutopilotGains gains;
+    int extraDeadTime = 0; // cycles on top of the two that the links cost
+};
+
+/// Cycles from sensor to actuator that the links alone cost: one from the model to the autopilot, one back.
+constexpr int linkDeadTime = 2;
+
+/// The table of the example, compiled into the programs.
+QString builtInSignals();
+
+void addModelOptions(QPlcCoreApplication &application);
+/// \return false, with the message out, when an option cannot be meant
+bool readModelOptions(QPlcCoreApplication &application, ModelSettings *settings);
+void addAutopilotOptions(QPlcCoreApplication &application);
+bool readAutopilotOptions(QPlcCoreApplication &application, AutopilotSettings *settings);
+
+/// Those of the model and autopilot options that were given, to be handed on to another program.
+QStringList givenModelOptions(const QPlcCoreApplication &application);
+QStringList givenAutopilotOptions(const QPlcCoreApplication &application);
+
+} // namespace awe

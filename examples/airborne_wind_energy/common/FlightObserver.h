@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "FlightStatistics.h"
+
+#include <QtPlcCore>
+
+namespace awe {
+
+/// Watches a flight from its signals: a node without outputs in the process of the master.
+class FlightObserver : public QPlcCompactSlaveNode
+{
+    Q_OBJECT
+public:
+    /// \param nominalWindSpeed  for eta [m/s]; 0: the mean of what is seen
+    explicit FlightObserver(double nominalWindSpeed);
+
+    /// \pre no cycle runs
+    FlightReport report() const { return m_statistics.report(); }
+
+private:
+    using Vector = Eigen::Vector3d;
+
+    void reset() override { m_statistics.reset(); }
+    void step(const QPlcCycle &cycle) override;
+
+    FlightStatistics m_statistics;
+
+    QPlcInput<Vector> m_position{this, "bodyPosition_earth"};     // [m]
+    QPlcInput<Vector> m_windVelocity{this, "windVelocity_earth"}; // [m/s]
+    QPlcInput<Vector> m_tetherForce{this, "tetherForce_earth"};   // [N]
+    QPlcInput<double> m_tetherSpeed{this, "tetherSpeed"};         // [m/s]
+    QPlcInput<double> m_power{this, "power"};                     // [W]
+    QPlcInput<double> m_energy{this, "energy"};                   // [J]
+    QPlcInput<qint8> m_phase{this, "flightPhase"};
+};
+
+} // namespace awe

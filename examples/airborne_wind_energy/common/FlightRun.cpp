@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "FlightRun.h"
+
+#include "FlightPhase.h"
+#include "FlightReportText.h"
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <unistd.h>
+
+namespace awe {
+
+namespace {
+
+constexpr std::chrono::milliseconds period(10);
+const char *const runOptions[] = {"scale", "duration"};
+const char *const runFlags[] = {"lockstep", "real-time"};
+
+} // namespace
+
+// ---- options ----
+
+void addRunOptions(QPlcCoreApplication &application, const QString &defaultDuration)
+{
+    application.addOption(QCommandLineOption(QStringLiteral("lockstep"), QStringLiteral("As fast as possible, bit-identical each time (default).")));
+    application.addOption(QCommandLineOption(QStringLiteral("real-time"), QStringLiteral("As fast as the real thing.")));
+    application.addOption(QCommandLineOption(QStringLiteral("scale"), QStringLiteral("F times as fast as the real thing."), QStringLiteral("F")));
+    application.addOption(QCommandLineOption(QStringLiteral("duration"), QStringLiteral("Simulated time of the flight [s]. 0: until stopped."), QStringLiteral("S"), defaultDuration));
+    application.addOption(QCommandLineOption(QStringLiteral("report"), QStringLiteral("Writes the figures of the flight to FILE as JSON."), QStringLiteral("FILE")));
+}
+
+bool readRunOptions(QPlcCoreApplication &application, RunSettings *settings)
+{
+    const bool lockstep = application.isSet(QStringLiteral("lockstep"));
+    const bool realTime = application.isSet(QStringLiteral("real-time"));
+    const bool scaled = application.isSet(QStringLiteral("scale"));
+    if (int(lockstep) + int(realTime) + int(scaled) > 1) {
+        application.usageError(QStringLiteral("use one of --lockstep, --real-time and --scale"));
+        return false;
+    }
+    double scale = 1.0;
+    if (scaled && !application.number(QStringLiteral("scale"), 0.001, 1000.0, &scale))
+        return false;
+    settings->clock = realTime ? QPlcClock::realTime() : scaled ? QPlcClock::scaled(scale) : QPlcClock::lockstep();
+    settings->reportFile = application.value(QStringLiteral("report"));
+    return application.number(QStringLiteral("duration"), 0.0, 1e7, &settings->duration);
+}
+
+QStringList givenRunOptions(const QPlcCoreApplication &application)
+{
+    QStringList arguments;
+    for (const char *name : runFlags) {
+        if (application.isSet(QString::fromLatin1(name)))
+            arguments << QStringLiteral("--%1").arg(QString::fromLatin1(name));
+    }
+    for (const char *name : runOptions) {
+        if (application.isSet(QString::fromLatin1(name)))
+            arguments << QStringLiteral("--%1=%2").arg(QString::fromLatin1(name), application.value(QString::fromLatin1(name)));
+    }
+    return arguments;
+}
+
+// ---- the flight ----
+
+FlightRun::FlightRun(QPlcMasterNode &master, const RunSettings &settings)
+    : m_master(master)
+    , m_settings(settings)
+    , m_observer(settings.nominalWindSpeed)
+{
+    m_valid = master.setTimeSignal(QStringLiteral("masterTime")) && master.activateJitterMeasurement(QStringLiteral("masterJitter"))
+        && master.activateWorkloadMeasurement(QStringLiteral("masterWorkload")) && master.setInterval(period) && master.setClock(settings.clock)
+        && master.addLocalNode(&m_observer);
+    master.setCycleLimit(quint64(std::llround(settings.duration / std::chrono::duration<double>(period).count())));
+    connect(&master, &QPlcMasterNode::nodeRegistered, this, &FlightRun::startIfComplete);
+    connect(&master, &QPlcMasterNode::realTimeHasStarted, this, &FlightRun::started);
+    connect(&master, &QPlcMasterNode::realTimeHasStopped, this, &FlightRun::stopped);
+    connect(&master, &QPlcMasterNode::errorOccurred, this, [this] {
+        if (m_begun)
+            fail(QPlcCoreApplication::UsageError, {}); // the master has said why
+    });
+    connect(&master, &QPlcMasterNode::nodeLost, this, [this](const QString &name, const QString &reason) {
+        if (m_begun && m_settings.awaitedNodes.contains(name))
+            fail(QPlcCoreApplication::Failure, QStringLiteral("node '%1' is gone (%2): the flight ends").arg(name, reason));
+    });
+    connect(&m_progressTimer, &QTimer::timeout, this, &FlightRun::printProgress);
+}
+
+FlightRun::~FlightRun()
+{
+    m_master.disconnect(this);
+    m_master.removeLocalNode(&m_observer);
+}
+
+void FlightRun::begin()
+{
+    m_begun = true;
+    startIfComplete();
+}
+
+void FlightRun::startIfComplete()
+{
+    QStringList missing = m_settings.awaitedNodes;
+    const QVector<QPlcNodeInfo> nodes = m_master.nodes();
+    for (const QPlcNodeInfo &node : nodes)
+        missing.removeAll(node.name);
+    if (m_begun && !m_started && missing.isEmpty() && !m_settings.awaitedNodes.isEmpty()) {
+        m_started = true;
+        // Not from within the registration of a node.
+        QMetaObject::invokeMethod(this, [this] { m_master.startRealTime(); }, Qt::QueuedConnection);
+    }
+}
+
+void FlightRun::started()
+{
+    m_wallClock.start();
+    if (::isatty(STDERR_FILENO))
+        m_progressTimer.start(200);
+}
+
+void FlightRun::stopped()
+{
+    m_wallTime = m_wallClock.nsecsElapsed();
+    m_progressTimer.stop();
+    if (::isatty(STDERR_FILENO))
+        std::fputs("\r\033[K", stderr);
+    m_report = makeReport();
+    if (m_settings.awaitedNodes.isEmpty())
+        return; // started and stopped by hand, perhaps again
+    QString error;
+    if (!m_settings.reportFile.isEmpty() && !writeReport(m_settings.reportFile, m_report, &error))
+        fail(QPlcCoreApplication::Failure, error);
+    // What failed has said so already; what did not ends here.
+    if (!m_over) {
+        m_over = true;
+        QMetaObject::invokeMethod(this, [this] { Q_EMIT finished(m_exitCode); }, Qt::QueuedConnection);
+    }
+}
+
+void FlightRun::end()
+{
+    if (m_master.state() == QPlcMasterNode::Off && !m_over) {
+        m_over = true;
+        Q_EMIT finished(m_exitCode);
+    }
+    m_master.stop();
+}
+
+void FlightRun::fail(int exitCode, const QString &text)
+{
+    if (m_exitCode != 0)
+        return;
+    m_exitCode = exitCode;
+    if (!text.isEmpty())
+        QPlcCoreApplication::printError(text);
+    if (m_settings.awaitedNodes.isEmpty()) {
+        m_exitCode = 0; // a person is at the controls, and may try again
+        return;
+    }
+    QMetaObject::invokeMethod(this, &FlightRun::end, Qt::QueuedConnection);
+}
+
+void FlightRun::printProgress()
+{
+    const auto phase = FlightPhase(m_master.signalValue(QStringLiteral("flightPhase")).toInt());
+    const QByteArray line = progressLine(double(m_master.cycle()) * 1e-3 * double(period.count()), m_settings.duration, flightPhaseName(phase), m_master).toUtf8();
+    std::fprintf(stderr, "\r\033[K%s", line.constData());
+    std::fflush(stderr);
+}
+
+QJsonObject FlightRun::makeReport() const
+{
+    const FlightReport flight = m_observer.report();
+    const QPlcMasterStatistics statistics = m_master.statistics();
+    const double simulated = double(statistics.cycles + statistics.skippedCycles) * std::chrono::duration<double>(period).count();
+    const double wall = double(m_wallTime) * 1e-9;
+    return {{QStringLiteral("cycles"), double(statistics.cycles)},
+            {QStringLiteral("simulated_s"), simulated},
+            {QStringLiteral("wall_s"), wall},
+            {QStringLiteral("real_time_factor"), wall > 0.0 ? simulated / wall : 0.0},
+            {QStringLiteral("energy_J"), flight.energy},
+            {QStringLiteral("mean_power_W"), flight.meanPower},
+            {QStringLiteral("eta"), flight.eta},
+            {QStringLiteral("eta_per_mean_cubed_wind"), flight.etaPerMeanCubedWind},
+            {QStringLiteral("reel_out_power_W"), flight.reelOutPower},
+            {QStringLiteral("reel_in_power_W"), flight.reelInPower},
+            {QStringLiteral("mean_wind_speed_m_s"), flight.meanWindSpeed},
+            {QStringLiteral("pumping_cycles"), flight.pumpingCycles},
+            {QStringLiteral("min_altitude_m"), flight.minimumAltitude},
+            {QStringLiteral("max_tether_force_N"), flight.maximumTetherForce},
+            {QStringLiteral("crashed"), flight.crashed},
+            {QStringLiteral("recoveries"), flight.recoveries},
+            {QStringLiteral("overruns"), double(statistics.overruns)},
+            {QStringLiteral("skipped_cycles"), double(statistics.skippedCycles)},
+            {QStringLiteral("late_answers"), double(statistics.lateAnswers)},
+            {QStringLiteral("lateness_p50_us"), double(statistics.latenessMedian) * 1e-3},
+            {QStringLiteral("lateness_p99_us"), double(statistics.lateness99) * 1e-3},
+            {QStringLiteral("image_digest"), QPlcMessage::fromHex64(statistics.imageDigest)}};
+}
+
+} // namespace awe

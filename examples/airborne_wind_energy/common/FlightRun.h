@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "FlightObserver.h"
+
+#include <QtCore/QElapsedTimer>
+#include <QtCore/QJsonObject>
+#include <QtCore/QTimer>
+#include <QtPlcCore>
+
+namespace awe {
+
+struct RunSettings
+{
+    QPlcClock clock;
+    double duration = 0.0;         // [s] of simulated time; 0: until stopped
+    QString reportFile;            // empty: none
+    double nominalWindSpeed = 0.0; // [m/s]
+    QStringList awaitedNodes;      // the flight begins as soon as all of them have registered
+};
+
+/// --lockstep, --real-time, --scale, --duration, --report: how a flight is run.
+void addRunOptions(QPlcCoreApplication &application, const QString &defaultDuration);
+/// \return false, with the message out, when an option cannot be meant
+bool readRunOptions(QPlcCoreApplication &application, RunSettings *settings);
+/// Those of the run options that were given, to be handed on to another program.
+QStringList givenRunOptions(const QPlcCoreApplication &application);
+
+/// One flight of a master from the registration of its nodes to the report.
+class FlightRun : public QObject
+{
+    Q_OBJECT
+public:
+    /// Sets \a master up: period, clock, own signals, and a FlightObserver. \param master outlives this object
+    FlightRun(QPlcMasterNode &master, const RunSettings &settings);
+    ~FlightRun() override;
+
+    /// \return false when the set-up failed; master.errorString() says why
+    bool isValid() const { return m_valid; }
+    /// Begins when all awaited nodes are there, now or later. finished() follows.
+    void begin();
+    /// Ends the flight before its time, with a report of what was flown.
+    void end();
+
+    /// The report; complete after finished().
+    QJsonObject report() const { return m_report; }
+
+Q_SIGNALS:
+    /// \param exitCode  of the program, see QPlcCoreApplication
+    void finished(int exitCode);
+
+private:
+    void startIfComplete();
+    void started();
+    void stopped();
+    void fail(int exitCode, const QString &text);
+    void printProgress();
+    QJsonObject makeReport() const;
+
+    QPlcMasterNode &m_master;
+    RunSettings m_settings;
+    FlightObserver m_observer;
+    QElapsedTimer m_wallClock;
+    QTimer m_progressTimer;
+    QJsonObject m_report;
+    qint64 m_wallTime = 0; // [ns]
+    bool m_valid = false;
+    bool m_begun = false;
+    bool m_started = false;
+    bool m_over = false;
+    int m_exitCode = 0;
+};
+
+/// What a person wants to know of a report, in a few lines.
+QString summary(const QJsonObject &report);
+/// Writes \a report as JSON; the file is there as a whole or not at all. \return false with a sentence in \a error
+bool writeReport(const QString &fileName, const QJsonObject &report, QString *error);
+
+} // namespace awe

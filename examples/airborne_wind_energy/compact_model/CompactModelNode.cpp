@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "CompactModelNode.h"
+
+namespace awe {
+
+void CompactModelNode::collect(const PlantOutputs &outputs)
+{
+    m_position = outputs.position;
+    m_velocity = outputs.velocity;
+    m_windVelocity = outputs.inputs.windVelocity;
+    m_controlOrientation = outputs.bodyControlOrientation;
+    m_positionOrientation = outputs.bodyPositionOrientation;
+    m_angleOfAttack = outputs.angleOfAttack;
+    m_dragCoefficient = outputs.dragCoefficient;
+    m_liftCoefficient = outputs.liftCoefficient;
+    m_aweCoefficient = outputs.aweCoefficient;
+    m_gravitationalForce = outputs.gravitationalForce;
+    m_aerodynamicForce = outputs.aerodynamicForce;
+    m_tetherForce = outputs.tetherForce;
+    m_tetherLength = outputs.tetherLength;
+    m_power = outputs.power;
+    m_averagePower = outputs.averagePower;
+    m_energy = outputs.energy;
+    m_crashed = outputs.crashed;
+}
+
+} // namespace awe

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Autopilot.h"
+
+#include "AngleMath.h"
+
+#include <cmath>
+
+namespace awe {
+
+Autopilot::Autopilot(const AutopilotGains &gains)
+    : m_gains(gains)
+    , m_orientation(gains)
+    , m_course(gains)
+    , m_power(gains)
+    , m_flightSpeed(gains.speedFilterTime, gains.step, gains.startSpeed)
+    , m_windDirection(gains.windDirectionFilterTime, gains.step)
+{
+}
+
+void Autopilot::reset()
+{
+    m_course.reset();
+    m_power.reset();
+    m_flightSpeed.reset(m_gains.startSpeed);
+    m_windDirection.reset(0.0);
+    m_hasWindDirection = false;
+}
+
+void Autopilot::filterWindDirection(double direction)
+{
+    if (!m_hasWindDirection)
+        m_windDirection.reset(direction);
+    m_hasWindDirection = true;
+    const double filtered = m_windDirection.value();
+    m_windDirection.step(filtered + wrapDegrees(direction - filtered)); // the short way round
+    m_windDirection.reset(wrapDegrees(m_windDirection.value()));
+}
+
+bool Autopilot::isUsable(const FlightMeasurements &m)
+{
+    const double sum = m.position.sum() + m.velocity.sum() + m.pitchAngle + m.yawAngle + m.angleOfAttack
+        + m.tetherLength + m.tetherForce + m.windDirection; // not finite when one of them is not
+    return std::isfinite(sum) && m.position.squaredNorm() > 0.0;
+}
+
+AutopilotOutputs Autopilot::step(const FlightMeasurements &measurements)
+{
+    AutopilotOutputs outputs;
+    outputs.phase = phase();
+    if (!isUsable(measurements))
+        return outputs;
+    filterWindDirection(measurements.windDirection);
+    const FlightGeometry geometry = FlightGeometry::from(measurements, m_windDirection.value() * radiansPerDegree);
+    const PowerController::References references = m_power.step(measurements, geometry);
+
+    double yawReference = 0.0;
+    if (references.course == PowerController::Course::FigureEight) {
+        const double speed = m_flightSpeed.step(geometry.tangentialSpeed);
+        yawReference = m_course.figureEight(geometry, speed, m_orientation.yawSpeedLimit(speed));
+    } else {
+        yawReference = m_course.zenith(geometry);
+    }
+
+    outputs.phase = references.phase;
+    outputs.tetherSpeed = references.tetherSpeed;
+    outputs.pitchSpeed = m_orientation.pitchSpeed(references.pitch, measurements);
+    outputs.yawSpeed = m_orientation.yawSpeed(yawReference, measurements.yawAngle, m_flightSpeed.value());
+    return outputs;
+}
+
+} // namespace awe

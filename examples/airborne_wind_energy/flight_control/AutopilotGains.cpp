@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "AutopilotGains.h"
+
+#include "RangeCheck.h"
+
+namespace awe {
+
+namespace {
+
+void checkOrientation(const AutopilotGains &g, RangeCheck &check)
+{
+    check.within("yawGain", g.yawGain, 0.0, 100.0, "1/s");
+    check.within("yawReferenceLimit", g.yawReferenceLimit, 1.0, 180.0, "deg");
+    check.within("slowYawSpeed", g.slowYawSpeed, 1.0, g.largestYawSpeed, "deg/s");
+    check.within("largestYawSpeed", g.largestYawSpeed, 1.0, 1000.0, "deg/s");
+    check.within("referenceSpeed", g.referenceSpeed, 0.1, 1000.0, "m/s");
+    check.within("pitchGain", g.pitchGain, 0.0, 100.0, "1/s");
+    check.within("largestPitchSpeed", g.largestPitchSpeed, 1.0, 1000.0, "deg/s");
+    check.within("lowestPitch", g.lowestPitch, -180.0, g.reelOutPitch, "deg");
+}
+
+void checkCourse(const AutopilotGains &g, RangeCheck &check)
+{
+    check.within("eightHalfWidth", g.eightHalfWidth, 1.0, 1000.0, "m");
+    check.within("eightHalfHeight", g.eightHalfHeight, 0.0, 1000.0, "m");
+    check.within("lowestHeight", g.lowestHeight, 0.0, 1000.0, "m");
+    check.within("lowestElevation", g.lowestElevation, 0.0, 60.0, "deg");
+    check.within("lookAhead", g.lookAhead, 0.1, g.eightHalfWidth, "m");
+    check.within("lookAheadExponent", g.lookAheadExponent, 0.0, 1.0, "");
+    check.within("courseGain", g.courseGain, 0.0, 10.0, "");
+    check.within("courseCorrectionLimit", g.courseCorrectionLimit, 0.0, 90.0, "deg");
+    check.within("slowestCourseSpeed", g.slowestCourseSpeed, 0.0, 100.0, "m/s");
+    check.within("guardHeight", g.guardHeight, 0.0, 1000.0, "m");
+    check.within("guardLookAhead", g.guardLookAhead, 0.0, 10.0, "s");
+    check.within("guardFactor", g.guardFactor, 0.1, 10.0, "");
+    check.within("zenithAzimuthGain", g.zenithAzimuthGain, 0.0, 100.0, "deg/deg");
+    check.within("zenithDamping", g.zenithDamping, 0.0, 100.0, "deg s/m");
+    check.within("zenithYawLimit", g.zenithYawLimit, 0.0, 90.0, "deg");
+}
+
+void checkCycle(const AutopilotGains &g, RangeCheck &check)
+{
+    check.within("forceCoefficient", g.forceCoefficient, 1e-3, 1e9, "N s^2/m^2");
+    check.within("reelOutFactor", g.reelOutFactor, 0.0, 2.0, "");
+    check.within("reelOutPitch", g.reelOutPitch, -45.0, 45.0, "deg");
+    check.within("shortestTether", g.shortestTether, 1.0, g.longestTether, "m");
+    check.within("longestTether", g.longestTether, 1.0, 1e5, "m");
+    check.within("fastestReelOut", g.fastestReelOut, 0.0, 100.0, "m/s");
+    check.within("fastestReelIn", g.fastestReelIn, 0.0, 100.0, "m/s");
+    check.within("winchAcceleration", g.winchAcceleration, 0.01, 1000.0, "m/s^2");
+    check.within("launchSpeed", g.launchSpeed, 0.0, 100.0, "m/s");
+    check.within("launchTime", g.launchTime, 0.0, 1000.0, "s");
+    check.within("powerTime", g.powerTime, 0.0, 1000.0, "s");
+    check.within("retractFactor", g.retractFactor, 0.0, 2.0, "");
+    check.within("retractYaw", g.retractYaw, 0.0, 180.0, "deg");
+    check.within("retractTime", g.retractTime, 0.0, 1000.0, "s");
+    check.within("reelInWindFactor", g.reelInWindFactor, 0.0, 10.0, "");
+    check.within("reelInElevation", g.reelInElevation, 0.0, 80.0, "deg");
+    check.within("reelInAngleOfAttack", g.reelInAngleOfAttack, -90.0, 90.0, "deg");
+    check.within("lowestReelInAngle", g.lowestReelInAngle, -90.0, g.highestReelInAngle, "deg");
+    check.within("highestReelInAngle", g.highestReelInAngle, -90.0, 90.0, "deg");
+    check.within("reelInElevationGain", g.reelInElevationGain, 0.0, 100.0, "deg/deg");
+    check.within("reelInZenithDamping", g.reelInZenithDamping, 0.0, 100.0, "deg s/m");
+    check.within("reelInPayOut", g.reelInPayOut, 0.0, g.fastestReelOut, "m/s");
+    check.within("reelInForceFactor", g.reelInForceFactor, 1e-3, 10.0, "");
+}
+
+void checkRecovery(const AutopilotGains &g, RangeCheck &check)
+{
+    check.within("recoverAngleOfAttack", g.recoverAngleOfAttack, 0.0, 90.0, "deg");
+    check.within("recoverSpeed", g.recoverSpeed, 0.0, 100.0, "m/s");
+    check.within("recoverDelay", g.recoverDelay, 0.0, 100.0, "s");
+    check.within("recoverGrace", g.recoverGrace, 0.0, 100.0, "s");
+    check.within("recoverPitchTarget", g.recoverPitchTarget, -90.0, 90.0, "deg");
+    check.within("recoverHeight", g.recoverHeight, 0.0, 1000.0, "m");
+    check.within("recoverTime", g.recoverTime, 0.0, 1000.0, "s");
+    check.within("recoverTargetHeight", g.recoverTargetHeight, g.recoverHeight, 1000.0, "m");
+    check.within("recoverWinchGain", g.recoverWinchGain, 0.0, 100.0, "1/s");
+    check.within("recoverReelIn", g.recoverReelIn, 0.0, 100.0, "m/s");
+    check.within("recoverShortestTether", g.recoverShortestTether, 1.0, g.longestTether, "m");
+}
+
+void checkFiltersAndLimit(const AutopilotGains &g, RangeCheck &check)
+{
+    check.within("step", g.step, 1e-6, 1.0, "s");
+    check.within("forceFilterTime", g.forceFilterTime, 1e-6, 1000.0, "s");
+    check.within("speedFilterTime", g.speedFilterTime, 1e-6, 1000.0, "s");
+    check.within("startSpeed", g.startSpeed, 0.0, 1000.0, "m/s");
+    check.within("windDirectionFilterTime", g.windDirectionFilterTime, 1e-6, 1e6, "s");
+    check.within("forceLimit", g.forceLimit, 1.0, std::numeric_limits<double>::infinity(), "N");
+    check.within("forceLimitMargin", g.forceLimitMargin, 0.1, 1.0, "");
+    check.within("forceLimitIntegral", g.forceLimitIntegral, 0.0, 10.0, "m/s per N s");
+    check.within("forceLimitProportional", g.forceLimitProportional, 0.0, 1.0, "m/s per N");
+    check.within("forceGuardGain", g.forceGuardGain, 0.0, 10.0, "deg/s per N");
+    check.within("forceGuardLead", g.forceGuardLead, 0.0, 10.0, "");
+}
+
+} // namespace
+
+AutopilotGains AutopilotGains::tuned()
+{
+    AutopilotGains gains;
+    gains.lowestHeight = 18.0;
+    gains.lowestElevation = 5.0;
+    gains.reelInElevation = 13.0;
+    gains.guardFactor = 1.1;
+    return gains;
+}
+
+std::string AutopilotGains::validate() const
+{
+    RangeCheck check;
+    checkOrientation(*this, check);
+    checkCourse(*this, check);
+    checkCycle(*this, check);
+    checkRecovery(*this, check);
+    checkFiltersAndLimit(*this, check);
+    return check.message();
+}
+
+} // namespace awe

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "FlightStatistics.h"
+
+#include "FlightPhase.h"
+#include "RangeCheck.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace awe {
+
+namespace {
+
+double mean(double sum, std::int64_t count)
+{
+    return count > 0 ? sum / static_cast<double>(count) : 0.0;
+}
+
+double ratio(double part, double whole)
+{
+    return whole > 0.0 ? part / whole : 0.0;
+}
+
+} // namespace
+
+std::string FlightStatisticsParameters::validate() const
+{
+    RangeCheck check;
+    check.within("step", step, 1e-6, 1.0, "s");
+    check.within("airDensity", airDensity, 1e-3, 100.0, "kg/m^3");
+    check.within("area", area, 1e-3, 1e6, "m^2");
+    check.within("aweCoefficient", aweCoefficient, 1e-3, 1e6, "");
+    check.within("nominalWindSpeed", nominalWindSpeed, 0.0, 100.0, "m/s");
+    check.within("warmUp", warmUp, 0.0, 1e6, "s");
+    check.within("shortestFlight", shortestFlight, warmUp, 1e6, "s");
+    return check.message();
+}
+
+FlightStatistics::FlightStatistics(const FlightStatisticsParameters &parameters)
+    : m_parameters(parameters)
+{
+}
+
+void FlightStatistics::reset()
+{
+    *this = FlightStatistics(m_parameters);
+}
+
+void FlightStatistics::Sums::add(const FlightSample &sample, double windSpeedNow)
+{
+    ++count;
+    power += sample.power;
+    windSpeed += windSpeedNow;
+    cubedWind += windSpeedNow * windSpeedNow * windSpeedNow;
+    if (sample.tetherSpeed > 0.0) {
+        ++outCount;
+        outPower += sample.power;
+    } else if (sample.tetherSpeed < 0.0) {
+        ++inCount;
+        inPower += sample.power;
+    }
+}
+
+void FlightStatistics::step(const FlightSample &sample)
+{
+    if (m_all.count == 0)
+        m_firstEnergy = sample.energy;
+    m_lastEnergy = sample.energy;
+    const double windSpeed = sample.windVelocity.norm();
+    if (static_cast<double>(m_all.count) * m_parameters.step >= m_parameters.warmUp)
+        m_afterWarmUp.add(sample, windSpeed);
+    m_all.add(sample, windSpeed);
+    followPhase(sample.flightPhase);
+    m_crashed = m_crashed || sample.position.z() <= 0.0;
+    m_maximumTetherForce = std::max(m_maximumTetherForce, sample.tetherForce.norm());
+    if (m_launched)
+        m_minimumAltitude = std::min(m_minimumAltitude, sample.position.z());
+}
+
+void FlightStatistics::followPhase(std::int8_t phase)
+{
+    const auto is = [](std::int8_t number, FlightPhase wanted) { return number == static_cast<std::int8_t>(wanted); };
+    if (is(m_phase, FlightPhase::ReelIn) && is(phase, FlightPhase::Power))
+        ++m_pumpingCycles;
+    if (!is(m_phase, FlightPhase::Recover) && is(phase, FlightPhase::Recover))
+        ++m_recoveries;
+    m_launched = m_launched || !is(phase, FlightPhase::Launch);
+    m_phase = phase;
+}
+
+double FlightStatistics::bestPower(double cubedWind) const
+{
+    return 2.0 / 27.0 * m_parameters.airDensity * m_parameters.area * cubedWind * m_parameters.aweCoefficient;
+}
+
+FlightReport FlightStatistics::report() const
+{
+    FlightReport report;
+    report.cycles = m_all.count;
+    report.duration = static_cast<double>(m_all.count) * m_parameters.step;
+    report.energy = m_lastEnergy - m_firstEnergy;
+    const Sums &window = report.duration > m_parameters.shortestFlight ? m_afterWarmUp : m_all;
+    report.meanPower = mean(window.power, window.count);
+    report.meanWindSpeed = mean(window.windSpeed, window.count);
+    report.reelOutPower = mean(window.outPower, window.outCount);
+    report.reelInPower = mean(window.inPower, window.inCount);
+    const double windSpeed = m_parameters.nominalWindSpeed > 0.0 ? m_parameters.nominalWindSpeed : report.meanWindSpeed;
+    report.eta = ratio(report.meanPower, bestPower(windSpeed * windSpeed * windSpeed));
+    report.etaPerMeanCubedWind = ratio(report.meanPower, bestPower(mean(window.cubedWind, window.count)));
+    report.pumpingCycles = m_pumpingCycles;
+    report.recoveries = m_recoveries;
+    report.minimumAltitude = std::isfinite(m_minimumAltitude) ? m_minimumAltitude : 0.0;
+    report.maximumTetherForce = m_maximumTetherForce;
+    report.crashed = m_crashed;
+    return report;
+}
+
+} // namespace awe

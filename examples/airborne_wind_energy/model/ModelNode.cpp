@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ModelNode.h"
+
+namespace awe {
+
+namespace {
+
+QPlcValue triple(const Eigen::Vector3d &vector)
+{
+    return std::array<double, 3>{vector.x(), vector.y(), vector.z()};
+}
+
+} // namespace
+
+ModelNode::ModelNode(const KiteSimulation &simulation)
+    : QPlcSlaveNode(QStringLiteral("Model"), ErrorZeroOrderHold)
+    , m_simulation(simulation)
+{
+}
+
+QPlcSignalIndexList ModelNode::declareInputSignals()
+{
+    QPlcSignalIndexList inputs;
+    m_pitchSpeed = inputs.insert(QStringLiteral("bodyControlPitchSpeed"));
+    m_yawSpeed = inputs.insert(QStringLiteral("bodyControlYawSpeed"));
+    m_tetherSpeed = inputs.insert(QStringLiteral("tetherSpeed"));
+    return inputs;
+}
+
+QPlcSignalIndexList ModelNode::declareOutputSignals()
+{
+    QPlcSignalIndexList outputs;
+    m_position = outputs.insert(QStringLiteral("bodyPosition_earth"));
+    m_velocity = outputs.insert(QStringLiteral("bodyVelocity_earth"));
+    m_windVelocity = outputs.insert(QStringLiteral("windVelocity_earth"));
+    m_controlOrientation = outputs.insert(QStringLiteral("bodyControlOrientation"));
+    m_positionOrientation = outputs.insert(QStringLiteral("bodyPositionOrientation"));
+    m_angleOfAttack = outputs.insert(QStringLiteral("angleOfAttack"));
+    m_dragCoefficient = outputs.insert(QStringLiteral("dragCoefficient"));
+    m_liftCoefficient = outputs.insert(QStringLiteral("liftCoefficient"));
+    m_aweCoefficient = outputs.insert(QStringLiteral("aweCoefficient"));
+    m_gravitationalForce = outputs.insert(QStringLiteral("gravitationalForce_earth"));
+    m_aerodynamicForce = outputs.insert(QStringLiteral("aerodynamicForce_earth"));
+    m_tetherForce = outputs.insert(QStringLiteral("tetherForce_earth"));
+    m_tetherLength = outputs.insert(QStringLiteral("tetherLength"));
+    m_power = outputs.insert(QStringLiteral("power"));
+    m_averagePower = outputs.insert(QStringLiteral("averagePower"));
+    m_energy = outputs.insert(QStringLiteral("energy"));
+    m_crashed = outputs.insert(QStringLiteral("crashed"));
+    return outputs;
+}
+
+QPlcSignalList ModelNode::initialOutputSignals()
+{
+    return collect(m_simulation.reset());
+}
+
+QPlcSignalList ModelNode::realTimeout(const QPlcSignalList &inputSignals)
+{
+    return collect(m_simulation.step(inputSignals.value(m_pitchSpeed).toReal(), inputSignals.value(m_yawSpeed).toReal(),
+                                     inputSignals.value(m_tetherSpeed).toReal()));
+}
+
+QPlcSignalList ModelNode::collect(const PlantOutputs &outputs) const
+{
+    QPlcSignalList list;
+    list.insert(m_position, triple(outputs.position));
+    list.insert(m_velocity, triple(outputs.velocity));
+    list.insert(m_windVelocity, triple(outputs.inputs.windVelocity));
+    list.insert(m_controlOrientation, triple(outputs.bodyControlOrientation));
+    list.insert(m_positionOrientation, triple(outputs.bodyPositionOrientation));
+    list.insert(m_angleOfAttack, outputs.angleOfAttack);
+    list.insert(m_dragCoefficient, outputs.dragCoefficient);
+    list.insert(m_liftCoefficient, outputs.liftCoefficient);
+    list.insert(m_aweCoefficient, outputs.aweCoefficient);
+    list.insert(m_gravitationalForce, triple(outputs.gravitationalForce));
+    list.insert(m_aerodynamicForce, triple(outputs.aerodynamicForce));
+    list.insert(m_tetherForce, triple(outputs.tetherForce));
+    list.insert(m_tetherLength, outputs.tetherLength);
+    list.insert(m_power, outputs.power);
+    list.insert(m_averagePower, outputs.averagePower);
+    list.insert(m_energy, outputs.energy);
+    list.insert(m_crashed, outputs.crashed);
+    return list;
+}
+
+} // namespace awe

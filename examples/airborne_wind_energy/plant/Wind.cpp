@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Wind.h"
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+
+namespace awe {
+
+namespace {
+
+// Columns: along the mean wind, across it (level), upwards. A vertical mean wind has no "across": x stands for it.
+Eigen::Matrix3d windFrame(const Eigen::Vector3d &meanVelocity)
+{
+    const Eigen::Vector3d along = meanVelocity.normalized();
+    const Eigen::Vector3d level(-along.y(), along.x(), 0.0);
+    const Eigen::Vector3d across = level.norm() > 0.0 ? level.normalized() : Eigen::Vector3d(Eigen::Vector3d::UnitX());
+    Eigen::Matrix3d frame;
+    frame << along, across, along.cross(across);
+    return frame;
+}
+
+} // namespace
+
+Wind::Wind(const WindParameters &parameters)
+    : m_parameters(parameters)
+    , m_gaussian(parameters.seed)
+{
+    const double speed = parameters.meanVelocity.norm();
+    m_memory = std::exp(-parameters.step * speed / parameters.lengthScale);
+    m_isTurbulent = parameters.turbulenceIntensity > 0.0 && speed > 0.0;
+    const double excitation = parameters.turbulenceIntensity * speed * std::sqrt(1.0 - m_memory * m_memory);
+    m_excitation = windFrame(parameters.meanVelocity) * (excitation * parameters.turbulenceRatio).asDiagonal();
+    reset();
+}
+
+void Wind::reset()
+{
+    m_gaussian.reset(m_parameters.seed);
+    m_steps = 0;
+    m_turbulence.setZero();
+    m_velocity = m_parameters.meanVelocity * gustFactor();
+}
+
+double Wind::gustFactor() const
+{
+    const double sinceStart = time() - m_parameters.gustStart;
+    if (m_parameters.gustAmplitude == 0.0 || sinceStart <= 0.0 || sinceStart >= m_parameters.gustDuration)
+        return 1.0;
+    constexpr double fullTurn = 6.2831853071795864769;
+    return 1.0 + 0.5 * m_parameters.gustAmplitude * (1.0 - std::cos(fullTurn * sinceStart / m_parameters.gustDuration));
+}
+
+void Wind::step()
+{
+    ++m_steps;
+    if (m_isTurbulent) {
+        const double along = m_gaussian.next(), across = m_gaussian.next(), upwards = m_gaussian.next();
+        m_turbulence = m_memory * m_turbulence + m_excitation * Eigen::Vector3d(along, across, upwards);
+    }
+    m_velocity = m_parameters.meanVelocity * gustFactor() + m_turbulence;
+}
+
+} // namespace awe

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "ProcessGroup.h"
+
+#include <QtCore/QJsonObject>
+#include <QtCore/QStringList>
+#include <QtCore/QTemporaryDir>
+
+namespace awe {
+
+/// What each program of a flight is told.
+struct ProcessArguments
+{
+    QStringList master;
+    QStringList model;
+    QStringList autopilot;
+    QString transport; // "tcp", "udp"
+};
+
+/// The flight with master, model and autopilot as processes of their own.
+class ProcessFlight : public QObject
+{
+    Q_OBJECT
+public:
+    /// \return false when a program could not be started
+    bool begin(const ProcessArguments &arguments);
+    /// Ends the flight before its time, with a report of what was flown.
+    void end();
+
+    /// The report; empty when there is none.
+    QJsonObject report() const { return m_report; }
+
+Q_SIGNALS:
+    void finished(int exitCode);
+
+private:
+    void startNodes();
+    void ended(const QString &program, int exitCode);
+
+    ProcessArguments m_arguments;
+    QTemporaryDir m_directory;
+    QJsonObject m_report;
+    ChildProcess *m_master = nullptr;
+    bool m_nodesStarted = false;
+    ProcessGroup m_processes;
+};
+
+} // namespace awe

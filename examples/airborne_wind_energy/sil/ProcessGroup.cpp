@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ProcessGroup.h"
+
+#include <QtPlcCore>
+
+#include <csignal>
+#include <sys/prctl.h>
+#include <unistd.h>
+
+namespace awe {
+
+void ChildProcess::setupChildProcess()
+{
+    ::setpgid(0, 0);
+    ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+}
+
+ProcessGroup::~ProcessGroup()
+{
+    end(3000);
+}
+
+ChildProcess *ProcessGroup::start(const QString &program, const QStringList &arguments)
+{
+    m_processes.push_back(std::make_unique<ChildProcess>());
+    ChildProcess *process = m_processes.back().get();
+    process->setProcessChannelMode(QProcess::ForwardedErrorChannel);
+    connect(process, qOverload<int, QProcess::ExitStatus>(&QProcess::finished), this, [this, program](int exitCode, QProcess::ExitStatus status) {
+        Q_EMIT ended(program, status == QProcess::CrashExit ? -1 : exitCode);
+    });
+    process->start(QStringLiteral("%1/%2").arg(QCoreApplication::applicationDirPath(), program), arguments);
+    if (process->waitForStarted(5000))
+        return process;
+    QPlcCoreApplication::printError(QStringLiteral("cannot start %1: %2; is it beside this program?").arg(process->program(), process->errorString()));
+    m_processes.pop_back();
+    return nullptr;
+}
+
+void ProcessGroup::end(int milliseconds)
+{
+    for (const std::unique_ptr<ChildProcess> &process : m_processes) {
+        process->disconnect(this);
+        if (process->state() == QProcess::NotRunning)
+            continue;
+        process->terminate();
+        if (!process->waitForFinished(milliseconds)) {
+            process->kill();
+            process->waitForFinished(milliseconds);
+        }
+    }
+    m_processes.clear();
+}
+
+} // namespace awe

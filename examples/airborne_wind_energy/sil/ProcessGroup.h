@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QtCore/QProcess>
+
+#include <memory>
+#include <vector>
+
+namespace awe {
+
+/// A program that ends with this one, however this one ends, and that Ctrl-C in the terminal does not reach: it is told by us.
+class ChildProcess : public QProcess
+{
+    Q_OBJECT
+public:
+    using QProcess::QProcess;
+
+protected:
+    void setupChildProcess() override;
+};
+
+/// The programs of a flight: started together, ended together; none is left behind.
+class ProcessGroup : public QObject
+{
+    Q_OBJECT
+public:
+    ~ProcessGroup() override;
+
+    /// Starts a program that lies beside this one. \return null when it could not be started; the message is out then
+    ChildProcess *start(const QString &program, const QStringList &arguments);
+    /// Asks the programs to end, in the order of their start, and makes those end that do not within \a milliseconds.
+    void end(int milliseconds);
+
+Q_SIGNALS:
+    /// A program has ended without being asked to. \param exitCode  -1 when it crashed
+    void ended(const QString &program, int exitCode);
+
+private:
+    std::vector<std::unique_ptr<ChildProcess>> m_processes;
+};
+
+} // namespace awe

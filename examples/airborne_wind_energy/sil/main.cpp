@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "AutopilotNode.h"
+#include "CompactModelNode.h"
+#include "ExampleOptions.h"
+#include "FlightRun.h"
+#include "ProcessFlight.h"
+
+#include <cstdio>
+#include <sched.h>
+
+namespace {
+
+struct Settings
+{
+    awe::RunSettings run;
+    awe::ModelSettings model;
+    awe::AutopilotSettings autopilot;
+    QString transport;
+    bool processes = false;
+};
+
+void addOptions(QPlcCoreApplication &application)
+{
+    application.addOption(QCommandLineOption(QStringLiteral("signals"), QStringLiteral("Signal table. Without one that of the example."), QStringLiteral("FILE"), awe::builtInSignals()));
+    awe::addRunOptions(application, QStringLiteral("600"));
+    awe::addModelOptions(application);
+    awe::addAutopilotOptions(application);
+    application.addOption(QCommandLineOption(QStringLiteral("processes"), QStringLiteral("Master, model and autopilot as processes of their own.")));
+    application.addOption(QCommandLineOption(QStringLiteral("transport"), QStringLiteral("How the nodes reach the master: inprocess (default), tcp, or udp (default with --processes)."), QStringLiteral("KIND")));
+}
+
+bool readOptions(QPlcCoreApplication &application, Settings *settings)
+{
+    settings->processes = application.isSet(QStringLiteral("processes"));
+    settings->transport = application.isSet(QStringLiteral("transport")) ? application.value(QStringLiteral("transport")) : settings->processes ? QStringLiteral("udp") : QStringLiteral("inprocess");
+    const QStringList kinds{QStringLiteral("inprocess"), QStringLiteral("tcp"), QStringLiteral("udp")};
+    if (!kinds.contains(settings->transport)) {
+        application.usageError(QStringLiteral("--transport %1: use inprocess, tcp or udp").arg(settings->transport));
+        return false;
+    }
+    if (settings->processes && settings->transport == QLatin1String("inprocess")) {
+        application.usageError(QStringLiteral("--processes and --transport inprocess exclude each other: use tcp or udp"));
+        return false;
+    }
+    if (!awe::readRunOptions(application, &settings->run) || !awe::readModelOptions(application, &settings->model) || !awe::readAutopilotOptions(application, &settings->autopilot))
+        return false;
+    settings->run.nominalWindSpeed = settings->model.wind.meanVelocity.norm();
+    settings->run.awaitedNodes = QStringList{QStringLiteral("Model"), QStringLiteral("Autopilot")};
+    return true;
+}
+
+/// The end of a flight: prints the summary, writes the report.
+int conclude(const QJsonObject &report, const QString &reportFile, int exitCode)
+{
+    if (report.isEmpty())
+        return exitCode;
+    std::fputs(qPrintable(awe::summary(report)), stdout);
+    QString error;
+    if (reportFile.isEmpty() || awe::writeReport(reportFile, report, &error))
+        return exitCode;
+    QPlcCoreApplication::printError(error);
+    return exitCode == 0 ? int(QPlcCoreApplication::Failure) : exitCode;
+}
+
+int flyInProcesses(QPlcCoreApplication &application, const Settings &settings)
+{
+    const QStringList table{QStringLiteral("--signals=%1").arg(application.value(QStringLiteral("signals")))};
+    awe::ProcessArguments arguments;
+    arguments.master = table + awe::givenRunOptions(application) + QStringList{QStringLiteral("--mean-wind=%1").arg(settings.run.nominalWindSpeed, 0, 'g', 17)};
+    if (!application.isSet(QStringLiteral("duration")))
+        arguments.master << QStringLiteral("--duration=%1").arg(settings.run.duration);
+    // In lockstep the programs take turns: on one processor they wake each other without waking a processor first.
+    const QStringList processor = settings.run.clock.isLockstep() ? QStringList{QStringLiteral("--cpu=%1").arg(::sched_getcpu())} : QStringList();
+    arguments.master += processor;
+    arguments.model = table + processor + awe::givenModelOptions(application);
+    arguments.autopilot = table + processor + awe::givenAutopilotOptions(application);
+    arguments.transport = settings.transport;
+
+    awe::ProcessFlight flight;
+    QObject::connect(&flight, &awe::ProcessFlight::finished, &application, [](int exitCode) { QCoreApplication::exit(exitCode); });
+    application.quitOnSignals([&flight] { flight.end(); });
+    if (!flight.begin(arguments))
+        return QPlcCoreApplication::UsageError;
+    const int exitCode = QCoreApplication::exec();
+    return conclude(flight.report(), settings.run.reportFile, exitCode);
+}
+
+/// Brings a node to its master: in the process, or over a socket of it.
+bool attach(QPlcMasterNode &master, QPlcSlaveNode &node, const QString &transport, const QString &workloadSignal)
+{
+    node.activateWorkloadMeasurement(workloadSignal);
+    if (transport == QLatin1String("inprocess"))
+        return master.addLocalNode(&node);
+    if (master.serverPort() == 0 && !master.startServer(QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, 0)))
+        return false;
+    return node.connectToMasterAndWaitForConnected(transport == QLatin1String("udp") ? QPlcUnderlyingProtocol::udp(QHostAddress::LocalHost, master.serverPort())
+                                                                                     : QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, master.serverPort()));
+}
+
+int flyInOneProcess(QPlcCoreApplication &application, const Settings &settings)
+{
+    awe::CompactModelNode model(awe::KiteSimulation(settings.model.plant, settings.model.wind));
+    awe::AutopilotNode autopilot(settings.autopilot.gains, settings.autopilot.extraDeadTime);
+    QPlcMasterNode master;
+    awe::RunSettings runSettings = settings.run;
+    runSettings.reportFile.clear(); // written at the end, with the summary
+    awe::FlightRun run(master, runSettings);
+    if (!run.isValid() || !attach(master, model, settings.transport, QStringLiteral("modelWorkload"))
+        || !attach(master, autopilot, settings.transport, QStringLiteral("autopilotWorkload")))
+        return QPlcCoreApplication::UsageError;
+    QObject::connect(&run, &awe::FlightRun::finished, &application, [](int exitCode) { QCoreApplication::exit(exitCode); });
+    application.quitOnSignals([&run] { run.end(); });
+    run.begin();
+    const int exitCode = QCoreApplication::exec();
+    autopilot.disconnectFromMaster();
+    model.disconnectFromMaster();
+    return conclude(run.report(), settings.run.reportFile, exitCode);
+}
+
+} // namespace
+
+int main(int argc, char **argv)
+{
+    QPlcCoreApplication application(argc, argv);
+    application.setDescription(QStringLiteral("Software in the loop: master, model and autopilot of the airborne wind energy example fly together on this machine."));
+    application.setExamples({QStringLiteral("awe_sil --duration 1800 --report flight.json"), QStringLiteral("awe_sil --scale 10 --turbulence 0.15 --seed 3"),
+                             QStringLiteral("awe_sil --processes --transport udp --gains tuned")});
+    addOptions(application);
+    Settings settings;
+    if (!application.parseOptions() || !readOptions(application, &settings))
+        return application.exitCode();
+    QPlcSignalIndexTable table;
+    if (!table.initializeFromIniFile(application.value(QStringLiteral("signals"))))
+        return application.usageError(table.errorString());
+    return settings.processes ? flyInProcesses(application, settings) : flyInOneProcess(application, settings);
+}

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ClosedLoopFlight.h"
+
+#include "Near.h"
+
+#include <cstdlib>
+#include <new>
+
+namespace {
+
+long allocations = 0;
+
+} // namespace
+
+// Counted for the whole program; the aligned forms too, because Eigen may ask for them.
+void *operator new(std::size_t size)
+{
+    ++allocations;
+    if (void *memory = std::malloc(size))
+        return memory;
+    throw std::bad_alloc();
+}
+
+void *operator new(std::size_t size, std::align_val_t alignment)
+{
+    ++allocations;
+    const std::size_t step = static_cast<std::size_t>(alignment);
+    if (void *memory = std::aligned_alloc(step, (size + step - 1) / step * step))
+        return memory;
+    throw std::bad_alloc();
+}
+
+void operator delete(void *memory) noexcept
+{
+    std::free(memory);
+}
+
+void operator delete(void *memory, std::size_t) noexcept
+{
+    std::free(memory);
+}
+
+void operator delete(void *memory, std::align_val_t) noexcept
+{
+    std::free(memory);
+}
+
+void operator delete(void *memory, std::size_t, std::align_val_t) noexcept
+{
+    std::free(memory);
+}
+
+using namespace awe;
+
+class tst_Allocations : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void counterCounts();
+    void wholeLoopTakesNoMemoryInAnyPhase();
+    void crashedFlightTakesNoMemory();
+    void resetTakesNoMemory();
+};
+
+void tst_Allocations::counterCounts()
+{
+    const long before = allocations;
+    ::operator delete(::operator new(1)); // written as calls: a compiler may drop a new-expression
+    QVERIFY(allocations > before);
+}
+
+void tst_Allocations::wholeLoopTakesNoMemoryInAnyPhase()
+{
+    ClosedLoopParameters parameters;
+    parameters.wind.turbulenceIntensity = 0.25; // with recoveries
+    parameters.wind.gustAmplitude = 0.5;
+    parameters.wind.seed = 10;
+    parameters.gains.forceLimit = 4000.0;
+    ClosedLoopFlight flight(parameters);
+    bool seen[flightPhaseCount] = {};
+    const long before = allocations;
+    for (int i = 0; i < 180000; ++i) {
+        flight.step();
+        seen[static_cast<int>(flight.autopilotOutputs().phase)] = true;
+    }
+    const FlightReport report = flight.report();
+    QCOMPARE(allocations - before, 0L);
+    for (int phase = 0; phase < flightPhaseCount; ++phase)
+        QVERIFY2(seen[phase], flightPhaseName(static_cast<FlightPhase>(phase)));
+    QVERIFY(report.recoveries > 0);
+}
+
+void tst_Allocations::crashedFlightTakesNoMemory()
+{
+    ClosedLoopParameters parameters;
+    parameters.plant.initialState.position.z() = 0.1;
+    parameters.wind.meanVelocity = {0.5, 0.0, 0.0};
+    ClosedLoopFlight flight(parameters);
+    const long before = allocations;
+    for (int i = 0; i < 5000; ++i)
+        flight.step();
+    QCOMPARE(allocations - before, 0L);
+    QVERIFY(flight.report().crashed);
+}
+
+void tst_Allocations::resetTakesNoMemory()
+{
+    ClosedLoopFlight flight{ClosedLoopParameters()};
+    flight.fly(10.0);
+    const long before = allocations;
+    flight.reset();
+    QCOMPARE(allocations - before, 0L);
+}
+
+QTEST_APPLESS_MAIN(tst_Allocations)
+#include "tst_Allocations.moc"

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Trajectory.h"
+
+#include "Near.h"
+
+#include <QtCore/QDir>
+#include <QtCore/QFile>
+#include <QtCore/QProcess>
+#include <QtCore/QTemporaryDir>
+
+using awe::Trajectory;
+
+/// The program awe_plant, from outside.
+class tst_awe_plant : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void replaysEveryReferenceFlight_data();
+    void replaysEveryReferenceFlight();
+    void refusesBadUse_data();
+    void refusesBadUse();
+    void refusesBadFilesAndWritesNothing_data();
+    void refusesBadFilesAndWritesNothing();
+    void mayReplaceItsInput();
+    void helpGoesToStandardOutput();
+
+private:
+    struct Result
+    {
+        int exitCode;
+        QString output, errors;
+    };
+    static Result run(const QStringList &arguments);
+    QString reference(const QString &name) const { return QStringLiteral(AWE_REFERENCE "/") + name; }
+    QTemporaryDir m_folder;
+};
+
+tst_awe_plant::Result tst_awe_plant::run(const QStringList &arguments)
+{
+    QProcess process;
+    process.start(QStringLiteral(AWE_PLANT), arguments);
+    if (!process.waitForFinished(60000) || process.exitStatus() != QProcess::NormalExit)
+        return {-1, QString(), process.errorString()};
+    return {process.exitCode(), QString::fromUtf8(process.readAllStandardOutput()),
+            QString::fromUtf8(process.readAllStandardError())};
+}
+
+void tst_awe_plant::replaysEveryReferenceFlight_data()
+{
+    QTest::addColumn<QString>("name");
+    for (const char *name :
+         {"s1_straight.csv", "s3_reel_out_eights.csv", "s5_slack_snatch.csv", "s8_negative_alpha.csv"})
+        QTest::newRow(name) << QString::fromLatin1(name);
+}
+
+void tst_awe_plant::replaysEveryReferenceFlight()
+{
+    QFETCH(QString, name);
+    const QString output = m_folder.filePath(name);
+    const Result result = run({QStringLiteral("--replay"), reference(name), QStringLiteral("--out"), output});
+    QVERIFY2(result.exitCode == 0, qPrintable(result.errors));
+    QCOMPARE(result.errors, QString());
+
+    Trajectory recorded, flown;
+    QVERIFY(recorded.load(reference(name).toStdString()).empty());
+    QVERIFY(flown.load(output.toStdString()).empty());
+    QVERIFY(flown.comments() == recorded.comments());
+    QCOMPARE(flown.rows().size(), recorded.rows().size());
+    const auto expected = Trajectory::toColumns(recorded.rows().back()),
+               seen = Trajectory::toColumns(flown.rows().back());
+    for (std::size_t i = 0; i < expected.size(); ++i)
+        COMPARE_NEAR(seen[i], expected[i], 1e-9 * (1.0 + std::abs(expected[i])));
+}
+
+void tst_awe_plant::refusesBadUse_data()
+{
+    QTest::addColumn<QStringList>("arguments");
+    QTest::addColumn<QString>("message");
+    const auto row = [](const char *name, const char *arguments, const char *message) {
+        QTest::newRow(name) << QString::fromLatin1(arguments).split(QLatin1Char(' '), Qt::SkipEmptyParts)
+                            << QString::fromLatin1(message);
+    };
+    row("nothing", "", "option '--replay' is missing");
+    row("no output", "--replay a.csv", "option '--out' is missing");
+    row("no value", "--replay", "option '--replay' has no value");
+    row("twice", "--out a --out b", "option '--out' is there twice");
+    row("unknown", "--fly a.csv", "unknown option '--fly'; the options are");
+    row("missing file", "--replay /nowhere/a.csv --out b.csv", "/nowhere/a.csv: cannot be opened");
+    QTest::newRow("empty value") << QStringList{QStringLiteral("--out"), QString()}
+                                 << QStringLiteral("option '--out' has an empty value");
+    QTest::newRow("folder that is not there")
+        << QStringList{QStringLiteral("--replay"), reference(QStringLiteral("s5_slack_snatch.csv")),
+                       QStringLiteral("--out"), QStringLiteral("/nowhere/b.csv")}
+        << QStringLiteral("/nowhere/b.csv: ");
+}
+
+void tst_awe_plant::refusesBadUse()
+{
+    QFETCH(QStringList, arguments);
+    QFETCH(QString, message);
+    const Result result = run(arguments);
+    QCOMPARE(result.exitCode, 2);
+    QCOMPARE(result.output, QString());
+    VERIFY_CONTAINS(result.errors.toStdString(), message.toStdString());
+    QCOMPARE(result.errors.count(QLatin1Char('\n')), 1);
+}
+
+void tst_awe_plant::refusesBadFilesAndWritesNothing_data()
+{
+    QTest::addColumn<QByteArray>("content");
+    QTest::addColumn<QString>("message");
+    QFile file(reference(QStringLiteral("s5_slack_snatch.csv")));
+    QVERIFY(file.open(QIODevice::ReadOnly));
+    const QByteArray good = file.readAll();
+    QTest::newRow("garbage") << QByteArray("\x00\xff\x13garbage\n", 12) << QStringLiteral(":1: no comment line");
+    QTest::newRow("empty") << QByteArray() << QStringLiteral(":1: no comment line");
+    QTest::newRow("wrong column") << QByteArray(good).replace("tetherLength", "ropeLength")
+                                  << QStringLiteral(":5: column 33 is 'ropeLength'");
+    QTest::newRow("cut off") << good.left(good.size() / 2) << QStringLiteral("of 36 values");
+}
+
+void tst_awe_plant::refusesBadFilesAndWritesNothing()
+{
+    QFETCH(QByteArray, content);
+    QFETCH(QString, message);
+    QTemporaryDir folder;
+    QFile file(folder.filePath(QStringLiteral("in.csv")));
+    QVERIFY(file.open(QIODevice::WriteOnly));
+    file.write(content);
+    file.close();
+    const Result result = run({QStringLiteral("--replay"), file.fileName(), QStringLiteral("--out"),
+                               folder.filePath(QStringLiteral("out.csv"))});
+    QCOMPARE(result.exitCode, 2);
+    VERIFY_CONTAINS(result.errors.toStdString(), "in.csv:");
+    VERIFY_CONTAINS(result.errors.toStdString(), message.toStdString());
+    QCOMPARE(QDir(folder.path()).entryList(QDir::Files), QStringList{QStringLiteral("in.csv")});
+}
+
+void tst_awe_plant::mayReplaceItsInput()
+{
+    const QString path = m_folder.filePath(QStringLiteral("same.csv"));
+    QVERIFY(QFile::copy(reference(QStringLiteral("s8_negative_alpha.csv")), path));
+    QVERIFY(QFile::setPermissions(path, QFile::ReadOwner | QFile::WriteOwner));
+    QCOMPARE(run({QStringLiteral("--replay"), path, QStringLiteral("--out"), path}).exitCode, 0);
+    Trajectory flown;
+    QVERIFY(flown.load(path.toStdString()).empty());
+}
+
+void tst_awe_plant::helpGoesToStandardOutput()
+{
+    const Result result = run({QStringLiteral("--help")});
+    QCOMPARE(result.exitCode, 0);
+    VERIFY_CONTAINS(result.output.toStdString(), "usage: awe_plant --replay IN.csv --out OUT.csv");
+    QCOMPARE(result.errors, QString());
+}
+
+QTEST_GUILESS_MAIN(tst_awe_plant)
+#include "tst_awe_plant.moc"

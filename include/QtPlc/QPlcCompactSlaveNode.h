@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "QPlcCompactSignal.h"
+#include "QPlcInput.h"
+#include "QPlcOutput.h"
+#include "QPlcSlaveNode.h"
+
+/// A node whose inputs and outputs are variables: ports that are set before step() and sent after it.
+///
+/// ```cpp
+/// class Winch : public QPlcCompactSlaveNode
+/// {
+/// public:
+///     Winch() : QPlcCompactSlaveNode(QStringLiteral("Winch")) {}
+/// private:
+///     QPlcInput<double>  m_tetherSpeed {this, "tetherSpeed"};   // [m/s], > 0 reels out
+///     QPlcOutput<double> m_tetherLength{this, "tetherLength"};  // [m]
+///     void reset() override { m_tetherLength = 300.0; }
+///     void step(const QPlcCycle &cycle) override { m_tetherLength = m_tetherLength + m_tetherSpeed * cycle.dt(); }
+/// };
+/// ```
+///
+/// A cycle of such a node allocates nothing, whatever the ports, unless step() does.
+/// Threads: step() on the cycle thread; everything else in the thread of the object, while no cycle runs.
+class QTPLC_EXPORT QPlcCompactSlaveNode : public QPlcSlaveNode
+{
+    Q_OBJECT
+public:
+    explicit QPlcCompactSlaveNode(const QString &name, RealTimeViolationPolicy policy = ErrorZeroOrderHold, QObject *parent = nullptr);
+    ~QPlcCompactSlaveNode() override;
+
+protected:
+    /// Brings the node into its initial state and sets its outputs. Called before every real-time phase, and at a join.
+    virtual void reset() { compactInitializeOutputSignals(); }
+    /// The inputs have their initial values now.
+    virtual void initialized() {}
+    /// One cycle: inputs are set; set the outputs.
+    virtual void step(const QPlcCycle &cycle)
+    {
+        Q_UNUSED(cycle)
+        compactRealTimeout();
+    }
+
+    // The same under the names of the first QtPLC; reset() and step() call them unless overridden.
+    virtual void compactInitializeOutputSignals() {}
+    virtual void compactRealTimeout() {}
+
+private:
+    friend class QPlcPort;
+    QPlcSignalList realTimeout(const QPlcSignalList &inputSignals) final;
+    QPlcSignalIndexList declareInputSignals() final;
+    QPlcSignalIndexList declareOutputSignals() final;
+    bool bindPorts(const QPlcSignalTable &table, QVector<QPlcSignalIndex> *inputs, QVector<QPlcSignalIndex> *outputs, QString *error) override;
+    void attachPorts(const qplc::PayloadLayout &inputs, const qplc::PayloadLayout &outputs) override;
+    void resetFrame(char *outputs) override;
+    void initializeFrame(const char *inputs) override;
+    void stepFrame(const QPlcCycle &cycle, const char *inputs, char *outputs) override;
+    void load(const char *inputs);
+    void store(char *outputs) const;
+
+    struct Place
+    {
+        QPlcPort *port;
+        quint32 offset;
+    };
+    std::vector<QPlcPort *> m_ports;
+    std::vector<Place> m_inputs;
+    std::vector<Place> m_outputs;
+};

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "QPlcClock.h"
+#include "QPlcMasterStatistics.h"
+#include "QPlcRealTimeOptions.h"
+#include "QPlcSignalTable.h"
+#include "QPlcSlaveNode.h"
+#include "QPlcUnderlyingProtocol.h"
+
+#include <QtCore/QObject>
+
+#include <chrono>
+#include <memory>
+
+class QPlcMasterNodePrivate;
+
+/// The owner of the cycle clock and of the values of all signals.
+///
+/// ```cpp
+/// QPlcCoreApplication application(argc, argv);
+/// QPlcSignalIndexTable table;
+/// if (!table.initializeFromIniFile("signals.ini"))
+///     return 2;
+/// QPlcMasterNode master;
+/// master.setTimeSignal("masterTime");
+/// master.setInterval(std::chrono::milliseconds(10));
+/// if (!master.startServer(QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, 50000)))
+///     return 2;
+/// return application.exec();
+/// ```
+///
+/// In each cycle every node gets its inputs of the cycle before and answers with its outputs. Nodes come over the network (startServer()) or live in this
+/// process (addLocalNode()).
+///
+/// Threads: the object lives in the thread that made it and needs its event loop; cycles run on a thread of their own, which nothing here ever waits for
+/// and which never waits for anything here.
+class QTPLC_EXPORT QPlcMasterNode : public QObject
+{
+    Q_OBJECT
+public:
+    enum State : quint8 {
+        Off,
+        Initializing,
+        RealTime,
+        WaitingForLateSlaves  ///< a node with a Wait policy has not answered: time stands still
+    };
+    Q_ENUM(State)
+
+    enum Error {
+        NoError,
+        SignalError,          ///< a signal that does not exist, has the wrong type or another writer
+        IntervalError,        ///< period or clock out of range
+        ServerError,          ///< the port cannot be used
+        NodeError,            ///< a node was refused, got lost or failed
+        InitializationError,  ///< a node did not give its initial outputs in time
+        StateError,           ///< not possible in the present state
+        RealTimeError         ///< the cycle thread could not be made
+    };
+    Q_ENUM(Error)
+
+    explicit QPlcMasterNode(QObject *parent = nullptr);
+    ~QPlcMasterNode() override;
+
+    /// The signals of this controller. Unless set: those of the process (QPlcSignalIndexTable) at the first use.
+    /// \return false when nodes are registered already
+    bool setSignalTable(const QPlcSignalTable &table);
+    QPlcSignalTable signalTable() const;
+
+    // ---- signals that the master writes itself ----
+    /// Time of the cycle: wall clock at the start of the real-time phase + nominal time of the cycle (1970-01-01 + nominal time in lockstep). Type DateTime.
+    bool setTimeSignal(const QString &signalName);
+    /// Jitter [s]: wake-up of this cycle - its nominal time; 0 in lockstep. Type Real32 or Real64.
+    bool activateJitterMeasurement(const QString &signalName);
+    /// Workload [s]: time that the master itself spent on the cycle before, without waiting for answers; 0 in lockstep. Type Real32 or Real64.
+    bool activateWorkloadMeasurement(const QString &signalName);
+
+    // ---- cycle ----
+    /// Sets the period. Takes effect at the next start.
+    /// \param period  100 us ... 10 s
+    /// \return false when out of range: nothing has changed
+    bool setInterval(std::chrono::nanoseconds period);
+    bool setInterval(double seconds) { return setInterval(std::chrono::nanoseconds(qRound64(seconds * 1e9))); }
+    std::chrono::nanoseconds interval() const;
+    /// Takes effect at the next start. \return false when the clock is not valid
+    bool setClock(QPlcClock clock);
+    QPlcClock clock() const;
+    void setRealTimeOptions(const QPlcRealTimeOptions &options);
+    /// Ends the real-time phase by itself after \a cycles computed cycles; 0: never. Takes effect at the next start.
+    void setCycleLimit(quint64 cycles);
+    /// Longest wait for each answer of a node during initialization and start; 2 s unless set.
+    void setInitializationTimeout(std::chrono::milliseconds time);
+
+    // ---- nodes ----
+    /// Accepts nodes at the address and port of \a protocol: control over TCP, cyclic frames over TCP and UDP, as each node likes. Port 0 takes a free one.
+    /// An address that is not loopback is bound only after setInsecureNetworkAllowed(true); else the server listens on loopback, and says so.
+    bool startServer(const QPlcUnderlyingProtocol &protocol);
+    void stopServer();
+    /// 0 when not listening.
+    quint16 serverPort() const;
+    /// Lets startServer() listen to the network, where everybody can read and command the plant.
+    void setInsecureNetworkAllowed(bool allowed);
+    /// Registers \a node, which then lives in this process and is called on the cycle thread. The caller keeps owning it, and keeps it until
+    /// removeLocalNode() or the end of the master. \return false when it is refused, or when the state is not Off
+    bool addLocalNode(QPlcSlaveNode *node);
+    void removeLocalNode(QPlcSlaveNode *node);
+    /// All registered nodes, in the order of their registration.
+    QVector<QPlcNodeInfo> nodes() const;
+    /// Name of the node that writes \a signalName; empty: none.
+    QString writer(const QString &signalName) const;
+
+    // ---- state ----
+    State state() const;
+    Error error() const;
+    /// What went wrong last, with the remedy; empty: nothing.
+    QString errorString() const;
+    QPlcMasterStatistics statistics() const;
+    /// What became of the real-time options at the last start.
+    QVector<QPlcRealTimeSetting> realTimeSettings() const;
+    /// Number of the newest complete cycle of the real-time phase.
+    quint64 cycle() const;
+    /// Newest value of a signal; invalid when there is no such signal.
+    QPlcValue signalValue(const QString &signalName) const;
+    /// Sets a signal that no node writes, between two cycles.
+    /// \return false when it has a writer, does not exist, or \a value does not fit
+    bool setSignalValue(const QString &signalName, const QPlcValue &value);
+
+public Q_SLOTS:
+    /// Asks all nodes for their initial outputs and gives all of them their initial inputs; statesInitialized() or errorOccurred() follows.
+    bool initializeAllStates();
+    /// Begins the real-time phase, after an initialization if there was none since the last phase; stateChanged(RealTime) or errorOccurred() follows.
+    bool startRealTime();
+    /// Ends the real-time phase. Outputs keep their values.
+    void stop();
+
+Q_SIGNALS:
+    void stateChanged(QPlcMasterNode::State state);
+    void nodeRegistered(const QString &name);
+    void nodeRefused(const QString &name, const QString &reason);
+    void nodeLost(const QString &name, const QString &reason);
+    void statesInitialized();
+    void realTimeHasStarted();
+    /// The phase has ended: by stop(), at the cycle limit, or because of an error (then errorOccurred() came before).
+    void realTimeHasStopped();
+    /// A node with an Error policy had not answered in cycle \a cycle when its time was over.
+    void realTimeViolated(const QString &name, quint64 cycle);
+    void errorOccurred(QPlcMasterNode::Error error);
+
+private:
+    friend class QPlcMasterNodePrivate;
+    std::unique_ptr<QPlcMasterNodePrivate> d;
+};
+
+Q_DECLARE_METATYPE(QPlcMasterNode::State)
+Q_DECLARE_METATYPE(QPlcMasterNode::Error)

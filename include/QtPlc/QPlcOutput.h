@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "QPlcPort.h"
+
+/// A value that a node, and no other, writes: `QPlcOutput<double> m_tetherLength{this, "tetherLength"};  // [m]`
+///
+/// T is a number, bool, std::array or fixed-size Eigen vector of numbers. A double writes Real32 (rounded) and Real64 signals, an integer its own and wider types.
+/// The value stays until it is assigned again.
+template<typename T>
+class QPlcOutput final : public QPlcPortDetail::VariablePort<T>
+{
+public:
+    QPlcOutput(QPlcCompactSlaveNode *node, const char *name)
+        : QPlcPortDetail::VariablePort<T>(node, name, QPlcPort::Output, &m_value)
+    {
+    }
+    QPlcOutput &operator=(const T &value)
+    {
+        m_value = value;
+        return *this;
+    }
+    QPlcOutput &operator=(const QPlcOutput &other) { return *this = other.m_value; }
+    const T &value() const { return m_value; }
+    operator const T &() const { return m_value; }
+
+private:
+    T m_value{};
+};
+
+/// A variable that exists already (of an exported Simulink model, say) and is sent as a signal after each step:
+/// `QPlcBoundOutput<double[3]> m_position{this, "bodyPosition_earth", &LaweModel_Y.bodyPosition_earth};`
+template<typename T>
+class QPlcBoundOutput final : public QPlcPortDetail::VariablePort<T>
+{
+public:
+    /// \param variable  outlives the port
+    QPlcBoundOutput(QPlcCompactSlaveNode *node, const char *name, T *variable)
+        : QPlcPortDetail::VariablePort<T>(node, name, QPlcPort::Output, variable)
+    {
+    }
+};

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "QPlcSignalType.h"
+
+#include <QtCore/QString>
+
+#include <array>
+#include <cstring>
+#include <type_traits>
+
+class QPlcCompactSlaveNode;
+
+/// A variable of a node that is tied to a signal by name. See QPlcInput, QPlcOutput, QPlcBoundInput, QPlcBoundOutput, QPlcCompactSignal.
+///
+/// A port registers itself at its node when it is made; it is neither copied nor moved. Used by the cycle thread of the node while cycles run.
+class QTPLC_EXPORT QPlcPort
+{
+public:
+    enum Direction : quint8 { Input, Output };
+
+    QPlcPort(const QPlcPort &) = delete;
+    QPlcPort &operator=(const QPlcPort &) = delete;
+
+    QString name() const { return m_name; }
+    Direction direction() const { return m_direction; }
+    bool isInput() const { return m_direction == Input; }
+
+protected:
+    /// \pre \a node is not registered yet
+    QPlcPort(QPlcCompactSlaveNode *node, const char *name, Direction direction);
+    virtual ~QPlcPort();
+
+private:
+    friend class QPlcCompactSlaveNode;
+    /// Type of the variable in words, for messages: "double[3]".
+    virtual QString variableType() const = 0;
+    /// Whether the variable can hold every value of \a type (input) or the signal every value of the variable up to rounding (output).
+    virtual bool accepts(QPlcSignalType type) const = 0;
+    /// From now on load() and store() meet values of \a type. \pre accepts(type)
+    virtual void attach(QPlcSignalType type) = 0;
+    virtual void load(const char *bytes) = 0;
+    virtual void store(char *bytes) const = 0;
+
+    QPlcCompactSlaveNode *m_node = nullptr;
+    QString m_name;
+    Direction m_direction;
+};
+
+namespace QPlcPortDetail {
+
+// Shape of a variable: its element, and how many of them lie one behind the other.
+template<typename T, typename = void>
+struct Shape;
+
+template<typename T>
+struct Shape<T, std::enable_if_t<std::is_arithmetic_v<T>>>
+{
+    using Element = T;
+    static constexpr int count = 1;
+    static Element *data(T &value) { return &value; }
+};
+
+template<typename T, std::size_t N>
+struct Shape<T[N], std::enable_if_t<std::is_arithmetic_v<T>>>
+{
+    using Element = T;
+    static constexpr int count = int(N);
+    static Element *data(T (&value)[N]) { return value; }
+};
+
+template<typename T, std::size_t N>
+struct Shape<std::array<T, N>, std::enable_if_t<std::is_arithmetic_v<T>>>
+{
+    using Element = T;
+    static constexpr int count = int(N);
+    static Element *data(std::array<T, N> &value) { return value.data(); }
+};
+
+// Vectors of fixed size of Eigen, without including Eigen.
+template<typename T>
+struct Shape<T, std::enable_if_t<(T::SizeAtCompileTime > 0) && std::is_arithmetic_v<typename T::Scalar>>>
+{
+    using Element = typename T::Scalar;
+    static constexpr int count = int(T::SizeAtCompileTime);
+    static Element *data(T &value) { return value.data(); }
+};
+
+template<typename Element>
+constexpr QPlcSignalType::Scalar scalarOf()
+{
+    if constexpr (std::is_same_v<Element, bool>)
+        return QPlcSignalType::Int8;
+    else if constexpr (std::is_floating_point_v<Element>)
+        return sizeof(Element) == 4 ? QPlcSignalType::Real32 : QPlcSignalType::Real64;
+    else if constexpr (std::is_signed_v<Element>)
+        return sizeof(Element) == 1 ? QPlcSignalType::Int8 : sizeof(Element) == 2 ? QPlcSignalType::Int16 : sizeof(Element) == 4 ? QPlcSignalType::Int32 : QPlcSignalType::Int64;
+    else
+        return sizeof(Element) == 1 ? QPlcSignalType::UInt8 : sizeof(Element) == 2 ? QPlcSignalType::UInt16 : sizeof(Element) == 4 ? QPlcSignalType::UInt32 : QPlcSignalType::UInt64;
+}
+
+/// Copies \a count packed little-endian numbers of the kind \a scalar to or from numbers of this machine.
+template<typename Element>
+QTPLC_EXPORT void loadElements(QPlcSignalType::Scalar scalar, const char *bytes, Element *elements, int count);
+template<typename Element>
+QTPLC_EXPORT void storeElements(QPlcSignalType::Scalar scalar, char *bytes, const Element *elements, int count);
+
+/// Whether a variable with elements of the kind \a variable can be an input or output of a signal with elements of the kind \a wire: reals mix, integers
+/// may become wider in the direction of the value, truth values go with Int8 and UInt8, times with Int64.
+QTPLC_EXPORT bool fits(QPlcSignalType::Scalar variable, bool isBool, QPlcSignalType::Scalar wire, QPlcPort::Direction direction);
+QTPLC_EXPORT QString describe(QPlcSignalType::Scalar scalar, bool isBool, int count);
+
+/// A port whose value lies in a variable of type T.
+template<typename T>
+class VariablePort : public QPlcPort
+{
+    using S = Shape<T>;
+    using Element = typename S::Element;
+
+protected:
+    VariablePort(QPlcCompactSlaveNode *node, const char *name, Direction direction, T *variable)
+        : QPlcPort(node, name, direction)
+        , m_variable(variable)
+    {
+    }
+
+private:
+    QString variableType() const final { return describe(scalarOf<Element>(), std::is_same_v<Element, bool>, S::count); }
+    bool accepts(QPlcSignalType type) const final
+    {
+        return type.count() == S::count && fits(scalarOf<Element>(), std::is_same_v<Element, bool>, type.scalar(), direction());
+    }
+    void attach(QPlcSignalType type) final { m_wire = type.scalar(); }
+    void load(const char *bytes) final
+    {
+        if (m_wire == scalarOf<Element>() && !std::is_same_v<Element, bool> && Q_BYTE_ORDER == Q_LITTLE_ENDIAN)
+            std::memcpy(S::data(*m_variable), bytes, sizeof(Element) * S::count);
+        else
+            loadElements(m_wire, bytes, S::data(*m_variable), S::count);
+    }
+    void store(char *bytes) const final
+    {
+        if (m_wire == scalarOf<Element>() && Q_BYTE_ORDER == Q_LITTLE_ENDIAN)
+            std::memcpy(bytes, S::data(*m_variable), sizeof(Element) * S::count);
+        else
+            storeElements(m_wire, bytes, S::data(*m_variable), S::count);
+    }
+
+    T *m_variable;
+    QPlcSignalType::Scalar m_wire = QPlcSignalType::Invalid;
+};
+
+}  // namespace QPlcPortDetail

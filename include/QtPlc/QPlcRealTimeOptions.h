@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "QPlcGlobal.h"
+
+#include <QtCore/QMetaType>
+#include <QtCore/QString>
+#include <QtCore/QStringList>
+#include <QtCore/QVector>
+
+#include <optional>
+
+/// What a cycle thread shall ask of the operating system. Everything that is not set is inherited, so that `chrt -f 49 program` works.
+/// A value type.
+struct QTPLC_EXPORT QPlcRealTimeOptions
+{
+    enum Policy : quint8 {
+        Inherit,      ///< policy and priority of the thread that starts the cycle (chrt)
+        Other,        ///< SCHED_OTHER: ordinary scheduling
+        Fifo,         ///< SCHED_FIFO
+        RoundRobin    ///< SCHED_RR
+    };
+
+    Policy policy = Inherit;
+    int priority = 0;                    ///< 1 ... 99 for Fifo and RoundRobin
+    std::optional<int> cpu;              ///< the only processor that the thread may use
+    bool lockMemory = false;             ///< mlockall(MCL_CURRENT | MCL_FUTURE)
+    int prefaultStack = 64 * 1024;       ///< [byte] of the stack touched before the first cycle
+    std::optional<qint64> timerSlack;    ///< [ns] for ordinary scheduling; real-time threads have none
+
+    /// Why the options cannot be meant ("priority 120: use 1 ... 99"); empty when they can.
+    QString errorString() const;
+};
+
+/// What became of one wish of the QPlcRealTimeOptions, checked by its effect.
+struct QTPLC_EXPORT QPlcRealTimeSetting
+{
+    QString name;       ///< "scheduling", "cpu", "locked memory", ...
+    QString wanted;     ///< "SCHED_FIFO 49"
+    QString obtained;   ///< "SCHED_OTHER 0"
+    bool granted = false;
+    QString remedy;     ///< command that cures a refusal; empty when granted
+
+    /// "scheduling: wanted SCHED_FIFO 49, obtained SCHED_OTHER 0; cure: ..."
+    QString toString() const;
+};
+
+Q_DECLARE_METATYPE(QPlcRealTimeSetting)

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "QPlcSignalType.h"
+#include "QPlcValue.h"
+
+/// What the signal table says of one plc signal.
+struct QTPLC_EXPORT QPlcSignalDefinition
+{
+    QString name;
+    QPlcSignalType type;
+    QString typeName;      ///< as written in the table ("Bool", "RealTriple"): a hint for views
+    QString unit;          ///< "m/s", "deg"; empty: none
+    QString description;
+    QPlcValue minimum;     ///< smallest allowed value of each element; invalid: none. Type: that of one element
+    QPlcValue maximum;     ///< largest allowed value of each element; invalid: none
+    QPlcValue initial;     ///< value before the first writer; always valid, zero unless said
+    QPlcValue safe;        ///< value when the writer is lost; invalid: keep the last
+    int hold = 0;          ///< cycles for which the last value is kept before `safe`
+    int line = 0;          ///< line of the section in the file, 0: not from a file
+};
+
+Q_DECLARE_METATYPE(QPlcSignalDefinition)

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "QPlcAbstractSocket.h"
+#include "QPlcCycle.h"
+#include "QPlcRealTimeOptions.h"
+#include "QPlcSignalIndexList.h"
+#include "QPlcSignalList.h"
+#include "QPlcSignalTable.h"
+#include "QPlcUnderlyingProtocol.h"
+
+#include <QtCore/QObject>
+
+#include <chrono>
+#include <memory>
+
+namespace qplc {
+class NodeRuntime;
+class PayloadLayout;
+}
+class QPlcSlaveNodePrivate;
+
+/// A process image's worth of the world: a model, a sensor, an actuator, a controller, a view.
+///
+/// A node reads and writes signals by name. Its master asks it once in each cycle: the inputs of the last cycle come in, realTimeout() computes, the
+/// outputs go back. Derive from QPlcCompactSlaveNode for typed ports and a cycle without allocations; derive from this class for lists of values:
+///
+/// ```cpp
+/// class Doubler : public QPlcSlaveNode
+/// {
+/// public:
+///     Doubler() : QPlcSlaveNode("Doubler", ErrorZeroOrderHold) {}
+/// protected:
+///     QPlcSignalIndexList declareInputSignals() override { QPlcSignalIndexList list; m_in = list.insert("in"); return list; }
+///     QPlcSignalIndexList declareOutputSignals() override { QPlcSignalIndexList list; m_out = list.insert("out"); return list; }
+///     QPlcSignalList realTimeout(const QPlcSignalList &inputs) override
+///     {
+///         QPlcSignalList outputs;
+///         outputs.insert(m_out, 2.0 * inputs.value(m_in).toReal());
+///         return outputs;
+///     }
+/// private:
+///     QPlcSignalIndex m_in, m_out;
+/// };
+/// ```
+///
+/// Threads: the object lives in the thread that made it and needs its event loop. realTimeout() is called on the cycle thread of the node (of the
+/// master, for a local node); all other virtual functions are called in the thread of the object while no cycle runs. They never run at the same time.
+/// Disconnect a node before you destroy it: while cycles run the members of a derived class are in use.
+class QTPLC_EXPORT QPlcSlaveNode : public QObject
+{
+    Q_OBJECT
+public:
+    /// What the master does when the answer of this node is not there in time (real-time violation).
+    enum RealTimeViolationPolicy : quint8 {
+        SilentZeroOrderHold,  ///< goes on with the last values
+        ErrorZeroOrderHold,   ///< goes on with the last values and reports
+        SilentWait,           ///< time stands still until the answer is there
+        ErrorWait             ///< as SilentWait, and reports
+    };
+    Q_ENUM(RealTimeViolationPolicy)
+
+    enum State : quint8 {
+        Disconnected,
+        Connecting,
+        Off,           ///< registered; no cycles
+        Initializing,
+        RealTime
+    };
+    Q_ENUM(State)
+
+    enum Error {
+        NoError,
+        ConnectionError,   ///< the master cannot be reached, or was lost
+        RegistrationError, ///< the master refused: unknown signal, wrong type, second writer, name in use
+        SignalError,       ///< a signal that this node declares does not exist or does not fit
+        UserCodeError,     ///< a function of the derived class threw
+        WatchdogError,     ///< no frame from the master within the watchdog time
+        ProtocolError,
+        OptionError        ///< a setting of this object that cannot be meant
+    };
+    Q_ENUM(Error)
+
+    explicit QPlcSlaveNode(const QString &name, RealTimeViolationPolicy policy = ErrorZeroOrderHold, QObject *parent = nullptr);
+    ~QPlcSlaveNode() override;
+
+    QString name() const;
+    /// Sets the name under which the node registers. \pre not connected
+    void setName(const QString &name);
+    RealTimeViolationPolicy realTimeViolationPolicy() const;
+
+    /// A listener is never waited for in lockstep. \pre not connected
+    void setListener(bool listener);
+    bool isListener() const;
+
+    /// The table in which the signals of this node are looked up. Unless set: that of the process (QPlcSignalIndexTable), else the one that the
+    /// master sends at registration. Only signals that the node uses have to match those of the master.
+    void setSignalTable(const QPlcSignalTable &table);
+    QPlcSignalTable signalTable() const;
+
+    /// What the cycle thread asks of the operating system. Takes effect at the next start of the real-time phase.
+    void setRealTimeOptions(const QPlcRealTimeOptions &options);
+    QPlcRealTimeOptions realTimeOptions() const;
+
+    /// Writes the workload [s] into the signal \a signalName (Real32 or Real64), which becomes an output of this node: the time from the frame at hand
+    /// to the answer ready to be sent, in the same cycle; 0 in lockstep, where results must not depend on the machine.
+    void activateWorkloadMeasurement(const QString &signalName);
+    /// Reports when no frame has come for \a time (of the master's clock) during the real-time phase: watchdogTimedOut().
+    void activateWatchdog(std::chrono::nanoseconds time);
+    void activateWatchdog(double seconds) { activateWatchdog(std::chrono::nanoseconds(qRound64(seconds * 1e9))); }
+
+    State state() const;
+    Error error() const;
+    QString errorString() const;
+    /// Where the node was told to connect last; invalid: nowhere yet.
+    QPlcUnderlyingProtocol masterProtocol() const;
+    /// Frames since the start of the real-time phase, and what was wrong with them.
+    struct Counters
+    {
+        quint64 cycles = 0;       ///< computed
+        quint64 missed = 0;       ///< cycles that never arrived
+        quint64 duplicated = 0;   ///< requests that came again; answered, never computed twice
+        quint64 outdated = 0;     ///< requests of cycles before the newest
+        quint64 rejected = 0;     ///< garbage, other sessions, corrupted frames
+        quint64 watchdog = 0;     ///< watchdog time-outs
+    };
+    /// \threadsafe yes
+    Counters counters() const;
+
+    /// Connects, registers and waits until the master has accepted. Needs no running event loop.
+    /// \return false when it did not work out within \a timeout: error(), errorString() tell why
+    bool connectToMasterAndWaitForConnected(const QPlcUnderlyingProtocol &master, std::chrono::milliseconds timeout = std::chrono::seconds(5));
+
+public Q_SLOTS:
+    /// Begins to connect and register; connectedToMaster() or errorOccurred() follows.
+    void connectToMaster(const QPlcUnderlyingProtocol &master);
+    void disconnectFromMaster();
+    /// Sends any control message, for example InitializeAllStates. Nothing happens without a connection.
+    void sendMessageToMaster(const QPlcMessage &message);
+    void initializeAllStates() { sendMessageToMaster(QPlcMessage(QPlcMessage::InitializeAllStates)); }
+    void startRealTime() { sendMessageToMaster(QPlcMessage(QPlcMessage::StartRealTime)); }
+    void stop() { sendMessageToMaster(QPlcMessage(QPlcMessage::Stop)); }
+
+Q_SIGNALS:
+    void connectedToMaster();
+    void disconnectedFromMaster();
+    void errorWithMaster(QPlcAbstractSocket::Error error, const QString &text);
+    void errorOccurred(QPlcSlaveNode::Error error);
+    void stateChanged(QPlcSlaveNode::State state);
+    /// initialize() has been called with these values.
+    void hasInitialized(const QPlcSignalList &initialSignals);
+    void realTimeHasStarted();
+    void realTimeHasStopped();
+    /// No frame since the one of cycle \a cycle for longer than the watchdog time.
+    void watchdogTimedOut(quint64 cycle);
+    /// A message of the master that this class has no use for (State, Signals, Done, Failed, StatesInitialized).
+    void messageReceived(const QPlcMessage &message);
+
+protected:
+    /// Signals that realTimeout() wants. Called at each registration.
+    virtual QPlcSignalIndexList declareInputSignals() { return {}; }
+    /// Signals that this node, and no other, writes. Called at each registration.
+    virtual QPlcSignalIndexList declareOutputSignals() { return {}; }
+    /// Brings the node into its initial state and returns the values of its outputs there; those left out keep the initial value of the table.
+    virtual QPlcSignalList initialOutputSignals() { return {}; }
+    /// Gets the values of the inputs when all nodes have given their initial outputs.
+    virtual void initialize(const QPlcSignalList &initialSignals) { Q_UNUSED(initialSignals) }
+    /// One cycle. Outputs left out keep their last value.
+    virtual QPlcSignalList realTimeout(const QPlcSignalList &inputSignals) = 0;
+    /// The real-time phase has ended.
+    virtual void stopped() {}
+
+    /// The cycle that realTimeout() computes. \pre called from realTimeout()
+    const QPlcCycle &cycle() const;
+
+private:
+    friend class qplc::NodeRuntime;
+    friend class QPlcSlaveNodePrivate;
+    friend class QPlcMasterNodePrivate;
+    friend class QPlcCompactSlaveNode;
+    friend class QPlcIOSlaveNode;
+
+    // The same functions one level below: on the bytes of the frames, without lists.
+    virtual bool bindPorts(const QPlcSignalTable &table, QVector<QPlcSignalIndex> *inputs, QVector<QPlcSignalIndex> *outputs, QString *error);
+    virtual void attachPorts(const qplc::PayloadLayout &inputs, const qplc::PayloadLayout &outputs);
+    virtual void resetFrame(char *outputs);
+    virtual void initializeFrame(const char *inputs);
+    virtual void stepFrame(const QPlcCycle &cycle, const char *inputs, char *outputs);
+
+    std::unique_ptr<QPlcSlaveNodePrivate> d;
+};
+
+Q_DECLARE_METATYPE(QPlcSlaveNode::Error)
+Q_DECLARE_METATYPE(QPlcSlaveNode::State)

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "NodeRegistry.h"
+#include "QPlcSlaveSocket.h"
+
+#include <QtCore/QObject>
+
+#include <memory>
+
+namespace qplc {
+
+/// Somebody on the control channel of a master: a node, a tool, or a connection that has not said yet what it is.
+struct MasterConnection
+{
+    /// How far a node has come; each step is an answer that the master waits for.
+    enum Stage : quint8 {
+        Silent,          // has not greeted
+        Greeted,
+        Attaching,       // registered; its cyclic TCP connection is not there yet
+        Attached,        // ready to be initialized
+        GivingOutputs,   // SendYourInitialOutputStates is under way
+        OutputsGiven,
+        Initializing,    // InitializeWithValues is under way
+        Initialized,
+        Starting,        // RealTimeStarted is under way
+        Running          // answers cycles
+    };
+
+    QPlcSlaveSocket *socket = nullptr;
+    Stage stage = Silent;
+    QString name;                        // as greeted
+    QString cyclicKind;                  // "udp", "tcp"
+    quint64 token = 0;                   // names this node on its cyclic TCP connection
+    std::shared_ptr<NodeSlot> slot;      // null: no node
+    qint64 stageSince = 0;               // [ms] for time-outs
+
+    bool isNode() const { return slot != nullptr; }
+    bool isAttached() const { return slot && stage >= Attached; }
+    bool send(QPlcMessage::Kind kind, const QJsonObject &fields = QJsonObject()) const { return socket->sendMessage(QPlcMessage(kind, fields)); }
+    /// Refuses a request; the connection stays.
+    void fail(const QString &error, const QString &text) const
+    {
+        send(QPlcMessage::Failed, {{QStringLiteral("error"), error}, {QStringLiteral("text"), text}});
+    }
+};
+
+}  // namespace qplc

@@ -1,0 +1,430 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "MasterCycle.h"
+
+#include "QSplitPrimitive.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace qplc {
+
+namespace {
+
+constexpr std::int64_t Slice = 50'000'000;        // [ns] longest wait without a look at stop and lost nodes
+constexpr std::int64_t ResendAfter = 20'000'000;  // [ns] a request that must be answered is sent again
+
+template<typename Integer>
+void count(std::atomic<Integer> &counter, Integer n = 1) noexcept
+{
+    counter.store(counter.load(std::memory_order_relaxed) + n, std::memory_order_relaxed);  // one writer
+}
+
+}  // namespace
+
+MasterCycle::MasterCycle(const QPlcSignalTable &table, CyclicHub &hub, bool tapFrames)
+    : m_image(table)
+    , m_hub(hub)
+    , m_reports(tapFrames)
+    , m_snapshot(m_image.size())
+    , m_roster(std::make_unique<Roster>())
+{
+}
+
+MasterCycle::~MasterCycle()
+{
+    stop();
+    setRoster({});
+}
+
+// ---- thread of the master ----
+
+bool MasterCycle::start(const Phase &phase)
+{
+    stop();
+    m_phase = phase;
+    m_stop = false;
+    clearStatistics();
+    const double nanoseconds = double(phase.period.count());
+    m_clock.emplace(m_time, phase.clock.isLockstep() ? 0 : std::int64_t(nanoseconds / phase.clock.scale()));
+    m_wallStart = phase.clock.isLockstep() ? 0 : wallClockNow();
+    m_number = 0;
+    m_workload = 0;
+    for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
+        slot->decoder.restart(m_cycleZero);
+        slot->faulted = false;
+        if (slot->local)
+            slot->local->setLockstep(phase.clock.isLockstep());
+    }
+    m_snapshot.publish(m_image.data(), 0);
+    return m_thread.start(QStringLiteral("qtplc-master"), phase.realTimeOptions, [this] { run(); });
+}
+
+void MasterCycle::stop()
+{
+    if (!m_thread.isRunning())
+        return;
+    m_stop = true;
+    m_thread.join();
+    m_cycleZero += m_number + 1;  // frames of this phase can never be taken for frames of the next
+    takeCommands();
+    freeRetired();
+}
+
+void MasterCycle::clearStatistics()
+{
+    for (std::atomic<std::uint64_t> *counter : {&m_cycle, &m_cycles, &m_overruns, &m_skipped, &m_lateAnswers, &m_digest})
+        counter->store(0);
+    m_lateness.clear();
+    m_roundTrips.clear();
+    for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
+        for (std::atomic<quint64> *counter : {&slot->lateAnswers, &slot->duplicates, &slot->rejected, &slot->resent})
+            counter->store(0);
+    }
+}
+
+void MasterCycle::setRoster(const Roster &roster)
+{
+    freeRetired();
+    auto copy = std::make_unique<Roster>(roster);
+    if (!isRunning()) {
+        delete m_pendingRoster.exchange(nullptr);
+        adopt(copy.release());
+        freeRetired();
+        return;
+    }
+    for (const std::shared_ptr<NodeSlot> &slot : roster.nodes) {
+        if (slot->local)
+            slot->local->setLockstep(m_phase.clock.isLockstep());
+    }
+    delete m_pendingRoster.exchange(copy.release());  // one that was never adopted belongs to nobody else
+}
+
+void MasterCycle::freeRetired()
+{
+    for (Roster *retired = nullptr; m_retiredRosters.pop(&retired);)
+        delete retired;
+}
+
+bool MasterCycle::setValue(QPlcSignalIndex signal, const QPlcValue &value)
+{
+    if (!isRunning())
+        return m_image.setValue(signal, value);
+    SetCommand *command = m_setCommands.beginPush();
+    if (!command)
+        return false;
+    command->signal = signal;
+    value.convertedTo(m_image.table().at(signal).type).toBytes(command->bytes.data());
+    m_setCommands.commitPush();
+    return true;
+}
+
+QPlcValue MasterCycle::value(QPlcSignalIndex signal) const
+{
+    if (!isRunning())
+        return m_image.value(signal);
+    std::vector<char> bytes(m_image.size());
+    std::uint64_t stamp = 0;
+    m_snapshot.read(bytes.data(), &stamp);
+    return QPlcValue::fromBytes(m_image.table().at(signal).type, bytes.data() + m_image.offset(signal));
+}
+
+QByteArray MasterCycle::gather(const std::vector<CopyRun> &runs, quint32 size) const
+{
+    QByteArray frame(int(size), Qt::Uninitialized);
+    if (!isRunning()) {
+        copyRuns(runs, m_image.data(), frame.data());
+        return frame;
+    }
+    std::vector<char> bytes(m_image.size());
+    std::uint64_t stamp = 0;
+    m_snapshot.read(bytes.data(), &stamp);
+    copyRuns(runs, bytes.data(), frame.data());
+    return frame;
+}
+
+QPlcMasterStatistics MasterCycle::statistics() const
+{
+    QPlcMasterStatistics statistics;
+    statistics.cycles = m_cycles;
+    statistics.overruns = m_overruns;
+    statistics.skippedCycles = m_skipped;
+    statistics.lateAnswers = m_lateAnswers;
+    statistics.strangers = m_strangers;
+    statistics.latenessMedian = m_lateness.quantile(0.5);
+    statistics.lateness99 = m_lateness.quantile(0.99);
+    statistics.latenessMaximum = m_lateness.maximum();
+    statistics.roundTripMedian = m_roundTrips.quantile(0.5);
+    statistics.roundTrip99 = m_roundTrips.quantile(0.99);
+    statistics.roundTripMaximum = m_roundTrips.maximum();
+    statistics.imageDigest = m_digest;
+    return statistics;
+}
+
+// ---- cycle thread ----
+
+void MasterCycle::run() noexcept
+{
+    const auto shouldStop = [this] { return m_stop.load(std::memory_order_relaxed); };
+    m_clock->start();
+    while (!shouldStop()) {
+        const CycleClock::Tick tick = m_clock->next(shouldStop);
+        if (tick.interrupted)
+            break;
+        runCycle(tick);
+        if (m_phase.cycleLimit > 0 && m_cycles.load(std::memory_order_relaxed) >= m_phase.cycleLimit)
+            break;
+    }
+    m_reports.post({CycleEvent::Ended, 0, 0, m_number});
+}
+
+/// One cycle. Everything that happens in it stands here, in order.
+void MasterCycle::runCycle(const CycleClock::Tick &tick) noexcept
+{
+    m_number = tick.cycle;
+    m_woken = now();
+    m_waited = 0;
+    m_roundTrip = 0;
+    takeCommands();
+    writeOwnSignals(tick);
+    askNodes(tick);
+    stepLocalNodes();
+    if (m_anyRemote)
+        collectAnswers(m_clock->nominal(m_number + 1));
+    finish();
+}
+
+void MasterCycle::takeCommands() noexcept
+{
+    if (m_pendingRoster.load(std::memory_order_relaxed)) {
+        if (Roster *roster = m_pendingRoster.exchange(nullptr, std::memory_order_acquire))
+            adopt(roster);
+    }
+    while (const SetCommand *command = m_setCommands.front()) {
+        std::memcpy(m_image.data() + m_image.offset(command->signal), command->bytes.data(), std::size_t(m_image.table().at(command->signal).type.size()));
+        m_setCommands.pop();
+    }
+}
+
+void MasterCycle::adopt(Roster *roster) noexcept
+{
+    const auto contains = [](const Roster &where, const NodeSlot *slot) {
+        return std::any_of(where.nodes.begin(), where.nodes.end(), [slot](const std::shared_ptr<NodeSlot> &other) { return other.get() == slot; });
+    };
+    for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
+        if (slot->peer && !contains(*roster, slot.get()))
+            m_hub.detach(slot->peer.get());
+    }
+    for (const std::shared_ptr<NodeSlot> &slot : roster->nodes) {
+        if (contains(*m_roster, slot.get()))
+            continue;
+        if (!slot->initialOutputs.empty())
+            copyRuns(slot->outputRuns, slot->initialOutputs.data(), m_image.data());
+        slot->decoder.restart(m_cycleZero + m_number);
+        if (slot->peer)
+            m_hub.attach(slot->peer.get());
+    }
+    m_anyRemote = std::any_of(roster->nodes.begin(), roster->nodes.end(), [](const std::shared_ptr<NodeSlot> &slot) { return slot->peer != nullptr; });
+    Roster *retired = m_roster.release();
+    m_roster.reset(roster);
+    if (!m_retiredRosters.push(retired))
+        delete retired;  // 64 changes of the roster between two looks of the owner: better a slow cycle than a leak
+}
+
+void MasterCycle::writeReal(QPlcSignalIndex signal, double value) noexcept
+{
+    if (signal == QPlcInvalidSignalIndex)
+        return;
+    char *bytes = m_image.data() + m_image.offset(signal);
+    if (m_image.table().at(signal).type.scalar() == QPlcSignalType::Real32)
+        QSplitPrimitive<float>(float(value)).toBytes(bytes);
+    else
+        QSplitPrimitive<double>(value).toBytes(bytes);
+}
+
+void MasterCycle::writeOwnSignals(const CycleClock::Tick &tick) noexcept
+{
+    if (m_phase.timeSignal != QPlcInvalidSignalIndex) {
+        const qint64 time = m_wallStart + qint64(m_number) * m_phase.period.count();
+        QSplitPrimitive<qint64>(time).toBytes(m_image.data() + m_image.offset(m_phase.timeSignal));
+    }
+    writeReal(m_phase.jitterSignal, double(tick.lateness) * 1e-9);
+    writeReal(m_phase.workloadSignal, double(m_workload) * 1e-9);
+    m_lateness.record(tick.lateness);
+    if (tick.skipped > 0) {
+        count(m_overruns);
+        count(m_skipped, tick.skipped);
+    }
+}
+
+void MasterCycle::askNodes(const CycleClock::Tick &tick) noexcept
+{
+    for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
+        copyRuns(slot->inputRuns, m_image.data(), slot->inputs.data());
+        slot->answered = false;
+        slot->request.cycle = std::uint32_t(m_cycleZero + m_number);
+        slot->request.info = std::uint32_t(std::min<std::int64_t>(tick.lateness, std::numeric_limits<std::uint32_t>::max()));
+        if (slot->peer)
+            sendRequest(*slot, 0);
+    }
+    if (m_anyRemote)
+        m_hub.flush();
+}
+
+void MasterCycle::sendRequest(NodeSlot &slot, std::uint8_t flags) noexcept
+{
+    slot.request.flags = flags;
+    char *frame = slot.frames.data();
+    for (std::size_t part = 0; part < slot.encoder.partCount(); ++part) {
+        const std::size_t size = slot.encoder.partSize(part);
+        slot.encoder.encode(part, slot.request, slot.inputs.data(), frame);
+        m_reports.tap(TappedFrame::Sent, slot.id, frame, size);
+        m_hub.send(slot.peer.get(), frame, size);
+        frame += size;
+    }
+}
+
+void MasterCycle::stepLocalNodes() noexcept
+{
+    for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
+        if (!slot->local)
+            continue;
+        const QPlcCycle &last = slot->local->cycle();
+        const quint64 missed = m_number > last.number() + 1 ? m_number - last.number() - 1 : 0;
+        slot->computed = slot->local->step(QPlcCycle(m_number, m_phase.period, missed), slot->inputs.data());
+        slot->answered = true;
+        if (!slot->computed && !slot->faulted)
+            m_reports.post({CycleEvent::NodeFaulted, slot->id, 0, m_number});
+        slot->faulted = !slot->computed;
+    }
+}
+
+bool MasterCycle::anyMissing(bool onlyWaiting) const noexcept
+{
+    return std::any_of(m_roster->nodes.begin(), m_roster->nodes.end(), [this, onlyWaiting](const std::shared_ptr<NodeSlot> &slot) {
+        if (!isAwaited(*slot))
+            return false;
+        return m_phase.clock.isLockstep() ? !slot->listener : !onlyWaiting || slot->waits();
+    });
+}
+
+void MasterCycle::collectAnswers(std::int64_t deadline) noexcept
+{
+    if (!m_phase.clock.isLockstep()) {
+        while (anyMissing(false)) {
+            const std::int64_t left = deadline - m_time.now();
+            if (left <= 0 || m_stop.load(std::memory_order_relaxed))
+                break;
+            receive(std::min(left, Slice));
+        }
+        reportLateNodes();
+    }
+    if (anyMissing(true))
+        waitForLateNodes(deadline);
+    else if (m_phase.clock.isLockstep())
+        receive(0);  // what listeners have to say
+}
+
+void MasterCycle::reportLateNodes() noexcept
+{
+    for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
+        if (!isAwaited(*slot))
+            continue;
+        count(slot->lateAnswers);
+        count(m_lateAnswers);
+        if (slot->reports())
+            m_reports.post({CycleEvent::LateAnswer, slot->id, 0, m_number});
+    }
+}
+
+/// Time stands still until the nodes that must be waited for have answered (or are lost). What UDP may have lost is sent again.
+void MasterCycle::waitForLateNodes(std::int64_t deadline) noexcept
+{
+    const bool lockstep = m_phase.clock.isLockstep();
+    if (!lockstep)
+        m_reports.post({CycleEvent::WaitingForNode, 0, 0, m_number});
+    std::int64_t resendAt = m_time.now() + ResendAfter;
+    while (anyMissing(true) && !m_stop.load(std::memory_order_relaxed)) {
+        receive(std::min(ResendAfter, Slice));
+        if (m_time.now() < resendAt)
+            continue;
+        for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
+            if (isAwaited(*slot) && slot->peer->isUdp()) {
+                count(slot->resent);
+                sendRequest(*slot, ResentFlag);
+            }
+        }
+        m_hub.flush();
+        resendAt = m_time.now() + ResendAfter;
+    }
+    if (!lockstep) {
+        m_clock->shift(std::max<std::int64_t>(0, m_time.now() - deadline));
+        m_reports.post({CycleEvent::WaitingEnded, 0, 0, m_number});
+    }
+}
+
+void MasterCycle::receive(std::int64_t timeout) noexcept
+{
+    const std::int64_t begin = now();
+    const bool arrived = m_hub.wait(timeout);
+    m_waited += now() - begin;
+    if (!arrived)
+        return;
+    CyclicHub::Incoming incoming;
+    while (m_hub.next(&incoming))
+        takeAnswer(*static_cast<NodeSlot *>(incoming.peer->owner), incoming.frame, incoming.size);
+    m_strangers.store(m_hub.strangers(), std::memory_order_relaxed);
+    for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
+        if (slot->peer && slot->peer->isClosed() && !slot->lost.exchange(true))
+            m_reports.post({CycleEvent::LinkClosed, slot->id, 0, m_number});
+    }
+}
+
+void MasterCycle::takeAnswer(NodeSlot &slot, const char *frame, std::size_t size) noexcept
+{
+    m_reports.tap(TappedFrame::Received, slot.id, frame, size);
+    switch (slot.decoder.decode(frame, size)) {
+    case FrameStatus::Complete: break;
+    case FrameStatus::Incomplete: return;
+    case FrameStatus::Duplicate:
+    case FrameStatus::Old: count(slot.duplicates); return;
+    default: count(slot.rejected); return;
+    }
+    // An answer to an older cycle is late and counted as such, but still newer than what the image holds.
+    const bool current = slot.decoder.cycle() == m_cycleZero + m_number;
+    slot.answered = slot.answered || current;
+    m_roundTrip = now() - m_woken;
+    const bool faulted = slot.decoder.header().flags & FaultFlag;
+    if (faulted && !slot.faulted)
+        m_reports.post({CycleEvent::NodeFaulted, slot.id, 0, m_number});
+    slot.faulted = faulted;
+    if (!faulted)
+        paste(slot, slot.decoder.payload());
+}
+
+bool MasterCycle::paste(NodeSlot &slot, const char *outputs) noexcept
+{
+    if (const PayloadLayout::Field *field = slot.firstNotFinite(outputs)) {
+        m_reports.post({CycleEvent::NotFinite, slot.id, field->signal, m_number});
+        return false;
+    }
+    copyRuns(slot.outputRuns, outputs, m_image.data());
+    return true;
+}
+
+void MasterCycle::finish() noexcept
+{
+    // Local nodes saw the image of the cycle before, whatever their order: their outputs come in only now.
+    for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
+        if (slot->local && slot->computed)
+            paste(*slot, slot->local->outputs());
+    }
+    count(m_cycles);
+    m_digest.store(m_image.digest(m_digest.load(std::memory_order_relaxed)), std::memory_order_relaxed);
+    m_snapshot.publish(m_image.data(), m_number);
+    m_cycle.store(m_number, std::memory_order_relaxed);
+    if (m_roundTrip > 0)
+        m_roundTrips.record(m_roundTrip);
+    m_workload = now() - m_woken - m_waited;
+}
+
+}  // namespace qplc

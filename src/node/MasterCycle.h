@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "CycleReports.h"
+#include "NodeSlot.h"
+#include "QPlcClock.h"
+#include "QPlcMasterStatistics.h"
+#include "realtime/CycleClock.h"
+#include "realtime/CycleThread.h"
+#include "realtime/Histogram.h"
+#include "realtime/SnapshotBuffer.h"
+#include "signals/ProcessImage.h"
+#include "transport/CyclicHub.h"
+
+#include <atomic>
+#include <memory>
+#include <optional>
+
+namespace qplc {
+
+/// The cycle of a master: asks all nodes, takes their answers, keeps the process image. Owns the thread on which that happens.
+///
+/// Everything is called by the thread of the master; what is marked so also while cycles run.
+class MasterCycle
+{
+public:
+    struct Phase
+    {
+        std::chrono::nanoseconds period{0};
+        QPlcClock clock;
+        std::uint64_t cycleLimit = 0;                        // 0: none
+        QPlcSignalIndex timeSignal = QPlcInvalidSignalIndex;
+        QPlcSignalIndex jitterSignal = QPlcInvalidSignalIndex;
+        QPlcSignalIndex workloadSignal = QPlcInvalidSignalIndex;
+        QPlcRealTimeOptions realTimeOptions;
+    };
+
+    MasterCycle(const QPlcSignalTable &table, CyclicHub &hub, bool tapFrames);
+    ~MasterCycle();
+
+    /// The values while no cycle runs.
+    ProcessImage &image() { return m_image; }
+    /// Number on the wire of cycle 0 of the next phase (or of this one, while it runs).
+    std::uint64_t cycleZero() const { return m_cycleZero; }
+
+    /// \return false when no thread could be made; errorString() says why
+    bool start(const Phase &phase);
+    /// Waits until the cycle in progress has ended. The hub then holds the nodes of the last roster.
+    void stop();
+    bool isRunning() const { return m_thread.isRunning(); }
+    QString errorString() const { return m_thread.errorString(); }
+    const QVector<QPlcRealTimeSetting> &realTimeSettings() const { return m_thread.settings(); }
+
+    /// Gives the nodes of the cycles from the next one on; also while cycles run.
+    void setRoster(const Roster &roster);
+    /// Sets a signal between two cycles; also while cycles run. \return false when too many are under way
+    bool setValue(QPlcSignalIndex signal, const QPlcValue &value);
+    /// The newest value; also while cycles run.
+    QPlcValue value(QPlcSignalIndex signal) const;
+    /// The values of a frame, cut from the newest image; also while cycles run.
+    QByteArray gather(const std::vector<CopyRun> &runs, quint32 size) const;
+    /// Number of the newest complete cycle, from 0; also while cycles run.
+    std::uint64_t cycle() const { return m_cycle.load(std::memory_order_relaxed); }
+    QPlcMasterStatistics statistics() const;
+    CycleReports &reports() { return m_reports; }
+
+private:
+    struct SetCommand
+    {
+        QPlcSignalIndex signal;
+        std::array<char, QPlcSignalType::MaximumSize> bytes;
+    };
+
+    void run() noexcept;
+    void runCycle(const CycleClock::Tick &tick) noexcept;
+    void takeCommands() noexcept;
+    void adopt(Roster *roster) noexcept;
+    void writeOwnSignals(const CycleClock::Tick &tick) noexcept;
+    void writeReal(QPlcSignalIndex signal, double value) noexcept;
+    void askNodes(const CycleClock::Tick &tick) noexcept;
+    void sendRequest(NodeSlot &slot, std::uint8_t flags) noexcept;
+    void stepLocalNodes() noexcept;
+    void collectAnswers(std::int64_t deadline) noexcept;
+    void waitForLateNodes(std::int64_t deadline) noexcept;
+    void reportLateNodes() noexcept;
+    void receive(std::int64_t timeout) noexcept;
+    void takeAnswer(NodeSlot &slot, const char *frame, std::size_t size) noexcept;
+    bool paste(NodeSlot &slot, const char *outputs) noexcept;
+    void finish() noexcept;
+    bool anyMissing(bool onlyWaiting) const noexcept;
+    bool isAwaited(const NodeSlot &slot) const noexcept { return slot.peer && !slot.answered && !slot.lost.load(std::memory_order_relaxed); }
+    std::int64_t now() noexcept { return m_phase.clock.isLockstep() ? 0 : m_time.now(); }
+    void clearStatistics();
+    void freeRetired();
+
+    TimeSource &m_time = TimeSource::monotonic();
+    ProcessImage m_image;
+    CyclicHub &m_hub;
+    CycleThread m_thread;
+    CycleReports m_reports;
+    std::atomic<bool> m_stop{false};
+    std::atomic<Roster *> m_pendingRoster{nullptr};
+    SpscRing<Roster *> m_retiredRosters{64};
+    SpscRing<SetCommand> m_setCommands{64};
+    SnapshotBuffer m_snapshot;
+
+    // cycle thread
+    Phase m_phase;
+    std::optional<CycleClock> m_clock;
+    std::unique_ptr<Roster> m_roster;
+    std::uint64_t m_cycleZero = 0;
+    std::uint64_t m_number = 0;         // of the cycle in progress, from 0
+    std::int64_t m_wallStart = 0;       // [ns since 1970]
+    std::int64_t m_woken = 0;           // [ns] when the cycle in progress began
+    std::int64_t m_workload = 0;        // [ns] of the cycle before
+    std::int64_t m_waited = 0;          // [ns] spent waiting in the cycle in progress
+    std::int64_t m_roundTrip = 0;       // [ns] until the newest answer
+    bool m_anyRemote = false;
+
+    // statistics
+    std::atomic<std::uint64_t> m_cycle{0};
+    std::atomic<std::uint64_t> m_cycles{0};
+    std::atomic<std::uint64_t> m_overruns{0};
+    std::atomic<std::uint64_t> m_skipped{0};
+    std::atomic<std::uint64_t> m_lateAnswers{0};
+    std::atomic<std::uint64_t> m_strangers{0};
+    std::atomic<std::uint64_t> m_digest{0};
+    Histogram m_lateness;
+    Histogram m_roundTrips;
+};
+
+}  // namespace qplc

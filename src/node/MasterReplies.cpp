@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "MasterReplies.h"
+
+#include "QPlcMessage.h"
+
+#include <QtCore/QJsonArray>
+#include <QtCore/QMetaEnum>
+
+namespace qplc {
+
+namespace {
+
+QJsonObject nodeFields(const QPlcNodeInfo &node)
+{
+    return {{QStringLiteral("name"), node.name},
+            {QStringLiteral("id"), node.id},
+            {QStringLiteral("inputs"), node.inputs},
+            {QStringLiteral("outputs"), node.outputs},
+            {QStringLiteral("listener"), node.listener},
+            {QStringLiteral("policy"), node.policy},
+            {QStringLiteral("transport"), node.transport},
+            {QStringLiteral("address"), node.address},
+            {QStringLiteral("lateAnswers"), double(node.lateAnswers)},
+            {QStringLiteral("duplicates"), double(node.duplicates)},
+            {QStringLiteral("rejected"), double(node.rejected)},
+            {QStringLiteral("resent"), double(node.resent)}};
+}
+
+QJsonObject counterFields(const QPlcMasterStatistics &statistics)
+{
+    return {{QStringLiteral("cycles"), double(statistics.cycles)},
+            {QStringLiteral("overruns"), double(statistics.overruns)},
+            {QStringLiteral("skippedCycles"), double(statistics.skippedCycles)},
+            {QStringLiteral("lateAnswers"), double(statistics.lateAnswers)},
+            {QStringLiteral("strangers"), double(statistics.strangers)}};
+}
+
+}  // namespace
+
+QString clockName(QPlcClock clock)
+{
+    switch (clock.kind()) {
+    case QPlcClock::RealTime: return QStringLiteral("RealTime");
+    case QPlcClock::Scaled: return QStringLiteral("Scaled");
+    case QPlcClock::Lockstep: return QStringLiteral("Lockstep");
+    }
+    return {};
+}
+
+QJsonObject stateFields(const QPlcMasterNode &master, quint64 session)
+{
+    QJsonArray nodes;
+    const QVector<QPlcNodeInfo> infos = master.nodes();
+    for (const QPlcNodeInfo &node : infos)
+        nodes.append(nodeFields(node));
+    const QPlcMasterStatistics statistics = master.statistics();
+    return {{QStringLiteral("state"), QLatin1String(QMetaEnum::fromType<QPlcMasterNode::State>().valueToKey(master.state()))},
+            {QStringLiteral("cycle"), QPlcMessage::fromHex64(master.cycle())},
+            {QStringLiteral("period"), double(master.interval().count())},
+            {QStringLiteral("clock"), clockName(master.clock())},
+            {QStringLiteral("scale"), master.clock().scale()},
+            {QStringLiteral("session"), QPlcMessage::fromHex64(session)},
+            {QStringLiteral("nodes"), nodes},
+            {QStringLiteral("counters"), counterFields(statistics)},
+            {QStringLiteral("digest"), QPlcMessage::fromHex64(statistics.imageDigest)}};
+}
+
+bool signalFields(const QPlcMasterNode &master, const QStringList &names, QJsonObject *fields, QString *error)
+{
+    const QPlcSignalTable table = master.signalTable();
+    QStringList wanted = names;
+    if (wanted.isEmpty()) {
+        for (const QPlcSignalDefinition &definition : table)
+            wanted << definition.name;
+    }
+    QJsonArray signalArray;
+    for (const QString &name : qAsConst(wanted)) {
+        const QPlcSignalIndex index = table.indexOf(name);
+        if (index == QPlcInvalidSignalIndex) {
+            *error = table.unknownSignalText(name);
+            return false;
+        }
+        const QPlcSignalDefinition &definition = table.at(index);
+        signalArray.append(QJsonObject{{QStringLiteral("name"), name},
+                                       {QStringLiteral("type"), definition.type.name()},
+                                       {QStringLiteral("unit"), definition.unit},
+                                       {QStringLiteral("description"), definition.description},
+                                       {QStringLiteral("value"), master.signalValue(name).toString()},
+                                       {QStringLiteral("writer"), master.writer(name)}});
+    }
+    fields->insert(QStringLiteral("signals"), signalArray);
+    return true;
+}
+
+}  // namespace qplc

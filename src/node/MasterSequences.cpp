@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: Apache-2.0
+// The sequences of QPlcMasterNodePrivate: initialization, start, stop, and the node that joins while others run.
+#include "Logging.h"
+#include "MasterReplies.h"
+#include "QPlcMasterNodePrivate.h"
+#include "QPlcSlaveNodePrivate.h"
+
+#include <algorithm>
+
+using Message = QPlcMessage;
+using qplc::NodeSlot;
+
+// ---- initialization ----
+
+bool QPlcMasterNodePrivate::initializeAllStates()
+{
+    if (!prepare())
+        return false;
+    if (state != QPlcMasterNode::Off)
+        return setError(QPlcMasterNode::StateError, QStringLiteral("states can only be initialized while the master is off; stop it first"));
+    error = QPlcMasterNode::NoError;
+    errorString.clear();
+    m_startAfterwards = false;
+    setState(QPlcMasterNode::Initializing);
+    collectOutputs();
+    return error == QPlcMasterNode::NoError;
+}
+
+/// Every node now owes the answer that brings it to stage \a owed.
+void QPlcMasterNodePrivate::begin(Step step, Connection::Stage owed)
+{
+    m_step = step;
+    m_owed = owed;
+    for (Connection *connection : m_participants)
+        connection->stage = Connection::Stage(owed - 1);
+    stepTimer.start();
+}
+
+/// Goes on to the next step when nobody owes an answer any more.
+void QPlcMasterNodePrivate::advance()
+{
+    const auto done = [this](const Connection *connection) { return connection->stage >= m_owed; };
+    if (m_step == Step::None || !std::all_of(m_participants.begin(), m_participants.end(), done))
+        return;
+    stepTimer.stop();
+    switch (m_step) {
+    case Step::CollectOutputs: distributeInputs(); break;
+    case Step::DistributeInputs: initializationEnded(); break;
+    case Step::Start: startCycles(); break;
+    case Step::None: break;
+    }
+}
+
+void QPlcMasterNodePrivate::collectOutputs()
+{
+    m_participants.clear();
+    for (const std::unique_ptr<Connection> &connection : server->connections()) {
+        if (connection->isAttached())
+            m_participants.push_back(connection.get());
+    }
+    cycle->image().reset();
+    begin(Step::CollectOutputs, Connection::OutputsGiven);
+    for (Connection *connection : m_participants)
+        connection->send(Message::SendYourInitialOutputStates);
+    for (const std::shared_ptr<NodeSlot> &slot : registry->nodes()) {
+        if (!slot->local)
+            continue;
+        QString text;
+        slot->local->node().d->setState(QPlcSlaveNode::Initializing);
+        if (!slot->local->reset(&text)) {
+            abortSequence(QStringLiteral("node '%1': %2").arg(slot->name, text));
+            return;
+        }
+        if (!takeOutputs(*slot, slot->local->outputs()))
+            return;
+    }
+    advance();
+}
+
+bool QPlcMasterNodePrivate::takeOutputs(NodeSlot &slot, const char *outputs)
+{
+    if (const qplc::PayloadLayout::Field *field = slot.firstNotFinite(outputs)) {
+        abortSequence(QStringLiteral("node '%1': the initial value of signal '%2' is not a finite number").arg(slot.name, table.at(field->signal).name));
+        return false;
+    }
+    qplc::copyRuns(slot.outputRuns, outputs, cycle->image().data());
+    return true;
+}
+
+/// Takes the initial outputs of a node. \return false when the message has the wrong size
+bool QPlcMasterNodePrivate::storeOutputs(Connection *connection, const Message &message)
+{
+    const QByteArray values = message.bytes(QStringLiteral("values"));
+    if (!connection->slot || values.size() != int(connection->slot->outputLayout.size())) {
+        server->drop(connection, QStringLiteral("it sent %1 bytes of initial outputs").arg(values.size()));
+        return false;
+    }
+    NodeSlot &slot = *connection->slot;
+    slot.initialOutputs.assign(values.begin(), values.end());
+    if (!isRunning())
+        return takeOutputs(slot, values.constData());
+    if (const qplc::PayloadLayout::Field *field = slot.firstNotFinite(values.constData())) {
+        server->drop(connection, QStringLiteral("the initial value of signal '%1' is not a finite number").arg(table.at(field->signal).name));
+        return false;
+    }
+    return true;
+}
+
+void QPlcMasterNodePrivate::distributeInputs()
+{
+    begin(Step::DistributeInputs, Connection::Initialized);
+    for (Connection *connection : m_participants) {
+        const QByteArray values = cycle->gather(connection->slot->inputRuns, connection->slot->inputLayout.size());
+        connection->send(Message::InitializeWithValues, {{QStringLiteral("values"), Message::fromBytes(values)}});
+    }
+    for (const std::shared_ptr<NodeSlot> &slot : registry->nodes()) {
+        if (!slot->local)
+            continue;
+        QString text;
+        const QByteArray values = cycle->gather(slot->inputRuns, slot->inputLayout.size());
+        if (!slot->local->initialize(values.constData(), &text)) {
+            abortSequence(QStringLiteral("node '%1': %2").arg(slot->name, text));
+            return;
+        }
+        slot->local->node().d->setState(QPlcSlaveNode::Off);
+    }
+    advance();
+}
+
+void QPlcMasterNodePrivate::initializationEnded()
+{
+    m_initialized = true;
+    m_step = Step::None;
+    for (const std::unique_ptr<Connection> &connection : server->connections()) {
+        if (connection->stage >= Connection::Greeted)
+            connection->send(Message::StatesInitialized, {{QStringLiteral("ok"), true}});
+    }
+    Q_EMIT q->statesInitialized();
+    if (m_startAfterwards) {
+        beginStart();
+        return;
+    }
+    setState(QPlcMasterNode::Off);
+    answerRequester(true, {});
+}
+
+void QPlcMasterNodePrivate::stepTimedOut()
+{
+    QStringList names;
+    for (const Connection *connection : m_participants) {
+        if (connection->stage < m_owed)
+            names << QStringLiteral("'%1'").arg(connection->name);
+    }
+    const QString what = m_step == Step::Start ? QStringLiteral("RealTimeStarted")
+                         : m_step == Step::CollectOutputs ? QStringLiteral("SendYourInitialOutputStates")
+                                                          : QStringLiteral("InitializeWithValues");
+    abortSequence(QStringLiteral("no answer to %1 within %2 ms from node %3; is it busy, or stopped?").arg(what).arg(stepTimer.interval()).arg(names.join(QStringLiteral(", "))));
+}
+
+void QPlcMasterNodePrivate::abortSequence(const QString &reason)
+{
+    stepTimer.stop();
+    const bool wasStarting = m_step == Step::Start;
+    m_step = Step::None;
+    for (Connection *connection : m_participants) {
+        if (wasStarting)
+            connection->send(Message::RealTimeStopped, {{QStringLiteral("reason"), reason}});
+        else
+            connection->send(Message::StatesInitialized, {{QStringLiteral("ok"), false}, {QStringLiteral("text"), reason}});
+        connection->stage = Connection::Attached;
+    }
+    m_participants.clear();
+    setState(QPlcMasterNode::Off);
+    setError(QPlcMasterNode::InitializationError, reason);
+    answerRequester(false, reason);
+}
+
+// ---- start ----
+
+bool QPlcMasterNodePrivate::startRealTime(quint64 cycles)
+{
+    if (!prepare())
+        return false;
+    if (state != QPlcMasterNode::Off)
+        return setError(QPlcMasterNode::StateError, QStringLiteral("the real-time phase can only be started while the master is off; stop it first"));
+    const QString optionError = realTimeOptions.errorString();
+    if (!optionError.isEmpty())
+        return setError(QPlcMasterNode::RealTimeError, optionError);
+    error = QPlcMasterNode::NoError;
+    errorString.clear();
+    m_cyclesWanted = cycles;
+    m_startAfterwards = true;
+    setState(QPlcMasterNode::Initializing);
+    if (m_initialized)
+        beginStart();
+    else
+        collectOutputs();
+    return error == QPlcMasterNode::NoError;
+}
+
+QJsonObject QPlcMasterNodePrivate::startFields() const
+{
+    return {{QStringLiteral("period"), double(interval.count())},
+            {QStringLiteral("clock"), qplc::clockName(clock)},
+            {QStringLiteral("scale"), clock.scale()},
+            {QStringLiteral("cycleZero"), Message::fromHex64(cycle->cycleZero())},
+            {QStringLiteral("firstCycle"), Message::fromHex64(cycle->cycleZero() + (isRunning() ? cycle->cycle() : 0))}};
+}
+
+void QPlcMasterNodePrivate::beginStart()
+{
+    begin(Step::Start, Connection::Running);
+    for (Connection *connection : m_participants)
+        connection->send(Message::RealTimeStarted, startFields());
+    advance();
+}
+
+void QPlcMasterNodePrivate::startCycles()
+{
+    m_step = Step::None;
+    qplc::MasterCycle::Phase phase;
+    phase.period = interval;
+    phase.clock = clock;
+    phase.cycleLimit = m_cyclesWanted > 0 ? m_cyclesWanted : cycleLimit;
+    phase.timeSignal = timeSignal;
+    phase.jitterSignal = jitterSignal;
+    phase.workloadSignal = workloadSignal;
+    phase.realTimeOptions = realTimeOptions;
+    giveRoster();
+    if (!cycle->start(phase)) {
+        m_step = Step::Start;
+        abortSequence(cycle->errorString());
+        return;
+    }
+    for (const QPlcRealTimeSetting &setting : cycle->realTimeSettings()) {
+        if (!setting.granted)
+            qCWarning(lcMaster).noquote() << setting.toString();
+    }
+    m_participants.clear();
+    setState(QPlcMasterNode::RealTime);
+    for (const std::shared_ptr<NodeSlot> &slot : registry->nodes()) {
+        if (!slot->local)
+            continue;
+        slot->local->node().d->setState(QPlcSlaveNode::RealTime);
+        Q_EMIT slot->local->node().realTimeHasStarted();
+    }
+    Q_EMIT q->realTimeHasStarted();
+    answerRequester(true, {});
+    // Whoever attached while the others were being started joins now.
+    for (const std::unique_ptr<Connection> &connection : server->connections()) {
+        if (connection->stage == Connection::Attached)
+            join(connection.get());
+    }
+}
+
+/// Nodes of the cycle: those of this process, and those over the network that are ready.
+void QPlcMasterNodePrivate::giveRoster()
+{
+    qplc::Roster roster;
+    for (const std::shared_ptr<NodeSlot> &slot : registry->nodes()) {
+        const Connection *connection = slot->local ? nullptr : server->connectionOf(slot.get());
+        if (slot->local || (connection && connection->stage == Connection::Running))
+            roster.nodes.push_back(slot);
+    }
+    cycle->setRoster(roster);
+}
+
+// ---- stop ----
+
+void QPlcMasterNodePrivate::stop(const QString &reason)
+{
+    if (m_step != Step::None)
+        abortSequence(QStringLiteral("stopped: %1").arg(reason));
+    if (!isRunning())
+        return;
+    cycle->stop();
+    m_initialized = false;
+    setState(QPlcMasterNode::Off);
+    for (const std::unique_ptr<Connection> &connection : server->connections()) {
+        if (connection->stage <= Connection::Attached)
+            continue;
+        connection->send(Message::RealTimeStopped, {{QStringLiteral("reason"), reason}});
+        connection->stage = Connection::Attached;
+    }
+    cycle->setRoster({});
+    for (const std::shared_ptr<NodeSlot> &slot : registry->nodes()) {
+        if (!slot->local)
+            continue;
+        slot->local->stopped();
+        slot->local->node().d->setState(QPlcSlaveNode::Off);
+        Q_EMIT slot->local->node().realTimeHasStopped();
+    }
+    takeReports();
+    Q_EMIT q->realTimeHasStopped();
+}
+
+// ---- joining while others run ----
+
+void QPlcMasterNodePrivate::join(Connection *connection)
+{
+    connection->stage = Connection::GivingOutputs;
+    connection->send(Message::SendYourInitialOutputStates);
+}
+
+void QPlcMasterNodePrivate::continueJoin(Connection *connection, const Message &message)
+{
+    if (message.kind() == Message::ReceiveMyInitialOutputStates && connection->stage == Connection::GivingOutputs) {
+        if (!storeOutputs(connection, message))
+            return;
+        connection->stage = Connection::Initializing;
+        const QByteArray values = cycle->gather(connection->slot->inputRuns, connection->slot->inputLayout.size());
+        connection->send(Message::InitializeWithValues, {{QStringLiteral("values"), Message::fromBytes(values)}});
+    } else if (message.kind() == Message::Initialized && connection->stage == Connection::Initializing) {
+        connection->stage = Connection::Starting;
+        connection->send(Message::RealTimeStarted, startFields());
+    } else if (message.kind() == Message::RealTimeReady && connection->stage == Connection::Starting) {
+        connection->stage = Connection::Running;
+        giveRoster();
+    }
+}

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "MasterServer.h"
+
+#include "Logging.h"
+
+#include <QtCore/QRandomGenerator>
+#include <QtNetwork/QTcpServer>
+#include <QtNetwork/QTcpSocket>
+
+#include <algorithm>
+
+namespace qplc {
+
+using Message = QPlcMessage;
+
+MasterServer::MasterServer(NodeRegistry &registry, const ProcessImage &image, CyclicHub &hub, quint64 session, std::function<QJsonObject()> hello, QObject *parent)
+    : QObject(parent)
+    , m_registry(registry)
+    , m_image(image)
+    , m_hub(hub)
+    , m_session(session)
+    , m_hello(std::move(hello))
+    , m_server(new QTcpServer(this))
+{
+    connect(m_server, &QTcpServer::newConnection, this, &MasterServer::accept);
+}
+
+MasterServer::~MasterServer()
+{
+    close();
+}
+
+// ---- ports ----
+
+bool MasterServer::openPorts(const QHostAddress &address, quint16 port)
+{
+    if (!m_server->listen(address, port)) {
+        m_errorString = QStringLiteral("cannot listen on %1:%2: %3; choose another port, or end the program that uses it")
+                            .arg(address.toString())
+                            .arg(port)
+                            .arg(m_server->errorString());
+        return false;
+    }
+    if (m_hub.open(SocketAddress(address, m_server->serverPort()), &m_errorString))
+        return true;
+    m_server->close();
+    return false;
+}
+
+bool MasterServer::listen(const QHostAddress &address, quint16 port)
+{
+    close();
+    // A free TCP port may be taken on UDP: with port 0 another one will do.
+    for (int attempts = port == 0 ? 16 : 1; attempts > 0; --attempts) {
+        if (openPorts(address, port))
+            return true;
+    }
+    return false;
+}
+
+void MasterServer::close()
+{
+    m_server->close();
+    for (const std::unique_ptr<MasterConnection> &connection : m_connections)
+        connection->send(Message::MasterEnds);
+    while (!m_connections.empty())
+        drop(m_connections.back().get(), QStringLiteral("the master closes its server"));
+    m_hub.close();
+}
+
+quint16 MasterServer::port() const
+{
+    return m_server->serverPort();
+}
+
+// ---- connections ----
+
+void MasterServer::accept()
+{
+    while (QTcpSocket *socket = m_server->nextPendingConnection()) {
+        m_connections.push_back(std::make_unique<MasterConnection>());
+        MasterConnection *connection = m_connections.back().get();
+        connection->socket = new QPlcSlaveSocket(socket, this);
+        connect(connection->socket, &QPlcAbstractSocket::messageReceived, this, [this, connection](const Message &message) { receive(connection, message); });
+        connect(connection->socket, &QPlcAbstractSocket::disconnected, this, [this, connection] {
+            const QString error = connection->socket->errorString();
+            drop(connection, error.isEmpty() ? QStringLiteral("it closed the connection") : error);
+        });
+    }
+}
+
+MasterConnection *MasterServer::connectionOf(const NodeSlot *slot) const
+{
+    for (const std::unique_ptr<MasterConnection> &connection : m_connections) {
+        if (connection->slot.get() == slot)
+            return connection.get();
+    }
+    return nullptr;
+}
+
+void MasterServer::drop(MasterConnection *connection, const QString &reason)
+{
+    connection->socket->disconnect(this);
+    connection->socket->close();
+    if (connection->slot) {
+        connection->slot->lost = true;
+        m_registry.remove(connection->slot);
+        Q_EMIT lost(connection, reason);
+    }
+    forget(connection);
+}
+
+void MasterServer::forget(MasterConnection *connection)
+{
+    connection->socket->disconnect(this);
+    connection->socket->deleteLater();
+    const auto isIt = [connection](const std::unique_ptr<MasterConnection> &other) { return other.get() == connection; };
+    m_connections.erase(std::remove_if(m_connections.begin(), m_connections.end(), isIt), m_connections.end());
+}
+
+void MasterServer::reject(MasterConnection *connection, const QString &error, const QString &text)
+{
+    qCWarning(lcMaster).noquote() << "refused" << connection->socket->peerName() << text;
+    connection->send(Message::Rejected, {{QStringLiteral("error"), error}, {QStringLiteral("text"), text}});
+    Q_EMIT refused(connection->name, text);
+    drop(connection, text);
+}
+
+void MasterServer::receive(MasterConnection *connection, const Message &message)
+{
+    switch (message.kind()) {
+    case Message::Hello: greet(connection, message); return;
+    case Message::AttachCyclicChannel: attachCyclicChannel(connection, message); return;
+    default: break;
+    }
+    if (connection->stage == MasterConnection::Silent) {
+        reject(connection, QStringLiteral("WrongState"), QStringLiteral("%1 before Hello; greet first").arg(message.kindName()));
+        return;
+    }
+    if (message.kind() == Message::Register)
+        registerNode(connection, message);
+    else
+        Q_EMIT received(connection, message);
+}
+
+// ---- registration ----
+
+void MasterServer::greet(MasterConnection *connection, const Message &message)
+{
+    const int protocol = message.fields().value(QStringLiteral("protocol")).toInt();
+    connection->name = message.text(QStringLiteral("name"));
+    if (protocol != 1) {
+        reject(connection, QStringLiteral("VersionMismatch"),
+               QStringLiteral("protocol version %1 of '%2' is not spoken here; this master speaks version 1").arg(protocol).arg(connection->name));
+        return;
+    }
+    QJsonObject hello = m_hello();
+    if (message.hex64(QStringLiteral("tableHash")) == m_image.table().hash())
+        hello.remove(QStringLiteral("table"));
+    connection->stage = MasterConnection::Greeted;
+    if (!connection->send(Message::Hello, hello))
+        reject(connection, QStringLiteral("TooLong"), QStringLiteral("the signal table is too long to be sent; give '%1' the same table as the master").arg(connection->name));
+}
+
+void MasterServer::registerNode(MasterConnection *connection, const Message &message)
+{
+    if (connection->isNode()) {
+        reject(connection, QStringLiteral("WrongState"), QStringLiteral("node '%1' registers twice").arg(connection->name));
+        return;
+    }
+    NodeDeclaration declaration;
+    Refusal refusal;
+    QString error;
+    connection->cyclicKind = message.text(QStringLiteral("cyclic"));
+    const int udpPort = message.fields().value(QStringLiteral("udpPort")).toInt();
+    const bool isUdp = connection->cyclicKind == QLatin1String("udp");
+    if (!NodeDeclaration::fromMessage(message, &declaration, &error))
+        refusal = {QStringLiteral("MalformedMessage"), error};
+    else if (!isUdp && connection->cyclicKind != QLatin1String("tcp"))
+        refusal = {QStringLiteral("MalformedMessage"), QStringLiteral("unknown cyclic channel '%1'; use tcp or udp").arg(connection->cyclicKind)};
+    else if (isUdp && (udpPort < 1 || udpPort > 65535))
+        refusal = {QStringLiteral("MalformedMessage"), QStringLiteral("UDP port %1 is out of 1 ... 65535").arg(udpPort)};
+    else
+        connection->slot = m_registry.admit(declaration, &refusal);
+    if (!connection->slot) {
+        connection->name = declaration.name.isEmpty() ? connection->name : declaration.name;
+        reject(connection, refusal.error, refusal.text);
+        return;
+    }
+    connection->name = declaration.name;
+    connection->slot->prepare(m_image, m_session);
+    connection->token = QRandomGenerator::system()->generate64();
+    connection->stage = MasterConnection::Attaching;
+    connection->send(Message::Registered, {{QStringLiteral("node"), connection->slot->id},
+                                           {QStringLiteral("inputsHash"), Message::fromHex64(connection->slot->inputLayout.hash())},
+                                           {QStringLiteral("outputsHash"), Message::fromHex64(connection->slot->outputLayout.hash())},
+                                           {QStringLiteral("token"), Message::fromHex64(connection->token)}});
+    if (!isUdp)
+        return;
+    connection->slot->peer = HubPeer::udp(SocketAddress(connection->socket->peerAddress(), quint16(udpPort)));
+    connection->send(Message::CyclicChannelAttached);
+    nodeAttached(connection);
+}
+
+void MasterServer::attachCyclicChannel(MasterConnection *connection, const Message &message)
+{
+    const quint64 token = message.hex64(QStringLiteral("token"));
+    const int id = message.fields().value(QStringLiteral("node")).toInt();
+    const auto isNode = [&](const std::unique_ptr<MasterConnection> &other) {
+        return other->stage == MasterConnection::Attaching && other->slot->id == id && other->token == token;
+    };
+    const auto found = std::find_if(m_connections.begin(), m_connections.end(), isNode);
+    if (connection->stage != MasterConnection::Silent || found == m_connections.end()) {
+        reject(connection, QStringLiteral("WrongState"), QStringLiteral("no node %1 with this token waits for its cyclic connection").arg(id));
+        return;
+    }
+    MasterConnection *node = found->get();
+    connection->send(Message::CyclicChannelAttached);
+    const int descriptor = connection->socket->takeDescriptor();
+    forget(connection);
+    if (descriptor < 0)
+        return;
+    node->slot->peer = HubPeer::tcp(descriptor, node->slot->outputCutter(), MaximumCyclicFrame);
+    nodeAttached(node);
+}
+
+void MasterServer::nodeAttached(MasterConnection *connection)
+{
+    connection->slot->peer->owner = connection->slot.get();
+    connection->stage = MasterConnection::Attached;
+    qCInfo(lcMaster).noquote() << "node" << connection->name << "registered over" << connection->cyclicKind;
+    Q_EMIT attached(connection);
+}
+
+}  // namespace qplc

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "MasterConnection.h"
+#include "QPlcUnderlyingProtocol.h"
+
+#include <QtCore/QObject>
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+QT_BEGIN_NAMESPACE
+class QTcpServer;
+QT_END_NAMESPACE
+
+namespace qplc {
+
+/// Who comes and goes at a master: accepts connections, greets, registers nodes and attaches their cyclic channels.
+class MasterServer : public QObject
+{
+    Q_OBJECT
+public:
+    /// \param master  what greetings need to know of the master: fields of its Hello
+    MasterServer(NodeRegistry &registry, const ProcessImage &image, CyclicHub &hub, quint64 session, std::function<QJsonObject()> hello, QObject *parent);
+    ~MasterServer() override;
+
+    /// \return false, with the reason in errorString()
+    bool listen(const QHostAddress &address, quint16 port);
+    void close();
+    quint16 port() const;
+    QString errorString() const { return m_errorString; }
+
+    const std::vector<std::unique_ptr<MasterConnection>> &connections() const { return m_connections; }
+    MasterConnection *connectionOf(const NodeSlot *slot) const;
+    /// Ends a connection; lost() follows for a node.
+    void drop(MasterConnection *connection, const QString &reason);
+
+Q_SIGNALS:
+    void attached(qplc::MasterConnection *connection);
+    /// The node is no longer registered; the connection is deleted afterwards.
+    void lost(qplc::MasterConnection *connection, const QString &reason);
+    void refused(const QString &name, const QString &reason);
+    /// A message that is not about registration.
+    void received(qplc::MasterConnection *connection, const QPlcMessage &message);
+
+private:
+    void accept();
+    void receive(MasterConnection *connection, const QPlcMessage &message);
+    void greet(MasterConnection *connection, const QPlcMessage &message);
+    void registerNode(MasterConnection *connection, const QPlcMessage &message);
+    void attachCyclicChannel(MasterConnection *connection, const QPlcMessage &message);
+    void nodeAttached(MasterConnection *connection);
+    void reject(MasterConnection *connection, const QString &error, const QString &text);
+    void forget(MasterConnection *connection);
+    bool openPorts(const QHostAddress &address, quint16 port);
+
+    NodeRegistry &m_registry;
+    const ProcessImage &m_image;
+    CyclicHub &m_hub;
+    const quint64 m_session;
+    std::function<QJsonObject()> m_hello;
+    QTcpServer *m_server;
+    std::vector<std::unique_ptr<MasterConnection>> m_connections;
+    QString m_errorString;
+};
+
+}  // namespace qplc

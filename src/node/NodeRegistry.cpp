@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "NodeRegistry.h"
+
+#include <QtCore/QJsonArray>
+#include <QtCore/QMetaEnum>
+#include <QtCore/QSet>
+
+#include <algorithm>
+
+namespace qplc {
+
+namespace {
+
+bool readSignals(const QJsonValue &json, QVector<NodeDeclaration::Signal> *declared)
+{
+    if (!json.isArray())
+        return false;
+    const QJsonArray array = json.toArray();
+    for (const QJsonValue &element : array) {
+        const QJsonObject object = element.toObject();
+        const NodeDeclaration::Signal read{object.value(QStringLiteral("name")).toString(), object.value(QStringLiteral("type")).toString(),
+                                           object.value(QStringLiteral("unit")).toString()};
+        if (read.name.isEmpty() || read.type.isEmpty())
+            return false;
+        declared->append(read);
+    }
+    return true;
+}
+
+QVector<NodeDeclaration::Signal> describe(const QPlcSignalTable &table, const PayloadLayout &layout)
+{
+    QVector<NodeDeclaration::Signal> declared;
+    for (const PayloadLayout::Field &field : layout.fields())
+        declared.append({table.at(field.signal).name, field.type.name(), table.at(field.signal).unit});
+    return declared;
+}
+
+}  // namespace
+
+bool NodeDeclaration::fromMessage(const QPlcMessage &message, NodeDeclaration *declaration, QString *error)
+{
+    const QJsonObject fields = message.fields();
+    bool knownPolicy = false;
+    const QByteArray policyName = message.text(QStringLiteral("policy")).toLatin1();
+    const int policy = QMetaEnum::fromType<QPlcSlaveNode::RealTimeViolationPolicy>().keyToValue(policyName.constData(), &knownPolicy);
+    declaration->name = message.text(QStringLiteral("name"));
+    declaration->listener = fields.value(QStringLiteral("listener")).toBool();
+    if (declaration->name.isEmpty() || declaration->name.size() > 64)
+        *error = QStringLiteral("a node needs a name of 1 ... 64 characters");
+    else if (!knownPolicy)
+        *error = QStringLiteral("unknown policy '%1'").arg(QString::fromLatin1(policyName));
+    else if (!readSignals(fields.value(QStringLiteral("inputs")), &declaration->inputs) || !readSignals(fields.value(QStringLiteral("outputs")), &declaration->outputs))
+        *error = QStringLiteral("'inputs' and 'outputs' are lists of {name, type, unit}");
+    declaration->policy = QPlcSlaveNode::RealTimeViolationPolicy(policy);
+    return error->isEmpty();
+}
+
+NodeDeclaration NodeDeclaration::fromRuntime(const NodeRuntime &runtime)
+{
+    NodeDeclaration declaration;
+    declaration.name = runtime.node().name();
+    declaration.policy = runtime.node().realTimeViolationPolicy();
+    declaration.listener = runtime.node().isListener();
+    declaration.inputs = describe(runtime.table(), runtime.inputLayout());
+    declaration.outputs = describe(runtime.table(), runtime.outputLayout());
+    return declaration;
+}
+
+NodeRegistry::NodeRegistry(const QPlcSignalTable &table)
+    : m_table(table)
+    , m_writers(table.size())
+{
+}
+
+bool NodeRegistry::resolve(const QString &node, const QVector<NodeDeclaration::Signal> &declared, QVector<QPlcSignalIndex> *indices, Refusal *refusal) const
+{
+    QSet<QPlcSignalIndex> seen;
+    for (const NodeDeclaration::Signal &signal : declared) {
+        const QPlcSignalIndex index = m_table.indexOf(signal.name);
+        if (index == QPlcInvalidSignalIndex) {
+            *refusal = {QStringLiteral("UnknownSignal"), QStringLiteral("node '%1': %2").arg(node, m_table.unknownSignalText(signal.name))};
+            return false;
+        }
+        const QPlcSignalDefinition &definition = m_table.at(index);
+        if (definition.type.name() != signal.type) {
+            *refusal = {QStringLiteral("TypeMismatch"), QStringLiteral("signal '%1' is %2 in the table of the master, %3 in that of node '%4'; use the same table")
+                                                            .arg(signal.name, definition.type.name(), signal.type, node)};
+            return false;
+        }
+        if (definition.unit != signal.unit) {
+            *refusal = {QStringLiteral("UnitMismatch"), QStringLiteral("signal '%1' is in '%2' in the table of the master, in '%3' in that of node '%4'; use the same table")
+                                                            .arg(signal.name, definition.unit, signal.unit, node)};
+            return false;
+        }
+        if (seen.contains(index)) {
+            *refusal = {QStringLiteral("MalformedMessage"), QStringLiteral("node '%1' declares signal '%2' twice; declare it once").arg(node, signal.name)};
+            return false;
+        }
+        seen.insert(index);
+        indices->append(index);
+    }
+    return true;
+}
+
+std::shared_ptr<NodeSlot> NodeRegistry::admit(const NodeDeclaration &declaration, Refusal *refusal)
+{
+    const auto sameName = [&](const std::shared_ptr<NodeSlot> &slot) { return slot->name == declaration.name; };
+    if (declaration.name == masterName() || std::any_of(m_nodes.begin(), m_nodes.end(), sameName)) {
+        *refusal = {QStringLiteral("NameInUse"), QStringLiteral("there is a node '%1' already; give this one another name, or stop the other one").arg(declaration.name)};
+        return nullptr;
+    }
+    if (m_nodes.size() >= MaximumNodes) {
+        *refusal = {QStringLiteral("TooManyNodes"), QStringLiteral("node '%1' would be number %2; a master serves at most %3").arg(declaration.name).arg(m_nodes.size() + 1).arg(MaximumNodes)};
+        return nullptr;
+    }
+    QVector<QPlcSignalIndex> inputs;
+    QVector<QPlcSignalIndex> outputs;
+    if (!resolve(declaration.name, declaration.inputs, &inputs, refusal) || !resolve(declaration.name, declaration.outputs, &outputs, refusal))
+        return nullptr;
+    for (QPlcSignalIndex output : outputs) {
+        if (!m_writers.at(output).isEmpty()) {
+            *refusal = {QStringLiteral("SignalHasWriter"), QStringLiteral("signal '%1' cannot be written by node '%2': node '%3' writes it; a signal has one writer")
+                                                               .arg(m_table.at(output).name, declaration.name, m_writers.at(output))};
+            return nullptr;
+        }
+    }
+    auto slot = std::make_shared<NodeSlot>();
+    slot->name = declaration.name;
+    slot->id = freeId();
+    slot->policy = declaration.policy;
+    slot->listener = declaration.listener;
+    slot->inputLayout = PayloadLayout(m_table, inputs);
+    slot->outputLayout = PayloadLayout(m_table, outputs);
+    for (QPlcSignalIndex output : outputs)
+        m_writers[output] = declaration.name;
+    m_nodes.push_back(slot);
+    return slot;
+}
+
+quint16 NodeRegistry::freeId() const
+{
+    do {
+        ++m_lastId;
+    } while (m_lastId == 0 || find(m_lastId));
+    return m_lastId;
+}
+
+std::shared_ptr<NodeSlot> NodeRegistry::find(quint16 id) const
+{
+    const auto found = std::find_if(m_nodes.begin(), m_nodes.end(), [id](const std::shared_ptr<NodeSlot> &slot) { return slot->id == id; });
+    return found == m_nodes.end() ? nullptr : *found;
+}
+
+void NodeRegistry::remove(const std::shared_ptr<NodeSlot> &slot)
+{
+    for (const PayloadLayout::Field &field : slot->outputLayout.fields())
+        m_writers[field.signal].clear();
+    m_nodes.erase(std::remove(m_nodes.begin(), m_nodes.end(), slot), m_nodes.end());
+}
+
+bool NodeRegistry::claim(QPlcSignalIndex signal)
+{
+    if (!m_writers.at(signal).isEmpty())
+        return false;
+    m_writers[signal] = masterName();
+    return true;
+}
+
+void NodeRegistry::release(QPlcSignalIndex signal)
+{
+    if (m_writers.at(signal) == masterName())
+        m_writers[signal].clear();
+}
+
+}  // namespace qplc

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "NodeSlot.h"
+#include "QPlcMessage.h"
+#include "QPlcSignalTable.h"
+
+#include <QtCore/QStringList>
+#include <QtCore/QVector>
+
+#include <memory>
+
+namespace qplc {
+
+/// What a node says of itself when it registers.
+struct NodeDeclaration
+{
+    struct Signal
+    {
+        QString name;
+        QString type;
+        QString unit;
+    };
+    QString name;
+    QPlcSlaveNode::RealTimeViolationPolicy policy = QPlcSlaveNode::ErrorZeroOrderHold;
+    bool listener = false;
+    QVector<Signal> inputs;
+    QVector<Signal> outputs;
+
+    /// Reads a Register message. \return false, with the reason in \a error, when a field is missing or malformed
+    static bool fromMessage(const QPlcMessage &message, NodeDeclaration *declaration, QString *error);
+    /// What a local node says.
+    static NodeDeclaration fromRuntime(const NodeRuntime &runtime);
+};
+
+/// Why a node is not admitted.
+struct Refusal
+{
+    QString error;  ///< "UnknownSignal", "TypeMismatch", "UnitMismatch", "SignalHasWriter", "NameInUse", "TooManyNodes", "MalformedMessage", "WrongState"
+    QString text;   ///< a sentence with names and remedy
+};
+
+/// Who is there, and who writes which signal: one writer for each.
+class NodeRegistry
+{
+public:
+    static constexpr int MaximumNodes = 1000;
+    /// The name under which the master itself writes signals.
+    static QString masterName() { return QStringLiteral("Master"); }
+
+    explicit NodeRegistry(const QPlcSignalTable &table);
+
+    /// Checks \a declaration against the table and the other nodes. \return null, with the reason in \a refusal, when the node cannot join
+    std::shared_ptr<NodeSlot> admit(const NodeDeclaration &declaration, Refusal *refusal);
+    void remove(const std::shared_ptr<NodeSlot> &slot);
+    const std::vector<std::shared_ptr<NodeSlot>> &nodes() const { return m_nodes; }
+    std::shared_ptr<NodeSlot> find(quint16 id) const;
+
+    /// Makes the master the writer of \a signal. \return false when it has another writer
+    bool claim(QPlcSignalIndex signal);
+    void release(QPlcSignalIndex signal);
+    /// Empty: nobody.
+    QString writer(QPlcSignalIndex signal) const { return m_writers.at(signal); }
+
+private:
+    /// Indices of the declared signals. \return false with the refusal of the first that does not fit
+    bool resolve(const QString &node, const QVector<NodeDeclaration::Signal> &declared, QVector<QPlcSignalIndex> *indices, Refusal *refusal) const;
+    quint16 freeId() const;
+
+    const QPlcSignalTable m_table;
+    QVector<QString> m_writers;
+    std::vector<std::shared_ptr<NodeSlot>> m_nodes;
+    mutable quint16 m_lastId = 0;
+};
+
+}  // namespace qplc

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "NodeRuntime.h"
+
+#include "QSplitPrimitive.h"
+
+#include <QtCore/QSet>
+
+#include <algorithm>
+#include <cstdio>
+#include <stdexcept>
+
+namespace qplc {
+
+namespace {
+
+QString describeException(std::exception_ptr exception)
+{
+    try {
+        std::rethrow_exception(exception);
+    } catch (const std::exception &thrown) {
+        return QString::fromLocal8Bit(thrown.what());
+    } catch (...) {
+        return QStringLiteral("an exception that is not derived from std::exception");
+    }
+}
+
+/// Calls code of the user. \return false with the text of what it threw
+template<typename Code>
+bool guarded(const char *function, QString *error, Code code)
+{
+    try {
+        code();
+        return true;
+    } catch (...) {
+        *error = QStringLiteral("%1 threw: %2").arg(QLatin1String(function), describeException(std::current_exception()));
+        return false;
+    }
+}
+
+QStringList repeatedNames(const QPlcSignalTable &table, const QVector<QPlcSignalIndex> &indices)
+{
+    QSet<QPlcSignalIndex> seen;
+    QStringList repeated;
+    for (QPlcSignalIndex index : indices) {
+        if (seen.contains(index))
+            repeated << table.at(index).name;
+        seen.insert(index);
+    }
+    return repeated;
+}
+
+}  // namespace
+
+NodeRuntime::NodeRuntime(QPlcSlaveNode &node)
+    : m_node(node)
+{
+}
+
+bool NodeRuntime::bind(const QPlcSignalTable &table, QString *error)
+{
+    QVector<QPlcSignalIndex> inputs;
+    QVector<QPlcSignalIndex> outputs;
+    QStringList errors;
+    QString text;
+    m_table = table;
+    bool bound = false;
+    if (!guarded("the declaration of signals", &text, [&] { bound = m_node.bindPorts(table, &inputs, &outputs, &text); }) || !bound)
+        errors << text;
+    else
+        bindWorkloadSignal(&outputs, &errors);
+    for (const QString &name : repeatedNames(table, inputs) + repeatedNames(table, outputs))
+        errors << QStringLiteral("signal '%1' is declared twice; declare it once").arg(name);
+    if (!errors.isEmpty()) {
+        *error = QStringLiteral("node '%1': %2").arg(m_node.name(), errors.join(QStringLiteral("; ")));
+        return false;
+    }
+    m_inputLayout = PayloadLayout(table, inputs);
+    m_outputLayout = PayloadLayout(table, outputs);
+    m_outputs.assign(m_outputLayout.size(), 0);
+    m_scratch.assign(m_outputLayout.size(), 0);
+    m_workload = nullptr;
+    for (const PayloadLayout::Field &field : m_outputLayout.fields()) {
+        if (!m_workloadSignal.isEmpty() && table.at(field.signal).name == m_workloadSignal)
+            m_workload = &field;
+    }
+    m_node.attachPorts(m_inputLayout, m_outputLayout);
+    return true;
+}
+
+void NodeRuntime::bindWorkloadSignal(QVector<QPlcSignalIndex> *outputs, QStringList *errors)
+{
+    if (m_workloadSignal.isEmpty())
+        return;
+    const QPlcSignalIndex index = m_table.indexOf(m_workloadSignal);
+    if (index == QPlcInvalidSignalIndex) {
+        *errors << m_table.unknownSignalText(m_workloadSignal);
+        return;
+    }
+    const QPlcSignalType type = m_table.at(index).type;
+    if (!type.isReal() || type.isArray())
+        *errors << QStringLiteral("workload signal '%1' is %2; give it the type Real").arg(m_workloadSignal, type.name());
+    else if (!outputs->contains(index))
+        outputs->append(index);
+}
+
+bool NodeRuntime::reset(QString *error)
+{
+    for (const PayloadLayout::Field &field : m_outputLayout.fields())
+        m_table.at(field.signal).initial.toBytes(m_scratch.data() + field.offset);
+    if (!guarded("the initialization", error, [this] { m_node.resetFrame(m_scratch.data()); }))
+        return false;
+    writeWorkload(0);
+    m_outputs = m_scratch;
+    return true;
+}
+
+bool NodeRuntime::initialize(const char *inputs, QString *error)
+{
+    return guarded("initialize()", error, [&] { m_node.initializeFrame(inputs); });
+}
+
+void NodeRuntime::stopped()
+{
+    QString text;
+    if (!guarded("stopped()", &text, [this] { m_node.stopped(); }))
+        setFault(text.toLocal8Bit().constData());
+}
+
+bool NodeRuntime::step(const QPlcCycle &cycle, const char *inputs) noexcept
+{
+    const std::int64_t begin = m_lockstep ? 0 : TimeSource::monotonic().now();
+    m_cycle = cycle;
+    try {
+        m_node.stepFrame(cycle, inputs, m_scratch.data());
+    } catch (const std::exception &thrown) {
+        setFault(thrown.what());
+        return false;
+    } catch (...) {
+        setFault("an exception that is not derived from std::exception");
+        return false;
+    }
+    m_executionTime = m_lockstep ? 0 : TimeSource::monotonic().now() - begin;
+    writeWorkload(m_executionTime);
+    m_outputs = m_scratch;
+    return true;
+}
+
+void NodeRuntime::writeWorkload(std::int64_t duration)
+{
+    if (!m_workload)
+        return;
+    const double seconds = double(duration) * 1e-9;
+    if (m_workload->type.scalar() == QPlcSignalType::Real32)
+        QSplitPrimitive<float>(float(seconds)).toBytes(m_scratch.data() + m_workload->offset);
+    else
+        QSplitPrimitive<double>(seconds).toBytes(m_scratch.data() + m_workload->offset);
+}
+
+void NodeRuntime::setFault(const char *text) noexcept
+{
+    std::snprintf(m_faultText.data(), m_faultText.size(), "%s", text);
+}
+
+QPlcSignalList NodeRuntime::toList(const PayloadLayout &layout, const char *frame)
+{
+    QPlcSignalList list;
+    list.reserve(int(layout.fields().size()));
+    for (const PayloadLayout::Field &field : layout.fields())
+        list.insert(field.signal, QPlcValue::fromBytes(field.type, frame + field.offset));
+    return list;
+}
+
+void NodeRuntime::fromList(const QPlcSignalList &list, const PayloadLayout &layout, char *frame) const
+{
+    int used = 0;
+    for (const PayloadLayout::Field &field : layout.fields()) {
+        const QPlcValue value = list.value(field.signal);
+        if (!value.isValid())
+            continue;
+        const QPlcValue converted = value.convertedTo(field.type);
+        if (!converted.isValid()) {
+            const QString text = QStringLiteral("the value %1 (%2) does not fit signal '%3' of type %4")
+                                     .arg(value.toString(), value.type().name(), m_table.at(field.signal).name, field.type.name());
+            throw std::runtime_error(text.toStdString());
+        }
+        converted.toBytes(frame + field.offset);
+        ++used;
+    }
+    if (used == list.size())
+        return;
+    for (const QPlcSignalList::Entry &entry : list) {
+        if (std::none_of(layout.fields().begin(), layout.fields().end(), [&](const PayloadLayout::Field &field) { return field.signal == entry.index; }))
+            throw std::runtime_error(QStringLiteral("signal '%1' is not declared as an output").arg(m_table.at(entry.index).name).toStdString());
+    }
+}
+
+}  // namespace qplc

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "QPlcCycle.h"
+#include "QPlcSlaveNode.h"
+#include "realtime/TimeSource.h"
+#include "signals/PayloadLayout.h"
+
+#include <array>
+#include <vector>
+
+namespace qplc {
+
+/// A node without its link: what its declared signals are, and its code called with the bytes of frames.
+///
+/// Used by a slave (over a CyclicLink) and by a master (for a local node) alike. bind(), reset() and initialize() in the thread of the node, step() on
+/// a cycle thread, never at the same time.
+class NodeRuntime
+{
+public:
+    explicit NodeRuntime(QPlcSlaveNode &node);
+
+    QPlcSlaveNode &node() const { return m_node; }
+    void setWorkloadSignal(const QString &name) { m_workloadSignal = name; }
+
+    /// Looks all declared signals up in \a table. \return false with a message that names every mismatch
+    bool bind(const QPlcSignalTable &table, QString *error);
+    const QPlcSignalTable &table() const { return m_table; }
+    const PayloadLayout &inputLayout() const { return m_inputLayout; }
+    const PayloadLayout &outputLayout() const { return m_outputLayout; }
+
+    /// Brings the node into its initial state: outputs() holds its initial outputs. \return false when its code threw
+    bool reset(QString *error);
+    bool initialize(const char *inputs, QString *error);
+    /// Tells the node that the phase has ended.
+    void stopped();
+
+    /// In lockstep no clock is read and the workload is 0.
+    void setLockstep(bool lockstep) { m_lockstep = lockstep; }
+    /// One cycle. \return false when the code of the node threw: outputs() are then those of the cycle before
+    bool step(const QPlcCycle &cycle, const char *inputs) noexcept;
+    const char *outputs() const { return m_outputs.data(); }
+    /// Duration of the last step [ns].
+    std::int64_t executionTime() const { return m_executionTime; }
+    const QPlcCycle &cycle() const { return m_cycle; }
+    /// What the code threw, null-terminated.
+    const char *faultText() const { return m_faultText.data(); }
+
+    /// The values of \a frame as a list, under the indices of the table of the node.
+    static QPlcSignalList toList(const PayloadLayout &layout, const char *frame);
+    /// Writes the values of \a list into \a frame. \throws std::runtime_error when one of them does not fit
+    void fromList(const QPlcSignalList &list, const PayloadLayout &layout, char *frame) const;
+
+private:
+    void bindWorkloadSignal(QVector<QPlcSignalIndex> *outputs, QStringList *errors);
+    void writeWorkload(std::int64_t duration);
+    void setFault(const char *text) noexcept;
+
+    QPlcSlaveNode &m_node;
+    QPlcSignalTable m_table;
+    PayloadLayout m_inputLayout;
+    PayloadLayout m_outputLayout;
+    std::vector<char> m_outputs;      // given away
+    std::vector<char> m_scratch;      // being computed
+    QString m_workloadSignal;
+    const PayloadLayout::Field *m_workload = nullptr;
+    bool m_lockstep = false;
+    QPlcCycle m_cycle;
+    std::int64_t m_executionTime = 0;
+    std::array<char, 256> m_faultText{};
+};
+
+}  // namespace qplc

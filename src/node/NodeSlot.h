@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "NodeRuntime.h"
+#include "protocol/CyclicFrame.h"
+#include "realtime/Histogram.h"
+#include "signals/ProcessImage.h"
+#include "transport/CyclicHub.h"
+
+#include <atomic>
+#include <memory>
+#include <vector>
+
+namespace qplc {
+
+/// One registered node as the cycle of the master sees it: how its frames are cut from the process image and pasted back.
+///
+/// Made by the thread of the master; from adoption on the cycle thread's, except for what is atomic.
+struct NodeSlot
+{
+    // ---- constant after registration ----
+    QString name;
+    quint16 id = 0;
+    QPlcSlaveNode::RealTimeViolationPolicy policy = QPlcSlaveNode::ErrorZeroOrderHold;
+    bool listener = false;
+    NodeRuntime *local = nullptr;              // a node of this process; else over the network
+    std::unique_ptr<HubPeer> peer;             // null for a local node
+    PayloadLayout inputLayout;
+    PayloadLayout outputLayout;
+    std::vector<CopyRun> inputRuns;            // image -> inputs
+    std::vector<CopyRun> outputRuns;           // outputs -> image
+    std::vector<char> initialOutputs;          // pasted into the image when a node joins while others run
+
+    // ---- cycle thread ----
+    FrameEncoder encoder;
+    FrameDecoder decoder;
+    std::vector<char> inputs;                  // payload of this cycle
+    std::vector<char> frames;                  // encoded parts, one behind the other
+    FrameHeader request;
+    bool answered = false;                     // in this cycle
+    bool computed = false;                     // local: the step of this cycle gave outputs
+    bool faulted = false;
+
+    // ---- both ----
+    std::atomic<bool> lost{false};             // its connection is gone: not to be waited for
+    std::atomic<quint64> lateAnswers{0};
+    std::atomic<quint64> duplicates{0};
+    std::atomic<quint64> rejected{0};
+    std::atomic<quint64> resent{0};
+
+    bool waits() const { return policy == QPlcSlaveNode::SilentWait || policy == QPlcSlaveNode::ErrorWait; }
+    bool reports() const { return policy == QPlcSlaveNode::ErrorZeroOrderHold || policy == QPlcSlaveNode::ErrorWait; }
+
+    /// Sets everything that follows from the layouts. \param session  of the master, for remote nodes
+    void prepare(const ProcessImage &image, quint64 session);
+    /// The field of the first real value in \a outputs that is NaN or infinite; null when all are finite.
+    const PayloadLayout::Field *firstNotFinite(const char *outputs) const noexcept;
+    FrameCutter outputCutter() const;
+};
+
+/// All nodes of a cycle; never changed, but replaced as a whole.
+struct Roster
+{
+    std::vector<std::shared_ptr<NodeSlot>> nodes;
+};
+
+}  // namespace qplc

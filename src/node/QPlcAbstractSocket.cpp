@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "QPlcAbstractSocket.h"
+
+#include "Logging.h"
+#include "protocol/ControlFrame.h"
+
+#include <QtCore/QPointer>
+#include <QtNetwork/QTcpSocket>
+
+#include <fcntl.h>
+
+struct QPlcAbstractSocket::Private
+{
+    QTcpSocket *socket = nullptr;
+    qplc::ControlFrameReader reader;
+    Error error = NoError;
+    QString errorString;
+};
+
+namespace {
+
+QPlcAbstractSocket::Error errorOf(QAbstractSocket::SocketError error)
+{
+    switch (error) {
+    case QAbstractSocket::HostNotFoundError: return QPlcAbstractSocket::HostNotFoundError;
+    case QAbstractSocket::ConnectionRefusedError: return QPlcAbstractSocket::ConnectionRefusedError;
+    case QAbstractSocket::SocketTimeoutError: return QPlcAbstractSocket::TimeoutError;
+    case QAbstractSocket::RemoteHostClosedError: return QPlcAbstractSocket::ConnectionLostError;
+    default: return QPlcAbstractSocket::NetworkError;
+    }
+}
+
+}  // namespace
+
+QPlcAbstractSocket::QPlcAbstractSocket(QTcpSocket *socket, QObject *parent)
+    : QObject(parent)
+    , d(std::make_unique<Private>())
+{
+    qRegisterMetaType<QPlcAbstractSocket::Error>("QPlcAbstractSocket::Error");
+    qRegisterMetaType<QPlcMessage>("QPlcMessage");
+    d->socket = socket;
+    socket->setParent(this);
+    socket->setSocketOption(QAbstractSocket::LowDelayOption, 1);
+    connect(socket, &QTcpSocket::connected, this, [this] {
+        d->socket->setSocketOption(QAbstractSocket::LowDelayOption, 1);
+        Q_EMIT connected();
+    });
+    connect(socket, &QTcpSocket::disconnected, this, &QPlcAbstractSocket::disconnected);
+    connect(socket, &QTcpSocket::readyRead, this, &QPlcAbstractSocket::readMessages);
+    connect(socket, &QTcpSocket::errorOccurred, this, &QPlcAbstractSocket::readError);
+}
+
+QPlcAbstractSocket::~QPlcAbstractSocket()
+{
+    d->socket->disconnect(this);
+}
+
+QTcpSocket *QPlcAbstractSocket::socket() const
+{
+    return d->socket;
+}
+
+bool QPlcAbstractSocket::isConnected() const
+{
+    return d->socket->state() == QAbstractSocket::ConnectedState;
+}
+
+bool QPlcAbstractSocket::sendMessage(const QPlcMessage &message)
+{
+    if (!isConnected())
+        return false;
+    const QByteArray frame = qplc::encodeControlFrame(message);
+    if (frame.isEmpty()) {
+        qCWarning(lcControl).noquote() << message.kindName() << "for" << peerName() << "is too long or too deep to be sent";
+        return false;
+    }
+    qCDebug(lcControl).noquote() << "to" << peerName() << message.kindName() << frame.toHex(' ');
+    const bool sent = d->socket->write(frame) == frame.size();
+    d->socket->flush();
+    return sent;
+}
+
+void QPlcAbstractSocket::close()
+{
+    d->socket->disconnectFromHost();
+}
+
+void QPlcAbstractSocket::abort()
+{
+    d->socket->abort();
+}
+
+QHostAddress QPlcAbstractSocket::peerAddress() const
+{
+    return d->socket->peerAddress();
+}
+
+quint16 QPlcAbstractSocket::peerPort() const
+{
+    return d->socket->peerPort();
+}
+
+QString QPlcAbstractSocket::peerName() const
+{
+    return QStringLiteral("%1:%2").arg(peerAddress().toString()).arg(peerPort());
+}
+
+QPlcAbstractSocket::Error QPlcAbstractSocket::error() const
+{
+    return d->error;
+}
+
+QString QPlcAbstractSocket::errorString() const
+{
+    return d->errorString;
+}
+
+int QPlcAbstractSocket::takeDescriptor()
+{
+    if (!isConnected())
+        return -1;
+    const int descriptor = ::fcntl(int(d->socket->socketDescriptor()), F_DUPFD_CLOEXEC, 0);
+    d->socket->disconnect(this);
+    d->socket->abort();  // closes the other descriptor; the connection lives on in the duplicate
+    return descriptor;
+}
+
+void QPlcAbstractSocket::setError(Error error, const QString &text)
+{
+    d->error = error;
+    d->errorString = text;
+    Q_EMIT errorOccurred(error);
+}
+
+void QPlcAbstractSocket::readError()
+{
+    setError(errorOf(d->socket->error()), d->socket->errorString());
+}
+
+void QPlcAbstractSocket::readMessages()
+{
+    const QPointer<QPlcAbstractSocket> self(this);  // who receives a message may delete us
+    d->reader.append(d->socket->readAll());
+    QPlcMessage message;
+    while (self && d->reader.next(&message)) {
+        qCDebug(lcControl).noquote() << "from" << peerName() << message.kindName() << d->reader.lastFrame().toHex(' ');
+        Q_EMIT messageReceived(message);
+    }
+    if (!self || d->reader.error() == qplc::ControlFrameReader::NoError)
+        return;
+    setError(ProtocolError, QStringLiteral("%1 sent no QtPLC message: %2").arg(peerName(), d->reader.errorString()));
+    if (self)
+        abort();
+}

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "QPlcCoreApplication.h"
+
+#include <QtCore/QCommandLineParser>
+#include <QtCore/QSocketNotifier>
+#include <QtCore/QTextCodec>
+#include <QtCore/QTextStream>
+
+#include <clocale>
+#include <csignal>
+#include <cstdio>
+#include <sys/socket.h>
+#include <unistd.h>
+
+namespace {
+
+// The only thing that a signal handler may touch: one end of a pair of sockets.
+int signalSocket = -1;
+
+void handleSignal(int)
+{
+    const char byte = 1;
+    const ssize_t written = ::write(signalSocket, &byte, 1);
+    Q_UNUSED(written)
+}
+
+void printLines(std::FILE *file, const QString &text)
+{
+    const QByteArray bytes = text.toUtf8();
+    std::fwrite(bytes.constData(), 1, std::size_t(bytes.size()), file);
+    std::fflush(file);
+}
+
+}  // namespace
+
+struct QPlcCoreApplication::Private
+{
+    QCommandLineParser parser;
+    QStringList examples;
+    int exitCode = Success;
+    int sockets[2] = {-1, -1};
+    std::unique_ptr<QSocketNotifier> notifier;
+};
+
+QPlcCoreApplication::QPlcCoreApplication(int &argc, char **argv)
+    : QCoreApplication(argc, argv)
+    , d(std::make_unique<Private>())
+{
+    QTextCodec::setCodecForLocale(QTextCodec::codecForName("UTF-8"));
+    std::setlocale(LC_NUMERIC, "C");
+    if (!qEnvironmentVariableIsSet("QT_MESSAGE_PATTERN"))
+        qSetMessagePattern(QStringLiteral("%{appname}: %{if-debug}%{category}: %{endif}%{message}"));
+    d->parser.addOption(QCommandLineOption({QStringLiteral("h"), QStringLiteral("help")}, QStringLiteral("Shows this help.")));
+    d->parser.addOption(QCommandLineOption(QStringLiteral("version"), QStringLiteral("Shows the version.")));
+}
+
+QPlcCoreApplication::~QPlcCoreApplication()
+{
+    d->notifier.reset();
+    if (d->sockets[0] < 0)
+        return;
+    std::signal(SIGINT, SIG_DFL);
+    std::signal(SIGTERM, SIG_DFL);
+    signalSocket = -1;
+    ::close(d->sockets[0]);
+    ::close(d->sockets[1]);
+}
+
+void QPlcCoreApplication::setDescription(const QString &text) { d->parser.setApplicationDescription(text); }
+
+void QPlcCoreApplication::setExamples(const QStringList &commands) { d->examples = commands; }
+
+void QPlcCoreApplication::addOption(const QCommandLineOption &option) { d->parser.addOption(option); }
+
+void QPlcCoreApplication::addPositionalArgument(const QString &name, const QString &description, const QString &syntax)
+{
+    d->parser.addPositionalArgument(name, description, syntax);
+}
+
+bool QPlcCoreApplication::parseOptions()
+{
+    if (!d->parser.parse(arguments())) {
+        d->exitCode = usageError(QStringLiteral("%1; see --help").arg(d->parser.errorText()));
+        return false;
+    }
+    if (d->parser.isSet(QStringLiteral("help"))) {
+        QString text = d->parser.helpText();
+        if (!d->examples.isEmpty())
+            text += QStringLiteral("\nExamples:\n  %1\n").arg(d->examples.join(QStringLiteral("\n  ")));
+        printLines(stdout, text);
+        return false;
+    }
+    if (d->parser.isSet(QStringLiteral("version"))) {
+        printLines(stdout, QStringLiteral("%1 %2\n").arg(applicationName(), QStringLiteral(QTPLC_VERSION)));
+        return false;
+    }
+    return true;
+}
+
+int QPlcCoreApplication::exitCode() const { return d->exitCode; }
+
+bool QPlcCoreApplication::isSet(const QString &option) const { return d->parser.isSet(option); }
+
+QString QPlcCoreApplication::value(const QString &option) const { return d->parser.value(option); }
+
+QStringList QPlcCoreApplication::values(const QString &option) const { return d->parser.values(option); }
+
+QStringList QPlcCoreApplication::positionalArguments() const { return d->parser.positionalArguments(); }
+
+bool QPlcCoreApplication::number(const QString &option, double minimum, double maximum, double *result)
+{
+    bool isNumber = false;
+    const double read = value(option).toDouble(&isNumber);
+    if (isNumber && read >= minimum && read <= maximum) {
+        *result = read;
+        return true;
+    }
+    d->exitCode = usageError(QStringLiteral("--%1 %2: use a number of %3 ... %4").arg(option, value(option)).arg(minimum).arg(maximum));
+    return false;
+}
+
+bool QPlcCoreApplication::integer(const QString &option, qint64 minimum, qint64 maximum, qint64 *result)
+{
+    bool isNumber = false;
+    const qint64 read = value(option).toLongLong(&isNumber);
+    if (isNumber && read >= minimum && read <= maximum) {
+        *result = read;
+        return true;
+    }
+    d->exitCode = usageError(QStringLiteral("--%1 %2: use a whole number of %3 ... %4").arg(option, value(option)).arg(minimum).arg(maximum));
+    return false;
+}
+
+void QPlcCoreApplication::addRealTimeOptions()
+{
+    addOption(QCommandLineOption(QStringLiteral("priority"), QStringLiteral("Runs the cycle under SCHED_FIFO with this priority, 1 ... 99. Else as chrt says."), QStringLiteral("PRIORITY")));
+    addOption(QCommandLineOption(QStringLiteral("cpu"), QStringLiteral("The only processor that the cycle may use."), QStringLiteral("NUMBER")));
+    addOption(QCommandLineOption(QStringLiteral("lock-memory"), QStringLiteral("Keeps all memory of the program in RAM.")));
+}
+
+bool QPlcCoreApplication::readRealTimeOptions(QPlcRealTimeOptions *options)
+{
+    qint64 number = 0;
+    if (isSet(QStringLiteral("priority"))) {
+        if (!integer(QStringLiteral("priority"), 1, 99, &number))
+            return false;
+        options->policy = QPlcRealTimeOptions::Fifo;
+        options->priority = int(number);
+    }
+    if (isSet(QStringLiteral("cpu"))) {
+        if (!integer(QStringLiteral("cpu"), 0, 1023, &number))
+            return false;
+        options->cpu = int(number);
+    }
+    options->lockMemory = isSet(QStringLiteral("lock-memory"));
+    return true;
+}
+
+void QPlcCoreApplication::printError(const QString &text)
+{
+    printLines(stderr, QStringLiteral("%1: %2\n").arg(applicationName(), text));
+}
+
+int QPlcCoreApplication::usageError(const QString &text)
+{
+    printError(text);
+    d->exitCode = UsageError;
+    return UsageError;
+}
+
+void QPlcCoreApplication::quitOnSignals(std::function<void()> onSignal)
+{
+    if (d->sockets[0] >= 0 || ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, d->sockets) < 0)
+        return;
+    signalSocket = d->sockets[0];
+    d->notifier = std::make_unique<QSocketNotifier>(d->sockets[1], QSocketNotifier::Read);
+    connect(d->notifier.get(), &QSocketNotifier::activated, this, [this, onSignal] {
+        char byte = 0;
+        const ssize_t count = ::read(d->sockets[1], &byte, 1);
+        Q_UNUSED(count)
+        if (onSignal)
+            onSignal();
+        else
+            quit();
+    });
+    struct sigaction action = {};
+    action.sa_handler = &handleSignal;
+    action.sa_flags = SA_RESTART;
+    ::sigaction(SIGINT, &action, nullptr);
+    ::sigaction(SIGTERM, &action, nullptr);
+}

@@ -1,0 +1,377 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "QPlcMasterNodePrivate.h"
+
+#include "FrameLog.h"
+#include "Logging.h"
+#include "MasterReplies.h"
+#include "QPlcSignalIndexTable.h"
+#include "QPlcSlaveNodePrivate.h"
+
+#include <QtCore/QJsonArray>
+#include <QtCore/QMetaEnum>
+#include <QtCore/QRandomGenerator>
+
+#include <algorithm>
+
+using Message = QPlcMessage;
+using qplc::CycleEvent;
+using qplc::NodeSlot;
+
+namespace {
+
+quint64 newSession()
+{
+    return QRandomGenerator::system()->generate64() | 1;  // never 0
+}
+
+}  // namespace
+
+QPlcMasterNodePrivate::QPlcMasterNodePrivate(QPlcMasterNode *master)
+    : q(master)
+    , session(newSession())
+{
+    stepTimer.setSingleShot(true);
+    stepTimer.setInterval(2000);
+    QObject::connect(&stepTimer, &QTimer::timeout, q, [this] { stepTimedOut(); });
+}
+
+QPlcMasterNodePrivate::~QPlcMasterNodePrivate() = default;
+
+void QPlcMasterNodePrivate::setState(QPlcMasterNode::State newState)
+{
+    if (state == newState)
+        return;
+    state = newState;
+    qCDebug(lcMaster) << newState;
+    Q_EMIT q->stateChanged(newState);
+}
+
+bool QPlcMasterNodePrivate::setError(QPlcMasterNode::Error newError, const QString &text)
+{
+    error = newError;
+    errorString = text;
+    qCWarning(lcMaster).noquote() << text;
+    Q_EMIT q->errorOccurred(newError);
+    return false;
+}
+
+// ---- set-up ----
+
+bool QPlcMasterNodePrivate::prepare()
+{
+    if (registry)
+        return true;
+    if (table.isEmpty())
+        table = QPlcSignalIndexTable::current();
+    if (table.isEmpty())
+        return setError(QPlcMasterNode::SignalError, QStringLiteral("the master has no signals; read a table with QPlcSignalIndexTable::initializeFromIniFile()"));
+    registry = std::make_unique<qplc::NodeRegistry>(table);
+    cycle = std::make_unique<qplc::MasterCycle>(table, hub, lcCyclic().isDebugEnabled());
+    m_reportNotifier = std::make_unique<QSocketNotifier>(cycle->reports().descriptor(), QSocketNotifier::Read);
+    QObject::connect(m_reportNotifier.get(), &QSocketNotifier::activated, q, [this] { takeReports(); });
+    const auto hello = [this] {
+        return QJsonObject{{QStringLiteral("protocol"), 1},
+                           {QStringLiteral("name"), qplc::NodeRegistry::masterName()},
+                           {QStringLiteral("session"), Message::fromHex64(session)},
+                           {QStringLiteral("tableHash"), Message::fromHex64(table.hash())},
+                           {QStringLiteral("table"), QString::fromUtf8(table.toIni())},
+                           {QStringLiteral("period"), double(interval.count())},
+                           {QStringLiteral("features"), QJsonArray()}};
+    };
+    server = std::make_unique<qplc::MasterServer>(*registry, cycle->image(), hub, session, hello, nullptr);
+    QObject::connect(server.get(), &qplc::MasterServer::attached, q, [this](Connection *connection) {
+        m_initialized = false;
+        Q_EMIT q->nodeRegistered(connection->name);
+        if (isRunning())
+            join(connection);
+    });
+    QObject::connect(server.get(), &qplc::MasterServer::lost, q, [this](Connection *connection, const QString &reason) { nodeLost(connection, reason); });
+    QObject::connect(server.get(), &qplc::MasterServer::refused, q, &QPlcMasterNode::nodeRefused);
+    QObject::connect(server.get(), &qplc::MasterServer::received, q, [this](Connection *connection, const Message &message) { receive(connection, message); });
+    return true;
+}
+
+bool QPlcMasterNodePrivate::claimSignal(const QString &name, QPlcSignalIndex *place, bool (*accepts)(QPlcSignalType), const QString &wantedType)
+{
+    if (!prepare())
+        return false;
+    const QPlcSignalIndex index = table.indexOf(name);
+    if (index == QPlcInvalidSignalIndex)
+        return setError(QPlcMasterNode::SignalError, QStringLiteral("master: %1").arg(table.unknownSignalText(name)));
+    if (!accepts(table.at(index).type))
+        return setError(QPlcMasterNode::SignalError, QStringLiteral("master: signal '%1' is %2; give it the type %3").arg(name, table.at(index).type.name(), wantedType));
+    if (*place != QPlcInvalidSignalIndex)
+        registry->release(*place);
+    if (!registry->claim(index))
+        return setError(QPlcMasterNode::SignalError, QStringLiteral("master: signal '%1' is written by '%2' already").arg(name, registry->writer(index)));
+    *place = index;
+    return true;
+}
+
+bool QPlcMasterNodePrivate::startServer(const QPlcUnderlyingProtocol &protocol)
+{
+    if (!prepare())
+        return false;
+    if (state != QPlcMasterNode::Off)
+        return setError(QPlcMasterNode::StateError, QStringLiteral("the server can only be started while the master is off"));
+    QHostAddress address = protocol.address();
+    if (!address.isLoopback() && !insecureNetworkAllowed) {
+        qCWarning(lcMaster).noquote() << "listening on 127.0.0.1 only instead of" << address.toString()
+                                      << "- anybody on the network could read and command the plant; setInsecureNetworkAllowed(true) opens it";
+        address = QHostAddress::LocalHost;
+    } else if (!address.isLoopback()) {
+        qCWarning(lcMaster).noquote() << "listening on" << address.toString() << "WITHOUT SECURITY: anybody on the network can read and command the plant";
+    }
+    if (!server->listen(address, protocol.port()))
+        return setError(QPlcMasterNode::ServerError, server->errorString());
+    qCInfo(lcMaster).noquote() << "listening on" << address.toString() << "port" << server->port();
+    return true;
+}
+
+bool QPlcMasterNodePrivate::addLocalNode(QPlcSlaveNode *node)
+{
+    if (!prepare())
+        return false;
+    if (state != QPlcMasterNode::Off)
+        return setError(QPlcMasterNode::StateError, QStringLiteral("node '%1' can only be added while the master is off").arg(node->name()));
+    QString text;
+    qplc::NodeRuntime &runtime = node->d->runtime;
+    if (!runtime.bind(table, &text))
+        return setError(QPlcMasterNode::SignalError, text);
+    qplc::Refusal refusal;
+    const std::shared_ptr<NodeSlot> slot = registry->admit(qplc::NodeDeclaration::fromRuntime(runtime), &refusal);
+    if (!slot)
+        return setError(QPlcMasterNode::NodeError, refusal.text);
+    slot->local = &runtime;
+    slot->prepare(cycle->image(), session);
+    m_initialized = false;
+    node->d->setState(QPlcSlaveNode::Off);
+    Q_EMIT q->nodeRegistered(slot->name);
+    return true;
+}
+
+void QPlcMasterNodePrivate::removeLocalNode(QPlcSlaveNode *node)
+{
+    if (!registry)
+        return;
+    stop(QStringLiteral("node '%1' is removed").arg(node->name()));
+    for (const std::shared_ptr<NodeSlot> &slot : registry->nodes()) {
+        if (slot->local == &node->d->runtime) {
+            registry->remove(std::shared_ptr<NodeSlot>(slot));
+            node->d->setState(QPlcSlaveNode::Disconnected);
+            break;
+        }
+    }
+    giveRoster();
+}
+
+// ---- messages ----
+
+void QPlcMasterNodePrivate::receive(Connection *connection, const Message &message)
+{
+    switch (message.kind()) {
+    case Message::ReceiveMyInitialOutputStates:
+    case Message::Initialized:
+    case Message::RealTimeReady:
+        if (isRunning())
+            continueJoin(connection, message);
+        else if (message.kind() != Message::ReceiveMyInitialOutputStates || storeOutputs(connection, message)) {
+            if (connection->stage + 1 == m_owed)
+                connection->stage = m_owed;
+            advance();
+        }
+        break;
+    case Message::NodeFault:
+        if (isRunning() && connection->stage != Connection::Running)
+            server->drop(connection, message.text(QStringLiteral("text")));  // it failed to join: no reason to stop the others
+        else
+            fault(QStringLiteral("node '%1': %2").arg(connection->name, message.text(QStringLiteral("text"))));
+        break;
+    default: receiveCommand(connection, message); break;
+    }
+}
+
+void QPlcMasterNodePrivate::receiveCommand(Connection *connection, const Message &message)
+{
+    const QJsonObject fields = message.fields();
+    QJsonObject reply;
+    QString text;
+    switch (message.kind()) {
+    case Message::InitializeAllStates: request(connection, initializeAllStates()); break;
+    case Message::StartRealTime: request(connection, startRealTime(quint64(fields.value(QStringLiteral("cycles")).toDouble()))); break;
+    case Message::Stop:
+        stop(QStringLiteral("'%1' asked for it").arg(connection->name));
+        connection->send(Message::Done);
+        break;
+    case Message::GetState: connection->send(Message::State, qplc::stateFields(*q, session)); break;
+    case Message::GetSignals:
+        if (!qplc::signalFields(*q, fields.value(QStringLiteral("names")).toVariant().toStringList(), &reply, &text))
+            connection->fail(QStringLiteral("UnknownSignal"), text);
+        else if (!connection->send(Message::Signals, reply))
+            connection->fail(QStringLiteral("TooLong"), QStringLiteral("too many signals for one answer; ask for some of them by name"));
+        break;
+    case Message::SetSignals: setSignals(connection, message); break;
+    default:
+        connection->fail(QStringLiteral("MalformedMessage"), QStringLiteral("a master has no use for %1").arg(message.kindName()));
+    }
+}
+
+/// Answers a request that was refused now, or remembers who waits for its end.
+void QPlcMasterNodePrivate::request(Connection *connection, bool accepted)
+{
+    if (!accepted)
+        connection->fail(QStringLiteral("WrongState"), errorString);
+    else if (m_step == Step::None)
+        connection->send(Message::Done);
+    else
+        m_requester = connection->socket;
+}
+
+void QPlcMasterNodePrivate::answerRequester(bool done, const QString &text)
+{
+    if (m_requester)
+        m_requester->sendMessage(done ? Message(Message::Done) : Message(Message::Failed, {{QStringLiteral("error"), QStringLiteral("NodeError")}, {QStringLiteral("text"), text}}));
+    m_requester.clear();
+}
+
+void QPlcMasterNodePrivate::setSignals(Connection *connection, const Message &message)
+{
+    // All or nothing: every value is checked before the first one is set.
+    const QJsonObject values = message.fields().value(QStringLiteral("values")).toObject();
+    QVector<QPair<QString, QPlcValue>> parsed;
+    QString text;
+    for (auto it = values.begin(); it != values.end() && text.isEmpty(); ++it) {
+        const QPlcSignalIndex index = table.indexOf(it.key());
+        if (index == QPlcInvalidSignalIndex)
+            text = table.unknownSignalText(it.key());
+        else if (!registry->writer(index).isEmpty())
+            text = QStringLiteral("signal '%1' is written by '%2'; stop that node to set it by hand").arg(it.key(), registry->writer(index));
+        else
+            parsed.append({it.key(), QPlcValue::fromString(table.at(index).type, it.value().toString(), &text)});
+    }
+    for (int i = 0; i < parsed.size() && text.isEmpty(); ++i) {
+        if (!setSignalValue(parsed.at(i).first, parsed.at(i).second))
+            text = errorString;
+    }
+    if (text.isEmpty())
+        connection->send(Message::Done);
+    else
+        connection->fail(QStringLiteral("InvalidValue"), text);
+}
+
+bool QPlcMasterNodePrivate::setSignalValue(const QString &name, const QPlcValue &value)
+{
+    if (!prepare())
+        return false;
+    const QPlcSignalIndex index = table.indexOf(name);
+    if (index == QPlcInvalidSignalIndex)
+        return setError(QPlcMasterNode::SignalError, table.unknownSignalText(name));
+    if (!registry->writer(index).isEmpty())
+        return setError(QPlcMasterNode::SignalError, QStringLiteral("signal '%1' is written by '%2'; it cannot be set from outside").arg(name, registry->writer(index)));
+    const QPlcSignalDefinition &definition = table.at(index);
+    const QPlcValue converted = value.convertedTo(definition.type);
+    if (!converted.isValid() || !converted.isFinite())
+        return setError(QPlcMasterNode::SignalError, QStringLiteral("%1 is no value for signal '%2' of type %3").arg(value.toString(), name, definition.type.name()));
+    for (int i = 0; i < definition.type.count(); ++i) {
+        const bool tooSmall = definition.minimum.isValid() && converted.toReal(i) < definition.minimum.toReal();
+        const bool tooLarge = definition.maximum.isValid() && converted.toReal(i) > definition.maximum.toReal();
+        if (tooSmall || tooLarge)
+            return setError(QPlcMasterNode::SignalError, QStringLiteral("%1 is out of range for signal '%2'; use %3 ... %4 %5")
+                                                             .arg(value.toString(), name, definition.minimum.isValid() ? definition.minimum.toString() : QStringLiteral("-inf"),
+                                                                  definition.maximum.isValid() ? definition.maximum.toString() : QStringLiteral("inf"), definition.unit));
+    }
+    if (!cycle->setValue(index, converted))
+        return setError(QPlcMasterNode::StateError, QStringLiteral("signal '%1' was not set: too many changes at once").arg(name));
+    return true;
+}
+
+// ---- what the cycle thread reports ----
+
+QString QPlcMasterNodePrivate::nodeName(quint16 id) const
+{
+    const std::shared_ptr<NodeSlot> slot = registry->find(id);
+    return slot ? slot->name : QStringLiteral("number %1").arg(id);
+}
+
+void QPlcMasterNodePrivate::takeReports()
+{
+    cycle->reports().take([this](const CycleEvent &event) { report(event); },
+                          [](const qplc::TappedFrame &frame) { qplc::logFrame(qplc::NodeRegistry::masterName(), frame); });
+}
+
+void QPlcMasterNodePrivate::report(const CycleEvent &event)
+{
+    switch (event.kind) {
+    case CycleEvent::LateAnswer:
+        qCWarning(lcMaster).noquote() << "node" << nodeName(event.node) << "was late in cycle" << event.cycle;
+        Q_EMIT q->realTimeViolated(nodeName(event.node), event.cycle);
+        break;
+    case CycleEvent::WaitingForNode: setState(isRunning() ? QPlcMasterNode::WaitingForLateSlaves : state); break;
+    case CycleEvent::WaitingEnded: setState(isRunning() ? QPlcMasterNode::RealTime : state); break;
+    case CycleEvent::NotFinite:
+        fault(QStringLiteral("node '%1': signal '%2' is not a finite number in cycle %3").arg(nodeName(event.node), table.at(event.signal).name).arg(event.cycle));
+        break;
+    case CycleEvent::NodeFaulted: {
+        const std::shared_ptr<NodeSlot> slot = registry->find(event.node);
+        const QString what = slot && slot->local ? QString::fromLocal8Bit(slot->local->faultText()) : QStringLiteral("its code failed");
+        fault(QStringLiteral("node '%1' in cycle %2: %3").arg(nodeName(event.node)).arg(event.cycle).arg(what));
+        break;
+    }
+    case CycleEvent::LinkClosed:
+        if (const std::shared_ptr<NodeSlot> slot = registry->find(event.node)) {
+            if (Connection *connection = server->connectionOf(slot.get()))
+                server->drop(connection, QStringLiteral("its cyclic connection was closed"));
+        }
+        break;
+    case CycleEvent::Ended:
+        if (isRunning() && cycleLimit + m_cyclesWanted > 0)
+            stop(QStringLiteral("the cycle limit was reached"));
+        break;
+    case CycleEvent::WatchdogTimedOut: break;
+    }
+}
+
+/// A node cannot go on: the plant stops. What follows from the first fault is its echo and says nothing new.
+void QPlcMasterNodePrivate::fault(const QString &text)
+{
+    if (m_step != Step::None) {
+        abortSequence(text);
+    } else if (isRunning()) {
+        setError(QPlcMasterNode::NodeError, text);
+        stop(text);
+    }
+}
+
+void QPlcMasterNodePrivate::nodeLost(Connection *connection, const QString &reason)
+{
+    if (connection->stage > Connection::Attached)
+        qCWarning(lcMaster).noquote() << "node" << connection->name << "is gone in the middle of its work:" << reason;
+    else
+        qCInfo(lcMaster).noquote() << "node" << connection->name << "has left:" << reason;
+    m_participants.erase(std::remove(m_participants.begin(), m_participants.end(), connection), m_participants.end());
+    if (connection->stage == Connection::Running)
+        giveRoster();
+    Q_EMIT q->nodeLost(connection->name, reason);
+    advance();
+}
+
+QPlcNodeInfo QPlcMasterNodePrivate::info(const NodeSlot &slot) const
+{
+    QPlcNodeInfo node;
+    node.name = slot.name;
+    node.id = slot.id;
+    node.policy = QString::fromLatin1(QMetaEnum::fromType<QPlcSlaveNode::RealTimeViolationPolicy>().valueToKey(slot.policy));
+    node.listener = slot.listener;
+    node.inputs = int(slot.inputLayout.fields().size());
+    node.outputs = int(slot.outputLayout.fields().size());
+    node.lateAnswers = slot.lateAnswers;
+    node.duplicates = slot.duplicates;
+    node.rejected = slot.rejected;
+    node.resent = slot.resent;
+    node.transport = QStringLiteral("inprocess");
+    if (const Connection *connection = slot.local ? nullptr : server->connectionOf(&slot)) {
+        node.transport = connection->cyclicKind;
+        node.address = connection->socket->peerName();
+    }
+    return node;
+}

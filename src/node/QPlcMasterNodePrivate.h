@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "MasterCycle.h"
+#include "MasterServer.h"
+#include "NodeRegistry.h"
+#include "QPlcMasterNode.h"
+
+#include <QtCore/QElapsedTimer>
+#include <QtCore/QPointer>
+#include <QtCore/QSocketNotifier>
+#include <QtCore/QTimer>
+
+#include <memory>
+
+/// States and sequences of a master: initialization, start, stop, and nodes that join while others run.
+///
+/// A sequence is a row of steps; in each step every participating node owes one answer, and the next step begins when all have given it.
+class QPlcMasterNodePrivate
+{
+public:
+    explicit QPlcMasterNodePrivate(QPlcMasterNode *master);
+    ~QPlcMasterNodePrivate();
+
+    /// Fixes the signal table and makes everything that depends on it. \return false when there is no table
+    bool prepare();
+    bool claimSignal(const QString &name, QPlcSignalIndex *place, bool (*accepts)(QPlcSignalType), const QString &wantedType);
+    bool startServer(const QPlcUnderlyingProtocol &protocol);
+    bool addLocalNode(QPlcSlaveNode *node);
+    void removeLocalNode(QPlcSlaveNode *node);
+
+    bool initializeAllStates();
+    bool startRealTime(quint64 cycles);
+    void stop(const QString &reason);
+    bool setSignalValue(const QString &name, const QPlcValue &value);
+
+    void setState(QPlcMasterNode::State newState);
+    bool setError(QPlcMasterNode::Error newError, const QString &text);
+    QPlcNodeInfo info(const qplc::NodeSlot &slot) const;
+
+    QPlcMasterNode *const q;
+    QPlcSignalTable table;
+    std::chrono::nanoseconds interval{10'000'000};
+    QPlcClock clock;
+    QPlcRealTimeOptions realTimeOptions;
+    quint64 cycleLimit = 0;
+    bool insecureNetworkAllowed = false;
+    QPlcSignalIndex timeSignal = QPlcInvalidSignalIndex;
+    QPlcSignalIndex jitterSignal = QPlcInvalidSignalIndex;
+    QPlcSignalIndex workloadSignal = QPlcInvalidSignalIndex;
+    QPlcMasterNode::State state = QPlcMasterNode::Off;
+    QPlcMasterNode::Error error = QPlcMasterNode::NoError;
+    QString errorString;
+    QTimer stepTimer;
+    const quint64 session;
+    std::unique_ptr<qplc::NodeRegistry> registry;
+    qplc::CyclicHub hub;
+    std::unique_ptr<qplc::MasterCycle> cycle;
+    std::unique_ptr<qplc::MasterServer> server;
+
+private:
+    using Connection = qplc::MasterConnection;
+    enum class Step : quint8 { None, CollectOutputs, DistributeInputs, Start };
+
+    bool isRunning() const { return state == QPlcMasterNode::RealTime || state == QPlcMasterNode::WaitingForLateSlaves; }
+    void receive(Connection *connection, const QPlcMessage &message);
+    void receiveCommand(Connection *connection, const QPlcMessage &message);
+    void request(Connection *connection, bool accepted);
+    void setSignals(Connection *connection, const QPlcMessage &message);
+
+    void begin(Step step, Connection::Stage owed);
+    void advance();
+    void collectOutputs();
+    bool takeOutputs(qplc::NodeSlot &slot, const char *outputs);
+    void distributeInputs();
+    void initializationEnded();
+    void beginStart();
+    void startCycles();
+    void abortSequence(const QString &reason);
+    void stepTimedOut();
+    void answerRequester(bool done, const QString &text);
+
+    void join(Connection *connection);
+    void continueJoin(Connection *connection, const QPlcMessage &message);
+    bool storeOutputs(Connection *connection, const QPlcMessage &message);
+    QJsonObject startFields() const;
+    void giveRoster();
+
+    void nodeLost(Connection *connection, const QString &reason);
+    void takeReports();
+    void report(const qplc::CycleEvent &event);
+    void fault(const QString &text);
+    QString nodeName(quint16 id) const;
+
+    Step m_step = Step::None;
+    Connection::Stage m_owed = Connection::Silent;   // stage that every participant reaches by its answer
+    std::vector<Connection *> m_participants;
+    bool m_startAfterwards = false;
+    bool m_initialized = false;                      // since the last phase and the last join
+    quint64 m_cyclesWanted = 0;
+    QPointer<QPlcSlaveSocket> m_requester;
+    std::unique_ptr<QSocketNotifier> m_reportNotifier;
+};

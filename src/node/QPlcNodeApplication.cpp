@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "QPlcNodeApplication.h"
+
+#include "QPlcSignalIndexTable.h"
+
+namespace {
+
+QCommandLineOption option(const char *name, const QString &description, const char *valueName, const QString &defaultValue = QString())
+{
+    return QCommandLineOption(QString::fromLatin1(name), description, QString::fromLatin1(valueName), defaultValue);
+}
+
+}  // namespace
+
+QPlcNodeApplication::QPlcNodeApplication(int &argc, char **argv)
+    : QPlcCoreApplication(argc, argv)
+{
+    addOption(option("master", QStringLiteral("Where the master is: [tcp://|udp://]HOST[:PORT]. Cyclic frames travel over TCP unless it begins with udp://."), "ADDRESS",
+                     QStringLiteral("127.0.0.1:%1").arg(QPlcUnderlyingProtocol::DefaultPort)));
+    addOption(option("signals", QStringLiteral("Signal table of this node. Without one the master sends its table."), "FILE"));
+    addOption(option("name", QStringLiteral("Name under which the node registers."), "NAME"));
+    addOption(option("watchdog", QStringLiteral("Reports when no frame has come for so long. 0: never."), "SECONDS", QStringLiteral("0")));
+    addRealTimeOptions();
+}
+
+void QPlcNodeApplication::setDefaultSignals(const QString &fileName) { m_defaultSignals = fileName; }
+
+void QPlcNodeApplication::setWorkloadSignal(const QString &signalName) { m_workloadSignal = signalName; }
+
+bool QPlcNodeApplication::parseNodeOptions()
+{
+    if (!parseOptions())
+        return false;
+    const QString fileName = isSet(QStringLiteral("signals")) ? value(QStringLiteral("signals")) : m_defaultSignals;
+    QPlcSignalIndexTable table;
+    if (fileName.isEmpty() || table.initializeFromIniFile(fileName))
+        return true;
+    usageError(table.errorString());
+    return false;
+}
+
+bool QPlcNodeApplication::configure(QPlcSlaveNode &node)
+{
+    double watchdog = 0.0;
+    QPlcRealTimeOptions realTimeOptions;
+    if (!number(QStringLiteral("watchdog"), 0.0, 3600.0, &watchdog) || !readRealTimeOptions(&realTimeOptions))
+        return false;
+    node.activateWatchdog(watchdog);
+    node.setRealTimeOptions(realTimeOptions);
+    if (isSet(QStringLiteral("name")))
+        node.setName(value(QStringLiteral("name")));
+    if (!m_workloadSignal.isEmpty())
+        node.activateWorkloadMeasurement(m_workloadSignal);
+    return true;
+}
+
+int QPlcNodeApplication::run(QPlcSlaveNode &node)
+{
+    QString text;
+    const QPlcUnderlyingProtocol master = QPlcUnderlyingProtocol::fromString(value(QStringLiteral("master")), QPlcUnderlyingProtocol::Tcp, &text);
+    if (!master.isValid())
+        return usageError(QStringLiteral("--master: %1").arg(text));
+    if (!configure(node))
+        return exitCode();
+    if (!node.connectToMasterAndWaitForConnected(master))
+        return UsageError;  // the node has said why
+    connect(&node, &QPlcSlaveNode::disconnectedFromMaster, this, [this, &node] {
+        // When the master was lost, and did not just end, the error follows.
+        QMetaObject::invokeMethod(this, [&node] { exit(node.error() == QPlcSlaveNode::NoError ? Success : Failure); }, Qt::QueuedConnection);
+    });
+    quitOnSignals();
+    const int code = exec();
+    node.disconnect(this);
+    node.disconnectFromMaster();
+    return code;
+}

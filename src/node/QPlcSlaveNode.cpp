@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "QPlcSlaveNode.h"
+
+#include "QPlcSignalIndexTable.h"
+#include "QPlcSlaveNodePrivate.h"
+
+#include <QtCore/QEventLoop>
+#include <QtCore/QTimer>
+
+QPlcSlaveNode::QPlcSlaveNode(const QString &name, RealTimeViolationPolicy policy, QObject *parent)
+    : QObject(parent)
+    , d(std::make_unique<QPlcSlaveNodePrivate>(this, name, policy))
+{
+    qRegisterMetaType<QPlcSlaveNode::Error>("QPlcSlaveNode::Error");
+    qRegisterMetaType<QPlcSlaveNode::State>("QPlcSlaveNode::State");
+    qRegisterMetaType<QPlcSignalList>("QPlcSignalList");
+    qRegisterMetaType<QPlcUnderlyingProtocol>("QPlcUnderlyingProtocol");
+    qRegisterMetaType<QPlcMessage>("QPlcMessage");
+}
+
+QPlcSlaveNode::~QPlcSlaveNode()
+{
+    // The derived class is gone already: the cycles stop without a word to it.
+    d->cycle.reset();
+}
+
+QString QPlcSlaveNode::name() const { return d->name; }
+
+void QPlcSlaveNode::setName(const QString &name)
+{
+    Q_ASSERT_X(d->state == Disconnected, "QPlcSlaveNode::setName", "a registered node keeps its name");
+    d->name = name;
+}
+
+QPlcSlaveNode::RealTimeViolationPolicy QPlcSlaveNode::realTimeViolationPolicy() const { return d->policy; }
+
+void QPlcSlaveNode::setListener(bool listener)
+{
+    Q_ASSERT_X(d->state == Disconnected, "QPlcSlaveNode::setListener", "a registered node stays what it is");
+    d->listener = listener;
+}
+
+bool QPlcSlaveNode::isListener() const { return d->listener; }
+
+void QPlcSlaveNode::setSignalTable(const QPlcSignalTable &table) { d->ownTable = table; }
+
+QPlcSignalTable QPlcSlaveNode::signalTable() const { return d->ownTable.isEmpty() ? QPlcSignalIndexTable::current() : d->ownTable; }
+
+void QPlcSlaveNode::setRealTimeOptions(const QPlcRealTimeOptions &options) { d->realTimeOptions = options; }
+
+QPlcRealTimeOptions QPlcSlaveNode::realTimeOptions() const { return d->realTimeOptions; }
+
+void QPlcSlaveNode::activateWorkloadMeasurement(const QString &signalName) { d->runtime.setWorkloadSignal(signalName); }
+
+void QPlcSlaveNode::activateWatchdog(std::chrono::nanoseconds time) { d->watchdog = time; }
+
+QPlcSlaveNode::State QPlcSlaveNode::state() const { return d->state; }
+
+QPlcSlaveNode::Error QPlcSlaveNode::error() const { return d->error; }
+
+QString QPlcSlaveNode::errorString() const { return d->errorString; }
+
+QPlcUnderlyingProtocol QPlcSlaveNode::masterProtocol() const { return d->master; }
+
+QPlcSlaveNode::Counters QPlcSlaveNode::counters() const { return d->cycle ? d->cycle->counters() : Counters(); }
+
+const QPlcCycle &QPlcSlaveNode::cycle() const { return d->runtime.cycle(); }
+
+bool QPlcSlaveNode::connectToMasterAndWaitForConnected(const QPlcUnderlyingProtocol &master, std::chrono::milliseconds timeout)
+{
+    QEventLoop loop;
+    QTimer timer;
+    timer.setSingleShot(true);
+    connect(&timer, &QTimer::timeout, &loop, &QEventLoop::quit);
+    connect(this, &QPlcSlaveNode::connectedToMaster, &loop, &QEventLoop::quit);
+    connect(this, &QPlcSlaveNode::errorOccurred, &loop, &QEventLoop::quit);
+    connectToMaster(master);
+    if (d->state == Connecting) {
+        timer.start(timeout);
+        loop.exec(QEventLoop::ExcludeUserInputEvents);
+    }
+    if (d->state == Connecting) {
+        d->disconnectFromMaster();
+        d->setError(ConnectionError, QStringLiteral("node '%1': no answer of a master at %2 within %3 ms; check address and port").arg(name(), master.toString()).arg(timeout.count()));
+    }
+    return d->state >= Off;
+}
+
+void QPlcSlaveNode::connectToMaster(const QPlcUnderlyingProtocol &master) { d->connectToMaster(master); }
+
+void QPlcSlaveNode::disconnectFromMaster() { d->disconnectFromMaster(); }
+
+void QPlcSlaveNode::sendMessageToMaster(const QPlcMessage &message)
+{
+    if (d->control)
+        d->control->sendMessage(message);
+}
+
+// ---- lists on top of frames ----
+
+bool QPlcSlaveNode::bindPorts(const QPlcSignalTable &table, QVector<QPlcSignalIndex> *inputs, QVector<QPlcSignalIndex> *outputs, QString *error)
+{
+    const QPlcSignalIndexList inputList = declareInputSignals();
+    const QPlcSignalIndexList outputList = declareOutputSignals();
+    QStringList errors;
+    for (const QString &unknown : inputList.unknownNames() + outputList.unknownNames())
+        errors << table.unknownSignalText(unknown);
+    for (QPlcSignalIndex index : inputList.toVector() + outputList.toVector()) {
+        if (index >= table.size())
+            errors << QStringLiteral("signal index %1 is not in the table of %2 signals; declare signals by name").arg(index).arg(table.size());
+    }
+    *inputs = inputList.toVector();
+    *outputs = outputList.toVector();
+    *error = errors.join(QStringLiteral("; "));
+    return errors.isEmpty();
+}
+
+void QPlcSlaveNode::attachPorts(const qplc::PayloadLayout &, const qplc::PayloadLayout &) {}
+
+void QPlcSlaveNode::resetFrame(char *outputs) { d->runtime.fromList(initialOutputSignals(), d->runtime.outputLayout(), outputs); }
+
+void QPlcSlaveNode::initializeFrame(const char *inputs) { initialize(qplc::NodeRuntime::toList(d->runtime.inputLayout(), inputs)); }
+
+void QPlcSlaveNode::stepFrame(const QPlcCycle &, const char *inputs, char *outputs)
+{
+    d->runtime.fromList(realTimeout(qplc::NodeRuntime::toList(d->runtime.inputLayout(), inputs)), d->runtime.outputLayout(), outputs);
+}

@@ -1,0 +1,380 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "QPlcSlaveNodePrivate.h"
+
+#include "FrameLog.h"
+#include "Logging.h"
+#include "QPlcSignalIndexTable.h"
+
+#include <QtCore/QJsonArray>
+#include <QtCore/QMetaEnum>
+#include <QtCore/QMetaMethod>
+#include <QtCore/QUuid>
+
+using Message = QPlcMessage;
+
+namespace {
+
+QJsonArray describe(const QPlcSignalTable &table, const qplc::PayloadLayout &layout)
+{
+    QJsonArray signalArray;
+    for (const qplc::PayloadLayout::Field &field : layout.fields()) {
+        const QPlcSignalDefinition &definition = table.at(field.signal);
+        signalArray.append(QJsonObject{{QStringLiteral("name"), definition.name},
+                                       {QStringLiteral("type"), definition.type.name()},
+                                       {QStringLiteral("unit"), definition.unit}});
+    }
+    return signalArray;
+}
+
+QPlcClock clockOf(const Message &message)
+{
+    const QString kind = message.text(QStringLiteral("clock"));
+    if (kind == QLatin1String("Lockstep"))
+        return QPlcClock::lockstep();
+    if (kind == QLatin1String("Scaled"))
+        return QPlcClock::scaled(message.fields().value(QStringLiteral("scale")).toDouble(1.0));
+    return QPlcClock::realTime();
+}
+
+}  // namespace
+
+QPlcSlaveNodePrivate::QPlcSlaveNodePrivate(QPlcSlaveNode *node, const QString &nodeName, QPlcSlaveNode::RealTimeViolationPolicy violationPolicy)
+    : q(node)
+    , name(nodeName)
+    , policy(violationPolicy)
+    , runtime(*node)
+    , m_uuid(QUuid::createUuid().toString(QUuid::WithoutBraces))
+{
+}
+
+void QPlcSlaveNodePrivate::setState(QPlcSlaveNode::State newState)
+{
+    if (state == newState)
+        return;
+    state = newState;
+    qCDebug(lcSlave) << name << newState;
+    Q_EMIT q->stateChanged(newState);
+}
+
+void QPlcSlaveNodePrivate::setError(QPlcSlaveNode::Error newError, const QString &text)
+{
+    error = newError;
+    errorString = text;
+    qCWarning(lcSlave).noquote() << text;
+    Q_EMIT q->errorOccurred(newError);
+}
+
+// ---- connection ----
+
+void QPlcSlaveNodePrivate::connectToMaster(const QPlcUnderlyingProtocol &newMaster)
+{
+    disconnectFromMaster();
+    error = QPlcSlaveNode::NoError;
+    errorString.clear();
+    master = newMaster;
+    if (!master.isValid()) {
+        setError(QPlcSlaveNode::OptionError, QStringLiteral("node '%1': no master given; use QPlcUnderlyingProtocol::tcp() or udp()").arg(name));
+        return;
+    }
+    setState(QPlcSlaveNode::Connecting);
+    control = new QPlcMasterSocket(q);
+    QObject::connect(control, &QPlcAbstractSocket::connected, q, [this] { greet(); });
+    QObject::connect(control, &QPlcAbstractSocket::messageReceived, q, [this](const Message &message) { receive(message); });
+    QObject::connect(control, &QPlcAbstractSocket::errorOccurred, q, [this](QPlcAbstractSocket::Error e) { masterLost(e, control->errorString()); });
+    QObject::connect(control, &QPlcAbstractSocket::disconnected, q,
+                     [this] { masterLost(QPlcAbstractSocket::ConnectionLostError, QStringLiteral("the connection was closed")); });
+    control->connectToMaster(master);
+}
+
+void QPlcSlaveNodePrivate::disconnectFromMaster()
+{
+    const bool wasRegistered = state >= QPlcSlaveNode::Off;
+    stopCycles();
+    closeSockets();
+    setState(QPlcSlaveNode::Disconnected);
+    if (wasRegistered)
+        Q_EMIT q->disconnectedFromMaster();
+}
+
+void QPlcSlaveNodePrivate::closeSockets()
+{
+    for (QPlcMasterSocket **socket : {&control, &m_cyclicSocket}) {
+        if (!*socket)
+            continue;
+        (*socket)->disconnect(q);
+        (*socket)->close();
+        (*socket)->deleteLater();
+        *socket = nullptr;
+    }
+    m_udpLink.reset();
+    m_reportNotifier.reset();
+    cycle.reset();
+}
+
+void QPlcSlaveNodePrivate::masterLost(QPlcAbstractSocket::Error socketError, const QString &text)
+{
+    const bool wasConnecting = state == QPlcSlaveNode::Connecting;
+    const QString sentence = wasConnecting ? QStringLiteral("node '%1' cannot reach a master at %2: %3; start the master, or check address and port")
+                                           : QStringLiteral("node '%1' has lost the master at %2: %3");
+    const QString full = sentence.arg(name, master.toString(), text);
+    disconnectFromMaster();
+    setError(socketError == QPlcAbstractSocket::ProtocolError ? QPlcSlaveNode::ProtocolError : QPlcSlaveNode::ConnectionError, full);
+    Q_EMIT q->errorWithMaster(socketError, full);
+}
+
+void QPlcSlaveNodePrivate::giveUp(QPlcSlaveNode::Error newError, const QString &text)
+{
+    disconnectFromMaster();
+    setError(newError, text);
+}
+
+// ---- registration ----
+
+void QPlcSlaveNodePrivate::greet()
+{
+    QJsonObject fields{{QStringLiteral("protocol"), 1},
+                       {QStringLiteral("name"), name},
+                       {QStringLiteral("uuid"), m_uuid},
+                       {QStringLiteral("role"), QStringLiteral("node")},
+                       {QStringLiteral("features"), QJsonArray()}};
+    const QPlcSignalTable table = q->signalTable();
+    if (!table.isEmpty())
+        fields.insert(QStringLiteral("tableHash"), Message::fromHex64(table.hash()));
+    control->sendMessage(Message(Message::Hello, fields));
+}
+
+void QPlcSlaveNodePrivate::receive(const Message &message)
+{
+    switch (message.kind()) {
+    case Message::Hello: receiveHello(message); break;
+    case Message::Registered: receiveRegistered(message); break;
+    case Message::CyclicChannelAttached: cyclicChannelAttached(); break;
+    case Message::Rejected:
+        giveUp(QPlcSlaveNode::RegistrationError,
+               QStringLiteral("the master at %1 refuses node '%2': %3").arg(master.toString(), name, message.text(QStringLiteral("text"))));
+        break;
+    case Message::MasterEnds:
+        qCInfo(lcSlave).noquote() << "node" << name << "- the master has ended";
+        disconnectFromMaster();
+        break;
+    case Message::SendYourInitialOutputStates: sendInitialOutputs(); break;
+    case Message::InitializeWithValues: initializeWith(message); break;
+    case Message::RealTimeStarted: startCycles(message); break;
+    case Message::RealTimeStopped: stopCycles(); break;
+    case Message::Failed:
+        qCWarning(lcSlave).noquote() << "node" << name << "asked in vain:" << message.text(QStringLiteral("text"));
+        Q_FALLTHROUGH();
+    default: Q_EMIT q->messageReceived(message); break;
+    }
+}
+
+bool QPlcSlaveNodePrivate::chooseTable(const Message &hello, QPlcSignalTable *table)
+{
+    *table = q->signalTable();
+    if (!table->isEmpty())
+        return true;
+    QVector<QPlcParseError> errors;
+    *table = QPlcSignalTable::fromIni(hello.text(QStringLiteral("table")).toUtf8(), &errors, QStringLiteral("table of the master"));
+    if (table->isEmpty()) {
+        giveUp(QPlcSlaveNode::ProtocolError, QPlcParseError::toString(errors));
+        return false;
+    }
+    QPlcSignalIndexTable::setCurrent(*table);
+    return true;
+}
+
+void QPlcSlaveNodePrivate::receiveHello(const Message &message)
+{
+    const int protocol = message.fields().value(QStringLiteral("protocol")).toInt();
+    if (protocol != 1) {
+        giveUp(QPlcSlaveNode::ProtocolError,
+               QStringLiteral("the master at %1 speaks protocol version %2, node '%3' version 1; update the older one").arg(master.toString()).arg(protocol).arg(name));
+        return;
+    }
+    m_session = message.hex64(QStringLiteral("session"));
+    QPlcSignalTable table;
+    QString text;
+    if (!chooseTable(message, &table))
+        return;
+    if (!runtime.bind(table, &text)) {
+        giveUp(QPlcSlaveNode::SignalError, text);
+        return;
+    }
+    registerAtMaster();
+}
+
+bool QPlcSlaveNodePrivate::makeUdpLink(quint16 *port)
+{
+    QString text;
+    m_udpLink = qplc::CyclicLink::udp(qplc::SocketAddress(control->peerAddress(), master.port()), port, &text);
+    if (!m_udpLink)
+        giveUp(QPlcSlaveNode::ConnectionError, QStringLiteral("node '%1': %2").arg(name, text));
+    return m_udpLink != nullptr;
+}
+
+void QPlcSlaveNodePrivate::registerAtMaster()
+{
+    QJsonObject fields{{QStringLiteral("name"), name},
+                       {QStringLiteral("uuid"), m_uuid},
+                       {QStringLiteral("policy"), QLatin1String(QMetaEnum::fromType<QPlcSlaveNode::RealTimeViolationPolicy>().valueToKey(policy))},
+                       {QStringLiteral("listener"), listener},
+                       {QStringLiteral("inputs"), describe(runtime.table(), runtime.inputLayout())},
+                       {QStringLiteral("outputs"), describe(runtime.table(), runtime.outputLayout())},
+                       {QStringLiteral("cyclic"), master.kindName()}};
+    if (master.kind() == QPlcUnderlyingProtocol::Udp) {
+        quint16 port = 0;
+        if (!makeUdpLink(&port))
+            return;
+        fields.insert(QStringLiteral("udpPort"), port);
+    }
+    control->sendMessage(Message(Message::Register, fields));
+}
+
+void QPlcSlaveNodePrivate::receiveRegistered(const Message &message)
+{
+    m_id = message.fields().value(QStringLiteral("node")).toInt();
+    m_token = message.text(QStringLiteral("token"));
+    if (message.hex64(QStringLiteral("inputsHash")) != runtime.inputLayout().hash() || message.hex64(QStringLiteral("outputsHash")) != runtime.outputLayout().hash()) {
+        giveUp(QPlcSlaveNode::ProtocolError, QStringLiteral("master and node '%1' disagree on the layout of the frames").arg(name));
+        return;
+    }
+    cycle = std::make_unique<qplc::SlaveCycle>(runtime, qplc::SlaveCycle::Identity{m_session, quint16(m_id)}, lcCyclic().isDebugEnabled());
+    m_reportNotifier = std::make_unique<QSocketNotifier>(cycle->reports().descriptor(), QSocketNotifier::Read);
+    QObject::connect(m_reportNotifier.get(), &QSocketNotifier::activated, q, [this] { takeReports(); });
+    if (m_udpLink)
+        cycle->setLink(std::move(m_udpLink));
+    else
+        connectCyclicChannel();
+}
+
+void QPlcSlaveNodePrivate::connectCyclicChannel()
+{
+    m_cyclicSocket = new QPlcMasterSocket(q);
+    QObject::connect(m_cyclicSocket, &QPlcAbstractSocket::connected, q, [this] {
+        m_cyclicSocket->sendMessage(Message(Message::AttachCyclicChannel, {{QStringLiteral("node"), m_id}, {QStringLiteral("token"), m_token}}));
+    });
+    QObject::connect(m_cyclicSocket, &QPlcAbstractSocket::errorOccurred, q,
+                     [this](QPlcAbstractSocket::Error e) { masterLost(e, m_cyclicSocket->errorString()); });
+    QObject::connect(m_cyclicSocket, &QPlcAbstractSocket::messageReceived, q, [this](const Message &message) {
+        if (message.kind() != Message::CyclicChannelAttached) {
+            giveUp(QPlcSlaveNode::RegistrationError, QStringLiteral("the master refuses the cyclic connection: %1").arg(message.text(QStringLiteral("text"))));
+            return;
+        }
+        const int descriptor = m_cyclicSocket->takeDescriptor();
+        m_cyclicSocket->deleteLater();
+        m_cyclicSocket = nullptr;
+        cycle->setLink(qplc::CyclicLink::tcp(descriptor, cycle->inputCutter(), qplc::MaximumCyclicFrame));
+        cyclicChannelAttached();
+    });
+    m_cyclicSocket->connectToMaster(master);
+}
+
+void QPlcSlaveNodePrivate::cyclicChannelAttached()
+{
+    qCInfo(lcSlave).noquote() << "node" << name << "registered at" << master.toString();
+    setState(QPlcSlaveNode::Off);
+    Q_EMIT q->connectedToMaster();
+}
+
+// ---- phases ----
+
+void QPlcSlaveNodePrivate::sendInitialOutputs()
+{
+    setState(QPlcSlaveNode::Initializing);
+    QString text;
+    if (!runtime.reset(&text)) {
+        control->sendMessage(Message(Message::NodeFault, {{QStringLiteral("text"), text}}));
+        setState(QPlcSlaveNode::Off);
+        setError(QPlcSlaveNode::UserCodeError, QStringLiteral("node '%1': %2").arg(name, text));
+        return;
+    }
+    const QByteArray values(runtime.outputs(), int(runtime.outputLayout().size()));
+    control->sendMessage(Message(Message::ReceiveMyInitialOutputStates, {{QStringLiteral("values"), Message::fromBytes(values)}}));
+}
+
+void QPlcSlaveNodePrivate::initializeWith(const Message &message)
+{
+    const QByteArray values = message.bytes(QStringLiteral("values"));
+    if (values.size() != int(runtime.inputLayout().size())) {
+        giveUp(QPlcSlaveNode::ProtocolError, QStringLiteral("node '%1': initial values of %2 bytes instead of %3").arg(name).arg(values.size()).arg(runtime.inputLayout().size()));
+        return;
+    }
+    QString text;
+    const bool initialized = runtime.initialize(values.constData(), &text);
+    setState(QPlcSlaveNode::Off);
+    if (!initialized) {
+        control->sendMessage(Message(Message::NodeFault, {{QStringLiteral("text"), text}}));
+        setError(QPlcSlaveNode::UserCodeError, QStringLiteral("node '%1': %2").arg(name, text));
+        return;
+    }
+    control->sendMessage(Message(Message::Initialized));
+    if (q->isSignalConnected(QMetaMethod::fromSignal(&QPlcSlaveNode::hasInitialized)))
+        Q_EMIT q->hasInitialized(qplc::NodeRuntime::toList(runtime.inputLayout(), values.constData()));
+}
+
+void QPlcSlaveNodePrivate::startCycles(const Message &message)
+{
+    if (!cycle)
+        return;
+    qplc::SlaveCycle::Phase phase;
+    phase.period = std::chrono::nanoseconds(qint64(message.fields().value(QStringLiteral("period")).toDouble()));
+    phase.clock = clockOf(message);
+    phase.cycleZero = message.hex64(QStringLiteral("cycleZero"));
+    phase.firstCycle = message.hex64(QStringLiteral("firstCycle"));
+    phase.watchdog = watchdog;
+    phase.realTimeOptions = realTimeOptions;
+    if (!cycle->start(phase)) {
+        control->sendMessage(Message(Message::NodeFault, {{QStringLiteral("text"), cycle->errorString()}}));
+        setError(QPlcSlaveNode::OptionError, QStringLiteral("node '%1': %2").arg(name, cycle->errorString()));
+        return;
+    }
+    for (const QPlcRealTimeSetting &setting : cycle->realTimeSettings()) {
+        if (!setting.granted)
+            qCWarning(lcSlave).noquote() << "node" << name << setting.toString();
+    }
+    setState(QPlcSlaveNode::RealTime);
+    control->sendMessage(Message(Message::RealTimeReady));
+    Q_EMIT q->realTimeHasStarted();
+}
+
+void QPlcSlaveNodePrivate::stopCycles()
+{
+    if (state != QPlcSlaveNode::RealTime)
+        return;
+    cycle->stop();
+    takeReports();
+    runtime.stopped();
+    setState(QPlcSlaveNode::Off);
+    Q_EMIT q->realTimeHasStopped();
+}
+
+void QPlcSlaveNodePrivate::takeReports()
+{
+    if (!cycle)
+        return;
+    cycle->reports().take([this](const qplc::CycleEvent &event) { report(event); }, [this](const qplc::TappedFrame &frame) { qplc::logFrame(name, frame); });
+}
+
+void QPlcSlaveNodePrivate::report(const qplc::CycleEvent &event)
+{
+    switch (event.kind) {
+    case qplc::CycleEvent::WatchdogTimedOut:
+        setError(QPlcSlaveNode::WatchdogError, QStringLiteral("node '%1': no frame of the master for %2 ms since cycle %3")
+                                                   .arg(name)
+                                                   .arg(double(watchdog.count()) * 1e-6)
+                                                   .arg(event.cycle));
+        Q_EMIT q->watchdogTimedOut(event.cycle);
+        break;
+    case qplc::CycleEvent::NodeFaulted: {
+        const QString text = QStringLiteral("the code of the node threw in cycle %1: %2").arg(event.cycle).arg(QString::fromLocal8Bit(runtime.faultText()));
+        if (control)
+            control->sendMessage(Message(Message::NodeFault, {{QStringLiteral("text"), text}}));
+        setError(QPlcSlaveNode::UserCodeError, QStringLiteral("node '%1': %2").arg(name, text));
+        break;
+    }
+    case qplc::CycleEvent::LinkClosed:
+        qCDebug(lcSlave).noquote() << "node" << name << "has lost its cyclic connection";  // the control connection follows, with the reason
+        break;
+    default: break;
+    }
+}

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "NodeRuntime.h"
+#include "QPlcMasterSocket.h"
+#include "QPlcSlaveNode.h"
+#include "SlaveCycle.h"
+
+#include <QtCore/QSocketNotifier>
+
+#include <memory>
+
+/// The control side of a slave: registration, and the phases that the master announces.
+class QPlcSlaveNodePrivate
+{
+public:
+    QPlcSlaveNodePrivate(QPlcSlaveNode *node, const QString &name, QPlcSlaveNode::RealTimeViolationPolicy policy);
+
+    void connectToMaster(const QPlcUnderlyingProtocol &master);
+    void disconnectFromMaster();
+
+    void setState(QPlcSlaveNode::State newState);
+    void setError(QPlcSlaveNode::Error newError, const QString &text);
+
+    QPlcSlaveNode *const q;
+    QString name;
+    QPlcSlaveNode::RealTimeViolationPolicy policy;
+    bool listener = false;
+    QPlcSignalTable ownTable;
+    QPlcRealTimeOptions realTimeOptions;
+    std::chrono::nanoseconds watchdog{0};
+    qplc::NodeRuntime runtime;
+    QPlcSlaveNode::State state = QPlcSlaveNode::Disconnected;
+    QPlcSlaveNode::Error error = QPlcSlaveNode::NoError;
+    QString errorString;
+    std::unique_ptr<qplc::SlaveCycle> cycle;
+    QPlcUnderlyingProtocol master;
+    QPlcMasterSocket *control = nullptr;
+
+private:
+    void receive(const QPlcMessage &message);
+    void greet();
+    void receiveHello(const QPlcMessage &message);
+    bool chooseTable(const QPlcMessage &hello, QPlcSignalTable *table);
+    void registerAtMaster();
+    void receiveRegistered(const QPlcMessage &message);
+    bool makeUdpLink(quint16 *port);
+    void connectCyclicChannel();
+    void cyclicChannelAttached();
+    void sendInitialOutputs();
+    void initializeWith(const QPlcMessage &message);
+    void startCycles(const QPlcMessage &message);
+    void stopCycles();
+    void masterLost(QPlcAbstractSocket::Error socketError, const QString &text);
+    void closeSockets();
+    void giveUp(QPlcSlaveNode::Error newError, const QString &text);
+    void takeReports();
+    void report(const qplc::CycleEvent &event);
+
+    QPlcMasterSocket *m_cyclicSocket = nullptr;
+    std::unique_ptr<qplc::CyclicLink> m_udpLink;
+    std::unique_ptr<QSocketNotifier> m_reportNotifier;
+    QString m_uuid;
+    quint64 m_session = 0;
+    QString m_token;
+    int m_id = 0;
+};

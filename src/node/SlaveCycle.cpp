@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "SlaveCycle.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace qplc {
+
+namespace {
+
+constexpr std::int64_t LongestWait = 50'000'000;  // [ns] a stop is never noticed later than this
+
+void count(std::atomic<quint64> &counter, quint64 n = 1) noexcept
+{
+    counter.store(counter.load(std::memory_order_relaxed) + n, std::memory_order_relaxed);  // one writer
+}
+
+FrameSeed seedOf(const SlaveCycle::Identity &identity, const PayloadLayout &layout)
+{
+    return {identity.session, identity.node, layout.hash()};
+}
+
+std::size_t sizeOfInputFrame(const void *decoder, const char *header)
+{
+    return static_cast<const FrameDecoder *>(decoder)->frameSize(header);
+}
+
+}  // namespace
+
+SlaveCycle::SlaveCycle(NodeRuntime &runtime, const Identity &identity, bool tapFrames)
+    : m_runtime(runtime)
+    , m_node(identity.node)
+    , m_decoder(FrameKind::Inputs, seedOf(identity, runtime.inputLayout()), runtime.inputLayout().partBorders(MaximumCyclicPayload))
+    , m_encoder(FrameKind::Outputs, seedOf(identity, runtime.outputLayout()), runtime.outputLayout().partBorders(MaximumCyclicPayload))
+    , m_reports(tapFrames)
+    , m_frame(MaximumCyclicFrame)
+{
+}
+
+SlaveCycle::~SlaveCycle()
+{
+    stop();
+}
+
+FrameCutter SlaveCycle::inputCutter() const
+{
+    return {CyclicHeaderSize, &sizeOfInputFrame, &m_decoder};
+}
+
+bool SlaveCycle::start(const Phase &phase)
+{
+    stop();
+    m_phase = phase;
+    m_decoder.restart(phase.firstCycle);
+    m_runtime.setLockstep(phase.clock.isLockstep());
+    m_computedAny = m_faulted = m_watchdogBarked = false;
+    m_lastCycle = phase.firstCycle;
+    m_lastArrival = TimeSource::monotonic().now();
+    m_stop = false;
+    m_link->setTimeout(phase.watchdog.count() > 0 ? std::min<std::int64_t>(phase.watchdog.count() / 2 + 1, LongestWait) : LongestWait);
+    return m_thread.start(m_runtime.node().name(), phase.realTimeOptions, [this] { run(); });
+}
+
+void SlaveCycle::stop()
+{
+    m_stop = true;
+    m_thread.join();
+}
+
+QPlcSlaveNode::Counters SlaveCycle::counters() const
+{
+    QPlcSlaveNode::Counters counters;
+    counters.cycles = m_counters.cycles;
+    counters.missed = m_counters.missed;
+    counters.duplicated = m_counters.duplicated;
+    counters.outdated = m_counters.outdated;
+    counters.rejected = m_counters.rejected;
+    counters.watchdog = m_counters.watchdog;
+    return counters;
+}
+
+void SlaveCycle::run() noexcept
+{
+    const char *frame = nullptr;
+    std::size_t size = 0;
+    while (!m_stop.load(std::memory_order_relaxed)) {
+        switch (m_link->receive(&frame, &size)) {
+        case CyclicLink::Received: take(frame, size); break;
+        case CyclicLink::TimedOut: checkWatchdog(); break;
+        case CyclicLink::Closed: m_reports.post({CycleEvent::LinkClosed, m_node, 0, m_lastCycle}); return;
+        }
+    }
+}
+
+FrameStatus SlaveCycle::decode(const char *frame, std::size_t size) noexcept
+{
+    m_reports.tap(TappedFrame::Received, m_node, frame, size);
+    const FrameStatus status = m_decoder.decode(frame, size);
+    switch (status) {
+    case FrameStatus::Complete:
+    case FrameStatus::Incomplete: break;
+    case FrameStatus::Duplicate: count(m_counters.duplicated); break;
+    case FrameStatus::Old: count(m_counters.outdated); break;
+    default: count(m_counters.rejected); break;
+    }
+    return status;
+}
+
+void SlaveCycle::take(const char *frame, std::size_t size) noexcept
+{
+    const FrameStatus status = decode(frame, size);
+    if (status == FrameStatus::Duplicate && m_computedAny && isRepeatedRequest())
+        answer();
+    if (status != FrameStatus::Complete)
+        return;
+    if (!m_phase.clock.isLockstep())
+        skipToNewest();
+    compute();
+}
+
+/// After a pause requests may have queued up; only the newest is worth an answer. Costs a system call only after a pause.
+void SlaveCycle::skipToNewest() noexcept
+{
+    const std::int64_t now = TimeSource::monotonic().now();
+    const bool paused = simulated(now - m_lastArrival) > 2 * m_phase.period.count();
+    m_lastArrival = now;
+    if (!paused)
+        return;
+    const char *frame = nullptr;
+    std::size_t size = 0;
+    while (m_link->poll(&frame, &size) == CyclicLink::Received)
+        decode(frame, size);
+}
+
+void SlaveCycle::compute() noexcept
+{
+    const std::uint64_t cycle = m_decoder.cycle();
+    const std::uint64_t missed = m_computedAny ? cycle - m_lastCycle - 1 : 0;
+    count(m_counters.cycles);
+    count(m_counters.missed, missed);
+    const bool computed = m_runtime.step(QPlcCycle(cycle - m_phase.cycleZero, m_phase.period, missed), m_decoder.payload());
+    if (!computed && !m_faulted)
+        m_reports.post({CycleEvent::NodeFaulted, m_node, 0, cycle - m_phase.cycleZero});
+    m_faulted = !computed;
+    m_computedAny = true;
+    m_lastCycle = cycle;
+    m_watchdogBarked = false;
+    m_answer.flags = computed ? 0 : FaultFlag;
+    m_answer.cycle = std::uint32_t(cycle);
+    m_answer.info = std::uint32_t(std::min<std::int64_t>(m_runtime.executionTime(), std::numeric_limits<std::uint32_t>::max()));
+    answer();
+}
+
+/// Whether the last good frame asks again for the cycle that was computed last; of several parts only the first one counts.
+bool SlaveCycle::isRepeatedRequest() const noexcept
+{
+    const FrameHeader &request = m_decoder.received();
+    return (request.flags & ResentFlag) && !(request.flags & PartFlag) && request.cycle == std::uint32_t(m_lastCycle);
+}
+
+void SlaveCycle::answer() noexcept
+{
+    for (std::size_t part = 0; part < m_encoder.partCount(); ++part) {
+        m_encoder.encode(part, m_answer, m_runtime.outputs(), m_frame.data());
+        m_reports.tap(TappedFrame::Sent, m_node, m_frame.data(), m_encoder.partSize(part));
+        m_link->send(m_frame.data(), m_encoder.partSize(part));
+    }
+}
+
+/// Duration on the clock of the master [ns].
+std::int64_t SlaveCycle::simulated(std::int64_t time) const noexcept
+{
+    return std::int64_t(double(time) * m_phase.clock.scale());
+}
+
+void SlaveCycle::checkWatchdog() noexcept
+{
+    if (m_phase.watchdog.count() == 0 || m_watchdogBarked || m_phase.clock.isLockstep())
+        return;
+    if (simulated(TimeSource::monotonic().now() - m_lastArrival) < m_phase.watchdog.count())
+        return;
+    m_watchdogBarked = true;
+    count(m_counters.watchdog);
+    m_reports.post({CycleEvent::WatchdogTimedOut, m_node, 0, m_lastCycle - m_phase.cycleZero});
+}
+
+}  // namespace qplc

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "CycleReports.h"
+#include "NodeRuntime.h"
+#include "QPlcClock.h"
+#include "protocol/CyclicFrame.h"
+#include "realtime/CycleThread.h"
+#include "transport/CyclicLink.h"
+
+#include <atomic>
+#include <memory>
+#include <vector>
+
+namespace qplc {
+
+/// The cycles of a slave: takes a frame, computes, answers. Owns the thread on which that happens.
+///
+/// start() and stop() from the thread of the node; counters from anywhere.
+class SlaveCycle
+{
+public:
+    struct Identity
+    {
+        std::uint64_t session = 0;
+        std::uint16_t node = 0;
+    };
+    struct Phase
+    {
+        std::chrono::nanoseconds period{0};
+        QPlcClock clock;
+        std::uint64_t cycleZero = 0;             // number on the wire of cycle 0 of the phase
+        std::uint64_t firstCycle = 0;            // number on the wire of the first cycle that may come
+        std::chrono::nanoseconds watchdog{0};    // 0: none
+        QPlcRealTimeOptions realTimeOptions;
+    };
+
+    /// \param runtime  bound, and outlives this object
+    SlaveCycle(NodeRuntime &runtime, const Identity &identity, bool tapFrames);
+    ~SlaveCycle();
+
+    /// Tells a stream of cyclic frames towards the node where they end.
+    FrameCutter inputCutter() const;
+    /// Gives the link. \pre not running
+    void setLink(std::unique_ptr<CyclicLink> link) { m_link = std::move(link); }
+
+    /// \return false when no thread could be made; errorString() says why
+    bool start(const Phase &phase);
+    /// Waits until the cycle in progress has ended.
+    void stop();
+    bool isRunning() const { return m_thread.isRunning(); }
+    QString errorString() const { return m_thread.errorString(); }
+    const QVector<QPlcRealTimeSetting> &realTimeSettings() const { return m_thread.settings(); }
+
+    CycleReports &reports() { return m_reports; }
+    QPlcSlaveNode::Counters counters() const;
+
+private:
+    void run() noexcept;
+    void take(const char *frame, std::size_t size) noexcept;
+    FrameStatus decode(const char *frame, std::size_t size) noexcept;
+    void skipToNewest() noexcept;
+    void compute() noexcept;
+    bool isRepeatedRequest() const noexcept;
+    void answer() noexcept;
+    void checkWatchdog() noexcept;
+    std::int64_t simulated(std::int64_t time) const noexcept;
+
+    NodeRuntime &m_runtime;
+    std::uint16_t m_node;
+    FrameDecoder m_decoder;
+    FrameEncoder m_encoder;
+    std::unique_ptr<CyclicLink> m_link;
+    CycleThread m_thread;
+    CycleReports m_reports;
+    std::atomic<bool> m_stop{false};
+
+    // cycle thread
+    Phase m_phase;
+    std::vector<char> m_frame;          // one encoded part
+    FrameHeader m_answer;               // of the newest cycle
+    bool m_computedAny = false;
+    bool m_faulted = false;
+    bool m_watchdogBarked = false;
+    std::uint64_t m_lastCycle = 0;      // computed last
+    std::int64_t m_lastArrival = 0;     // [ns], 0 in lockstep
+
+    struct AtomicCounters
+    {
+        std::atomic<quint64> cycles{0}, missed{0}, duplicated{0}, outdated{0}, rejected{0}, watchdog{0};
+    } m_counters;
+};
+
+}  // namespace qplc

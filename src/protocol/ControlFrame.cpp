@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ControlFrame.h"
+
+#include "LittleEndian.h"
+
+#include <QtCore/QJsonDocument>
+
+#include <algorithm>
+
+namespace qplc {
+
+namespace {
+
+constexpr int LengthSize = sizeof(quint32);
+constexpr int KindSize = 1;
+
+// Deepest nesting of arrays and objects in a JSON text. Counts right up to the first error of the text, which is as far
+// as a parser gets.
+int nestingDepth(const QByteArray &json)
+{
+    int depth = 0;
+    int deepest = 0;
+    bool inString = false;
+    for (int i = 0; i < json.size(); ++i) {
+        const char character = json.at(i);
+        if (inString) {
+            if (character == '\\')
+                ++i;
+            else if (character == '"')
+                inString = false;
+        } else if (character == '"') {
+            inString = true;
+        } else if (character == '{' || character == '[') {
+            deepest = std::max(deepest, ++depth);
+        } else if (character == '}' || character == ']') {
+            --depth;
+        }
+    }
+    return deepest;
+}
+
+QString jsonErrorText(const QJsonParseError &error)
+{
+    if (error.error == QJsonParseError::NoError)
+        return QStringLiteral("its JSON is an array; an object is needed");
+    return QStringLiteral("%1 at byte %2 of its JSON").arg(error.errorString()).arg(error.offset);
+}
+
+} // namespace
+
+QByteArray encodeControlFrame(const QPlcMessage &message)
+{
+    const QByteArray json = QJsonDocument(message.fields()).toJson(QJsonDocument::Compact);
+    const quint32 length = quint32(KindSize + json.size());
+    if (length > MaximumControlFrame || nestingDepth(json) > MaximumControlDepth)
+        return QByteArray();
+
+    QByteArray frame(LengthSize, Qt::Uninitialized);
+    storeLittle(length, frame.data());
+    frame.append(char(message.kind()));
+    frame.append(json);
+    return frame;
+}
+
+void ControlFrameReader::append(const QByteArray &bytes)
+{
+    if (m_error != NoError)
+        return;
+    m_buffer.remove(0, m_begin);
+    m_begin = 0;
+    m_buffer.append(bytes);
+}
+
+bool ControlFrameReader::next(QPlcMessage *message)
+{
+    const int available = m_buffer.size() - m_begin;
+    if (m_error != NoError || available < LengthSize)
+        return false;
+    const quint32 length = loadLittle<quint32>(m_buffer.constData() + m_begin);
+    if (length < quint32(KindSize))
+        return setError(FrameTooShort, QStringLiteral("control frame of 0 bytes%1; the kind needs one").arg(place()));
+    if (length > MaximumControlFrame) {
+        const QString text = QStringLiteral("control frame of %1 bytes%2; at most %3 are allowed");
+        return setError(FrameTooLong, text.arg(length).arg(place()).arg(MaximumControlFrame));
+    }
+    if (available - LengthSize < int(length))
+        return false;
+
+    const QByteArray frame = m_buffer.mid(m_begin, LengthSize + int(length));
+    if (!parse(frame, message))
+        return false;
+    m_begin += frame.size();
+    m_position += quint64(frame.size());
+    m_lastFrame = frame;
+    return true;
+}
+
+QByteArray ControlFrameReader::takeRest()
+{
+    const QByteArray rest = m_buffer.mid(m_begin);
+    m_position += quint64(rest.size());
+    m_buffer.clear();
+    m_begin = 0;
+    return rest;
+}
+
+bool ControlFrameReader::parse(const QByteArray &frame, QPlcMessage *message)
+{
+    const auto kind = QPlcMessage::Kind(quint8(frame.at(LengthSize)));
+    const int jsonBegin = LengthSize + KindSize;
+    const QByteArray json = QByteArray::fromRawData(frame.constData() + jsonBegin, frame.size() - jsonBegin);
+    if (json.isEmpty()) {
+        *message = QPlcMessage(kind);
+        return true;
+    }
+
+    const QString thing = QStringLiteral("control frame (%1)%2").arg(QPlcMessage::kindName(kind), place());
+    const int depth = nestingDepth(json);
+    if (depth > MaximumControlDepth) {
+        const QString text = QStringLiteral("%1: arrays and objects %2 deep; at most %3 are allowed");
+        return setError(NestedTooDeep, text.arg(thing).arg(depth).arg(MaximumControlDepth));
+    }
+    QJsonParseError error;
+    const QJsonDocument document = QJsonDocument::fromJson(json, &error);
+    if (!document.isObject())
+        return setError(InvalidJson, QStringLiteral("%1: %2").arg(thing, jsonErrorText(error)));
+    *message = QPlcMessage(kind, document.object());
+    return true;
+}
+
+QString ControlFrameReader::place() const
+{
+    return QStringLiteral(" at byte %1 of the stream").arg(m_position);
+}
+
+bool ControlFrameReader::setError(Error error, const QString &text)
+{
+    m_error = error;
+    m_errorString = text;
+    return false;
+}
+
+} // namespace qplc

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "QPlcMessage.h"
+
+#include <QtCore/QByteArray>
+
+namespace qplc {
+
+/// Largest control frame behind its length field [byte].
+constexpr quint32 MaximumControlFrame = 1024 * 1024;
+/// Deepest nesting of arrays and objects in the JSON of a control frame.
+constexpr int MaximumControlDepth = 16;
+
+/// The bytes of \a message on the wire; empty when it is longer than MaximumControlFrame or nested deeper than MaximumControlDepth,
+/// which no receiver would take.
+QByteArray encodeControlFrame(const QPlcMessage &message);
+
+/// Cuts a byte stream into control messages. Nothing is allocated for a frame before its length has been checked.
+///
+/// After an error the stream is lost: the reader stays in the error state and the connection has to be closed.
+class ControlFrameReader
+{
+public:
+    enum Error {
+        NoError,
+        FrameTooLong,    ///< length beyond MaximumControlFrame
+        FrameTooShort,   ///< length 0: not even a kind
+        NestedTooDeep,
+        InvalidJson      ///< not UTF-8, not JSON, or not an object
+    };
+
+    /// Takes bytes of the stream. To be followed by next() until it has no more messages.
+    void append(const QByteArray &bytes);
+    /// Takes the next complete message. \return false when there is none (yet), or error() is set
+    bool next(QPlcMessage *message);
+    /// Exact bytes of the message that next() returned last, for the debug log.
+    QByteArray lastFrame() const { return m_lastFrame; }
+    /// Bytes of the stream that no message has used: what follows the control messages on a cyclic TCP connection.
+    QByteArray takeRest();
+
+    Error error() const { return m_error; }
+    /// "control frame of 4294967295 bytes at byte 120 of the stream; at most 1048576 are allowed"
+    QString errorString() const { return m_errorString; }
+
+private:
+    bool parse(const QByteArray &frame, QPlcMessage *message);
+    QString place() const;
+    bool setError(Error error, const QString &text);
+
+    QByteArray m_buffer;
+    int m_begin = 0;         // [byte] of m_buffer: what is before it has been used
+    QByteArray m_lastFrame;
+    quint64 m_position = 0;  // [byte] of the stream at m_begin
+    Error m_error = NoError;
+    QString m_errorString;
+};
+
+}  // namespace qplc

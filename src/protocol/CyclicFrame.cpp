@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "CyclicFrame.h"
+
+#include "Crc32c.h"
+#include "LittleEndian.h"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+namespace qplc {
+
+namespace {
+
+// Places in the header [byte].
+constexpr std::size_t FlagsAt = 1;
+constexpr std::size_t SessionAt = 2;
+constexpr std::size_t CycleAt = 4;
+constexpr std::size_t InfoAt = 8;
+
+constexpr std::size_t PartsPerWord = 64;
+
+constexpr char versionAndKind(FrameKind kind)
+{
+    return char(CyclicVersion << 4 | std::uint8_t(kind));
+}
+
+std::uint32_t crcOfSeed(const FrameSeed &seed) noexcept
+{
+    char bytes[18];
+    storeLittle(seed.session, bytes);
+    storeLittle(seed.node, bytes + 8);
+    storeLittle(seed.layoutHash, bytes + 10);
+    return crc32c(0, bytes, sizeof bytes);
+}
+
+FrameHeader readHeader(FrameKind kind, const char *bytes) noexcept
+{
+    FrameHeader header;
+    header.kind = kind;
+    header.flags = loadLittle<std::uint8_t>(bytes + FlagsAt);
+    header.cycle = loadLittle<std::uint32_t>(bytes + CycleAt);
+    header.info = loadLittle<std::uint32_t>(bytes + InfoAt);
+    return header;
+}
+
+// An empty payload has no bytes, and perhaps no address.
+void copyBytes(const char *from, std::size_t size, char *to) noexcept
+{
+    if (size > 0)
+        std::memcpy(to, from, size);
+}
+
+std::vector<std::uint32_t> checkedBorders(std::vector<std::uint32_t> borders)
+{
+    assert(borders.size() >= 2 && borders.front() == 0 && std::is_sorted(borders.begin(), borders.end())
+           && "n parts have n + 1 borders, from 0, never falling");
+    return borders;
+}
+
+} // namespace
+
+FrameEncoder::FrameEncoder(FrameKind kind, const FrameSeed &seed, std::vector<std::uint32_t> partBorders)
+    : m_kind(kind)
+    , m_session(std::uint16_t(seed.session))
+    , m_seedCrc(crcOfSeed(seed))
+    , m_borders(checkedBorders(std::move(partBorders)))
+{
+}
+
+void FrameEncoder::encode(std::size_t part, FrameHeader header, const char *payload, char *target) const noexcept
+{
+    const std::size_t begin = m_borders[part];
+    const std::size_t size = m_borders[part + 1] - begin;
+    header.flags = std::uint8_t(part == 0 ? header.flags & ~PartFlag : header.flags | PartFlag);
+    if (part > 0)
+        header.info = std::uint32_t(part);
+
+    target[0] = versionAndKind(m_kind);
+    storeLittle(header.flags, target + FlagsAt);
+    storeLittle(m_session, target + SessionAt);
+    storeLittle(header.cycle, target + CycleAt);
+    storeLittle(header.info, target + InfoAt);
+    copyBytes(payload + begin, size, target + CyclicHeaderSize);
+    storeLittle(crc32c(m_seedCrc, target, CyclicHeaderSize + size), target + CyclicHeaderSize + size);
+}
+
+FrameDecoder::FrameDecoder(FrameKind kind, const FrameSeed &seed, std::vector<std::uint32_t> partBorders)
+    : m_kind(kind)
+    , m_session(std::uint16_t(seed.session))
+    , m_seedCrc(crcOfSeed(seed))
+    , m_borders(checkedBorders(std::move(partBorders)))
+    , m_partCount(m_borders.size() - 1)
+    , m_payload(std::make_unique<char[]>(m_borders.back()))
+    , m_incomplete(std::make_unique<char[]>(m_borders.back()))
+    , m_partsSeen((m_partCount + PartsPerWord - 1) / PartsPerWord)
+{
+}
+
+FrameStatus FrameDecoder::decode(const char *bytes, std::size_t size) noexcept
+{
+    if (size < CyclicOverhead || size != claimedSize(bytes))
+        return FrameStatus::WrongLength;
+    if (!isOfThisKind(bytes))
+        return FrameStatus::WrongVersion;
+    if (loadLittle<std::uint16_t>(bytes + SessionAt) != m_session)
+        return FrameStatus::WrongSession;
+    const std::size_t checked = size - sizeof(std::uint32_t);
+    if (loadLittle<std::uint32_t>(bytes + checked) != crc32c(m_seedCrc, bytes, checked))
+        return FrameStatus::WrongChecksum;
+    return accept(readHeader(m_kind, bytes), bytes + CyclicHeaderSize);
+}
+
+std::size_t FrameDecoder::frameSize(const char *header) const noexcept
+{
+    const bool isOurs = isOfThisKind(header) && loadLittle<std::uint16_t>(header + SessionAt) == m_session;
+    return isOurs ? claimedSize(header) : 0;
+}
+
+void FrameDecoder::restart(std::uint64_t firstCycle) noexcept
+{
+    m_newest = firstCycle;
+    m_any = false;
+    m_anyComplete = false;
+}
+
+// Size of the part that the header says to begin, 0 when there is no such part.
+std::size_t FrameDecoder::claimedSize(const char *header) const noexcept
+{
+    std::size_t part = 0;
+    if ((loadLittle<std::uint8_t>(header + FlagsAt) & PartFlag) != 0) {
+        part = loadLittle<std::uint32_t>(header + InfoAt);
+        if (part == 0)
+            return 0;
+    }
+    return part < m_partCount ? CyclicOverhead + m_borders[part + 1] - m_borders[part] : 0;
+}
+
+bool FrameDecoder::isOfThisKind(const char *header) const noexcept
+{
+    return header[0] == versionAndKind(m_kind);
+}
+
+// Serial arithmetic on the 32 bits of the wire: up to 2^31 - 1 cycles ahead is newer, all else is not.
+FrameStatus FrameDecoder::accept(const FrameHeader &header, const char *payload) noexcept
+{
+    m_received = header;
+    const std::int32_t ahead = std::int32_t(header.cycle - std::uint32_t(m_newest));
+    if (ahead < 0)
+        return m_anyComplete && header.cycle == std::uint32_t(m_cycle) ? FrameStatus::Duplicate : FrameStatus::Old;
+    if (ahead > 0 || !m_any)
+        beginCycle(extendCycle(header.cycle, m_newest));
+    return takePart((header.flags & PartFlag) != 0 ? header.info : 0, payload);
+}
+
+void FrameDecoder::beginCycle(std::uint64_t cycle) noexcept
+{
+    m_newest = cycle;
+    m_any = true;
+    m_missingParts = m_partCount;
+    std::fill(m_partsSeen.begin(), m_partsSeen.end(), 0);
+}
+
+FrameStatus FrameDecoder::takePart(std::size_t part, const char *payload) noexcept
+{
+    std::uint64_t &seen = m_partsSeen[part / PartsPerWord];
+    const std::uint64_t bit = std::uint64_t(1) << (part % PartsPerWord);
+    if ((seen & bit) != 0)
+        return FrameStatus::Duplicate;
+
+    seen |= bit;
+    copyBytes(payload, m_borders[part + 1] - m_borders[part], m_incomplete.get() + m_borders[part]);
+    if (part == 0)
+        m_incompleteHeader = m_received;
+    if (--m_missingParts > 0)
+        return FrameStatus::Incomplete;
+
+    m_payload.swap(m_incomplete);
+    m_header = m_incompleteHeader;
+    m_cycle = m_newest;
+    m_anyComplete = true;
+    return FrameStatus::Complete;
+}
+
+} // namespace qplc

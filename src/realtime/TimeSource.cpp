@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "TimeSource.h"
+
+#include <algorithm>
+#include <ctime>
+
+namespace qplc {
+
+namespace {
+
+constexpr std::int64_t NanosecondsPerSecond = 1'000'000'000;
+
+std::int64_t read(clockid_t clock) noexcept
+{
+    timespec time{};
+    clock_gettime(clock, &time);
+    return std::int64_t(time.tv_sec) * NanosecondsPerSecond + time.tv_nsec;
+}
+
+class MonotonicTime final : public TimeSource
+{
+public:
+    std::int64_t now() noexcept override { return read(CLOCK_MONOTONIC); }
+    bool sleepUntil(std::int64_t deadline) noexcept override
+    {
+        const std::int64_t instant = std::max<std::int64_t>(deadline, 0); // an instant before 0 is no valid timespec
+        timespec time{};
+        time.tv_sec = time_t(instant / NanosecondsPerSecond);
+        time.tv_nsec = decltype(time.tv_nsec)(instant % NanosecondsPerSecond);
+        // The error is the returned value: errno stays as it was.
+        return clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &time, nullptr) == 0;
+    }
+};
+
+} // namespace
+
+TimeSource &TimeSource::monotonic()
+{
+    static MonotonicTime time;
+    return time;
+}
+
+std::int64_t wallClockNow() noexcept
+{
+    return read(CLOCK_REALTIME);
+}
+
+} // namespace qplc

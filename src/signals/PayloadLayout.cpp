@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "PayloadLayout.h"
+
+namespace qplc {
+
+PayloadLayout::PayloadLayout(const QPlcSignalTable &table, const QVector<QPlcSignalIndex> &signalIndices)
+{
+    m_fields.reserve(std::size_t(signalIndices.size()));
+    for (const QPlcSignalIndex index : signalIndices) {
+        const QPlcSignalDefinition &signal = table.at(index);
+        m_fields.push_back({index, m_size, signal.type});
+        const QString text = signal.name + QLatin1Char(':') + signal.type.name() + QLatin1Char('@')
+            + QString::number(m_size) + QLatin1Char('\n');
+        m_hash = fnv1a64(text.toUtf8(), m_hash);
+        m_size += quint32(signal.type.size());
+    }
+}
+
+std::vector<quint32> PayloadLayout::partBorders(quint32 maximum) const
+{
+    std::vector<quint32> borders = {0};
+    for (const Field &field : m_fields) {
+        const bool fits = field.offset + quint32(field.type.size()) - borders.back() <= maximum;
+        if (!fits && field.offset > borders.back())
+            borders.push_back(field.offset);
+    }
+    borders.push_back(m_size);
+    return borders;
+}
+
+} // namespace qplc

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "QPlcSignalTable.h"
+
+#include "Fnv1a.h"
+#include "MessageText.h"
+#include "SignalRules.h"
+#include "TableReader.h"
+
+#include <QtCore/QFile>
+
+using qplc::quoted;
+
+namespace {
+
+constexpr qint64 largestFile = 64 * 1024 * 1024; // [byte] a thousand for each of the most signals
+
+QPlcSignalTable failed(const QString &fileName, const QString &message, QVector<QPlcParseError> *errors)
+{
+    if (errors)
+        *errors = {{fileName, 0, 0, message}};
+    return QPlcSignalTable();
+}
+
+// The definition as the table keeps it: values in the types of the signal where they can be converted, and an initial
+// value.
+QPlcSignalDefinition completed(QPlcSignalDefinition signal)
+{
+    const auto convert = [](QPlcValue *value, QPlcSignalType type) {
+        const QPlcValue converted = value->convertedTo(type);
+        if (converted.isValid())
+            *value = converted;
+    };
+    convert(&signal.minimum, qplc::elementType(signal.type));
+    convert(&signal.maximum, qplc::elementType(signal.type));
+    convert(&signal.initial, signal.type);
+    convert(&signal.safe, signal.type);
+    if (!signal.initial.isValid())
+        signal.initial = QPlcValue(signal.type);
+    if (QPlcSignalType::fromName(signal.typeName) != signal.type)
+        signal.typeName = signal.type.name();
+    return signal;
+}
+
+} // namespace
+
+QPlcSignalTable QPlcSignalTable::fromIni(const QByteArray &text, QVector<QPlcParseError> *errors,
+                                         const QString &fileName)
+{
+    qplc::TableReader reader(text, fileName);
+    const QVector<QPlcSignalDefinition> definitions = reader.read();
+    const QVector<QPlcParseError> found = reader.errors();
+    if (errors)
+        *errors = found;
+    QPlcSignalTable table;
+    if (!found.isEmpty())
+        return table;
+    table.m_indices.reserve(definitions.size());
+    for (const QPlcSignalDefinition &definition : definitions)
+        table.add(definition);
+    return table;
+}
+
+QPlcSignalTable QPlcSignalTable::fromIniFile(const QString &fileName, QVector<QPlcParseError> *errors)
+{
+    if (fileName.isEmpty())
+        return failed(fileName, QStringLiteral("the name of the file is empty; give the path of a signal table"),
+                      errors);
+    QFile file(fileName);
+    if (!file.open(QIODevice::ReadOnly))
+        return failed(fileName,
+                      QStringLiteral("cannot open: %1; give the path of a signal table").arg(file.errorString()),
+                      errors);
+    const QByteArray text = file.read(largestFile + 1);
+    if (file.error() != QFileDevice::NoError)
+        return failed(fileName, QStringLiteral("cannot read: %1").arg(file.errorString()), errors);
+    if (text.size() > largestFile)
+        return failed(fileName,
+                      QStringLiteral("has more than %1 bytes; give a signal table, which has fewer").arg(largestFile),
+                      errors);
+    return fromIni(text, errors, fileName);
+}
+
+QByteArray QPlcSignalTable::toIni() const
+{
+    QByteArray text;
+    for (const QPlcSignalDefinition &signal : m_signals) {
+        if (!text.isEmpty())
+            text += '\n';
+        text += qplc::iniSection(signal).toUtf8();
+    }
+    return text;
+}
+
+bool QPlcSignalTable::append(const QPlcSignalDefinition &definition, QString *error)
+{
+    const QPlcSignalDefinition signal = completed(definition);
+    QString reason;
+    if (contains(signal.name))
+        reason = QStringLiteral("there is one already; rename or remove one");
+    else if (size() == MaximumSignals)
+        reason = QStringLiteral("is one too many; a table has at most %1").arg(MaximumSignals);
+    else
+        for (const qplc::Complaint &complaint : qplc::complaintsAbout(signal))
+            reason += (reason.isEmpty() ? QString() : QStringLiteral("; ")) + complaint.text;
+    if (error)
+        *error = reason.isEmpty() ? QString() : QStringLiteral("signal %1: %2").arg(quoted(signal.name), reason);
+    if (reason.isEmpty())
+        add(signal);
+    return reason.isEmpty();
+}
+
+void QPlcSignalTable::add(const QPlcSignalDefinition &definition)
+{
+    m_indices.insert(definition.name, QPlcSignalIndex(m_signals.size()));
+    m_signals.append(definition);
+}
+
+QStringList QPlcSignalTable::closeNames(const QString &name, int count) const
+{
+    QStringList names;
+    names.reserve(m_signals.size());
+    for (const QPlcSignalDefinition &signal : m_signals)
+        names.append(signal.name);
+    return qplc::closeNames(name, names, count);
+}
+
+QString QPlcSignalTable::unknownSignalText(const QString &name) const
+{
+    const QString text = QStringLiteral("unknown signal ") + quoted(name);
+    if (isEmpty())
+        return text + QStringLiteral("; the signal table is empty, read one first");
+    const QStringList close = closeNames(name);
+    return close.isEmpty() ? text + QStringLiteral("; the signal table has none like it, add it there")
+                           : text + qplc::didYouMean(close);
+}
+
+quint64 QPlcSignalTable::hash() const
+{
+    quint64 hash = qplc::fnv1a64Start;
+    for (const QPlcSignalDefinition &signal : m_signals) {
+        const QString text
+            = signal.name + QLatin1Char(':') + signal.type.name() + QLatin1Char(':') + signal.unit + QLatin1Char('\n');
+        hash = qplc::fnv1a64(text.toUtf8(), hash);
+    }
+    return hash;
+}

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "SignalRules.h"
+
+#include "IniParser.h"
+#include "MessageText.h"
+
+#include <cmath>
+
+namespace qplc {
+
+namespace {
+
+constexpr int longestName = 63;
+
+using Complaints = QVector<Complaint>;
+
+bool isLetter(QChar character)
+{
+    return (character >= QLatin1Char('a') && character <= QLatin1Char('z'))
+        || (character >= QLatin1Char('A') && character <= QLatin1Char('Z')) || character == QLatin1Char('_');
+}
+
+bool isNameCharacter(QChar character)
+{
+    return isLetter(character) || (character >= QLatin1Char('0') && character <= QLatin1Char('9'))
+        || character == QLatin1Char('.');
+}
+
+void checkName(const QString &name, Complaints *complaints)
+{
+    bool isName = !name.isEmpty() && isLetter(name.at(0));
+    for (const QChar character : name)
+        isName = isName && isNameCharacter(character);
+    if (name.isEmpty())
+        complaints->append({SignalKey::Name, QStringLiteral("the signal has no name; write it as [name]")});
+    else if (!isName)
+        complaints->append({SignalKey::Name,
+                            QStringLiteral("%1 is no signal name; take a letter or '_', then letters a-z A-Z, digits, "
+                                           "'_' or '.'")
+                                .arg(quoted(name))});
+    else if (name.size() > longestName)
+        complaints->append({SignalKey::Name,
+                            QStringLiteral("the signal name %1 has %2 characters; shorten it to at most %3")
+                                .arg(quoted(name))
+                                .arg(name.size())
+                                .arg(longestName)});
+}
+
+enum class LineBreaks : quint8
+{
+    Allowed,
+    Refused
+};
+
+void checkText(SignalKey key, const QString &text, LineBreaks lineBreaks, Complaints *complaints)
+{
+    const auto isRefused = [lineBreaks](QChar character) {
+        const ushort code = character.unicode();
+        const bool isSpace = code == '\n' || code == '\r' || code == '\t';
+        return isSpace ? lineBreaks == LineBreaks::Refused : code < 0x20 || code == 0x7F;
+    };
+    for (const QChar character : text) {
+        if (isRefused(character)) {
+            complaints->append({key,
+                                QStringLiteral("control character 0x%1 in %2; remove it")
+                                    .arg(int(character.unicode()), 2, 16, QLatin1Char('0'))
+                                    .arg(quoted(text))});
+            return;
+        }
+    }
+    if (!text.isValidUtf16())
+        complaints->append({key, QStringLiteral("%1 has half a surrogate pair; remove it").arg(quoted(text))});
+}
+
+// a < b for one element of each, which have the same type; false when one is NaN
+bool isLess(const QPlcValue &a, int elementOfA, const QPlcValue &b, int elementOfB)
+{
+    if (a.type().isReal())
+        return a.toReal(elementOfA) < b.toReal(elementOfB);
+    if (a.type().scalar() == QPlcSignalType::UInt64)
+        return a.toUInt64(elementOfA) < b.toUInt64(elementOfB);
+    return a.toInt64(elementOfA) < b.toInt64(elementOfB);
+}
+
+void checkLimit(const QPlcSignalDefinition &signal, SignalKey key, const QPlcValue &limit, Complaints *complaints)
+{
+    if (!limit.isValid())
+        return;
+    if (!signal.type.isNumeric())
+        complaints->append({key,
+                            QStringLiteral("%1 has no order to be limited by %2; remove the limit")
+                                .arg(signal.type.name(), quoted(limit.toString()))});
+    else if (limit.type() != elementType(signal.type))
+        complaints->append({key,
+                            QStringLiteral("the limit %1 is %2; give one %3")
+                                .arg(limit.toString(), limit.type().name(), elementType(signal.type).name())});
+    else if (std::isnan(limit.toReal()))
+        complaints->append({key, QStringLiteral("nan limits nothing; give a number, or remove the limit")});
+}
+
+QString rangeText(const QPlcSignalDefinition &signal)
+{
+    if (!signal.maximum.isValid())
+        return QStringLiteral("at least ") + signal.minimum.toString();
+    if (!signal.minimum.isValid())
+        return QStringLiteral("at most ") + signal.maximum.toString();
+    return signal.minimum.toString() + QStringLiteral(" ... ") + signal.maximum.toString();
+}
+
+// \pre the limits are in order
+void checkRange(const QPlcSignalDefinition &signal, SignalKey key, const QPlcValue &value, Complaints *complaints)
+{
+    const bool isLimited = signal.minimum.isValid() || signal.maximum.isValid();
+    for (int i = 0; isLimited && i < value.type().count(); ++i) {
+        const bool isBelow = signal.minimum.isValid() && isLess(value, i, signal.minimum, 0);
+        const bool isAbove = signal.maximum.isValid() && isLess(signal.maximum, 0, value, i);
+        const bool isNumber = !value.type().isReal() || !std::isnan(value.toReal(i));
+        if (isBelow || isAbove || !isNumber) {
+            complaints->append({key,
+                                QStringLiteral("the %1 value %2 is outside of min and max; give '%1 =' a value of %3")
+                                    .arg(signalKeyNames().at(int(key)), quoted(value.toString()), rangeText(signal))});
+            return;
+        }
+    }
+}
+
+void checkValues(const QPlcSignalDefinition &signal, Complaints *complaints)
+{
+    const int before = complaints->size();
+    checkLimit(signal, SignalKey::Minimum, signal.minimum, complaints);
+    checkLimit(signal, SignalKey::Maximum, signal.maximum, complaints);
+    if (complaints->size() > before)
+        return;
+    if (signal.minimum.isValid() && signal.maximum.isValid() && isLess(signal.maximum, 0, signal.minimum, 0)) {
+        complaints->append({SignalKey::Maximum,
+                            QStringLiteral("min %1 is greater than max %2; swap them")
+                                .arg(signal.minimum.toString(), signal.maximum.toString())});
+        return;
+    }
+    if (signal.type.isString()) {
+        checkText(SignalKey::Initial, signal.initial.toString(), LineBreaks::Allowed, complaints);
+        checkText(SignalKey::Safe, signal.safe.toString(), LineBreaks::Allowed, complaints);
+    }
+    checkRange(signal, SignalKey::Initial, signal.initial, complaints);
+    if (!signal.safe.isFinite())
+        complaints->append(
+            {SignalKey::Safe,
+             QStringLiteral("the safe value %1 is not finite; give a number").arg(quoted(signal.safe.toString()))});
+    else
+        checkRange(signal, SignalKey::Safe, signal.safe, complaints);
+}
+
+void checkType(SignalKey key, const QPlcValue &value, QPlcSignalType type, Complaints *complaints)
+{
+    if (value.isValid() && value.type() != type)
+        complaints->append({key,
+                            QStringLiteral("%1 is a %2; give a value of the type %3")
+                                .arg(quoted(value.toString()), value.type().name(), type.name())});
+}
+
+QString iniLine(SignalKey key, const QString &value)
+{
+    return signalKeyNames().at(int(key)) + QStringLiteral(" = ") + value;
+}
+
+// Long lists do without blanks.
+QString listText(const QPlcValue &value)
+{
+    QString text = value.toString();
+    if (value.type().isString())
+        return IniParser::valueText(text);
+    if (text.size() > IniParser::MaximumLine / 2)
+        text.remove(QLatin1Char(' '));
+    return text;
+}
+
+void checkLine(SignalKey key, const QString &value, Complaints *complaints)
+{
+    const int size = iniLine(key, value).toUtf8().size();
+    if (size > IniParser::MaximumLine)
+        complaints->append({key,
+                            QStringLiteral("its line in the table has %1 bytes; shorten it to at most %2")
+                                .arg(size)
+                                .arg(IniParser::MaximumLine)});
+}
+
+// Only a value that may be too long is made into a line.
+void checkLines(const QPlcSignalDefinition &signal, Complaints *complaints)
+{
+    constexpr int longText = IniParser::MaximumLine / 8;
+    constexpr int longValue = 128; // [byte]
+    if (signal.unit.size() > longText)
+        checkLine(SignalKey::Unit, IniParser::valueText(signal.unit), complaints);
+    if (signal.description.size() > longText)
+        checkLine(SignalKey::Description, IniParser::valueText(signal.description), complaints);
+    if (signal.type.size() > longValue) {
+        checkLine(SignalKey::Initial, listText(signal.initial), complaints);
+        checkLine(SignalKey::Safe, listText(signal.safe), complaints);
+    }
+}
+
+} // namespace
+
+const QStringList &signalKeyNames()
+{
+    static const QStringList names
+        = {QStringLiteral("type"), QStringLiteral("unit"),    QStringLiteral("description"), QStringLiteral("min"),
+           QStringLiteral("max"),  QStringLiteral("initial"), QStringLiteral("safe"),        QStringLiteral("hold")};
+    return names;
+}
+
+QVector<Complaint> complaintsAbout(const QPlcSignalDefinition &signal)
+{
+    Complaints complaints;
+    checkName(signal.name, &complaints);
+    checkText(SignalKey::Unit, signal.unit, LineBreaks::Refused, &complaints);
+    checkText(SignalKey::Description, signal.description, LineBreaks::Allowed, &complaints);
+    if (signal.hold < 0)
+        complaints.append({SignalKey::Hold,
+                           QStringLiteral("a value cannot be held for %1 cycles; give at least 0").arg(signal.hold)});
+    const int before = complaints.size();
+    if (!signal.type.isValid())
+        complaints.append({SignalKey::Type, QStringLiteral("the type is not valid; take one of the table's types")});
+    checkType(SignalKey::Initial, signal.initial, signal.type, &complaints);
+    checkType(SignalKey::Safe, signal.safe, signal.type, &complaints);
+    if (complaints.size() == before)
+        checkValues(signal, &complaints);
+    checkLines(signal, &complaints);
+    return complaints;
+}
+
+QString iniSection(const QPlcSignalDefinition &signal)
+{
+    QStringList lines = {QLatin1Char('[') + signal.name + QLatin1Char(']'), iniLine(SignalKey::Type, signal.typeName)};
+    if (!signal.unit.isEmpty())
+        lines.append(iniLine(SignalKey::Unit, IniParser::valueText(signal.unit)));
+    if (!signal.description.isEmpty())
+        lines.append(iniLine(SignalKey::Description, IniParser::valueText(signal.description)));
+    if (signal.minimum.isValid())
+        lines.append(iniLine(SignalKey::Minimum, signal.minimum.toString()));
+    if (signal.maximum.isValid())
+        lines.append(iniLine(SignalKey::Maximum, signal.maximum.toString()));
+    if (signal.initial != QPlcValue(signal.type))
+        lines.append(iniLine(SignalKey::Initial, listText(signal.initial)));
+    if (signal.safe.isValid())
+        lines.append(iniLine(SignalKey::Safe, listText(signal.safe)));
+    if (signal.hold != 0)
+        lines.append(iniLine(SignalKey::Hold, QString::number(signal.hold)));
+    return lines.join(QLatin1Char('\n')) + QLatin1Char('\n');
+}
+
+} // namespace qplc

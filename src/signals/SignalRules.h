@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "QPlcSignalDefinition.h"
+
+#include <QtCore/QStringList>
+
+namespace qplc {
+
+/// The keys of a signal in its table. Name: the section itself.
+enum class SignalKey : quint8
+{
+    Type,
+    Unit,
+    Description,
+    Minimum,
+    Maximum,
+    Initial,
+    Safe,
+    Hold,
+    Name
+};
+constexpr int signalKeyCount = int(SignalKey::Name);
+
+/// "type", "unit", ... in the order of SignalKey
+const QStringList &signalKeyNames();
+
+/// The type of one element of \a type; a text is its own element.
+inline QPlcSignalType elementType(QPlcSignalType type)
+{
+    return type.isString() ? type : QPlcSignalType(type.scalar());
+}
+
+struct Complaint
+{
+    SignalKey key;
+    QString text; // what is wrong, and the remedy
+};
+
+/// What makes \a signal no signal of a table; empty: nothing.
+QVector<Complaint> complaintsAbout(const QPlcSignalDefinition &signal);
+
+/// Lines of the section of \a signal in an INI text. \pre there are no complaints about it
+QString iniSection(const QPlcSignalDefinition &signal);
+
+} // namespace qplc

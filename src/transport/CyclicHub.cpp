@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "CyclicHub.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+namespace qplc {
+
+// ---- one peer ----
+
+std::unique_ptr<HubPeer> HubPeer::udp(const SocketAddress &address)
+{
+    std::unique_ptr<HubPeer> peer(new HubPeer);
+    peer->m_address = address;
+    return peer;
+}
+
+std::unique_ptr<HubPeer> HubPeer::tcp(int descriptor, const FrameCutter &cutter, std::size_t largestFrame)
+{
+    std::unique_ptr<HubPeer> peer(new HubPeer);
+    const int on = 1;
+    ::setsockopt(descriptor, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+    peer->m_descriptor = descriptor;
+    peer->m_cutter = cutter;
+    peer->m_received = std::make_unique<FrameBuffer>(4 * largestFrame);
+    peer->m_restCapacity = largestFrame;
+    peer->m_rest.reset(new char[largestFrame]);
+    return peer;
+}
+
+HubPeer::~HubPeer()
+{
+    if (m_descriptor >= 0)
+        ::close(m_descriptor);
+}
+
+bool HubPeer::sendRest() noexcept
+{
+    while (m_restBegin < m_restEnd) {
+        const ssize_t count = ::send(m_descriptor, m_rest.get() + m_restBegin, m_restEnd - m_restBegin, MSG_DONTWAIT | MSG_NOSIGNAL);
+        if (count < 0)
+            return false;
+        m_restBegin += std::size_t(count);
+    }
+    m_restBegin = m_restEnd = 0;
+    return true;
+}
+
+void HubPeer::sendStream(const char *frame, std::size_t size) noexcept
+{
+    // A frame that has begun must be finished, or the stream is lost; a frame that has not begun may be left out.
+    if (m_closed || !sendRest() || size > m_restCapacity) {
+        ++m_sendFailures;
+        return;
+    }
+    const ssize_t count = ::send(m_descriptor, frame, size, MSG_DONTWAIT | MSG_NOSIGNAL);
+    if (count < 0) {
+        ++m_sendFailures;
+        return;
+    }
+    m_restEnd = size - std::size_t(count);
+    std::memcpy(m_rest.get(), frame + count, m_restEnd);
+}
+
+// ---- all peers ----
+
+struct CyclicHub::Messages
+{
+    std::array<mmsghdr, MaximumPeers> outgoing{};
+    std::array<iovec, MaximumPeers> outgoingBytes{};
+    std::array<HubPeer *, MaximumPeers> outgoingPeer{};
+    std::array<mmsghdr, Batch> incoming{};
+    std::array<iovec, Batch> incomingBytes{};
+    std::array<SocketAddress, Batch> senders{};
+    std::array<std::array<char, LargestDatagram>, Batch> datagrams{};
+};
+
+CyclicHub::CyclicHub()
+    : m_messages(std::make_unique<Messages>())
+{
+    m_peers.reserve(MaximumPeers);
+    m_polled.reserve(MaximumPeers + 1);
+    m_streams.reserve(MaximumPeers);
+    for (std::size_t i = 0; i < Batch; ++i) {
+        m_messages->incomingBytes[i] = {m_messages->datagrams[i].data(), LargestDatagram};
+        msghdr &header = m_messages->incoming[i].msg_hdr;
+        header.msg_iov = &m_messages->incomingBytes[i];
+        header.msg_iovlen = 1;
+        header.msg_name = m_messages->senders[i].data();
+    }
+    rebuild();
+}
+
+CyclicHub::~CyclicHub()
+{
+    close();
+}
+
+bool CyclicHub::open(const SocketAddress &address, QString *error)
+{
+    close();
+    m_udp = ::socket(address.family(), SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+    if (m_udp < 0 || ::bind(m_udp, address.data(), address.length) < 0) {
+        *error = QStringLiteral("cannot use UDP port %1: %2").arg(address.toString(), systemErrorText());
+        close();
+        return false;
+    }
+    rebuild();
+    return true;
+}
+
+void CyclicHub::close()
+{
+    if (m_udp >= 0)
+        ::close(m_udp);
+    m_udp = -1;
+    m_outgoing = m_arrived = m_taken = 0;
+    rebuild();
+}
+
+void CyclicHub::attach(HubPeer *peer) noexcept
+{
+    if (m_peers.size() < MaximumPeers) {
+        m_peers.push_back(peer);
+        rebuild();
+    }
+}
+
+void CyclicHub::detach(HubPeer *peer) noexcept
+{
+    flush();
+    m_peers.erase(std::remove(m_peers.begin(), m_peers.end(), peer), m_peers.end());
+    rebuild();
+}
+
+void CyclicHub::rebuild() noexcept
+{
+    m_table.fill(nullptr);
+    m_streams.clear();
+    m_polled.clear();
+    m_polled.push_back({m_udp, POLLIN, 0});
+    for (HubPeer *peer : m_peers) {
+        if (!peer->isUdp()) {
+            m_streams.push_back(peer);
+            m_polled.push_back({peer->m_closed ? -1 : peer->m_descriptor, POLLIN, 0});
+            continue;
+        }
+        std::size_t place = std::size_t(peer->m_address.key() * 0x9E3779B97F4A7C15u >> 32) % TableSize;
+        while (m_table[place])
+            place = (place + 1) % TableSize;
+        m_table[place] = peer;
+    }
+    m_stream = m_streams.size();
+}
+
+HubPeer *CyclicHub::find(const SocketAddress &address) noexcept
+{
+    const quint64 key = address.key();
+    std::size_t place = std::size_t(key * 0x9E3779B97F4A7C15u >> 32) % TableSize;
+    while (m_table[place] && m_table[place]->m_address.key() != key)
+        place = (place + 1) % TableSize;
+    return m_table[place];
+}
+
+void CyclicHub::send(HubPeer *peer, const char *frame, std::size_t size) noexcept
+{
+    if (!peer->isUdp()) {
+        peer->sendStream(frame, size);
+        return;
+    }
+    if (m_outgoing == MaximumPeers)
+        flush();
+    m_messages->outgoingBytes[m_outgoing] = {const_cast<char *>(frame), size};
+    m_messages->outgoingPeer[m_outgoing] = peer;
+    msghdr &header = m_messages->outgoing[m_outgoing].msg_hdr;
+    header = {};
+    header.msg_name = peer->m_address.data();
+    header.msg_namelen = peer->m_address.length;
+    header.msg_iov = &m_messages->outgoingBytes[m_outgoing];
+    header.msg_iovlen = 1;
+    ++m_outgoing;
+}
+
+void CyclicHub::flush() noexcept
+{
+    std::size_t done = 0;
+    while (done < m_outgoing) {
+        const int sent = ::sendmmsg(m_udp, m_messages->outgoing.data() + done, unsigned(m_outgoing - done), MSG_DONTWAIT | MSG_NOSIGNAL);
+        if (sent > 0) {
+            done += std::size_t(sent);
+            continue;
+        }
+        if (errno == EINTR)
+            continue;
+        ++m_messages->outgoingPeer[done]->m_sendFailures;  // the first one was refused: the others may still go
+        ++done;
+    }
+    m_outgoing = 0;
+}
+
+bool CyclicHub::wait(std::int64_t timeout) noexcept
+{
+    timespec limit{};
+    limit.tv_sec = time_t(timeout / 1'000'000'000);
+    limit.tv_nsec = long(timeout % 1'000'000'000);
+    const int ready = ::ppoll(m_polled.data(), m_polled.size(), &limit, nullptr);
+    m_moreDatagrams = ready > 0 && m_polled[0].revents != 0;
+    m_arrived = m_taken = 0;
+    m_stream = ready > 0 ? 0 : m_streams.size();
+    return ready > 0;
+}
+
+bool CyclicHub::next(Incoming *incoming) noexcept
+{
+    return nextDatagram(incoming) || nextFromStream(incoming);
+}
+
+bool CyclicHub::nextDatagram(Incoming *incoming) noexcept
+{
+    for (;;) {
+        if (m_taken == m_arrived) {
+            if (!m_moreDatagrams)
+                return false;
+            for (std::size_t i = 0; i < Batch; ++i)
+                m_messages->incoming[i].msg_hdr.msg_namelen = sizeof(sockaddr_storage);
+            const int count = ::recvmmsg(m_udp, m_messages->incoming.data(), Batch, MSG_DONTWAIT, nullptr);
+            m_taken = 0;
+            m_arrived = count > 0 ? std::size_t(count) : 0;
+            m_moreDatagrams = m_arrived == Batch;
+            if (m_arrived == 0)
+                return false;
+        }
+        const std::size_t i = m_taken++;
+        incoming->peer = find(m_messages->senders[i]);
+        incoming->frame = m_messages->datagrams[i].data();
+        incoming->size = m_messages->incoming[i].msg_len;
+        if (incoming->peer)
+            return true;
+        ++m_strangers;
+    }
+}
+
+bool CyclicHub::nextFromStream(Incoming *incoming) noexcept
+{
+    for (; m_stream < m_streams.size(); ++m_stream) {
+        pollfd &polled = m_polled[m_stream + 1];
+        HubPeer *peer = m_streams[m_stream];
+        for (;;) {
+            const FrameBuffer::Result result = peer->m_received->next(peer->m_cutter, &incoming->frame, &incoming->size);
+            if (result == FrameBuffer::Frame) {
+                incoming->peer = peer;
+                return true;
+            }
+            peer->m_closed = peer->m_closed || result == FrameBuffer::Garbage;
+            if (polled.revents == 0 || peer->m_closed)
+                break;
+            polled.revents = 0;  // one recv() for each event; what remains wakes the next wait()
+            peer->m_received->compact();
+            const ssize_t count = ::recv(peer->m_descriptor, peer->m_received->space(), peer->m_received->spaceSize(), MSG_DONTWAIT);
+            if (count > 0)
+                peer->m_received->filled(std::size_t(count));
+            else if (count == 0 || (errno != EAGAIN && errno != EINTR))
+                peer->m_closed = true;
+        }
+        if (peer->m_closed)
+            polled.fd = -1;  // poll() ignores it from now on
+    }
+    return false;
+}
+
+}  // namespace qplc

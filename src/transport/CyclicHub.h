@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "FrameCutter.h"
+#include "SocketAddress.h"
+
+#include <QtCore/QString>
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+struct pollfd;
+
+namespace qplc {
+
+/// One node at the master's end of the cyclic channels. Made by the thread that owns the master, used by the cycle thread between attach() and detach().
+class HubPeer
+{
+public:
+    /// A node that is reached at \a address over the UDP socket of the hub.
+    static std::unique_ptr<HubPeer> udp(const SocketAddress &address);
+    /// Takes over the connected TCP socket \a descriptor.
+    static std::unique_ptr<HubPeer> tcp(int descriptor, const FrameCutter &cutter, std::size_t largestFrame);
+    ~HubPeer();
+    HubPeer(const HubPeer &) = delete;
+    HubPeer &operator=(const HubPeer &) = delete;
+
+    bool isUdp() const { return m_descriptor < 0; }
+    /// The TCP connection is gone; nothing more will come.
+    bool isClosed() const { return m_closed; }
+    /// Frames that the kernel did not take.
+    std::uint64_t sendFailures() const { return m_sendFailures; }
+    /// Whatever the owner wants to find again when a frame of this peer arrives.
+    void *owner = nullptr;
+
+private:
+    friend class CyclicHub;
+    HubPeer() = default;
+    void sendStream(const char *frame, std::size_t size) noexcept;
+    bool sendRest() noexcept;
+
+    SocketAddress m_address;
+    int m_descriptor = -1;
+    FrameCutter m_cutter;
+    std::unique_ptr<FrameBuffer> m_received;
+    std::unique_ptr<char[]> m_rest;  // of a frame that the kernel took only in part
+    std::size_t m_restCapacity = 0;
+    std::size_t m_restBegin = 0;
+    std::size_t m_restEnd = 0;
+    std::uint64_t m_sendFailures = 0;
+    bool m_closed = false;
+};
+
+/// The master's end of the cyclic channels of all nodes: sends many frames and takes many answers with few system calls.
+///
+/// open() by the owner; everything else by the cycle thread (or by nobody while it runs). Allocation-free after construction.
+class CyclicHub
+{
+public:
+    static constexpr std::size_t MaximumPeers = 1024;
+
+    struct Incoming
+    {
+        HubPeer *peer = nullptr;   // null: a stranger's datagram
+        const char *frame = nullptr;
+        std::size_t size = 0;
+    };
+
+    CyclicHub();
+    ~CyclicHub();
+    CyclicHub(const CyclicHub &) = delete;
+    CyclicHub &operator=(const CyclicHub &) = delete;
+
+    /// Binds the UDP socket. \return false, with the reason in \a error
+    bool open(const SocketAddress &address, QString *error);
+    void close();
+
+    void attach(HubPeer *peer) noexcept;
+    void detach(HubPeer *peer) noexcept;
+
+    /// Sends \a frame, or keeps the pointer until flush() for one common system call: the bytes have to stay.
+    void send(HubPeer *peer, const char *frame, std::size_t size) noexcept;
+    void flush() noexcept;
+
+    /// Waits until frames are there, at most \a timeout [ns] (0: just looks).
+    /// \return whether frames can be taken by next()
+    bool wait(std::int64_t timeout) noexcept;
+    /// The next frame of those that are there; it stays valid until the next call. \return false when there is none any more
+    bool next(Incoming *incoming) noexcept;
+
+    /// Datagrams whose sender is no peer.
+    std::uint64_t strangers() const { return m_strangers; }
+
+private:
+    static constexpr std::size_t Batch = 32;
+    static constexpr std::size_t LargestDatagram = 2048;
+    static constexpr std::size_t TableSize = 4 * MaximumPeers;
+    struct Messages;
+
+    HubPeer *find(const SocketAddress &address) noexcept;
+    void rebuild() noexcept;
+    bool nextDatagram(Incoming *incoming) noexcept;
+    bool nextFromStream(Incoming *incoming) noexcept;
+
+    int m_udp = -1;
+    std::vector<HubPeer *> m_peers;
+    std::vector<pollfd> m_polled;          // 0: UDP, then the TCP peers in order
+    std::vector<HubPeer *> m_streams;      // peer of m_polled[i + 1]
+    std::array<HubPeer *, TableSize> m_table{};
+    std::unique_ptr<Messages> m_messages;
+    std::size_t m_outgoing = 0;            // datagrams waiting for flush()
+    std::size_t m_arrived = 0;             // datagrams of the last recvmmsg
+    std::size_t m_taken = 0;               // of them handed out
+    bool m_moreDatagrams = false;
+    std::size_t m_stream = 0;              // next stream to look at
+    std::uint64_t m_strangers = 0;
+};
+
+}  // namespace qplc

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "CyclicLink.h"
+
+#include <cerrno>
+#include <fcntl.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <sys/socket.h>
+#include <sys/time.h>
+#include <unistd.h>
+
+namespace qplc {
+
+namespace {
+
+constexpr std::size_t LargestDatagram = 65536;
+
+bool isTransient(int error)
+{
+    return error == EAGAIN || error == EWOULDBLOCK || error == EINTR;
+}
+
+class UdpLink final : public CyclicLink
+{
+public:
+    explicit UdpLink(int descriptor)
+        : CyclicLink(descriptor)
+        , m_buffer(new char[LargestDatagram])
+    {
+    }
+    Status receive(const char **frame, std::size_t *size) noexcept override { return take(frame, size, 0); }
+    Status poll(const char **frame, std::size_t *size) noexcept override { return take(frame, size, MSG_DONTWAIT); }
+    bool send(const char *frame, std::size_t size) noexcept override
+    {
+        return ::send(m_descriptor, frame, size, MSG_DONTWAIT | MSG_NOSIGNAL) == ssize_t(size);
+    }
+
+private:
+    Status take(const char **frame, std::size_t *size, int flags) noexcept
+    {
+        const ssize_t count = ::recv(m_descriptor, m_buffer.get(), LargestDatagram, flags);
+        if (count < 0) {
+            // A master that is gone answers with "port unreachable": no reason to give the socket up.
+            return isTransient(errno) || errno == ECONNREFUSED ? TimedOut : Closed;
+        }
+        *frame = m_buffer.get();
+        *size = std::size_t(count);
+        return Received;
+    }
+    std::unique_ptr<char[]> m_buffer;
+};
+
+class TcpLink final : public CyclicLink
+{
+public:
+    TcpLink(int descriptor, const FrameCutter &cutter, std::size_t largestFrame)
+        : CyclicLink(descriptor)
+        , m_cutter(cutter)
+        , m_buffer(4 * largestFrame)
+    {
+    }
+    Status receive(const char **frame, std::size_t *size) noexcept override { return take(frame, size, 0); }
+    Status poll(const char **frame, std::size_t *size) noexcept override { return take(frame, size, MSG_DONTWAIT); }
+    bool send(const char *frame, std::size_t size) noexcept override
+    {
+        while (size > 0) {
+            const ssize_t count = ::send(m_descriptor, frame, size, MSG_NOSIGNAL);
+            if (count < 0 && errno == EINTR)
+                continue;
+            if (count < 0)
+                return false;
+            frame += count;
+            size -= std::size_t(count);
+        }
+        return true;
+    }
+
+private:
+    Status take(const char **frame, std::size_t *size, int flags) noexcept
+    {
+        for (;;) {
+            switch (m_buffer.next(m_cutter, frame, size)) {
+            case FrameBuffer::Frame: return Received;
+            case FrameBuffer::Garbage: return Closed;
+            case FrameBuffer::NeedMore: break;
+            }
+            m_buffer.compact();
+            const ssize_t count = ::recv(m_descriptor, m_buffer.space(), m_buffer.spaceSize(), flags);
+            if (count < 0)
+                return isTransient(errno) ? TimedOut : Closed;
+            if (count == 0)
+                return Closed;
+            m_buffer.filled(std::size_t(count));
+        }
+    }
+    FrameCutter m_cutter;
+    FrameBuffer m_buffer;
+};
+
+}  // namespace
+
+CyclicLink::~CyclicLink()
+{
+    ::close(m_descriptor);
+}
+
+void CyclicLink::setTimeout(std::int64_t timeout)
+{
+    timeval time{};
+    time.tv_sec = time_t(timeout / 1'000'000'000);
+    time.tv_usec = suseconds_t(timeout % 1'000'000'000 / 1000);
+    if (time.tv_sec == 0 && time.tv_usec == 0)
+        time.tv_usec = 1;  // zero would mean "for ever"
+    ::setsockopt(m_descriptor, SOL_SOCKET, SO_RCVTIMEO, &time, sizeof time);
+    ::setsockopt(m_descriptor, SOL_SOCKET, SO_SNDTIMEO, &time, sizeof time);
+}
+
+std::unique_ptr<CyclicLink> CyclicLink::udp(const SocketAddress &master, quint16 *localPort, QString *error)
+{
+    const int descriptor = ::socket(master.family(), SOCK_DGRAM | SOCK_CLOEXEC, 0);
+    if (descriptor < 0) {
+        *error = QStringLiteral("no UDP socket: %1").arg(systemErrorText());
+        return nullptr;
+    }
+    auto link = std::make_unique<UdpLink>(descriptor);
+    SocketAddress local;
+    local.length = sizeof local.storage;
+    if (::connect(descriptor, master.data(), master.length) < 0 || ::getsockname(descriptor, local.data(), &local.length) < 0) {
+        *error = QStringLiteral("no UDP socket towards %1: %2").arg(master.toString(), systemErrorText());
+        return nullptr;
+    }
+    *localPort = local.port();
+    return link;
+}
+
+std::unique_ptr<CyclicLink> CyclicLink::tcp(int descriptor, const FrameCutter &cutter, std::size_t largestFrame)
+{
+    // Qt made it non-blocking; the cycle thread wants to wait in recv().
+    ::fcntl(descriptor, F_SETFL, ::fcntl(descriptor, F_GETFL) & ~O_NONBLOCK);
+    const int on = 1;
+    ::setsockopt(descriptor, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+    return std::make_unique<TcpLink>(descriptor, cutter, largestFrame);
+}
+
+}  // namespace qplc

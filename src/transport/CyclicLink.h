@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "FrameCutter.h"
+#include "SocketAddress.h"
+
+#include <QtCore/QString>
+
+#include <cstdint>
+#include <memory>
+
+namespace qplc {
+
+/// A node's end of its cyclic channel: whole frames to and from the master.
+///
+/// Made by the thread that owns the node, then used by its cycle thread alone. Allocation-free once made.
+class CyclicLink
+{
+public:
+    enum Status {
+        Received,   ///< a frame is there
+        TimedOut,   ///< none within the time set by setTimeout(), or the wait was interrupted
+        Closed      ///< the link is gone for good
+    };
+
+    virtual ~CyclicLink();
+    CyclicLink(const CyclicLink &) = delete;
+    CyclicLink &operator=(const CyclicLink &) = delete;
+
+    /// Longest wait of receive() [ns], > 0.
+    void setTimeout(std::int64_t timeout);
+    /// Waits for the next frame; \a frame stays valid until the next call.
+    virtual Status receive(const char **frame, std::size_t *size) noexcept = 0;
+    /// As receive(), without waiting.
+    virtual Status poll(const char **frame, std::size_t *size) noexcept = 0;
+    /// \return false when the frame could not be handed to the kernel (it is lost, as on any network)
+    virtual bool send(const char *frame, std::size_t size) noexcept = 0;
+
+    /// A UDP socket that exchanges datagrams with \a master only. Null, with the reason in \a error, when there is none to be had.
+    static std::unique_ptr<CyclicLink> udp(const SocketAddress &master, quint16 *localPort, QString *error);
+    /// Takes over the connected TCP socket \a descriptor.
+    static std::unique_ptr<CyclicLink> tcp(int descriptor, const FrameCutter &cutter, std::size_t largestFrame);
+
+protected:
+    explicit CyclicLink(int descriptor)
+        : m_descriptor(descriptor)
+    {
+    }
+    int m_descriptor;
+};
+
+}  // namespace qplc

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "SocketAddress.h"
+
+#include <QtCore/QHashFunctions>
+#include <QtCore/qendian.h>
+#include <cerrno>
+#include <cstring>
+#include <netinet/in.h>
+
+namespace qplc {
+
+namespace {
+
+constexpr quint64 keyOfIpv4(quint32 address, quint16 port)
+{
+    return (quint64(address) << 16) | port;
+}
+
+}  // namespace
+
+SocketAddress::SocketAddress(const QHostAddress &address, quint16 port)
+{
+    bool isIpv4 = false;
+    const quint32 ipv4 = address.toIPv4Address(&isIpv4);
+    if (isIpv4 || address == QHostAddress(QHostAddress::Any)) {
+        auto *target = reinterpret_cast<sockaddr_in *>(&storage);
+        target->sin_family = AF_INET;
+        target->sin_port = qToBigEndian(port);
+        target->sin_addr.s_addr = qToBigEndian(isIpv4 ? ipv4 : quint32(INADDR_ANY));
+        length = sizeof(sockaddr_in);
+        return;
+    }
+    auto *target = reinterpret_cast<sockaddr_in6 *>(&storage);
+    const Q_IPV6ADDR ipv6 = address.toIPv6Address();
+    target->sin6_family = AF_INET6;
+    target->sin6_port = qToBigEndian(port);
+    std::memcpy(&target->sin6_addr, &ipv6, sizeof ipv6);
+    target->sin6_scope_id = address.scopeId().toUInt();
+    length = sizeof(sockaddr_in6);
+}
+
+quint16 SocketAddress::port() const
+{
+    const auto *ipv4 = reinterpret_cast<const sockaddr_in *>(&storage);
+    return qFromBigEndian(ipv4->sin_port);  // at the same place in sockaddr_in6
+}
+
+quint64 SocketAddress::key() const
+{
+    if (family() == AF_INET)
+        return keyOfIpv4(reinterpret_cast<const sockaddr_in *>(&storage)->sin_addr.s_addr, port());
+    const in6_addr &address = reinterpret_cast<const sockaddr_in6 *>(&storage)->sin6_addr;
+    if (IN6_IS_ADDR_V4MAPPED(&address)) {
+        quint32 ipv4 = 0;
+        std::memcpy(&ipv4, &address.s6_addr[12], 4);
+        return keyOfIpv4(ipv4, port());
+    }
+    return qHashBits(&address, sizeof address) ^ (quint64(port()) << 48) ^ (quint64(1) << 47);
+}
+
+QString SocketAddress::toString() const
+{
+    return QStringLiteral("%1:%2").arg(QHostAddress(data()).toString()).arg(port());
+}
+
+QString systemErrorText()
+{
+    return QString::fromLocal8Bit(std::strerror(errno));
+}
+
+}  // namespace qplc

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QtPlcCore>
+
+#include <QtTest/QTest>
+
+#include <functional>
+
+/// The table of most node tests.
+inline QPlcSignalTable testTable()
+{
+    QVector<QPlcParseError> errors;
+    const QPlcSignalTable table = QPlcSignalTable::fromIni(R"(
+[time]
+type = DateTime
+[jitter]
+type = Real
+[masterWorkload]
+type = Real64
+[workload]
+type = Real
+[setpoint]
+type = Real64
+min = -10
+max = 10
+unit = m/s
+[count]
+type = Int32
+initial = 7
+[echo]
+type = Real64
+[sum]
+type = Real64
+unit = m
+[vector]
+type = Real64Triple
+[free]
+type = Real32
+)", &errors);
+    Q_ASSERT_X(errors.isEmpty(), "testTable", qPrintable(QPlcParseError::toString(errors)));
+    return table;
+}
+
+/// Counts its cycles into "count" and adds the echo up in "sum".
+class CounterNode : public QPlcCompactSlaveNode
+{
+    Q_OBJECT
+public:
+    explicit CounterNode(const QString &name = QStringLiteral("Counter"), RealTimeViolationPolicy policy = ErrorZeroOrderHold)
+        : QPlcCompactSlaveNode(name, policy)
+    {
+    }
+    std::function<void(const QPlcCycle &)> onStep;
+    int resets = 0;
+    int initializations = 0;
+    int stops = 0;
+    double initialEcho = -1.0;
+    quint64 lastCycle = 0;
+
+protected:
+    void reset() override
+    {
+        ++resets;
+        m_count = 0;
+        m_sum = 0.0;
+    }
+    void initialized() override
+    {
+        ++initializations;
+        initialEcho = m_echo;
+    }
+    void step(const QPlcCycle &cycle) override
+    {
+        lastCycle = cycle.number();
+        m_count = m_count + 1;
+        m_sum = m_sum + m_echo;
+        if (onStep)
+            onStep(cycle);
+    }
+    void stopped() override { ++stops; }
+
+private:
+    QPlcInput<double> m_echo{this, "echo"};
+    QPlcOutput<int> m_count{this, "count"};
+    QPlcOutput<double> m_sum{this, "sum"};
+};
+
+/// Gives "count" back as "echo".
+class EchoNode : public QPlcCompactSlaveNode
+{
+    Q_OBJECT
+public:
+    explicit EchoNode(const QString &name = QStringLiteral("Echo"), RealTimeViolationPolicy policy = ErrorZeroOrderHold)
+        : QPlcCompactSlaveNode(name, policy)
+    {
+    }
+    std::function<void(const QPlcCycle &)> onStep;
+
+protected:
+    void reset() override { m_echo = 0.5; }
+    void step(const QPlcCycle &cycle) override
+    {
+        m_echo = double(m_count);
+        if (onStep)
+            onStep(cycle);
+    }
+
+private:
+    QPlcInput<int> m_count{this, "count"};
+    QPlcOutput<double> m_echo{this, "echo"};
+};

@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "protocol/ControlFrame.h"
+
+#include "Vectors.h"
+
+#include <QtCore/QMetaEnum>
+#include <QtTest/QtTest>
+
+using namespace qplc;
+
+Q_DECLARE_METATYPE(qplc::ControlFrameReader::Error)
+
+class tst_ControlFrame : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void readsTheGoodVectors_data();
+    void readsTheGoodVectors();
+    void vectorsHaveEveryKind();
+    void refusesTheBadVectors_data();
+    void refusesTheBadVectors();
+    void streamMayBeCutAtEveryByte();
+    void streamMayArriveByteByByte();
+    void beginOfAMessageIsNoError();
+    void tellsWhereAndWhatIsWrong();
+    void readsNothingBehindAnError();
+    void takesTheLongestFrameAndNoLongerOne();
+    void sendsNothingThatNoReceiverTakes();
+    void handsOutTheRestOfTheStream();
+    void manyMessagesInOnePieceAreFast();
+    void flippedBitsNeverCrash();
+    void randomBytesNeverCrash();
+};
+
+static QJsonObject controlVectors()
+{
+    return vectors::file(QStringLiteral("control_frames.json"));
+}
+
+static QByteArray rawFrame(quint8 kind, const QByteArray &json)
+{
+    const quint32 length = quint32(json.size() + 1);
+    QByteArray frame;
+    for (int shift = 0; shift < 32; shift += 8)
+        frame.append(char(length >> shift & 0xFF));
+    return frame.append(char(kind)).append(json);
+}
+
+static QVector<QPlcMessage> takeAll(ControlFrameReader &reader)
+{
+    QVector<QPlcMessage> messages;
+    QPlcMessage message;
+    while (reader.next(&message))
+        messages.append(message);
+    return messages;
+}
+
+static QVector<QPlcMessage> threeMessages()
+{
+    return {QPlcMessage(QPlcMessage::Stop), QPlcMessage(QPlcMessage::StartRealTime, {{QStringLiteral("cycles"), 3}}),
+            QPlcMessage(QPlcMessage::NodeFault, {{QStringLiteral("text"), QStringLiteral("\u00fcber \"3 m/s\"")}})};
+}
+
+static QByteArray stream(const QVector<QPlcMessage> &messages)
+{
+    QByteArray bytes;
+    for (const QPlcMessage &message : messages)
+        bytes += encodeControlFrame(message);
+    return bytes;
+}
+
+void tst_ControlFrame::readsTheGoodVectors_data()
+{
+    QTest::addColumn<QJsonObject>("row");
+    const QJsonArray rows = controlVectors()[QStringLiteral("good")].toArray();
+    QVERIFY(!rows.isEmpty());
+    for (const QJsonValue row : rows)
+        QTest::newRow(qPrintable(row[QStringLiteral("name")].toString())) << row.toObject();
+}
+
+void tst_ControlFrame::readsTheGoodVectors()
+{
+    QFETCH(QJsonObject, row);
+    const QByteArray frame = vectors::bytes(row[QStringLiteral("hex")]);
+    ControlFrameReader reader;
+    reader.append(frame);
+    QPlcMessage message;
+    QVERIFY2(reader.next(&message), qPrintable(reader.errorString()));
+    QCOMPARE(int(message.kind()), row[QStringLiteral("kind")].toInt());
+    QCOMPARE(message.kindName(), row[QStringLiteral("kindName")].toString());
+    QCOMPARE(message.fields(), row[QStringLiteral("fields")].toObject());
+    QCOMPARE(reader.lastFrame(), frame);
+    QVERIFY(!reader.next(&message));
+    QCOMPARE(reader.error(), ControlFrameReader::NoError);
+    if (row[QStringLiteral("canonical")].toBool())
+        QCOMPARE(encodeControlFrame(message).toHex(), frame.toHex());
+}
+
+void tst_ControlFrame::vectorsHaveEveryKind()
+{
+    QSet<int> kinds;
+    for (const QJsonValue row : controlVectors()[QStringLiteral("good")].toArray())
+        kinds.insert(row[QStringLiteral("kind")].toInt());
+    const QMetaEnum all = QMetaEnum::fromType<QPlcMessage::Kind>();
+    for (int i = 0; i < all.keyCount(); ++i)
+        QVERIFY2(kinds.contains(all.value(i)) || all.value(i) == QPlcMessage::Invalid, all.key(i));
+}
+
+void tst_ControlFrame::refusesTheBadVectors_data()
+{
+    QTest::addColumn<QByteArray>("frame");
+    QTest::addColumn<ControlFrameReader::Error>("error");
+    const QHash<QString, ControlFrameReader::Error> errors{
+        {QStringLiteral("FrameTooLong"), ControlFrameReader::FrameTooLong},
+        {QStringLiteral("FrameTooShort"), ControlFrameReader::FrameTooShort},
+        {QStringLiteral("NestedTooDeep"), ControlFrameReader::NestedTooDeep},
+        {QStringLiteral("InvalidJson"), ControlFrameReader::InvalidJson},
+    };
+    const QJsonArray rows = controlVectors()[QStringLiteral("bad")].toArray();
+    QVERIFY(!rows.isEmpty());
+    for (const QJsonValue row : rows) {
+        QTest::newRow(qPrintable(row[QStringLiteral("name")].toString()))
+            << vectors::bytes(row[QStringLiteral("hex")]) << errors.value(row[QStringLiteral("error")].toString());
+    }
+}
+
+void tst_ControlFrame::refusesTheBadVectors()
+{
+    QFETCH(QByteArray, frame);
+    QFETCH(ControlFrameReader::Error, error);
+    ControlFrameReader reader;
+    reader.append(frame);
+    QPlcMessage message(QPlcMessage::Done);
+    QVERIFY(!reader.next(&message));
+    QCOMPARE(reader.error(), error);
+    QVERIFY(reader.errorString().contains(QLatin1String("at byte 0 of the stream")));
+    QCOMPARE(message, QPlcMessage(QPlcMessage::Done));
+    QVERIFY(reader.lastFrame().isEmpty());
+}
+
+void tst_ControlFrame::streamMayBeCutAtEveryByte()
+{
+    const QByteArray bytes = stream(threeMessages());
+    for (int cut = 0; cut <= bytes.size(); ++cut) {
+        ControlFrameReader reader;
+        reader.append(bytes.left(cut));
+        QVector<QPlcMessage> messages = takeAll(reader);
+        reader.append(bytes.mid(cut));
+        messages += takeAll(reader);
+        QCOMPARE(messages, threeMessages());
+        QCOMPARE(reader.error(), ControlFrameReader::NoError);
+    }
+}
+
+void tst_ControlFrame::streamMayArriveByteByByte()
+{
+    ControlFrameReader reader;
+    QVector<QPlcMessage> messages;
+    for (const char byte : stream(threeMessages())) {
+        reader.append(QByteArray(1, byte));
+        messages += takeAll(reader);
+    }
+    QCOMPARE(messages, threeMessages());
+}
+
+void tst_ControlFrame::beginOfAMessageIsNoError()
+{
+    const QByteArray frame = encodeControlFrame(threeMessages().at(2));
+    for (int size = 0; size < frame.size(); ++size) {
+        ControlFrameReader reader;
+        reader.append(frame.left(size));
+        QVERIFY(takeAll(reader).isEmpty());
+        QCOMPARE(reader.error(), ControlFrameReader::NoError);
+    }
+}
+
+void tst_ControlFrame::tellsWhereAndWhatIsWrong()
+{
+    ControlFrameReader tooLong;
+    tooLong.append(rawFrame(QPlcMessage::Stop, "{}") + QByteArray(4, '\xff'));
+    QCOMPARE(takeAll(tooLong).size(), 1);
+    QCOMPARE(tooLong.errorString(),
+             QStringLiteral("control frame of 4294967295 bytes at byte 7 of the stream; at most 1048576 are allowed"));
+
+    ControlFrameReader noObject;
+    noObject.append(rawFrame(QPlcMessage::Stop, "[1]"));
+    QVERIFY(takeAll(noObject).isEmpty());
+    QCOMPARE(noObject.errorString(),
+             QStringLiteral("control frame (Stop) at byte 0 of the stream: its JSON is an array; an object is needed"));
+
+    ControlFrameReader noJson;
+    noJson.append(rawFrame(QPlcMessage::Stop, "{\"a\":?}"));
+    QVERIFY(takeAll(noJson).isEmpty());
+    QVERIFY2(noJson.errorString().contains(QLatin1String("of its JSON")), qPrintable(noJson.errorString()));
+
+    ControlFrameReader tooDeep;
+    tooDeep.append(rawFrame(QPlcMessage::Stop, QByteArray(20, '[')));
+    QVERIFY(takeAll(tooDeep).isEmpty());
+    QCOMPARE(tooDeep.errorString(),
+             QStringLiteral("control frame (Stop) at byte 0 of the stream: "
+                            "arrays and objects 20 deep; at most 16 are allowed"));
+}
+
+void tst_ControlFrame::readsNothingBehindAnError()
+{
+    ControlFrameReader reader;
+    reader.append(rawFrame(QPlcMessage::Stop, "?"));
+    QVERIFY(takeAll(reader).isEmpty());
+    const QString first = reader.errorString();
+    reader.append(stream(threeMessages()));
+    QVERIFY(takeAll(reader).isEmpty());
+    QCOMPARE(reader.error(), ControlFrameReader::InvalidJson);
+    QCOMPARE(reader.errorString(), first);
+    QCOMPARE(reader.takeRest(), rawFrame(QPlcMessage::Stop, "?")); // and nothing has been collected
+}
+
+void tst_ControlFrame::takesTheLongestFrameAndNoLongerOne()
+{
+    const int room = int(MaximumControlFrame) - 1 - int(qstrlen("{\"text\":\"\"}"));
+    const QPlcMessage longest(QPlcMessage::NodeFault, {{QStringLiteral("text"), QString(room, QLatin1Char('x'))}});
+    const QByteArray frame = encodeControlFrame(longest);
+    QCOMPARE(quint32(frame.size()), MaximumControlFrame + 4);
+    ControlFrameReader reader;
+    reader.append(frame.left(frame.size() - 1));
+    QVERIFY(takeAll(reader).isEmpty());
+    reader.append(frame.right(1));
+    QCOMPARE(takeAll(reader), QVector<QPlcMessage>{longest});
+}
+
+void tst_ControlFrame::sendsNothingThatNoReceiverTakes()
+{
+    const int room = int(MaximumControlFrame) - 1 - int(qstrlen("{\"text\":\"\"}"));
+    const QString text(room + 1, QLatin1Char('x'));
+    QVERIFY(encodeControlFrame(QPlcMessage(QPlcMessage::NodeFault, {{QStringLiteral("text"), text}})).isEmpty());
+
+    QJsonValue nested(1);
+    for (int depth = 1; depth < MaximumControlDepth; ++depth)
+        nested = QJsonArray{nested};
+    const QJsonObject deepest{{QStringLiteral("a"), nested}};
+    QVERIFY(!encodeControlFrame(QPlcMessage(QPlcMessage::Stop, deepest)).isEmpty());
+    QVERIFY(encodeControlFrame(QPlcMessage(QPlcMessage::Stop, {{QStringLiteral("a"), deepest}})).isEmpty());
+}
+
+void tst_ControlFrame::handsOutTheRestOfTheStream()
+{
+    const QByteArray cyclic("\x11\x00\x97\xb0 begin of a cyclic frame", 29);
+    const QPlcMessage attached(QPlcMessage::CyclicChannelAttached);
+    ControlFrameReader reader;
+    QVERIFY(reader.takeRest().isEmpty());
+    reader.append(encodeControlFrame(attached) + cyclic);
+    QPlcMessage message;
+    QVERIFY(reader.next(&message));
+    QCOMPARE(message, attached);
+    QCOMPARE(reader.takeRest(), cyclic);
+    QVERIFY(reader.takeRest().isEmpty());
+}
+
+void tst_ControlFrame::manyMessagesInOnePieceAreFast()
+{
+    const int count = 200000; // moving the rest of the stream for each would take minutes
+    ControlFrameReader reader;
+    reader.append(rawFrame(QPlcMessage::Stop, QByteArray()).repeated(count));
+    QCOMPARE(takeAll(reader).size(), count);
+}
+
+void tst_ControlFrame::flippedBitsNeverCrash()
+{
+    const QByteArray good = stream(threeMessages());
+    for (int bit = 0; bit < good.size() * 8; ++bit) {
+        QByteArray bytes = good;
+        bytes[bit / 8] = char(bytes.at(bit / 8) ^ (1 << bit % 8));
+        ControlFrameReader reader;
+        reader.append(bytes);
+        QVERIFY(takeAll(reader).size() <= 3);
+        QCOMPARE(reader.error() == ControlFrameReader::NoError, reader.errorString().isEmpty());
+    }
+}
+
+void tst_ControlFrame::randomBytesNeverCrash()
+{
+    std::mt19937 random(3);
+    for (int round = 0; round < 20000; ++round) {
+        // Half of the rounds are random JSON behind a right length, made of the characters that matter.
+        QByteArray bytes = vectors::randomBytes(random, int(random() % 60));
+        if (round % 2 != 0) {
+            for (char &byte : bytes)
+                byte = "{}[]\",:\\0e-u \xc3\xed\xff"[quint8(byte) % 16];
+            bytes = rawFrame(quint8(random()), bytes);
+        }
+        ControlFrameReader reader;
+        reader.append(bytes);
+        takeAll(reader);
+        QCOMPARE(reader.error() == ControlFrameReader::NoError, reader.errorString().isEmpty());
+    }
+}
+
+QTEST_APPLESS_MAIN(tst_ControlFrame)
+#include "tst_ControlFrame.moc"

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "QPlcValue.h"
+#include "Vectors.h"
+#include "signals/PayloadLayout.h"
+
+#include <QtTest/QtTest>
+
+// The layouts and value encodings that docs/protocol.md promises to clients in other languages.
+class tst_LayoutVectors : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void layoutsAreThoseOfTheVectors_data();
+    void layoutsAreThoseOfTheVectors();
+    void valuesAreThoseOfTheVectors_data();
+    void valuesAreThoseOfTheVectors();
+};
+
+static void addRows(const QString &list)
+{
+    QTest::addColumn<QJsonObject>("row");
+    const QJsonArray rows = vectors::file(QStringLiteral("layouts.json"))[list].toArray();
+    QVERIFY(!rows.isEmpty());
+    for (int i = 0; i < rows.size(); ++i)
+        QTest::addRow("%d", i) << rows.at(i).toObject();
+}
+
+void tst_LayoutVectors::layoutsAreThoseOfTheVectors_data()
+{
+    addRows(QStringLiteral("layouts"));
+}
+
+void tst_LayoutVectors::layoutsAreThoseOfTheVectors()
+{
+    QFETCH(QJsonObject, row);
+    const QPlcSignalTable table = QPlcSignalTable::fromIni(row[QStringLiteral("table")].toString().toUtf8());
+    const QJsonArray fields = row[QStringLiteral("fields")].toArray();
+    QVector<QPlcSignalIndex> indices;
+    for (const QJsonValue field : fields)
+        indices.append(table.indexOf(field[QStringLiteral("name")].toString()));
+
+    const qplc::PayloadLayout layout(table, indices);
+    QCOMPARE(layout.fields().size(), std::size_t(fields.size()));
+    for (int i = 0; i < fields.size(); ++i) {
+        QCOMPARE(layout.fields()[std::size_t(i)].type.name(), fields.at(i)[QStringLiteral("type")].toString());
+        QCOMPARE(int(layout.fields()[std::size_t(i)].offset), fields.at(i)[QStringLiteral("offset")].toInt());
+    }
+    QCOMPARE(int(layout.size()), row[QStringLiteral("size")].toInt());
+    QCOMPARE(quint64(layout.hash()), vectors::number(row[QStringLiteral("hash")]));
+
+    QJsonArray borders;
+    for (const quint32 border : layout.partBorders(quint32(row[QStringLiteral("maximum")].toInt())))
+        borders.append(int(border));
+    QCOMPARE(borders, row[QStringLiteral("borders")].toArray());
+}
+
+void tst_LayoutVectors::valuesAreThoseOfTheVectors_data()
+{
+    addRows(QStringLiteral("values"));
+}
+
+void tst_LayoutVectors::valuesAreThoseOfTheVectors()
+{
+    QFETCH(QJsonObject, row);
+    const QPlcSignalType type = QPlcSignalType::fromName(row[QStringLiteral("type")].toString());
+    QVERIFY(type.isValid());
+    const QByteArray bytes = vectors::bytes(row[QStringLiteral("hex")]);
+    QString error;
+    const QPlcValue value = QPlcValue::fromString(type, row[QStringLiteral("text")].toString(), &error);
+    QVERIFY2(value.isValid(), qPrintable(error));
+    QCOMPARE(value.toBytes().toHex(), bytes.toHex());
+    QCOMPARE(QPlcValue::fromBytes(type, bytes), value);
+}
+
+QTEST_APPLESS_MAIN(tst_LayoutVectors)
+#include "tst_LayoutVectors.moc"

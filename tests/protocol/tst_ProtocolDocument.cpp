@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "QPlcMessage.h"
+#include "Vectors.h"
+
+#include <QtCore/QMetaEnum>
+#include <QtTest/QtTest>
+
+// docs/protocol.md is what clients in other languages are written from: it must not drift from the code.
+class tst_ProtocolDocument : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void initTestCase();
+    void listsEveryKindWithItsNumber();
+    void describesTheFieldsOfEveryExample();
+    void worksOutTheExampleOfTheVectors();
+
+private:
+    QString m_text;
+};
+
+void tst_ProtocolDocument::initTestCase()
+{
+    m_text = QString::fromUtf8(vectors::document(QStringLiteral("protocol.md")));
+    QVERIFY(!m_text.isEmpty());
+}
+
+void tst_ProtocolDocument::listsEveryKindWithItsNumber()
+{
+    const QMetaEnum kinds = QMetaEnum::fromType<QPlcMessage::Kind>();
+    for (int i = 0; i < kinds.keyCount(); ++i) {
+        const QString row = QStringLiteral("| %1 | `%2` |").arg(kinds.value(i)).arg(QLatin1String(kinds.key(i)));
+        QVERIFY2(m_text.contains(row) || kinds.value(i) == QPlcMessage::Invalid, qPrintable(row));
+    }
+}
+
+void tst_ProtocolDocument::describesTheFieldsOfEveryExample()
+{
+    for (const QJsonValue row :
+         vectors::file(QStringLiteral("control_frames.json"))[QStringLiteral("good")].toArray()) {
+        if (!row[QStringLiteral("canonical")].toBool())
+            continue;
+        for (const QString &field : row[QStringLiteral("fields")].toObject().keys())
+            QVERIFY2(m_text.contains(QStringLiteral("`%1`").arg(field)), qPrintable(field));
+    }
+}
+
+void tst_ProtocolDocument::worksOutTheExampleOfTheVectors()
+{
+    const QJsonObject example
+        = vectors::file(QStringLiteral("cyclic_frames.json"))[QStringLiteral("frames")].toArray().at(0).toObject();
+    const QJsonValue channel = example[QStringLiteral("channel")];
+    const QJsonArray parts{channel[QStringLiteral("session")], channel[QStringLiteral("layoutHash")],
+                           example[QStringLiteral("payload")], example[QStringLiteral("frames")].toArray().at(0)};
+    for (const QJsonValue hex : parts)
+        QVERIFY2(m_text.contains(hex.toString()), qPrintable(hex.toString()));
+}
+
+QTEST_APPLESS_MAIN(tst_ProtocolDocument)
+#include "tst_ProtocolDocument.moc"
