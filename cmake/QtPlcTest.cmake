@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # qtplc_add_test(tst_name SOURCES a.cpp ... [LIBRARIES target ...] [LABELS label ...] [TIMEOUT seconds])
-# One Qt Test program, one CTest entry; it may use the headers of every room of src/.
+# One Qt Test program, one CTest entry; it may use the headers of every room of src/. Target tests_LABEL builds the tests of a label.
 find_package(Qt5 5.15 REQUIRED COMPONENTS Test)
 function(qtplc_add_test name)
     cmake_parse_arguments(PARSE_ARGV 1 arg "" "TIMEOUT" "SOURCES;LIBRARIES;LABELS")
@@ -13,4 +13,10 @@ function(qtplc_add_test name)
     endif()
     set_tests_properties(${name} PROPERTIES TIMEOUT ${arg_TIMEOUT} LABELS "${arg_LABELS}"
         ENVIRONMENT "QT_QPA_PLATFORM=offscreen")
+    foreach(label ${arg_LABELS})
+        if(NOT TARGET tests_${label})
+            add_custom_target(tests_${label})
+        endif()
+        add_dependencies(tests_${label} ${name})
+    endforeach()
 endfunction()

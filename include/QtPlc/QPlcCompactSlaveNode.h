@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "QPlcBoundInput.h"
+#include "QPlcBoundOutput.h"
 #include "QPlcCompactSignal.h"
 #include "QPlcInput.h"
 #include "QPlcOutput.h"

@@ -38,7 +38,7 @@ public:
     /// An argument without dashes, for --help. \param syntax  as shown in the usage line, empty: like the name
     void addPositionalArgument(const QString &name, const QString &description, const QString &syntax = QString());
 
-    /// Reads the command line. --help and --version are printed here.
+    /// Reads the command line. --help and --version are printed here. What begins like a negative number (-2, -.5) is an argument, never an option.
     /// \return false when the program is to end now, with exitCode(): help was printed, or an option is wrong (then the message is out already)
     bool parseOptions();
     int exitCode() const;

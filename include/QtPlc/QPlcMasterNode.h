@@ -3,12 +3,15 @@
 
 #include "QPlcClock.h"
 #include "QPlcMasterStatistics.h"
+#include "QPlcNodeInfo.h"
 #include "QPlcRealTimeOptions.h"
 #include "QPlcSignalTable.h"
 #include "QPlcSlaveNode.h"
 #include "QPlcUnderlyingProtocol.h"
 
 #include <QtCore/QObject>
+#include <QtCore/QString>
+#include <QtCore/QVector>
 
 #include <chrono>
 #include <memory>
@@ -86,7 +89,7 @@ public:
     bool setClock(QPlcClock clock);
     QPlcClock clock() const;
     void setRealTimeOptions(const QPlcRealTimeOptions &options);
-    /// Ends the real-time phase by itself after \a cycles computed cycles; 0: never. Takes effect at the next start.
+    /// Ends the real-time phase by itself after \a cycles periods (skipped ones count, so that the simulated time is exact); 0: never. Takes effect at the next start.
     void setCycleLimit(quint64 cycles);
     /// Longest wait for each answer of a node during initialization and start; 2 s unless set.
     void setInitializationTimeout(std::chrono::milliseconds time);

@@ -4,25 +4,6 @@
 #include "QPlcGlobal.h"
 
 #include <QtCore/QMetaType>
-#include <QtCore/QString>
-#include <QtCore/QVector>
-
-/// What a master knows of one of its nodes. A value type.
-struct QPlcNodeInfo
-{
-    QString name;
-    quint16 id = 0;             ///< given at registration
-    QString transport;          ///< "udp", "tcp", "inprocess"
-    QString address;            ///< "127.0.0.1:40312"; empty for a local node
-    QString policy;             ///< name of the RealTimeViolationPolicy
-    bool listener = false;
-    int inputs = 0;             ///< number of signals
-    int outputs = 0;
-    quint64 lateAnswers = 0;    ///< cycles that ended without the answer of this node
-    quint64 duplicates = 0;     ///< answers that came again
-    quint64 rejected = 0;       ///< frames that did not decode
-    quint64 resent = 0;         ///< requests that were sent again
-};
 
 /// Counters and durations of a master since the start of its last real-time phase. A value type.
 struct QPlcMasterStatistics
@@ -41,5 +22,4 @@ struct QPlcMasterStatistics
     quint64 imageDigest = 0;    ///< over the process image of every cycle, in order
 };
 
-Q_DECLARE_METATYPE(QPlcNodeInfo)
 Q_DECLARE_METATYPE(QPlcMasterStatistics)

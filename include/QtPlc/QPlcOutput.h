@@ -27,16 +27,3 @@ public:
 private:
     T m_value{};
 };
-
-/// A variable that exists already (of an exported Simulink model, say) and is sent as a signal after each step:
-/// `QPlcBoundOutput<double[3]> m_position{this, "bodyPosition_earth", &LaweModel_Y.bodyPosition_earth};`
-template<typename T>
-class QPlcBoundOutput final : public QPlcPortDetail::VariablePort<T>
-{
-public:
-    /// \param variable  outlives the port
-    QPlcBoundOutput(QPlcCompactSlaveNode *node, const char *name, T *variable)
-        : QPlcPortDetail::VariablePort<T>(node, name, QPlcPort::Output, variable)
-    {
-    }
-};

@@ -18,6 +18,11 @@ struct QTPLC_EXPORT QPlcSignalDefinition
     QPlcValue safe;        ///< value when the writer is lost; invalid: keep the last
     int hold = 0;          ///< cycles for which the last value is kept before `safe`
     int line = 0;          ///< line of the section in the file, 0: not from a file
+
+    /// Whether every element of \a value, which has this type, is a number within minimum and maximum; without limits always true.
+    bool isInRange(const QPlcValue &value) const;
+    /// "-10 ... 10", "at least 0", "at most 5"; empty without limits.
+    QString rangeText() const;
 };
 
 Q_DECLARE_METATYPE(QPlcSignalDefinition)

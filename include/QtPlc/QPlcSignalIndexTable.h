@@ -26,6 +26,9 @@ public:
     QString errorString() const { return QPlcParseError::toString(m_errors); }
     QVector<QPlcParseError> errors() const { return m_errors; }
 
+    /// What was wrong with the table that this process read last; empty: nothing. For messages about a table that is not there.
+    static QString lastErrorString();
+
     /// The table of the process; empty before the first.
     static QPlcSignalTable current();
     static void setCurrent(const QPlcSignalTable &table);
@@ -36,5 +39,7 @@ public:
     static QPlcSignalType type(QPlcSignalIndex index);
 
 private:
+    bool take(const QPlcSignalTable &table);
+
     QVector<QPlcParseError> m_errors;
 };

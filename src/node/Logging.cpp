@@ -5,3 +5,16 @@ Q_LOGGING_CATEGORY(lcMaster, "qtplc.master", QtInfoMsg)
 Q_LOGGING_CATEGORY(lcSlave, "qtplc.slave", QtInfoMsg)
 Q_LOGGING_CATEGORY(lcControl, "qtplc.control", QtWarningMsg)
 Q_LOGGING_CATEGORY(lcCyclic, "qtplc.cyclic", QtWarningMsg)
+
+namespace qplc {
+
+QString printable(QString text)
+{
+    for (QChar &character : text) {
+        if (character.category() == QChar::Other_Control)
+            character = QLatin1Char('?');
+    }
+    return text;
+}
+
+}  // namespace qplc

@@ -30,6 +30,7 @@ struct MasterConnection
     QPlcSlaveSocket *socket = nullptr;
     Stage stage = Silent;
     QString name;                        // as greeted
+    QString uuid;
     QString cyclicKind;                  // "udp", "tcp"
     quint64 token = 0;                   // names this node on its cyclic TCP connection
     std::shared_ptr<NodeSlot> slot;      // null: no node

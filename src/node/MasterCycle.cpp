@@ -11,6 +11,7 @@ namespace qplc {
 namespace {
 
 constexpr std::int64_t Slice = 50'000'000;        // [ns] longest wait without a look at stop and lost nodes
+constexpr std::int64_t ContinueAfter = 1'000'000;  // [ns] a stream that was full is offered the rest
 constexpr std::int64_t ResendAfter = 20'000'000;  // [ns] a request that must be answered is sent again
 
 template<typename Integer>
@@ -72,8 +73,9 @@ void MasterCycle::stop()
 
 void MasterCycle::clearStatistics()
 {
-    for (std::atomic<std::uint64_t> *counter : {&m_cycle, &m_cycles, &m_overruns, &m_skipped, &m_lateAnswers, &m_digest})
+    for (std::atomic<std::uint64_t> *counter : {&m_cycle, &m_cycles, &m_overruns, &m_skipped, &m_lateAnswers, &m_strangers, &m_digest})
         counter->store(0);
+    m_strangersBefore = m_hub.strangers();
     m_lateness.clear();
     m_roundTrips.clear();
     for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
@@ -105,40 +107,44 @@ void MasterCycle::freeRetired()
         delete retired;
 }
 
-bool MasterCycle::setValue(QPlcSignalIndex signal, const QPlcValue &value)
+bool MasterCycle::setValues(const std::vector<SignalSetting> &settings)
+{
+    if (!isRunning()) {
+        for (const SignalSetting &setting : settings)
+            m_image.setValue(setting.signal, setting.value);
+        return true;
+    }
+    if (m_setsGiven - m_setsTaken.load(std::memory_order_acquire) + settings.size() > m_setCommands.capacity())
+        return false;
+    for (const SignalSetting &setting : settings) {
+        SetCommand *command = m_setCommands.beginPush();
+        command->signal = setting.signal;
+        setting.value.toBytes(command->bytes.data());
+        m_setCommands.commitPush();
+    }
+    m_setsGiven += settings.size();
+    return true;
+}
+
+std::vector<char> MasterCycle::values() const
 {
     if (!isRunning())
-        return m_image.setValue(signal, value);
-    SetCommand *command = m_setCommands.beginPush();
-    if (!command)
-        return false;
-    command->signal = signal;
-    value.convertedTo(m_image.table().at(signal).type).toBytes(command->bytes.data());
-    m_setCommands.commitPush();
-    return true;
+        return std::vector<char>(m_image.data(), m_image.data() + m_image.size());
+    std::vector<char> bytes(m_image.size());
+    std::uint64_t stamp = 0;
+    m_snapshot.read(bytes.data(), &stamp);
+    return bytes;
 }
 
 QPlcValue MasterCycle::value(QPlcSignalIndex signal) const
 {
-    if (!isRunning())
-        return m_image.value(signal);
-    std::vector<char> bytes(m_image.size());
-    std::uint64_t stamp = 0;
-    m_snapshot.read(bytes.data(), &stamp);
-    return QPlcValue::fromBytes(m_image.table().at(signal).type, bytes.data() + m_image.offset(signal));
+    return QPlcValue::fromBytes(table().at(signal).type, values().data() + offset(signal));
 }
 
 QByteArray MasterCycle::gather(const std::vector<CopyRun> &runs, quint32 size) const
 {
     QByteArray frame(int(size), Qt::Uninitialized);
-    if (!isRunning()) {
-        copyRuns(runs, m_image.data(), frame.data());
-        return frame;
-    }
-    std::vector<char> bytes(m_image.size());
-    std::uint64_t stamp = 0;
-    m_snapshot.read(bytes.data(), &stamp);
-    copyRuns(runs, bytes.data(), frame.data());
+    copyRuns(runs, values().data(), frame.data());
     return frame;
 }
 
@@ -171,7 +177,7 @@ void MasterCycle::run() noexcept
         if (tick.interrupted)
             break;
         runCycle(tick);
-        if (m_phase.cycleLimit > 0 && m_cycles.load(std::memory_order_relaxed) >= m_phase.cycleLimit)
+        if (m_phase.cycleLimit > 0 && m_number + 1 >= m_phase.cycleLimit)
             break;
     }
     m_reports.post({CycleEvent::Ended, 0, 0, m_number});
@@ -202,6 +208,7 @@ void MasterCycle::takeCommands() noexcept
     while (const SetCommand *command = m_setCommands.front()) {
         std::memcpy(m_image.data() + m_image.offset(command->signal), command->bytes.data(), std::size_t(m_image.table().at(command->signal).type.size()));
         m_setCommands.pop();
+        m_setsTaken.store(m_setsTaken.load(std::memory_order_relaxed) + 1, std::memory_order_release);
     }
 }
 
@@ -273,14 +280,49 @@ void MasterCycle::askNodes(const CycleClock::Tick &tick) noexcept
 void MasterCycle::sendRequest(NodeSlot &slot, std::uint8_t flags) noexcept
 {
     slot.request.flags = flags;
-    char *frame = slot.frames.data();
-    for (std::size_t part = 0; part < slot.encoder.partCount(); ++part) {
-        const std::size_t size = slot.encoder.partSize(part);
-        slot.encoder.encode(part, slot.request, slot.inputs.data(), frame);
+    slot.partsSent = 0;
+    slot.bytesSent = 0;
+    sendParts(slot);
+}
+
+/// Sends the parts of the request that are still to be sent, as far as the kernel takes them.
+void MasterCycle::sendParts(NodeSlot &slot) noexcept
+{
+    m_hub.sendRest(slot.peer.get());
+    for (; slot.partsSent < slot.encoder.partCount(); ++slot.partsSent) {
+        const std::size_t size = slot.encoder.partSize(slot.partsSent);
+        char *frame = slot.frames.data() + slot.bytesSent;
+        slot.encoder.encode(slot.partsSent, slot.request, slot.inputs.data(), frame);
+        if (!m_hub.send(slot.peer.get(), frame, size))
+            return;
         m_reports.tap(TappedFrame::Sent, slot.id, frame, size);
-        m_hub.send(slot.peer.get(), frame, size);
-        frame += size;
+        slot.bytesSent += size;
     }
+}
+
+/// Goes on with requests that a stream did not take as a whole. \return whether some of them are still not sent
+bool MasterCycle::continueRequests() noexcept
+{
+    bool unsent = false;
+    for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
+        if (!isAwaited(*slot) || slot->isRequestSent())
+            continue;
+        sendParts(*slot);
+        unsent = unsent || !slot->isRequestSent();
+    }
+    return unsent;
+}
+
+/// Sends again what the network may have lost.
+void MasterCycle::resendRequests() noexcept
+{
+    for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
+        if (!isAwaited(*slot) || !mustBeWaitedFor(*slot) || !slot->peer->isUdp())
+            continue;
+        count(slot->resent);
+        sendRequest(*slot, ResentFlag);
+    }
+    m_hub.flush();
 }
 
 void MasterCycle::stepLocalNodes() noexcept
@@ -301,9 +343,7 @@ void MasterCycle::stepLocalNodes() noexcept
 bool MasterCycle::anyMissing(bool onlyWaiting) const noexcept
 {
     return std::any_of(m_roster->nodes.begin(), m_roster->nodes.end(), [this, onlyWaiting](const std::shared_ptr<NodeSlot> &slot) {
-        if (!isAwaited(*slot))
-            return false;
-        return m_phase.clock.isLockstep() ? !slot->listener : !onlyWaiting || slot->waits();
+        return isAwaited(*slot) && (!onlyWaiting || mustBeWaitedFor(*slot));
     });
 }
 
@@ -312,9 +352,11 @@ void MasterCycle::collectAnswers(std::int64_t deadline) noexcept
     if (!m_phase.clock.isLockstep()) {
         while (anyMissing(false)) {
             const std::int64_t left = deadline - m_time.now();
-            if (left <= 0 || m_stop.load(std::memory_order_relaxed))
+            if (m_stop.load(std::memory_order_relaxed))
+                return;  // nobody is late who was not given the time
+            if (left <= 0)
                 break;
-            receive(std::min(left, Slice));
+            receive(std::min(left, continueRequests() ? ContinueAfter : Slice));
         }
         reportLateNodes();
     }
@@ -336,7 +378,7 @@ void MasterCycle::reportLateNodes() noexcept
     }
 }
 
-/// Time stands still until the nodes that must be waited for have answered (or are lost). What UDP may have lost is sent again.
+/// Time stands still until the nodes that must be waited for have answered (or are lost).
 void MasterCycle::waitForLateNodes(std::int64_t deadline) noexcept
 {
     const bool lockstep = m_phase.clock.isLockstep();
@@ -344,16 +386,10 @@ void MasterCycle::waitForLateNodes(std::int64_t deadline) noexcept
         m_reports.post({CycleEvent::WaitingForNode, 0, 0, m_number});
     std::int64_t resendAt = m_time.now() + ResendAfter;
     while (anyMissing(true) && !m_stop.load(std::memory_order_relaxed)) {
-        receive(std::min(ResendAfter, Slice));
+        receive(continueRequests() ? ContinueAfter : ResendAfter);
         if (m_time.now() < resendAt)
             continue;
-        for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
-            if (isAwaited(*slot) && slot->peer->isUdp()) {
-                count(slot->resent);
-                sendRequest(*slot, ResentFlag);
-            }
-        }
-        m_hub.flush();
+        resendRequests();
         resendAt = m_time.now() + ResendAfter;
     }
     if (!lockstep) {
@@ -372,7 +408,7 @@ void MasterCycle::receive(std::int64_t timeout) noexcept
     CyclicHub::Incoming incoming;
     while (m_hub.next(&incoming))
         takeAnswer(*static_cast<NodeSlot *>(incoming.peer->owner), incoming.frame, incoming.size);
-    m_strangers.store(m_hub.strangers(), std::memory_order_relaxed);
+    m_strangers.store(m_hub.strangers() - m_strangersBefore, std::memory_order_relaxed);
     for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
         if (slot->peer && slot->peer->isClosed() && !slot->lost.exchange(true))
             m_reports.post({CycleEvent::LinkClosed, slot->id, 0, m_number});

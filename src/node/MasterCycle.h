@@ -18,6 +18,13 @@
 
 namespace qplc {
 
+/// A checked value for a signal that no node writes.
+struct SignalSetting
+{
+    QPlcSignalIndex signal = QPlcInvalidSignalIndex;
+    QPlcValue value;  // of the type of the signal
+};
+
 /// The cycle of a master: asks all nodes, takes their answers, keeps the process image. Owns the thread on which that happens.
 ///
 /// Everything is called by the thread of the master; what is marked so also while cycles run.
@@ -28,7 +35,7 @@ public:
     {
         std::chrono::nanoseconds period{0};
         QPlcClock clock;
-        std::uint64_t cycleLimit = 0;                        // 0: none
+        std::uint64_t cycleLimit = 0;                        // first number that is not computed; 0: none
         QPlcSignalIndex timeSignal = QPlcInvalidSignalIndex;
         QPlcSignalIndex jitterSignal = QPlcInvalidSignalIndex;
         QPlcSignalIndex workloadSignal = QPlcInvalidSignalIndex;
@@ -53,8 +60,13 @@ public:
 
     /// Gives the nodes of the cycles from the next one on; also while cycles run.
     void setRoster(const Roster &roster);
-    /// Sets a signal between two cycles; also while cycles run. \return false when too many are under way
-    bool setValue(QPlcSignalIndex signal, const QPlcValue &value);
+    /// Sets signals between two cycles; also while cycles run. \return false, and none is set, when too many are under way
+    bool setValues(const std::vector<SignalSetting> &settings);
+    const QPlcSignalTable &table() const { return m_image.table(); }
+    /// Where a signal lies in values() [byte].
+    quint32 offset(QPlcSignalIndex signal) const { return m_image.offset(signal); }
+    /// The newest values of all signals, of one cycle; also while cycles run.
+    std::vector<char> values() const;
     /// The newest value; also while cycles run.
     QPlcValue value(QPlcSignalIndex signal) const;
     /// The values of a frame, cut from the newest image; also while cycles run.
@@ -79,6 +91,9 @@ private:
     void writeReal(QPlcSignalIndex signal, double value) noexcept;
     void askNodes(const CycleClock::Tick &tick) noexcept;
     void sendRequest(NodeSlot &slot, std::uint8_t flags) noexcept;
+    void sendParts(NodeSlot &slot) noexcept;
+    bool continueRequests() noexcept;
+    void resendRequests() noexcept;
     void stepLocalNodes() noexcept;
     void collectAnswers(std::int64_t deadline) noexcept;
     void waitForLateNodes(std::int64_t deadline) noexcept;
@@ -88,6 +103,7 @@ private:
     bool paste(NodeSlot &slot, const char *outputs) noexcept;
     void finish() noexcept;
     bool anyMissing(bool onlyWaiting) const noexcept;
+    bool mustBeWaitedFor(const NodeSlot &slot) const noexcept { return !slot.listener && (m_phase.clock.isLockstep() || slot.waits()); }
     bool isAwaited(const NodeSlot &slot) const noexcept { return slot.peer && !slot.answered && !slot.lost.load(std::memory_order_relaxed); }
     std::int64_t now() noexcept { return m_phase.clock.isLockstep() ? 0 : m_time.now(); }
     void clearStatistics();
@@ -101,7 +117,9 @@ private:
     std::atomic<bool> m_stop{false};
     std::atomic<Roster *> m_pendingRoster{nullptr};
     SpscRing<Roster *> m_retiredRosters{64};
-    SpscRing<SetCommand> m_setCommands{64};
+    SpscRing<SetCommand> m_setCommands{256};
+    std::size_t m_setsGiven = 0;                 // thread of the master
+    std::atomic<std::size_t> m_setsTaken{0};
     SnapshotBuffer m_snapshot;
 
     // cycle thread
@@ -124,6 +142,7 @@ private:
     std::atomic<std::uint64_t> m_skipped{0};
     std::atomic<std::uint64_t> m_lateAnswers{0};
     std::atomic<std::uint64_t> m_strangers{0};
+    std::uint64_t m_strangersBefore = 0;
     std::atomic<std::uint64_t> m_digest{0};
     Histogram m_lateness;
     Histogram m_roundTrips;

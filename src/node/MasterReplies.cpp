@@ -47,6 +47,11 @@ QString clockName(QPlcClock clock)
     return {};
 }
 
+QString stateName(QPlcMasterNode::State state)
+{
+    return QLatin1String(QMetaEnum::fromType<QPlcMasterNode::State>().valueToKey(state));
+}
+
 QJsonObject stateFields(const QPlcMasterNode &master, quint64 session)
 {
     QJsonArray nodes;
@@ -54,7 +59,7 @@ QJsonObject stateFields(const QPlcMasterNode &master, quint64 session)
     for (const QPlcNodeInfo &node : infos)
         nodes.append(nodeFields(node));
     const QPlcMasterStatistics statistics = master.statistics();
-    return {{QStringLiteral("state"), QLatin1String(QMetaEnum::fromType<QPlcMasterNode::State>().valueToKey(master.state()))},
+    return {{QStringLiteral("state"), stateName(master.state())},
             {QStringLiteral("cycle"), QPlcMessage::fromHex64(master.cycle())},
             {QStringLiteral("period"), double(master.interval().count())},
             {QStringLiteral("clock"), clockName(master.clock())},
@@ -65,9 +70,10 @@ QJsonObject stateFields(const QPlcMasterNode &master, quint64 session)
             {QStringLiteral("digest"), QPlcMessage::fromHex64(statistics.imageDigest)}};
 }
 
-bool signalFields(const QPlcMasterNode &master, const QStringList &names, QJsonObject *fields, QString *error)
+bool signalFields(const MasterCycle &cycle, const NodeRegistry &registry, const QStringList &names, QJsonObject *fields, QString *error)
 {
-    const QPlcSignalTable table = master.signalTable();
+    const QPlcSignalTable &table = cycle.table();
+    const std::vector<char> values = cycle.values();
     QStringList wanted = names;
     if (wanted.isEmpty()) {
         for (const QPlcSignalDefinition &definition : table)
@@ -85,8 +91,8 @@ bool signalFields(const QPlcMasterNode &master, const QStringList &names, QJsonO
                                        {QStringLiteral("type"), definition.type.name()},
                                        {QStringLiteral("unit"), definition.unit},
                                        {QStringLiteral("description"), definition.description},
-                                       {QStringLiteral("value"), master.signalValue(name).toString()},
-                                       {QStringLiteral("writer"), master.writer(name)}});
+                                       {QStringLiteral("value"), QPlcValue::fromBytes(definition.type, values.data() + cycle.offset(index)).toString()},
+                                       {QStringLiteral("writer"), registry.writer(index)}});
     }
     fields->insert(QStringLiteral("signals"), signalArray);
     return true;

@@ -1,18 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "MasterCycle.h"
+#include "NodeRegistry.h"
 #include "QPlcMasterNode.h"
 
 #include <QtCore/QJsonObject>
 
 namespace qplc {
 
-/// What a master answers to those who ask: pure reading of its public face.
+/// What a master answers to those who ask: reading only.
 
 /// Fields of the message State.
 QJsonObject stateFields(const QPlcMasterNode &master, quint64 session);
-/// Fields of the message Signals, for \a names or, when empty, all. \return false with the first unknown name in \a error
-bool signalFields(const QPlcMasterNode &master, const QStringList &names, QJsonObject *fields, QString *error);
+/// Fields of the message Signals, for \a names or, when empty, all; the values are those of one cycle.
+/// \return false with the first unknown name in \a error
+bool signalFields(const MasterCycle &cycle, const NodeRegistry &registry, const QStringList &names, QJsonObject *fields, QString *error);
 QString clockName(QPlcClock clock);
+QString stateName(QPlcMasterNode::State state);
 
 }  // namespace qplc

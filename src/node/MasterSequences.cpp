@@ -51,6 +51,23 @@ void QPlcMasterNodePrivate::advance()
     }
 }
 
+/// A node answers the step at hand; anything else from it comes at the wrong time.
+void QPlcMasterNodePrivate::continueSequence(Connection *connection, const Message &message)
+{
+    const Message::Kind expected = m_step == Step::CollectOutputs     ? Message::ReceiveMyInitialOutputStates
+                                   : m_step == Step::DistributeInputs ? Message::Initialized
+                                   : m_step == Step::Start            ? Message::RealTimeReady
+                                                                      : Message::Invalid;
+    if (message.kind() != expected || connection->stage + 1 != m_owed) {
+        connection->fail(QStringLiteral("WrongState"), QStringLiteral("%1 was not asked for").arg(message.kindName()));
+        return;
+    }
+    if (m_step == Step::CollectOutputs && !storeOutputs(connection, message))
+        return;
+    connection->stage = m_owed;
+    advance();
+}
+
 void QPlcMasterNodePrivate::collectOutputs()
 {
     m_participants.clear();
@@ -58,7 +75,6 @@ void QPlcMasterNodePrivate::collectOutputs()
         if (connection->isAttached())
             m_participants.push_back(connection.get());
     }
-    cycle->image().reset();
     begin(Step::CollectOutputs, Connection::OutputsGiven);
     for (Connection *connection : m_participants)
         connection->send(Message::SendYourInitialOutputStates);
@@ -91,8 +107,8 @@ bool QPlcMasterNodePrivate::takeOutputs(NodeSlot &slot, const char *outputs)
 bool QPlcMasterNodePrivate::storeOutputs(Connection *connection, const Message &message)
 {
     const QByteArray values = message.bytes(QStringLiteral("values"));
-    if (!connection->slot || values.size() != int(connection->slot->outputLayout.size())) {
-        server->drop(connection, QStringLiteral("it sent %1 bytes of initial outputs").arg(values.size()));
+    if (values.size() != int(connection->slot->outputLayout.size())) {
+        server->drop(connection, QStringLiteral("it sent %1 bytes of initial outputs instead of %2").arg(values.size()).arg(connection->slot->outputLayout.size()));
         return false;
     }
     NodeSlot &slot = *connection->slot;
@@ -123,6 +139,7 @@ void QPlcMasterNodePrivate::distributeInputs()
             return;
         }
         slot->local->node().d->setState(QPlcSlaveNode::Off);
+        slot->local->node().d->tellInitialized(values);
     }
     advance();
 }
@@ -162,12 +179,18 @@ void QPlcMasterNodePrivate::abortSequence(const QString &reason)
     stepTimer.stop();
     const bool wasStarting = m_step == Step::Start;
     m_step = Step::None;
-    for (Connection *connection : m_participants) {
-        if (wasStarting)
+    m_initialized = false;
+    const Message initializationFailed(Message::StatesInitialized, {{QStringLiteral("ok"), false}, {QStringLiteral("text"), reason}});
+    for (const std::unique_ptr<Connection> &connection : server->connections()) {
+        if (wasStarting && connection->stage > Connection::Attached)
             connection->send(Message::RealTimeStopped, {{QStringLiteral("reason"), reason}});
-        else
-            connection->send(Message::StatesInitialized, {{QStringLiteral("ok"), false}, {QStringLiteral("text"), reason}});
-        connection->stage = Connection::Attached;
+        else if (!wasStarting && connection->stage >= Connection::Greeted)
+            connection->socket->sendMessage(initializationFailed);
+        connection->stage = std::min(connection->stage, Connection::Attached);
+    }
+    for (const std::shared_ptr<NodeSlot> &slot : registry->nodes()) {
+        if (slot->local)
+            slot->local->node().d->setState(QPlcSlaveNode::Off);
     }
     m_participants.clear();
     setState(QPlcMasterNode::Off);
@@ -316,5 +339,7 @@ void QPlcMasterNodePrivate::continueJoin(Connection *connection, const Message &
     } else if (message.kind() == Message::RealTimeReady && connection->stage == Connection::Starting) {
         connection->stage = Connection::Running;
         giveRoster();
+    } else {
+        connection->fail(QStringLiteral("WrongState"), QStringLiteral("%1 was not asked for").arg(message.kindName()));
     }
 }

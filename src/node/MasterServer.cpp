@@ -3,6 +3,7 @@
 
 #include "Logging.h"
 
+#include <QtCore/QPointer>
 #include <QtCore/QRandomGenerator>
 #include <QtNetwork/QTcpServer>
 #include <QtNetwork/QTcpSocket>
@@ -82,11 +83,24 @@ void MasterServer::accept()
         MasterConnection *connection = m_connections.back().get();
         connection->socket = new QPlcSlaveSocket(socket, this);
         connect(connection->socket, &QPlcAbstractSocket::messageReceived, this, [this, connection](const Message &message) { receive(connection, message); });
-        connect(connection->socket, &QPlcAbstractSocket::disconnected, this, [this, connection] {
-            const QString error = connection->socket->errorString();
-            drop(connection, error.isEmpty() ? QStringLiteral("it closed the connection") : error);
+        connect(connection->socket, &QPlcAbstractSocket::errorOccurred, this, [this, connection](QPlcAbstractSocket::Error error) {
+            if (error == QPlcAbstractSocket::ProtocolError)
+                receiveGarbage(connection);
         });
+        // Not at once: a message that cannot be sent ends the connection, and who sends to many of them walks over m_connections.
+        const QPointer<QPlcSlaveSocket> guarded(connection->socket);
+        connect(connection->socket, &QPlcAbstractSocket::disconnected, this, [this, guarded] { dropClosed(guarded); }, Qt::QueuedConnection);
     }
+}
+
+void MasterServer::dropClosed(const QPlcSlaveSocket *socket)
+{
+    const auto isIt = [socket](const std::unique_ptr<MasterConnection> &connection) { return connection->socket == socket; };
+    const auto found = std::find_if(m_connections.begin(), m_connections.end(), isIt);
+    if (found == m_connections.end())
+        return;  // dropped meanwhile
+    const QString error = socket->errorString();
+    drop(found->get(), error.isEmpty() ? QStringLiteral("it closed the connection") : error);
 }
 
 MasterConnection *MasterServer::connectionOf(const NodeSlot *slot) const
@@ -118,8 +132,9 @@ void MasterServer::forget(MasterConnection *connection)
     m_connections.erase(std::remove_if(m_connections.begin(), m_connections.end(), isIt), m_connections.end());
 }
 
-void MasterServer::reject(MasterConnection *connection, const QString &error, const QString &text)
+void MasterServer::reject(MasterConnection *connection, const QString &error, const QString &reason)
 {
+    const QString text = printable(reason);
     qCWarning(lcMaster).noquote() << "refused" << connection->socket->peerName() << text;
     connection->send(Message::Rejected, {{QStringLiteral("error"), error}, {QStringLiteral("text"), text}});
     Q_EMIT refused(connection->name, text);
@@ -143,12 +158,22 @@ void MasterServer::receive(MasterConnection *connection, const Message &message)
         Q_EMIT received(connection, message);
 }
 
+void MasterServer::receiveGarbage(MasterConnection *connection)
+{
+    reject(connection, QStringLiteral("MalformedMessage"), connection->socket->errorString());
+}
+
 // ---- registration ----
 
 void MasterServer::greet(MasterConnection *connection, const Message &message)
 {
+    if (connection->stage != MasterConnection::Silent) {
+        reject(connection, QStringLiteral("WrongState"), QStringLiteral("'%1' greets twice").arg(connection->name));
+        return;
+    }
     const int protocol = message.fields().value(QStringLiteral("protocol")).toInt();
-    connection->name = message.text(QStringLiteral("name"));
+    connection->name = printable(message.text(QStringLiteral("name")));
+    connection->uuid = message.text(QStringLiteral("uuid"));
     if (protocol != 1) {
         reject(connection, QStringLiteral("VersionMismatch"),
                QStringLiteral("protocol version %1 of '%2' is not spoken here; this master speaks version 1").arg(protocol).arg(connection->name));
@@ -180,10 +205,12 @@ void MasterServer::registerNode(MasterConnection *connection, const Message &mes
         refusal = {QStringLiteral("MalformedMessage"), QStringLiteral("unknown cyclic channel '%1'; use tcp or udp").arg(connection->cyclicKind)};
     else if (isUdp && (udpPort < 1 || udpPort > 65535))
         refusal = {QStringLiteral("MalformedMessage"), QStringLiteral("UDP port %1 is out of 1 ... 65535").arg(udpPort)};
-    else
+    else {
+        replace(connection, declaration.name);
         connection->slot = m_registry.admit(declaration, &refusal);
+    }
     if (!connection->slot) {
-        connection->name = declaration.name.isEmpty() ? connection->name : declaration.name;
+        connection->name = declaration.name.isEmpty() ? connection->name : printable(declaration.name);
         reject(connection, refusal.error, refusal.text);
         return;
     }
@@ -194,12 +221,24 @@ void MasterServer::registerNode(MasterConnection *connection, const Message &mes
     connection->send(Message::Registered, {{QStringLiteral("node"), connection->slot->id},
                                            {QStringLiteral("inputsHash"), Message::fromHex64(connection->slot->inputLayout.hash())},
                                            {QStringLiteral("outputsHash"), Message::fromHex64(connection->slot->outputLayout.hash())},
+                                           {QStringLiteral("state"), m_hello().value(QStringLiteral("state"))},
                                            {QStringLiteral("token"), Message::fromHex64(connection->token)}});
     if (!isUdp)
         return;
     connection->slot->peer = HubPeer::udp(SocketAddress(connection->socket->peerAddress(), quint16(udpPort)));
     connection->send(Message::CyclicChannelAttached);
     nodeAttached(connection);
+}
+
+/// A node that comes back before its last connection is known to be dead takes its own place.
+void MasterServer::replace(const MasterConnection *newcomer, const QString &name)
+{
+    const auto isItself = [&](const std::unique_ptr<MasterConnection> &other) {
+        return other->isNode() && other->name == name && other->uuid == newcomer->uuid && !newcomer->uuid.isEmpty();
+    };
+    const auto found = std::find_if(m_connections.begin(), m_connections.end(), isItself);
+    if (found != m_connections.end())
+        drop(found->get(), QStringLiteral("it registers again"));
 }
 
 void MasterServer::attachCyclicChannel(MasterConnection *connection, const Message &message)

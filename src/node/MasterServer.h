@@ -47,11 +47,14 @@ Q_SIGNALS:
 private:
     void accept();
     void receive(MasterConnection *connection, const QPlcMessage &message);
+    void dropClosed(const QPlcSlaveSocket *socket);
+    void receiveGarbage(MasterConnection *connection);
     void greet(MasterConnection *connection, const QPlcMessage &message);
     void registerNode(MasterConnection *connection, const QPlcMessage &message);
+    void replace(const MasterConnection *newcomer, const QString &name);
     void attachCyclicChannel(MasterConnection *connection, const QPlcMessage &message);
     void nodeAttached(MasterConnection *connection);
-    void reject(MasterConnection *connection, const QString &error, const QString &text);
+    void reject(MasterConnection *connection, const QString &error, const QString &reason);
     void forget(MasterConnection *connection);
     bool openPorts(const QHostAddress &address, quint16 port);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "NodeRegistry.h"
 
+#include "Logging.h"
+
 #include <QtCore/QJsonArray>
 #include <QtCore/QMetaEnum>
 #include <QtCore/QSet>
@@ -47,6 +49,8 @@ bool NodeDeclaration::fromMessage(const QPlcMessage &message, NodeDeclaration *d
     declaration->listener = fields.value(QStringLiteral("listener")).toBool();
     if (declaration->name.isEmpty() || declaration->name.size() > 64)
         *error = QStringLiteral("a node needs a name of 1 ... 64 characters");
+    else if (declaration->name != printable(declaration->name))
+        *error = QStringLiteral("the name '%1' has control characters").arg(printable(declaration->name));
     else if (!knownPolicy)
         *error = QStringLiteral("unknown policy '%1'").arg(QString::fromLatin1(policyName));
     else if (!readSignals(fields.value(QStringLiteral("inputs")), &declaration->inputs) || !readSignals(fields.value(QStringLiteral("outputs")), &declaration->outputs))

@@ -37,6 +37,8 @@ struct NodeSlot
     std::vector<char> inputs;                  // payload of this cycle
     std::vector<char> frames;                  // encoded parts, one behind the other
     FrameHeader request;
+    std::size_t partsSent = 0;                 // of the request: a stream takes what the kernel has room for
+    std::size_t bytesSent = 0;
     bool answered = false;                     // in this cycle
     bool computed = false;                     // local: the step of this cycle gave outputs
     bool faulted = false;
@@ -48,6 +50,7 @@ struct NodeSlot
     std::atomic<quint64> rejected{0};
     std::atomic<quint64> resent{0};
 
+    bool isRequestSent() const { return partsSent == encoder.partCount() && !peer->hasRest(); }
     bool waits() const { return policy == QPlcSlaveNode::SilentWait || policy == QPlcSlaveNode::ErrorWait; }
     bool reports() const { return policy == QPlcSlaveNode::ErrorZeroOrderHold || policy == QPlcSlaveNode::ErrorWait; }
 

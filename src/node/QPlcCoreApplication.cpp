@@ -31,12 +31,38 @@ void printLines(std::FILE *file, const QString &text)
     std::fflush(file);
 }
 
+/// "-2" is a number and no option: a blank in front keeps the parser from taking it for one.
+QStringList withNumbersHidden(const QStringList &arguments)
+{
+    QStringList result;
+    for (const QString &argument : arguments) {
+        const bool isNumber = argument.size() > 1 && argument.at(0) == QLatin1Char('-') && (argument.at(1).isDigit() || argument.at(1) == QLatin1Char('.'));
+        result << (isNumber ? QLatin1Char(' ') + argument : argument);
+    }
+    return result;
+}
+
+/// What withNumbersHidden() made of it, back again.
+QString revealed(const QString &argument)
+{
+    return argument.startsWith(QLatin1String(" -")) ? argument.mid(1) : argument;
+}
+
+QStringList revealed(const QStringList &arguments)
+{
+    QStringList result;
+    for (const QString &argument : arguments)
+        result << revealed(argument);
+    return result;
+}
+
 }  // namespace
 
 struct QPlcCoreApplication::Private
 {
     QCommandLineParser parser;
     QStringList examples;
+    bool takesArguments = false;
     int exitCode = Success;
     int sockets[2] = {-1, -1};
     std::unique_ptr<QSocketNotifier> notifier;
@@ -74,12 +100,13 @@ void QPlcCoreApplication::addOption(const QCommandLineOption &option) { d->parse
 
 void QPlcCoreApplication::addPositionalArgument(const QString &name, const QString &description, const QString &syntax)
 {
+    d->takesArguments = true;
     d->parser.addPositionalArgument(name, description, syntax);
 }
 
 bool QPlcCoreApplication::parseOptions()
 {
-    if (!d->parser.parse(arguments())) {
+    if (!d->parser.parse(withNumbersHidden(arguments()))) {
         d->exitCode = usageError(QStringLiteral("%1; see --help").arg(d->parser.errorText()));
         return false;
     }
@@ -94,6 +121,10 @@ bool QPlcCoreApplication::parseOptions()
         printLines(stdout, QStringLiteral("%1 %2\n").arg(applicationName(), QStringLiteral(QTPLC_VERSION)));
         return false;
     }
+    if (!d->takesArguments && !positionalArguments().isEmpty()) {
+        d->exitCode = usageError(QStringLiteral("unexpected argument '%1'; options begin with --, see --help").arg(positionalArguments().constFirst()));
+        return false;
+    }
     return true;
 }
 
@@ -101,11 +132,11 @@ int QPlcCoreApplication::exitCode() const { return d->exitCode; }
 
 bool QPlcCoreApplication::isSet(const QString &option) const { return d->parser.isSet(option); }
 
-QString QPlcCoreApplication::value(const QString &option) const { return d->parser.value(option); }
+QString QPlcCoreApplication::value(const QString &option) const { return revealed(d->parser.value(option)); }
 
-QStringList QPlcCoreApplication::values(const QString &option) const { return d->parser.values(option); }
+QStringList QPlcCoreApplication::values(const QString &option) const { return revealed(d->parser.values(option)); }
 
-QStringList QPlcCoreApplication::positionalArguments() const { return d->parser.positionalArguments(); }
+QStringList QPlcCoreApplication::positionalArguments() const { return revealed(d->parser.positionalArguments()); }
 
 bool QPlcCoreApplication::number(const QString &option, double minimum, double maximum, double *result)
 {

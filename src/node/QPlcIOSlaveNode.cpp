@@ -2,13 +2,14 @@
 #include "QPlcIOSlaveNode.h"
 
 #include "Logging.h"
-#include "NodeRuntime.h"
+#include "QPlcSlaveNodePrivate.h"
 #include "realtime/ByteRing.h"
 #include "realtime/SnapshotBuffer.h"
 #include "signals/PayloadLayout.h"
 
 #include <QtCore/QTimer>
 
+#include <algorithm>
 #include <mutex>
 
 struct QPlcIOSlaveNode::Private
@@ -70,7 +71,10 @@ void QPlcIOSlaveNode::registerAgain()
 {
     if (state() == Disconnected)
         return;
-    connectToMaster(masterProtocol());
+    if (masterProtocol().isValid())
+        connectToMaster(masterProtocol());
+    else
+        qCWarning(lcSlave) << "node" << name() << "lives in the process of its master: remove it there, and add it again to register its signals";
 }
 
 void QPlcIOSlaveNode::setInitialOutputSignals(const QPlcSignalList &signalList)
@@ -87,9 +91,12 @@ void QPlcIOSlaveNode::setOutputSignals(const QPlcSignalList &signalList)
             qCWarning(lcSlave) << "node" << name() << "does not write the signal with the index" << entry.index << "- declare it by setOutputSignalIndices()";
     }
     for (const qplc::PayloadLayout::Field &field : d->outputLayout.fields()) {
-        const QPlcValue value = d->wanted.value(field.signal).convertedTo(field.type);
+        const QPlcValue wanted = d->wanted.value(field.signal);
+        const QPlcValue value = wanted.convertedTo(field.type);
         if (value.isValid())
             value.toBytes(d->outputs.data() + field.offset);
+        else if (wanted.isValid())
+            qCWarning(lcSlave).noquote() << "node" << name() << "- the value" << wanted.toString() << "does not fit its signal of type" << field.type.name() << "and is not set";
     }
     passOutputs();
 }
@@ -128,7 +135,7 @@ void QPlcIOSlaveNode::attachPorts(const qplc::PayloadLayout &inputs, const qplc:
     d->outputLayout = outputs;
     d->outputs.assign(outputs.size(), 0);
     for (const qplc::PayloadLayout::Field &field : outputs.fields())
-        signalTable().at(field.signal).initial.toBytes(d->outputs.data() + field.offset);
+        QPlcSlaveNode::d->runtime.table().at(field.signal).initial.toBytes(d->outputs.data() + field.offset);
     d->newOutputs = std::make_unique<qplc::ByteRing>(std::max<std::size_t>(1, outputs.size()), 64);
     d->newInputs = std::make_unique<qplc::SnapshotBuffer>(inputs.size());
     setOutputSignals({});
@@ -138,7 +145,7 @@ void QPlcIOSlaveNode::resetFrame(char *outputs)
 {
     while (d->newOutputs->front())
         d->newOutputs->pop();
-    std::memcpy(outputs, d->outputs.data(), d->outputs.size());
+    std::copy(d->outputs.begin(), d->outputs.end(), outputs);  // may be none at all
 }
 
 void QPlcIOSlaveNode::initializeFrame(const char *inputs)

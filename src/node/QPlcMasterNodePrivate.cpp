@@ -10,6 +10,9 @@
 #include <QtCore/QJsonArray>
 #include <QtCore/QMetaEnum>
 #include <QtCore/QRandomGenerator>
+#include <QtCore/QUuid>
+
+#include <cmath>
 
 #include <algorithm>
 
@@ -29,6 +32,7 @@ quint64 newSession()
 QPlcMasterNodePrivate::QPlcMasterNodePrivate(QPlcMasterNode *master)
     : q(master)
     , session(newSession())
+    , uuid(QUuid::createUuid().toString(QUuid::WithoutBraces))
 {
     stepTimer.setSingleShot(true);
     stepTimer.setInterval(2000);
@@ -64,7 +68,7 @@ bool QPlcMasterNodePrivate::prepare()
     if (table.isEmpty())
         table = QPlcSignalIndexTable::current();
     if (table.isEmpty())
-        return setError(QPlcMasterNode::SignalError, QStringLiteral("the master has no signals; read a table with QPlcSignalIndexTable::initializeFromIniFile()"));
+        return setError(QPlcMasterNode::SignalError, QStringLiteral("the master has no signals; read a table with QPlcSignalIndexTable::initializeFromIniFile() %1").arg(QPlcSignalIndexTable::lastErrorString()).trimmed());
     registry = std::make_unique<qplc::NodeRegistry>(table);
     cycle = std::make_unique<qplc::MasterCycle>(table, hub, lcCyclic().isDebugEnabled());
     m_reportNotifier = std::make_unique<QSocketNotifier>(cycle->reports().descriptor(), QSocketNotifier::Read);
@@ -72,9 +76,11 @@ bool QPlcMasterNodePrivate::prepare()
     const auto hello = [this] {
         return QJsonObject{{QStringLiteral("protocol"), 1},
                            {QStringLiteral("name"), qplc::NodeRegistry::masterName()},
+                           {QStringLiteral("uuid"), uuid},
                            {QStringLiteral("session"), Message::fromHex64(session)},
                            {QStringLiteral("tableHash"), Message::fromHex64(table.hash())},
                            {QStringLiteral("table"), QString::fromUtf8(table.toIni())},
+                           {QStringLiteral("state"), qplc::stateName(state)},
                            {QStringLiteral("period"), double(interval.count())},
                            {QStringLiteral("features"), QJsonArray()}};
     };
@@ -134,6 +140,8 @@ bool QPlcMasterNodePrivate::addLocalNode(QPlcSlaveNode *node)
         return false;
     if (state != QPlcMasterNode::Off)
         return setError(QPlcMasterNode::StateError, QStringLiteral("node '%1' can only be added while the master is off").arg(node->name()));
+    if (QPlcSignalIndexTable::current().isEmpty())
+        QPlcSignalIndexTable::setCurrent(table);  // what the node's lists of signals look their names up in
     QString text;
     qplc::NodeRuntime &runtime = node->d->runtime;
     if (!runtime.bind(table, &text))
@@ -173,19 +181,20 @@ void QPlcMasterNodePrivate::receive(Connection *connection, const Message &messa
     case Message::ReceiveMyInitialOutputStates:
     case Message::Initialized:
     case Message::RealTimeReady:
-        if (isRunning())
+        if (!connection->isNode())
+            connection->fail(QStringLiteral("MalformedMessage"), QStringLiteral("%1 is for registered nodes only").arg(message.kindName()));
+        else if (isRunning())
             continueJoin(connection, message);
-        else if (message.kind() != Message::ReceiveMyInitialOutputStates || storeOutputs(connection, message)) {
-            if (connection->stage + 1 == m_owed)
-                connection->stage = m_owed;
-            advance();
-        }
+        else
+            continueSequence(connection, message);
         break;
     case Message::NodeFault:
-        if (isRunning() && connection->stage != Connection::Running)
-            server->drop(connection, message.text(QStringLiteral("text")));  // it failed to join: no reason to stop the others
+        if (!connection->isNode())
+            connection->fail(QStringLiteral("MalformedMessage"), QStringLiteral("NodeFault is for registered nodes only"));
+        else if (isRunning() && connection->stage != Connection::Running)
+            server->drop(connection, qplc::printable(message.text(QStringLiteral("text"))));  // it failed to join: no reason to stop the others
         else
-            fault(QStringLiteral("node '%1': %2").arg(connection->name, message.text(QStringLiteral("text"))));
+            fault(QStringLiteral("node '%1': %2").arg(connection->name, qplc::printable(message.text(QStringLiteral("text")))));
         break;
     default: receiveCommand(connection, message); break;
     }
@@ -198,14 +207,14 @@ void QPlcMasterNodePrivate::receiveCommand(Connection *connection, const Message
     QString text;
     switch (message.kind()) {
     case Message::InitializeAllStates: request(connection, initializeAllStates()); break;
-    case Message::StartRealTime: request(connection, startRealTime(quint64(fields.value(QStringLiteral("cycles")).toDouble()))); break;
+    case Message::StartRealTime: startAsAsked(connection, message); break;
     case Message::Stop:
         stop(QStringLiteral("'%1' asked for it").arg(connection->name));
         connection->send(Message::Done);
         break;
     case Message::GetState: connection->send(Message::State, qplc::stateFields(*q, session)); break;
     case Message::GetSignals:
-        if (!qplc::signalFields(*q, fields.value(QStringLiteral("names")).toVariant().toStringList(), &reply, &text))
+        if (!qplc::signalFields(*cycle, *registry, fields.value(QStringLiteral("names")).toVariant().toStringList(), &reply, &text))
             connection->fail(QStringLiteral("UnknownSignal"), text);
         else if (!connection->send(Message::Signals, reply))
             connection->fail(QStringLiteral("TooLong"), QStringLiteral("too many signals for one answer; ask for some of them by name"));
@@ -234,53 +243,84 @@ void QPlcMasterNodePrivate::answerRequester(bool done, const QString &text)
     m_requester.clear();
 }
 
+void QPlcMasterNodePrivate::startAsAsked(Connection *connection, const Message &message)
+{
+    constexpr double largestInteger = 9007199254740992.0;  // that a JSON number holds exactly
+    const QJsonValue cycles = message.fields().value(QStringLiteral("cycles"));
+    const double wanted = cycles.toDouble(-1.0);
+    if (!cycles.isUndefined() && (wanted < 0.0 || wanted > largestInteger || wanted != std::floor(wanted)))
+        connection->fail(QStringLiteral("MalformedMessage"), QStringLiteral("'cycles' is a whole number of cycles; leave it out to run until Stop"));
+    else
+        request(connection, startRealTime(cycles.isUndefined() ? 0 : quint64(wanted)));
+}
+
+// ---- values from outside ----
+
+bool QPlcMasterNodePrivate::isSettable(const QString &name, QPlcSignalIndex *signal, qplc::Refusal *refusal) const
+{
+    *signal = table.indexOf(name);
+    if (*signal == QPlcInvalidSignalIndex)
+        *refusal = {QStringLiteral("UnknownSignal"), table.unknownSignalText(name)};
+    else if (!registry->writer(*signal).isEmpty())
+        *refusal = {QStringLiteral("SignalHasWriter"),
+                    QStringLiteral("signal '%1' is written by '%2'; stop that node to set it from outside").arg(name, registry->writer(*signal))};
+    return refusal->error.isEmpty();
+}
+
+bool QPlcMasterNodePrivate::checkValue(QPlcSignalIndex signal, const QPlcValue &value, qplc::SignalSetting *setting, qplc::Refusal *refusal) const
+{
+    const QPlcSignalDefinition &definition = table.at(signal);
+    *setting = {signal, value.convertedTo(definition.type)};
+    if (!setting->value.isValid() || !setting->value.isFinite()) {
+        *refusal = {QStringLiteral("InvalidValue"), QStringLiteral("%1 is no value for signal '%2' of type %3").arg(value.toString(), definition.name, definition.type.name())};
+        return false;
+    }
+    if (!definition.isInRange(setting->value)) {
+        *refusal = {QStringLiteral("InvalidValue"), QStringLiteral("%1 is out of range for signal '%2'; use %3 %4").arg(value.toString(), definition.name, definition.rangeText(), definition.unit).trimmed()};
+        return false;
+    }
+    return true;
+}
+
+/// Sets all of them or none: every value is checked before the first one is set.
 void QPlcMasterNodePrivate::setSignals(Connection *connection, const Message &message)
 {
-    // All or nothing: every value is checked before the first one is set.
-    const QJsonObject values = message.fields().value(QStringLiteral("values")).toObject();
-    QVector<QPair<QString, QPlcValue>> parsed;
-    QString text;
-    for (auto it = values.begin(); it != values.end() && text.isEmpty(); ++it) {
-        const QPlcSignalIndex index = table.indexOf(it.key());
-        if (index == QPlcInvalidSignalIndex)
-            text = table.unknownSignalText(it.key());
-        else if (!registry->writer(index).isEmpty())
-            text = QStringLiteral("signal '%1' is written by '%2'; stop that node to set it by hand").arg(it.key(), registry->writer(index));
+    const QJsonValue values = message.fields().value(QStringLiteral("values"));
+    const QJsonObject texts = values.toObject();
+    std::vector<qplc::SignalSetting> settings(std::size_t(texts.size()));
+    qplc::Refusal refusal;
+    std::size_t count = 0;
+    if (!values.isObject())
+        refusal = {QStringLiteral("MalformedMessage"), QStringLiteral("'values' is an object of signal names and texts")};
+    for (auto it = texts.begin(); it != texts.end() && refusal.error.isEmpty(); ++it) {
+        QPlcSignalIndex index = QPlcInvalidSignalIndex;
+        QString text;
+        if (!isSettable(it.key(), &index, &refusal))
+            break;
+        const QPlcValue value = QPlcValue::fromString(table.at(index).type, it.value().toString(), &text);
+        if (!text.isEmpty())
+            refusal = {QStringLiteral("InvalidValue"), QStringLiteral("signal '%1': %2").arg(it.key(), text)};
         else
-            parsed.append({it.key(), QPlcValue::fromString(table.at(index).type, it.value().toString(), &text)});
+            checkValue(index, value, &settings[count++], &refusal);
     }
-    for (int i = 0; i < parsed.size() && text.isEmpty(); ++i) {
-        if (!setSignalValue(parsed.at(i).first, parsed.at(i).second))
-            text = errorString;
-    }
-    if (text.isEmpty())
+    if (refusal.error.isEmpty() && !cycle->setValues(settings))
+        refusal = {QStringLiteral("WrongState"), QStringLiteral("%1 changes are too many between two cycles; send them in smaller groups").arg(settings.size())};
+    if (refusal.error.isEmpty())
         connection->send(Message::Done);
     else
-        connection->fail(QStringLiteral("InvalidValue"), text);
+        connection->fail(refusal.error, refusal.text);
 }
 
 bool QPlcMasterNodePrivate::setSignalValue(const QString &name, const QPlcValue &value)
 {
     if (!prepare())
         return false;
-    const QPlcSignalIndex index = table.indexOf(name);
-    if (index == QPlcInvalidSignalIndex)
-        return setError(QPlcMasterNode::SignalError, table.unknownSignalText(name));
-    if (!registry->writer(index).isEmpty())
-        return setError(QPlcMasterNode::SignalError, QStringLiteral("signal '%1' is written by '%2'; it cannot be set from outside").arg(name, registry->writer(index)));
-    const QPlcSignalDefinition &definition = table.at(index);
-    const QPlcValue converted = value.convertedTo(definition.type);
-    if (!converted.isValid() || !converted.isFinite())
-        return setError(QPlcMasterNode::SignalError, QStringLiteral("%1 is no value for signal '%2' of type %3").arg(value.toString(), name, definition.type.name()));
-    for (int i = 0; i < definition.type.count(); ++i) {
-        const bool tooSmall = definition.minimum.isValid() && converted.toReal(i) < definition.minimum.toReal();
-        const bool tooLarge = definition.maximum.isValid() && converted.toReal(i) > definition.maximum.toReal();
-        if (tooSmall || tooLarge)
-            return setError(QPlcMasterNode::SignalError, QStringLiteral("%1 is out of range for signal '%2'; use %3 ... %4 %5")
-                                                             .arg(value.toString(), name, definition.minimum.isValid() ? definition.minimum.toString() : QStringLiteral("-inf"),
-                                                                  definition.maximum.isValid() ? definition.maximum.toString() : QStringLiteral("inf"), definition.unit));
-    }
-    if (!cycle->setValue(index, converted))
+    QPlcSignalIndex index = QPlcInvalidSignalIndex;
+    qplc::SignalSetting setting;
+    qplc::Refusal refusal;
+    if (!isSettable(name, &index, &refusal) || !checkValue(index, value, &setting, &refusal))
+        return setError(QPlcMasterNode::SignalError, refusal.text);
+    if (!cycle->setValues({setting}))
         return setError(QPlcMasterNode::StateError, QStringLiteral("signal '%1' was not set: too many changes at once").arg(name));
     return true;
 }
@@ -303,7 +343,7 @@ void QPlcMasterNodePrivate::report(const CycleEvent &event)
 {
     switch (event.kind) {
     case CycleEvent::LateAnswer:
-        qCWarning(lcMaster).noquote() << "node" << nodeName(event.node) << "was late in cycle" << event.cycle;
+        logLateAnswer(event);
         Q_EMIT q->realTimeViolated(nodeName(event.node), event.cycle);
         break;
     case CycleEvent::WaitingForNode: setState(isRunning() ? QPlcMasterNode::WaitingForLateSlaves : state); break;
@@ -331,6 +371,20 @@ void QPlcMasterNodePrivate::report(const CycleEvent &event)
     }
 }
 
+/// The first late answer of a node is told at once, further ones at most once a second.
+void QPlcMasterNodePrivate::logLateAnswer(const CycleEvent &event)
+{
+    constexpr std::int64_t pause = 1'000'000'000;  // [ns]
+    LateLog &log = m_lateLogs[event.node];
+    ++log.untold;
+    const std::int64_t now = qplc::TimeSource::monotonic().now();
+    if (now < log.quietUntil)
+        return;
+    qCWarning(lcMaster).noquote() << "node" << nodeName(event.node) << "was late in cycle" << event.cycle
+                                  << (log.untold > 1 ? QStringLiteral("(and %1 times since the last report)").arg(log.untold - 1) : QString());
+    log = {now + pause, 0};
+}
+
 /// A node cannot go on: the plant stops. What follows from the first fault is its echo and says nothing new.
 void QPlcMasterNodePrivate::fault(const QString &text)
 {
@@ -348,11 +402,15 @@ void QPlcMasterNodePrivate::nodeLost(Connection *connection, const QString &reas
         qCWarning(lcMaster).noquote() << "node" << connection->name << "is gone in the middle of its work:" << reason;
     else
         qCInfo(lcMaster).noquote() << "node" << connection->name << "has left:" << reason;
-    m_participants.erase(std::remove(m_participants.begin(), m_participants.end(), connection), m_participants.end());
+    const auto participant = std::find(m_participants.begin(), m_participants.end(), connection);
+    const bool wasAwaited = m_step != Step::None && participant != m_participants.end();
+    if (participant != m_participants.end())
+        m_participants.erase(participant);
     if (connection->stage == Connection::Running)
         giveRoster();
     Q_EMIT q->nodeLost(connection->name, reason);
-    advance();
+    if (wasAwaited)
+        abortSequence(QStringLiteral("node '%1' has left: %2").arg(connection->name, reason));
 }
 
 QPlcNodeInfo QPlcMasterNodePrivate::info(const NodeSlot &slot) const

@@ -6,7 +6,7 @@
 #include "NodeRegistry.h"
 #include "QPlcMasterNode.h"
 
-#include <QtCore/QElapsedTimer>
+#include <QtCore/QHash>
 #include <QtCore/QPointer>
 #include <QtCore/QSocketNotifier>
 #include <QtCore/QTimer>
@@ -53,6 +53,7 @@ public:
     QString errorString;
     QTimer stepTimer;
     const quint64 session;
+    const QString uuid;
     std::unique_ptr<qplc::NodeRegistry> registry;
     qplc::CyclicHub hub;
     std::unique_ptr<qplc::MasterCycle> cycle;
@@ -66,9 +67,13 @@ private:
     void receive(Connection *connection, const QPlcMessage &message);
     void receiveCommand(Connection *connection, const QPlcMessage &message);
     void request(Connection *connection, bool accepted);
+    void startAsAsked(Connection *connection, const QPlcMessage &message);
     void setSignals(Connection *connection, const QPlcMessage &message);
+    bool isSettable(const QString &name, QPlcSignalIndex *signal, qplc::Refusal *refusal) const;
+    bool checkValue(QPlcSignalIndex signal, const QPlcValue &value, qplc::SignalSetting *setting, qplc::Refusal *refusal) const;
 
     void begin(Step step, Connection::Stage owed);
+    void continueSequence(Connection *connection, const QPlcMessage &message);
     void advance();
     void collectOutputs();
     bool takeOutputs(qplc::NodeSlot &slot, const char *outputs);
@@ -89,6 +94,7 @@ private:
     void nodeLost(Connection *connection, const QString &reason);
     void takeReports();
     void report(const qplc::CycleEvent &event);
+    void logLateAnswer(const qplc::CycleEvent &event);
     void fault(const QString &text);
     QString nodeName(quint16 id) const;
 
@@ -99,5 +105,11 @@ private:
     bool m_initialized = false;                      // since the last phase and the last join
     quint64 m_cyclesWanted = 0;
     QPointer<QPlcSlaveSocket> m_requester;
+    struct LateLog
+    {
+        std::int64_t quietUntil = 0;  // [ns]
+        quint64 untold = 0;
+    };
+    QHash<quint16, LateLog> m_lateLogs;              // by id of the node
     std::unique_ptr<QSocketNotifier> m_reportNotifier;
 };

@@ -63,7 +63,7 @@ int QPlcNodeApplication::run(QPlcSlaveNode &node)
     if (!configure(node))
         return exitCode();
     if (!node.connectToMasterAndWaitForConnected(master))
-        return UsageError;  // the node has said why
+        return node.error() == QPlcSlaveNode::NoError ? Success : UsageError;  // the node has said why; without an error the master has just ended
     connect(&node, &QPlcSlaveNode::disconnectedFromMaster, this, [this, &node] {
         // When the master was lost, and did not just end, the error follows.
         QMetaObject::invokeMethod(this, [&node] { exit(node.error() == QPlcSlaveNode::NoError ? Success : Failure); }, Qt::QueuedConnection);

@@ -108,6 +108,9 @@ bool QPlcSlaveNode::bindPorts(const QPlcSignalTable &table, QVector<QPlcSignalIn
     for (QPlcSignalIndex index : inputList.toVector() + outputList.toVector()) {
         if (index >= table.size())
             errors << QStringLiteral("signal index %1 is not in the table of %2 signals; declare signals by name").arg(index).arg(table.size());
+        else if (QPlcSignalIndexTable::name(index) != table.at(index).name)
+            errors << QStringLiteral("signal '%1' has the index of signal '%2' in the table of the process; give node and process the same table")
+                          .arg(table.at(index).name, QPlcSignalIndexTable::name(index));
     }
     *inputs = inputList.toVector();
     *outputs = outputList.toVector();

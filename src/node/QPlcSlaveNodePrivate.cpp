@@ -72,6 +72,7 @@ void QPlcSlaveNodePrivate::connectToMaster(const QPlcUnderlyingProtocol &newMast
     error = QPlcSlaveNode::NoError;
     errorString.clear();
     master = newMaster;
+    m_session = 0;
     if (!master.isValid()) {
         setError(QPlcSlaveNode::OptionError, QStringLiteral("node '%1': no master given; use QPlcUnderlyingProtocol::tcp() or udp()").arg(name));
         return;
@@ -80,14 +81,20 @@ void QPlcSlaveNodePrivate::connectToMaster(const QPlcUnderlyingProtocol &newMast
     control = new QPlcMasterSocket(q);
     QObject::connect(control, &QPlcAbstractSocket::connected, q, [this] { greet(); });
     QObject::connect(control, &QPlcAbstractSocket::messageReceived, q, [this](const Message &message) { receive(message); });
-    QObject::connect(control, &QPlcAbstractSocket::errorOccurred, q, [this](QPlcAbstractSocket::Error e) { masterLost(e, control->errorString()); });
-    QObject::connect(control, &QPlcAbstractSocket::disconnected, q,
-                     [this] { masterLost(QPlcAbstractSocket::ConnectionLostError, QStringLiteral("the connection was closed")); });
+    // Not at once: a message that cannot be sent ends the connection, and who sends has more to do.
+    const auto controlLost = [this, socket = control](QPlcAbstractSocket::Error socketError) {
+        if (socket == control)  // else given up meanwhile
+            masterLost(socketError, socketError == QPlcAbstractSocket::NoError ? QStringLiteral("the connection was closed") : socket->errorString());
+    };
+    QObject::connect(control, &QPlcAbstractSocket::errorOccurred, q, controlLost, Qt::QueuedConnection);
+    QObject::connect(control, &QPlcAbstractSocket::disconnected, q, [controlLost] { controlLost(QPlcAbstractSocket::NoError); }, Qt::QueuedConnection);
     control->connectToMaster(master);
 }
 
 void QPlcSlaveNodePrivate::disconnectFromMaster()
 {
+    if (!control)
+        return;  // not connected, or in the process of its master, who removes it
     const bool wasRegistered = state >= QPlcSlaveNode::Off;
     stopCycles();
     closeSockets();
@@ -108,6 +115,7 @@ void QPlcSlaveNodePrivate::closeSockets()
     }
     m_udpLink.reset();
     m_reportNotifier.reset();
+    m_outputsAwaited = false;
     cycle.reset();
 }
 
@@ -117,9 +125,10 @@ void QPlcSlaveNodePrivate::masterLost(QPlcAbstractSocket::Error socketError, con
     const QString sentence = wasConnecting ? QStringLiteral("node '%1' cannot reach a master at %2: %3; start the master, or check address and port")
                                            : QStringLiteral("node '%1' has lost the master at %2: %3");
     const QString full = sentence.arg(name, master.toString(), text);
+    const QPlcAbstractSocket::Error reason = socketError == QPlcAbstractSocket::NoError ? QPlcAbstractSocket::ConnectionLostError : socketError;
     disconnectFromMaster();
-    setError(socketError == QPlcAbstractSocket::ProtocolError ? QPlcSlaveNode::ProtocolError : QPlcSlaveNode::ConnectionError, full);
-    Q_EMIT q->errorWithMaster(socketError, full);
+    setError(reason == QPlcAbstractSocket::ProtocolError ? QPlcSlaveNode::ProtocolError : QPlcSlaveNode::ConnectionError, full);
+    Q_EMIT q->errorWithMaster(reason, full);
 }
 
 void QPlcSlaveNodePrivate::giveUp(QPlcSlaveNode::Error newError, const QString &text)
@@ -143,15 +152,37 @@ void QPlcSlaveNodePrivate::greet()
     control->sendMessage(Message(Message::Hello, fields));
 }
 
+/// Whether a master may send \a kind now. Anything else would call the code of the node before it is bound, or on two threads at a time.
+bool QPlcSlaveNodePrivate::isExpected(Message::Kind kind) const
+{
+    switch (kind) {
+    case Message::Hello: return state == QPlcSlaveNode::Connecting && m_session == 0;
+    case Message::Registered: return state == QPlcSlaveNode::Connecting && m_session != 0 && !cycle;
+    case Message::CyclicChannelAttached: return state == QPlcSlaveNode::Connecting && cycle && master.kind() == QPlcUnderlyingProtocol::Udp;
+    case Message::SendYourInitialOutputStates:
+    case Message::InitializeWithValues: return state == QPlcSlaveNode::Off || state == QPlcSlaveNode::Initializing;
+    case Message::RealTimeStarted: return state == QPlcSlaveNode::Off;
+    default: return true;
+    }
+}
+
 void QPlcSlaveNodePrivate::receive(const Message &message)
 {
+    if (state == QPlcSlaveNode::Connecting && m_cyclicSocket && message.kind() == Message::SendYourInitialOutputStates) {
+        m_outputsAwaited = true;  // it overtook CyclicChannelAttached, which comes on the other connection
+        return;
+    }
+    if (!isExpected(message.kind())) {
+        qCWarning(lcSlave).noquote() << "node" << name << "ignores" << message.kindName() << "of the master: not possible now";
+        return;
+    }
     switch (message.kind()) {
     case Message::Hello: receiveHello(message); break;
     case Message::Registered: receiveRegistered(message); break;
     case Message::CyclicChannelAttached: cyclicChannelAttached(); break;
     case Message::Rejected:
         giveUp(QPlcSlaveNode::RegistrationError,
-               QStringLiteral("the master at %1 refuses node '%2': %3").arg(master.toString(), name, message.text(QStringLiteral("text"))));
+               QStringLiteral("the master at %1 refuses node '%2': %3").arg(master.toString(), name, qplc::printable(message.text(QStringLiteral("text")))));
         break;
     case Message::MasterEnds:
         qCInfo(lcSlave).noquote() << "node" << name << "- the master has ended";
@@ -160,9 +191,17 @@ void QPlcSlaveNodePrivate::receive(const Message &message)
     case Message::SendYourInitialOutputStates: sendInitialOutputs(); break;
     case Message::InitializeWithValues: initializeWith(message); break;
     case Message::RealTimeStarted: startCycles(message); break;
-    case Message::RealTimeStopped: stopCycles(); break;
+    case Message::RealTimeStopped:
+        stopCycles();
+        initializationFailed();
+        break;
+    case Message::StatesInitialized:
+        if (!message.fields().value(QStringLiteral("ok")).toBool())
+            initializationFailed();
+        Q_EMIT q->messageReceived(message);
+        break;
     case Message::Failed:
-        qCWarning(lcSlave).noquote() << "node" << name << "asked in vain:" << message.text(QStringLiteral("text"));
+        qCWarning(lcSlave).noquote() << "node" << name << "asked in vain:" << qplc::printable(message.text(QStringLiteral("text")));
         Q_FALLTHROUGH();
     default: Q_EMIT q->messageReceived(message); break;
     }
@@ -257,7 +296,7 @@ void QPlcSlaveNodePrivate::connectCyclicChannel()
                      [this](QPlcAbstractSocket::Error e) { masterLost(e, m_cyclicSocket->errorString()); });
     QObject::connect(m_cyclicSocket, &QPlcAbstractSocket::messageReceived, q, [this](const Message &message) {
         if (message.kind() != Message::CyclicChannelAttached) {
-            giveUp(QPlcSlaveNode::RegistrationError, QStringLiteral("the master refuses the cyclic connection: %1").arg(message.text(QStringLiteral("text"))));
+            giveUp(QPlcSlaveNode::RegistrationError, QStringLiteral("the master refuses the cyclic connection: %1").arg(qplc::printable(message.text(QStringLiteral("text")))));
             return;
         }
         const int descriptor = m_cyclicSocket->takeDescriptor();
@@ -274,6 +313,9 @@ void QPlcSlaveNodePrivate::cyclicChannelAttached()
     qCInfo(lcSlave).noquote() << "node" << name << "registered at" << master.toString();
     setState(QPlcSlaveNode::Off);
     Q_EMIT q->connectedToMaster();
+    if (m_outputsAwaited && state == QPlcSlaveNode::Off)
+        sendInitialOutputs();
+    m_outputsAwaited = false;
 }
 
 // ---- phases ----
@@ -308,8 +350,21 @@ void QPlcSlaveNodePrivate::initializeWith(const Message &message)
         return;
     }
     control->sendMessage(Message(Message::Initialized));
+    tellInitialized(values);
+}
+
+void QPlcSlaveNodePrivate::tellInitialized(const QByteArray &inputs)
+{
     if (q->isSignalConnected(QMetaMethod::fromSignal(&QPlcSlaveNode::hasInitialized)))
-        Q_EMIT q->hasInitialized(qplc::NodeRuntime::toList(runtime.inputLayout(), values.constData()));
+        Q_EMIT q->hasInitialized(qplc::NodeRuntime::toList(runtime.inputLayout(), inputs.constData()));
+}
+
+/// The master has given up what it began: nothing more will come.
+void QPlcSlaveNodePrivate::initializationFailed()
+{
+    m_outputsAwaited = false;
+    if (state == QPlcSlaveNode::Initializing)
+        setState(QPlcSlaveNode::Off);
 }
 
 void QPlcSlaveNodePrivate::startCycles(const Message &message)

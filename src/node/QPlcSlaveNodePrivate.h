@@ -19,6 +19,9 @@ public:
     void connectToMaster(const QPlcUnderlyingProtocol &master);
     void disconnectFromMaster();
 
+    /// Emits hasInitialized() with the bytes of the inputs, when anybody listens.
+    void tellInitialized(const QByteArray &inputs);
+
     void setState(QPlcSlaveNode::State newState);
     void setError(QPlcSlaveNode::Error newError, const QString &text);
 
@@ -38,6 +41,7 @@ public:
     QPlcMasterSocket *control = nullptr;
 
 private:
+    bool isExpected(QPlcMessage::Kind kind) const;
     void receive(const QPlcMessage &message);
     void greet();
     void receiveHello(const QPlcMessage &message);
@@ -51,6 +55,7 @@ private:
     void initializeWith(const QPlcMessage &message);
     void startCycles(const QPlcMessage &message);
     void stopCycles();
+    void initializationFailed();
     void masterLost(QPlcAbstractSocket::Error socketError, const QString &text);
     void closeSockets();
     void giveUp(QPlcSlaveNode::Error newError, const QString &text);
@@ -58,6 +63,7 @@ private:
     void report(const qplc::CycleEvent &event);
 
     QPlcMasterSocket *m_cyclicSocket = nullptr;
+    bool m_outputsAwaited = false;  // by the master, which knows already that the cyclic connection is there
     std::unique_ptr<qplc::CyclicLink> m_udpLink;
     std::unique_ptr<QSocketNotifier> m_reportNotifier;
     QString m_uuid;

@@ -53,6 +53,8 @@ bool SlaveCycle::start(const Phase &phase)
     m_phase = phase;
     m_decoder.restart(phase.firstCycle);
     m_runtime.setLockstep(phase.clock.isLockstep());
+    for (std::atomic<quint64> *counter : {&m_counters.cycles, &m_counters.missed, &m_counters.duplicated, &m_counters.outdated, &m_counters.rejected, &m_counters.watchdog})
+        counter->store(0);
     m_computedAny = m_faulted = m_watchdogBarked = false;
     m_lastCycle = phase.firstCycle;
     m_lastArrival = TimeSource::monotonic().now();
@@ -111,8 +113,10 @@ void SlaveCycle::take(const char *frame, std::size_t size) noexcept
     const FrameStatus status = decode(frame, size);
     if (status == FrameStatus::Duplicate && m_computedAny && isRepeatedRequest())
         answer();
-    if (status != FrameStatus::Complete)
+    if (status != FrameStatus::Complete) {
+        checkWatchdog();  // frames that are no use do not calm it
         return;
+    }
     if (!m_phase.clock.isLockstep())
         skipToNewest();
     compute();

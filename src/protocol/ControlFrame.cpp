@@ -46,7 +46,7 @@ QString jsonErrorText(const QJsonParseError &error)
     return QStringLiteral("%1 at byte %2 of its JSON").arg(error.errorString()).arg(error.offset);
 }
 
-} // namespace
+}  // namespace
 
 QByteArray encodeControlFrame(const QPlcMessage &message)
 {
@@ -140,4 +140,4 @@ bool ControlFrameReader::setError(Error error, const QString &text)
     return false;
 }
 
-} // namespace qplc
+}  // namespace qplc

@@ -24,10 +24,10 @@ class ControlFrameReader
 public:
     enum Error {
         NoError,
-        FrameTooLong,    ///< length beyond MaximumControlFrame
-        FrameTooShort,   ///< length 0: not even a kind
+        FrameTooLong,   ///< length beyond MaximumControlFrame
+        FrameTooShort,  ///< length 0: not even a kind
         NestedTooDeep,
-        InvalidJson      ///< not UTF-8, not JSON, or not an object
+        InvalidJson  ///< not UTF-8, not JSON, or not an object
     };
 
     /// Takes bytes of the stream. To be followed by next() until it has no more messages.
@@ -49,7 +49,7 @@ private:
     bool setError(Error error, const QString &text);
 
     QByteArray m_buffer;
-    int m_begin = 0;         // [byte] of m_buffer: what is before it has been used
+    int m_begin = 0;  // [byte] of m_buffer: what is before it has been used
     QByteArray m_lastFrame;
     quint64 m_position = 0;  // [byte] of the stream at m_begin
     Error m_error = NoError;

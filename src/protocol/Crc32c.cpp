@@ -16,7 +16,7 @@ namespace qplc {
 
 namespace {
 
-constexpr std::uint32_t Polynomial = 0x82F63B78; // bits reflected
+constexpr std::uint32_t Polynomial = 0x82F63B78;  // bits reflected
 constexpr std::size_t Word = sizeof(std::uint64_t);
 
 // tables[n][b]: what byte b adds to the checksum when n more bytes follow it.
@@ -109,7 +109,7 @@ std::uint32_t byInstruction(std::uint32_t state, const char *, std::size_t) noex
 
 #endif
 
-} // namespace
+}  // namespace
 
 std::uint32_t crc32c(std::uint32_t crc, const void *bytes, std::size_t size) noexcept
 {
@@ -129,4 +129,4 @@ std::uint32_t crc32cByTable(std::uint32_t crc, const void *bytes, std::size_t si
     return ~state;
 }
 
-} // namespace qplc
+}  // namespace qplc

@@ -58,7 +58,7 @@ std::vector<std::uint32_t> checkedBorders(std::vector<std::uint32_t> borders)
     return borders;
 }
 
-} // namespace
+}  // namespace
 
 FrameEncoder::FrameEncoder(FrameKind kind, const FrameSeed &seed, std::vector<std::uint32_t> partBorders)
     : m_kind(kind)
@@ -182,4 +182,4 @@ FrameStatus FrameDecoder::takePart(std::size_t part, const char *payload) noexce
     return FrameStatus::Complete;
 }
 
-} // namespace qplc
+}  // namespace qplc

@@ -19,14 +19,14 @@ constexpr std::size_t MaximumCyclicFrame = 1472;
 constexpr std::size_t MaximumCyclicPayload = MaximumCyclicFrame - CyclicOverhead;
 
 enum class FrameKind : std::uint8_t {
-    Inputs = 1,   ///< master -> node: TimeoutWithNewValues
-    Outputs = 2   ///< node -> master: the answer
+    Inputs = 1,  ///< master -> node: TimeoutWithNewValues
+    Outputs = 2  ///< node -> master: the answer
 };
 
 enum FrameFlag : std::uint8_t {
-    ResentFlag = 0x01,     ///< sent again because no answer came: to be answered from the cache
-    FaultFlag = 0x02,      ///< outputs: the node could not compute this cycle, the values are those of the cycle before
-    PartFlag = 0x80        ///< part 1, 2, ... of a frame of several parts: `info` is the number of the part
+    ResentFlag = 0x01,  ///< sent again because no answer came: to be answered from the cache
+    FaultFlag = 0x02,   ///< outputs: the node could not compute this cycle, the values are those of the cycle before
+    PartFlag = 0x80     ///< part 1, 2, ... of a frame of several parts: `info` is the number of the part
 };
 
 struct FrameHeader
@@ -34,26 +34,27 @@ struct FrameHeader
     FrameKind kind = FrameKind::Inputs;
     std::uint8_t flags = 0;
     std::uint32_t cycle = 0;
-    std::uint32_t info = 0;   ///< inputs: lateness of the cycle [ns]; outputs: execution time [ns]; saturated. Parts > 0: number of the part
+    std::uint32_t info
+        = 0;  ///< inputs: lateness of the cycle [ns]; outputs: execution time [ns]; saturated. Parts > 0: number of the part
 };
 
 /// What binds a frame to one session, one node and one layout; mixed into the CRC, never sent.
 struct FrameSeed
 {
-    std::uint64_t session = 0;      ///< random, new at each start of a master, never 0
-    std::uint16_t node = 0;         ///< given by the master at registration
-    std::uint64_t layoutHash = 0;   ///< PayloadLayout::hash() of the direction
+    std::uint64_t session = 0;     ///< random, new at each start of a master, never 0
+    std::uint16_t node = 0;        ///< given by the master at registration
+    std::uint64_t layoutHash = 0;  ///< PayloadLayout::hash() of the direction
 };
 
 enum class FrameStatus : std::uint8_t {
-    Complete,       ///< all values of a cycle are there
-    Incomplete,     ///< a good part; others are missing
-    Duplicate,      ///< a good part that was there before, or belongs to the newest complete cycle
-    Old,            ///< a good part of a cycle that is over: before the newest one seen, and not the newest complete one
-    WrongLength,    ///< for the part that it says to be, or there is no such part
-    WrongVersion,   ///< of the protocol, or the kind of the other direction
-    WrongSession,   ///< low 16 bits differ
-    WrongChecksum   ///< corrupted, or of another session, node or table
+    Complete,      ///< all values of a cycle are there
+    Incomplete,    ///< a good part; others are missing
+    Duplicate,     ///< a good part that was there before, or belongs to the newest complete cycle
+    Old,           ///< a good part of a cycle that is over: before the newest one seen, and not the newest complete one
+    WrongLength,   ///< for the part that it says to be, or there is no such part
+    WrongVersion,  ///< of the protocol, or the kind of the other direction
+    WrongSession,  ///< low 16 bits differ
+    WrongChecksum  ///< corrupted, or of another session, node or table
 };
 
 /// The 64-bit number of the cycle whose low 32 bits are \a wire, nearest to \a reference.
@@ -124,18 +125,18 @@ private:
     std::uint16_t m_session = 0;
     std::uint32_t m_seedCrc = 0;
     std::vector<std::uint32_t> m_borders;
-    std::size_t m_partCount = 0;                 // 0: no frame has the right length
-    std::unique_ptr<char[]> m_payload;           // newest complete one
-    std::unique_ptr<char[]> m_incomplete;        // of m_newest, as long as parts are missing
-    std::vector<std::uint64_t> m_partsSeen;      // of m_newest, one bit a part
-    std::size_t m_missingParts = 0;              // of m_newest
+    std::size_t m_partCount = 0;             // 0: no frame has the right length
+    std::unique_ptr<char[]> m_payload;       // newest complete one
+    std::unique_ptr<char[]> m_incomplete;    // of m_newest, as long as parts are missing
+    std::vector<std::uint64_t> m_partsSeen;  // of m_newest, one bit a part
+    std::size_t m_missingParts = 0;          // of m_newest
     FrameHeader m_received;
     FrameHeader m_incompleteHeader;
     FrameHeader m_header;
-    std::uint64_t m_cycle = 0;                   // newest complete one
-    std::uint64_t m_newest = 0;                  // newest cycle seen; before any, the first one that is welcome
-    bool m_any = false;                          // a frame since restart()
-    bool m_anyComplete = false;                  // a complete one since restart()
+    std::uint64_t m_cycle = 0;   // newest complete one
+    std::uint64_t m_newest = 0;  // newest cycle seen; before any, the first one that is welcome
+    bool m_any = false;          // a frame since restart()
+    bool m_anyComplete = false;  // a complete one since restart()
 };
 
 }  // namespace qplc

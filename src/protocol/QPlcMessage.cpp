@@ -15,7 +15,7 @@ bool isHexDigit(QChar character)
         || (character >= QLatin1Char('a') && character <= QLatin1Char('f'));
 }
 
-} // namespace
+}  // namespace
 
 QString QPlcMessage::kindName() const
 {

@@ -52,8 +52,8 @@ private:
     const std::size_t m_itemSize;
     std::size_t m_mask = 0;
     std::unique_ptr<char[]> m_bytes;
-    alignas(64) std::atomic<std::size_t> m_head{0}; // producer
-    alignas(64) std::atomic<std::size_t> m_tail{0}; // consumer
+    alignas(64) std::atomic<std::size_t> m_head{0};  // producer
+    alignas(64) std::atomic<std::size_t> m_tail{0};  // consumer
 };
 
-} // namespace qplc
+}  // namespace qplc

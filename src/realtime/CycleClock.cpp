@@ -13,7 +13,7 @@ CycleClock::CycleClock(TimeSource &time, std::int64_t period)
 
 void CycleClock::start() noexcept
 {
-    m_origin = m_period > 0 ? m_time.now() : 0; // lockstep knows no clock
+    m_origin = m_period > 0 ? m_time.now() : 0;  // lockstep knows no clock
     m_next = 0;
 }
 
@@ -30,4 +30,4 @@ CycleClock::Tick CycleClock::arrive() noexcept
     return tick;
 }
 
-} // namespace qplc
+}  // namespace qplc

@@ -17,10 +17,10 @@ class CycleClock
 public:
     struct Tick
     {
-        std::uint64_t cycle = 0;   ///< number of the cycle to compute
-        std::uint64_t skipped = 0; ///< cycles left out before it
-        std::int64_t lateness = 0; ///< actual wake-up - nominal time of `cycle` [ns], 0 ... period - 1
-        bool interrupted = false;  ///< woken before its time because stop was asked for
+        std::uint64_t cycle = 0;    ///< number of the cycle to compute
+        std::uint64_t skipped = 0;  ///< cycles left out before it
+        std::int64_t lateness = 0;  ///< actual wake-up - nominal time of `cycle` [ns], 0 ... period - 1
+        bool interrupted = false;   ///< woken before its time because stop was asked for
     };
 
     /// \param period  [ns] between two cycles on the clock of \a time; 0: lockstep, no waiting and no look at the clock
@@ -31,7 +31,7 @@ public:
     /// Waits for the next cycle. An interrupted wait consumes no cycle: the next call waits for the same one.
     /// When the cycle is due already (overload, lockstep), nobody is asked: the caller also looks between two cycles.
     /// \param shouldStop  asked before the sleep, after every interruption of it, and at least each 50 ms
-    template <typename ShouldStop>
+    template<typename ShouldStop>
     Tick next(ShouldStop shouldStop) noexcept;
     /// Shifts the grid by \a duration [ns]: time stood still (Wait policies).
     void shift(std::int64_t duration) noexcept { m_origin += duration; }
@@ -49,10 +49,10 @@ private:
     std::uint64_t m_next = 0;
 };
 
-template <typename ShouldStop>
+template<typename ShouldStop>
 CycleClock::Tick CycleClock::next(ShouldStop shouldStop) noexcept
 {
-    constexpr std::int64_t slice = 50'000'000; // [ns] a stop is never noticed later than this
+    constexpr std::int64_t slice = 50'000'000;  // [ns] a stop is never noticed later than this
     if (m_period > 0) {
         const std::int64_t deadline = nominal(m_next);
         for (std::int64_t now = m_time.now(); now < deadline; now = m_time.now()) {
@@ -68,4 +68,4 @@ CycleClock::Tick CycleClock::next(ShouldStop shouldStop) noexcept
     return arrive();
 }
 
-} // namespace qplc
+}  // namespace qplc

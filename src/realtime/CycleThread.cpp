@@ -68,7 +68,7 @@ QByteArray kernelName(const QString &name)
     return text;
 }
 
-} // namespace
+}  // namespace
 
 CycleThread::CycleThread() = default;
 
@@ -154,7 +154,7 @@ void CycleThread::join()
                "a thread cannot wait for its own end");
     pthread_join(m_thread, nullptr);
     m_running = false;
-    m_body = nullptr; // what it holds is released on the owner's thread
+    m_body = nullptr;  // what it holds is released on the owner's thread
 }
 
-} // namespace qplc
+}  // namespace qplc

@@ -47,8 +47,8 @@ public:
 
 private:
     static void *run(void *self) noexcept;
-    QString refusal() const; // why there is nothing to start
-    int create();            // errno value
+    QString refusal() const;  // why there is nothing to start
+    int create();             // errno value
     bool setError(const QString &reason);
     void applyOptions();
     void waitUntilApplied();
@@ -61,13 +61,13 @@ private:
     QVector<QPlcRealTimeSetting> m_settings;
     QString m_errorString;
 
-    std::unique_ptr<Scheduling> m_inherited; // of the thread that called start()
+    std::unique_ptr<Scheduling> m_inherited;  // of the thread that called start()
     std::mutex m_mutex;
     std::condition_variable m_appliedChanged;
-    bool m_applied = false; // guarded by m_mutex
+    bool m_applied = false;  // guarded by m_mutex
 };
 
 /// Applies \a options to the calling thread and reads back what was obtained. \pre options.errorString() is empty
 QVector<QPlcRealTimeSetting> applyRealTimeOptions(const QPlcRealTimeOptions &options);
 
-} // namespace qplc
+}  // namespace qplc

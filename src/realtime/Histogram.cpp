@@ -9,13 +9,13 @@ namespace qplc {
 namespace {
 
 // Only one thread writes: a load and a store are enough, and several times faster than a locked increment.
-template <typename T>
+template<typename T>
 void raise(std::atomic<T> &counter, std::memory_order order) noexcept
 {
     counter.store(counter.load(std::memory_order_relaxed) + 1, order);
 }
 
-} // namespace
+}  // namespace
 
 // Values below 2^SubBits have a bin each. Above, the bins of the powers of two follow each other: the leading bit
 // selects the group, the SubBits bits behind it the bin within the group.
@@ -48,7 +48,7 @@ void Histogram::record(std::int64_t value) noexcept
 
     std::int64_t sum = 0;
     if (__builtin_add_overflow(m_sum.load(std::memory_order_relaxed), value, &sum))
-        sum = INT64_MAX; // 292 years
+        sum = INT64_MAX;  // 292 years
     m_sum.store(sum, std::memory_order_relaxed);
 
     // Released last: who sees the value counted sees it in the extremes, too.
@@ -79,14 +79,14 @@ double Histogram::mean() const noexcept
 
 std::int64_t Histogram::quantile(double q) const noexcept
 {
-    std::array<std::uint64_t, BinCount> bins; // a copy, because recording goes on meanwhile
+    std::array<std::uint64_t, BinCount> bins;  // a copy, because recording goes on meanwhile
     std::uint64_t total = 0;
     for (std::size_t bin = 0; bin < bins.size(); ++bin)
         total += bins[bin] = m_bins[bin].load(std::memory_order_acquire);
     if (total == 0)
         return 0;
 
-    const double fraction = q > 0.0 ? std::min(q, 1.0) : 0.0; // a NaN counts as 0
+    const double fraction = q > 0.0 ? std::min(q, 1.0) : 0.0;  // a NaN counts as 0
     const auto rank = std::clamp<std::uint64_t>(std::uint64_t(std::ceil(fraction * double(total))), 1, total);
     std::size_t bin = 0;
     for (std::uint64_t reached = bins[0]; reached < rank; reached += bins[bin])
@@ -94,4 +94,4 @@ std::int64_t Histogram::quantile(double q) const noexcept
     return std::min(std::int64_t(upperBorder(int(bin))), maximum());
 }
 
-} // namespace qplc
+}  // namespace qplc

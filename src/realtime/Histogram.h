@@ -21,9 +21,9 @@ public:
     void clear() noexcept;
 
     std::uint64_t count() const noexcept { return m_count.load(std::memory_order_acquire); }
-    std::int64_t minimum() const noexcept; ///< 0 when empty
+    std::int64_t minimum() const noexcept;  ///< 0 when empty
     std::int64_t maximum() const noexcept { return m_maximum.load(std::memory_order_relaxed); }
-    double mean() const noexcept; ///< 0 when empty
+    double mean() const noexcept;  ///< 0 when empty
     /// Smallest bin border that at least the fraction \a q (0 ... 1) of all values, and at least one, do not exceed;
     /// never above maximum(). 0 when empty. Needs 15 KiB of stack.
     std::int64_t quantile(double q) const noexcept;
@@ -32,13 +32,13 @@ private:
     static constexpr int SubBits = 5;
     static constexpr int BinCount = (64 - SubBits) << SubBits;
     static int binOf(std::uint64_t value) noexcept;
-    static std::uint64_t upperBorder(int bin) noexcept; // largest value that falls into the bin
+    static std::uint64_t upperBorder(int bin) noexcept;  // largest value that falls into the bin
 
-    std::array<std::atomic<std::uint64_t>, BinCount> m_bins{}; // 32 bits would be full after five days at 10 kHz
+    std::array<std::atomic<std::uint64_t>, BinCount> m_bins{};  // 32 bits would be full after five days at 10 kHz
     std::atomic<std::uint64_t> m_count{0};
     std::atomic<std::int64_t> m_sum{0};
     std::atomic<std::int64_t> m_minimum{INT64_MAX};
     std::atomic<std::int64_t> m_maximum{0};
 };
 
-} // namespace qplc
+}  // namespace qplc

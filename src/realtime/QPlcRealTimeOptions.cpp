@@ -4,9 +4,9 @@
 namespace {
 
 constexpr int MaximumPriority = 99;
-constexpr int MaximumCpu = 1023;                    // what a cpu_set_t holds
-constexpr int MaximumPrefault = 64 * 1024 * 1024;   // [byte]
-constexpr qint64 MaximumTimerSlack = 1'000'000'000; // [ns]
+constexpr int MaximumCpu = 1023;                     // what a cpu_set_t holds
+constexpr int MaximumPrefault = 64 * 1024 * 1024;    // [byte]
+constexpr qint64 MaximumTimerSlack = 1'000'000'000;  // [ns]
 
 QString outOfRange(const char *name, qint64 value, qint64 least, qint64 most, const char *unit = "")
 {
@@ -33,7 +33,7 @@ QString schedulingError(QPlcRealTimeOptions::Policy policy, int priority)
     return QStringLiteral("policy %1: use Inherit, Other, Fifo or RoundRobin").arg(int(policy));
 }
 
-} // namespace
+}  // namespace
 
 QString QPlcRealTimeOptions::errorString() const
 {

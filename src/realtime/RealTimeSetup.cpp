@@ -153,7 +153,7 @@ QPlcRealTimeSetting applyTimerSlack(qint64 slack)
     return result;
 }
 
-} // namespace
+}  // namespace
 
 Scheduling Scheduling::current()
 {
@@ -210,4 +210,4 @@ QVector<QPlcRealTimeSetting> applyRealTimeOptions(const QPlcRealTimeOptions &opt
     return applyRealTimeOptions(options, Scheduling::current());
 }
 
-} // namespace qplc
+}  // namespace qplc

@@ -8,7 +8,7 @@ namespace qplc {
 /// Policy and priority of a thread as the kernel knows them.
 struct Scheduling
 {
-    int policy = 0; ///< SCHED_OTHER, SCHED_FIFO, ...
+    int policy = 0;  ///< SCHED_OTHER, SCHED_FIFO, ...
     int priority = 0;
 
     /// That of the calling thread. Asked of the kernel: pthread_getschedparam() may answer from an old copy of its own.
@@ -26,4 +26,4 @@ struct Scheduling
 /// \pre options.errorString() is empty
 QVector<QPlcRealTimeSetting> applyRealTimeOptions(const QPlcRealTimeOptions &options, Scheduling inherited);
 
-} // namespace qplc
+}  // namespace qplc

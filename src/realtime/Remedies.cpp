@@ -35,7 +35,7 @@ QString grantRight(const QString &capability, const QString &ulimit, const QStri
         .arg(capability, program(), limitLine, ulimit);
 }
 
-} // namespace
+}  // namespace
 
 QString schedulingRemedy(Scheduling wanted, int error)
 {
@@ -90,4 +90,4 @@ QString timerSlackRemedy()
         .arg(program());
 }
 
-} // namespace qplc
+}  // namespace qplc

@@ -18,4 +18,4 @@ QString memoryLockRemedy(int error);
 QString stackRemedy();
 QString timerSlackRemedy();
 
-} // namespace qplc
+}  // namespace qplc

@@ -5,7 +5,7 @@
 
 #if defined(__SANITIZE_THREAD__) && !defined(__clang__)
 #pragma GCC diagnostic ignored                                                                                         \
-    "-Wtsan" // the fences go unseen; every shared word is atomic, so no report depends on them
+    "-Wtsan"  // the fences go unseen; every shared word is atomic, so no report depends on them
 #endif
 
 namespace qplc {
@@ -21,7 +21,7 @@ std::size_t wordsFor(std::size_t size)
     return (WordSize + size + CacheLine - 1) / CacheLine * (CacheLine / WordSize);
 }
 
-} // namespace
+}  // namespace
 
 SnapshotBuffer::SnapshotBuffer(std::size_t size)
     : m_size(size)
@@ -81,4 +81,4 @@ bool SnapshotBuffer::read(void *bytes, std::uint64_t *stamp) const noexcept
     return true;
 }
 
-} // namespace qplc
+}  // namespace qplc

@@ -36,9 +36,9 @@ private:
     Word *slot(std::uint64_t publication) const noexcept { return &m_words[(publication & 1) * m_wordsPerSlot]; }
 
     std::size_t m_size = 0;
-    std::size_t m_wordsPerSlot = 0; // the first one is the stamp
+    std::size_t m_wordsPerSlot = 0;  // the first one is the stamp
     std::unique_ptr<Word[]> m_words;
-    alignas(64) std::atomic<std::uint64_t> m_published{0}; // publications completed
+    alignas(64) std::atomic<std::uint64_t> m_published{0};  // publications completed
 };
 
-} // namespace qplc
+}  // namespace qplc

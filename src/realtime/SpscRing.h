@@ -10,7 +10,7 @@ namespace qplc {
 
 /// A bounded queue from one thread to one other, without locks, waits or allocations after construction.
 /// A full ring refuses; nothing is overwritten. T is copied as a whole and must be trivially copyable.
-template <typename T>
+template<typename T>
 class SpscRing
 {
     static_assert(std::is_trivially_copyable_v<T>, "values cross threads as plain bytes");
@@ -23,7 +23,7 @@ public:
         while (size < capacity)
             size *= 2;
         m_mask = size - 1;
-        m_items.reset(new T[size]()); // written now, so that no push meets a page for the first time
+        m_items.reset(new T[size]());  // written now, so that no push meets a page for the first time
     }
 
     std::size_t capacity() const { return m_mask + 1; }
@@ -80,10 +80,10 @@ public:
 private:
     std::unique_ptr<T[]> m_items;
     std::size_t m_mask = 0;
-    alignas(64) std::atomic<std::size_t> m_head{0}; // producer
-    std::size_t m_cachedTail = 0;                   // producer
-    alignas(64) std::atomic<std::size_t> m_tail{0}; // consumer
-    std::size_t m_cachedHead = 0;                   // consumer
+    alignas(64) std::atomic<std::size_t> m_head{0};  // producer
+    std::size_t m_cachedTail = 0;                    // producer
+    alignas(64) std::atomic<std::size_t> m_tail{0};  // consumer
+    std::size_t m_cachedHead = 0;                    // consumer
 };
 
-} // namespace qplc
+}  // namespace qplc

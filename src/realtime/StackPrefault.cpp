@@ -13,7 +13,7 @@ namespace qplc {
 namespace {
 
 constexpr std::size_t Reserve
-    = std::size_t(32) * 1024; // [byte] left alone at the end of the stack, for the calls made here
+    = std::size_t(32) * 1024;  // [byte] left alone at the end of the stack, for the calls made here
 
 std::size_t pageSize() noexcept
 {
@@ -54,12 +54,12 @@ __attribute__((noinline)) std::size_t touch(std::size_t size) noexcept
     auto *bytes = static_cast<char *>(alloca(size));
     const std::size_t page = pageSize();
     for (std::size_t left = size; left > 0; left -= std::min(left, page))
-        *static_cast<volatile char *>(bytes + left - 1) = 0; // downwards, as a stack grows
+        *static_cast<volatile char *>(bytes + left - 1) = 0;  // downwards, as a stack grows
     *static_cast<volatile char *>(bytes) = 0;
     return residentBytes(bytes, size);
 }
 
-} // namespace
+}  // namespace
 
 std::size_t prefaultStack(std::size_t size) noexcept
 {
@@ -67,4 +67,4 @@ std::size_t prefaultStack(std::size_t size) noexcept
     return size > 0 ? touch(size) : 0;
 }
 
-} // namespace qplc
+}  // namespace qplc

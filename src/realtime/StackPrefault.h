@@ -10,4 +10,4 @@ namespace qplc {
 /// small or memory ran out
 std::size_t prefaultStack(std::size_t size) noexcept;
 
-} // namespace qplc
+}  // namespace qplc

@@ -23,7 +23,7 @@ public:
     std::int64_t now() noexcept override { return read(CLOCK_MONOTONIC); }
     bool sleepUntil(std::int64_t deadline) noexcept override
     {
-        const std::int64_t instant = std::max<std::int64_t>(deadline, 0); // an instant before 0 is no valid timespec
+        const std::int64_t instant = std::max<std::int64_t>(deadline, 0);  // an instant before 0 is no valid timespec
         timespec time{};
         time.tv_sec = time_t(instant / NanosecondsPerSecond);
         time.tv_nsec = decltype(time.tv_nsec)(instant % NanosecondsPerSecond);
@@ -32,7 +32,7 @@ public:
     }
 };
 
-} // namespace
+}  // namespace
 
 TimeSource &TimeSource::monotonic()
 {
@@ -45,4 +45,4 @@ std::int64_t wallClockNow() noexcept
     return read(CLOCK_REALTIME);
 }
 
-} // namespace qplc
+}  // namespace qplc

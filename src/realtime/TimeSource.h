@@ -22,4 +22,4 @@ public:
 /// The wall clock, for stamps only, never for control [ns since 1970-01-01 UTC].
 std::int64_t wallClockNow() noexcept;
 
-} // namespace qplc
+}  // namespace qplc

@@ -41,4 +41,4 @@ bool WakeUp::consume() noexcept
     return read(m_descriptor, &times, sizeof times) == ssize_t(sizeof times);
 }
 
-} // namespace qplc
+}  // namespace qplc

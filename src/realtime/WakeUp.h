@@ -53,4 +53,4 @@ private:
     std::atomic<bool> m_armed{false};
 };
 
-} // namespace qplc
+}  // namespace qplc

@@ -9,6 +9,7 @@ struct ProcessTable
 {
     std::mutex mutex;
     QPlcSignalTable table;
+    QString lastErrorString;
 };
 
 // Made at the first use and never destroyed: nodes in static storage may ask for it until the very end.
@@ -22,20 +23,30 @@ ProcessTable &processTable()
 
 bool QPlcSignalIndexTable::initializeFromIniFile(const QString &fileName)
 {
-    const QPlcSignalTable table = QPlcSignalTable::fromIniFile(fileName, &m_errors);
+    return take(QPlcSignalTable::fromIniFile(fileName, &m_errors));
+}
+
+bool QPlcSignalIndexTable::initializeFromIni(const QByteArray &text, const QString &fileName)
+{
+    return take(QPlcSignalTable::fromIni(text, &m_errors, fileName));
+}
+
+bool QPlcSignalIndexTable::take(const QPlcSignalTable &table)
+{
+    {
+        const std::lock_guard<std::mutex> lock(processTable().mutex);
+        processTable().lastErrorString = errorString();
+    }
     if (!m_errors.isEmpty())
         return false;
     setCurrent(table);
     return true;
 }
 
-bool QPlcSignalIndexTable::initializeFromIni(const QByteArray &text, const QString &fileName)
+QString QPlcSignalIndexTable::lastErrorString()
 {
-    const QPlcSignalTable table = QPlcSignalTable::fromIni(text, &m_errors, fileName);
-    if (!m_errors.isEmpty())
-        return false;
-    setCurrent(table);
-    return true;
+    const std::lock_guard<std::mutex> lock(processTable().mutex);
+    return processTable().lastErrorString;
 }
 
 QPlcSignalTable QPlcSignalIndexTable::current()

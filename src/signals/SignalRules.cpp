@@ -3,6 +3,7 @@
 
 #include "IniParser.h"
 #include "MessageText.h"
+#include "ValueOrder.h"
 
 #include <cmath>
 
@@ -72,16 +73,6 @@ void checkText(SignalKey key, const QString &text, LineBreaks lineBreaks, Compla
         complaints->append({key, QStringLiteral("%1 has half a surrogate pair; remove it").arg(quoted(text))});
 }
 
-// a < b for one element of each, which have the same type; false when one is NaN
-bool isLess(const QPlcValue &a, int elementOfA, const QPlcValue &b, int elementOfB)
-{
-    if (a.type().isReal())
-        return a.toReal(elementOfA) < b.toReal(elementOfB);
-    if (a.type().scalar() == QPlcSignalType::UInt64)
-        return a.toUInt64(elementOfA) < b.toUInt64(elementOfB);
-    return a.toInt64(elementOfA) < b.toInt64(elementOfB);
-}
-
 void checkLimit(const QPlcSignalDefinition &signal, SignalKey key, const QPlcValue &limit, Complaints *complaints)
 {
     if (!limit.isValid())
@@ -98,30 +89,13 @@ void checkLimit(const QPlcSignalDefinition &signal, SignalKey key, const QPlcVal
         complaints->append({key, QStringLiteral("nan limits nothing; give a number, or remove the limit")});
 }
 
-QString rangeText(const QPlcSignalDefinition &signal)
-{
-    if (!signal.maximum.isValid())
-        return QStringLiteral("at least ") + signal.minimum.toString();
-    if (!signal.minimum.isValid())
-        return QStringLiteral("at most ") + signal.maximum.toString();
-    return signal.minimum.toString() + QStringLiteral(" ... ") + signal.maximum.toString();
-}
-
 // \pre the limits are in order
 void checkRange(const QPlcSignalDefinition &signal, SignalKey key, const QPlcValue &value, Complaints *complaints)
 {
-    const bool isLimited = signal.minimum.isValid() || signal.maximum.isValid();
-    for (int i = 0; isLimited && i < value.type().count(); ++i) {
-        const bool isBelow = signal.minimum.isValid() && isLess(value, i, signal.minimum, 0);
-        const bool isAbove = signal.maximum.isValid() && isLess(signal.maximum, 0, value, i);
-        const bool isNumber = !value.type().isReal() || !std::isnan(value.toReal(i));
-        if (isBelow || isAbove || !isNumber) {
-            complaints->append({key,
-                                QStringLiteral("the %1 value %2 is outside of min and max; give '%1 =' a value of %3")
-                                    .arg(signalKeyNames().at(int(key)), quoted(value.toString()), rangeText(signal))});
-            return;
-        }
-    }
+    if (!signal.isInRange(value))
+        complaints->append({key,
+                            QStringLiteral("the %1 value %2 is outside of min and max; give '%1 =' a value of %3")
+                                .arg(signalKeyNames().at(int(key)), quoted(value.toString()), signal.rangeText())});
 }
 
 void checkValues(const QPlcSignalDefinition &signal, Complaints *complaints)

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <poll.h>
@@ -29,8 +28,7 @@ std::unique_ptr<HubPeer> HubPeer::tcp(int descriptor, const FrameCutter &cutter,
     peer->m_descriptor = descriptor;
     peer->m_cutter = cutter;
     peer->m_received = std::make_unique<FrameBuffer>(4 * largestFrame);
-    peer->m_restCapacity = largestFrame;
-    peer->m_rest.reset(new char[largestFrame]);
+    peer->m_sender.emplace(largestFrame);
     return peer;
 }
 
@@ -40,32 +38,12 @@ HubPeer::~HubPeer()
         ::close(m_descriptor);
 }
 
-bool HubPeer::sendRest() noexcept
+bool HubPeer::sendStream(const char *frame, std::size_t size) noexcept
 {
-    while (m_restBegin < m_restEnd) {
-        const ssize_t count = ::send(m_descriptor, m_rest.get() + m_restBegin, m_restEnd - m_restBegin, MSG_DONTWAIT | MSG_NOSIGNAL);
-        if (count < 0)
-            return false;
-        m_restBegin += std::size_t(count);
-    }
-    m_restBegin = m_restEnd = 0;
-    return true;
-}
-
-void HubPeer::sendStream(const char *frame, std::size_t size) noexcept
-{
-    // A frame that has begun must be finished, or the stream is lost; a frame that has not begun may be left out.
-    if (m_closed || !sendRest() || size > m_restCapacity) {
-        ++m_sendFailures;
-        return;
-    }
-    const ssize_t count = ::send(m_descriptor, frame, size, MSG_DONTWAIT | MSG_NOSIGNAL);
-    if (count < 0) {
-        ++m_sendFailures;
-        return;
-    }
-    m_restEnd = size - std::size_t(count);
-    std::memcpy(m_rest.get(), frame + count, m_restEnd);
+    if (!m_closed && m_sender->send(m_descriptor, frame, size, MSG_DONTWAIT))
+        return true;
+    ++m_sendFailures;
+    return false;
 }
 
 // ---- all peers ----
@@ -99,7 +77,8 @@ CyclicHub::CyclicHub()
 
 CyclicHub::~CyclicHub()
 {
-    close();
+    if (m_udp >= 0)
+        ::close(m_udp);  // not more: the peers may be gone already
 }
 
 bool CyclicHub::open(const SocketAddress &address, QString *error)
@@ -168,12 +147,16 @@ HubPeer *CyclicHub::find(const SocketAddress &address) noexcept
     return m_table[place];
 }
 
-void CyclicHub::send(HubPeer *peer, const char *frame, std::size_t size) noexcept
+void CyclicHub::sendRest(HubPeer *peer) noexcept
 {
-    if (!peer->isUdp()) {
-        peer->sendStream(frame, size);
-        return;
-    }
+    if (peer->m_sender && !peer->m_closed)
+        peer->m_sender->sendRest(peer->m_descriptor, MSG_DONTWAIT);
+}
+
+bool CyclicHub::send(HubPeer *peer, const char *frame, std::size_t size) noexcept
+{
+    if (!peer->isUdp())
+        return peer->sendStream(frame, size);
     if (m_outgoing == MaximumPeers)
         flush();
     m_messages->outgoingBytes[m_outgoing] = {const_cast<char *>(frame), size};
@@ -185,6 +168,7 @@ void CyclicHub::send(HubPeer *peer, const char *frame, std::size_t size) noexcep
     header.msg_iov = &m_messages->outgoingBytes[m_outgoing];
     header.msg_iovlen = 1;
     ++m_outgoing;
+    return true;
 }
 
 void CyclicHub::flush() noexcept
@@ -268,8 +252,10 @@ bool CyclicHub::nextFromStream(Incoming *incoming) noexcept
             else if (count == 0 || (errno != EAGAIN && errno != EINTR))
                 peer->m_closed = true;
         }
-        if (peer->m_closed)
-            polled.fd = -1;  // poll() ignores it from now on
+        if (peer->m_closed && polled.fd >= 0) {
+            ::shutdown(polled.fd, SHUT_RDWR);  // the other end shall know
+            polled.fd = -1;                    // poll() ignores it from now on
+        }
     }
     return false;
 }

@@ -3,12 +3,14 @@
 
 #include "FrameCutter.h"
 #include "SocketAddress.h"
+#include "StreamSender.h"
 
 #include <QtCore/QString>
 
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 struct pollfd;
@@ -32,23 +34,21 @@ public:
     bool isClosed() const { return m_closed; }
     /// Frames that the kernel did not take.
     std::uint64_t sendFailures() const { return m_sendFailures; }
+    /// A TCP connection on which a frame has begun and waits for the kernel to take the rest.
+    bool hasRest() const { return m_sender && m_sender->hasRest(); }
     /// Whatever the owner wants to find again when a frame of this peer arrives.
     void *owner = nullptr;
 
 private:
     friend class CyclicHub;
     HubPeer() = default;
-    void sendStream(const char *frame, std::size_t size) noexcept;
-    bool sendRest() noexcept;
+    bool sendStream(const char *frame, std::size_t size) noexcept;
 
     SocketAddress m_address;
     int m_descriptor = -1;
     FrameCutter m_cutter;
     std::unique_ptr<FrameBuffer> m_received;
-    std::unique_ptr<char[]> m_rest;  // of a frame that the kernel took only in part
-    std::size_t m_restCapacity = 0;
-    std::size_t m_restBegin = 0;
-    std::size_t m_restEnd = 0;
+    std::optional<StreamSender> m_sender;
     std::uint64_t m_sendFailures = 0;
     bool m_closed = false;
 };
@@ -81,7 +81,10 @@ public:
     void detach(HubPeer *peer) noexcept;
 
     /// Sends \a frame, or keeps the pointer until flush() for one common system call: the bytes have to stay.
-    void send(HubPeer *peer, const char *frame, std::size_t size) noexcept;
+    /// \return false when a stream did not take the frame; it may be offered again
+    bool send(HubPeer *peer, const char *frame, std::size_t size) noexcept;
+    /// Goes on with a frame that a stream has taken and not sent as a whole.
+    void sendRest(HubPeer *peer) noexcept;
     void flush() noexcept;
 
     /// Waits until frames are there, at most \a timeout [ns] (0: just looks).

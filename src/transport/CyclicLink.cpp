@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "CyclicLink.h"
 
+#include "StreamSender.h"
+
 #include <cerrno>
 #include <fcntl.h>
 #include <netinet/in.h>
@@ -57,23 +59,12 @@ public:
         : CyclicLink(descriptor)
         , m_cutter(cutter)
         , m_buffer(4 * largestFrame)
+        , m_sender(largestFrame)
     {
     }
     Status receive(const char **frame, std::size_t *size) noexcept override { return take(frame, size, 0); }
     Status poll(const char **frame, std::size_t *size) noexcept override { return take(frame, size, MSG_DONTWAIT); }
-    bool send(const char *frame, std::size_t size) noexcept override
-    {
-        while (size > 0) {
-            const ssize_t count = ::send(m_descriptor, frame, size, MSG_NOSIGNAL);
-            if (count < 0 && errno == EINTR)
-                continue;
-            if (count < 0)
-                return false;
-            frame += count;
-            size -= std::size_t(count);
-        }
-        return true;
-    }
+    bool send(const char *frame, std::size_t size) noexcept override { return m_sender.send(m_descriptor, frame, size, 0); }
 
 private:
     Status take(const char **frame, std::size_t *size, int flags) noexcept
@@ -85,6 +76,7 @@ private:
             case FrameBuffer::NeedMore: break;
             }
             m_buffer.compact();
+            m_sender.sendRest(m_descriptor, MSG_DONTWAIT);
             const ssize_t count = ::recv(m_descriptor, m_buffer.space(), m_buffer.spaceSize(), flags);
             if (count < 0)
                 return isTransient(errno) ? TimedOut : Closed;
@@ -95,6 +87,7 @@ private:
     }
     FrameCutter m_cutter;
     FrameBuffer m_buffer;
+    StreamSender m_sender;
 };
 
 }  // namespace

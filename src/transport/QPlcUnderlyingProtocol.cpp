@@ -26,7 +26,7 @@ bool split(const QString &text, QString *host, QString *port)
         const int end = text.indexOf(QLatin1Char(']'));
         *host = text.mid(1, end - 1);
         *port = text.mid(end + 2);
-        return end > 0 && (text.size() == end + 1 || text.at(end + 1) == QLatin1Char(':'));
+        return end > 1 && (text.size() == end + 1 || (text.at(end + 1) == QLatin1Char(':') && !port->isEmpty()));
     }
     const int colon = text.indexOf(QLatin1Char(':'));
     const bool isIpv6 = text.count(QLatin1Char(':')) > 1;

@@ -22,6 +22,7 @@ SocketAddress::SocketAddress(const QHostAddress &address, quint16 port)
 {
     bool isIpv4 = false;
     const quint32 ipv4 = address.toIPv4Address(&isIpv4);
+    isIpv4 = isIpv4 && address != QHostAddress(QHostAddress::AnyIPv6);  // which Qt takes for 0.0.0.0
     if (isIpv4 || address == QHostAddress(QHostAddress::Any)) {
         auto *target = reinterpret_cast<sockaddr_in *>(&storage);
         target->sin_family = AF_INET;

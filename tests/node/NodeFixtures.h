@@ -3,6 +3,7 @@
 
 #include <QtPlcCore>
 
+#include <QtTest/QSignalSpy>
 #include <QtTest/QTest>
 
 #include <functional>
@@ -41,6 +42,58 @@ type = Real32
     Q_ASSERT_X(errors.isEmpty(), "testTable", qPrintable(QPlcParseError::toString(errors)));
     return table;
 }
+
+/// A master on a free loopback port with the table of the tests.
+class TestMaster : public QPlcMasterNode
+{
+    Q_OBJECT
+public:
+    explicit TestMaster(QPlcClock clock = QPlcClock::lockstep(), const QPlcSignalTable &table = testTable())
+    {
+        setSignalTable(table);
+        setClock(clock);
+    }
+    bool listen(const QHostAddress &address = QHostAddress::LocalHost) { return startServer(QPlcUnderlyingProtocol::tcp(address, 0)); }
+    QPlcUnderlyingProtocol protocol(const QString &kind) const
+    {
+        return kind == QLatin1String("udp") ? QPlcUnderlyingProtocol::udp(QHostAddress::LocalHost, serverPort())
+                                            : QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, serverPort());
+    }
+    bool waitForCycles(quint64 cycles)
+    {
+        return QTest::qWaitFor([&] { return statistics().cycles >= cycles; }, 10000);
+    }
+    bool waitForState(State wanted)
+    {
+        return QTest::qWaitFor([&] { return state() == wanted; }, 10000);
+    }
+};
+
+/// What is logged while this object lives.
+class LogCapture
+{
+public:
+    LogCapture()
+    {
+        lines().clear();
+        m_before = qInstallMessageHandler(&take);
+    }
+    ~LogCapture() { qInstallMessageHandler(m_before); }
+    QStringList matching(const QString &part) const { return lines().filter(part); }
+    QStringList all() const { return lines(); }
+
+private:
+    static QStringList &lines()
+    {
+        static QStringList list;
+        return list;
+    }
+    static void take(QtMsgType, const QMessageLogContext &context, const QString &text)
+    {
+        lines() << QStringLiteral("%1: %2").arg(QString::fromLatin1(context.category), text);
+    }
+    QtMessageHandler m_before;
+};
 
 /// Counts its cycles into "count" and adds the echo up in "sum".
 class CounterNode : public QPlcCompactSlaveNode

@@ -96,4 +96,4 @@ inline QByteArray randomBytes(std::mt19937 &random, int size)
     return result;
 }
 
-} // namespace vectors
+}  // namespace vectors

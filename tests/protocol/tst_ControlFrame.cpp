@@ -212,7 +212,7 @@ void tst_ControlFrame::readsNothingBehindAnError()
     QVERIFY(takeAll(reader).isEmpty());
     QCOMPARE(reader.error(), ControlFrameReader::InvalidJson);
     QCOMPARE(reader.errorString(), first);
-    QCOMPARE(reader.takeRest(), rawFrame(QPlcMessage::Stop, "?")); // and nothing has been collected
+    QCOMPARE(reader.takeRest(), rawFrame(QPlcMessage::Stop, "?"));  // and nothing has been collected
 }
 
 void tst_ControlFrame::takesTheLongestFrameAndNoLongerOne()
@@ -258,7 +258,7 @@ void tst_ControlFrame::handsOutTheRestOfTheStream()
 
 void tst_ControlFrame::manyMessagesInOnePieceAreFast()
 {
-    const int count = 200000; // moving the rest of the stream for each would take minutes
+    const int count = 200000;  // moving the rest of the stream for each would take minutes
     ControlFrameReader reader;
     reader.append(rawFrame(QPlcMessage::Stop, QByteArray()).repeated(count));
     QCOMPARE(takeAll(reader).size(), count);

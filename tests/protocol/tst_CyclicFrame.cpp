@@ -200,12 +200,12 @@ void tst_CyclicFrame::strangersHeaderHasNoSize()
         = vectors::encode(FrameEncoder(FrameKind::Inputs, seed, {0, 8, 12}), 1, FrameHeader(), QByteArray(12, 'x'));
     QCOMPARE(decoder.frameSize(frame.constData()), std::size_t(20));
 
-    for (const int bit : {0, 1, 4, 7, 16, 31}) { // kind, version, session
+    for (const int bit : {0, 1, 4, 7, 16, 31}) {  // kind, version, session
         QByteArray strange = frame;
         strange[bit / 8] = char(strange.at(bit / 8) ^ (1 << bit % 8));
         QCOMPARE(decoder.frameSize(strange.constData()), std::size_t(0));
     }
-    for (const int part : {0, 2, 100}) { // the parts above 0 are: 1
+    for (const int part : {0, 2, 100}) {  // the parts above 0 are: 1
         frame[8] = char(part);
         QCOMPARE(decoder.frameSize(frame.constData()), std::size_t(0));
     }

@@ -238,7 +238,7 @@ private:
     std::set<std::size_t> m_seen;
 };
 
-} // namespace
+}  // namespace
 
 void tst_FrameSequence::anyOrderLossAndDuplicationGivesWholeCyclesInOrder()
 {
@@ -292,7 +292,7 @@ void tst_FrameSequence::workNeedsNoHeap()
     const std::size_t taken = allocations - before;
     QCOMPARE(taken, std::size_t(0));
     QCOMPARE(complete, std::size_t(1000));
-    QVERIFY(before > 0); // the counter counts
+    QVERIFY(before > 0);  // the counter counts
 }
 
 QTEST_APPLESS_MAIN(tst_FrameSequence)

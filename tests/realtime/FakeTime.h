@@ -32,11 +32,11 @@ public:
         return true;
     }
 
-    std::int64_t time = 0;           ///< [ns]
-    std::int64_t overshoot = 0;      ///< [ns] by which the sleep that reaches the target ends too late, once
-    std::int64_t target = INT64_MIN; ///< [ns] see overshoot
-    int interruptions = 0;           ///< sleeps that will be interrupted
+    std::int64_t time = 0;            ///< [ns]
+    std::int64_t overshoot = 0;       ///< [ns] by which the sleep that reaches the target ends too late, once
+    std::int64_t target = INT64_MIN;  ///< [ns] see overshoot
+    int interruptions = 0;            ///< sleeps that will be interrupted
     int sleeps = 0;
     int looks = 0;
-    std::int64_t longestSleep = 0; ///< [ns] that was asked for
+    std::int64_t longestSleep = 0;  ///< [ns] that was asked for
 };

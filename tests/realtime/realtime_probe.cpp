@@ -22,7 +22,7 @@ void dropRights()
     setrlimit(RLIMIT_MEMLOCK, &none);
     if (geteuid() == 0 && setuid(65534) != 0)
         std::fprintf(stderr, "setuid(65534) failed\n");
-    prctl(PR_SET_DUMPABLE, 1UL, 0UL, 0UL, 0UL); // for the leak checker
+    prctl(PR_SET_DUMPABLE, 1UL, 0UL, 0UL, 0UL);  // for the leak checker
 }
 
 QPlcRealTimeOptions parse(const QStringList &arguments)
@@ -42,7 +42,7 @@ QPlcRealTimeOptions parse(const QStringList &arguments)
     return options;
 }
 
-} // namespace
+}  // namespace
 
 int main(int argc, char **argv)
 {

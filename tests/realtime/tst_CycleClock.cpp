@@ -16,7 +16,7 @@ constexpr std::int64_t Second = 1'000 * Millisecond;
 
 const auto never = [] { return false; };
 
-} // namespace
+}  // namespace
 
 class tst_CycleClock : public QObject
 {
@@ -67,13 +67,13 @@ void tst_CycleClock::cyclesFollowTheGridWhenAllIsWell()
         QCOMPARE(tick.skipped, std::uint64_t(0));
         QCOMPARE(tick.lateness, std::int64_t(0));
         QCOMPARE(time.time, std::int64_t(cycle) * 10 * Millisecond);
-        time.time += 3 * Millisecond; // what the cycle computes
+        time.time += 3 * Millisecond;  // what the cycle computes
     }
 }
 
 void tst_CycleClock::lateWakeUpSkipsWholePeriods_data()
 {
-    QTest::addColumn<qint64>("late"); // [ns] behind the nominal time of cycle 1, period 1 ms
+    QTest::addColumn<qint64>("late");  // [ns] behind the nominal time of cycle 1, period 1 ms
     QTest::addColumn<quint64>("cycle");
     QTest::addColumn<quint64>("skipped");
     QTest::addColumn<qint64>("lateness");
@@ -91,7 +91,7 @@ void tst_CycleClock::lateWakeUpSkipsWholePeriods_data()
 void tst_CycleClock::lateWakeUpSkipsWholePeriods()
 {
     QFETCH(qint64, late);
-    for (const bool asleep : {false, true}) { // late by a long computation, or by a late wake-up
+    for (const bool asleep : {false, true}) {  // late by a long computation, or by a late wake-up
         FakeTime time;
         CycleClock clock(time, Millisecond);
         clock.start();
@@ -136,7 +136,7 @@ void tst_CycleClock::seededDelaysAndInterruptionsAreCountedExactly()
         const std::int64_t lateness = upTo(period - 1);
         const std::int64_t due = origin + std::int64_t(last + 1) * period;
         const std::int64_t arrival = due + std::int64_t(injected) * period + lateness;
-        if (upTo(1) == 0) { // the computation takes until then, or the sleep ends then
+        if (upTo(1) == 0) {  // the computation takes until then, or the sleep ends then
             time.time = arrival;
         } else {
             time.time = std::max<std::int64_t>(time.time, due - upTo(period));
@@ -166,7 +166,7 @@ void tst_CycleClock::seededDelaysAndInterruptionsAreCountedExactly()
 void tst_CycleClock::gridDoesNotDriftInAYear()
 {
     FakeTime time;
-    CycleClock clock(time, 333'333); // no divisor of a second
+    CycleClock clock(time, 333'333);  // no divisor of a second
     clock.start();
     clock.next(never);
     const std::int64_t year = Second * 86'400 * 365;
@@ -266,7 +266,7 @@ void tst_CycleClock::shiftMovesTheGridAndNotTheNumber()
     CycleClock clock(time, Millisecond);
     clock.start();
     clock.next(never);
-    time.time += 7 * Second; // a slave kept the master waiting
+    time.time += 7 * Second;  // a slave kept the master waiting
     clock.shift(7 * Second);
     const CycleClock::Tick tick = clock.next(never);
     QCOMPARE(tick.cycle, std::uint64_t(1));
@@ -293,7 +293,7 @@ void tst_CycleClock::startBeginsANewGrid()
 void tst_CycleClock::clockThatStandsBeforeItsStartIsNotLate()
 {
     FakeTime time;
-    time.time = -5 * Second; // nothing in the arithmetic asks for a positive clock
+    time.time = -5 * Second;  // nothing in the arithmetic asks for a positive clock
     CycleClock clock(time, Millisecond);
     clock.start();
     QCOMPARE(clock.next(never).lateness, std::int64_t(0));

@@ -70,7 +70,7 @@ QPlcRealTimeSetting setting(const QVector<QPlcRealTimeSetting> &settings, const 
 }
 
 /// Starts a thread with \a options whose body is \a body, and waits for its end.
-template <typename Body>
+template<typename Body>
 QVector<QPlcRealTimeSetting> runThread(const QPlcRealTimeOptions &options, Body body)
 {
     CycleThread thread;
@@ -80,7 +80,7 @@ QVector<QPlcRealTimeSetting> runThread(const QPlcRealTimeOptions &options, Body 
     return thread.settings();
 }
 
-} // namespace
+}  // namespace
 
 class tst_CycleThread : public QObject
 {
@@ -126,7 +126,7 @@ void tst_CycleThread::bodyRunsOnceOnAThreadOfItsOwn()
     QVERIFY(!thread.isRunning());
     QCOMPARE(runs, 1);
     QVERIFY(!pthread_equal(self, pthread_self()));
-    thread.join(); // does nothing
+    thread.join();  // does nothing
 }
 
 void tst_CycleThread::threadCanBeStartedAgain()
@@ -156,7 +156,7 @@ void tst_CycleThread::destructorWaitsForTheBody()
         stop = true;
     }
     QVERIFY(ended);
-    QCOMPARE(held.use_count(), 1L); // the body and what it held are gone
+    QCOMPARE(held.use_count(), 1L);  // the body and what it held are gone
 }
 
 void tst_CycleThread::secondStartIsRefusedWhileItRuns()
@@ -261,7 +261,7 @@ void tst_CycleThread::cpuIsReadBack()
     QCOMPARE(CPU_COUNT(&seen), 1);
     QVERIFY(CPU_ISSET(cpu, &seen));
     sched_getaffinity(0, sizeof seen, &seen);
-    QVERIFY(CPU_EQUAL(&seen, &allowed)); // the thread that starts it keeps its own
+    QVERIFY(CPU_EQUAL(&seen, &allowed));  // the thread that starts it keeps its own
 }
 
 void tst_CycleThread::absentCpuIsRefusedWithARemedy()
@@ -292,7 +292,7 @@ void tst_CycleThread::timerSlackIsReadBack()
 
 void tst_CycleThread::stackIsResidentBeforeTheBody()
 {
-    for (const int size : {1, 4096, 64 * 1024, 20 * 1024 * 1024}) { // the last is more than a thread usually has
+    for (const int size : {1, 4096, 64 * 1024, 20 * 1024 * 1024}) {  // the last is more than a thread usually has
         QPlcRealTimeOptions options;
         options.prefaultStack = size;
         const auto stack = setting(runThread(options, [] {}), "stack");
@@ -307,7 +307,7 @@ void tst_CycleThread::stackIsResidentBeforeTheBody()
 void tst_CycleThread::stackOfTheCallerIsNeverExceeded()
 {
     QVector<QPlcRealTimeSetting> settings;
-    runThread({}, [&settings] { // as a thread that was made by somebody else
+    runThread({}, [&settings] {  // as a thread that was made by somebody else
         QPlcRealTimeOptions options;
         options.prefaultStack = 64 * 1024 * 1024;
         settings = qplc::applyRealTimeOptions(options);

@@ -19,7 +19,7 @@ namespace {
 
 using Values = std::vector<std::int64_t>;
 
-template <typename Draw>
+template<typename Draw>
 Values values(int count, Draw draw)
 {
     std::mt19937_64 random(2026);
@@ -42,7 +42,7 @@ void record(Histogram &histogram, const Values &values)
         histogram.record(value);
 }
 
-} // namespace
+}  // namespace
 
 class tst_Histogram : public QObject
 {
@@ -120,7 +120,7 @@ void tst_Histogram::everyPowerOfTwoKeepsItsBorder()
             const std::int64_t value = (std::int64_t(1) << exponent) + offset;
             Histogram histogram;
             histogram.record(value);
-            histogram.record(INT64_MAX); // so that the maximum does not hide the border
+            histogram.record(INT64_MAX);  // so that the maximum does not hide the border
             const std::int64_t border = histogram.quantile(0.5);
             QVERIFY2(border >= value && border - value <= value / 32, qPrintable(QString::number(value)));
         }
@@ -130,7 +130,7 @@ void tst_Histogram::everyPowerOfTwoKeepsItsBorder()
 void tst_Histogram::quantileTakesAnyFraction_data()
 {
     QTest::addColumn<double>("q");
-    QTest::addColumn<qint64>("expected"); // of 1, 2, 3, 4
+    QTest::addColumn<qint64>("expected");  // of 1, 2, 3, 4
     QTest::newRow("zero: at least one value") << 0.0 << qint64(1);
     QTest::newRow("a quarter") << 0.25 << qint64(1);
     QTest::newRow("above a quarter") << 0.2500001 << qint64(2);
@@ -181,7 +181,7 @@ void tst_Histogram::readerSeesAConsistentStateWhileItIsRecorded()
     std::atomic<bool> done{false};
     std::thread recorder([&] {
         for (std::uint64_t i = 0; i < count; ++i)
-            histogram->record(1000 + std::int64_t(i)); // rising: the newest value is the maximum
+            histogram->record(1000 + std::int64_t(i));  // rising: the newest value is the maximum
         done = true;
     });
     int wrong = 0;

@@ -26,11 +26,11 @@ namespace {
 
 thread_local long allocations = 0;
 
-} // namespace
+}  // namespace
 
 #if !defined(QTPLC_SANITIZED)
-// NOLINTBEGIN(bugprone-reserved-identifier,cert-dcl37-c,cert-dcl51-cpp,readability-inconsistent-*): the names are
-// glibc's Stand before those of glibc; operator new and Qt come here, too.
+// These stand before glibc's and call them by the names that glibc gives them; operator new and Qt come here, too.
+// NOLINTBEGIN(bugprone-reserved-identifier,cert-dcl37-c,cert-dcl51-cpp,readability-inconsistent-*)
 extern "C" {
 void *__libc_malloc(std::size_t size);
 void *__libc_calloc(std::size_t count, std::size_t size);
@@ -94,7 +94,7 @@ public:
             m_image[tick.cycle % sizeof m_image] = char(tick.cycle);
             m_images.publish(m_image, tick.cycle);
             refused += !m_events.push({tick.cycle, {}});
-            m_wakeUp.arm(); // as a reader would that sleeps each time
+            m_wakeUp.arm();  // as a reader would that sleeps each time
             m_wakeUp.notify();
             m_time.time += i % 10 == 0 ? 2'500'000 : 300'000;
         }
@@ -116,7 +116,7 @@ private:
     char m_image[1024] = {};
 };
 
-} // namespace
+}  // namespace
 
 class tst_HotPath : public QObject
 {
@@ -145,7 +145,7 @@ void tst_HotPath::thousandCyclesAllocateNothingAndMeetNoNewPage()
     options.lockMemory = lockMemory;
     const bool started = thread.start(QStringLiteral("hot path"), options, [&] {
         engine->start();
-        engine->run(10); // code pages, lazy binding
+        engine->run(10);  // code pages, lazy binding
         const long allocationsBefore = allocations;
         const long faultsBefore = minorFaults();
         engine->run(1000);
@@ -164,7 +164,7 @@ void tst_HotPath::thousandCyclesAllocateNothingAndMeetNoNewPage()
     QSKIP("allocations and page faults are not judged: the sanitizer has its own allocator and touches its own memory",
           "");
 #endif
-    QVERIFY(allocations > 0); // the counter works
+    QVERIFY(allocations > 0);  // the counter works
     QCOMPARE(allocated, 0L);
     QCOMPARE(faults, 0L);
 }

@@ -11,7 +11,7 @@ Q_DECLARE_METATYPE(QPlcRealTimeOptions)
 
 namespace {
 
-template <typename Change>
+template<typename Change>
 QPlcRealTimeOptions options(Change change)
 {
     QPlcRealTimeOptions result;
@@ -19,7 +19,7 @@ QPlcRealTimeOptions options(Change change)
     return result;
 }
 
-} // namespace
+}  // namespace
 
 class tst_QPlcRealTimeOptions : public QObject
 {

@@ -19,7 +19,7 @@ void fill(std::vector<unsigned char> &bytes, std::uint64_t stamp)
         bytes[i] = static_cast<unsigned char>(stamp * 31 + i * 7);
 }
 
-} // namespace
+}  // namespace
 
 class tst_SnapshotBuffer : public QObject
 {
@@ -63,7 +63,7 @@ void tst_SnapshotBuffer::copyEqualsTheNewestPublication()
     for (std::uint64_t stamp = 100; stamp < 105; ++stamp) {
         fill(written, stamp);
         buffer.publish(written.data(), stamp);
-        for (int again = 0; again < 2; ++again) { // reading takes nothing away
+        for (int again = 0; again < 2; ++again) {  // reading takes nothing away
             std::uint64_t readStamp = 0;
             std::fill(copy.begin(), copy.end(), 0);
             QVERIFY(buffer.read(copy.data(), &readStamp));

@@ -35,7 +35,7 @@ bool isWhole(const Message &message)
     return check == message.check;
 }
 
-} // namespace
+}  // namespace
 
 class tst_SpscRing : public QObject
 {
@@ -97,7 +97,7 @@ void tst_SpscRing::fullRingRefusesAndOverwritesNothing()
     int value = 0;
     QVERIFY(ring.pop(&value));
     QCOMPARE(value, 1);
-    QVERIFY(ring.push(4)); // one place is free again
+    QVERIFY(ring.push(4));  // one place is free again
     QVERIFY(!ring.push(5));
     QVERIFY(ring.pop(&value));
     QCOMPARE(value, 2);
@@ -128,7 +128,7 @@ void tst_SpscRing::placeIsFilledBeforeItIsCommitted()
     QVERIFY(place);
     *place = message(1);
     QVERIFY(!ring.front());
-    QCOMPARE(ring.beginPush(), place); // not given yet: the same place again
+    QCOMPARE(ring.beginPush(), place);  // not given yet: the same place again
     ring.commitPush();
     QVERIFY(ring.front());
     QCOMPARE(ring.front()->number, std::uint64_t(1));
@@ -208,7 +208,7 @@ void tst_SpscRing::refusedAndTakenAddUpWhenTheConsumerIsSlow()
     SpscRing<std::uint64_t> ring(8);
     std::atomic<bool> done{false};
     std::uint64_t refused = 0;
-    std::thread producer([&] { // a cycle thread: never waits, counts what it could not say
+    std::thread producer([&] {  // a cycle thread: never waits, counts what it could not say
         for (std::uint64_t number = 1; number <= count; ++number)
             refused += !ring.push(number);
         done = true;
@@ -217,7 +217,7 @@ void tst_SpscRing::refusedAndTakenAddUpWhenTheConsumerIsSlow()
     std::uint64_t last = 0;
     bool ordered = true;
     for (bool ended = false; !ended;) {
-        ended = done; // before the last look
+        ended = done;  // before the last look
         for (std::uint64_t number = 0; ring.pop(&number); last = number, ++taken)
             ordered = ordered && number > last;
         std::this_thread::yield();

@@ -80,7 +80,7 @@ void tst_TimeSource::signalInterruptsTheSleepAndErrnoStays()
         error = errno;
         awake = true;
     });
-    while (!awake) { // until the signal meets it asleep
+    while (!awake) {  // until the signal meets it asleep
         pthread_kill(sleeper.native_handle(), SIGUSR1);
         std::this_thread::yield();
     }

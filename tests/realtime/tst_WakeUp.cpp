@@ -30,7 +30,7 @@ void waitFor(const std::atomic<int> &counter, int value)
     }
 }
 
-} // namespace
+}  // namespace
 
 class tst_WakeUp : public QObject
 {
@@ -89,7 +89,7 @@ void tst_WakeUp::readerMayArmAgainBeforeItConsumes()
     wakeUp.arm();
     wakeUp.notify();
     wakeUp.arm();
-    wakeUp.notify(); // two wake-ups wait: one consume() takes both
+    wakeUp.notify();  // two wake-ups wait: one consume() takes both
     QVERIFY(wakeUp.consume());
     QVERIFY(!wakeUp.consume());
 }
@@ -106,7 +106,7 @@ void tst_WakeUp::lackOfDescriptorsIsTold()
     QCOMPARE(wakeUp.descriptor(), -1);
     QVERIFY2(wakeUp.errorString().contains(QLatin1String("ulimit -n")), qPrintable(wakeUp.errorString()));
     wakeUp.arm();
-    wakeUp.notify(); // harmless
+    wakeUp.notify();  // harmless
     QVERIFY(!wakeUp.consume());
 }
 
@@ -132,14 +132,14 @@ void tst_WakeUp::valueIsSeenOrWakesUpWhenBothSidesMeet()
     for (int round = 1; round <= rounds; ++round) {
         begun.store(round);
         for (int delay = round % 1024; delay > 0; --delay)
-            std::atomic_signal_fence(std::memory_order_seq_cst); // the sides meet at each possible step
+            std::atomic_signal_fence(std::memory_order_seq_cst);  // the sides meet at each possible step
         wakeUp.arm();
         const bool found = ring.front() != nullptr;
         waitFor(done, round);
         lost += !found && !isReadable(wakeUp);
         int value = 0;
         taken += ring.pop(&value);
-        wakeUp.notify(); // disarms
+        wakeUp.notify();  // disarms
         wakeUp.consume();
     }
     producer.join();
@@ -149,7 +149,7 @@ void tst_WakeUp::valueIsSeenOrWakesUpWhenBothSidesMeet()
 
 void tst_WakeUp::noWakeUpIsLost_data()
 {
-    QTest::addColumn<int>("burst"); // values between two pauses of the producer
+    QTest::addColumn<int>("burst");  // values between two pauses of the producer
     QTest::newRow("single values") << 1;
     QTest::newRow("small bursts") << 3;
     QTest::newRow("without a pause") << 1'000'000;
@@ -167,7 +167,7 @@ void tst_WakeUp::noWakeUpIsLost()
                 std::this_thread::yield();
             wakeUp.notify();
             if (number % burst == burst - 1)
-                std::this_thread::yield(); // lets the reader fall asleep
+                std::this_thread::yield();  // lets the reader fall asleep
         }
     });
     int next = 0;
@@ -180,11 +180,11 @@ void tst_WakeUp::noWakeUpIsLost()
             wakeUp.arm();
         } while (ring.front());
         if (next < count) {
-            lost = !isReadable(wakeUp, 30'000); // the producer has more to say, so it must wake this thread up
+            lost = !isReadable(wakeUp, 30'000);  // the producer has more to say, so it must wake this thread up
             wakeUp.consume();
         }
     }
-    while (lost && next < count) { // lets the producer end
+    while (lost && next < count) {  // lets the producer end
         int number = 0;
         next += ring.pop(&number);
     }

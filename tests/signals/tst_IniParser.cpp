@@ -118,16 +118,16 @@ void tst_IniParser::wellFormedUtf8IsTheShortestForm_data()
     row("7fc280dfbf", -1);
     row("e0a080ed9fbfee8080efbfbf", -1);
     row("f0908080f48fbfbf", -1);
-    row("4180", 1);   // continues nothing
-    row("41c3", 1);   // ends too early
-    row("41c328", 1); // does not continue
+    row("4180", 1);    // continues nothing
+    row("41c3", 1);    // ends too early
+    row("41c328", 1);  // does not continue
     row("e28241", 0);
-    row("c080", 0); // overlong
+    row("c080", 0);  // overlong
     row("c1bf", 0);
     row("e09fbf", 0);
     row("f08fbfbf", 0);
-    row("eda080", 0);   // surrogate
-    row("f4908080", 0); // above U+10FFFF
+    row("eda080", 0);    // surrogate
+    row("f4908080", 0);  // above U+10FFFF
     row("f5808080", 0);
     row("ff", 0);
 }

@@ -57,7 +57,7 @@ QString describe(const std::vector<CopyRun> &runs)
     return texts.join(QLatin1Char(' '));
 }
 
-} // namespace
+}  // namespace
 
 void tst_ProcessImage::layoutIsPackedInTheRegisteredOrder()
 {
@@ -128,11 +128,11 @@ void tst_ProcessImage::imageIsAlignedAndPacked()
     QCOMPARE(image.offset(1), 1u);
     QCOMPARE(image.offset(4), 25u);
     QCOMPARE(QByteArray(image.data(), 32).toHex(),
-             QByteArray("01"                       // true
-                        "0000c03f"                 // 1.5
-                        "0000803f0000004000004040" // 1, 2, 3
-                        "0000000000000000"         // 1970
-                        "04006b69746500"));        // kite
+             QByteArray("01"                        // true
+                        "0000c03f"                  // 1.5
+                        "0000803f0000004000004040"  // 1, 2, 3
+                        "0000000000000000"          // 1970
+                        "04006b69746500"));         // kite
 }
 
 void tst_ProcessImage::valueOfAnotherTypeIsConvertedOrRefused()
@@ -225,11 +225,11 @@ void tst_ProcessImage::digestDependsOnOrderAndHistory()
     ProcessImage a(reals(8));
     ProcessImage b(reals(8));
     a.setValue(0, 1.0);
-    b.setValue(4, 1.0); // the same lane
+    b.setValue(4, 1.0);  // the same lane
     QVERIFY(a.digest(0) != b.digest(0));
     QVERIFY(a.digest(0) != a.digest(1));
     QVERIFY(b.digest(a.digest(0)) != a.digest(b.digest(0)));
-    QVERIFY(ProcessImage(reals(8)).digest(0) != ProcessImage(reals(7)).digest(0)); // zeros count
+    QVERIFY(ProcessImage(reals(8)).digest(0) != ProcessImage(reals(7)).digest(0));  // zeros count
 }
 
 QTEST_APPLESS_MAIN(tst_ProcessImage)

@@ -69,7 +69,7 @@ void compareTables(const QPlcSignalTable &a, const QPlcSignalTable &b)
     QCOMPARE(a.hash(), b.hash());
 }
 
-} // namespace
+}  // namespace
 
 void tst_QPlcSignalTable::readsTheTableOfTheThesis()
 {
@@ -211,7 +211,7 @@ void tst_QPlcSignalTable::readsTheMostSignalsInTime()
     QElapsedTimer timer;
     timer.start();
     const QPlcSignalTable table = read(text);
-    const qint64 elapsed = timer.elapsed(); // [ms]; 60 ... 100 are usual
+    const qint64 elapsed = timer.elapsed();  // [ms]; 60 ... 100 are usual
     QCOMPARE(table.size(), 65534);
     QCOMPARE(int(table.indexOf(QStringLiteral("signal_65533"))), 65533);
     QVERIFY2(elapsed < 5000, qPrintable(QString::number(elapsed)));
@@ -239,7 +239,7 @@ void tst_QPlcSignalTable::appendCompletesTheDefinition()
     QPlcSignalDefinition signal;
     signal.name = QStringLiteral("force");
     signal.type = QPlcSignalType(QPlcSignalType::Real32, 3);
-    signal.typeName = QStringLiteral("Int8"); // a wrong hint does not survive
+    signal.typeName = QStringLiteral("Int8");  // a wrong hint does not survive
     signal.minimum = -1;
     signal.maximum = 2.5;
     signal.safe = 1.0;

@@ -70,7 +70,7 @@ void tst_QPlcSignalType::knowsEveryTypeName()
 
 void tst_QPlcSignalType::refusesWrongNamesWithTheRemedy_data()
 {
-    QTest::addColumn<QString>("remedy"); // part of the message
+    QTest::addColumn<QString>("remedy");  // part of the message
 
     const auto row = [](const char *name, const char *remedy) { QTest::newRow(name) << QString::fromLatin1(remedy); };
     row("", "write one of Int8, Bool");

@@ -52,14 +52,11 @@ QPlcValue read(const char *type, const char *text, QString *error = nullptr)
     return QPlcValue::fromString(typeNamed(type), QString::fromUtf8(text), error);
 }
 
-} // namespace
+}  // namespace
 
 void tst_QPlcValue::typeFollowsFromTheNumber()
 {
-    enum Anything
-    {
-        Something
-    };
+    enum Anything { Something };
     QVERIFY(!(std::is_convertible_v<Anything *, QPlcValue>));
     QCOMPARE(QPlcValue(true).type(), typeNamed("Int8"));
     QCOMPARE(QPlcValue(1.0f).type(), typeNamed("Real32"));
@@ -183,7 +180,7 @@ void tst_QPlcValue::wrongTextsAreRefusedWithTheReason_data()
     row("Real32", ".", "no number");
     row("Real32", "1 2", "no number");
     row("Real32", "infinity", "no number");
-    row("Real32", "\xD9\xA1", "no number"); // an Arabic digit
+    row("Real32", "\xD9\xA1", "no number");  // an Arabic digit
     row("Real32", "1,5", "the decimal point is '.'");
     row("Real32", "3.5e38", "at most 3.4028235e+38");
     row("Real64", "-1e309", "too large for Real64");
@@ -311,12 +308,12 @@ void tst_QPlcValue::textIsNeverCut()
 void tst_QPlcValue::malformedBytesOfATextAreInvalid()
 {
     const QPlcSignalType type = typeNamed("String(4)");
-    QVERIFY(!QPlcValue::fromBytes(type, QByteArray::fromHex("050061626364")).isValid()); // length beyond the capacity
+    QVERIFY(!QPlcValue::fromBytes(type, QByteArray::fromHex("050061626364")).isValid());  // length beyond the capacity
     QVERIFY(!QPlcValue::fromBytes(type, QByteArray::fromHex("ffff61626364")).isValid());
-    QVERIFY(!QPlcValue::fromBytes(type, QByteArray::fromHex("0200c3280000")).isValid()); // no UTF-8
-    QVERIFY(!QPlcValue::fromBytes(type, QByteArray::fromHex("0100c3a40000")).isValid()); // half a character
+    QVERIFY(!QPlcValue::fromBytes(type, QByteArray::fromHex("0200c3280000")).isValid());  // no UTF-8
+    QVERIFY(!QPlcValue::fromBytes(type, QByteArray::fromHex("0100c3a40000")).isValid());  // half a character
     const QPlcValue padded = QPlcValue::fromBytes(type, QByteArray::fromHex("0100617a7a7a"));
-    QCOMPARE(padded.toBytes().toHex(), QByteArray("010061000000")); // unused bytes do not count
+    QCOMPARE(padded.toBytes().toHex(), QByteArray("010061000000"));  // unused bytes do not count
 }
 
 void tst_QPlcValue::numbersRoundAndSaturate()
@@ -361,7 +358,7 @@ void tst_QPlcValue::conversionKeepsTheQuantityOrFails_data()
 {
     QTest::addColumn<QPlcValue>("value");
     QTest::addColumn<QString>("type");
-    QTest::addColumn<QString>("text"); // empty: refused
+    QTest::addColumn<QString>("text");  // empty: refused
     const auto row = [](const char *name, const QPlcValue &value, const char *type, const char *text) {
         QTest::newRow(name) << value << QString::fromLatin1(type) << QString::fromLatin1(text);
     };

@@ -30,12 +30,12 @@ QVector<QPlcParseError> errorsOf(const QByteArray &text)
     return table.isEmpty() ? errors : QVector<QPlcParseError>();
 }
 
-} // namespace
+}  // namespace
 
 void tst_SignalTableErrors::badTextIsRefusedWithPlaceAndRemedy_data()
 {
     QTest::addColumn<QByteArray>("text");
-    QTest::addColumn<QString>("error"); // how the first one begins
+    QTest::addColumn<QString>("error");  // how the first one begins
     const auto row = [](const char *name, const QByteArray &text, const char *error) {
         QTest::newRow(name) << text << QString::fromUtf8(error);
     };

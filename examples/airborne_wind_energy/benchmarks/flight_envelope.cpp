@@ -14,15 +14,11 @@ namespace {
 
 using namespace awe;
 
-constexpr double halfAnHour = 1800.0; // [s]
+constexpr double halfAnHour = 1800.0;  // [s]
 const double thesisWind = Eigen::Vector3d(5.0, 3.0, 0.0).norm();
-const std::vector<double> windSpeeds = {4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 11.0, 12.0}; // [m/s]
+const std::vector<double> windSpeeds = {4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 11.0, 12.0};  // [m/s]
 
-enum class Bound
-{
-    AtLeast,
-    AtMost
-};
+enum class Bound { AtLeast, AtMost };
 
 struct Figure
 {
@@ -219,7 +215,7 @@ void printJson(const std::vector<Figure> &figures)
 const char usage[] = "usage: awe_flight_envelope [--json]\n"
                      "Exit code 0: every figure reached; 1: one or more missed; 2: bad option.\n";
 
-} // namespace
+}  // namespace
 
 int main(int argc, char **argv)
 {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "FlightReportText.h"
 
-#include "FlightRun.h"
-
 #include <QtCore/QJsonDocument>
 #include <QtCore/QSaveFile>
 
@@ -20,21 +18,13 @@ QString row(const char *label, const QString &value)
     return QStringLiteral("  %1 %2\n").arg(QString::fromLatin1(label), -18).arg(value);
 }
 
-} // namespace
-
-QString progressLine(double time, double duration, const char *phase, const QPlcMasterNode &master)
+QString notWritable(const QSaveFile &file)
 {
-    const auto value = [&master](const char *name) { return master.signalValue(QString::fromLatin1(name)); };
-    const QString end = duration > 0.0 ? QStringLiteral(" / %1").arg(duration, 0, 'f', 0) : QString();
-    return QStringLiteral("%1%2 s  %3  altitude %4 m  tether %5 m  power %6 W  energy %7 kJ")
-        .arg(time, 7, 'f', 1)
-        .arg(end)
-        .arg(QString::fromLatin1(phase), -8)
-        .arg(value("bodyPosition_earth").toReal(2), 5, 'f', 1)
-        .arg(value("tetherLength").toReal(), 5, 'f', 1)
-        .arg(value("power").toReal(), 6, 'f', 0)
-        .arg(value("energy").toReal() * 1e-3, 0, 'f', 1);
+    return QStringLiteral("cannot write the report %1: %2; choose another file")
+        .arg(file.fileName(), file.errorString());
 }
+
+}  // namespace
 
 QString summary(const QJsonObject &report)
 {
@@ -45,18 +35,25 @@ QString summary(const QJsonObject &report)
     if (report.value(QStringLiteral("crashed")).toBool())
         text += QStringLiteral("  THE KITE CRASHED\n");
     text += row("energy", QStringLiteral("%1 kJ").arg(number(report, "energy_J") * 1e-3, 0, 'f', 1));
-    text += row("mean power", QStringLiteral("%1 W, eta %2 (%3 per mean cubed wind)")
-                                  .arg(number(report, "mean_power_W"), 0, 'f', 0)
-                                  .arg(number(report, "eta"), 0, 'f', 3)
-                                  .arg(number(report, "eta_per_mean_cubed_wind"), 0, 'f', 3));
-    text += row("reeling out, in", QStringLiteral("%1 W, %2 W").arg(number(report, "reel_out_power_W"), 0, 'f', 0).arg(number(report, "reel_in_power_W"), 0, 'f', 0));
-    text += row("pumping cycles", QStringLiteral("%1, recoveries %2").arg(number(report, "pumping_cycles")).arg(number(report, "recoveries")));
+    text += row("mean power",
+                QStringLiteral("%1 W, eta %2 (%3 per mean cubed wind)")
+                    .arg(number(report, "mean_power_W"), 0, 'f', 0)
+                    .arg(number(report, "eta"), 0, 'f', 3)
+                    .arg(number(report, "eta_per_mean_cubed_wind"), 0, 'f', 3));
+    text += row("reeling out, in",
+                QStringLiteral("%1 W, %2 W")
+                    .arg(number(report, "reel_out_power_W"), 0, 'f', 0)
+                    .arg(number(report, "reel_in_power_W"), 0, 'f', 0));
+    text += row(
+        "pumping cycles",
+        QStringLiteral("%1, recoveries %2").arg(number(report, "pumping_cycles")).arg(number(report, "recoveries")));
     text += row("lowest altitude", QStringLiteral("%1 m").arg(number(report, "min_altitude_m"), 0, 'f', 1));
     text += row("greatest force", QStringLiteral("%1 N").arg(number(report, "max_tether_force_N"), 0, 'f', 0));
-    text += row("control cycles", QStringLiteral("%1, overruns %2, late answers %3")
-                                      .arg(number(report, "cycles"), 0, 'f', 0)
-                                      .arg(number(report, "overruns"))
-                                      .arg(number(report, "late_answers")));
+    text += row("control cycles",
+                QStringLiteral("%1, overruns %2, late answers %3")
+                    .arg(number(report, "cycles"), 0, 'f', 0)
+                    .arg(number(report, "overruns"))
+                    .arg(number(report, "late_answers")));
     text += row("image digest", report.value(QStringLiteral("image_digest")).toString());
     return text;
 }
@@ -67,8 +64,17 @@ bool writeReport(const QString &fileName, const QJsonObject &report, QString *er
     const QByteArray text = QJsonDocument(report).toJson();
     if (file.open(QIODevice::WriteOnly) && file.write(text) == text.size() && file.commit())
         return true;
-    *error = QStringLiteral("cannot write the report %1: %2; choose another file").arg(fileName, file.errorString());
+    *error = notWritable(file);
     return false;
 }
 
-} // namespace awe
+bool canWriteReport(const QString &fileName, QString *error)
+{
+    QSaveFile file(fileName);  // never committed: it leaves no trace
+    if (file.open(QIODevice::WriteOnly))
+        return true;
+    *error = notWritable(file);
+    return false;
+}
+
+}  // namespace awe

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "FlightRun.h"
 
-#include "FlightPhase.h"
 #include "FlightReportText.h"
 
 #include <chrono>
 #include <cmath>
-#include <cstdio>
-#include <unistd.h>
 
 namespace awe {
 
@@ -15,19 +12,43 @@ namespace {
 
 constexpr std::chrono::milliseconds period(10);
 const char *const runOptions[] = {"scale", "duration"};
-const char *const runFlags[] = {"lockstep", "real-time"};
+const char *const runFlags[] = {"lockstep", "real-time", "watch"};
 
-} // namespace
+/// \return false, with the message out, when picture or report could only fail later
+bool canShow(QPlcCoreApplication &application, const RunSettings &settings)
+{
+    QString error;
+    if (settings.watch && !FlightDisplay::hasTerminal())
+        error = QStringLiteral(
+            "--watch draws on a terminal, and the standard error is none; leave it out, or use --report");
+    else if (!settings.reportFile.isEmpty())
+        canWriteReport(settings.reportFile, &error);
+    if (!error.isEmpty())
+        application.usageError(error);
+    return error.isEmpty();
+}
+
+}  // namespace
 
 // ---- options ----
 
 void addRunOptions(QPlcCoreApplication &application, const QString &defaultDuration)
 {
-    application.addOption(QCommandLineOption(QStringLiteral("lockstep"), QStringLiteral("As fast as possible, bit-identical each time (default).")));
-    application.addOption(QCommandLineOption(QStringLiteral("real-time"), QStringLiteral("As fast as the real thing.")));
-    application.addOption(QCommandLineOption(QStringLiteral("scale"), QStringLiteral("F times as fast as the real thing."), QStringLiteral("F")));
-    application.addOption(QCommandLineOption(QStringLiteral("duration"), QStringLiteral("Simulated time of the flight [s]. 0: until stopped."), QStringLiteral("S"), defaultDuration));
-    application.addOption(QCommandLineOption(QStringLiteral("report"), QStringLiteral("Writes the figures of the flight to FILE as JSON."), QStringLiteral("FILE")));
+    application.addOption(QCommandLineOption(
+        QStringLiteral("lockstep"), QStringLiteral("As fast as possible, bit-identical each time (default).")));
+    application.addOption(
+        QCommandLineOption(QStringLiteral("real-time"), QStringLiteral("As fast as the real thing.")));
+    application.addOption(QCommandLineOption(
+        QStringLiteral("scale"), QStringLiteral("F times as fast as the real thing."), QStringLiteral("F")));
+    application.addOption(QCommandLineOption(QStringLiteral("duration"),
+                                             QStringLiteral("Simulated time of the flight [s]. 0: until stopped."),
+                                             QStringLiteral("S"), defaultDuration));
+    application.addOption(QCommandLineOption(QStringLiteral("report"),
+                                             QStringLiteral("Writes the figures of the flight to FILE as JSON."),
+                                             QStringLiteral("FILE")));
+    application.addOption(QCommandLineOption(
+        QStringLiteral("watch"),
+        QStringLiteral("Draws the flight on the terminal; --real-time unless another clock is given.")));
 }
 
 bool readRunOptions(QPlcCoreApplication &application, RunSettings *settings)
@@ -42,9 +63,13 @@ bool readRunOptions(QPlcCoreApplication &application, RunSettings *settings)
     double scale = 1.0;
     if (scaled && !application.number(QStringLiteral("scale"), 0.001, 1000.0, &scale))
         return false;
-    settings->clock = realTime ? QPlcClock::realTime() : scaled ? QPlcClock::scaled(scale) : QPlcClock::lockstep();
+    settings->watch = application.isSet(QStringLiteral("watch"));
+    settings->clock = realTime || (settings->watch && !lockstep && !scaled) ? QPlcClock::realTime()
+        : scaled                                                            ? QPlcClock::scaled(scale)
+                                                                            : QPlcClock::lockstep();
     settings->reportFile = application.value(QStringLiteral("report"));
-    return application.number(QStringLiteral("duration"), 0.0, 1e7, &settings->duration);
+    return application.number(QStringLiteral("duration"), 0.0, 1e7, &settings->duration)
+        && canShow(application, *settings);
 }
 
 QStringList givenRunOptions(const QPlcCoreApplication &application)
@@ -56,7 +81,8 @@ QStringList givenRunOptions(const QPlcCoreApplication &application)
     }
     for (const char *name : runOptions) {
         if (application.isSet(QString::fromLatin1(name)))
-            arguments << QStringLiteral("--%1=%2").arg(QString::fromLatin1(name), application.value(QString::fromLatin1(name)));
+            arguments << QStringLiteral("--%1=%2").arg(QString::fromLatin1(name),
+                                                       application.value(QString::fromLatin1(name)));
     }
     return arguments;
 }
@@ -67,23 +93,25 @@ FlightRun::FlightRun(QPlcMasterNode &master, const RunSettings &settings)
     : m_master(master)
     , m_settings(settings)
     , m_observer(settings.nominalWindSpeed)
+    , m_display(master, settings.duration, settings.watch ? FlightDisplay::Picture : FlightDisplay::Line)
 {
-    m_valid = master.setTimeSignal(QStringLiteral("masterTime")) && master.activateJitterMeasurement(QStringLiteral("masterJitter"))
-        && master.activateWorkloadMeasurement(QStringLiteral("masterWorkload")) && master.setInterval(period) && master.setClock(settings.clock)
-        && master.addLocalNode(&m_observer);
+    m_valid = master.setTimeSignal(QStringLiteral("masterTime"))
+        && master.activateJitterMeasurement(QStringLiteral("masterJitter"))
+        && master.activateWorkloadMeasurement(QStringLiteral("masterWorkload")) && master.setInterval(period)
+        && master.setClock(settings.clock) && master.addLocalNode(&m_observer) && m_display.isValid();
     master.setCycleLimit(quint64(std::llround(settings.duration / std::chrono::duration<double>(period).count())));
     connect(&master, &QPlcMasterNode::nodeRegistered, this, &FlightRun::startIfComplete);
     connect(&master, &QPlcMasterNode::realTimeHasStarted, this, &FlightRun::started);
     connect(&master, &QPlcMasterNode::realTimeHasStopped, this, &FlightRun::stopped);
     connect(&master, &QPlcMasterNode::errorOccurred, this, [this] {
-        if (m_begun)
-            fail(QPlcCoreApplication::UsageError, {}); // the master has said why
+        if (m_begun && !m_ending)
+            fail(QPlcCoreApplication::UsageError, {});  // the master has said why
     });
     connect(&master, &QPlcMasterNode::nodeLost, this, [this](const QString &name, const QString &reason) {
         if (m_begun && m_settings.awaitedNodes.contains(name))
-            fail(QPlcCoreApplication::Failure, QStringLiteral("node '%1' is gone (%2): the flight ends").arg(name, reason));
+            fail(QPlcCoreApplication::Failure,
+                 QStringLiteral("node '%1' is gone (%2): the flight ends").arg(name, reason));
     });
-    connect(&m_progressTimer, &QTimer::timeout, this, &FlightRun::printProgress);
 }
 
 FlightRun::~FlightRun()
@@ -107,43 +135,43 @@ void FlightRun::startIfComplete()
     if (m_begun && !m_started && missing.isEmpty() && !m_settings.awaitedNodes.isEmpty()) {
         m_started = true;
         // Not from within the registration of a node.
-        QMetaObject::invokeMethod(this, [this] { m_master.startRealTime(); }, Qt::QueuedConnection);
+        QMetaObject::invokeMethod(
+            this, [this] { m_master.startRealTime(); }, Qt::QueuedConnection);
     }
 }
 
 void FlightRun::started()
 {
     m_wallClock.start();
-    if (::isatty(STDERR_FILENO))
-        m_progressTimer.start(200);
+    m_display.begin();
 }
 
 void FlightRun::stopped()
 {
     m_wallTime = m_wallClock.nsecsElapsed();
-    m_progressTimer.stop();
-    if (::isatty(STDERR_FILENO))
-        std::fputs("\r\033[K", stderr);
+    m_display.end();
     m_report = makeReport();
-    if (m_settings.awaitedNodes.isEmpty())
-        return; // started and stopped by hand, perhaps again
     QString error;
     if (!m_settings.reportFile.isEmpty() && !writeReport(m_settings.reportFile, m_report, &error))
         fail(QPlcCoreApplication::Failure, error);
-    // What failed has said so already; what did not ends here.
-    if (!m_over) {
-        m_over = true;
-        QMetaObject::invokeMethod(this, [this] { Q_EMIT finished(m_exitCode); }, Qt::QueuedConnection);
-    }
+    if (!m_settings.awaitedNodes.isEmpty() || m_ending)  // else: stopped by hand, and perhaps started again
+        finish();
 }
 
 void FlightRun::end()
 {
-    if (m_master.state() == QPlcMasterNode::Off && !m_over) {
-        m_over = true;
-        Q_EMIT finished(m_exitCode);
-    }
+    m_ending = true;
     m_master.stop();
+    finish();
+}
+
+void FlightRun::finish()
+{
+    if (m_over)
+        return;
+    m_over = true;
+    QMetaObject::invokeMethod(
+        this, [this] { Q_EMIT finished(m_exitCode); }, Qt::QueuedConnection);
 }
 
 void FlightRun::fail(int exitCode, const QString &text)
@@ -151,28 +179,23 @@ void FlightRun::fail(int exitCode, const QString &text)
     if (m_exitCode != 0)
         return;
     m_exitCode = exitCode;
-    if (!text.isEmpty())
+    if (!text.isEmpty()) {
+        m_display.end();
         QPlcCoreApplication::printError(text);
+    }
     if (m_settings.awaitedNodes.isEmpty()) {
-        m_exitCode = 0; // a person is at the controls, and may try again
+        m_exitCode = 0;  // a person is at the controls, and may try again
         return;
     }
     QMetaObject::invokeMethod(this, &FlightRun::end, Qt::QueuedConnection);
-}
-
-void FlightRun::printProgress()
-{
-    const auto phase = FlightPhase(m_master.signalValue(QStringLiteral("flightPhase")).toInt());
-    const QByteArray line = progressLine(double(m_master.cycle()) * 1e-3 * double(period.count()), m_settings.duration, flightPhaseName(phase), m_master).toUtf8();
-    std::fprintf(stderr, "\r\033[K%s", line.constData());
-    std::fflush(stderr);
 }
 
 QJsonObject FlightRun::makeReport() const
 {
     const FlightReport flight = m_observer.report();
     const QPlcMasterStatistics statistics = m_master.statistics();
-    const double simulated = double(statistics.cycles + statistics.skippedCycles) * std::chrono::duration<double>(period).count();
+    const double simulated
+        = double(statistics.cycles + statistics.skippedCycles) * std::chrono::duration<double>(period).count();
     const double wall = double(m_wallTime) * 1e-9;
     return {{QStringLiteral("cycles"), double(statistics.cycles)},
             {QStringLiteral("simulated_s"), simulated},
@@ -198,4 +221,4 @@ QJsonObject FlightRun::makeReport() const
             {QStringLiteral("image_digest"), QPlcMessage::fromHex64(statistics.imageDigest)}};
 }
 
-} // namespace awe
+}  // namespace awe

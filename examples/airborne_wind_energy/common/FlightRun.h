@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "FlightDisplay.h"
 #include "FlightObserver.h"
 
 #include <QtCore/QElapsedTimer>
 #include <QtCore/QJsonObject>
-#include <QtCore/QTimer>
 #include <QtPlcCore>
 
 namespace awe {
@@ -13,13 +13,14 @@ namespace awe {
 struct RunSettings
 {
     QPlcClock clock;
-    double duration = 0.0;         // [s] of simulated time; 0: until stopped
-    QString reportFile;            // empty: none
-    double nominalWindSpeed = 0.0; // [m/s]
-    QStringList awaitedNodes;      // the flight begins as soon as all of them have registered
+    double duration = 0.0;          // [s] of simulated time; 0: until stopped
+    QString reportFile;             // empty: none
+    double nominalWindSpeed = 0.0;  // [m/s]
+    bool watch = false;             // a live picture instead of a progress line
+    QStringList awaitedNodes;       // the flight begins as soon as all of them have registered
 };
 
-/// --lockstep, --real-time, --scale, --duration, --report: how a flight is run.
+/// --lockstep, --real-time, --scale, --duration, --report, --watch: how a flight is run.
 void addRunOptions(QPlcCoreApplication &application, const QString &defaultDuration);
 /// \return false, with the message out, when an option cannot be meant
 bool readRunOptions(QPlcCoreApplication &application, RunSettings *settings);
@@ -53,27 +54,23 @@ private:
     void startIfComplete();
     void started();
     void stopped();
+    void finish();
     void fail(int exitCode, const QString &text);
-    void printProgress();
     QJsonObject makeReport() const;
 
     QPlcMasterNode &m_master;
     RunSettings m_settings;
     FlightObserver m_observer;
+    FlightDisplay m_display;
     QElapsedTimer m_wallClock;
-    QTimer m_progressTimer;
     QJsonObject m_report;
-    qint64 m_wallTime = 0; // [ns]
+    qint64 m_wallTime = 0;  // [ns]
     bool m_valid = false;
     bool m_begun = false;
     bool m_started = false;
+    bool m_ending = false;  // by end()
     bool m_over = false;
     int m_exitCode = 0;
 };
 
-/// What a person wants to know of a report, in a few lines.
-QString summary(const QJsonObject &report);
-/// Writes \a report as JSON; the file is there as a whole or not at all. \return false with a sentence in \a error
-bool writeReport(const QString &fileName, const QJsonObject &report, QString *error);
-
-} // namespace awe
+}  // namespace awe

@@ -1,19 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "CompactModelNode.h"
-#include "ExampleOptions.h"
+#include "ModelProgram.h"
 
 int main(int argc, char **argv)
 {
-    QPlcNodeApplication application(argc, argv);
-    application.setDescription(
-        QStringLiteral("The kite on its tether, as a node of a QtPLC master (written with ports)."));
-    application.setExamples({QStringLiteral("awe_compact_model --wind 8,0,0 --turbulence 0.15 --seed 3")});
-    application.setDefaultSignals(awe::builtInSignals());
-    application.setWorkloadSignal(QStringLiteral("modelWorkload"));
-    awe::addModelOptions(application);
-    awe::ModelSettings settings;
-    if (!application.parseNodeOptions() || !awe::readModelOptions(application, &settings))
-        return application.exitCode();
-    awe::CompactModelNode node(awe::KiteSimulation(settings.plant, settings.wind));
-    return application.run(node);
+    return awe::runModelProgram<awe::CompactModelNode>(argc, argv, QStringLiteral("The kite on its tether, as a node of a QtPLC master (written with ports)."));
 }

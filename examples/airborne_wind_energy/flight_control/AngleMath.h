@@ -28,4 +28,4 @@ inline double saturate(double value, double limit)
     return std::clamp(value, -limit, limit);
 }
 
-} // namespace awe
+}  // namespace awe

@@ -32,14 +32,14 @@ void Autopilot::filterWindDirection(double direction)
         m_windDirection.reset(direction);
     m_hasWindDirection = true;
     const double filtered = m_windDirection.value();
-    m_windDirection.step(filtered + wrapDegrees(direction - filtered)); // the short way round
+    m_windDirection.step(filtered + wrapDegrees(direction - filtered));  // the short way round
     m_windDirection.reset(wrapDegrees(m_windDirection.value()));
 }
 
 bool Autopilot::isUsable(const FlightMeasurements &m)
 {
     const double sum = m.position.sum() + m.velocity.sum() + m.pitchAngle + m.yawAngle + m.angleOfAttack
-        + m.tetherLength + m.tetherForce + m.windDirection; // not finite when one of them is not
+        + m.tetherLength + m.tetherForce + m.windDirection;  // not finite when one of them is not
     return std::isfinite(sum) && m.position.squaredNorm() > 0.0;
 }
 
@@ -68,4 +68,4 @@ AutopilotOutputs Autopilot::step(const FlightMeasurements &measurements)
     return outputs;
 }
 
-} // namespace awe
+}  // namespace awe

@@ -54,8 +54,8 @@ private:
     CourseController m_course;
     PowerController m_power;
     LowPass m_flightSpeed;
-    LowPass m_windDirection; // [deg]
+    LowPass m_windDirection;  // [deg]
     bool m_hasWindDirection = false;
 };
 
-} // namespace awe
+}  // namespace awe

@@ -95,7 +95,7 @@ void checkFiltersAndLimit(const AutopilotGains &g, RangeCheck &check)
     check.within("forceGuardLead", g.forceGuardLead, 0.0, 10.0, "");
 }
 
-} // namespace
+}  // namespace
 
 AutopilotGains AutopilotGains::tuned()
 {
@@ -118,4 +118,4 @@ std::string AutopilotGains::validate() const
     return check.message();
 }
 
-} // namespace awe
+}  // namespace awe

@@ -8,10 +8,10 @@ namespace awe {
 /// What the autopilot tells the actuators in one cycle.
 struct AutopilotOutputs
 {
-    double pitchSpeed = 0.0;  // rate of beta_c [deg/s]
-    double yawSpeed = 0.0;    // rate of gamma_c [deg/s]
-    double tetherSpeed = 0.0; // v_t [m/s], > 0 reels out
+    double pitchSpeed = 0.0;   // rate of beta_c [deg/s]
+    double yawSpeed = 0.0;     // rate of gamma_c [deg/s]
+    double tetherSpeed = 0.0;  // v_t [m/s], > 0 reels out
     FlightPhase phase = FlightPhase::Launch;
 };
 
-} // namespace awe
+}  // namespace awe

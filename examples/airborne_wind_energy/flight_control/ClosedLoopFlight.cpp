@@ -45,7 +45,7 @@ AutopilotOutputs rounded(AutopilotOutputs outputs)
     return outputs;
 }
 
-} // namespace
+}  // namespace
 
 PlantParameters ClosedLoopParameters::groundedPlant()
 {
@@ -154,4 +154,4 @@ void ClosedLoopFlight::fly(double duration)
         step();
 }
 
-} // namespace awe
+}  // namespace awe

@@ -12,10 +12,9 @@
 namespace awe {
 
 /// How many digits the signals between plant and autopilot have.
-enum class SignalPrecision
-{
-    Real64, ///< as computed
-    Real32  ///< rounded to float, as the distributed system sends them
+enum class SignalPrecision {
+    Real64,  ///< as computed
+    Real32   ///< rounded to float, as the distributed system sends them
 };
 
 /// What is flown by a ClosedLoopFlight. The plant holds a crashed wing on the ground.
@@ -24,7 +23,7 @@ struct ClosedLoopParameters
     PlantParameters plant = groundedPlant();
     WindParameters wind;
     AutopilotGains gains;
-    int deadTime = 2; // cycles from an output of the plant to the input it causes, 1...largestDeadTime
+    int deadTime = 2;  // cycles from an output of the plant to the input it causes, 1...largestDeadTime
 
     SignalPrecision precision = SignalPrecision::Real64;
 
@@ -56,8 +55,8 @@ public:
     void fly(double duration);
 
     FlightReport report() const { return m_statistics.report(); }
-    const PlantOutputs &outputs() const { return m_outputs; }               // of the last cycle
-    const AutopilotOutputs &autopilotOutputs() const { return m_commands; } // of the last cycle
+    const PlantOutputs &outputs() const { return m_outputs; }                // of the last cycle
+    const AutopilotOutputs &autopilotOutputs() const { return m_commands; }  // of the last cycle
     const Plant &plant() const { return m_plant; }
     Autopilot &autopilot() { return m_autopilot; }
 
@@ -79,4 +78,4 @@ private:
     AutopilotOutputs m_commands;
 };
 
-} // namespace awe
+}  // namespace awe

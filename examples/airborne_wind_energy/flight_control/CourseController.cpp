@@ -9,12 +9,12 @@ namespace awe {
 
 namespace {
 
-constexpr double pathStep = 0.01;         // [rad]
-constexpr int mostPathSteps = 100;        // in one cycle: the carrot can never run away
-constexpr double slowestGuardSpeed = 5.0; // [m/s]
-constexpr double steepClimb = -40.0;      // when there is no height left [deg]
+constexpr double pathStep = 0.01;          // [rad]
+constexpr int mostPathSteps = 100;         // in one cycle: the carrot can never run away
+constexpr double slowestGuardSpeed = 5.0;  // [m/s]
+constexpr double steepClimb = -40.0;       // when there is no height left [deg]
 
-} // namespace
+}  // namespace
 
 CourseController::CourseController(const AutopilotGains &gains)
     : m_gains(gains)
@@ -91,4 +91,4 @@ double CourseController::zenith(const FlightGeometry &geometry) const
                     m_gains.zenithYawLimit);
 }
 
-} // namespace awe
+}  // namespace awe

@@ -48,8 +48,8 @@ public:
     /// A point of the eight, seen from the ground station.
     struct PathPoint
     {
-        double azimuth = 0.0;   // from the wind direction [rad]
-        double elevation = 0.0; // [rad]
+        double azimuth = 0.0;    // from the wind direction [rad]
+        double elevation = 0.0;  // [rad]
     };
     PathPoint pathPoint(double parameter, double distance) const;
 
@@ -57,9 +57,9 @@ public:
     double pathParameter() const { return m_parameter; }
 
 private:
-    struct Eight // the figure at one distance
+    struct Eight  // the figure at one distance
     {
-        double width, height, middle; // amplitudes and middle elevation [rad]
+        double width, height, middle;  // amplitudes and middle elevation [rad]
         PathPoint point(double parameter) const;
     };
     Eight eightAt(double distance) const;
@@ -69,4 +69,4 @@ private:
     double m_parameter = 0.0;
 };
 
-} // namespace awe
+}  // namespace awe

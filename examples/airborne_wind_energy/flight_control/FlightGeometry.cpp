@@ -35,4 +35,4 @@ double FlightGeometry::course(double slowestSpeed) const
     return tangentialSpeed < slowestSpeed ? heading : std::atan2(azimuthSpeed, zenithSpeed) * degreesPerRadian;
 }
 
-} // namespace awe
+}  // namespace awe

@@ -22,4 +22,4 @@ const char *flightPhaseName(FlightPhase phase)
     return "unknown";
 }
 
-} // namespace awe
+}  // namespace awe

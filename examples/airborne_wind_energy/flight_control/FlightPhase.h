@@ -6,14 +6,13 @@
 namespace awe {
 
 /// What the power controller is doing. The numbers are sent over the wire: keep them.
-enum class FlightPhase : std::int8_t
-{
-    Launch = 0,  ///< gain speed towards the zenith, tether length held
-    Power = 1,   ///< first seconds of the figure eight: pitch up, wait for the force
-    ReelOut = 2, ///< figure eights, tether reels out and drives the generator
-    Retract = 3, ///< leave the eight towards the zenith
-    ReelIn = 4,  ///< nose down the wind, little force, tether reels in
-    Recover = 5  ///< lull: the winch pulls the wing so that it keeps its airspeed
+enum class FlightPhase : std::int8_t {
+    Launch = 0,   ///< gain speed towards the zenith, tether length held
+    Power = 1,    ///< first seconds of the figure eight: pitch up, wait for the force
+    ReelOut = 2,  ///< figure eights, tether reels out and drives the generator
+    Retract = 3,  ///< leave the eight towards the zenith
+    ReelIn = 4,   ///< nose down the wind, little force, tether reels in
+    Recover = 5   ///< lull: the winch pulls the wing so that it keeps its airspeed
 };
 
 constexpr int flightPhaseCount = 6;
@@ -21,4 +20,4 @@ constexpr int flightPhaseCount = 6;
 /// "Launch", "Power", ...; "unknown" for a number that is none of them
 const char *flightPhaseName(FlightPhase phase);
 
-} // namespace awe
+}  // namespace awe

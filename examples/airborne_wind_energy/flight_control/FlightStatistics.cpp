@@ -21,7 +21,7 @@ double ratio(double part, double whole)
     return whole > 0.0 ? part / whole : 0.0;
 }
 
-} // namespace
+}  // namespace
 
 std::string FlightStatisticsParameters::validate() const
 {
@@ -115,4 +115,4 @@ FlightReport FlightStatistics::report() const
     return report;
 }
 
-} // namespace awe
+}  // namespace awe

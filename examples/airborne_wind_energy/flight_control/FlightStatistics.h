@@ -12,24 +12,24 @@ namespace awe {
 /// What FlightStatistics sees of one cycle: signals only, so it also works where the plant is another computer.
 struct FlightSample
 {
-    Eigen::Vector3d position = Eigen::Vector3d::Zero();     // r [3] [m], z up
-    Eigen::Vector3d windVelocity = Eigen::Vector3d::Zero(); // w [3] [m/s]
-    Eigen::Vector3d tetherForce = Eigen::Vector3d::Zero();  // F_t [3] [N]
-    double tetherSpeed = 0.0;                               // v_t [m/s], > 0 reels out
-    double power = 0.0;                                     // [W]
-    double energy = 0.0;                                    // [J]
-    std::int8_t flightPhase = 0;                            // number of the FlightPhase
+    Eigen::Vector3d position = Eigen::Vector3d::Zero();      // r [3] [m], z up
+    Eigen::Vector3d windVelocity = Eigen::Vector3d::Zero();  // w [3] [m/s]
+    Eigen::Vector3d tetherForce = Eigen::Vector3d::Zero();   // F_t [3] [N]
+    double tetherSpeed = 0.0;                                // v_t [m/s], > 0 reels out
+    double power = 0.0;                                      // [W]
+    double energy = 0.0;                                     // [J]
+    std::int8_t flightPhase = 0;                             // number of the FlightPhase
 };
 
 struct FlightStatisticsParameters
 {
-    double step = 0.010;               // time between two samples [s]
-    double airDensity = 1.2;           // rho [kg/m^3]
-    double area = 10.0;                // A [m^2]
-    double aweCoefficient = 17.542698; // largest c_AWE of the wing [-]
-    double nominalWindSpeed = 0.0;     // v_w of eta [m/s]; 0: the mean of |w| over the time of the figures
-    double warmUp = 60.0;              // left out of the figures ... [s]
-    double shortestFlight = 120.0;     // ... when the flight is longer than this [s]
+    double step = 0.010;                // time between two samples [s]
+    double airDensity = 1.2;            // rho [kg/m^3]
+    double area = 10.0;                 // A [m^2]
+    double aweCoefficient = 17.542698;  // largest c_AWE of the wing [-]
+    double nominalWindSpeed = 0.0;      // v_w of eta [m/s]; 0: the mean of |w| over the time of the figures
+    double warmUp = 60.0;               // left out of the figures ... [s]
+    double shortestFlight = 120.0;      // ... when the flight is longer than this [s]
 
     /// \return empty when all is well, otherwise one sentence with the parameter, its value and the remedy
     std::string validate() const;
@@ -39,20 +39,20 @@ struct FlightStatisticsParameters
 /// shortestFlight.
 struct FlightReport
 {
-    std::int64_t cycles = 0;          // control cycles = samples, all
-    double duration = 0.0;            // [s], all
-    double energy = 0.0;              // last minus first sample [J], all
-    double meanPower = 0.0;           // window [W]
-    double eta = 0.0;                 // meanPower / (2/27 rho A v_w^3 c_AWE), window
-    double etaPerMeanCubedWind = 0.0; // the same with the mean of |w|^3 of the window for v_w^3
-    double reelOutPower = 0.0;        // mean power while v_t > 0, window [W]
-    double reelInPower = 0.0;         // mean power while v_t < 0, window [W]; negative: the winch works
-    double meanWindSpeed = 0.0;       // mean of |w|, window [m/s]
-    int pumpingCycles = 0;            // completed reel-ins (ReelIn left for Power), all
-    int recoveries = 0;               // times the phase Recover began, all
-    double minimumAltitude = 0.0;     // [m], all but the first Launch
-    double maximumTetherForce = 0.0;  // [N], all
-    bool crashed = false;             // z <= 0 in any sample, all
+    std::int64_t cycles = 0;           // control cycles = samples, all
+    double duration = 0.0;             // [s], all
+    double energy = 0.0;               // last minus first sample [J], all
+    double meanPower = 0.0;            // window [W]
+    double eta = 0.0;                  // meanPower / (2/27 rho A v_w^3 c_AWE), window
+    double etaPerMeanCubedWind = 0.0;  // the same with the mean of |w|^3 of the window for v_w^3
+    double reelOutPower = 0.0;         // mean power while v_t > 0, window [W]
+    double reelInPower = 0.0;          // mean power while v_t < 0, window [W]; negative: the winch works
+    double meanWindSpeed = 0.0;        // mean of |w|, window [m/s]
+    int pumpingCycles = 0;             // completed reel-ins (ReelIn left for Power), all
+    int recoveries = 0;                // times the phase Recover began, all
+    double minimumAltitude = 0.0;      // [m], all but the first Launch
+    double maximumTetherForce = 0.0;   // [N], all
+    bool crashed = false;              // z <= 0 in any sample, all
 };
 
 /// Adds up a flight cycle by cycle. step() takes no memory. One thread at a time.
@@ -78,8 +78,8 @@ private:
     struct Sums
     {
         std::int64_t count = 0, outCount = 0, inCount = 0;
-        double power = 0.0, outPower = 0.0, inPower = 0.0; // [W]
-        double windSpeed = 0.0, cubedWind = 0.0;           // [m/s], [m^3/s^3]
+        double power = 0.0, outPower = 0.0, inPower = 0.0;  // [W]
+        double windSpeed = 0.0, cubedWind = 0.0;            // [m/s], [m^3/s^3]
 
         void add(const FlightSample &sample, double windSpeedNow);
     };
@@ -99,4 +99,4 @@ private:
     bool m_crashed = false;
 };
 
-} // namespace awe
+}  // namespace awe

@@ -24,4 +24,4 @@ private:
     double m_value;
 };
 
-} // namespace awe
+}  // namespace awe

@@ -32,4 +32,4 @@ double OrientationController::pitchSpeed(const PitchReference &reference, const 
     return saturate(speed, m_gains.largestPitchSpeed);
 }
 
-} // namespace awe
+}  // namespace awe

@@ -11,14 +11,13 @@ namespace awe {
 /// What the pitch is to do.
 struct PitchReference
 {
-    enum class Kind
-    {
-        PitchAngle,   ///< hold beta_c
-        AngleOfAttack ///< hold alpha by turning beta_c by what is missing
+    enum class Kind {
+        PitchAngle,    ///< hold beta_c
+        AngleOfAttack  ///< hold alpha by turning beta_c by what is missing
     };
     Kind kind = Kind::PitchAngle;
-    double angle = 0.0;                                         // [deg]
-    double fastestUp = std::numeric_limits<double>::infinity(); // upper limit of pitchSpeed [deg/s], may be negative
+    double angle = 0.0;                                          // [deg]
+    double fastestUp = std::numeric_limits<double>::infinity();  // upper limit of pitchSpeed [deg/s], may be negative
 };
 
 /// Innermost loop: turns the wing to a yaw angle and a pitch angle.
@@ -59,4 +58,4 @@ private:
     AutopilotGains m_gains;
 };
 
-} // namespace awe
+}  // namespace awe

@@ -9,9 +9,9 @@ namespace awe {
 
 namespace {
 
-constexpr double cosineLoss = 1.2; // wind speed / wind speed along the tether, averaged over an eight
+constexpr double cosineLoss = 1.2;  // wind speed / wind speed along the tether, averaged over an eight
 
-} // namespace
+}  // namespace
 
 PowerController::PowerController(const AutopilotGains &gains)
     : m_gains(gains)
@@ -185,4 +185,4 @@ double PowerController::reelInAngleOfAttack(const FlightGeometry &geometry) cons
     return std::clamp(angle, m_gains.lowestReelInAngle, m_gains.highestReelInAngle);
 }
 
-} // namespace awe
+}  // namespace awe

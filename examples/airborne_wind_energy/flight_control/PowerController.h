@@ -49,18 +49,14 @@ namespace awe {
 class PowerController
 {
 public:
-    enum class Course
-    {
-        FigureEight,
-        Zenith
-    };
+    enum class Course { FigureEight, Zenith };
 
     struct References
     {
         FlightPhase phase = FlightPhase::Launch;
         Course course = Course::Zenith;
         PitchReference pitch;
-        double tetherSpeed = 0.0; // v_t [m/s]
+        double tetherSpeed = 0.0;  // v_t [m/s]
     };
 
     explicit PowerController(const AutopilotGains &gains);
@@ -94,13 +90,13 @@ private:
     AutopilotGains m_gains;
     LowPass m_force;
     FlightPhase m_phase = FlightPhase::Launch;
-    double m_phaseTime = 0.0;   // since the phase began [s]
-    double m_stallTime = 0.0;   // [s]
-    double m_tetherSpeed = 0.0; // last v_t [m/s]
-    double m_lastForce = 0.0;   // [N]
-    double m_windSum = 0.0;     // [m/s]
+    double m_phaseTime = 0.0;    // since the phase began [s]
+    double m_stallTime = 0.0;    // [s]
+    double m_tetherSpeed = 0.0;  // last v_t [m/s]
+    double m_lastForce = 0.0;    // [N]
+    double m_windSum = 0.0;      // [m/s]
     double m_windCount = 0.0;
-    double m_windSpeed = 0.0; // [m/s]
+    double m_windSpeed = 0.0;  // [m/s]
 };
 
-} // namespace awe
+}  // namespace awe

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ExampleOptions.h"
+#include "FlightReportText.h"
 #include "FlightRun.h"
 
 #include <cstdio>

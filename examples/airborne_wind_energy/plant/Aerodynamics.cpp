@@ -18,7 +18,7 @@ double aweCoefficient(double drag, double lift)
     return resultant * resultant * resultant / (drag * drag);
 }
 
-} // namespace
+}  // namespace
 
 Aerodynamics::Aerodynamics(double dragFactor, AngleOfAttackRange range)
     : m_dragFactor(dragFactor)
@@ -41,7 +41,7 @@ double Aerodynamics::angleOfAttack(const Eigen::Vector3d &relativeWind, const Ei
     const double upwards = relativeWind.dot(topwards);
     if (m_range == AngleOfAttackRange::Full)
         return std::atan2(upwards, relativeWind.dot(tailwards)) * degreesPerRadian;
-    return std::asin(std::clamp(upwards / speed, -1.0, 1.0)) * degreesPerRadian; // rounding may leave [-1, 1]
+    return std::asin(std::clamp(upwards / speed, -1.0, 1.0)) * degreesPerRadian;  // rounding may leave [-1, 1]
 }
 
 Aerodynamics::Airflow Aerodynamics::airflow(const Eigen::Vector3d &relativeWind, const Eigen::Vector3d &tailwards,
@@ -71,7 +71,7 @@ Aerodynamics::BestAngle Aerodynamics::bestAngleOfAttack()
         if (quality(angle) > quality(best))
             best = angle;
     }
-    double low = best - 1.0, high = best + 1.0; // one maximum lies between: shrink by thirds
+    double low = best - 1.0, high = best + 1.0;  // one maximum lies between: shrink by thirds
     while (high - low > 1e-7) {
         const double third = (high - low) / 3.0;
         if (quality(low + third) < quality(high - third))
@@ -82,4 +82,4 @@ Aerodynamics::BestAngle Aerodynamics::bestAngleOfAttack()
     return {0.5 * (low + high), quality(0.5 * (low + high))};
 }
 
-} // namespace awe
+}  // namespace awe

@@ -8,10 +8,9 @@
 namespace awe {
 
 /// How the angle of attack is told from the relative wind.
-enum class AngleOfAttackRange
-{
-    Folded, ///< asin of the component along the top side, -90...90 deg: the reference model; backward flow folds
-    Full    ///< atan2, -180...180 deg: flow from behind gets the coefficients of its own
+enum class AngleOfAttackRange {
+    Folded,  ///< asin of the component along the top side, -90...90 deg: the reference model; backward flow folds
+    Full     ///< atan2, -180...180 deg: flow from behind gets the coefficients of its own
 };
 
 /// Drag, lift and AWE coefficient over the angle of attack, and the aerodynamic force of the wing.
@@ -30,17 +29,17 @@ class Aerodynamics
 public:
     struct Coefficients
     {
-        double drag = 0.0; // c_d, drag factor included
-        double lift = 0.0; // c_l
-        double awe = 0.0;  // c_AWE of the plain wing
+        double drag = 0.0;  // c_d, drag factor included
+        double lift = 0.0;  // c_l
+        double awe = 0.0;   // c_AWE of the plain wing
     };
 
     struct Airflow
     {
-        double angleOfAttack = 0.0;                      // alpha [deg]
-        double drag = 0.0;                               // c_d, drag factor included
-        double lift = 0.0;                               // c_l
-        Eigen::Vector3d force = Eigen::Vector3d::Zero(); // F_ae [N], same frame as the arguments
+        double angleOfAttack = 0.0;                       // alpha [deg]
+        double drag = 0.0;                                // c_d, drag factor included
+        double lift = 0.0;                                // c_l
+        Eigen::Vector3d force = Eigen::Vector3d::Zero();  // F_ae [N], same frame as the arguments
     };
 
     /// \param dragFactor  multiplies c_d, > 0; 0.2 makes the wing about five times faster at the same angle of attack
@@ -65,8 +64,8 @@ public:
     /// Largest c_AWE of the plain wing for -90...90 deg and where it is.
     struct BestAngle
     {
-        double angleOfAttack = 0.0;  // [deg]
-        double aweCoefficient = 0.0; // [-]
+        double angleOfAttack = 0.0;   // [deg]
+        double aweCoefficient = 0.0;  // [-]
     };
     static BestAngle bestAngleOfAttack();
 
@@ -85,4 +84,4 @@ private:
     ClampedCubicSpline<7> m_lift;
 };
 
-} // namespace awe
+}  // namespace awe

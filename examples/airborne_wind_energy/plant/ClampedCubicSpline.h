@@ -15,7 +15,7 @@ namespace awe {
 /// The slopes c at the inner anchors solve the usual tridiagonal system (equal second derivative left and right);
 /// it is solved once, by elimination, when the object is made. Outside the anchors the end value is returned.
 /// Evaluation takes no memory and may run in the control cycle.
-template <std::size_t N>
+template<std::size_t N>
 class ClampedCubicSpline
 {
     static_assert(N >= 2, "a spline needs two anchors at least");
@@ -23,7 +23,7 @@ class ClampedCubicSpline
 public:
     struct Piece
     {
-        double a = 0.0, b = 0.0, c = 0.0, d = 0.0; // cubic, quadratic, linear, constant coefficient
+        double a = 0.0, b = 0.0, c = 0.0, d = 0.0;  // cubic, quadratic, linear, constant coefficient
     };
 
     /// \param x  anchor positions, strictly rising
@@ -63,7 +63,7 @@ public:
 private:
     std::array<double, N> anchorSlopes() const
     {
-        std::array<double, N> slope{}, upper{}; // both ends stay zero: clamped
+        std::array<double, N> slope{}, upper{};  // both ends stay zero: clamped
         for (std::size_t i = 1; i + 1 < N; ++i) {
             const double left = 1.0 / (m_x[i] - m_x[i - 1]), right = 1.0 / (m_x[i + 1] - m_x[i]);
             const double rightSide
@@ -82,4 +82,4 @@ private:
     std::array<Piece, N - 1> m_pieces{};
 };
 
-} // namespace awe
+}  // namespace awe

@@ -18,7 +18,7 @@ void GaussianSource::reset(std::uint64_t seed)
 
 double GaussianSource::uniform()
 {
-    constexpr double scale = 1.0 / 4503599627370496.0; // 2^-52
+    constexpr double scale = 1.0 / 4503599627370496.0;  // 2^-52
     return static_cast<double>(m_engine() >> 11) * scale - 1.0;
 }
 
@@ -40,4 +40,4 @@ double GaussianSource::next()
     return x * factor;
 }
 
-} // namespace awe
+}  // namespace awe

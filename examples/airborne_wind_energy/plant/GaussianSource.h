@@ -21,11 +21,11 @@ public:
     double next();
 
 private:
-    double uniform(); // -1 <= u < 1
+    double uniform();  // -1 <= u < 1
 
     std::mt19937_64 m_engine;
-    double m_spare = 0.0; // the polar method makes two numbers at a time
+    double m_spare = 0.0;  // the polar method makes two numbers at a time
     bool m_hasSpare = false;
 };
 
-} // namespace awe
+}  // namespace awe

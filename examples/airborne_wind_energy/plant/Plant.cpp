@@ -10,10 +10,10 @@ namespace {
 
 constexpr double radiansPerDegree = 0.017453292519943295769;
 
-struct Sphere // where the wing is, seen from the ground station
+struct Sphere  // where the wing is, seen from the ground station
 {
-    double distance = 0.0;   // R [m]
-    double horizontal = 0.0; // distance from the vertical axis [m]
+    double distance = 0.0;    // R [m]
+    double horizontal = 0.0;  // distance from the vertical axis [m]
     double cosElevation = 1.0, sinElevation = 0.0, cosAzimuth = 1.0, sinAzimuth = 0.0;
 
     explicit Sphere(const Eigen::Vector3d &r)
@@ -38,7 +38,7 @@ struct Sphere // where the wing is, seen from the ground station
     Eigen::Vector3d azimuthwards() const { return {-sinAzimuth, cosAzimuth, 0.0}; }
 };
 
-} // namespace
+}  // namespace
 
 Plant::Plant(const PlantParameters &parameters)
     : m_parameters(parameters)
@@ -79,7 +79,7 @@ Plant::Forces Plant::forces(const PlantState &state, const Attitude &attitude, c
     const Eigen::Vector3d outwards = sphere.outwards();
     const Eigen::Vector3d zenithwards = sphere.zenithwards();
     const Eigen::Vector3d azimuthwards = sphere.azimuthwards();
-    const Eigen::Vector3d tail = attitude.sinYaw * azimuthwards - attitude.cosYaw * zenithwards; // before pitching
+    const Eigen::Vector3d tail = attitude.sinYaw * azimuthwards - attitude.cosYaw * zenithwards;  // before pitching
     const Eigen::Vector3d side = attitude.sinYaw * zenithwards + attitude.cosYaw * azimuthwards;
     const Eigen::Vector3d top = attitude.sinPitch * tail + attitude.cosPitch * outwards;
     const Eigen::Vector3d pitchedTail = attitude.cosPitch * tail - attitude.sinPitch * outwards;
@@ -180,4 +180,4 @@ PlantOutputs Plant::outputs(const PlantInputs &inputs) const
     return y;
 }
 
-} // namespace awe
+}  // namespace awe

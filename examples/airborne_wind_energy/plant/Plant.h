@@ -59,17 +59,17 @@ public:
     bool hasCrashed() const { return m_crashed; }
 
 private:
-    struct Attitude // sine and cosine of the control angles
+    struct Attitude  // sine and cosine of the control angles
     {
         double sinPitch, cosPitch, sinYaw, cosYaw;
     };
     struct Forces
     {
         Aerodynamics::Airflow air;
-        Eigen::Vector3d tether; // F_t [N]
-        double tetherTension;   // |F_t| [N]
+        Eigen::Vector3d tether;  // F_t [N]
+        double tetherTension;    // |F_t| [N]
     };
-    struct Rates // time derivatives of the states that are not a mere ramp
+    struct Rates  // time derivatives of the states that are not a mere ramp
     {
         Eigen::Vector3d velocity, acceleration;
         double averagePower, power;
@@ -86,8 +86,8 @@ private:
     PlantParameters m_parameters;
     Aerodynamics m_aerodynamics;
     PlantState m_state;
-    Attitude m_attitude; // belongs to m_state, kept because the end of one step is the start of the next
+    Attitude m_attitude;  // belongs to m_state, kept because the end of one step is the start of the next
     bool m_crashed = false;
 };
 
-} // namespace awe
+}  // namespace awe

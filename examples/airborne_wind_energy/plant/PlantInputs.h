@@ -8,10 +8,10 @@ namespace awe {
 /// What acts on the plant during one step; held constant over it.
 struct PlantInputs
 {
-    double pitchSpeed = 0.0;                                // rate of beta_c [deg/s]
-    double yawSpeed = 0.0;                                  // rate of gamma_c [deg/s]
-    double tetherSpeed = 0.0;                               // v_t [m/s], > 0 reels out
-    Eigen::Vector3d windVelocity = Eigen::Vector3d::Zero(); // w [3] [m/s], earth frame, uniform in space
+    double pitchSpeed = 0.0;                                 // rate of beta_c [deg/s]
+    double yawSpeed = 0.0;                                   // rate of gamma_c [deg/s]
+    double tetherSpeed = 0.0;                                // v_t [m/s], > 0 reels out
+    Eigen::Vector3d windVelocity = Eigen::Vector3d::Zero();  // w [3] [m/s], earth frame, uniform in space
 };
 
-} // namespace awe
+}  // namespace awe

@@ -9,7 +9,7 @@ namespace awe {
 
 PlantState PlantParameters::defaultInitialState()
 {
-    return stateAtRest(30.0, 30.963756532073521, 100.0); // azimuth of the wind (5, 3, 0)
+    return stateAtRest(30.0, 30.963756532073521, 100.0);  // azimuth of the wind (5, 3, 0)
 }
 
 PlantState PlantParameters::stateAtRest(double elevation, double azimuth, double distance)
@@ -49,4 +49,4 @@ std::string PlantParameters::validate() const
     return check.message();
 }
 
-} // namespace awe
+}  // namespace awe

@@ -9,25 +9,24 @@
 namespace awe {
 
 /// What happens when the wing reaches the ground.
-enum class GroundContact
-{
-    Ignore, ///< the wing flies on below zero height: the reference model has no ground
-    Hold    ///< the wing stays where it came down; no force acts and no power flows any more
+enum class GroundContact {
+    Ignore,  ///< the wing flies on below zero height: the reference model has no ground
+    Hold     ///< the wing stays where it came down; no force acts and no power flows any more
 };
 
 /// Constants of the plant and where it starts. The values here are those of the thesis; its text leaves the initial
 /// state open, so the wing starts at rest, 100 m from the ground station, 30 deg high, downwind of the wind (5, 3, 0).
 struct PlantParameters
 {
-    double mass = 5.0;               // m [kg]
-    double area = 10.0;              // A [m^2]
-    double airDensity = 1.2;         // rho [kg/m^3]
-    double tetherStiffness = 1000.0; // c_t [N/m]
-    double tetherDamping = 0.0;      // d_t [N s/m], acts only while the tether is taut
-    double gravity = 9.81;           // g [m/s^2]
-    double averagePowerTime = 180.0; // time constant of the average power [s]
-    double step = 0.010;             // h of the Runge-Kutta method [s]
-    double dragFactor = 1.0;         // multiplies c_d [-]
+    double mass = 5.0;                // m [kg]
+    double area = 10.0;               // A [m^2]
+    double airDensity = 1.2;          // rho [kg/m^3]
+    double tetherStiffness = 1000.0;  // c_t [N/m]
+    double tetherDamping = 0.0;       // d_t [N s/m], acts only while the tether is taut
+    double gravity = 9.81;            // g [m/s^2]
+    double averagePowerTime = 180.0;  // time constant of the average power [s]
+    double step = 0.010;              // h of the Runge-Kutta method [s]
+    double dragFactor = 1.0;          // multiplies c_d [-]
     AngleOfAttackRange angleOfAttackRange = AngleOfAttackRange::Folded;
     GroundContact groundContact = GroundContact::Ignore;
     PlantState initialState = defaultInitialState();
@@ -44,4 +43,4 @@ struct PlantParameters
     std::string validate() const;
 };
 
-} // namespace awe
+}  // namespace awe

@@ -7,7 +7,7 @@ namespace awe {
 
 void RangeCheck::within(const char *name, double value, double smallest, double largest, const char *unit)
 {
-    if (!m_message.empty() || (value >= smallest && value <= largest)) // NaN fails both comparisons
+    if (!m_message.empty() || (value >= smallest && value <= largest))  // NaN fails both comparisons
         return;
     const std::string suffix = *unit != '\0' ? std::string(" ") + unit : std::string();
     std::ostringstream text;
@@ -15,4 +15,4 @@ void RangeCheck::within(const char *name, double value, double smallest, double 
     m_message = text.str();
 }
 
-} // namespace awe
+}  // namespace awe

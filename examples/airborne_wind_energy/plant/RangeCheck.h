@@ -20,4 +20,4 @@ private:
     std::string m_message;
 };
 
-} // namespace awe
+}  // namespace awe

@@ -55,7 +55,7 @@ const std::array<const char *, Trajectory::columnCount> &Trajectory::columnNames
 namespace {
 
 // Visits every column of a row in the order of the file, for reading and for writing alike.
-template <typename RowType, typename Visitor>
+template<typename RowType, typename Visitor>
 void visitColumns(RowType &row, Visitor visit)
 {
     auto &y = row.outputs;
@@ -93,7 +93,7 @@ void writeNumber(std::ostream &stream, double value)
     stream.write(text.data(), end.ptr - text.data());
 }
 
-} // namespace
+}  // namespace
 
 Trajectory::Columns Trajectory::toColumns(const Row &row)
 {
@@ -184,4 +184,4 @@ Trajectory Trajectory::replayed() const
     return result;
 }
 
-} // namespace awe
+}  // namespace awe

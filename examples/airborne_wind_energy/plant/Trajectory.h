@@ -32,7 +32,7 @@ public:
 
     struct Row
     {
-        double time = 0.0; // [s]
+        double time = 0.0;  // [s]
         PlantOutputs outputs;
     };
 
@@ -54,10 +54,10 @@ public:
 
     void write(std::ostream &stream) const;
 
-    const std::vector<std::string> &comments() const { return m_comments; } // whole lines, '#' included
-    const Eigen::Vector3d &windVelocity() const { return m_windVelocity; }  // of the header [m/s]
-    double duration() const { return m_duration; }                          // T of the header [s]
-    double step() const { return m_step; }                                  // [s]
+    const std::vector<std::string> &comments() const { return m_comments; }  // whole lines, '#' included
+    const Eigen::Vector3d &windVelocity() const { return m_windVelocity; }   // of the header [m/s]
+    double duration() const { return m_duration; }                           // T of the header [s]
+    double step() const { return m_step; }                                   // [s]
     const PlantState &initialState() const { return m_initialState; }
     const std::vector<Row> &rows() const { return m_rows; }
 
@@ -76,4 +76,4 @@ private:
     std::vector<Row> m_rows;
 };
 
-} // namespace awe
+}  // namespace awe

@@ -31,7 +31,7 @@ bool between(std::string_view text, std::string_view before, std::string_view af
     return true;
 }
 
-} // namespace
+}  // namespace
 
 TrajectoryReader::TrajectoryReader(std::istream &stream, const std::string &name)
     : m_stream(stream)
@@ -207,4 +207,4 @@ bool TrajectoryReader::readNumbers(std::string_view text, const char *what, doub
     return true;
 }
 
-} // namespace awe
+}  // namespace awe

@@ -40,4 +40,4 @@ private:
     std::string m_message;
 };
 
-} // namespace awe
+}  // namespace awe

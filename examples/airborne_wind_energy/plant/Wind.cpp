@@ -20,7 +20,7 @@ Eigen::Matrix3d windFrame(const Eigen::Vector3d &meanVelocity)
     return frame;
 }
 
-} // namespace
+}  // namespace
 
 Wind::Wind(const WindParameters &parameters)
     : m_parameters(parameters)
@@ -61,4 +61,4 @@ void Wind::step()
     m_velocity = m_parameters.meanVelocity * gustFactor() + m_turbulence;
 }
 
-} // namespace awe
+}  // namespace awe

@@ -48,12 +48,12 @@ private:
 
     WindParameters m_parameters;
     GaussianSource m_gaussian;
-    double m_memory = 0.0; // a
+    double m_memory = 0.0;  // a
     bool m_isTurbulent = false;
-    Eigen::Matrix3d m_excitation = Eigen::Matrix3d::Zero(); // columns: sigma sqrt(1 - a^2) times direction [m/s]
+    Eigen::Matrix3d m_excitation = Eigen::Matrix3d::Zero();  // columns: sigma sqrt(1 - a^2) times direction [m/s]
     std::int64_t m_steps = 0;
-    Eigen::Vector3d m_turbulence = Eigen::Vector3d::Zero(); // n [m/s]
+    Eigen::Vector3d m_turbulence = Eigen::Vector3d::Zero();  // n [m/s]
     Eigen::Vector3d m_velocity = Eigen::Vector3d::Zero();
 };
 
-} // namespace awe
+}  // namespace awe

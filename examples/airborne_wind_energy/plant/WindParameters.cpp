@@ -21,4 +21,4 @@ std::string WindParameters::validate() const
     return check.message();
 }
 
-} // namespace awe
+}  // namespace awe

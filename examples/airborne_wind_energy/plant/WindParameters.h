@@ -11,18 +11,18 @@ namespace awe {
 /// What the wind does. The values here are those of the thesis: constant (5, 3, 0) m/s.
 struct WindParameters
 {
-    Eigen::Vector3d meanVelocity = Eigen::Vector3d(5.0, 3.0, 0.0); // [3] [m/s], earth frame
-    double turbulenceIntensity = 0.0; // standard deviation along the mean wind / mean speed [-]
-    Eigen::Vector3d turbulenceRatio = Eigen::Vector3d(1.0, 0.8, 0.5); // along : across : upwards, IEC 61400-1 [-]
-    double lengthScale = 60.0;                                        // L of the turbulence [m]
-    std::uint64_t seed = 1;                                           // chooses one course of the turbulence
-    double gustAmplitude = 0.0;                                       // part of the mean wind added at the peak [-]
-    double gustStart = 0.0;                                           // [s] after reset
-    double gustDuration = 6.0;                                        // [s]
-    double step = 0.010;                                              // time between two values [s]
+    Eigen::Vector3d meanVelocity = Eigen::Vector3d(5.0, 3.0, 0.0);  // [3] [m/s], earth frame
+    double turbulenceIntensity = 0.0;  // standard deviation along the mean wind / mean speed [-]
+    Eigen::Vector3d turbulenceRatio = Eigen::Vector3d(1.0, 0.8, 0.5);  // along : across : upwards, IEC 61400-1 [-]
+    double lengthScale = 60.0;                                         // L of the turbulence [m]
+    std::uint64_t seed = 1;                                            // chooses one course of the turbulence
+    double gustAmplitude = 0.0;                                        // part of the mean wind added at the peak [-]
+    double gustStart = 0.0;                                            // [s] after reset
+    double gustDuration = 6.0;                                         // [s]
+    double step = 0.010;                                               // time between two values [s]
 
     /// \return empty when all is well, otherwise one sentence with the parameter, its value and the remedy
     std::string validate() const;
 };
 
-} // namespace awe
+}  // namespace awe

@@ -57,7 +57,7 @@ std::string replay(const Options &options)
     return complaint.empty() ? recorded.replayed().save(options.output) : complaint;
 }
 
-} // namespace
+}  // namespace
 
 int main(int argc, char **argv)
 {

@@ -3,6 +3,7 @@
 
 #include <QtCore/QFile>
 #include <QtCore/QJsonDocument>
+#include <QtCore/QTimer>
 #include <QtPlcCore>
 
 namespace awe {
@@ -31,17 +32,25 @@ void ProcessFlight::startNodes()
         return;
     m_nodesStarted = true;
     const QString address = QStringLiteral("--master=%1://127.0.0.1:%2").arg(m_arguments.transport, QString::fromLatin1(line.mid(5)));
-    if (!m_processes.start(QStringLiteral("awe_compact_model"), QStringList{address} + m_arguments.model)
-        || !m_processes.start(QStringLiteral("awe_autopilot"), QStringList{address} + m_arguments.autopilot))
+    const ProcessGroup::Errors errors = m_arguments.watch ? ProcessGroup::HoldErrors : ProcessGroup::ShowErrors;
+    if (!m_processes.start(QStringLiteral("awe_compact_model"), QStringList{address} + m_arguments.model, errors)
+        || !m_processes.start(QStringLiteral("awe_autopilot"), QStringList{address} + m_arguments.autopilot, errors))
         QMetaObject::invokeMethod(this, [this] { Q_EMIT finished(QPlcCoreApplication::UsageError); }, Qt::QueuedConnection);
 }
 
 void ProcessFlight::ended(const QString &program, int exitCode)
 {
+    if (program != QLatin1String("awe_master") && m_ending)
+        return; // the master has the last word
     if (program != QLatin1String("awe_master")) {
-        // The master notices a lost node by itself once the flight has begun; a node that cannot begin leaves it waiting.
+        // The master notices a lost node by itself and ends with a report; a node that it has never seen leaves it waiting.
         if (exitCode == QPlcCoreApplication::UsageError)
             Q_EMIT finished(exitCode);
+        else
+            QTimer::singleShot(2000, this, [this, program] {
+                QPlcCoreApplication::printError(QStringLiteral("%1 has ended, and the master waits for it: the flight ends").arg(program));
+                Q_EMIT finished(QPlcCoreApplication::Failure);
+            });
         return;
     }
     QFile file(m_directory.filePath(QStringLiteral("report.json")));
@@ -54,6 +63,7 @@ void ProcessFlight::ended(const QString &program, int exitCode)
 
 void ProcessFlight::end()
 {
+    m_ending = true;
     m_master->terminate(); // its end brings the report, and is ours
 }
 

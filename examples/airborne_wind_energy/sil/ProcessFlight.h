@@ -16,6 +16,7 @@ struct ProcessArguments
     QStringList model;
     QStringList autopilot;
     QString transport; // "tcp", "udp"
+    bool watch = false; // the master draws on the terminal
 };
 
 /// The flight with master, model and autopilot as processes of their own.
@@ -43,6 +44,7 @@ private:
     QJsonObject m_report;
     ChildProcess *m_master = nullptr;
     bool m_nodesStarted = false;
+    bool m_ending = false;
     ProcessGroup m_processes;
 };
 

@@ -4,6 +4,7 @@
 #include <QtPlcCore>
 
 #include <csignal>
+#include <cstdio>
 #include <sys/prctl.h>
 #include <unistd.h>
 
@@ -13,6 +14,8 @@ void ChildProcess::setupChildProcess()
 {
     ::setpgid(0, 0);
     ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+    if (::getppid() != m_parent) // it has ended meanwhile
+        ::_exit(1);
 }
 
 ProcessGroup::~ProcessGroup()
@@ -20,11 +23,11 @@ ProcessGroup::~ProcessGroup()
     end(3000);
 }
 
-ChildProcess *ProcessGroup::start(const QString &program, const QStringList &arguments)
+ChildProcess *ProcessGroup::start(const QString &program, const QStringList &arguments, Errors errors)
 {
     m_processes.push_back(std::make_unique<ChildProcess>());
     ChildProcess *process = m_processes.back().get();
-    process->setProcessChannelMode(QProcess::ForwardedErrorChannel);
+    process->setProcessChannelMode(errors == ShowErrors ? QProcess::ForwardedErrorChannel : QProcess::SeparateChannels);
     connect(process, qOverload<int, QProcess::ExitStatus>(&QProcess::finished), this, [this, program](int exitCode, QProcess::ExitStatus status) {
         Q_EMIT ended(program, status == QProcess::CrashExit ? -1 : exitCode);
     });
@@ -48,6 +51,8 @@ void ProcessGroup::end(int milliseconds)
             process->waitForFinished(milliseconds);
         }
     }
+    for (const std::unique_ptr<ChildProcess> &process : m_processes)
+        std::fputs(process->readAllStandardError().constData(), stderr);
     m_processes.clear();
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <QtCore/QCoreApplication>
 #include <QtCore/QProcess>
 
 #include <memory>
@@ -17,6 +18,9 @@ public:
 
 protected:
     void setupChildProcess() override;
+
+private:
+    const qint64 m_parent = QCoreApplication::applicationPid();
 };
 
 /// The programs of a flight: started together, ended together; none is left behind.
@@ -24,10 +28,15 @@ class ProcessGroup : public QObject
 {
     Q_OBJECT
 public:
+    enum Errors {
+        ShowErrors, ///< what the program says on its standard error appears at once
+        HoldErrors  ///< it appears when all have ended: until then the terminal shows something else
+    };
+
     ~ProcessGroup() override;
 
     /// Starts a program that lies beside this one. \return null when it could not be started; the message is out then
-    ChildProcess *start(const QString &program, const QStringList &arguments);
+    ChildProcess *start(const QString &program, const QStringList &arguments, Errors errors = ShowErrors);
     /// Asks the programs to end, in the order of their start, and makes those end that do not within \a milliseconds.
     void end(int milliseconds);
 

@@ -2,6 +2,7 @@
 #include "AutopilotNode.h"
 #include "CompactModelNode.h"
 #include "ExampleOptions.h"
+#include "FlightReportText.h"
 #include "FlightRun.h"
 #include "ProcessFlight.h"
 
@@ -75,6 +76,7 @@ int flyInProcesses(QPlcCoreApplication &application, const Settings &settings)
     arguments.model = table + processor + awe::givenModelOptions(application);
     arguments.autopilot = table + processor + awe::givenAutopilotOptions(application);
     arguments.transport = settings.transport;
+    arguments.watch = settings.run.watch;
 
     awe::ProcessFlight flight;
     QObject::connect(&flight, &awe::ProcessFlight::finished, &application, [](int exitCode) { QCoreApplication::exit(exitCode); });

@@ -37,7 +37,7 @@ namespace {
 
 const Vector3d tail = Vector3d::UnitX(), side = Vector3d::UnitY(), top = Vector3d::UnitZ();
 
-} // namespace
+}  // namespace
 
 void tst_Aerodynamics::dragCoefficientsAreTheExactFractions()
 {
@@ -154,7 +154,7 @@ void tst_Aerodynamics::windFromBelowGivesAPositiveAngle()
 
 void tst_Aerodynamics::roundingBeyondOneIsClamped()
 {
-    const Vector3d top2(0.0, 0.0, 1.0 + 1e-15); // a unit vector after rounding
+    const Vector3d top2(0.0, 0.0, 1.0 + 1e-15);  // a unit vector after rounding
     COMPARE_NEAR(Aerodynamics().airflow(3.0 * top, tail, side, top2, 6.0).angleOfAttack, 90.0, 0.0);
 }
 

@@ -10,7 +10,7 @@ namespace {
 
 long allocations = 0;
 
-} // namespace
+}  // namespace
 
 // Counted for the whole program; the aligned forms too, because Eigen may ask for them.
 void *operator new(std::size_t size)
@@ -66,14 +66,14 @@ private Q_SLOTS:
 void tst_Allocations::counterCounts()
 {
     const long before = allocations;
-    ::operator delete(::operator new(1)); // written as calls: a compiler may drop a new-expression
+    ::operator delete(::operator new(1));  // written as calls: a compiler may drop a new-expression
     QVERIFY(allocations > before);
 }
 
 void tst_Allocations::wholeLoopTakesNoMemoryInAnyPhase()
 {
     ClosedLoopParameters parameters;
-    parameters.wind.turbulenceIntensity = 0.25; // with recoveries
+    parameters.wind.turbulenceIntensity = 0.25;  // with recoveries
     parameters.wind.gustAmplitude = 0.5;
     parameters.wind.seed = 10;
     parameters.gains.forceLimit = 4000.0;

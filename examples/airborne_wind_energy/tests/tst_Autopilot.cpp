@@ -46,17 +46,17 @@ void tst_Autopilot::windDirectionStartsWithTheFirstMeasurement()
 {
     Autopilot autopilot;
     m_measurements.windDirection = std::atan2(20.0, 80.0) * 180.0 / M_PI;
-    COMPARE_NEAR(autopilot.step(m_measurements).yawSpeed, 0.0, 1e-9); // the wing is downwind already
+    COMPARE_NEAR(autopilot.step(m_measurements).yawSpeed, 0.0, 1e-9);  // the wing is downwind already
 }
 
 void tst_Autopilot::windDirectionIsFollowedSlowlyAndTheShortWayRound()
 {
     Autopilot autopilot;
-    m_measurements.position = {-80.0, 0.0, 50.0}; // azimuth 180 deg
+    m_measurements.position = {-80.0, 0.0, 50.0};  // azimuth 180 deg
     m_measurements.windDirection = 175.0;
     autopilot.step(m_measurements);
-    m_measurements.windDirection = -175.0; // 10 deg farther, through 180
-    for (int i = 0; i < 100; ++i)          // 1 s of 20 s
+    m_measurements.windDirection = -175.0;  // 10 deg farther, through 180
+    for (int i = 0; i < 100; ++i)           // 1 s of 20 s
         autopilot.step(m_measurements);
     COMPARE_NEAR(autopilot.step(m_measurements).yawSpeed / 6.0, 5.0 - 10.0 * (1.0 - std::exp(-1.0 / 20.0)), 0.01);
 }

@@ -48,7 +48,7 @@ void tst_ClampedCubicSpline::hasZeroSlopeAtBothEnds()
 
 void tst_ClampedCubicSpline::twoAnchorsGiveTheHermiteCubic()
 {
-    const ClampedCubicSpline<2> spline({0.0, 1.0}, {0.0, 1.0}); // 3 x^2 - 2 x^3
+    const ClampedCubicSpline<2> spline({0.0, 1.0}, {0.0, 1.0});  // 3 x^2 - 2 x^3
     COMPARE_NEAR(spline.value(0.5), 0.5, 1e-15);
     COMPARE_NEAR(spline.value(0.25), 0.15625, 1e-15);
 }
@@ -62,7 +62,7 @@ void tst_ClampedCubicSpline::holdsTheEndValuesOutside()
 
 void tst_ClampedCubicSpline::reproducesACubicThatIsFlatAtItsEnds()
 {
-    const auto cubic = [](double x) { return x * x * x - 3.0 * x; }; // slope 0 at -1 and 1
+    const auto cubic = [](double x) { return x * x * x - 3.0 * x; };  // slope 0 at -1 and 1
     const ClampedCubicSpline<4> spline({-1.0, -0.2, 0.5, 1.0}, {cubic(-1.0), cubic(-0.2), cubic(0.5), cubic(1.0)});
     for (double x = -1.0; x <= 1.0; x += 0.05)
         COMPARE_NEAR(spline.value(x), cubic(x), 1e-14);

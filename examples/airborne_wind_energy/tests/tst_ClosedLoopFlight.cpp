@@ -200,7 +200,7 @@ void tst_ClosedLoopFlight::deadTimeIsCountedInCycles()
 {
     for (int cycles : {1, 2, 5}) {
         ClosedLoopParameters parameters;
-        parameters.plant.initialState = PlantParameters::stateAtRest(30.0, 60.0, 100.0); // aside: yaws at once
+        parameters.plant.initialState = PlantParameters::stateAtRest(30.0, 60.0, 100.0);  // aside: yaws at once
         parameters.deadTime = cycles;
         ClosedLoopFlight flight(parameters);
         int silent = 0;

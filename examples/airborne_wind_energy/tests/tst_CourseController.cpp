@@ -56,7 +56,7 @@ void tst_CourseController::eightStaysAboveItsLowestHeightAndElevation()
     const auto low = [&](double distance) { return controller.pathPoint(pi / 4.0, distance).elevation; };
     COMPARE_NEAR(std::sin(low(100.0)) * 100.0, 30.0, 1e-9);
     COMPARE_NEAR(low(400.0) * degreesPerRadian, 10.0, 1e-9);
-    QVERIFY(std::isfinite(low(20.0))); // shorter than the lowest height
+    QVERIFY(std::isfinite(low(20.0)));  // shorter than the lowest height
 }
 
 void tst_CourseController::wingAheadOfThePathPointMovesItOn()
@@ -68,18 +68,18 @@ void tst_CourseController::wingAheadOfThePathPointMovesItOn()
     const auto carrot = controller.pathPoint(controller.pathParameter(), 150.0);
     const double gap = std::hypot(carrot.azimuth * g.cosElevation, carrot.elevation - g.elevation) * 150.0;
     QVERIFY(controller.pathParameter() > 0.0);
-    COMPARE_NEAR(gap, 11.0, 0.4); // one path step is about 0.3 m
+    COMPARE_NEAR(gap, 11.0, 0.4);  // one path step is about 0.3 m
     const double before = controller.pathParameter();
     controller.figureEight(g, 12.0, 90.0);
     COMPARE_NEAR(controller.pathParameter(), before, 0.0);
     controller.figureEight(g, 32.0, 90.0);
-    QVERIFY(controller.pathParameter() > before); // faster flight looks farther ahead
+    QVERIFY(controller.pathParameter() > before);  // faster flight looks farther ahead
 }
 
 void tst_CourseController::pathPointCannotRunAway()
 {
     AutopilotGains gains;
-    gains.eightHalfWidth = 1.0; // the whole eight lies within the look-ahead
+    gains.eightHalfWidth = 1.0;  // the whole eight lies within the look-ahead
     gains.eightHalfHeight = 0.1;
     CourseController controller(gains);
     FlightGeometry g = at(0.0, controller.pathPoint(0.0, 150.0).elevation * degreesPerRadian);
@@ -91,15 +91,15 @@ void tst_CourseController::wingFarAwayIsLedStraightBack()
 {
     CourseController controller{AutopilotGains()};
     FlightGeometry g = at(40.0, 14.0);
-    g.heading = -90.0; // already on the way; slow, so the heading is the course
+    g.heading = -90.0;  // already on the way; slow, so the heading is the course
     const double yaw = controller.figureEight(g, 12.0, 90.0);
-    COMPARE_NEAR(yaw, 90.0, 10.0); // nose to smaller azimuth
+    COMPARE_NEAR(yaw, 90.0, 10.0);  // nose to smaller azimuth
 }
 
 void tst_CourseController::courseErrorIsCorrectedButNotWhenReversed()
 {
     CourseController controller{AutopilotGains()};
-    FlightGeometry g = at(0.0, 70.0); // far above: bearing is straight down, held to what the guard allows
+    FlightGeometry g = at(0.0, 70.0);  // far above: bearing is straight down, held to what the guard allows
     const double bearing = 180.0;
     g.tangentialSpeed = 0.0;
     g.heading = 180.0;
@@ -109,8 +109,8 @@ void tst_CourseController::courseErrorIsCorrectedButNotWhenReversed()
     const double straight = -controller.figureEight(g, 12.0, 90.0);
     g.heading = straight > 85.0 ? 70.0 : 75.0;
     const double corrected = -controller.figureEight(g, 12.0, 90.0);
-    QVERIFY(corrected > straight); // the course lags: steer more than the bearing
-    g.heading = -95.0;             // looks the other way: no correction at all
+    QVERIFY(corrected > straight);  // the course lags: steer more than the bearing
+    g.heading = -95.0;              // looks the other way: no correction at all
     const double plain = -controller.figureEight(g, 12.0, 90.0);
     QVERIFY(plain < straight);
     QVERIFY(plain < bearing);
@@ -152,7 +152,7 @@ void tst_CourseController::zenithModeTurnsTowardsTheWindDirection()
 {
     const CourseController controller{AutopilotGains()};
     FlightGeometry g = at(12.0, 40.0);
-    COMPARE_NEAR(controller.zenith(g), 12.0, 1e-12); // nose to smaller azimuth
+    COMPARE_NEAR(controller.zenith(g), 12.0, 1e-12);  // nose to smaller azimuth
     g.azimuthSpeed = 2.0;
     COMPARE_NEAR(controller.zenith(g), 26.0, 1e-12);
     g.azimuthSpeed = -20.0;

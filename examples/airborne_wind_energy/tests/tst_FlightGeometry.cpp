@@ -38,7 +38,7 @@ void tst_FlightGeometry::tellsWhereTheWingIs()
 void tst_FlightGeometry::azimuthCountsFromTheWindAndWraps()
 {
     FlightMeasurements m;
-    m.position = {-100.0, 1.0, 50.0}; // azimuth just below 180 deg
+    m.position = {-100.0, 1.0, 50.0};  // azimuth just below 180 deg
     COMPARE_NEAR(FlightGeometry::from(m, -170.0 * radiansPerDegree).azimuth * degreesPerRadian,
                  -10.0 - std::atan2(1.0, 100.0) * degreesPerRadian, 1e-12);
 }
@@ -47,7 +47,7 @@ void tst_FlightGeometry::speedsAreAlongTheSphere()
 {
     FlightMeasurements m;
     m.position = {100.0, 0.0, 0.0};
-    m.velocity = {7.0, 2.0, 3.0}; // outwards, to larger azimuth, up
+    m.velocity = {7.0, 2.0, 3.0};  // outwards, to larger azimuth, up
     const FlightGeometry g = FlightGeometry::from(m, 0.0);
     COMPARE_NEAR(g.zenithSpeed, 3.0, 1e-15);
     COMPARE_NEAR(g.azimuthSpeed, 2.0, 1e-15);

@@ -104,12 +104,12 @@ void tst_FlightStatistics::powersAreSplitByTheSignOfTheTetherSpeed()
 void tst_FlightStatistics::warmUpIsLeftOutOfLongFlightsOnly()
 {
     m_sample.power = 1000.0;
-    add(6000); // 60 s
+    add(6000);  // 60 s
     m_sample.power = 2000.0;
     add(6000);
-    COMPARE_NEAR(m_statistics.report().meanPower, 1500.0, 1e-9); // 120 s: all
+    COMPARE_NEAR(m_statistics.report().meanPower, 1500.0, 1e-9);  // 120 s: all
     add(1);
-    COMPARE_NEAR(m_statistics.report().meanPower, 2000.0, 1e-9); // longer: from 60 s on
+    COMPARE_NEAR(m_statistics.report().meanPower, 2000.0, 1e-9);  // longer: from 60 s on
     QCOMPARE(m_statistics.report().cycles, std::int64_t(12001));
 }
 
@@ -131,7 +131,7 @@ void tst_FlightStatistics::pumpingCycleEndsWhenReelInBecomesPower()
             add(5);
         }
     }
-    QCOMPARE(m_statistics.report().pumpingCycles, 2); // the third is not complete
+    QCOMPARE(m_statistics.report().pumpingCycles, 2);  // the third is not complete
     enter(FlightPhase::Power);
     add(1);
     QCOMPARE(m_statistics.report().pumpingCycles, 3);
@@ -156,7 +156,7 @@ void tst_FlightStatistics::altitudeCountsAfterTheLaunchOnly()
     m_sample.position.z() = 40.0;
     add(10);
     QCOMPARE(m_statistics.report().minimumAltitude, 40.0);
-    enter(FlightPhase::Launch); // a second launch is part of the flight
+    enter(FlightPhase::Launch);  // a second launch is part of the flight
     m_sample.position.z() = 30.0;
     add(1);
     QCOMPARE(m_statistics.report().minimumAltitude, 30.0);

@@ -86,7 +86,7 @@ void tst_Plant::dampingActsOnlyWhileTaut()
 {
     PlantParameters parameters;
     parameters.tetherDamping = 50.0;
-    parameters.initialState.velocity = 3.0 * parameters.initialState.position / 100.0; // outwards at 3 m/s
+    parameters.initialState.velocity = 3.0 * parameters.initialState.position / 100.0;  // outwards at 3 m/s
     parameters.initialState.tetherLength = 99.0;
     COMPARE_NEAR(Plant(parameters).outputs(thesisInputs(1.0)).tetherForce.norm(), 1000.0 + 50.0 * (3.0 - 1.0), 1e-9);
     parameters.initialState.tetherLength = 101.0;
@@ -98,7 +98,7 @@ void tst_Plant::forceOfTheTetherIsNeverNegative()
     PlantParameters parameters;
     parameters.tetherDamping = 500.0;
     parameters.initialState.tetherLength = 99.9;
-    parameters.initialState.velocity = -3.0 * parameters.initialState.position / 100.0; // inwards: damping would push
+    parameters.initialState.velocity = -3.0 * parameters.initialState.position / 100.0;  // inwards: damping would push
     QCOMPARE(Plant(parameters).outputs(thesisInputs()).tetherForce.norm(), 0.0);
 }
 
@@ -116,7 +116,7 @@ void tst_Plant::noRelativeWindGivesGravityOnly()
 void tst_Plant::freeFallIsExact()
 {
     PlantParameters parameters;
-    parameters.airDensity = 1e-3; // as good as none: what is left is below the tolerance
+    parameters.airDensity = 1e-3;  // as good as none: what is left is below the tolerance
     parameters.area = 1e-3;
     parameters.initialState.tetherLength = 1000.0;
     Plant plant(parameters);
@@ -157,7 +157,7 @@ void tst_Plant::averagePowerSettlesWithItsTimeConstant()
 {
     PlantParameters parameters;
     parameters.initialState.averagePower = 1000.0;
-    parameters.initialState.tetherLength = 1000.0; // slack: no power
+    parameters.initialState.tetherLength = 1000.0;  // slack: no power
     parameters.averagePowerTime = 2.0;
     Plant plant(parameters);
     for (int i = 0; i < 200; ++i)
@@ -187,7 +187,7 @@ void tst_Plant::mirroredFlightMirrorsTheTrajectory()
 
 void tst_Plant::turnedWorldTurnsTheTrajectory()
 {
-    Eigen::Matrix3d turn; // 90 deg about z
+    Eigen::Matrix3d turn;  // 90 deg about z
     turn << 0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0;
     PlantParameters turned;
     turned.initialState.position = turn * turned.initialState.position;
@@ -231,7 +231,7 @@ void tst_Plant::quasiSteadyFlightGivesThePublishedPower()
     // No gravity, wind along x, flying level through the axis of the wind: F and P of Loyd's quasi-steady solution.
     PlantParameters parameters;
     parameters.gravity = 0.0;
-    parameters.initialState = PlantParameters::stateAtRest(0.0, 0.0, 1e6); // so far out that the sphere is a plane
+    parameters.initialState = PlantParameters::stateAtRest(0.0, 0.0, 1e6);  // so far out that the sphere is a plane
     parameters.initialState.pitchAngle = 8.5;
     parameters.initialState.yawAngle = 90.0;
     Plant plant(parameters);
@@ -254,7 +254,7 @@ void tst_Plant::fifthOfTheDragFliesFiveTimesAsFast()
         PlantParameters parameters;
         parameters.gravity = 0.0;
         parameters.dragFactor = dragFactor;
-        parameters.tetherStiffness = 1e5; // 80 kN must not stretch it far
+        parameters.tetherStiffness = 1e5;  // 80 kN must not stretch it far
         parameters.initialState = PlantParameters::stateAtRest(0.0, 0.0, 1e6);
         parameters.initialState.pitchAngle = 22.3 - std::atan2(c.drag, c.lift) * 180.0 / M_PI;
         parameters.initialState.yawAngle = 90.0;
@@ -265,7 +265,7 @@ void tst_Plant::fifthOfTheDragFliesFiveTimesAsFast()
             plant.step(inputs);
         return std::hypot(plant.state().velocity.y(), plant.state().velocity.z());
     };
-    COMPARE_NEAR(speed(1.0), 24.1, 0.2); // published, with gravity
+    COMPARE_NEAR(speed(1.0), 24.1, 0.2);  // published, with gravity
     COMPARE_NEAR(speed(0.2), 121.3, 1.0);
     COMPARE_NEAR(speed(0.2) / speed(1.0), 5.0, 0.01);
 }
@@ -275,11 +275,11 @@ void tst_Plant::dynamicMaximumPowerIsNearTheQuasiSteadyOne()
     const double windAzimuth = 30.963756532073521;
     PlantParameters parameters;
     parameters.initialState = PlantParameters::stateAtRest(0.0, windAzimuth + 10.0, 100.0);
-    parameters.initialState.tetherLength -= 1.55; // 1550 N, as on the way
+    parameters.initialState.tetherLength -= 1.55;  // 1550 N, as on the way
     const Vector3d &r = parameters.initialState.position;
     parameters.initialState.velocity = 16.0 * Vector3d(r.y(), -r.x(), 0.0).normalized();
     parameters.initialState.pitchAngle = 8.5;
-    parameters.initialState.yawAngle = 82.24; // flies level: the lift carries the weight
+    parameters.initialState.yawAngle = 82.24;  // flies level: the lift carries the weight
     Plant plant(parameters);
     double atWindAzimuth = 0.0;
     while (plant.outputs(thesisInputs()).bodyPositionOrientation.z() > windAzimuth) {
@@ -359,10 +359,10 @@ void tst_Plant::fullAngleRangeChangesOnlyBackwardFlow()
     PlantParameters folded, full;
     full.angleOfAttackRange = AngleOfAttackRange::Full;
     PlantInputs inputs = thesisInputs();
-    inputs.windVelocity = {0.0, 0.0, -8.0}; // onto the nose, from the zenith: ordinary flow
+    inputs.windVelocity = {0.0, 0.0, -8.0};  // onto the nose, from the zenith: ordinary flow
     const double ahead = Plant(folded).outputs(inputs).angleOfAttack;
     COMPARE_NEAR(Plant(full).outputs(inputs).angleOfAttack, ahead, 1e-12);
-    inputs.windVelocity = {0.0, 0.0, 8.0}; // from behind
+    inputs.windVelocity = {0.0, 0.0, 8.0};  // from behind
     const double folding = Plant(folded).outputs(inputs).angleOfAttack;
     COMPARE_NEAR(Plant(full).outputs(inputs).angleOfAttack, 180.0 - folding, 1e-12);
 }

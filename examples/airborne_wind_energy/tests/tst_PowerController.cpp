@@ -245,7 +245,7 @@ void tst_PowerController::recoveryPullsWithTheWinchUntilHighEnough()
     m_geometry.height = 5.0;
     COMPARE_NEAR(run(3.0).tetherSpeed, -8.0, 1e-9);
     m_geometry.height = 28.5;
-    QCOMPARE(run(0.1).phase, FlightPhase::Recover); // the angle of attack is still too large
+    QCOMPARE(run(0.1).phase, FlightPhase::Recover);  // the angle of attack is still too large
     m_measurements.angleOfAttack = 20.0;
     QCOMPARE(run(0.01).phase, FlightPhase::Power);
 }
@@ -262,7 +262,7 @@ void tst_PowerController::forceLimitPaysOutAndHoldsThePitchBack()
     AutopilotGains gains;
     gains.forceLimit = 4000.0;
     m_controller = PowerController(gains);
-    toReelOut(3800.0); // the set point: the winch neither gives way nor follows the law down
+    toReelOut(3800.0);  // the set point: the winch neither gives way nor follows the law down
     const References atSetPoint = run(1.0);
     COMPARE_NEAR(run(1.0).tetherSpeed, atSetPoint.tetherSpeed, 1e-9);
     COMPARE_NEAR(atSetPoint.pitch.fastestUp, 0.04 * 200.0, 1e-3);
@@ -271,7 +271,7 @@ void tst_PowerController::forceLimitPaysOutAndHoldsThePitchBack()
     QVERIFY(above.tetherSpeed > atSetPoint.tetherSpeed + 3.0);
     QVERIFY(above.pitch.fastestUp < 0.0);
     COMPARE_NEAR(run(10.0).tetherSpeed, 10.0, 0.0);
-    m_measurements.tetherForce = 1000.0; // far below: back to the law
+    m_measurements.tetherForce = 1000.0;  // far below: back to the law
     COMPARE_NEAR(run(10.0).tetherSpeed, 0.75 * std::sqrt(1000.0 / 421.0), 1e-6);
 }
 

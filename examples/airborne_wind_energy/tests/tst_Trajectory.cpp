@@ -30,7 +30,7 @@ private Q_SLOTS:
     void saveLeavesNoTemporaryFile();
 
 private:
-    std::string m_good; // three rows
+    std::string m_good;  // three rows
 };
 
 namespace {
@@ -48,7 +48,7 @@ std::string replaced(std::string text, const std::string &what, const std::strin
     return text.replace(text.find(what), what.size(), by);
 }
 
-} // namespace
+}  // namespace
 
 void tst_Trajectory::initTestCase()
 {
@@ -175,7 +175,7 @@ void tst_Trajectory::failedSaveLeavesTheOldFileAlone()
 {
     VERIFY_CONTAINS(Trajectory().save("/nowhere/flight.csv"), "/nowhere/flight.csv: ");
     QTemporaryDir folder;
-    QVERIFY(QDir(folder.path()).mkdir(QStringLiteral("taken"))); // a folder cannot be replaced by a file
+    QVERIFY(QDir(folder.path()).mkdir(QStringLiteral("taken")));  // a folder cannot be replaced by a file
     const QString taken = folder.filePath(QStringLiteral("taken"));
     VERIFY_CONTAINS(Trajectory().save(taken.toStdString()), "cannot be replaced");
     QCOMPARE(QDir(folder.path()).entryList(QDir::AllEntries | QDir::NoDotAndDotDot),
@@ -190,7 +190,7 @@ void tst_Trajectory::saveLeavesNoTemporaryFile()
     QVERIFY(trajectory.read(in, "good").empty());
     const QString path = folder.filePath(QStringLiteral("flight.csv"));
     QVERIFY(trajectory.save(path.toStdString()).empty());
-    QVERIFY(trajectory.save(path.toStdString()).empty()); // over the old one
+    QVERIFY(trajectory.save(path.toStdString()).empty());  // over the old one
     QCOMPARE(QDir(folder.path()).entryList(QDir::Files), QStringList{QStringLiteral("flight.csv")});
     Trajectory again;
     QVERIFY(again.load(path.toStdString()).empty());

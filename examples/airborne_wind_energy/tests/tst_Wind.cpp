@@ -68,7 +68,7 @@ void tst_Wind::turbulenceHasTheWantedStandardDeviations()
 {
     Wind wind(turbulent());
     Vector3d sum = Vector3d::Zero(), squares = Vector3d::Zero();
-    const int count = 2000000; // 20 000 s, about 2700 independent values
+    const int count = 2000000;  // 20 000 s, about 2700 independent values
     for (int i = 0; i < count; ++i) {
         wind.step();
         const Vector3d deviation = wind.velocity() - Vector3d(8.0, 0.0, 0.0);
@@ -85,7 +85,7 @@ void tst_Wind::turbulenceHasTheWantedStandardDeviations()
 void tst_Wind::turbulenceForgetsOverItsLengthScale()
 {
     Wind wind(turbulent());
-    const int lag = 750; // 60 m / (8 m/s) = 7.5 s: correlation 1/e
+    const int lag = 750;  // 60 m / (8 m/s) = 7.5 s: correlation 1/e
     std::vector<double> history;
     for (int i = 0; i < 1500000; ++i) {
         wind.step();

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "ExampleOptions.h"
+#include "KiteSimulation.h"
+
+namespace awe {
+
+/// main() of a program around a model node.
+template<typename Node>
+int runModelProgram(int argc, char **argv, const QString &description)
+{
+    QPlcNodeApplication application(argc, argv);
+    application.setDescription(description);
+    application.setExamples({QStringLiteral("%1 --wind 8,0,0 --turbulence 0.15 --seed 3").arg(QCoreApplication::applicationName())});
+    application.setDefaultSignals(builtInSignals());
+    application.setWorkloadSignal(QStringLiteral("modelWorkload"));
+    addModelOptions(application);
+    ModelSettings settings;
+    if (!application.parseNodeOptions() || !readModelOptions(application, &settings))
+        return application.exitCode();
+    Node node(KiteSimulation(settings.plant, settings.wind));
+    return application.run(node);
+}
+
+} // namespace awe

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Program.h"
+
+#include <QtCore/QFile>
+#include <QtCore/QTemporaryDir>
+#include <QtTest/QtTest>
+
+/// What all programs of the example say before they begin: help, version, and one clear sentence about each thing that cannot be meant.
+class tst_ProgramOptions : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void helpNamesEveryOption_data();
+    void helpNamesEveryOption();
+    void versionIsOneLine_data() { everyProgram(); }
+    void versionIsOneLine();
+    void badOptionsAreRefusedWithOneSentence_data();
+    void badOptionsAreRefusedWithOneSentence();
+    void brokenSignalTableShowsAllOfItsErrors_data() { everyProgram(); }
+    void brokenSignalTableShowsAllOfItsErrors();
+    void reportThatCannotBeWrittenIsRefusedBeforeTheFlight_data();
+    void reportThatCannotBeWrittenIsRefusedBeforeTheFlight();
+    void checkOfTheReportLeavesAnOldOneAlone();
+
+private:
+    static void everyProgram();
+    static QString path(const QString &program) { return QStringLiteral(AWE_PROGRAMS "/") + program; }
+    QTemporaryDir m_folder;
+};
+
+void tst_ProgramOptions::everyProgram()
+{
+    QTest::addColumn<QString>("program");
+    for (const char *program : {"awe_master", "awe_model", "awe_compact_model", "awe_autopilot", "awe_sil"})
+        QTest::newRow(program) << QString::fromLatin1(program);
+}
+
+void tst_ProgramOptions::helpNamesEveryOption_data()
+{
+    QTest::addColumn<QString>("program");
+    QTest::addColumn<QString>("options");
+    const char *const node = "--master --signals --name --watchdog --priority --cpu --lock-memory";
+    const char *const model = " --wind --turbulence --seed";
+    const char *const autopilot = " --gains --force-limit --dead-time";
+    const char *const run = " --lockstep --real-time --scale --duration --report --watch --signals";
+    const auto row = [](const char *program, const QByteArray &options) {
+        QTest::newRow(program) << QString::fromLatin1(program) << QString::fromLatin1(options);
+    };
+    row("awe_model", QByteArray(node) + model);
+    row("awe_compact_model", QByteArray(node) + model);
+    row("awe_autopilot", QByteArray(node) + autopilot);
+    row("awe_master",
+        QByteArray("--listen --port --insecure-network --start-with --mean-wind --priority --cpu --lock-memory") + run);
+    row("awe_sil", QByteArray("--processes --transport") + run + model + autopilot);
+}
+
+void tst_ProgramOptions::helpNamesEveryOption()
+{
+    QFETCH(QString, program);
+    QFETCH(QString, options);
+    const Outcome outcome = runProgram(path(program), {QStringLiteral("--help")});
+    QCOMPARE(outcome.exitCode, 0);
+    QCOMPARE(outcome.errors, QString());
+    QVERIFY(outcome.output.startsWith(QLatin1String("Usage: ")));
+    QVERIFY(outcome.output.contains(QLatin1String("\nExamples:\n  ")));
+    const QStringList names = options.split(QLatin1Char(' '), Qt::SkipEmptyParts);
+    for (const QString &name : names)
+        QVERIFY2(outcome.output.contains(QStringLiteral("  %1 ").arg(name)), qPrintable(name));
+}
+
+void tst_ProgramOptions::versionIsOneLine()
+{
+    QFETCH(QString, program);
+    const Outcome outcome = runProgram(path(program), {QStringLiteral("--version")});
+    QCOMPARE(outcome.exitCode, 0);
+    QCOMPARE(outcome.errors, QString());
+    QVERIFY(
+        QRegularExpression(QStringLiteral("^%1 \\d+\\.\\d+\\.\\d+\n$").arg(program)).match(outcome.output).hasMatch());
+}
+
+void tst_ProgramOptions::badOptionsAreRefusedWithOneSentence_data()
+{
+    QTest::addColumn<QString>("program");
+    QTest::addColumn<QStringList>("arguments");
+    QTest::addColumn<QString>("message");
+    const auto row = [](const char *program, const char *arguments, const char *message) {
+        QTest::newRow(qPrintable(QStringLiteral("%1 %2").arg(QLatin1String(program), QLatin1String(arguments))))
+            << QString::fromLatin1(program) << QString::fromLatin1(arguments).split(QLatin1Char(' '))
+            << QString::fromLatin1(message);
+    };
+    for (const char *program : {"awe_master", "awe_model", "awe_compact_model", "awe_autopilot", "awe_sil"}) {
+        row(program, "--fly", "Unknown option 'fly'");
+        row(program, "fly", "unexpected argument 'fly'");
+        row(program, "-5", "unexpected argument '-5'");
+        row(program, "--signals", "Missing value after '--signals'");
+        row(program, "--signals /nowhere/signals.ini", "/nowhere/signals.ini");
+        row(program, "--help=yes", "--help");
+    }
+    for (const char *node : {"awe_model", "awe_compact_model", "awe_autopilot"}) {
+        row(node, "--master :", "':' is no address");
+        row(node, "--master 127.0.0.1:0", "'0' is no port");
+        row(node, "--master 127.0.0.1:65536", "'65536' is no port");
+        row(node, "--master 127.0.0.1:port", "'port' is no port");
+        row(node, "--master 127.0.0.1:1", "cannot reach a master at tcp://127.0.0.1:1");
+        row(node, "--master udp://127.0.0.1:1", "cannot reach a master at udp://127.0.0.1:1");
+        row(node, "--watchdog -1", "--watchdog -1: use a number of 0 ...");
+        row(node, "--watchdog soon", "--watchdog soon");
+        row(node, "--watchdog nan", "--watchdog nan");
+        row(node, "--priority 0", "--priority 0");
+        row(node, "--priority 100", "--priority 100");
+        row(node, "--cpu -1", "--cpu -1");
+        row(node, "--cpu 1.5", "--cpu 1.5");
+    }
+    for (const char *program : {"awe_model", "awe_compact_model", "awe_sil"}) {
+        row(program, "--wind 1,2", "--wind 1,2: use three numbers X,Y,Z");
+        row(program, "--wind 8", "--wind 8: use three numbers X,Y,Z");
+        row(program, "--wind west", "--wind west");
+        row(program, "--wind 1,2,inf", "--wind 1,2,inf");
+        row(program, "--wind 1000,0,0", "1000");
+        row(program, "--turbulence -0.1", "--turbulence -0.1: use a number of 0 ... 1");
+        row(program, "--turbulence 1.1", "--turbulence 1.1");
+        row(program, "--turbulence much", "--turbulence much");
+        row(program, "--seed -1", "--seed -1");
+        row(program, "--seed 0.5", "--seed 0.5");
+    }
+    for (const char *program : {"awe_autopilot", "awe_sil"}) {
+        row(program, "--gains best", "--gains best: use default or tuned");
+        row(program, "--force-limit 99", "--force-limit 99");
+        row(program, "--force-limit strong", "--force-limit strong");
+        row(program, "--dead-time 1", "--dead-time 1: use a whole number of 2 ...");
+        row(program, "--dead-time 101", "--dead-time 101");
+    }
+    for (const char *program : {"awe_master", "awe_sil"}) {
+        row(program, "--lockstep --real-time", "use one of --lockstep, --real-time and --scale");
+        row(program, "--scale 2 --real-time", "use one of");
+        row(program, "--scale 0", "--scale 0");
+        row(program, "--scale 1001", "--scale 1001");
+        row(program, "--scale fast", "--scale fast");
+        row(program, "--duration -1", "--duration -1");
+        row(program, "--duration long", "--duration long");
+        row(program, "--watch", "--watch draws on a terminal");
+    }
+    row("awe_master", "--listen home", "--listen home: use an IP address");
+    row("awe_master", "--port 65536", "--port 65536");
+    row("awe_master", "--port -1", "--port -1");
+    row("awe_master", "--mean-wind -1", "--mean-wind -1");
+    row("awe_master", "--priority 0", "--priority 0");
+    row("awe_sil", "--transport pigeon", "--transport pigeon: use inprocess, tcp or udp");
+    row("awe_sil", "--processes --transport inprocess", "exclude each other");
+    row("awe_sil", "--processes --wind 1,2", "--wind 1,2");
+    row("awe_sil", "--processes --watch", "--watch draws on a terminal");
+}
+
+void tst_ProgramOptions::badOptionsAreRefusedWithOneSentence()
+{
+    QFETCH(QString, program);
+    QFETCH(QStringList, arguments);
+    QFETCH(QString, message);
+    const Outcome outcome = runProgram(path(program), arguments);
+    QVERIFY2(outcome.exitCode == 2, qPrintable(QStringLiteral("%1: %2").arg(outcome.exitCode).arg(outcome.errors)));
+    QVERIFY2(outcome.errors.contains(message), qPrintable(outcome.errors));
+    QVERIFY2(outcome.errors.startsWith(program + QStringLiteral(": ")), qPrintable(outcome.errors));
+    QCOMPARE(outcome.errors.count(QLatin1Char('\n')), 1);
+    QCOMPARE(outcome.output, QString());
+}
+
+void tst_ProgramOptions::brokenSignalTableShowsAllOfItsErrors()
+{
+    QFETCH(QString, program);
+    const QString fileName = m_folder.filePath(QStringLiteral("broken.ini"));
+    QFile file(fileName);
+    QVERIFY(file.open(QIODevice::WriteOnly));
+    file.write("[power]\ntype = Rael\n\n[energy]\ntype = Real\nmin = low\n\n[energy]\ntype = Real\n");
+    file.close();
+    const Outcome outcome = runProgram(path(program), {QStringLiteral("--signals"), fileName});
+    QCOMPARE(outcome.exitCode, 2);
+    QCOMPARE(outcome.output, QString());
+    for (const char *place : {":2:", ":6:", ":8:"})
+        QVERIFY2(outcome.errors.contains(fileName + QLatin1String(place)), qPrintable(outcome.errors));
+    QVERIFY(outcome.errors.contains(QLatin1String("did you mean 'Real'")));
+    QCOMPARE(outcome.errors.count(QLatin1Char('\n')), 3);
+}
+
+void tst_ProgramOptions::reportThatCannotBeWrittenIsRefusedBeforeTheFlight_data()
+{
+    QTest::addColumn<QString>("program");
+    QTest::addColumn<QStringList>("arguments");
+    const QStringList missing{QStringLiteral("--report"), QStringLiteral("/nowhere/flight.json")};
+    QTest::newRow("missing folder") << QStringLiteral("awe_sil") << missing;
+    QTest::newRow("missing folder, processes")
+        << QStringLiteral("awe_sil") << missing + QStringList{QStringLiteral("--processes")};
+    QTest::newRow("missing folder, master")
+        << QStringLiteral("awe_master") << missing + QStringList{QStringLiteral("--port=0")};
+    QTest::newRow("a folder") << QStringLiteral("awe_sil") << QStringList{QStringLiteral("--report"), m_folder.path()};
+}
+
+void tst_ProgramOptions::reportThatCannotBeWrittenIsRefusedBeforeTheFlight()
+{
+    QFETCH(QString, program);
+    QFETCH(QStringList, arguments);
+    // A flight without end: a program that begins it is caught by the patience of the test.
+    const Outcome outcome = runProgram(
+        path(program), arguments + QStringList{QStringLiteral("--real-time"), QStringLiteral("--duration=0")});
+    QCOMPARE(outcome.exitCode, 2);
+    QCOMPARE(outcome.output, QString());
+    QVERIFY2(outcome.errors.contains(QStringLiteral("cannot write the report %1: ").arg(arguments.at(1))),
+             qPrintable(outcome.errors));
+    QCOMPARE(outcome.errors.count(QLatin1Char('\n')), 1);
+}
+
+void tst_ProgramOptions::checkOfTheReportLeavesAnOldOneAlone()
+{
+    QFile report(m_folder.filePath(QStringLiteral("old.json")));
+    QVERIFY(report.open(QIODevice::WriteOnly));
+    report.write("old");
+    report.close();
+    // The second option is refused after the check of the report.
+    const Outcome outcome = runProgram(path(QStringLiteral("awe_sil")),
+                                       {QStringLiteral("--report"), report.fileName(), QStringLiteral("--wind=x")});
+    QCOMPARE(outcome.exitCode, 2);
+    QVERIFY(report.open(QIODevice::ReadOnly));
+    QCOMPARE(report.readAll(), QByteArray("old"));
+}
+
+QTEST_GUILESS_MAIN(tst_ProgramOptions)
+#include "tst_ProgramOptions.moc"

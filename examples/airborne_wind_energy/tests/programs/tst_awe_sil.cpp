@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Program.h"
+
+#include <QtCore/QElapsedTimer>
+#include <QtCore/QFile>
+#include <QtCore/QJsonDocument>
+#include <QtCore/QJsonObject>
+#include <QtCore/QTemporaryDir>
+#include <QtTest/QtTest>
+
+#include <csignal>
+#include <cstdlib>
+#include <fcntl.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+namespace {
+
+/// A terminal for a program: what it writes to the slave end can be read here.
+class Terminal
+{
+public:
+    Terminal()
+        : m_master(::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC))
+    {
+        const winsize size = {24, 80, 0, 0};
+        if (m_master < 0 || ::grantpt(m_master) != 0 || ::unlockpt(m_master) != 0)
+            return;
+        m_slave = ::open(::ptsname(m_master), O_RDWR | O_NOCTTY | O_CLOEXEC);
+        ::ioctl(m_slave, TIOCSWINSZ, &size);
+    }
+    ~Terminal()
+    {
+        ::close(m_slave);
+        ::close(m_master);
+    }
+    int slave() const { return m_slave; }
+
+    /// All that was written so far.
+    QByteArray text()
+    {
+        char buffer[4096];
+        for (ssize_t count = 0; (count = ::read(m_master, buffer, sizeof buffer)) > 0;)
+            m_text.append(buffer, int(count));
+        return m_text;
+    }
+
+private:
+    int m_master;
+    int m_slave = -1;
+    QByteArray m_text;
+};
+
+}  // namespace
+
+/// awe_sil from outside: the same flight each time, whatever carries it, and a report of what was flown however it ends.
+class tst_awe_sil : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void reportHoldsEveryFigure();
+    void flightIsTheSameWhateverCarriesIt_data();
+    void flightIsTheSameWhateverCarriesIt();
+    void anotherSeedIsAnotherFlight();
+    void clockSetsThePace_data();
+    void clockSetsThePace();
+    void interruptedFlightIsReported_data();
+    void interruptedFlightIsReported();
+    void progressLineFitsTheTerminal();
+    void pictureGivesTheTerminalBack_data();
+    void pictureGivesTheTerminalBack();
+
+private:
+    /// Waits until the terminal shows \a text. \return false when it does not, or the program has ended
+    static bool waitForText(Terminal &terminal, const Program &program, const char *text);
+    /// Waits for the end of a program that writes to the terminal. \return the exit code
+    static int waitForEnd(Terminal &terminal, Program &program);
+    static QString path() { return QStringLiteral(AWE_PROGRAMS "/awe_sil"); }
+    /// Flies 10 s of turbulence. \return the report; empty, with a warning, when that failed
+    QJsonObject fly(const QString &options);
+    QJsonObject readReport(const QString &fileName);
+
+    QTemporaryDir m_folder;
+    QJsonObject m_flight;
+};
+
+bool tst_awe_sil::waitForText(Terminal &terminal, const Program &program, const char *text)
+{
+    const auto isOver = [&] { return terminal.text().contains(text) || program.state() == QProcess::NotRunning; };
+    return QTest::qWaitFor(isOver, Program::patience) && terminal.text().contains(text);
+}
+
+int tst_awe_sil::waitForEnd(Terminal &terminal, Program &program)
+{
+    // A terminal that nobody reads is full one day.
+    const auto isOver = [&] { return (void)terminal.text(), program.state() == QProcess::NotRunning; };
+    return QTest::qWaitFor(isOver, Program::patience) ? program.waitForEnd() : -2;
+}
+
+QJsonObject tst_awe_sil::readReport(const QString &fileName)
+{
+    QFile file(fileName);
+    return file.open(QIODevice::ReadOnly) ? QJsonDocument::fromJson(file.readAll()).object() : QJsonObject();
+}
+
+QJsonObject tst_awe_sil::fly(const QString &options)
+{
+    const QString report = m_folder.filePath(QStringLiteral("flight.json"));
+    QFile::remove(report);
+    const QStringList fixed{QStringLiteral("--duration=10"), QStringLiteral("--turbulence=0.15"),
+                            QStringLiteral("--report"), report};
+    const Outcome outcome = runProgram(path(), fixed + options.split(QLatin1Char(' '), Qt::SkipEmptyParts));
+    if (outcome.exitCode != 0)
+        qWarning().noquote() << outcome.exitCode << outcome.errors;
+    return readReport(report);
+}
+
+void tst_awe_sil::reportHoldsEveryFigure()
+{
+    const QString report = m_folder.filePath(QStringLiteral("long.json"));
+    const Outcome outcome = runProgram(path(), {QStringLiteral("--duration=300"), QStringLiteral("--report"), report});
+    QCOMPARE(outcome.exitCode, 0);
+    QVERIFY(outcome.output.startsWith(QLatin1String("Flight of 300.0 s in ")));
+    const QJsonObject flight = readReport(report);
+    for (const char *field : {"cycles", "simulated_s", "wall_s", "real_time_factor", "energy_J", "mean_power_W", "eta",
+                              "eta_per_mean_cubed_wind", "reel_out_power_W", "reel_in_power_W", "pumping_cycles",
+                              "min_altitude_m", "max_tether_force_N", "recoveries", "overruns", "late_answers"})
+        QVERIFY2(flight.value(QLatin1String(field)).isDouble(), field);
+    QVERIFY(flight.value(QStringLiteral("crashed")).isBool());
+    QCOMPARE(flight.value(QStringLiteral("crashed")).toBool(), false);
+    QCOMPARE(flight.value(QStringLiteral("image_digest")).toString().size(), 16);
+    QCOMPARE(flight.value(QStringLiteral("cycles")).toInt(), 30000);
+    QCOMPARE(flight.value(QStringLiteral("simulated_s")).toDouble(), 300.0);
+    QVERIFY(flight.value(QStringLiteral("pumping_cycles")).toInt() >= 1);
+    QVERIFY(flight.value(QStringLiteral("energy_J")).toDouble() > 0.0);
+    QVERIFY(flight.value(QStringLiteral("reel_out_power_W")).toDouble() > 0.0
+            && flight.value(QStringLiteral("reel_in_power_W")).toDouble() < 0.0);
+    QVERIFY(flight.value(QStringLiteral("min_altitude_m")).toDouble() > 0.0);
+    QCOMPARE(flight.value(QStringLiteral("late_answers")).toInt(), 0);
+}
+
+void tst_awe_sil::flightIsTheSameWhateverCarriesIt_data()
+{
+    QTest::addColumn<QString>("options");
+    QTest::newRow("in one process") << QString();
+    QTest::newRow("again") << QString();
+    QTest::newRow("in one process over tcp") << QStringLiteral("--transport tcp");
+    QTest::newRow("in one process over udp") << QStringLiteral("--transport udp");
+    QTest::newRow("processes over tcp") << QStringLiteral("--processes --transport tcp");
+    QTest::newRow("processes over udp") << QStringLiteral("--processes --transport udp");
+}
+
+void tst_awe_sil::flightIsTheSameWhateverCarriesIt()
+{
+    QFETCH(QString, options);
+    const QJsonObject flight = fly(options);
+    if (m_flight.isEmpty())
+        m_flight = flight;
+    QCOMPARE(flight.value(QStringLiteral("cycles")).toInt(), 1000);
+    QCOMPARE(flight.value(QStringLiteral("image_digest")), m_flight.value(QStringLiteral("image_digest")));
+    QCOMPARE(flight.value(QStringLiteral("energy_J")), m_flight.value(QStringLiteral("energy_J")));
+}
+
+void tst_awe_sil::anotherSeedIsAnotherFlight()
+{
+    const QJsonObject first = fly(QStringLiteral("--seed 1"));
+    const QJsonObject second = fly(QStringLiteral("--seed 2"));
+    QCOMPARE(first.value(QStringLiteral("image_digest")), m_flight.value(QStringLiteral("image_digest")));
+    QVERIFY(second.value(QStringLiteral("image_digest")) != first.value(QStringLiteral("image_digest")));
+    QCOMPARE(second.value(QStringLiteral("cycles")).toInt(), 1000);
+}
+
+void tst_awe_sil::clockSetsThePace_data()
+{
+    QTest::addColumn<QString>("options");
+    QTest::addColumn<double>("simulated");
+    QTest::addColumn<double>("wall");
+    QTest::newRow("real time") << QStringLiteral("--real-time --duration 2") << 2.0 << 2.0;
+    QTest::newRow("20 times as fast") << QStringLiteral("--scale 20 --duration 20") << 20.0 << 1.0;
+    QTest::newRow("20 times as fast, processes")
+        << QStringLiteral("--scale 20 --duration 20 --processes") << 20.0 << 1.0;
+}
+
+void tst_awe_sil::clockSetsThePace()
+{
+    QFETCH(QString, options);
+    QFETCH(double, simulated);
+    QFETCH(double, wall);
+    const QJsonObject flight = fly(options);
+    // On a machine that does something else the start is seen late, and the last cycles may be skipped.
+    const double flown = flight.value(QStringLiteral("simulated_s")).toDouble();
+    const double measured = flight.value(QStringLiteral("wall_s")).toDouble();
+    QVERIFY2(flown >= simulated && flown < simulated * 1.2, qPrintable(QString::number(flown)));
+    QVERIFY2(measured > 0.6 * wall && measured < wall + 5.0, qPrintable(QString::number(measured)));
+}
+
+void tst_awe_sil::interruptedFlightIsReported_data()
+{
+    QTest::addColumn<QString>("options");
+    QTest::addColumn<int>("signal");
+    QTest::newRow("one process, Ctrl-C") << QString() << SIGINT;
+    QTest::newRow("one process, SIGTERM") << QString() << SIGTERM;
+    QTest::newRow("processes, Ctrl-C") << QStringLiteral("--processes") << SIGINT;
+    QTest::newRow("processes, SIGTERM") << QStringLiteral("--processes --transport tcp") << SIGTERM;
+}
+
+void tst_awe_sil::interruptedFlightIsReported()
+{
+    QFETCH(QString, options);
+    QFETCH(int, signal);
+    const QString report = m_folder.filePath(QStringLiteral("interrupted.json"));
+    QFile::remove(report);
+    Terminal terminal;  // where the progress line tells that it flies
+    Program program(
+        path(),
+        QStringList{QStringLiteral("--real-time"), QStringLiteral("--duration=0"), QStringLiteral("--report"), report}
+            + options.split(QLatin1Char(' '), Qt::SkipEmptyParts),
+        terminal.slave());
+    QVERIFY2(waitForText(terminal, program, "m tether"), terminal.text().constData());
+    program.sendSignal(signal);
+    QCOMPARE(waitForEnd(terminal, program), 0);
+    const QJsonObject flight = readReport(report);
+    QVERIFY2(flight.value(QStringLiteral("cycles")).toInt() > 0, terminal.text().constData());
+    QVERIFY(program.output().startsWith(QLatin1String("Flight of ")));
+    QVERIFY(program.output().contains(flight.value(QStringLiteral("image_digest")).toString()));
+}
+
+void tst_awe_sil::progressLineFitsTheTerminal()
+{
+    Terminal terminal;
+    QVERIFY(terminal.slave() >= 0);
+    Program program(path(), {QStringLiteral("--scale=20"), QStringLiteral("--duration=10")}, terminal.slave());
+    QCOMPARE(waitForEnd(terminal, program), 0);
+    const QByteArray text = terminal.text();
+    QVERIFY(text.contains("m tether") && text.contains(" / 10 s"));
+    QVERIFY(!text.contains('\n'));
+    const QList<QByteArray> lines = text.split('\r');
+    for (const QByteArray &line : lines)
+        QVERIFY2(QByteArray(line).replace("\033[K", "").size() < 80, line.constData());
+    QVERIFY(text.endsWith("\r\033[K"));
+}
+
+void tst_awe_sil::pictureGivesTheTerminalBack_data()
+{
+    QTest::addColumn<QString>("options");
+    QTest::addColumn<int>("signal");
+    QTest::newRow("at the end") << QStringLiteral("--scale=20 --duration=10") << 0;
+    QTest::newRow("on Ctrl-C") << QStringLiteral("--duration=0") << SIGINT;
+    QTest::newRow("processes, at the end") << QStringLiteral("--processes --scale=20 --duration=10") << 0;
+    QTest::newRow("processes, on Ctrl-C") << QStringLiteral("--processes --duration=0") << SIGINT;
+}
+
+void tst_awe_sil::pictureGivesTheTerminalBack()
+{
+    QFETCH(QString, options);
+    QFETCH(int, signal);
+    Terminal terminal;
+    QVERIFY(terminal.slave() >= 0);
+    Program program(path(), QStringList{QStringLiteral("--watch")} + options.split(QLatin1Char(' ')), terminal.slave());
+    QVERIFY2(waitForText(terminal, program, "downwind"), terminal.text().constData());
+    if (signal != 0)
+        program.sendSignal(signal);
+    QCOMPARE(waitForEnd(terminal, program), 0);
+    const QByteArray text = terminal.text();
+    QVERIFY(text.contains("\033[?1049h"));
+    QCOMPARE(text.count("\033[?1049h"), text.count("\033[?1049l"));
+    QVERIFY(text.indexOf("\033[?1049l") > text.lastIndexOf("downwind"));
+    QVERIFY(text.lastIndexOf("\033[?25h") > text.lastIndexOf("\033[?25l"));
+    QVERIFY(text.lastIndexOf("\033[?7h") > text.lastIndexOf("\033[?7l"));
+    QVERIFY(program.output().startsWith(QLatin1String("Flight of ")));
+}
+
+QTEST_GUILESS_MAIN(tst_awe_sil)
+#include "tst_awe_sil.moc"

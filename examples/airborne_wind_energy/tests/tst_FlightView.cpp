@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "FlightView.h"
+
+#include <QtCore/QRegularExpression>
+#include <QtTest/QtTest>
+
+#include <cmath>
+
+using awe::FlightMoment;
+using awe::FlightPhase;
+using awe::FlightView;
+
+namespace {
+
+constexpr double radiansPerDegree = 3.14159265358979323846 / 180.0;
+
+/// A moment in a wind to the east. \param azimuth from downwind, > 0 to the left [deg] \param elevation [deg]
+FlightMoment momentAt(double time, double azimuth, double elevation)
+{
+    const double a = azimuth * radiansPerDegree, e = elevation * radiansPerDegree;
+    FlightMoment moment;
+    moment.time = time;
+    moment.phase = FlightPhase::ReelOut;
+    moment.position = 150.0 * Eigen::Vector3d(std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e));
+    moment.windVelocity = Eigen::Vector3d(6.0, 0.0, 0.0);
+    moment.tetherLength = 150.0;
+    moment.tetherForce = 1234.0;
+    moment.power = 2000.0;
+    moment.energy = 30000.0;
+    return moment;
+}
+
+QStringList withoutCodes(const QStringList &lines)
+{
+    QStringList plain;
+    for (const QString &line : lines)
+        plain << QString(line).remove(QRegularExpression(QStringLiteral("\033\\[[0-9;]*m")));
+    return plain;
+}
+
+QString trimmedEnd(QString line)
+{
+    while (line.endsWith(QLatin1Char(' ')))
+        line.chop(1);
+    return line;
+}
+
+QPoint placeOf(const QStringList &lines, const QString &mark)
+{
+    for (int row = 0; row < lines.size(); ++row) {
+        if (lines.at(row).contains(mark))
+            return QPoint(lines.at(row).indexOf(mark), row);
+    }
+    return QPoint(-1, -1);
+}
+
+}  // namespace
+
+/// The picture of a flight, without a terminal.
+class tst_FlightView : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void pictureLooksLikeThis();
+    void kiteStandsWhereItIsSeen_data();
+    void kiteStandsWhereItIsSeen();
+    void downwindFollowsTheWindSlowly();
+    void trailEndsAfterItsTime();
+    void trailFades();
+    void earlierTimeIsAnotherFlight();
+    void fitsEveryTerminal_data();
+    void fitsEveryTerminal();
+    void everyColouredLineEndsPlain();
+    void crashIsShown();
+    void barStaysInItsFrame_data();
+    void barStaysInItsFrame();
+    void progressLineIsBounded();
+};
+
+void tst_FlightView::pictureLooksLikeThis()
+{
+    FlightView view(60.0);
+    view.add(momentAt(14.0, 30.0, 30.0));
+    view.add(momentAt(15.0, 0.0, 30.0));
+    const char *const golden[] = {
+        "   15.0 / 60 s   ReelOut",
+        "",
+        " 90° ┤",
+        "     │",
+        "     │",
+        " 60° ┤",
+        "     │",
+        " 30° ┤             •            ◆",
+        "     │",
+        "     │",
+        "  0° ┤",
+        "     └┴────────────┴────────────┴────────────┴────────────┴",
+        "     60°          30°       downwind        30°          60°",
+        " tether      150.0 m     100 ███████████████░░░░░░░░░░░░░░░",
+        " power        2000 W     mean         2000 W     energy",
+        " altitude     75.0 m     force        1234 N     wind",
+    };
+    const QStringList lines = withoutCodes(view.draw(60, 16));
+    QCOMPARE(lines.size(), int(std::size(golden)));
+    for (int i = 0; i < lines.size(); ++i)
+        QCOMPARE(trimmedEnd(lines.at(i)), QString::fromUtf8(golden[i]));
+}
+
+void tst_FlightView::kiteStandsWhereItIsSeen_data()
+{
+    QTest::addColumn<double>("azimuth");
+    QTest::addColumn<double>("elevation");
+    QTest::addColumn<QPoint>("place");
+    // 100 columns, 6 for the axis: 93 columns for 120 deg; 30 rows, 23 of them for 90 deg
+    QTest::newRow("downwind on the ground") << 0.0 << 0.0 << QPoint(52, 24);
+    QTest::newRow("zenith") << 0.0 << 90.0 << QPoint(52, 2);
+    QTest::newRow("left") << 60.0 << 0.0 << QPoint(6, 24);
+    QTest::newRow("right") << -60.0 << 0.0 << QPoint(98, 24);
+    QTest::newRow("left beyond the window") << 100.0 << 45.0 << QPoint(6, 13);
+    QTest::newRow("right beyond the window") << -179.0 << 45.0 << QPoint(98, 13);
+    QTest::newRow("under the ground") << 0.0 << -5.0 << QPoint(52, 24);
+}
+
+void tst_FlightView::kiteStandsWhereItIsSeen()
+{
+    QFETCH(double, azimuth);
+    QFETCH(double, elevation);
+    QFETCH(QPoint, place);
+    FlightView view(0.0);
+    view.add(momentAt(0.0, azimuth, elevation));
+    QCOMPARE(placeOf(withoutCodes(view.draw(100, 30)), QStringLiteral("◆")), place);
+}
+
+void tst_FlightView::downwindFollowsTheWindSlowly()
+{
+    FlightView view(0.0);
+    FlightMoment moment = momentAt(0.0, 0.0, 30.0);
+    view.add(moment);
+    const int downwind = placeOf(withoutCodes(view.draw(100, 30)), QStringLiteral("◆")).x();
+    moment.windVelocity = Eigen::Vector3d(6.0 * std::cos(0.5), 6.0 * std::sin(0.5),
+                                          0.0);  // turns to the left: the kite is to its right
+    moment.time = 0.01;
+    view.add(moment);
+    QCOMPARE(placeOf(withoutCodes(view.draw(100, 30)), QStringLiteral("◆")).x(), downwind);
+    moment.time = 200.0;
+    view.add(moment);
+    QVERIFY(placeOf(withoutCodes(view.draw(100, 30)), QStringLiteral("◆")).x() > downwind + 20);
+}
+
+void tst_FlightView::trailEndsAfterItsTime()
+{
+    FlightView view(0.0);
+    view.add(momentAt(0.0, 30.0, 30.0));
+    view.add(momentAt(20.0, 0.0, 30.0));
+    QVERIFY(withoutCodes(view.draw(80, 24)).join(QString()).contains(QStringLiteral("·")));
+    view.add(momentAt(20.01, 0.0, 30.0));
+    QVERIFY(!withoutCodes(view.draw(80, 24)).join(QString()).contains(QStringLiteral("·")));
+}
+
+void tst_FlightView::trailFades()
+{
+    FlightView view(0.0);
+    view.add(momentAt(0.0, 40.0, 30.0));
+    view.add(momentAt(10.0, 20.0, 30.0));
+    view.add(momentAt(18.0, -20.0, 30.0));
+    view.add(momentAt(19.0, -40.0, 30.0));
+    const QStringList lines = view.draw(80, 24);
+    const int row = placeOf(withoutCodes(lines), QStringLiteral("◆")).y();
+    const QString line = lines.at(row);
+    QStringList colours;
+    QRegularExpressionMatchIterator matches
+        = QRegularExpression(QStringLiteral("\033\\[([0-9;]*)m([·•◆])")).globalMatch(line);
+    while (matches.hasNext())
+        colours << matches.next().captured(1);
+    QCOMPARE(colours.size(), 4);
+    QCOMPARE(colours.removeDuplicates(), 0);
+}
+
+void tst_FlightView::earlierTimeIsAnotherFlight()
+{
+    FlightView view(0.0);
+    view.add(momentAt(10.0, 30.0, 30.0));
+    view.add(momentAt(0.0, 0.0, 30.0));
+    const QString text = withoutCodes(view.draw(80, 24)).join(QString());
+    QCOMPARE(text.count(QStringLiteral("•")) + text.count(QStringLiteral("·")), 0);
+    QCOMPARE(text.count(QStringLiteral("◆")), 1);
+}
+
+void tst_FlightView::fitsEveryTerminal_data()
+{
+    QTest::addColumn<int>("columns");
+    QTest::addColumn<int>("rows");
+    for (const QPoint size : {QPoint(80, 24), QPoint(300, 100), QPoint(40, 12), QPoint(20, 5), QPoint(7, 30),
+                              QPoint(6, 30), QPoint(1, 1), QPoint(0, 0), QPoint(-1, -1)})
+        QTest::addRow("%d x %d", size.x(), size.y()) << size.x() << size.y();
+}
+
+void tst_FlightView::fitsEveryTerminal()
+{
+    QFETCH(int, columns);
+    QFETCH(int, rows);
+    FlightView view(600.0);
+    QVERIFY(view.draw(columns, rows).size() <= qMax(0, rows));  // before the first moment
+    for (int i = 0; i < 200; ++i)
+        view.add(momentAt(0.1 * i, 5.0 * i, 3.0 * i));
+    const QStringList lines = withoutCodes(view.draw(columns, rows));
+    QVERIFY(lines.size() <= qMax(0, rows));
+    for (const QString &line : lines)
+        QVERIFY(line.size() <= columns);
+}
+
+void tst_FlightView::everyColouredLineEndsPlain()
+{
+    FlightView view(60.0);
+    view.add(momentAt(1.0, -60.0, 30.0));
+    const QStringList lines = view.draw(80, 24);
+    for (const QString &line : lines) {
+        const int last = line.lastIndexOf(QLatin1Char('\033'));
+        QVERIFY(last < 0 || line.midRef(last).startsWith(QLatin1String("\033[0m")));
+    }
+}
+
+void tst_FlightView::crashIsShown()
+{
+    FlightView view(60.0);
+    FlightMoment moment = momentAt(1.0, 0.0, 0.0);
+    view.add(moment);
+    QVERIFY(!view.draw(80, 24).constFirst().contains(QLatin1String("CRASHED")));
+    moment.crashed = true;
+    view.add(moment);
+    QVERIFY(view.draw(80, 24).constFirst().contains(QLatin1String("CRASHED")));
+}
+
+void tst_FlightView::barStaysInItsFrame_data()
+{
+    QTest::addColumn<double>("length");
+    QTest::addColumn<int>("filled");
+    QTest::newRow("short") << 10.0 << 0;
+    QTest::newRow("100 m") << 100.0 << 0;
+    QTest::newRow("150 m") << 150.0 << 15;
+    QTest::newRow("200 m") << 200.0 << 30;
+    QTest::newRow("long") << 1e6 << 30;
+}
+
+void tst_FlightView::barStaysInItsFrame()
+{
+    QFETCH(double, length);
+    QFETCH(int, filled);
+    FlightMoment moment = momentAt(1.0, 0.0, 30.0);
+    moment.tetherLength = length;
+    FlightView view(60.0);
+    view.add(moment);
+    const QString text = withoutCodes(view.draw(80, 24)).join(QString());
+    QCOMPARE(text.count(QStringLiteral("█")), filled);
+    QCOMPARE(text.count(QStringLiteral("░")), 30 - filled);
+}
+
+void tst_FlightView::progressLineIsBounded()
+{
+    FlightMoment moment = momentAt(123.4, 0.0, 30.0);
+    QCOMPARE(awe::progressLine(moment, 600.0),
+             QStringLiteral("  123.4 / 600 s  ReelOut   75.0 m high  150.0 m tether    2000 W     30.0 kJ"));
+    QCOMPARE(awe::progressLine(moment, 0.0),
+             QStringLiteral("  123.4 s  ReelOut   75.0 m high  150.0 m tether    2000 W     30.0 kJ"));
+    moment.time = 86400.0;
+    moment.energy = 99999.9e3;
+    QVERIFY(awe::progressLine(moment, 86400.0).size() < 80);
+}
+
+QTEST_APPLESS_MAIN(tst_FlightView)
+#include "tst_FlightView.moc"

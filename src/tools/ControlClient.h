@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "QPlcMasterSocket.h"
+#include "QPlcMessage.h"
+#include "QPlcSignalTable.h"
+
+#include <QtCore/QList>
+#include <QtCore/QObject>
+
+#include <chrono>
+
+class QDeadlineTimer;
+
+namespace tools {
+
+/// A tool at the control channel of a master (docs/protocol.md): greets, asks, waits for the answer. Takes no part in the cycle.
+class ControlClient : public QObject
+{
+    Q_OBJECT
+public:
+    enum Error
+    {
+        NoError,
+        Unreachable,  ///< nobody there, or no QtPLC master
+        Refused,      ///< the master said no: errorString() is its sentence
+        Lost          ///< the connection ended, or no answer came in time
+    };
+
+    /// \param timeout  longest wait for the greeting and for each answer
+    explicit ControlClient(std::chrono::milliseconds timeout);
+
+    /// Connects and greets. \return false when there is no master, or when it refuses
+    bool connectToMaster(const QPlcUnderlyingProtocol &master);
+    /// Sends \a request and waits for its answer. \return false when the master refused or was lost; \a answer is untouched then
+    bool ask(const QPlcMessage &request, QPlcMessage *answer = nullptr);
+
+    /// The signal table of the master; empty when it cannot be read, errorString() says why then.
+    QPlcSignalTable table();
+    Error error() const { return m_error; }
+    QString errorString() const { return m_errorString; }
+    std::chrono::milliseconds timeout() const { return m_timeout; }
+
+private:
+    void greet();
+    void receive(const QPlcMessage &message);
+    void connectionLost(const QString &reason);
+    bool waitForMessage(QDeadlineTimer deadline, QPlcMessage *message);
+    bool setError(Error error, const QString &text);
+
+    QPlcMasterSocket m_socket;
+    std::chrono::milliseconds m_timeout;
+    QString m_address;
+    QPlcMessage m_hello;
+    QList<QPlcMessage> m_inbox;
+    Error m_error = NoError;
+    QString m_errorString;
+};
+
+}  // namespace tools

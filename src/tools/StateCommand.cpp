@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Commands.h"
+#include "TerminalText.h"
+
+#include <QtCore/QJsonArray>
+
+namespace tools {
+
+namespace {
+
+struct NodeColumn
+{
+    const char *title;
+    const char *field;
+    TextTable::Alignment alignment;
+    bool isDetail;  // with --verbose only
+};
+
+const NodeColumn nodeColumns[] = {
+    {"node", "name", TextTable::Left, false},          {"transport", "transport", TextTable::Left, false},
+    {"address", "address", TextTable::Left, true},     {"number", "id", TextTable::Right, true},
+    {"policy", "policy", TextTable::Left, false},      {"listener", "listener", TextTable::Left, true},
+    {"in", "inputs", TextTable::Right, false},         {"out", "outputs", TextTable::Right, false},
+    {"late", "lateAnswers", TextTable::Right, false},  {"lost", "lost", TextTable::Right, true},
+    {"doubled", "duplicates", TextTable::Right, true}, {"rejected", "rejected", TextTable::Right, false},
+    {"resent", "resent", TextTable::Right, true},
+};
+
+void printField(const char *label, const QString &value)
+{
+    printLine(QStringLiteral("%1%2").arg(QString::fromLatin1(label), -10).arg(printable(value)));
+}
+
+/// "scaled 20 times", "lockstep"
+QString clockText(const QJsonObject &state)
+{
+    const QString clock = state.value(QStringLiteral("clock")).toString();
+    if (clock == QLatin1String("Scaled"))
+        return QStringLiteral("Scaled %1").arg(state.value(QStringLiteral("scale")).toDouble());
+    return clock;
+}
+
+QString countersText(const QJsonObject &counters)
+{
+    QStringList texts;
+    for (auto it = counters.begin(); it != counters.end(); ++it)
+        texts << QStringLiteral("%1 %2").arg(it.key(), it.value().toVariant().toString());
+    return texts.join(QStringLiteral(", "));
+}
+
+void printNodes(const QJsonArray &nodes, bool verbose)
+{
+    QStringList fields;
+    TextTable table;
+    for (const NodeColumn &column : nodeColumns) {
+        if (column.isDetail && !verbose)
+            continue;
+        table.addColumn(QString::fromLatin1(column.title), column.alignment);
+        fields << QString::fromLatin1(column.field);
+    }
+    for (const QJsonValue &node : nodes) {
+        QStringList cells;
+        for (const QString &field : qAsConst(fields))
+            cells << node.toObject().value(field).toVariant().toString();
+        table.addRow(cells);
+    }
+    table.print();
+}
+
+}  // namespace
+
+int showState(const CommandCall &call)
+{
+    QPlcMessage answer;
+    if (!call.client.ask(QPlcMessage(QPlcMessage::GetState), &answer))
+        return reportFailure(call.client);
+    const QJsonObject state = answer.fields();
+    const double period = state.value(QStringLiteral("period")).toDouble() * 1e-9;
+    const quint64 cycle = answer.hex64(QStringLiteral("cycle"));
+    printField("state", answer.text(QStringLiteral("state")));
+    printField("cycle", QStringLiteral("%1 (%2 s)").arg(cycle).arg(double(cycle) * period, 0, 'f', 3));
+    printField("period", QStringLiteral("%1 ms").arg(period * 1e3));
+    printField("clock", clockText(state));
+    printField("counters", countersText(state.value(QStringLiteral("counters")).toObject()));
+    printField("session", answer.text(QStringLiteral("session")));
+    printField("digest", answer.text(QStringLiteral("digest")));
+    printLine(QString());
+    printNodes(state.value(QStringLiteral("nodes")).toArray(), call.application.isSet(QStringLiteral("verbose")));
+    return QPlcCoreApplication::Success;
+}
+
+}  // namespace tools

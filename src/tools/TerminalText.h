@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QtCore/QStringList>
+#include <QtCore/QVector>
+
+namespace tools {
+
+/// \a text with its control characters as \xNN: what came over the network must not command a terminal.
+QString printable(const QString &text);
+/// Whether the standard output is a terminal that a person looks at.
+bool isTerminal();
+/// \a text in bold on a terminal, as it is elsewhere (and where NO_COLOR is set).
+QString bold(const QString &text);
+/// Prints a line, at once, to the standard output.
+void printLine(const QString &line);
+
+/// Rows with aligned columns, two blanks apart; an empty cell is "-", so that every row has as many words.
+class TextTable
+{
+public:
+    enum Alignment
+    {
+        Left,
+        Right
+    };
+
+    void addColumn(const QString &title, Alignment alignment = Left);
+    /// \pre as many cells as columns
+    void addRow(const QStringList &cells);
+    void print() const;
+
+private:
+    struct Column
+    {
+        QString title;
+        Alignment alignment;
+        int width;
+    };
+    QString toLine(const QStringList &cells) const;
+
+    QVector<Column> m_columns;
+    QVector<QStringList> m_rows;
+};
+
+}  // namespace tools

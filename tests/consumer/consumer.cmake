@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: Apache-2.0
+# Run by CTest, or by hand: cmake -DSOURCE=... -DBUILD=... -DWORK=... -DBUILD_TYPE=Release -P tests/consumer/consumer.cmake
+cmake_policy(VERSION 3.23)
+set(prefix ${WORK}/prefix)
+if(NOT GENERATOR)
+    set(GENERATOR Ninja)
+endif()
+set(compiler)
+if(COMPILER)
+    set(compiler -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER})
+endif()
+
+function(run)
+    execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+    if(NOT result EQUAL 0)
+        string(JOIN " " command ${ARGN})
+        message(FATAL_ERROR "${command}\n${output}\ngave ${result}")
+    endif()
+    set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+function(expect text)
+    if(NOT output MATCHES "${text}")
+        message(FATAL_ERROR "expected '${text}' in\n${output}")
+    endif()
+endfunction()
+
+# A project that knows nothing but where QtPLC is installed.
+function(build_project name folder)
+    run(${CMAKE_COMMAND} -S ${folder} -B ${WORK}/${name} -G ${GENERATOR} -DCMAKE_BUILD_TYPE=${BUILD_TYPE} -DCMAKE_PREFIX_PATH=${prefix}
+        ${compiler} -DCMAKE_INSTALL_PREFIX=${prefix} ${ARGN})
+    run(${CMAKE_COMMAND} --build ${WORK}/${name} --parallel 2)
+    message(STATUS "${name}: built against the installed package")
+endfunction()
+
+file(REMOVE_RECURSE ${WORK})
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
+run(${prefix}/bin/qtplc --version)
+
+build_project(winch ${SOURCE}/tests/consumer/winch)
+run(${WORK}/winch/winch --help)
+expect("--master")
+run(${WORK}/winch/both_include_styles)
+run(ldd ${WORK}/winch/winch)
+string(REGEX MATCHALL "libQt5[A-Za-z0-9]+" libraries "${output}")
+list(REMOVE_DUPLICATES libraries)
+list(SORT libraries)
+if(NOT libraries STREQUAL "libQt5Core;libQt5Network")
+    message(FATAL_ERROR "a node needs ${libraries}; it is to need libQt5Core and libQt5Network only")
+endif()
+
+build_project(tutorial ${SOURCE}/docs/tutorial/code)
+run(${WORK}/tutorial/tst_Winch)
+
+if(EXAMPLES)
+    build_project(example ${SOURCE}/examples/airborne_wind_energy -DAWE_BUILD_TESTS=OFF)
+    run(${CMAKE_COMMAND} --install ${WORK}/example)
+    foreach(program awe_master awe_model awe_compact_model awe_autopilot awe_sil)
+        run(${prefix}/bin/${program} --version)
+    endforeach()
+    # From the installed tree, with the installed table, in one process and in three.
+    set(flight ${prefix}/bin/awe_sil --lockstep --duration 30 --signals ${prefix}/share/qtplc/signals/airborne_wind_energy.ini)
+    run(${flight})
+    string(REGEX MATCH "image digest +[0-9a-f]+" digest "${output}")
+    run(${flight} --processes)
+    expect("${digest}")
+endif()

@@ -1,0 +1,136 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Checks who includes whom, what each room may know, and the size of files: docs/design/layers.md says why.
+
+usage: layers.py SOURCE_FOLDER
+"""
+import re
+import sys
+from pathlib import Path
+
+# Room: the rooms whose headers it may include.
+ARROWS = {
+    "signals": {"signals"},
+    "realtime": {"realtime"},
+    "transport": {"transport"},
+    "protocol": {"signals", "protocol"},
+    "node": {"signals", "realtime", "transport", "protocol", "node"},
+    "tools": {"signals", "protocol", "transport", "node", "tools"},
+}
+# Public headers without a source file of their own; "all": a plain value that every room may use.
+HEADER_ONLY = {
+    "QPlcBoundInput": "node", "QPlcBoundOutput": "node", "QPlcClock": "all", "QPlcCycle": "all", "QPlcGlobal": "all",
+    "QPlcInput": "node", "QPlcMasterStatistics": "node", "QPlcNodeInfo": "node", "QPlcOutput": "node",
+    "QPlcRealTimeSetting": "realtime", "QPlcSignalDefinition": "signals", "QSplitPrimitive": "signals",
+}
+SOCKETS = r"<QtNetwork/|<sys/socket\.h>|<netinet/|<arpa/inet\.h>|Q(Tcp|Udp|Abstract)Socket\b"
+EVENT_LOOP = r"\bQ(Object|Thread|Timer|EventLoop|SocketNotifier)\b|\bQ_OBJECT\b"
+OTHER_CLOCKS = r"\b(steady_clock|system_clock|high_resolution_clock|clock_gettime|gettimeofday|QElapsedTimer)\b|\bcurrent(DateTime\w*|MSecs\w*|Secs\w*)\s*\("
+QT = r"[<\"]Q\w+|\bQ[A-Z]\w+|\bq[A-Z]\w+\s*\(|\bQ_\w+"
+# Room: what its code may not mention, and how to say that.
+FORBIDDEN = {
+    "src/signals": [(SOCKETS, "a socket"), (EVENT_LOOP, "the event loop of Qt"), (OTHER_CLOCKS, "a clock")],
+    "src/realtime": [(SOCKETS, "a socket"), (EVENT_LOOP, "the event loop of Qt")],
+    "src/protocol": [(SOCKETS, "a socket"), (EVENT_LOOP, "the event loop of Qt"), (OTHER_CLOCKS, "a clock")],
+    "src/transport": [(OTHER_CLOCKS, "a clock other than qplc::TimeSource")],
+    "src/node": [(OTHER_CLOCKS, "a clock other than qplc::TimeSource")],
+    "src/tools": [(OTHER_CLOCKS, "a clock other than qplc::TimeSource")],
+    "examples/airborne_wind_energy/plant": [(QT, "Qt")],
+    "examples/airborne_wind_energy/flight_control": [(QT, "Qt")],
+}
+MOST_LINES = 500
+
+
+def files(folder):
+    return sorted(p for p in folder.rglob("*") if p.is_file() and (p.suffix in (".h", ".cpp") or p.parent.name == "QtPlc"))
+
+
+def code(path):
+    """The lines of a file without comments, numbered from 1."""
+    text = re.sub(r"/\*.*?\*/", lambda match: "\n" * match[0].count("\n"), path.read_text(), flags=re.S)
+    return list(enumerate((re.sub(r"//.*", "", line) for line in text.split("\n")), 1))
+
+
+class Check:
+    def __init__(self, root):
+        self.root, self.errors = root, []
+        self.source, self.public = root / "src", root / "include/QtPlc"
+
+    def error(self, path, line, text):
+        self.errors.append(f"{path.relative_to(self.root)}:{line}: {text}")
+
+    def room(self, path):
+        if path.parent != self.public:
+            return path.relative_to(self.source).parts[0] if self.source in path.parents else None
+        homes = [p.parent.name for p in self.source.glob(f"*/{path.stem}.cpp")]
+        return homes[0] if homes else HEADER_ONLY.get(path.stem)
+
+    def arrows(self):
+        for path in files(self.source) + [p for p in files(self.public) if p.suffix == ".h"]:
+            room = self.room(path)
+            if room not in ARROWS and room != "all":
+                self.error(path, 1, f"belongs to no room (found: {room}): name it in tests/layers/layers.py")
+                continue
+            for number, line in code(path):
+                match = re.match(r'\s*#\s*include\s+"([^"]+)"', line)
+                target = match and next((f for f in (d / match[1] for d in (path.parent, self.source, self.public)) if f.is_file()), None)
+                if not match or target is None:
+                    continue
+                other = self.room(target.resolve())
+                if other is None and target.suffix == "":
+                    if room != "tools":
+                        self.error(path, number, f"includes the umbrella {match[1]}: include what is used")
+                elif other != "all" and other not in ARROWS.get(room, set()):
+                    self.error(path, number, f"{room} may not include {match[1]}, which belongs to {other}")
+
+    def words(self):
+        for folder, rules in FORBIDDEN.items():
+            of_room = [p for p in files(self.public) if folder == f"src/{self.room(p)}"]
+            for path in files(self.root / folder) + of_room:
+                for number, line in code(path):
+                    for pattern, what in rules:
+                        if re.search(pattern, line):
+                            self.error(path, number, f"{folder} may not know {what}: {line.strip()}")
+
+    def public_headers(self):
+        for path in sorted(self.public.rglob("*")):
+            if path.parent != self.public:
+                self.error(path, 1, "public headers stand side by side in include/QtPlc")
+            elif path.suffix == ".h" and path.stem != "QPlcGlobal":
+                # Definitions at the left margin outside of namespaces for internals.
+                text = re.sub(r"^namespace \w+ \{\n.*?^\} +// namespace", "", path.read_text(), flags=re.S | re.M)
+                classes = re.findall(r"^(?:class|struct|union)\s+(?:QTPLC_EXPORT\s+)?(\w+)[^;\n]*$", text, flags=re.M)
+                if classes != [path.stem]:
+                    self.error(path, 1, f"defines {', '.join(classes) or 'no class'}: one class a header, named like the file")
+                elif not re.search(r"^///.*\n(?:template<[^\n]*>\n)?(?:class|struct|union)\b", text, flags=re.M):
+                    self.error(path, 1, f"{path.stem} has no comment that says what it is for")
+        listed = set(re.findall(r"include/QtPlc/(\S+)", (self.source / "CMakeLists.txt").read_text()))
+        included = set(re.findall(r'#include "(\w+\.h)"', (self.public / "QtPlcCore").read_text()))
+        for path in self.public.iterdir():
+            if path.name not in listed:
+                self.error(path, 1, "is missing in the list of headers of src/CMakeLists.txt")
+            if path.suffix == ".h" and path.name not in included:
+                self.error(path, 1, "is missing in the umbrella header QtPlcCore")
+
+    def sizes_and_licences(self):
+        for folder in ("include", "src", "examples", "tests", "benchmarks", "docs"):
+            for path in files(self.root / folder):
+                lines = path.read_text().split("\n")
+                if len(lines) > MOST_LINES + 1:
+                    self.error(path, MOST_LINES, f"has {len(lines) - 1} lines, more than {MOST_LINES}: split it")
+                if "SPDX-License-Identifier: Apache-2.0" not in lines[0]:
+                    self.error(path, 1, "does not begin with // SPDX-License-Identifier: Apache-2.0")
+
+
+def main():
+    check = Check(Path(sys.argv[1]).resolve())
+    check.arrows()
+    check.words()
+    check.public_headers()
+    check.sizes_and_licences()
+    print("\n".join(check.errors) or "the layers are in order")
+    return 1 if check.errors else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

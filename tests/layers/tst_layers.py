@@ -1,0 +1,94 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Plants one fault after the other into a copy of the tree; layers.py has to name each of them.
+
+usage: tst_layers.py SOURCE_FOLDER
+"""
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+SOURCE = Path(sys.argv.pop(1)).resolve()
+LAYERS = Path(__file__).with_name("layers.py")
+
+
+class Faults(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.root = Path(self.folder.name)
+        for part in ("include", "src", "examples/airborne_wind_energy/plant", "examples/airborne_wind_energy/flight_control"):
+            shutil.copytree(SOURCE / part, self.root / part)
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def plant(self, path, text):
+        with open(self.root / path, "a") as file:
+            file.write(text)
+
+    def assert_named(self, *words):
+        run = subprocess.run([sys.executable, "-B", LAYERS, self.root], capture_output=True, text=True)
+        self.assertEqual(run.returncode, 1, run.stdout + run.stderr)
+        for word in words:
+            self.assertIn(word, run.stdout)
+
+    def test_protocol_may_not_include_node(self):
+        self.plant("src/protocol/ControlFrame.h", '#include "node/MasterCycle.h"\n')
+        self.assert_named("src/protocol/ControlFrame.h:", "which belongs to node")
+
+    def test_transport_may_not_include_signals(self):
+        self.plant("src/transport/CyclicHub.h", '#include "../signals/ProcessImage.h"\n')
+        self.assert_named("src/transport/CyclicHub.h:", "which belongs to signals")
+
+    def test_signals_may_not_include_a_public_header_of_node(self):
+        self.plant("src/signals/Fnv1a.h", '#include "QPlcMasterNode.h"\n')
+        self.assert_named("src/signals/Fnv1a.h:", "QPlcMasterNode.h")
+
+    def test_a_public_header_obeys_the_arrows_of_its_room(self):
+        self.plant("include/QtPlc/QPlcValue.h", '#include "QPlcSlaveNode.h"\n')
+        self.assert_named("include/QtPlc/QPlcValue.h:", "QPlcSlaveNode.h")
+
+    def test_realtime_knows_no_qobject(self):
+        self.plant("src/realtime/CycleThread.h", "class Worker : public QObject {};\n")
+        self.assert_named("src/realtime/CycleThread.h:", "event loop")
+
+    def test_signals_know_no_socket(self):
+        self.plant("src/signals/Fnv1a.h", "#include <sys/socket.h>\n")
+        self.assert_named("src/signals/Fnv1a.h:", "a socket")
+
+    def test_only_realtime_reads_clocks(self):
+        self.plant("src/node/NodeSlot.h", "inline auto now() { return std::chrono::steady_clock::now(); }\n")
+        self.assert_named("src/node/NodeSlot.h:", "a clock")
+
+    def test_a_word_in_a_comment_is_no_fault(self):
+        self.plant("src/node/NodeSlot.h", "// not steady_clock\n")
+        run = subprocess.run([sys.executable, "-B", LAYERS, self.root], capture_output=True, text=True)
+        self.assertEqual(run.returncode, 0, run.stdout)
+
+    def test_the_plant_knows_no_qt(self):
+        self.plant("examples/airborne_wind_energy/plant/Plant.h", "#include <QtCore/QString>\n")
+        self.assert_named("plant/Plant.h:", "may not know Qt")
+
+    def test_a_public_header_has_one_class_and_is_listed(self):
+        self.plant("include/QtPlc/QPlcNews.h", "// SPDX-License-Identifier: Apache-2.0\nclass QPlcOther\n{\n};\nclass QPlcNews\n{\n};\n")
+        self.assert_named("QPlcNews.h:1: defines QPlcOther, QPlcNews", "missing in the list of headers", "missing in the umbrella header")
+
+    def test_a_public_class_needs_a_comment(self):
+        header = self.root / "include/QtPlc/QPlcCycle.h"
+        header.write_text("\n".join(line for line in header.read_text().split("\n") if not line.startswith("///")))
+        self.assert_named("QPlcCycle has no comment")
+
+    def test_a_file_has_at_most_500_lines(self):
+        self.plant("src/node/NodeSlot.h", "\n" * 500)
+        self.assert_named("src/node/NodeSlot.h:500:", "split it")
+
+    def test_a_file_begins_with_its_licence(self):
+        self.plant("src/node/News.h", "#pragma once\n")
+        self.assert_named("src/node/News.h:1:", "SPDX-License-Identifier")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "NodeFixtures.h"
+#include "protocol/ControlFrame.h"
+#include "protocol/CyclicFrame.h"
+#include "signals/PayloadLayout.h"
+
+#include <QtCore/QJsonArray>
+#include <QtNetwork/QTcpSocket>
+#include <QtNetwork/QUdpSocket>
+
+#include <functional>
+
+/// Indices of signals of the test table, in this order.
+inline QVector<QPlcSignalIndex> indicesOf(const QPlcSignalTable &table, const QStringList &names)
+{
+    QVector<QPlcSignalIndex> indices;
+    for (const QString &name : names)
+        indices << table.indexOf(name);
+    return indices;
+}
+
+/// A node that speaks the protocol as the test tells it, message by message and frame by frame, against a real master.
+class ScriptedNode : public QObject
+{
+    Q_OBJECT
+public:
+    struct Request
+    {
+        QByteArray bytes;
+        qplc::FrameStatus status;
+        quint8 flags;
+        quint64 cycle;
+        QByteArray payload;  // newest complete one
+    };
+
+    explicit ScriptedNode(const QString &nodeName = QStringLiteral("Scripted"))
+        : name(nodeName)
+        , uuid(QUuid::createUuid().toString(QUuid::WithoutBraces))
+    {
+        connect(&control, &QPlcAbstractSocket::messageReceived, this, [this](const QPlcMessage &message) {
+            messages << message;
+            if (playsAlong)
+                playAlong(message);
+        });
+        connect(&m_udp, &QUdpSocket::readyRead, this, &ScriptedNode::readDatagrams);
+        connect(&stream, &QTcpSocket::readyRead, this, &ScriptedNode::readStream);
+    }
+
+    // ---- what it is; to be set before registerAt() ----
+    QString name;
+    QString uuid;
+    QString policy = QStringLiteral("ErrorZeroOrderHold");
+    QString cyclic = QStringLiteral("udp");
+    bool listener = false;
+    QPlcSignalTable table = testTable();
+    QStringList inputs{QStringLiteral("count")};
+    QStringList outputs{QStringLiteral("echo")};
+    QByteArray initialValues = QByteArray(8, '\0');
+    bool playsAlong = true;                                // answers initialization and start by itself
+    std::function<void(const Request &)> onRequest;
+
+    // ---- what came ----
+    QPlcMasterSocket control;
+    QTcpSocket stream;                                     // cyclic TCP
+    QVector<QPlcMessage> messages;
+    QVector<Request> frames;                               // all of them
+    QVector<Request> requests;                             // that became complete: one for each cycle
+    QPlcMessage registered;
+    quint64 session = 0;
+
+    // ---- control channel ----
+    bool connectTo(quint16 port)
+    {
+        m_port = port;
+        control.connectToMaster(QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, port));
+        return QTest::qWaitFor([this] { return control.isConnected(); }, 5000);
+    }
+    void send(QPlcMessage::Kind kind, const QJsonObject &fields = {}) { control.sendMessage(QPlcMessage(kind, fields)); }
+    /// The next message; of kind Invalid when none comes.
+    QPlcMessage next(int timeout = 5000)
+    {
+        (void)QTest::qWaitFor([this] { return m_taken < messages.size(); }, timeout);
+        return m_taken < messages.size() ? messages.at(m_taken++) : QPlcMessage();
+    }
+    void forgetMessages()
+    {
+        messages.clear();
+        m_taken = 0;
+    }
+    bool waitForMessage(QPlcMessage::Kind kind)
+    {
+        return QTest::qWaitFor([&] { return std::any_of(messages.begin(), messages.end(), [&](const QPlcMessage &m) { return m.kind() == kind; }); }, 5000);
+    }
+    QJsonObject helloFields() const
+    {
+        return {{QStringLiteral("protocol"), 1}, {QStringLiteral("name"), name}, {QStringLiteral("uuid"), uuid}, {QStringLiteral("role"), QStringLiteral("node")}};
+    }
+    QJsonArray describe(const QStringList &names) const
+    {
+        QJsonArray array;
+        for (const QString &signal : names) {
+            const QPlcSignalDefinition &definition = table.at(table.indexOf(signal));
+            array << QJsonObject{{QStringLiteral("name"), signal}, {QStringLiteral("type"), definition.type.name()}, {QStringLiteral("unit"), definition.unit}};
+        }
+        return array;
+    }
+    QJsonObject registerFields()
+    {
+        if (m_udp.state() != QAbstractSocket::BoundState)
+            m_udp.bind(QHostAddress::LocalHost, 0);
+        return {{QStringLiteral("name"), name},       {QStringLiteral("uuid"), uuid},           {QStringLiteral("policy"), policy},
+                {QStringLiteral("listener"), listener}, {QStringLiteral("inputs"), describe(inputs)}, {QStringLiteral("outputs"), describe(outputs)},
+                {QStringLiteral("cyclic"), cyclic},   {QStringLiteral("udpPort"), m_udp.localPort()}};
+    }
+    /// Greets and registers, and attaches its cyclic channel.
+    bool registerAt(quint16 port)
+    {
+        if (!connectTo(port))
+            return false;
+        send(QPlcMessage::Hello, helloFields());
+        const QPlcMessage hello = next();
+        session = hello.hex64(QStringLiteral("session"));
+        send(QPlcMessage::Register, registerFields());
+        if (hello.kind() != QPlcMessage::Hello || !takeRegistered(next()))
+            return false;
+        return cyclic == QLatin1String("udp") ? next().kind() == QPlcMessage::CyclicChannelAttached : attach();
+    }
+    bool takeRegistered(const QPlcMessage &message)
+    {
+        registered = message;
+        const auto node = quint16(message.fields().value(QStringLiteral("node")).toInt());
+        const qplc::PayloadLayout in(table, indicesOf(table, inputs));
+        const qplc::PayloadLayout out(table, indicesOf(table, outputs));
+        m_decoder = qplc::FrameDecoder(qplc::FrameKind::Inputs, {session, node, in.hash()}, in.partBorders(qplc::MaximumCyclicPayload));
+        m_encoder = qplc::FrameEncoder(qplc::FrameKind::Outputs, {session, node, out.hash()}, out.partBorders(qplc::MaximumCyclicPayload));
+        return message.kind() == QPlcMessage::Registered;
+    }
+    /// Attaches the cyclic TCP connection with the token given, or that of the registration.
+    bool attach(quint64 token = 0)
+    {
+        stream.connectToHost(QHostAddress::LocalHost, m_port);
+        if (!QTest::qWaitFor([this] { return stream.state() == QAbstractSocket::ConnectedState; }, 5000))
+            return false;
+        stream.write(qplc::encodeControlFrame(QPlcMessage(
+            QPlcMessage::AttachCyclicChannel,
+            {{QStringLiteral("node"), registered.fields().value(QStringLiteral("node"))},
+             {QStringLiteral("token"), token ? QPlcMessage::fromHex64(token) : registered.text(QStringLiteral("token"))}})));
+        return QTest::qWaitFor([this] { return m_attachAnswer.kind() != QPlcMessage::Invalid; }, 5000) && m_attachAnswer.kind() == QPlcMessage::CyclicChannelAttached;
+    }
+    QPlcMessage attachAnswer() const { return m_attachAnswer; }
+
+    // ---- cyclic channel ----
+    /// All parts of an answer; \a values are the packed outputs.
+    QVector<QByteArray> answerFrames(quint64 cycle, const QByteArray &values, quint8 flags = 0) const
+    {
+        QVector<QByteArray> parts;
+        qplc::FrameHeader header;
+        header.flags = flags;
+        header.cycle = quint32(cycle);
+        for (std::size_t part = 0; part < m_encoder.partCount(); ++part) {
+            parts << QByteArray(int(m_encoder.partSize(part)), '\0');
+            m_encoder.encode(part, header, values.constData(), parts.last().data());
+        }
+        return parts;
+    }
+    void answer(quint64 cycle, const QByteArray &values, quint8 flags = 0)
+    {
+        for (const QByteArray &frame : answerFrames(cycle, values, flags))
+            sendFrame(frame);
+    }
+    void answer(quint64 cycle, double value) { answer(cycle, QByteArray(reinterpret_cast<const char *>(&value), sizeof value)); }
+    void sendFrame(const QByteArray &frame)
+    {
+        if (cyclic == QLatin1String("udp"))
+            m_udp.writeDatagram(frame, QHostAddress::LocalHost, m_port);
+        else
+            stream.write(frame);
+    }
+    bool waitForRequests(int count)
+    {
+        return QTest::qWaitFor([&] { return requests.size() >= count; }, 5000);
+    }
+    /// Whether a request of this cycle came, again or for the first time.
+    bool waitForRequestOf(quint64 cycle, quint8 flags = 0)
+    {
+        return QTest::qWaitFor([&] { return std::any_of(frames.begin(), frames.end(), [&](const Request &r) { return r.cycle == cycle && r.flags == flags; }); }, 5000);
+    }
+    /// Answers every request at once.
+    void answerAll()
+    {
+        onRequest = [this](const Request &request) {
+            if (request.status == qplc::FrameStatus::Complete)
+                answer(request.cycle, initialValues);
+        };
+    }
+
+private:
+    void playAlong(const QPlcMessage &message)
+    {
+        switch (message.kind()) {
+        case QPlcMessage::SendYourInitialOutputStates:
+            send(QPlcMessage::ReceiveMyInitialOutputStates, {{QStringLiteral("values"), QPlcMessage::fromBytes(initialValues)}});
+            break;
+        case QPlcMessage::InitializeWithValues: send(QPlcMessage::Initialized); break;
+        case QPlcMessage::RealTimeStarted:
+            m_decoder.restart(message.hex64(QStringLiteral("firstCycle")));
+            send(QPlcMessage::RealTimeReady);
+            break;
+        default: break;
+        }
+    }
+    void readDatagrams()
+    {
+        while (m_udp.hasPendingDatagrams()) {
+            QByteArray bytes(int(m_udp.pendingDatagramSize()), '\0');
+            m_udp.readDatagram(bytes.data(), bytes.size());
+            take(bytes);
+        }
+    }
+    void readStream()
+    {
+        m_streamBytes += stream.readAll();
+        if (m_attachAnswer.kind() == QPlcMessage::Invalid) {
+            m_reader.append(m_streamBytes);
+            m_streamBytes.clear();
+            if (!m_reader.next(&m_attachAnswer))
+                return;
+            m_streamBytes = m_reader.takeRest();
+        }
+        while (m_streamBytes.size() >= int(qplc::CyclicHeaderSize)) {
+            const int size = int(m_decoder.frameSize(m_streamBytes.constData()));
+            if (size == 0 || m_streamBytes.size() < size)
+                return;
+            take(m_streamBytes.left(size));
+            m_streamBytes.remove(0, size);
+        }
+    }
+    void take(const QByteArray &bytes)
+    {
+        const qplc::FrameStatus status = m_decoder.decode(bytes.constData(), std::size_t(bytes.size()));
+        const quint64 cycle = status == qplc::FrameStatus::Complete ? m_decoder.cycle() : quint64(m_decoder.received().cycle);
+        const Request request{bytes, status, quint8(bytes.size() > 1 ? bytes.at(1) : 0), cycle,
+                            QByteArray(m_decoder.payload(), int(qplc::PayloadLayout(table, indicesOf(table, inputs)).size()))};
+        frames << request;
+        if (status == qplc::FrameStatus::Complete)
+            requests << request;
+        if (onRequest)
+            onRequest(request);
+    }
+
+    quint16 m_port = 0;
+    int m_taken = 0;
+    QUdpSocket m_udp;
+    QByteArray m_streamBytes;
+    qplc::ControlFrameReader m_reader;
+    QPlcMessage m_attachAnswer;
+    qplc::FrameDecoder m_decoder;
+    qplc::FrameEncoder m_encoder;
+};
+
+/// A tool: greets, and asks.
+class ScriptedTool : public ScriptedNode
+{
+    Q_OBJECT
+public:
+    explicit ScriptedTool(const QString &toolName = QStringLiteral("Tool"))
+        : ScriptedNode(toolName)
+    {
+        playsAlong = false;
+    }
+    bool greetAt(quint16 port)
+    {
+        if (!connectTo(port))
+            return false;
+        QJsonObject fields = helloFields();
+        fields.insert(QStringLiteral("role"), QStringLiteral("tool"));
+        send(QPlcMessage::Hello, fields);
+        return next().kind() == QPlcMessage::Hello;
+    }
+    QPlcMessage ask(QPlcMessage::Kind kind, const QJsonObject &fields = {})
+    {
+        send(kind, fields);
+        return next();
+    }
+};

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "NodeFixtures.h"
+
+#include <QtCore/QThread>
+#include <QtTest/QtTest>
+
+#include <atomic>
+#include <thread>
+
+// Nodes whose outputs come from outside and whose inputs are read elsewhere: between phases, across threads, and when what they want changes.
+class tst_IONodes : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void init() { QPlcSignalIndexTable::setCurrent(testTable()); }
+    void cleanup() { QPlcSignalIndexTable::setCurrent({}); }
+    void outputsSetBetweenPhasesBeginTheNextOne_data();
+    void outputsSetBetweenPhasesBeginTheNextOne();
+    void newOutputsTakeOverAndFreeTheOldOnes_data();
+    void newOutputsTakeOverAndFreeTheOldOnes();
+    void aRefusedChangeIsAnError();
+    void inputsAreThoseOfOneCycleInAnyThread();
+    void aNodeMayLiveInAThreadOfItsOwn_data();
+    void aNodeMayLiveInAThreadOfItsOwn();
+    void aFullBufferInAnotherThreadSlowsNobody();
+};
+
+namespace {
+
+QPlcSignalIndexList indices(const QStringList &names)
+{
+    QPlcSignalIndexList list;
+    for (const QString &name : names)
+        list.insert(name);
+    return list;
+}
+
+QPlcSignalList valueOf(const char *name, const QPlcValue &value)
+{
+    QPlcSignalList list;
+    list.insert(QString(name), value);
+    return list;
+}
+
+/// Runs \a task in the thread of \a node, and waits for its end.
+template<typename Task>
+void inThreadOf(QPlcSlaveNode *node, Task task)
+{
+    QMetaObject::invokeMethod(node, task, Qt::BlockingQueuedConnection);
+}
+
+/// A viewer of "count" and "echo" in a thread of its own.
+class ThreadedViewer
+{
+public:
+    explicit ThreadedViewer(int bufferSize)
+    {
+        node->setListener(false);  // in lockstep it is waited for, so that it sees every cycle
+        node->setBufferSize(bufferSize);
+        node->setInputSignalIndices(indices({"count", "echo"}));
+        node->moveToThread(&m_thread);
+        QObject::connect(&m_thread, &QThread::finished, node, &QObject::deleteLater);
+        m_thread.start();
+    }
+    ~ThreadedViewer()
+    {
+        inThreadOf(node, [this] { node->disconnectFromMaster(); });
+        m_thread.quit();
+        m_thread.wait();
+    }
+    bool connectTo(const QPlcUnderlyingProtocol &protocol)
+    {
+        inThreadOf(node, [&] { node->connectToMaster(protocol); });
+        return QTest::qWaitFor([this] { return state() == QPlcSlaveNode::Off; }, 5000);
+    }
+    QPlcSlaveNode::State state()
+    {
+        // The master of these tests lives in this thread and must go on meanwhile: never wait without its event loop.
+        const auto answer = std::make_shared<std::atomic<int>>(-1);
+        QMetaObject::invokeMethod(
+            node, [this, answer] { *answer = node->state(); }, Qt::QueuedConnection);
+        (void)QTest::qWaitFor([&] { return *answer >= 0; }, 5000);
+        return QPlcSlaveNode::State(answer->load());
+    }
+    QPlcIOBufferSlaveNode *node = new QPlcIOBufferSlaveNode("Viewer");
+
+private:
+    QThread m_thread;
+};
+
+}  // namespace
+
+void tst_IONodes::outputsSetBetweenPhasesBeginTheNextOne_data()
+{
+    QTest::addColumn<QString>("kind");
+    QTest::newRow("in process") << "local";
+    QTest::newRow("udp") << "udp";
+    QTest::newRow("tcp") << "tcp";
+}
+
+void tst_IONodes::outputsSetBetweenPhasesBeginTheNextOne()
+{
+    QFETCH(QString, kind);
+    TestMaster master;
+    QVERIFY(master.listen());
+    QPlcIOSlaveNode node("Operator");
+    node.setOutputSignalIndices(indices({"setpoint"}));
+    if (kind == "local")
+        QVERIFY2(master.addLocalNode(&node), qPrintable(master.errorString()));
+    else
+        QVERIFY2(node.connectToMasterAndWaitForConnected(master.protocol(kind)), qPrintable(node.errorString()));
+    for (double value : {1.0, 2.0, 3.0}) {
+        node.setOutputSignals(valueOf("setpoint", value));  // no cycle runs
+        const double before = master.signalValue("setpoint").toReal();
+        QTest::qWait(1);
+        QCOMPARE(master.signalValue("setpoint").toReal(), before);
+        QSignalSpy initialized(&master, &QPlcMasterNode::statesInitialized);
+        QVERIFY(master.startRealTime());
+        QTRY_COMPARE(initialized.size(), 1);
+        QCOMPARE(master.signalValue("setpoint").toReal(), value);
+        QVERIFY(master.waitForState(QPlcMasterNode::RealTime));
+        QVERIFY(master.waitForCycles(3));
+        QCOMPARE(master.signalValue("setpoint").toReal(), value);
+        node.setOutputSignals(valueOf("setpoint", -value));
+        QTRY_COMPARE(master.signalValue("setpoint").toReal(), -value);
+        master.stop();
+        QTRY_COMPARE(node.state(), QPlcSlaveNode::Off);
+        QCOMPARE(master.signalValue("setpoint").toReal(), -value);  // the plant keeps its last values
+    }
+    node.disconnectFromMaster();
+}
+
+void tst_IONodes::newOutputsTakeOverAndFreeTheOldOnes_data()
+{
+    QTest::addColumn<bool>("running");
+    QTest::newRow("off") << false;
+    QTest::newRow("while cycles run") << true;
+}
+
+void tst_IONodes::newOutputsTakeOverAndFreeTheOldOnes()
+{
+    QFETCH(bool, running);
+    TestMaster master;
+    QVERIFY(master.listen());
+    QPlcIOSlaveNode node("Operator");
+    node.setOutputSignalIndices(indices({"setpoint"}));
+    QVERIFY(node.connectToMasterAndWaitForConnected(master.protocol("tcp")));
+    if (running) {
+        QVERIFY(master.startRealTime());
+        QTRY_COMPARE(node.state(), QPlcSlaveNode::RealTime);
+    }
+    node.setOutputSignalIndices(indices({"echo", "sum"}));
+    node.setOutputSignals(valueOf("sum", 4.0));  // on its way to the master already
+    QTRY_COMPARE(master.writer("sum"), QString("Operator"));
+    QCOMPARE(master.writer("setpoint"), QString());
+    QTRY_COMPARE(node.state(), running ? QPlcSlaveNode::RealTime : QPlcSlaveNode::Off);
+    QVERIFY(master.setSignalValue("setpoint", 5.0));
+    if (!running)
+        QVERIFY(master.startRealTime());
+    QTRY_COMPARE(master.signalValue("sum").toReal(), 4.0);
+    QTRY_COMPARE(master.signalValue("setpoint").toReal(), 5.0);
+    QCOMPARE(master.nodes().size(), 1);
+    master.stop();
+    node.disconnectFromMaster();
+}
+
+void tst_IONodes::aRefusedChangeIsAnError()
+{
+    TestMaster master;
+    QVERIFY(master.listen());
+    CounterNode counter;
+    QVERIFY(master.addLocalNode(&counter));
+    QPlcIOSlaveNode node("Operator");
+    QVERIFY(node.connectToMasterAndWaitForConnected(master.protocol("udp")));
+    node.setOutputSignalIndices(indices({"count"}));  // the counter writes it
+    QTRY_COMPARE(node.error(), QPlcSlaveNode::RegistrationError);
+    QVERIFY2(node.errorString().contains("'count'") && node.errorString().contains("'Counter'"),
+             qPrintable(node.errorString()));
+    QCOMPARE(node.state(), QPlcSlaveNode::Disconnected);
+    QCOMPARE(master.writer("count"), QString("Counter"));
+    node.setOutputSignalIndices(indices({"setpoint"}));
+    QVERIFY2(node.connectToMasterAndWaitForConnected(master.protocol("udp")), qPrintable(node.errorString()));
+    node.disconnectFromMaster();
+}
+
+void tst_IONodes::inputsAreThoseOfOneCycleInAnyThread()
+{
+    TestMaster master;
+    CounterNode counter;
+    EchoNode echo;
+    QPlcIOSlaveNode node("Operator");
+    node.setInputSignalIndices(indices({"count", "echo"}));
+    for (QPlcSlaveNode *local : std::initializer_list<QPlcSlaveNode *>{&counter, &echo, &node})
+        QVERIFY2(master.addLocalNode(local), qPrintable(master.errorString()));
+    QVERIFY(master.startRealTime());
+    QVERIFY(master.waitForCycles(100));
+    std::atomic<int> torn{0};
+    std::thread reader([&] {
+        const QPlcSignalIndex count = testTable().indexOf("count");
+        const QPlcSignalIndex echoed = testTable().indexOf("echo");
+        double newest = 0.0;
+        for (int i = 0; i < 3000; ++i) {
+            const QPlcSignalList inputs = node.inputSignals();
+            const double value = inputs.value(count).toReal();
+            torn += inputs.value(echoed).toReal() != value - 1.0 || value < newest;
+            newest = value;
+        }
+    });
+    reader.join();
+    master.stop();
+    QCOMPARE(torn.load(), 0);
+}
+
+void tst_IONodes::aNodeMayLiveInAThreadOfItsOwn_data()
+{
+    QTest::addColumn<QString>("kind");
+    QTest::newRow("udp") << "udp";
+    QTest::newRow("tcp") << "tcp";
+}
+
+void tst_IONodes::aNodeMayLiveInAThreadOfItsOwn()
+{
+    constexpr int cycles = 1000;
+    QFETCH(QString, kind);
+    TestMaster master;
+    QVERIFY(master.listen());
+    CounterNode counter;
+    EchoNode echo;
+    QVERIFY(master.addLocalNode(&counter));
+    QVERIFY(master.addLocalNode(&echo));
+    ThreadedViewer viewer(cycles);
+    QVERIFY(viewer.connectTo(master.protocol(kind)));
+    QPlcFrameRateLimiter limiter(viewer.node);
+    limiter.setFrameRateLimit(500);
+    QVector<int> counts;
+    bool foreign = false;
+    connect(&limiter, &QPlcFrameRateLimiter::realTimeout, this, [&](const QList<QPlcSignalList> &batch) {
+        foreign = foreign || QThread::currentThread() != thread();
+        for (const QPlcSignalList &inputs : batch)
+            counts << inputs.value("count").toInt();
+    });
+    master.setCycleLimit(cycles);
+    QVERIFY(master.startRealTime());
+    QTRY_COMPARE_WITH_TIMEOUT(counts.size(), cycles, 20000);
+    for (int i = 0; i < cycles; ++i)
+        QCOMPARE(counts.at(i), i);  // of the cycle before, all of them, in order
+    QVERIFY(!foreign);
+    QCOMPARE(viewer.node->lostCycles(), quint64(0));
+    QCOMPARE(viewer.node->counters().cycles, quint64(cycles));
+    QVERIFY(master.waitForState(QPlcMasterNode::Off));
+}
+
+void tst_IONodes::aFullBufferInAnotherThreadSlowsNobody()
+{
+    TestMaster master;
+    QVERIFY(master.listen());
+    CounterNode counter;
+    QVERIFY(master.addLocalNode(&counter));
+    ThreadedViewer viewer(64);
+    QVERIFY(viewer.connectTo(master.protocol("tcp")));
+    master.setCycleLimit(500);  // and nobody takes what the viewer keeps
+    QVERIFY(master.startRealTime());
+    QVERIFY(QTest::qWaitFor([&] { return master.statistics().cycles == 500; }, 20000));
+    QTRY_COMPARE(viewer.node->lostCycles(), quint64(500 - 64));
+    QVector<quint64> numbers;
+    QCOMPARE(viewer.node->takeInputSignals(&numbers).size(), 64);
+    for (int i = 0; i < 64; ++i)
+        QCOMPARE(numbers.at(i), quint64(i));
+    QVERIFY(viewer.node->takeInputSignals().isEmpty());
+    QVERIFY(master.waitForState(QPlcMasterNode::Off));
+}
+
+QTEST_GUILESS_MAIN(tst_IONodes)
+#include "tst_IONodes.moc"

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ScriptedNode.h"
+
+#include <QtCore/QElapsedTimer>
+#include <QtCore/QRegularExpression>
+#include <QtTest/QtTest>
+
+// A node that is late in every cycle does not flood the log: a line at once, then one a second that tells how many there were.
+class tst_LateAnswerLog : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void oneLineASecondTellsHowManyThereWere();
+    void everyNodeHasLinesOfItsOwn();
+    void silentPoliciesAreSilent();
+};
+
+namespace {
+
+struct LateLine
+{
+    quint64 cycle;
+    int untold;  // -1: says nothing of further ones
+};
+
+QVector<LateLine> parse(const QStringList &lines)
+{
+    static const QRegularExpression pattern(
+        "was late in cycle (\\d+)(?: \\(and (\\d+) times since the last report\\))?");
+    QVector<LateLine> parsed;
+    for (const QString &line : lines) {
+        const QRegularExpressionMatch match = pattern.match(line);
+        parsed << LateLine{match.captured(1).toULongLong(),
+                           match.captured(2).isEmpty() ? -1 : match.captured(2).toInt()};
+    }
+    return parsed;
+}
+
+}  // namespace
+
+void tst_LateAnswerLog::oneLineASecondTellsHowManyThereWere()
+{
+    LogCapture log;
+    TestMaster master(QPlcClock::realTime());
+    QVERIFY(master.setInterval(0.010));
+    QVERIFY(master.listen());
+    ScriptedNode mute;  // joins, and never answers a cycle
+    QVERIFY(mute.registerAt(master.serverPort()));
+    QSignalSpy violated(&master, &QPlcMasterNode::realTimeViolated);
+    QElapsedTimer timer;
+    timer.start();
+    QVERIFY(master.startRealTime());
+    QTRY_VERIFY(log.matching("was late in cycle").size() >= 2);
+    master.stop();
+    const QVector<LateLine> lines = parse(log.matching("was late in cycle"));
+    QVERIFY(lines.size() <= 1 + timer.elapsed() / 1000);
+    QCOMPARE(lines.at(0).untold, -1);
+    QVERIFY(lines.at(1).untold > 0);
+    int between = 0;
+    for (const QList<QVariant> &violation : violated) {
+        QCOMPARE(violation.at(0).toString(), QString("Scripted"));
+        const quint64 cycle = violation.at(1).toULongLong();
+        between += cycle > lines.at(0).cycle && cycle < lines.at(1).cycle;
+    }
+    QCOMPARE(lines.at(1).untold, between);  // every one of them is a signal of its own all the same
+}
+
+void tst_LateAnswerLog::everyNodeHasLinesOfItsOwn()
+{
+    LogCapture log;
+    TestMaster master(QPlcClock::realTime());
+    QVERIFY(master.setInterval(0.002));
+    QVERIFY(master.listen());
+    ScriptedNode first("First");
+    ScriptedNode second("Second");
+    second.outputs = QStringList{"sum"};
+    QVERIFY(first.registerAt(master.serverPort()));
+    QVERIFY(second.registerAt(master.serverPort()));
+    QVERIFY(master.startRealTime());
+    QTRY_VERIFY(!log.matching("node First was late").isEmpty());
+    QTRY_VERIFY(!log.matching("node Second was late").isEmpty());
+    master.stop();
+}
+
+void tst_LateAnswerLog::silentPoliciesAreSilent()
+{
+    LogCapture log;
+    TestMaster master(QPlcClock::realTime());
+    QVERIFY(master.setInterval(0.002));
+    QVERIFY(master.listen());
+    ScriptedNode mute;
+    mute.policy = "SilentZeroOrderHold";
+    QVERIFY(mute.registerAt(master.serverPort()));
+    QSignalSpy violated(&master, &QPlcMasterNode::realTimeViolated);
+    QVERIFY(master.startRealTime());
+    QTRY_VERIFY(master.statistics().lateAnswers >= 5);  // counted they are
+    master.stop();
+    QCOMPARE(violated.size(), 0);
+    QCOMPARE(log.matching("was late").size(), 0);
+}
+
+QTEST_GUILESS_MAIN(tst_LateAnswerLog)
+#include "tst_LateAnswerLog.moc"

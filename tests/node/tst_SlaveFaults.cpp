@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ScriptedMaster.h"
+#include "ScriptedNode.h"
+
+#include <QtCore/QSemaphore>
+#include <QtTest/QtTest>
+
+#include <limits>
+
+using namespace std::chrono_literals;
+
+// What a node does when its master, its network or its own code fails.
+class tst_SlaveFaults : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void init() { QPlcSignalIndexTable::setCurrent({}); }
+    void watchdogBarksOnceForEachSilence();
+    void corruptedFramesDoNotCalmTheWatchdog();
+    void watchdogSleepsInLockstepAndOutsideOfAPhase();
+    void afterAPauseOnlyTheNewestIsComputed();
+    void lockstepLeavesNothingOut();
+    void aStepThatThrowsGivesTheLastValuesAndAFault();
+    void aStepThatThrowsStopsThePlant_data();
+    void aStepThatThrowsStopsThePlant();
+    void outputsThatAreNotFiniteStopThePlant_data();
+    void outputsThatAreNotFiniteStopThePlant();
+    void aListThatDoesNotFitIsAFault();
+    void stoppedMayThrow();
+    void aTornCyclicStreamEndsTheNode();
+};
+
+void tst_SlaveFaults::watchdogBarksOnceForEachSilence()
+{
+    ScriptedMaster master;
+    CounterNode node;
+    node.activateWatchdog(0.030);
+    QSignalSpy barked(&node, &QPlcSlaveNode::watchdogTimedOut);
+    QVERIFY(master.admit(node, master.udp()));
+    QVERIFY(master.start());
+    for (int silence = 1; silence <= 3; ++silence) {
+        master.request(quint64(silence) * 10);
+        QVERIFY(master.waitForAnswers(silence));
+        QTRY_VERIFY(barked.size() >= silence);
+    }
+    QVERIFY(!QTest::qWaitFor([&] { return barked.size() > 4; }, 100));  // at most one before the first frame, and one for each silence
+    QCOMPARE(barked.last().at(0).toULongLong(), quint64(30));
+    QCOMPARE(node.error(), QPlcSlaveNode::WatchdogError);
+    QVERIFY2(node.errorString().contains("30 ms"), qPrintable(node.errorString()));
+    QCOMPARE(node.counters().watchdog, quint64(barked.size()));
+    QCOMPARE(node.state(), QPlcSlaveNode::RealTime);
+    node.disconnectFromMaster();
+}
+
+void tst_SlaveFaults::corruptedFramesDoNotCalmTheWatchdog()
+{
+    ScriptedMaster master;
+    CounterNode node;
+    node.activateWatchdog(100ms);
+    QSignalSpy barked(&node, &QPlcSlaveNode::watchdogTimedOut);
+    QVERIFY(master.admit(node, master.udp()));
+    QVERIFY(master.start());
+    QTimer noise;
+    connect(&noise, &QTimer::timeout, this, [&] { master.sendFrame("noise"); });
+    noise.start(1);
+    QTRY_COMPARE(barked.size(), 1);
+    QVERIFY(node.counters().rejected > 2);
+    node.disconnectFromMaster();
+}
+
+void tst_SlaveFaults::watchdogSleepsInLockstepAndOutsideOfAPhase()
+{
+    ScriptedMaster master;
+    CounterNode node;
+    node.activateWatchdog(5ms);
+    QSignalSpy barked(&node, &QPlcSlaveNode::watchdogTimedOut);
+    QVERIFY(master.admit(node, master.udp()));
+    QTest::qWait(50);
+    QVERIFY(master.start("Lockstep"));
+    QTest::qWait(50);
+    QCOMPARE(barked.size(), 0);
+    node.disconnectFromMaster();
+}
+
+void tst_SlaveFaults::afterAPauseOnlyTheNewestIsComputed()
+{
+    ScriptedMaster master;
+    CounterNode node;
+    QSemaphore entered;
+    QSemaphore goOn;
+    QVector<QPlcCycle> cycles;
+    node.onStep = [&](const QPlcCycle &cycle) {
+        cycles << cycle;
+        entered.release();
+        if (cycle.number() == 0)
+            goOn.acquire();
+    };
+    QVERIFY(master.admit(node, master.udp()));
+    QVERIFY(master.start("RealTime", 1'000'000));
+    master.request(0);
+    QVERIFY(entered.tryAcquire(1, 5000));
+    for (quint64 k = 1; k < 10; ++k)
+        master.request(k, QPlcValue(double(k)).toBytes());
+    QTest::qWait(20);  // a pause of twenty periods
+    goOn.release();
+    QVERIFY(master.waitForAnswers(2));
+    QCOMPARE(master.answers.at(1).cycle, quint64(9));
+    QCOMPARE(QPlcValue::fromBytes(QPlcSignalType(QPlcSignalType::Real64), master.answers.at(1).payload.mid(4)).toReal(), 9.0);  // of its inputs
+    QCOMPARE(node.counters().cycles, quint64(2));
+    QCOMPARE(node.counters().missed, quint64(8));
+    node.disconnectFromMaster();
+    QCOMPARE(cycles.size(), 2);
+    QCOMPARE(cycles.at(1).missedCycles(), quint64(8));
+}
+
+void tst_SlaveFaults::lockstepLeavesNothingOut()
+{
+    ScriptedMaster master;
+    CounterNode node;
+    QSemaphore goOn;
+    node.onStep = [&](const QPlcCycle &cycle) {
+        if (cycle.number() == 0)
+            goOn.acquire();
+    };
+    QVERIFY(master.admit(node, master.tcp()));
+    QVERIFY(master.start("Lockstep", 1'000'000));
+    for (quint64 k = 0; k < 10; ++k)
+        master.request(k);
+    QTest::qWait(20);
+    goOn.release();
+    QVERIFY(master.waitForAnswers(10));
+    QCOMPARE(node.counters().cycles, quint64(10));
+    node.disconnectFromMaster();
+}
+
+void tst_SlaveFaults::aStepThatThrowsGivesTheLastValuesAndAFault()
+{
+    ScriptedMaster master;
+    CounterNode node;
+    node.onStep = [](const QPlcCycle &cycle) {
+        if (cycle.number() >= 1)
+            throw std::runtime_error("division by zero");
+    };
+    QVERIFY(master.admit(node, master.udp()));
+    QVERIFY(master.start("Lockstep"));
+    for (quint64 k = 0; k < 4; ++k)
+        master.request(k);
+    QVERIFY(master.waitForAnswers(4));
+    QCOMPARE(int(master.answers.at(0).flags), 0);
+    QCOMPARE(int(master.answers.at(3).flags), int(qplc::FaultFlag));
+    QCOMPARE(master.answers.at(3).payload, master.answers.at(0).payload);
+    const QPlcMessage fault = master.next();
+    QCOMPARE(fault.kind(), QPlcMessage::NodeFault);
+    QVERIFY2(fault.text("text").contains("division by zero") && fault.text("text").contains("cycle 1"), qPrintable(fault.text("text")));
+    QCOMPARE(master.next(20).kind(), QPlcMessage::Invalid);  // once, not in every cycle
+    QCOMPARE(node.error(), QPlcSlaveNode::UserCodeError);
+    node.disconnectFromMaster();
+}
+
+namespace {
+
+void addPlaces()
+{
+    QTest::addColumn<QString>("kind");
+    QTest::newRow("udp") << "udp";
+    QTest::newRow("tcp") << "tcp";
+    QTest::newRow("in process") << "local";
+}
+
+}  // namespace
+
+void tst_SlaveFaults::aStepThatThrowsStopsThePlant_data() { addPlaces(); }
+
+void tst_SlaveFaults::aStepThatThrowsStopsThePlant()
+{
+    QFETCH(QString, kind);
+    TestMaster master;
+    QVERIFY(master.listen());
+    CounterNode thrower("Thrower");
+    thrower.onStep = [](const QPlcCycle &cycle) {
+        if (cycle.number() == 5)
+            throw std::runtime_error("broken");
+    };
+    if (kind == "local")
+        QVERIFY(master.addLocalNode(&thrower));
+    else
+        QVERIFY(thrower.connectToMasterAndWaitForConnected(master.protocol(kind)));
+    QSignalSpy errors(&master, &QPlcMasterNode::errorOccurred);
+    QSignalSpy stopped(&master, &QPlcMasterNode::realTimeHasStopped);
+    QVERIFY(master.startRealTime());
+    QVERIFY(master.waitForState(QPlcMasterNode::Off));
+    QCOMPARE(errors.size(), 1);
+    QCOMPARE(stopped.size(), 1);
+    QCOMPARE(master.error(), QPlcMasterNode::NodeError);
+    QVERIFY2(master.errorString().contains("'Thrower'"), qPrintable(master.errorString()));
+    QTRY_COMPARE(thrower.stops, 1);
+    thrower.onStep = {};
+    QVERIFY(master.startRealTime());  // and it can be started again
+    QVERIFY(master.waitForCycles(10));
+    master.stop();
+    thrower.disconnectFromMaster();
+}
+
+void tst_SlaveFaults::outputsThatAreNotFiniteStopThePlant_data() { addPlaces(); }
+
+void tst_SlaveFaults::outputsThatAreNotFiniteStopThePlant()
+{
+    class Bad : public QPlcCompactSlaveNode
+    {
+    public:
+        Bad() : QPlcCompactSlaveNode("Bad") {}
+        double bad = qQNaN();
+        QPlcOutput<double> m_echo{this, "echo"};
+        QPlcOutput<float> m_free{this, "free"};
+        void reset() override
+        {
+            m_echo = 1.0;
+            m_free = 1.0f;
+        }
+        void step(const QPlcCycle &cycle) override
+        {
+            m_echo = double(cycle.number());
+            if (cycle.number() == 5)
+                m_free = float(bad);
+        }
+    };
+    QFETCH(QString, kind);
+    for (double value : {qQNaN(), qInf(), -qInf()}) {
+        TestMaster master;
+        QVERIFY(master.listen());
+        Bad node;
+        node.bad = value;
+        if (kind == "local")
+            QVERIFY(master.addLocalNode(&node));
+        else
+            QVERIFY(node.connectToMasterAndWaitForConnected(master.protocol(kind)));
+        QVERIFY(master.startRealTime());
+        QVERIFY(master.waitForState(QPlcMasterNode::Off));
+        QCOMPARE(master.error(), QPlcMasterNode::NodeError);
+        QVERIFY2(master.errorString().contains("'Bad'") && master.errorString().contains("'free'") && master.errorString().contains("cycle 5"), qPrintable(master.errorString()));
+        QCOMPARE(master.signalValue("free").toReal(), 1.0);
+        QCOMPARE(master.signalValue("echo").toReal(), 4.0);  // nothing of the bad answer was taken
+        node.disconnectFromMaster();
+    }
+}
+
+void tst_SlaveFaults::aListThatDoesNotFitIsAFault()
+{
+    class Lister : public QPlcSlaveNode
+    {
+    public:
+        Lister() : QPlcSlaveNode("Lister") {}
+        QPlcSignalIndex m_out = 0;
+        QPlcSignalList list;
+        QPlcSignalIndexList declareOutputSignals() override
+        {
+            QPlcSignalIndexList indices;
+            m_out = indices.insert("echo");
+            return indices;
+        }
+        QPlcSignalList realTimeout(const QPlcSignalList &) override { return list; }
+    };
+    struct Case { const char *signal; QPlcValue value; const char *word; };
+    for (const Case &wrong : {Case{"echo", QPlcValue("text"), "'echo'"}, Case{"echo", QPlcValue(std::array<double, 2>{1, 2}), "Real64[2]"}, Case{"sum", QPlcValue(1.0), "not declared"}}) {
+        TestMaster master;
+        QPlcSignalIndexTable::setCurrent(testTable());
+        Lister node;
+        QVERIFY2(master.addLocalNode(&node), qPrintable(master.errorString()));
+        node.list.insert(testTable().indexOf(wrong.signal), wrong.value);
+        QVERIFY(master.startRealTime());
+        QVERIFY(master.waitForState(QPlcMasterNode::Off));
+        QVERIFY2(master.errorString().contains(wrong.word) && master.errorString().contains("'Lister'"), qPrintable(master.errorString()));
+    }
+}
+
+void tst_SlaveFaults::stoppedMayThrow()
+{
+    class Bye : public QPlcCompactSlaveNode
+    {
+    public:
+        Bye() : QPlcCompactSlaveNode("Bye") {}
+        void stopped() override { throw 1; }
+    } node;
+    ScriptedMaster master;
+    QVERIFY(master.admit(node, master.udp()));
+    QVERIFY(master.start());
+    master.send(QPlcMessage::RealTimeStopped);
+    QTRY_COMPARE(node.state(), QPlcSlaveNode::Off);
+}
+
+void tst_SlaveFaults::aTornCyclicStreamEndsTheNode()
+{
+    TestMaster master;
+    QVERIFY(master.listen());
+    ScriptedNode node("Torn");
+    node.cyclic = "tcp";
+    QVERIFY(node.registerAt(master.serverPort()));
+    QSignalSpy lost(&master, &QPlcMasterNode::nodeLost);
+    QVERIFY(master.startRealTime());
+    QVERIFY(node.waitForRequests(1));
+    QByteArray wrongChecksum = node.answerFrames(node.requests.at(0).cycle, QByteArray(8, '\0')).at(0);
+    wrongChecksum[14] = char(wrongChecksum.at(14) ^ 1);
+    node.sendFrame(wrongChecksum);  // alone it is dropped, as with UDP
+    QTRY_COMPARE(master.nodes().at(0).rejected, quint64(1));
+    QCOMPARE(lost.size(), 0);
+    node.sendFrame("GET / HTTP/1.1\r\n\r\n");
+    QTRY_COMPARE(lost.size(), 1);
+    QVERIFY2(lost.at(0).at(1).toString().contains("cyclic"), qPrintable(lost.at(0).at(1).toString()));
+    QTRY_COMPARE(node.stream.state(), QAbstractSocket::UnconnectedState);
+    QCOMPARE(master.state(), QPlcMasterNode::RealTime);
+    master.stop();
+}
+
+QTEST_GUILESS_MAIN(tst_SlaveFaults)
+#include "tst_SlaveFaults.moc"

@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "TransportFixtures.h"
+
+#include <QtTest/QtTest>
+
+using qplc::CyclicHub;
+using qplc::HubPeer;
+using qplc::SocketAddress;
+
+class tst_CyclicHub : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void datagramsGoToAndComeFromPeers();
+    void strangersAreCounted();
+    void ipv6PeersAreFound();
+    void manyPeersAreServedWithFewCalls();
+    void aDetachedPeerIsAStranger();
+    void streamsGiveWholeFrames();
+    void garbageClosesTheStream();
+    void aClosedPeerIsClosed();
+    void aPeerThatDoesNotReadBlocksNobody();
+    void waitEndsInTime();
+    void aRefusedDatagramIsCountedAndTheOthersGo();
+    void aPortInUseIsSaid();
+
+private:
+    static QVector<QPair<HubPeer *, QByteArray>> take(CyclicHub &hub, int atLeast)
+    {
+        QVector<QPair<HubPeer *, QByteArray>> all;
+        for (int tries = 0; tries < 100 && all.size() < atLeast; ++tries) {
+            hub.wait(50'000'000);
+            CyclicHub::Incoming incoming;
+            while (hub.next(&incoming))
+                all.append({incoming.peer, QByteArray(incoming.frame, int(incoming.size))});
+        }
+        return all;
+    }
+    /// Opens \a hub on a free port of \a address.
+    static SocketAddress open(CyclicHub &hub, const QHostAddress &address = QHostAddress(QHostAddress::LocalHost))
+    {
+        QString error;
+        for (int tries = 0; tries < 20; ++tries) {
+            SocketAddress self;
+            {
+                const UdpSocket free(address);
+                self = free.self;
+            }
+            if (hub.open(self, &error))
+                return self;
+        }
+        return {};
+    }
+};
+
+void tst_CyclicHub::datagramsGoToAndComeFromPeers()
+{
+    CyclicHub hub;
+    const SocketAddress self = open(hub);
+    UdpSocket a;
+    UdpSocket b;
+    const auto peerA = HubPeer::udp(a.self);
+    const auto peerB = HubPeer::udp(b.self);
+    hub.attach(peerA.get());
+    hub.attach(peerB.get());
+    hub.send(peerA.get(), "one", 3);
+    hub.send(peerB.get(), "two", 3);
+    QCOMPARE(a.receive(MSG_DONTWAIT), QByteArray("nothing"));  // until flush()
+    hub.flush();
+    QCOMPARE(a.receive(), QByteArray("one"));
+    QCOMPARE(b.receive(), QByteArray("two"));
+    QVERIFY(b.send("from b", self));
+    QVERIFY(a.send("", self));
+    const auto taken = take(hub, 2);
+    QCOMPARE(taken.size(), 2);
+    QCOMPARE(taken.at(0).first, peerB.get());
+    QCOMPARE(taken.at(0).second, QByteArray("from b"));
+    QCOMPARE(taken.at(1).first, peerA.get());
+    QVERIFY(taken.at(1).second.isEmpty());
+}
+
+void tst_CyclicHub::strangersAreCounted()
+{
+    CyclicHub hub;
+    const SocketAddress self = open(hub);
+    UdpSocket known;
+    UdpSocket stranger;
+    const auto peer = HubPeer::udp(known.self);
+    hub.attach(peer.get());
+    for (int i = 0; i < 40; ++i)  // more than one batch
+        QVERIFY(stranger.send("x", self));
+    QVERIFY(known.send("y", self));
+    const auto taken = take(hub, 1);
+    QCOMPARE(taken.size(), 1);
+    QCOMPARE(taken.at(0).second, QByteArray("y"));
+    QCOMPARE(hub.strangers(), std::uint64_t(40));
+}
+
+void tst_CyclicHub::ipv6PeersAreFound()
+{
+    UdpSocket node(QHostAddress(QHostAddress::LocalHostIPv6));
+    if (!node.ok)
+        QSKIP("no IPv6 here");
+    CyclicHub hub;
+    const SocketAddress self = open(hub, QHostAddress(QHostAddress::LocalHostIPv6));
+    QCOMPARE(self.family(), AF_INET6);
+    const auto peer = HubPeer::udp(node.self);
+    hub.attach(peer.get());
+    hub.send(peer.get(), "six", 3);
+    hub.flush();
+    QCOMPARE(node.receive(), QByteArray("six"));
+    QVERIFY(node.send("back", self));
+    QCOMPARE(take(hub, 1).at(0).first, peer.get());
+}
+
+void tst_CyclicHub::manyPeersAreServedWithFewCalls()
+{
+    CyclicHub hub;
+    const SocketAddress self = open(hub);
+    std::vector<std::unique_ptr<UdpSocket>> sockets;
+    std::vector<std::unique_ptr<HubPeer>> peers;
+    std::vector<std::unique_ptr<StreamPair>> pairs;
+    for (int i = 0; i < 200; ++i) {
+        if (i % 2 == 0) {
+            sockets.push_back(std::make_unique<UdpSocket>());
+            peers.push_back(HubPeer::udp(sockets.back()->self));
+        } else {
+            pairs.push_back(std::make_unique<StreamPair>());
+            peers.push_back(HubPeer::tcp(pairs.back()->take(0), toyCutter, LargestToyFrame));
+        }
+        peers.back()->owner = reinterpret_cast<void *>(quintptr(i + 1));
+        hub.attach(peers.back().get());
+    }
+    QVector<QByteArray> requests;
+    for (int i = 0; i < 200; ++i)
+        requests << toyFrame(10, char(i));
+    for (int i = 0; i < 200; ++i)
+        hub.send(peers[std::size_t(i)].get(), requests.at(i).constData(), 10);
+    hub.flush();
+    for (int i = 0; i < 100; ++i) {
+        QCOMPARE(sockets[std::size_t(i)]->receive(), requests.at(2 * i));
+        QCOMPARE(pairs[std::size_t(i)]->readAll(), requests.at(2 * i + 1));
+        QVERIFY(sockets[std::size_t(i)]->send(requests.at(2 * i), self));
+        pairs[std::size_t(i)]->write(requests.at(2 * i + 1));
+    }
+    const auto taken = take(hub, 200);
+    QCOMPARE(taken.size(), 200);
+    for (const auto &[peer, frame] : taken)
+        QCOMPARE(frame, requests.at(int(reinterpret_cast<quintptr>(peer->owner)) - 1));
+    QCOMPARE(hub.strangers(), std::uint64_t(0));
+}
+
+void tst_CyclicHub::aDetachedPeerIsAStranger()
+{
+    CyclicHub hub;
+    const SocketAddress self = open(hub);
+    UdpSocket socket;
+    StreamPair pair;
+    const auto udp = HubPeer::udp(socket.self);
+    const auto tcp = HubPeer::tcp(pair.take(0), toyCutter, LargestToyFrame);
+    hub.attach(udp.get());
+    hub.attach(tcp.get());
+    hub.send(udp.get(), "last words", 10);
+    hub.detach(udp.get());
+    hub.detach(tcp.get());
+    QCOMPARE(socket.receive(), QByteArray("last words"));
+    QVERIFY(socket.send("x", self));
+    pair.write(toyFrame(5));
+    QVERIFY(hub.wait(1'000'000'000));
+    CyclicHub::Incoming incoming;
+    QVERIFY(!hub.next(&incoming));
+    QCOMPARE(hub.strangers(), std::uint64_t(1));
+}
+
+void tst_CyclicHub::streamsGiveWholeFrames()
+{
+    CyclicHub hub;
+    StreamPair pair;
+    const auto peer = HubPeer::tcp(pair.take(0), toyCutter, LargestToyFrame);
+    hub.attach(peer.get());
+    const QByteArray frame = toyFrame(20, 'q');
+    for (int i = 0; i < frame.size() - 1; ++i) {
+        pair.write(frame.mid(i, 1));
+        QVERIFY(hub.wait(1'000'000'000));
+        CyclicHub::Incoming incoming;
+        QVERIFY(!hub.next(&incoming));
+    }
+    pair.write(frame.right(1) + toyFrame(3) + toyFrame(4) + "F");
+    const auto taken = take(hub, 3);
+    QCOMPARE(taken.size(), 3);
+    QCOMPARE(taken.at(0).second, frame);
+    QCOMPARE(taken.at(2).second, toyFrame(4));
+    QVERIFY(!peer->isClosed());
+}
+
+void tst_CyclicHub::garbageClosesTheStream()
+{
+    CyclicHub hub;
+    StreamPair bad;
+    StreamPair good;
+    const auto badPeer = HubPeer::tcp(bad.take(0), toyCutter, LargestToyFrame);
+    const auto goodPeer = HubPeer::tcp(good.take(0), toyCutter, LargestToyFrame);
+    hub.attach(badPeer.get());
+    hub.attach(goodPeer.get());
+    bad.write(toyFrame(5) + "garbage");
+    good.write(toyFrame(6));
+    const auto taken = take(hub, 2);
+    QCOMPARE(taken.size(), 2);  // what came before the garbage counts
+    QVERIFY(badPeer->isClosed());
+    QVERIFY(!goodPeer->isClosed());
+    char byte = 0;
+    QCOMPARE(::recv(bad.ends[1], &byte, 1, MSG_DONTWAIT), ssize_t(0));  // the other end is told
+    hub.send(badPeer.get(), "x", 1);
+    QCOMPARE(badPeer->sendFailures(), std::uint64_t(1));
+    QVERIFY(!hub.wait(1'000'000));  // and it wakes nobody any more
+}
+
+void tst_CyclicHub::aClosedPeerIsClosed()
+{
+    CyclicHub hub;
+    StreamPair pair;
+    const auto peer = HubPeer::tcp(pair.take(0), toyCutter, LargestToyFrame);
+    hub.attach(peer.get());
+    pair.write(toyFrame(5));
+    pair.closeEnd(1);
+    QCOMPARE(take(hub, 1).size(), 1);  // its last frame is not lost
+    hub.wait(1'000'000'000);
+    CyclicHub::Incoming incoming;
+    QVERIFY(!hub.next(&incoming));
+    QVERIFY(peer->isClosed());
+    hub.send(peer.get(), "x", 1);      // and no SIGPIPE
+    QVERIFY(!hub.wait(1'000'000));
+}
+
+void tst_CyclicHub::aPeerThatDoesNotReadBlocksNobody()
+{
+    CyclicHub hub;
+    StreamPair deaf;
+    StreamPair eager;
+    const auto deafPeer = HubPeer::tcp(deaf.take(0), toyCutter, LargestToyFrame);
+    const auto eagerPeer = HubPeer::tcp(eager.take(0), toyCutter, LargestToyFrame);
+    hub.attach(deafPeer.get());
+    hub.attach(eagerPeer.get());
+    const QByteArray frame = toyFrame(255);
+    QByteArray heard;
+    for (int i = 0; i < 5000; ++i) {
+        hub.send(deafPeer.get(), frame.constData(), 255);
+        hub.send(eagerPeer.get(), frame.constData(), 255);
+        heard += eager.readAll();
+    }
+    QVERIFY(deafPeer->sendFailures() > 0);
+    QCOMPARE(eagerPeer->sendFailures(), std::uint64_t(0));
+    QCOMPARE(heard.size(), 5000 * 255);
+    const int first = deaf.readAll().size();
+    hub.send(deafPeer.get(), frame.constData(), 255);
+    QCOMPARE((first + deaf.readAll().size()) % 255, 0);  // whole frames only
+}
+
+void tst_CyclicHub::waitEndsInTime()
+{
+    CyclicHub hub;
+    open(hub);
+    QVERIFY(!hub.wait(0));
+    QVERIFY(!hub.wait(2'000'000));
+    CyclicHub::Incoming incoming;
+    QVERIFY(!hub.next(&incoming));
+}
+
+void tst_CyclicHub::aRefusedDatagramIsCountedAndTheOthersGo()
+{
+    CyclicHub hub;
+    open(hub);
+    UdpSocket socket;
+    const auto impossible = HubPeer::udp(SocketAddress(QHostAddress("255.255.255.255"), 9));  // a broadcast that nobody has allowed
+    const auto good = HubPeer::udp(socket.self);
+    hub.attach(impossible.get());
+    hub.attach(good.get());
+    hub.send(impossible.get(), "x", 1);
+    hub.send(good.get(), "y", 1);
+    hub.flush();
+    QCOMPARE(socket.receive(), QByteArray("y"));
+    QCOMPARE(impossible->sendFailures(), std::uint64_t(1));
+    QCOMPARE(good->sendFailures(), std::uint64_t(0));
+}
+
+void tst_CyclicHub::aPortInUseIsSaid()
+{
+    UdpSocket other;
+    CyclicHub hub;
+    QString error;
+    QVERIFY(!hub.open(other.self, &error));
+    QVERIFY2(error.contains(QString::number(other.self.port())) && error.contains("in use"), qPrintable(error));
+}
+
+QTEST_APPLESS_MAIN(tst_CyclicHub)
+#include "tst_CyclicHub.moc"

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "TransportFixtures.h"
+
+#include <QtTest/QtTest>
+
+using qplc::CyclicLink;
+using qplc::SocketAddress;
+
+class tst_CyclicLink : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void aUdpLinkTalksToItsMasterOnly();
+    void aMasterThatIsGoneDoesNotEndAUdpLink();
+    void aTcpLinkGivesWholeFrames();
+    void garbageEndsATcpLink();
+    void theEndOfTheMasterEndsATcpLink();
+    void aTcpLinkToADeafMasterComesBackInTime();
+    void waitsEndInTime();
+};
+
+namespace {
+
+struct Received
+{
+    CyclicLink::Status status;
+    QByteArray bytes;
+};
+
+Received receive(CyclicLink &link, bool wait = true)
+{
+    const char *frame = nullptr;
+    std::size_t size = 0;
+    const CyclicLink::Status status = wait ? link.receive(&frame, &size) : link.poll(&frame, &size);
+    return {status, status == CyclicLink::Received ? QByteArray(frame, int(size)) : QByteArray()};
+}
+
+}  // namespace
+
+void tst_CyclicLink::aUdpLinkTalksToItsMasterOnly()
+{
+    UdpSocket master;
+    UdpSocket stranger;
+    quint16 port = 0;
+    QString error;
+    const auto link = CyclicLink::udp(master.self, &port, &error);
+    QVERIFY2(link, qPrintable(error));
+    link->setTimeout(1'000'000'000);
+    const SocketAddress self(QHostAddress(QHostAddress::LocalHost), port);
+    QVERIFY(stranger.send("stranger", self));
+    QVERIFY(master.send("master", self));
+    QCOMPARE(receive(*link).bytes, QByteArray("master"));
+    QCOMPARE(receive(*link, false).status, CyclicLink::TimedOut);
+    QVERIFY(link->send("answer", 6));
+    QCOMPARE(master.receive(), QByteArray("answer"));
+    QVERIFY(master.send(QByteArray(60000, 'z'), self));
+    QCOMPARE(receive(*link).bytes.size(), 60000);  // its length is judged elsewhere, and not cut
+}
+
+void tst_CyclicLink::aMasterThatIsGoneDoesNotEndAUdpLink()
+{
+    SocketAddress gone;
+    {
+        const UdpSocket master;
+        gone = master.self;
+    }
+    quint16 port = 0;
+    QString error;
+    const auto link = CyclicLink::udp(gone, &port, &error);
+    QVERIFY(link);
+    link->setTimeout(1'000'000);
+    for (int i = 0; i < 5; ++i) {
+        link->send("anybody?", 8);
+        QCOMPARE(receive(*link).status, CyclicLink::TimedOut);  // "port unreachable" is no reason to give up
+    }
+}
+
+void tst_CyclicLink::aTcpLinkGivesWholeFrames()
+{
+    StreamPair pair;
+    const auto link = CyclicLink::tcp(pair.take(0), toyCutter, LargestToyFrame);
+    link->setTimeout(20'000'000);
+    pair.write(toyFrame(9).left(4));
+    QCOMPARE(receive(*link).status, CyclicLink::TimedOut);
+    pair.write(toyFrame(9).mid(4) + toyFrame(3) + toyFrame(255));
+    QCOMPARE(receive(*link).bytes, toyFrame(9));
+    QCOMPARE(receive(*link, false).bytes, toyFrame(3));
+    QCOMPARE(receive(*link).bytes, toyFrame(255));
+    QCOMPARE(receive(*link, false).status, CyclicLink::TimedOut);
+    QVERIFY(link->send("answer", 6));
+    QCOMPARE(pair.readAll(), QByteArray("answer"));
+}
+
+void tst_CyclicLink::garbageEndsATcpLink()
+{
+    StreamPair pair;
+    const auto link = CyclicLink::tcp(pair.take(0), toyCutter, LargestToyFrame);
+    pair.write(toyFrame(5) + "garbage");
+    QCOMPARE(receive(*link).status, CyclicLink::Received);
+    QCOMPARE(receive(*link).status, CyclicLink::Closed);
+    QCOMPARE(receive(*link, false).status, CyclicLink::Closed);
+}
+
+void tst_CyclicLink::theEndOfTheMasterEndsATcpLink()
+{
+    StreamPair pair;
+    const auto link = CyclicLink::tcp(pair.take(0), toyCutter, LargestToyFrame);
+    pair.write(toyFrame(5));
+    pair.closeEnd(1);
+    QCOMPARE(receive(*link).status, CyclicLink::Received);
+    QCOMPARE(receive(*link).status, CyclicLink::Closed);
+    QVERIFY(!link->send("x", 1));  // and no SIGPIPE
+}
+
+void tst_CyclicLink::aTcpLinkToADeafMasterComesBackInTime()
+{
+    StreamPair pair;
+    const auto link = CyclicLink::tcp(pair.take(0), toyCutter, LargestToyFrame);
+    link->setTimeout(1'000'000);
+    int accepted = 0;
+    while (link->send(toyFrame(255).constData(), 255))
+        ++accepted;
+    QVERIFY(accepted > 0);
+    int heard = pair.readAll().size();
+    receive(*link);  // goes on with what has begun
+    heard += pair.readAll().size();
+    QCOMPARE(heard, accepted * 255);
+}
+
+void tst_CyclicLink::waitsEndInTime()
+{
+    UdpSocket master;
+    quint16 port = 0;
+    QString error;
+    const auto link = CyclicLink::udp(master.self, &port, &error);
+    QVERIFY(link);
+    for (qint64 timeout : {1, 999, 1'000'000}) {  // even less than the kernel can count
+        link->setTimeout(timeout);
+        QCOMPARE(receive(*link).status, CyclicLink::TimedOut);
+    }
+    QVERIFY(!CyclicLink::udp(SocketAddress(), &port, &error));
+    QVERIFY(!error.isEmpty());
+}
+
+QTEST_APPLESS_MAIN(tst_CyclicLink)
+#include "tst_CyclicLink.moc"
