@@ -284,6 +284,7 @@ def example_messages():
         (4, "Rejected", dict(error="SignalHasWriter", text="signal 'tetherLength' is written by node 'Model'; stop it first")),
         (5, "AttachCyclicChannel", dict(node=7, token="00000000075bcd15")),
         (6, "CyclicChannelAttached", {}),
+        (7, "MasterEnds", {}),
         (10, "InitializeAllStates", {}),
         (11, "SendYourInitialOutputStates", {}),
         (12, "ReceiveMyInitialOutputStates", dict(values=base64.b64encode(struct.pack("<d", 300)).decode())),

@@ -174,10 +174,10 @@ void MasterCycle::run() noexcept
     m_clock->start();
     while (!shouldStop()) {
         const CycleClock::Tick tick = m_clock->next(shouldStop);
-        if (tick.interrupted)
+        if (tick.interrupted || isBeyondLimit(tick.cycle))
             break;
         runCycle(tick);
-        if (m_phase.cycleLimit > 0 && m_number + 1 >= m_phase.cycleLimit)
+        if (isBeyondLimit(m_number + 1))
             break;
     }
     m_reports.post({CycleEvent::Ended, 0, 0, m_number});

@@ -85,6 +85,7 @@ private:
 
     void run() noexcept;
     void runCycle(const CycleClock::Tick &tick) noexcept;
+    bool isBeyondLimit(std::uint64_t cycle) const noexcept { return m_phase.cycleLimit > 0 && cycle >= m_phase.cycleLimit; }
     void takeCommands() noexcept;
     void adopt(Roster *roster) noexcept;
     void writeOwnSignals(const CycleClock::Tick &tick) noexcept;

@@ -105,6 +105,7 @@ void NodeRuntime::bindWorkloadSignal(QVector<QPlcSignalIndex> *outputs, QStringL
 
 bool NodeRuntime::reset(QString *error)
 {
+    m_faultText[0] = '\0';
     for (const PayloadLayout::Field &field : m_outputLayout.fields())
         m_table.at(field.signal).initial.toBytes(m_scratch.data() + field.offset);
     if (!guarded("the initialization", error, [this] { m_node.resetFrame(m_scratch.data()); }))
@@ -156,9 +157,11 @@ void NodeRuntime::writeWorkload(std::int64_t duration)
         QSplitPrimitive<double>(seconds).toBytes(m_scratch.data() + m_workload->offset);
 }
 
+/// Keeps the first text of a phase: its owner reads it while cycles go on, and what follows is an echo.
 void NodeRuntime::setFault(const char *text) noexcept
 {
-    std::snprintf(m_faultText.data(), m_faultText.size(), "%s", text);
+    if (m_faultText[0] == '\0')
+        std::snprintf(m_faultText.data(), m_faultText.size(), "%s", text);
 }
 
 QPlcSignalList NodeRuntime::toList(const PayloadLayout &layout, const char *frame)

@@ -43,7 +43,7 @@ public:
     /// Duration of the last step [ns].
     std::int64_t executionTime() const { return m_executionTime; }
     const QPlcCycle &cycle() const { return m_cycle; }
-    /// What the code threw, null-terminated.
+    /// What the code threw first since reset(), null-terminated.
     const char *faultText() const { return m_faultText.data(); }
 
     /// The values of \a frame as a list, under the indices of the table of the node.

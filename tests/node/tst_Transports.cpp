@@ -64,7 +64,7 @@ void tst_Transports::sameDigestOverEveryTransport()
     QFETCH(QString, echoKind);
     QFETCH(bool, ipv6);
     if (ipv6 && !hasIpv6())
-        QSKIP("no IPv6 here");
+        QSKIP("no IPv6 here", "");
     const QHostAddress address = ipv6 ? QHostAddress::LocalHostIPv6 : QHostAddress::LocalHost;
     TestMaster master;
     master.setCycleLimit(1000);

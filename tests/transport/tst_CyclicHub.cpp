@@ -101,7 +101,7 @@ void tst_CyclicHub::ipv6PeersAreFound()
 {
     UdpSocket node(QHostAddress(QHostAddress::LocalHostIPv6));
     if (!node.ok)
-        QSKIP("no IPv6 here");
+        QSKIP("no IPv6 here", "");
     CyclicHub hub;
     const SocketAddress self = open(hub, QHostAddress(QHostAddress::LocalHostIPv6));
     QCOMPARE(self.family(), AF_INET6);
