@@ -13,9 +13,9 @@ class QPlcClock
 {
 public:
     enum Kind : quint8 {
-        RealTime,   ///< one cycle each period of CLOCK_MONOTONIC
-        Scaled,     ///< `scale` times as fast (0.1: slow motion)
-        Lockstep    ///< the next cycle as soon as all nodes that are not listeners have answered; bit-identical results
+        RealTime,  ///< one cycle each period of CLOCK_MONOTONIC
+        Scaled,    ///< `scale` times as fast (0.1: slow motion)
+        Lockstep   ///< the next cycle as soon as all nodes that are not listeners have answered; bit-identical results
     };
 
     static constexpr QPlcClock realTime() { return QPlcClock(RealTime, 1.0); }
@@ -30,7 +30,10 @@ public:
     constexpr bool isLockstep() const { return m_kind == Lockstep; }
     constexpr bool isValid() const { return m_kind != Scaled || (m_scale >= 0.001 && m_scale <= 1000.0); }
 
-    friend constexpr bool operator==(QPlcClock a, QPlcClock b) { return a.m_kind == b.m_kind && a.m_scale == b.m_scale; }
+    friend constexpr bool operator==(QPlcClock a, QPlcClock b)
+    {
+        return a.m_kind == b.m_kind && a.m_scale == b.m_scale;
+    }
     friend constexpr bool operator!=(QPlcClock a, QPlcClock b) { return !(a == b); }
 
 private:

@@ -29,7 +29,8 @@ class QTPLC_EXPORT QPlcCompactSlaveNode : public QPlcSlaveNode
 {
     Q_OBJECT
 public:
-    explicit QPlcCompactSlaveNode(const QString &name, RealTimeViolationPolicy policy = ErrorZeroOrderHold, QObject *parent = nullptr);
+    explicit QPlcCompactSlaveNode(const QString &name, RealTimeViolationPolicy policy = ErrorZeroOrderHold,
+                                  QObject *parent = nullptr);
     ~QPlcCompactSlaveNode() override;
 
 protected:
@@ -53,7 +54,8 @@ private:
     QPlcSignalList realTimeout(const QPlcSignalList &inputSignals) final;
     QPlcSignalIndexList declareInputSignals() final;
     QPlcSignalIndexList declareOutputSignals() final;
-    bool bindPorts(const QPlcSignalTable &table, QVector<QPlcSignalIndex> *inputs, QVector<QPlcSignalIndex> *outputs, QString *error) override;
+    bool bindPorts(const QPlcSignalTable &table, QVector<QPlcSignalIndex> *inputs, QVector<QPlcSignalIndex> *outputs,
+                   QString *error) override;
     void attachPorts(const qplc::PayloadLayout &inputs, const qplc::PayloadLayout &outputs) override;
     void resetFrame(char *outputs) override;
     void initializeFrame(const char *inputs) override;

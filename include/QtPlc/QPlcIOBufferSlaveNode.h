@@ -15,7 +15,8 @@ class QTPLC_EXPORT QPlcIOBufferSlaveNode : public QPlcIOSlaveNode
 {
     Q_OBJECT
 public:
-    explicit QPlcIOBufferSlaveNode(const QString &name, RealTimeViolationPolicy policy = SilentZeroOrderHold, QObject *parent = nullptr);
+    explicit QPlcIOBufferSlaveNode(const QString &name, RealTimeViolationPolicy policy = SilentZeroOrderHold,
+                                   QObject *parent = nullptr);
     ~QPlcIOBufferSlaveNode() override;
 
     /// Number of cycles that are kept, 1000 unless set. \pre not connected

@@ -20,7 +20,8 @@ class QTPLC_EXPORT QPlcIOSlaveNode : public QPlcSlaveNode
 {
     Q_OBJECT
 public:
-    explicit QPlcIOSlaveNode(const QString &name, RealTimeViolationPolicy policy = SilentZeroOrderHold, QObject *parent = nullptr);
+    explicit QPlcIOSlaveNode(const QString &name, RealTimeViolationPolicy policy = SilentZeroOrderHold,
+                             QObject *parent = nullptr);
     ~QPlcIOSlaveNode() override;
 
     QPlcSignalIndexList inputSignalIndices() const;

@@ -18,32 +18,32 @@ class QTPLC_EXPORT QPlcMessage
 public:
     enum Kind : quint8 {
         Invalid = 0,
-        Hello = 1,                         ///< both ways, first: protocol version, who, table
-        Register = 2,                      ///< node -> master: name, policy, inputs, outputs, cyclic channel
-        Registered = 3,                    ///< master -> node: node id, session
-        Rejected = 4,                      ///< master -> node: why the last message was refused; the connection is closed
-        AttachCyclicChannel = 5,           ///< node -> master, first on a cyclic TCP connection: which node it belongs to
-        CyclicChannelAttached = 6,         ///< master -> node: the cyclic TCP connection (or UDP address) is in use
-        MasterEnds = 7,                    ///< master -> node or tool: it ends as wanted, the connection closes
-        InitializeAllStates = 10,          ///< anyone -> master
-        SendYourInitialOutputStates = 11,  ///< master -> node
-        ReceiveMyInitialOutputStates = 12, ///< node -> master: values
-        InitializeWithValues = 13,         ///< master -> node: values
-        Initialized = 14,                  ///< node -> master: initialize() has returned
-        StatesInitialized = 15,            ///< master -> all: the initialization has ended
-        StartRealTime = 20,                ///< anyone -> master
-        RealTimeStarted = 21,              ///< master -> node: period, clock, first cycle
-        RealTimeReady = 22,                ///< node -> master: waiting for the first cyclic frame
-        Stop = 23,                         ///< anyone -> master
-        RealTimeStopped = 24,              ///< master -> node
-        GetState = 30,                     ///< anyone -> master
-        State = 31,                        ///< master -> asker
-        GetSignals = 32,                   ///< anyone -> master: names, or none for all
-        Signals = 33,                      ///< master -> asker: definitions and values
-        SetSignals = 34,                   ///< anyone -> master: values of signals that no node writes
-        Done = 35,                         ///< master -> asker: the request was carried out
-        Failed = 36,                       ///< master -> asker: the request was refused, and why; the connection stays
-        NodeFault = 40                     ///< node -> master: the node cannot go on (exception in user code)
+        Hello = 1,                  ///< both ways, first: protocol version, who, table
+        Register = 2,               ///< node -> master: name, policy, inputs, outputs, cyclic channel
+        Registered = 3,             ///< master -> node: node id, session
+        Rejected = 4,               ///< master -> node: why the last message was refused; the connection is closed
+        AttachCyclicChannel = 5,    ///< node -> master, first on a cyclic TCP connection: which node it belongs to
+        CyclicChannelAttached = 6,  ///< master -> node: the cyclic TCP connection (or UDP address) is in use
+        MasterEnds = 7,             ///< master -> node or tool: it ends as wanted, the connection closes
+        InitializeAllStates = 10,   ///< anyone -> master
+        SendYourInitialOutputStates = 11,   ///< master -> node
+        ReceiveMyInitialOutputStates = 12,  ///< node -> master: values
+        InitializeWithValues = 13,          ///< master -> node: values
+        Initialized = 14,                   ///< node -> master: initialize() has returned
+        StatesInitialized = 15,             ///< master -> all: the initialization has ended
+        StartRealTime = 20,                 ///< anyone -> master
+        RealTimeStarted = 21,               ///< master -> node: period, clock, first cycle
+        RealTimeReady = 22,                 ///< node -> master: waiting for the first cyclic frame
+        Stop = 23,                          ///< anyone -> master
+        RealTimeStopped = 24,               ///< master -> node
+        GetState = 30,                      ///< anyone -> master
+        State = 31,                         ///< master -> asker
+        GetSignals = 32,                    ///< anyone -> master: names, or none for all
+        Signals = 33,                       ///< master -> asker: definitions and values
+        SetSignals = 34,                    ///< anyone -> master: values of signals that no node writes
+        Done = 35,                          ///< master -> asker: the request was carried out
+        Failed = 36,                        ///< master -> asker: the request was refused, and why; the connection stays
+        NodeFault = 40                      ///< node -> master: the node cannot go on (exception in user code)
     };
     Q_ENUM(Kind)
 
@@ -68,7 +68,10 @@ public:
     QByteArray bytes(const QString &field) const;
     static QString fromBytes(const QByteArray &bytes);
 
-    friend bool operator==(const QPlcMessage &a, const QPlcMessage &b) { return a.m_kind == b.m_kind && a.m_fields == b.m_fields; }
+    friend bool operator==(const QPlcMessage &a, const QPlcMessage &b)
+    {
+        return a.m_kind == b.m_kind && a.m_fields == b.m_fields;
+    }
     friend bool operator!=(const QPlcMessage &a, const QPlcMessage &b) { return !(a == b); }
 
 private:

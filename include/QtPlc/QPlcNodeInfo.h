@@ -10,17 +10,17 @@
 struct QPlcNodeInfo
 {
     QString name;
-    quint16 id = 0;             ///< given at registration
-    QString transport;          ///< "udp", "tcp", "inprocess"
-    QString address;            ///< "127.0.0.1:40312"; empty for a local node
-    QString policy;             ///< name of the RealTimeViolationPolicy
+    quint16 id = 0;     ///< given at registration
+    QString transport;  ///< "udp", "tcp", "inprocess"
+    QString address;    ///< "127.0.0.1:40312"; empty for a local node
+    QString policy;     ///< name of the RealTimeViolationPolicy
     bool listener = false;
-    int inputs = 0;             ///< number of signals
+    int inputs = 0;  ///< number of signals
     int outputs = 0;
-    quint64 lateAnswers = 0;    ///< cycles that ended without the answer of this node
-    quint64 duplicates = 0;     ///< answers that came again
-    quint64 rejected = 0;       ///< frames that did not decode
-    quint64 resent = 0;         ///< requests that were sent again
+    quint64 lateAnswers = 0;  ///< cycles that ended without the answer of this node
+    quint64 duplicates = 0;   ///< answers that came again
+    quint64 rejected = 0;     ///< frames that did not decode
+    quint64 resent = 0;       ///< requests that were sent again
 };
 
 Q_DECLARE_METATYPE(QPlcNodeInfo)

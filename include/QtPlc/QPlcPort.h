@@ -94,9 +94,15 @@ constexpr QPlcSignalType::Scalar scalarOf()
     else if constexpr (std::is_floating_point_v<Element>)
         return sizeof(Element) == 4 ? QPlcSignalType::Real32 : QPlcSignalType::Real64;
     else if constexpr (std::is_signed_v<Element>)
-        return sizeof(Element) == 1 ? QPlcSignalType::Int8 : sizeof(Element) == 2 ? QPlcSignalType::Int16 : sizeof(Element) == 4 ? QPlcSignalType::Int32 : QPlcSignalType::Int64;
+        return sizeof(Element) == 1 ? QPlcSignalType::Int8
+            : sizeof(Element) == 2  ? QPlcSignalType::Int16
+            : sizeof(Element) == 4  ? QPlcSignalType::Int32
+                                    : QPlcSignalType::Int64;
     else
-        return sizeof(Element) == 1 ? QPlcSignalType::UInt8 : sizeof(Element) == 2 ? QPlcSignalType::UInt16 : sizeof(Element) == 4 ? QPlcSignalType::UInt32 : QPlcSignalType::UInt64;
+        return sizeof(Element) == 1 ? QPlcSignalType::UInt8
+            : sizeof(Element) == 2  ? QPlcSignalType::UInt16
+            : sizeof(Element) == 4  ? QPlcSignalType::UInt32
+                                    : QPlcSignalType::UInt64;
 }
 
 /// Copies \a count packed little-endian numbers of the kind \a scalar to or from numbers of this machine.
@@ -107,7 +113,8 @@ QTPLC_EXPORT void storeElements(QPlcSignalType::Scalar scalar, char *bytes, cons
 
 /// Whether a variable with elements of the kind \a variable can be an input or output of a signal with elements of the kind \a wire: reals mix, integers
 /// may become wider in the direction of the value, truth values go with Int8 and UInt8, times with Int64.
-QTPLC_EXPORT bool fits(QPlcSignalType::Scalar variable, bool isBool, QPlcSignalType::Scalar wire, QPlcPort::Direction direction);
+QTPLC_EXPORT bool fits(QPlcSignalType::Scalar variable, bool isBool, QPlcSignalType::Scalar wire,
+                       QPlcPort::Direction direction);
 QTPLC_EXPORT QString describe(QPlcSignalType::Scalar scalar, bool isBool, int count);
 
 /// A port whose value lies in a variable of type T.
@@ -125,10 +132,14 @@ protected:
     }
 
 private:
-    QString variableType() const final { return describe(scalarOf<Element>(), std::is_same_v<Element, bool>, S::count); }
+    QString variableType() const final
+    {
+        return describe(scalarOf<Element>(), std::is_same_v<Element, bool>, S::count);
+    }
     bool accepts(QPlcSignalType type) const final
     {
-        return type.count() == S::count && fits(scalarOf<Element>(), std::is_same_v<Element, bool>, type.scalar(), direction());
+        return type.count() == S::count
+            && fits(scalarOf<Element>(), std::is_same_v<Element, bool>, type.scalar(), direction());
     }
     void attach(QPlcSignalType type) final { m_wire = type.scalar(); }
     void load(const char *bytes) final

@@ -15,18 +15,18 @@
 struct QTPLC_EXPORT QPlcRealTimeOptions
 {
     enum Policy : quint8 {
-        Inherit,      ///< policy and priority of the thread that starts the cycle (chrt)
-        Other,        ///< SCHED_OTHER: ordinary scheduling
-        Fifo,         ///< SCHED_FIFO
-        RoundRobin    ///< SCHED_RR
+        Inherit,    ///< policy and priority of the thread that starts the cycle (chrt)
+        Other,      ///< SCHED_OTHER: ordinary scheduling
+        Fifo,       ///< SCHED_FIFO
+        RoundRobin  ///< SCHED_RR
     };
 
     Policy policy = Inherit;
-    int priority = 0;                    ///< 1 ... 99 for Fifo and RoundRobin
-    std::optional<int> cpu;              ///< the only processor that the thread may use
-    bool lockMemory = false;             ///< mlockall(MCL_CURRENT | MCL_FUTURE)
-    int prefaultStack = 64 * 1024;       ///< [byte] of the stack touched before the first cycle
-    std::optional<qint64> timerSlack;    ///< [ns] for ordinary scheduling; real-time threads have none
+    int priority = 0;                  ///< 1 ... 99 for Fifo and RoundRobin
+    std::optional<int> cpu;            ///< the only processor that the thread may use
+    bool lockMemory = false;           ///< mlockall(MCL_CURRENT | MCL_FUTURE)
+    int prefaultStack = 64 * 1024;     ///< [byte] of the stack touched before the first cycle
+    std::optional<qint64> timerSlack;  ///< [ns] for ordinary scheduling; real-time threads have none
 
     /// Why the options cannot be meant ("priority 120: use 1 ... 99"); empty when they can.
     QString errorString() const;

@@ -9,15 +9,15 @@ struct QTPLC_EXPORT QPlcSignalDefinition
 {
     QString name;
     QPlcSignalType type;
-    QString typeName;      ///< as written in the table ("Bool", "RealTriple"): a hint for views
-    QString unit;          ///< "m/s", "deg"; empty: none
+    QString typeName;  ///< as written in the table ("Bool", "RealTriple"): a hint for views
+    QString unit;      ///< "m/s", "deg"; empty: none
     QString description;
-    QPlcValue minimum;     ///< smallest allowed value of each element; invalid: none. Type: that of one element
-    QPlcValue maximum;     ///< largest allowed value of each element; invalid: none
-    QPlcValue initial;     ///< value before the first writer; always valid, zero unless said
-    QPlcValue safe;        ///< value when the writer is lost; invalid: keep the last
-    int hold = 0;          ///< cycles for which the last value is kept before `safe`
-    int line = 0;          ///< line of the section in the file, 0: not from a file
+    QPlcValue minimum;  ///< smallest allowed value of each element; invalid: none. Type: that of one element
+    QPlcValue maximum;  ///< largest allowed value of each element; invalid: none
+    QPlcValue initial;  ///< value before the first writer; always valid, zero unless said
+    QPlcValue safe;     ///< value when the writer is lost; invalid: keep the last
+    int hold = 0;       ///< cycles for which the last value is kept before `safe`
+    int line = 0;       ///< line of the section in the file, 0: not from a file
 
     /// Whether every element of \a value, which has this type, is a number within minimum and maximum; without limits always true.
     bool isInRange(const QPlcValue &value) const;

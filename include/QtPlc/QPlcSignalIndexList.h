@@ -31,7 +31,10 @@ public:
     QVector<QPlcSignalIndex> toVector() const { return m_indices; }
     QStringList unknownNames() const { return m_unknownNames; }
 
-    friend bool operator==(const QPlcSignalIndexList &a, const QPlcSignalIndexList &b) { return a.m_indices == b.m_indices; }
+    friend bool operator==(const QPlcSignalIndexList &a, const QPlcSignalIndexList &b)
+    {
+        return a.m_indices == b.m_indices;
+    }
     friend bool operator!=(const QPlcSignalIndexList &a, const QPlcSignalIndexList &b) { return !(a == b); }
 
 private:

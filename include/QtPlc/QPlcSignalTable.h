@@ -38,7 +38,8 @@ public:
     /// Reads a table. On any error the result is empty and \a errors (if given) holds all of them, in file order;
     /// behind the first hundred, one more says how many there are. Without an error it is emptied.
     /// \param fileName  only for the errors
-    static QPlcSignalTable fromIni(const QByteArray &text, QVector<QPlcParseError> *errors = nullptr, const QString &fileName = QString());
+    static QPlcSignalTable fromIni(const QByteArray &text, QVector<QPlcParseError> *errors = nullptr,
+                                   const QString &fileName = QString());
     /// Reads the file \a fileName; a file that cannot be read is one error.
     static QPlcSignalTable fromIniFile(const QString &fileName, QVector<QPlcParseError> *errors = nullptr);
     /// The table as a text that fromIni() reads back as an equal table.

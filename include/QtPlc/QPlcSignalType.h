@@ -28,7 +28,21 @@
 class QTPLC_EXPORT QPlcSignalType
 {
 public:
-    enum Scalar : quint8 { Invalid, Int8, Int16, Int32, Int64, UInt8, UInt16, UInt32, UInt64, Real32, Real64, String, DateTime };
+    enum Scalar : quint8 {
+        Invalid,
+        Int8,
+        Int16,
+        Int32,
+        Int64,
+        UInt8,
+        UInt16,
+        UInt32,
+        UInt64,
+        Real32,
+        Real64,
+        String,
+        DateTime
+    };
 
     /// Largest size of one signal in bytes: it has to fit into one datagram.
     static constexpr int MaximumSize = 1440;
@@ -68,7 +82,10 @@ public:
     /// The canonical name: "Real32", "Real32[3]", "String(64)".
     QString name() const;
 
-    friend constexpr bool operator==(QPlcSignalType a, QPlcSignalType b) { return a.m_scalar == b.m_scalar && a.m_count == b.m_count; }
+    friend constexpr bool operator==(QPlcSignalType a, QPlcSignalType b)
+    {
+        return a.m_scalar == b.m_scalar && a.m_count == b.m_count;
+    }
     friend constexpr bool operator!=(QPlcSignalType a, QPlcSignalType b) { return !(a == b); }
 
 private:
@@ -77,11 +94,15 @@ private:
         constexpr quint8 sizes[] = {0, 1, 2, 4, 8, 1, 2, 4, 8, 4, 8, 1, 8};
         return sizes[scalar];
     }
-    static constexpr int countOf(Scalar scalar, int count) { return count != 0 ? count : scalar == String ? DefaultStringCapacity : 1; }
+    static constexpr int countOf(Scalar scalar, int count)
+    {
+        return count != 0 ? count : scalar == String ? DefaultStringCapacity : 1;
+    }
     static constexpr bool exists(Scalar scalar, int count)
     {
         const int space = scalar == String ? MaximumSize - 2 : MaximumSize;
-        return scalar > Invalid && scalar <= DateTime && count > 0 && count <= space && count * elementSize(scalar) <= space && (scalar != DateTime || count == 1);
+        return scalar > Invalid && scalar <= DateTime && count > 0 && count <= space
+            && count * elementSize(scalar) <= space && (scalar != DateTime || count == 1);
     }
 
     Scalar m_scalar = Invalid;

@@ -17,7 +17,7 @@
 namespace qplc {
 class NodeRuntime;
 class PayloadLayout;
-}
+}  // namespace qplc
 class QPlcSlaveNodePrivate;
 
 /// A process image's worth of the world: a model, a sensor, an actuator, a controller, a view.
@@ -63,7 +63,7 @@ public:
     enum State : quint8 {
         Disconnected,
         Connecting,
-        Off,           ///< registered; no cycles
+        Off,  ///< registered; no cycles
         Initializing,
         RealTime
     };
@@ -71,17 +71,18 @@ public:
 
     enum Error {
         NoError,
-        ConnectionError,   ///< the master cannot be reached, or was lost
-        RegistrationError, ///< the master refused: unknown signal, wrong type, second writer, name in use
-        SignalError,       ///< a signal that this node declares does not exist or does not fit
-        UserCodeError,     ///< a function of the derived class threw
-        WatchdogError,     ///< no frame from the master within the watchdog time
+        ConnectionError,    ///< the master cannot be reached, or was lost
+        RegistrationError,  ///< the master refused: unknown signal, wrong type, second writer, name in use
+        SignalError,        ///< a signal that this node declares does not exist or does not fit
+        UserCodeError,      ///< a function of the derived class threw
+        WatchdogError,      ///< no frame from the master within the watchdog time
         ProtocolError,
-        OptionError        ///< a setting of this object that cannot be meant
+        OptionError  ///< a setting of this object that cannot be meant
     };
     Q_ENUM(Error)
 
-    explicit QPlcSlaveNode(const QString &name, RealTimeViolationPolicy policy = ErrorZeroOrderHold, QObject *parent = nullptr);
+    explicit QPlcSlaveNode(const QString &name, RealTimeViolationPolicy policy = ErrorZeroOrderHold,
+                           QObject *parent = nullptr);
     ~QPlcSlaveNode() override;
 
     QString name() const;
@@ -117,19 +118,20 @@ public:
     /// Frames since the start of the real-time phase, and what was wrong with them.
     struct Counters
     {
-        quint64 cycles = 0;       ///< computed
-        quint64 missed = 0;       ///< cycles that never arrived
-        quint64 duplicated = 0;   ///< requests that came again; answered, never computed twice
-        quint64 outdated = 0;     ///< requests of cycles before the newest
-        quint64 rejected = 0;     ///< garbage, other sessions, corrupted frames
-        quint64 watchdog = 0;     ///< watchdog time-outs
+        quint64 cycles = 0;      ///< computed
+        quint64 missed = 0;      ///< cycles that never arrived
+        quint64 duplicated = 0;  ///< requests that came again; answered, never computed twice
+        quint64 outdated = 0;    ///< requests of cycles before the newest
+        quint64 rejected = 0;    ///< garbage, other sessions, corrupted frames
+        quint64 watchdog = 0;    ///< watchdog time-outs
     };
     /// \threadsafe yes
     Counters counters() const;
 
     /// Connects, registers and waits until the master has accepted. Needs no running event loop.
     /// \return false when it did not work out within \a timeout: error(), errorString() tell why
-    bool connectToMasterAndWaitForConnected(const QPlcUnderlyingProtocol &master, std::chrono::milliseconds timeout = std::chrono::seconds(5));
+    bool connectToMasterAndWaitForConnected(const QPlcUnderlyingProtocol &master,
+                                            std::chrono::milliseconds timeout = std::chrono::seconds(5));
 
 public Q_SLOTS:
     /// Begins to connect and register; connectedToMaster() or errorOccurred() follows.
@@ -181,7 +183,8 @@ private:
     friend class QPlcIOSlaveNode;
 
     // The same functions one level below: on the bytes of the frames, without lists.
-    virtual bool bindPorts(const QPlcSignalTable &table, QVector<QPlcSignalIndex> *inputs, QVector<QPlcSignalIndex> *outputs, QString *error);
+    virtual bool bindPorts(const QPlcSignalTable &table, QVector<QPlcSignalIndex> *inputs,
+                           QVector<QPlcSignalIndex> *outputs, QString *error);
     virtual void attachPorts(const qplc::PayloadLayout &inputs, const qplc::PayloadLayout &outputs);
     virtual void resetFrame(char *outputs);
     virtual void initializeFrame(const char *inputs);

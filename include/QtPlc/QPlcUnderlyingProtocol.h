@@ -20,8 +20,14 @@ public:
     static constexpr quint16 DefaultPort = 50000;
 
     QPlcUnderlyingProtocol() = default;
-    static QPlcUnderlyingProtocol tcp(const QHostAddress &address, quint16 port = DefaultPort) { return {Tcp, address, port}; }
-    static QPlcUnderlyingProtocol udp(const QHostAddress &address, quint16 port = DefaultPort) { return {Udp, address, port}; }
+    static QPlcUnderlyingProtocol tcp(const QHostAddress &address, quint16 port = DefaultPort)
+    {
+        return {Tcp, address, port};
+    }
+    static QPlcUnderlyingProtocol udp(const QHostAddress &address, quint16 port = DefaultPort)
+    {
+        return {Udp, address, port};
+    }
 
     /// Reads "HOST:PORT", "HOST", "[IPV6]:PORT", optionally behind "tcp://" or "udp://". Host names other than "localhost" are looked up, which may block.
     /// \param kind  when the text names none

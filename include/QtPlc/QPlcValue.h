@@ -20,10 +20,10 @@
 class QTPLC_EXPORT QPlcValue
 {
 public:
-    QPlcValue() = default;                                   ///< invalid
-    QPlcValue(const QPlcValue &) = default;                  // and so a move is a copy, which is as cheap
+    QPlcValue() = default;                   ///< invalid
+    QPlcValue(const QPlcValue &) = default;  // and so a move is a copy, which is as cheap
     QPlcValue &operator=(const QPlcValue &) = default;
-    explicit QPlcValue(QPlcSignalType type);                 ///< zero of that type
+    explicit QPlcValue(QPlcSignalType type);  ///< zero of that type
     /// A number or a truth value (Int8, 0 or 1). A template, so that no pointer or enumeration becomes a truth value.
     template<typename T, std::enable_if_t<std::is_arithmetic_v<T> && !std::is_same_v<T, long double>, int> = 0>
     QPlcValue(T value)
@@ -34,19 +34,21 @@ public:
     QPlcValue(const T (&values)[N])
         : QPlcValue(scalarOf<T>(), values, int(N))
     {
-        static_assert(N * sizeof(T) <= QPlcSignalType::MaximumSize, "a signal has at most QPlcSignalType::MaximumSize bytes");
+        static_assert(N * sizeof(T) <= QPlcSignalType::MaximumSize,
+                      "a signal has at most QPlcSignalType::MaximumSize bytes");
     }
     template<typename T, std::size_t N>
     QPlcValue(const std::array<T, N> &values)
         : QPlcValue(scalarOf<T>(), values.data(), int(N))
     {
-        static_assert(N > 0 && N * sizeof(T) <= QPlcSignalType::MaximumSize, "a signal has 1 to QPlcSignalType::MaximumSize bytes");
+        static_assert(N > 0 && N * sizeof(T) <= QPlcSignalType::MaximumSize,
+                      "a signal has 1 to QPlcSignalType::MaximumSize bytes");
     }
     /// String with the capacity that the text needs, at least the default; invalid when the text has more than 1438 bytes of UTF-8
     /// or half a surrogate pair.
     QPlcValue(const QString &text);
-    QPlcValue(const char *text);                             ///< As above, from UTF-8; invalid when it is malformed
-    QPlcValue(const QDateTime &time);                        ///< DateTime, ns since 1970-01-01 UTC; invalid outside 1677 ... 2262
+    QPlcValue(const char *text);       ///< As above, from UTF-8; invalid when it is malformed
+    QPlcValue(const QDateTime &time);  ///< DateTime, ns since 1970-01-01 UTC; invalid outside 1677 ... 2262
 
     /// The value whose packed little-endian bytes begin at \a bytes; type.size() of them are read. Invalid for a text whose
     /// length is beyond the capacity or that is not UTF-8.
@@ -106,9 +108,15 @@ private:
         else if constexpr (std::is_floating_point_v<T>)
             return QPlcSignalType::Real64;
         else if constexpr (std::is_signed_v<T>)
-            return sizeof(T) == 1 ? QPlcSignalType::Int8 : sizeof(T) == 2 ? QPlcSignalType::Int16 : sizeof(T) == 4 ? QPlcSignalType::Int32 : QPlcSignalType::Int64;
+            return sizeof(T) == 1 ? QPlcSignalType::Int8
+                : sizeof(T) == 2  ? QPlcSignalType::Int16
+                : sizeof(T) == 4  ? QPlcSignalType::Int32
+                                  : QPlcSignalType::Int64;
         else
-            return sizeof(T) == 1 ? QPlcSignalType::UInt8 : sizeof(T) == 2 ? QPlcSignalType::UInt16 : sizeof(T) == 4 ? QPlcSignalType::UInt32 : QPlcSignalType::UInt64;
+            return sizeof(T) == 1 ? QPlcSignalType::UInt8
+                : sizeof(T) == 2  ? QPlcSignalType::UInt16
+                : sizeof(T) == 4  ? QPlcSignalType::UInt32
+                                  : QPlcSignalType::UInt64;
     }
     QPlcValue(QPlcSignalType::Scalar scalar, const void *elements, int count);
     void assignText(const QByteArray &utf8);

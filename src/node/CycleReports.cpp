@@ -19,7 +19,8 @@ void CycleReports::post(const CycleEvent &event) noexcept
     m_wakeUp.notify();
 }
 
-void CycleReports::keep(TappedFrame::Direction direction, std::uint16_t node, const char *frame, std::size_t size) noexcept
+void CycleReports::keep(TappedFrame::Direction direction, std::uint16_t node, const char *frame,
+                        std::size_t size) noexcept
 {
     TappedFrame *place = m_frames->beginPush();
     if (!place) {

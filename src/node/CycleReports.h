@@ -15,14 +15,14 @@ namespace qplc {
 struct CycleEvent
 {
     enum Kind : std::uint8_t {
-        LateAnswer,         // node, cycle: the answer was not there in time
-        WaitingForNode,     // node, cycle: time stands still
-        WaitingEnded,       // cycle
-        NodeFaulted,        // node, cycle: the code of the node threw
-        NotFinite,          // node, signal, cycle: NaN or infinity; the values of this node were not taken
-        LinkClosed,         // node: its cyclic connection is gone
-        WatchdogTimedOut,   // cycle: no frame since
-        Ended               // cycle: the cycle thread has left its loop
+        LateAnswer,        // node, cycle: the answer was not there in time
+        WaitingForNode,    // node, cycle: time stands still
+        WaitingEnded,      // cycle
+        NodeFaulted,       // node, cycle: the code of the node threw
+        NotFinite,         // node, signal, cycle: NaN or infinity; the values of this node were not taken
+        LinkClosed,        // node: its cyclic connection is gone
+        WatchdogTimedOut,  // cycle: no frame since
+        Ended              // cycle: the cycle thread has left its loop
     };
     Kind kind = Ended;
     std::uint16_t node = 0;

@@ -9,8 +9,9 @@ namespace qplc {
 
 void logFrame(const QString &owner, const TappedFrame &frame)
 {
-    qCDebug(lcCyclic).noquote() << owner << (frame.direction == TappedFrame::Sent ? "sent for node" : "received for node") << frame.node
-                                << QByteArray::fromRawData(frame.bytes.data(), frame.size).toHex(' ');
+    qCDebug(lcCyclic).noquote() << owner
+                                << (frame.direction == TappedFrame::Sent ? "sent for node" : "received for node")
+                                << frame.node << QByteArray::fromRawData(frame.bytes.data(), frame.size).toHex(' ');
 }
 
 }  // namespace qplc

@@ -8,7 +8,8 @@
 Q_DECLARE_LOGGING_CATEGORY(lcMaster)   // qtplc.master: states, nodes
 Q_DECLARE_LOGGING_CATEGORY(lcSlave)    // qtplc.slave: states
 Q_DECLARE_LOGGING_CATEGORY(lcControl)  // qtplc.control: every control message, byte by byte
-Q_DECLARE_LOGGING_CATEGORY(lcCyclic)   // qtplc.cyclic: every cyclic frame, byte by byte, out of a ring (some are left out when there are too many)
+Q_DECLARE_LOGGING_CATEGORY(
+    lcCyclic)  // qtplc.cyclic: every cyclic frame, byte by byte, out of a ring (some are left out when there are too many)
 
 namespace qplc {
 

@@ -15,30 +15,33 @@ struct MasterConnection
 {
     /// How far a node has come; each step is an answer that the master waits for.
     enum Stage : quint8 {
-        Silent,          // has not greeted
+        Silent,  // has not greeted
         Greeted,
-        Attaching,       // registered; its cyclic TCP connection is not there yet
-        Attached,        // ready to be initialized
-        GivingOutputs,   // SendYourInitialOutputStates is under way
+        Attaching,      // registered; its cyclic TCP connection is not there yet
+        Attached,       // ready to be initialized
+        GivingOutputs,  // SendYourInitialOutputStates is under way
         OutputsGiven,
-        Initializing,    // InitializeWithValues is under way
+        Initializing,  // InitializeWithValues is under way
         Initialized,
-        Starting,        // RealTimeStarted is under way
-        Running          // answers cycles
+        Starting,  // RealTimeStarted is under way
+        Running    // answers cycles
     };
 
     QPlcSlaveSocket *socket = nullptr;
     Stage stage = Silent;
-    QString name;                        // as greeted
+    QString name;  // as greeted
     QString uuid;
-    QString cyclicKind;                  // "udp", "tcp"
-    quint64 token = 0;                   // names this node on its cyclic TCP connection
-    std::shared_ptr<NodeSlot> slot;      // null: no node
-    qint64 stageSince = 0;               // [ms] for time-outs
+    QString cyclicKind;              // "udp", "tcp"
+    quint64 token = 0;               // names this node on its cyclic TCP connection
+    std::shared_ptr<NodeSlot> slot;  // null: no node
+    qint64 stageSince = 0;           // [ms] for time-outs
 
     bool isNode() const { return slot != nullptr; }
     bool isAttached() const { return slot && stage >= Attached; }
-    bool send(QPlcMessage::Kind kind, const QJsonObject &fields = QJsonObject()) const { return socket->sendMessage(QPlcMessage(kind, fields)); }
+    bool send(QPlcMessage::Kind kind, const QJsonObject &fields = QJsonObject()) const
+    {
+        return socket->sendMessage(QPlcMessage(kind, fields));
+    }
     /// Refuses a request; the connection stays.
     void fail(const QString &error, const QString &text) const
     {

@@ -10,9 +10,9 @@ namespace qplc {
 
 namespace {
 
-constexpr std::int64_t Slice = 50'000'000;        // [ns] longest wait without a look at stop and lost nodes
+constexpr std::int64_t Slice = 50'000'000;         // [ns] longest wait without a look at stop and lost nodes
 constexpr std::int64_t ContinueAfter = 1'000'000;  // [ns] a stream that was full is offered the rest
-constexpr std::int64_t ResendAfter = 20'000'000;  // [ns] a request that must be answered is sent again
+constexpr std::int64_t ResendAfter = 20'000'000;   // [ns] a request that must be answered is sent again
 
 template<typename Integer>
 void count(std::atomic<Integer> &counter, Integer n = 1) noexcept
@@ -73,7 +73,8 @@ void MasterCycle::stop()
 
 void MasterCycle::clearStatistics()
 {
-    for (std::atomic<std::uint64_t> *counter : {&m_cycle, &m_cycles, &m_overruns, &m_skipped, &m_lateAnswers, &m_strangers, &m_digest})
+    for (std::atomic<std::uint64_t> *counter :
+         {&m_cycle, &m_cycles, &m_overruns, &m_skipped, &m_lateAnswers, &m_strangers, &m_digest})
         counter->store(0);
     m_strangersBefore = m_hub.strangers();
     m_lateness.clear();
@@ -206,7 +207,8 @@ void MasterCycle::takeCommands() noexcept
             adopt(roster);
     }
     while (const SetCommand *command = m_setCommands.front()) {
-        std::memcpy(m_image.data() + m_image.offset(command->signal), command->bytes.data(), std::size_t(m_image.table().at(command->signal).type.size()));
+        std::memcpy(m_image.data() + m_image.offset(command->signal), command->bytes.data(),
+                    std::size_t(m_image.table().at(command->signal).type.size()));
         m_setCommands.pop();
         m_setsTaken.store(m_setsTaken.load(std::memory_order_relaxed) + 1, std::memory_order_release);
     }
@@ -215,7 +217,8 @@ void MasterCycle::takeCommands() noexcept
 void MasterCycle::adopt(Roster *roster) noexcept
 {
     const auto contains = [](const Roster &where, const NodeSlot *slot) {
-        return std::any_of(where.nodes.begin(), where.nodes.end(), [slot](const std::shared_ptr<NodeSlot> &other) { return other.get() == slot; });
+        return std::any_of(where.nodes.begin(), where.nodes.end(),
+                           [slot](const std::shared_ptr<NodeSlot> &other) { return other.get() == slot; });
     };
     for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
         if (slot->peer && !contains(*roster, slot.get()))
@@ -230,7 +233,8 @@ void MasterCycle::adopt(Roster *roster) noexcept
         if (slot->peer)
             m_hub.attach(slot->peer.get());
     }
-    m_anyRemote = std::any_of(roster->nodes.begin(), roster->nodes.end(), [](const std::shared_ptr<NodeSlot> &slot) { return slot->peer != nullptr; });
+    m_anyRemote = std::any_of(roster->nodes.begin(), roster->nodes.end(),
+                              [](const std::shared_ptr<NodeSlot> &slot) { return slot->peer != nullptr; });
     Roster *retired = m_roster.release();
     m_roster.reset(roster);
     if (!m_retiredRosters.push(retired))
@@ -269,7 +273,8 @@ void MasterCycle::askNodes(const CycleClock::Tick &tick) noexcept
         copyRuns(slot->inputRuns, m_image.data(), slot->inputs.data());
         slot->answered = false;
         slot->request.cycle = std::uint32_t(m_cycleZero + m_number);
-        slot->request.info = std::uint32_t(std::min<std::int64_t>(tick.lateness, std::numeric_limits<std::uint32_t>::max()));
+        slot->request.info
+            = std::uint32_t(std::min<std::int64_t>(tick.lateness, std::numeric_limits<std::uint32_t>::max()));
         if (slot->peer)
             sendRequest(*slot, 0);
     }
@@ -342,9 +347,10 @@ void MasterCycle::stepLocalNodes() noexcept
 
 bool MasterCycle::anyMissing(bool onlyWaiting) const noexcept
 {
-    return std::any_of(m_roster->nodes.begin(), m_roster->nodes.end(), [this, onlyWaiting](const std::shared_ptr<NodeSlot> &slot) {
-        return isAwaited(*slot) && (!onlyWaiting || mustBeWaitedFor(*slot));
-    });
+    return std::any_of(m_roster->nodes.begin(), m_roster->nodes.end(),
+                       [this, onlyWaiting](const std::shared_ptr<NodeSlot> &slot) {
+                           return isAwaited(*slot) && (!onlyWaiting || mustBeWaitedFor(*slot));
+                       });
 }
 
 void MasterCycle::collectAnswers(std::int64_t deadline) noexcept
@@ -419,11 +425,17 @@ void MasterCycle::takeAnswer(NodeSlot &slot, const char *frame, std::size_t size
 {
     m_reports.tap(TappedFrame::Received, slot.id, frame, size);
     switch (slot.decoder.decode(frame, size)) {
-    case FrameStatus::Complete: break;
-    case FrameStatus::Incomplete: return;
+    case FrameStatus::Complete:
+        break;
+    case FrameStatus::Incomplete:
+        return;
     case FrameStatus::Duplicate:
-    case FrameStatus::Old: count(slot.duplicates); return;
-    default: count(slot.rejected); return;
+    case FrameStatus::Old:
+        count(slot.duplicates);
+        return;
+    default:
+        count(slot.rejected);
+        return;
     }
     // An answer to an older cycle is late and counted as such, but still newer than what the image holds.
     const bool current = slot.decoder.cycle() == m_cycleZero + m_number;

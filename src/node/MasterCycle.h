@@ -35,7 +35,7 @@ public:
     {
         std::chrono::nanoseconds period{0};
         QPlcClock clock;
-        std::uint64_t cycleLimit = 0;                        // first number that is not computed; 0: none
+        std::uint64_t cycleLimit = 0;  // first number that is not computed; 0: none
         QPlcSignalIndex timeSignal = QPlcInvalidSignalIndex;
         QPlcSignalIndex jitterSignal = QPlcInvalidSignalIndex;
         QPlcSignalIndex workloadSignal = QPlcInvalidSignalIndex;
@@ -85,7 +85,10 @@ private:
 
     void run() noexcept;
     void runCycle(const CycleClock::Tick &tick) noexcept;
-    bool isBeyondLimit(std::uint64_t cycle) const noexcept { return m_phase.cycleLimit > 0 && cycle >= m_phase.cycleLimit; }
+    bool isBeyondLimit(std::uint64_t cycle) const noexcept
+    {
+        return m_phase.cycleLimit > 0 && cycle >= m_phase.cycleLimit;
+    }
     void takeCommands() noexcept;
     void adopt(Roster *roster) noexcept;
     void writeOwnSignals(const CycleClock::Tick &tick) noexcept;
@@ -104,8 +107,14 @@ private:
     bool paste(NodeSlot &slot, const char *outputs) noexcept;
     void finish() noexcept;
     bool anyMissing(bool onlyWaiting) const noexcept;
-    bool mustBeWaitedFor(const NodeSlot &slot) const noexcept { return !slot.listener && (m_phase.clock.isLockstep() || slot.waits()); }
-    bool isAwaited(const NodeSlot &slot) const noexcept { return slot.peer && !slot.answered && !slot.lost.load(std::memory_order_relaxed); }
+    bool mustBeWaitedFor(const NodeSlot &slot) const noexcept
+    {
+        return !slot.listener && (m_phase.clock.isLockstep() || slot.waits());
+    }
+    bool isAwaited(const NodeSlot &slot) const noexcept
+    {
+        return slot.peer && !slot.answered && !slot.lost.load(std::memory_order_relaxed);
+    }
     std::int64_t now() noexcept { return m_phase.clock.isLockstep() ? 0 : m_time.now(); }
     void clearStatistics();
     void freeRetired();
@@ -119,7 +128,7 @@ private:
     std::atomic<Roster *> m_pendingRoster{nullptr};
     SpscRing<Roster *> m_retiredRosters{64};
     SpscRing<SetCommand> m_setCommands{256};
-    std::size_t m_setsGiven = 0;                 // thread of the master
+    std::size_t m_setsGiven = 0;  // thread of the master
     std::atomic<std::size_t> m_setsTaken{0};
     SnapshotBuffer m_snapshot;
 
@@ -128,12 +137,12 @@ private:
     std::optional<CycleClock> m_clock;
     std::unique_ptr<Roster> m_roster;
     std::uint64_t m_cycleZero = 0;
-    std::uint64_t m_number = 0;         // of the cycle in progress, from 0
-    std::int64_t m_wallStart = 0;       // [ns since 1970]
-    std::int64_t m_woken = 0;           // [ns] when the cycle in progress began
-    std::int64_t m_workload = 0;        // [ns] of the cycle before
-    std::int64_t m_waited = 0;          // [ns] spent waiting in the cycle in progress
-    std::int64_t m_roundTrip = 0;       // [ns] until the newest answer
+    std::uint64_t m_number = 0;    // of the cycle in progress, from 0
+    std::int64_t m_wallStart = 0;  // [ns since 1970]
+    std::int64_t m_woken = 0;      // [ns] when the cycle in progress began
+    std::int64_t m_workload = 0;   // [ns] of the cycle before
+    std::int64_t m_waited = 0;     // [ns] spent waiting in the cycle in progress
+    std::int64_t m_roundTrip = 0;  // [ns] until the newest answer
     bool m_anyRemote = false;
 
     // statistics

@@ -40,9 +40,12 @@ QJsonObject counterFields(const QPlcMasterStatistics &statistics)
 QString clockName(QPlcClock clock)
 {
     switch (clock.kind()) {
-    case QPlcClock::RealTime: return QStringLiteral("RealTime");
-    case QPlcClock::Scaled: return QStringLiteral("Scaled");
-    case QPlcClock::Lockstep: return QStringLiteral("Lockstep");
+    case QPlcClock::RealTime:
+        return QStringLiteral("RealTime");
+    case QPlcClock::Scaled:
+        return QStringLiteral("Scaled");
+    case QPlcClock::Lockstep:
+        return QStringLiteral("Lockstep");
     }
     return {};
 }
@@ -70,7 +73,8 @@ QJsonObject stateFields(const QPlcMasterNode &master, quint64 session)
             {QStringLiteral("digest"), QPlcMessage::fromHex64(statistics.imageDigest)}};
 }
 
-bool signalFields(const MasterCycle &cycle, const NodeRegistry &registry, const QStringList &names, QJsonObject *fields, QString *error)
+bool signalFields(const MasterCycle &cycle, const NodeRegistry &registry, const QStringList &names, QJsonObject *fields,
+                  QString *error)
 {
     const QPlcSignalTable &table = cycle.table();
     const std::vector<char> values = cycle.values();
@@ -87,12 +91,14 @@ bool signalFields(const MasterCycle &cycle, const NodeRegistry &registry, const 
             return false;
         }
         const QPlcSignalDefinition &definition = table.at(index);
-        signalArray.append(QJsonObject{{QStringLiteral("name"), name},
-                                       {QStringLiteral("type"), definition.type.name()},
-                                       {QStringLiteral("unit"), definition.unit},
-                                       {QStringLiteral("description"), definition.description},
-                                       {QStringLiteral("value"), QPlcValue::fromBytes(definition.type, values.data() + cycle.offset(index)).toString()},
-                                       {QStringLiteral("writer"), registry.writer(index)}});
+        signalArray.append(
+            QJsonObject{{QStringLiteral("name"), name},
+                        {QStringLiteral("type"), definition.type.name()},
+                        {QStringLiteral("unit"), definition.unit},
+                        {QStringLiteral("description"), definition.description},
+                        {QStringLiteral("value"),
+                         QPlcValue::fromBytes(definition.type, values.data() + cycle.offset(index)).toString()},
+                        {QStringLiteral("writer"), registry.writer(index)}});
     }
     fields->insert(QStringLiteral("signals"), signalArray);
     return true;

@@ -15,7 +15,8 @@ namespace qplc {
 QJsonObject stateFields(const QPlcMasterNode &master, quint64 session);
 /// Fields of the message Signals, for \a names or, when empty, all; the values are those of one cycle.
 /// \return false with the first unknown name in \a error
-bool signalFields(const MasterCycle &cycle, const NodeRegistry &registry, const QStringList &names, QJsonObject *fields, QString *error);
+bool signalFields(const MasterCycle &cycle, const NodeRegistry &registry, const QStringList &names, QJsonObject *fields,
+                  QString *error);
 QString clockName(QPlcClock clock);
 QString stateName(QPlcMasterNode::State state);
 

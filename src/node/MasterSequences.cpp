@@ -17,7 +17,8 @@ bool QPlcMasterNodePrivate::initializeAllStates()
     if (!prepare())
         return false;
     if (state != QPlcMasterNode::Off)
-        return setError(QPlcMasterNode::StateError, QStringLiteral("states can only be initialized while the master is off; stop it first"));
+        return setError(QPlcMasterNode::StateError,
+                        QStringLiteral("states can only be initialized while the master is off; stop it first"));
     error = QPlcMasterNode::NoError;
     errorString.clear();
     m_startAfterwards = false;
@@ -44,20 +45,27 @@ void QPlcMasterNodePrivate::advance()
         return;
     stepTimer.stop();
     switch (m_step) {
-    case Step::CollectOutputs: distributeInputs(); break;
-    case Step::DistributeInputs: initializationEnded(); break;
-    case Step::Start: startCycles(); break;
-    case Step::None: break;
+    case Step::CollectOutputs:
+        distributeInputs();
+        break;
+    case Step::DistributeInputs:
+        initializationEnded();
+        break;
+    case Step::Start:
+        startCycles();
+        break;
+    case Step::None:
+        break;
     }
 }
 
 /// A node answers the step at hand; anything else from it comes at the wrong time.
 void QPlcMasterNodePrivate::continueSequence(Connection *connection, const Message &message)
 {
-    const Message::Kind expected = m_step == Step::CollectOutputs     ? Message::ReceiveMyInitialOutputStates
-                                   : m_step == Step::DistributeInputs ? Message::Initialized
-                                   : m_step == Step::Start            ? Message::RealTimeReady
-                                                                      : Message::Invalid;
+    const Message::Kind expected = m_step == Step::CollectOutputs ? Message::ReceiveMyInitialOutputStates
+        : m_step == Step::DistributeInputs                        ? Message::Initialized
+        : m_step == Step::Start                                   ? Message::RealTimeReady
+                                                                  : Message::Invalid;
     if (message.kind() != expected || connection->stage + 1 != m_owed) {
         connection->fail(QStringLiteral("WrongState"), QStringLiteral("%1 was not asked for").arg(message.kindName()));
         return;
@@ -96,7 +104,8 @@ void QPlcMasterNodePrivate::collectOutputs()
 bool QPlcMasterNodePrivate::takeOutputs(NodeSlot &slot, const char *outputs)
 {
     if (const qplc::PayloadLayout::Field *field = slot.firstNotFinite(outputs)) {
-        abortSequence(QStringLiteral("node '%1': the initial value of signal '%2' is not a finite number").arg(slot.name, table.at(field->signal).name));
+        abortSequence(QStringLiteral("node '%1': the initial value of signal '%2' is not a finite number")
+                          .arg(slot.name, table.at(field->signal).name));
         return false;
     }
     qplc::copyRuns(slot.outputRuns, outputs, cycle->image().data());
@@ -108,7 +117,10 @@ bool QPlcMasterNodePrivate::storeOutputs(Connection *connection, const Message &
 {
     const QByteArray values = message.bytes(QStringLiteral("values"));
     if (values.size() != int(connection->slot->outputLayout.size())) {
-        server->drop(connection, QStringLiteral("it sent %1 bytes of initial outputs instead of %2").arg(values.size()).arg(connection->slot->outputLayout.size()));
+        server->drop(connection,
+                     QStringLiteral("it sent %1 bytes of initial outputs instead of %2")
+                         .arg(values.size())
+                         .arg(connection->slot->outputLayout.size()));
         return false;
     }
     NodeSlot &slot = *connection->slot;
@@ -116,7 +128,9 @@ bool QPlcMasterNodePrivate::storeOutputs(Connection *connection, const Message &
     if (!isRunning())
         return takeOutputs(slot, values.constData());
     if (const qplc::PayloadLayout::Field *field = slot.firstNotFinite(values.constData())) {
-        server->drop(connection, QStringLiteral("the initial value of signal '%1' is not a finite number").arg(table.at(field->signal).name));
+        server->drop(connection,
+                     QStringLiteral("the initial value of signal '%1' is not a finite number")
+                         .arg(table.at(field->signal).name));
         return false;
     }
     return true;
@@ -169,9 +183,12 @@ void QPlcMasterNodePrivate::stepTimedOut()
             names << QStringLiteral("'%1'").arg(connection->name);
     }
     const QString what = m_step == Step::Start ? QStringLiteral("RealTimeStarted")
-                         : m_step == Step::CollectOutputs ? QStringLiteral("SendYourInitialOutputStates")
-                                                          : QStringLiteral("InitializeWithValues");
-    abortSequence(QStringLiteral("no answer to %1 within %2 ms from node %3; is it busy, or stopped?").arg(what).arg(stepTimer.interval()).arg(names.join(QStringLiteral(", "))));
+        : m_step == Step::CollectOutputs       ? QStringLiteral("SendYourInitialOutputStates")
+                                               : QStringLiteral("InitializeWithValues");
+    abortSequence(QStringLiteral("no answer to %1 within %2 ms from node %3; is it busy, or stopped?")
+                      .arg(what)
+                      .arg(stepTimer.interval())
+                      .arg(names.join(QStringLiteral(", "))));
 }
 
 void QPlcMasterNodePrivate::abortSequence(const QString &reason)
@@ -180,7 +197,8 @@ void QPlcMasterNodePrivate::abortSequence(const QString &reason)
     const bool wasStarting = m_step == Step::Start;
     m_step = Step::None;
     m_initialized = false;
-    const Message initializationFailed(Message::StatesInitialized, {{QStringLiteral("ok"), false}, {QStringLiteral("text"), reason}});
+    const Message initializationFailed(Message::StatesInitialized,
+                                       {{QStringLiteral("ok"), false}, {QStringLiteral("text"), reason}});
     for (const std::unique_ptr<Connection> &connection : server->connections()) {
         if (wasStarting && connection->stage > Connection::Attached)
             connection->send(Message::RealTimeStopped, {{QStringLiteral("reason"), reason}});
@@ -205,7 +223,9 @@ bool QPlcMasterNodePrivate::startRealTime(quint64 cycles)
     if (!prepare())
         return false;
     if (state != QPlcMasterNode::Off)
-        return setError(QPlcMasterNode::StateError, QStringLiteral("the real-time phase can only be started while the master is off; stop it first"));
+        return setError(
+            QPlcMasterNode::StateError,
+            QStringLiteral("the real-time phase can only be started while the master is off; stop it first"));
     const QString optionError = realTimeOptions.errorString();
     if (!optionError.isEmpty())
         return setError(QPlcMasterNode::RealTimeError, optionError);
@@ -223,11 +243,12 @@ bool QPlcMasterNodePrivate::startRealTime(quint64 cycles)
 
 QJsonObject QPlcMasterNodePrivate::startFields() const
 {
-    return {{QStringLiteral("period"), double(interval.count())},
-            {QStringLiteral("clock"), qplc::clockName(clock)},
-            {QStringLiteral("scale"), clock.scale()},
-            {QStringLiteral("cycleZero"), Message::fromHex64(cycle->cycleZero())},
-            {QStringLiteral("firstCycle"), Message::fromHex64(cycle->cycleZero() + (isRunning() ? cycle->cycle() : 0))}};
+    return {
+        {QStringLiteral("period"), double(interval.count())},
+        {QStringLiteral("clock"), qplc::clockName(clock)},
+        {QStringLiteral("scale"), clock.scale()},
+        {QStringLiteral("cycleZero"), Message::fromHex64(cycle->cycleZero())},
+        {QStringLiteral("firstCycle"), Message::fromHex64(cycle->cycleZero() + (isRunning() ? cycle->cycle() : 0))}};
 }
 
 void QPlcMasterNodePrivate::beginStart()

@@ -14,7 +14,8 @@ namespace qplc {
 
 using Message = QPlcMessage;
 
-MasterServer::MasterServer(NodeRegistry &registry, const ProcessImage &image, CyclicHub &hub, quint64 session, std::function<QJsonObject()> hello, QObject *parent)
+MasterServer::MasterServer(NodeRegistry &registry, const ProcessImage &image, CyclicHub &hub, quint64 session,
+                           std::function<QJsonObject()> hello, QObject *parent)
     : QObject(parent)
     , m_registry(registry)
     , m_image(image)
@@ -36,10 +37,11 @@ MasterServer::~MasterServer()
 bool MasterServer::openPorts(const QHostAddress &address, quint16 port)
 {
     if (!m_server->listen(address, port)) {
-        m_errorString = QStringLiteral("cannot listen on %1:%2: %3; choose another port, or end the program that uses it")
-                            .arg(address.toString())
-                            .arg(port)
-                            .arg(m_server->errorString());
+        m_errorString
+            = QStringLiteral("cannot listen on %1:%2: %3; choose another port, or end the program that uses it")
+                  .arg(address.toString())
+                  .arg(port)
+                  .arg(m_server->errorString());
         return false;
     }
     if (m_hub.open(SocketAddress(address, m_server->serverPort()), &m_errorString))
@@ -82,20 +84,25 @@ void MasterServer::accept()
         m_connections.push_back(std::make_unique<MasterConnection>());
         MasterConnection *connection = m_connections.back().get();
         connection->socket = new QPlcSlaveSocket(socket, this);
-        connect(connection->socket, &QPlcAbstractSocket::messageReceived, this, [this, connection](const Message &message) { receive(connection, message); });
-        connect(connection->socket, &QPlcAbstractSocket::errorOccurred, this, [this, connection](QPlcAbstractSocket::Error error) {
-            if (error == QPlcAbstractSocket::ProtocolError)
-                receiveGarbage(connection);
-        });
+        connect(connection->socket, &QPlcAbstractSocket::messageReceived, this,
+                [this, connection](const Message &message) { receive(connection, message); });
+        connect(connection->socket, &QPlcAbstractSocket::errorOccurred, this,
+                [this, connection](QPlcAbstractSocket::Error error) {
+                    if (error == QPlcAbstractSocket::ProtocolError)
+                        receiveGarbage(connection);
+                });
         // Not at once: a message that cannot be sent ends the connection, and who sends to many of them walks over m_connections.
         const QPointer<QPlcSlaveSocket> guarded(connection->socket);
-        connect(connection->socket, &QPlcAbstractSocket::disconnected, this, [this, guarded] { dropClosed(guarded); }, Qt::QueuedConnection);
+        connect(
+            connection->socket, &QPlcAbstractSocket::disconnected, this, [this, guarded] { dropClosed(guarded); },
+            Qt::QueuedConnection);
     }
 }
 
 void MasterServer::dropClosed(const QPlcSlaveSocket *socket)
 {
-    const auto isIt = [socket](const std::unique_ptr<MasterConnection> &connection) { return connection->socket == socket; };
+    const auto isIt
+        = [socket](const std::unique_ptr<MasterConnection> &connection) { return connection->socket == socket; };
     const auto found = std::find_if(m_connections.begin(), m_connections.end(), isIt);
     if (found == m_connections.end())
         return;  // dropped meanwhile
@@ -128,7 +135,8 @@ void MasterServer::forget(MasterConnection *connection)
 {
     connection->socket->disconnect(this);
     connection->socket->deleteLater();
-    const auto isIt = [connection](const std::unique_ptr<MasterConnection> &other) { return other.get() == connection; };
+    const auto isIt
+        = [connection](const std::unique_ptr<MasterConnection> &other) { return other.get() == connection; };
     m_connections.erase(std::remove_if(m_connections.begin(), m_connections.end(), isIt), m_connections.end());
 }
 
@@ -144,12 +152,18 @@ void MasterServer::reject(MasterConnection *connection, const QString &error, co
 void MasterServer::receive(MasterConnection *connection, const Message &message)
 {
     switch (message.kind()) {
-    case Message::Hello: greet(connection, message); return;
-    case Message::AttachCyclicChannel: attachCyclicChannel(connection, message); return;
-    default: break;
+    case Message::Hello:
+        greet(connection, message);
+        return;
+    case Message::AttachCyclicChannel:
+        attachCyclicChannel(connection, message);
+        return;
+    default:
+        break;
     }
     if (connection->stage == MasterConnection::Silent) {
-        reject(connection, QStringLiteral("WrongState"), QStringLiteral("%1 before Hello; greet first").arg(message.kindName()));
+        reject(connection, QStringLiteral("WrongState"),
+               QStringLiteral("%1 before Hello; greet first").arg(message.kindName()));
         return;
     }
     if (message.kind() == Message::Register)
@@ -176,7 +190,9 @@ void MasterServer::greet(MasterConnection *connection, const Message &message)
     connection->uuid = message.text(QStringLiteral("uuid"));
     if (protocol != 1) {
         reject(connection, QStringLiteral("VersionMismatch"),
-               QStringLiteral("protocol version %1 of '%2' is not spoken here; this master speaks version 1").arg(protocol).arg(connection->name));
+               QStringLiteral("protocol version %1 of '%2' is not spoken here; this master speaks version 1")
+                   .arg(protocol)
+                   .arg(connection->name));
         return;
     }
     QJsonObject hello = m_hello();
@@ -184,13 +200,16 @@ void MasterServer::greet(MasterConnection *connection, const Message &message)
         hello.remove(QStringLiteral("table"));
     connection->stage = MasterConnection::Greeted;
     if (!connection->send(Message::Hello, hello))
-        reject(connection, QStringLiteral("TooLong"), QStringLiteral("the signal table is too long to be sent; give '%1' the same table as the master").arg(connection->name));
+        reject(connection, QStringLiteral("TooLong"),
+               QStringLiteral("the signal table is too long to be sent; give '%1' the same table as the master")
+                   .arg(connection->name));
 }
 
 void MasterServer::registerNode(MasterConnection *connection, const Message &message)
 {
     if (connection->isNode()) {
-        reject(connection, QStringLiteral("WrongState"), QStringLiteral("node '%1' registers twice").arg(connection->name));
+        reject(connection, QStringLiteral("WrongState"),
+               QStringLiteral("node '%1' registers twice").arg(connection->name));
         return;
     }
     NodeDeclaration declaration;
@@ -202,9 +221,11 @@ void MasterServer::registerNode(MasterConnection *connection, const Message &mes
     if (!NodeDeclaration::fromMessage(message, &declaration, &error))
         refusal = {QStringLiteral("MalformedMessage"), error};
     else if (!isUdp && connection->cyclicKind != QLatin1String("tcp"))
-        refusal = {QStringLiteral("MalformedMessage"), QStringLiteral("unknown cyclic channel '%1'; use tcp or udp").arg(connection->cyclicKind)};
+        refusal = {QStringLiteral("MalformedMessage"),
+                   QStringLiteral("unknown cyclic channel '%1'; use tcp or udp").arg(connection->cyclicKind)};
     else if (isUdp && (udpPort < 1 || udpPort > 65535))
-        refusal = {QStringLiteral("MalformedMessage"), QStringLiteral("UDP port %1 is out of 1 ... 65535").arg(udpPort)};
+        refusal
+            = {QStringLiteral("MalformedMessage"), QStringLiteral("UDP port %1 is out of 1 ... 65535").arg(udpPort)};
     else {
         replace(connection, declaration.name);
         connection->slot = m_registry.admit(declaration, &refusal);
@@ -218,11 +239,12 @@ void MasterServer::registerNode(MasterConnection *connection, const Message &mes
     connection->slot->prepare(m_image, m_session);
     connection->token = QRandomGenerator::system()->generate64();
     connection->stage = MasterConnection::Attaching;
-    connection->send(Message::Registered, {{QStringLiteral("node"), connection->slot->id},
-                                           {QStringLiteral("inputsHash"), Message::fromHex64(connection->slot->inputLayout.hash())},
-                                           {QStringLiteral("outputsHash"), Message::fromHex64(connection->slot->outputLayout.hash())},
-                                           {QStringLiteral("state"), m_hello().value(QStringLiteral("state"))},
-                                           {QStringLiteral("token"), Message::fromHex64(connection->token)}});
+    connection->send(Message::Registered,
+                     {{QStringLiteral("node"), connection->slot->id},
+                      {QStringLiteral("inputsHash"), Message::fromHex64(connection->slot->inputLayout.hash())},
+                      {QStringLiteral("outputsHash"), Message::fromHex64(connection->slot->outputLayout.hash())},
+                      {QStringLiteral("state"), m_hello().value(QStringLiteral("state"))},
+                      {QStringLiteral("token"), Message::fromHex64(connection->token)}});
     if (!isUdp)
         return;
     connection->slot->peer = HubPeer::udp(SocketAddress(connection->socket->peerAddress(), quint16(udpPort)));
@@ -250,7 +272,8 @@ void MasterServer::attachCyclicChannel(MasterConnection *connection, const Messa
     };
     const auto found = std::find_if(m_connections.begin(), m_connections.end(), isNode);
     if (connection->stage != MasterConnection::Silent || found == m_connections.end()) {
-        reject(connection, QStringLiteral("WrongState"), QStringLiteral("no node %1 with this token waits for its cyclic connection").arg(id));
+        reject(connection, QStringLiteral("WrongState"),
+               QStringLiteral("no node %1 with this token waits for its cyclic connection").arg(id));
         return;
     }
     MasterConnection *node = found->get();

@@ -22,7 +22,8 @@ class MasterServer : public QObject
     Q_OBJECT
 public:
     /// \param master  what greetings need to know of the master: fields of its Hello
-    MasterServer(NodeRegistry &registry, const ProcessImage &image, CyclicHub &hub, quint64 session, std::function<QJsonObject()> hello, QObject *parent);
+    MasterServer(NodeRegistry &registry, const ProcessImage &image, CyclicHub &hub, quint64 session,
+                 std::function<QJsonObject()> hello, QObject *parent);
     ~MasterServer() override;
 
     /// \return false, with the reason in errorString()

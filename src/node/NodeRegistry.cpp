@@ -20,7 +20,8 @@ bool readSignals(const QJsonValue &json, QVector<NodeDeclaration::Signal> *decla
     const QJsonArray array = json.toArray();
     for (const QJsonValue &element : array) {
         const QJsonObject object = element.toObject();
-        const NodeDeclaration::Signal read{object.value(QStringLiteral("name")).toString(), object.value(QStringLiteral("type")).toString(),
+        const NodeDeclaration::Signal read{object.value(QStringLiteral("name")).toString(),
+                                           object.value(QStringLiteral("type")).toString(),
                                            object.value(QStringLiteral("unit")).toString()};
         if (read.name.isEmpty() || read.type.isEmpty())
             return false;
@@ -44,7 +45,8 @@ bool NodeDeclaration::fromMessage(const QPlcMessage &message, NodeDeclaration *d
     const QJsonObject fields = message.fields();
     bool knownPolicy = false;
     const QByteArray policyName = message.text(QStringLiteral("policy")).toLatin1();
-    const int policy = QMetaEnum::fromType<QPlcSlaveNode::RealTimeViolationPolicy>().keyToValue(policyName.constData(), &knownPolicy);
+    const int policy = QMetaEnum::fromType<QPlcSlaveNode::RealTimeViolationPolicy>().keyToValue(policyName.constData(),
+                                                                                                &knownPolicy);
     declaration->name = message.text(QStringLiteral("name"));
     declaration->listener = fields.value(QStringLiteral("listener")).toBool();
     if (declaration->name.isEmpty() || declaration->name.size() > 64)
@@ -53,7 +55,8 @@ bool NodeDeclaration::fromMessage(const QPlcMessage &message, NodeDeclaration *d
         *error = QStringLiteral("the name '%1' has control characters").arg(printable(declaration->name));
     else if (!knownPolicy)
         *error = QStringLiteral("unknown policy '%1'").arg(QString::fromLatin1(policyName));
-    else if (!readSignals(fields.value(QStringLiteral("inputs")), &declaration->inputs) || !readSignals(fields.value(QStringLiteral("outputs")), &declaration->outputs))
+    else if (!readSignals(fields.value(QStringLiteral("inputs")), &declaration->inputs)
+             || !readSignals(fields.value(QStringLiteral("outputs")), &declaration->outputs))
         *error = QStringLiteral("'inputs' and 'outputs' are lists of {name, type, unit}");
     declaration->policy = QPlcSlaveNode::RealTimeViolationPolicy(policy);
     return error->isEmpty();
@@ -76,28 +79,35 @@ NodeRegistry::NodeRegistry(const QPlcSignalTable &table)
 {
 }
 
-bool NodeRegistry::resolve(const QString &node, const QVector<NodeDeclaration::Signal> &declared, QVector<QPlcSignalIndex> *indices, Refusal *refusal) const
+bool NodeRegistry::resolve(const QString &node, const QVector<NodeDeclaration::Signal> &declared,
+                           QVector<QPlcSignalIndex> *indices, Refusal *refusal) const
 {
     QSet<QPlcSignalIndex> seen;
     for (const NodeDeclaration::Signal &signal : declared) {
         const QPlcSignalIndex index = m_table.indexOf(signal.name);
         if (index == QPlcInvalidSignalIndex) {
-            *refusal = {QStringLiteral("UnknownSignal"), QStringLiteral("node '%1': %2").arg(node, m_table.unknownSignalText(signal.name))};
+            *refusal = {QStringLiteral("UnknownSignal"),
+                        QStringLiteral("node '%1': %2").arg(node, m_table.unknownSignalText(signal.name))};
             return false;
         }
         const QPlcSignalDefinition &definition = m_table.at(index);
         if (definition.type.name() != signal.type) {
-            *refusal = {QStringLiteral("TypeMismatch"), QStringLiteral("signal '%1' is %2 in the table of the master, %3 in that of node '%4'; use the same table")
-                                                            .arg(signal.name, definition.type.name(), signal.type, node)};
+            *refusal = {QStringLiteral("TypeMismatch"),
+                        QStringLiteral(
+                            "signal '%1' is %2 in the table of the master, %3 in that of node '%4'; use the same table")
+                            .arg(signal.name, definition.type.name(), signal.type, node)};
             return false;
         }
         if (definition.unit != signal.unit) {
-            *refusal = {QStringLiteral("UnitMismatch"), QStringLiteral("signal '%1' is in '%2' in the table of the master, in '%3' in that of node '%4'; use the same table")
-                                                            .arg(signal.name, definition.unit, signal.unit, node)};
+            *refusal = {QStringLiteral("UnitMismatch"),
+                        QStringLiteral("signal '%1' is in '%2' in the table of the master, in '%3' in that of node "
+                                       "'%4'; use the same table")
+                            .arg(signal.name, definition.unit, signal.unit, node)};
             return false;
         }
         if (seen.contains(index)) {
-            *refusal = {QStringLiteral("MalformedMessage"), QStringLiteral("node '%1' declares signal '%2' twice; declare it once").arg(node, signal.name)};
+            *refusal = {QStringLiteral("MalformedMessage"),
+                        QStringLiteral("node '%1' declares signal '%2' twice; declare it once").arg(node, signal.name)};
             return false;
         }
         seen.insert(index);
@@ -110,21 +120,30 @@ std::shared_ptr<NodeSlot> NodeRegistry::admit(const NodeDeclaration &declaration
 {
     const auto sameName = [&](const std::shared_ptr<NodeSlot> &slot) { return slot->name == declaration.name; };
     if (declaration.name == masterName() || std::any_of(m_nodes.begin(), m_nodes.end(), sameName)) {
-        *refusal = {QStringLiteral("NameInUse"), QStringLiteral("there is a node '%1' already; give this one another name, or stop the other one").arg(declaration.name)};
+        *refusal = {QStringLiteral("NameInUse"),
+                    QStringLiteral("there is a node '%1' already; give this one another name, or stop the other one")
+                        .arg(declaration.name)};
         return nullptr;
     }
     if (m_nodes.size() >= MaximumNodes) {
-        *refusal = {QStringLiteral("TooManyNodes"), QStringLiteral("node '%1' would be number %2; a master serves at most %3").arg(declaration.name).arg(m_nodes.size() + 1).arg(MaximumNodes)};
+        *refusal = {QStringLiteral("TooManyNodes"),
+                    QStringLiteral("node '%1' would be number %2; a master serves at most %3")
+                        .arg(declaration.name)
+                        .arg(m_nodes.size() + 1)
+                        .arg(MaximumNodes)};
         return nullptr;
     }
     QVector<QPlcSignalIndex> inputs;
     QVector<QPlcSignalIndex> outputs;
-    if (!resolve(declaration.name, declaration.inputs, &inputs, refusal) || !resolve(declaration.name, declaration.outputs, &outputs, refusal))
+    if (!resolve(declaration.name, declaration.inputs, &inputs, refusal)
+        || !resolve(declaration.name, declaration.outputs, &outputs, refusal))
         return nullptr;
     for (QPlcSignalIndex output : outputs) {
         if (!m_writers.at(output).isEmpty()) {
-            *refusal = {QStringLiteral("SignalHasWriter"), QStringLiteral("signal '%1' cannot be written by node '%2': node '%3' writes it; a signal has one writer")
-                                                               .arg(m_table.at(output).name, declaration.name, m_writers.at(output))};
+            *refusal = {QStringLiteral("SignalHasWriter"),
+                        QStringLiteral(
+                            "signal '%1' cannot be written by node '%2': node '%3' writes it; a signal has one writer")
+                            .arg(m_table.at(output).name, declaration.name, m_writers.at(output))};
             return nullptr;
         }
     }
@@ -151,7 +170,8 @@ quint16 NodeRegistry::freeId() const
 
 std::shared_ptr<NodeSlot> NodeRegistry::find(quint16 id) const
 {
-    const auto found = std::find_if(m_nodes.begin(), m_nodes.end(), [id](const std::shared_ptr<NodeSlot> &slot) { return slot->id == id; });
+    const auto found = std::find_if(m_nodes.begin(), m_nodes.end(),
+                                    [id](const std::shared_ptr<NodeSlot> &slot) { return slot->id == id; });
     return found == m_nodes.end() ? nullptr : *found;
 }
 

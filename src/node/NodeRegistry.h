@@ -36,8 +36,9 @@ struct NodeDeclaration
 /// Why a node is not admitted.
 struct Refusal
 {
-    QString error;  ///< "UnknownSignal", "TypeMismatch", "UnitMismatch", "SignalHasWriter", "NameInUse", "TooManyNodes", "MalformedMessage", "WrongState"
-    QString text;   ///< a sentence with names and remedy
+    QString
+        error;  ///< "UnknownSignal", "TypeMismatch", "UnitMismatch", "SignalHasWriter", "NameInUse", "TooManyNodes", "MalformedMessage", "WrongState"
+    QString text;  ///< a sentence with names and remedy
 };
 
 /// Who is there, and who writes which signal: one writer for each.
@@ -64,7 +65,8 @@ public:
 
 private:
     /// Indices of the declared signals. \return false with the refusal of the first that does not fit
-    bool resolve(const QString &node, const QVector<NodeDeclaration::Signal> &declared, QVector<QPlcSignalIndex> *indices, Refusal *refusal) const;
+    bool resolve(const QString &node, const QVector<NodeDeclaration::Signal> &declared,
+                 QVector<QPlcSignalIndex> *indices, Refusal *refusal) const;
     quint16 freeId() const;
 
     const QPlcSignalTable m_table;

@@ -32,7 +32,8 @@ bool guarded(const char *function, QString *error, Code code)
         code();
         return true;
     } catch (...) {
-        *error = QStringLiteral("%1 threw: %2").arg(QLatin1String(function), describeException(std::current_exception()));
+        *error
+            = QStringLiteral("%1 threw: %2").arg(QLatin1String(function), describeException(std::current_exception()));
         return false;
     }
 }
@@ -64,7 +65,9 @@ bool NodeRuntime::bind(const QPlcSignalTable &table, QString *error)
     QString text;
     m_table = table;
     bool bound = false;
-    if (!guarded("the declaration of signals", &text, [&] { bound = m_node.bindPorts(table, &inputs, &outputs, &text); }) || !bound)
+    if (!guarded("the declaration of signals", &text,
+                 [&] { bound = m_node.bindPorts(table, &inputs, &outputs, &text); })
+        || !bound)
         errors << text;
     else
         bindWorkloadSignal(&outputs, &errors);
@@ -98,7 +101,8 @@ void NodeRuntime::bindWorkloadSignal(QVector<QPlcSignalIndex> *outputs, QStringL
     }
     const QPlcSignalType type = m_table.at(index).type;
     if (!type.isReal() || type.isArray())
-        *errors << QStringLiteral("workload signal '%1' is %2; give it the type Real").arg(m_workloadSignal, type.name());
+        *errors
+            << QStringLiteral("workload signal '%1' is %2; give it the type Real").arg(m_workloadSignal, type.name());
     else if (!outputs->contains(index))
         outputs->append(index);
 }
@@ -182,8 +186,9 @@ void NodeRuntime::fromList(const QPlcSignalList &list, const PayloadLayout &layo
             continue;
         const QPlcValue converted = value.convertedTo(field.type);
         if (!converted.isValid()) {
-            const QString text = QStringLiteral("the value %1 (%2) does not fit signal '%3' of type %4")
-                                     .arg(value.toString(), value.type().name(), m_table.at(field.signal).name, field.type.name());
+            const QString text
+                = QStringLiteral("the value %1 (%2) does not fit signal '%3' of type %4")
+                      .arg(value.toString(), value.type().name(), m_table.at(field.signal).name, field.type.name());
             throw std::runtime_error(text.toStdString());
         }
         converted.toBytes(frame + field.offset);
@@ -192,8 +197,11 @@ void NodeRuntime::fromList(const QPlcSignalList &list, const PayloadLayout &layo
     if (used == list.size())
         return;
     for (const QPlcSignalList::Entry &entry : list) {
-        if (std::none_of(layout.fields().begin(), layout.fields().end(), [&](const PayloadLayout::Field &field) { return field.signal == entry.index; }))
-            throw std::runtime_error(QStringLiteral("signal '%1' is not declared as an output").arg(m_table.at(entry.index).name).toStdString());
+        if (std::none_of(layout.fields().begin(), layout.fields().end(),
+                         [&](const PayloadLayout::Field &field) { return field.signal == entry.index; }))
+            throw std::runtime_error(QStringLiteral("signal '%1' is not declared as an output")
+                                         .arg(m_table.at(entry.index).name)
+                                         .toStdString());
     }
 }
 

@@ -60,8 +60,8 @@ private:
     QPlcSignalTable m_table;
     PayloadLayout m_inputLayout;
     PayloadLayout m_outputLayout;
-    std::vector<char> m_outputs;      // given away
-    std::vector<char> m_scratch;      // being computed
+    std::vector<char> m_outputs;  // given away
+    std::vector<char> m_scratch;  // being computed
     QString m_workloadSignal;
     const PayloadLayout::Field *m_workload = nullptr;
     bool m_lockstep = false;

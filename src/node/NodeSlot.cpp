@@ -31,8 +31,10 @@ void NodeSlot::prepare(const ProcessImage &image, quint64 session)
     inputRuns = image.gatherRuns(inputLayout);
     outputRuns = image.scatterRuns(outputLayout);
     inputs.assign(inputLayout.size(), 0);
-    encoder = FrameEncoder(FrameKind::Inputs, {session, id, inputLayout.hash()}, inputLayout.partBorders(MaximumCyclicPayload));
-    decoder = FrameDecoder(FrameKind::Outputs, {session, id, outputLayout.hash()}, outputLayout.partBorders(MaximumCyclicPayload));
+    encoder = FrameEncoder(FrameKind::Inputs, {session, id, inputLayout.hash()},
+                           inputLayout.partBorders(MaximumCyclicPayload));
+    decoder = FrameDecoder(FrameKind::Outputs, {session, id, outputLayout.hash()},
+                           outputLayout.partBorders(MaximumCyclicPayload));
     frames.assign(encoder.totalSize(), 0);
 }
 
@@ -40,9 +42,9 @@ const PayloadLayout::Field *NodeSlot::firstNotFinite(const char *outputs) const 
 {
     for (const PayloadLayout::Field &field : outputLayout.fields()) {
         const char *bytes = outputs + field.offset;
-        const bool finite = field.type.scalar() == QPlcSignalType::Real32   ? allFinite<float>(bytes, field.type.count())
-                            : field.type.scalar() == QPlcSignalType::Real64 ? allFinite<double>(bytes, field.type.count())
-                                                                            : true;
+        const bool finite = field.type.scalar() == QPlcSignalType::Real32 ? allFinite<float>(bytes, field.type.count())
+            : field.type.scalar() == QPlcSignalType::Real64               ? allFinite<double>(bytes, field.type.count())
+                                                                          : true;
         if (!finite)
             return &field;
     }

@@ -23,28 +23,28 @@ struct NodeSlot
     quint16 id = 0;
     QPlcSlaveNode::RealTimeViolationPolicy policy = QPlcSlaveNode::ErrorZeroOrderHold;
     bool listener = false;
-    NodeRuntime *local = nullptr;              // a node of this process; else over the network
-    std::unique_ptr<HubPeer> peer;             // null for a local node
+    NodeRuntime *local = nullptr;   // a node of this process; else over the network
+    std::unique_ptr<HubPeer> peer;  // null for a local node
     PayloadLayout inputLayout;
     PayloadLayout outputLayout;
-    std::vector<CopyRun> inputRuns;            // image -> inputs
-    std::vector<CopyRun> outputRuns;           // outputs -> image
-    std::vector<char> initialOutputs;          // pasted into the image when a node joins while others run
+    std::vector<CopyRun> inputRuns;    // image -> inputs
+    std::vector<CopyRun> outputRuns;   // outputs -> image
+    std::vector<char> initialOutputs;  // pasted into the image when a node joins while others run
 
     // ---- cycle thread ----
     FrameEncoder encoder;
     FrameDecoder decoder;
-    std::vector<char> inputs;                  // payload of this cycle
-    std::vector<char> frames;                  // encoded parts, one behind the other
+    std::vector<char> inputs;  // payload of this cycle
+    std::vector<char> frames;  // encoded parts, one behind the other
     FrameHeader request;
-    std::size_t partsSent = 0;                 // of the request: a stream takes what the kernel has room for
+    std::size_t partsSent = 0;  // of the request: a stream takes what the kernel has room for
     std::size_t bytesSent = 0;
-    bool answered = false;                     // in this cycle
-    bool computed = false;                     // local: the step of this cycle gave outputs
+    bool answered = false;  // in this cycle
+    bool computed = false;  // local: the step of this cycle gave outputs
     bool faulted = false;
 
     // ---- both ----
-    std::atomic<bool> lost{false};             // its connection is gone: not to be waited for
+    std::atomic<bool> lost{false};  // its connection is gone: not to be waited for
     std::atomic<quint64> lateAnswers{0};
     std::atomic<quint64> duplicates{0};
     std::atomic<quint64> rejected{0};

@@ -22,11 +22,16 @@ namespace {
 QPlcAbstractSocket::Error errorOf(QAbstractSocket::SocketError error)
 {
     switch (error) {
-    case QAbstractSocket::HostNotFoundError: return QPlcAbstractSocket::HostNotFoundError;
-    case QAbstractSocket::ConnectionRefusedError: return QPlcAbstractSocket::ConnectionRefusedError;
-    case QAbstractSocket::SocketTimeoutError: return QPlcAbstractSocket::TimeoutError;
-    case QAbstractSocket::RemoteHostClosedError: return QPlcAbstractSocket::ConnectionLostError;
-    default: return QPlcAbstractSocket::NetworkError;
+    case QAbstractSocket::HostNotFoundError:
+        return QPlcAbstractSocket::HostNotFoundError;
+    case QAbstractSocket::ConnectionRefusedError:
+        return QPlcAbstractSocket::ConnectionRefusedError;
+    case QAbstractSocket::SocketTimeoutError:
+        return QPlcAbstractSocket::TimeoutError;
+    case QAbstractSocket::RemoteHostClosedError:
+        return QPlcAbstractSocket::ConnectionLostError;
+    default:
+        return QPlcAbstractSocket::NetworkError;
     }
 }
 
@@ -71,7 +76,8 @@ bool QPlcAbstractSocket::sendMessage(const QPlcMessage &message)
         return false;
     const QByteArray frame = qplc::encodeControlFrame(message);
     if (frame.isEmpty()) {
-        qCWarning(lcControl).noquote() << message.kindName() << "for" << peerName() << "is too long or too deep to be sent";
+        qCWarning(lcControl).noquote() << message.kindName() << "for" << peerName()
+                                       << "is too long or too deep to be sent";
         return false;
     }
     qCDebug(lcControl).noquote() << "to" << peerName() << message.kindName() << frame.toHex(' ');

@@ -40,7 +40,8 @@ void QPlcCompactSignal::store(char *bytes) const
     }
     const QPlcValue converted = m_value.convertedTo(m_type);
     if (!converted.isValid()) {
-        const QString text = QStringLiteral("the value %1 (%2) does not fit signal '%3' of type %4").arg(m_value.toString(), m_value.type().name(), name(), m_type.name());
+        const QString text = QStringLiteral("the value %1 (%2) does not fit signal '%3' of type %4")
+                                 .arg(m_value.toString(), m_value.type().name(), name(), m_type.name());
         throw std::runtime_error(text.toStdString());
     }
     converted.toBytes(bytes);

@@ -10,7 +10,8 @@ QPlcCompactSlaveNode::QPlcCompactSlaveNode(const QString &name, RealTimeViolatio
 
 QPlcCompactSlaveNode::~QPlcCompactSlaveNode() = default;
 
-bool QPlcCompactSlaveNode::bindPorts(const QPlcSignalTable &table, QVector<QPlcSignalIndex> *inputs, QVector<QPlcSignalIndex> *outputs, QString *error)
+bool QPlcCompactSlaveNode::bindPorts(const QPlcSignalTable &table, QVector<QPlcSignalIndex> *inputs,
+                                     QVector<QPlcSignalIndex> *outputs, QString *error)
 {
     QStringList errors;
     for (const QPlcPort *port : m_ports) {
@@ -19,7 +20,9 @@ bool QPlcCompactSlaveNode::bindPorts(const QPlcSignalTable &table, QVector<QPlcS
             errors << table.unknownSignalText(port->name());
         else if (!port->accepts(table.at(index).type))
             errors << QStringLiteral("signal '%1' is %2 in the table, but the node %3 it as %4")
-                          .arg(port->name(), table.at(index).type.name(), port->isInput() ? QStringLiteral("reads") : QStringLiteral("writes"), port->variableType());
+                          .arg(port->name(), table.at(index).type.name(),
+                               port->isInput() ? QStringLiteral("reads") : QStringLiteral("writes"),
+                               port->variableType());
         else
             (port->isInput() ? inputs : outputs)->append(index);
     }

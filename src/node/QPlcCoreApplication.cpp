@@ -36,7 +36,8 @@ QStringList withNumbersHidden(const QStringList &arguments)
 {
     QStringList result;
     for (const QString &argument : arguments) {
-        const bool isNumber = argument.size() > 1 && argument.at(0) == QLatin1Char('-') && (argument.at(1).isDigit() || argument.at(1) == QLatin1Char('.'));
+        const bool isNumber = argument.size() > 1 && argument.at(0) == QLatin1Char('-')
+            && (argument.at(1).isDigit() || argument.at(1) == QLatin1Char('.'));
         result << (isNumber ? QLatin1Char(' ') + argument : argument);
     }
     return result;
@@ -76,7 +77,8 @@ QPlcCoreApplication::QPlcCoreApplication(int &argc, char **argv)
     std::setlocale(LC_NUMERIC, "C");
     if (!qEnvironmentVariableIsSet("QT_MESSAGE_PATTERN"))
         qSetMessagePattern(QStringLiteral("%{appname}: %{if-debug}%{category}: %{endif}%{message}"));
-    d->parser.addOption(QCommandLineOption({QStringLiteral("h"), QStringLiteral("help")}, QStringLiteral("Shows this help.")));
+    d->parser.addOption(
+        QCommandLineOption({QStringLiteral("h"), QStringLiteral("help")}, QStringLiteral("Shows this help.")));
     d->parser.addOption(QCommandLineOption(QStringLiteral("version"), QStringLiteral("Shows the version.")));
 }
 
@@ -92,11 +94,20 @@ QPlcCoreApplication::~QPlcCoreApplication()
     ::close(d->sockets[1]);
 }
 
-void QPlcCoreApplication::setDescription(const QString &text) { d->parser.setApplicationDescription(text); }
+void QPlcCoreApplication::setDescription(const QString &text)
+{
+    d->parser.setApplicationDescription(text);
+}
 
-void QPlcCoreApplication::setExamples(const QStringList &commands) { d->examples = commands; }
+void QPlcCoreApplication::setExamples(const QStringList &commands)
+{
+    d->examples = commands;
+}
 
-void QPlcCoreApplication::addOption(const QCommandLineOption &option) { d->parser.addOption(option); }
+void QPlcCoreApplication::addOption(const QCommandLineOption &option)
+{
+    d->parser.addOption(option);
+}
 
 void QPlcCoreApplication::addPositionalArgument(const QString &name, const QString &description, const QString &syntax)
 {
@@ -122,21 +133,37 @@ bool QPlcCoreApplication::parseOptions()
         return false;
     }
     if (!d->takesArguments && !positionalArguments().isEmpty()) {
-        d->exitCode = usageError(QStringLiteral("unexpected argument '%1'; options begin with --, see --help").arg(positionalArguments().constFirst()));
+        d->exitCode = usageError(QStringLiteral("unexpected argument '%1'; options begin with --, see --help")
+                                     .arg(positionalArguments().constFirst()));
         return false;
     }
     return true;
 }
 
-int QPlcCoreApplication::exitCode() const { return d->exitCode; }
+int QPlcCoreApplication::exitCode() const
+{
+    return d->exitCode;
+}
 
-bool QPlcCoreApplication::isSet(const QString &option) const { return d->parser.isSet(option); }
+bool QPlcCoreApplication::isSet(const QString &option) const
+{
+    return d->parser.isSet(option);
+}
 
-QString QPlcCoreApplication::value(const QString &option) const { return revealed(d->parser.value(option)); }
+QString QPlcCoreApplication::value(const QString &option) const
+{
+    return revealed(d->parser.value(option));
+}
 
-QStringList QPlcCoreApplication::values(const QString &option) const { return revealed(d->parser.values(option)); }
+QStringList QPlcCoreApplication::values(const QString &option) const
+{
+    return revealed(d->parser.values(option));
+}
 
-QStringList QPlcCoreApplication::positionalArguments() const { return revealed(d->parser.positionalArguments()); }
+QStringList QPlcCoreApplication::positionalArguments() const
+{
+    return revealed(d->parser.positionalArguments());
+}
 
 bool QPlcCoreApplication::number(const QString &option, double minimum, double maximum, double *result)
 {
@@ -146,7 +173,8 @@ bool QPlcCoreApplication::number(const QString &option, double minimum, double m
         *result = read;
         return true;
     }
-    d->exitCode = usageError(QStringLiteral("--%1 %2: use a number of %3 ... %4").arg(option, value(option)).arg(minimum).arg(maximum));
+    d->exitCode = usageError(
+        QStringLiteral("--%1 %2: use a number of %3 ... %4").arg(option, value(option)).arg(minimum).arg(maximum));
     return false;
 }
 
@@ -158,15 +186,23 @@ bool QPlcCoreApplication::integer(const QString &option, qint64 minimum, qint64 
         *result = read;
         return true;
     }
-    d->exitCode = usageError(QStringLiteral("--%1 %2: use a whole number of %3 ... %4").arg(option, value(option)).arg(minimum).arg(maximum));
+    d->exitCode = usageError(QStringLiteral("--%1 %2: use a whole number of %3 ... %4")
+                                 .arg(option, value(option))
+                                 .arg(minimum)
+                                 .arg(maximum));
     return false;
 }
 
 void QPlcCoreApplication::addRealTimeOptions()
 {
-    addOption(QCommandLineOption(QStringLiteral("priority"), QStringLiteral("Runs the cycle under SCHED_FIFO with this priority, 1 ... 99. Else as chrt says."), QStringLiteral("PRIORITY")));
-    addOption(QCommandLineOption(QStringLiteral("cpu"), QStringLiteral("The only processor that the cycle may use."), QStringLiteral("NUMBER")));
-    addOption(QCommandLineOption(QStringLiteral("lock-memory"), QStringLiteral("Keeps all memory of the program in RAM.")));
+    addOption(QCommandLineOption(
+        QStringLiteral("priority"),
+        QStringLiteral("Runs the cycle under SCHED_FIFO with this priority, 1 ... 99. Else as chrt says."),
+        QStringLiteral("PRIORITY")));
+    addOption(QCommandLineOption(QStringLiteral("cpu"), QStringLiteral("The only processor that the cycle may use."),
+                                 QStringLiteral("NUMBER")));
+    addOption(
+        QCommandLineOption(QStringLiteral("lock-memory"), QStringLiteral("Keeps all memory of the program in RAM.")));
 }
 
 bool QPlcCoreApplication::readRealTimeOptions(QPlcRealTimeOptions *options)

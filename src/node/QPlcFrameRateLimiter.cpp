@@ -16,7 +16,10 @@ void QPlcFrameRateLimiter::setFrameRateLimit(double framesPerSecond)
     m_timer.start(qRound(1000.0 / m_framesPerSecond));
 }
 
-double QPlcFrameRateLimiter::frameRateLimit() const { return m_framesPerSecond; }
+double QPlcFrameRateLimiter::frameRateLimit() const
+{
+    return m_framesPerSecond;
+}
 
 void QPlcFrameRateLimiter::takeBatch()
 {

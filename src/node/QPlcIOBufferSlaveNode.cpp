@@ -56,7 +56,10 @@ QList<QPlcSignalList> QPlcIOBufferSlaveNode::takeInputSignals(QVector<quint64> *
     return batch;
 }
 
-quint64 QPlcIOBufferSlaveNode::lostCycles() const { return m_buffer->lost.load(std::memory_order_relaxed); }
+quint64 QPlcIOBufferSlaveNode::lostCycles() const
+{
+    return m_buffer->lost.load(std::memory_order_relaxed);
+}
 
 void QPlcIOBufferSlaveNode::attachPorts(const qplc::PayloadLayout &inputs, const qplc::PayloadLayout &outputs)
 {

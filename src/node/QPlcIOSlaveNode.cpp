@@ -16,16 +16,16 @@ struct QPlcIOSlaveNode::Private
 {
     QPlcSignalIndexList inputIndices;
     QPlcSignalIndexList outputIndices;
-    QPlcSignalList wanted;                     // newest value of every output that was ever set
+    QPlcSignalList wanted;  // newest value of every output that was ever set
 
     // made at registration
-    mutable std::mutex layoutMutex;            // not for the cycle thread: layouts change only while no cycle runs
+    mutable std::mutex layoutMutex;  // not for the cycle thread: layouts change only while no cycle runs
     qplc::PayloadLayout inputLayout;
     qplc::PayloadLayout outputLayout;
-    std::vector<char> outputs;                 // payload of `wanted`
+    std::vector<char> outputs;                        // payload of `wanted`
     std::unique_ptr<qplc::ByteRing> newOutputs;       // owner -> cycle thread
     std::unique_ptr<qplc::SnapshotBuffer> newInputs;  // cycle thread -> anyone
-    bool mustPass = false;                     // `outputs` found the ring full
+    bool mustPass = false;                            // `outputs` found the ring full
 };
 
 QPlcIOSlaveNode::QPlcIOSlaveNode(const QString &name, RealTimeViolationPolicy policy, QObject *parent)
@@ -39,9 +39,15 @@ QPlcIOSlaveNode::~QPlcIOSlaveNode()
     disconnectFromMaster();
 }
 
-QPlcSignalIndexList QPlcIOSlaveNode::inputSignalIndices() const { return d->inputIndices; }
+QPlcSignalIndexList QPlcIOSlaveNode::inputSignalIndices() const
+{
+    return d->inputIndices;
+}
 
-QPlcSignalIndexList QPlcIOSlaveNode::outputSignalIndices() const { return d->outputIndices; }
+QPlcSignalIndexList QPlcIOSlaveNode::outputSignalIndices() const
+{
+    return d->outputIndices;
+}
 
 QPlcSignalList QPlcIOSlaveNode::inputSignals() const
 {
@@ -74,7 +80,9 @@ void QPlcIOSlaveNode::registerAgain()
     if (masterProtocol().isValid())
         connectToMaster(masterProtocol());
     else
-        qCWarning(lcSlave) << "node" << name() << "lives in the process of its master: remove it there, and add it again to register its signals";
+        qCWarning(lcSlave)
+            << "node" << name()
+            << "lives in the process of its master: remove it there, and add it again to register its signals";
 }
 
 void QPlcIOSlaveNode::setInitialOutputSignals(const QPlcSignalList &signalList)
@@ -88,7 +96,8 @@ void QPlcIOSlaveNode::setOutputSignals(const QPlcSignalList &signalList)
         if (d->outputIndices.contains(entry.index))
             d->wanted.insert(entry.index, entry.value);
         else
-            qCWarning(lcSlave) << "node" << name() << "does not write the signal with the index" << entry.index << "- declare it by setOutputSignalIndices()";
+            qCWarning(lcSlave) << "node" << name() << "does not write the signal with the index" << entry.index
+                               << "- declare it by setOutputSignalIndices()";
     }
     for (const qplc::PayloadLayout::Field &field : d->outputLayout.fields()) {
         const QPlcValue wanted = d->wanted.value(field.signal);
@@ -96,7 +105,8 @@ void QPlcIOSlaveNode::setOutputSignals(const QPlcSignalList &signalList)
         if (value.isValid())
             value.toBytes(d->outputs.data() + field.offset);
         else if (wanted.isValid())
-            qCWarning(lcSlave).noquote() << "node" << name() << "- the value" << wanted.toString() << "does not fit its signal of type" << field.type.name() << "and is not set";
+            qCWarning(lcSlave).noquote() << "node" << name() << "- the value" << wanted.toString()
+                                         << "does not fit its signal of type" << field.type.name() << "and is not set";
     }
     passOutputs();
 }
@@ -119,14 +129,26 @@ void QPlcIOSlaveNode::passOutputs()
     }
 }
 
-QPlcSignalIndexList QPlcIOSlaveNode::declareInputSignals() { return d->inputIndices; }
+QPlcSignalIndexList QPlcIOSlaveNode::declareInputSignals()
+{
+    return d->inputIndices;
+}
 
-QPlcSignalIndexList QPlcIOSlaveNode::declareOutputSignals() { return d->outputIndices; }
+QPlcSignalIndexList QPlcIOSlaveNode::declareOutputSignals()
+{
+    return d->outputIndices;
+}
 
 // Frames take the place of lists: these are never called.
-QPlcSignalList QPlcIOSlaveNode::realTimeout(const QPlcSignalList &) { return {}; }
+QPlcSignalList QPlcIOSlaveNode::realTimeout(const QPlcSignalList &)
+{
+    return {};
+}
 
-QPlcSignalList QPlcIOSlaveNode::initialOutputSignals() { return {}; }
+QPlcSignalList QPlcIOSlaveNode::initialOutputSignals()
+{
+    return {};
+}
 
 void QPlcIOSlaveNode::attachPorts(const qplc::PayloadLayout &inputs, const qplc::PayloadLayout &outputs)
 {

@@ -8,9 +8,15 @@ using namespace std::chrono_literals;
 
 namespace {
 
-bool isSingleReal(QPlcSignalType type) { return type.isReal() && !type.isArray(); }
+bool isSingleReal(QPlcSignalType type)
+{
+    return type.isReal() && !type.isArray();
+}
 
-bool isDateTime(QPlcSignalType type) { return type.isDateTime(); }
+bool isDateTime(QPlcSignalType type)
+{
+    return type.isDateTime();
+}
 
 }  // namespace
 
@@ -32,46 +38,82 @@ QPlcMasterNode::~QPlcMasterNode()
 bool QPlcMasterNode::setSignalTable(const QPlcSignalTable &table)
 {
     if (d->registry)
-        return d->setError(StateError, QStringLiteral("the signal table can only be set before signals, nodes and servers"));
+        return d->setError(StateError,
+                           QStringLiteral("the signal table can only be set before signals, nodes and servers"));
     d->table = table;
     return true;
 }
 
-QPlcSignalTable QPlcMasterNode::signalTable() const { return d->table; }
+QPlcSignalTable QPlcMasterNode::signalTable() const
+{
+    return d->table;
+}
 
-bool QPlcMasterNode::setTimeSignal(const QString &signalName) { return d->claimSignal(signalName, &d->timeSignal, &isDateTime, QStringLiteral("DateTime")); }
+bool QPlcMasterNode::setTimeSignal(const QString &signalName)
+{
+    return d->claimSignal(signalName, &d->timeSignal, &isDateTime, QStringLiteral("DateTime"));
+}
 
-bool QPlcMasterNode::activateJitterMeasurement(const QString &signalName) { return d->claimSignal(signalName, &d->jitterSignal, &isSingleReal, QStringLiteral("Real")); }
+bool QPlcMasterNode::activateJitterMeasurement(const QString &signalName)
+{
+    return d->claimSignal(signalName, &d->jitterSignal, &isSingleReal, QStringLiteral("Real"));
+}
 
-bool QPlcMasterNode::activateWorkloadMeasurement(const QString &signalName) { return d->claimSignal(signalName, &d->workloadSignal, &isSingleReal, QStringLiteral("Real")); }
+bool QPlcMasterNode::activateWorkloadMeasurement(const QString &signalName)
+{
+    return d->claimSignal(signalName, &d->workloadSignal, &isSingleReal, QStringLiteral("Real"));
+}
 
 bool QPlcMasterNode::setInterval(std::chrono::nanoseconds period)
 {
     if (period < 100us || period > 10s)
-        return d->setError(IntervalError, QStringLiteral("a period of %1 s is out of range; use 0.0001 ... 10 s").arg(double(period.count()) * 1e-9));
+        return d->setError(
+            IntervalError,
+            QStringLiteral("a period of %1 s is out of range; use 0.0001 ... 10 s").arg(double(period.count()) * 1e-9));
     d->interval = period;
     return true;
 }
 
-std::chrono::nanoseconds QPlcMasterNode::interval() const { return d->interval; }
+std::chrono::nanoseconds QPlcMasterNode::interval() const
+{
+    return d->interval;
+}
 
 bool QPlcMasterNode::setClock(QPlcClock clock)
 {
     if (!clock.isValid())
-        return d->setError(IntervalError, QStringLiteral("a clock of %1 times real time is out of range; use 0.001 ... 1000, or lockstep").arg(clock.scale()));
+        return d->setError(
+            IntervalError,
+            QStringLiteral("a clock of %1 times real time is out of range; use 0.001 ... 1000, or lockstep")
+                .arg(clock.scale()));
     d->clock = clock;
     return true;
 }
 
-QPlcClock QPlcMasterNode::clock() const { return d->clock; }
+QPlcClock QPlcMasterNode::clock() const
+{
+    return d->clock;
+}
 
-void QPlcMasterNode::setRealTimeOptions(const QPlcRealTimeOptions &options) { d->realTimeOptions = options; }
+void QPlcMasterNode::setRealTimeOptions(const QPlcRealTimeOptions &options)
+{
+    d->realTimeOptions = options;
+}
 
-void QPlcMasterNode::setCycleLimit(quint64 cycles) { d->cycleLimit = cycles; }
+void QPlcMasterNode::setCycleLimit(quint64 cycles)
+{
+    d->cycleLimit = cycles;
+}
 
-void QPlcMasterNode::setInitializationTimeout(std::chrono::milliseconds time) { d->stepTimer.setInterval(time); }
+void QPlcMasterNode::setInitializationTimeout(std::chrono::milliseconds time)
+{
+    d->stepTimer.setInterval(time);
+}
 
-bool QPlcMasterNode::startServer(const QPlcUnderlyingProtocol &protocol) { return d->startServer(protocol); }
+bool QPlcMasterNode::startServer(const QPlcUnderlyingProtocol &protocol)
+{
+    return d->startServer(protocol);
+}
 
 void QPlcMasterNode::stopServer()
 {
@@ -81,9 +123,15 @@ void QPlcMasterNode::stopServer()
     d->server->close();
 }
 
-quint16 QPlcMasterNode::serverPort() const { return d->server ? d->server->port() : 0; }
+quint16 QPlcMasterNode::serverPort() const
+{
+    return d->server ? d->server->port() : 0;
+}
 
-void QPlcMasterNode::setInsecureNetworkAllowed(bool allowed) { d->insecureNetworkAllowed = allowed; }
+void QPlcMasterNode::setInsecureNetworkAllowed(bool allowed)
+{
+    d->insecureNetworkAllowed = allowed;
+}
 
 bool QPlcMasterNode::addLocalNode(QPlcSlaveNode *node)
 {
@@ -91,7 +139,10 @@ bool QPlcMasterNode::addLocalNode(QPlcSlaveNode *node)
     return d->addLocalNode(node);
 }
 
-void QPlcMasterNode::removeLocalNode(QPlcSlaveNode *node) { d->removeLocalNode(node); }
+void QPlcMasterNode::removeLocalNode(QPlcSlaveNode *node)
+{
+    d->removeLocalNode(node);
+}
 
 QVector<QPlcNodeInfo> QPlcMasterNode::nodes() const
 {
@@ -111,17 +162,35 @@ QString QPlcMasterNode::writer(const QString &signalName) const
     return d->registry && index != QPlcInvalidSignalIndex ? d->registry->writer(index) : QString();
 }
 
-QPlcMasterNode::State QPlcMasterNode::state() const { return d->state; }
+QPlcMasterNode::State QPlcMasterNode::state() const
+{
+    return d->state;
+}
 
-QPlcMasterNode::Error QPlcMasterNode::error() const { return d->error; }
+QPlcMasterNode::Error QPlcMasterNode::error() const
+{
+    return d->error;
+}
 
-QString QPlcMasterNode::errorString() const { return d->errorString; }
+QString QPlcMasterNode::errorString() const
+{
+    return d->errorString;
+}
 
-QPlcMasterStatistics QPlcMasterNode::statistics() const { return d->cycle ? d->cycle->statistics() : QPlcMasterStatistics(); }
+QPlcMasterStatistics QPlcMasterNode::statistics() const
+{
+    return d->cycle ? d->cycle->statistics() : QPlcMasterStatistics();
+}
 
-QVector<QPlcRealTimeSetting> QPlcMasterNode::realTimeSettings() const { return d->cycle ? d->cycle->realTimeSettings() : QVector<QPlcRealTimeSetting>(); }
+QVector<QPlcRealTimeSetting> QPlcMasterNode::realTimeSettings() const
+{
+    return d->cycle ? d->cycle->realTimeSettings() : QVector<QPlcRealTimeSetting>();
+}
 
-quint64 QPlcMasterNode::cycle() const { return d->cycle ? d->cycle->cycle() : 0; }
+quint64 QPlcMasterNode::cycle() const
+{
+    return d->cycle ? d->cycle->cycle() : 0;
+}
 
 QPlcValue QPlcMasterNode::signalValue(const QString &signalName) const
 {
@@ -129,10 +198,22 @@ QPlcValue QPlcMasterNode::signalValue(const QString &signalName) const
     return d->cycle && index != QPlcInvalidSignalIndex ? d->cycle->value(index) : QPlcValue();
 }
 
-bool QPlcMasterNode::setSignalValue(const QString &signalName, const QPlcValue &value) { return d->setSignalValue(signalName, value); }
+bool QPlcMasterNode::setSignalValue(const QString &signalName, const QPlcValue &value)
+{
+    return d->setSignalValue(signalName, value);
+}
 
-bool QPlcMasterNode::initializeAllStates() { return d->initializeAllStates(); }
+bool QPlcMasterNode::initializeAllStates()
+{
+    return d->initializeAllStates();
+}
 
-bool QPlcMasterNode::startRealTime() { return d->startRealTime(0); }
+bool QPlcMasterNode::startRealTime()
+{
+    return d->startRealTime(0);
+}
 
-void QPlcMasterNode::stop() { d->stop(QStringLiteral("the master was told to")); }
+void QPlcMasterNode::stop()
+{
+    d->stop(QStringLiteral("the master was told to"));
+}

@@ -68,7 +68,12 @@ bool QPlcMasterNodePrivate::prepare()
     if (table.isEmpty())
         table = QPlcSignalIndexTable::current();
     if (table.isEmpty())
-        return setError(QPlcMasterNode::SignalError, QStringLiteral("the master has no signals; read a table with QPlcSignalIndexTable::initializeFromIniFile() %1").arg(QPlcSignalIndexTable::lastErrorString()).trimmed());
+        return setError(
+            QPlcMasterNode::SignalError,
+            QStringLiteral(
+                "the master has no signals; read a table with QPlcSignalIndexTable::initializeFromIniFile() %1")
+                .arg(QPlcSignalIndexTable::lastErrorString())
+                .trimmed());
     registry = std::make_unique<qplc::NodeRegistry>(table);
     cycle = std::make_unique<qplc::MasterCycle>(table, hub, lcCyclic().isDebugEnabled());
     m_reportNotifier = std::make_unique<QSocketNotifier>(cycle->reports().descriptor(), QSocketNotifier::Read);
@@ -91,13 +96,16 @@ bool QPlcMasterNodePrivate::prepare()
         if (isRunning())
             join(connection);
     });
-    QObject::connect(server.get(), &qplc::MasterServer::lost, q, [this](Connection *connection, const QString &reason) { nodeLost(connection, reason); });
+    QObject::connect(server.get(), &qplc::MasterServer::lost, q,
+                     [this](Connection *connection, const QString &reason) { nodeLost(connection, reason); });
     QObject::connect(server.get(), &qplc::MasterServer::refused, q, &QPlcMasterNode::nodeRefused);
-    QObject::connect(server.get(), &qplc::MasterServer::received, q, [this](Connection *connection, const Message &message) { receive(connection, message); });
+    QObject::connect(server.get(), &qplc::MasterServer::received, q,
+                     [this](Connection *connection, const Message &message) { receive(connection, message); });
     return true;
 }
 
-bool QPlcMasterNodePrivate::claimSignal(const QString &name, QPlcSignalIndex *place, bool (*accepts)(QPlcSignalType), const QString &wantedType)
+bool QPlcMasterNodePrivate::claimSignal(const QString &name, QPlcSignalIndex *place, bool (*accepts)(QPlcSignalType),
+                                        const QString &wantedType)
 {
     if (!prepare())
         return false;
@@ -105,11 +113,15 @@ bool QPlcMasterNodePrivate::claimSignal(const QString &name, QPlcSignalIndex *pl
     if (index == QPlcInvalidSignalIndex)
         return setError(QPlcMasterNode::SignalError, QStringLiteral("master: %1").arg(table.unknownSignalText(name)));
     if (!accepts(table.at(index).type))
-        return setError(QPlcMasterNode::SignalError, QStringLiteral("master: signal '%1' is %2; give it the type %3").arg(name, table.at(index).type.name(), wantedType));
+        return setError(QPlcMasterNode::SignalError,
+                        QStringLiteral("master: signal '%1' is %2; give it the type %3")
+                            .arg(name, table.at(index).type.name(), wantedType));
     if (*place != QPlcInvalidSignalIndex)
         registry->release(*place);
     if (!registry->claim(index))
-        return setError(QPlcMasterNode::SignalError, QStringLiteral("master: signal '%1' is written by '%2' already").arg(name, registry->writer(index)));
+        return setError(
+            QPlcMasterNode::SignalError,
+            QStringLiteral("master: signal '%1' is written by '%2' already").arg(name, registry->writer(index)));
     *place = index;
     return true;
 }
@@ -119,14 +131,17 @@ bool QPlcMasterNodePrivate::startServer(const QPlcUnderlyingProtocol &protocol)
     if (!prepare())
         return false;
     if (state != QPlcMasterNode::Off)
-        return setError(QPlcMasterNode::StateError, QStringLiteral("the server can only be started while the master is off"));
+        return setError(QPlcMasterNode::StateError,
+                        QStringLiteral("the server can only be started while the master is off"));
     QHostAddress address = protocol.address();
     if (!address.isLoopback() && !insecureNetworkAllowed) {
-        qCWarning(lcMaster).noquote() << "listening on 127.0.0.1 only instead of" << address.toString()
-                                      << "- anybody on the network could read and command the plant; setInsecureNetworkAllowed(true) opens it";
+        qCWarning(lcMaster).noquote()
+            << "listening on 127.0.0.1 only instead of" << address.toString()
+            << "- anybody on the network could read and command the plant; setInsecureNetworkAllowed(true) opens it";
         address = QHostAddress::LocalHost;
     } else if (!address.isLoopback()) {
-        qCWarning(lcMaster).noquote() << "listening on" << address.toString() << "WITHOUT SECURITY: anybody on the network can read and command the plant";
+        qCWarning(lcMaster).noquote() << "listening on" << address.toString()
+                                      << "WITHOUT SECURITY: anybody on the network can read and command the plant";
     }
     if (!server->listen(address, protocol.port()))
         return setError(QPlcMasterNode::ServerError, server->errorString());
@@ -139,7 +154,8 @@ bool QPlcMasterNodePrivate::addLocalNode(QPlcSlaveNode *node)
     if (!prepare())
         return false;
     if (state != QPlcMasterNode::Off)
-        return setError(QPlcMasterNode::StateError, QStringLiteral("node '%1' can only be added while the master is off").arg(node->name()));
+        return setError(QPlcMasterNode::StateError,
+                        QStringLiteral("node '%1' can only be added while the master is off").arg(node->name()));
     if (QPlcSignalIndexTable::current().isEmpty())
         QPlcSignalIndexTable::setCurrent(table);  // what the node's lists of signals look their names up in
     QString text;
@@ -182,7 +198,8 @@ void QPlcMasterNodePrivate::receive(Connection *connection, const Message &messa
     case Message::Initialized:
     case Message::RealTimeReady:
         if (!connection->isNode())
-            connection->fail(QStringLiteral("MalformedMessage"), QStringLiteral("%1 is for registered nodes only").arg(message.kindName()));
+            connection->fail(QStringLiteral("MalformedMessage"),
+                             QStringLiteral("%1 is for registered nodes only").arg(message.kindName()));
         else if (isRunning())
             continueJoin(connection, message);
         else
@@ -190,13 +207,19 @@ void QPlcMasterNodePrivate::receive(Connection *connection, const Message &messa
         break;
     case Message::NodeFault:
         if (!connection->isNode())
-            connection->fail(QStringLiteral("MalformedMessage"), QStringLiteral("NodeFault is for registered nodes only"));
+            connection->fail(QStringLiteral("MalformedMessage"),
+                             QStringLiteral("NodeFault is for registered nodes only"));
         else if (isRunning() && connection->stage != Connection::Running)
-            server->drop(connection, qplc::printable(message.text(QStringLiteral("text"))));  // it failed to join: no reason to stop the others
+            server->drop(connection,
+                         qplc::printable(
+                             message.text(QStringLiteral("text"))));  // it failed to join: no reason to stop the others
         else
-            fault(QStringLiteral("node '%1': %2").arg(connection->name, qplc::printable(message.text(QStringLiteral("text")))));
+            fault(QStringLiteral("node '%1': %2")
+                      .arg(connection->name, qplc::printable(message.text(QStringLiteral("text")))));
         break;
-    default: receiveCommand(connection, message); break;
+    default:
+        receiveCommand(connection, message);
+        break;
     }
 }
 
@@ -206,22 +229,33 @@ void QPlcMasterNodePrivate::receiveCommand(Connection *connection, const Message
     QJsonObject reply;
     QString text;
     switch (message.kind()) {
-    case Message::InitializeAllStates: request(connection, initializeAllStates()); break;
-    case Message::StartRealTime: startAsAsked(connection, message); break;
+    case Message::InitializeAllStates:
+        request(connection, initializeAllStates());
+        break;
+    case Message::StartRealTime:
+        startAsAsked(connection, message);
+        break;
     case Message::Stop:
         stop(QStringLiteral("'%1' asked for it").arg(connection->name));
         connection->send(Message::Done);
         break;
-    case Message::GetState: connection->send(Message::State, qplc::stateFields(*q, session)); break;
+    case Message::GetState:
+        connection->send(Message::State, qplc::stateFields(*q, session));
+        break;
     case Message::GetSignals:
-        if (!qplc::signalFields(*cycle, *registry, fields.value(QStringLiteral("names")).toVariant().toStringList(), &reply, &text))
+        if (!qplc::signalFields(*cycle, *registry, fields.value(QStringLiteral("names")).toVariant().toStringList(),
+                                &reply, &text))
             connection->fail(QStringLiteral("UnknownSignal"), text);
         else if (!connection->send(Message::Signals, reply))
-            connection->fail(QStringLiteral("TooLong"), QStringLiteral("too many signals for one answer; ask for some of them by name"));
+            connection->fail(QStringLiteral("TooLong"),
+                             QStringLiteral("too many signals for one answer; ask for some of them by name"));
         break;
-    case Message::SetSignals: setSignals(connection, message); break;
+    case Message::SetSignals:
+        setSignals(connection, message);
+        break;
     default:
-        connection->fail(QStringLiteral("MalformedMessage"), QStringLiteral("a master has no use for %1").arg(message.kindName()));
+        connection->fail(QStringLiteral("MalformedMessage"),
+                         QStringLiteral("a master has no use for %1").arg(message.kindName()));
     }
 }
 
@@ -239,7 +273,10 @@ void QPlcMasterNodePrivate::request(Connection *connection, bool accepted)
 void QPlcMasterNodePrivate::answerRequester(bool done, const QString &text)
 {
     if (m_requester)
-        m_requester->sendMessage(done ? Message(Message::Done) : Message(Message::Failed, {{QStringLiteral("error"), QStringLiteral("NodeError")}, {QStringLiteral("text"), text}}));
+        m_requester->sendMessage(
+            done ? Message(Message::Done)
+                 : Message(Message::Failed,
+                           {{QStringLiteral("error"), QStringLiteral("NodeError")}, {QStringLiteral("text"), text}}));
     m_requester.clear();
 }
 
@@ -249,7 +286,8 @@ void QPlcMasterNodePrivate::startAsAsked(Connection *connection, const Message &
     const QJsonValue cycles = message.fields().value(QStringLiteral("cycles"));
     const double wanted = cycles.toDouble(-1.0);
     if (!cycles.isUndefined() && (wanted < 0.0 || wanted > largestInteger || wanted != std::floor(wanted)))
-        connection->fail(QStringLiteral("MalformedMessage"), QStringLiteral("'cycles' is a whole number of cycles; leave it out to run until Stop"));
+        connection->fail(QStringLiteral("MalformedMessage"),
+                         QStringLiteral("'cycles' is a whole number of cycles; leave it out to run until Stop"));
     else
         request(connection, startRealTime(cycles.isUndefined() ? 0 : quint64(wanted)));
 }
@@ -263,20 +301,27 @@ bool QPlcMasterNodePrivate::isSettable(const QString &name, QPlcSignalIndex *sig
         *refusal = {QStringLiteral("UnknownSignal"), table.unknownSignalText(name)};
     else if (!registry->writer(*signal).isEmpty())
         *refusal = {QStringLiteral("SignalHasWriter"),
-                    QStringLiteral("signal '%1' is written by '%2'; stop that node to set it from outside").arg(name, registry->writer(*signal))};
+                    QStringLiteral("signal '%1' is written by '%2'; stop that node to set it from outside")
+                        .arg(name, registry->writer(*signal))};
     return refusal->error.isEmpty();
 }
 
-bool QPlcMasterNodePrivate::checkValue(QPlcSignalIndex signal, const QPlcValue &value, qplc::SignalSetting *setting, qplc::Refusal *refusal) const
+bool QPlcMasterNodePrivate::checkValue(QPlcSignalIndex signal, const QPlcValue &value, qplc::SignalSetting *setting,
+                                       qplc::Refusal *refusal) const
 {
     const QPlcSignalDefinition &definition = table.at(signal);
     *setting = {signal, value.convertedTo(definition.type)};
     if (!setting->value.isValid() || !setting->value.isFinite()) {
-        *refusal = {QStringLiteral("InvalidValue"), QStringLiteral("%1 is no value for signal '%2' of type %3").arg(value.toString(), definition.name, definition.type.name())};
+        *refusal = {QStringLiteral("InvalidValue"),
+                    QStringLiteral("%1 is no value for signal '%2' of type %3")
+                        .arg(value.toString(), definition.name, definition.type.name())};
         return false;
     }
     if (!definition.isInRange(setting->value)) {
-        *refusal = {QStringLiteral("InvalidValue"), QStringLiteral("%1 is out of range for signal '%2'; use %3 %4").arg(value.toString(), definition.name, definition.rangeText(), definition.unit).trimmed()};
+        *refusal = {QStringLiteral("InvalidValue"),
+                    QStringLiteral("%1 is out of range for signal '%2'; use %3 %4")
+                        .arg(value.toString(), definition.name, definition.rangeText(), definition.unit)
+                        .trimmed()};
         return false;
     }
     return true;
@@ -291,7 +336,8 @@ void QPlcMasterNodePrivate::setSignals(Connection *connection, const Message &me
     qplc::Refusal refusal;
     std::size_t count = 0;
     if (!values.isObject())
-        refusal = {QStringLiteral("MalformedMessage"), QStringLiteral("'values' is an object of signal names and texts")};
+        refusal
+            = {QStringLiteral("MalformedMessage"), QStringLiteral("'values' is an object of signal names and texts")};
     for (auto it = texts.begin(); it != texts.end() && refusal.error.isEmpty(); ++it) {
         QPlcSignalIndex index = QPlcInvalidSignalIndex;
         QString text;
@@ -304,7 +350,9 @@ void QPlcMasterNodePrivate::setSignals(Connection *connection, const Message &me
             checkValue(index, value, &settings[count++], &refusal);
     }
     if (refusal.error.isEmpty() && !cycle->setValues(settings))
-        refusal = {QStringLiteral("WrongState"), QStringLiteral("%1 changes are too many between two cycles; send them in smaller groups").arg(settings.size())};
+        refusal = {QStringLiteral("WrongState"),
+                   QStringLiteral("%1 changes are too many between two cycles; send them in smaller groups")
+                       .arg(settings.size())};
     if (refusal.error.isEmpty())
         connection->send(Message::Done);
     else
@@ -321,7 +369,8 @@ bool QPlcMasterNodePrivate::setSignalValue(const QString &name, const QPlcValue 
     if (!isSettable(name, &index, &refusal) || !checkValue(index, value, &setting, &refusal))
         return setError(QPlcMasterNode::SignalError, refusal.text);
     if (!cycle->setValues({setting}))
-        return setError(QPlcMasterNode::StateError, QStringLiteral("signal '%1' was not set: too many changes at once").arg(name));
+        return setError(QPlcMasterNode::StateError,
+                        QStringLiteral("signal '%1' was not set: too many changes at once").arg(name));
     return true;
 }
 
@@ -335,8 +384,9 @@ QString QPlcMasterNodePrivate::nodeName(quint16 id) const
 
 void QPlcMasterNodePrivate::takeReports()
 {
-    cycle->reports().take([this](const CycleEvent &event) { report(event); },
-                          [](const qplc::TappedFrame &frame) { qplc::logFrame(qplc::NodeRegistry::masterName(), frame); });
+    cycle->reports().take(
+        [this](const CycleEvent &event) { report(event); },
+        [](const qplc::TappedFrame &frame) { qplc::logFrame(qplc::NodeRegistry::masterName(), frame); });
 }
 
 void QPlcMasterNodePrivate::report(const CycleEvent &event)
@@ -346,14 +396,21 @@ void QPlcMasterNodePrivate::report(const CycleEvent &event)
         logLateAnswer(event);
         Q_EMIT q->realTimeViolated(nodeName(event.node), event.cycle);
         break;
-    case CycleEvent::WaitingForNode: setState(isRunning() ? QPlcMasterNode::WaitingForLateSlaves : state); break;
-    case CycleEvent::WaitingEnded: setState(isRunning() ? QPlcMasterNode::RealTime : state); break;
+    case CycleEvent::WaitingForNode:
+        setState(isRunning() ? QPlcMasterNode::WaitingForLateSlaves : state);
+        break;
+    case CycleEvent::WaitingEnded:
+        setState(isRunning() ? QPlcMasterNode::RealTime : state);
+        break;
     case CycleEvent::NotFinite:
-        fault(QStringLiteral("node '%1': signal '%2' is not a finite number in cycle %3").arg(nodeName(event.node), table.at(event.signal).name).arg(event.cycle));
+        fault(QStringLiteral("node '%1': signal '%2' is not a finite number in cycle %3")
+                  .arg(nodeName(event.node), table.at(event.signal).name)
+                  .arg(event.cycle));
         break;
     case CycleEvent::NodeFaulted: {
         const std::shared_ptr<NodeSlot> slot = registry->find(event.node);
-        const QString what = slot && slot->local ? QString::fromLocal8Bit(slot->local->faultText()) : QStringLiteral("its code failed");
+        const QString what = slot && slot->local ? QString::fromLocal8Bit(slot->local->faultText())
+                                                 : QStringLiteral("its code failed");
         fault(QStringLiteral("node '%1' in cycle %2: %3").arg(nodeName(event.node)).arg(event.cycle).arg(what));
         break;
     }
@@ -367,7 +424,8 @@ void QPlcMasterNodePrivate::report(const CycleEvent &event)
         if (isRunning() && cycleLimit + m_cyclesWanted > 0)
             stop(QStringLiteral("the cycle limit was reached"));
         break;
-    case CycleEvent::WatchdogTimedOut: break;
+    case CycleEvent::WatchdogTimedOut:
+        break;
     }
 }
 
@@ -381,7 +439,9 @@ void QPlcMasterNodePrivate::logLateAnswer(const CycleEvent &event)
     if (now < log.quietUntil)
         return;
     qCWarning(lcMaster).noquote() << "node" << nodeName(event.node) << "was late in cycle" << event.cycle
-                                  << (log.untold > 1 ? QStringLiteral("(and %1 times since the last report)").arg(log.untold - 1) : QString());
+                                  << (log.untold > 1
+                                          ? QStringLiteral("(and %1 times since the last report)").arg(log.untold - 1)
+                                          : QString());
     log = {now + pause, 0};
 }
 
@@ -418,7 +478,8 @@ QPlcNodeInfo QPlcMasterNodePrivate::info(const NodeSlot &slot) const
     QPlcNodeInfo node;
     node.name = slot.name;
     node.id = slot.id;
-    node.policy = QString::fromLatin1(QMetaEnum::fromType<QPlcSlaveNode::RealTimeViolationPolicy>().valueToKey(slot.policy));
+    node.policy
+        = QString::fromLatin1(QMetaEnum::fromType<QPlcSlaveNode::RealTimeViolationPolicy>().valueToKey(slot.policy));
     node.listener = slot.listener;
     node.inputs = int(slot.inputLayout.fields().size());
     node.outputs = int(slot.outputLayout.fields().size());

@@ -24,7 +24,8 @@ public:
 
     /// Fixes the signal table and makes everything that depends on it. \return false when there is no table
     bool prepare();
-    bool claimSignal(const QString &name, QPlcSignalIndex *place, bool (*accepts)(QPlcSignalType), const QString &wantedType);
+    bool claimSignal(const QString &name, QPlcSignalIndex *place, bool (*accepts)(QPlcSignalType),
+                     const QString &wantedType);
     bool startServer(const QPlcUnderlyingProtocol &protocol);
     bool addLocalNode(QPlcSlaveNode *node);
     void removeLocalNode(QPlcSlaveNode *node);
@@ -63,14 +64,18 @@ private:
     using Connection = qplc::MasterConnection;
     enum class Step : quint8 { None, CollectOutputs, DistributeInputs, Start };
 
-    bool isRunning() const { return state == QPlcMasterNode::RealTime || state == QPlcMasterNode::WaitingForLateSlaves; }
+    bool isRunning() const
+    {
+        return state == QPlcMasterNode::RealTime || state == QPlcMasterNode::WaitingForLateSlaves;
+    }
     void receive(Connection *connection, const QPlcMessage &message);
     void receiveCommand(Connection *connection, const QPlcMessage &message);
     void request(Connection *connection, bool accepted);
     void startAsAsked(Connection *connection, const QPlcMessage &message);
     void setSignals(Connection *connection, const QPlcMessage &message);
     bool isSettable(const QString &name, QPlcSignalIndex *signal, qplc::Refusal *refusal) const;
-    bool checkValue(QPlcSignalIndex signal, const QPlcValue &value, qplc::SignalSetting *setting, qplc::Refusal *refusal) const;
+    bool checkValue(QPlcSignalIndex signal, const QPlcValue &value, qplc::SignalSetting *setting,
+                    qplc::Refusal *refusal) const;
 
     void begin(Step step, Connection::Stage owed);
     void continueSequence(Connection *connection, const QPlcMessage &message);
@@ -99,10 +104,10 @@ private:
     QString nodeName(quint16 id) const;
 
     Step m_step = Step::None;
-    Connection::Stage m_owed = Connection::Silent;   // stage that every participant reaches by its answer
+    Connection::Stage m_owed = Connection::Silent;  // stage that every participant reaches by its answer
     std::vector<Connection *> m_participants;
     bool m_startAfterwards = false;
-    bool m_initialized = false;                      // since the last phase and the last join
+    bool m_initialized = false;  // since the last phase and the last join
     quint64 m_cyclesWanted = 0;
     QPointer<QPlcSlaveSocket> m_requester;
     struct LateLog
@@ -110,6 +115,6 @@ private:
         std::int64_t quietUntil = 0;  // [ns]
         quint64 untold = 0;
     };
-    QHash<quint16, LateLog> m_lateLogs;              // by id of the node
+    QHash<quint16, LateLog> m_lateLogs;  // by id of the node
     std::unique_ptr<QSocketNotifier> m_reportNotifier;
 };

@@ -5,7 +5,8 @@
 
 namespace {
 
-QCommandLineOption option(const char *name, const QString &description, const char *valueName, const QString &defaultValue = QString())
+QCommandLineOption option(const char *name, const QString &description, const char *valueName,
+                          const QString &defaultValue = QString())
 {
     return QCommandLineOption(QString::fromLatin1(name), description, QString::fromLatin1(valueName), defaultValue);
 }
@@ -15,17 +16,27 @@ QCommandLineOption option(const char *name, const QString &description, const ch
 QPlcNodeApplication::QPlcNodeApplication(int &argc, char **argv)
     : QPlcCoreApplication(argc, argv)
 {
-    addOption(option("master", QStringLiteral("Where the master is: [tcp://|udp://]HOST[:PORT]. Cyclic frames travel over TCP unless it begins with udp://."), "ADDRESS",
-                     QStringLiteral("127.0.0.1:%1").arg(QPlcUnderlyingProtocol::DefaultPort)));
-    addOption(option("signals", QStringLiteral("Signal table of this node. Without one the master sends its table."), "FILE"));
+    addOption(option("master",
+                     QStringLiteral("Where the master is: [tcp://|udp://]HOST[:PORT]. Cyclic frames travel over TCP "
+                                    "unless it begins with udp://."),
+                     "ADDRESS", QStringLiteral("127.0.0.1:%1").arg(QPlcUnderlyingProtocol::DefaultPort)));
+    addOption(option("signals", QStringLiteral("Signal table of this node. Without one the master sends its table."),
+                     "FILE"));
     addOption(option("name", QStringLiteral("Name under which the node registers."), "NAME"));
-    addOption(option("watchdog", QStringLiteral("Reports when no frame has come for so long. 0: never."), "SECONDS", QStringLiteral("0")));
+    addOption(option("watchdog", QStringLiteral("Reports when no frame has come for so long. 0: never."), "SECONDS",
+                     QStringLiteral("0")));
     addRealTimeOptions();
 }
 
-void QPlcNodeApplication::setDefaultSignals(const QString &fileName) { m_defaultSignals = fileName; }
+void QPlcNodeApplication::setDefaultSignals(const QString &fileName)
+{
+    m_defaultSignals = fileName;
+}
 
-void QPlcNodeApplication::setWorkloadSignal(const QString &signalName) { m_workloadSignal = signalName; }
+void QPlcNodeApplication::setWorkloadSignal(const QString &signalName)
+{
+    m_workloadSignal = signalName;
+}
 
 bool QPlcNodeApplication::parseNodeOptions()
 {
@@ -57,16 +68,20 @@ bool QPlcNodeApplication::configure(QPlcSlaveNode &node)
 int QPlcNodeApplication::run(QPlcSlaveNode &node)
 {
     QString text;
-    const QPlcUnderlyingProtocol master = QPlcUnderlyingProtocol::fromString(value(QStringLiteral("master")), QPlcUnderlyingProtocol::Tcp, &text);
+    const QPlcUnderlyingProtocol master
+        = QPlcUnderlyingProtocol::fromString(value(QStringLiteral("master")), QPlcUnderlyingProtocol::Tcp, &text);
     if (!master.isValid())
         return usageError(QStringLiteral("--master: %1").arg(text));
     if (!configure(node))
         return exitCode();
     if (!node.connectToMasterAndWaitForConnected(master))
-        return node.error() == QPlcSlaveNode::NoError ? Success : UsageError;  // the node has said why; without an error the master has just ended
+        return node.error() == QPlcSlaveNode::NoError
+            ? Success
+            : UsageError;  // the node has said why; without an error the master has just ended
     connect(&node, &QPlcSlaveNode::disconnectedFromMaster, this, [this, &node] {
         // When the master was lost, and did not just end, the error follows.
-        QMetaObject::invokeMethod(this, [&node] { exit(node.error() == QPlcSlaveNode::NoError ? Success : Failure); }, Qt::QueuedConnection);
+        QMetaObject::invokeMethod(
+            this, [&node] { exit(node.error() == QPlcSlaveNode::NoError ? Success : Failure); }, Qt::QueuedConnection);
     });
     quitOnSignals();
     const int code = exec();

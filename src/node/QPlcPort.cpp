@@ -44,19 +44,41 @@ template<typename Element>
 void loadElements(QPlcSignalType::Scalar scalar, const char *bytes, Element *elements, int count)
 {
     switch (scalar) {
-    case QPlcSignalType::Int8: loadAs<qint8>(bytes, elements, count); break;
-    case QPlcSignalType::Int16: loadAs<qint16>(bytes, elements, count); break;
-    case QPlcSignalType::Int32: loadAs<qint32>(bytes, elements, count); break;
+    case QPlcSignalType::Int8:
+        loadAs<qint8>(bytes, elements, count);
+        break;
+    case QPlcSignalType::Int16:
+        loadAs<qint16>(bytes, elements, count);
+        break;
+    case QPlcSignalType::Int32:
+        loadAs<qint32>(bytes, elements, count);
+        break;
     case QPlcSignalType::DateTime:
-    case QPlcSignalType::Int64: loadAs<qint64>(bytes, elements, count); break;
-    case QPlcSignalType::UInt8: loadAs<quint8>(bytes, elements, count); break;
-    case QPlcSignalType::UInt16: loadAs<quint16>(bytes, elements, count); break;
-    case QPlcSignalType::UInt32: loadAs<quint32>(bytes, elements, count); break;
-    case QPlcSignalType::UInt64: loadAs<quint64>(bytes, elements, count); break;
-    case QPlcSignalType::Real32: loadAs<float>(bytes, elements, count); break;
-    case QPlcSignalType::Real64: loadAs<double>(bytes, elements, count); break;
+    case QPlcSignalType::Int64:
+        loadAs<qint64>(bytes, elements, count);
+        break;
+    case QPlcSignalType::UInt8:
+        loadAs<quint8>(bytes, elements, count);
+        break;
+    case QPlcSignalType::UInt16:
+        loadAs<quint16>(bytes, elements, count);
+        break;
+    case QPlcSignalType::UInt32:
+        loadAs<quint32>(bytes, elements, count);
+        break;
+    case QPlcSignalType::UInt64:
+        loadAs<quint64>(bytes, elements, count);
+        break;
+    case QPlcSignalType::Real32:
+        loadAs<float>(bytes, elements, count);
+        break;
+    case QPlcSignalType::Real64:
+        loadAs<double>(bytes, elements, count);
+        break;
     case QPlcSignalType::String:
-    case QPlcSignalType::Invalid: Q_UNREACHABLE(); break;
+    case QPlcSignalType::Invalid:
+        Q_UNREACHABLE();
+        break;
     }
 }
 
@@ -64,24 +86,46 @@ template<typename Element>
 void storeElements(QPlcSignalType::Scalar scalar, char *bytes, const Element *elements, int count)
 {
     switch (scalar) {
-    case QPlcSignalType::Int8: storeAs<qint8>(bytes, elements, count); break;
-    case QPlcSignalType::Int16: storeAs<qint16>(bytes, elements, count); break;
-    case QPlcSignalType::Int32: storeAs<qint32>(bytes, elements, count); break;
+    case QPlcSignalType::Int8:
+        storeAs<qint8>(bytes, elements, count);
+        break;
+    case QPlcSignalType::Int16:
+        storeAs<qint16>(bytes, elements, count);
+        break;
+    case QPlcSignalType::Int32:
+        storeAs<qint32>(bytes, elements, count);
+        break;
     case QPlcSignalType::DateTime:
-    case QPlcSignalType::Int64: storeAs<qint64>(bytes, elements, count); break;
-    case QPlcSignalType::UInt8: storeAs<quint8>(bytes, elements, count); break;
-    case QPlcSignalType::UInt16: storeAs<quint16>(bytes, elements, count); break;
-    case QPlcSignalType::UInt32: storeAs<quint32>(bytes, elements, count); break;
-    case QPlcSignalType::UInt64: storeAs<quint64>(bytes, elements, count); break;
-    case QPlcSignalType::Real32: storeAs<float>(bytes, elements, count); break;
-    case QPlcSignalType::Real64: storeAs<double>(bytes, elements, count); break;
+    case QPlcSignalType::Int64:
+        storeAs<qint64>(bytes, elements, count);
+        break;
+    case QPlcSignalType::UInt8:
+        storeAs<quint8>(bytes, elements, count);
+        break;
+    case QPlcSignalType::UInt16:
+        storeAs<quint16>(bytes, elements, count);
+        break;
+    case QPlcSignalType::UInt32:
+        storeAs<quint32>(bytes, elements, count);
+        break;
+    case QPlcSignalType::UInt64:
+        storeAs<quint64>(bytes, elements, count);
+        break;
+    case QPlcSignalType::Real32:
+        storeAs<float>(bytes, elements, count);
+        break;
+    case QPlcSignalType::Real64:
+        storeAs<double>(bytes, elements, count);
+        break;
     case QPlcSignalType::String:
-    case QPlcSignalType::Invalid: Q_UNREACHABLE(); break;
+    case QPlcSignalType::Invalid:
+        Q_UNREACHABLE();
+        break;
     }
 }
 
-#define QPLC_INSTANTIATE(Element)                                                                              \
-    template QTPLC_EXPORT void loadElements<Element>(QPlcSignalType::Scalar, const char *, Element *, int); \
+#define QPLC_INSTANTIATE(Element)                                                                                      \
+    template QTPLC_EXPORT void loadElements<Element>(QPlcSignalType::Scalar, const char *, Element *, int);            \
     template QTPLC_EXPORT void storeElements<Element>(QPlcSignalType::Scalar, char *, const Element *, int);
 QPLC_INSTANTIATE(bool)
 QPLC_INSTANTIATE(char)
@@ -111,7 +155,8 @@ bool fits(QPlcSignalType::Scalar variable, bool isBool, QPlcSignalType::Scalar w
         return variable == QPlcSignalType::Int64;
     if (!wireType.isInteger() || isSigned(variable) != isSigned(wire))
         return false;
-    return direction == QPlcPort::Input ? variableType.elementSize() >= wireType.elementSize() : variableType.elementSize() <= wireType.elementSize();
+    return direction == QPlcPort::Input ? variableType.elementSize() >= wireType.elementSize()
+                                        : variableType.elementSize() <= wireType.elementSize();
 }
 
 QString describe(QPlcSignalType::Scalar scalar, bool isBool, int count)

@@ -24,7 +24,10 @@ QPlcSlaveNode::~QPlcSlaveNode()
     d->cycle.reset();
 }
 
-QString QPlcSlaveNode::name() const { return d->name; }
+QString QPlcSlaveNode::name() const
+{
+    return d->name;
+}
 
 void QPlcSlaveNode::setName(const QString &name)
 {
@@ -32,7 +35,10 @@ void QPlcSlaveNode::setName(const QString &name)
     d->name = name;
 }
 
-QPlcSlaveNode::RealTimeViolationPolicy QPlcSlaveNode::realTimeViolationPolicy() const { return d->policy; }
+QPlcSlaveNode::RealTimeViolationPolicy QPlcSlaveNode::realTimeViolationPolicy() const
+{
+    return d->policy;
+}
 
 void QPlcSlaveNode::setListener(bool listener)
 {
@@ -40,33 +46,73 @@ void QPlcSlaveNode::setListener(bool listener)
     d->listener = listener;
 }
 
-bool QPlcSlaveNode::isListener() const { return d->listener; }
+bool QPlcSlaveNode::isListener() const
+{
+    return d->listener;
+}
 
-void QPlcSlaveNode::setSignalTable(const QPlcSignalTable &table) { d->ownTable = table; }
+void QPlcSlaveNode::setSignalTable(const QPlcSignalTable &table)
+{
+    d->ownTable = table;
+}
 
-QPlcSignalTable QPlcSlaveNode::signalTable() const { return d->ownTable.isEmpty() ? QPlcSignalIndexTable::current() : d->ownTable; }
+QPlcSignalTable QPlcSlaveNode::signalTable() const
+{
+    return d->ownTable.isEmpty() ? QPlcSignalIndexTable::current() : d->ownTable;
+}
 
-void QPlcSlaveNode::setRealTimeOptions(const QPlcRealTimeOptions &options) { d->realTimeOptions = options; }
+void QPlcSlaveNode::setRealTimeOptions(const QPlcRealTimeOptions &options)
+{
+    d->realTimeOptions = options;
+}
 
-QPlcRealTimeOptions QPlcSlaveNode::realTimeOptions() const { return d->realTimeOptions; }
+QPlcRealTimeOptions QPlcSlaveNode::realTimeOptions() const
+{
+    return d->realTimeOptions;
+}
 
-void QPlcSlaveNode::activateWorkloadMeasurement(const QString &signalName) { d->runtime.setWorkloadSignal(signalName); }
+void QPlcSlaveNode::activateWorkloadMeasurement(const QString &signalName)
+{
+    d->runtime.setWorkloadSignal(signalName);
+}
 
-void QPlcSlaveNode::activateWatchdog(std::chrono::nanoseconds time) { d->watchdog = time; }
+void QPlcSlaveNode::activateWatchdog(std::chrono::nanoseconds time)
+{
+    d->watchdog = time;
+}
 
-QPlcSlaveNode::State QPlcSlaveNode::state() const { return d->state; }
+QPlcSlaveNode::State QPlcSlaveNode::state() const
+{
+    return d->state;
+}
 
-QPlcSlaveNode::Error QPlcSlaveNode::error() const { return d->error; }
+QPlcSlaveNode::Error QPlcSlaveNode::error() const
+{
+    return d->error;
+}
 
-QString QPlcSlaveNode::errorString() const { return d->errorString; }
+QString QPlcSlaveNode::errorString() const
+{
+    return d->errorString;
+}
 
-QPlcUnderlyingProtocol QPlcSlaveNode::masterProtocol() const { return d->master; }
+QPlcUnderlyingProtocol QPlcSlaveNode::masterProtocol() const
+{
+    return d->master;
+}
 
-QPlcSlaveNode::Counters QPlcSlaveNode::counters() const { return d->cycle ? d->cycle->counters() : Counters(); }
+QPlcSlaveNode::Counters QPlcSlaveNode::counters() const
+{
+    return d->cycle ? d->cycle->counters() : Counters();
+}
 
-const QPlcCycle &QPlcSlaveNode::cycle() const { return d->runtime.cycle(); }
+const QPlcCycle &QPlcSlaveNode::cycle() const
+{
+    return d->runtime.cycle();
+}
 
-bool QPlcSlaveNode::connectToMasterAndWaitForConnected(const QPlcUnderlyingProtocol &master, std::chrono::milliseconds timeout)
+bool QPlcSlaveNode::connectToMasterAndWaitForConnected(const QPlcUnderlyingProtocol &master,
+                                                       std::chrono::milliseconds timeout)
 {
     QEventLoop loop;
     QTimer timer;
@@ -81,14 +127,23 @@ bool QPlcSlaveNode::connectToMasterAndWaitForConnected(const QPlcUnderlyingProto
     }
     if (d->state == Connecting) {
         d->disconnectFromMaster();
-        d->setError(ConnectionError, QStringLiteral("node '%1': no answer of a master at %2 within %3 ms; check address and port").arg(name(), master.toString()).arg(timeout.count()));
+        d->setError(ConnectionError,
+                    QStringLiteral("node '%1': no answer of a master at %2 within %3 ms; check address and port")
+                        .arg(name(), master.toString())
+                        .arg(timeout.count()));
     }
     return d->state >= Off;
 }
 
-void QPlcSlaveNode::connectToMaster(const QPlcUnderlyingProtocol &master) { d->connectToMaster(master); }
+void QPlcSlaveNode::connectToMaster(const QPlcUnderlyingProtocol &master)
+{
+    d->connectToMaster(master);
+}
 
-void QPlcSlaveNode::disconnectFromMaster() { d->disconnectFromMaster(); }
+void QPlcSlaveNode::disconnectFromMaster()
+{
+    d->disconnectFromMaster();
+}
 
 void QPlcSlaveNode::sendMessageToMaster(const QPlcMessage &message)
 {
@@ -98,7 +153,8 @@ void QPlcSlaveNode::sendMessageToMaster(const QPlcMessage &message)
 
 // ---- lists on top of frames ----
 
-bool QPlcSlaveNode::bindPorts(const QPlcSignalTable &table, QVector<QPlcSignalIndex> *inputs, QVector<QPlcSignalIndex> *outputs, QString *error)
+bool QPlcSlaveNode::bindPorts(const QPlcSignalTable &table, QVector<QPlcSignalIndex> *inputs,
+                              QVector<QPlcSignalIndex> *outputs, QString *error)
 {
     const QPlcSignalIndexList inputList = declareInputSignals();
     const QPlcSignalIndexList outputList = declareOutputSignals();
@@ -107,9 +163,12 @@ bool QPlcSlaveNode::bindPorts(const QPlcSignalTable &table, QVector<QPlcSignalIn
         errors << table.unknownSignalText(unknown);
     for (QPlcSignalIndex index : inputList.toVector() + outputList.toVector()) {
         if (index >= table.size())
-            errors << QStringLiteral("signal index %1 is not in the table of %2 signals; declare signals by name").arg(index).arg(table.size());
+            errors << QStringLiteral("signal index %1 is not in the table of %2 signals; declare signals by name")
+                          .arg(index)
+                          .arg(table.size());
         else if (QPlcSignalIndexTable::name(index) != table.at(index).name)
-            errors << QStringLiteral("signal '%1' has the index of signal '%2' in the table of the process; give node and process the same table")
+            errors << QStringLiteral("signal '%1' has the index of signal '%2' in the table of the process; give node "
+                                     "and process the same table")
                           .arg(table.at(index).name, QPlcSignalIndexTable::name(index));
     }
     *inputs = inputList.toVector();
@@ -120,11 +179,18 @@ bool QPlcSlaveNode::bindPorts(const QPlcSignalTable &table, QVector<QPlcSignalIn
 
 void QPlcSlaveNode::attachPorts(const qplc::PayloadLayout &, const qplc::PayloadLayout &) {}
 
-void QPlcSlaveNode::resetFrame(char *outputs) { d->runtime.fromList(initialOutputSignals(), d->runtime.outputLayout(), outputs); }
+void QPlcSlaveNode::resetFrame(char *outputs)
+{
+    d->runtime.fromList(initialOutputSignals(), d->runtime.outputLayout(), outputs);
+}
 
-void QPlcSlaveNode::initializeFrame(const char *inputs) { initialize(qplc::NodeRuntime::toList(d->runtime.inputLayout(), inputs)); }
+void QPlcSlaveNode::initializeFrame(const char *inputs)
+{
+    initialize(qplc::NodeRuntime::toList(d->runtime.inputLayout(), inputs));
+}
 
 void QPlcSlaveNode::stepFrame(const QPlcCycle &, const char *inputs, char *outputs)
 {
-    d->runtime.fromList(realTimeout(qplc::NodeRuntime::toList(d->runtime.inputLayout(), inputs)), d->runtime.outputLayout(), outputs);
+    d->runtime.fromList(realTimeout(qplc::NodeRuntime::toList(d->runtime.inputLayout(), inputs)),
+                        d->runtime.outputLayout(), outputs);
 }

@@ -38,7 +38,8 @@ QPlcClock clockOf(const Message &message)
 
 }  // namespace
 
-QPlcSlaveNodePrivate::QPlcSlaveNodePrivate(QPlcSlaveNode *node, const QString &nodeName, QPlcSlaveNode::RealTimeViolationPolicy violationPolicy)
+QPlcSlaveNodePrivate::QPlcSlaveNodePrivate(QPlcSlaveNode *node, const QString &nodeName,
+                                           QPlcSlaveNode::RealTimeViolationPolicy violationPolicy)
     : q(node)
     , name(nodeName)
     , policy(violationPolicy)
@@ -74,20 +75,26 @@ void QPlcSlaveNodePrivate::connectToMaster(const QPlcUnderlyingProtocol &newMast
     master = newMaster;
     m_session = 0;
     if (!master.isValid()) {
-        setError(QPlcSlaveNode::OptionError, QStringLiteral("node '%1': no master given; use QPlcUnderlyingProtocol::tcp() or udp()").arg(name));
+        setError(QPlcSlaveNode::OptionError,
+                 QStringLiteral("node '%1': no master given; use QPlcUnderlyingProtocol::tcp() or udp()").arg(name));
         return;
     }
     setState(QPlcSlaveNode::Connecting);
     control = new QPlcMasterSocket(q);
     QObject::connect(control, &QPlcAbstractSocket::connected, q, [this] { greet(); });
-    QObject::connect(control, &QPlcAbstractSocket::messageReceived, q, [this](const Message &message) { receive(message); });
+    QObject::connect(control, &QPlcAbstractSocket::messageReceived, q,
+                     [this](const Message &message) { receive(message); });
     // Not at once: a message that cannot be sent ends the connection, and who sends has more to do.
     const auto controlLost = [this, socket = control](QPlcAbstractSocket::Error socketError) {
         if (socket == control)  // else given up meanwhile
-            masterLost(socketError, socketError == QPlcAbstractSocket::NoError ? QStringLiteral("the connection was closed") : socket->errorString());
+            masterLost(socketError,
+                       socketError == QPlcAbstractSocket::NoError ? QStringLiteral("the connection was closed")
+                                                                  : socket->errorString());
     };
     QObject::connect(control, &QPlcAbstractSocket::errorOccurred, q, controlLost, Qt::QueuedConnection);
-    QObject::connect(control, &QPlcAbstractSocket::disconnected, q, [controlLost] { controlLost(QPlcAbstractSocket::NoError); }, Qt::QueuedConnection);
+    QObject::connect(
+        control, &QPlcAbstractSocket::disconnected, q, [controlLost] { controlLost(QPlcAbstractSocket::NoError); },
+        Qt::QueuedConnection);
     control->connectToMaster(master);
 }
 
@@ -122,12 +129,16 @@ void QPlcSlaveNodePrivate::closeSockets()
 void QPlcSlaveNodePrivate::masterLost(QPlcAbstractSocket::Error socketError, const QString &text)
 {
     const bool wasConnecting = state == QPlcSlaveNode::Connecting;
-    const QString sentence = wasConnecting ? QStringLiteral("node '%1' cannot reach a master at %2: %3; start the master, or check address and port")
-                                           : QStringLiteral("node '%1' has lost the master at %2: %3");
+    const QString sentence = wasConnecting
+        ? QStringLiteral("node '%1' cannot reach a master at %2: %3; start the master, or check address and port")
+        : QStringLiteral("node '%1' has lost the master at %2: %3");
     const QString full = sentence.arg(name, master.toString(), text);
-    const QPlcAbstractSocket::Error reason = socketError == QPlcAbstractSocket::NoError ? QPlcAbstractSocket::ConnectionLostError : socketError;
+    const QPlcAbstractSocket::Error reason
+        = socketError == QPlcAbstractSocket::NoError ? QPlcAbstractSocket::ConnectionLostError : socketError;
     disconnectFromMaster();
-    setError(reason == QPlcAbstractSocket::ProtocolError ? QPlcSlaveNode::ProtocolError : QPlcSlaveNode::ConnectionError, full);
+    setError(reason == QPlcAbstractSocket::ProtocolError ? QPlcSlaveNode::ProtocolError
+                                                         : QPlcSlaveNode::ConnectionError,
+             full);
     Q_EMIT q->errorWithMaster(reason, full);
 }
 
@@ -156,41 +167,62 @@ void QPlcSlaveNodePrivate::greet()
 bool QPlcSlaveNodePrivate::isExpected(Message::Kind kind) const
 {
     switch (kind) {
-    case Message::Hello: return state == QPlcSlaveNode::Connecting && m_session == 0;
-    case Message::Registered: return state == QPlcSlaveNode::Connecting && m_session != 0 && !cycle;
-    case Message::CyclicChannelAttached: return state == QPlcSlaveNode::Connecting && cycle && master.kind() == QPlcUnderlyingProtocol::Udp;
+    case Message::Hello:
+        return state == QPlcSlaveNode::Connecting && m_session == 0;
+    case Message::Registered:
+        return state == QPlcSlaveNode::Connecting && m_session != 0 && !cycle;
+    case Message::CyclicChannelAttached:
+        return state == QPlcSlaveNode::Connecting && cycle && master.kind() == QPlcUnderlyingProtocol::Udp;
     case Message::SendYourInitialOutputStates:
-    case Message::InitializeWithValues: return state == QPlcSlaveNode::Off || state == QPlcSlaveNode::Initializing;
-    case Message::RealTimeStarted: return state == QPlcSlaveNode::Off;
-    default: return true;
+    case Message::InitializeWithValues:
+        return state == QPlcSlaveNode::Off || state == QPlcSlaveNode::Initializing;
+    case Message::RealTimeStarted:
+        return state == QPlcSlaveNode::Off;
+    default:
+        return true;
     }
 }
 
 void QPlcSlaveNodePrivate::receive(const Message &message)
 {
-    if (state == QPlcSlaveNode::Connecting && m_cyclicSocket && message.kind() == Message::SendYourInitialOutputStates) {
+    if (state == QPlcSlaveNode::Connecting && m_cyclicSocket
+        && message.kind() == Message::SendYourInitialOutputStates) {
         m_outputsAwaited = true;  // it overtook CyclicChannelAttached, which comes on the other connection
         return;
     }
     if (!isExpected(message.kind())) {
-        qCWarning(lcSlave).noquote() << "node" << name << "ignores" << message.kindName() << "of the master: not possible now";
+        qCWarning(lcSlave).noquote() << "node" << name << "ignores" << message.kindName()
+                                     << "of the master: not possible now";
         return;
     }
     switch (message.kind()) {
-    case Message::Hello: receiveHello(message); break;
-    case Message::Registered: receiveRegistered(message); break;
-    case Message::CyclicChannelAttached: cyclicChannelAttached(); break;
+    case Message::Hello:
+        receiveHello(message);
+        break;
+    case Message::Registered:
+        receiveRegistered(message);
+        break;
+    case Message::CyclicChannelAttached:
+        cyclicChannelAttached();
+        break;
     case Message::Rejected:
         giveUp(QPlcSlaveNode::RegistrationError,
-               QStringLiteral("the master at %1 refuses node '%2': %3").arg(master.toString(), name, qplc::printable(message.text(QStringLiteral("text")))));
+               QStringLiteral("the master at %1 refuses node '%2': %3")
+                   .arg(master.toString(), name, qplc::printable(message.text(QStringLiteral("text")))));
         break;
     case Message::MasterEnds:
         qCInfo(lcSlave).noquote() << "node" << name << "- the master has ended";
         disconnectFromMaster();
         break;
-    case Message::SendYourInitialOutputStates: sendInitialOutputs(); break;
-    case Message::InitializeWithValues: initializeWith(message); break;
-    case Message::RealTimeStarted: startCycles(message); break;
+    case Message::SendYourInitialOutputStates:
+        sendInitialOutputs();
+        break;
+    case Message::InitializeWithValues:
+        initializeWith(message);
+        break;
+    case Message::RealTimeStarted:
+        startCycles(message);
+        break;
     case Message::RealTimeStopped:
         stopCycles();
         initializationFailed();
@@ -201,9 +233,12 @@ void QPlcSlaveNodePrivate::receive(const Message &message)
         Q_EMIT q->messageReceived(message);
         break;
     case Message::Failed:
-        qCWarning(lcSlave).noquote() << "node" << name << "asked in vain:" << qplc::printable(message.text(QStringLiteral("text")));
+        qCWarning(lcSlave).noquote() << "node" << name
+                                     << "asked in vain:" << qplc::printable(message.text(QStringLiteral("text")));
         Q_FALLTHROUGH();
-    default: Q_EMIT q->messageReceived(message); break;
+    default:
+        Q_EMIT q->messageReceived(message);
+        break;
     }
 }
 
@@ -213,7 +248,8 @@ bool QPlcSlaveNodePrivate::chooseTable(const Message &hello, QPlcSignalTable *ta
     if (!table->isEmpty())
         return true;
     QVector<QPlcParseError> errors;
-    *table = QPlcSignalTable::fromIni(hello.text(QStringLiteral("table")).toUtf8(), &errors, QStringLiteral("table of the master"));
+    *table = QPlcSignalTable::fromIni(hello.text(QStringLiteral("table")).toUtf8(), &errors,
+                                      QStringLiteral("table of the master"));
     if (table->isEmpty()) {
         giveUp(QPlcSlaveNode::ProtocolError, QPlcParseError::toString(errors));
         return false;
@@ -227,7 +263,10 @@ void QPlcSlaveNodePrivate::receiveHello(const Message &message)
     const int protocol = message.fields().value(QStringLiteral("protocol")).toInt();
     if (protocol != 1) {
         giveUp(QPlcSlaveNode::ProtocolError,
-               QStringLiteral("the master at %1 speaks protocol version %2, node '%3' version 1; update the older one").arg(master.toString()).arg(protocol).arg(name));
+               QStringLiteral("the master at %1 speaks protocol version %2, node '%3' version 1; update the older one")
+                   .arg(master.toString())
+                   .arg(protocol)
+                   .arg(name));
         return;
     }
     m_session = message.hex64(QStringLiteral("session"));
@@ -253,13 +292,15 @@ bool QPlcSlaveNodePrivate::makeUdpLink(quint16 *port)
 
 void QPlcSlaveNodePrivate::registerAtMaster()
 {
-    QJsonObject fields{{QStringLiteral("name"), name},
-                       {QStringLiteral("uuid"), m_uuid},
-                       {QStringLiteral("policy"), QLatin1String(QMetaEnum::fromType<QPlcSlaveNode::RealTimeViolationPolicy>().valueToKey(policy))},
-                       {QStringLiteral("listener"), listener},
-                       {QStringLiteral("inputs"), describe(runtime.table(), runtime.inputLayout())},
-                       {QStringLiteral("outputs"), describe(runtime.table(), runtime.outputLayout())},
-                       {QStringLiteral("cyclic"), master.kindName()}};
+    QJsonObject fields{
+        {QStringLiteral("name"), name},
+        {QStringLiteral("uuid"), m_uuid},
+        {QStringLiteral("policy"),
+         QLatin1String(QMetaEnum::fromType<QPlcSlaveNode::RealTimeViolationPolicy>().valueToKey(policy))},
+        {QStringLiteral("listener"), listener},
+        {QStringLiteral("inputs"), describe(runtime.table(), runtime.inputLayout())},
+        {QStringLiteral("outputs"), describe(runtime.table(), runtime.outputLayout())},
+        {QStringLiteral("cyclic"), master.kindName()}};
     if (master.kind() == QPlcUnderlyingProtocol::Udp) {
         quint16 port = 0;
         if (!makeUdpLink(&port))
@@ -273,11 +314,14 @@ void QPlcSlaveNodePrivate::receiveRegistered(const Message &message)
 {
     m_id = message.fields().value(QStringLiteral("node")).toInt();
     m_token = message.text(QStringLiteral("token"));
-    if (message.hex64(QStringLiteral("inputsHash")) != runtime.inputLayout().hash() || message.hex64(QStringLiteral("outputsHash")) != runtime.outputLayout().hash()) {
-        giveUp(QPlcSlaveNode::ProtocolError, QStringLiteral("master and node '%1' disagree on the layout of the frames").arg(name));
+    if (message.hex64(QStringLiteral("inputsHash")) != runtime.inputLayout().hash()
+        || message.hex64(QStringLiteral("outputsHash")) != runtime.outputLayout().hash()) {
+        giveUp(QPlcSlaveNode::ProtocolError,
+               QStringLiteral("master and node '%1' disagree on the layout of the frames").arg(name));
         return;
     }
-    cycle = std::make_unique<qplc::SlaveCycle>(runtime, qplc::SlaveCycle::Identity{m_session, quint16(m_id)}, lcCyclic().isDebugEnabled());
+    cycle = std::make_unique<qplc::SlaveCycle>(runtime, qplc::SlaveCycle::Identity{m_session, quint16(m_id)},
+                                               lcCyclic().isDebugEnabled());
     m_reportNotifier = std::make_unique<QSocketNotifier>(cycle->reports().descriptor(), QSocketNotifier::Read);
     QObject::connect(m_reportNotifier.get(), &QSocketNotifier::activated, q, [this] { takeReports(); });
     if (m_udpLink)
@@ -290,13 +334,16 @@ void QPlcSlaveNodePrivate::connectCyclicChannel()
 {
     m_cyclicSocket = new QPlcMasterSocket(q);
     QObject::connect(m_cyclicSocket, &QPlcAbstractSocket::connected, q, [this] {
-        m_cyclicSocket->sendMessage(Message(Message::AttachCyclicChannel, {{QStringLiteral("node"), m_id}, {QStringLiteral("token"), m_token}}));
+        m_cyclicSocket->sendMessage(Message(Message::AttachCyclicChannel,
+                                            {{QStringLiteral("node"), m_id}, {QStringLiteral("token"), m_token}}));
     });
     QObject::connect(m_cyclicSocket, &QPlcAbstractSocket::errorOccurred, q,
                      [this](QPlcAbstractSocket::Error e) { masterLost(e, m_cyclicSocket->errorString()); });
     QObject::connect(m_cyclicSocket, &QPlcAbstractSocket::messageReceived, q, [this](const Message &message) {
         if (message.kind() != Message::CyclicChannelAttached) {
-            giveUp(QPlcSlaveNode::RegistrationError, QStringLiteral("the master refuses the cyclic connection: %1").arg(qplc::printable(message.text(QStringLiteral("text")))));
+            giveUp(QPlcSlaveNode::RegistrationError,
+                   QStringLiteral("the master refuses the cyclic connection: %1")
+                       .arg(qplc::printable(message.text(QStringLiteral("text")))));
             return;
         }
         const int descriptor = m_cyclicSocket->takeDescriptor();
@@ -331,14 +378,19 @@ void QPlcSlaveNodePrivate::sendInitialOutputs()
         return;
     }
     const QByteArray values(runtime.outputs(), int(runtime.outputLayout().size()));
-    control->sendMessage(Message(Message::ReceiveMyInitialOutputStates, {{QStringLiteral("values"), Message::fromBytes(values)}}));
+    control->sendMessage(
+        Message(Message::ReceiveMyInitialOutputStates, {{QStringLiteral("values"), Message::fromBytes(values)}}));
 }
 
 void QPlcSlaveNodePrivate::initializeWith(const Message &message)
 {
     const QByteArray values = message.bytes(QStringLiteral("values"));
     if (values.size() != int(runtime.inputLayout().size())) {
-        giveUp(QPlcSlaveNode::ProtocolError, QStringLiteral("node '%1': initial values of %2 bytes instead of %3").arg(name).arg(values.size()).arg(runtime.inputLayout().size()));
+        giveUp(QPlcSlaveNode::ProtocolError,
+               QStringLiteral("node '%1': initial values of %2 bytes instead of %3")
+                   .arg(name)
+                   .arg(values.size())
+                   .arg(runtime.inputLayout().size()));
         return;
     }
     QString text;
@@ -407,29 +459,35 @@ void QPlcSlaveNodePrivate::takeReports()
 {
     if (!cycle)
         return;
-    cycle->reports().take([this](const qplc::CycleEvent &event) { report(event); }, [this](const qplc::TappedFrame &frame) { qplc::logFrame(name, frame); });
+    cycle->reports().take([this](const qplc::CycleEvent &event) { report(event); },
+                          [this](const qplc::TappedFrame &frame) { qplc::logFrame(name, frame); });
 }
 
 void QPlcSlaveNodePrivate::report(const qplc::CycleEvent &event)
 {
     switch (event.kind) {
     case qplc::CycleEvent::WatchdogTimedOut:
-        setError(QPlcSlaveNode::WatchdogError, QStringLiteral("node '%1': no frame of the master for %2 ms since cycle %3")
-                                                   .arg(name)
-                                                   .arg(double(watchdog.count()) * 1e-6)
-                                                   .arg(event.cycle));
+        setError(QPlcSlaveNode::WatchdogError,
+                 QStringLiteral("node '%1': no frame of the master for %2 ms since cycle %3")
+                     .arg(name)
+                     .arg(double(watchdog.count()) * 1e-6)
+                     .arg(event.cycle));
         Q_EMIT q->watchdogTimedOut(event.cycle);
         break;
     case qplc::CycleEvent::NodeFaulted: {
-        const QString text = QStringLiteral("the code of the node threw in cycle %1: %2").arg(event.cycle).arg(QString::fromLocal8Bit(runtime.faultText()));
+        const QString text = QStringLiteral("the code of the node threw in cycle %1: %2")
+                                 .arg(event.cycle)
+                                 .arg(QString::fromLocal8Bit(runtime.faultText()));
         if (control)
             control->sendMessage(Message(Message::NodeFault, {{QStringLiteral("text"), text}}));
         setError(QPlcSlaveNode::UserCodeError, QStringLiteral("node '%1': %2").arg(name, text));
         break;
     }
     case qplc::CycleEvent::LinkClosed:
-        qCDebug(lcSlave).noquote() << "node" << name << "has lost its cyclic connection";  // the control connection follows, with the reason
+        qCDebug(lcSlave).noquote()
+            << "node" << name << "has lost its cyclic connection";  // the control connection follows, with the reason
         break;
-    default: break;
+    default:
+        break;
     }
 }

@@ -30,8 +30,10 @@ std::size_t sizeOfInputFrame(const void *decoder, const char *header)
 SlaveCycle::SlaveCycle(NodeRuntime &runtime, const Identity &identity, bool tapFrames)
     : m_runtime(runtime)
     , m_node(identity.node)
-    , m_decoder(FrameKind::Inputs, seedOf(identity, runtime.inputLayout()), runtime.inputLayout().partBorders(MaximumCyclicPayload))
-    , m_encoder(FrameKind::Outputs, seedOf(identity, runtime.outputLayout()), runtime.outputLayout().partBorders(MaximumCyclicPayload))
+    , m_decoder(FrameKind::Inputs, seedOf(identity, runtime.inputLayout()),
+                runtime.inputLayout().partBorders(MaximumCyclicPayload))
+    , m_encoder(FrameKind::Outputs, seedOf(identity, runtime.outputLayout()),
+                runtime.outputLayout().partBorders(MaximumCyclicPayload))
     , m_reports(tapFrames)
     , m_frame(MaximumCyclicFrame)
 {
@@ -53,13 +55,15 @@ bool SlaveCycle::start(const Phase &phase)
     m_phase = phase;
     m_decoder.restart(phase.firstCycle);
     m_runtime.setLockstep(phase.clock.isLockstep());
-    for (std::atomic<quint64> *counter : {&m_counters.cycles, &m_counters.missed, &m_counters.duplicated, &m_counters.outdated, &m_counters.rejected, &m_counters.watchdog})
+    for (std::atomic<quint64> *counter : {&m_counters.cycles, &m_counters.missed, &m_counters.duplicated,
+                                          &m_counters.outdated, &m_counters.rejected, &m_counters.watchdog})
         counter->store(0);
     m_computedAny = m_faulted = m_watchdogBarked = false;
     m_lastCycle = phase.firstCycle;
     m_lastArrival = TimeSource::monotonic().now();
     m_stop = false;
-    m_link->setTimeout(phase.watchdog.count() > 0 ? std::min<std::int64_t>(phase.watchdog.count() / 2 + 1, LongestWait) : LongestWait);
+    m_link->setTimeout(phase.watchdog.count() > 0 ? std::min<std::int64_t>(phase.watchdog.count() / 2 + 1, LongestWait)
+                                                  : LongestWait);
     return m_thread.start(m_runtime.node().name(), phase.realTimeOptions, [this] { run(); });
 }
 
@@ -87,9 +91,15 @@ void SlaveCycle::run() noexcept
     std::size_t size = 0;
     while (!m_stop.load(std::memory_order_relaxed)) {
         switch (m_link->receive(&frame, &size)) {
-        case CyclicLink::Received: take(frame, size); break;
-        case CyclicLink::TimedOut: checkWatchdog(); break;
-        case CyclicLink::Closed: m_reports.post({CycleEvent::LinkClosed, m_node, 0, m_lastCycle}); return;
+        case CyclicLink::Received:
+            take(frame, size);
+            break;
+        case CyclicLink::TimedOut:
+            checkWatchdog();
+            break;
+        case CyclicLink::Closed:
+            m_reports.post({CycleEvent::LinkClosed, m_node, 0, m_lastCycle});
+            return;
         }
     }
 }
@@ -100,10 +110,17 @@ FrameStatus SlaveCycle::decode(const char *frame, std::size_t size) noexcept
     const FrameStatus status = m_decoder.decode(frame, size);
     switch (status) {
     case FrameStatus::Complete:
-    case FrameStatus::Incomplete: break;
-    case FrameStatus::Duplicate: count(m_counters.duplicated); break;
-    case FrameStatus::Old: count(m_counters.outdated); break;
-    default: count(m_counters.rejected); break;
+    case FrameStatus::Incomplete:
+        break;
+    case FrameStatus::Duplicate:
+        count(m_counters.duplicated);
+        break;
+    case FrameStatus::Old:
+        count(m_counters.outdated);
+        break;
+    default:
+        count(m_counters.rejected);
+        break;
     }
     return status;
 }
@@ -142,7 +159,8 @@ void SlaveCycle::compute() noexcept
     const std::uint64_t missed = m_computedAny ? cycle - m_lastCycle - 1 : 0;
     count(m_counters.cycles);
     count(m_counters.missed, missed);
-    const bool computed = m_runtime.step(QPlcCycle(cycle - m_phase.cycleZero, m_phase.period, missed), m_decoder.payload());
+    const bool computed
+        = m_runtime.step(QPlcCycle(cycle - m_phase.cycleZero, m_phase.period, missed), m_decoder.payload());
     if (!computed && !m_faulted)
         m_reports.post({CycleEvent::NodeFaulted, m_node, 0, cycle - m_phase.cycleZero});
     m_faulted = !computed;
@@ -151,7 +169,8 @@ void SlaveCycle::compute() noexcept
     m_watchdogBarked = false;
     m_answer.flags = computed ? 0 : FaultFlag;
     m_answer.cycle = std::uint32_t(cycle);
-    m_answer.info = std::uint32_t(std::min<std::int64_t>(m_runtime.executionTime(), std::numeric_limits<std::uint32_t>::max()));
+    m_answer.info
+        = std::uint32_t(std::min<std::int64_t>(m_runtime.executionTime(), std::numeric_limits<std::uint32_t>::max()));
     answer();
 }
 

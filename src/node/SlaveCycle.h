@@ -29,9 +29,9 @@ public:
     {
         std::chrono::nanoseconds period{0};
         QPlcClock clock;
-        std::uint64_t cycleZero = 0;             // number on the wire of cycle 0 of the phase
-        std::uint64_t firstCycle = 0;            // number on the wire of the first cycle that may come
-        std::chrono::nanoseconds watchdog{0};    // 0: none
+        std::uint64_t cycleZero = 0;           // number on the wire of cycle 0 of the phase
+        std::uint64_t firstCycle = 0;          // number on the wire of the first cycle that may come
+        std::chrono::nanoseconds watchdog{0};  // 0: none
         QPlcRealTimeOptions realTimeOptions;
     };
 
@@ -77,13 +77,13 @@ private:
 
     // cycle thread
     Phase m_phase;
-    std::vector<char> m_frame;          // one encoded part
-    FrameHeader m_answer;               // of the newest cycle
+    std::vector<char> m_frame;  // one encoded part
+    FrameHeader m_answer;       // of the newest cycle
     bool m_computedAny = false;
     bool m_faulted = false;
     bool m_watchdogBarked = false;
-    std::uint64_t m_lastCycle = 0;      // computed last
-    std::int64_t m_lastArrival = 0;     // [ns], 0 in lockstep
+    std::uint64_t m_lastCycle = 0;   // computed last
+    std::int64_t m_lastArrival = 0;  // [ns], 0 in lockstep
 
     struct AtomicCounters
     {

@@ -20,4 +20,4 @@ inline quint64 fnv1a64(const QByteArray &bytes, quint64 hash = fnv1a64Start)
     return fnv1a64(bytes.constData(), bytes.size(), hash);
 }
 
-} // namespace qplc
+}  // namespace qplc

@@ -150,7 +150,7 @@ void readEntry(const QByteArray &line, int begin, IniItem *item)
         readPlainValue(line, value, item);
 }
 
-} // namespace
+}  // namespace
 
 IniParser::IniParser(const QByteArray &text)
     : m_text(text)
@@ -262,4 +262,4 @@ QString IniParser::valueText(const QString &value)
     return needsQuotes ? QLatin1Char('"') + inside + QLatin1Char('"') : value;
 }
 
-} // namespace qplc
+}  // namespace qplc

@@ -9,20 +9,20 @@ namespace qplc {
 /// What one line of an INI text says. Lines and columns count from 1, columns in characters.
 struct IniItem
 {
-    enum Kind : quint8
-    {
-        Section, ///< [name]
-        Entry,   ///< name = value
-        Broken,  ///< neither
+    enum Kind : quint8 {
+        Section,  ///< [name]
+        Entry,    ///< name = value
+        Broken,   ///< neither
         End
     };
     Kind kind = End;
     int line = 0;
-    int column = 0;      // of the name
-    int valueColumn = 0; // of the value
+    int column = 0;       // of the name
+    int valueColumn = 0;  // of the value
     QString name;
     QString value;
-    QString error; // what is wrong with the line, and the remedy; empty: nothing. Name or value are not to be used then
+    QString
+        error;  // what is wrong with the line, and the remedy; empty: nothing. Name or value are not to be used then
     int errorColumn = 0;
 };
 
@@ -35,7 +35,7 @@ struct IniItem
 class IniParser
 {
 public:
-    static constexpr int MaximumLine = 4096; // [byte]
+    static constexpr int MaximumLine = 4096;  // [byte]
 
     explicit IniParser(const QByteArray &text);
 
@@ -56,4 +56,4 @@ private:
     int m_line = 0;
 };
 
-} // namespace qplc
+}  // namespace qplc

@@ -54,7 +54,7 @@ QStringList namesThatBeginAlike(const QString &name, const QStringList &candidat
     return result;
 }
 
-} // namespace
+}  // namespace
 
 QString quoted(const QString &text)
 {
@@ -102,4 +102,4 @@ QString didYouMean(const QStringList &names)
     return text + QLatin1Char('?');
 }
 
-} // namespace qplc
+}  // namespace qplc

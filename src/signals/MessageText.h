@@ -15,4 +15,4 @@ QStringList closeNames(const QString &name, const QStringList &candidates, int c
 /// "; did you mean 'a' or 'b'?"; empty when \a names is empty.
 QString didYouMean(const QStringList &names);
 
-} // namespace qplc
+}  // namespace qplc

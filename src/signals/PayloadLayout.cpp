@@ -28,4 +28,4 @@ std::vector<quint32> PayloadLayout::partBorders(quint32 maximum) const
     return borders;
 }
 
-} // namespace qplc
+}  // namespace qplc

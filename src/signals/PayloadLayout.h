@@ -12,9 +12,9 @@ namespace qplc {
 /// A piece of memory that is copied as a whole.
 struct CopyRun
 {
-    quint32 from = 0; // [byte]
-    quint32 to = 0;   // [byte]
-    quint32 size = 0; // [byte], > 0
+    quint32 from = 0;  // [byte]
+    quint32 to = 0;    // [byte]
+    quint32 size = 0;  // [byte], > 0
 };
 
 /// Copies all \a runs; the fixed sizes of single numbers become single moves.
@@ -43,8 +43,8 @@ class PayloadLayout
 public:
     struct Field
     {
-        QPlcSignalIndex signal = QPlcInvalidSignalIndex; // in the table that the layout was made from
-        quint32 offset = 0;                              // [byte] in the payload
+        QPlcSignalIndex signal = QPlcInvalidSignalIndex;  // in the table that the layout was made from
+        quint32 offset = 0;                               // [byte] in the payload
         QPlcSignalType type;
     };
 
@@ -53,7 +53,7 @@ public:
     PayloadLayout(const QPlcSignalTable &table, const QVector<QPlcSignalIndex> &signalIndices);
 
     const std::vector<Field> &fields() const { return m_fields; }
-    quint32 size() const { return m_size; } // [byte]
+    quint32 size() const { return m_size; }  // [byte]
     /// FNV-1a-64 of "name:type@offset\n" of all fields in order.
     quint64 hash() const { return m_hash; }
 
@@ -68,4 +68,4 @@ private:
     quint64 m_hash = fnv1a64Start;
 };
 
-} // namespace qplc
+}  // namespace qplc

@@ -11,7 +11,7 @@ namespace qplc {
 
 namespace {
 
-constexpr std::size_t alignment = 64; // [byte] a cache line; the image is padded with zeros to a multiple of it
+constexpr std::size_t alignment = 64;  // [byte] a cache line; the image is padded with zeros to a multiple of it
 
 std::size_t paddedSize(quint32 size)
 {
@@ -33,7 +33,7 @@ void appendRun(std::vector<CopyRun> &runs, const CopyRun &run)
         runs.push_back(run);
 }
 
-} // namespace
+}  // namespace
 
 void ProcessImage::AlignedDelete::operator()(char *bytes) const
 {
@@ -109,4 +109,4 @@ quint64 ProcessImage::digest(quint64 digest) const noexcept
     return mixed(result, result >> 29);
 }
 
-} // namespace qplc
+}  // namespace qplc

@@ -53,4 +53,4 @@ private:
     quint32 m_size = 0;
 };
 
-} // namespace qplc
+}  // namespace qplc

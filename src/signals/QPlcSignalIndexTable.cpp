@@ -19,7 +19,7 @@ ProcessTable &processTable()
     return *table;
 }
 
-} // namespace
+}  // namespace
 
 bool QPlcSignalIndexTable::initializeFromIniFile(const QString &fileName)
 {
@@ -59,7 +59,7 @@ QPlcSignalTable QPlcSignalIndexTable::current()
 void QPlcSignalIndexTable::setCurrent(const QPlcSignalTable &table)
 {
     ProcessTable &process = processTable();
-    QPlcSignalTable previous; // is destroyed after the lock
+    QPlcSignalTable previous;  // is destroyed after the lock
     const std::lock_guard<std::mutex> lock(process.mutex);
     previous = process.table;
     process.table = table;

@@ -7,13 +7,13 @@
 
 namespace {
 
-template <typename Iterator>
+template<typename Iterator>
 Iterator find(Iterator begin, Iterator end, QPlcSignalIndex index)
 {
     return std::find_if(begin, end, [index](const QPlcSignalList::Entry &entry) { return entry.index == index; });
 }
 
-} // namespace
+}  // namespace
 
 void QPlcSignalList::insert(QPlcSignalIndex index, const QPlcValue &value)
 {

@@ -12,7 +12,7 @@ using qplc::quoted;
 
 namespace {
 
-constexpr qint64 largestFile = 64 * 1024 * 1024; // [byte] a thousand for each of the most signals
+constexpr qint64 largestFile = 64 * 1024 * 1024;  // [byte] a thousand for each of the most signals
 
 QPlcSignalTable failed(const QString &fileName, const QString &message, QVector<QPlcParseError> *errors)
 {
@@ -41,7 +41,7 @@ QPlcSignalDefinition completed(QPlcSignalDefinition signal)
     return signal;
 }
 
-} // namespace
+}  // namespace
 
 QPlcSignalTable QPlcSignalTable::fromIni(const QByteArray &text, QVector<QPlcParseError> *errors,
                                          const QString &fileName)

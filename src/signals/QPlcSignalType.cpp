@@ -122,7 +122,7 @@ QPlcSignalType typeWithSize(const QString &name, int bracket, QString *error)
     return type;
 }
 
-} // namespace
+}  // namespace
 
 QPlcSignalType QPlcSignalType::fromName(const QString &name, QString *error)
 {

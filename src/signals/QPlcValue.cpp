@@ -17,10 +17,10 @@ using qplc::quoted;
 namespace {
 
 constexpr qint64 nanosecondsPerMillisecond = 1000000;
-constexpr int textHeader = 2; // [byte] in front of a text: its length
+constexpr int textHeader = 2;  // [byte] in front of a text: its length
 
 // Calls `function` with a zero of the type that holds one element.
-template <typename Function>
+template<typename Function>
 auto withElement(QPlcSignalType::Scalar scalar, Function function)
 {
     switch (scalar) {
@@ -47,13 +47,13 @@ auto withElement(QPlcSignalType::Scalar scalar, Function function)
     }
 }
 
-template <typename T>
+template<typename T>
 T elementAt(const char *bytes, int element)
 {
     return QSplitPrimitive<T>::fromBytes(bytes + std::size_t(element) * sizeof(T));
 }
 
-template <typename T>
+template<typename T>
 void setElementAt(char *bytes, int element, T value)
 {
     QSplitPrimitive<T>(value).toBytes(bytes + std::size_t(element) * sizeof(T));
@@ -61,12 +61,12 @@ void setElementAt(char *bytes, int element, T value)
 
 bool isFloat(double value)
 {
-    constexpr double roundsToInfinity = 0x1.ffffffp127; // halfway between the largest float and 2^128
+    constexpr double roundsToInfinity = 0x1.ffffffp127;  // halfway between the largest float and 2^128
     return !std::isfinite(value) || std::abs(value) < roundsToInfinity;
 }
 
 // Whether the integer type To has the number `value`, which is an integer itself.
-template <typename To, typename From>
+template<typename To, typename From>
 bool isInRange(From value)
 {
     using Limits = std::numeric_limits<To>;
@@ -81,7 +81,7 @@ bool isInRange(From value)
 }
 
 // The number `value` as another type. False when it is not there: NaN or out of range.
-template <typename To, typename From>
+template<typename To, typename From>
 bool convertNumber(From value, To *result)
 {
     if constexpr (std::is_floating_point_v<To>) {
@@ -98,7 +98,7 @@ bool convertNumber(From value, To *result)
     return true;
 }
 
-template <typename To, typename From>
+template<typename To, typename From>
 To saturated(From value, bool *ok)
 {
     *ok = !std::isnan(double(value));
@@ -108,7 +108,7 @@ To saturated(From value, bool *ok)
     return result;
 }
 
-template <typename To>
+template<typename To>
 To elementAs(const QPlcValue &value, const char *bytes, int element, bool *ok)
 {
     bool isThere = value.isValid() && !value.type().isString() && element >= 0 && element < value.type().count();
@@ -125,13 +125,13 @@ To elementAs(const QPlcValue &value, const char *bytes, int element, bool *ok)
 
 // ---- text of one element ----
 
-template <typename T>
+template<typename T>
 QString rangeText()
 {
     return QStringLiteral("%1 ... %2").arg(std::numeric_limits<T>::min()).arg(std::numeric_limits<T>::max());
 }
 
-template <typename T>
+template<typename T>
 QString readReal(const QString &text, QPlcSignalType type, T *result)
 {
     double value = 0.0;
@@ -145,7 +145,7 @@ QString readReal(const QString &text, QPlcSignalType type, T *result)
     return QString();
 }
 
-template <typename T>
+template<typename T>
 QString readInteger(const QString &text, QPlcSignalType type, T *result)
 {
     if (std::is_same_v<T, qint8> && (text == QLatin1String("true") || text == QLatin1String("false"))) {
@@ -220,7 +220,7 @@ QString wrongCount(QPlcSignalType type, const QString &text, int given)
         .arg(type.count());
 }
 
-} // namespace
+}  // namespace
 
 // ---- making ----
 
@@ -296,7 +296,7 @@ QPlcValue QPlcValue::fromBytes(QPlcSignalType type, const void *bytes)
         const int length = elementAt<quint16>(source, 0);
         if (length > type.capacity() || qplc::firstInvalidUtf8(source + textHeader, length) >= 0)
             return QPlcValue();
-        used = textHeader + length; // the rest stays zero
+        used = textHeader + length;  // the rest stays zero
     }
     std::memcpy(result.data(), source, std::size_t(used));
     return result;

@@ -47,11 +47,7 @@ void checkName(const QString &name, Complaints *complaints)
                                 .arg(longestName)});
 }
 
-enum class LineBreaks : quint8
-{
-    Allowed,
-    Refused
-};
+enum class LineBreaks : quint8 { Allowed, Refused };
 
 void checkText(SignalKey key, const QString &text, LineBreaks lineBreaks, Complaints *complaints)
 {
@@ -162,7 +158,7 @@ void checkLine(SignalKey key, const QString &value, Complaints *complaints)
 void checkLines(const QPlcSignalDefinition &signal, Complaints *complaints)
 {
     constexpr int longText = IniParser::MaximumLine / 8;
-    constexpr int longValue = 128; // [byte]
+    constexpr int longValue = 128;  // [byte]
     if (signal.unit.size() > longText)
         checkLine(SignalKey::Unit, IniParser::valueText(signal.unit), complaints);
     if (signal.description.size() > longText)
@@ -173,7 +169,7 @@ void checkLines(const QPlcSignalDefinition &signal, Complaints *complaints)
     }
 }
 
-} // namespace
+}  // namespace
 
 const QStringList &signalKeyNames()
 {
@@ -223,4 +219,4 @@ QString iniSection(const QPlcSignalDefinition &signal)
     return lines.join(QLatin1Char('\n')) + QLatin1Char('\n');
 }
 
-} // namespace qplc
+}  // namespace qplc

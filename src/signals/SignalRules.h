@@ -8,18 +8,7 @@
 namespace qplc {
 
 /// The keys of a signal in its table. Name: the section itself.
-enum class SignalKey : quint8
-{
-    Type,
-    Unit,
-    Description,
-    Minimum,
-    Maximum,
-    Initial,
-    Safe,
-    Hold,
-    Name
-};
+enum class SignalKey : quint8 { Type, Unit, Description, Minimum, Maximum, Initial, Safe, Hold, Name };
 constexpr int signalKeyCount = int(SignalKey::Name);
 
 /// "type", "unit", ... in the order of SignalKey
@@ -34,7 +23,7 @@ inline QPlcSignalType elementType(QPlcSignalType type)
 struct Complaint
 {
     SignalKey key;
-    QString text; // what is wrong, and the remedy
+    QString text;  // what is wrong, and the remedy
 };
 
 /// What makes \a signal no signal of a table; empty: nothing.
@@ -43,4 +32,4 @@ QVector<Complaint> complaintsAbout(const QPlcSignalDefinition &signal);
 /// Lines of the section of \a signal in an INI text. \pre there are no complaints about it
 QString iniSection(const QPlcSignalDefinition &signal);
 
-} // namespace qplc
+}  // namespace qplc

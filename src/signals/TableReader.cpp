@@ -188,4 +188,4 @@ void TableReader::complain(const Complaint &complaint)
         m_errors.add(m_signal.line, m_nameColumn, complaint.text);
 }
 
-} // namespace qplc
+}  // namespace qplc

@@ -45,10 +45,10 @@ public:
 private:
     struct Entry
     {
-        int line = 0; // 0: the section has no such key
+        int line = 0;  // 0: the section has no such key
         int column = 0;
         int valueColumn = 0;
-        bool isWrong = false; // reported already
+        bool isWrong = false;  // reported already
         QString value;
     };
 
@@ -64,20 +64,19 @@ private:
     IniParser m_parser;
     ErrorCollector m_errors;
     QVector<QPlcSignalDefinition> m_signals;
-    QHash<QString, int> m_firstLines; // of signal names
+    QHash<QString, int> m_firstLines;  // of signal names
 
     // the open section
-    enum class State : quint8
-    {
+    enum class State : quint8 {
         BeforeFirst,
         Open,
         Wrong
-    }; // Wrong: its first line is broken, so its name is not known
+    };  // Wrong: its first line is broken, so its name is not known
     State m_state = State::BeforeFirst;
     QPlcSignalDefinition m_signal;
     int m_nameColumn = 0;
-    bool m_hasBrokenLine = false; // it may be the one that is missed
+    bool m_hasBrokenLine = false;  // it may be the one that is missed
     std::array<Entry, signalKeyCount> m_entries;
 };
 
-} // namespace qplc
+}  // namespace qplc

@@ -39,7 +39,7 @@ bool isSecondByte(unsigned char lead, unsigned char second)
     }
 }
 
-} // namespace
+}  // namespace
 
 int firstInvalidUtf8(const char *bytes, int size)
 {
@@ -68,4 +68,4 @@ int utf8Characters(const char *bytes, int size)
     return characters;
 }
 
-} // namespace qplc
+}  // namespace qplc

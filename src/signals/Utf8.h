@@ -10,4 +10,4 @@ int firstInvalidUtf8(const char *bytes, int size);
 /// Number of characters that begin in \a bytes.
 int utf8Characters(const char *bytes, int size);
 
-} // namespace qplc
+}  // namespace qplc

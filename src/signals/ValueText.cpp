@@ -85,7 +85,7 @@ bool matches(const QString &text, const char *pattern)
 bool join(qint64 seconds, qint64 fraction, qint64 *time)
 {
     using Limits = std::numeric_limits<qint64>;
-    if (seconds < 0) { // towards zero, so that the product fits where the sum does
+    if (seconds < 0) {  // towards zero, so that the product fits where the sum does
         ++seconds;
         fraction -= nanosecondsPerSecond;
     }
@@ -98,7 +98,7 @@ bool join(qint64 seconds, qint64 fraction, qint64 *time)
     return true;
 }
 
-} // namespace
+}  // namespace
 
 QString realText(double value)
 {
@@ -108,9 +108,9 @@ QString realText(double value)
 
 QString realText(float value)
 {
-    constexpr int mostDigits = 9; // always suffice
+    constexpr int mostDigits = 9;  // always suffice
     const double exact = double(value);
-    const int sureDigits = std::abs(value) < std::numeric_limits<float>::min() ? 1 : 6; // always survive
+    const int sureDigits = std::abs(value) < std::numeric_limits<float>::min() ? 1 : 6;  // always survive
     QString text = specialText(exact);
     for (int digits = sureDigits; text.isEmpty(); ++digits) {
         const QString candidate = QString::number(exact, 'g', digits);
@@ -175,7 +175,7 @@ QString timeText(qint64 time)
 
 bool timeFromText(const QString &text, qint64 *time)
 {
-    constexpr int secondsEnd = 19; // "0000-00-00T00:00:00"
+    constexpr int secondsEnd = 19;  // "0000-00-00T00:00:00"
     if (text.size() <= secondsEnd || !matches(text, "0000-00-00T00:00:00") || !text.endsWith(QLatin1Char('Z')))
         return false;
     QString digits = text.mid(secondsEnd, text.size() - secondsEnd - 1);
@@ -196,4 +196,4 @@ bool timeFromText(const QString &text, qint64 *time)
     return join(seconds, digits.leftJustified(fractionDigits, QLatin1Char('0')).toLongLong(), time);
 }
 
-} // namespace qplc
+}  // namespace qplc

@@ -21,4 +21,4 @@ QString timeText(qint64 time);
 /// \return false when \a text is no such time, or none that 64 bits of nanoseconds can hold (1677 ... 2262)
 bool timeFromText(const QString &text, qint64 *time);
 
-} // namespace qplc
+}  // namespace qplc

@@ -19,8 +19,7 @@ class ControlClient : public QObject
 {
     Q_OBJECT
 public:
-    enum Error
-    {
+    enum Error {
         NoError,
         Unreachable,  ///< nobody there, or no QtPLC master
         Refused,      ///< the master said no: errorString() is its sentence

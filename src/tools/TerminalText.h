@@ -19,11 +19,7 @@ void printLine(const QString &line);
 class TextTable
 {
 public:
-    enum Alignment
-    {
-        Left,
-        Right
-    };
+    enum Alignment { Left, Right };
 
     void addColumn(const QString &title, Alignment alignment = Left);
     /// \pre as many cells as columns

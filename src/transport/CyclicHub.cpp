@@ -175,7 +175,8 @@ void CyclicHub::flush() noexcept
 {
     std::size_t done = 0;
     while (done < m_outgoing) {
-        const int sent = ::sendmmsg(m_udp, m_messages->outgoing.data() + done, unsigned(m_outgoing - done), MSG_DONTWAIT | MSG_NOSIGNAL);
+        const int sent = ::sendmmsg(m_udp, m_messages->outgoing.data() + done, unsigned(m_outgoing - done),
+                                    MSG_DONTWAIT | MSG_NOSIGNAL);
         if (sent > 0) {
             done += std::size_t(sent);
             continue;
@@ -236,7 +237,8 @@ bool CyclicHub::nextFromStream(Incoming *incoming) noexcept
         pollfd &polled = m_polled[m_stream + 1];
         HubPeer *peer = m_streams[m_stream];
         for (;;) {
-            const FrameBuffer::Result result = peer->m_received->next(peer->m_cutter, &incoming->frame, &incoming->size);
+            const FrameBuffer::Result result
+                = peer->m_received->next(peer->m_cutter, &incoming->frame, &incoming->size);
             if (result == FrameBuffer::Frame) {
                 incoming->peer = peer;
                 return true;
@@ -246,7 +248,8 @@ bool CyclicHub::nextFromStream(Incoming *incoming) noexcept
                 break;
             polled.revents = 0;  // one recv() for each event; what remains wakes the next wait()
             peer->m_received->compact();
-            const ssize_t count = ::recv(peer->m_descriptor, peer->m_received->space(), peer->m_received->spaceSize(), MSG_DONTWAIT);
+            const ssize_t count
+                = ::recv(peer->m_descriptor, peer->m_received->space(), peer->m_received->spaceSize(), MSG_DONTWAIT);
             if (count > 0)
                 peer->m_received->filled(std::size_t(count));
             else if (count == 0 || (errno != EAGAIN && errno != EINTR))

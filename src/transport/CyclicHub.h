@@ -63,7 +63,7 @@ public:
 
     struct Incoming
     {
-        HubPeer *peer = nullptr;   // null: a stranger's datagram
+        HubPeer *peer = nullptr;  // null: a stranger's datagram
         const char *frame = nullptr;
         std::size_t size = 0;
     };
@@ -109,15 +109,15 @@ private:
 
     int m_udp = -1;
     std::vector<HubPeer *> m_peers;
-    std::vector<pollfd> m_polled;          // 0: UDP, then the TCP peers in order
-    std::vector<HubPeer *> m_streams;      // peer of m_polled[i + 1]
+    std::vector<pollfd> m_polled;      // 0: UDP, then the TCP peers in order
+    std::vector<HubPeer *> m_streams;  // peer of m_polled[i + 1]
     std::array<HubPeer *, TableSize> m_table{};
     std::unique_ptr<Messages> m_messages;
-    std::size_t m_outgoing = 0;            // datagrams waiting for flush()
-    std::size_t m_arrived = 0;             // datagrams of the last recvmmsg
-    std::size_t m_taken = 0;               // of them handed out
+    std::size_t m_outgoing = 0;  // datagrams waiting for flush()
+    std::size_t m_arrived = 0;   // datagrams of the last recvmmsg
+    std::size_t m_taken = 0;     // of them handed out
     bool m_moreDatagrams = false;
-    std::size_t m_stream = 0;              // next stream to look at
+    std::size_t m_stream = 0;  // next stream to look at
     std::uint64_t m_strangers = 0;
 };
 

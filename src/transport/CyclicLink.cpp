@@ -64,16 +64,22 @@ public:
     }
     Status receive(const char **frame, std::size_t *size) noexcept override { return take(frame, size, 0); }
     Status poll(const char **frame, std::size_t *size) noexcept override { return take(frame, size, MSG_DONTWAIT); }
-    bool send(const char *frame, std::size_t size) noexcept override { return m_sender.send(m_descriptor, frame, size, 0); }
+    bool send(const char *frame, std::size_t size) noexcept override
+    {
+        return m_sender.send(m_descriptor, frame, size, 0);
+    }
 
 private:
     Status take(const char **frame, std::size_t *size, int flags) noexcept
     {
         for (;;) {
             switch (m_buffer.next(m_cutter, frame, size)) {
-            case FrameBuffer::Frame: return Received;
-            case FrameBuffer::Garbage: return Closed;
-            case FrameBuffer::NeedMore: break;
+            case FrameBuffer::Frame:
+                return Received;
+            case FrameBuffer::Garbage:
+                return Closed;
+            case FrameBuffer::NeedMore:
+                break;
             }
             m_buffer.compact();
             m_sender.sendRest(m_descriptor, MSG_DONTWAIT);
@@ -118,7 +124,8 @@ std::unique_ptr<CyclicLink> CyclicLink::udp(const SocketAddress &master, quint16
     auto link = std::make_unique<UdpLink>(descriptor);
     SocketAddress local;
     local.length = sizeof local.storage;
-    if (::connect(descriptor, master.data(), master.length) < 0 || ::getsockname(descriptor, local.data(), &local.length) < 0) {
+    if (::connect(descriptor, master.data(), master.length) < 0
+        || ::getsockname(descriptor, local.data(), &local.length) < 0) {
         *error = QStringLiteral("no UDP socket towards %1: %2").arg(master.toString(), systemErrorText());
         return nullptr;
     }

@@ -18,9 +18,9 @@ class CyclicLink
 {
 public:
     enum Status {
-        Received,   ///< a frame is there
-        TimedOut,   ///< none within the time set by setTimeout(), or the wait was interrupted
-        Closed      ///< the link is gone for good
+        Received,  ///< a frame is there
+        TimedOut,  ///< none within the time set by setTimeout(), or the wait was interrupted
+        Closed     ///< the link is gone for good
     };
 
     virtual ~CyclicLink();

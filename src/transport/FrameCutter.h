@@ -8,8 +8,9 @@ namespace qplc {
 /// Tells where a frame ends in a byte stream, to links that know nothing of frames.
 struct FrameCutter
 {
-    std::size_t headerSize = 0;                                            // bytes that frameSize looks at
-    std::size_t (*frameSize)(const void *context, const char *header) = nullptr;  // whole frame [byte]; 0: no frame begins here
+    std::size_t headerSize = 0;  // bytes that frameSize looks at
+    std::size_t (*frameSize)(const void *context, const char *header)
+        = nullptr;  // whole frame [byte]; 0: no frame begins here
     const void *context = nullptr;
 };
 

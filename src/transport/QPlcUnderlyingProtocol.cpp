@@ -15,7 +15,8 @@ QHostAddress lookUp(const QString &host, QString *error)
     const QHostInfo info = QHostInfo::fromName(host);
     if (!info.addresses().isEmpty())
         return info.addresses().constFirst();
-    *error = QStringLiteral("unknown host '%1': %2; give a name that resolves, or an IP address").arg(host, info.errorString());
+    *error = QStringLiteral("unknown host '%1': %2; give a name that resolves, or an IP address")
+                 .arg(host, info.errorString());
     return {};
 }
 
@@ -49,7 +50,9 @@ QPlcUnderlyingProtocol QPlcUnderlyingProtocol::fromString(const QString &text, K
     QString host;
     QString portText;
     if (!split(rest, &host, &portText)) {
-        reason = QStringLiteral("'%1' is no address; write HOST:PORT, for example 127.0.0.1:%2").arg(text).arg(DefaultPort);
+        reason = QStringLiteral("'%1' is no address; write HOST:PORT, for example 127.0.0.1:%2")
+                     .arg(text)
+                     .arg(DefaultPort);
         return {};
     }
     bool isNumber = true;
@@ -65,15 +68,20 @@ QPlcUnderlyingProtocol QPlcUnderlyingProtocol::fromString(const QString &text, K
 QString QPlcUnderlyingProtocol::kindName() const
 {
     switch (m_kind) {
-    case Tcp: return QStringLiteral("tcp");
-    case Udp: return QStringLiteral("udp");
-    case Invalid: break;
+    case Tcp:
+        return QStringLiteral("tcp");
+    case Udp:
+        return QStringLiteral("udp");
+    case Invalid:
+        break;
     }
     return QStringLiteral("invalid");
 }
 
 QString QPlcUnderlyingProtocol::toString() const
 {
-    const QString host = m_address.protocol() == QAbstractSocket::IPv6Protocol ? QStringLiteral("[%1]").arg(m_address.toString()) : m_address.toString();
+    const QString host = m_address.protocol() == QAbstractSocket::IPv6Protocol
+        ? QStringLiteral("[%1]").arg(m_address.toString())
+        : m_address.toString();
     return QStringLiteral("%1://%2:%3").arg(kindName(), host).arg(m_port);
 }

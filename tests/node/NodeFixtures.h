@@ -38,7 +38,8 @@ unit = m
 type = Real64Triple
 [free]
 type = Real32
-)", &errors);
+)",
+                                                           &errors);
     Q_ASSERT_X(errors.isEmpty(), "testTable", qPrintable(QPlcParseError::toString(errors)));
     return table;
 }
@@ -53,7 +54,10 @@ public:
         setSignalTable(table);
         setClock(clock);
     }
-    bool listen(const QHostAddress &address = QHostAddress::LocalHost) { return startServer(QPlcUnderlyingProtocol::tcp(address, 0)); }
+    bool listen(const QHostAddress &address = QHostAddress::LocalHost)
+    {
+        return startServer(QPlcUnderlyingProtocol::tcp(address, 0));
+    }
     QPlcUnderlyingProtocol protocol(const QString &kind) const
     {
         return kind == QLatin1String("udp") ? QPlcUnderlyingProtocol::udp(QHostAddress::LocalHost, serverPort())
@@ -100,7 +104,8 @@ class CounterNode : public QPlcCompactSlaveNode
 {
     Q_OBJECT
 public:
-    explicit CounterNode(const QString &name = QStringLiteral("Counter"), RealTimeViolationPolicy policy = ErrorZeroOrderHold)
+    explicit CounterNode(const QString &name = QStringLiteral("Counter"),
+                         RealTimeViolationPolicy policy = ErrorZeroOrderHold)
         : QPlcCompactSlaveNode(name, policy)
     {
     }

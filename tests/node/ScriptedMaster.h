@@ -39,16 +39,25 @@ public:
 
     const QPlcSignalTable table;
     QPlcSlaveSocket *control = nullptr;
-    QTcpSocket *stream = nullptr;        // cyclic TCP
-    QVector<QPlcMessage> messages;       // of all connections
+    QTcpSocket *stream = nullptr;   // cyclic TCP
+    QVector<QPlcMessage> messages;  // of all connections
     QVector<Answer> answers;
-    quint64 first = 100;                 // number on the wire of cycle 0
+    quint64 first = 100;  // number on the wire of cycle 0
 
-    QPlcUnderlyingProtocol udp() const { return QPlcUnderlyingProtocol::udp(QHostAddress::LocalHost, m_server.serverPort()); }
-    QPlcUnderlyingProtocol tcp() const { return QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, m_server.serverPort()); }
+    QPlcUnderlyingProtocol udp() const
+    {
+        return QPlcUnderlyingProtocol::udp(QHostAddress::LocalHost, m_server.serverPort());
+    }
+    QPlcUnderlyingProtocol tcp() const
+    {
+        return QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, m_server.serverPort());
+    }
 
     // ---- control channel ----
-    void send(QPlcMessage::Kind kind, const QJsonObject &fields = {}) { control->sendMessage(QPlcMessage(kind, fields)); }
+    void send(QPlcMessage::Kind kind, const QJsonObject &fields = {})
+    {
+        control->sendMessage(QPlcMessage(kind, fields));
+    }
     QPlcMessage next(int timeout = 5000)
     {
         (void)QTest::qWaitFor([this] { return m_taken < messages.size(); }, timeout);
@@ -65,8 +74,10 @@ public:
     {
         m_in = layoutOf(message.fields().value(QStringLiteral("inputs")).toArray());
         m_out = layoutOf(message.fields().value(QStringLiteral("outputs")).toArray());
-        m_encoder = qplc::FrameEncoder(qplc::FrameKind::Inputs, {Session, Node, m_in.hash()}, m_in.partBorders(qplc::MaximumCyclicPayload));
-        m_decoder = qplc::FrameDecoder(qplc::FrameKind::Outputs, {Session, Node, m_out.hash()}, m_out.partBorders(qplc::MaximumCyclicPayload));
+        m_encoder = qplc::FrameEncoder(qplc::FrameKind::Inputs, {Session, Node, m_in.hash()},
+                                       m_in.partBorders(qplc::MaximumCyclicPayload));
+        m_decoder = qplc::FrameDecoder(qplc::FrameKind::Outputs, {Session, Node, m_out.hash()},
+                                       m_out.partBorders(qplc::MaximumCyclicPayload));
         m_peerPort = quint16(message.fields().value(QStringLiteral("udpPort")).toInt());
         return {{QStringLiteral("node"), Node},
                 {QStringLiteral("inputsHash"), QPlcMessage::fromHex64(m_in.hash())},
@@ -183,7 +194,8 @@ private:
     void take(const QByteArray &bytes)
     {
         const qplc::FrameStatus status = m_decoder.decode(bytes.constData(), std::size_t(bytes.size()));
-        answers << Answer{bytes, status, quint8(bytes.at(1)), quint32(m_decoder.received().cycle) - first, QByteArray(m_decoder.payload(), int(m_out.size()))};
+        answers << Answer{bytes, status, quint8(bytes.at(1)), quint32(m_decoder.received().cycle) - first,
+                          QByteArray(m_decoder.payload(), int(m_out.size()))};
     }
 
     int m_taken = 0;

@@ -58,15 +58,15 @@ public:
     QStringList inputs{QStringLiteral("count")};
     QStringList outputs{QStringLiteral("echo")};
     QByteArray initialValues = QByteArray(8, '\0');
-    bool playsAlong = true;                                // answers initialization and start by itself
+    bool playsAlong = true;  // answers initialization and start by itself
     std::function<void(const Request &)> onRequest;
 
     // ---- what came ----
     QPlcMasterSocket control;
-    QTcpSocket stream;                                     // cyclic TCP
+    QTcpSocket stream;  // cyclic TCP
     QVector<QPlcMessage> messages;
-    QVector<Request> frames;                               // all of them
-    QVector<Request> requests;                             // that became complete: one for each cycle
+    QVector<Request> frames;    // all of them
+    QVector<Request> requests;  // that became complete: one for each cycle
     QPlcMessage registered;
     quint64 session = 0;
 
@@ -77,7 +77,10 @@ public:
         control.connectToMaster(QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, port));
         return QTest::qWaitFor([this] { return control.isConnected(); }, 5000);
     }
-    void send(QPlcMessage::Kind kind, const QJsonObject &fields = {}) { control.sendMessage(QPlcMessage(kind, fields)); }
+    void send(QPlcMessage::Kind kind, const QJsonObject &fields = {})
+    {
+        control.sendMessage(QPlcMessage(kind, fields));
+    }
     /// The next message; of kind Invalid when none comes.
     QPlcMessage next(int timeout = 5000)
     {
@@ -91,18 +94,28 @@ public:
     }
     bool waitForMessage(QPlcMessage::Kind kind)
     {
-        return QTest::qWaitFor([&] { return std::any_of(messages.begin(), messages.end(), [&](const QPlcMessage &m) { return m.kind() == kind; }); }, 5000);
+        return QTest::qWaitFor(
+            [&] {
+                return std::any_of(messages.begin(), messages.end(),
+                                   [&](const QPlcMessage &m) { return m.kind() == kind; });
+            },
+            5000);
     }
     QJsonObject helloFields() const
     {
-        return {{QStringLiteral("protocol"), 1}, {QStringLiteral("name"), name}, {QStringLiteral("uuid"), uuid}, {QStringLiteral("role"), QStringLiteral("node")}};
+        return {{QStringLiteral("protocol"), 1},
+                {QStringLiteral("name"), name},
+                {QStringLiteral("uuid"), uuid},
+                {QStringLiteral("role"), QStringLiteral("node")}};
     }
     QJsonArray describe(const QStringList &names) const
     {
         QJsonArray array;
         for (const QString &signal : names) {
             const QPlcSignalDefinition &definition = table.at(table.indexOf(signal));
-            array << QJsonObject{{QStringLiteral("name"), signal}, {QStringLiteral("type"), definition.type.name()}, {QStringLiteral("unit"), definition.unit}};
+            array << QJsonObject{{QStringLiteral("name"), signal},
+                                 {QStringLiteral("type"), definition.type.name()},
+                                 {QStringLiteral("unit"), definition.unit}};
         }
         return array;
     }
@@ -110,9 +123,14 @@ public:
     {
         if (m_udp.state() != QAbstractSocket::BoundState)
             m_udp.bind(QHostAddress::LocalHost, 0);
-        return {{QStringLiteral("name"), name},       {QStringLiteral("uuid"), uuid},           {QStringLiteral("policy"), policy},
-                {QStringLiteral("listener"), listener}, {QStringLiteral("inputs"), describe(inputs)}, {QStringLiteral("outputs"), describe(outputs)},
-                {QStringLiteral("cyclic"), cyclic},   {QStringLiteral("udpPort"), m_udp.localPort()}};
+        return {{QStringLiteral("name"), name},
+                {QStringLiteral("uuid"), uuid},
+                {QStringLiteral("policy"), policy},
+                {QStringLiteral("listener"), listener},
+                {QStringLiteral("inputs"), describe(inputs)},
+                {QStringLiteral("outputs"), describe(outputs)},
+                {QStringLiteral("cyclic"), cyclic},
+                {QStringLiteral("udpPort"), m_udp.localPort()}};
     }
     /// Greets and registers, and attaches its cyclic channel.
     bool registerAt(quint16 port)
@@ -133,8 +151,10 @@ public:
         const auto node = quint16(message.fields().value(QStringLiteral("node")).toInt());
         const qplc::PayloadLayout in(table, indicesOf(table, inputs));
         const qplc::PayloadLayout out(table, indicesOf(table, outputs));
-        m_decoder = qplc::FrameDecoder(qplc::FrameKind::Inputs, {session, node, in.hash()}, in.partBorders(qplc::MaximumCyclicPayload));
-        m_encoder = qplc::FrameEncoder(qplc::FrameKind::Outputs, {session, node, out.hash()}, out.partBorders(qplc::MaximumCyclicPayload));
+        m_decoder = qplc::FrameDecoder(qplc::FrameKind::Inputs, {session, node, in.hash()},
+                                       in.partBorders(qplc::MaximumCyclicPayload));
+        m_encoder = qplc::FrameEncoder(qplc::FrameKind::Outputs, {session, node, out.hash()},
+                                       out.partBorders(qplc::MaximumCyclicPayload));
         return message.kind() == QPlcMessage::Registered;
     }
     /// Attaches the cyclic TCP connection with the token given, or that of the registration.
@@ -143,11 +163,13 @@ public:
         stream.connectToHost(QHostAddress::LocalHost, m_port);
         if (!QTest::qWaitFor([this] { return stream.state() == QAbstractSocket::ConnectedState; }, 5000))
             return false;
-        stream.write(qplc::encodeControlFrame(QPlcMessage(
-            QPlcMessage::AttachCyclicChannel,
-            {{QStringLiteral("node"), registered.fields().value(QStringLiteral("node"))},
-             {QStringLiteral("token"), token ? QPlcMessage::fromHex64(token) : registered.text(QStringLiteral("token"))}})));
-        return QTest::qWaitFor([this] { return m_attachAnswer.kind() != QPlcMessage::Invalid; }, 5000) && m_attachAnswer.kind() == QPlcMessage::CyclicChannelAttached;
+        stream.write(qplc::encodeControlFrame(
+            QPlcMessage(QPlcMessage::AttachCyclicChannel,
+                        {{QStringLiteral("node"), registered.fields().value(QStringLiteral("node"))},
+                         {QStringLiteral("token"),
+                          token ? QPlcMessage::fromHex64(token) : registered.text(QStringLiteral("token"))}})));
+        return QTest::qWaitFor([this] { return m_attachAnswer.kind() != QPlcMessage::Invalid; }, 5000)
+            && m_attachAnswer.kind() == QPlcMessage::CyclicChannelAttached;
     }
     QPlcMessage attachAnswer() const { return m_attachAnswer; }
 
@@ -170,7 +192,10 @@ public:
         for (const QByteArray &frame : answerFrames(cycle, values, flags))
             sendFrame(frame);
     }
-    void answer(quint64 cycle, double value) { answer(cycle, QByteArray(reinterpret_cast<const char *>(&value), sizeof value)); }
+    void answer(quint64 cycle, double value)
+    {
+        answer(cycle, QByteArray(reinterpret_cast<const char *>(&value), sizeof value));
+    }
     void sendFrame(const QByteArray &frame)
     {
         if (cyclic == QLatin1String("udp"))
@@ -185,7 +210,12 @@ public:
     /// Whether a request of this cycle came, again or for the first time.
     bool waitForRequestOf(quint64 cycle, quint8 flags = 0)
     {
-        return QTest::qWaitFor([&] { return std::any_of(frames.begin(), frames.end(), [&](const Request &r) { return r.cycle == cycle && r.flags == flags; }); }, 5000);
+        return QTest::qWaitFor(
+            [&] {
+                return std::any_of(frames.begin(), frames.end(),
+                                   [&](const Request &r) { return r.cycle == cycle && r.flags == flags; });
+            },
+            5000);
     }
     /// Answers every request at once.
     void answerAll()
@@ -201,14 +231,18 @@ private:
     {
         switch (message.kind()) {
         case QPlcMessage::SendYourInitialOutputStates:
-            send(QPlcMessage::ReceiveMyInitialOutputStates, {{QStringLiteral("values"), QPlcMessage::fromBytes(initialValues)}});
+            send(QPlcMessage::ReceiveMyInitialOutputStates,
+                 {{QStringLiteral("values"), QPlcMessage::fromBytes(initialValues)}});
             break;
-        case QPlcMessage::InitializeWithValues: send(QPlcMessage::Initialized); break;
+        case QPlcMessage::InitializeWithValues:
+            send(QPlcMessage::Initialized);
+            break;
         case QPlcMessage::RealTimeStarted:
             m_decoder.restart(message.hex64(QStringLiteral("firstCycle")));
             send(QPlcMessage::RealTimeReady);
             break;
-        default: break;
+        default:
+            break;
         }
     }
     void readDatagrams()
@@ -240,9 +274,11 @@ private:
     void take(const QByteArray &bytes)
     {
         const qplc::FrameStatus status = m_decoder.decode(bytes.constData(), std::size_t(bytes.size()));
-        const quint64 cycle = status == qplc::FrameStatus::Complete ? m_decoder.cycle() : quint64(m_decoder.received().cycle);
-        const Request request{bytes, status, quint8(bytes.size() > 1 ? bytes.at(1) : 0), cycle,
-                            QByteArray(m_decoder.payload(), int(qplc::PayloadLayout(table, indicesOf(table, inputs)).size()))};
+        const quint64 cycle
+            = status == qplc::FrameStatus::Complete ? m_decoder.cycle() : quint64(m_decoder.received().cycle);
+        const Request request{
+            bytes, status, quint8(bytes.size() > 1 ? bytes.at(1) : 0), cycle,
+            QByteArray(m_decoder.payload(), int(qplc::PayloadLayout(table, indicesOf(table, inputs)).size()))};
         frames << request;
         if (status == qplc::FrameStatus::Complete)
             requests << request;

@@ -103,7 +103,11 @@ type = Real64
 class Everything : public QPlcCompactSlaveNode
 {
 public:
-    Everything() : QPlcCompactSlaveNode("Everything") { activateWorkloadMeasurement("workload"); }
+    Everything()
+        : QPlcCompactSlaveNode("Everything")
+    {
+        activateWorkloadMeasurement("workload");
+    }
 
 private:
     QPlcInput<double> m_real{this, "real"};
@@ -175,7 +179,10 @@ void tst_Allocations::cyclesOverTheNetwork()
     class Marker : public QPlcCompactSlaveNode  // marks the cycle thread of the master
     {
     public:
-        Marker() : QPlcCompactSlaveNode("Marker") {}
+        Marker()
+            : QPlcCompactSlaveNode("Marker")
+        {
+        }
         void step(const QPlcCycle &) override { isCycleThread = true; }
     } marker;
     TestMaster master(QPlcClock::lockstep(), everyType());

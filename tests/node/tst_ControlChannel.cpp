@@ -82,9 +82,18 @@ void tst_ControlChannel::getSignalsTellsAllOrSome()
     QCOMPARE(all.size(), testTable().size());
     QCOMPARE(all.at(0).toObject().value("name").toString(), QString("time"));
     QCOMPARE(all.at(0).toObject().value("writer").toString(), QString("Master"));
-    const QJsonArray some = m_tool->ask(QPlcMessage::GetSignals, {{"names", QJsonArray{"sum", "count"}}}).fields().value("signals").toArray();
+    const QJsonArray some = m_tool->ask(QPlcMessage::GetSignals, {{"names", QJsonArray{"sum", "count"}}})
+                                .fields()
+                                .value("signals")
+                                .toArray();
     QCOMPARE(some.size(), 2);
-    QCOMPARE(some.at(0).toObject(), (QJsonObject{{"name", "sum"}, {"type", "Real64"}, {"unit", "m"}, {"description", ""}, {"value", "0"}, {"writer", "Counter"}}));
+    QCOMPARE(some.at(0).toObject(),
+             (QJsonObject{{"name", "sum"},
+                          {"type", "Real64"},
+                          {"unit", "m"},
+                          {"description", ""},
+                          {"value", "0"},
+                          {"writer", "Counter"}}));
     QCOMPARE(some.at(1).toObject().value("value").toString(), QString("7"));
     const QPlcMessage failed = m_tool->ask(QPlcMessage::GetSignals, {{"names", QJsonArray{"sum", "setpiont"}}});
     QCOMPARE(failed.text("error"), QString("UnknownSignal"));
@@ -95,7 +104,8 @@ void tst_ControlChannel::setSignalsReadsWhatGetSignalsWrites()
 {
     for (bool running : {false, true}) {
         QVERIFY(!running || start());
-        QCOMPARE(set({{"setpoint", running ? "-0.1" : "1e-3"}, {"vector", "1, 2, 3.5"}, {"free", "0.1"}}).kind(), QPlcMessage::Done);
+        QCOMPARE(set({{"setpoint", running ? "-0.1" : "1e-3"}, {"vector", "1, 2, 3.5"}, {"free", "0.1"}}).kind(),
+                 QPlcMessage::Done);
         QTRY_COMPARE(m_master->signalValue("setpoint").toString(), QString(running ? "-0.1" : "0.001"));
         QCOMPARE(m_master->signalValue("vector").toString(), QString("1, 2, 3.5"));
         QCOMPARE(m_master->signalValue("free").toString(), QString("0.1"));
@@ -108,18 +118,31 @@ void tst_ControlChannel::setSignalsSetsAllOrNone_data()
     QTest::addColumn<QJsonValue>("values");
     QTest::addColumn<QString>("error");
     QTest::addColumn<QString>("word");
-    const auto with = [](const char *name, const QJsonValue &value) { return QJsonValue(QJsonObject{{"free", "5"}, {name, value}}); };
-    QTest::newRow("unknown") << with("zzz", "1") << "UnknownSignal" << "'zzz'";
-    QTest::newRow("written by a node") << with("sum", "1") << "SignalHasWriter" << "'Counter'";
-    QTest::newRow("written by the master") << with("time", "2026-01-01T00:00:00Z") << "SignalHasWriter" << "'Master'";
-    QTest::newRow("above the maximum") << with("setpoint", "10.5") << "InvalidValue" << "-10 ... 10 m/s";
-    QTest::newRow("below the minimum") << with("setpoint", "-11") << "InvalidValue" << "'setpoint'";
-    QTest::newRow("no number") << with("setpoint", "fast") << "InvalidValue" << "'setpoint'";
-    QTest::newRow("not a number") << with("setpoint", "nan") << "InvalidValue" << "'setpoint'";
-    QTest::newRow("a number instead of a text") << with("setpoint", 1.0) << "InvalidValue" << "'setpoint'";
-    QTest::newRow("too many elements") << with("vector", "1, 2, 3, 4") << "InvalidValue" << "'vector'";
-    QTest::newRow("no object") << QJsonValue("free") << "MalformedMessage" << "'values'";
-    QTest::newRow("nothing") << QJsonValue() << "MalformedMessage" << "'values'";
+    const auto with = [](const char *name, const QJsonValue &value) {
+        return QJsonValue(QJsonObject{{"free", "5"}, {name, value}});
+    };
+    QTest::newRow("unknown") << with("zzz", "1") << "UnknownSignal"
+                             << "'zzz'";
+    QTest::newRow("written by a node") << with("sum", "1") << "SignalHasWriter"
+                                       << "'Counter'";
+    QTest::newRow("written by the master") << with("time", "2026-01-01T00:00:00Z") << "SignalHasWriter"
+                                           << "'Master'";
+    QTest::newRow("above the maximum") << with("setpoint", "10.5") << "InvalidValue"
+                                       << "-10 ... 10 m/s";
+    QTest::newRow("below the minimum") << with("setpoint", "-11") << "InvalidValue"
+                                       << "'setpoint'";
+    QTest::newRow("no number") << with("setpoint", "fast") << "InvalidValue"
+                               << "'setpoint'";
+    QTest::newRow("not a number") << with("setpoint", "nan") << "InvalidValue"
+                                  << "'setpoint'";
+    QTest::newRow("a number instead of a text") << with("setpoint", 1.0) << "InvalidValue"
+                                                << "'setpoint'";
+    QTest::newRow("too many elements") << with("vector", "1, 2, 3, 4") << "InvalidValue"
+                                       << "'vector'";
+    QTest::newRow("no object") << QJsonValue("free") << "MalformedMessage"
+                               << "'values'";
+    QTest::newRow("nothing") << QJsonValue() << "MalformedMessage"
+                             << "'values'";
 }
 
 void tst_ControlChannel::setSignalsSetsAllOrNone()
@@ -155,7 +178,8 @@ void tst_ControlChannel::setSignalsWhileCyclesRunIsLimitedAsAWhole()
     QVERIFY(master.listen());
     ScriptedTool tool;
     QVERIFY(tool.greetAt(master.serverPort()));
-    QCOMPARE(tool.ask(QPlcMessage::SetSignals, {{"values", many}}).kind(), QPlcMessage::Done);  // while off there is no limit
+    QCOMPARE(tool.ask(QPlcMessage::SetSignals, {{"values", many}}).kind(),
+             QPlcMessage::Done);  // while off there is no limit
     QVERIFY(master.startRealTime());
     QCOMPARE(tool.next().kind(), QPlcMessage::StatesInitialized);
     for (const QString &name : many.keys())
@@ -211,7 +235,8 @@ void tst_ControlChannel::answersComeInTheOrderOfTheRequests()
     for (int i = 0; i < 50; ++i) {
         QCOMPARE(m_tool->next().kind(), QPlcMessage::State);
         const QPlcMessage values = m_tool->next();
-        QCOMPARE(values.fields().value("signals").toArray().at(0).toObject().value("value").toString(), QString::number(i == 0 ? 0 : i - 1));
+        QCOMPARE(values.fields().value("signals").toArray().at(0).toObject().value("value").toString(),
+                 QString::number(i == 0 ? 0 : i - 1));
         QCOMPARE(m_tool->next().kind(), QPlcMessage::Done);
         QCOMPARE(m_tool->next().kind(), QPlcMessage::Done);
     }
@@ -219,7 +244,9 @@ void tst_ControlChannel::answersComeInTheOrderOfTheRequests()
 
 void tst_ControlChannel::unknownFieldsAreIgnored()
 {
-    QCOMPARE(m_tool->ask(QPlcMessage::GetState, {{"colour", "blue"}, {"nested", QJsonObject{{"a", QJsonArray{1, 2}}}}}).kind(), QPlcMessage::State);
+    QCOMPARE(m_tool->ask(QPlcMessage::GetState, {{"colour", "blue"}, {"nested", QJsonObject{{"a", QJsonArray{1, 2}}}}})
+                 .kind(),
+             QPlcMessage::State);
 }
 
 QTEST_GUILESS_MAIN(tst_ControlChannel)

@@ -40,7 +40,8 @@ void tst_HotJoin::joinerGetsTheValuesOfNow()
     QVERIFY(started.hex64("firstCycle") >= started.hex64("cycleZero") + 19);
     QVERIFY(joiner.waitForRequests(2));
     QVERIFY(joiner.requests.at(0).cycle >= started.hex64("firstCycle"));
-    const int count = QPlcValue::fromBytes(QPlcSignalType(QPlcSignalType::Int32), joiner.requests.at(0).payload).toInt();
+    const int count
+        = QPlcValue::fromBytes(QPlcSignalType(QPlcSignalType::Int32), joiner.requests.at(0).payload).toInt();
     QVERIFY(quint64(count) <= joiner.requests.at(0).cycle - started.hex64("cycleZero"));
     master.stop();
 }

@@ -27,10 +27,16 @@ private Q_SLOTS:
     void withoutNodesItSucceedsAtOnce();
 
 private:
-    double decoded(const QPlcMessage &message) { return QPlcValue::fromBytes(QPlcSignalType(QPlcSignalType::Real64), message.bytes("values")).toReal(); }
+    double decoded(const QPlcMessage &message)
+    {
+        return QPlcValue::fromBytes(QPlcSignalType(QPlcSignalType::Real64), message.bytes("values")).toReal();
+    }
 };
 
-void tst_InitializationSequence::init() { QPlcSignalIndexTable::setCurrent({}); }
+void tst_InitializationSequence::init()
+{
+    QPlcSignalIndexTable::setCurrent({});
+}
 
 void tst_InitializationSequence::masterAsksAllBeforeItTellsAnyone()
 {
@@ -192,7 +198,8 @@ void tst_InitializationSequence::outputsOfAWrongSizeEndTheInitialization()
     QVERIFY(node.registerAt(master.serverPort()));
     QVERIFY(master.initializeAllStates());
     QTRY_COMPARE(master.error(), QPlcMasterNode::InitializationError);
-    QVERIFY2(master.errorString().contains("3 bytes of initial outputs instead of 8"), qPrintable(master.errorString()));
+    QVERIFY2(master.errorString().contains("3 bytes of initial outputs instead of 8"),
+             qPrintable(master.errorString()));
     QTRY_VERIFY(!node.control.isConnected());
     QCOMPARE(master.state(), QPlcMasterNode::Off);
 }
@@ -209,7 +216,10 @@ void tst_InitializationSequence::initialOutputsThatAreNotFiniteEndTheInitializat
     class Broken : public QPlcCompactSlaveNode
     {
     public:
-        Broken() : QPlcCompactSlaveNode("Broken") {}
+        Broken()
+            : QPlcCompactSlaveNode("Broken")
+        {
+        }
         QPlcOutput<std::array<double, 3>> m_vector{this, "vector"};
         void reset() override { m_vector = std::array<double, 3>{0.0, qQNaN(), 0.0}; }
     } node;
@@ -223,7 +233,8 @@ void tst_InitializationSequence::initialOutputsThatAreNotFiniteEndTheInitializat
     QSignalSpy started(&master, &QPlcMasterNode::realTimeHasStarted);
     master.startRealTime();
     QTRY_COMPARE(master.error(), QPlcMasterNode::InitializationError);
-    QVERIFY2(master.errorString().contains("'Broken'") && master.errorString().contains("'vector'"), qPrintable(master.errorString()));
+    QVERIFY2(master.errorString().contains("'Broken'") && master.errorString().contains("'vector'"),
+             qPrintable(master.errorString()));
     QCOMPARE(master.state(), QPlcMasterNode::Off);
     QCOMPARE(started.size(), 0);
     QTRY_COMPARE(node.state(), QPlcSlaveNode::Off);
@@ -245,7 +256,10 @@ void tst_InitializationSequence::codeThatThrowsEndsTheInitialization()
     class Thrower : public QPlcCompactSlaveNode
     {
     public:
-        Thrower() : QPlcCompactSlaveNode("Thrower") {}
+        Thrower()
+            : QPlcCompactSlaveNode("Thrower")
+        {
+        }
         bool inReset = false;
         void reset() override
         {
@@ -271,7 +285,8 @@ void tst_InitializationSequence::codeThatThrowsEndsTheInitialization()
     master.initializeAllStates();
     QTRY_COMPARE(master.error(), QPlcMasterNode::InitializationError);
     QVERIFY2(master.errorString().contains("'Thrower'"), qPrintable(master.errorString()));
-    QVERIFY2(master.errorString().contains(inReset ? "no parameters" : "not derived from std::exception"), qPrintable(master.errorString()));
+    QVERIFY2(master.errorString().contains(inReset ? "no parameters" : "not derived from std::exception"),
+             qPrintable(master.errorString()));
     QCOMPARE(node.state(), QPlcSlaveNode::Off);
     if (!local)
         QCOMPARE(node.error(), QPlcSlaveNode::UserCodeError);
@@ -288,7 +303,8 @@ void tst_InitializationSequence::answersThatNobodyAskedForChangeNothing()
     QVERIFY(tool.greetAt(master.serverPort()));
     QSignalSpy errors(&master, &QPlcMasterNode::errorOccurred);
     const QJsonObject notANumber{{"values", QPlcMessage::fromBytes(QPlcValue(qQNaN()).toBytes())}};
-    for (QPlcMessage::Kind kind : {QPlcMessage::ReceiveMyInitialOutputStates, QPlcMessage::Initialized, QPlcMessage::RealTimeReady}) {
+    for (QPlcMessage::Kind kind :
+         {QPlcMessage::ReceiveMyInitialOutputStates, QPlcMessage::Initialized, QPlcMessage::RealTimeReady}) {
         node.send(kind, notANumber);
         const QPlcMessage failed = node.next();
         QCOMPARE(failed.kind(), QPlcMessage::Failed);

@@ -29,7 +29,8 @@ void tst_LocalNodes::theOrderOfTheNodesDoesNotMatter()
         TestMaster master;
         CounterNode counter;
         EchoNode echo;
-        QVERIFY(echoFirst ? master.addLocalNode(&echo) && master.addLocalNode(&counter) : master.addLocalNode(&counter) && master.addLocalNode(&echo));
+        QVERIFY(echoFirst ? master.addLocalNode(&echo) && master.addLocalNode(&counter)
+                          : master.addLocalNode(&counter) && master.addLocalNode(&echo));
         master.setCycleLimit(1000);
         QVERIFY(master.startRealTime());
         QVERIFY(master.waitForState(QPlcMasterNode::Off));
@@ -153,8 +154,8 @@ void tst_LocalNodes::aScaledClockRunsScaled()
     timer.start();
     QVERIFY(master.startRealTime());
     QVERIFY(QTest::qWaitFor([&] { return master.cycle() >= 30; }, 10000));
-    QVERIFY(timer.elapsed() >= 29);    // not faster than said
-    QVERIFY(timer.elapsed() < 2900);   // and not in real time
+    QVERIFY(timer.elapsed() >= 29);   // not faster than said
+    QVERIFY(timer.elapsed() < 2900);  // and not in real time
     master.stop();
     QCOMPARE(periods.at(0), qint64(100'000'000));  // nodes see simulated time
 }

@@ -35,7 +35,8 @@ void tst_Logging::nothingIsLoggedWhenAllIsWell()
         QVERIFY(master.waitForState(QPlcMasterNode::Off));
         counter.disconnectFromMaster();
     }
-    QVERIFY2(log.matching("qtplc.control").isEmpty() && log.matching("qtplc.cyclic").isEmpty(), qPrintable(log.all().join('\n')));
+    QVERIFY2(log.matching("qtplc.control").isEmpty() && log.matching("qtplc.cyclic").isEmpty(),
+             qPrintable(log.all().join('\n')));
 }
 
 void tst_Logging::everyControlMessageIsLoggedByteByByte()
@@ -81,8 +82,10 @@ void tst_Logging::everyCyclicFrameIsLoggedByteByByte()
     node.sendFrame(answer.at(0));
     QVERIFY(node.waitForRequests(2));
     const QString id = node.registered.fields().value("node").toVariant().toString();
-    const QString sent = QString("qtplc.cyclic: Master sent for node %1 %2").arg(id, QString::fromLatin1(node.requests.at(0).bytes.toHex(' ')));
-    const QString received = QString("qtplc.cyclic: Master received for node %1 %2").arg(id, QString::fromLatin1(answer.at(0).toHex(' ')));
+    const QString sent = QString("qtplc.cyclic: Master sent for node %1 %2")
+                             .arg(id, QString::fromLatin1(node.requests.at(0).bytes.toHex(' ')));
+    const QString received
+        = QString("qtplc.cyclic: Master received for node %1 %2").arg(id, QString::fromLatin1(answer.at(0).toHex(' ')));
     QTRY_COMPARE(log.matching(sent).size(), 1);
     QTRY_COMPARE(log.matching(received).size(), 1);
     QTRY_VERIFY(!log.matching("Counter received for node").isEmpty());

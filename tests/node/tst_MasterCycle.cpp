@@ -49,7 +49,8 @@ void tst_MasterCycle::lockstepSendsTheRestWhenAFullStreamTakesItAgain()
     phase.cycleLimit = 1;
     QVERIFY(cycle.start(phase));
 
-    FrameDecoder decoder(FrameKind::Inputs, {session, 1, slot->inputLayout.hash()}, slot->inputLayout.partBorders(MaximumCyclicPayload));
+    FrameDecoder decoder(FrameKind::Inputs, {session, 1, slot->inputLayout.hash()},
+                         slot->inputLayout.partBorders(MaximumCyclicPayload));
     QByteArray stream;
     FrameStatus status = FrameStatus::Incomplete;
     QTRY_VERIFY(([&] {

@@ -20,7 +20,10 @@ template<typename T>
 class Through : public QPlcCompactSlaveNode
 {
 public:
-    Through() : QPlcCompactSlaveNode("Through") {}
+    Through()
+        : QPlcCompactSlaveNode("Through")
+    {
+    }
     QPlcInput<T> m_in{this, "in"};
     QPlcOutput<T> m_out{this, "out"};
     void step(const QPlcCycle &) override { m_out = m_in.value(); }
@@ -47,7 +50,10 @@ QString refusal(const QByteArray &type)
     class Node : public QPlcCompactSlaveNode
     {
     public:
-        Node() : QPlcCompactSlaveNode("Node") {}
+        Node()
+            : QPlcCompactSlaveNode("Node")
+        {
+        }
         Port m_port{this, "in"};
     } node;
     NodeRuntime runtime(node);
@@ -115,9 +121,12 @@ void tst_Ports::arraysAndVectorsTravelInOrder()
     QCOMPARE(through<Eigen::Vector3d>("Real64Triple", triple), triple);
     QCOMPARE(through<Eigen::Vector3f>("Real32Triple", singles), singles);
     QCOMPARE(through<Eigen::Vector3d>("Real32Triple", singles), singles);
-    QCOMPARE((through<std::array<int, 4>>("Int32[4]", QPlcValue(std::array<int, 4>{1, -2, 3, INT_MIN}))), QPlcValue(std::array<int, 4>{1, -2, 3, INT_MIN}));
-    QCOMPARE((through<Eigen::Matrix<double, 6, 1>>("Real64[6]", QPlcValue(std::array<double, 6>{1, 2, 3, 4, 5, 6}))), QPlcValue(std::array<double, 6>{1, 2, 3, 4, 5, 6}));
-    QCOMPARE((through<std::array<bool, 2>>("Int8[2]", QPlcValue(std::array<qint8, 2>{1, 0}))), QPlcValue(std::array<qint8, 2>{1, 0}));
+    QCOMPARE((through<std::array<int, 4>>("Int32[4]", QPlcValue(std::array<int, 4>{1, -2, 3, INT_MIN}))),
+             QPlcValue(std::array<int, 4>{1, -2, 3, INT_MIN}));
+    QCOMPARE((through<Eigen::Matrix<double, 6, 1>>("Real64[6]", QPlcValue(std::array<double, 6>{1, 2, 3, 4, 5, 6}))),
+             QPlcValue(std::array<double, 6>{1, 2, 3, 4, 5, 6}));
+    QCOMPARE((through<std::array<bool, 2>>("Int8[2]", QPlcValue(std::array<qint8, 2>{1, 0}))),
+             QPlcValue(std::array<qint8, 2>{1, 0}));
 }
 
 void tst_Ports::truthValuesAreNormalized()
@@ -146,7 +155,10 @@ void tst_Ports::realsMixAndIntegersWiden()
     class Widener : public QPlcCompactSlaveNode
     {
     public:
-        Widener() : QPlcCompactSlaveNode("Widener") {}
+        Widener()
+            : QPlcCompactSlaveNode("Widener")
+        {
+        }
         QPlcInput<qint64> m_in{this, "in"};
         QPlcOutput<qint8> m_out{this, "out"};
         void step(const QPlcCycle &) override { m_out = qint8(m_in / 1000); }
@@ -162,7 +174,8 @@ void tst_Ports::whatDoesNotFitIsRefused_data()
 {
     QTest::addColumn<QString>("text");
     QTest::addColumn<QStringList>("words");
-    const auto row = [](const char *name, const QString &text, const QStringList &words) { QTest::newRow(name) << text << words; };
+    const auto row
+        = [](const char *name, const QString &text, const QStringList &words) { QTest::newRow(name) << text << words; };
     row("wider integer input", refusal<QPlcInput<short>>("Int32"), {"'in'", "Int32", "reads", "Int16"});
     row("narrower integer output", refusal<QPlcOutput<int>>("Int16"), {"Int16", "writes", "Int32"});
     row("signedness", refusal<QPlcInput<int>>("UInt16"), {"UInt16", "Int32"});
@@ -192,7 +205,10 @@ void tst_Ports::allMismatchesStandInOneMessage()
     class Wrong : public QPlcCompactSlaveNode
     {
     public:
-        Wrong() : QPlcCompactSlaveNode("Wrong") {}
+        Wrong()
+            : QPlcCompactSlaveNode("Wrong")
+        {
+        }
         QPlcInput<double> m_a{this, "setpiont"};
         QPlcInput<int> m_b{this, "echo"};
         QPlcInput<double> m_good{this, "setpoint"};
@@ -211,7 +227,10 @@ void tst_Ports::aSignalIsDeclaredOnce()
     class Twice : public QPlcCompactSlaveNode
     {
     public:
-        Twice() : QPlcCompactSlaveNode("Twice") {}
+        Twice()
+            : QPlcCompactSlaveNode("Twice")
+        {
+        }
         QPlcInput<double> m_a{this, "in"};
         QPlcInput<double> m_b{this, "in"};
     } node;
@@ -226,7 +245,10 @@ void tst_Ports::oneSignalMayBeReadAndWritten()
     class Feedback : public QPlcCompactSlaveNode
     {
     public:
-        Feedback() : QPlcCompactSlaveNode("Feedback") {}
+        Feedback()
+            : QPlcCompactSlaveNode("Feedback")
+        {
+        }
         QPlcInput<double> m_last{this, "in"};
         QPlcOutput<double> m_next{this, "in"};
         void reset() override { m_next = 1.0; }
@@ -242,8 +264,16 @@ void tst_Ports::oneSignalMayBeReadAndWritten()
 
 void tst_Ports::boundPortsUseVariablesThatExist()
 {
-    struct { double level; float matrix[3]; } u = {};
-    struct { double level; double position[3]; } y = {};
+    struct
+    {
+        double level;
+        float matrix[3];
+    } u = {};
+    struct
+    {
+        double level;
+        double position[3];
+    } y = {};
     class Bound : public QPlcCompactSlaveNode
     {
     public:
@@ -260,16 +290,19 @@ void tst_Ports::boundPortsUseVariablesThatExist()
         QPlcBoundOutput<double> m_levelOut;
         QPlcBoundOutput<double[3]> m_position;
     } node(&u.level, &u.matrix, &y.level, &y.position);
-    const QPlcSignalTable table = QPlcSignalTable::fromIni("[echo]\ntype=Real64\n[floats]\ntype=RealTriple\n[sum]\ntype=Real32\n[vector]\ntype=Real64Triple\n");
+    const QPlcSignalTable table = QPlcSignalTable::fromIni(
+        "[echo]\ntype=Real64\n[floats]\ntype=RealTriple\n[sum]\ntype=Real32\n[vector]\ntype=Real64Triple\n");
     NodeRuntime runtime(node);
     QString error;
     QVERIFY2(runtime.bind(table, &error), qPrintable(error));
     y.level = 2.5;
     y.position[2] = -7.0;
-    QVERIFY(runtime.step(QPlcCycle(), (QPlcValue(4.5).toBytes() + QPlcValue(std::array<float, 3>{1, 2, 3}).toBytes()).constData()));
+    QVERIFY(runtime.step(QPlcCycle(),
+                         (QPlcValue(4.5).toBytes() + QPlcValue(std::array<float, 3>{1, 2, 3}).toBytes()).constData()));
     QCOMPARE(u.level, 4.5);
     QCOMPARE(u.matrix[2], 3.0f);
-    QCOMPARE(QByteArray(runtime.outputs(), 28), QPlcValue(2.5f).toBytes() + QPlcValue(std::array<double, 3>{0, 0, -7}).toBytes());
+    QCOMPARE(QByteArray(runtime.outputs(), 28),
+             QPlcValue(2.5f).toBytes() + QPlcValue(std::array<double, 3>{0, 0, -7}).toBytes());
 }
 
 void tst_Ports::outputsStayUntilAssigned()
@@ -277,7 +310,10 @@ void tst_Ports::outputsStayUntilAssigned()
     class Once : public QPlcCompactSlaveNode
     {
     public:
-        Once() : QPlcCompactSlaveNode("Once") {}
+        Once()
+            : QPlcCompactSlaveNode("Once")
+        {
+        }
         QPlcOutput<double> m_out{this, "out"};
         void step(const QPlcCycle &cycle) override
         {
@@ -300,7 +336,10 @@ void tst_Ports::compactSignalsTakeTheTypeOfTheSignal()
     class Compact : public QPlcCompactSlaveNode
     {
     public:
-        Compact() : QPlcCompactSlaveNode("Compact") {}
+        Compact()
+            : QPlcCompactSlaveNode("Compact")
+        {
+        }
         QPlcCompactSignal _in = QPlcCompactSignal("in", QPlcCompactSignal::Input, this);
         QPlcCompactSignal _out = QPlcCompactSignal("out", QPlcCompactSignal::Output, this);
         double first = 0.0;
@@ -334,7 +373,10 @@ void tst_Ports::compactSignalsThatDoNotFitAreFaults()
     class Compact : public QPlcCompactSlaveNode
     {
     public:
-        Compact() : QPlcCompactSlaveNode("Compact") {}
+        Compact()
+            : QPlcCompactSlaveNode("Compact")
+        {
+        }
         QPlcCompactSignal _out = QPlcCompactSignal("out", QPlcCompactSignal::Output, this);
         QPlcValue next;
         void compactRealTimeout() override { _out = next; }
@@ -374,7 +416,8 @@ void tst_Ports::workloadBecomesAnOutput()
         NodeRuntime runtime(node);
         runtime.setWorkloadSignal("load");
         QString error;
-        const QPlcSignalTable table = QPlcSignalTable::fromIni("[in]\ntype=Real64\n[out]\ntype=Real64\n[load]\ntype=" + QByteArray(type) + "\n");
+        const QPlcSignalTable table = QPlcSignalTable::fromIni(
+            "[in]\ntype=Real64\n[out]\ntype=Real64\n[load]\ntype=" + QByteArray(type) + "\n");
         QVERIFY(runtime.bind(table, &error));
         QCOMPARE(int(runtime.outputLayout().fields().size()), 2);
         QVERIFY(runtime.step(QPlcCycle(), QByteArray(8, '\0').constData()));
@@ -390,7 +433,8 @@ void tst_Ports::workloadBecomesAnOutput()
     QVERIFY(!runtime.bind(tableOf("Real64"), &error));
     QVERIFY2(error.contains("'laod'"), qPrintable(error));
     runtime.setWorkloadSignal("n");
-    QVERIFY(!runtime.bind(QPlcSignalTable::fromIni("[in]\ntype=Real64\n[out]\ntype=Real64\n[n]\ntype=Int32\n"), &error));
+    QVERIFY(
+        !runtime.bind(QPlcSignalTable::fromIni("[in]\ntype=Real64\n[out]\ntype=Real64\n[n]\ntype=Int32\n"), &error));
     QVERIFY2(error.contains("'n' is Int32"), qPrintable(error));
 }
 

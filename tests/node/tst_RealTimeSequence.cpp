@@ -38,7 +38,10 @@ void addTransports()
 
 }  // namespace
 
-void tst_RealTimeSequence::masterSendsTheValuesOfTheCycleBefore_data() { addTransports(); }
+void tst_RealTimeSequence::masterSendsTheValuesOfTheCycleBefore_data()
+{
+    addTransports();
+}
 
 void tst_RealTimeSequence::masterSendsTheValuesOfTheCycleBefore()
 {
@@ -69,7 +72,10 @@ void tst_RealTimeSequence::masterSendsTheValuesOfTheCycleBefore()
     master.stop();
 }
 
-void tst_RealTimeSequence::slaveComputesOnceAndAnswers_data() { addTransports(); }
+void tst_RealTimeSequence::slaveComputesOnceAndAnswers_data()
+{
+    addTransports();
+}
 
 void tst_RealTimeSequence::slaveComputesOnceAndAnswers()
 {
@@ -153,7 +159,7 @@ void tst_RealTimeSequence::framesOfTheLastPhaseAreNeverTaken()
     QVERIFY(master.startRealTime());
     QVERIFY(node.waitForRequests(1));
     QVERIFY(node.requests.at(0).cycle > old + 1);
-    node.sendFrame(stale.at(0));                       // on its way since the last phase
+    node.sendFrame(stale.at(0));  // on its way since the last phase
     QTRY_COMPARE(master.nodes().at(0).duplicates, quint64(1));
     QCOMPARE(master.statistics().cycles, quint64(0));  // it is no answer
     node.answer(node.requests.at(0).cycle, 2.0);
@@ -182,7 +188,10 @@ void tst_RealTimeSequence::framesBetweenPhasesAreDropped()
     QVERIFY(!QTest::qWaitFor([&] { return master.answers.size() > 1; }, 30));
 }
 
-void tst_RealTimeSequence::valuesOfSeveralPartsTravel_data() { addTransports(); }
+void tst_RealTimeSequence::valuesOfSeveralPartsTravel_data()
+{
+    addTransports();
+}
 
 void tst_RealTimeSequence::valuesOfSeveralPartsTravel()
 {
@@ -190,13 +199,16 @@ void tst_RealTimeSequence::valuesOfSeveralPartsTravel()
     class Big : public QPlcCompactSlaveNode
     {
     public:
-        Big(const QString &name, char in, char out) : QPlcCompactSlaveNode(name)
+        Big(const QString &name, char in, char out)
+            : QPlcCompactSlaveNode(name)
         {
             for (int i = 0; i < 12; ++i) {
                 m_names.push_back(QByteArray(1, in) + QByteArray::number(i));
-                m_inputs.push_back(std::make_unique<QPlcInput<std::array<double, 125>>>(this, m_names.back().constData()));
+                m_inputs.push_back(
+                    std::make_unique<QPlcInput<std::array<double, 125>>>(this, m_names.back().constData()));
                 m_names.push_back(QByteArray(1, out) + QByteArray::number(i));
-                m_outputs.push_back(std::make_unique<QPlcOutput<std::array<double, 125>>>(this, m_names.back().constData()));
+                m_outputs.push_back(
+                    std::make_unique<QPlcOutput<std::array<double, 125>>>(this, m_names.back().constData()));
             }
         }
         std::vector<QByteArray> m_names;

@@ -69,8 +69,10 @@ void tst_RealTimeViolationPolicies::waitLetsTimeStandStill_data()
     QTest::addColumn<QString>("policy");
     QTest::addColumn<QString>("kind");
     QTest::addColumn<bool>("reports");
-    QTest::newRow("silent, udp") << "SilentWait" << "udp" << false;
-    QTest::newRow("error, tcp") << "ErrorWait" << "tcp" << true;
+    QTest::newRow("silent, udp") << "SilentWait"
+                                 << "udp" << false;
+    QTest::newRow("error, tcp") << "ErrorWait"
+                                << "tcp" << true;
 }
 
 void tst_RealTimeViolationPolicies::waitLetsTimeStandStill()
@@ -245,7 +247,7 @@ void tst_RealTimeViolationPolicies::overrunsSkipToTheGrid()
             return;
         QElapsedTimer timer;  // the first cycle takes five periods
         timer.start();
-        while (timer.elapsed() < 5) { }
+        while (timer.elapsed() < 5) {}
     };
     QVERIFY(master.addLocalNode(&slow));
     QVERIFY(master.startRealTime());

@@ -59,22 +59,35 @@ void tst_Refusals::aWrongRegistrationIsRejected_data()
     QTest::addColumn<QJsonObject>("changes");
     QTest::addColumn<QString>("error");
     QTest::addColumn<QStringList>("words");
-    const auto one = [](const char *name, const char *type, const char *unit) { return QJsonArray{QJsonObject{{"name", name}, {"type", type}, {"unit", unit}}}; };
-    const QJsonArray twice{QJsonObject{{"name", "vector"}, {"type", "Real64[3]"}, {"unit", ""}}, QJsonObject{{"name", "vector"}, {"type", "Real64[3]"}, {"unit", ""}}};
-    QTest::newRow("unknown signal") << QJsonObject{{"inputs", one("setpiont", "Real64", "m/s")}} << "UnknownSignal" << QStringList{"'Scripted'", "'setpiont'", "'setpoint'"};
-    QTest::newRow("type") << QJsonObject{{"inputs", one("setpoint", "Real32", "m/s")}} << "TypeMismatch" << QStringList{"'setpoint'", "Real64", "Real32", "'Scripted'"};
-    QTest::newRow("alias of the type") << QJsonObject{{"inputs", one("free", "Real", "")}} << "TypeMismatch" << QStringList{"Real32"};
-    QTest::newRow("unit") << QJsonObject{{"inputs", one("setpoint", "Real64", "km/h")}} << "UnitMismatch" << QStringList{"'m/s'", "'km/h'"};
-    QTest::newRow("missing unit") << QJsonObject{{"inputs", one("setpoint", "Real64", "")}} << "UnitMismatch" << QStringList{"'m/s'", "''"};
-    QTest::newRow("signal twice") << QJsonObject{{"outputs", twice}} << "MalformedMessage" << QStringList{"'vector'", "twice"};
+    const auto one = [](const char *name, const char *type, const char *unit) {
+        return QJsonArray{QJsonObject{{"name", name}, {"type", type}, {"unit", unit}}};
+    };
+    const QJsonArray twice{QJsonObject{{"name", "vector"}, {"type", "Real64[3]"}, {"unit", ""}},
+                           QJsonObject{{"name", "vector"}, {"type", "Real64[3]"}, {"unit", ""}}};
+    QTest::newRow("unknown signal") << QJsonObject{{"inputs", one("setpiont", "Real64", "m/s")}} << "UnknownSignal"
+                                    << QStringList{"'Scripted'", "'setpiont'", "'setpoint'"};
+    QTest::newRow("type") << QJsonObject{{"inputs", one("setpoint", "Real32", "m/s")}} << "TypeMismatch"
+                          << QStringList{"'setpoint'", "Real64", "Real32", "'Scripted'"};
+    QTest::newRow("alias of the type") << QJsonObject{{"inputs", one("free", "Real", "")}} << "TypeMismatch"
+                                       << QStringList{"Real32"};
+    QTest::newRow("unit") << QJsonObject{{"inputs", one("setpoint", "Real64", "km/h")}} << "UnitMismatch"
+                          << QStringList{"'m/s'", "'km/h'"};
+    QTest::newRow("missing unit") << QJsonObject{{"inputs", one("setpoint", "Real64", "")}} << "UnitMismatch"
+                                  << QStringList{"'m/s'", "''"};
+    QTest::newRow("signal twice") << QJsonObject{{"outputs", twice}} << "MalformedMessage"
+                                  << QStringList{"'vector'", "twice"};
     QTest::newRow("no name") << QJsonObject{{"name", ""}} << "MalformedMessage" << QStringList{"name"};
     QTest::newRow("long name") << QJsonObject{{"name", QString(65, 'x')}} << "MalformedMessage" << QStringList{"64"};
-    QTest::newRow("name with an escape sequence") << QJsonObject{{"name", "x\x1b[31m\n"}} << "MalformedMessage" << QStringList{"'x?[31m?'"};
+    QTest::newRow("name with an escape sequence")
+        << QJsonObject{{"name", "x\x1b[31m\n"}} << "MalformedMessage" << QStringList{"'x?[31m?'"};
     QTest::newRow("name of the master") << QJsonObject{{"name", "Master"}} << "NameInUse" << QStringList{"'Master'"};
     QTest::newRow("policy") << QJsonObject{{"policy", "Patience"}} << "MalformedMessage" << QStringList{"'Patience'"};
-    QTest::newRow("no signals") << QJsonObject{{"inputs", QJsonValue()}} << "MalformedMessage" << QStringList{"'inputs'"};
-    QTest::newRow("signals as texts") << QJsonObject{{"inputs", QJsonArray{"count"}}} << "MalformedMessage" << QStringList{"'inputs'"};
-    QTest::newRow("cyclic channel") << QJsonObject{{"cyclic", "pigeon"}} << "MalformedMessage" << QStringList{"'pigeon'"};
+    QTest::newRow("no signals") << QJsonObject{{"inputs", QJsonValue()}} << "MalformedMessage"
+                                << QStringList{"'inputs'"};
+    QTest::newRow("signals as texts") << QJsonObject{{"inputs", QJsonArray{"count"}}} << "MalformedMessage"
+                                      << QStringList{"'inputs'"};
+    QTest::newRow("cyclic channel") << QJsonObject{{"cyclic", "pigeon"}} << "MalformedMessage"
+                                    << QStringList{"'pigeon'"};
     QTest::newRow("port 0") << QJsonObject{{"udpPort", 0}} << "MalformedMessage" << QStringList{"65535"};
     QTest::newRow("port 65536") << QJsonObject{{"udpPort", 65536}} << "MalformedMessage" << QStringList{"65536"};
 }
@@ -107,7 +120,8 @@ void tst_Refusals::aWrongRegistrationIsRejected()
 void tst_Refusals::aGoodRegistrationIsNotRejected()
 {
     ScriptedNode node;
-    node.inputs << "setpoint" << "sum";
+    node.inputs << "setpoint"
+                << "sum";
     QVERIFY(node.registerAt(m_master->serverPort()));
     QCOMPARE(m_master->nodes().size(), 2);
 }
@@ -117,7 +131,8 @@ void tst_Refusals::bothWritersOfASignalAreNamed()
     CounterNode second("Second");
     QVERIFY(!second.connectToMasterAndWaitForConnected(m_master->protocol("udp")));
     QCOMPARE(second.error(), QPlcSlaveNode::RegistrationError);
-    QVERIFY2(second.errorString().contains("'Second'") && second.errorString().contains("'Counter'") && second.errorString().contains("'count'"),
+    QVERIFY2(second.errorString().contains("'Second'") && second.errorString().contains("'Counter'")
+                 && second.errorString().contains("'count'"),
              qPrintable(second.errorString()));
     QCOMPARE(m_master->writer("count"), QString("Counter"));
 }
@@ -137,7 +152,8 @@ void tst_Refusals::aNameInUseIsRefusedUnlessItIsTheSameNode()
 
 void tst_Refusals::theFirstMessageIsHello()
 {
-    for (QPlcMessage::Kind kind : {QPlcMessage::Register, QPlcMessage::GetState, QPlcMessage::Stop, QPlcMessage::StartRealTime, QPlcMessage::Kind(77)}) {
+    for (QPlcMessage::Kind kind : {QPlcMessage::Register, QPlcMessage::GetState, QPlcMessage::Stop,
+                                   QPlcMessage::StartRealTime, QPlcMessage::Kind(77)}) {
         ScriptedNode node;
         QVERIFY(node.connectTo(m_master->serverPort()));
         node.send(kind, node.registerFields());

@@ -52,7 +52,8 @@ void tst_RegisterSequence::masterAnswersANodeStepByStep()
     QVERIFY(answer.fields().value("node").toInt() > 0);
     QCOMPARE(answer.text("state"), QString("Off"));
     QCOMPARE(answer.hex64("inputsHash"), qplc::PayloadLayout(testTable(), indicesOf(testTable(), node.inputs)).hash());
-    QCOMPARE(answer.hex64("outputsHash"), qplc::PayloadLayout(testTable(), indicesOf(testTable(), node.outputs)).hash());
+    QCOMPARE(answer.hex64("outputsHash"),
+             qplc::PayloadLayout(testTable(), indicesOf(testTable(), node.outputs)).hash());
     QCOMPARE(node.next().kind(), QPlcMessage::CyclicChannelAttached);
     QCOMPARE(node.messages.size(), 3);
     QCOMPARE(registered.size(), 1);
@@ -231,7 +232,10 @@ void tst_RegisterSequence::slaveWithAWrongDeclarationDoesNotRegister()
     class Wrong : public QPlcCompactSlaveNode
     {
     public:
-        Wrong() : QPlcCompactSlaveNode("Wrong") {}
+        Wrong()
+            : QPlcCompactSlaveNode("Wrong")
+        {
+        }
         QPlcInput<double> m_unknown{this, "ehco"};
         QPlcOutput<double> m_notReal{this, "count"};
     } node;
@@ -254,8 +258,9 @@ void tst_RegisterSequence::slaveIgnoresMessagesOutOfTurn()
     node.connectToMaster(master.udp());
     QCOMPARE(master.next().kind(), QPlcMessage::Hello);
     LogCapture log;
-    for (QPlcMessage::Kind kind : {QPlcMessage::Registered, QPlcMessage::CyclicChannelAttached, QPlcMessage::SendYourInitialOutputStates, QPlcMessage::InitializeWithValues,
-                                   QPlcMessage::RealTimeStarted, QPlcMessage::RealTimeStopped})
+    for (QPlcMessage::Kind kind :
+         {QPlcMessage::Registered, QPlcMessage::CyclicChannelAttached, QPlcMessage::SendYourInitialOutputStates,
+          QPlcMessage::InitializeWithValues, QPlcMessage::RealTimeStarted, QPlcMessage::RealTimeStopped})
         master.send(kind);
     master.send(QPlcMessage::Hello, master.helloFields());
     const QPlcMessage request = master.next();
@@ -265,8 +270,8 @@ void tst_RegisterSequence::slaveIgnoresMessagesOutOfTurn()
     master.send(QPlcMessage::CyclicChannelAttached);
     QTRY_COMPARE(node.state(), QPlcSlaveNode::Off);
     QVERIFY(master.start());
-    master.send(QPlcMessage::Hello, master.helloFields());   // must not bind the ports while cycles run
-    master.send(QPlcMessage::SendYourInitialOutputStates);   // nor reset the node
+    master.send(QPlcMessage::Hello, master.helloFields());  // must not bind the ports while cycles run
+    master.send(QPlcMessage::SendYourInitialOutputStates);  // nor reset the node
     master.request(0);
     QVERIFY(master.waitForAnswers(1));
     QTRY_COMPARE(log.matching("ignores").size(), 7);
@@ -280,7 +285,8 @@ void tst_RegisterSequence::namesAndWritersAreFreeAfterALeave()
     QSignalSpy lost(&master, &QPlcMasterNode::nodeLost);
     for (int round = 0; round < 5; ++round) {
         EchoNode node;
-        QVERIFY2(node.connectToMasterAndWaitForConnected(master.protocol(round % 2 ? "udp" : "tcp")), qPrintable(node.errorString()));
+        QVERIFY2(node.connectToMasterAndWaitForConnected(master.protocol(round % 2 ? "udp" : "tcp")),
+                 qPrintable(node.errorString()));
         QCOMPARE(master.writer("echo"), QString("Echo"));
         node.disconnectFromMaster();
         QTRY_COMPARE(lost.size(), round + 1);

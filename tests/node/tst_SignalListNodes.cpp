@@ -33,7 +33,10 @@ namespace {
 class Doubler : public QPlcSlaveNode
 {
 public:
-    Doubler() : QPlcSlaveNode("Doubler", ErrorZeroOrderHold) {}
+    Doubler()
+        : QPlcSlaveNode("Doubler", ErrorZeroOrderHold)
+    {
+    }
     QVector<quint64> cycles;
     QPlcSignalList initial;
     bool wasStopped = false;
@@ -131,7 +134,8 @@ void tst_SignalListNodes::listsCarryValuesInAndOut()
 
 void tst_SignalListNodes::indicesOfAnotherTableAreRefused()
 {
-    QPlcSignalIndexTable::setCurrent(QPlcSignalTable::fromIni("[vector]\ntype=Real64Triple\n[setpoint]\ntype=Real64\n[echo]\ntype=Real64\n[count]\ntype=Int32\n"));
+    QPlcSignalIndexTable::setCurrent(QPlcSignalTable::fromIni(
+        "[vector]\ntype=Real64Triple\n[setpoint]\ntype=Real64\n[echo]\ntype=Real64\n[count]\ntype=Int32\n"));
     TestMaster master;
     Doubler node;
     QVERIFY(!master.addLocalNode(&node));  // else it would read and write other signals than it means
@@ -140,7 +144,8 @@ void tst_SignalListNodes::indicesOfAnotherTableAreRefused()
 
 void tst_SignalListNodes::unknownNamesAreRefusedInOneMessage()
 {
-    QPlcSignalIndexTable::setCurrent(QPlcSignalTable::fromIni("[vector]\ntype=Real64Triple\n[setpiont]\ntype=Real64\n"));
+    QPlcSignalIndexTable::setCurrent(
+        QPlcSignalTable::fromIni("[vector]\ntype=Real64Triple\n[setpiont]\ntype=Real64\n"));
     TestMaster master(QPlcClock::lockstep(), QPlcSignalIndexTable::current());
     Doubler node;
     QVERIFY(!master.addLocalNode(&node));
@@ -313,7 +318,10 @@ void tst_SignalListNodes::aLimiterHandsOutBatches()
     master.setCycleLimit(300);
     QVERIFY(master.startRealTime());
     int sum = 0;
-    QTRY_VERIFY((sum = 0, std::for_each(batches.begin(), batches.end(), [&](const QList<QVariant> &b) { sum += b.at(0).value<QList<QPlcSignalList>>().size(); }), sum == 300));
+    QTRY_VERIFY((sum = 0,
+                 std::for_each(batches.begin(), batches.end(),
+                               [&](const QList<QVariant> &b) { sum += b.at(0).value<QList<QPlcSignalList>>().size(); }),
+                 sum == 300));
     QVERIFY(master.waitForState(QPlcMasterNode::Off));
     for (const QList<QVariant> &batch : batches)
         QVERIFY(!batch.at(0).value<QList<QPlcSignalList>>().isEmpty());

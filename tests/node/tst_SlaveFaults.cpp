@@ -44,7 +44,8 @@ void tst_SlaveFaults::watchdogBarksOnceForEachSilence()
         QVERIFY(master.waitForAnswers(silence));
         QTRY_VERIFY(barked.size() >= silence);
     }
-    QVERIFY(!QTest::qWaitFor([&] { return barked.size() > 4; }, 100));  // at most one before the first frame, and one for each silence
+    QVERIFY(!QTest::qWaitFor([&] { return barked.size() > 4; },
+                             100));  // at most one before the first frame, and one for each silence
     QCOMPARE(barked.last().at(0).toULongLong(), quint64(30));
     QCOMPARE(node.error(), QPlcSlaveNode::WatchdogError);
     QVERIFY2(node.errorString().contains("30 ms"), qPrintable(node.errorString()));
@@ -106,7 +107,8 @@ void tst_SlaveFaults::afterAPauseOnlyTheNewestIsComputed()
     goOn.release();
     QVERIFY(master.waitForAnswers(2));
     QCOMPARE(master.answers.at(1).cycle, quint64(9));
-    QCOMPARE(QPlcValue::fromBytes(QPlcSignalType(QPlcSignalType::Real64), master.answers.at(1).payload.mid(4)).toReal(), 9.0);  // of its inputs
+    QCOMPARE(QPlcValue::fromBytes(QPlcSignalType(QPlcSignalType::Real64), master.answers.at(1).payload.mid(4)).toReal(),
+             9.0);  // of its inputs
     QCOMPARE(node.counters().cycles, quint64(2));
     QCOMPARE(node.counters().missed, quint64(8));
     node.disconnectFromMaster();
@@ -152,7 +154,8 @@ void tst_SlaveFaults::aStepThatThrowsGivesTheLastValuesAndAFault()
     QCOMPARE(master.answers.at(3).payload, master.answers.at(0).payload);
     const QPlcMessage fault = master.next();
     QCOMPARE(fault.kind(), QPlcMessage::NodeFault);
-    QVERIFY2(fault.text("text").contains("division by zero") && fault.text("text").contains("cycle 1"), qPrintable(fault.text("text")));
+    QVERIFY2(fault.text("text").contains("division by zero") && fault.text("text").contains("cycle 1"),
+             qPrintable(fault.text("text")));
     QCOMPARE(master.next(20).kind(), QPlcMessage::Invalid);  // once, not in every cycle
     QCOMPARE(node.error(), QPlcSlaveNode::UserCodeError);
     node.disconnectFromMaster();
@@ -170,7 +173,10 @@ void addPlaces()
 
 }  // namespace
 
-void tst_SlaveFaults::aStepThatThrowsStopsThePlant_data() { addPlaces(); }
+void tst_SlaveFaults::aStepThatThrowsStopsThePlant_data()
+{
+    addPlaces();
+}
 
 void tst_SlaveFaults::aStepThatThrowsStopsThePlant()
 {
@@ -202,14 +208,20 @@ void tst_SlaveFaults::aStepThatThrowsStopsThePlant()
     thrower.disconnectFromMaster();
 }
 
-void tst_SlaveFaults::outputsThatAreNotFiniteStopThePlant_data() { addPlaces(); }
+void tst_SlaveFaults::outputsThatAreNotFiniteStopThePlant_data()
+{
+    addPlaces();
+}
 
 void tst_SlaveFaults::outputsThatAreNotFiniteStopThePlant()
 {
     class Bad : public QPlcCompactSlaveNode
     {
     public:
-        Bad() : QPlcCompactSlaveNode("Bad") {}
+        Bad()
+            : QPlcCompactSlaveNode("Bad")
+        {
+        }
         double bad = qQNaN();
         QPlcOutput<double> m_echo{this, "echo"};
         QPlcOutput<float> m_free{this, "free"};
@@ -238,7 +250,9 @@ void tst_SlaveFaults::outputsThatAreNotFiniteStopThePlant()
         QVERIFY(master.startRealTime());
         QVERIFY(master.waitForState(QPlcMasterNode::Off));
         QCOMPARE(master.error(), QPlcMasterNode::NodeError);
-        QVERIFY2(master.errorString().contains("'Bad'") && master.errorString().contains("'free'") && master.errorString().contains("cycle 5"), qPrintable(master.errorString()));
+        QVERIFY2(master.errorString().contains("'Bad'") && master.errorString().contains("'free'")
+                     && master.errorString().contains("cycle 5"),
+                 qPrintable(master.errorString()));
         QCOMPARE(master.signalValue("free").toReal(), 1.0);
         QCOMPARE(master.signalValue("echo").toReal(), 4.0);  // nothing of the bad answer was taken
         node.disconnectFromMaster();
@@ -250,7 +264,10 @@ void tst_SlaveFaults::aListThatDoesNotFitIsAFault()
     class Lister : public QPlcSlaveNode
     {
     public:
-        Lister() : QPlcSlaveNode("Lister") {}
+        Lister()
+            : QPlcSlaveNode("Lister")
+        {
+        }
         QPlcSignalIndex m_out = 0;
         QPlcSignalList list;
         QPlcSignalIndexList declareOutputSignals() override
@@ -261,8 +278,15 @@ void tst_SlaveFaults::aListThatDoesNotFitIsAFault()
         }
         QPlcSignalList realTimeout(const QPlcSignalList &) override { return list; }
     };
-    struct Case { const char *signal; QPlcValue value; const char *word; };
-    for (const Case &wrong : {Case{"echo", QPlcValue("text"), "'echo'"}, Case{"echo", QPlcValue(std::array<double, 2>{1, 2}), "Real64[2]"}, Case{"sum", QPlcValue(1.0), "not declared"}}) {
+    struct Case
+    {
+        const char *signal;
+        QPlcValue value;
+        const char *word;
+    };
+    for (const Case &wrong :
+         {Case{"echo", QPlcValue("text"), "'echo'"}, Case{"echo", QPlcValue(std::array<double, 2>{1, 2}), "Real64[2]"},
+          Case{"sum", QPlcValue(1.0), "not declared"}}) {
         TestMaster master;
         QPlcSignalIndexTable::setCurrent(testTable());
         Lister node;
@@ -270,7 +294,8 @@ void tst_SlaveFaults::aListThatDoesNotFitIsAFault()
         node.list.insert(testTable().indexOf(wrong.signal), wrong.value);
         QVERIFY(master.startRealTime());
         QVERIFY(master.waitForState(QPlcMasterNode::Off));
-        QVERIFY2(master.errorString().contains(wrong.word) && master.errorString().contains("'Lister'"), qPrintable(master.errorString()));
+        QVERIFY2(master.errorString().contains(wrong.word) && master.errorString().contains("'Lister'"),
+                 qPrintable(master.errorString()));
     }
 }
 
@@ -279,7 +304,10 @@ void tst_SlaveFaults::stoppedMayThrow()
     class Bye : public QPlcCompactSlaveNode
     {
     public:
-        Bye() : QPlcCompactSlaveNode("Bye") {}
+        Bye()
+            : QPlcCompactSlaveNode("Bye")
+        {
+        }
         void stopped() override { throw 1; }
     } node;
     ScriptedMaster master;

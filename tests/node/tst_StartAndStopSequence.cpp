@@ -72,7 +72,8 @@ void tst_StartAndStopSequence::startInitializesWhenNobodyHas()
     QSignalSpy states(&master, &QPlcMasterNode::stateChanged);
     node.answerAll();
     QVERIFY(master.startRealTime());
-    for (QPlcMessage::Kind kind : {QPlcMessage::SendYourInitialOutputStates, QPlcMessage::InitializeWithValues, QPlcMessage::StatesInitialized, QPlcMessage::RealTimeStarted})
+    for (QPlcMessage::Kind kind : {QPlcMessage::SendYourInitialOutputStates, QPlcMessage::InitializeWithValues,
+                                   QPlcMessage::StatesInitialized, QPlcMessage::RealTimeStarted})
         QCOMPARE(node.next().kind(), kind);
     QVERIFY(master.waitForCycles(10));
     QCOMPARE(initialized.size(), 1);
@@ -121,7 +122,8 @@ void tst_StartAndStopSequence::aNodeThatIsNotReadyInTimeEndsTheStart()
     QVERIFY(master.startRealTime());
     QVERIFY(good.waitForMessage(QPlcMessage::RealTimeStopped));  // it had begun already
     QCOMPARE(master.state(), QPlcMasterNode::Off);
-    QVERIFY2(master.errorString().contains("'Sleepy'") && master.errorString().contains("RealTimeStarted"), qPrintable(master.errorString()));
+    QVERIFY2(master.errorString().contains("'Sleepy'") && master.errorString().contains("RealTimeStarted"),
+             qPrintable(master.errorString()));
     // The next start begins with an initialization: cycle 0 is not computed without its nodes.
     sleepy.playsAlong = true;
     good.answerAll();

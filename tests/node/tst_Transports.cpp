@@ -32,7 +32,8 @@ quint64 flyInProcess()
     EchoNode echo;
     master.setCycleLimit(1000);
     master.setTimeSignal("time");
-    if (!master.addLocalNode(&echo) || !master.addLocalNode(&counter) || !master.startRealTime() || !master.waitForState(QPlcMasterNode::Off))
+    if (!master.addLocalNode(&echo) || !master.addLocalNode(&counter) || !master.startRealTime()
+        || !master.waitForState(QPlcMasterNode::Off))
         qFatal("%s", qPrintable(master.errorString()));
     return master.statistics().imageDigest;
 }
@@ -50,12 +51,18 @@ void tst_Transports::sameDigestOverEveryTransport_data()
     QTest::addColumn<QString>("counterKind");
     QTest::addColumn<QString>("echoKind");
     QTest::addColumn<bool>("ipv6");
-    QTest::newRow("tcp") << "tcp" << "tcp" << false;
-    QTest::newRow("udp") << "udp" << "udp" << false;
-    QTest::newRow("tcp and udp") << "tcp" << "udp" << false;
-    QTest::newRow("udp and in process") << "udp" << "local" << false;
-    QTest::newRow("udp, IPv6") << "udp" << "udp" << true;
-    QTest::newRow("tcp, IPv6") << "tcp" << "tcp" << true;
+    QTest::newRow("tcp") << "tcp"
+                         << "tcp" << false;
+    QTest::newRow("udp") << "udp"
+                         << "udp" << false;
+    QTest::newRow("tcp and udp") << "tcp"
+                                 << "udp" << false;
+    QTest::newRow("udp and in process") << "udp"
+                                        << "local" << false;
+    QTest::newRow("udp, IPv6") << "udp"
+                               << "udp" << true;
+    QTest::newRow("tcp, IPv6") << "tcp"
+                               << "tcp" << true;
 }
 
 void tst_Transports::sameDigestOverEveryTransport()
@@ -72,8 +79,10 @@ void tst_Transports::sameDigestOverEveryTransport()
     QVERIFY2(master.listen(address), qPrintable(master.errorString()));
     CounterNode counter;
     EchoNode echo;
-    for (const auto &[node, kind] : {std::pair<QPlcSlaveNode *, QString>(&counter, counterKind), std::pair<QPlcSlaveNode *, QString>(&echo, echoKind)}) {
-        const auto protocol = kind == "udp" ? QPlcUnderlyingProtocol::udp(address, master.serverPort()) : QPlcUnderlyingProtocol::tcp(address, master.serverPort());
+    for (const auto &[node, kind] : {std::pair<QPlcSlaveNode *, QString>(&counter, counterKind),
+                                     std::pair<QPlcSlaveNode *, QString>(&echo, echoKind)}) {
+        const auto protocol = kind == "udp" ? QPlcUnderlyingProtocol::udp(address, master.serverPort())
+                                            : QPlcUnderlyingProtocol::tcp(address, master.serverPort());
         if (kind == "local")
             QVERIFY(master.addLocalNode(node));
         else
@@ -116,7 +125,11 @@ void tst_Transports::manyNodesRunTogether()
     class Small : public QPlcCompactSlaveNode
     {
     public:
-        explicit Small(const QByteArray &output) : QPlcCompactSlaveNode(QString::fromLatin1(output)), m_name(output) {}
+        explicit Small(const QByteArray &output)
+            : QPlcCompactSlaveNode(QString::fromLatin1(output))
+            , m_name(output)
+        {
+        }
         QByteArray m_name;
         QPlcInput<double> m_in{this, "in"};
         QPlcOutput<int> m_out{this, m_name.constData()};

@@ -36,7 +36,8 @@ void tst_UdpLoss::aLostRequestIsSentAgain()
     const quint64 cycle = node.requests.at(0).cycle;
     QVERIFY(node.waitForRequestOf(cycle, qplc::ResentFlag));
     const ScriptedNode::Request again = node.frames.last();
-    QCOMPARE(again.bytes.mid(qplc::CyclicHeaderSize, 4), node.requests.at(0).bytes.mid(qplc::CyclicHeaderSize, 4));  // the same values
+    QCOMPARE(again.bytes.mid(qplc::CyclicHeaderSize, 4),
+             node.requests.at(0).bytes.mid(qplc::CyclicHeaderSize, 4));  // the same values
     QCOMPARE(master.statistics().cycles, quint64(0));
     QVERIFY(master.nodes().at(0).resent >= 1);
     node.answer(cycle, 1.0);
@@ -107,7 +108,10 @@ void tst_UdpLoss::aRepeatedPartCompletesTheRequest()
     class Wide : public QPlcCompactSlaveNode
     {
     public:
-        Wide() : QPlcCompactSlaveNode("Wide") {}
+        Wide()
+            : QPlcCompactSlaveNode("Wide")
+        {
+        }
         QPlcInput<std::array<double, 150>> m_a{this, "a"};
         QPlcInput<std::array<double, 150>> m_b{this, "b"};
         QPlcInput<std::array<double, 150>> m_c{this, "c"};
@@ -202,7 +206,8 @@ void tst_UdpLoss::masterRejectsEveryCorruption()
         node.sendFrame(bad);
         ++sent;
     }
-    for (const QByteArray &bad : {good.left(good.size() - 1), good + 'x', good.left(3), QByteArray(1472, 'x'), QByteArray(4000, 'y'), QByteArray()}) {
+    for (const QByteArray &bad : {good.left(good.size() - 1), good + 'x', good.left(3), QByteArray(1472, 'x'),
+                                  QByteArray(4000, 'y'), QByteArray()}) {
         node.sendFrame(bad);
         ++sent;
     }
@@ -252,7 +257,8 @@ void tst_UdpLoss::datagramsOfStrangersAreCountedAndDropped()
     QUdpSocket stranger;
     QVERIFY(stranger.bind(QHostAddress::LocalHost, 0));
     for (int i = 0; i < 100; ++i)
-        stranger.writeDatagram(good, QHostAddress::LocalHost, master.serverPort());  // a true copy, from the wrong place
+        stranger.writeDatagram(good, QHostAddress::LocalHost,
+                               master.serverPort());  // a true copy, from the wrong place
     QTRY_COMPARE(master.statistics().strangers, quint64(100));
     QCOMPARE(master.statistics().cycles, quint64(0));
     QCOMPARE(master.nodes().at(0).rejected, quint64(0));

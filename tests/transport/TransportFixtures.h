@@ -7,8 +7,8 @@
 #include <QtCore/QByteArray>
 #include <QtTest/QTest>
 
-#include <netinet/in.h>
 #include <cstring>
+#include <netinet/in.h>
 #include <sys/socket.h>
 #include <unistd.h>
 #include <utility>
@@ -47,7 +47,10 @@ struct StreamPair
         if (ends[end] >= 0)
             ::close(take(end));
     }
-    void write(const QByteArray &bytes) const { QCOMPARE(::send(ends[1], bytes.constData(), std::size_t(bytes.size()), MSG_NOSIGNAL), ssize_t(bytes.size())); }
+    void write(const QByteArray &bytes) const
+    {
+        QCOMPARE(::send(ends[1], bytes.constData(), std::size_t(bytes.size()), MSG_NOSIGNAL), ssize_t(bytes.size()));
+    }
     QByteArray readAll(int end = 1) const
     {
         QByteArray all;
@@ -76,7 +79,8 @@ struct UdpSocket
     UdpSocket &operator=(const UdpSocket &) = delete;
     bool send(const QByteArray &bytes, const qplc::SocketAddress &to) const
     {
-        return ::sendto(descriptor, bytes.constData(), std::size_t(bytes.size()), 0, to.data(), to.length) == bytes.size();
+        return ::sendto(descriptor, bytes.constData(), std::size_t(bytes.size()), 0, to.data(), to.length)
+            == bytes.size();
     }
     QByteArray receive(int flags = 0) const
     {

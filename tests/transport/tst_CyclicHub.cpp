@@ -229,7 +229,7 @@ void tst_CyclicHub::aClosedPeerIsClosed()
     CyclicHub::Incoming incoming;
     QVERIFY(!hub.next(&incoming));
     QVERIFY(peer->isClosed());
-    hub.send(peer.get(), "x", 1);      // and no SIGPIPE
+    hub.send(peer.get(), "x", 1);  // and no SIGPIPE
     QVERIFY(!hub.wait(1'000'000));
 }
 
@@ -272,7 +272,8 @@ void tst_CyclicHub::aRefusedDatagramIsCountedAndTheOthersGo()
     CyclicHub hub;
     open(hub);
     UdpSocket socket;
-    const auto impossible = HubPeer::udp(SocketAddress(QHostAddress("255.255.255.255"), 9));  // a broadcast that nobody has allowed
+    const auto impossible
+        = HubPeer::udp(SocketAddress(QHostAddress("255.255.255.255"), 9));  // a broadcast that nobody has allowed
     const auto good = HubPeer::udp(socket.self);
     hub.attach(impossible.get());
     hub.attach(good.get());

@@ -52,20 +52,34 @@ void tst_QPlcUnderlyingProtocol::refusesWithASentence_data()
 {
     QTest::addColumn<QString>("text");
     QTest::addColumn<QString>("word");
-    QTest::newRow("empty") << "" << "HOST:PORT";
-    QTest::newRow("spaces") << "   " << "HOST:PORT";
-    QTest::newRow("scheme only") << "udp://" << "udp://";
-    QTest::newRow("port only") << ":50000" << ":50000";
-    QTest::newRow("no port behind the colon") << "127.0.0.1:" << "HOST:PORT";
-    QTest::newRow("port 0") << "127.0.0.1:0" << "65535";
-    QTest::newRow("port 65536") << "127.0.0.1:65536" << "'65536'";
-    QTest::newRow("negative port") << "127.0.0.1:-1" << "'-1'";
-    QTest::newRow("no number") << "127.0.0.1:http" << "'http'";
-    QTest::newRow("open bracket") << "[::1" << "[::1";
-    QTest::newRow("empty brackets") << "[]:5" << "[]:5";
-    QTest::newRow("IPv6 without port behind the colon") << "[::1]:" << "[::1]:";
-    QTest::newRow("garbage behind the bracket") << "[::1]5" << "[::1]5";
-    QTest::newRow("unknown host") << "no.such.host.invalid:5" << "'no.such.host.invalid'";
+    QTest::newRow("empty") << ""
+                           << "HOST:PORT";
+    QTest::newRow("spaces") << "   "
+                            << "HOST:PORT";
+    QTest::newRow("scheme only") << "udp://"
+                                 << "udp://";
+    QTest::newRow("port only") << ":50000"
+                               << ":50000";
+    QTest::newRow("no port behind the colon") << "127.0.0.1:"
+                                              << "HOST:PORT";
+    QTest::newRow("port 0") << "127.0.0.1:0"
+                            << "65535";
+    QTest::newRow("port 65536") << "127.0.0.1:65536"
+                                << "'65536'";
+    QTest::newRow("negative port") << "127.0.0.1:-1"
+                                   << "'-1'";
+    QTest::newRow("no number") << "127.0.0.1:http"
+                               << "'http'";
+    QTest::newRow("open bracket") << "[::1"
+                                  << "[::1";
+    QTest::newRow("empty brackets") << "[]:5"
+                                    << "[]:5";
+    QTest::newRow("IPv6 without port behind the colon") << "[::1]:"
+                                                        << "[::1]:";
+    QTest::newRow("garbage behind the bracket") << "[::1]5"
+                                                << "[::1]5";
+    QTest::newRow("unknown host") << "no.such.host.invalid:5"
+                                  << "'no.such.host.invalid'";
 }
 
 void tst_QPlcUnderlyingProtocol::refusesWithASentence()

@@ -4,7 +4,6 @@
 #include <QtCore/QSet>
 #include <QtTest/QtTest>
 
-
 using qplc::SocketAddress;
 
 class tst_SocketAddress : public QObject
@@ -43,7 +42,8 @@ void tst_SocketAddress::mappedIpv4CountsAsIpv4()
     const unsigned char bytes[16] = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xff, 0xff, 10, 0, 0, 5};
     std::memcpy(&in6->sin6_addr, bytes, 16);
     QCOMPARE(mapped.key(), SocketAddress(QHostAddress("10.0.0.5"), 1234).key());
-    QCOMPARE(SocketAddress(QHostAddress("::ffff:10.0.0.5"), 1234).family(), AF_INET);  // what a dual-stack server calls its peers
+    QCOMPARE(SocketAddress(QHostAddress("::ffff:10.0.0.5"), 1234).family(),
+             AF_INET);  // what a dual-stack server calls its peers
     QCOMPARE(SocketAddress(QHostAddress("::ffff:10.0.0.5"), 1234).key(), mapped.key());
 }
 

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double degreesPerRadian = 180.0 / 3.14159265358979323846;
 
-} // namespace
+}  // namespace
 
 AutopilotNode::AutopilotNode(const AutopilotGains &gains, int extraDeadTime)
     : QPlcCompactSlaveNode(QStringLiteral("Autopilot"), ErrorZeroOrderHold)
@@ -59,4 +59,4 @@ void AutopilotNode::send(const AutopilotOutputs &commands)
     m_phase = qint8(commands.phase);
 }
 
-} // namespace awe
+}  // namespace awe

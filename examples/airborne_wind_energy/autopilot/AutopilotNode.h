@@ -26,21 +26,21 @@ private:
     void send(const AutopilotOutputs &commands);
 
     Autopilot m_autopilot;
-    std::vector<AutopilotOutputs> m_delayed; // ring of commands on their way
+    std::vector<AutopilotOutputs> m_delayed;  // ring of commands on their way
     std::size_t m_oldest = 0;
 
-    QPlcInput<Vector> m_position{this, "bodyPosition_earth"};               // [m]
-    QPlcInput<Vector> m_velocity{this, "bodyVelocity_earth"};               // [m/s]
-    QPlcInput<Vector> m_windVelocity{this, "windVelocity_earth"};           // [m/s], only its direction is used
-    QPlcInput<Vector> m_controlOrientation{this, "bodyControlOrientation"}; // [deg]
-    QPlcInput<double> m_angleOfAttack{this, "angleOfAttack"};               // [deg]
-    QPlcInput<Vector> m_tetherForce{this, "tetherForce_earth"};             // [N]
-    QPlcInput<double> m_tetherLength{this, "tetherLength"};                 // [m]
+    QPlcInput<Vector> m_position{this, "bodyPosition_earth"};                // [m]
+    QPlcInput<Vector> m_velocity{this, "bodyVelocity_earth"};                // [m/s]
+    QPlcInput<Vector> m_windVelocity{this, "windVelocity_earth"};            // [m/s], only its direction is used
+    QPlcInput<Vector> m_controlOrientation{this, "bodyControlOrientation"};  // [deg]
+    QPlcInput<double> m_angleOfAttack{this, "angleOfAttack"};                // [deg]
+    QPlcInput<Vector> m_tetherForce{this, "tetherForce_earth"};              // [N]
+    QPlcInput<double> m_tetherLength{this, "tetherLength"};                  // [m]
 
-    QPlcOutput<double> m_pitchSpeed{this, "bodyControlPitchSpeed"}; // [deg/s]
-    QPlcOutput<double> m_yawSpeed{this, "bodyControlYawSpeed"};     // [deg/s]
-    QPlcOutput<double> m_tetherSpeed{this, "tetherSpeed"};          // [m/s]
+    QPlcOutput<double> m_pitchSpeed{this, "bodyControlPitchSpeed"};  // [deg/s]
+    QPlcOutput<double> m_yawSpeed{this, "bodyControlYawSpeed"};      // [deg/s]
+    QPlcOutput<double> m_tetherSpeed{this, "tetherSpeed"};           // [m/s]
     QPlcOutput<qint8> m_phase{this, "flightPhase"};
 };
 
-} // namespace awe
+}  // namespace awe

@@ -24,7 +24,7 @@ void add(QPlcCoreApplication &application, const char *name, const QString &desc
                                              QString::fromLatin1(defaultValue)));
 }
 
-template <std::size_t N>
+template<std::size_t N>
 QStringList given(const QPlcCoreApplication &application, const char *const (&names)[N])
 {
     QStringList arguments;
@@ -56,7 +56,7 @@ bool accept(QPlcCoreApplication &application, const std::string &error)
     return false;
 }
 
-} // namespace
+}  // namespace
 
 QString builtInSignals()
 {
@@ -124,4 +124,4 @@ QStringList givenAutopilotOptions(const QPlcCoreApplication &application)
     return given(application, autopilotOptions);
 }
 
-} // namespace awe
+}  // namespace awe

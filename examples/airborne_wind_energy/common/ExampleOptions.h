@@ -20,7 +20,7 @@ struct ModelSettings
 struct AutopilotSettings
 {
     AutopilotGains gains;
-    int extraDeadTime = 0; // cycles on top of the two that the links cost
+    int extraDeadTime = 0;  // cycles on top of the two that the links cost
 };
 
 /// Cycles from sensor to actuator that the links alone cost: one from the model to the autopilot, one back.
@@ -39,4 +39,4 @@ bool readAutopilotOptions(QPlcCoreApplication &application, AutopilotSettings *s
 QStringList givenModelOptions(const QPlcCoreApplication &application);
 QStringList givenAutopilotOptions(const QPlcCoreApplication &application);
 
-} // namespace awe
+}  // namespace awe

@@ -13,8 +13,7 @@ class FlightDisplay : public QObject
 {
     Q_OBJECT
 public:
-    enum Kind
-    {
+    enum Kind {
         Line,    ///< progressLine(), rewritten in place
         Picture  ///< FlightView on the whole screen, which is given back as it was
     };

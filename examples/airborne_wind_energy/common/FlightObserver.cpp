@@ -12,7 +12,7 @@ FlightStatisticsParameters withWindSpeed(double speed)
     return parameters;
 }
 
-} // namespace
+}  // namespace
 
 FlightObserver::FlightObserver(double nominalWindSpeed)
     : QPlcCompactSlaveNode(QStringLiteral("FlightObserver"), SilentZeroOrderHold)
@@ -33,4 +33,4 @@ void FlightObserver::step(const QPlcCycle &)
     m_statistics.step(sample);
 }
 
-} // namespace awe
+}  // namespace awe

@@ -26,13 +26,13 @@ private:
 
     FlightStatistics m_statistics;
 
-    QPlcInput<Vector> m_position{this, "bodyPosition_earth"};     // [m]
-    QPlcInput<Vector> m_windVelocity{this, "windVelocity_earth"}; // [m/s]
-    QPlcInput<Vector> m_tetherForce{this, "tetherForce_earth"};   // [N]
-    QPlcInput<double> m_tetherSpeed{this, "tetherSpeed"};         // [m/s]
-    QPlcInput<double> m_power{this, "power"};                     // [W]
-    QPlcInput<double> m_energy{this, "energy"};                   // [J]
+    QPlcInput<Vector> m_position{this, "bodyPosition_earth"};      // [m]
+    QPlcInput<Vector> m_windVelocity{this, "windVelocity_earth"};  // [m/s]
+    QPlcInput<Vector> m_tetherForce{this, "tetherForce_earth"};    // [N]
+    QPlcInput<double> m_tetherSpeed{this, "tetherSpeed"};          // [m/s]
+    QPlcInput<double> m_power{this, "power"};                      // [W]
+    QPlcInput<double> m_energy{this, "energy"};                    // [J]
     QPlcInput<qint8> m_phase{this, "flightPhase"};
 };
 
-} // namespace awe
+}  // namespace awe

@@ -17,17 +17,7 @@ constexpr int tallest = 30;                // rows
 constexpr int axisWidth = 6;               // columns of " 90° ┤"
 constexpr int textRows = 7;                // everything but the window
 
-enum class Style
-{
-    Plain,
-    Axis,
-    Title,
-    TrailOld,
-    TrailMiddle,
-    TrailNew,
-    Kite,
-    Alarm
-};
+enum class Style { Plain, Axis, Title, TrailOld, TrailMiddle, TrailNew, Kite, Alarm };
 
 const char *colourCode(Style style)
 {

@@ -12,7 +12,8 @@ int runModelProgram(int argc, char **argv, const QString &description)
 {
     QPlcNodeApplication application(argc, argv);
     application.setDescription(description);
-    application.setExamples({QStringLiteral("%1 --wind 8,0,0 --turbulence 0.15 --seed 3").arg(QCoreApplication::applicationName())});
+    application.setExamples(
+        {QStringLiteral("%1 --wind 8,0,0 --turbulence 0.15 --seed 3").arg(QCoreApplication::applicationName())});
     application.setDefaultSignals(builtInSignals());
     application.setWorkloadSignal(QStringLiteral("modelWorkload"));
     addModelOptions(application);
@@ -23,4 +24,4 @@ int runModelProgram(int argc, char **argv, const QString &description)
     return application.run(node);
 }
 
-} // namespace awe
+}  // namespace awe

@@ -24,4 +24,4 @@ void CompactModelNode::collect(const PlantOutputs &outputs)
     m_crashed = outputs.crashed;
 }
 
-} // namespace awe
+}  // namespace awe

@@ -27,27 +27,27 @@ private:
 
     KiteSimulation m_simulation;
 
-    QPlcInput<double> m_pitchSpeed{this, "bodyControlPitchSpeed"}; // [deg/s]
-    QPlcInput<double> m_yawSpeed{this, "bodyControlYawSpeed"};     // [deg/s]
-    QPlcInput<double> m_tetherSpeed{this, "tetherSpeed"};          // [m/s], > 0 reels out
+    QPlcInput<double> m_pitchSpeed{this, "bodyControlPitchSpeed"};  // [deg/s]
+    QPlcInput<double> m_yawSpeed{this, "bodyControlYawSpeed"};      // [deg/s]
+    QPlcInput<double> m_tetherSpeed{this, "tetherSpeed"};           // [m/s], > 0 reels out
 
-    QPlcOutput<Vector> m_position{this, "bodyPosition_earth"};                 // [m]
-    QPlcOutput<Vector> m_velocity{this, "bodyVelocity_earth"};                 // [m/s]
-    QPlcOutput<Vector> m_windVelocity{this, "windVelocity_earth"};             // [m/s]
-    QPlcOutput<Vector> m_controlOrientation{this, "bodyControlOrientation"};   // [deg]
-    QPlcOutput<Vector> m_positionOrientation{this, "bodyPositionOrientation"}; // [deg]
-    QPlcOutput<double> m_angleOfAttack{this, "angleOfAttack"};                 // [deg]
-    QPlcOutput<double> m_dragCoefficient{this, "dragCoefficient"};             // [1]
-    QPlcOutput<double> m_liftCoefficient{this, "liftCoefficient"};             // [1]
-    QPlcOutput<double> m_aweCoefficient{this, "aweCoefficient"};               // [1]
-    QPlcOutput<Vector> m_gravitationalForce{this, "gravitationalForce_earth"}; // [N]
-    QPlcOutput<Vector> m_aerodynamicForce{this, "aerodynamicForce_earth"};     // [N]
-    QPlcOutput<Vector> m_tetherForce{this, "tetherForce_earth"};               // [N]
-    QPlcOutput<double> m_tetherLength{this, "tetherLength"};                   // [m]
-    QPlcOutput<double> m_power{this, "power"};                                 // [W]
-    QPlcOutput<double> m_averagePower{this, "averagePower"};                   // [W]
-    QPlcOutput<double> m_energy{this, "energy"};                               // [J]
+    QPlcOutput<Vector> m_position{this, "bodyPosition_earth"};                  // [m]
+    QPlcOutput<Vector> m_velocity{this, "bodyVelocity_earth"};                  // [m/s]
+    QPlcOutput<Vector> m_windVelocity{this, "windVelocity_earth"};              // [m/s]
+    QPlcOutput<Vector> m_controlOrientation{this, "bodyControlOrientation"};    // [deg]
+    QPlcOutput<Vector> m_positionOrientation{this, "bodyPositionOrientation"};  // [deg]
+    QPlcOutput<double> m_angleOfAttack{this, "angleOfAttack"};                  // [deg]
+    QPlcOutput<double> m_dragCoefficient{this, "dragCoefficient"};              // [1]
+    QPlcOutput<double> m_liftCoefficient{this, "liftCoefficient"};              // [1]
+    QPlcOutput<double> m_aweCoefficient{this, "aweCoefficient"};                // [1]
+    QPlcOutput<Vector> m_gravitationalForce{this, "gravitationalForce_earth"};  // [N]
+    QPlcOutput<Vector> m_aerodynamicForce{this, "aerodynamicForce_earth"};      // [N]
+    QPlcOutput<Vector> m_tetherForce{this, "tetherForce_earth"};                // [N]
+    QPlcOutput<double> m_tetherLength{this, "tetherLength"};                    // [m]
+    QPlcOutput<double> m_power{this, "power"};                                  // [W]
+    QPlcOutput<double> m_averagePower{this, "averagePower"};                    // [W]
+    QPlcOutput<double> m_energy{this, "energy"};                                // [J]
     QPlcOutput<bool> m_crashed{this, "crashed"};
 };
 
-} // namespace awe
+}  // namespace awe

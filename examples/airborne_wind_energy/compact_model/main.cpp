@@ -4,5 +4,6 @@
 
 int main(int argc, char **argv)
 {
-    return awe::runModelProgram<awe::CompactModelNode>(argc, argv, QStringLiteral("The kite on its tether, as a node of a QtPLC master (written with ports)."));
+    return awe::runModelProgram<awe::CompactModelNode>(
+        argc, argv, QStringLiteral("The kite on its tether, as a node of a QtPLC master (written with ports)."));
 }

@@ -17,41 +17,63 @@ struct MasterSettings
 
 void addMasterOptions(QPlcCoreApplication &application)
 {
-    application.addOption(QCommandLineOption(QStringLiteral("signals"), QStringLiteral("Signal table. Without one that of the example."), QStringLiteral("FILE"), awe::builtInSignals()));
-    application.addOption(QCommandLineOption(QStringLiteral("listen"), QStringLiteral("Address to listen on."), QStringLiteral("ADDRESS"), QStringLiteral("127.0.0.1")));
-    application.addOption(QCommandLineOption(QStringLiteral("port"), QStringLiteral("Port to listen on. 0: a free one."), QStringLiteral("PORT"), QString::number(QPlcUnderlyingProtocol::DefaultPort)));
-    application.addOption(QCommandLineOption(QStringLiteral("insecure-network"), QStringLiteral("Lets --listen open the plant to the network, where everybody can command it.")));
-    application.addOption(QCommandLineOption(QStringLiteral("start-with"), QStringLiteral("Starts as soon as these nodes are there, and ends with the flight. Without it: by qtplc start, stop."), QStringLiteral("NODE,...")));
+    application.addOption(QCommandLineOption(QStringLiteral("signals"),
+                                             QStringLiteral("Signal table. Without one that of the example."),
+                                             QStringLiteral("FILE"), awe::builtInSignals()));
+    application.addOption(QCommandLineOption(QStringLiteral("listen"), QStringLiteral("Address to listen on."),
+                                             QStringLiteral("ADDRESS"), QStringLiteral("127.0.0.1")));
+    application.addOption(
+        QCommandLineOption(QStringLiteral("port"), QStringLiteral("Port to listen on. 0: a free one."),
+                           QStringLiteral("PORT"), QString::number(QPlcUnderlyingProtocol::DefaultPort)));
+    application.addOption(QCommandLineOption(
+        QStringLiteral("insecure-network"),
+        QStringLiteral("Lets --listen open the plant to the network, where everybody can command it.")));
+    application.addOption(QCommandLineOption(
+        QStringLiteral("start-with"),
+        QStringLiteral(
+            "Starts as soon as these nodes are there, and ends with the flight. Without it: by qtplc start, stop."),
+        QStringLiteral("NODE,...")));
     awe::addRunOptions(application, QStringLiteral("0"));
-    application.addOption(QCommandLineOption(QStringLiteral("mean-wind"), QStringLiteral("Wind speed that eta is related to [m/s]. 0: what the signals show."), QStringLiteral("SPEED"), QStringLiteral("0")));
+    application.addOption(
+        QCommandLineOption(QStringLiteral("mean-wind"),
+                           QStringLiteral("Wind speed that eta is related to [m/s]. 0: what the signals show."),
+                           QStringLiteral("SPEED"), QStringLiteral("0")));
     application.addRealTimeOptions();
 }
 
 bool readMasterOptions(QPlcCoreApplication &application, MasterSettings *settings)
 {
     qint64 port = 0;
-    if (!awe::readRunOptions(application, &settings->run) || !application.integer(QStringLiteral("port"), 0, 65535, &port)
-        || !application.number(QStringLiteral("mean-wind"), 0.0, 100.0, &settings->run.nominalWindSpeed) || !application.readRealTimeOptions(&settings->realTime))
+    if (!awe::readRunOptions(application, &settings->run)
+        || !application.integer(QStringLiteral("port"), 0, 65535, &port)
+        || !application.number(QStringLiteral("mean-wind"), 0.0, 100.0, &settings->run.nominalWindSpeed)
+        || !application.readRealTimeOptions(&settings->realTime))
         return false;
     settings->port = quint16(port);
     // By hand a person wants to watch: the clock runs like the real one unless told otherwise.
-    settings->run.awaitedNodes = application.value(QStringLiteral("start-with")).split(QLatin1Char(','), Qt::SkipEmptyParts);
-    if (settings->run.awaitedNodes.isEmpty() && !application.isSet(QStringLiteral("lockstep")) && !application.isSet(QStringLiteral("scale")))
+    settings->run.awaitedNodes
+        = application.value(QStringLiteral("start-with")).split(QLatin1Char(','), Qt::SkipEmptyParts);
+    if (settings->run.awaitedNodes.isEmpty() && !application.isSet(QStringLiteral("lockstep"))
+        && !application.isSet(QStringLiteral("scale")))
         settings->run.clock = QPlcClock::realTime();
     if (settings->address.setAddress(application.value(QStringLiteral("listen"))))
         return true;
-    application.usageError(QStringLiteral("--listen %1: use an IP address, for example 127.0.0.1").arg(application.value(QStringLiteral("listen"))));
+    application.usageError(QStringLiteral("--listen %1: use an IP address, for example 127.0.0.1")
+                               .arg(application.value(QStringLiteral("listen"))));
     return false;
 }
 
-} // namespace
+}  // namespace
 
 int main(int argc, char **argv)
 {
     QPlcCoreApplication application(argc, argv);
-    application.setDescription(QStringLiteral("The master of the airborne wind energy example: cycle clock and values of all signals."));
-    application.setExamples({QStringLiteral("awe_master &  awe_model &  awe_autopilot &  qtplc start"), QStringLiteral("awe_master --lockstep --duration 600 --start-with Model,Autopilot --report flight.json"),
-                             QStringLiteral("sudo chrt -f 49 awe_master")});
+    application.setDescription(
+        QStringLiteral("The master of the airborne wind energy example: cycle clock and values of all signals."));
+    application.setExamples(
+        {QStringLiteral("awe_master &  awe_model &  awe_autopilot &  qtplc start"),
+         QStringLiteral("awe_master --lockstep --duration 600 --start-with Model,Autopilot --report flight.json"),
+         QStringLiteral("sudo chrt -f 49 awe_master")});
     addMasterOptions(application);
     MasterSettings settings;
     if (!application.parseOptions() || !readMasterOptions(application, &settings))

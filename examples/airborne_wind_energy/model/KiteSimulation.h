@@ -44,4 +44,4 @@ private:
     Wind m_wind;
 };
 
-} // namespace awe
+}  // namespace awe

@@ -10,7 +10,7 @@ QPlcValue triple(const Eigen::Vector3d &vector)
     return std::array<double, 3>{vector.x(), vector.y(), vector.z()};
 }
 
-} // namespace
+}  // namespace
 
 ModelNode::ModelNode(const KiteSimulation &simulation)
     : QPlcSlaveNode(QStringLiteral("Model"), ErrorZeroOrderHold)
@@ -84,4 +84,4 @@ QPlcSignalList ModelNode::collect(const PlantOutputs &outputs) const
     return list;
 }
 
-} // namespace awe
+}  // namespace awe

@@ -49,4 +49,4 @@ private:
     QPlcSignalIndex m_crashed = QPlcInvalidSignalIndex;
 };
 
-} // namespace awe
+}  // namespace awe

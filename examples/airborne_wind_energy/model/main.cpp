@@ -4,5 +4,7 @@
 
 int main(int argc, char **argv)
 {
-    return awe::runModelProgram<awe::ModelNode>(argc, argv, QStringLiteral("The kite on its tether, as a node of a QtPLC master (written with lists of values)."));
+    return awe::runModelProgram<awe::ModelNode>(
+        argc, argv,
+        QStringLiteral("The kite on its tether, as a node of a QtPLC master (written with lists of values)."));
 }

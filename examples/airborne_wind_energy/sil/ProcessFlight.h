@@ -15,8 +15,8 @@ struct ProcessArguments
     QStringList master;
     QStringList model;
     QStringList autopilot;
-    QString transport; // "tcp", "udp"
-    bool watch = false; // the master draws on the terminal
+    QString transport;   // "tcp", "udp"
+    bool watch = false;  // the master draws on the terminal
 };
 
 /// The flight with master, model and autopilot as processes of their own.
@@ -48,4 +48,4 @@ private:
     ProcessGroup m_processes;
 };
 
-} // namespace awe
+}  // namespace awe

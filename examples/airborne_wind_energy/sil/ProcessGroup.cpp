@@ -14,7 +14,7 @@ void ChildProcess::setupChildProcess()
 {
     ::setpgid(0, 0);
     ::prctl(PR_SET_PDEATHSIG, SIGTERM);
-    if (::getppid() != m_parent) // it has ended meanwhile
+    if (::getppid() != m_parent)  // it has ended meanwhile
         ::_exit(1);
 }
 
@@ -28,13 +28,15 @@ ChildProcess *ProcessGroup::start(const QString &program, const QStringList &arg
     m_processes.push_back(std::make_unique<ChildProcess>());
     ChildProcess *process = m_processes.back().get();
     process->setProcessChannelMode(errors == ShowErrors ? QProcess::ForwardedErrorChannel : QProcess::SeparateChannels);
-    connect(process, qOverload<int, QProcess::ExitStatus>(&QProcess::finished), this, [this, program](int exitCode, QProcess::ExitStatus status) {
-        Q_EMIT ended(program, status == QProcess::CrashExit ? -1 : exitCode);
-    });
+    connect(process, qOverload<int, QProcess::ExitStatus>(&QProcess::finished), this,
+            [this, program](int exitCode, QProcess::ExitStatus status) {
+                Q_EMIT ended(program, status == QProcess::CrashExit ? -1 : exitCode);
+            });
     process->start(QStringLiteral("%1/%2").arg(QCoreApplication::applicationDirPath(), program), arguments);
     if (process->waitForStarted(5000))
         return process;
-    QPlcCoreApplication::printError(QStringLiteral("cannot start %1: %2; is it beside this program?").arg(process->program(), process->errorString()));
+    QPlcCoreApplication::printError(QStringLiteral("cannot start %1: %2; is it beside this program?")
+                                        .arg(process->program(), process->errorString()));
     m_processes.pop_back();
     return nullptr;
 }
@@ -56,4 +58,4 @@ void ProcessGroup::end(int milliseconds)
     m_processes.clear();
 }
 
-} // namespace awe
+}  // namespace awe

@@ -29,8 +29,8 @@ class ProcessGroup : public QObject
     Q_OBJECT
 public:
     enum Errors {
-        ShowErrors, ///< what the program says on its standard error appears at once
-        HoldErrors  ///< it appears when all have ended: until then the terminal shows something else
+        ShowErrors,  ///< what the program says on its standard error appears at once
+        HoldErrors   ///< it appears when all have ended: until then the terminal shows something else
     };
 
     ~ProcessGroup() override;
@@ -48,4 +48,4 @@ private:
     std::vector<std::unique_ptr<ChildProcess>> m_processes;
 };
 
-} // namespace awe
+}  // namespace awe

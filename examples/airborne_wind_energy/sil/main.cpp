@@ -22,28 +22,39 @@ struct Settings
 
 void addOptions(QPlcCoreApplication &application)
 {
-    application.addOption(QCommandLineOption(QStringLiteral("signals"), QStringLiteral("Signal table. Without one that of the example."), QStringLiteral("FILE"), awe::builtInSignals()));
+    application.addOption(QCommandLineOption(QStringLiteral("signals"),
+                                             QStringLiteral("Signal table. Without one that of the example."),
+                                             QStringLiteral("FILE"), awe::builtInSignals()));
     awe::addRunOptions(application, QStringLiteral("600"));
     awe::addModelOptions(application);
     awe::addAutopilotOptions(application);
-    application.addOption(QCommandLineOption(QStringLiteral("processes"), QStringLiteral("Master, model and autopilot as processes of their own.")));
-    application.addOption(QCommandLineOption(QStringLiteral("transport"), QStringLiteral("How the nodes reach the master: inprocess (default), tcp, or udp (default with --processes)."), QStringLiteral("KIND")));
+    application.addOption(QCommandLineOption(QStringLiteral("processes"),
+                                             QStringLiteral("Master, model and autopilot as processes of their own.")));
+    application.addOption(QCommandLineOption(
+        QStringLiteral("transport"),
+        QStringLiteral("How the nodes reach the master: inprocess (default), tcp, or udp (default with --processes)."),
+        QStringLiteral("KIND")));
 }
 
 bool readOptions(QPlcCoreApplication &application, Settings *settings)
 {
     settings->processes = application.isSet(QStringLiteral("processes"));
-    settings->transport = application.isSet(QStringLiteral("transport")) ? application.value(QStringLiteral("transport")) : settings->processes ? QStringLiteral("udp") : QStringLiteral("inprocess");
+    settings->transport = application.isSet(QStringLiteral("transport"))
+        ? application.value(QStringLiteral("transport"))
+        : settings->processes ? QStringLiteral("udp")
+                              : QStringLiteral("inprocess");
     const QStringList kinds{QStringLiteral("inprocess"), QStringLiteral("tcp"), QStringLiteral("udp")};
     if (!kinds.contains(settings->transport)) {
         application.usageError(QStringLiteral("--transport %1: use inprocess, tcp or udp").arg(settings->transport));
         return false;
     }
     if (settings->processes && settings->transport == QLatin1String("inprocess")) {
-        application.usageError(QStringLiteral("--processes and --transport inprocess exclude each other: use tcp or udp"));
+        application.usageError(
+            QStringLiteral("--processes and --transport inprocess exclude each other: use tcp or udp"));
         return false;
     }
-    if (!awe::readRunOptions(application, &settings->run) || !awe::readModelOptions(application, &settings->model) || !awe::readAutopilotOptions(application, &settings->autopilot))
+    if (!awe::readRunOptions(application, &settings->run) || !awe::readModelOptions(application, &settings->model)
+        || !awe::readAutopilotOptions(application, &settings->autopilot))
         return false;
     settings->run.nominalWindSpeed = settings->model.wind.meanVelocity.norm();
     settings->run.awaitedNodes = QStringList{QStringLiteral("Model"), QStringLiteral("Autopilot")};
@@ -67,11 +78,14 @@ int flyInProcesses(QPlcCoreApplication &application, const Settings &settings)
 {
     const QStringList table{QStringLiteral("--signals=%1").arg(application.value(QStringLiteral("signals")))};
     awe::ProcessArguments arguments;
-    arguments.master = table + awe::givenRunOptions(application) + QStringList{QStringLiteral("--mean-wind=%1").arg(settings.run.nominalWindSpeed, 0, 'g', 17)};
+    arguments.master = table + awe::givenRunOptions(application)
+        + QStringList{QStringLiteral("--mean-wind=%1").arg(settings.run.nominalWindSpeed, 0, 'g', 17)};
     if (!application.isSet(QStringLiteral("duration")))
         arguments.master << QStringLiteral("--duration=%1").arg(settings.run.duration);
     // In lockstep the programs take turns: on one processor they wake each other without waking a processor first.
-    const QStringList processor = settings.run.clock.isLockstep() ? QStringList{QStringLiteral("--cpu=%1").arg(::sched_getcpu())} : QStringList();
+    const QStringList processor = settings.run.clock.isLockstep()
+        ? QStringList{QStringLiteral("--cpu=%1").arg(::sched_getcpu())}
+        : QStringList();
     arguments.master += processor;
     arguments.model = table + processor + awe::givenModelOptions(application);
     arguments.autopilot = table + processor + awe::givenAutopilotOptions(application);
@@ -79,7 +93,8 @@ int flyInProcesses(QPlcCoreApplication &application, const Settings &settings)
     arguments.watch = settings.run.watch;
 
     awe::ProcessFlight flight;
-    QObject::connect(&flight, &awe::ProcessFlight::finished, &application, [](int exitCode) { QCoreApplication::exit(exitCode); });
+    QObject::connect(&flight, &awe::ProcessFlight::finished, &application,
+                     [](int exitCode) { QCoreApplication::exit(exitCode); });
     application.quitOnSignals([&flight] { flight.end(); });
     if (!flight.begin(arguments))
         return QPlcCoreApplication::UsageError;
@@ -95,8 +110,9 @@ bool attach(QPlcMasterNode &master, QPlcSlaveNode &node, const QString &transpor
         return master.addLocalNode(&node);
     if (master.serverPort() == 0 && !master.startServer(QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, 0)))
         return false;
-    return node.connectToMasterAndWaitForConnected(transport == QLatin1String("udp") ? QPlcUnderlyingProtocol::udp(QHostAddress::LocalHost, master.serverPort())
-                                                                                     : QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, master.serverPort()));
+    return node.connectToMasterAndWaitForConnected(
+        transport == QLatin1String("udp") ? QPlcUnderlyingProtocol::udp(QHostAddress::LocalHost, master.serverPort())
+                                          : QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, master.serverPort()));
 }
 
 int flyInOneProcess(QPlcCoreApplication &application, const Settings &settings)
@@ -105,12 +121,13 @@ int flyInOneProcess(QPlcCoreApplication &application, const Settings &settings)
     awe::AutopilotNode autopilot(settings.autopilot.gains, settings.autopilot.extraDeadTime);
     QPlcMasterNode master;
     awe::RunSettings runSettings = settings.run;
-    runSettings.reportFile.clear(); // written at the end, with the summary
+    runSettings.reportFile.clear();  // written at the end, with the summary
     awe::FlightRun run(master, runSettings);
     if (!run.isValid() || !attach(master, model, settings.transport, QStringLiteral("modelWorkload"))
         || !attach(master, autopilot, settings.transport, QStringLiteral("autopilotWorkload")))
         return QPlcCoreApplication::UsageError;
-    QObject::connect(&run, &awe::FlightRun::finished, &application, [](int exitCode) { QCoreApplication::exit(exitCode); });
+    QObject::connect(&run, &awe::FlightRun::finished, &application,
+                     [](int exitCode) { QCoreApplication::exit(exitCode); });
     application.quitOnSignals([&run] { run.end(); });
     run.begin();
     const int exitCode = QCoreApplication::exec();
@@ -119,13 +136,15 @@ int flyInOneProcess(QPlcCoreApplication &application, const Settings &settings)
     return conclude(run.report(), settings.run.reportFile, exitCode);
 }
 
-} // namespace
+}  // namespace
 
 int main(int argc, char **argv)
 {
     QPlcCoreApplication application(argc, argv);
-    application.setDescription(QStringLiteral("Software in the loop: master, model and autopilot of the airborne wind energy example fly together on this machine."));
-    application.setExamples({QStringLiteral("awe_sil --duration 1800 --report flight.json"), QStringLiteral("awe_sil --scale 10 --turbulence 0.15 --seed 3"),
+    application.setDescription(QStringLiteral("Software in the loop: master, model and autopilot of the airborne wind "
+                                              "energy example fly together on this machine."));
+    application.setExamples({QStringLiteral("awe_sil --duration 1800 --report flight.json"),
+                             QStringLiteral("awe_sil --scale 10 --turbulence 0.15 --seed 3"),
                              QStringLiteral("awe_sil --processes --transport udp --gains tuned")});
     addOptions(application);
     Settings settings;
