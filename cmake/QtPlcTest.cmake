@@ -9,7 +9,7 @@ function(qtplc_add_test name)
     target_link_libraries(${name} PRIVATE QtPlc::Core Qt5::Test ${arg_LIBRARIES})
     add_test(NAME ${name} COMMAND ${name})
     if(NOT arg_TIMEOUT)
-        set(arg_TIMEOUT 60)
+        set(arg_TIMEOUT 300)
     endif()
     set_tests_properties(${name} PROPERTIES TIMEOUT ${arg_TIMEOUT} LABELS "${arg_LABELS}"
         ENVIRONMENT "QT_QPA_PLATFORM=offscreen")

@@ -23,6 +23,7 @@ private Q_SLOTS:
     void codeThatThrowsEndsTheInitialization_data();
     void codeThatThrowsEndsTheInitialization();
     void answersThatNobodyAskedForChangeNothing();
+    void answersCountOnceAndInTheirTurn();
     void onlyPossibleWhileOff();
     void withoutNodesItSucceedsAtOnce();
 
@@ -315,6 +316,36 @@ void tst_InitializationSequence::answersThatNobodyAskedForChangeNothing()
     QCOMPARE(errors.size(), 0);
     QCOMPARE(master.signalValue("echo").toReal(), 0.0);
     QCOMPARE(master.nodes().size(), 1);
+}
+
+void tst_InitializationSequence::answersCountOnceAndInTheirTurn()
+{
+    TestMaster master;
+    QVERIFY(master.listen());
+    ScriptedNode node;
+    ScriptedNode silent("Silent");
+    node.playsAlong = silent.playsAlong = false;
+    silent.inputs.clear();
+    silent.outputs.clear();
+    QVERIFY(node.registerAt(master.serverPort()));
+    QVERIFY(silent.registerAt(master.serverPort()));
+    QVERIFY(master.initializeAllStates());
+    QCOMPARE(node.next().kind(), QPlcMessage::SendYourInitialOutputStates);
+    node.send(QPlcMessage::ReceiveMyInitialOutputStates,
+              {{"values", QPlcMessage::fromBytes(QPlcValue(1.0).toBytes())}});
+    node.send(QPlcMessage::ReceiveMyInitialOutputStates,
+              {{"values", QPlcMessage::fromBytes(QPlcValue(2.0).toBytes())}});
+    QCOMPARE(node.next().text("error"), QString("WrongState"));
+    silent.send(QPlcMessage::ReceiveMyInitialOutputStates, {{"values", ""}});
+    QCOMPARE(node.next().kind(), QPlcMessage::InitializeWithValues);
+    QCOMPARE(master.signalValue("echo").toReal(), 1.0);
+    silent.send(QPlcMessage::Initialized);
+    node.send(QPlcMessage::RealTimeReady);  // not the answer that is owed
+    QCOMPARE(node.next().text("error"), QString("WrongState"));
+    QCOMPARE(master.state(), QPlcMasterNode::Initializing);
+    node.send(QPlcMessage::Initialized);
+    QVERIFY(master.waitForState(QPlcMasterNode::Off));
+    QCOMPARE(master.error(), QPlcMasterNode::NoError);
 }
 
 void tst_InitializationSequence::onlyPossibleWhileOff()

@@ -91,6 +91,7 @@ private Q_SLOTS:
     void outputsStayUntilAssigned();
     void compactSignalsTakeTheTypeOfTheSignal();
     void compactSignalsThatDoNotFitAreFaults();
+    void theFirstFaultOfAPhaseIsKept();
     void portsTellWhatTheyAre();
     void workloadBecomesAnOutput();
     void bindingAgainFollowsTheNewTable();
@@ -392,6 +393,32 @@ void tst_Ports::compactSignalsThatDoNotFitAreFaults()
         QVERIFY(!runtime.step(QPlcCycle(), nullptr));
         QVERIFY2(QString(runtime.faultText()).contains("'out'"), runtime.faultText());
         QCOMPARE(int(*runtime.outputs()), 5);  // those of the cycle before
+    }
+}
+
+void tst_Ports::theFirstFaultOfAPhaseIsKept()
+{
+    class Thrower : public QPlcCompactSlaveNode
+    {
+    public:
+        Thrower()
+            : QPlcCompactSlaveNode("Thrower")
+        {
+        }
+        void step(const QPlcCycle &cycle) override
+        {
+            throw std::runtime_error("cycle " + std::to_string(cycle.number()));
+        }
+    } node;
+    NodeRuntime runtime(node);
+    QString error;
+    QVERIFY(runtime.bind(tableOf("Real64"), &error));
+    for (quint64 first : {3, 8}) {
+        QVERIFY(runtime.reset(&error));
+        for (quint64 k = first; k < first + 3; ++k)
+            QVERIFY(!runtime.step(QPlcCycle(k, std::chrono::milliseconds(1)), nullptr));
+        QCOMPARE(QString(runtime.faultText()),
+                 QString("cycle %1").arg(first));  // its owner reads it while cycles go on
     }
 }
 

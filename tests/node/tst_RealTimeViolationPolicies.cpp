@@ -19,6 +19,7 @@ private Q_SLOTS:
     void waitLetsTimeStandStill();
     void onlyTheAnswerOfThisCycleEndsTheWait();
     void aLateAnswerIsNewerThanWhatIsHeld();
+    void theAnswerOfTheCycleBeforeIsNoAnswer();
     void aNodeThatDiesWhileWaitedForIsNotWaitedFor_data();
     void aNodeThatDiesWhileWaitedForIsNotWaitedFor();
     void stopEndsTheWait();
@@ -145,6 +146,26 @@ void tst_RealTimeViolationPolicies::aLateAnswerIsNewerThanWhatIsHeld()
     const quint64 late = master.nodes().at(0).lateAnswers;
     QVERIFY(late >= 4);
     master.stop();
+}
+
+void tst_RealTimeViolationPolicies::theAnswerOfTheCycleBeforeIsNoAnswer()
+{
+    TestMaster master(QPlcClock::realTime());
+    master.setInterval(0.010);
+    QVERIFY(master.listen());
+    ScriptedNode node;
+    node.policy = "SilentZeroOrderHold";
+    QVERIFY(node.registerAt(master.serverPort()));
+    node.onRequest = [&](const ScriptedNode::Request &request) {
+        if (node.requests.size() > 1)
+            node.answer(request.cycle - 1, 1.0);  // always one cycle behind
+    };
+    QVERIFY(master.startRealTime());
+    QVERIFY(master.waitForCycles(10));
+    master.stop();
+    QVERIFY(node.requests.size() > 5);
+    QVERIFY(master.nodes().at(0).lateAnswers + 1
+            >= master.statistics().cycles);  // every cycle but, at most, the one that stop() has cut short
 }
 
 void tst_RealTimeViolationPolicies::aNodeThatDiesWhileWaitedForIsNotWaitedFor_data()

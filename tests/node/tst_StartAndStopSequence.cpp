@@ -133,6 +133,7 @@ void tst_StartAndStopSequence::aNodeThatIsNotReadyInTimeEndsTheStart()
     QVERIFY(good.waitForMessage(QPlcMessage::RealTimeStarted));
     QCOMPARE(good.messages.at(0).kind(), QPlcMessage::SendYourInitialOutputStates);
     QVERIFY(master.waitForCycles(3));
+    QCOMPARE(good.requests.at(0).cycle, good.messages.last().hex64("cycleZero"));
     master.stop();
 }
 

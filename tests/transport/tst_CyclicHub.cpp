@@ -116,37 +116,42 @@ void tst_CyclicHub::ipv6PeersAreFound()
 
 void tst_CyclicHub::manyPeersAreServedWithFewCalls()
 {
+    constexpr int count = 400;  // so many that some share a place of the table
     CyclicHub hub;
     const SocketAddress self = open(hub);
-    std::vector<std::unique_ptr<UdpSocket>> sockets;
-    std::vector<std::unique_ptr<HubPeer>> peers;
-    std::vector<std::unique_ptr<StreamPair>> pairs;
-    for (int i = 0; i < 200; ++i) {
-        if (i % 2 == 0) {
-            sockets.push_back(std::make_unique<UdpSocket>());
-            peers.push_back(HubPeer::udp(sockets.back()->self));
-        } else {
-            pairs.push_back(std::make_unique<StreamPair>());
-            peers.push_back(HubPeer::tcp(pairs.back()->take(0), toyCutter, LargestToyFrame));
-        }
-        peers.back()->owner = reinterpret_cast<void *>(quintptr(i + 1));
-        hub.attach(peers.back().get());
-    }
+    std::vector<std::unique_ptr<UdpSocket>> sockets(count);
+    std::vector<std::unique_ptr<StreamPair>> pairs(count);
+    std::vector<std::unique_ptr<HubPeer>> peers(count);
     QVector<QByteArray> requests;
-    for (int i = 0; i < 200; ++i)
-        requests << toyFrame(10, char(i));
-    for (int i = 0; i < 200; ++i)
-        hub.send(peers[std::size_t(i)].get(), requests.at(i).constData(), 10);
-    hub.flush();
-    for (int i = 0; i < 100; ++i) {
-        QCOMPARE(sockets[std::size_t(i)]->receive(), requests.at(2 * i));
-        QCOMPARE(pairs[std::size_t(i)]->readAll(), requests.at(2 * i + 1));
-        QVERIFY(sockets[std::size_t(i)]->send(requests.at(2 * i), self));
-        pairs[std::size_t(i)]->write(requests.at(2 * i + 1));
+    for (std::size_t i = 0; i < count; ++i) {
+        if (i % 4 != 0) {
+            sockets[i] = std::make_unique<UdpSocket>();
+            peers[i] = HubPeer::udp(sockets[i]->self);
+        } else {
+            pairs[i] = std::make_unique<StreamPair>();
+            peers[i] = HubPeer::tcp(pairs[i]->take(0), toyCutter, LargestToyFrame);
+        }
+        peers[i]->owner = reinterpret_cast<void *>(quintptr(i + 1));
+        hub.attach(peers[i].get());
+        requests << toyFrame(4) + QByteArray::number(qulonglong(1000 + i));
+        requests.last()[1] = char(requests.last().size());
     }
-    const auto taken = take(hub, 200);
-    QCOMPARE(taken.size(), 200);
-    for (const auto &[peer, frame] : taken)
+    for (std::size_t i = 0; i < count; ++i)
+        hub.send(peers[i].get(), requests.at(int(i)).constData(), std::size_t(requests.at(int(i)).size()));
+    hub.flush();
+    QVector<QPair<HubPeer *, QByteArray>> taken;
+    for (std::size_t i = 0; i < count; ++i) {
+        const QByteArray request = requests.at(int(i));
+        QCOMPARE(sockets[i] ? sockets[i]->receive() : pairs[i]->readAll(), request);
+        if (sockets[i])
+            QVERIFY(sockets[i]->send(request, self));
+        else
+            pairs[i]->write(request);
+        if (i % 50 == 49)
+            taken += take(hub, 50);  // before the socket is full
+    }
+    QCOMPARE(taken.size(), count);
+    for (const auto &[peer, frame] : qAsConst(taken))
         QCOMPARE(frame, requests.at(int(reinterpret_cast<quintptr>(peer->owner)) - 1));
     QCOMPARE(hub.strangers(), std::uint64_t(0));
 }
