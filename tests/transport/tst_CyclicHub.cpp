@@ -99,7 +99,7 @@ void tst_CyclicHub::strangersAreCounted()
 
 void tst_CyclicHub::ipv6PeersAreFound()
 {
-    UdpSocket node(QHostAddress(QHostAddress::LocalHostIPv6));
+    UdpSocket node{QHostAddress(QHostAddress::LocalHostIPv6)};
     if (!node.ok)
         QSKIP("no IPv6 here", "");
     CyclicHub hub;
