@@ -300,7 +300,7 @@ def example_messages():
         (31, "State", dict(state="RealTime", cycle=hex64(2**40 + 1), period=10000000, clock="RealTime", scale=1,
                            session=hex64(SESSION), counters=dict(cycles=12, overruns=0), digest=hex64(2**64 - 1),
                            nodes=[dict(name="Winch", id=7, inputs=1, outputs=1, listener=False, policy="ErrorZeroOrderHold",
-                                       transport="udp", lateAnswers=0, lost=0)])),
+                                       transport="udp", address="127.0.0.1:41000", lateAnswers=0, duplicates=0, rejected=0, resent=0)])),
         (32, "GetSignals", dict(names=["tetherSpeed"])),
         (33, "Signals", dict(signals=[dict(name="tetherSpeed", type="Real32", unit="m/s", description="Höhe \"quoted\"",
                                            value="1.5", writer="")])),

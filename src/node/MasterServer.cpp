@@ -44,7 +44,7 @@ bool MasterServer::openPorts(const QHostAddress &address, quint16 port)
                   .arg(m_server->errorString());
         return false;
     }
-    if (m_hub.open(SocketAddress(address, m_server->serverPort()), &m_errorString))
+    if (m_hub.open(SocketAddress(m_server->serverAddress(), m_server->serverPort()), &m_errorString))
         return true;
     m_server->close();
     return false;

@@ -458,7 +458,8 @@ void QPlcMasterNodePrivate::fault(const QString &text)
 
 void QPlcMasterNodePrivate::nodeLost(Connection *connection, const QString &reason)
 {
-    if (connection->stage > Connection::Attached)
+    const bool isMissed = connection->stage > Connection::Attached && !connection->slot->listener;
+    if (isMissed)
         qCWarning(lcMaster).noquote() << "node" << connection->name << "is gone in the middle of its work:" << reason;
     else
         qCInfo(lcMaster).noquote() << "node" << connection->name << "has left:" << reason;

@@ -21,9 +21,8 @@ const NodeColumn nodeColumns[] = {
     {"address", "address", TextTable::Left, true},     {"number", "id", TextTable::Right, true},
     {"policy", "policy", TextTable::Left, false},      {"listener", "listener", TextTable::Left, true},
     {"in", "inputs", TextTable::Right, false},         {"out", "outputs", TextTable::Right, false},
-    {"late", "lateAnswers", TextTable::Right, false},  {"lost", "lost", TextTable::Right, true},
-    {"doubled", "duplicates", TextTable::Right, true}, {"rejected", "rejected", TextTable::Right, false},
-    {"resent", "resent", TextTable::Right, true},
+    {"late", "lateAnswers", TextTable::Right, false},  {"doubled", "duplicates", TextTable::Right, true},
+    {"rejected", "rejected", TextTable::Right, false}, {"resent", "resent", TextTable::Right, true},
 };
 
 void printField(const char *label, const QString &value)

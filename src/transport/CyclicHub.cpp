@@ -85,6 +85,10 @@ bool CyclicHub::open(const SocketAddress &address, QString *error)
 {
     close();
     m_udp = ::socket(address.family(), SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+    m_isIpv6 = address.family() == AF_INET6;
+    const int off = 0;
+    if (m_isIpv6)
+        ::setsockopt(m_udp, IPPROTO_IPV6, IPV6_V6ONLY, &off, sizeof off);
     if (m_udp < 0 || ::bind(m_udp, address.data(), address.length) < 0) {
         *error = QStringLiteral("cannot use UDP port %1: %2").arg(address.toString(), systemErrorText());
         close();
@@ -106,6 +110,8 @@ void CyclicHub::close()
 void CyclicHub::attach(HubPeer *peer) noexcept
 {
     if (m_peers.size() < MaximumPeers) {
+        if (m_isIpv6 && peer->isUdp())
+            peer->m_address = peer->m_address.mappedToIpv6();
         m_peers.push_back(peer);
         rebuild();
     }

@@ -73,7 +73,7 @@ public:
     CyclicHub(const CyclicHub &) = delete;
     CyclicHub &operator=(const CyclicHub &) = delete;
 
-    /// Binds the UDP socket. \return false, with the reason in \a error
+    /// Binds the UDP socket. One that is bound to :: also exchanges datagrams with IPv4 addresses. \return false, with the reason in \a error
     bool open(const SocketAddress &address, QString *error);
     void close();
 
@@ -108,6 +108,7 @@ private:
     bool nextFromStream(Incoming *incoming) noexcept;
 
     int m_udp = -1;
+    bool m_isIpv6 = false;
     std::vector<HubPeer *> m_peers;
     std::vector<pollfd> m_polled;      // 0: UDP, then the TCP peers in order
     std::vector<HubPeer *> m_streams;  // peer of m_polled[i + 1]

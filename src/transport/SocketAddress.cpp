@@ -22,12 +22,12 @@ SocketAddress::SocketAddress(const QHostAddress &address, quint16 port)
 {
     bool isIpv4 = false;
     const quint32 ipv4 = address.toIPv4Address(&isIpv4);
-    isIpv4 = isIpv4 && address != QHostAddress(QHostAddress::AnyIPv6);  // which Qt takes for 0.0.0.0
-    if (isIpv4 || address == QHostAddress(QHostAddress::Any)) {
+    isIpv4 = isIpv4 && (ipv4 != 0 || address.protocol() == QAbstractSocket::IPv4Protocol);  // Qt takes :: for 0.0.0.0
+    if (isIpv4) {
         auto *target = reinterpret_cast<sockaddr_in *>(&storage);
         target->sin_family = AF_INET;
         target->sin_port = qToBigEndian(port);
-        target->sin_addr.s_addr = qToBigEndian(isIpv4 ? ipv4 : quint32(INADDR_ANY));
+        target->sin_addr.s_addr = qToBigEndian(ipv4);
         length = sizeof(sockaddr_in);
         return;
     }
@@ -38,6 +38,17 @@ SocketAddress::SocketAddress(const QHostAddress &address, quint16 port)
     std::memcpy(&target->sin6_addr, &ipv6, sizeof ipv6);
     target->sin6_scope_id = address.scopeId().toUInt();
     length = sizeof(sockaddr_in6);
+}
+
+SocketAddress SocketAddress::mappedToIpv6() const
+{
+    if (family() != AF_INET)
+        return *this;
+    SocketAddress mapped(QHostAddress(QHostAddress::AnyIPv6), port());
+    in6_addr &address = reinterpret_cast<sockaddr_in6 *>(&mapped.storage)->sin6_addr;
+    address.s6_addr[10] = address.s6_addr[11] = 0xff;
+    std::memcpy(&address.s6_addr[12], &reinterpret_cast<const sockaddr_in *>(&storage)->sin_addr, 4);
+    return mapped;
 }
 
 quint16 SocketAddress::port() const

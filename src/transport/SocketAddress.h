@@ -13,7 +13,10 @@ struct SocketAddress
     socklen_t length = 0;
 
     SocketAddress() = default;
+    /// QHostAddress::Any becomes the IPv6 address :: (see CyclicHub::open()).
     SocketAddress(const QHostAddress &address, quint16 port);
+    /// The same address for a socket of IPv6: an IPv4 address a.b.c.d becomes ::ffff:a.b.c.d.
+    SocketAddress mappedToIpv6() const;
 
     const sockaddr *data() const { return reinterpret_cast<const sockaddr *>(&storage); }
     sockaddr *data() { return reinterpret_cast<sockaddr *>(&storage); }

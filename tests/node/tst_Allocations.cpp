@@ -1,58 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "NodeFixtures.h"
+#include "ThreadCosts.h"
 
 #include <QtTest/QtTest>
 
-#include <atomic>
-#include <cstdlib>
+#include <mutex>
+#include <thread>
 
-// Every allocation of the program goes through here; those of cycle threads are counted while the flag is set.
-namespace {
-
-std::atomic<bool> counting{false};
-std::atomic<quint64> allocations{0};
-thread_local bool isCycleThread = false;
-
-void note()
-{
-    if (isCycleThread && counting.load(std::memory_order_relaxed))
-        allocations.fetch_add(1, std::memory_order_relaxed);
-}
-
-}  // namespace
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define QTPLC_SANITIZED
-#elif defined(__has_feature)  // by clang; Qt gives one that is always 0 to the others
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define QTPLC_SANITIZED
-#endif
-#endif
-#ifndef QTPLC_SANITIZED
-// operator new of the standard library ends here, too.
-extern "C" {
-void *__libc_malloc(std::size_t size);
-void *__libc_calloc(std::size_t count, std::size_t size);
-void *__libc_realloc(void *bytes, std::size_t size);
-void *malloc(std::size_t size)
-{
-    note();
-    return __libc_malloc(size);
-}
-void *calloc(std::size_t count, std::size_t size)
-{
-    note();
-    return __libc_calloc(count, size);
-}
-void *realloc(void *bytes, std::size_t size)
-{
-    note();
-    return __libc_realloc(bytes, size);
-}
-}
-#endif
-
-// A cycle is free of allocations, whatever the ports.
+// A cycle allocates nothing and locks nothing, whatever the ports.
 class tst_Allocations : public QObject
 {
     Q_OBJECT
@@ -125,7 +80,7 @@ private:
 
     void step(const QPlcCycle &cycle) override
     {
-        isCycleThread = true;
+        ThreadCosts::watchThisThread();
         m_realOut = m_real + cycle.dt();
         m_singleOut = m_single + m_triple.value()[1];
         m_wideOut = int(m_integer) + 1;
@@ -139,15 +94,19 @@ private:
 
 void tst_Allocations::initTestCase()
 {
-#ifdef QTPLC_SANITIZED
-    QSKIP("the sanitizer owns malloc", "");
-#endif
+    if (!ThreadCosts::areCounted())
+        QSKIP("the sanitizer owns malloc", "");
     // The counter counts: a test that sees nothing would prove nothing.
-    isCycleThread = counting = true;
-    std::free(std::malloc(3));
-    delete new QObject;
-    isCycleThread = counting = false;
-    QVERIFY(allocations.exchange(0) >= 3);
+    std::thread([] {
+        ThreadCosts::watchThisThread();
+        std::free(std::malloc(3));
+        delete new QObject;
+        std::mutex mutex;
+        const std::lock_guard<std::mutex> lock(mutex);
+    }).join();
+    const ThreadCosts costs = ThreadCosts::ofWatchedThreads();
+    QVERIFY(costs.allocations >= 3);
+    QVERIFY(costs.locks >= 1);
 }
 
 void tst_Allocations::aMillionCyclesInProcess()
@@ -159,11 +118,12 @@ void tst_Allocations::aMillionCyclesInProcess()
     master.setCycleLimit(1'000'100);
     QVERIFY(master.startRealTime());
     QVERIFY(QTest::qWaitFor([&] { return master.statistics().cycles >= 100; }, 5000));
-    counting = true;
+    const ThreadCosts before = ThreadCosts::ofWatchedThreads();
     QVERIFY(QTest::qWaitFor([&] { return master.state() == QPlcMasterNode::Off; }, 50000));
-    counting = false;
+    const ThreadCosts spent = ThreadCosts::ofWatchedThreads() - before;
     QCOMPARE(master.statistics().cycles, quint64(1'000'100));
-    QCOMPARE(allocations.exchange(0), quint64(0));
+    QCOMPARE(spent.allocations, std::uint64_t(0));
+    QCOMPARE(spent.locks, std::uint64_t(0));
 }
 
 void tst_Allocations::cyclesOverTheNetwork_data()
@@ -183,7 +143,7 @@ void tst_Allocations::cyclesOverTheNetwork()
             : QPlcCompactSlaveNode("Marker")
         {
         }
-        void step(const QPlcCycle &) override { isCycleThread = true; }
+        void step(const QPlcCycle &) override { ThreadCosts::watchThisThread(); }
     } marker;
     TestMaster master(QPlcClock::lockstep(), everyType());
     QVERIFY(master.setTimeSignal("time"));
@@ -194,11 +154,12 @@ void tst_Allocations::cyclesOverTheNetwork()
     master.setCycleLimit(20'100);
     QVERIFY(master.startRealTime());
     QVERIFY(master.waitForCycles(100));
-    counting = true;
+    const ThreadCosts before = ThreadCosts::ofWatchedThreads();
     QVERIFY(QTest::qWaitFor([&] { return master.statistics().cycles >= 20'050; }, 50000));
-    counting = false;
+    const ThreadCosts spent = ThreadCosts::ofWatchedThreads() - before;
     QVERIFY(master.waitForState(QPlcMasterNode::Off));
-    QCOMPARE(allocations.exchange(0), quint64(0));
+    QCOMPARE(spent.allocations, std::uint64_t(0));
+    QCOMPARE(spent.locks, std::uint64_t(0));
     node.disconnectFromMaster();
     QPlcSignalIndexTable::setCurrent({});
 }
@@ -221,11 +182,12 @@ void tst_Allocations::buffersAndIoNodes()
     master.setCycleLimit(10'100);
     QVERIFY(master.startRealTime());
     QVERIFY(master.waitForCycles(100));
-    counting = true;
+    const ThreadCosts before = ThreadCosts::ofWatchedThreads();
     QVERIFY(master.waitForCycles(10'050));
-    counting = false;
+    const ThreadCosts spent = ThreadCosts::ofWatchedThreads() - before;
     QVERIFY(master.waitForState(QPlcMasterNode::Off));
-    QCOMPARE(allocations.exchange(0), quint64(0));
+    QCOMPARE(spent.allocations, std::uint64_t(0));
+    QCOMPARE(spent.locks, std::uint64_t(0));
     QPlcSignalIndexTable::setCurrent({});
 }
 

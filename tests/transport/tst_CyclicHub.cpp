@@ -15,6 +15,7 @@ private Q_SLOTS:
     void datagramsGoToAndComeFromPeers();
     void strangersAreCounted();
     void ipv6PeersAreFound();
+    void anyAddressServesIpv4AndIpv6();
     void manyPeersAreServedWithFewCalls();
     void aDetachedPeerIsAStranger();
     void streamsGiveWholeFrames();
@@ -112,6 +113,29 @@ void tst_CyclicHub::ipv6PeersAreFound()
     QCOMPARE(node.receive(), QByteArray("six"));
     QVERIFY(node.send("back", self));
     QCOMPARE(take(hub, 1).at(0).first, peer.get());
+}
+
+void tst_CyclicHub::anyAddressServesIpv4AndIpv6()
+{
+    UdpSocket six{QHostAddress(QHostAddress::LocalHostIPv6)};
+    if (!six.ok)
+        QSKIP("no IPv6 here", "");
+    UdpSocket four;
+    CyclicHub hub;
+    const SocketAddress self = open(hub, QHostAddress(QHostAddress::Any));
+    const auto sixPeer = HubPeer::udp(six.self);
+    const auto fourPeer = HubPeer::udp(four.self);
+    hub.attach(sixPeer.get());
+    hub.attach(fourPeer.get());
+    hub.send(sixPeer.get(), "six", 3);
+    hub.send(fourPeer.get(), "four", 4);
+    hub.flush();
+    QCOMPARE(six.receive(), QByteArray("six"));
+    QCOMPARE(four.receive(), QByteArray("four"));
+    QVERIFY(six.send("x", SocketAddress(QHostAddress(QHostAddress::LocalHostIPv6), self.port())));
+    QCOMPARE(take(hub, 1).at(0).first, sixPeer.get());
+    QVERIFY(four.send("x", SocketAddress(QHostAddress(QHostAddress::LocalHost), self.port())));
+    QCOMPARE(take(hub, 1).at(0).first, fourPeer.get());
 }
 
 void tst_CyclicHub::manyPeersAreServedWithFewCalls()

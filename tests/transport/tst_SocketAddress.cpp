@@ -32,7 +32,8 @@ void tst_SocketAddress::looksLikeTheKernelWantsIt()
     QCOMPARE(ipv6.family(), AF_INET6);
     QCOMPARE(ipv6.port(), quint16(7));
     QVERIFY(IN6_IS_ADDR_LOOPBACK(&reinterpret_cast<const sockaddr_in6 *>(ipv6.data())->sin6_addr));
-    QCOMPARE(SocketAddress(QHostAddress(QHostAddress::Any), 1).family(), AF_INET);
+    QCOMPARE(SocketAddress(QHostAddress(QHostAddress::Any), 1).family(), AF_INET6);
+    QCOMPARE(SocketAddress(QHostAddress(QHostAddress::AnyIPv4), 1).family(), AF_INET);
 }
 
 void tst_SocketAddress::mappedIpv4CountsAsIpv4()
@@ -45,6 +46,10 @@ void tst_SocketAddress::mappedIpv4CountsAsIpv4()
     QCOMPARE(SocketAddress(QHostAddress("::ffff:10.0.0.5"), 1234).family(),
              AF_INET);  // what a dual-stack server calls its peers
     QCOMPARE(SocketAddress(QHostAddress("::ffff:10.0.0.5"), 1234).key(), mapped.key());
+    const SocketAddress forIpv6Socket = SocketAddress(QHostAddress("10.0.0.5"), 1234).mappedToIpv6();
+    QCOMPARE(forIpv6Socket.family(), AF_INET6);
+    QCOMPARE(forIpv6Socket.port(), quint16(1234));
+    QCOMPARE(std::memcmp(&reinterpret_cast<const sockaddr_in6 *>(forIpv6Socket.data())->sin6_addr, bytes, 16), 0);
 }
 
 void tst_SocketAddress::differentPeersHaveDifferentKeys()
