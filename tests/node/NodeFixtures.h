@@ -67,6 +67,7 @@ public:
     {
         return QTest::qWaitFor([&] { return statistics().cycles >= cycles; }, 10000);
     }
+    /// A short phase may be over before anybody looks: after startRealTime() wait for Off, not for RealTime and then for Off.
     bool waitForState(State wanted)
     {
         return QTest::qWaitFor([&] { return state() == wanted; }, 10000);

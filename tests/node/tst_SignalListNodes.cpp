@@ -123,7 +123,6 @@ void tst_SignalListNodes::listsCarryValuesInAndOut()
     QVERIFY(master.setSignalValue("setpoint", 4.0));
     QVERIFY(master.setSignalValue("vector", QPlcValue(std::array<double, 3>{0, 0, 0.5})));
     QVERIFY(master.startRealTime());
-    QVERIFY(master.waitForState(QPlcMasterNode::RealTime) || master.statistics().cycles == 5);
     QVERIFY(master.waitForState(QPlcMasterNode::Off));
     QCOMPARE(master.signalValue("echo").toReal(), 8.5);
     QCOMPARE(master.signalValue("count").toInt(), 7);

@@ -191,7 +191,7 @@ void tst_awe_sil::clockSetsThePace()
     // On a machine that does something else the start is seen late, and the last cycles may be skipped.
     const double flown = flight.value(QStringLiteral("simulated_s")).toDouble();
     const double measured = flight.value(QStringLiteral("wall_s")).toDouble();
-    QVERIFY2(flown >= simulated && flown < simulated * 1.2, qPrintable(QString::number(flown)));
+    QVERIFY2(flown > simulated * 0.9 && flown < simulated * 1.2, qPrintable(QString::number(flown)));
     QVERIFY2(measured > 0.6 * wall && measured < wall + 5.0, qPrintable(QString::number(measured)));
 }
 
