@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "BenchMaster.h"
+
+#include <QtCore/QElapsedTimer>
+#include <QtCore/QEventLoop>
+#include <QtCore/QTimer>
+
+#include <algorithm>
+#include <chrono>
+#include <sched.h>
+#include <unistd.h>
+
+namespace {
+
+/// The value that a fraction \a q of \a sorted does not exceed [us].
+double percentile(const std::vector<qint64> &sorted, double q)
+{
+    if (sorted.empty())
+        return 0.0;
+    const auto place = std::min(sorted.size() - 1, std::size_t(q * double(sorted.size())));
+    return double(sorted[place]) * 1e-3;
+}
+
+void addPercentiles(QJsonObject *fields, const QString &name, double p50, double p99, double p999, double maximum)
+{
+    fields->insert(name + QStringLiteral("_p50_us"), p50);
+    fields->insert(name + QStringLiteral("_p99_us"), p99);
+    fields->insert(name + QStringLiteral("_p999_us"), p999);
+    fields->insert(name + QStringLiteral("_max_us"), maximum);
+}
+
+}  // namespace
+
+BenchMaster::BenchMaster(const BenchOptions &options)
+    : m_options(options)
+    , m_probe(options)
+{
+}
+
+bool BenchMaster::setError(const QString &text)
+{
+    m_errorString = text;
+    return false;
+}
+
+bool BenchMaster::prepare()
+{
+    m_master.setSignalTable(benchTable(m_options));
+    m_master.setClock(m_options.isBackToBack() ? QPlcClock::lockstep() : QPlcClock::realTime());
+    QPlcRealTimeOptions realTime;
+    realTime.lockMemory = ::sched_getscheduler(0) == SCHED_FIFO;
+    m_master.setRealTimeOptions(realTime);
+    m_master.setInitializationTimeout(std::chrono::seconds(10));
+    if (!m_options.isBackToBack() && !m_master.setInterval(std::chrono::microseconds(m_options.periodUs)))
+        return setError(m_master.errorString());
+    return m_master.addLocalNode(&m_probe) || setError(m_master.errorString());
+}
+
+bool BenchMaster::addSlaves()
+{
+    if (m_options.isInProcess()) {
+        for (int i = 0; i < m_options.slaves; ++i) {
+            m_localSlaves.push_back(std::make_unique<BenchSlave>(m_options, i));
+            if (!m_master.addLocalNode(m_localSlaves.back().get()))
+                return setError(m_master.errorString());
+        }
+        return true;
+    }
+    if (!m_master.startServer(QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, 0)))
+        return setError(m_master.errorString());
+    const QString address = QStringLiteral("%1://127.0.0.1:%2").arg(m_options.transport).arg(m_master.serverPort());
+    for (int i = 0; i < m_options.slaves; ++i) {
+        if (!m_processes.start(m_options.slaveArguments(i, address)))
+            return setError(QStringLiteral("cannot start slave process %1").arg(i));
+    }
+    return waitForSlaves();
+}
+
+bool BenchMaster::waitForSlaves()
+{
+    QElapsedTimer timer;
+    timer.start();
+    while (m_master.nodes().size() < m_options.slaves + 1) {
+        if (timer.elapsed() > 20000 || !m_processes.allAlive())
+            return setError(
+                QStringLiteral("only %1 of %2 slaves came").arg(m_master.nodes().size() - 1).arg(m_options.slaves));
+        wait(0.01);
+    }
+    return true;
+}
+
+void BenchMaster::wait(double seconds)
+{
+    QEventLoop loop;
+    QTimer::singleShot(std::chrono::milliseconds(qRound64(seconds * 1e3)), &loop, &QEventLoop::quit);
+    loop.exec();
+}
+
+bool BenchMaster::startPhase()
+{
+    m_master.startRealTime();
+    QElapsedTimer timer;
+    timer.start();
+    while (m_master.state() != QPlcMasterNode::RealTime && timer.elapsed() < 15000
+           && m_master.error() == QPlcMasterNode::NoError)
+        wait(0.002);
+    return m_master.state() == QPlcMasterNode::RealTime
+        || setError(QStringLiteral("the cycles did not start: %1").arg(m_master.errorString()));
+}
+
+BenchMaster::Snapshot BenchMaster::snapshot() const
+{
+    return {ProcessUsage::of(::getpid()), ProcessUsage::sumOf(m_processes.ids()), LoopbackUsage::now(),
+            std::chrono::steady_clock::now().time_since_epoch().count(), m_master.statistics()};
+}
+
+bool BenchMaster::run()
+{
+    if (!prepare() || !addSlaves() || !startPhase())
+        return false;
+    wait(m_options.warmup);
+    if (!m_options.isBackToBack()) {  // statistics begin with a phase
+        m_master.stop();
+        if (!startPhase())
+            return false;
+    }
+    m_before = snapshot();
+    m_probe.begin();
+    wait(m_options.seconds);
+    m_probe.end();
+    m_after = snapshot();
+    m_master.stop();
+    return m_master.error() == QPlcMasterNode::NoError || setError(m_master.errorString());
+}
+
+void BenchMaster::addUsage(QJsonObject *fields, double cycles) const
+{
+    const double perSlave = cycles * m_options.slaves;
+    const double master = m_after.master.cpuUs - m_before.master.cpuUs;
+    const double slaves = m_after.slaves.cpuUs - m_before.slaves.cpuUs;
+    fields->insert(QStringLiteral("cpu_master_us"), master / cycles);
+    fields->insert(QStringLiteral("cpu_slave_us"), slaves / perSlave);
+    fields->insert(QStringLiteral("cpu_total_us"), (master + slaves) / cycles);
+    fields->insert(QStringLiteral("ctx_master"),
+                   (m_after.master.contextSwitches - m_before.master.contextSwitches) / cycles);
+    fields->insert(QStringLiteral("ctx_slave"),
+                   (m_after.slaves.contextSwitches - m_before.slaves.contextSwitches) / perSlave);
+    fields->insert(QStringLiteral("bytes_per_cycle"), (m_after.loopback.bytes - m_before.loopback.bytes) / cycles);
+    fields->insert(QStringLiteral("packets_per_cycle"),
+                   (m_after.loopback.packets - m_before.loopback.packets) / cycles);
+    fields->insert(QStringLiteral("threads_master"), m_after.master.threads);
+    fields->insert(QStringLiteral("threads_slave"), double(m_after.slaves.threads) / m_options.slaves);
+    fields->insert(QStringLiteral("rss_slave_kb"), m_after.slaves.residentKb / m_options.slaves);
+}
+
+QJsonObject BenchMaster::result() const
+{
+    const QPlcMasterStatistics &statistics = m_after.statistics;
+    const double cycles = std::max(1.0, double(statistics.cycles - m_before.statistics.cycles));
+    const double seconds = double(m_after.time - m_before.time) * 1e-9;
+    QJsonObject fields{{QStringLiteral("peer"), QStringLiteral("qtplc")},
+                       {QStringLiteral("variant"), m_options.transport},
+                       {QStringLiteral("slaves"), m_options.slaves},
+                       {QStringLiteral("in"), m_options.inputs},
+                       {QStringLiteral("out"), m_options.outputs},
+                       {QStringLiteral("period_us"), m_options.periodUs},
+                       {QStringLiteral("policy"),
+                        ::sched_getscheduler(0) == SCHED_FIFO ? QStringLiteral("fifo") : QStringLiteral("other")},
+                       {QStringLiteral("cycles"), cycles},
+                       {QStringLiteral("seconds"), seconds},
+                       {QStringLiteral("cycles_per_s"), cycles / seconds},
+                       {QStringLiteral("errors"), double(m_probe.errors())},
+                       {QStringLiteral("overruns"), double(statistics.overruns + statistics.lateAnswers)}};
+    if (m_options.isBackToBack()) {
+        std::vector<qint64> sorted = m_probe.intervals();
+        std::sort(sorted.begin(), sorted.end());
+        addPercentiles(&fields, QStringLiteral("rtt"), percentile(sorted, 0.5), percentile(sorted, 0.99),
+                       percentile(sorted, 0.999), sorted.empty() ? 0.0 : double(sorted.back()) * 1e-3);
+    } else {
+        addPercentiles(&fields, QStringLiteral("rtt"), double(statistics.roundTripMedian) * 1e-3,
+                       double(statistics.roundTrip99) * 1e-3, double(statistics.roundTripMaximum) * 1e-3,
+                       double(statistics.roundTripMaximum) * 1e-3);
+        addPercentiles(&fields, QStringLiteral("late"), double(statistics.latenessMedian) * 1e-3,
+                       double(statistics.lateness99) * 1e-3, double(statistics.latenessMaximum) * 1e-3,
+                       double(statistics.latenessMaximum) * 1e-3);
+    }
+    addUsage(&fields, cycles);
+    return fields;
+}

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "BenchOptions.h"
+
+namespace {
+
+const QStringList transports{QStringLiteral("udp"), QStringLiteral("udp-multicast"), QStringLiteral("tcp"),
+                             QStringLiteral("local"), QStringLiteral("inprocess")};
+
+void addOption(QPlcCoreApplication &application, const char *name, const char *description, const char *valueName,
+               const char *value)
+{
+    application.addOption(QCommandLineOption(QString::fromLatin1(name), QString::fromLatin1(description),
+                                             QString::fromLatin1(valueName), QString::fromLatin1(value)));
+}
+
+bool readInteger(QPlcCoreApplication &application, const char *option, qint64 minimum, qint64 maximum, int *result)
+{
+    qint64 number = 0;
+    if (!application.integer(QString::fromLatin1(option), minimum, maximum, &number))
+        return false;
+    *result = int(number);
+    return true;
+}
+
+}  // namespace
+
+QStringList BenchOptions::slaveArguments(int index, const QString &address) const
+{
+    return {QStringLiteral("--slave"),   QString::number(index),  QStringLiteral("--master"), address,
+            QStringLiteral("--in"),      QString::number(inputs), QStringLiteral("--out"),    QString::number(outputs),
+            QStringLiteral("--spin-us"), QString::number(spinUs)};
+}
+
+bool readBenchOptions(QPlcCoreApplication &application, BenchOptions *options)
+{
+    application.setDescription(
+        QStringLiteral("Measures the cycle of one master process with N slave processes and prints one line of JSON."));
+    application.setExamples(
+        {QStringLiteral("taskset -c 0 qtplc_cycle_bench --transport udp --slaves 10"),
+         QStringLiteral("timeout -s KILL 60 chrt -f 49 qtplc_cycle_bench --slaves 10 --period-us 1000")});
+    addOption(application, "transport", "udp, udp-multicast, tcp, local or inprocess.", "KIND", "udp");
+    addOption(application, "slaves", "Number of slaves.", "N", "1");
+    addOption(application, "in", "Real32 signals from the master to each slave.", "N", "3");
+    addOption(application, "out", "Real32 signals from each slave to the master.", "N", "32");
+    addOption(application, "period-us", "Period [us]; 0: the next cycle as soon as all answers are there.", "P", "0");
+    addOption(application, "seconds", "Measured time.", "S", "1");
+    addOption(application, "warmup", "Time before it.", "S", "0.2");
+    addOption(application, "spin-us", "Time that master and slaves look again before they sleep [us].", "US", "0");
+    addOption(application, "slave", "Be a slave: what the master starts.", "INDEX", "-1");
+    addOption(application, "master", "With --slave: where the master is.", "ADDRESS", "");
+    if (!application.parseOptions())
+        return false;
+    options->master = application.value(QStringLiteral("master"));
+    options->transport = application.value(QStringLiteral("transport"));
+    if (!transports.contains(options->transport)) {
+        application.usageError(QStringLiteral("--transport %1: use one of %2")
+                                   .arg(options->transport, transports.join(QStringLiteral(", "))));
+        return false;
+    }
+    return readInteger(application, "slave", -1, 249, &options->slaveIndex)
+        && readInteger(application, "slaves", 1, 250, &options->slaves)
+        && readInteger(application, "in", 1, 1000, &options->inputs)
+        && readInteger(application, "out", 1, 1000, &options->outputs)
+        && readInteger(application, "period-us", 0, 1'000'000, &options->periodUs)
+        && readInteger(application, "spin-us", 0, 1000, &options->spinUs)
+        && application.number(QStringLiteral("seconds"), 0.01, 86400.0, &options->seconds)
+        && application.number(QStringLiteral("warmup"), 0.0, 3600.0, &options->warmup);
+}
