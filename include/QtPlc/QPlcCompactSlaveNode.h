@@ -63,12 +63,26 @@ private:
     void load(const char *inputs);
     void store(char *outputs) const;
 
-    struct Place
+    /// What is done with the ports of one direction in each cycle: bytes that are copied as they are, and values that are converted.
+    struct Plan
     {
-        QPlcPort *port;
-        quint32 offset;
+        struct Copy
+        {
+            char *variable;
+            quint32 offset;  // in the frame
+            quint32 size;
+        };
+        struct Conversion
+        {
+            QPlcPort *port;
+            quint32 offset;
+        };
+        std::vector<Copy> copies;
+        std::vector<Conversion> conversions;
+
+        void add(QPlcPort *port, quint32 offset, quint32 size);
     };
     std::vector<QPlcPort *> m_ports;
-    std::vector<Place> m_inputs;
-    std::vector<Place> m_outputs;
+    Plan m_inputs;
+    Plan m_outputs;
 };

@@ -98,6 +98,9 @@ public:
     /// Accepts nodes at the address and port of \a protocol: control over TCP, cyclic frames over TCP and UDP, as each node likes. Port 0 takes a free one.
     /// An address that is not loopback is bound only after setInsecureNetworkAllowed(true); else the server listens on loopback, and says so.
     bool startServer(const QPlcUnderlyingProtocol &protocol);
+    /// A name under which nodes of this machine and user find this master (QPlcUnderlyingProtocol::local()): letters, digits, '.', '-', '_'; empty: the port
+    /// number only. Takes effect with startServer().
+    void setLocalName(const QString &name);
     void stopServer();
     /// 0 when not listening.
     quint16 serverPort() const;

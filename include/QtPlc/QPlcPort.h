@@ -6,7 +6,6 @@
 #include <QtCore/QString>
 
 #include <array>
-#include <cstring>
 #include <type_traits>
 
 class QPlcCompactSlaveNode;
@@ -41,6 +40,8 @@ private:
     virtual void attach(QPlcSignalType type) = 0;
     virtual void load(const char *bytes) = 0;
     virtual void store(char *bytes) const = 0;
+    /// Where the variable lies, when its bytes are those of the frame as they are and copying them replaces load() and store(); else null. \pre attached
+    virtual char *plainBytes() const { return nullptr; }
 
     QPlcCompactSlaveNode *m_node = nullptr;
     QString m_name;
@@ -142,19 +143,13 @@ private:
             && fits(scalarOf<Element>(), std::is_same_v<Element, bool>, type.scalar(), direction());
     }
     void attach(QPlcSignalType type) final { m_wire = type.scalar(); }
-    void load(const char *bytes) final
+    void load(const char *bytes) final { loadElements(m_wire, bytes, S::data(*m_variable), S::count); }
+    void store(char *bytes) const final { storeElements(m_wire, bytes, S::data(*m_variable), S::count); }
+    char *plainBytes() const final
     {
-        if (m_wire == scalarOf<Element>() && !std::is_same_v<Element, bool> && Q_BYTE_ORDER == Q_LITTLE_ENDIAN)
-            std::memcpy(S::data(*m_variable), bytes, sizeof(Element) * S::count);
-        else
-            loadElements(m_wire, bytes, S::data(*m_variable), S::count);
-    }
-    void store(char *bytes) const final
-    {
-        if (m_wire == scalarOf<Element>() && Q_BYTE_ORDER == Q_LITTLE_ENDIAN)
-            std::memcpy(bytes, S::data(*m_variable), sizeof(Element) * S::count);
-        else
-            storeElements(m_wire, bytes, S::data(*m_variable), S::count);
+        const bool isPlain
+            = m_wire == scalarOf<Element>() && !std::is_same_v<Element, bool> && Q_BYTE_ORDER == Q_LITTLE_ENDIAN;
+        return isPlain ? reinterpret_cast<char *>(S::data(*m_variable)) : nullptr;
     }
 
     T *m_variable;

@@ -9,13 +9,13 @@
 
 /// How and where master and slaves meet.
 ///
-/// Control messages always travel over TCP. The kind says how the cyclic frames travel: over a TCP connection of their own, or over UDP on the same
-/// port number. A master serves both; each slave chooses for itself.
+/// Control messages always travel over TCP. The kind says how the cyclic frames travel: over a TCP connection of their own, over UDP on the same
+/// port number, or through memory that master and slave share on one machine. A master serves all of them; each slave chooses for itself.
 /// A value type.
 class QTPLC_EXPORT QPlcUnderlyingProtocol
 {
 public:
-    enum Kind : quint8 { Invalid, Tcp, Udp };
+    enum Kind : quint8 { Invalid, Tcp, Udp, Local };
 
     static constexpr quint16 DefaultPort = 50000;
 
@@ -29,7 +29,11 @@ public:
         return {Udp, address, port};
     }
 
-    /// Reads "HOST:PORT", "HOST", "[IPV6]:PORT", optionally behind "tcp://" or "udp://". Host names other than "localhost" are looked up, which may block.
+    /// A master on this machine, run by the same user. \param name  its name (QPlcMasterNode::setLocalName()), or its port number
+    /// \return an invalid protocol, with the reason in \a error, when no master of this name is running
+    static QPlcUnderlyingProtocol local(const QString &name = QString::number(DefaultPort), QString *error = nullptr);
+
+    /// Reads "local://NAME", "HOST:PORT", "HOST", "[IPV6]:PORT", optionally behind "tcp://" or "udp://". Host names other than "localhost" are looked up, which may block.
     /// \param kind  when the text names none
     /// \return an invalid protocol, with the reason in \a error, when the text is none
     static QPlcUnderlyingProtocol fromString(const QString &text, Kind kind = Tcp, QString *error = nullptr);
@@ -38,9 +42,9 @@ public:
     Kind kind() const { return m_kind; }
     QHostAddress address() const { return m_address; }
     quint16 port() const { return m_port; }
-    /// "udp://127.0.0.1:50000"
+    /// "udp://127.0.0.1:50000", "local://50000"
     QString toString() const;
-    /// "tcp", "udp"
+    /// "tcp", "udp", "local"
     QString kindName() const;
 
     friend bool operator==(const QPlcUnderlyingProtocol &a, const QPlcUnderlyingProtocol &b)

@@ -315,6 +315,7 @@ bool MasterCycle::continueRequests() noexcept
         sendParts(*slot);
         unsent = unsent || !slot->isRequestSent();
     }
+    m_hub.flush();
     return unsent;
 }
 

@@ -44,25 +44,31 @@ bool MasterServer::openPorts(const QHostAddress &address, quint16 port)
                   .arg(m_server->errorString());
         return false;
     }
-    if (m_hub.open(SocketAddress(m_server->serverAddress(), m_server->serverPort()), &m_errorString))
+    if (m_hub.open(SocketAddress(m_server->serverAddress(), m_server->serverPort()), &m_errorString)
+        && m_hub.openLocal(&m_errorString))
         return true;
     m_server->close();
     return false;
 }
 
-bool MasterServer::listen(const QHostAddress &address, quint16 port)
+bool MasterServer::listen(const QHostAddress &address, quint16 port, const QString &name)
 {
     close();
     // A free TCP port may be taken on UDP: with port 0 another one will do.
     for (int attempts = port == 0 ? 16 : 1; attempts > 0; --attempts) {
-        if (openPorts(address, port))
+        if (!openPorts(address, port))
+            continue;
+        if (name.isEmpty() || m_name.hold(name, this->port(), &m_errorString))
             return true;
+        close();
+        return false;
     }
     return false;
 }
 
 void MasterServer::close()
 {
+    m_name.release();
     m_server->close();
     for (const std::unique_ptr<MasterConnection> &connection : m_connections)
         connection->send(Message::MasterEnds);
@@ -218,11 +224,15 @@ void MasterServer::registerNode(MasterConnection *connection, const Message &mes
     connection->cyclicKind = message.text(QStringLiteral("cyclic"));
     const int udpPort = message.fields().value(QStringLiteral("udpPort")).toInt();
     const bool isUdp = connection->cyclicKind == QLatin1String("udp");
+    const bool isLocal = connection->cyclicKind == QLatin1String("local");
     if (!NodeDeclaration::fromMessage(message, &declaration, &error))
         refusal = {QStringLiteral("MalformedMessage"), error};
-    else if (!isUdp && connection->cyclicKind != QLatin1String("tcp"))
+    else if (!isUdp && !isLocal && connection->cyclicKind != QLatin1String("tcp"))
         refusal = {QStringLiteral("MalformedMessage"),
-                   QStringLiteral("unknown cyclic channel '%1'; use tcp or udp").arg(connection->cyclicKind)};
+                   QStringLiteral("unknown cyclic channel '%1'; use tcp, udp or local").arg(connection->cyclicKind)};
+    else if (isLocal && !connection->socket->peerAddress().isLoopback())
+        refusal = {QStringLiteral("MalformedMessage"),
+                   QStringLiteral("a local node runs on the machine of its master; use udp")};
     else if (isUdp && (udpPort < 1 || udpPort > 65535))
         refusal
             = {QStringLiteral("MalformedMessage"), QStringLiteral("UDP port %1 is out of 1 ... 65535").arg(udpPort)};
@@ -239,17 +249,37 @@ void MasterServer::registerNode(MasterConnection *connection, const Message &mes
     connection->slot->prepare(m_image, m_session);
     connection->token = QRandomGenerator::system()->generate64();
     connection->stage = MasterConnection::Attaching;
-    connection->send(Message::Registered,
-                     {{QStringLiteral("node"), connection->slot->id},
-                      {QStringLiteral("inputsHash"), Message::fromHex64(connection->slot->inputLayout.hash())},
-                      {QStringLiteral("outputsHash"), Message::fromHex64(connection->slot->outputLayout.hash())},
-                      {QStringLiteral("state"), m_hello().value(QStringLiteral("state"))},
-                      {QStringLiteral("token"), Message::fromHex64(connection->token)}});
-    if (!isUdp)
+    QJsonObject fields{{QStringLiteral("node"), connection->slot->id},
+                       {QStringLiteral("inputsHash"), Message::fromHex64(connection->slot->inputLayout.hash())},
+                       {QStringLiteral("outputsHash"), Message::fromHex64(connection->slot->outputLayout.hash())},
+                       {QStringLiteral("state"), m_hello().value(QStringLiteral("state"))},
+                       {QStringLiteral("token"), Message::fromHex64(connection->token)}};
+    if (isLocal && !makeLocalPeer(connection, &fields))
         return;
-    connection->slot->peer = HubPeer::udp(SocketAddress(connection->socket->peerAddress(), quint16(udpPort)));
+    if (isUdp)
+        connection->slot->peer = HubPeer::udp(SocketAddress(connection->socket->peerAddress(), quint16(udpPort)));
+    connection->send(Message::Registered, fields);
+    if (!isUdp && !isLocal)
+        return;
     connection->send(Message::CyclicChannelAttached);
     nodeAttached(connection);
+}
+
+/// \return false when there is no shared memory: the node has been refused
+bool MasterServer::makeLocalPeer(MasterConnection *connection, QJsonObject *fields)
+{
+    QString error;
+    auto memory = std::make_unique<SharedMemory>();
+    if (!memory->create(sizeof(SharedChannel), &error)) {
+        reject(connection, QStringLiteral("NodeError"), error);
+        return false;
+    }
+    const CyclicHub::LocalPaths paths = m_hub.localPaths();
+    fields->insert(QStringLiteral("channel"), memory->path());
+    fields->insert(QStringLiteral("doorbell"), paths.doorbell);
+    fields->insert(QStringLiteral("pipe"), paths.pipe);
+    connection->slot->peer = HubPeer::local(std::move(memory));
+    return true;
 }
 
 /// A node that comes back before its last connection is known to be dead takes its own place.
@@ -289,6 +319,7 @@ void MasterServer::attachCyclicChannel(MasterConnection *connection, const Messa
 void MasterServer::nodeAttached(MasterConnection *connection)
 {
     connection->slot->peer->owner = connection->slot.get();
+    connection->slot->peer->isListener = connection->slot->listener;
     connection->stage = MasterConnection::Attached;
     qCInfo(lcMaster).noquote() << "node" << connection->name << "registered over" << connection->cyclicKind;
     Q_EMIT attached(connection);

@@ -3,6 +3,7 @@
 
 #include "MasterConnection.h"
 #include "QPlcUnderlyingProtocol.h"
+#include "transport/LocalName.h"
 
 #include <QtCore/QObject>
 
@@ -26,8 +27,8 @@ public:
                  std::function<QJsonObject()> hello, QObject *parent);
     ~MasterServer() override;
 
-    /// \return false, with the reason in errorString()
-    bool listen(const QHostAddress &address, quint16 port);
+    /// \param name  under which local nodes find the port; empty: none. \return false, with the reason in errorString()
+    bool listen(const QHostAddress &address, quint16 port, const QString &name);
     void close();
     quint16 port() const;
     QString errorString() const { return m_errorString; }
@@ -52,6 +53,7 @@ private:
     void receiveGarbage(MasterConnection *connection);
     void greet(MasterConnection *connection, const QPlcMessage &message);
     void registerNode(MasterConnection *connection, const QPlcMessage &message);
+    bool makeLocalPeer(MasterConnection *connection, QJsonObject *fields);
     void replace(const MasterConnection *newcomer, const QString &name);
     void attachCyclicChannel(MasterConnection *connection, const QPlcMessage &message);
     void nodeAttached(MasterConnection *connection);
@@ -65,6 +67,7 @@ private:
     const quint64 m_session;
     std::function<QJsonObject()> m_hello;
     QTcpServer *m_server;
+    LocalName m_name;
     std::vector<std::unique_ptr<MasterConnection>> m_connections;
     QString m_errorString;
 };

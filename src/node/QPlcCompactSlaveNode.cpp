@@ -3,6 +3,23 @@
 
 #include "signals/PayloadLayout.h"
 
+#include <cstring>
+
+namespace {
+
+/// memcpy() that knows the usual sizes: a number is one move.
+inline void copyBytes(char *to, const char *from, quint32 size)
+{
+    if (size == sizeof(float))
+        std::memcpy(to, from, sizeof(float));
+    else if (size == sizeof(double))
+        std::memcpy(to, from, sizeof(double));
+    else
+        std::memcpy(to, from, size);
+}
+
+}  // namespace
+
 QPlcCompactSlaveNode::QPlcCompactSlaveNode(const QString &name, RealTimeViolationPolicy policy, QObject *parent)
     : QPlcSlaveNode(name, policy, parent)
 {
@@ -30,29 +47,50 @@ bool QPlcCompactSlaveNode::bindPorts(const QPlcSignalTable &table, QVector<QPlcS
     return errors.isEmpty();
 }
 
+void QPlcCompactSlaveNode::Plan::add(QPlcPort *port, quint32 offset, quint32 size)
+{
+    char *variable = port->plainBytes();
+    if (!variable) {
+        conversions.push_back({port, offset});
+        return;
+    }
+    if (!copies.empty()) {
+        Copy &last = copies.back();
+        if (last.variable + last.size == variable && last.offset + last.size == offset) {
+            last.size += size;  // neighbours here and there: one copy
+            return;
+        }
+    }
+    copies.push_back({variable, offset, size});
+}
+
 void QPlcCompactSlaveNode::attachPorts(const qplc::PayloadLayout &inputs, const qplc::PayloadLayout &outputs)
 {
-    m_inputs.clear();
-    m_outputs.clear();
+    m_inputs = m_outputs = Plan();
     // The layouts follow the order in which bindPorts() named the ports.
+    auto input = inputs.fields().begin();
+    auto output = outputs.fields().begin();
     for (QPlcPort *port : m_ports) {
-        std::vector<Place> &places = port->isInput() ? m_inputs : m_outputs;
-        const qplc::PayloadLayout::Field &field = (port->isInput() ? inputs : outputs).fields()[places.size()];
+        const qplc::PayloadLayout::Field &field = port->isInput() ? *input++ : *output++;
         port->attach(field.type);
-        places.push_back({port, field.offset});
+        (port->isInput() ? m_inputs : m_outputs).add(port, field.offset, quint32(field.type.size()));
     }
 }
 
 void QPlcCompactSlaveNode::load(const char *inputs)
 {
-    for (const Place &place : m_inputs)
-        place.port->load(inputs + place.offset);
+    for (const Plan::Copy &copy : m_inputs.copies)
+        copyBytes(copy.variable, inputs + copy.offset, copy.size);
+    for (const Plan::Conversion &conversion : m_inputs.conversions)
+        conversion.port->load(inputs + conversion.offset);
 }
 
 void QPlcCompactSlaveNode::store(char *outputs) const
 {
-    for (const Place &place : m_outputs)
-        place.port->store(outputs + place.offset);
+    for (const Plan::Copy &copy : m_outputs.copies)
+        copyBytes(outputs + copy.offset, copy.variable, copy.size);
+    for (const Plan::Conversion &conversion : m_outputs.conversions)
+        conversion.port->store(outputs + conversion.offset);
 }
 
 void QPlcCompactSlaveNode::resetFrame(char *outputs)

@@ -115,6 +115,11 @@ bool QPlcMasterNode::startServer(const QPlcUnderlyingProtocol &protocol)
     return d->startServer(protocol);
 }
 
+void QPlcMasterNode::setLocalName(const QString &name)
+{
+    d->localName = name;
+}
+
 void QPlcMasterNode::stopServer()
 {
     if (!d->server)

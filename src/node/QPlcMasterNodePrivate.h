@@ -46,6 +46,7 @@ public:
     QPlcRealTimeOptions realTimeOptions;
     quint64 cycleLimit = 0;
     bool insecureNetworkAllowed = false;
+    QString localName;
     QPlcSignalIndex timeSignal = QPlcInvalidSignalIndex;
     QPlcSignalIndex jitterSignal = QPlcInvalidSignalIndex;
     QPlcSignalIndex workloadSignal = QPlcInvalidSignalIndex;

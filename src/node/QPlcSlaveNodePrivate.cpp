@@ -76,7 +76,8 @@ void QPlcSlaveNodePrivate::connectToMaster(const QPlcUnderlyingProtocol &newMast
     m_session = 0;
     if (!master.isValid()) {
         setError(QPlcSlaveNode::OptionError,
-                 QStringLiteral("node '%1': no master given; use QPlcUnderlyingProtocol::tcp() or udp()").arg(name));
+                 QStringLiteral("node '%1': no master given; use QPlcUnderlyingProtocol::tcp(), udp() or local()")
+                     .arg(name));
         return;
     }
     setState(QPlcSlaveNode::Connecting);
@@ -120,7 +121,7 @@ void QPlcSlaveNodePrivate::closeSockets()
         (*socket)->deleteLater();
         *socket = nullptr;
     }
-    m_udpLink.reset();
+    m_link.reset();
     m_reportNotifier.reset();
     m_outputsAwaited = false;
     cycle.reset();
@@ -172,7 +173,7 @@ bool QPlcSlaveNodePrivate::isExpected(Message::Kind kind) const
     case Message::Registered:
         return state == QPlcSlaveNode::Connecting && m_session != 0 && !cycle;
     case Message::CyclicChannelAttached:
-        return state == QPlcSlaveNode::Connecting && cycle && master.kind() == QPlcUnderlyingProtocol::Udp;
+        return state == QPlcSlaveNode::Connecting && cycle && master.kind() != QPlcUnderlyingProtocol::Tcp;
     case Message::SendYourInitialOutputStates:
     case Message::InitializeWithValues:
         return state == QPlcSlaveNode::Off || state == QPlcSlaveNode::Initializing;
@@ -284,10 +285,10 @@ void QPlcSlaveNodePrivate::receiveHello(const Message &message)
 bool QPlcSlaveNodePrivate::makeUdpLink(quint16 *port)
 {
     QString text;
-    m_udpLink = qplc::CyclicLink::udp(qplc::SocketAddress(control->peerAddress(), master.port()), port, &text);
-    if (!m_udpLink)
+    m_link = qplc::CyclicLink::udp(qplc::SocketAddress(control->peerAddress(), master.port()), port, &text);
+    if (!m_link)
         giveUp(QPlcSlaveNode::ConnectionError, QStringLiteral("node '%1': %2").arg(name, text));
-    return m_udpLink != nullptr;
+    return m_link != nullptr;
 }
 
 void QPlcSlaveNodePrivate::registerAtMaster()
@@ -324,10 +325,23 @@ void QPlcSlaveNodePrivate::receiveRegistered(const Message &message)
                                                lcCyclic().isDebugEnabled());
     m_reportNotifier = std::make_unique<QSocketNotifier>(cycle->reports().descriptor(), QSocketNotifier::Read);
     QObject::connect(m_reportNotifier.get(), &QSocketNotifier::activated, q, [this] { takeReports(); });
-    if (m_udpLink)
-        cycle->setLink(std::move(m_udpLink));
+    if (master.kind() == QPlcUnderlyingProtocol::Local && !openLocalLink(message))
+        return;
+    if (m_link)
+        cycle->setLink(std::move(m_link));
     else
         connectCyclicChannel();
+}
+
+bool QPlcSlaveNodePrivate::openLocalLink(const Message &registered)
+{
+    QString text;
+    m_link = qplc::CyclicLink::local(registered.text(QStringLiteral("channel")),
+                                     registered.text(QStringLiteral("doorbell")),
+                                     registered.text(QStringLiteral("pipe")), &text);
+    if (!m_link)
+        giveUp(QPlcSlaveNode::ConnectionError, QStringLiteral("node '%1': %2").arg(name, text));
+    return m_link != nullptr;
 }
 
 void QPlcSlaveNodePrivate::connectCyclicChannel()

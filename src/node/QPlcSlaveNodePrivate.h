@@ -49,6 +49,7 @@ private:
     void registerAtMaster();
     void receiveRegistered(const QPlcMessage &message);
     bool makeUdpLink(quint16 *port);
+    bool openLocalLink(const QPlcMessage &registered);
     void connectCyclicChannel();
     void cyclicChannelAttached();
     void sendInitialOutputs();
@@ -63,8 +64,8 @@ private:
     void report(const qplc::CycleEvent &event);
 
     QPlcMasterSocket *m_cyclicSocket = nullptr;
-    bool m_outputsAwaited = false;  // by the master, which knows already that the cyclic connection is there
-    std::unique_ptr<qplc::CyclicLink> m_udpLink;
+    bool m_outputsAwaited = false;             // by the master, which knows already that the cyclic connection is there
+    std::unique_ptr<qplc::CyclicLink> m_link;  // until the cycle takes it
     std::unique_ptr<QSocketNotifier> m_reportNotifier;
     QString m_uuid;
     quint64 m_session = 0;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SlaveCycle.h"
 
+#include "realtime/PeriodicInterrupt.h"
+
 #include <algorithm>
 #include <limits>
 
@@ -62,8 +64,6 @@ bool SlaveCycle::start(const Phase &phase)
     m_lastCycle = phase.firstCycle;
     m_lastArrival = TimeSource::monotonic().now();
     m_stop = false;
-    m_link->setTimeout(phase.watchdog.count() > 0 ? std::min<std::int64_t>(phase.watchdog.count() / 2 + 1, LongestWait)
-                                                  : LongestWait);
     return m_thread.start(m_runtime.node().name(), phase.realTimeOptions, [this] { run(); });
 }
 
@@ -87,6 +87,8 @@ QPlcSlaveNode::Counters SlaveCycle::counters() const
 
 void SlaveCycle::run() noexcept
 {
+    const PeriodicInterrupt lookUp(
+        m_phase.watchdog.count() > 0 ? std::min(m_phase.watchdog.count() / 2 + 1, LongestWait) : LongestWait);
     const char *frame = nullptr;
     std::size_t size = 0;
     while (!m_stop.load(std::memory_order_relaxed)) {
@@ -94,7 +96,7 @@ void SlaveCycle::run() noexcept
         case CyclicLink::Received:
             take(frame, size);
             break;
-        case CyclicLink::TimedOut:
+        case CyclicLink::Nothing:
             checkWatchdog();
             break;
         case CyclicLink::Closed:
@@ -188,6 +190,7 @@ void SlaveCycle::answer() noexcept
         m_reports.tap(TappedFrame::Sent, m_node, m_frame.data(), m_encoder.partSize(part));
         m_link->send(m_frame.data(), m_encoder.partSize(part));
     }
+    m_link->flush();
 }
 
 /// Duration on the clock of the master [ns].

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <fcntl.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <poll.h>
@@ -10,6 +11,14 @@
 #include <unistd.h>
 
 namespace qplc {
+
+namespace {
+
+// [ns] The kernel rounds the time limit of a receiving socket up to whole ticks of its clock, of up to 10 ms: such a wait is too coarse for the end of a cycle.
+constexpr std::int64_t CoarseWait = 4'000'000;
+constexpr std::int64_t LongWait = 20'000'000;
+
+}  // namespace
 
 // ---- one peer ----
 
@@ -29,6 +38,13 @@ std::unique_ptr<HubPeer> HubPeer::tcp(int descriptor, const FrameCutter &cutter,
     peer->m_cutter = cutter;
     peer->m_received = std::make_unique<FrameBuffer>(4 * largestFrame);
     peer->m_sender.emplace(largestFrame);
+    return peer;
+}
+
+std::unique_ptr<HubPeer> HubPeer::local(std::unique_ptr<SharedMemory> memory)
+{
+    std::unique_ptr<HubPeer> peer(new HubPeer);
+    peer->m_memory = std::move(memory);
     return peer;
 }
 
@@ -63,8 +79,9 @@ CyclicHub::CyclicHub()
     : m_messages(std::make_unique<Messages>())
 {
     m_peers.reserve(MaximumPeers);
-    m_polled.reserve(MaximumPeers + 1);
+    m_polled.reserve(MaximumPeers + FirstStream);
     m_streams.reserve(MaximumPeers);
+    m_locals.reserve(MaximumPeers);
     for (std::size_t i = 0; i < Batch; ++i) {
         m_messages->incomingBytes[i] = {m_messages->datagrams[i].data(), LargestDatagram};
         msghdr &header = m_messages->incoming[i].msg_hdr;
@@ -77,14 +94,18 @@ CyclicHub::CyclicHub()
 
 CyclicHub::~CyclicHub()
 {
-    if (m_udp >= 0)
-        ::close(m_udp);  // not more: the peers may be gone already
+    for (const int descriptor : {m_udp, m_pipe[0], m_pipe[1]}) {  // not more: the peers may be gone already
+        if (descriptor >= 0)
+            ::close(descriptor);
+    }
 }
 
 bool CyclicHub::open(const SocketAddress &address, QString *error)
 {
     close();
-    m_udp = ::socket(address.family(), SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+    m_udp = ::socket(address.family(), SOCK_DGRAM | SOCK_CLOEXEC, 0);
+    const timeval longestReceive{0, suseconds_t(CoarseWait / 1000)};
+    ::setsockopt(m_udp, SOL_SOCKET, SO_RCVTIMEO, &longestReceive, sizeof longestReceive);
     m_isIpv6 = address.family() == AF_INET6;
     const int off = 0;
     if (m_isIpv6)
@@ -105,6 +126,23 @@ void CyclicHub::close()
     m_udp = -1;
     m_outgoing = m_arrived = m_taken = 0;
     rebuild();
+}
+
+bool CyclicHub::openLocal(QString *error)
+{
+    if (m_pipe[0] >= 0)
+        return true;
+    if (!m_doorbell.data() && !m_doorbell.create(sizeof(Doorbell), error))
+        return false;
+    if (::pipe2(m_pipe, O_NONBLOCK | O_CLOEXEC) == 0)
+        return true;
+    *error = QStringLiteral("no pipe for local nodes: %1").arg(systemErrorText());
+    return false;
+}
+
+CyclicHub::LocalPaths CyclicHub::localPaths() const
+{
+    return {m_doorbell.path(), QStringLiteral("/proc/%1/fd/%2").arg(::getpid()).arg(m_pipe[1])};
 }
 
 void CyclicHub::attach(HubPeer *peer) noexcept
@@ -128,20 +166,29 @@ void CyclicHub::rebuild() noexcept
 {
     m_table.fill(nullptr);
     m_streams.clear();
+    m_locals.clear();
+    m_udpPeers = 0;
     m_polled.clear();
     m_polled.push_back({m_udp, POLLIN, 0});
+    m_polled.push_back({m_pipe[0], POLLIN, 0});
     for (HubPeer *peer : m_peers) {
-        if (!peer->isUdp()) {
+        if (peer->isLocal()) {
+            m_locals.push_back(peer);
+            continue;
+        }
+        if (peer->isStream()) {
             m_streams.push_back(peer);
             m_polled.push_back({peer->m_closed ? -1 : peer->m_descriptor, POLLIN, 0});
             continue;
         }
+        ++m_udpPeers;
         std::size_t place = std::size_t(peer->m_address.key() * 0x9E3779B97F4A7C15u >> 32) % TableSize;
         while (m_table[place])
             place = (place + 1) % TableSize;
         m_table[place] = peer;
     }
     m_stream = m_streams.size();
+    m_local = m_locals.size();
 }
 
 HubPeer *CyclicHub::find(const SocketAddress &address) noexcept
@@ -161,8 +208,14 @@ void CyclicHub::sendRest(HubPeer *peer) noexcept
 
 bool CyclicHub::send(HubPeer *peer, const char *frame, std::size_t size) noexcept
 {
-    if (!peer->isUdp())
+    if (peer->isStream())
         return peer->sendStream(frame, size);
+    if (peer->isLocal()) {
+        peer->m_toBeWoken = peer->channel()->inputs.push(frame, size);
+        m_localsToWake = m_localsToWake || peer->m_toBeWoken;
+        peer->m_sendFailures += peer->m_toBeWoken ? 0 : 1;
+        return peer->m_toBeWoken;
+    }
     if (m_outgoing == MaximumPeers)
         flush();
     m_messages->outgoingBytes[m_outgoing] = {const_cast<char *>(frame), size};
@@ -193,15 +246,68 @@ void CyclicHub::flush() noexcept
         ++done;
     }
     m_outgoing = 0;
+    if (m_localsToWake)
+        wakeLocals();
 }
 
+void CyclicHub::wakeLocals() noexcept
+{
+    m_localsToWake = false;
+    const auto isAwaited = [](const HubPeer *peer) { return peer->m_toBeWoken && !peer->isListener; };
+    const auto awaited = std::count_if(m_locals.begin(), m_locals.end(), isAwaited);
+    doorbell()->want(m_rung + std::uint32_t(std::max<std::ptrdiff_t>(awaited, 1)));  // before the first can answer
+    for (HubPeer *peer : m_locals) {
+        if (peer->m_toBeWoken)
+            peer->channel()->inputs.wake();
+        peer->m_toBeWoken = false;
+    }
+}
+
+// ---- receiving ----
+
 bool CyclicHub::wait(std::int64_t timeout) noexcept
+{
+    if (m_locals.empty())
+        return waitForDescriptors(timeout);
+    bool arrived = false;
+    if (m_udpPeers + m_streams.size() > 0)
+        arrived = timeout > 0 && doorbell()->beginPoll() ? pollDescriptors(timeout) : pollDescriptors(0);
+    else if (timeout > 0)
+        doorbell()->sleep(timeout);
+    doorbell()->endPoll();
+    const std::uint32_t rung = doorbell()->count();
+    arrived = arrived || rung != m_rung;
+    m_rung = rung;
+    doorbell()->want(rung + 1);
+    m_local = 0;
+    return arrived;
+}
+
+bool CyclicHub::waitForDescriptors(std::int64_t timeout) noexcept
+{
+    if (m_streams.empty() && m_udp >= 0 && timeout >= LongWait)
+        return waitInReceive();
+    return pollDescriptors(timeout);
+}
+
+/// One system call instead of two, where only datagrams can come and the end of the wait need not be exact.
+bool CyclicHub::waitInReceive() noexcept
+{
+    m_moreDatagrams = receiveDatagrams(MSG_WAITFORONE) == int(Batch);
+    return m_arrived > 0;
+}
+
+bool CyclicHub::pollDescriptors(std::int64_t timeout) noexcept
 {
     timespec limit{};
     limit.tv_sec = time_t(timeout / 1'000'000'000);
     limit.tv_nsec = long(timeout % 1'000'000'000);
     const int ready = ::ppoll(m_polled.data(), m_polled.size(), &limit, nullptr);
     m_moreDatagrams = ready > 0 && m_polled[0].revents != 0;
+    if (ready > 0 && m_polled[1].revents != 0) {
+        char rings[64];
+        while (::read(m_pipe[0], rings, sizeof rings) == ssize_t(sizeof rings)) {}
+    }
     m_arrived = m_taken = 0;
     m_stream = ready > 0 ? 0 : m_streams.size();
     return ready > 0;
@@ -209,7 +315,17 @@ bool CyclicHub::wait(std::int64_t timeout) noexcept
 
 bool CyclicHub::next(Incoming *incoming) noexcept
 {
-    return nextDatagram(incoming) || nextFromStream(incoming);
+    return nextDatagram(incoming) || nextFromStream(incoming) || nextLocal(incoming);
+}
+
+int CyclicHub::receiveDatagrams(int flags) noexcept
+{
+    for (std::size_t i = 0; i < Batch; ++i)
+        m_messages->incoming[i].msg_hdr.msg_namelen = sizeof(sockaddr_storage);
+    const int count = ::recvmmsg(m_udp, m_messages->incoming.data(), Batch, flags, nullptr);
+    m_taken = 0;
+    m_arrived = count > 0 ? std::size_t(count) : 0;
+    return count;
 }
 
 bool CyclicHub::nextDatagram(Incoming *incoming) noexcept
@@ -218,12 +334,7 @@ bool CyclicHub::nextDatagram(Incoming *incoming) noexcept
         if (m_taken == m_arrived) {
             if (!m_moreDatagrams)
                 return false;
-            for (std::size_t i = 0; i < Batch; ++i)
-                m_messages->incoming[i].msg_hdr.msg_namelen = sizeof(sockaddr_storage);
-            const int count = ::recvmmsg(m_udp, m_messages->incoming.data(), Batch, MSG_DONTWAIT, nullptr);
-            m_taken = 0;
-            m_arrived = count > 0 ? std::size_t(count) : 0;
-            m_moreDatagrams = m_arrived == Batch;
+            m_moreDatagrams = receiveDatagrams(MSG_DONTWAIT) == int(Batch);
             if (m_arrived == 0)
                 return false;
         }
@@ -237,10 +348,22 @@ bool CyclicHub::nextDatagram(Incoming *incoming) noexcept
     }
 }
 
+bool CyclicHub::nextLocal(Incoming *incoming) noexcept
+{
+    for (; m_local < m_locals.size(); ++m_local) {
+        const std::size_t size = m_locals[m_local]->channel()->outputs.pop(m_localFrame.data(), m_localFrame.size());
+        if (size > 0) {
+            *incoming = {m_locals[m_local], m_localFrame.data(), size};
+            return true;
+        }
+    }
+    return false;
+}
+
 bool CyclicHub::nextFromStream(Incoming *incoming) noexcept
 {
     for (; m_stream < m_streams.size(); ++m_stream) {
-        pollfd &polled = m_polled[m_stream + 1];
+        pollfd &polled = m_polled[m_stream + FirstStream];
         HubPeer *peer = m_streams[m_stream];
         for (;;) {
             const FrameBuffer::Result result

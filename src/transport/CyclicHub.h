@@ -2,6 +2,7 @@
 #pragma once
 
 #include "FrameCutter.h"
+#include "SharedChannel.h"
 #include "SocketAddress.h"
 #include "StreamSender.h"
 
@@ -25,11 +26,17 @@ public:
     static std::unique_ptr<HubPeer> udp(const SocketAddress &address);
     /// Takes over the connected TCP socket \a descriptor.
     static std::unique_ptr<HubPeer> tcp(int descriptor, const FrameCutter &cutter, std::size_t largestFrame);
+    /// A node of this machine that shares \a memory, a SharedChannel.
+    static std::unique_ptr<HubPeer> local(std::unique_ptr<SharedMemory> memory);
     ~HubPeer();
     HubPeer(const HubPeer &) = delete;
     HubPeer &operator=(const HubPeer &) = delete;
 
-    bool isUdp() const { return m_descriptor < 0; }
+    bool isUdp() const { return m_descriptor < 0 && !m_memory; }
+    bool isStream() const { return m_descriptor >= 0; }
+    bool isLocal() const { return m_memory != nullptr; }
+    /// A peer whose answer is not worth waiting for.
+    bool isListener = false;
     /// The TCP connection is gone; nothing more will come.
     bool isClosed() const { return m_closed; }
     /// Frames that the kernel did not take.
@@ -44,8 +51,12 @@ private:
     HubPeer() = default;
     bool sendStream(const char *frame, std::size_t size) noexcept;
 
+    SharedChannel *channel() const { return static_cast<SharedChannel *>(m_memory->data()); }
+
     SocketAddress m_address;
     int m_descriptor = -1;
+    std::unique_ptr<SharedMemory> m_memory;
+    bool m_toBeWoken = false;
     FrameCutter m_cutter;
     std::unique_ptr<FrameBuffer> m_received;
     std::optional<StreamSender> m_sender;
@@ -68,6 +79,13 @@ public:
         std::size_t size = 0;
     };
 
+    /// What local nodes need to wake the master: paths that they open.
+    struct LocalPaths
+    {
+        QString doorbell;  // memory of a Doorbell
+        QString pipe;
+    };
+
     CyclicHub();
     ~CyclicHub();
     CyclicHub(const CyclicHub &) = delete;
@@ -76,6 +94,9 @@ public:
     /// Binds the UDP socket. One that is bound to :: also exchanges datagrams with IPv4 addresses. \return false, with the reason in \a error
     bool open(const SocketAddress &address, QString *error);
     void close();
+    /// \return false, with the reason in \a error, when there is no local link to be had
+    bool openLocal(QString *error);
+    LocalPaths localPaths() const;
 
     void attach(HubPeer *peer) noexcept;
     void detach(HubPeer *peer) noexcept;
@@ -87,7 +108,7 @@ public:
     void sendRest(HubPeer *peer) noexcept;
     void flush() noexcept;
 
-    /// Waits until frames are there, at most \a timeout [ns] (0: just looks).
+    /// Waits until frames are there, at most \a timeout [ns] (0: just looks); a wait of 20 ms or more may end before.
     /// \return whether frames can be taken by next()
     bool wait(std::int64_t timeout) noexcept;
     /// The next frame of those that are there; it stays valid until the next call. \return false when there is none any more
@@ -100,8 +121,16 @@ private:
     static constexpr std::size_t Batch = 32;
     static constexpr std::size_t LargestDatagram = 2048;
     static constexpr std::size_t TableSize = 4 * MaximumPeers;
+    static constexpr std::size_t FirstStream = 2;
     struct Messages;
 
+    bool waitForDescriptors(std::int64_t timeout) noexcept;
+    bool pollDescriptors(std::int64_t timeout) noexcept;
+    void wakeLocals() noexcept;
+    bool nextLocal(Incoming *incoming) noexcept;
+    Doorbell *doorbell() const noexcept { return static_cast<Doorbell *>(m_doorbell.data()); }
+    bool waitInReceive() noexcept;
+    int receiveDatagrams(int flags) noexcept;
     HubPeer *find(const SocketAddress &address) noexcept;
     void rebuild() noexcept;
     bool nextDatagram(Incoming *incoming) noexcept;
@@ -110,8 +139,10 @@ private:
     int m_udp = -1;
     bool m_isIpv6 = false;
     std::vector<HubPeer *> m_peers;
-    std::vector<pollfd> m_polled;      // 0: UDP, then the TCP peers in order
-    std::vector<HubPeer *> m_streams;  // peer of m_polled[i + 1]
+    std::vector<pollfd> m_polled;      // 0: UDP, 1: the pipe of local nodes, then the TCP peers in order
+    std::vector<HubPeer *> m_streams;  // peer of m_polled[i + FirstStream]
+    std::vector<HubPeer *> m_locals;
+    std::size_t m_udpPeers = 0;
     std::array<HubPeer *, TableSize> m_table{};
     std::unique_ptr<Messages> m_messages;
     std::size_t m_outgoing = 0;  // datagrams waiting for flush()
@@ -119,6 +150,12 @@ private:
     std::size_t m_taken = 0;     // of them handed out
     bool m_moreDatagrams = false;
     std::size_t m_stream = 0;  // next stream to look at
+    SharedMemory m_doorbell;
+    int m_pipe[2] = {-1, -1};  // read, written
+    std::size_t m_local = 0;   // next local peer to look at
+    std::uint32_t m_rung = 0;  // count of the doorbell when the rings were looked at last
+    bool m_localsToWake = false;
+    std::array<char, LargestDatagram> m_localFrame{};
     std::uint64_t m_strangers = 0;
 };
 

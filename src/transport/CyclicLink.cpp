@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "CyclicLink.h"
 
+#include "SharedChannel.h"
 #include "StreamSender.h"
 
+#include <array>
 #include <cerrno>
 #include <fcntl.h>
 #include <netinet/in.h>
@@ -43,7 +45,7 @@ private:
         const ssize_t count = ::recv(m_descriptor, m_buffer.get(), LargestDatagram, flags);
         if (count < 0) {
             // A master that is gone answers with "port unreachable": no reason to give the socket up.
-            return isTransient(errno) || errno == ECONNREFUSED ? TimedOut : Closed;
+            return isTransient(errno) || errno == ECONNREFUSED ? Nothing : Closed;
         }
         *frame = m_buffer.get();
         *size = std::size_t(count);
@@ -85,7 +87,7 @@ private:
             m_sender.sendRest(m_descriptor, MSG_DONTWAIT);
             const ssize_t count = ::recv(m_descriptor, m_buffer.space(), m_buffer.spaceSize(), flags);
             if (count < 0)
-                return isTransient(errno) ? TimedOut : Closed;
+                return isTransient(errno) ? Nothing : Closed;
             if (count == 0)
                 return Closed;
             m_buffer.filled(std::size_t(count));
@@ -96,22 +98,59 @@ private:
     StreamSender m_sender;
 };
 
+class LocalLink final : public CyclicLink
+{
+public:
+    LocalLink()
+        : CyclicLink(-1)
+    {
+    }
+    bool open(const QString &channel, const QString &doorbell, const QString &pipe, QString *error)
+    {
+        if (!m_memory.open(channel, sizeof(SharedChannel), error) || !m_bell.open(doorbell, sizeof(Doorbell), error))
+            return false;
+        m_descriptor = ::open(pipe.toLocal8Bit().constData(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
+        if (m_descriptor < 0)
+            *error = QStringLiteral("cannot open the pipe of the master, %1: %2").arg(pipe, systemErrorText());
+        return m_descriptor >= 0;
+    }
+    Status receive(const char **frame, std::size_t *size) noexcept override
+    {
+        if (poll(frame, size) == Received)
+            return Received;
+        channel()->inputs.wait();
+        return poll(frame, size);
+    }
+    Status poll(const char **frame, std::size_t *size) noexcept override
+    {
+        *frame = m_frame.data();
+        *size = channel()->inputs.pop(m_frame.data(), m_frame.size());
+        return *size > 0 ? Received : Nothing;
+    }
+    bool send(const char *frame, std::size_t size) noexcept override { return channel()->outputs.push(frame, size); }
+    void flush() noexcept override { static_cast<Doorbell *>(m_bell.data())->ring(m_descriptor); }
+
+private:
+    SharedChannel *channel() const noexcept { return static_cast<SharedChannel *>(m_memory.data()); }
+
+    SharedMemory m_memory;
+    SharedMemory m_bell;
+    std::array<char, 2048> m_frame{};
+};
+
 }  // namespace
 
 CyclicLink::~CyclicLink()
 {
-    ::close(m_descriptor);
+    if (m_descriptor >= 0)
+        ::close(m_descriptor);
 }
 
-void CyclicLink::setTimeout(std::int64_t timeout)
+std::unique_ptr<CyclicLink> CyclicLink::local(const QString &channel, const QString &doorbell, const QString &pipe,
+                                              QString *error)
 {
-    timeval time{};
-    time.tv_sec = time_t(timeout / 1'000'000'000);
-    time.tv_usec = suseconds_t(timeout % 1'000'000'000 / 1000);
-    if (time.tv_sec == 0 && time.tv_usec == 0)
-        time.tv_usec = 1;  // zero would mean "for ever"
-    ::setsockopt(m_descriptor, SOL_SOCKET, SO_RCVTIMEO, &time, sizeof time);
-    ::setsockopt(m_descriptor, SOL_SOCKET, SO_SNDTIMEO, &time, sizeof time);
+    auto link = std::make_unique<LocalLink>();
+    return link->open(channel, doorbell, pipe, error) ? std::move(link) : nullptr;
 }
 
 std::unique_ptr<CyclicLink> CyclicLink::udp(const SocketAddress &master, quint16 *localPort, QString *error)
@@ -139,6 +178,8 @@ std::unique_ptr<CyclicLink> CyclicLink::tcp(int descriptor, const FrameCutter &c
     ::fcntl(descriptor, F_SETFL, ::fcntl(descriptor, F_GETFL) & ~O_NONBLOCK);
     const int on = 1;
     ::setsockopt(descriptor, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+    const timeval longestSend{0, 50'000};
+    ::setsockopt(descriptor, SOL_SOCKET, SO_SNDTIMEO, &longestSend, sizeof longestSend);
     return std::make_unique<TcpLink>(descriptor, cutter, largestFrame);
 }
 

@@ -19,7 +19,7 @@ class CyclicLink
 public:
     enum Status {
         Received,  ///< a frame is there
-        TimedOut,  ///< none within the time set by setTimeout(), or the wait was interrupted
+        Nothing,   ///< the wait was interrupted (see realtime/PeriodicInterrupt.h); poll(): none is there
         Closed     ///< the link is gone for good
     };
 
@@ -27,8 +27,6 @@ public:
     CyclicLink(const CyclicLink &) = delete;
     CyclicLink &operator=(const CyclicLink &) = delete;
 
-    /// Longest wait of receive() [ns], > 0.
-    void setTimeout(std::int64_t timeout);
     /// Waits for the next frame; \a frame stays valid until the next call.
     virtual Status receive(const char **frame, std::size_t *size) noexcept = 0;
     /// As receive(), without waiting.
@@ -36,6 +34,12 @@ public:
     /// \return false when the frame could not be handed to the kernel (it is lost, as on any network)
     virtual bool send(const char *frame, std::size_t size) noexcept = 0;
 
+    /// To be called behind the last frame of an answer.
+    virtual void flush() noexcept {}
+
+    /// The link to a master on this machine: a SharedChannel, and what wakes the master. Null, with the reason in \a error, when it cannot be opened.
+    static std::unique_ptr<CyclicLink> local(const QString &channel, const QString &doorbell, const QString &pipe,
+                                             QString *error);
     /// A UDP socket that exchanges datagrams with \a master only. Null, with the reason in \a error, when there is none to be had.
     static std::unique_ptr<CyclicLink> udp(const SocketAddress &master, quint16 *localPort, QString *error);
     /// Takes over the connected TCP socket \a descriptor.

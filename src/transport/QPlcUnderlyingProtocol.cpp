@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "QPlcUnderlyingProtocol.h"
 
+#include "LocalName.h"
+
 #include <QtNetwork/QHostInfo>
 
 namespace {
@@ -38,6 +40,18 @@ bool split(const QString &text, QString *host, QString *port)
 
 }  // namespace
 
+QPlcUnderlyingProtocol QPlcUnderlyingProtocol::local(const QString &name, QString *error)
+{
+    bool isNumber = false;
+    quint16 port = name.toUShort(&isNumber);
+    QString ignored;
+    if (!isNumber)
+        port = qplc::LocalName::portOf(name, error ? error : &ignored);
+    else if (port == 0 && error)
+        *error = QStringLiteral("'%1' is no port; use 1 ... 65535").arg(name);
+    return port == 0 ? QPlcUnderlyingProtocol() : QPlcUnderlyingProtocol(Local, QHostAddress::LocalHost, port);
+}
+
 QPlcUnderlyingProtocol QPlcUnderlyingProtocol::fromString(const QString &text, Kind kind, QString *error)
 {
     QString ignored;
@@ -47,6 +61,8 @@ QPlcUnderlyingProtocol QPlcUnderlyingProtocol::fromString(const QString &text, K
         kind = rest.startsWith(QLatin1Char('t')) ? Tcp : Udp;
         rest.remove(0, 6);
     }
+    if (rest.startsWith(QLatin1String("local://")))
+        return local(rest.mid(8), &reason);
     QString host;
     QString portText;
     if (!split(rest, &host, &portText)) {
@@ -72,6 +88,8 @@ QString QPlcUnderlyingProtocol::kindName() const
         return QStringLiteral("tcp");
     case Udp:
         return QStringLiteral("udp");
+    case Local:
+        return QStringLiteral("local");
     case Invalid:
         break;
     }
@@ -80,6 +98,8 @@ QString QPlcUnderlyingProtocol::kindName() const
 
 QString QPlcUnderlyingProtocol::toString() const
 {
+    if (m_kind == Local)
+        return QStringLiteral("local://%1").arg(m_port);
     const QString host = m_address.protocol() == QAbstractSocket::IPv6Protocol
         ? QStringLiteral("[%1]").arg(m_address.toString())
         : m_address.toString();

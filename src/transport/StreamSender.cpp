@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "StreamSender.h"
 
-#include <cerrno>
 #include <cstring>
 #include <sys/socket.h>
 
@@ -11,11 +10,7 @@ namespace {
 
 ssize_t sendSome(int descriptor, const char *bytes, std::size_t size, int flags) noexcept
 {
-    ssize_t count = 0;
-    do {
-        count = ::send(descriptor, bytes, size, flags | MSG_NOSIGNAL);
-    } while (count < 0 && errno == EINTR);
-    return count;
+    return ::send(descriptor, bytes, size, flags | MSG_NOSIGNAL);
 }
 
 }  // namespace

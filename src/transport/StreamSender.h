@@ -13,7 +13,7 @@ class StreamSender
 public:
     explicit StreamSender(std::size_t largestFrame);
 
-    /// \param flags  MSG_DONTWAIT: never waits; 0: at most the time-out of the socket
+    /// \param flags  MSG_DONTWAIT: never waits; 0: at most the time-out of the socket, or until a signal comes
     /// \return false when the frame was left out, because the kernel takes nothing at present
     bool send(int descriptor, const char *frame, std::size_t size, int flags) noexcept;
     /// Goes on with the frame that has begun. \return false when some of it is still to be sent

@@ -59,6 +59,12 @@ void tst_Transports::sameDigestOverEveryTransport_data()
                                  << "udp" << false;
     QTest::newRow("udp and in process") << "udp"
                                         << "local" << false;
+    QTest::newRow("shared memory") << "shared"
+                                   << "shared" << false;
+    QTest::newRow("shared memory and udp") << "shared"
+                                           << "udp" << false;
+    QTest::newRow("tcp and shared memory") << "tcp"
+                                           << "shared" << false;
     QTest::newRow("udp, IPv6") << "udp"
                                << "udp" << true;
     QTest::newRow("tcp, IPv6") << "tcp"
@@ -82,6 +88,7 @@ void tst_Transports::sameDigestOverEveryTransport()
     for (const auto &[node, kind] : {std::pair<QPlcSlaveNode *, QString>(&counter, counterKind),
                                      std::pair<QPlcSlaveNode *, QString>(&echo, echoKind)}) {
         const auto protocol = kind == "udp" ? QPlcUnderlyingProtocol::udp(address, master.serverPort())
+            : kind == "shared"              ? QPlcUnderlyingProtocol::local(QString::number(master.serverPort()))
                                             : QPlcUnderlyingProtocol::tcp(address, master.serverPort());
         if (kind == "local")
             QVERIFY(master.addLocalNode(node));
