@@ -3,6 +3,8 @@
 
 #include "signals/PayloadLayout.h"
 
+#include <algorithm>
+
 QPlcCompactSlaveNode::QPlcCompactSlaveNode(const QString &name, RealTimeViolationPolicy policy, QObject *parent)
     : QPlcSlaveNode(name, policy, parent)
 {
@@ -11,7 +13,8 @@ QPlcCompactSlaveNode::QPlcCompactSlaveNode(const QString &name, RealTimeViolatio
 QPlcCompactSlaveNode::~QPlcCompactSlaveNode() = default;
 
 bool QPlcCompactSlaveNode::bindPorts(const QPlcSignalTable &table, QVector<QPlcSignalIndex> *inputs,
-                                     QVector<QPlcSignalIndex> *outputs, QString *error)
+                                     QVector<QPlcSignalIndex> *outputs, QVector<QPlcSignalIndex> *sameCycle,
+                                     QString *error)
 {
     QStringList errors;
     for (const QPlcPort *port : m_ports) {
@@ -25,6 +28,8 @@ bool QPlcCompactSlaveNode::bindPorts(const QPlcSignalTable &table, QVector<QPlcS
                                port->variableType());
         else
             (port->isInput() ? inputs : outputs)->append(index);
+        if (port->isSameCycle())
+            sameCycle->append(index);
     }
     *error = errors.join(QStringLiteral("; "));
     return errors.isEmpty();
@@ -58,6 +63,8 @@ void QPlcCompactSlaveNode::store(char *outputs) const
 void QPlcCompactSlaveNode::resetFrame(char *outputs)
 {
     reset();
+    if (isTwoPhase())
+        this->outputs();
     store(outputs);
 }
 
@@ -70,8 +77,18 @@ void QPlcCompactSlaveNode::initializeFrame(const char *inputs)
 void QPlcCompactSlaveNode::stepFrame(const QPlcCycle &cycle, const char *inputs, char *outputs)
 {
     load(inputs);
-    step(cycle);
+    if (isTwoPhase()) {
+        update(cycle);
+        this->outputs();
+    } else {
+        step(cycle);
+    }
     store(outputs);
+}
+
+bool QPlcCompactSlaveNode::declaresSameCycle()
+{
+    return std::any_of(m_ports.begin(), m_ports.end(), [](const QPlcPort *port) { return port->isSameCycle(); });
 }
 
 // Ports take the place of lists: these are never called.
@@ -79,6 +96,13 @@ QPlcSignalList QPlcCompactSlaveNode::realTimeout(const QPlcSignalList &)
 {
     return {};
 }
+
+QPlcSignalList QPlcCompactSlaveNode::outputSignals()
+{
+    return {};
+}
+
+void QPlcCompactSlaveNode::updateStates(const QPlcSignalList &) {}
 
 QPlcSignalIndexList QPlcCompactSlaveNode::declareInputSignals()
 {
