@@ -3,6 +3,7 @@
 
 #include <QtCore/QElapsedTimer>
 #include <QtCore/QFile>
+#include <QtCore/QJsonArray>
 #include <QtCore/QJsonDocument>
 #include <QtCore/QJsonObject>
 #include <QtCore/QTemporaryDir>
@@ -62,6 +63,10 @@ private Q_SLOTS:
     void reportHoldsEveryFigure();
     void flightIsTheSameWhateverCarriesIt_data();
     void flightIsTheSameWhateverCarriesIt();
+    void sameCycleFlightIsTheSameWhateverCarriesIt_data();
+    void sameCycleFlightIsTheSameWhateverCarriesIt();
+    void reportTellsTheAgeOfEveryLink_data();
+    void reportTellsTheAgeOfEveryLink();
     void anotherSeedIsAnotherFlight();
     void clockSetsThePace_data();
     void clockSetsThePace();
@@ -83,6 +88,7 @@ private:
 
     QTemporaryDir m_folder;
     QJsonObject m_flight;
+    QJsonObject m_sameCycleFlight;
 };
 
 bool tst_awe_sil::waitForText(Terminal &terminal, const Program &program, const char *text)
@@ -160,6 +166,62 @@ void tst_awe_sil::flightIsTheSameWhateverCarriesIt()
     QCOMPARE(flight.value(QStringLiteral("cycles")).toInt(), 1000);
     QCOMPARE(flight.value(QStringLiteral("image_digest")), m_flight.value(QStringLiteral("image_digest")));
     QCOMPARE(flight.value(QStringLiteral("energy_J")), m_flight.value(QStringLiteral("energy_J")));
+}
+
+void tst_awe_sil::sameCycleFlightIsTheSameWhateverCarriesIt_data()
+{
+    flightIsTheSameWhateverCarriesIt_data();
+}
+
+void tst_awe_sil::sameCycleFlightIsTheSameWhateverCarriesIt()
+{
+    QFETCH(QString, options);
+    const QJsonObject flight = fly(QStringLiteral("--same-cycle ") + options);
+    if (m_sameCycleFlight.isEmpty())
+        m_sameCycleFlight = flight;
+    QCOMPARE(flight.value(QStringLiteral("cycles")).toInt(), 1000);
+    QCOMPARE(flight.value(QStringLiteral("image_digest")), m_sameCycleFlight.value(QStringLiteral("image_digest")));
+    QCOMPARE(flight.value(QStringLiteral("energy_J")), m_sameCycleFlight.value(QStringLiteral("energy_J")));
+    QCOMPARE(flight.value(QStringLiteral("late_answers")).toInt(), 0);
+    QVERIFY(flight.value(QStringLiteral("image_digest")) != m_flight.value(QStringLiteral("image_digest")));
+}
+
+void tst_awe_sil::reportTellsTheAgeOfEveryLink_data()
+{
+    QTest::addColumn<QString>("options");
+    QTest::addColumn<int>("sensors");
+    QTest::addColumn<int>("actuators");
+    QTest::addColumn<int>("deadTime");
+    QTest::newRow("default") << QString() << 1 << 1 << 2;
+    QTest::newRow("processes") << QStringLiteral("--processes") << 1 << 1 << 2;
+    QTest::newRow("more dead time") << QStringLiteral("--dead-time 5") << 1 << 1 << 5;
+    QTest::newRow("same cycle") << QStringLiteral("--same-cycle") << 0 << 0 << 0;
+    QTest::newRow("same cycle, dead time 1") << QStringLiteral("--same-cycle --dead-time 1") << 0 << 0 << 1;
+    QTest::newRow("same cycle, processes, dead time 1")
+        << QStringLiteral("--same-cycle --processes --dead-time 1") << 0 << 0 << 1;
+}
+
+void tst_awe_sil::reportTellsTheAgeOfEveryLink()
+{
+    QFETCH(QString, options);
+    QFETCH(int, sensors);
+    QFETCH(int, actuators);
+    QFETCH(int, deadTime);
+    const QJsonObject flight = fly(options);
+    QCOMPARE(flight.value(QStringLiteral("dead_time_cycles")).toInt(-1), deadTime);
+    int sensorLinks = 0;
+    int actuatorLinks = 0;
+    const QJsonArray links = flight.value(QStringLiteral("links")).toArray();
+    for (const QJsonValue link : links) {
+        const QString from = link[QStringLiteral("from")].toString();
+        const QString to = link[QStringLiteral("to")].toString();
+        if (from == QLatin1String("Model") && to == QLatin1String("Autopilot"))
+            QCOMPARE(link[QStringLiteral("age")].toInt(-1), (++sensorLinks, sensors));
+        else if (from == QLatin1String("Autopilot") && to == QLatin1String("Model"))
+            QCOMPARE(link[QStringLiteral("age")].toInt(-1), (++actuatorLinks, actuators));
+    }
+    QCOMPARE(sensorLinks, 7);
+    QCOMPARE(actuatorLinks, 3);
 }
 
 void tst_awe_sil::anotherSeedIsAnotherFlight()
