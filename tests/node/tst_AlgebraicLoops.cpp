@@ -4,6 +4,7 @@
 #include <QtTest/QtTest>
 
 #include <algorithm>
+#include <atomic>
 #include <optional>
 
 // Who is in which stage, who is refused, and nodes that come and go.
@@ -18,6 +19,7 @@ private Q_SLOTS:
     void aLoopIsRefusedWithItsPath();
     void aRefusedNodeDisturbsNobody();
     void joiningNodesMoveTheOthersBetweenStages();
+    void aTwoPhaseNodeThatJoinsBeginsWithItsInitialOutputs();
 };
 
 void tst_AlgebraicLoops::signalsOfTheMasterAreNeverOld()
@@ -163,6 +165,32 @@ void tst_AlgebraicLoops::joiningNodesMoveTheOthersBetweenStages()
     QCOMPARE(master.error(), QPlcMasterNode::NoError);
     master.stop();
     last.disconnectFromMaster();
+}
+
+void tst_AlgebraicLoops::aTwoPhaseNodeThatJoinsBeginsWithItsInitialOutputs()
+{
+    TestMaster master;
+    QVERIFY(master.listen());
+    QVERIFY(master.setSignalValue("setpoint", 1.0));
+    Adder reader("Reader", "sum", "echo", QPlcInputTiming::SameCycle);
+    QVector<double> seen;
+    std::atomic<int> count{0};
+    seen.reserve(1000);
+    reader.onStep = [&](const QPlcCycle &, double sum) {
+        if (sum > 0.0 && seen.size() < 1000)
+            seen << sum;
+        count = seen.size();
+    };
+    QVERIFY(master.addLocalNode(&reader));
+    QVERIFY(master.startRealTime());
+    QVERIFY(master.waitForCycles(5));
+    Integrator integrator;
+    QVERIFY(integrator.connectToMasterAndWaitForConnected(master.protocol("udp")));
+    QTRY_VERIFY(count >= 100);
+    master.stop();
+    for (int i = 0; i < seen.size(); ++i)
+        QCOMPARE(seen.at(i), 1.0 + i);  // no value twice, none left out
+    integrator.disconnectFromMaster();
 }
 
 QTEST_GUILESS_MAIN(tst_AlgebraicLoops)
