@@ -308,6 +308,15 @@ def example_messages():
         (35, "Done", {}),
         (36, "Failed", dict(error="WrongState", text="cannot start in state 'RealTime'; send Stop first")),
         (40, "NodeFault", dict(text="step() threw std::runtime_error: 'sensor lost'")),
+        (1, "Hello", dict(protocol=1, name="Model", uuid=uuid, role="node", features=["sameCycle"])),
+        (2, "Register", dict(name="Model", uuid=uuid, policy="ErrorZeroOrderHold", listener=False, cyclic="tcp", twoPhase=True,
+                             inputs=[dict(name="tetherSpeed", type="Real32", unit="m/s", sameCycle=True)],
+                             outputs=[dict(name="tetherLength", type="Real64", unit="m")])),
+        (52, "GetSchedule", {}),
+        (53, "Schedule", dict(
+            stages=[[dict(node="Model", phase="outputs")], [dict(node="Autopilot", phase="step")], [dict(node="Model", phase="update")]],
+            links=[{"signal": "tetherSpeed", "from": "Autopilot", "to": "Model", "age": 0, "sameCycle": True},
+                   {"signal": "tetherLength", "from": "Model", "to": "Autopilot", "age": 1, "sameCycle": False}])),
     ]
 
 

@@ -10,8 +10,9 @@ class QPlcBoundInput final : public QPlcPortDetail::VariablePort<T>
 {
 public:
     /// \param variable  outlives the port
-    QPlcBoundInput(QPlcCompactSlaveNode *node, const char *name, T *variable)
-        : QPlcPortDetail::VariablePort<T>(node, name, QPlcPort::Input, variable)
+    QPlcBoundInput(QPlcCompactSlaveNode *node, const char *name, T *variable,
+                   QPlcInputTiming::Value timing = QPlcInputTiming::LastCycle)
+        : QPlcPortDetail::VariablePort<T>(node, name, QPlcPort::Input, variable, timing)
     {
     }
 };

@@ -17,7 +17,9 @@
 class QTPLC_EXPORT QPlcCompactSignal final : public QPlcPort
 {
 public:
-    QPlcCompactSignal(const char *name, Direction direction, QPlcCompactSlaveNode *node);
+    /// \param timing  of an input
+    QPlcCompactSignal(const char *name, Direction direction, QPlcCompactSlaveNode *node,
+                      QPlcInputTiming::Value timing = QPlcInputTiming::LastCycle);
     ~QPlcCompactSignal() override;
 
     QPlcCompactSignal &operator=(const QPlcValue &value)

@@ -23,6 +23,13 @@
 /// };
 /// ```
 ///
+/// With setTwoPhase(true) outputs() and update() take the place of step():
+///
+/// ```cpp
+/// void outputs() override { m_level = m_volume / area; }                                      // [m]
+/// void update(const QPlcCycle &cycle) override { m_volume += m_inflow * cycle.dt(); }         // [m^3]
+/// ```
+///
 /// A cycle of such a node allocates nothing, whatever the ports, unless step() does.
 /// Threads: step() on the cycle thread; everything else in the thread of the object, while no cycle runs.
 class QTPLC_EXPORT QPlcCompactSlaveNode : public QPlcSlaveNode
@@ -45,6 +52,11 @@ protected:
         compactRealTimeout();
     }
 
+    /// Two-phase node (setTwoPhase()): sets the outputs out of the state alone; called after reset() and after each update().
+    virtual void outputs() {}
+    /// Two-phase node: inputs are set; moves the state on. step() is not called.
+    virtual void update(const QPlcCycle &cycle) { Q_UNUSED(cycle) }
+
     // The same under the names of the first QtPLC; reset() and step() call them unless overridden.
     virtual void compactInitializeOutputSignals() {}
     virtual void compactRealTimeout() {}
@@ -55,7 +67,10 @@ private:
     QPlcSignalIndexList declareInputSignals() final;
     QPlcSignalIndexList declareOutputSignals() final;
     bool bindPorts(const QPlcSignalTable &table, QVector<QPlcSignalIndex> *inputs, QVector<QPlcSignalIndex> *outputs,
-                   QString *error) override;
+                   QVector<QPlcSignalIndex> *sameCycle, QString *error) override;
+    bool declaresSameCycle() override;
+    void updateStates(const QPlcSignalList &inputSignals) final;
+    QPlcSignalList outputSignals() final;
     void attachPorts(const qplc::PayloadLayout &inputs, const qplc::PayloadLayout &outputs) override;
     void resetFrame(char *outputs) override;
     void initializeFrame(const char *inputs) override;

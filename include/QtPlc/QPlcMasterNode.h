@@ -5,6 +5,7 @@
 #include "QPlcMasterStatistics.h"
 #include "QPlcNodeInfo.h"
 #include "QPlcRealTimeOptions.h"
+#include "QPlcSchedule.h"
 #include "QPlcSignalTable.h"
 #include "QPlcSlaveNode.h"
 #include "QPlcUnderlyingProtocol.h"
@@ -33,7 +34,8 @@ class QPlcMasterNodePrivate;
 /// return application.exec();
 /// ```
 ///
-/// In each cycle every node gets its inputs of the cycle before and answers with its outputs. Nodes come over the network (startServer()) or live in this
+/// In each cycle every node gets its inputs of the cycle before and answers with its outputs; nodes with same-cycle inputs (QPlcInputTiming) are asked when
+/// the nodes have answered whose outputs they read. A node that would close an algebraic loop of such inputs is refused. Nodes come over the network (startServer()) or live in this
 /// process (addLocalNode()).
 ///
 /// Threads: the object lives in the thread that made it and needs its event loop; cycles run on a thread of their own, which nothing here ever waits for
@@ -112,6 +114,8 @@ public:
     void removeLocalNode(QPlcSlaveNode *node);
     /// All registered nodes, in the order of their registration.
     QVector<QPlcNodeInfo> nodes() const;
+    /// The order in which the nodes() are asked in a cycle, and how old the values are that they read.
+    QPlcSchedule schedule() const;
     /// Name of the node that writes \a signalName; empty: none.
     QString writer(const QString &signalName) const;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "QPlcInputTiming.h"
 #include "QPlcSignalType.h"
 
 #include <QtCore/QString>
@@ -24,10 +25,13 @@ public:
     QString name() const { return m_name; }
     Direction direction() const { return m_direction; }
     bool isInput() const { return m_direction == Input; }
+    /// An input that was declared with QPlcInputTiming::SameCycle.
+    bool isSameCycle() const { return isInput() && m_timing == QPlcInputTiming::SameCycle; }
 
 protected:
     /// \pre \a node is not registered yet
-    QPlcPort(QPlcCompactSlaveNode *node, const char *name, Direction direction);
+    QPlcPort(QPlcCompactSlaveNode *node, const char *name, Direction direction,
+             QPlcInputTiming::Value timing = QPlcInputTiming::LastCycle);
     virtual ~QPlcPort();
 
 private:
@@ -46,6 +50,7 @@ private:
     QPlcCompactSlaveNode *m_node = nullptr;
     QString m_name;
     Direction m_direction;
+    QPlcInputTiming::Value m_timing;
 };
 
 namespace QPlcPortDetail {
@@ -126,8 +131,9 @@ class VariablePort : public QPlcPort
     using Element = typename S::Element;
 
 protected:
-    VariablePort(QPlcCompactSlaveNode *node, const char *name, Direction direction, T *variable)
-        : QPlcPort(node, name, direction)
+    VariablePort(QPlcCompactSlaveNode *node, const char *name, Direction direction, T *variable,
+                 QPlcInputTiming::Value timing = QPlcInputTiming::LastCycle)
+        : QPlcPort(node, name, direction, timing)
         , m_variable(variable)
     {
     }

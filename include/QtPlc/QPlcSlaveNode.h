@@ -94,6 +94,16 @@ public:
     void setListener(bool listener);
     bool isListener() const;
 
+    /// Makes all inputs of this node same-cycle (QPlcInputTiming::SameCycle), however each of them was declared. \pre not connected
+    void setSameCycle(bool sameCycle);
+    bool isSameCycle() const;
+
+    /// A two-phase node computes its outputs out of its state alone, and then moves the state on with the inputs of the same cycle: outputSignals() and
+    /// updateStates() (for ports: QPlcCompactSlaveNode::outputs() and update()) take the place of realTimeout(). Its inputs have no direct feed-through, so it
+    /// closes loops of same-cycle inputs: a model, an integrator, a delay. The outputs of the first cycle are the initial ones. \pre not connected
+    void setTwoPhase(bool twoPhase);
+    bool isTwoPhase() const;
+
     /// The table in which the signals of this node are looked up. Unless set: that of the process (QPlcSignalIndexTable), else the one that the
     /// master sends at registration. Only signals that the node uses have to match those of the master.
     void setSignalTable(const QPlcSignalTable &table);
@@ -167,12 +177,16 @@ protected:
     virtual QPlcSignalList initialOutputSignals() { return {}; }
     /// Gets the values of the inputs when all nodes have given their initial outputs.
     virtual void initialize(const QPlcSignalList &initialSignals) { Q_UNUSED(initialSignals) }
-    /// One cycle. Outputs left out keep their last value.
+    /// One cycle. Outputs left out keep their last value. Not called for a two-phase node.
     virtual QPlcSignalList realTimeout(const QPlcSignalList &inputSignals) = 0;
+    /// Two-phase node: its outputs, out of its state alone; those left out keep their last value. Called after updateStates(), for the next cycle.
+    virtual QPlcSignalList outputSignals() { return {}; }
+    /// Two-phase node: moves the state on with the inputs of the cycle at hand, cycle().
+    virtual void updateStates(const QPlcSignalList &inputSignals) { Q_UNUSED(inputSignals) }
     /// The real-time phase has ended.
     virtual void stopped() {}
 
-    /// The cycle that realTimeout() computes. \pre called from realTimeout()
+    /// The cycle that realTimeout() or updateStates() computes. \pre called from there
     const QPlcCycle &cycle() const;
 
 private:
@@ -184,7 +198,8 @@ private:
 
     // The same functions one level below: on the bytes of the frames, without lists.
     virtual bool bindPorts(const QPlcSignalTable &table, QVector<QPlcSignalIndex> *inputs,
-                           QVector<QPlcSignalIndex> *outputs, QString *error);
+                           QVector<QPlcSignalIndex> *outputs, QVector<QPlcSignalIndex> *sameCycle, QString *error);
+    virtual bool declaresSameCycle();
     virtual void attachPorts(const qplc::PayloadLayout &inputs, const qplc::PayloadLayout &outputs);
     virtual void resetFrame(char *outputs);
     virtual void initializeFrame(const char *inputs);

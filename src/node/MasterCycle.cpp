@@ -4,15 +4,10 @@
 #include "QSplitPrimitive.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace qplc {
 
 namespace {
-
-constexpr std::int64_t Slice = 50'000'000;         // [ns] longest wait without a look at stop and lost nodes
-constexpr std::int64_t ContinueAfter = 1'000'000;  // [ns] a stream that was full is offered the rest
-constexpr std::int64_t ResendAfter = 20'000'000;   // [ns] a request that must be answered is sent again
 
 template<typename Integer>
 void count(std::atomic<Integer> &counter, Integer n = 1) noexcept
@@ -26,6 +21,7 @@ MasterCycle::MasterCycle(const QPlcSignalTable &table, CyclicHub &hub, bool tapF
     : m_image(table)
     , m_hub(hub)
     , m_reports(tapFrames)
+    , m_exchange(m_image, m_hub, m_reports, m_stop)
     , m_snapshot(m_image.size())
     , m_roster(std::make_unique<Roster>())
 {
@@ -52,10 +48,11 @@ bool MasterCycle::start(const Phase &phase)
     m_workload = 0;
     for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
         slot->decoder.restart(m_cycleZero);
-        slot->faulted = false;
+        slot->faulted = slot->pending = false;
         if (slot->local)
             slot->local->setLockstep(phase.clock.isLockstep());
     }
+    m_exchange.start(*m_clock, phase.period, phase.clock, m_cycleZero);
     m_snapshot.publish(m_image.data(), 0);
     return m_thread.start(QStringLiteral("qtplc-master"), phase.realTimeOptions, [this] { run(); });
 }
@@ -73,10 +70,8 @@ void MasterCycle::stop()
 
 void MasterCycle::clearStatistics()
 {
-    for (std::atomic<std::uint64_t> *counter :
-         {&m_cycle, &m_cycles, &m_overruns, &m_skipped, &m_lateAnswers, &m_strangers, &m_digest})
+    for (std::atomic<std::uint64_t> *counter : {&m_cycle, &m_cycles, &m_overruns, &m_skipped, &m_digest})
         counter->store(0);
-    m_strangersBefore = m_hub.strangers();
     m_lateness.clear();
     m_roundTrips.clear();
     for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
@@ -89,6 +84,7 @@ void MasterCycle::setRoster(const Roster &roster)
 {
     freeRetired();
     auto copy = std::make_unique<Roster>(roster);
+    copy->arrange();
     if (!isRunning()) {
         delete m_pendingRoster.exchange(nullptr);
         adopt(copy.release());
@@ -155,8 +151,8 @@ QPlcMasterStatistics MasterCycle::statistics() const
     statistics.cycles = m_cycles;
     statistics.overruns = m_overruns;
     statistics.skippedCycles = m_skipped;
-    statistics.lateAnswers = m_lateAnswers;
-    statistics.strangers = m_strangers;
+    statistics.lateAnswers = m_exchange.lateAnswers();
+    statistics.strangers = m_exchange.strangers();
     statistics.latenessMedian = m_lateness.quantile(0.5);
     statistics.lateness99 = m_lateness.quantile(0.99);
     statistics.latenessMaximum = m_lateness.maximum();
@@ -189,14 +185,9 @@ void MasterCycle::runCycle(const CycleClock::Tick &tick) noexcept
 {
     m_number = tick.cycle;
     m_woken = now();
-    m_waited = 0;
-    m_roundTrip = 0;
     takeCommands();
     writeOwnSignals(tick);
-    askNodes(tick);
-    stepLocalNodes();
-    if (m_anyRemote)
-        collectAnswers(m_clock->nominal(m_number + 1));
+    m_exchange.run(*m_roster, {m_number, tick.lateness, m_woken});
     finish();
 }
 
@@ -233,8 +224,6 @@ void MasterCycle::adopt(Roster *roster) noexcept
         if (slot->peer)
             m_hub.attach(slot->peer.get());
     }
-    m_anyRemote = std::any_of(roster->nodes.begin(), roster->nodes.end(),
-                              [](const std::shared_ptr<NodeSlot> &slot) { return slot->peer != nullptr; });
     Roster *retired = m_roster.release();
     m_roster.reset(roster);
     if (!m_retiredRosters.push(retired))
@@ -267,213 +256,15 @@ void MasterCycle::writeOwnSignals(const CycleClock::Tick &tick) noexcept
     }
 }
 
-void MasterCycle::askNodes(const CycleClock::Tick &tick) noexcept
-{
-    for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
-        copyRuns(slot->inputRuns, m_image.data(), slot->inputs.data());
-        slot->answered = false;
-        slot->request.cycle = std::uint32_t(m_cycleZero + m_number);
-        slot->request.info
-            = std::uint32_t(std::min<std::int64_t>(tick.lateness, std::numeric_limits<std::uint32_t>::max()));
-        if (slot->peer)
-            sendRequest(*slot, 0);
-    }
-    if (m_anyRemote)
-        m_hub.flush();
-}
-
-void MasterCycle::sendRequest(NodeSlot &slot, std::uint8_t flags) noexcept
-{
-    slot.request.flags = flags;
-    slot.partsSent = 0;
-    slot.bytesSent = 0;
-    sendParts(slot);
-}
-
-/// Sends the parts of the request that are still to be sent, as far as the kernel takes them.
-void MasterCycle::sendParts(NodeSlot &slot) noexcept
-{
-    m_hub.sendRest(slot.peer.get());
-    for (; slot.partsSent < slot.encoder.partCount(); ++slot.partsSent) {
-        const std::size_t size = slot.encoder.partSize(slot.partsSent);
-        char *frame = slot.frames.data() + slot.bytesSent;
-        slot.encoder.encode(slot.partsSent, slot.request, slot.inputs.data(), frame);
-        if (!m_hub.send(slot.peer.get(), frame, size))
-            return;
-        m_reports.tap(TappedFrame::Sent, slot.id, frame, size);
-        slot.bytesSent += size;
-    }
-}
-
-/// Goes on with requests that a stream did not take as a whole. \return whether some of them are still not sent
-bool MasterCycle::continueRequests() noexcept
-{
-    bool unsent = false;
-    for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
-        if (!isAwaited(*slot) || slot->isRequestSent())
-            continue;
-        sendParts(*slot);
-        unsent = unsent || !slot->isRequestSent();
-    }
-    m_hub.flush();
-    return unsent;
-}
-
-/// Sends again what the network may have lost.
-void MasterCycle::resendRequests() noexcept
-{
-    for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
-        if (!isAwaited(*slot) || !mustBeWaitedFor(*slot) || !slot->peer->isUdp())
-            continue;
-        count(slot->resent);
-        sendRequest(*slot, ResentFlag);
-    }
-    m_hub.flush();
-}
-
-void MasterCycle::stepLocalNodes() noexcept
-{
-    for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
-        if (!slot->local)
-            continue;
-        const QPlcCycle &last = slot->local->cycle();
-        const quint64 missed = m_number > last.number() + 1 ? m_number - last.number() - 1 : 0;
-        slot->computed = slot->local->step(QPlcCycle(m_number, m_phase.period, missed), slot->inputs.data());
-        slot->answered = true;
-        if (!slot->computed && !slot->faulted)
-            m_reports.post({CycleEvent::NodeFaulted, slot->id, 0, m_number});
-        slot->faulted = !slot->computed;
-    }
-}
-
-bool MasterCycle::anyMissing(bool onlyWaiting) const noexcept
-{
-    return std::any_of(m_roster->nodes.begin(), m_roster->nodes.end(),
-                       [this, onlyWaiting](const std::shared_ptr<NodeSlot> &slot) {
-                           return isAwaited(*slot) && (!onlyWaiting || mustBeWaitedFor(*slot));
-                       });
-}
-
-void MasterCycle::collectAnswers(std::int64_t deadline) noexcept
-{
-    if (!m_phase.clock.isLockstep()) {
-        while (anyMissing(false)) {
-            const std::int64_t left = deadline - m_time.now();
-            if (m_stop.load(std::memory_order_relaxed))
-                return;  // nobody is late who was not given the time
-            if (left <= 0)
-                break;
-            receive(std::min(left, continueRequests() ? ContinueAfter : Slice));
-        }
-        reportLateNodes();
-    }
-    if (anyMissing(true))
-        waitForLateNodes(deadline);
-    else if (m_phase.clock.isLockstep())
-        receive(0);  // what listeners have to say
-}
-
-void MasterCycle::reportLateNodes() noexcept
-{
-    for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
-        if (!isAwaited(*slot))
-            continue;
-        count(slot->lateAnswers);
-        count(m_lateAnswers);
-        if (slot->reports())
-            m_reports.post({CycleEvent::LateAnswer, slot->id, 0, m_number});
-    }
-}
-
-/// Time stands still until the nodes that must be waited for have answered (or are lost).
-void MasterCycle::waitForLateNodes(std::int64_t deadline) noexcept
-{
-    const bool lockstep = m_phase.clock.isLockstep();
-    if (!lockstep)
-        m_reports.post({CycleEvent::WaitingForNode, 0, 0, m_number});
-    std::int64_t resendAt = m_time.now() + ResendAfter;
-    while (anyMissing(true) && !m_stop.load(std::memory_order_relaxed)) {
-        receive(continueRequests() ? ContinueAfter : ResendAfter);
-        if (m_time.now() < resendAt)
-            continue;
-        resendRequests();
-        resendAt = m_time.now() + ResendAfter;
-    }
-    if (!lockstep) {
-        m_clock->shift(std::max<std::int64_t>(0, m_time.now() - deadline));
-        m_reports.post({CycleEvent::WaitingEnded, 0, 0, m_number});
-    }
-}
-
-void MasterCycle::receive(std::int64_t timeout) noexcept
-{
-    const std::int64_t begin = now();
-    const bool arrived = m_hub.wait(timeout);
-    m_waited += now() - begin;
-    if (!arrived)
-        return;
-    CyclicHub::Incoming incoming;
-    while (m_hub.next(&incoming))
-        takeAnswer(*static_cast<NodeSlot *>(incoming.peer->owner), incoming.frame, incoming.size);
-    m_strangers.store(m_hub.strangers() - m_strangersBefore, std::memory_order_relaxed);
-    for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
-        if (slot->peer && slot->peer->isClosed() && !slot->lost.exchange(true))
-            m_reports.post({CycleEvent::LinkClosed, slot->id, 0, m_number});
-    }
-}
-
-void MasterCycle::takeAnswer(NodeSlot &slot, const char *frame, std::size_t size) noexcept
-{
-    m_reports.tap(TappedFrame::Received, slot.id, frame, size);
-    switch (slot.decoder.decode(frame, size)) {
-    case FrameStatus::Complete:
-        break;
-    case FrameStatus::Incomplete:
-        return;
-    case FrameStatus::Duplicate:
-    case FrameStatus::Old:
-        count(slot.duplicates);
-        return;
-    default:
-        count(slot.rejected);
-        return;
-    }
-    // An answer to an older cycle is late and counted as such, but still newer than what the image holds.
-    const bool current = slot.decoder.cycle() == m_cycleZero + m_number;
-    slot.answered = slot.answered || current;
-    m_roundTrip = now() - m_woken;
-    const bool faulted = slot.decoder.header().flags & FaultFlag;
-    if (faulted && !slot.faulted)
-        m_reports.post({CycleEvent::NodeFaulted, slot.id, 0, m_number});
-    slot.faulted = faulted;
-    if (!faulted)
-        paste(slot, slot.decoder.payload());
-}
-
-bool MasterCycle::paste(NodeSlot &slot, const char *outputs) noexcept
-{
-    if (const PayloadLayout::Field *field = slot.firstNotFinite(outputs)) {
-        m_reports.post({CycleEvent::NotFinite, slot.id, field->signal, m_number});
-        return false;
-    }
-    copyRuns(slot.outputRuns, outputs, m_image.data());
-    return true;
-}
-
 void MasterCycle::finish() noexcept
 {
-    // Local nodes saw the image of the cycle before, whatever their order: their outputs come in only now.
-    for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
-        if (slot->local && slot->computed)
-            paste(*slot, slot->local->outputs());
-    }
     count(m_cycles);
     m_digest.store(m_image.digest(m_digest.load(std::memory_order_relaxed)), std::memory_order_relaxed);
     m_snapshot.publish(m_image.data(), m_number);
     m_cycle.store(m_number, std::memory_order_relaxed);
-    if (m_roundTrip > 0)
-        m_roundTrips.record(m_roundTrip);
-    m_workload = now() - m_woken - m_waited;
+    if (m_exchange.roundTrip() > 0)
+        m_roundTrips.record(m_exchange.roundTrip());
+    m_workload = now() - m_woken - m_exchange.waited();
 }
 
 }  // namespace qplc

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "CycleReports.h"
+#include "NodeExchange.h"
 #include "NodeSlot.h"
 #include "QPlcClock.h"
 #include "QPlcMasterStatistics.h"
@@ -25,7 +26,7 @@ struct SignalSetting
     QPlcValue value;  // of the type of the signal
 };
 
-/// The cycle of a master: asks all nodes, takes their answers, keeps the process image. Owns the thread on which that happens.
+/// The cycle of a master: keeps time and the process image, and lets a NodeExchange ask the nodes. Owns the thread on which that happens.
 ///
 /// Everything is called by the thread of the master; what is marked so also while cycles run.
 class MasterCycle
@@ -93,28 +94,7 @@ private:
     void adopt(Roster *roster) noexcept;
     void writeOwnSignals(const CycleClock::Tick &tick) noexcept;
     void writeReal(QPlcSignalIndex signal, double value) noexcept;
-    void askNodes(const CycleClock::Tick &tick) noexcept;
-    void sendRequest(NodeSlot &slot, std::uint8_t flags) noexcept;
-    void sendParts(NodeSlot &slot) noexcept;
-    bool continueRequests() noexcept;
-    void resendRequests() noexcept;
-    void stepLocalNodes() noexcept;
-    void collectAnswers(std::int64_t deadline) noexcept;
-    void waitForLateNodes(std::int64_t deadline) noexcept;
-    void reportLateNodes() noexcept;
-    void receive(std::int64_t timeout) noexcept;
-    void takeAnswer(NodeSlot &slot, const char *frame, std::size_t size) noexcept;
-    bool paste(NodeSlot &slot, const char *outputs) noexcept;
     void finish() noexcept;
-    bool anyMissing(bool onlyWaiting) const noexcept;
-    bool mustBeWaitedFor(const NodeSlot &slot) const noexcept
-    {
-        return !slot.listener && (m_phase.clock.isLockstep() || slot.waits());
-    }
-    bool isAwaited(const NodeSlot &slot) const noexcept
-    {
-        return slot.peer && !slot.answered && !slot.lost.load(std::memory_order_relaxed);
-    }
     std::int64_t now() noexcept { return m_phase.clock.isLockstep() ? 0 : m_time.now(); }
     void clearStatistics();
     void freeRetired();
@@ -125,6 +105,7 @@ private:
     CycleThread m_thread;
     CycleReports m_reports;
     std::atomic<bool> m_stop{false};
+    NodeExchange m_exchange;
     std::atomic<Roster *> m_pendingRoster{nullptr};
     SpscRing<Roster *> m_retiredRosters{64};
     SpscRing<SetCommand> m_setCommands{256};
@@ -141,18 +122,12 @@ private:
     std::int64_t m_wallStart = 0;  // [ns since 1970]
     std::int64_t m_woken = 0;      // [ns] when the cycle in progress began
     std::int64_t m_workload = 0;   // [ns] of the cycle before
-    std::int64_t m_waited = 0;     // [ns] spent waiting in the cycle in progress
-    std::int64_t m_roundTrip = 0;  // [ns] until the newest answer
-    bool m_anyRemote = false;
 
     // statistics
     std::atomic<std::uint64_t> m_cycle{0};
     std::atomic<std::uint64_t> m_cycles{0};
     std::atomic<std::uint64_t> m_overruns{0};
     std::atomic<std::uint64_t> m_skipped{0};
-    std::atomic<std::uint64_t> m_lateAnswers{0};
-    std::atomic<std::uint64_t> m_strangers{0};
-    std::uint64_t m_strangersBefore = 0;
     std::atomic<std::uint64_t> m_digest{0};
     Histogram m_lateness;
     Histogram m_roundTrips;

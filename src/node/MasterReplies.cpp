@@ -73,6 +73,26 @@ QJsonObject stateFields(const QPlcMasterNode &master, quint64 session)
             {QStringLiteral("digest"), QPlcMessage::fromHex64(statistics.imageDigest)}};
 }
 
+QJsonObject scheduleFields(const QPlcSchedule &schedule)
+{
+    QJsonArray stages;
+    for (const QVector<QPlcSchedule::Turn> &stage : schedule.stages) {
+        QJsonArray turns;
+        for (const QPlcSchedule::Turn &turn : stage)
+            turns.append(QJsonObject{{QStringLiteral("node"), turn.node},
+                                     {QStringLiteral("phase"), QPlcSchedule::phaseName(turn.phase)}});
+        stages.append(turns);
+    }
+    QJsonArray links;
+    for (const QPlcSchedule::Link &link : schedule.links)
+        links.append(QJsonObject{{QStringLiteral("signal"), link.signal},
+                                 {QStringLiteral("from"), link.from},
+                                 {QStringLiteral("to"), link.to},
+                                 {QStringLiteral("age"), link.age},
+                                 {QStringLiteral("sameCycle"), link.sameCycle}});
+    return {{QStringLiteral("stages"), stages}, {QStringLiteral("links"), links}};
+}
+
 bool signalFields(const MasterCycle &cycle, const NodeRegistry &registry, const QStringList &names, QJsonObject *fields,
                   QString *error)
 {

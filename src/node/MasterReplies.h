@@ -17,6 +17,8 @@ QJsonObject stateFields(const QPlcMasterNode &master, quint64 session);
 /// \return false with the first unknown name in \a error
 bool signalFields(const MasterCycle &cycle, const NodeRegistry &registry, const QStringList &names, QJsonObject *fields,
                   QString *error);
+/// Fields of the message Schedule.
+QJsonObject scheduleFields(const QPlcSchedule &schedule);
 QString clockName(QPlcClock clock);
 QString stateName(QPlcMasterNode::State state);
 

@@ -3,6 +3,7 @@
 
 #include "Logging.h"
 
+#include <QtCore/QJsonArray>
 #include <QtCore/QPointer>
 #include <QtCore/QRandomGenerator>
 #include <QtNetwork/QTcpServer>
@@ -13,6 +14,20 @@
 namespace qplc {
 
 using Message = QPlcMessage;
+
+namespace {
+
+/// Extensions that are in use: those that the other side names in its Hello, and that are known here.
+QJsonArray commonFeatures(const Message &hello)
+{
+    QJsonArray common;
+    const QString sameCycle = QStringLiteral("sameCycle");
+    if (hello.fields().value(QStringLiteral("features")).toArray().contains(sameCycle))
+        common.append(sameCycle);
+    return common;
+}
+
+}  // namespace
 
 MasterServer::MasterServer(NodeRegistry &registry, const ProcessImage &image, CyclicHub &hub, quint64 session,
                            std::function<QJsonObject()> hello, QObject *parent)
@@ -202,6 +217,7 @@ void MasterServer::greet(MasterConnection *connection, const Message &message)
         return;
     }
     QJsonObject hello = m_hello();
+    hello.insert(QStringLiteral("features"), commonFeatures(message));
     if (message.hex64(QStringLiteral("tableHash")) == m_image.table().hash())
         hello.remove(QStringLiteral("table"));
     connection->stage = MasterConnection::Greeted;

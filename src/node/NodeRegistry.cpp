@@ -2,6 +2,7 @@
 #include "NodeRegistry.h"
 
 #include "Logging.h"
+#include "Roster.h"
 
 #include <QtCore/QJsonArray>
 #include <QtCore/QMetaEnum>
@@ -20,9 +21,9 @@ bool readSignals(const QJsonValue &json, QVector<NodeDeclaration::Signal> *decla
     const QJsonArray array = json.toArray();
     for (const QJsonValue &element : array) {
         const QJsonObject object = element.toObject();
-        const NodeDeclaration::Signal read{object.value(QStringLiteral("name")).toString(),
-                                           object.value(QStringLiteral("type")).toString(),
-                                           object.value(QStringLiteral("unit")).toString()};
+        const NodeDeclaration::Signal read{
+            object.value(QStringLiteral("name")).toString(), object.value(QStringLiteral("type")).toString(),
+            object.value(QStringLiteral("unit")).toString(), object.value(QStringLiteral("sameCycle")).toBool()};
         if (read.name.isEmpty() || read.type.isEmpty())
             return false;
         declared->append(read);
@@ -34,7 +35,7 @@ QVector<NodeDeclaration::Signal> describe(const QPlcSignalTable &table, const Pa
 {
     QVector<NodeDeclaration::Signal> declared;
     for (const PayloadLayout::Field &field : layout.fields())
-        declared.append({table.at(field.signal).name, field.type.name(), table.at(field.signal).unit});
+        declared.append({table.at(field.signal).name, field.type.name(), table.at(field.signal).unit, false});
     return declared;
 }
 
@@ -49,6 +50,7 @@ bool NodeDeclaration::fromMessage(const QPlcMessage &message, NodeDeclaration *d
                                                                                                 &knownPolicy);
     declaration->name = message.text(QStringLiteral("name"));
     declaration->listener = fields.value(QStringLiteral("listener")).toBool();
+    declaration->twoPhase = fields.value(QStringLiteral("twoPhase")).toBool();
     if (declaration->name.isEmpty() || declaration->name.size() > 64)
         *error = QStringLiteral("a node needs a name of 1 ... 64 characters");
     else if (declaration->name != printable(declaration->name))
@@ -68,7 +70,10 @@ NodeDeclaration NodeDeclaration::fromRuntime(const NodeRuntime &runtime)
     declaration.name = runtime.node().name();
     declaration.policy = runtime.node().realTimeViolationPolicy();
     declaration.listener = runtime.node().isListener();
+    declaration.twoPhase = runtime.node().isTwoPhase();
     declaration.inputs = describe(runtime.table(), runtime.inputLayout());
+    for (int i = 0; i < declaration.inputs.size(); ++i)
+        declaration.inputs[i].sameCycle = runtime.sameCycle()[std::size_t(i)];
     declaration.outputs = describe(runtime.table(), runtime.outputLayout());
     return declaration;
 }
@@ -152,12 +157,33 @@ std::shared_ptr<NodeSlot> NodeRegistry::admit(const NodeDeclaration &declaration
     slot->id = freeId();
     slot->policy = declaration.policy;
     slot->listener = declaration.listener;
+    slot->twoPhase = declaration.twoPhase;
+    for (const NodeDeclaration::Signal &input : declaration.inputs)
+        slot->sameCycle.push_back(input.sameCycle);
     slot->inputLayout = PayloadLayout(m_table, inputs);
     slot->outputLayout = PayloadLayout(m_table, outputs);
+    if (closesLoop(slot, refusal))
+        return nullptr;
     for (QPlcSignalIndex output : outputs)
         m_writers[output] = declaration.name;
     m_nodes.push_back(slot);
     return slot;
+}
+
+bool NodeRegistry::closesLoop(const std::shared_ptr<NodeSlot> &slot, Refusal *refusal) const
+{
+    std::vector<std::shared_ptr<NodeSlot>> nodes = m_nodes;
+    nodes.push_back(slot);
+    const Schedule schedule = scheduleOf(nodes);
+    if (schedule.isValid())
+        return false;
+    const QString loop = loopText(schedule, nodes, m_table);
+    *refusal
+        = {QStringLiteral("AlgebraicLoop"),
+           QStringLiteral("node '%1' closes an algebraic loop: %2; make one of these inputs not same-cycle, or one "
+                          "of these nodes two-phase")
+               .arg(slot->name, loop)};
+    return true;
 }
 
 quint16 NodeRegistry::freeId() const

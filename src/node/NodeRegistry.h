@@ -20,10 +20,12 @@ struct NodeDeclaration
         QString name;
         QString type;
         QString unit;
+        bool sameCycle = false;  // inputs only
     };
     QString name;
     QPlcSlaveNode::RealTimeViolationPolicy policy = QPlcSlaveNode::ErrorZeroOrderHold;
     bool listener = false;
+    bool twoPhase = false;
     QVector<Signal> inputs;
     QVector<Signal> outputs;
 
@@ -37,7 +39,7 @@ struct NodeDeclaration
 struct Refusal
 {
     QString
-        error;  ///< "UnknownSignal", "TypeMismatch", "UnitMismatch", "SignalHasWriter", "NameInUse", "TooManyNodes", "MalformedMessage", "WrongState"
+        error;  ///< "UnknownSignal", "TypeMismatch", "UnitMismatch", "SignalHasWriter", "NameInUse", "TooManyNodes", "AlgebraicLoop", "MalformedMessage", "WrongState"
     QString text;  ///< a sentence with names and remedy
 };
 
@@ -67,6 +69,8 @@ private:
     /// Indices of the declared signals. \return false with the refusal of the first that does not fit
     bool resolve(const QString &node, const QVector<NodeDeclaration::Signal> &declared,
                  QVector<QPlcSignalIndex> *indices, Refusal *refusal) const;
+    /// Whether \a slot would close a loop of same-cycle inputs, with the path in \a refusal.
+    bool closesLoop(const std::shared_ptr<NodeSlot> &slot, Refusal *refusal) const;
     quint16 freeId() const;
 
     const QPlcSignalTable m_table;

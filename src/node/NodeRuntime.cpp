@@ -61,12 +61,13 @@ bool NodeRuntime::bind(const QPlcSignalTable &table, QString *error)
 {
     QVector<QPlcSignalIndex> inputs;
     QVector<QPlcSignalIndex> outputs;
+    QVector<QPlcSignalIndex> sameCycle;
     QStringList errors;
     QString text;
     m_table = table;
     bool bound = false;
     if (!guarded("the declaration of signals", &text,
-                 [&] { bound = m_node.bindPorts(table, &inputs, &outputs, &text); })
+                 [&] { bound = m_node.bindPorts(table, &inputs, &outputs, &sameCycle, &text); })
         || !bound)
         errors << text;
     else
@@ -79,6 +80,9 @@ bool NodeRuntime::bind(const QPlcSignalTable &table, QString *error)
     }
     m_inputLayout = PayloadLayout(table, inputs);
     m_outputLayout = PayloadLayout(table, outputs);
+    m_sameCycle.clear();
+    for (QPlcSignalIndex input : qAsConst(inputs))
+        m_sameCycle.push_back(m_node.isSameCycle() || sameCycle.contains(input));
     m_outputs.assign(m_outputLayout.size(), 0);
     m_scratch.assign(m_outputLayout.size(), 0);
     m_workload = nullptr;

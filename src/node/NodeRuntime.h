@@ -28,6 +28,8 @@ public:
     const QPlcSignalTable &table() const { return m_table; }
     const PayloadLayout &inputLayout() const { return m_inputLayout; }
     const PayloadLayout &outputLayout() const { return m_outputLayout; }
+    /// Whether the node wants the value of the cycle at hand, for each field of inputLayout().
+    const std::vector<bool> &sameCycle() const { return m_sameCycle; }
 
     /// Brings the node into its initial state: outputs() holds its initial outputs. \return false when its code threw
     bool reset(QString *error);
@@ -60,6 +62,7 @@ private:
     QPlcSignalTable m_table;
     PayloadLayout m_inputLayout;
     PayloadLayout m_outputLayout;
+    std::vector<bool> m_sameCycle;
     std::vector<char> m_outputs;  // given away
     std::vector<char> m_scratch;  // being computed
     QString m_workloadSignal;

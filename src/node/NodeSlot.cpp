@@ -30,6 +30,7 @@ void NodeSlot::prepare(const ProcessImage &image, quint64 session)
 {
     inputRuns = image.gatherRuns(inputLayout);
     outputRuns = image.scatterRuns(outputLayout);
+    sameCycleRuns = image.gatherRuns(inputLayout, sameCycle);
     inputs.assign(inputLayout.size(), 0);
     encoder = FrameEncoder(FrameKind::Inputs, {session, id, inputLayout.hash()},
                            inputLayout.partBorders(MaximumCyclicPayload));

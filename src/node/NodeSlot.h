@@ -23,13 +23,16 @@ struct NodeSlot
     quint16 id = 0;
     QPlcSlaveNode::RealTimeViolationPolicy policy = QPlcSlaveNode::ErrorZeroOrderHold;
     bool listener = false;
+    bool twoPhase = false;          // the answer to cycle k holds the outputs of cycle k + 1
+    std::vector<bool> sameCycle;    // for each field of inputLayout
     NodeRuntime *local = nullptr;   // a node of this process; else over the network
     std::unique_ptr<HubPeer> peer;  // null for a local node
     PayloadLayout inputLayout;
     PayloadLayout outputLayout;
-    std::vector<CopyRun> inputRuns;    // image -> inputs
-    std::vector<CopyRun> outputRuns;   // outputs -> image
-    std::vector<char> initialOutputs;  // pasted into the image when a node joins while others run
+    std::vector<CopyRun> inputRuns;      // image -> inputs
+    std::vector<CopyRun> sameCycleRuns;  // image -> same-cycle inputs, again when their writers have answered
+    std::vector<CopyRun> outputRuns;     // outputs -> image
+    std::vector<char> initialOutputs;    // pasted into the image when a node joins while others run
 
     // ---- cycle thread ----
     FrameEncoder encoder;
@@ -39,7 +42,11 @@ struct NodeSlot
     FrameHeader request;
     std::size_t partsSent = 0;  // of the request: a stream takes what the kernel has room for
     std::size_t bytesSent = 0;
+    bool asked = false;     // in this cycle
+    bool awaited = false;   // its answer is waited for now
     bool answered = false;  // in this cycle
+    bool late = false;      // in this cycle, and counted
+    bool pending = false;   // two-phase: the newest outputs are those of the next cycle
     bool computed = false;  // local: the step of this cycle gave outputs
     bool faulted = false;
 
@@ -59,12 +66,6 @@ struct NodeSlot
     /// The field of the first real value in \a outputs that is NaN or infinite; null when all are finite.
     const PayloadLayout::Field *firstNotFinite(const char *outputs) const noexcept;
     FrameCutter outputCutter() const;
-};
-
-/// All nodes of a cycle; never changed, but replaced as a whole.
-struct Roster
-{
-    std::vector<std::shared_ptr<NodeSlot>> nodes;
 };
 
 }  // namespace qplc

@@ -3,8 +3,9 @@
 
 #include <stdexcept>
 
-QPlcCompactSignal::QPlcCompactSignal(const char *name, Direction direction, QPlcCompactSlaveNode *node)
-    : QPlcPort(node, name, direction)
+QPlcCompactSignal::QPlcCompactSignal(const char *name, Direction direction, QPlcCompactSlaveNode *node,
+                                     QPlcInputTiming::Value timing)
+    : QPlcPort(node, name, direction, timing)
 {
 }
 

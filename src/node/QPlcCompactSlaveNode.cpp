@@ -3,6 +3,7 @@
 
 #include "signals/PayloadLayout.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace {
@@ -28,7 +29,8 @@ QPlcCompactSlaveNode::QPlcCompactSlaveNode(const QString &name, RealTimeViolatio
 QPlcCompactSlaveNode::~QPlcCompactSlaveNode() = default;
 
 bool QPlcCompactSlaveNode::bindPorts(const QPlcSignalTable &table, QVector<QPlcSignalIndex> *inputs,
-                                     QVector<QPlcSignalIndex> *outputs, QString *error)
+                                     QVector<QPlcSignalIndex> *outputs, QVector<QPlcSignalIndex> *sameCycle,
+                                     QString *error)
 {
     QStringList errors;
     for (const QPlcPort *port : m_ports) {
@@ -42,6 +44,8 @@ bool QPlcCompactSlaveNode::bindPorts(const QPlcSignalTable &table, QVector<QPlcS
                                port->variableType());
         else
             (port->isInput() ? inputs : outputs)->append(index);
+        if (port->isSameCycle())
+            sameCycle->append(index);
     }
     *error = errors.join(QStringLiteral("; "));
     return errors.isEmpty();
@@ -96,6 +100,8 @@ void QPlcCompactSlaveNode::store(char *outputs) const
 void QPlcCompactSlaveNode::resetFrame(char *outputs)
 {
     reset();
+    if (isTwoPhase())
+        this->outputs();
     store(outputs);
 }
 
@@ -108,8 +114,18 @@ void QPlcCompactSlaveNode::initializeFrame(const char *inputs)
 void QPlcCompactSlaveNode::stepFrame(const QPlcCycle &cycle, const char *inputs, char *outputs)
 {
     load(inputs);
-    step(cycle);
+    if (isTwoPhase()) {
+        update(cycle);
+        this->outputs();
+    } else {
+        step(cycle);
+    }
     store(outputs);
+}
+
+bool QPlcCompactSlaveNode::declaresSameCycle()
+{
+    return std::any_of(m_ports.begin(), m_ports.end(), [](const QPlcPort *port) { return port->isSameCycle(); });
 }
 
 // Ports take the place of lists: these are never called.
@@ -117,6 +133,13 @@ QPlcSignalList QPlcCompactSlaveNode::realTimeout(const QPlcSignalList &)
 {
     return {};
 }
+
+QPlcSignalList QPlcCompactSlaveNode::outputSignals()
+{
+    return {};
+}
+
+void QPlcCompactSlaveNode::updateStates(const QPlcSignalList &) {}
 
 QPlcSignalIndexList QPlcCompactSlaveNode::declareInputSignals()
 {

@@ -161,6 +161,11 @@ QVector<QPlcNodeInfo> QPlcMasterNode::nodes() const
     return infos;
 }
 
+QPlcSchedule QPlcMasterNode::schedule() const
+{
+    return d->registry ? qplc::describeSchedule(*d->registry, d->table) : QPlcSchedule();
+}
+
 QString QPlcMasterNode::writer(const QString &signalName) const
 {
     const QPlcSignalIndex index = d->table.indexOf(signalName);

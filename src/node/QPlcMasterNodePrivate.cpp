@@ -242,6 +242,9 @@ void QPlcMasterNodePrivate::receiveCommand(Connection *connection, const Message
     case Message::GetState:
         connection->send(Message::State, qplc::stateFields(*q, session));
         break;
+    case Message::GetSchedule:
+        connection->send(Message::Schedule, qplc::scheduleFields(q->schedule()));
+        break;
     case Message::GetSignals:
         if (!qplc::signalFields(*cycle, *registry, fields.value(QStringLiteral("names")).toVariant().toStringList(),
                                 &reply, &text))

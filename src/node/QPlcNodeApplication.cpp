@@ -25,6 +25,9 @@ QPlcNodeApplication::QPlcNodeApplication(int &argc, char **argv)
     addOption(option("name", QStringLiteral("Name under which the node registers."), "NAME"));
     addOption(option("watchdog", QStringLiteral("Reports when no frame has come for so long. 0: never."), "SECONDS",
                      QStringLiteral("0")));
+    addOption(QCommandLineOption(
+        QStringLiteral("same-cycle"),
+        QStringLiteral("Reads all inputs in the cycle in which they are written, without the dead time of a cycle.")));
     addRealTimeOptions();
 }
 
@@ -58,6 +61,8 @@ bool QPlcNodeApplication::configure(QPlcSlaveNode &node)
         return false;
     node.activateWatchdog(watchdog);
     node.setRealTimeOptions(realTimeOptions);
+    if (isSet(QStringLiteral("same-cycle")))
+        node.setSameCycle(true);
     if (isSet(QStringLiteral("name")))
         node.setName(value(QStringLiteral("name")));
     if (!m_workloadSignal.isEmpty())

@@ -5,10 +5,11 @@
 
 #include <QtCore/qendian.h>
 
-QPlcPort::QPlcPort(QPlcCompactSlaveNode *node, const char *name, Direction direction)
+QPlcPort::QPlcPort(QPlcCompactSlaveNode *node, const char *name, Direction direction, QPlcInputTiming::Value timing)
     : m_node(node)
     , m_name(QString::fromUtf8(name))
     , m_direction(direction)
+    , m_timing(timing)
 {
     m_node->m_ports.push_back(this);
 }

@@ -7,6 +7,9 @@
 #include <QtCore/QEventLoop>
 #include <QtCore/QTimer>
 
+#include <algorithm>
+#include <iterator>
+
 QPlcSlaveNode::QPlcSlaveNode(const QString &name, RealTimeViolationPolicy policy, QObject *parent)
     : QObject(parent)
     , d(std::make_unique<QPlcSlaveNodePrivate>(this, name, policy))
@@ -49,6 +52,28 @@ void QPlcSlaveNode::setListener(bool listener)
 bool QPlcSlaveNode::isListener() const
 {
     return d->listener;
+}
+
+void QPlcSlaveNode::setSameCycle(bool sameCycle)
+{
+    Q_ASSERT_X(d->state == Disconnected, "QPlcSlaveNode::setSameCycle", "a registered node stays what it is");
+    d->sameCycle = sameCycle;
+}
+
+bool QPlcSlaveNode::isSameCycle() const
+{
+    return d->sameCycle;
+}
+
+void QPlcSlaveNode::setTwoPhase(bool twoPhase)
+{
+    Q_ASSERT_X(d->state == Disconnected, "QPlcSlaveNode::setTwoPhase", "a registered node stays what it is");
+    d->twoPhase = twoPhase;
+}
+
+bool QPlcSlaveNode::isTwoPhase() const
+{
+    return d->twoPhase;
 }
 
 void QPlcSlaveNode::setSignalTable(const QPlcSignalTable &table)
@@ -154,7 +179,7 @@ void QPlcSlaveNode::sendMessageToMaster(const QPlcMessage &message)
 // ---- lists on top of frames ----
 
 bool QPlcSlaveNode::bindPorts(const QPlcSignalTable &table, QVector<QPlcSignalIndex> *inputs,
-                              QVector<QPlcSignalIndex> *outputs, QString *error)
+                              QVector<QPlcSignalIndex> *outputs, QVector<QPlcSignalIndex> *sameCycle, QString *error)
 {
     const QPlcSignalIndexList inputList = declareInputSignals();
     const QPlcSignalIndexList outputList = declareOutputSignals();
@@ -172,9 +197,17 @@ bool QPlcSlaveNode::bindPorts(const QPlcSignalTable &table, QVector<QPlcSignalIn
                           .arg(table.at(index).name, QPlcSignalIndexTable::name(index));
     }
     *inputs = inputList.toVector();
+    std::copy_if(inputs->cbegin(), inputs->cend(), std::back_inserter(*sameCycle),
+                 [&](QPlcSignalIndex index) { return inputList.isSameCycle(index); });
     *outputs = outputList.toVector();
     *error = errors.join(QStringLiteral("; "));
     return errors.isEmpty();
+}
+
+/// Asked before the table is known: names only.
+bool QPlcSlaveNode::declaresSameCycle()
+{
+    return declareInputSignals().hasSameCycle();
 }
 
 void QPlcSlaveNode::attachPorts(const qplc::PayloadLayout &, const qplc::PayloadLayout &) {}
@@ -191,6 +224,8 @@ void QPlcSlaveNode::initializeFrame(const char *inputs)
 
 void QPlcSlaveNode::stepFrame(const QPlcCycle &, const char *inputs, char *outputs)
 {
-    d->runtime.fromList(realTimeout(qplc::NodeRuntime::toList(d->runtime.inputLayout(), inputs)),
-                        d->runtime.outputLayout(), outputs);
+    const QPlcSignalList inputList = qplc::NodeRuntime::toList(d->runtime.inputLayout(), inputs);
+    if (d->twoPhase)
+        updateStates(inputList);
+    d->runtime.fromList(d->twoPhase ? outputSignals() : realTimeout(inputList), d->runtime.outputLayout(), outputs);
 }

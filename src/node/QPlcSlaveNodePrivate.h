@@ -6,6 +6,7 @@
 #include "QPlcSlaveNode.h"
 #include "SlaveCycle.h"
 
+#include <QtCore/QJsonArray>
 #include <QtCore/QSocketNotifier>
 
 #include <memory>
@@ -29,6 +30,8 @@ public:
     QString name;
     QPlcSlaveNode::RealTimeViolationPolicy policy;
     bool listener = false;
+    bool sameCycle = false;  // all inputs
+    bool twoPhase = false;
     QPlcSignalTable ownTable;
     QPlcRealTimeOptions realTimeOptions;
     std::chrono::nanoseconds watchdog{0};
@@ -43,6 +46,8 @@ public:
 private:
     bool isExpected(QPlcMessage::Kind kind) const;
     void receive(const QPlcMessage &message);
+    bool isOrdered() const;
+    QJsonArray features() const;
     void greet();
     void receiveHello(const QPlcMessage &message);
     bool chooseTable(const QPlcMessage &hello, QPlcSignalTable *table);

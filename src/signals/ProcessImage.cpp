@@ -3,6 +3,7 @@
 
 #include <QtCore/qendian.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <new>
@@ -83,6 +84,17 @@ std::vector<CopyRun> ProcessImage::gatherRuns(const PayloadLayout &layout) const
     std::vector<CopyRun> runs;
     for (const PayloadLayout::Field &field : layout.fields())
         appendRun(runs, {offset(field.signal), field.offset, quint32(field.type.size())});
+    return runs;
+}
+
+std::vector<CopyRun> ProcessImage::gatherRuns(const PayloadLayout &layout, const std::vector<bool> &wanted) const
+{
+    std::vector<CopyRun> runs;
+    for (std::size_t i = 0; i < std::min(wanted.size(), layout.fields().size()); ++i) {
+        const PayloadLayout::Field &field = layout.fields()[i];
+        if (wanted[i])
+            appendRun(runs, {offset(field.signal), field.offset, quint32(field.type.size())});
+    }
     return runs;
 }
 

@@ -35,6 +35,8 @@ public:
 
     /// Runs that cut a frame of \a layout out of this image; \a layout is made from the table of the image.
     std::vector<CopyRun> gatherRuns(const PayloadLayout &layout) const;
+    /// As above, of those fields only that are \a wanted; a field behind the end of \a wanted is not.
+    std::vector<CopyRun> gatherRuns(const PayloadLayout &layout, const std::vector<bool> &wanted) const;
     /// Runs that paste a frame of \a layout into this image.
     std::vector<CopyRun> scatterRuns(const PayloadLayout &layout) const;
 

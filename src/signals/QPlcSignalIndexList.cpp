@@ -3,20 +3,24 @@
 
 #include "QPlcSignalIndexTable.h"
 
-QPlcSignalIndex QPlcSignalIndexList::insert(const QString &name)
+QPlcSignalIndex QPlcSignalIndexList::insert(const QString &name, QPlcInputTiming::Value timing)
 {
     const QPlcSignalIndex index = QPlcSignalIndexTable::index(name);
+    if (timing == QPlcInputTiming::SameCycle && !m_sameCycle.contains(index))
+        m_sameCycle.append(index);
     if (index != QPlcInvalidSignalIndex)
-        return insert(index);
+        return insert(index, timing);
     if (!m_unknownNames.contains(name))
         m_unknownNames.append(name);
     return QPlcInvalidSignalIndex;
 }
 
-QPlcSignalIndex QPlcSignalIndexList::insert(QPlcSignalIndex index)
+QPlcSignalIndex QPlcSignalIndexList::insert(QPlcSignalIndex index, QPlcInputTiming::Value timing)
 {
     if (index == QPlcInvalidSignalIndex)
-        return insert(QStringLiteral("index 65535"));
+        return insert(QStringLiteral("index 65535"), timing);
+    if (timing == QPlcInputTiming::SameCycle && !m_sameCycle.contains(index))
+        m_sameCycle.append(index);
     if (!m_indices.contains(index))
         m_indices.append(index);
     return index;

@@ -20,7 +20,7 @@ ARROWS = {
 # Public headers without a source file of their own; "all": a plain value that every room may use.
 HEADER_ONLY = {
     "QPlcBoundInput": "node", "QPlcBoundOutput": "node", "QPlcClock": "all", "QPlcCycle": "all", "QPlcGlobal": "all",
-    "QPlcInput": "node", "QPlcMasterStatistics": "node", "QPlcNodeInfo": "node", "QPlcOutput": "node",
+    "QPlcInput": "node", "QPlcInputTiming": "all", "QPlcMasterStatistics": "node", "QPlcNodeInfo": "node", "QPlcOutput": "node",
     "QPlcRealTimeSetting": "realtime", "QPlcSignalDefinition": "signals", "QSplitPrimitive": "signals",
 }
 SOCKETS = r"<QtNetwork/|<sys/socket\.h>|<netinet/|<arpa/inet\.h>|Q(Tcp|Udp|Abstract)Socket\b"

@@ -17,6 +17,8 @@ private Q_SLOTS:
     void aMillionCyclesInProcess();
     void cyclesOverTheNetwork_data();
     void cyclesOverTheNetwork();
+    void stagesAndTwoPhaseNodes_data();
+    void stagesAndTwoPhaseNodes();
     void buffersAndIoNodes();
 };
 
@@ -151,6 +153,55 @@ void tst_Allocations::cyclesOverTheNetwork()
     QVERIFY(master.listen());
     Everything node;
     QVERIFY2(node.connectToMasterAndWaitForConnected(master.protocol(kind)), qPrintable(node.errorString()));
+    master.setCycleLimit(20'100);
+    QVERIFY(master.startRealTime());
+    QVERIFY(master.waitForCycles(100));
+    const ThreadCosts before = ThreadCosts::ofWatchedThreads();
+    QVERIFY(QTest::qWaitFor([&] { return master.statistics().cycles >= 20'050; }, 50000));
+    const ThreadCosts spent = ThreadCosts::ofWatchedThreads() - before;
+    QVERIFY(master.waitForState(QPlcMasterNode::Off));
+    QCOMPARE(spent.allocations, std::uint64_t(0));
+    QCOMPARE(spent.locks, std::uint64_t(0));
+    node.disconnectFromMaster();
+    QPlcSignalIndexTable::setCurrent({});
+}
+
+void tst_Allocations::stagesAndTwoPhaseNodes_data()
+{
+    cyclesOverTheNetwork_data();
+    QTest::newRow("inprocess") << "inprocess";
+}
+
+void tst_Allocations::stagesAndTwoPhaseNodes()
+{
+    QFETCH(QString, kind);
+    class Model : public QPlcCompactSlaveNode
+    {
+    public:
+        Model()
+            : QPlcCompactSlaveNode("Model")
+        {
+            setTwoPhase(true);
+            setSameCycle(true);
+        }
+        void outputs() override { m_real = m_state; }
+        void update(const QPlcCycle &) override
+        {
+            ThreadCosts::watchThisThread();
+            m_state = 0.5 * m_in;
+        }
+        double m_state = 1.0;
+        QPlcInput<double> m_in{this, "realOut"};
+        QPlcOutput<double> m_real{this, "real"};
+    } model;
+    TestMaster master(QPlcClock::lockstep(), everyType());
+    QVERIFY(master.listen());
+    Everything node;
+    node.setSameCycle(true);
+    QVERIFY(master.addLocalNode(&model));
+    QVERIFY(kind == QLatin1String("inprocess") ? master.addLocalNode(&node)
+                                               : node.connectToMasterAndWaitForConnected(master.protocol(kind)));
+    QCOMPARE(master.schedule().stages.size(), 3);
     master.setCycleLimit(20'100);
     QVERIFY(master.startRealTime());
     QVERIFY(master.waitForCycles(100));

@@ -58,6 +58,11 @@ bool accept(QPlcCoreApplication &application, const std::string &error)
 
 }  // namespace
 
+int linkDeadTime(bool sameCycle)
+{
+    return sameCycle ? 0 : 2;
+}
+
 QString builtInSignals()
 {
     loadSignals();
@@ -92,8 +97,11 @@ void addAutopilotOptions(QPlcCoreApplication &application)
         "default");
     add(application, "force-limit", QStringLiteral("Upper limit of the tether force [N]. Without one there is none."),
         "N", "");
-    add(application, "dead-time", QStringLiteral("Cycles from sensor to actuator. The two links cost 2."), "CYCLES",
-        "2");
+    add(application, "dead-time",
+        QStringLiteral(
+            "Cycles from sensor to actuator. The two links cost 2, with --same-cycle here and at the model 0; "
+            "unless given there are no more."),
+        "CYCLES", "");
 }
 
 bool readAutopilotOptions(QPlcCoreApplication &application, AutopilotSettings *settings)
@@ -107,10 +115,12 @@ bool readAutopilotOptions(QPlcCoreApplication &application, AutopilotSettings *s
     if (application.isSet(QStringLiteral("force-limit"))
         && !application.number(QStringLiteral("force-limit"), 100.0, 1e6, &settings->gains.forceLimit))
         return false;
-    qint64 deadTime = 0;
-    if (!application.integer(QStringLiteral("dead-time"), linkDeadTime, 100, &deadTime))
+    const int least = linkDeadTime(application.isSet(QStringLiteral("same-cycle")));
+    qint64 deadTime = least;
+    if (application.isSet(QStringLiteral("dead-time"))
+        && !application.integer(QStringLiteral("dead-time"), least, 100, &deadTime))
         return false;
-    settings->extraDeadTime = int(deadTime) - linkDeadTime;
+    settings->extraDeadTime = int(deadTime) - least;
     return accept(application, settings->gains.validate());
 }
 

@@ -20,11 +20,11 @@ struct ModelSettings
 struct AutopilotSettings
 {
     AutopilotGains gains;
-    int extraDeadTime = 0;  // cycles on top of the two that the links cost
+    int extraDeadTime = 0;  // cycles on top of linkDeadTime()
 };
 
-/// Cycles from sensor to actuator that the links alone cost: one from the model to the autopilot, one back.
-constexpr int linkDeadTime = 2;
+/// Cycles from sensor to actuator that the links alone cost: one from the model to the autopilot, one back; none with --same-cycle.
+int linkDeadTime(bool sameCycle);
 
 /// The table of the example, compiled into the programs.
 QString builtInSignals();
@@ -33,6 +33,7 @@ void addModelOptions(QPlcCoreApplication &application);
 /// \return false, with the message out, when an option cannot be meant
 bool readModelOptions(QPlcCoreApplication &application, ModelSettings *settings);
 void addAutopilotOptions(QPlcCoreApplication &application);
+/// \pre the application has an option --same-cycle
 bool readAutopilotOptions(QPlcCoreApplication &application, AutopilotSettings *settings);
 
 /// Those of the model and autopilot options that were given, to be handed on to another program.

@@ -18,6 +18,11 @@ QString row(const char *label, const QString &value)
     return QStringLiteral("  %1 %2\n").arg(QString::fromLatin1(label), -18).arg(value);
 }
 
+QString cycles(int count)
+{
+    return count == 1 ? QStringLiteral("1 cycle") : QStringLiteral("%1 cycles").arg(count);
+}
+
 QString notWritable(const QSaveFile &file)
 {
     return QStringLiteral("cannot write the report %1: %2; choose another file")
@@ -54,6 +59,9 @@ QString summary(const QJsonObject &report)
                     .arg(number(report, "cycles"), 0, 'f', 0)
                     .arg(number(report, "overruns"))
                     .arg(number(report, "late_answers")));
+    const QJsonValue deadTime = report.value(QStringLiteral("dead_time_cycles"));
+    if (!deadTime.isUndefined())
+        text += row("dead time", QStringLiteral("%1 from sensor to actuator").arg(cycles(deadTime.toInt())));
     text += row("image digest", report.value(QStringLiteral("image_digest")).toString());
     return text;
 }

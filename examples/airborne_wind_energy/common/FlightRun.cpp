@@ -3,6 +3,9 @@
 
 #include "FlightReportText.h"
 
+#include <QtCore/QJsonArray>
+
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -142,6 +145,7 @@ void FlightRun::startIfComplete()
 
 void FlightRun::started()
 {
+    m_schedule = m_master.schedule();
     m_wallClock.start();
     m_display.begin();
 }
@@ -190,6 +194,29 @@ void FlightRun::fail(int exitCode, const QString &text)
     QMetaObject::invokeMethod(this, &FlightRun::end, Qt::QueuedConnection);
 }
 
+/// Age of every link, and what the links from sensors to actuators cost together.
+void FlightRun::reportLinks(QJsonObject *report) const
+{
+    const QString model = QStringLiteral("Model");
+    const QString autopilot = QStringLiteral("Autopilot");
+    int sensors = -1;
+    int actuators = -1;
+    QJsonArray links;
+    for (const QPlcSchedule::Link &link : m_schedule.links) {
+        links.append(QJsonObject{{QStringLiteral("signal"), link.signal},
+                                 {QStringLiteral("from"), link.from},
+                                 {QStringLiteral("to"), link.to},
+                                 {QStringLiteral("age"), link.age}});
+        if (link.from == model && link.to == autopilot)
+            sensors = std::max(sensors, link.age);
+        else if (link.from == autopilot && link.to == model)
+            actuators = std::max(actuators, link.age);
+    }
+    report->insert(QStringLiteral("links"), links);
+    if (sensors >= 0 && actuators >= 0)
+        report->insert(QStringLiteral("dead_time_cycles"), sensors + actuators);
+}
+
 QJsonObject FlightRun::makeReport() const
 {
     const FlightReport flight = m_observer.report();
@@ -197,28 +224,30 @@ QJsonObject FlightRun::makeReport() const
     const double simulated
         = double(statistics.cycles + statistics.skippedCycles) * std::chrono::duration<double>(period).count();
     const double wall = double(m_wallTime) * 1e-9;
-    return {{QStringLiteral("cycles"), double(statistics.cycles)},
-            {QStringLiteral("simulated_s"), simulated},
-            {QStringLiteral("wall_s"), wall},
-            {QStringLiteral("real_time_factor"), wall > 0.0 ? simulated / wall : 0.0},
-            {QStringLiteral("energy_J"), flight.energy},
-            {QStringLiteral("mean_power_W"), flight.meanPower},
-            {QStringLiteral("eta"), flight.eta},
-            {QStringLiteral("eta_per_mean_cubed_wind"), flight.etaPerMeanCubedWind},
-            {QStringLiteral("reel_out_power_W"), flight.reelOutPower},
-            {QStringLiteral("reel_in_power_W"), flight.reelInPower},
-            {QStringLiteral("mean_wind_speed_m_s"), flight.meanWindSpeed},
-            {QStringLiteral("pumping_cycles"), flight.pumpingCycles},
-            {QStringLiteral("min_altitude_m"), flight.minimumAltitude},
-            {QStringLiteral("max_tether_force_N"), flight.maximumTetherForce},
-            {QStringLiteral("crashed"), flight.crashed},
-            {QStringLiteral("recoveries"), flight.recoveries},
-            {QStringLiteral("overruns"), double(statistics.overruns)},
-            {QStringLiteral("skipped_cycles"), double(statistics.skippedCycles)},
-            {QStringLiteral("late_answers"), double(statistics.lateAnswers)},
-            {QStringLiteral("lateness_p50_us"), double(statistics.latenessMedian) * 1e-3},
-            {QStringLiteral("lateness_p99_us"), double(statistics.lateness99) * 1e-3},
-            {QStringLiteral("image_digest"), QPlcMessage::fromHex64(statistics.imageDigest)}};
+    QJsonObject report{{QStringLiteral("cycles"), double(statistics.cycles)},
+                       {QStringLiteral("simulated_s"), simulated},
+                       {QStringLiteral("wall_s"), wall},
+                       {QStringLiteral("real_time_factor"), wall > 0.0 ? simulated / wall : 0.0},
+                       {QStringLiteral("energy_J"), flight.energy},
+                       {QStringLiteral("mean_power_W"), flight.meanPower},
+                       {QStringLiteral("eta"), flight.eta},
+                       {QStringLiteral("eta_per_mean_cubed_wind"), flight.etaPerMeanCubedWind},
+                       {QStringLiteral("reel_out_power_W"), flight.reelOutPower},
+                       {QStringLiteral("reel_in_power_W"), flight.reelInPower},
+                       {QStringLiteral("mean_wind_speed_m_s"), flight.meanWindSpeed},
+                       {QStringLiteral("pumping_cycles"), flight.pumpingCycles},
+                       {QStringLiteral("min_altitude_m"), flight.minimumAltitude},
+                       {QStringLiteral("max_tether_force_N"), flight.maximumTetherForce},
+                       {QStringLiteral("crashed"), flight.crashed},
+                       {QStringLiteral("recoveries"), flight.recoveries},
+                       {QStringLiteral("overruns"), double(statistics.overruns)},
+                       {QStringLiteral("skipped_cycles"), double(statistics.skippedCycles)},
+                       {QStringLiteral("late_answers"), double(statistics.lateAnswers)},
+                       {QStringLiteral("lateness_p50_us"), double(statistics.latenessMedian) * 1e-3},
+                       {QStringLiteral("lateness_p99_us"), double(statistics.lateness99) * 1e-3},
+                       {QStringLiteral("image_digest"), QPlcMessage::fromHex64(statistics.imageDigest)}};
+    reportLinks(&report);
+    return report;
 }
 
 }  // namespace awe

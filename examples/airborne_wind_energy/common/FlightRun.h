@@ -57,12 +57,14 @@ private:
     void finish();
     void fail(int exitCode, const QString &text);
     QJsonObject makeReport() const;
+    void reportLinks(QJsonObject *report) const;
 
     QPlcMasterNode &m_master;
     RunSettings m_settings;
     FlightObserver m_observer;
     FlightDisplay m_display;
     QElapsedTimer m_wallClock;
+    QPlcSchedule m_schedule;  // as the flight began
     QJsonObject m_report;
     qint64 m_wallTime = 0;  // [ns]
     bool m_valid = false;

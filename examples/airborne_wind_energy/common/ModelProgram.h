@@ -21,6 +21,7 @@ int runModelProgram(int argc, char **argv, const QString &description)
     if (!application.parseNodeOptions() || !readModelOptions(application, &settings))
         return application.exitCode();
     Node node(KiteSimulation(settings.plant, settings.wind));
+    node.setTwoPhase(application.isSet(QStringLiteral("same-cycle")));  // else it would close an algebraic loop
     return application.run(node);
 }
 

@@ -23,6 +23,8 @@ private:
 
     void reset() override { collect(m_simulation.reset()); }
     void step(const QPlcCycle &) override { collect(m_simulation.step(m_pitchSpeed, m_yawSpeed, m_tetherSpeed)); }
+    void outputs() override { collect(m_simulation.outputs()); }
+    void update(const QPlcCycle &) override { m_simulation.update(m_pitchSpeed, m_yawSpeed, m_tetherSpeed); }
     void collect(const PlantOutputs &outputs);
 
     KiteSimulation m_simulation;

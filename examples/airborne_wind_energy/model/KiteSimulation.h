@@ -8,7 +8,8 @@ namespace awe {
 
 /// The plant in its wind: what the model nodes compute, one way for both of them.
 ///
-/// The outputs of a cycle belong to the state at its begin; then the state moves one step on.
+/// The outputs of a cycle belong to the state at its begin; then the state moves one step on. Power and, with damping, tether force also depend on the inputs
+/// (direct feed-through): step() shows them with the inputs that came in, outputs() and update() with those of the step before.
 class KiteSimulation
 {
 public:
@@ -24,24 +25,42 @@ public:
     {
         m_plant.reset();
         m_wind.reset();
-        PlantInputs inputs;
-        inputs.windVelocity = m_wind.velocity();
-        return m_plant.outputs(inputs);
+        m_inputs = PlantInputs();
+        return outputs();
     }
 
     /// One step of 10 ms. \param pitchSpeed [deg/s] \param yawSpeed [deg/s] \param tetherSpeed [m/s], > 0 reels out
     PlantOutputs step(double pitchSpeed, double yawSpeed, double tetherSpeed)
     {
-        const PlantInputs inputs{pitchSpeed, yawSpeed, tetherSpeed, m_wind.velocity()};
-        const PlantOutputs outputs = m_plant.outputs(inputs);
-        m_plant.step(inputs);
-        m_wind.step();
+        m_inputs = {pitchSpeed, yawSpeed, tetherSpeed, m_wind.velocity()};
+        const PlantOutputs outputs = m_plant.outputs(m_inputs);
+        move();
         return outputs;
     }
 
+    // The same in two phases.
+    PlantOutputs outputs() const
+    {
+        PlantInputs inputs = m_inputs;
+        inputs.windVelocity = m_wind.velocity();
+        return m_plant.outputs(inputs);
+    }
+    void update(double pitchSpeed, double yawSpeed, double tetherSpeed)
+    {
+        m_inputs = {pitchSpeed, yawSpeed, tetherSpeed, m_wind.velocity()};
+        move();
+    }
+
 private:
+    void move()
+    {
+        m_plant.step(m_inputs);
+        m_wind.step();
+    }
+
     Plant m_plant;
     Wind m_wind;
+    PlantInputs m_inputs;  // of the last step
 };
 
 }  // namespace awe

@@ -61,6 +61,17 @@ QPlcSignalList ModelNode::realTimeout(const QPlcSignalList &inputSignals)
                                      inputSignals.value(m_tetherSpeed).toReal()));
 }
 
+QPlcSignalList ModelNode::outputSignals()
+{
+    return collect(m_simulation.outputs());
+}
+
+void ModelNode::updateStates(const QPlcSignalList &inputSignals)
+{
+    m_simulation.update(inputSignals.value(m_pitchSpeed).toReal(), inputSignals.value(m_yawSpeed).toReal(),
+                        inputSignals.value(m_tetherSpeed).toReal());
+}
+
 QPlcSignalList ModelNode::collect(const PlantOutputs &outputs) const
 {
     QPlcSignalList list;

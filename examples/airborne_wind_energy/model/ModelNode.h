@@ -8,7 +8,7 @@
 namespace awe {
 
 /// The plant as a node, written with lists of values: the way of QPlcSlaveNode. CompactModelNode does the same with
-/// ports.
+/// ports. Both may be two-phase: setTwoPhase().
 class ModelNode : public QPlcSlaveNode
 {
     Q_OBJECT
@@ -20,6 +20,8 @@ protected:
     QPlcSignalIndexList declareOutputSignals() override;
     QPlcSignalList initialOutputSignals() override;
     QPlcSignalList realTimeout(const QPlcSignalList &inputSignals) override;
+    QPlcSignalList outputSignals() override;
+    void updateStates(const QPlcSignalList &inputSignals) override;
 
 private:
     QPlcSignalList collect(const PlantOutputs &outputs) const;

@@ -18,6 +18,7 @@ struct Settings
     awe::AutopilotSettings autopilot;
     QString transport;
     bool processes = false;
+    bool sameCycle = false;
 };
 
 void addOptions(QPlcCoreApplication &application)
@@ -28,6 +29,10 @@ void addOptions(QPlcCoreApplication &application)
     awe::addRunOptions(application, QStringLiteral("600"));
     awe::addModelOptions(application);
     awe::addAutopilotOptions(application);
+    application.addOption(QCommandLineOption(
+        QStringLiteral("same-cycle"),
+        QStringLiteral(
+            "Model and autopilot read each other in the same cycle: no dead time from sensor to actuator.")));
     application.addOption(QCommandLineOption(QStringLiteral("processes"),
                                              QStringLiteral("Master, model and autopilot as processes of their own.")));
     application.addOption(QCommandLineOption(
@@ -39,6 +44,7 @@ void addOptions(QPlcCoreApplication &application)
 bool readOptions(QPlcCoreApplication &application, Settings *settings)
 {
     settings->processes = application.isSet(QStringLiteral("processes"));
+    settings->sameCycle = application.isSet(QStringLiteral("same-cycle"));
     settings->transport = application.isSet(QStringLiteral("transport"))
         ? application.value(QStringLiteral("transport"))
         : settings->processes ? QStringLiteral("udp")
@@ -62,10 +68,14 @@ bool readOptions(QPlcCoreApplication &application, Settings *settings)
 }
 
 /// The end of a flight: prints the summary, writes the report.
-int conclude(const QJsonObject &report, const QString &reportFile, int exitCode)
+int conclude(QJsonObject report, const Settings &settings, int exitCode)
 {
     if (report.isEmpty())
         return exitCode;
+    const QString reportFile = settings.run.reportFile;
+    const QString deadTime = QStringLiteral("dead_time_cycles");
+    if (report.contains(deadTime))
+        report.insert(deadTime, report.value(deadTime).toInt() + settings.autopilot.extraDeadTime);
     std::fputs(qPrintable(awe::summary(report)), stdout);
     QString error;
     if (reportFile.isEmpty() || awe::writeReport(reportFile, report, &error))
@@ -87,8 +97,9 @@ int flyInProcesses(QPlcCoreApplication &application, const Settings &settings)
         ? QStringList{QStringLiteral("--cpu=%1").arg(::sched_getcpu())}
         : QStringList();
     arguments.master += processor;
-    arguments.model = table + processor + awe::givenModelOptions(application);
-    arguments.autopilot = table + processor + awe::givenAutopilotOptions(application);
+    const QStringList order = settings.sameCycle ? QStringList{QStringLiteral("--same-cycle")} : QStringList();
+    arguments.model = table + processor + order + awe::givenModelOptions(application);
+    arguments.autopilot = table + processor + order + awe::givenAutopilotOptions(application);
     arguments.transport = settings.transport;
     arguments.watch = settings.run.watch;
 
@@ -99,7 +110,7 @@ int flyInProcesses(QPlcCoreApplication &application, const Settings &settings)
     if (!flight.begin(arguments))
         return QPlcCoreApplication::UsageError;
     const int exitCode = QCoreApplication::exec();
-    return conclude(flight.report(), settings.run.reportFile, exitCode);
+    return conclude(flight.report(), settings, exitCode);
 }
 
 /// Brings a node to its master: in the process, or over a socket of it.
@@ -119,6 +130,9 @@ int flyInOneProcess(QPlcCoreApplication &application, const Settings &settings)
 {
     awe::CompactModelNode model(awe::KiteSimulation(settings.model.plant, settings.model.wind));
     awe::AutopilotNode autopilot(settings.autopilot.gains, settings.autopilot.extraDeadTime);
+    autopilot.setSameCycle(settings.sameCycle);
+    model.setSameCycle(settings.sameCycle);
+    model.setTwoPhase(settings.sameCycle);
     QPlcMasterNode master;
     awe::RunSettings runSettings = settings.run;
     runSettings.reportFile.clear();  // written at the end, with the summary
@@ -133,7 +147,7 @@ int flyInOneProcess(QPlcCoreApplication &application, const Settings &settings)
     const int exitCode = QCoreApplication::exec();
     autopilot.disconnectFromMaster();
     model.disconnectFromMaster();
-    return conclude(run.report(), settings.run.reportFile, exitCode);
+    return conclude(run.report(), settings, exitCode);
 }
 
 }  // namespace

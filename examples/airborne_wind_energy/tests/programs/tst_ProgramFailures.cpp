@@ -54,6 +54,7 @@ private Q_SLOTS:
     void nodesEndWithTheirMaster();
     void notANumberEndsTheFlight();
     void lostNodeEndsTheFlight();
+    void bothModelsFlyTheSameFlight_data();
     void bothModelsFlyTheSameFlight();
     void masterByHandEndsOnSignalInTheMiddleOfAFlight();
 
@@ -63,7 +64,7 @@ private:
     static QString address(Program &master);
     /// A table made of the built-in one. \return its file name
     QString table(const char *name, const QByteArray &from, const QByteArray &to);
-    QJsonObject flyWith(const char *model);
+    QJsonObject flyWith(const char *model, const QStringList &order);
 
     QTemporaryDir m_folder;
     QByteArray m_builtIn;
@@ -245,7 +246,7 @@ void tst_ProgramFailures::lostNodeEndsTheFlight()
     QCOMPARE(autopilot.waitForEnd(), 0);
 }
 
-QJsonObject tst_ProgramFailures::flyWith(const char *model)
+QJsonObject tst_ProgramFailures::flyWith(const char *model, const QStringList &order)
 {
     QFile report(m_folder.filePath(QString::fromLatin1(model) + QStringLiteral(".json")));
     Program master(path("awe_master"),
@@ -253,8 +254,8 @@ QJsonObject tst_ProgramFailures::flyWith(const char *model)
                     QStringLiteral("--start-with=Model,Autopilot"), QStringLiteral("--duration=30"),
                     QStringLiteral("--report"), report.fileName()});
     const QString where = address(master);
-    Program modelProgram(path(model), {where, QStringLiteral("--turbulence=0.1")});
-    Program autopilot(path("awe_autopilot"), {where});
+    Program modelProgram(path(model), order + QStringList{where, QStringLiteral("--turbulence=0.1")});
+    Program autopilot(path("awe_autopilot"), order + QStringList{where});
     if (master.waitForEnd() != 0 || modelProgram.waitForEnd() != 0 || autopilot.waitForEnd() != 0
         || !report.open(QIODevice::ReadOnly)) {
         qWarning() << master.errors() << modelProgram.errors() << autopilot.errors();
@@ -263,10 +264,21 @@ QJsonObject tst_ProgramFailures::flyWith(const char *model)
     return QJsonDocument::fromJson(report.readAll()).object();
 }
 
+void tst_ProgramFailures::bothModelsFlyTheSameFlight_data()
+{
+    QTest::addColumn<QStringList>("order");
+    QTest::addColumn<int>("deadTime");
+    QTest::newRow("default") << QStringList() << 2;
+    QTest::newRow("same cycle") << QStringList{QStringLiteral("--same-cycle")} << 0;
+}
+
 void tst_ProgramFailures::bothModelsFlyTheSameFlight()
 {
-    const QJsonObject lists = flyWith("awe_model");
-    const QJsonObject ports = flyWith("awe_compact_model");
+    QFETCH(QStringList, order);
+    QFETCH(int, deadTime);
+    const QJsonObject lists = flyWith("awe_model", order);
+    const QJsonObject ports = flyWith("awe_compact_model", order);
+    QCOMPARE(lists.value(QStringLiteral("dead_time_cycles")).toInt(-1), deadTime);
     QCOMPARE(lists.value(QStringLiteral("cycles")).toInt(), 3000);
     QVERIFY(!lists.value(QStringLiteral("image_digest")).toString().isEmpty());
     QCOMPARE(lists.value(QStringLiteral("image_digest")), ports.value(QStringLiteral("image_digest")));

@@ -40,7 +40,7 @@ void tst_ProgramOptions::helpNamesEveryOption_data()
 {
     QTest::addColumn<QString>("program");
     QTest::addColumn<QString>("options");
-    const char *const node = "--master --signals --name --watchdog --priority --cpu --lock-memory";
+    const char *const node = "--master --signals --name --watchdog --same-cycle --priority --cpu --lock-memory";
     const char *const model = " --wind --turbulence --seed";
     const char *const autopilot = " --gains --force-limit --dead-time";
     const char *const run = " --lockstep --real-time --scale --duration --report --watch --signals";
@@ -52,7 +52,7 @@ void tst_ProgramOptions::helpNamesEveryOption_data()
     row("awe_autopilot", QByteArray(node) + autopilot);
     row("awe_master",
         QByteArray("--listen --port --insecure-network --start-with --mean-wind --priority --cpu --lock-memory") + run);
-    row("awe_sil", QByteArray("--processes --transport") + run + model + autopilot);
+    row("awe_sil", QByteArray("--processes --transport --same-cycle") + run + model + autopilot);
 }
 
 void tst_ProgramOptions::helpNamesEveryOption()
@@ -130,6 +130,7 @@ void tst_ProgramOptions::badOptionsAreRefusedWithOneSentence_data()
         row(program, "--force-limit strong", "--force-limit strong");
         row(program, "--dead-time 1", "--dead-time 1: use a whole number of 2 ...");
         row(program, "--dead-time 101", "--dead-time 101");
+        row(program, "--same-cycle --dead-time -1", "--dead-time -1: use a whole number of 0 ...");
     }
     for (const char *program : {"awe_master", "awe_sil"}) {
         row(program, "--lockstep --real-time", "use one of --lockstep, --real-time and --scale");

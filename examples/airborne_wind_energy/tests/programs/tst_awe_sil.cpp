@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "Autopilot.h"
+#include "KiteSimulation.h"
 #include "Program.h"
 
 #include <QtCore/QElapsedTimer>
 #include <QtCore/QFile>
+#include <QtCore/QJsonArray>
 #include <QtCore/QJsonDocument>
 #include <QtCore/QJsonObject>
 #include <QtCore/QTemporaryDir>
 #include <QtTest/QtTest>
 
+#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <fcntl.h>
@@ -62,6 +66,11 @@ private Q_SLOTS:
     void reportHoldsEveryFigure();
     void flightIsTheSameWhateverCarriesIt_data();
     void flightIsTheSameWhateverCarriesIt();
+    void sameCycleFlightIsTheSameWhateverCarriesIt_data();
+    void sameCycleFlightIsTheSameWhateverCarriesIt();
+    void sameCycleFlightIsThatOfOneLoop();
+    void reportTellsTheAgeOfEveryLink_data();
+    void reportTellsTheAgeOfEveryLink();
     void anotherSeedIsAnotherFlight();
     void clockSetsThePace_data();
     void clockSetsThePace();
@@ -83,6 +92,7 @@ private:
 
     QTemporaryDir m_folder;
     QJsonObject m_flight;
+    QJsonObject m_sameCycleFlight;
 };
 
 bool tst_awe_sil::waitForText(Terminal &terminal, const Program &program, const char *text)
@@ -160,6 +170,100 @@ void tst_awe_sil::flightIsTheSameWhateverCarriesIt()
     QCOMPARE(flight.value(QStringLiteral("cycles")).toInt(), 1000);
     QCOMPARE(flight.value(QStringLiteral("image_digest")), m_flight.value(QStringLiteral("image_digest")));
     QCOMPARE(flight.value(QStringLiteral("energy_J")), m_flight.value(QStringLiteral("energy_J")));
+}
+
+void tst_awe_sil::sameCycleFlightIsTheSameWhateverCarriesIt_data()
+{
+    flightIsTheSameWhateverCarriesIt_data();
+}
+
+void tst_awe_sil::sameCycleFlightIsTheSameWhateverCarriesIt()
+{
+    QFETCH(QString, options);
+    const QJsonObject flight = fly(QStringLiteral("--same-cycle ") + options);
+    if (m_sameCycleFlight.isEmpty())
+        m_sameCycleFlight = flight;
+    QCOMPARE(flight.value(QStringLiteral("cycles")).toInt(), 1000);
+    QCOMPARE(flight.value(QStringLiteral("image_digest")), m_sameCycleFlight.value(QStringLiteral("image_digest")));
+    QCOMPARE(flight.value(QStringLiteral("energy_J")), m_sameCycleFlight.value(QStringLiteral("energy_J")));
+    QCOMPARE(flight.value(QStringLiteral("late_answers")).toInt(), 0);
+    QVERIFY(flight.value(QStringLiteral("image_digest")) != m_flight.value(QStringLiteral("image_digest")));
+}
+
+/// Plant and autopilot one after the other in one loop, without QtPLC, with the rounding of the signals: the same energy to the last bit.
+void tst_awe_sil::sameCycleFlightIsThatOfOneLoop()
+{
+    const auto rounded = [](double value) { return double(float(value)); };
+    const auto triple
+        = [&](const Eigen::Vector3d &v) { return Eigen::Vector3d(rounded(v.x()), rounded(v.y()), rounded(v.z())); };
+    awe::PlantParameters plant;
+    awe::WindParameters wind;
+    wind.turbulenceIntensity = 0.15;
+    plant.groundContact = awe::GroundContact::Hold;
+    plant.initialState = awe::PlantParameters::stateAtRest(
+        30.0, std::atan2(wind.meanVelocity.y(), wind.meanVelocity.x()) * 180.0 / M_PI, 100.0);
+    awe::KiteSimulation model(plant, wind);
+    awe::Autopilot autopilot;
+    model.reset();
+    double seen = 0.0;  // the observer sees the energy of the cycle before
+    double energy = 0.0;
+    for (int cycle = 0; cycle < 1000; ++cycle) {
+        const awe::PlantOutputs y = model.outputs();
+        seen = energy;
+        energy = rounded(y.energy);
+        awe::FlightMeasurements measured;
+        measured.position = triple(y.position);
+        measured.velocity = triple(y.velocity);
+        measured.pitchAngle = rounded(y.bodyControlOrientation.y());
+        measured.yawAngle = rounded(y.bodyControlOrientation.z());
+        measured.angleOfAttack = rounded(y.angleOfAttack);
+        measured.tetherLength = rounded(y.tetherLength);
+        measured.tetherForce = triple(y.tetherForce).norm();
+        const Eigen::Vector3d direction = triple(y.inputs.windVelocity);
+        measured.windDirection = std::atan2(direction.y(), direction.x()) * (180.0 / M_PI);
+        const awe::AutopilotOutputs u = autopilot.step(measured);
+        model.update(rounded(u.pitchSpeed), rounded(u.yawSpeed), rounded(u.tetherSpeed));
+    }
+    QCOMPARE(fly(QStringLiteral("--same-cycle")).value(QStringLiteral("energy_J")).toDouble(), seen);
+    QVERIFY(seen > 0.0);
+}
+
+void tst_awe_sil::reportTellsTheAgeOfEveryLink_data()
+{
+    QTest::addColumn<QString>("options");
+    QTest::addColumn<int>("sensors");
+    QTest::addColumn<int>("actuators");
+    QTest::addColumn<int>("deadTime");
+    QTest::newRow("default") << QString() << 1 << 1 << 2;
+    QTest::newRow("processes") << QStringLiteral("--processes") << 1 << 1 << 2;
+    QTest::newRow("more dead time") << QStringLiteral("--dead-time 5") << 1 << 1 << 5;
+    QTest::newRow("same cycle") << QStringLiteral("--same-cycle") << 0 << 0 << 0;
+    QTest::newRow("same cycle, dead time 1") << QStringLiteral("--same-cycle --dead-time 1") << 0 << 0 << 1;
+    QTest::newRow("same cycle, processes, dead time 1")
+        << QStringLiteral("--same-cycle --processes --dead-time 1") << 0 << 0 << 1;
+}
+
+void tst_awe_sil::reportTellsTheAgeOfEveryLink()
+{
+    QFETCH(QString, options);
+    QFETCH(int, sensors);
+    QFETCH(int, actuators);
+    QFETCH(int, deadTime);
+    const QJsonObject flight = fly(options);
+    QCOMPARE(flight.value(QStringLiteral("dead_time_cycles")).toInt(-1), deadTime);
+    int sensorLinks = 0;
+    int actuatorLinks = 0;
+    const QJsonArray links = flight.value(QStringLiteral("links")).toArray();
+    for (const QJsonValue link : links) {
+        const QString from = link[QStringLiteral("from")].toString();
+        const QString to = link[QStringLiteral("to")].toString();
+        if (from == QLatin1String("Model") && to == QLatin1String("Autopilot"))
+            QCOMPARE(link[QStringLiteral("age")].toInt(-1), (++sensorLinks, sensors));
+        else if (from == QLatin1String("Autopilot") && to == QLatin1String("Model"))
+            QCOMPARE(link[QStringLiteral("age")].toInt(-1), (++actuatorLinks, actuators));
+    }
+    QCOMPARE(sensorLinks, 7);
+    QCOMPARE(actuatorLinks, 3);
 }
 
 void tst_awe_sil::anotherSeedIsAnotherFlight()

@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "NodeExchange.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace qplc {
+
+namespace {
+
+constexpr std::int64_t Slice = 50'000'000;         // [ns] longest wait without a look at stop and lost nodes
+constexpr std::int64_t ContinueAfter = 1'000'000;  // [ns] a stream that was full is offered the rest
+constexpr std::int64_t ResendAfter = 20'000'000;   // [ns] a request that must be answered is sent again
+
+template<typename Integer>
+void count(std::atomic<Integer> &counter) noexcept
+{
+    counter.store(counter.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);  // one writer
+}
+
+}  // namespace
+
+NodeExchange::NodeExchange(ProcessImage &image, CyclicHub &hub, CycleReports &reports, const std::atomic<bool> &stop)
+    : m_image(image)
+    , m_hub(hub)
+    , m_reports(reports)
+    , m_stop(stop)
+{
+}
+
+void NodeExchange::start(CycleClock &grid, std::chrono::nanoseconds period, QPlcClock clock, std::uint64_t cycleZero)
+{
+    m_grid = &grid;
+    m_period = period;
+    m_isLockstep = clock.isLockstep();
+    m_cycleZero = cycleZero;
+    m_lateAnswers = 0;
+    m_strangers = 0;
+    m_strangersBefore = m_hub.strangers();
+}
+
+/// Everything that nodes and master exchange in a cycle stands here, in order.
+void NodeExchange::run(const Roster &roster, const Cycle &cycle) noexcept
+{
+    m_roster = &roster;
+    m_cycle = cycle;
+    m_waited = 0;
+    m_roundTrip = 0;
+    cutInputs();
+    pasteKnownOutputs();
+    for (std::size_t i = 0; i < roster.stages.size(); ++i) {
+        const Stage &stage = roster.stages[i];
+        askNodes(stage);
+        stepLocalNodes(stage);
+        const bool complete = !roster.anyRemote || collectAnswers(i);
+        pasteLocalNodes(stage);
+        if (!complete)
+            return;
+    }
+}
+
+// ---- requests ----
+
+/// Nobody has computed anything in this cycle yet: these are the values of the last one.
+void NodeExchange::cutInputs() noexcept
+{
+    for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
+        copyRuns(slot->inputRuns, m_image.data(), slot->inputs.data());
+        slot->asked = slot->awaited = slot->answered = slot->late = false;
+        slot->request.cycle = std::uint32_t(m_cycleZero + m_cycle.number);
+        slot->request.info
+            = std::uint32_t(std::min<std::int64_t>(m_cycle.lateness, std::numeric_limits<std::uint32_t>::max()));
+    }
+}
+
+/// Two-phase nodes have computed the outputs of this cycle in the last one.
+void NodeExchange::pasteKnownOutputs() noexcept
+{
+    for (NodeSlot *slot : m_roster->twoPhase) {
+        if (slot->pending)
+            paste(*slot, slot->local ? slot->local->outputs() : slot->decoder.payload());
+        slot->pending = false;
+    }
+}
+
+void NodeExchange::askNodes(const Stage &stage) noexcept
+{
+    for (const Roster::Turn &turn : stage) {
+        NodeSlot &slot = *turn.slot;
+        copyRuns(slot.sameCycleRuns, m_image.data(), slot.inputs.data());
+        if (!slot.peer)
+            continue;
+        slot.asked = true;
+        slot.awaited = turn.feedsLaterStage && !slot.listener;
+        sendRequest(slot, 0);
+    }
+    if (m_roster->anyRemote)
+        m_hub.flush();
+}
+
+void NodeExchange::sendRequest(NodeSlot &slot, std::uint8_t flags) noexcept
+{
+    slot.request.flags = flags;
+    slot.partsSent = 0;
+    slot.bytesSent = 0;
+    sendParts(slot);
+}
+
+/// Sends the parts of the request that are still to be sent, as far as the kernel takes them.
+void NodeExchange::sendParts(NodeSlot &slot) noexcept
+{
+    m_hub.sendRest(slot.peer.get());
+    for (; slot.partsSent < slot.encoder.partCount(); ++slot.partsSent) {
+        const std::size_t size = slot.encoder.partSize(slot.partsSent);
+        char *frame = slot.frames.data() + slot.bytesSent;
+        slot.encoder.encode(slot.partsSent, slot.request, slot.inputs.data(), frame);
+        if (!m_hub.send(slot.peer.get(), frame, size))
+            return;
+        m_reports.tap(TappedFrame::Sent, slot.id, frame, size);
+        slot.bytesSent += size;
+    }
+}
+
+/// Goes on with requests that a stream did not take as a whole. \return whether some of them are still not sent
+bool NodeExchange::continueRequests() noexcept
+{
+    bool unsent = false;
+    for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
+        if (!isUnanswered(*slot) || slot->isRequestSent())
+            continue;
+        sendParts(*slot);
+        unsent = unsent || !slot->isRequestSent();
+    }
+    m_hub.flush();
+    return unsent;
+}
+
+/// Sends again what the network may have lost.
+void NodeExchange::resendRequests() noexcept
+{
+    for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
+        if (!isAwaited(*slot) || !mustBeWaitedFor(*slot) || !slot->peer->isUdp())
+            continue;
+        count(slot->resent);
+        sendRequest(*slot, ResentFlag);
+    }
+    m_hub.flush();
+}
+
+void NodeExchange::stepLocalNodes(const Stage &stage) noexcept
+{
+    for (const Roster::Turn &turn : stage) {
+        NodeSlot &slot = *turn.slot;
+        if (!slot.local)
+            continue;
+        const QPlcCycle &last = slot.local->cycle();
+        const quint64 missed = m_cycle.number > last.number() + 1 ? m_cycle.number - last.number() - 1 : 0;
+        slot.computed = slot.local->step(QPlcCycle(m_cycle.number, m_period, missed), slot.inputs.data());
+        slot.answered = true;
+        if (!slot.computed && !slot.faulted)
+            m_reports.post({CycleEvent::NodeFaulted, slot.id, 0, m_cycle.number});
+        slot.faulted = !slot.computed;
+    }
+}
+
+// ---- answers ----
+
+/// End of the time for \a stage [ns]: the stages share the period equally, and what one of them does not need is left to the next ones.
+std::int64_t NodeExchange::deadline(std::size_t stage) const noexcept
+{
+    return m_grid->nominal(m_cycle.number)
+        + m_grid->period() * std::int64_t(stage + 1) / std::int64_t(m_roster->stages.size());
+}
+
+/// At the end of the cycle all answers are of interest.
+void NodeExchange::awaitEveryone() noexcept
+{
+    for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes)
+        slot->awaited = slot->asked;
+}
+
+bool NodeExchange::anyMissing(bool onlyWaiting) const noexcept
+{
+    return std::any_of(m_roster->nodes.begin(), m_roster->nodes.end(),
+                       [this, onlyWaiting](const std::shared_ptr<NodeSlot> &slot) {
+                           return isAwaited(*slot) && (!onlyWaiting || mustBeWaitedFor(*slot));
+                       });
+}
+
+/// Waits for the answers that later stages read, after the last stage for all. \return false when stop was asked for meanwhile
+bool NodeExchange::collectAnswers(std::size_t stage) noexcept
+{
+    const bool isLast = stage + 1 == m_roster->stages.size();
+    if (isLast)
+        awaitEveryone();
+    const std::int64_t end = deadline(stage);
+    if (!m_isLockstep) {
+        while (anyMissing(false)) {
+            const std::int64_t left = end - m_time.now();
+            if (m_stop.load(std::memory_order_relaxed))
+                return false;  // nobody is late who was not given the time
+            if (left <= 0)
+                break;
+            receive(std::min(left, continueRequests() ? ContinueAfter : Slice));
+        }
+        reportLateNodes();
+    }
+    if (anyMissing(true))
+        waitForLateNodes(end);
+    else if (m_isLockstep && isLast)
+        receive(0);  // what listeners have to say
+    return isLast || !anyMissing(true);
+}
+
+void NodeExchange::reportLateNodes() noexcept
+{
+    for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
+        if (!isAwaited(*slot) || slot->late)
+            continue;
+        slot->late = true;
+        count(slot->lateAnswers);
+        count(m_lateAnswers);
+        if (slot->reports())
+            m_reports.post({CycleEvent::LateAnswer, slot->id, 0, m_cycle.number});
+    }
+}
+
+/// Time stands still until the nodes that must be waited for have answered (or are lost).
+void NodeExchange::waitForLateNodes(std::int64_t deadline) noexcept
+{
+    if (!m_isLockstep)
+        m_reports.post({CycleEvent::WaitingForNode, 0, 0, m_cycle.number});
+    std::int64_t resendAt = m_time.now() + ResendAfter;
+    while (anyMissing(true) && !m_stop.load(std::memory_order_relaxed)) {
+        receive(continueRequests() ? ContinueAfter : ResendAfter);
+        if (m_time.now() < resendAt)
+            continue;
+        resendRequests();
+        resendAt = m_time.now() + ResendAfter;
+    }
+    if (!m_isLockstep) {
+        m_grid->shift(std::max<std::int64_t>(0, m_time.now() - deadline));
+        m_reports.post({CycleEvent::WaitingEnded, 0, 0, m_cycle.number});
+    }
+}
+
+void NodeExchange::receive(std::int64_t timeout) noexcept
+{
+    const std::int64_t begin = now();
+    const bool arrived = m_hub.wait(timeout);
+    m_waited += now() - begin;
+    if (!arrived)
+        return;
+    CyclicHub::Incoming incoming;
+    while (m_hub.next(&incoming))
+        takeAnswer(*static_cast<NodeSlot *>(incoming.peer->owner), incoming.frame, incoming.size);
+    m_strangers.store(m_hub.strangers() - m_strangersBefore, std::memory_order_relaxed);
+    for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
+        if (slot->peer && slot->peer->isClosed() && !slot->lost.exchange(true))
+            m_reports.post({CycleEvent::LinkClosed, slot->id, 0, m_cycle.number});
+    }
+}
+
+void NodeExchange::takeAnswer(NodeSlot &slot, const char *frame, std::size_t size) noexcept
+{
+    m_reports.tap(TappedFrame::Received, slot.id, frame, size);
+    switch (slot.decoder.decode(frame, size)) {
+    case FrameStatus::Complete:
+        break;
+    case FrameStatus::Incomplete:
+        return;
+    case FrameStatus::Duplicate:
+    case FrameStatus::Old:
+        count(slot.duplicates);
+        return;
+    default:
+        count(slot.rejected);
+        return;
+    }
+    // An answer to an older cycle is late and counted as such, but still newer than what the image holds.
+    const bool current = slot.decoder.cycle() == m_cycleZero + m_cycle.number;
+    slot.answered = slot.answered || current;
+    m_roundTrip = now() - m_cycle.woken;
+    const bool faulted = slot.decoder.header().flags & FaultFlag;
+    if (faulted && !slot.faulted)
+        m_reports.post({CycleEvent::NodeFaulted, slot.id, 0, m_cycle.number});
+    slot.faulted = faulted;
+    slot.pending = false;
+    if (faulted || !isFinite(slot, slot.decoder.payload()))
+        return;
+    if (slot.twoPhase && current)
+        slot.pending = true;  // the outputs of the next cycle
+    else
+        paste(slot, slot.decoder.payload());
+}
+
+/// Local nodes saw the image as it was when their stage began, whatever their order: their outputs come in only now.
+void NodeExchange::pasteLocalNodes(const Stage &stage) noexcept
+{
+    for (const Roster::Turn &turn : stage) {
+        NodeSlot &slot = *turn.slot;
+        if (!slot.local || !slot.computed || !isFinite(slot, slot.local->outputs()))
+            continue;
+        if (slot.twoPhase)
+            slot.pending = true;
+        else
+            paste(slot, slot.local->outputs());
+    }
+}
+
+bool NodeExchange::isFinite(NodeSlot &slot, const char *outputs) noexcept
+{
+    const PayloadLayout::Field *field = slot.firstNotFinite(outputs);
+    if (field)
+        m_reports.post({CycleEvent::NotFinite, slot.id, field->signal, m_cycle.number});
+    return field == nullptr;
+}
+
+void NodeExchange::paste(NodeSlot &slot, const char *outputs) noexcept
+{
+    copyRuns(slot.outputRuns, outputs, m_image.data());
+}
+
+}  // namespace qplc

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "CycleReports.h"
+#include "QPlcClock.h"
+#include "Roster.h"
+#include "realtime/CycleClock.h"
+#include "transport/CyclicHub.h"
+
+#include <atomic>
+
+namespace qplc {
+
+/// What a master and its nodes say to each other in a cycle: inputs out of the process image, stage by stage, and answers into it.
+///
+/// The inputs of all nodes are cut from the image as the last cycle left it, before anything is pasted; same-cycle inputs are cut again when the stage of their
+/// node begins. A stage begins when those nodes of the stages before it have answered whose outputs are read in this cycle; for all others the master waits
+/// at the end only.
+///
+/// Used by the cycle thread; counters from anywhere.
+class NodeExchange
+{
+public:
+    struct Cycle
+    {
+        std::uint64_t number = 0;   // from 0
+        std::int64_t lateness = 0;  // [ns] of its begin
+        std::int64_t woken = 0;     // [ns] when it began
+    };
+
+    /// All of them outlive this object. \param stop  ends every waiting
+    NodeExchange(ProcessImage &image, CyclicHub &hub, CycleReports &reports, const std::atomic<bool> &stop);
+
+    /// Before a phase. \param grid  of the cycles; time that stands still shifts it
+    void start(CycleClock &grid, std::chrono::nanoseconds period, QPlcClock clock, std::uint64_t cycleZero);
+    /// One cycle with all nodes of \a roster.
+    void run(const Roster &roster, const Cycle &cycle) noexcept;
+    /// Spent waiting in the last cycle [ns].
+    std::int64_t waited() const { return m_waited; }
+    /// From the begin of the last cycle until its last answer [ns]; 0: there was none.
+    std::int64_t roundTrip() const { return m_roundTrip; }
+
+    // since start()
+    std::uint64_t lateAnswers() const { return m_lateAnswers; }
+    std::uint64_t strangers() const { return m_strangers; }
+
+private:
+    using Stage = std::vector<Roster::Turn>;
+
+    void cutInputs() noexcept;
+    void pasteKnownOutputs() noexcept;
+    void askNodes(const Stage &stage) noexcept;
+    void sendRequest(NodeSlot &slot, std::uint8_t flags) noexcept;
+    void sendParts(NodeSlot &slot) noexcept;
+    bool continueRequests() noexcept;
+    void resendRequests() noexcept;
+    void stepLocalNodes(const Stage &stage) noexcept;
+    void pasteLocalNodes(const Stage &stage) noexcept;
+    void awaitEveryone() noexcept;
+    std::int64_t deadline(std::size_t stage) const noexcept;
+    bool collectAnswers(std::size_t stage) noexcept;
+    void waitForLateNodes(std::int64_t deadline) noexcept;
+    void reportLateNodes() noexcept;
+    void receive(std::int64_t timeout) noexcept;
+    void takeAnswer(NodeSlot &slot, const char *frame, std::size_t size) noexcept;
+    bool isFinite(NodeSlot &slot, const char *outputs) noexcept;
+    void paste(NodeSlot &slot, const char *outputs) noexcept;
+    bool anyMissing(bool onlyWaiting) const noexcept;
+    bool mustBeWaitedFor(const NodeSlot &slot) const noexcept
+    {
+        return !slot.listener && (m_isLockstep || slot.waits());
+    }
+    bool isUnanswered(const NodeSlot &slot) const noexcept
+    {
+        return slot.asked && !slot.answered && !slot.lost.load(std::memory_order_relaxed);
+    }
+    bool isAwaited(const NodeSlot &slot) const noexcept { return slot.awaited && isUnanswered(slot); }
+    std::int64_t now() noexcept { return m_isLockstep ? 0 : m_time.now(); }
+
+    TimeSource &m_time = TimeSource::monotonic();
+    ProcessImage &m_image;
+    CyclicHub &m_hub;
+    CycleReports &m_reports;
+    const std::atomic<bool> &m_stop;
+
+    // of the phase
+    CycleClock *m_grid = nullptr;
+    std::chrono::nanoseconds m_period{0};  // as the nodes see it
+    bool m_isLockstep = false;
+    std::uint64_t m_cycleZero = 0;
+
+    // of the cycle
+    const Roster *m_roster = nullptr;
+    Cycle m_cycle;
+    std::int64_t m_waited = 0;
+    std::int64_t m_roundTrip = 0;
+
+    std::atomic<std::uint64_t> m_lateAnswers{0};
+    std::atomic<std::uint64_t> m_strangers{0};
+    std::uint64_t m_strangersBefore = 0;
+};
+
+}  // namespace qplc

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Roster.h"
+
+#include "NodeRegistry.h"
+
+#include <QtCore/QStringList>
+
+#include <algorithm>
+#include <iterator>
+
+namespace qplc {
+
+namespace {
+
+Schedule::Node declarationOf(const NodeSlot &slot)
+{
+    Schedule::Node node;
+    node.twoPhase = slot.twoPhase;
+    for (const PayloadLayout::Field &field : slot.inputLayout.fields())
+        node.inputs.push_back(
+            {field.signal, node.inputs.size() < slot.sameCycle.size() && slot.sameCycle[node.inputs.size()]});
+    for (const PayloadLayout::Field &field : slot.outputLayout.fields())
+        node.outputs.push_back(field.signal);
+    return node;
+}
+
+}  // namespace
+
+Schedule scheduleOf(const std::vector<std::shared_ptr<NodeSlot>> &nodes)
+{
+    std::vector<Schedule::Node> declarations;
+    declarations.reserve(nodes.size());
+    for (const std::shared_ptr<NodeSlot> &slot : nodes)
+        declarations.push_back(declarationOf(*slot));
+    return Schedule(declarations);
+}
+
+void Roster::arrange()
+{
+    const Schedule schedule = scheduleOf(nodes);
+    Q_ASSERT_X(schedule.isValid(), "Roster::arrange", "nodes that close an algebraic loop are not admitted");
+    stages.assign(schedule.stageCount(), {});
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+        stages[schedule.stage(i)].push_back({nodes[i].get(), schedule.feedsLaterStage(i)});
+    for (const std::shared_ptr<NodeSlot> &slot : nodes) {
+        anyRemote = anyRemote || slot->peer;
+        if (slot->twoPhase)
+            twoPhase.push_back(slot.get());
+    }
+}
+
+QString loopText(const Schedule &schedule, const std::vector<std::shared_ptr<NodeSlot>> &nodes,
+                 const QPlcSignalTable &table)
+{
+    QStringList ports;
+    const std::vector<Schedule::Hop> &loop = schedule.loop();
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+        const QString &node = nodes[loop[i].node]->name;
+        const Schedule::Hop &next = loop[(i + 1) % loop.size()];
+        ports << QStringLiteral("%1.%2").arg(node, table.at(loop[i].input).name)
+              << QStringLiteral("%1.%2").arg(node, table.at(next.input).name);
+    }
+    ports << ports.first();
+    return ports.join(QStringLiteral(" -> "));
+}
+
+QPlcSchedule describeSchedule(const NodeRegistry &registry, const QPlcSignalTable &table)
+{
+    std::vector<std::shared_ptr<NodeSlot>> nodes;
+    std::copy_if(registry.nodes().begin(), registry.nodes().end(), std::back_inserter(nodes),
+                 [](const std::shared_ptr<NodeSlot> &slot) { return slot->local || slot->peer; });
+    const Schedule schedule = scheduleOf(nodes);
+    QPlcSchedule described;
+    QVector<QPlcSchedule::Turn> known;
+    described.stages.resize(int(schedule.stageCount()));
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const NodeSlot &slot = *nodes[i];
+        if (slot.twoPhase)
+            known.append({slot.name, QPlcSchedule::Outputs});
+        described.stages[int(schedule.stage(i))].append(
+            {slot.name, slot.twoPhase ? QPlcSchedule::Update : QPlcSchedule::Step});
+        const Schedule::Node declaration = declarationOf(slot);
+        for (const Schedule::Input &input : declaration.inputs) {
+            const QString writer = registry.writer(input.signal);
+            const bool isOfNode = !writer.isEmpty() && writer != NodeRegistry::masterName();
+            described.links.append({table.at(input.signal).name, writer, slot.name,
+                                    isOfNode && !input.sameCycle ? 1 : 0, input.sameCycle});
+        }
+    }
+    if (!known.isEmpty())
+        described.stages.prepend(known);
+    return described;
+}
+
+}  // namespace qplc

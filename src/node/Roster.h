@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "NodeSlot.h"
+#include "QPlcSchedule.h"
+#include "Schedule.h"
+
+#include <memory>
+#include <vector>
+
+namespace qplc {
+
+class NodeRegistry;
+
+/// All nodes of a cycle and the order in which they are asked; never changed, but replaced as a whole.
+struct Roster
+{
+    /// A node in its stage.
+    struct Turn
+    {
+        NodeSlot *slot = nullptr;
+        bool feedsLaterStage = false;
+    };
+
+    std::vector<std::shared_ptr<NodeSlot>> nodes;
+
+    // made by arrange()
+    std::vector<std::vector<Turn>> stages{};
+    std::vector<NodeSlot *> twoPhase{};
+    bool anyRemote = false;
+
+    /// Puts the nodes into stages. \pre they have no algebraic loop: NodeRegistry admits none
+    void arrange();
+};
+
+/// What the nodes declare makes this order.
+Schedule scheduleOf(const std::vector<std::shared_ptr<NodeSlot>> &nodes);
+/// "A.in -> A.out -> B.in -> B.out -> A.in": the loop of \a schedule, port by port.
+QString loopText(const Schedule &schedule, const std::vector<std::shared_ptr<NodeSlot>> &nodes,
+                 const QPlcSignalTable &table);
+/// The order of all nodes of \a registry whose cyclic channel is there, for people and programs.
+QPlcSchedule describeSchedule(const NodeRegistry &registry, const QPlcSignalTable &table);
+
+}  // namespace qplc

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+// The registration of QPlcSlaveNodePrivate: from the greeting to the cyclic channel that is there.
+#include "Logging.h"
+#include "QPlcSignalIndexTable.h"
+#include "QPlcSlaveNodePrivate.h"
+
+#include <QtCore/QJsonArray>
+#include <QtCore/QMetaEnum>
+
+using Message = QPlcMessage;
+
+namespace {
+
+const QString sameCycleFeature = QStringLiteral("sameCycle");
+
+QJsonArray describe(const QPlcSignalTable &table, const qplc::PayloadLayout &layout,
+                    const std::vector<bool> &sameCycle = {})
+{
+    QJsonArray signalArray;
+    for (const qplc::PayloadLayout::Field &field : layout.fields()) {
+        const QPlcSignalDefinition &definition = table.at(field.signal);
+        QJsonObject signal{{QStringLiteral("name"), definition.name},
+                           {QStringLiteral("type"), definition.type.name()},
+                           {QStringLiteral("unit"), definition.unit}};
+        const auto place = std::size_t(signalArray.size());
+        if (place < sameCycle.size() && sameCycle[place])
+            signal.insert(QStringLiteral("sameCycle"), true);
+        signalArray.append(signal);
+    }
+    return signalArray;
+}
+
+}  // namespace
+
+/// Whether cycles have an order because of this node. Before the table is known.
+bool QPlcSlaveNodePrivate::isOrdered() const
+{
+    try {
+        return sameCycle || twoPhase || q->declaresSameCycle();
+    } catch (...) {
+        return false;  // its code throws again when the node is bound, and is reported then
+    }
+}
+
+/// Extensions that this node needs: one that needs none says what nodes always said.
+QJsonArray QPlcSlaveNodePrivate::features() const
+{
+    return isOrdered() ? QJsonArray{sameCycleFeature} : QJsonArray();
+}
+
+void QPlcSlaveNodePrivate::greet()
+{
+    QJsonObject fields{{QStringLiteral("protocol"), 1},
+                       {QStringLiteral("name"), name},
+                       {QStringLiteral("uuid"), m_uuid},
+                       {QStringLiteral("role"), QStringLiteral("node")},
+                       {QStringLiteral("features"), features()}};
+    const QPlcSignalTable table = q->signalTable();
+    if (!table.isEmpty())
+        fields.insert(QStringLiteral("tableHash"), Message::fromHex64(table.hash()));
+    control->sendMessage(Message(Message::Hello, fields));
+}
+
+bool QPlcSlaveNodePrivate::chooseTable(const Message &hello, QPlcSignalTable *table)
+{
+    *table = q->signalTable();
+    if (!table->isEmpty())
+        return true;
+    QVector<QPlcParseError> errors;
+    *table = QPlcSignalTable::fromIni(hello.text(QStringLiteral("table")).toUtf8(), &errors,
+                                      QStringLiteral("table of the master"));
+    if (table->isEmpty()) {
+        giveUp(QPlcSlaveNode::ProtocolError, QPlcParseError::toString(errors));
+        return false;
+    }
+    QPlcSignalIndexTable::setCurrent(*table);
+    return true;
+}
+
+void QPlcSlaveNodePrivate::receiveHello(const Message &message)
+{
+    const int protocol = message.fields().value(QStringLiteral("protocol")).toInt();
+    if (protocol != 1) {
+        giveUp(QPlcSlaveNode::ProtocolError,
+               QStringLiteral("the master at %1 speaks protocol version %2, node '%3' version 1; update the older one")
+                   .arg(master.toString())
+                   .arg(protocol)
+                   .arg(name));
+        return;
+    }
+    m_session = message.hex64(QStringLiteral("session"));
+    if (isOrdered() && !message.fields().value(QStringLiteral("features")).toArray().contains(sameCycleFeature)) {
+        giveUp(QPlcSlaveNode::RegistrationError,
+               QStringLiteral("the master at %1 knows no same-cycle inputs and two-phase nodes, which node '%2' needs; "
+                              "update the master, or do without them")
+                   .arg(master.toString(), name));
+        return;
+    }
+    QPlcSignalTable table;
+    QString text;
+    if (!chooseTable(message, &table))
+        return;
+    if (!runtime.bind(table, &text)) {
+        giveUp(QPlcSlaveNode::SignalError, text);
+        return;
+    }
+    registerAtMaster();
+}
+
+bool QPlcSlaveNodePrivate::makeUdpLink(quint16 *port)
+{
+    QString text;
+    m_link = qplc::CyclicLink::udp(qplc::SocketAddress(control->peerAddress(), master.port()), port, &text);
+    if (!m_link)
+        giveUp(QPlcSlaveNode::ConnectionError, QStringLiteral("node '%1': %2").arg(name, text));
+    return m_link != nullptr;
+}
+
+void QPlcSlaveNodePrivate::registerAtMaster()
+{
+    QJsonObject fields{
+        {QStringLiteral("name"), name},
+        {QStringLiteral("uuid"), m_uuid},
+        {QStringLiteral("policy"),
+         QLatin1String(QMetaEnum::fromType<QPlcSlaveNode::RealTimeViolationPolicy>().valueToKey(policy))},
+        {QStringLiteral("listener"), listener},
+        {QStringLiteral("inputs"), describe(runtime.table(), runtime.inputLayout(), runtime.sameCycle())},
+        {QStringLiteral("outputs"), describe(runtime.table(), runtime.outputLayout())},
+        {QStringLiteral("cyclic"), master.kindName()}};
+    if (twoPhase)
+        fields.insert(QStringLiteral("twoPhase"), true);
+    if (master.kind() == QPlcUnderlyingProtocol::Udp) {
+        quint16 port = 0;
+        if (!makeUdpLink(&port))
+            return;
+        fields.insert(QStringLiteral("udpPort"), port);
+    }
+    control->sendMessage(Message(Message::Register, fields));
+}
+
+void QPlcSlaveNodePrivate::receiveRegistered(const Message &message)
+{
+    m_id = message.fields().value(QStringLiteral("node")).toInt();
+    m_token = message.text(QStringLiteral("token"));
+    if (message.hex64(QStringLiteral("inputsHash")) != runtime.inputLayout().hash()
+        || message.hex64(QStringLiteral("outputsHash")) != runtime.outputLayout().hash()) {
+        giveUp(QPlcSlaveNode::ProtocolError,
+               QStringLiteral("master and node '%1' disagree on the layout of the frames").arg(name));
+        return;
+    }
+    cycle = std::make_unique<qplc::SlaveCycle>(runtime, qplc::SlaveCycle::Identity{m_session, quint16(m_id)},
+                                               lcCyclic().isDebugEnabled());
+    m_reportNotifier = std::make_unique<QSocketNotifier>(cycle->reports().descriptor(), QSocketNotifier::Read);
+    QObject::connect(m_reportNotifier.get(), &QSocketNotifier::activated, q, [this] { takeReports(); });
+    if (master.kind() == QPlcUnderlyingProtocol::Local && !openLocalLink(message))
+        return;
+    if (m_link)
+        cycle->setLink(std::move(m_link));
+    else
+        connectCyclicChannel();
+}
+
+bool QPlcSlaveNodePrivate::openLocalLink(const Message &registered)
+{
+    QString text;
+    m_link = qplc::CyclicLink::local(registered.text(QStringLiteral("channel")),
+                                     registered.text(QStringLiteral("doorbell")),
+                                     registered.text(QStringLiteral("pipe")), &text);
+    if (!m_link)
+        giveUp(QPlcSlaveNode::ConnectionError, QStringLiteral("node '%1': %2").arg(name, text));
+    return m_link != nullptr;
+}
+
+void QPlcSlaveNodePrivate::connectCyclicChannel()
+{
+    m_cyclicSocket = new QPlcMasterSocket(q);
+    QObject::connect(m_cyclicSocket, &QPlcAbstractSocket::connected, q, [this] {
+        m_cyclicSocket->sendMessage(Message(Message::AttachCyclicChannel,
+                                            {{QStringLiteral("node"), m_id}, {QStringLiteral("token"), m_token}}));
+    });
+    QObject::connect(m_cyclicSocket, &QPlcAbstractSocket::errorOccurred, q,
+                     [this](QPlcAbstractSocket::Error e) { masterLost(e, m_cyclicSocket->errorString()); });
+    QObject::connect(m_cyclicSocket, &QPlcAbstractSocket::messageReceived, q, [this](const Message &message) {
+        if (message.kind() != Message::CyclicChannelAttached) {
+            giveUp(QPlcSlaveNode::RegistrationError,
+                   QStringLiteral("the master refuses the cyclic connection: %1")
+                       .arg(qplc::printable(message.text(QStringLiteral("text")))));
+            return;
+        }
+        const int descriptor = m_cyclicSocket->takeDescriptor();
+        m_cyclicSocket->deleteLater();
+        m_cyclicSocket = nullptr;
+        cycle->setLink(qplc::CyclicLink::tcp(descriptor, cycle->inputCutter(), qplc::MaximumCyclicFrame));
+        cyclicChannelAttached();
+    });
+    m_cyclicSocket->connectToMaster(master);
+}
+
+void QPlcSlaveNodePrivate::cyclicChannelAttached()
+{
+    qCInfo(lcSlave).noquote() << "node" << name << "registered at" << master.toString();
+    setState(QPlcSlaveNode::Off);
+    Q_EMIT q->connectedToMaster();
+    if (m_outputsAwaited && state == QPlcSlaveNode::Off)
+        sendInitialOutputs();
+    m_outputsAwaited = false;
+}
