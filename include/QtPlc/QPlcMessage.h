@@ -43,7 +43,9 @@ public:
         SetSignals = 34,                    ///< anyone -> master: values of signals that no node writes
         Done = 35,                          ///< master -> asker: the request was carried out
         Failed = 36,                        ///< master -> asker: the request was refused, and why; the connection stays
-        NodeFault = 40                      ///< node -> master: the node cannot go on (exception in user code)
+        NodeFault = 40,                     ///< node -> master: the node cannot go on (exception in user code)
+        GetStatistics = 50,                 ///< anyone -> master: with histograms, or without
+        Statistics = 51                     ///< master -> asker: durations, counters and worst cycles
     };
     Q_ENUM(Kind)
 

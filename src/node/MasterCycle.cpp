@@ -14,16 +14,11 @@ constexpr std::int64_t Slice = 50'000'000;         // [ns] longest wait without 
 constexpr std::int64_t ContinueAfter = 1'000'000;  // [ns] a stream that was full is offered the rest
 constexpr std::int64_t ResendAfter = 20'000'000;   // [ns] a request that must be answered is sent again
 
-template<typename Integer>
-void count(std::atomic<Integer> &counter, Integer n = 1) noexcept
-{
-    counter.store(counter.load(std::memory_order_relaxed) + n, std::memory_order_relaxed);  // one writer
-}
-
 }  // namespace
 
-MasterCycle::MasterCycle(const QPlcSignalTable &table, CyclicHub &hub, bool tapFrames)
-    : m_image(table)
+MasterCycle::MasterCycle(const QPlcSignalTable &table, CyclicHub &hub, bool tapFrames, TimeSource &time)
+    : m_time(time)
+    , m_image(table)
     , m_hub(hub)
     , m_reports(tapFrames)
     , m_snapshot(m_image.size())
@@ -46,15 +41,15 @@ bool MasterCycle::start(const Phase &phase)
     m_stop = false;
     clearStatistics();
     const double nanoseconds = double(phase.period.count());
-    m_clock.emplace(m_time, phase.clock.isLockstep() ? 0 : std::int64_t(nanoseconds / phase.clock.scale()));
+    m_clock.emplace(m_time, phase.clock.isLockstep() ? 0 : std::int64_t(nanoseconds / phase.clock.scale()),
+                    phase.overrunPolicy);
     m_wallStart = phase.clock.isLockstep() ? 0 : wallClockNow();
     m_number = 0;
-    m_workload = 0;
     for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
         slot->decoder.restart(m_cycleZero);
         slot->faulted = false;
         if (slot->local)
-            slot->local->setLockstep(phase.clock.isLockstep());
+            slot->local->setLockstep(phase.clock.isLockstep(), m_time);
     }
     m_snapshot.publish(m_image.data(), 0);
     return m_thread.start(QStringLiteral("qtplc-master"), phase.realTimeOptions, [this] { run(); });
@@ -73,16 +68,11 @@ void MasterCycle::stop()
 
 void MasterCycle::clearStatistics()
 {
-    for (std::atomic<std::uint64_t> *counter :
-         {&m_cycle, &m_cycles, &m_overruns, &m_skipped, &m_lateAnswers, &m_strangers, &m_digest})
-        counter->store(0);
-    m_strangersBefore = m_hub.strangers();
-    m_lateness.clear();
-    m_roundTrips.clear();
-    for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
-        for (std::atomic<quint64> *counter : {&slot->lateAnswers, &slot->duplicates, &slot->rejected, &slot->resent})
-            counter->store(0);
-    }
+    m_cycle = 0;
+    m_digest = 0;
+    m_statistics.restart(m_phase.clock.isLockstep(), m_hub.strangers());
+    for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes)
+        slot->statistics.clear();
 }
 
 void MasterCycle::setRoster(const Roster &roster)
@@ -97,7 +87,7 @@ void MasterCycle::setRoster(const Roster &roster)
     }
     for (const std::shared_ptr<NodeSlot> &slot : roster.nodes) {
         if (slot->local)
-            slot->local->setLockstep(m_phase.clock.isLockstep());
+            slot->local->setLockstep(m_phase.clock.isLockstep(), m_time);
     }
     delete m_pendingRoster.exchange(copy.release());  // one that was never adopted belongs to nobody else
 }
@@ -151,18 +141,7 @@ QByteArray MasterCycle::gather(const std::vector<CopyRun> &runs, quint32 size) c
 
 QPlcMasterStatistics MasterCycle::statistics() const
 {
-    QPlcMasterStatistics statistics;
-    statistics.cycles = m_cycles;
-    statistics.overruns = m_overruns;
-    statistics.skippedCycles = m_skipped;
-    statistics.lateAnswers = m_lateAnswers;
-    statistics.strangers = m_strangers;
-    statistics.latenessMedian = m_lateness.quantile(0.5);
-    statistics.lateness99 = m_lateness.quantile(0.99);
-    statistics.latenessMaximum = m_lateness.maximum();
-    statistics.roundTripMedian = m_roundTrips.quantile(0.5);
-    statistics.roundTrip99 = m_roundTrips.quantile(0.99);
-    statistics.roundTripMaximum = m_roundTrips.maximum();
+    QPlcMasterStatistics statistics = m_statistics.summary();
     statistics.imageDigest = m_digest;
     return statistics;
 }
@@ -177,6 +156,10 @@ void MasterCycle::run() noexcept
         const CycleClock::Tick tick = m_clock->next(shouldStop);
         if (tick.interrupted || isBeyondLimit(tick.cycle))
             break;
+        if (tick.stopped) {
+            m_reports.post({CycleEvent::Overrun, 0, 0, tick.cycle, tick.lateness});
+            break;
+        }
         runCycle(tick);
         if (isBeyondLimit(m_number + 1))
             break;
@@ -188,15 +171,18 @@ void MasterCycle::run() noexcept
 void MasterCycle::runCycle(const CycleClock::Tick &tick) noexcept
 {
     m_number = tick.cycle;
-    m_woken = now();
-    m_waited = 0;
-    m_roundTrip = 0;
+    m_statistics.begin(tick, m_clock->period());
     takeCommands();
     writeOwnSignals(tick);
+    m_statistics.stageEnded(CycleStage::Commands, now());
     askNodes(tick);
+    m_statistics.stageEnded(CycleStage::Ask, now());
     stepLocalNodes();
-    if (m_anyRemote)
-        collectAnswers(m_clock->nominal(m_number + 1));
+    m_statistics.stageEnded(CycleStage::LocalNodes, now());
+    if (m_anyRemote) {
+        collectAnswers(tick.deadline);
+        m_statistics.stageEnded(CycleStage::Collect, now());
+    }
     finish();
 }
 
@@ -259,12 +245,7 @@ void MasterCycle::writeOwnSignals(const CycleClock::Tick &tick) noexcept
         QSplitPrimitive<qint64>(time).toBytes(m_image.data() + m_image.offset(m_phase.timeSignal));
     }
     writeReal(m_phase.jitterSignal, double(tick.lateness) * 1e-9);
-    writeReal(m_phase.workloadSignal, double(m_workload) * 1e-9);
-    m_lateness.record(tick.lateness);
-    if (tick.skipped > 0) {
-        count(m_overruns);
-        count(m_skipped, tick.skipped);
-    }
+    writeReal(m_phase.workloadSignal, double(m_statistics.workload()) * 1e-9);
 }
 
 void MasterCycle::askNodes(const CycleClock::Tick &tick) noexcept
@@ -275,11 +256,15 @@ void MasterCycle::askNodes(const CycleClock::Tick &tick) noexcept
         slot->request.cycle = std::uint32_t(m_cycleZero + m_number);
         slot->request.info
             = std::uint32_t(std::min<std::int64_t>(tick.lateness, std::numeric_limits<std::uint32_t>::max()));
-        if (slot->peer)
-            sendRequest(*slot, 0);
+        if (!slot->peer)
+            continue;
+        slot->statistics.asked(m_number, m_statistics.stageBegin(), m_statistics.deadline());
+        sendRequest(*slot, 0);
     }
-    if (m_anyRemote)
+    if (m_anyRemote) {
+        m_statistics.asked();
         m_hub.flush();
+    }
 }
 
 void MasterCycle::sendRequest(NodeSlot &slot, std::uint8_t flags) noexcept
@@ -324,7 +309,7 @@ void MasterCycle::resendRequests() noexcept
     for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
         if (!isAwaited(*slot) || !mustBeWaitedFor(*slot) || !slot->peer->isUdp())
             continue;
-        count(slot->resent);
+        slot->statistics.resent.add();
         sendRequest(*slot, ResentFlag);
     }
     m_hub.flush();
@@ -342,6 +327,7 @@ void MasterCycle::stepLocalNodes() noexcept
         if (!slot->computed && !slot->faulted)
             m_reports.post({CycleEvent::NodeFaulted, slot->id, 0, m_number});
         slot->faulted = !slot->computed;
+        slot->statistics.stepped(slot->local->endOfStep(), slot->local->executionTime(), m_statistics.deadline());
     }
 }
 
@@ -377,8 +363,8 @@ void MasterCycle::reportLateNodes() noexcept
     for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
         if (!isAwaited(*slot))
             continue;
-        count(slot->lateAnswers);
-        count(m_lateAnswers);
+        slot->statistics.late.add();
+        m_statistics.lateAnswers.add();
         if (slot->reports())
             m_reports.post({CycleEvent::LateAnswer, slot->id, 0, m_number});
     }
@@ -408,13 +394,13 @@ void MasterCycle::receive(std::int64_t timeout) noexcept
 {
     const std::int64_t begin = now();
     const bool arrived = m_hub.wait(timeout);
-    m_waited += now() - begin;
+    m_statistics.waited(now() - begin);
     if (!arrived)
         return;
     CyclicHub::Incoming incoming;
     while (m_hub.next(&incoming))
         takeAnswer(*static_cast<NodeSlot *>(incoming.peer->owner), incoming.frame, incoming.size);
-    m_strangers.store(m_hub.strangers() - m_strangersBefore, std::memory_order_relaxed);
+    m_statistics.setStrangers(m_hub.strangers());
     for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
         if (slot->peer && slot->peer->isClosed() && !slot->lost.exchange(true))
             m_reports.post({CycleEvent::LinkClosed, slot->id, 0, m_number});
@@ -430,17 +416,22 @@ void MasterCycle::takeAnswer(NodeSlot &slot, const char *frame, std::size_t size
     case FrameStatus::Incomplete:
         return;
     case FrameStatus::Duplicate:
+        slot.statistics.duplicated.add();
+        return;
     case FrameStatus::Old:
-        count(slot.duplicates);
+        slot.statistics.reordered.add();
         return;
     default:
-        count(slot.rejected);
+        slot.statistics.rejected.add();
         return;
     }
     // An answer to an older cycle is late and counted as such, but still newer than what the image holds.
     const bool current = slot.decoder.cycle() == m_cycleZero + m_number;
     slot.answered = slot.answered || current;
-    m_roundTrip = now() - m_woken;
+    const std::int64_t arrival = now();
+    slot.statistics.answered(slot.decoder.cycle() - m_cycleZero, arrival, slot.decoder.header().info);
+    if (current)
+        m_statistics.answered(arrival);
     const bool faulted = slot.decoder.header().flags & FaultFlag;
     if (faulted && !slot.faulted)
         m_reports.post({CycleEvent::NodeFaulted, slot.id, 0, m_number});
@@ -466,13 +457,12 @@ void MasterCycle::finish() noexcept
         if (slot->local && slot->computed)
             paste(*slot, slot->local->outputs());
     }
-    count(m_cycles);
     m_digest.store(m_image.digest(m_digest.load(std::memory_order_relaxed)), std::memory_order_relaxed);
     m_snapshot.publish(m_image.data(), m_number);
     m_cycle.store(m_number, std::memory_order_relaxed);
-    if (m_roundTrip > 0)
-        m_roundTrips.record(m_roundTrip);
-    m_workload = now() - m_woken - m_waited;
+    const std::int64_t end = now();
+    m_statistics.stageEnded(CycleStage::Finish, end);
+    m_statistics.end(end);
 }
 
 }  // namespace qplc

@@ -37,7 +37,9 @@ QPlcDistribution distributionOf(const QVector<QPlcDistribution::Bin> &bins, cons
     if (distribution.count == 0)
         return distribution;
     distribution.minimum = exact.minimum;
-    distribution.mean = double(exact.sum) / double(distribution.count);
+    // Values that were recorded while the bins were being read may be in the sum alone.
+    distribution.mean
+        = std::clamp(double(exact.sum) / double(distribution.count), double(exact.minimum), double(exact.maximum));
     distribution.p001 = quantileOf(bins, 0.001, exact.maximum);
     distribution.p01 = quantileOf(bins, 0.01, exact.maximum);
     distribution.p50 = quantileOf(bins, 0.5, exact.maximum);
