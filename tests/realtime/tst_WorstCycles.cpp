@@ -116,7 +116,7 @@ void tst_WorstCycles::clearForgetsEverything()
 
 void tst_WorstCycles::readerSeesWholeRecordsWhileTheyAreReplaced()
 {
-    constexpr std::int64_t count = 200'000;
+    constexpr std::int64_t count = 2'000'000;
     const auto worst = std::make_unique<WorstCycles>();
     std::atomic<bool> done{false};
     std::thread offering([&] {
