@@ -317,7 +317,35 @@ def example_messages():
             stages=[[dict(node="Model", phase="outputs")], [dict(node="Autopilot", phase="step")], [dict(node="Model", phase="update")]],
             links=[{"signal": "tetherSpeed", "from": "Autopilot", "to": "Model", "age": 0, "sameCycle": True},
                    {"signal": "tetherLength", "from": "Model", "to": "Autopilot", "age": 1, "sameCycle": False}])),
+        (50, "GetStatistics", {}),
+        (50, "GetStatistics", dict(histograms=True)),
+        (51, "Statistics", example_statistics()),
     ]
+
+
+def example_statistics():
+    def distribution(count, least, most, bins=None):
+        mean = (least + most) // 2 if (least + most) % 2 == 0 else (least + most) / 2
+        figures = dict(count=count, minimum=least, mean=mean, p001=least, p01=least, p50=least,
+                       p99=most, p999=most, maximum=most)
+        return dict(figures, bins=bins) if bins else figures
+
+    def duration(least, most):
+        return dict(sinceStart=distribution(12, least, most, [[least, 11], [most, 1]]), last10s=distribution(5, least, least, [[least, 5]]))
+
+    nothing = dict(sinceStart=distribution(0, 0, 0), last10s=distribution(0, 0, 0))
+    return dict(
+        master=dict(lateness=duration(5000, 80001), execution=duration(21000, 40000), roundTrip=duration(90000, 300000),
+                    slack=duration(9000000, 9900000),
+                    counters=dict(cycles=12, overruns=1, skippedCycles=2, caughtUpCycles=0, shiftedTime=0, lateAnswers=1, strangers=0)),
+        nodes=[dict(name="Winch", execution=duration(11000, 12000), roundTrip=duration(90000, 25300000), slack=duration(0, 9900000),
+                    counters=dict(answers=11, late=1, lost=0, duplicated=0, reordered=0, rejected=0, resent=0)),
+               dict(name="View", execution=nothing, roundTrip=nothing, slack=nothing,
+                    counters=dict(answers=0, late=0, lost=0, duplicated=0, reordered=0, rejected=0, resent=0))],
+        worst=[dict(cycle=7, skipped=2, lateness=80001, roundTrip=300000, execution=40000, slack=9600000,
+                    stages=[dict(name="commands", duration=1000), dict(name="ask", duration=15000),
+                            dict(name="local nodes", duration=0), dict(name="collect", duration=300000),
+                            dict(name="finish", duration=4000)])])
 
 
 def make_control():

@@ -2,12 +2,15 @@
 #pragma once
 
 #include "QPlcClock.h"
+#include "QPlcCycleStatistics.h"
 #include "QPlcMasterStatistics.h"
 #include "QPlcNodeInfo.h"
+#include "QPlcOverrunPolicy.h"
 #include "QPlcRealTimeOptions.h"
 #include "QPlcSchedule.h"
 #include "QPlcSignalTable.h"
 #include "QPlcSlaveNode.h"
+#include "QPlcStatisticFigure.h"
 #include "QPlcUnderlyingProtocol.h"
 
 #include <QtCore/QObject>
@@ -60,7 +63,7 @@ public:
         NodeError,            ///< a node was refused, got lost or failed
         InitializationError,  ///< a node did not give its initial outputs in time
         StateError,           ///< not possible in the present state
-        RealTimeError         ///< the cycle thread could not be made
+        RealTimeError         ///< the cycle thread could not be made, or an overrun with QPlcOverrunPolicy::Stop
     };
     Q_ENUM(Error)
 
@@ -79,6 +82,13 @@ public:
     bool activateJitterMeasurement(const QString &signalName);
     /// Workload [s]: time that the master itself spent on the cycle before, without waiting for answers; 0 in lockstep. Type Real32 or Real64.
     bool activateWorkloadMeasurement(const QString &signalName);
+    /// Writes one figure of the statistics into a signal: durations in s (Real32 or Real64), counters as numbers (also integers; they stay at the largest
+    /// number of their type). Updated twice a second and at the end of the phase; 0 before the first update, and always 0 in lockstep, where results must not
+    /// depend on the machine.
+    /// \param nodeName  of the node to which the figure belongs; it may register later. Empty: the master
+    /// \return false when the signal does not exist, has another type or another writer, or the figure belongs to the other kind (master, node)
+    bool activateStatisticSignal(QPlcStatisticFigure figure, const QString &signalName,
+                                 const QString &nodeName = QString());
 
     // ---- cycle ----
     /// Sets the period. Takes effect at the next start.
@@ -91,6 +101,10 @@ public:
     bool setClock(QPlcClock clock);
     QPlcClock clock() const;
     void setRealTimeOptions(const QPlcRealTimeOptions &options);
+    /// What becomes of cycles whose period is over before they could begin; SkipToGrid unless set. Takes effect at the next start; lockstep ignores it.
+    /// \return false when \a policy is not valid: error() is then IntervalError and nothing has changed
+    bool setOverrunPolicy(QPlcOverrunPolicy policy);
+    QPlcOverrunPolicy overrunPolicy() const;
     /// Ends the real-time phase by itself after \a cycles periods (skipped ones count, so that the simulated time is exact); 0: never. Takes effect at the next start.
     void setCycleLimit(quint64 cycles);
     /// Longest wait for each answer of a node during initialization and start; 2 s unless set.
@@ -124,7 +138,11 @@ public:
     Error error() const;
     /// What went wrong last, with the remedy; empty: nothing.
     QString errorString() const;
+    /// Counters and the most important durations, quick to read.
     QPlcMasterStatistics statistics() const;
+    /// All durations, counters, nodes and the worst cycles since the start of the last real-time phase. Takes some 10 us for the master and for each node; the cycle is
+    /// never disturbed.
+    QPlcCycleStatistics cycleStatistics(QPlcDistribution::Detail detail = QPlcDistribution::FiguresOnly) const;
     /// What became of the real-time options at the last start.
     QVector<QPlcRealTimeSetting> realTimeSettings() const;
     /// Number of the newest complete cycle of the real-time phase.

@@ -44,6 +44,8 @@ public:
         Done = 35,                          ///< master -> asker: the request was carried out
         Failed = 36,                        ///< master -> asker: the request was refused, and why; the connection stays
         NodeFault = 40,                     ///< node -> master: the node cannot go on (exception in user code)
+        GetStatistics = 50,                 ///< anyone -> master: with histograms, or without
+        Statistics = 51,                    ///< master -> asker: durations, counters and worst cycles
         GetSchedule = 52,                   ///< anyone -> master
         Schedule = 53                       ///< master -> asker: stages of a cycle, and the age of every link
     };

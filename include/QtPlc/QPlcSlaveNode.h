@@ -7,6 +7,7 @@
 #include "QPlcSignalIndexList.h"
 #include "QPlcSignalList.h"
 #include "QPlcSignalTable.h"
+#include "QPlcSlaveStatistics.h"
 #include "QPlcUnderlyingProtocol.h"
 
 #include <QtCore/QObject>
@@ -137,6 +138,9 @@ public:
     };
     /// \threadsafe yes
     Counters counters() const;
+    /// Durations of the cycles since the start of the real-time phase; without values for a node in the process of its master, which measures them itself
+    /// (QPlcMasterNode::cycleStatistics()).
+    QPlcSlaveStatistics statistics(QPlcDistribution::Detail detail = QPlcDistribution::FiguresOnly) const;
 
     /// Connects, registers and waits until the master has accepted. Needs no running event loop.
     /// \return false when it did not work out within \a timeout: error(), errorString() tell why

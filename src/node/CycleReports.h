@@ -22,12 +22,14 @@ struct CycleEvent
         NotFinite,         // node, signal, cycle: NaN or infinity; the values of this node were not taken
         LinkClosed,        // node: its cyclic connection is gone
         WatchdogTimedOut,  // cycle: no frame since
+        Overrun,           // cycle, duration: it is that late, and the policy is Stop
         Ended              // cycle: the cycle thread has left its loop
     };
     Kind kind = Ended;
     std::uint16_t node = 0;
     std::uint16_t signal = 0;
     std::uint64_t cycle = 0;
+    std::int64_t duration = 0;  // [ns]
 };
 
 /// A copy of a cyclic frame for the debug log.

@@ -7,21 +7,12 @@
 
 namespace qplc {
 
-namespace {
-
-template<typename Integer>
-void count(std::atomic<Integer> &counter, Integer n = 1) noexcept
-{
-    counter.store(counter.load(std::memory_order_relaxed) + n, std::memory_order_relaxed);  // one writer
-}
-
-}  // namespace
-
-MasterCycle::MasterCycle(const QPlcSignalTable &table, CyclicHub &hub, bool tapFrames)
-    : m_image(table)
+MasterCycle::MasterCycle(const QPlcSignalTable &table, CyclicHub &hub, bool tapFrames, TimeSource &time)
+    : m_time(time)
+    , m_image(table)
     , m_hub(hub)
     , m_reports(tapFrames)
-    , m_exchange(m_image, m_hub, m_reports, m_stop)
+    , m_exchange(m_image, m_hub, m_reports, m_statistics, m_time, m_stop)
     , m_snapshot(m_image.size())
     , m_roster(std::make_unique<Roster>())
 {
@@ -42,15 +33,15 @@ bool MasterCycle::start(const Phase &phase)
     m_stop = false;
     clearStatistics();
     const double nanoseconds = double(phase.period.count());
-    m_clock.emplace(m_time, phase.clock.isLockstep() ? 0 : std::int64_t(nanoseconds / phase.clock.scale()));
+    m_clock.emplace(m_time, phase.clock.isLockstep() ? 0 : std::int64_t(nanoseconds / phase.clock.scale()),
+                    phase.overrunPolicy);
     m_wallStart = phase.clock.isLockstep() ? 0 : wallClockNow();
     m_number = 0;
-    m_workload = 0;
     for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
         slot->decoder.restart(m_cycleZero);
         slot->faulted = slot->pending = false;
         if (slot->local)
-            slot->local->setLockstep(phase.clock.isLockstep());
+            slot->local->setLockstep(phase.clock.isLockstep(), m_time);
     }
     m_exchange.start(*m_clock, phase.period, phase.clock, m_cycleZero);
     m_snapshot.publish(m_image.data(), 0);
@@ -70,14 +61,11 @@ void MasterCycle::stop()
 
 void MasterCycle::clearStatistics()
 {
-    for (std::atomic<std::uint64_t> *counter : {&m_cycle, &m_cycles, &m_overruns, &m_skipped, &m_digest})
-        counter->store(0);
-    m_lateness.clear();
-    m_roundTrips.clear();
-    for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
-        for (std::atomic<quint64> *counter : {&slot->lateAnswers, &slot->duplicates, &slot->rejected, &slot->resent})
-            counter->store(0);
-    }
+    m_cycle = 0;
+    m_digest = 0;
+    m_statistics.restart(m_phase.clock.isLockstep(), m_hub.strangers());
+    for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes)
+        slot->statistics.clear();
 }
 
 void MasterCycle::setRoster(const Roster &roster)
@@ -93,7 +81,7 @@ void MasterCycle::setRoster(const Roster &roster)
     }
     for (const std::shared_ptr<NodeSlot> &slot : roster.nodes) {
         if (slot->local)
-            slot->local->setLockstep(m_phase.clock.isLockstep());
+            slot->local->setLockstep(m_phase.clock.isLockstep(), m_time);
     }
     delete m_pendingRoster.exchange(copy.release());  // one that was never adopted belongs to nobody else
 }
@@ -147,18 +135,7 @@ QByteArray MasterCycle::gather(const std::vector<CopyRun> &runs, quint32 size) c
 
 QPlcMasterStatistics MasterCycle::statistics() const
 {
-    QPlcMasterStatistics statistics;
-    statistics.cycles = m_cycles;
-    statistics.overruns = m_overruns;
-    statistics.skippedCycles = m_skipped;
-    statistics.lateAnswers = m_exchange.lateAnswers();
-    statistics.strangers = m_exchange.strangers();
-    statistics.latenessMedian = m_lateness.quantile(0.5);
-    statistics.lateness99 = m_lateness.quantile(0.99);
-    statistics.latenessMaximum = m_lateness.maximum();
-    statistics.roundTripMedian = m_roundTrips.quantile(0.5);
-    statistics.roundTrip99 = m_roundTrips.quantile(0.99);
-    statistics.roundTripMaximum = m_roundTrips.maximum();
+    QPlcMasterStatistics statistics = m_statistics.summary();
     statistics.imageDigest = m_digest;
     return statistics;
 }
@@ -173,6 +150,10 @@ void MasterCycle::run() noexcept
         const CycleClock::Tick tick = m_clock->next(shouldStop);
         if (tick.interrupted || isBeyondLimit(tick.cycle))
             break;
+        if (tick.stopped) {
+            m_reports.post({CycleEvent::Overrun, 0, 0, tick.cycle, tick.lateness});
+            break;
+        }
         runCycle(tick);
         if (isBeyondLimit(m_number + 1))
             break;
@@ -184,10 +165,11 @@ void MasterCycle::run() noexcept
 void MasterCycle::runCycle(const CycleClock::Tick &tick) noexcept
 {
     m_number = tick.cycle;
-    m_woken = now();
+    m_statistics.begin(tick, m_clock->period());
     takeCommands();
     writeOwnSignals(tick);
-    m_exchange.run(*m_roster, {m_number, tick.lateness, m_woken});
+    m_statistics.stageEnded(CycleStage::Commands, now());
+    m_exchange.run(*m_roster, {m_number, tick.lateness, tick.deadline});
     finish();
 }
 
@@ -248,23 +230,17 @@ void MasterCycle::writeOwnSignals(const CycleClock::Tick &tick) noexcept
         QSplitPrimitive<qint64>(time).toBytes(m_image.data() + m_image.offset(m_phase.timeSignal));
     }
     writeReal(m_phase.jitterSignal, double(tick.lateness) * 1e-9);
-    writeReal(m_phase.workloadSignal, double(m_workload) * 1e-9);
-    m_lateness.record(tick.lateness);
-    if (tick.skipped > 0) {
-        count(m_overruns);
-        count(m_skipped, tick.skipped);
-    }
+    writeReal(m_phase.workloadSignal, double(m_statistics.workload()) * 1e-9);
 }
 
 void MasterCycle::finish() noexcept
 {
-    count(m_cycles);
     m_digest.store(m_image.digest(m_digest.load(std::memory_order_relaxed)), std::memory_order_relaxed);
     m_snapshot.publish(m_image.data(), m_number);
     m_cycle.store(m_number, std::memory_order_relaxed);
-    if (m_exchange.roundTrip() > 0)
-        m_roundTrips.record(m_exchange.roundTrip());
-    m_workload = now() - m_woken - m_exchange.waited();
+    const std::int64_t end = now();
+    m_statistics.stageEnded(CycleStage::Finish, end);
+    m_statistics.end(end);
 }
 
 }  // namespace qplc

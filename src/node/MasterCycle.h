@@ -2,13 +2,13 @@
 #pragma once
 
 #include "CycleReports.h"
+#include "CycleStatistics.h"
 #include "NodeExchange.h"
 #include "NodeSlot.h"
 #include "QPlcClock.h"
-#include "QPlcMasterStatistics.h"
+#include "QPlcOverrunPolicy.h"
 #include "realtime/CycleClock.h"
 #include "realtime/CycleThread.h"
-#include "realtime/Histogram.h"
 #include "realtime/SnapshotBuffer.h"
 #include "signals/ProcessImage.h"
 #include "transport/CyclicHub.h"
@@ -36,14 +36,16 @@ public:
     {
         std::chrono::nanoseconds period{0};
         QPlcClock clock;
-        std::uint64_t cycleLimit = 0;  // first number that is not computed; 0: none
+        QPlcOverrunPolicy overrunPolicy;  // but for lockstep
+        std::uint64_t cycleLimit = 0;     // first number that is not computed; 0: none
         QPlcSignalIndex timeSignal = QPlcInvalidSignalIndex;
         QPlcSignalIndex jitterSignal = QPlcInvalidSignalIndex;
         QPlcSignalIndex workloadSignal = QPlcInvalidSignalIndex;
         QPlcRealTimeOptions realTimeOptions;
     };
 
-    MasterCycle(const QPlcSignalTable &table, CyclicHub &hub, bool tapFrames);
+    MasterCycle(const QPlcSignalTable &table, CyclicHub &hub, bool tapFrames,
+                TimeSource &time = TimeSource::monotonic());
     ~MasterCycle();
 
     /// The values while no cycle runs.
@@ -57,6 +59,8 @@ public:
     void stop();
     bool isRunning() const { return m_thread.isRunning(); }
     QString errorString() const { return m_thread.errorString(); }
+    /// Time between two cycles on the clock of the machine [ns]; 0 in lockstep.
+    std::int64_t period() const { return m_clock ? m_clock->period() : 0; }
     const QVector<QPlcRealTimeSetting> &realTimeSettings() const { return m_thread.settings(); }
 
     /// Gives the nodes of the cycles from the next one on; also while cycles run.
@@ -75,6 +79,7 @@ public:
     /// Number of the newest complete cycle, from 0; also while cycles run.
     std::uint64_t cycle() const { return m_cycle.load(std::memory_order_relaxed); }
     QPlcMasterStatistics statistics() const;
+    const CycleStatistics &cycleStatistics() const { return m_statistics; }
     CycleReports &reports() { return m_reports; }
 
 private:
@@ -99,7 +104,7 @@ private:
     void clearStatistics();
     void freeRetired();
 
-    TimeSource &m_time = TimeSource::monotonic();
+    TimeSource &m_time;
     ProcessImage m_image;
     CyclicHub &m_hub;
     CycleThread m_thread;
@@ -120,17 +125,11 @@ private:
     std::uint64_t m_cycleZero = 0;
     std::uint64_t m_number = 0;    // of the cycle in progress, from 0
     std::int64_t m_wallStart = 0;  // [ns since 1970]
-    std::int64_t m_woken = 0;      // [ns] when the cycle in progress began
-    std::int64_t m_workload = 0;   // [ns] of the cycle before
 
-    // statistics
+    // both
     std::atomic<std::uint64_t> m_cycle{0};
-    std::atomic<std::uint64_t> m_cycles{0};
-    std::atomic<std::uint64_t> m_overruns{0};
-    std::atomic<std::uint64_t> m_skipped{0};
     std::atomic<std::uint64_t> m_digest{0};
-    Histogram m_lateness;
-    Histogram m_roundTrips;
+    CycleStatistics m_statistics;
 };
 
 }  // namespace qplc

@@ -78,6 +78,7 @@ void QPlcMasterNodePrivate::continueSequence(Connection *connection, const Messa
 
 void QPlcMasterNodePrivate::collectOutputs()
 {
+    statisticSignals.reset(cycle.get());
     m_participants.clear();
     for (const std::unique_ptr<Connection> &connection : server->connections()) {
         if (connection->isAttached())
@@ -265,6 +266,7 @@ void QPlcMasterNodePrivate::startCycles()
     qplc::MasterCycle::Phase phase;
     phase.period = interval;
     phase.clock = clock;
+    phase.overrunPolicy = overrunPolicy;
     phase.cycleLimit = m_cyclesWanted > 0 ? m_cyclesWanted : cycleLimit;
     phase.timeSignal = timeSignal;
     phase.jitterSignal = jitterSignal;
@@ -281,6 +283,7 @@ void QPlcMasterNodePrivate::startCycles()
             qCWarning(lcMaster).noquote() << setting.toString();
     }
     m_participants.clear();
+    statisticSignals.start(cycle.get(), registry.get(), clock.isLockstep());
     setState(QPlcMasterNode::RealTime);
     for (const std::shared_ptr<NodeSlot> &slot : registry->nodes()) {
         if (!slot->local)
@@ -318,6 +321,7 @@ void QPlcMasterNodePrivate::stop(const QString &reason)
     if (!isRunning())
         return;
     cycle->stop();
+    statisticSignals.stop();
     m_initialized = false;
     setState(QPlcMasterNode::Off);
     for (const std::unique_ptr<Connection> &connection : server->connections()) {

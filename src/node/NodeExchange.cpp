@@ -12,18 +12,15 @@ constexpr std::int64_t Slice = 50'000'000;         // [ns] longest wait without 
 constexpr std::int64_t ContinueAfter = 1'000'000;  // [ns] a stream that was full is offered the rest
 constexpr std::int64_t ResendAfter = 20'000'000;   // [ns] a request that must be answered is sent again
 
-template<typename Integer>
-void count(std::atomic<Integer> &counter) noexcept
-{
-    counter.store(counter.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);  // one writer
-}
-
 }  // namespace
 
-NodeExchange::NodeExchange(ProcessImage &image, CyclicHub &hub, CycleReports &reports, const std::atomic<bool> &stop)
+NodeExchange::NodeExchange(ProcessImage &image, CyclicHub &hub, CycleReports &reports, CycleStatistics &statistics,
+                           TimeSource &time, const std::atomic<bool> &stop)
     : m_image(image)
     , m_hub(hub)
     , m_reports(reports)
+    , m_statistics(statistics)
+    , m_time(time)
     , m_stop(stop)
 {
 }
@@ -34,9 +31,6 @@ void NodeExchange::start(CycleClock &grid, std::chrono::nanoseconds period, QPlc
     m_period = period;
     m_isLockstep = clock.isLockstep();
     m_cycleZero = cycleZero;
-    m_lateAnswers = 0;
-    m_strangers = 0;
-    m_strangersBefore = m_hub.strangers();
 }
 
 /// Everything that nodes and master exchange in a cycle stands here, in order.
@@ -44,15 +38,17 @@ void NodeExchange::run(const Roster &roster, const Cycle &cycle) noexcept
 {
     m_roster = &roster;
     m_cycle = cycle;
-    m_waited = 0;
-    m_roundTrip = 0;
     cutInputs();
     pasteKnownOutputs();
     for (std::size_t i = 0; i < roster.stages.size(); ++i) {
         const Stage &stage = roster.stages[i];
         askNodes(stage);
+        m_statistics.stageEnded(CycleStage::Ask, now());
         stepLocalNodes(stage);
+        m_statistics.stageEnded(CycleStage::LocalNodes, now());
         const bool complete = !roster.anyRemote || collectAnswers(i);
+        if (roster.anyRemote)
+            m_statistics.stageEnded(CycleStage::Collect, now());
         pasteLocalNodes(stage);
         if (!complete)
             return;
@@ -92,10 +88,13 @@ void NodeExchange::askNodes(const Stage &stage) noexcept
             continue;
         slot.asked = true;
         slot.awaited = turn.feedsLaterStage && !slot.listener;
+        slot.statistics.asked(m_cycle.number, m_statistics.stageBegin(), m_statistics.deadline());
         sendRequest(slot, 0);
     }
-    if (m_roster->anyRemote)
+    if (m_roster->anyRemote) {
+        m_statistics.asked();
         m_hub.flush();
+    }
 }
 
 void NodeExchange::sendRequest(NodeSlot &slot, std::uint8_t flags) noexcept
@@ -141,7 +140,7 @@ void NodeExchange::resendRequests() noexcept
     for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
         if (!isAwaited(*slot) || !mustBeWaitedFor(*slot) || !slot->peer->isUdp())
             continue;
-        count(slot->resent);
+        slot->statistics.resent.add();
         sendRequest(*slot, ResentFlag);
     }
     m_hub.flush();
@@ -160,6 +159,7 @@ void NodeExchange::stepLocalNodes(const Stage &stage) noexcept
         if (!slot.computed && !slot.faulted)
             m_reports.post({CycleEvent::NodeFaulted, slot.id, 0, m_cycle.number});
         slot.faulted = !slot.computed;
+        slot.statistics.stepped(slot.local->endOfStep(), slot.local->executionTime(), m_statistics.deadline());
     }
 }
 
@@ -168,8 +168,8 @@ void NodeExchange::stepLocalNodes(const Stage &stage) noexcept
 /// End of the time for \a stage [ns]: the stages share the period equally, and what one of them does not need is left to the next ones.
 std::int64_t NodeExchange::deadline(std::size_t stage) const noexcept
 {
-    return m_grid->nominal(m_cycle.number)
-        + m_grid->period() * std::int64_t(stage + 1) / std::int64_t(m_roster->stages.size());
+    const auto stages = std::int64_t(m_roster->stages.size());
+    return m_cycle.deadline - m_grid->period() * (stages - std::int64_t(stage + 1)) / stages;
 }
 
 /// At the end of the cycle all answers are of interest.
@@ -218,8 +218,8 @@ void NodeExchange::reportLateNodes() noexcept
         if (!isAwaited(*slot) || slot->late)
             continue;
         slot->late = true;
-        count(slot->lateAnswers);
-        count(m_lateAnswers);
+        slot->statistics.late.add();
+        m_statistics.lateAnswers.add();
         if (slot->reports())
             m_reports.post({CycleEvent::LateAnswer, slot->id, 0, m_cycle.number});
     }
@@ -248,13 +248,13 @@ void NodeExchange::receive(std::int64_t timeout) noexcept
 {
     const std::int64_t begin = now();
     const bool arrived = m_hub.wait(timeout);
-    m_waited += now() - begin;
+    m_statistics.waited(now() - begin);
     if (!arrived)
         return;
     CyclicHub::Incoming incoming;
     while (m_hub.next(&incoming))
         takeAnswer(*static_cast<NodeSlot *>(incoming.peer->owner), incoming.frame, incoming.size);
-    m_strangers.store(m_hub.strangers() - m_strangersBefore, std::memory_order_relaxed);
+    m_statistics.setStrangers(m_hub.strangers());
     for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
         if (slot->peer && slot->peer->isClosed() && !slot->lost.exchange(true))
             m_reports.post({CycleEvent::LinkClosed, slot->id, 0, m_cycle.number});
@@ -270,17 +270,22 @@ void NodeExchange::takeAnswer(NodeSlot &slot, const char *frame, std::size_t siz
     case FrameStatus::Incomplete:
         return;
     case FrameStatus::Duplicate:
+        slot.statistics.duplicated.add();
+        return;
     case FrameStatus::Old:
-        count(slot.duplicates);
+        slot.statistics.reordered.add();
         return;
     default:
-        count(slot.rejected);
+        slot.statistics.rejected.add();
         return;
     }
     // An answer to an older cycle is late and counted as such, but still newer than what the image holds.
     const bool current = slot.decoder.cycle() == m_cycleZero + m_cycle.number;
     slot.answered = slot.answered || current;
-    m_roundTrip = now() - m_cycle.woken;
+    const std::int64_t arrival = now();
+    slot.statistics.answered(slot.decoder.cycle() - m_cycleZero, arrival, slot.decoder.header().info);
+    if (current)
+        m_statistics.answered(arrival);
     const bool faulted = slot.decoder.header().flags & FaultFlag;
     if (faulted && !slot.faulted)
         m_reports.post({CycleEvent::NodeFaulted, slot.id, 0, m_cycle.number});

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "CycleReports.h"
+#include "CycleStatistics.h"
 #include "QPlcClock.h"
 #include "Roster.h"
 #include "realtime/CycleClock.h"
@@ -17,7 +18,7 @@ namespace qplc {
 /// node begins. A stage begins when those nodes of the stages before it have answered whose outputs are read in this cycle; for all others the master waits
 /// at the end only.
 ///
-/// Used by the cycle thread; counters from anywhere.
+/// Used by the cycle thread.
 class NodeExchange
 {
 public:
@@ -25,24 +26,17 @@ public:
     {
         std::uint64_t number = 0;   // from 0
         std::int64_t lateness = 0;  // [ns] of its begin
-        std::int64_t woken = 0;     // [ns] when it began
+        std::int64_t deadline = 0;  // [ns] of its answers
     };
 
     /// All of them outlive this object. \param stop  ends every waiting
-    NodeExchange(ProcessImage &image, CyclicHub &hub, CycleReports &reports, const std::atomic<bool> &stop);
+    NodeExchange(ProcessImage &image, CyclicHub &hub, CycleReports &reports, CycleStatistics &statistics,
+                 TimeSource &time, const std::atomic<bool> &stop);
 
     /// Before a phase. \param grid  of the cycles; time that stands still shifts it
     void start(CycleClock &grid, std::chrono::nanoseconds period, QPlcClock clock, std::uint64_t cycleZero);
     /// One cycle with all nodes of \a roster.
     void run(const Roster &roster, const Cycle &cycle) noexcept;
-    /// Spent waiting in the last cycle [ns].
-    std::int64_t waited() const { return m_waited; }
-    /// From the begin of the last cycle until its last answer [ns]; 0: there was none.
-    std::int64_t roundTrip() const { return m_roundTrip; }
-
-    // since start()
-    std::uint64_t lateAnswers() const { return m_lateAnswers; }
-    std::uint64_t strangers() const { return m_strangers; }
 
 private:
     using Stage = std::vector<Roster::Turn>;
@@ -77,10 +71,11 @@ private:
     bool isAwaited(const NodeSlot &slot) const noexcept { return slot.awaited && isUnanswered(slot); }
     std::int64_t now() noexcept { return m_isLockstep ? 0 : m_time.now(); }
 
-    TimeSource &m_time = TimeSource::monotonic();
     ProcessImage &m_image;
     CyclicHub &m_hub;
     CycleReports &m_reports;
+    CycleStatistics &m_statistics;
+    TimeSource &m_time;
     const std::atomic<bool> &m_stop;
 
     // of the phase
@@ -92,12 +87,6 @@ private:
     // of the cycle
     const Roster *m_roster = nullptr;
     Cycle m_cycle;
-    std::int64_t m_waited = 0;
-    std::int64_t m_roundTrip = 0;
-
-    std::atomic<std::uint64_t> m_lateAnswers{0};
-    std::atomic<std::uint64_t> m_strangers{0};
-    std::uint64_t m_strangersBefore = 0;
 };
 
 }  // namespace qplc

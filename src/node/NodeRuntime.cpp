@@ -137,21 +137,29 @@ void NodeRuntime::stopped()
 
 bool NodeRuntime::step(const QPlcCycle &cycle, const char *inputs) noexcept
 {
-    const std::int64_t begin = m_lockstep ? 0 : TimeSource::monotonic().now();
+    const std::int64_t begin = now();
     m_cycle = cycle;
     try {
         m_node.stepFrame(cycle, inputs, m_scratch.data());
     } catch (const std::exception &thrown) {
         setFault(thrown.what());
+        measure(begin);
         return false;
     } catch (...) {
         setFault("an exception that is not derived from std::exception");
+        measure(begin);
         return false;
     }
-    m_executionTime = m_lockstep ? 0 : TimeSource::monotonic().now() - begin;
+    measure(begin);
     writeWorkload(m_executionTime);
     m_outputs = m_scratch;
     return true;
+}
+
+void NodeRuntime::measure(std::int64_t begin) noexcept
+{
+    m_endOfStep = now();
+    m_executionTime = m_endOfStep - begin;
 }
 
 void NodeRuntime::writeWorkload(std::int64_t duration)

@@ -38,12 +38,14 @@ public:
     void stopped();
 
     /// In lockstep no clock is read and the workload is 0.
-    void setLockstep(bool lockstep) { m_lockstep = lockstep; }
+    void setLockstep(bool lockstep, TimeSource &time = TimeSource::monotonic()) { m_time = lockstep ? nullptr : &time; }
     /// One cycle. \return false when the code of the node threw: outputs() are then those of the cycle before
     bool step(const QPlcCycle &cycle, const char *inputs) noexcept;
     const char *outputs() const { return m_outputs.data(); }
-    /// Duration of the last step [ns].
+    /// Duration of the last step, the code of the node alone [ns].
     std::int64_t executionTime() const { return m_executionTime; }
+    /// When the last step ended on the clock [ns]; 0 in lockstep.
+    std::int64_t endOfStep() const { return m_endOfStep; }
     const QPlcCycle &cycle() const { return m_cycle; }
     /// What the code threw first since reset(), null-terminated.
     const char *faultText() const { return m_faultText.data(); }
@@ -55,6 +57,8 @@ public:
 
 private:
     void bindWorkloadSignal(QVector<QPlcSignalIndex> *outputs, QStringList *errors);
+    std::int64_t now() noexcept { return m_time ? m_time->now() : 0; }
+    void measure(std::int64_t begin) noexcept;
     void writeWorkload(std::int64_t duration);
     void setFault(const char *text) noexcept;
 
@@ -67,9 +71,10 @@ private:
     std::vector<char> m_scratch;  // being computed
     QString m_workloadSignal;
     const PayloadLayout::Field *m_workload = nullptr;
-    bool m_lockstep = false;
+    TimeSource *m_time = &TimeSource::monotonic();  // null: lockstep
     QPlcCycle m_cycle;
     std::int64_t m_executionTime = 0;
+    std::int64_t m_endOfStep = 0;
     std::array<char, 256> m_faultText{};
 };
 

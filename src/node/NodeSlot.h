@@ -2,8 +2,8 @@
 #pragma once
 
 #include "NodeRuntime.h"
+#include "NodeStatistics.h"
 #include "protocol/CyclicFrame.h"
-#include "realtime/Histogram.h"
 #include "signals/ProcessImage.h"
 #include "transport/CyclicHub.h"
 
@@ -52,10 +52,7 @@ struct NodeSlot
 
     // ---- both ----
     std::atomic<bool> lost{false};  // its connection is gone: not to be waited for
-    std::atomic<quint64> lateAnswers{0};
-    std::atomic<quint64> duplicates{0};
-    std::atomic<quint64> rejected{0};
-    std::atomic<quint64> resent{0};
+    NodeStatistics statistics;
 
     bool isRequestSent() const { return partsSent == encoder.partCount() && !peer->hasRest(); }
     bool waits() const { return policy == QPlcSlaveNode::SilentWait || policy == QPlcSlaveNode::ErrorWait; }

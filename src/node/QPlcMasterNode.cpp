@@ -64,6 +64,12 @@ bool QPlcMasterNode::activateWorkloadMeasurement(const QString &signalName)
     return d->claimSignal(signalName, &d->workloadSignal, &isSingleReal, QStringLiteral("Real"));
 }
 
+bool QPlcMasterNode::activateStatisticSignal(QPlcStatisticFigure figure, const QString &signalName,
+                                             const QString &nodeName)
+{
+    return d->activateStatisticSignal(figure, signalName, nodeName);
+}
+
 bool QPlcMasterNode::setInterval(std::chrono::nanoseconds period)
 {
     if (period < 100us || period > 10s)
@@ -98,6 +104,22 @@ QPlcClock QPlcMasterNode::clock() const
 void QPlcMasterNode::setRealTimeOptions(const QPlcRealTimeOptions &options)
 {
     d->realTimeOptions = options;
+}
+
+bool QPlcMasterNode::setOverrunPolicy(QPlcOverrunPolicy policy)
+{
+    if (!policy.isValid())
+        return d->setError(IntervalError,
+                           QStringLiteral("catching up %1 cycles is out of range; use 1 ... %2")
+                               .arg(policy.catchUpCycles())
+                               .arg(QPlcOverrunPolicy::MaximumCatchUp));
+    d->overrunPolicy = policy;
+    return true;
+}
+
+QPlcOverrunPolicy QPlcMasterNode::overrunPolicy() const
+{
+    return d->overrunPolicy;
 }
 
 void QPlcMasterNode::setCycleLimit(quint64 cycles)
@@ -190,6 +212,11 @@ QString QPlcMasterNode::errorString() const
 QPlcMasterStatistics QPlcMasterNode::statistics() const
 {
     return d->cycle ? d->cycle->statistics() : QPlcMasterStatistics();
+}
+
+QPlcCycleStatistics QPlcMasterNode::cycleStatistics(QPlcDistribution::Detail detail) const
+{
+    return d->cycleStatistics(detail);
 }
 
 QVector<QPlcRealTimeSetting> QPlcMasterNode::realTimeSettings() const

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "QPlcMasterNodePrivate.h"
 
-#include "FrameLog.h"
 #include "Logging.h"
 #include "MasterReplies.h"
 #include "QPlcSignalIndexTable.h"
@@ -17,7 +16,6 @@
 #include <algorithm>
 
 using Message = QPlcMessage;
-using qplc::CycleEvent;
 using qplc::NodeSlot;
 
 namespace {
@@ -253,6 +251,9 @@ void QPlcMasterNodePrivate::receiveCommand(Connection *connection, const Message
             connection->fail(QStringLiteral("TooLong"),
                              QStringLiteral("too many signals for one answer; ask for some of them by name"));
         break;
+    case Message::GetStatistics:
+        sendStatistics(connection, message);
+        break;
     case Message::SetSignals:
         setSignals(connection, message);
         break;
@@ -377,106 +378,6 @@ bool QPlcMasterNodePrivate::setSignalValue(const QString &name, const QPlcValue 
     return true;
 }
 
-// ---- what the cycle thread reports ----
-
-QString QPlcMasterNodePrivate::nodeName(quint16 id) const
-{
-    const std::shared_ptr<NodeSlot> slot = registry->find(id);
-    return slot ? slot->name : QStringLiteral("number %1").arg(id);
-}
-
-void QPlcMasterNodePrivate::takeReports()
-{
-    cycle->reports().take(
-        [this](const CycleEvent &event) { report(event); },
-        [](const qplc::TappedFrame &frame) { qplc::logFrame(qplc::NodeRegistry::masterName(), frame); });
-}
-
-void QPlcMasterNodePrivate::report(const CycleEvent &event)
-{
-    switch (event.kind) {
-    case CycleEvent::LateAnswer:
-        logLateAnswer(event);
-        Q_EMIT q->realTimeViolated(nodeName(event.node), event.cycle);
-        break;
-    case CycleEvent::WaitingForNode:
-        setState(isRunning() ? QPlcMasterNode::WaitingForLateSlaves : state);
-        break;
-    case CycleEvent::WaitingEnded:
-        setState(isRunning() ? QPlcMasterNode::RealTime : state);
-        break;
-    case CycleEvent::NotFinite:
-        fault(QStringLiteral("node '%1': signal '%2' is not a finite number in cycle %3")
-                  .arg(nodeName(event.node), table.at(event.signal).name)
-                  .arg(event.cycle));
-        break;
-    case CycleEvent::NodeFaulted: {
-        const std::shared_ptr<NodeSlot> slot = registry->find(event.node);
-        const QString what = slot && slot->local ? QString::fromLocal8Bit(slot->local->faultText())
-                                                 : QStringLiteral("its code failed");
-        fault(QStringLiteral("node '%1' in cycle %2: %3").arg(nodeName(event.node)).arg(event.cycle).arg(what));
-        break;
-    }
-    case CycleEvent::LinkClosed:
-        if (const std::shared_ptr<NodeSlot> slot = registry->find(event.node)) {
-            if (Connection *connection = server->connectionOf(slot.get()))
-                server->drop(connection, QStringLiteral("its cyclic connection was closed"));
-        }
-        break;
-    case CycleEvent::Ended:
-        if (isRunning() && cycleLimit + m_cyclesWanted > 0)
-            stop(QStringLiteral("the cycle limit was reached"));
-        break;
-    case CycleEvent::WatchdogTimedOut:
-        break;
-    }
-}
-
-/// The first late answer of a node is told at once, further ones at most once a second.
-void QPlcMasterNodePrivate::logLateAnswer(const CycleEvent &event)
-{
-    constexpr std::int64_t pause = 1'000'000'000;  // [ns]
-    LateLog &log = m_lateLogs[event.node];
-    ++log.untold;
-    const std::int64_t now = qplc::TimeSource::monotonic().now();
-    if (now < log.quietUntil)
-        return;
-    qCWarning(lcMaster).noquote() << "node" << nodeName(event.node) << "was late in cycle" << event.cycle
-                                  << (log.untold > 1
-                                          ? QStringLiteral("(and %1 times since the last report)").arg(log.untold - 1)
-                                          : QString());
-    log = {now + pause, 0};
-}
-
-/// A node cannot go on: the plant stops. What follows from the first fault is its echo and says nothing new.
-void QPlcMasterNodePrivate::fault(const QString &text)
-{
-    if (m_step != Step::None) {
-        abortSequence(text);
-    } else if (isRunning()) {
-        setError(QPlcMasterNode::NodeError, text);
-        stop(text);
-    }
-}
-
-void QPlcMasterNodePrivate::nodeLost(Connection *connection, const QString &reason)
-{
-    const bool isMissed = connection->stage > Connection::Attached && !connection->slot->listener;
-    if (isMissed)
-        qCWarning(lcMaster).noquote() << "node" << connection->name << "is gone in the middle of its work:" << reason;
-    else
-        qCInfo(lcMaster).noquote() << "node" << connection->name << "has left:" << reason;
-    const auto participant = std::find(m_participants.begin(), m_participants.end(), connection);
-    const bool wasAwaited = m_step != Step::None && participant != m_participants.end();
-    if (participant != m_participants.end())
-        m_participants.erase(participant);
-    if (connection->stage == Connection::Running)
-        giveRoster();
-    Q_EMIT q->nodeLost(connection->name, reason);
-    if (wasAwaited)
-        abortSequence(QStringLiteral("node '%1' has left: %2").arg(connection->name, reason));
-}
-
 QPlcNodeInfo QPlcMasterNodePrivate::info(const NodeSlot &slot) const
 {
     QPlcNodeInfo node;
@@ -487,10 +388,10 @@ QPlcNodeInfo QPlcMasterNodePrivate::info(const NodeSlot &slot) const
     node.listener = slot.listener;
     node.inputs = int(slot.inputLayout.fields().size());
     node.outputs = int(slot.outputLayout.fields().size());
-    node.lateAnswers = slot.lateAnswers;
-    node.duplicates = slot.duplicates;
-    node.rejected = slot.rejected;
-    node.resent = slot.resent;
+    node.lateAnswers = slot.statistics.late;
+    node.duplicates = slot.statistics.duplicated + slot.statistics.reordered;
+    node.rejected = slot.statistics.rejected;
+    node.resent = slot.statistics.resent;
     node.transport = QStringLiteral("inprocess");
     if (const Connection *connection = slot.local ? nullptr : server->connectionOf(&slot)) {
         node.transport = connection->cyclicKind;

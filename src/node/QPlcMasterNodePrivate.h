@@ -5,6 +5,7 @@
 #include "MasterServer.h"
 #include "NodeRegistry.h"
 #include "QPlcMasterNode.h"
+#include "StatisticSignals.h"
 
 #include <QtCore/QHash>
 #include <QtCore/QPointer>
@@ -38,11 +39,14 @@ public:
     void setState(QPlcMasterNode::State newState);
     bool setError(QPlcMasterNode::Error newError, const QString &text);
     QPlcNodeInfo info(const qplc::NodeSlot &slot) const;
+    QPlcCycleStatistics cycleStatistics(QPlcDistribution::Detail detail) const;
+    bool activateStatisticSignal(QPlcStatisticFigure figure, const QString &signalName, const QString &nodeName);
 
     QPlcMasterNode *const q;
     QPlcSignalTable table;
     std::chrono::nanoseconds interval{10'000'000};
     QPlcClock clock;
+    QPlcOverrunPolicy overrunPolicy;
     QPlcRealTimeOptions realTimeOptions;
     quint64 cycleLimit = 0;
     bool insecureNetworkAllowed = false;
@@ -60,6 +64,7 @@ public:
     qplc::CyclicHub hub;
     std::unique_ptr<qplc::MasterCycle> cycle;
     std::unique_ptr<qplc::MasterServer> server;
+    qplc::StatisticSignals statisticSignals;
 
 private:
     using Connection = qplc::MasterConnection;
@@ -74,6 +79,7 @@ private:
     void request(Connection *connection, bool accepted);
     void startAsAsked(Connection *connection, const QPlcMessage &message);
     void setSignals(Connection *connection, const QPlcMessage &message);
+    void sendStatistics(Connection *connection, const QPlcMessage &message);
     bool isSettable(const QString &name, QPlcSignalIndex *signal, qplc::Refusal *refusal) const;
     bool checkValue(QPlcSignalIndex signal, const QPlcValue &value, qplc::SignalSetting *setting,
                     qplc::Refusal *refusal) const;
@@ -101,6 +107,7 @@ private:
     void takeReports();
     void report(const qplc::CycleEvent &event);
     void logLateAnswer(const qplc::CycleEvent &event);
+    void stopAfterOverrun(const qplc::CycleEvent &event);
     void fault(const QString &text);
     QString nodeName(quint16 id) const;
 

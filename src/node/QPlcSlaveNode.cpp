@@ -126,6 +126,11 @@ QPlcUnderlyingProtocol QPlcSlaveNode::masterProtocol() const
     return d->master;
 }
 
+QPlcSlaveStatistics QPlcSlaveNode::statistics(QPlcDistribution::Detail detail) const
+{
+    return d->cycle ? d->cycle->statistics().read(detail) : QPlcSlaveStatistics();
+}
+
 QPlcSlaveNode::Counters QPlcSlaveNode::counters() const
 {
     return d->cycle ? d->cycle->counters() : Counters();

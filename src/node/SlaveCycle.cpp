@@ -60,6 +60,8 @@ bool SlaveCycle::start(const Phase &phase)
     for (std::atomic<quint64> *counter : {&m_counters.cycles, &m_counters.missed, &m_counters.duplicated,
                                           &m_counters.outdated, &m_counters.rejected, &m_counters.watchdog})
         counter->store(0);
+    m_statistics.restart(phase.clock.isLockstep() ? 0
+                                                  : std::int64_t(double(phase.period.count()) / phase.clock.scale()));
     m_computedAny = m_faulted = m_watchdogBarked = false;
     m_lastCycle = phase.firstCycle;
     m_lastArrival = TimeSource::monotonic().now();
@@ -139,6 +141,8 @@ void SlaveCycle::take(const char *frame, std::size_t size) noexcept
     if (!m_phase.clock.isLockstep())
         skipToNewest();
     compute();
+    if (!m_phase.clock.isLockstep())
+        m_statistics.answered(m_lastArrival, m_runtime.executionTime(), TimeSource::monotonic().now());
 }
 
 /// After a pause requests may have queued up; only the newest is worth an answer. Costs a system call only after a pause.

@@ -4,6 +4,7 @@
 #include "CycleReports.h"
 #include "NodeRuntime.h"
 #include "QPlcClock.h"
+#include "SlaveStatistics.h"
 #include "protocol/CyclicFrame.h"
 #include "realtime/CycleThread.h"
 #include "transport/CyclicLink.h"
@@ -54,6 +55,7 @@ public:
 
     CycleReports &reports() { return m_reports; }
     QPlcSlaveNode::Counters counters() const;
+    const SlaveStatistics &statistics() const { return m_statistics; }
 
 private:
     void run() noexcept;
@@ -89,6 +91,7 @@ private:
     {
         std::atomic<quint64> cycles{0}, missed{0}, duplicated{0}, outdated{0}, rejected{0}, watchdog{0};
     } m_counters;
+    SlaveStatistics m_statistics;
 };
 
 }  // namespace qplc

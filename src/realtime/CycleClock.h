@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "QPlcOverrunPolicy.h"
 #include "TimeSource.h"
 
 #include <cstdint>
@@ -9,9 +10,9 @@ namespace qplc {
 
 /// The grid t_k = t0 + k * period and where the cycle stands on it. Pure arithmetic on a TimeSource; allocation-free.
 ///
-/// SkipToGrid: when the deadline of the next cycle has passed by a whole period or more, the cycles that can no longer
-/// be on time are skipped and counted, so that the phase never moves and the number of a cycle always tells its nominal
-/// time.
+/// When the next cycle can begin only a period or more after its nominal time (an overrun), the QPlcOverrunPolicy
+/// says which cycle comes next and whether the grid moves. Else the grid never moves by itself, so that the number
+/// of a cycle tells its nominal time.
 class CycleClock
 {
 public:
@@ -19,12 +20,19 @@ public:
     {
         std::uint64_t cycle = 0;    ///< number of the cycle to compute
         std::uint64_t skipped = 0;  ///< cycles left out before it
-        std::int64_t lateness = 0;  ///< actual wake-up - nominal time of `cycle` [ns], 0 ... period - 1
-        bool interrupted = false;   ///< woken before its time because stop was asked for
+        std::int64_t woken = 0;     ///< when it begins, on the clock [ns]
+        std::int64_t lateness = 0;  ///< woken - nominal time of `cycle` on the grid so far [ns], never negative
+        std::int64_t deadline = 0;  ///< when it has to have ended [ns]
+        std::int64_t shift = 0;     ///< by which the grid has moved [ns] (Shift)
+        bool overrun = false;       ///< an overrun was found: counts once, also when several cycles are caught up
+        bool caughtUp = false;      ///< its period is over, it runs nevertheless (CatchUp)
+        bool stopped = false;       ///< not to be computed: the policy is Stop; consumes no cycle
+        bool interrupted = false;   ///< woken before its time because stop was asked for; consumes no cycle
     };
 
     /// \param period  [ns] between two cycles on the clock of \a time; 0: lockstep, no waiting and no look at the clock
-    CycleClock(TimeSource &time, std::int64_t period);
+    /// \param policy  valid
+    CycleClock(TimeSource &time, std::int64_t period, QPlcOverrunPolicy policy = {});
 
     /// Cycle 0 becomes due now.
     void start() noexcept;
@@ -42,11 +50,16 @@ public:
 
 private:
     Tick arrive() noexcept;
+    void followPolicy(std::uint64_t missed, Tick *tick) noexcept;
+    void skip(std::uint64_t cycles, Tick *tick) const noexcept;
+    void catchUp(std::uint64_t missed, Tick *tick) noexcept;
 
     TimeSource &m_time;
     std::int64_t m_period = 0;
+    QPlcOverrunPolicy m_policy;
     std::int64_t m_origin = 0;
     std::uint64_t m_next = 0;
+    std::uint64_t m_caughtUp = 0;  // missed cycles that ran in a row
 };
 
 template<typename ShouldStop>

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "Distributions.h"
+#include "LogLinearBins.h"
+
 #include <array>
 #include <atomic>
 #include <cstdint>
@@ -11,7 +14,7 @@ namespace qplc {
 /// quantile is at most 1/32 above the true value; minimum, maximum, count and sum are exact.
 ///
 /// One thread records (and clears); others may read at any time and see a state that is at most one value old.
-/// Allocation-free; 15 KiB.
+/// Recording is allocation-free; 15 KiB.
 class Histogram
 {
 public:
@@ -25,16 +28,16 @@ public:
     std::int64_t maximum() const noexcept { return m_maximum.load(std::memory_order_relaxed); }
     double mean() const noexcept;  ///< 0 when empty
     /// Smallest bin border that at least the fraction \a q (0 ... 1) of all values, and at least one, do not exceed;
-    /// never above maximum(). 0 when empty. Needs 15 KiB of stack.
-    std::int64_t quantile(double q) const noexcept;
+    /// never above maximum(). 0 when empty.
+    std::int64_t quantile(double q) const;
+    /// All figures, of one moment, with bins.
+    QPlcDistribution distribution() const;
 
 private:
-    static constexpr int SubBits = 5;
-    static constexpr int BinCount = (64 - SubBits) << SubBits;
-    static int binOf(std::uint64_t value) noexcept;
-    static std::uint64_t upperBorder(int bin) noexcept;  // largest value that falls into the bin
+    using Bins = LogLinearBins<5, 63>;
+    QVector<QPlcDistribution::Bin> filledBins() const;
 
-    std::array<std::atomic<std::uint64_t>, BinCount> m_bins{};  // 32 bits would be full after five days at 10 kHz
+    std::array<std::atomic<std::uint64_t>, Bins::Count> m_bins{};  // 32 bits would be full after five days at 10 kHz
     std::atomic<std::uint64_t> m_count{0};
     std::atomic<std::int64_t> m_sum{0};
     std::atomic<std::int64_t> m_minimum{INT64_MAX};

@@ -19,9 +19,11 @@ ARROWS = {
 }
 # Public headers without a source file of their own; "all": a plain value that every room may use.
 HEADER_ONLY = {
-    "QPlcBoundInput": "node", "QPlcBoundOutput": "node", "QPlcClock": "all", "QPlcCycle": "all", "QPlcGlobal": "all",
-    "QPlcInput": "node", "QPlcInputTiming": "all", "QPlcMasterStatistics": "node", "QPlcNodeInfo": "node", "QPlcOutput": "node",
-    "QPlcRealTimeSetting": "realtime", "QPlcSignalDefinition": "signals", "QSplitPrimitive": "signals",
+    "QPlcBoundInput": "node", "QPlcBoundOutput": "node", "QPlcClock": "all", "QPlcCycle": "all",
+    "QPlcCycleStatistics": "node", "QPlcDistribution": "all", "QPlcDurationStatistics": "all", "QPlcGlobal": "all",
+    "QPlcInput": "node", "QPlcInputTiming": "all", "QPlcMasterStatistics": "node", "QPlcNodeInfo": "node", "QPlcNodeStatistics": "node", "QPlcOutput": "node",
+    "QPlcRealTimeSetting": "realtime", "QPlcSignalDefinition": "signals", "QPlcSlaveStatistics": "node", "QPlcStatisticFigure": "node", "QPlcWorstCycle": "all",
+    "QSplitPrimitive": "signals",
 }
 SOCKETS = r"<QtNetwork/|<sys/socket\.h>|<netinet/|<arpa/inet\.h>|Q(Tcp|Udp|Abstract)Socket\b"
 EVENT_LOOP = r"\bQ(Object|Thread|Timer|EventLoop|SocketNotifier)\b|\bQ_OBJECT\b"

@@ -14,7 +14,7 @@ namespace awe {
 namespace {
 
 constexpr std::chrono::milliseconds period(10);
-const char *const runOptions[] = {"scale", "duration"};
+const char *const runOptions[] = {"scale", "overrun", "duration"};
 const char *const runFlags[] = {"lockstep", "real-time", "watch"};
 
 /// \return false, with the message out, when picture or report could only fail later
@@ -43,6 +43,11 @@ void addRunOptions(QPlcCoreApplication &application, const QString &defaultDurat
         QCommandLineOption(QStringLiteral("real-time"), QStringLiteral("As fast as the real thing.")));
     application.addOption(QCommandLineOption(
         QStringLiteral("scale"), QStringLiteral("F times as fast as the real thing."), QStringLiteral("F")));
+    application.addOption(QCommandLineOption(
+        QStringLiteral("overrun"),
+        QStringLiteral(
+            "When a cycle is late by a period or more: skip, catch-up:N, shift, or stop. Lockstep has none."),
+        QStringLiteral("POLICY"), QStringLiteral("skip")));
     application.addOption(QCommandLineOption(QStringLiteral("duration"),
                                              QStringLiteral("Simulated time of the flight [s]. 0: until stopped."),
                                              QStringLiteral("S"), defaultDuration));
@@ -71,6 +76,12 @@ bool readRunOptions(QPlcCoreApplication &application, RunSettings *settings)
         : scaled                                                            ? QPlcClock::scaled(scale)
                                                                             : QPlcClock::lockstep();
     settings->reportFile = application.value(QStringLiteral("report"));
+    QString error;
+    settings->overrunPolicy = QPlcOverrunPolicy::fromString(application.value(QStringLiteral("overrun")), &error);
+    if (!error.isEmpty()) {
+        application.usageError(QStringLiteral("--overrun: %1").arg(error));
+        return false;
+    }
     return application.number(QStringLiteral("duration"), 0.0, 1e7, &settings->duration)
         && canShow(application, *settings);
 }
@@ -101,7 +112,8 @@ FlightRun::FlightRun(QPlcMasterNode &master, const RunSettings &settings)
     m_valid = master.setTimeSignal(QStringLiteral("masterTime"))
         && master.activateJitterMeasurement(QStringLiteral("masterJitter"))
         && master.activateWorkloadMeasurement(QStringLiteral("masterWorkload")) && master.setInterval(period)
-        && master.setClock(settings.clock) && master.addLocalNode(&m_observer) && m_display.isValid();
+        && master.setClock(settings.clock) && master.setOverrunPolicy(settings.overrunPolicy)
+        && master.addLocalNode(&m_observer) && m_display.isValid();
     master.setCycleLimit(quint64(std::llround(settings.duration / std::chrono::duration<double>(period).count())));
     connect(&master, &QPlcMasterNode::nodeRegistered, this, &FlightRun::startIfComplete);
     connect(&master, &QPlcMasterNode::realTimeHasStarted, this, &FlightRun::started);
@@ -242,6 +254,8 @@ QJsonObject FlightRun::makeReport() const
                        {QStringLiteral("recoveries"), flight.recoveries},
                        {QStringLiteral("overruns"), double(statistics.overruns)},
                        {QStringLiteral("skipped_cycles"), double(statistics.skippedCycles)},
+                       {QStringLiteral("caught_up_cycles"), double(statistics.caughtUpCycles)},
+                       {QStringLiteral("shifted_s"), double(statistics.shiftedTime) * 1e-9},
                        {QStringLiteral("late_answers"), double(statistics.lateAnswers)},
                        {QStringLiteral("lateness_p50_us"), double(statistics.latenessMedian) * 1e-3},
                        {QStringLiteral("lateness_p99_us"), double(statistics.lateness99) * 1e-3},

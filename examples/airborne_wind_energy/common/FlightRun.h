@@ -13,6 +13,7 @@ namespace awe {
 struct RunSettings
 {
     QPlcClock clock;
+    QPlcOverrunPolicy overrunPolicy;
     double duration = 0.0;          // [s] of simulated time; 0: until stopped
     QString reportFile;             // empty: none
     double nominalWindSpeed = 0.0;  // [m/s]
@@ -20,7 +21,7 @@ struct RunSettings
     QStringList awaitedNodes;       // the flight begins as soon as all of them have registered
 };
 
-/// --lockstep, --real-time, --scale, --duration, --report, --watch: how a flight is run.
+/// --lockstep, --real-time, --scale, --overrun, --duration, --report, --watch: how a flight is run.
 void addRunOptions(QPlcCoreApplication &application, const QString &defaultDuration);
 /// \return false, with the message out, when an option cannot be meant
 bool readRunOptions(QPlcCoreApplication &application, RunSettings *settings);

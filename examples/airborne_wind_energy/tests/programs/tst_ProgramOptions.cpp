@@ -43,7 +43,7 @@ void tst_ProgramOptions::helpNamesEveryOption_data()
     const char *const node = "--master --signals --name --watchdog --same-cycle --priority --cpu --lock-memory";
     const char *const model = " --wind --turbulence --seed";
     const char *const autopilot = " --gains --force-limit --dead-time";
-    const char *const run = " --lockstep --real-time --scale --duration --report --watch --signals";
+    const char *const run = " --lockstep --real-time --scale --overrun --duration --report --watch --signals";
     const auto row = [](const char *program, const QByteArray &options) {
         QTest::newRow(program) << QString::fromLatin1(program) << QString::fromLatin1(options);
     };
@@ -138,6 +138,9 @@ void tst_ProgramOptions::badOptionsAreRefusedWithOneSentence_data()
         row(program, "--scale 0", "--scale 0");
         row(program, "--scale 1001", "--scale 1001");
         row(program, "--scale fast", "--scale fast");
+        row(program, "--overrun", "Missing value after '--overrun'");
+        row(program, "--overrun panic", "--overrun: overrun policy 'panic': use skip, catch-up:N, shift or stop");
+        row(program, "--overrun catch-up:0", "use catch-up:N with N = 1 ... 1000000");
         row(program, "--duration -1", "--duration -1");
         row(program, "--duration long", "--duration long");
         row(program, "--watch", "--watch draws on a terminal");

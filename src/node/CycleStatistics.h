@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "QPlcCycleStatistics.h"
+#include "QPlcMasterStatistics.h"
+#include "realtime/Counter.h"
+#include "realtime/CycleClock.h"
+#include "realtime/DurationStatistics.h"
+#include "realtime/WorstCycles.h"
+
+namespace qplc {
+
+/// What a master measures of its cycles. The cycle thread records, others read at any time. docs/design/statistics.md defines the figures.
+///
+/// In lockstep only cycles and strangers are counted; all times given are 0.
+class CycleStatistics
+{
+public:
+    // ---- no cycle runs ----
+    /// Begins a phase. \param strangers  counted by the hub so far
+    void restart(bool lockstep, std::uint64_t strangers) noexcept;
+
+    // ---- cycle thread; times in ns on the clock ----
+    void begin(const CycleClock::Tick &tick, std::int64_t period) noexcept;
+    /// Gives the time since the end of the stage before to \a stage, which may occur more than once in a cycle.
+    void stageEnded(CycleStage stage, std::int64_t now) noexcept
+    {
+        m_record.stages[std::size_t(stage)] += now - m_stageBegin;
+        m_stageBegin = now;
+    }
+    /// When the stage in progress began.
+    std::int64_t stageBegin() const noexcept { return m_stageBegin; }
+    void asked() noexcept { m_asked = m_asked == 0 ? m_stageBegin : m_asked; }
+    void waited(std::int64_t duration) noexcept { m_waited += duration; }
+    /// An answer to the cycle in progress was there.
+    void answered(std::int64_t now) noexcept { m_record.roundTrip = now - m_asked; }
+    void setStrangers(std::uint64_t strangers) noexcept { m_strangers.set(strangers - m_strangersBefore); }
+    void end(std::int64_t now) noexcept;
+
+    /// Nominal end of the cycle in progress.
+    std::int64_t deadline() const noexcept { return m_deadline; }
+    /// Execution time of the cycle before [ns].
+    std::int64_t workload() const noexcept { return m_workload; }
+
+    Counter lateAnswers;
+
+    // ---- any thread ----
+    std::uint64_t cycles() const noexcept { return m_cycles; }
+    /// When the newest cycle began [ns].
+    std::int64_t newest() const noexcept { return std::int64_t(m_newest.value()); }
+    /// All but nodes.
+    QPlcCycleStatistics read(QPlcDistribution::Detail detail) const;
+    /// All but the digest.
+    QPlcMasterStatistics summary() const;
+
+private:
+    QVector<QPlcWorstCycle> worst() const;
+
+    // cycle thread
+    bool m_lockstep = true;
+    std::uint64_t m_strangersBefore = 0;
+    CycleRecord m_record;  // of the cycle in progress
+    std::int64_t m_overdue = 0;
+    std::int64_t m_woken = 0;
+    std::int64_t m_deadline = 0;
+    std::int64_t m_stageBegin = 0;
+    std::int64_t m_asked = 0;
+    std::int64_t m_waited = 0;
+    std::int64_t m_workload = 0;
+
+    Counter m_cycles;
+    Counter m_overruns;
+    Counter m_skipped;
+    Counter m_caughtUp;
+    Counter m_shifted;
+    Counter m_strangers;
+    Counter m_newest;
+    DurationStatistics m_lateness;
+    DurationStatistics m_execution;
+    DurationStatistics m_roundTrip;
+    DurationStatistics m_slack;
+    WorstCycles m_worst;
+};
+
+}  // namespace qplc

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "QPlcNodeStatistics.h"
+#include "realtime/Counter.h"
+#include "realtime/DurationStatistics.h"
+
+#include <array>
+
+namespace qplc {
+
+/// What the cycle of a master measures of one node. The cycle thread records, others read at any time. 80 KiB.
+class NodeStatistics
+{
+public:
+    /// Forgets everything. No cycle runs.
+    void clear() noexcept;
+    QPlcNodeStatistics read(std::int64_t now, QPlcDistribution::Detail detail) const;
+
+    // ---- cycle thread; all times in ns on the clock, all 0 in lockstep, where nothing but counters is kept ----
+    /// A request of \a cycle goes out: \a begin of the sending, \a deadline of the answer.
+    void asked(std::uint64_t cycle, std::int64_t begin, std::int64_t deadline) noexcept;
+    /// A new answer to \a cycle was there at \a arrival.
+    void answered(std::uint64_t cycle, std::int64_t arrival, std::int64_t executionTime) noexcept;
+    /// A step of a node of this process ended at \a end.
+    void stepped(std::int64_t end, std::int64_t executionTime, std::int64_t deadline) noexcept;
+
+    Counter answers;
+    Counter late;
+    Counter lost;
+    Counter duplicated;
+    Counter reordered;
+    Counter rejected;
+    Counter resent;
+
+private:
+    struct Request
+    {
+        std::uint64_t cycle = UINT64_MAX;
+        std::uint64_t ordinal = 0;  // among all requests
+        std::int64_t begin = 0;
+        std::int64_t deadline = 0;
+    };
+    static constexpr std::size_t Remembered = 32;
+
+    std::array<Request, Remembered> m_requests{};  // at the place cycle % Remembered
+    std::uint64_t m_asked = 0;
+    std::uint64_t m_settled = 0;   // requests that are answered or lost: those before this ordinal
+    std::uint64_t m_unplaced = 0;  // answers since then to requests too old to be remembered
+    DurationStatistics m_execution;
+    DurationStatistics m_roundTrip;
+    DurationStatistics m_slack;
+};
+
+}  // namespace qplc
