@@ -43,7 +43,11 @@ public:
         SetSignals = 34,                    ///< anyone -> master: values of signals that no node writes
         Done = 35,                          ///< master -> asker: the request was carried out
         Failed = 36,                        ///< master -> asker: the request was refused, and why; the connection stays
-        NodeFault = 40                      ///< node -> master: the node cannot go on (exception in user code)
+        NodeFault = 40,                     ///< node -> master: the node cannot go on (exception in user code)
+        GetStatistics = 50,                 ///< anyone -> master
+        Statistics = 51,                    ///< master -> asker: durations and counters of master and nodes
+        GetSchedule = 52,                   ///< anyone -> master
+        Schedule = 53                       ///< master -> asker: stages of a cycle, age of every link
     };
     Q_ENUM(Kind)
 

@@ -3,6 +3,7 @@
 
 #include "MasterCycle.h"
 #include "MasterServer.h"
+#include "MasterSettings.h"
 #include "NodeRegistry.h"
 #include "QPlcMasterNode.h"
 
@@ -59,6 +60,7 @@ public:
     qplc::CyclicHub hub;
     std::unique_ptr<qplc::MasterCycle> cycle;
     std::unique_ptr<qplc::MasterServer> server;
+    std::unique_ptr<qplc::MasterSettings> settings;
 
 private:
     using Connection = qplc::MasterConnection;
@@ -73,9 +75,6 @@ private:
     void request(Connection *connection, bool accepted);
     void startAsAsked(Connection *connection, const QPlcMessage &message);
     void setSignals(Connection *connection, const QPlcMessage &message);
-    bool isSettable(const QString &name, QPlcSignalIndex *signal, qplc::Refusal *refusal) const;
-    bool checkValue(QPlcSignalIndex signal, const QPlcValue &value, qplc::SignalSetting *setting,
-                    qplc::Refusal *refusal) const;
 
     void begin(Step step, Connection::Stage owed);
     void continueSequence(Connection *connection, const QPlcMessage &message);
