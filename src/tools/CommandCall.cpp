@@ -52,6 +52,16 @@ int CommandCall::exitCode() const
     return QPlcCoreApplication::Failure;
 }
 
+std::shared_ptr<const bool> CommandCall::quitOnSignals() const
+{
+    const auto isWanted = std::make_shared<bool>(false);
+    application.quitOnSignals([isWanted] {
+        *isWanted = true;
+        QCoreApplication::quit();
+    });
+    return isWanted;
+}
+
 bool CommandCall::readNumber(const char *option, double minimum, double maximum, double *result) const
 {
     const QString name = QString::fromLatin1(option);

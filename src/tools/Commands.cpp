@@ -82,8 +82,8 @@ const QVector<Command> &commands()
          "",
          "Measures the rate of the cycle as a listener hears it.",
          "Cycles heard, rate, the intervals between them and their scatter, and which\n"
-         "cycles were lost (of those, how many the master itself skipped). The exit code is\n"
-         "1 when cycles were lost.",
+         "cycles were lost (of those, how many the master itself skipped). The exit code\n"
+         "is 1 when cycles were lost.",
          {{"for", "SECONDS", "Measures for this time, 3 unless said."}},
          {QStringLiteral("qtplc hz"), QStringLiteral("qtplc hz --for 60 --json")},
          Command::NoArguments,
@@ -157,11 +157,11 @@ const QVector<Command> &commands()
         {"doctor",
          "",
          "Examines this computer: is it fit for real time?",
-         "Names the command that cures each finding. Needs no master, and takes about three\n"
-         "seconds: scheduling and locked memory are tried, wake-ups and a loopback round\n"
-         "trip are measured. The exit code is 1 when something is to be cured.",
+         "Names the command that cures each finding. Needs no master, and takes some\n"
+         "two seconds: scheduling and locked memory are tried, wake-ups and a loopback\n"
+         "round trip are measured. The exit code is 1 when something is to be cured.",
          {},
-         {QStringLiteral("qtplc doctor"), QStringLiteral("qtplc doctor --json | jq -r '.findings[].cure // empty'")},
+         {QStringLiteral("qtplc doctor"), QStringLiteral("qtplc doctor --json | jq .ok")},
          Command::NoArguments,
          0,
          0,
@@ -214,7 +214,7 @@ const QVector<Option> &commonOptions()
     static const QVector<Option> options{
         {"master", "HOST:PORT", "Where the master is, 127.0.0.1:50000 unless said."},
         {"timeout", "SECONDS", "Longest wait for an answer, 5 unless said."},
-        {"json", "", "Prints JSON: one document, echo and watch one object per line."},
+        {"json", "", "Prints JSON (echo, watch: an object for each line)."},
     };
     return options;
 }

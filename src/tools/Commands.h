@@ -5,6 +5,8 @@
 
 #include <QtPlcCore>
 
+#include <memory>
+
 namespace tools {
 
 /// What a command gets: the options, its arguments, and a client that is not connected yet. A command checks what it was given before it connects.
@@ -27,6 +29,9 @@ struct CommandCall
                 QPlcMessage *answer) const;
     /// The exit code for what went wrong: a bad call, or the master.
     int exitCode() const;
+    /// From now on SIGINT and SIGTERM end the event loop in an orderly way.
+    /// \return what becomes true then, for those that come before the loop has begun
+    std::shared_ptr<const bool> quitOnSignals() const;
     /// A number given as \a option, in \a minimum ... \a maximum; \a result stays when the option is not there. \return false, with the message out
     bool readNumber(const char *option, double minimum, double maximum, double *result) const;
     bool readInteger(const char *option, qint64 minimum, qint64 maximum, qint64 *result) const;

@@ -134,12 +134,15 @@ int printLines(const CommandCall &call, const QPlcSignalTable &table, const QStr
     const QPlcMessage wanted(QPlcMessage::GetSignals, {{QStringLiteral("names"), QJsonArray::fromStringList(names)}});
     if (!call.ask(QPlcMessage(QPlcMessage::GetState), &state) || !call.ask(wanted, &values))
         return call.exitCode();
+    const auto endIsWanted = call.quitOnSignals();
     listener.take(state);
     listener.take(values);
     if (echo.isComplete())
         return QPlcCoreApplication::Success;
-    call.application.quitOnSignals();
-    return listener.join(call) ? QCoreApplication::exec() : QPlcCoreApplication::Failure;
+    const bool hasJoined = listener.join(call);
+    if (*endIsWanted)
+        return QPlcCoreApplication::Success;
+    return hasJoined ? QCoreApplication::exec() : QPlcCoreApplication::Failure;
 }
 
 int echoSignals(const CommandCall &call)

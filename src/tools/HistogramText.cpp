@@ -33,14 +33,14 @@ QVector<double> rowBorders(double lowest, double highest)
 {
     static const QVector<double> coarse{1.0, 2.0, 5.0};
     static const QVector<double> fine{1.0, 1.25, 1.6, 2.0, 2.5, 3.2, 4.0, 5.0, 6.3, 8.0};
-    constexpr double twoDecades = 100.0;
-    const QVector<double> &steps = highest / lowest < twoDecades ? fine : coarse;
+    constexpr double decade = 10.0;
+    const QVector<double> &steps = highest / lowest < decade ? fine : coarse;
     QVector<double> borders;
-    for (double decade = std::pow(10.0, std::floor(std::log10(lowest)) - 1.0);; decade *= 10.0) {
+    for (double unit = std::pow(decade, std::floor(std::log10(lowest)) - 1.0);; unit *= decade) {
         for (const double step : steps) {
-            if (decade * step >= highest)
-                return borders << decade * step;
-            borders << decade * step;
+            if (unit * step >= highest)
+                return borders << unit * step;
+            borders << unit * step;
         }
     }
 }
@@ -98,14 +98,14 @@ QStringList histogramLines(const QJsonArray &array, int width)
     const double most = *std::max_element(counts.begin(), counts.end());
     const auto isUsed = [](double count) { return count > 0.0; };
     const int first = int(std::find_if(counts.begin(), counts.end(), isUsed) - counts.begin());
-    constexpr int textWidth = 12 + 12 + 10;  // border, count, share and blanks
+    constexpr int textWidth = 12 + 12 + 11;  // border, count, share and blanks
     QStringList lines;
     for (int i = first; i < counts.size(); ++i)
         lines << QStringLiteral("<= %1 %2 %3 %  %4")
                      .arg(durationText(borders.at(i)), 8)
                      .arg(counts.at(i), 11, 'f', 0)
                      .arg(100.0 * counts.at(i) / total, 7, 'f', 3)
-                     .arg(bar(counts.at(i) / most, std::max(width - textWidth, 6)));
+                     .arg(bar(counts.at(i) / most, std::max(width - textWidth, 5)));
     return lines;
 }
 

@@ -136,12 +136,12 @@ int measureRate(const CommandCall &call)
         QPlcCoreApplication::printError(QStringLiteral("the master does not run; start it: qtplc start"));
         return QPlcCoreApplication::Failure;
     }
-    call.application.quitOnSignals();
+    const auto endIsWanted = call.quitOnSignals();
     CycleEar ear;
     RateStatistics rate;
     if (!ear.connectToMasterAndWaitForConnected(call.master, call.client.timeout()))
         return QPlcCoreApplication::Failure;  // the node has said why
-    if (!listen(ear, seconds, &rate)) {
+    if (!*endIsWanted && !listen(ear, seconds, &rate)) {
         QPlcCoreApplication::printError(QStringLiteral("the master has ended during the measurement"));
         return QPlcCoreApplication::Failure;
     }

@@ -73,7 +73,6 @@ void print(const CommandCall &call, const Settings &settings)
 /// Keeps the connection for as long as the values are to stay: its end would end them.
 int waitForTheEnd(const CommandCall &call, double duration)
 {
-    call.application.quitOnSignals();
     QObject::connect(&call.client, &ControlClient::lost, &call.application,
                      [] { QPlcCoreApplication::exit(QPlcCoreApplication::Failure); });
     QTimer::singleShot(std::chrono::milliseconds(qint64(std::ceil(duration * 1e3)) + 1), Qt::PreciseTimer,
@@ -103,6 +102,8 @@ int setSignals(const CommandCall &call)
     if (!call.connect(&table) || !readValues(call, table, &settings)
         || !call.ask(QPlcMessage(QPlcMessage::SetSignals, settings.message())))
         return call.exitCode();
+    if (settings.duration > 0.0)
+        call.application.quitOnSignals();
     print(call, settings);
     return settings.duration > 0.0 ? waitForTheEnd(call, settings.duration) : QPlcCoreApplication::Success;
 }

@@ -137,9 +137,10 @@ int watchOnTerminal(const CommandCall &call, const QPlcSignalTable &table, const
 {
     constexpr int listenPause = 20;  // [ms]
     SignalListener listener(QStringLiteral("watch"), table, names, listenPause);
-    call.application.quitOnSignals();
-    if (!listener.join(call))
-        return QPlcCoreApplication::Failure;
+    const auto endIsWanted = call.quitOnSignals();
+    const bool hasJoined = listener.join(call);
+    if (*endIsWanted || !hasJoined)
+        return *endIsWanted ? QPlcCoreApplication::Success : QPlcCoreApplication::Failure;
     Watch watch(listener, call.master.toString().section(QStringLiteral("://"), 1), rate);
     return QCoreApplication::exec();
 }

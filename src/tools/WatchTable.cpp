@@ -20,10 +20,14 @@ QString cut(const QString &text, int width)
     return text.size() <= width ? text : text.left(width - 1) + QChar(0x2026);
 }
 
-/// Short enough for a column: six digits.
+/// Six digits, fewer where an exponent needs the room.
 QString shortNumber(double number)
 {
-    return QString::number(number, 'g', 6);
+    int digits = 6;
+    QString text = QString::number(number, 'g', digits);
+    while (text.size() > numberWidth && digits > 1)
+        text = QString::number(number, 'g', --digits);
+    return text;
 }
 
 /// "0.3 s", "12 s", "5 min", "3 h"
