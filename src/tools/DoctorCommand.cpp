@@ -69,8 +69,11 @@ void print(const QVector<Finding> &findings)
                       .arg(QLatin1String(verdictText(finding.verdict)), -8)
                       .arg(finding.subject, -14)
                       .arg(printable(finding.found)));
-        if (!finding.remedy.isEmpty())
-            printLine(QStringLiteral("         cure: %1").arg(printable(finding.remedy)));
+        QString label = QStringLiteral("cure:");
+        for (const QString &way : finding.remedy.split(QStringLiteral("; or "), Qt::SkipEmptyParts)) {
+            printLine(QStringLiteral("         %1 %2").arg(label, -5).arg(printable(way)));
+            label = QStringLiteral("  or:");
+        }
     }
 }
 
