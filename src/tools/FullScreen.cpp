@@ -61,9 +61,12 @@ void FullScreen::show(const QStringList &lines)
     const TerminalSize size = terminalSize();
     QString text = home;
     const int count = qMin(lines.size(), size.lines);
-    for (int i = 0; i < count; ++i)  // erased before it is written: behind a full line the cursor stands on its end
-        text += (i > 0 ? QStringLiteral("\r\n") : QString()) + restOfLine + lines.at(i);
-    printText(text + restOfScreen);
+    for (int i = 0; i < count; ++i) {
+        // Erased before it is written: behind a full line the cursor stands on its last character.
+        text
+            += (i > 0 ? QStringLiteral("\r\n") : QString()) + (i + 1 < count ? restOfLine : restOfScreen) + lines.at(i);
+    }
+    printText(text);
 }
 
 void FullScreen::readKeys()
