@@ -305,6 +305,7 @@ def example_messages():
         (33, "Signals", dict(signals=[dict(name="tetherSpeed", type="Real32", unit="m/s", description="Höhe \"quoted\"",
                                            value="1.5", writer="")])),
         (34, "SetSignals", dict(values=dict(tetherSpeed="-1.5"))),
+        (34, "SetSignals", dict(values=dict(tetherSpeed="-1.5"), duration=2500000000)),
         (35, "Done", {}),
         (36, "Failed", dict(error="WrongState", text="cannot start in state 'RealTime'; send Stop first")),
         (40, "NodeFault", dict(text="step() threw std::runtime_error: 'sensor lost'")),

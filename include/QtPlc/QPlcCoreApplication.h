@@ -34,6 +34,8 @@ public:
     void setDescription(const QString &text);
     /// Examples for the end of --help, one command a line.
     void setExamples(const QStringList &commands);
+    /// What --help prints in place of description, options and examples; asked when the options have been read.
+    void setHelpText(std::function<QString()> text);
     void addOption(const QCommandLineOption &option);
     /// An argument without dashes, for --help. \param syntax  as shown in the usage line, empty: like the name
     void addPositionalArgument(const QString &name, const QString &description, const QString &syntax = QString());

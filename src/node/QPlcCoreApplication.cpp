@@ -31,6 +31,14 @@ void printLines(std::FILE *file, const QString &text)
     std::fflush(file);
 }
 
+QString helpText(const QCommandLineParser &parser, const QStringList &examples)
+{
+    QString text = parser.helpText();
+    if (!examples.isEmpty())
+        text += QStringLiteral("\nExamples:\n  %1\n").arg(examples.join(QStringLiteral("\n  ")));
+    return text;
+}
+
 /// "-2" is a number and no option: a blank in front keeps the parser from taking it for one.
 QStringList withNumbersHidden(const QStringList &arguments)
 {
@@ -63,6 +71,7 @@ struct QPlcCoreApplication::Private
 {
     QCommandLineParser parser;
     QStringList examples;
+    std::function<QString()> helpText;
     bool takesArguments = false;
     int exitCode = Success;
     int sockets[2] = {-1, -1};
@@ -104,6 +113,11 @@ void QPlcCoreApplication::setExamples(const QStringList &commands)
     d->examples = commands;
 }
 
+void QPlcCoreApplication::setHelpText(std::function<QString()> text)
+{
+    d->helpText = std::move(text);
+}
+
 void QPlcCoreApplication::addOption(const QCommandLineOption &option)
 {
     d->parser.addOption(option);
@@ -122,10 +136,7 @@ bool QPlcCoreApplication::parseOptions()
         return false;
     }
     if (d->parser.isSet(QStringLiteral("help"))) {
-        QString text = d->parser.helpText();
-        if (!d->examples.isEmpty())
-            text += QStringLiteral("\nExamples:\n  %1\n").arg(d->examples.join(QStringLiteral("\n  ")));
-        printLines(stdout, text);
+        printLines(stdout, d->helpText ? d->helpText() : helpText(d->parser, d->examples));
         return false;
     }
     if (d->parser.isSet(QStringLiteral("version"))) {

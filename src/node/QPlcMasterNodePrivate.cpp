@@ -74,6 +74,7 @@ bool QPlcMasterNodePrivate::prepare()
                 .trimmed());
     registry = std::make_unique<qplc::NodeRegistry>(table);
     cycle = std::make_unique<qplc::MasterCycle>(table, hub, lcCyclic().isDebugEnabled());
+    settings = std::make_unique<qplc::MasterSettings>(*registry, *cycle);
     m_reportNotifier = std::make_unique<QSocketNotifier>(cycle->reports().descriptor(), QSocketNotifier::Read);
     QObject::connect(m_reportNotifier.get(), &QSocketNotifier::activated, q, [this] { takeReports(); });
     const auto hello = [this] {
@@ -90,6 +91,7 @@ bool QPlcMasterNodePrivate::prepare()
     server = std::make_unique<qplc::MasterServer>(*registry, cycle->image(), hub, session, hello, nullptr);
     QObject::connect(server.get(), &qplc::MasterServer::attached, q, [this](Connection *connection) {
         m_initialized = false;
+        settings->leaveToWriters();
         Q_EMIT q->nodeRegistered(connection->name);
         if (isRunning())
             join(connection);
@@ -121,6 +123,7 @@ bool QPlcMasterNodePrivate::claimSignal(const QString &name, QPlcSignalIndex *pl
             QPlcMasterNode::SignalError,
             QStringLiteral("master: signal '%1' is written by '%2' already").arg(name, registry->writer(index)));
     *place = index;
+    settings->leaveToWriters();
     return true;
 }
 
@@ -167,6 +170,7 @@ bool QPlcMasterNodePrivate::addLocalNode(QPlcSlaveNode *node)
     slot->local = &runtime;
     slot->prepare(cycle->image(), session);
     m_initialized = false;
+    settings->leaveToWriters();
     node->d->setState(QPlcSlaveNode::Off);
     Q_EMIT q->nodeRegistered(slot->name);
     return true;
@@ -298,66 +302,10 @@ void QPlcMasterNodePrivate::startAsAsked(Connection *connection, const Message &
 
 // ---- values from outside ----
 
-bool QPlcMasterNodePrivate::isSettable(const QString &name, QPlcSignalIndex *signal, qplc::Refusal *refusal) const
-{
-    *signal = table.indexOf(name);
-    if (*signal == QPlcInvalidSignalIndex)
-        *refusal = {QStringLiteral("UnknownSignal"), table.unknownSignalText(name)};
-    else if (!registry->writer(*signal).isEmpty())
-        *refusal = {QStringLiteral("SignalHasWriter"),
-                    QStringLiteral("signal '%1' is written by '%2'; stop that node to set it from outside")
-                        .arg(name, registry->writer(*signal))};
-    return refusal->error.isEmpty();
-}
-
-bool QPlcMasterNodePrivate::checkValue(QPlcSignalIndex signal, const QPlcValue &value, qplc::SignalSetting *setting,
-                                       qplc::Refusal *refusal) const
-{
-    const QPlcSignalDefinition &definition = table.at(signal);
-    *setting = {signal, value.convertedTo(definition.type)};
-    if (!setting->value.isValid() || !setting->value.isFinite()) {
-        *refusal = {QStringLiteral("InvalidValue"),
-                    QStringLiteral("%1 is no value for signal '%2' of type %3")
-                        .arg(value.toString(), definition.name, definition.type.name())};
-        return false;
-    }
-    if (!definition.isInRange(setting->value)) {
-        *refusal = {QStringLiteral("InvalidValue"),
-                    QStringLiteral("%1 is out of range for signal '%2'; use %3 %4")
-                        .arg(value.toString(), definition.name, definition.rangeText(), definition.unit)
-                        .trimmed()};
-        return false;
-    }
-    return true;
-}
-
-/// Sets all of them or none: every value is checked before the first one is set.
 void QPlcMasterNodePrivate::setSignals(Connection *connection, const Message &message)
 {
-    const QJsonValue values = message.fields().value(QStringLiteral("values"));
-    const QJsonObject texts = values.toObject();
-    std::vector<qplc::SignalSetting> settings(std::size_t(texts.size()));
     qplc::Refusal refusal;
-    std::size_t count = 0;
-    if (!values.isObject())
-        refusal
-            = {QStringLiteral("MalformedMessage"), QStringLiteral("'values' is an object of signal names and texts")};
-    for (auto it = texts.begin(); it != texts.end() && refusal.error.isEmpty(); ++it) {
-        QPlcSignalIndex index = QPlcInvalidSignalIndex;
-        QString text;
-        if (!isSettable(it.key(), &index, &refusal))
-            break;
-        const QPlcValue value = QPlcValue::fromString(table.at(index).type, it.value().toString(), &text);
-        if (!text.isEmpty())
-            refusal = {QStringLiteral("InvalidValue"), QStringLiteral("signal '%1': %2").arg(it.key(), text)};
-        else
-            checkValue(index, value, &settings[count++], &refusal);
-    }
-    if (refusal.error.isEmpty() && !cycle->setValues(settings))
-        refusal = {QStringLiteral("WrongState"),
-                   QStringLiteral("%1 changes are too many between two cycles; send them in smaller groups")
-                       .arg(settings.size())};
-    if (refusal.error.isEmpty())
+    if (settings->setSignals(connection->socket, message.fields(), &refusal))
         connection->send(Message::Done);
     else
         connection->fail(refusal.error, refusal.text);
@@ -367,14 +315,11 @@ bool QPlcMasterNodePrivate::setSignalValue(const QString &name, const QPlcValue 
 {
     if (!prepare())
         return false;
-    QPlcSignalIndex index = QPlcInvalidSignalIndex;
-    qplc::SignalSetting setting;
     qplc::Refusal refusal;
-    if (!isSettable(name, &index, &refusal) || !checkValue(index, value, &setting, &refusal))
-        return setError(QPlcMasterNode::SignalError, refusal.text);
-    if (!cycle->setValues({setting}))
-        return setError(QPlcMasterNode::StateError,
-                        QStringLiteral("signal '%1' was not set: too many changes at once").arg(name));
+    if (!settings->setSignal(name, value, &refusal))
+        return setError(refusal.error == QLatin1String("WrongState") ? QPlcMasterNode::StateError
+                                                                     : QPlcMasterNode::SignalError,
+                        refusal.text);
     return true;
 }
 

@@ -3,6 +3,7 @@
 
 #include "MasterCycle.h"
 #include "MasterServer.h"
+#include "MasterSettings.h"
 #include "NodeRegistry.h"
 #include "QPlcMasterNode.h"
 #include "StatisticSignals.h"
@@ -65,6 +66,7 @@ public:
     std::unique_ptr<qplc::MasterCycle> cycle;
     std::unique_ptr<qplc::MasterServer> server;
     qplc::StatisticSignals statisticSignals;
+    std::unique_ptr<qplc::MasterSettings> settings;
 
 private:
     using Connection = qplc::MasterConnection;
@@ -80,9 +82,6 @@ private:
     void startAsAsked(Connection *connection, const QPlcMessage &message);
     void setSignals(Connection *connection, const QPlcMessage &message);
     void sendStatistics(Connection *connection, const QPlcMessage &message);
-    bool isSettable(const QString &name, QPlcSignalIndex *signal, qplc::Refusal *refusal) const;
-    bool checkValue(QPlcSignalIndex signal, const QPlcValue &value, qplc::SignalSetting *setting,
-                    qplc::Refusal *refusal) const;
 
     void begin(Step step, Connection::Stage owed);
     void continueSequence(Connection *connection, const QPlcMessage &message);

@@ -2,6 +2,8 @@
 #include "Remedies.h"
 
 #include <QtCore/QFile>
+#include <QtCore/QHash>
+#include <QtCore/QSysInfo>
 
 #include <cerrno>
 #include <sched.h>
@@ -12,12 +14,6 @@ namespace qplc {
 
 namespace {
 
-QString program()
-{
-    const QString path = QFile::symLinkTarget(QStringLiteral("/proc/self/exe"));
-    return path.isEmpty() ? QStringLiteral("PROGRAM") : path;
-}
-
 /// "20", "unlimited": the soft limit that `ulimit` shows, in units of \a unit.
 QString softLimit(__rlimit_resource resource, rlim_t unit)
 {
@@ -27,22 +23,28 @@ QString softLimit(__rlimit_resource resource, rlim_t unit)
 }
 
 /// The three usual ways to a right: capability of the file, limit of the user, start by root.
-QString grantRight(const QString &capability, const QString &ulimit, const QString &limitLine)
+QString grantRight(const QString &program, const QString &capability, const QString &ulimit, const QString &limitLine)
 {
     return QStringLiteral(
                "sudo setcap %1+ep '%2'; or write '* - %3' to /etc/security/limits.d/99-realtime.conf and log in "
                "again (ulimit %4 now)")
-        .arg(capability, program(), limitLine, ulimit);
+        .arg(capability, program, limitLine, ulimit);
 }
 
 }  // namespace
 
-QString schedulingRemedy(Scheduling wanted, int error)
+QString thisProgram()
+{
+    const QString path = QFile::symLinkTarget(QStringLiteral("/proc/self/exe"));
+    return path.isEmpty() ? QStringLiteral("PROGRAM") : path;
+}
+
+QString schedulingRemedy(Scheduling wanted, int error, const QString &program)
 {
     if (error != EPERM)
         return QStringLiteral("choose another policy or priority; the system says: %1").arg(qt_error_string(error));
     if (!wanted.isRealTime())
-        return QStringLiteral("start the program with the policy that it needs: chrt --other 0 '%1'").arg(program());
+        return QStringLiteral("start the program with the policy that it needs: chrt --other 0 '%1'").arg(program);
     if (geteuid() == 0) {
         return QStringLiteral(
             "give the container or control group the right to real time: docker run --cap-add=SYS_NICE "
@@ -52,9 +54,11 @@ QString schedulingRemedy(Scheduling wanted, int error)
     const QString chrt = QStringLiteral("sudo chrt %1 %2 '%3'")
                              .arg(QLatin1String(wanted.policy == SCHED_RR ? "-r" : "-f"))
                              .arg(wanted.priority)
-                             .arg(program());
+                             .arg(program);
     return QStringLiteral("%1; or start it by %2")
-        .arg(grantRight(QStringLiteral("cap_sys_nice"), limit, QStringLiteral("rtprio %1").arg(wanted.priority)), chrt);
+        .arg(grantRight(program, QStringLiteral("cap_sys_nice"), limit,
+                        QStringLiteral("rtprio %1").arg(wanted.priority)),
+             chrt);
 }
 
 QString inheritanceRemedy()
@@ -70,12 +74,12 @@ QString cpuRemedy(const QString &allowed)
         .arg(getpid());
 }
 
-QString memoryLockRemedy(int error)
+QString memoryLockRemedy(int error, const QString &program)
 {
     if (error == 0)
         return QStringLiteral("build without sanitizers: mlockall() claimed success and locked nothing");
     const QString limit = QStringLiteral("-l is %1 kB").arg(softLimit(RLIMIT_MEMLOCK, 1024));
-    return grantRight(QStringLiteral("cap_ipc_lock"), limit, QStringLiteral("memlock unlimited"));
+    return grantRight(program, QStringLiteral("cap_ipc_lock"), limit, QStringLiteral("memlock unlimited"));
 }
 
 QString stackRemedy()
@@ -87,7 +91,52 @@ QString stackRemedy()
 QString timerSlackRemedy()
 {
     return QStringLiteral("run the thread with a real-time policy (chrt -f 49 '%1'), which has no timer slack")
-        .arg(program());
+        .arg(thisProgram());
+}
+
+QString kernelRemedy()
+{
+    static const QHash<QString, QString> packages{{QStringLiteral("x86_64"), QStringLiteral("amd64")},
+                                                  {QStringLiteral("arm64"), QStringLiteral("arm64")},
+                                                  {QStringLiteral("arm"), QStringLiteral("armmp")},
+                                                  {QStringLiteral("i386"), QStringLiteral("686-pae")}};
+    const QString machine = QSysInfo::currentCpuArchitecture();
+    return QStringLiteral("sudo apt install linux-image-rt-%1, and start that kernel")
+        .arg(packages.value(machine, QStringLiteral("ARCHITECTURE")));
+}
+
+QString governorRemedy()
+{
+    return QStringLiteral("echo performance | sudo tee /sys/devices/system/cpu/cpu*/cpufreq/scaling_governor");
+}
+
+QString idleStateRemedy(int longestExit)
+{
+    return QStringLiteral("sudo cpupower idle-set --disable-by-latency %1 (package linux-cpupower)").arg(longestExit);
+}
+
+QString clockSourceRemedy(bool hasTsc)
+{
+    return hasTsc
+        ? QStringLiteral("echo tsc | sudo tee /sys/devices/system/clocksource/clocksource0/current_clocksource")
+        : QStringLiteral("see why the kernel has dropped the time stamp counter: sudo dmesg | grep -i tsc");
+}
+
+QString swapRemedy()
+{
+    return QStringLiteral("sudo swapoff -a, or let programs lock their memory");
+}
+
+QString latencyRemedy()
+{
+    return QStringLiteral(
+        "see what else has the processors: ps -eo pcpu,rtprio,args --sort=-pcpu | head; keep one free "
+        "for the cycle by the kernel option isolcpus=N, and use it by --cpu N");
+}
+
+QString loopbackRemedy()
+{
+    return QStringLiteral("sudo ip link set lo up; see what is filtered: sudo nft list ruleset");
 }
 
 }  // namespace qplc

@@ -5,57 +5,218 @@
 
 namespace tools {
 
+namespace {
+
+constexpr int any = std::numeric_limits<int>::max();
+
+const Option verbose{"verbose", "", "Every column."};
+const Option count{"count", "N", "Ends after so many lines."};
+
+}  // namespace
+
 const QVector<Command> &commands()
 {
-    constexpr int any = std::numeric_limits<int>::max();
     static const QVector<Command> table{
         {"list",
-         "",
-         "Shows all signals: type, unit, value and who writes them.",
-         {QStringLiteral("verbose")},
+         "[SIGNAL|PATTERN...]",
+         "Shows signals: type, unit, value and who writes them.",
+         "All of them unless names or patterns are given. A pattern has *, ? or [...];\n"
+         "put it in quotes.",
+         {verbose},
+         {QStringLiteral("qtplc list"), QStringLiteral("qtplc list 'tether*' --verbose"),
+          QStringLiteral("qtplc list --json | jq -r '.[] | select(.writer == \"\").name'")},
+         Command::Signals,
          0,
-         0,
+         any,
          &listSignals},
-        {"state",
-         "",
-         "Shows the state of the master, its counters and its nodes.",
-         {QStringLiteral("verbose")},
-         0,
-         0,
-         &showState},
-        {"init", "", "Asks all nodes for their initial values.", {}, 0, 0, &initializeStates},
-        {"start", "", "Starts the real-time phase.", {QStringLiteral("cycles")}, 0, 0, &startRealTime},
-        {"stop", "", "Ends the real-time phase.", {}, 0, 0, &stopRealTime},
+        {"get",
+         "SIGNAL|PATTERN...",
+         "Prints values once.",
+         "A line for each signal. For scripts: --plain prints the value only, --json one\n"
+         "object, name to value.",
+         {{"plain", "", "The value only, without name and unit."}},
+         {QStringLiteral("qtplc get tetherLength power"), QStringLiteral("speed=$(qtplc get tetherSpeed --plain)"),
+          QStringLiteral("qtplc get '*' --json | jq .power")},
+         Command::Signals,
+         1,
+         any,
+         &getSignals},
+        {"set",
+         "SIGNAL VALUE ...",
+         "Sets signals that no node writes: all or none.",
+         "With --for the master brings the former values back after that time, and at once\n"
+         "when this program is interrupted, killed or cut off.",
+         {{"for", "SECONDS", "Sets the values for this time only."}},
+         {QStringLiteral("qtplc set tetherSpeed -1.5"), QStringLiteral("qtplc set windVelocity_earth 5,-3,0"),
+          QStringLiteral("qtplc set tetherSpeed 2 bodyControlYawSpeed 30 --for 1.5")},
+         Command::SignalsAndValues,
+         2,
+         any,
+         &setSignals},
         {"echo",
-         "SIGNAL...",
+         "SIGNAL|PATTERN...",
          "Prints values as they come, until Ctrl-C.",
-         {QStringLiteral("rate"), QStringLiteral("count")},
+         "Aligned columns on a terminal, separated by tabs elsewhere. While no cycle runs,\n"
+         "the present values are printed once. --json prints an object for each line.",
+         {{"rate", "HZ", "Most lines per second, 10 unless said."}, count},
+         {QStringLiteral("qtplc echo tetherLength power --rate 2"),
+          QStringLiteral("qtplc echo power --json --rate 1000 > power.jsonl")},
+         Command::Signals,
          1,
          any,
          &echoSignals},
-        {"set", "SIGNAL VALUE ...", "Sets signals that no node writes: all of them or none.", {}, 2, any, &setSignals},
+        {"watch",
+         "[SIGNAL|PATTERN...]",
+         "Shows values, extremes and age on the whole terminal.",
+         "All signals unless names or patterns are given; a line for each element of an\n"
+         "array. Every cycle counts for the extremes. Age is the time since the value\n"
+         "changed. Keys: q ends, arrows and page keys scroll, r forgets the extremes.\n"
+         "Where the output is no terminal, watch is echo.",
+         {{"rate", "HZ", "Pictures (or lines) per second, 10 unless said."}},
+         {QStringLiteral("qtplc watch 'tether*' power"), QStringLiteral("qtplc watch")},
+         Command::Signals,
+         0,
+         any,
+         &watchSignals},
+        {"hz",
+         "",
+         "Measures the rate of the cycle as a listener hears it.",
+         "Cycles heard, rate, the intervals between them and their scatter, and which\n"
+         "cycles were lost (of those, how many the master itself skipped). The exit code\n"
+         "is 1 when cycles were lost.",
+         {{"for", "SECONDS", "Measures for this time, 3 unless said."}},
+         {QStringLiteral("qtplc hz"), QStringLiteral("qtplc hz --for 60 --json")},
+         Command::NoArguments,
+         0,
+         0,
+         &measureRate},
+        {"state",
+         "",
+         "Shows the master, its counters and its nodes.",
+         "",
+         {verbose},
+         {QStringLiteral("qtplc state"), QStringLiteral("qtplc state --json | jq -r .state")},
+         Command::NoArguments,
+         0,
+         0,
+         &showState},
+        {"init",
+         "",
+         "Asks all nodes for their initial values.",
+         "",
+         {},
+         {QStringLiteral("qtplc init")},
+         Command::NoArguments,
+         0,
+         0,
+         &initializeStates},
+        {"start",
+         "",
+         "Starts the real-time phase.",
+         "",
+         {{"cycles", "N", "Ends by itself after so many."}},
+         {QStringLiteral("qtplc start"), QStringLiteral("qtplc start --cycles 1000")},
+         Command::NoArguments,
+         0,
+         0,
+         &startRealTime},
+        {"stop",
+         "",
+         "Ends the real-time phase.",
+         "May be said twice.",
+         {},
+         {QStringLiteral("qtplc stop")},
+         Command::NoArguments,
+         0,
+         0,
+         &stopRealTime},
+        {"schedule",
+         "",
+         "Shows the order of the nodes, and how old links are.",
+         "A stage begins when the one before has ended. The age of a link is the number of\n"
+         "cycles from writing a value to reading it.",
+         {},
+         {QStringLiteral("qtplc schedule")},
+         Command::NoArguments,
+         0,
+         0,
+         &showSchedule},
+        {"jitter",
+         "",
+         "Shows how punctual master and nodes are.",
+         "Lateness: how long after its time a cycle began. Round trip: from the first\n"
+         "request to the last answer. Execution: computing. Slack: what was left until the\n"
+         "next cycle. Since the start, over the last 10 s, and the worst cycles.",
+         {{"hist", "", "Draws histograms instead."}},
+         {QStringLiteral("qtplc jitter"), QStringLiteral("qtplc jitter --hist"),
+          QStringLiteral("qtplc jitter --json | jq .master.lateness.last10s.p99")},
+         Command::NoArguments,
+         0,
+         0,
+         &showJitter},
+        {"doctor",
+         "",
+         "Examines this computer: is it fit for real time?",
+         "Names the command that cures each finding. Needs no master, and takes some\n"
+         "two seconds: scheduling and locked memory are tried, wake-ups and a loopback\n"
+         "round trip are measured. The exit code is 1 when something is to be cured.",
+         {},
+         {QStringLiteral("qtplc doctor"), QStringLiteral("qtplc doctor --json | jq .ok")},
+         Command::NoArguments,
+         0,
+         0,
+         &examineComputer},
+        {"help",
+         "[COMMAND]",
+         "Explains a command.",
+         "",
+         {},
+         {QStringLiteral("qtplc help watch")},
+         Command::CommandNames,
+         0,
+         1,
+         &showHelp},
+        {"complete",
+         "WORD...",
+         "Prints how a command line may go on, for the shell.",
+         "The last WORD is the one that goes on. The names of signals are asked of the\n"
+         "master; without one there are none. The completion of bash calls this command:\n"
+         "source share/bash-completion/completions/qtplc.",
+         {},
+         {QStringLiteral("qtplc complete -- qtplc get tether")},
+         Command::NoArguments,
+         0,
+         any,
+         &completeWord},
     };
     return table;
 }
 
-int reportFailure(const ControlClient &client)
+const Command *findCommand(const QString &name)
 {
-    QPlcCoreApplication::printError(client.errorString());
-    return client.error() == ControlClient::Unreachable ? QPlcCoreApplication::UsageError
-                                                        : QPlcCoreApplication::Failure;
+    for (const Command &command : commands()) {
+        if (name == QLatin1String(command.name))
+            return &command;
+    }
+    return nullptr;
 }
 
-bool knowsSignals(QPlcCoreApplication &application, const QPlcSignalTable &table, const QStringList &names)
+QString commandNames()
 {
-    QStringList errors;
-    for (const QString &name : names) {
-        if (!table.contains(name))
-            errors << table.unknownSignalText(name);
-    }
-    errors.removeDuplicates();
-    if (!errors.isEmpty())
-        application.usageError(errors.join(QStringLiteral("; ")));
-    return errors.isEmpty();
+    QStringList names;
+    for (const Command &command : commands())
+        names << QString::fromLatin1(command.name);
+    return names.join(QStringLiteral(", "));
+}
+
+const QVector<Option> &commonOptions()
+{
+    static const QVector<Option> options{
+        {"master", "HOST:PORT", "Where the master is, 127.0.0.1:50000 unless said."},
+        {"timeout", "SECONDS", "Longest wait for an answer, 5 unless said."},
+        {"json", "", "Prints JSON (echo, watch: an object for each line)."},
+    };
+    return options;
 }
 
 }  // namespace tools

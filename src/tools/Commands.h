@@ -5,24 +5,58 @@
 
 #include <QtPlcCore>
 
+#include <memory>
+
 namespace tools {
 
-/// What a command gets: the options, its arguments, and the connection to the master, which has been greeted.
+/// What a command gets: the options, its arguments, and a client that is not connected yet. A command checks what it was given before it connects.
 struct CommandCall
 {
     QPlcCoreApplication &application;
     ControlClient &client;
     QPlcUnderlyingProtocol master;
     QStringList arguments;  // without the name of the command
+
+    bool isJson() const { return application.isSet(QStringLiteral("json")); }
+    /// Connects and greets. \return false, with the message out; exitCode() then
+    bool connect() const;
+    /// As connect(), and reads the signal table of the master.
+    bool connect(QPlcSignalTable *table) const;
+    /// Asks the master. \return false, with the message out; exitCode() then
+    bool ask(const QPlcMessage &request, QPlcMessage *answer = nullptr) const;
+    /// As ask(), for something that an older master may not know: its refusal becomes a sentence that says so, and so does an answer of another kind.
+    bool askFor(QPlcMessage::Kind request, QPlcMessage::Kind expected, const QJsonObject &fields,
+                QPlcMessage *answer) const;
+    /// The exit code for what went wrong: a bad call, or the master.
+    int exitCode() const;
+    /// From now on SIGINT and SIGTERM end the event loop in an orderly way.
+    /// \return what becomes true then, for those that come before the loop has begun
+    std::shared_ptr<const bool> quitOnSignals() const;
+    /// A number given as \a option, in \a minimum ... \a maximum; \a result stays when the option is not there. \return false, with the message out
+    bool readNumber(const char *option, double minimum, double maximum, double *result) const;
+    bool readInteger(const char *option, qint64 minimum, qint64 maximum, qint64 *result) const;
+};
+
+/// An option of one command.
+struct Option
+{
+    const char *name;
+    const char *value;  // as the help shows it; empty: the option is a switch
+    const char *description;
 };
 
 /// One command of qtplc.
 struct Command
 {
+    enum Arguments { NoArguments, Signals, SignalsAndValues, CommandNames };  // what the shell completes
+
     const char *name;
-    const char *arguments;  // as the help shows them
-    const char *description;
-    QStringList options;  // those of its own, beside --master and --timeout
+    const char *usage;    // of its arguments
+    const char *summary;  // one line for the list of commands
+    const char *details;  // the rest of its own help
+    QVector<Option> options;
+    QStringList examples;
+    Arguments arguments;
     int minimumArguments;
     int maximumArguments;
     int (*run)(const CommandCall &call);  // returns the exit code
@@ -30,19 +64,28 @@ struct Command
 
 /// All commands, in the order of the help.
 const QVector<Command> &commands();
+/// null: there is none of this name
+const Command *findCommand(const QString &name);
+/// "list, state, ..."
+QString commandNames();
+/// Options that every command has.
+const QVector<Option> &commonOptions();
 
 // The commands, each in the file of its name.
 int listSignals(const CommandCall &call);
+int getSignals(const CommandCall &call);
+int setSignals(const CommandCall &call);
+int echoSignals(const CommandCall &call);
+int watchSignals(const CommandCall &call);
+int measureRate(const CommandCall &call);
 int showState(const CommandCall &call);
 int initializeStates(const CommandCall &call);
 int startRealTime(const CommandCall &call);
 int stopRealTime(const CommandCall &call);
-int echoSignals(const CommandCall &call);
-int setSignals(const CommandCall &call);
-
-/// Prints what went wrong with the master. \return the exit code for it
-int reportFailure(const ControlClient &client);
-/// Checks that the table of the master has all \a names. \return false, with the message out, when it has not
-bool knowsSignals(QPlcCoreApplication &application, const QPlcSignalTable &table, const QStringList &names);
+int showSchedule(const CommandCall &call);
+int showJitter(const CommandCall &call);
+int examineComputer(const CommandCall &call);
+int showHelp(const CommandCall &call);
+int completeWord(const CommandCall &call);
 
 }  // namespace tools

@@ -82,6 +82,7 @@ void ControlClient::connectionLost(const QString &reason)
                      .arg(m_address, reason));
     else
         setError(Lost, QStringLiteral("lost the master at %1: %2").arg(m_address, reason));
+    Q_EMIT lost();
 }
 
 bool ControlClient::setError(Error error, const QString &text)
@@ -120,12 +121,24 @@ bool ControlClient::ask(const Message &request, Message *answer)
     Message received;
     if (!waitForMessage(QDeadlineTimer(m_timeout), &received))
         return false;
+    m_refusal = received.text(QStringLiteral("error"));
     if (received.kind() == Message::Failed || received.kind() == Message::Rejected)
         return setError(Refused,
                         QStringLiteral("the master refuses: %1").arg(printable(received.text(QStringLiteral("text")))));
     if (answer)
         *answer = received;
     return true;
+}
+
+bool ControlClient::askFor(Message::Kind request, Message::Kind expected, const QJsonObject &fields, Message *answer)
+{
+    const bool isAnswered = ask(Message(request, fields), answer);
+    const bool isUnknown = m_error == Refused && m_refusal == QLatin1String("MalformedMessage");
+    if (isUnknown || (isAnswered && answer->kind() != expected))
+        return setError(Refused,
+                        QStringLiteral("the master at %1 does not know %2; it is older than this tool: update it")
+                            .arg(m_address, Message::kindName(request)));
+    return isAnswered;
 }
 
 QPlcSignalTable ControlClient::table()

@@ -34,11 +34,18 @@ public:
     /// Sends \a request and waits for its answer. \return false when the master refused or was lost; \a answer is untouched then
     bool ask(const QPlcMessage &request, QPlcMessage *answer = nullptr);
 
+    /// As ask(), for a kind that an older master may not know: then errorString() says so.
+    bool askFor(QPlcMessage::Kind request, QPlcMessage::Kind expected, const QJsonObject &fields, QPlcMessage *answer);
+
     /// The signal table of the master; empty when it cannot be read, errorString() says why then.
     QPlcSignalTable table();
     Error error() const { return m_error; }
     QString errorString() const { return m_errorString; }
     std::chrono::milliseconds timeout() const { return m_timeout; }
+
+Q_SIGNALS:
+    /// The connection has ended, or will never be: errorString() says why.
+    void lost();
 
 private:
     void greet();
@@ -54,6 +61,7 @@ private:
     QList<QPlcMessage> m_inbox;
     Error m_error = NoError;
     QString m_errorString;
+    QString m_refusal;  // code of the newest one
 };
 
 }  // namespace tools

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+// list, get: what the master says of its signals at this moment.
 #include "Commands.h"
+#include "SignalSelection.h"
 #include "TerminalText.h"
 
 #include <QtCore/QJsonArray>
@@ -10,45 +12,96 @@ namespace {
 
 constexpr int signalsPerAnswer = 500;  // an answer has at most 1 MiB
 
-QStringList namesOf(const QPlcSignalTable &table)
+/// The wanted signals as the master describes them. \return false, with the message out
+bool askForSignals(const CommandCall &call, QPlcSignalTable *table, QVector<QJsonObject> *rows)
 {
     QStringList names;
-    for (const QPlcSignalDefinition &definition : table)
-        names << definition.name;
-    return names;
+    if (!call.connect(table) || !selectSignalsOrAll(call.application, *table, call.arguments, &names))
+        return false;
+    for (int first = 0; first < names.size(); first += signalsPerAnswer) {
+        QPlcMessage answer;
+        const QJsonArray wanted = QJsonArray::fromStringList(names.mid(first, signalsPerAnswer));
+        if (!call.ask(QPlcMessage(QPlcMessage::GetSignals, {{QStringLiteral("names"), wanted}}), &answer))
+            return false;
+        const QJsonArray part = answer.fields().value(QStringLiteral("signals")).toArray();
+        for (const QJsonValue &row : part)
+            rows->append(row.toObject());
+    }
+    return true;
+}
+
+QString text(const QJsonObject &row, const char *field)
+{
+    return row.value(QLatin1String(field)).toString();
+}
+
+QJsonValue valueOf(const QPlcSignalTable &table, const QJsonObject &row)
+{
+    const QPlcSignalIndex index = table.indexOf(text(row, "name"));
+    return index == QPlcInvalidSignalIndex ? QJsonValue(text(row, "value"))
+                                           : toJson(table.at(index), text(row, "value"));
+}
+
+void printTable(const QVector<QJsonObject> &rows, bool verbose)
+{
+    QStringList fields{QStringLiteral("name"), QStringLiteral("type"), QStringLiteral("unit"), QStringLiteral("value"),
+                       QStringLiteral("writer")};
+    if (verbose)
+        fields << QStringLiteral("description");
+    TextTable table;
+    for (const QString &field : qAsConst(fields))
+        table.addColumn(field);
+    for (const QJsonObject &row : rows) {
+        QStringList cells;
+        for (const QString &field : qAsConst(fields))
+            cells << row.value(field).toString();
+        table.addRow(cells);
+    }
+    table.print();
 }
 
 }  // namespace
 
 int listSignals(const CommandCall &call)
 {
-    const QPlcSignalTable table = call.client.table();
-    if (table.isEmpty())
-        return reportFailure(call.client);
-    const bool verbose = call.application.isSet(QStringLiteral("verbose"));
-    QStringList fields{QStringLiteral("name"), QStringLiteral("type"), QStringLiteral("unit"), QStringLiteral("value"),
-                       QStringLiteral("writer")};
-    if (verbose)
-        fields << QStringLiteral("description");
-    TextTable text;
-    for (const QString &field : qAsConst(fields))
-        text.addColumn(field);
-
-    const QStringList names = namesOf(table);
-    for (int first = 0; first < names.size(); first += signalsPerAnswer) {
-        QPlcMessage answer;
-        const QJsonArray wanted = QJsonArray::fromStringList(names.mid(first, signalsPerAnswer));
-        if (!call.client.ask(QPlcMessage(QPlcMessage::GetSignals, {{QStringLiteral("names"), wanted}}), &answer))
-            return reportFailure(call.client);
-        const QJsonArray rows = answer.fields().value(QStringLiteral("signals")).toArray();
-        for (const QJsonValue &row : rows) {
-            QStringList cells;
-            for (const QString &field : qAsConst(fields))
-                cells << row.toObject().value(field).toString();
-            text.addRow(cells);
-        }
+    QPlcSignalTable table;
+    QVector<QJsonObject> rows;
+    if (!askForSignals(call, &table, &rows))
+        return call.exitCode();
+    if (!call.isJson()) {
+        printTable(rows, call.application.isSet(QStringLiteral("verbose")));
+        return QPlcCoreApplication::Success;
     }
-    text.print();
+    QJsonArray array;
+    for (QJsonObject &row : rows) {
+        row.insert(QStringLiteral("value"), valueOf(table, row));
+        array.append(row);
+    }
+    printJson(QJsonDocument(array));
+    return QPlcCoreApplication::Success;
+}
+
+int getSignals(const CommandCall &call)
+{
+    const bool isPlain = call.application.isSet(QStringLiteral("plain"));
+    if (isPlain && call.isJson())
+        return call.application.usageError(QStringLiteral("--plain and --json exclude each other; use one of them"));
+    QPlcSignalTable table;
+    QVector<QJsonObject> rows;
+    if (!askForSignals(call, &table, &rows))
+        return call.exitCode();
+    QJsonObject values;
+    for (const QJsonObject &row : qAsConst(rows)) {
+        const QString value = printable(text(row, "value"));
+        if (call.isJson())
+            values.insert(text(row, "name"), valueOf(table, row));
+        else
+            printLine(isPlain ? value
+                              : QStringLiteral("%1 = %2").arg(text(row, "name"),
+                                                              withUnit(value, printable(text(row, "unit")))));
+    }
+    if (call.isJson())
+        printJson(QJsonDocument(values));
     return QPlcCoreApplication::Success;
 }
 

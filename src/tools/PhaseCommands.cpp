@@ -7,11 +7,18 @@ namespace tools {
 
 namespace {
 
+/// Asks for something that is done or not.
 int command(const CommandCall &call, const QPlcMessage &request, const QString &done)
 {
-    if (!call.client.ask(request))
-        return reportFailure(call.client);
-    printLine(done);
+    if (!call.connect() || !call.ask(request))
+        return call.exitCode();
+    if (call.isJson()) {
+        QJsonObject document = request.fields();
+        document.insert(QStringLiteral("done"), request.kindName());
+        printJson(QJsonDocument(document));
+    } else {
+        printLine(done);
+    }
     return QPlcCoreApplication::Success;
 }
 
@@ -24,12 +31,12 @@ int initializeStates(const CommandCall &call)
 
 int startRealTime(const CommandCall &call)
 {
-    if (!call.application.isSet(QStringLiteral("cycles")))
-        return command(call, QPlcMessage(QPlcMessage::StartRealTime), QStringLiteral("started"));
     constexpr qint64 mostCycles = 1'000'000'000'000;
     qint64 cycles = 0;
-    if (!call.application.integer(QStringLiteral("cycles"), 1, mostCycles, &cycles))
-        return call.application.exitCode();
+    if (!call.readInteger("cycles", 1, mostCycles, &cycles))
+        return call.exitCode();
+    if (cycles == 0)
+        return command(call, QPlcMessage(QPlcMessage::StartRealTime), QStringLiteral("started"));
     return command(call, QPlcMessage(QPlcMessage::StartRealTime, {{QStringLiteral("cycles"), cycles}}),
                    QStringLiteral("started for %1 %2")
                        .arg(cycles)

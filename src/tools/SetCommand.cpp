@@ -1,57 +1,111 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Commands.h"
+#include "SignalSelection.h"
 #include "TerminalText.h"
+
+#include <QtCore/QJsonArray>
+#include <QtCore/QTimer>
+
+#include <cmath>
 
 namespace tools {
 
 namespace {
 
-/// Reads "SIGNAL VALUE SIGNAL VALUE ...". \return false, with the message out, when a value cannot be meant
-bool readValues(const CommandCall &call, const QPlcSignalTable &table, QJsonObject *values, QStringList *texts)
+constexpr double longestDuration = 1e6;  // [s]
+
+/// What is to be set, in the order of the command line.
+struct Settings
 {
-    QStringList names;
-    for (int i = 0; i < call.arguments.size(); i += 2)
-        names << call.arguments.at(i);
-    if (!knowsSignals(call.application, table, names))
-        return false;
-    for (int i = 0; i < names.size(); ++i) {
-        const QPlcSignalDefinition &definition = table.at(table.indexOf(names.at(i)));
+    QVector<QPlcSignalDefinition> definitions;
+    QJsonObject values;     // texts, as SetSignals has them
+    double duration = 0.0;  // [s]; 0: for good
+
+    QJsonObject message() const
+    {
+        QJsonObject fields{{QStringLiteral("values"), values}};
+        if (duration > 0.0)
+            fields.insert(QStringLiteral("duration"), std::round(duration * 1e9));
+        return fields;
+    }
+};
+
+/// Reads "SIGNAL VALUE SIGNAL VALUE ...". \return false, with the message out, when a value cannot be meant
+bool readValues(const CommandCall &call, const QPlcSignalTable &table, Settings *settings)
+{
+    for (int i = 0; i < call.arguments.size(); i += 2) {
+        QStringList names;
+        if (!selectSignals(call.application, table, {call.arguments.at(i)}, &names))
+            return false;
         QString error;
-        const QPlcValue value = QPlcValue::fromString(definition.type, call.arguments.at(2 * i + 1), &error);
+        const QPlcSignalDefinition &definition = table.at(table.indexOf(names.constFirst()));
+        const QPlcValue value = QPlcValue::fromString(definition.type, call.arguments.at(i + 1), &error);
         if (!value.isValid())
             error = QStringLiteral("signal '%1': %2").arg(definition.name, error);
-        else if (values->contains(definition.name))
+        else if (settings->values.contains(definition.name))
             error = QStringLiteral("signal '%1' is there twice; give it one value").arg(definition.name);
         if (!error.isEmpty()) {
             call.application.usageError(error);
             return false;
         }
-        values->insert(definition.name, value.toString());
-        *texts << QStringLiteral("%1 = %2").arg(
-            definition.name, QStringList{value.toString(), definition.unit}.join(QLatin1Char(' ')).trimmed());
+        settings->values.insert(definition.name, value.toString());
+        settings->definitions << definition;
     }
     return true;
+}
+
+void print(const CommandCall &call, const Settings &settings)
+{
+    QJsonObject values;
+    for (const QPlcSignalDefinition &definition : settings.definitions) {
+        const QString text = settings.values.value(definition.name).toString();
+        values.insert(definition.name, toJson(definition, text));
+        if (!call.isJson())
+            printLine(QStringLiteral("%1 = %2").arg(definition.name, withUnit(text, definition.unit)));
+    }
+    QJsonObject document{{QStringLiteral("values"), values}};
+    if (settings.duration > 0.0)
+        document.insert(QStringLiteral("duration"), settings.duration);
+    if (call.isJson())
+        printJson(QJsonDocument(document));
+}
+
+/// Keeps the connection for as long as the values are to stay: its end would end them.
+int waitForTheEnd(const CommandCall &call, double duration)
+{
+    QObject::connect(&call.client, &ControlClient::lost, &call.application,
+                     [] { QPlcCoreApplication::exit(QPlcCoreApplication::Failure); });
+    QTimer::singleShot(std::chrono::milliseconds(qint64(std::ceil(duration * 1e3)) + 1), Qt::PreciseTimer,
+                       &call.application, [] { QPlcCoreApplication::quit(); });
+    const int exitCode = QPlcCoreApplication::exec();
+    if (exitCode != QPlcCoreApplication::Success)
+        QPlcCoreApplication::printError(call.client.errorString());
+    return exitCode;
 }
 
 }  // namespace
 
 int setSignals(const CommandCall &call)
 {
+    Settings settings;
+    if (!call.readNumber("for", 0.001, longestDuration, &settings.duration))
+        return call.exitCode();
     if (call.arguments.size() % 2 != 0)
         return call.application.usageError(
             QStringLiteral("signal '%1' has no value; use qtplc set SIGNAL VALUE ...").arg(call.arguments.constLast()));
-    const QPlcSignalTable table = call.client.table();
-    if (table.isEmpty())
-        return reportFailure(call.client);
-    QJsonObject values;
-    QStringList texts;
-    if (!readValues(call, table, &values, &texts))
-        return call.application.exitCode();
-    if (!call.client.ask(QPlcMessage(QPlcMessage::SetSignals, {{QStringLiteral("values"), values}})))
-        return reportFailure(call.client);
-    for (const QString &text : qAsConst(texts))
-        printLine(text);
-    return QPlcCoreApplication::Success;
+    for (int i = 0; i < call.arguments.size(); i += 2) {
+        if (isPattern(call.arguments.at(i)))
+            return call.application.usageError(
+                QStringLiteral("'%1' is a pattern; set takes names only").arg(call.arguments.at(i)));
+    }
+    QPlcSignalTable table;
+    if (!call.connect(&table) || !readValues(call, table, &settings)
+        || !call.ask(QPlcMessage(QPlcMessage::SetSignals, settings.message())))
+        return call.exitCode();
+    if (settings.duration > 0.0)
+        call.application.quitOnSignals();
+    print(call, settings);
+    return settings.duration > 0.0 ? waitForTheEnd(call, settings.duration) : QPlcCoreApplication::Success;
 }
 
 }  // namespace tools

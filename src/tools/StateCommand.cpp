@@ -71,9 +71,13 @@ void printNodes(const QJsonArray &nodes, bool verbose)
 int showState(const CommandCall &call)
 {
     QPlcMessage answer;
-    if (!call.client.ask(QPlcMessage(QPlcMessage::GetState), &answer))
-        return reportFailure(call.client);
+    if (!call.connect() || !call.ask(QPlcMessage(QPlcMessage::GetState), &answer))
+        return call.exitCode();
     const QJsonObject state = answer.fields();
+    if (call.isJson()) {
+        printJson(QJsonDocument(state));
+        return QPlcCoreApplication::Success;
+    }
     const double period = state.value(QStringLiteral("period")).toDouble() * 1e-9;
     const quint64 cycle = answer.hex64(QStringLiteral("cycle"));
     printField("state", answer.text(QStringLiteral("state")));

@@ -2,6 +2,7 @@
 #include "TerminalText.h"
 
 #include <cstdio>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 namespace tools {
@@ -32,9 +33,29 @@ QString bold(const QString &text)
 
 void printLine(const QString &line)
 {
-    const QByteArray bytes = line.toUtf8() + '\n';
+    printText(line + QLatin1Char('\n'));
+}
+
+void printText(const QString &text)
+{
+    const QByteArray bytes = text.toUtf8();
     std::fwrite(bytes.constData(), 1, std::size_t(bytes.size()), stdout);
     std::fflush(stdout);
+}
+
+void printJson(const QJsonDocument &document)
+{
+    printLine(QString::fromUtf8(document.toJson(QJsonDocument::Compact)));
+}
+
+TerminalSize terminalSize()
+{
+    winsize size{};
+    if (::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 && size.ws_row > 0)
+        return {size.ws_col, size.ws_row};
+    const int columns = qEnvironmentVariableIntValue("COLUMNS");
+    const int lines = qEnvironmentVariableIntValue("LINES");
+    return {columns > 0 ? columns : 80, lines > 0 ? lines : 24};
 }
 
 void TextTable::addColumn(const QString &title, Alignment alignment)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <QtCore/QJsonDocument>
 #include <QtCore/QStringList>
 #include <QtCore/QVector>
 
@@ -14,6 +15,18 @@ bool isTerminal();
 QString bold(const QString &text);
 /// Prints a line, at once, to the standard output.
 void printLine(const QString &line);
+
+/// Prints a text as it is, at once.
+void printText(const QString &text);
+/// Prints a document, or an object, as one line of JSON.
+void printJson(const QJsonDocument &document);
+/// Columns and lines of the terminal; what COLUMNS and LINES say, or 80 x 24, where the output is none.
+struct TerminalSize
+{
+    int columns;
+    int lines;
+};
+TerminalSize terminalSize();
 
 /// Rows with aligned columns, two blanks apart; an empty cell is "-", so that every row has as many words.
 class TextTable

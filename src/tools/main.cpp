@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // qtplc: looks at a QtPLC master from the command line, and commands it.
 #include "Commands.h"
+#include "Help.h"
+#include "TerminalText.h"
 
 #include <QtCore/QLoggingCategory>
 
@@ -9,79 +11,64 @@
 namespace {
 
 using tools::Command;
+using tools::Option;
 
-QCommandLineOption option(const char *name, const QString &description, const char *valueName = "",
-                          const QString &defaultValue = QString())
-{
-    return QCommandLineOption(QString::fromLatin1(name), description, QString::fromLatin1(valueName), defaultValue);
-}
-
-QString helpText()
-{
-    QString text = QStringLiteral("Looks at a QtPLC master and commands it.\n\nCommands:\n");
-    for (const Command &command : tools::commands())
-        text += QStringLiteral("  %1 %2\n")
-                    .arg(QStringLiteral("%1 %2").arg(QString::fromLatin1(command.name),
-                                                     QString::fromLatin1(command.arguments)),
-                         -22)
-                    .arg(QString::fromLatin1(command.description));
-    return text.chopped(1);
-}
+const QString defaultMaster = QStringLiteral("127.0.0.1:%1").arg(QPlcUnderlyingProtocol::DefaultPort);
 
 void addOptions(QPlcCoreApplication &application)
 {
-    application.addOption(option(
-        "master",
-        QStringLiteral("Where the master is, 127.0.0.1:%1 unless said.").arg(QPlcUnderlyingProtocol::DefaultPort),
-        "HOST:PORT", QStringLiteral("127.0.0.1:%1").arg(QPlcUnderlyingProtocol::DefaultPort)));
-    application.addOption(option("timeout", QStringLiteral("Longest wait for an answer, 5 unless said."), "SECONDS",
-                                 QStringLiteral("5")));
-    application.addOption(option("verbose", QStringLiteral("list, state: every column.")));
-    application.addOption(option("cycles", QStringLiteral("start: ends by itself after so many."), "N"));
-    application.addOption(
-        option("rate", QStringLiteral("echo: most lines per second, 10 unless said."), "HZ", QStringLiteral("10")));
-    application.addOption(option("count", QStringLiteral("echo: ends after so many lines."), "N"));
-    application.addPositionalArgument(QStringLiteral("COMMAND"), QStringLiteral("One of those above."),
-                                      QStringLiteral("COMMAND [ARGUMENT...]"));
+    QVector<Option> options = tools::commonOptions();
+    for (const Command &command : tools::commands())
+        options += command.options;
+    QStringList added;
+    for (const Option &option : qAsConst(options)) {
+        const QString name = QString::fromLatin1(option.name);
+        if (!added.contains(name))
+            application.addOption(QCommandLineOption(name, QString(), QString::fromLatin1(option.value)));
+        added << name;
+    }
+    application.addPositionalArgument(QStringLiteral("COMMAND"), QString());
 }
 
-/// \return null, with the message out, when there is no such command or it is not called as it should be
-const Command *findCommand(QPlcCoreApplication &application)
+/// \return null, with the message out, when there is no such command
+const Command *commandOf(QPlcCoreApplication &application)
 {
-    const QVector<Command> &all = tools::commands();
-    const QStringList arguments = application.positionalArguments();
-    QStringList names;
-    for (const Command &command : all)
-        names << QString::fromLatin1(command.name);
-    const int index = arguments.isEmpty() ? -1 : names.indexOf(arguments.constFirst());
-    if (index < 0) {
-        const QString what = arguments.isEmpty() ? QStringLiteral("no command")
-                                                 : QStringLiteral("unknown command '%1'").arg(arguments.constFirst());
-        application.usageError(
-            QStringLiteral("%1; use one of %2 (see --help)").arg(what, names.join(QStringLiteral(", "))));
-        return nullptr;
-    }
-    const Command &command = all.at(index);
-    const int given = arguments.size() - 1;
-    if (given < command.minimumArguments || given > command.maximumArguments) {
-        const QString usage
-            = QStringLiteral("qtplc %1 %2").arg(names.at(index), QString::fromLatin1(command.arguments)).trimmed();
-        application.usageError(
-            QStringLiteral("%1 of arguments for %2; use %3")
-                .arg(given > 0 ? QStringLiteral("wrong number") : QStringLiteral("lack"), names.at(index), usage));
-        return nullptr;
-    }
-    return &command;
+    const QString name = application.positionalArguments().value(0);
+    const Command *command = tools::findCommand(name);
+    if (!command)
+        application.usageError(QStringLiteral("%1; use one of %2 (see --help)")
+                                   .arg(name.isEmpty()
+                                            ? QStringLiteral("no command")
+                                            : QStringLiteral("unknown command '%1'").arg(tools::printable(name)),
+                                        tools::commandNames()));
+    return command;
+}
+
+/// \return false, with the message out, when the command has not as many arguments as it should
+bool hasItsArguments(QPlcCoreApplication &application, const Command &command)
+{
+    const int given = application.positionalArguments().size() - 1;
+    if (given >= command.minimumArguments && given <= command.maximumArguments)
+        return true;
+    const QString name = QString::fromLatin1(command.name);
+    const QString usage = QStringLiteral("qtplc %1 %2").arg(name, QString::fromLatin1(command.usage)).trimmed();
+    application.usageError(QStringLiteral("%1 of arguments for %2; use %3")
+                               .arg(given > 0 ? QStringLiteral("wrong number") : QStringLiteral("lack"), name, usage));
+    return false;
 }
 
 /// \return false, with the message out, when an option was given that the command does not have
 bool hasOnlyItsOptions(QPlcCoreApplication &application, const Command &command)
 {
+    QStringList own;
+    for (const Option &option : command.options)
+        own << QString::fromLatin1(option.name);
     for (const Command &other : tools::commands()) {
-        for (const QString &name : other.options) {
-            if (application.isSet(name) && !command.options.contains(name)) {
-                application.usageError(
-                    QStringLiteral("%1 has no option --%2; see --help").arg(QString::fromLatin1(command.name), name));
+        for (const Option &option : other.options) {
+            const QString name = QString::fromLatin1(option.name);
+            if (application.isSet(name) && !own.contains(name)) {
+                application.usageError(QStringLiteral("%1 has no option --%2; see qtplc %1 --help")
+                                           .arg(QString::fromLatin1(command.name), name));
                 return false;
             }
         }
@@ -89,21 +76,29 @@ bool hasOnlyItsOptions(QPlcCoreApplication &application, const Command &command)
     return true;
 }
 
+/// Help of the command that was named, or of all.
+QString helpText(const QPlcCoreApplication &application)
+{
+    const Command *command = tools::findCommand(application.positionalArguments().value(0));
+    return command ? tools::helpOf(*command) : tools::generalHelp();
+}
+
 int run(QPlcCoreApplication &application)
 {
-    const Command *command = findCommand(application);
-    double timeout = 0.0;
-    if (!command || !hasOnlyItsOptions(application, *command)
-        || !application.number(QStringLiteral("timeout"), 0.01, 3600.0, &timeout))
+    const Command *command = commandOf(application);
+    double timeout = 5.0;
+    if (!command || !hasItsArguments(application, *command) || !hasOnlyItsOptions(application, *command)
+        || (application.isSet(QStringLiteral("timeout"))
+            && !application.number(QStringLiteral("timeout"), 0.01, 3600.0, &timeout)))
         return application.exitCode();
     QString error;
-    const QPlcUnderlyingProtocol master = QPlcUnderlyingProtocol::fromString(
-        application.value(QStringLiteral("master")), QPlcUnderlyingProtocol::Tcp, &error);
+    const QString address
+        = application.isSet(QStringLiteral("master")) ? application.value(QStringLiteral("master")) : defaultMaster;
+    const QPlcUnderlyingProtocol master
+        = QPlcUnderlyingProtocol::fromString(address, QPlcUnderlyingProtocol::Tcp, &error);
     if (!master.isValid())
         return application.usageError(QStringLiteral("--master: %1").arg(error));
     tools::ControlClient client(std::chrono::milliseconds(qRound64(timeout * 1e3)));
-    if (!client.connectToMaster(master))
-        return tools::reportFailure(client);
     return command->run({application, client, master, application.positionalArguments().mid(1)});
 }
 
@@ -113,13 +108,9 @@ int main(int argc, char **argv)
 {
     std::setvbuf(stdout, nullptr, _IOLBF, 0);
     QPlcCoreApplication application(argc, argv);
+    application.setHelpText([&application] { return helpText(application); });
     QLoggingCategory::setFilterRules(
-        QStringLiteral("qtplc.slave.info=false"));  // echo is a tool, not a node of the plant
-    application.setDescription(helpText());
-    application.setExamples({QStringLiteral("qtplc list"), QStringLiteral("qtplc start --cycles 1000"),
-                             QStringLiteral("qtplc echo tetherLength power --rate 2"),
-                             QStringLiteral("qtplc set tetherSpeed -1.5"),
-                             QStringLiteral("qtplc --master 192.168.1.5:50000 state")});
+        QStringLiteral("qtplc.slave.info=false"));  // a tool that listens is no node of the plant
     addOptions(application);
     if (!application.parseOptions())
         return application.exitCode();

@@ -15,7 +15,7 @@ ARROWS = {
     "transport": {"transport"},
     "protocol": {"signals", "protocol"},
     "node": {"signals", "realtime", "transport", "protocol", "node"},
-    "tools": {"signals", "protocol", "transport", "node", "tools"},
+    "tools": {"signals", "realtime", "protocol", "transport", "node", "tools"},
 }
 # Public headers without a source file of their own; "all": a plain value that every room may use.
 HEADER_ONLY = {

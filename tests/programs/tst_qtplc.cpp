@@ -95,11 +95,19 @@ void tst_qtplc::badUseIsRefusedWithOneSentence_data()
     const auto row = [](const char *command, const char *message) {
         QTest::newRow(command) << QString::fromLatin1(command) << QString::fromLatin1(message);
     };
-    row("", "no command; use one of list, state, init, start, stop, echo, set");
+    row("", "no command; use one of list, get, set, echo, watch, hz, state,");
     row("fly", "unknown command 'fly'; use one of list,");
-    row("list all", "list");
+    row("init all", "wrong number of arguments for init");
+    row("get", "lack of arguments for get");
+    row("echo power --rate 0", "--rate 0");
+    row("start --cycles 0", "--cycles 0");
+    row("set a 1 --for 0", "--for 0");
+    row("set a* 1", "'a*' is a pattern");
+    row("get a --plain --json", "--plain and --json");
+    row("hz --for never", "--for never");
+    row("help fly", "unknown command 'fly'");
     row("state now", "state");
-    row("echo", "lack of arguments for echo; use qtplc echo SIGNAL...");
+    row("echo", "lack of arguments for echo; use qtplc echo SIGNAL|PATTERN...");
     row("set", "lack of arguments for set");
     row("set tetherSpeed", "wrong number of arguments for set; use qtplc set SIGNAL VALUE ...");
     row("list --fast", "Unknown option 'fast'");
@@ -128,7 +136,8 @@ void tst_qtplc::helpShowsEveryCommand()
     const Outcome outcome = runProgram(path("qtplc"), {QStringLiteral("--help")});
     QCOMPARE(outcome.exitCode, 0);
     QCOMPARE(outcome.errors, QString());
-    for (const char *command : {"list", "state", "init", "start", "stop", "echo SIGNAL...", "set SIGNAL VALUE ..."})
+    for (const char *command : {"list", "get", "set", "echo", "watch", "hz", "state", "init", "start", "stop",
+                                "schedule", "jitter", "doctor", "help", "complete"})
         QVERIFY2(outcome.output.contains(QStringLiteral("\n  %1 ").arg(QLatin1String(command))), command);
     QVERIFY(outcome.output.contains(QLatin1String("\nExamples:\n  qtplc list\n")));
     QCOMPARE(runProgram(path("qtplc"), {QStringLiteral("--version")}).exitCode, 0);

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "MasterSettings.h"
+
+#include "realtime/TimeSource.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace qplc {
+
+namespace {
+
+constexpr double longestDuration = 1e15;  // [ns], eleven days: what a QTimer can wait for
+constexpr int retryPause = 5;             // [ms] when the cycle had no room
+
+/// \return false when the field is there and makes no sense; 0: for good
+bool readDuration(const QJsonValue &field, std::int64_t *duration, Refusal *refusal)
+{
+    *duration = 0;
+    if (field.isUndefined())
+        return true;
+    const double wanted = field.toDouble(-1.0);
+    if (!(wanted >= 1.0 && wanted <= longestDuration) || wanted != std::floor(wanted)) {
+        *refusal = {QStringLiteral("MalformedMessage"),
+                    QStringLiteral("'duration' is a whole number of nanoseconds, 1 ... 10^15; leave it out to set the "
+                                   "values for good")};
+        return false;
+    }
+    *duration = std::int64_t(wanted);
+    return true;
+}
+
+}  // namespace
+
+MasterSettings::MasterSettings(NodeRegistry &registry, MasterCycle &cycle)
+    : m_registry(registry)
+    , m_cycle(cycle)
+    , m_table(cycle.table())
+{
+    m_timer.setSingleShot(true);
+    m_timer.setTimerType(Qt::PreciseTimer);
+    connect(&m_timer, &QTimer::timeout, this, [this] {
+        payDebts();
+        bringBack(m_temporary.endDue(TimeSource::monotonic().now()));
+    });
+}
+
+bool MasterSettings::setSignals(const QObject *owner, const QJsonObject &fields, Refusal *refusal)
+{
+    std::vector<SignalSetting> settings;
+    std::int64_t duration = 0;
+    if (!readDuration(fields.value(QStringLiteral("duration")), &duration, refusal)
+        || !readValues(fields.value(QStringLiteral("values")), &settings, refusal))
+        return false;
+    std::vector<QPlcValue> former;
+    for (const SignalSetting &setting : settings)
+        former.push_back(presentValue(setting.signal));
+    if (!give(settings, refusal))
+        return false;
+    if (duration > 0) {
+        keepFor(owner, settings, former, TimeSource::monotonic().now() + duration);
+    } else {
+        for (const SignalSetting &setting : settings)
+            m_temporary.forget(setting.signal);
+    }
+    waitForNext();
+    return true;
+}
+
+bool MasterSettings::setSignal(const QString &name, const QPlcValue &value, Refusal *refusal)
+{
+    QPlcSignalIndex index = QPlcInvalidSignalIndex;
+    SignalSetting setting;
+    if (!isSettable(name, &index, refusal) || !checkValue(index, value, &setting, refusal) || !give({setting}, refusal))
+        return false;
+    m_temporary.forget(index);
+    return true;
+}
+
+void MasterSettings::leaveToWriters()
+{
+    const auto isWritten = [this](QPlcSignalIndex signal) { return !m_registry.writer(signal).isEmpty(); };
+    for (const QPlcSignalIndex signal : m_temporary.signalIndices()) {
+        if (isWritten(signal))
+            m_temporary.forget(signal);
+    }
+    for (auto *values : {&m_given, &m_debts}) {
+        for (auto value = values->begin(); value != values->end();)
+            value = isWritten(value->first) ? values->erase(value) : std::next(value);
+    }
+}
+
+// ---- checks ----
+
+bool MasterSettings::isSettable(const QString &name, QPlcSignalIndex *signal, Refusal *refusal) const
+{
+    *signal = m_table.indexOf(name);
+    if (*signal == QPlcInvalidSignalIndex)
+        *refusal = {QStringLiteral("UnknownSignal"), m_table.unknownSignalText(name)};
+    else if (!m_registry.writer(*signal).isEmpty())
+        *refusal = {QStringLiteral("SignalHasWriter"),
+                    QStringLiteral("signal '%1' is written by '%2'; stop that node to set it from outside")
+                        .arg(name, m_registry.writer(*signal))};
+    return refusal->error.isEmpty();
+}
+
+bool MasterSettings::checkValue(QPlcSignalIndex signal, const QPlcValue &value, SignalSetting *setting,
+                                Refusal *refusal) const
+{
+    const QPlcSignalDefinition &definition = m_table.at(signal);
+    *setting = {signal, value.convertedTo(definition.type)};
+    if (!setting->value.isValid() || !setting->value.isFinite()) {
+        *refusal = {QStringLiteral("InvalidValue"),
+                    QStringLiteral("%1 is no value for signal '%2' of type %3")
+                        .arg(value.toString(), definition.name, definition.type.name())};
+        return false;
+    }
+    if (!definition.isInRange(setting->value)) {
+        *refusal = {QStringLiteral("InvalidValue"),
+                    QStringLiteral("%1 is out of range for signal '%2'; use %3 %4")
+                        .arg(value.toString(), definition.name, definition.rangeText(), definition.unit)
+                        .trimmed()};
+        return false;
+    }
+    return true;
+}
+
+bool MasterSettings::readValues(const QJsonValue &values, std::vector<SignalSetting> *settings, Refusal *refusal) const
+{
+    if (!values.isObject())
+        *refusal
+            = {QStringLiteral("MalformedMessage"), QStringLiteral("'values' is an object of signal names and texts")};
+    const QJsonObject texts = values.toObject();
+    for (auto it = texts.begin(); it != texts.end() && refusal->error.isEmpty(); ++it) {
+        QPlcSignalIndex index = QPlcInvalidSignalIndex;
+        if (!isSettable(it.key(), &index, refusal))
+            break;
+        QString text;
+        SignalSetting setting;
+        const QPlcValue value = QPlcValue::fromString(m_table.at(index).type, it.value().toString(), &text);
+        if (!text.isEmpty())
+            *refusal = {QStringLiteral("InvalidValue"), QStringLiteral("signal '%1': %2").arg(it.key(), text)};
+        else if (checkValue(index, value, &setting, refusal))
+            settings->push_back(setting);
+    }
+    return refusal->error.isEmpty();
+}
+
+// ---- setting ----
+
+bool MasterSettings::give(const std::vector<SignalSetting> &settings, Refusal *refusal)
+{
+    if (!m_cycle.setValues(settings)) {
+        *refusal = {QStringLiteral("WrongState"),
+                    QStringLiteral("%1 changes are too many between two cycles; send them in smaller groups")
+                        .arg(settings.size())};
+        return false;
+    }
+    for (const SignalSetting &setting : settings) {
+        m_given[setting.signal] = setting.value;
+        m_debts.erase(setting.signal);
+    }
+    return true;
+}
+
+void MasterSettings::keepFor(const QObject *owner, const std::vector<SignalSetting> &settings,
+                             const std::vector<QPlcValue> &former, std::int64_t deadline)
+{
+    for (std::size_t i = 0; i < settings.size(); ++i)
+        m_temporary.set(owner, settings[i], former[i], deadline);
+    if (!m_owners.insert(owner).second)
+        return;
+    connect(owner, &QObject::destroyed, this, [this, owner] {
+        m_owners.erase(owner);
+        bringBack(m_temporary.endAllOf(owner));
+    });
+}
+
+QPlcValue MasterSettings::presentValue(QPlcSignalIndex signal) const
+{
+    const auto debt = m_debts.find(signal);
+    if (debt != m_debts.end())
+        return debt->second;
+    const auto given = m_given.find(signal);
+    return given != m_given.end() ? given->second : m_cycle.value(signal);
+}
+
+void MasterSettings::bringBack(const std::vector<SignalSetting> &settings)
+{
+    for (const SignalSetting &setting : settings)
+        m_debts[setting.signal] = setting.value;
+    payDebts();
+    waitForNext();
+}
+
+/// One by one: the cycle may have room for some of them.
+void MasterSettings::payDebts()
+{
+    while (!m_debts.empty()) {
+        Refusal refusal;
+        const auto [signal, value] = *m_debts.begin();
+        if (!give({{signal, value}}, &refusal))  // erases what it could give
+            return;
+    }
+}
+
+void MasterSettings::waitForNext()
+{
+    const std::optional<std::int64_t> next = m_temporary.nextDeadline();
+    if (!m_debts.empty()) {
+        m_timer.start(retryPause);
+    } else if (next) {
+        const std::int64_t pause = *next - TimeSource::monotonic().now();
+        m_timer.start(int(std::max<std::int64_t>(pause, 0) / 1'000'000 + 1));
+    } else {
+        m_timer.stop();
+    }
+}
+
+}  // namespace qplc

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Commands.h"
+
+namespace tools {
+
+bool CommandCall::connect() const
+{
+    if (client.connectToMaster(master))
+        return true;
+    QPlcCoreApplication::printError(client.errorString());
+    return false;
+}
+
+bool CommandCall::connect(QPlcSignalTable *table) const
+{
+    if (!connect())
+        return false;
+    *table = client.table();
+    if (table->isEmpty())
+        QPlcCoreApplication::printError(client.errorString());
+    return !table->isEmpty();
+}
+
+bool CommandCall::ask(const QPlcMessage &request, QPlcMessage *answer) const
+{
+    if (client.ask(request, answer))
+        return true;
+    QPlcCoreApplication::printError(client.errorString());
+    return false;
+}
+
+bool CommandCall::askFor(QPlcMessage::Kind request, QPlcMessage::Kind expected, const QJsonObject &fields,
+                         QPlcMessage *answer) const
+{
+    if (client.askFor(request, expected, fields, answer))
+        return true;
+    QPlcCoreApplication::printError(client.errorString());
+    return false;
+}
+
+int CommandCall::exitCode() const
+{
+    switch (client.error()) {
+    case ControlClient::NoError:
+        return application.exitCode();
+    case ControlClient::Unreachable:
+        return QPlcCoreApplication::UsageError;
+    case ControlClient::Refused:
+    case ControlClient::Lost:
+        break;
+    }
+    return QPlcCoreApplication::Failure;
+}
+
+std::shared_ptr<const bool> CommandCall::quitOnSignals() const
+{
+    const auto isWanted = std::make_shared<bool>(false);
+    application.quitOnSignals([isWanted] {
+        *isWanted = true;
+        QCoreApplication::quit();
+    });
+    return isWanted;
+}
+
+bool CommandCall::readNumber(const char *option, double minimum, double maximum, double *result) const
+{
+    const QString name = QString::fromLatin1(option);
+    return !application.isSet(name) || application.number(name, minimum, maximum, result);
+}
+
+bool CommandCall::readInteger(const char *option, qint64 minimum, qint64 maximum, qint64 *result) const
+{
+    const QString name = QString::fromLatin1(option);
+    return !application.isSet(name) || application.integer(name, minimum, maximum, result);
+}
+
+}  // namespace tools

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Commands.h"
+#include "TerminalText.h"
+#include "realtime/SystemCheck.h"
+#include "transport/LoopbackProbe.h"
+
+#include <QtCore/QJsonArray>
+
+#include <algorithm>
+
+namespace tools {
+
+namespace {
+
+using qplc::Finding;
+
+constexpr int wakeUps = 1000;
+constexpr std::chrono::milliseconds wakeUpPeriod{1};
+constexpr int datagrams = 2000;
+constexpr int tryPriority = 49;
+
+const char *verdictText(Finding::Verdict verdict)
+{
+    switch (verdict) {
+    case Finding::Ok:
+        return "ok";
+    case Finding::ToCure:
+        return "to cure";
+    case Finding::Unknown:
+        break;
+    }
+    return "unknown";
+}
+
+qplc::WakeUps tryOrdinary()
+{
+    QPlcRealTimeOptions options;
+    options.policy = QPlcRealTimeOptions::Other;
+    return qplc::probeWakeUps(options, wakeUpPeriod, wakeUps);
+}
+
+qplc::WakeUps tryRealTime()
+{
+    QPlcRealTimeOptions options;
+    options.policy = QPlcRealTimeOptions::Fifo;
+    options.priority = tryPriority;
+    options.lockMemory = true;
+    return qplc::probeWakeUps(options, wakeUpPeriod, wakeUps);
+}
+
+QVector<Finding> examine()
+{
+    const qplc::SystemFacts facts = qplc::SystemFacts::read();
+    QVector<Finding> findings{qplc::judgeVersions(facts)};
+    findings += qplc::judgeFacts(facts);
+    findings += qplc::judgeEffects(facts, tryOrdinary(), tryRealTime());
+    qplc::Histogram roundTrips;
+    qplc::probeLoopback(
+        datagrams, [] { return qplc::TimeSource::monotonic().now(); },
+        [&roundTrips](std::int64_t time) { roundTrips.record(time); });
+    findings += qplc::judgeLoopback(roundTrips);
+    return findings;
+}
+
+void print(const QVector<Finding> &findings)
+{
+    for (const Finding &finding : findings) {
+        printLine(QStringLiteral("%1 %2 %3")
+                      .arg(QLatin1String(verdictText(finding.verdict)), -8)
+                      .arg(finding.subject, -14)
+                      .arg(printable(finding.found)));
+        QString label = QStringLiteral("cure:");
+        for (const QString &way : finding.remedy.split(QStringLiteral("; or "), Qt::SkipEmptyParts)) {
+            printLine(QStringLiteral("         %1 %2").arg(label, -5).arg(printable(way)));
+            label = QStringLiteral("  or:");
+        }
+    }
+}
+
+void printJson(const QVector<Finding> &findings, bool isHealthy)
+{
+    QJsonArray array;
+    for (const Finding &finding : findings) {
+        QJsonObject object{{QStringLiteral("subject"), finding.subject},
+                           {QStringLiteral("verdict"), QLatin1String(verdictText(finding.verdict))},
+                           {QStringLiteral("found"), finding.found}};
+        if (!finding.remedy.isEmpty())
+            object.insert(QStringLiteral("cure"), finding.remedy);
+        array.append(object);
+    }
+    tools::printJson(
+        QJsonDocument(QJsonObject{{QStringLiteral("ok"), isHealthy}, {QStringLiteral("findings"), array}}));
+}
+
+}  // namespace
+
+int examineComputer(const CommandCall &call)
+{
+    const QVector<Finding> findings = examine();
+    const bool isHealthy = std::none_of(findings.begin(), findings.end(),
+                                        [](const Finding &finding) { return finding.verdict == Finding::ToCure; });
+    call.isJson() ? printJson(findings, isHealthy) : print(findings);
+    return isHealthy ? QPlcCoreApplication::Success : QPlcCoreApplication::Failure;
+}
+
+}  // namespace tools

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QtCore/QJsonArray>
+#include <QtCore/QStringList>
+
+namespace tools {
+
+/// A duration in the unit that suits it, with three digits: "850 ns", "12.3 us", "1.50 ms", "2.00 s".
+QString durationText(double nanoseconds);
+
+/// A histogram as lines of text: logarithmic bins, a bar of Unicode blocks for each, its count and its share.
+///
+/// Rows go by 1, 2, 5, 10; where less than a decade is in use, by ten steps a decade. A row begins above the upper border of the one before.
+/// \param bins  [upper border in ns, count] each, in rising order, without empty ones
+/// \param width  of the lines [characters], at least 40
+QStringList histogramLines(const QJsonArray &bins, int width);
+
+}  // namespace tools

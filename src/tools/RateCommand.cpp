@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+// hz: the rate of the cycle, and its evenness, as a listener hears it.
+#include "Commands.h"
+#include "RateStatistics.h"
+#include "TerminalText.h"
+#include "realtime/SpscRing.h"
+#include "realtime/TimeSource.h"
+
+#include <QtCore/QTimer>
+
+#include <cmath>
+
+namespace tools {
+
+namespace {
+
+/// A listener without signals: notes when each cycle comes.
+class CycleEar : public QPlcCompactSlaveNode
+{
+public:
+    CycleEar()
+        : QPlcCompactSlaveNode(QStringLiteral("qtplc-hz-%1").arg(QCoreApplication::applicationPid()),
+                               SilentZeroOrderHold)
+    {
+        setListener(true);
+    }
+    ~CycleEar() override { disconnectFromMaster(); }
+
+    bool take(Arrival *arrival) { return m_arrivals.pop(arrival); }
+
+protected:
+    void step(const QPlcCycle &cycle) override
+    {
+        m_arrivals.push({cycle.number(), qplc::TimeSource::monotonic().now()});
+    }
+
+private:
+    qplc::SpscRing<Arrival> m_arrivals{65536};
+};
+
+/// State of the master at one moment.
+struct MasterState
+{
+    bool isRunning = false;
+    double period = 0.0;  // [s]
+    QString clock;
+    quint64 skipped = 0;
+
+    static bool read(const CommandCall &call, MasterState *state)
+    {
+        QPlcMessage answer;
+        if (!call.ask(QPlcMessage(QPlcMessage::GetState), &answer))
+            return false;
+        const QString name = answer.text(QStringLiteral("state"));
+        const QJsonObject counters = answer.fields().value(QStringLiteral("counters")).toObject();
+        state->isRunning = name != QLatin1String("Off") && name != QLatin1String("Initializing");
+        state->period = answer.fields().value(QStringLiteral("period")).toDouble() * 1e-9;
+        state->clock = answer.text(QStringLiteral("clock"));
+        state->skipped = quint64(counters.value(QStringLiteral("skippedCycles")).toDouble());
+        return true;
+    }
+};
+
+void print(const RateStatistics &rate, const MasterState &state, quint64 skipped)
+{
+    const auto field = [](const char *label, const QString &value) {
+        printLine(QStringLiteral("%1%2").arg(QString::fromLatin1(label), -10).arg(value));
+    };
+    const auto milliseconds = [](double ns) { return QString::number(ns * 1e-6, 'f', 4); };
+    field("cycles", QStringLiteral("%1 in %2 s").arg(rate.cycles()).arg(rate.duration(), 0, 'f', 3));
+    field("rate",
+          QStringLiteral("%1 Hz (%2, period %3 ms)")
+              .arg(rate.rate(), 0, 'f', 3)
+              .arg(printable(state.clock))
+              .arg(state.period * 1e3));
+    field("interval",
+          QStringLiteral("mean %1  min %2  max %3  std %4 ms")
+              .arg(milliseconds(rate.mean()), milliseconds(rate.minimum()), milliseconds(rate.maximum()),
+                   milliseconds(rate.deviation())));
+    field("lost",
+          rate.lost() == 0 ? QStringLiteral("0")
+                           : QStringLiteral("%1 (cycles %2), of them skipped by the master: %3")
+                                 .arg(rate.lost())
+                                 .arg(rate.gapsText())
+                                 .arg(skipped));
+}
+
+void printJson(const RateStatistics &rate, const MasterState &state, quint64 skipped)
+{
+    const QJsonObject interval{{QStringLiteral("count"), double(rate.intervals())},
+                               {QStringLiteral("mean"), rate.mean()},
+                               {QStringLiteral("minimum"), rate.minimum()},
+                               {QStringLiteral("maximum"), rate.maximum()},
+                               {QStringLiteral("std"), rate.deviation()}};
+    tools::printJson(QJsonDocument(QJsonObject{{QStringLiteral("cycles"), double(rate.cycles())},
+                                               {QStringLiteral("duration"), rate.duration()},
+                                               {QStringLiteral("rate"), rate.rate()},
+                                               {QStringLiteral("clock"), state.clock},
+                                               {QStringLiteral("period"), state.period},
+                                               {QStringLiteral("interval"), interval},
+                                               {QStringLiteral("lost"), double(rate.lost())},
+                                               {QStringLiteral("lostCycles"), rate.gaps()},
+                                               {QStringLiteral("skippedByMaster"), double(skipped)}}));
+}
+
+/// Listens for a time. \return false when the master was lost meanwhile
+bool listen(CycleEar &ear, double seconds, RateStatistics *rate)
+{
+    constexpr int drainPause = 20;  // [ms], the ring holds far more
+    QTimer drain;
+    const auto takeAll = [&ear, rate] {
+        for (Arrival arrival; ear.take(&arrival);)
+            rate->take(arrival);
+    };
+    QObject::connect(&drain, &QTimer::timeout, takeAll);
+    QObject::connect(&ear, &QPlcSlaveNode::disconnectedFromMaster, &drain,
+                     [] { QCoreApplication::exit(QPlcCoreApplication::Failure); });
+    drain.start(drainPause);
+    QTimer::singleShot(std::chrono::milliseconds(std::llround(seconds * 1e3)), Qt::PreciseTimer, &drain,
+                       [] { QCoreApplication::quit(); });
+    const bool isSound = QCoreApplication::exec() == QPlcCoreApplication::Success;
+    takeAll();
+    return isSound;
+}
+
+}  // namespace
+
+int measureRate(const CommandCall &call)
+{
+    double seconds = 3.0;
+    MasterState before;
+    MasterState after;
+    if (!call.readNumber("for", 0.01, 1e6, &seconds) || !call.connect() || !MasterState::read(call, &before))
+        return call.exitCode();
+    if (!before.isRunning) {
+        QPlcCoreApplication::printError(QStringLiteral("the master does not run; start it: qtplc start"));
+        return QPlcCoreApplication::Failure;
+    }
+    const auto endIsWanted = call.quitOnSignals();
+    CycleEar ear;
+    RateStatistics rate;
+    if (!ear.connectToMasterAndWaitForConnected(call.master, call.client.timeout()))
+        return QPlcCoreApplication::Failure;  // the node has said why
+    if (!*endIsWanted && !listen(ear, seconds, &rate)) {
+        QPlcCoreApplication::printError(QStringLiteral("the master has ended during the measurement"));
+        return QPlcCoreApplication::Failure;
+    }
+    if (!MasterState::read(call, &after))
+        return call.exitCode();
+    if (rate.cycles() < 2) {
+        QPlcCoreApplication::printError(
+            QStringLiteral("%1 cycles came in %2 s; measure longer with --for").arg(rate.cycles()).arg(seconds));
+        return QPlcCoreApplication::Failure;
+    }
+    const quint64 skipped = after.skipped >= before.skipped ? after.skipped - before.skipped : after.skipped;
+    call.isJson() ? printJson(rate, after, skipped) : print(rate, after, skipped);
+    return rate.lost() > 0 ? QPlcCoreApplication::Failure : QPlcCoreApplication::Success;
+}
+
+}  // namespace tools

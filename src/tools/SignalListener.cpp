@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "SignalListener.h"
+
+#include "SignalSelection.h"
+
+#include <QtCore/QJsonArray>
+
+namespace tools {
+
+SignalListener::SignalListener(const QString &purpose, const QPlcSignalTable &table, const QStringList &names,
+                               int pause)
+    : m_names(names)
+    , m_node(QStringLiteral("qtplc-%1-%2").arg(purpose).arg(QCoreApplication::applicationPid()))
+{
+    QPlcSignalIndexTable::setCurrent(table);
+    QPlcSignalIndexList indices;
+    for (const QString &name : names) {
+        m_wanted << indices.insert(name);
+        m_definitions << table.at(table.indexOf(name));
+    }
+    m_node.setInputSignalIndices(indices);
+    m_node.setBufferSize(10000);
+    m_timer.setTimerType(Qt::PreciseTimer);
+    m_timer.setInterval(pause);
+    connect(&m_timer, &QTimer::timeout, this, [this] { takeCycles(); });
+    connect(&m_node, &QPlcSlaveNode::realTimeHasStarted, this, [this] {
+        m_isRunning = true;
+        m_node.sendMessageToMaster(QPlcMessage(QPlcMessage::GetState));
+    });
+    connect(&m_node, &QPlcSlaveNode::messageReceived, this, &SignalListener::take);
+    connect(&m_node, &QPlcSlaveNode::disconnectedFromMaster, this, [this] {
+        // When the master was lost, and did not just end, the error follows.
+        QMetaObject::invokeMethod(this, &SignalListener::masterEnded, Qt::QueuedConnection);
+    });
+}
+
+SignalListener::~SignalListener()
+{
+    m_node.disconnect(this);
+}
+
+QJsonObject SignalListener::toJson(const QVector<QPlcValue> &values) const
+{
+    QJsonObject object;
+    for (int i = 0; i < m_names.size(); ++i)
+        object.insert(m_names.at(i), tools::toJson(values.at(i)));
+    return object;
+}
+
+void SignalListener::take(const QPlcMessage &answer)
+{
+    if (answer.kind() == QPlcMessage::State) {
+        m_period = answer.fields().value(QStringLiteral("period")).toDouble() * 1e-9;
+        m_state = answer.text(QStringLiteral("state"));
+        m_isRunning = m_state != QLatin1String("Off") && m_state != QLatin1String("Initializing");
+    } else if (answer.kind() == QPlcMessage::Signals) {
+        const QJsonArray rows = answer.fields().value(QStringLiteral("signals")).toArray();
+        QVector<QPlcValue> values;
+        for (int i = 0; i < rows.size() && i < m_definitions.size(); ++i)
+            values << QPlcValue::fromString(m_definitions.at(i).type,
+                                            rows.at(i).toObject().value(QStringLiteral("value")).toString());
+        if (!m_isRunning && values.size() == m_definitions.size())
+            Q_EMIT valuesAtRest(values);
+    }
+}
+
+bool SignalListener::join(const CommandCall &call)
+{
+    m_timer.start();
+    return m_node.connectToMasterAndWaitForConnected(call.master, call.client.timeout());  // says why not
+}
+
+void SignalListener::refresh()
+{
+    m_node.sendMessageToMaster(QPlcMessage(QPlcMessage::GetState));
+    if (!m_isRunning)
+        m_node.sendMessageToMaster(
+            QPlcMessage(QPlcMessage::GetSignals, {{QStringLiteral("names"), QJsonArray::fromStringList(m_names)}}));
+}
+
+void SignalListener::takeCycles()
+{
+    QVector<quint64> cycles;
+    const QList<QPlcSignalList> batch = m_node.takeInputSignals(&cycles);
+    QVector<Sample> samples;
+    for (int i = 0; i < batch.size(); ++i) {
+        Sample sample{cycles.at(i), {}};
+        for (const QPlcSignalIndex index : qAsConst(m_wanted))
+            sample.values << batch.at(i).value(index);
+        samples << sample;
+    }
+    Q_EMIT heard(samples);
+}
+
+}  // namespace tools

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "Commands.h"
+
+#include <QtCore/QTimer>
+
+namespace tools {
+
+/// Joins the plant as a listener: hears the signals of every cycle, and asks the master now and then for what a cycle does not tell.
+class SignalListener : public QObject
+{
+    Q_OBJECT
+public:
+    struct Sample
+    {
+        quint64 cycle;
+        QVector<QPlcValue> values;  // in the order of names()
+    };
+
+    /// \param purpose  becomes part of the name under which the master knows this listener
+    /// \param pause  time between two heard() [ms]
+    SignalListener(const QString &purpose, const QPlcSignalTable &table, const QStringList &names, int pause);
+    ~SignalListener() override;
+
+    const QVector<QPlcSignalDefinition> &definitions() const { return m_definitions; }
+    /// Names and values of one sample, as JSON.
+    QJsonObject toJson(const QVector<QPlcValue> &values) const;
+    /// Reads period, state and values from an answer of the master (State, Signals).
+    void take(const QPlcMessage &answer);
+    /// Registers and listens from now on. \return false, with the message out
+    bool join(const CommandCall &call);
+    /// Asks for State, and for the values while no cycle runs; the answers come as heard() and stateChanged().
+    void refresh();
+
+    bool isRunning() const { return m_isRunning; }
+    /// As the master names it.
+    QString state() const { return m_state; }
+    /// Nominal time of a cycle since the start [s].
+    double timeOf(quint64 cycle) const { return double(cycle) * m_period; }
+    /// Whether the master has ended as wanted, or is still there.
+    bool isSound() const { return m_node.error() == QPlcSlaveNode::NoError; }
+
+Q_SIGNALS:
+    /// Cycles that came since the last time, oldest first. Empty: none came.
+    void heard(const QVector<tools::SignalListener::Sample> &samples);
+    /// The values while no cycle runs.
+    void valuesAtRest(const QVector<QPlcValue> &values);
+    void masterEnded();
+
+private:
+    void takeCycles();
+
+    QStringList m_names;
+    QVector<QPlcSignalDefinition> m_definitions;
+    QVector<QPlcSignalIndex> m_wanted;
+    QPlcIOBufferSlaveNode m_node;
+    QTimer m_timer;
+    double m_period = 0.0;  // [s]
+    QString m_state;
+    bool m_isRunning = false;
+};
+
+}  // namespace tools

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "WatchTable.h"
+
+#include "TerminalText.h"
+
+#include <cmath>
+
+namespace tools {
+
+namespace {
+
+constexpr int numberWidth = 11;  // of extremes
+constexpr int ageWidth = 7;
+constexpr int gaps = 5 * 2;  // between six columns
+constexpr int titleLines = 1;
+
+/// At most \a width characters; "…" stands for what was cut.
+QString cut(const QString &text, int width)
+{
+    return text.size() <= width ? text : text.left(width - 1) + QChar(0x2026);
+}
+
+/// Six digits, fewer where an exponent needs the room.
+QString shortNumber(double number)
+{
+    int digits = 6;
+    QString text = QString::number(number, 'g', digits);
+    while (text.size() > numberWidth && digits > 1)
+        text = QString::number(number, 'g', --digits);
+    return text;
+}
+
+/// "0.3 s", "12 s", "5 min", "3 h"
+QString ageText(double seconds)
+{
+    if (seconds < 10.0)
+        return QStringLiteral("%1 s").arg(seconds, 0, 'f', 1);
+    if (seconds < 120.0)
+        return QStringLiteral("%1 s").arg(std::floor(seconds));
+    if (seconds < 7200.0)
+        return QStringLiteral("%1 min").arg(std::floor(seconds / 60.0));
+    return QStringLiteral("%1 h").arg(std::floor(seconds / 3600.0));
+}
+
+}  // namespace
+
+WatchTable::WatchTable(const QVector<QPlcSignalDefinition> &definitions)
+    : m_definitions(definitions)
+{
+    for (const QPlcSignalDefinition &definition : definitions) {
+        const bool isNumber = definition.type.isReal() || definition.type.isInteger();
+        const int count = isNumber ? definition.type.count() : 1;
+        for (int i = 0; i < count; ++i) {
+            const QString name = count > 1 ? QStringLiteral("%1[%2]").arg(definition.name).arg(i) : definition.name;
+            m_rows.append({name, printable(definition.unit), isNumber, QString()});
+        }
+    }
+}
+
+void WatchTable::update(const QVector<QPlcValue> &values, double now)
+{
+    int row = 0;
+    for (int i = 0; i < m_definitions.size(); ++i) {
+        const QPlcSignalType type = m_definitions.at(i).type;
+        const QString text = printable(values.at(i).toString());
+        if (!m_rows.at(row).isNumber) {
+            update(&m_rows[row++], text, 0.0, now);
+            continue;
+        }
+        const QStringList texts = text.split(QStringLiteral(", "));
+        for (int element = 0; element < type.count(); ++element)
+            update(&m_rows[row++], texts.value(element), values.at(i).toReal(element), now);
+    }
+}
+
+void WatchTable::update(Row *row, const QString &text, double number, double now)
+{
+    if (text != row->value)
+        row->changedAt = now;
+    row->value = text;
+    row->number = number;
+    if (!row->isNumber || std::isnan(number))
+        return;
+    row->minimum = row->hasExtremes ? std::fmin(row->minimum, number) : number;
+    row->maximum = row->hasExtremes ? std::fmax(row->maximum, number) : number;
+    row->hasExtremes = true;
+}
+
+void WatchTable::forgetExtremes()
+{
+    for (Row &row : m_rows)
+        row.hasExtremes = false;
+}
+
+/// The name is given what it needs where the line is wide enough; a value may be cut, being a text then.
+WatchTable::Widths WatchTable::widths(int first, int count, int width) const
+{
+    Widths widths{6, 13, 4};
+    for (int i = first; i < first + count; ++i) {
+        widths.name = qMax(widths.name, m_rows.at(i).name.size());
+        widths.unit = qMax(widths.unit, m_rows.at(i).unit.size());
+        widths.value = qMax(widths.value, m_rows.at(i).value.size());
+    }
+    const int room = width - 2 * numberWidth - ageWidth - gaps;
+    widths.unit = qMin(widths.unit, 8);
+    widths.value = qBound(13, widths.value, qMax(13, room - widths.unit - qMin(widths.name, 24)));
+    widths.name = qBound(6, widths.name, qMax(6, room - widths.unit - widths.value));
+    return widths;
+}
+
+QStringList WatchTable::lines(int first, int width, int height, double now) const
+{
+    const int count = qBound(0, height - titleLines, m_rows.size() - first);
+    const Widths columns = widths(first, count, width);
+    const auto line = [&](const QString &name, const QString &value, const QString &unit, const QString &minimum,
+                          const QString &maximum, const QString &age) {
+        const QString gap = QStringLiteral("  ");
+        return cut(name, columns.name).leftJustified(columns.name) + gap
+            + cut(value, columns.value).rightJustified(columns.value) + gap
+            + cut(unit, columns.unit).leftJustified(columns.unit) + gap + minimum.rightJustified(numberWidth) + gap
+            + maximum.rightJustified(numberWidth) + gap + age.rightJustified(ageWidth);
+    };
+    QStringList lines{bold(line(QStringLiteral("signal"), QStringLiteral("value"), QStringLiteral("unit"),
+                                QStringLiteral("min"), QStringLiteral("max"), QStringLiteral("age")))};
+    for (int i = first; i < first + count; ++i) {
+        const Row &row = m_rows.at(i);
+        const QString none = QStringLiteral("-");
+        lines << line(row.name, row.value, row.unit, row.hasExtremes ? shortNumber(row.minimum) : none,
+                      row.hasExtremes ? shortNumber(row.maximum) : none,
+                      row.value.isEmpty() ? none : ageText(now - row.changedAt));
+    }
+    return lines;
+}
+
+}  // namespace tools

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Plant.h"
+
+#include <QtTest/QtTest>
+
+/// What qtplc does by itself: help, completion, doctor.
+class tst_qtplc_alone : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void helpOfEveryCommandHasExamplesAndFits_data();
+    void helpOfEveryCommandHasExamplesAndFits();
+    void helpOfAllFits();
+    void completesCommandsAndOptions_data();
+    void completesCommandsAndOptions();
+    void completesSignalsOfTheLiveMaster_data();
+    void completesSignalsOfTheLiveMaster();
+    void completionWithoutAMasterIsSilent();
+    void bashCompletes_data();
+    void bashCompletes();
+    void doctorExaminesThisComputer();
+
+private:
+    static Outcome qtplc(const QStringList &arguments) { return runProgram(programPath("qtplc"), arguments); }
+    static QStringList complete(const QStringList &words)
+    {
+        const Outcome outcome = qtplc(QStringList{"complete", "--", "qtplc"} + words);
+        return outcome.exitCode == 0 && outcome.errors.isEmpty() ? outcome.output.split('\n', Qt::SkipEmptyParts)
+                                                                 : QStringList{"failed: " + outcome.errors};
+    }
+    static QStringList commandNames() { return complete({""}); }
+};
+
+// ---- help ----
+
+void tst_qtplc_alone::helpOfEveryCommandHasExamplesAndFits_data()
+{
+    QTest::addColumn<QString>("command");
+    QVERIFY(commandNames().size() > 10);
+    for (const QString &command : commandNames())
+        QTest::newRow(qPrintable(command)) << command;
+}
+
+void tst_qtplc_alone::helpOfEveryCommandHasExamplesAndFits()
+{
+    QFETCH(QString, command);
+    const Outcome outcome = qtplc({"help", command});
+    QCOMPARE(outcome.exitCode, 0);
+    QVERIFY2(outcome.output.startsWith(QString("Usage: qtplc %1 ").arg(command)), qPrintable(outcome.output));
+    QVERIFY(outcome.output.contains(QString("\nExamples:\n  ")) && outcome.output.contains("qtplc " + command));
+    QVERIFY(outcome.output.contains("\n  --json "));
+    for (const QString &line : outcome.output.split('\n'))
+        QVERIFY2(line.size() <= 80, qPrintable(line));
+    const Outcome other = qtplc({command, "--help"});
+    QCOMPARE(other.exitCode, 0);
+    QCOMPARE(other.output, outcome.output);
+    // Every option that is offered is explained.
+    for (const QString &option : complete({command, "--"}))
+        QVERIFY2(option == "--help" || outcome.output.contains("\n  " + option), qPrintable(option));
+}
+
+void tst_qtplc_alone::helpOfAllFits()
+{
+    const QString text = qtplc({"help"}).output;
+    QCOMPARE(qtplc({"--help"}).output, text);
+    for (const QString &line : text.split('\n'))
+        QVERIFY2(line.size() <= 80, qPrintable(line));
+}
+
+// ---- completion ----
+
+void tst_qtplc_alone::completesCommandsAndOptions_data()
+{
+    QTest::addColumn<QStringList>("words");
+    QTest::addColumn<QStringList>("candidates");
+    QTest::newRow("a command") << QStringList{"wat"} << QStringList{"watch"};
+    QTest::newRow("several") << QStringList{"st"} << QStringList{"state", "start", "stop"};
+    QTest::newRow("none") << QStringList{"xyz"} << QStringList();
+    QTest::newRow("behind an option") << QStringList{"--timeout", "1", "wat"} << QStringList{"watch"};
+    QTest::newRow("behind a switch") << QStringList{"--json", "wat"} << QStringList{"watch"};
+    QTest::newRow("the value of an option") << QStringList{"--timeout", ""} << QStringList();
+    QTest::newRow("an option") << QStringList{"set", "--f"} << QStringList{"--for"};
+    QTest::newRow("not those of others") << QStringList{"stop", "--f"} << QStringList();
+    QTest::newRow("common ones") << QStringList{"--ma"} << QStringList{"--master"};
+    QTest::newRow("a command to explain") << QStringList{"help", "doc"} << QStringList{"doctor"};
+    QTest::newRow("no second one") << QStringList{"help", "doctor", ""} << QStringList();
+    QTest::newRow("no argument") << QStringList{"stop", ""} << QStringList();
+}
+
+void tst_qtplc_alone::completesCommandsAndOptions()
+{
+    QFETCH(QStringList, words);
+    QTEST(complete(words), "candidates");
+}
+
+void tst_qtplc_alone::completesSignalsOfTheLiveMaster_data()
+{
+    QTest::addColumn<QString>("words");
+    QTest::addColumn<QStringList>("candidates");
+    const QStringList tether{"tetherSpeed", "tetherForce_earth", "tetherLength"};
+    QTest::newRow("get") << "get tether" << tether;
+    QTest::newRow("the second") << "echo power tether" << tether;
+    QTest::newRow("watch") << "watch tetherL" << QStringList{"tetherLength"};
+    QTest::newRow("set: what nobody writes") << "set tether" << QStringList{"tetherSpeed"};
+    QTest::newRow("set: a value") << "set tetherSpeed tether" << QStringList();
+    QTest::newRow("set: the next name") << "set power 1 --for 3 tether" << QStringList{"tetherSpeed"};
+}
+
+void tst_qtplc_alone::completesSignalsOfTheLiveMaster()
+{
+    QFETCH(QString, words);
+    QFETCH(QStringList, candidates);
+    Plant plant;
+    QVERIFY(plant.start());
+    Program model(programPath("awe_model"), {plant.address()});  // no autopilot: tetherSpeed is free
+    QVERIFY(model.waitForErrors("registered"));
+    QCOMPARE(complete(plant.withMaster(words)), candidates);
+    QStringList separate{"--master", plant.address().section('=', 1)};
+    QCOMPARE(complete(separate + words.split(' ')), candidates);
+}
+
+void tst_qtplc_alone::completionWithoutAMasterIsSilent()
+{
+    QCOMPARE(complete({"--master=127.0.0.1:1", "get", "te"}), QStringList());
+    QCOMPARE(complete({"--master=nonsense:x", "get", "te"}), QStringList());
+    QCOMPARE(complete({"--master="}), QStringList());
+}
+
+void tst_qtplc_alone::bashCompletes_data()
+{
+    QTest::addColumn<QString>("line");
+    QTest::addColumn<QString>("candidates");
+    QTest::newRow("a command") << "qtplc wa"
+                               << "watch";
+    QTest::newRow("an empty word") << "qtplc help " << commandNames().join(' ');
+    QTest::newRow("an option") << "qtplc set --f"
+                               << "--for";
+    QTest::newRow("a signal") << "qtplc --master 127.0.0.1:PORT get tetherL"
+                              << "tetherLength";
+    QTest::newRow("a signal, written otherwise") << "qtplc --master=127.0.0.1:PORT get tetherL"
+                                                 << "tetherLength";
+    QTest::newRow("nothing") << "qtplc stop "
+                             << "";
+}
+
+void tst_qtplc_alone::bashCompletes()
+{
+    QFETCH(QString, line);
+    QFETCH(QString, candidates);
+    Plant plant;
+    QVERIFY(plant.start());
+    const QString script
+        = QStringLiteral("set -eu; PATH=%1:$PATH; source %2; complete -p qtplc > /dev/null; "
+                         "COMP_LINE=\"%3\"; COMP_POINT=${#COMP_LINE}; _qtplc; echo \"${COMPREPLY[*]}\"")
+              .arg(QTPLC_PROGRAMS, QTPLC_COMPLETION, line.replace("PORT", plant.port));
+    const Outcome outcome = runProgram("/bin/bash", {"--norc", "-c", script});
+    QVERIFY2(outcome.exitCode == 0, qPrintable(outcome.errors));
+    QCOMPARE(outcome.output.trimmed(), candidates);
+}
+
+// ---- doctor ----
+
+void tst_qtplc_alone::doctorExaminesThisComputer()
+{
+    const Outcome outcome = qtplc({"doctor", "--json", "--master", "127.0.0.1:1"});  // needs none
+    const QJsonObject document = jsonOf(outcome.output).object();
+    const QJsonArray findings = document.value("findings").toArray();
+    QStringList subjects;
+    bool isHealthy = true;
+    for (const QJsonValue &finding : findings) {
+        const QString verdict = finding["verdict"].toString();
+        subjects << finding["subject"].toString();
+        QVERIFY2(QStringList({"ok", "to cure", "unknown"}).contains(verdict), qPrintable(verdict));
+        QCOMPARE(finding["cure"].toString().isEmpty(), verdict != "to cure");
+        QVERIFY(!finding["found"].toString().isEmpty());
+        isHealthy = isHealthy && verdict != "to cure";
+    }
+    QCOMPARE(subjects,
+             (QStringList{"versions", "kernel", "processors", "clock source", "governor", "idle states", "scheduling",
+                          "locked memory", "swap", "wake-up", "wake-up FIFO", "loopback"}));
+    QCOMPARE(document.value("ok").toBool(), isHealthy);
+    QCOMPARE(outcome.exitCode, isHealthy ? 0 : 1);
+    QCOMPARE(outcome.errors, QString());
+}
+
+QTEST_GUILESS_MAIN(tst_qtplc_alone)
+#include "tst_qtplc_alone.moc"

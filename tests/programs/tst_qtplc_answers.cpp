@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Plant.h"
+
+#include <QtPlcCore>
+
+#include <QtNetwork/QTcpServer>
+#include <QtTest/QtTest>
+
+namespace {
+
+/// A master that answers each kind of request with what the test says, and nothing else.
+class AnsweringMaster : public QObject
+{
+    Q_OBJECT
+public:
+    AnsweringMaster()
+    {
+        m_server.listen(QHostAddress::LocalHost);
+        connect(&m_server, &QTcpServer::newConnection, this, [this] {
+            auto *socket = new QPlcSlaveSocket(m_server.nextPendingConnection(), this);
+            connect(socket, &QPlcAbstractSocket::messageReceived, this,
+                    [this, socket](const QPlcMessage &message) { answer(socket, message); });
+        });
+    }
+    QStringList withMaster(const QString &command) const
+    {
+        return QStringList{QStringLiteral("--master=127.0.0.1:%1").arg(m_server.serverPort())}
+        + command.split(QLatin1Char(' '), Qt::SkipEmptyParts);
+    }
+    /// Runs qtplc while this master answers.
+    Outcome qtplc(const QString &command)
+    {
+        Program program(programPath("qtplc"), withMaster(command));
+        (void)QTest::qWaitFor([&program] { return program.state() == QProcess::NotRunning; }, Program::patience);
+        return {program.waitForEnd(), program.output(), program.errors()};
+    }
+
+    QMap<int, QPlcMessage> answers;  // by kind of the request; others are answered as a master that does not know them
+    QVector<QPlcMessage> requests;
+
+private:
+    void answer(QPlcSlaveSocket *socket, const QPlcMessage &message)
+    {
+        if (message.kind() == QPlcMessage::Hello) {
+            socket->sendMessage(QPlcMessage(
+                QPlcMessage::Hello, {{"protocol", 1}, {"name", "Master"}, {"table", "[power]\ntype = Real32\n"}}));
+            return;
+        }
+        requests << message;
+        const QPlcMessage unknown(QPlcMessage::Failed,
+                                  {{"error", "MalformedMessage"}, {"text", "a master has no use for it"}});
+        socket->sendMessage(answers.value(message.kind(), unknown));
+    }
+    QTcpServer m_server;
+};
+
+QJsonObject numbers(double scale, bool hasBins = false)
+{
+    QJsonObject object{{"count", 1000},     {"minimum", scale},    {"mean", 2.5 * scale},    {"p50", 2 * scale},
+                       {"p99", 30 * scale}, {"p999", 400 * scale}, {"maximum", 5000 * scale}};
+    if (hasBins)
+        object.insert("bins",
+                      QJsonArray{QJsonArray{2 * scale, 900}, QJsonArray{30 * scale, 99}, QJsonArray{5000 * scale, 1}});
+    return object;
+}
+
+QJsonObject distribution(double scale, bool hasBins = false)
+{
+    return {{"sinceStart", numbers(scale, hasBins)}, {"last10s", numbers(10 * scale, hasBins)}};
+}
+
+QPlcMessage statistics(bool hasBins = false)
+{
+    const QJsonObject master{{"lateness", distribution(1000, hasBins)},
+                             {"roundTrip", distribution(2000, hasBins)},
+                             {"execution", distribution(10, hasBins)},
+                             {"slack", distribution(100'000, hasBins)},
+                             {"counters", QJsonObject{{"overruns", 3}}}};
+    const QJsonObject node{{"name", "Wi\033nch"},
+                           {"execution", distribution(10, hasBins)},
+                           {"counters", QJsonObject{{"late", 7}, {"lost", 8}}}};
+    const QJsonObject worst{
+        {"cycle", 4711},     {"lateness", 1000},
+        {"roundTrip", 2000}, {"execution", 3000},
+        {"slack", -4000},    {"stages", QJsonArray{QJsonObject{{"name", "send"}, {"duration", 1500}}}}};
+    return QPlcMessage(QPlcMessage::Statistics,
+                       {{"master", master}, {"nodes", QJsonArray{node}}, {"worst", QJsonArray{worst}}});
+}
+
+}  // namespace
+
+/// qtplc jitter and schedule, against a master whose answers are known.
+class tst_qtplc_answers : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void init() { m_master.reset(new AnsweringMaster); }
+    void jitterShowsBothWindowsOfMasterAndNodes();
+    void jitterNamesCountersAndWorstCycles();
+    void jitterDrawsHistograms();
+    void jitterAsksForHistogramsOnlyWhenTheyAreWanted();
+    void jitterOfNothingSaysSo();
+    void scheduleShowsStagesAndLinks();
+    void scheduleOfNothingSaysSo();
+    void jsonIsWhatTheMasterSaid_data();
+    void jsonIsWhatTheMasterSaid();
+    void olderMasterIsSaidSo_data();
+    void olderMasterIsSaidSo();
+    void otherRefusalIsShownAsItIs();
+    void answerOfAnotherKindIsRefused();
+    void nonsenseInAnswersIsHarmless_data();
+    void nonsenseInAnswersIsHarmless();
+
+private:
+    QScopedPointer<AnsweringMaster> m_master;
+};
+
+void tst_qtplc_answers::jitterShowsBothWindowsOfMasterAndNodes()
+{
+    m_master->answers.insert(QPlcMessage::GetStatistics, statistics());
+    const Outcome outcome = m_master->qtplc("jitter");
+    QCOMPARE(outcome.exitCode, 0);
+    QCOMPARE(outcome.errors, QString());
+    const auto row = [&outcome](const char *pattern) {
+        return outcome.output.contains(QRegularExpression(QString(pattern), QRegularExpression::MultilineOption));
+    };
+    QVERIFY(row("^since start +- +count +mean +p50 +p99 +p99\\.9 +max$") || row("^since start +count +mean"));
+    QVERIFY2(row("^Master +lateness +1000 +2\\.50 us +2\\.00 us +30\\.0 us +400 us +5\\.00 ms$"),
+             qPrintable(outcome.output));
+    QVERIFY(row("^Master +lateness +1000 +25\\.0 us +20\\.0 us +300 us +4\\.00 ms +50\\.0 ms$"));  // last 10 s
+    QVERIFY(row("^Master +round trip +1000 +5\\.00 us"));
+    QVERIFY(row("^Master +slack +"));
+    QVERIFY(row("^Wi\\\\x1bnch +execution +1000 +25 ns +20 ns +300 ns +4\\.00 us +50\\.0 us$"));
+    QVERIFY(!outcome.output.contains('\033'));
+}
+
+void tst_qtplc_answers::jitterNamesCountersAndWorstCycles()
+{
+    m_master->answers.insert(QPlcMessage::GetStatistics, statistics());
+    const QString output = m_master->qtplc("jitter").output;
+    QVERIFY2(output.contains("\nMaster: overruns 3\nWi\\x1bnch: late 7, lost 8\n"), qPrintable(output));
+    QVERIFY(
+        output.contains(QRegularExpression("\n +4711 +1\\.00 us +2\\.00 us +3\\.00 us +-4\\.00 us +send 1\\.50 us\n")));
+}
+
+void tst_qtplc_answers::jitterDrawsHistograms()
+{
+    m_master->answers.insert(QPlcMessage::GetStatistics, statistics(true));
+    const Outcome outcome = m_master->qtplc("jitter --hist");
+    QCOMPARE(outcome.exitCode, 0);
+    QVERIFY2(
+        outcome.output.startsWith("Master lateness, since start: 1000 values, p50 2.00 us, p99 30.0 us, max 5.00 ms\n"),
+        qPrintable(outcome.output));
+    QVERIFY(outcome.output.contains(QRegularExpression("<=  2\\.00 us +900 +90\\.000 %  \u2588+\n")));
+    QCOMPARE(outcome.output.count("since start"), 5);  // four of the master, one of the node
+}
+
+void tst_qtplc_answers::jitterAsksForHistogramsOnlyWhenTheyAreWanted()
+{
+    m_master->answers.insert(QPlcMessage::GetStatistics, statistics());
+    m_master->qtplc("jitter");
+    m_master->qtplc("jitter --hist");
+    QCOMPARE(m_master->requests.size(), 2);
+    QCOMPARE(m_master->requests.at(0).fields().value("histograms").toBool(), false);
+    QCOMPARE(m_master->requests.at(1).fields().value("histograms").toBool(), true);
+}
+
+void tst_qtplc_answers::jitterOfNothingSaysSo()
+{
+    m_master->answers.insert(QPlcMessage::GetStatistics, QPlcMessage(QPlcMessage::Statistics));
+    QVERIFY(m_master->qtplc("jitter").output.contains("no statistics yet"));
+}
+
+void tst_qtplc_answers::scheduleShowsStagesAndLinks()
+{
+    const auto step = [](const char *node, const char *phase) { return QJsonObject{{"node", node}, {"phase", phase}}; };
+    const QJsonArray stages{QJsonArray{step("Model", "outputs")},
+                            QJsonArray{step("Autopilot", "step"), step("View", "step")},
+                            QJsonArray{step("Model", "update")}};
+    const QJsonArray links{
+        QJsonObject{{"signal", "speed"}, {"from", "Autopilot"}, {"to", "Model"}, {"age", 0}, {"sameCycle", true}},
+        QJsonObject{{"signal", "free"}, {"from", ""}, {"to", "Model"}, {"age", 1}, {"sameCycle", false}}};
+    m_master->answers.insert(QPlcMessage::GetSchedule,
+                             QPlcMessage(QPlcMessage::Schedule, {{"stages", stages}, {"links", links}}));
+    const Outcome outcome = m_master->qtplc("schedule");
+    QCOMPARE(outcome.exitCode, 0);
+    QCOMPARE(outcome.output,
+             QString("stage  node       phase\n"
+                     "    1  Model      outputs\n"
+                     "    2  Autopilot  step\n"
+                     "    2  View       step\n"
+                     "    3  Model      update\n"
+                     "\n"
+                     "signal  from       to     age [cycles]  same cycle\n"
+                     "speed   Autopilot  Model             0  yes\n"
+                     "free    -          Model             1  -\n"));
+}
+
+void tst_qtplc_answers::scheduleOfNothingSaysSo()
+{
+    m_master->answers.insert(QPlcMessage::GetSchedule, QPlcMessage(QPlcMessage::Schedule));
+    QCOMPARE(m_master->qtplc("schedule").output, QString("no nodes\n"));
+}
+
+void tst_qtplc_answers::jsonIsWhatTheMasterSaid_data()
+{
+    QTest::addColumn<QString>("command");
+    QTest::addColumn<int>("request");
+    QTest::addColumn<QPlcMessage>("answer");
+    QTest::newRow("jitter") << "jitter --json" << int(QPlcMessage::GetStatistics) << statistics();
+    QTest::newRow("schedule") << "schedule --json" << int(QPlcMessage::GetSchedule)
+                              << QPlcMessage(QPlcMessage::Schedule, {{"stages", QJsonArray()}, {"later", 1}});
+}
+
+void tst_qtplc_answers::jsonIsWhatTheMasterSaid()
+{
+    QFETCH(QString, command);
+    QFETCH(int, request);
+    QFETCH(QPlcMessage, answer);
+    m_master->answers.insert(request, answer);
+    const Outcome outcome = m_master->qtplc(command);
+    QCOMPARE(outcome.exitCode, 0);
+    QCOMPARE(jsonOf(outcome.output).object(), answer.fields());
+}
+
+void tst_qtplc_answers::olderMasterIsSaidSo_data()
+{
+    QTest::addColumn<QString>("command");
+    QTest::addColumn<QString>("kind");
+    QTest::newRow("jitter") << "jitter"
+                            << "GetStatistics";
+    QTest::newRow("histogram") << "jitter --hist"
+                               << "GetStatistics";
+    QTest::newRow("schedule") << "schedule --json"
+                              << "GetSchedule";
+}
+
+void tst_qtplc_answers::olderMasterIsSaidSo()
+{
+    QFETCH(QString, command);
+    QFETCH(QString, kind);
+    const Outcome outcome = m_master->qtplc(command);
+    QCOMPARE(outcome.exitCode, 1);
+    QCOMPARE(outcome.output, QString());
+    QVERIFY2(outcome.errors.contains(QString("does not know %1; it is older than this tool: update it").arg(kind)),
+             qPrintable(outcome.errors));
+    QCOMPARE(outcome.errors.count('\n'), 1);
+}
+
+void tst_qtplc_answers::otherRefusalIsShownAsItIs()
+{
+    m_master->answers.insert(QPlcMessage::GetStatistics,
+                             QPlcMessage(QPlcMessage::Failed, {{"error", "TooLong"}, {"text", "too many nodes"}}));
+    const Outcome outcome = m_master->qtplc("jitter");
+    QCOMPARE(outcome.exitCode, 1);
+    QCOMPARE(outcome.errors, QString("qtplc: the master refuses: too many nodes\n"));
+}
+
+void tst_qtplc_answers::answerOfAnotherKindIsRefused()
+{
+    m_master->answers.insert(QPlcMessage::GetSchedule, QPlcMessage(QPlcMessage::Done));
+    QCOMPARE(m_master->qtplc("schedule").exitCode, 1);
+}
+
+void tst_qtplc_answers::nonsenseInAnswersIsHarmless_data()
+{
+    QTest::addColumn<QJsonObject>("fields");
+    QTest::newRow("texts") << QJsonObject{
+        {"master", "x"}, {"nodes", "y"}, {"worst", "z"}, {"stages", "a"}, {"links", 1}};
+    QTest::newRow("wrong elements") << QJsonObject{
+        {"master", QJsonObject{{"lateness", QJsonObject{{"sinceStart", 3}}}}},
+        {"nodes", QJsonArray{1, QJsonArray(), QJsonValue()}},
+        {"worst", QJsonArray{1, "x"}},
+        {"stages", QJsonArray{1, QJsonArray{1, "x"}}},
+        {"links", QJsonArray{1, QJsonObject{{"age", "x"}}}}};
+    QTest::newRow("wrong bins") << QJsonObject{
+        {"master",
+         QJsonObject{
+             {"lateness", QJsonObject{{"sinceStart", QJsonObject{{"bins", QJsonArray{1, "x", QJsonArray{-1, 3}}}}}}}}}};
+}
+
+void tst_qtplc_answers::nonsenseInAnswersIsHarmless()
+{
+    QFETCH(QJsonObject, fields);
+    m_master->answers.insert(QPlcMessage::GetStatistics, QPlcMessage(QPlcMessage::Statistics, fields));
+    m_master->answers.insert(QPlcMessage::GetSchedule, QPlcMessage(QPlcMessage::Schedule, fields));
+    for (const char *command : {"jitter", "jitter --hist", "schedule"})
+        QCOMPARE(m_master->qtplc(command).exitCode, 0);
+}
+
+QTEST_GUILESS_MAIN(tst_qtplc_answers)
+#include "tst_qtplc_answers.moc"

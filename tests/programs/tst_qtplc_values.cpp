@@ -1,0 +1,386 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Plant.h"
+
+#include <QtTest/QtTest>
+
+#include <csignal>
+#include <fcntl.h>
+#include <sys/ioctl.h>
+#include <termios.h>
+#include <unistd.h>
+
+namespace {
+
+/// A terminal of 80 x 20 characters that a program believes to be in front of a person.
+class Terminal
+{
+public:
+    Terminal()
+        : m_mine(::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC))
+    {
+        ::grantpt(m_mine);
+        ::unlockpt(m_mine);
+        winsize size{};
+        size.ws_col = 80;
+        size.ws_row = 20;
+        m_theirs = ::open(::ptsname(m_mine), O_RDWR | O_NOCTTY | O_CLOEXEC);
+        ::ioctl(m_theirs, TIOCSWINSZ, &size);
+        ::fcntl(m_mine, F_SETFL, O_NONBLOCK);
+    }
+    ~Terminal()
+    {
+        ::close(m_mine);
+        ::close(m_theirs);
+    }
+    Terminal(const Terminal &) = delete;
+    Terminal &operator=(const Terminal &) = delete;
+
+    int descriptor() const { return m_theirs; }
+    void press(const QByteArray &keys)
+    {
+        QCOMPARE(::write(m_mine, keys.constData(), size_t(keys.size())), keys.size());
+    }
+    /// All that was written to it.
+    QByteArray screen()
+    {
+        char buffer[4096];
+        for (ssize_t count = 0; (count = ::read(m_mine, buffer, sizeof buffer)) > 0;)
+            m_screen.append(buffer, int(count));
+        return m_screen;
+    }
+    void forget() { m_screen = screen().left(0); }
+    bool hasLineInput() const
+    {
+        termios settings{};
+        ::tcgetattr(m_theirs, &settings);
+        return (settings.c_lflag & ICANON) != 0 && (settings.c_lflag & ECHO) != 0;
+    }
+
+private:
+    int m_mine, m_theirs;
+    QByteArray m_screen;
+};
+
+/// A program whose input and output are a terminal.
+class TerminalProgram : public QProcess
+{
+    Q_OBJECT
+public:
+    TerminalProgram(const Terminal &terminal, const QStringList &arguments)
+        : m_terminal(terminal.descriptor())
+    {
+        start(programPath("qtplc"), arguments);
+        waitForStarted();
+    }
+    ~TerminalProgram() override
+    {
+        kill();
+        waitForFinished();
+    }
+    int waitForEnd() { return waitForFinished(Program::patience) && exitStatus() == NormalExit ? exitCode() : -1; }
+
+protected:
+    void setupChildProcess() override
+    {
+        ::dup2(m_terminal, STDIN_FILENO);
+        ::dup2(m_terminal, STDOUT_FILENO);
+    }
+
+private:
+    int m_terminal;
+};
+
+}  // namespace
+
+/// qtplc get, set --for, hz, watch, patterns and JSON against a real plant.
+class tst_qtplc_values : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void init() { QVERIFY(m_plant.start()); }
+    void getPrintsNameValueAndUnit();
+    void getForScripts();
+    void getTakesPatterns();
+    void unmatchedPatternIsRefused_data();
+    void unmatchedPatternIsRefused();
+    void listTakesPatterns();
+    void jsonIsOneDocument_data();
+    void jsonIsOneDocument();
+    void echoAndWatchPrintAnObjectPerLine_data();
+    void echoAndWatchPrintAnObjectPerLine();
+    void watchIsEchoWithoutATerminal();
+    void watchTakesAndGivesBackTheTerminal_data();
+    void watchTakesAndGivesBackTheTerminal();
+    void watchScrolls();
+    void formerValueComesBackAfterSetFor();
+    void formerValueComesBackWhenSetForIsEnded_data();
+    void formerValueComesBackWhenSetForIsEnded();
+    void setForTellsThatTheMasterIsLost();
+    void hzMeasuresTheCycle();
+    void hzNeedsARunningPlant();
+    void hzToldToStopTellsWhatItHas();
+
+private:
+    QString value(const QString &signal) const
+    {
+        return m_plant.qtplc(QStringLiteral("get --plain ") + signal).output.trimmed();
+    }
+    Plant m_plant;
+};
+
+// ---- get, list ----
+
+void tst_qtplc_values::getPrintsNameValueAndUnit()
+{
+    m_plant.qtplc("set tetherSpeed -1.5 windVelocity_earth 5,-3,0");
+    const Outcome outcome = m_plant.qtplc("get windVelocity_earth tetherSpeed flightPhase");
+    QCOMPARE(outcome.exitCode, 0);
+    QCOMPARE(outcome.output, QString("windVelocity_earth = 5, -3, 0 m/s\ntetherSpeed = -1.5 m/s\nflightPhase = 0\n"));
+}
+
+void tst_qtplc_values::getForScripts()
+{
+    m_plant.qtplc("set tetherSpeed 0.1 windVelocity_earth 5,-3,0");
+    QCOMPARE(m_plant.qtplc("get --plain tetherSpeed windVelocity_earth").output, QString("0.1\n5, -3, 0\n"));
+    const QJsonObject values = jsonOf(m_plant.qtplc("get --json tetherSpeed windVelocity_earth").output).object();
+    QCOMPARE(values, (QJsonObject{{"tetherSpeed", 0.1}, {"windVelocity_earth", QJsonArray{5, -3, 0}}}));
+}
+
+void tst_qtplc_values::getTakesPatterns()
+{
+    const Outcome outcome = m_plant.qtplc("get tether* tetherLength p?wer");
+    QCOMPARE(outcome.exitCode, 0);
+    QCOMPARE(outcome.output.count("tetherLength"), 1);
+    QCOMPARE(outcome.output.count('\n'), 4);
+    QVERIFY(outcome.output.contains("power = "));
+}
+
+void tst_qtplc_values::unmatchedPatternIsRefused_data()
+{
+    QTest::addColumn<QString>("command");
+    for (const char *command : {"get", "list", "echo", "watch"})
+        QTest::newRow(command) << QString(command);
+}
+
+void tst_qtplc_values::unmatchedPatternIsRefused()
+{
+    QFETCH(QString, command);
+    const Outcome outcome = m_plant.qtplc(command + " zz* power tetherLenght");
+    QCOMPARE(outcome.exitCode, 2);
+    QCOMPARE(outcome.output, QString());
+    QVERIFY2(outcome.errors.contains("no signal matches 'zz*'"), qPrintable(outcome.errors));
+    QVERIFY2(outcome.errors.contains("did you mean 'tetherLength'"), qPrintable(outcome.errors));
+    QCOMPARE(outcome.errors.count('\n'), 1);
+}
+
+void tst_qtplc_values::listTakesPatterns()
+{
+    const Outcome outcome = m_plant.qtplc("list tether*");
+    QCOMPARE(outcome.exitCode, 0);
+    QCOMPARE(outcome.output.count('\n'), 4);
+}
+
+// ---- JSON ----
+
+void tst_qtplc_values::jsonIsOneDocument_data()
+{
+    QTest::addColumn<QString>("command");
+    QTest::addColumn<QString>("member");
+    QTest::newRow("state") << "state --json"
+                           << "nodes";
+    QTest::newRow("set") << "set power 1 --json"
+                         << "values";
+    QTest::newRow("init") << "init --json"
+                          << "done";
+    QTest::newRow("start") << "start --cycles 3 --json"
+                           << "cycles";
+    QTest::newRow("stop") << "stop --json"
+                          << "done";
+    QTest::newRow("list") << "list power --json" << QString();
+}
+
+void tst_qtplc_values::jsonIsOneDocument()
+{
+    QFETCH(QString, command);
+    QFETCH(QString, member);
+    const Outcome outcome = m_plant.qtplc(command);
+    QCOMPARE(outcome.exitCode, 0);
+    const QJsonDocument document = jsonOf(outcome.output);
+    QVERIFY2(!document.isNull(), qPrintable(outcome.output));
+    if (member.isEmpty())
+        QCOMPARE(document.array().at(0)["value"], QJsonValue(0));
+    else
+        QVERIFY2(document.object().contains(member), qPrintable(outcome.output));
+}
+
+void tst_qtplc_values::echoAndWatchPrintAnObjectPerLine_data()
+{
+    QTest::addColumn<QString>("command");
+    QTest::newRow("echo") << "echo power windVelocity_earth --json --rate 100";
+    QTest::newRow("watch") << "watch power windVelocity_earth --json --rate 100";
+}
+
+void tst_qtplc_values::echoAndWatchPrintAnObjectPerLine()
+{
+    QFETCH(QString, command);
+    Program program(programPath("qtplc"), m_plant.withMaster(command));
+    QVERIFY(program.waitForOutput("\n"));
+    QCOMPARE(m_plant.qtplc("start").exitCode, 0);
+    QTRY_VERIFY_WITH_TIMEOUT(program.output().count('\n') >= 4, Program::patience);
+    program.sendSignal(SIGINT);
+    QCOMPARE(program.waitForEnd(), 0);
+    const QStringList lines = program.output().split('\n', Qt::SkipEmptyParts);
+    QVERIFY(QJsonDocument::fromJson(lines.at(0).toUtf8()).object().value("time").isNull());  // before the start
+    for (const QString &line : lines.mid(1)) {
+        const QJsonObject object = QJsonDocument::fromJson(line.toUtf8()).object();
+        QVERIFY2(object.value("cycle").isDouble() && object.value("time").isDouble(), qPrintable(line));
+        QCOMPARE(object.value("values").toObject().value("windVelocity_earth").toArray().size(), 3);
+    }
+}
+
+// ---- watch ----
+
+void tst_qtplc_values::watchIsEchoWithoutATerminal()
+{
+    Program program(programPath("qtplc"), m_plant.withMaster("watch power tetherL*"));
+    QVERIFY(program.waitForOutput("\n-\t"));
+    program.sendSignal(SIGTERM);
+    QCOMPARE(program.waitForEnd(), 0);
+    QVERIFY2(program.output().startsWith("time [s]\tpower [W]\ttetherLength [m]\n-\t0\t0\n"),
+             qPrintable(program.output()));
+}
+
+void tst_qtplc_values::watchTakesAndGivesBackTheTerminal_data()
+{
+    QTest::addColumn<QByteArray>("keys");
+    QTest::addColumn<int>("signal");
+    QTest::addColumn<int>("exitCode");
+    QTest::newRow("q") << QByteArray("q") << 0 << 0;
+    QTest::newRow("Ctrl-C") << QByteArray() << SIGINT << 0;
+    QTest::newRow("SIGTERM") << QByteArray() << SIGTERM << 0;
+    QTest::newRow("the master ends") << QByteArray() << -SIGTERM << 0;
+    QTest::newRow("the master crashes") << QByteArray() << -SIGKILL << 1;
+}
+
+void tst_qtplc_values::watchTakesAndGivesBackTheTerminal()
+{
+    QFETCH(QByteArray, keys);
+    QFETCH(int, signal);
+    QFETCH(int, exitCode);
+    Terminal terminal;
+    TerminalProgram watch(terminal, m_plant.withMaster("watch power tetherSpeed"));
+    QTRY_VERIFY_WITH_TIMEOUT(terminal.screen().contains("tetherSpeed") && terminal.screen().contains("Off"),
+                             Program::patience);
+    QVERIFY(terminal.screen().startsWith("\033[?1049h"));
+    QVERIFY(!terminal.hasLineInput());
+    if (!keys.isEmpty())
+        terminal.press(keys);
+    else if (signal > 0)
+        ::kill(pid_t(watch.processId()), signal);
+    else
+        m_plant.master().sendSignal(-signal);
+    QCOMPARE(watch.waitForEnd(), exitCode);
+    QVERIFY(terminal.screen().endsWith("\033[?1049l"));
+    QVERIFY(terminal.screen().contains("\033[?25h"));  // the cursor is back
+    QVERIFY(terminal.hasLineInput());
+}
+
+void tst_qtplc_values::watchScrolls()
+{
+    Terminal terminal;
+    TerminalProgram watch(terminal, m_plant.withMaster("watch"));
+    QTRY_VERIFY_WITH_TIMEOUT(terminal.screen().contains("rows 1-17 of"), Program::patience);
+    terminal.press("\033[B\033[6~");
+    QTRY_VERIFY_WITH_TIMEOUT(terminal.screen().contains("rows 19-35 of"), Program::patience);
+    terminal.press("G");
+    QTRY_VERIFY_WITH_TIMEOUT(terminal.screen().contains("rows 26-42 of 42"), Program::patience);
+    terminal.press("xyz\033[A");
+    QTRY_VERIFY_WITH_TIMEOUT(terminal.screen().contains("rows 25-41 of"), Program::patience);
+    terminal.press("q");
+    QCOMPARE(watch.waitForEnd(), 0);
+}
+
+// ---- set --for ----
+
+void tst_qtplc_values::formerValueComesBackAfterSetFor()
+{
+    m_plant.qtplc("set tetherSpeed 1.5");
+    Program set(programPath("qtplc"), m_plant.withMaster("set tetherSpeed 5 --for 1"));
+    QVERIFY(set.waitForOutput("tetherSpeed = 5 m/s\n"));
+    QCOMPARE(value("tetherSpeed"), QString("5"));
+    QCOMPARE(set.waitForEnd(), 0);
+    QTRY_COMPARE_WITH_TIMEOUT(value("tetherSpeed"), QString("1.5"), Program::patience);
+    QCOMPARE(set.errors(), QString());
+}
+
+void tst_qtplc_values::formerValueComesBackWhenSetForIsEnded_data()
+{
+    QTest::addColumn<int>("signal");
+    QTest::addColumn<int>("exitCode");
+    QTest::newRow("interrupted") << SIGINT << 0;
+    QTest::newRow("killed") << SIGKILL << -1;
+}
+
+void tst_qtplc_values::formerValueComesBackWhenSetForIsEnded()
+{
+    QFETCH(int, signal);
+    QFETCH(int, exitCode);
+    Program set(programPath("qtplc"), m_plant.withMaster("set tetherSpeed 5 --for 1000 --json"));
+    QVERIFY(set.waitForOutput("\n"));
+    QCOMPARE(jsonOf(set.output()).object().value("duration"), QJsonValue(1000));
+    QCOMPARE(value("tetherSpeed"), QString("5"));
+    set.sendSignal(signal);
+    QCOMPARE(set.waitForEnd(), exitCode);
+    QTRY_COMPARE_WITH_TIMEOUT(value("tetherSpeed"), QString("0"), Program::patience);
+}
+
+void tst_qtplc_values::setForTellsThatTheMasterIsLost()
+{
+    Program set(programPath("qtplc"), m_plant.withMaster("set tetherSpeed 5 --for 1000"));
+    QVERIFY(set.waitForOutput("\n"));
+    m_plant.master().sendSignal(SIGKILL);
+    QCOMPARE(set.waitForEnd(), 1);
+    QVERIFY2(set.errors().contains("lost the master"), qPrintable(set.errors()));
+}
+
+// ---- hz ----
+
+void tst_qtplc_values::hzMeasuresTheCycle()
+{
+    QCOMPARE(m_plant.qtplc("start").exitCode, 0);
+    const Outcome outcome = m_plant.qtplc("hz --for 0.5 --json");
+    const QJsonObject rate = jsonOf(outcome.output).object();
+    const double cycles = rate.value("cycles").toDouble();
+    const double lost = rate.value("lost").toDouble();
+    QVERIFY2(cycles > 5, qPrintable(outcome.output));
+    QCOMPARE(outcome.exitCode, lost > 0 ? 1 : 0);
+    QVERIFY(rate.value("interval")["count"].toDouble() <= cycles - 1);
+    // All cycles between the first and the last one took their 10 ms, however loaded the machine is.
+    QVERIFY(qAbs(rate.value("duration").toDouble() - (cycles - 1 + lost) * 0.010) < 0.1);
+    const Outcome text = m_plant.qtplc("hz --for 0.2");
+    for (const char *line :
+         {"cycles    ", "\nrate      ", " Hz (RealTime, period 10 ms)\n", "\ninterval  mean ", "\nlost      "})
+        QVERIFY2(text.output.contains(line), qPrintable(text.output));
+}
+
+void tst_qtplc_values::hzNeedsARunningPlant()
+{
+    const Outcome outcome = m_plant.qtplc("hz");
+    QCOMPARE(outcome.exitCode, 1);
+    QCOMPARE(outcome.errors, QString("qtplc: the master does not run; start it: qtplc start\n"));
+}
+
+void tst_qtplc_values::hzToldToStopTellsWhatItHas()
+{
+    QCOMPARE(m_plant.qtplc("start").exitCode, 0);
+    Program hz(programPath("qtplc"), m_plant.withMaster("hz --for 1000"));
+    QTRY_VERIFY_WITH_TIMEOUT(m_plant.qtplc("state").output.contains("qtplc-hz-"), Program::patience);
+    QTest::qWait(300);
+    hz.sendSignal(SIGINT);
+    QVERIFY(hz.waitForEnd() >= 0);
+    QVERIFY2(hz.output().contains("\nrate "), qPrintable(hz.output() + hz.errors()));
+}
+
+QTEST_GUILESS_MAIN(tst_qtplc_values)
+#include "tst_qtplc_values.moc"
