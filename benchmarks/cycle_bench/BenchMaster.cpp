@@ -68,10 +68,7 @@ bool BenchMaster::addSlaves()
     }
     if (!m_master.startServer(QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, 0)))
         return setError(m_master.errorString());
-    const QString address
-        = (m_options.transport == QLatin1String("local") ? QStringLiteral("local://%1")
-                                                         : m_options.transport + QStringLiteral("://127.0.0.1:%1"))
-              .arg(m_master.serverPort());
+    const QString address = QStringLiteral("%1://127.0.0.1:%2").arg(m_options.transport).arg(m_master.serverPort());
     for (int i = 0; i < m_options.slaves; ++i) {
         if (!m_processes.start(m_options.slaveArguments(i, address)))
             return setError(QStringLiteral("cannot start slave process %1").arg(i));

@@ -28,6 +28,9 @@ struct QTPLC_EXPORT QPlcRealTimeOptions
     int prefaultStack = 64 * 1024;     ///< [byte] of the stack touched before the first cycle
     std::optional<qint64> timerSlack;  ///< [ns] for ordinary scheduling; real-time threads have none
 
+    qint64 spin
+        = 0;  ///< [ns] to look for frames again and again before the thread sleeps, 0 ... 10 ms: quicker, for a processor of its own
+
     /// Why the options cannot be meant ("priority 120: use 1 ... 99"); empty when they can.
     QString errorString() const;
 };

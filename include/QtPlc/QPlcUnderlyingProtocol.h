@@ -33,7 +33,7 @@ public:
     /// \return an invalid protocol, with the reason in \a error, when no master of this name is running
     static QPlcUnderlyingProtocol local(const QString &name = QString::number(DefaultPort), QString *error = nullptr);
 
-    /// Reads "local://NAME", "HOST:PORT", "HOST", "[IPV6]:PORT", optionally behind "tcp://" or "udp://". Host names other than "localhost" are looked up, which may block.
+    /// Reads "local://NAME", "local://PORT", "HOST:PORT", "HOST", "[IPV6]:PORT", optionally behind "tcp://" or "udp://". Host names other than "localhost" are looked up, which may block.
     /// \param kind  when the text names none
     /// \return an invalid protocol, with the reason in \a error, when the text is none
     static QPlcUnderlyingProtocol fromString(const QString &text, Kind kind = Tcp, QString *error = nullptr);

@@ -43,7 +43,7 @@ bool MasterCycle::start(const Phase &phase)
         if (slot->local)
             slot->local->setLockstep(phase.clock.isLockstep(), m_time);
     }
-    m_exchange.start(*m_clock, phase.period, phase.clock, m_cycleZero);
+    m_exchange.start(*m_clock, phase.period, phase.clock, m_cycleZero, phase.realTimeOptions.spin);
     m_snapshot.publish(m_image.data(), 0);
     return m_thread.start(QStringLiteral("qtplc-master"), phase.realTimeOptions, [this] { run(); });
 }

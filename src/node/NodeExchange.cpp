@@ -25,12 +25,14 @@ NodeExchange::NodeExchange(ProcessImage &image, CyclicHub &hub, CycleReports &re
 {
 }
 
-void NodeExchange::start(CycleClock &grid, std::chrono::nanoseconds period, QPlcClock clock, std::uint64_t cycleZero)
+void NodeExchange::start(CycleClock &grid, std::chrono::nanoseconds period, QPlcClock clock, std::uint64_t cycleZero,
+                         std::int64_t spin)
 {
     m_grid = &grid;
     m_period = period;
     m_isLockstep = clock.isLockstep();
     m_cycleZero = cycleZero;
+    m_spin = spin;
 }
 
 /// Everything that nodes and master exchange in a cycle stands here, in order.
@@ -247,7 +249,7 @@ void NodeExchange::waitForLateNodes(std::int64_t deadline) noexcept
 void NodeExchange::receive(std::int64_t timeout) noexcept
 {
     const std::int64_t begin = now();
-    const bool arrived = m_hub.wait(timeout);
+    const bool arrived = waitForFrames(timeout);
     m_statistics.waited(now() - begin);
     if (!arrived)
         return;
@@ -259,6 +261,18 @@ void NodeExchange::receive(std::int64_t timeout) noexcept
         if (slot->peer && slot->peer->isClosed() && !slot->lost.exchange(true))
             m_reports.post({CycleEvent::LinkClosed, slot->id, 0, m_cycle.number});
     }
+}
+
+bool NodeExchange::waitForFrames(std::int64_t timeout) noexcept
+{
+    if (m_spin == 0 || timeout <= m_spin)
+        return m_hub.wait(timeout);
+    const std::int64_t end = m_time.now() + m_spin;
+    do {
+        if (m_hub.wait(0))
+            return true;
+    } while (m_time.now() < end);
+    return m_hub.wait(timeout - m_spin);
 }
 
 void NodeExchange::takeAnswer(NodeSlot &slot, const char *frame, std::size_t size) noexcept

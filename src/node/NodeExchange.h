@@ -34,7 +34,9 @@ public:
                  TimeSource &time, const std::atomic<bool> &stop);
 
     /// Before a phase. \param grid  of the cycles; time that stands still shifts it
-    void start(CycleClock &grid, std::chrono::nanoseconds period, QPlcClock clock, std::uint64_t cycleZero);
+    /// \param spin  [ns] to look for answers again and again before a sleep
+    void start(CycleClock &grid, std::chrono::nanoseconds period, QPlcClock clock, std::uint64_t cycleZero,
+               std::int64_t spin);
     /// One cycle with all nodes of \a roster.
     void run(const Roster &roster, const Cycle &cycle) noexcept;
 
@@ -56,6 +58,7 @@ private:
     void waitForLateNodes(std::int64_t deadline) noexcept;
     void reportLateNodes() noexcept;
     void receive(std::int64_t timeout) noexcept;
+    bool waitForFrames(std::int64_t timeout) noexcept;
     void takeAnswer(NodeSlot &slot, const char *frame, std::size_t size) noexcept;
     bool isFinite(NodeSlot &slot, const char *outputs) noexcept;
     void paste(NodeSlot &slot, const char *outputs) noexcept;
@@ -83,6 +86,7 @@ private:
     std::chrono::nanoseconds m_period{0};  // as the nodes see it
     bool m_isLockstep = false;
     std::uint64_t m_cycleZero = 0;
+    std::int64_t m_spin = 0;  // [ns]
 
     // of the cycle
     const Roster *m_roster = nullptr;

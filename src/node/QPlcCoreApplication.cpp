@@ -212,6 +212,10 @@ void QPlcCoreApplication::addRealTimeOptions()
         QStringLiteral("PRIORITY")));
     addOption(QCommandLineOption(QStringLiteral("cpu"), QStringLiteral("The only processor that the cycle may use."),
                                  QStringLiteral("NUMBER")));
+    addOption(QCommandLineOption(QStringLiteral("spin-us"),
+                                 QStringLiteral("Time that the cycle looks for frames again before it sleeps, 0 ... "
+                                                "10000 [us]; for a processor of its own."),
+                                 QStringLiteral("TIME")));
     addOption(
         QCommandLineOption(QStringLiteral("lock-memory"), QStringLiteral("Keeps all memory of the program in RAM.")));
 }
@@ -229,6 +233,11 @@ bool QPlcCoreApplication::readRealTimeOptions(QPlcRealTimeOptions *options)
         if (!integer(QStringLiteral("cpu"), 0, 1023, &number))
             return false;
         options->cpu = int(number);
+    }
+    if (isSet(QStringLiteral("spin-us"))) {
+        if (!integer(QStringLiteral("spin-us"), 0, 10'000, &number))
+            return false;
+        options->spin = number * 1000;
     }
     options->lockMemory = isSet(QStringLiteral("lock-memory"));
     return true;

@@ -94,7 +94,7 @@ void SlaveCycle::run() noexcept
     const char *frame = nullptr;
     std::size_t size = 0;
     while (!m_stop.load(std::memory_order_relaxed)) {
-        switch (m_link->receive(&frame, &size)) {
+        switch (receive(&frame, &size)) {
         case CyclicLink::Received:
             take(frame, size);
             break;
@@ -106,6 +106,20 @@ void SlaveCycle::run() noexcept
             return;
         }
     }
+}
+
+CyclicLink::Status SlaveCycle::receive(const char **frame, std::size_t *size) noexcept
+{
+    const std::int64_t spin = m_phase.realTimeOptions.spin;
+    if (spin > 0) {
+        const std::int64_t end = TimeSource::monotonic().now() + spin;
+        do {
+            const CyclicLink::Status status = m_link->poll(frame, size);
+            if (status != CyclicLink::Nothing)
+                return status;
+        } while (TimeSource::monotonic().now() < end);
+    }
+    return m_link->receive(frame, size);
 }
 
 FrameStatus SlaveCycle::decode(const char *frame, std::size_t size) noexcept

@@ -59,6 +59,7 @@ public:
 
 private:
     void run() noexcept;
+    CyclicLink::Status receive(const char **frame, std::size_t *size) noexcept;
     void take(const char *frame, std::size_t size) noexcept;
     FrameStatus decode(const char *frame, std::size_t size) noexcept;
     void skipToNewest() noexcept;

@@ -61,8 +61,12 @@ QPlcUnderlyingProtocol QPlcUnderlyingProtocol::fromString(const QString &text, K
         kind = rest.startsWith(QLatin1Char('t')) ? Tcp : Udp;
         rest.remove(0, 6);
     }
-    if (rest.startsWith(QLatin1String("local://")))
-        return local(rest.mid(8), &reason);
+    if (rest.startsWith(QLatin1String("local://"))) {
+        rest.remove(0, 8);
+        for (const QLatin1String host : {QLatin1String("127.0.0.1:"), QLatin1String("localhost:")})
+            rest.remove(0, rest.startsWith(host) ? host.size() : 0);
+        return local(rest, &reason);
+    }
     QString host;
     QString portText;
     if (!split(rest, &host, &portText)) {

@@ -92,6 +92,8 @@ private:
     std::atomic<std::uint32_t> m_sleeping{Awake};
 };
 
+// What docs/protocol.md says of the memory.
+static_assert(sizeof(SharedRing) == 65664 && sizeof(SharedChannel) == 2 * 65664 && sizeof(Doorbell) == 64);
 static_assert(std::atomic<std::uint32_t>::is_always_lock_free, "processes share these");
 
 }  // namespace qplc

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "NodeFixtures.h"
 
+#include <QtCore/QStandardPaths>
 #include <QtNetwork/QNetworkInterface>
 #include <QtNetwork/QTcpServer>
 #include <QtNetwork/QTcpSocket>
@@ -18,6 +19,9 @@ private Q_SLOTS:
     void sameDigestOverEveryTransport();
     void nodesOfBothKindsLiveTogether();
     void manyNodesRunTogether();
+    void aMasterOnThisMachineIsFoundByItsName();
+    void spinningChangesNoValue_data();
+    void spinningChangesNoValue();
     void aPortInUseIsSaid();
     void theNetworkIsClosedUnlessSaidLoudly();
     void theServerStopsAndStartsAgain();
@@ -157,6 +161,59 @@ void tst_Transports::manyNodesRunTogether()
     for (const std::unique_ptr<Small> &node : nodes)
         node->disconnectFromMaster();
     QPlcSignalIndexTable::setCurrent({});
+}
+
+void tst_Transports::aMasterOnThisMachineIsFoundByItsName()
+{
+    QStandardPaths::setTestModeEnabled(true);
+    const QString name = QStringLiteral("master-%1").arg(QCoreApplication::applicationPid());
+    TestMaster master;
+    master.setLocalName(name);
+    QVERIFY(!QPlcUnderlyingProtocol::local(name).isValid());
+    QVERIFY2(master.listen(), qPrintable(master.errorString()));
+    CounterNode counter;
+    QVERIFY2(counter.connectToMasterAndWaitForConnected(QPlcUnderlyingProtocol::local(name)),
+             qPrintable(counter.errorString()));
+    QCOMPARE(master.nodes().constFirst().transport, QStringLiteral("local"));
+    counter.disconnectFromMaster();
+    master.stopServer();
+    QVERIFY(!QPlcUnderlyingProtocol::local(name).isValid());
+    master.setLocalName(QStringLiteral("no/name"));
+    QVERIFY(!master.startServer(QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, 0)));
+    QVERIFY2(master.errorString().contains("no/name"), qPrintable(master.errorString()));
+    QCOMPARE(master.serverPort(), quint16(0));
+}
+
+void tst_Transports::spinningChangesNoValue_data()
+{
+    QTest::addColumn<QString>("kind");
+    for (const char *kind : {"udp", "tcp", "local"})
+        QTest::newRow(kind) << QString::fromLatin1(kind);
+}
+
+void tst_Transports::spinningChangesNoValue()
+{
+    QFETCH(QString, kind);
+    QPlcRealTimeOptions spinning;
+    spinning.spin = 200'000;
+    TestMaster master;
+    master.setRealTimeOptions(spinning);
+    master.setCycleLimit(1000);
+    QVERIFY(master.setTimeSignal("time"));
+    QVERIFY(master.listen());
+    CounterNode counter;
+    EchoNode echo;
+    for (QPlcSlaveNode *node : {static_cast<QPlcSlaveNode *>(&counter), static_cast<QPlcSlaveNode *>(&echo)}) {
+        node->setRealTimeOptions(spinning);
+        QVERIFY2(node->connectToMasterAndWaitForConnected(QPlcUnderlyingProtocol::fromString(
+                     QStringLiteral("%1://127.0.0.1:%2").arg(kind).arg(master.serverPort()))),
+                 qPrintable(node->errorString()));
+    }
+    QVERIFY(master.startRealTime());
+    QVERIFY(master.waitForState(QPlcMasterNode::Off));
+    QCOMPARE(master.statistics().imageDigest, flyInProcess());
+    counter.disconnectFromMaster();
+    echo.disconnectFromMaster();
 }
 
 void tst_Transports::aPortInUseIsSaid()

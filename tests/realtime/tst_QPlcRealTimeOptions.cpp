@@ -77,6 +77,10 @@ void tst_QPlcRealTimeOptions::nonsenseIsNamedWithItsRange_data()
     row(
         "stack too large", [](O &o) { o.prefaultStack = 67108865; }, "prefaultStack 67108865: use 0 ... 67108864 byte");
     row(
+        "negative spin", [](O &o) { o.spin = -1; }, "spin -1: use 0 ... 10000000 ns");
+    row(
+        "too much spin", [](O &o) { o.spin = 10000001; }, "spin 10000001: use 0 ... 10000000 ns");
+    row(
         "no timer slack", [](O &o) { o.timerSlack = 0; }, "timerSlack 0: use 1 ... 1000000000 ns");
     row(
         "too much timer slack", [](O &o) { o.timerSlack = 1000000001; },

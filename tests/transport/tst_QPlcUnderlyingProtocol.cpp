@@ -32,6 +32,9 @@ void tst_QPlcUnderlyingProtocol::readsAddresses_data()
     QTest::newRow("IPv6 without port") << "[fe80::2]" << true << "udp://[fe80::2]:50000";
     QTest::newRow("bare IPv6") << "::1" << true << "udp://[::1]:50000";
     QTest::newRow("scheme and IPv6") << "udp://[::1]:4" << false << "udp://[::1]:4";
+    QTest::newRow("local port") << "local://4711" << true << "local://4711";
+    QTest::newRow("local, host and port") << "local://127.0.0.1:4711" << false << "local://4711";
+    QTest::newRow("local, localhost") << "local://localhost:4711" << false << "local://4711";
     QTest::newRow("any") << "0.0.0.0:5" << false << "tcp://0.0.0.0:5";
 }
 
@@ -78,6 +81,14 @@ void tst_QPlcUnderlyingProtocol::refusesWithASentence_data()
                                                         << "[::1]:";
     QTest::newRow("garbage behind the bracket") << "[::1]5"
                                                 << "[::1]5";
+    QTest::newRow("local without a name") << "local://"
+                                          << "''";
+    QTest::newRow("local port 0") << "local://0"
+                                  << "'0'";
+    QTest::newRow("local on another machine") << "local://10.0.0.1:5"
+                                              << "'10.0.0.1:5'";
+    QTest::newRow("local master that does not run") << "local://no-such-master"
+                                                    << "'no-such-master'";
     QTest::newRow("unknown host") << "no.such.host.invalid:5"
                                   << "'no.such.host.invalid'";
 }

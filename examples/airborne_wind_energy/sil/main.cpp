@@ -35,10 +35,11 @@ void addOptions(QPlcCoreApplication &application)
             "Model and autopilot read each other in the same cycle: no dead time from sensor to actuator.")));
     application.addOption(QCommandLineOption(QStringLiteral("processes"),
                                              QStringLiteral("Master, model and autopilot as processes of their own.")));
-    application.addOption(QCommandLineOption(
-        QStringLiteral("transport"),
-        QStringLiteral("How the nodes reach the master: inprocess (default), tcp, or udp (default with --processes)."),
-        QStringLiteral("KIND")));
+    application.addOption(
+        QCommandLineOption(QStringLiteral("transport"),
+                           QStringLiteral("How the nodes reach the master: inprocess (default), tcp, udp (default with "
+                                          "--processes), or local (shared memory)."),
+                           QStringLiteral("KIND")));
 }
 
 bool readOptions(QPlcCoreApplication &application, Settings *settings)
@@ -49,14 +50,16 @@ bool readOptions(QPlcCoreApplication &application, Settings *settings)
         ? application.value(QStringLiteral("transport"))
         : settings->processes ? QStringLiteral("udp")
                               : QStringLiteral("inprocess");
-    const QStringList kinds{QStringLiteral("inprocess"), QStringLiteral("tcp"), QStringLiteral("udp")};
+    const QStringList kinds{QStringLiteral("inprocess"), QStringLiteral("tcp"), QStringLiteral("udp"),
+                            QStringLiteral("local")};
     if (!kinds.contains(settings->transport)) {
-        application.usageError(QStringLiteral("--transport %1: use inprocess, tcp or udp").arg(settings->transport));
+        application.usageError(
+            QStringLiteral("--transport %1: use inprocess, tcp, udp or local").arg(settings->transport));
         return false;
     }
     if (settings->processes && settings->transport == QLatin1String("inprocess")) {
         application.usageError(
-            QStringLiteral("--processes and --transport inprocess exclude each other: use tcp or udp"));
+            QStringLiteral("--processes and --transport inprocess exclude each other: use tcp, udp or local"));
         return false;
     }
     if (!awe::readRunOptions(application, &settings->run) || !awe::readModelOptions(application, &settings->model)
@@ -121,9 +124,8 @@ bool attach(QPlcMasterNode &master, QPlcSlaveNode &node, const QString &transpor
         return master.addLocalNode(&node);
     if (master.serverPort() == 0 && !master.startServer(QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, 0)))
         return false;
-    return node.connectToMasterAndWaitForConnected(
-        transport == QLatin1String("udp") ? QPlcUnderlyingProtocol::udp(QHostAddress::LocalHost, master.serverPort())
-                                          : QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, master.serverPort()));
+    return node.connectToMasterAndWaitForConnected(QPlcUnderlyingProtocol::fromString(
+        QStringLiteral("%1://127.0.0.1:%2").arg(transport).arg(master.serverPort())));
 }
 
 int flyInOneProcess(QPlcCoreApplication &application, const Settings &settings)

@@ -150,7 +150,7 @@ void tst_ProgramOptions::badOptionsAreRefusedWithOneSentence_data()
     row("awe_master", "--port -1", "--port -1");
     row("awe_master", "--mean-wind -1", "--mean-wind -1");
     row("awe_master", "--priority 0", "--priority 0");
-    row("awe_sil", "--transport pigeon", "--transport pigeon: use inprocess, tcp or udp");
+    row("awe_sil", "--transport pigeon", "--transport pigeon: use inprocess, tcp, udp or local");
     row("awe_sil", "--processes --transport inprocess", "exclude each other");
     row("awe_sil", "--processes --wind 1,2", "--wind 1,2");
     row("awe_sil", "--processes --watch", "--watch draws on a terminal");

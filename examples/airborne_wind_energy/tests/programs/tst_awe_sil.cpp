@@ -159,6 +159,8 @@ void tst_awe_sil::flightIsTheSameWhateverCarriesIt_data()
     QTest::newRow("in one process over udp") << QStringLiteral("--transport udp");
     QTest::newRow("processes over tcp") << QStringLiteral("--processes --transport tcp");
     QTest::newRow("processes over udp") << QStringLiteral("--processes --transport udp");
+    QTest::newRow("in one process through shared memory") << QStringLiteral("--transport local");
+    QTest::newRow("processes with shared memory") << QStringLiteral("--processes --transport local");
 }
 
 void tst_awe_sil::flightIsTheSameWhateverCarriesIt()
