@@ -66,6 +66,8 @@ bool BenchMaster::addSlaves()
         }
         return true;
     }
+    if (m_options.transport == QLatin1String("udp-multicast"))
+        m_master.setMulticastGroup(QHostAddress(QStringLiteral("239.255.76.68")));
     if (!m_master.startServer(QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, 0)))
         return setError(m_master.errorString());
     const QString address = QStringLiteral("%1://127.0.0.1:%2").arg(m_options.transport).arg(m_master.serverPort());

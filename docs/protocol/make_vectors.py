@@ -16,7 +16,7 @@ import sys
 
 FOLDER = pathlib.Path(__file__).resolve().parent / "vectors"
 
-INPUTS, OUTPUTS = 1, 2
+INPUTS, OUTPUTS, GROUP_INPUTS = 1, 2, 3
 RESENT, FAULT, PART = 0x01, 0x02, 0x80
 VERSION = 1
 SESSION = 0x8F3A61C2D4E5B097
@@ -132,7 +132,7 @@ class Channel:
         return [self.part(i, cycle, info, payload, flags) for i in range(len(self.borders) - 1)]
 
     def json(self):
-        return {"kind": "Inputs" if self.kind == INPUTS else "Outputs", "session": hex64(self.session),
+        return {"kind": {INPUTS: "Inputs", OUTPUTS: "Outputs", GROUP_INPUTS: "GroupInputs"}[self.kind], "session": hex64(self.session),
                 "node": self.node, "layoutHash": hex64(self.layout_hash), "borders": self.borders}
 
 
@@ -252,6 +252,8 @@ def make_cyclic():
         good_frame("one byte", Channel(INPUTS, 3, 5, [0, 1]), 1, 2, b"\x5a"),
         good_frame("two parts", split, 9, 77, bytes(range(13)), RESENT),
         good_frame("three datagrams of the largest size", largest, 1, 5, largest_payload),
+        good_frame("part 1 of a multicast group, with the inputs of nodes 7 and 9",
+                   Channel(GROUP_INPUTS, 0, fnv1a64(b"7:12@2\n9:4@14\n"), [0, 18]), 42, 1000, struct.pack("<H", 1) + payload + struct.pack("<f", 8.0)),
     ]
     refused = make_refused(Channel(INPUTS, 7, layout_hash, [0, 12, 20]), payload + bytes(8))
     return {"frames": frames, "refused": refused,

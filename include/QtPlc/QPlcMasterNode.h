@@ -117,6 +117,9 @@ public:
     /// A name under which nodes of this machine and user find this master (QPlcUnderlyingProtocol::local()): letters, digits, '.', '-', '_'; empty: the port
     /// number only. Takes effect with startServer().
     void setLocalName(const QString &name);
+    /// A group (an IPv4 multicast address, say 239.255.76.68) for nodes that connect by QPlcUnderlyingProtocol::udpMulticast(); a null address: none.
+    /// The datagrams do not leave the network of the address that the server listens on. Takes effect with startServer().
+    void setMulticastGroup(const QHostAddress &group);
     void stopServer();
     /// 0 when not listening.
     quint16 serverPort() const;

@@ -15,7 +15,7 @@
 class QTPLC_EXPORT QPlcUnderlyingProtocol
 {
 public:
-    enum Kind : quint8 { Invalid, Tcp, Udp, Local };
+    enum Kind : quint8 { Invalid, Tcp, Udp, UdpMulticast, Local };
 
     static constexpr quint16 DefaultPort = 50000;
 
@@ -29,11 +29,17 @@ public:
         return {Udp, address, port};
     }
 
+    /// UDP, where the master sends the inputs of all nodes at once to its multicast group (QPlcMasterNode::setMulticastGroup()): one datagram instead of one per
+    /// node. For nodes without same-cycle inputs, over IPv4.
+    static QPlcUnderlyingProtocol udpMulticast(const QHostAddress &address, quint16 port = DefaultPort)
+    {
+        return {UdpMulticast, address, port};
+    }
     /// A master on this machine, run by the same user. \param name  its name (QPlcMasterNode::setLocalName()), or its port number
     /// \return an invalid protocol, with the reason in \a error, when no master of this name is running
     static QPlcUnderlyingProtocol local(const QString &name = QString::number(DefaultPort), QString *error = nullptr);
 
-    /// Reads "local://NAME", "local://PORT", "HOST:PORT", "HOST", "[IPV6]:PORT", optionally behind "tcp://" or "udp://". Host names other than "localhost" are looked up, which may block.
+    /// Reads "local://NAME", "local://PORT", "HOST:PORT", "HOST", "[IPV6]:PORT", optionally behind "tcp://", "udp://" or "udp-multicast://". Host names other than "localhost" are looked up, which may block.
     /// \param kind  when the text names none
     /// \return an invalid protocol, with the reason in \a error, when the text is none
     static QPlcUnderlyingProtocol fromString(const QString &text, Kind kind = Tcp, QString *error = nullptr);
@@ -44,7 +50,7 @@ public:
     quint16 port() const { return m_port; }
     /// "udp://127.0.0.1:50000", "local://50000"
     QString toString() const;
-    /// "tcp", "udp", "local"
+    /// "tcp", "udp", "udp-multicast", "local"
     QString kindName() const;
 
     friend bool operator==(const QPlcUnderlyingProtocol &a, const QPlcUnderlyingProtocol &b)

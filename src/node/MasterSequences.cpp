@@ -242,21 +242,34 @@ bool QPlcMasterNodePrivate::startRealTime(quint64 cycles)
     return error == QPlcMasterNode::NoError;
 }
 
-QJsonObject QPlcMasterNodePrivate::startFields() const
+QJsonObject QPlcMasterNodePrivate::startFields(const NodeSlot &slot) const
 {
-    return {
+    QJsonObject fields{
         {QStringLiteral("period"), double(interval.count())},
         {QStringLiteral("clock"), qplc::clockName(clock)},
         {QStringLiteral("scale"), clock.scale()},
         {QStringLiteral("cycleZero"), Message::fromHex64(cycle->cycleZero())},
         {QStringLiteral("firstCycle"), Message::fromHex64(cycle->cycleZero() + (isRunning() ? cycle->cycle() : 0))}};
+    if (slot.multicast)
+        fields.insert(QStringLiteral("group"),
+                      QJsonObject{{QStringLiteral("part"), slot.multicast->number},
+                                  {QStringLiteral("offset"), double(slot.multicastOffset)},
+                                  {QStringLiteral("size"), double(slot.multicast->payload.size())},
+                                  {QStringLiteral("hash"), Message::fromHex64(slot.multicast->hash)}});
+    return fields;
 }
 
 void QPlcMasterNodePrivate::beginStart()
 {
     begin(Step::Start, Connection::Running);
+    m_multicastParts.restart(session, server->multicastGroup());
+    for (Connection *connection : m_participants) {
+        if (connection->slot->wantsMulticast)
+            m_multicastParts.add(*connection->slot);
+    }
+    m_multicastParts.finish();
     for (Connection *connection : m_participants)
-        connection->send(Message::RealTimeStarted, startFields());
+        connection->send(Message::RealTimeStarted, startFields(*connection->slot));
     advance();
 }
 
@@ -360,7 +373,11 @@ void QPlcMasterNodePrivate::continueJoin(Connection *connection, const Message &
         connection->send(Message::InitializeWithValues, {{QStringLiteral("values"), Message::fromBytes(values)}});
     } else if (message.kind() == Message::Initialized && connection->stage == Connection::Initializing) {
         connection->stage = Connection::Starting;
-        connection->send(Message::RealTimeStarted, startFields());
+        if (connection->slot->wantsMulticast) {
+            m_multicastParts.add(*connection->slot);  // a part of its own: the others know theirs
+            m_multicastParts.finish();
+        }
+        connection->send(Message::RealTimeStarted, startFields(*connection->slot));
     } else if (message.kind() == Message::RealTimeReady && connection->stage == Connection::Starting) {
         connection->stage = Connection::Running;
         giveRoster();

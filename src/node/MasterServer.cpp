@@ -8,6 +8,7 @@
 #include <QtCore/QRandomGenerator>
 #include <QtNetwork/QTcpServer>
 #include <QtNetwork/QTcpSocket>
+#include <QtNetwork/QUdpSocket>
 
 #include <algorithm>
 
@@ -66,19 +67,35 @@ bool MasterServer::openPorts(const QHostAddress &address, quint16 port)
     return false;
 }
 
-bool MasterServer::listen(const QHostAddress &address, quint16 port, const QString &name)
+bool MasterServer::listen(const QHostAddress &address, quint16 port, const QString &name, const QHostAddress &group)
 {
     close();
     // A free TCP port may be taken on UDP: with port 0 another one will do.
     for (int attempts = port == 0 ? 16 : 1; attempts > 0; --attempts) {
         if (!openPorts(address, port))
             continue;
-        if (name.isEmpty() || m_name.hold(name, this->port(), &m_errorString))
+        if ((name.isEmpty() || m_name.hold(name, this->port(), &m_errorString)) && openMulticast(address, group))
             return true;
         close();
         return false;
     }
     return false;
+}
+
+bool MasterServer::openMulticast(const QHostAddress &address, const QHostAddress &group)
+{
+    m_group = SocketAddress();
+    if (group.isNull())
+        return true;
+    if (!group.isMulticast() || group.protocol() != QAbstractSocket::IPv4Protocol) {
+        m_errorString = QStringLiteral("%1 is no multicast group of IPv4; use one of 239.0.0.0 ... 239.255.255.255")
+                            .arg(group.toString());
+        return false;
+    }
+    QUdpSocket finder;  // a port of its own: nodes of this machine share it with each other, not with the server
+    finder.bind(QHostAddress::AnyIPv4, 0);
+    m_group = SocketAddress(group, finder.localPort());
+    return m_hub.openMulticast(address, &m_errorString);
 }
 
 void MasterServer::close()
@@ -239,19 +256,23 @@ void MasterServer::registerNode(MasterConnection *connection, const Message &mes
     QString error;
     connection->cyclicKind = message.text(QStringLiteral("cyclic"));
     const int udpPort = message.fields().value(QStringLiteral("udpPort")).toInt();
-    const bool isUdp = connection->cyclicKind == QLatin1String("udp");
+    const bool isMulticast = connection->cyclicKind == QLatin1String("udp-multicast");
+    const bool isUdp = isMulticast || connection->cyclicKind == QLatin1String("udp");
     const bool isLocal = connection->cyclicKind == QLatin1String("local");
     if (!NodeDeclaration::fromMessage(message, &declaration, &error))
         refusal = {QStringLiteral("MalformedMessage"), error};
     else if (!isUdp && !isLocal && connection->cyclicKind != QLatin1String("tcp"))
         refusal = {QStringLiteral("MalformedMessage"),
-                   QStringLiteral("unknown cyclic channel '%1'; use tcp, udp or local").arg(connection->cyclicKind)};
+                   QStringLiteral("unknown cyclic channel '%1'; use tcp, udp, udp-multicast or local")
+                       .arg(connection->cyclicKind)};
     else if (isLocal && !connection->socket->peerAddress().isLoopback())
         refusal = {QStringLiteral("MalformedMessage"),
                    QStringLiteral("a local node runs on the machine of its master; use udp")};
     else if (isUdp && (udpPort < 1 || udpPort > 65535))
         refusal
             = {QStringLiteral("MalformedMessage"), QStringLiteral("UDP port %1 is out of 1 ... 65535").arg(udpPort)};
+    else if (isMulticast && !multicastRefusal(declaration).isEmpty())
+        refusal = {QStringLiteral("WrongState"), multicastRefusal(declaration)};
     else {
         replace(connection, declaration.name);
         connection->slot = m_registry.admit(declaration, &refusal);
@@ -262,6 +283,15 @@ void MasterServer::registerNode(MasterConnection *connection, const Message &mes
         return;
     }
     connection->name = declaration.name;
+    if (isMulticast && connection->slot->inputLayout.size() > MulticastParts::MaximumInputs) {
+        reject(
+            connection, QStringLiteral("TooLong"),
+            QStringLiteral("node '%1' has %2 bytes of inputs, more than the %3 of a datagram for many nodes; use udp")
+                .arg(declaration.name)
+                .arg(connection->slot->inputLayout.size())
+                .arg(MulticastParts::MaximumInputs));
+        return;
+    }
     connection->slot->prepare(m_image, m_session);
     connection->token = QRandomGenerator::system()->generate64();
     connection->stage = MasterConnection::Attaching;
@@ -274,11 +304,27 @@ void MasterServer::registerNode(MasterConnection *connection, const Message &mes
         return;
     if (isUdp)
         connection->slot->peer = HubPeer::udp(SocketAddress(connection->socket->peerAddress(), quint16(udpPort)));
+    connection->slot->wantsMulticast = isMulticast;
+    if (isMulticast) {
+        fields.insert(QStringLiteral("group"), QHostAddress(m_group.data()).toString());
+        fields.insert(QStringLiteral("groupPort"), m_group.port());
+    }
     connection->send(Message::Registered, fields);
     if (!isUdp && !isLocal)
         return;
     connection->send(Message::CyclicChannelAttached);
     nodeAttached(connection);
+}
+
+/// Why the node cannot listen to the multicast group; empty: it can.
+QString MasterServer::multicastRefusal(const NodeDeclaration &declaration) const
+{
+    if (m_group.length == 0)
+        return QStringLiteral("this master has no multicast group; give it one, or use udp");
+    if (declaration.isOrdered())
+        return QStringLiteral("node '%1' has same-cycle inputs or two phases: it is asked alone; use udp")
+            .arg(declaration.name);
+    return {};
 }
 
 /// \return false when there is no shared memory: the node has been refused

@@ -27,10 +27,14 @@ public:
                  std::function<QJsonObject()> hello, QObject *parent);
     ~MasterServer() override;
 
-    /// \param name  under which local nodes find the port; empty: none. \return false, with the reason in errorString()
-    bool listen(const QHostAddress &address, quint16 port, const QString &name);
+    /// \param name  under which local nodes find the port; empty: none
+    /// \param group  multicast group for nodes that want one; null: none
+    /// \return false, with the reason in errorString()
+    bool listen(const QHostAddress &address, quint16 port, const QString &name, const QHostAddress &group);
     void close();
     quint16 port() const;
+    /// Where the datagrams for many nodes go. \pre listen() was given a group
+    SocketAddress multicastGroup() const { return m_group; }
     QString errorString() const { return m_errorString; }
 
     const std::vector<std::unique_ptr<MasterConnection>> &connections() const { return m_connections; }
@@ -60,6 +64,8 @@ private:
     void reject(MasterConnection *connection, const QString &error, const QString &reason);
     void forget(MasterConnection *connection);
     bool openPorts(const QHostAddress &address, quint16 port);
+    bool openMulticast(const QHostAddress &address, const QHostAddress &group);
+    QString multicastRefusal(const NodeDeclaration &declaration) const;
 
     NodeRegistry &m_registry;
     const ProcessImage &m_image;
@@ -68,6 +74,7 @@ private:
     std::function<QJsonObject()> m_hello;
     QTcpServer *m_server;
     LocalName m_name;
+    SocketAddress m_group;
     std::vector<std::unique_ptr<MasterConnection>> m_connections;
     QString m_errorString;
 };

@@ -93,6 +93,7 @@ void NodeExchange::askNodes(const Stage &stage) noexcept
         slot.statistics.asked(m_cycle.number, m_statistics.stageBegin(), m_statistics.deadline());
         sendRequest(slot, 0);
     }
+    sendMulticast(0);
     if (m_roster->anyRemote) {
         m_statistics.asked();
         m_hub.flush();
@@ -101,10 +102,28 @@ void NodeExchange::askNodes(const Stage &stage) noexcept
 
 void NodeExchange::sendRequest(NodeSlot &slot, std::uint8_t flags) noexcept
 {
+    if (slot.multicast) {
+        std::copy(slot.inputs.begin(), slot.inputs.end(), slot.multicast->payload.begin() + slot.multicastOffset);
+        slot.multicast->toBeSent = true;
+        return;
+    }
     slot.request.flags = flags;
     slot.partsSent = 0;
     slot.bytesSent = 0;
     sendParts(slot);
+}
+
+/// Sends the parts of the multicast group in which a node is asked.
+void NodeExchange::sendMulticast(std::uint8_t flags) noexcept
+{
+    for (const std::shared_ptr<NodeSlot> &slot : m_roster->multicast) {
+        if (!slot->multicast->toBeSent)
+            continue;
+        FrameHeader header = slot->request;
+        header.flags = flags;
+        slot->multicast->send(m_hub, header);
+        m_reports.tap(TappedFrame::Sent, 0, slot->multicast->frame.data(), slot->multicast->frame.size());
+    }
 }
 
 /// Sends the parts of the request that are still to be sent, as far as the kernel takes them.
@@ -145,6 +164,7 @@ void NodeExchange::resendRequests() noexcept
         slot->statistics.resent.add();
         sendRequest(*slot, ResentFlag);
     }
+    sendMulticast(ResentFlag);
     m_hub.flush();
 }
 

@@ -48,6 +48,7 @@ private:
     void askNodes(const Stage &stage) noexcept;
     void sendRequest(NodeSlot &slot, std::uint8_t flags) noexcept;
     void sendParts(NodeSlot &slot) noexcept;
+    void sendMulticast(std::uint8_t flags) noexcept;
     bool continueRequests() noexcept;
     void resendRequests() noexcept;
     void stepLocalNodes(const Stage &stage) noexcept;

@@ -8,6 +8,7 @@
 #include <QtCore/QStringList>
 #include <QtCore/QVector>
 
+#include <algorithm>
 #include <memory>
 
 namespace qplc {
@@ -29,6 +30,12 @@ struct NodeDeclaration
     QVector<Signal> inputs;
     QVector<Signal> outputs;
 
+    /// Whether the cycle has an order because of this node.
+    bool isOrdered() const
+    {
+        return twoPhase
+            || std::any_of(inputs.begin(), inputs.end(), [](const Signal &input) { return input.sameCycle; });
+    }
     /// Reads a Register message. \return false, with the reason in \a error, when a field is missing or malformed
     static bool fromMessage(const QPlcMessage &message, NodeDeclaration *declaration, QString *error);
     /// What a local node says.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "MulticastParts.h"
 #include "NodeRuntime.h"
 #include "NodeStatistics.h"
 #include "protocol/CyclicFrame.h"
@@ -23,6 +24,7 @@ struct NodeSlot
     quint16 id = 0;
     QPlcSlaveNode::RealTimeViolationPolicy policy = QPlcSlaveNode::ErrorZeroOrderHold;
     bool listener = false;
+    bool wantsMulticast = false;    // listens to the multicast group of the master
     bool twoPhase = false;          // the answer to cycle k holds the outputs of cycle k + 1
     std::vector<bool> sameCycle;    // for each field of inputLayout
     NodeRuntime *local = nullptr;   // a node of this process; else over the network
@@ -42,19 +44,21 @@ struct NodeSlot
     FrameHeader request;
     std::size_t partsSent = 0;  // of the request: a stream takes what the kernel has room for
     std::size_t bytesSent = 0;
-    bool asked = false;     // in this cycle
-    bool awaited = false;   // its answer is waited for now
-    bool answered = false;  // in this cycle
-    bool late = false;      // in this cycle, and counted
-    bool pending = false;   // two-phase: the newest outputs are those of the next cycle
-    bool computed = false;  // local: the step of this cycle gave outputs
+    std::shared_ptr<MulticastPart> multicast;  // null: the node gets frames of its own
+    quint32 multicastOffset = 0;               // of its inputs in the payload of the part
+    bool asked = false;                        // in this cycle
+    bool awaited = false;                      // its answer is waited for now
+    bool answered = false;                     // in this cycle
+    bool late = false;                         // in this cycle, and counted
+    bool pending = false;                      // two-phase: the newest outputs are those of the next cycle
+    bool computed = false;                     // local: the step of this cycle gave outputs
     bool faulted = false;
 
     // ---- both ----
     std::atomic<bool> lost{false};  // its connection is gone: not to be waited for
     NodeStatistics statistics;
 
-    bool isRequestSent() const { return partsSent == encoder.partCount() && !peer->hasRest(); }
+    bool isRequestSent() const { return multicast || (partsSent == encoder.partCount() && !peer->hasRest()); }
     bool waits() const { return policy == QPlcSlaveNode::SilentWait || policy == QPlcSlaveNode::ErrorWait; }
     bool reports() const { return policy == QPlcSlaveNode::ErrorZeroOrderHold || policy == QPlcSlaveNode::ErrorWait; }
 

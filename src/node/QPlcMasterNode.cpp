@@ -142,6 +142,11 @@ void QPlcMasterNode::setLocalName(const QString &name)
     d->localName = name;
 }
 
+void QPlcMasterNode::setMulticastGroup(const QHostAddress &group)
+{
+    d->multicastGroup = group;
+}
+
 void QPlcMasterNode::stopServer()
 {
     if (!d->server)

@@ -144,7 +144,7 @@ bool QPlcMasterNodePrivate::startServer(const QPlcUnderlyingProtocol &protocol)
         qCWarning(lcMaster).noquote() << "listening on" << address.toString()
                                       << "WITHOUT SECURITY: anybody on the network can read and command the plant";
     }
-    if (!server->listen(address, protocol.port(), localName))
+    if (!server->listen(address, protocol.port(), localName, multicastGroup))
         return setError(QPlcMasterNode::ServerError, server->errorString());
     qCInfo(lcMaster).noquote() << "listening on" << address.toString() << "port" << server->port();
     return true;

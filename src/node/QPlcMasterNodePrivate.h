@@ -52,6 +52,7 @@ public:
     quint64 cycleLimit = 0;
     bool insecureNetworkAllowed = false;
     QString localName;
+    QHostAddress multicastGroup;
     QPlcSignalIndex timeSignal = QPlcInvalidSignalIndex;
     QPlcSignalIndex jitterSignal = QPlcInvalidSignalIndex;
     QPlcSignalIndex workloadSignal = QPlcInvalidSignalIndex;
@@ -99,7 +100,7 @@ private:
     void join(Connection *connection);
     void continueJoin(Connection *connection, const QPlcMessage &message);
     bool storeOutputs(Connection *connection, const QPlcMessage &message);
-    QJsonObject startFields() const;
+    QJsonObject startFields(const qplc::NodeSlot &slot) const;
     void giveRoster();
 
     void nodeLost(Connection *connection, const QString &reason);
@@ -116,6 +117,7 @@ private:
     bool m_startAfterwards = false;
     bool m_initialized = false;  // since the last phase and the last join
     quint64 m_cyclesWanted = 0;
+    qplc::MulticastParts m_multicastParts;
     QPointer<QPlcSlaveSocket> m_requester;
     struct LateLog
     {

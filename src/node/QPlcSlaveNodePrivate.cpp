@@ -21,6 +21,19 @@ QPlcClock clockOf(const Message &message)
     return QPlcClock::realTime();
 }
 
+/// Where the inputs lie in datagrams for many nodes; what is out of place is refused by its size of 0, and no frame will fit.
+qplc::SlaveCycle::Group groupOf(const Message &message, const qplc::PayloadLayout &inputs)
+{
+    const QJsonObject fields = message.fields().value(QStringLiteral("group")).toObject();
+    const double offset = fields.value(QStringLiteral("offset")).toDouble();
+    const double size = fields.value(QStringLiteral("size")).toDouble();
+    if (fields.isEmpty() || offset < 2 || size > double(qplc::MaximumCyclicPayload)
+        || offset + double(inputs.size()) > size)
+        return {};
+    return {std::uint16_t(fields.value(QStringLiteral("part")).toInt()), std::uint32_t(offset), std::uint32_t(size),
+            QPlcMessage(Message::RealTimeStarted, fields).hex64(QStringLiteral("hash"))};
+}
+
 }  // namespace
 
 QPlcSlaveNodePrivate::QPlcSlaveNodePrivate(QPlcSlaveNode *node, const QString &nodeName,
@@ -278,6 +291,7 @@ void QPlcSlaveNodePrivate::startCycles(const Message &message)
     phase.clock = clockOf(message);
     phase.cycleZero = message.hex64(QStringLiteral("cycleZero"));
     phase.firstCycle = message.hex64(QStringLiteral("firstCycle"));
+    phase.group = groupOf(message, runtime.inputLayout());
     phase.watchdog = watchdog;
     phase.realTimeOptions = realTimeOptions;
     if (!cycle->start(phase)) {

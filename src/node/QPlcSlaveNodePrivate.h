@@ -55,6 +55,7 @@ private:
     void receiveRegistered(const QPlcMessage &message);
     bool makeUdpLink(quint16 *port);
     bool openLocalLink(const QPlcMessage &registered);
+    bool joinGroup(const QPlcMessage &registered);
     void connectCyclicChannel();
     void cyclicChannelAttached();
     void sendInitialOutputs();

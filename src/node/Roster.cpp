@@ -46,6 +46,10 @@ void Roster::arrange()
         anyRemote = anyRemote || slot->peer;
         if (slot->twoPhase)
             twoPhase.push_back(slot.get());
+        const auto isOfItsPart
+            = [&](const std::shared_ptr<NodeSlot> &other) { return other->multicast == slot->multicast; };
+        if (slot->multicast && std::none_of(multicast.begin(), multicast.end(), isOfItsPart))
+            multicast.push_back(slot);
     }
 }
 

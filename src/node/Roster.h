@@ -27,6 +27,7 @@ struct Roster
     // made by arrange()
     std::vector<std::vector<Turn>> stages{};
     std::vector<NodeSlot *> twoPhase{};
+    std::vector<std::shared_ptr<NodeSlot>> multicast{};  // one node of each part
     bool anyRemote = false;
 
     /// Puts the nodes into stages. \pre they have no algebraic loop: NodeRegistry admits none

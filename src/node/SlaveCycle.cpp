@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SlaveCycle.h"
 
+#include "protocol/LittleEndian.h"
 #include "realtime/PeriodicInterrupt.h"
 
 #include <algorithm>
@@ -31,14 +32,20 @@ std::size_t sizeOfInputFrame(const void *decoder, const char *header)
 
 SlaveCycle::SlaveCycle(NodeRuntime &runtime, const Identity &identity, bool tapFrames)
     : m_runtime(runtime)
-    , m_node(identity.node)
-    , m_decoder(FrameKind::Inputs, seedOf(identity, runtime.inputLayout()),
-                runtime.inputLayout().partBorders(MaximumCyclicPayload))
+    , m_identity(identity)
+    , m_decoder(ownDecoder())
     , m_encoder(FrameKind::Outputs, seedOf(identity, runtime.outputLayout()),
                 runtime.outputLayout().partBorders(MaximumCyclicPayload))
     , m_reports(tapFrames)
     , m_frame(MaximumCyclicFrame)
 {
+}
+
+/// For frames of the node's own.
+FrameDecoder SlaveCycle::ownDecoder() const
+{
+    return {FrameKind::Inputs, seedOf(m_identity, m_runtime.inputLayout()),
+            m_runtime.inputLayout().partBorders(MaximumCyclicPayload)};
 }
 
 SlaveCycle::~SlaveCycle()
@@ -55,6 +62,10 @@ bool SlaveCycle::start(const Phase &phase)
 {
     stop();
     m_phase = phase;
+    const Group &group = phase.group;
+    m_decoder = group.size == 0
+        ? ownDecoder()
+        : FrameDecoder(FrameKind::GroupInputs, {m_identity.session, 0, group.hash}, {0, group.size});
     m_decoder.restart(phase.firstCycle);
     m_runtime.setLockstep(phase.clock.isLockstep());
     for (std::atomic<quint64> *counter : {&m_counters.cycles, &m_counters.missed, &m_counters.duplicated,
@@ -102,7 +113,7 @@ void SlaveCycle::run() noexcept
             checkWatchdog();
             break;
         case CyclicLink::Closed:
-            m_reports.post({CycleEvent::LinkClosed, m_node, 0, m_lastCycle});
+            m_reports.post({CycleEvent::LinkClosed, m_identity.node, 0, m_lastCycle});
             return;
         }
     }
@@ -124,7 +135,7 @@ CyclicLink::Status SlaveCycle::receive(const char **frame, std::size_t *size) no
 
 FrameStatus SlaveCycle::decode(const char *frame, std::size_t size) noexcept
 {
-    m_reports.tap(TappedFrame::Received, m_node, frame, size);
+    m_reports.tap(TappedFrame::Received, m_identity.node, frame, size);
     const FrameStatus status = m_decoder.decode(frame, size);
     switch (status) {
     case FrameStatus::Complete:
@@ -143,8 +154,17 @@ FrameStatus SlaveCycle::decode(const char *frame, std::size_t size) noexcept
     return status;
 }
 
+/// Whether it is a part of the multicast group that holds the inputs of other nodes.
+bool SlaveCycle::isForOthers(const char *frame, std::size_t size) const noexcept
+{
+    return m_phase.group.size > 0 && size >= CyclicHeaderSize + sizeof(std::uint16_t)
+        && loadLittle<std::uint16_t>(frame + CyclicHeaderSize) != m_phase.group.part;
+}
+
 void SlaveCycle::take(const char *frame, std::size_t size) noexcept
 {
+    if (isForOthers(frame, size))
+        return;
     const FrameStatus status = decode(frame, size);
     if (status == FrameStatus::Duplicate && m_computedAny && isRepeatedRequest())
         answer();
@@ -169,8 +189,10 @@ void SlaveCycle::skipToNewest() noexcept
         return;
     const char *frame = nullptr;
     std::size_t size = 0;
-    while (m_link->poll(&frame, &size) == CyclicLink::Received)
-        decode(frame, size);
+    while (m_link->poll(&frame, &size) == CyclicLink::Received) {
+        if (!isForOthers(frame, size))
+            decode(frame, size);
+    }
 }
 
 void SlaveCycle::compute() noexcept
@@ -179,10 +201,10 @@ void SlaveCycle::compute() noexcept
     const std::uint64_t missed = m_computedAny ? cycle - m_lastCycle - 1 : 0;
     count(m_counters.cycles);
     count(m_counters.missed, missed);
-    const bool computed
-        = m_runtime.step(QPlcCycle(cycle - m_phase.cycleZero, m_phase.period, missed), m_decoder.payload());
+    const bool computed = m_runtime.step(QPlcCycle(cycle - m_phase.cycleZero, m_phase.period, missed),
+                                         m_decoder.payload() + m_phase.group.offset);
     if (!computed && !m_faulted)
-        m_reports.post({CycleEvent::NodeFaulted, m_node, 0, cycle - m_phase.cycleZero});
+        m_reports.post({CycleEvent::NodeFaulted, m_identity.node, 0, cycle - m_phase.cycleZero});
     m_faulted = !computed;
     m_computedAny = true;
     m_lastCycle = cycle;
@@ -205,7 +227,7 @@ void SlaveCycle::answer() noexcept
 {
     for (std::size_t part = 0; part < m_encoder.partCount(); ++part) {
         m_encoder.encode(part, m_answer, m_runtime.outputs(), m_frame.data());
-        m_reports.tap(TappedFrame::Sent, m_node, m_frame.data(), m_encoder.partSize(part));
+        m_reports.tap(TappedFrame::Sent, m_identity.node, m_frame.data(), m_encoder.partSize(part));
         m_link->send(m_frame.data(), m_encoder.partSize(part));
     }
     m_link->flush();
@@ -225,7 +247,7 @@ void SlaveCycle::checkWatchdog() noexcept
         return;
     m_watchdogBarked = true;
     count(m_counters.watchdog);
-    m_reports.post({CycleEvent::WatchdogTimedOut, m_node, 0, m_lastCycle - m_phase.cycleZero});
+    m_reports.post({CycleEvent::WatchdogTimedOut, m_identity.node, 0, m_lastCycle - m_phase.cycleZero});
 }
 
 }  // namespace qplc

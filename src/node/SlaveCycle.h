@@ -26,6 +26,14 @@ public:
         std::uint64_t session = 0;
         std::uint16_t node = 0;
     };
+    /// Where the inputs of the node lie in the datagrams for many nodes.
+    struct Group
+    {
+        std::uint16_t part = 0;
+        std::uint32_t offset = 0;  // [byte]
+        std::uint32_t size = 0;    // [byte] of the whole payload; 0: the node gets frames of its own
+        std::uint64_t hash = 0;
+    };
     struct Phase
     {
         std::chrono::nanoseconds period{0};
@@ -34,6 +42,7 @@ public:
         std::uint64_t firstCycle = 0;          // number on the wire of the first cycle that may come
         std::chrono::nanoseconds watchdog{0};  // 0: none
         QPlcRealTimeOptions realTimeOptions;
+        Group group{};
     };
 
     /// \param runtime  bound, and outlives this object
@@ -59,6 +68,8 @@ public:
 
 private:
     void run() noexcept;
+    FrameDecoder ownDecoder() const;
+    bool isForOthers(const char *frame, std::size_t size) const noexcept;
     CyclicLink::Status receive(const char **frame, std::size_t *size) noexcept;
     void take(const char *frame, std::size_t size) noexcept;
     FrameStatus decode(const char *frame, std::size_t size) noexcept;
@@ -70,7 +81,7 @@ private:
     std::int64_t simulated(std::int64_t time) const noexcept;
 
     NodeRuntime &m_runtime;
-    std::uint16_t m_node;
+    const Identity m_identity;
     FrameDecoder m_decoder;
     FrameEncoder m_encoder;
     std::unique_ptr<CyclicLink> m_link;

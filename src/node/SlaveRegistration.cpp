@@ -129,7 +129,7 @@ void QPlcSlaveNodePrivate::registerAtMaster()
         {QStringLiteral("cyclic"), master.kindName()}};
     if (twoPhase)
         fields.insert(QStringLiteral("twoPhase"), true);
-    if (master.kind() == QPlcUnderlyingProtocol::Udp) {
+    if (master.kind() == QPlcUnderlyingProtocol::Udp || master.kind() == QPlcUnderlyingProtocol::UdpMulticast) {
         quint16 port = 0;
         if (!makeUdpLink(&port))
             return;
@@ -154,10 +154,23 @@ void QPlcSlaveNodePrivate::receiveRegistered(const Message &message)
     QObject::connect(m_reportNotifier.get(), &QSocketNotifier::activated, q, [this] { takeReports(); });
     if (master.kind() == QPlcUnderlyingProtocol::Local && !openLocalLink(message))
         return;
+    if (master.kind() == QPlcUnderlyingProtocol::UdpMulticast && !joinGroup(message))
+        return;
     if (m_link)
         cycle->setLink(std::move(m_link));
     else
         connectCyclicChannel();
+}
+
+bool QPlcSlaveNodePrivate::joinGroup(const Message &registered)
+{
+    const QHostAddress group(registered.text(QStringLiteral("group")));
+    const int port = registered.fields().value(QStringLiteral("groupPort")).toInt();
+    QString text;
+    if (m_link->joinGroup(qplc::SocketAddress(group, quint16(port)), &text))
+        return true;
+    giveUp(QPlcSlaveNode::ConnectionError, QStringLiteral("node '%1': %2").arg(name, text));
+    return false;
 }
 
 bool QPlcSlaveNodePrivate::openLocalLink(const Message &registered)

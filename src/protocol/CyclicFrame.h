@@ -19,8 +19,9 @@ constexpr std::size_t MaximumCyclicFrame = 1472;
 constexpr std::size_t MaximumCyclicPayload = MaximumCyclicFrame - CyclicOverhead;
 
 enum class FrameKind : std::uint8_t {
-    Inputs = 1,  ///< master -> node: TimeoutWithNewValues
-    Outputs = 2  ///< node -> master: the answer
+    Inputs = 1,      ///< master -> node: TimeoutWithNewValues
+    Outputs = 2,     ///< node -> master: the answer
+    GroupInputs = 3  ///< master -> a multicast group: the inputs of several nodes
 };
 
 enum FrameFlag : std::uint8_t {

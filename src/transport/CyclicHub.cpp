@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "CyclicHub.h"
 
+#include <QtCore/qendian.h>
 #include <algorithm>
 #include <cerrno>
 #include <fcntl.h>
@@ -126,6 +127,20 @@ void CyclicHub::close()
     m_udp = -1;
     m_outgoing = m_arrived = m_taken = 0;
     rebuild();
+}
+
+bool CyclicHub::openMulticast(const QHostAddress &address, QString *error)
+{
+    const in_addr interface {
+        qToBigEndian(address.toIPv4Address())
+    };
+    const unsigned char hops = 1;
+    if (!m_isIpv6 && ::setsockopt(m_udp, IPPROTO_IP, IP_MULTICAST_IF, &interface, sizeof interface) == 0
+        && ::setsockopt(m_udp, IPPROTO_IP, IP_MULTICAST_TTL, &hops, sizeof hops) == 0)
+        return true;
+    *error = m_isIpv6 ? QStringLiteral("multicast needs IPv4: listen on an IPv4 address")
+                      : QStringLiteral("no multicast by way of %1: %2").arg(address.toString(), systemErrorText());
+    return false;
 }
 
 bool CyclicHub::openLocal(QString *error)

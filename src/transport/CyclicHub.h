@@ -94,6 +94,8 @@ public:
     /// Binds the UDP socket. One that is bound to :: also exchanges datagrams with IPv4 addresses. \return false, with the reason in \a error
     bool open(const SocketAddress &address, QString *error);
     void close();
+    /// Lets datagrams to multicast groups leave by the interface of \a address, for one hop. \return false, with the reason in \a error
+    bool openMulticast(const QHostAddress &address, QString *error);
     /// \return false, with the reason in \a error, when there is no local link to be had
     bool openLocal(QString *error);
     LocalPaths localPaths() const;

@@ -32,6 +32,32 @@ public:
         , m_buffer(new char[LargestDatagram])
     {
     }
+    ~UdpLink() override
+    {
+        if (m_group >= 0)
+            ::close(m_group);
+    }
+    bool joinGroup(const SocketAddress &group, QString *error) override
+    {
+        SocketAddress self;
+        SocketAddress master;
+        self.length = master.length = sizeof self.storage;
+        ::getsockname(m_descriptor, self.data(), &self.length);
+        ::getpeername(m_descriptor, master.data(), &master.length);
+        ip_mreq request{};
+        request.imr_multiaddr = reinterpret_cast<const sockaddr_in *>(group.data())->sin_addr;
+        request.imr_interface = reinterpret_cast<const sockaddr_in *>(self.data())->sin_addr;
+        const int on = 1;
+        m_group = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+        if (self.family() == AF_INET && ::setsockopt(m_group, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on) == 0
+            && ::bind(m_group, group.data(), group.length) == 0
+            && ::setsockopt(m_group, IPPROTO_IP, IP_ADD_MEMBERSHIP, &request, sizeof request) == 0
+            && ::connect(m_group, master.data(), master.length) == 0)
+            return true;
+        *error = QStringLiteral("cannot join the multicast group %1: %2; use udp")
+                     .arg(group.toString(), systemErrorText());
+        return false;
+    }
     Status receive(const char **frame, std::size_t *size) noexcept override { return take(frame, size, 0); }
     Status poll(const char **frame, std::size_t *size) noexcept override { return take(frame, size, MSG_DONTWAIT); }
     bool send(const char *frame, std::size_t size) noexcept override
@@ -42,7 +68,7 @@ public:
 private:
     Status take(const char **frame, std::size_t *size, int flags) noexcept
     {
-        const ssize_t count = ::recv(m_descriptor, m_buffer.get(), LargestDatagram, flags);
+        const ssize_t count = ::recv(m_group >= 0 ? m_group : m_descriptor, m_buffer.get(), LargestDatagram, flags);
         if (count < 0) {
             // A master that is gone answers with "port unreachable": no reason to give the socket up.
             return isTransient(errno) || errno == ECONNREFUSED ? Nothing : Closed;
@@ -52,6 +78,7 @@ private:
         return Received;
     }
     std::unique_ptr<char[]> m_buffer;
+    int m_group = -1;
 };
 
 class TcpLink final : public CyclicLink
@@ -144,6 +171,12 @@ CyclicLink::~CyclicLink()
 {
     if (m_descriptor >= 0)
         ::close(m_descriptor);
+}
+
+bool CyclicLink::joinGroup(const SocketAddress &, QString *error)
+{
+    *error = QStringLiteral("only UDP knows multicast groups");
+    return false;
 }
 
 std::unique_ptr<CyclicLink> CyclicLink::local(const QString &channel, const QString &doorbell, const QString &pipe,

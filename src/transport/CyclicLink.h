@@ -34,6 +34,9 @@ public:
     /// \return false when the frame could not be handed to the kernel (it is lost, as on any network)
     virtual bool send(const char *frame, std::size_t size) noexcept = 0;
 
+    /// UDP only: from now on frames come from the multicast group, and from the master alone. \return false, with the reason in \a error
+    virtual bool joinGroup(const SocketAddress &group, QString *error);
+
     /// To be called behind the last frame of an answer.
     virtual void flush() noexcept {}
 

@@ -57,9 +57,12 @@ QPlcUnderlyingProtocol QPlcUnderlyingProtocol::fromString(const QString &text, K
     QString ignored;
     QString &reason = error ? *error : ignored;
     QString rest = text.trimmed();
-    if (rest.startsWith(QLatin1String("tcp://")) || rest.startsWith(QLatin1String("udp://"))) {
-        kind = rest.startsWith(QLatin1Char('t')) ? Tcp : Udp;
-        rest.remove(0, 6);
+    for (const Kind named : {Tcp, Udp, UdpMulticast}) {
+        const QString scheme = QPlcUnderlyingProtocol(named, {}, 0).kindName() + QStringLiteral("://");
+        if (rest.startsWith(scheme)) {
+            kind = named;
+            rest.remove(0, scheme.size());
+        }
     }
     if (rest.startsWith(QLatin1String("local://"))) {
         rest.remove(0, 8);
@@ -92,6 +95,8 @@ QString QPlcUnderlyingProtocol::kindName() const
         return QStringLiteral("tcp");
     case Udp:
         return QStringLiteral("udp");
+    case UdpMulticast:
+        return QStringLiteral("udp-multicast");
     case Local:
         return QStringLiteral("local");
     case Invalid:

@@ -63,6 +63,12 @@ void tst_Transports::sameDigestOverEveryTransport_data()
                                  << "udp" << false;
     QTest::newRow("udp and in process") << "udp"
                                         << "local" << false;
+    QTest::newRow("multicast") << "multicast"
+                               << "multicast" << false;
+    QTest::newRow("multicast and udp") << "multicast"
+                                       << "udp" << false;
+    QTest::newRow("multicast and in process") << "multicast"
+                                              << "local" << false;
     QTest::newRow("shared memory") << "shared"
                                    << "shared" << false;
     QTest::newRow("shared memory and udp") << "shared"
@@ -86,12 +92,15 @@ void tst_Transports::sameDigestOverEveryTransport()
     TestMaster master;
     master.setCycleLimit(1000);
     QVERIFY(master.setTimeSignal("time"));
+    if (counterKind == "multicast")
+        master.setMulticastGroup(QHostAddress("239.255.76.68"));
     QVERIFY2(master.listen(address), qPrintable(master.errorString()));
     CounterNode counter;
     EchoNode echo;
     for (const auto &[node, kind] : {std::pair<QPlcSlaveNode *, QString>(&counter, counterKind),
                                      std::pair<QPlcSlaveNode *, QString>(&echo, echoKind)}) {
         const auto protocol = kind == "udp" ? QPlcUnderlyingProtocol::udp(address, master.serverPort())
+            : kind == "multicast"           ? QPlcUnderlyingProtocol::udpMulticast(address, master.serverPort())
             : kind == "shared"              ? QPlcUnderlyingProtocol::local(QString::number(master.serverPort()))
                                             : QPlcUnderlyingProtocol::tcp(address, master.serverPort());
         if (kind == "local")

@@ -36,12 +36,18 @@ inline quint64 number(const QJsonValue &hex)
     return hex.toString().toULongLong(nullptr, 16);
 }
 
+inline qplc::FrameKind kindOf(const QString &name)
+{
+    if (name == QLatin1String("Inputs"))
+        return qplc::FrameKind::Inputs;
+    return name == QLatin1String("GroupInputs") ? qplc::FrameKind::GroupInputs : qplc::FrameKind::Outputs;
+}
+
 /// One direction of one node.
 struct Channel
 {
     explicit Channel(const QJsonValue &json)
-        : kind(json[QStringLiteral("kind")].toString() == QLatin1String("Inputs") ? qplc::FrameKind::Inputs
-                                                                                  : qplc::FrameKind::Outputs)
+        : kind(kindOf(json[QStringLiteral("kind")].toString()))
     {
         seed.session = number(json[QStringLiteral("session")]);
         seed.node = std::uint16_t(json[QStringLiteral("node")].toInt());

@@ -32,6 +32,7 @@ void tst_QPlcUnderlyingProtocol::readsAddresses_data()
     QTest::newRow("IPv6 without port") << "[fe80::2]" << true << "udp://[fe80::2]:50000";
     QTest::newRow("bare IPv6") << "::1" << true << "udp://[::1]:50000";
     QTest::newRow("scheme and IPv6") << "udp://[::1]:4" << false << "udp://[::1]:4";
+    QTest::newRow("multicast scheme") << "udp-multicast://10.0.0.3:7" << false << "udp-multicast://10.0.0.3:7";
     QTest::newRow("local port") << "local://4711" << true << "local://4711";
     QTest::newRow("local, host and port") << "local://127.0.0.1:4711" << false << "local://4711";
     QTest::newRow("local, localhost") << "local://localhost:4711" << false << "local://4711";

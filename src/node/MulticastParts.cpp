@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "MulticastParts.h"
+
+#include "NodeSlot.h"
+#include "protocol/LittleEndian.h"
+#include "signals/Fnv1a.h"
+
+namespace qplc {
+
+void MulticastPart::send(CyclicHub &hub, const FrameHeader &header) noexcept
+{
+    encoder.encode(0, header, payload.data(), frame.data());
+    hub.send(group.get(), frame.data(), frame.size());
+    toBeSent = false;
+}
+
+void MulticastParts::restart(std::uint64_t session, const SocketAddress &group)
+{
+    m_session = session;
+    m_group = group;
+    m_next = 0;
+    m_open.reset();
+    m_nodes.clear();
+}
+
+void MulticastParts::add(NodeSlot &slot)
+{
+    if (m_open && m_open->payload.size() + slot.inputLayout.size() > MaximumCyclicPayload)
+        finish();
+    if (!m_open) {
+        m_open = std::make_shared<MulticastPart>();
+        m_open->number = m_next++;
+        m_open->payload.resize(sizeof m_open->number);
+        storeLittle(m_open->number, m_open->payload.data());
+    }
+    slot.multicast = m_open;
+    slot.multicastOffset = quint32(m_open->payload.size());
+    m_open->payload.resize(m_open->payload.size() + slot.inputLayout.size());
+    m_nodes.push_back(&slot);
+}
+
+void MulticastParts::finish()
+{
+    if (!m_open)
+        return;
+    QByteArray text;
+    for (const NodeSlot *slot : m_nodes)
+        text += QByteArray::number(slot->id) + ':' + QByteArray::number(slot->inputLayout.size()) + '@'
+            + QByteArray::number(slot->multicastOffset) + '\n';
+    m_open->hash = fnv1a64(text);
+    m_open->encoder = FrameEncoder(FrameKind::GroupInputs, {m_session, 0, m_open->hash},
+                                   {0, std::uint32_t(m_open->payload.size())});
+    m_open->frame.resize(m_open->encoder.totalSize());
+    m_open->group = HubPeer::udp(m_group);
+    m_open.reset();
+    m_nodes.clear();
+}
+
+}  // namespace qplc

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "NodeFixtures.h"
+
+#include <QtCore/QElapsedTimer>
+#include <QtTest/QtTest>
+
+// One datagram for many nodes.
+class tst_Multicast : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void init() { QPlcSignalIndexTable::setCurrent({}); }
+    void fewDatagramsCarryTheInputsOfMany();
+    void whoJoinsLaterDisturbsNobody();
+    void aMasterWithoutAGroupRefuses();
+    void nodesThatAreAskedAloneAreRefused();
+    void inputsThatFillMoreThanADatagramAreRefused();
+    void noGroupIsSaid_data();
+    void noGroupIsSaid();
+    void datagramsOfOthersAreNoCycles();
+
+private:
+    static QPlcUnderlyingProtocol protocol(const QPlcMasterNode &master)
+    {
+        return QPlcUnderlyingProtocol::udpMulticast(QHostAddress::LocalHost, master.serverPort());
+    }
+};
+
+namespace {
+
+const QHostAddress group(QStringLiteral("239.255.76.68"));
+
+/// Reads in<N> (RealTriple) and writes its sum to out<N>.
+class Summer : public QPlcCompactSlaveNode
+{
+public:
+    explicit Summer(int number)
+        : QPlcCompactSlaveNode(QStringLiteral("Summer%1").arg(number), ErrorWait)
+        , m_in(this, "in" + QByteArray::number(number))
+        , m_out(this, "out" + QByteArray::number(number))
+    {
+    }
+
+private:
+    void step(const QPlcCycle &) override { m_out = m_in.value()[0] + m_in.value()[1] + m_in.value()[2]; }
+    QPlcInput<std::array<double, 3>> m_in;
+    QPlcOutput<double> m_out;
+};
+
+QPlcSignalTable manySignals(int nodes)
+{
+    QByteArray ini;
+    for (int i = 0; i < nodes; ++i)
+        ini += "[in" + QByteArray::number(i) + "]\ntype = Real64Triple\n[out" + QByteArray::number(i)
+            + "]\ntype = Real64\n";
+    return QPlcSignalTable::fromIni(ini);
+}
+
+}  // namespace
+
+void tst_Multicast::fewDatagramsCarryTheInputsOfMany()
+{
+    constexpr int count = 100;  // 2400 bytes of inputs: two parts
+    TestMaster master(QPlcClock::lockstep(), manySignals(count));
+    master.setMulticastGroup(group);
+    master.setCycleLimit(50);
+    QVERIFY2(master.listen(), qPrintable(master.errorString()));
+    std::vector<std::unique_ptr<Summer>> nodes;
+    for (int i = 0; i < count; ++i) {
+        nodes.push_back(std::make_unique<Summer>(i));
+        QVERIFY2(nodes.back()->connectToMasterAndWaitForConnected(protocol(master)),
+                 qPrintable(nodes.back()->errorString()));
+        QVERIFY(
+            master.setSignalValue(QStringLiteral("in%1").arg(i), QPlcValue(std::array<double, 3>{1.0 * i, 0.5, 0.25})));
+    }
+    QVERIFY(master.startRealTime());
+    QVERIFY(master.waitForState(QPlcMasterNode::Off));
+    for (int i = 0; i < count; ++i) {
+        QCOMPARE(master.signalValue(QStringLiteral("out%1").arg(i)).toReal(), i + 0.75);
+        QCOMPARE(nodes[std::size_t(i)]->counters().rejected, quint64(0));  // the other part is no error
+        QCOMPARE(nodes[std::size_t(i)]->counters().cycles, quint64(50));
+        nodes[std::size_t(i)]->disconnectFromMaster();
+    }
+}
+
+void tst_Multicast::whoJoinsLaterDisturbsNobody()
+{
+    TestMaster master(QPlcClock::lockstep(), manySignals(3));
+    master.setMulticastGroup(group);
+    QVERIFY(master.listen());
+    Summer first(0);
+    Summer second(1);
+    Summer third(2);
+    for (int i = 0; i < 3; ++i)
+        master.setSignalValue(QStringLiteral("in%1").arg(i), QPlcValue(std::array<double, 3>{1.0, 2.0, double(i)}));
+    QVERIFY(first.connectToMasterAndWaitForConnected(protocol(master)));
+    QVERIFY(master.startRealTime());
+    QVERIFY(master.waitForCycles(20));
+    QVERIFY(second.connectToMasterAndWaitForConnected(protocol(master)));
+    QVERIFY(third.connectToMasterAndWaitForConnected(protocol(master)));
+    QTRY_VERIFY(third.counters().cycles > 10 && second.counters().cycles > 10);
+    second.disconnectFromMaster();
+    QTRY_COMPARE(master.nodes().size(), 2);
+    const quint64 before = third.counters().cycles;
+    QTRY_VERIFY(third.counters().cycles > before + 10);
+    master.stop();
+    QCOMPARE(first.counters().missed, quint64(0));
+    QCOMPARE(first.counters().rejected + third.counters().rejected, quint64(0));
+    QCOMPARE(master.signalValue("out2").toReal(), 5.0);
+    first.disconnectFromMaster();
+    third.disconnectFromMaster();
+}
+
+void tst_Multicast::aMasterWithoutAGroupRefuses()
+{
+    TestMaster master(QPlcClock::lockstep(), manySignals(1));
+    QVERIFY(master.listen());
+    Summer node(0);
+    QVERIFY(!node.connectToMasterAndWaitForConnected(protocol(master)));
+    QVERIFY2(node.errorString().contains("no multicast group"), qPrintable(node.errorString()));
+}
+
+void tst_Multicast::nodesThatAreAskedAloneAreRefused()
+{
+    TestMaster master(QPlcClock::lockstep(), manySignals(1));
+    master.setMulticastGroup(group);
+    QVERIFY(master.listen());
+    Summer node(0);
+    node.setSameCycle(true);
+    QVERIFY(!node.connectToMasterAndWaitForConnected(protocol(master)));
+    QVERIFY2(node.errorString().contains("asked alone"), qPrintable(node.errorString()));
+}
+
+void tst_Multicast::inputsThatFillMoreThanADatagramAreRefused()
+{
+    class Wide : public QPlcCompactSlaveNode
+    {
+    public:
+        Wide()
+            : QPlcCompactSlaveNode(QStringLiteral("Wide"))
+        {
+        }
+        void step(const QPlcCycle &) override {}
+        QPlcInput<std::array<double, 180>> m_a{this, "a"};
+        QPlcInput<double> m_b{this, "b"};
+        QPlcInput<double> m_c{this, "c"};
+    } node;
+    TestMaster master(QPlcClock::lockstep(),
+                      QPlcSignalTable::fromIni("[a]\ntype = Real64[180]\n[b]\ntype = Real64\n[c]\ntype = Real64\n"));
+    master.setMulticastGroup(group);
+    QVERIFY(master.listen());
+    QVERIFY(!node.connectToMasterAndWaitForConnected(protocol(master)));
+    QVERIFY2(node.errorString().contains("1456 bytes of inputs"), qPrintable(node.errorString()));
+}
+
+void tst_Multicast::noGroupIsSaid_data()
+{
+    QTest::addColumn<QString>("address");
+    QTest::newRow("no multicast address") << "10.0.0.1";
+    QTest::newRow("IPv6") << "ff02::1";
+}
+
+void tst_Multicast::noGroupIsSaid()
+{
+    QFETCH(QString, address);
+    TestMaster master(QPlcClock::lockstep(), manySignals(1));
+    master.setMulticastGroup(QHostAddress(address));
+    QVERIFY(!master.startServer(QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, 0)));
+    QVERIFY2(master.errorString().contains(address), qPrintable(master.errorString()));
+    QCOMPARE(master.serverPort(), quint16(0));
+    master.setMulticastGroup(QHostAddress());
+    QVERIFY(master.listen());
+}
+
+/// Two masters may share a group: each has a port and a session of its own.
+void tst_Multicast::datagramsOfOthersAreNoCycles()
+{
+    TestMaster one(QPlcClock::lockstep(), manySignals(1));
+    TestMaster other(QPlcClock::lockstep(), manySignals(1));
+    Summer node(0);
+    Summer otherNode(0);
+    for (TestMaster *master : {&one, &other}) {
+        master->setMulticastGroup(group);
+        QVERIFY(master->listen());
+    }
+    QVERIFY(node.connectToMasterAndWaitForConnected(protocol(one)));
+    QVERIFY(otherNode.connectToMasterAndWaitForConnected(protocol(other)));
+    QVERIFY(one.startRealTime());
+    QVERIFY(other.startRealTime());
+    QVERIFY(one.waitForCycles(50));
+    QVERIFY(other.waitForCycles(50));
+    one.stop();
+    other.stop();
+    QCOMPARE(node.counters().rejected + otherNode.counters().rejected, quint64(0));
+    node.disconnectFromMaster();
+    otherNode.disconnectFromMaster();
+}
+
+QTEST_GUILESS_MAIN(tst_Multicast)
+#include "tst_Multicast.moc"
