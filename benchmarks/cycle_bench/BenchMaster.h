@@ -26,7 +26,7 @@ private:
         ProcessUsage slaves;
         LoopbackUsage loopback;
         qint64 time = 0;  // [ns]
-        QPlcMasterStatistics statistics;
+        QPlcCycleStatistics statistics;
     };
 
     bool prepare();
