@@ -56,7 +56,7 @@ def per_cycle(bench, transport, slaves, cpu):
         with tempfile.TemporaryDirectory() as folder:
             runs.append(trace(command, folder))
     (few, few_master, few_slaves), (many, many_master, many_slaves) = runs
-    cycles = many["cycles"] - few["cycles"]
+    cycles = many["all_cycles"] - few["all_cycles"]
     return difference(many_master, few_master, cycles), difference(many_slaves, few_slaves, cycles * slaves)
 
 

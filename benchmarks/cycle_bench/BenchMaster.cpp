@@ -126,6 +126,12 @@ bool BenchMaster::startPhase()
         || setError(QStringLiteral("the cycles did not start: %1").arg(m_master.errorString()));
 }
 
+void BenchMaster::stopPhase()
+{
+    m_master.stop();
+    m_allCycles += m_master.statistics().cycles;
+}
+
 BenchMaster::Snapshot BenchMaster::snapshot() const
 {
     return {ProcessUsage::of(::getpid()), ProcessUsage::sumOf(m_processes.ids()), LoopbackUsage::now(),
@@ -138,7 +144,7 @@ bool BenchMaster::run()
         return false;
     wait(m_options.warmup);
     if (!m_options.isBackToBack()) {  // statistics begin with a phase
-        m_master.stop();
+        stopPhase();
         if (!startPhase())
             return false;
     }
@@ -147,7 +153,7 @@ bool BenchMaster::run()
     wait(m_options.seconds);
     m_probe.end();
     m_after = snapshot();
-    m_master.stop();
+    stopPhase();
     return m_master.error() == QPlcMasterNode::NoError || setError(m_master.errorString());
 }
 
@@ -185,6 +191,7 @@ QJsonObject BenchMaster::result() const
                        {QStringLiteral("policy"),
                         ::sched_getscheduler(0) == SCHED_FIFO ? QStringLiteral("fifo") : QStringLiteral("other")},
                        {QStringLiteral("cycles"), cycles},
+                       {QStringLiteral("all_cycles"), double(m_allCycles)},
                        {QStringLiteral("seconds"), seconds},
                        {QStringLiteral("cycles_per_s"), cycles / seconds},
                        {QStringLiteral("errors"), double(m_probe.errors())},
