@@ -12,21 +12,36 @@
 
 namespace {
 
-/// The value that a fraction \a q of \a sorted does not exceed [us].
-double percentile(const std::vector<qint64> &sorted, double q)
+/// The value that a fraction \a q of \a sorted does not exceed.
+qint64 percentile(const std::vector<qint64> &sorted, double q)
 {
-    if (sorted.empty())
-        return 0.0;
-    const auto place = std::min(sorted.size() - 1, std::size_t(q * double(sorted.size())));
-    return double(sorted[place]) * 1e-3;
+    return sorted.empty() ? 0 : sorted[std::min(sorted.size() - 1, std::size_t(q * double(sorted.size())))];
 }
 
-void addPercentiles(QJsonObject *fields, const QString &name, double p50, double p99, double p999, double maximum)
+QPlcDistribution distributionOf(std::vector<qint64> values)
 {
-    fields->insert(name + QStringLiteral("_p50_us"), p50);
-    fields->insert(name + QStringLiteral("_p99_us"), p99);
-    fields->insert(name + QStringLiteral("_p999_us"), p999);
-    fields->insert(name + QStringLiteral("_max_us"), maximum);
+    std::sort(values.begin(), values.end());
+    QPlcDistribution figures;
+    figures.count = values.size();
+    figures.p50 = percentile(values, 0.5);
+    figures.p99 = percentile(values, 0.99);
+    figures.p999 = percentile(values, 0.999);
+    figures.maximum = values.empty() ? 0 : values.back();
+    return figures;
+}
+
+void addPercentiles(QJsonObject *fields, const QString &name, const QPlcDistribution &figures)
+{
+    fields->insert(name + QStringLiteral("_p50_us"), double(figures.p50) * 1e-3);
+    fields->insert(name + QStringLiteral("_p99_us"), double(figures.p99) * 1e-3);
+    fields->insert(name + QStringLiteral("_p999_us"), double(figures.p999) * 1e-3);
+    fields->insert(name + QStringLiteral("_max_us"), double(figures.maximum) * 1e-3);
+}
+
+/// Periods in which the plant did not get what it should: without all answers, or left out.
+double missedCycles(const QPlcCycleStatistics &statistics)
+{
+    return double(statistics.incompleteCycles + statistics.skippedCycles);
 }
 
 }  // namespace
@@ -110,10 +125,16 @@ bool BenchMaster::startPhase()
         || setError(QStringLiteral("the cycles did not start: %1").arg(m_master.errorString()));
 }
 
+void BenchMaster::stopPhase()
+{
+    m_master.stop();
+    m_allCycles += m_master.statistics().cycles;
+}
+
 BenchMaster::Snapshot BenchMaster::snapshot() const
 {
     return {ProcessUsage::of(::getpid()), ProcessUsage::sumOf(m_processes.ids()), LoopbackUsage::now(),
-            std::chrono::steady_clock::now().time_since_epoch().count(), m_master.statistics()};
+            std::chrono::steady_clock::now().time_since_epoch().count(), m_master.cycleStatistics()};
 }
 
 bool BenchMaster::run()
@@ -122,7 +143,7 @@ bool BenchMaster::run()
         return false;
     wait(m_options.warmup);
     if (!m_options.isBackToBack()) {  // statistics begin with a phase
-        m_master.stop();
+        stopPhase();
         if (!startPhase())
             return false;
     }
@@ -131,7 +152,7 @@ bool BenchMaster::run()
     wait(m_options.seconds);
     m_probe.end();
     m_after = snapshot();
-    m_master.stop();
+    stopPhase();
     return m_master.error() == QPlcMasterNode::NoError || setError(m_master.errorString());
 }
 
@@ -157,7 +178,7 @@ void BenchMaster::addUsage(QJsonObject *fields, double cycles) const
 
 QJsonObject BenchMaster::result() const
 {
-    const QPlcMasterStatistics &statistics = m_after.statistics;
+    const QPlcCycleStatistics &statistics = m_after.statistics;
     const double cycles = std::max(1.0, double(statistics.cycles - m_before.statistics.cycles));
     const double seconds = double(m_after.time - m_before.time) * 1e-9;
     QJsonObject fields{{QStringLiteral("peer"), QStringLiteral("qtplc")},
@@ -169,22 +190,17 @@ QJsonObject BenchMaster::result() const
                        {QStringLiteral("policy"),
                         ::sched_getscheduler(0) == SCHED_FIFO ? QStringLiteral("fifo") : QStringLiteral("other")},
                        {QStringLiteral("cycles"), cycles},
+                       {QStringLiteral("all_cycles"), double(m_allCycles)},
                        {QStringLiteral("seconds"), seconds},
                        {QStringLiteral("cycles_per_s"), cycles / seconds},
                        {QStringLiteral("errors"), double(m_probe.errors())},
-                       {QStringLiteral("overruns"), double(statistics.overruns + statistics.lateAnswers)}};
+                       {QStringLiteral("overruns"), missedCycles(statistics) - missedCycles(m_before.statistics)}};
     if (m_options.isBackToBack()) {
-        std::vector<qint64> sorted = m_probe.intervals();
-        std::sort(sorted.begin(), sorted.end());
-        addPercentiles(&fields, QStringLiteral("rtt"), percentile(sorted, 0.5), percentile(sorted, 0.99),
-                       percentile(sorted, 0.999), sorted.empty() ? 0.0 : double(sorted.back()) * 1e-3);
+        addPercentiles(&fields, QStringLiteral("rtt"), distributionOf(m_probe.intervals()));
     } else {
-        addPercentiles(&fields, QStringLiteral("rtt"), double(statistics.roundTripMedian) * 1e-3,
-                       double(statistics.roundTrip99) * 1e-3, double(statistics.roundTripMaximum) * 1e-3,
-                       double(statistics.roundTripMaximum) * 1e-3);
-        addPercentiles(&fields, QStringLiteral("late"), double(statistics.latenessMedian) * 1e-3,
-                       double(statistics.lateness99) * 1e-3, double(statistics.latenessMaximum) * 1e-3,
-                       double(statistics.latenessMaximum) * 1e-3);
+        addPercentiles(&fields, QStringLiteral("rtt"), statistics.roundTrip.sinceStart);
+        addPercentiles(&fields, QStringLiteral("late"), statistics.lateness.sinceStart);
+        fields.insert(QStringLiteral("drift_us"), double(m_probe.drift()) * 1e-3);
     }
     addUsage(&fields, cycles);
     return fields;

@@ -26,13 +26,14 @@ private:
         ProcessUsage slaves;
         LoopbackUsage loopback;
         qint64 time = 0;  // [ns]
-        QPlcMasterStatistics statistics;
+        QPlcCycleStatistics statistics;
     };
 
     bool prepare();
     bool addSlaves();
     bool waitForSlaves();
     bool startPhase();
+    void stopPhase();
     void wait(double seconds);
     Snapshot snapshot() const;
     bool setError(const QString &text);
@@ -43,6 +44,7 @@ private:
     BenchProbe m_probe;
     std::vector<std::unique_ptr<BenchSlave>> m_localSlaves;
     SlaveProcesses m_processes;
+    quint64 m_allCycles = 0;  // of all phases, those that were not measured included
     Snapshot m_before;
     Snapshot m_after;
     QString m_errorString;

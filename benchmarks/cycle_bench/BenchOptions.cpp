@@ -22,6 +22,30 @@ bool readInteger(QPlcCoreApplication &application, const char *option, qint64 mi
     return true;
 }
 
+bool refuse(QPlcCoreApplication &application, const QString &text)
+{
+    application.usageError(text);
+    return false;
+}
+
+bool isPeriodPossible(QPlcCoreApplication &application, const BenchOptions &options)
+{
+    return options.isBackToBack() || options.periodUs >= 10
+        || refuse(application,
+                  QStringLiteral("--period-us %1: use 10 or more, or 0 for back to back").arg(options.periodUs));
+}
+
+/// What the library of this build cannot do.
+bool isAvailable(QPlcCoreApplication &application, const BenchOptions &options)
+{
+    if (options.transport == QLatin1String("udp-multicast"))
+        return refuse(application, QStringLiteral("--transport udp-multicast: not available in this build; use udp"));
+    if (options.spinUs > 0)
+        return refuse(application,
+                      QStringLiteral("--spin-us %1: not available in this build; use 0").arg(options.spinUs));
+    return true;
+}
+
 }  // namespace
 
 QStringList BenchOptions::slaveArguments(int index, const QString &address) const
@@ -52,17 +76,17 @@ bool readBenchOptions(QPlcCoreApplication &application, BenchOptions *options)
         return false;
     options->master = application.value(QStringLiteral("master"));
     options->transport = application.value(QStringLiteral("transport"));
-    if (!transports.contains(options->transport)) {
-        application.usageError(QStringLiteral("--transport %1: use one of %2")
-                                   .arg(options->transport, transports.join(QStringLiteral(", "))));
-        return false;
-    }
+    if (!transports.contains(options->transport))
+        return refuse(application,
+                      QStringLiteral("--transport %1: use one of %2")
+                          .arg(options->transport, transports.join(QStringLiteral(", "))));
     return readInteger(application, "slave", -1, 249, &options->slaveIndex)
         && readInteger(application, "slaves", 1, 250, &options->slaves)
         && readInteger(application, "in", 1, 1000, &options->inputs)
         && readInteger(application, "out", 1, 1000, &options->outputs)
-        && readInteger(application, "period-us", 0, 1'000'000, &options->periodUs)
+        && readInteger(application, "period-us", 0, 10'000'000, &options->periodUs)
         && readInteger(application, "spin-us", 0, 1000, &options->spinUs)
         && application.number(QStringLiteral("seconds"), 0.01, 86400.0, &options->seconds)
-        && application.number(QStringLiteral("warmup"), 0.0, 3600.0, &options->warmup);
+        && application.number(QStringLiteral("warmup"), 0.0, 3600.0, &options->warmup)
+        && isPeriodPossible(application, *options) && isAvailable(application, *options);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "BenchPlant.h"
 
+#include <algorithm>
 #include <chrono>
 
 namespace {
@@ -61,7 +62,12 @@ BenchProbe::BenchProbe(const BenchOptions &options)
             m_answers.emplace_back(this, signalName("out", slave, options.outputs - 1).constData());
     }
     constexpr double mostCycles = 2e6;  // per second
-    m_intervals.reserve(std::size_t(options.isBackToBack() ? options.seconds * mostCycles : 0.0));
+    constexpr double mostIntervals = 5e7;
+    constexpr double reserve = 1.1;  // the end comes by another clock
+    if (options.isBackToBack())
+        m_intervals.reserve(std::size_t(std::min(options.seconds * mostCycles, mostIntervals)));
+    else
+        m_offsets.reserve(std::size_t(reserve * options.seconds * 1e6 / options.periodUs) + 100);
 }
 
 float BenchProbe::inputValue(quint64 cycle, int slave, int k)
@@ -73,9 +79,7 @@ void BenchProbe::step(const QPlcCycle &cycle)
 {
     const qint64 now = monotonicNow();
     if (m_measuring.load(std::memory_order_relaxed)) {
-        if (m_lastStep != 0 && m_intervals.size() < m_intervals.capacity())
-            m_intervals.push_back(now - m_lastStep);
-        m_lastStep = now;
+        record(cycle, now);
         check(cycle.number());
     }
     auto request = m_requests.begin();
@@ -83,6 +87,28 @@ void BenchProbe::step(const QPlcCycle &cycle)
         for (int k = 0; k < m_options.inputs; ++k)
             *request++ = inputValue(cycle.number(), slave, k);
     }
+}
+
+void BenchProbe::record(const QPlcCycle &cycle, qint64 now)
+{
+    if (m_lastStep != 0 && m_intervals.size() < m_intervals.capacity())
+        m_intervals.push_back(now - m_lastStep);
+    m_lastStep = now;
+    if (m_offsets.size() < m_offsets.capacity())
+        m_offsets.push_back(now - qint64(cycle.number()) * m_options.periodUs * 1000);
+}
+
+qint64 BenchProbe::drift() const
+{
+    const auto tenth = std::ptrdiff_t(m_offsets.size() / 10);
+    if (tenth < 2)
+        return 0;
+    const auto median = [](std::vector<qint64> values) {
+        const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+        std::nth_element(values.begin(), middle, values.end());
+        return *middle;
+    };
+    return median({m_offsets.end() - tenth, m_offsets.end()}) - median({m_offsets.begin(), m_offsets.begin() + tenth});
 }
 
 /// What comes back was written two cycles ago: one to reach the slave, one to come back. With a period an answer may be late, and then of an older cycle, but

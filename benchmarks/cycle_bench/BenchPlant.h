@@ -33,13 +33,17 @@ public:
     void begin() { m_measuring = true; }
     /// Ends it: the results may be read when the phase has ended.
     void end() { m_measuring = false; }
-    /// Time from cycle to cycle [ns], of all that counted.
+    /// Back to back: time from cycle to cycle [ns], of all that counted.
     const std::vector<qint64> &intervals() const { return m_intervals; }
+    /// With a period: what t_k - k * period grows by from the first to the last tenth of the cycles that counted, by the medians [ns]. Measured by the clock of the
+    /// machine and not by what the master says. 0 for less than 20 cycles.
+    qint64 drift() const;
     /// Answers that were not what they should be.
     quint64 errors() const { return m_errors; }
 
 private:
     void step(const QPlcCycle &cycle) override;
+    void record(const QPlcCycle &cycle, qint64 now);
     void check(quint64 cycle);
     static float inputValue(quint64 cycle, int slave, int k);
 
@@ -48,6 +52,7 @@ private:
     std::deque<QPlcInput<float>> m_answers;    // first and last output of slave 0, of slave 1, ...
     std::atomic<bool> m_measuring{false};
     std::vector<qint64> m_intervals;
+    std::vector<qint64> m_offsets;  // t_k - k * period
     qint64 m_lastStep = 0;
     quint64 m_errors = 0;
 };

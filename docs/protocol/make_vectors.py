@@ -340,7 +340,7 @@ def example_statistics():
     return dict(
         master=dict(lateness=duration(5000, 80001), execution=duration(21000, 40000), roundTrip=duration(90000, 300000),
                     slack=duration(9000000, 9900000),
-                    counters=dict(cycles=12, overruns=1, skippedCycles=2, caughtUpCycles=0, shiftedTime=0, lateAnswers=1, strangers=0)),
+                    counters=dict(cycles=12, overruns=1, skippedCycles=2, caughtUpCycles=0, shiftedTime=0, lateAnswers=1, incompleteCycles=1, strangers=0)),
         nodes=[dict(name="Winch", execution=duration(11000, 12000), roundTrip=duration(90000, 25300000), slack=duration(0, 9900000),
                     counters=dict(answers=11, late=1, lost=0, duplicated=0, reordered=0, rejected=0, resent=0)),
                dict(name="View", execution=nothing, roundTrip=nothing, slack=nothing,

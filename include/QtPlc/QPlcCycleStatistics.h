@@ -31,7 +31,9 @@ struct QPlcCycleStatistics
     quint64 caughtUpCycles = 0;  ///< computed although their period was over (CatchUp)
     qint64 shiftedTime = 0;      ///< by which the grid has moved after overruns (Shift) [ns]
     quint64 lateAnswers = 0;     ///< over all nodes, those that have left included
-    quint64 strangers = 0;       ///< datagrams from addresses that belong to no node
+    quint64 incompleteCycles
+        = 0;  ///< computed, but over without the answer of at least one node: one for each cycle, however many answers were late
+    quint64 strangers = 0;  ///< datagrams from addresses that belong to no node
 
     QVector<QPlcNodeStatistics> nodes;  ///< in the order of their registration
     QVector<QPlcWorstCycle> worst;      ///< at most 16, the worst one first

@@ -92,7 +92,7 @@ public:
 
     // ---- cycle ----
     /// Sets the period. Takes effect at the next start.
-    /// \param period  100 us ... 10 s
+    /// \param period  10 us ... 10 s; below some 200 us only few computers keep it, which the statistics tell
     /// \return false when out of range: nothing has changed
     bool setInterval(std::chrono::nanoseconds period);
     bool setInterval(double seconds) { return setInterval(std::chrono::nanoseconds(qRound64(seconds * 1e9))); }

@@ -31,8 +31,8 @@ void CycleStatistics::restart(bool lockstep, std::uint64_t strangers) noexcept
     m_lockstep = lockstep;
     m_strangersBefore = strangers;
     m_workload = 0;
-    for (Counter *counter :
-         {&lateAnswers, &m_cycles, &m_overruns, &m_skipped, &m_caughtUp, &m_shifted, &m_strangers, &m_newest})
+    for (Counter *counter : {&m_cycles, &m_overruns, &m_skipped, &m_caughtUp, &m_shifted, &m_lateAnswers,
+                             &m_incompleteCycles, &m_strangers, &m_newest})
         counter->set(0);
     for (DurationStatistics *duration : {&m_lateness, &m_execution, &m_roundTrip, &m_slack})
         duration->clear();
@@ -52,6 +52,7 @@ void CycleStatistics::begin(const CycleClock::Tick &tick, std::int64_t period) n
     m_deadline = tick.caughtUp ? tick.woken : tick.deadline;  // in truth it is over already
     m_asked = 0;
     m_waited = 0;
+    m_incomplete = false;
     if (m_overdue < period)
         return;
     m_overruns.add(tick.overrun ? 1 : 0);
@@ -63,6 +64,7 @@ void CycleStatistics::begin(const CycleClock::Tick &tick, std::int64_t period) n
 void CycleStatistics::end(std::int64_t now) noexcept
 {
     m_cycles.add();
+    m_incompleteCycles.add(m_incomplete ? 1 : 0);
     if (m_lockstep)
         return;
     m_workload = m_record.execution = now - m_woken - m_waited;
@@ -108,7 +110,8 @@ QPlcCycleStatistics CycleStatistics::read(QPlcDistribution::Detail detail) const
     statistics.skippedCycles = m_skipped;
     statistics.caughtUpCycles = m_caughtUp;
     statistics.shiftedTime = qint64(m_shifted.value());
-    statistics.lateAnswers = lateAnswers;
+    statistics.lateAnswers = m_lateAnswers;
+    statistics.incompleteCycles = m_incompleteCycles;
     statistics.strangers = m_strangers;
     statistics.worst = worst();
     return statistics;
@@ -122,7 +125,8 @@ QPlcMasterStatistics CycleStatistics::summary() const
     statistics.skippedCycles = m_skipped;
     statistics.caughtUpCycles = m_caughtUp;
     statistics.shiftedTime = qint64(m_shifted.value());
-    statistics.lateAnswers = lateAnswers;
+    statistics.lateAnswers = m_lateAnswers;
+    statistics.incompleteCycles = m_incompleteCycles;
     statistics.strangers = m_strangers;
     statistics.latenessMedian = m_lateness.sinceStart().quantile(0.5);
     statistics.lateness99 = m_lateness.sinceStart().quantile(0.99);

@@ -34,6 +34,12 @@ public:
     void waited(std::int64_t duration) noexcept { m_waited += duration; }
     /// An answer to the cycle in progress was there.
     void answered(std::int64_t now) noexcept { m_record.roundTrip = now - m_asked; }
+    /// An answer to the cycle in progress did not come in its time.
+    void lateAnswer() noexcept
+    {
+        m_lateAnswers.add();
+        m_incomplete = true;
+    }
     void setStrangers(std::uint64_t strangers) noexcept { m_strangers.set(strangers - m_strangersBefore); }
     void end(std::int64_t now) noexcept;
 
@@ -41,8 +47,6 @@ public:
     std::int64_t deadline() const noexcept { return m_deadline; }
     /// Execution time of the cycle before [ns].
     std::int64_t workload() const noexcept { return m_workload; }
-
-    Counter lateAnswers;
 
     // ---- any thread ----
     std::uint64_t cycles() const noexcept { return m_cycles; }
@@ -67,12 +71,15 @@ private:
     std::int64_t m_asked = 0;
     std::int64_t m_waited = 0;
     std::int64_t m_workload = 0;
+    bool m_incomplete = false;
 
     Counter m_cycles;
     Counter m_overruns;
     Counter m_skipped;
     Counter m_caughtUp;
     Counter m_shifted;
+    Counter m_lateAnswers;
+    Counter m_incompleteCycles;
     Counter m_strangers;
     Counter m_newest;
     DurationStatistics m_lateness;

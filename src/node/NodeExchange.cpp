@@ -241,7 +241,7 @@ void NodeExchange::reportLateNodes() noexcept
             continue;
         slot->late = true;
         slot->statistics.late.add();
-        m_statistics.lateAnswers.add();
+        m_statistics.lateAnswer();
         if (slot->reports())
             m_reports.post({CycleEvent::LateAnswer, slot->id, 0, m_cycle.number});
     }

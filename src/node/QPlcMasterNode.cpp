@@ -72,10 +72,10 @@ bool QPlcMasterNode::activateStatisticSignal(QPlcStatisticFigure figure, const Q
 
 bool QPlcMasterNode::setInterval(std::chrono::nanoseconds period)
 {
-    if (period < 100us || period > 10s)
-        return d->setError(
-            IntervalError,
-            QStringLiteral("a period of %1 s is out of range; use 0.0001 ... 10 s").arg(double(period.count()) * 1e-9));
+    if (period < 10us || period > 10s)
+        return d->setError(IntervalError,
+                           QStringLiteral("a period of %1 s is out of range; use 0.00001 ... 10 s")
+                               .arg(double(period.count()) * 1e-9));
     d->interval = period;
     return true;
 }

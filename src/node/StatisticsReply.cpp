@@ -70,6 +70,7 @@ QJsonObject masterFields(const QPlcCycleStatistics &statistics)
                                {QStringLiteral("caughtUpCycles"), double(statistics.caughtUpCycles)},
                                {QStringLiteral("shiftedTime"), double(statistics.shiftedTime)},
                                {QStringLiteral("lateAnswers"), double(statistics.lateAnswers)},
+                               {QStringLiteral("incompleteCycles"), double(statistics.incompleteCycles)},
                                {QStringLiteral("strangers"), double(statistics.strangers)}};
     return {{QStringLiteral("lateness"), fieldsOf(statistics.lateness)},
             {QStringLiteral("execution"), fieldsOf(statistics.execution)},

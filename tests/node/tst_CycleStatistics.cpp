@@ -168,6 +168,7 @@ private Q_SLOTS:
     void worstCyclesAreThoseOfAFullSortWithTheirStages();
     void delayOfSkippedCyclesIsSeenInTheWorstCycles();
     void everyPhaseBeginsWithNothing();
+    void incompleteCyclesAreCountedOncePerCycle();
     void sleepThatIsInterruptedCostsNothing();
 };
 
@@ -313,6 +314,33 @@ void tst_CycleStatistics::delayOfSkippedCyclesIsSeenInTheWorstCycles()
     QCOMPARE(found.worst.first().skipped, quint64(50));
     QCOMPARE(found.worst.first().cycle, quint64(150));
     QVERIFY(found.lateness.sinceStart.maximum < Period);
+}
+
+void tst_CycleStatistics::incompleteCyclesAreCountedOncePerCycle()
+{
+    CycleStatistics statistics;
+    std::mt19937_64 random{19};
+    for (int phase = 0; phase < 2; ++phase) {  // the second one begins with nothing
+        statistics.restart(false, 0);
+        quint64 answers = 0;
+        quint64 cycles = 0;
+        for (std::uint64_t number = 0; number < 1000; ++number) {
+            CycleClock::Tick tick;
+            tick.cycle = number;
+            tick.woken = std::int64_t(number) * Period;
+            tick.deadline = tick.woken + Period;
+            statistics.begin(tick, Period);
+            const quint64 late = random() % 4;
+            for (quint64 i = 0; i < late; ++i)
+                statistics.lateAnswer();
+            statistics.end(tick.deadline);
+            answers += late;
+            cycles += late > 0 ? 1 : 0;
+        }
+        QCOMPARE(statistics.summary().lateAnswers, answers);
+        QCOMPARE(statistics.summary().incompleteCycles, cycles);
+        QCOMPARE(statistics.read(QPlcDistribution::FiguresOnly).incompleteCycles, cycles);
+    }
 }
 
 void tst_CycleStatistics::everyPhaseBeginsWithNothing()

@@ -289,7 +289,10 @@ void tst_Refusals::masterSignalsAreChecked()
     QVERIFY(master.activateJitterMeasurement("free"));  // the other one is free again
     QCOMPARE(master.writer("jitter"), QString());
     QVERIFY(!master.setSignalTable(testTable()));
-    QVERIFY(!master.setInterval(std::chrono::microseconds(99)));
+    QVERIFY(master.setInterval(std::chrono::microseconds(10)));
+    QVERIFY(!master.setInterval(std::chrono::nanoseconds(9'999)));
+    QVERIFY2(master.errorString().contains("use 0.00001 ... 10 s"), qPrintable(master.errorString()));
+    QCOMPARE(master.interval(), std::chrono::nanoseconds(10'000));
     QVERIFY(!master.setInterval(10.1));
     QCOMPARE(master.error(), QPlcMasterNode::IntervalError);
     QVERIFY(master.setInterval(0.010));

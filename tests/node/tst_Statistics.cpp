@@ -14,6 +14,7 @@ private Q_SLOTS:
     void slaveMeasuresItself();
     void slaveInTheProcessOfTheMasterHasNoneOfItsOwn();
     void everyFaultOfAnAnswerHasItsCounter();
+    void aCycleWithoutTwoAnswersIsIncompleteOnce();
     void statisticsOverTheWireAreThoseOfTheApi_data();
     void statisticsOverTheWireAreThoseOfTheApi();
     void statisticsBeforeTheFirstPhaseAreEmpty();
@@ -191,6 +192,30 @@ void tst_Statistics::everyFaultOfAnAnswerHasItsCounter()
     master.stop();
 }
 
+void tst_Statistics::aCycleWithoutTwoAnswersIsIncompleteOnce()
+{
+    TestMaster master(QPlcClock::realTime());
+    master.setInterval(0.005);
+    QVERIFY(master.listen());
+    ScriptedNode first;  // neither of them ever answers
+    ScriptedNode second;
+    second.name = "Second";
+    second.outputs.clear();
+    second.initialValues.clear();
+    for (ScriptedNode *node : {&first, &second})
+        node->policy = "SilentZeroOrderHold";
+    QVERIFY(first.registerAt(master.serverPort()));
+    QVERIFY(second.registerAt(master.serverPort()));
+    master.setCycleLimit(10);
+    QVERIFY(master.startRealTime());
+    QVERIFY(master.waitForState(QPlcMasterNode::Off));
+    const QPlcMasterStatistics found = master.statistics();
+    QVERIFY(found.cycles > 0);
+    QCOMPARE(found.lateAnswers, 2 * found.cycles);
+    QCOMPARE(found.incompleteCycles, found.cycles);
+    QCOMPARE(master.cycleStatistics().incompleteCycles, found.cycles);
+}
+
 void tst_Statistics::statisticsOverTheWireAreThoseOfTheApi_data()
 {
     QTest::addColumn<bool>("histograms");
@@ -232,6 +257,7 @@ void tst_Statistics::statisticsOverTheWireAreThoseOfTheApi()
                           {"caughtUpCycles", double(api.caughtUpCycles)},
                           {"shiftedTime", double(api.shiftedTime)},
                           {"lateAnswers", double(api.lateAnswers)},
+                          {"incompleteCycles", double(api.incompleteCycles)},
                           {"strangers", double(api.strangers)}}));
     const QJsonArray nodes = message.fields().value("nodes").toArray();
     QCOMPARE(nodes.size(), 2);
