@@ -50,19 +50,30 @@ QVector<Distribution> distributionsOf(const QJsonObject &statistics)
     return all;
 }
 
+/// What the columns show: of slack the little that was left is of interest, of all else the most that it took.
+QStringList tailFields(const Distribution &distribution)
+{
+    const bool isSlack = distribution.title == QLatin1String("slack");
+    return isSlack ? QStringList{QStringLiteral("mean"), QStringLiteral("p50"), QStringLiteral("p01"),
+                                 QStringLiteral("p001"), QStringLiteral("minimum")}
+                   : QStringList{QStringLiteral("mean"), QStringLiteral("p50"), QStringLiteral("p99"),
+                                 QStringLiteral("p999"), QStringLiteral("maximum")};
+}
+
 void printWindow(const QVector<Distribution> &distributions, const Quantity &window)
 {
     TextTable table;
     table.addColumn(QString::fromLatin1(window.title));
     table.addColumn(QString());
-    for (const char *title : {"count", "mean", "p50", "p99", "p99.9", "max"})
+    for (const char *title : {"count", "mean", "p50", "worst 1 %", "worst 0.1 %", "worst"})
         table.addColumn(QString::fromLatin1(title), TextTable::Right);
     for (const Distribution &distribution : distributions) {
         const QJsonObject numbers = distribution.windows.value(QLatin1String(window.field)).toObject();
         const double count = numbers.value(QStringLiteral("count")).toDouble();
         QStringList cells{distribution.who, distribution.title, QString::number(count, 'f', 0)};
-        for (const char *field : {"mean", "p50", "p99", "p999", "maximum"})
-            cells << (count > 0.0 ? durationText(numbers.value(QLatin1String(field)).toDouble()) : QString());
+        const QStringList fields = tailFields(distribution);
+        for (const QString &field : fields)
+            cells << (count > 0.0 ? durationText(numbers.value(field).toDouble()) : QString());
         table.addRow(cells);
     }
     table.print();
