@@ -36,6 +36,6 @@ private:
     void takeBatch();
 
     QPointer<QPlcIOBufferSlaveNode> m_node;
-    QTimer m_timer;
+    QTimer m_timer{this};  // moves to another thread with its parent
     double m_framesPerSecond = 50.0;
 };

@@ -91,7 +91,7 @@ public:
     void setName(const QString &name);
     RealTimeViolationPolicy realTimeViolationPolicy() const;
 
-    /// A listener is never waited for in lockstep. \pre not connected
+    /// A listener is never waited for, by no clock, and is never late: what it answers is taken in the cycle in which it is there. \pre not connected
     void setListener(bool listener);
     bool isListener() const;
 

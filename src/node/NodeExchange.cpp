@@ -40,6 +40,7 @@ void NodeExchange::run(const Roster &roster, const Cycle &cycle) noexcept
 {
     m_roster = &roster;
     m_cycle = cycle;
+    m_hasReceived = false;
     cutInputs();
     pasteKnownOutputs();
     for (std::size_t i = 0; i < roster.stages.size(); ++i) {
@@ -149,7 +150,7 @@ bool NodeExchange::continueRequests() noexcept
         if (!isUnanswered(*slot) || slot->isRequestSent())
             continue;
         sendParts(*slot);
-        unsent = unsent || !slot->isRequestSent();
+        unsent = unsent || (!slot->listener && !slot->isRequestSent());
     }
     m_hub.flush();
     return unsent;
@@ -194,11 +195,11 @@ std::int64_t NodeExchange::deadline(std::size_t stage) const noexcept
     return m_cycle.deadline - m_grid->period() * (stages - std::int64_t(stage + 1)) / stages;
 }
 
-/// At the end of the cycle all answers are of interest.
+/// At the end of the cycle all answers are of interest, except those of listeners: they are taken when they are there.
 void NodeExchange::awaitEveryone() noexcept
 {
     for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes)
-        slot->awaited = slot->asked;
+        slot->awaited = slot->asked && !slot->listener;
 }
 
 bool NodeExchange::anyMissing(bool onlyWaiting) const noexcept
@@ -229,7 +230,7 @@ bool NodeExchange::collectAnswers(std::size_t stage) noexcept
     }
     if (anyMissing(true))
         waitForLateNodes(end);
-    else if (m_isLockstep && isLast)
+    else if (isLast && m_roster->anyRemote && !m_hasReceived)
         receive(0);  // what listeners have to say
     return isLast || !anyMissing(true);
 }
@@ -271,6 +272,7 @@ void NodeExchange::receive(std::int64_t timeout) noexcept
     const std::int64_t begin = now();
     const bool arrived = waitForFrames(timeout);
     m_statistics.waited(now() - begin);
+    m_hasReceived = true;
     if (!arrived)
         return;
     CyclicHub::Incoming incoming;

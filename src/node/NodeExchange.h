@@ -92,6 +92,7 @@ private:
     // of the cycle
     const Roster *m_roster = nullptr;
     Cycle m_cycle;
+    bool m_hasReceived = false;  // looked for answers
 };
 
 }  // namespace qplc

@@ -45,7 +45,13 @@ QList<QPlcSignalList> QPlcIOBufferSlaveNode::takeInputSignals(QVector<quint64> *
 {
     const std::lock_guard<std::mutex> lock(m_buffer->mutex);
     QList<QPlcSignalList> batch;
-    while (const char *item = m_buffer->ring ? m_buffer->ring->front() : nullptr) {
+    if (!m_buffer->ring)
+        return batch;
+    // Not more than the buffer holds: a reader that is slower than the cycle comes to an end, too.
+    for (std::size_t left = m_buffer->ring->capacity(); left > 0; --left) {
+        const char *item = m_buffer->ring->front();
+        if (!item)
+            break;
         quint64 cycle = 0;
         std::memcpy(&cycle, item, sizeof cycle);
         if (cycles)
