@@ -35,17 +35,6 @@ bool isPeriodPossible(QPlcCoreApplication &application, const BenchOptions &opti
                   QStringLiteral("--period-us %1: use 10 or more, or 0 for back to back").arg(options.periodUs));
 }
 
-/// What the library of this build cannot do.
-bool isAvailable(QPlcCoreApplication &application, const BenchOptions &options)
-{
-    if (options.transport == QLatin1String("udp-multicast"))
-        return refuse(application, QStringLiteral("--transport udp-multicast: not available in this build; use udp"));
-    if (options.spinUs > 0)
-        return refuse(application,
-                      QStringLiteral("--spin-us %1: not available in this build; use 0").arg(options.spinUs));
-    return true;
-}
-
 }  // namespace
 
 QStringList BenchOptions::slaveArguments(int index, const QString &address) const
@@ -88,5 +77,5 @@ bool readBenchOptions(QPlcCoreApplication &application, BenchOptions *options)
         && readInteger(application, "spin-us", 0, 1000, &options->spinUs)
         && application.number(QStringLiteral("seconds"), 0.01, 86400.0, &options->seconds)
         && application.number(QStringLiteral("warmup"), 0.0, 3600.0, &options->warmup)
-        && isPeriodPossible(application, *options) && isAvailable(application, *options);
+        && isPeriodPossible(application, *options);
 }

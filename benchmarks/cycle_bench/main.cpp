@@ -15,6 +15,9 @@ int runSlave(QPlcCoreApplication &application, const BenchOptions &options)
     const QPlcUnderlyingProtocol master
         = QPlcUnderlyingProtocol::fromString(options.master, QPlcUnderlyingProtocol::Udp, &error);
     BenchSlave slave(options, options.slaveIndex);
+    QPlcRealTimeOptions realTime;
+    realTime.spin = qint64(options.spinUs) * 1000;
+    slave.setRealTimeOptions(realTime);
     if (!master.isValid() || !slave.connectToMasterAndWaitForConnected(master)) {
         QPlcCoreApplication::printError(master.isValid() ? slave.errorString() : error);
         return QPlcCoreApplication::Failure;

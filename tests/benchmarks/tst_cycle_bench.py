@@ -28,7 +28,7 @@ class Bench(unittest.TestCase):
         return json.loads(result.stdout)
 
     def test_every_transport_gives_right_answers(self):
-        for transport in ("udp", "tcp", "local", "inprocess"):
+        for transport in ("udp", "udp-multicast", "tcp", "local", "inprocess"):
             for slaves in (1, 3):
                 with self.subTest(transport=transport, slaves=slaves):
                     figures = self.figures("--transport", transport, "--slaves", str(slaves))
