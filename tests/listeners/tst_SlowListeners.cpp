@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ListenerPlant.h"
 #include "Program.h"
+#include "ThreadCosts.h"
 
 #include <QtTest/QtTest>
 
@@ -30,6 +31,12 @@ double residentMemory()
 {
     QFile file("/proc/self/statm");
     return file.open(QIODevice::ReadOnly) ? 4.0 * file.readAll().split(' ').at(1).toDouble() : 0.0;
+}
+
+/// Whether the process has not grown since it had \a before. Not judged under a sanitizer, which keeps for a while what was freed.
+bool hasKept(double before)
+{
+    return !ThreadCosts::areCounted() || residentMemory() - before < MostMemory;
 }
 
 class Master : public QPlcMasterNode
@@ -99,7 +106,7 @@ void tst_SlowListeners::aStoppedListenerChangesNothing()
     const QPlcMasterStatistics before = master.statistics();
     QTest::qWait(Pause);
     checkCycles(master, before);
-    QVERIFY2(residentMemory() - memory < MostMemory, qPrintable(QString::number(residentMemory() - memory)));
+    QVERIFY2(hasKept(memory), qPrintable(QString::number(residentMemory() - memory)));
     QCOMPARE(master.info("Listener").lateAnswers, quint64(0));
 
     listener.sendSignal(SIGCONT);
@@ -159,7 +166,7 @@ void tst_SlowListeners::aListenerBehindAHangingThreadChangesNothing()
     const quint64 lost = viewer.lostCycles();
     QTest::qWait(Pause);
     checkCycles(master, before);
-    QVERIFY2(residentMemory() - memory < MostMemory, qPrintable(QString::number(residentMemory() - memory)));
+    QVERIFY2(hasKept(memory), qPrintable(QString::number(residentMemory() - memory)));
     QVERIFY(double(viewer.lostCycles() - lost) >= 0.5 * Pause / double(Period.count()));
     const qint64 now = QDateTime::currentMSecsSinceEpoch();
     const qint64 newest
@@ -187,7 +194,7 @@ void tst_SlowListeners::aHangingEventLoopOfTheMasterChangesNothing()
     const QPlcMasterStatistics before = master.statistics();
     QThread::msleep(Pause);  // nobody serves the connections and takes the reports
     checkCycles(master, before);
-    QVERIFY2(residentMemory() - memory < MostMemory, qPrintable(QString::number(residentMemory() - memory)));
+    QVERIFY2(hasKept(memory), qPrintable(QString::number(residentMemory() - memory)));
     QCOMPARE(master.nodes().size(), 2);
     master.stop();
 }
