@@ -135,6 +135,8 @@ CyclicLink::Status SlaveCycle::receive(const char **frame, std::size_t *size) no
 
 FrameStatus SlaveCycle::decode(const char *frame, std::size_t size) noexcept
 {
+    if (isForOthers(frame, size))
+        return FrameStatus::Incomplete;  // no error, and no use
     m_reports.tap(TappedFrame::Received, m_identity.node, frame, size);
     const FrameStatus status = m_decoder.decode(frame, size);
     switch (status) {
@@ -163,8 +165,6 @@ bool SlaveCycle::isForOthers(const char *frame, std::size_t size) const noexcept
 
 void SlaveCycle::take(const char *frame, std::size_t size) noexcept
 {
-    if (isForOthers(frame, size))
-        return;
     const FrameStatus status = decode(frame, size);
     if (status == FrameStatus::Duplicate && m_computedAny && isRepeatedRequest())
         answer();
@@ -189,10 +189,8 @@ void SlaveCycle::skipToNewest() noexcept
         return;
     const char *frame = nullptr;
     std::size_t size = 0;
-    while (m_link->poll(&frame, &size) == CyclicLink::Received) {
-        if (!isForOthers(frame, size))
-            decode(frame, size);
-    }
+    while (m_link->poll(&frame, &size) == CyclicLink::Received)
+        decode(frame, size);
 }
 
 void SlaveCycle::compute() noexcept

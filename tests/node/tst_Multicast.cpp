@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "NodeFixtures.h"
+#include "node/SlaveCycle.h"
 
 #include <QtCore/QElapsedTimer>
 #include <QtTest/QtTest>
@@ -19,6 +20,7 @@ private Q_SLOTS:
     void noGroupIsSaid_data();
     void noGroupIsSaid();
     void datagramsOfOthersAreNoCycles();
+    void datagramsForOthersDoNotCalmTheWatchdog();
 
 private:
     static QPlcUnderlyingProtocol protocol(const QPlcMasterNode &master)
@@ -195,6 +197,45 @@ void tst_Multicast::datagramsOfOthersAreNoCycles()
     QCOMPARE(node.counters().rejected + otherNode.counters().rejected, quint64(0));
     node.disconnectFromMaster();
     otherNode.disconnectFromMaster();
+}
+
+/// A link on which only the part of other nodes ever comes.
+class LinkOfOthers : public qplc::CyclicLink
+{
+public:
+    LinkOfOthers()
+        : CyclicLink(-1)
+    {
+    }
+    Status receive(const char **frame, std::size_t *size) noexcept override { return poll(frame, size); }
+    Status poll(const char **frame, std::size_t *size) noexcept override
+    {
+        *frame = m_frame.data();
+        *size = m_frame.size();
+        return Received;
+    }
+    bool send(const char *, std::size_t) noexcept override { return true; }
+
+private:
+    std::array<char, 40> m_frame{};  // part 0
+};
+
+void tst_Multicast::datagramsForOthersDoNotCalmTheWatchdog()
+{
+    Summer node(0);
+    qplc::NodeRuntime runtime(node);
+    QString error;
+    QVERIFY2(runtime.bind(manySignals(1), &error), qPrintable(error));
+    qplc::SlaveCycle cycle(runtime, {1, 1}, false);
+    cycle.setLink(std::make_unique<LinkOfOthers>());
+    qplc::SlaveCycle::Phase phase;
+    phase.period = std::chrono::milliseconds(1);
+    phase.watchdog = std::chrono::milliseconds(10);
+    phase.group = {1, 2, 26, 5};
+    QVERIFY2(cycle.start(phase), qPrintable(cycle.errorString()));
+    QTRY_COMPARE(cycle.counters().watchdog, quint64(1));
+    cycle.stop();
+    QCOMPARE(cycle.counters().rejected + cycle.counters().cycles, quint64(0));
 }
 
 QTEST_GUILESS_MAIN(tst_Multicast)
