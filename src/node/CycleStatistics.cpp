@@ -98,6 +98,20 @@ QVector<QPlcWorstCycle> CycleStatistics::worst() const
     return cycles;
 }
 
+/// For both kinds of public statistics, which call the counters by the same names.
+template<typename Statistics>
+void CycleStatistics::readCounters(Statistics *statistics) const
+{
+    statistics->cycles = m_cycles;
+    statistics->overruns = m_overruns;
+    statistics->skippedCycles = m_skipped;
+    statistics->caughtUpCycles = m_caughtUp;
+    statistics->shiftedTime = qint64(m_shifted.value());
+    statistics->lateAnswers = m_lateAnswers;
+    statistics->incompleteCycles = m_incompleteCycles;
+    statistics->strangers = m_strangers;
+}
+
 QPlcCycleStatistics CycleStatistics::read(QPlcDistribution::Detail detail) const
 {
     QPlcCycleStatistics statistics;
@@ -105,14 +119,7 @@ QPlcCycleStatistics CycleStatistics::read(QPlcDistribution::Detail detail) const
     statistics.execution = m_execution.read(newest(), detail);
     statistics.roundTrip = m_roundTrip.read(newest(), detail);
     statistics.slack = m_slack.read(newest(), detail);
-    statistics.cycles = m_cycles;
-    statistics.overruns = m_overruns;
-    statistics.skippedCycles = m_skipped;
-    statistics.caughtUpCycles = m_caughtUp;
-    statistics.shiftedTime = qint64(m_shifted.value());
-    statistics.lateAnswers = m_lateAnswers;
-    statistics.incompleteCycles = m_incompleteCycles;
-    statistics.strangers = m_strangers;
+    readCounters(&statistics);
     statistics.worst = worst();
     return statistics;
 }
@@ -120,14 +127,7 @@ QPlcCycleStatistics CycleStatistics::read(QPlcDistribution::Detail detail) const
 QPlcMasterStatistics CycleStatistics::summary() const
 {
     QPlcMasterStatistics statistics;
-    statistics.cycles = m_cycles;
-    statistics.overruns = m_overruns;
-    statistics.skippedCycles = m_skipped;
-    statistics.caughtUpCycles = m_caughtUp;
-    statistics.shiftedTime = qint64(m_shifted.value());
-    statistics.lateAnswers = m_lateAnswers;
-    statistics.incompleteCycles = m_incompleteCycles;
-    statistics.strangers = m_strangers;
+    readCounters(&statistics);
     statistics.latenessMedian = m_lateness.sinceStart().quantile(0.5);
     statistics.lateness99 = m_lateness.sinceStart().quantile(0.99);
     statistics.latenessMaximum = m_lateness.sinceStart().maximum();

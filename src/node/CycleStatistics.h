@@ -59,6 +59,8 @@ public:
 
 private:
     QVector<QPlcWorstCycle> worst() const;
+    template<typename Statistics>
+    void readCounters(Statistics *statistics) const;
 
     // cycle thread
     bool m_lockstep = true;

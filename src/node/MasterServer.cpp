@@ -261,18 +261,8 @@ void MasterServer::registerNode(MasterConnection *connection, const Message &mes
     const bool isLocal = connection->cyclicKind == QLatin1String("local");
     if (!NodeDeclaration::fromMessage(message, &declaration, &error))
         refusal = {QStringLiteral("MalformedMessage"), error};
-    else if (!isUdp && !isLocal && connection->cyclicKind != QLatin1String("tcp"))
-        refusal = {QStringLiteral("MalformedMessage"),
-                   QStringLiteral("unknown cyclic channel '%1'; use tcp, udp, udp-multicast or local")
-                       .arg(connection->cyclicKind)};
-    else if (isLocal && !connection->socket->peerAddress().isLoopback())
-        refusal = {QStringLiteral("MalformedMessage"),
-                   QStringLiteral("a local node runs on the machine of its master; use udp")};
-    else if (isUdp && (udpPort < 1 || udpPort > 65535))
-        refusal
-            = {QStringLiteral("MalformedMessage"), QStringLiteral("UDP port %1 is out of 1 ... 65535").arg(udpPort)};
-    else if (isMulticast && !multicastRefusal(declaration).isEmpty())
-        refusal = {QStringLiteral("WrongState"), multicastRefusal(declaration)};
+    else if (Refusal channel = channelRefusal(*connection, declaration, udpPort); !channel.error.isEmpty())
+        refusal = channel;
     else {
         replace(connection, declaration.name);
         connection->slot = m_registry.admit(declaration, &refusal);
@@ -316,14 +306,28 @@ void MasterServer::registerNode(MasterConnection *connection, const Message &mes
     nodeAttached(connection);
 }
 
-/// Why the node cannot listen to the multicast group; empty: it can.
-QString MasterServer::multicastRefusal(const NodeDeclaration &declaration) const
+/// Why there can be no cyclic channel as the node wants it; no error: there can.
+Refusal MasterServer::channelRefusal(const MasterConnection &connection, const NodeDeclaration &declaration,
+                                     int udpPort) const
 {
-    if (m_group.length == 0)
-        return QStringLiteral("this master has no multicast group; give it one, or use udp");
-    if (declaration.isOrdered())
-        return QStringLiteral("node '%1' has same-cycle inputs or two phases: it is asked alone; use udp")
-            .arg(declaration.name);
+    const QString &kind = connection.cyclicKind;
+    const bool isMulticast = kind == QLatin1String("udp-multicast");
+    const bool isUdp = isMulticast || kind == QLatin1String("udp");
+    if (kind == QLatin1String("local") && !connection.socket->peerAddress().isLoopback())
+        return {QStringLiteral("MalformedMessage"),
+                QStringLiteral("a local node runs on the machine of its master; use udp")};
+    if (!isUdp && kind != QLatin1String("local") && kind != QLatin1String("tcp"))
+        return {QStringLiteral("MalformedMessage"),
+                QStringLiteral("unknown cyclic channel '%1'; use tcp, udp, udp-multicast or local").arg(kind)};
+    if (isUdp && (udpPort < 1 || udpPort > 65535))
+        return {QStringLiteral("MalformedMessage"), QStringLiteral("UDP port %1 is out of 1 ... 65535").arg(udpPort)};
+    if (isMulticast && m_group.length == 0)
+        return {QStringLiteral("WrongState"),
+                QStringLiteral("this master has no multicast group; give it one, or use udp")};
+    if (isMulticast && declaration.isOrdered())
+        return {QStringLiteral("WrongState"),
+                QStringLiteral("node '%1' has same-cycle inputs or two phases: it is asked alone; use udp")
+                    .arg(declaration.name)};
     return {};
 }
 

@@ -65,7 +65,7 @@ private:
     void forget(MasterConnection *connection);
     bool openPorts(const QHostAddress &address, quint16 port);
     bool openMulticast(const QHostAddress &address, const QHostAddress &group);
-    QString multicastRefusal(const NodeDeclaration &declaration) const;
+    Refusal channelRefusal(const MasterConnection &connection, const NodeDeclaration &declaration, int udpPort) const;
 
     NodeRegistry &m_registry;
     const ProcessImage &m_image;

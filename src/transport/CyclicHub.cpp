@@ -15,9 +15,9 @@ namespace qplc {
 
 namespace {
 
-// [ns] The kernel rounds the time limit of a receiving socket up to whole ticks of its clock, of up to 10 ms: such a wait is too coarse for the end of a cycle.
-constexpr std::int64_t CoarseWait = 4'000'000;
-constexpr std::int64_t LongWait = 20'000'000;
+// The kernel rounds the time limit of a receiving socket up to whole ticks of its clock, of up to 10 ms: too coarse for the end of a cycle, good enough for long waits.
+constexpr std::int64_t CoarseWait = 4'000'000;  // [ns]
+constexpr std::int64_t LongWait = 20'000'000;   // [ns]
 
 }  // namespace
 
