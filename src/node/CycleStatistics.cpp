@@ -34,8 +34,7 @@ void CycleStatistics::restart(bool lockstep, std::uint64_t strangers) noexcept
     for (Counter *counter : {&m_cycles, &m_overruns, &m_skipped, &m_caughtUp, &m_shifted, &m_lateAnswers,
                              &m_incompleteCycles, &m_strangers, &m_newest})
         counter->set(0);
-    for (DurationStatistics *duration : {&m_lateness, &m_execution, &m_roundTrip, &m_slack})
-        duration->clear();
+    m_durations.clear();
     m_worst.clear();
 }
 
@@ -69,11 +68,8 @@ void CycleStatistics::end(std::int64_t now) noexcept
         return;
     m_workload = m_record.execution = now - m_woken - m_waited;
     m_record.slack = std::max<std::int64_t>(m_deadline - now, 0);
-    m_lateness.record(m_record.lateness, m_woken);
-    m_execution.record(m_record.execution, m_woken);
-    m_slack.record(m_record.slack, m_woken);
-    if (m_record.roundTrip >= 0)
-        m_roundTrip.record(m_record.roundTrip, m_woken);
+    const std::int64_t roundTrip = m_record.roundTrip >= 0 ? m_record.roundTrip : Durations::None;
+    m_durations.record(m_woken, {m_record.lateness, m_record.execution, roundTrip, m_record.slack});
     m_worst.offer(m_overdue + std::max(m_record.execution, m_record.roundTrip), m_record);
     m_newest.set(std::uint64_t(m_woken));
 }
@@ -115,10 +111,10 @@ void CycleStatistics::readCounters(Statistics *statistics) const
 QPlcCycleStatistics CycleStatistics::read(QPlcDistribution::Detail detail) const
 {
     QPlcCycleStatistics statistics;
-    statistics.lateness = m_lateness.read(newest(), detail);
-    statistics.execution = m_execution.read(newest(), detail);
-    statistics.roundTrip = m_roundTrip.read(newest(), detail);
-    statistics.slack = m_slack.read(newest(), detail);
+    statistics.lateness = m_durations[Lateness].read(newest(), detail);
+    statistics.execution = m_durations[Execution].read(newest(), detail);
+    statistics.roundTrip = m_durations[RoundTrip].read(newest(), detail);
+    statistics.slack = m_durations[Slack].read(newest(), detail);
     readCounters(&statistics);
     statistics.worst = worst();
     return statistics;
@@ -128,12 +124,12 @@ QPlcMasterStatistics CycleStatistics::summary() const
 {
     QPlcMasterStatistics statistics;
     readCounters(&statistics);
-    statistics.latenessMedian = m_lateness.sinceStart().quantile(0.5);
-    statistics.lateness99 = m_lateness.sinceStart().quantile(0.99);
-    statistics.latenessMaximum = m_lateness.sinceStart().maximum();
-    statistics.roundTripMedian = m_roundTrip.sinceStart().quantile(0.5);
-    statistics.roundTrip99 = m_roundTrip.sinceStart().quantile(0.99);
-    statistics.roundTripMaximum = m_roundTrip.sinceStart().maximum();
+    statistics.latenessMedian = m_durations[Lateness].sinceStart().quantile(0.5);
+    statistics.lateness99 = m_durations[Lateness].sinceStart().quantile(0.99);
+    statistics.latenessMaximum = m_durations[Lateness].sinceStart().maximum();
+    statistics.roundTripMedian = m_durations[RoundTrip].sinceStart().quantile(0.5);
+    statistics.roundTrip99 = m_durations[RoundTrip].sinceStart().quantile(0.99);
+    statistics.roundTripMaximum = m_durations[RoundTrip].sinceStart().maximum();
     return statistics;
 }
 

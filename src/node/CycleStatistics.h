@@ -5,7 +5,7 @@
 #include "QPlcMasterStatistics.h"
 #include "realtime/Counter.h"
 #include "realtime/CycleClock.h"
-#include "realtime/DurationStatistics.h"
+#include "realtime/DurationGroup.h"
 #include "realtime/WorstCycles.h"
 
 namespace qplc {
@@ -42,6 +42,8 @@ public:
     }
     void setStrangers(std::uint64_t strangers) noexcept { m_strangers.set(strangers - m_strangersBefore); }
     void end(std::int64_t now) noexcept;
+    /// Makes the durations that were measured visible to readers; they wait for it for 0.1 s at most.
+    void fold() noexcept { m_durations.fold(); }
 
     /// Nominal end of the cycle in progress.
     std::int64_t deadline() const noexcept { return m_deadline; }
@@ -58,6 +60,9 @@ public:
     QPlcMasterStatistics summary() const;
 
 private:
+    enum Duration : std::size_t { Lateness, Execution, RoundTrip, Slack, DurationCount };
+    using Durations = DurationGroup<DurationCount>;
+
     QVector<QPlcWorstCycle> worst() const;
     template<typename Statistics>
     void readCounters(Statistics *statistics) const;
@@ -84,10 +89,7 @@ private:
     Counter m_incompleteCycles;
     Counter m_strangers;
     Counter m_newest;
-    DurationStatistics m_lateness;
-    DurationStatistics m_execution;
-    DurationStatistics m_roundTrip;
-    DurationStatistics m_slack;
+    Durations m_durations;
     WorstCycles m_worst;
 };
 

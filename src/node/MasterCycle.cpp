@@ -7,8 +7,8 @@
 
 namespace qplc {
 
-MasterCycle::MasterCycle(const QPlcSignalTable &table, CyclicHub &hub, bool tapFrames, TimeSource &time)
-    : m_time(time)
+MasterCycle::MasterCycle(const QPlcSignalTable &table, CyclicHub &hub, bool tapFrames, TimeSource *time)
+    : m_time(time ? *time : m_alarm)
     , m_image(table)
     , m_hub(hub)
     , m_reports(tapFrames)
@@ -35,6 +35,7 @@ bool MasterCycle::start(const Phase &phase)
     const double nanoseconds = double(phase.period.count());
     m_clock.emplace(m_time, phase.clock.isLockstep() ? 0 : std::int64_t(nanoseconds / phase.clock.scale()),
                     phase.overrunPolicy);
+    m_alarm.setPeriod(m_clock->period());
     m_wallStart = phase.clock.isLockstep() ? 0 : wallClockNow();
     m_number = 0;
     for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
@@ -158,6 +159,9 @@ void MasterCycle::run() noexcept
         if (isBeyondLimit(m_number + 1))
             break;
     }
+    m_statistics.fold();
+    for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes)
+        slot->statistics.fold();
     m_reports.post({CycleEvent::Ended, 0, 0, m_number});
 }
 
@@ -194,7 +198,10 @@ void MasterCycle::adopt(Roster *roster) noexcept
                            [slot](const std::shared_ptr<NodeSlot> &other) { return other.get() == slot; });
     };
     for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
-        if (slot->peer && !contains(*roster, slot.get()))
+        if (contains(*roster, slot.get()))
+            continue;
+        slot->statistics.fold();
+        if (slot->peer)
             m_hub.detach(slot->peer.get());
     }
     for (const std::shared_ptr<NodeSlot> &slot : roster->nodes) {
@@ -241,6 +248,17 @@ void MasterCycle::finish() noexcept
     const std::int64_t end = now();
     m_statistics.stageEnded(CycleStage::Finish, end);
     m_statistics.end(end);
+    foldStatistics();
+}
+
+/// Of one node in each cycle, in turn, and then of the master itself: all at once would make a cycle long.
+void MasterCycle::foldStatistics() noexcept
+{
+    const std::size_t turn = std::size_t(m_number) % (m_roster->nodes.size() + 1);
+    if (turn < m_roster->nodes.size())
+        m_roster->nodes[turn]->statistics.fold();
+    else
+        m_statistics.fold();
 }
 
 }  // namespace qplc

@@ -7,6 +7,7 @@
 #include "NodeSlot.h"
 #include "QPlcClock.h"
 #include "QPlcOverrunPolicy.h"
+#include "realtime/AlarmTime.h"
 #include "realtime/CycleClock.h"
 #include "realtime/CycleThread.h"
 #include "realtime/SnapshotBuffer.h"
@@ -44,8 +45,8 @@ public:
         QPlcRealTimeOptions realTimeOptions;
     };
 
-    MasterCycle(const QPlcSignalTable &table, CyclicHub &hub, bool tapFrames,
-                TimeSource &time = TimeSource::monotonic());
+    /// \param time  instead of the clock of the machine; for tests
+    MasterCycle(const QPlcSignalTable &table, CyclicHub &hub, bool tapFrames, TimeSource *time = nullptr);
     ~MasterCycle();
 
     /// The values while no cycle runs.
@@ -100,10 +101,12 @@ private:
     void writeOwnSignals(const CycleClock::Tick &tick) noexcept;
     void writeReal(QPlcSignalIndex signal, double value) noexcept;
     void finish() noexcept;
+    void foldStatistics() noexcept;
     std::int64_t now() noexcept { return m_phase.clock.isLockstep() ? 0 : m_time.now(); }
     void clearStatistics();
     void freeRetired();
 
+    AlarmTime m_alarm;
     TimeSource &m_time;
     ProcessImage m_image;
     CyclicHub &m_hub;

@@ -104,7 +104,7 @@ void QPlcMasterNodePrivate::collectOutputs()
 
 bool QPlcMasterNodePrivate::takeOutputs(NodeSlot &slot, const char *outputs)
 {
-    if (const qplc::PayloadLayout::Field *field = slot.firstNotFinite(outputs)) {
+    if (const qplc::PayloadLayout::Field *field = slot.outputLayout.firstNotFinite(outputs)) {
         abortSequence(QStringLiteral("node '%1': the initial value of signal '%2' is not a finite number")
                           .arg(slot.name, table.at(field->signal).name));
         return false;
@@ -128,7 +128,7 @@ bool QPlcMasterNodePrivate::storeOutputs(Connection *connection, const Message &
     slot.initialOutputs.assign(values.begin(), values.end());
     if (!isRunning())
         return takeOutputs(slot, values.constData());
-    if (const qplc::PayloadLayout::Field *field = slot.firstNotFinite(values.constData())) {
+    if (const qplc::PayloadLayout::Field *field = slot.outputLayout.firstNotFinite(values.constData())) {
         server->drop(connection,
                      QStringLiteral("the initial value of signal '%1' is not a finite number")
                          .arg(table.at(field->signal).name));

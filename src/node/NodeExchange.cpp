@@ -224,7 +224,12 @@ bool NodeExchange::collectAnswers(std::size_t stage) noexcept
                 return false;  // nobody is late who was not given the time
             if (left <= 0)
                 break;
-            receive(std::min(left, continueRequests() ? ContinueAfter : Slice));
+            if (continueRequests())
+                receive(std::min(left, ContinueAfter));
+            else if (isLast && left <= Slice)
+                receive(left, m_time.alarm(end));
+            else
+                receive(std::min(left, Slice));
         }
         reportLateNodes();
     }
@@ -267,10 +272,10 @@ void NodeExchange::waitForLateNodes(std::int64_t deadline) noexcept
     }
 }
 
-void NodeExchange::receive(std::int64_t timeout) noexcept
+void NodeExchange::receive(std::int64_t timeout, int alarm) noexcept
 {
     const std::int64_t begin = now();
-    const bool arrived = waitForFrames(timeout);
+    const bool arrived = waitForFrames(timeout, alarm);
     m_statistics.waited(now() - begin);
     m_hasReceived = true;
     if (!arrived)
@@ -285,16 +290,16 @@ void NodeExchange::receive(std::int64_t timeout) noexcept
     }
 }
 
-bool NodeExchange::waitForFrames(std::int64_t timeout) noexcept
+bool NodeExchange::waitForFrames(std::int64_t timeout, int alarm) noexcept
 {
     if (m_spin == 0 || timeout <= m_spin)
-        return m_hub.wait(timeout);
+        return m_hub.wait(timeout, alarm);
     const std::int64_t end = m_time.now() + m_spin;
     do {
         if (m_hub.wait(0))
             return true;
     } while (m_time.now() < end);
-    return m_hub.wait(timeout - m_spin);
+    return m_hub.wait(timeout - m_spin, alarm);
 }
 
 void NodeExchange::takeAnswer(NodeSlot &slot, const char *frame, std::size_t size) noexcept
@@ -351,7 +356,7 @@ void NodeExchange::pasteLocalNodes(const Stage &stage) noexcept
 
 bool NodeExchange::isFinite(NodeSlot &slot, const char *outputs) noexcept
 {
-    const PayloadLayout::Field *field = slot.firstNotFinite(outputs);
+    const PayloadLayout::Field *field = slot.outputLayout.firstNotFinite(outputs);
     if (field)
         m_reports.post({CycleEvent::NotFinite, slot.id, field->signal, m_cycle.number});
     return field == nullptr;

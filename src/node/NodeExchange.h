@@ -58,8 +58,8 @@ private:
     bool collectAnswers(std::size_t stage) noexcept;
     void waitForLateNodes(std::int64_t deadline) noexcept;
     void reportLateNodes() noexcept;
-    void receive(std::int64_t timeout) noexcept;
-    bool waitForFrames(std::int64_t timeout) noexcept;
+    void receive(std::int64_t timeout, int alarm = -1) noexcept;
+    bool waitForFrames(std::int64_t timeout, int alarm) noexcept;
     void takeAnswer(NodeSlot &slot, const char *frame, std::size_t size) noexcept;
     bool isFinite(NodeSlot &slot, const char *outputs) noexcept;
     void paste(NodeSlot &slot, const char *outputs) noexcept;

@@ -64,8 +64,6 @@ struct NodeSlot
 
     /// Sets everything that follows from the layouts. \param session  of the master, for remote nodes
     void prepare(const ProcessImage &image, quint64 session);
-    /// The field of the first real value in \a outputs that is NaN or infinite; null when all are finite.
-    const PayloadLayout::Field *firstNotFinite(const char *outputs) const noexcept;
     FrameCutter outputCutter() const;
 };
 

@@ -7,8 +7,7 @@ void NodeStatistics::clear() noexcept
 {
     for (Counter *counter : {&answers, &late, &lost, &duplicated, &reordered, &rejected, &resent})
         counter->set(0);
-    for (DurationStatistics *duration : {&m_execution, &m_roundTrip, &m_slack})
-        duration->clear();
+    m_durations.clear();
     m_requests.fill({});
     m_asked = 0;
     m_settled = 0;
@@ -18,9 +17,9 @@ void NodeStatistics::clear() noexcept
 QPlcNodeStatistics NodeStatistics::read(std::int64_t now, QPlcDistribution::Detail detail) const
 {
     QPlcNodeStatistics statistics;
-    statistics.execution = m_execution.read(now, detail);
-    statistics.roundTrip = m_roundTrip.read(now, detail);
-    statistics.slack = m_slack.read(now, detail);
+    statistics.execution = m_durations[Execution].read(now, detail);
+    statistics.roundTrip = m_durations[RoundTrip].read(now, detail);
+    statistics.slack = m_durations[Slack].read(now, detail);
     statistics.answers = answers;
     statistics.late = late;
     statistics.lost = lost;
@@ -39,29 +38,26 @@ void NodeStatistics::asked(std::uint64_t cycle, std::int64_t begin, std::int64_t
 void NodeStatistics::answered(std::uint64_t cycle, std::int64_t arrival, std::int64_t executionTime) noexcept
 {
     answers.add();
-    if (arrival != 0)
-        m_execution.record(executionTime, arrival);
+    Durations::Values measured{executionTime, Durations::None, Durations::None};
     const Request &request = m_requests[cycle % Remembered];
-    if (request.cycle != cycle) {
+    if (request.cycle == cycle) {
+        lost.add(request.ordinal - m_settled - m_unplaced);
+        m_settled = request.ordinal + 1;
+        m_unplaced = 0;
+        measured[RoundTrip] = arrival - request.begin;
+        measured[Slack] = request.deadline - arrival;
+    } else {
         ++m_unplaced;
-        return;
     }
-    lost.add(request.ordinal - m_settled - m_unplaced);
-    m_settled = request.ordinal + 1;
-    m_unplaced = 0;
-    if (arrival == 0)
-        return;
-    m_roundTrip.record(arrival - request.begin, arrival);
-    m_slack.record(request.deadline - arrival, arrival);
+    if (arrival != 0)
+        m_durations.record(arrival, measured);
 }
 
 void NodeStatistics::stepped(std::int64_t end, std::int64_t executionTime, std::int64_t deadline) noexcept
 {
     answers.add();
-    if (end == 0)
-        return;
-    m_execution.record(executionTime, end);
-    m_slack.record(deadline - end, end);
+    if (end != 0)
+        m_durations.record(end, {executionTime, Durations::None, deadline - end});
 }
 
 }  // namespace qplc

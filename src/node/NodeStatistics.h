@@ -3,7 +3,7 @@
 
 #include "QPlcNodeStatistics.h"
 #include "realtime/Counter.h"
-#include "realtime/DurationStatistics.h"
+#include "realtime/DurationGroup.h"
 
 #include <array>
 
@@ -25,6 +25,9 @@ public:
     /// A step of a node of this process ended at \a end.
     void stepped(std::int64_t end, std::int64_t executionTime, std::int64_t deadline) noexcept;
 
+    /// Makes what was measured visible to readers; they wait for it for 0.1 s at most.
+    void fold() noexcept { m_durations.fold(); }
+
     Counter answers;
     Counter late;
     Counter lost;
@@ -34,6 +37,9 @@ public:
     Counter resent;
 
 private:
+    enum Duration : std::size_t { Execution, RoundTrip, Slack, DurationCount };
+    using Durations = DurationGroup<DurationCount>;
+
     struct Request
     {
         std::uint64_t cycle = UINT64_MAX;
@@ -47,9 +53,7 @@ private:
     std::uint64_t m_asked = 0;
     std::uint64_t m_settled = 0;   // requests that are answered or lost: those before this ordinal
     std::uint64_t m_unplaced = 0;  // answers since then to requests too old to be remembered
-    DurationStatistics m_execution;
-    DurationStatistics m_roundTrip;
-    DurationStatistics m_slack;
+    Durations m_durations;
 };
 
 }  // namespace qplc

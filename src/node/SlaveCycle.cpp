@@ -2,16 +2,15 @@
 #include "SlaveCycle.h"
 
 #include "protocol/LittleEndian.h"
-#include "realtime/PeriodicInterrupt.h"
+#include "realtime/InterruptibleWaits.h"
 
 #include <algorithm>
 #include <limits>
+#include <thread>
 
 namespace qplc {
 
 namespace {
-
-constexpr std::int64_t LongestWait = 50'000'000;  // [ns] a stop is never noticed later than this
 
 void count(std::atomic<quint64> &counter, quint64 n = 1) noexcept
 {
@@ -76,13 +75,20 @@ bool SlaveCycle::start(const Phase &phase)
     m_computedAny = m_faulted = m_watchdogBarked = false;
     m_lastCycle = phase.firstCycle;
     m_lastArrival = TimeSource::monotonic().now();
-    m_stop = false;
-    return m_thread.start(m_runtime.node().name(), phase.realTimeOptions, [this] { run(); });
+    m_stop = m_ended = false;
+    if (m_thread.start(m_runtime.node().name(), phase.realTimeOptions, [this] { run(); }))
+        return true;
+    m_ended = true;
+    return false;
 }
 
 void SlaveCycle::stop()
 {
     m_stop = true;
+    while (!m_ended) {  // an interruption just before a wait ends none
+        m_thread.interrupt();
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
     m_thread.join();
 }
 
@@ -100,11 +106,11 @@ QPlcSlaveNode::Counters SlaveCycle::counters() const
 
 void SlaveCycle::run() noexcept
 {
-    const PeriodicInterrupt lookUp(
-        m_phase.watchdog.count() > 0 ? std::min(m_phase.watchdog.count() / 2 + 1, LongestWait) : LongestWait);
+    const InterruptibleWaits interruptible(watchdogLooks());
     const char *frame = nullptr;
     std::size_t size = 0;
-    while (!m_stop.load(std::memory_order_relaxed)) {
+    bool open = true;
+    while (open && !m_stop.load(std::memory_order_relaxed)) {
         switch (receive(&frame, &size)) {
         case CyclicLink::Received:
             take(frame, size);
@@ -114,9 +120,20 @@ void SlaveCycle::run() noexcept
             break;
         case CyclicLink::Closed:
             m_reports.post({CycleEvent::LinkClosed, m_identity.node, 0, m_lastCycle});
-            return;
+            open = false;
+            break;
         }
     }
+    m_statistics.fold();
+    m_ended = true;
+}
+
+/// How often to look at the watchdog while nothing comes [ns]; 0: there is none.
+std::int64_t SlaveCycle::watchdogLooks() const noexcept
+{
+    constexpr std::int64_t longest = 50'000'000;
+    const auto watchdog = std::int64_t(double(m_phase.watchdog.count()) / m_phase.clock.scale());
+    return watchdog > 0 && !m_phase.clock.isLockstep() ? std::min(watchdog / 2 + 1, longest) : 0;
 }
 
 CyclicLink::Status SlaveCycle::receive(const char **frame, std::size_t *size) noexcept

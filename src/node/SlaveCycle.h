@@ -78,6 +78,7 @@ private:
     bool isRepeatedRequest() const noexcept;
     void answer() noexcept;
     void checkWatchdog() noexcept;
+    std::int64_t watchdogLooks() const noexcept;
     std::int64_t simulated(std::int64_t time) const noexcept;
 
     NodeRuntime &m_runtime;
@@ -88,6 +89,7 @@ private:
     CycleThread m_thread;
     CycleReports m_reports;
     std::atomic<bool> m_stop{false};
+    std::atomic<bool> m_ended{true};
 
     // cycle thread
     Phase m_phase;

@@ -8,18 +8,14 @@ void SlaveStatistics::restart(std::int64_t period) noexcept
     m_period = period;
     m_lastArrival = 0;
     m_newest.set(0);
-    for (DurationStatistics *duration : {&m_execution, &m_response, &m_interval, &m_slack})
-        duration->clear();
+    m_durations.clear();
 }
 
 void SlaveStatistics::answered(std::int64_t arrival, std::int64_t executionTime, std::int64_t end) noexcept
 {
     const std::int64_t response = end - arrival;
-    m_execution.record(executionTime, arrival);
-    m_response.record(response, arrival);
-    m_slack.record(m_period - response, arrival);
-    if (m_lastArrival != 0)
-        m_interval.record(arrival - m_lastArrival, arrival);
+    const std::int64_t interval = m_lastArrival != 0 ? arrival - m_lastArrival : Durations::None;
+    m_durations.record(arrival, {executionTime, response, interval, m_period - response});
     m_lastArrival = arrival;
     m_newest.set(std::uint64_t(arrival));
 }
@@ -27,8 +23,8 @@ void SlaveStatistics::answered(std::int64_t arrival, std::int64_t executionTime,
 QPlcSlaveStatistics SlaveStatistics::read(QPlcDistribution::Detail detail) const
 {
     const auto newest = std::int64_t(m_newest.value());
-    return {m_execution.read(newest, detail), m_response.read(newest, detail), m_interval.read(newest, detail),
-            m_slack.read(newest, detail)};
+    return {m_durations[Execution].read(newest, detail), m_durations[Response].read(newest, detail),
+            m_durations[Interval].read(newest, detail), m_durations[Slack].read(newest, detail)};
 }
 
 }  // namespace qplc

@@ -3,7 +3,7 @@
 
 #include "QPlcSlaveStatistics.h"
 #include "realtime/Counter.h"
-#include "realtime/DurationStatistics.h"
+#include "realtime/DurationGroup.h"
 
 namespace qplc {
 
@@ -19,17 +19,20 @@ public:
     /// A frame that is to be computed was there at \a arrival, and answered at \a end.
     void answered(std::int64_t arrival, std::int64_t executionTime, std::int64_t end) noexcept;
 
+    /// Makes what was measured visible to readers; they wait for it for 0.1 s at most while frames come.
+    void fold() noexcept { m_durations.fold(); }
+
     // ---- any thread ----
     QPlcSlaveStatistics read(QPlcDistribution::Detail detail) const;
 
 private:
+    enum Duration : std::size_t { Execution, Response, Interval, Slack, DurationCount };
+    using Durations = DurationGroup<DurationCount>;
+
     std::int64_t m_period = 0;
     std::int64_t m_lastArrival = 0;  // 0: none
     Counter m_newest;                // arrival of the newest frame [ns]
-    DurationStatistics m_execution;
-    DurationStatistics m_response;
-    DurationStatistics m_interval;
-    DurationStatistics m_slack;
+    Durations m_durations;
 };
 
 }  // namespace qplc

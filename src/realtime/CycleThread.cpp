@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "CycleThread.h"
 
+#include "InterruptibleWaits.h"
 #include "RealTimeSetup.h"
 
 #include <algorithm>
@@ -144,6 +145,12 @@ void CycleThread::waitUntilApplied()
 {
     std::unique_lock<std::mutex> lock(m_mutex);
     m_appliedChanged.wait(lock, [this] { return m_applied; });
+}
+
+void CycleThread::interrupt()
+{
+    if (m_running)
+        InterruptibleWaits::interrupt(m_thread);
 }
 
 void CycleThread::join()

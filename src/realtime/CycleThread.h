@@ -37,6 +37,8 @@ public:
     bool start(const QString &name, const QPlcRealTimeOptions &options, std::function<void()> body);
     /// From start() to join(), also when the body has returned meanwhile.
     bool isRunning() const { return m_running; }
+    /// Ends a wait of the body that has made its waits interruptible. Nothing happens when the thread does not run.
+    void interrupt();
     /// Waits until the body has returned. Nothing happens when the thread does not run. Not from the body itself.
     void join();
 

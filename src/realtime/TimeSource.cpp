@@ -24,9 +24,7 @@ public:
     bool sleepUntil(std::int64_t deadline) noexcept override
     {
         const std::int64_t instant = std::max<std::int64_t>(deadline, 0);  // an instant before 0 is no valid timespec
-        timespec time{};
-        time.tv_sec = time_t(instant / NanosecondsPerSecond);
-        time.tv_nsec = decltype(time.tv_nsec)(instant % NanosecondsPerSecond);
+        const timespec time = timeSpec(instant);
         // The error is the returned value: errno stays as it was.
         return clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &time, nullptr) == 0;
     }
@@ -38,6 +36,11 @@ TimeSource &TimeSource::monotonic()
 {
     static MonotonicTime time;
     return time;
+}
+
+timespec timeSpec(std::int64_t time) noexcept
+{
+    return {time_t(time / NanosecondsPerSecond), decltype(timespec::tv_nsec)(time % NanosecondsPerSecond)};
 }
 
 std::int64_t wallClockNow() noexcept

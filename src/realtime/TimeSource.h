@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <ctime>
 
 namespace qplc {
 
@@ -14,10 +15,16 @@ public:
     virtual std::int64_t now() noexcept = 0;
     /// Sleeps until now() >= \a deadline. \return false when it was interrupted before
     virtual bool sleepUntil(std::int64_t deadline) noexcept = 0;
+    /// A descriptor that is readable from \a deadline on, until the next call of alarm() or sleepUntil(); for a poll() that waits for other things, too.
+    /// \return -1 when this clock has none
+    virtual int alarm(std::int64_t /*deadline*/) noexcept { return -1; }
 
     /// CLOCK_MONOTONIC.
     static TimeSource &monotonic();
 };
+
+/// \a time [ns], >= 0, as the kernel takes it.
+timespec timeSpec(std::int64_t time) noexcept;
 
 /// The wall clock, for stamps only, never for control [ns since 1970-01-01 UTC].
 std::int64_t wallClockNow() noexcept;

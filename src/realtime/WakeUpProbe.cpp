@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "WakeUpProbe.h"
 
+#include "AlarmTime.h"
 #include "RealTimeSetup.h"
 
 #include <sys/mman.h>
@@ -36,7 +37,9 @@ WakeUps probeWakeUps(const QPlcRealTimeOptions &options, std::chrono::nanosecond
         if (!result.setting(QStringLiteral("scheduling")).granted)
             return;
         result.lateness = std::make_unique<Histogram>();
-        recordWakeUps(TimeSource::monotonic(), period, count, result.lateness.get());
+        AlarmTime time;  // as the cycle of a master
+        time.setPeriod(period.count());
+        recordWakeUps(time, period, count, result.lateness.get());
     });
     thread.join();
     if (options.lockMemory)

@@ -62,8 +62,30 @@ public:
     /// payload is one empty part.
     std::vector<quint32> partBorders(quint32 maximum) const;
 
+    /// The field of the first real value in \a payload that is NaN or infinite; null when all are finite.
+    const Field *firstNotFinite(const char *payload) const noexcept
+    {
+        for (const RealRun &run : m_realRuns) {
+            if (!isFinite(run.scalar, payload + run.offset, run.size))
+                return firstNotFiniteField(payload);
+        }
+        return nullptr;
+    }
+
 private:
+    /// Real values of one type that lie side by side.
+    struct RealRun
+    {
+        QPlcSignalType::Scalar scalar;
+        quint32 offset;  // [byte]
+        quint32 size;    // [byte]
+    };
+    static bool isFinite(QPlcSignalType::Scalar scalar, const char *bytes, quint32 size) noexcept;
+    const Field *firstNotFiniteField(const char *payload) const noexcept;
+    void addRealRun(const Field &field);
+
     std::vector<Field> m_fields;
+    std::vector<RealRun> m_realRuns;
     quint32 m_size = 0;
     quint64 m_hash = fnv1a64Start;
 };

@@ -186,6 +186,7 @@ void CyclicHub::rebuild() noexcept
     m_polled.clear();
     m_polled.push_back({m_udp, POLLIN, 0});
     m_polled.push_back({m_pipe[0], POLLIN, 0});
+    m_polled.push_back({-1, POLLIN, 0});
     for (HubPeer *peer : m_peers) {
         if (peer->isLocal()) {
             m_locals.push_back(peer);
@@ -280,15 +281,17 @@ void CyclicHub::wakeLocals() noexcept
 
 // ---- receiving ----
 
-bool CyclicHub::wait(std::int64_t timeout) noexcept
+bool CyclicHub::wait(std::int64_t timeout, int alarm) noexcept
 {
     if (m_locals.empty())
-        return waitForDescriptors(timeout);
+        return waitForDescriptors(timeout, alarm);
     bool arrived = false;
-    if (m_udpPeers + m_streams.size() > 0)
-        arrived = timeout > 0 && doorbell()->beginPoll() ? pollDescriptors(timeout) : pollDescriptors(0);
-    else if (timeout > 0)
+    if (timeout > 0 && m_udpPeers + m_streams.size() == 0 && alarm < 0)
         doorbell()->sleep(timeout);
+    else if (timeout > 0 && doorbell()->beginPoll())
+        arrived = pollDescriptors(timeout, alarm);
+    else
+        arrived = pollDescriptors(0, -1);
     doorbell()->endPoll();
     const std::uint32_t rung = doorbell()->count();
     arrived = arrived || rung != m_rung;
@@ -298,11 +301,11 @@ bool CyclicHub::wait(std::int64_t timeout) noexcept
     return arrived;
 }
 
-bool CyclicHub::waitForDescriptors(std::int64_t timeout) noexcept
+bool CyclicHub::waitForDescriptors(std::int64_t timeout, int alarm) noexcept
 {
-    if (m_streams.empty() && m_udp >= 0 && timeout >= LongWait)
+    if (m_streams.empty() && m_udp >= 0 && timeout >= LongWait && alarm < 0)
         return waitInReceive();
-    return pollDescriptors(timeout);
+    return pollDescriptors(timeout, alarm);
 }
 
 /// One system call instead of two, where only datagrams can come and the end of the wait need not be exact.
@@ -312,20 +315,22 @@ bool CyclicHub::waitInReceive() noexcept
     return m_arrived > 0;
 }
 
-bool CyclicHub::pollDescriptors(std::int64_t timeout) noexcept
+bool CyclicHub::pollDescriptors(std::int64_t timeout, int alarm) noexcept
 {
     timespec limit{};
     limit.tv_sec = time_t(timeout / 1'000'000'000);
     limit.tv_nsec = long(timeout % 1'000'000'000);
-    const int ready = ::ppoll(m_polled.data(), m_polled.size(), &limit, nullptr);
-    m_moreDatagrams = ready > 0 && m_polled[0].revents != 0;
-    if (ready > 0 && m_polled[1].revents != 0) {
+    m_polled[Alarm].fd = alarm;
+    m_polled[Alarm].revents = 0;
+    const int ready = ::ppoll(m_polled.data(), m_polled.size(), alarm < 0 ? &limit : nullptr, nullptr);
+    m_moreDatagrams = ready > 0 && m_polled[Datagrams].revents != 0;
+    if (ready > 0 && m_polled[Pipe].revents != 0) {
         char rings[64];
         while (::read(m_pipe[0], rings, sizeof rings) == ssize_t(sizeof rings)) {}
     }
     m_arrived = m_taken = 0;
     m_stream = ready > 0 ? 0 : m_streams.size();
-    return ready > 0;
+    return ready > (m_polled[Alarm].revents != 0 ? 1 : 0);
 }
 
 bool CyclicHub::next(Incoming *incoming) noexcept

@@ -111,8 +111,9 @@ public:
     void flush() noexcept;
 
     /// Waits until frames are there, at most \a timeout [ns] (0: just looks); a wait of 20 ms or more may end before.
+    /// \param alarm  a descriptor that ends the wait when it becomes readable, instead of the timeout; -1: none
     /// \return whether frames can be taken by next()
-    bool wait(std::int64_t timeout) noexcept;
+    bool wait(std::int64_t timeout, int alarm = -1) noexcept;
     /// The next frame of those that are there; it stays valid until the next call. \return false when there is none any more
     bool next(Incoming *incoming) noexcept;
 
@@ -123,11 +124,11 @@ private:
     static constexpr std::size_t Batch = 32;
     static constexpr std::size_t LargestDatagram = 2048;
     static constexpr std::size_t TableSize = 4 * MaximumPeers;
-    static constexpr std::size_t FirstStream = 2;
+    enum Polled : std::size_t { Datagrams, Pipe, Alarm, FirstStream };  // places in m_polled
     struct Messages;
 
-    bool waitForDescriptors(std::int64_t timeout) noexcept;
-    bool pollDescriptors(std::int64_t timeout) noexcept;
+    bool waitForDescriptors(std::int64_t timeout, int alarm) noexcept;
+    bool pollDescriptors(std::int64_t timeout, int alarm) noexcept;
     void wakeLocals() noexcept;
     bool nextLocal(Incoming *incoming) noexcept;
     Doorbell *doorbell() const noexcept { return static_cast<Doorbell *>(m_doorbell.data()); }
@@ -141,7 +142,7 @@ private:
     int m_udp = -1;
     bool m_isIpv6 = false;
     std::vector<HubPeer *> m_peers;
-    std::vector<pollfd> m_polled;      // 0: UDP, 1: the pipe of local nodes, then the TCP peers in order
+    std::vector<pollfd> m_polled;      // see Polled; then the TCP peers in order
     std::vector<HubPeer *> m_streams;  // peer of m_polled[i + FirstStream]
     std::vector<HubPeer *> m_locals;
     std::size_t m_udpPeers = 0;

@@ -19,7 +19,7 @@ class CyclicLink
 public:
     enum Status {
         Received,  ///< a frame is there
-        Nothing,   ///< the wait was interrupted (see realtime/PeriodicInterrupt.h); poll(): none is there
+        Nothing,   ///< the wait was interrupted (see realtime/InterruptibleWaits.h); poll(): none is there
         Closed     ///< the link is gone for good
     };
 

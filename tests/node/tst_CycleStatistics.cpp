@@ -61,7 +61,7 @@ public:
 
     FakeTime time;  // moved by the cycle thread only
     CyclicHub hub;
-    MasterCycle cycle{testTable(), hub, false, time};
+    MasterCycle cycle{testTable(), hub, false, &time};
     std::shared_ptr<NodeSlot> slot = std::make_shared<NodeSlot>();
     bool bound = false;
     std::vector<Cycle> cycles;

@@ -34,7 +34,11 @@ private:
     {
         m_node->answered(cycle, Begin + std::int64_t(cycle) * Period + after, after / 2);
     }
-    QPlcNodeStatistics read() const { return m_node->read(Begin, QPlcDistribution::FiguresOnly); }
+    QPlcNodeStatistics read()
+    {
+        m_node->fold();
+        return m_node->read(Begin, QPlcDistribution::FiguresOnly);
+    }
 
 private Q_SLOTS:
     void init() { m_node = std::make_unique<NodeStatistics>(); }
@@ -179,6 +183,7 @@ void tst_NodeStatistics::slaveMeasuresDifferencesOfItsOwnClock()
     slave.answered(Begin, 100, 150 + Begin);
     slave.answered(Begin + Period + 30, 200, Begin + Period + 30 + 2 * Period);
     slave.answered(Begin + 4 * Period, 300, Begin + 4 * Period + 400);  // two cycles were missed
+    slave.fold();
     const QPlcSlaveStatistics found = slave.read(QPlcDistribution::FiguresOnly);
     QCOMPARE(found.execution.sinceStart.count, quint64(3));
     QCOMPARE(found.execution.last10s.maximum, qint64(300));
@@ -192,6 +197,7 @@ void tst_NodeStatistics::slaveMeasuresDifferencesOfItsOwnClock()
     slave.restart(Period);
     QCOMPARE(slave.read(QPlcDistribution::FiguresOnly).response.sinceStart.count, quint64(0));
     slave.answered(Begin, 1, Begin + 1);
+    slave.fold();
     QCOMPARE(slave.read(QPlcDistribution::FiguresOnly).interval.sinceStart.count, quint64(0));
 }
 

@@ -184,7 +184,7 @@ void tst_Statistics::everyFaultOfAnAnswerHasItsCounter()
     QCOMPARE(found().answers, quint64(2));
     QCOMPARE(found().duplicated, quint64(1));
     QCOMPARE(found().reordered, quint64(1));
-    QCOMPARE(found().roundTrip.sinceStart.count, quint64(2));
+    QTRY_COMPARE(found().roundTrip.sinceStart.count, quint64(2));
     QVERIFY(found().lost >= 4 || newest > first + 5);  // a request may have been skipped by an overrun
     QVERIFY(found().late >= 4);
     QVERIFY(found().late >= found().lost);

@@ -23,6 +23,7 @@ private Q_SLOTS:
     void aClosedPeerIsClosed();
     void aPeerThatDoesNotReadBlocksNobody();
     void waitEndsInTime();
+    void anAlarmEndsTheWaitAndIsNoFrame();
     void aRefusedDatagramIsCountedAndTheOthersGo();
     void aPortInUseIsSaid();
 
@@ -294,6 +295,28 @@ void tst_CyclicHub::waitEndsInTime()
     QVERIFY(!hub.wait(2'000'000));
     CyclicHub::Incoming incoming;
     QVERIFY(!hub.next(&incoming));
+}
+
+void tst_CyclicHub::anAlarmEndsTheWaitAndIsNoFrame()
+{
+    CyclicHub hub;
+    const SocketAddress self = open(hub);
+    const UdpSocket node;
+    const std::unique_ptr<HubPeer> peer = HubPeer::udp(node.self);
+    hub.attach(peer.get());
+    int alarm[2];
+    QCOMPARE(::pipe(alarm), 0);
+    QCOMPARE(::write(alarm[1], "x", 1), ssize_t(1));
+    QVERIFY(!hub.wait(1, alarm[0]));  // and not after 1 ns
+    QVERIFY(node.send("answer", self));
+    QVERIFY(hub.wait(1, alarm[0]));
+    CyclicHub::Incoming incoming;
+    QVERIFY(hub.next(&incoming));
+    QCOMPARE(incoming.peer, peer.get());
+    QVERIFY(!hub.next(&incoming));
+    QVERIFY(!hub.wait(0));
+    ::close(alarm[0]);
+    ::close(alarm[1]);
 }
 
 void tst_CyclicHub::aRefusedDatagramIsCountedAndTheOthersGo()

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TransportFixtures.h"
-#include "realtime/PeriodicInterrupt.h"
+#include "realtime/InterruptibleWaits.h"
 
 #include <QtTest/QtTest>
 
 using qplc::CyclicLink;
-using qplc::PeriodicInterrupt;
+using qplc::InterruptibleWaits;
 using qplc::SocketAddress;
 
 class tst_CyclicLink : public QObject
@@ -70,7 +70,7 @@ void tst_CyclicLink::aMasterThatIsGoneDoesNotEndAUdpLink()
     QString error;
     const auto link = CyclicLink::udp(gone, &port, &error);
     QVERIFY(link);
-    const PeriodicInterrupt interrupt(1'000'000);
+    const InterruptibleWaits interrupt(1'000'000);
     for (int i = 0; i < 5; ++i) {
         link->send("anybody?", 8);
         QCOMPARE(receive(*link).status, CyclicLink::Nothing);  // "port unreachable" is no reason to give up
@@ -81,7 +81,7 @@ void tst_CyclicLink::aTcpLinkGivesWholeFrames()
 {
     StreamPair pair;
     const auto link = CyclicLink::tcp(pair.take(0), toyCutter, LargestToyFrame);
-    const PeriodicInterrupt interrupt(20'000'000);
+    const InterruptibleWaits interrupt(20'000'000);
     pair.write(toyFrame(9).left(4));
     QCOMPARE(receive(*link).status, CyclicLink::Nothing);
     pair.write(toyFrame(9).mid(4) + toyFrame(3) + toyFrame(255));
@@ -118,7 +118,7 @@ void tst_CyclicLink::aTcpLinkToADeafMasterComesBackInTime()
 {
     StreamPair pair;
     const auto link = CyclicLink::tcp(pair.take(0), toyCutter, LargestToyFrame);
-    const PeriodicInterrupt interrupt(1'000'000);
+    const InterruptibleWaits interrupt(1'000'000);
     int accepted = 0;
     while (link->send(toyFrame(255).constData(), 255))
         ++accepted;
@@ -137,7 +137,7 @@ void tst_CyclicLink::waitsEndInTime()
     const auto link = CyclicLink::udp(master.self, &port, &error);
     QVERIFY(link);
     for (qint64 period : {100'000, 1'000'000}) {
-        const PeriodicInterrupt interrupt(period);
+        const InterruptibleWaits interrupt(period);
         QCOMPARE(receive(*link).status, CyclicLink::Nothing);
     }
     QVERIFY(!CyclicLink::udp(SocketAddress(), &port, &error));

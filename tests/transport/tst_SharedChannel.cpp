@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TransportFixtures.h"
-#include "realtime/PeriodicInterrupt.h"
+#include "realtime/InterruptibleWaits.h"
 #include "transport/LocalName.h"
 
 #include <QtTest/QtTest>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TransportFixtures.h"
-#include "realtime/PeriodicInterrupt.h"
+#include "realtime/InterruptibleWaits.h"
 
 #include <QtCore/QElapsedTimer>
 #include <QtTest/QtTest>
@@ -10,7 +10,7 @@
 using qplc::CyclicHub;
 using qplc::CyclicLink;
 using qplc::HubPeer;
-using qplc::PeriodicInterrupt;
+using qplc::InterruptibleWaits;
 using qplc::SocketAddress;
 
 // What the tables of the hub hold and what happens beyond; peers that come, go and come again.
@@ -268,7 +268,7 @@ void tst_TransportLimits::waitsLastAsLongAsTheyShould()
     for (const auto &link : links) {
         const char *frame = nullptr;
         std::size_t size = 0;
-        const PeriodicInterrupt interrupt(time);
+        const InterruptibleWaits interrupt(time);
         timer.start();
         QCOMPARE(link->receive(&frame, &size), CyclicLink::Nothing);
         QVERIFY2(timer.nsecsElapsed() >= time, qPrintable(QString::number(timer.nsecsElapsed())));

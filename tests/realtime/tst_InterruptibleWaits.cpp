@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "realtime/PeriodicInterrupt.h"
+#include "realtime/InterruptibleWaits.h"
 
 #include <QtCore/QElapsedTimer>
 #include <QtTest/QtTest>
 
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <thread>
 #include <unistd.h>
 
-using qplc::PeriodicInterrupt;
+using qplc::InterruptibleWaits;
 
-class tst_PeriodicInterrupt : public QObject
+class tst_InterruptibleWaits : public QObject
 {
     Q_OBJECT
 
@@ -19,6 +20,7 @@ private Q_SLOTS:
     void aWaitEndsEachPeriod();
     void onlyTheThreadThatWantsItIsInterrupted();
     void nothingComesAfterwards();
+    void anotherThreadEndsAWait();
     void aHandlerOfTheProgramStays();
 
 private:
@@ -26,25 +28,25 @@ private:
     static int waitInVain(int milliseconds);
 };
 
-int tst_PeriodicInterrupt::waitInVain(int milliseconds)
+int tst_InterruptibleWaits::waitInVain(int milliseconds)
 {
     const timespec time{milliseconds / 1000, (milliseconds % 1000) * 1'000'000L};
     return ::clock_nanosleep(CLOCK_MONOTONIC, 0, &time, nullptr);
 }
 
-void tst_PeriodicInterrupt::aWaitEndsEachPeriod()
+void tst_InterruptibleWaits::aWaitEndsEachPeriod()
 {
-    const PeriodicInterrupt interrupt(2'000'000);
+    const InterruptibleWaits interrupt(2'000'000);
     for (int i = 0; i < 5; ++i)
         QCOMPARE(waitInVain(20'000), EINTR);
 }
 
-void tst_PeriodicInterrupt::onlyTheThreadThatWantsItIsInterrupted()
+void tst_InterruptibleWaits::onlyTheThreadThatWantsItIsInterrupted()
 {
-    const PeriodicInterrupt interrupt(1'000'000'000);
+    const InterruptibleWaits interrupt(1'000'000'000);
     int other = -1;
     std::thread thread([&] {
-        const PeriodicInterrupt own(1'000'000);
+        const InterruptibleWaits own(1'000'000);
         other = waitInVain(20'000);
     });
     QCOMPARE(waitInVain(20), 0);
@@ -52,16 +54,32 @@ void tst_PeriodicInterrupt::onlyTheThreadThatWantsItIsInterrupted()
     QCOMPARE(other, EINTR);
 }
 
-void tst_PeriodicInterrupt::nothingComesAfterwards()
+void tst_InterruptibleWaits::nothingComesAfterwards()
 {
     {
-        const PeriodicInterrupt interrupt(1'000'000);
+        const InterruptibleWaits interrupt(1'000'000);
     }
     waitInVain(3);  // one that was under way
     QCOMPARE(waitInVain(20), 0);
 }
 
-void tst_PeriodicInterrupt::aHandlerOfTheProgramStays()
+void tst_InterruptibleWaits::anotherThreadEndsAWait()
+{
+    const InterruptibleWaits interruptible(0);
+    std::atomic<bool> ended{false};
+    std::thread other([&, waiting = ::pthread_self()] {
+        while (!ended) {
+            InterruptibleWaits::interrupt(waiting);
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+    });
+    const int result = waitInVain(60'000);
+    ended = true;
+    other.join();
+    QCOMPARE(result, EINTR);
+}
+
+void tst_InterruptibleWaits::aHandlerOfTheProgramStays()
 {
     struct sigaction handler = {};
     ::sigaction(SIGURG, nullptr, &handler);
@@ -70,5 +88,5 @@ void tst_PeriodicInterrupt::aHandlerOfTheProgramStays()
     QVERIFY((handler.sa_flags & SA_RESTART) == 0);
 }
 
-QTEST_APPLESS_MAIN(tst_PeriodicInterrupt)
-#include "tst_PeriodicInterrupt.moc"
+QTEST_APPLESS_MAIN(tst_InterruptibleWaits)
+#include "tst_InterruptibleWaits.moc"

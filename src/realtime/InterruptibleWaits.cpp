@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "PeriodicInterrupt.h"
+#include "InterruptibleWaits.h"
+
+#include "TimeSource.h"
 
 #include <csignal>
 #include <mutex>
@@ -34,11 +36,13 @@ void unblock()
 
 }  // namespace
 
-PeriodicInterrupt::PeriodicInterrupt(std::int64_t period)
+InterruptibleWaits::InterruptibleWaits(std::int64_t period)
 {
     static std::once_flag once;
     std::call_once(once, &installHandler);
     unblock();
+    if (period == 0)
+        return;
     sigevent event{};
     event.sigev_notify = SIGEV_THREAD_ID;
     event.sigev_signo = SIGURG;
@@ -46,16 +50,19 @@ PeriodicInterrupt::PeriodicInterrupt(std::int64_t period)
     m_exists = ::timer_create(CLOCK_MONOTONIC, &event, &m_timer) == 0;
     if (!m_exists)
         return;
-    constexpr std::int64_t second = 1'000'000'000;
-    const timespec interval{time_t(period / second), long(period % second)};
-    const itimerspec times{interval, interval};
+    const itimerspec times{timeSpec(period), timeSpec(period)};
     ::timer_settime(m_timer, 0, &times, nullptr);
 }
 
-PeriodicInterrupt::~PeriodicInterrupt()
+InterruptibleWaits::~InterruptibleWaits()
 {
     if (m_exists)
         ::timer_delete(m_timer);
+}
+
+void InterruptibleWaits::interrupt(pthread_t thread) noexcept
+{
+    ::pthread_kill(thread, SIGURG);
 }
 
 }  // namespace qplc
