@@ -254,7 +254,7 @@ QJsonObject QPlcMasterNodePrivate::startFields(const NodeSlot &slot) const
         fields.insert(QStringLiteral("group"),
                       QJsonObject{{QStringLiteral("part"), slot.multicast->number},
                                   {QStringLiteral("offset"), double(slot.multicastOffset)},
-                                  {QStringLiteral("size"), double(slot.multicast->payload.size())},
+                                  {QStringLiteral("size"), double(slot.multicast->payloadSize)},
                                   {QStringLiteral("hash"), Message::fromHex64(slot.multicast->hash)}});
     return fields;
 }

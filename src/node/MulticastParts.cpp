@@ -9,7 +9,7 @@ namespace qplc {
 
 void MulticastPart::send(CyclicHub &hub, const FrameHeader &header) noexcept
 {
-    encoder.encode(0, header, payload.data(), frame.data());
+    encoder.encode(0, header, payload(), frame.data());
     hub.send(group.get(), frame.data(), frame.size());
     toBeSent = false;
 }
@@ -25,17 +25,15 @@ void MulticastParts::restart(std::uint64_t session, const SocketAddress &group)
 
 void MulticastParts::add(NodeSlot &slot)
 {
-    if (m_open && m_open->payload.size() + slot.inputLayout.size() > MaximumCyclicPayload)
+    if (m_open && m_open->payloadSize + slot.inputLayout.size() > MaximumCyclicPayload)
         finish();
     if (!m_open) {
         m_open = std::make_shared<MulticastPart>();
         m_open->number = m_next++;
-        m_open->payload.resize(sizeof m_open->number);
-        storeLittle(m_open->number, m_open->payload.data());
     }
     slot.multicast = m_open;
-    slot.multicastOffset = quint32(m_open->payload.size());
-    m_open->payload.resize(m_open->payload.size() + slot.inputLayout.size());
+    slot.multicastOffset = m_open->payloadSize;
+    m_open->payloadSize += slot.inputLayout.size();
     m_nodes.push_back(&slot);
 }
 
@@ -49,8 +47,11 @@ void MulticastParts::finish()
             + QByteArray::number(slot->multicastOffset) + '\n';
     m_open->hash = fnv1a64(text);
     m_open->encoder = FrameEncoder(FrameKind::GroupInputs, {m_session, 0, m_open->hash},
-                                   {0, std::uint32_t(m_open->payload.size())});
+                                   {0, m_open->payloadSize});
     m_open->frame.resize(m_open->encoder.totalSize());
+    storeLittle(m_open->number, m_open->payload());
+    for (NodeSlot *slot : m_nodes)
+        slot->inputs = m_open->payload() + slot->multicastOffset;
     m_open->group = HubPeer::udp(m_group);
     m_open.reset();
     m_nodes.clear();

@@ -20,10 +20,11 @@ struct MulticastPart
     std::uint64_t hash = 0;  // over "node:size@offset\n" of all its nodes
     FrameEncoder encoder;
     std::unique_ptr<HubPeer> group;
-    std::vector<char> payload;
-    std::vector<char> frame;
+    quint32 payloadSize = sizeof(std::uint16_t);  // [byte]
+    std::vector<char> frame;                      // its nodes write their inputs into it
     bool toBeSent = false;
 
+    char *payload() { return frame.data() + CyclicHeaderSize; }
     /// Sends the payload as it is now. The bytes have to stay until the hub is flushed.
     void send(CyclicHub &hub, const FrameHeader &header) noexcept;
 };

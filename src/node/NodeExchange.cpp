@@ -64,7 +64,7 @@ void NodeExchange::run(const Roster &roster, const Cycle &cycle) noexcept
 void NodeExchange::cutInputs() noexcept
 {
     for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
-        copyRuns(slot->inputRuns, m_image.data(), slot->inputs.data());
+        copyRuns(slot->inputRuns, m_image.data(), slot->inputs);
         slot->asked = slot->awaited = slot->answered = slot->late = false;
         slot->request.cycle = std::uint32_t(m_cycleZero + m_cycle.number);
         slot->request.info
@@ -86,7 +86,7 @@ void NodeExchange::askNodes(const Stage &stage) noexcept
 {
     for (const Roster::Turn &turn : stage) {
         NodeSlot &slot = *turn.slot;
-        copyRuns(slot.sameCycleRuns, m_image.data(), slot.inputs.data());
+        copyRuns(slot.sameCycleRuns, m_image.data(), slot.inputs);
         if (!slot.peer)
             continue;
         slot.asked = true;
@@ -104,7 +104,6 @@ void NodeExchange::askNodes(const Stage &stage) noexcept
 void NodeExchange::sendRequest(NodeSlot &slot, std::uint8_t flags) noexcept
 {
     if (slot.multicast) {
-        std::copy(slot.inputs.begin(), slot.inputs.end(), slot.multicast->payload.begin() + slot.multicastOffset);
         slot.multicast->toBeSent = true;
         return;
     }
@@ -134,7 +133,7 @@ void NodeExchange::sendParts(NodeSlot &slot) noexcept
     for (; slot.partsSent < slot.encoder.partCount(); ++slot.partsSent) {
         const std::size_t size = slot.encoder.partSize(slot.partsSent);
         char *frame = slot.frames.data() + slot.bytesSent;
-        slot.encoder.encode(slot.partsSent, slot.request, slot.inputs.data(), frame);
+        slot.encoder.encode(slot.partsSent, slot.request, slot.inputs, frame);
         if (!m_hub.send(slot.peer.get(), frame, size))
             return;
         m_reports.tap(TappedFrame::Sent, slot.id, frame, size);
@@ -177,7 +176,7 @@ void NodeExchange::stepLocalNodes(const Stage &stage) noexcept
             continue;
         const QPlcCycle &last = slot.local->cycle();
         const quint64 missed = m_cycle.number > last.number() + 1 ? m_cycle.number - last.number() - 1 : 0;
-        slot.computed = slot.local->step(QPlcCycle(m_cycle.number, m_period, missed), slot.inputs.data());
+        slot.computed = slot.local->step(QPlcCycle(m_cycle.number, m_period, missed), slot.inputs);
         slot.answered = true;
         if (!slot.computed && !slot.faulted)
             m_reports.post({CycleEvent::NodeFaulted, slot.id, 0, m_cycle.number});

@@ -17,12 +17,13 @@ void NodeSlot::prepare(const ProcessImage &image, quint64 session)
     inputRuns = image.gatherRuns(inputLayout);
     outputRuns = image.scatterRuns(outputLayout);
     sameCycleRuns = image.gatherRuns(inputLayout, sameCycle);
-    inputs.assign(inputLayout.size(), 0);
     encoder = FrameEncoder(FrameKind::Inputs, {session, id, inputLayout.hash()},
                            inputLayout.partBorders(MaximumCyclicPayload));
     decoder = FrameDecoder(FrameKind::Outputs, {session, id, outputLayout.hash()},
                            outputLayout.partBorders(MaximumCyclicPayload));
     frames.assign(encoder.totalSize(), 0);
+    inputBytes.assign(encoder.partCount() == 1 ? 0 : inputLayout.size(), 0);
+    inputs = inputBytes.empty() ? frames.data() + CyclicHeaderSize : inputBytes.data();
 }
 
 FrameCutter NodeSlot::outputCutter() const

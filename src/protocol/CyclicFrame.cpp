@@ -44,10 +44,10 @@ FrameHeader readHeader(FrameKind kind, const char *bytes) noexcept
     return header;
 }
 
-// An empty payload has no bytes, and perhaps no address.
+// An empty payload has no bytes, and perhaps no address; another one may be where it belongs already.
 void copyBytes(const char *from, std::size_t size, char *to) noexcept
 {
-    if (size > 0)
+    if (size > 0 && from != to)
         std::memcpy(to, from, size);
 }
 

@@ -77,7 +77,7 @@ public:
     /// Bytes of all parts together.
     std::size_t totalSize() const { return CyclicOverhead * partCount() + m_borders.back(); }
     /// Writes part \a part to \a target (partSize(part) bytes). \a header.kind, PartFlag and, in parts > 0, \a header.info are set here.
-    /// \param payload  begin of the whole payload, also for parts > 0
+    /// \param payload  begin of the whole payload, also for parts > 0; may be \a target + CyclicHeaderSize, then nothing is copied
     void encode(std::size_t part, FrameHeader header, const char *payload, char *target) const noexcept;
 
 private:

@@ -17,7 +17,7 @@ namespace qplc {
 
 namespace {
 
-constexpr std::size_t LargestDatagram = 65536;
+constexpr std::size_t LargestDatagram = 2048;  // longer than every frame: what is cut off here is none
 
 bool isTransient(int error)
 {
@@ -29,7 +29,6 @@ class UdpLink final : public CyclicLink
 public:
     explicit UdpLink(int descriptor)
         : CyclicLink(descriptor)
-        , m_buffer(new char[LargestDatagram])
     {
     }
     ~UdpLink() override
@@ -68,16 +67,16 @@ public:
 private:
     Status take(const char **frame, std::size_t *size, int flags) noexcept
     {
-        const ssize_t count = ::recv(m_group >= 0 ? m_group : m_descriptor, m_buffer.get(), LargestDatagram, flags);
+        const ssize_t count = ::recv(m_group >= 0 ? m_group : m_descriptor, m_buffer.data(), m_buffer.size(), flags);
         if (count < 0) {
             // A master that is gone answers with "port unreachable": no reason to give the socket up.
             return isTransient(errno) || errno == ECONNREFUSED ? Nothing : Closed;
         }
-        *frame = m_buffer.get();
+        *frame = m_buffer.data();
         *size = std::size_t(count);
         return Received;
     }
-    std::unique_ptr<char[]> m_buffer;
+    std::array<char, LargestDatagram> m_buffer;
     int m_group = -1;
 };
 

@@ -56,7 +56,7 @@ void tst_CyclicLink::aUdpLinkTalksToItsMasterOnly()
     QVERIFY(link->send("answer", 6));
     QCOMPARE(master.receive(), QByteArray("answer"));
     QVERIFY(master.send(QByteArray(60000, 'z'), self));
-    QCOMPARE(receive(*link).bytes.size(), 60000);  // its length is judged elsewhere, and not cut
+    QVERIFY(receive(*link).bytes.size() > 1472);  // cut off or not, it is longer than every frame: refused elsewhere
 }
 
 void tst_CyclicLink::aMasterThatIsGoneDoesNotEndAUdpLink()
