@@ -144,7 +144,7 @@ public:
     /// Counters and the most important durations, quick to read.
     QPlcMasterStatistics statistics() const;
     /// All durations, counters, nodes and the worst cycles since the start of the last real-time phase. Takes some 10 us for the master and for each node; the cycle is
-    /// never disturbed.
+    /// never disturbed. Durations are at most 0.1 s old while cycles run, counters are those of now.
     QPlcCycleStatistics cycleStatistics(QPlcDistribution::Detail detail = QPlcDistribution::FiguresOnly) const;
     /// What became of the real-time options at the last start.
     QVector<QPlcRealTimeSetting> realTimeSettings() const;
