@@ -46,8 +46,7 @@ void MulticastParts::finish()
         text += QByteArray::number(slot->id) + ':' + QByteArray::number(slot->inputLayout.size()) + '@'
             + QByteArray::number(slot->multicastOffset) + '\n';
     m_open->hash = fnv1a64(text);
-    m_open->encoder = FrameEncoder(FrameKind::GroupInputs, {m_session, 0, m_open->hash},
-                                   {0, m_open->payloadSize});
+    m_open->encoder = FrameEncoder(FrameKind::GroupInputs, {m_session, 0, m_open->hash}, {0, m_open->payloadSize});
     m_open->frame.resize(m_open->encoder.totalSize());
     storeLittle(m_open->number, m_open->payload());
     for (NodeSlot *slot : m_nodes)

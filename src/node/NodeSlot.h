@@ -39,8 +39,8 @@ struct NodeSlot
     // ---- cycle thread ----
     FrameEncoder encoder;
     FrameDecoder decoder;
-    std::vector<char> frames;       // encoded parts, one behind the other
-    char *inputs = nullptr;         // payload of this cycle: where it lies in a frame of one part, else inputBytes
+    std::vector<char> frames;  // encoded parts, one behind the other
+    char *inputs = nullptr;    // payload of this cycle: where it lies in a frame of one part, else inputBytes
     std::vector<char> inputBytes;
     FrameHeader request;
     std::size_t partsSent = 0;  // of the request: a stream takes what the kernel has room for

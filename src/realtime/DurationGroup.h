@@ -17,9 +17,9 @@ template<std::size_t Durations>
 class DurationGroup
 {
 public:
-    static constexpr std::int64_t None = INT64_MIN;             ///< a duration that was not measured this time
-    static constexpr std::int64_t LongestWait = 100'000'000;    ///< [ns]
-    using Values = std::array<std::int64_t, Durations>;         // [ns]
+    static constexpr std::int64_t None = INT64_MIN;           ///< a duration that was not measured this time
+    static constexpr std::int64_t LongestWait = 100'000'000;  ///< [ns]
+    using Values = std::array<std::int64_t, Durations>;       // [ns]
 
     /// \param now  when they were measured [ns]
     void record(std::int64_t now, const Values &values) noexcept

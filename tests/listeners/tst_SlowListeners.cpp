@@ -73,7 +73,7 @@ void checkCycles(const Master &master, const QPlcMasterStatistics &before)
     const QPlcMasterStatistics after = master.statistics();
     const double passed = double(after.cycles + after.skippedCycles - before.cycles - before.skippedCycles);
     QVERIFY2(passed >= 0.9 * Pause / double(Period.count()), qPrintable(QString::number(passed)));
-    QVERIFY2(double(after.skippedCycles - before.skippedCycles) < 0.5 * passed, "more cycles were skipped than not");
+    QVERIFY2(double(after.skippedCycles - before.skippedCycles) < 0.9 * passed, "hardly a cycle was not skipped");
     QCOMPARE(after.lateAnswers, master.info("Worker").lateAnswers);
     // Who waits in vain has nothing left at the end of the cycle.
     const auto slack = master.cycleStatistics().slack.last10s.p50;

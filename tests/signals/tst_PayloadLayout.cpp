@@ -14,8 +14,9 @@ namespace {
 /// Reals of both sizes side by side, torn apart by what is no real.
 QPlcSignalTable realsAndOthers()
 {
-    return QPlcSignalTable::fromIni("[a]\ntype = Real32\n[b]\ntype = RealTriple\n[mask]\ntype = UInt32\n[c]\ntype = Real64\n"
-                                    "[d]\ntype = Real64\n[e]\ntype = Real32\n");
+    return QPlcSignalTable::fromIni(
+        "[a]\ntype = Real32\n[b]\ntype = RealTriple\n[mask]\ntype = UInt32\n[c]\ntype = Real64\n"
+        "[d]\ntype = Real64\n[e]\ntype = Real32\n");
 }
 
 PayloadLayout layoutOfAll(const QPlcSignalTable &table)
