@@ -99,13 +99,20 @@ QStringList histogramLines(const QJsonArray &array, int width)
     const auto isUsed = [](double count) { return count > 0.0; };
     const int first = int(std::find_if(counts.begin(), counts.end(), isUsed) - counts.begin());
     constexpr int textWidth = 12 + 12 + 11;  // border, count, share and blanks
+    constexpr int longestGap = 6;            // two decades
     QStringList lines;
-    for (int i = first; i < counts.size(); ++i)
+    for (int i = first; i < counts.size(); ++i) {
+        const int next = int(std::find_if(counts.begin() + i, counts.end(), isUsed) - counts.begin());
+        if (next - i > longestGap) {
+            lines << QStringLiteral("%1").arg(QStringLiteral("..."), 11);
+            i = next;
+        }
         lines << QStringLiteral("<= %1 %2 %3 %  %4")
                      .arg(durationText(borders.at(i)), 8)
                      .arg(counts.at(i), 11, 'f', 0)
                      .arg(100.0 * counts.at(i) / total, 7, 'f', 3)
                      .arg(bar(counts.at(i) / most, std::max(width - textWidth, 5)));
+    }
     return lines;
 }
 

@@ -19,6 +19,7 @@ private Q_SLOTS:
     void rowHoldsWhatIsNotAboveItsBorder();
     void rareValuesAreSeen();
     void gapsKeepTheirRows();
+    void longGapsAreOneLine();
     void linesAreAsWideAsWanted_data();
     void linesAreAsWideAsWanted();
     void nonsenseIsNoReasonToCrash();
@@ -104,6 +105,14 @@ void tst_HistogramText::gapsKeepTheirRows()
     const QStringList lines = histogramLines({bin(1000, 1), bin(100'000, 1)}, 80);
     QCOMPARE(lines.size(), 7);  // 1 2 5 10 20 50 100 us
     QVERIFY(!lines.at(3).contains(QChar(0x258f)));
+}
+
+void tst_HistogramText::longGapsAreOneLine()
+{
+    const QStringList lines = histogramLines({bin(1, 2), bin(10'000'000, 8)}, 80);
+    QCOMPARE(lines.size(), 3);
+    QCOMPARE(lines.at(1).trimmed(), QStringLiteral("..."));
+    QCOMPARE(lines.at(2).simplified().section(QLatin1Char(' '), 1, 4), QStringLiteral("10.0 ms 8 80.000"));
 }
 
 void tst_HistogramText::linesAreAsWideAsWanted_data()
