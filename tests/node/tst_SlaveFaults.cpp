@@ -239,10 +239,7 @@ void tst_SlaveFaults::outputsThatAreNotFiniteStopThePlant()
         QVERIFY(master.listen());
         Bad node;
         node.bad = value;
-        if (kind == "local")
-            QVERIFY(master.addLocalNode(&node));
-        else
-            QVERIFY(node.connectToMasterAndWaitForConnected(master.protocol(kind)));
+        QVERIFY(master.admit(node, kind));
         QVERIFY(master.startRealTime());
         QVERIFY(master.waitForState(QPlcMasterNode::Off));
         QCOMPARE(master.error(), QPlcMasterNode::NodeError);
