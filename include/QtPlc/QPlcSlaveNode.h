@@ -91,7 +91,8 @@ public:
     void setName(const QString &name);
     RealTimeViolationPolicy realTimeViolationPolicy() const;
 
-    /// A listener is never waited for, by no clock, and is never late: what it answers is taken in the cycle in which it is there. \pre not connected
+    /// A listener is never waited for, by no clock, and is never late: what it answers is taken in the cycle in which it is there. Initialization and start do
+    /// not wait for it either: it may miss the first cycles. In another process than the master its faults end its connection, not the plant. \pre not connected
     void setListener(bool listener);
     bool isListener() const;
 

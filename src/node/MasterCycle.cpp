@@ -80,10 +80,6 @@ void MasterCycle::setRoster(const Roster &roster)
         freeRetired();
         return;
     }
-    for (const std::shared_ptr<NodeSlot> &slot : roster.nodes) {
-        if (slot->local)
-            slot->local->setLockstep(m_phase.clock.isLockstep(), m_time);
-    }
     delete m_pendingRoster.exchange(copy.release());  // one that was never adopted belongs to nobody else
 }
 

@@ -64,7 +64,7 @@ public:
     std::int64_t period() const { return m_clock ? m_clock->period() : 0; }
     const QVector<QPlcRealTimeSetting> &realTimeSettings() const { return m_thread.settings(); }
 
-    /// Gives the nodes of the cycles from the next one on; also while cycles run.
+    /// Gives the nodes of the cycles from the next one on; also while cycles run, but then the nodes of this process stay the same.
     void setRoster(const Roster &roster);
     /// Sets signals between two cycles; also while cycles run. \return false, and none is set, when too many are under way
     bool setValues(const std::vector<SignalSetting> &settings);

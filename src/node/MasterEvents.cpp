@@ -35,16 +35,20 @@ void QPlcMasterNodePrivate::report(const CycleEvent &event)
     case CycleEvent::WaitingEnded:
         setState(isRunning() ? QPlcMasterNode::RealTime : state);
         break;
-    case CycleEvent::NotFinite:
-        fault(QStringLiteral("node '%1': signal '%2' is not a finite number in cycle %3")
-                  .arg(nodeName(event.node), table.at(event.signal).name)
-                  .arg(event.cycle));
+    case CycleEvent::NotFinite: {
+        const QString text = QStringLiteral("signal '%1' is not a finite number in cycle %2")
+                                 .arg(table.at(event.signal).name)
+                                 .arg(event.cycle);
+        if (!dropFaulty(event.node, text))
+            fault(QStringLiteral("node '%1': %2").arg(nodeName(event.node), text));
         break;
+    }
     case CycleEvent::NodeFaulted: {
         const std::shared_ptr<NodeSlot> slot = registry->find(event.node);
         const QString what = slot && slot->local ? QString::fromLocal8Bit(slot->local->faultText())
                                                  : QStringLiteral("its code failed");
-        fault(QStringLiteral("node '%1' in cycle %2: %3").arg(nodeName(event.node)).arg(event.cycle).arg(what));
+        if (!dropFaulty(event.node, what))
+            fault(QStringLiteral("node '%1' in cycle %2: %3").arg(nodeName(event.node)).arg(event.cycle).arg(what));
         break;
     }
     case CycleEvent::LinkClosed:
@@ -98,6 +102,16 @@ void QPlcMasterNodePrivate::stopAfterOverrun(const CycleEvent &event)
     stop(text);
 }
 
+/// A listener in another process cannot go on: it has to leave, and the plant goes on. \return false when the node is none
+bool QPlcMasterNodePrivate::dropFaulty(quint16 id, const QString &text)
+{
+    const std::shared_ptr<NodeSlot> slot = registry->find(id);
+    Connection *connection = slot && slot->listener && !slot->local ? server->connectionOf(slot.get()) : nullptr;
+    if (connection)
+        server->drop(connection, text);
+    return connection || (!slot && m_goneListeners.contains(id));  // gone: it has reported more than once
+}
+
 /// A node cannot go on: the plant stops. What follows from the first fault is its echo and says nothing new.
 void QPlcMasterNodePrivate::fault(const QString &text)
 {
@@ -120,6 +134,8 @@ void QPlcMasterNodePrivate::nodeLost(Connection *connection, const QString &reas
     const bool wasAwaited = m_step != Step::None && participant != m_participants.end();
     if (participant != m_participants.end())
         m_participants.erase(participant);
+    if (connection->slot->listener)
+        m_goneListeners.insert(connection->slot->id);
     if (connection->stage == Connection::Running)
         giveRoster();
     Q_EMIT q->nodeLost(connection->name, reason);

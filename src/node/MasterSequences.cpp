@@ -27,7 +27,7 @@ bool QPlcMasterNodePrivate::initializeAllStates()
     return error == QPlcMasterNode::NoError;
 }
 
-/// Every node now owes the answer that brings it to stage \a owed.
+/// Every node that is waited for now owes the answer that brings it to stage \a owed.
 void QPlcMasterNodePrivate::begin(Step step, Connection::Stage owed)
 {
     m_step = step;
@@ -81,10 +81,12 @@ void QPlcMasterNodePrivate::collectOutputs()
     statisticSignals.reset(cycle.get());
     m_participants.clear();
     for (const std::unique_ptr<Connection> &connection : server->connections()) {
-        if (connection->isAttached())
+        if (connection->isAttached() && !connection->slot->listener)
             m_participants.push_back(connection.get());
     }
     begin(Step::CollectOutputs, Connection::OutputsGiven);
+    for (Connection *listener : listeners())
+        join(listener);
     for (Connection *connection : m_participants)
         connection->send(Message::SendYourInitialOutputStates);
     for (const std::shared_ptr<NodeSlot> &slot : registry->nodes()) {
@@ -126,7 +128,7 @@ bool QPlcMasterNodePrivate::storeOutputs(Connection *connection, const Message &
     }
     NodeSlot &slot = *connection->slot;
     slot.initialOutputs.assign(values.begin(), values.end());
-    if (!isRunning())
+    if (!isRunning() && !slot.listener)
         return takeOutputs(slot, values.constData());
     if (const qplc::PayloadLayout::Field *field = slot.outputLayout.firstNotFinite(values.constData())) {
         server->drop(connection,
@@ -134,16 +136,24 @@ bool QPlcMasterNodePrivate::storeOutputs(Connection *connection, const Message &
                          .arg(table.at(field->signal).name));
         return false;
     }
+    if (!isRunning())
+        qplc::copyRuns(slot.outputRuns, values.constData(), cycle->image().data());
     return true;
+}
+
+void QPlcMasterNodePrivate::sendInitialInputs(const Connection *connection)
+{
+    const QByteArray values = cycle->gather(connection->slot->inputRuns, connection->slot->inputLayout.size());
+    connection->send(Message::InitializeWithValues, {{QStringLiteral("values"), Message::fromBytes(values)}});
 }
 
 void QPlcMasterNodePrivate::distributeInputs()
 {
     begin(Step::DistributeInputs, Connection::Initialized);
-    for (Connection *connection : m_participants) {
-        const QByteArray values = cycle->gather(connection->slot->inputRuns, connection->slot->inputLayout.size());
-        connection->send(Message::InitializeWithValues, {{QStringLiteral("values"), Message::fromBytes(values)}});
-    }
+    for (const Connection *connection : m_participants)
+        sendInitialInputs(connection);
+    for (Connection *listener : listeners())
+        goOn(listener);
     for (const std::shared_ptr<NodeSlot> &slot : registry->nodes()) {
         if (!slot->local)
             continue;
@@ -262,13 +272,20 @@ QJsonObject QPlcMasterNodePrivate::startFields(const NodeSlot &slot) const
 void QPlcMasterNodePrivate::beginStart()
 {
     begin(Step::Start, Connection::Running);
+    std::vector<Connection *> told = m_participants;
+    for (Connection *listener : listeners()) {
+        if (listener->stage != Connection::Initialized)
+            continue;  // it has not come so far: goOn()
+        listener->stage = Connection::Starting;
+        told.push_back(listener);
+    }
     m_multicastParts.restart(session, server->multicastGroup());
-    for (Connection *connection : m_participants) {
+    for (Connection *connection : told) {
         if (connection->slot->wantsMulticast)
             m_multicastParts.add(*connection->slot);
     }
     m_multicastParts.finish();
-    for (Connection *connection : m_participants)
+    for (const Connection *connection : told)
         connection->send(Message::RealTimeStarted, startFields(*connection->slot));
     advance();
 }
@@ -296,6 +313,7 @@ void QPlcMasterNodePrivate::startCycles()
             qCWarning(lcMaster).noquote() << setting.toString();
     }
     m_participants.clear();
+    m_goneListeners.clear();
     statisticSignals.start(cycle.get(), registry.get(), clock.isLockstep());
     setState(QPlcMasterNode::RealTime);
     for (const std::shared_ptr<NodeSlot> &slot : registry->nodes()) {
@@ -353,35 +371,4 @@ void QPlcMasterNodePrivate::stop(const QString &reason)
     }
     takeReports();
     Q_EMIT q->realTimeHasStopped();
-}
-
-// ---- joining while others run ----
-
-void QPlcMasterNodePrivate::join(Connection *connection)
-{
-    connection->stage = Connection::GivingOutputs;
-    connection->send(Message::SendYourInitialOutputStates);
-}
-
-void QPlcMasterNodePrivate::continueJoin(Connection *connection, const Message &message)
-{
-    if (message.kind() == Message::ReceiveMyInitialOutputStates && connection->stage == Connection::GivingOutputs) {
-        if (!storeOutputs(connection, message))
-            return;
-        connection->stage = Connection::Initializing;
-        const QByteArray values = cycle->gather(connection->slot->inputRuns, connection->slot->inputLayout.size());
-        connection->send(Message::InitializeWithValues, {{QStringLiteral("values"), Message::fromBytes(values)}});
-    } else if (message.kind() == Message::Initialized && connection->stage == Connection::Initializing) {
-        connection->stage = Connection::Starting;
-        if (connection->slot->wantsMulticast) {
-            m_multicastParts.add(*connection->slot);  // a part of its own: the others know theirs
-            m_multicastParts.finish();
-        }
-        connection->send(Message::RealTimeStarted, startFields(*connection->slot));
-    } else if (message.kind() == Message::RealTimeReady && connection->stage == Connection::Starting) {
-        connection->stage = Connection::Running;
-        giveRoster();
-    } else {
-        connection->fail(QStringLiteral("WrongState"), QStringLiteral("%1 was not asked for").arg(message.kindName()));
-    }
 }

@@ -202,7 +202,7 @@ void QPlcMasterNodePrivate::receive(Connection *connection, const Message &messa
         if (!connection->isNode())
             connection->fail(QStringLiteral("MalformedMessage"),
                              QStringLiteral("%1 is for registered nodes only").arg(message.kindName()));
-        else if (isRunning())
+        else if (isRunning() || connection->slot->listener)
             continueJoin(connection, message);
         else
             continueSequence(connection, message);
@@ -211,10 +211,10 @@ void QPlcMasterNodePrivate::receive(Connection *connection, const Message &messa
         if (!connection->isNode())
             connection->fail(QStringLiteral("MalformedMessage"),
                              QStringLiteral("NodeFault is for registered nodes only"));
-        else if (isRunning() && connection->stage != Connection::Running)
+        else if (connection->slot->listener || (isRunning() && connection->stage != Connection::Running))
             server->drop(connection,
-                         qplc::printable(
-                             message.text(QStringLiteral("text"))));  // it failed to join: no reason to stop the others
+                         qplc::printable(message.text(QStringLiteral(
+                             "text"))));  // a listener, or it failed to join: no reason to stop the others
         else
             fault(QStringLiteral("node '%1': %2")
                       .arg(connection->name, qplc::printable(message.text(QStringLiteral("text")))));

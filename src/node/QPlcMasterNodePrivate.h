@@ -10,6 +10,7 @@
 
 #include <QtCore/QHash>
 #include <QtCore/QPointer>
+#include <QtCore/QSet>
 #include <QtCore/QSocketNotifier>
 #include <QtCore/QTimer>
 
@@ -17,7 +18,8 @@
 
 /// States and sequences of a master: initialization, start, stop, and nodes that join while others run.
 ///
-/// A sequence is a row of steps; in each step every participating node owes one answer, and the next step begins when all have given it.
+/// A sequence is a row of steps; in each step every participating node owes one answer, and the next step begins when all have given it. Listeners do not
+/// participate: they are told the same, and join when they have answered.
 class QPlcMasterNodePrivate
 {
 public:
@@ -97,8 +99,11 @@ private:
     void stepTimedOut();
     void answerRequester(bool done, const QString &text);
 
+    std::vector<Connection *> listeners() const;
     void join(Connection *connection);
     void continueJoin(Connection *connection, const QPlcMessage &message);
+    void goOn(Connection *connection);
+    void sendInitialInputs(const Connection *connection);
     bool storeOutputs(Connection *connection, const QPlcMessage &message);
     QJsonObject startFields(const qplc::NodeSlot &slot) const;
     void giveRoster();
@@ -108,6 +113,7 @@ private:
     void report(const qplc::CycleEvent &event);
     void logLateAnswer(const qplc::CycleEvent &event);
     void stopAfterOverrun(const qplc::CycleEvent &event);
+    bool dropFaulty(quint16 id, const QString &text);
     void fault(const QString &text);
     QString nodeName(quint16 id) const;
 
@@ -125,5 +131,6 @@ private:
         quint64 untold = 0;
     };
     QHash<quint16, LateLog> m_lateLogs;  // by id of the node
+    QSet<quint16> m_goneListeners;       // of this phase, whose reports may still come
     std::unique_ptr<QSocketNotifier> m_reportNotifier;
 };

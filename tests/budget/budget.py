@@ -60,12 +60,19 @@ class Check:
             known = self.budget.setdefault(name, {})
             try:
                 if not self.write and not any(key == case or key.startswith(case + " ") for key in known):
-                    raise Skipped(f"there is no budget for it; remedy: {shlex.join(sys.argv)} --write")
+                    raise Skipped(self.unknown(name))
                 for what, seen in self.cheapest(name, case, counter).items():
                     self.compare(name, f"{case} {what}".strip(), seen)
             except Skipped as reason:
                 self.skipped.append(f"{name}, {case}: {reason}")
                 print(f"SKIPPED {self.skipped[-1]}", flush=True)
+
+    def unknown(self, group):
+        remedy = f"remedy: {shlex.join(sys.argv)} --write"
+        if group != "instructions":
+            return f"there is no budget for it; {remedy}"
+        builds = sorted({key.split(":")[0] for key in self.budget[group]})
+        return f"this build is not judged, but {', '.join(builds)}; if users get it, {remedy}"
 
     def cheapest(self, group, case, counter):
         seen = counter()

@@ -15,6 +15,8 @@ class tst_SlowListeners : public QObject
 private Q_SLOTS:
     void aStoppedListenerChangesNothing_data();
     void aStoppedListenerChangesNothing();
+    void aListenerThatIsStoppedAtTheStartJoinsLater_data() { aStoppedListenerChangesNothing_data(); }
+    void aListenerThatIsStoppedAtTheStartJoinsLater();
     void aListenerBehindAHangingThreadChangesNothing();
     void aHangingEventLoopOfTheMasterChangesNothing();
 };
@@ -66,6 +68,16 @@ public:
         return (kind == "local" ? QString("local://%1") : kind + "://127.0.0.1:%1").arg(serverPort());
     }
 };
+
+/// Stops a process, and waits until it is.
+bool suspend(Program &program)
+{
+    program.sendSignal(SIGSTOP);
+    return QTest::qWaitFor([&] {
+        QFile file(QString("/proc/%1/stat").arg(program.processId()));
+        return file.open(QIODevice::ReadOnly) && file.readAll().contains(") T ");
+    });
+}
 
 /// Cycles go on, have time left, and nobody but the worker was ever late.
 void checkCycles(const Master &master, const QPlcMasterStatistics &before)
@@ -122,6 +134,41 @@ void tst_SlowListeners::aStoppedListenerChangesNothing()
     QVERIFY2(heard["silence_ms"].toDouble() >= 0.0 && heard["silence_ms"].toDouble() < 250.0, said);
     QVERIFY2(heard["missed"].toDouble() >= 0.5 * Pause / double(Period.count()), said);
     QCOMPARE(heard["computed"].toDouble() + heard["missed"].toDouble(), heard["spanned"].toDouble());
+}
+
+void tst_SlowListeners::aListenerThatIsStoppedAtTheStartJoinsLater()
+{
+    QFETCH(QString, kind);
+    Master master;
+    QVERIFY(master.startServer(QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, 0)));
+    Program worker(QTPLC_PLANT_LISTENER, {"--worker", "--master", master.address("udp")});
+    Program listener(QTPLC_PLANT_LISTENER, {"--master", master.address(kind)});
+    QTRY_COMPARE_WITH_TIMEOUT(master.nodes().size(), 2, 20000);
+    QVERIFY(suspend(listener));
+    for (int phase = 1; phase <= 2; ++phase) {
+        QElapsedTimer timer;
+        timer.start();
+        QVERIFY(master.startRealTime());
+        QTRY_COMPARE(master.state(), QPlcMasterNode::RealTime);
+        QVERIFY2(timer.elapsed() < 1000, "half of the time that a node has for its answer");
+        QTRY_VERIFY(master.statistics().cycles > 100);
+        QCOMPARE(master.nodes().size(), 2);
+        if (phase == 1)
+            master.stop();
+    }
+
+    listener.sendSignal(SIGCONT);
+    QTest::qWait(500);
+    master.stop();
+    QCOMPARE(master.error(), QPlcMasterNode::NoError);
+    master.stopServer();
+    QCOMPARE(listener.waitForEnd(), 0);
+    QVERIFY2(!listener.errors().contains("ignores") && !listener.errors().contains("in vain"),
+             qPrintable(listener.errors()));
+    const QByteArray said = listener.output().toUtf8();
+    const QJsonObject heard = QJsonDocument::fromJson(said).object();
+    QVERIFY2(heard["computed"].toDouble() > 10.0, said);  // on an idle machine 250
+    QVERIFY2(heard["stale"].toDouble() <= 3.0, said);
 }
 
 void tst_SlowListeners::aListenerBehindAHangingThreadChangesNothing()

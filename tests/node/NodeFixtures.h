@@ -44,6 +44,21 @@ type = Real32
     return table;
 }
 
+inline QPlcSignalIndexList indices(const QStringList &names)
+{
+    QPlcSignalIndexList list;
+    for (const QString &name : names)
+        list.insert(name);
+    return list;
+}
+
+inline QPlcSignalList valueOf(const char *name, const QPlcValue &value)
+{
+    QPlcSignalList list;
+    list.insert(QString(name), value);
+    return list;
+}
+
 /// A master on a free loopback port with the table of the tests.
 class TestMaster : public QPlcMasterNode
 {
@@ -62,6 +77,12 @@ public:
     {
         return kind == QLatin1String("udp") ? QPlcUnderlyingProtocol::udp(QHostAddress::LocalHost, serverPort())
                                             : QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, serverPort());
+    }
+    /// \param kind  "local": in this process; else the protocol over which the node connects
+    bool admit(QPlcSlaveNode &node, const QString &kind)
+    {
+        return kind == QLatin1String("local") ? addLocalNode(&node)
+                                              : node.connectToMasterAndWaitForConnected(protocol(kind));
     }
     bool waitForCycles(quint64 cycles)
     {

@@ -113,6 +113,8 @@ public:
         send(QPlcMessage::RealTimeStarted, startFields(clock, period));
         return next().kind() == QPlcMessage::RealTimeReady;
     }
+    /// Admits \a node over UDP, and starts it in lockstep.
+    bool beginWith(QPlcSlaveNode &node) { return admit(node, udp()) && start(QStringLiteral("Lockstep")); }
 
     // ---- cyclic channel ----
     quint32 inputSize() const { return m_in.size(); }

@@ -203,6 +203,11 @@ public:
         else
             stream.write(frame);
     }
+    /// Registers at \a master, which does not listen yet, starts it, and gets the first request.
+    bool beginWith(TestMaster &master)
+    {
+        return master.listen() && registerAt(master.serverPort()) && master.startRealTime() && waitForRequests(1);
+    }
     bool waitForRequests(int count)
     {
         return QTest::qWaitFor([&] { return requests.size() >= count; }, 5000);

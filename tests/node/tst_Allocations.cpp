@@ -92,6 +92,23 @@ private:
     }
 };
 
+/// Runs a phase, in which \a cycles cycles between its begin and its end spend nothing.
+void checkCosts(TestMaster &master, quint64 cycles)
+{
+    constexpr quint64 begin = 100;
+    constexpr quint64 end = 50;
+    master.setCycleLimit(begin + cycles + end);
+    QVERIFY(master.startRealTime());
+    QVERIFY(master.waitForCycles(begin));
+    const ThreadCosts before = ThreadCosts::ofWatchedThreads();
+    QVERIFY(QTest::qWaitFor([&] { return master.statistics().cycles >= begin + cycles; }, 50000));
+    const ThreadCosts spent = ThreadCosts::ofWatchedThreads() - before;
+    QVERIFY(master.waitForState(QPlcMasterNode::Off));
+    QCOMPARE(master.statistics().cycles, begin + cycles + end);
+    QCOMPARE(spent.allocations, std::uint64_t(0));
+    QCOMPARE(spent.locks, std::uint64_t(0));
+}
+
 }  // namespace
 
 void tst_Allocations::initTestCase()
@@ -117,15 +134,7 @@ void tst_Allocations::aMillionCyclesInProcess()
     QVERIFY(master.setTimeSignal("time"));
     Everything node;
     QVERIFY2(master.addLocalNode(&node), qPrintable(master.errorString()));
-    master.setCycleLimit(1'000'100);
-    QVERIFY(master.startRealTime());
-    QVERIFY(QTest::qWaitFor([&] { return master.statistics().cycles >= 100; }, 5000));
-    const ThreadCosts before = ThreadCosts::ofWatchedThreads();
-    QVERIFY(QTest::qWaitFor([&] { return master.state() == QPlcMasterNode::Off; }, 50000));
-    const ThreadCosts spent = ThreadCosts::ofWatchedThreads() - before;
-    QCOMPARE(master.statistics().cycles, quint64(1'000'100));
-    QCOMPARE(spent.allocations, std::uint64_t(0));
-    QCOMPARE(spent.locks, std::uint64_t(0));
+    checkCosts(master, 1'000'000);
 }
 
 void tst_Allocations::cyclesOverTheNetwork_data()
@@ -153,15 +162,7 @@ void tst_Allocations::cyclesOverTheNetwork()
     QVERIFY(master.listen());
     Everything node;
     QVERIFY2(node.connectToMasterAndWaitForConnected(master.protocol(kind)), qPrintable(node.errorString()));
-    master.setCycleLimit(20'100);
-    QVERIFY(master.startRealTime());
-    QVERIFY(master.waitForCycles(100));
-    const ThreadCosts before = ThreadCosts::ofWatchedThreads();
-    QVERIFY(QTest::qWaitFor([&] { return master.statistics().cycles >= 20'050; }, 50000));
-    const ThreadCosts spent = ThreadCosts::ofWatchedThreads() - before;
-    QVERIFY(master.waitForState(QPlcMasterNode::Off));
-    QCOMPARE(spent.allocations, std::uint64_t(0));
-    QCOMPARE(spent.locks, std::uint64_t(0));
+    checkCosts(master, 20'000);
     node.disconnectFromMaster();
     QPlcSignalIndexTable::setCurrent({});
 }
@@ -202,15 +203,7 @@ void tst_Allocations::stagesAndTwoPhaseNodes()
     QVERIFY(kind == QLatin1String("inprocess") ? master.addLocalNode(&node)
                                                : node.connectToMasterAndWaitForConnected(master.protocol(kind)));
     QCOMPARE(master.schedule().stages.size(), 3);
-    master.setCycleLimit(20'100);
-    QVERIFY(master.startRealTime());
-    QVERIFY(master.waitForCycles(100));
-    const ThreadCosts before = ThreadCosts::ofWatchedThreads();
-    QVERIFY(QTest::qWaitFor([&] { return master.statistics().cycles >= 20'050; }, 50000));
-    const ThreadCosts spent = ThreadCosts::ofWatchedThreads() - before;
-    QVERIFY(master.waitForState(QPlcMasterNode::Off));
-    QCOMPARE(spent.allocations, std::uint64_t(0));
-    QCOMPARE(spent.locks, std::uint64_t(0));
+    checkCosts(master, 20'000);
     node.disconnectFromMaster();
     QPlcSignalIndexTable::setCurrent({});
 }
@@ -230,15 +223,7 @@ void tst_Allocations::buffersAndIoNodes()
     Everything node;
     QVERIFY(master.addLocalNode(&node));
     QVERIFY(master.addLocalNode(&viewer));
-    master.setCycleLimit(10'100);
-    QVERIFY(master.startRealTime());
-    QVERIFY(master.waitForCycles(100));
-    const ThreadCosts before = ThreadCosts::ofWatchedThreads();
-    QVERIFY(master.waitForCycles(10'050));
-    const ThreadCosts spent = ThreadCosts::ofWatchedThreads() - before;
-    QVERIFY(master.waitForState(QPlcMasterNode::Off));
-    QCOMPARE(spent.allocations, std::uint64_t(0));
-    QCOMPARE(spent.locks, std::uint64_t(0));
+    checkCosts(master, 10'000);
     QPlcSignalIndexTable::setCurrent({});
 }
 

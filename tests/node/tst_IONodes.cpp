@@ -28,21 +28,6 @@ private Q_SLOTS:
 
 namespace {
 
-QPlcSignalIndexList indices(const QStringList &names)
-{
-    QPlcSignalIndexList list;
-    for (const QString &name : names)
-        list.insert(name);
-    return list;
-}
-
-QPlcSignalList valueOf(const char *name, const QPlcValue &value)
-{
-    QPlcSignalList list;
-    list.insert(QString(name), value);
-    return list;
-}
-
 /// Runs \a task in the thread of \a node, and waits for its end.
 template<typename Task>
 void inThreadOf(QPlcSlaveNode *node, Task task)
@@ -106,10 +91,7 @@ void tst_IONodes::outputsSetBetweenPhasesBeginTheNextOne()
     QVERIFY(master.listen());
     QPlcIOSlaveNode node("Operator");
     node.setOutputSignalIndices(indices({"setpoint"}));
-    if (kind == "local")
-        QVERIFY2(master.addLocalNode(&node), qPrintable(master.errorString()));
-    else
-        QVERIFY2(node.connectToMasterAndWaitForConnected(master.protocol(kind)), qPrintable(node.errorString()));
+    QVERIFY(master.admit(node, kind));
     for (double value : {1.0, 2.0, 3.0}) {
         node.setOutputSignals(valueOf("setpoint", value));  // no cycle runs
         const double before = master.signalValue("setpoint").toReal();

@@ -120,12 +120,6 @@ private:
     LargePorts m_outputs{this, QPlcPort::Output, "Copy"};
 };
 
-bool join(TestMaster &master, QPlcSlaveNode &node, const QString &kind)
-{
-    return kind == "local" ? master.addLocalNode(&node)
-                           : node.connectToMasterAndWaitForConnected(master.protocol(kind));
-}
-
 }  // namespace
 
 void tst_LargeFrames::textsAndArraysTravelUnchanged_data()
@@ -154,8 +148,8 @@ void tst_LargeFrames::textsAndArraysTravelUnchanged()
     QVERIFY(master.listen());
     Writer writer;
     Copier copier;
-    QVERIFY2(join(master, writer, writerKind), qPrintable(master.errorString() + writer.errorString()));
-    QVERIFY2(join(master, copier, copierKind), qPrintable(master.errorString() + copier.errorString()));
+    QVERIFY2(master.admit(writer, writerKind), qPrintable(master.errorString() + writer.errorString()));
+    QVERIFY2(master.admit(copier, copierKind), qPrintable(master.errorString() + copier.errorString()));
     QVERIFY2(master.startRealTime(), qPrintable(master.errorString()));
     QVERIFY(QTest::qWaitFor(
         [&] { return master.statistics().cycles == Cycles && master.state() == QPlcMasterNode::Off; }, 30000));
@@ -221,7 +215,7 @@ void tst_LargeFrames::payloadsAroundTheBorderOfAFrame()
         master.setCycleLimit(20);
         QVERIFY(master.listen());
         Through node;
-        QVERIFY2(join(master, node, kind), qPrintable(node.errorString()));
+        QVERIFY2(master.admit(node, kind), qPrintable(node.errorString()));
         for (int i = 0; i < 3; ++i) {
             QByteArray bytes(sizes[i], '\0');
             for (int j = 0; j < bytes.size(); ++j)

@@ -145,11 +145,8 @@ void tst_RealTimeSequence::aListenerInLockstepIsHeardWhenItSpeaks()
 void tst_RealTimeSequence::framesOfTheLastPhaseAreNeverTaken()
 {
     TestMaster master;
-    QVERIFY(master.listen());
     ScriptedNode node;
-    QVERIFY(node.registerAt(master.serverPort()));
-    QVERIFY(master.startRealTime());
-    QVERIFY(node.waitForRequests(1));
+    QVERIFY(node.beginWith(master));
     const quint64 old = node.requests.at(0).cycle;
     node.answer(old, 1.0);
     QVERIFY(node.waitForRequests(2));

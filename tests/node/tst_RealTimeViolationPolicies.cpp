@@ -187,14 +187,11 @@ void tst_RealTimeViolationPolicies::aNodeThatDiesWhileWaitedForIsNotWaitedFor()
     QFETCH(bool, controlDies);
     TestMaster master(lockstep ? QPlcClock::lockstep() : QPlcClock::realTime());
     master.setInterval(0.005);
-    QVERIFY(master.listen());
     ScriptedNode node("Mortal");
     node.policy = "ErrorWait";
     node.cyclic = kind;
-    QVERIFY(node.registerAt(master.serverPort()));
     QSignalSpy lost(&master, &QPlcMasterNode::nodeLost);
-    QVERIFY(master.startRealTime());
-    QVERIFY(node.waitForRequests(1));
+    QVERIFY(node.beginWith(master));
     if (!lockstep)
         QVERIFY(master.waitForState(State::WaitingForLateSlaves));
     if (controlDies)
@@ -230,12 +227,9 @@ void tst_RealTimeViolationPolicies::stopIsNoViolation()
 {
     TestMaster master(QPlcClock::realTime());
     master.setInterval(5.0);
-    QVERIFY(master.listen());
     ScriptedNode node;
-    QVERIFY(node.registerAt(master.serverPort()));
     QSignalSpy violated(&master, &QPlcMasterNode::realTimeViolated);
-    QVERIFY(master.startRealTime());
-    QVERIFY(node.waitForRequests(1));
+    QVERIFY(node.beginWith(master));
     master.stop();  // long before the answer was due
     QCOMPARE(violated.size(), 0);
     QCOMPARE(master.statistics().lateAnswers, quint64(0));

@@ -162,6 +162,7 @@ void tst_SameCycle::twoPhaseNodesCloseTheLoopWithoutDeadTime()
     master.setCycleLimit(5);
     QVERIFY(master.startRealTime());
     QVERIFY(master.waitForState(QPlcMasterNode::Off));
+    QTRY_COMPARE(adder.state(), QPlcSlaveNode::Off);  // its thread has ended
     // s(0) = 1, s(k + 1) = s(k) + s(k) + 1
     QCOMPARE(seen, (QVector<double>{1, 3, 7, 15, 31}));
     QCOMPARE(master.signalValue("sum").toReal(), 31.0);

@@ -79,21 +79,6 @@ private:
     QPlcSignalIndex m_count = 0;
 };
 
-QPlcSignalIndexList indices(const QStringList &names)
-{
-    QPlcSignalIndexList list;
-    for (const QString &name : names)
-        list.insert(name);
-    return list;
-}
-
-QPlcSignalList valueOf(const char *name, const QPlcValue &value)
-{
-    QPlcSignalList list;
-    list.insert(QString(name), value);
-    return list;
-}
-
 }  // namespace
 
 void tst_SignalListNodes::listsCarryValuesInAndOut_data()
@@ -110,10 +95,7 @@ void tst_SignalListNodes::listsCarryValuesInAndOut()
     TestMaster master;
     Doubler node;
     QVERIFY(master.listen());
-    if (kind == "local")
-        QVERIFY2(master.addLocalNode(&node), qPrintable(master.errorString()));
-    else
-        QVERIFY2(node.connectToMasterAndWaitForConnected(master.protocol(kind)), qPrintable(node.errorString()));
+    QVERIFY(master.admit(node, kind));
     master.setCycleLimit(5);
     QSignalSpy initialized(&master, &QPlcMasterNode::statesInitialized);
     QVERIFY(master.initializeAllStates());

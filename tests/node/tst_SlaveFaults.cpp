@@ -144,8 +144,7 @@ void tst_SlaveFaults::aStepThatThrowsGivesTheLastValuesAndAFault()
         if (cycle.number() >= 1)
             throw std::runtime_error("division by zero");
     };
-    QVERIFY(master.admit(node, master.udp()));
-    QVERIFY(master.start("Lockstep"));
+    QVERIFY(master.beginWith(node));
     for (quint64 k = 0; k < 4; ++k)
         master.request(k);
     QVERIFY(master.waitForAnswers(4));
@@ -188,10 +187,7 @@ void tst_SlaveFaults::aStepThatThrowsStopsThePlant()
         if (cycle.number() == 5)
             throw std::runtime_error("broken");
     };
-    if (kind == "local")
-        QVERIFY(master.addLocalNode(&thrower));
-    else
-        QVERIFY(thrower.connectToMasterAndWaitForConnected(master.protocol(kind)));
+    QVERIFY(master.admit(thrower, kind));
     QSignalSpy errors(&master, &QPlcMasterNode::errorOccurred);
     QSignalSpy stopped(&master, &QPlcMasterNode::realTimeHasStopped);
     QVERIFY(master.startRealTime());
@@ -243,10 +239,7 @@ void tst_SlaveFaults::outputsThatAreNotFiniteStopThePlant()
         QVERIFY(master.listen());
         Bad node;
         node.bad = value;
-        if (kind == "local")
-            QVERIFY(master.addLocalNode(&node));
-        else
-            QVERIFY(node.connectToMasterAndWaitForConnected(master.protocol(kind)));
+        QVERIFY(master.admit(node, kind));
         QVERIFY(master.startRealTime());
         QVERIFY(master.waitForState(QPlcMasterNode::Off));
         QCOMPARE(master.error(), QPlcMasterNode::NodeError);
@@ -320,13 +313,10 @@ void tst_SlaveFaults::stoppedMayThrow()
 void tst_SlaveFaults::aTornCyclicStreamEndsTheNode()
 {
     TestMaster master;
-    QVERIFY(master.listen());
     ScriptedNode node("Torn");
     node.cyclic = "tcp";
-    QVERIFY(node.registerAt(master.serverPort()));
     QSignalSpy lost(&master, &QPlcMasterNode::nodeLost);
-    QVERIFY(master.startRealTime());
-    QVERIFY(node.waitForRequests(1));
+    QVERIFY(node.beginWith(master));
     QByteArray wrongChecksum = node.answerFrames(node.requests.at(0).cycle, QByteArray(8, '\0')).at(0);
     wrongChecksum[14] = char(wrongChecksum.at(14) ^ 1);
     node.sendFrame(wrongChecksum);  // alone it is dropped, as with UDP

@@ -28,11 +28,8 @@ private Q_SLOTS:
 void tst_UdpLoss::aLostRequestIsSentAgain()
 {
     TestMaster master;
-    QVERIFY(master.listen());
     ScriptedNode node;
-    QVERIFY(node.registerAt(master.serverPort()));
-    QVERIFY(master.startRealTime());
-    QVERIFY(node.waitForRequests(1));
+    QVERIFY(node.beginWith(master));
     const quint64 cycle = node.requests.at(0).cycle;
     QVERIFY(node.waitForRequestOf(cycle, qplc::ResentFlag));
     const ScriptedNode::Request again = node.frames.last();
@@ -51,8 +48,7 @@ void tst_UdpLoss::aRepeatedRequestIsAnsweredFromTheCache()
 {
     ScriptedMaster master;
     CounterNode node;
-    QVERIFY(master.admit(node, master.udp()));
-    QVERIFY(master.start("Lockstep"));
+    QVERIFY(master.beginWith(node));
     master.request(0);
     QVERIFY(master.waitForAnswers(1));
     for (int i = 2; i < 6; ++i) {
@@ -73,8 +69,7 @@ void tst_UdpLoss::aRequestThatComesTwiceIsNotAnsweredTwice()
 {
     ScriptedMaster master;
     CounterNode node;
-    QVERIFY(master.admit(node, master.udp()));
-    QVERIFY(master.start("Lockstep"));
+    QVERIFY(master.beginWith(node));
     master.request(0);
     master.request(0);
     master.request(1);
@@ -89,8 +84,7 @@ void tst_UdpLoss::anOldRequestIsDropped()
 {
     ScriptedMaster master;
     CounterNode node;
-    QVERIFY(master.admit(node, master.udp()));
-    QVERIFY(master.start("Lockstep"));
+    QVERIFY(master.beginWith(node));
     master.request(5);
     master.request(3);
     master.request(5, qplc::ResentFlag | qplc::FaultFlag);  // a flag that inputs do not have changes nothing
@@ -123,8 +117,7 @@ void tst_UdpLoss::aRepeatedPartCompletesTheRequest()
     for (char name : {'a', 'b', 'c', 'd', 'f'})
         ini += "[" + QByteArray(1, name) + "]\ntype = Real64[150]\n";
     ScriptedMaster master(QPlcSignalTable::fromIni(ini));
-    QVERIFY(master.admit(node, master.udp()));
-    QVERIFY(master.start("Lockstep"));
+    QVERIFY(master.beginWith(node));
     const QByteArray values(int(master.inputSize()), '\0');
     const QVector<QByteArray> parts = master.requestFrames(0, values);
     QCOMPARE(parts.size(), 3);
@@ -174,11 +167,8 @@ void tst_UdpLoss::lockstepSurvivesHeavyLoss()
 void tst_UdpLoss::masterCountsDuplicates()
 {
     TestMaster master;
-    QVERIFY(master.listen());
     ScriptedNode node;
-    QVERIFY(node.registerAt(master.serverPort()));
-    QVERIFY(master.startRealTime());
-    QVERIFY(node.waitForRequests(1));
+    QVERIFY(node.beginWith(master));
     const quint64 cycle = node.requests.at(0).cycle;
     node.answer(cycle, 1.0);
     QVERIFY(node.waitForRequests(2));
@@ -193,11 +183,8 @@ void tst_UdpLoss::masterCountsDuplicates()
 void tst_UdpLoss::masterRejectsEveryCorruption()
 {
     TestMaster master;
-    QVERIFY(master.listen());
     ScriptedNode node;
-    QVERIFY(node.registerAt(master.serverPort()));
-    QVERIFY(master.startRealTime());
-    QVERIFY(node.waitForRequests(1));
+    QVERIFY(node.beginWith(master));
     const QByteArray good = node.answerFrames(node.requests.at(0).cycle, QPlcValue(9.0).toBytes()).at(0);
     quint64 sent = 0;
     for (int i = 0; i < good.size(); ++i) {
@@ -223,8 +210,7 @@ void tst_UdpLoss::slaveRejectsEveryCorruption()
 {
     ScriptedMaster master;
     CounterNode node;
-    QVERIFY(master.admit(node, master.udp()));
-    QVERIFY(master.start("Lockstep"));
+    QVERIFY(master.beginWith(node));
     const QByteArray good = master.requestFrames(0, QByteArray(8, '\0')).at(0);
     quint64 sent = 0;
     for (int i = 0; i < good.size(); ++i) {
@@ -248,11 +234,8 @@ void tst_UdpLoss::slaveRejectsEveryCorruption()
 void tst_UdpLoss::datagramsOfStrangersAreCountedAndDropped()
 {
     TestMaster master;
-    QVERIFY(master.listen());
     ScriptedNode node;
-    QVERIFY(node.registerAt(master.serverPort()));
-    QVERIFY(master.startRealTime());
-    QVERIFY(node.waitForRequests(1));
+    QVERIFY(node.beginWith(master));
     const QByteArray good = node.answerFrames(node.requests.at(0).cycle, QPlcValue(9.0).toBytes()).at(0);
     QUdpSocket stranger;
     QVERIFY(stranger.bind(QHostAddress::LocalHost, 0));
