@@ -27,6 +27,8 @@ private Q_SLOTS:
     void gustIsSurvived();
     void strongTurbulenceIsSurvivedByRecovering();
     void deadTimeIsCountedInCycles();
+    void withoutDeadTimeOutputsComeBeforeInputs();
+    void real32SignalsAreRounded();
     void resetRepeatsTheFlightBitForBit();
     void badParametersAreNamed();
 
@@ -152,7 +154,7 @@ void tst_ClosedLoopFlight::everyInitialStateIsFlown()
 void tst_ClosedLoopFlight::deadTimeHardlyMatters_data()
 {
     QTest::addColumn<int>("cycles");
-    for (int cycles : {1, 2, 3, 5, 8, 12, 20})
+    for (int cycles : {0, 1, 2, 3, 5, 8, 12, 20})
         QTest::addRow("%d cycles", cycles) << cycles;
 }
 
@@ -198,17 +200,55 @@ void tst_ClosedLoopFlight::strongTurbulenceIsSurvivedByRecovering()
 
 void tst_ClosedLoopFlight::deadTimeIsCountedInCycles()
 {
-    for (int cycles : {1, 2, 5}) {
+    for (int cycles : {0, 1, 2, 5}) {
         ClosedLoopParameters parameters;
         parameters.plant.initialState = PlantParameters::stateAtRest(30.0, 60.0, 100.0);  // aside: yaws at once
         parameters.deadTime = cycles;
         ClosedLoopFlight flight(parameters);
-        int silent = 0;
+        const double yawAngle = flight.plant().state().yawAngle;
+        int silent = -1;
         do
             flight.step();
-        while (flight.outputs().inputs.yawSpeed == 0.0 && ++silent < 100);
+        while (++silent < 100 && flight.plant().state().yawAngle == yawAngle);
         QCOMPARE(silent, cycles);
     }
+}
+
+void tst_ClosedLoopFlight::withoutDeadTimeOutputsComeBeforeInputs()
+{
+    ClosedLoopParameters parameters;
+    parameters.deadTime = 0;
+    ClosedLoopFlight flight(parameters);
+    flight.fly(10.0);  // reels out
+    const AutopilotOutputs before = flight.autopilotOutputs();
+    const PlantState state = flight.plant().state();
+    flight.step();
+    const AutopilotOutputs now = flight.autopilotOutputs();
+    QVERIFY(before.tetherSpeed > 0.0 && now.tetherSpeed != before.tetherSpeed);
+    QCOMPARE(flight.outputs().position, state.position);
+    QCOMPARE(flight.outputs().power, before.tetherSpeed * flight.outputs().tetherForce.norm());
+    COMPARE_NEAR(flight.plant().state().tetherLength, state.tetherLength + 0.01 * now.tetherSpeed, 1e-12);
+}
+
+void tst_ClosedLoopFlight::real32SignalsAreRounded()
+{
+    const auto asFloat = [](double value) {
+        const volatile float narrow = float(value);  // kept by every compiler
+        return double(narrow);
+    };
+    ClosedLoopParameters parameters;
+    parameters.precision = SignalPrecision::Real32;
+    parameters.deadTime = 0;
+    ClosedLoopFlight flight(parameters);
+    flight.fly(10.0);
+    const PlantOutputs &outputs = flight.outputs();
+    for (double value : {outputs.position.x(), outputs.velocity.y(), outputs.bodyControlOrientation.z(),
+                         outputs.angleOfAttack, outputs.tetherForce.z(), outputs.tetherLength, outputs.power,
+                         outputs.energy, flight.autopilotOutputs().pitchSpeed, flight.autopilotOutputs().tetherSpeed,
+                         flight.autopilotOutputs().yawSpeed})
+        QVERIFY2(value == asFloat(value), qPrintable(QString::number(value, 'g', 17)));
+    const double exact = flight.plant().state().position.x();
+    QVERIFY(exact != asFloat(exact));
 }
 
 void tst_ClosedLoopFlight::resetRepeatsTheFlightBitForBit()
@@ -232,7 +272,12 @@ void tst_ClosedLoopFlight::badParametersAreNamed()
     QCOMPARE(ClosedLoopParameters().validate(), std::string());
     ClosedLoopParameters parameters;
     parameters.deadTime = 0;
-    VERIFY_CONTAINS(parameters.validate(), "deadTime is 0 cycles; choose a value from 1 to 63");
+    QCOMPARE(parameters.validate(), std::string());
+    for (int cycles : {-1, 64}) {
+        parameters.deadTime = cycles;
+        VERIFY_CONTAINS(parameters.validate(),
+                        "deadTime is " + std::to_string(cycles) + " cycles; choose a value from 0 to 63");
+    }
     parameters = ClosedLoopParameters();
     parameters.wind.step = 0.02;
     VERIFY_CONTAINS(parameters.validate(), "step of the wind is 0.02 s; choose a value from 0.01 to 0.01 s");
