@@ -65,6 +65,7 @@ private Q_SLOTS:
     void reportHoldsEveryFigure();
     void flightIsTheSameWhateverCarriesIt_data();
     void flightIsTheSameWhateverCarriesIt();
+    void multicastReachesBothNodes();
     void sameCycleFlightIsTheSameWhateverCarriesIt_data();
     void sameCycleFlightIsTheSameWhateverCarriesIt();
     void sameCycleFlightIsThatOfOneLoop();
@@ -80,6 +81,7 @@ private Q_SLOTS:
     void pictureGivesTheTerminalBack();
 
 private:
+    static void addTransports();
     /// Waits until the terminal shows \a text. \return false when it does not, or the program has ended
     static bool waitForText(Terminal &terminal, const Program &program, const char *text);
     /// Waits for the end of a program that writes to the terminal. \return the exit code
@@ -149,7 +151,7 @@ void tst_awe_sil::reportHoldsEveryFigure()
     QCOMPARE(flight.value(QStringLiteral("late_answers")).toInt(), 0);
 }
 
-void tst_awe_sil::flightIsTheSameWhateverCarriesIt_data()
+void tst_awe_sil::addTransports()
 {
     QTest::addColumn<QString>("options");
     QTest::newRow("in one process") << QString();
@@ -160,6 +162,13 @@ void tst_awe_sil::flightIsTheSameWhateverCarriesIt_data()
     QTest::newRow("processes over udp") << QStringLiteral("--processes --transport udp");
     QTest::newRow("in one process through shared memory") << QStringLiteral("--transport local");
     QTest::newRow("processes with shared memory") << QStringLiteral("--processes --transport local");
+}
+
+void tst_awe_sil::flightIsTheSameWhateverCarriesIt_data()
+{
+    addTransports();
+    QTest::newRow("in one process over multicast") << QStringLiteral("--transport udp-multicast");
+    QTest::newRow("processes over multicast") << QStringLiteral("--processes --transport udp-multicast");
 }
 
 void tst_awe_sil::flightIsTheSameWhateverCarriesIt()
@@ -173,9 +182,21 @@ void tst_awe_sil::flightIsTheSameWhateverCarriesIt()
     QCOMPARE(flight.value(QStringLiteral("energy_J")), m_flight.value(QStringLiteral("energy_J")));
 }
 
+void tst_awe_sil::multicastReachesBothNodes()
+{
+    const Outcome outcome = runProgram(
+        path(),
+        {QStringLiteral("--processes"), QStringLiteral("--duration=1"), QStringLiteral("--transport=udp-multicast")});
+    QCOMPARE(outcome.exitCode, 0);
+    for (const char *node : {"Model", "Autopilot"})
+        QVERIFY2(
+            outcome.errors.contains(QStringLiteral("node %1 registered over udp-multicast\n").arg(QLatin1String(node))),
+            qPrintable(outcome.errors));
+}
+
 void tst_awe_sil::sameCycleFlightIsTheSameWhateverCarriesIt_data()
 {
-    flightIsTheSameWhateverCarriesIt_data();
+    addTransports();
 }
 
 void tst_awe_sil::sameCycleFlightIsTheSameWhateverCarriesIt()
