@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Searches gains of the autopilot that take out more power with a given dead time, starting from the tuned ones, and says
-// what they are worth: in the flights they were found with, in others, and with the dead time of the default links.
+// Searches gains of the autopilot that take out more power with a given dead time, and says what they are worth: in the
+// flights they were found with, in others, and with the dead time of the default links. This is where the tuned gains are from.
 
 #include "GainTuning.h"
 
@@ -16,7 +16,7 @@ constexpr int defaultDeadTime = 2;  // cycles
 
 const char usage[]
     = "usage: awe_tune_gains [--dead-time CYCLES] [--halvings N] [--least-gain ETA]\n"
-      "Searches better gains of the autopilot, from the tuned ones on; takes some minutes.\n"
+      "Searches gains of the autopilot for most power; takes some minutes.\n"
       "  --dead-time CYCLES  from sensor to actuator, 0 ... 63 (0)\n"
       "  --halvings N        how often the steps are halved before it ends, 0: only compares, 0 ... 10 (2)\n"
       "  --least-gain ETA    smaller gains are not worth a change, 0 ... 1 (0.0002)\n"
@@ -82,8 +82,9 @@ std::string parse(int argc, char **argv, Options &options)
 
 void print(const char *what, const GainScore &score)
 {
-    std::printf("%-40s %9.5f %9.5f %9.2f %9.2f %9.0f %s\n", what, score.calmEta, score.turbulentEta, score.calmAltitude,
-                score.turbulentAltitude, score.limitedForce, score.crashed ? "CRASHED" : "");
+    std::printf("%-40s %9.5f %9.5f %9.5f %9.2f %9.2f %9.0f %s\n", what, score.calmEta, score.turbulentEta,
+                score.strongEta, score.calmAltitude, score.turbulentAltitude, score.limitedForce,
+                score.crashed ? "CRASHED" : "");
     std::fflush(stdout);
 }
 
@@ -98,31 +99,36 @@ void printScores(const char *name, const AutopilotGains &gains, int deadTime)
     print((what + ", dead time 2, seeds 9...24").c_str(), scoreOf(gains, defaultDeadTime, TuningSeeds::Fresh));
 }
 
+void printChanges(std::FILE *file, const char *end, const AutopilotGains &gains)
+{
+    const AutopilotGains start = startOfTuning();
+    for (const TunableGain &tunable : TunableGain::all()) {
+        if (start.*tunable.gain != gains.*tunable.gain)
+            std::fprintf(file, "%s %.6g -> %.6g%s", tunable.name, start.*tunable.gain, gains.*tunable.gain, end);
+    }
+}
+
 AutopilotGains search(const Options &options)
 {
-    const AutopilotGains start = AutopilotGains::tuned();
+    const AutopilotGains start = startOfTuning();
     std::vector<Coordinate> ranges;
     for (const TunableGain &tunable : TunableGain::all())
         ranges.push_back(tunable.range);
     double best = 0.0;
     const auto function = [&](const CoordinateSearch::Point &point) {
-        const double value = scoreOf(TunableGain::write(start, point), static_cast<int>(options.deadTime)).value();
-        if (value > best)
-            std::fprintf(stderr, "%.5f\n", best = value);
+        const AutopilotGains gains = TunableGain::write(start, point);
+        const double value = scoreOf(gains, static_cast<int>(options.deadTime)).value();
+        if (value > best) {
+            std::fprintf(stderr, "%.5f  ", best = value);
+            printChanges(stderr, ", ", gains);
+            std::fprintf(stderr, "\n");
+        }
         return value;
     };
     CoordinateSearch search(function, ranges, options.leastGain);
     const CoordinateSearch::Point point = search.climb(TunableGain::read(start), static_cast<int>(options.halvings));
     std::printf("%d sets of gains flown\n", search.evaluations());
     return TunableGain::write(start, point);
-}
-
-void printChanges(const AutopilotGains &from, const AutopilotGains &to)
-{
-    for (const TunableGain &tunable : TunableGain::all()) {
-        if (from.*tunable.gain != to.*tunable.gain)
-            std::printf("%-20s %10.6g -> %.6g\n", tunable.name, from.*tunable.gain, to.*tunable.gain);
-    }
 }
 
 }  // namespace
@@ -140,11 +146,14 @@ int main(int argc, char **argv)
         return 0;
     }
     const int deadTime = static_cast<int>(options.deadTime);
-    std::printf("%-40s %9s %9s %9s %9s %9s\n", "", "calm eta", "turb. eta", "calm z", "turb. z", "4 kN");
+    std::printf("%-40s %9s %9s %9s %9s %9s %9s\n", "", "calm eta", "turb. eta", "8-12 m/s", "calm z", "turb. z",
+                "4 kN");
+    printScores("start", startOfTuning(), deadTime);
     printScores("tuned gains", AutopilotGains::tuned(), deadTime);
-    const AutopilotGains found = options.halvings > 0.0 ? search(options) : AutopilotGains::tuned();
-    printChanges(AutopilotGains::tuned(), found);
-    if (options.halvings > 0.0)
+    if (options.halvings > 0.0) {
+        const AutopilotGains found = search(options);
+        printChanges(stdout, "\n", found);
         printScores("found gains", found, deadTime);
+    }
     return 0;
 }

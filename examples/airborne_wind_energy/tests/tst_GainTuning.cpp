@@ -20,6 +20,8 @@ private Q_SLOTS:
     void scoreIsThatOfTheFlights();
     void deadTimeAndSeedsMatter();
     void unsafeGainsAreWorthNothing();
+    void tunedGainsAreWorthMoreThanTheStart_data();
+    void tunedGainsAreWorthMoreThanTheStart();
     void badOptionsAreRefused_data();
     void badOptionsAreRefused();
     void helpSaysWhatItDoes();
@@ -80,7 +82,7 @@ void tst_GainTuning::scoreIsThatOfTheFlights()
     QCOMPARE(score.calmAltitude, calm.report().minimumAltitude);
     QCOMPARE(score.turbulentEta, turbulentEta);
     QVERIFY(score.isSafe());
-    QCOMPARE(score.value(), 0.5 * (score.calmEta + score.turbulentEta));
+    QCOMPARE(score.value(), (score.calmEta + score.turbulentEta + score.strongEta) / 3.0);
 }
 
 void tst_GainTuning::deadTimeAndSeedsMatter()
@@ -99,7 +101,7 @@ void tst_GainTuning::unsafeGainsAreWorthNothing()
     GainScore good;
     good.calmAltitude = good.turbulentAltitude = GainScore::lowestAltitude;
     good.limitedForce = GainScore::forceLimit;
-    good.calmEta = 0.5;
+    good.calmEta = 0.75;
     QCOMPARE(good.value(), 0.25);
     GainScore crashed = good, low = good, gusty = good, strong = good;
     crashed.crashed = true;
@@ -111,6 +113,26 @@ void tst_GainTuning::unsafeGainsAreWorthNothing()
     AutopilotGains daring = AutopilotGains::tuned();
     daring.lowestHeight = daring.lowestElevation = 0.0;
     QCOMPARE(scoreOf(daring, 0, TuningSeeds::Tuned, 200.0).value(), nothing);
+}
+
+void tst_GainTuning::tunedGainsAreWorthMoreThanTheStart_data()
+{
+    QTest::addColumn<int>("deadTime");
+    QTest::newRow("same cycle") << 0;
+    QTest::newRow("default links") << 2;
+}
+
+void tst_GainTuning::tunedGainsAreWorthMoreThanTheStart()
+{
+    QFETCH(int, deadTime);
+    for (TuningSeeds seeds : {TuningSeeds::Tuned, TuningSeeds::Fresh}) {
+        const GainScore start = scoreOf(startOfTuning(), deadTime, seeds);
+        const GainScore tuned = scoreOf(AutopilotGains::tuned(), deadTime, seeds);
+        QVERIFY(tuned.isSafe());
+        QVERIFY2(tuned.calmEta > start.calmEta + 0.005, qPrintable(QString::number(tuned.calmEta)));
+        QVERIFY2(tuned.strongEta > start.strongEta, qPrintable(QString::number(tuned.strongEta)));
+        QVERIFY2(tuned.turbulentEta > start.turbulentEta + 0.005, qPrintable(QString::number(tuned.turbulentEta)));
+    }
 }
 
 void tst_GainTuning::badOptionsAreRefused_data()
