@@ -69,6 +69,11 @@ QString builtInSignals()
     return QStringLiteral(":/signals/airborne_wind_energy.ini");
 }
 
+QHostAddress defaultMulticastGroup()
+{
+    return QHostAddress(QStringLiteral("239.255.76.68"));
+}
+
 void addModelOptions(QPlcCoreApplication &application)
 {
     add(application, "wind", QStringLiteral("Mean wind velocity, x east, y north, z up [m/s]."), "X,Y,Z", "5,3,0");

@@ -29,6 +29,9 @@ int linkDeadTime(bool sameCycle);
 /// The table of the example, compiled into the programs.
 QString builtInSignals();
 
+/// Administratively scoped: no router passes it on.
+QHostAddress defaultMulticastGroup();
+
 void addModelOptions(QPlcCoreApplication &application);
 /// \return false, with the message out, when an option cannot be meant
 bool readModelOptions(QPlcCoreApplication &application, ModelSettings *settings);

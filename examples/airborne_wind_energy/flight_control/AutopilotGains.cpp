@@ -97,13 +97,23 @@ void checkFiltersAndLimit(const AutopilotGains &g, RangeCheck &check)
 
 }  // namespace
 
+// The heights are chosen; the laws come from a search without dead time (awe_tune_gains).
 AutopilotGains AutopilotGains::tuned()
 {
     AutopilotGains gains;
     gains.lowestHeight = 18.0;
     gains.lowestElevation = 5.0;
-    gains.reelInElevation = 13.0;
     gains.guardFactor = 1.1;
+
+    gains.yawGain = 4.0;
+    gains.eightHalfWidth = 25.0;
+    gains.eightHalfHeight = 5.5;
+    gains.zenithAzimuthGain = 0.8;
+    gains.zenithDamping = 6.0;
+    gains.reelOutFactor = 0.74;
+    gains.reelInWindFactor = 1.4;
+    gains.reelInElevation = 12.0;
+    gains.reelInForceFactor = 0.375;
     return gains;
 }
 

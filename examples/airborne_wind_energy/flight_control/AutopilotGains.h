@@ -91,7 +91,8 @@ struct AutopilotGains
 
     static AutopilotGains safe() { return {}; }
 
-    /// More power, less height: the lower edge of the eight at 18 m instead of 30 m.
+    /// More power, less height: the lower edge of the eight at 18 m instead of 30 m. For every dead time; docs/figures.md
+    /// says how they were found.
     static AutopilotGains tuned();
 
     /// \return empty when all is well, otherwise one sentence with the gain, its value and the remedy

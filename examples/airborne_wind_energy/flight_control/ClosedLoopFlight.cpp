@@ -4,6 +4,7 @@
 #include "AngleMath.h"
 #include "RangeCheck.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace awe {
@@ -21,21 +22,32 @@ FlightStatisticsParameters statisticsParameters(const ClosedLoopParameters &para
     return statistics;
 }
 
+// Volatile, because g++ 12 leaves out such a pair of conversions where it vectorizes them.
 double rounded(double value)
 {
-    return static_cast<double>(static_cast<float>(value));
+    const volatile float sent = static_cast<float>(value);
+    return static_cast<double>(sent);
 }
 
-FlightMeasurements rounded(FlightMeasurements measurements)
+Eigen::Vector3d rounded(const Eigen::Vector3d &vector)
 {
-    for (int i = 0; i < 3; ++i) {
-        measurements.position[i] = rounded(measurements.position[i]);
-        measurements.velocity[i] = rounded(measurements.velocity[i]);
-    }
-    for (double *value : {&measurements.pitchAngle, &measurements.yawAngle, &measurements.angleOfAttack,
-                          &measurements.tetherLength, &measurements.tetherForce, &measurements.windDirection})
-        *value = rounded(*value);
-    return measurements;
+    return {rounded(vector.x()), rounded(vector.y()), rounded(vector.z())};
+}
+
+/// What of the outputs is measured or recorded.
+PlantOutputs rounded(const PlantOutputs &outputs)
+{
+    PlantOutputs sent = outputs;
+    sent.inputs.windVelocity = rounded(outputs.inputs.windVelocity);
+    sent.position = rounded(outputs.position);
+    sent.velocity = rounded(outputs.velocity);
+    sent.bodyControlOrientation = rounded(outputs.bodyControlOrientation);
+    sent.angleOfAttack = rounded(outputs.angleOfAttack);
+    sent.tetherForce = rounded(outputs.tetherForce);
+    sent.tetherLength = rounded(outputs.tetherLength);
+    sent.power = rounded(outputs.power);
+    sent.energy = rounded(outputs.energy);
+    return sent;
 }
 
 AutopilotOutputs rounded(AutopilotOutputs outputs)
@@ -61,7 +73,7 @@ std::string ClosedLoopParameters::validate() const
             return complaint;
     }
     RangeCheck check;
-    check.within("deadTime", deadTime, 1, largestDeadTime, "cycles");
+    check.within("deadTime", deadTime, 0, largestDeadTime, "cycles");
     check.within("step of the wind", wind.step, plant.step, plant.step, "s");
     check.within("step of the autopilot", gains.step, plant.step, plant.step, "s");
     return check.message();
@@ -102,48 +114,52 @@ FlightMeasurements ClosedLoopFlight::measured(const PlantOutputs &outputs)
     return measurements;
 }
 
+PlantInputs ClosedLoopFlight::inputs() const
+{
+    return {m_commands.pitchSpeed, m_commands.yawSpeed, m_commands.tetherSpeed, m_wind.velocity()};
+}
+
+// Without dead time the answer to the outputs of this cycle acts in this one, otherwise in the next at the earliest.
 void ClosedLoopFlight::step()
 {
-    PlantInputs inputs;
-    inputs.pitchSpeed = m_commands.pitchSpeed;
-    inputs.yawSpeed = m_commands.yawSpeed;
-    inputs.tetherSpeed = m_commands.tetherSpeed;
-    inputs.windVelocity = m_wind.velocity();
-    m_outputs = m_plant.outputs(inputs);
-    m_plant.step(inputs);
+    const bool answersAtOnce = m_parameters.deadTime == 0;
+    const PlantOutputs outputs = m_plant.outputs(inputs());
+    m_outputs = isRounded() ? rounded(outputs) : outputs;
+    if (answersAtOnce)
+        askAutopilot();
+    m_plant.step(inputs());
+    recordStatistics();
     m_wind.step();
-    recordStatistics(inputs);
-    askAutopilot();
+    if (!answersAtOnce)
+        askAutopilot();
     ++m_cycle;
 }
 
-void ClosedLoopFlight::recordStatistics(const PlantInputs &inputs)
+void ClosedLoopFlight::recordStatistics()
 {
     FlightSample sample;
     sample.position = m_outputs.position;
-    sample.windVelocity = inputs.windVelocity;
+    sample.windVelocity = m_outputs.inputs.windVelocity;
     sample.tetherForce = m_outputs.tetherForce;
-    sample.tetherSpeed = inputs.tetherSpeed;
+    sample.tetherSpeed = m_commands.tetherSpeed;
     sample.power = m_outputs.power;
     sample.energy = m_outputs.energy;
     sample.flightPhase = static_cast<std::int8_t>(m_commands.phase);
     m_statistics.step(sample);
 }
 
-// The answer to the outputs of this cycle acts in the next one: one cycle of dead time is in the loop itself.
+// Being asked at the end of a cycle is one cycle of dead time in itself.
 void ClosedLoopFlight::askAutopilot()
 {
     const auto slot = [](std::int64_t cycle) {
         return static_cast<std::size_t>(cycle % (ClosedLoopParameters::largestDeadTime + 1));
     };
-    const bool isRounded = m_parameters.precision == SignalPrecision::Real32;
-    const FlightMeasurements measurements = measured(m_outputs);
-    m_delayed[slot(m_cycle)] = isRounded ? rounded(measurements) : measurements;
-    const std::int64_t seen = m_cycle - (m_parameters.deadTime - 1);
+    m_delayed[slot(m_cycle)] = measured(m_outputs);
+    const std::int64_t seen = m_cycle - std::max(0, m_parameters.deadTime - 1);
     if (seen < 0)
         return;
     m_commands = m_autopilot.step(m_delayed[slot(seen)]);
-    if (isRounded)
+    if (isRounded())
         m_commands = rounded(m_commands);
 }
 

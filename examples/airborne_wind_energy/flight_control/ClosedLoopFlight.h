@@ -23,7 +23,7 @@ struct ClosedLoopParameters
     PlantParameters plant = groundedPlant();
     WindParameters wind;
     AutopilotGains gains;
-    int deadTime = 2;  // cycles from an output of the plant to the input it causes, 1...largestDeadTime
+    int deadTime = 2;  // cycles from an output of the plant to the input it causes, 0...largestDeadTime
 
     SignalPrecision precision = SignalPrecision::Real64;
 
@@ -39,7 +39,9 @@ struct ClosedLoopParameters
 ///     wind --> plant --> outputs --> [deadTime cycles] --> autopilot --> inputs of the same cycle
 ///
 /// In the distributed system the outputs of cycle k reach the autopilot in k + 1 and its answer the plant in k + 2:
-/// dead time 2. Until the first answer the inputs are zero. step() takes no memory. One thread at a time.
+/// dead time 2. Until the first answer the inputs are zero. With same-cycle inputs the answer to the outputs of cycle k
+/// moves the plant in k: dead time 0. The outputs then come before the inputs, and what depends on both (power, and the
+/// tether force with damping) is shown with the inputs of cycle k - 1. step() takes no memory. One thread at a time.
 class ClosedLoopFlight
 {
 public:
@@ -64,7 +66,9 @@ public:
     static FlightMeasurements measured(const PlantOutputs &outputs);
 
 private:
-    void recordStatistics(const PlantInputs &inputs);
+    bool isRounded() const { return m_parameters.precision == SignalPrecision::Real32; }
+    PlantInputs inputs() const;
+    void recordStatistics();
     void askAutopilot();
 
     ClosedLoopParameters m_parameters;

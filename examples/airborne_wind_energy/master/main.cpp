@@ -12,6 +12,7 @@ struct MasterSettings
     awe::RunSettings run;
     QHostAddress address;
     quint16 port = 0;
+    QHostAddress multicastGroup;  // null: none
     QPlcRealTimeOptions realTime;
 };
 
@@ -25,6 +26,12 @@ void addMasterOptions(QPlcCoreApplication &application)
     application.addOption(
         QCommandLineOption(QStringLiteral("port"), QStringLiteral("Port to listen on. 0: a free one."),
                            QStringLiteral("PORT"), QString::number(QPlcUnderlyingProtocol::DefaultPort)));
+    application.addOption(
+        QCommandLineOption(QStringLiteral("multicast"),
+                           QStringLiteral("Multicast group for nodes at udp-multicast://..., for example %1: one "
+                                          "datagram carries the inputs of all of them. Without it there is none.")
+                               .arg(awe::defaultMulticastGroup().toString()),
+                           QStringLiteral("ADDRESS")));
     application.addOption(QCommandLineOption(
         QStringLiteral("insecure-network"),
         QStringLiteral("Lets --listen open the plant to the network, where everybody can command it.")));
@@ -39,6 +46,25 @@ void addMasterOptions(QPlcCoreApplication &application)
                            QStringLiteral("Wind speed that eta is related to [m/s]. 0: what the signals show."),
                            QStringLiteral("SPEED"), QStringLiteral("0")));
     application.addRealTimeOptions();
+}
+
+/// \return false, with the message out, when an address cannot be meant
+bool readAddresses(QPlcCoreApplication &application, MasterSettings *settings)
+{
+    const QString listen = application.value(QStringLiteral("listen"));
+    if (!settings->address.setAddress(listen)) {
+        application.usageError(QStringLiteral("--listen %1: use an IP address, for example 127.0.0.1").arg(listen));
+        return false;
+    }
+    if (!application.isSet(QStringLiteral("multicast")))
+        return true;
+    const QString group = application.value(QStringLiteral("multicast"));
+    if (settings->multicastGroup.setAddress(group) && settings->multicastGroup.isMulticast()
+        && settings->multicastGroup.protocol() == QAbstractSocket::IPv4Protocol)
+        return true;
+    application.usageError(QStringLiteral("--multicast '%1': use an IPv4 multicast address, for example %2")
+                               .arg(group, awe::defaultMulticastGroup().toString()));
+    return false;
 }
 
 bool readMasterOptions(QPlcCoreApplication &application, MasterSettings *settings)
@@ -56,11 +82,7 @@ bool readMasterOptions(QPlcCoreApplication &application, MasterSettings *setting
     if (settings->run.awaitedNodes.isEmpty() && !application.isSet(QStringLiteral("lockstep"))
         && !application.isSet(QStringLiteral("scale")))
         settings->run.clock = QPlcClock::realTime();
-    if (settings->address.setAddress(application.value(QStringLiteral("listen"))))
-        return true;
-    application.usageError(QStringLiteral("--listen %1: use an IP address, for example 127.0.0.1")
-                               .arg(application.value(QStringLiteral("listen"))));
-    return false;
+    return readAddresses(application, settings);
 }
 
 }  // namespace
@@ -73,6 +95,9 @@ int main(int argc, char **argv)
     application.setExamples(
         {QStringLiteral("awe_master &  awe_model &  awe_autopilot &  qtplc start"),
          QStringLiteral("awe_master --lockstep --duration 600 --start-with Model,Autopilot --report flight.json"),
+         QStringLiteral("awe_master --multicast %1 &  awe_model --master udp-multicast://localhost &  awe_autopilot "
+                        "--master udp-multicast://localhost &  qtplc start")
+             .arg(awe::defaultMulticastGroup().toString()),
          QStringLiteral("sudo chrt -f 49 awe_master")});
     addMasterOptions(application);
     MasterSettings settings;
@@ -85,6 +110,7 @@ int main(int argc, char **argv)
     QPlcMasterNode master;
     master.setRealTimeOptions(settings.realTime);
     master.setInsecureNetworkAllowed(application.isSet(QStringLiteral("insecure-network")));
+    master.setMulticastGroup(settings.multicastGroup);
     awe::FlightRun run(master, settings.run);
     if (!run.isValid() || !master.startServer(QPlcUnderlyingProtocol::tcp(settings.address, settings.port)))
         return QPlcCoreApplication::UsageError;

@@ -15,7 +15,7 @@ struct ProcessArguments
     QStringList master;
     QStringList model;
     QStringList autopilot;
-    QString transport;   // "tcp", "udp"
+    QString transport;   // "tcp", "udp", "udp-multicast", "local"
     bool watch = false;  // the master draws on the terminal
 };
 

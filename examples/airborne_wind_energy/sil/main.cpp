@@ -11,6 +11,8 @@
 
 namespace {
 
+const QString multicast = QStringLiteral("udp-multicast");  // a transport
+
 struct Settings
 {
     awe::RunSettings run;
@@ -38,8 +40,29 @@ void addOptions(QPlcCoreApplication &application)
     application.addOption(
         QCommandLineOption(QStringLiteral("transport"),
                            QStringLiteral("How the nodes reach the master: inprocess (default), tcp, udp (default with "
-                                          "--processes), or local (shared memory)."),
+                                          "--processes), udp-multicast, or local (shared memory)."),
                            QStringLiteral("KIND")));
+}
+
+/// \return false, with the message out, when the nodes cannot reach their master like that
+bool canTransport(QPlcCoreApplication &application, const Settings &settings)
+{
+    const QStringList kinds{QStringLiteral("inprocess"), QStringLiteral("tcp"), QStringLiteral("udp"), multicast,
+                            QStringLiteral("local")};
+    QString error;
+    if (!kinds.contains(settings.transport))
+        error
+            = QStringLiteral("--transport %1: use inprocess, tcp, udp, udp-multicast or local").arg(settings.transport);
+    else if (settings.processes && settings.transport == QLatin1String("inprocess"))
+        error = QStringLiteral(
+            "--processes and --transport inprocess exclude each other: use tcp, udp, udp-multicast or local");
+    else if (settings.sameCycle && settings.transport == multicast)
+        error = QStringLiteral(
+            "--same-cycle and --transport udp-multicast exclude each other, because same-cycle nodes are asked "
+            "one by one: use udp, tcp or local");
+    if (!error.isEmpty())
+        application.usageError(error);
+    return error.isEmpty();
 }
 
 bool readOptions(QPlcCoreApplication &application, Settings *settings)
@@ -50,18 +73,8 @@ bool readOptions(QPlcCoreApplication &application, Settings *settings)
         ? application.value(QStringLiteral("transport"))
         : settings->processes ? QStringLiteral("udp")
                               : QStringLiteral("inprocess");
-    const QStringList kinds{QStringLiteral("inprocess"), QStringLiteral("tcp"), QStringLiteral("udp"),
-                            QStringLiteral("local")};
-    if (!kinds.contains(settings->transport)) {
-        application.usageError(
-            QStringLiteral("--transport %1: use inprocess, tcp, udp or local").arg(settings->transport));
+    if (!canTransport(application, *settings))
         return false;
-    }
-    if (settings->processes && settings->transport == QLatin1String("inprocess")) {
-        application.usageError(
-            QStringLiteral("--processes and --transport inprocess exclude each other: use tcp, udp or local"));
-        return false;
-    }
     if (!awe::readRunOptions(application, &settings->run) || !awe::readModelOptions(application, &settings->model)
         || !awe::readAutopilotOptions(application, &settings->autopilot))
         return false;
@@ -100,6 +113,8 @@ int flyInProcesses(QPlcCoreApplication &application, const Settings &settings)
         ? QStringList{QStringLiteral("--cpu=%1").arg(::sched_getcpu())}
         : QStringList();
     arguments.master += processor;
+    if (settings.transport == multicast)
+        arguments.master << QStringLiteral("--multicast=%1").arg(awe::defaultMulticastGroup().toString());
     const QStringList order = settings.sameCycle ? QStringList{QStringLiteral("--same-cycle")} : QStringList();
     arguments.model = table + processor + order + awe::givenModelOptions(application);
     arguments.autopilot = table + processor + order + awe::givenAutopilotOptions(application);
@@ -136,6 +151,8 @@ int flyInOneProcess(QPlcCoreApplication &application, const Settings &settings)
     model.setSameCycle(settings.sameCycle);
     model.setTwoPhase(settings.sameCycle);
     QPlcMasterNode master;
+    if (settings.transport == multicast)
+        master.setMulticastGroup(awe::defaultMulticastGroup());
     awe::RunSettings runSettings = settings.run;
     runSettings.reportFile.clear();  // written at the end, with the summary
     awe::FlightRun run(master, runSettings);
@@ -161,7 +178,8 @@ int main(int argc, char **argv)
                                               "energy example fly together on this machine."));
     application.setExamples({QStringLiteral("awe_sil --duration 1800 --report flight.json"),
                              QStringLiteral("awe_sil --scale 10 --turbulence 0.15 --seed 3"),
-                             QStringLiteral("awe_sil --processes --transport udp --gains tuned")});
+                             QStringLiteral("awe_sil --processes --transport udp --gains tuned"),
+                             QStringLiteral("awe_sil --processes --transport udp-multicast")});
     addOptions(application);
     Settings settings;
     if (!application.parseOptions() || !readOptions(application, &settings))

@@ -49,6 +49,7 @@ private Q_SLOTS:
     void secondNodeOfOneNameIsRefused();
     void nodeThatDoesNotFitTheMasterIsRefused_data();
     void nodeThatDoesNotFitTheMasterIsRefused();
+    void nodeThatWantsAMissingMulticastGroupIsRefused();
     void masterWhoseTableLacksItsOwnSignalDoesNotBegin();
     void nodesEndWithTheirMaster_data();
     void nodesEndWithTheirMaster();
@@ -174,6 +175,18 @@ void tst_ProgramFailures::nodeThatDoesNotFitTheMasterIsRefused()
     QCOMPARE(node.errors.count(QLatin1Char('\n')), 1);
     QCOMPARE(node.output, QString());
     QCOMPARE(master.state(), QProcess::Running);
+}
+
+void tst_ProgramFailures::nodeThatWantsAMissingMulticastGroupIsRefused()
+{
+    Program master(path("awe_master"), {QStringLiteral("--port=0")});
+    const QString where
+        = address(master).replace(QStringLiteral("--master="), QStringLiteral("--master=udp-multicast://"));
+    const Outcome node = runProgram(path("awe_model"), {where});
+    QCOMPARE(node.exitCode, 2);
+    QVERIFY2(node.errors.contains(QLatin1String("this master has no multicast group; give it one, or use udp")),
+             qPrintable(node.errors));
+    QCOMPARE(node.errors.count(QLatin1Char('\n')), 1);
 }
 
 void tst_ProgramFailures::masterWhoseTableLacksItsOwnSignalDoesNotBegin()

@@ -51,7 +51,9 @@ void tst_ProgramOptions::helpNamesEveryOption_data()
     row("awe_compact_model", QByteArray(node) + model);
     row("awe_autopilot", QByteArray(node) + autopilot);
     row("awe_master",
-        QByteArray("--listen --port --insecure-network --start-with --mean-wind --priority --cpu --lock-memory") + run);
+        QByteArray(
+            "--listen --port --multicast --insecure-network --start-with --mean-wind --priority --cpu --lock-memory")
+            + run);
     row("awe_sil", QByteArray("--processes --transport --same-cycle") + run + model + autopilot);
 }
 
@@ -146,12 +148,18 @@ void tst_ProgramOptions::badOptionsAreRefusedWithOneSentence_data()
         row(program, "--watch", "--watch draws on a terminal");
     }
     row("awe_master", "--listen home", "--listen home: use an IP address");
+    for (const char *group : {"home", "127.0.0.1", "240.0.0.1", "ff02::1", "239.255.76.68:50000"})
+        row("awe_master", qPrintable(QStringLiteral("--multicast %1").arg(QLatin1String(group))),
+            qPrintable(QStringLiteral("--multicast '%1': use an IPv4 multicast address").arg(QLatin1String(group))));
+    row("awe_master", "--multicast=", "--multicast '': use an IPv4 multicast address");
+    row("awe_master", "--listen ::1 --multicast 239.255.76.68 --port 0", "multicast needs IPv4");
     row("awe_master", "--port 65536", "--port 65536");
     row("awe_master", "--port -1", "--port -1");
     row("awe_master", "--mean-wind -1", "--mean-wind -1");
     row("awe_master", "--priority 0", "--priority 0");
-    row("awe_sil", "--transport pigeon", "--transport pigeon: use inprocess, tcp, udp or local");
+    row("awe_sil", "--transport pigeon", "--transport pigeon: use inprocess, tcp, udp, udp-multicast or local");
     row("awe_sil", "--processes --transport inprocess", "exclude each other");
+    row("awe_sil", "--same-cycle --transport udp-multicast", "asked one by one: use udp, tcp or local");
     row("awe_sil", "--processes --wind 1,2", "--wind 1,2");
     row("awe_sil", "--processes --watch", "--watch draws on a terminal");
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "Autopilot.h"
-#include "KiteSimulation.h"
+#include "ClosedLoopFlight.h"
 #include "Program.h"
 
 #include <QtCore/QElapsedTimer>
@@ -66,6 +65,7 @@ private Q_SLOTS:
     void reportHoldsEveryFigure();
     void flightIsTheSameWhateverCarriesIt_data();
     void flightIsTheSameWhateverCarriesIt();
+    void multicastReachesBothNodes();
     void sameCycleFlightIsTheSameWhateverCarriesIt_data();
     void sameCycleFlightIsTheSameWhateverCarriesIt();
     void sameCycleFlightIsThatOfOneLoop();
@@ -81,6 +81,7 @@ private Q_SLOTS:
     void pictureGivesTheTerminalBack();
 
 private:
+    static void addTransports();
     /// Waits until the terminal shows \a text. \return false when it does not, or the program has ended
     static bool waitForText(Terminal &terminal, const Program &program, const char *text);
     /// Waits for the end of a program that writes to the terminal. \return the exit code
@@ -150,7 +151,7 @@ void tst_awe_sil::reportHoldsEveryFigure()
     QCOMPARE(flight.value(QStringLiteral("late_answers")).toInt(), 0);
 }
 
-void tst_awe_sil::flightIsTheSameWhateverCarriesIt_data()
+void tst_awe_sil::addTransports()
 {
     QTest::addColumn<QString>("options");
     QTest::newRow("in one process") << QString();
@@ -161,6 +162,13 @@ void tst_awe_sil::flightIsTheSameWhateverCarriesIt_data()
     QTest::newRow("processes over udp") << QStringLiteral("--processes --transport udp");
     QTest::newRow("in one process through shared memory") << QStringLiteral("--transport local");
     QTest::newRow("processes with shared memory") << QStringLiteral("--processes --transport local");
+}
+
+void tst_awe_sil::flightIsTheSameWhateverCarriesIt_data()
+{
+    addTransports();
+    QTest::newRow("in one process over multicast") << QStringLiteral("--transport udp-multicast");
+    QTest::newRow("processes over multicast") << QStringLiteral("--processes --transport udp-multicast");
 }
 
 void tst_awe_sil::flightIsTheSameWhateverCarriesIt()
@@ -174,9 +182,21 @@ void tst_awe_sil::flightIsTheSameWhateverCarriesIt()
     QCOMPARE(flight.value(QStringLiteral("energy_J")), m_flight.value(QStringLiteral("energy_J")));
 }
 
+void tst_awe_sil::multicastReachesBothNodes()
+{
+    const Outcome outcome = runProgram(
+        path(),
+        {QStringLiteral("--processes"), QStringLiteral("--duration=1"), QStringLiteral("--transport=udp-multicast")});
+    QCOMPARE(outcome.exitCode, 0);
+    for (const char *node : {"Model", "Autopilot"})
+        QVERIFY2(
+            outcome.errors.contains(QStringLiteral("node %1 registered over udp-multicast\n").arg(QLatin1String(node))),
+            qPrintable(outcome.errors));
+}
+
 void tst_awe_sil::sameCycleFlightIsTheSameWhateverCarriesIt_data()
 {
-    flightIsTheSameWhateverCarriesIt_data();
+    addTransports();
 }
 
 void tst_awe_sil::sameCycleFlightIsTheSameWhateverCarriesIt()
@@ -192,42 +212,26 @@ void tst_awe_sil::sameCycleFlightIsTheSameWhateverCarriesIt()
     QVERIFY(flight.value(QStringLiteral("image_digest")) != m_flight.value(QStringLiteral("image_digest")));
 }
 
-/// Plant and autopilot one after the other in one loop, without QtPLC, with the rounding of the signals: the same energy to the last bit.
+/// Plant and autopilot in one loop, without QtPLC, with the rounding of the signals: the same figures to the last bit.
 void tst_awe_sil::sameCycleFlightIsThatOfOneLoop()
 {
-    const auto rounded = [](double value) { return double(float(value)); };
-    const auto triple
-        = [&](const Eigen::Vector3d &v) { return Eigen::Vector3d(rounded(v.x()), rounded(v.y()), rounded(v.z())); };
-    awe::PlantParameters plant;
-    awe::WindParameters wind;
-    wind.turbulenceIntensity = 0.15;
-    plant.groundContact = awe::GroundContact::Hold;
-    plant.initialState = awe::PlantParameters::stateAtRest(
-        30.0, std::atan2(wind.meanVelocity.y(), wind.meanVelocity.x()) * 180.0 / M_PI, 100.0);
-    awe::KiteSimulation model(plant, wind);
-    awe::Autopilot autopilot;
-    model.reset();
-    double seen = 0.0;  // the observer sees the energy of the cycle before
-    double energy = 0.0;
-    for (int cycle = 0; cycle < 1000; ++cycle) {
-        const awe::PlantOutputs y = model.outputs();
-        seen = energy;
-        energy = rounded(y.energy);
-        awe::FlightMeasurements measured;
-        measured.position = triple(y.position);
-        measured.velocity = triple(y.velocity);
-        measured.pitchAngle = rounded(y.bodyControlOrientation.y());
-        measured.yawAngle = rounded(y.bodyControlOrientation.z());
-        measured.angleOfAttack = rounded(y.angleOfAttack);
-        measured.tetherLength = rounded(y.tetherLength);
-        measured.tetherForce = triple(y.tetherForce).norm();
-        const Eigen::Vector3d direction = triple(y.inputs.windVelocity);
-        measured.windDirection = std::atan2(direction.y(), direction.x()) * (180.0 / M_PI);
-        const awe::AutopilotOutputs u = autopilot.step(measured);
-        model.update(rounded(u.pitchSpeed), rounded(u.yawSpeed), rounded(u.tetherSpeed));
-    }
-    QCOMPARE(fly(QStringLiteral("--same-cycle")).value(QStringLiteral("energy_J")).toDouble(), seen);
-    QVERIFY(seen > 0.0);
+    awe::ClosedLoopParameters parameters;
+    parameters.deadTime = 0;
+    parameters.precision = awe::SignalPrecision::Real32;
+    parameters.wind.turbulenceIntensity = 0.15;
+    const Eigen::Vector3d &wind = parameters.wind.meanVelocity;
+    parameters.plant.initialState
+        = awe::PlantParameters::stateAtRest(30.0, std::atan2(wind.y(), wind.x()) * 180.0 / M_PI, 100.0);
+    awe::ClosedLoopFlight loop(parameters);
+    loop.fly(299.99);  // the observer sees a cycle after it has been, and the last one not at all
+    const awe::FlightReport expected = loop.report();
+    const QJsonObject flight = fly(QStringLiteral("--same-cycle --duration 300"));
+    const auto seen = [&](const char *figure) { return flight.value(QLatin1String(figure)).toDouble(); };
+    QVERIFY(seen("energy_J") == expected.energy);
+    QVERIFY(seen("min_altitude_m") == expected.minimumAltitude);
+    QVERIFY(seen("max_tether_force_N") == expected.maximumTetherForce);
+    QVERIFY(seen("pumping_cycles") == expected.pumpingCycles);
+    QVERIFY(expected.pumpingCycles >= 1 && expected.energy > 0.0);
 }
 
 void tst_awe_sil::reportTellsTheAgeOfEveryLink_data()

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+// Searches gains of the autopilot that take out more power with a given dead time, and says what they are worth: in the
+// flights they were found with, in others, and with the dead time of the default links. This is where the tuned gains are from.
+
+#include "GainTuning.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+namespace {
+
+using namespace awe;
+
+constexpr int defaultDeadTime = 2;  // cycles
+
+const char usage[]
+    = "usage: awe_tune_gains [--dead-time CYCLES] [--halvings N] [--least-gain ETA]\n"
+      "Searches gains of the autopilot for most power; takes some minutes.\n"
+      "  --dead-time CYCLES  from sensor to actuator, 0 ... 63 (0)\n"
+      "  --halvings N        how often the steps are halved before it ends, 0: only compares, 0 ... 10 (2)\n"
+      "  --least-gain ETA    smaller gains are not worth a change, 0 ... 1 (0.0002)\n"
+      "Exit code 0: done; 2: bad option.\n";
+
+struct Options
+{
+    double deadTime = 0.0;
+    double halvings = 2.0;
+    double leastGain = 0.0002;
+    bool help = false;
+};
+
+struct NumberOption
+{
+    const char *name;
+    double Options::*number;
+    double largest;
+    bool isWhole;
+};
+
+const NumberOption numberOptions[] = {{"--dead-time", &Options::deadTime, ClosedLoopParameters::largestDeadTime, true},
+                                      {"--halvings", &Options::halvings, 10.0, true},
+                                      {"--least-gain", &Options::leastGain, 1.0, false}};
+
+const NumberOption *optionOf(const std::string &name)
+{
+    for (const NumberOption &option : numberOptions) {
+        if (name == option.name)
+            return &option;
+    }
+    return nullptr;
+}
+
+/// \return empty when all is well, otherwise what is wrong and how to mend it
+std::string readNumber(const NumberOption &option, const char *text, Options &options)
+{
+    char *end = nullptr;
+    const double number = text ? std::strtod(text, &end) : 0.0;
+    const bool isNumber = text && end != text && *end == '\0' && number >= 0.0 && number <= option.largest;
+    if (!isNumber || (option.isWhole && number != static_cast<double>(static_cast<int>(number)))) {
+        return std::string(option.name) + " " + (text ? text : "without a value") + ": use a "
+            + (option.isWhole ? "whole " : "") + "number of 0 ... " + std::to_string(static_cast<int>(option.largest));
+    }
+    options.*option.number = number;
+    return {};
+}
+
+std::string parse(int argc, char **argv, Options &options)
+{
+    for (int i = 1; i < argc; i += 2) {
+        const std::string name = argv[i];
+        options.help = options.help || name == "--help" || name == "-h";
+        const NumberOption *option = optionOf(name);
+        if (!option && !options.help)
+            return "unknown option '" + name + "'; see --help";
+        const std::string complaint = option ? readNumber(*option, argv[i + 1], options) : std::string();
+        if (!complaint.empty())
+            return complaint;
+    }
+    return {};
+}
+
+void print(const char *what, const GainScore &score)
+{
+    std::printf("%-40s %9.5f %9.5f %9.5f %9.2f %9.2f %9.0f %s\n", what, score.calmEta, score.turbulentEta,
+                score.strongEta, score.calmAltitude, score.turbulentAltitude, score.limitedForce,
+                score.crashed ? "CRASHED" : "");
+    std::fflush(stdout);
+}
+
+void printScores(const char *name, const AutopilotGains &gains, int deadTime)
+{
+    const std::string what = name;
+    print((what + ", seeds 1...8").c_str(), scoreOf(gains, deadTime));
+    print((what + ", seeds 9...24").c_str(), scoreOf(gains, deadTime, TuningSeeds::Fresh));
+    if (deadTime == defaultDeadTime)
+        return;
+    print((what + ", dead time 2, seeds 1...8").c_str(), scoreOf(gains, defaultDeadTime));
+    print((what + ", dead time 2, seeds 9...24").c_str(), scoreOf(gains, defaultDeadTime, TuningSeeds::Fresh));
+}
+
+void printChanges(std::FILE *file, const char *end, const AutopilotGains &gains)
+{
+    const AutopilotGains start = startOfTuning();
+    for (const TunableGain &tunable : TunableGain::all()) {
+        if (start.*tunable.gain != gains.*tunable.gain)
+            std::fprintf(file, "%s %.6g -> %.6g%s", tunable.name, start.*tunable.gain, gains.*tunable.gain, end);
+    }
+}
+
+AutopilotGains search(const Options &options)
+{
+    const AutopilotGains start = startOfTuning();
+    std::vector<Coordinate> ranges;
+    for (const TunableGain &tunable : TunableGain::all())
+        ranges.push_back(tunable.range);
+    double best = 0.0;
+    const auto function = [&](const CoordinateSearch::Point &point) {
+        const AutopilotGains gains = TunableGain::write(start, point);
+        const double value = scoreOf(gains, static_cast<int>(options.deadTime)).value();
+        if (value > best) {
+            std::fprintf(stderr, "%.5f  ", best = value);
+            printChanges(stderr, ", ", gains);
+            std::fprintf(stderr, "\n");
+        }
+        return value;
+    };
+    CoordinateSearch search(function, ranges, options.leastGain);
+    const CoordinateSearch::Point point = search.climb(TunableGain::read(start), static_cast<int>(options.halvings));
+    std::printf("%d sets of gains flown\n", search.evaluations());
+    return TunableGain::write(start, point);
+}
+
+}  // namespace
+
+int main(int argc, char **argv)
+{
+    Options options;
+    const std::string complaint = parse(argc, argv, options);
+    if (!complaint.empty()) {
+        std::fprintf(stderr, "awe_tune_gains: %s\n", complaint.c_str());
+        return 2;
+    }
+    if (options.help) {
+        std::fputs(usage, stdout);
+        return 0;
+    }
+    const int deadTime = static_cast<int>(options.deadTime);
+    std::printf("%-40s %9s %9s %9s %9s %9s %9s\n", "", "calm eta", "turb. eta", "8-12 m/s", "calm z", "turb. z",
+                "4 kN");
+    printScores("start", startOfTuning(), deadTime);
+    printScores("tuned gains", AutopilotGains::tuned(), deadTime);
+    if (options.halvings > 0.0) {
+        const AutopilotGains found = search(options);
+        printChanges(stdout, "\n", found);
+        printScores("found gains", found, deadTime);
+    }
+    return 0;
+}
