@@ -87,7 +87,9 @@ void checkCycles(const Master &master, const QPlcMasterStatistics &before)
     QVERIFY2(passed >= 0.9 * Pause / double(Period.count()), qPrintable(QString::number(passed)));
     QVERIFY2(double(after.skippedCycles - before.skippedCycles) < 0.9 * passed, "hardly a cycle was not skipped");
     QCOMPARE(after.lateAnswers, master.info("Worker").lateAnswers);
-    // Who waits in vain has nothing left at the end of the cycle.
+    // Who waits in vain has nothing left at the end of the cycle. On a machine that is so busy that the worker is late all the time, nothing is left either.
+    if (double(after.lateAnswers - before.lateAnswers) > 0.3 * double(after.cycles - before.cycles))
+        return;
     const auto slack = master.cycleStatistics().slack.last10s.p50;
     QVERIFY2(slack > 100'000, qPrintable(QStringLiteral("slack %1 ns").arg(slack)));
 }
