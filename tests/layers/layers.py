@@ -15,13 +15,16 @@ ARROWS = {
     "transport": {"transport"},
     "protocol": {"signals", "protocol"},
     "node": {"signals", "realtime", "transport", "protocol", "node"},
+    "gui": {"signals", "node", "gui"},
     "tools": {"signals", "realtime", "protocol", "transport", "node", "tools"},
 }
+# Room with a library of its own: folder of its list of headers, and its umbrella header. All others belong to QtPlc::Core.
+LIBRARIES = {"gui": ("src/gui", "QtPlcGui")}
 # Public headers without a source file of their own; "all": a plain value that every room may use.
 HEADER_ONLY = {
     "QPlcBoundInput": "node", "QPlcBoundOutput": "node", "QPlcClock": "all", "QPlcCycle": "all",
     "QPlcCycleStatistics": "node", "QPlcDistribution": "all", "QPlcDurationStatistics": "all", "QPlcGlobal": "all",
-    "QPlcInput": "node", "QPlcInputTiming": "all", "QPlcMasterStatistics": "node", "QPlcNodeInfo": "node", "QPlcNodeStatistics": "node", "QPlcOutput": "node",
+    "QPlcGuiGlobal": "gui", "QPlcInput": "node", "QPlcInputTiming": "all", "QPlcMasterStatistics": "node", "QPlcNodeInfo": "node", "QPlcNodeStatistics": "node", "QPlcOutput": "node",
     "QPlcRealTimeSetting": "realtime", "QPlcSignalDefinition": "signals", "QPlcSlaveStatistics": "node", "QPlcStatisticFigure": "node", "QPlcWorstCycle": "all",
     "QSplitPrimitive": "signals",
 }
@@ -64,7 +67,7 @@ class Check:
     def room(self, path):
         if path.parent != self.public:
             return path.relative_to(self.source).parts[0] if self.source in path.parents else None
-        homes = [p.parent.name for p in self.source.glob(f"*/{path.stem}.cpp")]
+        homes = [p.relative_to(self.source).parts[0] for p in self.source.glob(f"*/**/{path.stem}.cpp")]
         return homes[0] if homes else HEADER_ONLY.get(path.stem)
 
     def arrows(self):
@@ -98,21 +101,20 @@ class Check:
         for path in sorted(self.public.rglob("*")):
             if path.parent != self.public:
                 self.error(path, 1, "public headers stand side by side in include/QtPlc")
-            elif path.suffix == ".h" and path.stem != "QPlcGlobal":
+            elif path.suffix == ".h" and not path.stem.endswith("Global"):
                 # Definitions at the left margin outside of namespaces for internals.
                 text = re.sub(r"^namespace \w+ \{\n.*?^\} +// namespace", "", path.read_text(), flags=re.S | re.M)
-                classes = re.findall(r"^(?:class|struct|union)\s+(?:QTPLC_EXPORT\s+)?(\w+)[^;\n]*$", text, flags=re.M)
+                classes = re.findall(r"^(?:class|struct|union)\s+(?:QTPLC_\w*EXPORT\s+)?(\w+)[^;\n]*$", text, flags=re.M)
                 if classes != [path.stem]:
                     self.error(path, 1, f"defines {', '.join(classes) or 'no class'}: one class a header, named like the file")
                 elif not re.search(r"^///.*\n(?:template<[^\n]*>\n)?(?:class|struct|union)\b", text, flags=re.M):
                     self.error(path, 1, f"{path.stem} has no comment that says what it is for")
-        listed = set(re.findall(r"include/QtPlc/(\S+)", (self.source / "CMakeLists.txt").read_text()))
-        included = set(re.findall(r'#include "(\w+\.h)"', (self.public / "QtPlcCore").read_text()))
         for path in self.public.iterdir():
-            if path.name not in listed:
-                self.error(path, 1, "is missing in the list of headers of src/CMakeLists.txt")
-            if path.suffix == ".h" and path.name not in included:
-                self.error(path, 1, "is missing in the umbrella header QtPlcCore")
+            folder, umbrella = LIBRARIES.get(self.room(path) or path.name.lower().removeprefix("qtplc"), ("src", "QtPlcCore"))
+            if path.name not in re.findall(r"include/QtPlc/(\S+)", (self.root / folder / "CMakeLists.txt").read_text()):
+                self.error(path, 1, f"is missing in the list of headers of {folder}/CMakeLists.txt")
+            if path.suffix == ".h" and path.name not in re.findall(r'#include "(\w+\.h)"', (self.public / umbrella).read_text()):
+                self.error(path, 1, f"is missing in the umbrella header {umbrella}")
 
     def sizes_and_licences(self):
         for folder in ("include", "src", "examples", "tests", "benchmarks", "docs"):

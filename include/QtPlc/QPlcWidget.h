@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "QPlcGuiGlobal.h"
+#include "QPlcSignalIndexList.h"
+#include "QPlcSignalList.h"
+
+#include <QtCore/QJsonObject>
+#include <QtWidgets/QWidget>
+
+#include <memory>
+
+class QPlcWidgetFactory;
+
+/// A view of a plant that a Control Center shows in a panel: what QPlcSlaveNode is for a node, for a window.
+///
+/// A subclass says which signals it reads and writes, gets their values in realTimeout(), and gives its settings as JSON, so that layouts can be saved, restored, and edited with undo.
+///
+/// Threads: the thread of the window.
+class QTPLC_GUI_EXPORT QPlcWidget : public QWidget
+{
+    Q_OBJECT
+public:
+    enum Type { Gauge, TimePlot, XyPlot, Setter, ValueTable, NodeTable, EventLog, JitterHistogram, WindWindow, View3D, UserType = 1000 };
+
+    explicit QPlcWidget(QWidget *parent = nullptr);
+    ~QPlcWidget() override;
+
+    /// A value of Type, or UserType and above.
+    virtual int type() const = 0;
+
+    /// Makes a factory known to the program, which owns it from now on. \return \a factory
+    static QPlcWidgetFactory *registerFactory(QPlcWidgetFactory *factory);
+    /// The factory of a type; null when there is none.
+    static QPlcWidgetFactory *factory(int type);
+    /// The factory with this name; null when there is none.
+    static QPlcWidgetFactory *factory(const QString &name);
+    virtual QPlcWidgetFactory *factory() const { return factory(type()); }
+
+    /// What stands above the panel; empty: the name of the factory.
+    QString title() const;
+    void setTitle(const QString &title);
+
+    /// Everything that makes this widget what it is, but for what it shows at the moment. Keys that applySettings() did not know are part of it.
+    virtual QJsonObject settings() const;
+    /// Takes on what settings() gave, of this widget or another one; keys that are missing leave things as they are.
+    virtual void applySettings(const QJsonObject &settings);
+    /// What the toothed wheel opens, over the widget; null: it has no settings. The caller owns it.
+    virtual QWidget *createSettingsEditor() { return nullptr; }
+
+    /// Signals that the widget wants in realTimeout().
+    QPlcSignalIndexList inputSignalIndices() const;
+    /// Signals that the widget writes.
+    QPlcSignalIndexList outputSignalIndices() const;
+    /// Values of what it writes, when a phase begins.
+    QPlcSignalList initialOutputSignals() const;
+
+public Q_SLOTS:
+    /// The values of all cycles since the last call, oldest first.
+    virtual void realTimeout(const QList<QPlcSignalList> &signalValues);
+
+Q_SIGNALS:
+    void titleChanged();
+    /// A person has changed the settings: worth an undo step.
+    void settingsEdited();
+    void inputSignalIndicesChanged();
+    void outputSignalIndicesChanged();
+    void initialOutputSignalsChanged();
+    void sendNewOutputSignals(const QPlcSignalList &signalValues);
+
+protected:
+    void setInputSignalIndices(const QPlcSignalIndexList &indices);
+    void setOutputSignalIndices(const QPlcSignalIndexList &indices);
+    void setInitialOutputSignals(const QPlcSignalList &signalValues);
+
+private:
+    struct Private;
+    std::unique_ptr<Private> d;
+};

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "QPlcWidget.h"
+
+#include "QPlcWidgetFactory.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace {
+
+std::vector<std::unique_ptr<QPlcWidgetFactory>> &factories()
+{
+    static std::vector<std::unique_ptr<QPlcWidgetFactory>> all;
+    return all;
+}
+
+template<typename Matches>
+QPlcWidgetFactory *findFactory(Matches matches)
+{
+    const auto found = std::find_if(factories().begin(), factories().end(),
+                                    [&](const std::unique_ptr<QPlcWidgetFactory> &each) { return matches(*each); });
+    return found != factories().end() ? found->get() : nullptr;
+}
+
+}  // namespace
+
+struct QPlcWidget::Private
+{
+    QString title;
+    QJsonObject settings;
+    QPlcSignalIndexList inputs;
+    QPlcSignalIndexList outputs;
+    QPlcSignalList initialOutputs;
+};
+
+QPlcWidget::QPlcWidget(QWidget *parent)
+    : QWidget(parent)
+    , d(std::make_unique<Private>())
+{
+}
+
+QPlcWidget::~QPlcWidget() = default;
+
+QPlcWidgetFactory *QPlcWidget::registerFactory(QPlcWidgetFactory *factory)
+{
+    const bool isKnown = findFactory([factory](const QPlcWidgetFactory &other) { return &other == factory; });
+    if (!isKnown)
+        factories().emplace_back(factory);
+    return factory;
+}
+
+QPlcWidgetFactory *QPlcWidget::factory(int type)
+{
+    return findFactory([type](const QPlcWidgetFactory &each) { return each.type() == type; });
+}
+
+QPlcWidgetFactory *QPlcWidget::factory(const QString &name)
+{
+    return findFactory([&name](const QPlcWidgetFactory &each) { return each.name() == name; });
+}
+
+QString QPlcWidget::title() const
+{
+    if (!d->title.isEmpty())
+        return d->title;
+    const QPlcWidgetFactory *maker = factory();
+    return maker ? maker->name() : QString();
+}
+
+void QPlcWidget::setTitle(const QString &title)
+{
+    if (title == d->title)
+        return;
+    d->title = title;
+    Q_EMIT titleChanged();
+}
+
+QJsonObject QPlcWidget::settings() const
+{
+    QJsonObject all = d->settings;
+    if (!d->title.isEmpty())
+        all.insert(QStringLiteral("title"), d->title);
+    return all;
+}
+
+void QPlcWidget::applySettings(const QJsonObject &settings)
+{
+    for (auto entry = settings.begin(); entry != settings.end(); ++entry)
+        d->settings.insert(entry.key(), entry.value());
+    if (settings.contains(QStringLiteral("title")))
+        setTitle(settings.value(QStringLiteral("title")).toString());
+}
+
+QPlcSignalIndexList QPlcWidget::inputSignalIndices() const
+{
+    return d->inputs;
+}
+
+QPlcSignalIndexList QPlcWidget::outputSignalIndices() const
+{
+    return d->outputs;
+}
+
+QPlcSignalList QPlcWidget::initialOutputSignals() const
+{
+    return d->initialOutputs;
+}
+
+void QPlcWidget::realTimeout(const QList<QPlcSignalList> & /*signalValues*/)
+{
+}
+
+void QPlcWidget::setInputSignalIndices(const QPlcSignalIndexList &indices)
+{
+    d->inputs = indices;
+    Q_EMIT inputSignalIndicesChanged();
+}
+
+void QPlcWidget::setOutputSignalIndices(const QPlcSignalIndexList &indices)
+{
+    d->outputs = indices;
+    Q_EMIT outputSignalIndicesChanged();
+}
+
+void QPlcWidget::setInitialOutputSignals(const QPlcSignalList &signalValues)
+{
+    d->initialOutputs = signalValues;
+    Q_EMIT initialOutputSignalsChanged();
+}
