@@ -51,6 +51,19 @@ void forPieces(std::size_t slots, Row begin, Row end, Visit visit)
     visit(0, count - first);
 }
 
+/// The first of bits \a from ... \a to - 1 that is set; \a to when there is none.
+std::size_t firstBit(const std::vector<std::uint64_t> &words, std::size_t from, std::size_t to)
+{
+    std::size_t index = from / wordBits;
+    std::uint64_t word = words[index] >> (from % wordBits) << (from % wordBits);
+    while (word == 0 && (index + 1) * wordBits < to)
+        word = words[++index];
+    std::size_t bit = std::max(from, index * wordBits);
+    while (bit < to && (word & maskOf(bit)) == 0)
+        bit = word == 0 ? to : bit + 1;
+    return bit;
+}
+
 }  // namespace
 
 SignalStore::SignalStore(int channels, int capacity)
@@ -108,17 +121,16 @@ bool SignalStore::beginsAnew(Row row) const
 
 Row SignalStore::nextBeginAnew(Row begin, Row end) const
 {
-    while (begin < end) {
-        const std::size_t at = slot(begin);
-        const std::size_t restOfWord = wordBits - at % wordBits;
-        if (m_beginsAnew[at / wordBits] >> (at % wordBits) == 0)
-            begin += std::min(restOfWord, m_rows - at);
-        else if (beginsAnew(begin))
-            return begin;
-        else
-            ++begin;
-    }
-    return end;
+    Row row = begin;
+    bool isFound = false;
+    forPieces(m_rows, begin, std::max(begin, end), [&](std::size_t from, std::size_t to) {
+        if (isFound || from == to)
+            return;
+        const std::size_t bit = firstBit(m_beginsAnew, from, to);
+        row += bit - from;
+        isFound = bit < to;
+    });
+    return row;
 }
 
 Row SignalStore::rowAt(Time time) const
@@ -180,10 +192,17 @@ void SignalStore::includeValues(Range *range, int channel, Row begin, Row end) c
 {
     const float *values = m_values.data() + std::size_t(channel) * m_rows;
     forPieces(m_rows, begin, end, [=](std::size_t from, std::size_t to) {
-        Range piece = *range;
-        for (std::size_t i = from; i < to; ++i)
-            include(&piece, values[i], values[i]);
-        *range = piece;
+        Range even = *range;
+        Range odd = nothing;
+        std::size_t i = from;
+        for (; i + 1 < to; i += 2) {  // two chains, so that comparisons need not wait for each other
+            include(&even, values[i], values[i]);
+            include(&odd, values[i + 1], values[i + 1]);
+        }
+        if (i < to)
+            include(&even, values[i], values[i]);
+        include(&even, odd.minimum, odd.maximum);
+        *range = even;
     });
 }
 
