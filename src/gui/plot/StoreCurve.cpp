@@ -26,6 +26,14 @@ bool isVector(QPaintEngine::Type type)
     return type == QPaintEngine::SVG || type == QPaintEngine::Pdf || type == QPaintEngine::Picture;
 }
 
+/// From the pixels of a painter to those of its device; when the painter is turned, its own pixels have to do.
+QTransform pixelsOf(const QPainter &painter)
+{
+    const QTransform device = painter.deviceTransform();
+    const bool isUpright = device.type() <= QTransform::TxScale && device.m11() > 0.0 && device.m22() > 0.0;
+    return isUpright ? device : QTransform();
+}
+
 int pixelOf(double position)
 {
     const double floored = std::floor(position);
@@ -158,7 +166,7 @@ void StoreCurve::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScale
 {
     if (!m_store || m_store->isEmpty())
         return;
-    const QTransform device = painter->deviceTransform();
+    const QTransform device = pixelsOf(*painter);
     const PixelScale scale(*this, device, xMap, yMap, canvasRect);
     m_shape.read(*m_store, m_channel, columns(xMap, device.m11()));
     painter->save();

@@ -76,7 +76,7 @@ SignalStore::SignalStore(int channels, int capacity)
 {
     assert(channels >= 0 && capacity >= int(fanOut));
     for (std::size_t size = fanOut; size <= m_rows; size *= fanOut) {
-        const std::size_t slots = (m_rows + size - 1) / size;
+        const std::size_t slots = m_rows / size;  // no more bins than that are whole
         m_levels.push_back({slots, std::vector<Range>(std::size_t(channels) * slots)});
     }
 }

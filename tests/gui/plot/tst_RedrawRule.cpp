@@ -70,6 +70,10 @@ void tst_RedrawRule::newDataAreDueOncePerColumn()
 void tst_RedrawRule::dataBehindTheViewAreNotDue()
 {
     RedrawRule rule;
+    rule.isDue(pictureUpTo(19 * second));
+    for (Time newest = 19 * second; newest < 20 * second; newest += millisecond)
+        QVERIFY(!rule.isDue(pictureUpTo(newest)));
+    QVERIFY(rule.isDue(pictureUpTo(20 * second)));
     rule.isDue(pictureUpTo(30 * second - 1));
     QVERIFY(rule.isDue(pictureUpTo(30 * second)));  // the line leaves the view
     for (Time newest = 30 * second; newest < 40 * second; newest += millisecond)
@@ -81,8 +85,10 @@ void tst_RedrawRule::dataThatLeaveTheStoreAreDueWhereTheyAreSeen()
     RedrawRule rule;
     Picture picture = pictureUpTo(40 * second);
     rule.isDue(picture);
-    picture.oldest = view.columnOf(19 * second);
-    QVERIFY(!rule.isDue(picture));
+    for (Time oldest = 0; oldest < 20 * second; oldest += 10 * millisecond) {
+        picture.oldest = view.columnOf(oldest);
+        QVERIFY(!rule.isDue(picture));
+    }
     picture.oldest = view.columnOf(20 * second);
     QVERIFY(rule.isDue(picture));
     picture.oldest = view.columnOf(21 * second);

@@ -95,6 +95,7 @@ private Q_SLOTS:
     void lineWidthIsThatOfTheScreen_data();
     void lineWidthIsThatOfTheScreen();
     void translatedPainterDrawsElsewhere();
+    void turnedPainterDrawsTurned();
     void logarithmicAxisIsFollowed();
     void valuesFarOutsideAreCut();
     void originMovesTheAxis();
@@ -234,6 +235,22 @@ void tst_StoreCurve::translatedPainterDrawsElsewhere()
     QCOMPARE(canvas.count(59), 0);
     QVERIFY(canvas.isSet(60, 2 * 20 + 99));
     QVERIFY(canvas.isSet(399, 2 * 20 + 99));
+}
+
+void tst_StoreCurve::turnedPainterDrawsTurned()
+{
+    SignalStore store(1, 1000);
+    fill(&store, 1000, [](int) { return 49.5F; });
+    Canvas canvas;
+    canvas.xMap.setScaleInterval(0.0, 1.0);
+    QPainter painter(&canvas.image);
+    painter.translate(width, 0);
+    painter.rotate(90.0);  // to the right is down, down is to the left
+    const StoreCurve curve(&store, 0);
+    curve.draw(&painter, canvas.xMap, canvas.yMap, QRectF(0, 0, width, height));
+    painter.end();
+    QCOMPARE(canvas.count(width - 51), height);
+    QCOMPARE(canvas.count(width - 53), 0);
 }
 
 void tst_StoreCurve::logarithmicAxisIsFollowed()

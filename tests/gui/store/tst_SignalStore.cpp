@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <malloc.h>
 #include <random>
 #include <vector>
 
@@ -171,6 +172,7 @@ private Q_SLOTS:
     void timesFarApartAndBelowZeroAreFound();
     void memoryIsTakenAtTheBegin();
     void fourHundredSignalsForTenMinutesFit();
+    void memoryIsWhatTheHeapGives();
 };
 
 void tst_SignalStore::answersLikeANaiveStore_data()
@@ -362,6 +364,20 @@ void tst_SignalStore::fourHundredSignalsForTenMinutesFit()
     const SignalStore store(channels, rows);
     QVERIFY2(double(store.memory()) <= 5.0 * channels * rows, qPrintable(QString::number(store.memory())));
     QVERIFY(double(store.memory()) <= 150e6);
+}
+
+void tst_SignalStore::memoryIsWhatTheHeapGives()
+{
+    if (!ThreadCosts::areCounted())
+        QSKIP("the heap of a sanitizer does not tell");
+    const auto used = [] {
+        const struct mallinfo2 heap = ::mallinfo2();
+        return double(heap.uordblks) + double(heap.hblkhd);
+    };
+    const double before = used();
+    const SignalStore store(50, 60'000);
+    const double taken = used() - before;
+    QVERIFY2(std::abs(taken - double(store.memory())) < 0.01 * taken, qPrintable(QString::number(taken)));
 }
 
 QTEST_APPLESS_MAIN(tst_SignalStore)
