@@ -161,6 +161,11 @@ TimeColumns StoreCurve::columns(const QwtScaleMap &xMap, double scale) const
     return {timeAt(xMap.s1()), timeAt(xMap.s2()), count};
 }
 
+QwtGraphic StoreCurve::legendIcon(int /*index*/, const QSizeF &size) const
+{
+    return defaultIcon(m_color, size);
+}
+
 void StoreCurve::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap &yMap,
                       const QRectF &canvasRect) const
 {

@@ -51,6 +51,7 @@ public:
     TimeColumns columns(const QwtScaleMap &xMap, double scale = 1.0) const;
 
     int rtti() const override { return Rtti_PlotUserItem + 1; }
+    QwtGraphic legendIcon(int index, const QSizeF &size) const override;
     void draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap &yMap,
               const QRectF &canvasRect) const override;
 

@@ -8,7 +8,7 @@
 #include <QtSvg/QSvgGenerator>
 #include <QtTest/QtTest>
 
-#include <qwt_scale_engine.h>
+#include <qwt_graphic.h>
 #include <qwt_scale_map.h>
 
 #include <cmath>
@@ -103,6 +103,7 @@ private Q_SLOTS:
     void smoothCurvesHaveShades();
     void vectorPicturesHaveLines();
     void painterIsLeftAsItWas();
+    void legendShowsTheColour();
     void valueRangeIsThatOfTheView();
     void drawingTakesNoMemoryOfItsOwn();
 };
@@ -357,6 +358,15 @@ void tst_StoreCurve::painterIsLeftAsItWas()
     curve.draw(&painter, canvas.xMap, canvas.yMap, QRectF(0, 0, width, height));
     QCOMPARE(painter.transform(), before);
     QCOMPARE(painter.pen().color(), QColor(Qt::red));
+}
+
+void tst_StoreCurve::legendShowsTheColour()
+{
+    StoreCurve curve(nullptr, 0, QStringLiteral("power"));
+    curve.setColor(Qt::blue);
+    QVERIFY(curve.testItemAttribute(QwtPlotItem::Legend));
+    QCOMPARE(curve.title().text(), QStringLiteral("power"));
+    QCOMPARE(curve.legendIcon(0, QSizeF(8, 8)).toImage().pixelColor(4, 4), QColor(Qt::blue));
 }
 
 void tst_StoreCurve::valueRangeIsThatOfTheView()
