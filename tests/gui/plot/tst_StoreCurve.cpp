@@ -11,6 +11,7 @@
 #include <qwt_graphic.h>
 #include <qwt_scale_map.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -147,7 +148,7 @@ void tst_StoreCurve::eachColumnOfACurveIsDrawn()
 void tst_StoreCurve::gapsStayWhite()
 {
     for (const int rows : {100, 10'000}) {
-        SignalStore store(1, rows);
+        SignalStore store(1, std::max(rows, 16));
         fill(&store, rows, [rows](int i) { return i >= rows / 4 && i < rows / 2 ? noValue : 50.5F; });
         Canvas canvas;
         canvas.draw(StoreCurve(&store, 0), 0.0, 0.001 * rows);
@@ -166,7 +167,7 @@ void tst_StoreCurve::stepsHoldTheirValue_data()
 void tst_StoreCurve::stepsHoldTheirValue()
 {
     QFETCH(int, rows);
-    SignalStore store(1, rows);
+    SignalStore store(1, std::max(rows, 16));
     fill(&store, rows, [rows](int i) { return i < rows / 2 ? 20.5F : 80.5F; });
     StoreCurve curve(&store, 0);
     curve.setStyle(StoreCurve::Steps);
@@ -210,7 +211,7 @@ void tst_StoreCurve::lineWidthIsThatOfTheScreen()
     QFETCH(double, lineWidth);
     QFETCH(int, pixels);
     for (const int rows : {20, 10'000}) {
-        SignalStore store(1, rows);
+        SignalStore store(1, std::max(rows, 16));
         fill(&store, rows, [](int) { return 50.5F; });
         StoreCurve curve(&store, 0);
         curve.setLineWidth(lineWidth);
