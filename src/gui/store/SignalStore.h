@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -21,7 +22,7 @@ public:
 
     struct Range
     {
-        float minimum;            // NaN: no value
+        float minimum;  // NaN: no value
         float maximum;
         bool isEmpty() const { return !(minimum <= maximum); }
     };
@@ -32,31 +33,56 @@ public:
 
     int channels() const { return m_channels; }
     int capacity() const { return m_capacity; }
+    /// What rows, values and their bins take [bytes], whether there are rows or not.
+    std::size_t memory() const;
 
-    /// Adds a row. \param time  after that of the row before, else the row is not taken
+    /// Adds a row. \param time  after that of the row before, else the row is not taken; a clock that begins again needs clear()
     /// \param values  one for each channel
     /// \return whether it was taken
     bool append(Time time, const float *values);
     /// What is appended next does not continue what is there.
     void interrupt() { m_interrupted = true; }
+    /// Forgets all rows. Their numbers are not given again, and any time may follow.
     void clear();
 
     bool isEmpty() const { return m_end == firstRow(); }
-    Row firstRow() const;
+    Row firstRow() const { return m_begin + m_rows < m_end ? m_end - m_rows : m_begin; }
     Row endRow() const { return m_end; }
     /// \pre the row is kept, as for all that follows
-    Time time(Row row) const;
+    Time time(Row row) const { return m_times[slot(row)]; }
     /// Whether the row begins after an interruption: no line leads to it.
     bool beginsAnew(Row row) const;
-    float value(int channel, Row row) const;
+    /// The first row of \a begin ... \a end - 1 that begins after an interruption; \a end when there is none.
+    Row nextBeginAnew(Row begin, Row end) const;
+    float value(int channel, Row row) const { return m_values[std::size_t(channel) * m_rows + slot(row)]; }
     /// The first row at or after \a time; endRow() when there is none.
     Row rowAt(Time time) const;
+    /// The same, in few steps when the row is near \a guess, firstRow() ... endRow().
+    Row rowAt(Time time, Row guess) const;
     /// Smallest and largest value of rows \a begin ... \a end - 1; NaN counts as nothing.
     Range range(int channel, Row begin, Row end) const;
 
 private:
+    /// Smallest and largest values of as many rows, of all channels. A bin is written when its last row is there, and overwritten after its first row has gone: each bin whose rows are all kept is right.
+    struct Level
+    {
+        std::size_t slots;        // bins of a channel
+        std::vector<Range> bins;  // channel after channel
+    };
+
+    std::size_t slot(Row row) const { return std::size_t(row % m_rows); }
+    void closeBins();
+    void includeValues(Range *range, int channel, Row begin, Row end) const;
+    void includeBins(Range *range, const Level &level, int channel, Row begin, Row end) const;
+
     int m_channels;
     int m_capacity;
+    std::size_t m_rows;                       // the capacity, rounded up to whole bins of 16 rows
+    std::vector<Time> m_times;                // [rows]
+    std::vector<float> m_values;              // [channels x rows], channel after channel
+    std::vector<std::uint64_t> m_beginsAnew;  // a bit for each row
+    std::vector<Level> m_levels;              // bins of 16, 256, ... rows
+    Row m_begin = 0;                          // the first row since clear()
     Row m_end = 0;
     bool m_interrupted = false;
 };

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gui/plot/PixelSpans.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace qplc {
+
+namespace {
+
+constexpr int dotGrowth = 1;  // pixels to each side of a value that stands alone
+
+}  // namespace
+
+void PixelSpans::begin(const QRect &clip, int thickness)
+{
+    m_clip = clip;
+    m_before = (thickness - 1) / 2;
+    m_behind = thickness / 2;
+    m_spans.clear();
+    m_rectangles.clear();
+    m_spans.reserve(std::size_t(clip.width() + 2 * thickness + 4));
+    m_rectangles.reserve(m_spans.capacity());
+}
+
+void PixelSpans::moveTo(int x, int top, int bottom)
+{
+    endLine();
+    m_x = x;
+    m_spans.push_back({top, bottom});
+}
+
+void PixelSpans::include(int top, int bottom)
+{
+    Span &span = m_spans.back();
+    span = {std::min(span.top, top), std::max(span.bottom, bottom)};
+}
+
+void PixelSpans::lineTo(int fromX, int fromY, int x, int y)
+{
+    // Columns that are not seen, not even by the thickness of the line: what is beyond them is left out.
+    const int unseenLeft = m_clip.left() - m_behind - 1;
+    const int unseenRight = m_clip.right() + m_before + 1;
+    if (fromX >= unseenRight)
+        return;
+    const double slope = x > fromX ? double(y - fromY) / (x - fromX) : 0.0;
+    const auto edgeBehind = [=](int column) { return int(std::lround(fromY + slope * (column + 0.5 - fromX))); };
+    const int first = std::clamp(unseenLeft, fromX, x);
+    int edge = fromY;  // where the line enters the column
+    if (first > fromX) {
+        edge = edgeBehind(first - 1);
+        m_x = first;
+        m_spans.assign(1, {edge, edge});
+    }
+    const int last = std::min(x, unseenRight);
+    for (int column = first; column < last; ++column) {
+        const int nextEdge = edgeBehind(column);
+        include(std::min(edge, nextEdge), std::max(edge, nextEdge));
+        edge = nextEdge;
+        m_spans.push_back({edge, edge});
+    }
+    if (last == x)
+        include(std::min(edge, y), std::max(edge, y));
+}
+
+void PixelSpans::endLine()
+{
+    if (m_spans.empty())
+        return;
+    if (m_spans.size() == 1 && m_spans.front().top == m_spans.front().bottom)
+        growDot();
+    const int left = std::max(m_x - m_before, m_clip.left());
+    const int right = std::min(m_x + int(m_spans.size()) - 1 + m_behind, m_clip.right());
+    for (int x = left; x <= right; ++x)
+        emitSpan(x, thickened(x - m_x));
+    m_spans.clear();
+}
+
+/// Nobody sees a single pixel.
+void PixelSpans::growDot()
+{
+    m_x -= dotGrowth;
+    const Span span{m_spans.front().top - dotGrowth, m_spans.front().bottom + dotGrowth};
+    m_spans.assign(2 * dotGrowth + 1, span);
+}
+
+/// The span of a column counted from the first one, after each pixel has become a square.
+PixelSpans::Span PixelSpans::thickened(int column) const
+{
+    const int from = std::max(column - m_behind, 0);
+    const int to = std::min(column + m_before, int(m_spans.size()) - 1);
+    Span all = m_spans[std::size_t(from)];
+    for (int i = from + 1; i <= to; ++i) {
+        const Span &span = m_spans[std::size_t(i)];
+        all = {std::min(all.top, span.top), std::max(all.bottom, span.bottom)};
+    }
+    return {all.top - m_before, all.bottom + m_behind};
+}
+
+void PixelSpans::emitSpan(int x, Span span)
+{
+    const int top = std::max(span.top, m_clip.top());
+    const int bottom = std::min(span.bottom, m_clip.bottom());
+    if (top > bottom)
+        return;
+    if (!m_rectangles.empty()) {
+        QRect &last = m_rectangles.back();
+        if (last.right() == x - 1 && last.top() == top && last.bottom() == bottom) {
+            last.setRight(x);
+            return;
+        }
+    }
+    m_rectangles.emplace_back(QPoint(x, top), QPoint(x, bottom));
+}
+
+}  // namespace qplc

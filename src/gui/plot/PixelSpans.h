@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QtCore/QRect>
+
+#include <vector>
+
+namespace qplc {
+
+/// Turns a curve into filled rectangles of device pixels: one vertical span for each column, all of a line touching each other; equal neighbours are one rectangle.
+///
+/// Rectangles are what a raster painter fills fastest, and thick lines cost as little as thin ones: each span grows by the thickness, so no pixel is filled twice.
+class PixelSpans
+{
+public:
+    /// Begins a new curve. \param clip  what is seen [px]
+    /// \param thickness  of the line [px], >= 1
+    void begin(const QRect &clip, int thickness);
+    /// Begins a line at column \a x, with all pixels of it from \a top to \a bottom.
+    void moveTo(int x, int top, int bottom);
+    /// Goes straight from (\a fromX, \a fromY), which belongs to the line, to (\a x, \a y), which does from now on. \pre fromX <= x
+    void lineTo(int fromX, int fromY, int x, int y);
+    /// Adds pixels to the last column of the line.
+    void include(int top, int bottom);
+    /// Ends the line, if there is one. A line of one pixel becomes a dot of three by three.
+    void endLine();
+
+    const std::vector<QRect> &rectangles() const { return m_rectangles; }
+
+private:
+    struct Span
+    {
+        int top;
+        int bottom;
+    };
+
+    void growDot();
+    Span thickened(int column) const;
+    void emitSpan(int x, Span span);
+
+    QRect m_clip;
+    int m_before = 0;  // pixels that a line is thicker to the left and to the top
+    int m_behind = 0;  // and to the right and to the bottom
+    int m_x = 0;       // column of the first span
+    std::vector<Span> m_spans;
+    std::vector<QRect> m_rectangles;
+};
+
+}  // namespace qplc
