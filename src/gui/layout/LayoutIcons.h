@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QtGui/QIcon>
+
+namespace qplc {
+
+enum class LayoutIcon { Settings, Float, Dock, Maximize, Restore, Close, Add };
+
+/// A line drawing in the colour of texts of the palette at the moment of painting: sharp at every scale, right in light and dark.
+QIcon layoutIcon(LayoutIcon icon);
+
+}  // namespace qplc
