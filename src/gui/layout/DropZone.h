@@ -30,3 +30,5 @@ protected:
 };
 
 }  // namespace qplc
+
+Q_DECLARE_METATYPE(qplc::DropZone)

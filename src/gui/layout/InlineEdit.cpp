@@ -44,4 +44,10 @@ void InlineEdit::focusOutEvent(QFocusEvent *event)
         finish(Take);
 }
 
+void InlineEdit::hideEvent(QHideEvent *event)
+{
+    QLineEdit::hideEvent(event);
+    finish(Forget);
+}
+
 }  // namespace qplc

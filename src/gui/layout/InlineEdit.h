@@ -5,7 +5,7 @@
 
 namespace qplc {
 
-/// A line over a name, in which it is changed: Enter or a click elsewhere takes it, Escape does not. It deletes itself.
+/// A line over a name, in which it is changed: Enter or a click elsewhere takes it, Escape does not, nor does a layout that moves or hides it. It deletes itself.
 class InlineEdit : public QLineEdit
 {
     Q_OBJECT
@@ -18,6 +18,7 @@ Q_SIGNALS:
 protected:
     void keyPressEvent(QKeyEvent *event) override;
     void focusOutEvent(QFocusEvent *event) override;
+    void hideEvent(QHideEvent *event) override;
 
 private:
     enum Outcome { Take, Forget };

@@ -78,13 +78,15 @@ public:
     {
         const QPalette palette = QGuiApplication::palette();
         const auto group = mode == QIcon::Disabled ? QPalette::Disabled : QPalette::Active;
+        QColor line = palette.color(group, QPalette::WindowText);
+        if (mode == QIcon::Normal)  // only that under the mouse has the full colour
+            line.setAlphaF(0.8);
         painter->save();
         painter->setRenderHint(QPainter::Antialiasing);
         const double scale = qMin(rect.width(), rect.height()) / 16.0;
         painter->translate(QRectF(rect).center() - QPointF(8, 8) * scale);
         painter->scale(scale, scale);
-        painter->setPen(
-            QPen(palette.color(group, QPalette::WindowText), 1.2, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+        painter->setPen(QPen(line, 1.2, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
         drawIcon(painter, m_icon);
         painter->restore();
     }

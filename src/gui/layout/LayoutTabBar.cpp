@@ -2,11 +2,13 @@
 #include "LayoutTabBar.h"
 
 #include "InlineEdit.h"
+#include "LayoutIcons.h"
 
 #include <QtGui/QContextMenuEvent>
 #include <QtGui/QMouseEvent>
 #include <QtWidgets/QAction>
 #include <QtWidgets/QMenu>
+#include <QtWidgets/QToolButton>
 
 namespace qplc {
 
@@ -29,7 +31,6 @@ LayoutTabBar::LayoutTabBar(LayoutEditor *editor, QWidget *parent)
     setDrawBase(false);
     setExpanding(false);
     setMovable(true);
-    setTabsClosable(true);
     setElideMode(Qt::ElideRight);
     setChangeCurrentOnDrag(true);
     setFocusPolicy(Qt::StrongFocus);
@@ -42,7 +43,6 @@ LayoutTabBar::LayoutTabBar(LayoutEditor *editor, QWidget *parent)
         if (!m_isFollowing)
             m_editor->moveTab(tabId(to), to);
     });
-    connect(this, &QTabBar::tabCloseRequested, this, [this](int index) { m_editor->closeTab(tabId(index)); });
 }
 
 void LayoutTabBar::makeActions()
@@ -71,6 +71,21 @@ int LayoutTabBar::indexOf(const QString &id) const
     return -1;
 }
 
+void LayoutTabBar::addTabOf(const LayoutTab &tab, int index)
+{
+    const QString id = tab.id;
+    setTabData(insertTab(index, shownName(tab.name)), id);
+    auto *close = new QToolButton(this);
+    close->setIcon(layoutIcon(LayoutIcon::Close));
+    close->setToolTip(tr("Close tab"));
+    close->setAutoRaise(true);
+    close->setIconSize({10, 10});
+    close->setFixedSize(18, 18);
+    close->setFocusPolicy(Qt::NoFocus);  // keys: Ctrl+W
+    connect(close, &QToolButton::clicked, this, [this, id] { m_editor->closeTab(id); });
+    setTabButton(index, QTabBar::RightSide, close);
+}
+
 void LayoutTabBar::showTabs(const Layout &layout)
 {
     m_isFollowing = true;
@@ -82,11 +97,12 @@ void LayoutTabBar::showTabs(const Layout &layout)
     for (const LayoutTab &tab : layout.tabs()) {
         const int present = indexOf(tab.id);
         if (present < 0)
-            setTabData(insertTab(index, shownName(tab.name)), tab.id);
+            addTabOf(tab, index);
         else if (present != index)
             QTabBar::moveTab(present, index);
         if (tabText(index) != shownName(tab.name))
             setTabText(index, shownName(tab.name));
+        tabButton(index, QTabBar::RightSide)->setAccessibleName(tr("Close tab %1").arg(tab.name));
         ++index;
     }
     setCurrentIndex(indexOf(layout.currentTab().id));

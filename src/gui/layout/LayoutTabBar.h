@@ -26,6 +26,7 @@ protected:
 
 private:
     QString tabId(int index) const { return tabData(index).toString(); }
+    void addTabOf(const LayoutTab &tab, int index);
     int indexOf(const QString &id) const;
     void makeActions();
 

@@ -30,6 +30,7 @@ LayoutView::LayoutView(LayoutEditor *editor, QWidget *parent)
     , m_stack(new QStackedWidget(this))
     , m_drag(new PanelDrag(this))
 {
+    qRegisterMetaType<DropZone>("qplc::DropZone");
     m_add->setIcon(layoutIcon(LayoutIcon::Add));
     m_add->setAutoRaise(true);
     m_add->setText(tr("Add a panel or a tab"));

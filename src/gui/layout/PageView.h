@@ -30,7 +30,7 @@ public:
     EmptyPage *emptyPage() const { return m_empty; }
 
 Q_SIGNALS:
-    void sharesEdited(const LayoutSpan &span, const QVector<int> &shares);
+    void sharesEdited(const qplc::LayoutSpan &span, const QVector<int> &shares);
 
 private:
     bool shows(const LayoutNode &tree, const FrameOf &frameOf) const;

@@ -47,7 +47,7 @@ public:
     QMenu *createMenu();
 
 Q_SIGNALS:
-    void signalsDropped(DropZone zone, const QMimeData *data);
+    void signalsDropped(qplc::DropZone zone, const QMimeData *data);
 
 protected:
     void contextMenuEvent(QContextMenuEvent *event) override;

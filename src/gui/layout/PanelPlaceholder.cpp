@@ -7,7 +7,7 @@ namespace qplc {
 
 PanelPlaceholder::PanelPlaceholder(const QString &type, QWidget *parent)
     : QWidget(parent)
-    , m_text(tr("This program has no widget '%1'.\nThe panel and its settings are kept.").arg(type))
+    , m_text(tr("Missing widget: %1\nThe panel and its settings are kept.").arg(type))
 {
     setAccessibleName(m_text);
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);

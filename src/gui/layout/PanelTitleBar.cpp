@@ -111,7 +111,7 @@ void PanelTitleBar::mouseMoveEvent(QMouseEvent *event)
     if (m_drag == Pressed && (event->pos() - m_pressed).manhattanLength() >= QApplication::startDragDistance()) {
         m_drag = Dragging;
         setCursor(Qt::ClosedHandCursor);
-        grabKeyboard();  // for Escape
+        qApp->installEventFilter(this);
     }
     if (m_drag == Dragging)
         Q_EMIT dragMoved(event->globalPos());
@@ -133,12 +133,18 @@ void PanelTitleBar::mouseDoubleClickEvent(QMouseEvent *event)
         Q_EMIT doubleClicked();
 }
 
-void PanelTitleBar::keyPressEvent(QKeyEvent *event)
+bool PanelTitleBar::eventFilter(QObject *watched, QEvent *event)
 {
-    if (m_drag != Dragging || event->key() != Qt::Key_Escape)
-        return QWidget::keyPressEvent(event);
-    endDrag();
-    Q_EMIT dragCancelled();
+    // While a panel is dragged, Escape ends that, wherever the keyboard is.
+    const bool isKey = event->type() == QEvent::KeyPress || event->type() == QEvent::ShortcutOverride;
+    if (!isKey || static_cast<QKeyEvent *>(event)->key() != Qt::Key_Escape)
+        return QWidget::eventFilter(watched, event);
+    event->accept();
+    if (event->type() == QEvent::KeyPress) {
+        endDrag();
+        Q_EMIT dragCancelled();
+    }
+    return true;
 }
 
 void PanelTitleBar::hideEvent(QHideEvent *event)
@@ -153,7 +159,7 @@ void PanelTitleBar::hideEvent(QHideEvent *event)
 void PanelTitleBar::endDrag()
 {
     if (m_drag == Dragging) {
-        releaseKeyboard();
+        qApp->removeEventFilter(this);
         unsetCursor();
     }
     m_drag = NotPressed;

@@ -19,7 +19,7 @@ public:
 
 Q_SIGNALS:
     /// A person has moved a handle.
-    void sharesEdited(const LayoutSpan &span, const QVector<int> &shares);
+    void sharesEdited(const qplc::LayoutSpan &span, const QVector<int> &shares);
 
 protected:
     void resizeEvent(QResizeEvent *event) override;

@@ -98,6 +98,21 @@ struct ViewFixture
     QByteArray before;
 };
 
+/// Moves the pressed mouse over a widget that has got it.
+inline void moveTo(QWidget *bar, const QPoint &global)
+{
+    QMouseEvent move(QEvent::MouseMove, bar->mapFromGlobal(global), global, Qt::NoButton, Qt::LeftButton,
+                     Qt::NoModifier);
+    QApplication::sendEvent(bar, &move);
+}
+
+inline void release(QWidget *bar, const QPoint &global)
+{
+    QMouseEvent up(QEvent::MouseButtonRelease, bar->mapFromGlobal(global), global, Qt::LeftButton, Qt::NoButton,
+                   Qt::NoModifier);
+    QApplication::sendEvent(bar, &up);
+}
+
 /// The entry with this text, also in submenus: "Split right/Gauge".
 inline QAction *entry(QMenu *menu, const QString &path)
 {

@@ -67,6 +67,7 @@ void play(const QString &scene, LayoutEditor *editor, LayoutView *view)
 
 int main(int argc, char **argv)
 {
+    QApplication::setAttribute(Qt::AA_UseHighDpiPixmaps);
     QApplication application(argc, argv);
     QCommandLineParser options;
     options.addOptions({{"dark", "Dark palette."},
