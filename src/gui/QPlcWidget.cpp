@@ -85,10 +85,12 @@ QJsonObject QPlcWidget::settings() const
 
 void QPlcWidget::applySettings(const QJsonObject &settings)
 {
-    for (auto entry = settings.begin(); entry != settings.end(); ++entry)
-        d->settings.insert(entry.key(), entry.value());
-    if (settings.contains(QStringLiteral("title")))
-        setTitle(settings.value(QStringLiteral("title")).toString());
+    for (auto entry = settings.begin(); entry != settings.end(); ++entry) {
+        if (entry.key() == QLatin1String("title"))
+            setTitle(entry.value().toString());
+        else
+            d->settings.insert(entry.key(), entry.value());
+    }
 }
 
 QPlcSignalIndexList QPlcWidget::inputSignalIndices() const
@@ -106,9 +108,7 @@ QPlcSignalList QPlcWidget::initialOutputSignals() const
     return d->initialOutputs;
 }
 
-void QPlcWidget::realTimeout(const QList<QPlcSignalList> & /*signalValues*/)
-{
-}
+void QPlcWidget::realTimeout(const QList<QPlcSignalList> & /*signalValues*/) {}
 
 void QPlcWidget::setInputSignalIndices(const QPlcSignalIndexList &indices)
 {

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QtWidgets/QWidget>
+
+namespace qplc {
+
+/// Where in a panel something is dropped.
+enum class DropZone { Left, Right, Above, Below, Center };
+enum class DropCenter { IsAZone, BelongsToTheNearestEdge };
+
+/// What signals are dragged as, from a tree of signals.
+QString signalsMimeType();
+
+/// The zone of \a area at \a position, which may be outside. The center has the middle half of width and height.
+DropZone dropZoneAt(const QRect &area, const QPoint &position, DropCenter center);
+/// What would be filled by what is dropped there.
+QRect dropZoneRect(const QRect &area, DropZone zone);
+
+/// A translucent rectangle over a widget that says where something would go.
+class DropOverlay : public QWidget
+{
+    Q_OBJECT
+public:
+    DropOverlay();
+    void showOver(QWidget *widget, const QRect &rect);
+
+protected:
+    void paintEvent(QPaintEvent *event) override;
+};
+
+}  // namespace qplc
+
+Q_DECLARE_METATYPE(qplc::DropZone)

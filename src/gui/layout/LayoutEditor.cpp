@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "LayoutEditor.h"
+
+namespace qplc {
+
+/// Two values, one before and one after an edit.
+class LayoutEditor::Step : public QUndoCommand
+{
+public:
+    Step(LayoutEditor *editor, const Layout &after, MergeKind kind, const QString &mergeKey)
+        : m_editor(editor)
+        , m_before(editor->layout())
+        , m_after(after)
+        , m_kind(kind)
+        , m_mergeKey(mergeKey)
+    {
+    }
+
+    int id() const override { return m_kind; }
+    void undo() override { m_editor->show(m_after, m_before); }
+    void redo() override { m_editor->show(m_before, m_after); }
+
+    bool mergeWith(const QUndoCommand *other) override
+    {
+        const auto *next = static_cast<const Step *>(other);
+        if (next->m_mergeKey != m_mergeKey)
+            return false;
+        m_after = next->m_after;
+        setObsolete(m_after == m_before);
+        return true;
+    }
+
+private:
+    LayoutEditor *m_editor;
+    Layout m_before;
+    Layout m_after;
+    MergeKind m_kind;
+    QString m_mergeKey;
+};
+
+LayoutEditor::LayoutEditor(QObject *parent)
+    : LayoutEditor(Layout(), parent)
+{
+}
+
+LayoutEditor::LayoutEditor(const Layout &layout, QObject *parent)
+    : QObject(parent)
+    , m_layout(layout)
+{
+}
+
+void LayoutEditor::setLayout(const Layout &layout)
+{
+    m_stack.clear();
+    m_layout = layout;
+    Q_EMIT layoutChanged();
+}
+
+bool LayoutEditor::replace(const Layout &layout, const QString &text)
+{
+    return push(layout, text);
+}
+
+void LayoutEditor::show(const Layout &from, const Layout &to)
+{
+    const std::vector<LayoutWindow> windows = m_layout.windows();
+    m_layout = to;
+    // A window that the step did not move stays where a person has put it since.
+    for (const LayoutWindow &each : windows) {
+        const LayoutWindow *before = from.window(each.id);
+        const LayoutWindow *after = to.window(each.id);
+        if (before && after && before->geometry == after->geometry)
+            m_layout.setWindowGeometry(each.id, each.geometry);
+    }
+    Q_EMIT layoutChanged();
+}
+
+bool LayoutEditor::push(const Layout &after, const QString &text, MergeKind kind, const QString &mergeKey)
+{
+    if (after == m_layout)
+        return false;
+    auto *step = new Step(this, after, kind, mergeKey);
+    step->setText(text);
+    m_stack.push(step);
+    return true;
+}
+
+bool LayoutEditor::edit(const std::function<bool(Layout *)> &change, const QString &text, MergeKind kind,
+                        const QString &mergeKey)
+{
+    Layout after = m_layout;
+    return change(&after) && push(after, text, kind, mergeKey);
+}
+
+QString LayoutEditor::quoted(const QString &panelId) const
+{
+    const LayoutPanel *panel = m_layout.panel(panelId);
+    return panel ? panel->title() : panelId;
+}
+
+QString LayoutEditor::quotedTab(const QString &tabId) const
+{
+    const LayoutTab *tab = m_layout.tab(tabId);
+    return tab ? tab->name : tabId;
+}
+
+QString LayoutEditor::addPanel(const QString &type, const QJsonObject &settings, const LayoutTarget &target)
+{
+    Layout after = m_layout;
+    const QString id = after.addPanel(type, settings, target);
+    if (!id.isEmpty())
+        push(after, tr("new panel '%1'").arg(after.panel(id)->title()));
+    return id;
+}
+
+QString LayoutEditor::duplicatePanel(const QString &panelId, LayoutSide side)
+{
+    Layout after = m_layout;
+    const QString id = after.duplicatePanel(panelId, side);
+    if (!id.isEmpty())
+        push(after, tr("copy of '%1'").arg(quoted(panelId)));
+    return id;
+}
+
+bool LayoutEditor::closePanel(const QString &panelId)
+{
+    return edit([&](Layout *layout) { return layout->closePanel(panelId); }, tr("close of '%1'").arg(quoted(panelId)));
+}
+
+bool LayoutEditor::movePanel(const QString &panelId, const LayoutTarget &target)
+{
+    return edit([&](Layout *layout) { return layout->movePanel(panelId, target); },
+                tr("move of '%1'").arg(quoted(panelId)));
+}
+
+bool LayoutEditor::floatPanel(const QString &panelId, const QRect &geometry)
+{
+    return edit([&](Layout *layout) { return layout->floatPanel(panelId, geometry); },
+                tr("float of '%1'").arg(quoted(panelId)));
+}
+
+bool LayoutEditor::dockPanel(const QString &panelId)
+{
+    return edit([&](Layout *layout) { return layout->dockPanel(panelId); }, tr("dock of '%1'").arg(quoted(panelId)));
+}
+
+bool LayoutEditor::setMaximized(const QString &panelId, bool isMaximized)
+{
+    return edit([&](Layout *layout) { return layout->setMaximized(panelId, isMaximized); },
+                (isMaximized ? tr("maximize of '%1'") : tr("restore of '%1'")).arg(quoted(panelId)));
+}
+
+bool LayoutEditor::setPanelSettings(const QString &panelId, const QJsonObject &settings)
+{
+    return edit([&](Layout *layout) { return layout->setPanelSettings(panelId, settings); },
+                tr("settings of '%1'").arg(quoted(panelId)), Settings, panelId);
+}
+
+bool LayoutEditor::setPanelTitle(const QString &panelId, const QString &title)
+{
+    return edit([&](Layout *layout) { return layout->setPanelTitle(panelId, title); },
+                tr("rename of '%1'").arg(quoted(panelId)));
+}
+
+bool LayoutEditor::setShares(const LayoutSpan &split, const QVector<int> &shares)
+{
+    return edit([&](Layout *layout) { return layout->setShares(split, shares); }, tr("resize"), Resizes,
+                split.first + QLatin1Char('\n') + split.last);
+}
+
+bool LayoutEditor::growPanel(const QString &panelId, Qt::Orientation orientation, int change)
+{
+    return edit([&](Layout *layout) { return layout->growPanel(panelId, orientation, change); },
+                tr("resize of '%1'").arg(quoted(panelId)), Resizes,
+                panelId + (orientation == Qt::Horizontal ? QStringLiteral("\nwidth") : QStringLiteral("\nheight")));
+}
+
+QString LayoutEditor::addTab(const QString &name)
+{
+    Layout after = m_layout;
+    const QString id = after.addTab(name);
+    push(after, tr("new tab '%1'").arg(after.tab(id)->name));
+    return id;
+}
+
+bool LayoutEditor::closeTab(const QString &tabId)
+{
+    return edit([&](Layout *layout) { return layout->closeTab(tabId); }, tr("close of tab '%1'").arg(quotedTab(tabId)));
+}
+
+bool LayoutEditor::renameTab(const QString &tabId, const QString &name)
+{
+    return edit([&](Layout *layout) { return layout->renameTab(tabId, name); },
+                tr("rename of tab '%1'").arg(quotedTab(tabId)));
+}
+
+bool LayoutEditor::moveTab(const QString &tabId, int index)
+{
+    return edit([&](Layout *layout) { return layout->moveTab(tabId, index); },
+                tr("move of tab '%1'").arg(quotedTab(tabId)), TabMoves, tabId);
+}
+
+bool LayoutEditor::closeWindow(const QString &windowId)
+{
+    const LayoutWindow *window = m_layout.window(windowId);
+    const QString first = window ? quoted(window->tree->span().first) : windowId;
+    return edit([&](Layout *layout) { return layout->closeWindow(windowId); }, tr("close of window '%1'").arg(first));
+}
+
+void LayoutEditor::setCurrentTab(const QString &tabId)
+{
+    if (tabId == m_layout.currentTab().id || !m_layout.setCurrentTab(tabId))
+        return;
+    Q_EMIT layoutChanged();
+}
+
+void LayoutEditor::setWindowGeometry(const QString &windowId, const QRect &geometry)
+{
+    const LayoutWindow *window = m_layout.window(windowId);
+    if (window && window->geometry != geometry && m_layout.setWindowGeometry(windowId, geometry))
+        Q_EMIT layoutChanged();
+}
+
+}  // namespace qplc

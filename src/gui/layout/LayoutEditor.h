@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "Layout.h"
+
+#include <QtCore/QObject>
+#include <QtWidgets/QUndoStack>
+
+#include <functional>
+
+namespace qplc {
+
+/// The layout of a window, and what a person did to it: every edit is a step that undoes and redoes, with a text for the menu ("move of 'Time plot'").
+///
+/// Edits have the preconditions of Layout; those that fail, or change nothing, are no steps. Successive resizes of one split, moves of one tab and settings of one panel are one step.
+/// What is looked at (the current tab, the place of windows) is no step; undoing brings the tab to the front where something happens, and leaves windows where they are.
+///
+/// Threads: that of the window.
+class LayoutEditor : public QObject
+{
+    Q_OBJECT
+public:
+    explicit LayoutEditor(QObject *parent = nullptr);
+    explicit LayoutEditor(const Layout &layout, QObject *parent = nullptr);
+
+    const Layout &layout() const { return m_layout; }
+    /// Takes another layout, say of a file; there is nothing to undo then.
+    void setLayout(const Layout &layout);
+    /// Takes another layout as one step that can be undone: \a text for the menu, such as "reset of the layout".
+    bool replace(const Layout &layout, const QString &text);
+    QUndoStack *undoStack() { return &m_stack; }
+
+    QString addPanel(const QString &type, const QJsonObject &settings, const LayoutTarget &target);
+    QString duplicatePanel(const QString &panelId, LayoutSide side);
+    bool closePanel(const QString &panelId);
+    bool movePanel(const QString &panelId, const LayoutTarget &target);
+    bool floatPanel(const QString &panelId, const QRect &geometry);
+    bool dockPanel(const QString &panelId);
+    bool setMaximized(const QString &panelId, bool isMaximized);
+    bool setPanelSettings(const QString &panelId, const QJsonObject &settings);
+    bool setPanelTitle(const QString &panelId, const QString &title);
+    bool setShares(const LayoutSpan &split, const QVector<int> &shares);
+    bool growPanel(const QString &panelId, Qt::Orientation orientation, int change);
+
+    QString addTab(const QString &name = {});
+    bool closeTab(const QString &tabId);
+    bool renameTab(const QString &tabId, const QString &name);
+    bool moveTab(const QString &tabId, int index);
+    bool closeWindow(const QString &windowId);
+
+    void setCurrentTab(const QString &tabId);
+    void setWindowGeometry(const QString &windowId, const QRect &geometry);
+
+Q_SIGNALS:
+    void layoutChanged();
+
+private:
+    class Step;
+    enum MergeKind { NoMerge = -1, Resizes = 1, TabMoves, Settings };
+
+    bool push(const Layout &after, const QString &text, MergeKind kind = NoMerge, const QString &mergeKey = {});
+    bool edit(const std::function<bool(Layout *)> &change, const QString &text, MergeKind kind = NoMerge,
+              const QString &mergeKey = {});
+    void show(const Layout &from, const Layout &to);
+    QString quoted(const QString &panelId) const;
+    QString quotedTab(const QString &tabId) const;
+
+    Layout m_layout;
+    QUndoStack m_stack;
+};
+
+}  // namespace qplc

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "LayoutTabBar.h"
+
+#include "InlineEdit.h"
+#include "LayoutIcons.h"
+
+#include <QtGui/QContextMenuEvent>
+#include <QtGui/QMouseEvent>
+#include <QtWidgets/QAction>
+#include <QtWidgets/QMenu>
+#include <QtWidgets/QToolButton>
+
+namespace qplc {
+
+namespace {
+
+/// A name as a tab shows it: an ampersand is no mnemonic.
+QString shownName(QString name)
+{
+    return name.replace(QLatin1Char('&'), QStringLiteral("&&"));
+}
+
+}  // namespace
+
+LayoutTabBar::LayoutTabBar(LayoutEditor *editor, QWidget *parent)
+    : QTabBar(parent)
+    , m_editor(editor)
+{
+    setAccessibleName(tr("Tabs"));
+    setDocumentMode(true);
+    setDrawBase(false);
+    setExpanding(false);
+    setMovable(true);
+    setElideMode(Qt::ElideRight);
+    setChangeCurrentOnDrag(true);
+    setFocusPolicy(Qt::StrongFocus);
+    makeActions();
+    connect(this, &QTabBar::currentChanged, this, [this](int index) {
+        if (!m_isFollowing)
+            m_editor->setCurrentTab(tabId(index));
+    });
+    connect(this, &QTabBar::tabMoved, this, [this](int /*from*/, int to) {
+        if (!m_isFollowing)
+            m_editor->moveTab(tabId(to), to);
+    });
+}
+
+void LayoutTabBar::makeActions()
+{
+    const auto add = [this](const QString &text, const QString &keys, auto slot) {
+        auto *action = new QAction(text, this);
+        action->setShortcut(keys);
+        action->setShortcutContext(Qt::WidgetShortcut);
+        connect(action, &QAction::triggered, this, slot);
+        addAction(action);
+    };
+    add(tr("Rename tab"), tr("F2"), [this] { startRename(currentIndex()); });
+    add(tr("Move tab left"), tr("Ctrl+Shift+Left"),
+        [this] { m_editor->moveTab(tabId(currentIndex()), currentIndex() - 1); });
+    add(tr("Move tab right"), tr("Ctrl+Shift+Right"),
+        [this] { m_editor->moveTab(tabId(currentIndex()), currentIndex() + 1); });
+    add(tr("Close tab"), tr("Ctrl+W"), [this] { m_editor->closeTab(tabId(currentIndex())); });
+}
+
+int LayoutTabBar::indexOf(const QString &id) const
+{
+    for (int i = 0; i < count(); ++i) {
+        if (tabId(i) == id)
+            return i;
+    }
+    return -1;
+}
+
+void LayoutTabBar::addTabOf(const LayoutTab &tab, int index)
+{
+    const QString id = tab.id;
+    setTabData(insertTab(index, shownName(tab.name)), id);
+    auto *close = new QToolButton(this);
+    close->setIcon(layoutIcon(LayoutIcon::Close));
+    close->setToolTip(tr("Close tab"));
+    close->setAutoRaise(true);
+    close->setIconSize({10, 10});
+    close->setFixedSize(18, 18);
+    close->setFocusPolicy(Qt::NoFocus);  // keys: Ctrl+W
+    connect(close, &QToolButton::clicked, this, [this, id] { m_editor->closeTab(id); });
+    setTabButton(index, QTabBar::RightSide, close);
+}
+
+void LayoutTabBar::showTabs(const Layout &layout)
+{
+    m_isFollowing = true;
+    for (int i = count() - 1; i >= 0; --i) {
+        if (!layout.tab(tabId(i)))
+            removeTab(i);
+    }
+    int index = 0;
+    for (const LayoutTab &tab : layout.tabs()) {
+        const int present = indexOf(tab.id);
+        if (present < 0)
+            addTabOf(tab, index);
+        else if (present != index)
+            QTabBar::moveTab(present, index);
+        if (tabText(index) != shownName(tab.name))
+            setTabText(index, shownName(tab.name));
+        tabButton(index, QTabBar::RightSide)->setAccessibleName(tr("Close tab %1").arg(tab.name));
+        ++index;
+    }
+    setCurrentIndex(indexOf(layout.currentTab().id));
+    m_isFollowing = false;
+}
+
+QString LayoutTabBar::tabIdAt(const QPoint &position) const
+{
+    return tabId(tabAt(position));
+}
+
+void LayoutTabBar::startRename(int index)
+{
+    if (index < 0)
+        return;
+    const QString id = tabId(index);
+    auto *edit = new InlineEdit(m_editor->layout().tab(id)->name, tabRect(index).adjusted(2, 2, -2, -2), this);
+    connect(edit, &InlineEdit::accepted, this, [this, id](const QString &name) { m_editor->renameTab(id, name); });
+}
+
+void LayoutTabBar::mouseDoubleClickEvent(QMouseEvent *event)
+{
+    if (event->button() == Qt::LeftButton)
+        startRename(tabAt(event->pos()));
+}
+
+void LayoutTabBar::contextMenuEvent(QContextMenuEvent *event)
+{
+    if (event->reason() == QContextMenuEvent::Mouse && tabAt(event->pos()) >= 0)
+        setCurrentIndex(tabAt(event->pos()));
+    auto *menu = new QMenu(this);
+    menu->setAttribute(Qt::WA_DeleteOnClose);
+    menu->addActions(actions());
+    menu->addSeparator();
+    menu->addAction(tr("New tab"), this, [this] { m_editor->addTab(); });
+    const bool isKeyboard = event->reason() == QContextMenuEvent::Keyboard;
+    menu->popup(isKeyboard ? mapToGlobal(tabRect(currentIndex()).bottomLeft()) : event->globalPos());
+}
+
+}  // namespace qplc

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "LayoutView.h"
+
+#include "EmptyPage.h"
+#include "FloatingWindow.h"
+#include "LayoutIcons.h"
+#include "LayoutTabBar.h"
+#include "PageView.h"
+#include "PanelDrag.h"
+#include "PanelFrame.h"
+#include "PanelTitleBar.h"
+#include "QPlcWidgetFactory.h"
+
+#include <QtWidgets/QAction>
+#include <QtWidgets/QHBoxLayout>
+#include <QtWidgets/QMenu>
+#include <QtWidgets/QPushButton>
+#include <QtWidgets/QStackedWidget>
+#include <QtWidgets/QToolButton>
+
+#include <algorithm>
+
+namespace qplc {
+
+LayoutView::LayoutView(LayoutEditor *editor, QWidget *parent)
+    : QWidget(parent)
+    , m_editor(editor)
+    , m_tabBar(new LayoutTabBar(editor, this))
+    , m_add(new QToolButton(this))
+    , m_stack(new QStackedWidget(this))
+    , m_drag(new PanelDrag(this))
+{
+    qRegisterMetaType<DropZone>("qplc::DropZone");
+    m_add->setIcon(layoutIcon(LayoutIcon::Add));
+    m_add->setAutoRaise(true);
+    m_add->setText(tr("Add a panel or a tab"));
+    m_add->setToolTip(m_add->text());
+    m_add->setAccessibleName(m_add->text());
+    m_add->setFocusPolicy(Qt::TabFocus);
+    connect(m_add, &QToolButton::clicked, this, [this] { openAddMenu(m_add); });
+    auto *bar = new QHBoxLayout;
+    bar->setSpacing(2);
+    bar->addWidget(m_tabBar);
+    bar->addWidget(m_add);
+    bar->addStretch();
+    auto *column = new QVBoxLayout(this);
+    column->setContentsMargins(0, 0, 0, 0);
+    column->setSpacing(2);
+    column->addLayout(bar);
+    column->addWidget(m_stack, 1);
+    makeActions();
+    connect(editor, &LayoutEditor::layoutChanged, this, &LayoutView::follow);
+    follow();
+}
+
+LayoutView::~LayoutView()
+{
+    // Nothing that happens while windows go is an edit.
+    disconnect(m_editor, nullptr, this, nullptr);
+    qDeleteAll(m_windows);
+}
+
+void LayoutView::makeActions()
+{
+    const auto add = [this](const QString &text, const QString &keys, auto slot) {
+        auto *action = new QAction(text, this);
+        action->setShortcut(keys);
+        action->setShortcutContext(Qt::WidgetWithChildrenShortcut);
+        connect(action, &QAction::triggered, this, slot);
+        addAction(action);
+    };
+    add(tr("Next panel"), tr("F6"), [this] { focusPanel(1); });
+    add(tr("Previous panel"), tr("Shift+F6"), [this] { focusPanel(-1); });
+    add(tr("Next tab"), tr("Ctrl+PgDown"),
+        [this] { m_tabBar->setCurrentIndex((m_tabBar->currentIndex() + 1) % m_tabBar->count()); });
+    add(tr("Previous tab"), tr("Ctrl+PgUp"),
+        [this] { m_tabBar->setCurrentIndex((m_tabBar->currentIndex() + m_tabBar->count() - 1) % m_tabBar->count()); });
+    add(tr("New tab"), tr("Ctrl+T"), [this] { m_editor->addTab(); });
+}
+
+void LayoutView::setFactories(const QList<QPlcWidgetFactory *> &factories)
+{
+    m_factories = factories;
+    // All menus and placeholders get to know them; widgets stay.
+    QHash<QString, PanelFrame *> gone;
+    for (PanelFrame *frame : qAsConst(m_frames)) {
+        frame->setFactories(factories);
+        const bool isKnown = std::any_of(factories.begin(), factories.end(),
+                                         [&](const QPlcWidgetFactory *each) { return each->name() == frame->type(); });
+        if (!frame->widget() && isKnown)
+            gone.insert(frame->panelId(), frame);
+    }
+    for (const QString &id : gone.keys())
+        m_frames.remove(id);
+    makeFrames();
+    followPages();
+    dropFrames(gone);
+    follow();
+}
+
+QPlcWidget *LayoutView::widget(const QString &panelId) const
+{
+    const PanelFrame *found = frame(panelId);
+    return found ? found->widget() : nullptr;
+}
+
+void LayoutView::follow()
+{
+    const Layout layout = m_editor->layout();
+    QHash<QString, PanelFrame *> gone;
+    for (PanelFrame *frame : qAsConst(m_frames)) {
+        const LayoutPanel *panel = layout.panel(frame->panelId());
+        if (!panel || panel->type != frame->type())
+            gone.insert(frame->panelId(), frame);
+    }
+    for (const QString &id : gone.keys())
+        m_frames.remove(id);
+    makeFrames();
+    followPages();
+    dropFrames(gone);
+    for (PageView *page : qAsConst(m_pages))
+        page->dropOldSplitters();
+    for (const QString &id : m_pages.keys()) {
+        if (layout.tab(id) || layout.window(id))
+            continue;
+        if (FloatingWindow *window = m_windows.take(id)) {
+            window->hide();
+            window->deleteLater();
+            m_pages.remove(id);
+        } else {
+            delete m_pages.take(id);
+        }
+    }
+}
+
+void LayoutView::makeFrames()
+{
+    for (const LayoutPanel *panel : m_editor->layout().panels()) {
+        if (!m_frames.contains(panel->id))
+            makeFrame(*panel);
+    }
+}
+
+void LayoutView::makeFrame(const LayoutPanel &panel)
+{
+    auto *frame = new PanelFrame(m_editor, panel, m_factories, this);
+    m_frames.insert(panel.id, frame);
+    const QString id = panel.id;
+    connect(frame, &PanelFrame::signalsDropped, this,
+            [this, id](DropZone zone, const QMimeData *dropped) { Q_EMIT signalsDropped(id, zone, dropped); });
+    connect(frame->titleBar(), &PanelTitleBar::dragMoved, m_drag,
+            [this, id](const QPoint &at) { m_drag->move(id, at); });
+    connect(frame->titleBar(), &PanelTitleBar::dragFinished, m_drag,
+            [this, id](const QPoint &at) { m_drag->finish(id, at); });
+    connect(frame->titleBar(), &PanelTitleBar::dragCancelled, m_drag, &PanelDrag::cancel);
+    if (frame->widget())
+        Q_EMIT widgetAdded(id, frame->widget());
+}
+
+PageView *LayoutView::newPage()
+{
+    auto *page = new PageView;
+    m_stack->addWidget(page);
+    connect(page->emptyPage(), &EmptyPage::signalsDropped, this,
+            [this](const QMimeData *dropped) { Q_EMIT signalsDropped(QString(), DropZone::Center, dropped); });
+    connect(page->emptyPage()->addButton(), &QPushButton::clicked, this,
+            [this, page] { openAddMenu(page->emptyPage()->addButton()); });
+    return page;
+}
+
+void LayoutView::followPages()
+{
+    const Layout layout = m_editor->layout();
+    const auto frameOf = [this](const QString &id) { return m_frames.value(id); };
+    const auto show = [&](const LayoutPage &page) {
+        PageView *view = m_pages.value(page.id);
+        connect(view, &PageView::sharesEdited, m_editor, &LayoutEditor::setShares, Qt::UniqueConnection);
+        view->showPage(page, frameOf);
+    };
+    for (const LayoutTab &tab : layout.tabs()) {
+        if (!m_pages.contains(tab.id))
+            m_pages.insert(tab.id, newPage());
+        show(tab);
+    }
+    for (const LayoutWindow &window : layout.windows()) {
+        if (!m_windows.contains(window.id)) {
+            m_windows.insert(window.id, new FloatingWindow(m_editor, window.id, this));
+            m_pages.insert(window.id, m_windows.value(window.id)->page());
+        }
+        show(window);
+        m_windows.value(window.id)->showWindow(window);
+    }
+    m_tabBar->showTabs(layout);
+    m_stack->setCurrentWidget(m_pages.value(layout.currentTab().id));
+    for (const LayoutPanel *panel : layout.panels())
+        m_frames.value(panel->id)->showPanel(*panel, layout);
+}
+
+void LayoutView::dropFrames(QHash<QString, PanelFrame *> gone)
+{
+    for (PanelFrame *frame : gone) {
+        frame->hide();
+        frame->setParent(this);  // out of the splitter that goes
+        frame->deleteLater();
+        if (frame->widget())
+            Q_EMIT widgetRemoved(frame->panelId(), frame->widget());
+    }
+}
+
+QMenu *LayoutView::createAddMenu()
+{
+    auto *menu = new QMenu(this);
+    for (const QPlcWidgetFactory *factory : qAsConst(m_factories)) {
+        const QString type = factory->name();
+        menu->addAction(type, this, [this, type] {
+            m_editor->addPanel(type, {}, LayoutTarget::inTab(m_editor->layout().currentTab().id));
+        });
+    }
+    menu->addSeparator();
+    menu->addAction(tr("New tab"), this, [this] { m_editor->addTab(); });
+    return menu;
+}
+
+void LayoutView::openAddMenu(QWidget *below)
+{
+    QMenu *menu = createAddMenu();
+    menu->setAttribute(Qt::WA_DeleteOnClose);
+    menu->popup(below->mapToGlobal(QPoint(0, below->height())));
+}
+
+void LayoutView::focusPanel(int step)
+{
+    std::vector<const LayoutPanel *> panels;
+    if (const LayoutTab &tab = m_editor->layout().currentTab(); tab.tree)
+        tab.tree->appendPanels(&panels);
+    if (panels.empty())
+        return;
+    const int count = int(panels.size());
+    const auto holdsFocus = [this](const LayoutPanel *panel) {
+        const QWidget *now = focusWidget();
+        return now && frame(panel->id)->isAncestorOf(now);
+    };
+    const auto present = std::find_if(panels.begin(), panels.end(), holdsFocus);
+    const int from = present != panels.end() ? int(present - panels.begin()) : (step > 0 ? -1 : count);
+    for (int i = 1; i <= count; ++i) {
+        PanelFrame *next = frame(panels[std::size_t((from + i * step + 2 * count) % count)]->id);
+        if (next->isVisible())
+            return next->titleBar()->setFocus(Qt::TabFocusReason);
+    }
+}
+
+}  // namespace qplc

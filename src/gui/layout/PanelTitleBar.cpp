@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "PanelTitleBar.h"
+
+#include "InlineEdit.h"
+
+#include <QtGui/QMouseEvent>
+#include <QtGui/QPainter>
+#include <QtWidgets/QAction>
+#include <QtWidgets/QApplication>
+#include <QtWidgets/QHBoxLayout>
+#include <QtWidgets/QStyleOption>
+
+namespace qplc {
+
+PanelTitleBar::PanelTitleBar(QWidget *parent)
+    : QWidget(parent)
+    , m_buttons(new QHBoxLayout)
+{
+    auto *line = new QHBoxLayout(this);
+    line->setContentsMargins(6, 1, 2, 2);
+    line->addStretch();
+    line->addLayout(m_buttons);
+    m_buttons->setSpacing(0);
+    setFocusPolicy(Qt::StrongFocus);
+    setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+}
+
+void PanelTitleBar::setTitle(const QString &title)
+{
+    m_title = title;
+    setAccessibleName(tr("Title of %1").arg(title));
+    setToolTip(title);
+    update();
+}
+
+QToolButton *PanelTitleBar::addButton(QAction *action)
+{
+    auto *button = new QToolButton(this);
+    button->setDefaultAction(action);
+    button->setAutoRaise(true);
+    button->setIconSize({14, 14});
+    button->setFixedSize(20, 20);
+    button->setFocusPolicy(Qt::TabFocus);
+    m_buttons->addWidget(button);
+    return button;
+}
+
+void PanelTitleBar::setActive(bool isActive)
+{
+    if (isActive == m_isActive)
+        return;
+    m_isActive = isActive;
+    update();
+}
+
+QSize PanelTitleBar::sizeHint() const
+{
+    return {m_buttons->sizeHint().width() + 120, qMax(24, fontMetrics().height() + 6)};
+}
+
+QSize PanelTitleBar::minimumSizeHint() const
+{
+    return {m_buttons->sizeHint().width() + 24, sizeHint().height()};
+}
+
+QRect PanelTitleBar::titleRect() const
+{
+    return rect().adjusted(8, 0, -(m_buttons->sizeHint().width() + 8), -1);
+}
+
+void PanelTitleBar::startRename()
+{
+    auto *edit = new InlineEdit(m_title, titleRect().adjusted(-5, 1, 0, -1), this);
+    connect(edit, &InlineEdit::accepted, this, &PanelTitleBar::renamed);
+}
+
+void PanelTitleBar::paintEvent(QPaintEvent * /*event*/)
+{
+    QPainter painter(this);
+    const QColor window = palette().color(QPalette::Window);
+    const bool isDark = window.lightness() < 128;
+    painter.fillRect(rect(), isDark ? window.lighter(125) : window.darker(106));
+    const QColor line = m_isActive ? palette().color(QPalette::Highlight)
+        : isDark                   ? window.lighter(150)
+                                   : window.darker(118);
+    painter.fillRect(QRect(0, height() - 1, width(), 1), line);
+    QColor text = palette().color(QPalette::WindowText);
+    if (!m_isActive)
+        text.setAlphaF(0.8);
+    painter.setPen(text);
+    painter.drawText(titleRect(), Qt::AlignVCenter | Qt::AlignLeft | Qt::TextSingleLine,
+                     fontMetrics().elidedText(m_title, Qt::ElideRight, titleRect().width()));
+    if (!hasFocus())
+        return;
+    QStyleOptionFocusRect option;
+    option.initFrom(this);
+    option.rect = rect().adjusted(2, 2, -(m_buttons->sizeHint().width() + 4), -3);
+    style()->drawPrimitive(QStyle::PE_FrameFocusRect, &option, &painter, this);
+}
+
+void PanelTitleBar::mousePressEvent(QMouseEvent *event)
+{
+    if (event->button() != Qt::LeftButton)
+        return QWidget::mousePressEvent(event);
+    m_drag = Pressed;
+    m_pressed = event->pos();
+}
+
+void PanelTitleBar::mouseMoveEvent(QMouseEvent *event)
+{
+    if (m_drag == Pressed && (event->pos() - m_pressed).manhattanLength() >= QApplication::startDragDistance()) {
+        m_drag = Dragging;
+        setCursor(Qt::ClosedHandCursor);
+        qApp->installEventFilter(this);
+    }
+    if (m_drag == Dragging)
+        Q_EMIT dragMoved(event->globalPos());
+}
+
+void PanelTitleBar::mouseReleaseEvent(QMouseEvent *event)
+{
+    if (event->button() != Qt::LeftButton)
+        return QWidget::mouseReleaseEvent(event);
+    const bool isDragged = m_drag == Dragging;
+    endDrag();
+    if (isDragged)
+        Q_EMIT dragFinished(event->globalPos());
+}
+
+void PanelTitleBar::mouseDoubleClickEvent(QMouseEvent *event)
+{
+    if (event->button() == Qt::LeftButton)
+        Q_EMIT doubleClicked();
+}
+
+bool PanelTitleBar::eventFilter(QObject *watched, QEvent *event)
+{
+    // While a panel is dragged, Escape ends that, wherever the keyboard is.
+    const bool isKey = event->type() == QEvent::KeyPress || event->type() == QEvent::ShortcutOverride;
+    if (!isKey || static_cast<QKeyEvent *>(event)->key() != Qt::Key_Escape)
+        return QWidget::eventFilter(watched, event);
+    event->accept();
+    if (event->type() == QEvent::KeyPress) {
+        endDrag();
+        Q_EMIT dragCancelled();
+    }
+    return true;
+}
+
+void PanelTitleBar::hideEvent(QHideEvent *event)
+{
+    QWidget::hideEvent(event);
+    const bool isDragged = m_drag == Dragging;
+    endDrag();
+    if (isDragged)
+        Q_EMIT dragCancelled();
+}
+
+void PanelTitleBar::endDrag()
+{
+    if (m_drag == Dragging) {
+        qApp->removeEventFilter(this);
+        unsetCursor();
+    }
+    m_drag = NotPressed;
+}
+
+}  // namespace qplc

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QtWidgets/QToolButton>
+#include <QtWidgets/QWidget>
+
+class QBoxLayout;
+
+namespace qplc {
+
+/// The slim line above a panel: its title, and buttons for actions. It is dragged with the mouse, renamed in place, and takes the keyboard.
+class PanelTitleBar : public QWidget
+{
+    Q_OBJECT
+public:
+    explicit PanelTitleBar(QWidget *parent = nullptr);
+
+    QString title() const { return m_title; }
+    void setTitle(const QString &title);
+    /// A button at the right that shows and triggers \a action.
+    QToolButton *addButton(QAction *action);
+    /// Whether the keyboard is in the panel.
+    void setActive(bool isActive);
+    void startRename();
+
+    QSize sizeHint() const override;
+    QSize minimumSizeHint() const override;
+
+Q_SIGNALS:
+    void renamed(const QString &title);
+    void doubleClicked();
+    void dragMoved(const QPoint &globalPosition);
+    void dragFinished(const QPoint &globalPosition);
+    void dragCancelled();
+
+protected:
+    void paintEvent(QPaintEvent *event) override;
+    void mousePressEvent(QMouseEvent *event) override;
+    void mouseMoveEvent(QMouseEvent *event) override;
+    void mouseReleaseEvent(QMouseEvent *event) override;
+    void mouseDoubleClickEvent(QMouseEvent *event) override;
+    bool eventFilter(QObject *watched, QEvent *event) override;
+    void hideEvent(QHideEvent *event) override;
+
+private:
+    enum Drag { NotPressed, Pressed, Dragging };
+
+    QRect titleRect() const;
+    void endDrag();
+
+    QString m_title;
+    QBoxLayout *m_buttons;
+    bool m_isActive = false;
+    Drag m_drag = NotPressed;
+    QPoint m_pressed;
+};
+
+}  // namespace qplc

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "LayoutNode.h"
+
+#include <QtWidgets/QSplitter>
+
+namespace qplc {
+
+/// A splitter whose parts keep their shares whatever its size.
+class ShareSplitter : public QSplitter
+{
+    Q_OBJECT
+public:
+    explicit ShareSplitter(Qt::Orientation orientation, QWidget *parent = nullptr);
+
+    /// \param span  the split that is shown, by which edits name it
+    void showShares(const LayoutSpan &span, const QVector<int> &shares);
+
+Q_SIGNALS:
+    /// A person has moved a handle.
+    void sharesEdited(const qplc::LayoutSpan &span, const QVector<int> &shares);
+
+protected:
+    void resizeEvent(QResizeEvent *event) override;
+
+private:
+    QVector<int> sharesOfSizes() const;
+    void apply();
+
+    LayoutSpan m_span;
+    QVector<int> m_shares;
+};
+
+}  // namespace qplc
