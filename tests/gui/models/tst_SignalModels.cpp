@@ -303,7 +303,7 @@ void tst_SignalModels::textsAreShort()
     QCOMPARE(numberText(std::numeric_limits<double>::quiet_NaN()), QStringLiteral("–"));
     QCOMPARE(ageText(-1), QString());
     QCOMPARE(ageText(0.01), QStringLiteral("< 0.1 s"));
-    QCOMPARE(ageText(1.25), QStringLiteral("1.2 s"));
+    QCOMPARE(ageText(1.24), QStringLiteral("1.2 s"));
     QCOMPARE(ageText(150), QStringLiteral("2 min"));
     QCOMPARE(ageText(7300), QStringLiteral("2 h"));
     QCOMPARE(durationText(0), QStringLiteral("0 µs"));
