@@ -8,6 +8,7 @@
 #include <QtCore/QJsonDocument>
 #include <QtCore/QJsonObject>
 #include <QtCore/QProcess>
+#include <QtCore/QSocketNotifier>
 #include <QtWidgets/QApplication>
 #include <QtWidgets/QTreeView>
 
@@ -38,9 +39,9 @@ public:
     {
         for (const QPlcSignalDefinition &definition : table) {
             if (definition.type.scalar() == QPlcSignalType::Real32)
-                m_singles.push_back(std::make_unique<QPlcOutput<float>>(this, definition.name));
+                m_singles.push_back(std::make_unique<QPlcOutput<float>>(this, definition.name.toLatin1().constData()));
             else
-                m_doubles.push_back(std::make_unique<QPlcOutput<double>>(this, definition.name));
+                m_doubles.push_back(std::make_unique<QPlcOutput<double>>(this, definition.name.toLatin1().constData()));
         }
     }
 
