@@ -5,6 +5,9 @@
 
 #include <QtCore/QList>
 
+#include <chrono>
+#include <functional>
+
 /// A QPlcIOSlaveNode that keeps the inputs of every cycle until a slower reader takes them: the node of a window, a recorder, a plot.
 ///
 /// It is a listener: in lockstep nobody waits for it. A reader that is too slow loses the newest cycles, and is told how many; it never slows the plant.
@@ -26,6 +29,19 @@ public:
     QList<QPlcSignalList> takeInputSignals();
     /// As above, with the number of each cycle.
     QList<QPlcSignalList> takeInputSignals(QVector<quint64> *cycles);
+
+    /// The inputs of one cycle as they came.
+    struct Frame
+    {
+        quint64 cycle;  ///< number since the start of the phase
+        quint64 phase;  ///< greater in each real-time phase of this object than in the one before
+        std::chrono::nanoseconds period;
+        const char *
+            inputs;  ///< values one behind the other in the order of the inputs, little-endian and packed (QPlcValue::fromBytes()); valid during the call
+        int size;    ///< [byte]
+    };
+    /// As takeInputSignals() for readers of many signals: no list is made, \a take gets the bytes of each cycle. \return number of cycles
+    int takeFrames(const std::function<void(const Frame &)> &take);
     /// Cycles that found the buffer full. \threadsafe yes
     quint64 lostCycles() const;
 

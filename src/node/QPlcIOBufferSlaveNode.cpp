@@ -9,12 +9,24 @@
 #include <cstring>
 #include <mutex>
 
+namespace {
+
+struct Head
+{
+    quint64 cycle;
+    quint64 phase;
+    std::chrono::nanoseconds period;
+};
+
+}  // namespace
+
 struct QPlcIOBufferSlaveNode::Buffer
 {
     int size = 1000;
     std::mutex mutex;  // reader against registration; not for the cycle thread
     qplc::PayloadLayout layout;
-    std::unique_ptr<qplc::ByteRing> ring;  // items: u64 cycle, payload
+    std::unique_ptr<qplc::ByteRing> ring;  // items: Head, payload
+    std::atomic<quint64> phase{0};
     std::atomic<quint64> lost{0};
 };
 
@@ -23,6 +35,10 @@ QPlcIOBufferSlaveNode::QPlcIOBufferSlaveNode(const QString &name, RealTimeViolat
     , m_buffer(std::make_unique<Buffer>())
 {
     setListener(true);
+    connect(this, &QPlcSlaveNode::stateChanged, this, [this](State state) {
+        if (state == RealTime)  // before the first frame of the phase is asked for
+            m_buffer->phase.fetch_add(1, std::memory_order_relaxed);
+    });
 }
 
 QPlcIOBufferSlaveNode::~QPlcIOBufferSlaveNode()
@@ -43,23 +59,32 @@ QList<QPlcSignalList> QPlcIOBufferSlaveNode::takeInputSignals()
 
 QList<QPlcSignalList> QPlcIOBufferSlaveNode::takeInputSignals(QVector<quint64> *cycles)
 {
-    const std::lock_guard<std::mutex> lock(m_buffer->mutex);
     QList<QPlcSignalList> batch;
+    takeFrames([&](const Frame &frame) {
+        if (cycles)
+            cycles->append(frame.cycle);
+        batch.append(qplc::NodeRuntime::toList(m_buffer->layout, frame.inputs));
+    });
+    return batch;
+}
+
+int QPlcIOBufferSlaveNode::takeFrames(const std::function<void(const Frame &)> &take)
+{
+    const std::lock_guard<std::mutex> lock(m_buffer->mutex);
     if (!m_buffer->ring)
-        return batch;
+        return 0;
     // Not more than the buffer holds: a reader that is slower than the cycle comes to an end, too.
-    for (std::size_t left = m_buffer->ring->capacity(); left > 0; --left) {
+    const int most = int(m_buffer->ring->capacity());
+    for (int count = 0; count < most; ++count) {
         const char *item = m_buffer->ring->front();
         if (!item)
-            break;
-        quint64 cycle = 0;
-        std::memcpy(&cycle, item, sizeof cycle);
-        if (cycles)
-            cycles->append(cycle);
-        batch.append(qplc::NodeRuntime::toList(m_buffer->layout, item + sizeof cycle));
+            return count;
+        Head head;
+        std::memcpy(&head, item, sizeof head);
+        take({head.cycle, head.phase, head.period, item + sizeof head, int(m_buffer->layout.size())});
         m_buffer->ring->pop();
     }
-    return batch;
+    return most;
 }
 
 quint64 QPlcIOBufferSlaveNode::lostCycles() const
@@ -71,16 +96,16 @@ void QPlcIOBufferSlaveNode::attachPorts(const qplc::PayloadLayout &inputs, const
 {
     const std::lock_guard<std::mutex> lock(m_buffer->mutex);
     m_buffer->layout = inputs;
-    m_buffer->ring = std::make_unique<qplc::ByteRing>(sizeof(quint64) + inputs.size(), std::size_t(m_buffer->size));
+    m_buffer->ring = std::make_unique<qplc::ByteRing>(sizeof(Head) + inputs.size(), std::size_t(m_buffer->size));
     QPlcIOSlaveNode::attachPorts(inputs, outputs);
 }
 
 void QPlcIOBufferSlaveNode::stepFrame(const QPlcCycle &cycle, const char *inputs, char *outputs)
 {
     if (char *item = m_buffer->ring->beginPush()) {
-        const quint64 number = cycle.number();
-        std::memcpy(item, &number, sizeof number);
-        std::memcpy(item + sizeof number, inputs, m_buffer->ring->itemSize() - sizeof number);
+        const Head head{cycle.number(), m_buffer->phase.load(std::memory_order_relaxed), cycle.period()};
+        std::memcpy(item, &head, sizeof head);
+        std::memcpy(item + sizeof head, inputs, m_buffer->ring->itemSize() - sizeof head);
         m_buffer->ring->commitPush();
     } else {
         m_buffer->lost.fetch_add(1, std::memory_order_relaxed);

@@ -24,6 +24,7 @@ private Q_SLOTS:
     void aNodeMayLiveInAThreadOfItsOwn_data();
     void aNodeMayLiveInAThreadOfItsOwn();
     void aFullBufferInAnotherThreadSlowsNobody();
+    void framesTellCyclePhaseAndPeriod();
 };
 
 namespace {
@@ -251,6 +252,39 @@ void tst_IONodes::aFullBufferInAnotherThreadSlowsNobody()
         QCOMPARE(numbers.at(i), quint64(i));
     QVERIFY(viewer.node->takeInputSignals().isEmpty());
     QVERIFY(master.waitForState(QPlcMasterNode::Off));
+}
+
+void tst_IONodes::framesTellCyclePhaseAndPeriod()
+{
+    TestMaster master;
+    QVERIFY(master.listen());
+    QVERIFY(master.setInterval(0.25));
+    CounterNode counter;
+    QVERIFY(master.addLocalNode(&counter));
+    ThreadedViewer viewer(64);
+    QVERIFY(viewer.connectTo(master.protocol("udp")));
+    master.setCycleLimit(10);
+    quint64 lastPhase = 0;
+    for (int run = 0; run < 2; ++run) {
+        QVERIFY(master.startRealTime());
+        QVERIFY(master.waitForState(QPlcMasterNode::Off));
+        QVector<quint64> cycles;
+        QVector<int> counts;
+        QSet<quint64> phases;
+        const int taken = viewer.node->takeFrames([&](const QPlcIOBufferSlaveNode::Frame &frame) {
+            cycles << frame.cycle;
+            counts << QPlcValue::fromBytes(QPlcSignalType::Int32, frame.inputs).toInt();
+            phases << frame.phase;
+            QVERIFY(frame.period == std::chrono::milliseconds(250));
+        });
+        QCOMPARE(taken, 10);
+        QCOMPARE(cycles, (QVector<quint64>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9}));
+        QCOMPARE(counts.mid(1), (QVector<int>{1, 2, 3, 4, 5, 6, 7, 8, 9}));
+        QCOMPARE(phases.size(), 1);
+        QVERIFY(*phases.begin() > lastPhase);
+        lastPhase = *phases.begin();
+    }
+    QCOMPARE(viewer.node->takeFrames([](const QPlcIOBufferSlaveNode::Frame &) { QFAIL("nothing is left"); }), 0);
 }
 
 QTEST_GUILESS_MAIN(tst_IONodes)

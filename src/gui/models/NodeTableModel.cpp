@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "NodeTableModel.h"
+
+#include "ValueFormat.h"
+
+#include <algorithm>
+
+namespace qplc {
+
+namespace {
+
+bool isDuration(int column)
+{
+    return column >= NodeTableModel::LatenessP99 && column <= NodeTableModel::RoundTripMaximum;
+}
+
+QVariant figure(const DurationFigures &figures, double value)
+{
+    return figures.count > 0 ? QVariant(value) : QVariant();
+}
+
+}  // namespace
+
+NodeTableModel::NodeTableModel(PlantList *plants, QObject *parent)
+    : QAbstractTableModel(parent)
+    , m_plants(plants)
+{
+    connect(plants, &PlantList::added, this, &NodeTableModel::add);
+    connect(plants, &PlantList::removed, this, &NodeTableModel::remove);
+    for (int i = 0; i < plants->size(); ++i)
+        add(plants->at(i));
+}
+
+void NodeTableModel::add(Plant *plant)
+{
+    update(plant);
+    connect(plant, &Plant::statusChanged, this, [this, plant] { update(plant); });
+    connect(plant, &Plant::stateChanged, this, [this, plant] { update(plant); });
+}
+
+void NodeTableModel::remove(Plant *plant)
+{
+    plant->disconnect(this);
+    const auto isOf = [&](const Row &row) { return row.plant == plant; };
+    const int first = firstRowOf(plant);
+    const int count = int(std::count_if(m_rows.begin(), m_rows.end(), isOf));
+    if (count == 0)
+        return;
+    beginRemoveRows({}, first, first + count - 1);
+    m_rows.remove(first, count);
+    endRemoveRows();
+}
+
+QVector<NodeTableModel::Row> NodeTableModel::rowsOf(Plant *plant)
+{
+    const PlantStatus &status = plant->status();
+    NodeStatus master;
+    master.name = QStringLiteral("Master");
+    master.address = plant->address();
+    master.execution = status.execution;
+    master.roundTrip = status.roundTrip;
+    QVector<Row> rows{{plant, true, master, plant->stateText(), status.lateness}};
+    for (const NodeStatus &node : status.nodes)
+        rows.append({plant,
+                     false,
+                     node,
+                     node.isListener      ? QStringLiteral("listens")
+                         : node.isLate    ? QStringLiteral("late")
+                         : node.late == 0 ? QStringLiteral("good")
+                                          : QStringLiteral("good, was late"),
+                     {}});
+    return rows;
+}
+
+/// Where the rows of a plant begin, or would.
+int NodeTableModel::firstRowOf(const Plant *plant) const
+{
+    const auto found = std::find_if(m_rows.begin(), m_rows.end(), [&](const Row &row) { return row.plant == plant; });
+    return int(found - m_rows.begin());
+}
+
+void NodeTableModel::update(Plant *plant)
+{
+    const QVector<Row> now = rowsOf(plant);
+    const int first = firstRowOf(plant);
+    int before = 0;
+    while (first + before < m_rows.size() && m_rows.at(first + before).plant == plant)
+        ++before;
+    // Rows stay with their names: a node that leaves takes its row along, a new one comes behind.
+    for (int row = before - 1; row > 0; --row) {
+        const QString name = m_rows.at(first + row).node.name;
+        if (std::any_of(now.begin() + 1, now.end(), [&](const Row &other) { return other.node.name == name; }))
+            continue;
+        beginRemoveRows({}, first + row, first + row);
+        m_rows.remove(first + row);
+        endRemoveRows();
+        --before;
+    }
+    for (const Row &row : now) {
+        const auto end = m_rows.begin() + first + before;
+        const auto place = std::find_if(m_rows.begin() + first, end, [&](const Row &other) {
+            return other.isMaster == row.isMaster && other.node.name == row.node.name;
+        });
+        const int at = int(place - m_rows.begin());
+        if (place != end) {
+            *place = row;
+            Q_EMIT dataChanged(index(at, 0), index(at, ColumnCount - 1));
+            continue;
+        }
+        beginInsertRows({}, at, at);
+        m_rows.insert(at, row);
+        endInsertRows();
+        ++before;
+    }
+}
+
+int NodeTableModel::rowCount(const QModelIndex &parent) const
+{
+    return parent.isValid() ? 0 : m_rows.size();
+}
+
+int NodeTableModel::columnCount(const QModelIndex &parent) const
+{
+    return parent.isValid() ? 0 : int(ColumnCount);
+}
+
+QVariant NodeTableModel::headerData(int section, Qt::Orientation orientation, int role) const
+{
+    static const char *const titles[ColumnCount]
+        = {"Plant",          "Name",          "Transport",     "Address",       "Policy",         "State",
+           "Lateness p99",   "Execution p50", "Execution p99", "Execution max", "Round trip p50", "Round trip p99",
+           "Round trip max", "Late",          "Lost",          "Duplicated"};
+    if (orientation != Qt::Horizontal || section < 0 || section >= ColumnCount)
+        return {};
+    if (role == Qt::DisplayRole)
+        return QString::fromLatin1(titles[section]);
+    if (role == Qt::ToolTipRole && isDuration(section))
+        return section == ExecutionMaximum || section == RoundTripMaximum
+            ? QStringLiteral("since the start of the phase")
+            : QStringLiteral("over the last 10 s");
+    return {};
+}
+
+QVariant NodeTableModel::number(const Row &row, int column)
+{
+    const NodeStatus &node = row.node;
+    switch (column) {
+    case LatenessP99:
+        return figure(row.lateness.last10s, row.lateness.last10s.p99);
+    case ExecutionP50:
+        return figure(node.execution.last10s, node.execution.last10s.p50);
+    case ExecutionP99:
+        return figure(node.execution.last10s, node.execution.last10s.p99);
+    case ExecutionMaximum:
+        return figure(node.execution.sinceStart, node.execution.sinceStart.maximum);
+    case RoundTripP50:
+        return figure(node.roundTrip.last10s, node.roundTrip.last10s.p50);
+    case RoundTripP99:
+        return figure(node.roundTrip.last10s, node.roundTrip.last10s.p99);
+    case RoundTripMaximum:
+        return figure(node.roundTrip.sinceStart, node.roundTrip.sinceStart.maximum);
+    case Late:
+        return row.isMaster ? QVariant() : node.late;
+    case Lost:
+        return row.isMaster ? QVariant() : node.lost;
+    case Duplicated:
+        return row.isMaster ? QVariant() : node.duplicated;
+    default:
+        return {};
+    }
+}
+
+QString NodeTableModel::text(const Row &row, int column)
+{
+    switch (column) {
+    case PlantColumn:
+        return row.plant->name();
+    case Name:
+        return row.node.name;
+    case Transport:
+        return row.node.transport;
+    case Address:
+        return row.node.address;
+    case Policy:
+        return row.node.policy;
+    case State:
+        return row.state;
+    default:
+        break;
+    }
+    const QVariant value = number(row, column);
+    if (!value.isValid())
+        return {};
+    return isDuration(column) ? durationText(value.toDouble()) : value.toString();
+}
+
+QVariant NodeTableModel::data(const QModelIndex &index, int role) const
+{
+    if (!index.isValid())
+        return {};
+    const Row &row = m_rows.at(index.row());
+    switch (role) {
+    case Qt::DisplayRole:
+        return text(row, index.column());
+    case SortRole: {
+        const QVariant value = number(row, index.column());
+        return value.isValid() || index.column() >= LatenessP99 ? value : text(row, index.column());
+    }
+    case Qt::TextAlignmentRole:
+        return index.column() >= LatenessP99 ? QVariant(int(Qt::AlignRight | Qt::AlignVCenter)) : QVariant();
+    case Qt::ForegroundRole:
+        return foregroundOf(row.plant->isConnected());
+    default:
+        return {};
+    }
+}
+
+}  // namespace qplc

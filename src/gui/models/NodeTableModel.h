@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "gui/plant/PlantList.h"
+
+#include <QtCore/QAbstractTableModel>
+
+namespace qplc {
+
+/// Masters and nodes of all plants with their durations and counters. Durations are those of the last 10 s, the largest ones those since the start of the phase.
+class NodeTableModel : public QAbstractTableModel
+{
+    Q_OBJECT
+public:
+    enum Column {
+        PlantColumn,
+        Name,
+        Transport,
+        Address,
+        Policy,
+        State,
+        LatenessP99,  // of a master: how late its cycles begin
+        ExecutionP50,
+        ExecutionP99,
+        ExecutionMaximum,
+        RoundTripP50,
+        RoundTripP99,
+        RoundTripMaximum,
+        Late,
+        Lost,
+        Duplicated,
+        ColumnCount
+    };
+    enum Role { SortRole = Qt::UserRole };  // numbers as numbers: durations in ns
+
+    explicit NodeTableModel(PlantList *plants, QObject *parent = nullptr);
+
+    int rowCount(const QModelIndex &parent = QModelIndex()) const override;
+    int columnCount(const QModelIndex &parent = QModelIndex()) const override;
+    QVariant data(const QModelIndex &index, int role = Qt::DisplayRole) const override;
+    QVariant headerData(int section, Qt::Orientation orientation, int role = Qt::DisplayRole) const override;
+
+private:
+    struct Row
+    {
+        Plant *plant;
+        bool isMaster;
+        NodeStatus node;
+        QString state;
+        DurationStatus lateness;
+    };
+
+    void add(Plant *plant);
+    void remove(Plant *plant);
+    void update(Plant *plant);
+    int firstRowOf(const Plant *plant) const;
+    static QVector<Row> rowsOf(Plant *plant);
+    static QVariant number(const Row &row, int column);
+    static QString text(const Row &row, int column);
+
+    PlantList *m_plants;
+    QVector<Row> m_rows;
+};
+
+}  // namespace qplc

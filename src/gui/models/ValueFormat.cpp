@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ValueFormat.h"
+
+#include <QtCore/QJsonArray>
+#include <QtCore/QJsonDocument>
+#include <QtGui/QGuiApplication>
+#include <QtGui/QPalette>
+
+#include <cmath>
+
+namespace qplc {
+
+std::unique_ptr<QMimeData> mimeDataOf(const QVector<SignalReference> &references)
+{
+    QJsonArray texts;
+    for (const SignalReference &reference : references)
+        texts.append(reference.toString());
+    auto mimeData = std::make_unique<QMimeData>();
+    mimeData->setData(signalsMimeType, QJsonDocument(texts).toJson(QJsonDocument::Compact));
+    return mimeData;
+}
+
+QVector<SignalReference> referencesIn(const QMimeData *mimeData)
+{
+    QVector<SignalReference> references;
+    const QJsonArray texts = QJsonDocument::fromJson(mimeData->data(signalsMimeType)).array();
+    for (const QJsonValue &text : texts) {
+        const SignalReference reference = SignalReference::fromString(text.toString());
+        if (reference.isValid())
+            references.append(reference);
+    }
+    return references;
+}
+
+QString numberText(double value, int digits)
+{
+    return std::isnan(value) ? QStringLiteral("–") : QString::number(value, 'g', digits);
+}
+
+QString valueText(const QPlcValue &value)
+{
+    const QPlcSignalType type = value.type();
+    if (!type.isReal())
+        return type.isArray() ? QStringLiteral("[%1]").arg(value.toString()) : value.toString();
+    const int digits = type.scalar() == QPlcSignalType::Real32 ? 7 : 10;
+    if (!type.isArray())
+        return numberText(value.toReal(), digits);
+    constexpr int mostElements = 16;  // a line is not for matrices
+    QStringList elements;
+    for (int i = 0; i < std::min(type.count(), mostElements); ++i)
+        elements << numberText(value.toReal(i), digits);
+    if (type.count() > mostElements)
+        elements << QStringLiteral("… %1 elements").arg(type.count());
+    return QStringLiteral("[%1]").arg(elements.join(QStringLiteral(", ")));
+}
+
+QString ageText(double seconds)
+{
+    if (seconds < 0.0)
+        return {};
+    if (seconds < 0.1)
+        return QStringLiteral("< 0.1 s");
+    if (seconds < 60.0)
+        return QStringLiteral("%1 s").arg(seconds, 0, 'f', 1);
+    if (seconds < 3600.0)
+        return QStringLiteral("%1 min").arg(std::floor(seconds / 60.0));
+    return QStringLiteral("%1 h").arg(std::floor(seconds / 3600.0));
+}
+
+QString durationText(double nanoseconds)
+{
+    const double size = std::abs(nanoseconds);
+    if (size < 999.5e3)
+        return QStringLiteral("%1 µs").arg(QString::number(nanoseconds * 1e-3, 'g', 3));
+    if (size < 999.5e6)
+        return QStringLiteral("%1 ms").arg(QString::number(nanoseconds * 1e-6, 'g', 3));
+    return QStringLiteral("%1 s").arg(QString::number(nanoseconds * 1e-9, 'g', 4));
+}
+
+QString qualityText(Plant::Quality quality)
+{
+    switch (quality) {
+    case Plant::NoValue:
+        return QStringLiteral("no value");
+    case Plant::Good:
+        return QStringLiteral("good");
+    case Plant::AtRest:
+        return QStringLiteral("at rest");
+    case Plant::Stale:
+        return QStringLiteral("stale");
+    }
+    return {};
+}
+
+QVariant foregroundOf(bool isTrusted)
+{
+    return isTrusted ? QVariant() : QGuiApplication::palette().brush(QPalette::Disabled, QPalette::Text);
+}
+
+}  // namespace qplc

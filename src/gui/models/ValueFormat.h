@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "gui/plant/PlantList.h"
+
+#include <QtCore/QMimeData>
+#include <QtCore/QVariant>
+
+#include <memory>
+
+namespace qplc {
+
+/// What is dragged from lists of signals: a JSON array of references as text.
+inline const QString signalsMimeType = QStringLiteral("application/x-qtplc-signals");
+
+std::unique_ptr<QMimeData> mimeDataOf(const QVector<SignalReference> &references);
+/// Empty when there are none; what is no reference is left out.
+QVector<SignalReference> referencesIn(const QMimeData *mimeData);
+
+/// A value as tables show it: 7 digits for Real32, 10 for Real64, elements in brackets; empty before the first.
+QString valueText(const QPlcValue &value);
+/// A number with so many significant digits, "–" when it is not there.
+QString numberText(double value, int digits = 7);
+/// "12 ms", "3.4 s", "5 min"; empty when negative.
+QString ageText(double seconds);
+/// "12.3 µs", "4.56 ms": three digits.
+QString durationText(double nanoseconds);
+/// "good", "at rest", "stale", "no value".
+QString qualityText(Plant::Quality quality);
+/// What Qt::ForegroundRole gives: grey for what is not to be trusted, else nothing.
+QVariant foregroundOf(bool isTrusted);
+
+}  // namespace qplc

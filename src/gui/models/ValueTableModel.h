@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "ValueFormat.h"
+
+#include <QtCore/QAbstractTableModel>
+#include <QtCore/QTimer>
+
+namespace qplc {
+
+/// Chosen signals with value, smallest and largest value, quality, age and rate. What is not there now stays as a placeholder and comes to life with its signal.
+///
+/// Smallest and largest values are those of every cycle since reset(), of numbers with one element; the cells are renewed 10 times a second.
+class ValueTableModel : public QAbstractTableModel
+{
+    Q_OBJECT
+public:
+    enum Column { Name, Value, Unit, Minimum, Maximum, QualityColumn, Age, Rate, ColumnCount };
+
+    explicit ValueTableModel(PlantList *plants, QObject *parent = nullptr);
+
+    QVector<SignalReference> references() const;
+    void setReferences(const QVector<SignalReference> &references);
+    /// Inserts those that are not there yet before \a row; -1: behind all.
+    void add(const QVector<SignalReference> &references, int row = -1);
+    /// Forgets smallest and largest values.
+    void reset();
+
+    int rowCount(const QModelIndex &parent = QModelIndex()) const override;
+    int columnCount(const QModelIndex &parent = QModelIndex()) const override;
+    QVariant data(const QModelIndex &index, int role = Qt::DisplayRole) const override;
+    QVariant headerData(int section, Qt::Orientation orientation, int role = Qt::DisplayRole) const override;
+    bool removeRows(int row, int count, const QModelIndex &parent = QModelIndex()) override;
+    Qt::ItemFlags flags(const QModelIndex &index) const override;
+    QStringList mimeTypes() const override;
+    QMimeData *mimeData(const QModelIndexList &indexes) const override;
+    bool dropMimeData(const QMimeData *data, Qt::DropAction action, int row, int column,
+                      const QModelIndex &parent) override;
+
+    static constexpr int RefreshPause = 100;  // [ms]
+
+private:
+    struct Row
+    {
+        SignalReference reference;
+        PlantList::Signal signal;
+        float minimum;
+        float maximum;
+        SignalStore::Row seen;  // rows of the store before it are in minimum and maximum
+        QStringList texts;      // what was shown last
+        bool isTrusted = false;
+    };
+
+    Row makeRow(const SignalReference &reference) const;
+    void resolve();
+    void forgetRange(Row *row) const;
+    void refresh();
+    static void extendRange(Row *row);
+    QStringList textsOf(const Row &row) const;
+
+    PlantList *m_plants;
+    QVector<Row> m_rows;
+    QTimer m_timer;
+};
+
+}  // namespace qplc

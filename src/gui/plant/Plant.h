@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "PlantConnection.h"
+#include "PlantEvent.h"
+#include "PlantStatus.h"
+#include "PlantValues.h"
+
+#include <QtCore/QElapsedTimer>
+#include <QtCore/QHash>
+
+namespace qplc {
+
+/// One plant as a window sees it: its signals with values and age, its state and the next thing to do, its nodes, and its commands.
+///
+/// Never blocks and never gives up: open() once, and the plant comes and goes as it likes. Everything happens in the thread of the window; cycles arrive in a thread of their own.
+class Plant : public QObject
+{
+    Q_OBJECT
+public:
+    /// How far a value can be trusted.
+    enum Quality {
+        NoValue,  // none has come yet
+        Good,
+        AtRest,  // no cycles run; the value is what the master holds
+        Stale    // no new values for longer than staleAfter(), or no connection
+    };
+    Q_ENUM(Quality)
+    enum Action { NoAction, Initialize, Start, StopAction };
+    Q_ENUM(Action)
+
+    /// \param address, nodeName  as for PlantConnection
+    /// \param name  for references and people; empty: the address
+    explicit Plant(const QString &address, const QString &name = QString(), const QString &nodeName = QString(),
+                   QObject *parent = nullptr);
+    ~Plant() override;
+
+    QString name() const { return m_name; }
+    QString address() const { return m_connection.address(); }
+    /// Connects, now and whenever the connection is lost.
+    void open() { m_connection.open(); }
+    void close() { m_connection.close(); }
+
+    // -- state --
+    PlantConnection::State connectionState() const { return m_connection.state(); }
+    bool isConnected() const { return connectionState() == PlantConnection::Connected; }
+    /// One line for people: "RealTime", "Disconnected: Connection refused".
+    QString stateText() const;
+    /// The one thing that comes next: Start when the master is off, Stop while it runs.
+    Action nextAction() const;
+    static QString actionText(Action action);
+    const PlantStatus &status() const { return m_status; }
+
+    // -- values --
+    const QPlcSignalTable &table() const { return m_values.table(); }
+    const PlantValues &values() const { return m_values; }
+    /// Null before the first connection. storeChanged() tells of another one.
+    SignalStore *store() const { return m_values.store(); }
+    QPlcValue value(QPlcSignalIndex signal) const { return m_values.value(signal); }
+    /// Node that writes a signal, "Master"; empty: nobody.
+    QString writer(QPlcSignalIndex signal) const { return m_writers.value(signal); }
+    Quality quality() const;
+    /// Time since the values were true [s]; -1 before the first.
+    double age() const;
+    /// Age from which on values of a running plant are stale: 3 periods, at least 0.5 s [s].
+    double staleAfter() const;
+    /// Cycles that came per second, over the last 2 s.
+    double updateRate() const { return m_updateRate; }
+
+    // -- commands; \return a number that commandDone() or commandFailed() will tell --
+    int initialize();
+    int start();
+    int stop();
+    int perform(Action action);
+    /// Sets signals that no node writes, all or none. \param duration  0 for good; else the values from before come back after it
+    int setValues(const QHash<QString, QPlcValue> &values,
+                  std::chrono::nanoseconds duration = std::chrono::nanoseconds(0));
+    /// Sends anything that is answered with Done or Failed.
+    int command(const QPlcMessage &message);
+
+    /// Asks the master for its state now; the plant does so twice a second anyway.
+    void refresh();
+
+Q_SIGNALS:
+    /// Connection, state of the master, or next action.
+    void stateChanged();
+    /// Nodes or their figures.
+    void statusChanged();
+    /// Another table: indices mean something else from here on. Never twice for the same table, also over reconnections.
+    void tableChanged();
+    void writersChanged();
+    /// The store is another object now; the one before is gone.
+    void storeChanged();
+    /// New values, at most 50 times a second.
+    void updated();
+    void commandDone(int command);
+    void commandFailed(int command, const QString &sentence);
+    void eventOccurred(const qplc::PlantEvent &event);
+    /// What the master said without being asked.
+    void messagePushed(const QPlcMessage &message);
+
+private:
+    void connected(const QPlcMessage &hello, const QPlcSignalTable &table);
+    void disconnected(const QString &reason);
+    void takeFrames();
+    void measureRate();
+    void poll();
+    void askState();
+    void askSignals();
+    void takeState(const QPlcMessage &answer);
+    void takeStatistics(const QPlcMessage &answer);
+    void takeSignals(const QPlcMessage &answer);
+    void nodesChanged(const QStringList &before, const QStringList &now);
+    void tell(PlantEvent::Severity severity, const QString &text, const QString &node = QString());
+    QStringList nodeNames() const;
+
+    QString m_name;
+    PlantConnection m_connection;
+    PlantValues m_values;
+    PlantStatus m_status;
+    QVector<QString> m_writers;
+    QTimer m_frameTimer;
+    QTimer m_pollTimer;
+    int m_polls = 0;
+    bool m_hasNewValues = false;
+    QElapsedTimer m_sinceValues;
+    QElapsedTimer m_sinceRate;
+    quint64 m_rowsAtRate = 0;
+    double m_updateRate = 0.0;
+    int m_lastCommand = 0;
+};
+
+}  // namespace qplc
+
+Q_DECLARE_METATYPE(qplc::Plant *)

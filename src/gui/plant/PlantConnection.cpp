@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "PlantConnection.h"
+
+#include <QtCore/QCoreApplication>
+
+#include <algorithm>
+
+namespace qplc {
+
+namespace {
+
+QString defaultName()
+{
+    return QStringLiteral("ControlCenter-%1").arg(QCoreApplication::applicationPid());
+}
+
+}  // namespace
+
+PlantConnection::PlantConnection(const QString &address, const QString &nodeName, QObject *parent)
+    : QObject(parent)
+    , m_address(address)
+    , m_nodeName(nodeName.isEmpty() ? defaultName() : nodeName)
+    , m_listener(m_nodeName)
+    , m_reason(QStringLiteral("not connected yet"))
+{
+    m_retry.setSingleShot(true);
+    m_listenerRetry.setSingleShot(true);
+    connect(&m_retry, &QTimer::timeout, this, &PlantConnection::attempt);
+    connect(&m_listenerRetry, &QTimer::timeout, this, [this] {
+        Q_EMIT listenerFailed(
+            m_listenerReason);  // not before: when the master is gone, the control channel says so meanwhile
+        listen();
+    });
+    connect(&m_resolver, &AddressResolver::failed, this, &PlantConnection::failed);
+    connect(&m_resolver, &AddressResolver::resolved, this, [this](const QPlcUnderlyingProtocol &master) {
+        m_master = master;
+        m_control.connectToMaster(master);
+    });
+    connect(&m_control, &ControlChannel::greeted, this, &PlantConnection::greeted);
+    connect(&m_control, &ControlChannel::lost, this, &PlantConnection::failed);
+    connect(&m_listener, &Listener::joined, this, [this] {
+        m_listenerFailures = 0;
+        setListening(true);
+    });
+    connect(&m_listener, &Listener::lost, this, &PlantConnection::listenerLost);
+}
+
+PlantConnection::~PlantConnection()
+{
+    m_control.disconnect(this);
+    m_listener.disconnect(this);
+}
+
+int PlantConnection::pauseAfter(int failures)
+{
+    constexpr int first = 250;  // [ms]
+    constexpr int longest = 5000;
+    return std::min(longest, first << std::clamp(failures - 1, 0, 10));
+}
+
+void PlantConnection::open()
+{
+    if (m_isOpen)
+        return;
+    m_isOpen = true;
+    m_failures = 0;
+    attempt();
+}
+
+void PlantConnection::close()
+{
+    m_isOpen = false;
+    m_retry.stop();
+    m_listenerRetry.stop();
+    m_resolver.cancel();
+    m_listener.disconnectFromMaster();
+    setListening(false);
+    m_control.close();
+    const bool wasConnected = m_state == Connected;
+    setState(Disconnected, QStringLiteral("disconnected by the user"));
+    if (wasConnected)
+        Q_EMIT disconnected(m_reason);
+}
+
+void PlantConnection::attempt()
+{
+    setState(Connecting, m_reason);
+    m_resolver.resolve(m_address);
+}
+
+void PlantConnection::greeted(const QPlcMessage &hello)
+{
+    QVector<QPlcParseError> errors;
+    const QPlcSignalTable table = QPlcSignalTable::fromIni(hello.text(QStringLiteral("table")).toUtf8(), &errors,
+                                                           QStringLiteral("table of the master"));
+    if (table.isEmpty()) {
+        m_control.close();
+        failed(QPlcParseError::toString(errors));
+        return;
+    }
+    m_failures = 0;
+    m_listenerFailures = 0;
+    m_table = table;
+    m_period = qint64(hello.fields().value(QStringLiteral("period")).toDouble());
+    listen();
+    setState(Connected, {});
+    Q_EMIT connected(hello, table);
+}
+
+void PlantConnection::failed(const QString &reason)
+{
+    if (!m_isOpen)
+        return;
+    m_listenerRetry.stop();
+    m_listener.disconnectFromMaster();
+    setListening(false);
+    const bool wasConnected = m_state == Connected;
+    m_retry.start(pauseAfter(++m_failures));
+    setState(Disconnected, reason);
+    if (wasConnected)
+        Q_EMIT disconnected(reason);
+}
+
+void PlantConnection::listen()
+{
+    m_listener.connectToMaster(m_master, m_table, m_period);
+}
+
+void PlantConnection::listenerLost(const QString &sentence)
+{
+    setListening(false);
+    if (m_state != Connected)
+        return;
+    m_listenerReason = sentence;
+    m_listenerRetry.start(pauseAfter(++m_listenerFailures));
+}
+
+void PlantConnection::setState(State state, const QString &reason)
+{
+    if (state == m_state && reason == m_reason)
+        return;
+    m_state = state;
+    m_reason = reason;
+    Q_EMIT stateChanged();
+}
+
+void PlantConnection::setListening(bool listening)
+{
+    if (listening == m_isListening)
+        return;
+    m_isListening = listening;
+    Q_EMIT listeningChanged();
+}
+
+}  // namespace qplc

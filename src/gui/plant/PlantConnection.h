@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "AddressResolver.h"
+#include "ControlChannel.h"
+#include "Listener.h"
+
+#include <QtCore/QTimer>
+
+namespace qplc {
+
+/// The connection of a window to one master: tries for ever, and brings the listener back whenever it is lost.
+class PlantConnection : public QObject
+{
+    Q_OBJECT
+public:
+    enum State { Disconnected, Connecting, Connected };
+    Q_ENUM(State)
+
+    /// \param address  as QPlcUnderlyingProtocol::fromString() reads it
+    /// \param nodeName  under which the master knows the listener; empty: "ControlCenter-<pid>"
+    PlantConnection(const QString &address, const QString &nodeName, QObject *parent = nullptr);
+    ~PlantConnection() override;
+
+    QString address() const { return m_address; }
+    QString nodeName() const { return m_nodeName; }
+    void open();
+    void close();
+
+    State state() const { return m_state; }
+    /// Why there is no connection; empty while there is one.
+    QString reason() const { return m_reason; }
+    /// Whether values come, or would if cycles ran.
+    bool isListening() const { return m_isListening; }
+    ControlChannel &control() { return m_control; }
+    Listener &listener() { return m_listener; }
+
+    /// Pause before an attempt after so many in vain: 250 ms, doubled each time, at most 5 s.
+    static int pauseAfter(int failures);
+
+Q_SIGNALS:
+    void stateChanged();
+    void connected(const QPlcMessage &hello, const QPlcSignalTable &table);
+    void disconnected(const QString &reason);
+    void listeningChanged();
+    /// The listener is not taken, or was lost, while the master answers.
+    void listenerFailed(const QString &sentence);
+
+private:
+    void attempt();
+    void greeted(const QPlcMessage &hello);
+    void failed(const QString &reason);
+    void listen();
+    void listenerLost(const QString &sentence);
+    void setState(State state, const QString &reason);
+    void setListening(bool listening);
+
+    QString m_address;
+    QString m_nodeName;
+    AddressResolver m_resolver;
+    ControlChannel m_control;
+    Listener m_listener;
+    QTimer m_retry;
+    QTimer m_listenerRetry;
+    QString m_listenerReason;
+    State m_state = Disconnected;
+    QString m_reason;
+    bool m_isOpen = false;
+    bool m_isListening = false;
+    int m_failures = 0;
+    int m_listenerFailures = 0;
+    QPlcUnderlyingProtocol m_master;
+    QPlcSignalTable m_table;
+    qint64 m_period = 0;  // [ns]
+};
+
+}  // namespace qplc

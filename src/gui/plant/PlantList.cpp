@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "PlantList.h"
+
+#include <algorithm>
+
+namespace qplc {
+
+QPlcValue PlantList::Signal::value() const
+{
+    const QPlcValue whole = plant ? plant->value(index) : QPlcValue();
+    if (element == SignalReference::Whole || !whole.isValid())
+        return whole;
+    const int size = whole.type().elementSize();
+    return QPlcValue::fromBytes(QPlcSignalType(whole.type().scalar()), whole.toBytes().constData() + element * size);
+}
+
+int PlantList::Signal::channel() const
+{
+    if (!plant || (element == SignalReference::Whole && definition().type.isArray()))
+        return ChannelMap::NoChannel;
+    return plant->values().channels().channel(index, std::max(element, 0));
+}
+
+PlantList::PlantList(QObject *parent)
+    : QObject(parent)
+{
+}
+
+PlantList::~PlantList()
+{
+    while (size() > 0)  // whoever outlives this list lets go of them
+        remove(at(size() - 1));
+}
+
+QString PlantList::freeName(const QString &wanted) const
+{
+    QString name = wanted;
+    for (int number = 2; find(name); ++number)
+        name = QStringLiteral("%1 (%2)").arg(wanted).arg(number);
+    return name;
+}
+
+Plant *PlantList::add(const QString &address, const QString &name, const QString &nodeName)
+{
+    m_plants.push_back(std::make_unique<Plant>(address, freeName(name.isEmpty() ? address : name), nodeName));
+    Plant *plant = m_plants.back().get();
+    connect(plant, &Plant::tableChanged, this, &PlantList::signalsChanged);
+    connect(plant, &Plant::eventOccurred, this, &PlantList::eventOccurred);
+    Q_EMIT added(plant);
+    plant->open();
+    return plant;
+}
+
+void PlantList::remove(Plant *plant)
+{
+    const int place = indexOf(plant);
+    if (place < 0)
+        return;
+    const std::unique_ptr<Plant> last = std::move(m_plants[std::size_t(place)]);
+    m_plants.erase(m_plants.begin() + place);
+    Q_EMIT removed(plant);
+    Q_EMIT signalsChanged();
+}
+
+int PlantList::indexOf(const Plant *plant) const
+{
+    const auto found = std::find_if(m_plants.begin(), m_plants.end(),
+                                    [&](const std::unique_ptr<Plant> &other) { return other.get() == plant; });
+    return found == m_plants.end() ? -1 : int(found - m_plants.begin());
+}
+
+Plant *PlantList::find(const QString &name) const
+{
+    const auto found = std::find_if(m_plants.begin(), m_plants.end(),
+                                    [&](const std::unique_ptr<Plant> &plant) { return plant->name() == name; });
+    return found == m_plants.end() ? nullptr : found->get();
+}
+
+PlantList::Signal PlantList::find(Plant *plant, const SignalReference &reference) const
+{
+    const QPlcSignalIndex index = plant->table().indexOf(reference.signal);
+    if (index == QPlcInvalidSignalIndex)
+        return {};
+    const QPlcSignalType type = plant->table().at(index).type;
+    const bool isThere = reference.element == SignalReference::Whole
+        || (type.isNumeric() && reference.element >= 0 && reference.element < type.count());
+    return isThere ? Signal{plant, index, reference.element} : Signal();
+}
+
+PlantList::Signal PlantList::resolve(const SignalReference &reference) const
+{
+    for (const std::unique_ptr<Plant> &plant : m_plants) {
+        if (!reference.plant.isEmpty() && reference.plant != plant->name())
+            continue;
+        if (const Signal signal = find(plant.get(), reference))
+            return signal;
+    }
+    return {};
+}
+
+SignalReference PlantList::reference(const Plant *plant, QPlcSignalIndex signal, int element) const
+{
+    return {size() > 1 ? plant->name() : QString(), plant->table().at(signal).name, element};
+}
+
+}  // namespace qplc

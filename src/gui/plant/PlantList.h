@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "Plant.h"
+#include "SignalReference.h"
+
+#include <memory>
+#include <vector>
+
+namespace qplc {
+
+/// All plants of a window. None of them waits for another one.
+class PlantList : public QObject
+{
+    Q_OBJECT
+public:
+    /// What a reference means at the moment.
+    struct Signal
+    {
+        Plant *plant = nullptr;  // null: nothing
+        QPlcSignalIndex index = QPlcInvalidSignalIndex;
+        int element = SignalReference::Whole;
+
+        explicit operator bool() const { return plant != nullptr; }
+        const QPlcSignalDefinition &definition() const { return plant->table().at(index); }
+        /// The value of the signal, or of its element; invalid before the first.
+        QPlcValue value() const;
+        /// The channel in the store of the plant: of the element, or of the only one; ChannelMap::NoChannel for texts, times and whole arrays.
+        int channel() const;
+    };
+
+    explicit PlantList(QObject *parent = nullptr);
+    ~PlantList() override;
+
+    /// Adds a plant and connects it for ever. \param name  made unique with a number when it is taken
+    Plant *add(const QString &address, const QString &name = QString(), const QString &nodeName = QString());
+    void remove(Plant *plant);
+    int size() const { return int(m_plants.size()); }
+    Plant *at(int place) const { return m_plants[std::size_t(place)].get(); }
+    /// -1 when it is none of them.
+    int indexOf(const Plant *plant) const;
+    /// Null when there is none.
+    Plant *find(const QString &name) const;
+
+    /// Without a plant: in the first plant that has such a signal. False when there is no such signal or element now.
+    Signal resolve(const SignalReference &reference) const;
+    /// How to write a signal: with its plant only when there are several.
+    SignalReference reference(const Plant *plant, QPlcSignalIndex signal, int element = SignalReference::Whole) const;
+
+Q_SIGNALS:
+    void added(qplc::Plant *plant);
+    /// The plant is no more in the list, and ends after this.
+    void removed(qplc::Plant *plant);
+    /// References may mean something else from here on.
+    void signalsChanged();
+    void eventOccurred(const qplc::PlantEvent &event);
+
+private:
+    QString freeName(const QString &wanted) const;
+    Signal find(Plant *plant, const SignalReference &reference) const;
+
+    std::vector<std::unique_ptr<Plant>> m_plants;
+};
+
+}  // namespace qplc

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "PlantStatus.h"
+
+#include "QPlcMasterSocket.h"
+#include "node/Logging.h"
+
+#include <QtCore/QJsonArray>
+
+#include <algorithm>
+
+namespace qplc {
+
+namespace {
+
+QString text(const QJsonObject &fields, const char *name)
+{
+    return printable(fields.value(QLatin1String(name)).toString());
+}
+
+double number(const QJsonObject &fields, const char *name)
+{
+    return fields.value(QLatin1String(name)).toDouble();
+}
+
+quint64 counter(const QJsonObject &fields, const char *name)
+{
+    constexpr double largest = 9007199254740992.0;  // that a JSON number holds exactly
+    return quint64(std::clamp(number(fields, name), 0.0, largest));
+}
+
+QJsonObject object(const QJsonObject &fields, const char *name)
+{
+    return fields.value(QLatin1String(name)).toObject();
+}
+
+DurationFigures figures(const QJsonObject &fields)
+{
+    return {number(fields, "count"), number(fields, "p50"), number(fields, "p99"), number(fields, "maximum")};
+}
+
+DurationStatus duration(const QJsonObject &fields, const char *name)
+{
+    const QJsonObject of = object(fields, name);
+    return {figures(object(of, "sinceStart")), figures(object(of, "last10s"))};
+}
+
+}  // namespace
+
+bool PlantStatus::isRunning() const
+{
+    return state == QLatin1String("RealTime") || state == QLatin1String("WaitingForLateSlaves");
+}
+
+const NodeStatus *PlantStatus::node(const QString &name) const
+{
+    const auto found
+        = std::find_if(nodes.begin(), nodes.end(), [&](const NodeStatus &node) { return node.name == name; });
+    return found == nodes.end() ? nullptr : &*found;
+}
+
+void PlantStatus::takeState(const QJsonObject &fields)
+{
+    const QPlcMessage message(QPlcMessage::State, fields);
+    state = text(fields, "state");
+    cycle = message.hex64(QStringLiteral("cycle"));
+    period = qint64(number(fields, "period"));
+    clock = text(fields, "clock");
+    scale = number(fields, "scale");
+    session = message.hex64(QStringLiteral("session"));
+    QVector<NodeStatus> now;
+    const QJsonArray rows = fields.value(QLatin1String("nodes")).toArray();
+    for (const QJsonValue &row : rows) {
+        const QJsonObject of = row.toObject();
+        const NodeStatus *before = node(text(of, "name"));
+        NodeStatus status = before ? *before : NodeStatus();
+        status.name = text(of, "name");
+        status.transport = text(of, "transport");
+        status.address = text(of, "address");
+        status.policy = text(of, "policy");
+        status.isListener = of.value(QLatin1String("listener")).toBool();
+        status.inputs = int(number(of, "inputs"));
+        status.outputs = int(number(of, "outputs"));
+        now.append(status);
+    }
+    nodes = now;
+}
+
+void PlantStatus::takeStatistics(const QJsonObject &fields)
+{
+    const QJsonObject master = object(fields, "master");
+    lateness = duration(master, "lateness");
+    execution = duration(master, "execution");
+    roundTrip = duration(master, "roundTrip");
+    slack = duration(master, "slack");
+    overruns = counter(object(master, "counters"), "overruns");
+    const QJsonArray rows = fields.value(QLatin1String("nodes")).toArray();
+    for (const QJsonValue &row : rows) {
+        const QJsonObject of = row.toObject();
+        const QString name = text(of, "name");
+        const auto known
+            = std::find_if(nodes.begin(), nodes.end(), [&](const NodeStatus &node) { return node.name == name; });
+        if (known == nodes.end())
+            continue;  // the next State tells of it
+        const QJsonObject counters = object(of, "counters");
+        const quint64 late = counter(counters, "late");
+        known->isLate = late > known->late;
+        known->late = late;
+        known->lost = counter(counters, "lost");
+        known->duplicated = counter(counters, "duplicated");
+        known->rejected = counter(counters, "rejected");
+        known->execution = duration(of, "execution");
+        known->roundTrip = duration(of, "roundTrip");
+    }
+}
+
+void PlantStatus::takeSchedule(const QJsonObject &fields)
+{
+    schedule = {};
+    const QJsonArray stages = fields.value(QLatin1String("stages")).toArray();
+    for (const QJsonValue &stage : stages) {
+        QVector<QPlcSchedule::Turn> turns;
+        const QJsonArray rows = stage.toArray();
+        for (const QJsonValue &row : rows) {
+            const QString phase = text(row.toObject(), "phase");
+            turns.append({text(row.toObject(), "node"),
+                          phase == QLatin1String("outputs")      ? QPlcSchedule::Outputs
+                              : phase == QLatin1String("update") ? QPlcSchedule::Update
+                                                                 : QPlcSchedule::Step});
+        }
+        schedule.stages.append(turns);
+    }
+    const QJsonArray links = fields.value(QLatin1String("links")).toArray();
+    for (const QJsonValue &link : links) {
+        const QJsonObject of = link.toObject();
+        schedule.links.append({text(of, "signal"), text(of, "from"), text(of, "to"), int(number(of, "age")),
+                               of.value(QLatin1String("sameCycle")).toBool()});
+    }
+}
+
+}  // namespace qplc

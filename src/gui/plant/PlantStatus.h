@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "QPlcSchedule.h"
+
+#include <QtCore/QJsonObject>
+#include <QtCore/QString>
+#include <QtCore/QVector>
+
+namespace qplc {
+
+/// Percentiles of a duration [ns]; no count: never measured.
+struct DurationFigures
+{
+    double count = 0.0;
+    double p50 = 0.0;
+    double p99 = 0.0;
+    double maximum = 0.0;
+};
+
+/// A duration as docs/protocol.md 5.6 tells it.
+struct DurationStatus
+{
+    DurationFigures sinceStart;
+    DurationFigures last10s;
+};
+
+/// One node of a plant, as its master sees it.
+struct NodeStatus
+{
+    QString name;
+    QString transport;
+    QString address;
+    QString policy;
+    bool isListener = false;
+    int inputs = 0;
+    int outputs = 0;
+    DurationStatus execution;
+    DurationStatus roundTrip;
+    quint64 late = 0;  // answers, since the start of the phase, as all counters
+    quint64 lost = 0;
+    quint64 duplicated = 0;
+    quint64 rejected = 0;
+    bool isLate = false;  // there were late answers since the statistics before
+};
+
+/// A master and its nodes, put together of its answers State, Statistics and Schedule. A value type.
+struct PlantStatus
+{
+    QString state;  // as the master names it; empty: not known
+    quint64 cycle = 0;
+    qint64 period = 0;  // [ns]
+    QString clock;
+    double scale = 1.0;
+    quint64 session = 0;
+    quint64 overruns = 0;
+    DurationStatus lateness;
+    DurationStatus execution;
+    DurationStatus roundTrip;
+    DurationStatus slack;
+    QVector<NodeStatus> nodes;
+    QPlcSchedule schedule;
+
+    /// Whether cycles run, or stand still for a moment.
+    bool isRunning() const;
+    const NodeStatus *node(const QString &name) const;
+
+    /// Takes an answer State. Figures of nodes that were there before stay.
+    void takeState(const QJsonObject &fields);
+    void takeStatistics(const QJsonObject &fields);
+    void takeSchedule(const QJsonObject &fields);
+};
+
+}  // namespace qplc

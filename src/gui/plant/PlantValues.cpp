@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "PlantValues.h"
+
+#include <algorithm>
+
+namespace qplc {
+
+namespace {
+
+constexpr int leastRows = 16;
+constexpr std::int64_t bytesOfRow(int channels)
+{
+    return 9 + std::int64_t(channels) * 23 / 5;  // as SignalStore says
+}
+
+}  // namespace
+
+void PlantValues::setTable(const QPlcSignalTable &table, Time period, Budget budget)
+{
+    m_budget = budget;
+    m_table = table;
+    m_channels = ChannelMap(table);
+    m_period = std::max<Time>(period, 1);
+    m_row.assign(std::size_t(m_channels.channels()), 0.0F);
+    m_newest.assign(std::size_t(m_channels.payloadSize()), 0);
+    m_hasValues = false;
+    m_lastTime = 0;
+    makeStore();
+    beginBatch();
+    interrupt();
+}
+
+int PlantValues::wantedRows() const
+{
+    constexpr std::int64_t most = 100'000'000;
+    const std::int64_t affordable = m_budget.memory / bytesOfRow(m_channels.channels());
+    return int(std::clamp<std::int64_t>(std::min(m_budget.history / m_period, affordable), leastRows, most));
+}
+
+void PlantValues::makeStore()
+{
+    m_store = std::make_unique<SignalStore>(m_channels.channels(), wantedRows());
+}
+
+void PlantValues::beginBatch()
+{
+    m_batch.clear();
+    m_batchSize = 0;
+}
+
+void PlantValues::interrupt()
+{
+    m_isContinued = false;
+    if (m_store)
+        m_store->interrupt();
+}
+
+void PlantValues::beginPhase(const QPlcIOBufferSlaveNode::Frame &frame, Time wallTime)
+{
+    m_phase = frame.phase;
+    m_period = std::max<Time>(frame.period.count(), 1);
+    if (wantedRows() / 2 > m_store->capacity())  // the period has become much shorter
+        makeStore();
+    m_phaseStart = std::max(wallTime, m_lastTime + m_period) - Time(frame.cycle) * m_period;
+    interrupt();
+}
+
+void PlantValues::takeFrame(const QPlcIOBufferSlaveNode::Frame &frame, Time wallTime)
+{
+    if (!m_store || frame.size != m_channels.payloadSize())
+        return;  // of another table
+    if (!m_isContinued || frame.phase != m_phase) {
+        beginPhase(frame, wallTime);
+    } else if (frame.cycle != m_lastCycle + 1) {
+        ++m_gaps;
+        interrupt();
+    }
+    m_isContinued = true;
+    m_lastCycle = frame.cycle;
+    m_lastTime = m_phaseStart + Time(frame.cycle) * m_period;
+    m_channels.toFloats(frame.inputs, m_row.data());
+    m_store->append(m_lastTime, m_row.data());
+    std::copy_n(frame.inputs, frame.size, m_newest.begin());
+    m_batch.insert(m_batch.end(), frame.inputs, frame.inputs + frame.size);
+    ++m_batchSize;
+    ++m_rows;
+    m_hasValues = true;
+}
+
+void PlantValues::takeValue(QPlcSignalIndex signal, const QPlcValue &value)
+{
+    if (signal >= m_table.size() || value.type() != m_table.at(signal).type)
+        return;
+    value.toBytes(m_newest.data() + m_channels.offset(signal));
+    m_hasValues = true;
+}
+
+QPlcValue PlantValues::valueIn(const char *payload, QPlcSignalIndex signal) const
+{
+    return QPlcValue::fromBytes(m_table.at(signal).type, payload + m_channels.offset(signal));
+}
+
+QPlcValue PlantValues::value(QPlcSignalIndex signal) const
+{
+    return m_hasValues && signal < m_table.size() ? valueIn(m_newest.data(), signal) : QPlcValue();
+}
+
+QList<QPlcSignalList> PlantValues::batch(const QVector<QPlcSignalIndex> &signalIndices) const
+{
+    QList<QPlcSignalList> batch;
+    for (int i = 0; i < m_batchSize; ++i) {
+        const char *payload = m_batch.data() + std::ptrdiff_t(i) * m_channels.payloadSize();
+        QPlcSignalList values;
+        values.reserve(signalIndices.size());
+        for (const QPlcSignalIndex signal : signalIndices) {
+            if (signal < m_table.size())
+                values.insert(signal, valueIn(payload, signal));
+        }
+        batch.append(values);
+    }
+    return batch;
+}
+
+}  // namespace qplc

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "ChannelMap.h"
+#include "QPlcIOBufferSlaveNode.h"
+#include "gui/store/SignalStore.h"
+
+#include <QtCore/QByteArray>
+
+#include <memory>
+#include <vector>
+
+namespace qplc {
+
+/// Values of one plant: the newest of all signals, the batch since the last view, and the past in a SignalStore.
+///
+/// Row times are [ns] since 1970: the wall clock at the first row of a phase, and from there on whole periods. A phase whose time ran ahead of the wall clock (Lockstep)
+/// pushes the begin of the next one. Knows no clock and no connection: it is told the time.
+class PlantValues
+{
+public:
+    using Time = std::int64_t;  // [ns]
+
+    struct Budget
+    {
+        Time history = 600'000'000'000;           // [ns] that the store keeps...
+        std::int64_t memory = 150 * 1024 * 1024;  // [byte] ...in at most so much
+    };
+
+    /// Begins anew for a table; the past goes. \param period  > 0 [ns]
+    void setTable(const QPlcSignalTable &table, Time period, Budget budget);
+    void setTable(const QPlcSignalTable &table, Time period) { setTable(table, period, Budget()); }
+    const QPlcSignalTable &table() const { return m_table; }
+    const ChannelMap &channels() const { return m_channels; }
+    /// Null before the first table. Another one from setTable() on, and from a frame on whose period is much shorter.
+    SignalStore *store() const { return m_store.get(); }
+
+    /// Forgets the last batch.
+    void beginBatch();
+    /// Takes the values of one cycle. \param wallTime  now, since 1970
+    void takeFrame(const QPlcIOBufferSlaveNode::Frame &frame, Time wallTime);
+    /// Takes a value that came outside of a cycle. Nothing becomes of one that does not fit.
+    void takeValue(QPlcSignalIndex signal, const QPlcValue &value);
+    /// What comes next does not continue what is there.
+    void interrupt();
+
+    bool hasValues() const { return m_hasValues; }
+    /// The newest value; invalid before the first, or when there is no such signal.
+    QPlcValue value(QPlcSignalIndex signal) const;
+    /// The values of \a signalIndices in each cycle of the last batch, oldest first.
+    QList<QPlcSignalList> batch(const QVector<QPlcSignalIndex> &signalIndices) const;
+    int batchSize() const { return m_batchSize; }
+    Time period() const { return m_period; }
+    quint64 cycle() const { return m_lastCycle; }
+    quint64 rows() const { return m_rows; }  // taken, ever
+    quint64 gaps() const { return m_gaps; }  // interruptions of the cycle numbers within a phase, ever
+
+private:
+    QPlcValue valueIn(const char *payload, QPlcSignalIndex signal) const;
+    int wantedRows() const;
+    void makeStore();
+    void beginPhase(const QPlcIOBufferSlaveNode::Frame &frame, Time wallTime);
+
+    Budget m_budget;
+    QPlcSignalTable m_table;
+    ChannelMap m_channels;
+    std::unique_ptr<SignalStore> m_store;
+    std::vector<float> m_row;
+    std::vector<char> m_newest;
+    bool m_hasValues = false;
+    std::vector<char> m_batch;  // payloads, one behind the other
+    int m_batchSize = 0;
+
+    Time m_period = 1;
+    Time m_phaseStart = 0;
+    Time m_lastTime = 0;
+    quint64 m_phase = 0;
+    quint64 m_lastCycle = 0;
+    bool m_isContinued = false;
+    quint64 m_rows = 0;
+    quint64 m_gaps = 0;
+};
+
+}  // namespace qplc

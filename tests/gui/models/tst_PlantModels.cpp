@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "PlantFixtures.h"
+#include "gui/models/EventLogModel.h"
+#include "gui/models/NodeTableModel.h"
+
+#include <QtTest/QAbstractItemModelTester>
+
+using namespace qplc;
+
+namespace {
+
+constexpr auto fatal = QAbstractItemModelTester::FailureReportingMode::QtTest;
+
+PlantEvent eventOf(PlantEvent::Severity severity, const QString &text)
+{
+    return {QDateTime(QDate(2026, 1, 31), QTime(12, 0, 1, 250)), severity, QStringLiteral("kite"), text, false};
+}
+
+QStringList namesOf(const NodeTableModel &table)
+{
+    QStringList names;
+    for (int row = 0; row < table.rowCount(); ++row)
+        names << table.index(row, NodeTableModel::PlantColumn).data().toString() + QLatin1Char('/')
+                + table.index(row, NodeTableModel::Name).data().toString();
+    return names;
+}
+
+}  // namespace
+
+class tst_PlantModels : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void nodesComeAndGoInTheTable();
+    void figuresOfNodesAreDurationsAndCounters();
+    void eventsAreShownAndAcknowledged();
+    void theLogIsBounded();
+    void eventsAreFiltered();
+    void whatHappensToAPlantIsInTheLog();
+};
+
+void tst_PlantModels::nodesComeAndGoInTheTable()
+{
+    RunningMaster north;
+    RunningMaster south;
+    PlantList plants;
+    NodeTableModel table(&plants);
+    const QAbstractItemModelTester tester(&table, fatal);
+    QCOMPARE(table.rowCount(), 0);
+    Plant *first = plants.add(north.address(), QStringLiteral("north"), QStringLiteral("Window"));
+    plants.add(south.address(), QStringLiteral("south"), QStringLiteral("Window"));
+    QTRY_COMPARE(namesOf(table),
+                 (QStringList{"north/Master", "north/Counter", "north/Window", "south/Master", "south/Counter",
+                              "south/Window"}));
+    auto echo = std::make_unique<EchoNode>();
+    echo->setSignalTable(testTable());
+    QVERIFY(echo->connectToMasterAndWaitForConnected(north.protocol("udp")));
+    QTRY_COMPARE(namesOf(table).indexOf(QStringLiteral("north/Echo")), 3);
+    QCOMPARE(table.index(3, NodeTableModel::Transport).data().toString(), QStringLiteral("udp"));
+    QCOMPARE(table.index(3, NodeTableModel::Policy).data().toString(), QStringLiteral("ErrorZeroOrderHold"));
+    QCOMPARE(table.index(2, NodeTableModel::State).data().toString(), QStringLiteral("listens"));
+    echo.reset();
+    QTRY_VERIFY(!namesOf(table).contains(QStringLiteral("north/Echo")));
+    first->close();
+    QTRY_COMPARE(namesOf(table).filter(QStringLiteral("north")), QStringList{QStringLiteral("north/Master")});
+    QVERIFY(table.index(0, NodeTableModel::State).data().toString().startsWith(QStringLiteral("Disconnected")));
+    QVERIFY(table.index(0, 0).data(Qt::ForegroundRole).isValid());
+    plants.remove(first);
+    QCOMPARE(namesOf(table).filter(QStringLiteral("north")), QStringList());
+    QCOMPARE(table.rowCount(), 3);
+}
+
+void tst_PlantModels::figuresOfNodesAreDurationsAndCounters()
+{
+    RunningMaster master;
+    master.counter.onStep = [](const QPlcCycle &cycle) {
+        if (cycle.number() == 300)  // later than a period: the master overruns
+            QTest::qSleep(40);
+    };
+    QVERIFY(master.startRealTime());
+    PlantList plants;
+    NodeTableModel table(&plants);
+    const QAbstractItemModelTester tester(&table, fatal);
+    Plant *plant = plants.add(master.address(), QStringLiteral("kite"));
+    QSignalSpy events(plant, &Plant::eventOccurred);
+    const auto number = [&](int row, int column) {
+        return table.index(row, column).data(NodeTableModel::SortRole).toDouble();
+    };
+    QTRY_VERIFY_WITH_TIMEOUT(number(1, NodeTableModel::ExecutionP99) > 0.0, 10000);
+    QTRY_VERIFY_WITH_TIMEOUT(number(0, NodeTableModel::LatenessP99) > 0.0, 10000);
+    QVERIFY(table.index(0, NodeTableModel::LatenessP99).data().toString().endsWith(QStringLiteral("s")));
+    QCOMPARE(table.index(1, NodeTableModel::LatenessP99).data().toString(), QString());
+    QCOMPARE(table.index(1, NodeTableModel::Lost).data().toString(), QStringLiteral("0"));
+    QTRY_VERIFY_WITH_TIMEOUT(number(1, NodeTableModel::ExecutionMaximum) >= 40e6, 10000);
+    const auto isOverrun = [](const QList<QVariant> &call) {
+        return qvariant_cast<PlantEvent>(call.at(0)).text.contains(QStringLiteral("new overruns"));
+    };
+    QTRY_VERIFY(std::any_of(events.begin(), events.end(), isOverrun));
+}
+
+void tst_PlantModels::eventsAreShownAndAcknowledged()
+{
+    EventLogModel log;
+    const QAbstractItemModelTester tester(&log, fatal);
+    QSignalSpy counts(&log, &EventLogModel::unacknowledgedChanged);
+    log.acknowledgeAll();
+    log.acknowledge({});
+    log.append(eventOf(PlantEvent::Information, QStringLiteral("begin")));
+    QCOMPARE(log.unacknowledged(), 0);
+    log.append(eventOf(PlantEvent::Warning, QStringLiteral("late")));
+    log.append(eventOf(PlantEvent::Error, QStringLiteral("lost")));
+    QCOMPARE(log.unacknowledged(), 2);
+    QCOMPARE(log.index(1, EventLogModel::Time).data().toString(), QStringLiteral("12:00:01.250"));
+    QCOMPARE(log.index(1, EventLogModel::Severity).data().toString(), QStringLiteral("Warning"));
+    QCOMPARE(log.index(1, EventLogModel::Source).data().toString(), QStringLiteral("kite"));
+    QCOMPARE(log.index(1, EventLogModel::Text).data().toString(), QStringLiteral("late"));
+    log.acknowledge(log.index(1, 2));
+    log.acknowledge(log.index(1, 2));
+    log.acknowledge(log.index(0, 0));
+    QCOMPARE(log.unacknowledged(), 1);
+    QVERIFY(log.index(1, 0).data(EventLogModel::AcknowledgedRole).toBool());
+    log.acknowledgeAll();
+    QCOMPARE(log.unacknowledged(), 0);
+    QVERIFY(!log.at(0).isAcknowledged);  // it asked nobody
+    QCOMPARE(counts.size(), 4);
+}
+
+void tst_PlantModels::theLogIsBounded()
+{
+    EventLogModel log;
+    for (int i = 0; i < EventLogModel::MostEvents + 10; ++i)
+        log.append(eventOf(PlantEvent::Warning, QString::number(i)));
+    QCOMPARE(log.rowCount(), EventLogModel::MostEvents);
+    QCOMPARE(log.at(0).text, QStringLiteral("10"));
+    QCOMPARE(log.unacknowledged(), EventLogModel::MostEvents);
+    log.append(eventOf(PlantEvent::Information, QString()));
+    QCOMPARE(log.unacknowledged(), EventLogModel::MostEvents - 1);
+}
+
+void tst_PlantModels::eventsAreFiltered()
+{
+    EventLogModel log;
+    EventFilterModel filter;
+    const QAbstractItemModelTester tester(&filter, fatal);
+    filter.setSourceModel(&log);
+    log.append(eventOf(PlantEvent::Information, QStringLiteral("node Winch is there")));
+    log.append(eventOf(PlantEvent::Warning, QStringLiteral("node Winch has gone")));
+    log.append(eventOf(PlantEvent::Error, QStringLiteral("lost the master")));
+    filter.setLeastSeverity(PlantEvent::Warning);
+    QCOMPARE(filter.rowCount(), 2);
+    filter.setSearch(QStringLiteral(" KITE  winch"));
+    QCOMPARE(filter.rowCount(), 1);
+    filter.setSearch(QString());
+    filter.setOnlyUnacknowledged(true);
+    log.acknowledge(log.index(2, 0));
+    QCOMPARE(filter.rowCount(), 1);
+    filter.setLeastSeverity(PlantEvent::Information);
+    QCOMPARE(filter.rowCount(), 1);  // information asks nobody
+    filter.setOnlyUnacknowledged(false);
+    QCOMPARE(filter.rowCount(), 3);
+}
+
+void tst_PlantModels::whatHappensToAPlantIsInTheLog()
+{
+    PlantList plants;
+    EventLogModel log;
+    connect(&plants, &PlantList::eventOccurred, &log, &EventLogModel::append);
+    auto master = std::make_unique<RunningMaster>();
+    plants.add(master->address(), QStringLiteral("kite"));
+    QTRY_COMPARE(log.rowCount() > 0 ? log.at(0).text : QString(),
+                 QStringLiteral("connected to the master at %1").arg(master->address()));
+    QVERIFY(master->startRealTime());
+    const auto texts = [&] {
+        QStringList all;
+        for (int row = 0; row < log.rowCount(); ++row)
+            all << log.at(row).text;
+        return all.join(QLatin1Char('\n'));
+    };
+    QTRY_VERIFY(texts().contains(QStringLiteral("Off → RealTime")));
+    QCOMPARE(log.unacknowledged(), 0);
+    master.reset();
+    QTRY_VERIFY(texts().contains(QStringLiteral("lost the master")));
+    QCOMPARE(log.unacknowledged(), 1);
+}
+
+QTEST_MAIN(tst_PlantModels)
+#include "tst_PlantModels.moc"

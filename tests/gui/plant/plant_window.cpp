@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// A window without a face: hears the plant of the address and prints ten times a second what it has, "rows gaps largestBatch". Ends with its standard input.
+#include "gui/plant/Plant.h"
+
+#include <QtCore/QCoreApplication>
+#include <QtCore/QSocketNotifier>
+
+#include <cstdio>
+
+int main(int argc, char **argv)
+{
+    QCoreApplication application(argc, argv);
+    qplc::Plant plant(QCoreApplication::arguments().value(1));
+    int largestBatch = 0;
+    QObject::connect(&plant, &qplc::Plant::updated, &plant,
+                     [&] { largestBatch = std::max(largestBatch, plant.values().batchSize()); });
+    QTimer timer;
+    QObject::connect(&timer, &QTimer::timeout, &plant, [&] {
+        std::printf("%llu %llu %d\n", plant.values().rows(), plant.values().gaps(), largestBatch);
+        std::fflush(stdout);
+    });
+    QSocketNotifier end(0, QSocketNotifier::Read);
+    QObject::connect(&end, &QSocketNotifier::activated, &application, &QCoreApplication::quit);
+    timer.start(100);
+    plant.open();
+    return QCoreApplication::exec();
+}

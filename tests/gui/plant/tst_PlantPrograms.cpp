@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "PlantFixtures.h"
+#include "Program.h"
+
+#include <algorithm>
+#include <csignal>
+
+using namespace qplc;
+
+namespace {
+
+constexpr int patience = 20000;  // [ms]
+
+std::unique_ptr<Program> startMaster(const QString &port)
+{
+    auto master = std::make_unique<Program>(QStringLiteral(QTPLC_PROGRAMS "/awe_master"),
+                                            QStringList{QStringLiteral("--port=%1").arg(port)});
+    return master->waitForOutput(QStringLiteral("\n")) ? std::move(master) : nullptr;
+}
+
+QString portOf(Program &master)
+{
+    return master.output().section(QLatin1Char('\n'), 0, 0).section(QLatin1Char(' '), 1);
+}
+
+/// The longest time in which the event loop did not come round.
+class Heartbeat
+{
+public:
+    Heartbeat()
+    {
+        m_clock.start();
+        QObject::connect(&m_timer, &QTimer::timeout, [this] { m_longest = std::max(m_longest, m_clock.restart()); });
+        m_timer.start(5);
+    }
+    qint64 longest() const { return m_longest; }  // [ms]
+
+private:
+    QElapsedTimer m_clock;
+    QTimer m_timer;
+    qint64 m_longest = 0;
+};
+
+struct Report
+{
+    quint64 rows = 0;
+    quint64 gaps = 0;
+    int largestBatch = 0;
+};
+
+/// The newest report of plant_window.
+Report reportOf(Program &window)
+{
+    const QStringList words = window.output().section(QLatin1Char('\n'), -2, -2).split(QLatin1Char(' '));
+    return {words.value(0).toULongLong(), words.value(1).toULongLong(), words.value(2).toInt()};
+}
+
+}  // namespace
+
+class tst_PlantPrograms : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void aKilledMasterIsFoundAgainAndNothingBlocks();
+    void valuesOfAStoppedMasterAreStaleUntilItGoesOn();
+    void aStoppedWindowSlowsNobodyAndHasAGap();
+    void aSlowWindowKeepsABoundedBacklog();
+};
+
+void tst_PlantPrograms::aKilledMasterIsFoundAgainAndNothingBlocks()
+{
+    std::unique_ptr<Program> master = startMaster(QStringLiteral("0"));
+    QVERIFY(master);
+    const QString port = portOf(*master);
+    RunningMaster other;
+    QVERIFY(other.startRealTime());
+    PlantList plants;
+    Plant *plant = plants.add(QStringLiteral("127.0.0.1:") + port, QStringLiteral("kite"));
+    Plant *bystander = plants.add(other.address(), QStringLiteral("bystander"));
+    QTRY_COMPARE_WITH_TIMEOUT(plant->nextAction(), Plant::Start, patience);
+    plant->start();
+    QTRY_VERIFY_WITH_TIMEOUT(plant->values().rows() > 20, patience);
+    QTRY_VERIFY_WITH_TIMEOUT(bystander->values().rows() > 20, patience);
+
+    const Heartbeat heartbeat;
+    master->sendSignal(SIGKILL);
+    QTRY_COMPARE_WITH_TIMEOUT(plant->quality(), Plant::Stale, patience);
+    QTRY_VERIFY_WITH_TIMEOUT(!plant->isConnected(), patience);
+    const auto rows = plant->store()->endRow();
+    const quint64 seen = bystander->values().rows();
+    QTRY_VERIFY_WITH_TIMEOUT(bystander->values().rows() > seen + 100, patience);
+    master = startMaster(port);
+    QVERIFY(master);
+    QTRY_COMPARE_WITH_TIMEOUT(plant->nextAction(), Plant::Start, patience);
+    plant->start();
+    QTRY_VERIFY_WITH_TIMEOUT(plant->store()->endRow() > rows + 20, patience);
+    QVERIFY(plant->store()->beginsAnew(rows));
+    QVERIFY2(heartbeat.longest() < 1000, qPrintable(QString::number(heartbeat.longest())));
+}
+
+void tst_PlantPrograms::valuesOfAStoppedMasterAreStaleUntilItGoesOn()
+{
+    std::unique_ptr<Program> master = startMaster(QStringLiteral("0"));
+    QVERIFY(master);
+    Plant plant(QStringLiteral("udp://127.0.0.1:") + portOf(*master));
+    plant.open();
+    QTRY_COMPARE_WITH_TIMEOUT(plant.nextAction(), Plant::Start, patience);
+    plant.start();
+    QTRY_COMPARE_WITH_TIMEOUT(plant.quality(), Plant::Good, patience);
+    QTRY_VERIFY_WITH_TIMEOUT(plant.values().rows() > 20, patience);
+    master->sendSignal(SIGSTOP);
+    QTRY_COMPARE_WITH_TIMEOUT(plant.quality(), Plant::Stale, patience);
+    QVERIFY(plant.isConnected());  // nobody knows yet what is the matter
+    QVERIFY(plant.age() >= 0.5);
+    master->sendSignal(SIGCONT);
+    QTRY_COMPARE_WITH_TIMEOUT(plant.quality(), Plant::Good, patience);
+}
+
+void tst_PlantPrograms::aStoppedWindowSlowsNobodyAndHasAGap()
+{
+    RunningMaster master;
+    QVERIFY(master.setInterval(std::chrono::milliseconds(1)));
+    QVERIFY(master.startRealTime());
+    Program window(QStringLiteral(QTPLC_PLANT_WINDOW), {QStringLiteral("local://%1").arg(master.serverPort())});
+    QTRY_VERIFY_WITH_TIMEOUT(reportOf(window).rows > 200, patience);
+    window.sendSignal(SIGSTOP);
+    const quint64 cycles = master.statistics().cycles;
+    QVERIFY(QTest::qWaitFor([&] { return master.statistics().cycles > cycles + 3000; }, patience));
+    const Report before = reportOf(window);
+    window.sendSignal(SIGCONT);
+    QTRY_VERIFY_WITH_TIMEOUT(reportOf(window).rows > before.rows + 500, patience);
+    QTRY_VERIFY_WITH_TIMEOUT(reportOf(window).gaps > before.gaps, patience);
+    QVERIFY2(reportOf(window).largestBatch <= 2048, qPrintable(window.output().right(100)));
+    QCOMPARE(master.state(), QPlcMasterNode::RealTime);
+}
+
+void tst_PlantPrograms::aSlowWindowKeepsABoundedBacklog()
+{
+    RunningMaster master;  // whose cycle thread goes on while this thread sleeps
+    QVERIFY(master.setInterval(std::chrono::milliseconds(1)));
+    QVERIFY(master.startRealTime());
+    Plant plant(master.address());
+    plant.open();
+    QTRY_VERIFY_WITH_TIMEOUT(plant.values().rows() > 50, patience);
+    const quint64 gaps = plant.values().gaps();
+    QThread::sleep(3);
+    int largestBatch = 0;
+    connect(&plant, &Plant::updated, this, [&] { largestBatch = std::max(largestBatch, plant.values().batchSize()); });
+    QTRY_VERIFY_WITH_TIMEOUT(plant.values().gaps() > gaps, patience);
+    QVERIFY2(largestBatch > 1000 && largestBatch <= 2048, qPrintable(QString::number(largestBatch)));
+}
+
+QTEST_GUILESS_MAIN(tst_PlantPrograms)
+#include "tst_PlantPrograms.moc"

@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gui/plant/PlantStatus.h"
+#include "gui/plant/PlantValues.h"
+#include "gui/plant/SignalReference.h"
+
+#include <QtCore/QJsonArray>
+#include <QtTest/QtTest>
+
+#include <cmath>
+
+using namespace qplc;
+
+namespace {
+
+constexpr qint64 ms = 1'000'000;  // [ns]
+constexpr qint64 wall = 1'800'000'000'000 * ms;
+
+QPlcSignalTable table()
+{
+    return QPlcSignalTable::fromIni("[text]\ntype=String(4)\n[byte]\ntype=UInt8\n[vector]\ntype=Real64[3]\n"
+                                    "[time]\ntype=DateTime\n[a]\ntype=Real32\n[b]\ntype=Real32\n[big]\ntype=Int64\n");
+}
+
+/// Values of the table: byte = n, vector = n, n + 1, n + 2, a = n / 2, b = -n, big = -n.
+QByteArray payload(int n)
+{
+    const double vector[3] = {double(n), n + 1.0, n + 2.0};
+    return QPlcValue::fromString({QPlcSignalType::String, 4}, QStringLiteral("t%1").arg(n)).toBytes()
+        + QPlcValue(quint8(n)).toBytes() + QPlcValue(vector).toBytes()
+        + QPlcValue::fromString(QPlcSignalType::DateTime, QStringLiteral("2026-01-31T12:00:00Z")).toBytes()
+        + QPlcValue(float(n) / 2).toBytes() + QPlcValue(float(-n)).toBytes() + QPlcValue(qint64(-n)).toBytes();
+}
+
+void give(PlantValues *values, quint64 cycle, quint64 phase, qint64 now, qint64 period = 10 * ms)
+{
+    const QByteArray bytes = payload(int(cycle));
+    values->takeFrame({cycle, phase, std::chrono::nanoseconds(period), bytes.constData(), bytes.size()}, now);
+}
+
+}  // namespace
+
+class tst_PlantValues : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void everyElementOfANumberHasAChannel();
+    void allTypesBecomeFloats();
+    void anEmptyTableHasNoChannels();
+    void rowsLieAPeriodApartFromTheBeginOfThePhase();
+    void aJumpOfCyclesIsAGap();
+    void aNewPhaseBeginsAnewAndLater();
+    void anInterruptionIsNoGapOfCycles();
+    void framesOfAnotherTableAreNotTaken();
+    void theStoreIsBoundedByTimeAndMemory();
+    void aMuchShorterPeriodGetsALargerStore();
+    void aBatchHoldsTheCyclesSinceTheLastOne();
+    void valuesAtRestReplaceTheNewest();
+    void referencesAreReadAndWritten_data();
+    void referencesAreReadAndWritten();
+    void nonsenseIsNoReference_data();
+    void nonsenseIsNoReference();
+    void aStatusKeepsTheFiguresOfItsNodes();
+    void nonsenseOfAMasterIsAnEmptyStatus();
+};
+
+void tst_PlantValues::everyElementOfANumberHasAChannel()
+{
+    const ChannelMap map(table());
+    QCOMPARE(map.channels(), 1 + 3 + 1 + 1 + 1);
+    QCOMPARE(map.payloadSize(), payload(0).size());
+    QCOMPARE(map.channel(0), ChannelMap::NoChannel);  // text
+    QCOMPARE(map.channel(1), 0);
+    QCOMPARE(map.channel(2, 2), 3);
+    QCOMPARE(map.channel(2, 3), ChannelMap::NoChannel);
+    QCOMPARE(map.channel(2, -1), ChannelMap::NoChannel);
+    QCOMPARE(map.channel(3), ChannelMap::NoChannel);  // time
+    QCOMPARE(map.channel(4), 4);
+    QCOMPARE(map.channel(QPlcInvalidSignalIndex), ChannelMap::NoChannel);
+    QCOMPARE(map.offset(2), 6 + 1);
+}
+
+void tst_PlantValues::allTypesBecomeFloats()
+{
+    const char *types[]
+        = {"Int8", "Int16", "Int32", "Int64", "UInt8", "UInt16", "UInt32", "UInt64", "Real32", "Real64"};
+    for (const char *type : types) {
+        const QPlcSignalTable one = QPlcSignalTable::fromIni(QByteArray("[x]\ntype=") + type + "[2]\n");
+        const QByteArray bytes = QPlcValue::fromString(one.at(0).type, QStringLiteral("7, 100")).toBytes();
+        float values[2] = {};
+        ChannelMap(one).toFloats(bytes.constData(), values);
+        QVERIFY2(values[0] == 7.0F && values[1] == 100.0F, type);
+    }
+}
+
+void tst_PlantValues::anEmptyTableHasNoChannels()
+{
+    QCOMPARE(ChannelMap().channels(), 0);
+    QCOMPARE(ChannelMap().channel(0), ChannelMap::NoChannel);
+    const PlantValues values;
+    QVERIFY(!values.store());
+    QVERIFY(!values.value(0).isValid());
+}
+
+void tst_PlantValues::rowsLieAPeriodApartFromTheBeginOfThePhase()
+{
+    PlantValues values;
+    values.setTable(table(), 10 * ms);
+    QVERIFY(!values.value(1).isValid());
+    give(&values, 5, 1, wall);  // joined late
+    give(&values, 6, 1, wall + 77 * ms);
+    give(&values, 7, 1, wall + 77 * ms);
+    SignalStore &store = *values.store();
+    QCOMPARE(store.endRow(), SignalStore::Row(3));
+    QCOMPARE(qint64(store.time(0)), wall);
+    QCOMPARE(qint64(store.time(2)), wall + 20 * ms);
+    QVERIFY(!store.beginsAnew(1) && !store.beginsAnew(2));
+    QCOMPARE(store.value(values.channels().channel(2, 1), 2), 8.0F);
+    QCOMPARE(values.value(4).toReal(), 3.5);
+    QCOMPARE(values.value(0).toString(), QStringLiteral("t7"));
+    QCOMPARE(values.gaps(), quint64(0));
+}
+
+void tst_PlantValues::aJumpOfCyclesIsAGap()
+{
+    PlantValues values;
+    values.setTable(table(), 10 * ms);
+    give(&values, 0, 1, wall);
+    give(&values, 1, 1, wall);
+    give(&values, 100, 1, wall);
+    QCOMPARE(values.gaps(), quint64(1));
+    QVERIFY(values.store()->beginsAnew(2));
+    QCOMPARE(qint64(values.store()->time(2)), wall + 1000 * ms);
+}
+
+void tst_PlantValues::aNewPhaseBeginsAnewAndLater()
+{
+    PlantValues values;
+    values.setTable(table(), 10 * ms);
+    for (quint64 cycle = 0; cycle < 100; ++cycle)  // faster than the clock on the wall
+        give(&values, cycle, 1, wall);
+    give(&values, 0, 2, wall + 1 * ms);
+    give(&values, 1, 2, wall + 1 * ms);
+    QCOMPARE(values.store()->endRow(), SignalStore::Row(102));
+    QVERIFY(values.store()->beginsAnew(100));
+    QCOMPARE(qint64(values.store()->time(100)), wall + 1000 * ms);
+    // A phase whose first cycle follows by chance the last one of the former is a new one, too.
+    give(&values, 2, 3, wall + 5000 * ms);
+    QVERIFY(values.store()->beginsAnew(102));
+    QCOMPARE(qint64(values.store()->time(102)), wall + 5000 * ms);
+    QCOMPARE(values.gaps(), quint64(0));
+}
+
+void tst_PlantValues::anInterruptionIsNoGapOfCycles()
+{
+    PlantValues values;
+    values.setTable(table(), 10 * ms);
+    give(&values, 0, 1, wall);
+    values.interrupt();
+    give(&values, 1, 1, wall + 3000 * ms);
+    QVERIFY(values.store()->beginsAnew(1));
+    QCOMPARE(qint64(values.store()->time(1)), wall + 3000 * ms);
+    QCOMPARE(values.gaps(), quint64(0));
+}
+
+void tst_PlantValues::framesOfAnotherTableAreNotTaken()
+{
+    PlantValues values;
+    const char frame[4] = {};
+    values.takeFrame({0, 1, std::chrono::nanoseconds(ms), frame, 4}, wall);  // before the table
+    values.setTable(table(), 10 * ms);
+    values.takeFrame({0, 1, std::chrono::nanoseconds(ms), frame, 4}, wall);
+    QCOMPARE(values.rows(), quint64(0));
+    QVERIFY(values.store()->isEmpty());
+}
+
+void tst_PlantValues::theStoreIsBoundedByTimeAndMemory()
+{
+    PlantValues values;
+    values.setTable(table(), 10 * ms);
+    QCOMPARE(values.store()->channels(), 7);
+    QCOMPARE(values.store()->capacity(), 60'000);
+    values.setTable(table(), 10 * ms, {600'000 * ms, 41 * 1000});  // 9 + 7 * 4.6 bytes a row
+    QCOMPARE(values.store()->capacity(), 1000);
+    values.setTable(table(), 3'600'000 * ms);
+    QCOMPARE(values.store()->capacity(), 16);
+    values.setTable(table(), 10 * ms, {600'000 * ms, 0});
+    QCOMPARE(values.store()->capacity(), 16);
+    values.setTable(table(), 0, {1000, 1 << 20});
+    QCOMPARE(values.store()->capacity(), 1000);
+}
+
+void tst_PlantValues::aMuchShorterPeriodGetsALargerStore()
+{
+    PlantValues values;
+    values.setTable(table(), 100 * ms);
+    give(&values, 0, 1, wall, 100 * ms);
+    QCOMPARE(values.store()->capacity(), 6000);
+    give(&values, 0, 2, wall + 1000 * ms, 90 * ms);
+    QCOMPARE(values.store()->capacity(), 6000);
+    QCOMPARE(values.store()->endRow(), SignalStore::Row(2));
+    give(&values, 0, 3, wall + 2000 * ms, 10 * ms);
+    QCOMPARE(values.store()->capacity(), 60'000);
+    QCOMPARE(values.store()->endRow(), SignalStore::Row(1));
+}
+
+void tst_PlantValues::aBatchHoldsTheCyclesSinceTheLastOne()
+{
+    PlantValues values;
+    values.setTable(table(), 10 * ms);
+    give(&values, 0, 1, wall);
+    values.beginBatch();
+    QVERIFY(values.batch({4}).isEmpty());
+    give(&values, 1, 1, wall);
+    give(&values, 2, 1, wall);
+    const QList<QPlcSignalList> batch = values.batch({4, 0, 1000});
+    QCOMPARE(batch.size(), 2);
+    QCOMPARE(batch.at(0).size(), 2);
+    QCOMPARE(batch.at(0).value(QPlcSignalIndex(4)).toReal(), 0.5);
+    QCOMPARE(batch.at(1).value(QPlcSignalIndex(0)).toString(), QStringLiteral("t2"));
+}
+
+void tst_PlantValues::valuesAtRestReplaceTheNewest()
+{
+    PlantValues values;
+    values.takeValue(4, QPlcValue(1.5F));  // before the table
+    values.setTable(table(), 10 * ms);
+    values.takeValue(4, QPlcValue(1.5F));
+    values.takeValue(4, QPlcValue(2.5));  // no Real32
+    values.takeValue(1000, QPlcValue(2.5F));
+    QCOMPARE(values.value(4).toReal(), 1.5);
+    QVERIFY(values.store()->isEmpty());
+}
+
+void tst_PlantValues::referencesAreReadAndWritten_data()
+{
+    QTest::addColumn<QString>("text");
+    QTest::addColumn<QString>("plant");
+    QTest::addColumn<QString>("name");
+    QTest::addColumn<int>("element");
+    QTest::newRow("signal") << "tetherSpeed"
+                            << ""
+                            << "tetherSpeed" << -1;
+    QTest::newRow("element") << "v[2]"
+                             << ""
+                             << "v" << 2;
+    QTest::newRow("plant") << "north/v.x_1"
+                           << "north"
+                           << "v.x_1" << -1;
+    QTest::newRow("both") << "north/v[10]"
+                          << "north"
+                          << "v" << 10;
+    QTest::newRow("address") << "127.0.0.1:50000/v"
+                             << "127.0.0.1:50000"
+                             << "v" << -1;
+    QTest::newRow("local") << "local://tower/v[0]"
+                           << "local://tower"
+                           << "v" << 0;
+}
+
+void tst_PlantValues::referencesAreReadAndWritten()
+{
+    QFETCH(QString, text);
+    QString error = QStringLiteral("old");
+    const SignalReference reference = SignalReference::fromString(text, &error);
+    QTEST(reference.plant, "plant");
+    QTEST(reference.signal, "name");
+    QTEST(reference.element, "element");
+    QVERIFY(reference.isValid() && error.isEmpty());
+    QCOMPARE(reference.toString(), text);
+    QCOMPARE(SignalReference::fromString(QStringLiteral("  ") + text + QStringLiteral(" \n")), reference);
+}
+
+void tst_PlantValues::nonsenseIsNoReference_data()
+{
+    QTest::addColumn<QString>("text");
+    for (const char *text :
+         {"", " ", "/", "a/", "/a", "a[", "a[]", "a[-1]", "a[x]", "a[1][2]", "[1]", "1a", "a b", "a[99999]"})
+        QTest::newRow(text) << QString(text);
+    QTest::newRow("too long") << QString(64, QLatin1Char('a'));
+}
+
+void tst_PlantValues::nonsenseIsNoReference()
+{
+    QFETCH(QString, text);
+    QString error;
+    QVERIFY(!SignalReference::fromString(text, &error).isValid());
+    QVERIFY2(error.contains(QStringLiteral("write signal, signal[2] or plant/signal")), qPrintable(error));
+}
+
+void tst_PlantValues::aStatusKeepsTheFiguresOfItsNodes()
+{
+    const QJsonObject winch{{"name", "Winch"}, {"transport", "udp"}, {"policy", "SilentWait"}, {"listener", true}};
+    const QJsonObject state{
+        {"state", "RealTime"}, {"period", 1e7}, {"cycle", "00000000000000ff"}, {"nodes", QJsonArray{winch}}};
+    const auto statistics = [](int late) {
+        const QJsonObject figures{{"count", 3}, {"p50", 1000}, {"p99", 2000}, {"maximum", 3000}};
+        return QJsonObject{{"master", QJsonObject{{"lateness", QJsonObject{{"last10s", figures}}}}},
+                           {"nodes",
+                            QJsonArray{QJsonObject{{"name", "Winch"},
+                                                   {"execution", QJsonObject{{"sinceStart", figures}}},
+                                                   {"counters", QJsonObject{{"late", late}}}},
+                                       QJsonObject{{"name", "Stranger"}}}}};
+    };
+    PlantStatus status;
+    status.takeState(state);
+    QVERIFY(status.isRunning());
+    QCOMPARE(status.cycle, quint64(255));
+    status.takeStatistics(statistics(3));
+    QCOMPARE(status.lateness.last10s.p99, 2000.0);
+    QCOMPARE(status.nodes.size(), 1);
+    QVERIFY(status.node("Winch")->isLate);
+    status.takeState(state);
+    QCOMPARE(status.node("Winch")->execution.sinceStart.maximum, 3000.0);
+    QCOMPARE(status.node("Winch")->late, quint64(3));
+    status.takeStatistics(statistics(3));
+    QVERIFY(!status.node("Winch")->isLate);
+    status.takeStatistics(statistics(0));  // a new phase
+    QVERIFY(!status.node("Winch")->isLate);
+    status.takeState({{"state", "Off"}});
+    QVERIFY(status.nodes.isEmpty() && !status.node("Winch"));
+}
+
+void tst_PlantValues::nonsenseOfAMasterIsAnEmptyStatus()
+{
+    PlantStatus status;
+    status.takeState({{"state", 7}, {"nodes", "many"}, {"period", "long"}});
+    status.takeState({{"nodes", QJsonArray{1, "x", QJsonObject{{"name", QJsonArray()}}}}});
+    status.takeStatistics(
+        {{"nodes", QJsonArray{QJsonObject{{"counters", QJsonObject{{"late", -1e300}}}}}}, {"master", 1}});
+    status.takeSchedule({{"stages", QJsonArray{1, QJsonArray{2}}}, {"links", QJsonArray{3}}});
+    QCOMPARE(status.nodes.size(), 3);
+    QCOMPARE(status.nodes.at(0).late, quint64(0));
+    QVERIFY(!status.isRunning());
+    status.takeState({{"state", "a\x1b[31m"}});
+    QVERIFY(!status.state.contains(QLatin1Char('\x1b')));
+}
+
+QTEST_GUILESS_MAIN(tst_PlantValues)
+#include "tst_PlantValues.moc"
