@@ -37,10 +37,11 @@ struct NodeSlot
     std::vector<char> initialOutputs;    // pasted into the image when a node joins while others run
 
     // ---- cycle thread ----
+    const std::vector<CopyRun> *pasteRuns = nullptr;  // outputRuns, or those of them that the roster does not hold
     FrameEncoder encoder;
     FrameDecoder decoder;
-    std::vector<char> frames;       // encoded parts, one behind the other
-    char *inputs = nullptr;         // payload of this cycle: where it lies in a frame of one part, else inputBytes
+    std::vector<char> frames;  // encoded parts, one behind the other
+    char *inputs = nullptr;    // payload of this cycle: where it lies in a frame of one part, else inputBytes
     std::vector<char> inputBytes;
     FrameHeader request;
     std::size_t partsSent = 0;  // of the request: a stream takes what the kernel has room for
