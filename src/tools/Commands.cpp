@@ -237,7 +237,7 @@ const QVector<Option> &commonOptions()
     static const QVector<Option> options{
         {"master", "HOST:PORT", "Where the master is, 127.0.0.1:50000 unless said."},
         {"timeout", "SECONDS", "Longest wait for an answer, 5 unless said."},
-        {"json", "", "Prints JSON (echo, watch, events: an object for each line)."},
+        {"json", "", "Prints JSON (echo, watch, events: an object a line)."},
     };
     return options;
 }
