@@ -35,6 +35,8 @@ public:
     bool isConnected() const;
     /// Sends \a message. \return false when there is no connection
     bool sendMessage(const QPlcMessage &message);
+    /// Bytes that wait to be sent because the other end is slow.
+    qint64 bytesToSend() const;
     /// Sends what is waiting, then closes the connection.
     void close();
     /// Closes the connection at once.

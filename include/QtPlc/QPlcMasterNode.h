@@ -3,6 +3,7 @@
 
 #include "QPlcClock.h"
 #include "QPlcCycleStatistics.h"
+#include "QPlcLease.h"
 #include "QPlcMasterStatistics.h"
 #include "QPlcNodeInfo.h"
 #include "QPlcOverrunPolicy.h"
@@ -135,6 +136,8 @@ public:
     QPlcSchedule schedule() const;
     /// Name of the node that writes \a signalName; empty: none.
     QString writer(const QString &signalName) const;
+    /// Signals that somebody has taken over by a lease, also where the holder is lost, in the order of the table.
+    QVector<QPlcLease> leases() const;
 
     // ---- state ----
     State state() const;
@@ -153,7 +156,7 @@ public:
     /// Newest value of a signal; invalid when there is no such signal.
     QPlcValue signalValue(const QString &signalName) const;
     /// Sets a signal that no node writes, between two cycles.
-    /// \return false when it has a writer, does not exist, or \a value does not fit
+    /// \return false when it has a writer, is taken over by a lease, does not exist, or \a value does not fit
     bool setSignalValue(const QString &signalName, const QPlcValue &value);
 
 public Q_SLOTS:
@@ -175,6 +178,8 @@ Q_SIGNALS:
     void realTimeHasStopped();
     /// A node with an Error policy had not answered in cycle \a cycle when its time was over.
     void realTimeViolated(const QString &name, quint64 cycle);
+    /// Somebody has taken, released or lost a lease: leases() has changed.
+    void leaseChanged();
     void errorOccurred(QPlcMasterNode::Error error);
 
 private:

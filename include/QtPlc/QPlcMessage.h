@@ -47,7 +47,14 @@ public:
         GetStatistics = 50,                 ///< anyone -> master: with histograms, or without
         Statistics = 51,                    ///< master -> asker: durations, counters and worst cycles
         GetSchedule = 52,                   ///< anyone -> master
-        Schedule = 53                       ///< master -> asker: stages of a cycle, and the age of every link
+        Schedule = 53,                      ///< master -> asker: stages of a cycle, and the age of every link
+        TakeLease = 60,      ///< anyone -> master: takes signals over, also from the nodes that write them
+        ReleaseLease = 61,   ///< anyone -> master: gives signals back
+        GetLeases = 62,      ///< anyone -> master
+        Leases = 63,         ///< master -> asker: who has taken over which signal
+        LeasesChanged = 64,  ///< master -> who offers feature "leases": all of them, after each change
+        GetEvents = 65,      ///< anyone -> master: what has happened since
+        Events = 66          ///< master -> asker, and -> who offers feature "events": what has happened
     };
     Q_ENUM(Kind)
 

@@ -52,6 +52,8 @@ public:
 
     // ---- any thread ----
     std::uint64_t cycles() const noexcept { return m_cycles; }
+    std::uint64_t overruns() const noexcept { return m_overruns; }
+    std::uint64_t skippedCycles() const noexcept { return m_skipped; }
     /// When the newest cycle began [ns].
     std::int64_t newest() const noexcept { return std::int64_t(m_newest.value()); }
     /// All but nodes.

@@ -35,6 +35,10 @@ struct MasterConnection
     quint64 token = 0;               // names this node on its cyclic TCP connection
     std::shared_ptr<NodeSlot> slot;  // null: no node
     qint64 stageSince = 0;           // [ms] for time-outs
+    bool wantsLeases = false;        // has offered the feature, and so the next ones
+    bool wantsEvents = false;
+    bool leasesDue = false;  // they have changed and it was not told yet
+    quint64 eventsTold = 0;  // sequence number of the newest event that was sent
 
     bool isNode() const { return slot != nullptr; }
     bool isAttached() const { return slot && stage >= Attached; }

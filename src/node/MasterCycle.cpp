@@ -73,7 +73,7 @@ void MasterCycle::setRoster(const Roster &roster)
 {
     freeRetired();
     auto copy = std::make_unique<Roster>(roster);
-    copy->arrange();
+    copy->arrange(m_image);
     if (!isRunning()) {
         delete m_pendingRoster.exchange(nullptr);
         adopt(copy.release());
@@ -96,7 +96,7 @@ bool MasterCycle::setValues(const std::vector<SignalSetting> &settings)
             m_image.setValue(setting.signal, setting.value);
         return true;
     }
-    if (m_setsGiven - m_setsTaken.load(std::memory_order_acquire) + settings.size() > m_setCommands.capacity())
+    if (!hasRoomFor(settings.size()))
         return false;
     for (const SignalSetting &setting : settings) {
         SetCommand *command = m_setCommands.beginPush();
@@ -106,6 +106,12 @@ bool MasterCycle::setValues(const std::vector<SignalSetting> &settings)
     }
     m_setsGiven += settings.size();
     return true;
+}
+
+bool MasterCycle::hasRoomFor(std::size_t settings) const
+{
+    return !isRunning()
+        || m_setsGiven - m_setsTaken.load(std::memory_order_acquire) + settings <= m_setCommands.capacity();
 }
 
 std::vector<char> MasterCycle::values() const
@@ -173,13 +179,20 @@ void MasterCycle::runCycle(const CycleClock::Tick &tick) noexcept
     finish();
 }
 
-void MasterCycle::takeCommands() noexcept
+void MasterCycle::adoptPending() noexcept
 {
     if (m_pendingRoster.load(std::memory_order_relaxed)) {
         if (Roster *roster = m_pendingRoster.exchange(nullptr, std::memory_order_acquire))
             adopt(roster);
     }
+}
+
+/// A value may have been set because of a roster that came before it: a roster is always adopted before the values that follow it.
+void MasterCycle::takeCommands() noexcept
+{
+    adoptPending();
     while (const SetCommand *command = m_setCommands.front()) {
+        adoptPending();
         std::memcpy(m_image.data() + m_image.offset(command->signal), command->bytes.data(),
                     std::size_t(m_image.table().at(command->signal).type.size()));
         m_setCommands.pop();
@@ -200,11 +213,13 @@ void MasterCycle::adopt(Roster *roster) noexcept
         if (slot->peer)
             m_hub.detach(slot->peer.get());
     }
-    for (const std::shared_ptr<NodeSlot> &slot : roster->nodes) {
+    for (std::size_t i = 0; i < roster->nodes.size(); ++i) {
+        const std::shared_ptr<NodeSlot> &slot = roster->nodes[i];
+        slot->pasteRuns = roster->pasteRuns.empty() ? &slot->outputRuns : &roster->pasteRuns[i];
         if (contains(*m_roster, slot.get()))
             continue;
         if (!slot->initialOutputs.empty())
-            copyRuns(slot->outputRuns, slot->initialOutputs.data(), m_image.data());
+            copyRuns(*slot->pasteRuns, slot->initialOutputs.data(), m_image.data());
         slot->decoder.restart(m_cycleZero + m_number);
         if (slot->peer)
             m_hub.attach(slot->peer.get());

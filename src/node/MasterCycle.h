@@ -68,6 +68,8 @@ public:
     void setRoster(const Roster &roster);
     /// Sets signals between two cycles; also while cycles run. \return false, and none is set, when too many are under way
     bool setValues(const std::vector<SignalSetting> &settings);
+    /// Whether setValues() would take so many now.
+    bool hasRoomFor(std::size_t settings) const;
     const QPlcSignalTable &table() const { return m_image.table(); }
     /// Where a signal lies in values() [byte].
     quint32 offset(QPlcSignalIndex signal) const { return m_image.offset(signal); }
@@ -97,6 +99,7 @@ private:
         return m_phase.cycleLimit > 0 && cycle >= m_phase.cycleLimit;
     }
     void takeCommands() noexcept;
+    void adoptPending() noexcept;
     void adopt(Roster *roster) noexcept;
     void writeOwnSignals(const CycleClock::Tick &tick) noexcept;
     void writeReal(QPlcSignalIndex signal, double value) noexcept;

@@ -26,7 +26,7 @@ void QPlcMasterNodePrivate::report(const CycleEvent &event)
 {
     switch (event.kind) {
     case CycleEvent::LateAnswer:
-        logLateAnswer(event);
+        journal.answeredLate(nodeName(event.node), event.cycle);
         Q_EMIT q->realTimeViolated(nodeName(event.node), event.cycle);
         break;
     case CycleEvent::WaitingForNode:
@@ -40,7 +40,7 @@ void QPlcMasterNodePrivate::report(const CycleEvent &event)
                                  .arg(table.at(event.signal).name)
                                  .arg(event.cycle);
         if (!dropFaulty(event.node, text))
-            fault(QStringLiteral("node '%1': %2").arg(nodeName(event.node), text));
+            fault(nodeName(event.node), QStringLiteral("node '%1': %2").arg(nodeName(event.node), text));
         break;
     }
     case CycleEvent::NodeFaulted: {
@@ -48,7 +48,8 @@ void QPlcMasterNodePrivate::report(const CycleEvent &event)
         const QString what = slot && slot->local ? QString::fromLocal8Bit(slot->local->faultText())
                                                  : QStringLiteral("its code failed");
         if (!dropFaulty(event.node, what))
-            fault(QStringLiteral("node '%1' in cycle %2: %3").arg(nodeName(event.node)).arg(event.cycle).arg(what));
+            fault(nodeName(event.node),
+                  QStringLiteral("node '%1' in cycle %2: %3").arg(nodeName(event.node)).arg(event.cycle).arg(what));
         break;
     }
     case CycleEvent::LinkClosed:
@@ -69,22 +70,6 @@ void QPlcMasterNodePrivate::report(const CycleEvent &event)
     }
 }
 
-/// The first late answer of a node is told at once, further ones at most once a second.
-void QPlcMasterNodePrivate::logLateAnswer(const CycleEvent &event)
-{
-    constexpr std::int64_t pause = 1'000'000'000;  // [ns]
-    LateLog &log = m_lateLogs[event.node];
-    ++log.untold;
-    const std::int64_t now = qplc::TimeSource::monotonic().now();
-    if (now < log.quietUntil)
-        return;
-    qCWarning(lcMaster).noquote() << "node" << nodeName(event.node) << "was late in cycle" << event.cycle
-                                  << (log.untold > 1
-                                          ? QStringLiteral("(and %1 times since the last report)").arg(log.untold - 1)
-                                          : QString());
-    log = {now + pause, 0};
-}
-
 /// The overrun policy is Stop, and the cycle thread has ended.
 void QPlcMasterNodePrivate::stopAfterOverrun(const CycleEvent &event)
 {
@@ -98,7 +83,7 @@ void QPlcMasterNodePrivate::stopAfterOverrun(const CycleEvent &event)
               .arg(event.cycle)
               .arg(double(event.duration) * 1e-6, 0, 'f', 3)
               .arg(double(cycle->period()) * 1e-6, 0, 'f', 3);
-    setError(QPlcMasterNode::RealTimeError, text);
+    setError(QPlcMasterNode::RealTimeError, text, qplc::NodeRegistry::masterName(), qplc::PlantEvent::Overrun);
     stop(text);
 }
 
@@ -113,12 +98,12 @@ bool QPlcMasterNodePrivate::dropFaulty(quint16 id, const QString &text)
 }
 
 /// A node cannot go on: the plant stops. What follows from the first fault is its echo and says nothing new.
-void QPlcMasterNodePrivate::fault(const QString &text)
+void QPlcMasterNodePrivate::fault(const QString &node, const QString &text)
 {
     if (m_step != Step::None) {
         abortSequence(text);
     } else if (isRunning()) {
-        setError(QPlcMasterNode::NodeError, text);
+        setError(QPlcMasterNode::NodeError, text, node, qplc::PlantEvent::Fault);
         stop(text);
     }
 }
@@ -126,10 +111,10 @@ void QPlcMasterNodePrivate::fault(const QString &text)
 void QPlcMasterNodePrivate::nodeLost(Connection *connection, const QString &reason)
 {
     const bool isMissed = connection->stage > Connection::Attached && !connection->slot->listener;
-    if (isMissed)
-        qCWarning(lcMaster).noquote() << "node" << connection->name << "is gone in the middle of its work:" << reason;
-    else
-        qCInfo(lcMaster).noquote() << "node" << connection->name << "has left:" << reason;
+    journal.tell(
+        isMissed ? qplc::PlantEvent::Warning : qplc::PlantEvent::Info, qplc::PlantEvent::Node, connection->name,
+        isMissed ? QStringLiteral("node %1 is gone in the middle of its work: %2").arg(connection->name, reason)
+                 : QStringLiteral("node %1 has left: %2").arg(connection->name, reason));
     const auto participant = std::find(m_participants.begin(), m_participants.end(), connection);
     const bool wasAwaited = m_step != Step::None && participant != m_participants.end();
     if (participant != m_participants.end())

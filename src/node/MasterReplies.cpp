@@ -93,8 +93,21 @@ QJsonObject scheduleFields(const QPlcSchedule &schedule)
     return {{QStringLiteral("stages"), stages}, {QStringLiteral("links"), links}};
 }
 
-bool signalFields(const MasterCycle &cycle, const NodeRegistry &registry, const QStringList &names, QJsonObject *fields,
-                  QString *error)
+QJsonObject eventFields(const std::vector<PlantEvent> &events)
+{
+    QJsonArray array;
+    for (const PlantEvent &event : events)
+        array.append(QJsonObject{{QStringLiteral("sequence"), double(event.sequence)},
+                                 {QStringLiteral("time"), QPlcMessage::fromHex64(quint64(event.time))},
+                                 {QStringLiteral("severity"), severityName(event.severity)},
+                                 {QStringLiteral("kind"), kindName(event.kind)},
+                                 {QStringLiteral("source"), event.source},
+                                 {QStringLiteral("text"), event.text}});
+    return {{QStringLiteral("events"), array}};
+}
+
+bool signalFields(const MasterCycle &cycle, const NodeRegistry &registry, const Leases &leases,
+                  const QStringList &names, QJsonObject *fields, QString *error)
 {
     const QPlcSignalTable &table = cycle.table();
     const std::vector<char> values = cycle.values();
@@ -111,14 +124,18 @@ bool signalFields(const MasterCycle &cycle, const NodeRegistry &registry, const 
             return false;
         }
         const QPlcSignalDefinition &definition = table.at(index);
-        signalArray.append(
-            QJsonObject{{QStringLiteral("name"), name},
-                        {QStringLiteral("type"), definition.type.name()},
-                        {QStringLiteral("unit"), definition.unit},
-                        {QStringLiteral("description"), definition.description},
-                        {QStringLiteral("value"),
-                         QPlcValue::fromBytes(definition.type, values.data() + cycle.offset(index)).toString()},
-                        {QStringLiteral("writer"), registry.writer(index)}});
+        QJsonObject signal{{QStringLiteral("name"), name},
+                           {QStringLiteral("type"), definition.type.name()},
+                           {QStringLiteral("unit"), definition.unit},
+                           {QStringLiteral("description"), definition.description},
+                           {QStringLiteral("value"),
+                            QPlcValue::fromBytes(definition.type, values.data() + cycle.offset(index)).toString()},
+                           {QStringLiteral("writer"), registry.writer(index)}};
+        if (const Leases::Lease *lease = leases.find(index)) {
+            signal.insert(QStringLiteral("holder"), lease->name);
+            signal.insert(QStringLiteral("lease"), lease->stateName());
+        }
+        signalArray.append(signal);
     }
     fields->insert(QStringLiteral("signals"), signalArray);
     return true;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "EventLog.h"
+#include "Leases.h"
 #include "MasterCycle.h"
 #include "NodeRegistry.h"
 #include "QPlcMasterNode.h"
@@ -15,8 +17,10 @@ namespace qplc {
 QJsonObject stateFields(const QPlcMasterNode &master, quint64 session);
 /// Fields of the message Signals, for \a names or, when empty, all; the values are those of one cycle.
 /// \return false with the first unknown name in \a error
-bool signalFields(const MasterCycle &cycle, const NodeRegistry &registry, const QStringList &names, QJsonObject *fields,
-                  QString *error);
+bool signalFields(const MasterCycle &cycle, const NodeRegistry &registry, const Leases &leases,
+                  const QStringList &names, QJsonObject *fields, QString *error);
+/// Fields of the message Events.
+QJsonObject eventFields(const std::vector<PlantEvent> &events);
 /// Fields of the message Schedule.
 QJsonObject scheduleFields(const QPlcSchedule &schedule);
 QString clockName(QPlcClock clock);

@@ -111,7 +111,9 @@ bool QPlcMasterNodePrivate::takeOutputs(NodeSlot &slot, const char *outputs)
                           .arg(slot.name, table.at(field->signal).name));
         return false;
     }
-    qplc::copyRuns(slot.outputRuns, outputs, cycle->image().data());
+    const std::vector<bool> held = leaseBooks.mask();
+    qplc::copyRuns(held.empty() ? slot.outputRuns : cycle->image().scatterRuns(slot.outputLayout, held), outputs,
+                   cycle->image().data());
     return true;
 }
 
@@ -310,11 +312,13 @@ void QPlcMasterNodePrivate::startCycles()
     }
     for (const QPlcRealTimeSetting &setting : cycle->realTimeSettings()) {
         if (!setting.granted)
-            qCWarning(lcMaster).noquote() << setting.toString();
+            journal.tell(qplc::PlantEvent::Warning, qplc::PlantEvent::State, qplc::NodeRegistry::masterName(),
+                         setting.toString());
     }
     m_participants.clear();
     m_goneListeners.clear();
     statisticSignals.start(cycle.get(), registry.get(), clock.isLockstep());
+    journal.watchOverruns(&cycle->cycleStatistics());
     setState(QPlcMasterNode::RealTime);
     for (const std::shared_ptr<NodeSlot> &slot : registry->nodes()) {
         if (!slot->local)
@@ -340,6 +344,7 @@ void QPlcMasterNodePrivate::giveRoster()
         if (slot->local || (connection && connection->stage == Connection::Running))
             roster.nodes.push_back(slot);
     }
+    roster.held = leaseBooks.mask();
     cycle->setRoster(roster);
 }
 
@@ -353,8 +358,9 @@ void QPlcMasterNodePrivate::stop(const QString &reason)
         return;
     cycle->stop();
     statisticSignals.stop();
+    journal.watchOverruns(nullptr);
     m_initialized = false;
-    setState(QPlcMasterNode::Off);
+    setState(QPlcMasterNode::Off, reason);
     for (const std::unique_ptr<Connection> &connection : server->connections()) {
         if (connection->stage <= Connection::Attached)
             continue;

@@ -22,9 +22,12 @@ namespace {
 QJsonArray commonFeatures(const Message &hello)
 {
     QJsonArray common;
-    const QString sameCycle = QStringLiteral("sameCycle");
-    if (hello.fields().value(QStringLiteral("features")).toArray().contains(sameCycle))
-        common.append(sameCycle);
+    const QJsonArray offered = hello.fields().value(QStringLiteral("features")).toArray();
+    for (const char *known : {"sameCycle", "leases", "events"}) {
+        const QString feature = QString::fromLatin1(known);
+        if (offered.contains(feature))
+            common.append(feature);
+    }
     return common;
 }
 
@@ -181,9 +184,8 @@ void MasterServer::forget(MasterConnection *connection)
 void MasterServer::reject(MasterConnection *connection, const QString &error, const QString &reason)
 {
     const QString text = printable(reason);
-    qCWarning(lcMaster).noquote() << "refused" << connection->socket->peerName() << text;
     connection->send(Message::Rejected, {{QStringLiteral("error"), error}, {QStringLiteral("text"), text}});
-    Q_EMIT refused(connection->name, text);
+    Q_EMIT refused(connection->name, connection->socket->peerName(), text);
     drop(connection, text);
 }
 
@@ -234,10 +236,14 @@ void MasterServer::greet(MasterConnection *connection, const Message &message)
         return;
     }
     QJsonObject hello = m_hello();
-    hello.insert(QStringLiteral("features"), commonFeatures(message));
+    const QJsonArray features = commonFeatures(message);
+    hello.insert(QStringLiteral("features"), features);
     if (message.hex64(QStringLiteral("tableHash")) == m_image.table().hash())
         hello.remove(QStringLiteral("table"));
     connection->stage = MasterConnection::Greeted;
+    connection->wantsLeases = features.contains(QStringLiteral("leases"));
+    connection->wantsEvents = features.contains(QStringLiteral("events"));
+    Q_EMIT greeted(connection);
     if (!connection->send(Message::Hello, hello))
         reject(connection, QStringLiteral("TooLong"),
                QStringLiteral("the signal table is too long to be sent; give '%1' the same table as the master")
@@ -387,7 +393,6 @@ void MasterServer::nodeAttached(MasterConnection *connection)
     connection->slot->peer->owner = connection->slot.get();
     connection->slot->peer->isListener = connection->slot->listener;
     connection->stage = MasterConnection::Attached;
-    qCInfo(lcMaster).noquote() << "node" << connection->name << "registered over" << connection->cyclicKind;
     Q_EMIT attached(connection);
 }
 

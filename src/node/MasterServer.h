@@ -43,10 +43,12 @@ public:
     void drop(MasterConnection *connection, const QString &reason);
 
 Q_SIGNALS:
+    /// Somebody new; what is sent now comes before the Hello of the master.
+    void greeted(qplc::MasterConnection *connection);
     void attached(qplc::MasterConnection *connection);
     /// The node is no longer registered; the connection is deleted afterwards.
     void lost(qplc::MasterConnection *connection, const QString &reason);
-    void refused(const QString &name, const QString &reason);
+    void refused(const QString &name, const QString &address, const QString &reason);
     /// A message that is not about registration.
     void received(qplc::MasterConnection *connection, const QPlcMessage &message);
 

@@ -32,9 +32,20 @@ bool readDuration(const QJsonValue &field, std::int64_t *duration, Refusal *refu
 
 }  // namespace
 
-MasterSettings::MasterSettings(NodeRegistry &registry, MasterCycle &cycle)
+Refusal leaseRefusal(const QString &signal, const Leases::Lease &lease)
+{
+    return {QStringLiteral("LeaseHeld"),
+            lease.isLost()
+                ? QStringLiteral("signal '%1' was taken over by '%2', who is lost; take or release the lease first")
+                      .arg(signal, lease.name)
+                : QStringLiteral("signal '%1' is taken over by '%2'; ask for its release, or take it over")
+                      .arg(signal, lease.name)};
+}
+
+MasterSettings::MasterSettings(NodeRegistry &registry, MasterCycle &cycle, const Leases &leases)
     : m_registry(registry)
     , m_cycle(cycle)
+    , m_leases(leases)
     , m_table(cycle.table())
 {
     m_timer.setSingleShot(true);
@@ -50,7 +61,7 @@ bool MasterSettings::setSignals(const QObject *owner, const QJsonObject &fields,
     std::vector<SignalSetting> settings;
     std::int64_t duration = 0;
     if (!readDuration(fields.value(QStringLiteral("duration")), &duration, refusal)
-        || !readValues(fields.value(QStringLiteral("values")), &settings, refusal))
+        || !readValues(owner, fields.value(QStringLiteral("values")), &settings, refusal))
         return false;
     std::vector<QPlcValue> former;
     for (const SignalSetting &setting : settings)
@@ -63,6 +74,8 @@ bool MasterSettings::setSignals(const QObject *owner, const QJsonObject &fields,
         for (const SignalSetting &setting : settings)
             m_temporary.forget(setting.signal);
     }
+    for (std::size_t i = 0; i < settings.size(); ++i)
+        Q_EMIT valueSet(owner, settings[i].signal, former[i], settings[i].value);
     waitForNext();
     return true;
 }
@@ -71,33 +84,65 @@ bool MasterSettings::setSignal(const QString &name, const QPlcValue &value, Refu
 {
     QPlcSignalIndex index = QPlcInvalidSignalIndex;
     SignalSetting setting;
-    if (!isSettable(name, &index, refusal) || !checkValue(index, value, &setting, refusal) || !give({setting}, refusal))
+    if (!isSettable(nullptr, name, &index, refusal) || !checkValue(index, value, &setting, refusal))
+        return false;
+    const QPlcValue former = presentValue(index);
+    if (!give({setting}, refusal))
         return false;
     m_temporary.forget(index);
+    Q_EMIT valueSet(nullptr, index, former, setting.value);
     return true;
+}
+
+bool MasterSettings::setLeased(const std::vector<SignalSetting> &settings, Refusal *refusal)
+{
+    return give(settings, refusal);
+}
+
+void MasterSettings::setSoon(const std::vector<SignalSetting> &settings)
+{
+    for (const SignalSetting &setting : settings)
+        m_debts[setting.signal] = setting.value;
+    payDebts();
+    waitForNext();
+}
+
+void MasterSettings::keepPresent(const std::vector<QPlcSignalIndex> &indices)
+{
+    for (const QPlcSignalIndex signal : indices)
+        m_temporary.forget(signal);
+}
+
+/// Whether the values of a signal are those of its writer, and nobody has taken it over.
+bool MasterSettings::isOfWriter(QPlcSignalIndex signal) const
+{
+    return !m_registry.writer(signal).isEmpty() && !m_leases.find(signal);
 }
 
 void MasterSettings::leaveToWriters()
 {
-    const auto isWritten = [this](QPlcSignalIndex signal) { return !m_registry.writer(signal).isEmpty(); };
     for (const QPlcSignalIndex signal : m_temporary.signalIndices()) {
-        if (isWritten(signal))
+        if (isOfWriter(signal))
             m_temporary.forget(signal);
     }
     for (auto *values : {&m_given, &m_debts}) {
         for (auto value = values->begin(); value != values->end();)
-            value = isWritten(value->first) ? values->erase(value) : std::next(value);
+            value = isOfWriter(value->first) ? values->erase(value) : std::next(value);
     }
 }
 
 // ---- checks ----
 
-bool MasterSettings::isSettable(const QString &name, QPlcSignalIndex *signal, Refusal *refusal) const
+bool MasterSettings::isSettable(const QObject *owner, const QString &name, QPlcSignalIndex *signal,
+                                Refusal *refusal) const
 {
     *signal = m_table.indexOf(name);
+    const Leases::Lease *lease = m_leases.find(*signal);
     if (*signal == QPlcInvalidSignalIndex)
         *refusal = {QStringLiteral("UnknownSignal"), m_table.unknownSignalText(name)};
-    else if (!m_registry.writer(*signal).isEmpty())
+    else if (lease && !m_leases.isHeldBy(*signal, owner))
+        *refusal = leaseRefusal(name, *lease);
+    else if (!lease && !m_registry.writer(*signal).isEmpty())
         *refusal = {QStringLiteral("SignalHasWriter"),
                     QStringLiteral("signal '%1' is written by '%2'; stop that node to set it from outside")
                         .arg(name, m_registry.writer(*signal))};
@@ -125,7 +170,8 @@ bool MasterSettings::checkValue(QPlcSignalIndex signal, const QPlcValue &value, 
     return true;
 }
 
-bool MasterSettings::readValues(const QJsonValue &values, std::vector<SignalSetting> *settings, Refusal *refusal) const
+bool MasterSettings::readValues(const QObject *owner, const QJsonValue &values, std::vector<SignalSetting> *settings,
+                                Refusal *refusal) const
 {
     if (!values.isObject())
         *refusal
@@ -133,17 +179,22 @@ bool MasterSettings::readValues(const QJsonValue &values, std::vector<SignalSett
     const QJsonObject texts = values.toObject();
     for (auto it = texts.begin(); it != texts.end() && refusal->error.isEmpty(); ++it) {
         QPlcSignalIndex index = QPlcInvalidSignalIndex;
-        if (!isSettable(it.key(), &index, refusal))
-            break;
-        QString text;
         SignalSetting setting;
-        const QPlcValue value = QPlcValue::fromString(m_table.at(index).type, it.value().toString(), &text);
-        if (!text.isEmpty())
-            *refusal = {QStringLiteral("InvalidValue"), QStringLiteral("signal '%1': %2").arg(it.key(), text)};
-        else if (checkValue(index, value, &setting, refusal))
+        if (isSettable(owner, it.key(), &index, refusal) && readValue(index, it.value().toString(), &setting, refusal))
             settings->push_back(setting);
     }
     return refusal->error.isEmpty();
+}
+
+bool MasterSettings::readValue(QPlcSignalIndex signal, const QString &text, SignalSetting *setting,
+                               Refusal *refusal) const
+{
+    QString error;
+    const QPlcValue value = QPlcValue::fromString(m_table.at(signal).type, text, &error);
+    if (error.isEmpty())
+        return checkValue(signal, value, setting, refusal);
+    *refusal = {QStringLiteral("InvalidValue"), QStringLiteral("signal '%1': %2").arg(m_table.at(signal).name, error)};
+    return false;
 }
 
 // ---- setting ----
@@ -187,10 +238,9 @@ QPlcValue MasterSettings::presentValue(QPlcSignalIndex signal) const
 
 void MasterSettings::bringBack(const std::vector<SignalSetting> &settings)
 {
+    setSoon(settings);
     for (const SignalSetting &setting : settings)
-        m_debts[setting.signal] = setting.value;
-    payDebts();
-    waitForNext();
+        Q_EMIT valueCameBack(setting.signal, setting.value);
 }
 
 /// One by one: the cycle may have room for some of them.

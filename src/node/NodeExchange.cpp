@@ -363,7 +363,7 @@ bool NodeExchange::isFinite(NodeSlot &slot, const char *outputs) noexcept
 
 void NodeExchange::paste(NodeSlot &slot, const char *outputs) noexcept
 {
-    copyRuns(slot.outputRuns, outputs, m_image.data());
+    copyRuns(*slot.pasteRuns, outputs, m_image.data());
 }
 
 }  // namespace qplc

@@ -46,7 +46,7 @@ struct NodeDeclaration
 struct Refusal
 {
     QString
-        error;  ///< "UnknownSignal", "TypeMismatch", "UnitMismatch", "SignalHasWriter", "NameInUse", "TooManyNodes", "AlgebraicLoop", "MalformedMessage", "WrongState"
+        error;  ///< "UnknownSignal", "TypeMismatch", "UnitMismatch", "SignalHasWriter", "NameInUse", "TooManyNodes", "AlgebraicLoop", "LeaseHeld", "MalformedMessage", "WrongState"
     QString text;  ///< a sentence with names and remedy
 };
 

@@ -37,6 +37,7 @@ struct NodeSlot
     std::vector<char> initialOutputs;    // pasted into the image when a node joins while others run
 
     // ---- cycle thread ----
+    const std::vector<CopyRun> *pasteRuns = nullptr;  // outputRuns, or those of them that the roster does not hold
     FrameEncoder encoder;
     FrameDecoder decoder;
     std::vector<char> frames;  // encoded parts, one behind the other

@@ -86,6 +86,11 @@ bool QPlcAbstractSocket::sendMessage(const QPlcMessage &message)
     return sent;
 }
 
+qint64 QPlcAbstractSocket::bytesToSend() const
+{
+    return d->socket->bytesToWrite();
+}
+
 void QPlcAbstractSocket::close()
 {
     d->socket->disconnectFromHost();

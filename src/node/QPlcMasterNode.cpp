@@ -229,6 +229,11 @@ QVector<QPlcRealTimeSetting> QPlcMasterNode::realTimeSettings() const
     return d->cycle ? d->cycle->realTimeSettings() : QVector<QPlcRealTimeSetting>();
 }
 
+QVector<QPlcLease> QPlcMasterNode::leases() const
+{
+    return d->leases ? d->leases->list() : QVector<QPlcLease>();
+}
+
 quint64 QPlcMasterNode::cycle() const
 {
     return d->cycle ? d->cycle->cycle() : 0;

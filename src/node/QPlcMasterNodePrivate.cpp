@@ -25,6 +25,21 @@ quint64 newSession()
     return QRandomGenerator::system()->generate64() | 1;  // never 0
 }
 
+/// What an error is about, unless who tells it knows better.
+qplc::PlantEvent::Kind kindOf(QPlcMasterNode::Error error)
+{
+    switch (error) {
+    case QPlcMasterNode::SignalError:
+        return qplc::PlantEvent::Set;
+    case QPlcMasterNode::NodeError:
+        return qplc::PlantEvent::Node;
+    case QPlcMasterNode::InitializationError:
+        return qplc::PlantEvent::Fault;
+    default:
+        return qplc::PlantEvent::State;
+    }
+}
+
 }  // namespace
 
 QPlcMasterNodePrivate::QPlcMasterNodePrivate(QPlcMasterNode *master)
@@ -39,20 +54,30 @@ QPlcMasterNodePrivate::QPlcMasterNodePrivate(QPlcMasterNode *master)
 
 QPlcMasterNodePrivate::~QPlcMasterNodePrivate() = default;
 
-void QPlcMasterNodePrivate::setState(QPlcMasterNode::State newState)
+void QPlcMasterNodePrivate::setState(QPlcMasterNode::State newState, const QString &reason)
 {
     if (state == newState)
         return;
+    const bool isTransient = newState == QPlcMasterNode::WaitingForLateSlaves
+        || (state == QPlcMasterNode::WaitingForLateSlaves && newState == QPlcMasterNode::RealTime);
     state = newState;
-    qCDebug(lcMaster) << newState;
+    const QString name = qplc::stateName(newState);
+    journal.stateChanged(reason.isEmpty() ? name : QStringLiteral("%1: %2").arg(name, reason), isTransient);
     Q_EMIT q->stateChanged(newState);
 }
 
 bool QPlcMasterNodePrivate::setError(QPlcMasterNode::Error newError, const QString &text)
 {
+    return setError(newError, text, qplc::NodeRegistry::masterName(), kindOf(newError));
+}
+
+bool QPlcMasterNodePrivate::setError(QPlcMasterNode::Error newError, const QString &text, const QString &source,
+                                     qplc::PlantEvent::Kind kind)
+{
+    using qplc::PlantEvent;
     error = newError;
     errorString = text;
-    qCWarning(lcMaster).noquote() << text;
+    journal.tell(newError == QPlcMasterNode::StateError ? PlantEvent::Warning : PlantEvent::Error, kind, source, text);
     Q_EMIT q->errorOccurred(newError);
     return false;
 }
@@ -74,7 +99,7 @@ bool QPlcMasterNodePrivate::prepare()
                 .trimmed());
     registry = std::make_unique<qplc::NodeRegistry>(table);
     cycle = std::make_unique<qplc::MasterCycle>(table, hub, lcCyclic().isDebugEnabled());
-    settings = std::make_unique<qplc::MasterSettings>(*registry, *cycle);
+    settings = std::make_unique<qplc::MasterSettings>(*registry, *cycle, leaseBooks);
     m_reportNotifier = std::make_unique<QSocketNotifier>(cycle->reports().descriptor(), QSocketNotifier::Read);
     QObject::connect(m_reportNotifier.get(), &QSocketNotifier::activated, q, [this] { takeReports(); });
     const auto hello = [this] {
@@ -92,15 +117,23 @@ bool QPlcMasterNodePrivate::prepare()
     QObject::connect(server.get(), &qplc::MasterServer::attached, q, [this](Connection *connection) {
         m_initialized = false;
         settings->leaveToWriters();
+        journal.tell(qplc::PlantEvent::Info, qplc::PlantEvent::Node, connection->name,
+                     QStringLiteral("node %1 registered over %2").arg(connection->name, connection->cyclicKind));
         Q_EMIT q->nodeRegistered(connection->name);
         if (isRunning())
             join(connection);
     });
     QObject::connect(server.get(), &qplc::MasterServer::lost, q,
                      [this](Connection *connection, const QString &reason) { nodeLost(connection, reason); });
-    QObject::connect(server.get(), &qplc::MasterServer::refused, q, &QPlcMasterNode::nodeRefused);
+    QObject::connect(server.get(), &qplc::MasterServer::refused, q,
+                     [this](const QString &name, const QString &address, const QString &reason) {
+                         journal.tell(qplc::PlantEvent::Warning, qplc::PlantEvent::Node, name,
+                                      QStringLiteral("refused %1 %2").arg(address, reason));
+                         Q_EMIT q->nodeRefused(name, reason);
+                     });
     QObject::connect(server.get(), &qplc::MasterServer::received, q,
                      [this](Connection *connection, const Message &message) { receive(connection, message); });
+    prepareViewers();
     return true;
 }
 
@@ -116,6 +149,9 @@ bool QPlcMasterNodePrivate::claimSignal(const QString &name, QPlcSignalIndex *pl
         return setError(QPlcMasterNode::SignalError,
                         QStringLiteral("master: signal '%1' is %2; give it the type %3")
                             .arg(name, table.at(index).type.name(), wantedType));
+    if (const qplc::Leases::Lease *lease = leaseBooks.find(index))
+        return setError(QPlcMasterNode::SignalError,
+                        QStringLiteral("master: %1").arg(qplc::leaseRefusal(name, *lease).text));
     if (*place != QPlcInvalidSignalIndex)
         registry->release(*place);
     if (!registry->claim(index))
@@ -172,6 +208,8 @@ bool QPlcMasterNodePrivate::addLocalNode(QPlcSlaveNode *node)
     m_initialized = false;
     settings->leaveToWriters();
     node->d->setState(QPlcSlaveNode::Off);
+    journal.tell(qplc::PlantEvent::Info, qplc::PlantEvent::Node, slot->name,
+                 QStringLiteral("node %1 lives in the master now").arg(slot->name));
     Q_EMIT q->nodeRegistered(slot->name);
     return true;
 }
@@ -195,6 +233,7 @@ void QPlcMasterNodePrivate::removeLocalNode(QPlcSlaveNode *node)
 
 void QPlcMasterNodePrivate::receive(Connection *connection, const Message &message)
 {
+    leases->renew(connection->socket);
     switch (message.kind()) {
     case Message::ReceiveMyInitialOutputStates:
     case Message::Initialized:
@@ -216,7 +255,8 @@ void QPlcMasterNodePrivate::receive(Connection *connection, const Message &messa
                          qplc::printable(message.text(QStringLiteral(
                              "text"))));  // a listener, or it failed to join: no reason to stop the others
         else
-            fault(QStringLiteral("node '%1': %2")
+            fault(connection->name,
+                  QStringLiteral("node '%1': %2")
                       .arg(connection->name, qplc::printable(message.text(QStringLiteral("text")))));
         break;
     default:
@@ -248,8 +288,8 @@ void QPlcMasterNodePrivate::receiveCommand(Connection *connection, const Message
         connection->send(Message::Schedule, qplc::scheduleFields(q->schedule()));
         break;
     case Message::GetSignals:
-        if (!qplc::signalFields(*cycle, *registry, fields.value(QStringLiteral("names")).toVariant().toStringList(),
-                                &reply, &text))
+        if (!qplc::signalFields(*cycle, *registry, leaseBooks,
+                                fields.value(QStringLiteral("names")).toVariant().toStringList(), &reply, &text))
             connection->fail(QStringLiteral("UnknownSignal"), text);
         else if (!connection->send(Message::Signals, reply))
             connection->fail(QStringLiteral("TooLong"),
@@ -260,6 +300,16 @@ void QPlcMasterNodePrivate::receiveCommand(Connection *connection, const Message
         break;
     case Message::SetSignals:
         setSignals(connection, message);
+        break;
+    case Message::TakeLease:
+    case Message::ReleaseLease:
+        changeLease(connection, message);
+        break;
+    case Message::GetLeases:
+        sendLeases(connection);
+        break;
+    case Message::GetEvents:
+        sendEvents(connection, message);
         break;
     default:
         connection->fail(QStringLiteral("MalformedMessage"),

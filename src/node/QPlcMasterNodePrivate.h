@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "Journal.h"
 #include "MasterCycle.h"
+#include "MasterLeases.h"
 #include "MasterServer.h"
 #include "MasterSettings.h"
 #include "NodeRegistry.h"
 #include "QPlcMasterNode.h"
 #include "StatisticSignals.h"
+#include "ViewerPushes.h"
 
-#include <QtCore/QHash>
 #include <QtCore/QPointer>
 #include <QtCore/QSet>
 #include <QtCore/QSocketNotifier>
@@ -39,8 +41,12 @@ public:
     void stop(const QString &reason);
     bool setSignalValue(const QString &name, const QPlcValue &value);
 
-    void setState(QPlcMasterNode::State newState);
+    /// \param reason  for people; empty: none
+    void setState(QPlcMasterNode::State newState, const QString &reason = QString());
     bool setError(QPlcMasterNode::Error newError, const QString &text);
+    /// \param source  the node that is to blame
+    bool setError(QPlcMasterNode::Error newError, const QString &text, const QString &source,
+                  qplc::PlantEvent::Kind kind);
     QPlcNodeInfo info(const qplc::NodeSlot &slot) const;
     QPlcCycleStatistics cycleStatistics(QPlcDistribution::Detail detail) const;
     bool activateStatisticSignal(QPlcStatisticFigure figure, const QString &signalName, const QString &nodeName);
@@ -62,6 +68,8 @@ public:
     QPlcMasterNode::Error error = QPlcMasterNode::NoError;
     QString errorString;
     QTimer stepTimer;
+    qplc::Journal journal;
+    qplc::Leases leaseBooks;
     const quint64 session;
     const QString uuid;
     std::unique_ptr<qplc::NodeRegistry> registry;
@@ -70,6 +78,8 @@ public:
     std::unique_ptr<qplc::MasterServer> server;
     qplc::StatisticSignals statisticSignals;
     std::unique_ptr<qplc::MasterSettings> settings;
+    std::unique_ptr<qplc::MasterLeases> leases;
+    std::unique_ptr<qplc::ViewerPushes> pushes;
 
 private:
     using Connection = qplc::MasterConnection;
@@ -85,6 +95,11 @@ private:
     void startAsAsked(Connection *connection, const QPlcMessage &message);
     void setSignals(Connection *connection, const QPlcMessage &message);
     void sendStatistics(Connection *connection, const QPlcMessage &message);
+    void prepareViewers();
+    void changeLease(Connection *connection, const QPlcMessage &message);
+    void sendLeases(Connection *connection);
+    void sendEvents(Connection *connection, const QPlcMessage &message);
+    QString nameOf(const QObject *socket) const;
 
     void begin(Step step, Connection::Stage owed);
     void continueSequence(Connection *connection, const QPlcMessage &message);
@@ -111,10 +126,9 @@ private:
     void nodeLost(Connection *connection, const QString &reason);
     void takeReports();
     void report(const qplc::CycleEvent &event);
-    void logLateAnswer(const qplc::CycleEvent &event);
     void stopAfterOverrun(const qplc::CycleEvent &event);
     bool dropFaulty(quint16 id, const QString &text);
-    void fault(const QString &text);
+    void fault(const QString &node, const QString &text);
     QString nodeName(quint16 id) const;
 
     Step m_step = Step::None;
@@ -125,12 +139,6 @@ private:
     quint64 m_cyclesWanted = 0;
     qplc::MulticastParts m_multicastParts;
     QPointer<QPlcSlaveSocket> m_requester;
-    struct LateLog
-    {
-        std::int64_t quietUntil = 0;  // [ns]
-        quint64 untold = 0;
-    };
-    QHash<quint16, LateLog> m_lateLogs;  // by id of the node
-    QSet<quint16> m_goneListeners;       // of this phase, whose reports may still come
+    QSet<quint16> m_goneListeners;  // of this phase, whose reports may still come
     std::unique_ptr<QSocketNotifier> m_reportNotifier;
 };

@@ -35,7 +35,7 @@ Schedule scheduleOf(const std::vector<std::shared_ptr<NodeSlot>> &nodes)
     return Schedule(declarations);
 }
 
-void Roster::arrange()
+void Roster::arrange(const ProcessImage &image)
 {
     const Schedule schedule = scheduleOf(nodes);
     Q_ASSERT_X(schedule.isValid(), "Roster::arrange", "nodes that close an algebraic loop are not admitted");
@@ -50,6 +50,8 @@ void Roster::arrange()
             = [&](const std::shared_ptr<NodeSlot> &other) { return other->multicast == slot->multicast; };
         if (slot->multicast && std::none_of(multicast.begin(), multicast.end(), isOfItsPart))
             multicast.push_back(slot);
+        if (!held.empty())
+            pasteRuns.push_back(image.scatterRuns(slot->outputLayout, held));
     }
 }
 

@@ -23,15 +23,18 @@ struct Roster
     };
 
     std::vector<std::shared_ptr<NodeSlot>> nodes;
+    /// By index: signals that keep the value that they have been given, whatever their writer answers; empty: none.
+    std::vector<bool> held{};
 
     // made by arrange()
     std::vector<std::vector<Turn>> stages{};
     std::vector<NodeSlot *> twoPhase{};
     std::vector<std::shared_ptr<NodeSlot>> multicast{};  // one node of each part
+    std::vector<std::vector<CopyRun>> pasteRuns{};       // of each node, without what is held; empty: nothing is
     bool anyRemote = false;
 
     /// Puts the nodes into stages. \pre they have no algebraic loop: NodeRegistry admits none
-    void arrange();
+    void arrange(const ProcessImage &image);
 };
 
 /// What the nodes declare makes this order.

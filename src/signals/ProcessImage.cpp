@@ -106,6 +106,16 @@ std::vector<CopyRun> ProcessImage::scatterRuns(const PayloadLayout &layout) cons
     return runs;
 }
 
+std::vector<CopyRun> ProcessImage::scatterRuns(const PayloadLayout &layout, const std::vector<bool> &held) const
+{
+    std::vector<CopyRun> runs;
+    for (const PayloadLayout::Field &field : layout.fields()) {
+        if (field.signal >= held.size() || !held[field.signal])
+            appendRun(runs, {field.offset, offset(field.signal), quint32(field.type.size())});
+    }
+    return runs;
+}
+
 quint64 ProcessImage::digest(quint64 digest) const noexcept
 {
     // Four independent lanes keep the multiplier busy. The zeros behind the last value are read with it.

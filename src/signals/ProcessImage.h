@@ -39,6 +39,8 @@ public:
     std::vector<CopyRun> gatherRuns(const PayloadLayout &layout, const std::vector<bool> &wanted) const;
     /// Runs that paste a frame of \a layout into this image.
     std::vector<CopyRun> scatterRuns(const PayloadLayout &layout) const;
+    /// As above, but for the signals that are \a held (by index; those behind its end are not).
+    std::vector<CopyRun> scatterRuns(const PayloadLayout &layout, const std::vector<bool> &held) const;
 
     /// Folds the bytes of all values into \a digest: an order-dependent 64-bit hash, equal for equal images on all
     /// machines.

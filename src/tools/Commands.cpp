@@ -154,6 +154,29 @@ const QVector<Command> &commands()
          0,
          0,
          &showJitter},
+        {"leases",
+         "",
+         "Shows who has taken over which signals.",
+         "A lease is lost when its holder is gone: the signal stays at its neutral value\n"
+         "until somebody takes or releases it.",
+         {},
+         {QStringLiteral("qtplc leases"), QStringLiteral("qtplc leases --json | jq '.leases[].holder'")},
+         Command::NoArguments,
+         0,
+         0,
+         &showLeases},
+        {"events",
+         "",
+         "Shows what has happened in the master.",
+         "States, nodes, late answers, faults, values that were set, leases and overruns:\n"
+         "the last 1000 of them. --json prints an object for each line.",
+         {{"follow", "", "Goes on with what happens, until Ctrl-C."}},
+         {QStringLiteral("qtplc events"), QStringLiteral("qtplc events --follow"),
+          QStringLiteral("qtplc events --json | jq -r 'select(.severity != \"info\").text'")},
+         Command::NoArguments,
+         0,
+         0,
+         &showEvents},
         {"doctor",
          "",
          "Examines this computer: is it fit for real time?",
@@ -214,7 +237,7 @@ const QVector<Option> &commonOptions()
     static const QVector<Option> options{
         {"master", "HOST:PORT", "Where the master is, 127.0.0.1:50000 unless said."},
         {"timeout", "SECONDS", "Longest wait for an answer, 5 unless said."},
-        {"json", "", "Prints JSON (echo, watch: an object for each line)."},
+        {"json", "", "Prints JSON (echo, watch, events: an object a line)."},
     };
     return options;
 }

@@ -84,6 +84,8 @@ int startRealTime(const CommandCall &call);
 int stopRealTime(const CommandCall &call);
 int showSchedule(const CommandCall &call);
 int showJitter(const CommandCall &call);
+int showLeases(const CommandCall &call);
+int showEvents(const CommandCall &call);
 int examineComputer(const CommandCall &call);
 int showHelp(const CommandCall &call);
 int completeWord(const CommandCall &call);

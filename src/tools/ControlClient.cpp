@@ -5,7 +5,6 @@
 
 #include <QtCore/QDeadlineTimer>
 #include <QtCore/QEventLoop>
-#include <QtCore/QJsonArray>
 #include <QtCore/QTimer>
 #include <QtCore/QUuid>
 
@@ -56,7 +55,7 @@ void ControlClient::greet()
                                   {QStringLiteral("name"), QStringLiteral("qtplc")},
                                   {QStringLiteral("uuid"), QUuid::createUuid().toString(QUuid::WithoutBraces)},
                                   {QStringLiteral("role"), QStringLiteral("tool")},
-                                  {QStringLiteral("features"), QJsonArray()}}));
+                                  {QStringLiteral("features"), m_features}}));
 }
 
 void ControlClient::receive(const Message &message)
@@ -64,6 +63,15 @@ void ControlClient::receive(const Message &message)
     switch (message.kind()) {
     case Message::StatesInitialized:
         break;  // for all; who asked gets an answer of its own
+    case Message::LeasesChanged:
+        Q_EMIT pushed(message);
+        break;
+    case Message::Events:
+        if (message.fields().contains(QStringLiteral("more")))
+            m_inbox.append(message);  // an answer
+        else
+            Q_EMIT pushed(message);
+        break;
     case Message::MasterEnds:
         connectionLost(QStringLiteral("the master has ended"));
         break;

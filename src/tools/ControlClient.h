@@ -5,6 +5,7 @@
 #include "QPlcMessage.h"
 #include "QPlcSignalTable.h"
 
+#include <QtCore/QJsonArray>
 #include <QtCore/QList>
 #include <QtCore/QObject>
 
@@ -29,6 +30,8 @@ public:
     /// \param timeout  longest wait for the greeting and for each answer
     explicit ControlClient(std::chrono::milliseconds timeout);
 
+    /// Offers a feature of the protocol; to be called before connectToMaster().
+    void offer(const QString &feature) { m_features.append(feature); }
     /// Connects and greets. \return false when there is no master, or when it refuses
     bool connectToMaster(const QPlcUnderlyingProtocol &master);
     /// Sends \a request and waits for its answer. \return false when the master refused or was lost; \a answer is untouched then
@@ -44,6 +47,8 @@ public:
     std::chrono::milliseconds timeout() const { return m_timeout; }
 
 Q_SIGNALS:
+    /// The master has told something unasked, because of a feature.
+    void pushed(const QPlcMessage &message);
     /// The connection has ended, or will never be: errorString() says why.
     void lost();
 
@@ -57,6 +62,7 @@ private:
     QPlcMasterSocket m_socket;
     std::chrono::milliseconds m_timeout;
     QString m_address;
+    QJsonArray m_features;
     QPlcMessage m_hello;
     QList<QPlcMessage> m_inbox;
     Error m_error = NoError;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "NodeFixtures.h"
+#include "ScriptedNode.h"
 #include "ThreadCosts.h"
 
 #include <QtTest/QtTest>
@@ -17,6 +17,7 @@ private Q_SLOTS:
     void aMillionCyclesInProcess();
     void cyclesOverTheNetwork_data();
     void cyclesOverTheNetwork();
+    void leasesThatComeAndGo();
     void stagesAndTwoPhaseNodes_data();
     void stagesAndTwoPhaseNodes();
     void buffersAndIoNodes();
@@ -165,6 +166,35 @@ void tst_Allocations::cyclesOverTheNetwork()
     checkCosts(master, 20'000);
     node.disconnectFromMaster();
     QPlcSignalIndexTable::setCurrent({});
+}
+
+void tst_Allocations::leasesThatComeAndGo()
+{
+    TestMaster master(QPlcClock::realTime(), everyType());
+    Everything node;
+    ScriptedTool anna("Anna");
+    QVERIFY(master.setInterval(0.001));
+    QVERIFY(master.listen());
+    QVERIFY(master.addLocalNode(&node));
+    QVERIFY(anna.greetAt(master.serverPort()));
+    QVERIFY(master.startRealTime());
+    QVERIFY(master.waitForCycles(100));
+    QVERIFY(anna.waitForMessage(QPlcMessage::StatesInitialized));
+    anna.forgetMessages();
+    const ThreadCosts before = ThreadCosts::ofWatchedThreads();
+    for (int i = 0; i < 50; ++i) {
+        const QJsonObject values{{"realOut", "-1"}, {"tripleOut", "1, 2, 3"}};
+        QCOMPARE(anna.ask(QPlcMessage::TakeLease, {{"signals", QJsonArray{"realOut", "tripleOut"}}, {"values", values}})
+                     .kind(),
+                 QPlcMessage::Done);
+        QTRY_COMPARE(master.signalValue("realOut").toReal(), -1.0);
+        QCOMPARE(anna.ask(QPlcMessage::ReleaseLease).kind(), QPlcMessage::Done);
+        QTRY_VERIFY(master.signalValue("realOut").toReal() >= 0.0);
+    }
+    const ThreadCosts spent = ThreadCosts::ofWatchedThreads() - before;
+    master.stop();
+    QCOMPARE(spent.allocations, std::uint64_t(0));
+    QCOMPARE(spent.locks, std::uint64_t(0));
 }
 
 void tst_Allocations::stagesAndTwoPhaseNodes_data()

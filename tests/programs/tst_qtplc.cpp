@@ -41,6 +41,7 @@ private Q_SLOTS:
     void echoEndsWithTheMaster_data();
     void echoEndsWithTheMaster();
     void unknownSignalNamesCloseOnes();
+    void eventsAreFollowedUntilCtrlC();
 
 private:
     static QString path(const char *program)
@@ -457,6 +458,21 @@ void tst_qtplc::unknownSignalNamesCloseOnes()
              qPrintable(outcome.errors));
     QVERIFY2(outcome.errors.contains(QLatin1String("unknown signal 'nonsense'")), qPrintable(outcome.errors));
     QCOMPARE(outcome.errors.count(QLatin1Char('\n')), 1);
+}
+
+void tst_qtplc::eventsAreFollowedUntilCtrlC()
+{
+    QVERIFY(startNodes());
+    Program events(path("qtplc"), withMaster(QStringLiteral("events --follow")));
+    QVERIFY(events.waitForOutput(QStringLiteral("registered over")));  // the backlog
+    QCOMPARE(qtplc(QStringLiteral("start")).exitCode, 0);
+    QVERIFY(events.waitForOutput(QStringLiteral("state RealTime\n")));
+    QCOMPARE(qtplc(QStringLiteral("stop")).exitCode, 0);
+    QVERIFY(events.waitForOutput(QStringLiteral("state Off: 'qtplc' asked for it\n")));
+    QCOMPARE(events.output().count(QStringLiteral("state RealTime\n")), 1);
+    events.sendSignal(SIGINT);
+    QCOMPARE(events.waitForEnd(), 0);
+    QCOMPARE(events.errors(), QString());
 }
 
 QTEST_GUILESS_MAIN(tst_qtplc)

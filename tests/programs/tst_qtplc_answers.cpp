@@ -88,9 +88,30 @@ QPlcMessage statistics(bool hasBins = false)
                        {{"master", master}, {"nodes", QJsonArray{node}}, {"worst", QJsonArray{worst}}});
 }
 
+QPlcMessage leases()
+{
+    const auto lease = [](const char *signal, const char *state) {
+        return QJsonObject{{"signal", signal}, {"holder", "An\033na"}, {"lease", state}, {"timeout", 5e8}};
+    };
+    return QPlcMessage(QPlcMessage::Leases, {{"leases", QJsonArray{lease("power", "held"), lease("speed", "lost")}}});
+}
+
+QPlcMessage events(int first, int last, bool more)
+{
+    QJsonArray array;
+    for (int i = first; i <= last; ++i)
+        array << QJsonObject{{"sequence", i},
+                             {"time", QPlcMessage::fromHex64(1'000'000'000ull * quint64(i))},
+                             {"severity", i % 2 ? "info" : "warning"},
+                             {"kind", "node"},
+                             {"source", "Winch"},
+                             {"text", QString("te\033xt %1").arg(i)}};
+    return QPlcMessage(QPlcMessage::Events, {{"events", array}, {"more", more}});
+}
+
 }  // namespace
 
-/// qtplc jitter and schedule, against a master whose answers are known.
+/// qtplc jitter, schedule, leases and events, against a master whose answers are known.
 class tst_qtplc_answers : public QObject
 {
     Q_OBJECT
@@ -104,6 +125,11 @@ private Q_SLOTS:
     void jitterOfNothingSaysSo();
     void scheduleShowsStagesAndLinks();
     void scheduleOfNothingSaysSo();
+    void leasesShowHoldersAndLostOnes();
+    void leasesOfNobodySaySo();
+    void eventsArePrintedInTheirOrder();
+    void eventsAreAskedForUntilThereAreNoMore();
+    void eventsAsJsonAreALineEach();
     void jsonIsWhatTheMasterSaid_data();
     void jsonIsWhatTheMasterSaid();
     void olderMasterIsSaidSo_data();
@@ -205,12 +231,64 @@ void tst_qtplc_answers::scheduleOfNothingSaysSo()
     QCOMPARE(m_master->qtplc("schedule").output, QString("no nodes\n"));
 }
 
+void tst_qtplc_answers::leasesShowHoldersAndLostOnes()
+{
+    m_master->answers.insert(QPlcMessage::GetLeases, leases());
+    const Outcome outcome = m_master->qtplc("leases");
+    QCOMPARE(outcome.exitCode, 0);
+    QCOMPARE(outcome.output,
+             QString("signal  holder    lease  timeout [s]\n"
+                     "power   An\\x1bna  held           0.5\n"
+                     "speed   An\\x1bna  lost           0.5\n"));
+}
+
+void tst_qtplc_answers::leasesOfNobodySaySo()
+{
+    m_master->answers.insert(QPlcMessage::GetLeases, QPlcMessage(QPlcMessage::Leases));
+    QCOMPARE(m_master->qtplc("leases").output, QString("no leases\n"));
+}
+
+void tst_qtplc_answers::eventsArePrintedInTheirOrder()
+{
+    m_master->answers.insert(QPlcMessage::GetEvents, events(1, 2, false));
+    const Outcome outcome = m_master->qtplc("events");
+    QCOMPARE(outcome.exitCode, 0);
+    const QString time = QDateTime::fromMSecsSinceEpoch(1000).toString("yyyy-MM-dd HH:mm:ss.zzz");
+    const QStringList lines = outcome.output.split('\n');
+    QCOMPARE(lines.size(), 3);
+    QCOMPARE(lines.at(0), time + "  info     node     Winch  te\\x1bxt 1");
+    QVERIFY2(lines.at(1).endsWith("  warning  node     Winch  te\\x1bxt 2"), qPrintable(lines.at(1)));
+}
+
+void tst_qtplc_answers::eventsAreAskedForUntilThereAreNoMore()
+{
+    m_master->answers.insert(QPlcMessage::GetEvents, events(1, 3, true));  // the same again and again: it must end
+    const Outcome outcome = m_master->qtplc("events");
+    QCOMPARE(outcome.exitCode, 0);
+    QCOMPARE(outcome.output.count('\n'), 3);
+    QCOMPARE(m_master->requests.size(), 2);
+    QCOMPARE(m_master->requests.at(0).fields().value("since").toInt(-1), 0);
+    QCOMPARE(m_master->requests.at(1).fields().value("since").toInt(-1), 3);
+}
+
+void tst_qtplc_answers::eventsAsJsonAreALineEach()
+{
+    const QPlcMessage answer = events(7, 8, false);
+    m_master->answers.insert(QPlcMessage::GetEvents, answer);
+    const QStringList lines = m_master->qtplc("events --json").output.split('\n', Qt::SkipEmptyParts);
+    QCOMPARE(lines.size(), 2);
+    for (int i = 0; i < 2; ++i)
+        QCOMPARE(QJsonDocument::fromJson(lines.at(i).toUtf8()).object(),
+                 answer.fields().value("events").toArray().at(i).toObject());
+}
+
 void tst_qtplc_answers::jsonIsWhatTheMasterSaid_data()
 {
     QTest::addColumn<QString>("command");
     QTest::addColumn<int>("request");
     QTest::addColumn<QPlcMessage>("answer");
     QTest::newRow("jitter") << "jitter --json" << int(QPlcMessage::GetStatistics) << statistics();
+    QTest::newRow("leases") << "leases --json" << int(QPlcMessage::GetLeases) << leases();
     QTest::newRow("schedule") << "schedule --json" << int(QPlcMessage::GetSchedule)
                               << QPlcMessage(QPlcMessage::Schedule, {{"stages", QJsonArray()}, {"later", 1}});
 }
@@ -236,6 +314,12 @@ void tst_qtplc_answers::olderMasterIsSaidSo_data()
                                << "GetStatistics";
     QTest::newRow("schedule") << "schedule --json"
                               << "GetSchedule";
+    QTest::newRow("leases") << "leases"
+                            << "GetLeases";
+    QTest::newRow("events") << "events"
+                            << "GetEvents";
+    QTest::newRow("following") << "events --follow"
+                               << "GetEvents";
 }
 
 void tst_qtplc_answers::olderMasterIsSaidSo()
@@ -268,14 +352,17 @@ void tst_qtplc_answers::answerOfAnotherKindIsRefused()
 void tst_qtplc_answers::nonsenseInAnswersIsHarmless_data()
 {
     QTest::addColumn<QJsonObject>("fields");
-    QTest::newRow("texts") << QJsonObject{
-        {"master", "x"}, {"nodes", "y"}, {"worst", "z"}, {"stages", "a"}, {"links", 1}};
+    QTest::newRow("texts") << QJsonObject{{"master", "x"}, {"nodes", "y"},  {"worst", "z"}, {"stages", "a"},
+                                          {"links", 1},    {"leases", "b"}, {"events", 2},  {"more", true}};
     QTest::newRow("wrong elements") << QJsonObject{
         {"master", QJsonObject{{"lateness", QJsonObject{{"sinceStart", 3}}}}},
         {"nodes", QJsonArray{1, QJsonArray(), QJsonValue()}},
         {"worst", QJsonArray{1, "x"}},
         {"stages", QJsonArray{1, QJsonArray{1, "x"}}},
-        {"links", QJsonArray{1, QJsonObject{{"age", "x"}}}}};
+        {"links", QJsonArray{1, QJsonObject{{"age", "x"}}}},
+        {"leases", QJsonArray{1, QJsonObject{{"timeout", "x"}}}},
+        {"events", QJsonArray{1, "x", QJsonObject{{"sequence", "x"}, {"time", 3}}}},
+        {"more", true}};
     QTest::newRow("wrong bins") << QJsonObject{
         {"master",
          QJsonObject{
@@ -287,7 +374,10 @@ void tst_qtplc_answers::nonsenseInAnswersIsHarmless()
     QFETCH(QJsonObject, fields);
     m_master->answers.insert(QPlcMessage::GetStatistics, QPlcMessage(QPlcMessage::Statistics, fields));
     m_master->answers.insert(QPlcMessage::GetSchedule, QPlcMessage(QPlcMessage::Schedule, fields));
-    for (const char *command : {"jitter", "jitter --hist", "schedule"})
+    fields.insert("more", true);
+    m_master->answers.insert(QPlcMessage::GetLeases, QPlcMessage(QPlcMessage::Leases, fields));
+    m_master->answers.insert(QPlcMessage::GetEvents, QPlcMessage(QPlcMessage::Events, fields));
+    for (const char *command : {"jitter", "jitter --hist", "schedule", "leases", "events"})
         QCOMPARE(m_master->qtplc(command).exitCode, 0);
 }
 

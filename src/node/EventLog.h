@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QtCore/QString>
+
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+namespace qplc {
+
+/// What happened at a master, as people want to know it.
+struct PlantEvent
+{
+    enum Severity : std::uint8_t { Info, Warning, Error };
+    enum Kind : std::uint8_t { State, Node, Late, Fault, Set, Lease, Overrun };
+
+    Severity severity = Info;
+    Kind kind = State;
+    QString source;  // name of a node, or of the master
+    QString text;
+    // given by EventLog
+    quint64 sequence = 0;   // from 1, without gaps
+    std::int64_t time = 0;  // [ns since 1970]
+};
+
+/// "info", "warning", "error"
+QString severityName(PlantEvent::Severity severity);
+/// "state", "node", "late", "fault", "set", "lease", "overrun"
+QString kindName(PlantEvent::Kind kind);
+
+/// The newest events of a master; older ones are forgotten.
+class EventLog
+{
+public:
+    static constexpr std::size_t Capacity = 1000;
+    static constexpr int LongestText = 500;  // [characters] what is longer ends with an ellipsis
+
+    /// \param time  of the wall clock [ns since 1970]
+    void append(PlantEvent event, std::int64_t time);
+    /// Sequence number of the newest event; 0: there is none yet.
+    quint64 newest() const { return m_newest; }
+    /// The oldest \a most of those events that came after \a sequence and are still there.
+    std::vector<PlantEvent> after(quint64 sequence, std::size_t most) const;
+
+private:
+    std::deque<PlantEvent> m_events;
+    quint64 m_newest = 0;
+};
+
+}  // namespace qplc

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Journal.h"
+
+#include "Logging.h"
+#include "NodeRegistry.h"
+#include "realtime/TimeSource.h"
+
+#include <algorithm>
+
+namespace qplc {
+
+namespace {
+
+/// The thing that time stands still, or goes on.
+QString waiting()
+{
+    return QStringLiteral("waiting");
+}
+
+std::int64_t now()
+{
+    return TimeSource::monotonic().now();
+}
+
+/// What is abnormal is seen by default, and so is who comes and takes over; the rest is for those who look for it.
+void log(const PlantEvent &event)
+{
+    if (event.severity != PlantEvent::Info)
+        qCWarning(lcMaster).noquote() << event.text;
+    else if (event.kind == PlantEvent::Node || event.kind == PlantEvent::Lease)
+        qCInfo(lcMaster).noquote() << event.text;
+    else
+        qCDebug(lcMaster).noquote() << event.text;
+}
+
+}  // namespace
+
+Journal::Journal()
+{
+    m_limiterTimer.setSingleShot(true);
+    m_overrunTimer.setInterval(1000);
+    connect(&m_limiterTimer, &QTimer::timeout, this, &Journal::tellDue);
+    connect(&m_overrunTimer, &QTimer::timeout, this, &Journal::tellOverruns);
+}
+
+void Journal::append(const PlantEvent &event)
+{
+    log(event);
+    m_events.append(event, wallClockNow());
+    Q_EMIT appended();
+}
+
+void Journal::tell(PlantEvent::Severity severity, PlantEvent::Kind kind, const QString &source, const QString &text)
+{
+    append({severity, kind, source, text});
+}
+
+void Journal::stateChanged(const QString &state, bool isTransient)
+{
+    const QString begin = QStringLiteral("state ");
+    const PlantEvent event{PlantEvent::Info, PlantEvent::State, NodeRegistry::masterName(), state};
+    if (isTransient) {
+        tellLimited(waiting(), begin, event);
+        return;
+    }
+    if (const std::optional<PlantEvent> untold = m_limiter.take(waiting()))
+        append(*untold);  // later it would be wrong
+    tell(event.severity, event.kind, event.source, begin + state);
+}
+
+void Journal::answeredLate(const QString &node, std::uint64_t cycle)
+{
+    tellLimited(QStringLiteral("late ") + node, QStringLiteral("node %1 was late in cycle ").arg(node),
+                {PlantEvent::Warning, PlantEvent::Late, node, QString::number(cycle)});
+}
+
+void Journal::valueSet(const QString &who, const QString &signal, const QString &former, const QString &value)
+{
+    tellLimited(QStringLiteral("set %1 %2").arg(signal, who),
+                QStringLiteral("'%1' has set %2: %3").arg(who, signal, former),
+                {PlantEvent::Info, PlantEvent::Set, NodeRegistry::masterName(), QStringLiteral(" -> %1").arg(value)});
+}
+
+void Journal::valueCameBack(const QString &signal, const QString &value)
+{
+    tellLimited(
+        QStringLiteral("back ") + signal, QStringLiteral("the former value has come back: "),
+        {PlantEvent::Info, PlantEvent::Set, NodeRegistry::masterName(), QStringLiteral("%1 = %2").arg(signal, value)});
+}
+
+// ---- what may happen often ----
+
+void Journal::tellLimited(const QString &thing, const QString &begin, const PlantEvent &event)
+{
+    if (const std::optional<PlantEvent> told = m_limiter.report(thing, begin, event, now()))
+        append(*told);
+    waitForNext();
+}
+
+void Journal::tellDue()
+{
+    for (const PlantEvent &event : m_limiter.takeDue(now()))
+        append(event);
+    waitForNext();
+}
+
+void Journal::waitForNext()
+{
+    if (const std::optional<std::int64_t> next = m_limiter.nextDue())
+        m_limiterTimer.start(int(std::max<std::int64_t>(*next - now(), 0) / 1'000'000 + 1));
+}
+
+// ---- overruns ----
+
+void Journal::watchOverruns(const CycleStatistics *statistics)
+{
+    if (m_statistics)
+        tellOverruns();
+    m_statistics = statistics;
+    m_overruns = m_skipped = 0;
+    if (statistics)
+        m_overrunTimer.start();
+    else
+        m_overrunTimer.stop();
+}
+
+void Journal::tellOverruns()
+{
+    const std::uint64_t overruns = m_statistics->overruns();
+    const std::uint64_t skipped = m_statistics->skippedCycles();
+    if (overruns == m_overruns)
+        return;
+    tell(PlantEvent::Warning, PlantEvent::Overrun, NodeRegistry::masterName(),
+         QStringLiteral("%1 cycles began a period or more late, %2 were left out, since the last report")
+             .arg(overruns - m_overruns)
+             .arg(skipped - m_skipped));
+    m_overruns = overruns;
+    m_skipped = skipped;
+}
+
+}  // namespace qplc

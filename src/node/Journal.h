@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "CycleStatistics.h"
+#include "EventLog.h"
+#include "ReportLimiter.h"
+
+#include <QtCore/QObject>
+#include <QtCore/QTimer>
+
+namespace qplc {
+
+/// What happens at a master, for people: the one place that makes a line of the log and an event for viewers out of it.
+///
+/// Threads: that of the master.
+class Journal : public QObject
+{
+    Q_OBJECT
+public:
+    Journal();
+
+    const EventLog &events() const { return m_events; }
+
+    /// \param source  name of a node, or of the master
+    void tell(PlantEvent::Severity severity, PlantEvent::Kind kind, const QString &source, const QString &text);
+    /// \param isTransient  time stands still, or goes on again: this may happen in every cycle
+    void stateChanged(const QString &state, bool isTransient);
+    void answeredLate(const QString &node, std::uint64_t cycle);
+    void valueSet(const QString &who, const QString &signal, const QString &former, const QString &value);
+    void valueCameBack(const QString &signal, const QString &value);
+
+    /// From here on overruns are told. \param statistics  of the cycles; null: they have ended
+    void watchOverruns(const CycleStatistics *statistics);
+
+Q_SIGNALS:
+    void appended();
+
+private:
+    void append(const PlantEvent &event);
+    void tellLimited(const QString &thing, const QString &begin, const PlantEvent &event);
+    void tellDue();
+    void waitForNext();
+    void tellOverruns();
+
+    EventLog m_events;
+    ReportLimiter m_limiter;
+    QTimer m_limiterTimer;
+    QTimer m_overrunTimer;
+    const CycleStatistics *m_statistics = nullptr;  // while cycles run
+    std::uint64_t m_overruns = 0;                   // told
+    std::uint64_t m_skipped = 0;
+};
+
+}  // namespace qplc

@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ScriptedNode.h"
+
+#include "realtime/TimeSource.h"
+
+#include <QtCore/QElapsedTimer>
+#include <QtTest/QtTest>
+
+// What a master tells viewers of what happens in it.
+class tst_Events : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void init();
+    void statesAreEventsWithReasons();
+    void nodesComeAndGoWithReasons();
+    void refusedNodeIsAWarning();
+    void lateAnswersAreToldOnceASecond();
+    void faultsAreErrorsOfTheirNode();
+    void valuesThatAreSetSayWhoAndFromWhatToWhat();
+    void manySettingsOfASliderAreToldTogether();
+    void valueThatComesBackIsTold();
+    void leasesAreTold();
+    void skippedCyclesAreTold();
+    void backlogIsAskedForInParts();
+    void eventsArePushedToWhoOffersTheFeature();
+    void logAndEventHaveTheSameText();
+    void badSinceIsRefused_data();
+    void badSinceIsRefused();
+
+private:
+    /// All events of a kind, as "severity source: text".
+    QStringList events(const QString &kind)
+    {
+        QStringList texts;
+        const QPlcMessage answer = m_tool->ask(QPlcMessage::GetEvents);
+        for (const QJsonValue event : answer.fields().value("events").toArray()) {
+            if (event["kind"].toString() == kind)
+                texts << QStringLiteral("%1 %2: %3")
+                             .arg(event["severity"].toString(), event["source"].toString(), event["text"].toString());
+        }
+        return texts;
+    }
+    bool start()
+    {
+        const bool isStarted = m_master->startRealTime() && m_tool->waitForMessage(QPlcMessage::StatesInitialized)
+            && m_master->waitForState(QPlcMasterNode::RealTime);
+        m_tool->forgetMessages();
+        return isStarted;
+    }
+    QScopedPointer<TestMaster> m_master;
+    QScopedPointer<ScriptedTool> m_tool;
+};
+
+void tst_Events::init()
+{
+    m_tool.reset();
+    m_master.reset(new TestMaster(QPlcClock::realTime()));
+    QVERIFY(m_master->listen());
+    m_tool.reset(new ScriptedTool("Anna"));
+    QVERIFY(m_tool->greetAt(m_master->serverPort()));
+}
+
+void tst_Events::statesAreEventsWithReasons()
+{
+    const std::int64_t before = qplc::wallClockNow();
+    QVERIFY(start());
+    QCOMPARE(m_tool->ask(QPlcMessage::Stop).kind(), QPlcMessage::Done);
+    QCOMPARE(events("state"),
+             (QStringList{"info Master: state Initializing", "info Master: state RealTime",
+                          "info Master: state Off: 'Anna' asked for it"}));
+    const QJsonArray all = m_tool->ask(QPlcMessage::GetEvents).fields().value("events").toArray();
+    for (int i = 0; i < all.size(); ++i) {
+        QCOMPARE(all.at(i)["sequence"].toInt(), i + 1);
+        const auto time = std::int64_t(all.at(i)["time"].toString().toULongLong(nullptr, 16));
+        QVERIFY(time >= before && time <= qplc::wallClockNow());
+    }
+}
+
+void tst_Events::nodesComeAndGoWithReasons()
+{
+    CounterNode counter;
+    QVERIFY(m_master->addLocalNode(&counter));
+    {
+        ScriptedNode node;
+        node.answerAll();
+        QVERIFY(node.registerAt(m_master->serverPort()));
+        QVERIFY(start());
+        QVERIFY(node.waitForRequests(3));
+        node.control.abort();
+        QTRY_COMPARE(m_master->nodes().size(), 1);
+    }
+    const QStringList texts = events("node");
+    QCOMPARE(texts.size(), 3);
+    QCOMPARE(texts.at(0), QString("info Counter: node Counter lives in the master now"));
+    QCOMPARE(texts.at(1), QString("info Scripted: node Scripted registered over udp"));
+    QVERIFY2(texts.at(2).startsWith("warning Scripted: node Scripted is gone in the middle of its work: "),
+             qPrintable(texts.at(2)));
+    m_master->stop();
+}
+
+void tst_Events::refusedNodeIsAWarning()
+{
+    ScriptedNode node;
+    node.outputs = QStringList{"echo"};
+    node.cyclic = "pigeon";
+    QVERIFY(!node.registerAt(m_master->serverPort()));
+    const QStringList texts = events("node");
+    QCOMPARE(texts.size(), 1);
+    QVERIFY2(texts.at(0).startsWith("warning Scripted: refused 127.0.0.1:") && texts.at(0).contains("pigeon"),
+             qPrintable(texts.at(0)));
+}
+
+void tst_Events::lateAnswersAreToldOnceASecond()
+{
+    ScriptedNode mute;
+    QVERIFY(m_master->setInterval(0.005));
+    QVERIFY(mute.registerAt(m_master->serverPort()));
+    QElapsedTimer clock;
+    clock.start();
+    QVERIFY(start());
+    QTRY_VERIFY(m_master->statistics().lateAnswers > 50);
+    m_master->stop();
+    QTRY_COMPARE(events("late").size(), 2);  // the rest is told although nothing follows
+    QVERIFY(clock.elapsed() >= 1000);
+    const QStringList texts = events("late");
+    QVERIFY2(texts.at(0).startsWith("warning Scripted: node Scripted was late in cycle "), qPrintable(texts.at(0)));
+    QVERIFY2(texts.at(1).endsWith("times since the last report)"), qPrintable(texts.at(1)));
+}
+
+void tst_Events::faultsAreErrorsOfTheirNode()
+{
+    CounterNode counter;
+    counter.onStep = [](const QPlcCycle &cycle) {
+        if (cycle.number() == 3)
+            throw std::runtime_error("sensor lost");
+    };
+    QVERIFY(m_master->addLocalNode(&counter));
+    QVERIFY(m_master->startRealTime());
+    QTRY_VERIFY(m_master->error() == QPlcMasterNode::NodeError);
+    QTest::qWait(20);
+    m_tool->forgetMessages();
+    const QStringList texts = events("fault");
+    QCOMPARE(texts.size(), 1);
+    QVERIFY2(texts.at(0).startsWith("error Counter: node 'Counter' in cycle 3: ")
+                 && texts.at(0).contains("sensor lost"),
+             qPrintable(texts.at(0)));
+    QVERIFY(events("state").last().startsWith("info Master: state Off: node 'Counter'"));
+}
+
+void tst_Events::valuesThatAreSetSayWhoAndFromWhatToWhat()
+{
+    m_tool->ask(QPlcMessage::SetSignals, {{"values", QJsonObject{{"setpoint", "1.5"}, {"vector", "1, 2, 3"}}}});
+    QVERIFY(m_master->setSignalValue("setpoint", 2.0));
+    QCOMPARE(events("set"),
+             (QStringList{"info Master: 'Anna' has set setpoint: 0 -> 1.5",
+                          "info Master: 'Anna' has set vector: 0, 0, 0 -> 1, 2, 3",
+                          "info Master: 'Master' has set setpoint: 1.5 -> 2"}));
+}
+
+void tst_Events::manySettingsOfASliderAreToldTogether()
+{
+    for (int i = 1; i <= 30; ++i)
+        m_tool->ask(QPlcMessage::SetSignals, {{"values", QJsonObject{{"setpoint", QString::number(i / 10.0)}}}});
+    QTRY_COMPARE(events("set").size(), 2);
+    QCOMPARE(events("set"),
+             (QStringList{"info Master: 'Anna' has set setpoint: 0 -> 0.1",
+                          "info Master: 'Anna' has set setpoint: 0.1 -> 3 (and 28 times since the last report)"}));
+}
+
+void tst_Events::valueThatComesBackIsTold()
+{
+    m_tool->ask(QPlcMessage::SetSignals, {{"values", QJsonObject{{"setpoint", "4"}}}, {"duration", 20e6}});
+    QTRY_COMPARE(events("set").size(), 2);
+    QCOMPARE(events("set").last(), QString("info Master: the former value has come back: setpoint = 0"));
+}
+
+void tst_Events::leasesAreTold()
+{
+    {
+        ScriptedTool bert("Bert");
+        QVERIFY(bert.greetAt(m_master->serverPort()));
+        m_tool->ask(QPlcMessage::TakeLease, {{"signals", QJsonArray{"setpoint", "free"}}, {"timeout", 1e12}});
+        bert.ask(QPlcMessage::TakeLease, {{"signals", QJsonArray{"setpoint"}}, {"takeOver", true}, {"timeout", 1e12}});
+    }
+    QTRY_COMPARE(events("lease").size(), 3);
+    m_tool->ask(QPlcMessage::ReleaseLease, {{"signals", QJsonArray{"setpoint", "free"}}});
+    QCOMPARE(
+        events("lease"),
+        (QStringList{
+            "info Master: 'Anna' has taken over setpoint, free",
+            "info Master: 'Bert' has taken over setpoint from 'Anna'",
+            "warning Master: 'Bert' has lost the connection: setpoint = 0, until somebody takes or releases the lease",
+            "info Master: 'Anna' has released setpoint, free"}));
+}
+
+void tst_Events::skippedCyclesAreTold()
+{
+    CounterNode counter;
+    counter.onStep = [](const QPlcCycle &cycle) {
+        if (cycle.number() == 2)
+            QThread::msleep(60);
+    };
+    QVERIFY(m_master->setInterval(0.010));
+    QVERIFY(m_master->addLocalNode(&counter));
+    QVERIFY(start());
+    QVERIFY(m_master->waitForCycles(5));
+    m_master->stop();
+    const QStringList texts = events("overrun");
+    QCOMPARE(texts.size(), 1);
+    QVERIFY2(texts.at(0).contains(QRegularExpression("^warning Master: [1-9]\\d* cycles began a period or more late, "
+                                                     "[1-9]\\d* were left out, since the last report$")),
+             qPrintable(texts.at(0)));
+}
+
+void tst_Events::backlogIsAskedForInParts()
+{
+    for (int i = 0; i < 150; ++i) {
+        m_tool->ask(QPlcMessage::TakeLease, {{"signals", QJsonArray{"free"}}, {"timeout", 1e12}});
+        m_tool->ask(QPlcMessage::ReleaseLease);
+    }
+    quint64 sequence = 0;
+    int answers = 0;
+    for (bool more = true; more; ++answers) {
+        const QPlcMessage answer = m_tool->ask(QPlcMessage::GetEvents, {{"since", double(sequence)}});
+        QVERIFY(answer.fields().value("more").isBool());
+        more = answer.fields().value("more").toBool();
+        for (const QJsonValue event : answer.fields().value("events").toArray())
+            QCOMPARE(quint64(event["sequence"].toDouble()), ++sequence);
+    }
+    QVERIFY(sequence >= 300);
+    QCOMPARE(answers, 2);
+    QVERIFY(m_tool->ask(QPlcMessage::GetEvents, {{"since", double(sequence)}})
+                .fields()
+                .value("events")
+                .toArray()
+                .isEmpty());
+    QCOMPARE(m_tool->ask(QPlcMessage::GetEvents, {{"since", 1e15}}).fields().value("more").toBool(), false);
+}
+
+void tst_Events::eventsArePushedToWhoOffersTheFeature()
+{
+    ScriptedTool viewer("Viewer");
+    m_tool->ask(QPlcMessage::TakeLease, {{"signals", QJsonArray{"free"}}, {"timeout", 1e12}});  // before it came
+    QVERIFY(viewer.connectTo(m_master->serverPort()));
+    QJsonObject hello = viewer.helloFields();
+    hello.insert("features", QJsonArray{"events"});
+    viewer.send(QPlcMessage::Hello, hello);
+    QCOMPARE(viewer.next().fields().value("features").toArray(), QJsonArray{"events"});
+    m_tool->ask(QPlcMessage::ReleaseLease);
+    const QPlcMessage pushed = viewer.next();
+    QCOMPARE(pushed.kind(), QPlcMessage::Events);
+    QVERIFY(!pushed.fields().contains("more"));
+    const QJsonArray events = pushed.fields().value("events").toArray();
+    QCOMPARE(events.size(), 1);
+    QCOMPARE(events.at(0)["text"].toString(), QString("'Anna' has released free"));
+    QCOMPARE(m_tool->messages.last().kind(), QPlcMessage::Done);  // without the feature: nothing
+}
+
+void tst_Events::logAndEventHaveTheSameText()
+{
+    LogCapture log;
+    QVERIFY(!m_master->setInterval(100.0));
+    const QStringList texts = events("state");
+    QCOMPARE(texts, QStringList{"error Master: " + m_master->errorString()});
+    QCOMPARE(log.matching(m_master->errorString()).size(), 1);
+}
+
+void tst_Events::badSinceIsRefused_data()
+{
+    QTest::addColumn<QJsonValue>("since");
+    QTest::newRow("negative") << QJsonValue(-1);
+    QTest::newRow("a fraction") << QJsonValue(0.5);
+    QTest::newRow("too large") << QJsonValue(1e300);
+    QTest::newRow("a text") << QJsonValue("1");
+}
+
+void tst_Events::badSinceIsRefused()
+{
+    QFETCH(QJsonValue, since);
+    const QPlcMessage refused = m_tool->ask(QPlcMessage::GetEvents, {{"since", since}});
+    QCOMPARE(refused.text("error"), QString("MalformedMessage"));
+    QVERIFY(refused.text("text").contains("'since'"));
+}
+
+QTEST_GUILESS_MAIN(tst_Events)
+#include "tst_Events.moc"

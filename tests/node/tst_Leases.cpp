@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "node/Leases.h"
+
+#include <QtTest/QtTest>
+
+using namespace qplc;
+
+// Who has which signal until when, by a clock of the test.
+class tst_Leases : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void init() { m_leases = Leases(); }
+    void nothingIsTakenAtFirst();
+    void holderHasItsSignalsOnly();
+    void takingAgainReplacesTheHolder();
+    void releasedSignalIsNobodys();
+    void silentHolderLosesAtItsDeadline();
+    void everyWordOfTheHolderRenewsAllItsLeases();
+    void lostHolderLosesItsOwnLeasesOnce();
+    void lostLeaseIsHeldByNobodyAndStaysInTheMask();
+    void nextDeadlineIsThatOfTheFirstLeaseThatCanBeLost();
+    void neutralValueIsSafeOrZeroOrTheLimitNearestToIt_data();
+    void neutralValueIsSafeOrZeroOrTheLimitNearestToIt();
+
+private:
+    Leases m_leases;
+    const int m_first = 0, m_second = 0;
+    Leases::Holder anna() const { return &m_first; }
+    Leases::Holder bert() const { return &m_second; }
+};
+
+void tst_Leases::nothingIsTakenAtFirst()
+{
+    QVERIFY(!m_leases.find(0));
+    QVERIFY(m_leases.mask().empty());
+    QVERIFY(m_leases.all().empty());
+    QVERIFY(m_leases.loseSilent(1'000'000).empty());
+    QVERIFY(m_leases.loseAllOf(anna()).empty());
+    QVERIFY(!m_leases.nextDeadline());
+    m_leases.renew(anna(), 5);
+    m_leases.release({3});
+    QVERIFY(m_leases.all().empty());
+}
+
+void tst_Leases::holderHasItsSignalsOnly()
+{
+    m_leases.take({1, 4}, anna(), "Anna", 100, 1000);
+    m_leases.take({2}, bert(), "Bert", 100, 1000);
+    QVERIFY(m_leases.isHeldBy(4, anna()) && m_leases.isHeldBy(2, bert()));
+    QVERIFY(!m_leases.isHeldBy(2, anna()) && !m_leases.isHeldBy(3, anna()) && !m_leases.isHeldBy(3, nullptr));
+    QVERIFY(m_leases.isHeldByOther(2, anna()) && !m_leases.isHeldByOther(1, anna()));
+    QVERIFY(m_leases.signalsOf(anna()) == (Leases::Signals{1, 4}));
+    QVERIFY(m_leases.mask() == (std::vector<bool>{false, true, true, false, true}));
+    QCOMPARE(m_leases.find(1)->name, QString("Anna"));
+    QCOMPARE(m_leases.find(1)->stateName(), QString("held"));
+}
+
+void tst_Leases::takingAgainReplacesTheHolder()
+{
+    m_leases.take({1, 2}, anna(), "Anna", 100, 1000);
+    m_leases.take({2}, bert(), "Bert", 500, 1050);
+    QVERIFY(m_leases.signalsOf(anna()) == Leases::Signals{1});
+    QVERIFY(m_leases.isHeldBy(2, bert()));
+    QVERIFY(m_leases.loseAllOf(anna()) == Leases::Signals{1});
+    QVERIFY(m_leases.isHeldBy(2, bert()));
+    QCOMPARE(m_leases.find(2)->deadline, std::int64_t(1550));
+}
+
+void tst_Leases::releasedSignalIsNobodys()
+{
+    m_leases.take({1, 2}, anna(), "Anna", 100, 1000);
+    m_leases.release({2});
+    QVERIFY(!m_leases.find(2));
+    QVERIFY(m_leases.mask() == (std::vector<bool>{false, true}));
+}
+
+void tst_Leases::silentHolderLosesAtItsDeadline()
+{
+    m_leases.take({1}, anna(), "Anna", 100, 1000);
+    QVERIFY(m_leases.loseSilent(1099).empty());
+    QVERIFY(m_leases.isHeldBy(1, anna()));
+    QVERIFY(m_leases.loseSilent(1100) == Leases::Signals{1});
+    QVERIFY(m_leases.find(1)->isLost());
+    QVERIFY(m_leases.loseSilent(5000).empty());  // once is enough
+}
+
+void tst_Leases::everyWordOfTheHolderRenewsAllItsLeases()
+{
+    m_leases.take({1}, anna(), "Anna", 100, 1000);
+    m_leases.take({2}, anna(), "Anna", 300, 1000);
+    m_leases.take({3}, bert(), "Bert", 100, 1000);
+    m_leases.renew(anna(), 1090);
+    QVERIFY(m_leases.loseSilent(1189) == Leases::Signals{3});
+    QVERIFY(m_leases.loseSilent(1190) == Leases::Signals{1});
+    m_leases.renew(anna(), 1200);  // what is lost stays lost
+    QVERIFY(m_leases.find(1)->isLost());
+    QVERIFY(m_leases.loseSilent(1500) == Leases::Signals{2});
+}
+
+void tst_Leases::lostHolderLosesItsOwnLeasesOnce()
+{
+    m_leases.take({1, 3}, anna(), "Anna", 100, 1000);
+    m_leases.take({2}, bert(), "Bert", 100, 1000);
+    QVERIFY(m_leases.loseAllOf(anna()) == (Leases::Signals{1, 3}));
+    QVERIFY(m_leases.loseAllOf(anna()).empty());
+    QVERIFY(m_leases.isHeldBy(2, bert()));
+}
+
+void tst_Leases::lostLeaseIsHeldByNobodyAndStaysInTheMask()
+{
+    m_leases.take({1}, anna(), "Anna", 100, 1000);
+    m_leases.loseAllOf(anna());
+    QVERIFY(!m_leases.isHeldBy(1, anna()) && !m_leases.isHeldBy(1, nullptr));
+    QVERIFY(!m_leases.isHeldByOther(1, bert()));
+    QVERIFY(m_leases.signalsOf(nullptr).empty());
+    QVERIFY(m_leases.mask() == (std::vector<bool>{false, true}));
+    QCOMPARE(m_leases.find(1)->stateName(), QString("lost"));
+    QCOMPARE(m_leases.find(1)->name, QString("Anna"));
+}
+
+void tst_Leases::nextDeadlineIsThatOfTheFirstLeaseThatCanBeLost()
+{
+    m_leases.take({1}, anna(), "Anna", 100, 1000);
+    m_leases.take({2}, bert(), "Bert", 50, 1000);
+    QCOMPARE(*m_leases.nextDeadline(), std::int64_t(1050));
+    m_leases.loseSilent(1050);
+    QCOMPARE(*m_leases.nextDeadline(), std::int64_t(1100));
+    m_leases.loseSilent(1100);
+    QVERIFY(!m_leases.nextDeadline());
+}
+
+void tst_Leases::neutralValueIsSafeOrZeroOrTheLimitNearestToIt_data()
+{
+    QTest::addColumn<QByteArray>("lines");
+    QTest::addColumn<QString>("neutral");
+    QTest::newRow("nothing said") << QByteArray("type = Real64\n") << "0";
+    QTest::newRow("safe") << QByteArray("type = Real64\nsafe = 3\nmin = -5\nmax = 5\n") << "3";
+    QTest::newRow("zero is allowed") << QByteArray("type = Real64\nmin = -5\nmax = 5\ninitial = 4\n") << "0";
+    QTest::newRow("above zero") << QByteArray("type = Int32\nmin = 2\nmax = 5\ninitial = 4\n") << "2";
+    QTest::newRow("below zero") << QByteArray("type = Real32\nmin = -7\nmax = -2.5\ninitial = -4\n") << "-2.5";
+    QTest::newRow("at least") << QByteArray("type = Real64\nmin = 1\ninitial = 4\n") << "1";
+    QTest::newRow("at most") << QByteArray("type = Real64\nmax = -1\ninitial = -4\n") << "-1";
+    QTest::newRow("every element") << QByteArray("type = Real64Triple\nmin = 2\nmax = 5\ninitial = 4\n") << "2, 2, 2";
+    QTest::newRow("truth") << QByteArray("type = Bool\ninitial = 1\n") << "0";
+    QTest::newRow("text") << QByteArray("type = String\n") << "";
+}
+
+void tst_Leases::neutralValueIsSafeOrZeroOrTheLimitNearestToIt()
+{
+    QFETCH(QByteArray, lines);
+    QFETCH(QString, neutral);
+    QVector<QPlcParseError> errors;
+    const QPlcSignalTable table = QPlcSignalTable::fromIni("[s]\n" + lines, &errors);
+    QVERIFY2(errors.isEmpty(), qPrintable(QPlcParseError::toString(errors)));
+    QCOMPARE(neutralValue(table.at(0)).toString(), neutral);
+    QVERIFY(neutralValue(table.at(0)).type() == table.at(0).type);
+}
+
+QTEST_APPLESS_MAIN(tst_Leases)
+#include "tst_Leases.moc"
