@@ -8,11 +8,6 @@
 
 namespace qplc {
 
-QString signalsMimeType()
-{
-    return QStringLiteral("application/x-qtplc-signals");
-}
-
 DropZone dropZoneAt(const QRect &area, const QPoint &position, DropCenter center)
 {
     const double x = (position.x() - area.left() + 0.5) / std::max(area.width(), 1);

@@ -9,9 +9,6 @@ namespace qplc {
 enum class DropZone { Left, Right, Above, Below, Center };
 enum class DropCenter { IsAZone, BelongsToTheNearestEdge };
 
-/// What signals are dragged as, from a tree of signals.
-QString signalsMimeType();
-
 /// The zone of \a area at \a position, which may be outside. The center has the middle half of width and height.
 DropZone dropZoneAt(const QRect &area, const QPoint &position, DropCenter center);
 /// What would be filled by what is dropped there.

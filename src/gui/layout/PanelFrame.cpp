@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "PanelFrame.h"
+#include "gui/SignalsMimeType.h"
 
 #include "LayoutIcons.h"
 #include "PanelPlaceholder.h"

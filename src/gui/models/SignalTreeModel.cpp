@@ -418,7 +418,7 @@ QModelIndex SignalTreeModel::find(const SignalReference &reference) const
 
 QStringList SignalTreeModel::mimeTypes() const
 {
-    return {signalsMimeType};
+    return {signalsMimeType()};
 }
 
 QMimeData *SignalTreeModel::mimeData(const QModelIndexList &indexes) const

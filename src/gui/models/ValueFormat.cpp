@@ -16,14 +16,14 @@ std::unique_ptr<QMimeData> mimeDataOf(const QVector<SignalReference> &references
     for (const SignalReference &reference : references)
         texts.append(reference.toString());
     auto mimeData = std::make_unique<QMimeData>();
-    mimeData->setData(signalsMimeType, QJsonDocument(texts).toJson(QJsonDocument::Compact));
+    mimeData->setData(signalsMimeType(), QJsonDocument(texts).toJson(QJsonDocument::Compact));
     return mimeData;
 }
 
 QVector<SignalReference> referencesIn(const QMimeData *mimeData)
 {
     QVector<SignalReference> references;
-    const QJsonArray texts = QJsonDocument::fromJson(mimeData->data(signalsMimeType)).array();
+    const QJsonArray texts = QJsonDocument::fromJson(mimeData->data(signalsMimeType())).array();
     for (const QJsonValue &text : texts) {
         const SignalReference reference = SignalReference::fromString(text.toString());
         if (reference.isValid())

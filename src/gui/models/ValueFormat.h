@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "gui/SignalsMimeType.h"
 #include "gui/plant/PlantList.h"
 
 #include <QtCore/QMimeData>
@@ -9,9 +10,6 @@
 #include <memory>
 
 namespace qplc {
-
-/// What is dragged from lists of signals: a JSON array of references as text.
-inline const QString signalsMimeType = QStringLiteral("application/x-qtplc-signals");
 
 std::unique_ptr<QMimeData> mimeDataOf(const QVector<SignalReference> &references);
 /// Empty when there are none; what is no reference is left out.

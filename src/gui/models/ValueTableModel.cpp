@@ -216,7 +216,7 @@ Qt::ItemFlags ValueTableModel::flags(const QModelIndex &index) const
 
 QStringList ValueTableModel::mimeTypes() const
 {
-    return {signalsMimeType};
+    return {signalsMimeType()};
 }
 
 QMimeData *ValueTableModel::mimeData(const QModelIndexList &indexes) const

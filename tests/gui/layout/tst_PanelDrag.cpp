@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ViewFixtures.h"
+#include "gui/SignalsMimeType.h"
 #include "gui/layout/DropZone.h"
 #include "gui/layout/EmptyPage.h"
 

@@ -187,9 +187,9 @@ void tst_SignalModels::draggedRowsAreReferences()
     QVERIFY(tree.flags(vector) & Qt::ItemIsDragEnabled);
     QVERIFY(!tree.mimeData({}));
     QMimeData garbage;
-    garbage.setData(signalsMimeType, R"([1, "a b", "x", {}])");
+    garbage.setData(signalsMimeType(), R"([1, "a b", "x", {}])");
     QCOMPARE(referencesIn(&garbage), QVector<SignalReference>{reference("x")});
-    garbage.setData(signalsMimeType, "no JSON");
+    garbage.setData(signalsMimeType(), "no JSON");
     QVERIFY(referencesIn(&garbage).isEmpty());
 }
 
