@@ -6,15 +6,15 @@
 namespace {
 
 constexpr float twoPi = 6.2831853F;
-constexpr float slowest = 300'000.0F;  // [samples] for a period
-constexpr float noiseAmplitude = 0.1F;
+constexpr float slowest = 300'000.0F;                    // [samples] for a period
 constexpr std::uint32_t spikes = 0xFFFFFFFFU / 50'000U;  // one of so many samples
 constexpr float spikeHeight = 1.5F;
 
 }  // namespace
 
-BenchSource::BenchSource(qplc::SignalStore *store)
+BenchSource::BenchSource(qplc::SignalStore *store, double noiseAmplitude)
     : m_store(store)
+    , m_noiseAmplitude(float(noiseAmplitude))
     , m_values(std::size_t(store->channels()))
 {
     for (int channel = 0; channel < store->channels(); ++channel) {
@@ -36,7 +36,7 @@ float BenchSource::next(Oscillator *oscillator)
     const Oscillator last = *oscillator;
     oscillator->sine = last.sine * last.stepCosine + last.cosine * last.stepSine;
     oscillator->cosine = last.cosine * last.stepCosine - last.sine * last.stepSine;
-    const float value = last.sine + noiseAmplitude * noise();
+    const float value = last.sine + m_noiseAmplitude * noise();
     return m_random < spikes ? spikeHeight : value;
 }
 

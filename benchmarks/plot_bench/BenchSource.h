@@ -11,7 +11,7 @@ class BenchSource
 public:
     static constexpr qplc::SignalStore::Time period = 1'000'000;  // [ns]
 
-    explicit BenchSource(qplc::SignalStore *store);
+    BenchSource(qplc::SignalStore *store, double noiseAmplitude);
     void append(int rows);
 
 private:
@@ -27,6 +27,7 @@ private:
     float next(Oscillator *oscillator);
 
     qplc::SignalStore *m_store;
+    float m_noiseAmplitude;
     std::vector<Oscillator> m_oscillators;
     std::vector<float> m_values;
     qplc::SignalStore::Time m_time = 0;

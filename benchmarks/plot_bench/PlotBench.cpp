@@ -51,7 +51,7 @@ PlotBench::PlotBench(const PlotBenchOptions &options)
     : m_options(options)
     , m_residentBefore(residentMemory())
     , m_store(options.channels, options.rows())
-    , m_source(&m_store)
+    , m_source(&m_store, options.noise)
 {
     const auto begin = Clock::now();
     m_source.append(options.rows());
@@ -116,6 +116,7 @@ QJsonObject PlotBench::result() const
             {QStringLiteral("channels"), m_options.channels},
             {QStringLiteral("fps"), m_options.fps},
             {QStringLiteral("line_width"), m_options.lineWidth},
+            {QStringLiteral("noise"), m_options.noise},
             {QStringLiteral("mode"),
              m_options.drawsEveryFrame ? QStringLiteral("every-frame") : QStringLiteral("new-column")},
             {QStringLiteral("columns"), int(std::lround(plot.canvas()->width() * plot.devicePixelRatioF()))},

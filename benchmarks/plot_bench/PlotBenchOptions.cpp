@@ -78,6 +78,7 @@ void declare(Reader *reader, const PlotBenchOptions &defaults)
                 QStringLiteral("every-frame"));
     reader->add("channels", "Channels of the store; 0: one for each curve.", "N", QStringLiteral("0"));
     reader->add("line-width", "Width of the curves [px].", "PX", QString::number(defaults.lineWidth));
+    reader->add("noise", "Amplitude of the noise; the axes go from -2 to 2.", "A", QString::number(defaults.noise));
     reader->add("picture", "Write a picture of the window at the end.", "FILE.png", QString());
 }
 
@@ -103,7 +104,8 @@ bool readValues(Reader *reader, PlotBenchOptions *options)
     return reader->integer("plots", 1, 64, &options->plots) && reader->integer("curves", 1, 64, &options->curves)
         && reader->integer("points", 100, 100'000'000, &options->points)
         && reader->integer("fps", 1, 1000, &options->fps) && reader->number("seconds", 0.01, 86400.0, &options->seconds)
-        && reader->number("line-width", 0.1, 20.0, &options->lineWidth) && readChannels(reader, options);
+        && reader->number("line-width", 0.1, 20.0, &options->lineWidth)
+        && reader->number("noise", 0.0, 2.0, &options->noise) && readChannels(reader, options);
 }
 
 }  // namespace

@@ -16,6 +16,7 @@ struct PlotBenchOptions
     bool drawsEveryFrame = true;
     int channels = 32;       // of the store, plots * curves at least
     double lineWidth = 1.0;  // [px]
+    double noise = 0.1;      // amplitude; the axes go from -2 to 2
     QString picture;         // file for a picture of the window at the end, empty: none
 
     /// Rows of the store: some more than are in view, as in a window that shows a part of the past.

@@ -2,13 +2,16 @@
 #include "gui/plot/PixelSpans.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace qplc {
 
 namespace {
 
-constexpr int dotGrowth = 1;  // pixels to each side of a value that stands alone
+constexpr int blockWidth = 16;  // columns
+constexpr int leastCore = 16;   // rows: fewer are not worth rectangles of their own
+constexpr int dotGrowth = 1;    // pixels to each side of a value that stands alone
 
 }  // namespace
 
@@ -20,7 +23,7 @@ void PixelSpans::begin(const QRect &clip, int thickness)
     m_spans.clear();
     m_rectangles.clear();
     m_spans.reserve(std::size_t(clip.width() + 2 * thickness + 4));
-    m_rectangles.reserve(m_spans.capacity());
+    m_rectangles.reserve(3 * m_spans.capacity());  // a core and what is above and below it
 }
 
 void PixelSpans::moveTo(int x, int top, int bottom)
@@ -71,9 +74,31 @@ void PixelSpans::endLine()
         growDot();
     const int left = std::max(m_x - m_before, m_clip.left());
     const int right = std::min(m_x + int(m_spans.size()) - 1 + m_behind, m_clip.right());
-    for (int x = left; x <= right; ++x)
-        emitSpan(x, thickened(x - m_x));
+    for (int x = left; x <= right; x += blockWidth)
+        emitBlock(x, std::min(x + blockWidth - 1, right));
     m_spans.clear();
+}
+
+/// Columns that have many rows in common get them as one rectangle: painters fill rows quicker than columns.
+void PixelSpans::emitBlock(int left, int right)
+{
+    std::array<Span, blockWidth> spans{};
+    Span core{m_clip.top(), m_clip.bottom()};
+    for (int x = left; x <= right; ++x) {
+        const Span span = thickened(x - m_x);
+        spans[std::size_t(x - left)] = span;
+        core = {std::max(core.top, span.top), std::min(core.bottom, span.bottom)};
+    }
+    const bool hasCore = right > left && core.bottom - core.top >= leastCore;
+    for (int x = left; x <= right; ++x) {
+        const Span &span = spans[std::size_t(x - left)];
+        emitSpan(x, {span.top, hasCore ? core.top - 1 : span.bottom});
+    }
+    if (!hasCore)
+        return;
+    m_rectangles.emplace_back(QPoint(left, core.top), QPoint(right, core.bottom));
+    for (int x = left; x <= right; ++x)
+        emitSpan(x, {core.bottom + 1, spans[std::size_t(x - left)].bottom});
 }
 
 /// Nobody sees a single pixel.

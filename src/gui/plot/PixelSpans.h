@@ -36,6 +36,7 @@ private:
 
     void growDot();
     Span thickened(int column) const;
+    void emitBlock(int left, int right);
     void emitSpan(int x, Span span);
 
     QRect m_clip;

@@ -56,6 +56,7 @@ private Q_SLOTS:
     void linesHaveNoHolesAndFillNoPixelTwice_data();
     void linesHaveNoHolesAndFillNoPixelTwice();
     void thickLineIsAsThickAsItShouldBe();
+    void tallColumnsAreFilledAsTheyAre();
     void gapStaysOpen();
     void nothingIsOutsideOfTheClip();
     void farAwayLinesPassThroughTheClip();
@@ -150,6 +151,31 @@ void tst_PixelSpans::thickLineIsAsThickAsItShouldBe()
         QCOMPARE(spans.rectangles().size(), std::size_t(1));
         QCOMPARE(spans.rectangles().front().size(), QSize(10 + thickness, thickness));
         QVERIFY(spans.rectangles().front().contains(QRect(10, 15, 11, 1)));
+    }
+}
+
+void tst_PixelSpans::tallColumnsAreFilledAsTheyAre()
+{
+    std::minstd_rand random(2);
+    for (int trial = 0; trial < 300; ++trial) {
+        PixelSpans spans;
+        spans.begin(clip, 1);
+        std::vector<QPoint> expected;
+        for (int x = 0; x < clip.width(); ++x) {
+            const QPoint span(int(random() % 6), 29 - int(random() % 6));
+            if (x == 0)
+                spans.moveTo(x, span.x(), span.y());
+            else
+                spans.lineTo(x - 1, 15, x, 15);
+            spans.include(span.x(), span.y());
+            expected.push_back(span);
+        }
+        spans.endLine();
+        const std::vector<int> pixels = pixelsOf(spans);
+        QCOMPARE(*std::max_element(pixels.begin(), pixels.end()), 1);
+        for (int x = 0; x < clip.width(); ++x)
+            QCOMPARE(columnOf(pixels, x), expected[std::size_t(x)]);
+        QVERIFY(spans.rectangles().size() < 3 * expected.size());
     }
 }
 
