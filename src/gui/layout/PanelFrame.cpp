@@ -44,6 +44,14 @@ PanelFrame::PanelFrame(LayoutEditor *editor, const LayoutPanel &panel, const QLi
             [this](QWidget *, QWidget *now) { m_titleBar->setActive(now && (now == this || isAncestorOf(now))); });
 }
 
+PanelFrame::~PanelFrame()
+{
+    // Parts go one after the other, and the keyboard from one to the next: the frame looks no more.
+    disconnect(qApp, nullptr, this, nullptr);
+    if (m_widget)
+        disconnect(m_widget, nullptr, this, nullptr);
+}
+
 void PanelFrame::makeActions()
 {
     const auto make = [this](const QString &text, const QKeySequence &keys, LayoutIcon icon) {
