@@ -29,7 +29,7 @@ PanelFrame::PanelFrame(LayoutEditor *editor, const LayoutPanel &panel, const QLi
     , m_titleBar(new PanelTitleBar(this))
 {
     setObjectName(panel.id);
-    setFrameStyle(QFrame::StyledPanel | QFrame::Plain);
+    setFrameShape(QFrame::StyledPanel);
     setAcceptDrops(true);
     auto *column = new QVBoxLayout(this);
     column->setContentsMargins(0, 0, 0, 0);
@@ -167,7 +167,7 @@ void PanelFrame::openSettings()
     }
     auto *popup = new QFrame(this, Qt::Popup);
     popup->setAttribute(Qt::WA_DeleteOnClose);
-    popup->setFrameStyle(QFrame::StyledPanel | QFrame::Plain);
+    popup->setFrameShape(QFrame::StyledPanel);
     popup->setAccessibleName(tr("Settings of %1").arg(m_titleBar->title()));
     auto *column = new QVBoxLayout(popup);
     column->addWidget(editor);
