@@ -53,6 +53,8 @@ void tst_LayoutView::partsHaveTheirSharesInEverySize()
     ViewFixture window;
     window.editor.setShares({"panel1", "panel3"}, {3, 1});
     for (const QSize &size : {QSize(1366, 768), QSize(800, 600), QSize(2000, 1200), QSize(801, 601)}) {
+        window.view.resize(1, 1);  // so small that nothing has its share
+        QCoreApplication::processEvents();
         window.view.resize(size);
         QCoreApplication::processEvents();
         const double left = window.frame("panel1")->width();
