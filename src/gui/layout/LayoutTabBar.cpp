@@ -39,10 +39,7 @@ LayoutTabBar::LayoutTabBar(LayoutEditor *editor, QWidget *parent)
         if (!m_isFollowing)
             m_editor->setCurrentTab(tabId(index));
     });
-    connect(this, &QTabBar::tabMoved, this, [this](int /*from*/, int to) {
-        if (!m_isFollowing)
-            m_editor->moveTab(tabId(to), to);
-    });
+    connect(this, &QTabBar::tabMoved, this, &LayoutTabBar::takeMove);
 }
 
 void LayoutTabBar::makeActions()
@@ -84,6 +81,16 @@ void LayoutTabBar::addTabOf(const LayoutTab &tab, int index)
     close->setFocusPolicy(Qt::NoFocus);  // keys: Ctrl+W
     connect(close, &QToolButton::clicked, this, [this, id] { m_editor->closeTab(id); });
     setTabButton(index, QTabBar::RightSide, close);
+}
+
+void LayoutTabBar::takeMove(int from, int to)
+{
+    if (m_isFollowing)
+        return;
+    // While a tab is dragged over another one, QTabBar says that the other one moves: the dragged one is the current one.
+    const bool isOther = qAbs(from - to) == 1 && currentIndex() == from;
+    const int moved = isOther ? from : to;
+    m_editor->moveTab(tabId(moved), moved);
 }
 
 void LayoutTabBar::showTabs(const Layout &layout)

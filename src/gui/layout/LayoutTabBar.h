@@ -27,6 +27,7 @@ protected:
 private:
     QString tabId(int index) const { return tabData(index).toString(); }
     void addTabOf(const LayoutTab &tab, int index);
+    void takeMove(int from, int to);
     int indexOf(const QString &id) const;
     void makeActions();
 

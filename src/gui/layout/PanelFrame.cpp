@@ -30,7 +30,7 @@ PanelFrame::PanelFrame(LayoutEditor *editor, const LayoutPanel &panel, const QLi
     , m_titleBar(new PanelTitleBar(this))
 {
     setObjectName(panel.id);
-    setFrameStyle(QFrame::StyledPanel | QFrame::Plain);
+    setFrameShape(QFrame::StyledPanel);
     setAcceptDrops(true);
     auto *column = new QVBoxLayout(this);
     column->setContentsMargins(0, 0, 0, 0);
@@ -43,6 +43,14 @@ PanelFrame::PanelFrame(LayoutEditor *editor, const LayoutPanel &panel, const QLi
     connectActions();
     connect(qApp, &QApplication::focusChanged, this,
             [this](QWidget *, QWidget *now) { m_titleBar->setActive(now && (now == this || isAncestorOf(now))); });
+}
+
+PanelFrame::~PanelFrame()
+{
+    // Parts go one after the other, and the keyboard from one to the next: the frame looks no more.
+    disconnect(qApp, nullptr, this, nullptr);
+    if (m_widget)
+        disconnect(m_widget, nullptr, this, nullptr);
 }
 
 void PanelFrame::makeActions()
@@ -160,7 +168,7 @@ void PanelFrame::openSettings()
     }
     auto *popup = new QFrame(this, Qt::Popup);
     popup->setAttribute(Qt::WA_DeleteOnClose);
-    popup->setFrameStyle(QFrame::StyledPanel | QFrame::Plain);
+    popup->setFrameShape(QFrame::StyledPanel);
     popup->setAccessibleName(tr("Settings of %1").arg(m_titleBar->title()));
     auto *column = new QVBoxLayout(popup);
     column->addWidget(editor);

@@ -28,6 +28,8 @@ public:
     PanelFrame(LayoutEditor *editor, const LayoutPanel &panel, const QList<QPlcWidgetFactory *> &factories,
                QWidget *parent);
 
+    ~PanelFrame() override;
+
     const QString &panelId() const { return m_id; }
     const QString &type() const { return m_type; }
     /// Null for a placeholder.

@@ -35,10 +35,4 @@ void ShareSplitter::apply()
         setSizes(QList<int>(m_shares.begin(), m_shares.end()));
 }
 
-void ShareSplitter::resizeEvent(QResizeEvent *event)
-{
-    QSplitter::resizeEvent(event);
-    apply();
-}
-
 }  // namespace qplc

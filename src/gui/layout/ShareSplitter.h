@@ -7,7 +7,7 @@
 
 namespace qplc {
 
-/// A splitter whose parts keep their shares whatever its size.
+/// A splitter that is told and tells the shares of its parts; QSplitter itself keeps them whatever its size.
 class ShareSplitter : public QSplitter
 {
     Q_OBJECT
@@ -20,9 +20,6 @@ public:
 Q_SIGNALS:
     /// A person has moved a handle.
     void sharesEdited(const qplc::LayoutSpan &span, const QVector<int> &shares);
-
-protected:
-    void resizeEvent(QResizeEvent *event) override;
 
 private:
     QVector<int> sharesOfSizes() const;

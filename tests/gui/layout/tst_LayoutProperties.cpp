@@ -34,7 +34,7 @@ void tst_LayoutProperties::everyEditKeepsTheRules()
     QFETCH(quint32, seed);
     RandomEdits edits(seed);
     Layout layout;
-    for (int i = 0; i < 1000; ++i) {
+    for (int i = 0; i < 500; ++i) {
         edits.apply(&layout, layout);
         QVERIFY2(layout.invariantError().isEmpty(),
                  qPrintable(QStringLiteral("edit %1: %2").arg(i).arg(layout.invariantError())));
@@ -46,7 +46,7 @@ void tst_LayoutProperties::everyLayoutIsReadBackFromItsText()
     QFETCH(quint32, seed);
     RandomEdits edits(seed);
     Layout layout;
-    for (int i = 0; i < 300; ++i) {
+    for (int i = 0; i < 150; ++i) {
         edits.apply(&layout, layout);
         const QByteArray text = layoutToJson(layout);
         QPlcParseError error;
@@ -63,12 +63,12 @@ void tst_LayoutProperties::everyStepIsUndoneAndRedoneToTheByte()
     RandomEdits edits(seed);
     LayoutEditor editor;
     QVector<QByteArray> texts{layoutToJson(editor.layout())};
-    for (int i = 0; i < 300; ++i) {
+    for (int i = 0; i < 150; ++i) {
         edits.apply(&editor, editor.layout());
         texts.resize(editor.undoStack()->index());
         texts.append(layoutToJson(editor.layout()));
     }
-    QVERIFY(texts.size() > 150);
+    QVERIFY(texts.size() > 50);
     for (int i = texts.size() - 2; i >= 0; --i) {
         editor.undoStack()->undo();
         QCOMPARE(layoutToJson(editor.layout()), texts.at(i));

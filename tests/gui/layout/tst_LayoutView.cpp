@@ -30,6 +30,8 @@ private Q_SLOTS:
     void unknownTypeIsAPlaceholderUntilItsFactoryComes();
     void emptyTabOffersTheWidgets();
     void tabsAreChosenRenamedMovedAndClosed();
+    void tabIsDraggedByMouse();
+    void panelWithTheKeyboardGoesQuietly();
     void keysReachEverything();
     void everythingHasAnAccessibleName();
     void closedWindowClosesItsPanels();
@@ -51,6 +53,8 @@ void tst_LayoutView::partsHaveTheirSharesInEverySize()
     ViewFixture window;
     window.editor.setShares({"panel1", "panel3"}, {3, 1});
     for (const QSize &size : {QSize(1366, 768), QSize(800, 600), QSize(2000, 1200), QSize(801, 601)}) {
+        window.view.resize(1, 1);  // so small that nothing has its share
+        QCoreApplication::processEvents();
         window.view.resize(size);
         QCoreApplication::processEvents();
         const double left = window.frame("panel1")->width();
@@ -361,6 +365,39 @@ void tst_LayoutView::tabsAreChosenRenamedMovedAndClosed()
     window.undoAndRedo();
     QCOMPARE(bar->count(), 2);
     QVERIFY(window.frame("panel1"));
+}
+
+void tst_LayoutView::tabIsDraggedByMouse()
+{
+    Layout layout = threePanels();
+    layout.addTab("Ground station");
+    layout.addTab("Real time");
+    layout.setCurrentTab("tab1");
+    ViewFixture window(layout);
+    LayoutTabBar *bar = window.view.tabBar();
+    const QPoint start = bar->tabRect(0).center();
+    const QPoint end = bar->tabRect(2).center() + QPoint(20, 0);
+    QTest::mousePress(bar, Qt::LeftButton, {}, start);
+    for (int x = start.x(); x <= end.x(); x += 5)
+        moveTo(bar, bar->mapToGlobal({x, start.y()}));
+    release(bar, bar->mapToGlobal(end));
+    QCOMPARE(window.shown(), QStringLiteral("- | - | H[panel1 V[panel2 panel3]]"));
+    QCOMPARE(window.editor.undoStack()->undoText(), QStringLiteral("move of tab 'Tab 1'"));
+    QTRY_COMPARE(bar->tabText(2), QStringLiteral("Tab 1"));
+    window.undoAndRedo();
+    QCOMPARE(bar->tabText(0), QStringLiteral("Tab 1"));
+    QCOMPARE(bar->tabText(2), QStringLiteral("Real time"));
+}
+
+void tst_LayoutView::panelWithTheKeyboardGoesQuietly()
+{
+    ViewFixture window;
+    window.panel("panel2")->setFocus();
+    QVERIFY(window.panel("panel2")->hasFocus());
+    window.editor.closePanel("panel2");
+    QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+    QVERIFY(!window.view.findChild<QWidget *>("panel2"));
+    window.panel("panel1")->setFocus();  // and the whole window goes
 }
 
 void tst_LayoutView::keysReachEverything()

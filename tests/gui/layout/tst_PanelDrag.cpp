@@ -68,6 +68,7 @@ private Q_SLOTS:
     void panelThatLeavesTheWindowFloats();
     void floatingPanelIsDraggedBack();
     void floatingPanelThatStaysOutsideMovesItsWindow();
+    void windowThatIsEmptiedHidesNoTarget();
     void dropOnItselfChangesNothing();
     void escapeEndsTheDrag();
     void panelThatGoesWhileItIsDraggedIsNoHarm();
@@ -204,6 +205,19 @@ void tst_PanelDrag::floatingPanelThatStaysOutsideMovesItsWindow()
     QCOMPARE(window.shown(), QStringLiteral("V[panel2 panel3] / panel1"));
     QVERIFY(window.view.floatingWindows().first()->geometry().contains(1300, 400));
     QCOMPARE(window.editor.undoStack()->count(), 0);
+}
+
+void tst_PanelDrag::windowThatIsEmptiedHidesNoTarget()
+{
+    Layout layout = threePanels();
+    layout.floatPanel("panel1", {300, 300, 400, 300});
+    ViewFixture window(layout);
+    const QPoint target = globalPoint(window.frame("panel3"), 0.5, 0.6);
+    window.editor.setWindowGeometry("window1", QRect(target - QPoint(100, 100), QSize(400, 300)));
+    window.before = layoutToJson(window.editor.layout());
+    drag(window.frame("panel1"), target);
+    QCOMPARE(window.shown(), QStringLiteral("V[panel2 panel3 panel1]"));
+    window.undoAndRedo();
 }
 
 void tst_PanelDrag::dropOnItselfChangesNothing()
