@@ -60,6 +60,7 @@ void tst_PlantModels::nodesComeAndGoInTheTable()
     QCOMPARE(table.index(3, NodeTableModel::Transport).data().toString(), QStringLiteral("udp"));
     QCOMPARE(table.index(3, NodeTableModel::Policy).data().toString(), QStringLiteral("ErrorZeroOrderHold"));
     QCOMPARE(table.index(2, NodeTableModel::State).data().toString(), QStringLiteral("listens"));
+    echo->disconnectFromMaster();
     echo.reset();
     QTRY_VERIFY(!namesOf(table).contains(QStringLiteral("north/Echo")));
     first->close();
