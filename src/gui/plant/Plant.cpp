@@ -115,7 +115,10 @@ void Plant::disconnected(const QString &reason)
     m_updateRate = 0.0;
     m_values.interrupt();
     m_status = {};
-    tell(PlantEvent::Error, QStringLiteral("lost the master at %1: %2").arg(address(), reason));
+    if (m_connection.isOpen())
+        tell(PlantEvent::Error, QStringLiteral("lost the master at %1: %2").arg(address(), reason));
+    else
+        tell(PlantEvent::Information, QStringLiteral("left the master at %1").arg(address()));
     Q_EMIT statusChanged();
     Q_EMIT stateChanged();
 }

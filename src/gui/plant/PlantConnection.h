@@ -26,6 +26,8 @@ public:
     QString nodeName() const { return m_nodeName; }
     void open();
     void close();
+    /// Whether it is wanted: between open() and close().
+    bool isOpen() const { return m_isOpen; }
 
     State state() const { return m_state; }
     /// Why there is no connection; empty while there is one.

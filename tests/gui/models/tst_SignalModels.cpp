@@ -106,6 +106,7 @@ void tst_SignalModels::aSignalMovesToTheNodeThatWritesIt()
     echo->setSignalTable(testTable());
     QVERIFY(echo->connectToMasterAndWaitForConnected(master.protocol("tcp")));
     QTRY_COMPARE(linesOf(tree).mid(0, 4), (QStringList{"kite", " Aa", "  echo", " Counter"}));
+    echo->disconnectFromMaster();
     echo.reset();
     QTRY_VERIFY(!linesOf(tree).contains(QStringLiteral(" Aa")));
     QCOMPARE(tree.find(reference("echo")).row(), 5);  // between setpoint and vector, as in the table

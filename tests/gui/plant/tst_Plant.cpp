@@ -37,6 +37,7 @@ private Q_SLOTS:
     void aPortThatSaysNothingIsGivenUpAndTriedAgain();
     void aNodeNameInUseIsAnEventAndNoEnd();
     void nodesThatComeAndGoAreEvents();
+    void aPlantIsClosedAndOpenedAgain();
     void pausesGrowFromAQuarterToFiveSeconds();
     void hostsAreLookedUpInTheBackground();
     void severalPlantsLiveSideBySide();
@@ -153,7 +154,7 @@ void tst_Plant::valuesComeWhileNoCycleRuns()
     QSignalSpy updated(&plant, &Plant::updated);
     QVERIFY(master.setSignalValue(QStringLiteral("setpoint"), -4.5));
     QTRY_COMPARE(plant.value(setpoint).toReal(), -4.5);
-    QVERIFY(!updated.isEmpty());
+    QTRY_VERIFY(!updated.isEmpty());
     QVERIFY(plant.store()->isEmpty());
 }
 
@@ -285,9 +286,33 @@ void tst_Plant::nodesThatComeAndGoAreEvents()
     QVERIFY(echo->connectToMasterAndWaitForConnected(master.protocol("udp")));
     QTRY_COMPARE(textsOf(events).filter(QStringLiteral("node Echo is there")).size(), 1);
     QTRY_COMPARE(plant.writer(testTable().indexOf(QStringLiteral("echo"))), QStringLiteral("Echo"));
+    echo->disconnectFromMaster();
     echo.reset();
     QTRY_COMPARE(textsOf(events).filter(QStringLiteral("node Echo has gone")).size(), 1);
     QTRY_COMPARE(plant.writer(testTable().indexOf(QStringLiteral("echo"))), QString());
+}
+
+void tst_Plant::aPlantIsClosedAndOpenedAgain()
+{
+    RunningMaster master;
+    QVERIFY(master.startRealTime());
+    Plant plant(master.address());
+    plant.close();  // was never open
+    QSignalSpy events(&plant, &Plant::eventOccurred);
+    plant.open();
+    plant.open();
+    QTRY_VERIFY(plant.values().rows() > 3);
+    plant.close();
+    QCOMPARE(plant.connectionState(), PlantConnection::Disconnected);
+    QCOMPARE(textsOf(events).last(), QStringLiteral("left the master at %1").arg(master.address()));
+    QVERIFY(std::none_of(events.begin(), events.end(), [](const QList<QVariant> &call) {
+        return qvariant_cast<PlantEvent>(call.at(0)).severity == PlantEvent::Error;
+    }));
+    const quint64 rows = plant.values().rows();
+    QTest::qWait(600);  // longer than the pause before an attempt
+    QVERIFY(!plant.isConnected());
+    plant.open();
+    QTRY_VERIFY(plant.values().rows() > rows + 3);
 }
 
 void tst_Plant::pausesGrowFromAQuarterToFiveSeconds()
