@@ -208,8 +208,6 @@ bool QPlcMasterNodePrivate::addLocalNode(QPlcSlaveNode *node)
     m_initialized = false;
     settings->leaveToWriters();
     node->d->setState(QPlcSlaveNode::Off);
-    journal.tell(qplc::PlantEvent::Info, qplc::PlantEvent::Node, slot->name,
-                 QStringLiteral("node %1 lives in the master now").arg(slot->name));
     Q_EMIT q->nodeRegistered(slot->name);
     return true;
 }
