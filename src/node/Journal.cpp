@@ -22,10 +22,13 @@ std::int64_t now()
     return TimeSource::monotonic().now();
 }
 
-/// What is abnormal is seen by default, and so is who comes and takes over; the rest is for those who look for it.
+/// What is abnormal is seen by default, and so is who comes and takes over; the rest is for those who look for it. So are overruns: on an ordinary system they come with every
+/// breath of another program, and the statistics count them.
 void log(const PlantEvent &event)
 {
-    if (event.severity != PlantEvent::Info)
+    if (event.kind == PlantEvent::Overrun)
+        qCDebug(lcMaster).noquote() << event.text;
+    else if (event.severity != PlantEvent::Info)
         qCWarning(lcMaster).noquote() << event.text;
     else if (event.kind == PlantEvent::Node || event.kind == PlantEvent::Lease)
         qCInfo(lcMaster).noquote() << event.text;
