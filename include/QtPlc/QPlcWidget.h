@@ -21,7 +21,19 @@ class QTPLC_GUI_EXPORT QPlcWidget : public QWidget
 {
     Q_OBJECT
 public:
-    enum Type { Gauge, TimePlot, XyPlot, Setter, ValueTable, NodeTable, EventLog, JitterHistogram, WindWindow, View3D, UserType = 1000 };
+    enum Type {
+        Gauge,
+        TimePlot,
+        XyPlot,
+        Setter,
+        ValueTable,
+        NodeTable,
+        EventLog,
+        JitterHistogram,
+        WindWindow,
+        View3D,
+        UserType = 1000
+    };
 
     explicit QPlcWidget(QWidget *parent = nullptr);
     ~QPlcWidget() override;
