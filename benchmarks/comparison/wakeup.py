@@ -20,8 +20,8 @@ def limited(command, seconds, policy):
     return subprocess.run(line + command, capture_output=True, text=True).stdout
 
 
-def of_bench(bench, period_us, seconds, policy):
-    output = limited([str(bench), "--transport", "inprocess", "--period-us", str(period_us), "--seconds", f"{seconds:g}"], seconds, policy)
+def of_bench(bench, period_us, seconds, policy, *options):
+    output = limited([str(bench), "--transport", "inprocess", "--period-us", str(period_us), "--seconds", f"{seconds:g}", *options], seconds, policy)
     result = json.loads(output)
     return result["late_p50_us"], result["late_p99_us"]
 
@@ -53,7 +53,9 @@ def measure(bench, peers, period_us, policy, seconds, rounds):
     """Name -> (best p50, best p99, median p50, median p99) [us]."""
     ways = {"qtplc": lambda: of_bench(bench, period_us, seconds, policy)}
     if machine.is_there("cyclictest"):
+        # It keeps the processors awake while it runs: compared with a master that does so, too.
         ways["cyclictest"] = lambda: of_cyclictest(period_us, seconds, policy)
+        ways["qtplc, processors awake"] = lambda: of_bench(bench, period_us, seconds, policy, "--idle-latency-us", "0")
     timer = Path(peers, "timer_jitter") if peers else None
     if timer and os.access(timer, os.X_OK):
         ways["timer_jitter"] = lambda: of_timer(timer, period_us, seconds, policy)

@@ -64,6 +64,8 @@ bool BenchMaster::prepare()
     m_master.setClock(m_options.isBackToBack() ? QPlcClock::lockstep() : QPlcClock::realTime());
     QPlcRealTimeOptions realTime;
     realTime.lockMemory = ::sched_getscheduler(0) == SCHED_FIFO;
+    if (m_options.idleLatencyUs >= 0)
+        realTime.idleLatency = m_options.idleLatencyUs;
     realTime.spin = qint64(m_options.spinUs) * 1000;
     m_master.setRealTimeOptions(realTime);
     m_master.setInitializationTimeout(std::chrono::seconds(10));

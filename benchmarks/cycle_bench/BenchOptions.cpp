@@ -58,6 +58,8 @@ bool readBenchOptions(QPlcCoreApplication &application, BenchOptions *options)
     addOption(application, "period-us", "Period [us]; 0: the next cycle as soon as all answers are there.", "P", "0");
     addOption(application, "seconds", "Measured time.", "S", "1");
     addOption(application, "warmup", "Time before it.", "S", "0.2");
+    addOption(application, "idle-latency-us",
+              "Time that processors may need to wake up [us]; -1: as the system is set.", "US", "-1");
     addOption(application, "spin-us", "Time that master and slaves look again before they sleep [us].", "US", "0");
     addOption(application, "slave", "Be a slave: what the master starts.", "INDEX", "-1");
     addOption(application, "master", "With --slave: where the master is.", "ADDRESS", "");
@@ -74,6 +76,7 @@ bool readBenchOptions(QPlcCoreApplication &application, BenchOptions *options)
         && readInteger(application, "in", 1, 1000, &options->inputs)
         && readInteger(application, "out", 1, 1000, &options->outputs)
         && readInteger(application, "period-us", 0, 10'000'000, &options->periodUs)
+        && readInteger(application, "idle-latency-us", -1, 1'000'000, &options->idleLatencyUs)
         && readInteger(application, "spin-us", 0, 1000, &options->spinUs)
         && application.number(QStringLiteral("seconds"), 0.01, 86400.0, &options->seconds)
         && application.number(QStringLiteral("warmup"), 0.0, 3600.0, &options->warmup)

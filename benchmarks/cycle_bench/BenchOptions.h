@@ -14,6 +14,7 @@ struct BenchOptions
     double seconds = 1.0;
     double warmup = 0.2;  // [s] before it
     int spinUs = 0;
+    int idleLatencyUs = -1;
 
     int slaveIndex = -1;  // of a slave process
     QString master;       // where its master is

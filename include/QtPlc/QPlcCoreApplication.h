@@ -54,7 +54,7 @@ public:
     bool number(const QString &option, double minimum, double maximum, double *result);
     bool integer(const QString &option, qint64 minimum, qint64 maximum, qint64 *result);
 
-    /// Adds --priority, --cpu, --spin-us and --lock-memory: what a cycle thread asks of the operating system.
+    /// Adds --priority, --cpu, --spin-us, --idle-latency-us and --lock-memory: what a cycle thread asks of the operating system.
     void addRealTimeOptions();
     /// \return false, with the message out, when one of them cannot be meant
     bool readRealTimeOptions(QPlcRealTimeOptions *options);

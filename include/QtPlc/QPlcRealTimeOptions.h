@@ -28,6 +28,9 @@ struct QTPLC_EXPORT QPlcRealTimeOptions
     int prefaultStack = 64 * 1024;     ///< [byte] of the stack touched before the first cycle
     std::optional<qint64> timerSlack;  ///< [ns] for ordinary scheduling; real-time threads have none
 
+    /// [us] that processors may need to wake up, >= 0, while cycles run: they do not sleep deeper; 0: they do not sleep at all, which costs power and is the quickest.
+    std::optional<int> idleLatency;
+
     qint64 spin
         = 0;  ///< [ns] to look for frames again and again before the thread sleeps, 0 ... 10 ms: quicker, for a processor of its own
 

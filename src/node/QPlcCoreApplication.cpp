@@ -216,6 +216,10 @@ void QPlcCoreApplication::addRealTimeOptions()
                                  QStringLiteral("Time that the cycle looks for frames again before it sleeps, 0 ... "
                                                 "10000 [us]; for a processor of its own."),
                                  QStringLiteral("TIME")));
+    addOption(QCommandLineOption(QStringLiteral("idle-latency-us"),
+                                 QStringLiteral("Keeps processors from sleeping deeper than they wake from in this "
+                                                "time [us] while cycles run; 0: they do not sleep."),
+                                 QStringLiteral("TIME")));
     addOption(
         QCommandLineOption(QStringLiteral("lock-memory"), QStringLiteral("Keeps all memory of the program in RAM.")));
 }
@@ -238,6 +242,11 @@ bool QPlcCoreApplication::readRealTimeOptions(QPlcRealTimeOptions *options)
         if (!integer(QStringLiteral("spin-us"), 0, 10'000, &number))
             return false;
         options->spin = number * 1000;
+    }
+    if (isSet(QStringLiteral("idle-latency-us"))) {
+        if (!integer(QStringLiteral("idle-latency-us"), 0, 1'000'000, &number))
+            return false;
+        options->idleLatency = int(number);
     }
     options->lockMemory = isSet(QStringLiteral("lock-memory"));
     return true;

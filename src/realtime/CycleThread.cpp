@@ -136,6 +136,8 @@ void CycleThread::applyOptions()
 {
     pthread_setname_np(pthread_self(), kernelName(m_name).constData());
     m_settings = applyRealTimeOptions(m_options, *m_inherited);
+    if (m_options.idleLatency)
+        m_settings += m_idleLatency.limit(*m_options.idleLatency);
     const std::lock_guard<std::mutex> lock(m_mutex);
     m_applied = true;
     m_appliedChanged.notify_one();
@@ -161,6 +163,7 @@ void CycleThread::join()
                "a thread cannot wait for its own end");
     pthread_join(m_thread, nullptr);
     m_running = false;
+    m_idleLatency.release();
     m_body = nullptr;  // what it holds is released on the owner's thread
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "IdleLatency.h"
 #include "QPlcRealTimeOptions.h"
 
 #include <condition_variable>
@@ -61,6 +62,7 @@ private:
     QString m_name;
     std::function<void()> m_body;
     QVector<QPlcRealTimeSetting> m_settings;
+    IdleLatency m_idleLatency;
     QString m_errorString;
 
     std::unique_ptr<Scheduling> m_inherited;  // of the thread that called start()

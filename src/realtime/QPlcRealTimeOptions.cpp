@@ -7,6 +7,7 @@ constexpr int MaximumPriority = 99;
 constexpr int MaximumCpu = 1023;                     // what a cpu_set_t holds
 constexpr int MaximumPrefault = 64 * 1024 * 1024;    // [byte]
 constexpr qint64 MaximumTimerSlack = 1'000'000'000;  // [ns]
+constexpr int MaximumIdleLatency = 1'000'000;        // [us]
 constexpr qint64 MaximumSpin = 10'000'000;           // [ns]
 
 QString outOfRange(const char *name, qint64 value, qint64 least, qint64 most, const char *unit = "")
@@ -47,6 +48,8 @@ QString QPlcRealTimeOptions::errorString() const
         return outOfRange("prefaultStack", prefaultStack, 0, MaximumPrefault, " byte");
     if (timerSlack && (*timerSlack < 1 || *timerSlack > MaximumTimerSlack))
         return outOfRange("timerSlack", *timerSlack, 1, MaximumTimerSlack, " ns");
+    if (idleLatency && (*idleLatency < 0 || *idleLatency > MaximumIdleLatency))
+        return outOfRange("idleLatency", *idleLatency, 0, MaximumIdleLatency, " us");
     if (spin < 0 || spin > MaximumSpin)
         return outOfRange("spin", spin, 0, MaximumSpin, " ns");
     return {};

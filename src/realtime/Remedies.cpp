@@ -105,6 +105,14 @@ QString kernelRemedy()
         .arg(packages.value(machine, QStringLiteral("ARCHITECTURE")));
 }
 
+QString idleLatencyRemedy(int error)
+{
+    if (error == ENOENT)
+        return QStringLiteral(
+            "this kernel has no /dev/cpu_dma_latency: sudo modprobe cpuidle, or use a kernel with CONFIG_CPU_IDLE");
+    return QStringLiteral("sudo setfacl -m u:$USER:rw /dev/cpu_dma_latency (until the next start), or run it as root");
+}
+
 QString governorRemedy()
 {
     return QStringLiteral("echo performance | sudo tee /sys/devices/system/cpu/cpu*/cpufreq/scaling_governor");

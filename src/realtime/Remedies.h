@@ -20,6 +20,8 @@ QString cpuRemedy(const QString &allowed);
 QString memoryLockRemedy(int error, const QString &program = thisProgram());
 QString stackRemedy();
 QString timerSlackRemedy();
+/// \param error  errno of the device that limits the sleep of processors
+QString idleLatencyRemedy(int error);
 
 // And where a computer as a whole is not fit for real time.
 

@@ -80,6 +80,17 @@ QVector<QPlcRealTimeSetting> runThread(const QPlcRealTimeOptions &options, Body 
     return thread.settings();
 }
 
+/// What all programs together want of the processors [us]; none: this one may not ask.
+std::optional<qint32> wantedIdleLatency()
+{
+    QFile device(QStringLiteral("/dev/cpu_dma_latency"));
+    qint32 value = 0;
+    if (!device.open(QIODevice::ReadWrite | QIODevice::Unbuffered)
+        || device.read(reinterpret_cast<char *>(&value), sizeof value) != sizeof value)
+        return {};
+    return value;
+}
+
 }  // namespace
 
 class tst_CycleThread : public QObject
@@ -102,6 +113,7 @@ private Q_SLOTS:
     void timerSlackIsReadBack();
     void stackIsResidentBeforeTheBody();
     void stackOfTheCallerIsNeverExceeded();
+    void processorsStayAwakeWhileTheThreadRuns();
     void memoryLockIsReadBack();
     void chrtIsInherited();
     void chrtGivesWayToTheOptions();
@@ -319,6 +331,26 @@ void tst_CycleThread::stackOfTheCallerIsNeverExceeded()
         QSKIP("not judged: ulimit -s allows more than the largest prefaultStack here", "");
     QVERIFY(!stack.granted);
     QVERIFY2(stack.remedy.contains(QLatin1String("ulimit -s")), qPrintable(stack.remedy));
+}
+
+void tst_CycleThread::processorsStayAwakeWhileTheThreadRuns()
+{
+    const std::optional<qint32> before = wantedIdleLatency();
+    QPlcRealTimeOptions options;
+    options.idleLatency = 3;
+    std::optional<qint32> meanwhile;
+    const auto idle = setting(runThread(options, [&] { meanwhile = wantedIdleLatency(); }), "idle latency");
+    QCOMPARE(idle.wanted, QStringLiteral("at most 3 us"));
+    if (!before) {
+        QVERIFY(!idle.granted);
+        QVERIFY2(idle.remedy.contains(QLatin1String("/dev/cpu_dma_latency")), qPrintable(idle.remedy));
+        return;
+    }
+    QVERIFY2(idle.granted, qPrintable(idle.toString()));
+    QVERIFY(meanwhile && *meanwhile <= 3);
+    QCOMPARE(idle.obtained, QStringLiteral("%1 us").arg(*meanwhile));
+    QVERIFY(*before <= 3 || wantedIdleLatency() > 3);  // another program may wish for as much
+    QCOMPARE(setting(runThread({}, [] {}), "idle latency").name, QString());
 }
 
 void tst_CycleThread::memoryLockIsReadBack()

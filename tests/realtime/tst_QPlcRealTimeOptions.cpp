@@ -77,6 +77,8 @@ void tst_QPlcRealTimeOptions::nonsenseIsNamedWithItsRange_data()
     row(
         "stack too large", [](O &o) { o.prefaultStack = 67108865; }, "prefaultStack 67108865: use 0 ... 67108864 byte");
     row(
+        "negative idle latency", [](O &o) { o.idleLatency = -1; }, "idleLatency -1: use 0 ... 1000000 us");
+    row(
         "negative spin", [](O &o) { o.spin = -1; }, "spin -1: use 0 ... 10000000 ns");
     row(
         "too much spin", [](O &o) { o.spin = 10000001; }, "spin 10000001: use 0 ... 10000000 ns");
