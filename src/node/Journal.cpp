@@ -22,11 +22,11 @@ std::int64_t now()
     return TimeSource::monotonic().now();
 }
 
-/// What is abnormal is seen by default, and so is who comes and takes over; the rest is for those who look for it. So are overruns: on an ordinary system they come with every
-/// breath of another program, and the statistics count them.
+/// What is abnormal is seen by default, and so is who comes and takes over; the rest is for those who look for it. So are overruns that end nothing: on an ordinary
+/// system they come with every breath of another program, and the statistics count them.
 void log(const PlantEvent &event)
 {
-    if (event.kind == PlantEvent::Overrun)
+    if (event.kind == PlantEvent::Overrun && event.severity == PlantEvent::Warning)
         qCDebug(lcMaster).noquote() << event.text;
     else if (event.severity != PlantEvent::Info)
         qCWarning(lcMaster).noquote() << event.text;
