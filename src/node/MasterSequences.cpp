@@ -111,9 +111,7 @@ bool QPlcMasterNodePrivate::takeOutputs(NodeSlot &slot, const char *outputs)
                           .arg(slot.name, table.at(field->signal).name));
         return false;
     }
-    const std::vector<bool> held = leaseBooks.mask();
-    qplc::copyRuns(held.empty() ? slot.outputRuns : cycle->image().scatterRuns(slot.outputLayout, held), outputs,
-                   cycle->image().data());
+    qplc::copyRuns(cycle->image().scatterRuns(slot.outputLayout, leaseBooks.mask()), outputs, cycle->image().data());
     return true;
 }
 

@@ -98,14 +98,6 @@ std::vector<CopyRun> ProcessImage::gatherRuns(const PayloadLayout &layout, const
     return runs;
 }
 
-std::vector<CopyRun> ProcessImage::scatterRuns(const PayloadLayout &layout) const
-{
-    std::vector<CopyRun> runs;
-    for (const PayloadLayout::Field &field : layout.fields())
-        appendRun(runs, {field.offset, offset(field.signal), quint32(field.type.size())});
-    return runs;
-}
-
 std::vector<CopyRun> ProcessImage::scatterRuns(const PayloadLayout &layout, const std::vector<bool> &held) const
 {
     std::vector<CopyRun> runs;

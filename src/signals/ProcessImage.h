@@ -37,10 +37,8 @@ public:
     std::vector<CopyRun> gatherRuns(const PayloadLayout &layout) const;
     /// As above, of those fields only that are \a wanted; a field behind the end of \a wanted is not.
     std::vector<CopyRun> gatherRuns(const PayloadLayout &layout, const std::vector<bool> &wanted) const;
-    /// Runs that paste a frame of \a layout into this image.
-    std::vector<CopyRun> scatterRuns(const PayloadLayout &layout) const;
-    /// As above, but for the signals that are \a held (by index; those behind its end are not).
-    std::vector<CopyRun> scatterRuns(const PayloadLayout &layout, const std::vector<bool> &held) const;
+    /// Runs that paste a frame of \a layout into this image, but for the signals that are \a held (by index; those behind its end are not).
+    std::vector<CopyRun> scatterRuns(const PayloadLayout &layout, const std::vector<bool> &held = {}) const;
 
     /// Folds the bytes of all values into \a digest: an order-dependent 64-bit hash, equal for equal images on all
     /// machines.

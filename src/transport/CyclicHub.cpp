@@ -285,13 +285,14 @@ bool CyclicHub::wait(std::int64_t timeout, int alarm) noexcept
 {
     if (m_locals.empty())
         return waitForDescriptors(timeout, alarm);
+    const bool hasOthers = m_udpPeers + m_streams.size() > 0;
     bool arrived = false;
-    if (timeout > 0 && m_udpPeers + m_streams.size() == 0 && alarm < 0)
-        doorbell()->sleep(timeout);
-    else if (timeout > 0 && doorbell()->beginPoll())
+    if (timeout > 0 && (hasOthers || alarm >= 0) && doorbell()->beginPoll())
         arrived = pollDescriptors(timeout, alarm);
-    else
+    else if (hasOthers)
         arrived = pollDescriptors(0, -1);
+    else if (timeout > 0 && alarm < 0)
+        doorbell()->sleep(timeout);
     doorbell()->endPoll();
     const std::uint32_t rung = doorbell()->count();
     arrived = arrived || rung != m_rung;
