@@ -6,15 +6,21 @@
 #include "QPlcSignalList.h"
 
 #include <QtCore/QJsonObject>
+#include <QtCore/QStringList>
 #include <QtWidgets/QWidget>
 
 #include <memory>
 
 class QPlcWidgetFactory;
 
+namespace qplc {
+class WindowContext;
+}
+
 /// A view of a plant that a Control Center shows in a panel: what QPlcSlaveNode is for a node, for a window.
 ///
 /// A subclass says which signals it reads and writes, gets their values in realTimeout(), and gives its settings as JSON, so that layouts can be saved, restored, and edited with undo.
+/// Its actions() are found by people in the menu of the panel and among the commands of the window.
 ///
 /// Threads: the thread of the window.
 class QTPLC_GUI_EXPORT QPlcWidget : public QWidget
@@ -32,6 +38,7 @@ public:
         JitterHistogram,
         WindWindow,
         View3D,
+        SignalTree,
         UserType = 1000
     };
 
@@ -60,6 +67,15 @@ public:
     /// What the toothed wheel opens, over the widget; null: it has no settings. The caller owns it.
     virtual QWidget *createSettingsEditor() { return nullptr; }
 
+    /// Shows signals in addition, when a person drops them here. \param references  "kite.elevation", "kite.position[2]", "plant/winch.speed"
+    /// \return false: it has no use for any of them
+    virtual bool addSignals(const QStringList &references);
+
+    /// What the panels of the window share; null outside of one. For the panels of QtPLC itself.
+    qplc::WindowContext *context() const;
+    /// Called once by the window, before or after applySettings().
+    void setContext(qplc::WindowContext *context);
+
     /// Signals that the widget wants in realTimeout().
     QPlcSignalIndexList inputSignalIndices() const;
     /// Signals that the widget writes.
@@ -81,6 +97,8 @@ Q_SIGNALS:
     void sendNewOutputSignals(const QPlcSignalList &signalValues);
 
 protected:
+    /// There is a context() now.
+    virtual void contextChanged() {}
     void setInputSignalIndices(const QPlcSignalIndexList &indices);
     void setOutputSignalIndices(const QPlcSignalIndexList &indices);
     void setInitialOutputSignals(const QPlcSignalList &signalValues);

@@ -8,18 +8,7 @@
 class QPlcWidget;
 class QWidget;
 
-/// Makes widgets of one type for a Control Center, which knows no types itself.
-///
-/// ```cpp
-/// class CompassFactory : public QPlcWidgetFactory
-/// {
-/// public:
-///     int type() const override { return Compass::Type; }
-///     QString name() const override { return QStringLiteral("Compass"); }
-///     QPlcWidget *createNew(QWidget *parent) const override { return new Compass(parent); }
-/// };
-/// controlCenter.addAvailableWidget(QPlcWidget::registerFactory(new CompassFactory));
-/// ```
+/// Makes widgets of one type for a Control Center, which knows no types itself; mostly it is a QPlcWidgetFactoryOf.
 class QTPLC_GUI_EXPORT QPlcWidgetFactory
 {
 public:

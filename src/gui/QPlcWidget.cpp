@@ -31,6 +31,7 @@ struct QPlcWidget::Private
     QPlcSignalIndexList inputs;
     QPlcSignalIndexList outputs;
     QPlcSignalList initialOutputs;
+    qplc::WindowContext *context = nullptr;
 };
 
 QPlcWidget::QPlcWidget(QWidget *parent)
@@ -91,6 +92,22 @@ void QPlcWidget::applySettings(const QJsonObject &settings)
         else
             d->settings.insert(entry.key(), entry.value());
     }
+}
+
+bool QPlcWidget::addSignals(const QStringList & /*references*/)
+{
+    return false;
+}
+
+qplc::WindowContext *QPlcWidget::context() const
+{
+    return d->context;
+}
+
+void QPlcWidget::setContext(qplc::WindowContext *context)
+{
+    d->context = context;
+    contextChanged();
 }
 
 QPlcSignalIndexList QPlcWidget::inputSignalIndices() const

@@ -25,7 +25,7 @@ HEADER_ONLY = {
     "QPlcBoundInput": "node", "QPlcBoundOutput": "node", "QPlcClock": "all", "QPlcCycle": "all",
     "QPlcCycleStatistics": "node", "QPlcDistribution": "all", "QPlcDurationStatistics": "all", "QPlcGlobal": "all",
     "QPlcGuiGlobal": "gui", "QPlcInput": "node", "QPlcInputTiming": "all", "QPlcLease": "node", "QPlcMasterStatistics": "node", "QPlcNodeInfo": "node", "QPlcNodeStatistics": "node", "QPlcOutput": "node",
-    "QPlcRealTimeSetting": "realtime", "QPlcSignalDefinition": "signals", "QPlcSlaveStatistics": "node", "QPlcStatisticFigure": "node", "QPlcWorstCycle": "all",
+    "QPlcRealTimeSetting": "realtime", "QPlcSignalDefinition": "signals", "QPlcSlaveStatistics": "node", "QPlcStatisticFigure": "node", "QPlcWidgetFactoryOf": "gui", "QPlcWorstCycle": "all",
     "QSplitPrimitive": "signals",
 }
 SOCKETS = r"<QtNetwork/|<sys/socket\.h>|<netinet/|<arpa/inet\.h>|Q(Tcp|Udp|Abstract)Socket\b"

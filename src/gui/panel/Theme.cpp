@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Theme.h"
+
+#include <QtGui/QGuiApplication>
+
+#include <array>
+
+namespace qplc {
+
+namespace {
+
+using Curves = std::array<QRgb, 8>;
+
+// Hues after Okabe and Ito, "Color Universal Design", 2008; lighter or darker as the background asks for contrast.
+constexpr Curves curvesOnWhite
+    = {0xff0072b2, 0xffd55e00, 0xff007a5a, 0xffb5548f, 0xff9a6b00, 0xff3a8fc4, 0xff5c5c5c, 0xff8c1c13};
+constexpr Curves curvesOnBlack
+    = {0xff56b4e9, 0xffe69f00, 0xff2fc49a, 0xffde8fc0, 0xfff0e442, 0xff7f9cff, 0xffc0c0c0, 0xffff7a59};
+
+Theme light()
+{
+    Theme theme;
+    theme.window = 0xffe9ebee;
+    theme.surface = 0xfffcfcfd;
+    theme.text = 0xff1d2126;
+    theme.mutedText = 0xff5d6670;
+    theme.line = 0xffcdd2d8;
+    theme.accent = 0xff1f6fb5;
+    theme.good = 0xff1e7d46;
+    theme.warning = 0xffa86400;
+    theme.alarm = 0xffc3261f;
+    theme.stale = 0xff8b939c;
+    theme.held = 0xff8a3ea8;
+    return theme;
+}
+
+Theme dark()
+{
+    Theme theme;
+    theme.isDark = true;
+    theme.window = 0xff1b1e22;
+    theme.surface = 0xff24282d;
+    theme.text = 0xffe4e7ea;
+    theme.mutedText = 0xff9aa4ae;
+    theme.line = 0xff3a4047;
+    theme.accent = 0xff5aa9e6;
+    theme.good = 0xff4cc38a;
+    theme.warning = 0xfff2b134;
+    theme.alarm = 0xffff6b62;
+    theme.stale = 0xff7b848d;
+    theme.held = 0xffc48be0;
+    return theme;
+}
+
+Theme sunlight()
+{
+    Theme theme = light();
+    theme.window = Qt::white;
+    theme.surface = Qt::white;
+    theme.text = Qt::black;
+    theme.mutedText = 0xff2b2b2b;
+    theme.line = 0xff7a7a7a;
+    theme.accent = 0xff004a8f;
+    theme.good = 0xff005c2a;
+    theme.warning = 0xff7a4300;
+    theme.alarm = 0xffa80000;
+    theme.stale = 0xff5a5a5a;
+    theme.held = 0xff5c1080;
+    theme.curveWidth = 2.5;
+    return theme;
+}
+
+bool isDesktopDark()
+{
+    return QGuiApplication::palette().color(QPalette::Window).lightness() < 128;
+}
+
+constexpr std::array<const char *, 4> names = {"System", "Light", "Dark", "Sunlight"};
+
+}  // namespace
+
+Theme Theme::byName(Name name)
+{
+    switch (name) {
+    case System:
+        return isDesktopDark() ? dark() : light();
+    case Light:
+        return light();
+    case Dark:
+        return dark();
+    case Sunlight:
+        return sunlight();
+    }
+    return light();
+}
+
+QString Theme::nameText(Name name)
+{
+    return QString::fromLatin1(names[std::size_t(name)]);
+}
+
+Theme::Name Theme::nameOf(const QString &text)
+{
+    for (std::size_t each = 0; each < names.size(); ++each) {
+        if (text == QLatin1String(names[each]))
+            return Name(each);
+    }
+    return System;
+}
+
+QColor Theme::curve(int index) const
+{
+    const Curves &curves = isDark ? curvesOnBlack : curvesOnWhite;
+    return QColor::fromRgb(curves[std::size_t(index) % curves.size()]);
+}
+
+QPalette Theme::palette() const
+{
+    QPalette palette(surface, window);
+    palette.setColor(QPalette::Window, window);
+    palette.setColor(QPalette::WindowText, text);
+    palette.setColor(QPalette::Base, surface);
+    palette.setColor(QPalette::AlternateBase, isDark ? surface.lighter(112) : surface.darker(103));
+    palette.setColor(QPalette::Text, text);
+    palette.setColor(QPalette::Button, isDark ? surface.lighter(125) : surface.darker(104));
+    palette.setColor(QPalette::ButtonText, text);
+    palette.setColor(QPalette::BrightText, alarm);
+    palette.setColor(QPalette::ToolTipBase, surface);
+    palette.setColor(QPalette::ToolTipText, text);
+    palette.setColor(QPalette::PlaceholderText, mutedText);
+    palette.setColor(QPalette::Highlight, accent);
+    palette.setColor(QPalette::HighlightedText, isDark ? window : QColor(Qt::white));
+    palette.setColor(QPalette::Link, accent);
+    palette.setColor(QPalette::Mid, line);
+    palette.setColor(QPalette::Dark, isDark ? window.darker(130) : line.darker(120));
+    palette.setColor(QPalette::Light, isDark ? line : QColor(Qt::white));
+    for (const QPalette::ColorRole role : {QPalette::WindowText, QPalette::Text, QPalette::ButtonText})
+        palette.setColor(QPalette::Disabled, role, stale);
+    return palette;
+}
+
+}  // namespace qplc

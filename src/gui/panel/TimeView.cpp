@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "TimeView.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace qplc {
+
+void TimeView::setSpan(Time span)
+{
+    change(m_isLive, end(), span);
+}
+
+void TimeView::show(Time begin, Time end)
+{
+    change(false, end, end - begin);
+}
+
+void TimeView::zoom(double factor, Time about)
+{
+    const double wanted = std::fmin(double(m_span) * factor, double(longestSpan));
+    const Time span = std::max(Time(wanted), shortestSpan);
+    const double share = double(end() - about) / double(m_span);
+    change(m_isLive && about >= end(), about + Time(std::llround(share * double(span))), span);
+}
+
+void TimeView::pan(Time by)
+{
+    change(false, end() + by, m_span);
+}
+
+void TimeView::freeze()
+{
+    change(false, end(), m_span);
+}
+
+void TimeView::goLive()
+{
+    change(true, m_newest, m_span);
+}
+
+void TimeView::jumpTo(Time time)
+{
+    change(false, time + m_span / 2, m_span);
+}
+
+void TimeView::setCursor(Cursor which, std::optional<Time> time)
+{
+    if (time == m_cursors[which])
+        return;
+    m_cursors[which] = time;
+    Q_EMIT cursorsChanged();
+}
+
+void TimeView::setPointer(std::optional<Time> time)
+{
+    if (time == m_pointer)
+        return;
+    m_pointer = time;
+    Q_EMIT pointerChanged();
+    if (!m_isLive)
+        Q_EMIT displayTimeChanged();
+}
+
+std::optional<TimeView::Time> TimeView::displayTime() const
+{
+    if (m_isLive)
+        return std::nullopt;
+    return m_pointer.value_or(m_end);
+}
+
+void TimeView::setNewest(Time time)
+{
+    if (time <= m_newest)
+        return;
+    m_newest = time;
+    Q_EMIT newestChanged();
+}
+
+void TimeView::reset()
+{
+    m_newest = 0;
+    setCursor(A, std::nullopt);
+    setCursor(B, std::nullopt);
+    setPointer(std::nullopt);
+    change(true, 0, m_span);
+}
+
+void TimeView::change(bool isLive, Time end, Time span)
+{
+    const Time allowedSpan = std::clamp(span, shortestSpan, longestSpan);
+    if (isLive == m_isLive && allowedSpan == m_span && (isLive || end == m_end))
+        return;
+    const std::optional<Time> before = displayTime();
+    m_isLive = isLive;
+    m_end = end;
+    m_span = allowedSpan;
+    Q_EMIT viewChanged();
+    if (displayTime() != before)
+        Q_EMIT displayTimeChanged();
+}
+
+}  // namespace qplc

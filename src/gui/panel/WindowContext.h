@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "Theme.h"
+#include "TimeView.h"
+#include "gui/models/EventLogModel.h"
+#include "gui/plant/PlantList.h"
+#include "gui/plot/CurveSources.h"
+
+namespace qplc {
+
+/// What all panels of a window share: plants, events, time, and colours. QPlcWidget::context() gives it to a panel.
+///
+/// Threads: that of the window.
+class WindowContext : public QObject
+{
+    Q_OBJECT
+public:
+    explicit WindowContext(QObject *parent = nullptr);
+    ~WindowContext() override;
+
+    PlantList *plants() { return &m_plants; }
+    EventLogModel *events() { return &m_events; }
+    CurveSources *curveSources() { return &m_curveSources; }
+    TimeView *timeView() { return &m_timeView; }
+    const Theme &theme() const { return m_theme; }
+    void setTheme(const Theme &theme);
+
+Q_SIGNALS:
+    void themeChanged();
+
+private:
+    void follow(Plant *plant);
+
+    PlantList m_plants;
+    EventLogModel m_events;
+    CurveSources m_curveSources{&m_plants};
+    TimeView m_timeView;
+    Theme m_theme = Theme::byName(Theme::System);
+};
+
+}  // namespace qplc

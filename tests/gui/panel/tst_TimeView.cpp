@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gui/panel/TimeView.h"
+
+#include <QtTest/QtTest>
+
+using namespace qplc;
+using Time = TimeView::Time;
+
+namespace {
+constexpr Time s = 1'000'000'000;
+}
+
+class tst_TimeView : public QObject
+{
+    Q_OBJECT
+private Q_SLOTS:
+    void init();
+    void aLiveViewEndsWithTheNewestValues();
+    void whoeverPansOrShowsOrJumpsFreezes();
+    void aFrozenViewStaysWhereItIsAndSaysHowFarBehindItIs();
+    void goingLiveComesBackToTheNewestValues();
+    void zoomingAboutTheRightEdgeStaysLive();
+    void zoomingKeepsTheTimeBelowTheMouse();
+    void spansHaveLimits();
+    void liveNobodyHasToLookAtAnotherTime();
+    void frozenTheDisplayedTimeIsThatOfThePointerOrTheRightEdge();
+    void nothingIsToldTwice();
+    void timeDoesNotGoBackButByAReset();
+
+private:
+    std::unique_ptr<TimeView> m_view;
+};
+
+void tst_TimeView::init()
+{
+    m_view = std::make_unique<TimeView>();
+    m_view->setSpan(10 * s);
+    m_view->setNewest(100 * s);
+}
+
+void tst_TimeView::aLiveViewEndsWithTheNewestValues()
+{
+    QVERIFY(m_view->isLive());
+    QCOMPARE(m_view->end(), 100 * s);
+    QCOMPARE(m_view->begin(), 90 * s);
+    m_view->setNewest(101 * s);
+    QCOMPARE(m_view->end(), 101 * s);
+    QCOMPARE(m_view->behind(), 0 * s);
+}
+
+void tst_TimeView::whoeverPansOrShowsOrJumpsFreezes()
+{
+    m_view->pan(-3 * s);
+    QVERIFY(!m_view->isLive());
+    QCOMPARE(m_view->end(), 97 * s);
+    m_view->goLive();
+    m_view->show(20 * s, 25 * s);
+    QVERIFY(!m_view->isLive());
+    QCOMPARE(m_view->begin(), 20 * s);
+    QCOMPARE(m_view->span(), 5 * s);
+    m_view->goLive();
+    m_view->jumpTo(50 * s);
+    QVERIFY(!m_view->isLive());
+    QCOMPARE((m_view->begin() + m_view->end()) / 2, 50 * s);
+}
+
+void tst_TimeView::aFrozenViewStaysWhereItIsAndSaysHowFarBehindItIs()
+{
+    m_view->freeze();
+    m_view->setNewest(112 * s);
+    QCOMPARE(m_view->end(), 100 * s);
+    QCOMPARE(m_view->behind(), 12 * s);
+}
+
+void tst_TimeView::goingLiveComesBackToTheNewestValues()
+{
+    m_view->show(0, 5 * s);
+    m_view->setNewest(120 * s);
+    m_view->goLive();
+    QCOMPARE(m_view->end(), 120 * s);
+    QCOMPARE(m_view->span(), 5 * s);
+}
+
+void tst_TimeView::zoomingAboutTheRightEdgeStaysLive()
+{
+    m_view->zoom(0.5, m_view->end());
+    QVERIFY(m_view->isLive());
+    QCOMPARE(m_view->span(), 5 * s);
+}
+
+void tst_TimeView::zoomingKeepsTheTimeBelowTheMouse()
+{
+    m_view->zoom(0.5, 92 * s);
+    QVERIFY(!m_view->isLive());
+    QCOMPARE(m_view->span(), 5 * s);
+    QCOMPARE(m_view->begin(), 91 * s);
+    m_view->zoom(2.0, 92 * s);
+    QCOMPARE(m_view->begin(), 90 * s);
+    QCOMPARE(m_view->end(), 100 * s);
+}
+
+void tst_TimeView::spansHaveLimits()
+{
+    m_view->setSpan(-5);
+    QCOMPARE(m_view->span(), TimeView::shortestSpan);
+    m_view->zoom(1e30, 0);
+    QCOMPARE(m_view->span(), TimeView::longestSpan);
+    m_view->zoom(std::numeric_limits<double>::quiet_NaN(), 0);
+    QVERIFY(m_view->span() >= TimeView::shortestSpan);
+}
+
+void tst_TimeView::liveNobodyHasToLookAtAnotherTime()
+{
+    m_view->setPointer(95 * s);
+    QVERIFY(!m_view->displayTime());
+}
+
+void tst_TimeView::frozenTheDisplayedTimeIsThatOfThePointerOrTheRightEdge()
+{
+    QSignalSpy changes(m_view.get(), &TimeView::displayTimeChanged);
+    m_view->freeze();
+    QCOMPARE(*m_view->displayTime(), 100 * s);
+    m_view->setPointer(95 * s);
+    QCOMPARE(*m_view->displayTime(), 95 * s);
+    m_view->goLive();
+    QVERIFY(!m_view->displayTime());
+    QCOMPARE(changes.count(), 3);
+}
+
+void tst_TimeView::nothingIsToldTwice()
+{
+    QSignalSpy views(m_view.get(), &TimeView::viewChanged);
+    QSignalSpy cursors(m_view.get(), &TimeView::cursorsChanged);
+    m_view->goLive();
+    m_view->setSpan(10 * s);
+    m_view->freeze();
+    m_view->freeze();
+    QCOMPARE(views.count(), 1);
+    m_view->setCursor(TimeView::A, 5 * s);
+    m_view->setCursor(TimeView::A, 5 * s);
+    m_view->setCursor(TimeView::B, std::nullopt);
+    QCOMPARE(cursors.count(), 1);
+}
+
+void tst_TimeView::timeDoesNotGoBackButByAReset()
+{
+    m_view->setNewest(50 * s);
+    QCOMPARE(m_view->newest(), 100 * s);
+    m_view->setCursor(TimeView::B, 5 * s);
+    m_view->freeze();
+    m_view->reset();
+    QVERIFY(m_view->isLive());
+    QVERIFY(!m_view->cursor(TimeView::B));
+    m_view->setNewest(50 * s);
+    QCOMPARE(m_view->end(), 50 * s);
+}
+
+QTEST_GUILESS_MAIN(tst_TimeView)
+#include "tst_TimeView.moc"
