@@ -126,8 +126,8 @@ public:
     quint16 serverPort() const;
     /// Lets startServer() listen to the network, where everybody can read and command the plant.
     void setInsecureNetworkAllowed(bool allowed);
-    /// Registers \a node, which then lives in this process and is called on the cycle thread. The caller keeps owning it, and keeps it until
-    /// removeLocalNode() or the end of the master. \return false when it is refused, or when the state is not Off
+    /// Registers \a node, which then lives in this process and is called on the cycle thread. The caller keeps owning it. A node that ends leaves
+    /// the master; while cycles run it must not end before removeLocalNode(). \return false when it is refused, or when the state is not Off
     bool addLocalNode(QPlcSlaveNode *node);
     void removeLocalNode(QPlcSlaveNode *node);
     /// All registered nodes, in the order of their registration.

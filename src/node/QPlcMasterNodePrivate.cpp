@@ -207,6 +207,7 @@ bool QPlcMasterNodePrivate::addLocalNode(QPlcSlaveNode *node)
     slot->prepare(cycle->image(), session);
     m_initialized = false;
     settings->leaveToWriters();
+    node->d->localMaster = q;
     node->d->setState(QPlcSlaveNode::Off);
     Q_EMIT q->nodeRegistered(slot->name);
     return true;
@@ -220,6 +221,7 @@ void QPlcMasterNodePrivate::removeLocalNode(QPlcSlaveNode *node)
     for (const std::shared_ptr<NodeSlot> &slot : registry->nodes()) {
         if (slot->local == &node->d->runtime) {
             registry->remove(std::shared_ptr<NodeSlot>(slot));
+            node->d->localMaster.clear();
             node->d->setState(QPlcSlaveNode::Disconnected);
             break;
         }

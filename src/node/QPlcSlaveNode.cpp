@@ -25,6 +25,8 @@ QPlcSlaveNode::~QPlcSlaveNode()
 {
     // The derived class is gone already: the cycles stop without a word to it.
     d->cycle.reset();
+    if (d->localMaster)
+        d->localMaster->removeLocalNode(this);
 }
 
 QString QPlcSlaveNode::name() const

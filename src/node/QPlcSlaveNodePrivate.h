@@ -2,11 +2,13 @@
 #pragma once
 
 #include "NodeRuntime.h"
+#include "QPlcMasterNode.h"
 #include "QPlcMasterSocket.h"
 #include "QPlcSlaveNode.h"
 #include "SlaveCycle.h"
 
 #include <QtCore/QJsonArray>
+#include <QtCore/QPointer>
 #include <QtCore/QSocketNotifier>
 
 #include <memory>
@@ -41,6 +43,7 @@ public:
     QString errorString;
     std::unique_ptr<qplc::SlaveCycle> cycle;
     QPlcUnderlyingProtocol master;
+    QPointer<QPlcMasterNode> localMaster;  // in whose process the node runs
     QPlcMasterSocket *control = nullptr;
 
 private:

@@ -18,6 +18,7 @@ private Q_SLOTS:
     void setSignalsWhileCyclesRunIsLimitedAsAWhole();
     void anAnswerThatIsTooLongIsRefused();
     void answersComeInTheOrderOfTheRequests();
+    void aSequenceIsAnsweredWhenItIsOverAndAllElseAtOnce();
     void unknownFieldsAreIgnored();
 
 private:
@@ -240,6 +241,21 @@ void tst_ControlChannel::answersComeInTheOrderOfTheRequests()
         QCOMPARE(m_tool->next().kind(), QPlcMessage::Done);
         QCOMPARE(m_tool->next().kind(), QPlcMessage::Done);
     }
+}
+
+void tst_ControlChannel::aSequenceIsAnsweredWhenItIsOverAndAllElseAtOnce()
+{
+    ScriptedNode slow;
+    slow.playsAlong = false;
+    QVERIFY(slow.registerAt(m_master->serverPort()));
+    m_tool->forgetMessages();
+    m_tool->send(QPlcMessage::InitializeAllStates);
+    QCOMPARE(m_tool->ask(QPlcMessage::GetState).text("state"), QString("Initializing"));
+    QCOMPARE(m_tool->ask(QPlcMessage::GetSchedule).kind(), QPlcMessage::Schedule);
+    slow.send(QPlcMessage::ReceiveMyInitialOutputStates, {{"values", QPlcMessage::fromBytes(slow.initialValues)}});
+    slow.send(QPlcMessage::Initialized);
+    QVERIFY(m_tool->waitForMessage(QPlcMessage::Done));
+    QCOMPARE(m_master->state(), QPlcMasterNode::Off);
 }
 
 void tst_ControlChannel::unknownFieldsAreIgnored()

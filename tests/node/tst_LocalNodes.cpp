@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "NodeFixtures.h"
+#include "ScriptedNode.h"
 
 #include <QtTest/QtTest>
 
@@ -20,6 +21,8 @@ private Q_SLOTS:
     void masterMeasuresJitterAndWorkload();
     void aNodeMayBeAddedAgain();
     void destroyingARunningMasterStopsIt();
+    void aNodeThatEndsBeforeItsMasterLeavesIt_data();
+    void aNodeThatEndsBeforeItsMasterLeavesIt();
 };
 
 void tst_LocalNodes::theOrderOfTheNodesDoesNotMatter()
@@ -204,6 +207,38 @@ void tst_LocalNodes::destroyingARunningMasterStopsIt()
         QVERIFY(master.waitForCycles(3));
     }
     QCOMPARE(counter.stops, 1);
+}
+
+void tst_LocalNodes::aNodeThatEndsBeforeItsMasterLeavesIt_data()
+{
+    QTest::addColumn<bool>("isInitializing");
+    QTest::newRow("while the master is off") << false;
+    QTest::newRow("while a sequence waits for another node") << true;
+}
+
+void tst_LocalNodes::aNodeThatEndsBeforeItsMasterLeavesIt()
+{
+    QFETCH(bool, isInitializing);
+    TestMaster master;
+    EchoNode echo;
+    ScriptedNode silent(QStringLiteral("Silent"));
+    silent.playsAlong = false;
+    silent.outputs.clear();
+    silent.initialValues.clear();
+    {
+        CounterNode counter;
+        QVERIFY(master.addLocalNode(&counter));
+        QVERIFY(master.addLocalNode(&echo));
+        QVERIFY(master.listen());
+        QVERIFY(silent.registerAt(master.serverPort()));
+        if (isInitializing) {
+            QVERIFY(master.initializeAllStates());
+            QCOMPARE(master.state(), QPlcMasterNode::Initializing);
+        }
+    }
+    QCOMPARE(master.state(), QPlcMasterNode::Off);
+    QCOMPARE(master.nodes().size(), 2);
+    QCOMPARE(master.writer("count"), QString());
 }
 
 QTEST_GUILESS_MAIN(tst_LocalNodes)
