@@ -79,19 +79,38 @@ bool suspend(Program &program)
     });
 }
 
-/// Cycles go on, have time left, and nobody but the worker was ever late.
-void checkCycles(const Master &master, const QPlcMasterStatistics &before)
+/// Cycles since the start that had at least 0.1 ms left at their end: who waits in vain for an answer has nothing left.
+quint64 cyclesWithTimeLeft(const Master &master)
 {
+    quint64 count = 0;
+    for (const QPlcDistribution::Bin &bin : master.cycleStatistics(QPlcDistribution::WithBins).slack.sinceStart.bins)
+        count += bin.upperBorder > 100'000 ? bin.count : 0;
+    return count;
+}
+
+struct Counts
+{
+    explicit Counts(const Master &master)
+        : statistics(master.statistics())
+        , withTimeLeft(cyclesWithTimeLeft(master))
+    {
+    }
+
+    QPlcMasterStatistics statistics;
+    quint64 withTimeLeft;
+};
+
+/// Cycles go on, many of them (also on a machine that is very busy) have time left, and nobody but the worker was ever late.
+void checkCycles(const Master &master, const Counts &countsBefore)
+{
+    const QPlcMasterStatistics &before = countsBefore.statistics;
     const QPlcMasterStatistics after = master.statistics();
     const double passed = double(after.cycles + after.skippedCycles - before.cycles - before.skippedCycles);
     QVERIFY2(passed >= 0.9 * Pause / double(Period.count()), qPrintable(QString::number(passed)));
     QVERIFY2(double(after.skippedCycles - before.skippedCycles) < 0.9 * passed, "hardly a cycle was not skipped");
     QCOMPARE(after.lateAnswers, master.info("Worker").lateAnswers);
-    // Who waits in vain has nothing left at the end of the cycle. On a machine that is so busy that the worker is late all the time, nothing is left either.
-    if (double(after.lateAnswers - before.lateAnswers) > 0.3 * double(after.cycles - before.cycles))
-        return;
-    const auto slack = master.cycleStatistics().slack.last10s.p50;
-    QVERIFY2(slack > 100'000, qPrintable(QStringLiteral("slack %1 ns").arg(slack)));
+    const quint64 withTimeLeft = cyclesWithTimeLeft(master) - countsBefore.withTimeLeft;
+    QVERIFY2(withTimeLeft >= 20, qPrintable(QStringLiteral("%1 cycles had time left").arg(withTimeLeft)));
 }
 
 }  // namespace
@@ -117,7 +136,7 @@ void tst_SlowListeners::aStoppedListenerChangesNothing()
     listener.sendSignal(SIGSTOP);
     QTest::qWait(200);  // what the system keeps for it is full
     const double memory = residentMemory();
-    const QPlcMasterStatistics before = master.statistics();
+    const Counts before(master);
     QTest::qWait(Pause);
     checkCycles(master, before);
     QVERIFY2(hasKept(memory), qPrintable(QString::number(residentMemory() - memory)));
@@ -211,7 +230,7 @@ void tst_SlowListeners::aListenerBehindAHangingThreadChangesNothing()
 
     QTest::qWait(300);
     const double memory = residentMemory();
-    const QPlcMasterStatistics before = master.statistics();
+    const Counts before(master);
     const quint64 lost = viewer.lostCycles();
     QTest::qWait(Pause);
     checkCycles(master, before);
@@ -240,7 +259,7 @@ void tst_SlowListeners::aHangingEventLoopOfTheMasterChangesNothing()
     Program listener(QTPLC_PLANT_LISTENER, {"--master", master.address("tcp")});
     QVERIFY(master.start(2));
     const double memory = residentMemory();
-    const QPlcMasterStatistics before = master.statistics();
+    const Counts before(master);
     QThread::msleep(Pause);  // nobody serves the connections and takes the reports
     checkCycles(master, before);
     QVERIFY2(hasKept(memory), qPrintable(QString::number(residentMemory() - memory)));
