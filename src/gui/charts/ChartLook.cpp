@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ChartLook.h"
+
+#include <QtGui/QPen>
+
+#include <qwt_plot.h>
+#include <qwt_plot_canvas.h>
+#include <qwt_plot_grid.h>
+#include <qwt_plot_layout.h>
+#include <qwt_plot_legenditem.h>
+#include <qwt_scale_draw.h>
+#include <qwt_scale_widget.h>
+
+namespace qplc {
+
+namespace {
+
+void applyToAxis(QwtPlot *plot, int axis)
+{
+    plot->axisWidget(axis)->setMargin(0);
+    plot->axisWidget(axis)->setSpacing(2);
+    plot->axisScaleDraw(axis)->enableComponent(QwtAbstractScaleDraw::Backbone, false);
+    plot->axisScaleDraw(axis)->setTickLength(QwtScaleDiv::MinorTick, 0.0);
+    plot->axisScaleDraw(axis)->setTickLength(QwtScaleDiv::MediumTick, 0.0);
+    plot->axisScaleDraw(axis)->setTickLength(QwtScaleDiv::MajorTick, 3.0);
+}
+
+}  // namespace
+
+void applyLook(QwtPlot *plot, QwtPlotGrid *grid, QwtPlotLegendItem *legend, const Theme &theme)
+{
+    QPalette palette = theme.palette();
+    palette.setColor(QPalette::Window, theme.surface);
+    palette.setColor(QPalette::WindowText, theme.mutedText);
+    palette.setColor(QPalette::Text, theme.mutedText);
+    plot->setPalette(palette);
+    plot->setAutoFillBackground(true);
+    plot->setCanvasBackground(theme.surface);
+    if (auto *canvas = qobject_cast<QwtPlotCanvas *>(plot->canvas()))
+        canvas->setFrameStyle(QFrame::NoFrame);
+    for (int axis = 0; axis < QwtPlot::axisCnt; ++axis)
+        applyToAxis(plot, axis);
+    if (grid)
+        grid->setMajorPen(theme.line, 1.0);
+    if (!legend)
+        return;
+    QColor background = theme.surface;
+    background.setAlphaF(0.85);
+    legend->setBackgroundBrush(background);
+    legend->setTextPen(theme.text);
+    legend->setBorderPen(Qt::NoPen);
+}
+
+void setAxisText(QwtPlot *plot, int axis, const QString &text, const Theme &theme)
+{
+    QwtText title(text);
+    title.setColor(theme.mutedText);
+    QFont font = plot->font();
+    font.setBold(false);
+    title.setFont(font);
+    plot->setAxisTitle(axis, title);
+    plot->setAxisFont(axis, font);
+}
+
+QString withUnit(const QString &name, const QString &unit)
+{
+    if (unit.isEmpty())
+        return name;
+    return name.isEmpty() ? QStringLiteral("[%1]").arg(unit) : QStringLiteral("%1 [%2]").arg(name, unit);
+}
+
+}  // namespace qplc
