@@ -7,7 +7,6 @@
 #include <qwt_plot_canvas.h>
 #include <qwt_plot_grid.h>
 #include <qwt_plot_layout.h>
-#include <qwt_plot_legenditem.h>
 #include <qwt_scale_draw.h>
 #include <qwt_scale_widget.h>
 
@@ -27,7 +26,7 @@ void applyToAxis(QwtPlot *plot, int axis)
 
 }  // namespace
 
-void applyLook(QwtPlot *plot, QwtPlotGrid *grid, QwtPlotLegendItem *legend, const Theme &theme)
+void applyLook(QwtPlot *plot, QwtPlotGrid *grid, const Theme &theme)
 {
     QPalette palette = theme.palette();
     palette.setColor(QPalette::Window, theme.surface);
@@ -40,15 +39,7 @@ void applyLook(QwtPlot *plot, QwtPlotGrid *grid, QwtPlotLegendItem *legend, cons
         canvas->setFrameStyle(QFrame::NoFrame);
     for (int axis = 0; axis < QwtPlot::axisCnt; ++axis)
         applyToAxis(plot, axis);
-    if (grid)
-        grid->setMajorPen(theme.line, 1.0);
-    if (!legend)
-        return;
-    QColor background = theme.surface;
-    background.setAlphaF(0.85);
-    legend->setBackgroundBrush(background);
-    legend->setTextPen(theme.text);
-    legend->setBorderPen(Qt::NoPen);
+    grid->setMajorPen(theme.line, 1.0);
 }
 
 void setAxisText(QwtPlot *plot, int axis, const QString &text, const Theme &theme)
@@ -60,6 +51,17 @@ void setAxisText(QwtPlot *plot, int axis, const QString &text, const Theme &them
     title.setFont(font);
     plot->setAxisTitle(axis, title);
     plot->setAxisFont(axis, font);
+}
+
+QString legendText(const QVector<LegendEntry> &entries)
+{
+    if (entries.size() < 2)
+        return {};
+    QStringList texts;
+    for (const LegendEntry &entry : entries)
+        texts << QStringLiteral("<span style='color:%1'>&#9632;</span>&nbsp;%2")
+                     .arg(entry.color.name(), entry.title.toHtmlEscaped());
+    return texts.join(QStringLiteral(" &nbsp; "));
 }
 
 QString withUnit(const QString &name, const QString &unit)

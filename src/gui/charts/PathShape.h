@@ -14,7 +14,7 @@ namespace qplc {
 class PathShape
 {
 public:
-    static constexpr double tolerance = 0.5;  // [px]
+    static constexpr double tolerance = 0.2;  // [px]: bends of smooth lines cannot be seen
 
     /// Begins anew; nothing is kept.
     void clear();

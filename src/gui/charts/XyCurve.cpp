@@ -53,14 +53,7 @@ XyCurve::XyCurve(const CurveSource &x, const CurveSource &y, const QString &titl
     , m_x(x)
     , m_y(y)
 {
-    setItemAttribute(QwtPlotItem::Legend);
     setZ(20.0);
-}
-
-void XyCurve::setColor(const QColor &color)
-{
-    m_color = color;
-    legendChanged();
 }
 
 void XyCurve::setTimes(Time begin, Time end)
@@ -106,11 +99,6 @@ void XyCurve::readPath(const QwtScaleMap &xMap, const QwtScaleMap &yMap) const
         if (isPair)
             m_shape.add(pixelOf(xMap, yMap, x, y));
     }
-}
-
-QwtGraphic XyCurve::legendIcon(int /*index*/, const QSizeF &size) const
-{
-    return defaultIcon(m_color, size);
 }
 
 void XyCurve::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap &yMap, const QRectF & /*canvas*/) const

@@ -22,7 +22,7 @@ public:
 
     const CurveSource &xSource() const { return m_x; }
     const CurveSource &ySource() const { return m_y; }
-    void setColor(const QColor &color);
+    void setColor(const QColor &color) { m_color = color; }
     QColor color() const { return m_color; }
     void setLineWidth(double width) { m_lineWidth = width; }
     /// The piece of time that is shown, \a end included.
@@ -38,7 +38,6 @@ public:
     std::size_t drawnPoints() const { return m_shape.pointCount(); }
 
     int rtti() const override { return Rtti_PlotUserItem + 2; }
-    QwtGraphic legendIcon(int index, const QSizeF &size) const override;
     void draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap &yMap, const QRectF &canvas) const override;
 
 private:
