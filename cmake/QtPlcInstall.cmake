@@ -19,7 +19,7 @@ if(QTPLC_BUILD_GUI)
         FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
     )
     install(EXPORT QtPlcGuiTargets NAMESPACE QtPlc:: DESTINATION ${package_directory})
-    install(FILES ${CMAKE_CURRENT_LIST_DIR}/FindQwt.cmake DESTINATION ${package_directory})
+    install(FILES ${CMAKE_CURRENT_LIST_DIR}/FindMuParser.cmake ${CMAKE_CURRENT_LIST_DIR}/FindQwt.cmake DESTINATION ${package_directory})
 endif()
 install(TARGETS qtplc RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(EXPORT QtPlcTargets NAMESPACE QtPlc:: DESTINATION ${package_directory})

@@ -224,6 +224,14 @@ void Plant::refresh()
         askState();
 }
 
+bool Plant::ask(const Message &question, const ControlChannel::Handler &handler)
+{
+    if (!isConnected() || m_connection.control().isBusy())
+        return false;
+    m_connection.control().ask(question, handler);
+    return true;
+}
+
 void Plant::poll()
 {
     askState();

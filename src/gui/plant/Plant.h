@@ -78,6 +78,9 @@ public:
     /// Sends anything that is answered with Done or Failed.
     int command(const QPlcMessage &message);
 
+    /// Asks for more than the plant does by itself: GetStatistics with histograms, GetSchedule, ... \a handler gets the answer, or Failed, if the connection lasts so long.
+    /// \return false: nothing was asked, as there is no connection, or a command waits for its answer
+    bool ask(const QPlcMessage &question, const ControlChannel::Handler &handler);
     /// Asks the master for its state now; the plant does so twice a second anyway.
     void refresh();
 

@@ -1,18 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "CurveSources.h"
 
+#include "DerivedSignals.h"
+
 namespace qplc {
 
 CurveSources::CurveSources(PlantList *plants, QObject *parent)
     : QObject(parent)
     , m_plants(plants)
+    , m_derived(std::make_unique<DerivedSignals>(plants))
 {
+    connect(plants, &PlantList::signalsChanged, m_derived.get(), &DerivedSignals::forgetStale);
     connect(plants, &PlantList::signalsChanged, this, &CurveSources::changed);
     connect(plants, &PlantList::added, this, &CurveSources::follow);
+    connect(m_derived.get(), &DerivedSignals::filled, this, &CurveSources::filled);
+    for (int place = 0; place < plants->size(); ++place)
+        follow(plants->at(place));
 }
+
+CurveSources::~CurveSources() = default;
 
 CurveSource CurveSources::find(const QString &expression) const
 {
+    if (Formula::isFormula(expression))
+        return findFormula(expression);
     CurveSource source;
     source.title = expression;
     const SignalReference reference = SignalReference::fromString(expression, &source.error);
@@ -40,9 +51,29 @@ CurveSource CurveSources::find(const QString &expression) const
     return source;
 }
 
+CurveSource CurveSources::findFormula(const QString &expression) const
+{
+    CurveSource source;
+    source.title = expression.trimmed();
+    const DerivedSignals::Result found = m_derived->find(source.title);
+    source.error = found.error;
+    if (!found.derived)
+        return source;
+    source.derived = found.derived;
+    source.plant = found.plant;
+    source.store = &found.derived->store();
+    source.channel = 0;
+    source.unit = found.unit;
+    return source;
+}
+
 void CurveSources::follow(Plant *plant)
 {
-    connect(plant, &Plant::storeChanged, this, &CurveSources::changed);
+    connect(plant, &Plant::storeChanged, this, [this, plant] {
+        m_derived->forget(plant);
+        Q_EMIT changed();
+    });
+    connect(plant, &Plant::updated, this, [this, plant] { m_derived->update(plant); });
 }
 
 }  // namespace qplc

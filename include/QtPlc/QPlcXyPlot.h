@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "QPlcGuiGlobal.h"
+#include "QPlcWidget.h"
+#include "QPlcWidgetFactoryOf.h"
+
+/// A panel with signals over signals: the flight path of a kite, a power curve, a phase portrait.
+///
+/// It shows the piece of time that all plots of the window show, and the values at the moment that is looked at (now, or where the pointer of a frozen view is) as a dot; a dot of values that are no
+/// longer true is grey, and says so. Curves have few points in all: those that can be seen.
+///
+/// Settings: `{"curves": [{"x": "kite.azimuth", "y": "= mean(kite.elevation, 5)", "color": "#rrggbb"}], "equalAspect": true}`; colour and aspect may be missing. x and y of a curve are of one plant.
+///
+/// Threads: the thread of the window.
+class QTPLC_GUI_EXPORT QPlcXyPlot : public QPlcWidget
+{
+    Q_OBJECT
+public:
+    static constexpr int staticType = XyPlot;
+    static QString typeName() { return QStringLiteral("XY plot"); }
+
+    explicit QPlcXyPlot(QWidget *parent = nullptr);
+    ~QPlcXyPlot() override;
+    int type() const override { return staticType; }
+
+    QJsonObject settings() const override;
+    void applySettings(const QJsonObject &settings) override;
+    QWidget *createSettingsEditor() override;
+    /// Two signals are a curve, the first one its x. One that is left waits for the next.
+    bool addSignals(const QStringList &references) override;
+
+    /// Whether a unit is as long on the one axis as on the other: circles are round.
+    bool isAspectEqual() const;
+    void setAspectEqual(bool isEqual);
+
+protected:
+    void contextChanged() override;
+    void showEvent(QShowEvent *event) override;
+    void hideEvent(QHideEvent *event) override;
+
+private:
+    class Private;
+    std::unique_ptr<Private> d;
+};
+
+using QPlcXyPlotFactory = QPlcWidgetFactoryOf<QPlcXyPlot>;

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ChartLook.h"
+
+#include <QtGui/QPen>
+
+#include <qwt_plot.h>
+#include <qwt_plot_canvas.h>
+#include <qwt_plot_grid.h>
+#include <qwt_plot_layout.h>
+#include <qwt_scale_draw.h>
+#include <qwt_scale_widget.h>
+
+namespace qplc {
+
+namespace {
+
+void applyToAxis(QwtPlot *plot, int axis)
+{
+    plot->axisWidget(axis)->setMargin(0);
+    plot->axisWidget(axis)->setSpacing(2);
+    plot->axisScaleDraw(axis)->enableComponent(QwtAbstractScaleDraw::Backbone, false);
+    plot->axisScaleDraw(axis)->setTickLength(QwtScaleDiv::MinorTick, 0.0);
+    plot->axisScaleDraw(axis)->setTickLength(QwtScaleDiv::MediumTick, 0.0);
+    plot->axisScaleDraw(axis)->setTickLength(QwtScaleDiv::MajorTick, 3.0);
+}
+
+}  // namespace
+
+void applyLook(QwtPlot *plot, QwtPlotGrid *grid, const Theme &theme)
+{
+    QPalette palette = theme.palette();
+    palette.setColor(QPalette::Window, theme.surface);
+    palette.setColor(QPalette::WindowText, theme.mutedText);
+    palette.setColor(QPalette::Text, theme.mutedText);
+    plot->setPalette(palette);
+    plot->setAutoFillBackground(true);
+    plot->setCanvasBackground(theme.surface);
+    if (auto *canvas = qobject_cast<QwtPlotCanvas *>(plot->canvas()))
+        canvas->setFrameStyle(QFrame::NoFrame);
+    for (int axis = 0; axis < QwtPlot::axisCnt; ++axis)
+        applyToAxis(plot, axis);
+    grid->setMajorPen(theme.line, 1.0);
+}
+
+void setAxisText(QwtPlot *plot, int axis, const QString &text, const Theme &theme)
+{
+    QwtText title(text);
+    title.setColor(theme.mutedText);
+    QFont font = plot->font();
+    font.setBold(false);
+    title.setFont(font);
+    plot->setAxisTitle(axis, title);
+    plot->setAxisFont(axis, font);
+}
+
+QString legendText(const QVector<LegendEntry> &entries)
+{
+    if (entries.size() < 2)
+        return {};
+    QStringList texts;
+    for (const LegendEntry &entry : entries)
+        texts << QStringLiteral("<span style='color:%1'>&#9632;</span>&nbsp;%2")
+                     .arg(entry.color.name(), entry.title.toHtmlEscaped());
+    return texts.join(QStringLiteral(" &nbsp; "));
+}
+
+QString withUnit(const QString &name, const QString &unit)
+{
+    if (unit.isEmpty())
+        return name;
+    return name.isEmpty() ? QStringLiteral("[%1]").arg(unit) : QStringLiteral("%1 [%2]").arg(name, unit);
+}
+
+}  // namespace qplc

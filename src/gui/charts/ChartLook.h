@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "gui/panel/Theme.h"
+
+#include <QtCore/QVector>
+
+class QwtPlot;
+class QwtPlotGrid;
+
+namespace qplc {
+
+/// Gives a plot the look of the panels: no frames, a quiet grid, small muted numbers. \param grid  of the plot
+void applyLook(QwtPlot *plot, QwtPlotGrid *grid, const Theme &theme);
+/// The title of an axis in the colours of the panels; empty: none.
+void setAxisText(QwtPlot *plot, int axis, const QString &text, const Theme &theme);
+struct LegendEntry
+{
+    QString title;
+    QColor color;
+};
+/// A coloured square and a title for each, as rich text that may be wrapped; empty for less than two: then axes and captions say it.
+QString legendText(const QVector<LegendEntry> &entries);
+/// "power [W]", "power", "[W]".
+QString withUnit(const QString &name, const QString &unit);
+
+}  // namespace qplc

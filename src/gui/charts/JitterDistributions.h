@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QtCore/QJsonObject>
+#include <QtCore/QString>
+#include <QtCore/QVector>
+
+namespace qplc {
+
+/// How one duration of a master or a node was distributed, ready to be drawn. A value type.
+struct JitterDistribution
+{
+    /// Values from low to below high [ns].
+    struct Bin
+    {
+        double low;
+        double high;
+        double count;
+    };
+
+    QString who;       // "Master", or a node
+    QString quantity;  // "lateness", "execution", "roundTrip", as docs/protocol.md 5.6 names them
+    double count = 0.0;
+    double p50 = 0.0;      // [ns]
+    double p99 = 0.0;      // [ns]
+    double maximum = 0.0;  // [ns]
+    QVector<Bin> bins;     // rising, of an eighth of a power of two each, without empty ones
+
+    /// For settings: "Master.lateness".
+    QString key() const { return who + QLatin1Char('.') + quantity; }
+    /// For people: "Master lateness".
+    QString title() const { return titleOf(key()); }
+    static QString titleOf(const QString &key);
+};
+
+/// All distributions of an answer Statistics that was asked for with histograms. \param window  "sinceStart" or "last10s"
+QVector<JitterDistribution> jitterDistributions(const QJsonObject &statistics, const QString &window);
+
+}  // namespace qplc

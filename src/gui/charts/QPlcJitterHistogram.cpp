@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "QPlcJitterHistogram.h"
+
+#include "JitterCanvas.h"
+#include "JitterEditor.h"
+#include "gui/models/ValueFormat.h"
+#include "gui/panel/WindowContext.h"
+
+#include <QtCore/QElapsedTimer>
+#include <QtCore/QJsonArray>
+#include <QtCore/QMap>
+#include <QtCore/QPointer>
+#include <QtCore/QTimer>
+#include <QtWidgets/QAction>
+#include <QtWidgets/QLabel>
+#include <QtWidgets/QVBoxLayout>
+
+#include <algorithm>
+
+using namespace qplc;
+
+namespace {
+
+constexpr int askPause = 1000;    // [ms]
+constexpr int staleAfter = 3000;  // [ms]
+
+const QString plantKey = QStringLiteral("plant");
+const QString showKey = QStringLiteral("show");
+const QString windowKey = QStringLiteral("window");
+const QString sinceStart = QStringLiteral("sinceStart");
+const QString last10s = QStringLiteral("last10s");
+const QString masterLateness = QStringLiteral("Master.lateness");
+
+}  // namespace
+
+class QPlcJitterHistogram::Private
+{
+public:
+    explicit Private(QPlcJitterHistogram *histogram);
+
+    void makeActions();
+    QAction *addAction(const QString &text, const QKeySequence &shortcut);
+    Plant *plant() const;
+    void ask();
+    void take(const QPlcMessage &answer);
+    void draw();
+    QString problem(const QVector<JitterDistribution> &shown) const;
+    QStringList shownKeys() const;
+    void setShown(const QString &key, bool isShown);
+    void showActions();
+    void applyTheme();
+    void forget();
+
+    QPlcJitterHistogram *q;
+    JitterCanvas *canvas;
+    QLabel *message;
+    QLabel *caption;
+    QAction *last = nullptr;
+    QMap<QString, QAction *> masterActions;  // by key
+    QJsonObject settings;                    // of our keys, as they were given
+    QJsonObject statistics;
+    QPointer<Plant> asked;  // the plant whose statistics these are
+    QElapsedTimer sinceAnswer;
+    QTimer timer;
+};
+
+QPlcJitterHistogram::Private::Private(QPlcJitterHistogram *histogram)
+    : q(histogram)
+    , canvas(new JitterCanvas)
+    , message(new QLabel)
+    , caption(new QLabel)
+{
+    auto *all = new QVBoxLayout(q);
+    all->setContentsMargins(2, 2, 2, 2);
+    all->setSpacing(0);
+    all->addWidget(message, 1);
+    all->addWidget(canvas, 1);
+    all->addWidget(caption);
+    message->setWordWrap(true);
+    message->setMargin(6);
+    message->setAlignment(Qt::AlignCenter);
+    message->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Expanding);
+    caption->setMargin(2);
+    caption->setTextFormat(Qt::RichText);
+    caption->setWordWrap(true);
+    caption->setAlignment(Qt::AlignRight);
+    caption->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+    canvas->setAccessibleName(tr("Histogram of durations"));
+    q->setFocusPolicy(Qt::StrongFocus);
+    makeActions();
+    QObject::connect(&timer, &QTimer::timeout, q, [this] { ask(); });
+}
+
+QAction *QPlcJitterHistogram::Private::addAction(const QString &text, const QKeySequence &shortcut)
+{
+    auto *action = new QAction(text, q);
+    action->setCheckable(true);
+    action->setShortcut(shortcut);
+    action->setShortcutContext(Qt::WidgetWithChildrenShortcut);
+    q->addAction(action);
+    return action;
+}
+
+void QPlcJitterHistogram::Private::makeActions()
+{
+    last = addAction(tr("Only the last 10 s"), Qt::Key_T);
+    QObject::connect(last, &QAction::triggered, q, [this](bool isLast) {
+        settings.insert(windowKey, isLast ? last10s : sinceStart);
+        draw();
+        Q_EMIT q->settingsEdited();
+    });
+    const QVector<QPair<QString, int>> quantities{{masterLateness, Qt::Key_L},
+                                                  {QStringLiteral("Master.execution"), Qt::Key_X},
+                                                  {QStringLiteral("Master.roundTrip"), Qt::Key_R}};
+    for (const auto &[key, shortcut] : quantities) {
+        QAction *action = addAction(JitterDistribution::titleOf(key), shortcut);
+        masterActions.insert(key, action);
+        QObject::connect(action, &QAction::triggered, q, [this, name = key](bool isShown) { setShown(name, isShown); });
+    }
+    showActions();
+}
+
+void QPlcJitterHistogram::Private::showActions()
+{
+    last->setChecked(settings.value(windowKey).toString() == last10s);
+    for (auto action = masterActions.begin(); action != masterActions.end(); ++action)
+        action.value()->setChecked(shownKeys().contains(action.key()));
+}
+
+QStringList QPlcJitterHistogram::Private::shownKeys() const
+{
+    if (!settings.contains(showKey))
+        return {masterLateness};
+    QStringList keys;
+    const QJsonArray shown = settings.value(showKey).toArray();
+    for (const QJsonValue &key : shown)
+        keys << key.toString();
+    return keys;
+}
+
+/// A person's choice.
+void QPlcJitterHistogram::Private::setShown(const QString &key, bool isShown)
+{
+    QStringList keys = shownKeys();
+    keys.removeAll(key);
+    if (isShown)
+        keys << key;
+    settings.insert(showKey, QJsonArray::fromStringList(keys));
+    showActions();
+    draw();
+    Q_EMIT q->settingsEdited();
+}
+
+Plant *QPlcJitterHistogram::Private::plant() const
+{
+    if (!q->context() || q->context()->plants()->size() == 0)
+        return nullptr;
+    const QString name = settings.value(plantKey).toString();
+    return name.isEmpty() ? q->context()->plants()->at(0) : q->context()->plants()->find(name);
+}
+
+void QPlcJitterHistogram::Private::forget()
+{
+    statistics = {};
+    sinceAnswer.invalidate();
+}
+
+void QPlcJitterHistogram::Private::ask()
+{
+    if (!q->isVisible())
+        return;
+    if (asked != plant())
+        forget();
+    asked = plant();
+    if (asked)
+        asked->ask(QPlcMessage(QPlcMessage::GetStatistics, {{QStringLiteral("histograms"), true}}),
+                   [this, panel = QPointer<QPlcJitterHistogram>(q), of = asked](const QPlcMessage &answer) {
+                       if (panel && of == asked)
+                           take(answer);
+                   });
+    draw();
+}
+
+void QPlcJitterHistogram::Private::take(const QPlcMessage &answer)
+{
+    if (answer.kind() != QPlcMessage::Statistics)
+        return;
+    statistics = answer.fields();
+    sinceAnswer.start();
+    draw();
+}
+
+/// What keeps the histogram from being drawn; empty: nothing.
+QString QPlcJitterHistogram::Private::problem(const QVector<JitterDistribution> &shown) const
+{
+    const Plant *of = plant();
+    if (!of) {
+        const QString name = settings.value(plantKey).toString();
+        return name.isEmpty() ? tr("There is no plant yet.") : tr("There is no plant %1 at the moment.").arg(name);
+    }
+    if (shownKeys().isEmpty())
+        return tr("Choose what to show in the settings.");
+    const bool hasValues = std::any_of(shown.begin(), shown.end(), [](const auto &each) { return each.count > 0.0; });
+    if (hasValues)
+        return {};
+    if (!of->isConnected())
+        return of->stateText();
+    if (of->status().clock.startsWith(QLatin1String("Lockstep"), Qt::CaseInsensitive))
+        return tr("In lockstep no clock is read: there is nothing to measure.");
+    if (!statistics.isEmpty() && shown.size() < shownKeys().size() && !shown.isEmpty())
+        return tr("No values yet.");
+    return statistics.isEmpty() || !shown.isEmpty()
+        ? tr("No cycles yet. Start the plant to measure its punctuality.")
+        : tr("There are no figures of %1 at the moment.").arg(shownKeys().join(QStringLiteral(", ")));
+}
+
+void QPlcJitterHistogram::Private::draw()
+{
+    const bool isLast = settings.value(windowKey).toString() == last10s;
+    const QVector<JitterDistribution> all = jitterDistributions(statistics, isLast ? last10s : sinceStart);
+    QVector<JitterDistribution> shown;
+    const QStringList keys = shownKeys();
+    for (const QString &key : keys) {
+        const auto found = std::find_if(all.begin(), all.end(), [&](const auto &each) { return each.key() == key; });
+        if (found != all.end())
+            shown.append(*found);
+    }
+    const QString text = problem(shown);
+    message->setText(text);
+    message->setVisible(!text.isEmpty());
+    canvas->setVisible(text.isEmpty());
+    caption->setVisible(text.isEmpty());
+    if (!text.isEmpty())
+        return;
+    const bool isStale = !sinceAnswer.isValid() || sinceAnswer.elapsed() > staleAfter;
+    QStringList parts{isLast ? tr("last 10 s") : tr("since start")};
+    if (shown.size() == 1)
+        parts << shown.first().title().toHtmlEscaped() << tr("%L1 values").arg(shown.first().count, 0, 'f', 0);
+    if (isStale)
+        parts << tr("stale, %1").arg(ageText(double(sinceAnswer.elapsed()) * 1e-3));
+    canvas->show(shown, isStale);
+    caption->setText(parts.join(QStringLiteral(" &nbsp;·&nbsp; ")) + QStringLiteral(" &nbsp; ") + canvas->legend());
+}
+
+void QPlcJitterHistogram::Private::applyTheme()
+{
+    const Theme &theme = q->context()->theme();
+    QPalette palette = theme.palette();
+    palette.setColor(QPalette::Window, theme.surface);
+    palette.setColor(QPalette::WindowText, theme.mutedText);
+    q->setPalette(palette);
+    q->setAutoFillBackground(true);
+    canvas->setTheme(theme);
+}
+
+QPlcJitterHistogram::QPlcJitterHistogram(QWidget *parent)
+    : QPlcWidget(parent)
+    , d(std::make_unique<Private>(this))
+{
+    d->draw();
+}
+
+QPlcJitterHistogram::~QPlcJitterHistogram() = default;
+
+QJsonObject QPlcJitterHistogram::settings() const
+{
+    QJsonObject all = QPlcWidget::settings();
+    for (auto entry = d->settings.begin(); entry != d->settings.end(); ++entry)
+        all.insert(entry.key(), entry.value());
+    return all;
+}
+
+void QPlcJitterHistogram::applySettings(const QJsonObject &settings)
+{
+    QJsonObject others = settings;
+    for (const QString &key : {plantKey, showKey, windowKey}) {
+        const QJsonValue value = others.take(key);
+        if (!value.isUndefined())
+            d->settings.insert(key, value);
+    }
+    QPlcWidget::applySettings(others);
+    d->showActions();
+    d->ask();
+    d->draw();
+}
+
+QWidget *QPlcJitterHistogram::createSettingsEditor()
+{
+    QStringList keys;
+    for (const JitterDistribution &distribution : jitterDistributions(d->statistics, sinceStart))
+        keys << distribution.key();
+    for (const QString &key : d->masterActions.keys() + d->shownKeys()) {
+        if (!keys.contains(key))
+            keys << key;
+    }
+    auto *editor = new JitterEditor(keys, d->shownKeys(), d->last->isChecked());
+    connect(editor, &JitterEditor::shownChanged, this,
+            [this](const QString &key, bool isShown) { d->setShown(key, isShown); });
+    connect(editor, &JitterEditor::lastChanged, this, [this](bool isLast) {
+        if (isLast != d->last->isChecked())
+            d->last->trigger();
+    });
+    return editor;
+}
+
+void QPlcJitterHistogram::contextChanged()
+{
+    if (!context())
+        return;
+    connect(context(), &WindowContext::themeChanged, this, [this] { d->applyTheme(); });
+    connect(context()->plants(), &PlantList::signalsChanged, this, [this] { d->ask(); });
+    d->applyTheme();
+    d->ask();
+    d->draw();
+}
+
+void QPlcJitterHistogram::showEvent(QShowEvent *event)
+{
+    QPlcWidget::showEvent(event);
+    d->timer.start(askPause);
+    d->ask();
+}
+
+void QPlcJitterHistogram::hideEvent(QHideEvent *event)
+{
+    QPlcWidget::hideEvent(event);
+    d->timer.stop();
+}

@@ -1,0 +1,362 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "QPlcXyPlot.h"
+
+#include "XyCanvas.h"
+#include "XyPlotEditor.h"
+#include "gui/models/ValueFormat.h"
+#include "gui/panel/WindowContext.h"
+
+#include <QtCore/QDateTime>
+#include <QtCore/QElapsedTimer>
+#include <QtCore/QJsonArray>
+#include <QtCore/QTimer>
+#include <QtWidgets/QAction>
+#include <QtWidgets/QLabel>
+#include <QtWidgets/QVBoxLayout>
+
+#include <algorithm>
+
+using namespace qplc;
+
+namespace {
+
+constexpr int shortestPause = 40;  // [ms] between pictures
+constexpr int longestPause = 1000;
+constexpr int costShare = 4;   // drawing takes at most so small a share of the time
+constexpr int agePause = 500;  // [ms]
+
+const QString curvesKey = QStringLiteral("curves");
+const QString xKey = QStringLiteral("x");
+const QString yKey = QStringLiteral("y");
+const QString colorKey = QStringLiteral("color");
+const QString aspectKey = QStringLiteral("equalAspect");
+
+}  // namespace
+
+class QPlcXyPlot::Private
+{
+public:
+    explicit Private(QPlcXyPlot *plot);
+
+    void bind();
+    void follow(WindowContext *context);
+    void schedule();
+    void draw();
+    void edit(const QJsonArray &curves);
+    void showMessage();
+    void showLegend();
+    void applyTheme();
+    QString messageText(const QString &error) const;
+    QString timeText() const;
+    const Plant *stalePlant() const;
+
+    QPlcXyPlot *q;
+    XyCanvas *canvas;
+    QLabel *message;  // what is missing
+    QLabel *legend;
+    QLabel *moment;  // when the dot was
+    QAction *equal;
+    QJsonArray curves;
+    bool hasAspect = false;  // in the settings
+    QString error;           // of the first curve that cannot be drawn
+    QTimer redraw;
+    QTimer age;
+    int pause = shortestPause;
+};
+
+QPlcXyPlot::Private::Private(QPlcXyPlot *plot)
+    : q(plot)
+    , canvas(new XyCanvas)
+    , message(new QLabel)
+    , legend(new QLabel)
+    , moment(new QLabel)
+    , equal(new QAction(tr("Equal aspect"), plot))
+{
+    auto *all = new QVBoxLayout(plot);
+    all->setContentsMargins(2, 2, 2, 2);
+    all->setSpacing(0);
+    all->addWidget(message);
+    all->addWidget(legend);
+    all->addWidget(canvas, 1);
+    all->addWidget(moment);
+    message->setWordWrap(true);
+    message->setMargin(6);
+    message->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+    legend->setWordWrap(true);
+    legend->setMargin(4);
+    legend->setTextFormat(Qt::RichText);
+    legend->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+    moment->setMargin(2);
+    moment->setAlignment(Qt::AlignRight);
+    canvas->setAccessibleName(tr("XY plot"));
+    equal->setCheckable(true);
+    equal->setShortcut(Qt::Key_E);
+    equal->setShortcutContext(Qt::WidgetWithChildrenShortcut);
+    plot->addAction(equal);
+    plot->setFocusPolicy(Qt::StrongFocus);
+    redraw.setSingleShot(true);
+    connect(&redraw, &QTimer::timeout, plot, [this] { draw(); });
+    connect(&age, &QTimer::timeout, plot, [this] { schedule(); });
+    connect(equal, &QAction::triggered, plot, [this](bool isEqual) {
+        q->setAspectEqual(isEqual);
+        Q_EMIT q->settingsEdited();
+    });
+}
+
+/// Finds what the expressions mean now.
+void QPlcXyPlot::Private::bind()
+{
+    std::vector<std::unique_ptr<XyCurve>> found;
+    std::vector<QColor> colors;
+    error.clear();
+    for (const QJsonValue &entry : qAsConst(curves)) {
+        const QString x = entry[xKey].toString();
+        const QString y = entry[yKey].toString();
+        if (!q->context() || x.isEmpty() || y.isEmpty())
+            continue;
+        const CurveSource xSource = q->context()->curveSources()->find(x);
+        const CurveSource ySource = q->context()->curveSources()->find(y);
+        const bool isOfOne = xSource.plant == ySource.plant;
+        if (xSource && ySource && isOfOne) {
+            found.push_back(std::make_unique<XyCurve>(xSource, ySource, tr("%1 over %2").arg(y, x)));
+            colors.emplace_back(entry[colorKey].toString());
+        } else if (error.isEmpty()) {
+            error = !xSource ? xSource.error
+                : !ySource   ? ySource.error
+                             : tr("%1 and %2 are of two plants. Remedy: choose signals of one.").arg(x, y);
+        }
+    }
+    canvas->setCurves(std::move(found), colors);
+    showMessage();
+    showLegend();
+    schedule();
+}
+
+QString QPlcXyPlot::Private::messageText(const QString &problem) const
+{
+    if (!q->context())
+        return tr("No window shares its plants with this plot.");
+    if (curves.isEmpty())
+        return tr("Drop two signals here: the second one is drawn over the first.");
+    if (!problem.isEmpty())
+        return problem;
+    const QJsonValue last = curves.last();
+    if (last[yKey].toString().isEmpty() && !last[xKey].toString().isEmpty())
+        return tr("Drop a second signal here: it is drawn over %1.").arg(last[xKey].toString());
+    return canvas->curves().empty() ? tr("Choose signals for x and y in the settings.") : QString();
+}
+
+void QPlcXyPlot::Private::showMessage()
+{
+    const QString text = messageText(error);
+    message->setText(text);
+    message->setVisible(!text.isEmpty());
+    const bool hasCurves = !canvas->curves().empty();
+    canvas->setVisible(hasCurves);
+    message->setAlignment(hasCurves ? Qt::AlignLeft : Qt::AlignCenter);
+    message->setSizePolicy(QSizePolicy::Ignored, hasCurves ? QSizePolicy::Preferred : QSizePolicy::Expanding);
+}
+
+void QPlcXyPlot::Private::showLegend()
+{
+    legend->setText(canvas->legend());
+    legend->setVisible(!legend->text().isEmpty());
+}
+
+void QPlcXyPlot::Private::follow(WindowContext *context)
+{
+    const TimeView *time = context->timeView();
+    const auto scheduled = [this] { schedule(); };
+    connect(time, &TimeView::viewChanged, q, scheduled);
+    connect(time, &TimeView::newestChanged, q, scheduled);
+    connect(time, &TimeView::displayTimeChanged, q, scheduled);
+    connect(context->curveSources(), &CurveSources::filled, q, scheduled);
+    connect(context->curveSources(), &CurveSources::changed, q, [this] { bind(); });
+    connect(context, &WindowContext::themeChanged, q, [this] { applyTheme(); });
+}
+
+void QPlcXyPlot::Private::applyTheme()
+{
+    const Theme &theme = q->context()->theme();
+    canvas->setTheme(theme);
+    showLegend();
+    QPalette palette = theme.palette();
+    palette.setColor(QPalette::Window, theme.surface);
+    palette.setColor(QPalette::WindowText, theme.mutedText);
+    q->setPalette(palette);
+    q->setAutoFillBackground(true);
+    schedule();
+}
+
+void QPlcXyPlot::Private::schedule()
+{
+    if (q->isVisible() && q->context() && !redraw.isActive())
+        redraw.start(pause);
+}
+
+/// The first plant whose newest values are no longer true.
+const Plant *QPlcXyPlot::Private::stalePlant() const
+{
+    for (const std::unique_ptr<XyCurve> &curve : canvas->curves()) {
+        const Plant *plant = curve->xSource().plant;
+        if (plant->quality() == Plant::Stale)
+            return plant;
+    }
+    return nullptr;
+}
+
+void QPlcXyPlot::Private::draw()
+{
+    if (!q->isVisible() || !q->context())
+        return;
+    const TimeView *time = q->context()->timeView();
+    const auto displayed = time->displayTime();
+    QElapsedTimer cost;
+    cost.start();
+    const bool isStale = !displayed && stalePlant();
+    canvas->show({time->begin(), time->end(), displayed.value_or(time->newest()), isStale});
+    pause = std::clamp(int(cost.elapsed()) * costShare, shortestPause, longestPause);
+    const QString text = timeText();
+    moment->setVisible(!text.isEmpty() && !canvas->curves().empty());
+    if (text != moment->text())
+        moment->setText(text);
+}
+
+/// Empty: the dot is where the plant is.
+QString QPlcXyPlot::Private::timeText() const
+{
+    const auto displayed = q->context()->timeView()->displayTime();
+    if (displayed)
+        return tr("dot at %1")
+            .arg(QDateTime::fromMSecsSinceEpoch(*displayed / 1'000'000).toString(QStringLiteral("hh:mm:ss.zzz")));
+    const Plant *plant = stalePlant();
+    return plant ? tr("stale, %1").arg(ageText(plant->age())) : QString();
+}
+
+/// What a person has changed.
+void QPlcXyPlot::Private::edit(const QJsonArray &edited)
+{
+    curves = edited;
+    bind();
+    Q_EMIT q->settingsEdited();
+}
+
+QPlcXyPlot::QPlcXyPlot(QWidget *parent)
+    : QPlcWidget(parent)
+    , d(std::make_unique<Private>(this))
+{
+    d->bind();
+}
+
+QPlcXyPlot::~QPlcXyPlot() = default;
+
+QJsonObject QPlcXyPlot::settings() const
+{
+    QJsonObject all = QPlcWidget::settings();
+    if (!d->curves.isEmpty())
+        all.insert(curvesKey, d->curves);
+    if (d->hasAspect || isAspectEqual())
+        all.insert(aspectKey, isAspectEqual());
+    return all;
+}
+
+void QPlcXyPlot::applySettings(const QJsonObject &settings)
+{
+    QJsonObject others = settings;
+    const QJsonValue curves = others.take(curvesKey);
+    const QJsonValue aspect = others.take(aspectKey);
+    QPlcWidget::applySettings(others);
+    if (!aspect.isUndefined()) {
+        d->hasAspect = true;
+        setAspectEqual(aspect.toBool());
+    }
+    if (!curves.isUndefined()) {
+        d->curves = curves.toArray();
+        d->bind();
+    }
+}
+
+bool QPlcXyPlot::isAspectEqual() const
+{
+    return d->equal->isChecked();
+}
+
+void QPlcXyPlot::setAspectEqual(bool isEqual)
+{
+    d->equal->setChecked(isEqual);
+    d->canvas->setAspect(isEqual ? XyCanvas::Equal : XyCanvas::Free);
+    d->schedule();
+}
+
+bool QPlcXyPlot::addSignals(const QStringList &references)
+{
+    QJsonArray curves = d->curves;
+    for (const QString &reference : references) {
+        QJsonObject last = curves.isEmpty() ? QJsonObject() : curves.last().toObject();
+        const bool isWaiting = !last[xKey].toString().isEmpty() && last[yKey].toString().isEmpty();
+        if (!isWaiting) {
+            curves.append(QJsonObject{{xKey, reference}});
+            continue;
+        }
+        last.insert(yKey, reference);
+        curves.replace(curves.size() - 1, last);
+    }
+    if (references.isEmpty())
+        return false;
+    d->edit(curves);
+    return true;
+}
+
+QWidget *QPlcXyPlot::createSettingsEditor()
+{
+    QVector<XyPlotEditor::Expressions> expressions;
+    for (const QJsonValue &curve : qAsConst(d->curves))
+        expressions.append({curve[xKey].toString(), curve[yKey].toString()});
+    auto *editor = new XyPlotEditor(expressions, isAspectEqual());
+    connect(editor, &XyPlotEditor::expressionChanged, this, [this](int curve, const QString &x, const QString &y) {
+        QJsonArray curves = d->curves;
+        QJsonObject object = curves.at(curve).toObject();
+        object.insert(xKey, x);
+        object.insert(yKey, y);
+        curves.replace(curve, object);
+        d->edit(curves);
+    });
+    connect(editor, &XyPlotEditor::curveAdded, this, [this] {
+        QJsonArray curves = d->curves;
+        curves.append(QJsonObject());
+        d->edit(curves);
+    });
+    connect(editor, &XyPlotEditor::curveRemoved, this, [this](int curve) {
+        QJsonArray curves = d->curves;
+        curves.removeAt(curve);
+        d->edit(curves);
+    });
+    connect(editor, &XyPlotEditor::equalAspectChanged, d->equal, [this](bool isEqual) {
+        if (isEqual != isAspectEqual())
+            d->equal->trigger();
+    });
+    return editor;
+}
+
+void QPlcXyPlot::contextChanged()
+{
+    if (!context())
+        return;
+    d->follow(context());
+    d->applyTheme();
+    d->bind();
+}
+
+void QPlcXyPlot::showEvent(QShowEvent *event)
+{
+    QPlcWidget::showEvent(event);
+    d->age.start(agePause);
+    d->schedule();
+}
+
+void QPlcXyPlot::hideEvent(QHideEvent *event)
+{
+    QPlcWidget::hideEvent(event);
+    d->age.stop();
+    d->redraw.stop();
+}

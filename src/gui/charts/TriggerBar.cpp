@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "TriggerBar.h"
+
+#include "gui/panel/WindowContext.h"
+
+#include <QtCore/QSignalBlocker>
+#include <QtGui/QHideEvent>
+#include <QtWidgets/QComboBox>
+#include <QtWidgets/QDoubleSpinBox>
+#include <QtWidgets/QFormLayout>
+#include <QtWidgets/QHBoxLayout>
+#include <QtWidgets/QLabel>
+#include <QtWidgets/QMenu>
+#include <QtWidgets/QToolButton>
+#include <QtWidgets/QWidgetAction>
+
+namespace qplc {
+
+namespace {
+
+constexpr double largest = 1e12;
+
+QString stateText(Trigger::State state)
+{
+    switch (state) {
+    case Trigger::Armed:
+        return TriggerBar::tr("Waiting");
+    case Trigger::Triggered:
+        return TriggerBar::tr("Triggered");
+    case Trigger::FreeRunning:
+        return TriggerBar::tr("No event, live");
+    case Trigger::Done:
+        return TriggerBar::tr("Done");
+    }
+    return {};
+}
+
+QColor stateColor(Trigger::State state, const Theme &theme)
+{
+    return state == Trigger::Triggered ? theme.good : state == Trigger::Armed ? theme.warning : theme.mutedText;
+}
+
+}  // namespace
+
+TriggerBar::TriggerBar(QWidget *parent)
+    : QWidget(parent)
+{
+    makeControls();
+    arrange();
+    showSettings();
+    showState();
+}
+
+TriggerBar::~TriggerBar() = default;
+
+void TriggerBar::makeControls()
+{
+    m_signal = new QComboBox(this);
+    m_signal->setAccessibleName(tr("Signal of the trigger"));
+    m_signal->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+    m_signal->setMinimumContentsLength(8);
+    m_kind = new QComboBox(this);
+    m_kind->setAccessibleName(tr("Kind of event"));
+    m_kind->addItems(
+        {tr("↗ rises"), tr("↘ falls"), tr("↕ crosses"), tr("≥ above"), tr("≤ below"), tr("→ enters"), tr("← leaves")});
+    m_level = addNumber(tr("Level"), -largest, {});
+    m_upperLevel = addNumber(tr("Upper level"), -largest, {});
+    m_hysteresis = addNumber(tr("Hysteresis"), 0.0, {});
+    m_preShare = addNumber(tr("Before the event"), 0.0, tr(" %"));
+    m_preShare->setMaximum(100.0);
+    m_preShare->setDecimals(0);
+    m_holdOff = addNumber(tr("Hold-off"), 0.0, tr(" s"));
+    m_mode = new QComboBox(this);
+    m_mode->setAccessibleName(tr("Mode of the trigger"));
+    m_mode->addItems({tr("Auto"), tr("Normal"), tr("Single")});
+    m_more = new QToolButton(this);
+    m_more->setText(QStringLiteral("…"));
+    m_more->setToolTip(tr("Hysteresis, share before the event, hold-off"));
+    m_more->setAccessibleName(m_more->toolTip());
+    m_more->setPopupMode(QToolButton::InstantPopup);
+    m_arm = new QToolButton(this);
+    m_arm->setText(tr("Arm"));
+    m_arm->setToolTip(tr("Forget the events so far and wait for the next one"));
+    m_state = new QLabel(this);
+    m_count = new QLabel(this);
+    for (QComboBox *box : {m_signal, m_kind, m_mode})
+        connect(box, QOverload<int>::of(&QComboBox::activated), this, &TriggerBar::takeEdits);
+    connect(m_arm, &QToolButton::clicked, this, &TriggerBar::arm);
+}
+
+QDoubleSpinBox *TriggerBar::addNumber(const QString &name, double minimum, const QString &suffix)
+{
+    auto *box = new QDoubleSpinBox(this);
+    box->setRange(minimum, largest);
+    box->setDecimals(3);
+    box->setSuffix(suffix);
+    box->setAccessibleName(name);
+    box->setToolTip(name);
+    box->setKeyboardTracking(false);
+    box->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
+    box->setButtonSymbols(QAbstractSpinBox::NoButtons);
+    box->setMaximumWidth(90);
+    connect(box, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this, &TriggerBar::takeEdits);
+    return box;
+}
+
+void TriggerBar::arrange()
+{
+    auto *row = new QHBoxLayout(this);
+    row->setContentsMargins(4, 2, 4, 2);
+    row->setSpacing(4);
+    for (QWidget *control :
+         std::initializer_list<QWidget *>{m_signal, m_kind, m_level, m_upperLevel, m_mode, m_more, m_arm})
+        row->addWidget(control);
+    row->addSpacing(8);
+    row->addWidget(m_state);
+    row->addWidget(m_count);
+    row->addStretch(1);
+
+    auto *rest = new QWidget;
+    auto *form = new QFormLayout(rest);
+    form->addRow(tr("Hysteresis"), m_hysteresis);
+    form->addRow(tr("Before the event"), m_preShare);
+    form->addRow(tr("Hold-off"), m_holdOff);
+    auto *menu = new QMenu(this);
+    auto *action = new QWidgetAction(menu);
+    action->setDefaultWidget(rest);
+    menu->addAction(action);
+    m_more->setMenu(menu);
+}
+
+void TriggerBar::setContext(WindowContext *context)
+{
+    m_context = context;
+    if (!context)
+        return;
+    connect(context->curveSources(), &CurveSources::changed, this, &TriggerBar::findSource);
+    connect(context, &WindowContext::themeChanged, this, &TriggerBar::showState);
+    connect(context->plants(), &PlantList::added, this, &TriggerBar::follow);
+    for (int place = 0; place < context->plants()->size(); ++place)
+        follow(context->plants()->at(place));
+    findSource();
+}
+
+void TriggerBar::follow(Plant *plant)
+{
+    connect(plant, &Plant::updated, this, [this, plant] { take(plant); });
+}
+
+void TriggerBar::setSignals(const QStringList &expressions)
+{
+    const QSignalBlocker blocker(m_signal);
+    m_signal->clear();
+    m_signal->addItems(expressions);
+    if (m_wanted.isEmpty() && !expressions.isEmpty())
+        m_wanted = expressions.first();
+    if (!m_wanted.isEmpty() && !expressions.contains(m_wanted))
+        m_signal->addItem(m_wanted);
+    m_signal->setCurrentText(m_wanted);
+    findSource();
+}
+
+QJsonObject TriggerBar::settings() const
+{
+    QJsonObject settings = m_trigger.settings().toJson();
+    if (!m_wanted.isEmpty())
+        settings.insert(QStringLiteral("signal"), m_wanted);
+    return settings;
+}
+
+void TriggerBar::applySettings(const QJsonObject &settings)
+{
+    m_trigger.setSettings(Trigger::Settings::fromJson(settings));
+    m_wanted = settings.value(QStringLiteral("signal")).toString();
+    if (!m_wanted.isEmpty() && m_signal->findText(m_wanted) < 0)
+        m_signal->addItem(m_wanted);
+    showSettings();
+    findSource();
+}
+
+void TriggerBar::showSettings()
+{
+    const Trigger::Settings &settings = m_trigger.settings();
+    m_isFilling = true;
+    m_signal->setCurrentText(m_wanted);
+    m_kind->setCurrentIndex(settings.kind);
+    m_mode->setCurrentIndex(settings.mode);
+    m_level->setValue(settings.level);
+    m_upperLevel->setValue(settings.upperLevel);
+    m_hysteresis->setValue(settings.hysteresis);
+    m_preShare->setValue(100.0 * settings.preShare);
+    m_holdOff->setValue(settings.holdOff);
+    m_isFilling = false;
+    m_upperLevel->setVisible(hasWindow());
+    m_level->setToolTip(hasWindow() ? tr("Lower level") : tr("Level"));
+}
+
+bool TriggerBar::hasWindow() const
+{
+    return m_trigger.settings().kind == Trigger::EntersWindow || m_trigger.settings().kind == Trigger::LeavesWindow;
+}
+
+void TriggerBar::takeEdits()
+{
+    if (m_isFilling)
+        return;
+    Trigger::Settings settings = m_trigger.settings();
+    settings.kind = Trigger::Kind(m_kind->currentIndex());
+    settings.mode = Trigger::Mode(m_mode->currentIndex());
+    settings.level = m_level->value();
+    settings.upperLevel = m_upperLevel->value();
+    settings.hysteresis = m_hysteresis->value();
+    settings.preShare = m_preShare->value() / 100.0;
+    settings.holdOff = m_holdOff->value();
+    const bool isOtherSignal = m_wanted != m_signal->currentText();
+    if (settings == m_trigger.settings() && !isOtherSignal)
+        return;
+    m_wanted = m_signal->currentText();
+    m_trigger.setSettings(settings);
+    showSettings();
+    if (isOtherSignal)
+        findSource();
+    arm();
+    Q_EMIT settingsEdited();
+}
+
+void TriggerBar::findSource()
+{
+    m_source = m_context && !m_wanted.isEmpty() ? m_context->curveSources()->find(m_wanted) : CurveSource();
+    m_signal->setToolTip(m_source.error);
+    const QString unit = m_source.unit.isEmpty() ? QString() : QLatin1Char(' ') + m_source.unit;
+    for (QDoubleSpinBox *box : {m_level, m_upperLevel, m_hysteresis})
+        box->setSuffix(unit);
+    arm();
+}
+
+void TriggerBar::arm()
+{
+    m_trigger.arm();
+    m_seenEvent.reset();
+    if (m_source)
+        m_trigger.take(*m_source.store, m_source.channel);
+    showState();
+    Q_EMIT triggered();
+}
+
+void TriggerBar::take(Plant *plant)
+{
+    if (!isVisible() || !m_source || m_source.plant != plant)
+        return;
+    m_trigger.setSpan(m_context->timeView()->span());
+    const Trigger::State before = m_trigger.state();
+    if (!m_trigger.take(*m_source.store, m_source.channel))
+        return;
+    if (m_trigger.state() == Trigger::FreeRunning && before != Trigger::FreeRunning)
+        m_context->timeView()->goLive();
+    showEventView();
+    showState();
+    Q_EMIT triggered();
+}
+
+void TriggerBar::showEventView()
+{
+    const auto view = m_trigger.view();
+    if (!view || m_trigger.shownEvent() == m_seenEvent)
+        return;
+    m_seenEvent = m_trigger.shownEvent();
+    m_context->timeView()->show(view->begin, view->end);
+}
+
+void TriggerBar::showState()
+{
+    const QString text = m_source ? stateText(m_trigger.state()) : tr("No signal");
+    const QColor color = m_context ? stateColor(m_trigger.state(), m_context->theme()) : QColor(Qt::gray);
+    m_state->setText(QStringLiteral("<span style='color:%1'>●</span> %2").arg(color.name(), text.toHtmlEscaped()));
+    m_state->setToolTip(m_source.error);
+    m_count->setText(tr("events: %1").arg(m_trigger.count()));
+}
+
+void TriggerBar::showEvent(QShowEvent *event)
+{
+    QWidget::showEvent(event);
+    arm();
+}
+
+/// What it has frozen, nobody else would bring back.
+void TriggerBar::hideEvent(QHideEvent *event)
+{
+    QWidget::hideEvent(event);
+    if (m_context && m_seenEvent && !event->spontaneous())
+        m_context->timeView()->goLive();
+}
+
+}  // namespace qplc

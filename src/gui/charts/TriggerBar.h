@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "gui/plot/CurveSources.h"
+#include "gui/plot/Trigger.h"
+
+#include <QtWidgets/QWidget>
+
+class QComboBox;
+class QDoubleSpinBox;
+class QLabel;
+class QToolButton;
+
+namespace qplc {
+
+class WindowContext;
+
+/// The strip above a plot in which a person chooses signal, kind, level and mode of a trigger, and sees whether it is armed, how often it was met, and has it armed again.
+///
+/// It has the trigger, feeds it with what comes, and moves the time of the window. A plot shows it when a person wants a trigger, and keeps its settings:
+///
+/// ```cpp
+/// m_triggerBar = new TriggerBar(this);            // above the canvas; hidden: the trigger rests
+/// m_triggerBar->setContext(context());            // in contextChanged()
+/// m_triggerBar->setSignals(names of the curves);  // whenever they change; what is chosen stays
+/// m_triggerBar->applySettings(settings.value("trigger").toObject());
+/// connect(m_triggerBar, &TriggerBar::settingsEdited, this, &QPlcTimePlot::settingsEdited);
+/// connect(m_triggerBar, &TriggerBar::triggered, this, ...);  // to draw a mark at bar->trigger().shownEvent() and a line at its level
+/// ```
+///
+/// While it is visible and not FreeRunning, TimeView::show() is called for each new event with [event - pre, event + post], post being what the span of the view leaves; Auto goes back to
+/// live when no event comes. A person who pans meanwhile keeps what he sees until the next event.
+class TriggerBar : public QWidget
+{
+    Q_OBJECT
+public:
+    explicit TriggerBar(QWidget *parent = nullptr);
+    ~TriggerBar() override;
+
+    void setContext(WindowContext *context);
+    /// What can be chosen: expressions as CurveSources::find() takes them.
+    void setSignals(const QStringList &expressions);
+    /// "signal", and what Trigger::Settings::toJson() gives; defaults are left out.
+    QJsonObject settings() const;
+    void applySettings(const QJsonObject &settings);
+    const Trigger &trigger() const { return m_trigger; }
+
+public Q_SLOTS:
+    /// Forgets what was, and waits for the next event.
+    void arm();
+
+Q_SIGNALS:
+    /// A person has changed the settings.
+    void settingsEdited();
+    /// State, count or shown event are others.
+    void triggered();
+
+protected:
+    void showEvent(QShowEvent *event) override;
+    void hideEvent(QHideEvent *event) override;
+
+private:
+    void makeControls();
+    void arrange();
+    QDoubleSpinBox *addNumber(const QString &name, double minimum, const QString &suffix);
+    void findSource();
+    void takeEdits();
+    void showSettings();
+    void take(Plant *plant);
+    void follow(Plant *plant);
+    void showEventView();
+    void showState();
+    bool hasWindow() const;
+
+    WindowContext *m_context = nullptr;
+    CurveSource m_source;
+    Trigger m_trigger;
+    QString m_wanted;  // signal
+    std::optional<Trigger::Time> m_seenEvent;
+    bool m_isFilling = false;  // controls follow settings, not the other way round
+    QComboBox *m_signal = nullptr;
+    QComboBox *m_kind = nullptr;
+    QDoubleSpinBox *m_level = nullptr;
+    QDoubleSpinBox *m_upperLevel = nullptr;
+    QDoubleSpinBox *m_hysteresis = nullptr;
+    QDoubleSpinBox *m_preShare = nullptr;
+    QDoubleSpinBox *m_holdOff = nullptr;
+    QComboBox *m_mode = nullptr;
+    QToolButton *m_more = nullptr;
+    QToolButton *m_arm = nullptr;
+    QLabel *m_state = nullptr;
+    QLabel *m_count = nullptr;
+};
+
+}  // namespace qplc

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "PathShape.h"
+#include "gui/plot/CurveSources.h"
+
+#include <QtGui/QColor>
+
+#include <qwt_plot_item.h>
+
+namespace qplc {
+
+/// Two channels as a path, one over the other, for a piece of time; and the values of one moment as a dot.
+///
+/// Pairs are rows of the same time of two channels of a plant. Interruptions and rows of which one value is NaN are gaps.
+class XyCurve : public QwtPlotItem
+{
+public:
+    using Time = SignalStore::Time;
+
+    XyCurve(const CurveSource &x, const CurveSource &y, const QString &title);
+
+    const CurveSource &xSource() const { return m_x; }
+    const CurveSource &ySource() const { return m_y; }
+    void setColor(const QColor &color) { m_color = color; }
+    QColor color() const { return m_color; }
+    void setLineWidth(double width) { m_lineWidth = width; }
+    /// The piece of time that is shown, \a end included.
+    void setTimes(Time begin, Time end);
+    /// The values of the dot are those of the last row up to \a time. \param color  of the dot
+    void setDot(Time time, const QColor &color);
+
+    SignalStore::Range xRange() const { return rangeOf(m_x); }
+    SignalStore::Range yRange() const { return rangeOf(m_y); }
+    /// x and y at the dot; NaN where there is none.
+    QPointF dot() const;
+    /// Points of the path that was drawn last.
+    std::size_t drawnPoints() const { return m_shape.pointCount(); }
+
+    int rtti() const override { return Rtti_PlotUserItem + 2; }
+    void draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap &yMap, const QRectF &canvas) const override;
+
+private:
+    SignalStore::Range rangeOf(const CurveSource &source) const;
+    void readPath(const QwtScaleMap &xMap, const QwtScaleMap &yMap) const;
+
+    CurveSource m_x;
+    CurveSource m_y;
+    QColor m_color = Qt::black;
+    QColor m_dotColor = Qt::black;
+    double m_lineWidth = 1.5;  // [px]
+    Time m_begin = 0;
+    Time m_end = 0;
+    Time m_dotTime = 0;
+    mutable PathShape m_shape;
+};
+
+}  // namespace qplc

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "DerivedSignal.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace qplc {
+
+using Row = SignalStore::Row;
+
+namespace {
+
+float toFloat(double value)
+{
+    constexpr double largest = std::numeric_limits<float>::max();
+    return std::fabs(value) <= largest ? float(value) : NAN;
+}
+
+}  // namespace
+
+DerivedSignal::DerivedSignal(const Formula &formula, std::vector<std::vector<int>> channels, const SignalStore &source)
+    : m_calculator(formula)
+    , m_channels(std::move(channels))
+    , m_operands(m_channels.size())
+    , m_store(1, source.capacity())
+{
+    for (const Formula::Operand &operand : formula.operands())
+        m_isNorm.push_back(operand.isNorm);
+}
+
+bool DerivedSignal::follow(const SignalStore &source, Row most)
+{
+    catchUp(source);
+    const Row end = m_next + std::min(most, source.endRow() - m_next);
+    for (; m_next < end; ++m_next)
+        takeRow(source, m_next);
+    return m_next == source.endRow();
+}
+
+/// Leaves out what the source has forgotten meanwhile.
+void DerivedSignal::catchUp(const SignalStore &source)
+{
+    if (m_next >= source.firstRow())
+        return;
+    m_next = source.firstRow();
+    m_store.interrupt();
+    m_calculator.interrupt();
+}
+
+void DerivedSignal::takeRow(const SignalStore &source, Row row)
+{
+    if (source.beginsAnew(row)) {
+        m_store.interrupt();
+        m_calculator.interrupt();
+    }
+    for (std::size_t i = 0; i < m_operands.size(); ++i)
+        m_operands[i] = operand(source, i, row);
+    const float value = toFloat(m_calculator.next(source.time(row), m_operands.data()));
+    if (m_store.append(source.time(row), &value))
+        return;
+    m_store.clear();  // the clock of the source has begun again
+    m_store.append(source.time(row), &value);
+}
+
+double DerivedSignal::operand(const SignalStore &source, std::size_t operand, Row row) const
+{
+    const std::vector<int> &channels = m_channels[operand];
+    if (!m_isNorm[operand])
+        return double(source.value(channels.front(), row));
+    double sum = 0.0;
+    for (const int channel : channels) {
+        const auto value = double(source.value(channel, row));
+        sum += value * value;
+    }
+    return std::sqrt(sum);
+}
+
+}  // namespace qplc

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "FormulaCalculator.h"
+#include "gui/store/SignalStore.h"
+
+namespace qplc {
+
+/// A formula as one channel of a store of its own, which follows the store of a plant: a row for each of its rows, with the same times and interruptions, and as many of them.
+///
+/// The past is calculated once, when somebody wants to see it, then each new row as it comes; the results are the same. At interruptions everything with a past begins anew. What is no
+/// number (0/0), or none that a 32-bit real can hold, is a gap.
+class DerivedSignal
+{
+public:
+    /// \param channels  in the store that it follows: those of each operand of the formula, one, or all elements of a norm
+    /// \param source    what it will follow()
+    DerivedSignal(const Formula &formula, std::vector<std::vector<int>> channels, const SignalStore &source);
+
+    SignalStore &store() { return m_store; }
+    /// Takes new rows of \a source, always the same store. \param most  rows
+    /// \return whether all have been taken
+    bool follow(const SignalStore &source, SignalStore::Row most);
+
+private:
+    void catchUp(const SignalStore &source);
+    void takeRow(const SignalStore &source, SignalStore::Row row);
+    double operand(const SignalStore &source, std::size_t operand, SignalStore::Row row) const;
+
+    FormulaCalculator m_calculator;
+    std::vector<std::vector<int>> m_channels;
+    std::vector<bool> m_isNorm;
+    std::vector<double> m_operands;
+    SignalStore m_store;
+    SignalStore::Row m_next = 0;  // of the source
+};
+
+}  // namespace qplc

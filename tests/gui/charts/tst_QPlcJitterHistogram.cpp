@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "QPlcJitterHistogram.h"
+
+#include "PlantFixtures.h"
+#include "gui/charts/JitterCanvas.h"
+#include "gui/panel/WindowContext.h"
+
+#include <QtCore/QJsonArray>
+#include <QtCore/QJsonDocument>
+#include <QtWidgets/QAction>
+#include <QtWidgets/QCheckBox>
+#include <QtWidgets/QLabel>
+
+using namespace qplc;
+
+namespace {
+
+QJsonObject objectOf(const char *json)
+{
+    return QJsonDocument::fromJson(json).object();
+}
+
+bool showsText(const QWidget &panel, const QString &text)
+{
+    const QList<QLabel *> labels = panel.findChildren<QLabel *>();
+    return std::any_of(labels.begin(), labels.end(),
+                       [&](const QLabel *label) { return label->isVisibleTo(&panel) && label->text().contains(text); });
+}
+
+int curvesOf(const QPlcJitterHistogram &panel)
+{
+    return panel.findChild<JitterCanvas *>()->itemList(QwtPlotItem::Rtti_PlotUserItem + 3).size();
+}
+
+}  // namespace
+
+class tst_QPlcJitterHistogram : public QObject
+{
+    Q_OBJECT
+private Q_SLOTS:
+    void settingsComeBackAsTheyWere_data();
+    void settingsComeBackAsTheyWere();
+    void withoutAPlantItSaysSo();
+    void beforeTheFirstCycleItSaysWhatToDo();
+    void theLatenessOfARunningMasterIsShown();
+    void masterAndNodesAreShownTogether();
+    void nobodyAsksWhileItIsHidden();
+    void whatIsShownIsChosenByActionsAndEditor();
+    void histogramsOfALostMasterAreStale();
+};
+
+void tst_QPlcJitterHistogram::settingsComeBackAsTheyWere_data()
+{
+    QTest::addColumn<QByteArray>("json");
+    QTest::newRow("none") << QByteArray("{}");
+    QTest::newRow("all") << QByteArray(
+        R"({"plant":"a","show":["Master.lateness","Kite.execution"],"title":"T","unknown":3,"window":"last10s"})");
+    QTest::newRow("nothing shown") << QByteArray(R"({"show":[]})");
+}
+
+void tst_QPlcJitterHistogram::settingsComeBackAsTheyWere()
+{
+    QFETCH(QByteArray, json);
+    QPlcJitterHistogram panel;
+    panel.applySettings(QJsonDocument::fromJson(json).object());
+    QCOMPARE(QJsonDocument(panel.settings()).toJson(QJsonDocument::Compact), json);
+}
+
+void tst_QPlcJitterHistogram::withoutAPlantItSaysSo()
+{
+    WindowContext context;
+    QPlcJitterHistogram panel;
+    panel.show();
+    QVERIFY(showsText(panel, "no plant yet"));
+    panel.setContext(&context);
+    panel.applySettings(objectOf(R"({"plant":"tower"})"));
+    QVERIFY(showsText(panel, "no plant tower"));
+}
+
+void tst_QPlcJitterHistogram::beforeTheFirstCycleItSaysWhatToDo()
+{
+    RunningMaster master;
+    WindowContext context;
+    QPlcJitterHistogram panel;
+    panel.setContext(&context);
+    panel.show();
+    context.plants()->add(master.address());
+    QTRY_VERIFY(showsText(panel, "No cycles yet"));
+}
+
+void tst_QPlcJitterHistogram::theLatenessOfARunningMasterIsShown()
+{
+    RunningMaster master;
+    QVERIFY(master.startRealTime());
+    WindowContext context;
+    QPlcJitterHistogram panel;
+    panel.setContext(&context);
+    panel.show();
+    context.plants()->add(master.address());
+    QTRY_COMPARE(curvesOf(panel), 1);
+    QVERIFY(panel.findChild<JitterCanvas *>()->isVisible());
+    QVERIFY(showsText(panel, "since start"));
+    QVERIFY(showsText(panel, "Master lateness"));
+}
+
+void tst_QPlcJitterHistogram::masterAndNodesAreShownTogether()
+{
+    RunningMaster master;
+    QVERIFY(master.startRealTime());
+    WindowContext context;
+    QPlcJitterHistogram panel;
+    panel.setContext(&context);
+    panel.applySettings(
+        objectOf(R"({"show":["Master.execution","Counter.execution","Nobody.execution"],"window":"last10s"})"));
+    panel.show();
+    context.plants()->add(master.address());
+    QTRY_COMPARE(curvesOf(panel), 2);
+    QVERIFY(showsText(panel, "last 10 s"));
+    panel.applySettings(objectOf(R"({"show":["Nobody.execution"]})"));
+    QVERIFY(showsText(panel, "no figures of Nobody.execution"));
+}
+
+void tst_QPlcJitterHistogram::nobodyAsksWhileItIsHidden()
+{
+    RunningMaster master;
+    QVERIFY(master.startRealTime());
+    WindowContext context;
+    QPlcJitterHistogram panel;
+    panel.setContext(&context);
+    Plant *plant = context.plants()->add(master.address());
+    QTRY_VERIFY(plant->values().rows() > 100);
+    QCOMPARE(curvesOf(panel), 0);
+    panel.show();
+    QTRY_COMPARE(curvesOf(panel), 1);
+}
+
+void tst_QPlcJitterHistogram::whatIsShownIsChosenByActionsAndEditor()
+{
+    QPlcJitterHistogram panel;
+    QSignalSpy edited(&panel, &QPlcJitterHistogram::settingsEdited);
+    const QList<QAction *> actions = panel.actions();
+    actions.at(0)->trigger();
+    QCOMPARE(panel.settings(), objectOf(R"({"window":"last10s"})"));
+    actions.at(2)->trigger();
+    QCOMPARE(panel.settings().value("show").toArray(), (QJsonArray{"Master.lateness", "Master.execution"}));
+    QCOMPARE(edited.size(), 2);
+    const std::unique_ptr<QWidget> editor(panel.createSettingsEditor());
+    const QList<QCheckBox *> boxes = editor->findChildren<QCheckBox *>();
+    const auto lateness = std::find_if(boxes.begin(), boxes.end(),
+                                       [](const QCheckBox *box) { return box->text() == "Master lateness"; });
+    QVERIFY((*lateness)->isChecked());
+    (*lateness)->click();
+    QCOMPARE(panel.settings().value("show").toArray(), (QJsonArray{"Master.execution"}));
+    QVERIFY(!actions.at(1)->isChecked());
+}
+
+void tst_QPlcJitterHistogram::histogramsOfALostMasterAreStale()
+{
+    auto master = std::make_unique<RunningMaster>();
+    QVERIFY(master->startRealTime());
+    WindowContext context;
+    QPlcJitterHistogram panel;
+    panel.setContext(&context);
+    panel.show();
+    context.plants()->add(master->address());
+    QTRY_COMPARE(curvesOf(panel), 1);
+    master.reset();
+    QTRY_VERIFY_WITH_TIMEOUT(showsText(panel, "stale"), 10000);
+    QCOMPARE(curvesOf(panel), 1);
+}
+
+QTEST_MAIN(tst_QPlcJitterHistogram)
+#include "tst_QPlcJitterHistogram.moc"

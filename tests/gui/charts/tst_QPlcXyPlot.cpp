@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "QPlcXyPlot.h"
+
+#include "PlantFixtures.h"
+#include "gui/charts/XyCanvas.h"
+#include "gui/panel/WindowContext.h"
+
+#include <QtCore/QJsonArray>
+#include <QtCore/QJsonDocument>
+#include <QtWidgets/QAction>
+#include <QtWidgets/QLabel>
+#include <QtWidgets/QLineEdit>
+
+#include <cmath>
+
+#include <qwt_scale_map.h>
+
+using namespace qplc;
+
+namespace {
+
+QJsonObject objectOf(const char *json)
+{
+    return QJsonDocument::fromJson(json).object();
+}
+
+bool showsText(const QWidget &panel, const QString &text)
+{
+    const QList<QLabel *> labels = panel.findChildren<QLabel *>();
+    return std::any_of(labels.begin(), labels.end(),
+                       [&](const QLabel *label) { return label->isVisibleTo(&panel) && label->text().contains(text); });
+}
+
+CurveSource sourceOf(SignalStore *store, int channel)
+{
+    CurveSource source;
+    source.store = store;
+    source.channel = channel;
+    source.title = QString::number(channel);
+    source.unit = QStringLiteral("m");
+    return source;
+}
+
+}  // namespace
+
+class tst_QPlcXyPlot : public QObject
+{
+    Q_OBJECT
+private Q_SLOTS:
+    void settingsComeBackAsTheyWere_data();
+    void settingsComeBackAsTheyWere();
+    void withoutAWindowItSaysSo();
+    void twoSignalsAreACurve();
+    void missingSignalsAreTold();
+    void aCurveAppearsWhenItsSignalsDo();
+    void signalsOfTwoPlantsAreNoCurve();
+    void theSettingsAreEdited();
+    void anUnitIsAsLongOnBothAxes();
+    void itIsDrawnOnlyWhenThePictureChanges();
+    void theDotIsAtTheDisplayedTime();
+    void pairsAreRowsOfTheSameTime();
+
+private:
+    void fill();
+    std::unique_ptr<XyCanvas> canvasOf(int x, int y);
+
+    std::unique_ptr<SignalStore> m_store;
+};
+
+void tst_QPlcXyPlot::settingsComeBackAsTheyWere_data()
+{
+    QTest::addColumn<QByteArray>("json");
+    QTest::newRow("none") << QByteArray("{}");
+    QTest::newRow("curves") << QByteArray(
+        R"({"curves":[{"x":"a","y":"= 2*b"},{"color":"#ff0000","later":7,"x":"c","y":"d"}]})");
+    QTest::newRow("aspect") << QByteArray(R"({"curves":[{"x":"a"}],"equalAspect":true,"title":"Path","unknown":[1]})");
+    QTest::newRow("default said") << QByteArray(R"({"equalAspect":false})");
+}
+
+void tst_QPlcXyPlot::settingsComeBackAsTheyWere()
+{
+    QFETCH(QByteArray, json);
+    QPlcXyPlot plot;
+    WindowContext context;
+    plot.setContext(&context);
+    plot.applySettings(QJsonDocument::fromJson(json).object());
+    QCOMPARE(QJsonDocument(plot.settings()).toJson(QJsonDocument::Compact), json);
+}
+
+void tst_QPlcXyPlot::withoutAWindowItSaysSo()
+{
+    QPlcXyPlot plot;
+    plot.applySettings(objectOf(R"({"curves":[{"x":"a","y":"b"}]})"));
+    plot.show();
+    QVERIFY(showsText(plot, "No window"));
+    QVERIFY(plot.addSignals({"a"}));
+}
+
+void tst_QPlcXyPlot::twoSignalsAreACurve()
+{
+    WindowContext context;
+    QPlcXyPlot plot;
+    plot.setContext(&context);
+    plot.show();
+    QVERIFY(showsText(plot, "Drop two signals here"));
+    QSignalSpy edited(&plot, &QPlcXyPlot::settingsEdited);
+    QVERIFY(!plot.addSignals({}));
+    QVERIFY(plot.addSignals({"a"}));
+    QVERIFY(showsText(plot, "drawn over a"));
+    QVERIFY(plot.addSignals({"b", "c", "d"}));
+    QCOMPARE(plot.settings(), objectOf(R"({"curves":[{"x":"a","y":"b"},{"x":"c","y":"d"}]})"));
+    QCOMPARE(edited.size(), 2);
+}
+
+void tst_QPlcXyPlot::missingSignalsAreTold()
+{
+    WindowContext context;
+    QPlcXyPlot plot;
+    plot.setContext(&context);
+    plot.applySettings(objectOf(R"({"curves":[{"x":"nobody","y":"b"},{"x":"= a +","y":"b"}]})"));
+    plot.show();
+    QVERIFY(showsText(plot, "no signal nobody"));
+    plot.applySettings(objectOf(R"({"curves":[{"x":"= a +","y":"b"}]})"));
+    QVERIFY(showsText(plot, "a value is missing"));
+}
+
+void tst_QPlcXyPlot::aCurveAppearsWhenItsSignalsDo()
+{
+    RunningMaster master;
+    QVERIFY(master.startRealTime());
+    WindowContext context;
+    QPlcXyPlot plot;
+    plot.setContext(&context);
+    plot.applySettings(objectOf(R"({"curves":[{"x":"count","y":"= 2*count"}]})"));
+    plot.resize(300, 200);
+    plot.show();
+    auto *canvas = plot.findChild<XyCanvas *>();
+    QVERIFY(!canvas->isVisible());
+    Plant *plant = context.plants()->add(master.address());
+    QTRY_VERIFY(plant->values().rows() > 20);
+    QVERIFY(canvas->isVisible());
+    QCOMPARE(canvas->curves().size(), std::size_t(1));
+    QTRY_VERIFY(canvas->curves().front()->drawnPoints() >= 2);
+    const QPointF dot = canvas->curves().front()->dot();
+    QVERIFY(dot.x() > 1.0);
+    QCOMPARE(dot.y(), 2.0 * dot.x());
+    context.plants()->remove(plant);
+    QVERIFY(canvas->curves().empty());
+    QVERIFY(!canvas->isVisible());
+}
+
+void tst_QPlcXyPlot::signalsOfTwoPlantsAreNoCurve()
+{
+    RunningMaster east;
+    RunningMaster west;
+    WindowContext context;
+    Plant *first = context.plants()->add(east.address(), "east");
+    Plant *second = context.plants()->add(west.address(), "west");
+    QTRY_VERIFY(first->store() && second->store());
+    QPlcXyPlot plot;
+    plot.setContext(&context);
+    plot.applySettings(objectOf(R"({"curves":[{"x":"east/count","y":"west/count"}]})"));
+    plot.show();
+    QVERIFY(showsText(plot, "are of two plants"));
+}
+
+void tst_QPlcXyPlot::theSettingsAreEdited()
+{
+    WindowContext context;
+    QPlcXyPlot plot;
+    plot.setContext(&context);
+    plot.applySettings(objectOf(R"({"curves":[{"x":"a","y":"b","later":1},{"x":"c","y":"d"}]})"));
+    QSignalSpy edited(&plot, &QPlcXyPlot::settingsEdited);
+    const std::unique_ptr<QWidget> editor(plot.createSettingsEditor());
+    editor->show();
+    auto *field = editor->findChildren<QLineEdit *>().at(1);
+    field->selectAll();
+    QTest::keyClicks(field, "= 3*b");
+    QTest::keyClick(field, Qt::Key_Return);
+    QCOMPARE(edited.size(), 1);
+    QCOMPARE(plot.settings().value("curves").toArray().at(0).toObject(),
+             objectOf(R"({"x":"a","y":"= 3*b","later":1})"));
+    const QList<QAction *> actions = plot.actions();
+    actions.first()->trigger();
+    QVERIFY(plot.isAspectEqual());
+    QCOMPARE(edited.size(), 2);
+}
+
+/// A circle of 60 s with radius 2, a row each 10 ms.
+void tst_QPlcXyPlot::fill()
+{
+    m_store = std::make_unique<SignalStore>(3, 10'000);
+    for (int i = 0; i < 6000; ++i) {
+        const double angle = i * 2.0 * M_PI / 6000.0;
+        const float values[] = {float(2.0 * std::cos(angle)), float(2.0 * std::sin(angle)), float(i)};
+        m_store->append((i + 1) * SignalStore::Time(10'000'000), values);
+    }
+}
+
+std::unique_ptr<XyCanvas> tst_QPlcXyPlot::canvasOf(int x, int y)
+{
+    fill();
+    auto canvas = std::make_unique<XyCanvas>();
+    std::vector<std::unique_ptr<XyCurve>> curves;
+    curves.push_back(std::make_unique<XyCurve>(sourceOf(m_store.get(), x), sourceOf(m_store.get(), y), "y over x"));
+    canvas->setTheme(Theme::byName(Theme::Light));
+    canvas->setCurves(std::move(curves), {});
+    canvas->resize(500, 250);
+    QWidget &widget = *canvas;
+    widget.show();
+    return canvas;
+}
+
+void tst_QPlcXyPlot::anUnitIsAsLongOnBothAxes()
+{
+    const auto canvas = canvasOf(0, 1);
+    canvas->setAspect(XyCanvas::Equal);
+    canvas->show({0, 60'000'000'000, 0, false});
+    const auto pixelsOfUnit = [&](int axis) {
+        const QwtScaleMap map = canvas->canvasMap(axis);
+        return map.pDist() / map.sDist();
+    };
+    QVERIFY(std::fabs(pixelsOfUnit(QwtPlot::xBottom) / pixelsOfUnit(QwtPlot::yLeft) - 1.0) < 0.03);
+    canvas->setAspect(XyCanvas::Free);
+    canvas->show({0, 60'000'000'000, 0, false});
+    QVERIFY(pixelsOfUnit(QwtPlot::xBottom) > 1.5 * pixelsOfUnit(QwtPlot::yLeft));
+    QCOMPARE(canvas->axisTitle(QwtPlot::xBottom).text(), QStringLiteral("0 [m]"));
+}
+
+void tst_QPlcXyPlot::itIsDrawnOnlyWhenThePictureChanges()
+{
+    const auto canvas = canvasOf(0, 1);
+    const SignalStore::Time s = 1'000'000'000;
+    QVERIFY(canvas->show({10 * s, 20 * s, 20 * s, false}));
+    QVERIFY(!canvas->show({10 * s, 20 * s, 20 * s, false}));
+    const float values[] = {0, 0, 0};
+    m_store->append(100 * s, values);  // outside of what is shown
+    QVERIFY(!canvas->show({10 * s, 20 * s, 20 * s, false}));
+    QVERIFY(canvas->show({10 * s, 20 * s, 19 * s, false}));
+    QVERIFY(canvas->show({10 * s, 20 * s, 19 * s, true}));
+    QVERIFY(canvas->show({10 * s, 21 * s, 19 * s, true}));
+    canvas->setTheme(Theme::byName(Theme::Dark));
+    QVERIFY(canvas->show({10 * s, 21 * s, 19 * s, true}));
+}
+
+void tst_QPlcXyPlot::theDotIsAtTheDisplayedTime()
+{
+    const auto canvas = canvasOf(2, 2);
+    const XyCurve &curve = *canvas->curves().front();
+    const SignalStore::Time s = 1'000'000'000;
+    canvas->show({0, 60 * s, 10 * s + 5'000'000, false});
+    QCOMPARE(curve.dot(), QPointF(999, 999));
+    canvas->show({0, 60 * s, 5, false});
+    QVERIFY(std::isnan(curve.dot().x()));
+    canvas->show({0, 60 * s, 1000 * s, false});
+    QCOMPARE(curve.dot(), QPointF(5999, 5999));
+}
+
+void tst_QPlcXyPlot::pairsAreRowsOfTheSameTime()
+{
+    SignalStore x(1, 100);
+    SignalStore y(1, 100);
+    for (int i = 1; i <= 50; ++i) {
+        const auto value = float(i % 2 == 0 ? 10 : 20);
+        x.append(i, &value);
+        if (i % 2 == 0)
+            y.append(i, &value);
+    }
+    XyCanvas canvas;
+    canvas.setTheme(Theme::byName(Theme::Light));
+    std::vector<std::unique_ptr<XyCurve>> curves;
+    curves.push_back(std::make_unique<XyCurve>(sourceOf(&x, 0), sourceOf(&y, 0), "y over x"));
+    canvas.setCurves(std::move(curves), {});
+    static_cast<QWidget &>(canvas).show();
+    canvas.resize(300, 200);
+    canvas.show({0, 60, 50, false});
+    QVERIFY(canvas.curves().front()->xRange().maximum == 20.0F);
+    QCOMPARE(canvas.curves().front()->dot(), QPointF(10, 10));
+    canvas.grab();
+    QVERIFY(canvas.curves().front()->drawnPoints() > 1);
+}
+
+QTEST_MAIN(tst_QPlcXyPlot)
+#include "tst_QPlcXyPlot.moc"

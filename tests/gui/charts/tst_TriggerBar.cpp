@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gui/charts/TriggerBar.h"
+
+#include "PlantFixtures.h"
+#include "gui/panel/WindowContext.h"
+
+#include <QtCore/QJsonDocument>
+#include <QtWidgets/QComboBox>
+#include <QtWidgets/QDoubleSpinBox>
+#include <QtWidgets/QLabel>
+
+using namespace qplc;
+
+namespace {
+
+QJsonObject objectOf(const char *json)
+{
+    return QJsonDocument::fromJson(json).object();
+}
+
+template<typename Widget>
+Widget *control(const QWidget &bar, const QString &accessibleName)
+{
+    const QList<Widget *> all = bar.findChildren<Widget *>();
+    const auto found = std::find_if(all.begin(), all.end(),
+                                    [&](const Widget *each) { return each->accessibleName() == accessibleName; });
+    return found == all.end() ? nullptr : *found;
+}
+
+}  // namespace
+
+class tst_TriggerBar : public QObject
+{
+    Q_OBJECT
+private Q_SLOTS:
+    void settingsComeBackAsTheyWere();
+    void theFirstSignalIsChosenUntilAPersonDoes();
+    void aPersonsChoiceIsTold();
+    void windowsHaveTwoLevels();
+    void anEventMovesTheViewOfTheWindow();
+    void aHiddenBarRests();
+    void withoutASignalItSaysSo();
+};
+
+void tst_TriggerBar::settingsComeBackAsTheyWere()
+{
+    TriggerBar bar;
+    const QJsonObject all
+        = objectOf(R"({"signal":"power","kind":"leaves","level":2,"upperLevel":5,"mode":"single","pre":0.5})");
+    bar.applySettings(all);
+    QCOMPARE(bar.settings(), all);
+    bar.applySettings({});
+    QVERIFY(bar.settings().isEmpty());
+}
+
+void tst_TriggerBar::theFirstSignalIsChosenUntilAPersonDoes()
+{
+    TriggerBar bar;
+    bar.setSignals({"a", "b"});
+    QCOMPARE(bar.settings(), objectOf(R"({"signal":"a"})"));
+    bar.applySettings(objectOf(R"({"signal":"gone"})"));
+    bar.setSignals({"a", "b"});
+    QCOMPARE(control<QComboBox>(bar, "Signal of the trigger")->currentText(), QStringLiteral("gone"));
+}
+
+void tst_TriggerBar::aPersonsChoiceIsTold()
+{
+    TriggerBar bar;
+    bar.setSignals({"a", "b"});
+    QSignalSpy edited(&bar, &TriggerBar::settingsEdited);
+    auto *mode = control<QComboBox>(bar, "Mode of the trigger");
+    mode->setCurrentIndex(Trigger::Single);
+    Q_EMIT mode->activated(Trigger::Single);
+    control<QDoubleSpinBox>(bar, "Level")->setValue(4.5);
+    QCOMPARE(edited.size(), 2);
+    QCOMPARE(bar.settings(), objectOf(R"({"signal":"a","mode":"single","level":4.5})"));
+}
+
+void tst_TriggerBar::windowsHaveTwoLevels()
+{
+    TriggerBar bar;
+    const auto *upper = control<QDoubleSpinBox>(bar, "Upper level");
+    QVERIFY(!upper->isVisibleTo(&bar));
+    bar.applySettings(objectOf(R"({"kind":"enters"})"));
+    QVERIFY(upper->isVisibleTo(&bar));
+}
+
+void tst_TriggerBar::anEventMovesTheViewOfTheWindow()
+{
+    RunningMaster master;
+    QVERIFY(master.startRealTime());
+    WindowContext context;
+    context.timeView()->setSpan(1'000'000'000);
+    TriggerBar bar;
+    bar.setContext(&context);
+    bar.setSignals({"= count % 2", "count"});
+    bar.applySettings(objectOf(R"json({"signal":"= sin(count/5)","mode":"normal","pre":0.25})json"));
+    bar.show();
+    context.plants()->add(master.address());
+    QTRY_VERIFY(bar.trigger().count() > 0);
+    QVERIFY(!context.timeView()->isLive());
+    const Trigger::Time event = *bar.trigger().shownEvent();
+    QCOMPARE(context.timeView()->begin(), event - 250'000'000);
+    QCOMPARE(context.timeView()->span(), TimeView::Time(1'000'000'000));
+    QTRY_VERIFY(*bar.trigger().shownEvent() > event);
+}
+
+void tst_TriggerBar::aHiddenBarRests()
+{
+    RunningMaster master;
+    QVERIFY(master.startRealTime());
+    WindowContext context;
+    TriggerBar bar;
+    bar.setContext(&context);
+    bar.applySettings(objectOf(R"json({"signal":"= sin(count)","mode":"normal"})json"));
+    Plant *plant = context.plants()->add(master.address());
+    QTRY_VERIFY(plant->values().rows() > 50);
+    QCOMPARE(bar.trigger().count(), std::uint64_t(0));
+    QVERIFY(context.timeView()->isLive());
+    bar.show();
+    QTRY_VERIFY(!context.timeView()->isLive());
+    bar.hide();
+    QVERIFY(context.timeView()->isLive());
+}
+
+void tst_TriggerBar::withoutASignalItSaysSo()
+{
+    WindowContext context;
+    TriggerBar bar;
+    bar.setContext(&context);
+    bar.applySettings(objectOf(R"({"signal":"nobody"})"));
+    const QList<QLabel *> labels = bar.findChildren<QLabel *>();
+    QVERIFY(std::any_of(labels.begin(), labels.end(),
+                        [](const QLabel *label) { return label->text().contains("No signal"); }));
+}
+
+QTEST_MAIN(tst_TriggerBar)
+#include "tst_TriggerBar.moc"
