@@ -39,6 +39,7 @@ public:
         WindWindow,
         View3D,
         SignalTree,
+        KeyboardControl,
         UserType = 1000
     };
 

@@ -5,41 +5,41 @@
 
 namespace qplc {
 
-QString severityName(PlantEvent::Severity severity)
+QString severityName(JournalEvent::Severity severity)
 {
     switch (severity) {
-    case PlantEvent::Info:
+    case JournalEvent::Info:
         return QStringLiteral("info");
-    case PlantEvent::Warning:
+    case JournalEvent::Warning:
         return QStringLiteral("warning");
-    case PlantEvent::Error:
+    case JournalEvent::Error:
         return QStringLiteral("error");
     }
     return {};
 }
 
-QString kindName(PlantEvent::Kind kind)
+QString kindName(JournalEvent::Kind kind)
 {
     switch (kind) {
-    case PlantEvent::State:
+    case JournalEvent::State:
         return QStringLiteral("state");
-    case PlantEvent::Node:
+    case JournalEvent::Node:
         return QStringLiteral("node");
-    case PlantEvent::Late:
+    case JournalEvent::Late:
         return QStringLiteral("late");
-    case PlantEvent::Fault:
+    case JournalEvent::Fault:
         return QStringLiteral("fault");
-    case PlantEvent::Set:
+    case JournalEvent::Set:
         return QStringLiteral("set");
-    case PlantEvent::Lease:
+    case JournalEvent::Lease:
         return QStringLiteral("lease");
-    case PlantEvent::Overrun:
+    case JournalEvent::Overrun:
         return QStringLiteral("overrun");
     }
     return {};
 }
 
-void EventLog::append(PlantEvent event, std::int64_t time)
+void EventLog::append(JournalEvent event, std::int64_t time)
 {
     if (event.text.size() > LongestText)
         event.text = event.text.left(LongestText - 1) + QChar(0x2026);
@@ -50,9 +50,9 @@ void EventLog::append(PlantEvent event, std::int64_t time)
         m_events.pop_front();
 }
 
-std::vector<PlantEvent> EventLog::after(quint64 sequence, std::size_t most) const
+std::vector<JournalEvent> EventLog::after(quint64 sequence, std::size_t most) const
 {
-    const auto isNewer = [sequence](const PlantEvent &event) { return event.sequence > sequence; };
+    const auto isNewer = [sequence](const JournalEvent &event) { return event.sequence > sequence; };
     const auto first = std::find_if(m_events.begin(), m_events.end(), isNewer);
     const auto count = std::min<std::ptrdiff_t>(std::ptrdiff_t(most), m_events.end() - first);
     return {first, first + count};

@@ -10,7 +10,7 @@
 namespace qplc {
 
 /// What happened at a master, as people want to know it.
-struct PlantEvent
+struct JournalEvent
 {
     enum Severity : std::uint8_t { Info, Warning, Error };
     enum Kind : std::uint8_t { State, Node, Late, Fault, Set, Lease, Overrun };
@@ -25,9 +25,9 @@ struct PlantEvent
 };
 
 /// "info", "warning", "error"
-QString severityName(PlantEvent::Severity severity);
+QString severityName(JournalEvent::Severity severity);
 /// "state", "node", "late", "fault", "set", "lease", "overrun"
-QString kindName(PlantEvent::Kind kind);
+QString kindName(JournalEvent::Kind kind);
 
 /// The newest events of a master; older ones are forgotten.
 class EventLog
@@ -37,14 +37,14 @@ public:
     static constexpr int LongestText = 500;  // [characters] what is longer ends with an ellipsis
 
     /// \param time  of the wall clock [ns since 1970]
-    void append(PlantEvent event, std::int64_t time);
+    void append(JournalEvent event, std::int64_t time);
     /// Sequence number of the newest event; 0: there is none yet.
     quint64 newest() const { return m_newest; }
     /// The oldest \a most of those events that came after \a sequence and are still there.
-    std::vector<PlantEvent> after(quint64 sequence, std::size_t most) const;
+    std::vector<JournalEvent> after(quint64 sequence, std::size_t most) const;
 
 private:
-    std::deque<PlantEvent> m_events;
+    std::deque<JournalEvent> m_events;
     quint64 m_newest = 0;
 };
 

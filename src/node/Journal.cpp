@@ -24,13 +24,13 @@ std::int64_t now()
 
 /// What is abnormal is seen by default, and so is who comes and takes over; the rest is for those who look for it. So are overruns that end nothing: on an ordinary
 /// system they come with every breath of another program, and the statistics count them.
-void log(const PlantEvent &event)
+void log(const JournalEvent &event)
 {
-    if (event.kind == PlantEvent::Overrun && event.severity == PlantEvent::Warning)
+    if (event.kind == JournalEvent::Overrun && event.severity == JournalEvent::Warning)
         qCDebug(lcMaster).noquote() << event.text;
-    else if (event.severity != PlantEvent::Info)
+    else if (event.severity != JournalEvent::Info)
         qCWarning(lcMaster).noquote() << event.text;
-    else if (event.kind == PlantEvent::Node || event.kind == PlantEvent::Lease)
+    else if (event.kind == JournalEvent::Node || event.kind == JournalEvent::Lease)
         qCInfo(lcMaster).noquote() << event.text;
     else
         qCDebug(lcMaster).noquote() << event.text;
@@ -46,14 +46,14 @@ Journal::Journal()
     connect(&m_overrunTimer, &QTimer::timeout, this, &Journal::tellOverruns);
 }
 
-void Journal::append(const PlantEvent &event)
+void Journal::append(const JournalEvent &event)
 {
     log(event);
     m_events.append(event, wallClockNow());
     Q_EMIT appended();
 }
 
-void Journal::tell(PlantEvent::Severity severity, PlantEvent::Kind kind, const QString &source, const QString &text)
+void Journal::tell(JournalEvent::Severity severity, JournalEvent::Kind kind, const QString &source, const QString &text)
 {
     append({severity, kind, source, text});
 }
@@ -61,12 +61,12 @@ void Journal::tell(PlantEvent::Severity severity, PlantEvent::Kind kind, const Q
 void Journal::stateChanged(const QString &state, bool isTransient)
 {
     const QString begin = QStringLiteral("state ");
-    const PlantEvent event{PlantEvent::Info, PlantEvent::State, NodeRegistry::masterName(), state};
+    const JournalEvent event{JournalEvent::Info, JournalEvent::State, NodeRegistry::masterName(), state};
     if (isTransient) {
         tellLimited(waiting(), begin, event);
         return;
     }
-    if (const std::optional<PlantEvent> untold = m_limiter.take(waiting()))
+    if (const std::optional<JournalEvent> untold = m_limiter.take(waiting()))
         append(*untold);  // later it would be wrong
     tell(event.severity, event.kind, event.source, begin + state);
 }
@@ -74,35 +74,35 @@ void Journal::stateChanged(const QString &state, bool isTransient)
 void Journal::answeredLate(const QString &node, std::uint64_t cycle)
 {
     tellLimited(QStringLiteral("late ") + node, QStringLiteral("node %1 was late in cycle ").arg(node),
-                {PlantEvent::Warning, PlantEvent::Late, node, QString::number(cycle)});
+                {JournalEvent::Warning, JournalEvent::Late, node, QString::number(cycle)});
 }
 
 void Journal::valueSet(const QString &who, const QString &signal, const QString &former, const QString &value)
 {
-    tellLimited(QStringLiteral("set %1 %2").arg(signal, who),
-                QStringLiteral("'%1' has set %2: %3").arg(who, signal, former),
-                {PlantEvent::Info, PlantEvent::Set, NodeRegistry::masterName(), QStringLiteral(" -> %1").arg(value)});
+    tellLimited(
+        QStringLiteral("set %1 %2").arg(signal, who), QStringLiteral("'%1' has set %2: %3").arg(who, signal, former),
+        {JournalEvent::Info, JournalEvent::Set, NodeRegistry::masterName(), QStringLiteral(" -> %1").arg(value)});
 }
 
 void Journal::valueCameBack(const QString &signal, const QString &value)
 {
-    tellLimited(
-        QStringLiteral("back ") + signal, QStringLiteral("the former value has come back: "),
-        {PlantEvent::Info, PlantEvent::Set, NodeRegistry::masterName(), QStringLiteral("%1 = %2").arg(signal, value)});
+    tellLimited(QStringLiteral("back ") + signal, QStringLiteral("the former value has come back: "),
+                {JournalEvent::Info, JournalEvent::Set, NodeRegistry::masterName(),
+                 QStringLiteral("%1 = %2").arg(signal, value)});
 }
 
 // ---- what may happen often ----
 
-void Journal::tellLimited(const QString &thing, const QString &begin, const PlantEvent &event)
+void Journal::tellLimited(const QString &thing, const QString &begin, const JournalEvent &event)
 {
-    if (const std::optional<PlantEvent> told = m_limiter.report(thing, begin, event, now()))
+    if (const std::optional<JournalEvent> told = m_limiter.report(thing, begin, event, now()))
         append(*told);
     waitForNext();
 }
 
 void Journal::tellDue()
 {
-    for (const PlantEvent &event : m_limiter.takeDue(now()))
+    for (const JournalEvent &event : m_limiter.takeDue(now()))
         append(event);
     waitForNext();
 }
@@ -133,7 +133,7 @@ void Journal::tellOverruns()
     const std::uint64_t skipped = m_statistics->skippedCycles();
     if (overruns == m_overruns)
         return;
-    tell(PlantEvent::Warning, PlantEvent::Overrun, NodeRegistry::masterName(),
+    tell(JournalEvent::Warning, JournalEvent::Overrun, NodeRegistry::masterName(),
          QStringLiteral("%1 cycles began a period or more late, %2 were left out, since the last report")
              .arg(overruns - m_overruns)
              .arg(skipped - m_skipped));

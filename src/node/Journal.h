@@ -22,7 +22,7 @@ public:
     const EventLog &events() const { return m_events; }
 
     /// \param source  name of a node, or of the master
-    void tell(PlantEvent::Severity severity, PlantEvent::Kind kind, const QString &source, const QString &text);
+    void tell(JournalEvent::Severity severity, JournalEvent::Kind kind, const QString &source, const QString &text);
     /// \param isTransient  time stands still, or goes on again: this may happen in every cycle
     void stateChanged(const QString &state, bool isTransient);
     void answeredLate(const QString &node, std::uint64_t cycle);
@@ -36,8 +36,8 @@ Q_SIGNALS:
     void appended();
 
 private:
-    void append(const PlantEvent &event);
-    void tellLimited(const QString &thing, const QString &begin, const PlantEvent &event);
+    void append(const JournalEvent &event);
+    void tellLimited(const QString &thing, const QString &begin, const JournalEvent &event);
     void tellDue();
     void waitForNext();
     void tellOverruns();

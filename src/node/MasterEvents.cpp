@@ -83,7 +83,7 @@ void QPlcMasterNodePrivate::stopAfterOverrun(const CycleEvent &event)
               .arg(event.cycle)
               .arg(double(event.duration) * 1e-6, 0, 'f', 3)
               .arg(double(cycle->period()) * 1e-6, 0, 'f', 3);
-    setError(QPlcMasterNode::RealTimeError, text, qplc::NodeRegistry::masterName(), qplc::PlantEvent::Overrun);
+    setError(QPlcMasterNode::RealTimeError, text, qplc::NodeRegistry::masterName(), qplc::JournalEvent::Overrun);
     stop(text);
 }
 
@@ -103,7 +103,7 @@ void QPlcMasterNodePrivate::fault(const QString &node, const QString &text)
     if (m_step != Step::None) {
         abortSequence(text);
     } else if (isRunning()) {
-        setError(QPlcMasterNode::NodeError, text, node, qplc::PlantEvent::Fault);
+        setError(QPlcMasterNode::NodeError, text, node, qplc::JournalEvent::Fault);
         stop(text);
     }
 }
@@ -112,7 +112,7 @@ void QPlcMasterNodePrivate::nodeLost(Connection *connection, const QString &reas
 {
     const bool isMissed = connection->stage > Connection::Attached && !connection->slot->listener;
     journal.tell(
-        isMissed ? qplc::PlantEvent::Warning : qplc::PlantEvent::Info, qplc::PlantEvent::Node, connection->name,
+        isMissed ? qplc::JournalEvent::Warning : qplc::JournalEvent::Info, qplc::JournalEvent::Node, connection->name,
         isMissed ? QStringLiteral("node %1 is gone in the middle of its work: %2").arg(connection->name, reason)
                  : QStringLiteral("node %1 has left: %2").arg(connection->name, reason));
     const auto participant = std::find(m_participants.begin(), m_participants.end(), connection);

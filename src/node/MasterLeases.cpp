@@ -87,7 +87,7 @@ bool MasterLeases::take(const QObject *holder, const QString &name, const QJsonO
     Q_EMIT heldSignalsChanged();
     m_settings.setLeased(wish.settings, refusal);  // there is room
     waitForNext();
-    Q_EMIT changed(PlantEvent::Info,
+    Q_EMIT changed(JournalEvent::Info,
                    QStringLiteral("'%1' has taken over %2%3").arg(wish.name, names(wish.indices), from));
     return true;
 }
@@ -191,7 +191,7 @@ bool MasterLeases::release(const QObject *asker, const QString &name, const QJso
     m_settings.leaveToWriters();
     Q_EMIT heldSignalsChanged();
     waitForNext();
-    Q_EMIT changed(PlantEvent::Info, QStringLiteral("'%1' has released %2").arg(name, names(indices)));
+    Q_EMIT changed(JournalEvent::Info, QStringLiteral("'%1' has released %2").arg(name, names(indices)));
     return true;
 }
 
@@ -231,7 +231,7 @@ void MasterLeases::tellLost(const QString &name, const Leases::Signals &indices,
     QStringList texts;
     for (const QPlcSignalIndex signal : indices)
         texts << QStringLiteral("%1 = %2").arg(m_table.at(signal).name, neutralValue(m_table.at(signal)).toString());
-    Q_EMIT changed(PlantEvent::Warning,
+    Q_EMIT changed(JournalEvent::Warning,
                    QStringLiteral("'%1' %2: %3, until somebody takes or releases the lease")
                        .arg(name, why, texts.join(QStringLiteral(", "))));
 }

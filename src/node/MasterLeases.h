@@ -44,7 +44,7 @@ Q_SIGNALS:
     /// From the next cycle on, other signals than before are to keep the values that they are given. Comes before those values.
     void heldSignalsChanged();
     /// Who holds what has changed. \param text  what happened, for people
-    void changed(qplc::PlantEvent::Severity severity, const QString &text);
+    void changed(qplc::JournalEvent::Severity severity, const QString &text);
 
 private:
     struct Wish

@@ -93,10 +93,10 @@ QJsonObject scheduleFields(const QPlcSchedule &schedule)
     return {{QStringLiteral("stages"), stages}, {QStringLiteral("links"), links}};
 }
 
-QJsonObject eventFields(const std::vector<PlantEvent> &events)
+QJsonObject eventFields(const std::vector<JournalEvent> &events)
 {
     QJsonArray array;
-    for (const PlantEvent &event : events)
+    for (const JournalEvent &event : events)
         array.append(QJsonObject{{QStringLiteral("sequence"), double(event.sequence)},
                                  {QStringLiteral("time"), QPlcMessage::fromHex64(quint64(event.time))},
                                  {QStringLiteral("severity"), severityName(event.severity)},

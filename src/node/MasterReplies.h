@@ -20,7 +20,7 @@ QJsonObject stateFields(const QPlcMasterNode &master, quint64 session);
 bool signalFields(const MasterCycle &cycle, const NodeRegistry &registry, const Leases &leases,
                   const QStringList &names, QJsonObject *fields, QString *error);
 /// Fields of the message Events.
-QJsonObject eventFields(const std::vector<PlantEvent> &events);
+QJsonObject eventFields(const std::vector<JournalEvent> &events);
 /// Fields of the message Schedule.
 QJsonObject scheduleFields(const QPlcSchedule &schedule);
 QString clockName(QPlcClock clock);

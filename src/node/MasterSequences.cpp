@@ -310,7 +310,7 @@ void QPlcMasterNodePrivate::startCycles()
     }
     for (const QPlcRealTimeSetting &setting : cycle->realTimeSettings()) {
         if (!setting.granted)
-            journal.tell(qplc::PlantEvent::Warning, qplc::PlantEvent::State, qplc::NodeRegistry::masterName(),
+            journal.tell(qplc::JournalEvent::Warning, qplc::JournalEvent::State, qplc::NodeRegistry::masterName(),
                          setting.toString());
     }
     m_participants.clear();

@@ -6,7 +6,7 @@
 #include <cmath>
 
 using Message = QPlcMessage;
-using qplc::PlantEvent;
+using qplc::JournalEvent;
 
 namespace {
 
@@ -26,8 +26,8 @@ void QPlcMasterNodePrivate::prepareViewers()
             giveRoster();
     });
     QObject::connect(leases.get(), &qplc::MasterLeases::changed, q,
-                     [this](PlantEvent::Severity severity, const QString &text) {
-                         journal.tell(severity, PlantEvent::Lease, qplc::NodeRegistry::masterName(), text);
+                     [this](JournalEvent::Severity severity, const QString &text) {
+                         journal.tell(severity, JournalEvent::Lease, qplc::NodeRegistry::masterName(), text);
                          pushes->leasesChanged();
                          Q_EMIT q->leaseChanged();
                      });
@@ -79,7 +79,7 @@ void QPlcMasterNodePrivate::sendEvents(Connection *connection, const Message &me
                          QStringLiteral("'since' is the sequence number of an event; leave it out for all events"));
         return;
     }
-    const std::vector<PlantEvent> events = journal.events().after(quint64(since), mostEvents);
+    const std::vector<JournalEvent> events = journal.events().after(quint64(since), mostEvents);
     QJsonObject fields = qplc::eventFields(events);
     fields.insert(QStringLiteral("more"), !events.empty() && events.back().sequence < journal.events().newest());
     connection->send(Message::Events, fields);

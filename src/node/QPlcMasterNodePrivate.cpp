@@ -26,17 +26,17 @@ quint64 newSession()
 }
 
 /// What an error is about, unless who tells it knows better.
-qplc::PlantEvent::Kind kindOf(QPlcMasterNode::Error error)
+qplc::JournalEvent::Kind kindOf(QPlcMasterNode::Error error)
 {
     switch (error) {
     case QPlcMasterNode::SignalError:
-        return qplc::PlantEvent::Set;
+        return qplc::JournalEvent::Set;
     case QPlcMasterNode::NodeError:
-        return qplc::PlantEvent::Node;
+        return qplc::JournalEvent::Node;
     case QPlcMasterNode::InitializationError:
-        return qplc::PlantEvent::Fault;
+        return qplc::JournalEvent::Fault;
     default:
-        return qplc::PlantEvent::State;
+        return qplc::JournalEvent::State;
     }
 }
 
@@ -72,12 +72,13 @@ bool QPlcMasterNodePrivate::setError(QPlcMasterNode::Error newError, const QStri
 }
 
 bool QPlcMasterNodePrivate::setError(QPlcMasterNode::Error newError, const QString &text, const QString &source,
-                                     qplc::PlantEvent::Kind kind)
+                                     qplc::JournalEvent::Kind kind)
 {
-    using qplc::PlantEvent;
+    using qplc::JournalEvent;
     error = newError;
     errorString = text;
-    journal.tell(newError == QPlcMasterNode::StateError ? PlantEvent::Warning : PlantEvent::Error, kind, source, text);
+    journal.tell(newError == QPlcMasterNode::StateError ? JournalEvent::Warning : JournalEvent::Error, kind, source,
+                 text);
     Q_EMIT q->errorOccurred(newError);
     return false;
 }
@@ -117,7 +118,7 @@ bool QPlcMasterNodePrivate::prepare()
     QObject::connect(server.get(), &qplc::MasterServer::attached, q, [this](Connection *connection) {
         m_initialized = false;
         settings->leaveToWriters();
-        journal.tell(qplc::PlantEvent::Info, qplc::PlantEvent::Node, connection->name,
+        journal.tell(qplc::JournalEvent::Info, qplc::JournalEvent::Node, connection->name,
                      QStringLiteral("node %1 registered over %2").arg(connection->name, connection->cyclicKind));
         Q_EMIT q->nodeRegistered(connection->name);
         if (isRunning())
@@ -127,7 +128,7 @@ bool QPlcMasterNodePrivate::prepare()
                      [this](Connection *connection, const QString &reason) { nodeLost(connection, reason); });
     QObject::connect(server.get(), &qplc::MasterServer::refused, q,
                      [this](const QString &name, const QString &address, const QString &reason) {
-                         journal.tell(qplc::PlantEvent::Warning, qplc::PlantEvent::Node, name,
+                         journal.tell(qplc::JournalEvent::Warning, qplc::JournalEvent::Node, name,
                                       QStringLiteral("refused %1 %2").arg(address, reason));
                          Q_EMIT q->nodeRefused(name, reason);
                      });

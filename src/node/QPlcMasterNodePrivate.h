@@ -46,7 +46,7 @@ public:
     bool setError(QPlcMasterNode::Error newError, const QString &text);
     /// \param source  the node that is to blame
     bool setError(QPlcMasterNode::Error newError, const QString &text, const QString &source,
-                  qplc::PlantEvent::Kind kind);
+                  qplc::JournalEvent::Kind kind);
     QPlcNodeInfo info(const qplc::NodeSlot &slot) const;
     QPlcCycleStatistics cycleStatistics(QPlcDistribution::Detail detail) const;
     bool activateStatisticSignal(QPlcStatisticFigure figure, const QString &signalName, const QString &nodeName);

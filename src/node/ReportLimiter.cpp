@@ -3,8 +3,8 @@
 
 namespace qplc {
 
-std::optional<PlantEvent> ReportLimiter::report(const QString &thing, const QString &begin, const PlantEvent &event,
-                                                std::int64_t now)
+std::optional<JournalEvent> ReportLimiter::report(const QString &thing, const QString &begin, const JournalEvent &event,
+                                                  std::int64_t now)
 {
     Thing &known = m_things[thing];
     if (known.untold++ == 0)
@@ -16,9 +16,9 @@ std::optional<PlantEvent> ReportLimiter::report(const QString &thing, const QStr
     return tell(&known);
 }
 
-std::vector<PlantEvent> ReportLimiter::takeDue(std::int64_t now)
+std::vector<JournalEvent> ReportLimiter::takeDue(std::int64_t now)
 {
-    std::vector<PlantEvent> due;
+    std::vector<JournalEvent> due;
     for (auto thing = m_things.begin(); thing != m_things.end();) {
         Thing &known = thing->second;
         const bool isQuiet = known.untold == 0;
@@ -35,7 +35,7 @@ std::vector<PlantEvent> ReportLimiter::takeDue(std::int64_t now)
     return due;
 }
 
-std::optional<PlantEvent> ReportLimiter::take(const QString &thing)
+std::optional<JournalEvent> ReportLimiter::take(const QString &thing)
 {
     const auto known = m_things.find(thing);
     if (known == m_things.end() || known->second.untold == 0)
@@ -53,9 +53,9 @@ std::optional<std::int64_t> ReportLimiter::nextDue() const
     return next;
 }
 
-PlantEvent ReportLimiter::tell(Thing *thing)
+JournalEvent ReportLimiter::tell(Thing *thing)
 {
-    PlantEvent event = thing->event;
+    JournalEvent event = thing->event;
     event.text.prepend(thing->begin);
     if (thing->untold > 1)
         event.text += QStringLiteral(" (and %1 times since the last report)").arg(thing->untold - 1);

@@ -18,12 +18,12 @@ public:
     /// \param thing  what has happened; reports of one thing are told together
     /// \param event  the text of which begins with \a begin; of reports that are told together the begin of the first and the rest of the last are told
     /// \return what is to be told now
-    std::optional<PlantEvent> report(const QString &thing, const QString &begin, const PlantEvent &event,
-                                     std::int64_t now);
+    std::optional<JournalEvent> report(const QString &thing, const QString &begin, const JournalEvent &event,
+                                       std::int64_t now);
     /// What is to be told at \a now.
-    std::vector<PlantEvent> takeDue(std::int64_t now);
+    std::vector<JournalEvent> takeDue(std::int64_t now);
     /// What was not told yet about \a thing, whatever the time.
-    std::optional<PlantEvent> take(const QString &thing);
+    std::optional<JournalEvent> take(const QString &thing);
     /// When takeDue() has something to do; none: nothing is under way.
     std::optional<std::int64_t> nextDue() const;
 
@@ -32,10 +32,10 @@ private:
     {
         std::int64_t quietUntil = 0;
         quint64 untold = 0;
-        QString begin;     // of the first one that was not told
-        PlantEvent event;  // the last one, its text without the begin
+        QString begin;       // of the first one that was not told
+        JournalEvent event;  // the last one, its text without the begin
     };
-    static PlantEvent tell(Thing *thing);
+    static JournalEvent tell(Thing *thing);
 
     std::map<QString, Thing> m_things;  // told within the last second, or not told yet
 };

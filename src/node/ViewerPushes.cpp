@@ -66,7 +66,7 @@ int ViewerPushes::pushTo(MasterConnection *connection)
     connection->leasesDue = false;
     if (!eventsDue)
         return 0;
-    const std::vector<PlantEvent> events = m_events.after(connection->eventsTold, mostEvents);
+    const std::vector<JournalEvent> events = m_events.after(connection->eventsTold, mostEvents);
     connection->eventsTold = events.back().sequence;
     connection->send(QPlcMessage::Events, eventFields(events));
     return connection->eventsTold < m_events.newest() ? gatherPause : 0;

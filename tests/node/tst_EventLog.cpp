@@ -26,9 +26,9 @@ private Q_SLOTS:
 
 namespace {
 
-PlantEvent anEvent(const QString &text)
+JournalEvent anEvent(const QString &text)
 {
-    return {PlantEvent::Warning, PlantEvent::Late, QStringLiteral("Winch"), text};
+    return {JournalEvent::Warning, JournalEvent::Late, QStringLiteral("Winch"), text};
 }
 
 constexpr std::int64_t ms = 1'000'000;
@@ -43,7 +43,7 @@ void tst_EventLog::eventsAreNumberedFromOne()
     log.append(anEvent("a"), 100);
     log.append(anEvent("b"), 50);  // the wall clock may be set back
     QCOMPARE(log.newest(), quint64(2));
-    const std::vector<PlantEvent> all = log.after(0, 10);
+    const std::vector<JournalEvent> all = log.after(0, 10);
     QCOMPARE(int(all.size()), 2);
     QCOMPARE(all[0].sequence, quint64(1));
     QCOMPARE(all[0].time, std::int64_t(100));
@@ -59,7 +59,7 @@ void tst_EventLog::oldestEventsAreForgotten()
     EventLog log;
     for (std::size_t i = 0; i < EventLog::Capacity + 5; ++i)
         log.append(anEvent("x"), 0);
-    const std::vector<PlantEvent> all = log.after(0, 10 * EventLog::Capacity);
+    const std::vector<JournalEvent> all = log.after(0, 10 * EventLog::Capacity);
     QCOMPARE(all.size(), EventLog::Capacity);
     QCOMPARE(all.front().sequence, quint64(6));
     QCOMPARE(all.back().sequence, log.newest());
@@ -72,9 +72,9 @@ void tst_EventLog::askingGoesOnWhereItEnded()
         log.append(anEvent(QString::number(i)), 0);
     QString texts;
     for (quint64 since = 0; since < log.newest();) {
-        const std::vector<PlantEvent> some = log.after(since, 3);
+        const std::vector<JournalEvent> some = log.after(since, 3);
         QVERIFY(!some.empty() && some.size() <= 3);
-        for (const PlantEvent &one : some)
+        for (const JournalEvent &one : some)
             texts += one.text;
         since = some.back().sequence;
     }
@@ -87,7 +87,7 @@ void tst_EventLog::longTextIsCutWithAnEllipsis()
     EventLog log;
     log.append(anEvent(QString(EventLog::LongestText, 'x')), 0);
     log.append(anEvent(QString(EventLog::LongestText + 1, 'x')), 0);
-    const std::vector<PlantEvent> all = log.after(0, 2);
+    const std::vector<JournalEvent> all = log.after(0, 2);
     QCOMPARE(all[0].text, QString(EventLog::LongestText, 'x'));
     QCOMPARE(all[1].text, QString(EventLog::LongestText - 1, 'x') + QChar(0x2026));
 }
@@ -98,10 +98,10 @@ void tst_EventLog::firstReportIsToldAtOnceAndFurtherOnesTogether()
     QCOMPARE(limiter.report("late", "cycle ", anEvent("7"), 0)->text, QString("cycle 7"));
     for (int i = 1; i <= 4; ++i)
         QVERIFY(!limiter.report("late", "cycle ", anEvent(QString::number(7 + i)), i * ms));
-    const std::optional<PlantEvent> told = limiter.report("late", "cycle ", anEvent("12"), 1000 * ms);
+    const std::optional<JournalEvent> told = limiter.report("late", "cycle ", anEvent("12"), 1000 * ms);
     QCOMPARE(told->text, QString("cycle 12 (and 4 times since the last report)"));
     QCOMPARE(told->source, QString("Winch"));
-    QVERIFY(told->severity == PlantEvent::Warning && told->kind == PlantEvent::Late);
+    QVERIFY(told->severity == JournalEvent::Warning && told->kind == JournalEvent::Late);
     QVERIFY(!limiter.report("late", "cycle ", anEvent("13"), 1999 * ms));
     QCOMPARE(limiter.report("late", "cycle ", anEvent("14"), 2000 * ms)->text,
              QString("cycle 14 (and 1 times since the last report)"));
@@ -122,7 +122,7 @@ void tst_EventLog::whatIsToldTogetherHasTheBeginOfTheFirstAndTheEndOfTheLast()
     QCOMPARE(limiter.report("set", "0", anEvent(" -> 1"), 0)->text, QString("0 -> 1"));
     limiter.report("set", "1", anEvent(" -> 2"), 1);
     limiter.report("set", "2", anEvent(" -> 3"), 2);
-    const std::vector<PlantEvent> due = limiter.takeDue(1000 * ms);
+    const std::vector<JournalEvent> due = limiter.takeDue(1000 * ms);
     QCOMPARE(int(due.size()), 1);
     QCOMPARE(due[0].text, QString("1 -> 3 (and 1 times since the last report)"));
 }

@@ -40,7 +40,7 @@ struct Master
 
     void happens(const QString &text)
     {
-        events.append({PlantEvent::Info, PlantEvent::Node, QStringLiteral("Winch"), text}, 0);
+        events.append({JournalEvent::Info, JournalEvent::Node, QStringLiteral("Winch"), text}, 0);
         pushes.eventsHappened();
     }
     qint64 waiting() const { return server.connections().front()->socket->bytesToSend(); }

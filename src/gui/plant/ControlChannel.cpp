@@ -44,6 +44,10 @@ Message::Kind answerOf(Message::Kind question)
         return Message::Statistics;
     case Message::GetSchedule:
         return Message::Schedule;
+    case Message::GetLeases:
+        return Message::Leases;
+    case Message::GetEvents:
+        return Message::Events;
     default:
         return Message::Done;
     }
@@ -76,12 +80,13 @@ void ControlChannel::connectToMaster(const QPlcUnderlyingProtocol &master)
     m_begin = milliseconds();
     m_socket = new QPlcMasterSocket(this);
     connect(m_socket, &QPlcAbstractSocket::connected, this, [this] {
-        m_socket->sendMessage(Message(Message::Hello,
-                                      {{QStringLiteral("protocol"), 1},
-                                       {QStringLiteral("name"), QStringLiteral("ControlCenter")},
-                                       {QStringLiteral("uuid"), QUuid::createUuid().toString(QUuid::WithoutBraces)},
-                                       {QStringLiteral("role"), QStringLiteral("tool")},
-                                       {QStringLiteral("features"), QJsonArray()}}));
+        m_socket->sendMessage(
+            Message(Message::Hello,
+                    {{QStringLiteral("protocol"), 1},
+                     {QStringLiteral("name"), QStringLiteral("ControlCenter")},
+                     {QStringLiteral("uuid"), QUuid::createUuid().toString(QUuid::WithoutBraces)},
+                     {QStringLiteral("role"), QStringLiteral("tool")},
+                     {QStringLiteral("features"), QJsonArray{QStringLiteral("leases"), QStringLiteral("events")}}}));
     });
     connect(m_socket, &QPlcAbstractSocket::messageReceived, this, &ControlChannel::receive);
     connect(m_socket, &QPlcAbstractSocket::errorOccurred, this, [this] { end(m_socket->errorString()); });
@@ -132,9 +137,16 @@ void ControlChannel::receive(const Message &message)
     case Message::Signals:
     case Message::Schedule:
     case Message::Statistics:
+    case Message::Leases:
     case Message::Done:
     case Message::Failed:
         answer(message);
+        break;
+    case Message::Events:
+        if (message.fields().contains(QStringLiteral("more")))  // which pushed ones have not
+            answer(message);
+        else
+            Q_EMIT pushed(message);
         break;
     default:
         Q_EMIT pushed(message);

@@ -38,7 +38,7 @@ public:
     void close();
     bool isGreeted() const { return m_isGreeted; }
 
-    /// Asks GetState, GetSignals, GetStatistics or GetSchedule. \a handler gets the answer, or Failed.
+    /// Asks GetState, GetSignals, GetStatistics, GetSchedule, GetLeases or GetEvents. \a handler gets the answer, or Failed.
     void ask(const Message &question, const Handler &handler);
     /// Sends anything else; \a handler gets Done, or Failed with `text`.
     void command(const Message &command, const Handler &handler);
@@ -49,7 +49,7 @@ Q_SIGNALS:
     void greeted(const QPlcMessage &hello);
     /// The connection has ended, or could not be made. \param reason  half a sentence
     void lost(const QString &reason);
-    /// The master has said something without being asked: StatesInitialized, ...
+    /// The master has said something without being asked: StatesInitialized, LeasesChanged, Events, ...
     void pushed(const QPlcMessage &message);
 
 private:

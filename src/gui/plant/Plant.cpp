@@ -42,6 +42,14 @@ QVector<QStringList> groupsOfNames(const QPlcSignalTable &table)
     return groups;
 }
 
+QJsonObject textsOf(const QHash<QString, QPlcValue> &values)
+{
+    QJsonObject texts;
+    for (auto value = values.begin(); value != values.end(); ++value)
+        texts.insert(value.key(), value.value().toString());
+    return texts;
+}
+
 }  // namespace
 
 Plant::Plant(const QString &address, const QString &name, const QString &nodeName, QObject *parent)
@@ -60,23 +68,71 @@ Plant::Plant(const QString &address, const QString &name, const QString &nodeNam
     connect(&m_connection, &PlantConnection::stateChanged, this, &Plant::stateChanged);
     connect(&m_connection, &PlantConnection::listenerFailed, this,
             [this](const QString &sentence) { tell(PlantEvent::Error, sentence); });
-    connect(&m_connection.control(), &ControlChannel::pushed, this, [this](const Message &message) {
-        if (message.kind() == Message::StatesInitialized)
-            refresh();
-        Q_EMIT messagePushed(message);
-    });
+    connect(&m_connection.control(), &ControlChannel::pushed, this, &Plant::takePushed);
+    connect(&m_leases, &PlantLeases::changed, this, &Plant::leasesChanged);
+    connect(&m_journal, &MasterJournal::fetched, this, &Plant::tellWaiting);
+    connect(&m_journal, &MasterJournal::happened, this,
+            [this](const QDateTime &time, PlantEvent::Severity severity, const QString &node, const QString &text) {
+                Q_EMIT eventOccurred({time, severity, sourceOf(node), text, false});
+            });
 }
 
 Plant::~Plant()
 {
     m_connection.disconnect(this);
     m_connection.control().disconnect(this);
+    m_leases.disconnect(this);
+    m_journal.disconnect(this);
+}
+
+// ---- events ----
+
+QString Plant::sourceOf(const QString &node) const
+{
+    return node.isEmpty() ? m_name : m_name + QLatin1Char('/') + node;
 }
 
 void Plant::tell(PlantEvent::Severity severity, const QString &text, const QString &node)
 {
-    const QString source = node.isEmpty() ? m_name : m_name + QLatin1Char('/') + node;
-    Q_EMIT eventOccurred({QDateTime::currentDateTime(), severity, source, text, false});
+    const PlantEvent event{QDateTime::currentDateTime(), severity, sourceOf(node), text, false};
+    if (m_journal.isFetching())
+        m_waitingEvents.append(event);
+    else
+        Q_EMIT eventOccurred(event);
+}
+
+/// What has happened to the master, if it does not tell it itself.
+void Plant::tellOfMaster(PlantEvent::Severity severity, const QString &text, const QString &node)
+{
+    if (!m_journal.hasFeature())
+        tell(severity, text, node);
+}
+
+void Plant::tellWaiting()
+{
+    const QVector<PlantEvent> events = m_waitingEvents;
+    m_waitingEvents.clear();
+    for (const PlantEvent &event : events)
+        Q_EMIT eventOccurred(event);
+}
+
+void Plant::takePushed(const Message &message)
+{
+    switch (message.kind()) {
+    case Message::StatesInitialized:
+        refresh();
+        break;
+    case Message::LeasesChanged:
+        m_leases.take(message);
+        break;
+    case Message::Events:
+        m_journal.take(message);
+        refresh();  // what has happened may have changed the state
+        break;
+    default:
+        break;
+    }
+    Q_EMIT messagePushed(message);
 }
 
 // ---- connection ----
@@ -101,6 +157,9 @@ void Plant::connected(const Message &hello, const QPlcSignalTable &newTable)
         Q_EMIT tableChanged();
         Q_EMIT storeChanged();
     }
+    const QJsonArray features = hello.fields().value(QStringLiteral("features")).toArray();
+    m_leases.begin(features.contains(QStringLiteral("leases")));
+    m_journal.begin(hello.hex64(QStringLiteral("session")), features.contains(QStringLiteral("events")));
     tell(PlantEvent::Information, QStringLiteral("connected to the master at %1").arg(address()));
     Q_EMIT stateChanged();
     poll();
@@ -115,6 +174,8 @@ void Plant::disconnected(const QString &reason)
     m_updateRate = 0.0;
     m_values.interrupt();
     m_status = {};
+    m_leases.end();
+    m_journal.end();
     if (m_connection.isOpen())
         tell(PlantEvent::Error, QStringLiteral("lost the master at %1: %2").arg(address(), reason));
     else
@@ -277,7 +338,7 @@ void Plant::takeState(const Message &answer)
     const QStringList nodesBefore = nodeNames();
     m_status.takeState(answer.fields());
     if (m_status.state != stateBefore) {
-        tell(PlantEvent::Information, QStringLiteral("%1 → %2").arg(stateBefore, m_status.state));
+        tellOfMaster(PlantEvent::Information, QStringLiteral("%1 → %2").arg(stateBefore, m_status.state));
         Q_EMIT stateChanged();
     }
     if (nodeNames() != nodesBefore)
@@ -289,11 +350,11 @@ void Plant::nodesChanged(const QStringList &before, const QStringList &now)
 {
     for (const QString &name : now) {
         if (!before.contains(name))
-            tell(PlantEvent::Information, QStringLiteral("node %1 is there").arg(name), name);
+            tellOfMaster(PlantEvent::Information, QStringLiteral("node %1 is there").arg(name), name);
     }
     for (const QString &name : before) {
         if (!now.contains(name))
-            tell(PlantEvent::Warning, QStringLiteral("node %1 has gone").arg(name), name);
+            tellOfMaster(PlantEvent::Warning, QStringLiteral("node %1 has gone").arg(name), name);
     }
     askSignals();
     if (!m_connection.control().isBusy())
@@ -310,19 +371,19 @@ void Plant::takeStatistics(const Message &answer)
     const PlantStatus before = m_status;
     m_status.takeStatistics(answer.fields());
     if (m_status.overruns > before.overruns)
-        tell(PlantEvent::Warning,
-             QStringLiteral("%1 new overruns of the cycle, %2 since the start")
-                 .arg(m_status.overruns - before.overruns)
-                 .arg(m_status.overruns));
+        tellOfMaster(PlantEvent::Warning,
+                     QStringLiteral("%1 new overruns of the cycle, %2 since the start")
+                         .arg(m_status.overruns - before.overruns)
+                         .arg(m_status.overruns));
     for (const NodeStatus &node : qAsConst(m_status.nodes)) {
         const NodeStatus *was = before.node(node.name);
         if (node.isLate && was)
-            tell(PlantEvent::Warning,
-                 QStringLiteral("%1 new late answers of node %2, %3 since the start")
-                     .arg(node.late - was->late)
-                     .arg(node.name)
-                     .arg(node.late),
-                 node.name);
+            tellOfMaster(PlantEvent::Warning,
+                         QStringLiteral("%1 new late answers of node %2, %3 since the start")
+                             .arg(node.late - was->late)
+                             .arg(node.name)
+                             .arg(node.late),
+                         node.name);
     }
     Q_EMIT statusChanged();
 }
@@ -405,13 +466,25 @@ int Plant::perform(Action action)
 
 int Plant::setValues(const QHash<QString, QPlcValue> &values, std::chrono::nanoseconds duration)
 {
-    QJsonObject texts;
-    for (auto value = values.begin(); value != values.end(); ++value)
-        texts.insert(value.key(), value.value().toString());
-    QJsonObject fields{{QStringLiteral("values"), texts}};
+    QJsonObject fields{{QStringLiteral("values"), textsOf(values)}};
     if (duration.count() > 0)
         fields.insert(QStringLiteral("duration"), double(duration.count()));
     return command(Message(Message::SetSignals, fields));
+}
+
+int Plant::takeLease(const QStringList &signalNames, const QHash<QString, QPlcValue> &values, TakeOver takeOver)
+{
+    QJsonObject fields = m_leases.identity();
+    fields.insert(QStringLiteral("signals"), QJsonArray::fromStringList(signalNames));
+    fields.insert(QStringLiteral("values"), textsOf(values));
+    fields.insert(QStringLiteral("takeOver"), takeOver == AlsoFromOthers);
+    return command(Message(Message::TakeLease, fields));
+}
+
+int Plant::releaseLease(const QStringList &signalNames)
+{
+    return command(
+        Message(Message::ReleaseLease, {{QStringLiteral("signals"), QJsonArray::fromStringList(signalNames)}}));
 }
 
 }  // namespace qplc

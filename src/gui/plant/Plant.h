@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "MasterJournal.h"
 #include "PlantConnection.h"
 #include "PlantEvent.h"
+#include "PlantLeases.h"
 #include "PlantStatus.h"
 #include "PlantValues.h"
 
@@ -67,6 +69,14 @@ public:
     /// Cycles that came per second, over the last 2 s.
     double updateRate() const { return m_updateRate; }
 
+    // -- leases: one writer at a time --
+    /// Whether the master knows leases; without them takeLease() is refused.
+    bool hasLeases() const { return m_leases.hasFeature(); }
+    /// All signals that somebody has taken over, in the order of the table.
+    const QVector<LeaseStatus> &leases() const { return m_leases.all(); }
+    /// Who has taken \a signal over; empty: nobody.
+    std::optional<LeaseStatus> lease(const QString &signal) const { return m_leases.find(signal); }
+
     // -- commands; \return a number that commandDone() or commandFailed() will tell --
     int initialize();
     int start();
@@ -75,6 +85,13 @@ public:
     /// Sets signals that no node writes, all or none. \param duration  0 for good; else the values from before come back after it
     int setValues(const QHash<QString, QPlcValue> &values,
                   std::chrono::nanoseconds duration = std::chrono::nanoseconds(0));
+    enum TakeOver { OnlyFree, AlsoFromOthers };
+    /// Takes signals over for this window, all or none: from then on they have the values of setValues(), whatever the nodes answer that write them. The window holds them until
+    /// releaseLease(), or until it is lost: then they go to their neutral values. \param values  to begin with; may be fewer
+    int takeLease(const QStringList &signalNames, const QHash<QString, QPlcValue> &values = {},
+                  TakeOver takeOver = OnlyFree);
+    /// Gives signals back to the nodes that write them; also those of a lost holder.
+    int releaseLease(const QStringList &signalNames);
     /// Sends anything that is answered with Done or Failed.
     int command(const QPlcMessage &message);
 
@@ -92,6 +109,8 @@ Q_SIGNALS:
     /// Another table: indices mean something else from here on. Never twice for the same table, also over reconnections.
     void tableChanged();
     void writersChanged();
+    /// Somebody has taken, given back or lost a signal. Values of leases() are new ones.
+    void leasesChanged();
     /// The store is another object now; the one before is gone.
     void storeChanged();
     /// New values, at most 50 times a second.
@@ -114,13 +133,20 @@ private:
     void takeStatistics(const QPlcMessage &answer);
     void takeSignals(const QPlcMessage &answer);
     void nodesChanged(const QStringList &before, const QStringList &now);
+    QString sourceOf(const QString &node) const;
+    void takePushed(const QPlcMessage &message);
     void tell(PlantEvent::Severity severity, const QString &text, const QString &node = QString());
+    void tellOfMaster(PlantEvent::Severity severity, const QString &text, const QString &node = QString());
+    void tellWaiting();
     QStringList nodeNames() const;
 
     QString m_name;
     PlantConnection m_connection;
     PlantValues m_values;
     PlantStatus m_status;
+    PlantLeases m_leases{m_connection.control()};
+    MasterJournal m_journal{m_connection.control()};
+    QVector<PlantEvent> m_waitingEvents;  // of this window, while older ones of the master are on their way
     QVector<QString> m_writers;
     QTimer m_frameTimer;
     QTimer m_pollTimer;

@@ -97,7 +97,7 @@ void tst_PlantModels::figuresOfNodesAreDurationsAndCounters()
     QCOMPARE(table.index(1, NodeTableModel::Lost).data().toString(), QStringLiteral("0"));
     QTRY_VERIFY_WITH_TIMEOUT(number(1, NodeTableModel::ExecutionMaximum) >= 40e6, 10000);
     const auto isOverrun = [](const QList<QVariant> &call) {
-        return qvariant_cast<PlantEvent>(call.at(0)).text.contains(QStringLiteral("new overruns"));
+        return qvariant_cast<PlantEvent>(call.at(0)).text.contains(QStringLiteral("began a period or more late"));
     };
     QTRY_VERIFY(std::any_of(events.begin(), events.end(), isOverrun));
 }
@@ -180,7 +180,7 @@ void tst_PlantModels::whatHappensToAPlantIsInTheLog()
             all << log.at(row).text;
         return all.join(QLatin1Char('\n'));
     };
-    QTRY_VERIFY(texts().contains(QStringLiteral("Off → RealTime")));
+    QTRY_VERIFY(texts().contains(QStringLiteral("state RealTime")));
     QCOMPARE(log.unacknowledged(), 0);
     master.reset();
     QTRY_VERIFY(texts().contains(QStringLiteral("lost the master")));

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "ControlChannel.h"
+#include "PlantEvent.h"
+
+#include <QtCore/QVector>
+
+namespace qplc {
+
+/// The events that a master tells: those that it still has are fetched after connecting, and then they come by themselves. Each one is told once, in order, also over
+/// lost connections.
+class MasterJournal : public QObject
+{
+    Q_OBJECT
+public:
+    explicit MasterJournal(ControlChannel &control, QObject *parent = nullptr);
+
+    /// A connection begins. \param session  of the master  \param hasFeature  whether it tells events
+    void begin(quint64 session, bool hasFeature);
+    void end();
+    /// Whether the master tells what happens to it: nobody else should.
+    bool hasFeature() const { return m_hasFeature; }
+    /// Whether events of before are still on their way.
+    bool isFetching() const { return m_isFetching; }
+
+    /// Looks at Events that came by themselves.
+    void take(const QPlcMessage &message);
+
+Q_SIGNALS:
+    /// \param node  empty: the master itself
+    void happened(const QDateTime &time, qplc::PlantEvent::Severity severity, const QString &node, const QString &text);
+    /// Those of before are told, or there is nobody to ask any more.
+    void fetched();
+
+private:
+    void fetch();
+    void takeFetched(const QPlcMessage &answer);
+    void endFetching();
+    void tellNew(const QPlcMessage &message);
+    void tell(const QJsonObject &event);
+
+    ControlChannel &m_control;
+    bool m_hasFeature = false;
+    bool m_isFetching = false;
+    quint64 m_session = 0;
+    double m_newest = 0.0;          // sequence number of the last event that was told
+    QVector<QPlcMessage> m_pushed;  // while fetching
+};
+
+}  // namespace qplc

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "PlantLeases.h"
+
+#include "node/Logging.h"
+
+#include <QtCore/QJsonArray>
+#include <QtCore/QRandomGenerator>
+#include <QtCore/QSysInfo>
+
+#include <algorithm>
+
+#include <pwd.h>
+#include <unistd.h>
+
+namespace qplc {
+
+namespace {
+
+constexpr int longestName = 64;  // [characters] of the protocol
+
+}  // namespace
+
+QString PlantLeases::whoever()
+{
+    const passwd *entry = getpwuid(geteuid());
+    const QString user = entry ? QString::fromLocal8Bit(entry->pw_name) : QString::number(geteuid());
+    return QStringLiteral("%1@%2").arg(user, QSysInfo::machineHostName()).left(longestName);
+}
+
+PlantLeases::PlantLeases(ControlChannel &control, QObject *parent)
+    : QObject(parent)
+    , m_control(control)
+{
+    m_heartbeat.setInterval(HeartbeatPeriod);
+    connect(&m_heartbeat, &QTimer::timeout, this,
+            [this] { m_control.ask(QPlcMessage(QPlcMessage::GetState), [](const QPlcMessage &) {}); });
+}
+
+void PlantLeases::begin(bool hasFeature)
+{
+    m_hasFeature = hasFeature;
+    // Lists tell names, and a person may have two windows, or a connection that the master has not missed yet. So each connection has a timeout of its own: it differs by
+    // less than a millisecond.
+    m_timeout = qint64(Timeout) * 1'000'000 + QRandomGenerator::global()->bounded(1'000'000);
+    if (hasFeature)
+        m_control.ask(QPlcMessage(QPlcMessage::GetLeases), [this](const QPlcMessage &answer) {
+            if (answer.kind() == QPlcMessage::Leases)
+                take(answer);
+        });
+}
+
+void PlantLeases::end()
+{
+    m_hasFeature = false;
+    setLeases({});
+}
+
+QJsonObject PlantLeases::identity() const
+{
+    return {{QStringLiteral("whoever"), whoever()}, {QStringLiteral("timeout"), double(m_timeout)}};
+}
+
+std::optional<LeaseStatus> PlantLeases::find(const QString &signal) const
+{
+    const auto found = std::find_if(m_leases.begin(), m_leases.end(),
+                                    [&](const LeaseStatus &lease) { return lease.signal == signal; });
+    return found == m_leases.end() ? std::nullopt : std::make_optional(*found);
+}
+
+void PlantLeases::take(const QPlcMessage &message)
+{
+    QVector<LeaseStatus> leases;
+    const QJsonArray rows = message.fields().value(QStringLiteral("leases")).toArray();
+    for (const QJsonValue &row : rows) {
+        const bool isLost = row[QStringLiteral("lease")].toString() == QLatin1String("lost");
+        const bool isMine = !isLost && qint64(row[QStringLiteral("timeout")].toDouble()) == m_timeout;
+        leases.append({printable(row[QStringLiteral("signal")].toString()),
+                       printable(row[QStringLiteral("holder")].toString()),
+                       isLost ? LeaseStatus::Lost : LeaseStatus::Held, isMine});
+    }
+    setLeases(leases);
+}
+
+void PlantLeases::setLeases(const QVector<LeaseStatus> &leases)
+{
+    const bool holdsAny
+        = std::any_of(leases.begin(), leases.end(), [](const LeaseStatus &lease) { return lease.isMine; });
+    if (!holdsAny)
+        m_heartbeat.stop();
+    else if (!m_heartbeat.isActive())
+        m_heartbeat.start();
+    if (leases == m_leases)
+        return;
+    m_leases = leases;
+    Q_EMIT changed();
+}
+
+}  // namespace qplc

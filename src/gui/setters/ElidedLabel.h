@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QtWidgets/QLabel>
+
+namespace qplc {
+
+/// One line of text that ends with an ellipsis where there is no room for it; all of it is in the tool tip then.
+class ElidedLabel : public QLabel
+{
+    Q_OBJECT
+public:
+    explicit ElidedLabel(QWidget *parent = nullptr);
+    /// Also for those who cannot see it.
+    void showText(const QString &text);
+    void setColor(const QColor &color);
+    QSize minimumSizeHint() const override;
+
+protected:
+    void paintEvent(QPaintEvent *event) override;
+    void resizeEvent(QResizeEvent *event) override;
+
+private:
+    void updateToolTip();
+};
+
+}  // namespace qplc

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "GeneratorView.h"
+
+#include <QtWidgets/QComboBox>
+#include <QtWidgets/QDoubleSpinBox>
+#include <QtWidgets/QGridLayout>
+#include <QtWidgets/QLabel>
+#include <QtWidgets/QPushButton>
+
+namespace qplc {
+
+namespace {
+
+const char *const shapeNames[] = {"step", "ramp", "sine"};
+constexpr double shortestPeriod = 0.1;  // [s]
+constexpr double longestPeriod = 86400.0;
+constexpr double largest = 1e9;
+
+}  // namespace
+
+GeneratorView::GeneratorView(SetterTarget *target, QWidget *parent)
+    : SetterView(target, parent)
+{
+    makeFields();
+    m_timer.setTimerType(Qt::PreciseTimer);
+    m_timer.setInterval(StepTime);
+    connect(&m_timer, &QTimer::timeout, this, &GeneratorView::step);
+    connect(m_start, &QPushButton::clicked, this, &GeneratorView::toggle);
+    connect(target, &SetterTarget::actionLost, this, [this] { stop(tr("Stopped: control was lost")); });
+    connect(target, &SetterTarget::failed, this, [this](const QString &sentence) {
+        if (isRunning())
+            stop(sentence);
+    });
+    showWaveform();
+    refresh();
+}
+
+GeneratorView::~GeneratorView()
+{
+    m_timer.stop();
+    target().endAction();
+}
+
+void GeneratorView::makeFields()
+{
+    auto *grid = new QGridLayout(this);
+    grid->setContentsMargins(0, 0, 0, 0);
+    grid->setSpacing(2);
+    m_shape = new QComboBox(this);
+    m_shape->addItems({tr("Step"), tr("Ramp"), tr("Sine")});
+    m_shape->setAccessibleName(tr("Shape"));
+    m_start = new QPushButton(tr("Start"), this);
+    grid->addWidget(m_shape, 0, 0, 1, 2);
+    grid->addWidget(m_start, 0, 2);
+    m_amplitude = makeField(tr("Amplitude"), 1, 0);
+    m_offset = makeField(tr("Offset"), 1, 1);
+    m_period = makeField(tr("Period"), 1, 2);
+    m_period->setRange(shortestPeriod, longestPeriod);
+    m_period->setSuffix(QStringLiteral(" s"));
+    m_period->setPrefix(QStringLiteral("T "));
+    m_amplitude->setPrefix(QStringLiteral("± "));
+    m_offset->setPrefix(QStringLiteral("∅ "));
+    setFocusProxy(m_start);
+    connect(m_shape, qOverload<int>(&QComboBox::activated), this, &GeneratorView::edited);
+}
+
+QDoubleSpinBox *GeneratorView::makeField(const QString &name, int row, int column)
+{
+    auto *field = new QDoubleSpinBox(this);
+    field->setRange(-largest, largest);
+    field->setDecimals(3);
+    field->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
+    field->setKeyboardTracking(false);
+    field->setButtonSymbols(QAbstractSpinBox::NoButtons);
+    field->setMinimumWidth(60);
+    field->setToolTip(name);
+    field->setAccessibleName(name);
+    static_cast<QGridLayout *>(layout())->addWidget(field, row, column);
+    connect(field, qOverload<double>(&QDoubleSpinBox::valueChanged), this, &GeneratorView::edited);
+    return field;
+}
+
+void GeneratorView::edited()
+{
+    m_waveform = {Waveform::Shape(m_shape->currentIndex()), m_amplitude->value(), m_offset->value(), m_period->value()};
+    Q_EMIT settingsEdited();
+}
+
+void GeneratorView::showWaveform()
+{
+    for (QObject *field :
+         {static_cast<QObject *>(m_amplitude), static_cast<QObject *>(m_offset), static_cast<QObject *>(m_period)})
+        field->blockSignals(true);
+    m_shape->setCurrentIndex(m_waveform.shape);
+    m_amplitude->setValue(m_waveform.amplitude);
+    m_offset->setValue(m_waveform.offset);
+    m_period->setValue(m_waveform.period);
+    for (QObject *field :
+         {static_cast<QObject *>(m_amplitude), static_cast<QObject *>(m_offset), static_cast<QObject *>(m_period)})
+        field->blockSignals(false);
+}
+
+void GeneratorView::refresh()
+{
+    m_start->setEnabled(isRunning() || (target().control().mayWrite() && target().isNumber()));
+    m_start->setText(isRunning() ? tr("Stop") : tr("Start"));
+}
+
+void GeneratorView::toggle()
+{
+    if (isRunning())
+        stop({});
+    else
+        start();
+}
+
+void GeneratorView::start()
+{
+    if (!target().beginAction(m_waveform.value(0.0)))
+        return;
+    m_wasPlantRunning = isPlantRunning();
+    m_time.start();
+    m_timer.start();
+    Q_EMIT said(QString());
+    refresh();
+}
+
+void GeneratorView::stop(const QString &why)
+{
+    if (!isRunning())
+        return;
+    m_timer.stop();
+    target().endAction();
+    Q_EMIT said(why);
+    refresh();
+}
+
+bool GeneratorView::isPlantRunning() const
+{
+    return target().signal() && target().signal().plant->status().isRunning();
+}
+
+void GeneratorView::step()
+{
+    const bool wasPlantRunning = m_wasPlantRunning;
+    m_wasPlantRunning = isPlantRunning();
+    if (wasPlantRunning && !m_wasPlantRunning) {
+        stop(tr("Stopped: the plant was stopped"));
+        return;
+    }
+    target().stream(m_waveform.value(double(m_time.nsecsElapsed()) * 1e-9));
+}
+
+void GeneratorView::hideEvent(QHideEvent *event)
+{
+    SetterView::hideEvent(event);
+    stop(tr("Stopped: nobody saw it"));
+}
+
+QJsonObject GeneratorView::settings() const
+{
+    const Waveform plain;
+    QJsonObject of;
+    if (m_waveform.shape != plain.shape)
+        of.insert(QStringLiteral("shape"), QLatin1String(shapeNames[m_waveform.shape]));
+    if (m_waveform.amplitude != plain.amplitude)
+        of.insert(QStringLiteral("amplitude"), m_waveform.amplitude);
+    if (m_waveform.offset != plain.offset)
+        of.insert(QStringLiteral("offset"), m_waveform.offset);
+    if (m_waveform.period != plain.period)
+        of.insert(QStringLiteral("period"), m_waveform.period);
+    return of.isEmpty() ? QJsonObject() : QJsonObject{{QStringLiteral("generator"), of}};
+}
+
+void GeneratorView::applySettings(const QJsonObject &settings)
+{
+    const QJsonObject of = settings.value(QStringLiteral("generator")).toObject();
+    m_waveform = {};
+    for (int shape = 0; shape < 3; ++shape) {
+        if (of.value(QStringLiteral("shape")).toString() == QLatin1String(shapeNames[shape]))
+            m_waveform.shape = Waveform::Shape(shape);
+    }
+    m_waveform.amplitude = of.value(QStringLiteral("amplitude")).toDouble(m_waveform.amplitude);
+    m_waveform.offset = of.value(QStringLiteral("offset")).toDouble(m_waveform.offset);
+    const double period = of.value(QStringLiteral("period")).toDouble(m_waveform.period);
+    m_waveform.period = qBound(shortestPeriod, period, longestPeriod);
+    showWaveform();
+}
+
+}  // namespace qplc

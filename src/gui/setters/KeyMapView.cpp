@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "KeyMapView.h"
+
+#include "ManualControl.h"
+#include "gui/models/ValueFormat.h"
+
+#include <QtGui/QPainter>
+
+#include <algorithm>
+
+namespace qplc {
+
+namespace {
+
+constexpr int gap = 6;  // [px]
+
+QString capText(int key)
+{
+    switch (key) {
+    case Qt::Key_Left:
+        return QStringLiteral("←");
+    case Qt::Key_Right:
+        return QStringLiteral("→");
+    case Qt::Key_Up:
+        return QStringLiteral("↑");
+    case Qt::Key_Down:
+        return QStringLiteral("↓");
+    case 0:
+        return QStringLiteral("?");
+    default:
+        return KeyBinding::keyName(key);
+    }
+}
+
+QString signedText(double value)
+{
+    return (value > 0.0 ? QStringLiteral("+") : QString())
+        + numberText(value, 4).replace(QLatin1Char('-'), QStringLiteral("−"));
+}
+
+}  // namespace
+
+KeyMapView::KeyMapView(const ManualControl *control, QWidget *parent)
+    : QWidget(parent)
+    , m_control(control)
+{
+    setAccessibleName(tr("Keys"));
+}
+
+void KeyMapView::setTheme(const Theme &theme)
+{
+    m_theme = theme;
+    update();
+}
+
+void KeyMapView::refresh()
+{
+    QStringList texts;
+    const QVector<Row> all = rows();
+    for (const Row &row : all) {
+        for (const Cap &cap : row.caps)
+            texts << tr("%1: %2 %3").arg(cap.text, row.name, cap.effect);
+    }
+    setAccessibleDescription(texts.join(QStringLiteral("; ")));
+    updateGeometry();
+    update();
+}
+
+QVector<KeyMapView::Row> KeyMapView::rows() const
+{
+    QVector<Row> rows;
+    const QVector<SignalReference> references = m_control->bindings().signalReferences();
+    for (int i = 0; i < references.size(); ++i) {
+        const SignalReference &reference = references.at(i);
+        const PlantList::Signal signal = m_control->control().resolved().value(i);
+        Row row{reference.toString(), tr("not there"), true, {}};
+        if (signal) {
+            row.actual = QStringLiteral("%1 %2").arg(numberText(signal.value().toReal(), 3), signal.definition().unit);
+            row.isStale = signal.plant->quality() == Plant::Stale || signal.plant->quality() == Plant::NoValue;
+            if (row.isStale)
+                row.actual = tr("%1, %2 old").arg(row.actual, ageText(signal.plant->age()));
+        }
+        for (const KeyBinding &key : m_control->bindings().keys) {
+            if (key.signal == reference)
+                row.caps.append({capText(key.key), signedText(key.value), m_control->isHeld(key.key)});
+        }
+        for (const AxisBinding &axis : m_control->bindings().axes) {
+            const bool isMoved = m_control->isArmed() && axis.shaped(m_control->deflection(axis.axis)) != 0.0;
+            if (axis.signal == reference)
+                row.caps.append({axis.axis, QStringLiteral("±%1").arg(numberText(std::abs(axis.value), 4)), isMoved});
+        }
+        rows.append(row);
+    }
+    return rows;
+}
+
+QFont KeyMapView::smallFont() const
+{
+    QFont small = font();
+    small.setPointSizeF(small.pointSizeF() * 0.82);
+    return small;
+}
+
+int KeyMapView::capSize() const
+{
+    return fontMetrics().height() + 10;
+}
+
+int KeyMapView::rowHeight() const
+{
+    return capSize() + QFontMetrics(smallFont()).height() + gap;
+}
+
+int KeyMapView::widthOf(const Cap &cap) const
+{
+    const int text = fontMetrics().horizontalAdvance(cap.text) + 14;
+    return std::max({capSize(), text, QFontMetrics(smallFont()).horizontalAdvance(cap.effect) + 2});
+}
+
+QSize KeyMapView::sizeHint() const
+{
+    const QVector<Row> all = rows();
+    int caps = 0;
+    for (const Row &row : all) {
+        int width = 0;
+        for (const Cap &cap : row.caps)
+            width += widthOf(cap) + gap;
+        caps = std::max(caps, width);
+    }
+    return {caps + fontMetrics().averageCharWidth() * 12, rowHeight() * int(all.size())};
+}
+
+void KeyMapView::paintEvent(QPaintEvent *)
+{
+    QPainter painter(this);
+    painter.setRenderHint(QPainter::Antialiasing);
+    int top = 0;
+    const QVector<Row> all = rows();
+    for (const Row &row : all) {
+        paintRow(painter, row, top);
+        top += rowHeight();
+    }
+}
+
+void KeyMapView::paintRow(QPainter &painter, const Row &row, int top) const
+{
+    double left = width();
+    for (const Cap &cap : row.caps)
+        left -= widthOf(cap) + gap;
+    const double texts = left - gap;
+    for (const Cap &cap : row.caps) {
+        paintCap(painter, cap, QRectF(left + 0.5, top + 0.5, widthOf(cap) - 1.0, capSize() - 1.0));
+        left += widthOf(cap) + gap;
+    }
+    const int line = fontMetrics().height();
+    painter.setFont(font());
+    painter.setPen(m_theme.text);
+    painter.drawText(QRectF(0.0, top, texts, line), Qt::AlignLeft | Qt::AlignVCenter,
+                     fontMetrics().elidedText(row.name, Qt::ElideMiddle, int(texts)));
+    painter.setPen(row.isStale ? m_theme.stale : m_theme.mutedText);
+    painter.drawText(QRectF(0.0, top + line, texts, line), Qt::AlignLeft | Qt::AlignVCenter,
+                     fontMetrics().elidedText(row.actual, Qt::ElideRight, int(texts)));
+}
+
+void KeyMapView::paintCap(QPainter &painter, const Cap &cap, const QRectF &place) const
+{
+    constexpr double corner = 4.0;
+    painter.setFont(font());
+    painter.setPen(QPen(cap.isLit ? m_theme.held : m_theme.line, cap.isLit ? 2.0 : 1.0));
+    painter.setBrush(cap.isLit ? m_theme.held : m_theme.window);
+    painter.drawRoundedRect(place, corner, corner);
+    painter.setPen(cap.isLit ? m_theme.surface : m_theme.text);
+    painter.drawText(place, Qt::AlignCenter, cap.text);
+    painter.setFont(smallFont());
+    painter.setPen(cap.isLit ? m_theme.held : m_theme.mutedText);
+    painter.drawText(
+        QRectF(place.left() - gap, place.bottom(), place.width() + 2 * gap, QFontMetrics(smallFont()).height()),
+        Qt::AlignCenter, cap.effect);
+}
+
+}  // namespace qplc

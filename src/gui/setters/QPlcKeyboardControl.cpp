@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "QPlcKeyboardControl.h"
+
+#include "ControlBar.h"
+#include "ElidedLabel.h"
+#include "Gamepad.h"
+#include "KeyMapEditor.h"
+#include "KeyMapView.h"
+#include "ManualControl.h"
+#include "gui/panel/WindowContext.h"
+
+#include <QtCore/QTimer>
+#include <QtGui/QKeyEvent>
+#include <QtGui/QPainter>
+#include <QtWidgets/QAction>
+#include <QtWidgets/QScrollArea>
+#include <QtWidgets/QToolButton>
+#include <QtWidgets/QVBoxLayout>
+
+using namespace qplc;
+
+struct QPlcKeyboardControl::Private
+{
+    explicit Private(QPlcKeyboardControl *panel);
+    void makeLayout();
+    void makeArmAction();
+    void apply(const ManualBindings &bindings);
+    void showState();
+    void showValues();
+    void showTheme();
+    QString hint() const;
+    QString gamepadText() const;
+
+    QPlcKeyboardControl *const q;
+    ManualControl control;
+    std::unique_ptr<Gamepad> gamepad;  // when there is a use for it
+    ControlBar *bar;
+    KeyMapView *keys;
+    ElidedLabel *hintLabel;
+    QAction *arm;
+    QTimer pause;  // between two looks at the values
+    bool isOutdated = false;
+};
+
+QPlcKeyboardControl::Private::Private(QPlcKeyboardControl *panel)
+    : q(panel)
+    , bar(new ControlBar(&control.control(), ControlBar::Large, panel))
+    , keys(new KeyMapView(&control, panel))
+    , hintLabel(new ElidedLabel(panel))
+    , arm(new QAction(tr("Arm gamepad"), panel))
+{
+    makeLayout();
+    makeArmAction();
+    constexpr int tenth = 100;  // [ms]
+    pause.setSingleShot(true);
+    pause.setInterval(tenth);
+    connect(&pause, &QTimer::timeout, panel, [this] {
+        if (isOutdated)
+            showValues();
+    });
+    connect(&control.control(), &SignalControl::updated, panel, [this] {
+        isOutdated = true;
+        if (!pause.isActive())
+            showValues();
+    });
+    connect(&control.control(), &SignalControl::changed, panel, [this] { showState(); });
+    connect(&control.control(), &SignalControl::signalsChanged, panel, [this] { showState(); });
+    connect(&control, &ManualControl::moved, panel, [this] { showState(); });
+    connect(bar, &ControlBar::handled, panel, [this] { q->setFocus(Qt::OtherFocusReason); });
+}
+
+void QPlcKeyboardControl::Private::makeLayout()
+{
+    auto *column = new QVBoxLayout(q);
+    column->setContentsMargins(8, 5, 8, 5);
+    column->setSpacing(4);
+    column->addWidget(bar);
+    auto *scroll = new QScrollArea(q);
+    scroll->setWidget(keys);
+    scroll->setWidgetResizable(true);
+    scroll->setFrameShape(QFrame::NoFrame);
+    scroll->setFocusPolicy(Qt::NoFocus);
+    scroll->viewport()->setAutoFillBackground(false);
+    keys->setAutoFillBackground(false);
+    column->addWidget(scroll, 1);
+    auto *row = new QHBoxLayout;
+    row->addWidget(hintLabel, 1);
+    auto *armButton = new QToolButton(q);
+    armButton->setDefaultAction(arm);
+    armButton->setFocusPolicy(Qt::NoFocus);  // the keyboard stays with the keys that steer
+    row->addWidget(armButton);
+    connect(arm, &QAction::changed, armButton, [this, armButton] { armButton->setVisible(arm->isVisible()); });
+    column->addLayout(row);
+}
+
+void QPlcKeyboardControl::Private::makeArmAction()
+{
+    arm->setCheckable(true);
+    arm->setVisible(false);
+    arm->setShortcut(tr("Ctrl+G"));
+    arm->setShortcutContext(Qt::WidgetWithChildrenShortcut);
+    arm->setToolTip(tr("Axes act while they are armed (Ctrl+G, or the lower button of the gamepad)"));
+    connect(arm, &QAction::triggered, q, [this](bool checked) {
+        q->setFocus(Qt::OtherFocusReason);
+        control.setArmed(checked && control.isFlying() && q->hasFocus());
+        showState();
+    });
+}
+
+void QPlcKeyboardControl::Private::apply(const ManualBindings &bindings)
+{
+    control.setBindings(bindings);
+    const bool hasAxes = !bindings.axes.isEmpty();
+    arm->setVisible(hasAxes);
+    if (!hasAxes) {
+        gamepad.reset();
+    } else if (!gamepad) {
+        gamepad = std::make_unique<Gamepad>();
+        connect(gamepad.get(), &Gamepad::axisMoved, &control, &ManualControl::moveAxis);
+        connect(gamepad.get(), &Gamepad::armPressed, arm, &QAction::trigger);
+        connect(gamepad.get(), &Gamepad::connectedChanged, q, [this] {
+            control.setArmed(false);  // the axes of one that is gone say nothing any more
+            showState();
+        });
+    }
+    showState();
+}
+
+QString QPlcKeyboardControl::Private::gamepadText() const
+{
+    if (!gamepad || gamepad->isConnected())
+        return {};
+    return Gamepad::isSupported() ? tr("; no gamepad is plugged in") : tr("; this program knows no gamepads");
+}
+
+QString QPlcKeyboardControl::Private::hint() const
+{
+    if (control.bindings().keys.isEmpty() && control.bindings().axes.isEmpty())
+        return tr("No keys yet: choose some in the settings");
+    if (!control.isFlying())
+        return tr("Take control to fly with these keys") + gamepadText();
+    return q->hasFocus() ? tr("Hold a key to steer: let go, and it is neutral") + gamepadText()
+                         : tr("Click here to steer: the keyboard is elsewhere");
+}
+
+void QPlcKeyboardControl::Private::showState()
+{
+    hintLabel->showText(hint());
+    arm->setEnabled(control.isFlying() && gamepad && gamepad->isConnected());
+    arm->setChecked(control.isArmed());
+    if (q->context()) {
+        const Theme &theme = q->context()->theme();
+        hintLabel->setColor(control.isFlying() && !q->hasFocus() ? theme.warning : theme.mutedText);
+    }
+    keys->refresh();
+    q->update();
+}
+
+void QPlcKeyboardControl::Private::showValues()
+{
+    isOutdated = false;
+    if (!q->isVisible())
+        return;
+    pause.start();
+    keys->refresh();
+}
+
+void QPlcKeyboardControl::Private::showTheme()
+{
+    const Theme &theme = q->context()->theme();
+    bar->setTheme(theme);
+    keys->setTheme(theme);
+    showState();
+}
+
+QPlcKeyboardControl::QPlcKeyboardControl(QWidget *parent)
+    : QPlcWidget(parent)
+    , d(std::make_unique<Private>(this))
+{
+    setFocusPolicy(Qt::StrongFocus);
+    setAccessibleName(tr("Keyboard control"));
+    addActions({d->bar->takeAction(), d->bar->giveBackAction(), d->arm});
+    d->showState();
+}
+
+QPlcKeyboardControl::~QPlcKeyboardControl()
+{
+    d->control.letGo();
+    disconnect(&d->control, nullptr, this, nullptr);
+    disconnect(&d->control.control(), nullptr, this, nullptr);
+    disconnect(&d->control.control(), nullptr, d->bar, nullptr);
+    delete d->keys;  // looks at what ends with this object
+}
+
+QJsonObject QPlcKeyboardControl::settings() const
+{
+    QJsonObject all = QPlcWidget::settings();
+    const QJsonObject own = d->control.bindings().toJson();
+    for (auto entry = own.begin(); entry != own.end(); ++entry)
+        all.insert(entry.key(), entry.value());
+    return all;
+}
+
+void QPlcKeyboardControl::applySettings(const QJsonObject &settings)
+{
+    QJsonObject others = settings;
+    others.remove(QStringLiteral("keys"));
+    others.remove(QStringLiteral("axes"));
+    QPlcWidget::applySettings(others);
+    d->apply(ManualBindings::fromJson(settings));
+}
+
+QWidget *QPlcKeyboardControl::createSettingsEditor()
+{
+    auto *editor = new KeyMapEditor(d->control.bindings(), context() ? context()->plants() : nullptr);
+    connect(editor, &KeyMapEditor::edited, this, [this](const ManualBindings &bindings) {
+        d->apply(bindings);
+        Q_EMIT settingsEdited();
+    });
+    return editor;
+}
+
+void QPlcKeyboardControl::contextChanged()
+{
+    connect(context(), &WindowContext::themeChanged, this, [this] { d->showTheme(); });
+    d->showTheme();
+    d->control.setPlants(context()->plants());
+}
+
+namespace {
+
+/// Whether the key stands for itself: with these it is a shortcut.
+bool isPlain(const QKeyEvent *event)
+{
+    return (event->modifiers() & (Qt::ControlModifier | Qt::AltModifier | Qt::MetaModifier)) == 0;
+}
+
+}  // namespace
+
+bool QPlcKeyboardControl::event(QEvent *event)
+{
+    if (event->type() == QEvent::ShortcutOverride) {
+        const auto *press = static_cast<QKeyEvent *>(event);
+        if (d->control.isFlying() && hasFocus() && isPlain(press) && d->control.isBound(press->key())) {
+            event->accept();  // who flies does not open a menu with it
+            return true;
+        }
+    }
+    if (event->type() == QEvent::WindowDeactivate)
+        d->control.letGo();
+    return QPlcWidget::event(event);
+}
+
+void QPlcKeyboardControl::keyPressEvent(QKeyEvent *event)
+{
+    const bool isOurs = hasFocus() && isPlain(event) && d->control.isFlying();
+    if (!isOurs || !d->control.press(event->key(), event->isAutoRepeat()))
+        QPlcWidget::keyPressEvent(event);
+}
+
+void QPlcKeyboardControl::keyReleaseEvent(QKeyEvent *event)
+{
+    if (!d->control.release(event->key(), event->isAutoRepeat()))
+        QPlcWidget::keyReleaseEvent(event);
+}
+
+void QPlcKeyboardControl::mousePressEvent(QMouseEvent *)
+{
+    setFocus(Qt::MouseFocusReason);
+}
+
+void QPlcKeyboardControl::focusInEvent(QFocusEvent *event)
+{
+    QPlcWidget::focusInEvent(event);
+    d->showState();
+}
+
+void QPlcKeyboardControl::focusOutEvent(QFocusEvent *event)
+{
+    d->control.letGo();
+    QPlcWidget::focusOutEvent(event);
+    d->showState();
+}
+
+void QPlcKeyboardControl::showEvent(QShowEvent *event)
+{
+    QPlcWidget::showEvent(event);
+    d->showValues();
+}
+
+void QPlcKeyboardControl::hideEvent(QHideEvent *event)
+{
+    d->control.letGo();
+    QPlcWidget::hideEvent(event);
+}
+
+void QPlcKeyboardControl::paintEvent(QPaintEvent *)
+{
+    if (!context())
+        return;
+    QPainter painter(this);
+    const Theme &theme = context()->theme();
+    painter.fillRect(rect(), theme.surface);
+    const SignalControl::State state = d->control.control().state();
+    const bool isHeld = state == SignalControl::Mine || state == SignalControl::Other;
+    if (!isHeld && state != SignalControl::Lost && !hasFocus())
+        return;
+    const QColor color = isHeld ? theme.held : state == SignalControl::Lost ? theme.alarm : theme.accent;
+    painter.setPen(QPen(color, isHeld && hasFocus() ? 6.0 : isHeld ? 4.0 : 2.0));
+    painter.drawRect(rect());
+}

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "QPlcSetter.h"
+
+#include "ControlBar.h"
+#include "ElidedLabel.h"
+#include "SetterEditor.h"
+#include "SetterView.h"
+#include "gui/models/ValueFormat.h"
+#include "gui/panel/WindowContext.h"
+
+#include <QtCore/QTimer>
+#include <QtGui/QPainter>
+#include <QtWidgets/QAction>
+#include <QtWidgets/QVBoxLayout>
+
+using namespace qplc;
+
+struct QPlcSetter::Private
+{
+    explicit Private(QPlcSetter *setter);
+    void makeView();
+    void apply(const SetterSettings &wanted);
+    void takeViewSettings();
+    void showState();
+    void showActual();
+    void showTheme();
+    QString actualText() const;
+
+    QPlcSetter *const q;
+    SetterTarget target;
+    SetterSettings settings;
+    ElidedLabel *name;
+    ElidedLabel *actual;
+    SetterView *view = nullptr;
+    ElidedLabel *message;
+    ControlBar *bar;
+    QTimer pause;  // between two looks at the actual value
+    bool isOutdated = false;
+};
+
+QPlcSetter::Private::Private(QPlcSetter *setter)
+    : q(setter)
+    , name(new ElidedLabel(setter))
+    , actual(new ElidedLabel(setter))
+    , message(new ElidedLabel(setter))
+    , bar(new ControlBar(&target.control(), ControlBar::Small, setter))
+{
+    QFont bold = name->font();
+    bold.setBold(true);
+    name->setFont(bold);
+    actual->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
+    auto *column = new QVBoxLayout(setter);
+    column->setContentsMargins(8, 5, 8, 5);
+    column->setSpacing(3);
+    auto *header = new QHBoxLayout;
+    header->addWidget(name, 1);
+    header->addWidget(actual, 1);
+    column->addLayout(header);
+    column->addWidget(message);
+    column->addWidget(bar);
+    column->addStretch(1);
+    constexpr int tenth = 100;  // [ms]
+    pause.setSingleShot(true);
+    pause.setInterval(tenth);
+    connect(&pause, &QTimer::timeout, setter, [this] {
+        if (isOutdated)
+            showActual();
+    });
+    connect(&target, &SetterTarget::updated, setter, [this] {
+        isOutdated = true;
+        if (!pause.isActive())
+            showActual();
+    });
+    connect(&target, &SetterTarget::changed, setter, [this] { showState(); });
+    connect(&target, &SetterTarget::failed, setter, [this](const QString &sentence) { bar->say(sentence); });
+}
+
+void QPlcSetter::Private::makeView()
+{
+    delete view;  // ends what it does
+    view = SetterView::create(settings.style, &target, q);
+    static_cast<QVBoxLayout *>(q->layout())->insertWidget(1, view);
+    q->setFocusProxy(view);
+    connect(view, &SetterView::said, q, [this](const QString &sentence) {
+        message->showText(sentence);
+        message->setVisible(!sentence.isEmpty());
+    });
+    connect(view, &SetterView::settingsEdited, q, [this] {
+        takeViewSettings();
+        Q_EMIT q->settingsEdited();
+    });
+    message->showText({});
+    message->hide();
+    view->show();
+}
+
+/// What the view itself has for settings.
+void QPlcSetter::Private::takeViewSettings()
+{
+    const QJsonObject of = view->settings();
+    if (settings.style == QLatin1String("generator"))
+        settings.generator = of.value(QStringLiteral("generator")).toObject();
+}
+
+void QPlcSetter::Private::apply(const SetterSettings &wanted)
+{
+    const bool isOtherStyle = !view || wanted.style != settings.style;
+    const bool isOtherSignal = wanted.signal != settings.signal;
+    settings = wanted;
+    if (isOtherStyle || isOtherSignal)
+        makeView();  // whatever the old one does ends with the signal that it was done to
+    if (isOtherSignal)
+        target.setSignal(settings.signal);
+    target.setLimits(settings.minimum, settings.maximum);
+    view->applySettings(settings.toJson());
+    showState();
+}
+
+void QPlcSetter::Private::showState()
+{
+    const SignalReference reference = settings.signal;
+    name->showText(reference.isValid() ? reference.toString() : tr("Setter"));
+    if (target.signal())
+        name->setToolTip(target.signal().definition().description);
+    if (view)
+        view->refresh();
+    showActual();
+    q->update();
+}
+
+QString QPlcSetter::Private::actualText() const
+{
+    if (!target.signal())
+        return {};
+    const double number = target.actualNumber();
+    const QString value = target.isNumber() ? numberText(number, 5) : valueText(target.actual());
+    const Plant *plant = target.signal().plant;
+    const QString text = QStringLiteral("%1 %2").arg(value, target.unit()).trimmed();
+    return plant->quality() == Plant::Stale ? tr("%1, %2 old").arg(text, ageText(plant->age())) : text;
+}
+
+void QPlcSetter::Private::showActual()
+{
+    isOutdated = false;
+    if (!q->isVisible())
+        return;
+    pause.start();
+    actual->showText(actualText());
+    if (q->context()) {
+        const bool isStale = target.signal() && target.signal().plant->quality() == Plant::Stale;
+        const Theme &theme = q->context()->theme();
+        actual->setColor(isStale ? theme.stale : theme.text);
+    }
+    view->showActual();
+}
+
+void QPlcSetter::Private::showTheme()
+{
+    const Theme &theme = q->context()->theme();
+    name->setColor(theme.text);
+    message->setColor(theme.warning);
+    bar->setTheme(theme);
+    q->update();
+}
+
+QPlcSetter::QPlcSetter(QWidget *parent)
+    : QPlcWidget(parent)
+    , d(std::make_unique<Private>(this))
+{
+    d->makeView();
+    d->showState();
+    addActions({d->bar->takeAction(), d->bar->giveBackAction()});
+    // An age grows also when nothing comes.
+    auto *ages = new QTimer(this);
+    connect(ages, &QTimer::timeout, this, [this] {
+        const PlantList::Signal signal = d->target.signal();
+        if (signal && signal.plant->quality() == Plant::Stale)
+            d->showActual();
+    });
+    ages->start(500);
+}
+
+QPlcSetter::~QPlcSetter()
+{
+    delete d->view;  // ends what it does, while there is something to send it with
+    disconnect(&d->target, nullptr, this, nullptr);
+    disconnect(&d->target.control(), nullptr, d->bar, nullptr);
+}
+
+QJsonObject QPlcSetter::settings() const
+{
+    QJsonObject all = QPlcWidget::settings();
+    const QJsonObject own = d->settings.toJson();
+    for (auto entry = own.begin(); entry != own.end(); ++entry)
+        all.insert(entry.key(), entry.value());
+    return all;
+}
+
+void QPlcSetter::applySettings(const QJsonObject &settings)
+{
+    QPlcWidget::applySettings(SetterSettings::unknownOf(settings));
+    d->apply(SetterSettings::fromJson(settings));
+}
+
+QWidget *QPlcSetter::createSettingsEditor()
+{
+    auto *editor = new SetterEditor(d->settings, context() ? context()->plants() : nullptr);
+    connect(editor, &SetterEditor::edited, this, [this](const SetterSettings &settings) {
+        d->apply(settings);
+        Q_EMIT settingsEdited();
+    });
+    return editor;
+}
+
+bool QPlcSetter::addSignals(const QStringList &references)
+{
+    for (const QString &text : references) {
+        const SignalReference reference = SignalReference::fromString(text);
+        if (!reference.isValid())
+            continue;
+        SetterSettings wanted = d->settings;
+        wanted.signal = reference;
+        wanted.minimum = wanted.maximum = std::nullopt;  // they were those of another signal
+        d->apply(wanted);
+        Q_EMIT settingsEdited();
+        return true;
+    }
+    return false;
+}
+
+void QPlcSetter::contextChanged()
+{
+    connect(context(), &WindowContext::themeChanged, this, [this] { d->showTheme(); });
+    d->showTheme();
+    d->target.setPlants(context()->plants());
+}
+
+void QPlcSetter::showEvent(QShowEvent *event)
+{
+    QPlcWidget::showEvent(event);
+    d->showActual();
+}
+
+void QPlcSetter::paintEvent(QPaintEvent *)
+{
+    QPainter painter(this);
+    const SignalControl::State state = d->target.control().state();
+    const bool isHeld = state == SignalControl::Mine || state == SignalControl::Other || state == SignalControl::Lost;
+    if (!context())
+        return;
+    const Theme &theme = context()->theme();
+    painter.fillRect(rect(), theme.surface);
+    if (!isHeld)
+        return;
+    painter.setPen(QPen(state == SignalControl::Lost ? theme.alarm : theme.held, 4.0));
+    painter.drawRect(rect());  // of which 2 px are inside
+}

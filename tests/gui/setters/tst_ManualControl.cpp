@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "SetterFixtures.h"
+#include "gui/setters/ManualControl.h"
+#include "gui/setters/SetterTarget.h"
+#include "gui/setters/Waveform.h"
+
+#include <QtCore/QJsonArray>
+
+using namespace qplc;
+
+namespace {
+
+const SignalReference echo{QString(), QStringLiteral("echo"), SignalReference::Whole};
+const SignalReference setpoint{QString(), QStringLiteral("setpoint"), SignalReference::Whole};
+
+ManualBindings bindings()
+{
+    AxisBinding axis;
+    axis.axis = QStringLiteral("LeftX");
+    axis.signal = setpoint;
+    axis.value = 8.0;
+    axis.deadZone = 0.2;
+    axis.expo = 0.0;
+    return {{{Qt::Key_Left, echo, -3.0},
+             {Qt::Key_Right, echo, 4.0},
+             {Qt::Key_W, setpoint, 9.0},
+             {Qt::Key_E, setpoint, 6.0}},
+            {axis}};
+}
+
+}  // namespace
+
+class tst_ManualControl : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void keysThatRepeatThemselvesAreHeldOnce();
+    void axesHaveADeadZoneAndExpo();
+    void bindingsAreTheSameAfterJson();
+    void waveformsAreExact();
+    void heldKeysAreValuesAndReleasedOnesNeutral();
+    void sumsStayWithinTheTable();
+    void axesActWhileTheyAreArmed();
+    void withoutControlNothingIsWritten();
+    void whatIsHeldWhileControlIsTakenDoesNotAct();
+    void anElementIsWrittenIntoItsArray();
+    void aStreamEndsWithTheLastValueHoweverManyThereWere();
+};
+
+void tst_ManualControl::keysThatRepeatThemselvesAreHeldOnce()
+{
+    HeldKeys keys;
+    QVERIFY(!keys.release(Qt::Key_A, false));
+    QVERIFY(!keys.press(Qt::Key_A, true));  // the window came while it was held
+    QVERIFY(keys.press(Qt::Key_A, false));
+    QVERIFY(!keys.release(Qt::Key_A, true));  // X11 repeats releases, too
+    QVERIFY(!keys.press(Qt::Key_A, true));
+    QVERIFY(keys.contains(Qt::Key_A));
+    QVERIFY(keys.release(Qt::Key_A, false));
+    QVERIFY(!keys.releaseAll());
+    QVERIFY(keys.press(Qt::Key_B, false));
+    QVERIFY(keys.releaseAll());
+    QVERIFY(!keys.contains(Qt::Key_B));
+}
+
+void tst_ManualControl::axesHaveADeadZoneAndExpo()
+{
+    AxisBinding axis;
+    axis.deadZone = 0.2;
+    axis.expo = 0.0;
+    QCOMPARE(axis.shaped(0.0), 0.0);
+    QCOMPARE(axis.shaped(0.2), 0.0);
+    QCOMPARE(axis.shaped(-0.6), -0.5);
+    QCOMPARE(axis.shaped(1.0), 1.0);
+    QCOMPARE(axis.shaped(-7.0), -1.0);
+    QCOMPARE(axis.shaped(std::nan("")), 0.0);
+    axis.expo = 1.0;
+    QCOMPARE(axis.shaped(0.6), 0.125);
+    QCOMPARE(axis.shaped(1.0), 1.0);
+}
+
+void tst_ManualControl::bindingsAreTheSameAfterJson()
+{
+    const QJsonObject json = bindings().toJson();
+    QCOMPARE(ManualBindings::fromJson(json).toJson(), json);
+    QCOMPARE(json.value("keys").toArray().at(0).toObject(),
+             (QJsonObject{{"key", "Left"}, {"signal", "echo"}, {"value", -3.0}}));
+    QCOMPARE(ManualBindings().toJson(), QJsonObject());
+    const ManualBindings nonsense
+        = ManualBindings::fromJson({{"keys", QJsonArray{1, QJsonObject{{"key", "Ctrl+Nothing"}}}},
+                                    {"axes", QJsonArray{QJsonObject{{"deadZone", 5}}}}});
+    QCOMPARE(nonsense.keys.size(), 2);
+    QCOMPARE(nonsense.keys.at(1).key, 0);
+    QVERIFY(nonsense.axes.at(0).deadZone < 1.0);
+    QVERIFY(nonsense.signalReferences().isEmpty());
+    QCOMPARE(bindings().signalReferences(), (QVector<SignalReference>{echo, setpoint}));
+}
+
+void tst_ManualControl::waveformsAreExact()
+{
+    const Waveform step{Waveform::Step, 2.0, 1.0, 4.0};
+    QCOMPARE(step.value(0.0), 3.0);
+    QCOMPARE(step.value(1.99), 3.0);
+    QCOMPARE(step.value(2.0), 1.0);
+    QCOMPARE(step.value(4.0), 3.0);
+    const Waveform ramp{Waveform::Ramp, 2.0, 1.0, 4.0};
+    QCOMPARE(ramp.value(0.0), 1.0);
+    QCOMPARE(ramp.value(3.0), 2.5);
+    QCOMPARE(ramp.value(4.0), 1.0);
+    const Waveform sine{Waveform::Sine, 2.0, 1.0, 4.0};
+    QCOMPARE(sine.value(0.0), 1.0);
+    QCOMPARE(sine.value(1.0), 3.0);
+    QCOMPARE(sine.value(3.0), -1.0);
+}
+
+void tst_ManualControl::heldKeysAreValuesAndReleasedOnesNeutral()
+{
+    FlyingMaster master;
+    QVERIFY(master.startRealTime());
+    TestWindow window(master.address());
+    ManualControl control;
+    control.setPlants(window.context.plants());
+    control.setBindings(bindings());
+    QVERIFY(window.isReady());
+    QTRY_COMPARE(control.control().state(), SignalControl::Written);
+    QTRY_VERIFY(master.valueOf(echo.signal) > 10.0);
+    control.control().take();
+    QTRY_VERIFY(control.isFlying());
+    QTRY_COMPARE(master.valueOf(echo.signal), 0.0);  // nothing is held yet
+    QVERIFY(window.isMine(setpoint.signal));         // all at once
+    QVERIFY(control.press(Qt::Key_Left, false));
+    QTRY_COMPARE(master.valueOf(echo.signal), -3.0);
+    const int commands = window.done.size();
+    for (int i = 0; i < 50; ++i) {
+        control.release(Qt::Key_Left, true);
+        control.press(Qt::Key_Left, true);
+    }
+    QVERIFY(control.press(Qt::Key_Right, false));
+    QTRY_COMPARE(master.valueOf(echo.signal), 1.0);
+    QCOMPARE(window.done.size(), commands + 1);  // repeated keys are no news
+    control.letGo();
+    QTRY_COMPARE(master.valueOf(echo.signal), 0.0);
+    QVERIFY(!control.press(Qt::Key_Q, false));
+    control.control().giveBack();
+    QTRY_VERIFY(master.valueOf(echo.signal) > 10.0);
+    QVERIFY(window.failed.isEmpty());
+}
+
+void tst_ManualControl::sumsStayWithinTheTable()
+{
+    FlyingMaster master;
+    TestWindow window(master.address());
+    ManualControl control;
+    control.setPlants(window.context.plants());
+    control.setBindings(bindings());
+    QVERIFY(window.isReady());
+    QTRY_VERIFY(control.control().mayTake());
+    control.control().take();
+    QTRY_VERIFY(control.isFlying());
+    control.press(Qt::Key_W, false);
+    control.press(Qt::Key_E, false);
+    QCOMPARE(control.wanted(setpoint), 10.0);
+    QTRY_COMPARE(master.valueOf(setpoint.signal), 10.0);
+}
+
+void tst_ManualControl::axesActWhileTheyAreArmed()
+{
+    FlyingMaster master;
+    TestWindow window(master.address());
+    ManualControl control;
+    control.setPlants(window.context.plants());
+    control.setBindings(bindings());
+    QVERIFY(window.isReady());
+    QTRY_VERIFY(control.control().mayTake());
+    control.control().take();
+    QTRY_VERIFY(control.isFlying());
+    control.moveAxis(QStringLiteral("LeftX"), -0.6);
+    QCOMPARE(control.wanted(setpoint), 0.0);
+    control.setArmed(true);
+    QCOMPARE(control.wanted(setpoint), -4.0);
+    QTRY_COMPARE(master.valueOf(setpoint.signal), -4.0);
+    control.moveAxis(QStringLiteral("LeftX"), 0.1);
+    QTRY_COMPARE(master.valueOf(setpoint.signal), 0.0);
+    control.moveAxis(QStringLiteral("LeftX"), 1.0);
+    QTRY_COMPARE(master.valueOf(setpoint.signal), 8.0);
+    control.letGo();
+    QVERIFY(!control.isArmed());
+    QTRY_COMPARE(master.valueOf(setpoint.signal), 0.0);
+}
+
+void tst_ManualControl::withoutControlNothingIsWritten()
+{
+    FlyingMaster master;
+    TestWindow window(master.address());
+    ManualControl control;
+    control.press(Qt::Key_Left, false);  // nothing is bound, and there is no plant
+    control.setPlants(window.context.plants());
+    control.setBindings(bindings());
+    QVERIFY(window.isReady());
+    control.press(Qt::Key_W, false);
+    control.release(Qt::Key_W, false);
+    QTest::qWait(100);
+    QCOMPARE(window.done.size() + window.failed.size(), 0);
+}
+
+void tst_ManualControl::whatIsHeldWhileControlIsTakenDoesNotAct()
+{
+    FlyingMaster master;
+    TestWindow window(master.address());
+    ManualControl control;
+    control.setPlants(window.context.plants());
+    control.setBindings(bindings());
+    QVERIFY(window.isReady());
+    QTRY_VERIFY(control.control().mayTake());
+    control.press(Qt::Key_W, false);
+    control.control().take();
+    QTRY_VERIFY(control.isFlying());
+    QVERIFY(!control.isHeld(Qt::Key_W));
+    QCOMPARE(master.valueOf(setpoint.signal), 0.0);
+}
+
+void tst_ManualControl::anElementIsWrittenIntoItsArray()
+{
+    FlyingMaster master;
+    QVERIFY(master.setSignalValue(QStringLiteral("vector"), QPlcValue({1.0, 2.0, 3.0})));
+    TestWindow window(master.address());
+    SetterTarget target;
+    target.setPlants(window.context.plants());
+    target.setSignal(SignalReference::fromString(QStringLiteral("vector[1]")));
+    QVERIFY(window.isReady());
+    QTRY_COMPARE(target.actualNumber(), 2.0);
+    target.sendOnce(7.0);
+    QTRY_COMPARE(master.signalValue(QStringLiteral("vector")), QPlcValue({1.0, 7.0, 3.0}));
+}
+
+void tst_ManualControl::aStreamEndsWithTheLastValueHoweverManyThereWere()
+{
+    FlyingMaster master;
+    TestWindow window(master.address());
+    QVERIFY(window.isReady());
+    ValueStream stream;
+    stream.send({{setpoint.signal, 1.0}});  // nowhere
+    stream.setPlant(window.plant);
+    for (int i = 1; i <= 1000; ++i)
+        stream.send({{setpoint.signal, i * 0.01}});
+    QTRY_COMPARE(master.valueOf(setpoint.signal), 10.0);
+    QCOMPARE(window.done.size(), 2);  // the first one, and the last
+    QSignalSpy failed(&stream, &ValueStream::failed);
+    stream.send({{setpoint.signal, 11.0}});
+    stream.send({{setpoint.signal, 1.0}});
+    QTRY_COMPARE(failed.size(), 1);
+    stream.send({{setpoint.signal, 2.0}});  // goes on
+    QTRY_COMPARE(master.valueOf(setpoint.signal), 2.0);
+}
+
+QTEST_MAIN(tst_ManualControl)
+#include "tst_ManualControl.moc"

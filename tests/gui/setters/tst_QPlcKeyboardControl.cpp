@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "QPlcKeyboardControl.h"
+#include "SetterFixtures.h"
+#include "gui/setters/KeyButton.h"
+
+#include <QtCore/QJsonArray>
+#include <QtWidgets/QLineEdit>
+#include <QtWidgets/QVBoxLayout>
+
+using namespace qplc;
+
+namespace {
+
+const QString echo = QStringLiteral("echo");
+
+QJsonObject keySettings()
+{
+    return {{"keys",
+             QJsonArray{QJsonObject{{"key", "Left"}, {"signal", "echo"}, {"value", -3.0}},
+                        QJsonObject{{"key", "W"}, {"signal", "setpoint"}, {"value", 2.0}}}}};
+}
+
+/// A panel that flies a plant.
+struct Pilot
+{
+    explicit Pilot(FlyingMaster &master)
+        : window(master.address())
+    {
+    }
+    bool begin()
+    {
+        if (!showPanel(&panel, &window.context, keySettings()) || !window.isReady()
+            || !QTest::qWaitFor([this] { return buttonOf(&panel, QStringLiteral("Take control")) != nullptr; }))
+            return false;
+        QTest::mouseClick(buttonOf(&panel, QStringLiteral("Take control")), Qt::LeftButton);
+        return QTest::qWaitFor([this] { return buttonOf(&panel, QStringLiteral("Give back")) != nullptr; });
+    }
+
+    TestWindow window;
+    QPlcKeyboardControl panel;
+};
+
+}  // namespace
+
+class tst_QPlcKeyboardControl : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void settingsComeBackAsTheyWere();
+    void aPersonTakesControlFliesAndGivesBack();
+    void whatEndsTheHandleIsNeutralAtOnce_data();
+    void whatEndsTheHandleIsNeutralAtOnce();
+    void aKilledConnectionIsNeutralByTheMaster();
+    void someoneElseIsShownAndTakenFromOnlyAfterAQuestion();
+    void keysAreEdited();
+    void withoutPlantOrKeysThePanelIsCalm();
+};
+
+void tst_QPlcKeyboardControl::settingsComeBackAsTheyWere()
+{
+    QPlcKeyboardControl panel;
+    QJsonObject settings = keySettings();
+    settings.insert("axes",
+                    QJsonArray{QJsonObject{{"axis", "LeftX"}, {"signal", "echo"}, {"value", 5.0}, {"expo", 0.5}}});
+    settings.insert("later", 1);  // that nobody knows yet
+    panel.applySettings(settings);
+    QCOMPARE(panel.settings(), settings);
+    panel.applySettings({{"title", QString()}});
+    QCOMPARE(panel.settings(), (QJsonObject{{"later", 1}}));
+}
+
+void tst_QPlcKeyboardControl::aPersonTakesControlFliesAndGivesBack()
+{
+    FlyingMaster master;
+    QVERIFY(master.startRealTime());
+    Pilot pilot(master);
+    QVERIFY(pilot.begin());
+    QVERIFY(pilot.panel.hasFocus());
+    QVERIFY(labelsOf(&pilot.panel).contains(QStringLiteral("You")));
+    QTRY_COMPARE(master.valueOf(echo), 0.0);
+    QTest::keyPress(&pilot.panel, Qt::Key_Left);
+    QTRY_COMPARE(master.valueOf(echo), -3.0);
+    QTest::keyPress(&pilot.panel, Qt::Key_W);
+    QTRY_COMPARE(master.valueOf("setpoint"), 2.0);
+    QTest::keyRelease(&pilot.panel, Qt::Key_Left);
+    QTRY_COMPARE(master.valueOf(echo), 0.0);
+    QCOMPARE(master.valueOf("setpoint"), 2.0);
+    QTest::keyRelease(&pilot.panel, Qt::Key_W);
+    QTRY_COMPARE(master.valueOf("setpoint"), 0.0);
+    QVERIFY(actionOf(&pilot.panel, QStringLiteral("Give back")));
+    QTest::keyClick(&pilot.panel, Qt::Key_B, Qt::ControlModifier);
+    QTRY_VERIFY(labelsOf(&pilot.panel).contains(QStringLiteral("Echo")));
+    QTRY_VERIFY(master.valueOf(echo) > 10.0);
+    QTest::keyPress(&pilot.panel, Qt::Key_Left);
+    QTest::qWait(50);
+    QVERIFY(pilot.window.failed.isEmpty());
+    QVERIFY(master.valueOf(echo) > 10.0);
+}
+
+void tst_QPlcKeyboardControl::whatEndsTheHandleIsNeutralAtOnce_data()
+{
+    QTest::addColumn<int>("end");
+    QTest::newRow("another field has the keyboard") << 0;
+    QTest::newRow("the panel is hidden") << 1;
+    QTest::newRow("another window is active") << 2;
+    QTest::newRow("the panel is closed") << 3;
+}
+
+void tst_QPlcKeyboardControl::whatEndsTheHandleIsNeutralAtOnce()
+{
+    QFETCH(int, end);
+    FlyingMaster master;
+    QVERIFY(master.startRealTime());
+    auto pilot = std::make_unique<Pilot>(master);
+    QVERIFY(pilot->begin());
+    auto panel = &pilot->panel;
+    QTest::keyPress(panel, Qt::Key_Left);
+    QTRY_COMPARE(master.valueOf(echo), -3.0);
+    QLineEdit other;
+    if (end == 0)
+        buttonOf(panel, QStringLiteral("Give back"))->setFocus();
+    if (end == 1)
+        panel->hide();
+    if (end == 2) {
+        other.show();
+        other.activateWindow();
+        QVERIFY(QTest::qWaitForWindowActive(&other));
+    }
+    if (end == 3)
+        pilot.reset();  // with its window: the master ends it, too
+    QTRY_COMPARE(master.valueOf(echo), 0.0);
+    if (end == 3)
+        return;
+    panel->show();
+    panel->activateWindow();
+    panel->setFocus();
+    QTest::qWait(100);
+    QCOMPARE(master.valueOf(echo), 0.0);  // held or not: it has to be pressed again
+    QVERIFY(pilot->window.isMine(echo));
+}
+
+void tst_QPlcKeyboardControl::aKilledConnectionIsNeutralByTheMaster()
+{
+    FlyingMaster master;
+    QVERIFY(master.startRealTime());
+    Pilot pilot(master);
+    QVERIFY(pilot.begin());
+    QTest::keyPress(&pilot.panel, Qt::Key_Left);
+    QTRY_COMPARE(master.valueOf(echo), -3.0);
+    pilot.window.plant->close();  // not a word more
+    QTRY_COMPARE(master.valueOf(echo), 0.0);
+    QTRY_VERIFY(labelsOf(&pilot.panel).contains(QStringLiteral("No plant")));
+    pilot.window.plant->open();
+    QTRY_VERIFY(labelsOf(&pilot.panel).contains(QStringLiteral("was lost")));
+    QTest::keyPress(&pilot.panel, Qt::Key_Left);
+    QTest::qWait(100);
+    QCOMPARE(master.valueOf(echo), 0.0);
+    QTest::mouseClick(buttonOf(&pilot.panel, QStringLiteral("Give back")), Qt::LeftButton);
+    QTRY_VERIFY(master.valueOf(echo) > 10.0);
+}
+
+void tst_QPlcKeyboardControl::someoneElseIsShownAndTakenFromOnlyAfterAQuestion()
+{
+    FlyingMaster master;
+    TestWindow first(master.address(), QStringLiteral("First"));
+    QVERIFY(first.isReady());
+    first.plant->takeLease({echo});
+    TestWindow second(master.address(), QStringLiteral("Second"));
+    QPlcKeyboardControl panel;
+    QVERIFY(showPanel(&panel, &second.context, keySettings()));
+    QTRY_VERIFY(labelsOf(&panel).contains(QStringLiteral("Held by %1").arg(PlantLeases::whoever())));
+    QTest::mouseClick(buttonOf(&panel, QStringLiteral("Take control")), Qt::LeftButton);
+    QVERIFY(labelsOf(&panel).contains(QStringLiteral("take over?")));
+    QTest::mouseClick(buttonOf(&panel, QStringLiteral("No")), Qt::LeftButton);
+    QVERIFY(!labelsOf(&panel).contains(QStringLiteral("take over?")));
+    QTest::qWait(50);
+    QVERIFY(first.isMine(echo));
+    QTest::mouseClick(buttonOf(&panel, QStringLiteral("Take control")), Qt::LeftButton);
+    QTest::mouseClick(buttonOf(&panel, QStringLiteral("Take over")), Qt::LeftButton);
+    QTRY_VERIFY(second.isMine(echo));
+    QTRY_VERIFY(!first.isMine(echo));
+}
+
+void tst_QPlcKeyboardControl::keysAreEdited()
+{
+    QPlcKeyboardControl panel;
+    panel.applySettings(keySettings());
+    QSignalSpy edited(&panel, &QPlcWidget::settingsEdited);
+    const std::unique_ptr<QWidget> editor(panel.createSettingsEditor());
+    editor->show();
+    auto *key = editor->findChild<KeyButton *>();
+    QTest::mouseClick(key, Qt::LeftButton);
+    QTest::keyClick(key, Qt::Key_A);
+    QCOMPARE(edited.size(), 1);
+    QCOMPARE(panel.settings().value("keys").toArray().at(0).toObject().value("key").toString(), QStringLiteral("A"));
+    QTest::mouseClick(buttonOf(editor.get(), QStringLiteral("Add a key")), Qt::LeftButton);
+    QTest::mouseClick(buttonOf(editor.get(), QStringLiteral("×")), Qt::LeftButton);
+    QCOMPARE(edited.size(), 2);
+    QCOMPARE(panel.settings().value("keys").toArray().at(0).toObject().value("key").toString(), QStringLiteral("W"));
+}
+
+void tst_QPlcKeyboardControl::withoutPlantOrKeysThePanelIsCalm()
+{
+    QPlcKeyboardControl bare;
+    bare.show();
+    QTest::keyClick(&bare, Qt::Key_Left);
+    WindowContext context;
+    QPlcKeyboardControl panel;
+    QVERIFY(showPanel(&panel, &context, {}));
+    QVERIFY(labelsOf(&panel).contains(QStringLiteral("No keys yet")));
+    panel.applySettings(keySettings());
+    QVERIFY(labelsOf(&panel).contains(QStringLiteral("There is no signal 'echo' now")));
+    QTest::keyClick(&panel, Qt::Key_Left);
+    QVERIFY(!panel.grab().isNull());
+}
+
+QTEST_MAIN(tst_QPlcKeyboardControl)
+#include "tst_QPlcKeyboardControl.moc"
