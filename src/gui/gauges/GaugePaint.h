@@ -19,6 +19,8 @@ void paintLed(QPainter *painter, const QRectF &place, const GaugePicture &pictur
 
 /// Of the pointer: the accent, or what is not normal.
 QColor levelColor(AlarmState::Level level, const Theme &theme);
+/// Of the scale below the pointer: quiet in every theme.
+QColor trackColor(const Theme &theme);
 QColor pointerColor(const GaugePicture &picture, const Theme &theme);
 QColor textColor(const GaugePicture &picture, const Theme &theme);
 /// \a font in the largest size in which \a text fits into \a size.

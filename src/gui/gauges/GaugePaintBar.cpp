@@ -42,13 +42,15 @@ void paintTrack(QPainter *painter, const Bar &bar, const GaugePicture &picture, 
     painter->setPen(Qt::NoPen);
     QPainterPath round;
     round.addRoundedRect(bar.track, 3.0, 3.0);
-    painter->fillPath(round, theme.line);
+    painter->fillPath(round, trackColor(theme));
     painter->save();
     painter->setClipPath(round);
     const GaugePicture::Value &value = picture.values.first();
     const double place = bar.at(picture.scale.share(value.number));
     QColor filled = pointerColor(picture, theme);
-    painter->fillRect(bar.between(bar.at(picture.scale.share(0.0)), place), filled);
+    const bool hasValue = !std::isnan(value.number);
+    if (hasValue)
+        painter->fillRect(bar.between(bar.at(picture.scale.share(0.0)), place), filled);
     for (const std::optional<double> &extreme : {value.minimum, value.maximum}) {
         if (extreme)
             painter->fillRect(
@@ -57,6 +59,8 @@ void paintTrack(QPainter *painter, const Bar &bar, const GaugePicture &picture, 
     }
     painter->restore();
     // The end of the bar is seen also where it is at 0.
+    if (!hasValue)
+        return;
     const QRectF head = bar.between(place - 1.5, place + 1.5);
     painter->fillRect(bar.isLying ? head.adjusted(0, -2, 0, 2) : head.adjusted(-2, 0, 2, 0), filled);
 }
@@ -71,7 +75,10 @@ void paintScale(QPainter *painter, const Bar &bar, const GaugePicture &picture, 
     const double length = bar.isLying ? bar.track.width() : bar.track.height();
     const double room = bar.isLying ? metrics.horizontalAdvance(QLatin1Char('0')) * 7.0 : metrics.height() * 2.0;
     const int decimals = GaugeScale{0.0, picture.scale.span() * 100.0}.decimals();
-    for (const double tick : picture.scale.ticks(std::clamp(int(length / room), 2, 11))) {
+    const int most = int(length / room);
+    const QVector<double> ends{picture.scale.minimum, picture.scale.maximum};
+    const QVector<double> ticks = most < 4 ? ends : picture.scale.ticks(std::min(most, 11));
+    for (const double tick : ticks) {
         const double place = std::round(bar.at(picture.scale.share(tick))) + 0.5;
         painter->setPen(QPen(theme.mutedText, 1.0));
         const QRectF line = bar.strip(place, place, 6.0, 4.0);
@@ -110,7 +117,6 @@ void paintBar(QPainter *painter, const QRectF &place, const GaugePicture &pictur
     painter->save();
     QFont font = painter->font();
     font.setPixelSize(11);
-    const QFont figures = painter->font();
     const QFontMetricsF metrics(font);
     const bool isLying = place.width() > place.height();
     const double line = metrics.height();
@@ -122,7 +128,6 @@ void paintBar(QPainter *painter, const QRectF &place, const GaugePicture &pictur
     painter->setFont(font);
     paintTrack(painter, bar, picture, theme);
     paintScale(painter, bar, picture, theme);
-    painter->setFont(figures);
     painter->restore();
 }
 

@@ -4,6 +4,7 @@
 #include <QtCore/QtMath>
 
 #include <algorithm>
+#include <cmath>
 
 namespace qplc {
 
@@ -90,6 +91,8 @@ void paintMarkers(QPainter *painter, const Dial &dial, const GaugePicture &pictu
 void paintPointer(QPainter *painter, const Dial &dial, const GaugePicture &picture, const Theme &theme)
 {
     const double number = picture.values.first().number;
+    if (std::isnan(number))
+        return;
     const QColor color = pointerColor(picture, theme);
     const double angle = angleOf(picture, number);
     QColor filled = color;
@@ -109,7 +112,7 @@ void paintDial(QPainter *painter, const QRectF &place, const GaugePicture &pictu
 {
     const Dial dial = dialIn(place);
     painter->save();
-    dial.arc(painter, firstAngle, firstAngle - sweep, theme.line, dial.radius, dial.track);
+    dial.arc(painter, firstAngle, firstAngle - sweep, trackColor(theme), dial.radius, dial.track);
     const double rim = dial.radius + dial.track / 2.0 + 2.0;
     for (const GaugePicture::Band &band : picture.bands)
         dial.arc(painter, angleOf(picture, band.begin), angleOf(picture, band.end), levelColor(band.level, theme), rim,
@@ -118,10 +121,10 @@ void paintDial(QPainter *painter, const QRectF &place, const GaugePicture &pictu
     paintMarkers(painter, dial, picture, theme);
     paintPointer(painter, dial, picture, theme);
     painter->restore();
-    const double width = dial.radius * (dial.radius > 62.0 ? 0.95 : 1.2);
+    const double width = dial.radius * (dial.radius > 62.0 ? 0.9 : 1.35);
     GaugePicture figures = picture;
     figures.unit.clear();
-    const QRectF middle(dial.center.x() - width / 2.0, dial.center.y() - dial.radius * 0.24, width, dial.radius * 0.48);
+    const QRectF middle(dial.center.x() - width / 2.0, dial.center.y() - dial.radius * 0.2, width, dial.radius * 0.6);
     paintValue(painter, middle, figures, picture.values.first().text, textColor(picture, theme));
     painter->save();
     QFont font = painter->font();
@@ -129,7 +132,7 @@ void paintDial(QPainter *painter, const QRectF &place, const GaugePicture &pictu
     painter->setFont(font);
     painter->setPen(picture.isTrusted ? theme.mutedText : theme.stale);
     painter->drawText(
-        QRectF(dial.center.x() - width, dial.center.y() + dial.radius * 0.34, 2.0 * width, dial.radius * 0.4),
+        QRectF(dial.center.x() - width, dial.center.y() + dial.radius * 0.36, 2.0 * width, dial.radius * 0.4),
         Qt::AlignHCenter | Qt::AlignVCenter, picture.unit);
     painter->restore();
 }

@@ -4,6 +4,7 @@
 #include <QtGui/QRadialGradient>
 
 #include <algorithm>
+#include <cmath>
 
 namespace qplc {
 
@@ -45,7 +46,7 @@ void paintLed(QPainter *painter, const QRectF &place, const GaugePicture &pictur
     const GaugePicture::Value &value = picture.values.first();
     const bool isOn = value.number != 0.0;
     const bool isNormal = picture.level == AlarmState::Normal;
-    const bool isLit = picture.isBoolean ? isOn : true;
+    const bool isLit = !std::isnan(value.number) && (isOn || !picture.isBoolean);
     const QColor lit = !picture.isTrusted ? theme.stale : isNormal ? theme.good : levelColor(picture.level, theme);
     const bool isWide = place.width() > 1.6 * place.height();
     const double size

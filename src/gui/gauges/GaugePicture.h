@@ -49,6 +49,11 @@ inline bool operator!=(const GaugePicture &a, const GaugePicture &b)
     return !(a == b);
 }
 
+/// What stands where there is no value.
+inline QString noValueText()
+{
+    return QStringLiteral("–");
+}
 /// The parts of a scale beyond limits.
 QVector<GaugePicture::Band> bandsOf(const AlarmLimits &limits, const GaugeScale &scale);
 

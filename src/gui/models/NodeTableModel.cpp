@@ -160,6 +160,8 @@ QVariant NodeTableModel::headerData(int section, Qt::Orientation orientation, in
         return {};
     if (role == Qt::DisplayRole)
         return QString::fromLatin1(titles[section]);
+    if (role == Qt::TextAlignmentRole)
+        return int(Qt::AlignVCenter | (section >= LatenessP99 ? Qt::AlignRight : Qt::AlignLeft));
     if (role == Qt::ToolTipRole && isDuration(section))
         return section == ExecutionMaximum || section == RoundTripMaximum
             ? QStringLiteral("since the start of the phase")

@@ -308,7 +308,11 @@ int SignalTreeModel::columnCount(const QModelIndex &) const
 QVariant SignalTreeModel::headerData(int section, Qt::Orientation orientation, int role) const
 {
     static const char *const titles[ColumnCount] = {"Name", "Value", "Unit", "Age", "Description"};
-    if (orientation != Qt::Horizontal || role != Qt::DisplayRole || section < 0 || section >= ColumnCount)
+    if (orientation != Qt::Horizontal || section < 0 || section >= ColumnCount)
+        return {};
+    if (role == Qt::TextAlignmentRole)
+        return int(Qt::AlignVCenter | (section == Value ? Qt::AlignRight : Qt::AlignLeft));
+    if (role != Qt::DisplayRole)
         return {};
     return QString::fromLatin1(titles[section]);
 }
@@ -351,6 +355,8 @@ QVariant SignalTreeModel::toolTip(const Item *item) const
         lines << definition.rangeText() + QLatin1Char(' ') + definition.unit;
     if (!definition.description.isEmpty())
         lines << definition.description;
+    if (!item->value.isEmpty())
+        lines << item->value + QLatin1Char(' ') + definition.unit;
     const QString writer = item->plant->writer(item->signal);
     lines << (writer.isEmpty() ? QStringLiteral("written by nobody") : QStringLiteral("written by %1").arg(writer));
     lines << qualityText(item->plant->quality());

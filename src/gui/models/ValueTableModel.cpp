@@ -11,6 +11,14 @@ namespace qplc {
 
 namespace {
 
+/// Numbers stand at the right, as their titles.
+QVariant alignmentOf(int column)
+{
+    const bool isNumber = column == ValueTableModel::Value || column == ValueTableModel::Minimum
+        || column == ValueTableModel::Maximum || column == ValueTableModel::Age || column == ValueTableModel::Rate;
+    return int(Qt::AlignVCenter | (isNumber ? Qt::AlignRight : Qt::AlignLeft));
+}
+
 constexpr float noNumber = std::numeric_limits<float>::quiet_NaN();
 
 }  // namespace
@@ -223,7 +231,11 @@ int ValueTableModel::columnCount(const QModelIndex &parent) const
 QVariant ValueTableModel::headerData(int section, Qt::Orientation orientation, int role) const
 {
     static const char *const titles[ColumnCount] = {"Signal", "Value", "Unit", "Min", "Max", "Quality", "Age", "Rate"};
-    if (orientation != Qt::Horizontal || role != Qt::DisplayRole || section < 0 || section >= ColumnCount)
+    if (orientation != Qt::Horizontal || section < 0 || section >= ColumnCount)
+        return {};
+    if (role == Qt::TextAlignmentRole)
+        return alignmentOf(section);
+    if (role != Qt::DisplayRole)
         return {};
     return QString::fromLatin1(titles[section]);
 }
@@ -233,8 +245,6 @@ QVariant ValueTableModel::data(const QModelIndex &index, int role) const
     if (!index.isValid())
         return {};
     const Row &row = m_rows.at(index.row());
-    const bool isNumber = index.column() == Value || index.column() == Minimum || index.column() == Maximum
-        || index.column() == Age || index.column() == Rate;
     switch (role) {
     case Qt::DisplayRole:
         return row.texts.at(index.column());
@@ -243,7 +253,7 @@ QVariant ValueTableModel::data(const QModelIndex &index, int role) const
     case Qt::ForegroundRole:
         return foregroundOf(row.isTrusted);
     case Qt::TextAlignmentRole:
-        return isNumber ? QVariant(int(Qt::AlignRight | Qt::AlignVCenter)) : QVariant();
+        return alignmentOf(index.column());
     case Qt::ToolTipRole:
         return row.signal
             ? row.signal.definition().description

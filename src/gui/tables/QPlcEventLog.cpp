@@ -183,7 +183,9 @@ void QPlcEventLog::contextChanged()
     });
     connect(d->table, &QAbstractItemView::activated, this, [this, events](const QModelIndex &index) {
         const PlantEvent &event = events->at(d->filter->mapToSource(index).row());
-        context()->timeView()->jumpTo(event.time.toMSecsSinceEpoch() * 1'000'000);
+        const TimeView::Time time = event.time.toMSecsSinceEpoch() * 1'000'000;
+        context()->timeView()->jumpTo(time);
+        context()->timeView()->setPointer(time);  // so that gauges and tables show this time too
     });
     connect(d->acknowledge, &QAction::triggered, this, [this, events] {
         QList<QPersistentModelIndex> chosen;  // acknowledging may filter rows away

@@ -19,7 +19,7 @@ using namespace qplc;
 namespace {
 
 const QVector<PanelTable::Column> columns
-    = {{"name", 22, true}, {"value", 14, true}, {"unit", 7, true}, {"age", 8, false}, {"description", 40, false}};
+    = {{"name", 22, true}, {"value", 13, true}, {"unit", 5, true}, {"age", 8, false}, {"description", 40, false}};
 
 }  // namespace
 

@@ -130,8 +130,10 @@ void tst_GaugeScale::bandsLieWithinTheScale()
         QStringList texts;
         const QVector<GaugePicture::Band> bands = bandsOf(limits, {0.0, 100.0});
         for (const GaugePicture::Band &band : bands)
-            texts << QStringLiteral("%1 %2 %3").arg(band.begin).arg(band.end).arg(
-                band.level == AlarmState::Alarm ? QStringLiteral("alarm") : QStringLiteral("warning"));
+            texts << QStringLiteral("%1 %2 %3")
+                         .arg(band.begin)
+                         .arg(band.end)
+                         .arg(band.level == AlarmState::Alarm ? QStringLiteral("alarm") : QStringLiteral("warning"));
         return texts.join(QStringLiteral(", "));
     };
     QCOMPARE(textOf({}), QString());

@@ -4,6 +4,7 @@
 #include "gui/gauges/GaugeFeed.h"
 #include "gui/panel/WindowContext.h"
 
+#include <QtCore/QJsonDocument>
 #include <QtWidgets/QCheckBox>
 #include <QtWidgets/QComboBox>
 #include <QtWidgets/QLineEdit>
@@ -20,7 +21,7 @@ type = Real
 unit = m
 min = 0
 max = 100
-[count]
+[turns]
 type = Int32
 [gate]
 type = Bool
@@ -52,7 +53,10 @@ public:
         feed.setSettings(settingsOf(settings));
         feed.setActive(true);
     }
-    bool isAtRest() { return QTest::qWaitFor([this] { return plant->quality() == Plant::AtRest; }); }
+    bool isAtRest()
+    {
+        return QTest::qWaitFor([this] { return plant->quality() == Plant::AtRest; });
+    }
     void set(const char *signal, const QPlcValue &value)
     {
         plant->setValues({{QString(signal), value}});
@@ -157,8 +161,8 @@ void tst_QPlcGauge::theScaleIsThatOfTheTableUnlessChosen()
     QCOMPARE(bench.feed.picture().level, AlarmState::Normal);
     bench.feed.setSettings(settingsOf({{"signal", "level"}, {"minimum", 7}, {"maximum", 3}}));
     QCOMPARE(bench.feed.picture().scale, (GaugeScale{7.0, 8.0}));
-    bench.feed.setSettings(settingsOf({{"signal", "count"}}));
-    bench.set("count", -30);
+    bench.feed.setSettings(settingsOf({{"signal", "turns"}}));
+    bench.set("turns", -30);
     QTRY_COMPARE(bench.feed.picture().scale, (GaugeScale{-50.0, 50.0}));
 }
 
@@ -220,9 +224,9 @@ void tst_QPlcGauge::bandsSaySoWithHysteresis()
 
 void tst_QPlcGauge::integersBooleansAndTextsAreShownAsSuch()
 {
-    FeedBench bench({{"signal", "count"}});
+    FeedBench bench({{"signal", "turns"}});
     QVERIFY(bench.isAtRest());
-    bench.set("count", 7);
+    bench.set("turns", 7);
     QTRY_COMPARE(bench.text(), QStringLiteral("7"));
     bench.feed.setSettings(settingsOf({{"signal", "gate"}, {"style", "led"}}));
     QCOMPARE(bench.text(), QStringLiteral("Off"));
