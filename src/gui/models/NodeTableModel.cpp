@@ -19,6 +19,21 @@ QVariant figure(const DurationFigures &figures, double value)
     return figures.count > 0 ? QVariant(value) : QVariant();
 }
 
+QString healthText(NodeTableModel::HealthLevel level)
+{
+    switch (level) {
+    case NodeTableModel::Good:
+        return QStringLiteral("OK");
+    case NodeTableModel::Warning:
+        return QStringLiteral("Warning");
+    case NodeTableModel::Error:
+        return QStringLiteral("Error");
+    case NodeTableModel::Unavailable:
+        break;
+    }
+    return QStringLiteral("Unavailable");
+}
+
 }  // namespace
 
 NodeTableModel::NodeTableModel(PlantList *plants, QObject *parent)
@@ -70,6 +85,17 @@ QVector<NodeTableModel::Row> NodeTableModel::rowsOf(Plant *plant)
                                           : QStringLiteral("good, was late"),
                      {}});
     return rows;
+}
+
+/// Late now is a warning; when time stands still because of it, an error.
+NodeTableModel::HealthLevel NodeTableModel::healthOf(const Row &row)
+{
+    if (!row.plant->isConnected() || row.plant->status().state.isEmpty())
+        return Unavailable;
+    const bool isWaiting = row.plant->status().state == QLatin1String("WaitingForLateSlaves");
+    if (row.isMaster)
+        return isWaiting ? Error : Good;
+    return !row.node.isLate ? Good : isWaiting ? Error : Warning;
 }
 
 /// Where the rows of a plant begin, or would.
@@ -127,13 +153,15 @@ int NodeTableModel::columnCount(const QModelIndex &parent) const
 QVariant NodeTableModel::headerData(int section, Qt::Orientation orientation, int role) const
 {
     static const char *const titles[ColumnCount]
-        = {"Plant",          "Name",          "Transport",     "Address",       "Policy",         "State",
-           "Lateness p99",   "Execution p50", "Execution p99", "Execution max", "Round trip p50", "Round trip p99",
-           "Round trip max", "Late",          "Lost",          "Duplicated"};
+        = {"Plant",          "Name",           "Health",        "Transport",     "Address",       "Policy",
+           "State",          "Lateness p99",   "Execution p50", "Execution p99", "Execution max", "Round trip p50",
+           "Round trip p99", "Round trip max", "Late",          "Lost",          "Duplicated",    "Rejected"};
     if (orientation != Qt::Horizontal || section < 0 || section >= ColumnCount)
         return {};
     if (role == Qt::DisplayRole)
         return QString::fromLatin1(titles[section]);
+    if (role == Qt::TextAlignmentRole)
+        return int(Qt::AlignVCenter | (section >= LatenessP99 ? Qt::AlignRight : Qt::AlignLeft));
     if (role == Qt::ToolTipRole && isDuration(section))
         return section == ExecutionMaximum || section == RoundTripMaximum
             ? QStringLiteral("since the start of the phase")
@@ -165,6 +193,8 @@ QVariant NodeTableModel::number(const Row &row, int column)
         return row.isMaster ? QVariant() : node.lost;
     case Duplicated:
         return row.isMaster ? QVariant() : node.duplicated;
+    case Rejected:
+        return row.isMaster ? QVariant() : node.rejected;
     default:
         return {};
     }
@@ -177,6 +207,8 @@ QString NodeTableModel::text(const Row &row, int column)
         return row.plant->name();
     case Name:
         return row.node.name;
+    case Health:
+        return healthText(healthOf(row));
     case Transport:
         return row.node.transport;
     case Address:
@@ -202,7 +234,11 @@ QVariant NodeTableModel::data(const QModelIndex &index, int role) const
     switch (role) {
     case Qt::DisplayRole:
         return text(row, index.column());
+    case HealthRole:
+        return int(healthOf(row));
     case SortRole: {
+        if (index.column() == Health)
+            return int(healthOf(row));
         const QVariant value = number(row, index.column());
         return value.isValid() || index.column() >= LatenessP99 ? value : text(row, index.column());
     }

@@ -15,6 +15,7 @@ public:
     enum Column {
         PlantColumn,
         Name,
+        Health,
         Transport,
         Address,
         Policy,
@@ -29,9 +30,15 @@ public:
         Late,
         Lost,
         Duplicated,
+        Rejected,
         ColumnCount
     };
-    enum Role { SortRole = Qt::UserRole };  // numbers as numbers: durations in ns
+    enum Role {
+        SortRole = Qt::UserRole,  // numbers as numbers: durations in ns
+        HealthRole                // HealthLevel
+    };
+    /// The stop-light of a row: how it is now, not how it was.
+    enum HealthLevel { Good, Warning, Error, Unavailable };
 
     explicit NodeTableModel(PlantList *plants, QObject *parent = nullptr);
 
@@ -54,6 +61,7 @@ private:
     void remove(Plant *plant);
     void update(Plant *plant);
     int firstRowOf(const Plant *plant) const;
+    static HealthLevel healthOf(const Row &row);
     static QVector<Row> rowsOf(Plant *plant);
     static QVariant number(const Row &row, int column);
     static QString text(const Row &row, int column);

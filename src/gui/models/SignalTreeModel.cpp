@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SignalTreeModel.h"
 
+#include "gui/plant/PastValue.h"
+
 #include <algorithm>
 
 namespace qplc {
@@ -204,15 +206,26 @@ PlantList::Signal SignalTreeModel::signalOf(const Item *item) const
 /// Takes the present value. \return whether it looks different
 bool SignalTreeModel::renew(Item *item) const
 {
-    const QString value = valueText(signalOf(item).value());
-    const QString age = ageText(item->plant->age());
-    const Plant::Quality quality = item->plant->quality();
+    const QPlcValue shown = m_displayTime ? pastValue(signalOf(item), *m_displayTime) : signalOf(item).value();
+    const QString value = valueText(shown);
+    const QString age = m_displayTime ? QString() : ageText(item->plant->age());
+    const Plant::Quality quality = !m_displayTime ? item->plant->quality()
+        : shown.isValid()                         ? Plant::Good
+                                                  : Plant::NoValue;
     if (value == item->value && age == item->age && quality == item->quality)
         return false;
     item->value = value;
     item->age = age;
     item->quality = quality;
     return true;
+}
+
+void SignalTreeModel::setDisplayTime(std::optional<SignalStore::Time> time)
+{
+    if (time == m_displayTime)
+        return;
+    m_displayTime = time;
+    refresh();
 }
 
 void SignalTreeModel::refresh()
@@ -295,7 +308,11 @@ int SignalTreeModel::columnCount(const QModelIndex &) const
 QVariant SignalTreeModel::headerData(int section, Qt::Orientation orientation, int role) const
 {
     static const char *const titles[ColumnCount] = {"Name", "Value", "Unit", "Age", "Description"};
-    if (orientation != Qt::Horizontal || role != Qt::DisplayRole || section < 0 || section >= ColumnCount)
+    if (orientation != Qt::Horizontal || section < 0 || section >= ColumnCount)
+        return {};
+    if (role == Qt::TextAlignmentRole)
+        return int(Qt::AlignVCenter | (section == Value ? Qt::AlignRight : Qt::AlignLeft));
+    if (role != Qt::DisplayRole)
         return {};
     return QString::fromLatin1(titles[section]);
 }
@@ -338,6 +355,10 @@ QVariant SignalTreeModel::toolTip(const Item *item) const
         lines << definition.rangeText() + QLatin1Char(' ') + definition.unit;
     if (!definition.description.isEmpty())
         lines << definition.description;
+    if (!item->value.isEmpty())
+        lines << item->value + QLatin1Char(' ') + definition.unit;
+    const QString writer = item->plant->writer(item->signal);
+    lines << (writer.isEmpty() ? QStringLiteral("written by nobody") : QStringLiteral("written by %1").arg(writer));
     lines << qualityText(item->plant->quality());
     return lines.join(QLatin1Char('\n'));
 }

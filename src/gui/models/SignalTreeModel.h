@@ -8,6 +8,7 @@
 #include <QtCore/QTimer>
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace qplc {
@@ -45,6 +46,9 @@ public:
     /// Where a reference stands; invalid when there is no such signal now.
     QModelIndex find(const SignalReference &reference) const;
 
+    /// Shows values of the past; empty: those of now.
+    void setDisplayTime(std::optional<SignalStore::Time> time);
+
     static constexpr int RefreshPause = 100;  // [ms]
 
 private:
@@ -76,6 +80,7 @@ private:
     PlantList *m_plants;
     ItemPtr m_root;
     QTimer m_timer;
+    std::optional<SignalStore::Time> m_displayTime;
     mutable QSet<Item *> m_lookedAt;
 };
 

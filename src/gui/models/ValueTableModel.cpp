@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ValueTableModel.h"
 
+#include "gui/plant/PastValue.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,6 +10,14 @@
 namespace qplc {
 
 namespace {
+
+/// Numbers stand at the right, as their titles.
+QVariant alignmentOf(int column)
+{
+    const bool isNumber = column == ValueTableModel::Value || column == ValueTableModel::Minimum
+        || column == ValueTableModel::Maximum || column == ValueTableModel::Age || column == ValueTableModel::Rate;
+    return int(Qt::AlignVCenter | (isNumber ? Qt::AlignRight : Qt::AlignLeft));
+}
 
 constexpr float noNumber = std::numeric_limits<float>::quiet_NaN();
 
@@ -131,20 +141,62 @@ void ValueTableModel::extendRange(Row *row)
     row->maximum = std::isnan(row->maximum) ? range.maximum : std::max(row->maximum, range.maximum);
 }
 
+void ValueTableModel::setDisplayTime(std::optional<SignalStore::Time> time)
+{
+    if (time == m_displayTime)
+        return;
+    m_displayTime = time;
+    refresh();
+}
+
+QPlcValue ValueTableModel::shownValue(const Row &row) const
+{
+    return m_displayTime ? pastValue(row.signal, *m_displayTime) : row.signal.value();
+}
+
+bool ValueTableModel::isTrusted(const Row &row) const
+{
+    if (!row.signal)
+        return false;
+    if (m_displayTime)
+        return shownValue(row).isValid();
+    const Plant::Quality quality = row.signal.plant->quality();
+    return quality == Plant::Good || quality == Plant::AtRest;
+}
+
+/// Nothing sorts before all numbers.
+QVariant ValueTableModel::sortValue(const Row &row, int column) const
+{
+    const auto number = [](double value) { return std::isnan(value) ? QVariant() : QVariant(value); };
+    if (column == Minimum || column == Maximum)
+        return number(double(column == Minimum ? row.minimum : row.maximum));
+    if (!row.signal)
+        return column == Name || column == QualityColumn ? QVariant(row.texts.at(column)) : QVariant();
+    if (column == Age)
+        return row.signal.plant->age();
+    if (column == Rate)
+        return row.signal.plant->updateRate();
+    const QPlcValue value = column == Value ? shownValue(row) : QPlcValue();
+    return value.isValid() && value.type().isNumeric() ? number(value.toReal()) : QVariant(row.texts.at(column));
+}
+
 QStringList ValueTableModel::textsOf(const Row &row) const
 {
     const QString name = row.reference.toString();
     if (!row.signal)
         return {name, {}, {}, {}, {}, QStringLiteral("not there"), {}, {}};
     const Plant &plant = *row.signal.plant;
+    const bool isPast = m_displayTime.has_value();
     const bool hasRange = row.signal.channel() != ChannelMap::NoChannel;
     return {name,
-            valueText(row.signal.value()),
+            valueText(shownValue(row)),
             row.signal.definition().unit,
             hasRange ? numberText(double(row.minimum)) : QString(),
             hasRange ? numberText(double(row.maximum)) : QString(),
-            qualityText(plant.quality()),
-            ageText(plant.age()),
+            !isPast              ? qualityText(plant.quality())
+                : isTrusted(row) ? QStringLiteral("past")
+                                 : QStringLiteral("no value"),
+            isPast ? QString() : ageText(plant.age()),
             plant.updateRate() > 0.0 ? QStringLiteral("%1 Hz").arg(plant.updateRate(), 0, 'g', 3) : QString()};
 }
 
@@ -155,12 +207,11 @@ void ValueTableModel::refresh()
         if (row.signal)
             extendRange(&row);
         const QStringList texts = textsOf(row);
-        const bool isTrusted = row.signal && row.signal.plant->quality() != Plant::Stale
-            && row.signal.plant->quality() != Plant::NoValue;
-        if (texts == row.texts && isTrusted == row.isTrusted)
+        const bool isTrustedNow = isTrusted(row);
+        if (texts == row.texts && isTrustedNow == row.isTrusted)
             continue;
         row.texts = texts;
-        row.isTrusted = isTrusted;
+        row.isTrusted = isTrustedNow;
         Q_EMIT dataChanged(index(i, 0), index(i, ColumnCount - 1), {Qt::DisplayRole, Qt::ForegroundRole});
     }
 }
@@ -180,7 +231,11 @@ int ValueTableModel::columnCount(const QModelIndex &parent) const
 QVariant ValueTableModel::headerData(int section, Qt::Orientation orientation, int role) const
 {
     static const char *const titles[ColumnCount] = {"Signal", "Value", "Unit", "Min", "Max", "Quality", "Age", "Rate"};
-    if (orientation != Qt::Horizontal || role != Qt::DisplayRole || section < 0 || section >= ColumnCount)
+    if (orientation != Qt::Horizontal || section < 0 || section >= ColumnCount)
+        return {};
+    if (role == Qt::TextAlignmentRole)
+        return alignmentOf(section);
+    if (role != Qt::DisplayRole)
         return {};
     return QString::fromLatin1(titles[section]);
 }
@@ -190,15 +245,15 @@ QVariant ValueTableModel::data(const QModelIndex &index, int role) const
     if (!index.isValid())
         return {};
     const Row &row = m_rows.at(index.row());
-    const bool isNumber = index.column() == Value || index.column() == Minimum || index.column() == Maximum
-        || index.column() == Age || index.column() == Rate;
     switch (role) {
     case Qt::DisplayRole:
         return row.texts.at(index.column());
+    case SortRole:
+        return sortValue(row, index.column());
     case Qt::ForegroundRole:
         return foregroundOf(row.isTrusted);
     case Qt::TextAlignmentRole:
-        return isNumber ? QVariant(int(Qt::AlignRight | Qt::AlignVCenter)) : QVariant();
+        return alignmentOf(index.column());
     case Qt::ToolTipRole:
         return row.signal
             ? row.signal.definition().description

@@ -6,6 +6,8 @@
 #include <QtCore/QAbstractTableModel>
 #include <QtCore/QTimer>
 
+#include <optional>
+
 namespace qplc {
 
 /// Chosen signals with value, smallest and largest value, quality, age and rate. What is not there now stays as a placeholder and comes to life with its signal.
@@ -16,6 +18,7 @@ class ValueTableModel : public QAbstractTableModel
     Q_OBJECT
 public:
     enum Column { Name, Value, Unit, Minimum, Maximum, QualityColumn, Age, Rate, ColumnCount };
+    enum Role { SortRole = Qt::UserRole };  // numbers as numbers
 
     explicit ValueTableModel(PlantList *plants, QObject *parent = nullptr);
 
@@ -25,6 +28,8 @@ public:
     void add(const QVector<SignalReference> &references, int row = -1);
     /// Forgets smallest and largest values.
     void reset();
+    /// Shows values of the past; empty: those of now.
+    void setDisplayTime(std::optional<SignalStore::Time> time);
 
     int rowCount(const QModelIndex &parent = QModelIndex()) const override;
     int columnCount(const QModelIndex &parent = QModelIndex()) const override;
@@ -57,9 +62,13 @@ private:
     void refresh();
     static void extendRange(Row *row);
     QStringList textsOf(const Row &row) const;
+    QPlcValue shownValue(const Row &row) const;
+    bool isTrusted(const Row &row) const;
+    QVariant sortValue(const Row &row, int column) const;
 
     PlantList *m_plants;
     QVector<Row> m_rows;
+    std::optional<SignalStore::Time> m_displayTime;
     QTimer m_timer;
 };
 

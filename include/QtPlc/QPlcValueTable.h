@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "QPlcWidget.h"
+#include "QPlcWidgetFactoryOf.h"
+
+/// Chosen signals with value, smallest and largest value since reset, unit, quality, age and rate. Signals are dropped in, dragged out, sorted, and copied as text with tabs.
+///
+/// Settings: `signals` (references, in order), `columns` (keys of those that are shown: signal, value, unit, minimum, maximum, quality, age, rate), `sort` (key of a column) and `descending`.
+///
+/// A signal that does not exist (yet) stays as a grey row. In a window whose plots are frozen it shows the values of the time that is looked at.
+///
+/// Threads: the thread of the window.
+class QTPLC_GUI_EXPORT QPlcValueTable : public QPlcWidget
+{
+    Q_OBJECT
+public:
+    static constexpr int staticType = ValueTable;
+    static QString typeName() { return QStringLiteral("Value table"); }
+
+    explicit QPlcValueTable(QWidget *parent = nullptr);
+    ~QPlcValueTable() override;
+
+    int type() const override { return staticType; }
+    QJsonObject settings() const override;
+    /// Settings that are missing have their defaults from here on.
+    void applySettings(const QJsonObject &settings) override;
+    QWidget *createSettingsEditor() override;
+    bool addSignals(const QStringList &references) override;
+    QSize sizeHint() const override;
+
+protected:
+    void contextChanged() override;
+
+private:
+    void makeActions();
+    void openAdding();
+    void takeSignals();
+
+    struct Private;
+    std::unique_ptr<Private> d;
+};
+using QPlcValueTableFactory = QPlcWidgetFactoryOf<QPlcValueTable>;

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "GaugeEditor.h"
+
+#include "gui/panel/SignalEdit.h"
+
+#include <QtGui/QDoubleValidator>
+#include <QtWidgets/QCheckBox>
+#include <QtWidgets/QComboBox>
+#include <QtWidgets/QFormLayout>
+
+namespace qplc {
+
+GaugeEditor::GaugeEditor(const PanelSettings &settings, const QString &title, const QPlcSignalDefinition &definition,
+                         PlantList *plants, QWidget *parent)
+    : QWidget(parent)
+    , m_settings(settings)
+{
+    auto *form = new QFormLayout(this);
+    addSignal(form, plants);
+    addStyles(form);
+    auto *titleEdit = new QLineEdit(title, this);
+    titleEdit->setPlaceholderText(tr("Gauge"));
+    form->addRow(tr("Title"), titleEdit);
+    connect(titleEdit, &QLineEdit::editingFinished, this, [this, titleEdit] { Q_EMIT titleEdited(titleEdit->text()); });
+    addNumbers(form, definition);
+    auto *extremes = new QCheckBox(tr("Smallest and largest value since reset"), this);
+    extremes->setChecked(m_settings.value("extremes").toBool());
+    form->addRow(extremes);
+    connect(extremes, &QCheckBox::toggled, this, [this](bool isOn) { set("extremes", isOn, false); });
+}
+
+void GaugeEditor::addSignal(QFormLayout *form, PlantList *plants)
+{
+    auto *edit = new SignalEdit(plants, this);
+    edit->setText(m_settings.value("signal").toString());
+    edit->setMinimumWidth(edit->fontMetrics().averageCharWidth() * 34);
+    form->addRow(tr("Signal"), edit);
+    setFocusProxy(edit);
+    connect(edit, &SignalEdit::chosen, this, [this](const QString &name) { set("signal", name, QString()); });
+    connect(edit, &QLineEdit::editingFinished, this,
+            [this, edit] { set("signal", edit->text().trimmed(), QString()); });
+}
+
+void GaugeEditor::addStyles(QFormLayout *form)
+{
+    auto *styles = new QComboBox(this);
+    styles->addItem(tr("Dial"), styleText(GaugeStyle::Dial));
+    styles->addItem(tr("Bar"), styleText(GaugeStyle::Bar));
+    styles->addItem(tr("Number"), styleText(GaugeStyle::Number));
+    styles->addItem(tr("LED"), styleText(GaugeStyle::Led));
+    styles->setCurrentIndex(styles->findData(styleText(GaugeSettings::from(m_settings).style)));
+    form->addRow(tr("Style"), styles);
+    connect(styles, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
+            [this, styles] { set("style", styles->currentData().toString(), styleText(GaugeStyle::Dial)); });
+}
+
+void GaugeEditor::addNumbers(QFormLayout *form, const QPlcSignalDefinition &definition)
+{
+    const auto ofTable = [](const QPlcValue &limit) {
+        return limit.isValid() ? tr("%1 (of the table)").arg(limit.toString()) : tr("automatic");
+    };
+    addNumber(form, tr("Scale from"), "minimum", ofTable(definition.minimum));
+    addNumber(form, tr("Scale to"), "maximum", ofTable(definition.maximum));
+    addNumber(form, tr("Alarm below"), "alarmLow", tr("none"));
+    addNumber(form, tr("Warning below"), "warningLow", tr("none"));
+    addNumber(form, tr("Warning above"), "warningHigh", tr("none"));
+    addNumber(form, tr("Alarm above"), "alarmHigh", tr("none"));
+    addNumber(form, tr("Hysteresis"), "hysteresis", tr("1 % of the scale"));
+}
+
+void GaugeEditor::addNumber(QFormLayout *form, const QString &label, const char *key, const QString &whenEmpty)
+{
+    const QJsonValue value = m_settings.value(key);
+    auto *edit = new QLineEdit(value.isDouble() ? QLocale::c().toString(value.toDouble(), 'g', 10) : QString(), this);
+    auto *validator = new QDoubleValidator(edit);
+    validator->setLocale(QLocale::c());
+    edit->setValidator(validator);
+    edit->setPlaceholderText(whenEmpty);
+    edit->setObjectName(QLatin1String(key));
+    form->addRow(label, edit);
+    const auto take = [this, edit, key] {
+        const QString text = edit->text();
+        if (text.isEmpty())
+            set(key, QJsonValue());
+        else if (edit->hasAcceptableInput())
+            set(key, QLocale::c().toDouble(text));
+    };
+    connect(edit, &QLineEdit::editingFinished, this, take);
+    connect(edit, &QLineEdit::textEdited, this, [take](const QString &text) {
+        if (text.isEmpty())  // an empty line is no number, but finished
+            take();
+    });
+}
+
+void GaugeEditor::set(const char *key, const QJsonValue &value, const QJsonValue &defaultValue)
+{
+    if (m_settings.set(key, value, defaultValue))
+        Q_EMIT edited(m_settings);
+}
+
+}  // namespace qplc

@@ -1,0 +1,369 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "GaugeFeed.h"
+
+#include "QPlcSignalIndexTable.h"
+#include "gui/models/ValueFormat.h"
+#include "gui/panel/WindowContext.h"
+#include "gui/plant/PastValue.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace qplc {
+
+namespace {
+
+constexpr double noNumber = std::numeric_limits<double>::quiet_NaN();
+
+std::optional<double> limitOf(const QPlcValue &value)
+{
+    return value.isValid() ? std::optional<double>(value.toReal()) : std::nullopt;
+}
+
+}  // namespace
+
+GaugeFeed::GaugeFeed(QObject *parent)
+    : QObject(parent)
+{
+    m_textTimer.setInterval(TextPause);
+    connect(&m_textTimer, &QTimer::timeout, this, [this] { refresh(Texts::Renew); });
+}
+
+// ---- the signal ----
+
+void GaugeFeed::setContext(WindowContext *context)
+{
+    m_context = context;
+    PlantList *plants = context->plants();
+    connect(plants, &PlantList::signalsChanged, this, &GaugeFeed::resolve);
+    connect(plants, &PlantList::added, this, &GaugeFeed::follow);
+    for (int i = 0; i < plants->size(); ++i)
+        follow(plants->at(i));
+    connect(context->timeView(), &TimeView::displayTimeChanged, this, [this] { refresh(Texts::WhenDue); });
+    resolve();
+}
+
+void GaugeFeed::follow(Plant *plant)
+{
+    connect(plant, &Plant::updated, this, [this, plant] {
+        if (m_signal.plant == plant)
+            refresh(Texts::WhenDue);
+    });
+    connect(plant, &Plant::storeChanged, this, [this, plant] {  // rows of another store are numbered anew
+        if (m_signal.plant == plant)
+            m_seen = 0;
+    });
+}
+
+void GaugeFeed::setSettings(const GaugeSettings &settings)
+{
+    const bool isSame = settings.signal == m_settings.signal;
+    m_settings = settings;
+    m_alarms.clear();
+    m_widest.clear();
+    if (isSame && m_context)
+        refresh(Texts::Renew);
+    else
+        resolve();
+}
+
+void GaugeFeed::setActive(bool isActive)
+{
+    m_isActive = isActive;
+    if (!isActive) {
+        m_textTimer.stop();
+        return;
+    }
+    m_textTimer.start();
+    refresh(Texts::Renew);
+}
+
+/// The reference may mean something else now.
+void GaugeFeed::resolve()
+{
+    const PlantList::Signal before = m_signal;
+    const SignalReference reference = SignalReference::fromString(m_settings.signal);
+    if (m_context) {
+        m_signal = m_context->plants()->resolve(reference);
+        m_definition = m_signal ? m_signal.definition() : QPlcSignalDefinition();
+        if (m_signal.plant != before.plant || m_signal.index != before.index || m_signal.element != before.element)
+            begin();
+    } else {
+        const QPlcSignalTable table = QPlcSignalIndexTable::current();
+        m_definition
+            = table.contains(reference.signal) ? table.at(table.indexOf(reference.signal)) : QPlcSignalDefinition();
+        m_value = QPlcValue();
+        begin();
+    }
+    refresh(Texts::Renew);
+}
+
+/// Another signal: nothing is known of it yet.
+void GaugeFeed::begin()
+{
+    m_alarms.clear();
+    m_widest.clear();
+    m_grownScale = GaugeScale();
+    reset();
+}
+
+void GaugeFeed::reset()
+{
+    m_extremes.fill({noNumber, noNumber}, elements());
+    const SignalStore *store = m_signal ? m_signal.plant->store() : nullptr;
+    m_seen = store && !store->isEmpty() ? store->endRow() - 1 : 0;  // what is seen at the moment counts
+    refresh(Texts::Renew);
+}
+
+int GaugeFeed::elements() const
+{
+    if (!m_definition.type.isNumeric())
+        return m_definition.type.isValid() ? 1 : 0;
+    return SignalReference::fromString(m_settings.signal).element == SignalReference::Whole ? m_definition.type.count()
+                                                                                            : 1;
+}
+
+bool GaugeFeed::isBoolean() const
+{
+    if (m_definition.typeName.startsWith(QLatin1String("Bool"), Qt::CaseInsensitive))
+        return true;
+    return m_settings.style == GaugeStyle::Led && m_definition.type.isInteger() && limitOf(m_definition.minimum) == 0.0
+        && limitOf(m_definition.maximum) == 1.0;
+}
+
+GaugeScale GaugeFeed::scale() const
+{
+    if (isBoolean())
+        return {};
+    const auto first = [](const std::optional<double> &chosen, const QPlcValue &limit, double grown) {
+        return chosen ? *chosen : limitOf(limit).value_or(grown);
+    };
+    GaugeScale scale{first(m_settings.minimum, m_definition.minimum, m_grownScale.minimum),
+                     first(m_settings.maximum, m_definition.maximum, m_grownScale.maximum)};
+    if (!(scale.minimum < scale.maximum))
+        scale.maximum = scale.minimum + 1.0;
+    return scale;
+}
+
+AlarmLimits GaugeFeed::limits() const
+{
+    AlarmLimits limits = m_settings.limits;
+    limits.hysteresis = std::max(0.0, m_settings.hysteresis.value_or(scale().span() * 0.01));
+    return limits;
+}
+
+// ---- values ----
+
+void GaugeFeed::take(const QList<QPlcSignalList> &batch, QPlcSignalIndex index)
+{
+    for (const QPlcSignalList &values : batch) {
+        const QPlcValue value = values.value(index);
+        if (!value.isValid())
+            continue;
+        m_value = value;
+        for (int i = 0; i < elements() && value.type().isNumeric(); ++i) {
+            const double number = value.toReal(std::max(i, SignalReference::fromString(m_settings.signal).element));
+            include(i, number, number);
+        }
+    }
+    refresh(Texts::WhenDue);
+}
+
+QPlcValue GaugeFeed::newestValue() const
+{
+    if (m_context)
+        return m_signal.value();
+    const int element = SignalReference::fromString(m_settings.signal).element;
+    return element == SignalReference::Whole || !m_value.isValid() ? m_value : QPlcValue(m_value.toReal(element));
+}
+
+void GaugeFeed::include(int element, double minimum, double maximum)
+{
+    Extremes &extremes = m_extremes[element];
+    extremes.minimum = std::fmin(extremes.minimum, minimum);  // NaN counts as nothing
+    extremes.maximum = std::fmax(extremes.maximum, maximum);
+}
+
+void GaugeFeed::extendExtremes()
+{
+    const SignalStore *store = m_signal ? m_signal.plant->store() : nullptr;
+    if (!store || !m_definition.type.isNumeric())
+        return;
+    for (int i = 0; i < elements(); ++i) {
+        const int channel = m_signal.plant->values().channels().channel(m_signal.index, std::max(i, m_signal.element));
+        const SignalStore::Range range
+            = store->range(channel, std::max(m_seen, store->firstRow()), std::max(store->endRow(), m_seen));
+        if (!range.isEmpty())
+            include(i, double(range.minimum), double(range.maximum));
+    }
+    m_seen = std::max(store->endRow(), m_seen);
+}
+
+// ---- the picture ----
+
+void GaugeFeed::refresh(Texts texts)
+{
+    if (!m_isActive)
+        return;
+    const bool isDue = texts == Texts::Renew || !m_sinceTexts.isValid() || m_sinceTexts.elapsed() >= TextPause;
+    if (isDue)
+        m_sinceTexts.start();
+    GaugePicture picture;
+    picture.style = m_settings.style;
+    picture.name = m_settings.signal;
+    picture.message = missingText();
+    if (picture.message.isEmpty())
+        showSignal(&picture, isDue);
+    show(picture);
+}
+
+void GaugeFeed::show(const GaugePicture &picture)
+{
+    if (picture == m_picture)
+        return;
+    m_picture = picture;
+    Q_EMIT changed();
+}
+
+QString GaugeFeed::missingText() const
+{
+    if (m_settings.signal.isEmpty())
+        return tr("No signal yet.\nDrop one here, or choose one in the settings.");
+    QString error;
+    if (!SignalReference::fromString(m_settings.signal, &error).isValid())
+        return error;
+    if (m_definition.name.isEmpty())
+        return tr("%1\nis not there at the moment. It appears with its plant.").arg(m_settings.signal);
+    if (elements() > MostElements)
+        return tr("%1 has %2 elements.\nChoose one of them: %1[0]").arg(m_settings.signal).arg(elements());
+    return {};
+}
+
+void GaugeFeed::showSignal(GaugePicture *picture, bool hasNewTexts)
+{
+    if (m_context)
+        extendExtremes();
+    const std::optional<TimeView::Time> time = m_context ? m_context->timeView()->displayTime() : std::nullopt;
+    const QPlcValue value = time ? pastValue(m_signal, *time) : newestValue();
+    const Plant::Quality quality = m_signal ? m_signal.plant->quality() : Plant::Good;
+    picture->isTrusted = value.isValid() && (time || quality == Plant::Good || quality == Plant::AtRest);
+    picture->isBoolean = isBoolean();
+    picture->unit = m_definition.unit;
+    if (!m_definition.type.isNumeric() || elements() > 1)
+        picture->style = GaugeStyle::Number;
+    showValue(picture, value, hasNewTexts);
+    picture->status = statusText();
+    if (value.isValid() && value.type().isNumeric())
+        judge(picture, time.has_value());
+    m_widest = picture->widest;
+}
+
+void GaugeFeed::showValue(GaugePicture *picture, const QPlcValue &value, bool hasNewTexts)
+{
+    const bool isNumeric = m_definition.type.isNumeric();
+    for (int i = 0; i < elements(); ++i) {
+        GaugePicture::Value shown;
+        shown.number = value.isValid() && isNumeric ? value.toReal(i) : noNumber;
+        m_grownScale.extendTo(shown.number);
+        const Extremes extremes = m_extremes.value(i, {noNumber, noNumber});
+        if (m_settings.showsExtremes && !std::isnan(extremes.minimum)) {
+            m_grownScale.extendTo(extremes.minimum);
+            m_grownScale.extendTo(extremes.maximum);
+            shown.minimum = extremes.minimum;
+            shown.maximum = extremes.maximum;
+        }
+        picture->values << shown;
+    }
+    picture->scale = scale();
+    picture->decimals = m_definition.type.isReal() ? picture->scale.decimals() : 0;
+    picture->bands = bandsOf(limits(), picture->scale);
+    picture->widest = m_widest;
+    const auto widen = [&](const QString &text) {
+        if (text.size() > picture->widest.size())
+            picture->widest = text;
+    };
+    if (isNumeric) {
+        widen(valueText(picture->scale.minimum));
+        widen(valueText(picture->scale.maximum));
+    }
+    const bool keepsTexts = !hasNewTexts && m_picture.values.size() == picture->values.size();
+    for (int i = 0; i < picture->values.size(); ++i) {
+        GaugePicture::Value &shown = picture->values[i];
+        shown.text = keepsTexts              ? m_picture.values.at(i).text
+            : !value.isValid()               ? noValueText()
+            : isNumeric                      ? valueText(shown.number)
+            : m_definition.type.isDateTime() ? value.toDateTime().toLocalTime().toString(QStringLiteral("HH:mm:ss.zzz"))
+                                             : qplc::valueText(value);
+        widen(shown.text);
+    }
+}
+
+QString GaugeFeed::valueText(double number) const
+{
+    if (isBoolean())
+        return number != 0.0 ? tr("On") : tr("Off");
+    return gaugeNumber(number, m_definition.type.isReal() ? scale().decimals() : 0);
+}
+
+QString GaugeFeed::statusText() const
+{
+    if (!m_context)
+        return m_value.isValid() ? QString() : tr("no value yet");
+    if (const std::optional<TimeView::Time> time = m_context->timeView()->displayTime()) {
+        const QDateTime shown = QDateTime::fromMSecsSinceEpoch(*time / 1'000'000);
+        const QString clock = shown.toString(QStringLiteral("HH:mm:ss.zzz"));
+        return pastValue(m_signal, *time).isValid() ? tr("at %1").arg(clock) : tr("no value at %1").arg(clock);
+    }
+    switch (m_signal.plant->quality()) {
+    case Plant::NoValue:
+        return tr("no value yet");
+    case Plant::Stale:
+        return tr("stale, %1").arg(ageText(m_signal.plant->age()));
+    case Plant::AtRest:
+        return tr("at rest");
+    case Plant::Good:
+        break;
+    }
+    return {};
+}
+
+/// Says what is not normal, in a colour and in words.
+void GaugeFeed::judge(GaugePicture *picture, bool isPast)
+{
+    if (m_alarms.size() != picture->values.size() || isPast
+        || (!m_alarms.isEmpty() && m_alarms.first().limits() != limits())) {
+        AlarmState state;
+        state.setLimits(limits());
+        m_alarms.fill(state, picture->values.size());
+    }
+    QString words;
+    const auto say = [&](AlarmState::Level level, const QString &text) {
+        if (!words.isEmpty() && level <= picture->level)
+            return;
+        picture->level = level;
+        words = text;
+    };
+    for (int i = 0; i < picture->values.size(); ++i) {
+        const double number = picture->values.at(i).number;
+        m_alarms[i].update(number);
+        const AlarmState &alarm = m_alarms.at(i);
+        const bool isHigh = alarm.side() == AlarmState::High;
+        if (std::isnan(number))
+            say(AlarmState::Warning, tr("not a number"));
+        else if (number > limitOf(m_definition.maximum).value_or(number))
+            say(AlarmState::Alarm, tr("▲ over range"));
+        else if (number < limitOf(m_definition.minimum).value_or(number))
+            say(AlarmState::Alarm, tr("▼ under range"));
+        else if (alarm.level() == AlarmState::Alarm)
+            say(AlarmState::Alarm, isHigh ? tr("▲▲ high high") : tr("▼▼ low low"));
+        else if (alarm.level() == AlarmState::Warning)
+            say(AlarmState::Warning, isHigh ? tr("▲ high") : tr("▼ low"));
+        else if (number > picture->scale.maximum || number < picture->scale.minimum)
+            say(AlarmState::Normal, number > picture->scale.maximum ? tr("▲ off scale") : tr("▼ off scale"));
+    }
+    if (!words.isEmpty())
+        picture->status = picture->status.isEmpty() ? words : words + QStringLiteral(" · ") + picture->status;
+}
+
+}  // namespace qplc

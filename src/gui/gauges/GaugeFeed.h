@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "GaugePicture.h"
+#include "gui/plant/PlantList.h"
+
+#include <QtCore/QElapsedTimer>
+#include <QtCore/QPointer>
+
+namespace qplc {
+
+class WindowContext;
+
+/// Makes the picture of a gauge out of a signal: of a plant of the window, at the time that the window shows, or of the values that a program gives.
+///
+/// Pointers move with every update, texts ten times a second. Nothing is done between setActive(false) and setActive(true); smallest and largest values lose nothing meanwhile, as they come from the store.
+class GaugeFeed : public QObject
+{
+    Q_OBJECT
+public:
+    explicit GaugeFeed(QObject *parent = nullptr);
+
+    void setContext(WindowContext *context);
+    void setSettings(const GaugeSettings &settings);
+    void setActive(bool isActive);
+    /// The values of a program, where there is no window. \param index  in the table of the process
+    void take(const QList<QPlcSignalList> &batch, QPlcSignalIndex index);
+    /// Smallest and largest values begin anew.
+    void reset();
+
+    const GaugePicture &picture() const { return m_picture; }
+    /// What the table says of the signal; an empty name when it is not there.
+    const QPlcSignalDefinition &definition() const { return m_definition; }
+
+    static constexpr int TextPause = 100;   // [ms]
+    static constexpr int MostElements = 6;  // that are shown side by side
+
+Q_SIGNALS:
+    /// There is something new to draw.
+    void changed();
+
+private:
+    struct Extremes
+    {
+        double minimum;  // NaN before the first value
+        double maximum;
+    };
+    enum class Texts { Renew, WhenDue };
+
+    void resolve();
+    void begin();
+    void follow(Plant *plant);
+    void refresh(Texts texts);
+    void show(const GaugePicture &picture);
+    void showSignal(GaugePicture *picture, bool hasNewTexts);
+    void showValue(GaugePicture *picture, const QPlcValue &value, bool hasNewTexts);
+    void judge(GaugePicture *picture, bool isPast);
+    QString missingText() const;
+    QString statusText() const;
+    QString valueText(double number) const;
+    QPlcValue newestValue() const;
+    void extendExtremes();
+    void include(int element, double minimum, double maximum);
+    int elements() const;
+    GaugeScale scale() const;
+    AlarmLimits limits() const;
+    bool isBoolean() const;
+
+    QPointer<WindowContext> m_context;
+    GaugeSettings m_settings;
+    PlantList::Signal m_signal;
+    QPlcSignalDefinition m_definition;
+    QPlcValue m_value;  // what a program gave
+    QVector<AlarmState> m_alarms;
+    QVector<Extremes> m_extremes;
+    SignalStore::Row m_seen = 0;  // rows of the store before it are in the extremes
+    GaugeScale m_grownScale;
+    QString m_widest;
+    GaugePicture m_picture;
+    QTimer m_textTimer;
+    QElapsedTimer m_sinceTexts;
+    bool m_isActive = false;
+};
+
+}  // namespace qplc

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "GaugePaint.h"
+
+#include "gui/panel/FigureFont.h"
+
+#include <algorithm>
+
+namespace qplc {
+
+namespace {
+
+const QChar minusSign(0x2212);
+
+}  // namespace
+
+QColor levelColor(AlarmState::Level level, const Theme &theme)
+{
+    return level == AlarmState::Alarm ? theme.alarm : level == AlarmState::Warning ? theme.warning : theme.accent;
+}
+
+QColor trackColor(const Theme &theme)
+{
+    constexpr int mostContrast = 60;
+    const int contrast = std::abs(theme.surface.lightness() - theme.line.lightness());
+    const double share = contrast > mostContrast ? double(mostContrast) / contrast : 1.0;
+    const auto mix = [share](int behind, int line) { return int(behind + share * (line - behind)); };
+    return {mix(theme.surface.red(), theme.line.red()), mix(theme.surface.green(), theme.line.green()),
+            mix(theme.surface.blue(), theme.line.blue())};
+}
+
+QColor pointerColor(const GaugePicture &picture, const Theme &theme)
+{
+    return picture.isTrusted ? levelColor(picture.level, theme) : theme.stale;
+}
+
+QColor textColor(const GaugePicture &picture, const Theme &theme)
+{
+    if (!picture.isTrusted)
+        return theme.stale;
+    return picture.level == AlarmState::Normal ? theme.text : levelColor(picture.level, theme);
+}
+
+QFont fittingFont(const QFont &font, const QString &text, const QSizeF &size, double largest)
+{
+    constexpr int measured = 100;  // [px]
+    QFont fitting = font;
+    fitting.setPixelSize(measured);
+    const QFontMetricsF metrics(fitting);
+    const double width = std::max(metrics.horizontalAdvance(text), 1.0);
+    const double scale = std::min(size.width() / width, size.height() / metrics.height());
+    fitting.setPixelSize(std::max(6, int(std::min(measured * scale, largest))));
+    return fitting;
+}
+
+void paintValue(QPainter *painter, const QRectF &place, const GaugePicture &picture, const QString &text,
+                const QColor &color)
+{
+    const QString widest = picture.widest.size() > text.size() ? picture.widest : text;
+    const QString unit = picture.unit.isEmpty() ? QString() : QStringLiteral(" ") + picture.unit;
+    // The unit is half as large as the figures. A sign hangs at their left: what has none stands in the middle.
+    const bool hasSign = widest.startsWith(minusSign);
+    const QString digits = hasSign ? widest.mid(1) : widest;
+    const double unitShare = 0.5 * double(unit.size()) / std::max(1.0, double(widest.size()));
+    const QSizeF room(place.width() / (1.0 + unitShare), place.height());
+    const QFont font = fittingFont(figureFont(painter->font()), hasSign ? widest + minusSign : widest, room);
+    QFont unitFont = font;
+    unitFont.setPixelSize(std::max(9, font.pixelSize() / 2));
+    const QFontMetricsF metrics(font);
+    const double width = metrics.horizontalAdvance(digits);
+    const double left = place.center().x() - (width + QFontMetricsF(unitFont).horizontalAdvance(unit)) / 2.0;
+    const double baseline = place.center().y() + metrics.capHeight() / 2.0;
+    painter->save();
+    painter->setFont(font);
+    painter->setPen(color);
+    const double missing = width - metrics.horizontalAdvance(text);
+    painter->drawText(QPointF(left + (text == noValueText() ? missing / 2.0 : missing), baseline), text);
+    painter->setFont(unitFont);
+    painter->drawText(QPointF(left + width, baseline), unit);
+    painter->restore();
+}
+
+namespace {
+
+void paintMessage(QPainter *painter, const QRectF &place, const GaugePicture &picture, const Theme &theme)
+{
+    painter->setPen(theme.mutedText);
+    painter->drawText(place.adjusted(8, 4, -8, -4), Qt::AlignCenter | Qt::TextWordWrap, picture.message);
+}
+
+void paintName(QPainter *painter, const QRectF &place, const GaugePicture &picture, const Theme &theme, int side)
+{
+    painter->setPen(theme.mutedText);
+    const QString name = QFontMetricsF(painter->font()).elidedText(picture.name, Qt::ElideMiddle, place.width());
+    painter->drawText(place, side | Qt::AlignVCenter, name);
+}
+
+void paintStatus(QPainter *painter, const QRectF &place, const GaugePicture &picture, const Theme &theme, int side)
+{
+    painter->setPen(textColor(picture, theme));
+    const QString status = QFontMetricsF(painter->font()).elidedText(picture.status, Qt::ElideRight, place.width());
+    painter->drawText(place, side | Qt::AlignVCenter, status);
+}
+
+/// One line below: name at the left, what is not normal at the right. \return what is left for the gauge
+QRectF paintLine(QPainter *painter, const QRectF &place, const GaugePicture &picture, const Theme &theme)
+{
+    const QFontMetricsF metrics(painter->font());
+    const QRectF line(place.left(), place.bottom() - metrics.height(), place.width(), metrics.height());
+    const double statusWidth = picture.status.isEmpty() ? 0.0 : metrics.horizontalAdvance(picture.status) + 6.0;
+    const double nameWidth = place.width() - statusWidth;
+    if (picture.status.isEmpty())
+        paintName(painter, line, picture, theme, Qt::AlignHCenter);
+    else if (nameWidth > metrics.averageCharWidth() * 6.0)
+        paintName(painter, QRectF(line.topLeft(), QSizeF(nameWidth, line.height())), picture, theme, Qt::AlignLeft);
+    paintStatus(painter, line, picture, theme, Qt::AlignRight);
+    return place.adjusted(0.0, 0.0, 0.0, -metrics.height() - 2.0);
+}
+
+/// Where one line is too short for both: the name above, and below what is not normal. The space for it is always there, so that nothing jumps.
+QRectF paintTwoLines(QPainter *painter, const QRectF &place, const GaugePicture &picture, const Theme &theme)
+{
+    const double height = QFontMetricsF(painter->font()).height();
+    paintName(painter, QRectF(place.left(), place.top() - 2.0, place.width(), height), picture, theme,
+              Qt::AlignHCenter);
+    paintStatus(painter, QRectF(place.left(), place.bottom() - height + 2.0, place.width(), height), picture, theme,
+                Qt::AlignHCenter);
+    return place.adjusted(0.0, height, 0.0, -height + 2.0);
+}
+
+}  // namespace
+
+void paintGauge(QPainter *painter, const QRectF &place, const GaugePicture &picture, const Theme &theme)
+{
+    painter->setRenderHint(QPainter::Antialiasing);
+    if (!picture.message.isEmpty()) {
+        paintMessage(painter, place, picture, theme);
+        return;
+    }
+    const double margin = 6.0;
+    const QRectF inside = place.adjusted(margin, margin, -margin, -margin);
+    const QFontMetricsF metrics(painter->font());
+    const bool hasTwoLines
+        = inside.width() < 26.0 * metrics.averageCharWidth() && inside.height() > 6.0 * metrics.height();
+    const QRectF body
+        = hasTwoLines ? paintTwoLines(painter, inside, picture, theme) : paintLine(painter, inside, picture, theme);
+    switch (picture.style) {
+    case GaugeStyle::Dial:
+        paintDial(painter, body, picture, theme);
+        break;
+    case GaugeStyle::Bar:
+        paintBar(painter, body, picture, theme);
+        break;
+    case GaugeStyle::Number:
+        paintNumbers(painter, body, picture, theme);
+        break;
+    case GaugeStyle::Led:
+        paintLed(painter, body, picture, theme);
+        break;
+    }
+}
+
+}  // namespace qplc

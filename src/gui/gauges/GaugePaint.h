@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "GaugePicture.h"
+#include "gui/panel/Theme.h"
+
+#include <QtGui/QPainter>
+
+namespace qplc {
+
+/// Draws a gauge: its name and status in a line below, and its style above it.
+void paintGauge(QPainter *painter, const QRectF &place, const GaugePicture &picture, const Theme &theme);
+
+// Parts of it, one for each style.
+void paintDial(QPainter *painter, const QRectF &place, const GaugePicture &picture, const Theme &theme);
+void paintBar(QPainter *painter, const QRectF &place, const GaugePicture &picture, const Theme &theme);
+void paintNumbers(QPainter *painter, const QRectF &place, const GaugePicture &picture, const Theme &theme);
+void paintLed(QPainter *painter, const QRectF &place, const GaugePicture &picture, const Theme &theme);
+
+/// Of the pointer: the accent, or what is not normal.
+QColor levelColor(AlarmState::Level level, const Theme &theme);
+/// Of the scale below the pointer: quiet in every theme.
+QColor trackColor(const Theme &theme);
+QColor pointerColor(const GaugePicture &picture, const Theme &theme);
+QColor textColor(const GaugePicture &picture, const Theme &theme);
+/// \a font in the largest size in which \a text fits into \a size.
+QFont fittingFont(const QFont &font, const QString &text, const QSizeF &size, double largest = 200.0);
+/// A value with its unit, right-aligned in as much space as the widest one takes: digits stay where they are.
+void paintValue(QPainter *painter, const QRectF &place, const GaugePicture &picture, const QString &text,
+                const QColor &color);
+
+}  // namespace qplc

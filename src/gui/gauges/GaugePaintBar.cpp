@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "GaugePaint.h"
+
+#include <QtGui/QPainterPath>
+
+#include <algorithm>
+#include <cmath>
+
+namespace qplc {
+
+namespace {
+
+/// A bar that lies or stands: the same drawing along its length.
+struct Bar
+{
+    QRectF track;
+    bool isLying;
+
+    double at(double share) const
+    {
+        return isLying ? track.left() + share * track.width() : track.bottom() - share * track.height();
+    }
+    /// What is between two places along the bar, over its whole thickness.
+    QRectF between(double from, double to) const
+    {
+        const double low = std::min(from, to);
+        const double size = std::abs(to - from);
+        return isLying ? QRectF(low, track.top(), size, track.height())
+                       : QRectF(track.left(), low, track.width(), size);
+    }
+    /// A strip along the side where the numbers are.
+    QRectF strip(double from, double to, double offset, double width) const
+    {
+        const QRectF all = between(from, to);
+        return isLying ? QRectF(all.left(), track.bottom() + offset, all.width(), width)
+                       : QRectF(track.right() + offset, all.top(), width, all.height());
+    }
+};
+
+void paintTrack(QPainter *painter, const Bar &bar, const GaugePicture &picture, const Theme &theme)
+{
+    painter->setPen(Qt::NoPen);
+    QPainterPath round;
+    round.addRoundedRect(bar.track, 3.0, 3.0);
+    painter->fillPath(round, trackColor(theme));
+    painter->save();
+    painter->setClipPath(round);
+    const GaugePicture::Value &value = picture.values.first();
+    const double place = bar.at(picture.scale.share(value.number));
+    QColor filled = pointerColor(picture, theme);
+    const bool hasValue = !std::isnan(value.number);
+    if (hasValue)
+        painter->fillRect(bar.between(bar.at(picture.scale.share(0.0)), place), filled);
+    for (const std::optional<double> &extreme : {value.minimum, value.maximum}) {
+        if (extreme)
+            painter->fillRect(
+                bar.between(bar.at(picture.scale.share(*extreme)) - 1.0, bar.at(picture.scale.share(*extreme)) + 1.0),
+                theme.text);
+    }
+    painter->restore();
+    // The end of the bar is seen also where it is at 0.
+    if (!hasValue)
+        return;
+    const QRectF head = bar.between(place - 1.5, place + 1.5);
+    painter->fillRect(bar.isLying ? head.adjusted(0, -2, 0, 2) : head.adjusted(-2, 0, 2, 0), filled);
+}
+
+void paintScale(QPainter *painter, const Bar &bar, const GaugePicture &picture, const Theme &theme)
+{
+    for (const GaugePicture::Band &band : picture.bands)
+        painter->fillRect(
+            bar.strip(bar.at(picture.scale.share(band.begin)), bar.at(picture.scale.share(band.end)), 2.5, 3.0),
+            levelColor(band.level, theme));
+    const QFontMetricsF metrics(painter->font());
+    const double length = bar.isLying ? bar.track.width() : bar.track.height();
+    const double room = bar.isLying ? metrics.horizontalAdvance(QLatin1Char('0')) * 7.0 : metrics.height() * 2.0;
+    const int decimals = GaugeScale{0.0, picture.scale.span() * 100.0}.decimals();
+    const int most = int(length / room);
+    const QVector<double> ends{picture.scale.minimum, picture.scale.maximum};
+    const QVector<double> ticks = most < 4 ? ends : picture.scale.ticks(std::min(most, 11));
+    for (const double tick : ticks) {
+        const double place = std::round(bar.at(picture.scale.share(tick))) + 0.5;
+        painter->setPen(QPen(theme.mutedText, 1.0));
+        const QRectF line = bar.strip(place, place, 6.0, 4.0);
+        painter->drawLine(line.topLeft(), bar.isLying ? line.bottomLeft() : line.topRight());
+        const QString text = gaugeNumber(tick, decimals);
+        const double width = metrics.horizontalAdvance(text);
+        if (bar.isLying) {
+            const double left = std::clamp(place - width / 2.0, bar.track.left(), bar.track.right() - width);
+            painter->drawText(QPointF(left, bar.track.bottom() + 11.0 + metrics.ascent()), text);
+        } else {
+            const double baseline = std::clamp(place + metrics.capHeight() / 2.0, bar.track.top() + metrics.capHeight(),
+                                               bar.track.bottom());
+            painter->drawText(QPointF(bar.track.right() + 13.0, baseline), text);
+        }
+    }
+}
+
+Bar lyingBar(const QRectF &place, double line)
+{
+    const double scale = line + 12.0;
+    const double thickness = std::clamp((place.height() - scale) * 0.4, 8.0, 36.0);
+    return {QRectF(place.left() + 2.0, place.bottom() - scale - thickness, place.width() - 4.0, thickness), true};
+}
+
+Bar standingBar(const QRectF &place, double scale, double value)
+{
+    const double thickness = std::clamp((place.width() - scale) * 0.5, 10.0, 36.0);
+    const double left = place.center().x() - (thickness + scale) / 2.0;
+    return {QRectF(left, place.top() + value + 4.0, thickness, place.height() - value - 8.0), false};
+}
+
+}  // namespace
+
+void paintBar(QPainter *painter, const QRectF &place, const GaugePicture &picture, const Theme &theme)
+{
+    painter->save();
+    QFont font = painter->font();
+    font.setPixelSize(11);
+    const QFontMetricsF metrics(font);
+    const bool isLying = place.width() > place.height();
+    const double line = metrics.height();
+    const double labels = metrics.horizontalAdvance(QStringLiteral("−0000")) + 14.0;
+    const double value = std::clamp(place.height() * 0.18, 16.0, 34.0);
+    const Bar bar = isLying ? lyingBar(place, line) : standingBar(place, labels, value);
+    const QRectF above(place.left(), place.top(), place.width(), isLying ? bar.track.top() - place.top() - 4.0 : value);
+    paintValue(painter, above, picture, picture.values.first().text, textColor(picture, theme));
+    painter->setFont(font);
+    paintTrack(painter, bar, picture, theme);
+    paintScale(painter, bar, picture, theme);
+    painter->restore();
+}
+
+}  // namespace qplc

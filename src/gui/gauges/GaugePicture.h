@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "GaugeScale.h"
+#include "GaugeSettings.h"
+
+namespace qplc {
+
+/// What a gauge looks like at a moment: texts and numbers that only have to be drawn. A value type.
+struct GaugePicture
+{
+    /// One number, or one of a triple.
+    struct Value
+    {
+        double number = 0.0;
+        QString text;
+        std::optional<double> minimum;  // since reset; empty: not shown
+        std::optional<double> maximum;
+    };
+    /// A part of the scale that is not normal.
+    struct Band
+    {
+        double begin;
+        double end;
+        AlarmState::Level level;
+    };
+
+    GaugeStyle style = GaugeStyle::Dial;
+    QString message;  // what is missing; then nothing else is shown
+    QString name;
+    QString unit;
+    QString status;  // "stale 3.2 s", "▲ High"; empty when all is well
+    QVector<Value> values;
+    QString widest;  // the widest text of a value, for the size of letters
+    GaugeScale scale;
+    int decimals = 0;
+    QVector<Band> bands;
+    AlarmState::Level level = AlarmState::Normal;
+    bool isTrusted = true;
+    bool isBoolean = false;
+
+    /// One line for those who hear it.
+    QString spoken() const;
+};
+
+bool operator==(const GaugePicture &a, const GaugePicture &b);
+inline bool operator!=(const GaugePicture &a, const GaugePicture &b)
+{
+    return !(a == b);
+}
+
+/// What stands where there is no value.
+inline QString noValueText()
+{
+    return QStringLiteral("–");
+}
+/// The parts of a scale beyond limits.
+QVector<GaugePicture::Band> bandsOf(const AlarmLimits &limits, const GaugeScale &scale);
+
+}  // namespace qplc

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "PastValue.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace qplc {
+
+namespace {
+
+/// The last row at or before a time that still tells about it.
+std::optional<SignalStore::Row> rowBefore(const Plant &plant, SignalStore::Time time)
+{
+    const SignalStore *store = plant.store();
+    if (!store || store->isEmpty())
+        return std::nullopt;
+    SignalStore::Row row = store->rowAt(time);
+    if (row == store->endRow() || store->time(row) != time) {
+        if (row == store->firstRow())
+            return std::nullopt;
+        --row;
+    }
+    const double age = double(time - store->time(row)) * 1e-9;  // [s]
+    return age <= plant.staleAfter() ? std::optional<SignalStore::Row>(row) : std::nullopt;
+}
+
+}  // namespace
+
+QPlcValue pastValue(const PlantList::Signal &signal, SignalStore::Time time)
+{
+    if (!signal || !signal.definition().type.isNumeric())
+        return {};
+    const std::optional<SignalStore::Row> row = rowBefore(*signal.plant, time);
+    if (!row)
+        return {};
+    const QPlcSignalType type = signal.definition().type;
+    const bool isWhole = signal.element == SignalReference::Whole;
+    const int count = isWhole ? type.count() : 1;
+    const ChannelMap &channels = signal.plant->values().channels();
+    std::vector<double> elements;
+    for (int i = 0; i < count; ++i) {
+        const int channel = channels.channel(signal.index, isWhole ? i : signal.element);
+        const double element = double(signal.plant->store()->value(channel, *row));
+        if (std::isnan(element) && !type.isReal())
+            return {};
+        elements.push_back(element);
+    }
+    const QPlcSignalType shown(type.scalar(), count);
+    return QPlcValue::fromBytes(QPlcSignalType(QPlcSignalType::Real64, count), elements.data()).convertedTo(shown);
+}
+
+}  // namespace qplc

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "QPlcNodeTable.h"
+
+#include "PanelTable.h"
+#include "gui/models/NodeTableModel.h"
+#include "gui/panel/PanelSettings.h"
+#include "gui/panel/WindowContext.h"
+
+#include <QtCore/QSortFilterProxyModel>
+#include <QtGui/QClipboard>
+#include <QtGui/QGuiApplication>
+#include <QtWidgets/QAction>
+#include <QtWidgets/QMenu>
+#include <QtWidgets/QVBoxLayout>
+
+using namespace qplc;
+
+namespace {
+
+TableDelegate::Sign signOf(const QModelIndex &index)
+{
+    if (index.column() != NodeTableModel::Health)
+        return TableDelegate::NoSign;
+    switch (index.data(NodeTableModel::HealthRole).toInt()) {
+    case NodeTableModel::Good:
+        return TableDelegate::Good;
+    case NodeTableModel::Warning:
+        return TableDelegate::Warning;
+    case NodeTableModel::Error:
+        return TableDelegate::Alarm;
+    default:
+        return TableDelegate::Unknown;
+    }
+}
+
+const QVector<PanelTable::Column> columns = {{"plant", 14, false},
+                                             {"node", 14, true},
+                                             {"health", 11, true},
+                                             {"transport", 10, false},
+                                             {"address", 18, false},
+                                             {"policy", 18, false},
+                                             {"state", 12, true},
+                                             {"latenessP99", 11, true},
+                                             {"executionP50", 12, false},
+                                             {"executionP99", 12, true},
+                                             {"executionMaximum", 13, false},
+                                             {"roundTripP50", 13, false},
+                                             {"roundTripP99", 13, true},
+                                             {"roundTripMaximum", 13, false},
+                                             {"late", 5, true},
+                                             {"lost", 5, true},
+                                             {"duplicated", 10, false},
+                                             {"rejected", 9, false}};
+
+}  // namespace
+
+struct QPlcNodeTable::Private
+{
+    PanelTable *table = nullptr;
+    QSortFilterProxyModel *sorted = nullptr;
+    PanelSettings settings{"columns", "sort", "descending"};
+};
+
+QPlcNodeTable::QPlcNodeTable(QWidget *parent)
+    : QPlcWidget(parent)
+    , d(std::make_unique<Private>())
+{
+    d->table = new PanelTable(signOf, PanelTable::Sorting::ByHeader, this);
+    d->table->setAccessibleName(tr("Nodes"));
+    d->sorted = new QSortFilterProxyModel(this);
+    d->sorted->setSortRole(NodeTableModel::SortRole);
+    d->table->setModel(d->sorted);
+    auto *column = new QVBoxLayout(this);
+    column->setContentsMargins(0, 0, 0, 0);
+    column->addWidget(d->table);
+    setFocusProxy(d->table);
+    connect(d->table, &PanelTable::settingsEdited, this, [this] {
+        d->table->writeSettings(&d->settings);
+        Q_EMIT settingsEdited();
+    });
+    auto *copy = new QAction(tr("Copy as text"), this);
+    copy->setShortcut(QKeySequence::Copy);
+    copy->setShortcutContext(Qt::WidgetWithChildrenShortcut);
+    connect(copy, &QAction::triggered, this,
+            [this] { QGuiApplication::clipboard()->setText(d->table->toTabSeparated()); });
+    addAction(copy);
+}
+
+QPlcNodeTable::~QPlcNodeTable() = default;
+
+QJsonObject QPlcNodeTable::settings() const
+{
+    return d->settings.addedTo(QPlcWidget::settings());
+}
+
+void QPlcNodeTable::applySettings(const QJsonObject &settings)
+{
+    QPlcWidget::applySettings(d->settings.take(settings));
+    if (context())
+        d->table->applySettings(d->settings);
+}
+
+void QPlcNodeTable::contextChanged()
+{
+    d->sorted->setSourceModel(new NodeTableModel(context()->plants(), this));
+    d->table->setContext(context());
+    d->table->setColumns(columns);
+    d->table->setStretchedColumn(NodeTableModel::Name, 12);
+    d->table->applySettings(d->settings);
+    addAction(d->table->createColumnMenu(this)->menuAction());
+}
+
+QSize QPlcNodeTable::sizeHint() const
+{
+    return {560, 160};
+}

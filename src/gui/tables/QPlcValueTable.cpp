@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "QPlcValueTable.h"
+
+#include "PanelTable.h"
+#include "TimeStrip.h"
+#include "gui/models/ValueTableModel.h"
+#include "gui/panel/PanelSettings.h"
+#include "gui/panel/SignalEdit.h"
+#include "gui/panel/WindowContext.h"
+
+#include <QtCore/QSortFilterProxyModel>
+#include <QtCore/QTimer>
+#include <QtGui/QClipboard>
+#include <QtGui/QGuiApplication>
+#include <QtWidgets/QAction>
+#include <QtWidgets/QLabel>
+#include <QtWidgets/QMenu>
+#include <QtWidgets/QVBoxLayout>
+
+#include <algorithm>
+
+using namespace qplc;
+
+namespace {
+
+const QVector<PanelTable::Column> columns
+    = {{"signal", 20, true},  {"value", 13, true},  {"unit", 7, true}, {"minimum", 12, true},
+       {"maximum", 12, true}, {"quality", 9, true}, {"age", 8, false}, {"rate", 9, false}};
+
+QVector<SignalReference> referencesOf(const QStringList &texts)
+{
+    QVector<SignalReference> references;
+    for (const QString &text : texts) {
+        const SignalReference reference = SignalReference::fromString(text);
+        if (reference.isValid())
+            references << reference;
+    }
+    return references;
+}
+
+}  // namespace
+
+struct QPlcValueTable::Private
+{
+    PanelTable *table = nullptr;
+    QSortFilterProxyModel *sorted = nullptr;
+    ValueTableModel *model = nullptr;  // from contextChanged() on
+    TimeStrip *strip = nullptr;
+    QLabel *hint = nullptr;
+    QVBoxLayout *column = nullptr;
+    PanelSettings settings{"signals", "columns", "sort", "descending"};
+    bool isApplying = false;
+
+    QStringList wanted() const { return settings.value("signals").toVariant().toStringList(); }
+
+    void showSignals()
+    {
+        isApplying = true;
+        model->setReferences(referencesOf(wanted()));
+        isApplying = false;
+        hint->setVisible(model->rowCount() == 0);
+    }
+
+    void removeSelected()
+    {
+        QList<int> rows;
+        const QModelIndexList selected = table->selectionModel()->selectedRows();
+        for (const QModelIndex &index : selected)
+            rows << sorted->mapToSource(index).row();
+        std::sort(rows.begin(), rows.end(), std::greater<>());
+        for (const int row : qAsConst(rows))
+            model->removeRows(row, 1);
+    }
+};
+
+QPlcValueTable::QPlcValueTable(QWidget *parent)
+    : QPlcWidget(parent)
+    , d(std::make_unique<Private>())
+{
+    d->table = new PanelTable(nullptr, PanelTable::Sorting::ByHeader, this);
+    d->table->setAccessibleName(tr("Values"));
+    d->table->setDragDropMode(QAbstractItemView::DragDrop);
+    d->table->setDefaultDropAction(Qt::CopyAction);
+    d->sorted = new QSortFilterProxyModel(this);
+    d->sorted->setSortRole(ValueTableModel::SortRole);
+    d->sorted->setDynamicSortFilter(false);  // rows do not jump while their values change
+    d->table->setModel(d->sorted);
+    d->strip = new TimeStrip(this);
+    d->hint = new QLabel(tr("No signals yet. Drop some here, or press Insert."), this);
+    d->hint->setAlignment(Qt::AlignCenter);
+    d->hint->setWordWrap(true);
+    d->hint->setMargin(8);
+    d->hint->setEnabled(false);
+    d->column = new QVBoxLayout(this);
+    d->column->setContentsMargins(0, 0, 0, 0);
+    d->column->setSpacing(0);
+    for (QWidget *part :
+         {static_cast<QWidget *>(d->strip), static_cast<QWidget *>(d->hint), static_cast<QWidget *>(d->table)})
+        d->column->addWidget(part);
+    setFocusProxy(d->table);
+    connect(d->table, &PanelTable::settingsEdited, this, [this] {
+        d->table->writeSettings(&d->settings);
+        Q_EMIT settingsEdited();
+    });
+    makeActions();
+}
+
+QPlcValueTable::~QPlcValueTable() = default;
+
+void QPlcValueTable::makeActions()
+{
+    const auto make = [this](const QString &text, const QKeySequence &key, const auto &act) {
+        auto *action = new QAction(text, this);
+        action->setShortcut(key);
+        action->setShortcutContext(Qt::WidgetWithChildrenShortcut);
+        connect(action, &QAction::triggered, this, act);
+        addAction(action);
+    };
+    make(tr("Add a signal"), QKeySequence(Qt::Key_Insert), [this] { openAdding(); });
+    make(tr("Remove the selected signals"), QKeySequence(Qt::Key_Delete), [this] {
+        if (d->model)
+            d->removeSelected();
+    });
+    make(tr("Reset smallest and largest values"), QKeySequence(Qt::CTRL | Qt::Key_R), [this] {
+        if (d->model)
+            d->model->reset();
+    });
+    make(tr("Copy as text"), QKeySequence(QKeySequence::Copy),
+         [this] { QGuiApplication::clipboard()->setText(d->table->toTabSeparated()); });
+}
+
+/// A line above the rows, until Escape.
+void QPlcValueTable::openAdding()
+{
+    if (!context())
+        return;
+    if (auto *open = findChild<SignalEdit *>()) {
+        open->setFocus();
+        return;
+    }
+    QWidget *edit = createSettingsEditor();
+    d->column->insertWidget(0, edit);
+    edit->setFocus();
+    auto *close = new QAction(edit);
+    close->setShortcut(QKeySequence(Qt::Key_Escape));
+    close->setShortcutContext(Qt::WidgetWithChildrenShortcut);
+    edit->addAction(close);
+    connect(close, &QAction::triggered, this, [this, edit] {
+        edit->deleteLater();
+        d->table->setFocus();
+    });
+}
+
+QWidget *QPlcValueTable::createSettingsEditor()
+{
+    if (!context())
+        return nullptr;
+    auto *edit = new SignalEdit(context()->plants());
+    edit->setPlaceholderText(tr("Name of a signal to add"));
+    edit->setMinimumWidth(180);
+    connect(edit, &SignalEdit::chosen, this, [this, edit](const QString &reference) {
+        if (addSignals({reference}))
+            QTimer::singleShot(0, edit, &QLineEdit::clear);  // after the list has written its choice into the line
+    });
+    return edit;
+}
+
+QJsonObject QPlcValueTable::settings() const
+{
+    return d->settings.addedTo(QPlcWidget::settings());
+}
+
+void QPlcValueTable::applySettings(const QJsonObject &settings)
+{
+    const QStringList before = d->wanted();
+    QPlcWidget::applySettings(d->settings.take(settings));
+    if (!d->model)
+        return;
+    if (d->wanted() != before)
+        d->showSignals();
+    d->table->applySettings(d->settings);
+}
+
+bool QPlcValueTable::addSignals(const QStringList &references)
+{
+    const QVector<SignalReference> known = referencesOf(references);
+    if (known.isEmpty() || !d->model)
+        return false;
+    d->model->add(known);
+    return true;
+}
+
+/// Rows came or went: by hand, unless settings are applied.
+void QPlcValueTable::takeSignals()
+{
+    if (d->isApplying)
+        return;
+    QJsonArray names;
+    const QVector<SignalReference> references = d->model->references();
+    for (const SignalReference &reference : references)
+        names.append(reference.toString());
+    d->hint->setVisible(references.isEmpty());
+    if (d->settings.set("signals", names, QJsonArray()))
+        Q_EMIT settingsEdited();
+}
+
+void QPlcValueTable::contextChanged()
+{
+    d->model = new ValueTableModel(context()->plants(), this);
+    d->sorted->setSourceModel(d->model);
+    d->table->setContext(context());
+    d->table->setColumns(columns);
+    d->table->setStretchedColumn(ValueTableModel::Name, 16);
+    d->showSignals();
+    d->table->applySettings(d->settings);
+    connect(d->model, &QAbstractItemModel::rowsInserted, this, &QPlcValueTable::takeSignals);
+    connect(d->model, &QAbstractItemModel::rowsRemoved, this, &QPlcValueTable::takeSignals);
+    d->strip->setContext(context());
+    TimeView *time = context()->timeView();
+    const auto showTime = [this, time] { d->model->setDisplayTime(time->displayTime()); };
+    connect(time, &TimeView::displayTimeChanged, this, showTime);
+    showTime();
+    addAction(d->table->createColumnMenu(this)->menuAction());
+}
+
+QSize QPlcValueTable::sizeHint() const
+{
+    return {480, 200};
+}

@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "PlantFixtures.h"
+#include "QPlcEventLog.h"
+#include "QPlcNodeTable.h"
+#include "QPlcValueTable.h"
+#include "gui/models/NodeTableModel.h"
+#include "gui/models/ValueTableModel.h"
+#include "gui/panel/WindowContext.h"
+
+#include <QtCore/QJsonArray>
+#include <QtCore/QJsonDocument>
+#include <QtGui/QClipboard>
+#include <QtWidgets/QAction>
+#include <QtWidgets/QComboBox>
+#include <QtWidgets/QHeaderView>
+#include <QtWidgets/QLabel>
+#include <QtWidgets/QLineEdit>
+#include <QtWidgets/QMenu>
+#include <QtWidgets/QScrollBar>
+#include <QtWidgets/QTreeView>
+
+using namespace qplc;
+
+namespace {
+
+/// A panel of a window with one plant.
+template<typename Panel>
+class Bench
+{
+public:
+    explicit Bench(const QJsonObject &settings = {})
+    {
+        plant = context.plants()->add(master.address(), QStringLiteral("kite"), QStringLiteral("Window"));
+        panel.setContext(&context);
+        panel.applySettings(settings);
+        panel.resize(700, 200);
+        panel.show();
+        view = panel.template findChild<QTreeView *>();
+    }
+    QString cell(int row, int column) const { return view->model()->index(row, column).data().toString(); }
+    QStringList cells(int column) const
+    {
+        QStringList texts;
+        for (int row = 0; row < view->model()->rowCount(); ++row)
+            texts << cell(row, column);
+        return texts;
+    }
+    void select(int row)
+    {
+        view->selectionModel()->select(view->model()->index(row, 0),
+                                       QItemSelectionModel::Select | QItemSelectionModel::Rows);
+    }
+    void trigger(const char *text)
+    {
+        for (QAction *action : panel.actions()) {
+            if (action->text() == QLatin1String(text))
+                return action->trigger();
+        }
+        QFAIL(text);
+    }
+
+    RunningMaster master;
+    WindowContext context;
+    Plant *plant;
+    Panel panel;
+    QTreeView *view;
+};
+
+PlantEvent eventOf(PlantEvent::Severity severity, const QString &text)
+{
+    return {QDateTime(QDate(2026, 1, 31), QTime(12, 0, 1, 250)), severity, QStringLiteral("kite"), text, false};
+}
+
+template<typename Panel>
+void verifySettings(const QByteArray &json)
+{
+    const QJsonObject settings = QJsonDocument::fromJson(json).object();
+    Panel alone;
+    alone.applySettings(settings);
+    QCOMPARE(QJsonDocument(alone.settings()).toJson(QJsonDocument::Compact), json);
+    alone.show();
+    Bench<Panel> bench(settings);
+    QCOMPARE(QJsonDocument(bench.panel.settings()).toJson(QJsonDocument::Compact), json);
+    bench.panel.applySettings({});
+    QCOMPARE(bench.panel.settings().keys(), QJsonObject::fromVariantMap({{"later", 1}, {"title", "T"}}).keys());
+}
+
+}  // namespace
+
+class tst_Tables : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void settingsComeBackByteForByte();
+    void signalsAreAddedOnceAndRemoved();
+    void aSignalIsAddedByKeys();
+    void aRowThatIsNotThereComesToLife();
+    void valuesAreSortedAsNumbersAndDoNotJump();
+    void whatIsSelectedIsCopiedWithTabs();
+    void valuesOfThePastSayTheirTime();
+    void columnsAreChosenInAMenu();
+    void nodesHaveAStopLight();
+    void aWindowWithoutPlantsHasAnEmptyTable();
+    void eventsAreFilteredAndAcknowledged();
+    void theLogFollowsUnlessSomebodyReads();
+    void anEventLeadsToItsTime();
+};
+
+void tst_Tables::settingsComeBackByteForByte()
+{
+    verifySettings<QPlcValueTable>(
+        R"({"columns":["signal","rate"],"descending":true,"later":1,"signals":["count","north/sum","nowhere[2]"],"sort":"value","title":"T"})");
+    verifySettings<QPlcNodeTable>(R"({"columns":["rejected","node"],"later":1,"sort":"late","title":"T"})");
+    verifySettings<QPlcEventLog>(
+        R"({"columns":["event"],"later":1,"search":"a b","severity":"warning","title":"T","unacknowledged":true})");
+}
+
+void tst_Tables::signalsAreAddedOnceAndRemoved()
+{
+    Bench<QPlcValueTable> bench;
+    QSignalSpy edits(&bench.panel, &QPlcWidget::settingsEdited);
+    const auto *hint = bench.panel.findChildren<QLabel *>().last();
+    QVERIFY(hint->isVisible());
+    QVERIFY(!bench.panel.addSignals({"[[", ""}));
+    QVERIFY(bench.panel.addSignals({"count", "sum", "count", "jitter"}));
+    QVERIFY(bench.panel.addSignals({"sum"}));
+    QVERIFY(!hint->isVisible());
+    QCOMPARE(bench.panel.settings(), (QJsonObject{{"signals", QJsonArray{"count", "sum", "jitter"}}}));
+    QCOMPARE(edits.size(), 1);
+    bench.select(0);
+    bench.select(2);
+    bench.trigger("Remove the selected signals");
+    QCOMPARE(bench.panel.settings(), (QJsonObject{{"signals", QJsonArray{"sum"}}}));
+    bench.select(0);
+    bench.trigger("Remove the selected signals");
+    QCOMPARE(bench.panel.settings(), QJsonObject());
+    QVERIFY(hint->isVisible());
+}
+
+void tst_Tables::aSignalIsAddedByKeys()
+{
+    Bench<QPlcValueTable> bench;
+    QTRY_VERIFY(!bench.plant->table().isEmpty());
+    bench.trigger("Add a signal");
+    auto *edit = bench.panel.findChild<QLineEdit *>();
+    QVERIFY(edit);
+    QTest::keyClicks(edit, QStringLiteral("vector[1]"));
+    QTest::keyClick(edit, Qt::Key_Return);
+    QCOMPARE(bench.cells(ValueTableModel::Name), QStringList{QStringLiteral("vector[1]")});
+    QTRY_COMPARE(edit->text(), QString());
+}
+
+void tst_Tables::aRowThatIsNotThereComesToLife()
+{
+    Bench<QPlcValueTable> bench({{"signals", QJsonArray{"kite/count", "nowhere"}}});
+    QTRY_COMPARE(bench.cell(0, ValueTableModel::QualityColumn), QStringLiteral("at rest"));
+    QCOMPARE(bench.cell(1, ValueTableModel::QualityColumn), QStringLiteral("not there"));
+    bench.plant->close();
+    QTRY_COMPARE(bench.cell(0, ValueTableModel::QualityColumn), QStringLiteral("stale"));
+    QVERIFY(bench.view->model()->index(0, 0).data(Qt::ForegroundRole).isValid());
+}
+
+void tst_Tables::valuesAreSortedAsNumbersAndDoNotJump()
+{
+    Bench<QPlcValueTable> bench({{"signals", QJsonArray{"setpoint", "echo", "free"}}});
+    QTRY_COMPARE(bench.plant->quality(), Plant::AtRest);
+    const auto set = [&](double setpoint, double echo, double free) {
+        bench.plant->setValues({{QStringLiteral("setpoint"), QPlcValue(setpoint)},
+                                {QStringLiteral("echo"), QPlcValue(echo)},
+                                {QStringLiteral("free"), QPlcValue(float(free))}});
+        bench.plant->refresh();
+    };
+    set(9.0, 10.0, -3.0);
+    QTRY_COMPARE(bench.cells(ValueTableModel::Value), (QStringList{"9", "10", "-3"}));
+    QSignalSpy edits(&bench.panel, &QPlcWidget::settingsEdited);
+    const QHeaderView *header = bench.view->header();
+    const auto click = [&] {
+        QTest::mouseClick(header->viewport(), Qt::LeftButton, {},
+                          QPoint(header->sectionViewportPosition(ValueTableModel::Value) + 20, header->height() / 2));
+    };
+    click();
+    QCOMPARE(bench.cells(ValueTableModel::Value), (QStringList{"-3", "9", "10"}));
+    click();
+    QCOMPARE(bench.cells(ValueTableModel::Value), (QStringList{"10", "9", "-3"}));
+    QCOMPARE(bench.panel.settings().value(QStringLiteral("descending")), QJsonValue(true));
+    set(1.0, 2.0, 3.0);
+    QTRY_COMPARE(bench.cells(ValueTableModel::Value), (QStringList{"2", "1", "3"}));
+    click();
+    QCOMPARE(bench.cells(ValueTableModel::Value), (QStringList{"1", "2", "3"}));
+    QCOMPARE(edits.size(), 3);
+    QVERIFY(!bench.panel.settings().contains(QStringLiteral("sort")));
+}
+
+void tst_Tables::whatIsSelectedIsCopiedWithTabs()
+{
+    Bench<QPlcValueTable> bench(
+        {{"signals", QJsonArray{"count", "setpoint", "nowhere"}}, {"columns", QJsonArray{"signal", "unit"}}});
+    QTRY_COMPARE(bench.cell(1, ValueTableModel::Unit), QStringLiteral("m/s"));
+    bench.trigger("Copy as text");
+    QCOMPARE(QGuiApplication::clipboard()->text(), QStringLiteral("Signal\tUnit\ncount\t\nsetpoint\tm/s\nnowhere\t\n"));
+    bench.select(1);
+    bench.trigger("Copy as text");
+    QCOMPARE(QGuiApplication::clipboard()->text(), QStringLiteral("Signal\tUnit\nsetpoint\tm/s\n"));
+}
+
+void tst_Tables::valuesOfThePastSayTheirTime()
+{
+    Bench<QPlcValueTable> bench({{"signals", QJsonArray{"count"}}});
+    QVERIFY(bench.master.startRealTime());
+    QTRY_VERIFY(bench.plant->store() && bench.plant->store()->endRow() > bench.plant->store()->firstRow() + 20);
+    const SignalStore::Row row = bench.plant->store()->firstRow() + 5;
+    const int channel = bench.plant->values().channels().channel(bench.plant->table().indexOf(QStringLiteral("count")));
+    const QString expected = QString::number(int(bench.plant->store()->value(channel, row)));
+    auto *strip = bench.panel.findChildren<QLabel *>().first();
+    QVERIFY(!strip->isVisible());
+    bench.context.timeView()->show(1, bench.plant->store()->time(row));
+    QVERIFY(strip->isVisible());
+    QVERIFY(strip->text().startsWith(QStringLiteral("Values at ")));
+    QCOMPARE(bench.cell(0, ValueTableModel::Value), expected);
+    QCOMPARE(bench.cell(0, ValueTableModel::QualityColumn), QStringLiteral("past"));
+    bench.context.timeView()->show(1, 1'000'000'000);
+    QCOMPARE(bench.cell(0, ValueTableModel::QualityColumn), QStringLiteral("no value"));
+    bench.context.timeView()->goLive();
+    QVERIFY(!strip->isVisible());
+    QCOMPARE(bench.cell(0, ValueTableModel::QualityColumn), QStringLiteral("good"));
+}
+
+void tst_Tables::columnsAreChosenInAMenu()
+{
+    Bench<QPlcNodeTable> bench;
+    QSignalSpy edits(&bench.panel, &QPlcWidget::settingsEdited);
+    QMenu *menu = bench.panel.actions().last()->menu();
+    QVERIFY(menu);
+    QCOMPARE(menu->actions().size(), NodeTableModel::ColumnCount - 1);
+    QVERIFY(bench.view->isColumnHidden(NodeTableModel::Rejected));
+    menu->actions().last()->trigger();
+    QVERIFY(!bench.view->isColumnHidden(NodeTableModel::Rejected));
+    QCOMPARE(edits.size(), 1);
+    QVERIFY(bench.panel.settings().value(QStringLiteral("columns")).toArray().contains(QStringLiteral("rejected")));
+    menu->actions().last()->trigger();
+    QCOMPARE(bench.panel.settings(), QJsonObject());
+    Q_EMIT bench.view->header()->customContextMenuRequested(QPoint(5, 5));
+    QMenu *popup = qobject_cast<QMenu *>(QApplication::activePopupWidget());
+    QVERIFY(popup);
+    popup->close();
+}
+
+void tst_Tables::nodesHaveAStopLight()
+{
+    Bench<QPlcNodeTable> bench;
+    QTRY_COMPARE(bench.cells(NodeTableModel::Name), (QStringList{"Master", "Counter", "Window"}));
+    QCOMPARE(bench.cells(NodeTableModel::Health), (QStringList{"OK", "OK", "OK"}));
+    bench.plant->close();
+    QTRY_COMPARE(bench.cells(NodeTableModel::Health), QStringList{QStringLiteral("Unavailable")});
+    QVERIFY(!bench.view->grab().isNull());
+}
+
+void tst_Tables::aWindowWithoutPlantsHasAnEmptyTable()
+{
+    WindowContext context;
+    QPlcNodeTable table;
+    table.setContext(&context);
+    table.show();
+    QCOMPARE(table.findChild<QTreeView *>()->model()->rowCount(), 0);
+}
+
+void tst_Tables::eventsAreFilteredAndAcknowledged()
+{
+    WindowContext context;
+    QPlcEventLog log;
+    log.setContext(&context);
+    log.show();
+    log.activateWindow();
+    QVERIFY(QTest::qWaitForWindowActive(&log));
+    const QAbstractItemModel *shown = log.findChild<QTreeView *>()->model();
+    context.events()->append(eventOf(PlantEvent::Information, QStringLiteral("begin")));
+    context.events()->append(eventOf(PlantEvent::Warning, QStringLiteral("late")));
+    context.events()->append(eventOf(PlantEvent::Error, QStringLiteral("lost")));
+    QSignalSpy edits(&log, &QPlcWidget::settingsEdited);
+    QCOMPARE(shown->rowCount(), 3);
+    auto *severity = log.findChild<QComboBox *>();
+    QTest::keyClick(severity, Qt::Key_Down);
+    QCOMPARE(shown->rowCount(), 2);
+    QCOMPARE(log.settings(), (QJsonObject{{"severity", "warning"}}));
+    QTest::keyClicks(log.findChild<QLineEdit *>(), QStringLiteral("los"));
+    QCOMPARE(shown->rowCount(), 1);
+    log.findChild<QLineEdit *>()->clear();
+    QCOMPARE(shown->rowCount(), 2);
+    QCOMPARE(log.settings(), (QJsonObject{{"severity", "warning"}}));
+    auto *view = log.findChild<QTreeView *>();
+    view->setFocus();
+    view->setCurrentIndex(shown->index(0, 0));
+    QTest::keyClick(view, Qt::Key_O);
+    QCOMPARE(log.settings().value(QStringLiteral("unacknowledged")), QJsonValue(true));
+    QTest::keyClick(view, Qt::Key_A);
+    QCOMPARE(context.events()->unacknowledged(), 1);
+    QCOMPARE(shown->rowCount(), 1);
+    QTest::keyClick(view, Qt::Key_A, Qt::ShiftModifier);
+    QCOMPARE(context.events()->unacknowledged(), 0);
+    QCOMPARE(shown->rowCount(), 0);
+    QVERIFY(edits.size() > 0);
+}
+
+void tst_Tables::theLogFollowsUnlessSomebodyReads()
+{
+    WindowContext context;
+    QPlcEventLog log;
+    log.setContext(&context);
+    log.resize(500, 200);
+    log.show();
+    const QScrollBar *bar = log.findChild<QTreeView *>()->verticalScrollBar();
+    const auto append = [&] {
+        for (int i = 0; i < 50; ++i)
+            context.events()->append(eventOf(PlantEvent::Warning, QString::number(i)));
+        QCoreApplication::processEvents();
+    };
+    append();
+    QTRY_VERIFY(bar->maximum() > 0);
+    QTRY_COMPARE(bar->value(), bar->maximum());
+    const_cast<QScrollBar *>(bar)->setValue(3);
+    append();
+    QTRY_VERIFY(bar->maximum() > 60);
+    QCOMPARE(bar->value(), 3);
+    const_cast<QScrollBar *>(bar)->setValue(bar->maximum());
+    append();
+    QTRY_VERIFY(bar->maximum() > 110);
+    QTRY_COMPARE(bar->value(), bar->maximum());
+}
+
+void tst_Tables::anEventLeadsToItsTime()
+{
+    WindowContext context;
+    QPlcEventLog log;
+    log.setContext(&context);
+    log.show();
+    const PlantEvent event = eventOf(PlantEvent::Warning, QStringLiteral("late"));
+    context.events()->append(eventOf(PlantEvent::Information, QStringLiteral("begin")));
+    context.events()->append(event);
+    auto *view = log.findChild<QTreeView *>();
+    log.applySettings({{"severity", "warning"}});
+    view->setFocus();
+    view->setCurrentIndex(view->model()->index(0, 0));
+    QTest::keyClick(view, Qt::Key_Return);
+    const TimeView *time = context.timeView();
+    QVERIFY(!time->isLive());
+    QCOMPARE(time->displayTime().value_or(0), event.time.toMSecsSinceEpoch() * 1'000'000);
+    QCOMPARE((time->begin() + time->end()) / 2, event.time.toMSecsSinceEpoch() * 1'000'000);
+}
+
+QTEST_MAIN(tst_Tables)
+#include "tst_Tables.moc"
