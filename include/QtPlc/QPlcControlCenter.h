@@ -2,11 +2,10 @@
 #pragma once
 
 #include "QPlcGuiGlobal.h"
-#include "QPlcMessage.h"
+#include "QPlcMasterSocket.h"
 #include "QPlcSignalIndexList.h"
 #include "QPlcSignalIndexTable.h"
 #include "QPlcSignalList.h"
-#include "QPlcUnderlyingProtocol.h"
 
 #include <QtWidgets/QMainWindow>
 
