@@ -29,11 +29,12 @@ public:
 
     bool shows(const QString &pattern) const { return !texts().filter(QRegularExpression(pattern)).isEmpty(); }
 
-    /// Visible buttons that are not within the window, or are smaller than their text needs: nothing is expected.
+    /// Visible buttons of this kind that are not within the window, or are smaller than their text needs: nothing is expected.
+    template<typename Button>
     QStringList cutButtons() const
     {
         QStringList cut;
-        for (QAbstractButton *button : m_window->findChildren<QAbstractButton *>()) {
+        for (QAbstractButton *button : m_window->findChildren<Button *>()) {
             if (!button->isVisible() || button->window() != m_window)
                 continue;
             const QRect place(placeOf(button), button->size());
