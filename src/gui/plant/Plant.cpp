@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Plant.h"
 
+#include "PlantFeed.h"
+
 #include "node/Logging.h"
 
 #include <QtCore/QJsonArray>
@@ -123,6 +125,20 @@ void Plant::disconnected(const QString &reason)
     Q_EMIT stateChanged();
 }
 
+PlantFeed *Plant::makeFeed()
+{
+    if (!m_feed)
+        m_feed = new PlantFeed(this);
+    return m_feed;
+}
+
+PlantConnection::State Plant::connectionState() const
+{
+    if (m_feed)
+        return m_feed->isConnected() ? PlantConnection::Connected : PlantConnection::Disconnected;
+    return m_connection.state();
+}
+
 QString Plant::stateText() const
 {
     switch (connectionState()) {
@@ -144,7 +160,8 @@ Plant::Action Plant::nextAction() const
         return StopAction;
     if (m_status.state == QLatin1String("SafeStop"))
         return Initialize;
-    return m_status.state == QLatin1String("Off") ? Start : NoAction;
+    const bool canStart = m_status.state == QLatin1String("Off") || m_status.state == QLatin1String("Initialized");
+    return canStart ? Start : NoAction;
 }
 
 QString Plant::actionText(Action action)
@@ -211,6 +228,8 @@ Plant::Quality Plant::quality() const
         return Stale;
     // Without cycles values come with the polls.
     const bool isRunning = m_status.isRunning();
+    if (m_feed && !isRunning)
+        return AtRest;
     if (age() > (isRunning ? staleAfter() : 4.0 * pollPause * 1e-3))
         return Stale;
     return isRunning ? Good : AtRest;
@@ -220,7 +239,7 @@ Plant::Quality Plant::quality() const
 
 void Plant::refresh()
 {
-    if (isConnected())
+    if (isConnected() && !m_feed)
         askState();
 }
 
@@ -360,9 +379,13 @@ int Plant::command(const Message &message)
         refresh();
     };
     // Never before the caller knows the number.
-    if (isConnected())
+    if (m_feed && isConnected()) {
+        Q_EMIT m_feed->commanded(message);
+        QMetaObject::invokeMethod(
+            this, [this, number] { Q_EMIT commandDone(number); }, Qt::QueuedConnection);
+    } else if (isConnected()) {
         m_connection.control().command(message, tellOutcome);
-    else
+    } else {
         QMetaObject::invokeMethod(
             this,
             [this, tellOutcome] {
@@ -371,6 +394,7 @@ int Plant::command(const Message &message)
                                       QStringLiteral("there is no connection to the master at %1").arg(address())}}));
             },
             Qt::QueuedConnection);
+    }
     return number;
 }
 

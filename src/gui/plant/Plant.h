@@ -11,6 +11,8 @@
 
 namespace qplc {
 
+class PlantFeed;
+
 /// One plant as a window sees it: its signals with values and age, its state and the next thing to do, its nodes, and its commands.
 ///
 /// Never blocks and never gives up: open() once, and the plant comes and goes as it likes. Everything happens in the thread of the window; cycles arrive in a thread of their own.
@@ -40,9 +42,15 @@ public:
     /// Connects, now and whenever the connection is lost.
     void open() { m_connection.open(); }
     void close() { m_connection.close(); }
+    /// Makes this a plant that a program feeds in place of open(); the plant owns the feed.
+    PlantFeed *makeFeed();
+    /// Null for a plant with a connection of its own.
+    PlantFeed *feed() const { return m_feed; }
 
     // -- state --
-    PlantConnection::State connectionState() const { return m_connection.state(); }
+    PlantConnection::State connectionState() const;
+    /// Time until the next attempt to connect [s]; -1 when none waits.
+    double nextAttempt() const { return m_connection.nextAttempt(); }
     bool isConnected() const { return connectionState() == PlantConnection::Connected; }
     /// One line for people: "RealTime", "Disconnected: Connection refused".
     QString stateText() const;
@@ -100,6 +108,8 @@ Q_SIGNALS:
     void messagePushed(const QPlcMessage &message);
 
 private:
+    friend class PlantFeed;
+
     void connected(const QPlcMessage &hello, const QPlcSignalTable &table);
     void disconnected(const QString &reason);
     void takeFrames();
@@ -116,6 +126,7 @@ private:
 
     QString m_name;
     PlantConnection m_connection;
+    PlantFeed *m_feed = nullptr;
     PlantValues m_values;
     PlantStatus m_status;
     QVector<QString> m_writers;

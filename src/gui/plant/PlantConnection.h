@@ -32,6 +32,8 @@ public:
     State state() const { return m_state; }
     /// Why there is no connection; empty while there is one.
     QString reason() const { return m_reason; }
+    /// Time until the next attempt [s]; -1 when none waits.
+    double nextAttempt() const { return m_retry.isActive() ? m_retry.remainingTime() * 1e-3 : -1.0; }
     /// Whether values come, or would if cycles ran.
     bool isListening() const { return m_isListening; }
     ControlChannel &control() { return m_control; }

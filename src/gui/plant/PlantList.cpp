@@ -40,14 +40,28 @@ QString PlantList::freeName(const QString &wanted) const
     return name;
 }
 
-Plant *PlantList::add(const QString &address, const QString &name, const QString &nodeName)
+Plant *PlantList::insert(const QString &address, const QString &name, const QString &nodeName)
 {
     m_plants.push_back(std::make_unique<Plant>(address, freeName(name.isEmpty() ? address : name), nodeName));
     Plant *plant = m_plants.back().get();
     connect(plant, &Plant::tableChanged, this, &PlantList::signalsChanged);
     connect(plant, &Plant::eventOccurred, this, &PlantList::eventOccurred);
+    return plant;
+}
+
+Plant *PlantList::add(const QString &address, const QString &name, const QString &nodeName)
+{
+    Plant *plant = insert(address, name, nodeName);
     Q_EMIT added(plant);
     plant->open();
+    return plant;
+}
+
+Plant *PlantList::addFed(const QString &name)
+{
+    Plant *plant = insert(QString(), name, QString());
+    plant->makeFeed();
+    Q_EMIT added(plant);
     return plant;
 }
 

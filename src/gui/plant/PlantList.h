@@ -34,6 +34,8 @@ public:
 
     /// Adds a plant and connects it for ever. \param name  made unique with a number when it is taken
     Plant *add(const QString &address, const QString &name = QString(), const QString &nodeName = QString());
+    /// Adds a plant that a program feeds (Plant::feed()).
+    Plant *addFed(const QString &name);
     void remove(Plant *plant);
     int size() const { return int(m_plants.size()); }
     Plant *at(int place) const { return m_plants[std::size_t(place)].get(); }
@@ -56,6 +58,7 @@ Q_SIGNALS:
     void eventOccurred(const qplc::PlantEvent &event);
 
 private:
+    Plant *insert(const QString &address, const QString &name, const QString &nodeName);
     QString freeName(const QString &wanted) const;
     Signal find(Plant *plant, const SignalReference &reference) const;
 

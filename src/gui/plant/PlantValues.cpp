@@ -77,11 +77,17 @@ void PlantValues::takeFrame(const QPlcIOBufferSlaveNode::Frame &frame, Time wall
     }
     m_isContinued = true;
     m_lastCycle = frame.cycle;
-    m_lastTime = m_phaseStart + Time(frame.cycle) * m_period;
-    m_channels.toFloats(frame.inputs, m_row.data());
-    m_store->append(m_lastTime, m_row.data());
-    std::copy_n(frame.inputs, frame.size, m_newest.begin());
-    m_batch.insert(m_batch.end(), frame.inputs, frame.inputs + frame.size);
+    takeRow(frame.inputs, m_phaseStart + Time(frame.cycle) * m_period);
+}
+
+void PlantValues::takeRow(const char *payload, Time time)
+{
+    const int size = m_channels.payloadSize();
+    m_lastTime = time;
+    m_channels.toFloats(payload, m_row.data());
+    m_store->append(time, m_row.data());
+    std::copy_n(payload, size, m_newest.begin());
+    m_batch.insert(m_batch.end(), payload, payload + size);
     ++m_batchSize;
     ++m_rows;
     m_hasValues = true;

@@ -39,6 +39,8 @@ public:
     void beginBatch();
     /// Takes the values of one cycle. \param wallTime  now, since 1970
     void takeFrame(const QPlcIOBufferSlaveNode::Frame &frame, Time wallTime);
+    /// Takes the values of one cycle whose time somebody else knows. \param payload  as ChannelMap says  \param time  after that of the row before
+    void takeRow(const char *payload, Time time);
     /// Takes a value that came outside of a cycle. Nothing becomes of one that does not fit.
     void takeValue(QPlcSignalIndex signal, const QPlcValue &value);
     /// What comes next does not continue what is there.

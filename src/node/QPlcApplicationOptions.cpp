@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "QPlcApplicationOptions.h"
+
+#include <QtCore/QCommandLineParser>
+#include <QtCore/QCoreApplication>
+#include <QtCore/QSocketNotifier>
+#include <QtCore/QTextCodec>
+#include <QtCore/QTextStream>
+
+#include <clocale>
+#include <csignal>
+#include <cstdio>
+#include <sys/socket.h>
+#include <unistd.h>
+
+namespace {
+
+// The only thing that a signal handler may touch: one end of a pair of sockets.
+int signalSocket = -1;
+
+void handleSignal(int)
+{
+    const char byte = 1;
+    const ssize_t written = ::write(signalSocket, &byte, 1);
+    Q_UNUSED(written)
+}
+
+void printLines(std::FILE *file, const QString &text)
+{
+    const QByteArray bytes = text.toUtf8();
+    std::fwrite(bytes.constData(), 1, std::size_t(bytes.size()), file);
+    std::fflush(file);
+}
+
+QString helpText(const QCommandLineParser &parser, const QStringList &examples)
+{
+    QString text = parser.helpText();
+    if (!examples.isEmpty())
+        text += QStringLiteral("\nExamples:\n  %1\n").arg(examples.join(QStringLiteral("\n  ")));
+    return text;
+}
+
+/// "-2" is a number and no option: a blank in front keeps the parser from taking it for one.
+QStringList withNumbersHidden(const QStringList &arguments)
+{
+    QStringList result;
+    for (const QString &argument : arguments) {
+        const bool isNumber = argument.size() > 1 && argument.at(0) == QLatin1Char('-')
+            && (argument.at(1).isDigit() || argument.at(1) == QLatin1Char('.'));
+        result << (isNumber ? QLatin1Char(' ') + argument : argument);
+    }
+    return result;
+}
+
+/// What withNumbersHidden() made of it, back again.
+QString revealed(const QString &argument)
+{
+    return argument.startsWith(QLatin1String(" -")) ? argument.mid(1) : argument;
+}
+
+QStringList revealed(const QStringList &arguments)
+{
+    QStringList result;
+    for (const QString &argument : arguments)
+        result << revealed(argument);
+    return result;
+}
+
+}  // namespace
+
+struct QPlcApplicationOptions::Private
+{
+    QCommandLineParser parser;
+    QStringList examples;
+    std::function<QString()> helpText;
+    bool takesArguments = false;
+    int exitCode = Success;
+    int sockets[2] = {-1, -1};
+    std::unique_ptr<QSocketNotifier> notifier;
+};
+
+QPlcApplicationOptions::QPlcApplicationOptions()
+    : d(std::make_unique<Private>())
+{
+    QTextCodec::setCodecForLocale(QTextCodec::codecForName("UTF-8"));
+    std::setlocale(LC_NUMERIC, "C");
+    if (!qEnvironmentVariableIsSet("QT_MESSAGE_PATTERN"))
+        qSetMessagePattern(QStringLiteral("%{appname}: %{if-debug}%{category}: %{endif}%{message}"));
+    d->parser.addOption(
+        QCommandLineOption({QStringLiteral("h"), QStringLiteral("help")}, QStringLiteral("Shows this help.")));
+    d->parser.addOption(QCommandLineOption(QStringLiteral("version"), QStringLiteral("Shows the version.")));
+}
+
+QPlcApplicationOptions::~QPlcApplicationOptions()
+{
+    d->notifier.reset();
+    if (d->sockets[0] < 0)
+        return;
+    std::signal(SIGINT, SIG_DFL);
+    std::signal(SIGTERM, SIG_DFL);
+    signalSocket = -1;
+    ::close(d->sockets[0]);
+    ::close(d->sockets[1]);
+}
+
+void QPlcApplicationOptions::setDescription(const QString &text)
+{
+    d->parser.setApplicationDescription(text);
+}
+
+void QPlcApplicationOptions::setExamples(const QStringList &commands)
+{
+    d->examples = commands;
+}
+
+void QPlcApplicationOptions::setHelpText(std::function<QString()> text)
+{
+    d->helpText = std::move(text);
+}
+
+void QPlcApplicationOptions::addOption(const QCommandLineOption &option)
+{
+    d->parser.addOption(option);
+}
+
+void QPlcApplicationOptions::addPositionalArgument(const QString &name, const QString &description,
+                                                   const QString &syntax)
+{
+    d->takesArguments = true;
+    d->parser.addPositionalArgument(name, description, syntax);
+}
+
+bool QPlcApplicationOptions::parseOptions()
+{
+    if (!d->parser.parse(withNumbersHidden(QCoreApplication::arguments()))) {
+        d->exitCode = usageError(QStringLiteral("%1; see --help").arg(d->parser.errorText()));
+        return false;
+    }
+    if (d->parser.isSet(QStringLiteral("help"))) {
+        printLines(stdout, d->helpText ? d->helpText() : helpText(d->parser, d->examples));
+        return false;
+    }
+    if (d->parser.isSet(QStringLiteral("version"))) {
+        printLines(stdout,
+                   QStringLiteral("%1 %2\n").arg(QCoreApplication::applicationName(), QStringLiteral(QTPLC_VERSION)));
+        return false;
+    }
+    if (!d->takesArguments && !positionalArguments().isEmpty()) {
+        d->exitCode = usageError(QStringLiteral("unexpected argument '%1'; options begin with --, see --help")
+                                     .arg(positionalArguments().constFirst()));
+        return false;
+    }
+    return true;
+}
+
+int QPlcApplicationOptions::exitCode() const
+{
+    return d->exitCode;
+}
+
+bool QPlcApplicationOptions::isSet(const QString &option) const
+{
+    return d->parser.isSet(option);
+}
+
+QString QPlcApplicationOptions::value(const QString &option) const
+{
+    return revealed(d->parser.value(option));
+}
+
+QStringList QPlcApplicationOptions::values(const QString &option) const
+{
+    return revealed(d->parser.values(option));
+}
+
+QStringList QPlcApplicationOptions::positionalArguments() const
+{
+    return revealed(d->parser.positionalArguments());
+}
+
+bool QPlcApplicationOptions::number(const QString &option, double minimum, double maximum, double *result)
+{
+    bool isNumber = false;
+    const double read = value(option).toDouble(&isNumber);
+    if (isNumber && read >= minimum && read <= maximum) {
+        *result = read;
+        return true;
+    }
+    d->exitCode = usageError(
+        QStringLiteral("--%1 %2: use a number of %3 ... %4").arg(option, value(option)).arg(minimum).arg(maximum));
+    return false;
+}
+
+bool QPlcApplicationOptions::integer(const QString &option, qint64 minimum, qint64 maximum, qint64 *result)
+{
+    bool isNumber = false;
+    const qint64 read = value(option).toLongLong(&isNumber);
+    if (isNumber && read >= minimum && read <= maximum) {
+        *result = read;
+        return true;
+    }
+    d->exitCode = usageError(QStringLiteral("--%1 %2: use a whole number of %3 ... %4")
+                                 .arg(option, value(option))
+                                 .arg(minimum)
+                                 .arg(maximum));
+    return false;
+}
+
+void QPlcApplicationOptions::addRealTimeOptions()
+{
+    addOption(QCommandLineOption(
+        QStringLiteral("priority"),
+        QStringLiteral("Runs the cycle under SCHED_FIFO with this priority, 1 ... 99. Else as chrt says."),
+        QStringLiteral("PRIORITY")));
+    addOption(QCommandLineOption(QStringLiteral("cpu"), QStringLiteral("The only processor that the cycle may use."),
+                                 QStringLiteral("NUMBER")));
+    addOption(QCommandLineOption(QStringLiteral("spin-us"),
+                                 QStringLiteral("Time that the cycle looks for frames again before it sleeps, 0 ... "
+                                                "10000 [us]; for a processor of its own."),
+                                 QStringLiteral("TIME")));
+    addOption(QCommandLineOption(QStringLiteral("idle-latency-us"),
+                                 QStringLiteral("Keeps processors from sleeping deeper than they wake from in this "
+                                                "time [us] while cycles run; 0: they do not sleep."),
+                                 QStringLiteral("TIME")));
+    addOption(
+        QCommandLineOption(QStringLiteral("lock-memory"), QStringLiteral("Keeps all memory of the program in RAM.")));
+}
+
+bool QPlcApplicationOptions::readRealTimeOptions(QPlcRealTimeOptions *options)
+{
+    qint64 number = 0;
+    if (isSet(QStringLiteral("priority"))) {
+        if (!integer(QStringLiteral("priority"), 1, 99, &number))
+            return false;
+        options->policy = QPlcRealTimeOptions::Fifo;
+        options->priority = int(number);
+    }
+    if (isSet(QStringLiteral("cpu"))) {
+        if (!integer(QStringLiteral("cpu"), 0, 1023, &number))
+            return false;
+        options->cpu = int(number);
+    }
+    if (isSet(QStringLiteral("spin-us"))) {
+        if (!integer(QStringLiteral("spin-us"), 0, 10'000, &number))
+            return false;
+        options->spin = number * 1000;
+    }
+    if (isSet(QStringLiteral("idle-latency-us"))) {
+        if (!integer(QStringLiteral("idle-latency-us"), 0, 1'000'000, &number))
+            return false;
+        options->idleLatency = int(number);
+    }
+    options->lockMemory = isSet(QStringLiteral("lock-memory"));
+    return true;
+}
+
+void QPlcApplicationOptions::printError(const QString &text)
+{
+    printLines(stderr, QStringLiteral("%1: %2\n").arg(QCoreApplication::applicationName(), text));
+}
+
+int QPlcApplicationOptions::usageError(const QString &text)
+{
+    printError(text);
+    d->exitCode = UsageError;
+    return UsageError;
+}
+
+void QPlcApplicationOptions::quitOnSignals(std::function<void()> onSignal)
+{
+    if (d->sockets[0] >= 0 || ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, d->sockets) < 0)
+        return;
+    signalSocket = d->sockets[0];
+    d->notifier = std::make_unique<QSocketNotifier>(d->sockets[1], QSocketNotifier::Read);
+    QObject::connect(d->notifier.get(), &QSocketNotifier::activated, d->notifier.get(), [this, onSignal] {
+        char byte = 0;
+        const ssize_t count = ::read(d->sockets[1], &byte, 1);
+        Q_UNUSED(count)
+        if (onSignal)
+            onSignal();
+        else
+            QCoreApplication::quit();
+    });
+    struct sigaction action = {};
+    action.sa_handler = &handleSignal;
+    action.sa_flags = SA_RESTART;
+    ::sigaction(SIGINT, &action, nullptr);
+    ::sigaction(SIGTERM, &action, nullptr);
+}
