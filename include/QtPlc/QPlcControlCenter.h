@@ -2,11 +2,10 @@
 #pragma once
 
 #include "QPlcGuiGlobal.h"
-#include "QPlcMessage.h"
+#include "QPlcMasterSocket.h"
 #include "QPlcSignalIndexList.h"
 #include "QPlcSignalIndexTable.h"
 #include "QPlcSignalList.h"
-#include "QPlcUnderlyingProtocol.h"
 
 #include <QtWidgets/QMainWindow>
 
@@ -95,7 +94,7 @@ public:
     bool isStartPageShown() const;
     /// A line over the panels until it is closed, or another one comes: "Not real time: ..." An empty text closes it.
     void showHint(const QString &text);
-    /// The same with a button for what can be done about it. \param remedy  owned by others, gone from the line when it is destroyed
+    /// The same with a button for what can be done about it. \param remedy  owned by others, may go before the line does
     void showHint(const QString &text, QAction *remedy);
 
     Theme theme() const;

@@ -31,6 +31,8 @@ public:
 Q_SIGNALS:
     /// The inputs of all cycles since the last batch, oldest first; never empty.
     void realTimeout(const QList<QPlcSignalList> &inputSignals);
+    /// The same, under the name that the thesis gives it.
+    void timedOut(const QList<QPlcSignalList> &inputSignals);
 
 private:
     void takeBatch();

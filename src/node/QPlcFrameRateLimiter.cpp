@@ -26,6 +26,8 @@ void QPlcFrameRateLimiter::takeBatch()
     if (!m_node)
         return;
     const QList<QPlcSignalList> batch = m_node->takeInputSignals();
-    if (!batch.isEmpty())
-        Q_EMIT realTimeout(batch);
+    if (batch.isEmpty())
+        return;
+    Q_EMIT realTimeout(batch);
+    Q_EMIT timedOut(batch);
 }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "PlantValues.h"
-#include "QPlcMessage.h"
+#include "QPlcMasterSocket.h"
 #include "QPlcSignalList.h"
 
 #include <QtCore/QObject>

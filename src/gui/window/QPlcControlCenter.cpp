@@ -1,71 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "QPlcControlCenter.h"
-
-#include "LayoutShelf.h"
-#include "PanelWiring.h"
-#include "StandardWidgets.h"
+#include "QPlcControlCenterPrivate.h"
 #include "gui/layout/LayoutJson.h"
-#include "gui/layout/LayoutView.h"
 #include "gui/plant/PlantFeed.h"
 
+#include <QtCore/QDateTime>
 #include <QtGui/QCloseEvent>
 #include <QtWidgets/QAction>
 #include <QtWidgets/QMenu>
 
 using namespace qplc;
 
-struct QPlcControlCenter::Private
-{
-    explicit Private(QPlcControlCenter *window);
-
-    Plant *wiredPlant() const;
-
-    QPlcControlCenter *q;
-    WindowContext context;
-    LayoutEditor editor;
-    LayoutShelf shelf{&editor};
-    PanelWiring wiring{&context};
-    LayoutView *view;
-    QList<QPlcWidgetFactory *> factories = standardWidgets();
-    Theme theme = SystemTheme;
-};
-
-QPlcControlCenter::Private::Private(QPlcControlCenter *window)
-    : q(window)
-    , view(new LayoutView(&editor, window))
-{
-    connect(view, &LayoutView::widgetAdded, &wiring,
-            [this](const QString &, QPlcWidget *widget) { wiring.add(widget); });
-    connect(view, &LayoutView::widgetRemoved, &wiring,
-            [this](const QString &, QPlcWidget *widget) { wiring.remove(widget); });
-    view->setFactories(factories);
-    window->setCentralWidget(view);
-}
-
 QPlcControlCenter::QPlcControlCenter(QWidget *parent)
     : QMainWindow(parent)
     , d(std::make_unique<Private>(this))
 {
-    connect(&d->wiring, &PanelWiring::outputsChanged, this,
-            [this] { Q_EMIT outputSignalIndicesChanged(outputSignalIndices()); });
-    connect(&d->wiring, &PanelWiring::initialOutputsChanged, this,
-            [this] { Q_EMIT initialOutputSignalsChanged(initialOutputSignals()); });
-    connect(&d->wiring, &PanelWiring::outputsSent, this, &QPlcControlCenter::sendNewOutputSignals);
+    resize(1366, 740);
 }
 
-QPlcControlCenter::~QPlcControlCenter()
-{
-    delete takeCentralWidget();
-}
+QPlcControlCenter::~QPlcControlCenter() = default;
+
+// ---- plants ----
 
 QString QPlcControlCenter::connectToMaster(const QString &address, const QString &name)
 {
-    return d->context.plants()->add(address, name)->name();
+    QString plain = address.trimmed();
+    if (plain.startsWith(QLatin1String("qtplc://")))
+        plain.remove(0, 8);
+    return d->context.plants()->add(plain, name)->name();
 }
 
 void QPlcControlCenter::disconnectFromMaster(const QString &plant)
 {
-    d->context.plants()->remove(d->context.plants()->find(plant));
+    if (Plant *found = d->context.plants()->find(plant))
+        d->context.plants()->remove(found);
 }
 
 QStringList QPlcControlCenter::plants() const
@@ -82,6 +49,8 @@ bool QPlcControlCenter::isConnected(const QString &plant) const
     return found && found->isConnected();
 }
 
+// ---- panels and layouts ----
+
 void QPlcControlCenter::addAvailableWidget(QPlcWidgetFactory *factory)
 {
     if (d->factories.contains(factory))
@@ -92,95 +61,162 @@ void QPlcControlCenter::addAvailableWidget(QPlcWidgetFactory *factory)
 
 bool QPlcControlCenter::addLayout(const QString &name, const QByteArray &json, QString *error)
 {
-    return d->shelf.add(name, json, error);
+    if (!d->shelf.add(name, json, error))
+        return false;
+    d->actions->showLayouts(d->shelf.names(), [this](const QString &chosen) { showLayout(chosen); });
+    return true;
 }
+
 bool QPlcControlCenter::showLayout(const QString &name)
 {
     return d->shelf.show(name);
 }
+
 void QPlcControlCenter::resetLayout()
 {
     d->shelf.reset();
 }
+
 bool QPlcControlCenter::openLayout(const QString &fileName, QString *error)
 {
-    return d->shelf.open(fileName, error);
+    if (!d->shelf.open(fileName, error))
+        return false;
+    d->layoutFile = fileName;
+    return true;
 }
+
 bool QPlcControlCenter::saveLayout(const QString &fileName, QString *error)
 {
-    return d->shelf.save(fileName, error);
+    if (!d->shelf.save(fileName, error))
+        return false;
+    d->layoutFile = fileName;
+    return true;
 }
+
 QByteArray QPlcControlCenter::layoutJson() const
 {
     return layoutToJson(d->editor.layout());
 }
-void QPlcControlCenter::restoreView() {}
+
+void QPlcControlCenter::restoreView()
+{
+    d->isToBeSaved = true;
+    d->restore();
+}
+
+// ---- start page and view ----
+
 void QPlcControlCenter::addStartAction(QAction *action)
 {
+    d->startActions.append(action);
+    d->startPage->addAction(action);
     addAction(action);
 }
-void QPlcControlCenter::showStartPage() {}
+
+void QPlcControlCenter::showStartPage()
+{
+    d->isStartPageWanted = true;
+    d->showPages();
+}
+
 bool QPlcControlCenter::isStartPageShown() const
 {
-    return false;
+    return d->startPage->isVisibleTo(const_cast<QPlcControlCenter *>(this));
 }
-void QPlcControlCenter::showHint(const QString &) {}
+
+void QPlcControlCenter::showHint(const QString &text)
+{
+    d->hint->showText(text);
+}
+
 QPlcControlCenter::Theme QPlcControlCenter::theme() const
 {
     return d->theme;
 }
+
 void QPlcControlCenter::setTheme(Theme theme)
 {
     d->theme = theme;
-    d->context.setTheme(qplc::Theme::byName(qplc::Theme::Name(theme)));
+    d->applyTheme();
 }
+
 WindowContext *QPlcControlCenter::context() const
 {
     return &d->context;
 }
 
+void QPlcControlCenter::closeEvent(QCloseEvent *event)
+{
+    if (d->isToBeSaved)
+        d->save();
+    QMainWindow::closeEvent(event);
+}
+
+QMenu *QPlcControlCenter::createPopupMenu()
+{
+    return nullptr;  // bars are always there
+}
+
 // ---- a wired node ----
 
-Plant *QPlcControlCenter::Private::wiredPlant() const
+void QPlcControlCenter::setSignalIndexTable(const QPlcSignalIndexTable & /*table*/)
 {
-    for (int place = 0; place < const_cast<WindowContext &>(context).plants()->size(); ++place) {
-        Plant *plant = const_cast<WindowContext &>(context).plants()->at(place);
-        if (plant->feed())
-            return plant;
-    }
-    return nullptr;
-}
-
-void QPlcControlCenter::setSignalIndexTable(const QPlcSignalIndexTable &)
-{
+    if (Plant *plant = d->wiredPlant(); plant && plant->isConnected())
+        plant->feed()->connected(QPlcSignalIndexTable::current());
     Q_EMIT inputSignalIndicesChanged(inputSignalIndices());
 }
+
 QPlcSignalIndexList QPlcControlCenter::inputSignalIndices() const
 {
     QPlcSignalIndexList all;
-    for (QPlcSignalIndex signal = 0; signal < QPlcSignalIndexTable::current().size(); ++signal)
+    const QPlcSignalTable table = QPlcSignalIndexTable::current();
+    for (QPlcSignalIndex signal = 0; signal < table.size(); ++signal)
         all.insert(signal);
     return all;
 }
+
 QPlcSignalIndexList QPlcControlCenter::outputSignalIndices() const
 {
     return d->wiring.outputs();
 }
+
 QPlcSignalList QPlcControlCenter::initialOutputSignals() const
 {
     return d->wiring.initialOutputs();
 }
-void QPlcControlCenter::realTimeout(const QList<QPlcSignalList> &) {}
-void QPlcControlCenter::connectedToMaster() {}
-void QPlcControlCenter::disconnectedFromMaster() {}
-void QPlcControlCenter::initialize(const QPlcSignalList &) {}
-void QPlcControlCenter::started() {}
-void QPlcControlCenter::stopped() {}
-void QPlcControlCenter::closeEvent(QCloseEvent *event)
+
+void QPlcControlCenter::realTimeout(const QList<QPlcSignalList> &signalValues)
 {
-    QMainWindow::closeEvent(event);
+    constexpr PlantValues::Time nanosecondsPerMillisecond = 1'000'000;
+    if (Plant *plant = d->wiredPlant())
+        plant->feed()->take(signalValues, QDateTime::currentMSecsSinceEpoch() * nanosecondsPerMillisecond);
 }
-QMenu *QPlcControlCenter::createPopupMenu()
+
+void QPlcControlCenter::connectedToMaster()
 {
-    return nullptr;
+    d->takeWiredPlant()->feed()->connected(QPlcSignalIndexTable::current());
+}
+
+void QPlcControlCenter::disconnectedFromMaster()
+{
+    if (Plant *plant = d->wiredPlant())
+        plant->feed()->disconnected();
+}
+
+void QPlcControlCenter::initialize(const QPlcSignalList &signalValues)
+{
+    if (Plant *plant = d->wiredPlant())
+        plant->feed()->initialize(signalValues);
+}
+
+void QPlcControlCenter::started()
+{
+    if (Plant *plant = d->wiredPlant())
+        plant->feed()->started();
+}
+
+void QPlcControlCenter::stopped()
+{
+    if (Plant *plant = d->wiredPlant())
+        plant->feed()->stopped();
 }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What programs ask of the window that nobody looks at: a demo, a screenshot.
-#include "QPlcControlCenter.h"
-#include "gui/layout/LayoutView.h"
-#include "gui/panel/WindowContext.h"
+#include "QPlcControlCenterPrivate.h"
 
 using namespace qplc;
 
@@ -14,10 +12,9 @@ bool QPlcControlCenter::isLive(const QString &plant) const
 
 bool QPlcControlCenter::showTab(const QString &name)
 {
-    LayoutEditor *editor = findChild<LayoutView *>()->editor();
-    for (const LayoutTab &tab : editor->layout().tabs()) {
+    for (const LayoutTab &tab : d->editor.layout().tabs()) {
         if (tab.name == name) {
-            editor->setCurrentTab(tab.id);
+            d->editor.setCurrentTab(tab.id);
             return true;
         }
     }
@@ -26,6 +23,5 @@ bool QPlcControlCenter::showTab(const QString &name)
 
 void QPlcControlCenter::showHint(const QString &text, QAction *remedy)
 {
-    showHint(text);
-    Q_UNUSED(remedy)
+    d->hint->showText(text, remedy);
 }

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "gui/panel/WindowContext.h"
+
+#include <QtWidgets/QAbstractButton>
+
+namespace qplc {
+
+/// A button of the bars: flat, with a second line where it needs one, and sharp at every scale.
+class BarButton : public QAbstractButton
+{
+    Q_OBJECT
+public:
+    enum Kind {
+        Quiet,    // a text
+        Primary,  // the next thing to do
+        Stop      // red, always
+    };
+
+    /// \param context  outlives the button
+    BarButton(Kind kind, WindowContext *context, QWidget *parent = nullptr);
+
+    /// What stands after the text, muted: the keys, or a plant.
+    void setDetail(const QString &detail);
+    QString detail() const { return m_detail; }
+    /// Quiet: in which colour the text is; invalid: as other texts.
+    void setTextColor(const QColor &color);
+
+    QSize sizeHint() const override;
+    QSize minimumSizeHint() const override { return sizeHint(); }
+
+protected:
+    void paintEvent(QPaintEvent *event) override;
+    void enterEvent(QEvent *event) override;
+    void leaveEvent(QEvent *event) override;
+
+private:
+    QFont textFont() const;
+    QFont detailFont() const;
+    QColor background() const;
+    QColor foreground() const;
+
+    Kind m_kind;
+    WindowContext *m_context;
+    QString m_detail;
+    QColor m_textColor;
+};
+
+/// Draws the frame by which a person sees where keys go. \param rect  of the widget
+void drawFocusRing(QPainter *painter, const QRectF &rect, const Theme &theme);
+
+}  // namespace qplc

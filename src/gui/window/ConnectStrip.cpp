@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ConnectStrip.h"
+
+#include "BarButton.h"
+#include "gui/plant/AddressResolver.h"
+
+#include <QtGui/QKeyEvent>
+#include <QtGui/QPainter>
+#include <QtWidgets/QHBoxLayout>
+#include <QtWidgets/QLabel>
+#include <QtWidgets/QLineEdit>
+
+namespace qplc {
+
+ConnectStrip::ConnectStrip(WindowContext *context, QWidget *parent)
+    : QWidget(parent)
+    , m_context(context)
+    , m_address(new QLineEdit)
+    , m_recent(new QWidget)
+    , m_recentRow(new QHBoxLayout(m_recent))
+    , m_error(new QLabel)
+{
+    setObjectName(QStringLiteral("ConnectStrip"));
+    m_address->setPlaceholderText(tr("host:port, such as 127.0.0.1:%1").arg(QPlcUnderlyingProtocol::DefaultPort));
+    m_address->setAccessibleName(tr("Address of the master"));
+    m_address->setMaximumWidth(360);
+    m_error->setWordWrap(true);
+    m_recentRow->setContentsMargins(0, 0, 0, 0);
+    auto *label = new QLabel(tr("Connect to a master"));
+    label->setBuddy(m_address);
+    auto *connectButton = new BarButton(BarButton::Quiet, context);
+    connectButton->setText(tr("Connect"));
+    connectButton->setDetail(tr("Enter"));
+    auto *close = new BarButton(BarButton::Quiet, context);
+    close->setText(tr("Close"));
+    auto *row = new QHBoxLayout;
+    row->addWidget(label);
+    row->addWidget(m_address, 1);
+    row->addWidget(connectButton);
+    row->addWidget(m_recent);
+    row->addStretch(1);
+    row->addWidget(close);
+    auto *column = new QVBoxLayout(this);
+    column->setContentsMargins(14, 8, 6, 8);
+    column->setSpacing(2);
+    column->addLayout(row);
+    column->addWidget(m_error);
+    m_error->hide();
+    connect(m_address, &QLineEdit::returnPressed, this, &ConnectStrip::accept);
+    connect(m_address, &QLineEdit::textEdited, m_error, &QWidget::hide);
+    connect(connectButton, &QAbstractButton::clicked, this, &ConnectStrip::accept);
+    connect(close, &QAbstractButton::clicked, this, &QWidget::hide);
+    hide();
+}
+
+void ConnectStrip::setRecentMasters(const QStringList &addresses)
+{
+    constexpr int most = 4;
+    while (QLayoutItem *item = m_recentRow->takeAt(0)) {
+        if (item->widget())
+            item->widget()->deleteLater();
+        delete item;
+    }
+    if (!addresses.isEmpty())
+        m_recentRow->addWidget(new QLabel(tr("Recent:")));
+    for (const QString &address : addresses.mid(0, most)) {
+        auto *button = new BarButton(BarButton::Quiet, m_context);
+        button->setText(address);
+        button->setTextColor(m_context->theme().accent);
+        connect(button, &QAbstractButton::clicked, this, [this, address] {
+            m_address->setText(address);
+            accept();
+        });
+        m_recentRow->addWidget(button);
+    }
+}
+
+void ConnectStrip::open()
+{
+    m_error->hide();
+    show();
+    m_address->setFocus(Qt::ShortcutFocusReason);
+    m_address->selectAll();
+}
+
+void ConnectStrip::showError(const QString &sentence)
+{
+    QPalette alarm = palette();
+    alarm.setColor(QPalette::WindowText, m_context->theme().alarm);
+    m_error->setPalette(alarm);
+    m_error->setText(sentence);
+    m_error->show();
+}
+
+QString ConnectStrip::error() const
+{
+    return m_error->isHidden() ? QString() : m_error->text();
+}
+
+QString ConnectStrip::errorOf(const QString &address)
+{
+    if (address.trimmed().isEmpty())
+        return tr("Give the address of a master, such as 127.0.0.1:%1.").arg(QPlcUnderlyingProtocol::DefaultPort);
+    // Names of hosts are looked up later, in the background.
+    if (!AddressResolver::hostToLookUp(address).isEmpty() || address.contains(QLatin1String("local://")))
+        return {};
+    QString error;
+    QString plain = address;
+    if (plain.startsWith(QLatin1String("qtplc://")))
+        plain.remove(0, 8);
+    QPlcUnderlyingProtocol::fromString(plain, QPlcUnderlyingProtocol::Tcp, &error);
+    return error;
+}
+
+void ConnectStrip::accept()
+{
+    const QString address = m_address->text().trimmed();
+    const QString wrong = errorOf(address);
+    if (!wrong.isEmpty()) {
+        showError(wrong);
+        return;
+    }
+    hide();
+    Q_EMIT connectRequested(address);
+}
+
+void ConnectStrip::keyPressEvent(QKeyEvent *event)
+{
+    if (event->key() == Qt::Key_Escape)
+        hide();
+    else
+        QWidget::keyPressEvent(event);
+}
+
+void ConnectStrip::paintEvent(QPaintEvent * /*event*/)
+{
+    QPainter painter(this);
+    painter.fillRect(rect(), m_context->theme().surface);
+    painter.fillRect(QRect(0, height() - 1, width(), 1), m_context->theme().line);
+}
+
+}  // namespace qplc

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ControlCenterActions.h"
+
+#include "QPlcControlCenter.h"
+
+#include <QtWidgets/QAction>
+#include <QtWidgets/QActionGroup>
+#include <QtWidgets/QMenu>
+#include <QtWidgets/QMenuBar>
+
+namespace qplc {
+
+ControlCenterActions::ControlCenterActions(QPlcControlCenter *window)
+    : QObject(window)
+    , m_window(window)
+{
+    plantMenu = window->menuBar()->addMenu(tr("&Plant"));
+    viewMenu = window->menuBar()->addMenu(tr("&View"));
+    layoutMenu = window->menuBar()->addMenu(tr("&Layout"));
+    helpMenu = window->menuBar()->addMenu(tr("&Help"));
+    makePlantMenu();
+    makeViewMenu();
+    makeLayoutMenu();
+    keys = add(helpMenu, tr("&Keys"), tr("F1"));
+}
+
+QAction *ControlCenterActions::add(QMenu *menu, const QString &text, const QString &shortcut)
+{
+    QAction *action = menu->addAction(text);
+    if (!shortcut.isEmpty())
+        action->setShortcut(shortcut);
+    m_window->addAction(action);  // its keys work while the menu bar is hidden
+    return action;
+}
+
+void ControlCenterActions::makePlantMenu()
+{
+    connectTo = add(plantMenu, tr("&Connect..."), tr("Ctrl+O"));
+    connectTo->setToolTip(tr("To the master of a running plant, here or elsewhere"));
+    disconnectFrom = add(plantMenu, tr("&Disconnect"), tr("Ctrl+D"));
+    nextPlant = add(plantMenu, tr("&Next plant"), tr("Ctrl+P"));
+    plantMenu->addSeparator();
+    initialize = add(plantMenu, tr("&Initialize"), tr("F4"));
+    start = add(plantMenu, tr("&Start"), tr("F5"));
+    stop = add(plantMenu, tr("S&top"), tr("Ctrl+."));
+    stop->setShortcutContext(Qt::ApplicationShortcut);
+    plantMenu->addSeparator();
+    startPage = add(plantMenu, tr("Start &page"), tr("Ctrl+Home"));
+    quit = add(plantMenu, tr("&Close the window"), tr("Ctrl+Q"));
+}
+
+void ControlCenterActions::makeViewMenu()
+{
+    palette = add(viewMenu, tr("&Commands..."), tr("Ctrl+K"));
+    search = add(viewMenu, tr("&Search signals"), tr("Ctrl+F"));
+    viewMenu->addSeparator();
+    goLive = add(viewMenu, tr("&Live"), tr("L"));
+    freeze = add(viewMenu, tr("&Freeze"), tr("Ctrl+Shift+L"));
+    shorterSpan = add(viewMenu, tr("Shorter time span"), tr("Ctrl+["));
+    longerSpan = add(viewMenu, tr("Longer time span"), tr("Ctrl+]"));
+    viewMenu->addSeparator();
+    eventLog = add(viewMenu, tr("&Event log"), tr("Ctrl+E"));
+    acknowledge = add(viewMenu, tr("&Acknowledge all events"), tr("Ctrl+Shift+A"));
+    viewMenu->addSeparator();
+    QMenu *themeMenu = viewMenu->addMenu(tr("&Theme"));
+    auto *group = new QActionGroup(this);
+    for (const QString &name :
+         {tr("Theme of the desktop"), tr("Light theme"), tr("Dark theme"), tr("Sunlight theme")}) {
+        QAction *action = add(themeMenu, name);
+        action->setCheckable(true);
+        action->setActionGroup(group);
+        themes.append(action);
+    }
+    fullScreen = add(viewMenu, tr("F&ull screen"), tr("F11"));
+    fullScreen->setCheckable(true);
+}
+
+void ControlCenterActions::makeLayoutMenu()
+{
+    m_endOfLayouts = layoutMenu->addSeparator();
+    addPanel = add(layoutMenu, tr("&Add a panel..."), tr("Ctrl+N"));
+    newTab = add(layoutMenu, tr("New &tab"));
+    newTab->setToolTip(tr("Ctrl+T"));
+    layoutMenu->addSeparator();
+    open = add(layoutMenu, tr("&Open..."), tr("Ctrl+Shift+O"));
+    save = add(layoutMenu, tr("&Save"), tr("Ctrl+S"));
+    saveAs = add(layoutMenu, tr("Save &as..."), tr("Ctrl+Shift+S"));
+    reset = add(layoutMenu, tr("&Reset"), tr("Ctrl+Shift+R"));
+    m_layouts.clear();
+}
+
+void ControlCenterActions::showLayouts(const QStringList &names, const std::function<void(const QString &)> &show)
+{
+    qDeleteAll(m_layouts);
+    m_layouts.clear();
+    for (const QString &name : names) {
+        auto *action = new QAction(tr("Layout '%1'").arg(name), this);
+        if (m_layouts.size() < 9)
+            action->setShortcut(tr("Ctrl+%1").arg(m_layouts.size() + 1));
+        connect(action, &QAction::triggered, this, [show, name] { show(name); });
+        layoutMenu->insertAction(m_endOfLayouts, action);
+        m_window->addAction(action);
+        m_layouts.append(action);
+    }
+}
+
+void ControlCenterActions::showTheme(int theme)
+{
+    themes.at(theme)->setChecked(true);
+}
+
+QVector<KeysWindow::Group> ControlCenterActions::groups() const
+{
+    QVector<KeysWindow::Group> all;
+    for (const QMenu *menu : {plantMenu, viewMenu, layoutMenu, helpMenu}) {
+        KeysWindow::Group group{menu->title().remove(QLatin1Char('&')), {}};
+        for (QAction *action : menu->actions()) {
+            if (action->menu())
+                group.actions.append(action->menu()->actions());
+            else if (!action->isSeparator())
+                group.actions.append(action);
+        }
+        all.append(group);
+    }
+    return all;
+}
+
+}  // namespace qplc

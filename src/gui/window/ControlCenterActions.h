@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "KeysWindow.h"
+
+#include <functional>
+
+class QActionGroup;
+class QMainWindow;
+class QMenu;
+class QPlcControlCenter;
+
+namespace qplc {
+
+class LayoutShelf;
+
+/// All commands of the window: its menus are made of them, the palette of commands finds them, and the list of keys shows them.
+class ControlCenterActions : public QObject
+{
+    Q_OBJECT
+public:
+    explicit ControlCenterActions(QPlcControlCenter *window);
+
+    QMenu *plantMenu = nullptr;
+    QMenu *viewMenu = nullptr;
+    QMenu *layoutMenu = nullptr;
+    QMenu *helpMenu = nullptr;
+
+    // Plant
+    QAction *connectTo = nullptr;
+    QAction *disconnectFrom = nullptr;
+    QAction *nextPlant = nullptr;
+    QAction *initialize = nullptr;
+    QAction *start = nullptr;
+    QAction *stop = nullptr;
+    QAction *startPage = nullptr;
+    QAction *quit = nullptr;
+    // View
+    QAction *palette = nullptr;
+    QAction *search = nullptr;
+    QAction *goLive = nullptr;
+    QAction *freeze = nullptr;
+    QAction *shorterSpan = nullptr;
+    QAction *longerSpan = nullptr;
+    QAction *eventLog = nullptr;
+    QAction *acknowledge = nullptr;
+    QAction *fullScreen = nullptr;
+    QList<QAction *> themes;  // in the order of QPlcControlCenter::Theme
+    // Layout
+    QAction *open = nullptr;
+    QAction *save = nullptr;
+    QAction *saveAs = nullptr;
+    QAction *reset = nullptr;
+    QAction *newTab = nullptr;
+    QAction *addPanel = nullptr;
+    QAction *undo = nullptr;
+    QAction *redo = nullptr;
+    // Help
+    QAction *keys = nullptr;
+
+    /// The layouts of the program stand at the begin of their menu.
+    void showLayouts(const QStringList &names, const std::function<void(const QString &)> &show);
+    void showTheme(int theme);
+    /// By menu.
+    QVector<KeysWindow::Group> groups() const;
+
+private:
+    QAction *add(QMenu *menu, const QString &text, const QString &keys = {});
+    void makePlantMenu();
+    void makeViewMenu();
+    void makeLayoutMenu();
+
+    QMainWindow *m_window;
+    QList<QAction *> m_layouts;
+    QAction *m_endOfLayouts = nullptr;
+};
+
+}  // namespace qplc

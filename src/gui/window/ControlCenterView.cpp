@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: Apache-2.0
+// QPlcControlCenter::Private: what its commands do to the view, and what the window remembers.
+#include "QPlcControlCenterPrivate.h"
+#include "QPlcWidgetFactory.h"
+#include "gui/layout/LayoutJson.h"
+#include "gui/layout/PanelFrame.h"
+
+#include <QtCore/QFileInfo>
+#include <QtCore/QJsonArray>
+#include <QtCore/QJsonDocument>
+#include <QtCore/QSettings>
+#include <QtWidgets/QAction>
+#include <QtWidgets/QApplication>
+#include <QtWidgets/QFileDialog>
+#include <QtWidgets/QMenu>
+
+using namespace qplc;
+
+// ---- commands ----
+
+void QPlcControlCenter::Private::connectPlantActions()
+{
+    connect(actions->connectTo, &QAction::triggered, connectStrip, &ConnectStrip::open);
+    connect(actions->disconnectFrom, &QAction::triggered, q, [this] { disconnectFrom(); });
+    connect(actions->nextPlant, &QAction::triggered, &selection, &PlantSelection::selectNext);
+    connect(actions->initialize, &QAction::triggered, q, [this] { perform(Plant::Initialize); });
+    connect(actions->start, &QAction::triggered, q, [this] { perform(Plant::Start); });
+    connect(actions->stop, &QAction::triggered, q, [this] { stop(); });
+    connect(actions->startPage, &QAction::triggered, q, [this] {
+        isStartPageWanted = !isStartPageWanted && context.plants()->size() > 0;
+        showPages();
+    });
+    connect(actions->quit, &QAction::triggered, q, &QWidget::close);
+}
+
+void QPlcControlCenter::Private::connectViewActions()
+{
+    connect(actions->palette, &QAction::triggered, q, [this] { openPalette(); });
+    connect(actions->search, &QAction::triggered, dock, &SignalDock::startSearch);
+    connect(actions->goLive, &QAction::triggered, context.timeView(), &TimeView::goLive);
+    connect(actions->freeze, &QAction::triggered, context.timeView(), &TimeView::freeze);
+    connect(actions->shorterSpan, &QAction::triggered, timeBar, [this] { timeBar->stepSpan(-1); });
+    connect(actions->longerSpan, &QAction::triggered, timeBar, [this] { timeBar->stepSpan(1); });
+    connect(actions->eventLog, &QAction::triggered, placer, [this] { placer->showPanel(QStringLiteral("Event log")); });
+    connect(actions->acknowledge, &QAction::triggered, context.events(), &EventLogModel::acknowledgeAll);
+    connect(actions->fullScreen, &QAction::toggled, q, [this](bool isFull) {
+        q->setWindowState(isFull ? q->windowState() | Qt::WindowFullScreen : q->windowState() & ~Qt::WindowFullScreen);
+    });
+    for (int each = 0; each < actions->themes.size(); ++each)
+        connect(actions->themes.at(each), &QAction::triggered, q, [this, each] { q->setTheme(Theme(each)); });
+    connect(actions->keys, &QAction::triggered, q, [this] { openKeys(); });
+}
+
+void QPlcControlCenter::Private::connectLayoutActions()
+{
+    QUndoStack *stack = editor.undoStack();
+    actions->undo = stack->createUndoAction(q, tr("Undo"));
+    actions->redo = stack->createRedoAction(q, tr("Redo"));
+    actions->undo->setShortcut(tr("Ctrl+Z"));
+    actions->redo->setShortcuts({QKeySequence(tr("Ctrl+Shift+Z")), QKeySequence(tr("Ctrl+Y"))});
+    actions->layoutMenu->insertActions(actions->addPanel, {actions->undo, actions->redo});
+    q->addActions({actions->undo, actions->redo});
+    connect(actions->open, &QAction::triggered, q, [this] { askForLayoutFile(false); });
+    connect(actions->saveAs, &QAction::triggered, q, [this] { askForLayoutFile(true); });
+    connect(actions->save, &QAction::triggered, q, [this] {
+        if (layoutFile.isEmpty())
+            askForLayoutFile(true);
+        else
+            saveLayoutTo(layoutFile);
+    });
+    connect(actions->reset, &QAction::triggered, q, [this] { q->resetLayout(); });
+    connect(actions->newTab, &QAction::triggered, q, [this] { editor.addTab(); });
+    connect(actions->addPanel, &QAction::triggered, q, [this] { view->openAddMenu(view); });
+}
+
+void QPlcControlCenter::Private::askForLayoutFile(bool isToSave)
+{
+    auto *dialog = new QFileDialog(q, isToSave ? tr("Save the layout") : tr("Open a layout"), layoutFile,
+                                   tr("Layouts (*.json);;All files (*)"));
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    dialog->setAcceptMode(isToSave ? QFileDialog::AcceptSave : QFileDialog::AcceptOpen);
+    dialog->setFileMode(isToSave ? QFileDialog::AnyFile : QFileDialog::ExistingFile);
+    dialog->setDefaultSuffix(QStringLiteral("json"));
+    dialog->setModal(false);
+    connect(dialog, &QFileDialog::fileSelected, q, [this, isToSave](const QString &fileName) {
+        QString error;
+        if (isToSave)
+            saveLayoutTo(fileName);
+        else if (!q->openLayout(fileName, &error))
+            hint->showText(error);
+    });
+    dialog->show();
+}
+
+void QPlcControlCenter::Private::saveLayoutTo(const QString &fileName)
+{
+    QString error;
+    if (!q->saveLayout(fileName, &error))
+        hint->showText(error);
+}
+
+// ---- view ----
+
+void QPlcControlCenter::Private::applyTheme()
+{
+    const qplc::Theme &chosen
+        = theme == SystemTheme ? desktopTheme : qplc::Theme::byName(qplc::Theme::Name(int(theme)));
+    QApplication::setPalette(chosen.palette());
+    q->setPalette(chosen.palette());
+    context.setTheme(chosen);
+    actions->showTheme(int(theme));
+}
+
+void QPlcControlCenter::Private::openKeys()
+{
+    QVector<KeysWindow::Group> groups = actions->groups();
+    groups.append({tr("Panels and tabs"), view->actions()});
+    groups.append({tr("Tree of signals"), dock->signalActions()});
+    if (const QPlcWidget *panel = focusedPanel())
+        groups.append({tr("Panel '%1'").arg(panel->title()), panel->actions()});
+    keys->showKeys(groups);
+}
+
+QPlcWidget *QPlcControlCenter::Private::focusedPanel() const
+{
+    for (QWidget *widget = q->focusWidget(); widget; widget = widget->parentWidget()) {
+        if (auto *frame = qobject_cast<PanelFrame *>(widget))
+            return frame->widget();
+    }
+    return nullptr;
+}
+
+void QPlcControlCenter::Private::openPalette()
+{
+    palette->open(paletteItems());
+}
+
+void QPlcControlCenter::Private::appendActions(QVector<PaletteItem> *items, const QString &group,
+                                               const QList<QAction *> &all) const
+{
+    for (QAction *action : all) {
+        const QString text = action->text().remove(QLatin1Char('&'));
+        if (!action->isEnabled() || action->isSeparator() || text.isEmpty() || action == actions->palette)
+            continue;
+        items->append(
+            {text, group, action->shortcut().toString(QKeySequence::NativeText), [action] { action->trigger(); }});
+    }
+}
+
+void QPlcControlCenter::Private::appendPanels(QVector<PaletteItem> *items)
+{
+    for (const QPlcWidgetFactory *factory : qAsConst(factories)) {
+        const QString type = factory->name();
+        items->append({tr("Add panel: %1").arg(type), tr("Panel"), {}, [this, type] {
+                           editor.addPanel(type, {}, LayoutTarget::inTab(editor.layout().currentTab().id));
+                       }});
+    }
+}
+
+void QPlcControlCenter::Private::appendSignals(QVector<PaletteItem> *items)
+{
+    PlantList *plants = context.plants();
+    for (int place = 0; place < plants->size(); ++place) {
+        const Plant *plant = plants->at(place);
+        for (QPlcSignalIndex signal = 0; signal < plant->table().size(); ++signal) {
+            const QString reference = plants->reference(plant, signal).toString();
+            items->append({reference, tr("Plot signal"), {}, [this, reference] {
+                               placer->show(QStringLiteral("Time plot"), {reference});
+                           }});
+        }
+    }
+}
+
+QVector<PaletteItem> QPlcControlCenter::Private::paletteItems()
+{
+    QVector<PaletteItem> items;
+    for (const KeysWindow::Group &group : actions->groups())
+        appendActions(&items, group.name, group.actions);
+    if (const QPlcWidget *panel = focusedPanel())
+        appendActions(&items, panel->title(), panel->actions());
+    appendActions(&items, tr("Start"), startActions);
+    appendActions(&items, tr("Panels"), view->actions());
+    appendActions(&items, tr("Signals"), dock->signalActions());
+    appendPanels(&items);
+    appendSignals(&items);
+    return items;
+}
+
+// ---- memory ----
+
+namespace {
+
+QString keyOf(const char *what)
+{
+    return QStringLiteral("ControlCenter/") + QLatin1String(what);
+}
+
+}  // namespace
+
+void QPlcControlCenter::Private::save()
+{
+    QStringList plants;
+    for (int place = 0; place < context.plants()->size(); ++place) {
+        const Plant *plant = context.plants()->at(place);
+        if (!plant->feed())
+            plants << plant->address() << plant->name();
+    }
+    QSettings settings;
+    settings.setValue(keyOf("geometry"), q->saveGeometry());
+    settings.setValue(keyOf("state"), q->saveState());
+    settings.setValue(keyOf("layout"), layoutToJson(editor.layout()));
+    settings.setValue(keyOf("theme"), qplc::Theme::nameText(qplc::Theme::Name(int(theme))));
+    settings.setValue(keyOf("plants"), plants);
+    settings.sync();
+}
+
+void QPlcControlCenter::Private::restore()
+{
+    const QSettings settings;
+    q->restoreGeometry(settings.value(keyOf("geometry")).toByteArray());
+    q->restoreState(settings.value(keyOf("state")).toByteArray());
+    q->setTheme(Theme(int(qplc::Theme::nameOf(settings.value(keyOf("theme")).toString()))));
+    const QByteArray layout = settings.value(keyOf("layout")).toByteArray();
+    if (!layout.isEmpty() && !shelf.restore(layout))
+        hint->showText(tr("The layout of the last time cannot be read; this is the default one."));
+    const QStringList plants = settings.value(keyOf("plants")).toStringList();
+    for (int i = 0; i + 1 < plants.size(); i += 2)
+        q->connectToMaster(plants[i], plants[i + 1]);
+}

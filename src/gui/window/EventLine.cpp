@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "EventLine.h"
+
+namespace qplc {
+
+namespace {
+
+/// Null when nothing asks.
+const PlantEvent *newestThatAsks(const EventLogModel &events)
+{
+    for (int row = events.rowCount() - 1; row >= 0; --row) {
+        const PlantEvent &event = events.at(row);
+        if (event.severity != PlantEvent::Information && !event.isAcknowledged)
+            return &event;
+    }
+    return nullptr;
+}
+
+}  // namespace
+
+EventLine::EventLine(WindowContext *context, QWidget *parent)
+    : BarButton(Quiet, context, parent)
+    , m_context(context)
+{
+    setObjectName(QStringLiteral("EventLine"));
+    setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+    setToolTip(tr("Opens the event log (Ctrl+E)"));
+    connect(context->events(), &EventLogModel::unacknowledgedChanged, this, &EventLine::follow);
+    connect(context->events(), &QAbstractItemModel::rowsInserted, this, &EventLine::follow);
+    connect(context, &WindowContext::themeChanged, this, &EventLine::follow);
+    follow();
+}
+
+QSize EventLine::sizeHint() const
+{
+    return {320, BarButton::sizeHint().height()};
+}
+
+void EventLine::follow()
+{
+    const int count = m_context->events()->unacknowledged();
+    const PlantEvent *event = count > 0 ? newestThatAsks(*m_context->events()) : nullptr;
+    if (!event) {
+        setText(tr("No events to acknowledge"));
+        setTextColor(m_context->theme().mutedText);
+    } else {
+        const QString more = count > 1 ? tr("   (and %1 more)").arg(count - 1) : QString();
+        setText(QStringLiteral("%1  %2  %3: %4%5")
+                    .arg(EventLogModel::severityText(event->severity), event->time.toString(QStringLiteral("HH:mm:ss")),
+                         event->source, event->text.section(QLatin1Char('\n'), 0, 0), more));
+        setTextColor(event->severity == PlantEvent::Error ? m_context->theme().alarm : m_context->theme().warning);
+    }
+    setAccessibleName(text());
+}
+
+}  // namespace qplc

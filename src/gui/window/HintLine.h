@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "BarButton.h"
+
+#include <QtCore/QPointer>
+#include <QtWidgets/QAction>
+
+class QLabel;
+
+namespace qplc {
+
+/// A line over the panels that says one thing until it is closed; hidden while it has nothing to say.
+class HintLine : public QWidget
+{
+    Q_OBJECT
+public:
+    explicit HintLine(WindowContext *context, QWidget *parent = nullptr);
+
+    /// Empty: closes the line. \param remedy  what a button of the line does; null: there is none
+    void showText(const QString &text, QAction *remedy = nullptr);
+    QString text() const;
+
+protected:
+    void paintEvent(QPaintEvent *event) override;
+
+private:
+    WindowContext *m_context;
+    QLabel *m_label;
+    BarButton *m_button;
+    QPointer<QAction> m_remedy;
+};
+
+}  // namespace qplc

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "PlantSelection.h"
+
+namespace qplc {
+
+PlantSelection::PlantSelection(PlantList *plants, QObject *parent)
+    : QObject(parent)
+    , m_plants(plants)
+{
+    connect(plants, &PlantList::added, this, &PlantSelection::follow);
+    connect(plants, &PlantList::removed, this, &PlantSelection::forget);
+}
+
+void PlantSelection::follow(Plant *plant)
+{
+    connect(plant, &Plant::messagePushed, this, [this, plant](const QPlcMessage &message) {
+        if (message.kind() != QPlcMessage::StatesInitialized)
+            return;
+        m_initialized.insert(plant);
+        Q_EMIT changed();
+    });
+    connect(plant, &Plant::stateChanged, this, [this, plant] {
+        if (!plant->isConnected() || plant->status().isRunning())
+            m_initialized.remove(plant);
+        Q_EMIT changed();
+    });
+    connect(plant, &Plant::statusChanged, this, &PlantSelection::changed);
+    connect(plant, &Plant::commandFailed, this,
+            [this](int, const QString &sentence) { Q_EMIT commandFailed(sentence); });
+    if (!m_plant)
+        m_plant = plant;
+    Q_EMIT changed();
+}
+
+void PlantSelection::forget(Plant *plant)
+{
+    plant->disconnect(this);
+    m_initialized.remove(plant);
+    if (plant == m_plant)
+        m_plant = m_plants->size() > 0 ? m_plants->at(0) : nullptr;
+    Q_EMIT changed();
+}
+
+void PlantSelection::select(Plant *plant)
+{
+    if (plant == m_plant || m_plants->indexOf(plant) < 0)
+        return;
+    m_plant = plant;
+    Q_EMIT changed();
+}
+
+void PlantSelection::selectNext()
+{
+    if (m_plants->size() > 1)
+        select(m_plants->at((m_plants->indexOf(m_plant) + 1) % m_plants->size()));
+}
+
+}  // namespace qplc

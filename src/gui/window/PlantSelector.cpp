@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "PlantSelector.h"
+
+#include "BarButton.h"
+#include "PlantSummary.h"
+
+#include <QtCore/QTimer>
+#include <QtGui/QPainter>
+#include <QtWidgets/QMenu>
+
+namespace qplc {
+
+namespace {
+
+constexpr int refreshPause = 250;  // [ms] of ages and of what is left until the next attempt
+constexpr int textLeft = 28;       // [px]
+
+}  // namespace
+
+PlantSelector::PlantSelector(PlantSelection *selection, WindowContext *context, QWidget *parent)
+    : QAbstractButton(parent)
+    , m_selection(selection)
+    , m_context(context)
+{
+    setFocusPolicy(Qt::TabFocus);
+    setCursor(Qt::PointingHandCursor);
+    setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
+    auto *timer = new QTimer(this);
+    connect(timer, &QTimer::timeout, this, &PlantSelector::follow);
+    timer->start(refreshPause);
+    connect(selection, &PlantSelection::changed, this, &PlantSelector::follow);
+    connect(context, &WindowContext::themeChanged, this, &PlantSelector::follow);
+    connect(this, &QAbstractButton::clicked, this, &PlantSelector::openMenu);
+    follow();
+}
+
+void PlantSelector::follow()
+{
+    const Plant *plant = m_selection->plant();
+    QString name = tr("No plant");
+    PlantSummary summary{Tone::Calm, tr("connect to one, or begin with the start page"), {}};
+    if (plant) {
+        name = plant->name();
+        summary = PlantSummary::of(*plant);
+    }
+    const QColor color = colorOf(m_context->theme(), summary.tone);
+    if (name == m_name && summary.condition == m_headline && summary.figures == m_figures && color == m_color)
+        return;
+    m_name = name;
+    m_headline = summary.condition;
+    m_figures = summary.figures;
+    m_color = color;
+    setText(QStringLiteral("%1: %2").arg(m_name, m_headline));
+    setAccessibleName(tr("Plant %1: %2. %3").arg(m_name, m_headline, m_figures));
+    setToolTip(m_figures);
+    update();
+}
+
+void PlantSelector::openMenu()
+{
+    auto *menu = new QMenu(this);
+    menu->setAttribute(Qt::WA_DeleteOnClose);
+    PlantList *plants = m_selection->plants();
+    for (int place = 0; place < plants->size(); ++place) {
+        Plant *plant = plants->at(place);
+        QAction *action
+            = menu->addAction(QStringLiteral("%1   %2").arg(plant->name(), PlantSummary::of(*plant).condition));
+        action->setCheckable(true);
+        action->setChecked(plant == m_selection->plant());
+        connect(action, &QAction::triggered, m_selection, [this, plant] { m_selection->select(plant); });
+    }
+    menu->addSeparator();
+    menu->addActions(m_actions);
+    menu->popup(mapToGlobal(QPoint(0, height())));
+}
+
+QSize PlantSelector::sizeHint() const
+{
+    return {420, 44};
+}
+
+QSize PlantSelector::minimumSizeHint() const
+{
+    return {220, 44};
+}
+
+void PlantSelector::paintEvent(QPaintEvent * /*event*/)
+{
+    const Theme &theme = m_context->theme();
+    QPainter painter(this);
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.setPen(QPen(theme.line, 1.0));
+    painter.setBrush(underMouse() ? theme.window : theme.surface);
+    painter.drawRoundedRect(QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5), 5, 5);
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(m_color);
+    painter.drawEllipse(QPointF(15, 15), 5, 5);
+
+    const int right = width() - 24;
+    QFont bold = font();
+    bold.setBold(true);
+    const QFontMetrics boldSize(bold);
+    const QString name = boldSize.elidedText(m_name, Qt::ElideMiddle, (right - textLeft) * 6 / 10);
+    painter.setFont(bold);
+    painter.setPen(theme.text);
+    painter.drawText(QRect(textLeft, 4, right - textLeft, 20), Qt::AlignLeft | Qt::AlignVCenter, name);
+    const int conditionLeft = textLeft + boldSize.horizontalAdvance(name) + 10;
+    painter.setFont(font());
+    painter.setPen(m_color);
+    const QRect conditionRect(conditionLeft, 4, right - conditionLeft, 20);
+    painter.drawText(conditionRect, Qt::AlignLeft | Qt::AlignVCenter,
+                     fontMetrics().elidedText(m_headline, Qt::ElideRight, conditionRect.width()));
+
+    QFont smaller = font();
+    smaller.setPointSizeF(smaller.pointSizeF() * 0.9);
+    painter.setFont(smaller);
+    painter.setPen(theme.mutedText);
+    painter.drawText(QRect(textLeft, 23, right - textLeft, 17), Qt::AlignLeft | Qt::AlignVCenter,
+                     QFontMetrics(smaller).elidedText(m_figures, Qt::ElideRight, right - textLeft));
+    painter.setPen(QPen(theme.mutedText, 1.5));
+    painter.drawPolyline(QPolygonF(QVector<QPointF>{{width() - 18.0, height() / 2 - 2.0},
+                                                    {width() - 13.5, height() / 2 + 2.5},
+                                                    {width() - 9.0, height() / 2 - 2.0}}));
+    if (hasFocus())
+        drawFocusRing(&painter, rect(), theme);
+}
+
+}  // namespace qplc

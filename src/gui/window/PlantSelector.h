@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "PlantSelection.h"
+#include "gui/panel/WindowContext.h"
+
+#include <QtWidgets/QAbstractButton>
+
+namespace qplc {
+
+/// Shows the selected plant: dot, name and condition, and its figures below; a click lists all plants and what is done with them.
+class PlantSelector : public QAbstractButton
+{
+    Q_OBJECT
+public:
+    /// \param selection, context  outlive the widget
+    PlantSelector(PlantSelection *selection, WindowContext *context, QWidget *parent = nullptr);
+
+    /// What stands in the list below the plants.
+    void setMenuActions(const QList<QAction *> &actions) { m_actions = actions; }
+    QString headline() const { return m_headline; }
+    QString figures() const { return m_figures; }
+
+    QSize sizeHint() const override;
+    QSize minimumSizeHint() const override;
+
+protected:
+    void paintEvent(QPaintEvent *event) override;
+
+private:
+    void follow();
+    void openMenu();
+
+    PlantSelection *m_selection;
+    WindowContext *m_context;
+    QList<QAction *> m_actions;
+    QString m_name;
+    QString m_headline;
+    QString m_figures;
+    QColor m_color;
+};
+
+}  // namespace qplc

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "PlantSummary.h"
+
+#include "gui/models/ValueFormat.h"
+
+#include <QtCore/QCoreApplication>
+#include <QtCore/QStringList>
+
+#include <cmath>
+
+namespace qplc {
+
+namespace {
+
+QString tr(const char *text)
+{
+    return QCoreApplication::translate("PlantSummary", text);
+}
+
+QString figuresOf(const Plant &plant)
+{
+    const PlantStatus &status = plant.status();
+    QStringList parts;
+    const double period = double(status.period > 0 ? status.period : plant.values().period());
+    if (period > 1.0)
+        parts << tr("%1 Hz").arg(1e9 / period, 0, 'g', 4);
+    if (status.lateness.last10s.count > 0)
+        parts << tr("jitter %1 p99").arg(durationText(status.lateness.last10s.p99));
+    quint64 violations = status.overruns;
+    for (const NodeStatus &node : status.nodes)
+        violations += node.late;
+    if (status.isRunning() && !plant.feed())
+        parts << (violations == 1 ? tr("1 violation") : tr("%1 violations").arg(violations));
+    if (status.roundTrip.last10s.count > 0)
+        parts << tr("link %1").arg(durationText(status.roundTrip.last10s.p50));
+    return parts.join(QStringLiteral(" · "));
+}
+
+PlantSummary withoutConnection(const Plant &plant)
+{
+    const QString reason = plant.stateText();
+    if (plant.connectionState() == PlantConnection::Connecting)
+        return {Tone::Warning, tr("connecting"), reason};
+    const bool wasThere = plant.store() != nullptr;
+    const double pause = plant.nextAttempt();
+    const QString what = wasThere ? tr("lost") : tr("not there");
+    const QString next = pause >= 0.0 ? tr("%1; next attempt in %2 s").arg(what).arg(std::ceil(pause)) : what;
+    return {wasThere ? Tone::Alarm : Tone::Warning, next, reason};
+}
+
+}  // namespace
+
+QColor colorOf(const Theme &theme, Tone tone)
+{
+    switch (tone) {
+    case Tone::Good:
+        return theme.good;
+    case Tone::Warning:
+        return theme.warning;
+    case Tone::Alarm:
+        return theme.alarm;
+    case Tone::Calm:
+        break;
+    }
+    return theme.mutedText;
+}
+
+PlantSummary PlantSummary::of(const Plant &plant)
+{
+    if (!plant.isConnected())
+        return withoutConnection(plant);
+    switch (plant.quality()) {
+    case Plant::Good:
+        return {Tone::Good, tr("live"), figuresOf(plant)};
+    case Plant::AtRest:
+        return {Tone::Calm, tr("at rest"), figuresOf(plant)};
+    case Plant::Stale:
+        return {Tone::Warning, tr("values stale for %1").arg(ageText(plant.age())), figuresOf(plant)};
+    case Plant::NoValue:
+        break;
+    }
+    return {Tone::Calm, tr("no values yet"), figuresOf(plant)};
+}
+
+QString StateStep::name(Step step)
+{
+    switch (step) {
+    case Off:
+        return tr("Off");
+    case Initialized:
+        return tr("Initialized");
+    case RealTime:
+        return tr("Real time");
+    case None:
+        break;
+    }
+    return {};
+}
+
+StateStep StateStep::of(const Plant *plant, bool isInitialized)
+{
+    if (!plant || !plant->isConnected())
+        return {};
+    const QString &state = plant->status().state;
+    if (state == QLatin1String("RealTime"))
+        return {RealTime, Tone::Good, {}};
+    if (state == QLatin1String("WaitingForLateSlaves"))
+        return {RealTime, Tone::Warning, tr("Waiting for late nodes")};
+    if (state == QLatin1String("SafeStop"))
+        return {Off, Tone::Alarm, tr("Safe stop")};
+    if (state == QLatin1String("Initializing"))
+        return {Initialized, Tone::Calm, tr("Initializing …")};
+    if (isInitialized || state == QLatin1String("Initialized"))
+        return {Initialized, Tone::Calm, {}};
+    return {Off, Tone::Calm, {}};
+}
+
+}  // namespace qplc

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "QPlcControlCenterPrivate.h"
+
+#include "DoubleEscape.h"
+#include "StandardWidgets.h"
+#include "gui/plant/PlantFeed.h"
+
+#include <QtCore/QMetaMethod>
+#include <QtWidgets/QAction>
+#include <QtWidgets/QApplication>
+#include <QtWidgets/QMenu>
+#include <QtWidgets/QStackedWidget>
+#include <QtWidgets/QVBoxLayout>
+
+using namespace qplc;
+
+namespace {
+
+/// As the desktop gave it, before the first window of the program changed the palette.
+const qplc::Theme &themeOfTheDesktop()
+{
+    static const qplc::Theme theme = qplc::Theme::byName(qplc::Theme::System);
+    return theme;
+}
+
+}  // namespace
+
+QPlcControlCenter::Private::Private(QPlcControlCenter *window)
+    : q(window)
+    , desktopTheme(themeOfTheDesktop())
+    , factories(standardWidgets())
+    , actions(new ControlCenterActions(window))
+{
+    makeCentre();
+    makeBars();
+    connectParts();
+    connectPlantActions();
+    connectViewActions();
+    connectLayoutActions();
+    startPage->addAction(actions->connectTo);
+    applyTheme();
+    followPlants();
+    showRecent();
+}
+
+QPlcControlCenter::Private::~Private()
+{
+    // Nothing that happens while the parts go is news for those that are left.
+    selection.disconnect();
+    context.plants()->disconnect(q);
+    wiring.disconnect(q);
+    delete palette;
+    delete view;
+}
+
+void QPlcControlCenter::Private::makeCentre()
+{
+    auto *centre = new QWidget(q);
+    auto *column = new QVBoxLayout(centre);
+    column->setContentsMargins(0, 0, 0, 0);
+    column->setSpacing(0);
+    connectStrip = new ConnectStrip(&context, centre);
+    hint = new HintLine(&context, centre);
+    pages = new QStackedWidget(centre);
+    startPage = new StartPage(&context);
+    view = new LayoutView(&editor);
+    auto *panels = new QWidget;
+    auto *panelsColumn = new QVBoxLayout(panels);
+    panelsColumn->setContentsMargins(4, 4, 4, 0);
+    panelsColumn->addWidget(view);
+    placer = new SignalPlacer(view);
+    placer->setParent(q);
+    pages->addWidget(startPage);
+    pages->addWidget(panels);
+    column->addWidget(connectStrip);
+    column->addWidget(hint);
+    column->addWidget(pages, 1);
+    q->setCentralWidget(centre);
+    connect(view, &LayoutView::widgetAdded, &wiring,
+            [this](const QString &, QPlcWidget *widget) { wiring.add(widget); });
+    connect(view, &LayoutView::widgetRemoved, &wiring,
+            [this](const QString &, QPlcWidget *widget) { wiring.remove(widget); });
+    view->setFactories(factories);
+}
+
+void QPlcControlCenter::Private::makeBars()
+{
+    topBar = new TopBar(&selection, &context, q);
+    q->addToolBar(Qt::TopToolBarArea, topBar);
+    topBar->selector()->setMenuActions({actions->connectTo, actions->disconnectFrom});
+
+    auto *bottomBar = new QToolBar(tr("Time"), q);
+    bottomBar->setObjectName(QStringLiteral("BottomBar"));
+    bottomBar->setMovable(false);
+    bottomBar->setFloatable(false);
+    bottomBar->toggleViewAction()->setEnabled(false);
+    bottomBar->setContextMenuPolicy(Qt::PreventContextMenu);
+    timeBar = new TimeBar(&context);
+    eventLine = new EventLine(&context);
+    bottomBar->addWidget(timeBar);
+    bottomBar->addSeparator();
+    bottomBar->addWidget(eventLine);
+    q->addToolBar(Qt::BottomToolBarArea, bottomBar);
+
+    dock = new SignalDock(&context, q);
+    q->addDockWidget(Qt::LeftDockWidgetArea, dock);
+    q->resizeDocks({dock}, {290}, Qt::Horizontal);
+    q->setCorner(Qt::BottomLeftCorner, Qt::LeftDockWidgetArea);
+    dock->toggleViewAction()->setText(tr("Signal tree"));
+    dock->toggleViewAction()->setShortcut(tr("Ctrl+B"));
+    actions->viewMenu->insertAction(actions->eventLog, dock->toggleViewAction());
+    q->addAction(dock->toggleViewAction());
+    palette = new CommandPalette(&context, q);
+    keys = new KeysWindow(q);
+}
+
+void QPlcControlCenter::Private::connectParts()
+{
+    connect(context.plants(), &PlantList::added, q, [this] {
+        isStartPageWanted = false;
+        followPlants();
+    });
+    connect(context.plants(), &PlantList::removed, q, [this] { followPlants(); });
+    connect(&selection, &PlantSelection::changed, q, [this] { followSelection(); });
+    connect(&selection, &PlantSelection::commandFailed, q,
+            [this](const QString &sentence) { hint->showText(sentence); });
+    connect(connectStrip, &ConnectStrip::connectRequested, q, [this](const QString &address) { connectTo(address); });
+    connect(startPage, &StartPage::masterChosen, q, [this](const QString &address) { connectTo(address); });
+    connect(dock, &SignalDock::panelRequested, placer, &SignalPlacer::show);
+    connect(eventLine, &QAbstractButton::clicked, q, [this] { actions->eventLog->trigger(); });
+    connect(topBar, &TopBar::nextRequested, q, [this] {
+        if (selection.plant() && selection.plant()->nextAction() != Plant::NoAction)
+            perform(selection.plant()->nextAction());
+    });
+    connect(topBar, &TopBar::stopRequested, q, [this] { stop(); });
+    connect(new DoubleEscape(q), &DoubleEscape::pressed, q, [this] { stop(); });
+    connect(&wiring, &PanelWiring::outputsChanged, q,
+            [this] { Q_EMIT q->outputSignalIndicesChanged(q->outputSignalIndices()); });
+    connect(&wiring, &PanelWiring::initialOutputsChanged, q,
+            [this] { Q_EMIT q->initialOutputSignalsChanged(q->initialOutputSignals()); });
+    connect(&wiring, &PanelWiring::outputsSent, q, &QPlcControlCenter::sendNewOutputSignals);
+}
+
+// ---- plants ----
+
+void QPlcControlCenter::Private::followPlants()
+{
+    showPages();
+    followSelection();
+}
+
+void QPlcControlCenter::Private::showPages()
+{
+    const bool isStart = isStartPageWanted || context.plants()->size() == 0;
+    pages->setCurrentIndex(isStart ? 0 : 1);
+    q->setWindowTitle(context.plants()->size() == 0
+                          ? tr("Control Center")
+                          : tr("%1 - Control Center").arg(q->plants().join(QStringLiteral(", "))));
+}
+
+void QPlcControlCenter::Private::followSelection()
+{
+    const Plant *plant = selection.plant();
+    const Plant::Action next = plant ? plant->nextAction() : Plant::NoAction;
+    const bool isAtRest = plant && plant->isConnected() && !plant->status().isRunning();
+    actions->initialize->setEnabled(isAtRest);
+    actions->start->setEnabled(isAtRest && next != Plant::Initialize);
+    actions->disconnectFrom->setEnabled(plant != nullptr);
+    actions->disconnectFrom->setText(plant ? tr("&Disconnect from %1").arg(plant->name()) : tr("&Disconnect"));
+    actions->nextPlant->setEnabled(context.plants()->size() > 1);
+    actions->stop->setText(context.plants()->size() > 1 && plant ? tr("S&top %1").arg(plant->name()) : tr("S&top"));
+}
+
+void QPlcControlCenter::Private::connectTo(const QString &address)
+{
+    recent.add(address);
+    showRecent();
+    if (q->isSignalConnected(QMetaMethod::fromSignal(&QPlcControlCenter::connectRequested))) {
+        // The program connects a node of its own. Names are looked up in the background.
+        auto *resolver = new AddressResolver(q);
+        connect(resolver, &AddressResolver::resolved, q, [this, resolver](const QPlcUnderlyingProtocol &master) {
+            resolver->deleteLater();
+            Q_EMIT q->connectRequested(master);
+        });
+        connect(resolver, &AddressResolver::failed, q, [this, resolver](const QString &reason) {
+            resolver->deleteLater();
+            connectStrip->open();
+            connectStrip->showError(reason);
+        });
+        resolver->resolve(address);
+        return;
+    }
+    selection.select(context.plants()->find(q->connectToMaster(address)));
+}
+
+void QPlcControlCenter::Private::disconnectFrom()
+{
+    Plant *plant = selection.plant();
+    if (!plant)
+        return;
+    if (plant->feed())
+        Q_EMIT q->disconnectRequested();
+    else
+        q->disconnectFromMaster(plant->name());
+}
+
+void QPlcControlCenter::Private::perform(Plant::Action action)
+{
+    if (Plant *plant = selection.plant())
+        plant->perform(action);
+    else
+        hint->showText(tr("There is no plant: connect to one first (Ctrl+O)."));
+}
+
+void QPlcControlCenter::Private::stop()
+{
+    perform(Plant::StopAction);
+}
+
+Plant *QPlcControlCenter::Private::wiredPlant()
+{
+    for (int place = 0; place < context.plants()->size(); ++place) {
+        if (context.plants()->at(place)->feed())
+            return context.plants()->at(place);
+    }
+    return nullptr;
+}
+
+/// The wired plant; a new one when there is none yet.
+Plant *QPlcControlCenter::Private::takeWiredPlant()
+{
+    if (Plant *plant = wiredPlant())
+        return plant;
+    Plant *plant = context.plants()->addFed(tr("plant"));
+    connect(plant->feed(), &PlantFeed::commanded, q, &QPlcControlCenter::sendMessage);
+    return plant;
+}
+
+// ---- memory ----
+
+void QPlcControlCenter::Private::showRecent()
+{
+    startPage->setRecentMasters(recent.addresses());
+    connectStrip->setRecentMasters(recent.addresses());
+}

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "CommandPalette.h"
+#include "ConnectStrip.h"
+#include "ControlCenterActions.h"
+#include "EventLine.h"
+#include "HintLine.h"
+#include "LayoutShelf.h"
+#include "PanelWiring.h"
+#include "QPlcControlCenter.h"
+#include "RecentMasters.h"
+#include "SignalDock.h"
+#include "SignalPlacer.h"
+#include "StartPage.h"
+#include "TimeBar.h"
+#include "TopBar.h"
+
+class QStackedWidget;
+
+/// The parts of the window, and what happens between them.
+struct QPlcControlCenter::Private
+{
+    explicit Private(QPlcControlCenter *window);
+    ~Private();
+
+    // -- assembly --
+    void makeCentre();
+    void makeBars();
+    void connectParts();
+    void connectPlantActions();
+    void connectViewActions();
+    void connectLayoutActions();
+
+    // -- plants --
+    void followPlants();
+    void followSelection();
+    void connectTo(const QString &address);
+    void disconnectFrom();
+    void perform(qplc::Plant::Action action);
+    void stop();
+    qplc::Plant *wiredPlant();
+    qplc::Plant *takeWiredPlant();
+
+    // -- view --
+    void showPages();
+    void applyTheme();
+    void openPalette();
+    QVector<qplc::PaletteItem> paletteItems();
+    void appendActions(QVector<qplc::PaletteItem> *items, const QString &group, const QList<QAction *> &actions) const;
+    void appendPanels(QVector<qplc::PaletteItem> *items);
+    void appendSignals(QVector<qplc::PaletteItem> *items);
+    QPlcWidget *focusedPanel() const;
+    void openKeys();
+    void showRecent();
+    void askForLayoutFile(bool isToSave);
+    void saveLayoutTo(const QString &fileName);
+
+    // -- memory --
+    void save();
+    void restore();
+
+    QPlcControlCenter *q;
+    Theme theme = SystemTheme;
+    qplc::Theme desktopTheme;  // before this program gave the desktop's palette another one
+    qplc::WindowContext context;
+    qplc::LayoutEditor editor;
+    qplc::LayoutShelf shelf{&editor};
+    qplc::PanelWiring wiring{&context};
+    qplc::PlantSelection selection{context.plants()};
+    qplc::RecentMasters recent;
+    QList<QPlcWidgetFactory *> factories;
+    QList<QAction *> startActions;
+    QString layoutFile;
+    bool isStartPageWanted = false;
+    bool isToBeSaved = false;
+
+    qplc::ControlCenterActions *actions = nullptr;
+    qplc::TopBar *topBar = nullptr;
+    qplc::HintLine *hint = nullptr;
+    qplc::ConnectStrip *connectStrip = nullptr;
+    QStackedWidget *pages = nullptr;
+    qplc::StartPage *startPage = nullptr;
+    qplc::LayoutView *view = nullptr;
+    qplc::SignalPlacer *placer = nullptr;
+    qplc::SignalDock *dock = nullptr;
+    qplc::TimeBar *timeBar = nullptr;
+    qplc::EventLine *eventLine = nullptr;
+    qplc::CommandPalette *palette = nullptr;
+    qplc::KeysWindow *keys = nullptr;
+};

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "SignalPlacer.h"
+
+#include "gui/layout/PanelFrame.h"
+#include "gui/layout/PanelTitleBar.h"
+#include "gui/models/ValueFormat.h"
+
+#include <QtCore/QJsonArray>
+#include <QtWidgets/QApplication>
+
+namespace qplc {
+
+namespace {
+
+const QString timePlot = QStringLiteral("Time plot");
+const QString gauge = QStringLiteral("Gauge");
+const QString setter = QStringLiteral("Setter");
+
+LayoutSide sideOf(DropZone zone)
+{
+    switch (zone) {
+    case DropZone::Left:
+        return LayoutSide::Left;
+    case DropZone::Above:
+        return LayoutSide::Above;
+    case DropZone::Below:
+        return LayoutSide::Below;
+    case DropZone::Right:
+    case DropZone::Center:
+        break;
+    }
+    return LayoutSide::Right;
+}
+
+}  // namespace
+
+SignalPlacer::SignalPlacer(LayoutView *view)
+    : m_view(view)
+{
+    connect(view, &LayoutView::signalsDropped, this,
+            [this](const QString &panelId, DropZone zone, const QMimeData *data) {
+                QStringList references;
+                for (const SignalReference &reference : referencesIn(data))
+                    references.append(reference.toString());
+                drop(panelId, zone, references);
+            });
+}
+
+QJsonObject SignalPlacer::settingsFor(const QString &type, const QStringList &references)
+{
+    if (type == gauge || type == setter)
+        return {{QStringLiteral("signal"), references.value(0)}};
+    if (type == timePlot) {
+        QJsonArray curves;
+        for (const QString &reference : references)
+            curves.append(QJsonObject{{QStringLiteral("signal"), reference}});
+        return {{QStringLiteral("curves"), curves}};
+    }
+    return {{QStringLiteral("signals"), QJsonArray::fromStringList(references)}};
+}
+
+bool SignalPlacer::addTo(const QString &panelId, const QStringList &references)
+{
+    QPlcWidget *widget = m_view->widget(panelId);
+    if (!widget || !widget->addSignals(references))
+        return false;
+    m_view->editor()->setPanelSettings(panelId, widget->settings());
+    return true;
+}
+
+void SignalPlacer::drop(const QString &panelId, DropZone zone, const QStringList &references)
+{
+    if (references.isEmpty() || (zone == DropZone::Center && addTo(panelId, references)))
+        return;
+    LayoutEditor *editor = m_view->editor();
+    const LayoutTarget target = panelId.isEmpty() ? LayoutTarget::inTab(editor->layout().currentTab().id)
+                                                  : LayoutTarget::beside(panelId, sideOf(zone));
+    editor->addPanel(timePlot, settingsFor(timePlot, references), target);
+}
+
+/// In the current tab: the one with the focus, else the first one; empty: there is none.
+QString SignalPlacer::panelOfType(const QString &type) const
+{
+    const LayoutTab &tab = m_view->editor()->layout().currentTab();
+    std::vector<const LayoutPanel *> panels;
+    if (tab.tree)
+        tab.tree->appendPanels(&panels);
+    QString first;
+    for (const LayoutPanel *panel : panels) {
+        if (panel->type != type)
+            continue;
+        const QWidget *focused = QApplication::focusWidget();
+        if (focused && m_view->frame(panel->id)->isAncestorOf(focused))
+            return panel->id;
+        if (first.isEmpty())
+            first = panel->id;
+    }
+    return first;
+}
+
+void SignalPlacer::show(const QString &type, const QStringList &references)
+{
+    LayoutEditor *editor = m_view->editor();
+    if (type == gauge || type == setter) {
+        for (const QString &reference : references)
+            editor->addPanel(type, settingsFor(type, {reference}),
+                             LayoutTarget::inTab(editor->layout().currentTab().id));
+        return;
+    }
+    const QString panel = panelOfType(type);
+    if (panel.isEmpty() || !addTo(panel, references))
+        editor->addPanel(type, settingsFor(type, references), LayoutTarget::inTab(editor->layout().currentTab().id));
+}
+
+void SignalPlacer::showPanel(const QString &type)
+{
+    LayoutEditor *editor = m_view->editor();
+    QString id;
+    for (const LayoutPanel *panel : editor->layout().panels()) {
+        if (panel->type == type && id.isEmpty())
+            id = panel->id;
+    }
+    if (id.isEmpty())
+        id = editor->addPanel(type, {}, LayoutTarget::inTab(editor->layout().currentTab().id));
+    else if (const LayoutPage *page = editor->layout().pageOf(id); editor->layout().tab(page->id))
+        editor->setCurrentTab(page->id);
+    m_view->frame(id)->titleBar()->setFocus(Qt::OtherFocusReason);
+}
+
+}  // namespace qplc

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "StartPage.h"
+
+#include "BarButton.h"
+#include "StartButton.h"
+
+#include <QtGui/QPainter>
+#include <QtWidgets/QAction>
+#include <QtWidgets/QApplication>
+#include <QtWidgets/QLabel>
+#include <QtWidgets/QVBoxLayout>
+
+namespace qplc {
+
+namespace {
+
+constexpr int columnWidth = 520;  // [px]
+
+}  // namespace
+
+StartPage::StartPage(WindowContext *context, QWidget *parent)
+    : QWidget(parent)
+    , m_context(context)
+    , m_title(new QLabel)
+    , m_sentence(new QLabel(tr("See, steer and understand a running plant.")))
+    , m_recentTitle(new QLabel(tr("Recent plants")))
+    , m_actions(new QVBoxLayout)
+    , m_recent(new QVBoxLayout)
+{
+    setObjectName(QStringLiteral("StartPage"));
+    m_title->setText(QApplication::applicationDisplayName() == QApplication::applicationName()
+                         ? tr("Control Center")
+                         : QApplication::applicationDisplayName());
+    m_actions->setSpacing(10);
+    m_recent->setSpacing(2);
+    auto *content = new QWidget;
+    content->setFixedWidth(columnWidth);
+    auto *column = new QVBoxLayout(content);
+    column->setContentsMargins(0, 0, 0, 0);
+    column->addWidget(m_title);
+    column->addWidget(m_sentence);
+    column->addSpacing(22);
+    column->addLayout(m_actions);
+    column->addSpacing(22);
+    column->addWidget(m_recentTitle);
+    column->addLayout(m_recent);
+    auto *page = new QVBoxLayout(this);
+    page->addStretch(2);
+    page->addWidget(content, 0, Qt::AlignHCenter);
+    page->addStretch(3);
+    m_recentTitle->hide();
+    connect(context, &WindowContext::themeChanged, this, &StartPage::follow);
+    follow();
+}
+
+void StartPage::follow()
+{
+    QFont big = font();
+    big.setPointSizeF(big.pointSizeF() * 2.2);
+    m_title->setFont(big);
+    QPalette muted = palette();
+    muted.setColor(QPalette::WindowText, m_context->theme().mutedText);
+    m_sentence->setPalette(muted);
+    m_recentTitle->setPalette(muted);
+    update();
+}
+
+void StartPage::addAction(QAction *action)
+{
+    const StartButton::Rank rank = m_actions->count() == 0 ? StartButton::First : StartButton::Other;
+    m_actions->addWidget(new StartButton(action, rank, m_context));
+}
+
+void StartPage::setRecentMasters(const QStringList &addresses)
+{
+    while (QLayoutItem *item = m_recent->takeAt(0)) {
+        delete item->widget();
+        delete item;
+    }
+    m_recentTitle->setVisible(!addresses.isEmpty());
+    for (const QString &address : addresses) {
+        auto *button = new BarButton(BarButton::Quiet, m_context);
+        button->setText(address);
+        button->setTextColor(m_context->theme().accent);
+        button->setAccessibleName(tr("Connect to %1").arg(address));
+        connect(button, &QAbstractButton::clicked, this, [this, address] { Q_EMIT masterChosen(address); });
+        m_recent->addWidget(button, 0, Qt::AlignLeft);
+    }
+}
+
+QList<QWidget *> StartPage::buttons() const
+{
+    QList<QWidget *> all;
+    for (QAbstractButton *button : findChildren<QAbstractButton *>())
+        all.append(button);
+    return all;
+}
+
+void StartPage::paintEvent(QPaintEvent * /*event*/)
+{
+    QPainter(this).fillRect(rect(), m_context->theme().window);
+}
+
+}  // namespace qplc

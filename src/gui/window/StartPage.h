@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "gui/panel/WindowContext.h"
+
+#include <QtWidgets/QWidget>
+
+class QAction;
+class QLabel;
+class QVBoxLayout;
+
+namespace qplc {
+
+/// What a window without a plant shows: a few big things to begin with, and where one was before.
+class StartPage : public QWidget
+{
+    Q_OBJECT
+public:
+    /// \param context  outlives the page
+    explicit StartPage(WindowContext *context, QWidget *parent = nullptr);
+
+    /// A big button. \param action  owned by others; text, icon, and toolTip as a sentence below the text
+    void addAction(QAction *action);
+    /// Addresses, newest first.
+    void setRecentMasters(const QStringList &addresses);
+    QList<QWidget *> buttons() const;
+
+Q_SIGNALS:
+    void masterChosen(const QString &address);
+
+protected:
+    void paintEvent(QPaintEvent *event) override;
+
+private:
+    void follow();
+
+    WindowContext *m_context;
+    QLabel *m_title;
+    QLabel *m_sentence;
+    QLabel *m_recentTitle;
+    QVBoxLayout *m_actions;
+    QVBoxLayout *m_recent;
+};
+
+}  // namespace qplc

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "TimeBar.h"
+
+#include <QtCore/QTimer>
+#include <QtWidgets/QHBoxLayout>
+#include <QtWidgets/QMenu>
+
+#include <algorithm>
+#include <iterator>
+
+namespace qplc {
+
+namespace {
+
+constexpr TimeView::Time second = 1'000'000'000;
+constexpr TimeView::Time spans[] = {second,      2 * second,  5 * second,   10 * second,  20 * second,
+                                    30 * second, 60 * second, 120 * second, 300 * second, 600 * second};
+
+}  // namespace
+
+QString spanText(TimeView::Time span)
+{
+    const double seconds = double(span) * 1e-9;
+    if (seconds < 0.1)
+        return TimeBar::tr("%1 ms").arg(seconds * 1e3, 0, 'g', 3);
+    if (seconds < 60.0)
+        return TimeBar::tr("%1 s").arg(seconds, 0, 'g', 3);
+    return seconds < 3600.0 ? TimeBar::tr("%1 min").arg(seconds / 60.0, 0, 'g', 3)
+                            : TimeBar::tr("%1 h").arg(seconds / 3600.0, 0, 'g', 3);
+}
+
+TimeBar::TimeBar(WindowContext *context, QWidget *parent)
+    : QWidget(parent)
+    , m_context(context)
+    , m_state(new BarButton(BarButton::Quiet, context))
+    , m_span(new BarButton(BarButton::Quiet, context))
+{
+    auto *row = new QHBoxLayout(this);
+    row->setContentsMargins(0, 0, 0, 0);
+    row->setSpacing(2);
+    row->addWidget(m_state);
+    row->addWidget(m_span);
+    m_span->setToolTip(tr("Span of time axes (Ctrl+[, Ctrl+])"));
+    connect(m_state, &QAbstractButton::clicked, this, &TimeBar::toggle);
+    connect(m_span, &QAbstractButton::clicked, this, &TimeBar::openSpanMenu);
+    connect(context->timeView(), &TimeView::viewChanged, this, &TimeBar::follow);
+    connect(context, &WindowContext::themeChanged, this, [this] {
+        m_shown.clear();
+        follow();
+    });
+    auto *timer = new QTimer(this);
+    connect(timer, &QTimer::timeout, this, &TimeBar::follow);
+    timer->start(100);
+    follow();
+}
+
+void TimeBar::follow()
+{
+    const TimeView *view = m_context->timeView();
+    const Theme &theme = m_context->theme();
+    const QString state = view->isLive()
+        ? QStringLiteral("●  ") + tr("Live")
+        : QStringLiteral("❚❚  ") + tr("Frozen, %1 s behind").arg(double(view->behind()) * 1e-9, 0, 'f', 1);
+    const QString span = spanText(view->span());
+    if (state + span == m_shown)
+        return;
+    m_shown = state + span;
+    m_state->setText(state);
+    m_state->setTextColor(view->isLive() ? theme.mutedText : theme.warning);
+    m_state->setDetail(view->isLive() ? QString() : tr("L: live"));
+    m_state->setToolTip(view->isLive() ? tr("Freezes all views; data go on (Ctrl+Shift+L)") : tr("Back to live (L)"));
+    m_state->setAccessibleName(state);
+    m_span->setText(tr("Span %1").arg(span));
+    m_state->updateGeometry();
+    m_span->updateGeometry();
+}
+
+void TimeBar::toggle()
+{
+    TimeView *view = m_context->timeView();
+    if (view->isLive())
+        view->freeze();
+    else
+        view->goLive();
+}
+
+void TimeBar::stepSpan(int by)
+{
+    TimeView *view = m_context->timeView();
+    if (by > 0) {
+        const auto *longer = std::upper_bound(std::begin(spans), std::end(spans), view->span());
+        view->setSpan(longer != std::end(spans) ? *longer : view->span());
+    } else {
+        const auto *present = std::lower_bound(std::begin(spans), std::end(spans), view->span());
+        view->setSpan(present != std::begin(spans) ? *std::prev(present) : view->span());
+    }
+}
+
+void TimeBar::openSpanMenu()
+{
+    auto *menu = new QMenu(this);
+    menu->setAttribute(Qt::WA_DeleteOnClose);
+    for (const TimeView::Time span : spans) {
+        QAction *action = menu->addAction(spanText(span), this, [this, span] { m_context->timeView()->setSpan(span); });
+        action->setCheckable(true);
+        action->setChecked(span == m_context->timeView()->span());
+    }
+    menu->popup(m_span->mapToGlobal(QPoint(0, -menu->sizeHint().height())));
+}
+
+}  // namespace qplc

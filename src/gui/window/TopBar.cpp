@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "TopBar.h"
+
+#include <QtWidgets/QHBoxLayout>
+
+namespace qplc {
+
+TopBar::TopBar(PlantSelection *selection, WindowContext *context, QWidget *parent)
+    : QToolBar(parent)
+    , m_selection(selection)
+    , m_selector(new PlantSelector(selection, context))
+    , m_stepper(new StateStepper(context))
+    , m_next(new BarButton(BarButton::Primary, context))
+    , m_stop(new BarButton(BarButton::Stop, context))
+{
+    setObjectName(QStringLiteral("TopBar"));
+    setWindowTitle(tr("Plant"));
+    setMovable(false);
+    setFloatable(false);
+    toggleViewAction()->setEnabled(false);
+    setContextMenuPolicy(Qt::PreventContextMenu);
+    m_stop->setText(tr("STOP"));
+    m_stop->setToolTip(tr("Stops the plant at once (Esc Esc, or Ctrl+.)"));
+
+    auto *content = new QWidget(this);
+    auto *row = new QHBoxLayout(content);
+    row->setContentsMargins(6, 4, 6, 4);
+    row->setSpacing(14);
+    row->addWidget(m_selector, 1);
+    row->addWidget(m_stepper);
+    row->addWidget(m_next);
+    row->addStretch(1);
+    row->addWidget(m_stop);
+    addWidget(content);
+    QSizePolicy kept = m_next->sizePolicy();
+    kept.setRetainSizeWhenHidden(true);
+    m_next->setSizePolicy(kept);
+
+    connect(m_next, &QAbstractButton::clicked, this, &TopBar::nextRequested);
+    connect(m_stop, &QAbstractButton::clicked, this, &TopBar::stopRequested);
+    connect(selection, &PlantSelection::changed, this, &TopBar::follow);
+    follow();
+}
+
+void TopBar::follow()
+{
+    const Plant *plant = m_selection->plant();
+    m_stepper->show(StateStep::of(plant, m_selection->isInitialized()));
+    const Plant::Action next = plant ? plant->nextAction() : Plant::NoAction;
+    // While cycles run, STOP is the next action.
+    const bool hasNext = next == Plant::Initialize || next == Plant::Start;
+    m_next->setVisible(hasNext);
+    if (hasNext) {
+        m_next->setText(Plant::actionText(next));
+        m_next->setDetail(next == Plant::Start ? tr("F5") : tr("F4"));
+        m_next->setToolTip(tr("%1 %2").arg(Plant::actionText(next), plant->name()));
+    }
+    m_stop->setDetail(m_selection->plants()->size() > 1 && plant ? plant->name() : QString());
+    m_stop->setAccessibleName(plant ? tr("Stop %1").arg(plant->name()) : tr("Stop"));
+}
+
+}  // namespace qplc

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "BarButton.h"
+#include "PlantSelector.h"
+#include "StateStepper.h"
+
+#include <QtWidgets/QToolBar>
+
+namespace qplc {
+
+/// What is always there, above everything: the selected plant, where its master is, the one next thing to do, and STOP. It cannot be moved or hidden.
+class TopBar : public QToolBar
+{
+    Q_OBJECT
+public:
+    /// \param selection, context  outlive the bar
+    TopBar(PlantSelection *selection, WindowContext *context, QWidget *parent = nullptr);
+
+    PlantSelector *selector() const { return m_selector; }
+    StateStepper *stepper() const { return m_stepper; }
+    BarButton *nextButton() const { return m_next; }
+    BarButton *stopButton() const { return m_stop; }
+
+Q_SIGNALS:
+    void nextRequested();
+    void stopRequested();
+
+private:
+    void follow();
+
+    PlantSelection *m_selection;
+    PlantSelector *m_selector;
+    StateStepper *m_stepper;
+    BarButton *m_next;
+    BarButton *m_stop;
+};
+
+}  // namespace qplc
