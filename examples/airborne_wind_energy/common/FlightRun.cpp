@@ -201,6 +201,8 @@ void FlightRun::fail(int exitCode, const QString &text)
     }
     if (!endsWithFlight()) {
         m_exitCode = 0;  // a person is at the controls, and may try again
+        if (m_settings.stay)
+            QMetaObject::invokeMethod(&m_master, &QPlcMasterNode::stop, Qt::QueuedConnection);
         return;
     }
     QMetaObject::invokeMethod(this, &FlightRun::end, Qt::QueuedConnection);

@@ -17,8 +17,7 @@ DemoFlight::DemoFlight(QPlcControlCenter *window)
     , m_flyAction(tr("Fly the demo kite"))
     , m_restartAction(tr("Restart the demo kite"))
 {
-    m_flyAction.setToolTip(
-        tr("Master, model and autopilot as ordinary programs on this computer: nothing real moves."));
+    m_flyAction.setToolTip(tr("Three programs on this computer: nothing real moves"));
     m_restartAction.setToolTip(tr("Ends the programs of the demo and starts them again."));
     m_restartAction.setEnabled(false);
     const auto begun = [this](void (DemoPlant::*how)()) {

@@ -13,6 +13,7 @@ namespace awe {
 namespace {
 
 constexpr int Patience = 2000;         // [ms] for a program that is asked to end
+constexpr int Followers = 200;         // [ms] in which others end for the same reason
 constexpr int KeptErrors = 64 * 1024;  // [bytes] of what a program says
 
 const QString masterName = QStringLiteral("awe_master");
@@ -56,6 +57,8 @@ DemoPlant::DemoPlant(const QString &folder, QObject *parent)
     , m_folder(folder.isEmpty() ? QCoreApplication::applicationDirPath() : folder)
 {
     m_patience.setSingleShot(true);
+    m_telling.setSingleShot(true);
+    connect(&m_telling, &QTimer::timeout, this, [this] { Q_EMIT failed(m_sentence); });
     connect(&m_patience, &QTimer::timeout, this, [this] {
         for (const std::unique_ptr<Program> &program : m_programs)
             program->process.kill();
@@ -95,6 +98,7 @@ void DemoPlant::start()
 void DemoPlant::restart()
 {
     m_hasFailed = false;
+    m_telling.stop();
     if (!isRunning()) {
         start();
         return;
@@ -173,25 +177,37 @@ void DemoPlant::startNodes()
 void DemoPlant::ended(Program *program)
 {
     program->read();
-    const QString name = program->name;
-    const QString words = program->lastWords();
-    const QString sentence = tr("%1 has ended (%2)").arg(name, wayOfEnding(program->process))
-        + (words.isEmpty() ? QString() : QStringLiteral(": ") + words);
-    const bool neverListened = name == masterName && !m_isListening && m_port != 0;
+    const bool isMaster = program->name == masterName;
+    const bool neverListened = isMaster && !m_isListening && m_port != 0;
+    if (isMaster)
+        m_isListening = false;
+    if (!m_isRestarting && !neverListened)
+        blame(*program);
     m_programs.erase(std::find_if(m_programs.begin(), m_programs.end(),
                                   [program](const std::unique_ptr<Program> &each) { return each.get() == program; }));
-    if (name == masterName)
-        m_isListening = false;
     if (m_isRestarting && !isRunning()) {
         m_patience.stop();
         startMaster();
     } else if (neverListened && !m_isRestarting) {
         m_port = 0;  // somebody else has taken it meanwhile
         startMaster();
-    } else if (!m_isRestarting && !m_hasFailed) {
-        m_hasFailed = true;
-        Q_EMIT failed(sentence);
     }
+}
+
+/// One that ends takes others with it: what crashed is the cause, else the master, else the first.
+void DemoPlant::blame(const Program &program)
+{
+    const int suspicion
+        = (program.process.exitStatus() == QProcess::CrashExit ? 2 : 0) + (program.name == masterName ? 1 : 0);
+    if (!m_hasFailed)
+        m_telling.start(Followers);
+    else if (!m_telling.isActive() || suspicion <= m_suspicion)
+        return;
+    m_hasFailed = true;
+    m_suspicion = suspicion;
+    const QString words = program.lastWords();
+    m_sentence = tr("%1 has ended (%2)").arg(program.name, wayOfEnding(program.process))
+        + (words.isEmpty() ? QString() : QStringLiteral(": ") + words);
 }
 
 void DemoPlant::terminate()

@@ -48,6 +48,7 @@ private:
     void readMaster(Program *master);
     void startNodes();
     void ended(Program *program);
+    void blame(const Program &program);
     void terminate();
 
     QDir m_folder;
@@ -56,7 +57,10 @@ private:
     quint16 m_port = 0;                                // 0: none yet
     bool m_isListening = false;
     bool m_isRestarting = false;
-    bool m_hasFailed = false;  // of one of them was told; others follow it
+    bool m_hasFailed = false;  // one of them has ended without being asked to
+    QTimer m_telling;          // until it is told
+    QString m_sentence;        // of it
+    int m_suspicion = 0;       // that it is the cause
 };
 
 }  // namespace awe

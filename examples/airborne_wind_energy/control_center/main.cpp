@@ -39,7 +39,6 @@ QByteArray builtInLayout()
 bool prepare(QPlcGuiApplication &application, QPlcControlCenter &window, const awe::ControlCenterSettings &settings)
 {
     QString error;
-    window.setWindowTitle(QStringLiteral("Airborne Wind Energy"));
     if (!window.addLayout(QStringLiteral("Airborne wind energy"), builtInLayout(), &error))
         return application.usageError(error), false;
     if (settings.screenshot.isEmpty())
@@ -96,6 +95,7 @@ int main(int argc, char **argv)
     if (!hasScreen(argc, argv))
         return QPlcGuiApplication::UsageError;
     QPlcGuiApplication application(argc, argv);
+    QApplication::setApplicationDisplayName(QStringLiteral("Airborne Wind Energy"));
     addTexts(application);
     awe::ControlCenterSettings settings;
     if (!application.parseOptions() || !awe::readControlCenterOptions(application, &settings))

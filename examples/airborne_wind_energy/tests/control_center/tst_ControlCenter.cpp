@@ -162,7 +162,7 @@ void tst_ControlCenter::demoMakesAPictureAndLeavesNothingBehind()
              qPrintable(window.output()));
     const QImage image(file);
     QCOMPARE(image.size(), size);
-    QVERIFY(colours(image, 20) == 20);
+    QVERIFY(colours(image, 10) == 10);
 }
 
 void tst_ControlCenter::startPageIsThereWithoutAPlant()
