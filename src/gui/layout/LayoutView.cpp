@@ -64,16 +64,16 @@ void LayoutView::makeActions()
 {
     const auto add = [this](const QString &text, const QString &keys, auto slot) {
         auto *action = new QAction(text, this);
-        action->setShortcut(keys);
+        action->setShortcuts(QKeySequence::listFromString(keys));
         action->setShortcutContext(Qt::WidgetWithChildrenShortcut);
         connect(action, &QAction::triggered, this, slot);
         addAction(action);
     };
     add(tr("Next panel"), tr("F6"), [this] { focusPanel(1); });
     add(tr("Previous panel"), tr("Shift+F6"), [this] { focusPanel(-1); });
-    add(tr("Next tab"), tr("Ctrl+PgDown"),
+    add(tr("Next tab"), tr("Ctrl+PgDown; Ctrl+Tab"),
         [this] { m_tabBar->setCurrentIndex((m_tabBar->currentIndex() + 1) % m_tabBar->count()); });
-    add(tr("Previous tab"), tr("Ctrl+PgUp"),
+    add(tr("Previous tab"), tr("Ctrl+PgUp; Ctrl+Shift+Tab"),
         [this] { m_tabBar->setCurrentIndex((m_tabBar->currentIndex() + m_tabBar->count() - 1) % m_tabBar->count()); });
     add(tr("New tab"), tr("Ctrl+T"), [this] { m_editor->addTab(); });
 }

@@ -119,7 +119,7 @@ void BarButton::paintEvent(QPaintEvent * /*event*/)
         const QString shown = QFontMetrics(detailFont()).elidedText(m_detail, Qt::ElideMiddle, width() - 16);
         painter.drawText(rect().adjusted(8, 24, -8, -3), Qt::AlignCenter, shown);
     } else if (m_detail.isEmpty()) {
-        painter.drawText(rect().adjusted(8, 0, -8, 0), Qt::AlignCenter,
+        painter.drawText(rect().adjusted(8, 0, -8, 0), m_alignment,
                          textSize.elidedText(text(), Qt::ElideRight, width() - 12));
     } else {
         const int margin = m_kind == Primary ? 16 : 8;

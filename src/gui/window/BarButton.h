@@ -26,6 +26,8 @@ public:
     QString detail() const { return m_detail; }
     /// Quiet: in which colour the text is; invalid: as other texts.
     void setTextColor(const QColor &color);
+    /// Quiet, without detail: in the middle unless set.
+    void setTextAlignment(Qt::Alignment alignment) { m_alignment = alignment; }
 
     QSize sizeHint() const override;
     QSize minimumSizeHint() const override { return sizeHint(); }
@@ -45,6 +47,7 @@ private:
     WindowContext *m_context;
     QString m_detail;
     QColor m_textColor;
+    Qt::Alignment m_alignment = Qt::AlignCenter;
 };
 
 /// Draws the frame by which a person sees where keys go. \param rect  of the widget

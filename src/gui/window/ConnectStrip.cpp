@@ -34,6 +34,7 @@ ConnectStrip::ConnectStrip(WindowContext *context, QWidget *parent)
     auto *close = new BarButton(BarButton::Quiet, context);
     close->setText(tr("Close"));
     auto *row = new QHBoxLayout;
+    row->setSpacing(10);
     row->addWidget(label);
     row->addWidget(m_address, 1);
     row->addWidget(connectButton);

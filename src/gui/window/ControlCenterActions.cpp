@@ -42,7 +42,7 @@ void ControlCenterActions::makePlantMenu()
     plantMenu->addSeparator();
     initialize = add(plantMenu, tr("&Initialize"), tr("F4"));
     start = add(plantMenu, tr("&Start"), tr("F5"));
-    stop = add(plantMenu, tr("S&top"), tr("Ctrl+."));
+    stop = add(plantMenu, tr("S&top (Esc Esc)"), tr("Ctrl+."));
     stop->setShortcutContext(Qt::ApplicationShortcut);
     plantMenu->addSeparator();
     startPage = add(plantMenu, tr("Start &page"), tr("Ctrl+Home"));

@@ -205,6 +205,9 @@ void QPlcControlCenter::Private::save()
         if (!plant->feed())
             plants << plant->address() << plant->name();
     }
+    const bool isStart = q->isStartPageShown();
+    if (isStart)
+        dock->setVisible(isDockWanted);
     QSettings settings;
     settings.setValue(keyOf("geometry"), q->saveGeometry());
     settings.setValue(keyOf("state"), q->saveState());
@@ -212,13 +215,16 @@ void QPlcControlCenter::Private::save()
     settings.setValue(keyOf("theme"), qplc::Theme::nameText(qplc::Theme::Name(int(theme))));
     settings.setValue(keyOf("plants"), plants);
     settings.sync();
+    if (isStart)
+        dock->hide();
 }
 
 void QPlcControlCenter::Private::restore()
 {
     const QSettings settings;
     q->restoreGeometry(settings.value(keyOf("geometry")).toByteArray());
-    q->restoreState(settings.value(keyOf("state")).toByteArray());
+    if (q->restoreState(settings.value(keyOf("state")).toByteArray()) && q->isStartPageShown())
+        showDock(true);
     q->setTheme(Theme(int(qplc::Theme::nameOf(settings.value(keyOf("theme")).toString()))));
     const QByteArray layout = settings.value(keyOf("layout")).toByteArray();
     if (!layout.isEmpty() && !shelf.restore(layout))

@@ -38,7 +38,7 @@ void PlantSelector::follow()
 {
     const Plant *plant = m_selection->plant();
     QString name = tr("No plant");
-    PlantSummary summary{Tone::Calm, tr("connect to one, or begin with the start page"), {}};
+    PlantSummary summary{Tone::Calm, tr("not connected"), tr("Connect to one (Ctrl+O)")};
     if (plant) {
         name = plant->name();
         summary = PlantSummary::of(*plant);

@@ -38,6 +38,7 @@ QPlcControlCenter::Private::Private(QPlcControlCenter *window)
     connectViewActions();
     connectLayoutActions();
     startPage->addAction(actions->connectTo);
+    pages->setCurrentIndex(1);
     applyTheme();
     followPlants();
     showRecent();
@@ -80,6 +81,8 @@ void QPlcControlCenter::Private::makeCentre()
             [this](const QString &, QPlcWidget *widget) { wiring.add(widget); });
     connect(view, &LayoutView::widgetRemoved, &wiring,
             [this](const QString &, QPlcWidget *widget) { wiring.remove(widget); });
+    for (QAction *action : view->actions())
+        action->setShortcutContext(Qt::WindowShortcut);  // from the dock and the bars, too
     view->setFactories(factories);
 }
 
@@ -152,10 +155,20 @@ void QPlcControlCenter::Private::followPlants()
 void QPlcControlCenter::Private::showPages()
 {
     const bool isStart = isStartPageWanted || context.plants()->size() == 0;
+    if (isStart != (pages->currentIndex() == 0))
+        showDock(isStart);
     pages->setCurrentIndex(isStart ? 0 : 1);
     q->setWindowTitle(context.plants()->size() == 0
                           ? tr("Control Center")
                           : tr("%1 - Control Center").arg(q->plants().join(QStringLiteral(", "))));
+}
+
+/// The start page has no use for signals; behind it the dock is as a person left it.
+void QPlcControlCenter::Private::showDock(bool isStart)
+{
+    if (isStart)
+        isDockWanted = !dock->isHidden();
+    dock->setVisible(!isStart && isDockWanted);
 }
 
 void QPlcControlCenter::Private::followSelection()
@@ -168,7 +181,8 @@ void QPlcControlCenter::Private::followSelection()
     actions->disconnectFrom->setEnabled(plant != nullptr);
     actions->disconnectFrom->setText(plant ? tr("&Disconnect from %1").arg(plant->name()) : tr("&Disconnect"));
     actions->nextPlant->setEnabled(context.plants()->size() > 1);
-    actions->stop->setText(context.plants()->size() > 1 && plant ? tr("S&top %1").arg(plant->name()) : tr("S&top"));
+    actions->stop->setText(context.plants()->size() > 1 && plant ? tr("S&top %1 (Esc Esc)").arg(plant->name())
+                                                                 : tr("S&top (Esc Esc)"));
 }
 
 void QPlcControlCenter::Private::connectTo(const QString &address)

@@ -44,6 +44,7 @@ struct QPlcControlCenter::Private
 
     // -- view --
     void showPages();
+    void showDock(bool isStart);
     void applyTheme();
     void openPalette();
     QVector<qplc::PaletteItem> paletteItems();
@@ -74,6 +75,7 @@ struct QPlcControlCenter::Private
     QString layoutFile;
     bool isStartPageWanted = false;
     bool isToBeSaved = false;
+    bool isDockWanted = true;
 
     qplc::ControlCenterActions *actions = nullptr;
     qplc::TopBar *topBar = nullptr;

@@ -8,10 +8,9 @@
 
 namespace qplc {
 
-StartButton::StartButton(QAction *action, Rank rank, WindowContext *context, QWidget *parent)
+StartButton::StartButton(QAction *action, WindowContext *context, QWidget *parent)
     : QAbstractButton(parent)
     , m_action(action)
-    , m_rank(rank)
     , m_context(context)
 {
     setFocusPolicy(Qt::StrongFocus);
@@ -21,6 +20,12 @@ StartButton::StartButton(QAction *action, Rank rank, WindowContext *context, QWi
     connect(this, &QAbstractButton::clicked, action, &QAction::trigger);
     connect(action, &QObject::destroyed, this, &QObject::deleteLater);
     follow();
+}
+
+void StartButton::setRank(Rank rank)
+{
+    m_rank = rank;
+    update();
 }
 
 void StartButton::follow()

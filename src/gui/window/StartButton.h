@@ -17,7 +17,8 @@ public:
     enum Rank { First, Other };
 
     /// \param action, context  outlive the button, or take it out of service by their end
-    StartButton(QAction *action, Rank rank, WindowContext *context, QWidget *parent = nullptr);
+    StartButton(QAction *action, WindowContext *context, QWidget *parent = nullptr);
+    void setRank(Rank rank);
 
     QSize sizeHint() const override { return {460, 68}; }
 
@@ -30,7 +31,7 @@ private:
     void follow();
 
     QAction *m_action;
-    Rank m_rank;
+    Rank m_rank = Other;
     WindowContext *m_context;
     QString m_sentence;
     QString m_keys;

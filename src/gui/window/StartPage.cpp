@@ -10,6 +10,8 @@
 #include <QtWidgets/QLabel>
 #include <QtWidgets/QVBoxLayout>
 
+#include <algorithm>
+
 namespace qplc {
 
 namespace {
@@ -67,8 +69,12 @@ void StartPage::follow()
 
 void StartPage::addAction(QAction *action)
 {
-    const StartButton::Rank rank = m_actions->count() == 0 ? StartButton::First : StartButton::Other;
-    m_actions->addWidget(new StartButton(action, rank, m_context));
+    m_actions->insertWidget(std::max(0, m_actions->count() - 1), new StartButton(action, m_context));
+    for (int place = 0; place < m_actions->count(); ++place) {
+        auto *button = static_cast<StartButton *>(m_actions->itemAt(place)->widget());
+        button->setRank(place == 0 ? StartButton::First : StartButton::Other);
+        setTabOrder(place > 0 ? m_actions->itemAt(place - 1)->widget() : this, button);
+    }
 }
 
 void StartPage::setRecentMasters(const QStringList &addresses)

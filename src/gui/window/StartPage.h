@@ -19,7 +19,7 @@ public:
     /// \param context  outlives the page
     explicit StartPage(WindowContext *context, QWidget *parent = nullptr);
 
-    /// A big button. \param action  owned by others; text, icon, and toolTip as a sentence below the text
+    /// A big button; those that come later stand before the last one. \param action  owned by others; text, icon, and toolTip as a sentence below the text
     void addAction(QAction *action);
     /// Addresses, newest first.
     void setRecentMasters(const QStringList &addresses);
