@@ -24,16 +24,25 @@ bool DoubleEscape::eventFilter(QObject *watched, QEvent *event)
     if (event->type() != QEvent::KeyPress)
         return QObject::eventFilter(watched, event);
     const auto *key = static_cast<const QKeyEvent *>(event);
-    const qint64 pause = m_sinceFirst.isValid() ? m_sinceFirst.elapsed() : longestPause + 1;
-    if (key->key() != Qt::Key_Escape) {
-        m_sinceFirst.invalidate();
-    } else if (!key->isAutoRepeat() && pause > longestPause) {
-        m_sinceFirst.start();
-    } else if (!key->isAutoRepeat() && pause > samePress) {
-        m_sinceFirst.invalidate();
-        Q_EMIT pressed();
-    }
+    if (key->key() != Qt::Key_Escape)
+        m_isArmed = false;
+    else if (!key->isAutoRepeat())
+        hear();
     return QObject::eventFilter(watched, event);
+}
+
+void DoubleEscape::hear()
+{
+    const qint64 pause = m_sinceLast.isValid() ? m_sinceLast.elapsed() : longestPause + 1;
+    m_sinceLast.start();
+    if (pause <= samePress)
+        return;
+    if (m_isArmed && pause <= longestPause) {
+        m_isArmed = false;
+        Q_EMIT pressed();
+    } else {
+        m_isArmed = true;
+    }
 }
 
 }  // namespace qplc

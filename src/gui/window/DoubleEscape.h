@@ -18,7 +18,10 @@ Q_SIGNALS:
     void pressed();
 
 private:
-    QElapsedTimer m_sinceFirst;
+    void hear();
+
+    QElapsedTimer m_sinceLast;
+    bool m_isArmed = false;  // the first one was heard
 };
 
 }  // namespace qplc

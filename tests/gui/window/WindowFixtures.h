@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "DummyPanels.h"
+#include "PlantFixtures.h"
+#include "WindowStructure.h"
+#include "gui/window/QPlcControlCenterPrivate.h"
+
+#include <QtCore/QSettings>
+#include <QtCore/QTemporaryDir>
+#include <QtTest/QtTest>
+#include <QtWidgets/QLineEdit>
+
+/// Settings of this test alone.
+class TestSettings
+{
+public:
+    TestSettings()
+    {
+        QCoreApplication::setOrganizationName(QStringLiteral("QtPlcTest"));
+        QCoreApplication::setApplicationName(QStringLiteral("window"));
+        QSettings::setDefaultFormat(QSettings::IniFormat);
+        QSettings::setPath(QSettings::IniFormat, QSettings::UserScope, m_folder.path());
+        QSettings().clear();
+    }
+
+private:
+    QTemporaryDir m_folder;
+};
+
+constexpr int patience = 20000;  // [ms]
+
+/// A window of a laptop on the screen.
+struct WindowFixture
+{
+    WindowFixture()
+    {
+        window.resize(1366, 768);
+        window.show();
+        window.activateWindow();
+        QVERIFY(QTest::qWaitForWindowActive(&window));
+    }
+
+    template<typename Widget>
+    Widget *part(const char *name = nullptr)
+    {
+        return window.findChild<Widget *>(name ? QString::fromLatin1(name) : QString());
+    }
+    qplc::TopBar *topBar() { return part<qplc::TopBar>(); }
+    qplc::Plant *plant(int place = 0) { return window.context()->plants()->at(place); }
+    QString hint() { return part<qplc::HintLine>()->text(); }
+    WindowStructure structure() { return WindowStructure(&window); }
+    /// Presses keys where a person's would go.
+    void press(Qt::Key key, Qt::KeyboardModifiers modifiers = Qt::NoModifier)
+    {
+        QWidget *target = QApplication::activePopupWidget() ? QApplication::activePopupWidget()->focusWidget()
+                                                            : QApplication::focusWidget();
+        QTest::keyClick(target ? target : &window, key, modifiers);
+    }
+    void type(const QString &text)
+    {
+        QWidget *target = QApplication::activePopupWidget() ? QApplication::activePopupWidget()->focusWidget()
+                                                            : QApplication::focusWidget();
+        QTest::keyClicks(target, text);
+    }
+    /// By typing its address.
+    void connectTo(const QString &address)
+    {
+        press(Qt::Key_O, Qt::ControlModifier);
+        part<qplc::ConnectStrip>()->addressLine()->clear();
+        type(address);
+        press(Qt::Key_Return);
+    }
+
+    QPlcControlCenter window;
+};

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Program.h"
+#include "WindowFixtures.h"
+
+#include <algorithm>
+#include <csignal>
+
+using namespace qplc;
+
+namespace {
+
+std::unique_ptr<Program> startMaster(const QString &port)
+{
+    auto master = std::make_unique<Program>(QStringLiteral(QTPLC_PROGRAMS "/awe_master"),
+                                            QStringList{QStringLiteral("--port=%1").arg(port)});
+    return master->waitForOutput(QStringLiteral("\n")) ? std::move(master) : nullptr;
+}
+
+QString portOf(Program &master)
+{
+    return master.output().section(QLatin1Char('\n'), 0, 0).section(QLatin1Char(' '), 1);
+}
+
+/// The longest time in which the event loop did not come round.
+class Heartbeat
+{
+public:
+    Heartbeat()
+    {
+        m_clock.start();
+        QObject::connect(&m_timer, &QTimer::timeout, [this] { m_longest = std::max(m_longest, m_clock.restart()); });
+        m_timer.start(5);
+    }
+    qint64 longest() const { return m_longest; }  // [ms]
+
+private:
+    QElapsedTimer m_clock;
+    QTimer m_timer;
+    qint64 m_longest = 0;
+};
+
+}  // namespace
+
+class tst_ControlCenterPrograms : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void init() { m_settings = std::make_unique<TestSettings>(); }
+    void aKilledMasterIsToldAndFoundAgain();
+
+private:
+    std::unique_ptr<TestSettings> m_settings;
+};
+
+void tst_ControlCenterPrograms::aKilledMasterIsToldAndFoundAgain()
+{
+    std::unique_ptr<Program> master = startMaster(QStringLiteral("0"));
+    QVERIFY(master);
+    const QString port = portOf(*master);
+    WindowFixture fixture;
+    fixture.connectTo(QStringLiteral("127.0.0.1:") + port);
+    QTRY_VERIFY_WITH_TIMEOUT(fixture.topBar()->nextButton()->isVisible(), patience);
+    QTest::mouseClick(fixture.topBar()->nextButton(), Qt::LeftButton);
+    PlantSelector *selector = fixture.topBar()->selector();
+    QTRY_COMPARE_WITH_TIMEOUT(selector->headline(), QStringLiteral("live"), patience);
+
+    const Heartbeat heartbeat;
+    master->sendSignal(SIGKILL);
+    QTRY_VERIFY2_WITH_TIMEOUT(selector->headline().startsWith(QLatin1String("lost")), qPrintable(selector->headline()),
+                              patience);
+    QCOMPARE(fixture.plant()->quality(), Plant::Stale);
+    QCOMPARE(fixture.topBar()->stepper()->step(), StateStep::None);
+    QVERIFY(fixture.topBar()->stopButton()->isEnabled());
+    QTRY_VERIFY_WITH_TIMEOUT(selector->headline().contains(QLatin1String("next attempt in")), patience);
+    QTest::mouseClick(fixture.topBar()->stopButton(), Qt::LeftButton);  // waits for nobody, and says so
+    QTRY_VERIFY_WITH_TIMEOUT(fixture.hint().contains(QLatin1String("no connection")), patience);
+    QVERIFY(fixture.part<EventLine>("EventLine")->text().contains(QLatin1String("Error")));
+
+    master = startMaster(port);
+    QVERIFY(master);
+    QTRY_VERIFY_WITH_TIMEOUT(fixture.topBar()->nextButton()->isVisible(), patience);
+    fixture.press(Qt::Key_F5);
+    QTRY_COMPARE_WITH_TIMEOUT(selector->headline(), QStringLiteral("live"), patience);
+    QVERIFY2(heartbeat.longest() < 1000, qPrintable(QString::number(heartbeat.longest())));
+}
+
+QTEST_MAIN(tst_ControlCenterPrograms)
+#include "tst_ControlCenterPrograms.moc"

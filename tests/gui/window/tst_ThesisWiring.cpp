@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "NodeFixtures.h"
+
+#include <QtCore/QSettings>
+#include <QtCore/QTemporaryDir>
+#include <QtPlc>
+#include <QtTest/QtTest>
+
+/// A panel of the program, as the keyboard controller of the thesis: it writes "setpoint" and looks at "count".
+class Operator : public QPlcWidget
+{
+    Q_OBJECT
+public:
+    static constexpr int staticType = UserType + 1;
+    static QString typeName() { return QStringLiteral("Operator"); }
+
+    explicit Operator(QWidget *parent = nullptr)
+        : QPlcWidget(parent)
+    {
+        QPlcSignalIndexList inputs;
+        inputs.insert(QStringLiteral("count"));
+        setInputSignalIndices(inputs);
+        QPlcSignalIndexList outputs;
+        outputs.insert(QStringLiteral("setpoint"));
+        setOutputSignalIndices(outputs);
+        setInitialOutputSignals(valueOf("setpoint", QPlcValue(1.5)));
+    }
+    int type() const override { return staticType; }
+    void write(double value) { Q_EMIT sendNewOutputSignals(valueOf("setpoint", QPlcValue(value))); }
+    void realTimeout(const QList<QPlcSignalList> &signalValues) override
+    {
+        for (const QPlcSignalList &values : signalValues)
+            counts.append(values.value(QStringLiteral("count")).toInt());
+    }
+    QVector<int> counts;
+};
+using OperatorFactory = QPlcWidgetFactoryOf<Operator>;
+
+namespace {
+
+constexpr int patience = 20000;  // [ms]
+
+/// The main program of listing 4.18, word by word where its words are wiring.
+class ThesisProgram
+{
+public:
+    ThesisProgram()
+    {
+        plcThread->start(QThread::TimeCriticalPriority);
+
+        slaveNode = new QPlcIOBufferSlaveNode("ControlCenter", QPlcSlaveNode::SilentZeroOrderHold);
+        slaveNode->moveToThread(plcThread);
+
+        frameRateLimiter = new QPlcFrameRateLimiter(slaveNode);
+        frameRateLimiter->setFrameRateLimit(50);
+
+        controlCenter = new QPlcControlCenter;
+        controlCenter->addAvailableWidget(QPlcWidget::registerFactory(new OperatorFactory));
+        QString error;
+        if (!controlCenter->addLayout(QStringLiteral("Operator"), layout(), &error))
+            qFatal("%s", qPrintable(error));
+        controlCenter->show();
+
+        wire();
+
+        slaveNode->setInputSignalIndices(controlCenter->inputSignalIndices());
+        slaveNode->setOutputSignalIndices(controlCenter->outputSignalIndices());
+        slaveNode->setInitialOutputSignals(controlCenter->initialOutputSignals());
+    }
+
+    ~ThesisProgram()
+    {
+        delete controlCenter;
+        delete frameRateLimiter;
+        QMetaObject::invokeMethod(slaveNode, &QObject::deleteLater);
+        plcThread->quit();
+        plcThread->wait();
+        delete plcThread;
+    }
+
+    Operator *panel() const { return controlCenter->findChild<Operator *>(); }
+
+    QThread *plcThread = new QThread;
+    QPlcIOBufferSlaveNode *slaveNode;
+    QPlcFrameRateLimiter *frameRateLimiter;
+    QPlcControlCenter *controlCenter;
+
+private:
+    static QByteArray layout()
+    {
+        return R"({"format": "QtPLC layout", "version": 1, "currentTab": "tab1", "windows": [],
+                   "tabs": [{"id": "tab1", "name": "Operator", "tree": {"id": "panel1", "type": "Operator"}}]})";
+    }
+
+    void wire()
+    {
+        QObject::connect(frameRateLimiter, SIGNAL(timedOut(QList<QPlcSignalList>)), controlCenter,
+                         SLOT(realTimeout(QList<QPlcSignalList>)));
+        QObject::connect(controlCenter, SIGNAL(connectRequested(QPlcUnderlyingProtocol)), slaveNode,
+                         SLOT(connectToMaster(QPlcUnderlyingProtocol)));
+        QObject::connect(slaveNode, SIGNAL(connectedToMaster()), controlCenter, SLOT(connectedToMaster()));
+        QObject::connect(controlCenter, SIGNAL(disconnectRequested()), slaveNode, SLOT(disconnectFromMaster()));
+        QObject::connect(slaveNode, SIGNAL(disconnectedFromMaster()), controlCenter, SLOT(disconnectedFromMaster()));
+        QObject::connect(controlCenter, SIGNAL(initialOutputSignalsChanged(QPlcSignalList)), slaveNode,
+                         SLOT(setInitialOutputSignals(QPlcSignalList)));
+        QObject::connect(slaveNode, SIGNAL(hasInitialized(QPlcSignalList)), controlCenter,
+                         SLOT(initialize(QPlcSignalList)));
+        QObject::connect(slaveNode, SIGNAL(realTimeHasStarted()), controlCenter, SLOT(started()));
+        QObject::connect(slaveNode, SIGNAL(realTimeHasStopped()), controlCenter, SLOT(stopped()));
+        QObject::connect(controlCenter, SIGNAL(inputSignalIndicesChanged(QPlcSignalIndexList)), slaveNode,
+                         SLOT(setInputSignalIndices(QPlcSignalIndexList)));
+        QObject::connect(controlCenter, SIGNAL(outputSignalIndicesChanged(QPlcSignalIndexList)), slaveNode,
+                         SLOT(setOutputSignalIndices(QPlcSignalIndexList)));
+        QObject::connect(controlCenter, SIGNAL(sendNewOutputSignals(QPlcSignalList)), slaveNode,
+                         SLOT(setOutputSignals(QPlcSignalList)));
+        QObject::connect(controlCenter, SIGNAL(sendMessage(QPlcMessage)), slaveNode,
+                         SLOT(sendMessageToMaster(QPlcMessage)));
+    }
+};
+
+}  // namespace
+
+/// The program of the thesis against a master in this process.
+class tst_ThesisWiring : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void theWiringOfTheThesisFlies();
+};
+
+void tst_ThesisWiring::theWiringOfTheThesisFlies()
+{
+    QTemporaryDir folder;
+    QCoreApplication::setOrganizationName(QStringLiteral("QtPlcTest"));
+    QSettings::setDefaultFormat(QSettings::IniFormat);
+    QSettings::setPath(QSettings::IniFormat, QSettings::UserScope, folder.path());
+    TestMaster master(QPlcClock::realTime());
+    master.setInterval(std::chrono::milliseconds(10));
+    QVERIFY(master.listen());
+    CounterNode counter;
+    QVERIFY(master.addLocalNode(&counter));
+    QPlcSignalIndexTable::setCurrent(testTable());
+    LogCapture log;
+    ThesisProgram program;
+    QVERIFY2(log.matching(QStringLiteral("QObject::connect")).isEmpty(), qPrintable(log.all().join(QLatin1Char('\n'))));
+    QCOMPARE(program.controlCenter->inputSignalIndices().size(), testTable().size());
+    QCOMPARE(program.controlCenter->outputSignalIndices().size(), 1);
+    QVERIFY(program.controlCenter->isStartPageShown());
+
+    // A person connects: the address goes to the node of the program.
+    program.controlCenter->activateWindow();
+    QVERIFY(QTest::qWaitForWindowActive(program.controlCenter));
+    QTest::keyClick(program.controlCenter, Qt::Key_O, Qt::ControlModifier);
+    QTest::keyClicks(QApplication::focusWidget(), QStringLiteral("127.0.0.1:%1").arg(master.serverPort()));
+    QTest::keyClick(QApplication::focusWidget(), Qt::Key_Return);
+    QTRY_COMPARE_WITH_TIMEOUT(program.controlCenter->plants().size(), 1, patience);
+    const QString plant = program.controlCenter->plants().constFirst();
+    QVERIFY(program.controlCenter->isConnected(plant));
+    QVERIFY(!program.controlCenter->isStartPageShown());
+    QVERIFY(program.panel());
+
+    // ... and starts: the command goes the same way.
+    QTest::keyClick(program.controlCenter, Qt::Key_F5);
+    QTRY_COMPARE_WITH_TIMEOUT(master.state(), QPlcMasterNode::RealTime, patience);
+    QTRY_VERIFY_WITH_TIMEOUT(program.panel()->counts.size() > 50, patience);
+    const QVector<int> counts = program.panel()->counts;
+    for (int i = 1; i < counts.size(); ++i)
+        QCOMPARE(counts[i], counts[i - 1] + 1);
+    QCOMPARE(master.signalValue(QStringLiteral("setpoint")).toReal(), 1.5);
+    program.panel()->write(-2.25);
+    QTRY_COMPARE_WITH_TIMEOUT(master.signalValue(QStringLiteral("setpoint")).toReal(), -2.25, patience);
+
+    // STOP, and leave.
+    QTest::keyClick(program.controlCenter, Qt::Key_Period, Qt::ControlModifier);
+    QVERIFY(master.waitForState(QPlcMasterNode::Off));
+    QTest::keyClick(program.controlCenter, Qt::Key_D, Qt::ControlModifier);
+    QTRY_VERIFY_WITH_TIMEOUT(!program.controlCenter->isConnected(plant), patience);
+    master.removeLocalNode(&counter);
+}
+
+int main(int argc, char **argv)
+{
+    QPlcGuiApplication application(argc, argv);
+    application.thread()->setPriority(QThread::LowestPriority);
+    tst_ThesisWiring test;
+    return QTest::qExec(&test, argc, argv);
+}
+
+#include "tst_ThesisWiring.moc"

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "WindowFixtures.h"
+#include "gui/layout/LayoutJson.h"
+#include "gui/window/DefaultLayout.h"
+#include "gui/window/DoubleEscape.h"
+#include "gui/window/FuzzyMatch.h"
+
+#include <QtCore/QJsonArray>
+
+using namespace qplc;
+
+class tst_WindowParts : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void init() { m_settings = std::make_unique<TestSettings>(); }
+    void lettersInOrderFitAndOthersDoNot();
+    void wholeRunsAndBeginsOfWordsFitBest();
+    void thePaletteShowsTheBestFirstAndNotTooMany();
+    void addressesAreJudgedBeforeAnybodyConnects();
+    void recentMastersAreNewestFirstAndFew();
+    void escapeTwiceIsHeardAndOnceIsNot();
+    void aLayoutWithAnErrorIsNotTakenAndSaysWhere();
+    void theFirstLayoutIsTheDefault();
+    void theDefaultLayoutHasSignalsAndRealTime();
+    void droppedSignalsBecomeAPlotAtTheZone();
+    void spansAreWrittenAsPeopleSayThem();
+    void theBarTellsHowAPlantIs();
+
+private:
+    std::unique_ptr<TestSettings> m_settings;
+};
+
+void tst_WindowParts::lettersInOrderFitAndOthersDoNot()
+{
+    QVERIFY(fuzzyScore(QStringLiteral("tsp"), QStringLiteral("tetherSpeed")) > 0);
+    QVERIFY(fuzzyScore(QStringLiteral("SPEED teth"), QStringLiteral("tetherSpeed")) > 0);
+    QVERIFY(fuzzyScore(QStringLiteral("spt"), QStringLiteral("tetherSpeed")) < 0);
+    QVERIFY(fuzzyScore(QStringLiteral("x"), QString()) < 0);
+    QCOMPARE(fuzzyScore(QString(), QStringLiteral("anything")), 0);
+    QCOMPARE(fuzzyScore(QStringLiteral("  "), QString()), 0);
+    QVERIFY(fuzzyScore(QString(200, QLatin1Char('a')), QStringLiteral("aaa")) < 0);
+}
+
+void tst_WindowParts::wholeRunsAndBeginsOfWordsFitBest()
+{
+    const QString pattern = QStringLiteral("sp");
+    const auto score = [&](const char *text) { return fuzzyScore(pattern, QString::fromLatin1(text)); };
+    QVERIFY(score("speed") > score("tetherSpeed"));
+    QVERIFY(score("tetherSpeed") > score("crisp"));
+    QVERIFY(score("crisp") > score("asepsis"));
+    QVERIFY(score("speed") > score("speed of the tether"));
+}
+
+void tst_WindowParts::thePaletteShowsTheBestFirstAndNotTooMany()
+{
+    QVector<PaletteItem> items;
+    for (const char *text : {"Add panel: Time plot", "Stop", "Start", "Restart", "winch.start"})
+        items.append({QString::fromLatin1(text), {}, {}, [] {}});
+    QCOMPARE(CommandPalette::matches(items, QStringLiteral("start"), 10), (QVector<int>{2, 4, 3}));
+    QCOMPARE(CommandPalette::matches(items, QString(), 2), (QVector<int>{0, 1}));
+    QVERIFY(CommandPalette::matches(items, QStringLiteral("zzz"), 10).isEmpty());
+    QVERIFY(CommandPalette::matches({}, QStringLiteral("start"), 10).isEmpty());
+}
+
+void tst_WindowParts::addressesAreJudgedBeforeAnybodyConnects()
+{
+    for (const char *good :
+         {"127.0.0.1:50000", "qtplc://127.0.0.1:1", "[::1]:50000", "winch.local", "udp://10.0.0.1:3", "localhost"})
+        QCOMPARE(ConnectStrip::errorOf(QString::fromLatin1(good)), QString());
+    for (const char *bad : {"", "   ", "127.0.0.1:0", "127.0.0.1:70000", "127.0.0.1:kite"})
+        QVERIFY2(!ConnectStrip::errorOf(QString::fromLatin1(bad)).isEmpty(), bad);
+}
+
+void tst_WindowParts::recentMastersAreNewestFirstAndFew()
+{
+    RecentMasters recent;
+    QVERIFY(recent.addresses().isEmpty());
+    for (int i = 0; i < 12; ++i)
+        recent.add(QString::number(i));
+    recent.add(QStringLiteral("9"));
+    QCOMPARE(recent.addresses().size(), 8);
+    QCOMPARE(recent.addresses().mid(0, 3),
+             (QStringList{QStringLiteral("9"), QStringLiteral("11"), QStringLiteral("10")}));
+}
+
+void tst_WindowParts::escapeTwiceIsHeardAndOnceIsNot()
+{
+    DoubleEscape escape;
+    QSignalSpy pressed(&escape, &DoubleEscape::pressed);
+    QWidget parent;
+    QWidget child(&parent);  // one press reaches both
+    parent.show();
+    const auto press = [&](Qt::Key key) { QTest::keyClick(&child, key, Qt::NoModifier, 40); };
+    press(Qt::Key_Escape);
+    QCOMPARE(pressed.count(), 0);
+    press(Qt::Key_Escape);
+    QCOMPARE(pressed.count(), 1);
+    press(Qt::Key_Escape);
+    QCOMPARE(pressed.count(), 1);
+    press(Qt::Key_A);  // something else in between
+    press(Qt::Key_Escape);
+    QCOMPARE(pressed.count(), 1);
+    QTest::qWait(650);  // too late
+    press(Qt::Key_Escape);
+    QCOMPARE(pressed.count(), 1);
+}
+
+void tst_WindowParts::aLayoutWithAnErrorIsNotTakenAndSaysWhere()
+{
+    LayoutEditor editor;
+    LayoutShelf shelf(&editor);
+    const QByteArray before = layoutToJson(editor.layout());
+    QString error;
+    QVERIFY(!shelf.add(QStringLiteral("Fly"), "{\n  \"version\": 1,\n  oops }", &error));
+    QVERIFY2(error.startsWith(QLatin1String("Fly:3:")), qPrintable(error));
+    QVERIFY(!shelf.open(QStringLiteral("/nowhere/layout.json"), &error));
+    QVERIFY2(error.contains(QLatin1String("/nowhere/layout.json")), qPrintable(error));
+    QVERIFY(!shelf.show(QStringLiteral("Fly")));
+    QCOMPARE(layoutToJson(editor.layout()), before);
+    QVERIFY(shelf.names().isEmpty());
+}
+
+void tst_WindowParts::theFirstLayoutIsTheDefault()
+{
+    Layout fly;
+    fly.addPanel(QStringLiteral("Gauge"), {}, LayoutTarget::inTab(fly.currentTab().id));
+    LayoutEditor editor;
+    LayoutShelf shelf(&editor);
+    QVERIFY(shelf.add(QStringLiteral("Fly"), layoutToJson(fly), nullptr));
+    QVERIFY(shelf.add(QStringLiteral("Empty"), layoutToJson(Layout()), nullptr));
+    QCOMPARE(layoutToJson(editor.layout()), layoutToJson(fly));  // shown, because nothing else was yet
+    QVERIFY(shelf.show(QStringLiteral("Empty")));
+    shelf.reset();
+    QCOMPARE(layoutToJson(editor.layout()), layoutToJson(fly));
+    editor.undoStack()->undo();
+    QCOMPARE(layoutToJson(editor.layout()), layoutToJson(Layout()));
+}
+
+void tst_WindowParts::theDefaultLayoutHasSignalsAndRealTime()
+{
+    const Layout layout = defaultLayout();
+    QCOMPARE(layout.invariantError(), QString());
+    QStringList types;
+    for (const LayoutPanel *panel : layout.panels())
+        types.append(panel->type);
+    QCOMPARE(types.join(QStringLiteral(", ")),
+             QStringLiteral("Value table, Time plot, Node table, Jitter histogram, Event log"));
+    QCOMPARE(layout.currentTab().name, QStringLiteral("Signals"));
+}
+
+void tst_WindowParts::droppedSignalsBecomeAPlotAtTheZone()
+{
+    DummyFactories factories;
+    LayoutEditor editor;
+    LayoutView view(&editor);
+    view.setFactories(factories.all());
+    SignalPlacer placer(&view);
+    const QStringList signal{QStringLiteral("kite.elevation")};
+    placer.drop(QString(), DropZone::Center, signal);
+    const auto panels = [&] { return editor.layout().panels(); };
+    QCOMPARE(int(panels().size()), 1);
+    QCOMPARE(panels()[0]->type, QStringLiteral("Time plot"));
+    const QJsonArray curves = panels()[0]->settings.value(QStringLiteral("curves")).toArray();
+    QCOMPARE(curves.at(0).toObject().value(QStringLiteral("signal")).toString(), signal.first());
+    const QString first = panels()[0]->id;
+    placer.drop(first, DropZone::Left, signal);
+    QCOMPARE(panels()[1]->id, first);              // the new one stands at its left
+    placer.drop(first, DropZone::Center, signal);  // the dummy has no use for signals
+    QCOMPARE(int(panels().size()), 3);
+    placer.drop(first, DropZone::Center, {});
+    QCOMPARE(int(panels().size()), 3);
+    placer.show(QStringLiteral("Gauge"), {QStringLiteral("a"), QStringLiteral("b")});
+    QCOMPARE(int(panels().size()), 5);
+    for (int step = 0; step < 5; ++step)
+        editor.undoStack()->undo();
+    QVERIFY(panels().empty());
+}
+
+void tst_WindowParts::spansAreWrittenAsPeopleSayThem()
+{
+    QCOMPARE(spanText(200'000), QStringLiteral("0.2 ms"));
+    QCOMPARE(spanText(30'000'000'000), QStringLiteral("30 s"));
+    QCOMPARE(spanText(120'000'000'000), QStringLiteral("2 min"));
+    QCOMPARE(spanText(7'200'000'000'000), QStringLiteral("2 h"));
+}
+
+void tst_WindowParts::theBarTellsHowAPlantIs()
+{
+    QCOMPARE(StateStep::of(nullptr, false).step, StateStep::None);
+    PlantList plants;
+    Plant *nobody = plants.add(QStringLiteral("127.0.0.1:%1").arg(freePort()));
+    QTRY_VERIFY(nobody->nextAttempt() >= 0.0);
+    QVERIFY2(PlantSummary::of(*nobody).condition.startsWith(QLatin1String("not there; next attempt in ")),
+             qPrintable(PlantSummary::of(*nobody).condition));
+    RunningMaster master;
+    Plant *plant = plants.add(master.address());
+    QTRY_COMPARE_WITH_TIMEOUT(PlantSummary::of(*plant).condition, QStringLiteral("at rest"), patience);
+    QCOMPARE(StateStep::of(plant, false).step, StateStep::Off);
+    QCOMPARE(StateStep::of(plant, true).step, StateStep::Initialized);
+    QVERIFY(master.startRealTime());
+    QTRY_COMPARE_WITH_TIMEOUT(PlantSummary::of(*plant).condition, QStringLiteral("live"), patience);
+    QTRY_COMPARE_WITH_TIMEOUT(StateStep::of(plant, false).step, StateStep::RealTime, patience);
+    QTRY_VERIFY2_WITH_TIMEOUT(QRegularExpression(QStringLiteral("^100 Hz · jitter .+ p99 · \\d+ violations?"))
+                                  .match(PlantSummary::of(*plant).figures)
+                                  .hasMatch(),
+                              qPrintable(PlantSummary::of(*plant).figures), patience);
+}
+
+QTEST_MAIN(tst_WindowParts)
+#include "tst_WindowParts.moc"
