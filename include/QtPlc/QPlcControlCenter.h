@@ -60,6 +60,8 @@ public:
     /// Names, in the order of connectToMaster().
     QStringList plants() const;
     bool isConnected(const QString &plant) const;
+    /// Whether its cycles arrive: the values that the window shows are of now.
+    bool isLive(const QString &plant) const;
 
     // -- panels and layouts --
 
@@ -72,6 +74,8 @@ public:
     bool showLayout(const QString &name);
     /// Shows the default layout, as a step that can be undone.
     void resetLayout();
+    /// Brings a tab to the front. \return false when the layout has none of this name
+    bool showTab(const QString &name);
     /// Takes the layout of a file, as a step that can be undone. \return false: \a error says file, line, column and what is wrong, and nothing has changed
     bool openLayout(const QString &fileName, QString *error = nullptr);
     /// Writes the layout to a file as a whole, or leaves the file as it was.
@@ -90,6 +94,8 @@ public:
     bool isStartPageShown() const;
     /// A line over the panels until it is closed, or another one comes: "Not real time: ..." An empty text closes it.
     void showHint(const QString &text);
+    /// The same with a button for what can be done about it. \param remedy  owned by others, may go before the line does
+    void showHint(const QString &text, QAction *remedy);
 
     Theme theme() const;
     void setTheme(Theme theme);

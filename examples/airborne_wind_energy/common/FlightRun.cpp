@@ -170,7 +170,7 @@ void FlightRun::stopped()
     QString error;
     if (!m_settings.reportFile.isEmpty() && !writeReport(m_settings.reportFile, m_report, &error))
         fail(QPlcCoreApplication::Failure, error);
-    if (!m_settings.awaitedNodes.isEmpty() || m_ending)  // else: stopped by hand, and perhaps started again
+    if (endsWithFlight() || m_ending)  // else: stopped by hand, and perhaps started again
         finish();
 }
 
@@ -199,8 +199,10 @@ void FlightRun::fail(int exitCode, const QString &text)
         m_display.end();
         QPlcCoreApplication::printError(text);
     }
-    if (m_settings.awaitedNodes.isEmpty()) {
+    if (!endsWithFlight()) {
         m_exitCode = 0;  // a person is at the controls, and may try again
+        if (m_settings.stay)
+            QMetaObject::invokeMethod(&m_master, &QPlcMasterNode::stop, Qt::QueuedConnection);
         return;
     }
     QMetaObject::invokeMethod(this, &FlightRun::end, Qt::QueuedConnection);

@@ -19,6 +19,7 @@ struct RunSettings
     double nominalWindSpeed = 0.0;  // [m/s]
     bool watch = false;             // a live picture instead of a progress line
     QStringList awaitedNodes;       // the flight begins as soon as all of them have registered
+    bool stay = false;              // the program does not end with that flight: people stop and start as they like
 };
 
 /// --lockstep, --real-time, --scale, --overrun, --duration, --report, --watch: how a flight is run.
@@ -55,6 +56,8 @@ private:
     void startIfComplete();
     void started();
     void stopped();
+    /// Whether the program ends with the flight that has begun by itself.
+    bool endsWithFlight() const { return !m_settings.awaitedNodes.isEmpty() && !m_settings.stay; }
     void finish();
     void fail(int exitCode, const QString &text);
     QJsonObject makeReport() const;

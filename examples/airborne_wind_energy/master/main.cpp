@@ -40,6 +40,9 @@ void addMasterOptions(QPlcCoreApplication &application)
         QStringLiteral(
             "Starts as soon as these nodes are there, and ends with the flight. Without it: by qtplc start, stop."),
         QStringLiteral("NODE,...")));
+    application.addOption(QCommandLineOption(
+        QStringLiteral("stay"),
+        QStringLiteral("With --start-with: does not end with the flight, but waits for qtplc start, stop.")));
     awe::addRunOptions(application, QStringLiteral("0"));
     application.addOption(
         QCommandLineOption(QStringLiteral("mean-wind"),
@@ -76,6 +79,7 @@ bool readMasterOptions(QPlcCoreApplication &application, MasterSettings *setting
         || !application.readRealTimeOptions(&settings->realTime))
         return false;
     settings->port = quint16(port);
+    settings->run.stay = application.isSet(QStringLiteral("stay"));
     // By hand a person wants to watch: the clock runs like the real one unless told otherwise.
     settings->run.awaitedNodes
         = application.value(QStringLiteral("start-with")).split(QLatin1Char(','), Qt::SkipEmptyParts);

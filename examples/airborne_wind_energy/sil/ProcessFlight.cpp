@@ -24,17 +24,15 @@ bool ProcessFlight::begin(const ProcessArguments &arguments)
     return true;
 }
 
-/// The first line of the master is "port NUMBER": then it listens.
 void ProcessFlight::startNodes()
 {
     if (m_nodesStarted || !m_master->canReadLine())
         return;
-    const QByteArray line = m_master->readLine().trimmed();
-    if (!line.startsWith("port "))
+    const std::optional<quint16> port = portOfMaster(m_master->readLine());
+    if (!port)
         return;
     m_nodesStarted = true;
-    const QString address
-        = QStringLiteral("--master=%1://127.0.0.1:%2").arg(m_arguments.transport, QString::fromLatin1(line.mid(5)));
+    const QString address = QStringLiteral("--master=%1://127.0.0.1:%2").arg(m_arguments.transport).arg(*port);
     const ProcessGroup::Errors errors = m_arguments.watch ? ProcessGroup::HoldErrors : ProcessGroup::ShowErrors;
     if (!m_processes.start(QStringLiteral("awe_compact_model"), QStringList{address} + m_arguments.model, errors)
         || !m_processes.start(QStringLiteral("awe_autopilot"), QStringList{address} + m_arguments.autopilot, errors))

@@ -3,20 +3,9 @@
 
 #include <QtPlcCore>
 
-#include <csignal>
 #include <cstdio>
-#include <sys/prctl.h>
-#include <unistd.h>
 
 namespace awe {
-
-void ChildProcess::setupChildProcess()
-{
-    ::setpgid(0, 0);
-    ::prctl(PR_SET_PDEATHSIG, SIGTERM);
-    if (::getppid() != m_parent)  // it has ended meanwhile
-        ::_exit(1);
-}
 
 ProcessGroup::~ProcessGroup()
 {
@@ -32,7 +21,7 @@ ChildProcess *ProcessGroup::start(const QString &program, const QStringList &arg
             [this, program](int exitCode, QProcess::ExitStatus status) {
                 Q_EMIT ended(program, status == QProcess::CrashExit ? -1 : exitCode);
             });
-    process->start(QStringLiteral("%1/%2").arg(QCoreApplication::applicationDirPath(), program), arguments);
+    process->start(ChildProcess::pathOf(program), arguments);
     if (process->waitForStarted(5000))
         return process;
     QPlcCoreApplication::printError(QStringLiteral("cannot start %1: %2; is it beside this program?")

@@ -1,27 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <QtCore/QCoreApplication>
-#include <QtCore/QProcess>
+#include "ChildProcess.h"
 
 #include <memory>
 #include <vector>
 
 namespace awe {
-
-/// A program that ends with this one, however this one ends, and that Ctrl-C in the terminal does not reach: it is told by us.
-class ChildProcess : public QProcess
-{
-    Q_OBJECT
-public:
-    using QProcess::QProcess;
-
-protected:
-    void setupChildProcess() override;
-
-private:
-    const qint64 m_parent = QCoreApplication::applicationPid();
-};
 
 /// The programs of a flight: started together, ended together; none is left behind.
 class ProcessGroup : public QObject

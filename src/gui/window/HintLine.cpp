@@ -11,6 +11,7 @@ HintLine::HintLine(WindowContext *context, QWidget *parent)
     : QWidget(parent)
     , m_context(context)
     , m_label(new QLabel(this))
+    , m_button(new BarButton(BarButton::Primary, context))
 {
     setObjectName(QStringLiteral("HintLine"));
     m_label->setWordWrap(true);
@@ -19,15 +20,24 @@ HintLine::HintLine(WindowContext *context, QWidget *parent)
     close->setText(tr("Close"));
     close->setAccessibleName(tr("Close the hint"));
     connect(close, &QAbstractButton::clicked, this, &QWidget::hide);
+    connect(m_button, &QAbstractButton::clicked, this, [this] {
+        if (m_remedy)
+            m_remedy->trigger();
+    });
     auto *row = new QHBoxLayout(this);
     row->setContentsMargins(14, 4, 6, 4);
     row->addWidget(m_label, 1);
+    row->addWidget(m_button, 0, Qt::AlignTop);
     row->addWidget(close, 0, Qt::AlignTop);
     hide();
 }
 
-void HintLine::showText(const QString &text)
+void HintLine::showText(const QString &text, QAction *remedy)
 {
+    m_remedy = remedy;
+    m_button->setVisible(remedy != nullptr);
+    if (remedy)
+        m_button->setText(remedy->text());
     m_label->setText(text);
     setAccessibleName(text);
     setVisible(!text.isEmpty());

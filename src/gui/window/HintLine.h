@@ -3,6 +3,9 @@
 
 #include "BarButton.h"
 
+#include <QtCore/QPointer>
+#include <QtWidgets/QAction>
+
 class QLabel;
 
 namespace qplc {
@@ -14,8 +17,8 @@ class HintLine : public QWidget
 public:
     explicit HintLine(WindowContext *context, QWidget *parent = nullptr);
 
-    /// Empty: closes the line.
-    void showText(const QString &text);
+    /// Empty: closes the line. \param remedy  what a button of the line does; null: there is none
+    void showText(const QString &text, QAction *remedy = nullptr);
     QString text() const;
 
 protected:
@@ -24,6 +27,8 @@ protected:
 private:
     WindowContext *m_context;
     QLabel *m_label;
+    BarButton *m_button;
+    QPointer<QAction> m_remedy;
 };
 
 }  // namespace qplc

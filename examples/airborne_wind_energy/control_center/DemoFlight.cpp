@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "DemoFlight.h"
+
+#include <QtCore/QEvent>
+
+namespace awe {
+
+namespace {
+
+constexpr int Patience = 20000;  // [ms] until the kite flies, far more than a loaded machine needs
+constexpr int Watch = 20;        // [ms]
+
+}  // namespace
+
+DemoFlight::DemoFlight(QPlcControlCenter *window)
+    : m_window(*window)
+    , m_flyAction(tr("Fly the demo kite"))
+    , m_restartAction(tr("Restart the demo kite"))
+{
+    m_flyAction.setToolTip(tr("Three programs on this computer: nothing real moves"));
+    m_restartAction.setToolTip(tr("Ends the programs of the demo and starts them again."));
+    m_restartAction.setEnabled(false);
+    const auto begun = [this](void (DemoPlant::*how)()) {
+        m_clock.start();
+        (m_plant.*how)();
+    };
+    connect(&m_flyAction, &QAction::triggered, this, [begun] { begun(&DemoPlant::start); });
+    connect(&m_restartAction, &QAction::triggered, this, [begun] { begun(&DemoPlant::restart); });
+    connect(&m_plant, &DemoPlant::listening, this, &DemoFlight::connectWindow);
+    connect(&m_plant, &DemoPlant::failed, this, &DemoFlight::showFailure);
+    connect(&m_watch, &QTimer::timeout, this, &DemoFlight::watch);
+    m_window.addStartAction(&m_flyAction);
+    m_window.installEventFilter(this);
+}
+
+void DemoFlight::begin(const QElapsedTimer &clock)
+{
+    m_clock = clock;
+    m_plant.start();
+}
+
+void DemoFlight::connectWindow(const QString &address)
+{
+    m_restartAction.setEnabled(true);
+    if (m_address != address)
+        disconnectWindow();
+    if (!m_window.plants().contains(m_name))
+        m_name = m_window.connectToMaster(address, tr("demo"));
+    m_address = address;
+    m_window.showHint(tr("Not real time: the programs of the demo share the processors with all others. "
+                         "'qtplc doctor' says how this computer gets fit for it."));
+    m_watch.start(Watch);
+}
+
+void DemoFlight::disconnectWindow()
+{
+    if (m_window.plants().contains(m_name))
+        m_window.disconnectFromMaster(m_name);
+    m_name.clear();
+    m_address.clear();
+}
+
+void DemoFlight::watch()
+{
+    if (m_window.isLive(m_name)) {
+        m_watch.stop();
+        Q_EMIT flying(double(m_clock.elapsed()) / 1000.0);
+    } else if (m_clock.elapsed() > Patience) {
+        showFailure(tr("The kite of the demo does not fly after %1 s.").arg(Patience / 1000));
+    }
+}
+
+void DemoFlight::showFailure(const QString &sentence)
+{
+    m_watch.stop();
+    m_window.showHint(sentence, &m_restartAction);
+    Q_EMIT failed(sentence);
+}
+
+/// The plant of the demo ends with the program: the window is not to look for it the next time.
+bool DemoFlight::eventFilter(QObject *watched, QEvent *event)
+{
+    if (watched == &m_window && event->type() == QEvent::Close)
+        disconnectWindow();
+    return QObject::eventFilter(watched, event);
+}
+
+}  // namespace awe

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "DemoFlight.h"
+#include "Screenshot.h"
+#include "Settings.h"
+
+#include <QtCore/QFile>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace {
+
+/// \return false, with the message out, when there is no screen to open a window on, which is needed for all but texts
+bool hasScreen(int argc, char **argv)
+{
+    for (const char *variable : {"DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM"}) {
+        if (!qEnvironmentVariableIsEmpty(variable))
+            return true;
+    }
+    qputenv("QT_QPA_PLATFORM", "offscreen");
+    const auto isText = [](const char *argument) {
+        return qstrcmp(argument, "--help") == 0 || qstrcmp(argument, "-h") == 0 || qstrcmp(argument, "--version") == 0;
+    };
+    if (std::any_of(argv + 1, argv + argc, isText))
+        return true;
+    std::fputs("awe_control_center: there is no display; log in to a desktop, use ssh -X, or xvfb-run -a "
+               "awe_control_center ...\n",
+               stderr);
+    return false;
+}
+
+QByteArray builtInLayout()
+{
+    QFile file(QStringLiteral(":/layouts/airborne_wind_energy.json"));
+    return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
+}
+
+/// Layouts, plants and look of the window. \return false, with the message out, when a layout or tab is not there
+bool prepare(QPlcGuiApplication &application, QPlcControlCenter &window, const awe::ControlCenterSettings &settings)
+{
+    QString error;
+    if (!window.addLayout(QStringLiteral("Airborne wind energy"), builtInLayout(), &error))
+        return application.usageError(error), false;
+    if (settings.screenshot.isEmpty())
+        window.restoreView();
+    else
+        window.resetLayout();
+    if (settings.namesPlants()) {
+        for (const QString &plant : window.plants())
+            window.disconnectFromMaster(plant);
+    }
+    if (!settings.layout.isEmpty() && !window.openLayout(settings.layout, &error))
+        return application.usageError(error), false;
+    if (!settings.tab.isEmpty() && !window.showTab(settings.tab))
+        return application.usageError(QStringLiteral("--tab '%1': the layout has no such tab").arg(settings.tab)),
+               false;
+    if (settings.theme)
+        window.setTheme(*settings.theme);
+    if (!settings.size.isEmpty())
+        window.resize(settings.size);
+    for (const awe::ControlCenterSettings::Master &master : settings.masters)
+        window.connectToMaster(master.address, master.name);
+    return true;
+}
+
+void addTexts(QPlcGuiApplication &application)
+{
+    application.setDescription(QStringLiteral(
+        "The Control Center of the airborne wind energy example: to see, steer and understand a running plant. "
+        "Without options it shows what it did last, the first time its start page."));
+    application.setExamples(
+        {QStringLiteral("awe_control_center --demo"), QStringLiteral("awe_control_center --master 192.168.1.5:50000"),
+         QStringLiteral("awe_control_center --master north=winch1:50000 --master south=winch2:50000"),
+         QStringLiteral("awe_control_center --demo --tab 'Real time' --theme dark"),
+         QStringLiteral("awe_control_center --demo --size 1366x768 --screenshot kite.png --after 20")});
+    awe::addControlCenterOptions(application);
+}
+
+/// Makes the picture and ends the program.
+void endWithScreenshot(QPlcControlCenter &window, const QString &fileName)
+{
+    QString error;
+    const bool isWritten = awe::writeScreenshot(&window, fileName, &error);
+    if (!isWritten)
+        QPlcGuiApplication::printError(error);
+    QCoreApplication::exit(isWritten ? QPlcGuiApplication::Success : QPlcGuiApplication::Failure);
+}
+
+}  // namespace
+
+int main(int argc, char **argv)
+{
+    QElapsedTimer clock;
+    clock.start();
+    if (!hasScreen(argc, argv))
+        return QPlcGuiApplication::UsageError;
+    QPlcGuiApplication application(argc, argv);
+    QApplication::setApplicationDisplayName(QStringLiteral("Airborne Wind Energy"));
+    addTexts(application);
+    awe::ControlCenterSettings settings;
+    if (!application.parseOptions() || !awe::readControlCenterOptions(application, &settings))
+        return application.exitCode();
+
+    QPlcControlCenter window;
+    awe::DemoFlight demo(&window);
+    if (!prepare(application, window, settings))
+        return application.exitCode();
+    const auto endLater = [&] {
+        QTimer::singleShot(std::chrono::milliseconds(qRound64(settings.after * 1000.0)), &window,
+                           [&] { endWithScreenshot(window, settings.screenshot); });
+    };
+    bool hasFlown = false;
+    QObject::connect(&demo, &awe::DemoFlight::flying, &window, [&](double seconds) {
+        std::printf("flying after %.1f s\n", seconds);
+        std::fflush(stdout);
+        if (!settings.screenshot.isEmpty() && !hasFlown)
+            endLater();
+        hasFlown = true;
+    });
+    QObject::connect(&demo, &awe::DemoFlight::failed, &window, [&](const QString &sentence) {
+        QPlcGuiApplication::printError(sentence);
+        if (!settings.screenshot.isEmpty() && !hasFlown)  // else the picture shows it
+            QCoreApplication::exit(QPlcGuiApplication::Failure);
+    });
+    window.show();
+    if (settings.demo)
+        demo.begin(clock);
+    else if (!settings.screenshot.isEmpty())
+        endLater();
+    return QApplication::exec();
+}

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "DemoFlight.h"
+#include "Program.h"
+#include "Screenshot.h"
+
+#include <QtCore/QFile>
+#include <QtCore/QTemporaryDir>
+#include <QtTest/QtTest>
+#include <QtWidgets/QAbstractButton>
+
+#include <csignal>
+
+namespace {
+
+qint64 pidOf(const QByteArray &name)
+{
+    for (qint64 pid : childrenOf(QCoreApplication::applicationPid())) {
+        QFile file(QStringLiteral("/proc/%1/cmdline").arg(pid));
+        if (file.open(QIODevice::ReadOnly) && file.readAll().split('\0').constFirst().endsWith(name))
+            return pid;
+    }
+    return 0;
+}
+
+/// The button that a person sees; null when there is none of this text.
+QAbstractButton *visibleButton(const QWidget &window, const QString &text)
+{
+    for (QAbstractButton *button : window.findChildren<QAbstractButton *>()) {
+        if (button->isVisible() && button->text().remove(QLatin1Char('&')).startsWith(text))
+            return button;
+    }
+    return nullptr;
+}
+
+}  // namespace
+
+/// The demo in the window, by a person with a mouse.
+class tst_DemoFlight : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void initTestCase();
+    void cleanup();
+    void oneClickOnTheStartPageFliesTheKite();
+    void killedProgramIsToldAndOneClickFliesAgain_data();
+    void killedProgramIsToldAndOneClickFliesAgain();
+    void plantOfTheDemoIsForgottenWhenTheWindowCloses();
+
+private:
+    QTemporaryDir m_home;  // for the settings of the window
+};
+
+void tst_DemoFlight::initTestCase()
+{
+    QVERIFY(qputenv("XDG_CONFIG_HOME", m_home.path().toUtf8()));
+}
+
+void tst_DemoFlight::cleanup()
+{
+    QCOMPARE(childrenOf(QCoreApplication::applicationPid()), QList<qint64>());
+}
+
+void tst_DemoFlight::oneClickOnTheStartPageFliesTheKite()
+{
+    QPlcControlCenter window;
+    awe::DemoFlight demo(&window);
+    QSignalSpy flying(&demo, &awe::DemoFlight::flying);
+    window.resize(1366, 768);
+    window.show();
+    QVERIFY(QTest::qWaitForWindowExposed(&window));
+    QVERIFY(window.isStartPageShown());
+    QAbstractButton *button = visibleButton(window, QStringLiteral("Fly the demo kite"));
+    QVERIFY(button);
+    QTest::mouseClick(button, Qt::LeftButton);
+    QVERIFY(flying.wait(Program::patience));
+    QVERIFY(!window.isStartPageShown());
+    QCOMPARE(window.plants(), QStringList{QStringLiteral("demo")});
+    QVERIFY(window.isConnected(QStringLiteral("demo")));
+}
+
+void tst_DemoFlight::killedProgramIsToldAndOneClickFliesAgain_data()
+{
+    QTest::addColumn<QByteArray>("victim");
+    for (const char *name : {"awe_master", "awe_model", "awe_autopilot"})
+        QTest::newRow(name) << QByteArray(name);
+}
+
+void tst_DemoFlight::killedProgramIsToldAndOneClickFliesAgain()
+{
+    QFETCH(QByteArray, victim);
+    QPlcControlCenter window;
+    awe::DemoFlight demo(&window);
+    QSignalSpy flying(&demo, &awe::DemoFlight::flying);
+    QSignalSpy failed(&demo, &awe::DemoFlight::failed);
+    window.resize(1366, 768);
+    window.show();
+    QElapsedTimer clock;
+    clock.start();
+    demo.begin(clock);
+    QVERIFY(flying.wait(Program::patience));
+    ::kill(pid_t(pidOf(victim)), SIGKILL);
+    QVERIFY(failed.wait(Program::patience));
+    QVERIFY2(failed.at(0).at(0).toString().contains(QString::fromLatin1(victim)),
+             qPrintable(failed.at(0).at(0).toString()));
+    QTRY_VERIFY_WITH_TIMEOUT(!window.isLive(QStringLiteral("demo")), Program::patience);
+    QAbstractButton *button = visibleButton(window, QStringLiteral("Restart the demo kite"));
+    QVERIFY(button);
+    QString error;
+    QVERIFY2(
+        awe::writeScreenshot(
+            &window, QStringLiteral(AWE_SCREENSHOTS "/awe_restart_%1.png").arg(QString::fromLatin1(victim)), &error),
+        qPrintable(error));
+    QTest::mouseClick(button, Qt::LeftButton);
+    QTRY_COMPARE_WITH_TIMEOUT(flying.size(), 2, Program::patience);
+    QCOMPARE(window.plants(), QStringList{QStringLiteral("demo")});
+    QCOMPARE(failed.size(), 1);
+}
+
+void tst_DemoFlight::plantOfTheDemoIsForgottenWhenTheWindowCloses()
+{
+    QPlcControlCenter window;
+    awe::DemoFlight demo(&window);
+    QSignalSpy flying(&demo, &awe::DemoFlight::flying);
+    window.show();
+    QElapsedTimer clock;
+    clock.start();
+    demo.begin(clock);
+    QVERIFY(flying.wait(Program::patience));
+    QVERIFY(window.close());
+    QCOMPARE(window.plants(), QStringList());
+}
+
+QTEST_MAIN(tst_DemoFlight)
+#include "tst_DemoFlight.moc"
