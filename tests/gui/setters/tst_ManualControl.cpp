@@ -44,6 +44,7 @@ private Q_SLOTS:
     void axesActWhileTheyAreArmed();
     void withoutControlNothingIsWritten();
     void whatIsHeldWhileControlIsTakenDoesNotAct();
+    void whoLosesSomeSignalsLetsGoOfAll();
     void anElementIsWrittenIntoItsArray();
     void aStreamEndsWithTheLastValueHoweverManyThereWere();
 };
@@ -218,6 +219,27 @@ void tst_ManualControl::whatIsHeldWhileControlIsTakenDoesNotAct()
     QTRY_VERIFY(control.isFlying());
     QVERIFY(!control.isHeld(Qt::Key_W));
     QCOMPARE(master.valueOf(setpoint.signal), 0.0);
+}
+
+void tst_ManualControl::whoLosesSomeSignalsLetsGoOfAll()
+{
+    FlyingMaster master;
+    QVERIFY(master.startRealTime());
+    TestWindow window(master.address());
+    TestWindow other(master.address(), QStringLiteral("Other"));
+    ManualControl control;
+    control.setPlants(window.context.plants());
+    control.setBindings(bindings());
+    QVERIFY(window.isReady() && other.isReady());
+    QTRY_VERIFY(control.control().mayTake());
+    control.control().take();
+    QTRY_VERIFY(control.isFlying());
+    control.press(Qt::Key_Left, false);
+    QTRY_COMPARE(master.valueOf(echo.signal), -3.0);
+    other.plant->takeLease({setpoint.signal}, {}, Plant::AlsoFromOthers);
+    QTRY_COMPARE(master.valueOf(echo.signal), 0.0);
+    QVERIFY(window.isMine(echo.signal));  // still held, by nobody's finger
+    QCOMPARE(control.control().state(), SignalControl::Other);
 }
 
 void tst_ManualControl::anElementIsWrittenIntoItsArray()
