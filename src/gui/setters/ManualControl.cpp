@@ -34,7 +34,7 @@ bool ManualControl::press(int key, bool isAutoRepeat)
 {
     if (!isBound(key))
         return false;
-    if (m_keys.press(key, isAutoRepeat))
+    if (isFlying() && m_keys.press(key, isAutoRepeat))
         write();
     return true;
 }
@@ -60,9 +60,10 @@ double ManualControl::deflection(const QString &axis) const
 
 void ManualControl::setArmed(bool armed)
 {
-    if (armed == m_isArmed)
+    const bool isWanted = armed && isFlying();
+    if (isWanted == m_isArmed)
         return;
-    m_isArmed = armed;
+    m_isArmed = isWanted;
     write();
 }
 
@@ -80,10 +81,10 @@ void ManualControl::controlChanged()
     if (isFlying() == m_wasFlying)
         return;
     m_wasFlying = isFlying();
-    m_sent.clear();
-    letGo();  // what is held from before does not begin to act
-    if (!isFlying())
-        m_streams.clear();
+    if (isFlying())
+        m_sent.clear();
+    else
+        letGo();  // also of what this window still holds, if somebody has taken only some of it
 }
 
 double ManualControl::wanted(const SignalReference &reference) const
@@ -123,11 +124,21 @@ ValueStream &ManualControl::streamTo(Plant *plant)
     return *stream;
 }
 
+bool ManualControl::isMine(const PlantList::Signal &signal)
+{
+    if (!signal || !signal.plant->isConnected())
+        return false;
+    const std::optional<LeaseStatus> lease = signal.plant->lease(signal.definition().name);
+    return lease && lease->isMine;
+}
+
 void ManualControl::write()
 {
     std::map<Plant *, ValueStream::Values> values;
-    for (int i = 0; isFlying() && i < m_control.resolved().size(); ++i) {
+    for (int i = 0; i < m_control.resolved().size(); ++i) {
         const PlantList::Signal &signal = m_control.resolved().at(i);
+        if (!isMine(signal))
+            continue;
         const QString name = m_control.references().at(i).toString();
         const double number = wanted(m_control.references().at(i));
         const QPlcValue value = wholeValue(signal, number);

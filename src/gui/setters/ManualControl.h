@@ -28,7 +28,7 @@ public:
     const SignalControl &control() const { return m_control; }
     bool isFlying() const { return m_control.state() == SignalControl::Mine; }
 
-    /// \return whether the key is one of the bindings
+    /// Counts while this window has control. \return whether the key is one of the bindings
     bool press(int key, bool isAutoRepeat);
     bool release(int key, bool isAutoRepeat);
     bool isHeld(int key) const { return m_keys.contains(key); }
@@ -53,6 +53,7 @@ Q_SIGNALS:
 private:
     void controlChanged();
     void write();
+    static bool isMine(const PlantList::Signal &signal);
     ValueStream &streamTo(Plant *plant);
 
     ManualBindings m_bindings;

@@ -19,7 +19,7 @@ ManualBindings bindings()
     axis.axis = QStringLiteral("LeftX");
     axis.signal = setpoint;
     axis.value = 8.0;
-    axis.deadZone = 0.2;
+    axis.deadZone = 0.5;
     axis.expo = 0.0;
     return {{{Qt::Key_Left, echo, -3.0},
              {Qt::Key_Right, echo, 4.0},
@@ -44,6 +44,7 @@ private Q_SLOTS:
     void axesActWhileTheyAreArmed();
     void withoutControlNothingIsWritten();
     void whatIsHeldWhileControlIsTakenDoesNotAct();
+    void whoLosesSomeSignalsLetsGoOfAll();
     void anElementIsWrittenIntoItsArray();
     void aStreamEndsWithTheLastValueHoweverManyThereWere();
 };
@@ -175,7 +176,7 @@ void tst_ManualControl::axesActWhileTheyAreArmed()
     QTRY_VERIFY(control.control().mayTake());
     control.control().take();
     QTRY_VERIFY(control.isFlying());
-    control.moveAxis(QStringLiteral("LeftX"), -0.6);
+    control.moveAxis(QStringLiteral("LeftX"), -0.75);
     QCOMPARE(control.wanted(setpoint), 0.0);
     control.setArmed(true);
     QCOMPARE(control.wanted(setpoint), -4.0);
@@ -220,6 +221,27 @@ void tst_ManualControl::whatIsHeldWhileControlIsTakenDoesNotAct()
     QCOMPARE(master.valueOf(setpoint.signal), 0.0);
 }
 
+void tst_ManualControl::whoLosesSomeSignalsLetsGoOfAll()
+{
+    FlyingMaster master;
+    QVERIFY(master.startRealTime());
+    TestWindow window(master.address());
+    TestWindow other(master.address(), QStringLiteral("Other"));
+    ManualControl control;
+    control.setPlants(window.context.plants());
+    control.setBindings(bindings());
+    QVERIFY(window.isReady() && other.isReady());
+    QTRY_VERIFY(control.control().mayTake());
+    control.control().take();
+    QTRY_VERIFY(control.isFlying());
+    control.press(Qt::Key_Left, false);
+    QTRY_COMPARE(master.valueOf(echo.signal), -3.0);
+    other.plant->takeLease({setpoint.signal}, {}, Plant::AlsoFromOthers);
+    QTRY_COMPARE(master.valueOf(echo.signal), 0.0);
+    QVERIFY(window.isMine(echo.signal));  // still held, by nobody's finger
+    QCOMPARE(control.control().state(), SignalControl::Other);
+}
+
 void tst_ManualControl::anElementIsWrittenIntoItsArray()
 {
     FlyingMaster master;
@@ -245,7 +267,7 @@ void tst_ManualControl::aStreamEndsWithTheLastValueHoweverManyThereWere()
     for (int i = 1; i <= 1000; ++i)
         stream.send({{setpoint.signal, i * 0.01}});
     QTRY_COMPARE(master.valueOf(setpoint.signal), 10.0);
-    QCOMPARE(window.done.size(), 2);  // the first one, and the last
+    QTRY_COMPARE(window.done.size(), 2);  // the first one, and the last
     QSignalSpy failed(&stream, &ValueStream::failed);
     stream.send({{setpoint.signal, 11.0}});
     stream.send({{setpoint.signal, 1.0}});
