@@ -4,7 +4,7 @@
 #include "QPlcWidget.h"
 #include "QPlcWidgetFactoryOf.h"
 
-/// Chosen signals with value, smallest and largest value since reset, unit, quality, age and rate. Signals are dropped in, dragged out, sorted, and copied as text with tabs.
+/// Chosen signals with value, smallest and largest value since reset, unit, quality, age and rate. Signals are added (dropped on the panel, or by name after Insert), dragged out, sorted, and copied as text with tabs.
 ///
 /// Settings: `signals` (references, in order), `columns` (keys of those that are shown: signal, value, unit, minimum, maximum, quality, age, rate), `sort` (key of a column) and `descending`.
 ///

@@ -220,7 +220,7 @@ void GaugeFeed::refresh(Texts texts)
 
 void GaugeFeed::show(const GaugePicture &picture)
 {
-    if (picture == m_picture)
+    if (looksLike(picture, m_picture))
         return;
     m_picture = picture;
     Q_EMIT changed();
@@ -290,11 +290,10 @@ void GaugeFeed::showValue(GaugePicture *picture, const QPlcValue &value, bool ha
     const bool keepsTexts = !hasNewTexts && m_picture.values.size() == picture->values.size();
     for (int i = 0; i < picture->values.size(); ++i) {
         GaugePicture::Value &shown = picture->values[i];
-        shown.text = keepsTexts              ? m_picture.values.at(i).text
-            : !value.isValid()               ? noValueText()
-            : isNumeric                      ? valueText(shown.number)
-            : m_definition.type.isDateTime() ? value.toDateTime().toLocalTime().toString(QStringLiteral("HH:mm:ss.zzz"))
-                                             : qplc::valueText(value);
+        shown.text = keepsTexts ? m_picture.values.at(i).text
+            : !value.isValid()  ? noValueText()
+            : isNumeric         ? valueText(shown.number)
+                                : qplc::valueText(value);
         widen(shown.text);
     }
 }

@@ -62,7 +62,7 @@ void paintValue(QPainter *painter, const QRectF &place, const GaugePicture &pict
     const QString digits = hasSign ? widest.mid(1) : widest;
     const double unitShare = 0.5 * double(unit.size()) / std::max(1.0, double(widest.size()));
     const QSizeF room(place.width() / (1.0 + unitShare), place.height());
-    const QFont font = fittingFont(figureFont(painter->font()), hasSign ? widest + minusSign : widest, room);
+    const QFont font = fittingFont(figureFont(painter->font()), widest, room);
     QFont unitFont = font;
     unitFont.setPixelSize(std::max(9, font.pixelSize() / 2));
     const QFontMetricsF metrics(font);

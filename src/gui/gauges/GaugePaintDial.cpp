@@ -121,7 +121,8 @@ void paintDial(QPainter *painter, const QRectF &place, const GaugePicture &pictu
     paintMarkers(painter, dial, picture, theme);
     paintPointer(painter, dial, picture, theme);
     painter->restore();
-    const double width = dial.radius * (dial.radius > 62.0 ? 0.9 : 1.35);
+    const double signless = picture.widest.startsWith(QChar(0x2212)) ? 1.0 : 0.87;  // a sign hangs at the left
+    const double width = dial.radius * signless * (dial.radius > 62.0 ? 0.95 : 1.45);
     GaugePicture figures = picture;
     figures.unit.clear();
     const QRectF middle(dial.center.x() - width / 2.0, dial.center.y() - dial.radius * 0.2, width, dial.radius * 0.6);

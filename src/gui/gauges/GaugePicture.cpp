@@ -3,21 +3,35 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 namespace qplc {
 
 namespace {
 
-/// NaN is as good as NaN.
-bool isSame(double a, double b)
+bool isSameNumber(const GaugePicture &picture, double a, double b)
 {
-    return a == b || (std::isnan(a) && std::isnan(b));
+    constexpr double pixels = 2000.0;  // of the longest scale that is drawn
+    if (std::isnan(a) || std::isnan(b))
+        return std::isnan(a) && std::isnan(b);
+    switch (picture.style) {
+    case GaugeStyle::Dial:
+    case GaugeStyle::Bar:
+        return std::abs(picture.scale.share(a) - picture.scale.share(b)) < 1.0 / pixels;
+    case GaugeStyle::Led:
+        return (a != 0.0) == (b != 0.0);
+    case GaugeStyle::Number:
+        break;
+    }
+    return true;
 }
 
-bool isSame(const GaugePicture::Value &a, const GaugePicture::Value &b)
+bool areSameValues(const GaugePicture &a, const GaugePicture &b)
 {
-    return isSame(a.number, b.number) && a.text == b.text && a.minimum == b.minimum && a.maximum == b.maximum;
+    return std::equal(a.values.begin(), a.values.end(), b.values.begin(), b.values.end(),
+                      [&a](const GaugePicture::Value &one, const GaugePicture::Value &other) {
+                          return isSameNumber(a, one.number, other.number) && one.text == other.text
+                              && one.minimum == other.minimum && one.maximum == other.maximum;
+                      });
 }
 
 bool isSame(const GaugePicture::Band &a, const GaugePicture::Band &b)
@@ -27,15 +41,14 @@ bool isSame(const GaugePicture::Band &a, const GaugePicture::Band &b)
 
 }  // namespace
 
-bool operator==(const GaugePicture &a, const GaugePicture &b)
+bool looksLike(const GaugePicture &a, const GaugePicture &b)
 {
-    const auto areSame = [](const auto &x, const auto &y) {
-        return std::equal(x.begin(), x.end(), y.begin(), y.end(),
-                          [](const auto &one, const auto &other) { return isSame(one, other); });
-    };
+    const bool haveSameBands
+        = std::equal(a.bands.begin(), a.bands.end(), b.bands.begin(), b.bands.end(),
+                     [](const GaugePicture::Band &one, const GaugePicture::Band &other) { return isSame(one, other); });
     return a.style == b.style && a.message == b.message && a.name == b.name && a.unit == b.unit && a.status == b.status
-        && areSame(a.values, b.values) && a.widest == b.widest && a.scale == b.scale && a.decimals == b.decimals
-        && areSame(a.bands, b.bands) && a.level == b.level && a.isTrusted == b.isTrusted && a.isBoolean == b.isBoolean;
+        && a.widest == b.widest && a.scale == b.scale && a.decimals == b.decimals && a.level == b.level
+        && a.isTrusted == b.isTrusted && a.isBoolean == b.isBoolean && haveSameBands && areSameValues(a, b);
 }
 
 QString GaugePicture::spoken() const

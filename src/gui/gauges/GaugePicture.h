@@ -43,11 +43,8 @@ struct GaugePicture
     QString spoken() const;
 };
 
-bool operator==(const GaugePicture &a, const GaugePicture &b);
-inline bool operator!=(const GaugePicture &a, const GaugePicture &b)
-{
-    return !(a == b);
-}
+/// Whether nobody could tell them apart: pointers that differ by less than a pixel are the same, and numbers that are texts only do not count.
+bool looksLike(const GaugePicture &a, const GaugePicture &b);
 
 /// What stands where there is no value.
 inline QString noValueText()

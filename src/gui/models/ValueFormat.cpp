@@ -40,6 +40,8 @@ QString numberText(double value, int digits)
 QString valueText(const QPlcValue &value)
 {
     const QPlcSignalType type = value.type();
+    if (type.isDateTime())
+        return value.toDateTime().toLocalTime().toString(QStringLiteral("HH:mm:ss.zzz"));
     if (!type.isReal())
         return type.isArray() ? QStringLiteral("[%1]").arg(value.toString()) : value.toString();
     const int digits = type.scalar() == QPlcSignalType::Real32 ? 7 : 10;

@@ -15,7 +15,7 @@ std::unique_ptr<QMimeData> mimeDataOf(const QVector<SignalReference> &references
 /// Empty when there are none; what is no reference is left out.
 QVector<SignalReference> referencesIn(const QMimeData *mimeData);
 
-/// A value as tables show it: 7 digits for Real32, 10 for Real64, elements in brackets; empty before the first.
+/// A value as tables show it: 7 digits for Real32, 10 for Real64, elements in brackets, times as local time of the day; empty before the first.
 QString valueText(const QPlcValue &value);
 /// A number with so many significant digits, "–" when it is not there.
 QString numberText(double value, int digits = 7);

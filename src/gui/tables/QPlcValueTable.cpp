@@ -79,8 +79,7 @@ QPlcValueTable::QPlcValueTable(QWidget *parent)
 {
     d->table = new PanelTable(nullptr, PanelTable::Sorting::ByHeader, this);
     d->table->setAccessibleName(tr("Values"));
-    d->table->setDragDropMode(QAbstractItemView::DragDrop);
-    d->table->setDefaultDropAction(Qt::CopyAction);
+    d->table->setDragDropMode(QAbstractItemView::DragOnly);  // drops are for the frame of the panel and its zones
     d->sorted = new QSortFilterProxyModel(this);
     d->sorted->setSortRole(ValueTableModel::SortRole);
     d->sorted->setDynamicSortFilter(false);  // rows do not jump while their values change

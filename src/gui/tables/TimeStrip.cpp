@@ -1,11 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TimeStrip.h"
 
+#include "gui/models/ValueFormat.h"
 #include "gui/panel/WindowContext.h"
 
 #include <QtCore/QDateTime>
 
 namespace qplc {
+
+namespace {
+
+constexpr int pause = 250;           // [ms]
+constexpr double shortestAge = 1.0;  // [s]; a hiccup is not worth a line
+
+}  // namespace
 
 TimeStrip::TimeStrip(QWidget *parent)
     : QLabel(parent)
@@ -13,26 +21,49 @@ TimeStrip::TimeStrip(QWidget *parent)
     setMargin(3);
     setAlignment(Qt::AlignCenter);
     setVisible(false);
+    connect(&m_timer, &QTimer::timeout, this, &TimeStrip::renew);
 }
 
 void TimeStrip::setContext(WindowContext *context)
 {
-    const auto follow = [this, context] { show(context); };
-    connect(context->timeView(), &TimeView::displayTimeChanged, this, follow);
-    connect(context, &WindowContext::themeChanged, this, follow);
-    follow();
+    m_context = context;
+    connect(context->timeView(), &TimeView::displayTimeChanged, this, &TimeStrip::renew);
+    connect(context, &WindowContext::themeChanged, this, &TimeStrip::renew);
+    m_timer.start(pause);
+    renew();
 }
 
-void TimeStrip::show(WindowContext *context)
+void TimeStrip::renew()
 {
-    const std::optional<TimeView::Time> time = context->timeView()->displayTime();
-    setVisible(time.has_value());
-    if (!time)
+    if (!m_context)
         return;
-    const QDateTime shown = QDateTime::fromMSecsSinceEpoch(*time / 1'000'000);
-    setText(tr("Values at %1").arg(shown.toString(QStringLiteral("HH:mm:ss.zzz"))));
+    if (const std::optional<TimeView::Time> time = m_context->timeView()->displayTime()) {
+        const QDateTime shown = QDateTime::fromMSecsSinceEpoch(*time / 1'000'000);
+        say(tr("Values at %1").arg(shown.toString(QStringLiteral("HH:mm:ss.zzz"))), m_context->theme().accent);
+    } else {
+        say(staleText(), m_context->theme().warning);
+    }
+}
+
+QString TimeStrip::staleText() const
+{
+    QStringList texts;
+    for (int i = 0; i < m_context->plants()->size(); ++i) {
+        const Plant &plant = *m_context->plants()->at(i);
+        if (plant.quality() == Plant::Stale && plant.age() > shortestAge)
+            texts << tr("%1: values are %2 old").arg(plant.name(), ageText(plant.age()));
+    }
+    return texts.join(QStringLiteral(" · "));
+}
+
+void TimeStrip::say(const QString &text, const QColor &color)
+{
+    setVisible(!text.isEmpty());
+    setText(text);
     QPalette colors = palette();
-    colors.setColor(QPalette::WindowText, context->theme().accent);
+    if (colors.color(QPalette::WindowText) == color)
+        return;
+    colors.setColor(QPalette::WindowText, color);
     setPalette(colors);
 }
 

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <QtCore/QPointer>
+#include <QtCore/QTimer>
 #include <QtWidgets/QLabel>
 
 namespace qplc {
 
 class WindowContext;
 
-/// A line that is there while a window shows another time than now, and says which.
+/// A line that is there while values are not those of now, and says why: the window shows another time, or a plant gives none any more.
 class TimeStrip : public QLabel
 {
     Q_OBJECT
@@ -16,8 +18,12 @@ public:
     void setContext(WindowContext *context);
 
 private:
-    using QLabel::show;
-    void show(WindowContext *context);
+    void renew();
+    QString staleText() const;
+    void say(const QString &text, const QColor &color);
+
+    QPointer<WindowContext> m_context;
+    QTimer m_timer;
 };
 
 }  // namespace qplc

@@ -28,6 +28,7 @@ private Q_SLOTS:
     void numbersKeepTheirDecimals_data();
     void numbersKeepTheirDecimals();
     void bandsLieWithinTheScale();
+    void whatNobodyCanSeeIsNotDrawn();
 };
 
 void tst_GaugeScale::sharesAreClamped()
@@ -141,6 +142,29 @@ void tst_GaugeScale::bandsLieWithinTheScale()
              QStringLiteral("0 10 alarm, 10 20 warning, 80 90 warning, 90 100 alarm"));
     QCOMPARE(textOf({{}, 20.0, 80.0, {}, 0.0}), QStringLiteral("0 20 warning, 80 100 warning"));
     QCOMPARE(textOf({-10.0, {}, 200.0, {}, 0.0}), QString());
+}
+
+void tst_GaugeScale::whatNobodyCanSeeIsNotDrawn()
+{
+    const auto picture = [](GaugeStyle style, double number, const char *text = "1") {
+        GaugePicture made;
+        made.style = style;
+        made.scale = {0.0, 100.0};
+        made.values = {{number, QString(text), {}, {}}};
+        return made;
+    };
+    for (const GaugeStyle style : {GaugeStyle::Dial, GaugeStyle::Bar}) {
+        QVERIFY(looksLike(picture(style, 50.0), picture(style, 50.01)));
+        QVERIFY(!looksLike(picture(style, 50.0), picture(style, 50.1)));
+        QVERIFY(looksLike(picture(style, 150.0), picture(style, 200.0)));
+    }
+    QVERIFY(looksLike(picture(GaugeStyle::Number, 1.0), picture(GaugeStyle::Number, 2.0)));
+    QVERIFY(!looksLike(picture(GaugeStyle::Number, 1.0), picture(GaugeStyle::Number, 1.0, "2")));
+    QVERIFY(looksLike(picture(GaugeStyle::Led, 1.0), picture(GaugeStyle::Led, 2.0)));
+    QVERIFY(!looksLike(picture(GaugeStyle::Led, 1.0), picture(GaugeStyle::Led, 0.0)));
+    QVERIFY(!looksLike(picture(GaugeStyle::Number, 1.0), picture(GaugeStyle::Number, nan)));
+    QVERIFY(looksLike(picture(GaugeStyle::Dial, nan), picture(GaugeStyle::Dial, nan)));
+    QVERIFY(!looksLike(picture(GaugeStyle::Dial, 1.0), picture(GaugeStyle::Bar, 1.0)));
 }
 
 QTEST_APPLESS_MAIN(tst_GaugeScale)

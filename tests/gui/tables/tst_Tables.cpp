@@ -159,6 +159,9 @@ void tst_Tables::aRowThatIsNotThereComesToLife()
     bench.plant->close();
     QTRY_COMPARE(bench.cell(0, ValueTableModel::QualityColumn), QStringLiteral("stale"));
     QVERIFY(bench.view->model()->index(0, 0).data(Qt::ForegroundRole).isValid());
+    const auto *strip = bench.panel.findChildren<QLabel *>().first();
+    QTRY_VERIFY(strip->isVisible());
+    QVERIFY(strip->text().startsWith(QStringLiteral("kite: values are ")));
 }
 
 void tst_Tables::valuesAreSortedAsNumbersAndDoNotJump()
