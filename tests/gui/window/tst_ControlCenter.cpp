@@ -42,6 +42,7 @@ private Q_SLOTS:
     void valuesReachPanelsThatWantThem();
     void keysAreListed();
     void focusMovesByKeys();
+    void keysOfThePanelWithTheFocusComeFirst();
     void aWindowEndsInEveryState();
 
 private:
@@ -60,8 +61,7 @@ void tst_ControlCenter::withoutAPlantThereIsTheStartPage()
     QTRY_VERIFY(fixture.structure().shows(QStringLiteral("Fly the demo kite")));
     const QList<QWidget *> buttons = fixture.part<StartPage>()->buttons();
     QCOMPARE(buttons.size(), 2);
-    buttons.at(1)->setFocus();
-    QTest::keyClick(buttons.at(1), Qt::Key_Space);
+    fixture.press(Qt::Key_Return);  // the first button has the focus
     QCOMPARE(flown.count(), 1);
     const QString name = fixture.window.connectToMaster(QStringLiteral("127.0.0.1:%1").arg(freePort()));
     QVERIFY(!fixture.window.isStartPageShown());
@@ -171,8 +171,11 @@ void tst_ControlCenter::barsCannotBeMovedHiddenOrCut()
         QVERIFY(!bar->isFloatable());
         QVERIFY(!bar->toggleViewAction()->isEnabled());
     }
-    QCOMPARE(fixture.structure().cutButtons<BarButton>(), QStringList());
-    QCOMPARE(fixture.structure().cutButtons<PlantSelector>(), QStringList());
+    const auto cut = [&] {
+        return (fixture.structure().cutButtons<BarButton>() + fixture.structure().cutButtons<PlantSelector>())
+            .join(QStringLiteral(", "));
+    };
+    QTRY_COMPARE(cut(), QString());
     QVERIFY(fixture.topBar()->stopButton()->height() >= 44);
     QVERIFY(fixture.topBar()->stopButton()->width() >= 120);
 }
@@ -512,6 +515,34 @@ void tst_ControlCenter::focusMovesByKeys()
     QCOMPARE(view->tabBar()->currentIndex(), 0);
     fixture.press(Qt::Key_Tab, Qt::ControlModifier);
     QCOMPARE(view->tabBar()->currentIndex(), 1);
+}
+
+void tst_ControlCenter::keysOfThePanelWithTheFocusComeFirst()
+{
+    QPlcWidgetFactoryOf<Listening> factory;
+    WindowFixture fixture;
+    fixture.window.addAvailableWidget(&factory);
+    fixture.window.connectToMaster(QStringLiteral("127.0.0.1:%1").arg(freePort()));
+    auto *view = fixture.part<LayoutView>();
+    const QString id = view->editor()->addPanel(Listening::typeName(), {},
+                                                LayoutTarget::inTab(view->editor()->layout().currentTab().id));
+    QPlcWidget *panel = view->widget(id);
+    panel->setFocusPolicy(Qt::StrongFocus);
+    auto *own = new QAction(QStringLiteral("of the panel"), panel);
+    own->setShortcut(Qt::Key_L);
+    own->setShortcutContext(Qt::WidgetWithChildrenShortcut);
+    panel->addAction(own);
+    QSignalSpy triggered(own, &QAction::triggered);
+    fixture.window.context()->timeView()->freeze();
+    panel->setFocus();
+    fixture.press(Qt::Key_L);
+    QCOMPARE(triggered.count(), 1);
+    QVERIFY(!fixture.window.context()->timeView()->isLive());
+    fixture.part<SignalDock>()->tree()->setFocus();
+    fixture.press(Qt::Key_L);
+    QCOMPARE(triggered.count(), 1);
+    QVERIFY(fixture.window.context()->timeView()->isLive());
+    view->editor()->closePanel(id);
 }
 
 void tst_ControlCenter::aWindowEndsInEveryState()
