@@ -54,7 +54,7 @@ void BarButton::setTextColor(const QColor &color)
 QFont BarButton::textFont() const
 {
     QFont result = font();
-    if (m_kind != Quiet)
+    if (m_kind == Primary || m_kind == Stop)
         result.setBold(true);
     if (m_kind == Stop)
         result.setPointSizeF(result.pointSizeF() * 1.35);
@@ -84,12 +84,13 @@ QSize BarButton::sizeHint() const
 QColor BarButton::background() const
 {
     const Theme &theme = m_context->theme();
+    const bool isFlat = m_kind == Quiet || m_kind == Link;
     const QColor base = m_kind == Stop ? QColor(0xc3261f) : m_kind == Primary ? theme.accent : theme.window;
     if (isDown())
         return mixed(base, Qt::black, 0.25);
     if (underMouse() && isEnabled())
-        return m_kind == Quiet ? mixed(base, theme.text, 0.10) : mixed(base, Qt::white, 0.12);
-    return m_kind == Quiet ? QColor(Qt::transparent) : base;
+        return isFlat ? mixed(base, theme.text, 0.10) : mixed(base, Qt::white, 0.12);
+    return isFlat ? QColor(Qt::transparent) : base;
 }
 
 QColor BarButton::foreground() const
@@ -99,6 +100,8 @@ QColor BarButton::foreground() const
         return Qt::white;
     if (m_kind == Primary)
         return theme.isDark ? theme.window : QColor(Qt::white);
+    if (m_kind == Link)
+        return theme.accent;
     return m_textColor.isValid() ? m_textColor : theme.text;
 }
 

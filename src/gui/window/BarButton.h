@@ -14,6 +14,7 @@ class BarButton : public QAbstractButton
 public:
     enum Kind {
         Quiet,    // a text
+        Link,     // a text that leads somewhere
         Primary,  // the next thing to do
         Stop      // red, always
     };

@@ -65,9 +65,8 @@ void ConnectStrip::setRecentMasters(const QStringList &addresses)
     if (!addresses.isEmpty())
         m_recentRow->addWidget(new QLabel(tr("Recent:")));
     for (const QString &address : addresses.mid(0, most)) {
-        auto *button = new BarButton(BarButton::Quiet, m_context);
+        auto *button = new BarButton(BarButton::Link, m_context);
         button->setText(address);
-        button->setTextColor(m_context->theme().accent);
         connect(button, &QAbstractButton::clicked, this, [this, address] {
             m_address->setText(address);
             accept();

@@ -59,7 +59,7 @@ void ControlCenterActions::makeViewMenu()
     shorterSpan = add(viewMenu, tr("Shorter time span"), tr("Ctrl+["));
     longerSpan = add(viewMenu, tr("Longer time span"), tr("Ctrl+]"));
     viewMenu->addSeparator();
-    eventLog = add(viewMenu, tr("&Event log"), tr("Ctrl+E"));
+    eventLog = add(viewMenu, tr("&Event log"), tr("F8"));
     acknowledge = add(viewMenu, tr("&Acknowledge all events"), tr("Ctrl+Shift+A"));
     viewMenu->addSeparator();
     QMenu *themeMenu = viewMenu->addMenu(tr("&Theme"));

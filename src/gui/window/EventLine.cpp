@@ -25,7 +25,7 @@ EventLine::EventLine(WindowContext *context, QWidget *parent)
     setObjectName(QStringLiteral("EventLine"));
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
     setTextAlignment(Qt::AlignLeft | Qt::AlignVCenter);
-    setToolTip(tr("Opens the event log (Ctrl+E)"));
+    setToolTip(tr("Opens the event log (F8)"));
     connect(context->events(), &EventLogModel::unacknowledgedChanged, this, &EventLine::follow);
     connect(context->events(), &QAbstractItemModel::rowsInserted, this, &EventLine::follow);
     connect(context, &WindowContext::themeChanged, this, &EventLine::follow);

@@ -110,6 +110,8 @@ void QPlcControlCenter::addStartAction(QAction *action)
 {
     d->startActions.append(action);
     d->startPage->addAction(action);
+    if (isStartPageShown())
+        d->startPage->setFocus(Qt::OtherFocusReason);
     addAction(action);
 }
 

@@ -2,6 +2,7 @@
 #include "QPlcControlCenterPrivate.h"
 
 #include "DoubleEscape.h"
+#include "PanelKeysFirst.h"
 #include "StandardWidgets.h"
 #include "gui/plant/PlantFeed.h"
 
@@ -136,6 +137,7 @@ void QPlcControlCenter::Private::connectParts()
             perform(selection.plant()->nextAction());
     });
     connect(topBar, &TopBar::stopRequested, q, [this] { stop(); });
+    new PanelKeysFirst(q);
     connect(new DoubleEscape(q), &DoubleEscape::pressed, q, [this] { stop(); });
     connect(&wiring, &PanelWiring::outputsChanged, q,
             [this] { Q_EMIT q->outputSignalIndicesChanged(q->outputSignalIndices()); });
@@ -158,6 +160,8 @@ void QPlcControlCenter::Private::showPages()
     if (isStart != (pages->currentIndex() == 0))
         showDock(isStart);
     pages->setCurrentIndex(isStart ? 0 : 1);
+    if (isStart && !connectStrip->isVisible())
+        startPage->setFocus(Qt::OtherFocusReason);
     q->setWindowTitle(context.plants()->size() == 0
                           ? tr("Control Center")
                           : tr("%1 - Control Center").arg(q->plants().join(QStringLiteral(", "))));

@@ -3,6 +3,7 @@
 
 #include "BarButton.h"
 
+#include <QtGui/QKeyEvent>
 #include <QtGui/QPainter>
 #include <QtWidgets/QAction>
 
@@ -38,6 +39,14 @@ void StartButton::follow()
     setAccessibleName(text());
     setAccessibleDescription(m_sentence);
     update();
+}
+
+void StartButton::keyPressEvent(QKeyEvent *event)
+{
+    if (event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter)
+        click();
+    else
+        QAbstractButton::keyPressEvent(event);
 }
 
 void StartButton::paintEvent(QPaintEvent * /*event*/)

@@ -73,7 +73,10 @@ void StartPage::addAction(QAction *action)
     for (int place = 0; place < m_actions->count(); ++place) {
         auto *button = static_cast<StartButton *>(m_actions->itemAt(place)->widget());
         button->setRank(place == 0 ? StartButton::First : StartButton::Other);
-        setTabOrder(place > 0 ? m_actions->itemAt(place - 1)->widget() : this, button);
+        if (place > 0)
+            setTabOrder(m_actions->itemAt(place - 1)->widget(), button);
+        else
+            setFocusProxy(button);
     }
 }
 
@@ -85,9 +88,8 @@ void StartPage::setRecentMasters(const QStringList &addresses)
     }
     m_recentTitle->setVisible(!addresses.isEmpty());
     for (const QString &address : addresses) {
-        auto *button = new BarButton(BarButton::Quiet, m_context);
+        auto *button = new BarButton(BarButton::Link, m_context);
         button->setText(address);
-        button->setTextColor(m_context->theme().accent);
         button->setAccessibleName(tr("Connect to %1").arg(address));
         connect(button, &QAbstractButton::clicked, this, [this, address] { Q_EMIT masterChosen(address); });
         m_recent->addWidget(button, 0, Qt::AlignLeft);
