@@ -6,7 +6,7 @@
 
 /// All signals of all plants of a window, below the nodes that write them, with their present values and a search that is always there.
 ///
-/// Enter or a double click asks for a plot of the selected signals, G for a gauge, W for a value table; they are dragged to panels too.
+/// Enter or a double click asks for a plot of the selected signals (showRequested()), G for a gauge, W for a value table; they are dragged to panels too.
 ///
 /// Settings: `search`, `columns` (keys of those that are shown: name, value, unit, age, description), `collapsed` and `expanded` (what is unlike the default: plants and nodes
 /// are unfolded, triples are not).
@@ -29,10 +29,8 @@ public:
     QSize sizeHint() const override;
     /// What is selected; plants and nodes stand for all of their signals. When nothing is selected and something searched for: the first that was found.
     QStringList selectedReferences() const;
-
-Q_SIGNALS:
-    /// A person wants to see signals in a new panel. \param typeName  "Time plot", "Gauge", "Value table"
-    void showRequested(const QStringList &references, const QString &typeName);
+    /// Gives the search the focus.
+    void startSearch();
 
 protected:
     void contextChanged() override;

@@ -89,6 +89,8 @@ public Q_SLOTS:
     virtual void realTimeout(const QList<QPlcSignalList> &signalValues);
 
 Q_SIGNALS:
+    /// A person wants to see signals in another panel. \param typeName  of its factory: "Time plot", "Gauge", "Value table"
+    void showRequested(const QStringList &references, const QString &typeName);
     void titleChanged();
     /// A person has changed the settings: worth an undo step.
     void settingsEdited();

@@ -82,10 +82,7 @@ void QPlcSignalTree::makeActions()
     make(tr("Show in a plot"), {Qt::Key_Return, Qt::Key_Enter}, [this] { request(QStringLiteral("Time plot")); });
     make(tr("Show as a gauge"), {Qt::Key_G}, [this] { request(QStringLiteral("Gauge")); });
     make(tr("Watch in a value table"), {Qt::Key_W}, [this] { request(QStringLiteral("Value table")); });
-    make(tr("Search signals"), {QKeySequence::Find}, [this] {
-        d->search->setFocus(Qt::ShortcutFocusReason);
-        d->search->selectAll();
-    });
+    make(tr("Search signals"), {QKeySequence::Find}, [this] { startSearch(); });
     auto *toTree = new QAction(d->search);  // from the line into the rows
     toTree->setShortcut(QKeySequence(Qt::Key_Down));
     toTree->setShortcutContext(Qt::WidgetShortcut);
@@ -95,6 +92,12 @@ void QPlcSignalTree::makeActions()
         if (!d->table->currentIndex().isValid())
             d->table->setCurrentIndex(d->filter->index(0, 0));
     });
+}
+
+void QPlcSignalTree::startSearch()
+{
+    d->search->setFocus(Qt::ShortcutFocusReason);
+    d->search->selectAll();
 }
 
 void QPlcSignalTree::request(const QString &typeName)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // QPlcControlCenter::Private: what its commands do to the view, and what the window remembers.
 #include "QPlcControlCenterPrivate.h"
+#include "QPlcSignalTree.h"
 #include "QPlcWidgetFactory.h"
 #include "gui/layout/LayoutJson.h"
 #include "gui/layout/PanelFrame.h"
@@ -115,7 +116,7 @@ void QPlcControlCenter::Private::openKeys()
 {
     QVector<KeysWindow::Group> groups = actions->groups();
     groups.append({tr("Panels and tabs"), view->actions()});
-    groups.append({tr("Tree of signals"), dock->signalActions()});
+    groups.append({tr("Tree of signals"), dock->tree()->actions()});
     if (const QPlcWidget *panel = focusedPanel())
         groups.append({tr("Panel '%1'").arg(panel->title()), panel->actions()});
     keys->showKeys(groups);
@@ -165,7 +166,7 @@ void QPlcControlCenter::Private::appendSignals(QVector<PaletteItem> *items)
         for (QPlcSignalIndex signal = 0; signal < plant->table().size(); ++signal) {
             const QString reference = plants->reference(plant, signal).toString();
             items->append({reference, tr("Plot signal"), {}, [this, reference] {
-                               placer->show(QStringLiteral("Time plot"), {reference});
+                               placer->show({reference}, QStringLiteral("Time plot"));
                            }});
         }
     }
@@ -180,7 +181,7 @@ QVector<PaletteItem> QPlcControlCenter::Private::paletteItems()
         appendActions(&items, panel->title(), panel->actions());
     appendActions(&items, tr("Start"), startActions);
     appendActions(&items, tr("Panels"), view->actions());
-    appendActions(&items, tr("Signals"), dock->signalActions());
+    appendActions(&items, tr("Signals"), dock->tree()->actions());
     appendPanels(&items);
     appendSignals(&items);
     return items;

@@ -3,6 +3,7 @@
 
 #include "DoubleEscape.h"
 #include "PanelKeysFirst.h"
+#include "QPlcSignalTree.h"
 #include "StandardWidgets.h"
 #include "gui/plant/PlantFeed.h"
 
@@ -78,8 +79,10 @@ void QPlcControlCenter::Private::makeCentre()
     column->addWidget(hint);
     column->addWidget(pages, 1);
     q->setCentralWidget(centre);
-    connect(view, &LayoutView::widgetAdded, &wiring,
-            [this](const QString &, QPlcWidget *widget) { wiring.add(widget); });
+    connect(view, &LayoutView::widgetAdded, &wiring, [this](const QString &, QPlcWidget *widget) {
+        wiring.add(widget);
+        connect(widget, &QPlcWidget::showRequested, placer, &SignalPlacer::show);
+    });
     connect(view, &LayoutView::widgetRemoved, &wiring,
             [this](const QString &, QPlcWidget *widget) { wiring.remove(widget); });
     for (QAction *action : view->actions())
@@ -130,7 +133,7 @@ void QPlcControlCenter::Private::connectParts()
             [this](const QString &sentence) { hint->showText(sentence); });
     connect(connectStrip, &ConnectStrip::connectRequested, q, [this](const QString &address) { connectTo(address); });
     connect(startPage, &StartPage::masterChosen, q, [this](const QString &address) { connectTo(address); });
-    connect(dock, &SignalDock::panelRequested, placer, &SignalPlacer::show);
+    connect(dock->tree(), &QPlcWidget::showRequested, placer, &SignalPlacer::show);
     connect(eventLine, &QAbstractButton::clicked, q, [this] { actions->eventLog->trigger(); });
     connect(topBar, &TopBar::nextRequested, q, [this] {
         if (selection.plant() && selection.plant()->nextAction() != Plant::NoAction)

@@ -98,7 +98,7 @@ QString SignalPlacer::panelOfType(const QString &type) const
     return first;
 }
 
-void SignalPlacer::show(const QString &type, const QStringList &references)
+void SignalPlacer::show(const QStringList &references, const QString &type)
 {
     LayoutEditor *editor = m_view->editor();
     if (type == gauge || type == setter) {

@@ -16,7 +16,7 @@ public:
     /// In the middle of a panel they are shown there, if it has a use for them; else in a plot of their own at the side. \param panelId  empty: an empty tab
     void drop(const QString &panelId, DropZone zone, const QStringList &references);
     /// Shows signals in the panel of this type that has the focus, or the first one of the tab, or a new one; a gauge always is a new one for each signal.
-    void show(const QString &type, const QStringList &references);
+    void show(const QStringList &references, const QString &type);
     /// Shows the first panel of this type, wherever it is, or a new one.
     void showPanel(const QString &type);
 

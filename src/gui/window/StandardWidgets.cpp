@@ -1,13 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "StandardWidgets.h"
 
+#include "QPlcEventLog.h"
+#include "QPlcGauge.h"
+#include "QPlcJitterHistogram.h"
+#include "QPlcKeyboardControl.h"
+#include "QPlcNodeTable.h"
+#include "QPlcSetter.h"
+#include "QPlcSignalTree.h"
+#include "QPlcValueTable.h"
 #include "QPlcWidget.h"
+#include "QPlcXyPlot.h"
 
 namespace qplc {
 
 namespace {
 
-/// The panels, in the order of menus.
 template<typename... Factories>
 QList<QPlcWidgetFactory *> registered()
 {
@@ -18,7 +26,11 @@ QList<QPlcWidgetFactory *> registered()
 
 QList<QPlcWidgetFactory *> standardWidgets()
 {
-    static const QList<QPlcWidgetFactory *> all = registered<>();
+    // In the order of menus.
+    static const QList<QPlcWidgetFactory *> all
+        = registered<QPlcXyPlotFactory, QPlcGaugeFactory, QPlcSetterFactory, QPlcKeyboardControlFactory,
+                     QPlcValueTableFactory, QPlcSignalTreeFactory, QPlcNodeTableFactory, QPlcJitterHistogramFactory,
+                     QPlcEventLogFactory>();
     return all;
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "QPlcSignalTree.h"
 #include "QPlcWidgetFactoryOf.h"
 #include "WindowFixtures.h"
 #include "gui/layout/LayoutJson.h"
@@ -132,11 +133,11 @@ void tst_ControlCenterPanels::signalsOfTheTreeArePlottedByEnterAndUndone()
     QTRY_VERIFY_WITH_TIMEOUT(fixture.plant()->table().size() > 0, patience);
     fixture.press(Qt::Key_F, Qt::ControlModifier);
     fixture.type(QStringLiteral("setpoint"));
-    fixture.press(Qt::Key_Return);
-    QTreeView *tree = fixture.part<SignalDock>()->tree();
+    fixture.press(Qt::Key_Down);
+    auto *tree = fixture.part<SignalDock>()->tree()->findChild<QTreeView *>();
     const auto selectSignal = [&] {
         fixture.press(Qt::Key_End);
-        return fixture.part<SignalDock>()->selectedReferences() == QStringList{QStringLiteral("setpoint")};
+        return fixture.part<SignalDock>()->tree()->selectedReferences() == QStringList{QStringLiteral("setpoint")};
     };
     QTRY_VERIFY_WITH_TIMEOUT(selectSignal(), patience);
     QVERIFY(tree->hasFocus());
@@ -261,7 +262,7 @@ void tst_ControlCenterPanels::focusMovesByKeys()
     fixture.window.connectToMaster(QStringLiteral("127.0.0.1:%1").arg(freePort()));
     auto *view = fixture.part<LayoutView>();
     fixture.press(Qt::Key_F, Qt::ControlModifier);
-    QVERIFY(fixture.part<SignalDock>()->searchLine()->hasFocus());
+    QVERIFY(fixture.part<SignalDock>()->tree()->findChild<QLineEdit *>()->hasFocus());
     fixture.press(Qt::Key_F6);
     const auto *first = qobject_cast<PanelTitleBar *>(QApplication::focusWidget());
     QVERIFY(first);
@@ -294,7 +295,7 @@ void tst_ControlCenterPanels::keysOfThePanelWithTheFocusComeFirst()
     fixture.press(Qt::Key_L);
     QCOMPARE(triggered.count(), 1);
     QVERIFY(!fixture.window.context()->timeView()->isLive());
-    fixture.part<SignalDock>()->tree()->setFocus();
+    fixture.part<SignalDock>()->tree()->findChild<QTreeView *>()->setFocus();
     fixture.press(Qt::Key_L);
     QCOMPARE(triggered.count(), 1);
     QVERIFY(fixture.window.context()->timeView()->isLive());

@@ -171,7 +171,7 @@ void tst_WindowParts::droppedSignalsBecomeAPlotAtTheZone()
     QCOMPARE(int(panels().size()), 3);
     placer.drop(first, DropZone::Center, {});
     QCOMPARE(int(panels().size()), 3);
-    placer.show(QStringLiteral("Gauge"), {QStringLiteral("a"), QStringLiteral("b")});
+    placer.show({QStringLiteral("a"), QStringLiteral("b")}, QStringLiteral("Gauge"));
     QCOMPARE(int(panels().size()), 5);
     for (int step = 0; step < 5; ++step)
         editor.undoStack()->undo();
