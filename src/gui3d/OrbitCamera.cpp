@@ -22,7 +22,7 @@ struct PresetPose
 };
 
 const std::array<PresetPose, OrbitCamera::presets> presetPoses = {{
-    {"ground station", {0.45f, 0, 0.33f}, 180, 9, 1.55f},
+    {"ground station", {0.45f, 0, 0.35f}, 180, 9, 1.75f},
     {"side", {0.42f, 0, 0.36f}, -90, 7, 1.65f},
     {"top", {0.45f, 0, 0}, 180, 90, 1.9f},
     {"downwind", {0.42f, 0, 0.34f}, 0, 14, 2.0f},

@@ -19,6 +19,8 @@
 #include <Qt3DRender/QViewport>
 #include <QtGui/QOffscreenSurface>
 
+#include <algorithm>
+
 namespace qplc {
 
 using namespace Qt3DRender;
@@ -53,9 +55,31 @@ QTexture2D *makeOutput(QRenderTarget *target, QRenderTargetOutput::AttachmentPoi
 
 }  // namespace
 
-SceneRenderer::SceneRenderer(QObject *parent)
-    : QObject(parent)
-    , m_surface(std::make_unique<QOffscreenSurface>())
+std::vector<SceneRenderer *> &SceneRenderer::resting()
+{
+    static auto *all = new std::vector<SceneRenderer *>;  // until the end of the process, without an end of its own
+    return *all;
+}
+
+SceneRenderer *SceneRenderer::take()
+{
+    std::vector<SceneRenderer *> &all = resting();
+    const auto idle = std::find_if(all.begin(), all.end(), [](SceneRenderer *each) { return !each->isBusy(); });
+    if (idle == all.end())
+        return new SceneRenderer;
+    SceneRenderer *renderer = *idle;
+    all.erase(idle);
+    return renderer;
+}
+
+void SceneRenderer::giveBack(SceneRenderer *renderer)
+{
+    QObject::disconnect(renderer, &SceneRenderer::pictureReady, nullptr, nullptr);
+    resting().push_back(renderer);
+}
+
+SceneRenderer::SceneRenderer()
+    : m_surface(std::make_unique<QOffscreenSurface>())
     , m_engine(std::make_unique<Qt3DCore::QAspectEngine>())
     , m_root(new Qt3DCore::QEntity)
     , m_lineMaterial(new SceneMaterial(SceneMaterial::Lines, m_root))
@@ -73,13 +97,7 @@ SceneRenderer::SceneRenderer(QObject *parent)
     connect(&m_pump, &QTimer::timeout, this, &SceneRenderer::pump);
 }
 
-SceneRenderer::~SceneRenderer()
-{
-    m_pump.stop();
-    // The aspects end before the surface that they draw on.
-    m_engine->setRootEntity(Qt3DCore::QEntityPtr());
-    m_engine.reset();
-}
+SceneRenderer::~SceneRenderer() = default;
 
 void SceneRenderer::makeFrameGraph()
 {

@@ -8,6 +8,7 @@
 #include <QtGui/QImage>
 
 #include <memory>
+#include <vector>
 
 class QOffscreenSurface;
 
@@ -33,8 +34,15 @@ class SceneRenderer : public QObject
 {
     Q_OBJECT
 public:
-    explicit SceneRenderer(QObject *parent = nullptr);
-    ~SceneRenderer() override;
+    /// One that nobody has, or a new one. Ends with giveBack(), never with delete: the textures of Qt 3D 5.15 may end in the thread of the window while their context belongs to that of Qt 3D,
+    /// which ends the program. Renderers are used again, and rest without any cost.
+    static SceneRenderer *take();
+    /// Nothing of it is connected any more, and what was on its way comes to nobody.
+    static void giveBack(SceneRenderer *renderer);
+    struct GiveBack
+    {
+        void operator()(SceneRenderer *renderer) const { giveBack(renderer); }
+    };
 
     /// \param size  device pixels, at least 1 x 1
     void setSize(const QSize &size, double pixelRatio);
@@ -56,6 +64,10 @@ Q_SIGNALS:
     void pictureReady(const QImage &picture, double windowTime, double pictureTime);
 
 private:
+    SceneRenderer();
+    ~SceneRenderer() override;
+    static std::vector<SceneRenderer *> &resting();
+
     void makeFrameGraph();
     void makeTarget(Qt3DCore::QNode *selector);
     void pump();

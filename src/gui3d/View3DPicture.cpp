@@ -93,7 +93,7 @@ void View3DPicture::start()
     const OpenGlProbe &probe = OpenGlProbe::instance();
     if (!probe.error.isEmpty())
         return showWindWindow(probe.error);
-    m_renderer = std::make_unique<SceneRenderer>();
+    m_renderer.reset(SceneRenderer::take());
     m_renderer->mesh()->setMesh(m_model);
     connect(m_renderer.get(), &SceneRenderer::pictureReady, this, &View3DPicture::takePicture);
 }
@@ -102,8 +102,7 @@ void View3DPicture::showWindWindow(const QString &reason)
 {
     m_openGlError = reason;
     m_watchdog.stop();
-    if (m_renderer)
-        m_renderer.release()->deleteLater();
+    m_renderer.reset();
     m_windWindow = new QPlcWindWindow(m_widget);
     m_windWindow->setContext(m_context);
     m_windWindow->applySettings(m_settings.kite.toJson());
@@ -225,6 +224,11 @@ void View3DPicture::takePicture(const QImage &picture, double windowTime, double
     m_frame.start(std::max(1, int(rest)));
 }
 
+bool View3DPicture::isRoomy() const
+{
+    return m_widget->width() >= 320 && m_widget->height() >= 200;
+}
+
 QString View3DPicture::note() const
 {
     if (!m_modelError.isEmpty())
@@ -232,8 +236,9 @@ QString View3DPicture::note() const
     const QString state = stateText(m_shownInput.state);
     if (!state.isEmpty())
         return state;
-    return m_shownInput.bodyScale > 1.05f ? tr("kite drawn × %1").arg(double(m_shownInput.bodyScale), 0, 'g', 2)
-                                          : QString();
+    return isRoomy() && m_shownInput.bodyScale > 1.05f
+        ? tr("kite drawn × %1").arg(double(m_shownInput.bodyScale), 0, 'g', 2)
+        : QString();
 }
 
 void View3DPicture::paint()
@@ -257,7 +262,8 @@ void View3DPicture::paint()
         painter.fillRect(area, veil);
     }
     painter.setFont(labelFont(m_widget->font()));
-    drawLabels(&painter, sceneLabels(m_shownInput, m_forceUnit), m_shownPose, area.size(), colors);
+    if (isRoomy())
+        drawLabels(&painter, sceneLabels(m_shownInput, m_forceUnit), m_shownPose, area.size(), colors);
     paintCorners(&painter);
 }
 
@@ -266,16 +272,15 @@ void View3DPicture::paintCorners(QPainter *painter)
     const QRectF all = m_widget->rect();
     const QRectF area = all.adjusted(margin, 0.5 * margin, -margin, -0.5 * margin);
     const Theme colors = theme();
-    const bool isRoomy = all.width() >= 320 && all.height() >= 200;
     if (!m_kite->colorTitle().isEmpty())
         drawColorBar(painter, area.topLeft(), m_scale, m_kite->colorTitle(), colors);
-    if (all.width() >= 320)
+    if (isRoomy())
         drawReadout(painter, area, m_shownInput.state, colors);
     QRectF scaleArea = area;
     scaleArea.setTop(all.top());
     drawScale(painter, scaleArea, m_shownPose, cameraTitle(m_settings.camera.preset), colors);
     const double line = QFontMetricsF(painter->font()).height();
-    if (isRoomy) {
+    if (isRoomy()) {
         const std::optional<float> wind
             = m_shownInput.state.wind ? std::optional<float>(m_shownInput.state.downwind()) : std::nullopt;
         drawCompass(painter, area.bottomRight() + QPointF(-24, -line - 26), m_shownPose, wind, colors);

@@ -45,6 +45,8 @@ private:
     void drawScene();
     void takePicture(const QImage &picture, double windowTime, double pictureTime);
     void paintCorners(QPainter *painter);
+    /// Large enough for labels.
+    bool isRoomy() const;
     QString note() const;
     QSize deviceSize() const;
     Theme theme() const;
@@ -57,7 +59,7 @@ private:
     QString m_modelError;
     QString m_loadedModel;
     QString m_openGlError;
-    std::unique_ptr<SceneRenderer> m_renderer;
+    std::unique_ptr<SceneRenderer, SceneRenderer::GiveBack> m_renderer;
     QPlcWindWindow *m_windWindow = nullptr;
     QLabel *m_reason = nullptr;
 

@@ -7,6 +7,8 @@
 
 #include <QtTest/QtTest>
 
+#include <ctime>
+
 using namespace qplc;
 
 namespace {
@@ -40,6 +42,7 @@ private Q_SLOTS:
     void aModelThatCannotBeReadIsNamedAndTheKiteFlies();
     void severalViewsComeAndGo();
     void aPanelWithoutAPlantSaysSo();
+    void aPictureCostsTheWindowLittle();
 
 private:
     View3DPicture *pictureOf(QPlcView3D *view) { return view->findChild<View3DPicture *>(); }
@@ -291,6 +294,36 @@ void tst_QPlcView3D::aPanelWithoutAPlantSaysSo()
     const QColor text = context.theme().mutedText;
     QVERIFY(countPixels(view.grab().toImage(), view.rect(), [&text](const QColor &color) { return color == text; })
             > 10);
+}
+
+/// Also the measurement of docs/control-center-figures.md: prints what pictures cost.
+void tst_QPlcView3D::aPictureCostsTheWindowLittle()
+{
+    ShownView shown({{"trail", 60}}, false);
+    shown.drawn.clear();
+    QElapsedTimer time;
+    time.start();
+    const std::clock_t before = std::clock();
+    QTest::qWait(4000);
+    const double cpu = double(std::clock() - before) / CLOCKS_PER_SEC;
+    const double seconds = double(time.nsecsElapsed()) * 1e-9;
+    std::vector<double> window;
+    std::vector<double> picture;
+    for (const QList<QVariant> &each : qAsConst(shown.drawn)) {
+        window.push_back(each.at(0).toDouble());
+        picture.push_back(each.at(1).toDouble());
+    }
+    QVERIFY(!window.empty());
+    std::sort(window.begin(), window.end());
+    std::sort(picture.begin(), picture.end());
+    const auto quantile = [](const std::vector<double> &sorted, double share) {
+        return sorted[std::size_t(share * double(sorted.size() - 1))];
+    };
+    qInfo("640 x 480, %s: %.1f pictures/s, %.0f %% of a core with the plant; window p50 %.1f p99 %.1f ms, picture p50 "
+          "%.1f p99 %.1f ms",
+          qPrintable(OpenGlProbe::instance().renderer), double(window.size()) / seconds, 100.0 * cpu / seconds,
+          quantile(window, 0.5), quantile(window, 0.99), quantile(picture, 0.5), quantile(picture, 0.99));
+    QVERIFY(quantile(window, 0.5) < 40.0);
 }
 
 QTEST_MAIN(tst_QPlcView3D)

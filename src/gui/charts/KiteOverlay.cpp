@@ -7,6 +7,7 @@
 #include <QtCore/QDateTime>
 
 #include <algorithm>
+#include <cmath>
 
 namespace qplc {
 
@@ -62,7 +63,7 @@ void drawReadout(QPainter *painter, const QRectF &area, const KiteState &state, 
     if (!state.position)
         return;
     const SkyPosition sky = skyPosition(*state.position);
-    const double azimuth = wrappedAngle(double(sky.azimuth - state.downwind()));
+    const double azimuth = std::round(wrappedAngle(double(sky.azimuth - state.downwind()))) + 0.0;  // no -0
     const QString lines[] = {
         tr("azimuth %1°").arg(azimuth, 0, 'f', 0),
         tr("elevation %1°").arg(double(sky.elevation), 0, 'f', 0),
