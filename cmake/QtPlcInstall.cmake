@@ -21,6 +21,16 @@ if(QTPLC_BUILD_GUI)
     install(EXPORT QtPlcGuiTargets NAMESPACE QtPlc:: DESTINATION ${package_directory})
     install(FILES ${CMAKE_CURRENT_LIST_DIR}/FindMuParser.cmake ${CMAKE_CURRENT_LIST_DIR}/FindQwt.cmake DESTINATION ${package_directory})
 endif()
+if(TARGET QtPlcGui3D)
+    install(TARGETS QtPlcGui3D
+        EXPORT QtPlcGui3DTargets
+        RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
+        LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+        FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+    )
+    install(EXPORT QtPlcGui3DTargets NAMESPACE QtPlc:: DESTINATION ${package_directory})
+endif()
 install(TARGETS qtplc RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(EXPORT QtPlcTargets NAMESPACE QtPlc:: DESTINATION ${package_directory})
 

@@ -16,15 +16,16 @@ ARROWS = {
     "protocol": {"signals", "protocol"},
     "node": {"signals", "realtime", "transport", "protocol", "node"},
     "gui": {"signals", "node", "gui"},
+    "gui3d": {"signals", "node", "gui", "gui3d"},
     "tools": {"signals", "realtime", "protocol", "transport", "node", "tools"},
 }
 # Room with a library of its own: folder of its list of headers, and its umbrella header. All others belong to QtPlc::Core.
-LIBRARIES = {"gui": ("src/gui", "QtPlcGui")}
+LIBRARIES = {"gui": ("src/gui", "QtPlcGui"), "gui3d": ("src/gui3d", "QtPlcGui3D")}
 # Public headers without a source file of their own; "all": a plain value that every room may use.
 HEADER_ONLY = {
     "QPlcBoundInput": "node", "QPlcBoundOutput": "node", "QPlcClock": "all", "QPlcCycle": "all",
     "QPlcCycleStatistics": "node", "QPlcDistribution": "all", "QPlcDurationStatistics": "all", "QPlcGlobal": "all",
-    "QPlcGuiGlobal": "gui", "QPlcInput": "node", "QPlcInputTiming": "all", "QPlcLease": "node", "QPlcMasterStatistics": "node", "QPlcNodeInfo": "node", "QPlcNodeStatistics": "node", "QPlcOutput": "node",
+    "QPlcGuiGlobal": "gui", "QPlcGui3DGlobal": "gui3d", "QPlcInput": "node", "QPlcInputTiming": "all", "QPlcLease": "node", "QPlcMasterStatistics": "node", "QPlcNodeInfo": "node", "QPlcNodeStatistics": "node", "QPlcOutput": "node",
     "QPlcRealTimeSetting": "realtime", "QPlcSignalDefinition": "signals", "QPlcSlaveStatistics": "node", "QPlcStatisticFigure": "node", "QPlcWidgetFactoryOf": "gui", "QPlcWorstCycle": "all",
     "QSplitPrimitive": "signals",
 }

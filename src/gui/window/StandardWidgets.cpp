@@ -10,6 +10,7 @@
 #include "QPlcSignalTree.h"
 #include "QPlcValueTable.h"
 #include "QPlcWidget.h"
+#include "QPlcWindWindow.h"
 #include "QPlcXyPlot.h"
 
 namespace qplc {
@@ -29,8 +30,8 @@ QList<QPlcWidgetFactory *> standardWidgets()
     // In the order of menus.
     static const QList<QPlcWidgetFactory *> all
         = registered<QPlcXyPlotFactory, QPlcGaugeFactory, QPlcSetterFactory, QPlcKeyboardControlFactory,
-                     QPlcValueTableFactory, QPlcSignalTreeFactory, QPlcNodeTableFactory, QPlcJitterHistogramFactory,
-                     QPlcEventLogFactory>();
+                     QPlcWindWindowFactory, QPlcValueTableFactory, QPlcSignalTreeFactory, QPlcNodeTableFactory,
+                     QPlcJitterHistogramFactory, QPlcEventLogFactory>();
     return all;
 }
 

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "QPlcView3D.h"
+
+#include "View3DEditor.h"
+#include "View3DPicture.h"
+
+#include <QtCore/QTimer>
+#include <QtGui/QMouseEvent>
+#include <QtWidgets/QAction>
+
+#include <cmath>
+#include <functional>
+
+using namespace qplc;
+
+struct QPlcView3D::Private
+{
+    explicit Private(QPlcView3D *widget)
+        : q(widget)
+        , picture(new View3DPicture(&kite, widget))
+    {
+    }
+
+    void makeActions();
+    void addAction(const QString &text, const QKeySequence &key, const std::function<void()> &perform);
+    void moveCamera(const OrbitCamera &camera);
+    void choosePreset(OrbitCamera::Preset preset);
+
+    QPlcView3D *q;
+    KiteSignals kite;
+    View3DPicture *picture;
+    View3DSettings settings;
+    QPointF lastMouse;
+    bool isDragged = false;
+    QTimer wheelEnd;  // a turn of the wheel is one step for undo
+
+    static constexpr float keyStep = 18.0f;  // [px] that an arrow key stands for
+};
+
+QPlcView3D::QPlcView3D(QWidget *parent)
+    : QPlcWidget(parent)
+    , d(std::make_unique<Private>(this))
+{
+    setAccessibleName(tr("3D view: the kite in space"));
+    setFocusPolicy(Qt::StrongFocus);
+    d->wheelEnd.setSingleShot(true);
+    d->wheelEnd.setInterval(400);
+    connect(&d->wheelEnd, &QTimer::timeout, this, &QPlcView3D::settingsEdited);
+    connect(d->picture, &View3DPicture::pictureDrawn, this, &QPlcView3D::pictureDrawn);
+    d->makeActions();
+}
+
+QPlcView3D::~QPlcView3D() = default;
+
+void QPlcView3D::Private::addAction(const QString &text, const QKeySequence &key, const std::function<void()> &perform)
+{
+    auto *action = new QAction(text, q);
+    action->setShortcut(key);
+    action->setShortcutContext(Qt::WidgetWithChildrenShortcut);
+    q->QWidget::addAction(action);
+    QObject::connect(action, &QAction::triggered, q, perform);
+}
+
+void QPlcView3D::Private::makeActions()
+{
+    for (int i = 0; i < OrbitCamera::presets; ++i) {
+        const auto preset = OrbitCamera::Preset(i);
+        addAction(tr("Camera: %1").arg(cameraTitle(preset)), QKeySequence(Qt::Key_1 + i),
+                  [this, preset] { choosePreset(preset); });
+    }
+    addAction(tr("Camera as it was"), QKeySequence(Qt::Key_0), [this] { choosePreset(settings.camera.preset); });
+    addAction(tr("Nearer"), QKeySequence(Qt::Key_Plus), [this] {
+        OrbitCamera camera = settings.camera;
+        camera.zoomBy(1.2);
+        moveCamera(camera);
+        wheelEnd.start();
+    });
+    addAction(tr("Farther"), QKeySequence(Qt::Key_Minus), [this] {
+        OrbitCamera camera = settings.camera;
+        camera.zoomBy(1 / 1.2);
+        moveCamera(camera);
+        wheelEnd.start();
+    });
+}
+
+void QPlcView3D::Private::moveCamera(const OrbitCamera &camera)
+{
+    settings.camera = camera;
+    picture->setSettings(settings);
+}
+
+void QPlcView3D::Private::choosePreset(OrbitCamera::Preset preset)
+{
+    OrbitCamera camera;
+    camera.preset = preset;
+    moveCamera(camera);
+    Q_EMIT q->settingsEdited();
+}
+
+QJsonObject QPlcView3D::settings() const
+{
+    QJsonObject all = QPlcWidget::settings();
+    const QJsonObject own = d->settings.toJson();
+    for (auto entry = own.begin(); entry != own.end(); ++entry)
+        all.insert(entry.key(), entry.value());
+    return all;
+}
+
+void QPlcView3D::applySettings(const QJsonObject &settings)
+{
+    QJsonObject others;
+    d->settings = View3DSettings::fromJson(settings, &others);
+    QPlcWidget::applySettings(others);
+    d->kite.setSettings(d->settings.kite);
+    d->picture->setSettings(d->settings);
+}
+
+QWidget *QPlcView3D::createSettingsEditor()
+{
+    auto *editor = new View3DEditor(d->settings);
+    connect(editor, &View3DEditor::edited, this, [this, editor] {
+        d->settings = editor->settings();
+        d->kite.setSettings(d->settings.kite);
+        d->picture->setSettings(d->settings);
+        Q_EMIT settingsEdited();
+    });
+    return editor;
+}
+
+bool QPlcView3D::addSignals(const QStringList &references)
+{
+    if (references.isEmpty())
+        return false;
+    d->settings.kite.color = references.first();
+    d->kite.setSettings(d->settings.kite);
+    d->picture->setSettings(d->settings);
+    Q_EMIT settingsEdited();
+    return true;
+}
+
+QString QPlcView3D::openGlError() const
+{
+    return d->picture->openGlError();
+}
+
+QSize QPlcView3D::minimumSizeHint() const
+{
+    return {120, 90};
+}
+
+QSize QPlcView3D::sizeHint() const
+{
+    return {480, 360};
+}
+
+void QPlcView3D::contextChanged()
+{
+    d->kite.setContext(context());
+    d->picture->setContext(context());
+}
+
+void QPlcView3D::paintEvent(QPaintEvent * /*event*/)
+{
+    d->picture->paint();
+}
+
+void QPlcView3D::showEvent(QShowEvent *event)
+{
+    QPlcWidget::showEvent(event);
+    d->picture->shown();
+}
+
+void QPlcView3D::resizeEvent(QResizeEvent *event)
+{
+    QPlcWidget::resizeEvent(event);
+    d->picture->resized();
+}
+
+void QPlcView3D::mousePressEvent(QMouseEvent *event)
+{
+    d->lastMouse = event->localPos();
+    d->isDragged = false;
+    event->accept();
+}
+
+void QPlcView3D::mouseMoveEvent(QMouseEvent *event)
+{
+    if (!(event->buttons() & (Qt::LeftButton | Qt::MiddleButton)))
+        return QPlcWidget::mouseMoveEvent(event);
+    const QPointF way = event->localPos() - d->lastMouse;
+    d->lastMouse = event->localPos();
+    OrbitCamera camera = d->settings.camera;
+    if (event->modifiers() & Qt::ShiftModifier || event->buttons() & Qt::MiddleButton)
+        camera.dragSideways(way, height());
+    else if (event->modifiers() & Qt::AltModifier)
+        camera.zoomBy(std::pow(2.0, -way.y() / 100.0));
+    else
+        camera.drag(way, height());
+    d->isDragged = true;
+    d->moveCamera(camera);
+}
+
+void QPlcView3D::mouseReleaseEvent(QMouseEvent *event)
+{
+    if (d->isDragged)
+        Q_EMIT settingsEdited();
+    d->isDragged = false;
+    event->accept();
+}
+
+void QPlcView3D::mouseDoubleClickEvent(QMouseEvent *event)
+{
+    d->choosePreset(d->settings.camera.preset);
+    event->accept();
+}
+
+void QPlcView3D::wheelEvent(QWheelEvent *event)
+{
+    OrbitCamera camera = d->settings.camera;
+    // With Alt, some desktops turn the wheel by 90 degrees.
+    const int turn = event->angleDelta().y() != 0 ? event->angleDelta().y() : event->angleDelta().x();
+    camera.zoomBy(std::pow(1.2, double(turn) / 120.0));
+    d->moveCamera(camera);
+    d->wheelEnd.start();
+    event->accept();
+}
+
+void QPlcView3D::keyPressEvent(QKeyEvent *event)
+{
+    QPointF way;
+    switch (event->key()) {
+    case Qt::Key_Left:
+        way = {Private::keyStep, 0};
+        break;
+    case Qt::Key_Right:
+        way = {-Private::keyStep, 0};
+        break;
+    case Qt::Key_Up:
+        way = {0, Private::keyStep};
+        break;
+    case Qt::Key_Down:
+        way = {0, -Private::keyStep};
+        break;
+    default:
+        return QPlcWidget::keyPressEvent(event);
+    }
+    OrbitCamera camera = d->settings.camera;
+    if (event->modifiers() & Qt::ShiftModifier)
+        camera.dragSideways(way, 480);
+    else
+        camera.drag(way, 480);
+    d->moveCamera(camera);
+    d->wheelEnd.start();
+}

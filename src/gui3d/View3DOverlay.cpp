@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "View3DOverlay.h"
+
+#include <QtCore/QCoreApplication>
+#include <QtCore/QtMath>
+
+#include <cmath>
+
+namespace qplc {
+
+namespace {
+
+constexpr double roseRadius = 15.0;  // [px]
+
+QString tr(const char *text)
+{
+    return QCoreApplication::translate("View3DOverlay", text);
+}
+
+/// Azimuth of the line of sight; of what is up in the picture when the camera looks straight down [deg].
+float lookAzimuth(const CameraPose &pose)
+{
+    QVector3D look = (pose.target - pose.eye).normalized();
+    if (std::hypot(look.x(), look.y()) < 0.05f)
+        look = pose.up;
+    return skyPosition(look).azimuth;
+}
+
+/// Where an azimuth points to on a rose whose top is another azimuth.
+QPointF onRose(float azimuth, float top)
+{
+    const double angle = qDegreesToRadians(double(azimuth - top));
+    return {-std::sin(angle), -std::cos(angle)};
+}
+
+}  // namespace
+
+double roundLength(double longest)
+{
+    if (!(longest > 0.0) || !std::isfinite(longest))
+        return 0.0;
+    const double power = std::pow(10.0, std::floor(std::log10(longest)));
+    for (const double factor : {5.0, 2.0}) {
+        if (factor * power <= longest)
+            return factor * power;
+    }
+    return power;
+}
+
+void drawLabels(QPainter *painter, const std::vector<SceneLabel> &labels, const CameraPose &pose, const QSizeF &size,
+                const Theme &theme)
+{
+    const QFontMetricsF metrics(painter->font());
+    std::vector<QRectF> taken;
+    for (const SceneLabel &label : labels) {
+        const std::optional<QPointF> place = projected(pose, label.place, size);
+        if (!place || !QRectF(QPointF(), size).adjusted(-20, -10, 20, 10).contains(*place))
+            continue;
+        QRectF box(0, 0, metrics.horizontalAdvance(label.text) + 4, metrics.height());
+        box.moveCenter(*place);
+        for (const QRectF &other : taken) {
+            if (other.intersects(box))
+                box.moveTop(other.bottom());
+        }
+        taken.push_back(box);
+        QColor back = theme.surface;
+        back.setAlpha(150);
+        painter->fillRect(box, back);
+        painter->setPen(label.color);
+        painter->drawText(box, Qt::AlignCenter, label.text);
+    }
+}
+
+void drawScale(QPainter *painter, const QRectF &area, const CameraPose &pose, const QString &camera, const Theme &theme)
+{
+    const double perPixel = double(pose.heightAtTarget()) / std::max(1.0, area.height());
+    const double length = roundLength(0.22 * area.width() * perPixel);
+    const double pixels = length / perPixel;
+    const double line = QFontMetricsF(painter->font()).height();
+    const QPointF left(area.left(), area.bottom() - 4);
+    painter->setPen(QPen(theme.mutedText, 1.2));
+    painter->drawLine(left, left + QPointF(pixels, 0));
+    painter->drawLine(left + QPointF(0, -3), left + QPointF(0, 3));
+    painter->drawLine(left + QPointF(pixels, -3), left + QPointF(pixels, 3));
+    painter->drawText(QRectF(left.x(), left.y() - line - 3, area.width(), line),
+                      tr("%1 m · %2").arg(length).arg(camera));
+}
+
+void drawCompass(QPainter *painter, const QPointF &center, const CameraPose &pose, std::optional<float> downwind,
+                 const Theme &theme)
+{
+    const float top = lookAzimuth(pose);
+    painter->setBrush(Qt::NoBrush);
+    painter->setPen(QPen(theme.line, 1.2));
+    painter->drawEllipse(center, roseRadius, roseRadius);
+    const QPointF north = onRose(90, top);
+    painter->setPen(QPen(theme.mutedText, 1.4));
+    painter->drawLine(center + 0.55 * roseRadius * north, center + roseRadius * north);
+    QRectF letter(0, 0, 14, 14);
+    letter.moveCenter(center + (roseRadius + 7) * north);
+    painter->drawText(letter, Qt::AlignCenter, tr("N"));
+    if (!downwind)
+        return;
+    const QPointF along = onRose(*downwind, top);
+    const QPointF across(-along.y(), along.x());
+    const QPointF tip = center + 0.8 * roseRadius * along;
+    painter->setPen(QPen(theme.accent, 1.6));
+    painter->drawLine(center - 0.8 * roseRadius * along, tip);
+    painter->drawLine(tip, tip - 4 * along + 3 * across);
+    painter->drawLine(tip, tip - 4 * along - 3 * across);
+}
+
+}  // namespace qplc

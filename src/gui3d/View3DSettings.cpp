@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "View3DSettings.h"
+
+#include <QtCore/QJsonArray>
+
+#include <algorithm>
+#include <cmath>
+
+namespace qplc {
+
+namespace {
+
+struct ShowKey
+{
+    const char *key;
+    bool View3DShow::*member;
+};
+
+constexpr ShowKey showKeys[] = {
+    {"ground", &View3DShow::ground},   {"smallEarth", &View3DShow::smallEarth}, {"axes", &View3DShow::axes},
+    {"vectors", &View3DShow::vectors}, {"tether", &View3DShow::tether},
+};
+
+float number(const QJsonObject &json, const char *key, float otherwise, float smallest, float largest)
+{
+    return std::clamp(float(json.value(QLatin1String(key)).toDouble(double(otherwise))), smallest, largest);
+}
+
+/// Short in files: a hundredth of a degree is as good as any.
+double rounded(float value)
+{
+    return std::round(double(value) * 1000.0) / 1000.0;
+}
+
+OrbitCamera cameraFrom(const QString &preset, const QJsonObject &view)
+{
+    OrbitCamera camera;
+    camera.preset = OrbitCamera::presetOf(preset);
+    camera.yaw = number(view, "yaw", 0, -360, 360);
+    camera.pitch = number(view, "pitch", 0, -180, 180);
+    camera.zoom = number(view, "zoom", 1, 0.1f, 40);
+    const QJsonArray pan = view.value(QStringLiteral("pan")).toArray();
+    for (int i = 0; i < 3; ++i)
+        camera.pan[i] = std::clamp(float(pan.at(i).toDouble()), -3.0f, 3.0f);
+    return camera;
+}
+
+QJsonObject viewJson(const OrbitCamera &camera)
+{
+    QJsonObject view;
+    if (rounded(camera.yaw) != 0)
+        view.insert(QStringLiteral("yaw"), rounded(camera.yaw));
+    if (rounded(camera.pitch) != 0)
+        view.insert(QStringLiteral("pitch"), rounded(camera.pitch));
+    if (rounded(camera.zoom) != 1)
+        view.insert(QStringLiteral("zoom"), rounded(camera.zoom));
+    if (!camera.pan.isNull())
+        view.insert(QStringLiteral("pan"),
+                    QJsonArray{rounded(camera.pan.x()), rounded(camera.pan.y()), rounded(camera.pan.z())});
+    return view;
+}
+
+}  // namespace
+
+View3DSettings View3DSettings::fromJson(const QJsonObject &json, QJsonObject *rest)
+{
+    View3DSettings settings;
+    settings.kite = KiteSettings::fromJson(json, rest);
+    const QString preset = rest->take(QStringLiteral("camera")).toString();
+    settings.camera = cameraFrom(preset, rest->take(QStringLiteral("view")).toObject());
+    settings.model = rest->take(QStringLiteral("model")).toString();
+    const double scale = rest->take(QStringLiteral("bodyScale")).toDouble();
+    settings.bodyScale = std::clamp(scale, 0.0, largestBodyScale);
+    for (const ShowKey &each : showKeys)
+        settings.show.*each.member = rest->take(QLatin1String(each.key)).toBool(true);
+    return settings;
+}
+
+QJsonObject View3DSettings::toJson() const
+{
+    QJsonObject json = kite.toJson();
+    if (camera.preset != OrbitCamera::GroundStation)
+        json.insert(QStringLiteral("camera"), OrbitCamera::presetText(camera.preset));
+    const QJsonObject view = viewJson(camera);
+    if (!view.isEmpty())
+        json.insert(QStringLiteral("view"), view);
+    if (!model.isEmpty())
+        json.insert(QStringLiteral("model"), model);
+    if (bodyScale > 0)
+        json.insert(QStringLiteral("bodyScale"), bodyScale);
+    for (const ShowKey &each : showKeys) {
+        if (!(show.*each.member))
+            json.insert(QLatin1String(each.key), false);
+    }
+    return json;
+}
+
+}  // namespace qplc

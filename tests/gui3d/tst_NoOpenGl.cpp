@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "QPlcView3D.h"
+#include "QPlcWindWindow.h"
+#include "gui3d/OpenGlProbe.h"
+
+#include <QtTest/QtTest>
+#include <QtWidgets/QAction>
+#include <QtWidgets/QCheckBox>
+#include <QtWidgets/QComboBox>
+#include <QtWidgets/QLabel>
+
+using namespace qplc;
+
+/// What the 3D view does where OpenGL fails; and all of it that needs none.
+class tst_NoOpenGl : public QObject
+{
+    Q_OBJECT
+private Q_SLOTS:
+    void initTestCase();
+    void switchedOffOpenGlIsSaid();
+    void theWindWindowIsShownWithTheReason();
+    void theWindWindowTakesTheSettings();
+    void theReasonStaysInThePanel();
+    void settingsComeBackByteByByte();
+    void keysChooseCameras();
+    void aWheelIsOneStepForUndo();
+    void theEditorChangesAtOnce();
+    void everyActionHasAKeyAndAText();
+};
+
+void tst_NoOpenGl::initTestCase()
+{
+    qputenv("QTPLC_OPENGL", "off");
+    QPlcWidget::registerFactory(new QPlcView3DFactory);
+    QCOMPARE(QPlcWidget::factory(QStringLiteral("3D view"))->type(), int(QPlcWidget::View3D));
+}
+
+void tst_NoOpenGl::switchedOffOpenGlIsSaid()
+{
+    QVERIFY(OpenGlProbe::probe().error.contains(QStringLiteral("QTPLC_OPENGL")));
+}
+
+void tst_NoOpenGl::theWindWindowIsShownWithTheReason()
+{
+    QPlcView3D view;
+    view.resize(400, 300);
+    QVERIFY(!view.findChild<QPlcWindWindow *>());
+    view.show();
+    QVERIFY(QTest::qWaitForWindowExposed(&view));
+    auto *instead = view.findChild<QPlcWindWindow *>();
+    QVERIFY(instead && instead->isVisible());
+    QVERIFY(!view.openGlError().isEmpty());
+    auto *reason = view.findChild<QLabel *>(QStringLiteral("openGlError"));
+    QVERIFY(reason && reason->isVisible() && reason->text().contains(view.openGlError()));
+    QVERIFY(!reason->text().contains(QLatin1Char('\n')));
+    QVERIFY(!instead->geometry().intersects(reason->geometry()));
+}
+
+void tst_NoOpenGl::theWindWindowTakesTheSettings()
+{
+    QPlcView3D view;
+    view.applySettings({{"trail", 90}, {"camera", "chase"}});
+    view.show();
+    auto *instead = view.findChild<QPlcWindWindow *>();
+    QCOMPARE(instead->settings(), QJsonObject({{"trail", 90}}));
+    view.applySettings({{"color", "tetherLength"}});
+    QCOMPARE(instead->settings(), QJsonObject({{"color", "tetherLength"}}));
+}
+
+void tst_NoOpenGl::theReasonStaysInThePanel()
+{
+    QPlcView3D view;
+    view.show();
+    for (const QSize &size : {QSize(240, 120), QSize(900, 700)}) {
+        view.resize(size);
+        QCoreApplication::processEvents();
+        auto *reason = view.findChild<QLabel *>(QStringLiteral("openGlError"));
+        QVERIFY(view.rect().contains(reason->geometry()));
+    }
+}
+
+void tst_NoOpenGl::settingsComeBackByteByByte()
+{
+    QPlcView3D view;
+    QCOMPARE(view.settings(), QJsonObject());
+    const QJsonObject json{{"camera", "top"}, {"vectors", false}, {"trail", 10}, {"title", "Kite"}, {"later", 3}};
+    view.applySettings(json);
+    QCOMPARE(QJsonDocument(view.settings()).toJson(), QJsonDocument(json).toJson());
+}
+
+void tst_NoOpenGl::keysChooseCameras()
+{
+    QPlcView3D view;
+    QSignalSpy edits(&view, &QPlcWidget::settingsEdited);
+    view.show();
+    view.activateWindow();
+    QVERIFY(QTest::qWaitForWindowActive(&view));
+    view.setFocus();
+    QTest::keyClick(&view, Qt::Key_5);
+    QCOMPARE(view.settings().value(QStringLiteral("camera")).toString(), QStringLiteral("chase"));
+    QTest::keyClick(&view, Qt::Key_2);
+    QCOMPARE(view.settings().value(QStringLiteral("camera")).toString(), QStringLiteral("side"));
+    QCOMPARE(edits.count(), 2);
+    QTest::keyClick(&view, Qt::Key_Left);
+    QVERIFY(view.settings().contains(QStringLiteral("view")));
+    QTest::keyClick(&view, Qt::Key_0);
+    QVERIFY(!view.settings().contains(QStringLiteral("view")));
+    QTest::keyClick(&view, Qt::Key_1);
+    QCOMPARE(view.settings(), QJsonObject());
+}
+
+void tst_NoOpenGl::aWheelIsOneStepForUndo()
+{
+    QPlcView3D view;
+    QSignalSpy edits(&view, &QPlcWidget::settingsEdited);
+    for (int i = 0; i < 5; ++i) {
+        QWheelEvent event({10, 10}, {10, 10}, {}, {0, 120}, Qt::NoButton, Qt::NoModifier, Qt::NoScrollPhase, false);
+        QCoreApplication::sendEvent(&view, &event);
+    }
+    const double zoom
+        = view.settings().value(QStringLiteral("view")).toObject().value(QStringLiteral("zoom")).toDouble();
+    QVERIFY(std::abs(zoom - std::pow(1.2, 5)) < 0.01);
+    QTRY_COMPARE(edits.count(), 1);
+    QTest::qWait(500);
+    QCOMPARE(edits.count(), 1);
+}
+
+void tst_NoOpenGl::theEditorChangesAtOnce()
+{
+    QPlcView3D view;
+    QSignalSpy edits(&view, &QPlcWidget::settingsEdited);
+    const std::unique_ptr<QWidget> editor(view.createSettingsEditor());
+    const QList<QCheckBox *> boxes = editor->findChildren<QCheckBox *>();
+    QCOMPARE(boxes.size(), 5);
+    boxes.first()->setChecked(false);
+    QCOMPARE(view.settings(), QJsonObject({{"ground", false}}));
+    auto *camera = editor->findChild<QComboBox *>();
+    camera->setCurrentIndex(2);
+    Q_EMIT camera->activated(2);
+    QCOMPARE(view.settings().value(QStringLiteral("camera")).toString(), QStringLiteral("top"));
+    QCOMPARE(edits.count(), 2);
+}
+
+void tst_NoOpenGl::everyActionHasAKeyAndAText()
+{
+    QPlcView3D view;
+    QCOMPARE(view.actions().size(), 8);
+    for (const QAction *action : view.actions()) {
+        QVERIFY(!action->text().isEmpty());
+        QVERIFY(!action->shortcut().isEmpty());
+        QCOMPARE(action->shortcutContext(), Qt::WidgetWithChildrenShortcut);
+    }
+}
+
+QTEST_MAIN(tst_NoOpenGl)
+#include "tst_NoOpenGl.moc"
