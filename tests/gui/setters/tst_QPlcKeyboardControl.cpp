@@ -156,6 +156,7 @@ void tst_QPlcKeyboardControl::aKilledConnectionIsNeutralByTheMaster()
     QTest::keyPress(&pilot.panel, Qt::Key_Left);
     QTest::qWait(100);
     QCOMPARE(master.valueOf(echo), 0.0);
+    QTRY_VERIFY(buttonOf(&pilot.panel, QStringLiteral("Give back")));
     QTest::mouseClick(buttonOf(&pilot.panel, QStringLiteral("Give back")), Qt::LeftButton);
     QTRY_VERIFY(master.valueOf(echo) > 10.0);
 }
