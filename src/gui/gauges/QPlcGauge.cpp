@@ -27,7 +27,7 @@ QPlcGauge::QPlcGauge(QWidget *parent)
         update();
     });
     auto *reset = new QAction(tr("Reset smallest and largest value"), this);
-    reset->setShortcut(QKeySequence(Qt::CTRL | Qt::Key_R));
+    reset->setShortcut(QKeySequence(int(Qt::CTRL) | int(Qt::Key_R)));
     reset->setShortcutContext(Qt::WidgetWithChildrenShortcut);
     connect(reset, &QAction::triggered, &d->feed, &GaugeFeed::reset);
     addAction(reset);

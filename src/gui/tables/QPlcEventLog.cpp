@@ -122,7 +122,8 @@ void QPlcEventLog::makeActions()
     d->onlyUnacknowledged = make(tr("Show only what is not acknowledged"), tr("Open"), QKeySequence(Qt::Key_O));
     d->onlyUnacknowledged->setCheckable(true);
     d->acknowledge = make(tr("Acknowledge the selected events"), tr("Ack"), QKeySequence(Qt::Key_A));
-    d->acknowledgeAll = make(tr("Acknowledge all events"), tr("Ack all"), QKeySequence(Qt::SHIFT | Qt::Key_A));
+    d->acknowledgeAll
+        = make(tr("Acknowledge all events"), tr("Ack all"), QKeySequence(int(Qt::SHIFT) | int(Qt::Key_A)));
     QAction *find = make(tr("Search events"), tr("Search"), QKeySequence(QKeySequence::Find));
     connect(find, &QAction::triggered, d->search, [this] { d->search->setFocus(Qt::ShortcutFocusReason); });
     const auto take = [this](const char *key, const QJsonValue &value, const QJsonValue &defaultValue) {

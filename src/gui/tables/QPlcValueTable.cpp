@@ -120,7 +120,7 @@ void QPlcValueTable::makeActions()
         if (d->model)
             d->removeSelected();
     });
-    make(tr("Reset smallest and largest values"), QKeySequence(Qt::CTRL | Qt::Key_R), [this] {
+    make(tr("Reset smallest and largest values"), QKeySequence(int(Qt::CTRL) | int(Qt::Key_R)), [this] {
         if (d->model)
             d->model->reset();
     });
