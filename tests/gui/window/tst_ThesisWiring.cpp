@@ -135,10 +135,10 @@ void tst_ThesisWiring::theWiringOfTheThesisFlies()
     QCoreApplication::setOrganizationName(QStringLiteral("QtPlcTest"));
     QSettings::setDefaultFormat(QSettings::IniFormat);
     QSettings::setPath(QSettings::IniFormat, QSettings::UserScope, folder.path());
+    CounterNode counter;  // outlives the master
     TestMaster master(QPlcClock::realTime());
     master.setInterval(std::chrono::milliseconds(10));
     QVERIFY(master.listen());
-    CounterNode counter;
     QVERIFY(master.addLocalNode(&counter));
     QPlcSignalIndexTable::setCurrent(testTable());
     LogCapture log;
@@ -166,7 +166,7 @@ void tst_ThesisWiring::theWiringOfTheThesisFlies()
     QTRY_VERIFY_WITH_TIMEOUT(program.panel()->counts.size() > 50, patience);
     const QVector<int> counts = program.panel()->counts;
     for (int i = 1; i < counts.size(); ++i)
-        QCOMPARE(counts[i], counts[i - 1] + 1);
+        QVERIFY(counts[i] > counts[i - 1]);  // a busy machine misses cycles, and never tells one twice
     QCOMPARE(master.signalValue(QStringLiteral("setpoint")).toReal(), 1.5);
     program.panel()->write(-2.25);
     QTRY_COMPARE_WITH_TIMEOUT(master.signalValue(QStringLiteral("setpoint")).toReal(), -2.25, patience);
