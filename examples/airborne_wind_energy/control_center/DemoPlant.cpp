@@ -205,9 +205,11 @@ void DemoPlant::blame(const Program &program)
         return;
     m_hasFailed = true;
     m_suspicion = suspicion;
+    m_sentence = tr("%1 has ended (%2)").arg(program.name, wayOfEnding(program.process));
     const QString words = program.lastWords();
-    m_sentence = tr("%1 has ended (%2)").arg(program.name, wayOfEnding(program.process))
-        + (words.isEmpty() ? QString() : QStringLiteral(": ") + words);
+    const bool hasCrashed = program.process.exitStatus() == QProcess::CrashExit;  // then words need not be of its end
+    if (!words.isEmpty())
+        m_sentence += (hasCrashed ? tr(". It said last: %1") : tr(": %1")).arg(words);
 }
 
 void DemoPlant::terminate()

@@ -18,7 +18,7 @@ QByteArray nameOf(qint64 pid)
                                           : QByteArray();
 }
 
-/// How many colours a picture has, up to \a most: of a blank one there is one.
+/// How many colours a picture has; those beyond \a most are not all counted. A blank one has one.
 int colours(const QImage &image, int most)
 {
     QSet<QRgb> seen;
@@ -162,7 +162,7 @@ void tst_ControlCenter::demoMakesAPictureAndLeavesNothingBehind()
              qPrintable(window.output()));
     const QImage image(file);
     QCOMPARE(image.size(), size);
-    QVERIFY(colours(image, 10) == 10);
+    QVERIFY(colours(image, 20) >= 20);
 }
 
 void tst_ControlCenter::startPageIsThereWithoutAPlant()
@@ -193,8 +193,9 @@ void tst_ControlCenter::pictureThatCannotBeWrittenIsToldAtTheEnd()
     QTemporaryDir folder;
     const QString file = folder.filePath(QStringLiteral("gone/x.png"));
     QVERIFY(QDir(folder.path()).mkdir(QStringLiteral("gone")));
-    Program window(program(), {QStringLiteral("--screenshot"), file, QStringLiteral("--after=2")});
-    QTest::qWait(500);  // the options have been read
+    Program window(program(),
+                   {QStringLiteral("--demo"), QStringLiteral("--screenshot"), file, QStringLiteral("--after=2")});
+    QVERIFY(window.waitForOutput(QStringLiteral("flying")));
     QVERIFY(QDir(folder.path()).rmdir(QStringLiteral("gone")));
     QCOMPARE(window.waitForEnd(), 1);
     QVERIFY2(window.errors().contains(file), qPrintable(window.errors()));
