@@ -22,6 +22,8 @@ constexpr double smallestLabel = 7.0;   // [pt]
 constexpr double linesOfLabel = 2.2;    // heights of a label from one to the next on a y axis
 constexpr double widthsOfLabel = 1.35;  // widths of a label from one to the next on the time axis
 constexpr int fewestTicks = 2;
+constexpr int usualCharacters = 8;  // of labels of a y axis: -88888.8
+constexpr int fewCharacters = 5;
 
 QFont labelFont(const QFont &font)
 {
@@ -60,7 +62,7 @@ void PlotCanvas::renewScales()
     setAxisScaleDraw(xBottom, m_timeScale);
     axisWidget(xBottom)->setMinBorderDist(m_timeScale->sideRoom(), m_timeScale->sideRoom());
     for (const QwtPlot::Axis axis : {yLeft, yRight}) {
-        setAxisScaleDraw(axis, new ValueScaleDraw(font));
+        setAxisScaleDraw(axis, new ValueScaleDraw(font, m_isCompact ? fewCharacters : usualCharacters));
         axisWidget(axis)->setSpacing(1);
     }
     for (const QwtPlot::Axis axis : {yLeft, yRight, xBottom}) {
@@ -84,10 +86,27 @@ void PlotCanvas::setTheme(const Theme &theme)
 
 void PlotCanvas::setUnit(Axis axis, const QString &unit)
 {
-    QwtText title(unit);
-    title.setFont(labelFont(font()));
-    title.setRenderFlags(Qt::AlignCenter);
-    setAxisTitle(qwtAxis(axis), title);
+    m_units[axis] = unit;
+    showUnits();
+}
+
+void PlotCanvas::showUnits()
+{
+    for (const Axis axis : {Axis::Left, Axis::Right}) {
+        QwtText title(m_isCompact ? QString() : m_units[axis]);
+        title.setFont(labelFont(font()));
+        title.setRenderFlags(Qt::AlignCenter);
+        setAxisTitle(qwtAxis(axis), title);
+    }
+}
+
+void PlotCanvas::setCompact(bool isCompact)
+{
+    if (isCompact == m_isCompact)
+        return;
+    m_isCompact = isCompact;
+    renewScales();
+    showUnits();
 }
 
 int PlotCanvas::deviceWidth() const

@@ -30,6 +30,9 @@ public:
     void setTheme(const Theme &theme);
     void setGridVisible(bool isVisible) { m_grid.setVisible(isVisible); }
     void setUnit(Axis axis, const QString &unit);
+    /// Small panels have little room at their sides: for short labels, and none for units.
+    bool isCompact() const { return m_isCompact; }
+    void setCompact(bool isCompact);
     void setAxisVisible(Axis axis, bool isVisible) { enableAxis(qwtAxis(axis), isVisible); }
 
     /// Device pixels that the canvas is wide, >= 1.
@@ -58,9 +61,12 @@ protected:
 
 private:
     void renewScales();
+    void showUnits();
 
     QwtPlotGrid m_grid;
     TimeScaleDraw *m_timeScale = nullptr;  // of the x axis, which owns it
+    QString m_units[2];                    // of the y axes
+    bool m_isCompact = false;
     Time m_origin = 0;
     Time m_begin = 0;
     Time m_end = 1'000'000'000;

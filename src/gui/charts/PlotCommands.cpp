@@ -256,6 +256,8 @@ void QPlcTimePlot::Private::zoomValues(Axis axis, double factor, double about)
     const double low = canvas->valueAt(axis, height);
     const double high = canvas->valueAt(axis, 0.0);
     const double fixed = canvas->valueAt(axis, about);
+    if (!curves.hasAxis(axis))
+        return;
     ValueAxis &values = axes[axis];
     const double minimum = fixed + factor * (low - fixed);
     const double maximum = fixed + factor * (high - fixed);
@@ -272,6 +274,8 @@ void QPlcTimePlot::Private::zoomValues(Axis axis, double factor, double about)
 
 void QPlcTimePlot::Private::panValues(Axis axis, double by)
 {
+    if (!curves.hasAxis(axis))
+        return;
     const double height = canvas->canvas()->height();
     ValueAxis &values = axes[axis];
     values.minimum = canvas->valueAt(axis, height - by);
@@ -288,7 +292,7 @@ void QPlcTimePlot::Private::showBox(const QRect &chosen)
         ValueAxis &values = axes[axis];
         values.minimum = canvas->valueAt(axis, chosen.bottom() + 1);
         values.maximum = canvas->valueAt(axis, chosen.top());
-        values.isHeld = values.minimum < values.maximum;
+        values.isHeld = curves.hasAxis(axis) && values.minimum < values.maximum;
     }
     ++version;
     view()->show(canvas->timeAt(chosen.left()), canvas->timeAt(chosen.right() + 1));

@@ -14,10 +14,12 @@ using namespace qplc;
 
 namespace {
 
-constexpr int framePeriod = 20;             // [ms]
+constexpr int framePeriod = 20;     // [ms]
+constexpr int compactHeight = 160;  // [px] of the panel
+constexpr int compactWidth = 300;
 constexpr int leastLegendHeight = 100;      // [px] of the panel: below there are curves only
 constexpr int leastStatisticsHeight = 220;  // [px] of the panel: below there is one line of statistics
-constexpr double legendShare = 0.34;        // of the height of the panel, at most
+constexpr double legendShare = 0.3;         // of the height of the panel, at most
 constexpr int successTime = 6000;           // [ms] that good news are shown
 constexpr int buttonMargin = 4;             // [px]
 
@@ -116,7 +118,8 @@ void QPlcTimePlot::Private::showOverlay()
     if (picture.pointer) {
         const Time moment = *time->pointer();
         const bool isCoarse = (canvas->end() - canvas->begin()) / std::max(canvas->canvas()->width(), 1) >= 1'000'000;
-        picture.pointerText = TimeTicks::clockText(moment, isCoarse ? 1'000'000 : 1'000);
+        if (!canvas->isCompact())
+            picture.pointerText = TimeTicks::clockText(moment, isCoarse ? 1'000'000 : 1'000);
         for (const PlotCurve &curve : curves) {
             const double value = curve.isSeen() ? curve.value(moment) : NAN;
             if (!std::isnan(value))
@@ -177,13 +180,16 @@ void QPlcTimePlot::Private::showLiveButton()
     if (!isFrozen)
         return;
     const double behind = std::round(double(view()->behind()) * 1e-9);
-    const QString text = behind < 1.0 ? QPlcTimePlot::tr("frozen – L")
-        : behind < 120.0              ? QPlcTimePlot::tr("%1 s behind – L").arg(behind)
-                                      : QPlcTimePlot::tr("%1 min behind – L").arg(std::floor(behind / 60.0));
+    const QString time = behind < 120.0 ? QPlcTimePlot::tr("%1 s").arg(behind)
+                                        : QPlcTimePlot::tr("%1 min").arg(std::floor(behind / 60.0));
+    const QString text = canvas->isCompact() ? QStringLiteral("L")
+        : behind < 1.0                       ? QPlcTimePlot::tr("frozen – L")
+                                             : QPlcTimePlot::tr("%1 behind – L").arg(time);
     if (text != liveButton->text())
         liveButton->setText(text);
     liveButton->adjustSize();
-    liveButton->move(canvas->canvas()->width() - liveButton->width() - buttonMargin, buttonMargin);
+    liveButton->move(canvas->canvas()->width() - liveButton->width() - buttonMargin,
+                     (canvas->isCompact() ? 0 : overlay->flagHeight()) + buttonMargin);
     liveButton->raise();
 }
 
@@ -192,9 +198,13 @@ void QPlcTimePlot::Private::arrange()
 {
     const bool hasLegend = settings.hasLegend && !curves.isEmpty() && q->height() >= leastLegendHeight;
     legendArea->setVisible(hasLegend);
-    const int wanted = legend->heightForWidth(q->contentsRect().width());
-    legendArea->setFixedHeight(std::min(wanted, int(legendShare * q->height())));
+    canvas->setCompact(q->height() < compactHeight || q->width() < compactWidth);
+    legendArea->setVerticalScrollBarPolicy(canvas->isCompact() ? Qt::ScrollBarAlwaysOff : Qt::ScrollBarAsNeeded);
+    legendArea->setFixedHeight(legend->heightWithin(q->contentsRect().width(), int(legendShare * q->height())));
     statistics->setUnfolded(settings.hasStatistics && q->height() >= leastStatisticsHeight);
+    const int messageHeight = message->heightForWidth(q->width());  // over the rest, which stays where it is
+    message->setGeometry(0, q->height() - messageHeight, q->width(), messageHeight);
+    message->raise();
 }
 
 void QPlcTimePlot::Private::showTheme()
@@ -211,6 +221,7 @@ void QPlcTimePlot::Private::showTheme()
     button.setColor(QPalette::Button, theme.accent);
     button.setColor(QPalette::ButtonText, theme.surface);
     liveButton->setPalette(button);
+    liveButton->setFont(overlay->font());
     bind();
 }
 
@@ -222,5 +233,6 @@ void QPlcTimePlot::Private::say(const QString &sentence, bool isFailure)
     message->setPalette(palette);
     message->setText(isFailure ? QPlcTimePlot::tr("%1 (Esc)").arg(sentence) : sentence);
     message->show();
+    arrange();
     isFailure ? messageTimer.stop() : messageTimer.start(successTime);
 }

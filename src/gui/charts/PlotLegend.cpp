@@ -123,7 +123,13 @@ int PlotLegend::heightForWidth(int width) const
     if (m_entries.isEmpty())
         return 0;
     const int columns = columnsFor(width);
-    return (m_entries.size() + columns - 1) / columns * m_lineHeight + margin;
+    return (m_entries.size() + columns - 1) / columns * m_lineHeight + 2 * margin;
+}
+
+int PlotLegend::heightWithin(int width, int room) const
+{
+    const int lines = std::max(1, (room - 2 * margin) / m_lineHeight);
+    return std::min(heightForWidth(width), lines * m_lineHeight + 2 * margin);
 }
 
 QSize PlotLegend::sizeHint() const
@@ -137,7 +143,8 @@ QRect PlotLegend::entryRect(int place) const
     const int room = (width() - 2 * margin + gap) / columns;
     const int wanted = swatch + m_nameWidth + m_valueWidth + m_unitWidth + 3 * spacing;
     const int column = place % columns;
-    return {margin + column * room, place / columns * m_lineHeight, std::min(room - gap, wanted), m_lineHeight};
+    return {margin + column * room, margin + place / columns * m_lineHeight, std::min(room - gap, wanted),
+            m_lineHeight};
 }
 
 int PlotLegend::entryAt(QPoint position) const

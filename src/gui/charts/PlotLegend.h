@@ -43,6 +43,8 @@ public:
 
     bool hasHeightForWidth() const override { return true; }
     int heightForWidth(int width) const override;
+    /// The height of as many whole lines as there is room for, but of one at least [px]
+    int heightWithin(int width, int room) const;
     QSize sizeHint() const override;
     QSize minimumSizeHint() const override { return {1, 1}; }
 

@@ -129,8 +129,7 @@ void PlotOverlay::paintCursor(QPainter *painter, int x, const QString &name) con
 {
     painter->setPen(QPen(m_theme.accent, 0.0));
     painter->drawLine(x, 0, x, height());
-    const QFontMetrics metrics = fontMetrics();
-    QRect flag(0, 0, metrics.horizontalAdvance(name) + 2 * labelMargin, metrics.height());
+    QRect flag(0, 0, fontMetrics().horizontalAdvance(name) + 2 * labelMargin, flagHeight());
     const bool isFirst = name == QLatin1String("A");  // flags lie outside of what is between them
     flag.moveTopLeft({isFirst ? x - flag.width() + 1 : x, 0});
     flag.moveLeft(std::clamp(flag.left(), std::min(0, x), std::max(width() - flag.width(), x - flag.width())));

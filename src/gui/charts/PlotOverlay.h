@@ -38,6 +38,8 @@ public:
     const Picture &picture() const { return m_picture; }
     /// Drawn when it is another one.
     void show(const Picture &picture);
+    /// Of the flags of the cursors, along the upper edge [px]
+    int flagHeight() const { return fontMetrics().height(); }
     /// The same on any painter whose origin is that of the canvas.
     void paint(QPainter *painter) const;
 

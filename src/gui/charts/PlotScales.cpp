@@ -29,10 +29,10 @@ double stepOf(const QList<double> &ticks)
 
 }  // namespace
 
-ValueScaleDraw::ValueScaleDraw(const QFont &font)
+ValueScaleDraw::ValueScaleDraw(const QFont &font, int characters)
 {
     setTicksShort(this);
-    setMinimumExtent(QFontMetricsF(font).horizontalAdvance(QStringLiteral("-88888.8")) + lengthOfTick + spacing());
+    setMinimumExtent(QFontMetricsF(font).horizontalAdvance(QLatin1Char('8')) * characters + lengthOfTick + spacing());
 }
 
 QwtText ValueScaleDraw::label(double value) const

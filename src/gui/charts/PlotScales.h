@@ -13,7 +13,8 @@ namespace qplc {
 class ValueScaleDraw : public QwtScaleDraw
 {
 public:
-    explicit ValueScaleDraw(const QFont &font);
+    /// \param characters  that there is always room for
+    ValueScaleDraw(const QFont &font, int characters);
     QwtText label(double value) const override;
 };
 

@@ -40,7 +40,9 @@ QPlcTimePlot::Private::Private(QPlcTimePlot *plot)
     statistics->hide();
     message->hide();
     message->setWordWrap(true);
-    message->setMargin(4);
+    message->setMargin(6);
+    message->setAutoFillBackground(true);
+    message->setFrameShape(QFrame::StyledPanel);
     message->setTextInteractionFlags(Qt::TextSelectableByMouse);
     auto *column = new QVBoxLayout(plot);
     column->setContentsMargins(2, 4, 2, 2);
@@ -48,7 +50,6 @@ QPlcTimePlot::Private::Private(QPlcTimePlot *plot)
     column->addWidget(canvas, 1);
     column->addWidget(legendArea);
     column->addWidget(statistics);
-    column->addWidget(message);
     canvas->setAccessibleName(QPlcTimePlot::tr("Curves over time"));
     drawTimer.setSingleShot(true);
     messageTimer.setSingleShot(true);
@@ -74,7 +75,7 @@ QPlcTimePlot::QPlcTimePlot(QWidget *parent)
 {
     setFocusPolicy(Qt::StrongFocus);
     setAccessibleName(tr("Time plot"));
-    d->bind();
+    d->showTheme();
 }
 
 QPlcTimePlot::~QPlcTimePlot() = default;
@@ -265,8 +266,11 @@ bool QPlcTimePlot::Private::addCurves(const QStringList &signalNames)
         wanted.curves.append(curve);
         last = wanted.curves.size() - 1;
     }
-    if (wanted.curves.size() > settings.curves.size())
+    if (wanted.curves.size() > settings.curves.size()) {
+        for (ValueAxis &axis : axes)  // what is added is to be seen
+            axis.isHeld = false;
         edit(wanted);
+    }
     if (last >= 0)
         select(last);
     return last >= 0;

@@ -64,6 +64,7 @@ StatisticsView::StatisticsView(QWidget *parent)
     m_table->horizontalHeaderItem(Signal)->setTextAlignment(Qt::AlignLeft | Qt::AlignVCenter);
     m_table->setIconSize(QSize(swatch, swatch));
     m_table->setTextElideMode(Qt::ElideMiddle);
+    m_table->setWordWrap(false);
     m_table->setVerticalScrollMode(QAbstractItemView::ScrollPerPixel);
     m_table->verticalHeader()->hide();
     m_table->verticalHeader()->setMinimumSectionSize(1);
