@@ -252,7 +252,10 @@ void tst_PlotEditing::whatIsSeenGoesIntoTheClipboard()
     QTRY_VERIFY(!QGuiApplication::clipboard()->text().isEmpty());
     const QStringList lines = QGuiApplication::clipboard()->text().split(QLatin1Char('\n'));
     QCOMPARE(lines.first(), QStringLiteral("UTC\ttime [s]\tcount\t2*sum [m]"));
-    QVERIFY2(lines.size() >= 8 && lines.size() <= 13, qPrintable(QString::number(lines.size())));
+    const SignalStore &store = *window.context.plants()->at(0)->store();
+    const auto rows = store.rowAt(window.canvas()->end()) - store.rowAt(window.canvas()->begin());
+    QVERIFY(rows > 0 && rows < 20);
+    QCOMPARE(lines.size(), int(rows) + 2);  // with the header, and nothing behind the last line
 }
 
 void tst_PlotEditing::picturesHaveTwiceThePixels()
