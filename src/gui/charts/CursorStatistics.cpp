@@ -88,8 +88,9 @@ double CursorStatistics::valueAt(const SignalStore &store, int channel, const Sc
         return NAN;
     const Row row = next - 1;
     const Time age = time - store.time(row);
-    const bool isGap = next < store.endRow() && store.beginsAnew(next) && age > 0;
-    const Time period = row > store.firstRow() ? store.time(row) - store.time(row - 1) : 0;
+    const bool hasPeriod = row > store.firstRow() && !store.beginsAnew(row);
+    const Time period = hasPeriod ? store.time(row) - store.time(row - 1) : 0;
+    const bool isGap = next < store.endRow() && store.beginsAnew(next) && age > 0 && age >= period;
     const bool isOver = next == store.endRow() && age > periodsToNextRow * period;
     return isGap || isOver ? NAN : scaled(scaling, store.value(channel, row));
 }

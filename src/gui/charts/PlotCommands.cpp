@@ -20,6 +20,7 @@ namespace {
 
 constexpr double zoomOfKey = 0.7;     // what a key leaves
 constexpr double panOfKey = 0.15;     // of the view
+constexpr double reachOfRow = 4.0;    // [px]: so far a cursor goes to a row
 constexpr double firstCursor = 0.35;  // places of cursors without a mouse, of the view
 constexpr double secondCursor = 0.65;
 
@@ -306,7 +307,25 @@ void QPlcTimePlot::Private::placeCursor(TimeView::Cursor which, std::optional<Ti
     const std::optional<QPoint> mouse = interaction->mouse();
     const double place = (which == TimeView::A ? firstCursor : secondCursor) * canvas->canvas()->width();
     lastCursor = which;
-    shared()->setCursor(which, time ? *time : canvas->timeAt(mouse ? mouse->x() : place));
+    shared()->setCursor(which, nearestRow(time ? *time : canvas->timeAt(mouse ? mouse->x() : place)));
+}
+
+/// A cursor goes to a row that is near enough, for only there values were measured.
+QPlcTimePlot::Private::Time QPlcTimePlot::Private::nearestRow(Time time) const
+{
+    Time nearest = time;
+    Time distance = canvas->timeAt(reachOfRow) - canvas->timeAt(0.0);
+    for (const SignalStore *store : curves.stores()) {
+        const SignalStore::Row next = store->rowAt(time);
+        for (SignalStore::Row row = next > store->firstRow() ? next - 1 : next; row < store->endRow() && row <= next;
+             ++row) {
+            if (std::abs(store->time(row) - time) > distance)
+                continue;
+            nearest = store->time(row);
+            distance = std::abs(nearest - time);
+        }
+    }
+    return nearest;
 }
 
 void QPlcTimePlot::Private::removeCursors()
@@ -323,7 +342,10 @@ void QPlcTimePlot::Private::moveCursor(int pixels)
         return;
     const std::optional<Time> time = shared()->cursor(lastCursor);
     const Time pixel = canvas->timeAt(1.0) - canvas->timeAt(0.0);
-    placeCursor(lastCursor, time ? std::optional<Time>(*time + pixels * pixel) : std::nullopt);
+    if (time)
+        shared()->setCursor(lastCursor, *time + pixels * pixel);
+    else
+        placeCursor(lastCursor);
 }
 
 void QPlcTimePlot::Private::toggleLive()

@@ -81,6 +81,7 @@ public:
     void panValues(Axis axis, double by);
     void showBox(const QRect &box);
     void placeCursor(qplc::TimeView::Cursor which, std::optional<Time> time = std::nullopt);
+    Time nearestRow(Time time) const;
     void removeCursors();
     void moveCursor(int pixels);
     void toggleLive();
