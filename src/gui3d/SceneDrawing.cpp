@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SceneDrawing.h"
 
-#include "gui/charts/KiteOverlay.h"
+#include "gui/kite/KiteOverlay.h"
 
 #include <QtCore/QCoreApplication>
 

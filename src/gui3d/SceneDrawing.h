@@ -5,7 +5,7 @@
 #include "ObjMesh.h"
 #include "OrbitCamera.h"
 #include "View3DSettings.h"
-#include "gui/charts/KiteSignals.h"
+#include "gui/kite/KiteSignals.h"
 
 namespace qplc {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "View3DSettings.h"
-#include "gui/charts/KiteSettingsEditor.h"
+#include "gui/kite/KiteSettingsEditor.h"
 
 #include <QtWidgets/QWidget>
 

@@ -5,7 +5,7 @@
 #include "QPlcWindWindow.h"
 #include "View3DEditor.h"
 #include "View3DOverlay.h"
-#include "gui/charts/KiteOverlay.h"
+#include "gui/kite/KiteOverlay.h"
 
 #include <QtWidgets/QLabel>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "OrbitCamera.h"
-#include "gui/charts/KiteSettings.h"
+#include "gui/kite/KiteSettings.h"
 
 namespace qplc {
 

@@ -4,44 +4,93 @@
 #include "gui/plant/PlantList.h"
 
 #include <QtCore/QStringListModel>
+#include <QtGui/QKeyEvent>
+#include <QtWidgets/QAbstractItemView>
 #include <QtWidgets/QCompleter>
 
 namespace qplc {
 
-SignalEdit::SignalEdit(PlantList *plants, QWidget *parent)
+SignalEdit::SignalEdit(const PlantList *plants, Offer offer, QWidget *parent)
     : QLineEdit(parent)
-    , m_plants(plants)
+    , m_offer(offer)
 {
-    setPlaceholderText(tr("Name of a signal"));
-    setAccessibleName(tr("Signal"));
+    setPlaceholderText(offer == Curves ? tr("Signal, or = formula") : tr("Name of a signal"));
+    setAccessibleName(tr("Name of a signal"));
     setClearButtonEnabled(true);
-    connect(this, &QLineEdit::returnPressed, this, [this] { Q_EMIT chosen(text().trimmed()); });
-    if (!m_plants)
+    if (!plants)
         return;
-    auto *offered = new QStringListModel(names(*m_plants), this);
+    auto *offered = new QStringListModel(names(*plants, offer), this);
     auto *completer = new QCompleter(offered, this);
     completer->setFilterMode(Qt::MatchContains);
     completer->setCaseSensitivity(Qt::CaseInsensitive);
     completer->setMaxVisibleItems(12);
     setCompleter(completer);
-    connect(completer, QOverload<const QString &>::of(&QCompleter::activated), this, &SignalEdit::chosen);
-    connect(m_plants, &PlantList::signalsChanged, this, [this, offered] { offered->setStringList(names(*m_plants)); });
+    // Later, for the completer writes the name into the line after it has told it.
+    connect(
+        completer, QOverload<const QString &>::of(&QCompleter::activated), this,
+        [this](const QString &text) { choose(text); }, Qt::QueuedConnection);
+    connect(plants, &PlantList::signalsChanged, this,
+            [this, plants, offered] { offered->setStringList(names(*plants, m_offer)); });
 }
 
-QStringList SignalEdit::names(const PlantList &plants)
+QStringList SignalEdit::names(const PlantList &plants, Offer offer)
 {
     QStringList names;
     for (int i = 0; i < plants.size(); ++i) {
-        const Plant *plant = plants.at(i);
-        for (int signal = 0; signal < plant->table().size(); ++signal) {
-            const auto index = QPlcSignalIndex(signal);
-            names << plants.reference(plant, index).toString();
-            const QPlcSignalType type = plant->table().at(index).type;
-            for (int element = 0; type.isArray() && element < type.count(); ++element)
-                names << plants.reference(plant, index, element).toString();
+        const QPlcSignalTable &table = plants.at(i)->table();
+        for (int place = 0; place < table.size(); ++place) {
+            const auto signal = QPlcSignalIndex(place);
+            const QPlcSignalType type = table.at(signal).type;
+            if (offer == AllSignals || (type.isNumeric() && !type.isArray()))
+                names << plants.reference(plants.at(i), signal).toString();
+            const bool hasElements = type.isArray() && (offer == AllSignals || type.isNumeric());
+            for (int element = 0; hasElements && element < type.count(); ++element)
+                names << plants.reference(plants.at(i), signal, element).toString();
         }
     }
     return names;
+}
+
+void SignalEdit::keyPressEvent(QKeyEvent *event)
+{
+    if (event->key() == Qt::Key_Escape) {
+        Q_EMIT left();
+        return;
+    }
+    const bool isEnter = event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter;
+    if (isEnter)
+        choose(meant());
+    QLineEdit::keyPressEvent(event);
+    if (isEnter)
+        event->accept();  // of no use to who is behind
+}
+
+/// What is written when it is a formula, the name of a signal, or like none; else the first name like it.
+QString SignalEdit::meant() const
+{
+    const QString written = text().trimmed();
+    QCompleter *names = completer();
+    if (!names || written.isEmpty() || written.startsWith(QLatin1Char('=')))
+        return written;
+    names->setCompletionPrefix(written);
+    QString first;
+    for (int i = 0; names->setCurrentRow(i); ++i) {
+        if (names->currentCompletion() == written)
+            return written;
+        if (i == 0)
+            first = names->currentCompletion();
+    }
+    return first.isEmpty() ? written : first;
+}
+
+void SignalEdit::choose(const QString &name)
+{
+    if (name.isEmpty())
+        return;
+    if (completer())
+        completer()->popup()->hide();
+    setText(name);
+    Q_EMIT chosen(name);
 }
 
 }  // namespace qplc

@@ -3,8 +3,6 @@
 
 #include <QtWidgets/QLineEdit>
 
-class QCompleter;
-
 namespace qplc {
 
 class PlantList;
@@ -14,18 +12,30 @@ class SignalEdit : public QLineEdit
 {
     Q_OBJECT
 public:
-    /// \param plants  null: nothing is offered
-    explicit SignalEdit(PlantList *plants, QWidget *parent = nullptr);
+    enum Offer {
+        AllSignals,  // and the elements of arrays behind them
+        Curves       // what a curve can show: numbers, arrays by element; formulas are taken too
+    };
 
-    /// All signals of all plants, and the elements of arrays behind them.
-    static QStringList names(const PlantList &plants);
+    /// \param plants  null: nothing is offered
+    explicit SignalEdit(const PlantList *plants, Offer offer = AllSignals, QWidget *parent = nullptr);
+
+    static QStringList names(const PlantList &plants, Offer offer);
 
 Q_SIGNALS:
-    /// A name was chosen from the list, or Enter pressed.
-    void chosen(const QString &reference);
+    /// Enter was pressed, or a name was chosen from the list: it is the text of the line now, and not empty. What is typed means the first name like it when it is none itself.
+    void chosen(const QString &text);
+    /// Esc was pressed.
+    void left();
+
+protected:
+    void keyPressEvent(QKeyEvent *event) override;
 
 private:
-    PlantList *m_plants;
+    QString meant() const;
+    void choose(const QString &name);
+
+    Offer m_offer;
 };
 
 }  // namespace qplc

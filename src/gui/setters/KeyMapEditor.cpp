@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "KeyMapEditor.h"
+#include "gui/panel/SignalEdit.h"
 
 #include "KeyButton.h"
-#include "SignalField.h"
 
 #include <QtWidgets/QComboBox>
 #include <QtWidgets/QDoubleSpinBox>
@@ -103,7 +103,7 @@ void KeyMapEditor::addAxisRow(QGridLayout *grid, int place)
 void KeyMapEditor::addSignalField(QGridLayout *grid, int row, int column,
                                   const std::function<SignalReference &()> &signal)
 {
-    QLineEdit *field = createSignalField(m_plants, m_content);
+    auto *field = new SignalEdit(m_plants, SignalEdit::AllSignals, m_content);
     field->setText(signal().toString());
     field->setMinimumWidth(170);
     connect(field, &QLineEdit::editingFinished, this, [this, field, signal] {

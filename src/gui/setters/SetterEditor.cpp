@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SetterEditor.h"
+#include "gui/panel/SignalEdit.h"
 
 #include "SetterView.h"
-#include "SignalField.h"
 
 #include <QtGui/QDoubleValidator>
 #include <QtWidgets/QComboBox>
@@ -16,7 +16,7 @@ SetterEditor::SetterEditor(const SetterSettings &settings, const PlantList *plan
     , m_settings(settings)
 {
     auto *form = new QFormLayout(this);
-    QLineEdit *signal = createSignalField(plants, this);
+    auto *signal = new SignalEdit(plants, SignalEdit::AllSignals, this);
     signal->setText(settings.signal.toString());
     signal->setMinimumWidth(180);
     form->addRow(tr("Signal"), signal);

@@ -159,7 +159,7 @@ QWidget *QPlcValueTable::createSettingsEditor()
     edit->setMinimumWidth(180);
     connect(edit, &SignalEdit::chosen, this, [this, edit](const QString &reference) {
         if (addSignals({reference}))
-            QTimer::singleShot(0, edit, &QLineEdit::clear);  // after the list has written its choice into the line
+            edit->clear();
     });
     return edit;
 }

@@ -8,6 +8,7 @@
 #include "QPlcNodeTable.h"
 #include "QPlcSetter.h"
 #include "QPlcSignalTree.h"
+#include "QPlcTimePlot.h"
 #include "QPlcValueTable.h"
 #include "QPlcWidget.h"
 #include "QPlcWindWindow.h"
@@ -29,9 +30,9 @@ QList<QPlcWidgetFactory *> standardWidgets()
 {
     // In the order of menus.
     static const QList<QPlcWidgetFactory *> all
-        = registered<QPlcXyPlotFactory, QPlcGaugeFactory, QPlcSetterFactory, QPlcKeyboardControlFactory,
-                     QPlcWindWindowFactory, QPlcValueTableFactory, QPlcSignalTreeFactory, QPlcNodeTableFactory,
-                     QPlcJitterHistogramFactory, QPlcEventLogFactory>();
+        = registered<QPlcTimePlotFactory, QPlcXyPlotFactory, QPlcGaugeFactory, QPlcSetterFactory,
+                     QPlcKeyboardControlFactory, QPlcWindWindowFactory, QPlcValueTableFactory, QPlcSignalTreeFactory,
+                     QPlcNodeTableFactory, QPlcJitterHistogramFactory, QPlcEventLogFactory>();
     return all;
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "gui/charts/ColorScale.h"
-#include "gui/charts/KiteGeometry.h"
-#include "gui/charts/KiteSettings.h"
-#include "gui/charts/WindWindowDrawing.h"
+#include "gui/kite/ColorScale.h"
+#include "gui/kite/KiteGeometry.h"
+#include "gui/kite/KiteSettings.h"
+#include "gui/kite/WindWindowDrawing.h"
 
 #include <QtTest/QtTest>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "NodeFixtures.h"
-#include "gui/charts/KiteGeometry.h"
+#include "gui/kite/KiteGeometry.h"
 #include "gui/panel/WindowContext.h"
 
 #include <QtTest/QtTest>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "KiteFixtures.h"
 #include "QPlcWindWindow.h"
-#include "gui/charts/WindWindowDrawing.h"
+#include "gui/kite/WindWindowDrawing.h"
 
 #include <QtWidgets/QDoubleSpinBox>
 

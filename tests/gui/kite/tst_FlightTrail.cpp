@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "gui/charts/FlightTrail.h"
+#include "gui/kite/FlightTrail.h"
 
 #include <QtTest/QtTest>
 

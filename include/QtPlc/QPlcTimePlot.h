@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "QPlcWidget.h"
+#include "QPlcWidgetFactoryOf.h"
+
+/// Signals over time, as a panel of a Control Center: live, zoomed, frozen, measured between two cursors, and exported.
+///
+/// A curve is gain * signal + offset, on the left or the right axis. Integers and booleans are steps; NaN and interruptions are gaps. Signals that are not there are kept, and drawn as soon as they are.
+///
+/// | | mouse | keys |
+/// |---|---|---|
+/// | zoom the time, about the mouse | wheel | `+`, `-` |
+/// | zoom the values | Ctrl+wheel, or the wheel over a y axis | `Ctrl++`, `Ctrl+-` |
+/// | pan | drag; over a y axis: the values | arrow keys |
+/// | zoom into a box | drag with Shift or the right button | |
+/// | everything, y axes automatic again | double click | `A` |
+/// | live | button "12 s behind" | `L`; `Space` freezes and goes live |
+/// | cursors A and B, of all plots | drag; context menu | `1`, `2`; `0` removes them; `Ctrl+Left`, `Ctrl+Right` move the last one |
+/// | statistics between A and B | fold by the arrow | `S` |
+/// | add a signal | drop | `Insert`; `+` while there is none |
+/// | choose, hide, remove a curve | click in the legend hides; context menu | `N`, `Shift+N`; `V`; `Delete` |
+/// | export what is seen | context menu | `Ctrl+E` CSV, `Ctrl+C` table into the clipboard, `Ctrl+Shift+E` PNG or SVG, `Ctrl+Shift+C` picture into the clipboard |
+///
+/// Zoom and freeze are a view, and no settings: data go on, whatever is looked at. The time axis is that of the window, or its own.
+///
+/// Settings, each with its default when it is not there, whatever it was before:
+/// ```json
+/// {"curves": [{"signal": "kite.elevation", "gain": 1, "offset": 0, "color": "#d55e00", "axis": "right", "visible": false}],
+///  "left": {"minimum": 0, "maximum": 90}, "right": {}, "time": "own", "span": 10, "labels": "seconds", "grid": false, "limits": true,
+///  "legend": false, "statistics": false}
+/// ```
+///
+/// Threads: the thread of the window.
+class QTPLC_GUI_EXPORT QPlcTimePlot : public QPlcWidget
+{
+    Q_OBJECT
+public:
+    static constexpr int staticType = TimePlot;
+    static QString typeName() { return QStringLiteral("Time plot"); }
+
+    explicit QPlcTimePlot(QWidget *parent = nullptr);
+    ~QPlcTimePlot() override;
+
+    int type() const override { return staticType; }
+    QJsonObject settings() const override;
+    void applySettings(const QJsonObject &settings) override;
+    QWidget *createSettingsEditor() override;
+    /// A curve for each signal, for each element of an array of at most 16; those that have one already get none. \return false for texts, times, and nothing at all
+    bool addSignals(const QStringList &references) override;
+
+    /// Pictures that have been drawn so far: for tests and measurements.
+    int drawnPictures() const;
+
+protected:
+    void contextChanged() override;
+    void showEvent(QShowEvent *event) override;
+    void hideEvent(QHideEvent *event) override;
+    void resizeEvent(QResizeEvent *event) override;
+    void contextMenuEvent(QContextMenuEvent *event) override;
+    void keyPressEvent(QKeyEvent *event) override;
+    void changeEvent(QEvent *event) override;
+
+private:
+    class Private;
+    std::unique_ptr<Private> d;
+};
+using QPlcTimePlotFactory = QPlcWidgetFactoryOf<QPlcTimePlot>;

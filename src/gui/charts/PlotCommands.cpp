@@ -1,0 +1,403 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a person can do with a time plot, by mouse, keys and menu.
+#include "PlotPicture.h"
+#include "QPlcTimePlotPrivate.h"
+#include "gui/panel/SignalEdit.h"
+
+#include <QtGui/QClipboard>
+#include <QtGui/QGuiApplication>
+#include <QtWidgets/QBoxLayout>
+#include <QtWidgets/QFileDialog>
+#include <QtWidgets/QMenu>
+#include <QtWidgets/QToolButton>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace qplc;
+
+namespace {
+
+constexpr double zoomOfKey = 0.7;     // what a key leaves
+constexpr double panOfKey = 0.15;     // of the view
+constexpr double reachOfRow = 4.0;    // [px]: so far a cursor goes to a row
+constexpr double firstCursor = 0.35;  // places of cursors without a mouse, of the view
+constexpr double secondCursor = 0.65;
+
+/// A dialog that asks for a file, and goes on at once.
+QFileDialog *openDialog(QWidget *parent, const QString &title, const QStringList &filters, const QString &suffix)
+{
+    auto *dialog = new QFileDialog(parent, title);
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    dialog->setAcceptMode(QFileDialog::AcceptSave);
+    dialog->setNameFilters(filters);
+    dialog->setDefaultSuffix(suffix);
+    dialog->open();
+    return dialog;
+}
+
+}  // namespace
+
+QAction *QPlcTimePlot::Private::make(const QString &text, const QList<QKeySequence> &keys, const char *name,
+                                     std::function<void()> act)
+{
+    auto *action = new QAction(text, q);
+    action->setObjectName(QLatin1String(name));
+    action->setShortcuts(keys);
+    action->setShortcutContext(Qt::WidgetWithChildrenShortcut);
+    connect(action, &QAction::triggered, this, std::move(act));
+    q->addAction(action);
+    return action;
+}
+
+void QPlcTimePlot::Private::makeActions()
+{
+    const auto key = [](int code) { return QKeySequence(code); };
+    const auto pan = [this](double share) {
+        return [this, share] { view()->pan(Time(std::llround(share * double(view()->span())))); };
+    };
+    const auto panUp = [this](double share) {
+        return [this, share] {
+            for (const Axis axis : {Axis::Left, Axis::Right})
+                panValues(axis, share * canvas->canvas()->height());
+        };
+    };
+    const auto zoomUp = [this](double factor) {
+        return [this, factor] {
+            for (const Axis axis : {Axis::Left, Axis::Right})
+                zoomValues(axis, factor, 0.5 * canvas->canvas()->height());
+        };
+    };
+    addAction = make(QPlcTimePlot::tr("Add signal..."), {key(Qt::Key_Insert)}, "add", [this] { openAddBar(); });
+    removeAction = make(QPlcTimePlot::tr("Remove curve"), {key(Qt::Key_Delete)}, "remove",
+                        [this] { removeCurve(curves.selected()); });
+    toggleAction = make(QPlcTimePlot::tr("Hide or show curve"), {key(Qt::Key_V)}, "toggle",
+                        [this] { toggleCurve(curves.selected()); });
+    const auto choose = [this](int step) {
+        return [this, step] {
+            const int count = curves.size();
+            if (count > 0)
+                select(curves.selected() < 0 ? (step > 0 ? 0 : count - 1) : (curves.selected() + step + count) % count);
+        };
+    };
+    make(QPlcTimePlot::tr("Next curve"), {key(Qt::Key_N)}, "next", choose(1));
+    make(QPlcTimePlot::tr("Previous curve"), {key(Qt::SHIFT | Qt::Key_N)}, "previous", choose(-1));
+    make(QPlcTimePlot::tr("Show all"), {key(Qt::Key_A)}, "all", [this] { showAll(); });
+    make(QPlcTimePlot::tr("Live"), {key(Qt::Key_L)}, "live", [this] { view()->goLive(); });
+    make(QPlcTimePlot::tr("Freeze or go live"), {key(Qt::Key_Space)}, "freeze", [this] { toggleLive(); });
+    make(QPlcTimePlot::tr("Zoom in"), {key(Qt::Key_Plus), key(Qt::Key_Equal)}, "zoomIn",
+         [this] { curves.isEmpty() ? openAddBar() : zoomTime(zoomOfKey); });
+    make(QPlcTimePlot::tr("Zoom out"), {key(Qt::Key_Minus)}, "zoomOut", [this] { zoomTime(1.0 / zoomOfKey); });
+    make(QPlcTimePlot::tr("Zoom values in"), {key(Qt::CTRL | Qt::Key_Plus), key(Qt::CTRL | Qt::Key_Equal)},
+         "zoomValuesIn", zoomUp(zoomOfKey));
+    make(QPlcTimePlot::tr("Zoom values out"), {key(Qt::CTRL | Qt::Key_Minus)}, "zoomValuesOut",
+         zoomUp(1.0 / zoomOfKey));
+    make(QPlcTimePlot::tr("Earlier"), {key(Qt::Key_Left)}, "earlier", pan(-panOfKey));
+    make(QPlcTimePlot::tr("Later"), {key(Qt::Key_Right)}, "later", pan(panOfKey));
+    make(QPlcTimePlot::tr("Larger values"), {key(Qt::Key_Up)}, "larger", panUp(panOfKey));
+    make(QPlcTimePlot::tr("Smaller values"), {key(Qt::Key_Down)}, "smaller", panUp(-panOfKey));
+    make(QPlcTimePlot::tr("Cursor A"), {key(Qt::Key_1)}, "cursorA", [this] { placeCursor(TimeView::A); });
+    make(QPlcTimePlot::tr("Cursor B"), {key(Qt::Key_2)}, "cursorB", [this] { placeCursor(TimeView::B); });
+    make(QPlcTimePlot::tr("Remove cursors"), {key(Qt::Key_0)}, "removeCursors", [this] { removeCursors(); });
+    make(QPlcTimePlot::tr("Cursor to the left"), {key(Qt::CTRL | Qt::Key_Left)}, "cursorLeft",
+         [this] { moveCursor(-1); });
+    make(QPlcTimePlot::tr("Cursor to the right"), {key(Qt::CTRL | Qt::Key_Right)}, "cursorRight",
+         [this] { moveCursor(1); });
+    statisticsAction = make(QPlcTimePlot::tr("Statistics between the cursors"), {key(Qt::Key_S)}, "statistics", [this] {
+        PlotSettings wanted = settings;
+        wanted.hasStatistics = !wanted.hasStatistics;
+        edit(wanted);
+    });
+    make(QPlcTimePlot::tr("Export as CSV..."), {key(Qt::CTRL | Qt::Key_E)}, "saveTable", [this] { saveTable(); });
+    make(QPlcTimePlot::tr("Copy as table"), {key(Qt::CTRL | Qt::Key_C)}, "copyTable", [this] { copyTable(); });
+    make(QPlcTimePlot::tr("Save picture..."), {key(Qt::CTRL | Qt::SHIFT | Qt::Key_E)}, "savePicture",
+         [this] { savePicture(); });
+    make(QPlcTimePlot::tr("Copy picture"), {key(Qt::CTRL | Qt::SHIFT | Qt::Key_C)}, "copyPicture",
+         [this] { copyPicture(); });
+}
+
+void QPlcTimePlot::Private::connectInteraction()
+{
+    liveButton->hide();
+    liveButton->setFocusPolicy(Qt::NoFocus);
+    liveButton->setCursor(Qt::ArrowCursor);
+    liveButton->setToolTip(QPlcTimePlot::tr("Back to the newest values (L)"));
+    liveButton->setAccessibleName(QPlcTimePlot::tr("Live"));
+    connect(liveButton, &QToolButton::clicked, this, [this] { view()->goLive(); });
+    connect(interaction, &PlotInteraction::pressed, q, [this] { q->setFocus(Qt::MouseFocusReason); });
+    connect(interaction, &PlotInteraction::zoomTime, this,
+            [this](double factor, qint64 about) { view()->zoom(factor, about); });
+    connect(interaction, &PlotInteraction::panTime, this, [this](qint64 by) { view()->pan(by); });
+    connect(interaction, &PlotInteraction::zoomValues, this, &Private::zoomValues);
+    connect(interaction, &PlotInteraction::panValues, this, &Private::panValues);
+    connect(interaction, &PlotInteraction::boxChanged, this, [this](const QRect &next) {
+        box = next;
+        schedule();
+    });
+    connect(interaction, &PlotInteraction::boxChosen, this, &Private::showBox);
+    connect(interaction, &PlotInteraction::allWanted, this, &Private::showAll);
+    connect(interaction, &PlotInteraction::cursorDragged, this, [this](PlotInteraction::Cursor cursor, double x) {
+        placeCursor(cursor == PlotInteraction::CursorA ? TimeView::A : TimeView::B, canvas->timeAt(x));
+    });
+    connect(interaction, &PlotInteraction::mouseMoved, this, [this] {
+        if (!shared())
+            return;
+        const std::optional<QPoint> mouse = interaction->mouse();
+        shared()->setPointer(mouse ? std::optional<Time>(canvas->timeAt(mouse->x())) : std::nullopt);
+    });
+    connect(interaction, &PlotInteraction::menuWanted, this, [this](const QPoint &position, const QPoint &global) {
+        createMenu(curves.selected(), position.x())->popup(global);
+    });
+    connect(legend, &PlotLegend::clicked, this, [this](int place) {
+        q->setFocus(Qt::MouseFocusReason);
+        toggleCurve(place);
+    });
+    connect(legend, &PlotLegend::menuWanted, this, [this](int place, const QPoint &global) {
+        select(place);
+        createMenu(place, std::nullopt)->popup(global);
+    });
+    connect(statistics, &StatisticsView::unfoldedChanged, this, [this] { statisticsAction->trigger(); });
+}
+
+/// \param x  of the mouse over the canvas [px]
+QMenu *QPlcTimePlot::Private::createMenu(int curve, std::optional<int> x)
+{
+    auto *menu = new QMenu(q);
+    menu->setAttribute(Qt::WA_DeleteOnClose);
+    const auto add = [&](const char *name) {
+        if (auto *action = q->findChild<QAction *>(QLatin1String(name), Qt::FindDirectChildrenOnly))
+            menu->addAction(action);
+    };
+    add("add");
+    if (curve >= 0 && curve < curves.size()) {
+        menu->addSection(curves.at(curve).settings.text());
+        add("toggle");
+        add("remove");
+    }
+    menu->addSeparator();
+    if (x) {
+        const Time time = canvas->timeAt(*x);
+        const auto here = [&](const QString &text, TimeView::Cursor which, const QString &keys) {
+            QAction *action = menu->addAction(text, this, [this, which, time] { placeCursor(which, time); });
+            action->setShortcut(keys);
+        };
+        here(QPlcTimePlot::tr("Cursor A here"), TimeView::A, QStringLiteral("1"));
+        here(QPlcTimePlot::tr("Cursor B here"), TimeView::B, QStringLiteral("2"));
+    } else {
+        add("cursorA");
+        add("cursorB");
+    }
+    add("removeCursors");
+    add("statistics");
+    menu->addSeparator();
+    for (const char *name : {"all", "zoomIn", "zoomOut", "freeze", "live"})
+        add(name);
+    menu->addSeparator();
+    for (const char *name : {"saveTable", "copyTable", "savePicture", "copyPicture"})
+        add(name);
+    return menu;
+}
+
+/// A line above the curves, that goes when a signal was chosen.
+void QPlcTimePlot::Private::openAddBar()
+{
+    if (addBar) {
+        addBar->setFocus();
+        return;
+    }
+    auto *edit = new SignalEdit(q->context() ? q->context()->plants() : nullptr, SignalEdit::Curves, q);
+    addBar = edit;
+    qobject_cast<QBoxLayout *>(q->layout())->insertWidget(0, edit);
+    const auto close = [this] {
+        if (!addBar)
+            return;
+        addBar->hide();
+        addBar->deleteLater();
+        addBar = nullptr;
+        q->setFocus();
+    };
+    connect(edit, &SignalEdit::left, this, close);
+    connect(edit, &SignalEdit::chosen, this, [this, close](const QString &name) {
+        addCurves({name});
+        close();
+    });
+    edit->setFocus();
+}
+
+void QPlcTimePlot::Private::showAll()
+{
+    for (ValueAxis &axis : axes) {
+        axis.isHeld = false;
+        axis.automatic.reset();
+    }
+    ++version;
+    Time begin = 0;
+    Time end = 0;
+    if (curves.timeRange(&begin, &end)) {
+        if (view()->isLive())
+            view()->setSpan(view()->newest() - begin);
+        else
+            view()->show(begin, std::max(end, begin + 1));
+    }
+    schedule();
+}
+
+/// About the mouse, the live edge, or the middle.
+void QPlcTimePlot::Private::zoomTime(double factor)
+{
+    const std::optional<QPoint> mouse = interaction->mouse();
+    const TimeView *time = view();
+    const Time middle = time->isLive() ? time->end() : time->begin() + time->span() / 2;
+    view()->zoom(factor, mouse ? canvas->timeAt(mouse->x()) : middle);
+}
+
+void QPlcTimePlot::Private::zoomValues(Axis axis, double factor, double about)
+{
+    const double height = canvas->canvas()->height();
+    const double low = canvas->valueAt(axis, height);
+    const double high = canvas->valueAt(axis, 0.0);
+    const double fixed = canvas->valueAt(axis, about);
+    if (!curves.hasAxis(axis))
+        return;
+    ValueAxis &values = axes[axis];
+    const double minimum = fixed + factor * (low - fixed);
+    const double maximum = fixed + factor * (high - fixed);
+    // Below, neighbours of 32-bit values are farther apart than pixels.
+    if (!(maximum - minimum > 1e-9 * std::max(std::abs(minimum), std::abs(maximum)))
+        || !std::isfinite(maximum - minimum))
+        return;
+    values.isHeld = true;
+    values.minimum = minimum;
+    values.maximum = maximum;
+    ++version;
+    schedule();
+}
+
+void QPlcTimePlot::Private::panValues(Axis axis, double by)
+{
+    if (!curves.hasAxis(axis))
+        return;
+    const double height = canvas->canvas()->height();
+    ValueAxis &values = axes[axis];
+    values.minimum = canvas->valueAt(axis, height - by);
+    values.maximum = canvas->valueAt(axis, -by);
+    values.isHeld = true;
+    ++version;
+    schedule();
+    draw();  // the next step starts from here
+}
+
+void QPlcTimePlot::Private::showBox(const QRect &chosen)
+{
+    for (const Axis axis : {Axis::Left, Axis::Right}) {
+        ValueAxis &values = axes[axis];
+        values.minimum = canvas->valueAt(axis, chosen.bottom() + 1);
+        values.maximum = canvas->valueAt(axis, chosen.top());
+        values.isHeld = curves.hasAxis(axis) && values.minimum < values.maximum;
+    }
+    ++version;
+    view()->show(canvas->timeAt(chosen.left()), canvas->timeAt(chosen.right() + 1));
+    schedule();
+}
+
+void QPlcTimePlot::Private::placeCursor(TimeView::Cursor which, std::optional<Time> time)
+{
+    if (!shared() || curves.isEmpty())
+        return;
+    const std::optional<QPoint> mouse = interaction->mouse();
+    const double place = (which == TimeView::A ? firstCursor : secondCursor) * canvas->canvas()->width();
+    lastCursor = which;
+    shared()->setCursor(which, nearestRow(time ? *time : canvas->timeAt(mouse ? mouse->x() : place)));
+}
+
+/// A cursor goes to a row that is near enough, for only there values were measured.
+QPlcTimePlot::Private::Time QPlcTimePlot::Private::nearestRow(Time time) const
+{
+    Time nearest = time;
+    Time distance = canvas->timeAt(reachOfRow) - canvas->timeAt(0.0);
+    for (const SignalStore *store : curves.stores()) {
+        const SignalStore::Row next = store->rowAt(time);
+        for (SignalStore::Row row = next > store->firstRow() ? next - 1 : next; row < store->endRow() && row <= next;
+             ++row) {
+            if (std::abs(store->time(row) - time) > distance)
+                continue;
+            nearest = store->time(row);
+            distance = std::abs(nearest - time);
+        }
+    }
+    return nearest;
+}
+
+void QPlcTimePlot::Private::removeCursors()
+{
+    if (!shared())
+        return;
+    shared()->setCursor(TimeView::A, std::nullopt);
+    shared()->setCursor(TimeView::B, std::nullopt);
+}
+
+void QPlcTimePlot::Private::moveCursor(int pixels)
+{
+    if (!shared())
+        return;
+    const std::optional<Time> time = shared()->cursor(lastCursor);
+    const Time pixel = canvas->timeAt(1.0) - canvas->timeAt(0.0);
+    if (time)
+        shared()->setCursor(lastCursor, *time + pixels * pixel);
+    else
+        placeCursor(lastCursor);
+}
+
+void QPlcTimePlot::Private::toggleLive()
+{
+    view()->isLive() ? view()->freeze() : view()->goLive();
+}
+
+std::vector<TableExport::Column> QPlcTimePlot::Private::exportColumns() const
+{
+    std::vector<TableExport::Column> columns;
+    for (const PlotCurve &curve : curves) {
+        if (curve.isSeen())
+            columns.push_back({curve.source.store, curve.source.channel, curve.settings.gain, curve.settings.offset,
+                               curve.settings.text(), curve.source.unit});
+    }
+    return columns;
+}
+
+/// The range is that of the moment of the wish, whatever is seen when the name has been chosen.
+void QPlcTimePlot::Private::saveTable()
+{
+    const Time begin = canvas->begin();
+    const Time end = canvas->end() - 1;
+    QFileDialog *dialog = openDialog(q, QPlcTimePlot::tr("Export what is seen"),
+                                     {QPlcTimePlot::tr("Comma-separated values (*.csv)")}, QStringLiteral("csv"));
+    connect(dialog, &QFileDialog::fileSelected, this, [this, begin, end](const QString &name) {
+        tableExport.save(TableExport(TableExport::Csv, exportColumns(), begin, end), name);
+    });
+}
+
+void QPlcTimePlot::Private::copyTable()
+{
+    tableExport.copy(TableExport(TableExport::Tsv, exportColumns(), canvas->begin(), canvas->end() - 1));
+}
+
+void QPlcTimePlot::Private::savePicture()
+{
+    QFileDialog *dialog
+        = openDialog(q, QPlcTimePlot::tr("Save a picture"),
+                     {QPlcTimePlot::tr("Picture (*.png)"), QPlcTimePlot::tr("Drawing (*.svg)")}, QStringLiteral("png"));
+    connect(dialog, &QFileDialog::filterSelected, dialog, [dialog](const QString &filter) {
+        dialog->setDefaultSuffix(filter.contains(QLatin1String("svg")) ? QStringLiteral("svg") : QStringLiteral("png"));
+    });
+    connect(dialog, &QFileDialog::fileSelected, this, [this](const QString &name) {
+        const QString failure = PlotPicture(canvas, overlay, legend).save(name);
+        const bool isFailure = !failure.isEmpty();
+        say(isFailure ? failure : QPlcTimePlot::tr("The picture is in %1.").arg(name), isFailure);
+    });
+}
+
+void QPlcTimePlot::Private::copyPicture()
+{
+    QGuiApplication::clipboard()->setImage(PlotPicture(canvas, overlay, legend).image());
+    say(QPlcTimePlot::tr("The picture is in the clipboard."), false);
+}

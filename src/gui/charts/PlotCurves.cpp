@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "PlotCurves.h"
+
+#include <qwt_plot.h>
+#include <qwt_plot_marker.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace qplc {
+
+namespace {
+
+constexpr double boldness = 1.0;      // [px] that the selected curve is thicker
+constexpr double limitOpacity = 0.6;  // of the colour of the curve
+constexpr double limitDepth = 15.0;   // below the curves, above the grid
+
+QwtPlot::Axis qwtAxis(PlotCurveSettings::Axis axis)
+{
+    return axis == PlotCurveSettings::Left ? QwtPlot::yLeft : QwtPlot::yRight;
+}
+
+SignalStore::Range united(const SignalStore::Range &a, const SignalStore::Range &b)
+{
+    return a.isEmpty() ? b
+        : b.isEmpty()  ? a
+                       : SignalStore::Range{std::min(a.minimum, b.minimum), std::max(a.maximum, b.maximum)};
+}
+
+}  // namespace
+
+PlotCurve::PlotCurve() = default;
+PlotCurve::PlotCurve(PlotCurve &&) noexcept = default;
+PlotCurve::~PlotCurve() = default;
+
+double PlotCurve::value(std::optional<SignalStore::Time> time) const
+{
+    if (isMissing() || source.store->isEmpty())
+        return NAN;
+    if (time)
+        return CursorStatistics::valueAt(*source.store, source.channel, scaling(), *time);
+    return settings.gain * double(source.store->value(source.channel, source.store->endRow() - 1)) + settings.offset;
+}
+
+PlotCurves::PlotCurves(QwtPlot *plot)
+    : m_plot(plot)
+{
+}
+
+PlotCurves::~PlotCurves() = default;
+
+void PlotCurves::bind(const PlotSettings &settings, const CurveSources *sources, const Theme &theme)
+{
+    m_curves.clear();
+    m_stores.clear();
+    m_selected = std::min(m_selected, settings.curves.size() - 1);
+    for (const PlotCurveSettings &wanted : settings.curves) {
+        PlotCurve curve;
+        curve.settings = wanted;
+        curve.source = sources ? sources->find(wanted.signal) : CurveSource();
+        curve.color = wanted.color.isValid() ? wanted.color : theme.curve(size());
+        if (curve.isSeen())
+            show(&curve, settings.showsLimits, theme);
+        m_curves.push_back(std::move(curve));
+    }
+    select(m_selected, theme);
+}
+
+void PlotCurves::show(PlotCurve *curve, bool showsLimits, const Theme &theme)
+{
+    const CurveSource &source = curve->source;
+    if (std::find(m_stores.begin(), m_stores.end(), source.store) == m_stores.end())
+        m_stores.push_back(source.store);
+    curve->item = std::make_unique<StoreCurve>(source.store, source.channel, curve->settings.text());
+    curve->item->setColor(curve->color);
+    curve->item->setLineWidth(theme.curveWidth);
+    curve->item->setScaling(curve->settings.gain, curve->settings.offset);
+    curve->item->setStyle(source.isStepped ? StoreCurve::Steps : StoreCurve::Line);
+    curve->item->setOrigin(m_origin);
+    curve->item->setYAxis(qwtAxis(curve->settings.axis));
+    curve->item->setRenderHint(QwtPlotItem::RenderAntialiased);
+    curve->item->attach(m_plot);
+    for (const std::optional<double> &limit : {source.minimum, source.maximum}) {
+        if (showsLimits && limit)
+            showLimit(curve, curve->settings.gain * *limit + curve->settings.offset);
+    }
+}
+
+void PlotCurves::showLimit(PlotCurve *curve, double limit)
+{
+    QColor color = curve->color;
+    color.setAlphaF(limitOpacity);
+    auto marker = std::make_unique<QwtPlotMarker>();
+    marker->setLineStyle(QwtPlotMarker::HLine);
+    marker->setLinePen(color, 1.0, Qt::DashLine);
+    marker->setYValue(limit);
+    marker->setYAxis(qwtAxis(curve->settings.axis));
+    marker->setZ(limitDepth);
+    marker->attach(m_plot);
+    curve->limits.push_back(std::move(marker));
+}
+
+void PlotCurves::select(int place, const Theme &theme)
+{
+    m_selected = place;
+    for (int i = 0; i < size(); ++i) {
+        StoreCurve *item = m_curves[std::size_t(i)].item.get();
+        if (!item)
+            continue;
+        item->setLineWidth(theme.curveWidth + (i == place ? boldness : 0.0));
+        item->setZ(i == place ? 30.0 : 20.0);
+    }
+}
+
+void PlotCurves::setOrigin(SignalStore::Time origin)
+{
+    if (origin == m_origin)
+        return;
+    m_origin = origin;
+    for (const PlotCurve &curve : m_curves) {
+        if (curve.item)
+            curve.item->setOrigin(origin);
+    }
+}
+
+bool PlotCurves::hasAxis(PlotCurveSettings::Axis axis) const
+{
+    return std::any_of(m_curves.begin(), m_curves.end(),
+                       [axis](const PlotCurve &each) { return each.settings.axis == axis && each.settings.isVisible; });
+}
+
+QString PlotCurves::unit(PlotCurveSettings::Axis axis) const
+{
+    std::optional<QString> common;
+    for (const PlotCurve &curve : m_curves) {
+        if (!curve.isSeen() || curve.settings.axis != axis)
+            continue;
+        if (common && *common != curve.source.unit)
+            return {};
+        common = curve.source.unit;
+    }
+    return common.value_or(QString());
+}
+
+SignalStore::Range PlotCurves::range(PlotCurveSettings::Axis axis, double begin, double end) const
+{
+    SignalStore::Range all{NAN, NAN};
+    for (const PlotCurve &curve : m_curves) {
+        if (curve.isSeen() && curve.settings.axis == axis)
+            all = united(all, curve.item->valueRange(begin, end));
+    }
+    return all;
+}
+
+bool PlotCurves::timeRange(SignalStore::Time *begin, SignalStore::Time *end) const
+{
+    bool isFound = false;
+    for (const SignalStore *store : m_stores) {
+        if (store->isEmpty())
+            continue;
+        const SignalStore::Time first = store->time(store->firstRow());
+        const SignalStore::Time last = store->time(store->endRow() - 1);
+        *begin = isFound ? std::min(*begin, first) : first;
+        *end = isFound ? std::max(*end, last) : last;
+        isFound = true;
+    }
+    return isFound;
+}
+
+}  // namespace qplc

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "CursorStatistics.h"
+#include "PlotSettings.h"
+#include "gui/panel/Theme.h"
+#include "gui/plot/CurveSources.h"
+#include "gui/plot/StoreCurve.h"
+
+#include <memory>
+#include <vector>
+
+class QwtPlot;
+class QwtPlotMarker;
+
+namespace qplc {
+
+/// A curve of a plot as it is at the moment: what is wanted, and where it comes from.
+struct PlotCurve
+{
+    PlotCurveSettings settings;
+    CurveSource source;
+    QColor color;
+    std::unique_ptr<StoreCurve> item;
+    std::vector<std::unique_ptr<QwtPlotMarker>> limits;
+
+    PlotCurve();
+    PlotCurve(PlotCurve &&) noexcept;
+    ~PlotCurve();
+
+    bool isMissing() const { return !source; }
+    bool isSeen() const { return settings.isVisible && !isMissing(); }
+    bool isStale() const { return source.plant && source.plant->quality() == Plant::Stale; }
+    CursorStatistics::Scaling scaling() const { return {settings.gain, settings.offset, source.isStepped}; }
+    /// At \a time, the newest one without; NaN: none.
+    double value(std::optional<SignalStore::Time> time) const;
+};
+
+/// The curves of a plot, which draws them.
+class PlotCurves
+{
+public:
+    explicit PlotCurves(QwtPlot *plot);
+    ~PlotCurves();
+
+    /// Finds all signals anew. \param sources  null: all are missing
+    void bind(const PlotSettings &settings, const CurveSources *sources, const Theme &theme);
+
+    int size() const { return int(m_curves.size()); }
+    bool isEmpty() const { return m_curves.empty(); }
+    const PlotCurve &at(int place) const { return m_curves[std::size_t(place)]; }
+    std::vector<PlotCurve>::const_iterator begin() const { return m_curves.begin(); }
+    std::vector<PlotCurve>::const_iterator end() const { return m_curves.end(); }
+
+    /// The bold one; -1: none.
+    int selected() const { return m_selected; }
+    void select(int place, const Theme &theme);
+    void setOrigin(SignalStore::Time origin);
+    /// Of the curves that are seen, each once.
+    const std::vector<const SignalStore *> &stores() const { return m_stores; }
+    bool hasAxis(PlotCurveSettings::Axis axis) const;
+    /// Of all seen curves of an axis; empty when they differ.
+    QString unit(PlotCurveSettings::Axis axis) const;
+    /// Smallest and largest value of all seen curves of an axis.
+    SignalStore::Range range(PlotCurveSettings::Axis axis, double begin, double end) const;
+    /// Times of the first and the last row; false: there are none.
+    bool timeRange(SignalStore::Time *begin, SignalStore::Time *end) const;
+
+private:
+    void show(PlotCurve *curve, bool showsLimits, const Theme &theme);
+    void showLimit(PlotCurve *curve, double limit);
+
+    QwtPlot *m_plot;
+    std::vector<PlotCurve> m_curves;
+    std::vector<const SignalStore *> m_stores;
+    SignalStore::Time m_origin = 0;
+    int m_selected = -1;
+};
+
+}  // namespace qplc

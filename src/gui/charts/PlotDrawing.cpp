@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures and numbers of a time plot, and when they are renewed.
+#include "QPlcTimePlotPrivate.h"
+#include "gui/models/ValueFormat.h"
+
+#include <QtWidgets/QLabel>
+#include <QtWidgets/QScrollArea>
+#include <QtWidgets/QToolButton>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace qplc;
+
+namespace {
+
+constexpr int framePeriod = 20;     // [ms]
+constexpr int compactHeight = 160;  // [px] of the panel
+constexpr int compactWidth = 300;
+constexpr int leastLegendHeight = 100;      // [px] of the panel: below there are curves only
+constexpr int leastStatisticsHeight = 220;  // [px] of the panel: below there is one line of statistics
+constexpr double legendShare = 0.3;         // of the height of the panel, at most
+constexpr int successTime = 6000;           // [ms] that good news are shown
+constexpr int buttonMargin = 4;             // [px]
+
+}  // namespace
+
+/// At most 50 pictures a second, the first one at once.
+void QPlcTimePlot::Private::schedule()
+{
+    if (!q->isVisible() || drawTimer.isActive())
+        return;
+    const qint64 passed = sinceDrawing.isValid() ? sinceDrawing.elapsed() : framePeriod;
+    drawTimer.start(int(std::max<qint64>(0, framePeriod - passed)));
+}
+
+TimeColumns QPlcTimePlot::Private::columns()
+{
+    const TimeView *time = view();
+    const int width = canvas->deviceWidth();
+    return time->isLive() ? TimeColumns::upTo(time->newest(), time->span(), width)
+                          : TimeColumns(time->begin(), time->end(), width);
+}
+
+bool QPlcTimePlot::Private::isPictureDue(const TimeColumns &columns)
+{
+    bool isDue = false;
+    for (std::size_t i = 0; i < redraw.size(); ++i) {
+        RedrawRule::Picture picture;
+        if (i < curves.stores().size())
+            picture = RedrawRule::Picture::of(*curves.stores()[i], columns);
+        picture.columns = columns;
+        picture.settings = version;
+        isDue = redraw[i].isDue(picture) || isDue;
+    }
+    return isDue;
+}
+
+void QPlcTimePlot::Private::draw()
+{
+    if (!q->isVisible())
+        return;
+    sinceDrawing.restart();
+    const TimeColumns shown = columns();
+    if (isPictureDue(shown)) {
+        if (view()->isLive())
+            reference = shown.beginOf(shown.end());
+        canvas->setTime(shown, settings.labels, reference);
+        curves.setOrigin(canvas->origin());
+        for (const Axis axis : {Axis::Left, Axis::Right}) {
+            fitRange(axis);
+            showRange(axis);
+        }
+        canvas->replot();
+        ++drawnPictures;
+    }
+    showOverlay();
+    showLiveButton();
+}
+
+bool QPlcTimePlot::Private::fitRange(Axis axis)
+{
+    const double begin = double(canvas->begin() - canvas->origin()) * 1e-9;
+    const double end = double(canvas->end() - canvas->origin()) * 1e-9;
+    const SignalStore::Range seen = curves.range(axis, begin, end);
+    return axes[axis].automatic.fit(double(seen.minimum), double(seen.maximum), clock.elapsed());
+}
+
+void QPlcTimePlot::Private::showRange(Axis axis)
+{
+    const ValueAxis &values = axes[axis];
+    const PlotRangeSettings &wanted = settings.range(axis);
+    double minimum = wanted.minimum.value_or(values.automatic.minimum());
+    double maximum = wanted.maximum.value_or(values.automatic.maximum());
+    if (!(minimum < maximum)) {  // one end is given, and all that is seen is beyond it
+        minimum = wanted.minimum ? *wanted.minimum : maximum - 1.0;
+        maximum = wanted.minimum ? minimum + 1.0 : maximum;
+    }
+    values.isHeld ? canvas->setRange(axis, values.minimum, values.maximum) : canvas->setRange(axis, minimum, maximum);
+}
+
+void QPlcTimePlot::Private::showOverlay()
+{
+    PlotOverlay::Picture picture;
+    picture.box = box;
+    picture.hint = hint();
+    const TimeView *time = shared();
+    const auto place = [&](std::optional<Time> moment) -> std::optional<int> {
+        if (!moment || *moment < canvas->begin() || *moment > canvas->end())
+            return std::nullopt;
+        return int(std::lround(canvas->xOf(*moment)));
+    };
+    if (time && !curves.isEmpty()) {
+        picture.cursorA = place(time->cursor(TimeView::A));
+        picture.cursorB = place(time->cursor(TimeView::B));
+        picture.pointer = place(time->pointer());
+    }
+    if (picture.pointer) {
+        const Time moment = *time->pointer();
+        const bool isCoarse = (canvas->end() - canvas->begin()) / std::max(canvas->canvas()->width(), 1) >= 1'000'000;
+        if (!canvas->isCompact())
+            picture.pointerText = TimeTicks::clockText(moment, isCoarse ? 1'000'000 : 1'000);
+        for (const PlotCurve &curve : curves) {
+            const double value = curve.isSeen() ? curve.value(moment) : NAN;
+            if (!std::isnan(value))
+                picture.dots.append({QPointF(*picture.pointer, canvas->yOf(curve.settings.axis, value)), curve.color});
+        }
+    }
+    interaction->setCursors(picture.cursorA, picture.cursorB);
+    overlay->show(picture);
+}
+
+/// What to do, or what is missing, where there is nothing to see.
+QString QPlcTimePlot::Private::hint() const
+{
+    if (curves.isEmpty())
+        return QPlcTimePlot::tr("Drop signals here or press +");
+    QStringList missing;
+    for (const PlotCurve &curve : curves) {
+        if (!curve.settings.isVisible)
+            continue;
+        if (!curve.isMissing())
+            return {};
+        missing << curve.settings.signal;
+    }
+    if (missing.isEmpty())
+        return QPlcTimePlot::tr("All curves are hidden: click one in the legend, or press V");
+    return QPlcTimePlot::tr("Missing: %1\nDrawn as soon as it is there.").arg(missing.join(QStringLiteral(", ")));
+}
+
+void QPlcTimePlot::Private::showNumbers()
+{
+    if (!q->isVisible())
+        return;
+    const TimeView *time = shared();
+    // Live, a mouse that rests points at ever later times.
+    if (time && interaction->mouse() && view()->isLive())
+        q->context()->timeView()->setPointer(canvas->timeAt(interaction->mouse()->x()));
+    std::optional<Time> moment = time ? time->pointer() : std::nullopt;
+    if (!moment && !view()->isLive())
+        moment = view()->end();
+    legend->show(curves, moment);
+    const bool hasCursors = time && (time->cursor(TimeView::A) || time->cursor(TimeView::B)) && !curves.isEmpty();
+    if (hasCursors != !statistics->isHidden()) {
+        statistics->setVisible(hasCursors);
+        arrange();
+    }
+    if (hasCursors)
+        statistics->show(curves, time->cursor(TimeView::A), time->cursor(TimeView::B));
+    const bool isLeftOther = fitRange(Axis::Left);
+    if (fitRange(Axis::Right) || isLeftOther)
+        ++version;
+    schedule();
+}
+
+void QPlcTimePlot::Private::showLiveButton()
+{
+    const bool isFrozen = !view()->isLive();
+    liveButton->setVisible(isFrozen && !curves.isEmpty());
+    if (!isFrozen)
+        return;
+    const double behind = std::round(double(view()->behind()) * 1e-9);
+    const QString time = behind < 120.0 ? QPlcTimePlot::tr("%1 s").arg(behind)
+                                        : QPlcTimePlot::tr("%1 min").arg(std::floor(behind / 60.0));
+    const QString text = canvas->isCompact() ? QStringLiteral("L")
+        : behind < 1.0                       ? QPlcTimePlot::tr("frozen – L")
+                                             : QPlcTimePlot::tr("%1 behind – L").arg(time);
+    if (text != liveButton->text())
+        liveButton->setText(text);
+    liveButton->adjustSize();
+    liveButton->move(canvas->canvas()->width() - liveButton->width() - buttonMargin,
+                     (canvas->isCompact() ? 0 : overlay->flagHeight()) + buttonMargin);
+    liveButton->raise();
+}
+
+/// Gives the parts the heights that they need, and leaves the curves the most of it.
+void QPlcTimePlot::Private::arrange()
+{
+    const bool hasLegend = settings.hasLegend && !curves.isEmpty() && q->height() >= leastLegendHeight;
+    legendArea->setVisible(hasLegend);
+    canvas->setCompact(q->height() < compactHeight || q->width() < compactWidth);
+    legendArea->setVerticalScrollBarPolicy(canvas->isCompact() ? Qt::ScrollBarAlwaysOff : Qt::ScrollBarAsNeeded);
+    legendArea->setFixedHeight(legend->heightWithin(q->contentsRect().width(), int(legendShare * q->height())));
+    statistics->setUnfolded(settings.hasStatistics && q->height() >= leastStatisticsHeight);
+    const int messageHeight = message->heightForWidth(q->width());  // over the rest, which stays where it is
+    message->setGeometry(0, q->height() - messageHeight, q->width(), messageHeight);
+    message->raise();
+}
+
+void QPlcTimePlot::Private::showTheme()
+{
+    const Theme theme = q->context() ? q->context()->theme() : Theme::byName(Theme::System);
+    QPalette palette = theme.palette();
+    palette.setColor(QPalette::Window, theme.surface);
+    q->setPalette(palette);
+    q->setAutoFillBackground(true);
+    canvas->setTheme(theme);
+    overlay->setTheme(theme);
+    legend->setTheme(theme);
+    QPalette button = palette;
+    button.setColor(QPalette::Button, theme.accent);
+    button.setColor(QPalette::ButtonText, theme.surface);
+    liveButton->setPalette(button);
+    liveButton->setFont(overlay->font());
+    bind();
+}
+
+void QPlcTimePlot::Private::say(const QString &sentence, bool isFailure)
+{
+    const Theme theme = q->context() ? q->context()->theme() : Theme::byName(Theme::System);
+    QPalette palette = q->palette();
+    palette.setColor(QPalette::WindowText, isFailure ? theme.alarm : theme.text);
+    message->setPalette(palette);
+    message->setText(isFailure ? QPlcTimePlot::tr("%1 (Esc)").arg(sentence) : sentence);
+    message->show();
+    arrange();
+    isFailure ? messageTimer.stop() : messageTimer.start(successTime);
+}

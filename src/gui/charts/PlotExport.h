@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "TableExport.h"
+
+#include <QtCore/QBuffer>
+#include <QtCore/QObject>
+#include <QtCore/QSaveFile>
+#include <QtCore/QTimer>
+
+#include <memory>
+
+namespace qplc {
+
+/// Writes a table into a file or the clipboard, a piece between events, so that the window goes on; one table at a time.
+///
+/// A file is there when all of it is written, and as it was before when something fails.
+class PlotExport : public QObject
+{
+    Q_OBJECT
+public:
+    explicit PlotExport(QObject *parent);
+
+    /// Begins; another one that has not finished is given up. The stores have to live until finished() or failed(): else cancel() first.
+    void save(const TableExport &table, const QString &fileName);
+    void copy(const TableExport &table);
+    bool isBusy() const { return m_table != nullptr; }
+    /// Gives up, and says so when there was something.
+    void cancel(const QString &reason);
+
+Q_SIGNALS:
+    /// A sentence for people.
+    void finished(const QString &sentence);
+    void failed(const QString &sentence);
+
+private:
+    void begin(const TableExport &table);
+    void goOn();
+    void end();
+    void fail(const QString &sentence);
+    void forget();
+
+    QTimer m_timer;
+    std::unique_ptr<TableExport> m_table;
+    std::unique_ptr<QSaveFile> m_file;  // null: the clipboard
+    QByteArray m_text;                  // for the clipboard
+};
+
+}  // namespace qplc

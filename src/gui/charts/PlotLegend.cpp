@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "PlotLegend.h"
+
+#include "gui/models/ValueFormat.h"
+
+#include <QtGui/QHelpEvent>
+#include <QtGui/QPainter>
+#include <QtWidgets/QToolTip>
+
+#include <algorithm>
+#include <cmath>
+
+namespace qplc {
+
+namespace {
+
+constexpr int swatch = 10;   // [px]
+constexpr int spacing = 6;   // [px] between parts of an entry
+constexpr int gap = 14;      // [px] between entries
+constexpr int margin = 4;    // [px] around all
+constexpr int lineRoom = 3;  // [px] above and below a text, together
+constexpr int digits = 6;
+constexpr double fontShare = 0.9;
+
+QString valueOf(const PlotCurve &curve, std::optional<SignalStore::Time> time)
+{
+    if (curve.isMissing())
+        return PlotLegend::tr("missing");
+    return numberText(curve.value(time), digits);
+}
+
+QString hintOf(const PlotCurve &curve)
+{
+    if (curve.isMissing())
+        return curve.source.error;
+    QString hint = curve.settings.text();
+    if (curve.source.minimum || curve.source.maximum)
+        hint
+            += PlotLegend::tr("\nlimits %1 ... %2")
+                   .arg(numberText(curve.source.minimum.value_or(NAN)), numberText(curve.source.maximum.value_or(NAN)));
+    if (curve.isStale())
+        hint += PlotLegend::tr("\nlast value %1 ago").arg(ageText(curve.source.plant->age()));
+    return hint;
+}
+
+}  // namespace
+
+PlotLegend::PlotLegend(QWidget *parent)
+    : QWidget(parent)
+{
+    QSizePolicy policy(QSizePolicy::Expanding, QSizePolicy::Minimum);
+    policy.setHeightForWidth(true);
+    setSizePolicy(policy);
+    setMouseTracking(true);
+    setAccessibleName(tr("Legend"));
+    measure();
+}
+
+void PlotLegend::setTheme(const Theme &theme)
+{
+    m_theme = theme;
+    update();
+}
+
+void PlotLegend::show(const PlotCurves &curves, std::optional<SignalStore::Time> time)
+{
+    QVector<Entry> entries;
+    for (int place = 0; place < curves.size(); ++place) {
+        const PlotCurve &curve = curves.at(place);
+        Entry entry;
+        entry.name = curve.settings.text();
+        entry.value = valueOf(curve, time);
+        entry.unit = curve.source.unit;
+        entry.hint = hintOf(curve);
+        entry.color = curve.color;
+        entry.isVisible = curve.settings.isVisible;
+        entry.isTrusted = !curve.isMissing() && !(curve.isStale() && !time);
+        if (curve.isStale() && !time)
+            entry.unit += QStringLiteral(" (%1)").arg(ageText(curve.source.plant->age()));
+        entry.isSelected = place == curves.selected();
+        entries.append(entry);
+    }
+    if (entries == m_entries)
+        return;
+    m_entries = entries;
+    measure();
+    update();
+}
+
+QFont PlotLegend::fontOf(const Entry &entry) const
+{
+    QFont font = this->font();
+    font.setPointSizeF(fontShare * font.pointSizeF());
+    font.setBold(entry.isSelected);
+    return font;
+}
+
+void PlotLegend::measure()
+{
+    Entry boldest;
+    boldest.isSelected = true;
+    const QFontMetrics metrics(fontOf(boldest));
+    const int before = m_nameWidth + m_valueWidth + m_unitWidth;
+    m_lineHeight = metrics.height() + lineRoom;
+    m_valueWidth = metrics.horizontalAdvance(QStringLiteral("-8.88888e-08"));
+    m_nameWidth = m_unitWidth = 0;
+    for (const Entry &entry : qAsConst(m_entries)) {
+        m_nameWidth = std::max(m_nameWidth, metrics.horizontalAdvance(entry.name));
+        m_unitWidth = std::max(m_unitWidth, metrics.horizontalAdvance(entry.unit));
+    }
+    if (m_nameWidth + m_valueWidth + m_unitWidth != before || sizeHint().height() != height())
+        updateGeometry();
+}
+
+int PlotLegend::columnsFor(int width) const
+{
+    const int wanted = swatch + m_nameWidth + m_valueWidth + m_unitWidth + 3 * spacing + gap;
+    return std::clamp((width - 2 * margin + gap) / std::max(wanted, 1), 1, std::max(1, m_entries.size()));
+}
+
+int PlotLegend::heightForWidth(int width) const
+{
+    if (m_entries.isEmpty())
+        return 0;
+    const int columns = columnsFor(width);
+    return (m_entries.size() + columns - 1) / columns * m_lineHeight + 2 * margin;
+}
+
+int PlotLegend::heightWithin(int width, int room) const
+{
+    const int lines = std::max(1, (room - 2 * margin) / m_lineHeight);
+    return std::min(heightForWidth(width), lines * m_lineHeight + 2 * margin);
+}
+
+QSize PlotLegend::sizeHint() const
+{
+    return {200, heightForWidth(width())};
+}
+
+QRect PlotLegend::entryRect(int place) const
+{
+    const int columns = columnsFor(width());
+    const int room = (width() - 2 * margin + gap) / columns;
+    const int wanted = swatch + m_nameWidth + m_valueWidth + m_unitWidth + 3 * spacing;
+    const int column = place % columns;
+    return {margin + column * room, margin + place / columns * m_lineHeight, std::min(room - gap, wanted),
+            m_lineHeight};
+}
+
+int PlotLegend::entryAt(QPoint position) const
+{
+    for (int place = 0; place < m_entries.size(); ++place) {
+        if (entryRect(place).adjusted(-margin, 0, margin, 0).contains(position))
+            return place;
+    }
+    return -1;
+}
+
+void PlotLegend::paintEvent(QPaintEvent * /*event*/)
+{
+    QPainter painter(this);
+    paint(&painter, true);
+}
+
+void PlotLegend::paint(QPainter *painter, bool hasHover) const
+{
+    for (int place = 0; place < m_entries.size(); ++place) {
+        const QRect rect = entryRect(place);
+        if (hasHover && place == m_hovered) {
+            QColor hover = m_theme.accent;
+            hover.setAlphaF(0.12);
+            painter->fillRect(rect.adjusted(-margin, 0, margin, 0), hover);
+        }
+        paintEntry(painter, rect, m_entries[place]);
+    }
+}
+
+void PlotLegend::paintEntry(QPainter *painter, const QRect &rect, const Entry &entry) const
+{
+    const QRect box(rect.left(), rect.center().y() - swatch / 2 + 1, swatch, swatch);
+    if (entry.isVisible && entry.isTrusted) {
+        painter->fillRect(box, entry.color);
+    } else {
+        painter->setPen(entry.isVisible ? m_theme.stale : entry.color);
+        painter->setBrush(Qt::NoBrush);
+        painter->drawRect(box.adjusted(0, 0, -1, -1));
+    }
+    const QFont font = fontOf(entry);
+    painter->setFont(font);
+    const bool isQuiet = !entry.isVisible || !entry.isTrusted;
+    const int room = rect.width() - swatch - 3 * spacing - m_unitWidth;
+    const int valueWidth = std::min(m_valueWidth, room / 2);
+    const int nameWidth = room - valueWidth;
+    QRect part(rect.left() + swatch + spacing, rect.top(), nameWidth, rect.height());
+    painter->setPen(isQuiet ? m_theme.stale : m_theme.text);
+    painter->drawText(part, Qt::AlignVCenter | Qt::TextSingleLine,
+                      QFontMetrics(font).elidedText(entry.name, Qt::ElideMiddle, nameWidth));
+    part.setLeft(part.right() + 1 + spacing);
+    part.setWidth(valueWidth);
+    painter->drawText(part, Qt::AlignVCenter | Qt::AlignRight | Qt::TextSingleLine, entry.value);
+    part.setLeft(part.right() + 1 + spacing);
+    part.setWidth(m_unitWidth);
+    painter->setPen(isQuiet ? m_theme.stale : m_theme.mutedText);
+    painter->drawText(part, Qt::AlignVCenter | Qt::TextSingleLine, entry.unit);
+}
+
+void PlotLegend::mousePressEvent(QMouseEvent *event)
+{
+    const int place = entryAt(event->pos());
+    if (event->button() == Qt::LeftButton && place >= 0)
+        Q_EMIT clicked(place);
+    else
+        QWidget::mousePressEvent(event);
+}
+
+void PlotLegend::mouseMoveEvent(QMouseEvent *event)
+{
+    const int place = entryAt(event->pos());
+    setCursor(place >= 0 ? Qt::PointingHandCursor : Qt::ArrowCursor);
+    if (place != m_hovered)
+        update();
+    m_hovered = place;
+}
+
+void PlotLegend::leaveEvent(QEvent *event)
+{
+    m_hovered = -1;
+    update();
+    QWidget::leaveEvent(event);
+}
+
+void PlotLegend::contextMenuEvent(QContextMenuEvent *event)
+{
+    Q_EMIT menuWanted(entryAt(event->pos()), event->globalPos());
+}
+
+bool PlotLegend::event(QEvent *event)
+{
+    if (event->type() == QEvent::ToolTip) {
+        auto *help = static_cast<QHelpEvent *>(event);
+        const int place = entryAt(help->pos());
+        QToolTip::showText(help->globalPos(), place >= 0 ? m_entries[place].hint : QString(), this);
+        return true;
+    }
+    return QWidget::event(event);
+}
+
+void PlotLegend::changeEvent(QEvent *event)
+{
+    QWidget::changeEvent(event);
+    if (event->type() == QEvent::FontChange)
+        measure();
+}
+
+}  // namespace qplc

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "PlotCurves.h"
+
+#include <QtWidgets/QWidget>
+
+namespace qplc {
+
+/// The curves of a plot in a small table: colour, name, value and unit, in as many columns as there is room for.
+///
+/// A click hides a curve or shows it again, and makes it the selected one. Values that are not true any more are grey, with their age; what is missing says so.
+class PlotLegend : public QWidget
+{
+    Q_OBJECT
+public:
+    struct Entry
+    {
+        QString name;
+        QString value;
+        QString unit;
+        QString hint;  // what is shown when the mouse rests on it
+        QColor color;
+        bool isVisible = true;
+        bool isTrusted = true;
+        bool isSelected = false;
+        friend bool operator==(const Entry &a, const Entry &b)
+        {
+            return a.name == b.name && a.value == b.value && a.unit == b.unit && a.hint == b.hint && a.color == b.color
+                && a.isVisible == b.isVisible && a.isTrusted == b.isTrusted && a.isSelected == b.isSelected;
+        }
+    };
+
+    explicit PlotLegend(QWidget *parent = nullptr);
+
+    void setTheme(const Theme &theme);
+    /// Shows the values of a time, the newest ones without.
+    void show(const PlotCurves &curves, std::optional<SignalStore::Time> time);
+    const QVector<Entry> &entries() const { return m_entries; }
+    /// The place of an entry [px]; null: it is not seen.
+    QRect entryRect(int place) const;
+    void paint(QPainter *painter, bool hasHover) const;
+
+    bool hasHeightForWidth() const override { return true; }
+    int heightForWidth(int width) const override;
+    /// The height of as many whole lines as there is room for, but of one at least [px]
+    int heightWithin(int width, int room) const;
+    QSize sizeHint() const override;
+    QSize minimumSizeHint() const override { return {1, 1}; }
+
+Q_SIGNALS:
+    void clicked(int place);
+    void menuWanted(int place, const QPoint &global);
+
+protected:
+    void paintEvent(QPaintEvent *event) override;
+    void mousePressEvent(QMouseEvent *event) override;
+    void mouseMoveEvent(QMouseEvent *event) override;
+    void leaveEvent(QEvent *event) override;
+    void contextMenuEvent(QContextMenuEvent *event) override;
+    bool event(QEvent *event) override;
+    void changeEvent(QEvent *event) override;
+
+private:
+    void measure();
+    int columnsFor(int width) const;
+    int entryAt(QPoint position) const;
+    void paintEntry(QPainter *painter, const QRect &rect, const Entry &entry) const;
+    QFont fontOf(const Entry &entry) const;
+
+    Theme m_theme;
+    QVector<Entry> m_entries;
+    int m_hovered = -1;
+    int m_nameWidth = 0;  // [px], of the widest
+    int m_valueWidth = 0;
+    int m_unitWidth = 0;
+    int m_lineHeight = 0;
+};
+
+}  // namespace qplc

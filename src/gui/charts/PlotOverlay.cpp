@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "PlotOverlay.h"
+
+#include <QtCore/QEvent>
+#include <QtGui/QPainter>
+
+#include <algorithm>
+
+namespace qplc {
+
+namespace {
+
+constexpr double shadeOpacity = 0.07;  // of the accent, between the cursors
+constexpr double boxOpacity = 0.15;
+constexpr double fontShare = 0.9;  // of the window
+constexpr int dotRadius = 3;       // [px]
+constexpr int labelMargin = 4;     // [px]
+constexpr int hintMargin = 12;     // [px]
+
+QColor faint(QColor color, double opacity)
+{
+    color.setAlphaF(opacity);
+    return color;
+}
+
+bool isSame(const PlotOverlay::Picture &a, const PlotOverlay::Picture &b)
+{
+    return a.cursorA == b.cursorA && a.cursorB == b.cursorB && a.pointer == b.pointer && a.pointerText == b.pointerText
+        && a.dots == b.dots && a.box == b.box && a.hint == b.hint;
+}
+
+}  // namespace
+
+PlotOverlay::PlotOverlay(QWidget *canvas)
+    : QWidget(canvas)
+{
+    setAttribute(Qt::WA_TransparentForMouseEvents);
+    setAttribute(Qt::WA_NoSystemBackground);
+    setFocusPolicy(Qt::NoFocus);
+    canvas->installEventFilter(this);
+    QFont small = font();
+    small.setPointSizeF(fontShare * small.pointSizeF());
+    setFont(small);
+    resize(canvas->size());
+}
+
+void PlotOverlay::setTheme(const Theme &theme)
+{
+    m_theme = theme;
+    update();
+}
+
+void PlotOverlay::show(const Picture &picture)
+{
+    if (isSame(picture, m_picture))
+        return;
+    m_picture = picture;
+    update();
+}
+
+bool PlotOverlay::eventFilter(QObject *watched, QEvent *event)
+{
+    if (event->type() == QEvent::Resize)
+        resize(parentWidget()->size());
+    return QWidget::eventFilter(watched, event);
+}
+
+void PlotOverlay::paintEvent(QPaintEvent * /*event*/)
+{
+    QPainter painter(this);
+    paint(&painter);
+}
+
+void PlotOverlay::paint(QPainter *painter) const
+{
+    painter->setFont(font());
+    paintBetween(painter);
+    paintPointer(painter);
+    if (m_picture.cursorA)
+        paintCursor(painter, *m_picture.cursorA, QStringLiteral("A"));
+    if (m_picture.cursorB)
+        paintCursor(painter, *m_picture.cursorB, QStringLiteral("B"));
+    if (!m_picture.box.isNull()) {
+        painter->setPen(m_theme.accent);
+        painter->setBrush(faint(m_theme.accent, boxOpacity));
+        painter->drawRect(m_picture.box);
+    }
+    if (!m_picture.hint.isEmpty()) {
+        const int margin = std::min(hintMargin, width() / 10);
+        painter->setPen(m_theme.mutedText);
+        painter->drawText(rect().adjusted(margin, 0, -margin, 0), Qt::AlignCenter | Qt::TextWordWrap, m_picture.hint);
+    }
+}
+
+void PlotOverlay::paintBetween(QPainter *painter) const
+{
+    if (!m_picture.cursorA || !m_picture.cursorB)
+        return;
+    const auto [left, right] = std::minmax({*m_picture.cursorA, *m_picture.cursorB});
+    painter->fillRect(QRect(left, 0, right - left, height()), faint(m_theme.accent, shadeOpacity));
+}
+
+void PlotOverlay::paintPointer(QPainter *painter) const
+{
+    if (!m_picture.pointer)
+        return;
+    const int x = *m_picture.pointer;
+    painter->setPen(QPen(m_theme.mutedText, 0.0, Qt::DotLine));
+    painter->drawLine(x, 0, x, height());
+    painter->setRenderHint(QPainter::Antialiasing);
+    for (const Dot &dot : m_picture.dots) {
+        painter->setPen(QPen(m_theme.surface, 1.0));
+        painter->setBrush(dot.color);
+        painter->drawEllipse(dot.position, dotRadius, dotRadius);
+    }
+    painter->setRenderHint(QPainter::Antialiasing, false);
+    if (m_picture.pointerText.isEmpty())
+        return;
+    const QSize size = fontMetrics().size(Qt::TextSingleLine, m_picture.pointerText) + QSize(2 * labelMargin, 2);
+    const bool isLeft = x + size.width() + labelMargin > width();
+    const QRect label(QPoint(isLeft ? x - size.width() - labelMargin : x + labelMargin, height() - size.height() - 1),
+                      size);
+    painter->fillRect(label, faint(m_theme.surface, 0.85));
+    painter->setPen(m_theme.mutedText);
+    painter->drawText(label, Qt::AlignCenter, m_picture.pointerText);
+}
+
+void PlotOverlay::paintCursor(QPainter *painter, int x, const QString &name) const
+{
+    painter->setPen(QPen(m_theme.accent, 0.0));
+    painter->drawLine(x, 0, x, height());
+    QRect flag(0, 0, fontMetrics().horizontalAdvance(name) + 2 * labelMargin, flagHeight());
+    const bool isFirst = name == QLatin1String("A");  // flags lie outside of what is between them
+    flag.moveTopLeft({isFirst ? x - flag.width() + 1 : x, 0});
+    flag.moveLeft(std::clamp(flag.left(), std::min(0, x), std::max(width() - flag.width(), x - flag.width())));
+    painter->fillRect(flag, m_theme.accent);
+    painter->setPen(m_theme.surface);
+    painter->drawText(flag, Qt::AlignCenter, name);
+}
+
+}  // namespace qplc

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "TimeTicks.h"
+
+#include <qwt_scale_draw.h>
+
+#include <QtGui/QFontMetricsF>
+
+namespace qplc {
+
+/// Labels of a y axis: as many digits as the step needs, and room that does not depend on them, so that canvases neither jump nor differ from plot to plot.
+class ValueScaleDraw : public QwtScaleDraw
+{
+public:
+    /// \param characters  that there is always room for
+    ValueScaleDraw(const QFont &font, int characters);
+    QwtText label(double value) const override;
+};
+
+/// Labels of a time axis. What would reach over the edge is left out, for the canvas would become narrower.
+class TimeScaleDraw : public QwtScaleDraw
+{
+public:
+    explicit TimeScaleDraw(const QFont &font);
+
+    using Time = TimeTicks::Time;
+    /// \param origin  the time that is 0 on the axis
+    void setTicks(const TimeTicks &ticks, Time origin);
+    /// Room to both sides of the canvas [px]
+    int sideRoom() const;
+    /// Of the widest label that is usual [px]
+    double usualWidth() const;
+
+    QwtText label(double value) const override;
+
+private:
+    QFontMetricsF m_metrics;
+    TimeTicks m_ticks{0, 1, 1};
+    Time m_origin = 0;
+};
+
+}  // namespace qplc

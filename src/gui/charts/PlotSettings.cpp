@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "PlotSettings.h"
+
+#include <QtCore/QJsonArray>
+
+#include <algorithm>
+#include <cmath>
+
+namespace qplc {
+
+namespace {
+
+const QString curvesKey = QStringLiteral("curves");
+const QString leftKey = QStringLiteral("left");
+const QString rightKey = QStringLiteral("right");
+const QString timeKey = QStringLiteral("time");
+const QString spanKey = QStringLiteral("span");
+const QString labelsKey = QStringLiteral("labels");
+const QString gridKey = QStringLiteral("grid");
+const QString limitsKey = QStringLiteral("limits");
+const QString legendKey = QStringLiteral("legend");
+const QString statisticsKey = QStringLiteral("statistics");
+const QString signalKey = QStringLiteral("signal");
+const QString gainKey = QStringLiteral("gain");
+const QString offsetKey = QStringLiteral("offset");
+const QString colorKey = QStringLiteral("color");
+const QString axisKey = QStringLiteral("axis");
+const QString visibleKey = QStringLiteral("visible");
+const QString minimumKey = QStringLiteral("minimum");
+const QString maximumKey = QStringLiteral("maximum");
+
+constexpr double shortestSpan = 1e-4;  // [s], as TimeView
+constexpr double longestSpan = 86400.0;
+
+template<typename T>
+void insertUnless(QJsonObject *json, const QString &key, const T &value, const T &standard)
+{
+    if (value != standard)
+        json->insert(key, value);
+}
+
+std::optional<double> numberIn(const QJsonObject &json, const QString &key)
+{
+    const QJsonValue value = json.value(key);
+    return value.isDouble() ? std::optional<double>(value.toDouble()) : std::nullopt;
+}
+
+PlotRangeSettings rangeIn(const QJsonObject &json)
+{
+    return {numberIn(json, minimumKey), numberIn(json, maximumKey)};
+}
+
+void insertRange(QJsonObject *json, const QString &key, const PlotRangeSettings &range)
+{
+    QJsonObject ends;
+    if (range.minimum)
+        ends.insert(minimumKey, *range.minimum);
+    if (range.maximum)
+        ends.insert(maximumKey, *range.maximum);
+    if (!ends.isEmpty())
+        json->insert(key, ends);
+}
+
+}  // namespace
+
+QString PlotCurveSettings::text() const
+{
+    QString text = gain == 1.0 ? signal : QStringLiteral("%1*%2").arg(QString::number(gain, 'g', 10), signal);
+    if (offset != 0.0)
+        text += (offset > 0.0 ? QStringLiteral("+") : QString()) + QString::number(offset, 'g', 10);
+    return text;
+}
+
+PlotCurveSettings PlotCurveSettings::fromJson(const QJsonObject &json)
+{
+    PlotCurveSettings curve;
+    curve.others = json;
+    curve.signal = curve.others.take(signalKey).toString();
+    curve.gain = curve.others.take(gainKey).toDouble(1.0);
+    curve.offset = curve.others.take(offsetKey).toDouble(0.0);
+    curve.color = QColor(curve.others.take(colorKey).toString());
+    curve.axis = curve.others.take(axisKey).toString() == rightKey ? Right : Left;
+    curve.isVisible = curve.others.take(visibleKey).toBool(true);
+    return curve;
+}
+
+QJsonObject PlotCurveSettings::toJson() const
+{
+    QJsonObject json = others;
+    json.insert(signalKey, signal);
+    insertUnless(&json, gainKey, gain, 1.0);
+    insertUnless(&json, offsetKey, offset, 0.0);
+    if (color.isValid())
+        json.insert(colorKey, color.name());
+    if (axis == Right)
+        json.insert(axisKey, rightKey);
+    insertUnless(&json, visibleKey, isVisible, true);
+    return json;
+}
+
+int PlotSettings::indexOf(const QString &signal) const
+{
+    const auto found = std::find_if(curves.begin(), curves.end(),
+                                    [&](const PlotCurveSettings &each) { return each.signal == signal; });
+    return found != curves.end() ? int(found - curves.begin()) : -1;
+}
+
+PlotSettings PlotSettings::fromJson(const QJsonObject &json)
+{
+    PlotSettings settings;
+    const QJsonArray curves = json.value(curvesKey).toArray();
+    for (const QJsonValue &curve : curves)
+        settings.curves.append(PlotCurveSettings::fromJson(curve.toObject()));
+    settings.left = rangeIn(json.value(leftKey).toObject());
+    settings.right = rangeIn(json.value(rightKey).toObject());
+    settings.hasOwnTime = json.value(timeKey).toString() == QLatin1String("own");
+    settings.span = std::clamp(json.value(spanKey).toDouble(defaultSpan), shortestSpan, longestSpan);
+    const bool isSeconds = json.value(labelsKey).toString() == QLatin1String("seconds");
+    settings.labels = isSeconds ? Labels::Seconds : Labels::Clock;
+    settings.hasGrid = json.value(gridKey).toBool(true);
+    settings.showsLimits = json.value(limitsKey).toBool(false);
+    settings.hasLegend = json.value(legendKey).toBool(true);
+    settings.hasStatistics = json.value(statisticsKey).toBool(true);
+    return settings;
+}
+
+QJsonObject PlotSettings::toJson() const
+{
+    QJsonObject json;
+    QJsonArray all;
+    for (const PlotCurveSettings &curve : curves)
+        all.append(curve.toJson());
+    insertUnless(&json, curvesKey, all, QJsonArray());
+    insertRange(&json, leftKey, left);
+    insertRange(&json, rightKey, right);
+    if (hasOwnTime)
+        json.insert(timeKey, QStringLiteral("own"));
+    insertUnless(&json, spanKey, span, defaultSpan);
+    if (labels == Labels::Seconds)
+        json.insert(labelsKey, QStringLiteral("seconds"));
+    insertUnless(&json, gridKey, hasGrid, true);
+    insertUnless(&json, limitsKey, showsLimits, false);
+    insertUnless(&json, legendKey, hasLegend, true);
+    insertUnless(&json, statisticsKey, hasStatistics, true);
+    return json;
+}
+
+bool PlotSettings::isKnown(const QString &key)
+{
+    static const QStringList keys{curvesKey, leftKey, rightKey,  timeKey,   spanKey,
+                                  labelsKey, gridKey, limitsKey, legendKey, statisticsKey};
+    return keys.contains(key);
+}
+
+}  // namespace qplc

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QtCore/QJsonObject>
+#include <QtCore/QString>
+#include <QtCore/QVector>
+#include <QtGui/QColor>
+
+#include <optional>
+
+namespace qplc {
+
+/// One curve of a time plot: gain * signal + offset. A value type.
+struct PlotCurveSettings
+{
+    enum Axis { Left, Right };
+
+    QString signal;  // a reference, or what else CurveSources understands
+    double gain = 1.0;
+    double offset = 0.0;
+    QColor color;  // invalid: by place, from the theme
+    Axis axis = Left;
+    bool isVisible = true;
+    QJsonObject others;  // keys that nobody knows
+
+    bool isScaled() const { return gain != 1.0 || offset != 0.0; }
+    /// "kite.elevation", "0.001*tetherForce+5".
+    QString text() const;
+
+    static PlotCurveSettings fromJson(const QJsonObject &json);
+    QJsonObject toJson() const;
+};
+
+/// The range of a y axis; what is not there follows the curves.
+struct PlotRangeSettings
+{
+    std::optional<double> minimum;
+    std::optional<double> maximum;
+
+    /// Both ends are given, and are a range.
+    bool isFixed() const { return minimum && maximum && *minimum < *maximum; }
+};
+
+/// What makes a time plot what it is, and its JSON. A value type.
+///
+/// What has its default is not written, and what is not there has its default: settings that were written are read as the same, byte by byte.
+///
+/// ```json
+/// {"curves": [{"signal": "kite.elevation", "gain": 2, "offset": -1, "color": "#d55e00", "axis": "right", "visible": false}],
+///  "left": {"minimum": 0, "maximum": 90}, "right": {}, "time": "own", "span": 10, "labels": "seconds", "grid": false, "limits": true,
+///  "legend": false, "statistics": false}
+/// ```
+struct PlotSettings
+{
+    enum class Labels { Clock, Seconds };
+
+    static constexpr double defaultSpan = 30.0;  // [s]
+
+    QVector<PlotCurveSettings> curves;
+    PlotRangeSettings left;
+    PlotRangeSettings right;
+    bool hasOwnTime = false;
+    double span = defaultSpan;  // of an own time axis [s]
+    Labels labels = Labels::Clock;
+    bool hasGrid = true;
+    bool showsLimits = false;
+    bool hasLegend = true;
+    bool hasStatistics = true;  // between cursors A and B, when both are there
+
+    const PlotRangeSettings &range(PlotCurveSettings::Axis axis) const
+    {
+        return axis == PlotCurveSettings::Left ? left : right;
+    }
+    /// The place of a curve of this signal; -1: there is none.
+    int indexOf(const QString &signal) const;
+
+    static PlotSettings fromJson(const QJsonObject &json);
+    QJsonObject toJson() const;
+    /// Whether a key of the JSON is one of those above.
+    static bool isKnown(const QString &key);
+};
+
+}  // namespace qplc

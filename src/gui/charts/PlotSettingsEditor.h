@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "PlotSettings.h"
+#include "gui/panel/Theme.h"
+
+#include <QtWidgets/QWidget>
+
+class QCheckBox;
+class QGridLayout;
+class QLineEdit;
+class QToolButton;
+
+namespace qplc {
+
+class PlantList;
+
+/// The settings of a time plot, to be changed by a person. Each change is told at once.
+class PlotSettingsEditor : public QWidget
+{
+    Q_OBJECT
+public:
+    /// \param plants  for the names of signals; null: without completion
+    PlotSettingsEditor(const PlotSettings &settings, const PlantList *plants, const Theme &theme,
+                       QWidget *parent = nullptr);
+
+    const PlotSettings &settings() const { return m_settings; }
+
+Q_SIGNALS:
+    void edited(const qplc::PlotSettings &settings);
+
+private:
+    void makeCurves();
+    void addLine(int place);
+    QToolButton *makeColorButton(int place);
+    void paintColor(QToolButton *button, int place) const;
+    QLineEdit *makeNumber(double value, const QString &name, double PlotCurveSettings::*member, int place);
+    QWidget *makeOptions();
+    QLineEdit *makeEnd(const QString &name, PlotRangeSettings PlotSettings::*range,
+                       std::optional<double> PlotRangeSettings::*end);
+    QCheckBox *makeCheck(const QString &text, bool PlotSettings::*member);
+    QWidget *makeTimeAxis();
+    void removeCurve(int place);
+    void tell() { Q_EMIT edited(m_settings); }
+
+    PlotSettings m_settings;
+    const PlantList *m_plants;
+    Theme m_theme;
+    QWidget *m_curves = nullptr;
+    QGridLayout *m_grid = nullptr;
+};
+
+}  // namespace qplc

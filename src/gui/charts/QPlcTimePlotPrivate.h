@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "PlotCanvas.h"
+#include "PlotCurves.h"
+#include "PlotExport.h"
+#include "PlotInteraction.h"
+#include "PlotLegend.h"
+#include "PlotOverlay.h"
+#include "PlotSettings.h"
+#include "QPlcTimePlot.h"
+#include "StatisticsView.h"
+#include "StickyRange.h"
+#include "gui/panel/WindowContext.h"
+#include "gui/plot/RedrawRule.h"
+
+#include <QtCore/QElapsedTimer>
+#include <QtCore/QTimer>
+#include <QtWidgets/QAction>
+
+#include <array>
+#include <functional>
+
+class QLabel;
+class QMenu;
+class QScrollArea;
+class QToolButton;
+
+namespace qplc {
+class SignalEdit;
+}
+
+class QPlcTimePlot::Private : public QObject
+{
+    Q_OBJECT
+public:
+    using Time = qplc::TimeView::Time;
+    using Axis = qplc::PlotCurveSettings::Axis;
+
+    explicit Private(QPlcTimePlot *plot);
+
+    // -- QPlcTimePlot.cpp: settings, and what is bound to what --
+    void followContext();
+    void bind();
+    void applySettings(const qplc::PlotSettings &settings);
+    /// What a person has changed.
+    void edit(const qplc::PlotSettings &settings);
+    QStringList elementsOf(const QString &name) const;
+    bool addCurves(const QStringList &signalNames);
+    void removeCurve(int place);
+    void toggleCurve(int place);
+    void select(int place);
+
+    // -- PlotDrawing.cpp: pictures and numbers --
+    qplc::TimeView *shared() const { return q->context() ? q->context()->timeView() : nullptr; }
+    /// The time axis: that of the window, or the own one.
+    qplc::TimeView *view() { return settings.hasOwnTime || !shared() ? &ownTime : shared(); }
+    void schedule();
+    void draw();
+    qplc::TimeColumns columns();
+    bool isPictureDue(const qplc::TimeColumns &columns);
+    bool fitRange(Axis axis);
+    void showRange(Axis axis);
+    void showOverlay();
+    QString hint() const;
+    void showNumbers();
+    void showLiveButton();
+    void arrange();
+    void showTheme();
+    void say(const QString &sentence, bool isFailure);
+
+    // -- PlotCommands.cpp: what a person can do --
+    void makeActions();
+    void connectInteraction();
+    QAction *make(const QString &text, const QList<QKeySequence> &keys, const char *name, std::function<void()> act);
+    QMenu *createMenu(int curve, std::optional<int> x);
+    void openAddBar();
+    void showAll();
+    void zoomTime(double factor);
+    void zoomValues(Axis axis, double factor, double about);
+    void panValues(Axis axis, double by);
+    void showBox(const QRect &box);
+    void placeCursor(qplc::TimeView::Cursor which, std::optional<Time> time = std::nullopt);
+    Time nearestRow(Time time) const;
+    void removeCursors();
+    void moveCursor(int pixels);
+    void toggleLive();
+    std::vector<qplc::TableExport::Column> exportColumns() const;
+    void saveTable();
+    void copyTable();
+    void savePicture();
+    void copyPicture();
+
+    /// A y axis: by settings, by what is seen, or as a person has zoomed it.
+    struct ValueAxis
+    {
+        qplc::StickyRange automatic;
+        bool isHeld = false;
+        double minimum = 0.0;  // when held
+        double maximum = 1.0;
+    };
+
+    QPlcTimePlot *q;
+    qplc::PlotSettings settings;
+    qplc::TimeView ownTime;
+    qplc::TimeView::Cursor lastCursor = qplc::TimeView::A;
+
+    qplc::SignalEdit *addBar = nullptr;
+    qplc::PlotCanvas *canvas;
+    qplc::PlotOverlay *overlay;
+    qplc::PlotInteraction *interaction;
+    QToolButton *liveButton;
+    QScrollArea *legendArea;
+    qplc::PlotLegend *legend;
+    qplc::StatisticsView *statistics;
+    QLabel *message;
+    qplc::PlotCurves curves;
+    qplc::PlotExport tableExport{this};
+
+    std::array<ValueAxis, 2> axes;
+    std::vector<qplc::RedrawRule> redraw;  // for each store
+    quint64 version = 0;                   // of all but data and time that is seen
+    int drawnPictures = 0;
+    Time reference = 0;  // 0 of labels in seconds: the live edge
+    QRect box;
+    QTimer drawTimer;
+    QTimer numberTimer;
+    QTimer messageTimer;
+    QElapsedTimer sinceDrawing;
+    QElapsedTimer clock;
+    QAction *addAction = nullptr;
+    QAction *removeAction = nullptr;
+    QAction *toggleAction = nullptr;
+    QAction *statisticsAction = nullptr;
+};

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "gui/store/SignalStore.h"
+
+#include <QtCore/QByteArray>
+#include <QtCore/QString>
+
+#include <vector>
+
+namespace qplc {
+
+/// Rows of curves as text, a piece at a time: CSV after RFC 4180, or tabs for spreadsheets and clipboards. Numbers are those of the C locale, with as many digits as 32 bits hold.
+///
+/// Each row has the moment (UTC, ISO 8601), the seconds since the first row, and a value for each column, nothing where there is none. Columns of several stores are one table: each time of any of them
+/// is a row.
+class TableExport
+{
+public:
+    using Time = SignalStore::Time;
+
+    enum Format { Csv, Tsv };
+    struct Column
+    {
+        const SignalStore *store;  // outlives the export
+        int channel;
+        double gain;
+        double offset;
+        QString name;
+        QString unit;
+    };
+
+    /// Rows from \a begin up to and with \a end.
+    TableExport(Format format, std::vector<Column> columns, Time begin, Time end);
+
+    /// "UTC,time [s],kite.elevation [deg]"
+    QByteArray header() const;
+    bool isAtEnd() const;
+    /// The next rows, at most so many.
+    QByteArray next(int mostRows);
+    std::int64_t rows() const { return m_rows; }  // that were given
+
+private:
+    /// A store with the next row of it.
+    struct Reader
+    {
+        const SignalStore *store;
+        SignalStore::Row row;
+    };
+
+    bool hasRow(const Reader &reader) const;
+    bool findTime(Time *time) const;
+    void appendRow(Time time, QByteArray *text) const;
+    QByteArray field(const QString &text) const;
+
+    Format m_format;
+    std::vector<Column> m_columns;
+    std::vector<Reader> m_readers;
+    std::vector<std::size_t> m_readerOf;  // of each column
+    Time m_begin;                         // of the first row
+    Time m_end;
+    std::int64_t m_rows = 0;
+};
+
+}  // namespace qplc

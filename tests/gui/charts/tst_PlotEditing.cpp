@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: Apache-2.0
+// What people change of a time plot: curves, settings, exports.
+#include "PlotFixtures.h"
+#include "gui/charts/PlotPicture.h"
+#include "gui/charts/PlotSettingsEditor.h"
+#include "gui/panel/SignalEdit.h"
+
+#include <QtCore/QTemporaryDir>
+#include <QtGui/QClipboard>
+#include <QtWidgets/QApplication>
+#include <QtWidgets/QCheckBox>
+#include <QtWidgets/QFileDialog>
+#include <QtWidgets/QLabel>
+#include <QtWidgets/QMenu>
+#include <QtWidgets/QToolButton>
+
+using namespace qplc;
+
+namespace {
+
+template<typename Part>
+Part *named(const QWidget *parent, const QString &name)
+{
+    for (Part *part : parent->findChildren<Part *>()) {
+        if (part->accessibleName() == name)
+            return part;
+    }
+    qFatal("there is no '%s'", qPrintable(name));
+}
+
+}  // namespace
+
+class tst_PlotEditing : public QObject
+{
+    Q_OBJECT
+private Q_SLOTS:
+    void settingsGiveBackWhatWasApplied();
+    void whatIsNotGivenHasItsDefault();
+    void signalsAreAddedOnce();
+    void arraysBecomeElementsAndTextsNothing();
+    void formulasArePassedThrough();
+    void aClickInTheLegendHidesAndSelects();
+    void keysChooseHideAndRemoveCurves();
+    void theAddBarCompletesNames();
+    void plusAddsOnlyToAnEmptyPlot();
+    void everyActionHasAKeyAndNoTwoShareOne();
+    void theEditorChangesAtOnce();
+    void theEditorAddsAndRemovesCurves();
+    void thereIsAMenuForTheKeyboard();
+    void whatIsSeenGoesIntoTheClipboard();
+    void picturesHaveTwiceThePixels();
+    void aFileDialogDoesNotBlockAndFailuresAreSaid();
+    void smallPanelsKeepTheirCurves();
+    void staleValuesAreNotTrusted();
+};
+
+void tst_PlotEditing::settingsGiveBackWhatWasApplied()
+{
+    PlotWindow window;
+    const QByteArray text
+        = R"({"curves":[{"color":"#112233","signal":"count"},{"signal":"gone.away","tool":"x"}],"limits":true,"other":[1],"title":"Force"})";
+    window.apply(text);
+    QCOMPARE(window.settings(), text);
+    QCOMPARE(window.plot->title(), QStringLiteral("Force"));
+}
+
+void tst_PlotEditing::whatIsNotGivenHasItsDefault()
+{
+    PlotWindow window(R"({"curves":[{"signal":"count"}],"grid":false,"time":"own"})");
+    window.apply(R"({"curves":[]})");
+    QCOMPARE(window.settings(), QByteArray("{}"));
+}
+
+void tst_PlotEditing::signalsAreAddedOnce()
+{
+    PlotWindow window;
+    QSignalSpy edited(window.plot, &QPlcWidget::settingsEdited);
+    QVERIFY(window.plot->addSignals({"a", "b", "a"}));
+    QCOMPARE(window.settings(), QByteArray(R"({"curves":[{"signal":"a"},{"signal":"b"}]})"));
+    QCOMPARE(edited.size(), 1);
+    QVERIFY(window.plot->addSignals({"b"}));
+    QCOMPARE(edited.size(), 1);
+    QVERIFY(!window.plot->addSignals({}));
+    QVERIFY(!window.plot->addSignals({QString()}));
+}
+
+void tst_PlotEditing::arraysBecomeElementsAndTextsNothing()
+{
+    PlotWindow window;
+    QVERIFY(window.run(0.05));
+    QVERIFY(!window.plot->addSignals({"time"}));
+    QVERIFY(window.plot->addSignals({"vector", "time", "vector[1]"}));
+    QCOMPARE(window.settings(),
+             QByteArray(R"({"curves":[{"signal":"vector[0]"},{"signal":"vector[1]"},{"signal":"vector[2]"}]})"));
+    QTRY_COMPARE(window.hint(), QString());
+}
+
+void tst_PlotEditing::formulasArePassedThrough()
+{
+    PlotWindow window;
+    QVERIFY(window.plot->addSignals({"= count * 2"}));
+    QCOMPARE(window.settings(), QByteArray(R"({"curves":[{"signal":"= count * 2"}]})"));
+}
+
+void tst_PlotEditing::aClickInTheLegendHidesAndSelects()
+{
+    PlotWindow window(R"({"curves":[{"signal":"count"},{"signal":"sum"}]})");
+    QVERIFY(window.run(0.1));
+    QSignalSpy edited(window.plot, &QPlcWidget::settingsEdited);
+    auto *legend = window.part<PlotLegend>();
+    QTRY_VERIFY(legend->isVisible());
+    QTest::mouseClick(legend, Qt::LeftButton, {}, legend->entryRect(1).center());
+    QCOMPARE(window.settings(), QByteArray(R"({"curves":[{"signal":"count"},{"signal":"sum","visible":false}]})"));
+    QCOMPARE(edited.size(), 1);
+    QVERIFY(legend->entries()[1].isSelected && !legend->entries()[1].isVisible);
+    QCOMPARE(window.canvas()->itemList(QwtPlotItem::Rtti_PlotUserItem + 1).size(), 1);
+    QTest::mouseClick(legend, Qt::LeftButton, {}, legend->entryRect(1).center());
+    QCOMPARE(window.canvas()->itemList(QwtPlotItem::Rtti_PlotUserItem + 1).size(), 2);
+}
+
+void tst_PlotEditing::keysChooseHideAndRemoveCurves()
+{
+    PlotWindow window(R"({"curves":[{"signal":"a"},{"signal":"b"},{"signal":"c"}]})");
+    window.plot->show();
+    window.plot->activateWindow();
+    QVERIFY(QTest::qWaitForWindowActive(window.plot));
+    window.plot->setFocus();
+    QTest::keyClick(window.plot, Qt::Key_N);
+    QTest::keyClick(window.plot, Qt::Key_N);
+    QTest::keyClick(window.plot, Qt::Key_V);
+    QCOMPARE(window.settings(),
+             QByteArray(R"({"curves":[{"signal":"a"},{"signal":"b","visible":false},{"signal":"c"}]})"));
+    QTest::keyClick(window.plot, Qt::Key_Delete);
+    QCOMPARE(window.settings(), QByteArray(R"({"curves":[{"signal":"a"},{"signal":"c"}]})"));
+    QTest::keyClick(window.plot, Qt::Key_N, Qt::ShiftModifier);
+    QTest::keyClick(window.plot, Qt::Key_Delete);
+    QCOMPARE(window.settings(), QByteArray(R"({"curves":[{"signal":"c"}]})"));
+    QTest::keyClick(window.plot, Qt::Key_Space);
+    QVERIFY(!window.time()->isLive());
+    QTest::keyClick(window.plot, Qt::Key_L);
+    QVERIFY(window.time()->isLive());
+}
+
+void tst_PlotEditing::theAddBarCompletesNames()
+{
+    PlotWindow window;
+    QVERIFY(window.run(0.05));
+    QVERIFY(SignalEdit::names(*window.context.plants(), SignalEdit::Curves).contains(QStringLiteral("vector[2]")));
+    QVERIFY(!SignalEdit::names(*window.context.plants(), SignalEdit::Curves).contains(QStringLiteral("time")));
+    window.trigger("add");
+    auto *bar = window.part<SignalEdit>();
+    QVERIFY(bar);
+    QTest::keyClicks(bar, QStringLiteral("setp"));
+    QTest::keyClick(bar, Qt::Key_Return);
+    QCOMPARE(window.settings(), QByteArray(R"({"curves":[{"signal":"setpoint"}]})"));
+    QTRY_VERIFY(!window.part<SignalEdit>());
+    window.trigger("add");
+    QTest::keyClicks(window.part<SignalEdit>(), QStringLiteral("comes.later"));
+    QTest::keyClick(window.part<SignalEdit>(), Qt::Key_Return);
+    QCOMPARE(window.settings(), QByteArray(R"({"curves":[{"signal":"setpoint"},{"signal":"comes.later"}]})"));
+}
+
+void tst_PlotEditing::plusAddsOnlyToAnEmptyPlot()
+{
+    PlotWindow window;
+    window.plot->show();
+    window.trigger("zoomIn");
+    QVERIFY(window.part<SignalEdit>());
+    QTest::keyClick(window.part<SignalEdit>(), Qt::Key_Escape);
+    QTRY_VERIFY(!window.part<SignalEdit>());
+    window.plot->addSignals({"count"});
+    const TimeView::Time span = window.time()->span();
+    window.trigger("zoomIn");
+    QVERIFY(!window.part<SignalEdit>());
+    QVERIFY(window.time()->span() < span);
+}
+
+void tst_PlotEditing::everyActionHasAKeyAndNoTwoShareOne()
+{
+    const QPlcTimePlot plot;
+    QSet<QString> keys;
+    QVERIFY(plot.actions().size() > 20);
+    for (const QAction *action : plot.actions()) {
+        QVERIFY2(!action->shortcuts().isEmpty() && !action->text().isEmpty(), qPrintable(action->text()));
+        for (const QKeySequence &key : action->shortcuts()) {
+            QVERIFY2(!keys.contains(key.toString()), qPrintable(key.toString()));
+            keys.insert(key.toString());
+        }
+    }
+}
+
+void tst_PlotEditing::theEditorChangesAtOnce()
+{
+    PlotWindow window(R"({"curves":[{"signal":"count"}]})");
+    QSignalSpy edited(window.plot, &QPlcWidget::settingsEdited);
+    const std::unique_ptr<QWidget> editor(window.plot->createSettingsEditor());
+    editor->show();
+    auto *gain = named<QLineEdit>(editor.get(), QStringLiteral("Gain of count"));
+    gain->selectAll();
+    QTest::keyClicks(gain, QStringLiteral("-2"));
+    QTest::keyClicks(named<QLineEdit>(editor.get(), QStringLiteral("Left axis: smallest value")), QStringLiteral("5"));
+    for (QCheckBox *check : editor->findChildren<QCheckBox *>()) {
+        if (check->text() == QLatin1String("Limits"))
+            check->click();
+    }
+    QCOMPARE(window.settings(),
+             QByteArray(R"({"curves":[{"gain":-2,"signal":"count"}],"left":{"minimum":5},"limits":true})"));
+    QCOMPARE(edited.size(), 3);
+}
+
+void tst_PlotEditing::theEditorAddsAndRemovesCurves()
+{
+    PlotWindow window(R"({"curves":[{"signal":"count"}]})");
+    const std::unique_ptr<QWidget> editor(window.plot->createSettingsEditor());
+    editor->show();
+    QTest::keyClicks(editor->focusProxy(), QStringLiteral("sum"));
+    QTest::keyClick(editor->focusProxy(), Qt::Key_Return);
+    QCOMPARE(window.settings(), QByteArray(R"({"curves":[{"signal":"count"},{"signal":"sum"}]})"));
+    named<QToolButton>(editor.get(), QStringLiteral("Colour of sum"))->menu()->actions().at(2)->trigger();
+    QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+    named<QToolButton>(editor.get(), QStringLiteral("Remove count"))->click();
+    const QByteArray color = window.context.theme().curve(0).name().toLatin1();
+    QCOMPARE(window.settings(), "{\"curves\":[{\"color\":\"" + color + "\",\"signal\":\"sum\"}]}");
+}
+
+void tst_PlotEditing::thereIsAMenuForTheKeyboard()
+{
+    PlotWindow window(R"({"curves":[{"signal":"count"}]})");
+    window.plot->show();
+    window.trigger("next");
+    QContextMenuEvent event(QContextMenuEvent::Keyboard, {10, 10}, {10, 10});
+    QCoreApplication::sendEvent(window.plot, &event);
+    auto *menu = qobject_cast<QMenu *>(QApplication::activePopupWidget());
+    QVERIFY(menu);
+    QStringList names;
+    for (const QAction *action : menu->actions())
+        names << action->objectName();
+    for (const char *name :
+         {"add", "remove", "toggle", "cursorA", "cursorB", "all", "live", "saveTable", "copyPicture"})
+        QVERIFY2(names.contains(QLatin1String(name)), name);
+    menu->close();
+}
+
+void tst_PlotEditing::whatIsSeenGoesIntoTheClipboard()
+{
+    PlotWindow window(R"({"curves":[{"signal":"count"},{"signal":"sum","gain":2},{"signal":"echo","visible":false}]})");
+    QVERIFY(window.run(0.5));
+    window.time()->show(window.time()->newest() - 100'000'000, window.time()->newest());
+    QTest::qWait(60);
+    QGuiApplication::clipboard()->clear();
+    window.trigger("copyTable");
+    QTRY_VERIFY(!QGuiApplication::clipboard()->text().isEmpty());
+    const QStringList lines = QGuiApplication::clipboard()->text().split(QLatin1Char('\n'));
+    QCOMPARE(lines.first(), QStringLiteral("UTC\ttime [s]\tcount\t2*sum [m]"));
+    const SignalStore &store = *window.context.plants()->at(0)->store();
+    const auto rows = store.rowAt(window.canvas()->end()) - store.rowAt(window.canvas()->begin());
+    QVERIFY(rows > 0 && rows < 20);
+    QCOMPARE(lines.size(), int(rows) + 2);  // with the header, and nothing behind the last line
+}
+
+void tst_PlotEditing::picturesHaveTwiceThePixels()
+{
+    PlotWindow window(R"({"curves":[{"signal":"count"}]})");
+    QVERIFY(window.run(0.1));
+    window.trigger("copyPicture");
+    const QImage image = QGuiApplication::clipboard()->image();
+    QVERIFY(image.width() >= 2 * window.canvas()->width());
+    const QTemporaryDir folder;
+    const PlotPicture picture(window.canvas(), window.part<PlotOverlay>(), window.part<PlotLegend>());
+    QCOMPARE(picture.save(folder.filePath(QStringLiteral("a.svg"))), QString());
+    QCOMPARE(picture.save(folder.filePath(QStringLiteral("a.png"))), QString());
+    QFile svg(folder.filePath(QStringLiteral("a.svg")));
+    QVERIFY(svg.open(QIODevice::ReadOnly));
+    QVERIFY(svg.readAll().contains("<polyline"));
+    QVERIFY(!QImage(folder.filePath(QStringLiteral("a.png"))).isNull());
+    QVERIFY(picture.save(QStringLiteral("/nowhere/a.png")).contains(QStringLiteral("/nowhere/a.png")));
+}
+
+void tst_PlotEditing::aFileDialogDoesNotBlockAndFailuresAreSaid()
+{
+    PlotWindow window(R"({"curves":[{"signal":"count"}]})");
+    QVERIFY(window.run(0.1));
+    window.trigger("saveTable");
+    auto *dialog = window.part<QFileDialog>();
+    QVERIFY(dialog && dialog->isVisible());
+    Q_EMIT dialog->fileSelected(QStringLiteral("/nowhere/a.csv"));
+    dialog->close();
+    bool isSaid = false;
+    for (const QLabel *label : window.plot->findChildren<QLabel *>())
+        isSaid = isSaid || (label->isVisible() && label->text().contains(QStringLiteral("/nowhere/a.csv")));
+    QVERIFY(isSaid);
+}
+
+void tst_PlotEditing::smallPanelsKeepTheirCurves()
+{
+    PlotWindow window(R"({"curves":[{"signal":"count"},{"signal":"sum"},{"signal":"echo"}]})");
+    window.plot->resize(240, 120);
+    QVERIFY(window.run(0.1));
+    QTRY_VERIFY(window.canvas()->canvas()->height() >= 40);
+    QVERIFY(window.canvas()->canvas()->width() >= 120);
+    window.plot->resize(240, 80);
+    QTRY_VERIFY(!window.part<PlotLegend>()->isVisible());
+}
+
+void tst_PlotEditing::staleValuesAreNotTrusted()
+{
+    PlotWindow window(R"({"curves":[{"signal":"count"}]})");
+    QVERIFY(window.run(0.1));
+    auto *legend = window.part<PlotLegend>();
+    QTRY_VERIFY(legend->entries().first().isTrusted);
+    window.context.plants()->at(0)->close();
+    QTRY_VERIFY(!legend->entries().first().isTrusted);
+    QTRY_VERIFY2(legend->entries().first().unit.contains(QLatin1Char('s')), qPrintable(legend->entries().first().unit));
+}
+
+QTEST_MAIN(tst_PlotEditing)
+#include "tst_PlotEditing.moc"
