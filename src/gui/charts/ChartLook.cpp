@@ -10,6 +10,8 @@
 #include <qwt_scale_draw.h>
 #include <qwt_scale_widget.h>
 
+#include <algorithm>
+
 namespace qplc {
 
 namespace {
@@ -42,9 +44,21 @@ void applyLook(QwtPlot *plot, QwtPlotGrid *grid, const Theme &theme)
     grid->setMajorPen(theme.line, 1.0);
 }
 
+void fitAxes(QwtPlot *plot)
+{
+    constexpr int least = 3;
+    constexpr int most = 8;
+    const QFontMetrics metrics(plot->axisFont(QwtPlot::xBottom));
+    const int wide = plot->width() / std::max(metrics.horizontalAdvance(QStringLiteral("000000")), 1);
+    const int high = plot->height() / std::max(2 * metrics.height(), 1);
+    plot->setAxisMaxMajor(QwtPlot::xBottom, std::clamp(wide, least, most));
+    plot->setAxisMaxMajor(QwtPlot::yLeft, std::clamp(high, least, most));
+}
+
 void setAxisText(QwtPlot *plot, int axis, const QString &text, const Theme &theme)
 {
-    QwtText title(text);
+    constexpr int leastHeight = 150;  // [px] of plots with titles
+    QwtText title(plot->height() < leastHeight ? QString() : text);
     title.setColor(theme.mutedText);
     QFont font = plot->font();
     font.setBold(false);

@@ -12,7 +12,9 @@ namespace qplc {
 
 /// Gives a plot the look of the panels: no frames, a quiet grid, small muted numbers. \param grid  of the plot
 void applyLook(QwtPlot *plot, QwtPlotGrid *grid, const Theme &theme);
-/// The title of an axis in the colours of the panels; empty: none.
+/// As many numbers at the axes as have room. To be called when the plot has another size.
+void fitAxes(QwtPlot *plot);
+/// The title of an axis in the colours of the panels; empty: none, nor in a plot that is too small for titles.
 void setAxisText(QwtPlot *plot, int axis, const QString &text, const Theme &theme);
 struct LegendEntry
 {

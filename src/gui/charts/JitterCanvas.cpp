@@ -61,9 +61,22 @@ void JitterCanvas::setTheme(const Theme &theme)
 {
     m_theme = theme;
     applyLook(this, m_grid.get(), theme);
-    setAxisText(this, xBottom, tr("duration [µs]"), theme);
-    setAxisText(this, yLeft, tr("count"), theme);
+    showTitles();
     colorCurves();
+    replot();
+}
+
+void JitterCanvas::showTitles()
+{
+    setAxisText(this, xBottom, tr("duration [µs]"), m_theme);
+    setAxisText(this, yLeft, tr("count"), m_theme);
+}
+
+void JitterCanvas::resizeEvent(QResizeEvent *event)
+{
+    QwtPlot::resizeEvent(event);
+    fitAxes(this);
+    showTitles();
     replot();
 }
 

@@ -30,7 +30,11 @@ public:
     /// Titles and colours as rich text; empty for less than two.
     QString legend() const;
 
+protected:
+    void resizeEvent(QResizeEvent *event) override;
+
 private:
+    void showTitles();
     void scaleAxes(const QVector<JitterDistribution> &distributions);
     void colorCurves();
 

@@ -24,6 +24,8 @@ namespace {
 constexpr int askPause = 1000;    // [ms]
 constexpr int staleAfter = 3000;  // [ms]
 
+constexpr int leastHeight = 150;  // [px] of panels with a caption
+
 const QString plantKey = QStringLiteral("plant");
 const QString showKey = QStringLiteral("show");
 const QString windowKey = QStringLiteral("window");
@@ -229,10 +231,10 @@ void QPlcJitterHistogram::Private::draw()
     message->setText(text);
     message->setVisible(!text.isEmpty());
     canvas->setVisible(text.isEmpty());
-    caption->setVisible(text.isEmpty());
+    const bool isStale = !sinceAnswer.isValid() || sinceAnswer.elapsed() > staleAfter;
+    caption->setVisible(text.isEmpty() && (isStale || q->height() >= leastHeight));
     if (!text.isEmpty())
         return;
-    const bool isStale = !sinceAnswer.isValid() || sinceAnswer.elapsed() > staleAfter;
     QStringList parts{isLast ? tr("last 10 s") : tr("since start")};
     if (shown.size() == 1)
         parts << shown.first().title().toHtmlEscaped() << tr("%L1 values").arg(shown.first().count, 0, 'f', 0);

@@ -25,6 +25,8 @@ constexpr int longestPause = 1000;
 constexpr int costShare = 4;   // drawing takes at most so small a share of the time
 constexpr int agePause = 500;  // [ms]
 
+constexpr int leastHeight = 150;  // [px] of panels with a legend
+
 const QString curvesKey = QStringLiteral("curves");
 const QString xKey = QStringLiteral("x");
 const QString yKey = QStringLiteral("y");
@@ -160,7 +162,7 @@ void QPlcXyPlot::Private::showMessage()
 void QPlcXyPlot::Private::showLegend()
 {
     legend->setText(canvas->legend());
-    legend->setVisible(!legend->text().isEmpty());
+    legend->setVisible(!legend->text().isEmpty() && q->height() >= leastHeight);
 }
 
 void QPlcXyPlot::Private::follow(WindowContext *context)
@@ -218,6 +220,7 @@ void QPlcXyPlot::Private::draw()
     pause = std::clamp(int(cost.elapsed()) * costShare, shortestPause, longestPause);
     const QString text = timeText();
     moment->setVisible(!text.isEmpty() && !canvas->curves().empty());
+    legend->setVisible(!legend->text().isEmpty() && q->height() >= leastHeight);
     if (text != moment->text())
         moment->setText(text);
 }

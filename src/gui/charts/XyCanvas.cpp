@@ -195,7 +195,8 @@ void XyCanvas::makeUnitsEqual(Span *x, Span *y) const
 void XyCanvas::resizeEvent(QResizeEvent *event)
 {
     QwtPlot::resizeEvent(event);
-    ++m_looks;
+    fitAxes(this);
+    showTitles();
     show(m_picture.moment);
 }
 

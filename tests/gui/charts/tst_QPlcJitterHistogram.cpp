@@ -70,6 +70,7 @@ void tst_QPlcJitterHistogram::withoutAPlantItSaysSo()
 {
     WindowContext context;
     QPlcJitterHistogram panel;
+    panel.resize(400, 300);
     panel.show();
     QVERIFY(showsText(panel, "no plant yet"));
     panel.setContext(&context);
@@ -83,6 +84,7 @@ void tst_QPlcJitterHistogram::beforeTheFirstCycleItSaysWhatToDo()
     WindowContext context;
     QPlcJitterHistogram panel;
     panel.setContext(&context);
+    panel.resize(400, 300);
     panel.show();
     context.plants()->add(master.address());
     QTRY_VERIFY(showsText(panel, "No cycles yet"));
@@ -95,6 +97,7 @@ void tst_QPlcJitterHistogram::theLatenessOfARunningMasterIsShown()
     WindowContext context;
     QPlcJitterHistogram panel;
     panel.setContext(&context);
+    panel.resize(400, 300);
     panel.show();
     context.plants()->add(master.address());
     QTRY_COMPARE(curvesOf(panel), 1);
@@ -112,6 +115,7 @@ void tst_QPlcJitterHistogram::masterAndNodesAreShownTogether()
     panel.setContext(&context);
     panel.applySettings(
         objectOf(R"({"show":["Master.execution","Counter.execution","Nobody.execution"],"window":"last10s"})"));
+    panel.resize(400, 300);
     panel.show();
     context.plants()->add(master.address());
     QTRY_COMPARE(curvesOf(panel), 2);
@@ -130,6 +134,7 @@ void tst_QPlcJitterHistogram::nobodyAsksWhileItIsHidden()
     Plant *plant = context.plants()->add(master.address());
     QTRY_VERIFY(plant->values().rows() > 100);
     QCOMPARE(curvesOf(panel), 0);
+    panel.resize(400, 300);
     panel.show();
     QTRY_COMPARE(curvesOf(panel), 1);
 }
@@ -161,6 +166,7 @@ void tst_QPlcJitterHistogram::histogramsOfALostMasterAreStale()
     WindowContext context;
     QPlcJitterHistogram panel;
     panel.setContext(&context);
+    panel.resize(400, 300);
     panel.show();
     context.plants()->add(master->address());
     QTRY_COMPARE(curvesOf(panel), 1);
