@@ -63,7 +63,7 @@ public:
 
     /// Everything that makes this widget what it is, but for what it shows at the moment. Keys that applySettings() did not know are part of it.
     virtual QJsonObject settings() const;
-    /// Takes on what settings() gave, of this widget or another one; keys that are missing leave things as they are.
+    /// Takes on what settings() gave, of this widget or another one. In a panel a key that is missing is a default, so that an undo step brings back what was.
     virtual void applySettings(const QJsonObject &settings);
     /// What the toothed wheel opens, over the widget; null: it has no settings. The caller owns it.
     virtual QWidget *createSettingsEditor() { return nullptr; }

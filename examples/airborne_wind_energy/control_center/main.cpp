@@ -3,6 +3,10 @@
 #include "Screenshot.h"
 #include "Settings.h"
 
+#ifdef QTPLC_HAS_GUI3D
+#include "QPlcView3D.h"
+#endif
+
 #include <QtCore/QFile>
 
 #include <algorithm>
@@ -102,6 +106,9 @@ int main(int argc, char **argv)
         return application.exitCode();
 
     QPlcControlCenter window;
+#ifdef QTPLC_HAS_GUI3D
+    window.addAvailableWidget(QPlcWidget::registerFactory(new QPlcView3DFactory));
+#endif
     awe::DemoFlight demo(&window);
     if (!prepare(application, window, settings))
         return application.exitCode();

@@ -66,7 +66,7 @@ std::optional<TimeView::Time> TimeView::displayTime() const
 {
     if (m_isLive)
         return std::nullopt;
-    return m_pointer.value_or(m_end);
+    return std::min(m_pointer.value_or(m_end), m_newest);
 }
 
 void TimeView::setNewest(Time time)

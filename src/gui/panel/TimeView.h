@@ -54,7 +54,7 @@ public:
     /// Where the mouse is, in any plot.
     std::optional<Time> pointer() const { return m_pointer; }
     void setPointer(std::optional<Time> time);
-    /// The time whose values are to be seen in gauges and 3D views: the pointer in a frozen view, its right edge without one; empty: now.
+    /// The time whose values are to be seen in gauges and 3D views: the pointer in a frozen view, its right edge without one, but no time that is still to come; empty: now.
     std::optional<Time> displayTime() const;
 
     /// The way in for the newest time. Later ones only.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Plant.h"
 
+#include "PlantFeed.h"
 #include "node/Logging.h"
 
 #include <QtCore/QJsonArray>

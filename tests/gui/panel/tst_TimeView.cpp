@@ -122,9 +122,11 @@ void tst_TimeView::frozenTheDisplayedTimeIsThatOfThePointerOrTheRightEdge()
     QCOMPARE(*m_view->displayTime(), 100 * s);
     m_view->setPointer(95 * s);
     QCOMPARE(*m_view->displayTime(), 95 * s);
+    m_view->setPointer(105 * s);
+    QCOMPARE(*m_view->displayTime(), 100 * s);
     m_view->goLive();
     QVERIFY(!m_view->displayTime());
-    QCOMPARE(changes.count(), 3);
+    QCOMPARE(changes.count(), 4);
 }
 
 void tst_TimeView::nothingIsToldTwice()
