@@ -26,7 +26,7 @@
 ///
 /// Settings, each with its default when it is not there, whatever it was before:
 /// ```json
-/// {"curves": [{"signal": "kite.elevation", "gain": 1, "offset": 0, "color": "#d55e00", "axis": "right", "visible": false}],
+/// {"curves": [{"signal": "kite.elevation", "name": "Elevation", "gain": 1, "offset": 0, "color": "#d55e00", "axis": "right", "visible": false}],
 ///  "left": {"minimum": 0, "maximum": 90}, "right": {}, "time": "own", "span": 10, "labels": "seconds", "grid": false, "limits": true,
 ///  "legend": false, "statistics": false}
 /// ```

@@ -359,7 +359,7 @@ std::vector<TableExport::Column> QPlcTimePlot::Private::exportColumns() const
     for (const PlotCurve &curve : curves) {
         if (curve.isSeen())
             columns.push_back({curve.source.store, curve.source.channel, curve.settings.gain, curve.settings.offset,
-                               curve.settings.text(), curve.source.unit});
+                               curve.settings.text(), curve.source.unit, curve.source.derived});
     }
     return columns;
 }

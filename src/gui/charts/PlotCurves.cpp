@@ -51,6 +51,7 @@ PlotCurves::~PlotCurves() = default;
 
 void PlotCurves::bind(const PlotSettings &settings, const CurveSources *sources, const Theme &theme)
 {
+    const std::vector<PlotCurve> before = std::move(m_curves);  // derived signals that go on are not made anew
     m_curves.clear();
     m_stores.clear();
     m_selected = std::min(m_selected, settings.curves.size() - 1);

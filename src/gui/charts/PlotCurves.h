@@ -19,7 +19,7 @@ namespace qplc {
 struct PlotCurve
 {
     PlotCurveSettings settings;
-    CurveSource source;
+    CurveSource source;  // held as long as the item draws its store
     QColor color;
     std::unique_ptr<StoreCurve> item;
     std::vector<std::unique_ptr<QwtPlotMarker>> limits;

@@ -34,6 +34,8 @@ QString hintOf(const PlotCurve &curve)
     if (curve.isMissing())
         return curve.source.error;
     QString hint = curve.settings.text();
+    if (hint != curve.settings.signal)
+        hint += QLatin1Char('\n') + curve.settings.signal;
     if (curve.source.minimum || curve.source.maximum)
         hint
             += PlotLegend::tr("\nlimits %1 ... %2")

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "PlotSettings.h"
 
+#include "gui/plot/CurveSources.h"
+
 #include <QtCore/QJsonArray>
 
 #include <algorithm>
@@ -21,6 +23,7 @@ const QString limitsKey = QStringLiteral("limits");
 const QString legendKey = QStringLiteral("legend");
 const QString statisticsKey = QStringLiteral("statistics");
 const QString signalKey = QStringLiteral("signal");
+const QString nameKey = QStringLiteral("name");
 const QString gainKey = QStringLiteral("gain");
 const QString offsetKey = QStringLiteral("offset");
 const QString colorKey = QStringLiteral("color");
@@ -65,7 +68,12 @@ void insertRange(QJsonObject *json, const QString &key, const PlotRangeSettings 
 
 QString PlotCurveSettings::text() const
 {
-    QString text = gain == 1.0 ? signal : QStringLiteral("%1*%2").arg(QString::number(gain, 'g', 10), signal);
+    if (!name.isEmpty())
+        return name;
+    QString text = CurveSource::textOf(signal);
+    const bool isFormula = text != signal;
+    if (gain != 1.0)
+        text = QString::number(gain, 'g', 10) + (isFormula ? QStringLiteral("*(%1)") : QStringLiteral("*%1")).arg(text);
     if (offset != 0.0)
         text += (offset > 0.0 ? QStringLiteral("+") : QString()) + QString::number(offset, 'g', 10);
     return text;
@@ -76,6 +84,7 @@ PlotCurveSettings PlotCurveSettings::fromJson(const QJsonObject &json)
     PlotCurveSettings curve;
     curve.others = json;
     curve.signal = curve.others.take(signalKey).toString();
+    curve.name = curve.others.take(nameKey).toString();
     curve.gain = curve.others.take(gainKey).toDouble(1.0);
     curve.offset = curve.others.take(offsetKey).toDouble(0.0);
     curve.color = QColor(curve.others.take(colorKey).toString());
@@ -88,6 +97,7 @@ QJsonObject PlotCurveSettings::toJson() const
 {
     QJsonObject json = others;
     json.insert(signalKey, signal);
+    insertUnless(&json, nameKey, name, QString());
     insertUnless(&json, gainKey, gain, 1.0);
     insertUnless(&json, offsetKey, offset, 0.0);
     if (color.isValid())

@@ -16,6 +16,7 @@ struct PlotCurveSettings
     enum Axis { Left, Right };
 
     QString signal;  // a reference, or what else CurveSources understands
+    QString name;    // shown in place of text(); empty: none
     double gain = 1.0;
     double offset = 0.0;
     QColor color;  // invalid: by place, from the theme
@@ -24,7 +25,7 @@ struct PlotCurveSettings
     QJsonObject others;  // keys that nobody knows
 
     bool isScaled() const { return gain != 1.0 || offset != 0.0; }
-    /// "kite.elevation", "0.001*tetherForce+5".
+    /// The name; without one what is drawn: "kite.elevation", "0.001*tetherForce+5", "mean(power, 5)", "2*(a + b)".
     QString text() const;
 
     static PlotCurveSettings fromJson(const QJsonObject &json);
@@ -46,7 +47,7 @@ struct PlotRangeSettings
 /// What has its default is not written, and what is not there has its default: settings that were written are read as the same, byte by byte.
 ///
 /// ```json
-/// {"curves": [{"signal": "kite.elevation", "gain": 2, "offset": -1, "color": "#d55e00", "axis": "right", "visible": false}],
+/// {"curves": [{"signal": "kite.elevation", "name": "Elevation", "gain": 2, "offset": -1, "color": "#d55e00", "axis": "right", "visible": false}],
 ///  "left": {"minimum": 0, "maximum": 90}, "right": {}, "time": "own", "span": 10, "labels": "seconds", "grid": false, "limits": true,
 ///  "legend": false, "statistics": false}
 /// ```

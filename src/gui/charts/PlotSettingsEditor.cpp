@@ -23,7 +23,8 @@ constexpr int colorSize = 14;   // [px]
 constexpr int themeColors = 8;  // of the theme
 constexpr int numberChars = 9;  // that are seen
 constexpr int digits = 10;
-constexpr int leastNameChars = 24;
+constexpr int leastSignalChars = 24;
+constexpr int leastNameChars = 12;
 
 QIcon colorIcon(const QColor &color, double scale)
 {
@@ -95,7 +96,7 @@ void PlotSettingsEditor::makeCurves()
     m_grid->setContentsMargins(0, 0, 0, 0);
     m_grid->setVerticalSpacing(2);
     m_curves->setVisible(!m_settings.curves.isEmpty());
-    const QStringList titles{QString(), tr("Signal"), tr("Gain"), tr("Offset"), tr("Axis"), tr("Seen"), QString()};
+    const QStringList titles{QString(), tr("Signal"), tr("Name"), tr("Gain"), tr("Offset"), tr("Axis"), tr("Seen"), QString()};
     for (int i = 0; i < titles.size(); ++i)
         m_grid->addWidget(heading(titles[i], m_curves), 0, i);
     m_grid->setColumnStretch(1, 1);
@@ -108,16 +109,6 @@ void PlotSettingsEditor::makeCurves()
 void PlotSettingsEditor::addLine(int place)
 {
     const PlotCurveSettings &curve = m_settings.curves[place];
-    auto *name = new QLineEdit(curve.signal, m_curves);
-    name->setMinimumWidth(widthOf(name, leastNameChars));
-    name->setAccessibleName(tr("Signal of curve %1").arg(place + 1));
-    connect(name, &QLineEdit::editingFinished, this, [this, name, place] {
-        const QString text = name->text().trimmed();
-        if (text.isEmpty() || text == m_settings.curves[place].signal)
-            return;
-        m_settings.curves[place].signal = text;
-        tell();
-    });
     auto *axis = new QComboBox(m_curves);
     axis->addItems({tr("Left"), tr("Right")});
     axis->setCurrentIndex(curve.axis == PlotCurveSettings::Left ? 0 : 1);
@@ -141,14 +132,47 @@ void PlotSettingsEditor::addLine(int place)
     connect(remove, &QToolButton::clicked, this, [this, place] { removeCurve(place); });
     const int row = place + 1;
     m_grid->addWidget(makeColorButton(place), row, 0);
-    m_grid->addWidget(name, row, 1);
+    m_grid->addWidget(makeSignal(place), row, 1);
+    m_grid->addWidget(makeName(place), row, 2);
     m_grid->addWidget(makeNumber(curve.gain, tr("Gain of %1").arg(curve.signal), &PlotCurveSettings::gain, place), row,
-                      2);
+                      3);
     m_grid->addWidget(makeNumber(curve.offset, tr("Offset of %1").arg(curve.signal), &PlotCurveSettings::offset, place),
-                      row, 3);
-    m_grid->addWidget(axis, row, 4);
-    m_grid->addWidget(seen, row, 5, Qt::AlignCenter);
-    m_grid->addWidget(remove, row, 6);
+                      row, 4);
+    m_grid->addWidget(axis, row, 5);
+    m_grid->addWidget(seen, row, 6, Qt::AlignCenter);
+    m_grid->addWidget(remove, row, 7);
+}
+
+QLineEdit *PlotSettingsEditor::makeSignal(int place)
+{
+    auto *edit = new QLineEdit(m_settings.curves[place].signal, m_curves);
+    edit->setMinimumWidth(widthOf(edit, leastSignalChars));
+    edit->setAccessibleName(tr("Signal of curve %1").arg(place + 1));
+    connect(edit, &QLineEdit::editingFinished, this, [this, edit, place] {
+        const QString text = edit->text().trimmed();
+        if (text.isEmpty() || text == m_settings.curves[place].signal)
+            return;
+        m_settings.curves[place].signal = text;
+        tell();
+    });
+    return edit;
+}
+
+/// What is shown in place of the signal; empty: the signal.
+QLineEdit *PlotSettingsEditor::makeName(int place)
+{
+    auto *edit = new QLineEdit(m_settings.curves[place].name, m_curves);
+    edit->setMinimumWidth(widthOf(edit, leastNameChars));
+    edit->setPlaceholderText(tr("as it is"));
+    edit->setAccessibleName(tr("Name of curve %1").arg(place + 1));
+    connect(edit, &QLineEdit::editingFinished, this, [this, edit, place] {
+        const QString text = edit->text().trimmed();
+        if (text == m_settings.curves[place].name)
+            return;
+        m_settings.curves[place].name = text;
+        tell();
+    });
+    return edit;
 }
 
 void PlotSettingsEditor::removeCurve(int place)

@@ -187,6 +187,10 @@ void QPlcTimePlot::Private::followContext()
         tableExport.cancel(QPlcTimePlot::tr("The signals have changed while they were exported. Export them again."));
         bind();
     });
+    connect(context->curveSources(), &CurveSources::filled, this, [this] {
+        ++version;
+        schedule();
+    });
     connect(context, &WindowContext::themeChanged, this, &Private::showTheme);
     ownTime.setNewest(time->newest());
     showTheme();

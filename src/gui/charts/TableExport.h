@@ -6,6 +6,7 @@
 #include <QtCore/QByteArray>
 #include <QtCore/QString>
 
+#include <memory>
 #include <vector>
 
 namespace qplc {
@@ -22,12 +23,13 @@ public:
     enum Format { Csv, Tsv };
     struct Column
     {
-        const SignalStore *store;  // outlives the export
+        const SignalStore *store;  // outlives the export, or
         int channel;
         double gain;
         double offset;
         QString name;
         QString unit;
+        std::shared_ptr<const void> owner{};  // is held by it, until the table goes
     };
 
     /// Rows from \a begin up to and with \a end.

@@ -89,7 +89,7 @@ QString XyCanvas::axisText(bool isOfX) const
     };
     const bool haveTitle = areAll([&](const CurveSource &source) { return source.title == first.title; });
     const bool haveUnit = areAll([&](const CurveSource &source) { return source.unit == first.unit; });
-    return withUnit(haveTitle ? first.title : QString(), haveUnit ? first.unit : QString());
+    return withUnit(haveTitle ? CurveSource::textOf(first.title) : QString(), haveUnit ? first.unit : QString());
 }
 
 void XyCanvas::showTitles()

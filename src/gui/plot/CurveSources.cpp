@@ -20,6 +20,11 @@ CurveSources::CurveSources(PlantList *plants, QObject *parent)
 
 CurveSources::~CurveSources() = default;
 
+QString CurveSource::textOf(const QString &expression)
+{
+    return Formula::isFormula(expression) ? expression.trimmed().mid(1).trimmed() : expression;
+}
+
 CurveSource CurveSources::find(const QString &expression) const
 {
     if (Formula::isFormula(expression))

@@ -28,6 +28,8 @@ struct CurveSource
     std::shared_ptr<DerivedSignal> derived;  // what owns the store, if it is not the plant
 
     explicit operator bool() const { return store != nullptr; }
+    /// What people read of an expression: formulas without the "=" in front.
+    static QString textOf(const QString &expression);
 };
 
 /// Finds what an expression means at the moment: a signal, "kite.elevation", "east/kite.position[2]", or, behind "=", something calculated of signals (Formula): "= mean(power, 5)".
