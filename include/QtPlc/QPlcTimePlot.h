@@ -20,15 +20,20 @@
 /// | statistics between A and B | fold by the arrow | `S` |
 /// | add a signal | drop | `Insert`; `+` while there is none |
 /// | choose, hide, remove a curve | click in the legend hides; context menu | `N`, `Shift+N`; `V`; `Delete` |
+/// | trigger on and off | context menu | `T` |
 /// | export what is seen | context menu | `Ctrl+E` CSV, `Ctrl+C` table into the clipboard, `Ctrl+Shift+E` PNG or SVG, `Ctrl+Shift+C` picture into the clipboard |
 ///
 /// Zoom and freeze are a view, and no settings: data go on, whatever is looked at. The time axis is that of the window, or its own.
+///
+/// Triggered, a plot works as an oscilloscope does: it has a time axis of its own, in ms around the event, with the wanted share before it, and the rest of the window stays live. "linked" shows the event in all plots
+/// of the window instead. Lines are at the event and at the level. Zooming chooses how much of the next event is seen; who pans keeps what he sees until the next event.
 ///
 /// Settings, each with its default when it is not there, whatever it was before:
 /// ```json
 /// {"curves": [{"signal": "kite.elevation", "name": "Elevation", "gain": 1, "offset": 0, "color": "#d55e00", "axis": "right", "visible": false}],
 ///  "left": {"minimum": 0, "maximum": 90}, "right": {}, "time": "own", "span": 10, "labels": "seconds", "grid": false, "limits": true,
-///  "legend": false, "statistics": false}
+///  "legend": false, "statistics": false,
+///  "trigger": {"on": true, "signal": "kite.elevation", "kind": "rising", "level": 30, "upperLevel": 1, "hysteresis": 0, "mode": "normal", "pre": 0.2, "holdOff": 0, "linked": false}}
 /// ```
 ///
 /// Threads: the thread of the window.

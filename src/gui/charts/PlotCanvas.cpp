@@ -58,7 +58,7 @@ PlotCanvas::PlotCanvas(QWidget *parent)
 void PlotCanvas::renewScales()
 {
     const QFont font = labelFont(this->font());
-    m_timeScale = new TimeScaleDraw(font);
+    m_timeScale = new TimeScaleDraw(font, m_isCompact);
     setAxisScaleDraw(xBottom, m_timeScale);
     axisWidget(xBottom)->setMinBorderDist(m_timeScale->sideRoom(), m_timeScale->sideRoom());
     for (const QwtPlot::Axis axis : {yLeft, yRight}) {
@@ -114,14 +114,17 @@ int PlotCanvas::deviceWidth() const
     return std::max(1, qRound(canvasMap(xBottom).pDist() * devicePixelRatioF()));
 }
 
-void PlotCanvas::setTime(const TimeColumns &columns, PlotSettings::Labels labels, Time reference)
+void PlotCanvas::setTime(const TimeColumns &columns, PlotSettings::Labels labels, Time reference,
+                         std::optional<Time> event)
 {
     m_begin = columns.beginOf(columns.first());
     m_end = std::max(columns.beginOf(columns.end()), m_begin + 1);
     m_origin = beginOfDay(m_begin);
     const int widest = std::max(fewestTicks, int(canvas()->width() / (widthsOfLabel * m_timeScale->usualWidth())));
     const bool isClock = labels == PlotSettings::Labels::Clock;
-    const TimeTicks ticks = isClock ? TimeTicks(m_begin, m_end, widest) : TimeTicks(m_begin, m_end, widest, reference);
+    const TimeTicks ticks = event ? TimeTicks::aroundEvent(m_begin, m_end, widest, *event)
+        : isClock                 ? TimeTicks(m_begin, m_end, widest)
+                                  : TimeTicks(m_begin, m_end, widest, reference);
     const auto seconds = [this](const QVector<Time> &times) {
         QList<double> values;
         for (const Time time : times)

@@ -37,8 +37,9 @@ public:
 
     /// Device pixels that the canvas is wide, >= 1.
     int deviceWidth() const;
-    /// What the time axis shows from the next replot() on. \param reference  0 of labels in seconds
-    void setTime(const TimeColumns &columns, PlotSettings::Labels labels, Time reference);
+    /// What the time axis shows from the next replot() on. \param reference  0 of labels in seconds \param event  0 of labels around it, if there is one
+    void setTime(const TimeColumns &columns, PlotSettings::Labels labels, Time reference,
+                 std::optional<Time> event = std::nullopt);
     void setRange(Axis axis, double minimum, double maximum);
 
     Time origin() const { return m_origin; }

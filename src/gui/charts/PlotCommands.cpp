@@ -108,6 +108,8 @@ void QPlcTimePlot::Private::makeActions()
         wanted.hasStatistics = !wanted.hasStatistics;
         edit(wanted);
     });
+    triggerAction = make(QPlcTimePlot::tr("Trigger"), {key(Qt::Key_T)}, "trigger", [this] { toggleTrigger(); });
+    triggerAction->setCheckable(true);
     make(QPlcTimePlot::tr("Export as CSV..."), {key(Qt::CTRL | Qt::Key_E)}, "saveTable", [this] { saveTable(); });
     make(QPlcTimePlot::tr("Copy as table"), {key(Qt::CTRL | Qt::Key_C)}, "copyTable", [this] { copyTable(); });
     make(QPlcTimePlot::tr("Save picture..."), {key(Qt::CTRL | Qt::SHIFT | Qt::Key_E)}, "savePicture",
@@ -190,7 +192,7 @@ QMenu *QPlcTimePlot::Private::createMenu(int curve, std::optional<int> x)
     add("removeCursors");
     add("statistics");
     menu->addSeparator();
-    for (const char *name : {"all", "zoomIn", "zoomOut", "freeze", "live"})
+    for (const char *name : {"all", "zoomIn", "zoomOut", "freeze", "live", "trigger"})
         add(name);
     menu->addSeparator();
     for (const char *name : {"saveTable", "copyTable", "savePicture", "copyPicture"})
@@ -253,12 +255,10 @@ void QPlcTimePlot::Private::zoomTime(double factor)
 
 void QPlcTimePlot::Private::zoomValues(Axis axis, double factor, double about)
 {
-    const double height = canvas->canvas()->height();
-    const double low = canvas->valueAt(axis, height);
-    const double high = canvas->valueAt(axis, 0.0);
-    const double fixed = canvas->valueAt(axis, about);
     if (!curves.hasAxis(axis))
         return;
+    const auto [low, high] = valuesOf(axis);
+    const double fixed = high - about / std::max(1, canvas->canvas()->height()) * (high - low);
     ValueAxis &values = axes[axis];
     const double minimum = fixed + factor * (low - fixed);
     const double maximum = fixed + factor * (high - fixed);
@@ -277,14 +277,23 @@ void QPlcTimePlot::Private::panValues(Axis axis, double by)
 {
     if (!curves.hasAxis(axis))
         return;
-    const double height = canvas->canvas()->height();
+    const auto [low, high] = valuesOf(axis);
+    const double shift = by / std::max(1, canvas->canvas()->height()) * (high - low);
     ValueAxis &values = axes[axis];
-    values.minimum = canvas->valueAt(axis, height - by);
-    values.maximum = canvas->valueAt(axis, -by);
+    values.minimum = low + shift;
+    values.maximum = high + shift;
     values.isHeld = true;
     ++version;
     schedule();
-    draw();  // the next step starts from here
+}
+
+/// Ends of a y axis, also of one that is not drawn yet: steps of a mouse come more often than pictures.
+std::pair<double, double> QPlcTimePlot::Private::valuesOf(Axis axis) const
+{
+    const ValueAxis &values = axes[axis];
+    if (values.isHeld)
+        return {values.minimum, values.maximum};
+    return {canvas->valueAt(axis, canvas->canvas()->height()), canvas->valueAt(axis, 0.0)};
 }
 
 void QPlcTimePlot::Private::showBox(const QRect &chosen)
@@ -351,6 +360,46 @@ void QPlcTimePlot::Private::moveCursor(int pixels)
 void QPlcTimePlot::Private::toggleLive()
 {
     view()->isLive() ? view()->freeze() : view()->goLive();
+}
+
+/// Its time axis begins with the span that is seen.
+void QPlcTimePlot::Private::toggleTrigger()
+{
+    PlotSettings wanted = settings;
+    wanted.setTriggerOn(!settings.hasTrigger());
+    if (!settings.hasOwnTime)
+        wanted.span = wanted.hasTrigger() ? double(view()->span()) * 1e-9 : PlotSettings::defaultSpan;
+    edit(wanted);
+}
+
+void QPlcTimePlot::Private::showTrigger()
+{
+    QStringList expressions;
+    for (const PlotCurveSettings &curve : qAsConst(settings.curves))
+        expressions << curve.signal;
+    if (!settings.hasTrigger())
+        triggerBar->hide();
+    if (settings.trigger != shownTrigger)
+        triggerBar->applySettings(settings.trigger);
+    shownTrigger = settings.trigger;
+    if (settings.hasTrigger()) {
+        triggerBar->setSignals(expressions);
+        triggerBar->show();
+    }
+    triggerAction->setChecked(settings.hasTrigger());
+}
+
+/// What a person has chosen in the bar; keys that nobody knows stay.
+void QPlcTimePlot::Private::takeTrigger()
+{
+    for (const QString &key : TriggerBar::keys())
+        settings.trigger.remove(key);
+    const QJsonObject chosen = triggerBar->settings();
+    for (auto entry = chosen.begin(); entry != chosen.end(); ++entry)
+        settings.trigger.insert(entry.key(), entry.value());
+    shownTrigger = settings.trigger;
+    ++version;
+    schedule();
 }
 
 std::vector<TableExport::Column> QPlcTimePlot::Private::exportColumns() const

@@ -62,10 +62,13 @@ void QPlcTimePlot::Private::draw()
         return;
     sinceDrawing.restart();
     const TimeColumns shown = columns();
+    if (shownEvent() != drawnEvent)
+        ++version;
+    drawnEvent = shownEvent();
     if (isPictureDue(shown)) {
         if (view()->isLive())
             reference = shown.beginOf(shown.end());
-        canvas->setTime(shown, settings.labels, reference);
+        canvas->setTime(shown, settings.labels, reference, drawnEvent);
         curves.setOrigin(canvas->origin());
         for (const Axis axis : {Axis::Left, Axis::Right}) {
             fitRange(axis);
@@ -126,8 +129,33 @@ void QPlcTimePlot::Private::showOverlay()
                 picture.dots.append({QPointF(*picture.pointer, canvas->yOf(curve.settings.axis, value)), curve.color});
         }
     }
+    placeTrigger(&picture);
     interaction->setCursors(picture.cursorA, picture.cursorB);
     overlay->show(picture);
+}
+
+std::optional<QPlcTimePlot::Private::Time> QPlcTimePlot::Private::shownEvent()
+{
+    const Trigger &trigger = triggerBar->trigger();
+    return settings.hasTrigger() && !view()->isLive() && trigger.view() ? trigger.shownEvent() : std::nullopt;
+}
+
+void QPlcTimePlot::Private::placeTrigger(PlotOverlay::Picture *picture)
+{
+    if (!settings.hasTrigger())
+        return;
+    if (drawnEvent && *drawnEvent >= canvas->begin() && *drawnEvent <= canvas->end())
+        picture->event = int(std::lround(canvas->xOf(*drawnEvent)));
+    const QString signal = triggerBar->settings().value(QStringLiteral("signal")).toString();
+    const auto found = std::find_if(curves.begin(), curves.end(), [&](const PlotCurve &curve) {
+        return curve.isSeen() && curve.settings.signal == signal;
+    });
+    if (found == curves.end())
+        return;
+    for (const double level : triggerBar->trigger().settings().levels()) {
+        const double value = found->settings.gain * level + found->settings.offset;
+        picture->levels.append({QPointF(0.0, canvas->yOf(found->settings.axis, value)), found->color});
+    }
 }
 
 /// What to do, or what is missing, where there is nothing to see.
@@ -175,7 +203,7 @@ void QPlcTimePlot::Private::showNumbers()
 
 void QPlcTimePlot::Private::showLiveButton()
 {
-    const bool isFrozen = !view()->isLive();
+    const bool isFrozen = !view()->isLive() && !(settings.hasTrigger() && triggerBar->showsEvent());
     liveButton->setVisible(isFrozen && !curves.isEmpty());
     if (!isFrozen)
         return;
@@ -200,7 +228,9 @@ void QPlcTimePlot::Private::arrange()
     legendArea->setVisible(hasLegend);
     canvas->setCompact(q->height() < compactHeight || q->width() < compactWidth);
     legendArea->setVerticalScrollBarPolicy(canvas->isCompact() ? Qt::ScrollBarAlwaysOff : Qt::ScrollBarAsNeeded);
-    legendArea->setFixedHeight(legend->heightWithin(q->contentsRect().width(), int(legendShare * q->height())));
+    legend->setCompact(canvas->isCompact());
+    const int legendRoom = canvas->isCompact() ? 0 : int(legendShare * q->height());
+    legendArea->setFixedHeight(legend->heightWithin(q->contentsRect().width(), legendRoom));
     statistics->setUnfolded(settings.hasStatistics && q->height() >= leastStatisticsHeight);
     const int messageHeight = message->heightForWidth(q->width());  // over the rest, which stays where it is
     message->setGeometry(0, q->height() - messageHeight, q->width(), messageHeight);

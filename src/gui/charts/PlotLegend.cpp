@@ -20,13 +20,15 @@ constexpr int gap = 14;      // [px] between entries
 constexpr int margin = 4;    // [px] around all
 constexpr int lineRoom = 3;  // [px] above and below a text, together
 constexpr int digits = 6;
+constexpr int fewDigits = 4;    // in small panels
+constexpr int leastWidth = 36;  // [px] of an entry
 constexpr double fontShare = 0.9;
 
-QString valueOf(const PlotCurve &curve, std::optional<SignalStore::Time> time)
+QString valueOf(const PlotCurve &curve, std::optional<SignalStore::Time> time, int precision)
 {
     if (curve.isMissing())
         return PlotLegend::tr("missing");
-    return numberText(curve.value(time), digits);
+    return numberText(curve.value(time), precision);
 }
 
 QString hintOf(const PlotCurve &curve)
@@ -64,6 +66,16 @@ void PlotLegend::setTheme(const Theme &theme)
     update();
 }
 
+void PlotLegend::setCompact(bool isCompact)
+{
+    if (isCompact == m_isCompact)
+        return;
+    m_isCompact = isCompact;
+    m_valueWidth = 0;
+    measure();
+    update();
+}
+
 void PlotLegend::show(const PlotCurves &curves, std::optional<SignalStore::Time> time)
 {
     QVector<Entry> entries;
@@ -71,7 +83,7 @@ void PlotLegend::show(const PlotCurves &curves, std::optional<SignalStore::Time>
         const PlotCurve &curve = curves.at(place);
         Entry entry;
         entry.name = curve.settings.text();
-        entry.value = valueOf(curve, time);
+        entry.value = valueOf(curve, time, m_isCompact ? fewDigits : digits);
         entry.unit = curve.source.unit;
         entry.hint = hintOf(curve);
         entry.color = curve.color;
@@ -104,20 +116,30 @@ void PlotLegend::measure()
     const QFontMetrics metrics(fontOf(boldest));
     const int before = m_nameWidth + m_valueWidth + m_unitWidth;
     m_lineHeight = metrics.height() + lineRoom;
-    m_valueWidth = metrics.horizontalAdvance(QStringLiteral("-8.88888e-08"));
+    if (!m_isCompact)
+        m_valueWidth = metrics.horizontalAdvance(QStringLiteral("-8.88888e-08"));
     m_nameWidth = m_unitWidth = 0;
     for (const Entry &entry : qAsConst(m_entries)) {
         m_nameWidth = std::max(m_nameWidth, metrics.horizontalAdvance(entry.name));
         m_unitWidth = std::max(m_unitWidth, metrics.horizontalAdvance(entry.unit));
+        if (m_isCompact)  // grows only, so that nothing trembles
+            m_valueWidth = std::max(m_valueWidth, metrics.horizontalAdvance(entry.value));
     }
     if (m_nameWidth + m_valueWidth + m_unitWidth != before || sizeHint().height() != height())
         updateGeometry();
 }
 
+/// Of an entry with all that it says [px]
+int PlotLegend::wantedWidth() const
+{
+    return swatch + m_nameWidth + m_valueWidth + m_unitWidth + 3 * spacing;
+}
+
 int PlotLegend::columnsFor(int width) const
 {
-    const int wanted = swatch + m_nameWidth + m_valueWidth + m_unitWidth + 3 * spacing + gap;
-    return std::clamp((width - 2 * margin + gap) / std::max(wanted, 1), 1, std::max(1, m_entries.size()));
+    const int room = width - 2 * margin + gap;
+    const int wanted = m_isCompact ? leastWidth + gap : wantedWidth() + gap;
+    return std::clamp(room / std::max(wanted, 1), 1, std::max(1, m_entries.size()));
 }
 
 int PlotLegend::heightForWidth(int width) const
@@ -143,7 +165,7 @@ QRect PlotLegend::entryRect(int place) const
 {
     const int columns = columnsFor(width());
     const int room = (width() - 2 * margin + gap) / columns;
-    const int wanted = swatch + m_nameWidth + m_valueWidth + m_unitWidth + 3 * spacing;
+    const int wanted = wantedWidth();
     const int column = place % columns;
     return {margin + column * room, margin + place / columns * m_lineHeight, std::min(room - gap, wanted),
             m_lineHeight};
@@ -190,18 +212,24 @@ void PlotLegend::paintEntry(QPainter *painter, const QRect &rect, const Entry &e
     const QFont font = fontOf(entry);
     painter->setFont(font);
     const bool isQuiet = !entry.isVisible || !entry.isTrusted;
-    const int room = rect.width() - swatch - 3 * spacing - m_unitWidth;
-    const int valueWidth = std::min(m_valueWidth, room / 2);
+    const bool hasValues = !m_isCompact || m_entries.size() == 1 || rect.width() >= wantedWidth();
+    const int unitWidth = hasValues ? m_unitWidth : 0;
+    const int room = rect.width() - swatch - (hasValues ? 3 : 1) * spacing - unitWidth;
+    const int valueWidth = !hasValues ? 0
+        : m_isCompact                 ? std::min(m_valueWidth, room)
+                                      : std::min(m_valueWidth, room / 2);
     const int nameWidth = room - valueWidth;
     QRect part(rect.left() + swatch + spacing, rect.top(), nameWidth, rect.height());
     painter->setPen(isQuiet ? m_theme.stale : m_theme.text);
     painter->drawText(part, Qt::AlignVCenter | Qt::TextSingleLine,
                       QFontMetrics(font).elidedText(entry.name, Qt::ElideMiddle, nameWidth));
+    if (!hasValues)
+        return;
     part.setLeft(part.right() + 1 + spacing);
     part.setWidth(valueWidth);
     painter->drawText(part, Qt::AlignVCenter | Qt::AlignRight | Qt::TextSingleLine, entry.value);
     part.setLeft(part.right() + 1 + spacing);
-    part.setWidth(m_unitWidth);
+    part.setWidth(unitWidth);
     painter->setPen(isQuiet ? m_theme.stale : m_theme.mutedText);
     painter->drawText(part, Qt::AlignVCenter | Qt::TextSingleLine, entry.unit);
 }

@@ -9,6 +9,8 @@ namespace qplc {
 
 /// The curves of a plot in a small table: colour, name, value and unit, in as many columns as there is room for.
 ///
+/// In small panels it is one line, with the names of several curves only where there is no room for values.
+///
 /// A click hides a curve or shows it again, and makes it the selected one. Values that are not true any more are grey, with their age; what is missing says so.
 class PlotLegend : public QWidget
 {
@@ -34,6 +36,7 @@ public:
     explicit PlotLegend(QWidget *parent = nullptr);
 
     void setTheme(const Theme &theme);
+    void setCompact(bool isCompact);
     /// Shows the values of a time, the newest ones without.
     void show(const PlotCurves &curves, std::optional<SignalStore::Time> time);
     const QVector<Entry> &entries() const { return m_entries; }
@@ -66,11 +69,13 @@ private:
     int columnsFor(int width) const;
     int entryAt(QPoint position) const;
     void paintEntry(QPainter *painter, const QRect &rect, const Entry &entry) const;
+    int wantedWidth() const;
     QFont fontOf(const Entry &entry) const;
 
     Theme m_theme;
     QVector<Entry> m_entries;
     int m_hovered = -1;
+    bool m_isCompact = false;
     int m_nameWidth = 0;  // [px], of the widest
     int m_valueWidth = 0;
     int m_unitWidth = 0;

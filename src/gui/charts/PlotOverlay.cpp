@@ -16,6 +16,7 @@ constexpr double fontShare = 0.9;  // of the window
 constexpr int dotRadius = 3;       // [px]
 constexpr int labelMargin = 4;     // [px]
 constexpr int hintMargin = 12;     // [px]
+constexpr int arrowSize = 6;       // [px] of the marks of a trigger
 
 QColor faint(QColor color, double opacity)
 {
@@ -26,7 +27,7 @@ QColor faint(QColor color, double opacity)
 bool isSame(const PlotOverlay::Picture &a, const PlotOverlay::Picture &b)
 {
     return a.cursorA == b.cursorA && a.cursorB == b.cursorB && a.pointer == b.pointer && a.pointerText == b.pointerText
-        && a.dots == b.dots && a.box == b.box && a.hint == b.hint;
+        && a.dots == b.dots && a.box == b.box && a.hint == b.hint && a.event == b.event && a.levels == b.levels;
 }
 
 }  // namespace
@@ -75,6 +76,7 @@ void PlotOverlay::paint(QPainter *painter) const
 {
     painter->setFont(font());
     paintBetween(painter);
+    paintTrigger(painter);
     paintPointer(painter);
     if (m_picture.cursorA)
         paintCursor(painter, *m_picture.cursorA, QStringLiteral("A"));
@@ -98,6 +100,28 @@ void PlotOverlay::paintBetween(QPainter *painter) const
         return;
     const auto [left, right] = std::minmax({*m_picture.cursorA, *m_picture.cursorB});
     painter->fillRect(QRect(left, 0, right - left, height()), faint(m_theme.accent, shadeOpacity));
+}
+
+/// A line at the event with an arrow at its top, and one at each level with an arrow at the left edge, which stays at the nearer end when the level is not seen.
+void PlotOverlay::paintTrigger(QPainter *painter) const
+{
+    const auto paintArrow = [painter](QPoint tip, QPoint along, QPoint across, const QColor &color) {
+        painter->setPen(Qt::NoPen);
+        painter->setBrush(color);
+        painter->drawPolygon(QPolygon({tip, tip - along + across, tip - along - across}));
+    };
+    for (const Dot &level : m_picture.levels) {
+        const int y = int(std::clamp(level.position.y(), 0.0, height() - 1.0));
+        painter->setPen(QPen(level.color, 0.0, Qt::DashLine));
+        if (level.position.y() >= 0.0 && level.position.y() < height())
+            painter->drawLine(0, y, width(), y);
+        paintArrow({arrowSize, y}, {arrowSize, 0}, {0, arrowSize - 2}, level.color);
+    }
+    if (!m_picture.event)
+        return;
+    painter->setPen(QPen(m_theme.text, 0.0, Qt::DashLine));
+    painter->drawLine(*m_picture.event, 0, *m_picture.event, height());
+    paintArrow({*m_picture.event, arrowSize}, {0, arrowSize}, {arrowSize - 2, 0}, m_theme.text);
 }
 
 void PlotOverlay::paintPointer(QPainter *painter) const

@@ -30,6 +30,8 @@ public:
         QVector<Dot> dots;  // where the pointer meets the curves
         QRect box;
         QString hint;
+        std::optional<int> event;  // of a trigger
+        QVector<Dot> levels;       // of a trigger, on the curve of its signal: only the height counts
     };
 
     explicit PlotOverlay(QWidget *canvas);
@@ -50,6 +52,7 @@ protected:
 private:
     void paintPointer(QPainter *painter) const;
     void paintCursor(QPainter *painter, int x, const QString &name) const;
+    void paintTrigger(QPainter *painter) const;
     void paintBetween(QPainter *painter) const;
 
     Theme m_theme;

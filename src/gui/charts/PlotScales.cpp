@@ -47,8 +47,9 @@ QwtText ValueScaleDraw::label(double value) const
     return QString::number(value, 'f', decimals);
 }
 
-TimeScaleDraw::TimeScaleDraw(const QFont &font)
+TimeScaleDraw::TimeScaleDraw(const QFont &font, bool isCompact)
     : m_metrics(font)
+    , m_isCompact(isCompact)
 {
     setTicksShort(this);
 }
@@ -62,6 +63,8 @@ void TimeScaleDraw::setTicks(const TimeTicks &ticks, Time origin)
 
 int TimeScaleDraw::sideRoom() const
 {
+    if (m_isCompact)
+        return 2;
     return int(std::ceil(0.5 * m_metrics.horizontalAdvance(QStringLiteral("00:00:00")))) + 2;
 }
 

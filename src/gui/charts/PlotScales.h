@@ -22,7 +22,8 @@ public:
 class TimeScaleDraw : public QwtScaleDraw
 {
 public:
-    explicit TimeScaleDraw(const QFont &font);
+    /// \param isCompact  no room beside the canvas: labels there are left out
+    TimeScaleDraw(const QFont &font, bool isCompact);
 
     using Time = TimeTicks::Time;
     /// \param origin  the time that is 0 on the axis
@@ -36,6 +37,7 @@ public:
 
 private:
     QFontMetricsF m_metrics;
+    bool m_isCompact;
     TimeTicks m_ticks{0, 1, 1};
     Time m_origin = 0;
 };

@@ -22,6 +22,8 @@ const QString gridKey = QStringLiteral("grid");
 const QString limitsKey = QStringLiteral("limits");
 const QString legendKey = QStringLiteral("legend");
 const QString statisticsKey = QStringLiteral("statistics");
+const QString triggerKey = QStringLiteral("trigger");
+const QString onKey = QStringLiteral("on");
 const QString signalKey = QStringLiteral("signal");
 const QString nameKey = QStringLiteral("name");
 const QString gainKey = QStringLiteral("gain");
@@ -131,7 +133,20 @@ PlotSettings PlotSettings::fromJson(const QJsonObject &json)
     settings.showsLimits = json.value(limitsKey).toBool(false);
     settings.hasLegend = json.value(legendKey).toBool(true);
     settings.hasStatistics = json.value(statisticsKey).toBool(true);
+    settings.trigger = json.value(triggerKey).toObject();
     return settings;
+}
+
+bool PlotSettings::hasTrigger() const
+{
+    return trigger.value(onKey).toBool();
+}
+
+void PlotSettings::setTriggerOn(bool isOn)
+{
+    trigger.remove(onKey);
+    if (isOn)
+        trigger.insert(onKey, true);
 }
 
 QJsonObject PlotSettings::toJson() const
@@ -152,13 +167,14 @@ QJsonObject PlotSettings::toJson() const
     insertUnless(&json, limitsKey, showsLimits, false);
     insertUnless(&json, legendKey, hasLegend, true);
     insertUnless(&json, statisticsKey, hasStatistics, true);
+    insertUnless(&json, triggerKey, trigger, QJsonObject());
     return json;
 }
 
 bool PlotSettings::isKnown(const QString &key)
 {
-    static const QStringList keys{curvesKey, leftKey, rightKey,  timeKey,   spanKey,
-                                  labelsKey, gridKey, limitsKey, legendKey, statisticsKey};
+    static const QStringList keys{curvesKey, leftKey,   rightKey,  timeKey,       spanKey,   labelsKey,
+                                  gridKey,   limitsKey, legendKey, statisticsKey, triggerKey};
     return keys.contains(key);
 }
 

@@ -49,7 +49,7 @@ struct PlotRangeSettings
 /// ```json
 /// {"curves": [{"signal": "kite.elevation", "name": "Elevation", "gain": 2, "offset": -1, "color": "#d55e00", "axis": "right", "visible": false}],
 ///  "left": {"minimum": 0, "maximum": 90}, "right": {}, "time": "own", "span": 10, "labels": "seconds", "grid": false, "limits": true,
-///  "legend": false, "statistics": false}
+///  "legend": false, "statistics": false, "trigger": {"on": true, "signal": "kite.elevation", "level": 30, "mode": "normal"}}
 /// ```
 struct PlotSettings
 {
@@ -67,6 +67,10 @@ struct PlotSettings
     bool showsLimits = false;
     bool hasLegend = true;
     bool hasStatistics = true;  // between cursors A and B, when both are there
+    QJsonObject trigger;        // as TriggerBar has it, and "on"
+
+    bool hasTrigger() const;
+    void setTriggerOn(bool isOn);
 
     const PlotRangeSettings &range(PlotCurveSettings::Axis axis) const
     {

@@ -96,7 +96,8 @@ void PlotSettingsEditor::makeCurves()
     m_grid->setContentsMargins(0, 0, 0, 0);
     m_grid->setVerticalSpacing(2);
     m_curves->setVisible(!m_settings.curves.isEmpty());
-    const QStringList titles{QString(), tr("Signal"), tr("Name"), tr("Gain"), tr("Offset"), tr("Axis"), tr("Seen"), QString()};
+    const QStringList titles{QString(),    tr("Signal"), tr("Name"), tr("Gain"),
+                             tr("Offset"), tr("Axis"),   tr("Seen"), QString()};
     for (int i = 0; i < titles.size(); ++i)
         m_grid->addWidget(heading(titles[i], m_curves), 0, i);
     m_grid->setColumnStretch(1, 1);

@@ -22,6 +22,7 @@ constexpr int numberPeriod = 100;  // [ms]
 
 QPlcTimePlot::Private::Private(QPlcTimePlot *plot)
     : q(plot)
+    , triggerBar(new TriggerBar(plot))
     , canvas(new PlotCanvas(plot))
     , overlay(new PlotOverlay(canvas->canvas()))
     , interaction(new PlotInteraction(canvas, this))
@@ -38,6 +39,8 @@ QPlcTimePlot::Private::Private(QPlcTimePlot *plot)
     legendArea->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     legendArea->setFocusPolicy(Qt::NoFocus);
     statistics->hide();
+    triggerBar->hide();
+    triggerBar->setOwnTime(&ownTime);
     message->hide();
     message->setWordWrap(true);
     message->setMargin(6);
@@ -47,11 +50,13 @@ QPlcTimePlot::Private::Private(QPlcTimePlot *plot)
     auto *column = new QVBoxLayout(plot);
     column->setContentsMargins(2, 4, 2, 2);
     column->setSpacing(0);
+    column->addWidget(triggerBar);
     column->addWidget(canvas, 1);
     column->addWidget(legendArea);
     column->addWidget(statistics);
     canvas->setAccessibleName(QPlcTimePlot::tr("Curves over time"));
     drawTimer.setSingleShot(true);
+    drawTimer.setTimerType(Qt::PreciseTimer);  // others come up to 5 % early
     messageTimer.setSingleShot(true);
     numberTimer.setInterval(numberPeriod);
     clock.start();
@@ -59,6 +64,11 @@ QPlcTimePlot::Private::Private(QPlcTimePlot *plot)
     connect(&numberTimer, &QTimer::timeout, this, &Private::showNumbers);
     connect(&messageTimer, &QTimer::timeout, message, &QWidget::hide);
     connect(&ownTime, &TimeView::viewChanged, this, &Private::schedule);
+    connect(triggerBar, &TriggerBar::triggered, this, &Private::schedule);
+    connect(triggerBar, &TriggerBar::settingsEdited, this, [this] {
+        takeTrigger();
+        Q_EMIT q->settingsEdited();
+    });
     connect(canvas, &PlotCanvas::resized, this, [this] {
         ++version;
         schedule();
@@ -193,6 +203,7 @@ void QPlcTimePlot::Private::followContext()
     });
     connect(context, &WindowContext::themeChanged, this, &Private::showTheme);
     ownTime.setNewest(time->newest());
+    triggerBar->setContext(context);
     showTheme();
 }
 
@@ -221,12 +232,14 @@ void QPlcTimePlot::Private::bind()
 
 void QPlcTimePlot::Private::applySettings(const PlotSettings &wanted)
 {
-    if (wanted.span != settings.span || wanted.hasOwnTime != settings.hasOwnTime)
+    if (wanted.span != settings.span || wanted.hasOwnTime != settings.hasOwnTime
+        || wanted.hasTrigger() != settings.hasTrigger())
         ownTime.setSpan(Time(wanted.span * 1e9));
     settings = wanted;
     for (ValueAxis &axis : axes)
         axis.automatic.reset();
     statistics->setUnfolded(settings.hasStatistics);
+    showTrigger();
     bind();
 }
 

@@ -11,6 +11,7 @@
 #include "QPlcTimePlot.h"
 #include "StatisticsView.h"
 #include "StickyRange.h"
+#include "TriggerBar.h"
 #include "gui/panel/WindowContext.h"
 #include "gui/plot/RedrawRule.h"
 
@@ -53,12 +54,19 @@ public:
 
     // -- PlotDrawing.cpp: pictures and numbers --
     qplc::TimeView *shared() const { return q->context() ? q->context()->timeView() : nullptr; }
-    /// The time axis: that of the window, or the own one.
-    qplc::TimeView *view() { return settings.hasOwnTime || !shared() ? &ownTime : shared(); }
+    /// The time axis: that of the window, or the own one, which a plot with a trigger also has.
+    qplc::TimeView *view()
+    {
+        const bool hasOwn = settings.hasTrigger() ? !triggerBar->isLinked() : settings.hasOwnTime;
+        return hasOwn || !shared() ? &ownTime : shared();
+    }
     void schedule();
     void draw();
     qplc::TimeColumns columns();
     bool isPictureDue(const qplc::TimeColumns &columns);
+    /// The event of the trigger that is seen, or was before somebody moved the view.
+    std::optional<Time> shownEvent();
+    void placeTrigger(qplc::PlotOverlay::Picture *picture);
     bool fitRange(Axis axis);
     void showRange(Axis axis);
     void showOverlay();
@@ -79,12 +87,16 @@ public:
     void zoomTime(double factor);
     void zoomValues(Axis axis, double factor, double about);
     void panValues(Axis axis, double by);
+    std::pair<double, double> valuesOf(Axis axis) const;
     void showBox(const QRect &box);
     void placeCursor(qplc::TimeView::Cursor which, std::optional<Time> time = std::nullopt);
     Time nearestRow(Time time) const;
     void removeCursors();
     void moveCursor(int pixels);
     void toggleLive();
+    void toggleTrigger();
+    void showTrigger();
+    void takeTrigger();
     std::vector<qplc::TableExport::Column> exportColumns() const;
     void saveTable();
     void copyTable();
@@ -106,6 +118,7 @@ public:
     qplc::TimeView::Cursor lastCursor = qplc::TimeView::A;
 
     qplc::SignalEdit *addBar = nullptr;
+    qplc::TriggerBar *triggerBar;
     qplc::PlotCanvas *canvas;
     qplc::PlotOverlay *overlay;
     qplc::PlotInteraction *interaction;
@@ -121,7 +134,9 @@ public:
     std::vector<qplc::RedrawRule> redraw;  // for each store
     quint64 version = 0;                   // of all but data and time that is seen
     int drawnPictures = 0;
-    Time reference = 0;  // 0 of labels in seconds: the live edge
+    Time reference = 0;              // 0 of labels in seconds: the live edge
+    std::optional<Time> drawnEvent;  // of the trigger
+    QJsonObject shownTrigger;        // settings that its bar has
     QRect box;
     QTimer drawTimer;
     QTimer numberTimer;
@@ -132,4 +147,5 @@ public:
     QAction *removeAction = nullptr;
     QAction *toggleAction = nullptr;
     QAction *statisticsAction = nullptr;
+    QAction *triggerAction = nullptr;
 };

@@ -120,7 +120,8 @@ void QPlcXyPlot::Private::bind()
         const CurveSource ySource = q->context()->curveSources()->find(y);
         const bool isOfOne = xSource.plant == ySource.plant;
         if (xSource && ySource && isOfOne) {
-            found.push_back(std::make_unique<XyCurve>(xSource, ySource, tr("%1 over %2").arg(CurveSource::textOf(y), CurveSource::textOf(x))));
+            found.push_back(std::make_unique<XyCurve>(
+                xSource, ySource, tr("%1 over %2").arg(CurveSource::textOf(y), CurveSource::textOf(x))));
             colors.emplace_back(entry[colorKey].toString());
         } else if (error.isEmpty()) {
             error = !xSource ? xSource.error

@@ -64,6 +64,13 @@ TimeTicks::TimeTicks(Time begin, Time end, int widest, Time reference)
     place(begin, end, reference);
 }
 
+TimeTicks TimeTicks::aroundEvent(Time begin, Time end, int widest, Time event)
+{
+    TimeTicks ticks(begin, end, widest, event);
+    ticks.m_hasUnits = true;
+    return ticks;
+}
+
 /// The smallest round step with at most so many labels.
 Time TimeTicks::stepFor(Time span, int widest)
 {
@@ -99,8 +106,14 @@ QString TimeTicks::label(Time time) const
 {
     if (!m_isRelative)
         return clockText(time, m_step);
-    const double seconds = double(time - m_reference) * 1e-9;
-    return QString::number(seconds, 'f', digitsOf(m_step));
+    const Time after = time - m_reference;
+    if (!m_hasUnits)
+        return QString::number(double(after) * 1e-9, 'f', digitsOf(m_step));
+    if (after == 0)
+        return QStringLiteral("0");
+    if (m_step >= 10 * second)
+        return QStringLiteral("%1 s").arg(after / second);
+    return QStringLiteral("%1 ms").arg(double(after) * 1e-6, 0, 'f', std::max(0, digitsOf(m_step) - 3));
 }
 
 QString TimeTicks::clockText(Time time, Time resolution)

@@ -20,6 +20,8 @@ public:
     TimeTicks(Time begin, Time end, int widest);
     /// The same with ticks at whole steps from \a reference, which is written as 0.
     TimeTicks(Time begin, Time end, int widest, Time reference);
+    /// The same with units, ms below 10 s between ticks: for times around an event, "-200 ms", "0", "200 ms".
+    static TimeTicks aroundEvent(Time begin, Time end, int widest, Time event);
 
     const QVector<Time> &major() const { return m_major; }
     const QVector<Time> &minor() const { return m_minor; }
@@ -36,6 +38,7 @@ private:
     static Time stepFor(Time span, int widest);
 
     bool m_isRelative = false;
+    bool m_hasUnits = false;
     Time m_reference = 0;
     Time m_step = 1;
     QVector<Time> m_major;

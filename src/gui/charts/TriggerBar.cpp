@@ -4,7 +4,8 @@
 #include "gui/panel/WindowContext.h"
 
 #include <QtCore/QSignalBlocker>
-#include <QtGui/QHideEvent>
+#include <QtGui/QResizeEvent>
+#include <QtWidgets/QCheckBox>
 #include <QtWidgets/QComboBox>
 #include <QtWidgets/QDoubleSpinBox>
 #include <QtWidgets/QFormLayout>
@@ -19,6 +20,9 @@ namespace qplc {
 namespace {
 
 constexpr double largest = 1e12;
+constexpr int leastWideBar = 520;  // [px]: with less, controls are in the menu
+const QString signalKey = QStringLiteral("signal");
+const QString linkedKey = QStringLiteral("linked");
 
 QString stateText(Trigger::State state)
 {
@@ -78,6 +82,7 @@ void TriggerBar::makeControls()
     m_more->setToolTip(tr("Hysteresis, share before the event, hold-off"));
     m_more->setAccessibleName(m_more->toolTip());
     m_more->setPopupMode(QToolButton::InstantPopup);
+    m_linked = new QCheckBox(tr("Show the event in all plots"), this);
     m_arm = new QToolButton(this);
     m_arm->setText(tr("Arm"));
     m_arm->setToolTip(tr("Forget the events so far and wait for the next one"));
@@ -85,6 +90,7 @@ void TriggerBar::makeControls()
     m_count = new QLabel(this);
     for (QComboBox *box : {m_signal, m_kind, m_mode})
         connect(box, QOverload<int>::of(&QComboBox::activated), this, &TriggerBar::takeEdits);
+    connect(m_linked, &QCheckBox::toggled, this, &TriggerBar::takeEdits);
     connect(m_arm, &QToolButton::clicked, this, &TriggerBar::arm);
 }
 
@@ -106,27 +112,69 @@ QDoubleSpinBox *TriggerBar::addNumber(const QString &name, double minimum, const
 
 void TriggerBar::arrange()
 {
-    auto *row = new QHBoxLayout(this);
-    row->setContentsMargins(4, 2, 4, 2);
-    row->setSpacing(4);
+    setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+    m_row = new QHBoxLayout(this);
+    m_row->setContentsMargins(4, 2, 4, 2);
+    m_row->setSpacing(4);
     for (QWidget *control :
          std::initializer_list<QWidget *>{m_signal, m_kind, m_level, m_upperLevel, m_mode, m_more, m_arm})
-        row->addWidget(control);
-    row->addSpacing(8);
-    row->addWidget(m_state);
-    row->addWidget(m_count);
-    row->addStretch(1);
+        m_row->addWidget(control);
+    m_row->addSpacing(8);
+    m_row->addWidget(m_state);
+    m_row->addWidget(m_count);
+    m_row->addStretch(1);
+    fillMenu();
+}
 
+void TriggerBar::fillMenu()
+{
     auto *rest = new QWidget;
-    auto *form = new QFormLayout(rest);
-    form->addRow(tr("Hysteresis"), m_hysteresis);
-    form->addRow(tr("Before the event"), m_preShare);
-    form->addRow(tr("Hold-off"), m_holdOff);
+    m_form = new QFormLayout(rest);
+    m_form->addRow(tr("Hysteresis"), m_hysteresis);
+    m_form->addRow(tr("Before the event"), m_preShare);
+    m_form->addRow(tr("Hold-off"), m_holdOff);
+    m_form->addRow(m_linked);
     auto *menu = new QMenu(this);
     auto *action = new QWidgetAction(menu);
     action->setDefaultWidget(rest);
     menu->addAction(action);
     m_more->setMenu(menu);
+}
+
+/// In narrow plots all but the state and what arms it goes into the menu.
+void TriggerBar::placeControls(bool isWide)
+{
+    m_isWide = isWide;
+    QWidget *const controls[] = {m_signal, m_kind, m_level, m_upperLevel, m_mode};
+    int place = 0;
+    for (QWidget *control : controls) {
+        if (isWide) {
+            const QFormLayout::TakeRowResult line = m_form->takeRow(control);
+            delete line.labelItem->widget();
+            delete line.labelItem;
+            delete line.fieldItem;
+            m_row->insertWidget(place++, control);
+        } else {
+            m_form->insertRow(place++, control->accessibleName(), control);
+        }
+    }
+    m_count->setVisible(isWide);
+    showUpperLevel();
+}
+
+void TriggerBar::showUpperLevel()
+{
+    m_upperLevel->setVisible(hasWindow());
+    if (QWidget *label = m_form->labelForField(m_upperLevel))
+        label->setVisible(hasWindow());
+}
+
+void TriggerBar::resizeEvent(QResizeEvent *event)
+{
+    QWidget::resizeEvent(event);
+    const bool isWide = width() >= leastWideBar;
+    if (isWide != m_isWide)
+        placeControls(isWide);
 }
 
 void TriggerBar::setContext(WindowContext *context)
@@ -152,26 +200,62 @@ void TriggerBar::setSignals(const QStringList &expressions)
     const QSignalBlocker blocker(m_signal);
     m_signal->clear();
     m_signal->addItems(expressions);
+    const QString before = m_wanted;
     if (m_wanted.isEmpty() && !expressions.isEmpty())
         m_wanted = expressions.first();
     if (!m_wanted.isEmpty() && !expressions.contains(m_wanted))
         m_signal->addItem(m_wanted);
     m_signal->setCurrentText(m_wanted);
-    findSource();
+    if (m_wanted != before)
+        findSource();
 }
 
 QJsonObject TriggerBar::settings() const
 {
     QJsonObject settings = m_trigger.settings().toJson();
     if (!m_wanted.isEmpty())
-        settings.insert(QStringLiteral("signal"), m_wanted);
+        settings.insert(signalKey, m_wanted);
+    if (m_isLinked)
+        settings.insert(linkedKey, true);
     return settings;
+}
+
+QStringList TriggerBar::keys()
+{
+    return Trigger::Settings::keys() + QStringList{signalKey, linkedKey};
+}
+
+TimeView *TriggerBar::time() const
+{
+    return m_ownTime && !m_isLinked ? m_ownTime : m_context->timeView();
+}
+
+void TriggerBar::link(bool isLinked)
+{
+    if (isLinked != m_isLinked)
+        release();
+    m_isLinked = isLinked;
+}
+
+/// What it has frozen, nobody else would bring back.
+void TriggerBar::release()
+{
+    if (m_hasFrozen && m_context)
+        time()->goLive();
+    m_hasFrozen = false;
+}
+
+bool TriggerBar::showsEvent() const
+{
+    const auto view = m_trigger.view();
+    return !isHidden() && m_context && view && !time()->isLive() && time()->begin() == view->begin;
 }
 
 void TriggerBar::applySettings(const QJsonObject &settings)
 {
     m_trigger.setSettings(Trigger::Settings::fromJson(settings));
-    m_wanted = settings.value(QStringLiteral("signal")).toString();
+    m_wanted = settings.value(signalKey).toString();
+    link(settings.value(linkedKey).toBool());
     if (!m_wanted.isEmpty() && m_signal->findText(m_wanted) < 0)
         m_signal->addItem(m_wanted);
     showSettings();
@@ -185,13 +269,14 @@ void TriggerBar::showSettings()
     m_signal->setCurrentText(m_wanted);
     m_kind->setCurrentIndex(settings.kind);
     m_mode->setCurrentIndex(settings.mode);
+    m_linked->setChecked(m_isLinked);
     m_level->setValue(settings.level);
     m_upperLevel->setValue(settings.upperLevel);
     m_hysteresis->setValue(settings.hysteresis);
     m_preShare->setValue(100.0 * settings.preShare);
     m_holdOff->setValue(settings.holdOff);
     m_isFilling = false;
-    m_upperLevel->setVisible(hasWindow());
+    showUpperLevel();
     m_level->setToolTip(hasWindow() ? tr("Lower level") : tr("Level"));
 }
 
@@ -213,8 +298,9 @@ void TriggerBar::takeEdits()
     settings.preShare = m_preShare->value() / 100.0;
     settings.holdOff = m_holdOff->value();
     const bool isOtherSignal = m_wanted != m_signal->currentText();
-    if (settings == m_trigger.settings() && !isOtherSignal)
+    if (settings == m_trigger.settings() && !isOtherSignal && m_linked->isChecked() == m_isLinked)
         return;
+    link(m_linked->isChecked());
     m_wanted = m_signal->currentText();
     m_trigger.setSettings(settings);
     showSettings();
@@ -226,7 +312,8 @@ void TriggerBar::takeEdits()
 
 void TriggerBar::findSource()
 {
-    m_source = m_context && !m_wanted.isEmpty() ? m_context->curveSources()->find(m_wanted) : CurveSource();
+    const bool isWanted = m_context && !m_wanted.isEmpty() && !isHidden();
+    m_source = isWanted ? m_context->curveSources()->find(m_wanted) : CurveSource();
     m_signal->setToolTip(m_source.error);
     const QString unit = m_source.unit.isEmpty() ? QString() : QLatin1Char(' ') + m_source.unit;
     for (QDoubleSpinBox *box : {m_level, m_upperLevel, m_hysteresis})
@@ -246,14 +333,14 @@ void TriggerBar::arm()
 
 void TriggerBar::take(Plant *plant)
 {
-    if (!isVisible() || !m_source || m_source.plant != plant)
+    if (isHidden() || !m_source || m_source.plant != plant)
         return;
-    m_trigger.setSpan(m_context->timeView()->span());
+    m_trigger.setSpan(time()->span());
     const Trigger::State before = m_trigger.state();
     if (!m_trigger.take(*m_source.store, m_source.channel))
         return;
     if (m_trigger.state() == Trigger::FreeRunning && before != Trigger::FreeRunning)
-        m_context->timeView()->goLive();
+        time()->goLive();
     showEventView();
     showState();
     Q_EMIT triggered();
@@ -265,7 +352,8 @@ void TriggerBar::showEventView()
     if (!view || m_trigger.shownEvent() == m_seenEvent)
         return;
     m_seenEvent = m_trigger.shownEvent();
-    m_context->timeView()->show(view->begin, view->end);
+    time()->show(view->begin, view->end);
+    m_hasFrozen = true;
 }
 
 void TriggerBar::showState()
@@ -277,18 +365,16 @@ void TriggerBar::showState()
     m_count->setText(tr("events: %1").arg(m_trigger.count()));
 }
 
-void TriggerBar::showEvent(QShowEvent *event)
+/// Hidden, it holds no source either.
+void TriggerBar::setVisible(bool isVisible)
 {
-    QWidget::showEvent(event);
-    arm();
-}
-
-/// What it has frozen, nobody else would bring back.
-void TriggerBar::hideEvent(QHideEvent *event)
-{
-    QWidget::hideEvent(event);
-    if (m_context && m_seenEvent && !event->spontaneous())
-        m_context->timeView()->goLive();
+    const bool isOther = isVisible == isHidden();
+    QWidget::setVisible(isVisible);
+    if (!isOther)
+        return;
+    if (!isVisible)
+        release();
+    findSource();
 }
 
 }  // namespace qplc

@@ -6,21 +6,26 @@
 
 #include <QtWidgets/QWidget>
 
+class QCheckBox;
 class QComboBox;
 class QDoubleSpinBox;
+class QFormLayout;
+class QHBoxLayout;
 class QLabel;
 class QToolButton;
 
 namespace qplc {
 
+class TimeView;
 class WindowContext;
 
 /// The strip above a plot in which a person chooses signal, kind, level and mode of a trigger, and sees whether it is armed, how often it was met, and has it armed again.
 ///
-/// It has the trigger, feeds it with what comes, and moves the time of the window. A plot shows it when a person wants a trigger, and keeps its settings:
+/// It has the trigger, feeds it with what comes, and moves a time axis: that of the plot, or, when a person wants that, that of the window. A plot shows it when a person wants a trigger, and keeps its settings:
 ///
 /// ```cpp
 /// m_triggerBar = new TriggerBar(this);            // above the canvas; hidden: the trigger rests
+/// m_triggerBar->setOwnTime(&m_ownTime);           // without: always the time of the window
 /// m_triggerBar->setContext(context());            // in contextChanged()
 /// m_triggerBar->setSignals(names of the curves);  // whenever they change; what is chosen stays
 /// m_triggerBar->applySettings(settings.value("trigger").toObject());
@@ -28,7 +33,7 @@ class WindowContext;
 /// connect(m_triggerBar, &TriggerBar::triggered, this, ...);  // to draw a mark at bar->trigger().shownEvent() and a line at its level
 /// ```
 ///
-/// While it is visible and not FreeRunning, TimeView::show() is called for each new event with [event - pre, event + post], post being what the span of the view leaves; Auto goes back to
+/// It works while it is shown, also on a tab that is not seen: what a single event has brought is still there when somebody comes back. While it is not FreeRunning, TimeView::show() is called for each new event with [event - pre, event + post], post being what the span of the view leaves; Auto goes back to
 /// live when no event comes. A person who pans meanwhile keeps what he sees until the next event.
 class TriggerBar : public QWidget
 {
@@ -37,10 +42,19 @@ public:
     explicit TriggerBar(QWidget *parent = nullptr);
     ~TriggerBar() override;
 
+    /// What settings() may have.
+    static QStringList keys();
+    /// The time axis that is moved unless isLinked(); outlives the bar.
+    void setOwnTime(TimeView *time) { m_ownTime = time; }
+    /// Whether events are shown in all plots of the window.
+    bool isLinked() const { return m_isLinked; }
+    /// Whether it shows an event, and nobody has moved the view meanwhile.
+    bool showsEvent() const;
+    void setVisible(bool isVisible) override;
     void setContext(WindowContext *context);
     /// What can be chosen: expressions as CurveSources::find() takes them.
     void setSignals(const QStringList &expressions);
-    /// "signal", and what Trigger::Settings::toJson() gives; defaults are left out.
+    /// "signal", "linked", and what Trigger::Settings::toJson() gives; defaults are left out.
     QJsonObject settings() const;
     void applySettings(const QJsonObject &settings);
     const Trigger &trigger() const { return m_trigger; }
@@ -56,12 +70,17 @@ Q_SIGNALS:
     void triggered();
 
 protected:
-    void showEvent(QShowEvent *event) override;
-    void hideEvent(QHideEvent *event) override;
+    void resizeEvent(QResizeEvent *event) override;
 
 private:
     void makeControls();
     void arrange();
+    void fillMenu();
+    void placeControls(bool isWide);
+    void link(bool isLinked);
+    void release();
+    void showUpperLevel();
+    TimeView *time() const;
     QDoubleSpinBox *addNumber(const QString &name, double minimum, const QString &suffix);
     void findSource();
     void takeEdits();
@@ -73,6 +92,10 @@ private:
     bool hasWindow() const;
 
     WindowContext *m_context = nullptr;
+    TimeView *m_ownTime = nullptr;
+    bool m_isLinked = false;
+    bool m_hasFrozen = false;  // the time axis, for an event
+    bool m_isWide = true;      // all controls are in the row
     CurveSource m_source;
     Trigger m_trigger;
     QString m_wanted;  // signal
@@ -86,6 +109,9 @@ private:
     QDoubleSpinBox *m_preShare = nullptr;
     QDoubleSpinBox *m_holdOff = nullptr;
     QComboBox *m_mode = nullptr;
+    QCheckBox *m_linked = nullptr;
+    QHBoxLayout *m_row = nullptr;
+    QFormLayout *m_form = nullptr;
     QToolButton *m_more = nullptr;
     QToolButton *m_arm = nullptr;
     QLabel *m_state = nullptr;

@@ -4,6 +4,7 @@
 #include "gui/store/SignalStore.h"
 
 #include <QtCore/QJsonObject>
+#include <QtCore/QStringList>
 
 #include <optional>
 #include <vector>
@@ -59,12 +60,16 @@ public:
         double preShare = 0.2;  // of the view before the event, 0 ... 1
         double holdOff = 0.0;   // [s], after an event
 
+        /// One, or the two of a window.
+        std::vector<double> levels() const;
         bool operator==(const Settings &other) const;
         bool operator!=(const Settings &other) const { return !(*this == other); }
         /// For layouts; defaults are left out.
         QJsonObject toJson() const;
         /// Numbers that make no sense become the next ones that do.
         static Settings fromJson(const QJsonObject &object);
+        /// All that toJson() may have.
+        static QStringList keys();
     };
     struct View
     {

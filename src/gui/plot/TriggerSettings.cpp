@@ -38,6 +38,19 @@ bool Trigger::Settings::operator==(const Settings &other) const
         && holdOff == other.holdOff;
 }
 
+std::vector<double> Trigger::Settings::levels() const
+{
+    const bool hasWindow = kind == EntersWindow || kind == LeavesWindow;
+    return hasWindow ? std::vector<double>{level, upperLevel} : std::vector<double>{level};
+}
+
+QStringList Trigger::Settings::keys()
+{
+    return {QStringLiteral("kind"),       QStringLiteral("mode"),       QStringLiteral("level"),
+            QStringLiteral("upperLevel"), QStringLiteral("hysteresis"), QStringLiteral("pre"),
+            QStringLiteral("holdOff")};
+}
+
 QJsonObject Trigger::Settings::toJson() const
 {
     const Settings standard;

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a time plot holds of its sources, how they are named, and how often it draws.
+#include "PlotFixtures.h"
+
+#include <QtCore/QElapsedTimer>
+#include <QtCore/QTemporaryDir>
+#include <QtGui/QClipboard>
+#include <QtGui/QGuiApplication>
+
+using namespace qplc;
+using Time = TimeView::Time;
+
+namespace {
+
+constexpr Time s = 1'000'000'000;
+const QString formula = QStringLiteral("= mean(count, 1)");
+const QByteArray derivedCurve = R"json({"curves":[{"signal":"= mean(count, 1)"}]})json";
+
+}  // namespace
+
+class tst_PlotSources : public QObject
+{
+    Q_OBJECT
+private Q_SLOTS:
+    void aPlotHoldsItsDerivedSignalUntilItIsClosed();
+    void anEditKeepsTheDerivedSignals();
+    void whatIsHeldIsDrawnAlsoWhenThePlantGoes();
+    void moreOfThePastIsDrawnInFrozenViews();
+    void aFormulaIsShownWithoutTheEqualsSign();
+    void aNameIsShownInsteadOfTheExpression();
+    void aPlotDrawsAtMostFiftyPicturesASecond();
+    void smallPanelsHaveALegendOfOneLine();
+};
+
+void tst_PlotSources::aPlotHoldsItsDerivedSignalUntilItIsClosed()
+{
+    PlotWindow window(derivedCurve);
+    QVERIFY(window.run(0.2));
+    std::weak_ptr<DerivedSignal> held = window.context.curveSources()->find(formula).derived;
+    QVERIFY(!held.expired());
+    delete window.plot;
+    window.plot = nullptr;
+    QVERIFY(held.expired());
+}
+
+void tst_PlotSources::anEditKeepsTheDerivedSignals()
+{
+    PlotWindow window(derivedCurve);
+    QVERIFY(window.run(0.2));
+    const std::weak_ptr<DerivedSignal> before = window.context.curveSources()->find(formula).derived;
+    window.apply(R"json({"curves":[{"signal":"= mean(count, 1)","gain":2}],"grid":false})json");
+    QVERIFY(!before.expired());
+    window.apply("{}");
+    QVERIFY(before.expired());
+}
+
+void tst_PlotSources::whatIsHeldIsDrawnAlsoWhenThePlantGoes()
+{
+    PlotWindow window(derivedCurve);
+    QVERIFY(window.run(0.2));
+    window.trigger("copyTable");
+    window.context.plants()->remove(window.context.plants()->at(0));
+    QTRY_VERIFY(window.hint().contains(QStringLiteral("Missing")));
+    const int before = window.plot->drawnPictures();
+    window.time()->pan(-s);
+    QTRY_VERIFY(window.plot->drawnPictures() > before);
+}
+
+void tst_PlotSources::moreOfThePastIsDrawnInFrozenViews()
+{
+    PlotWindow window(derivedCurve);
+    QVERIFY(window.run(0.3));
+    window.time()->freeze();
+    QTest::qWait(300);
+    const int before = window.plot->drawnPictures();
+    Q_EMIT window.context.curveSources()->filled();
+    QTRY_COMPARE(window.plot->drawnPictures(), before + 1);
+}
+
+void tst_PlotSources::aFormulaIsShownWithoutTheEqualsSign()
+{
+    PlotCurveSettings curve;
+    curve.signal = QStringLiteral(" =a + b ");
+    QCOMPARE(curve.text(), QStringLiteral("a + b"));
+    curve.gain = 2.0;
+    QCOMPARE(curve.text(), QStringLiteral("2*(a + b)"));
+}
+
+void tst_PlotSources::aNameIsShownInsteadOfTheExpression()
+{
+    PlotWindow window(R"json({"curves":[{"name":"Average","signal":"= mean(count, 1)"}]})json");
+    QVERIFY(window.run(0.2));
+    QTRY_COMPARE(window.part<PlotLegend>()->entries().first().name, QStringLiteral("Average"));
+    QVERIFY(window.part<PlotLegend>()->entries().first().hint.contains(formula));
+    window.trigger("copyTable");
+    QTRY_VERIFY(QGuiApplication::clipboard()->text().startsWith(QStringLiteral("UTC\ttime [s]\tAverage")));
+}
+
+/// Whatever a mouse does meanwhile: its steps come as often as they like.
+void tst_PlotSources::aPlotDrawsAtMostFiftyPicturesASecond()
+{
+    PlotWindow window(R"({"curves":[{"signal":"count"}]})");
+    QVERIFY(window.run(0.2));
+    QElapsedTimer clock;
+    clock.start();
+    const int before = window.plot->drawnPictures();
+    while (clock.elapsed() < 1'000) {
+        window.trigger("larger");
+        window.time()->setSpan(s + clock.nsecsElapsed());
+        QCoreApplication::processEvents(QEventLoop::AllEvents, 1);
+    }
+    const int drawn = window.plot->drawnPictures() - before;
+    QVERIFY2(drawn > 0 && drawn <= clock.elapsed() / 20 + 1, qPrintable(QString::number(drawn)));
+}
+
+void tst_PlotSources::smallPanelsHaveALegendOfOneLine()
+{
+    PlotWindow window(R"({"curves":[{"signal":"count"},{"signal":"sum"},{"signal":"setpoint"}]})");
+    window.plot->resize(170, 180);
+    window.plot->show();
+    const auto *legend = window.part<PlotLegend>();
+    QTRY_VERIFY(legend->isVisible() && legend->width() < 170);
+    for (int place = 0; place < 3; ++place) {
+        QCOMPARE(legend->entryRect(place).top(), legend->entryRect(0).top());
+        QVERIFY(legend->rect().contains(legend->entryRect(place)));
+    }
+    QTRY_VERIFY2(window.canvas()->height() >= 0.75 * window.plot->height(),
+                 qPrintable(QString::number(window.canvas()->height())));
+    window.plot->resize(240, 90);
+    QTRY_VERIFY(!legend->isVisible());
+}
+
+QTEST_MAIN(tst_PlotSources)
+#include "tst_PlotSources.moc"

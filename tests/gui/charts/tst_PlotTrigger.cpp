@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+// A time plot with a trigger, with a real plant.
+#include "PlotFixtures.h"
+#include "gui/charts/TriggerBar.h"
+
+#include <QtWidgets/QToolButton>
+
+#include <qwt_scale_draw.h>
+
+using namespace qplc;
+using Time = TimeView::Time;
+
+namespace {
+
+constexpr Time s = 1'000'000'000;
+
+QByteArray triggered(const QByteArray &more)
+{
+    return R"json({"curves":[{"signal":"= sin(count/5)","gain":2,"offset":1}],"span":1,"trigger":{"on":true,"pre":0.25,"signal":"= sin(count/5)")json"
+        + more + "}}";
+}
+
+}  // namespace
+
+class tst_PlotTrigger : public QObject
+{
+    Q_OBJECT
+private Q_SLOTS:
+    void theKeyTurnsItOnAndOff();
+    void settingsComeBackByteByByte();
+    void anEventIsShownInThisPlotOnly();
+    void timesAreMillisecondsAroundTheEvent();
+    void linesAreAtTheEventAndTheLevel();
+    void aLinkedTriggerMovesTheWindow();
+    void aSingleEventStaysOnATabThatIsNotSeen();
+    void whoPansKeepsTheViewUntilTheNextEvent();
+    void autoGoesBackToLiveWithoutEvents();
+    void otherSettingsDoNotArmAgain();
+    void aNarrowPlotKeepsItsWidth();
+};
+
+void tst_PlotTrigger::theKeyTurnsItOnAndOff()
+{
+    PlotWindow window(R"({"curves":[{"signal":"count"}]})");
+    QSignalSpy edited(window.plot, &QPlcWidget::settingsEdited);
+    window.plot->show();
+    window.plot->activateWindow();
+    QVERIFY(QTest::qWaitForWindowActive(window.plot));
+    window.plot->setFocus();
+    window.time()->setSpan(5 * s);
+    QTest::keyClick(window.plot, Qt::Key_T);
+    QCOMPARE(window.settings(), QByteArray(R"({"curves":[{"signal":"count"}],"span":5,"trigger":{"on":true}})"));
+    QVERIFY(window.part<TriggerBar>()->isVisible());
+    QTest::keyClick(window.plot, Qt::Key_T);
+    QCOMPARE(window.settings(), QByteArray(R"({"curves":[{"signal":"count"}]})"));
+    QVERIFY(!window.part<TriggerBar>()->isVisible());
+    QCOMPARE(edited.size(), 2);
+}
+
+void tst_PlotTrigger::settingsComeBackByteByByte()
+{
+    const QByteArray all
+        = R"({"curves":[{"name":"n","signal":"count"}],"trigger":{"color":"red","holdOff":2,"kind":"falling","level":3,"linked":true,"on":true,"signal":"sum"}})";
+    PlotWindow window(all);
+    QCOMPARE(window.settings(), all);
+    Q_EMIT window.part<TriggerBar>()->settingsEdited();  // what it has is taken
+    QCOMPARE(window.settings(), all);
+}
+
+void tst_PlotTrigger::anEventIsShownInThisPlotOnly()
+{
+    PlotWindow window(triggered(R"(,"mode":"normal","holdOff":0.5)"));
+    QVERIFY(window.run(0.2));
+    const Trigger &trigger = window.part<TriggerBar>()->trigger();
+    QTRY_VERIFY(trigger.shownEvent());
+    const Time event = *trigger.shownEvent();
+    QTRY_VERIFY(std::abs(window.canvas()->begin() - (event - s / 4)) < s / 100);
+    QVERIFY(std::abs(window.canvas()->end() - (event + 3 * s / 4)) < s / 100);
+    QVERIFY(window.time()->isLive());
+    QVERIFY(!window.canvas()->canvas()->findChild<QToolButton *>()->isVisible());
+    QTRY_VERIFY(*trigger.shownEvent() > event);
+    for (std::size_t i = 1; i < trigger.events().size(); ++i)
+        QVERIFY(trigger.events()[i] - trigger.events()[i - 1] >= s / 2);
+}
+
+void tst_PlotTrigger::timesAreMillisecondsAroundTheEvent()
+{
+    PlotWindow window(triggered(R"(,"mode":"single")"));
+    QVERIFY(window.run(0.2));
+    QTRY_VERIFY(window.part<PlotOverlay>()->picture().event);
+    const QwtScaleDraw *scale = window.canvas()->axisScaleDraw(QwtPlot::xBottom);
+    QStringList labels;
+    for (const double tick : scale->scaleDiv().ticks(QwtScaleDiv::MajorTick))
+        labels << scale->label(tick).text();
+    QVERIFY2(labels.contains(QStringLiteral("0")) && labels.last().endsWith(QStringLiteral("00 ms")),
+             qPrintable(labels.join(' ')));
+    window.trigger("live");
+    QTRY_VERIFY(!window.part<PlotOverlay>()->picture().event);
+}
+
+void tst_PlotTrigger::linesAreAtTheEventAndTheLevel()
+{
+    PlotWindow window(triggered(R"(,"mode":"single","kind":"enters","level":-0.5,"upperLevel":0.5)"));
+    QVERIFY(window.run(0.2));
+    const PlotOverlay::Picture &picture = window.part<PlotOverlay>()->picture();
+    QTRY_VERIFY(picture.event);
+    QVERIFY(std::abs(*picture.event - window.canvas()->canvas()->width() / 4) <= 2);
+    QCOMPARE(picture.levels.size(), 2);
+    const double y = window.canvas()->yOf(PlotCurveSettings::Left, 2.0 * 0.5 + 1.0);
+    QTRY_VERIFY(std::abs(picture.levels.last().position.y() - y) < 1.0);
+}
+
+void tst_PlotTrigger::aLinkedTriggerMovesTheWindow()
+{
+    PlotWindow window(triggered(R"(,"mode":"single","linked":true)"));
+    window.time()->setSpan(s);
+    QVERIFY(window.run(0.2));
+    QTRY_VERIFY(!window.time()->isLive());
+    QCOMPARE(window.time()->begin(), *window.part<TriggerBar>()->trigger().shownEvent() - s / 4);
+    window.trigger("trigger");
+    QVERIFY(window.time()->isLive());
+}
+
+void tst_PlotTrigger::aSingleEventStaysOnATabThatIsNotSeen()
+{
+    PlotWindow window(triggered(R"(,"mode":"single")"));
+    QVERIFY(window.run(0.2));
+    window.plot->hide();
+    const Trigger &trigger = window.part<TriggerBar>()->trigger();
+    QTRY_COMPARE(trigger.state(), Trigger::Done);
+    const Time event = *trigger.shownEvent();
+    const double past = window.past();
+    window.plot->show();
+    QTRY_VERIFY(window.past() > past + 0.5);
+    QCOMPARE(*trigger.shownEvent(), event);
+    QTRY_VERIFY(std::abs(window.canvas()->begin() - (event - s / 4)) < s / 100);
+}
+
+void tst_PlotTrigger::whoPansKeepsTheViewUntilTheNextEvent()
+{
+    PlotWindow window(triggered(R"(,"mode":"single")"));
+    QVERIFY(window.run(0.2));
+    QTRY_COMPARE(window.part<TriggerBar>()->trigger().state(), Trigger::Done);
+    QTest::qWait(50);
+    const Time begin = window.canvas()->begin();
+    window.trigger("earlier");
+    QTRY_VERIFY(window.canvas()->begin() < begin - s / 10);
+    QTRY_VERIFY(window.canvas()->canvas()->findChild<QToolButton *>()->isVisible());
+    window.part<TriggerBar>()->arm();
+    QTRY_VERIFY(window.canvas()->begin() > begin);
+}
+
+void tst_PlotTrigger::autoGoesBackToLiveWithoutEvents()
+{
+    PlotWindow window(triggered(R"(,"level":7)"));
+    QVERIFY(window.run(0.2));
+    QTRY_COMPARE(window.part<TriggerBar>()->trigger().state(), Trigger::FreeRunning);
+    const Time end = window.canvas()->end();
+    QTRY_VERIFY(window.canvas()->end() > end + s / 10);
+    QCOMPARE(window.part<TriggerBar>()->trigger().count(), std::uint64_t(0));
+}
+
+void tst_PlotTrigger::otherSettingsDoNotArmAgain()
+{
+    PlotWindow window(triggered(R"(,"mode":"single")"));
+    QVERIFY(window.run(0.2));
+    const Trigger &trigger = window.part<TriggerBar>()->trigger();
+    QTRY_COMPARE(trigger.state(), Trigger::Done);
+    window.plot->addSignals({QStringLiteral("count")});
+    window.trigger("statistics");
+    QCOMPARE(trigger.state(), Trigger::Done);
+}
+
+void tst_PlotTrigger::aNarrowPlotKeepsItsWidth()
+{
+    PlotWindow window(triggered({}));
+    window.plot->resize(900, 300);
+    window.plot->show();
+    auto *bar = window.part<TriggerBar>();
+    QTRY_COMPARE(bar->width(), window.plot->width() - 4);
+    QVERIFY(window.plot->minimumSizeHint().width() < 170);
+    const int shown = bar->findChildren<QWidget *>(QString(), Qt::FindDirectChildrenOnly).size();
+    window.plot->resize(170, 180);
+    QTRY_COMPARE(bar->width(), 166);
+    QVERIFY(bar->findChildren<QWidget *>(QString(), Qt::FindDirectChildrenOnly).size() < shown);
+    window.plot->resize(900, 300);
+    QTRY_COMPARE(bar->findChildren<QWidget *>(QString(), Qt::FindDirectChildrenOnly).size(), shown);
+}
+
+QTEST_MAIN(tst_PlotTrigger)
+#include "tst_PlotTrigger.moc"
