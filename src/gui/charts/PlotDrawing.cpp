@@ -186,7 +186,7 @@ void QPlcTimePlot::Private::showNumbers()
         q->context()->timeView()->setPointer(canvas->timeAt(interaction->mouse()->x()));
     std::optional<Time> moment = time ? time->pointer() : std::nullopt;
     if (!moment && !view()->isLive())
-        moment = view()->end();
+        moment = std::min(view()->end(), view()->newest());  // around an event, the rest is still to come
     legend->show(curves, moment);
     const bool hasCursors = time && (time->cursor(TimeView::A) || time->cursor(TimeView::B)) && !curves.isEmpty();
     if (hasCursors != !statistics->isHidden()) {

@@ -36,6 +36,7 @@ private Q_SLOTS:
     void shortSpansHaveFractions();
     void longSpansHaveNoSeconds();
     void secondsAreCountedFromTheReference();
+    void aroundAnEventThereAreUnits();
     void timesAreToldApart();
 };
 
@@ -86,6 +87,17 @@ void tst_TimeTicks::secondsAreCountedFromTheReference()
     const Time edge = at(12, 0, 0) + 123'456'789;
     QCOMPARE(labels(TimeTicks(edge - 30 * s, edge, 3, edge)), (QStringList{"-30", "-20", "-10", "0"}));
     QCOMPARE(labels(TimeTicks(edge - s / 2, edge + s / 2, 2, edge)), (QStringList{"-0.5", "0.0", "0.5"}));
+}
+
+void tst_TimeTicks::aroundAnEventThereAreUnits()
+{
+    const Time event = at(12, 0, 0) + 123'456'789;
+    QCOMPARE(labels(TimeTicks::aroundEvent(event - s / 5, event + 4 * s / 5, 5, event)),
+             (QStringList{"-200 ms", "0", "200 ms", "400 ms", "600 ms", "800 ms"}));
+    QCOMPARE(labels(TimeTicks::aroundEvent(event, event + s / 5'000, 2, event)),
+             (QStringList{"0", "0.1 ms", "0.2 ms"}));
+    QCOMPARE(labels(TimeTicks::aroundEvent(event - 10 * s, event + 20 * s, 3, event)),
+             (QStringList{"-10 s", "0", "10 s", "20 s"}));
 }
 
 void tst_TimeTicks::timesAreToldApart()
