@@ -4,7 +4,7 @@
 #include "QPlcWidget.h"
 #include "QPlcWidgetFactoryOf.h"
 
-/// One signal as an instrument: a dial, a bar, a large number, or an LED.
+/// One signal, or something calculated of signals, as an instrument: a dial, a bar, a large number, or an LED.
 ///
 /// ```cpp
 /// auto *gauge = new QPlcGauge;
@@ -13,7 +13,7 @@
 ///
 /// | setting                              | meaning                                                                                                   |
 /// |--------------------------------------|-----------------------------------------------------------------------------------------------------------|
-/// | `signal`                             | "tetherForce", "bodyPosition_earth[2]", "plant/tetherForce"; a triple is shown as three numbers             |
+/// | `signal`                             | "tetherForce", "bodyPosition_earth[2]", "plant/tetherForce"; a triple is shown as three numbers. Behind "=" something calculated of signals, in a window: "= norm(bodyVelocity_earth)" |
 /// | `style`                              | "dial" (default), "bar" (lies or stands, as there is space), "number", "led"                                |
 /// | `minimum`, `maximum`                 | ends of the scale, in the unit of the signal. Default: limits of the table; without those the scale grows with the values |
 /// | `alarmLow`, `warningLow`, `warningHigh`, `alarmHigh` | from where on a value is worth a look, or wrong; said by colour, sign and words. Default: none  |

@@ -32,6 +32,7 @@ GaugeEditor::GaugeEditor(const PanelSettings &settings, const QString &title, co
 void GaugeEditor::addSignal(QFormLayout *form, PlantList *plants)
 {
     auto *edit = new SignalEdit(plants, SignalEdit::AllSignals, this);
+    edit->setPlaceholderText(tr("Signal, or = formula"));
     edit->setText(m_settings.value("signal").toString());
     edit->setMinimumWidth(edit->fontMetrics().averageCharWidth() * 34);
     form->addRow(tr("Signal"), edit);

@@ -4,7 +4,7 @@
 #include "QPlcSignalIndexTable.h"
 #include "gui/models/ValueFormat.h"
 #include "gui/panel/WindowContext.h"
-#include "gui/plant/PastValue.h"
+#include "gui/plot/Formula.h"
 
 #include <algorithm>
 #include <cmath>
@@ -36,7 +36,8 @@ void GaugeFeed::setContext(WindowContext *context)
 {
     m_context = context;
     PlantList *plants = context->plants();
-    connect(plants, &PlantList::signalsChanged, this, &GaugeFeed::resolve);
+    connect(context->curveSources(), &CurveSources::changed, this, &GaugeFeed::resolve);
+    connect(context->curveSources(), &CurveSources::filled, this, [this] { refresh(Texts::WhenDue); });
     connect(plants, &PlantList::added, this, &GaugeFeed::follow);
     for (int i = 0; i < plants->size(); ++i)
         follow(plants->at(i));
@@ -47,11 +48,11 @@ void GaugeFeed::setContext(WindowContext *context)
 void GaugeFeed::follow(Plant *plant)
 {
     connect(plant, &Plant::updated, this, [this, plant] {
-        if (m_signal.plant == plant)
+        if (m_source.plant() == plant)
             refresh(Texts::WhenDue);
     });
     connect(plant, &Plant::storeChanged, this, [this, plant] {  // rows of another store are numbered anew
-        if (m_signal.plant == plant)
+        if (m_source.plant() == plant)
             m_seen = 0;
     });
 }
@@ -68,6 +69,12 @@ void GaugeFeed::setSettings(const GaugeSettings &settings)
         resolve();
 }
 
+void GaugeFeed::setNameShown(bool isShown)
+{
+    m_showsName = isShown;
+    refresh(Texts::Renew);
+}
+
 void GaugeFeed::setActive(bool isActive)
 {
     m_isActive = isActive;
@@ -82,20 +89,29 @@ void GaugeFeed::setActive(bool isActive)
 /// The reference may mean something else now.
 void GaugeFeed::resolve()
 {
-    const PlantList::Signal before = m_signal;
-    const SignalReference reference = SignalReference::fromString(m_settings.signal);
-    if (m_context) {
-        m_signal = m_context->plants()->resolve(reference);
-        m_definition = m_signal ? m_signal.definition() : QPlcSignalDefinition();
-        if (m_signal.plant != before.plant || m_signal.index != before.index || m_signal.element != before.element)
-            begin();
-    } else {
-        const QPlcSignalTable table = QPlcSignalIndexTable::current();
-        m_definition
-            = table.contains(reference.signal) ? table.at(table.indexOf(reference.signal)) : QPlcSignalDefinition();
-        m_value = QPlcValue();
-        begin();
+    if (!m_context) {
+        lookUp();
+        return;
     }
+    const GaugeSource before = m_source;
+    m_source = GaugeSource(m_settings.signal, *m_context->plants(), *m_context->curveSources());
+    m_definition = m_source.definition();
+    if (!m_source.isSame(before))
+        begin();
+    else if (m_source.store() != before.store())
+        m_seen = 0;
+    refresh(Texts::Renew);
+}
+
+/// Without a window: in the table of the process.
+void GaugeFeed::lookUp()
+{
+    const SignalReference reference = SignalReference::fromString(m_settings.signal);
+    const QPlcSignalTable table = QPlcSignalIndexTable::current();
+    m_definition
+        = table.contains(reference.signal) ? table.at(table.indexOf(reference.signal)) : QPlcSignalDefinition();
+    m_value = QPlcValue();
+    begin();
     refresh(Texts::Renew);
 }
 
@@ -111,8 +127,11 @@ void GaugeFeed::begin()
 void GaugeFeed::reset()
 {
     m_extremes.fill({noNumber, noNumber}, elements());
-    const SignalStore *store = m_signal ? m_signal.plant->store() : nullptr;
-    m_seen = store && !store->isEmpty() ? store->endRow() - 1 : 0;  // what is seen at the moment counts
+    // What is seen at the moment counts. The store of a formula may get its past only now.
+    const SignalStore *store = m_source.store();
+    m_seen = store && !store->isEmpty() ? store->endRow() - 1 : 0;
+    const SignalStore *cycles = m_source.isFormula() ? m_source.plant()->store() : nullptr;
+    m_since = cycles && !cycles->isEmpty() ? cycles->time(cycles->endRow() - 1) : 0;
     refresh(Texts::Renew);
 }
 
@@ -170,10 +189,8 @@ void GaugeFeed::take(const QList<QPlcSignalList> &batch, QPlcSignalIndex index)
     refresh(Texts::WhenDue);
 }
 
-QPlcValue GaugeFeed::newestValue() const
+QPlcValue GaugeFeed::givenValue() const
 {
-    if (m_context)
-        return m_signal.value();
     const int element = SignalReference::fromString(m_settings.signal).element;
     return element == SignalReference::Whole || !m_value.isValid() ? m_value : QPlcValue(m_value.toReal(element));
 }
@@ -187,13 +204,13 @@ void GaugeFeed::include(int element, double minimum, double maximum)
 
 void GaugeFeed::extendExtremes()
 {
-    const SignalStore *store = m_signal ? m_signal.plant->store() : nullptr;
+    const SignalStore *store = m_source.store();
     if (!store || !m_definition.type.isNumeric())
         return;
+    const SignalStore::Row first = m_since > 0 ? store->rowAt(m_since) : store->firstRow();
+    const SignalStore::Row begin = std::max(m_seen, first);
     for (int i = 0; i < elements(); ++i) {
-        const int channel = m_signal.plant->values().channels().channel(m_signal.index, std::max(i, m_signal.element));
-        const SignalStore::Range range
-            = store->range(channel, std::max(m_seen, store->firstRow()), std::max(store->endRow(), m_seen));
+        const SignalStore::Range range = store->range(m_source.channel(i), begin, std::max(store->endRow(), begin));
         if (!range.isEmpty())
             include(i, double(range.minimum), double(range.maximum));
     }
@@ -212,6 +229,7 @@ void GaugeFeed::refresh(Texts texts)
     GaugePicture picture;
     picture.style = m_settings.style;
     picture.name = m_settings.signal;
+    picture.showsName = m_showsName;
     picture.message = missingText();
     if (picture.message.isEmpty())
         showSignal(&picture, isDue);
@@ -230,8 +248,11 @@ QString GaugeFeed::missingText() const
 {
     if (m_settings.signal.isEmpty())
         return tr("No signal yet.\nDrop one here, or choose one in the settings.");
+    const bool isFormula = Formula::isFormula(m_settings.signal);
+    if (isFormula && !m_source.isFormula())
+        return m_context ? m_source.error() : tr("What is calculated of signals is shown in a window only.");
     QString error;
-    if (!SignalReference::fromString(m_settings.signal, &error).isValid())
+    if (!isFormula && !SignalReference::fromString(m_settings.signal, &error).isValid())
         return error;
     if (m_definition.name.isEmpty())
         return tr("%1\nis not there at the moment. It appears with its plant.").arg(m_settings.signal);
@@ -245,9 +266,10 @@ void GaugeFeed::showSignal(GaugePicture *picture, bool hasNewTexts)
     if (m_context)
         extendExtremes();
     const std::optional<TimeView::Time> time = m_context ? m_context->timeView()->displayTime() : std::nullopt;
-    const QPlcValue value = time ? pastValue(m_signal, *time) : newestValue();
-    const Plant::Quality quality = m_signal ? m_signal.plant->quality() : Plant::Good;
-    picture->isTrusted = value.isValid() && (time || quality == Plant::Good || quality == Plant::AtRest);
+    const QPlcValue value = time ? m_source.valueAt(*time) : m_context ? m_source.newestValue() : givenValue();
+    const Plant::Quality quality = m_source.plant() ? m_source.plant()->quality() : Plant::Good;
+    const bool isNow = quality == Plant::Good || (quality == Plant::AtRest && !m_source.isFormula());
+    picture->isTrusted = value.isValid() && (time || isNow);
     picture->isBoolean = isBoolean();
     picture->unit = m_definition.unit;
     if (!m_definition.type.isNumeric() || elements() > 1)
@@ -312,15 +334,18 @@ QString GaugeFeed::statusText() const
     if (const std::optional<TimeView::Time> time = m_context->timeView()->displayTime()) {
         const QDateTime shown = QDateTime::fromMSecsSinceEpoch(*time / 1'000'000);
         const QString clock = shown.toString(QStringLiteral("HH:mm:ss.zzz"));
-        return pastValue(m_signal, *time).isValid() ? tr("at %1").arg(clock) : tr("no value at %1").arg(clock);
+        return m_source.valueAt(*time).isValid() ? tr("at %1").arg(clock) : tr("no value at %1").arg(clock);
     }
-    switch (m_signal.plant->quality()) {
+    if (m_source.isFormula() && !m_source.newestValue().isValid())
+        return tr("no value yet");
+    switch (m_source.plant()->quality()) {
     case Plant::NoValue:
         return tr("no value yet");
     case Plant::Stale:
-        return tr("stale, %1").arg(ageText(m_signal.plant->age()));
+        return tr("stale, %1").arg(ageText(m_source.plant()->age()));
     case Plant::AtRest:
-        return tr("at rest");
+        // What is calculated comes of cycles; a signal is what the master holds.
+        return m_source.isFormula() ? tr("at rest, last cycle") : tr("at rest");
     case Plant::Good:
         break;
     }

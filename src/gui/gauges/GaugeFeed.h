@@ -2,7 +2,7 @@
 #pragma once
 
 #include "GaugePicture.h"
-#include "gui/plant/PlantList.h"
+#include "GaugeSource.h"
 
 #include <QtCore/QElapsedTimer>
 #include <QtCore/QPointer>
@@ -11,7 +11,7 @@ namespace qplc {
 
 class WindowContext;
 
-/// Makes the picture of a gauge out of a signal: of a plant of the window, at the time that the window shows, or of the values that a program gives.
+/// Makes the picture of a gauge out of a signal, or of something calculated of signals: of a plant of the window, at the time that the window shows, or of the values that a program gives.
 ///
 /// Pointers move with every update, texts ten times a second. Nothing is done between setActive(false) and setActive(true); smallest and largest values lose nothing meanwhile, as they come from the store.
 class GaugeFeed : public QObject
@@ -22,6 +22,8 @@ public:
 
     void setContext(WindowContext *context);
     void setSettings(const GaugeSettings &settings);
+    /// Whether the name of the signal is part of the picture.
+    void setNameShown(bool isShown);
     void setActive(bool isActive);
     /// The values of a program, where there is no window. \param index  in the table of the process
     void take(const QList<QPlcSignalList> &batch, QPlcSignalIndex index);
@@ -48,6 +50,7 @@ private:
     enum class Texts { Renew, WhenDue };
 
     void resolve();
+    void lookUp();
     void begin();
     void follow(Plant *plant);
     void refresh(Texts texts);
@@ -58,7 +61,7 @@ private:
     QString missingText() const;
     QString statusText() const;
     QString valueText(double number) const;
-    QPlcValue newestValue() const;
+    QPlcValue givenValue() const;
     void extendExtremes();
     void include(int element, double minimum, double maximum);
     int elements() const;
@@ -68,17 +71,19 @@ private:
 
     QPointer<WindowContext> m_context;
     GaugeSettings m_settings;
-    PlantList::Signal m_signal;
+    GaugeSource m_source;  // in a window
     QPlcSignalDefinition m_definition;
     QPlcValue m_value;  // what a program gave
     QVector<AlarmState> m_alarms;
     QVector<Extremes> m_extremes;
-    SignalStore::Row m_seen = 0;  // rows of the store before it are in the extremes
+    SignalStore::Row m_seen = 0;    // rows of the store before it are in the extremes
+    SignalStore::Time m_since = 0;  // rows before it do not count
     GaugeScale m_grownScale;
     QString m_widest;
     GaugePicture m_picture;
     QTimer m_textTimer;
     QElapsedTimer m_sinceTexts;
+    bool m_showsName = true;
     bool m_isActive = false;
 };
 

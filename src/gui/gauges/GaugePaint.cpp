@@ -52,8 +52,8 @@ QFont fittingFont(const QFont &font, const QString &text, const QSizeF &size, do
     return fitting;
 }
 
-void paintValue(QPainter *painter, const QRectF &place, const GaugePicture &picture, const QString &text,
-                const QColor &color)
+double paintValue(QPainter *painter, const QRectF &place, const GaugePicture &picture, const QString &text,
+                  const QColor &color, Qt::AlignmentFlag side)
 {
     const QString widest = picture.widest.size() > text.size() ? picture.widest : text;
     const QString unit = picture.unit.isEmpty() ? QString() : QStringLiteral(" ") + picture.unit;
@@ -67,7 +67,8 @@ void paintValue(QPainter *painter, const QRectF &place, const GaugePicture &pict
     unitFont.setPixelSize(std::max(9, font.pixelSize() / 2));
     const QFontMetricsF metrics(font);
     const double width = metrics.horizontalAdvance(digits);
-    const double left = place.center().x() - (width + QFontMetricsF(unitFont).horizontalAdvance(unit)) / 2.0;
+    const double whole = width + QFontMetricsF(unitFont).horizontalAdvance(unit);
+    const double left = side == Qt::AlignRight ? place.right() - whole : place.center().x() - whole / 2.0;
     const double baseline = place.center().y() + metrics.capHeight() / 2.0;
     painter->save();
     painter->setFont(font);
@@ -77,9 +78,26 @@ void paintValue(QPainter *painter, const QRectF &place, const GaugePicture &pict
     painter->setFont(unitFont);
     painter->drawText(QPointF(left + width, baseline), unit);
     painter->restore();
+    return hasSign ? left - metrics.horizontalAdvance(minusSign) : left;
+}
+
+void paintStatus(QPainter *painter, const QRectF &place, const GaugePicture &picture, const Theme &theme, int side)
+{
+    painter->setPen(textColor(picture, theme));
+    const QString status = QFontMetricsF(painter->font()).elidedText(picture.status, Qt::ElideRight, place.width());
+    painter->drawText(place, side | Qt::AlignVCenter, status);
 }
 
 namespace {
+
+/// The line below is there also while it is empty, so that nothing jumps, but where space is rare.
+bool hasLine(const QRectF &place, const GaugePicture &picture)
+{
+    constexpr double roomy = 100.0;  // [px]
+    if (picture.showsName)
+        return true;
+    return !isLyingBar(place, picture) && (!picture.status.isEmpty() || place.height() > roomy);
+}
 
 void paintMessage(QPainter *painter, const QRectF &place, const GaugePicture &picture, const Theme &theme)
 {
@@ -94,18 +112,15 @@ void paintName(QPainter *painter, const QRectF &place, const GaugePicture &pictu
     painter->drawText(place, side | Qt::AlignVCenter, name);
 }
 
-void paintStatus(QPainter *painter, const QRectF &place, const GaugePicture &picture, const Theme &theme, int side)
-{
-    painter->setPen(textColor(picture, theme));
-    const QString status = QFontMetricsF(painter->font()).elidedText(picture.status, Qt::ElideRight, place.width());
-    painter->drawText(place, side | Qt::AlignVCenter, status);
-}
-
 /// One line below: name at the left, what is not normal at the right. \return what is left for the gauge
 QRectF paintLine(QPainter *painter, const QRectF &place, const GaugePicture &picture, const Theme &theme)
 {
     const QFontMetricsF metrics(painter->font());
     const QRectF line(place.left(), place.bottom() - metrics.height(), place.width(), metrics.height());
+    if (!picture.showsName) {
+        paintStatus(painter, line, picture, theme, Qt::AlignHCenter);
+        return place.adjusted(0.0, 0.0, 0.0, -metrics.height() - 2.0);
+    }
     const double statusWidth = picture.status.isEmpty() ? 0.0 : metrics.horizontalAdvance(picture.status) + 6.0;
     const double nameWidth = place.width() - statusWidth;
     if (picture.status.isEmpty())
@@ -139,22 +154,27 @@ void paintGauge(QPainter *painter, const QRectF &place, const GaugePicture &pict
     const double margin = 6.0;
     const QRectF inside = place.adjusted(margin, margin, -margin, -margin);
     const QFontMetricsF metrics(painter->font());
-    const bool hasTwoLines
-        = inside.width() < 26.0 * metrics.averageCharWidth() && inside.height() > 6.0 * metrics.height();
-    const QRectF body
-        = hasTwoLines ? paintTwoLines(painter, inside, picture, theme) : paintLine(painter, inside, picture, theme);
+    const bool hasTwoLines = picture.showsName && inside.width() < 26.0 * metrics.averageCharWidth()
+        && inside.height() > 6.0 * metrics.height();
+    QRectF body = inside;
+    GaugePicture rest = picture;
+    if (hasTwoLines || hasLine(inside, picture)) {
+        body
+            = hasTwoLines ? paintTwoLines(painter, inside, picture, theme) : paintLine(painter, inside, picture, theme);
+        rest.status.clear();
+    }
     switch (picture.style) {
     case GaugeStyle::Dial:
-        paintDial(painter, body, picture, theme);
+        paintDial(painter, body, rest, theme);
         break;
     case GaugeStyle::Bar:
-        paintBar(painter, body, picture, theme);
+        paintBar(painter, body, rest, theme);
         break;
     case GaugeStyle::Number:
-        paintNumbers(painter, body, picture, theme);
+        paintNumbers(painter, body, rest, theme);
         break;
     case GaugeStyle::Led:
-        paintLed(painter, body, picture, theme);
+        paintLed(painter, body, rest, theme);
         break;
     }
 }

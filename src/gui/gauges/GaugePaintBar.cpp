@@ -28,6 +28,8 @@ struct Bar
         return isLying ? QRectF(low, track.top(), size, track.height())
                        : QRectF(track.left(), low, track.width(), size);
     }
+    /// Beside the bands, if there are any.
+    double tickOffset(const GaugePicture &picture) const { return picture.bands.isEmpty() ? 2.0 : 6.0; }
     /// A strip along the side where the numbers are.
     QRectF strip(double from, double to, double offset, double width) const
     {
@@ -81,25 +83,26 @@ void paintScale(QPainter *painter, const Bar &bar, const GaugePicture &picture, 
     for (const double tick : ticks) {
         const double place = std::round(bar.at(picture.scale.share(tick))) + 0.5;
         painter->setPen(QPen(theme.mutedText, 1.0));
-        const QRectF line = bar.strip(place, place, 6.0, 4.0);
+        const double offset = bar.tickOffset(picture);
+        const QRectF line = bar.strip(place, place, offset, 3.0);
         painter->drawLine(line.topLeft(), bar.isLying ? line.bottomLeft() : line.topRight());
         const QString text = gaugeNumber(tick, decimals);
         const double width = metrics.horizontalAdvance(text);
         if (bar.isLying) {
             const double left = std::clamp(place - width / 2.0, bar.track.left(), bar.track.right() - width);
-            painter->drawText(QPointF(left, bar.track.bottom() + 11.0 + metrics.ascent()), text);
+            painter->drawText(QPointF(left, bar.track.bottom() + offset + 5.0 + metrics.capHeight()), text);
         } else {
             const double baseline = std::clamp(place + metrics.capHeight() / 2.0, bar.track.top() + metrics.capHeight(),
                                                bar.track.bottom());
-            painter->drawText(QPointF(bar.track.right() + 13.0, baseline), text);
+            painter->drawText(QPointF(bar.track.right() + offset + 6.0, baseline), text);
         }
     }
 }
 
-Bar lyingBar(const QRectF &place, double line)
+/// \param scale  height of ticks and their numbers
+Bar lyingBar(const QRectF &place, double scale)
 {
-    const double scale = line + 12.0;
-    const double thickness = std::clamp((place.height() - scale) * 0.4, 8.0, 36.0);
+    const double thickness = std::clamp((place.height() - scale) * 0.25, 6.0, 36.0);
     return {QRectF(place.left() + 2.0, place.bottom() - scale - thickness, place.width() - 4.0, thickness), true};
 }
 
@@ -110,21 +113,47 @@ Bar standingBar(const QRectF &place, double scale, double value)
     return {QRectF(left, place.top() + value + 4.0, thickness, place.height() - value - 8.0), false};
 }
 
+/// The number is what is read first: as large as there is space, at the right end of a bar that lies.
+void paintBarValue(QPainter *painter, const QRectF &place, const GaugePicture &picture, const Theme &theme,
+                   bool isLying)
+{
+    constexpr double tallest = 40.0;  // [px]
+    const double height = std::min(place.height(), tallest);
+    const QRectF row(place.left(), place.bottom() - height, place.width(), height);
+    const double beyond = 0.2 * height;  // figures have nothing above and below them
+    painter->save();
+    QFont bold = painter->font();
+    bold.setWeight(QFont::DemiBold);
+    painter->setFont(bold);
+    const double left
+        = paintValue(painter, row.adjusted(0.0, -beyond, 0.0, beyond), picture, picture.values.first().text,
+                     textColor(picture, theme), isLying ? Qt::AlignRight : Qt::AlignHCenter);
+    painter->restore();
+    if (isLying && !picture.status.isEmpty())
+        paintStatus(painter, QRectF(row.left(), row.top(), left - row.left() - 6.0, row.height()), picture, theme,
+                    Qt::AlignLeft);
+}
+
 }  // namespace
+
+bool isLyingBar(const QRectF &place, const GaugePicture &picture)
+{
+    return picture.style == GaugeStyle::Bar && place.width() > place.height();
+}
 
 void paintBar(QPainter *painter, const QRectF &place, const GaugePicture &picture, const Theme &theme)
 {
     painter->save();
     QFont font = painter->font();
-    font.setPixelSize(11);
+    font.setPixelSize(10);
     const QFontMetricsF metrics(font);
-    const bool isLying = place.width() > place.height();
-    const double line = metrics.height();
+    const bool isLying = isLyingBar(place, picture);
     const double labels = metrics.horizontalAdvance(QStringLiteral("−0000")) + 14.0;
     const double value = std::clamp(place.height() * 0.18, 16.0, 34.0);
-    const Bar bar = isLying ? lyingBar(place, line) : standingBar(place, labels, value);
+    const double scale = (picture.bands.isEmpty() ? 7.0 : 11.0) + metrics.capHeight();
+    const Bar bar = isLying ? lyingBar(place, scale) : standingBar(place, labels, value);
     const QRectF above(place.left(), place.top(), place.width(), isLying ? bar.track.top() - place.top() - 4.0 : value);
-    paintValue(painter, above, picture, picture.values.first().text, textColor(picture, theme));
+    paintBarValue(painter, above, picture, theme, isLying);
     painter->setFont(font);
     paintTrack(painter, bar, picture, theme);
     paintScale(painter, bar, picture, theme);

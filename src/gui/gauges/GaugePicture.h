@@ -28,6 +28,7 @@ struct GaugePicture
     GaugeStyle style = GaugeStyle::Dial;
     QString message;  // what is missing; then nothing else is shown
     QString name;
+    bool showsName = true;  // false where a title says what it is
     QString unit;
     QString status;  // "stale 3.2 s", "▲ High"; empty when all is well
     QVector<Value> values;

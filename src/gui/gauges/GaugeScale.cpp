@@ -8,6 +8,8 @@ namespace qplc {
 
 namespace {
 
+constexpr int mostDigits = 5;  // that anybody reads at a glance
+
 /// The smallest 1, 2, 5 x 10^n that is not below \a value > 0.
 double roundUp(double value)
 {
@@ -66,6 +68,8 @@ QString gaugeNumber(double value, int decimals)
     if (std::isinf(value))
         return sign + QStringLiteral("∞");
     const double size = std::abs(value);
+    const int whole = size < 1.0 ? 1 : int(std::floor(std::log10(size))) + 1;
+    decimals = std::clamp(mostDigits - whole, 0, decimals);
     const QString digits = size < 1e7 ? QString::number(size, 'f', decimals) : QString::number(size, 'e', 2);
     const bool isZero = size < 1e7 && digits.toDouble() == 0.0;
     return isZero ? digits : sign + digits;

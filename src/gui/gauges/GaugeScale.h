@@ -29,7 +29,7 @@ struct GaugeScale
     friend bool operator!=(const GaugeScale &a, const GaugeScale &b) { return !(a == b); }
 };
 
-/// A number of a gauge: always so many decimals, a real minus, "NaN" and "∞" as such; powers of ten beyond 10^7.
+/// A number of a gauge: so many decimals, but no more than five digits in all unless there are more before the point, a real minus, "NaN" and "∞" as such; powers of ten beyond 10^7.
 QString gaugeNumber(double value, int decimals);
 
 }  // namespace qplc

@@ -26,6 +26,8 @@ QPlcGauge::QPlcGauge(QWidget *parent)
         setAccessibleName(d->feed.picture().spoken());
         update();
     });
+    connect(this, &QPlcWidget::titleChanged, this,
+            [this] { d->feed.setNameShown(!QPlcWidget::settings().contains(QStringLiteral("title"))); });
     auto *reset = new QAction(tr("Reset smallest and largest value"), this);
     reset->setShortcut(QKeySequence(int(Qt::CTRL) | int(Qt::Key_R)));
     reset->setShortcutContext(Qt::WidgetWithChildrenShortcut);

@@ -234,6 +234,8 @@ QVariant NodeTableModel::data(const QModelIndex &index, int role) const
     switch (role) {
     case Qt::DisplayRole:
         return text(row, index.column());
+    case Qt::ToolTipRole:
+        return index.column() < LatenessP99 ? text(row, index.column()) : QString();
     case HealthRole:
         return int(healthOf(row));
     case SortRole: {

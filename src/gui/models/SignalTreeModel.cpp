@@ -203,11 +203,16 @@ PlantList::Signal SignalTreeModel::signalOf(const Item *item) const
     return {item->plant, item->signal, item->element};
 }
 
+QPlcValue SignalTreeModel::shownValue(const Item *item) const
+{
+    return m_displayTime ? pastValue(signalOf(item), *m_displayTime) : signalOf(item).value();
+}
+
 /// Takes the present value. \return whether it looks different
 bool SignalTreeModel::renew(Item *item) const
 {
-    const QPlcValue shown = m_displayTime ? pastValue(signalOf(item), *m_displayTime) : signalOf(item).value();
-    const QString value = valueText(shown);
+    const QPlcValue shown = shownValue(item);
+    const QString value = shortValueText(shown);
     const QString age = m_displayTime ? QString() : ageText(item->plant->age());
     const Plant::Quality quality = !m_displayTime ? item->plant->quality()
         : shown.isValid()                         ? Plant::Good
@@ -355,8 +360,9 @@ QVariant SignalTreeModel::toolTip(const Item *item) const
         lines << definition.rangeText() + QLatin1Char(' ') + definition.unit;
     if (!definition.description.isEmpty())
         lines << definition.description;
-    if (!item->value.isEmpty())
-        lines << item->value + QLatin1Char(' ') + definition.unit;
+    const QString value = valueText(shownValue(item));
+    if (!value.isEmpty())
+        lines << value + QLatin1Char(' ') + definition.unit;
     const QString writer = item->plant->writer(item->signal);
     lines << (writer.isEmpty() ? QStringLiteral("written by nobody") : QStringLiteral("written by %1").arg(writer));
     lines << qualityText(item->plant->quality());

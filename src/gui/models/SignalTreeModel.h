@@ -65,6 +65,7 @@ private:
     Item *groupFor(Item *plantItem, const QString &writer);
     ItemPtr makeSignal(Plant *plant, QPlcSignalIndex index) const;
     void refresh();
+    QPlcValue shownValue(const Item *item) const;
     bool renew(Item *item) const;
     void announce(const std::vector<Item *> &changed);
 

@@ -37,23 +37,66 @@ QString numberText(double value, int digits)
     return std::isnan(value) ? QStringLiteral("–") : QString::number(value, 'g', digits);
 }
 
+namespace {
+
+QString timeText(const QPlcValue &value)
+{
+    return value.toDateTime().toLocalTime().toString(QStringLiteral("HH:mm:ss.zzz"));
+}
+
+/// Exponents only where there is no other way.
+QString wholeNumberText(double value, int digits)
+{
+    const double size = std::abs(value);
+    return size >= 1.0 && size < 1e6 ? numberText(value, std::max(digits, int(std::log10(size)) + 1))
+                                     : numberText(value, digits);
+}
+
+QString fittingNumberText(double value)
+{
+    constexpr int mostCharacters = 9;
+    int digits = 6;
+    while (digits > 3 && wholeNumberText(value, digits).size() > mostCharacters)
+        --digits;
+    return wholeNumberText(value, digits);
+}
+
+template<typename ToText>
+QString elementsText(const QPlcValue &value, const ToText &toText)
+{
+    constexpr int mostElements = 16;  // a line is not for matrices
+    const QPlcSignalType type = value.type();
+    QStringList elements;
+    for (int i = 0; i < std::min(type.count(), mostElements); ++i)
+        elements << toText(value.toReal(i));
+    if (type.count() > mostElements)
+        elements << QStringLiteral("… %1 elements").arg(type.count());
+    return QStringLiteral("[%1]").arg(elements.join(QStringLiteral(", ")));
+}
+
+}  // namespace
+
 QString valueText(const QPlcValue &value)
 {
     const QPlcSignalType type = value.type();
     if (type.isDateTime())
-        return value.toDateTime().toLocalTime().toString(QStringLiteral("HH:mm:ss.zzz"));
+        return timeText(value);
     if (!type.isReal())
         return type.isArray() ? QStringLiteral("[%1]").arg(value.toString()) : value.toString();
     const int digits = type.scalar() == QPlcSignalType::Real32 ? 7 : 10;
-    if (!type.isArray())
-        return numberText(value.toReal(), digits);
-    constexpr int mostElements = 16;  // a line is not for matrices
-    QStringList elements;
-    for (int i = 0; i < std::min(type.count(), mostElements); ++i)
-        elements << numberText(value.toReal(i), digits);
-    if (type.count() > mostElements)
-        elements << QStringLiteral("… %1 elements").arg(type.count());
-    return QStringLiteral("[%1]").arg(elements.join(QStringLiteral(", ")));
+    return type.isArray() ? elementsText(value, [digits](double element) { return numberText(element, digits); })
+                          : numberText(value.toReal(), digits);
+}
+
+QString shortValueText(const QPlcValue &value)
+{
+    const QPlcSignalType type = value.type();
+    if (type.isDateTime())
+        return value.isValid() ? timeText(value).chopped(2) : QString();
+    if (!type.isReal())
+        return valueText(value);
+    return type.isArray() ? elementsText(value, [](double element) { return wholeNumberText(element, 3); })
+                          : fittingNumberText(value.toReal());
 }
 
 QString ageText(double seconds)

@@ -17,6 +17,8 @@ QVector<SignalReference> referencesIn(const QMimeData *mimeData);
 
 /// A value as tables show it: 7 digits for Real32, 10 for Real64, elements in brackets, times as local time of the day; empty before the first.
 QString valueText(const QPlcValue &value);
+/// The same in as little space as a tree has: numbers of at most nine characters, 6 digits or as many as fit, elements of 3, times to a tenth of a second; whole digits are never left out.
+QString shortValueText(const QPlcValue &value);
 /// A number with so many significant digits, "–" when it is not there.
 QString numberText(double value, int digits = 7);
 /// "12 ms", "3.4 s", "5 min"; empty when negative.

@@ -10,28 +10,27 @@ namespace qplc {
 namespace {
 
 /// The last row at or before a time that still tells about it.
-std::optional<SignalStore::Row> rowBefore(const Plant &plant, SignalStore::Time time)
+std::optional<SignalStore::Row> rowBefore(const SignalStore &store, double staleAfter, SignalStore::Time time)
 {
-    const SignalStore *store = plant.store();
-    if (!store || store->isEmpty())
+    if (store.isEmpty())
         return std::nullopt;
-    SignalStore::Row row = store->rowAt(time);
-    if (row == store->endRow() || store->time(row) != time) {
-        if (row == store->firstRow())
+    SignalStore::Row row = store.rowAt(time);
+    if (row == store.endRow() || store.time(row) != time) {
+        if (row == store.firstRow())
             return std::nullopt;
         --row;
     }
-    const double age = double(time - store->time(row)) * 1e-9;  // [s]
-    return age <= plant.staleAfter() ? std::optional<SignalStore::Row>(row) : std::nullopt;
+    const double age = double(time - store.time(row)) * 1e-9;  // [s]
+    return age <= staleAfter ? std::optional<SignalStore::Row>(row) : std::nullopt;
 }
 
 }  // namespace
 
 QPlcValue pastValue(const PlantList::Signal &signal, SignalStore::Time time)
 {
-    if (!signal || !signal.definition().type.isNumeric())
+    if (!signal || !signal.definition().type.isNumeric() || !signal.plant->store())
         return {};
-    const std::optional<SignalStore::Row> row = rowBefore(*signal.plant, time);
+    const std::optional<SignalStore::Row> row = rowBefore(*signal.plant->store(), signal.plant->staleAfter(), time);
     if (!row)
         return {};
     const QPlcSignalType type = signal.definition().type;
@@ -48,6 +47,12 @@ QPlcValue pastValue(const PlantList::Signal &signal, SignalStore::Time time)
     }
     const QPlcSignalType shown(type.scalar(), count);
     return QPlcValue::fromBytes(QPlcSignalType(QPlcSignalType::Real64, count), elements.data()).convertedTo(shown);
+}
+
+QPlcValue pastValue(const SignalStore &store, int channel, double staleAfter, SignalStore::Time time)
+{
+    const std::optional<SignalStore::Row> row = rowBefore(store, staleAfter, time);
+    return row ? QPlcValue(double(store.value(channel, *row))) : QPlcValue();
 }
 
 }  // namespace qplc

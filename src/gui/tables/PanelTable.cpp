@@ -85,6 +85,7 @@ void PanelTable::applySettings(const PanelSettings &settings)
         setColumnHidden(column, !isShown && column != m_stretched);
     }
     placeColumns(wanted.toArray());
+    grow();
     stretch();
     m_sortColumn = m_sorting == Sorting::ByHeader ? columnOf(settings.value("sort").toString()) : -1;
     m_order = settings.value("descending").toBool() ? Qt::DescendingOrder : Qt::AscendingOrder;
@@ -113,6 +114,51 @@ void PanelTable::setStretchedColumn(int column, int characters)
 {
     m_stretched = column;
     m_leastWidth = QFontMetrics(font()).averageCharWidth() * characters;
+    stretch();
+}
+
+void PanelTable::setNameColumn(int column)
+{
+    m_delegate->setNameColumn(column);
+}
+
+void PanelTable::setGrowing(const QVector<int> &columns)
+{
+    for (const int column : columns)
+        m_widest.insert(column, 0);
+    // Not in the middle of a change of the model.
+    const auto growLater = [this] { QMetaObject::invokeMethod(this, &PanelTable::grow, Qt::QueuedConnection); };
+    connect(model(), &QAbstractItemModel::rowsInserted, this, growLater);
+    connect(model(), &QAbstractItemModel::dataChanged, this, growLater);
+    connect(model(), &QAbstractItemModel::modelReset, this, growLater);
+    grow();
+}
+
+/// Of texts and title; endless ones are cut.
+int PanelTable::wantedWidth(int column) const
+{
+    constexpr int mostCharacters = 24;
+    const QString title = model()->headerData(column, Qt::Horizontal).toString();
+    // The hint of a header keeps space for an arrow in each column.
+    const int titleWidth = header()->fontMetrics().horizontalAdvance(title) + 12;
+    const int wanted = std::max(sizeHintForColumn(column), titleWidth);
+    return std::min(wanted, QFontMetrics(font()).averageCharWidth() * mostCharacters);
+}
+
+/// What a person has made narrow stays so, until there is something wider.
+void PanelTable::grow()
+{
+    for (auto widest = m_widest.begin(); widest != m_widest.end(); ++widest) {
+        const int column = widest.key();
+        const int wanted = isColumnHidden(column) ? 0 : wantedWidth(column);
+        if (wanted <= *widest)
+            continue;
+        *widest = wanted;
+        if (column == m_stretched)
+            m_leastWidth = std::max(m_leastWidth, wanted);
+        else if (wanted > columnWidth(column))
+            setColumnWidth(column, wanted);
+    }
     stretch();
 }
 
@@ -153,6 +199,7 @@ void PanelTable::writeSettings(PanelSettings *settings) const
 void PanelTable::showColumn(int column, bool isShown)
 {
     setColumnHidden(column, !isShown);
+    grow();
     stretch();
     Q_EMIT settingsEdited();
 }

@@ -3,6 +3,7 @@
 
 #include "TableDelegate.h"
 
+#include <QtCore/QHash>
 #include <QtCore/QJsonArray>
 #include <QtWidgets/QTreeView>
 
@@ -35,6 +36,10 @@ public:
     void setColumns(const QVector<Column> &columns);
     /// This column takes the space that the others leave, and is always there. \param characters  at least so much
     void setStretchedColumn(int column, int characters);
+    /// Names that are too long lose their middle: many differ at their ends.
+    void setNameColumn(int column);
+    /// These columns get wider when a text or the title is wider than all before; for tables of few rows.
+    void setGrowing(const QVector<int> &columns);
     /// Shows and sorts as settings say.
     void applySettings(const PanelSettings &settings);
     /// Writes what is shown and sorted; defaults are left out.
@@ -56,6 +61,8 @@ private:
     void showColumn(int column, bool isShown);
     void placeColumns(const QJsonArray &keys);
     void stretch();
+    void grow();
+    int wantedWidth(int column) const;
     void sortBy(int column);
     QVector<int> shownColumns() const;
     int columnOf(const QString &key) const;
@@ -63,6 +70,7 @@ private:
     TableDelegate *m_delegate;
     Sorting m_sorting;
     QVector<Column> m_columns;
+    QHash<int, int> m_widest;  // [px], of all texts so far, of each column that grows
     int m_stretched = -1;
     int m_leastWidth = 0;  // [px], of the stretched column
     bool m_isPlacing = false;

@@ -33,24 +33,33 @@ TableDelegate::Sign signOf(const QModelIndex &index)
     }
 }
 
-const QVector<PanelTable::Column> columns = {{"plant", 14, false},
-                                             {"node", 14, true},
-                                             {"health", 11, true},
+const QVector<PanelTable::Column> columns = {{"plant", 10, false},
+                                             {"node", 12, true},
+                                             {"health", 8, true},
                                              {"transport", 10, false},
                                              {"address", 18, false},
                                              {"policy", 18, false},
-                                             {"state", 12, true},
-                                             {"latenessP99", 11, true},
-                                             {"executionP50", 12, false},
-                                             {"executionP99", 12, true},
-                                             {"executionMaximum", 13, false},
-                                             {"roundTripP50", 13, false},
-                                             {"roundTripP99", 13, true},
-                                             {"roundTripMaximum", 13, false},
-                                             {"late", 5, true},
-                                             {"lost", 5, true},
+                                             {"state", 7, true},
+                                             {"latenessP99", 8, true},
+                                             {"executionP50", 8, false},
+                                             {"executionP99", 8, true},
+                                             {"executionMaximum", 8, false},
+                                             {"roundTripP50", 8, false},
+                                             {"roundTripP99", 8, true},
+                                             {"roundTripMaximum", 8, false},
+                                             {"late", 3, true},
+                                             {"lost", 3, true},
                                              {"duplicated", 10, false},
                                              {"rejected", 9, false}};
+
+/// Not those with words that come and go: names and figures.
+QVector<int> growingColumns()
+{
+    QVector<int> growing{NodeTableModel::PlantColumn, NodeTableModel::Name, NodeTableModel::Address};
+    for (int column = NodeTableModel::LatenessP99; column < NodeTableModel::ColumnCount; ++column)
+        growing << column;
+    return growing;
+}
 
 }  // namespace
 
@@ -105,7 +114,9 @@ void QPlcNodeTable::contextChanged()
     d->sorted->setSourceModel(new NodeTableModel(context()->plants(), this));
     d->table->setContext(context());
     d->table->setColumns(columns);
+    d->table->setNameColumn(NodeTableModel::Name);
     d->table->setStretchedColumn(NodeTableModel::Name, 12);
+    d->table->setGrowing(growingColumns());
     d->table->applySettings(d->settings);
     addAction(d->table->createColumnMenu(this)->menuAction());
 }

@@ -19,7 +19,7 @@ using namespace qplc;
 namespace {
 
 const QVector<PanelTable::Column> columns
-    = {{"name", 22, true}, {"value", 13, true}, {"unit", 5, true}, {"age", 8, false}, {"description", 40, false}};
+    = {{"name", 22, true}, {"value", 9, true}, {"unit", 4, true}, {"age", 8, false}, {"description", 40, false}};
 
 }  // namespace
 
@@ -45,7 +45,7 @@ QPlcSignalTree::QPlcSignalTree(QWidget *parent)
     d->table = new PanelTable(nullptr, PanelTable::Sorting::None, this);
     d->table->setAccessibleName(tr("Signals"));
     d->table->setRootIsDecorated(true);
-    d->table->setIndentation(14);
+    d->table->setIndentation(12);
     d->table->setDragDropMode(QAbstractItemView::DragOnly);
     d->filter = new SignalFilterModel(this);
     d->table->setModel(d->filter);
@@ -161,6 +161,7 @@ void QPlcSignalTree::contextChanged()
     d->filter->setSourceModel(d->model);
     d->table->setContext(context());
     d->table->setColumns(columns);
+    d->table->setNameColumn(SignalTreeModel::Name);
     d->table->setStretchedColumn(SignalTreeModel::Name, 18);
     d->table->applySettings(d->settings);
     d->expansion = new ExpansionMemory(d->table);

@@ -209,6 +209,7 @@ void QPlcValueTable::contextChanged()
     d->sorted->setSourceModel(d->model);
     d->table->setContext(context());
     d->table->setColumns(columns);
+    d->table->setNameColumn(ValueTableModel::Name);
     d->table->setStretchedColumn(ValueTableModel::Name, 16);
     d->showSignals();
     d->table->applySettings(d->settings);

@@ -60,6 +60,7 @@ void TableDelegate::initStyleOption(QStyleOptionViewItem *option, const QModelIn
     QStyledItemDelegate::initStyleOption(option, index);
     if (option->displayAlignment & Qt::AlignRight)
         option->font = figureFont(option->font);
+    option->textElideMode = index.column() == m_nameColumn ? Qt::ElideMiddle : Qt::ElideRight;
 }
 
 void TableDelegate::paint(QPainter *painter, const QStyleOptionViewItem &option, const QModelIndex &index) const

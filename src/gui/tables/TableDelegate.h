@@ -21,6 +21,8 @@ public:
     /// \param signOf  the sign of a cell; null: none has one
     explicit TableDelegate(SignOf signOf, QObject *parent = nullptr);
     void setContext(WindowContext *context) { m_context = context; }
+    /// Where names differ at their ends: the middle of them is left out. \param column  -1: none
+    void setNameColumn(int column) { m_nameColumn = column; }
 
     void paint(QPainter *painter, const QStyleOptionViewItem &option, const QModelIndex &index) const override;
     QSize sizeHint(const QStyleOptionViewItem &option, const QModelIndex &index) const override;
@@ -30,6 +32,7 @@ protected:
 
 private:
     SignOf m_signOf;
+    int m_nameColumn = -1;
     QPointer<WindowContext> m_context;
 };
 

@@ -114,6 +114,9 @@ void tst_GaugeScale::numbersKeepTheirDecimals_data()
     QTest::newRow("a zero has no sign") << -0.001 << 2 << QStringLiteral("0.00");
     QTest::newRow("integer") << 42.0 << 0 << QStringLiteral("42");
     QTest::newRow("large") << 12345678.0 << 1 << QStringLiteral("1.23e+07");
+    QTest::newRow("five digits") << 1234.5678 << 3 << QStringLiteral("1234.6");
+    QTest::newRow("whole digits stay") << 152204.7 << 3 << QStringLiteral("152205");
+    QTest::newRow("below one") << 0.123456 << 6 << QStringLiteral("0.1235");
     QTest::newRow("not a number") << nan << 2 << QStringLiteral("NaN");
     QTest::newRow("infinite") << -infinity << 2 << QStringLiteral("−∞");
 }

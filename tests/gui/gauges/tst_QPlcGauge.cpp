@@ -97,6 +97,9 @@ private Q_SLOTS:
     void droppedSignalsReplaceTheSignal();
     void withoutAWindowValuesComeByRealTimeout();
     void theEditorChangesAtOnce();
+    void theEditorTakesFormulas();
+    void theNumberOfASmallBarIsLarge();
+    void aTitleStandsForTheName();
     void everyStyleIsDrawnAtEverySize();
 };
 
@@ -386,6 +389,79 @@ void tst_QPlcGauge::theEditorChangesAtOnce()
     editor->findChild<QComboBox *>()->setCurrentIndex(0);
     editor->findChild<QCheckBox *>()->setChecked(false);
     QCOMPARE(gauge.settings(), (QJsonObject{{"signal", "level"}}));
+}
+
+void tst_QPlcGauge::theEditorTakesFormulas()
+{
+    RunningMaster master(gaugeTable());
+    WindowContext context;
+    context.plants()->add(master.address());
+    QPlcGauge gauge;
+    gauge.setContext(&context);
+    QTRY_VERIFY(!context.plants()->at(0)->table().isEmpty());
+    const std::unique_ptr<QWidget> editor(gauge.createSettingsEditor());
+    editor->show();
+    auto *signal = qobject_cast<QLineEdit *>(editor->focusProxy());
+    QTest::keyClicks(signal, QStringLiteral("= 2*level"));
+    QTest::keyClick(signal, Qt::Key_Return);
+    QCOMPARE(gauge.settings(), (QJsonObject{{"signal", "= 2*level"}}));
+    signal->clear();
+    QTest::keyClicks(signal, QStringLiteral("vector"));
+    QTest::keyClick(signal, Qt::Key_Return);
+    QCOMPARE(gauge.settings(), (QJsonObject{{"signal", "vector"}}));
+}
+
+/// Height of what has the colour of texts, above the bar.
+int figureHeight(QPlcGauge *gauge, const QColor &color)
+{
+    const QImage image = gauge->grab().toImage();
+    int first = image.height();
+    int last = -1;
+    for (int y = 0; y < image.height(); ++y) {
+        for (int x = 0; x < image.width(); ++x) {
+            if (image.pixelColor(x, y) != color)
+                continue;
+            first = std::min(first, y);
+            last = y;
+        }
+    }
+    return last - first + 1;
+}
+
+void tst_QPlcGauge::theNumberOfASmallBarIsLarge()
+{
+    QPlcSignalIndexTable::setCurrent(gaugeTable());
+    const Theme theme = Theme::byName(Theme::System);
+    for (const QSize size : {QSize(198, 66), QSize(186, 120)}) {
+        QPlcGauge gauge;
+        gauge.applySettings({{"signal", "level"}, {"style", "bar"}, {"title", "Altitude"}});
+        gauge.resize(size);
+        gauge.show();
+        QPlcSignalList list;
+        list.insert(QStringLiteral("level"), 60.0f);
+        gauge.realTimeout({list});
+        QTRY_VERIFY(gauge.accessibleName().contains(QStringLiteral("60.0")));
+        const int height = figureHeight(&gauge, theme.text);
+        QVERIFY2(height >= 12, qPrintable(QString::number(height)));  // of digits: letters of 16 pixels and more
+    }
+}
+
+void tst_QPlcGauge::aTitleStandsForTheName()
+{
+    QPlcSignalIndexTable::setCurrent(gaugeTable());
+    for (const char *style : {"dial", "bar", "number", "led"}) {
+        QPlcGauge gauge;
+        gauge.resize(200, 90);
+        gauge.applySettings({{"signal", "level"}, {"style", style}});
+        gauge.show();
+        const QImage named = gauge.grab().toImage();
+        gauge.setTitle(QStringLiteral("Altitude"));
+        const QImage titled = gauge.grab().toImage();
+        QVERIFY2(titled != named, style);
+        QVERIFY(gauge.accessibleName().startsWith(QStringLiteral("level")));
+        gauge.setTitle(QString());
+        QCOMPARE(gauge.grab().toImage(), named);
+    }
 }
 
 void tst_QPlcGauge::everyStyleIsDrawnAtEverySize()

@@ -54,6 +54,8 @@ private Q_SLOTS:
     void placeholdersComeToLifeWithTheirSignal();
     void signalsAreDroppedIntoTheTableOnce();
     void textsAreShort();
+    void numbersOfTheTreeFitInNineCharacters_data();
+    void numbersOfTheTreeFitInNineCharacters();
 };
 
 void tst_SignalModels::anEmptyTreeIsAModel()
@@ -312,6 +314,30 @@ void tst_SignalModels::textsAreShort()
     QCOMPARE(durationText(999.7e3), QStringLiteral("1 ms"));
     QCOMPARE(durationText(4.567e6), QStringLiteral("4.57 ms"));
     QCOMPARE(durationText(2e9), QStringLiteral("2 s"));
+}
+
+void tst_SignalModels::numbersOfTheTreeFitInNineCharacters_data()
+{
+    QTest::addColumn<QPlcValue>("value");
+    QTest::addColumn<QString>("expected");
+    QTest::newRow("none") << QPlcValue() << QString();
+    QTest::newRow("zero") << QPlcValue(0.0) << QStringLiteral("0");
+    QTest::newRow("six digits") << QPlcValue(-11.812134) << QStringLiteral("-11.8121");
+    QTest::newRow("small") << QPlcValue(-4.38691e-05) << QStringLiteral("-4.39e-05");
+    QTest::newRow("zeros first") << QPlcValue(0.000161511) << QStringLiteral("0.0001615");
+    QTest::newRow("large") << QPlcValue(-123456789.0) << QStringLiteral("-1.23e+08");
+    QTest::newRow("not a number") << QPlcValue(std::numeric_limits<double>::quiet_NaN()) << QStringLiteral("–");
+    QTest::newRow("integer, in full") << QPlcValue(1234567890) << QStringLiteral("1234567890");
+    QTest::newRow("elements") << QPlcValue({80.32243, -764.9438, 12345.6}) << QStringLiteral("[80.3, -765, 12346]");
+    QTest::newRow("text") << QPlcValue("reel out") << QStringLiteral("reel out");
+    const QDateTime time(QDate(2026, 1, 31), QTime(12, 0, 1, 259));
+    QTest::newRow("time") << QPlcValue(time) << QStringLiteral("12:00:01.2");
+}
+
+void tst_SignalModels::numbersOfTheTreeFitInNineCharacters()
+{
+    QFETCH(QPlcValue, value);
+    QTEST(shortValueText(value), "expected");
 }
 
 QTEST_MAIN(tst_SignalModels)

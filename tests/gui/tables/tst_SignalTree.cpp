@@ -67,6 +67,7 @@ private Q_SLOTS:
     void aSearchUnfoldsAndItsEndFoldsAgain();
     void selectedRowsAreDraggedAsReferences();
     void frozenPlotsShowThePastInTheTree();
+    void namesHaveMostOfANarrowTree();
 };
 
 void tst_SignalTree::settingsComeBackByteForByte()
@@ -215,6 +216,21 @@ void tst_SignalTree::frozenPlotsShowThePastInTheTree()
     QCOMPARE(bench.find("count").siblingAtColumn(SignalTreeModel::Value).data().toString(), expected);
     bench.context.timeView()->goLive();
     QVERIFY(bench.find("count").siblingAtColumn(SignalTreeModel::Value).data().toString() != expected);
+}
+
+void tst_SignalTree::namesHaveMostOfANarrowTree()
+{
+    TreeBench bench;
+    QVERIFY(bench.isThere());
+    const QFontMetrics metrics(bench.view->font());
+    const int figure = metrics.horizontalAdvance(QLatin1Char('0'));
+    const int name = 24 * metrics.averageCharWidth();
+    bench.tree.resize(name + 15 * figure + 24, 420);
+    QTRY_COMPARE(bench.view->viewport()->width(),
+                 bench.view->columnWidth(SignalTreeModel::Name) + bench.view->columnWidth(SignalTreeModel::Value)
+                     + bench.view->columnWidth(SignalTreeModel::Unit));
+    QVERIFY(bench.view->columnWidth(SignalTreeModel::Name) >= name);
+    QVERIFY(bench.view->columnWidth(SignalTreeModel::Value) >= 9 * figure);
 }
 
 QTEST_MAIN(tst_SignalTree)

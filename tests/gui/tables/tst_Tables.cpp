@@ -6,10 +6,12 @@
 #include "gui/models/NodeTableModel.h"
 #include "gui/models/ValueTableModel.h"
 #include "gui/panel/WindowContext.h"
+#include "gui/tables/TableDelegate.h"
 
 #include <QtCore/QJsonArray>
 #include <QtCore/QJsonDocument>
 #include <QtGui/QClipboard>
+#include <QtGui/QStandardItemModel>
 #include <QtWidgets/QAction>
 #include <QtWidgets/QComboBox>
 #include <QtWidgets/QHeaderView>
@@ -101,6 +103,9 @@ private Q_SLOTS:
     void valuesOfThePastSayTheirTime();
     void columnsAreChosenInAMenu();
     void nodesHaveAStopLight();
+    void columnsOfNodesGrowWithTheirTexts();
+    void aLongNameGetsItsSpace();
+    void longNamesLoseTheirMiddle();
     void aWindowWithoutPlantsHasAnEmptyTable();
     void eventsAreFilteredAndAcknowledged();
     void theLogFollowsUnlessSomebodyReads();
@@ -259,6 +264,56 @@ void tst_Tables::nodesHaveAStopLight()
     QVERIFY(!bench.view->grab().isNull());
 }
 
+void tst_Tables::columnsOfNodesGrowWithTheirTexts()
+{
+    Bench<QPlcNodeTable> bench;
+    bench.panel.resize(632, 200);
+    QTRY_COMPARE(bench.cells(NodeTableModel::Health), (QStringList{"OK", "OK", "OK"}));
+    for (const int column : {NodeTableModel::Name, NodeTableModel::RoundTripP99, NodeTableModel::Lost})
+        QTRY_VERIFY(bench.view->columnWidth(column)
+                    >= bench.view->header()->fontMetrics().horizontalAdvance(
+                           bench.view->model()->headerData(column, Qt::Horizontal).toString())
+                        + 8);
+    const int figure = QFontMetrics(bench.view->font()).horizontalAdvance(QLatin1Char('0'));
+    QVERIFY(bench.view->columnWidth(NodeTableModel::RoundTripP99) > 8 * figure + 12);
+    // What a person makes narrow stays so.
+    bench.view->setColumnWidth(NodeTableModel::RoundTripP99, 40);
+    QSignalSpy changes(bench.view->model(), &QAbstractItemModel::dataChanged);
+    QTRY_VERIFY(changes.size() > 2);
+    QCOMPARE(bench.view->columnWidth(NodeTableModel::RoundTripP99), 40);
+}
+
+void tst_Tables::aLongNameGetsItsSpace()
+{
+    Bench<QPlcNodeTable> bench;
+    bench.panel.resize(632, 200);
+    const int before = bench.view->columnWidth(NodeTableModel::Name);
+    const QString name = QStringLiteral("ControlCenterOfTheWinch-329");
+    bench.context.plants()->add(bench.master.address(), QStringLiteral("again"), name);
+    QTRY_VERIFY(bench.cells(NodeTableModel::Name).contains(name));
+    QTRY_VERIFY(bench.view->columnWidth(NodeTableModel::Name) > before);
+}
+
+void tst_Tables::longNamesLoseTheirMiddle()
+{
+    class Open : public TableDelegate
+    {
+    public:
+        using TableDelegate::initStyleOption;
+        using TableDelegate::TableDelegate;
+    };
+    QStandardItemModel model(1, 2);
+    Open delegate(nullptr);
+    QStyleOptionViewItem option;
+    delegate.initStyleOption(&option, model.index(0, 0));
+    QCOMPARE(option.textElideMode, Qt::ElideRight);
+    delegate.setNameColumn(0);
+    delegate.initStyleOption(&option, model.index(0, 0));
+    QCOMPARE(option.textElideMode, Qt::ElideMiddle);
+    delegate.initStyleOption(&option, model.index(0, 1));
+    QCOMPARE(option.textElideMode, Qt::ElideRight);
+}
+
 void tst_Tables::aWindowWithoutPlantsHasAnEmptyTable()
 {
     WindowContext context;
@@ -340,6 +395,7 @@ void tst_Tables::anEventLeadsToItsTime()
     const PlantEvent event = eventOf(PlantEvent::Warning, QStringLiteral("late"));
     context.events()->append(eventOf(PlantEvent::Information, QStringLiteral("begin")));
     context.events()->append(event);
+    context.timeView()->setNewest((event.time.toMSecsSinceEpoch() + 60'000) * 1'000'000);  // there are values of it
     auto *view = log.findChild<QTreeView *>();
     log.applySettings({{"severity", "warning"}});
     view->setFocus();

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "PlantFixtures.h"
+#include "QPlcGauge.h"
+#include "gui/gauges/GaugeFeed.h"
+#include "gui/panel/WindowContext.h"
+
+using namespace qplc;
+
+namespace {
+
+GaugeSettings settingsOf(const QJsonObject &json)
+{
+    PanelSettings settings = GaugeSettings::emptyJson();
+    settings.take(json);
+    return GaugeSettings::from(settings);
+}
+
+/// A running plant, and a feed that shows something calculated.
+class FormulaBench
+{
+public:
+    explicit FormulaBench(const QString &formula, const QJsonObject &more = {})
+    {
+        plant = context.plants()->add(master.address());
+        feed.setContext(&context);
+        QJsonObject json = more;
+        json.insert(QStringLiteral("signal"), formula);
+        feed.setSettings(settingsOf(json));
+        feed.setActive(true);
+    }
+    bool runs()
+    {
+        return master.startRealTime() && QTest::qWaitFor([this] { return rows() > 20; });
+    }
+    int rows() const { return plant->store() ? int(plant->store()->endRow() - plant->store()->firstRow()) : 0; }
+    int channel() const { return plant->values().channels().channel(plant->table().indexOf(QStringLiteral("count"))); }
+    double count(SignalStore::Row row) const { return double(plant->store()->value(channel(), row)); }
+    double shown() const { return feed.picture().values.isEmpty() ? -1.0 : feed.picture().values.first().number; }
+
+    RunningMaster master;
+    WindowContext context;
+    Plant *plant;
+    GaugeFeed feed;
+};
+
+}  // namespace
+
+class tst_GaugeFormula : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void aFormulaIsCalculatedOfSignals();
+    void aFormulaComesToLifeWithItsPlant();
+    void aFormulaShowsThePast();
+    void aFormulaAtRestSaysWhereItsValueIsFrom();
+    void aFormulaNeedsAWindow();
+    void extremesOfAFormulaBeginWithIt();
+};
+
+void tst_GaugeFormula::aFormulaIsCalculatedOfSignals()
+{
+    FormulaBench bench(QStringLiteral("= 1000 + 2*count"));
+    QVERIFY(bench.runs());
+    QTRY_VERIFY(bench.shown() > 1040.0);
+    QCOMPARE(bench.shown(), 1000.0 + 2.0 * bench.count(bench.plant->store()->endRow() - 1));
+    QVERIFY(bench.feed.picture().isTrusted);
+    QCOMPARE(bench.feed.picture().status, QString());
+    QCOMPARE(bench.feed.picture().style, GaugeStyle::Dial);
+    QCOMPARE(bench.feed.definition().name, QStringLiteral("= 1000 + 2*count"));
+    const double before = bench.shown();
+    QTRY_VERIFY(bench.shown() > before + 10.0);
+    QVERIFY(bench.feed.picture().scale.maximum >= 2000.0);
+    bench.feed.setSettings(settingsOf({{"signal", "= norm(vector)"}, {"style", "bar"}}));
+    QTRY_COMPARE(bench.shown(), 0.0);
+    QCOMPARE(bench.feed.picture().style, GaugeStyle::Bar);
+    bench.plant->close();
+    QTRY_VERIFY(bench.feed.picture().status.startsWith(QStringLiteral("stale, ")));
+    QVERIFY(!bench.feed.picture().isTrusted);
+    QCOMPARE(bench.shown(), 0.0);
+}
+
+void tst_GaugeFormula::aFormulaComesToLifeWithItsPlant()
+{
+    WindowContext context;
+    GaugeFeed feed;
+    feed.setContext(&context);
+    feed.setActive(true);
+    feed.setSettings(settingsOf({{"signal", "= 2*count"}}));
+    QVERIFY(feed.picture().message.contains(QStringLiteral("count")));
+    RunningMaster master;
+    Plant *plant = context.plants()->add(master.address());
+    QTRY_COMPARE(feed.picture().message, QString());
+    feed.setSettings(settingsOf({{"signal", "= 2*("}}));
+    QVERIFY(!feed.picture().message.isEmpty());
+    feed.setSettings(settingsOf({{"signal", "= 2*count"}}));
+    QCOMPARE(feed.picture().message, QString());
+    context.plants()->remove(plant);
+    QVERIFY(feed.picture().message.contains(QStringLiteral("count")));
+}
+
+void tst_GaugeFormula::aFormulaShowsThePast()
+{
+    FormulaBench bench(QStringLiteral("= 3*count"));
+    QVERIFY(bench.runs());
+    QTRY_VERIFY(bench.shown() > 60.0);
+    const SignalStore::Row row = bench.plant->store()->firstRow() + 10;
+    const SignalStore::Time time = bench.plant->store()->time(row);
+    bench.context.timeView()->show(time - 1'000'000'000, time);
+    QTRY_COMPARE(bench.shown(), 3.0 * bench.count(row));
+    QVERIFY(bench.feed.picture().status.startsWith(QStringLiteral("at ")));
+    QVERIFY(bench.feed.picture().isTrusted);
+    bench.context.timeView()->show(1'000'000'000, 2'000'000'000);
+    QTRY_VERIFY(bench.feed.picture().status.startsWith(QStringLiteral("no value at ")));
+    QVERIFY(!bench.feed.picture().isTrusted);
+    // What is new gets its past also while time stands still.
+    bench.context.timeView()->show(time - 1'000'000'000, time);
+    bench.feed.setSettings(settingsOf({{"signal", "= 5*count"}}));
+    QTRY_COMPARE(bench.shown(), 5.0 * bench.count(row));
+}
+
+void tst_GaugeFormula::aFormulaAtRestSaysWhereItsValueIsFrom()
+{
+    FormulaBench bench(QStringLiteral("= 2*count"));
+    QTRY_COMPARE(bench.plant->quality(), Plant::AtRest);
+    QTRY_COMPARE(bench.feed.picture().status, QStringLiteral("no value yet"));
+    QVERIFY(!bench.feed.picture().isTrusted);
+    QVERIFY(bench.runs());
+    bench.plant->stop();
+    QTRY_COMPARE(bench.feed.picture().status, QStringLiteral("at rest, last cycle"));
+    QVERIFY(!bench.feed.picture().isTrusted);
+    QCOMPARE(bench.shown(), 2.0 * bench.count(bench.plant->store()->endRow() - 1));
+}
+
+void tst_GaugeFormula::aFormulaNeedsAWindow()
+{
+    QPlcSignalIndexTable::setCurrent(testTable());
+    QPlcGauge gauge;
+    gauge.applySettings({{"signal", "= 2*count"}});
+    gauge.show();
+    QCOMPARE(gauge.inputSignalIndices().size(), 0);
+    QVERIFY(gauge.accessibleName().contains(QStringLiteral("in a window only")));
+}
+
+void tst_GaugeFormula::extremesOfAFormulaBeginWithIt()
+{
+    FormulaBench bench(QStringLiteral("= 2*count"), {{"extremes", true}});
+    QVERIFY(bench.runs());
+    const double begin = bench.count(bench.plant->store()->endRow() - 1);
+    bench.feed.setSettings(settingsOf({{"signal", "= 3*count"}, {"extremes", true}}));
+    QTRY_VERIFY(bench.shown() > 3.0 * begin + 30.0);
+    const GaugePicture::Value value = bench.feed.picture().values.first();
+    QCOMPARE(*value.minimum, 3.0 * begin);
+    QCOMPARE(*value.maximum, value.number);
+    bench.feed.reset();
+    QVERIFY(*bench.feed.picture().values.first().minimum > 3.0 * begin);
+}
+
+QTEST_MAIN(tst_GaugeFormula)
+#include "tst_GaugeFormula.moc"
