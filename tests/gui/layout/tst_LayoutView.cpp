@@ -29,8 +29,6 @@ private Q_SLOTS:
     void renameThatIsOpenWhileThePanelMovesIsForgotten();
     void unknownTypeIsAPlaceholderUntilItsFactoryComes();
     void emptyTabOffersTheWidgets();
-    void tabsAreChosenRenamedMovedAndClosed();
-    void tabIsDraggedByMouse();
     void panelWithTheKeyboardGoesQuietly();
     void keysReachEverything();
     void everythingHasAnAccessibleName();
@@ -328,65 +326,6 @@ void tst_LayoutView::emptyTabOffersTheWidgets()
     QVERIFY(!page->isVisible());
     window.undoAndRedo();
     QVERIFY(page->isVisible());
-}
-
-void tst_LayoutView::tabsAreChosenRenamedMovedAndClosed()
-{
-    Layout layout = threePanels();
-    layout.addTab("Fly & land");
-    layout.setCurrentTab("tab1");
-    ViewFixture window(layout);
-    LayoutTabBar *bar = window.view.tabBar();
-    QCOMPARE(bar->tabText(1), QStringLiteral("Fly && land"));
-    QTest::mouseClick(bar, Qt::LeftButton, {}, bar->tabRect(1).center());
-    QCOMPARE(window.editor.layout().currentTab().id, QStringLiteral("tab2"));
-    QCOMPARE(window.editor.undoStack()->count(), 0);
-    QVERIFY(!window.frame("panel1")->isVisible());
-    window.before = layoutToJson(window.editor.layout());
-
-    QTest::mouseDClick(bar, Qt::LeftButton, {}, bar->tabRect(0).center());
-    auto *edit = bar->findChild<InlineEdit *>();
-    QVERIFY(edit);
-    QTest::keyClicks(edit, "Real time");
-    QTest::keyClick(edit, Qt::Key_Return);
-    QCOMPARE(bar->tabText(0), QStringLiteral("Real time"));
-    window.undoAndRedo();
-    QCOMPARE(bar->tabText(0), QStringLiteral("Tab 1"));
-
-    bar->QTabBar::moveTab(0, 1);
-    QCOMPARE(window.shown(), QStringLiteral("- | H[panel1 V[panel2 panel3]]"));
-    window.undoAndRedo();
-    QCOMPARE(bar->tabText(0), QStringLiteral("Tab 1"));
-    QCOMPARE(bar->currentIndex(), 1);
-
-    QTest::mouseClick(bar->tabButton(0, QTabBar::RightSide), Qt::LeftButton);
-    QCOMPARE(bar->count(), 1);
-    QVERIFY(!window.frame("panel1"));
-    window.undoAndRedo();
-    QCOMPARE(bar->count(), 2);
-    QVERIFY(window.frame("panel1"));
-}
-
-void tst_LayoutView::tabIsDraggedByMouse()
-{
-    Layout layout = threePanels();
-    layout.addTab("Ground station");
-    layout.addTab("Real time");
-    layout.setCurrentTab("tab1");
-    ViewFixture window(layout);
-    LayoutTabBar *bar = window.view.tabBar();
-    const QPoint start = bar->tabRect(0).center();
-    const QPoint end = bar->tabRect(2).center() + QPoint(20, 0);
-    QTest::mousePress(bar, Qt::LeftButton, {}, start);
-    for (int x = start.x(); x <= end.x(); x += 5)
-        moveTo(bar, bar->mapToGlobal({x, start.y()}));
-    release(bar, bar->mapToGlobal(end));
-    QCOMPARE(window.shown(), QStringLiteral("- | - | H[panel1 V[panel2 panel3]]"));
-    QCOMPARE(window.editor.undoStack()->undoText(), QStringLiteral("move of tab 'Tab 1'"));
-    QTRY_COMPARE(bar->tabText(2), QStringLiteral("Tab 1"));
-    window.undoAndRedo();
-    QCOMPARE(bar->tabText(0), QStringLiteral("Tab 1"));
-    QCOMPARE(bar->tabText(2), QStringLiteral("Real time"));
 }
 
 void tst_LayoutView::panelWithTheKeyboardGoesQuietly()
