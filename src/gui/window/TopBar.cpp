@@ -11,6 +11,7 @@ TopBar::TopBar(PlantSelection *selection, WindowContext *context, QWidget *paren
     , m_selector(new PlantSelector(selection, context))
     , m_stepper(new StateStepper(context))
     , m_next(new BarButton(BarButton::Primary, context))
+    , m_control(new ControlNotice(context))
     , m_stop(new BarButton(BarButton::Stop, context))
 {
     setObjectName(QStringLiteral("TopBar"));
@@ -29,7 +30,7 @@ TopBar::TopBar(PlantSelection *selection, WindowContext *context, QWidget *paren
     row->addWidget(m_selector, 1);
     row->addWidget(m_stepper);
     row->addWidget(m_next);
-    row->addStretch(1);
+    row->addWidget(m_control, 1);
     row->addWidget(m_stop);
     addWidget(content);
     QSizePolicy kept = m_next->sizePolicy();

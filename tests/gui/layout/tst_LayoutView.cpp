@@ -19,6 +19,9 @@ private Q_SLOTS:
     void menuDoesWhatItSays_data();
     void menuDoesWhatItSays();
     void menuOffersOnlyWhatIsPossible();
+    void menuBeginsWithWhatTheWidgetCan();
+    void manyActionsOfAWidgetHaveAMenuOfTheirOwn();
+    void aWidgetFindsTheMenuOfItsPanel();
     void movedSplitterHandleIsAStep();
     void widgetsLiveWhileTheirPanelsMove();
     void widgetOfAnotherTypeIsMadeAnew();
@@ -168,6 +171,44 @@ void tst_LayoutView::menuOffersOnlyWhatIsPossible()
         QVERIFY2(!entry(menu.get(), path)->isEnabled(), path);
     for (const char *path : {"Duplicate", "Close", "Settings", "Rename", "Move to tab/New tab"})
         QVERIFY2(entry(menu.get(), path)->isEnabled(), path);
+}
+
+void tst_LayoutView::menuBeginsWithWhatTheWidgetCan()
+{
+    ViewFixture window;
+    auto *own = new QAction(QStringLiteral("Reset the maximum"), window.panel("panel2"));
+    own->setShortcut(Qt::Key_R);
+    window.panel("panel2")->addAction(own);
+    const std::unique_ptr<QMenu> menu(window.frame("panel2")->createMenu());
+    QCOMPARE(menu->actions().at(0), own);
+    QVERIFY(own->isShortcutVisibleInContextMenu());
+    QVERIFY(menu->actions().at(1)->isSeparator());
+    const std::unique_ptr<QMenu> other(window.frame("panel1")->createMenu());  // its widget can nothing
+    QCOMPARE(other->actions().at(0)->text(), QStringLiteral("Split right"));
+}
+
+void tst_LayoutView::manyActionsOfAWidgetHaveAMenuOfTheirOwn()
+{
+    ViewFixture window;
+    for (int i = 0; i < 9; ++i)
+        window.panel("panel2")->addAction(new QAction(QString::number(i), window.panel("panel2")));
+    const std::unique_ptr<QMenu> menu(window.frame("panel2")->createMenu());
+    QCOMPARE(menu->actions().at(0)->text(), QStringLiteral("Gauge"));
+    QCOMPARE(menu->actions().at(0)->menu()->actions(), window.panel("panel2")->actions());
+}
+
+void tst_LayoutView::aWidgetFindsTheMenuOfItsPanel()
+{
+    ViewFixture window;
+    const auto *offered = window.panel("panel2")->findChild<QAction *>("panelMenu", Qt::FindDirectChildrenOnly);
+    QVERIFY(offered && offered->menu());
+    for (int opened = 0; opened < 2; ++opened) {
+        Q_EMIT offered->menu()->aboutToShow();
+        QCOMPARE(offered->menu()->actions().first()->text(), QStringLiteral("Split right"));
+        QCOMPARE(offered->menu()->actions().last(), window.frame("panel2")->closeAction());
+    }
+    entry(offered->menu(), QStringLiteral("Move to tab/New tab"))->trigger();
+    QCOMPARE(window.shown(), QStringLiteral("H[panel1 panel3] | panel2"));
 }
 
 void tst_LayoutView::movedSplitterHandleIsAStep()
