@@ -22,7 +22,7 @@ public:
     bool isToGiveBack() const;
     BarButton *giveBackButton() const { return m_giveBack; }
 
-    QSize sizeHint() const override { return {300, 44}; }
+    QSize sizeHint() const override { return {200, 44}; }
     QSize minimumSizeHint() const override { return {120, 44}; }
 
 Q_SIGNALS:
