@@ -63,7 +63,7 @@ QString ControlFact::headline() const
     case Mine:
         return tr("You control");
     case Lost:
-        return tr("Lost: neutral");
+        return tr("Control is lost: neutral");
     case Others:
         break;
     }

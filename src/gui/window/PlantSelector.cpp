@@ -112,7 +112,7 @@ void PlantSelector::drawFigures(QPainter *painter, const QRect &place)
 
 QSize PlantSelector::sizeHint() const
 {
-    return {420, 44};
+    return {400, 44};
 }
 
 QSize PlantSelector::minimumSizeHint() const

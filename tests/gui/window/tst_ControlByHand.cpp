@@ -124,7 +124,7 @@ void tst_ControlByHand::whatIsLostIsToldWithWhatToDo()
     other->takeLease({echo});
     QTRY_VERIFY_WITH_TIMEOUT(!notice->lines().isEmpty(), patience);
     other.reset();
-    QTRY_COMPARE_WITH_TIMEOUT(notice->lines(), (QStringList{QStringLiteral("Lost: neutral"), echo}), patience);
+    QTRY_COMPARE_WITH_TIMEOUT(notice->lines(), (QStringList{QStringLiteral("Control is lost: neutral"), echo}), patience);
     QVERIFY2(notice->toolTip().startsWith(QLatin1String("Control of echo is lost: neutral. "))
                  && notice->toolTip().contains(QLatin1String("give back")),
              qPrintable(notice->toolTip()));
