@@ -197,6 +197,8 @@ QMenu *QPlcTimePlot::Private::createMenu(int curve, std::optional<int> x)
     menu->addSeparator();
     for (const char *name : {"saveTable", "copyTable", "savePicture", "copyPicture"})
         add(name);
+    menu->addSeparator();
+    add("panelMenu");  // of the frame around
     return menu;
 }
 

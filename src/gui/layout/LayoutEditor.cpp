@@ -79,7 +79,7 @@ bool LayoutEditor::push(const Layout &after, const QString &text, MergeKind kind
 {
     if (after == m_layout)
         return false;
-    auto *step = new Step(this, after, kind, mergeKey);
+    auto *step = new Step(this, after, kind, QStringLiteral("%1\n%2").arg(m_series).arg(mergeKey));
     step->setText(text);
     m_stack.push(step);
     return true;

@@ -28,6 +28,8 @@ public:
     void setLayout(const Layout &layout);
     /// Takes another layout as one step that can be undone: \a text for the menu, such as "reset of the layout".
     bool replace(const Layout &layout, const QString &text);
+    /// What was done and what comes are never one step.
+    void separateSteps() { ++m_series; }
     QUndoStack *undoStack() { return &m_stack; }
 
     QString addPanel(const QString &type, const QJsonObject &settings, const LayoutTarget &target);
@@ -66,6 +68,7 @@ private:
     QString quotedTab(const QString &tabId) const;
 
     Layout m_layout;
+    int m_series = 0;
     QUndoStack m_stack;
 };
 

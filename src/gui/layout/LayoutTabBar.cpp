@@ -114,6 +114,7 @@ void LayoutTabBar::showTabs(const Layout &layout)
     }
     setCurrentIndex(indexOf(layout.currentTab().id));
     m_isFollowing = false;
+    updateGeometry();  // a QTabBar that is hidden tells nobody that it wants another width
 }
 
 QString LayoutTabBar::tabIdAt(const QPoint &position) const

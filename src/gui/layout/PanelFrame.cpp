@@ -85,6 +85,7 @@ void PanelFrame::makeContent(const LayoutPanel &panel, const QPlcWidgetFactory *
         return;
     m_widget->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
     m_initialSettings = m_widget->settings();
+    offerMenuToWidget();
     connect(m_widget, &QPlcWidget::settingsEdited, this, &PanelFrame::takeSettings);
     connect(m_widget, &QPlcWidget::titleChanged, this, &PanelFrame::updateTitle);
 }

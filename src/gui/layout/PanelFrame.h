@@ -45,7 +45,7 @@ public:
     QAction *maximizeAction() const { return m_maximize; }
     QAction *closeAction() const { return m_close; }
     QAction *renameAction() const { return m_rename; }
-    /// All that can be done with the panel. The caller owns it.
+    /// All that can be done with the panel: what its widget can, then where it stands. The caller owns it.
     QMenu *createMenu();
 
 Q_SIGNALS:
@@ -69,6 +69,9 @@ private:
     void openSettings();
     void toggleFloating();
     void toggleMaximized();
+    void offerMenuToWidget();
+    void addOwnActions(QMenu *menu);
+    void addPanelActions(QMenu *menu);
     QMenu *createSplitMenu(LayoutSide side, const QString &text, QWidget *parent);
     QMenu *createMoveMenu(QWidget *parent);
     QMenu *createSizeMenu(QWidget *parent);

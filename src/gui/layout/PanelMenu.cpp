@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The context menu of a panel: everything that can be done with it.
 #include "PanelFrame.h"
+#include "QPlcWidget.h"
 #include "QPlcWidgetFactory.h"
 
 #include <QtWidgets/QMenu>
@@ -10,6 +11,42 @@ namespace qplc {
 QMenu *PanelFrame::createMenu()
 {
     auto *menu = new QMenu(this);
+    if (m_widget)
+        addOwnActions(menu);
+    addPanelActions(menu);
+    return menu;
+}
+
+/// What the widget itself can do; in a menu of their own where they are many.
+void PanelFrame::addOwnActions(QMenu *menu)
+{
+    constexpr int most = 8;
+    const QList<QAction *> actions = m_widget->actions();
+    if (actions.isEmpty())
+        return;
+    QMenu *place = actions.size() > most ? menu->addMenu(m_type) : menu;
+    for (QAction *action : actions)
+        action->setShortcutVisibleInContextMenu(true);
+    place->addActions(actions);
+    menu->addSeparator();
+}
+
+/// A widget with a context menu of its own finds that of the panel as an action "panelMenu" among its children. It is no action of the widget: all that is in it has its keys.
+void PanelFrame::offerMenuToWidget()
+{
+    auto *menu = new QMenu(m_widget);
+    connect(menu, &QMenu::aboutToShow, this, [this, menu] {
+        menu->clear();
+        qDeleteAll(menu->findChildren<QMenu *>(QString(), Qt::FindDirectChildrenOnly));
+        addPanelActions(menu);
+    });
+    auto *action = new QAction(tr("Panel"), m_widget);
+    action->setObjectName(QStringLiteral("panelMenu"));
+    action->setMenu(menu);
+}
+
+void PanelFrame::addPanelActions(QMenu *menu)
+{
     menu->addMenu(createSplitMenu(LayoutSide::Right, tr("Split right"), menu));
     menu->addMenu(createSplitMenu(LayoutSide::Below, tr("Split below"), menu));
     menu->addAction(tr("Duplicate"), this, [this] {
@@ -21,7 +58,6 @@ QMenu *PanelFrame::createMenu()
     menu->addActions({m_rename, m_settings, m_float, m_maximize});
     menu->addSeparator();
     menu->addAction(m_close);
-    return menu;
 }
 
 QMenu *PanelFrame::createSplitMenu(LayoutSide side, const QString &text, QWidget *parent)

@@ -84,7 +84,7 @@ QSize BarButton::sizeHint() const
 QColor BarButton::background() const
 {
     const Theme &theme = m_context->theme();
-    const bool isFlat = m_kind == Quiet || m_kind == Link;
+    const bool isFlat = m_kind == Quiet || m_kind == Outlined || m_kind == Link;
     const QColor base = m_kind == Stop ? QColor(0xc3261f) : m_kind == Primary ? theme.accent : theme.window;
     if (isDown())
         return mixed(base, Qt::black, 0.25);
@@ -109,9 +109,10 @@ void BarButton::paintEvent(QPaintEvent * /*event*/)
 {
     QPainter painter(this);
     painter.setRenderHint(QPainter::Antialiasing);
-    painter.setPen(Qt::NoPen);
+    painter.setPen(m_kind == Outlined ? QPen(m_context->theme().mutedText, 1.0) : QPen(Qt::NoPen));
     painter.setBrush(background());
-    painter.drawRoundedRect(QRectF(rect()), radius, radius);
+    const double inset = m_kind == Outlined ? 0.5 : 0.0;
+    painter.drawRoundedRect(QRectF(rect()).adjusted(inset, inset, -inset, -inset), radius, radius);
     const QColor color = isEnabled() ? foreground() : m_context->theme().stale;
     const QFontMetrics textSize(textFont());
     painter.setPen(color);

@@ -13,10 +13,11 @@ class BarButton : public QAbstractButton
     Q_OBJECT
 public:
     enum Kind {
-        Quiet,    // a text
-        Link,     // a text that leads somewhere
-        Primary,  // the next thing to do
-        Stop      // red, always
+        Quiet,     // a text
+        Outlined,  // a text in a frame, where Quiet would not be seen to be a button
+        Link,      // a text that leads somewhere
+        Primary,   // the next thing to do
+        Stop       // red, always
     };
 
     /// \param context  outlives the button

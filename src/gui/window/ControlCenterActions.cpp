@@ -44,6 +44,8 @@ void ControlCenterActions::makePlantMenu()
     start = add(plantMenu, tr("&Start"), tr("F5"));
     stop = add(plantMenu, tr("S&top (Esc Esc)"), tr("Ctrl+."));
     stop->setShortcutContext(Qt::ApplicationShortcut);
+    giveBack = add(plantMenu, tr("&Give back control"), tr("Ctrl+G"));
+    giveBack->setEnabled(false);
     plantMenu->addSeparator();
     startPage = add(plantMenu, tr("Start &page"), tr("Ctrl+Home"));
     quit = add(plantMenu, tr("&Close the window"), tr("Ctrl+Q"));

@@ -33,6 +33,7 @@ public:
     QAction *initialize = nullptr;
     QAction *start = nullptr;
     QAction *stop = nullptr;
+    QAction *giveBack = nullptr;
     QAction *startPage = nullptr;
     QAction *quit = nullptr;
     // View

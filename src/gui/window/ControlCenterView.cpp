@@ -27,6 +27,9 @@ void QPlcControlCenter::Private::connectPlantActions()
     connect(actions->initialize, &QAction::triggered, q, [this] { perform(Plant::Initialize); });
     connect(actions->start, &QAction::triggered, q, [this] { perform(Plant::Start); });
     connect(actions->stop, &QAction::triggered, q, [this] { stop(); });
+    connect(actions->giveBack, &QAction::triggered, q, [this] { giveBackControl(*context.plants()); });
+    connect(topBar->controlNotice(), &ControlNotice::factsChanged, actions->giveBack,
+            [this] { actions->giveBack->setEnabled(topBar->controlNotice()->isToGiveBack()); });
     connect(actions->startPage, &QAction::triggered, q, [this] {
         isStartPageWanted = !isStartPageWanted && context.plants()->size() > 0;
         showPages();
@@ -140,6 +143,10 @@ void QPlcControlCenter::Private::appendActions(QVector<PaletteItem> *items, cons
                                                const QList<QAction *> &all) const
 {
     for (QAction *action : all) {
+        if (action->menu()) {
+            appendActions(items, action->text(), action->menu()->actions());
+            continue;
+        }
         const QString text = action->text().remove(QLatin1Char('&'));
         if (!action->isEnabled() || action->isSeparator() || text.isEmpty() || action == actions->palette)
             continue;
@@ -212,6 +219,7 @@ void QPlcControlCenter::Private::save()
     QSettings settings;
     settings.setValue(keyOf("geometry"), q->saveGeometry());
     settings.setValue(keyOf("state"), q->saveState());
+    settings.setValue(keyOf("signalTree"), QJsonDocument(dock->tree()->settings()).toJson(QJsonDocument::Compact));
     settings.setValue(keyOf("layout"), layoutToJson(editor.layout()));
     settings.setValue(keyOf("theme"), qplc::Theme::nameText(qplc::Theme::Name(int(theme))));
     settings.setValue(keyOf("plants"), plants);
@@ -226,6 +234,7 @@ void QPlcControlCenter::Private::restore()
     q->restoreGeometry(settings.value(keyOf("geometry")).toByteArray());
     if (q->restoreState(settings.value(keyOf("state")).toByteArray()) && q->isStartPageShown())
         showDock(true);
+    dock->tree()->applySettings(QJsonDocument::fromJson(settings.value(keyOf("signalTree")).toByteArray()).object());
     q->setTheme(Theme(int(qplc::Theme::nameOf(settings.value(keyOf("theme")).toString()))));
     const QByteArray layout = settings.value(keyOf("layout")).toByteArray();
     if (!layout.isEmpty() && !shelf.restore(layout))

@@ -10,12 +10,15 @@ namespace qplc {
 
 namespace {
 
+/// Between several keys of one action.
+const QString gap = QStringLiteral("   ");
+
 QString keysOf(const QAction *action)
 {
     QStringList texts;
     for (const QKeySequence &keys : action->shortcuts())
         texts.append(keys.toString(QKeySequence::NativeText));
-    return texts.join(QStringLiteral("   "));
+    return texts.join(gap);
 }
 
 }  // namespace
@@ -70,7 +73,7 @@ QStringList KeysWindow::keys() const
     for (int group = 0; group < m_list->topLevelItemCount(); ++group) {
         const QTreeWidgetItem *head = m_list->topLevelItem(group);
         for (int row = 0; row < head->childCount(); ++row)
-            all.append(head->child(row)->text(1));
+            all += head->child(row)->text(1).split(gap);
     }
     return all;
 }

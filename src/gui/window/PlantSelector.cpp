@@ -25,30 +25,47 @@ PlantSelector::PlantSelector(PlantSelection *selection, WindowContext *context, 
     setFocusPolicy(Qt::TabFocus);
     setCursor(Qt::PointingHandCursor);
     setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
+    m_clock.start();
     auto *timer = new QTimer(this);
     connect(timer, &QTimer::timeout, this, &PlantSelector::follow);
     timer->start(refreshPause);
     connect(selection, &PlantSelection::changed, this, &PlantSelector::follow);
+    connect(selection->plants(), &PlantList::removed, this, [this](Plant *plant) { m_watches.remove(plant); });
     connect(context, &WindowContext::themeChanged, this, &PlantSelector::follow);
     connect(this, &QAbstractButton::clicked, this, &PlantSelector::openMenu);
     follow();
 }
 
+void PlantSelector::watchViolations()
+{
+    const PlantList *plants = m_selection->plants();
+    for (int place = 0; place < plants->size(); ++place) {
+        const Plant *plant = plants->at(place);
+        if (plant->isConnected())
+            m_watches[plant].take(ViolationWatch::totalOf(plant->status()), m_clock.elapsed());
+        else
+            m_watches.remove(plant);
+    }
+}
+
 void PlantSelector::follow()
 {
+    watchViolations();
     const Plant *plant = m_selection->plant();
     QString name = tr("No plant");
-    PlantSummary summary{Tone::Calm, tr("not connected"), tr("Connect to one (Ctrl+O)")};
+    PlantSummary summary{Tone::Calm, tr("not connected"), tr("Connect to one (Ctrl+O)"), {}};
     if (plant) {
         name = plant->name();
-        summary = PlantSummary::of(*plant);
+        summary = PlantSummary::of(*plant, m_watches.value(plant));
     }
     const QColor color = colorOf(m_context->theme(), summary.tone);
-    if (name == m_name && summary.condition == m_headline && summary.figures == m_figures && color == m_color)
+    if (name == m_name && summary.condition == m_headline && summary.figures == m_figures
+        && summary.violations == m_violations && color == m_color)
         return;
     m_name = name;
     m_headline = summary.condition;
     m_figures = summary.figures;
+    m_violations = summary.violations;
     m_color = color;
     setText(QStringLiteral("%1: %2").arg(m_name, m_headline));
     setAccessibleName(tr("Plant %1: %2. %3").arg(m_name, m_headline, m_figures));
@@ -74,9 +91,28 @@ void PlantSelector::openMenu()
     menu->popup(mapToGlobal(QPoint(0, height())));
 }
 
+/// In one colour, but for violations that are new.
+void PlantSelector::drawFigures(QPainter *painter, const QRect &place)
+{
+    const Theme &theme = m_context->theme();
+    const QFontMetrics size = painter->fontMetrics();
+    const QString shown = size.elidedText(m_figures, Qt::ElideRight, place.width());
+    painter->setPen(theme.mutedText);
+    painter->drawText(place, Qt::AlignLeft | Qt::AlignVCenter, shown);
+    const int begin = m_violations.isEmpty() ? -1 : shown.indexOf(m_violations);
+    if (begin < 0)
+        return;
+    QRect part = place;
+    part.setLeft(place.left() + size.horizontalAdvance(shown.left(begin)));
+    painter->fillRect(QRect(part.left(), part.top(), size.horizontalAdvance(m_violations), part.height()),
+                      underMouse() ? theme.window : theme.surface);
+    painter->setPen(theme.warning);
+    painter->drawText(part, Qt::AlignLeft | Qt::AlignVCenter, m_violations);
+}
+
 QSize PlantSelector::sizeHint() const
 {
-    return {420, 44};
+    return {400, 44};
 }
 
 QSize PlantSelector::minimumSizeHint() const
@@ -114,9 +150,7 @@ void PlantSelector::paintEvent(QPaintEvent * /*event*/)
     QFont smaller = font();
     smaller.setPointSizeF(smaller.pointSizeF() * 0.9);
     painter.setFont(smaller);
-    painter.setPen(theme.mutedText);
-    painter.drawText(QRect(textLeft, 23, right - textLeft, 17), Qt::AlignLeft | Qt::AlignVCenter,
-                     QFontMetrics(smaller).elidedText(m_figures, Qt::ElideRight, right - textLeft));
+    drawFigures(&painter, QRect(textLeft, 23, right - textLeft, 17));
     painter.setPen(QPen(theme.mutedText, 1.5));
     painter.drawPolyline(QPolygonF(QVector<QPointF>{{width() - 18.0, height() / 2 - 2.0},
                                                     {width() - 13.5, height() / 2 + 2.5},

@@ -2,8 +2,11 @@
 #pragma once
 
 #include "PlantSelection.h"
+#include "ViolationWatch.h"
 #include "gui/panel/WindowContext.h"
 
+#include <QtCore/QElapsedTimer>
+#include <QtCore/QHash>
 #include <QtWidgets/QAbstractButton>
 
 namespace qplc {
@@ -29,7 +32,9 @@ protected:
 
 private:
     void follow();
+    void watchViolations();
     void openMenu();
+    void drawFigures(QPainter *painter, const QRect &place);
 
     PlantSelection *m_selection;
     WindowContext *m_context;
@@ -37,6 +42,9 @@ private:
     QString m_name;
     QString m_headline;
     QString m_figures;
+    QString m_violations;
+    QHash<const Plant *, ViolationWatch> m_watches;
+    QElapsedTimer m_clock;
     QColor m_color;
 };
 

@@ -17,7 +17,7 @@ QString tr(const char *text)
     return QCoreApplication::translate("PlantSummary", text);
 }
 
-QString figuresOf(const Plant &plant)
+QString figuresOf(const Plant &plant, const ViolationWatch &violations)
 {
     const PlantStatus &status = plant.status();
     QStringList parts;
@@ -26,11 +26,8 @@ QString figuresOf(const Plant &plant)
         parts << tr("%1 Hz").arg(1e9 / period, 0, 'g', 4);
     if (status.lateness.last10s.count > 0)
         parts << tr("jitter %1 p99").arg(durationText(status.lateness.last10s.p99));
-    quint64 violations = status.overruns;
-    for (const NodeStatus &node : status.nodes)
-        violations += node.late;
     if (status.isRunning() && !plant.feed())
-        parts << (violations == 1 ? tr("1 violation") : tr("%1 violations").arg(violations));
+        parts << violations.text();
     if (status.roundTrip.last10s.count > 0)
         parts << tr("link %1").arg(durationText(status.roundTrip.last10s.p50));
     return parts.join(QStringLiteral(" · "));
@@ -40,12 +37,12 @@ PlantSummary withoutConnection(const Plant &plant)
 {
     const QString reason = plant.stateText();
     if (plant.connectionState() == PlantConnection::Connecting)
-        return {Tone::Warning, tr("connecting"), reason};
+        return {Tone::Warning, tr("connecting"), reason, {}};
     const bool wasThere = plant.store() != nullptr;
     const double pause = plant.nextAttempt();
     const QString what = wasThere ? tr("lost") : tr("not there");
     const QString next = pause >= 0.0 ? tr("%1; next attempt in %2 s").arg(what).arg(std::ceil(pause)) : what;
-    return {wasThere ? Tone::Alarm : Tone::Warning, next, reason};
+    return {wasThere ? Tone::Alarm : Tone::Warning, next, reason, {}};
 }
 
 }  // namespace
@@ -65,21 +62,34 @@ QColor colorOf(const Theme &theme, Tone tone)
     return theme.mutedText;
 }
 
-PlantSummary PlantSummary::of(const Plant &plant)
+namespace {
+
+PlantSummary conditionOf(const Plant &plant)
 {
-    if (!plant.isConnected())
-        return withoutConnection(plant);
     switch (plant.quality()) {
     case Plant::Good:
-        return {Tone::Good, tr("live"), figuresOf(plant)};
+        return {Tone::Good, tr("live"), {}, {}};
     case Plant::AtRest:
-        return {Tone::Calm, tr("at rest"), figuresOf(plant)};
+        return {Tone::Calm, tr("at rest"), {}, {}};
     case Plant::Stale:
-        return {Tone::Warning, tr("values stale for %1").arg(ageText(plant.age())), figuresOf(plant)};
+        return {Tone::Warning, tr("values stale for %1").arg(ageText(plant.age())), {}, {}};
     case Plant::NoValue:
         break;
     }
-    return {Tone::Calm, tr("no values yet"), figuresOf(plant)};
+    return {Tone::Calm, tr("no values yet"), {}, {}};
+}
+
+}  // namespace
+
+PlantSummary PlantSummary::of(const Plant &plant, const ViolationWatch &violations)
+{
+    if (!plant.isConnected())
+        return withoutConnection(plant);
+    PlantSummary summary = conditionOf(plant);
+    summary.figures = figuresOf(plant, violations);
+    if (violations.recent() > 0)
+        summary.violations = violations.text();
+    return summary;
 }
 
 QString StateStep::name(Step step)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "ViolationWatch.h"
 #include "gui/panel/Theme.h"
 #include "gui/plant/Plant.h"
 
@@ -15,10 +16,11 @@ QColor colorOf(const Theme &theme, Tone tone);
 struct PlantSummary
 {
     Tone tone;
-    QString condition;  // "live", "at rest", "lost; next attempt in 3 s"
-    QString figures;    // "100 Hz · jitter 41 µs p99 · 0 violations · link 0.12 ms", or why there is no connection
+    QString condition;   // "live", "at rest", "lost; next attempt in 3 s"
+    QString figures;     // "100 Hz · jitter 41 µs p99 · 0 violations · link 0.12 ms", or why there is no connection
+    QString violations;  // the part of the figures that tells of violations, when there were some in the last 10 s
 
-    static PlantSummary of(const Plant &plant);
+    static PlantSummary of(const Plant &plant, const ViolationWatch &violations = {});
 };
 
 /// Where a master is on its way Off -> Initialized -> Real time.

@@ -111,7 +111,7 @@ void QPlcControlCenter::Private::makeBars()
 
     dock = new SignalDock(&context, q);
     q->addDockWidget(Qt::LeftDockWidgetArea, dock);
-    q->resizeDocks({dock}, {290}, Qt::Horizontal);
+    q->resizeDocks({dock}, {330}, Qt::Horizontal);
     q->setCorner(Qt::BottomLeftCorner, Qt::LeftDockWidgetArea);
     dock->toggleViewAction()->setText(tr("Signal tree"));
     dock->toggleViewAction()->setShortcut(tr("Ctrl+B"));

@@ -2,6 +2,11 @@
 #include "SignalDock.h"
 
 #include "QPlcSignalTree.h"
+#include "gui/layout/LayoutIcons.h"
+
+#include <QtWidgets/QHBoxLayout>
+#include <QtWidgets/QLabel>
+#include <QtWidgets/QToolButton>
 
 namespace qplc {
 
@@ -12,6 +17,37 @@ SignalDock::SignalDock(WindowContext *context, QWidget *parent)
     setObjectName(QStringLiteral("SignalDock"));
     m_tree->setContext(context);
     setWidget(m_tree);
+    setTitleBarWidget(createTitle());
+}
+
+/// With the buttons of panels, in place of those of the style, which are hardly seen in dark themes.
+QWidget *SignalDock::createTitle()
+{
+    auto *title = new QWidget(this);
+    auto *row = new QHBoxLayout(title);
+    row->setContentsMargins(6, 2, 4, 0);
+    row->setSpacing(0);
+    row->addWidget(new QLabel(windowTitle()), 1);
+    const auto add = [&](LayoutIcon icon, const QString &text) {
+        auto *button = new QToolButton;
+        button->setIcon(layoutIcon(icon));
+        button->setIconSize({14, 14});
+        button->setFixedSize(20, 20);
+        button->setAutoRaise(true);
+        button->setFocusPolicy(Qt::TabFocus);
+        button->setToolTip(text);
+        button->setAccessibleName(tr("%1: %2").arg(windowTitle(), text));
+        row->addWidget(button);
+        return button;
+    };
+    auto *place = add(LayoutIcon::Float, tr("Float"));
+    connect(place, &QAbstractButton::clicked, this, [this] { setFloating(!isFloating()); });
+    connect(this, &QDockWidget::topLevelChanged, place, [place](bool isFloating) {
+        place->setIcon(layoutIcon(isFloating ? LayoutIcon::Dock : LayoutIcon::Float));
+        place->setToolTip(isFloating ? tr("Dock back") : tr("Float"));
+    });
+    connect(add(LayoutIcon::Close, tr("Close (Ctrl+B)")), &QAbstractButton::clicked, this, &QWidget::close);
+    return title;
 }
 
 void SignalDock::startSearch()

@@ -21,6 +21,8 @@ public:
     void startSearch();
 
 private:
+    QWidget *createTitle();
+
     QPlcSignalTree *m_tree;
 };
 

@@ -62,9 +62,14 @@ QJsonObject SignalPlacer::settingsFor(const QString &type, const QStringList &re
 bool SignalPlacer::addTo(const QString &panelId, const QStringList &references)
 {
     QPlcWidget *widget = m_view->widget(panelId);
-    if (!widget || !widget->addSignals(references))
+    if (!widget)
         return false;
-    m_view->editor()->setPanelSettings(panelId, widget->settings());
+    LayoutEditor *editor = m_view->editor();
+    editor->separateSteps();
+    if (!widget->addSignals(references))
+        return false;
+    editor->setPanelSettings(panelId, widget->settings());  // of panels that did not tell by settingsEdited()
+    editor->separateSteps();
     return true;
 }
 

@@ -11,6 +11,7 @@ TopBar::TopBar(PlantSelection *selection, WindowContext *context, QWidget *paren
     , m_selector(new PlantSelector(selection, context))
     , m_stepper(new StateStepper(context))
     , m_next(new BarButton(BarButton::Primary, context))
+    , m_control(new ControlNotice(context))
     , m_stop(new BarButton(BarButton::Stop, context))
 {
     setObjectName(QStringLiteral("TopBar"));
@@ -26,12 +27,16 @@ TopBar::TopBar(PlantSelection *selection, WindowContext *context, QWidget *paren
     auto *row = new QHBoxLayout(content);
     row->setContentsMargins(6, 4, 6, 4);
     row->setSpacing(14);
-    row->addWidget(m_selector, 1);
+    row->addWidget(m_selector);
     row->addWidget(m_stepper);
     row->addWidget(m_next);
-    row->addStretch(1);
+    row->addWidget(m_control, 1);
     row->addWidget(m_stop);
     addWidget(content);
+    // Nothing in the bar moves when the next thing to do is another one, or none.
+    m_next->setText(Plant::actionText(Plant::Initialize));
+    m_next->setDetail(tr("F4"));
+    m_next->setMinimumWidth(m_next->sizeHint().width());
     QSizePolicy kept = m_next->sizePolicy();
     kept.setRetainSizeWhenHidden(true);
     m_next->setSizePolicy(kept);

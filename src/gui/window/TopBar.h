@@ -2,6 +2,7 @@
 #pragma once
 
 #include "BarButton.h"
+#include "ControlNotice.h"
 #include "PlantSelector.h"
 #include "StateStepper.h"
 
@@ -9,7 +10,7 @@
 
 namespace qplc {
 
-/// What is always there, above everything: the selected plant, where its master is, the one next thing to do, and STOP. It cannot be moved or hidden.
+/// What is always there, above everything: the selected plant, where its master is, the one next thing to do, who controls by hand, and STOP. It cannot be moved or hidden.
 class TopBar : public QToolBar
 {
     Q_OBJECT
@@ -20,6 +21,7 @@ public:
     PlantSelector *selector() const { return m_selector; }
     StateStepper *stepper() const { return m_stepper; }
     BarButton *nextButton() const { return m_next; }
+    ControlNotice *controlNotice() const { return m_control; }
     BarButton *stopButton() const { return m_stop; }
 
 Q_SIGNALS:
@@ -33,6 +35,7 @@ private:
     PlantSelector *m_selector;
     StateStepper *m_stepper;
     BarButton *m_next;
+    ControlNotice *m_control;
     BarButton *m_stop;
 };
 

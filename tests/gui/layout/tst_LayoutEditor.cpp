@@ -16,6 +16,7 @@ private Q_SLOTS:
     void successiveResizesOfOneSplitAreOneStep();
     void resizesOfTwoSplitsAreTwoSteps();
     void successiveSettingsOfOnePanelAreOneStep();
+    void settingsThatAreSeparatedAreTwoSteps();
     void settingsThatComeBackLeaveNoStep();
     void undoShowsTheTabWhereItHappens();
     void undoLeavesWindowsWhereTheyWerePut();
@@ -87,6 +88,19 @@ void tst_LayoutEditor::successiveSettingsOfOnePanelAreOneStep()
     QCOMPARE(editor.undoStack()->count(), 3);
     editor.undoStack()->undo();
     QCOMPARE(editor.layout().panel("panel2")->settings, (QJsonObject{{"limit", 14}}));
+}
+
+void tst_LayoutEditor::settingsThatAreSeparatedAreTwoSteps()
+{
+    LayoutEditor editor(threePanels());
+    editor.setPanelSettings("panel1", {{"gain", 1}});
+    editor.separateSteps();
+    editor.separateSteps();
+    QCOMPARE(editor.undoStack()->count(), 1);  // it is no step itself
+    editor.setPanelSettings("panel1", {{"gain", 2}});
+    QCOMPARE(editor.undoStack()->count(), 2);
+    editor.undoStack()->undo();
+    QCOMPARE(editor.layout().panel("panel1")->settings, (QJsonObject{{"gain", 1}}));
 }
 
 void tst_LayoutEditor::settingsThatComeBackLeaveNoStep()

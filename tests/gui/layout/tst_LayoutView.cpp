@@ -19,6 +19,9 @@ private Q_SLOTS:
     void menuDoesWhatItSays_data();
     void menuDoesWhatItSays();
     void menuOffersOnlyWhatIsPossible();
+    void menuBeginsWithWhatTheWidgetCan();
+    void manyActionsOfAWidgetHaveAMenuOfTheirOwn();
+    void aWidgetFindsTheMenuOfItsPanel();
     void movedSplitterHandleIsAStep();
     void widgetsLiveWhileTheirPanelsMove();
     void widgetOfAnotherTypeIsMadeAnew();
@@ -29,8 +32,6 @@ private Q_SLOTS:
     void renameThatIsOpenWhileThePanelMovesIsForgotten();
     void unknownTypeIsAPlaceholderUntilItsFactoryComes();
     void emptyTabOffersTheWidgets();
-    void tabsAreChosenRenamedMovedAndClosed();
-    void tabIsDraggedByMouse();
     void panelWithTheKeyboardGoesQuietly();
     void keysReachEverything();
     void everythingHasAnAccessibleName();
@@ -170,6 +171,44 @@ void tst_LayoutView::menuOffersOnlyWhatIsPossible()
         QVERIFY2(!entry(menu.get(), path)->isEnabled(), path);
     for (const char *path : {"Duplicate", "Close", "Settings", "Rename", "Move to tab/New tab"})
         QVERIFY2(entry(menu.get(), path)->isEnabled(), path);
+}
+
+void tst_LayoutView::menuBeginsWithWhatTheWidgetCan()
+{
+    ViewFixture window;
+    auto *own = new QAction(QStringLiteral("Reset the maximum"), window.panel("panel2"));
+    own->setShortcut(Qt::Key_R);
+    window.panel("panel2")->addAction(own);
+    const std::unique_ptr<QMenu> menu(window.frame("panel2")->createMenu());
+    QCOMPARE(menu->actions().at(0), own);
+    QVERIFY(own->isShortcutVisibleInContextMenu());
+    QVERIFY(menu->actions().at(1)->isSeparator());
+    const std::unique_ptr<QMenu> other(window.frame("panel1")->createMenu());  // its widget can nothing
+    QCOMPARE(other->actions().at(0)->text(), QStringLiteral("Split right"));
+}
+
+void tst_LayoutView::manyActionsOfAWidgetHaveAMenuOfTheirOwn()
+{
+    ViewFixture window;
+    for (int i = 0; i < 9; ++i)
+        window.panel("panel2")->addAction(new QAction(QString::number(i), window.panel("panel2")));
+    const std::unique_ptr<QMenu> menu(window.frame("panel2")->createMenu());
+    QCOMPARE(menu->actions().at(0)->text(), QStringLiteral("Gauge"));
+    QCOMPARE(menu->actions().at(0)->menu()->actions(), window.panel("panel2")->actions());
+}
+
+void tst_LayoutView::aWidgetFindsTheMenuOfItsPanel()
+{
+    ViewFixture window;
+    const auto *offered = window.panel("panel2")->findChild<QAction *>("panelMenu", Qt::FindDirectChildrenOnly);
+    QVERIFY(offered && offered->menu());
+    for (int opened = 0; opened < 2; ++opened) {
+        Q_EMIT offered->menu()->aboutToShow();
+        QCOMPARE(offered->menu()->actions().first()->text(), QStringLiteral("Split right"));
+        QCOMPARE(offered->menu()->actions().last(), window.frame("panel2")->closeAction());
+    }
+    entry(offered->menu(), QStringLiteral("Move to tab/New tab"))->trigger();
+    QCOMPARE(window.shown(), QStringLiteral("H[panel1 panel3] | panel2"));
 }
 
 void tst_LayoutView::movedSplitterHandleIsAStep()
@@ -328,65 +367,6 @@ void tst_LayoutView::emptyTabOffersTheWidgets()
     QVERIFY(!page->isVisible());
     window.undoAndRedo();
     QVERIFY(page->isVisible());
-}
-
-void tst_LayoutView::tabsAreChosenRenamedMovedAndClosed()
-{
-    Layout layout = threePanels();
-    layout.addTab("Fly & land");
-    layout.setCurrentTab("tab1");
-    ViewFixture window(layout);
-    LayoutTabBar *bar = window.view.tabBar();
-    QCOMPARE(bar->tabText(1), QStringLiteral("Fly && land"));
-    QTest::mouseClick(bar, Qt::LeftButton, {}, bar->tabRect(1).center());
-    QCOMPARE(window.editor.layout().currentTab().id, QStringLiteral("tab2"));
-    QCOMPARE(window.editor.undoStack()->count(), 0);
-    QVERIFY(!window.frame("panel1")->isVisible());
-    window.before = layoutToJson(window.editor.layout());
-
-    QTest::mouseDClick(bar, Qt::LeftButton, {}, bar->tabRect(0).center());
-    auto *edit = bar->findChild<InlineEdit *>();
-    QVERIFY(edit);
-    QTest::keyClicks(edit, "Real time");
-    QTest::keyClick(edit, Qt::Key_Return);
-    QCOMPARE(bar->tabText(0), QStringLiteral("Real time"));
-    window.undoAndRedo();
-    QCOMPARE(bar->tabText(0), QStringLiteral("Tab 1"));
-
-    bar->QTabBar::moveTab(0, 1);
-    QCOMPARE(window.shown(), QStringLiteral("- | H[panel1 V[panel2 panel3]]"));
-    window.undoAndRedo();
-    QCOMPARE(bar->tabText(0), QStringLiteral("Tab 1"));
-    QCOMPARE(bar->currentIndex(), 1);
-
-    QTest::mouseClick(bar->tabButton(0, QTabBar::RightSide), Qt::LeftButton);
-    QCOMPARE(bar->count(), 1);
-    QVERIFY(!window.frame("panel1"));
-    window.undoAndRedo();
-    QCOMPARE(bar->count(), 2);
-    QVERIFY(window.frame("panel1"));
-}
-
-void tst_LayoutView::tabIsDraggedByMouse()
-{
-    Layout layout = threePanels();
-    layout.addTab("Ground station");
-    layout.addTab("Real time");
-    layout.setCurrentTab("tab1");
-    ViewFixture window(layout);
-    LayoutTabBar *bar = window.view.tabBar();
-    const QPoint start = bar->tabRect(0).center();
-    const QPoint end = bar->tabRect(2).center() + QPoint(20, 0);
-    QTest::mousePress(bar, Qt::LeftButton, {}, start);
-    for (int x = start.x(); x <= end.x(); x += 5)
-        moveTo(bar, bar->mapToGlobal({x, start.y()}));
-    release(bar, bar->mapToGlobal(end));
-    QCOMPARE(window.shown(), QStringLiteral("- | - | H[panel1 V[panel2 panel3]]"));
-    QCOMPARE(window.editor.undoStack()->undoText(), QStringLiteral("move of tab 'Tab 1'"));
-    QTRY_COMPARE(bar->tabText(2), QStringLiteral("Tab 1"));
-    window.undoAndRedo();
-    QCOMPARE(bar->tabText(0), QStringLiteral("Tab 1"));
-    QCOMPARE(bar->tabText(2), QStringLiteral("Real time"));
 }
 
 void tst_LayoutView::panelWithTheKeyboardGoesQuietly()

@@ -9,6 +9,7 @@
 #include <QtCore/QSettings>
 #include <QtCore/QTemporaryDir>
 #include <QtTest/QtTest>
+#include <QtWidgets/QAction>
 #include <QtWidgets/QLineEdit>
 
 /// Settings of this test alone.
@@ -49,6 +50,16 @@ struct WindowFixture
     qplc::TopBar *topBar() { return part<qplc::TopBar>(); }
     qplc::Plant *plant(int place = 0) { return window.context()->plants()->at(place); }
     QString hint() { return part<qplc::HintLine>()->text(); }
+    /// Of the window, by its text without mnemonic.
+    QAction *action(const char *text)
+    {
+        for (QAction *each : window.actions()) {
+            if (each->text().remove(QLatin1Char('&')) == QLatin1String(text))
+                return each;
+        }
+        qFatal("the window has no action '%s'", text);
+        return nullptr;
+    }
     WindowStructure structure() { return WindowStructure(&window); }
     /// Presses keys where a person's would go.
     void press(Qt::Key key, Qt::KeyboardModifiers modifiers = Qt::NoModifier)

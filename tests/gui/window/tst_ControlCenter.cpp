@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "QPlcSignalTree.h"
 #include "WindowFixtures.h"
+
+#include <QtCore/QJsonArray>
 
 using namespace qplc;
 
@@ -19,6 +22,7 @@ private Q_SLOTS:
     void barsCannotBeMovedHiddenOrCut();
     void freezingTellsHowFarBehindAndLComesBack();
     void theWindowComesBackAsItWasClosed();
+    void theTreeOfSignalsComesBackAsItWas();
     void withoutRestoreViewNothingIsSaved();
     void themesReachPanelsAndPalette();
     void eventsAreOnTheLineUntilAcknowledged();
@@ -203,6 +207,30 @@ void tst_ControlCenter::theWindowComesBackAsItWasClosed()
     QVERIFY(again.findChild<SignalDock *>()->isHidden());
     QTRY_VERIFY_WITH_TIMEOUT(again.isConnected(QStringLiteral("kite")), patience);
     again.setTheme(QPlcControlCenter::SystemTheme);
+}
+
+void tst_ControlCenter::theTreeOfSignalsComesBackAsItWas()
+{
+    const QString address = QStringLiteral("127.0.0.1:%1").arg(freePort());
+    const QJsonObject settings{{QStringLiteral("search"), QStringLiteral("tether")},
+                               {QStringLiteral("columns"), QJsonArray{QStringLiteral("name"), QStringLiteral("age")}}};
+    {
+        WindowFixture fixture;
+        fixture.window.restoreView();
+        fixture.window.connectToMaster(address);
+        auto *dock = fixture.part<SignalDock>();
+        QCOMPARE(dock->width(), 330);
+        fixture.window.resizeDocks({dock}, {410}, Qt::Horizontal);
+        dock->tree()->applySettings(settings);
+        QTRY_COMPARE(dock->width(), 410);
+        fixture.window.close();
+    }
+    WindowFixture again;
+    again.window.restoreView();
+    auto *dock = again.part<SignalDock>();
+    QTRY_COMPARE(dock->width(), 410);
+    QCOMPARE(dock->tree()->settings(), settings);
+    QCOMPARE(dock->tree()->findChild<QLineEdit *>()->text(), QStringLiteral("tether"));
 }
 
 void tst_ControlCenter::withoutRestoreViewNothingIsSaved()

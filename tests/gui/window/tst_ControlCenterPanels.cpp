@@ -11,6 +11,7 @@
 #include <QtCore/QJsonArray>
 #include <QtWidgets/QFileDialog>
 #include <QtWidgets/QListWidget>
+#include <QtWidgets/QMenu>
 #include <QtWidgets/QTreeView>
 
 using namespace qplc;
@@ -47,6 +48,18 @@ public:
     QVector<int> counts;
 };
 
+bool isInAMenuOfAPanel(const QAction *action)
+{
+    for (const QWidget *each : action->associatedWidgets()) {
+        for (const QWidget *widget = each; qobject_cast<const QMenu *>(each) && widget;
+             widget = widget->parentWidget()) {
+            if (qobject_cast<const PanelFrame *>(widget))
+                return true;
+        }
+    }
+    return false;
+}
+
 }  // namespace
 
 /// Commands, keys, panels and layouts of the window, as a person uses them.
@@ -60,6 +73,8 @@ private Q_SLOTS:
     void thePaletteRunsWhatIsTyped();
     void signalsOfTheTreeArePlottedByEnterAndUndone();
     void droppedSignalsAreSteps();
+    void aDropOnAPanelIsOneStep_data();
+    void aDropOnAPanelIsOneStep();
     void aFileWithAnErrorIsToldInTheWindow();
     void layoutsKeepUnknownKeysAndTypes();
     void valuesReachPanelsThatWantThem();
@@ -83,7 +98,7 @@ void tst_ControlCenterPanels::everyActionHasKeysOrIsInThePalette()
     QMap<QString, QStringList> keys;
     for (const QAction *action : fixture.window.findChildren<QAction *>()) {
         const QString text = action->text().remove(QLatin1Char('&'));
-        if (text.isEmpty() || action->menu() || !action->isEnabled())
+        if (text.isEmpty() || action->menu() || !action->isEnabled() || isInAMenuOfAPanel(action))
             continue;
         palette->line()->setText(text);
         const bool isFound
@@ -177,6 +192,42 @@ void tst_ControlCenterPanels::droppedSignalsAreSteps()
     QCOMPARE(fixture.window.layoutJson(), before);
     fixture.press(Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
     QVERIFY(fixture.window.layoutJson().contains("kite.elevation"));
+}
+
+void tst_ControlCenterPanels::aDropOnAPanelIsOneStep_data()
+{
+    QTest::addColumn<QString>("type");
+    for (const char *type : {"Time plot", "Gauge", "Value table", "Setter"})
+        QTest::newRow(type) << QString::fromLatin1(type);
+}
+
+void tst_ControlCenterPanels::aDropOnAPanelIsOneStep()
+{
+    QFETCH(QString, type);
+    WindowFixture fixture;
+    fixture.window.connectToMaster(QStringLiteral("127.0.0.1:%1").arg(freePort()));
+    auto *view = fixture.part<LayoutView>();
+    LayoutEditor *editor = view->editor();
+    const QString id = editor->addPanel(type, {}, LayoutTarget::inTab(editor->layout().currentTab().id));
+    QVector<QByteArray> states{fixture.window.layoutJson()};
+    const int steps = editor->undoStack()->count();
+    for (const char *signal : {"kite.elevation", "winch.speed", "kite.azimuth"}) {
+        const std::unique_ptr<QMimeData> data = mimeDataOf({SignalReference::fromString(QString::fromLatin1(signal))});
+        PanelFrame *frame = view->frame(id);
+        QDragEnterEvent enter(frame->rect().center(), Qt::CopyAction, data.get(), Qt::LeftButton, Qt::NoModifier);
+        QApplication::sendEvent(frame, &enter);
+        QDropEvent drop(frame->rect().center(), Qt::CopyAction, data.get(), Qt::LeftButton, Qt::NoModifier);
+        QApplication::sendEvent(frame, &drop);
+        states.append(fixture.window.layoutJson());
+        QVERIFY(states.last().contains(signal));
+        QCOMPARE(editor->undoStack()->count(), steps + states.size() - 1);
+    }
+    while (states.size() > 1) {
+        QCOMPARE(fixture.window.layoutJson(), states.takeLast());
+        editor->undoStack()->undo();
+    }
+    QCOMPARE(fixture.window.layoutJson(), states.first());
+    QCOMPARE(editor->layout().panel(id)->settings, QJsonObject());
 }
 
 void tst_ControlCenterPanels::aFileWithAnErrorIsToldInTheWindow()

@@ -26,6 +26,7 @@ private Q_SLOTS:
     void theDefaultLayoutHasSignalsAndRealTime();
     void droppedSignalsBecomeAPlotAtTheZone();
     void spansAreWrittenAsPeopleSayThem();
+    void violationsAreNewForTenSeconds();
     void theBarTellsHowAPlantIs();
 
 private:
@@ -184,6 +185,30 @@ void tst_WindowParts::spansAreWrittenAsPeopleSayThem()
     QCOMPARE(spanText(30'000'000'000), QStringLiteral("30 s"));
     QCOMPARE(spanText(120'000'000'000), QStringLiteral("2 min"));
     QCOMPARE(spanText(7'200'000'000'000), QStringLiteral("2 h"));
+}
+
+void tst_WindowParts::violationsAreNewForTenSeconds()
+{
+    ViolationWatch watch;
+    QCOMPARE(watch.text(), QStringLiteral("0 violations"));
+    watch.take(5, 1000);  // of before the window came
+    QCOMPARE(watch.recent(), quint64(0));
+    QCOMPARE(watch.text(), QStringLiteral("5 violations"));
+    watch.take(5, 2000);
+    watch.take(6, 2250);
+    QCOMPARE(watch.text(), QStringLiteral("1 violation in 10 s"));
+    watch.take(9, 8000);
+    QCOMPARE(watch.text(), QStringLiteral("4 violations in 10 s"));
+    watch.take(9, 12'000);
+    QCOMPARE(watch.recent(), quint64(4));
+    watch.take(9, 12'400);  // the first one was 10.15 s ago
+    QCOMPARE(watch.recent(), quint64(3));
+    watch.take(9, 18'300);
+    QCOMPARE(watch.text(), QStringLiteral("9 violations"));
+    watch.take(2, 18'500);  // another phase
+    QCOMPARE(watch.text(), QStringLiteral("2 violations"));
+    watch.take(2, 1'000'000);
+    QCOMPARE(watch.total(), quint64(2));
 }
 
 void tst_WindowParts::theBarTellsHowAPlantIs()
