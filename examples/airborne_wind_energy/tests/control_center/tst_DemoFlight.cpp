@@ -138,6 +138,7 @@ void tst_DemoFlight::hintOpensWhatTheDemoIsBuiltOf()
     };
     QVERIFY(click("What is this built of?"));
     QVERIFY(visibleButton(window, QStringLiteral("Copy the commands")));
+    QCoreApplication::processEvents();  // it is painted
     QString error;
     QVERIFY2(awe::writeScreenshot(&window, QStringLiteral(AWE_SCREENSHOTS "/awe_parts.png"), &error),
              qPrintable(error));
