@@ -56,8 +56,8 @@ void DemoFlight::connectWindow(const QString &address)
     if (!m_window.plants().contains(m_name))
         m_name = m_window.connectToMaster(address, tr("demo"));
     m_address = address;
-    m_window.showHint(tr("Not real time: the programs of the demo share the processors with all others. "
-                         "'qtplc doctor' says how this computer gets fit for it."),
+    m_window.showHint(tr("Not real time: the demo shares the processors with all other programs. "
+                         "'qtplc doctor' says how to cure that."),
                       &m_partsAction);
     m_watch.start(Watch);
 }
