@@ -90,6 +90,8 @@ public:
 
     /// A big button of the start page, and a command of the window: text, icon, and toolTip, a sentence below the text. \param action  owned by others
     void addStartAction(QAction *action);
+    /// A command at the end of the menu 'Help'. \param action  owned by others
+    void addHelpAction(QAction *action);
     void showStartPage();
     bool isStartPageShown() const;
     /// A line over the panels until it is closed, or another one comes: "Not real time: ..." An empty text closes it.

@@ -2,6 +2,7 @@
 #include "DemoFlight.h"
 
 #include <QtCore/QEvent>
+#include <QtGui/QClipboard>
 
 namespace awe {
 
@@ -16,20 +17,27 @@ DemoFlight::DemoFlight(QPlcControlCenter *window)
     : m_window(*window)
     , m_flyAction(tr("Fly the demo kite"))
     , m_restartAction(tr("Restart the demo kite"))
+    , m_partsAction(tr("What is this built of?"))
+    , m_copyAction(tr("Copy the commands"))
 {
     m_flyAction.setToolTip(tr("Three programs on this computer: nothing real moves"));
     m_restartAction.setToolTip(tr("Ends the programs of the demo and starts them again."));
     m_restartAction.setEnabled(false);
+    m_partsAction.setToolTip(tr("The programs of the demo, and how to start them by hand"));
+    m_partsAction.setEnabled(false);
     const auto begun = [this](void (DemoPlant::*how)()) {
         m_clock.start();
         (m_plant.*how)();
     };
     connect(&m_flyAction, &QAction::triggered, this, [begun] { begun(&DemoPlant::start); });
     connect(&m_restartAction, &QAction::triggered, this, [begun] { begun(&DemoPlant::restart); });
+    connect(&m_partsAction, &QAction::triggered, this, &DemoFlight::showParts);
+    connect(&m_copyAction, &QAction::triggered, this, &DemoFlight::copyCommands);
     connect(&m_plant, &DemoPlant::listening, this, &DemoFlight::connectWindow);
     connect(&m_plant, &DemoPlant::failed, this, &DemoFlight::showFailure);
     connect(&m_watch, &QTimer::timeout, this, &DemoFlight::watch);
     m_window.addStartAction(&m_flyAction);
+    m_window.addHelpAction(&m_partsAction);
     m_window.installEventFilter(this);
 }
 
@@ -42,13 +50,15 @@ void DemoFlight::begin(const QElapsedTimer &clock)
 void DemoFlight::connectWindow(const QString &address)
 {
     m_restartAction.setEnabled(true);
+    m_partsAction.setEnabled(true);
     if (m_address != address)
         disconnectWindow();
     if (!m_window.plants().contains(m_name))
         m_name = m_window.connectToMaster(address, tr("demo"));
     m_address = address;
-    m_window.showHint(tr("Not real time: the programs of the demo share the processors with all others. "
-                         "'qtplc doctor' says how this computer gets fit for it."));
+    m_window.showHint(tr("Not real time: the demo shares the processors with all other programs. "
+                         "'qtplc doctor' says how to cure that."),
+                      &m_partsAction);
     m_watch.start(Watch);
 }
 
@@ -75,6 +85,21 @@ void DemoFlight::showFailure(const QString &sentence)
     m_watch.stop();
     m_window.showHint(sentence, &m_restartAction);
     Q_EMIT failed(sentence);
+}
+
+void DemoFlight::showParts()
+{
+    m_window.showTab(QStringLiteral("Real time"));
+    m_window.showHint(
+        tr("A master and its nodes, ordinary programs that know each other by the names of signals only. By hand:\n%1")
+            .arg(m_plant.commands()),
+        &m_copyAction);
+}
+
+void DemoFlight::copyCommands()
+{
+    QGuiApplication::clipboard()->setText(m_plant.commands() + QLatin1Char('\n'));
+    m_window.showHint(tr("The commands are in the clipboard: paste them into a terminal."));
 }
 
 /// The plant of the demo ends with the program: the window is not to look for it the next time.

@@ -34,6 +34,8 @@ private:
     void disconnectWindow();
     void watch();
     void showFailure(const QString &sentence);
+    void showParts();
+    void copyCommands();
 
     QPlcControlCenter &m_window;
     DemoPlant m_plant;
@@ -41,6 +43,8 @@ private:
     QString m_address;  // to which it is connected
     QAction m_flyAction;
     QAction m_restartAction;
+    QAction m_partsAction;
+    QAction m_copyAction;
     QElapsedTimer m_clock;
     QTimer m_watch;  // until it flies
 };

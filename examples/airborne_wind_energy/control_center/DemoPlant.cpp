@@ -3,6 +3,7 @@
 
 #include <QtCore/QElapsedTimer>
 #include <QtCore/QFileInfo>
+#include <QtCore/QRegularExpression>
 #include <QtPlcCore>
 
 #include <algorithm>
@@ -19,6 +20,17 @@ constexpr int KeptErrors = 64 * 1024;  // [bytes] of what a program says
 const QString masterName = QStringLiteral("awe_master");
 const QString modelName = QStringLiteral("awe_model");
 const QString autopilotName = QStringLiteral("awe_autopilot");
+
+const QString portOption = QStringLiteral("--port=");
+
+/// As one word of a shell.
+QString quoted(QString word)
+{
+    static const QRegularExpression plain(QStringLiteral("^[\\w@%+=:,./-]+$"));
+    if (plain.match(word).hasMatch())
+        return word;
+    return QLatin1Char('\'') + word.replace(QLatin1Char('\''), QLatin1String("'\\''")) + QLatin1Char('\'');
+}
 
 /// "exit code 1", "Killed".
 QString wayOfEnding(const QProcess &process)
@@ -85,6 +97,21 @@ QString DemoPlant::address() const
     return m_isListening ? QStringLiteral("127.0.0.1:%1").arg(m_port) : QString();
 }
 
+QString DemoPlant::commands() const
+{
+    if (!isRunning())
+        return {};
+    QString text = QStringLiteral("cd ") + quoted(m_folder.absolutePath());
+    for (const std::unique_ptr<Program> &program : m_programs) {
+        text += QStringLiteral("\n./") + program->name;
+        for (const QString &argument : program->process.arguments())
+            text += QLatin1Char(' ')
+                + quoted(argument.startsWith(portOption) ? portOption + QString::number(m_port) : argument);
+        text += QStringLiteral(" &");
+    }
+    return text;
+}
+
 void DemoPlant::start()
 {
     if (m_hasFailed)
@@ -149,7 +176,7 @@ void DemoPlant::startMaster()
     m_isRestarting = false;
     m_hasFailed = false;
     run(masterName,
-        {QStringLiteral("--real-time"), QStringLiteral("--stay"), QStringLiteral("--port=%1").arg(m_port),
+        {QStringLiteral("--real-time"), QStringLiteral("--stay"), portOption + QString::number(m_port),
          QStringLiteral("--start-with=Model,Autopilot")});
 }
 

@@ -33,6 +33,8 @@ public:
     bool isRunning() const { return !m_programs.empty(); }
     /// Of the master, "127.0.0.1:41234"; empty before it listens.
     QString address() const;
+    /// What a person would type in a shell for the programs that run, a line for each of them; empty when none does.
+    QString commands() const;
 
 Q_SIGNALS:
     void listening(const QString &address);

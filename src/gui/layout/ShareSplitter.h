@@ -27,6 +27,7 @@ private:
 
     LayoutSpan m_span;
     QVector<int> m_shares;
+    bool m_isApplied = false;  // else sizes follow the hints of the parts as soon as the splitter is shown
 };
 
 }  // namespace qplc

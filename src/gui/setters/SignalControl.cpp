@@ -68,8 +68,10 @@ void SignalControl::resolve()
     m_resolved.clear();
     for (const SignalReference &reference : qAsConst(m_references))
         m_resolved.append(m_plants ? m_plants->resolve(reference) : PlantList::Signal());
+    const bool isOther = assess();  // who hears of other signals sees what is true of them
     Q_EMIT signalsChanged();
-    judge();
+    if (isOther)
+        Q_EMIT changed();
 }
 
 SignalControl::State SignalControl::stateOf(const PlantList::Signal &signal, QStringList *who) const
@@ -90,6 +92,13 @@ SignalControl::State SignalControl::stateOf(const PlantList::Signal &signal, QSt
 
 void SignalControl::judge()
 {
+    if (assess())
+        Q_EMIT changed();
+}
+
+/// \return whether state(), who() or text() are other ones
+bool SignalControl::assess()
+{
     const State stateBefore = m_state;
     const QStringList whoBefore = m_who;
     const QString plantTextBefore = m_plantText;
@@ -109,8 +118,7 @@ void SignalControl::judge()
     }
     m_who.removeAll(QString());
     m_who.removeDuplicates();
-    if (m_state != stateBefore || m_who != whoBefore || m_plantText != plantTextBefore)
-        Q_EMIT changed();
+    return m_state != stateBefore || m_who != whoBefore || m_plantText != plantTextBefore;
 }
 
 bool SignalControl::mayTake() const

@@ -67,6 +67,7 @@ private:
     void listenTo(Plant *plant);
     void resolve();
     void judge();
+    bool assess();
     State stateOf(const PlantList::Signal &signal, QStringList *who) const;
     QString firstMissing() const;
     QHash<Plant *, QStringList> namesByPlant() const;

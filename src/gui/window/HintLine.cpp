@@ -39,6 +39,7 @@ void HintLine::showText(const QString &text, QAction *remedy)
     if (remedy)
         m_button->setText(remedy->text());
     m_label->setText(text);
+    m_label->setMinimumHeight(m_label->fontMetrics().lineSpacing() * (int(text.count(QLatin1Char('\n'))) + 1));
     setAccessibleName(text);
     setVisible(!text.isEmpty());
 }

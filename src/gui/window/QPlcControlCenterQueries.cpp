@@ -2,6 +2,8 @@
 // What programs ask of the window that nobody looks at: a demo, a screenshot.
 #include "QPlcControlCenterPrivate.h"
 
+#include <QtWidgets/QMenu>
+
 using namespace qplc;
 
 bool QPlcControlCenter::isLive(const QString &plant) const
@@ -19,6 +21,12 @@ bool QPlcControlCenter::showTab(const QString &name)
         }
     }
     return false;
+}
+
+void QPlcControlCenter::addHelpAction(QAction *action)
+{
+    d->actions->helpMenu->addAction(action);
+    addAction(action);
 }
 
 void QPlcControlCenter::showHint(const QString &text, QAction *remedy)

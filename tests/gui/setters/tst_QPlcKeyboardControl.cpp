@@ -53,6 +53,8 @@ private Q_SLOTS:
     void whatEndsTheHandleIsNeutralAtOnce();
     void aKilledConnectionIsNeutralByTheMaster();
     void someoneElseIsShownAndTakenFromOnlyAfterAQuestion();
+    void aPlantThatIsLetGoIsMissing_data();
+    void aPlantThatIsLetGoIsMissing();
     void keysAreEdited();
     void withoutPlantOrKeysThePanelIsCalm();
 };
@@ -181,6 +183,33 @@ void tst_QPlcKeyboardControl::someoneElseIsShownAndTakenFromOnlyAfterAQuestion()
     QTest::mouseClick(buttonOf(&panel, QStringLiteral("Take over")), Qt::LeftButton);
     QTRY_VERIFY(second.isMine(echo));
     QTRY_VERIFY(!first.isMine(echo));
+}
+
+void tst_QPlcKeyboardControl::aPlantThatIsLetGoIsMissing_data()
+{
+    QTest::addColumn<bool>("isMine");
+    QTest::newRow("written by a node") << false;
+    QTest::newRow("under control") << true;
+}
+
+void tst_QPlcKeyboardControl::aPlantThatIsLetGoIsMissing()
+{
+    QFETCH(bool, isMine);
+    FlyingMaster master;
+    QVERIFY(master.startRealTime());
+    Pilot pilot(master);
+    QVERIFY(pilot.begin());
+    if (isMine) {
+        QTest::keyPress(&pilot.panel, Qt::Key_Left);
+        QTRY_COMPARE(master.valueOf(echo), -3.0);
+    } else {
+        QTest::mouseClick(buttonOf(&pilot.panel, QStringLiteral("Give back")), Qt::LeftButton);
+        QTRY_VERIFY(buttonOf(&pilot.panel, QStringLiteral("Take control")));
+    }
+    PlantList *plants = pilot.window.context.plants();
+    plants->remove(plants->at(0));
+    QVERIFY(!buttonOf(&pilot.panel, QStringLiteral("Take control")));
+    QVERIFY(!buttonOf(&pilot.panel, QStringLiteral("Give back")));
 }
 
 void tst_QPlcKeyboardControl::keysAreEdited()

@@ -5,6 +5,7 @@
 
 #include <QtCore/QFile>
 #include <QtCore/QTemporaryDir>
+#include <QtGui/QClipboard>
 #include <QtTest/QtTest>
 #include <QtWidgets/QAbstractButton>
 
@@ -45,6 +46,7 @@ private Q_SLOTS:
     void oneClickOnTheStartPageFliesTheKite();
     void killedProgramIsToldAndOneClickFliesAgain_data();
     void killedProgramIsToldAndOneClickFliesAgain();
+    void hintOpensWhatTheDemoIsBuiltOf();
     void plantOfTheDemoIsForgottenWhenTheWindowCloses();
 
 private:
@@ -115,6 +117,43 @@ void tst_DemoFlight::killedProgramIsToldAndOneClickFliesAgain()
     QTRY_COMPARE_WITH_TIMEOUT(flying.size(), 2, Program::patience);
     QCOMPARE(window.plants(), QStringList{QStringLiteral("demo")});
     QCOMPARE(failed.size(), 1);
+}
+
+void tst_DemoFlight::hintOpensWhatTheDemoIsBuiltOf()
+{
+    QPlcControlCenter window;
+    awe::DemoFlight demo(&window);
+    QSignalSpy flying(&demo, &awe::DemoFlight::flying);
+    window.resize(1366, 768);
+    window.show();
+    QElapsedTimer clock;
+    clock.start();
+    demo.begin(clock);
+    QVERIFY(flying.wait(Program::patience));
+    const auto click = [&window](const char *text) {
+        QAbstractButton *button = visibleButton(window, QString::fromLatin1(text));
+        if (button)
+            QTest::mouseClick(button, Qt::LeftButton);
+        return button != nullptr;
+    };
+    QVERIFY(click("What is this built of?"));
+    QVERIFY(visibleButton(window, QStringLiteral("Copy the commands")));
+    QCoreApplication::processEvents();  // it is painted
+    QString error;
+    QVERIFY2(awe::writeScreenshot(&window, QStringLiteral(AWE_SCREENSHOTS "/awe_parts.png"), &error),
+             qPrintable(error));
+    QGuiApplication::clipboard()->clear();
+    QVERIFY(click("Copy the commands"));
+    const QStringList lines = QGuiApplication::clipboard()->text().split(QLatin1Char('\n'));
+    QCOMPARE(lines.size(), 5);  // the folder, three programs, and the end of the last line
+    QVERIFY2(lines.at(0).startsWith(QStringLiteral("cd ")), qPrintable(lines.at(0)));
+    const char *const programs[] = {"./awe_master --real-time --stay --port=", "./awe_model --master=udp://127.0.0.1:",
+                                    "./awe_autopilot --master=udp://127.0.0.1:"};
+    for (int i = 0; i < 3; ++i)
+        QVERIFY2(lines.at(i + 1).startsWith(QLatin1String(programs[i]))
+                     && lines.at(i + 1).endsWith(QLatin1String(" &")),
+                 qPrintable(lines.at(i + 1)));
+    QVERIFY(!lines.at(1).contains(QStringLiteral("--port=0")));
 }
 
 void tst_DemoFlight::plantOfTheDemoIsForgottenWhenTheWindowCloses()
