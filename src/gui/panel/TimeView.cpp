@@ -66,7 +66,8 @@ std::optional<TimeView::Time> TimeView::displayTime() const
 {
     if (m_isLive)
         return std::nullopt;
-    return std::min(m_pointer.value_or(m_end), m_newest);
+    const Time wanted = m_pointer.value_or(m_end);
+    return m_newest > 0 ? std::min(wanted, m_newest) : wanted;
 }
 
 void TimeView::setNewest(Time time)
