@@ -29,6 +29,14 @@ GaugeEditor::GaugeEditor(const PanelSettings &settings, const QString &title, co
     connect(extremes, &QCheckBox::toggled, this, [this](bool isOn) { set("extremes", isOn, false); });
 }
 
+/// The line that has the focus loses it only when the settings are no more: it must not write them then.
+GaugeEditor::~GaugeEditor()
+{
+    const QList<QLineEdit *> lines = findChildren<QLineEdit *>();
+    for (QLineEdit *line : lines)
+        line->disconnect(this);
+}
+
 void GaugeEditor::addSignal(QFormLayout *form, PlantList *plants)
 {
     auto *edit = new SignalEdit(plants, SignalEdit::AllSignals, this);

@@ -21,6 +21,7 @@ public:
     /// \param definition  of the present signal, for what an empty field means
     GaugeEditor(const PanelSettings &settings, const QString &title, const QPlcSignalDefinition &definition,
                 PlantList *plants, QWidget *parent = nullptr);
+    ~GaugeEditor() override;
 
 Q_SIGNALS:
     void edited(const qplc::PanelSettings &settings);

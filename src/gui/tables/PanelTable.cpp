@@ -140,7 +140,7 @@ int PanelTable::wantedWidth(int column) const
     constexpr int mostCharacters = 24;
     const QString title = model()->headerData(column, Qt::Horizontal).toString();
     // The hint of a header keeps space for an arrow in each column.
-    const int titleWidth = header()->fontMetrics().horizontalAdvance(title) + 12;
+    const int titleWidth = header()->fontMetrics().horizontalAdvance(title) + 8;
     const int wanted = std::max(sizeHintForColumn(column), titleWidth);
     return std::min(wanted, QFontMetrics(font()).averageCharWidth() * mostCharacters);
 }
