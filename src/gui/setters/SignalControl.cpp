@@ -125,7 +125,7 @@ bool SignalControl::mayTake() const
 {
     const bool isWanted = m_state == Free || m_state == Written || m_state == Lost || m_state == Other;
     return isWanted && std::all_of(m_resolved.begin(), m_resolved.end(), [](const PlantList::Signal &signal) {
-               return signal.plant->hasLeases();
+               return signal && signal.plant->hasLeases();  // a plant may just have gone
            });
 }
 

@@ -39,6 +39,7 @@ private Q_SLOTS:
     void severalFactsAreTwoLinesAndTheRestIsInTheToolTip();
     void ofSeveralPlantsTheNamesAreTold();
     void takingControlMovesNothing();
+    void aSetterOutlivesItsPlant();
 
 private:
     std::unique_ptr<TestSettings> m_settings;
@@ -124,7 +125,8 @@ void tst_ControlByHand::whatIsLostIsToldWithWhatToDo()
     other->takeLease({echo});
     QTRY_VERIFY_WITH_TIMEOUT(!notice->lines().isEmpty(), patience);
     other.reset();
-    QTRY_COMPARE_WITH_TIMEOUT(notice->lines(), (QStringList{QStringLiteral("Control is lost: neutral"), echo}), patience);
+    QTRY_COMPARE_WITH_TIMEOUT(notice->lines(), (QStringList{QStringLiteral("Control is lost: neutral"), echo}),
+                              patience);
     QVERIFY2(notice->toolTip().startsWith(QLatin1String("Control of echo is lost: neutral. "))
                  && notice->toolTip().contains(QLatin1String("give back")),
              qPrintable(notice->toolTip()));
@@ -190,6 +192,19 @@ void tst_ControlByHand::takingControlMovesNothing()
     QTest::qWait(50);
     QCOMPARE(places(), before);
     QCOMPARE(fixture.structure().cutButtons<BarButton>(), QStringList());
+}
+
+void tst_ControlByHand::aSetterOutlivesItsPlant()
+{
+    FlyingMaster master;
+    WindowFixture fixture;
+    fixture.window.connectToMaster(master.address(), QStringLiteral("kite"));
+    auto *view = fixture.part<LayoutView>();
+    const LayoutTarget here = LayoutTarget::inTab(view->editor()->layout().currentTab().id);
+    view->editor()->addPanel(QStringLiteral("Setter"), {{QStringLiteral("signal"), echo}}, here);
+    QTRY_VERIFY_WITH_TIMEOUT(fixture.structure().shows(QStringLiteral("^Take control$")), patience);
+    fixture.window.disconnectFromMaster(QStringLiteral("kite"));
+    QVERIFY(fixture.window.plants().isEmpty());
 }
 
 QTEST_MAIN(tst_ControlByHand)
