@@ -8,6 +8,7 @@
 #include <QtGui/QClipboard>
 #include <QtTest/QtTest>
 #include <QtWidgets/QAbstractButton>
+#include <QtWidgets/QLabel>
 
 #include <csignal>
 
@@ -138,7 +139,11 @@ void tst_DemoFlight::hintOpensWhatTheDemoIsBuiltOf()
     };
     QVERIFY(click("What is this built of?"));
     QVERIFY(visibleButton(window, QStringLiteral("Copy the commands")));
-    QCoreApplication::processEvents();  // it is painted
+    const QLabel *hint = nullptr;
+    for (const QLabel *label : window.findChildren<QLabel *>())
+        hint = label->text().contains(QStringLiteral("./awe_model")) ? label : hint;
+    QVERIFY(hint);
+    QTRY_VERIFY(hint->visibleRegion().boundingRect().height() >= 5 * hint->fontMetrics().lineSpacing());
     QString error;
     QVERIFY2(awe::writeScreenshot(&window, QStringLiteral(AWE_SCREENSHOTS "/awe_parts.png"), &error),
              qPrintable(error));
