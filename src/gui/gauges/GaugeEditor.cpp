@@ -32,9 +32,7 @@ GaugeEditor::GaugeEditor(const PanelSettings &settings, const QString &title, co
 /// The line that has the focus loses it only when the settings are no more: it must not write them then.
 GaugeEditor::~GaugeEditor()
 {
-    const QList<QLineEdit *> lines = findChildren<QLineEdit *>();
-    for (QLineEdit *line : lines)
-        line->disconnect(this);
+    setFocusProxy(nullptr);
 }
 
 void GaugeEditor::addSignal(QFormLayout *form, PlantList *plants)

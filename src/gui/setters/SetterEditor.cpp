@@ -43,6 +43,12 @@ SetterEditor::SetterEditor(const SetterSettings &settings, const PlantList *plan
     addNumber(form, tr("Momentary: held"), &SetterSettings::pressed);
 }
 
+/// The line that has the focus loses it only when the settings are no more: it must not write them then.
+SetterEditor::~SetterEditor()
+{
+    setFocusProxy(nullptr);
+}
+
 void SetterEditor::addNumber(QFormLayout *form, const QString &label, std::optional<double> SetterSettings::*number)
 {
     auto *field = new QLineEdit(this);

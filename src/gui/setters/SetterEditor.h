@@ -17,6 +17,7 @@ class SetterEditor : public QWidget
     Q_OBJECT
 public:
     SetterEditor(const SetterSettings &settings, const PlantList *plants, QWidget *parent = nullptr);
+    ~SetterEditor() override;
 
 Q_SIGNALS:
     void edited(const qplc::SetterSettings &settings);
