@@ -134,7 +134,7 @@ void Journal::tellOverruns()
     if (overruns == m_overruns)
         return;
     tell(JournalEvent::Warning, JournalEvent::Overrun, NodeRegistry::masterName(),
-         QStringLiteral("%1 cycles began a period or more late, %2 were left out, since the last report")
+         QStringLiteral("cycles that began a period or more late since the last report: %1; left out: %2")
              .arg(overruns - m_overruns)
              .arg(skipped - m_skipped));
     m_overruns = overruns;

@@ -58,7 +58,7 @@ JournalEvent ReportLimiter::tell(Thing *thing)
     JournalEvent event = thing->event;
     event.text.prepend(thing->begin);
     if (thing->untold > 1)
-        event.text += QStringLiteral(" (and %1 times since the last report)").arg(thing->untold - 1);
+        event.text += QStringLiteral(" (and %1 more since the last report)").arg(thing->untold - 1);
     thing->untold = 0;
     return event;
 }

@@ -99,12 +99,12 @@ void tst_EventLog::firstReportIsToldAtOnceAndFurtherOnesTogether()
     for (int i = 1; i <= 4; ++i)
         QVERIFY(!limiter.report("late", "cycle ", anEvent(QString::number(7 + i)), i * ms));
     const std::optional<JournalEvent> told = limiter.report("late", "cycle ", anEvent("12"), 1000 * ms);
-    QCOMPARE(told->text, QString("cycle 12 (and 4 times since the last report)"));
+    QCOMPARE(told->text, QString("cycle 12 (and 4 more since the last report)"));
     QCOMPARE(told->source, QString("Winch"));
     QVERIFY(told->severity == JournalEvent::Warning && told->kind == JournalEvent::Late);
     QVERIFY(!limiter.report("late", "cycle ", anEvent("13"), 1999 * ms));
     QCOMPARE(limiter.report("late", "cycle ", anEvent("14"), 2000 * ms)->text,
-             QString("cycle 14 (and 1 times since the last report)"));
+             QString("cycle 14 (and 1 more since the last report)"));
     QCOMPARE(limiter.report("late", "cycle ", anEvent("15"), 9000 * ms)->text, QString("cycle 15"));
 }
 
@@ -124,7 +124,7 @@ void tst_EventLog::whatIsToldTogetherHasTheBeginOfTheFirstAndTheEndOfTheLast()
     limiter.report("set", "2", anEvent(" -> 3"), 2);
     const std::vector<JournalEvent> due = limiter.takeDue(1000 * ms);
     QCOMPARE(int(due.size()), 1);
-    QCOMPARE(due[0].text, QString("1 -> 3 (and 1 times since the last report)"));
+    QCOMPARE(due[0].text, QString("1 -> 3 (and 1 more since the last report)"));
 }
 
 void tst_EventLog::lastReportIsToldWithoutAFurtherOne()

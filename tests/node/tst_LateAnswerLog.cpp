@@ -27,7 +27,7 @@ struct LateLine
 QVector<LateLine> parse(const QStringList &lines)
 {
     static const QRegularExpression pattern(
-        "was late in cycle (\\d+)(?: \\(and (\\d+) times since the last report\\))?");
+        "was late in cycle (\\d+)(?: \\(and (\\d+) more since the last report\\))?");
     QVector<LateLine> parsed;
     for (const QString &line : lines) {
         const QRegularExpressionMatch match = pattern.match(line);
