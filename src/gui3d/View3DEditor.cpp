@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "View3DEditor.h"
+#include "gui/panel/EndOfEditor.h"
 
 #include <QtWidgets/QAction>
 #include <QtWidgets/QCheckBox>
@@ -49,6 +50,11 @@ View3DEditor::View3DEditor(const View3DSettings &settings, QWidget *parent)
         m_settings.kite = m_kite->settings();
         Q_EMIT edited();
     });
+}
+
+View3DEditor::~View3DEditor()
+{
+    disconnectLines(this);
 }
 
 void View3DEditor::addCamera(QFormLayout *form)

@@ -14,6 +14,7 @@ class View3DEditor : public QWidget
     Q_OBJECT
 public:
     explicit View3DEditor(const View3DSettings &settings, QWidget *parent = nullptr);
+    ~View3DEditor() override;
 
     const View3DSettings &settings() const { return m_settings; }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "PlotSettingsEditor.h"
+#include "gui/panel/EndOfEditor.h"
 #include "gui/panel/SignalEdit.h"
 
 #include <QtGui/QDoubleValidator>
@@ -80,6 +81,11 @@ PlotSettingsEditor::PlotSettingsEditor(const PlotSettings &settings, const Plant
     setFocusProxy(add);
     column->addWidget(makeOptions());
     makeCurves();
+}
+
+PlotSettingsEditor::~PlotSettingsEditor()
+{
+    disconnectLines(this);
 }
 
 void PlotSettingsEditor::makeCurves()

@@ -23,6 +23,7 @@ public:
     /// \param plants  for the names of signals; null: without completion
     PlotSettingsEditor(const PlotSettings &settings, const PlantList *plants, const Theme &theme,
                        QWidget *parent = nullptr);
+    ~PlotSettingsEditor() override;
 
     const PlotSettings &settings() const { return m_settings; }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "XyPlotEditor.h"
+#include "gui/panel/EndOfEditor.h"
 
 #include <QtWidgets/QCheckBox>
 #include <QtWidgets/QHBoxLayout>
@@ -44,6 +45,11 @@ XyPlotEditor::XyPlotEditor(const QVector<Expressions> &curves, bool isEqual, QWi
     connect(equal, &QCheckBox::toggled, this, &XyPlotEditor::equalAspectChanged);
     all->addWidget(equal);
     all->addStretch(1);
+}
+
+XyPlotEditor::~XyPlotEditor()
+{
+    disconnectLines(this);
 }
 
 void XyPlotEditor::addRow(const Expressions &expressions)

@@ -21,6 +21,7 @@ public:
     };
 
     XyPlotEditor(const QVector<Expressions> &curves, bool isEqual, QWidget *parent = nullptr);
+    ~XyPlotEditor() override;
 
 Q_SIGNALS:
     void expressionChanged(int curve, const QString &x, const QString &y);

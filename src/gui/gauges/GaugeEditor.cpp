@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "GaugeEditor.h"
 
+#include "gui/panel/EndOfEditor.h"
 #include "gui/panel/SignalEdit.h"
 
 #include <QtGui/QDoubleValidator>
@@ -29,10 +30,9 @@ GaugeEditor::GaugeEditor(const PanelSettings &settings, const QString &title, co
     connect(extremes, &QCheckBox::toggled, this, [this](bool isOn) { set("extremes", isOn, false); });
 }
 
-/// The line that has the focus loses it only when the settings are no more: it must not write them then.
 GaugeEditor::~GaugeEditor()
 {
-    setFocusProxy(nullptr);
+    disconnectLines(this);
 }
 
 void GaugeEditor::addSignal(QFormLayout *form, PlantList *plants)

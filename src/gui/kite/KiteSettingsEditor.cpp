@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "KiteSettingsEditor.h"
+#include "gui/panel/EndOfEditor.h"
 
 #include <QtWidgets/QDoubleSpinBox>
 #include <QtWidgets/QLineEdit>
@@ -22,6 +23,11 @@ KiteSettingsEditor::KiteSettingsEditor(const KiteSettings &settings, QWidget *pa
     addSignal(tr("Elevation and azimuth"), &KiteSettings::positionOrientation);
     addSignal(tr("Aerodynamic force"), &KiteSettings::force);
     addSignal(tr("Tether length"), &KiteSettings::tetherLength);
+}
+
+KiteSettingsEditor::~KiteSettingsEditor()
+{
+    disconnectLines(this);
 }
 
 void KiteSettingsEditor::addSignal(const QString &label, QString KiteSettings::*member)

@@ -17,6 +17,7 @@ class KiteSettingsEditor : public QWidget
     Q_OBJECT
 public:
     explicit KiteSettingsEditor(const KiteSettings &settings, QWidget *parent = nullptr);
+    ~KiteSettingsEditor() override;
 
     const KiteSettings &settings() const { return m_settings; }
     QFormLayout *form() { return m_form; }

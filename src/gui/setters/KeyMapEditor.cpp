@@ -3,6 +3,7 @@
 #include "gui/panel/SignalEdit.h"
 
 #include "KeyButton.h"
+#include "gui/panel/EndOfEditor.h"
 
 #include <QtWidgets/QComboBox>
 #include <QtWidgets/QDoubleSpinBox>
@@ -28,6 +29,11 @@ KeyMapEditor::KeyMapEditor(const ManualBindings &bindings, const PlantList *plan
 {
     m_column->setContentsMargins(0, 0, 0, 0);
     rebuild();
+}
+
+KeyMapEditor::~KeyMapEditor()
+{
+    disconnectLines(this);
 }
 
 void KeyMapEditor::rebuild()

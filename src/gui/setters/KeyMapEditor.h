@@ -21,6 +21,7 @@ class KeyMapEditor : public QWidget
 public:
     /// \param plants  whose signals are offered; null: none
     KeyMapEditor(const ManualBindings &bindings, const PlantList *plants, QWidget *parent = nullptr);
+    ~KeyMapEditor() override;
 
 Q_SIGNALS:
     void edited(const qplc::ManualBindings &bindings);

@@ -3,6 +3,7 @@
 #include "gui/panel/SignalEdit.h"
 
 #include "SetterView.h"
+#include "gui/panel/EndOfEditor.h"
 
 #include <QtGui/QDoubleValidator>
 #include <QtWidgets/QComboBox>
@@ -43,10 +44,9 @@ SetterEditor::SetterEditor(const SetterSettings &settings, const PlantList *plan
     addNumber(form, tr("Momentary: held"), &SetterSettings::pressed);
 }
 
-/// The line that has the focus loses it only when the settings are no more: it must not write them then.
 SetterEditor::~SetterEditor()
 {
-    setFocusProxy(nullptr);
+    disconnectLines(this);
 }
 
 void SetterEditor::addNumber(QFormLayout *form, const QString &label, std::optional<double> SetterSettings::*number)
