@@ -18,6 +18,19 @@ function(qtplc_add_test name)
     endforeach()
 endfunction()
 
+# qtplc_add_screen_test(name target) runs a test program on the screen of a laptop, with OpenGL in software. Servers and drivers keep memory until the end, and take texts
+# without an end: leaks of ours are looked for by the tests without a screen.
+find_program(XVFB_RUN xvfb-run)
+function(qtplc_add_screen_test name target)
+    if(NOT XVFB_RUN)
+        message(STATUS "${name} is not tested on a screen: xvfb-run is missing (Debian: xvfb, xauth)")
+        return()
+    endif()
+    add_test(NAME ${name} COMMAND ${XVFB_RUN} -a -s "-screen 0 1366x768x24" $<TARGET_FILE:${target}>)
+    set_tests_properties(${name} PROPERTIES TIMEOUT 300
+        ENVIRONMENT "QT_QPA_PLATFORM=xcb;QT_FONT_DPI=96;LIBGL_ALWAYS_SOFTWARE=1;ASAN_OPTIONS=detect_leaks=0")
+endfunction()
+
 # qtplc_label_tests(label tst_name ...) gives a label to tests of this directory.
 function(qtplc_label_tests label)
     foreach(name ${ARGN})

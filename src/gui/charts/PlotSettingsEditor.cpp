@@ -94,7 +94,7 @@ void PlotSettingsEditor::makeCurves()
     if (m_grid) {
         QWidget *old = m_curves;
         m_curves = new QWidget(this);
-        layout()->replaceWidget(old, m_curves);
+        delete layout()->replaceWidget(old, m_curves);  // the item that held it
         old->hide();
         old->deleteLater();
     }
