@@ -132,6 +132,7 @@ void tst_ManualControl::heldKeysAreValuesAndReleasedOnesNeutral()
     QVERIFY(window.isMine(setpoint.signal));         // all at once
     QVERIFY(control.press(Qt::Key_Left, false));
     QTRY_COMPARE(master.valueOf(echo.signal), -3.0);
+    QTest::qWait(100);  // answers that are under way
     const int commands = window.done.size();
     for (int i = 0; i < 50; ++i) {
         control.release(Qt::Key_Left, true);
@@ -139,6 +140,7 @@ void tst_ManualControl::heldKeysAreValuesAndReleasedOnesNeutral()
     }
     QVERIFY(control.press(Qt::Key_Right, false));
     QTRY_COMPARE(master.valueOf(echo.signal), 1.0);
+    QTest::qWait(100);
     QCOMPARE(window.done.size(), commands + 1);  // repeated keys are no news
     control.letGo();
     QTRY_COMPARE(master.valueOf(echo.signal), 0.0);
