@@ -31,6 +31,7 @@ MomentaryView::MomentaryView(SetterTarget *target, QWidget *parent)
 MomentaryView::~MomentaryView()
 {
     target().endAction();
+    m_button->disconnect(this);  // it is released when it loses the focus, which is later
 }
 
 double MomentaryView::pressedValue() const
