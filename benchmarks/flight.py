@@ -9,8 +9,10 @@ from pathlib import Path
 
 
 class Flight:
-    def __init__(self, programs):
+    def __init__(self, programs, priority=None):
+        """priority: of the cycles under SCHED_FIFO; None: none"""
         self.programs, self.processes = programs, []
+        self.scheduling = [] if priority is None else [f"--priority={priority}"]
 
     def __enter__(self):
         return self
@@ -40,7 +42,7 @@ class Flight:
         return run.stdout
 
     def begin(self):
-        master = self.start("awe_master", "--real-time", "--port=0")
+        master = self.start("awe_master", "--real-time", "--port=0", *self.scheduling)
         for line in master.stderr:
             port = re.search(r"port (\d+)", line)
             if port:
@@ -48,8 +50,8 @@ class Flight:
         else:
             raise SystemExit("awe_master did not start")
         self.port, self.address = port[1], f"127.0.0.1:{port[1]}"
-        self.start("awe_model", "--master", f"udp://{self.address}")
-        self.start("awe_autopilot", "--master", f"udp://{self.address}")
+        for node in ("awe_model", "awe_autopilot"):
+            self.start(node, "--master", f"udp://{self.address}", *self.scheduling)
         return master
 
     def nodes(self):

@@ -83,10 +83,11 @@ CursorStatistics::Result CursorStatistics::result() const
 
 double CursorStatistics::valueAt(const SignalStore &store, int channel, const Scaling &scaling, Time time)
 {
-    const Row next = store.rowAt(time + 1);
-    if (next == store.firstRow())
+    const std::optional<Row> found = store.rowUpTo(time);
+    if (!found)
         return NAN;
-    const Row row = next - 1;
+    const Row row = *found;
+    const Row next = row + 1;
     const Time age = time - store.time(row);
     const bool hasPeriod = row > store.firstRow() && !store.beginsAnew(row);
     const Time period = hasPeriod ? store.time(row) - store.time(row - 1) : 0;

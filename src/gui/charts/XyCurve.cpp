@@ -77,11 +77,10 @@ SignalStore::Range XyCurve::rangeOf(const CurveSource &source) const
 QPointF XyCurve::dot() const
 {
     const SignalStore &store = *m_x.store;
-    const Row behind = store.rowAt(m_dotTime + 1);
-    if (behind == store.firstRow())
+    const std::optional<Row> row = store.rowUpTo(m_dotTime);
+    if (!row)
         return {NAN, NAN};
-    const Row row = behind - 1;
-    return {double(store.value(m_x.channel, row)), double(Follower(m_y).at(store.time(row)))};
+    return {double(store.value(m_x.channel, *row)), double(Follower(m_y).at(store.time(*row)))};
 }
 
 void XyCurve::readPath(const QwtScaleMap &xMap, const QwtScaleMap &yMap) const

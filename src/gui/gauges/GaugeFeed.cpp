@@ -4,6 +4,7 @@
 #include "QPlcSignalIndexTable.h"
 #include "gui/models/ValueFormat.h"
 #include "gui/panel/WindowContext.h"
+#include "gui/plant/LimitOf.h"
 #include "gui/plot/Formula.h"
 
 #include <algorithm>
@@ -15,11 +16,6 @@ namespace qplc {
 namespace {
 
 constexpr double noNumber = std::numeric_limits<double>::quiet_NaN();
-
-std::optional<double> limitOf(const QPlcValue &value)
-{
-    return value.isValid() ? std::optional<double>(value.toReal()) : std::nullopt;
-}
 
 }  // namespace
 
@@ -61,6 +57,7 @@ void GaugeFeed::setSettings(const GaugeSettings &settings)
 {
     const bool isSame = settings.signal == m_settings.signal;
     m_settings = settings;
+    m_reference = SignalReference::fromString(settings.signal, &m_referenceError);
     m_alarms.clear();
     m_widest.clear();
     if (isSame && m_context)
@@ -106,10 +103,9 @@ void GaugeFeed::resolve()
 /// Without a window: in the table of the process.
 void GaugeFeed::lookUp()
 {
-    const SignalReference reference = SignalReference::fromString(m_settings.signal);
     const QPlcSignalTable table = QPlcSignalIndexTable::current();
     m_definition
-        = table.contains(reference.signal) ? table.at(table.indexOf(reference.signal)) : QPlcSignalDefinition();
+        = table.contains(m_reference.signal) ? table.at(table.indexOf(m_reference.signal)) : QPlcSignalDefinition();
     m_value = QPlcValue();
     begin();
     refresh(Texts::Renew);
@@ -139,8 +135,7 @@ int GaugeFeed::elements() const
 {
     if (!m_definition.type.isNumeric())
         return m_definition.type.isValid() ? 1 : 0;
-    return SignalReference::fromString(m_settings.signal).element == SignalReference::Whole ? m_definition.type.count()
-                                                                                            : 1;
+    return m_reference.element == SignalReference::Whole ? m_definition.type.count() : 1;
 }
 
 bool GaugeFeed::isBoolean() const
@@ -182,7 +177,7 @@ void GaugeFeed::take(const QList<QPlcSignalList> &batch, QPlcSignalIndex index)
             continue;
         m_value = value;
         for (int i = 0; i < elements() && value.type().isNumeric(); ++i) {
-            const double number = value.toReal(std::max(i, SignalReference::fromString(m_settings.signal).element));
+            const double number = value.toReal(std::max(i, m_reference.element));
             include(i, number, number);
         }
     }
@@ -191,7 +186,7 @@ void GaugeFeed::take(const QList<QPlcSignalList> &batch, QPlcSignalIndex index)
 
 QPlcValue GaugeFeed::givenValue() const
 {
-    const int element = SignalReference::fromString(m_settings.signal).element;
+    const int element = m_reference.element;
     return element == SignalReference::Whole || !m_value.isValid() ? m_value : QPlcValue(m_value.toReal(element));
 }
 
@@ -251,9 +246,8 @@ QString GaugeFeed::missingText() const
     const bool isFormula = Formula::isFormula(m_settings.signal);
     if (isFormula && !m_source.isFormula())
         return m_context ? m_source.error() : tr("What is calculated of signals is shown in a window only.");
-    QString error;
-    if (!isFormula && !SignalReference::fromString(m_settings.signal, &error).isValid())
-        return error;
+    if (!isFormula && !m_reference.isValid())
+        return m_referenceError;
     if (m_definition.name.isEmpty())
         return tr("%1\nis not there at the moment. It appears with its plant.").arg(m_settings.signal);
     if (elements() > MostElements)
@@ -275,7 +269,7 @@ void GaugeFeed::showSignal(GaugePicture *picture, bool hasNewTexts)
     if (!m_definition.type.isNumeric() || elements() > 1)
         picture->style = GaugeStyle::Number;
     showValue(picture, value, hasNewTexts);
-    picture->status = statusText();
+    picture->status = statusText(value, time);
     if (value.isValid() && value.type().isNumeric())
         judge(picture, time.has_value());
     m_widest = picture->widest;
@@ -327,16 +321,17 @@ QString GaugeFeed::valueText(double number) const
     return gaugeNumber(number, m_definition.type.isReal() ? scale().decimals() : 0);
 }
 
-QString GaugeFeed::statusText() const
+/// \param time  of the value, when it is a past one
+QString GaugeFeed::statusText(const QPlcValue &value, std::optional<TimeView::Time> time) const
 {
     if (!m_context)
         return m_value.isValid() ? QString() : tr("no value yet");
-    if (const std::optional<TimeView::Time> time = m_context->timeView()->displayTime()) {
+    if (time) {
         const QDateTime shown = QDateTime::fromMSecsSinceEpoch(*time / 1'000'000);
         const QString clock = shown.toString(QStringLiteral("HH:mm:ss.zzz"));
-        return m_source.valueAt(*time).isValid() ? tr("at %1").arg(clock) : tr("no value at %1").arg(clock);
+        return value.isValid() ? tr("at %1").arg(clock) : tr("no value at %1").arg(clock);
     }
-    if (m_source.isFormula() && !m_source.newestValue().isValid())
+    if (m_source.isFormula() && !value.isValid())
         return tr("no value yet");
     switch (m_source.plant()->quality()) {
     case Plant::NoValue:

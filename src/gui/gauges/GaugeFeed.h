@@ -3,9 +3,12 @@
 
 #include "GaugePicture.h"
 #include "GaugeSource.h"
+#include "gui/panel/TimeView.h"
 
 #include <QtCore/QElapsedTimer>
 #include <QtCore/QPointer>
+
+#include <optional>
 
 namespace qplc {
 
@@ -59,7 +62,7 @@ private:
     void showValue(GaugePicture *picture, const QPlcValue &value, bool hasNewTexts);
     void judge(GaugePicture *picture, bool isPast);
     QString missingText() const;
-    QString statusText() const;
+    QString statusText(const QPlcValue &value, std::optional<TimeView::Time> time) const;
     QString valueText(double number) const;
     QPlcValue givenValue() const;
     void extendExtremes();
@@ -71,6 +74,8 @@ private:
 
     QPointer<WindowContext> m_context;
     GaugeSettings m_settings;
+    SignalReference m_reference;  // of the settings; invalid for formulas
+    QString m_referenceError;
     GaugeSource m_source;  // in a window
     QPlcSignalDefinition m_definition;
     QPlcValue m_value;  // what a program gave

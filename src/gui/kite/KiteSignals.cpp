@@ -19,8 +19,6 @@ void KiteSignals::setContext(WindowContext *context)
     m_context = context;
     if (context) {
         connect(context->curveSources(), &CurveSources::changed, this, &KiteSignals::bind);
-        connect(context->plants(), &PlantList::signalsChanged, this, &KiteSignals::bind);
-        connect(context->plants(), &PlantList::removed, this, &KiteSignals::bind);
         connect(context->timeView(), &TimeView::displayTimeChanged, this, &KiteSignals::changed);
         connect(context->timeView(), &TimeView::viewChanged, this, &KiteSignals::changed);
     }
@@ -87,9 +85,9 @@ std::optional<double> KiteSignals::element(const PlantList::Signal &signal, int 
     if (const auto time = pastTime()) {
         const SignalStore *store = signal.plant->store();
         const int channel = signal.plant->values().channels().channel(signal.index, element);
-        const SignalStore::Row behind = store ? store->rowAt(*time + 1) : 0;
-        if (store && channel != ChannelMap::NoChannel && !store->isEmpty() && behind > store->firstRow())
-            value = double(store->value(channel, behind - 1));
+        const std::optional<SignalStore::Row> row = store ? store->rowUpTo(*time) : std::nullopt;
+        if (row && channel != ChannelMap::NoChannel)
+            value = double(store->value(channel, *row));
     } else {
         bool isNumber = false;
         value = signal.plant->value(signal.index).toReal(element, &isNumber);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "PastValue.h"
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -12,16 +11,9 @@ namespace {
 /// The last row at or before a time that still tells about it.
 std::optional<SignalStore::Row> rowBefore(const SignalStore &store, double staleAfter, SignalStore::Time time)
 {
-    if (store.isEmpty())
-        return std::nullopt;
-    SignalStore::Row row = store.rowAt(time);
-    if (row == store.endRow() || store.time(row) != time) {
-        if (row == store.firstRow())
-            return std::nullopt;
-        --row;
-    }
-    const double age = double(time - store.time(row)) * 1e-9;  // [s]
-    return age <= staleAfter ? std::optional<SignalStore::Row>(row) : std::nullopt;
+    const std::optional<SignalStore::Row> row = store.rowUpTo(time);
+    const bool isTrue = row && double(time - store.time(*row)) * 1e-9 <= staleAfter;
+    return isTrue ? row : std::nullopt;
 }
 
 }  // namespace

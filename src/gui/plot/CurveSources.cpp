@@ -2,6 +2,7 @@
 #include "CurveSources.h"
 
 #include "DerivedSignals.h"
+#include "gui/plant/LimitOf.h"
 
 namespace qplc {
 
@@ -48,10 +49,8 @@ CurveSource CurveSources::find(const QString &expression) const
     source.plant = signal.plant;
     source.store = signal.plant->store();
     source.unit = definition.unit;
-    if (definition.minimum.isValid())
-        source.minimum = definition.minimum.toReal();
-    if (definition.maximum.isValid())
-        source.maximum = definition.maximum.toReal();
+    source.minimum = limitOf(definition.minimum);
+    source.maximum = limitOf(definition.maximum);
     source.isStepped = !definition.type.isReal();
     return source;
 }

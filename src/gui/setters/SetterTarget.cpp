@@ -2,6 +2,7 @@
 #include "SetterTarget.h"
 
 #include "gui/models/ValueFormat.h"
+#include "gui/plant/LimitOf.h"
 
 #include <algorithm>
 #include <cmath>
@@ -60,15 +61,6 @@ QString SetterTarget::unit() const
     const QString unit = signal() ? signal().definition().unit : QString();
     return unit == QLatin1String("1") ? QString() : unit;
 }
-
-namespace {
-
-std::optional<double> limitOf(const QPlcValue &value)
-{
-    return value.isValid() ? std::make_optional(value.toReal()) : std::nullopt;
-}
-
-}  // namespace
 
 std::optional<double> SetterTarget::minimum() const
 {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace qplc {
@@ -59,6 +60,12 @@ public:
     Row rowAt(Time time) const;
     /// The same, in few steps when the row is near \a guess, firstRow() ... endRow().
     Row rowAt(Time time, Row guess) const;
+    /// The last row at or before \a time; none when it is before all that is kept.
+    std::optional<Row> rowUpTo(Time time) const
+    {
+        const Row behind = rowAt(time + 1);
+        return behind > firstRow() ? std::optional<Row>(behind - 1) : std::nullopt;
+    }
     /// Smallest and largest value of rows \a begin ... \a end - 1; NaN counts as nothing.
     Range range(int channel, Row begin, Row end) const;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "QPlcJitterHistogram.h"
 
+#include "PanelFixtures.h"
 #include "PlantFixtures.h"
 #include "gui/charts/JitterCanvas.h"
 #include "gui/panel/WindowContext.h"
@@ -14,18 +15,6 @@
 using namespace qplc;
 
 namespace {
-
-QJsonObject objectOf(const char *json)
-{
-    return QJsonDocument::fromJson(json).object();
-}
-
-bool showsText(const QWidget &panel, const QString &text)
-{
-    const QList<QLabel *> labels = panel.findChildren<QLabel *>();
-    return std::any_of(labels.begin(), labels.end(),
-                       [&](const QLabel *label) { return label->isVisibleTo(&panel) && label->text().contains(text); });
-}
 
 int curvesOf(const QPlcJitterHistogram &panel)
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gui/charts/TriggerBar.h"
 
+#include "PanelFixtures.h"
 #include "PlantFixtures.h"
 #include "gui/panel/WindowContext.h"
 
@@ -12,11 +13,6 @@
 using namespace qplc;
 
 namespace {
-
-QJsonObject objectOf(const char *json)
-{
-    return QJsonDocument::fromJson(json).object();
-}
 
 template<typename Widget>
 Widget *control(const QWidget &bar, const QString &accessibleName)

@@ -22,6 +22,18 @@ public:
     CounterNode counter;
 };
 
+/// A plant whose signal "echo" is written by a node.
+class FlyingMaster : public RunningMaster
+{
+    Q_OBJECT
+public:
+    FlyingMaster() { addLocalNode(&echoNode); }
+    ~FlyingMaster() override { removeLocalNode(&echoNode); }
+    double valueOf(const QString &signal) const { return signalValue(signal).toReal(); }
+
+    EchoNode echoNode;
+};
+
 /// A port of the loopback where nobody listens.
 inline quint16 freePort()
 {

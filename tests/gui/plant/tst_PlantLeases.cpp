@@ -26,18 +26,6 @@ QStringList textsOf(const QSignalSpy &spy)
     return texts;
 }
 
-/// A plant whose signal "echo" is written by a node.
-class FlyingMaster : public RunningMaster
-{
-    Q_OBJECT
-public:
-    FlyingMaster() { addLocalNode(&echoNode); }
-    ~FlyingMaster() override { removeLocalNode(&echoNode); }
-    double valueOf(const QString &signal) const { return signalValue(signal).toReal(); }
-
-    EchoNode echoNode;
-};
-
 }  // namespace
 
 class tst_PlantLeases : public QObject

@@ -10,18 +10,6 @@
 #include <QtWidgets/QLabel>
 #include <QtWidgets/QToolButton>
 
-/// A plant whose signal "echo" is written by a node, and that remembers all that it was told to set.
-class FlyingMaster : public RunningMaster
-{
-    Q_OBJECT
-public:
-    FlyingMaster() { addLocalNode(&echoNode); }
-    ~FlyingMaster() override { removeLocalNode(&echoNode); }
-    double valueOf(const QString &signal) const { return signalValue(signal).toReal(); }
-
-    EchoNode echoNode;
-};
-
 /// A window with one plant.
 class TestWindow
 {

@@ -129,6 +129,8 @@ public:
         const Time time = store.time(store.firstRow() + below(kept)) + Time(below(3)) - 1;
         const Row expected = history.rowAt(time, store.firstRow());
         QCOMPARE(store.rowAt(time), expected);
+        const Row behind = history.rowAt(time + 1, store.firstRow());
+        QCOMPARE(store.rowUpTo(time), behind > store.firstRow() ? std::make_optional(behind - 1) : std::nullopt);
         QCOMPARE(store.rowAt(time, store.firstRow() + below(kept + 1)), expected);
     }
 
