@@ -83,7 +83,9 @@ void tst_QPlcView3D::initTestCase()
 
 void tst_QPlcView3D::keep(const QImage &image, const char *name)
 {
-    image.save(QStringLiteral(QTPLC_PICTURES "/view3d-%1.png").arg(QString::fromLatin1(name)));
+    const QString folder = qEnvironmentVariable("QTPLC_SCREENSHOTS", QStringLiteral("."));
+    QVERIFY(image.save(QStringLiteral("%1/view3d_%2.png")
+                           .arg(folder, QString::fromLatin1(name).replace(QLatin1Char(' '), QLatin1Char('_')))));
 }
 
 void tst_QPlcView3D::theKiteIsSeenWhereItFlies_data()
