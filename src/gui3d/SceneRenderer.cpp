@@ -193,8 +193,11 @@ void SceneRenderer::pump()
     m_windowTime += double(busy.nsecsElapsed()) * 1e-6;
 }
 
+/// One that was never asked for a picture has no OpenGL yet, and is not to begin now.
 void SceneRenderer::finish()
 {
+    if (!m_sinceRequest.isValid())
+        return;
     QElapsedTimer clock;
     clock.start();
     while (isBusy() && clock.elapsed() < lastPicture) {

@@ -12,13 +12,6 @@
 
 namespace {
 
-QByteArray nameOf(qint64 pid)
-{
-    QFile file(QStringLiteral("/proc/%1/cmdline").arg(pid));
-    return file.open(QIODevice::ReadOnly) ? file.readAll().split('\0').constFirst().split('/').constLast()
-                                          : QByteArray();
-}
-
 /// How many colours a picture has; those beyond \a most are not all counted. A blank one has one.
 int colours(const QImage &image, int most)
 {
