@@ -236,7 +236,7 @@ void tst_QPlcKeyboardControl::keysAreEdited()
 void tst_QPlcKeyboardControl::withoutAGamepadNothingIsShownOfIt()
 {
     if (Gamepad().isConnected())
-        QSKIP("a gamepad is plugged in");
+        QSKIP("a gamepad is plugged in", "");
     WindowContext context;
     QPlcKeyboardControl panel;
     QJsonObject settings = keySettings();
