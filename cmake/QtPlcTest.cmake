@@ -18,8 +18,8 @@ function(qtplc_add_test name)
     endforeach()
 endfunction()
 
-# qtplc_add_screen_test(name target) runs a test program on the screen of a laptop, with OpenGL in software. Servers and drivers keep memory until the end, and take texts
-# without an end: leaks of ours are looked for by the tests without a screen.
+# qtplc_add_screen_test(name target [VARIABLE=VALUE ...]) runs a test program on the screen of a laptop, with OpenGL in software. Pictures that it makes are kept in the folder
+# "screenshots" of the build (QTPLC_SCREENSHOTS). Servers and drivers keep memory until the end, and take texts without an end: leaks of ours are looked for by the tests without a screen.
 find_program(XVFB_RUN xvfb-run)
 function(qtplc_add_screen_test name target)
     if(NOT XVFB_RUN)
@@ -28,7 +28,8 @@ function(qtplc_add_screen_test name target)
     endif()
     add_test(NAME ${name} COMMAND ${XVFB_RUN} -a -s "-screen 0 1366x768x24" $<TARGET_FILE:${target}>)
     set_tests_properties(${name} PROPERTIES TIMEOUT 300
-        ENVIRONMENT "QT_QPA_PLATFORM=xcb;QT_FONT_DPI=96;LIBGL_ALWAYS_SOFTWARE=1;ASAN_OPTIONS=detect_leaks=0")
+        ENVIRONMENT "QT_QPA_PLATFORM=xcb;QT_FONT_DPI=96;LIBGL_ALWAYS_SOFTWARE=1;ASAN_OPTIONS=detect_leaks=0;QTPLC_SCREENSHOTS=${CMAKE_BINARY_DIR}/screenshots;${ARGN}")
+    file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/screenshots)
 endfunction()
 
 # qtplc_label_tests(label tst_name ...) gives a label to tests of this directory.

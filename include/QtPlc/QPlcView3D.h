@@ -21,10 +21,14 @@
 /// Settings: those of QPlcWindWindow, and what follows; what is missing has its default, as shown here but for `model`:
 /// ```json
 /// {"camera": "ground station", "view": {"yaw": 0, "pitch": 0, "zoom": 1, "pan": [0, 0, 0]}, "model": "/home/me/kite.obj", "bodyScale": 0,
-///  "ground": true, "smallEarth": true, "axes": true, "vectors": true, "tether": true}
+///  "ground": true, "smallEarth": true, "axes": true, "vectors": true, "tether": true,
+///  "entities": [{"at": [0, 0, 5], "name": "mast"}, {"at": "buoyPosition", "to": [0, 0, 0], "color": "#009e73"},
+///               {"vector": "tetherForce_earth", "scale": 0.02, "color": "#d55e00", "name": "tether"}]}
 /// ```
 /// `view` is how far the camera was moved from its preset: angles in degrees, `pan` as a share of the scene. `model` is a Wavefront OBJ file in metres, x to the tail, y along the span, z out of the top
-/// side; vertices may have colours (v x y z r g b). `bodyScale` is how much larger than it is the body is drawn, 0: as large as it takes to see it.
+/// side; vertices may have colours (v x y z r g b). `entities` are
+/// things of one's own, without any C++: a mark `at` a place, a line from there `to` another one, or an arrow along a `vector` times `scale` (1). Places and vectors are three numbers, or the name of a
+/// signal with three elements, in the axes of the earth [m]; what says no place is at the kite. `bodyScale` is how much larger than it is the body is drawn, 0: as large as it takes to see it.
 ///
 /// Threads: the thread of the window.
 class QTPLC_GUI3D_EXPORT QPlcView3D : public QPlcWidget

@@ -38,8 +38,9 @@ OpenGlProbe OpenGlProbe::probe()
     const auto *name = reinterpret_cast<const char *>(context.functions()->glGetString(GL_RENDERER));
     const QString renderer = QString::fromLatin1(name);
     const bool hasFramebuffers = context.functions()->hasOpenGLFeature(QOpenGLFunctions::Framebuffers);
+    const bool hasShaders = context.format().majorVersion() >= 2;  // without them, Qt 3D ends the program
     context.doneCurrent();
-    if (!hasFramebuffers)
+    if (!hasFramebuffers || !hasShaders)
         return {tr("The OpenGL of %1 is too old.").arg(renderer), renderer};
     return {{}, renderer};
 }

@@ -205,6 +205,7 @@ void drawGround(LineBatch *lines, const SceneInput &input)
 
 void drawKiteScene(LineBatch *lines, const SceneInput &input, const ObjMesh &model, float forceUnit)
 {
+    drawEntities(lines, input.entities, input.theme.text, input.size);
     if (input.show.axes && input.state.wind)
         addWindAxes(lines, input);
     if (!input.state.position)
@@ -250,6 +251,10 @@ std::vector<SceneLabel> sceneLabels(const SceneInput &input, float forceUnit)
             labels.push_back({positionOf({input.downwind, 0, 0.31f * input.size}),
                               tr("wind %1 m/s").arg(double(input.state.wind->length()), 0, 'f', 1),
                               input.theme.accent});
+    }
+    for (const SceneEntity &entity : input.entities) {
+        if (!entity.name.isEmpty())
+            labels.push_back({entity.to, entity.name, entity.color.isValid() ? entity.color : input.theme.text});
     }
     if (!input.state.position || !input.show.vectors)
         return labels;

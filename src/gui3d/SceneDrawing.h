@@ -4,6 +4,7 @@
 #include "LineBatch.h"
 #include "ObjMesh.h"
 #include "OrbitCamera.h"
+#include "SceneEntity.h"
 #include "View3DSettings.h"
 #include "gui/kite/KiteSignals.h"
 
@@ -28,6 +29,7 @@ struct SceneInput
     float bodyScale = 1;    // how much larger than it is the body is drawn
     float vectorUnit = 16;  // length of a vector of unit size [m]
     QVector3D bridle;       // where the tether ends, in the model [m]
+    std::vector<SceneEntity> entities;
 };
 
 inline const QColor windColor(0x2f, 0x7f, 0xe0);   // of the relative wind

@@ -17,6 +17,8 @@
 #include <Qt3DRender/QRenderTargetSelector>
 #include <Qt3DRender/QTexture>
 #include <Qt3DRender/QViewport>
+#include <QtCore/QCoreApplication>
+#include <QtCore/QThread>
 #include <QtGui/QOffscreenSurface>
 
 #include <algorithm>
@@ -27,7 +29,9 @@ using namespace Qt3DRender;
 
 namespace {
 
-constexpr int pumpInterval = 4;  // [ms]
+constexpr int pumpInterval = 4;      // [ms]
+constexpr int lastPicture = 3000;    // [ms] that the end of the program waits for a picture
+constexpr int framesUntilQuiet = 3;  // the thread of Qt 3D is done with a frame when another one has come and gone
 
 QRenderPassFilter *makePassFilter(const char *pass, Qt3DCore::QNode *parent)
 {
@@ -61,14 +65,29 @@ std::vector<SceneRenderer *> &SceneRenderer::resting()
     return *all;
 }
 
+std::vector<SceneRenderer *> &SceneRenderer::all()
+{
+    static auto *all = new std::vector<SceneRenderer *>;
+    return *all;
+}
+
+/// At the end of the program: OpenGL goes with the connection to the screen, and must not be in use then.
+void SceneRenderer::finishAll()
+{
+    for (SceneRenderer *renderer : all())
+        renderer->finish();
+    all().clear();
+    resting().clear();
+}
+
 SceneRenderer *SceneRenderer::take()
 {
-    std::vector<SceneRenderer *> &all = resting();
-    const auto idle = std::find_if(all.begin(), all.end(), [](SceneRenderer *each) { return !each->isBusy(); });
-    if (idle == all.end())
+    std::vector<SceneRenderer *> &free = resting();
+    const auto idle = std::find_if(free.begin(), free.end(), [](SceneRenderer *each) { return !each->isBusy(); });
+    if (idle == free.end())
         return new SceneRenderer;
     SceneRenderer *renderer = *idle;
-    all.erase(idle);
+    free.erase(idle);
     return renderer;
 }
 
@@ -95,6 +114,9 @@ SceneRenderer::SceneRenderer()
     m_engine->setRootEntity(Qt3DCore::QEntityPtr(m_root));
     m_pump.setTimerType(Qt::PreciseTimer);
     connect(&m_pump, &QTimer::timeout, this, &SceneRenderer::pump);
+    if (all().empty())
+        qAddPostRoutine(&SceneRenderer::finishAll);
+    all().push_back(this);
 }
 
 SceneRenderer::~SceneRenderer() = default;
@@ -169,6 +191,21 @@ void SceneRenderer::pump()
     busy.start();
     m_engine->processFrame();
     m_windowTime += double(busy.nsecsElapsed()) * 1e-6;
+}
+
+/// One that was never asked for a picture has no OpenGL yet, and is not to begin now.
+void SceneRenderer::finish()
+{
+    if (!m_sinceRequest.isValid())
+        return;
+    QElapsedTimer clock;
+    clock.start();
+    while (isBusy() && clock.elapsed() < lastPicture) {
+        pump();
+        QThread::msleep(1);
+    }
+    for (int frame = 0; frame < framesUntilQuiet && !isBusy(); ++frame)
+        m_engine->processFrame();
 }
 
 void SceneRenderer::takePicture()

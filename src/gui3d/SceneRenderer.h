@@ -67,10 +67,13 @@ private:
     SceneRenderer();
     ~SceneRenderer() override;
     static std::vector<SceneRenderer *> &resting();
+    static std::vector<SceneRenderer *> &all();
+    static void finishAll();
 
     void makeFrameGraph();
     void makeTarget(Qt3DCore::QNode *selector);
     void pump();
+    void finish();
     void takePicture();
 
     std::unique_ptr<QOffscreenSurface> m_surface;

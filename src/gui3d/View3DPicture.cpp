@@ -181,6 +181,10 @@ void View3DPicture::updateInput()
     m_input.state = state;
     m_input.show = m_settings.show;
     m_input.theme = theme();
+    m_missing.clear();
+    m_input.entities = SceneEntity::read(
+        m_settings.entities, *state.position, [this](const QString &name) { return m_kite->vectorOf(name); },
+        &m_missing);
     const OrbitCamera::Scene scene
         = {m_input.size, m_input.downwind, *state.position, state.course.value_or(QQuaternion()), m_model.radius()};
     m_pose = m_settings.camera.pose(scene);
@@ -233,6 +237,8 @@ QString View3DPicture::note() const
 {
     if (!m_modelError.isEmpty())
         return m_modelError;
+    if (!m_missing.isEmpty())
+        return tr("There is no vector '%1' at the moment").arg(m_missing.first());
     const QString state = stateText(m_shownInput.state);
     if (!state.isEmpty())
         return state;

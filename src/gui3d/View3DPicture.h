@@ -64,6 +64,7 @@ private:
     QLabel *m_reason = nullptr;
 
     // What the next picture is made of, and what the one that is shown was.
+    QStringList m_missing;  // signals of entities
     SceneInput m_input;
     float m_forceUnit = 500;  // [N] that is a vector of length 1
     FlightTrail m_trail;

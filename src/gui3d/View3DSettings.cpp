@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "View3DSettings.h"
 
-#include <QtCore/QJsonArray>
-
 #include <algorithm>
 #include <cmath>
 
@@ -69,6 +67,7 @@ View3DSettings View3DSettings::fromJson(const QJsonObject &json, QJsonObject *re
     const QString preset = rest->take(QStringLiteral("camera")).toString();
     settings.camera = cameraFrom(preset, rest->take(QStringLiteral("view")).toObject());
     settings.model = rest->take(QStringLiteral("model")).toString();
+    settings.entities = rest->take(QStringLiteral("entities")).toArray();
     const double scale = rest->take(QStringLiteral("bodyScale")).toDouble();
     settings.bodyScale = std::clamp(scale, 0.0, largestBodyScale);
     for (const ShowKey &each : showKeys)
@@ -86,6 +85,8 @@ QJsonObject View3DSettings::toJson() const
         json.insert(QStringLiteral("view"), view);
     if (!model.isEmpty())
         json.insert(QStringLiteral("model"), model);
+    if (!entities.isEmpty())
+        json.insert(QStringLiteral("entities"), entities);
     if (bodyScale > 0)
         json.insert(QStringLiteral("bodyScale"), bodyScale);
     for (const ShowKey &each : showKeys) {

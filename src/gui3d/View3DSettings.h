@@ -4,6 +4,8 @@
 #include "OrbitCamera.h"
 #include "gui/kite/KiteSettings.h"
 
+#include <QtCore/QJsonArray>
+
 namespace qplc {
 
 /// What of the scene is seen. A value type.
@@ -23,6 +25,7 @@ struct View3DSettings
     OrbitCamera camera;
     View3DShow show;
     QString model;         // OBJ file; empty: the kite
+    QJsonArray entities;   // of the user's own: see SceneEntity
     double bodyScale = 0;  // how much larger than it is the body is drawn; 0: large enough to be seen
 
     static constexpr double largestBodyScale = 100.0;

@@ -11,13 +11,23 @@
 
 using namespace qplc;
 
+namespace {
+
+/// Why there is no OpenGL: switched off by ourselves, unless who runs this test has seen to it and says which reason is to be told.
+QString expectedReason()
+{
+    return qEnvironmentVariable("QTPLC_EXPECTED_REASON", QStringLiteral("QTPLC_OPENGL"));
+}
+
+}  // namespace
+
 /// What the 3D view does where OpenGL fails; and all of it that needs none.
 class tst_NoOpenGl : public QObject
 {
     Q_OBJECT
 private Q_SLOTS:
     void initTestCase();
-    void switchedOffOpenGlIsSaid();
+    void theReasonIsTold();
     void theWindWindowIsShownWithTheReason();
     void theWindWindowTakesTheSettings();
     void theReasonStaysInThePanel();
@@ -30,14 +40,16 @@ private Q_SLOTS:
 
 void tst_NoOpenGl::initTestCase()
 {
-    qputenv("QTPLC_OPENGL", "off");
+    if (!qEnvironmentVariableIsSet("QTPLC_EXPECTED_REASON"))
+        qputenv("QTPLC_OPENGL", "off");
     QPlcWidget::registerFactory(new QPlcView3DFactory);
     QCOMPARE(QPlcWidget::factory(QStringLiteral("3D view"))->type(), int(QPlcWidget::View3D));
 }
 
-void tst_NoOpenGl::switchedOffOpenGlIsSaid()
+void tst_NoOpenGl::theReasonIsTold()
 {
-    QVERIFY(OpenGlProbe::probe().error.contains(QStringLiteral("QTPLC_OPENGL")));
+    const QString reason = OpenGlProbe::probe().error;
+    QVERIFY2(reason.contains(expectedReason()), qPrintable(reason));
 }
 
 void tst_NoOpenGl::theWindWindowIsShownWithTheReason()

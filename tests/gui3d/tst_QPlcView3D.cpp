@@ -5,6 +5,7 @@
 #include "gui3d/OpenGlProbe.h"
 #include "gui3d/View3DPicture.h"
 
+#include <QtCore/QJsonArray>
 #include <QtTest/QtTest>
 
 #include <ctime>
@@ -33,6 +34,7 @@ private Q_SLOTS:
     void theKiteIsSeenWhereItFlies_data();
     void theKiteIsSeenWhereItFlies();
     void picturesComeWhileItIsSeenAndNotMoreThanThirtyASecond();
+    void entitiesOfAUserAreSeen();
     void theSceneKeepsItsNodes();
     void aFrozenWindowNeedsNoPictures();
     void movingThePanelTwentyTimesKeepsThePicture();
@@ -83,7 +85,9 @@ void tst_QPlcView3D::initTestCase()
 
 void tst_QPlcView3D::keep(const QImage &image, const char *name)
 {
-    image.save(QStringLiteral(QTPLC_PICTURES "/view3d-%1.png").arg(QString::fromLatin1(name)));
+    const QString folder = qEnvironmentVariable("QTPLC_SCREENSHOTS", QStringLiteral("."));
+    QVERIFY(image.save(QStringLiteral("%1/view3d_%2.png")
+                           .arg(folder, QString::fromLatin1(name).replace(QLatin1Char(' '), QLatin1Char('_')))));
 }
 
 void tst_QPlcView3D::theKiteIsSeenWhereItFlies_data()
@@ -137,6 +141,22 @@ void tst_QPlcView3D::picturesComeWhileItIsSeenAndNotMoreThanThirtyASecond()
     QCOMPARE(shown.drawn.count(), hidden);
     shown.view.show();
     QVERIFY(shown.waitForPictures(2));
+}
+
+void tst_QPlcView3D::entitiesOfAUserAreSeen()
+{
+    const auto pixels = [this](const QJsonArray &entities) {
+        ShownView shown({{"entities", entities}});
+        const QImage image = shown.view.grab().toImage();
+        keep(image, "entities");
+        return countPixels(image, image.rect(), [](const QColor &color) {
+            return color.red() > 200 && color.blue() > 200 && color.green() < 60;
+        });
+    };
+    QCOMPARE(pixels({}), 0);
+    QVERIFY(pixels({QJsonObject{{"at", QJsonArray{0, 0, 0}}, {"to", QJsonArray{60, 60, 60}}, {"color", "#ff00ff"}}})
+            > 100);
+    QCOMPARE(pixels({QJsonObject{{"at", "nobody"}, {"color", "#ff00ff"}, {"name", "not there"}}}), 0);
 }
 
 void tst_QPlcView3D::theSceneKeepsItsNodes()

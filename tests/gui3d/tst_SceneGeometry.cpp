@@ -65,6 +65,8 @@ private Q_SLOTS:
     void aBrokenModelIsRefusedWithLineAndReason_data();
     void aBrokenModelIsRefusedWithLineAndReason();
     void aMissingModelIsNamed();
+    void entitiesAreMarksLinesAndArrowsAtSignals();
+    void entitiesThatAreNonsenseAreLeftOutAndMissingSignalsNamed();
     void settingsComeBackWithoutWhatIsDefault();
     void settingsThatAreNonsenseAreDefaults();
     void picturesComeAtMostThirtyTimesASecondAndLessWhenTheyCostMuch();
@@ -337,6 +339,63 @@ void tst_SceneGeometry::aMissingModelIsNamed()
     QString error;
     QVERIFY(ObjMesh::fromFile(QStringLiteral("/nowhere/a.obj"), &error).isEmpty());
     QVERIFY(error.contains(QStringLiteral("/nowhere/a.obj")));
+}
+
+void tst_SceneGeometry::entitiesAreMarksLinesAndArrowsAtSignals()
+{
+    const QVector3D body(10, 20, 30);
+    const QJsonArray json{QJsonObject{{"at", QJsonArray{1, 2, 3}}, {"name", "mast"}},
+                          QJsonObject{{"at", "buoy"}, {"to", QJsonArray{0, 0, 0}}, {"color", "#00ff00"}},
+                          QJsonObject{{"vector", "force"}, {"scale", 0.5}},
+                          QJsonObject{{"at", "buoy"}, {"vector", "force"}}};
+    const auto vectorOf
+        = [](const QString &name) { return name == QLatin1String("buoy") ? QVector3D(5, 6, 7) : QVector3D(0, 0, 8); };
+    QStringList missing;
+    const std::vector<SceneEntity> all = SceneEntity::read(json, body, vectorOf, &missing);
+    QCOMPARE(int(all.size()), 4);
+    QVERIFY(missing.isEmpty());
+    QCOMPARE(all[0].kind, SceneEntity::Mark);
+    QCOMPARE(all[0].from, QVector3D(1, 2, 3));
+    QCOMPARE(all[0].name, QStringLiteral("mast"));
+    QCOMPARE(all[1].kind, SceneEntity::Line);
+    QCOMPARE(all[1].from, QVector3D(5, 6, 7));
+    QCOMPARE(all[1].to, QVector3D());
+    QCOMPARE(all[1].color, QColor(0, 255, 0));
+    QCOMPARE(all[2].kind, SceneEntity::Arrow);
+    QCOMPARE(all[2].from, body);
+    QCOMPARE(all[2].to, QVector3D(10, 20, 34));
+    QCOMPARE(all[3].to, QVector3D(5, 6, 15));
+    LineBatch arrow;
+    arrow.addArrow({}, {0, 0, 8}, Qt::red, 2, 3);
+    LineBatch lines;
+    drawEntities(&lines, all, Qt::black, 100);
+    QCOMPARE(lines.lines(), 3 + 1 + 2 * arrow.lines());
+    SceneInput input;
+    input.entities = all;
+    int names = 0;
+    for (const SceneLabel &label : sceneLabels(input, 1))
+        names += label.text == QLatin1String("mast") && label.place == QVector3D(1, 2, 3) ? 1 : 0;
+    QCOMPARE(names, 1);
+}
+
+void tst_SceneGeometry::entitiesThatAreNonsenseAreLeftOutAndMissingSignalsNamed()
+{
+    const QJsonArray json{1,
+                          "kite",
+                          QJsonObject{{"at", QJsonArray{1, 2}}},
+                          QJsonObject{{"at", 7}},
+                          QJsonObject{{"at", QJsonArray{1, "x", 3}}},
+                          QJsonObject{{"at", "gone"}},
+                          QJsonObject{{"vector", "gone"}},
+                          QJsonObject{{"to", "lost"}},
+                          QJsonObject{{"at", ""}}};
+    QStringList missing;
+    const auto nothing = [](const QString &) { return std::optional<QVector3D>(); };
+    QVERIFY(SceneEntity::read(json, {}, nothing, &missing).empty());
+    QCOMPARE(missing, (QStringList{QStringLiteral("gone"), QStringLiteral("lost")}));
+    const QJsonObject settings{{"entities", json}};
+    QJsonObject rest = settings;
+    QCOMPARE(View3DSettings::fromJson(settings, &rest).toJson(), settings);  // kept, also what nobody understands
 }
 
 void tst_SceneGeometry::settingsComeBackWithoutWhatIsDefault()

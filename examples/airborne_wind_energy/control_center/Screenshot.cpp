@@ -25,8 +25,15 @@ QImage pictureOf(QWidget *window)
 
 bool writeScreenshot(QWidget *window, const QString &fileName, QString *error)
 {
+    const QFileInfo place(fileName);
+    if (place.exists() && !place.isFile()) {  // a device would be replaced by a file
+        *error = QCoreApplication::translate("awe::Screenshot",
+                                             "the picture '%1' cannot be written: this is no ordinary file")
+                     .arg(fileName);
+        return false;
+    }
     QSaveFile file(fileName);
-    QImageWriter writer(&file, QFileInfo(fileName).suffix().toLatin1());
+    QImageWriter writer(&file, place.suffix().toLatin1());
     writer.setCompression(100);
     if (file.open(QIODevice::WriteOnly) && writer.write(pictureOf(window)) && file.commit())
         return true;

@@ -41,7 +41,9 @@ QString pictureError(const QString &fileName)
     if (!folder.isDir())
         return QStringLiteral("--screenshot '%1': there is no folder '%2'; make it, or use another one")
             .arg(fileName, folder.filePath());
-    if (file.isDir() || !(file.exists() ? file.isWritable() : folder.isWritable()))
+    if (file.exists() && !file.isFile())
+        return QStringLiteral("--screenshot '%1': this is no ordinary file; use another name").arg(fileName);
+    if (!(file.exists() ? file.isWritable() : folder.isWritable()))
         return QStringLiteral("--screenshot '%1' cannot be written: check the rights, or use another file")
             .arg(fileName);
     return {};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "DemoFlight.h"
-#include "Screenshot.h"
+#include "ScreenshotTask.h"
 #include "Settings.h"
 
 #ifdef QTPLC_HAS_GUI3D
@@ -80,14 +80,23 @@ void addTexts(QPlcGuiApplication &application)
     awe::addControlCenterOptions(application);
 }
 
-/// Makes the picture and ends the program.
-void endWithScreenshot(QPlcControlCenter &window, const QString &fileName)
+/// Begins with the demo, or with what the settings name, and makes the picture that is wanted.
+void begin(awe::DemoFlight &demo, awe::ScreenshotTask &screenshot, const awe::ControlCenterSettings &settings,
+           const QElapsedTimer &clock)
 {
-    QString error;
-    const bool isWritten = awe::writeScreenshot(&window, fileName, &error);
-    if (!isWritten)
-        QPlcGuiApplication::printError(error);
-    QCoreApplication::exit(isWritten ? QPlcGuiApplication::Success : QPlcGuiApplication::Failure);
+    QObject::connect(&demo, &awe::DemoFlight::flying, &screenshot, [&screenshot](double seconds) {
+        std::printf("flying after %.1f s\n", seconds);
+        std::fflush(stdout);
+        screenshot.begin();
+    });
+    QObject::connect(&demo, &awe::DemoFlight::failed, &screenshot, [&screenshot](const QString &sentence) {
+        QPlcGuiApplication::printError(sentence);
+        screenshot.giveUp();
+    });
+    if (settings.demo)
+        demo.begin(clock);
+    else
+        screenshot.begin();
 }
 
 }  // namespace
@@ -112,27 +121,8 @@ int main(int argc, char **argv)
     awe::DemoFlight demo(&window);
     if (!prepare(application, window, settings))
         return application.exitCode();
-    const auto endLater = [&] {
-        QTimer::singleShot(std::chrono::milliseconds(qRound64(settings.after * 1000.0)), &window,
-                           [&] { endWithScreenshot(window, settings.screenshot); });
-    };
-    bool hasFlown = false;
-    QObject::connect(&demo, &awe::DemoFlight::flying, &window, [&](double seconds) {
-        std::printf("flying after %.1f s\n", seconds);
-        std::fflush(stdout);
-        if (!settings.screenshot.isEmpty() && !hasFlown)
-            endLater();
-        hasFlown = true;
-    });
-    QObject::connect(&demo, &awe::DemoFlight::failed, &window, [&](const QString &sentence) {
-        QPlcGuiApplication::printError(sentence);
-        if (!settings.screenshot.isEmpty() && !hasFlown)  // else the picture shows it
-            QCoreApplication::exit(QPlcGuiApplication::Failure);
-    });
+    awe::ScreenshotTask screenshot(&window, settings.screenshot, settings.after);
     window.show();
-    if (settings.demo)
-        demo.begin(clock);
-    else if (!settings.screenshot.isEmpty())
-        endLater();
-    return QApplication::exec();
+    begin(demo, screenshot, settings, clock);
+    return screenshot.exitCode(QApplication::exec());
 }

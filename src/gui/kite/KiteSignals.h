@@ -47,6 +47,8 @@ public:
     QString problem() const;
     /// Now, or at the time that the window shows.
     KiteState state() const;
+    /// Another signal with three elements at the same time; nothing when there is none, or no value.
+    std::optional<QVector3D> vectorOf(const QString &reference) const { return vector(find(reference)); }
     /// The path up to the time that the window shows. \return false: there is none, and \a trail is empty
     bool readTrail(FlightTrail *trail) const;
     /// The scale of the settings; what they leave open is taken from the path.

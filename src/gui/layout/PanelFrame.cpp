@@ -74,6 +74,12 @@ void PanelFrame::makeActions()
     m_rename->setShortcut(tr("F2"));
     m_rename->setShortcutContext(Qt::WidgetWithChildrenShortcut);
     addAction(m_rename);
+    auto *menu = new QAction(tr("Menu of the panel"), this);  // many keyboards have no key for it
+    menu->setShortcut(tr("Shift+F10"));
+    menu->setShortcutContext(Qt::WidgetWithChildrenShortcut);
+    connect(menu, &QAction::triggered, this,
+            [this] { openMenu(m_titleBar->mapToGlobal(QPoint(0, m_titleBar->height()))); });
+    addAction(menu);
 }
 
 void PanelFrame::makeContent(const LayoutPanel &panel, const QPlcWidgetFactory *factory)
@@ -196,11 +202,16 @@ void PanelFrame::toggleMaximized()
         m_editor->setMaximized(m_id, page->maximized != m_id);
 }
 
-void PanelFrame::contextMenuEvent(QContextMenuEvent *event)
+void PanelFrame::openMenu(const QPoint &place)
 {
     QMenu *menu = createMenu();
     menu->setAttribute(Qt::WA_DeleteOnClose);
-    menu->popup(event->globalPos());
+    menu->popup(place);
+}
+
+void PanelFrame::contextMenuEvent(QContextMenuEvent *event)
+{
+    openMenu(event->globalPos());
 }
 
 void PanelFrame::mousePressEvent(QMouseEvent *event)

@@ -67,6 +67,7 @@ private:
     void takeSettings();
     void updateTitle();
     void openSettings();
+    void openMenu(const QPoint &place);
     void toggleFloating();
     void toggleMaximized();
     void offerMenuToWidget();

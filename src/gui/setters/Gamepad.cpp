@@ -58,14 +58,14 @@ Gamepad::Gamepad(QObject *parent)
             });
 }
 
-bool Gamepad::isSupported()
-{
-    return true;
-}
-
 bool Gamepad::isConnected() const
 {
     return !d->manager->connectedGamepads().isEmpty();
+}
+
+QString Gamepad::absence() const
+{
+    return isConnected() ? QString() : tr("No gamepad is plugged in.");
 }
 
 }  // namespace qplc
@@ -83,14 +83,14 @@ Gamepad::Gamepad(QObject *parent)
 {
 }
 
-bool Gamepad::isSupported()
+bool Gamepad::isConnected() const
 {
     return false;
 }
 
-bool Gamepad::isConnected() const
+QString Gamepad::absence() const
 {
-    return false;
+    return tr("This program knows no gamepads.");
 }
 
 }  // namespace qplc

@@ -15,9 +15,9 @@ public:
     explicit Gamepad(QObject *parent = nullptr);
     ~Gamepad() override;
 
-    /// Whether this library can see gamepads at all.
-    static bool isSupported();
     bool isConnected() const;
+    /// Why there is none, as a sentence; empty: there is one.
+    QString absence() const;
 
 Q_SIGNALS:
     void connectedChanged();

@@ -2,6 +2,7 @@
 #include "KeyMapEditor.h"
 #include "gui/panel/SignalEdit.h"
 
+#include "Gamepad.h"
 #include "KeyButton.h"
 #include "gui/panel/EndOfEditor.h"
 
@@ -59,6 +60,8 @@ void KeyMapEditor::rebuild()
         axis.axis = AxisBinding::axes().first();
         m_bindings.axes.append(axis);
     });
+    if (!m_bindings.axes.isEmpty())
+        addNote(grid, Gamepad().absence());
     m_content->show();
     if (isVisible() && parentWidget())
         parentWidget()->adjustSize();
@@ -152,6 +155,16 @@ void KeyMapEditor::addRemove(QGridLayout *grid, int row, int column, const std::
         rebuild();
     });
     grid->addWidget(button, row, column);
+}
+
+/// \param text  empty: none
+void KeyMapEditor::addNote(QGridLayout *grid, const QString &text)
+{
+    if (text.isEmpty())
+        return;
+    auto *note = new QLabel(text, m_content);
+    note->setEnabled(false);  // muted
+    grid->addWidget(note, grid->rowCount() - 1, 1, 1, 5, Qt::AlignRight);
 }
 
 void KeyMapEditor::addButton(const QString &text, const std::function<void()> &add)

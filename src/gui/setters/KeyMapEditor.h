@@ -35,6 +35,7 @@ private:
     void addNumber(QGridLayout *grid, int row, int column, const QString &name, const std::function<double &()> &number,
                    double smallest, double largest);
     void addRemove(QGridLayout *grid, int row, int column, const std::function<void()> &remove);
+    void addNote(QGridLayout *grid, const QString &text);
     void addButton(const QString &text, const std::function<void()> &add);
     void changed() { Q_EMIT edited(m_bindings); }
 

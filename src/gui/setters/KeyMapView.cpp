@@ -53,6 +53,12 @@ void KeyMapView::setTheme(const Theme &theme)
     update();
 }
 
+void KeyMapView::setAxesShown(bool shown)
+{
+    m_areAxesShown = shown;
+    refresh();
+}
+
 void KeyMapView::refresh()
 {
     QStringList texts;
@@ -73,25 +79,32 @@ QVector<KeyMapView::Row> KeyMapView::rows() const
     for (int i = 0; i < references.size(); ++i) {
         const SignalReference &reference = references.at(i);
         const PlantList::Signal signal = m_control->control().resolved().value(i);
-        Row row{reference.toString(), tr("not there"), true, {}};
+        Row row{reference.toString(), tr("not there"), true, capsOf(reference)};
         if (signal) {
             row.actual = QStringLiteral("%1 %2").arg(numberText(signal.value().toReal(), 3), signal.definition().unit);
             row.isStale = signal.plant->quality() == Plant::Stale || signal.plant->quality() == Plant::NoValue;
             if (row.isStale)
                 row.actual = tr("%1, %2 old").arg(row.actual, ageText(signal.plant->age()));
         }
-        for (const KeyBinding &key : m_control->bindings().keys) {
-            if (key.signal == reference)
-                row.caps.append({capText(key.key), signedText(key.value), m_control->isHeld(key.key)});
-        }
-        for (const AxisBinding &axis : m_control->bindings().axes) {
-            const bool isMoved = m_control->isArmed() && axis.shaped(m_control->deflection(axis.axis)) != 0.0;
-            if (axis.signal == reference)
-                row.caps.append({axis.axis, QStringLiteral("±%1").arg(numberText(std::abs(axis.value), 4)), isMoved});
-        }
         rows.append(row);
     }
     return rows;
+}
+
+QVector<KeyMapView::Cap> KeyMapView::capsOf(const SignalReference &reference) const
+{
+    QVector<Cap> caps;
+    for (const KeyBinding &key : m_control->bindings().keys) {
+        if (key.signal == reference)
+            caps.append({capText(key.key), signedText(key.value), m_control->isHeld(key.key)});
+    }
+    for (const AxisBinding &axis : m_control->bindings().axes) {
+        if (axis.signal != reference || !m_areAxesShown)
+            continue;
+        const bool isMoved = m_control->isArmed() && axis.shaped(m_control->deflection(axis.axis)) != 0.0;
+        caps.append({axis.axis, QStringLiteral("±%1").arg(numberText(std::abs(axis.value), 4)), isMoved});
+    }
+    return caps;
 }
 
 QFont KeyMapView::smallFont() const

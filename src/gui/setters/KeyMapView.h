@@ -2,6 +2,7 @@
 #pragma once
 
 #include "gui/panel/Theme.h"
+#include "gui/plant/SignalReference.h"
 
 #include <QtWidgets/QWidget>
 
@@ -17,6 +18,8 @@ public:
     /// \param control  outlives the view
     KeyMapView(const ManualControl *control, QWidget *parent);
     void setTheme(const Theme &theme);
+    /// Axes are shown where there is something to move them with.
+    void setAxesShown(bool shown);
     /// Bindings, what is held, or actual values are other ones.
     void refresh();
     QSize sizeHint() const override;
@@ -40,6 +43,7 @@ private:
         QVector<Cap> caps;
     };
     QVector<Row> rows() const;
+    QVector<Cap> capsOf(const SignalReference &reference) const;
     QFont smallFont() const;
     int capSize() const;
     int rowHeight() const;
@@ -48,6 +52,7 @@ private:
     void paintCap(QPainter &painter, const Cap &cap, const QRectF &place) const;
 
     const ManualControl *m_control;
+    bool m_areAxesShown = false;
     Theme m_theme = Theme::byName(Theme::System);
 };
 

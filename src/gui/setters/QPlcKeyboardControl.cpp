@@ -28,8 +28,8 @@ struct QPlcKeyboardControl::Private
     void showState();
     void showValues();
     void showTheme();
+    bool hasGamepad() const { return gamepad && gamepad->isConnected(); }
     QString hint() const;
-    QString gamepadText() const;
 
     QPlcKeyboardControl *const q;
     ManualControl control;
@@ -97,9 +97,9 @@ void QPlcKeyboardControl::Private::makeArmAction()
 {
     arm->setCheckable(true);
     arm->setVisible(false);
-    arm->setShortcut(tr("Ctrl+G"));
+    arm->setShortcut(tr("Ctrl+J"));  // as in joystick; Ctrl+G gives back
     arm->setShortcutContext(Qt::WidgetWithChildrenShortcut);
-    arm->setToolTip(tr("Axes act while they are armed (Ctrl+G, or the lower button of the gamepad)"));
+    arm->setToolTip(tr("Axes act while they are armed (Ctrl+J, or the lower button of the gamepad)"));
     connect(arm, &QAction::triggered, q, [this](bool checked) {
         q->setFocus(Qt::OtherFocusReason);
         control.setArmed(checked && control.isFlying() && q->hasFocus());
@@ -110,9 +110,7 @@ void QPlcKeyboardControl::Private::makeArmAction()
 void QPlcKeyboardControl::Private::apply(const ManualBindings &bindings)
 {
     control.setBindings(bindings);
-    const bool hasAxes = !bindings.axes.isEmpty();
-    arm->setVisible(hasAxes);
-    if (!hasAxes) {
+    if (bindings.axes.isEmpty()) {
         gamepad.reset();
     } else if (!gamepad) {
         gamepad = std::make_unique<Gamepad>();
@@ -126,33 +124,29 @@ void QPlcKeyboardControl::Private::apply(const ManualBindings &bindings)
     showState();
 }
 
-QString QPlcKeyboardControl::Private::gamepadText() const
-{
-    if (!gamepad || gamepad->isConnected())
-        return {};
-    return Gamepad::isSupported() ? tr("; no gamepad is plugged in") : tr("; this program knows no gamepads");
-}
-
 QString QPlcKeyboardControl::Private::hint() const
 {
     if (control.bindings().keys.isEmpty() && control.bindings().axes.isEmpty())
         return tr("No keys yet: choose some in the settings");
+    if (control.bindings().keys.isEmpty() && !hasGamepad())
+        return gamepad->absence();
     if (!control.isFlying())
-        return tr("Take control to fly with these keys") + gamepadText();
-    return q->hasFocus() ? tr("Hold a key to steer: let go, and it is neutral") + gamepadText()
+        return tr("Take control to fly with these keys");
+    return q->hasFocus() ? tr("Hold a key to steer: let go, and it is neutral")
                          : tr("Click here to steer: the keyboard is elsewhere");
 }
 
 void QPlcKeyboardControl::Private::showState()
 {
     hintLabel->showText(hint());
-    arm->setEnabled(control.isFlying() && gamepad && gamepad->isConnected());
+    arm->setVisible(hasGamepad());
+    arm->setEnabled(control.isFlying() && hasGamepad());
     arm->setChecked(control.isArmed());
     if (q->context()) {
         const Theme &theme = q->context()->theme();
         hintLabel->setColor(control.isFlying() && !q->hasFocus() ? theme.warning : theme.mutedText);
     }
-    keys->refresh();
+    keys->setAxesShown(hasGamepad());
     q->update();
 }
 

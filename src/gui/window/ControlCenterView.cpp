@@ -120,18 +120,25 @@ void QPlcControlCenter::Private::openKeys()
     QVector<KeysWindow::Group> groups = actions->groups();
     groups.append({tr("Panels and tabs"), view->actions()});
     groups.append({tr("Tree of signals"), dock->tree()->actions()});
-    if (const QPlcWidget *panel = focusedPanel())
-        groups.append({tr("Panel '%1'").arg(panel->title()), panel->actions()});
+    if (const PanelFrame *frame = focusedFrame())
+        groups.append({tr("Panel '%1'").arg(frame->accessibleName()), actionsOf(*frame)});
     keys->showKeys(groups);
 }
 
-QPlcWidget *QPlcControlCenter::Private::focusedPanel() const
+const PanelFrame *QPlcControlCenter::Private::focusedFrame() const
 {
     for (QWidget *widget = q->focusWidget(); widget; widget = widget->parentWidget()) {
         if (auto *frame = qobject_cast<PanelFrame *>(widget))
-            return frame->widget();
+            return frame;
     }
     return nullptr;
+}
+
+/// What the panel itself can do, and what is done with it.
+QList<QAction *> QPlcControlCenter::Private::actionsOf(const PanelFrame &frame)
+{
+    const QList<QAction *> own = frame.widget() ? frame.widget()->actions() : QList<QAction *>();
+    return own + frame.actions();
 }
 
 void QPlcControlCenter::Private::openPalette()
@@ -184,8 +191,8 @@ QVector<PaletteItem> QPlcControlCenter::Private::paletteItems()
     QVector<PaletteItem> items;
     for (const KeysWindow::Group &group : actions->groups())
         appendActions(&items, group.name, group.actions);
-    if (const QPlcWidget *panel = focusedPanel())
-        appendActions(&items, panel->title(), panel->actions());
+    if (const PanelFrame *frame = focusedFrame())
+        appendActions(&items, frame->accessibleName(), actionsOf(*frame));
     appendActions(&items, tr("Start"), startActions);
     appendActions(&items, tr("Panels"), view->actions());
     appendActions(&items, tr("Signals"), dock->tree()->actions());

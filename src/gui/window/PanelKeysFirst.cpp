@@ -1,47 +1,59 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "PanelKeysFirst.h"
 
+#include <QtGui/QShortcutEvent>
 #include <QtWidgets/QApplication>
-
-#include <algorithm>
 
 namespace qplc {
 
-PanelKeysFirst::PanelKeysFirst(QWidget *window)
-    : QObject(window)
-    , m_window(window)
+namespace {
+
+bool canRun(const QAction *action, const QKeySequence &keys)
 {
-    connect(qApp, &QApplication::focusChanged, this, [this](QWidget *, QWidget *now) { follow(now); });
+    return action->isEnabled() && action->isVisible() && action->shortcuts().contains(keys);
 }
 
-QSet<QString> PanelKeysFirst::keysOfPanel(QWidget *focused) const
+/// \param isFocus  whether the widget itself has the focus
+bool isHeard(const QAction *action, bool isFocus)
 {
-    QSet<QString> keys;
-    for (QWidget *widget = focused; widget && widget != m_window; widget = widget->parentWidget()) {
-        for (const QAction *action : widget->actions()) {
-            const bool isOfWidget = action->shortcutContext() == Qt::WidgetWithChildrenShortcut
-                || (action->shortcutContext() == Qt::WidgetShortcut && widget == focused);
-            for (const QKeySequence &sequence : action->shortcuts()) {
-                if (isOfWidget && action->isEnabled())
-                    keys.insert(sequence.toString());
-            }
+    return isFocus || action->shortcutContext() != Qt::WidgetShortcut;
+}
+
+}  // namespace
+
+PanelKeysFirst::PanelKeysFirst(QObject *parent)
+    : QObject(parent)
+{
+    QCoreApplication::instance()->installEventFilter(this);
+}
+
+QAction *PanelKeysFirst::firstWith(const QKeySequence &keys)
+{
+    QAction *first = nullptr;
+    QWidget *const focus = QApplication::focusWidget();
+    for (QWidget *widget = focus; widget; widget = widget->parentWidget()) {
+        for (QAction *action : widget->actions()) {
+            if (!canRun(action, keys) || !isHeard(action, widget == focus))
+                continue;
+            if (action->shortcutContext() == Qt::ApplicationShortcut)
+                return action;
+            if (!first)
+                first = action;
         }
     }
-    return keys;
+    return first;
 }
 
-void PanelKeysFirst::follow(QWidget *focused)
+bool PanelKeysFirst::eventFilter(QObject *watched, QEvent *event)
 {
-    const QSet<QString> keys = keysOfPanel(focused);
-    for (QAction *action : m_window->actions()) {
-        if (action->shortcutContext() == Qt::ApplicationShortcut)
-            continue;  // STOP gives way to nobody
-        const QList<QKeySequence> all = action->shortcuts();
-        const bool isTaken = std::any_of(all.begin(), all.end(),
-                                         [&](const QKeySequence &each) { return keys.contains(each.toString()); });
-        // The window itself never has the focus, so keys of that context do nothing.
-        action->setShortcutContext(isTaken ? Qt::WidgetShortcut : Qt::WindowShortcut);
-    }
+    if (event->type() != QEvent::Shortcut || !qobject_cast<QAction *>(watched))
+        return QObject::eventFilter(watched, event);
+    const auto *shortcut = static_cast<const QShortcutEvent *>(event);
+    QAction *const first = shortcut->isAmbiguous() ? firstWith(shortcut->key()) : nullptr;
+    if (!first)
+        return QObject::eventFilter(watched, event);
+    first->trigger();
+    return true;
 }
 
 }  // namespace qplc

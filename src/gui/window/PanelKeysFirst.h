@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <QtCore/QSet>
 #include <QtWidgets/QAction>
 
 namespace qplc {
 
-/// The keys of the panel with the focus win over the same keys of the window: while it has the focus, a key never means two things.
+/// Of several actions with the same keys, that of the innermost widget around the focus runs: of a panel before that of the tabs, and both before that of the window. Qt alone would run none of them.
+/// Only what works everywhere (STOP) gives way to nobody.
 class PanelKeysFirst : public QObject
 {
     Q_OBJECT
 public:
-    /// \param window  its actions() give way; it owns this object
-    explicit PanelKeysFirst(QWidget *window);
+    /// Listens to all keys of the program that mean two things.
+    explicit PanelKeysFirst(QObject *parent);
+
+protected:
+    bool eventFilter(QObject *watched, QEvent *event) override;
 
 private:
-    void follow(QWidget *focused);
-    QSet<QString> keysOfPanel(QWidget *focused) const;
-
-    QWidget *m_window;
+    static QAction *firstWith(const QKeySequence &keys);
 };
 
 }  // namespace qplc

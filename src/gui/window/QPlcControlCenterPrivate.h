@@ -18,6 +18,10 @@
 
 class QStackedWidget;
 
+namespace qplc {
+class PanelFrame;
+}
+
 /// The parts of the window, and what happens between them.
 struct QPlcControlCenter::Private
 {
@@ -51,7 +55,8 @@ struct QPlcControlCenter::Private
     void appendActions(QVector<qplc::PaletteItem> *items, const QString &group, const QList<QAction *> &actions) const;
     void appendPanels(QVector<qplc::PaletteItem> *items);
     void appendSignals(QVector<qplc::PaletteItem> *items);
-    QPlcWidget *focusedPanel() const;
+    const qplc::PanelFrame *focusedFrame() const;
+    static QList<QAction *> actionsOf(const qplc::PanelFrame &frame);
     void openKeys();
     void showRecent();
     void askForLayoutFile(bool isToSave);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A window without a face: hears the plant of the address and prints ten times a second what it has, "rows gaps largestBatch". Ends with its standard input.
+// plant_window ADDRESS [SIGNAL VALUE]: a window without a face. Hears the plant of the address, takes control of the signal, if there is one, and prints ten times a second what it has,
+// "rows gaps largestBatch". Ends with its standard input.
 #include "gui/plant/Plant.h"
 
 #include <QtCore/QCoreApplication>
@@ -21,6 +22,15 @@ int main(int argc, char **argv)
     });
     QSocketNotifier end(0, QSocketNotifier::Read);
     QObject::connect(&end, &QSocketNotifier::activated, &application, &QCoreApplication::quit);
+    const QString held = QCoreApplication::arguments().value(2);
+    const QPlcValue value(QCoreApplication::arguments().value(3).toDouble());
+    bool isTaken = held.isEmpty();
+    QObject::connect(&timer, &QTimer::timeout, &plant, [&] {
+        if (isTaken || !plant.hasLeases() || !plant.table().contains(held))
+            return;
+        plant.takeLease({held}, {{held, value}});
+        isTaken = true;
+    });
     timer.start(100);
     plant.open();
     return QCoreApplication::exec();

@@ -36,6 +36,8 @@ private Q_SLOTS:
     void valuesOfAStoppedMasterAreStaleUntilItGoesOn();
     void aStoppedWindowSlowsNobodyAndHasAGap();
     void aSlowWindowKeepsABoundedBacklog();
+    void whatALostWindowHeldIsNeutralAndSeenByOthers_data();
+    void whatALostWindowHeldIsNeutralAndSeenByOthers();
 };
 
 void tst_PlantPrograms::aKilledMasterIsFoundAgainAndNothingBlocks()
@@ -119,6 +121,42 @@ void tst_PlantPrograms::aSlowWindowKeepsABoundedBacklog()
     connect(&plant, &Plant::updated, this, [&] { largestBatch = std::max(largestBatch, plant.values().batchSize()); });
     QTRY_VERIFY_WITH_TIMEOUT(plant.values().gaps() > gaps, patience);
     QVERIFY2(largestBatch > 1000 && largestBatch <= 2048, qPrintable(QString::number(largestBatch)));
+}
+
+void tst_PlantPrograms::whatALostWindowHeldIsNeutralAndSeenByOthers_data()
+{
+    QTest::addColumn<int>("signal");
+    QTest::newRow("killed") << SIGKILL;
+    QTest::newRow("stopped") << SIGSTOP;
+}
+
+void tst_PlantPrograms::whatALostWindowHeldIsNeutralAndSeenByOthers()
+{
+    QFETCH(int, signal);
+    const QString setpoint = QStringLiteral("setpoint");
+    RunningMaster master;
+    QVERIFY(master.startRealTime());
+    Plant other(master.address());
+    other.open();
+    Program window(QStringLiteral(QTPLC_PLANT_WINDOW), {master.address(), setpoint, QStringLiteral("4")});
+    const auto value = [&] { return master.signalValue(setpoint).toReal(); };
+    QTRY_COMPARE_WITH_TIMEOUT(value(), 4.0, patience);
+    QTRY_VERIFY_WITH_TIMEOUT(other.lease(setpoint) && !other.lease(setpoint)->isMine, patience);
+    QTest::qWait(2 * PlantLeases::Timeout);  // it holds as long as it lives
+    QCOMPARE(value(), 4.0);
+    QCOMPARE(other.lease(setpoint)->state, LeaseStatus::Held);
+
+    QElapsedTimer clock;
+    clock.start();
+    window.sendSignal(signal);
+    QTRY_COMPARE_WITH_TIMEOUT(value(), 0.0, patience);
+    QVERIFY2(clock.elapsed() < PlantLeases::Timeout + 2000, qPrintable(QString::number(clock.elapsed())));
+    QTRY_VERIFY_WITH_TIMEOUT(other.lease(setpoint) && other.lease(setpoint)->state == LeaseStatus::Lost, patience);
+    window.sendSignal(SIGCONT);  // who comes back has lost it
+    QTest::qWait(3 * PlantLeases::HeartbeatPeriod);
+    QCOMPARE(value(), 0.0);
+    other.takeLease({setpoint}, {{setpoint, QPlcValue(2.5)}});
+    QTRY_COMPARE_WITH_TIMEOUT(value(), 2.5, patience);
 }
 
 QTEST_GUILESS_MAIN(tst_PlantPrograms)

@@ -28,6 +28,31 @@ ManualBindings bindings()
             {axis}};
 }
 
+/// A window with these bindings, for one plant.
+struct Pilot
+{
+    explicit Pilot(const FlyingMaster &master)
+        : window(master.address())
+    {
+        control.setPlants(window.context.plants());
+        control.setBindings(bindings());
+    }
+    bool isReady()
+    {
+        return window.isReady() && QTest::qWaitFor([this] { return control.control().mayTake(); });
+    }
+    bool takesControl()
+    {
+        if (!isReady())
+            return false;
+        control.control().take();
+        return QTest::qWaitFor([this] { return control.isFlying(); });
+    }
+
+    TestWindow window;
+    ManualControl control;
+};
+
 }  // namespace
 
 class tst_ManualControl : public QObject
@@ -119,21 +144,19 @@ void tst_ManualControl::heldKeysAreValuesAndReleasedOnesNeutral()
 {
     FlyingMaster master;
     QVERIFY(master.startRealTime());
-    TestWindow window(master.address());
-    ManualControl control;
-    control.setPlants(window.context.plants());
-    control.setBindings(bindings());
-    QVERIFY(window.isReady());
+    Pilot pilot(master);
+    ManualControl &control = pilot.control;
+    QVERIFY(pilot.isReady());
     QTRY_COMPARE(control.control().state(), SignalControl::Written);
     QTRY_VERIFY(master.valueOf(echo.signal) > 10.0);
     control.control().take();
     QTRY_VERIFY(control.isFlying());
     QTRY_COMPARE(master.valueOf(echo.signal), 0.0);  // nothing is held yet
-    QVERIFY(window.isMine(setpoint.signal));         // all at once
+    QVERIFY(pilot.window.isMine(setpoint.signal));   // all at once
     QVERIFY(control.press(Qt::Key_Left, false));
     QTRY_COMPARE(master.valueOf(echo.signal), -3.0);
     QTest::qWait(100);  // answers that are under way
-    const int commands = window.done.size();
+    const int commands = pilot.window.done.size();
     for (int i = 0; i < 50; ++i) {
         control.release(Qt::Key_Left, true);
         control.press(Qt::Key_Left, true);
@@ -141,26 +164,21 @@ void tst_ManualControl::heldKeysAreValuesAndReleasedOnesNeutral()
     QVERIFY(control.press(Qt::Key_Right, false));
     QTRY_COMPARE(master.valueOf(echo.signal), 1.0);
     QTest::qWait(100);
-    QCOMPARE(window.done.size(), commands + 1);  // repeated keys are no news
+    QCOMPARE(pilot.window.done.size(), commands + 1);  // repeated keys are no news
     control.letGo();
     QTRY_COMPARE(master.valueOf(echo.signal), 0.0);
     QVERIFY(!control.press(Qt::Key_Q, false));
     control.control().giveBack();
     QTRY_VERIFY(master.valueOf(echo.signal) > 10.0);
-    QVERIFY(window.failed.isEmpty());
+    QVERIFY(pilot.window.failed.isEmpty());
 }
 
 void tst_ManualControl::sumsStayWithinTheTable()
 {
     FlyingMaster master;
-    TestWindow window(master.address());
-    ManualControl control;
-    control.setPlants(window.context.plants());
-    control.setBindings(bindings());
-    QVERIFY(window.isReady());
-    QTRY_VERIFY(control.control().mayTake());
-    control.control().take();
-    QTRY_VERIFY(control.isFlying());
+    Pilot pilot(master);
+    ManualControl &control = pilot.control;
+    QVERIFY(pilot.takesControl());
     control.press(Qt::Key_W, false);
     control.press(Qt::Key_E, false);
     QCOMPARE(control.wanted(setpoint), 10.0);
@@ -170,14 +188,9 @@ void tst_ManualControl::sumsStayWithinTheTable()
 void tst_ManualControl::axesActWhileTheyAreArmed()
 {
     FlyingMaster master;
-    TestWindow window(master.address());
-    ManualControl control;
-    control.setPlants(window.context.plants());
-    control.setBindings(bindings());
-    QVERIFY(window.isReady());
-    QTRY_VERIFY(control.control().mayTake());
-    control.control().take();
-    QTRY_VERIFY(control.isFlying());
+    Pilot pilot(master);
+    ManualControl &control = pilot.control;
+    QVERIFY(pilot.takesControl());
     control.moveAxis(QStringLiteral("LeftX"), -0.75);
     QCOMPARE(control.wanted(setpoint), 0.0);
     control.setArmed(true);
@@ -210,11 +223,9 @@ void tst_ManualControl::withoutControlNothingIsWritten()
 void tst_ManualControl::whatIsHeldWhileControlIsTakenDoesNotAct()
 {
     FlyingMaster master;
-    TestWindow window(master.address());
-    ManualControl control;
-    control.setPlants(window.context.plants());
-    control.setBindings(bindings());
-    QVERIFY(window.isReady());
+    Pilot pilot(master);
+    ManualControl &control = pilot.control;
+    QVERIFY(pilot.isReady());
     QTRY_VERIFY(control.control().mayTake());
     control.press(Qt::Key_W, false);
     control.control().take();
@@ -227,20 +238,15 @@ void tst_ManualControl::whoLosesSomeSignalsLetsGoOfAll()
 {
     FlyingMaster master;
     QVERIFY(master.startRealTime());
-    TestWindow window(master.address());
     TestWindow other(master.address(), QStringLiteral("Other"));
-    ManualControl control;
-    control.setPlants(window.context.plants());
-    control.setBindings(bindings());
-    QVERIFY(window.isReady() && other.isReady());
-    QTRY_VERIFY(control.control().mayTake());
-    control.control().take();
-    QTRY_VERIFY(control.isFlying());
+    Pilot pilot(master);
+    ManualControl &control = pilot.control;
+    QVERIFY(other.isReady() && pilot.takesControl());
     control.press(Qt::Key_Left, false);
     QTRY_COMPARE(master.valueOf(echo.signal), -3.0);
     other.plant->takeLease({setpoint.signal}, {}, Plant::AlsoFromOthers);
     QTRY_COMPARE(master.valueOf(echo.signal), 0.0);
-    QVERIFY(window.isMine(echo.signal));  // still held, by nobody's finger
+    QVERIFY(pilot.window.isMine(echo.signal));  // still held, by nobody's finger
     QCOMPARE(control.control().state(), SignalControl::Other);
 }
 

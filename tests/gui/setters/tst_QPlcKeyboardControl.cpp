@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "QPlcKeyboardControl.h"
 #include "SetterFixtures.h"
+#include "gui/setters/Gamepad.h"
 #include "gui/setters/KeyButton.h"
+#include "gui/setters/KeyMapView.h"
 
 #include <QtCore/QJsonArray>
 #include <QtWidgets/QLineEdit>
@@ -56,6 +58,7 @@ private Q_SLOTS:
     void aPlantThatIsLetGoIsMissing_data();
     void aPlantThatIsLetGoIsMissing();
     void keysAreEdited();
+    void withoutAGamepadNothingIsShownOfIt();
     void withoutPlantOrKeysThePanelIsCalm();
 };
 
@@ -228,6 +231,30 @@ void tst_QPlcKeyboardControl::keysAreEdited()
     QTest::mouseClick(buttonOf(editor.get(), QStringLiteral("×")), Qt::LeftButton);
     QCOMPARE(edited.size(), 2);
     QCOMPARE(panel.settings().value("keys").toArray().at(0).toObject().value("key").toString(), QStringLiteral("W"));
+}
+
+void tst_QPlcKeyboardControl::withoutAGamepadNothingIsShownOfIt()
+{
+    if (Gamepad().isConnected())
+        QSKIP("a gamepad is plugged in", "");
+    WindowContext context;
+    QPlcKeyboardControl panel;
+    QJsonObject settings = keySettings();
+    settings.insert("axes", QJsonArray{QJsonObject{{"axis", "RightY"}, {"signal", "echo"}, {"value", 5.0}}});
+    QVERIFY(showPanel(&panel, &context, settings));
+    auto *keys = panel.findChild<KeyMapView *>();
+    QVERIFY(keys->accessibleDescription().contains(QStringLiteral("W: setpoint")));
+    QVERIFY(!keys->accessibleDescription().contains(QStringLiteral("RightY")));
+    QVERIFY(!actionOf(&panel, QStringLiteral("Arm gamepad"))->isVisible());
+    QVERIFY(!labelsOf(&panel).contains(QStringLiteral("gamepad")));
+    keys->setAxesShown(true);  // as soon as one comes
+    QVERIFY(keys->accessibleDescription().contains(QStringLiteral("RightY: echo ±5")));
+    const std::unique_ptr<QWidget> editor(panel.createSettingsEditor());
+    editor->show();
+    QVERIFY(labelsOf(editor.get()).contains(QStringLiteral("gamepad")));
+    settings.remove("keys");
+    panel.applySettings(settings);
+    QVERIFY(labelsOf(&panel).contains(QStringLiteral("gamepad")));  // there is nothing else to steer with
 }
 
 void tst_QPlcKeyboardControl::withoutPlantOrKeysThePanelIsCalm()

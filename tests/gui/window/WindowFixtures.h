@@ -8,6 +8,7 @@
 
 #include <QtCore/QSettings>
 #include <QtCore/QTemporaryDir>
+#include <QtGui/QScreen>
 #include <QtTest/QtTest>
 #include <QtWidgets/QAction>
 #include <QtWidgets/QLineEdit>
@@ -31,7 +32,7 @@ private:
 
 constexpr int patience = 20000;  // [ms]
 
-/// A window of a laptop on the screen.
+/// A window of a laptop on the screen. On a screen (qtplc_add_screen_test) a picture of what was seen last is kept, under the name of the test.
 struct WindowFixture
 {
     WindowFixture()
@@ -40,6 +41,18 @@ struct WindowFixture
         window.show();
         window.activateWindow();
         QVERIFY(QTest::qWaitForWindowActive(&window));
+    }
+    ~WindowFixture()
+    {
+        const QString folder = qEnvironmentVariable("QTPLC_SCREENSHOTS");
+        if (folder.isEmpty() || !window.isVisible())
+            return;
+        const QString name = QStringLiteral("window_%1_%2.png")
+                                 .arg(QLatin1String(QTest::currentTestFunction()),
+                                      QLatin1String(QTest::currentDataTag() ? QTest::currentDataTag() : "last"));
+        const QString file = folder + QLatin1Char('/') + QString(name).replace(QLatin1Char(' '), QLatin1Char('_'));
+        if (!window.screen()->grabWindow(0).save(file))
+            qWarning("the picture '%s' cannot be written", qPrintable(file));
     }
 
     template<typename Widget>

@@ -8,15 +8,9 @@
 #include <QtTest/QtTest>
 
 #include <csignal>
+#include <sys/stat.h>
 
 namespace {
-
-QByteArray nameOf(qint64 pid)
-{
-    QFile file(QStringLiteral("/proc/%1/cmdline").arg(pid));
-    return file.open(QIODevice::ReadOnly) ? file.readAll().split('\0').constFirst().split('/').constLast()
-                                          : QByteArray();
-}
 
 /// How many colours a picture has; those beyond \a most are not all counted. A blank one has one.
 int colours(const QImage &image, int most)
@@ -47,6 +41,10 @@ private Q_SLOTS:
     void startPageIsThereWithoutAPlant();
     void masterThatIsNotThereBlocksNothing();
     void pictureThatCannotBeWrittenIsToldAtTheEnd();
+    void whatIsNoFileIsNotReplacedByAPicture();
+    void pictureIsGivenUpWhereProgramsOfTheDemoAreMissing();
+    void programThatIsEndedBeforeItsPictureHasFailed_data();
+    void programThatIsEndedBeforeItsPictureHasFailed();
     void windowOutlivesItsPrograms_data();
     void windowOutlivesItsPrograms();
     void noneIsLeftBehind_data();
@@ -199,6 +197,53 @@ void tst_ControlCenter::pictureThatCannotBeWrittenIsToldAtTheEnd()
     QVERIFY(QDir(folder.path()).rmdir(QStringLiteral("gone")));
     QCOMPARE(window.waitForEnd(), 1);
     QVERIFY2(window.errors().contains(file), qPrintable(window.errors()));
+}
+
+void tst_ControlCenter::whatIsNoFileIsNotReplacedByAPicture()
+{
+    QTemporaryDir folder;
+    const QString file = folder.filePath(QStringLiteral("pipe.png"));
+    QCOMPARE(::mkfifo(file.toLocal8Bit().constData(), 0600), 0);
+    const Outcome outcome = runProgram(program(), {QStringLiteral("--screenshot"), file, QStringLiteral("--after=0")});
+    QCOMPARE(outcome.exitCode, 2);
+    QVERIFY2(outcome.errors.contains(QLatin1String("no ordinary file")), qPrintable(outcome.errors));
+    QVERIFY(!QFileInfo(file).isFile());
+}
+
+void tst_ControlCenter::pictureIsGivenUpWhereProgramsOfTheDemoAreMissing()
+{
+    QTemporaryDir folder;
+    const QString alone = folder.filePath(QStringLiteral("awe_control_center"));
+    QVERIFY(QFile::copy(program(), alone));
+    const QString file = folder.filePath(QStringLiteral("x.png"));
+    const Outcome outcome = runProgram(alone, {QStringLiteral("--demo"), QStringLiteral("--screenshot"), file});
+    QCOMPARE(outcome.exitCode, 1);
+    QVERIFY2(outcome.errors.contains(QLatin1String("needs awe_master")), qPrintable(outcome.errors));
+    QVERIFY(!QFile::exists(file));
+}
+
+void tst_ControlCenter::programThatIsEndedBeforeItsPictureHasFailed_data()
+{
+    QTest::addColumn<int>("signal");
+    QTest::newRow("terminated") << SIGTERM;
+    QTest::newRow("interrupted") << SIGINT;
+}
+
+void tst_ControlCenter::programThatIsEndedBeforeItsPictureHasFailed()
+{
+    QFETCH(int, signal);
+    QTemporaryDir folder;
+    const QString file = folder.filePath(QStringLiteral("x.png"));
+    Program window(program(),
+                   {QStringLiteral("--demo"), QStringLiteral("--screenshot"), file, QStringLiteral("--after=60")});
+    const QList<qint64> pids = waitForPrograms(window);
+    QCOMPARE(pids.size(), 3);
+    QVERIFY(window.waitForOutput(QStringLiteral("flying")));
+    window.sendSignal(signal);
+    QCOMPARE(window.waitForEnd(), 1);
+    QVERIFY2(window.errors().contains(QLatin1String("before the picture")), qPrintable(window.errors()));
+    QVERIFY(!QFile::exists(file));
+    QCOMPARE(stillRunning(pids), QList<qint64>());
 }
 
 void tst_ControlCenter::windowOutlivesItsPrograms_data()

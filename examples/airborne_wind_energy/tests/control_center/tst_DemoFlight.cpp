@@ -3,7 +3,6 @@
 #include "Program.h"
 #include "Screenshot.h"
 
-#include <QtCore/QFile>
 #include <QtCore/QTemporaryDir>
 #include <QtGui/QClipboard>
 #include <QtTest/QtTest>
@@ -13,16 +12,6 @@
 #include <csignal>
 
 namespace {
-
-qint64 pidOf(const QByteArray &name)
-{
-    for (qint64 pid : childrenOf(QCoreApplication::applicationPid())) {
-        QFile file(QStringLiteral("/proc/%1/cmdline").arg(pid));
-        if (file.open(QIODevice::ReadOnly) && file.readAll().split('\0').constFirst().endsWith(name))
-            return pid;
-    }
-    return 0;
-}
 
 /// The button that a person sees; null when there is none of this text.
 QAbstractButton *visibleButton(const QWidget &window, const QString &text)
@@ -102,7 +91,7 @@ void tst_DemoFlight::killedProgramIsToldAndOneClickFliesAgain()
     clock.start();
     demo.begin(clock);
     QVERIFY(flying.wait(Program::patience));
-    ::kill(pid_t(pidOf(victim)), SIGKILL);
+    ::kill(pid_t(childNamed(victim)), SIGKILL);
     QVERIFY(failed.wait(Program::patience));
     QVERIFY2(failed.at(0).at(0).toString().contains(QString::fromLatin1(victim)),
              qPrintable(failed.at(0).at(0).toString()));

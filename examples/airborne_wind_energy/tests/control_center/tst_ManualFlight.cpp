@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "DemoPlant.h"
-#include "Program.h"
+#include "Witness.h"
 
 #include <QtCore/QFile>
 #include <QtCore/QTemporaryDir>
@@ -9,28 +9,19 @@
 #include <QtWidgets/QAbstractButton>
 
 #include <array>
-#include <atomic>
 #include <cmath>
 
 namespace {
 
 constexpr double Pi = 3.14159265358979323846;
 
-/// Joins the flight, and sees what the kite does. Threads: step() in that of the cycle, all else in that of the test.
-class Witness : public QPlcCompactSlaveNode
+/// Sees what the kite does.
+class KiteWitness : public Witness
 {
     Q_OBJECT
 public:
-    Witness()
-        : QPlcCompactSlaveNode(QStringLiteral("Witness"))
-    {
-    }
-    ~Witness() override { disconnectFromMaster(); }
+    ~KiteWitness() override { disconnectFromMaster(); }
 
-    bool join(const QString &address)
-    {
-        return connectToMasterAndWaitForConnected(QPlcUnderlyingProtocol::fromString(address));
-    }
     double yawSpeed() const { return m_yawSpeed; }  // [deg/s]
     double turned() const
     {
@@ -38,19 +29,18 @@ public:
     }  // of the course since the begin, as seen from the winch; > 0 to the left [deg]
     double course() const { return m_course; }  // 0 up, 90 to the left, as seen from the winch [deg]
     bool isCrashed() const { return m_isCrashed; }
-    int cycles() const { return m_cycles; }
 
 private:
     using Vector = std::array<double, 3>;
 
-    void step(const QPlcCycle &) override
+    void step(const QPlcCycle &cycle) override
     {
         const double course = courseNow();
         m_turned = m_turned + std::remainder(course - m_course, 360.0);
         m_course = course;
         m_yawSpeed = m_yawSpeedInput;
         m_isCrashed = m_isCrashed || m_crashed;
-        ++m_cycles;
+        Witness::step(cycle);
     }
     /// The velocity across the tether: to the left (azimuth grows), and up (elevation grows).
     double courseNow() const
@@ -67,7 +57,6 @@ private:
     std::atomic<double> m_turned{0.0};
     std::atomic<double> m_course{0.0};
     std::atomic<bool> m_isCrashed{false};
-    std::atomic<int> m_cycles{0};
     QPlcInput<double> m_yawSpeedInput{this, "bodyControlYawSpeed"};  // [deg/s]
     QPlcInput<Vector> m_position{this, "bodyPosition_earth"};        // [m]
     QPlcInput<Vector> m_velocity{this, "bodyVelocity_earth"};        // [m/s]
@@ -146,7 +135,7 @@ void tst_ManualFlight::leftTurnsTheKiteToTheLeftAndTheAutopilotFliesOn()
     QTRY_VERIFY_WITH_TIMEOUT(window.isLive(plant), Program::patience);
     auto *panel = window.findChild<QPlcKeyboardControl *>();
     QVERIFY(panel);
-    Witness kite;
+    KiteWitness kite;
     QVERIFY(kite.join(demo.address()));
 
     // It flies eights: up and to the right is a good moment, since the way to the left goes over the top.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Program.h"
 
+#include <QtCore/QCoreApplication>
 #include <QtCore/QDeadlineTimer>
 #include <QtCore/QDir>
 #include <QtCore/QFile>
@@ -105,6 +106,22 @@ QList<qint64> childrenOf(qint64 parent)
             children << pid;
     }
     return children;
+}
+
+QByteArray nameOf(qint64 pid)
+{
+    QFile file(QStringLiteral("/proc/%1/cmdline").arg(pid));
+    return file.open(QIODevice::ReadOnly) ? file.readAll().split('\0').constFirst().split('/').constLast()
+                                          : QByteArray();
+}
+
+qint64 childNamed(const QByteArray &name)
+{
+    for (qint64 pid : childrenOf(QCoreApplication::applicationPid())) {
+        if (nameOf(pid) == name)
+            return pid;
+    }
+    return 0;
 }
 
 bool isRunning(qint64 pid)

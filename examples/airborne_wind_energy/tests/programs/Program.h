@@ -50,6 +50,10 @@ Outcome runProgram(const QString &path, const QStringList &arguments);
 
 /// Process ids of the programs that \a parent has started and that run.
 QList<qint64> childrenOf(qint64 parent);
+/// The name of its program, without its folder; empty when there is none.
+QByteArray nameOf(qint64 pid);
+/// The program of this name that this process has started; 0 when there is none.
+qint64 childNamed(const QByteArray &name);
 /// Whether the process runs; one that only waits to be buried does not.
 bool isRunning(qint64 pid);
 /// Waits until none of the processes runs. \return those that still do

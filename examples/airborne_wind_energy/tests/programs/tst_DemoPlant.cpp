@@ -1,66 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "DemoPlant.h"
-#include "Program.h"
+#include "Witness.h"
 
 #include <QtCore/QFile>
 #include <QtCore/QTemporaryDir>
 #include <QtNetwork/QTcpServer>
-#include <QtPlcCore>
-#include <QtTest/QtTest>
 
-#include <atomic>
 #include <csignal>
-
-namespace {
-
-/// Joins the flight, and sees that it goes on.
-class Witness : public QPlcCompactSlaveNode
-{
-    Q_OBJECT
-public:
-    Witness()
-        : QPlcCompactSlaveNode(QStringLiteral("Witness"))
-    {
-    }
-    ~Witness() override { disconnectFromMaster(); }
-
-    bool join(const QString &address)
-    {
-        return connectToMasterAndWaitForConnected(QPlcUnderlyingProtocol::fromString(address));
-    }
-    int cycles() const { return m_cycles; }
-    /// Waits for another \a count cycles. \return false when they do not come
-    bool seesCycles(int count)
-    {
-        const int wanted = m_cycles + count;
-        return QTest::qWaitFor([&] { return m_cycles >= wanted; }, Program::patience);
-    }
-
-private:
-    void step(const QPlcCycle &) override { ++m_cycles; }
-
-    std::atomic<int> m_cycles{0};
-    QPlcInput<double> m_power{this, "power"};
-};
-
-QByteArray nameOf(qint64 pid)
-{
-    QFile file(QStringLiteral("/proc/%1/cmdline").arg(pid));
-    return file.open(QIODevice::ReadOnly) ? file.readAll().split('\0').constFirst().split('/').constLast()
-                                          : QByteArray();
-}
-
-/// Process id of the program of the demo; 0 when there is none.
-qint64 pidOf(const QByteArray &name)
-{
-    for (qint64 pid : childrenOf(QCoreApplication::applicationPid())) {
-        if (nameOf(pid) == name)
-            return pid;
-    }
-    return 0;
-}
-
-}  // namespace
 
 /// The demo, as the Control Center sees it.
 class tst_DemoPlant : public QObject
@@ -150,8 +96,8 @@ void tst_DemoPlant::killedProgramIsNamedAndARestartFliesOnTheSamePort()
     demo.start();
     QVERIFY(listening.wait(Program::patience));
     const QString address = demo.address();
-    QTRY_VERIFY_WITH_TIMEOUT(pidOf(victim) != 0, Program::patience);
-    ::kill(pid_t(pidOf(victim)), SIGKILL);
+    QTRY_VERIFY_WITH_TIMEOUT(childNamed(victim) != 0, Program::patience);
+    ::kill(pid_t(childNamed(victim)), SIGKILL);
     QVERIFY(failed.wait(Program::patience));
     const QString sentence = failed.at(0).at(0).toString();
     QVERIFY2(sentence.startsWith(QString::fromLatin1(victim) + QStringLiteral(" has ended (Killed)")),

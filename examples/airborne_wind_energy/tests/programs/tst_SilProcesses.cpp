@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Program.h"
 
-#include <QtCore/QFile>
 #include <QtTest/QtTest>
 
 #include <csignal>
@@ -19,15 +18,7 @@ private Q_SLOTS:
 private:
     /// Waits until all three programs run. \return their process ids: master, model, autopilot; empty when they do not come
     static QList<qint64> waitForPrograms(Program &program);
-    static QByteArray nameOf(qint64 pid);
 };
-
-QByteArray tst_SilProcesses::nameOf(qint64 pid)
-{
-    QFile file(QStringLiteral("/proc/%1/cmdline").arg(pid));
-    return file.open(QIODevice::ReadOnly) ? file.readAll().split('\0').constFirst().split('/').constLast()
-                                          : QByteArray();
-}
 
 QList<qint64> tst_SilProcesses::waitForPrograms(Program &program)
 {
