@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "JitterCurve.h"
 
+#include "ChartLook.h"
 #include "gui/models/ValueFormat.h"
 
 #include <QtGui/QPainter>
@@ -89,11 +90,12 @@ void JitterFigures::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtSc
 void JitterFigures::drawFigure(QPainter *painter, double x, int line, const QString &text, const QRectF &canvas) const
 {
     constexpr double gap = 3.0;  // [px]
+    painter->setFont(scaleFont(painter->font()));
     const QFontMetricsF metrics(painter->font());
     QRectF box(0.0, canvas.top() + 2.0 + line * metrics.height(), metrics.horizontalAdvance(text) + 2.0 * gap,
                metrics.height());
     const bool isRoomRight = x + box.width() + gap < canvas.right();
-    box.moveLeft(isRoomRight ? x + 1.0 : x - 1.0 - box.width());
+    box.moveLeft(isRoomRight ? x + 1.0 : std::max(x - 1.0 - box.width(), canvas.left()));
     painter->setPen(QPen(m_color, 1.0, Qt::DashLine));
     painter->drawLine(QPointF(x, canvas.bottom()), QPointF(x, box.top()));
     if (box.bottom() > canvas.bottom())

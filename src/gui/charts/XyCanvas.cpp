@@ -2,6 +2,7 @@
 #include "XyCanvas.h"
 
 #include "ChartLook.h"
+#include "PlotScales.h"
 
 #include <qwt_plot_grid.h>
 #include <qwt_plot_layout.h>
@@ -12,12 +13,20 @@
 
 namespace qplc {
 
+namespace {
+
+constexpr int usualCharacters = 5;  // of labels of the y axis: canvases do not jump with them
+
+}  // namespace
+
 XyCanvas::XyCanvas(QWidget *parent)
     : QwtPlot(parent)
     , m_grid(std::make_unique<QwtPlotGrid>())
 {
     setMinimumSize(60, 40);
     m_grid->attach(this);
+    setAxisScaleDraw(xBottom, new ValueScaleDraw(scaleFont(font()), 0));
+    setAxisScaleDraw(yLeft, new ValueScaleDraw(scaleFont(font()), usualCharacters));
     plotLayout()->setAlignCanvasToScales(true);
     setAxisMaxMinor(xBottom, 0);
     setAxisMaxMinor(yLeft, 0);
