@@ -10,7 +10,7 @@
 ///
 /// | | mouse | keys |
 /// |---|---|---|
-/// | zoom the time, about the mouse | wheel | `+`, `-` |
+/// | zoom the time, about the mouse | wheel, two fingers | `+`, `-` |
 /// | zoom the values | Ctrl+wheel, or the wheel over a y axis | `Ctrl++`, `Ctrl+-` |
 /// | pan | drag; over a y axis: the values | arrow keys |
 /// | zoom into a box | drag with Shift or the right button | |
@@ -21,7 +21,8 @@
 /// | add a signal | drop | `Insert`; `+` while there is none |
 /// | choose, hide, remove a curve | click in the legend hides; context menu | `N`, `Shift+N`; `V`; `Delete` |
 /// | trigger on and off | context menu | `T` |
-/// | export what is seen | context menu | `Ctrl+E` CSV, `Ctrl+C` table into the clipboard, `Ctrl+Shift+E` PNG or SVG, `Ctrl+Shift+C` picture into the clipboard |
+/// | export what is seen | context menu | `Ctrl+E` CSV, `Ctrl+C` table into the clipboard, `Ctrl+Shift+E` PNG, SVG or PDF, `Ctrl+Shift+C` picture into the clipboard |
+/// | export what is between A and B | context menu | `Ctrl+Alt+E` CSV, `Ctrl+Alt+C` table into the clipboard |
 ///
 /// Zoom and freeze are a view, and no settings: data go on, whatever is looked at. The time axis is that of the window, or its own.
 ///

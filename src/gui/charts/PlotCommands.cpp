@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a person can do with a time plot, by mouse, keys and menu.
-#include "PlotPicture.h"
 #include "QPlcTimePlotPrivate.h"
 #include "gui/panel/SignalEdit.h"
 
-#include <QtGui/QClipboard>
-#include <QtGui/QGuiApplication>
 #include <QtWidgets/QBoxLayout>
-#include <QtWidgets/QFileDialog>
 #include <QtWidgets/QMenu>
 #include <QtWidgets/QToolButton>
 
@@ -23,18 +19,6 @@ constexpr double panOfKey = 0.15;     // of the view
 constexpr double reachOfRow = 4.0;    // [px]: so far a cursor goes to a row
 constexpr double firstCursor = 0.35;  // places of cursors without a mouse, of the view
 constexpr double secondCursor = 0.65;
-
-/// A dialog that asks for a file, and goes on at once.
-QFileDialog *openDialog(QWidget *parent, const QString &title, const QStringList &filters, const QString &suffix)
-{
-    auto *dialog = new QFileDialog(parent, title);
-    dialog->setAttribute(Qt::WA_DeleteOnClose);
-    dialog->setAcceptMode(QFileDialog::AcceptSave);
-    dialog->setNameFilters(filters);
-    dialog->setDefaultSuffix(suffix);
-    dialog->open();
-    return dialog;
-}
 
 }  // namespace
 
@@ -110,12 +94,7 @@ void QPlcTimePlot::Private::makeActions()
     });
     triggerAction = make(QPlcTimePlot::tr("Trigger"), {key(Qt::Key_T)}, "trigger", [this] { toggleTrigger(); });
     triggerAction->setCheckable(true);
-    make(QPlcTimePlot::tr("Export as CSV..."), {key(Qt::CTRL | Qt::Key_E)}, "saveTable", [this] { saveTable(); });
-    make(QPlcTimePlot::tr("Copy as table"), {key(Qt::CTRL | Qt::Key_C)}, "copyTable", [this] { copyTable(); });
-    make(QPlcTimePlot::tr("Save picture..."), {key(Qt::CTRL | Qt::SHIFT | Qt::Key_E)}, "savePicture",
-         [this] { savePicture(); });
-    make(QPlcTimePlot::tr("Copy picture"), {key(Qt::CTRL | Qt::SHIFT | Qt::Key_C)}, "copyPicture",
-         [this] { copyPicture(); });
+    makeExportActions();
 }
 
 void QPlcTimePlot::Private::connectInteraction()
@@ -197,6 +176,10 @@ QMenu *QPlcTimePlot::Private::createMenu(int curve, std::optional<int> x)
     menu->addSeparator();
     for (const char *name : {"saveTable", "copyTable", "savePicture", "copyPicture"})
         add(name);
+    if (hasBothCursors()) {
+        add("saveBetween");
+        add("copyBetween");
+    }
     menu->addSeparator();
     add("panelMenu");  // of the frame around
     return menu;
@@ -402,53 +385,4 @@ void QPlcTimePlot::Private::takeTrigger()
     shownTrigger = settings.trigger;
     ++version;
     schedule();
-}
-
-std::vector<TableExport::Column> QPlcTimePlot::Private::exportColumns() const
-{
-    std::vector<TableExport::Column> columns;
-    for (const PlotCurve &curve : curves) {
-        if (curve.isSeen())
-            columns.push_back({curve.source.store, curve.source.channel, curve.settings.gain, curve.settings.offset,
-                               curve.settings.text(), curve.source.unit, curve.source.derived});
-    }
-    return columns;
-}
-
-/// The range is that of the moment of the wish, whatever is seen when the name has been chosen.
-void QPlcTimePlot::Private::saveTable()
-{
-    const Time begin = canvas->begin();
-    const Time end = canvas->end() - 1;
-    QFileDialog *dialog = openDialog(q, QPlcTimePlot::tr("Export what is seen"),
-                                     {QPlcTimePlot::tr("Comma-separated values (*.csv)")}, QStringLiteral("csv"));
-    connect(dialog, &QFileDialog::fileSelected, this, [this, begin, end](const QString &name) {
-        tableExport.save(TableExport(TableExport::Csv, exportColumns(), begin, end), name);
-    });
-}
-
-void QPlcTimePlot::Private::copyTable()
-{
-    tableExport.copy(TableExport(TableExport::Tsv, exportColumns(), canvas->begin(), canvas->end() - 1));
-}
-
-void QPlcTimePlot::Private::savePicture()
-{
-    QFileDialog *dialog
-        = openDialog(q, QPlcTimePlot::tr("Save a picture"),
-                     {QPlcTimePlot::tr("Picture (*.png)"), QPlcTimePlot::tr("Drawing (*.svg)")}, QStringLiteral("png"));
-    connect(dialog, &QFileDialog::filterSelected, dialog, [dialog](const QString &filter) {
-        dialog->setDefaultSuffix(filter.contains(QLatin1String("svg")) ? QStringLiteral("svg") : QStringLiteral("png"));
-    });
-    connect(dialog, &QFileDialog::fileSelected, this, [this](const QString &name) {
-        const QString failure = PlotPicture(canvas, overlay, legend).save(name);
-        const bool isFailure = !failure.isEmpty();
-        say(isFailure ? failure : QPlcTimePlot::tr("The picture is in %1.").arg(name), isFailure);
-    });
-}
-
-void QPlcTimePlot::Private::copyPicture()
-{
-    QGuiApplication::clipboard()->setImage(PlotPicture(canvas, overlay, legend).image());
-    say(QPlcTimePlot::tr("The picture is in the clipboard."), false);
 }

@@ -3,7 +3,6 @@
 #include "QPlcTimePlotPrivate.h"
 #include "gui/models/ValueFormat.h"
 
-#include <QtWidgets/QLabel>
 #include <QtWidgets/QScrollArea>
 #include <QtWidgets/QToolButton>
 
@@ -20,7 +19,6 @@ constexpr int compactWidth = 300;
 constexpr int leastLegendHeight = 100;      // [px] of the panel: below there are curves only
 constexpr int leastStatisticsHeight = 220;  // [px] of the panel: below there is one line of statistics
 constexpr double legendShare = 0.3;         // of the height of the panel, at most
-constexpr int successTime = 6000;           // [ms] that good news are shown
 constexpr int buttonMargin = 4;             // [px]
 
 }  // namespace
@@ -232,9 +230,6 @@ void QPlcTimePlot::Private::arrange()
     const int legendRoom = canvas->isCompact() ? 0 : int(legendShare * q->height());
     legendArea->setFixedHeight(legend->heightWithin(q->contentsRect().width(), legendRoom));
     statistics->setUnfolded(settings.hasStatistics && q->height() >= leastStatisticsHeight);
-    const int messageHeight = message->heightForWidth(q->width());  // over the rest, which stays where it is
-    message->setGeometry(0, q->height() - messageHeight, q->width(), messageHeight);
-    message->raise();
 }
 
 void QPlcTimePlot::Private::showTheme()
@@ -247,22 +242,11 @@ void QPlcTimePlot::Private::showTheme()
     canvas->setTheme(theme);
     overlay->setTheme(theme);
     legend->setTheme(theme);
+    exporter->setTheme(theme);
     QPalette button = palette;
     button.setColor(QPalette::Button, theme.accent);
     button.setColor(QPalette::ButtonText, theme.surface);
     liveButton->setPalette(button);
     liveButton->setFont(overlay->font());
     bind();
-}
-
-void QPlcTimePlot::Private::say(const QString &sentence, bool isFailure)
-{
-    const Theme theme = q->context() ? q->context()->theme() : Theme::byName(Theme::System);
-    QPalette palette = q->palette();
-    palette.setColor(QPalette::WindowText, isFailure ? theme.alarm : theme.text);
-    message->setPalette(palette);
-    message->setText(isFailure ? QPlcTimePlot::tr("%1 (Esc)").arg(sentence) : sentence);
-    message->show();
-    arrange();
-    isFailure ? messageTimer.stop() : messageTimer.start(successTime);
 }

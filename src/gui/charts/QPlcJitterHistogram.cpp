@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "QPlcJitterHistogram.h"
 
+#include "ChartExport.h"
 #include "ChartLook.h"
 #include "JitterCanvas.h"
 #include "JitterEditor.h"
@@ -13,6 +14,7 @@
 #include <QtCore/QMap>
 #include <QtCore/QPointer>
 #include <QtCore/QTimer>
+#include <QtGui/QKeyEvent>
 #include <QtWidgets/QAction>
 #include <QtWidgets/QLabel>
 #include <QtWidgets/QVBoxLayout>
@@ -60,6 +62,7 @@ public:
     JitterCanvas *canvas;
     QLabel *message;
     QLabel *caption;
+    ChartExport *exporter;
     QAction *last = nullptr;
     QMap<QString, QAction *> masterActions;  // by key
     PanelSettings settings{plantKey, showKey, windowKey};
@@ -74,6 +77,7 @@ QPlcJitterHistogram::Private::Private(QPlcJitterHistogram *histogram)
     , canvas(new JitterCanvas)
     , message(new QLabel)
     , caption(new QLabel)
+    , exporter(new ChartExport(q, [this] { return std::make_unique<ChartPicture>(canvas, caption->text()); }))
 {
     auto *all = new QVBoxLayout(q);
     all->setContentsMargins(2, 2, 2, 2);
@@ -123,6 +127,14 @@ void QPlcJitterHistogram::Private::makeActions()
         masterActions.insert(key, action);
         QObject::connect(action, &QAction::triggered, q, [this, name = key](bool isShown) { setShown(name, isShown); });
     }
+    const auto addExport = [this](const QString &text, int keys, const char *name, auto act) {
+        QAction *action = addAction(text, keys);
+        action->setCheckable(false);
+        action->setObjectName(QLatin1String(name));
+        QObject::connect(action, &QAction::triggered, exporter, act);
+    };
+    addExport(tr("Save picture..."), Qt::CTRL | Qt::SHIFT | Qt::Key_E, "savePicture", &ChartExport::savePicture);
+    addExport(tr("Copy picture"), Qt::CTRL | Qt::SHIFT | Qt::Key_C, "copyPicture", &ChartExport::copyPicture);
     showActions();
 }
 
@@ -272,6 +284,7 @@ void QPlcJitterHistogram::Private::applyTheme()
     q->setPalette(palette);
     q->setAutoFillBackground(true);
     canvas->setTheme(theme);
+    exporter->setTheme(theme);
 }
 
 QPlcJitterHistogram::QPlcJitterHistogram(QWidget *parent)
@@ -331,6 +344,12 @@ void QPlcJitterHistogram::showEvent(QShowEvent *event)
     QPlcWidget::showEvent(event);
     d->timer.start(askPause);
     d->ask();
+}
+
+void QPlcJitterHistogram::keyPressEvent(QKeyEvent *event)
+{
+    if (event->key() != Qt::Key_Escape || !d->exporter->dismiss())
+        QPlcWidget::keyPressEvent(event);
 }
 
 void QPlcJitterHistogram::resizeEvent(QResizeEvent *event)

@@ -49,6 +49,7 @@ private Q_SLOTS:
     void thereIsAMenuForTheKeyboard();
     void whatIsSeenGoesIntoTheClipboard();
     void picturesHaveTwiceThePixels();
+    void whatIsBetweenTheCursorsGoesIntoTheClipboard();
     void aFileDialogDoesNotBlockAndFailuresAreSaid();
     void smallPanelsKeepTheirCurves();
     void staleValuesAreNotTrusted();
@@ -258,6 +259,23 @@ void tst_PlotEditing::whatIsSeenGoesIntoTheClipboard()
     QCOMPARE(lines.size(), int(rows) + 2);  // with the header, and nothing behind the last line
 }
 
+void tst_PlotEditing::whatIsBetweenTheCursorsGoesIntoTheClipboard()
+{
+    PlotWindow window(R"({"curves":[{"signal":"count"}]})");
+    QVERIFY(window.run(0.5));
+    const CurveSource source = window.context.curveSources()->find(QStringLiteral("count"));
+    const SignalStore &store = *source.store;
+    const SignalStore::Row last = store.endRow() - 1;
+    window.time()->setCursor(TimeView::B, store.time(last - 20));  // in any order
+    window.time()->setCursor(TimeView::A, store.time(last - 10));
+    QGuiApplication::clipboard()->clear();
+    window.trigger("copyBetween");
+    QTRY_VERIFY(!QGuiApplication::clipboard()->text().isEmpty());
+    const QStringList lines = QGuiApplication::clipboard()->text().split(QLatin1Char('\n'));
+    QCOMPARE(lines.size(), 1 + 11 + 1);
+    QCOMPARE(lines.at(1).section(QLatin1Char('\t'), 2).toFloat(), store.value(source.channel, last - 20));
+}
+
 void tst_PlotEditing::picturesHaveTwiceThePixels()
 {
     PlotWindow window(R"({"curves":[{"signal":"count"}]})");
@@ -272,6 +290,10 @@ void tst_PlotEditing::picturesHaveTwiceThePixels()
     QFile svg(folder.filePath(QStringLiteral("a.svg")));
     QVERIFY(svg.open(QIODevice::ReadOnly));
     QVERIFY(svg.readAll().contains("<polyline"));
+    QCOMPARE(picture.save(folder.filePath(QStringLiteral("a.pdf"))), QString());
+    QFile pdf(folder.filePath(QStringLiteral("a.pdf")));
+    QVERIFY(pdf.open(QIODevice::ReadOnly));
+    QVERIFY(pdf.readAll().startsWith("%PDF-"));
     QVERIFY(!QImage(folder.filePath(QStringLiteral("a.png"))).isNull());
     QVERIFY(picture.save(QStringLiteral("/nowhere/a.png")).contains(QStringLiteral("/nowhere/a.png")));
 }

@@ -55,6 +55,7 @@ private Q_SLOTS:
     void controlAndTheWheelZoomTheValues();
     void theWheelOverAnAxisZoomsItsValues();
     void draggingPansByWhatTheMouseMoves();
+    void twoFingersZoomTheTime();
     void aBoxIsZoomedInto();
     void aDoubleClickShowsAll();
     void cursorsAreDragged();
@@ -197,6 +198,26 @@ void tst_TimePlot::draggingPansByWhatTheMouseMoves()
     drag(canvas, {100, 50}, {100 + canvas->width() / 2, 60});
     const Time half = window.time()->span() / 2;
     QVERIFY(std::abs(before - window.time()->end() - half) < half / 20);
+}
+
+void tst_TimePlot::twoFingersZoomTheTime()
+{
+    PlotWindow window(R"({"curves":[{"signal":"count"}]})");
+    QVERIFY(window.run(0.3));
+    const Time newest = window.time()->newest();
+    window.time()->show(newest - 10 * s, newest);
+    QTest::qWait(60);
+    QTouchDevice *screen = QTest::createTouchDevice();
+    QWidget *canvas = window.canvas()->canvas();
+    const Time about = window.canvas()->timeAt(200.0);
+    QTest::touchEvent(canvas, screen).press(0, {150, 80}, canvas).press(1, {250, 80}, canvas);
+    for (int i = 1; i <= 10; ++i)
+        QTest::touchEvent(canvas, screen).move(0, {150 - 5 * i, 80}, canvas).move(1, {250 + 5 * i, 80}, canvas);
+    QTest::touchEvent(canvas, screen).release(0, {100, 80}, canvas).release(1, {300, 80}, canvas);
+    const double zoomed = double(window.time()->span()) / double(10 * s);
+    QVERIFY2(zoomed > 0.4 && zoomed < 0.65, qPrintable(QString::number(zoomed)));
+    QTest::qWait(60);
+    QVERIFY(std::abs(window.canvas()->xOf(about) - 200.0) < 15.0);
 }
 
 void tst_TimePlot::aBoxIsZoomedInto()
