@@ -185,7 +185,7 @@ void QPlcXyPlot::Private::draw()
     QElapsedTimer cost;
     cost.start();
     const bool isStale = !displayed && stalePlant();
-    canvas->show({time->begin(), time->end(), displayed.value_or(time->newest()), isStale});
+    canvas->show({time->begin(), time->end(), displayed, isStale});
     legend->setVisible(!legend->text().isEmpty() && q->height() >= leastHeight);
     pause = std::clamp(int(cost.elapsed()) * costShare, shortestPause, longestPause);
     showMoment();

@@ -23,8 +23,8 @@ public:
     {
         Time begin = 0;
         Time end = 0;
-        Time dot = 0;
-        bool isStale = false;  // the dot is where the plant was
+        std::optional<Time> dot;  // empty: the newest values
+        bool isStale = false;     // the dot is where the plant was
     };
 
     explicit XyCanvas(QWidget *parent = nullptr);

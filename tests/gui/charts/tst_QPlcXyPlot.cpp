@@ -278,7 +278,11 @@ void tst_QPlcXyPlot::theDotIsAtTheDisplayedTime()
     QCOMPARE(curve.dot(), QPointF(999, 999));
     canvas->show({0, 60 * s, 5, false});
     QVERIFY(std::isnan(curve.dot().x()));
+    canvas->show({0, 60 * s, 60 * s + s / 4, false});
+    QCOMPARE(curve.dot(), QPointF(5999, 5999));
     canvas->show({0, 60 * s, 1000 * s, false});
+    QVERIFY(std::isnan(curve.dot().x()));
+    canvas->show({0, 60 * s, std::nullopt, false});
     QCOMPARE(curve.dot(), QPointF(5999, 5999));
 }
 
