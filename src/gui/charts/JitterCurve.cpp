@@ -80,6 +80,7 @@ void JitterFigures::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtSc
     const Figure figures[]
         = {{"p50", m_distribution.p50}, {"p99", m_distribution.p99}, {"max", m_distribution.maximum}};
     int line = m_place * int(std::size(figures));
+    painter->setFont(scaleFont(painter->font()));
     for (const Figure &figure : figures) {
         const double x = xMap.transform(std::max(figure.value / microsecond, shortest));
         drawFigure(painter, x, line++,
@@ -90,7 +91,6 @@ void JitterFigures::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtSc
 void JitterFigures::drawFigure(QPainter *painter, double x, int line, const QString &text, const QRectF &canvas) const
 {
     constexpr double gap = 3.0;  // [px]
-    painter->setFont(scaleFont(painter->font()));
     const QFontMetricsF metrics(painter->font());
     QRectF box(0.0, canvas.top() + 2.0 + line * metrics.height(), metrics.horizontalAdvance(text) + 2.0 * gap,
                metrics.height());

@@ -129,12 +129,17 @@ void PlotCanvas::setTime(const TimeColumns &columns, PlotSettings::Labels labels
                                 seconds(ticks.minor()), {}, seconds(ticks.major())));
 }
 
-void PlotCanvas::setRange(Axis axis, double minimum, double maximum)
+void PlotCanvas::setRange(Axis axis, double minimum, double maximum, Ticks ticks)
 {
     const QwtPlot::Axis place = qwtAxis(axis);
     const double line = QFontMetricsF(axisFont(place)).height();
     const int most = std::max(fewestTicks, int(canvas()->height() / (linesOfLabel * line)));
-    setAxisScaleDiv(place, axisScaleEngine(place)->divideScale(minimum, maximum, most, 5));
+    const QwtScaleEngine *engine = axisScaleEngine(place);
+    const QwtScaleDiv scale = engine->divideScale(minimum, maximum, most, 5);
+    const QList<double> major = scale.ticks(QwtScaleDiv::MajorTick);
+    const bool isFiner = major.size() > 1 && major[1] - major[0] < 1.0;
+    setAxisScaleDiv(place,
+                    ticks == WholeTicks && isFiner ? engine->divideScale(minimum, maximum, most, 0, 1.0) : scale);
 }
 
 PlotCanvas::Time PlotCanvas::timeAt(double x) const

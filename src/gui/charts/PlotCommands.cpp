@@ -92,6 +92,9 @@ void QPlcTimePlot::Private::makeActions()
         wanted.hasStatistics = !wanted.hasStatistics;
         edit(wanted);
     });
+    make(QPlcTimePlot::tr("Reference line"), {key(Qt::Key_R)}, "addLine", [this] { addLine(); });
+    make(QPlcTimePlot::tr("Remove reference lines"), {key(Qt::SHIFT | Qt::Key_R)}, "removeLines",
+         [this] { removeLines(); });
     triggerAction = make(QPlcTimePlot::tr("Trigger"), {key(Qt::Key_T)}, "trigger", [this] { toggleTrigger(); });
     triggerAction->setCheckable(true);
     makeExportActions();
@@ -127,7 +130,7 @@ void QPlcTimePlot::Private::connectInteraction()
         shared()->setPointer(mouse ? std::optional<Time>(canvas->timeAt(mouse->x())) : std::nullopt);
     });
     connect(interaction, &PlotInteraction::menuWanted, this, [this](const QPoint &position, const QPoint &global) {
-        createMenu(curves.selected(), position.x())->popup(global);
+        createMenu(curves.selected(), position)->popup(global);
     });
     connect(legend, &PlotLegend::clicked, this, [this](int place) {
         q->setFocus(Qt::MouseFocusReason);
@@ -140,8 +143,8 @@ void QPlcTimePlot::Private::connectInteraction()
     connect(statistics, &StatisticsView::unfoldedChanged, this, [this] { statisticsAction->trigger(); });
 }
 
-/// \param x  of the mouse over the canvas [px]
-QMenu *QPlcTimePlot::Private::createMenu(int curve, std::optional<int> x)
+/// \param mouse  over the canvas [px]
+QMenu *QPlcTimePlot::Private::createMenu(int curve, std::optional<QPoint> mouse)
 {
     auto *menu = new QMenu(q);
     menu->setAttribute(Qt::WA_DeleteOnClose);
@@ -156,8 +159,8 @@ QMenu *QPlcTimePlot::Private::createMenu(int curve, std::optional<int> x)
         add("remove");
     }
     menu->addSeparator();
-    if (x) {
-        const Time time = canvas->timeAt(*x);
+    if (mouse) {
+        const Time time = canvas->timeAt(mouse->x());
         const auto here = [&](const QString &text, TimeView::Cursor which, const QString &keys) {
             QAction *action = menu->addAction(text, this, [this, which, time] { placeCursor(which, time); });
             action->setShortcut(keys);
@@ -170,6 +173,10 @@ QMenu *QPlcTimePlot::Private::createMenu(int curve, std::optional<int> x)
     }
     add("removeCursors");
     add("statistics");
+    menu->addSeparator();
+    add("addLine");
+    if (hasLines())
+        add("removeLines");
     menu->addSeparator();
     for (const char *name : {"all", "zoomIn", "zoomOut", "freeze", "live", "trigger"})
         add(name);
@@ -340,6 +347,37 @@ void QPlcTimePlot::Private::moveCursor(int pixels)
         shared()->setCursor(lastCursor, *time + pixels * pixel);
     else
         placeCursor(lastCursor);
+}
+
+bool QPlcTimePlot::Private::hasLines() const
+{
+    return !settings.left.lines.isEmpty() || !settings.right.lines.isEmpty();
+}
+
+/// At the mouse, or in the middle; a value with as many digits as pixels tell apart.
+void QPlcTimePlot::Private::addLine()
+{
+    if (curves.isEmpty())
+        return;
+    const Axis axis = curves.hasAxis(Axis::Left) ? Axis::Left : Axis::Right;
+    const double y = interaction->mouse() ? interaction->mouse()->y() : 0.5 * canvas->canvas()->height();
+    const double value = canvas->valueAt(axis, y);
+    const double pixel = std::abs(canvas->valueAt(axis, y + 1.0) - value);
+    const int digits = std::clamp(int(std::ceil(std::log10(std::abs(value) / pixel))), 1, 7);
+    PlotSettings wanted = settings;
+    QVector<double> &lines = (axis == Axis::Left ? wanted.left : wanted.right).lines;
+    lines.append(QString::number(value, 'g', digits).toDouble());
+    edit(wanted);
+}
+
+void QPlcTimePlot::Private::removeLines()
+{
+    if (!hasLines())
+        return;
+    PlotSettings wanted = settings;
+    wanted.left.lines.clear();
+    wanted.right.lines.clear();
+    edit(wanted);
 }
 
 void QPlcTimePlot::Private::toggleLive()

@@ -19,7 +19,9 @@ constexpr int compactWidth = 300;
 constexpr int leastLegendHeight = 100;      // [px] of the panel: below there are curves only
 constexpr int leastStatisticsHeight = 220;  // [px] of the panel: below there is one line of statistics
 constexpr double legendShare = 0.3;         // of the height of the panel, at most
-constexpr int buttonMargin = 4;             // [px]
+constexpr double legendShareBesideTable = 0.15;
+constexpr double statisticsShare = 0.3;
+constexpr int buttonMargin = 4;  // [px]
 
 }  // namespace
 
@@ -97,7 +99,11 @@ void QPlcTimePlot::Private::showRange(Axis axis)
         minimum = wanted.minimum ? *wanted.minimum : maximum - 1.0;
         maximum = wanted.minimum ? minimum + 1.0 : maximum;
     }
-    values.isHeld ? canvas->setRange(axis, values.minimum, values.maximum) : canvas->setRange(axis, minimum, maximum);
+    if (values.isHeld) {
+        minimum = values.minimum;
+        maximum = values.maximum;
+    }
+    canvas->setRange(axis, minimum, maximum, curves.isWhole(axis) ? PlotCanvas::WholeTicks : PlotCanvas::AnyTicks);
 }
 
 void QPlcTimePlot::Private::showOverlay()
@@ -227,9 +233,11 @@ void QPlcTimePlot::Private::arrange()
     canvas->setCompact(q->height() < compactHeight || q->width() < compactWidth);
     legendArea->setVerticalScrollBarPolicy(canvas->isCompact() ? Qt::ScrollBarAlwaysOff : Qt::ScrollBarAsNeeded);
     legend->setCompact(canvas->isCompact());
-    const int legendRoom = canvas->isCompact() ? 0 : int(legendShare * q->height());
-    legendArea->setFixedHeight(legend->heightWithin(q->contentsRect().width(), legendRoom));
     statistics->setUnfolded(settings.hasStatistics && q->height() >= leastStatisticsHeight);
+    statistics->setRoom(int(statisticsShare * q->height()));
+    const bool hasTable = !statistics->isHidden() && statistics->isUnfolded();  // which names the curves, too
+    const double share = canvas->isCompact() ? 0.0 : hasTable ? legendShareBesideTable : legendShare;
+    legendArea->setFixedHeight(legend->heightWithin(q->contentsRect().width(), int(share * q->height())));
 }
 
 void QPlcTimePlot::Private::showTheme()

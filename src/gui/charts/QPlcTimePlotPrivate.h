@@ -79,7 +79,7 @@ public:
     void makeActions();
     void connectInteraction();
     QAction *make(const QString &text, const QList<QKeySequence> &keys, const char *name, std::function<void()> act);
-    QMenu *createMenu(int curve, std::optional<int> x);
+    QMenu *createMenu(int curve, std::optional<QPoint> mouse);
     void openAddBar();
     void showAll();
     void zoomTime(double factor);
@@ -91,6 +91,9 @@ public:
     Time nearestRow(Time time) const;
     void removeCursors();
     void moveCursor(int pixels);
+    bool hasLines() const;
+    void addLine();
+    void removeLines();
     void toggleLive();
     void toggleTrigger();
     void showTrigger();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "QPlcXyPlot.h"
 
+#include "ChartLook.h"
 #include "QPlcXyPlotPrivate.h"
 #include "XyPlotEditor.h"
 #include "gui/models/ValueFormat.h"
@@ -54,9 +55,11 @@ QPlcXyPlot::Private::Private(QPlcXyPlot *plot)
     message->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     legend->setWordWrap(true);
     legend->setMargin(4);
+    legend->setFont(scaleFont(legend->font()));
     legend->setTextFormat(Qt::RichText);
     legend->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     moment->setMargin(2);
+    moment->setFont(scaleFont(moment->font()));
     moment->setAlignment(Qt::AlignRight);
     canvas->setAccessibleName(tr("XY plot"));
     plot->setFocusPolicy(Qt::StrongFocus);

@@ -5,6 +5,7 @@
 #include "gui/charts/PlotSettingsEditor.h"
 #include "gui/panel/SignalEdit.h"
 
+#include <QtCore/QJsonArray>
 #include <QtCore/QTemporaryDir>
 #include <QtGui/QClipboard>
 #include <QtWidgets/QApplication>
@@ -52,6 +53,7 @@ private Q_SLOTS:
     void whatIsBetweenTheCursorsGoesIntoTheClipboard();
     void aFileDialogDoesNotBlockAndFailuresAreSaid();
     void smallPanelsKeepTheirCurves();
+    void manyCurvesWithStatisticsLeaveRoomForThem();
     void staleValuesAreNotTrusted();
 };
 
@@ -324,15 +326,33 @@ void tst_PlotEditing::smallPanelsKeepTheirCurves()
     QTRY_VERIFY(!window.part<PlotLegend>()->isVisible());
 }
 
+void tst_PlotEditing::manyCurvesWithStatisticsLeaveRoomForThem()
+{
+    PlotWindow window;
+    QJsonArray curves;
+    for (int i = 0; i < 12; ++i)
+        curves.append(QJsonObject{{QStringLiteral("signal"), QStringLiteral("= count + %1").arg(i)}});
+    window.plot->applySettings({{QStringLiteral("curves"), curves}});
+    window.plot->resize(500, 300);
+    QVERIFY(window.run(0.3));
+    window.trigger("cursorA");
+    window.trigger("cursorB");
+    QTRY_VERIFY(window.part<StatisticsView>()->isVisible());
+    QVERIFY(window.part<StatisticsView>()->isUnfolded());
+    QTRY_VERIFY(window.canvas()->height() >= 110);
+}
+
 void tst_PlotEditing::staleValuesAreNotTrusted()
 {
     PlotWindow window(R"({"curves":[{"signal":"count"}]})");
     QVERIFY(window.run(0.1));
     auto *legend = window.part<PlotLegend>();
     QTRY_VERIFY(legend->entries().first().isTrusted);
+    const int height = legend->heightForWidth(300);
     window.context.plants()->at(0)->close();
     QTRY_VERIFY(!legend->entries().first().isTrusted);
-    QTRY_VERIFY2(legend->entries().first().unit.contains(QLatin1Char('s')), qPrintable(legend->entries().first().unit));
+    QTRY_VERIFY2(legend->entries().first().age.contains(QLatin1Char('s')), qPrintable(legend->entries().first().age));
+    QCOMPARE(legend->heightForWidth(300), height);
 }
 
 QTEST_MAIN(tst_PlotEditing)
