@@ -65,16 +65,16 @@ void QPlcTimePlot::Private::makeActions()
         };
     };
     make(QPlcTimePlot::tr("Next curve"), {key(Qt::Key_N)}, "next", choose(1));
-    make(QPlcTimePlot::tr("Previous curve"), {key(Qt::SHIFT | Qt::Key_N)}, "previous", choose(-1));
+    make(QPlcTimePlot::tr("Previous curve"), {key(int(Qt::SHIFT) | Qt::Key_N)}, "previous", choose(-1));
     make(QPlcTimePlot::tr("Show all"), {key(Qt::Key_A)}, "all", [this] { showAll(); });
     make(QPlcTimePlot::tr("Live"), {key(Qt::Key_L)}, "live", [this] { view()->goLive(); });
     make(QPlcTimePlot::tr("Freeze or go live"), {key(Qt::Key_Space)}, "freeze", [this] { toggleLive(); });
     make(QPlcTimePlot::tr("Zoom in"), {key(Qt::Key_Plus), key(Qt::Key_Equal)}, "zoomIn",
          [this] { curves.isEmpty() ? openAddBar() : zoomTime(zoomOfKey); });
     make(QPlcTimePlot::tr("Zoom out"), {key(Qt::Key_Minus)}, "zoomOut", [this] { zoomTime(1.0 / zoomOfKey); });
-    make(QPlcTimePlot::tr("Zoom values in"), {key(Qt::CTRL | Qt::Key_Plus), key(Qt::CTRL | Qt::Key_Equal)},
+    make(QPlcTimePlot::tr("Zoom values in"), {key(int(Qt::CTRL) | Qt::Key_Plus), key(int(Qt::CTRL) | Qt::Key_Equal)},
          "zoomValuesIn", zoomUp(zoomOfKey));
-    make(QPlcTimePlot::tr("Zoom values out"), {key(Qt::CTRL | Qt::Key_Minus)}, "zoomValuesOut",
+    make(QPlcTimePlot::tr("Zoom values out"), {key(int(Qt::CTRL) | Qt::Key_Minus)}, "zoomValuesOut",
          zoomUp(1.0 / zoomOfKey));
     make(QPlcTimePlot::tr("Earlier"), {key(Qt::Key_Left)}, "earlier", pan(-panOfKey));
     make(QPlcTimePlot::tr("Later"), {key(Qt::Key_Right)}, "later", pan(panOfKey));
@@ -83,9 +83,9 @@ void QPlcTimePlot::Private::makeActions()
     make(QPlcTimePlot::tr("Cursor A"), {key(Qt::Key_1)}, "cursorA", [this] { placeCursor(TimeView::A); });
     make(QPlcTimePlot::tr("Cursor B"), {key(Qt::Key_2)}, "cursorB", [this] { placeCursor(TimeView::B); });
     make(QPlcTimePlot::tr("Remove cursors"), {key(Qt::Key_0)}, "removeCursors", [this] { removeCursors(); });
-    make(QPlcTimePlot::tr("Cursor to the left"), {key(Qt::CTRL | Qt::Key_Left)}, "cursorLeft",
+    make(QPlcTimePlot::tr("Cursor to the left"), {key(int(Qt::CTRL) | Qt::Key_Left)}, "cursorLeft",
          [this] { moveCursor(-1); });
-    make(QPlcTimePlot::tr("Cursor to the right"), {key(Qt::CTRL | Qt::Key_Right)}, "cursorRight",
+    make(QPlcTimePlot::tr("Cursor to the right"), {key(int(Qt::CTRL) | Qt::Key_Right)}, "cursorRight",
          [this] { moveCursor(1); });
     statisticsAction = make(QPlcTimePlot::tr("Statistics between the cursors"), {key(Qt::Key_S)}, "statistics", [this] {
         PlotSettings wanted = settings;
@@ -93,7 +93,7 @@ void QPlcTimePlot::Private::makeActions()
         edit(wanted);
     });
     make(QPlcTimePlot::tr("Reference line"), {key(Qt::Key_R)}, "addLine", [this] { addLine(); });
-    make(QPlcTimePlot::tr("Remove reference lines"), {key(Qt::SHIFT | Qt::Key_R)}, "removeLines",
+    make(QPlcTimePlot::tr("Remove reference lines"), {key(int(Qt::SHIFT) | Qt::Key_R)}, "removeLines",
          [this] { removeLines(); });
     triggerAction = make(QPlcTimePlot::tr("Trigger"), {key(Qt::Key_T)}, "trigger", [this] { toggleTrigger(); });
     triggerAction->setCheckable(true);

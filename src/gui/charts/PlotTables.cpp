@@ -9,9 +9,9 @@ using namespace qplc;
 void QPlcTimePlot::Private::makeExportActions()
 {
     const auto key = [](int code) { return QKeySequence(code); };
-    make(QPlcTimePlot::tr("Export as CSV..."), {key(Qt::CTRL | Qt::Key_E)}, "saveTable",
+    make(QPlcTimePlot::tr("Export as CSV..."), {key(int(Qt::CTRL) | Qt::Key_E)}, "saveTable",
          [this] { exporter->saveTable(shownTable()); });
-    make(QPlcTimePlot::tr("Copy as table"), {key(Qt::CTRL | Qt::Key_C)}, "copyTable",
+    make(QPlcTimePlot::tr("Copy as table"), {key(int(Qt::CTRL) | Qt::Key_C)}, "copyTable",
          [this] { exporter->copyTable(shownTable()); });
     make(QPlcTimePlot::tr("Export A ... B as CSV..."), {key(Qt::CTRL | Qt::ALT | Qt::Key_E)}, "saveBetween",
          [this] { exporter->saveTable(tableBetweenCursors()); });

@@ -57,8 +57,9 @@ void QPlcXyPlot::Private::makeActions()
     make(tr("Move right"), {key(Qt::Key_Right)}, "right", pan(-1.0, 0.0));
     make(tr("Move up"), {key(Qt::Key_Up)}, "up", pan(0.0, 1.0));
     make(tr("Move down"), {key(Qt::Key_Down)}, "down", pan(0.0, -1.0));
-    make(tr("Export as CSV..."), {key(Qt::CTRL | Qt::Key_E)}, "saveTable", [this] { exporter->saveTable(table()); });
-    make(tr("Copy as table"), {key(Qt::CTRL | Qt::Key_C)}, "copyTable", [this] { exporter->copyTable(table()); });
+    make(tr("Export as CSV..."), {key(int(Qt::CTRL) | Qt::Key_E)}, "saveTable",
+         [this] { exporter->saveTable(table()); });
+    make(tr("Copy as table"), {key(int(Qt::CTRL) | Qt::Key_C)}, "copyTable", [this] { exporter->copyTable(table()); });
     make(tr("Save picture..."), {key(Qt::CTRL | Qt::SHIFT | Qt::Key_E)}, "savePicture",
          [this] { exporter->savePicture(); });
     make(tr("Copy picture"), {key(Qt::CTRL | Qt::SHIFT | Qt::Key_C)}, "copyPicture",
