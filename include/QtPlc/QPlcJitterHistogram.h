@@ -10,6 +10,8 @@
 /// Counts and durations are logarithmic; lines tell the median (p50), the 99th percentile and the largest value. It asks the master once a second, and only while it is seen. `qtplc jitter --hist` says
 /// the same on a terminal.
 ///
+/// Keys: `T` the last 10 s, `L`, `X` and `R` lateness, execution and round trip of the master, `Ctrl+Shift+E` and `Ctrl+Shift+C` a picture (PNG, SVG, PDF) into a file or the clipboard.
+///
 /// Settings: `{"plant": "tower", "show": ["Master.lateness", "Kite.roundTrip"], "window": "last10s"}`. Without plant: the first one; without show: the lateness of the master; window is "sinceStart"
 /// or "last10s", since the start if it is missing.
 ///
@@ -33,6 +35,8 @@ protected:
     void contextChanged() override;
     void showEvent(QShowEvent *event) override;
     void hideEvent(QHideEvent *event) override;
+    void keyPressEvent(QKeyEvent *event) override;
+    void resizeEvent(QResizeEvent *event) override;
 
 private:
     class Private;

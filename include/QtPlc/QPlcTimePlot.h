@@ -10,7 +10,7 @@
 ///
 /// | | mouse | keys |
 /// |---|---|---|
-/// | zoom the time, about the mouse | wheel | `+`, `-` |
+/// | zoom the time, about the mouse | wheel, two fingers | `+`, `-` |
 /// | zoom the values | Ctrl+wheel, or the wheel over a y axis | `Ctrl++`, `Ctrl+-` |
 /// | pan | drag; over a y axis: the values | arrow keys |
 /// | zoom into a box | drag with Shift or the right button | |
@@ -20,8 +20,10 @@
 /// | statistics between A and B | fold by the arrow | `S` |
 /// | add a signal | drop | `Insert`; `+` while there is none |
 /// | choose, hide, remove a curve | click in the legend hides; context menu | `N`, `Shift+N`; `V`; `Delete` |
+/// | reference line, with its value; none | context menu | `R`; `Shift+R` |
 /// | trigger on and off | context menu | `T` |
-/// | export what is seen | context menu | `Ctrl+E` CSV, `Ctrl+C` table into the clipboard, `Ctrl+Shift+E` PNG or SVG, `Ctrl+Shift+C` picture into the clipboard |
+/// | export what is seen | context menu | `Ctrl+E` CSV, `Ctrl+C` table into the clipboard, `Ctrl+Shift+E` PNG, SVG or PDF, `Ctrl+Shift+C` picture into the clipboard |
+/// | export what is between A and B | context menu | `Ctrl+Alt+E` CSV, `Ctrl+Alt+C` table into the clipboard |
 ///
 /// Zoom and freeze are a view, and no settings: data go on, whatever is looked at. The time axis is that of the window, or its own.
 ///
@@ -31,7 +33,7 @@
 /// Settings, each with its default when it is not there, whatever it was before:
 /// ```json
 /// {"curves": [{"signal": "kite.elevation", "name": "Elevation", "gain": 1, "offset": 0, "color": "#d55e00", "axis": "right", "visible": false}],
-///  "left": {"minimum": 0, "maximum": 90}, "right": {}, "time": "own", "span": 10, "labels": "seconds", "grid": false, "limits": true,
+///  "left": {"minimum": 0, "maximum": 90, "lines": [60, 75]}, "right": {}, "time": "own", "span": 10, "labels": "seconds", "grid": false, "limits": true,
 ///  "legend": false, "statistics": false,
 ///  "trigger": {"on": true, "signal": "kite.elevation", "kind": "rising", "level": 30, "upperLevel": 1, "hysteresis": 0, "mode": "normal", "pre": 0.2, "holdOff": 0, "linked": false}}
 /// ```

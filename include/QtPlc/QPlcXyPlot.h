@@ -10,6 +10,17 @@
 /// It shows the piece of time that all plots of the window show, and the values at the moment that is looked at (now, or where the pointer of a frozen view is) as a dot; a dot of values that are no
 /// longer true is grey, and says so. Curves have few points in all: those that can be seen.
 ///
+/// | | mouse | keys |
+/// |---|---|---|
+/// | zoom, about the mouse | wheel, two fingers; over an axis, or with Ctrl, only one | `+`, `-` |
+/// | pan | drag; over an axis only its values | arrow keys |
+/// | zoom into a box | drag with Shift or the right button | |
+/// | everything, axes automatic again | double click | `A` |
+/// | equal units on both axes | context menu | `E` |
+/// | export what is seen | context menu | `Ctrl+E` CSV, `Ctrl+C` table into the clipboard, `Ctrl+Shift+E` PNG, SVG or PDF, `Ctrl+Shift+C` picture into the clipboard |
+///
+/// Zoom is a view, and no settings; a new curve ends it.
+///
 /// Settings: `{"curves": [{"x": "kite.azimuth", "y": "= mean(kite.elevation, 5)", "color": "#rrggbb"}], "equalAspect": true}`; colour and aspect may be missing. x and y of a curve are of one plant.
 ///
 /// Threads: the thread of the window.
@@ -38,6 +49,8 @@ protected:
     void contextChanged() override;
     void showEvent(QShowEvent *event) override;
     void hideEvent(QHideEvent *event) override;
+    void contextMenuEvent(QContextMenuEvent *event) override;
+    void keyPressEvent(QKeyEvent *event) override;
 
 private:
     class Private;

@@ -16,6 +16,9 @@ namespace qplc {
 
 namespace {
 
+constexpr double fontShare = 0.85;    // of the font of the window
+constexpr double smallestFont = 7.0;  // [pt]
+
 void applyToAxis(QwtPlot *plot, int axis)
 {
     plot->axisWidget(axis)->setMargin(0);
@@ -27,6 +30,14 @@ void applyToAxis(QwtPlot *plot, int axis)
 }
 
 }  // namespace
+
+QFont scaleFont(const QFont &font)
+{
+    QFont small(font);
+    small.setBold(false);
+    small.setPointSizeF(std::max(smallestFont, fontShare * font.pointSizeF()));
+    return small;
+}
 
 void applyLook(QwtPlot *plot, QwtPlotGrid *grid, const Theme &theme)
 {
@@ -60,8 +71,7 @@ void setAxisText(QwtPlot *plot, int axis, const QString &text, const Theme &them
     constexpr int leastHeight = 150;  // [px] of plots with titles
     QwtText title(plot->height() < leastHeight ? QString() : text);
     title.setColor(theme.mutedText);
-    QFont font = plot->font();
-    font.setBold(false);
+    const QFont font = scaleFont(plot->font());
     title.setFont(font);
     plot->setAxisTitle(axis, title);
     plot->setAxisFont(axis, font);

@@ -8,8 +8,6 @@ namespace qplc {
 
 namespace {
 
-constexpr int periodsToNextRow = 3;  // so long a value is still the one of its row, when no row follows
-
 double scaled(const CursorStatistics::Scaling &scaling, float value)
 {
     return scaling.gain * double(value) + scaling.offset;
@@ -83,17 +81,8 @@ CursorStatistics::Result CursorStatistics::result() const
 
 double CursorStatistics::valueAt(const SignalStore &store, int channel, const Scaling &scaling, Time time)
 {
-    const std::optional<Row> found = store.rowUpTo(time);
-    if (!found)
-        return NAN;
-    const Row row = *found;
-    const Row next = row + 1;
-    const Time age = time - store.time(row);
-    const bool hasPeriod = row > store.firstRow() && !store.beginsAnew(row);
-    const Time period = hasPeriod ? store.time(row) - store.time(row - 1) : 0;
-    const bool isGap = next < store.endRow() && store.beginsAnew(next) && age > 0 && age >= period;
-    const bool isOver = next == store.endRow() && age > periodsToNextRow * period;
-    return isGap || isOver ? NAN : scaled(scaling, store.value(channel, row));
+    const std::optional<Row> row = store.rowHoldingAt(time);
+    return row ? scaled(scaling, store.value(channel, *row)) : NAN;
 }
 
 }  // namespace qplc

@@ -54,7 +54,7 @@ public:
     /// Of all rows that have been looked at.
     Result result() const;
 
-    /// The value of the last row at or before a time, with gain and offset; NaN without one, in a gap a period after its last row, and behind the last row.
+    /// The value at a time (SignalStore::rowHoldingAt()), with gain and offset; NaN without one.
     static double valueAt(const SignalStore &store, int channel, const Scaling &scaling, Time time);
 
 private:

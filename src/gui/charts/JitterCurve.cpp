@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "JitterCurve.h"
 
+#include "ChartLook.h"
 #include "gui/models/ValueFormat.h"
 
 #include <QtGui/QPainter>
@@ -79,10 +80,14 @@ void JitterFigures::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtSc
     const Figure figures[]
         = {{"p50", m_distribution.p50}, {"p99", m_distribution.p99}, {"max", m_distribution.maximum}};
     int line = m_place * int(std::size(figures));
+    painter->setFont(scaleFont(painter->font()));
+    constexpr int fewestLines = 7;  // with less room, texts would hide what they are about
+    const bool isSmall = canvas.height() < fewestLines * QFontMetricsF(painter->font()).height();
     for (const Figure &figure : figures) {
         const double x = xMap.transform(std::max(figure.value / microsecond, shortest));
-        drawFigure(painter, x, line++,
-                   QStringLiteral("%1 %2").arg(QLatin1String(figure.name), durationText(figure.value)), canvas);
+        const QString text = QStringLiteral("%1 %2").arg(QLatin1String(figure.name), durationText(figure.value));
+        const bool isTold = !isSmall || figure.value == m_distribution.p99;
+        drawFigure(painter, x, isSmall ? m_place : line++, isTold ? text : QString(), canvas);
     }
 }
 
@@ -93,10 +98,10 @@ void JitterFigures::drawFigure(QPainter *painter, double x, int line, const QStr
     QRectF box(0.0, canvas.top() + 2.0 + line * metrics.height(), metrics.horizontalAdvance(text) + 2.0 * gap,
                metrics.height());
     const bool isRoomRight = x + box.width() + gap < canvas.right();
-    box.moveLeft(isRoomRight ? x + 1.0 : x - 1.0 - box.width());
+    box.moveLeft(isRoomRight ? x + 1.0 : std::max(x - 1.0 - box.width(), canvas.left()));
     painter->setPen(QPen(m_color, 1.0, Qt::DashLine));
     painter->drawLine(QPointF(x, canvas.bottom()), QPointF(x, box.top()));
-    if (box.bottom() > canvas.bottom())
+    if (text.isEmpty() || box.bottom() > canvas.bottom())
         return;
     QColor background = m_background;
     background.setAlphaF(0.8);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "PlotCanvas.h"
 
+#include "ChartLook.h"
 #include "PlotScales.h"
 
 #include <QtCore/QEvent>
@@ -17,20 +18,11 @@ namespace qplc {
 
 namespace {
 
-constexpr double labelShare = 0.85;     // of the font of the window
-constexpr double smallestLabel = 7.0;   // [pt]
 constexpr double linesOfLabel = 2.2;    // heights of a label from one to the next on a y axis
 constexpr double widthsOfLabel = 1.35;  // widths of a label from one to the next on the time axis
 constexpr int fewestTicks = 2;
 constexpr int usualCharacters = 8;  // of labels of a y axis: -88888.8
 constexpr int fewCharacters = 5;
-
-QFont labelFont(const QFont &font)
-{
-    QFont small(font);
-    small.setPointSizeF(std::max(smallestLabel, labelShare * font.pointSizeF()));
-    return small;
-}
 
 }  // namespace
 
@@ -57,7 +49,7 @@ PlotCanvas::PlotCanvas(QWidget *parent)
 
 void PlotCanvas::renewScales()
 {
-    const QFont font = labelFont(this->font());
+    const QFont font = scaleFont(this->font());
     m_timeScale = new TimeScaleDraw(font, m_isCompact);
     setAxisScaleDraw(xBottom, m_timeScale);
     axisWidget(xBottom)->setMinBorderDist(m_timeScale->sideRoom(), m_timeScale->sideRoom());
@@ -94,7 +86,7 @@ void PlotCanvas::showUnits()
 {
     for (const Axis axis : {Axis::Left, Axis::Right}) {
         QwtText title(m_isCompact ? QString() : m_units[axis]);
-        title.setFont(labelFont(font()));
+        title.setFont(scaleFont(font()));
         title.setRenderFlags(Qt::AlignCenter);
         setAxisTitle(qwtAxis(axis), title);
     }
@@ -137,12 +129,17 @@ void PlotCanvas::setTime(const TimeColumns &columns, PlotSettings::Labels labels
                                 seconds(ticks.minor()), {}, seconds(ticks.major())));
 }
 
-void PlotCanvas::setRange(Axis axis, double minimum, double maximum)
+void PlotCanvas::setRange(Axis axis, double minimum, double maximum, Ticks ticks)
 {
     const QwtPlot::Axis place = qwtAxis(axis);
     const double line = QFontMetricsF(axisFont(place)).height();
     const int most = std::max(fewestTicks, int(canvas()->height() / (linesOfLabel * line)));
-    setAxisScaleDiv(place, axisScaleEngine(place)->divideScale(minimum, maximum, most, 5));
+    const QwtScaleEngine *engine = axisScaleEngine(place);
+    const QwtScaleDiv scale = engine->divideScale(minimum, maximum, most, 5);
+    const QList<double> major = scale.ticks(QwtScaleDiv::MajorTick);
+    const bool isFiner = major.size() > 1 && major[1] - major[0] < 1.0;
+    setAxisScaleDiv(place,
+                    ticks == WholeTicks && isFiner ? engine->divideScale(minimum, maximum, most, 0, 1.0) : scale);
 }
 
 PlotCanvas::Time PlotCanvas::timeAt(double x) const

@@ -40,7 +40,8 @@ public:
     /// What the time axis shows from the next replot() on. \param reference  0 of labels in seconds \param event  0 of labels around it, if there is one
     void setTime(const TimeColumns &columns, PlotSettings::Labels labels, Time reference,
                  std::optional<Time> event = std::nullopt);
-    void setRange(Axis axis, double minimum, double maximum);
+    enum Ticks { AnyTicks, WholeTicks };
+    void setRange(Axis axis, double minimum, double maximum, Ticks ticks = AnyTicks);
 
     Time origin() const { return m_origin; }
     /// Times of the left and the right edge.

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a person can do with a time plot, by mouse, keys and menu.
-#include "PlotPicture.h"
 #include "QPlcTimePlotPrivate.h"
 #include "gui/panel/SignalEdit.h"
 
-#include <QtGui/QClipboard>
-#include <QtGui/QGuiApplication>
 #include <QtWidgets/QBoxLayout>
-#include <QtWidgets/QFileDialog>
 #include <QtWidgets/QMenu>
 #include <QtWidgets/QToolButton>
 
@@ -23,18 +19,6 @@ constexpr double panOfKey = 0.15;     // of the view
 constexpr double reachOfRow = 4.0;    // [px]: so far a cursor goes to a row
 constexpr double firstCursor = 0.35;  // places of cursors without a mouse, of the view
 constexpr double secondCursor = 0.65;
-
-/// A dialog that asks for a file, and goes on at once.
-QFileDialog *openDialog(QWidget *parent, const QString &title, const QStringList &filters, const QString &suffix)
-{
-    auto *dialog = new QFileDialog(parent, title);
-    dialog->setAttribute(Qt::WA_DeleteOnClose);
-    dialog->setAcceptMode(QFileDialog::AcceptSave);
-    dialog->setNameFilters(filters);
-    dialog->setDefaultSuffix(suffix);
-    dialog->open();
-    return dialog;
-}
 
 }  // namespace
 
@@ -81,16 +65,16 @@ void QPlcTimePlot::Private::makeActions()
         };
     };
     make(QPlcTimePlot::tr("Next curve"), {key(Qt::Key_N)}, "next", choose(1));
-    make(QPlcTimePlot::tr("Previous curve"), {key(Qt::SHIFT | Qt::Key_N)}, "previous", choose(-1));
+    make(QPlcTimePlot::tr("Previous curve"), {key(int(Qt::SHIFT) | Qt::Key_N)}, "previous", choose(-1));
     make(QPlcTimePlot::tr("Show all"), {key(Qt::Key_A)}, "all", [this] { showAll(); });
     make(QPlcTimePlot::tr("Live"), {key(Qt::Key_L)}, "live", [this] { view()->goLive(); });
     make(QPlcTimePlot::tr("Freeze or go live"), {key(Qt::Key_Space)}, "freeze", [this] { toggleLive(); });
     make(QPlcTimePlot::tr("Zoom in"), {key(Qt::Key_Plus), key(Qt::Key_Equal)}, "zoomIn",
          [this] { curves.isEmpty() ? openAddBar() : zoomTime(zoomOfKey); });
     make(QPlcTimePlot::tr("Zoom out"), {key(Qt::Key_Minus)}, "zoomOut", [this] { zoomTime(1.0 / zoomOfKey); });
-    make(QPlcTimePlot::tr("Zoom values in"), {key(Qt::CTRL | Qt::Key_Plus), key(Qt::CTRL | Qt::Key_Equal)},
+    make(QPlcTimePlot::tr("Zoom values in"), {key(int(Qt::CTRL) | Qt::Key_Plus), key(int(Qt::CTRL) | Qt::Key_Equal)},
          "zoomValuesIn", zoomUp(zoomOfKey));
-    make(QPlcTimePlot::tr("Zoom values out"), {key(Qt::CTRL | Qt::Key_Minus)}, "zoomValuesOut",
+    make(QPlcTimePlot::tr("Zoom values out"), {key(int(Qt::CTRL) | Qt::Key_Minus)}, "zoomValuesOut",
          zoomUp(1.0 / zoomOfKey));
     make(QPlcTimePlot::tr("Earlier"), {key(Qt::Key_Left)}, "earlier", pan(-panOfKey));
     make(QPlcTimePlot::tr("Later"), {key(Qt::Key_Right)}, "later", pan(panOfKey));
@@ -99,23 +83,21 @@ void QPlcTimePlot::Private::makeActions()
     make(QPlcTimePlot::tr("Cursor A"), {key(Qt::Key_1)}, "cursorA", [this] { placeCursor(TimeView::A); });
     make(QPlcTimePlot::tr("Cursor B"), {key(Qt::Key_2)}, "cursorB", [this] { placeCursor(TimeView::B); });
     make(QPlcTimePlot::tr("Remove cursors"), {key(Qt::Key_0)}, "removeCursors", [this] { removeCursors(); });
-    make(QPlcTimePlot::tr("Cursor to the left"), {key(Qt::CTRL | Qt::Key_Left)}, "cursorLeft",
+    make(QPlcTimePlot::tr("Cursor to the left"), {key(int(Qt::CTRL) | Qt::Key_Left)}, "cursorLeft",
          [this] { moveCursor(-1); });
-    make(QPlcTimePlot::tr("Cursor to the right"), {key(Qt::CTRL | Qt::Key_Right)}, "cursorRight",
+    make(QPlcTimePlot::tr("Cursor to the right"), {key(int(Qt::CTRL) | Qt::Key_Right)}, "cursorRight",
          [this] { moveCursor(1); });
     statisticsAction = make(QPlcTimePlot::tr("Statistics between the cursors"), {key(Qt::Key_S)}, "statistics", [this] {
         PlotSettings wanted = settings;
         wanted.hasStatistics = !wanted.hasStatistics;
         edit(wanted);
     });
+    make(QPlcTimePlot::tr("Reference line"), {key(Qt::Key_R)}, "addLine", [this] { addLine(); });
+    make(QPlcTimePlot::tr("Remove reference lines"), {key(int(Qt::SHIFT) | Qt::Key_R)}, "removeLines",
+         [this] { removeLines(); });
     triggerAction = make(QPlcTimePlot::tr("Trigger"), {key(Qt::Key_T)}, "trigger", [this] { toggleTrigger(); });
     triggerAction->setCheckable(true);
-    make(QPlcTimePlot::tr("Export as CSV..."), {key(Qt::CTRL | Qt::Key_E)}, "saveTable", [this] { saveTable(); });
-    make(QPlcTimePlot::tr("Copy as table"), {key(Qt::CTRL | Qt::Key_C)}, "copyTable", [this] { copyTable(); });
-    make(QPlcTimePlot::tr("Save picture..."), {key(Qt::CTRL | Qt::SHIFT | Qt::Key_E)}, "savePicture",
-         [this] { savePicture(); });
-    make(QPlcTimePlot::tr("Copy picture"), {key(Qt::CTRL | Qt::SHIFT | Qt::Key_C)}, "copyPicture",
-         [this] { copyPicture(); });
+    makeExportActions();
 }
 
 void QPlcTimePlot::Private::connectInteraction()
@@ -148,7 +130,7 @@ void QPlcTimePlot::Private::connectInteraction()
         shared()->setPointer(mouse ? std::optional<Time>(canvas->timeAt(mouse->x())) : std::nullopt);
     });
     connect(interaction, &PlotInteraction::menuWanted, this, [this](const QPoint &position, const QPoint &global) {
-        createMenu(curves.selected(), position.x())->popup(global);
+        createMenu(curves.selected(), position)->popup(global);
     });
     connect(legend, &PlotLegend::clicked, this, [this](int place) {
         q->setFocus(Qt::MouseFocusReason);
@@ -161,8 +143,8 @@ void QPlcTimePlot::Private::connectInteraction()
     connect(statistics, &StatisticsView::unfoldedChanged, this, [this] { statisticsAction->trigger(); });
 }
 
-/// \param x  of the mouse over the canvas [px]
-QMenu *QPlcTimePlot::Private::createMenu(int curve, std::optional<int> x)
+/// \param mouse  over the canvas [px]
+QMenu *QPlcTimePlot::Private::createMenu(int curve, std::optional<QPoint> mouse)
 {
     auto *menu = new QMenu(q);
     menu->setAttribute(Qt::WA_DeleteOnClose);
@@ -177,8 +159,8 @@ QMenu *QPlcTimePlot::Private::createMenu(int curve, std::optional<int> x)
         add("remove");
     }
     menu->addSeparator();
-    if (x) {
-        const Time time = canvas->timeAt(*x);
+    if (mouse) {
+        const Time time = canvas->timeAt(mouse->x());
         const auto here = [&](const QString &text, TimeView::Cursor which, const QString &keys) {
             QAction *action = menu->addAction(text, this, [this, which, time] { placeCursor(which, time); });
             action->setShortcut(keys);
@@ -192,11 +174,19 @@ QMenu *QPlcTimePlot::Private::createMenu(int curve, std::optional<int> x)
     add("removeCursors");
     add("statistics");
     menu->addSeparator();
+    add("addLine");
+    if (hasLines())
+        add("removeLines");
+    menu->addSeparator();
     for (const char *name : {"all", "zoomIn", "zoomOut", "freeze", "live", "trigger"})
         add(name);
     menu->addSeparator();
     for (const char *name : {"saveTable", "copyTable", "savePicture", "copyPicture"})
         add(name);
+    if (hasBothCursors()) {
+        add("saveBetween");
+        add("copyBetween");
+    }
     menu->addSeparator();
     add("panelMenu");  // of the frame around
     return menu;
@@ -359,6 +349,37 @@ void QPlcTimePlot::Private::moveCursor(int pixels)
         placeCursor(lastCursor);
 }
 
+bool QPlcTimePlot::Private::hasLines() const
+{
+    return !settings.left.lines.isEmpty() || !settings.right.lines.isEmpty();
+}
+
+/// At the mouse, or in the middle; a value with as many digits as pixels tell apart.
+void QPlcTimePlot::Private::addLine()
+{
+    if (curves.isEmpty())
+        return;
+    const Axis axis = curves.hasAxis(Axis::Left) ? Axis::Left : Axis::Right;
+    const double y = interaction->mouse() ? interaction->mouse()->y() : 0.5 * canvas->canvas()->height();
+    const double value = canvas->valueAt(axis, y);
+    const double pixel = std::abs(canvas->valueAt(axis, y + 1.0) - value);
+    const int digits = std::clamp(int(std::ceil(std::log10(std::abs(value) / pixel))), 1, 7);
+    PlotSettings wanted = settings;
+    QVector<double> &lines = (axis == Axis::Left ? wanted.left : wanted.right).lines;
+    lines.append(QString::number(value, 'g', digits).toDouble());
+    edit(wanted);
+}
+
+void QPlcTimePlot::Private::removeLines()
+{
+    if (!hasLines())
+        return;
+    PlotSettings wanted = settings;
+    wanted.left.lines.clear();
+    wanted.right.lines.clear();
+    edit(wanted);
+}
+
 void QPlcTimePlot::Private::toggleLive()
 {
     view()->isLive() ? view()->freeze() : view()->goLive();
@@ -402,53 +423,4 @@ void QPlcTimePlot::Private::takeTrigger()
     shownTrigger = settings.trigger;
     ++version;
     schedule();
-}
-
-std::vector<TableExport::Column> QPlcTimePlot::Private::exportColumns() const
-{
-    std::vector<TableExport::Column> columns;
-    for (const PlotCurve &curve : curves) {
-        if (curve.isSeen())
-            columns.push_back({curve.source.store, curve.source.channel, curve.settings.gain, curve.settings.offset,
-                               curve.settings.text(), curve.source.unit, curve.source.derived});
-    }
-    return columns;
-}
-
-/// The range is that of the moment of the wish, whatever is seen when the name has been chosen.
-void QPlcTimePlot::Private::saveTable()
-{
-    const Time begin = canvas->begin();
-    const Time end = canvas->end() - 1;
-    QFileDialog *dialog = openDialog(q, QPlcTimePlot::tr("Export what is seen"),
-                                     {QPlcTimePlot::tr("Comma-separated values (*.csv)")}, QStringLiteral("csv"));
-    connect(dialog, &QFileDialog::fileSelected, this, [this, begin, end](const QString &name) {
-        tableExport.save(TableExport(TableExport::Csv, exportColumns(), begin, end), name);
-    });
-}
-
-void QPlcTimePlot::Private::copyTable()
-{
-    tableExport.copy(TableExport(TableExport::Tsv, exportColumns(), canvas->begin(), canvas->end() - 1));
-}
-
-void QPlcTimePlot::Private::savePicture()
-{
-    QFileDialog *dialog
-        = openDialog(q, QPlcTimePlot::tr("Save a picture"),
-                     {QPlcTimePlot::tr("Picture (*.png)"), QPlcTimePlot::tr("Drawing (*.svg)")}, QStringLiteral("png"));
-    connect(dialog, &QFileDialog::filterSelected, dialog, [dialog](const QString &filter) {
-        dialog->setDefaultSuffix(filter.contains(QLatin1String("svg")) ? QStringLiteral("svg") : QStringLiteral("png"));
-    });
-    connect(dialog, &QFileDialog::fileSelected, this, [this](const QString &name) {
-        const QString failure = PlotPicture(canvas, overlay, legend).save(name);
-        const bool isFailure = !failure.isEmpty();
-        say(isFailure ? failure : QPlcTimePlot::tr("The picture is in %1.").arg(name), isFailure);
-    });
-}
-
-void QPlcTimePlot::Private::copyPicture()
-{
-    QGuiApplication::clipboard()->setImage(PlotPicture(canvas, overlay, legend).image());
-    say(QPlcTimePlot::tr("The picture is in the clipboard."), false);
 }

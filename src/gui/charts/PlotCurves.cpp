@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "PlotCurves.h"
 
+#include "ChartLook.h"
+
 #include <qwt_plot.h>
 #include <qwt_plot_marker.h>
 
@@ -13,7 +15,8 @@ namespace {
 
 constexpr double boldness = 1.0;      // [px] that the selected curve is thicker
 constexpr double limitOpacity = 0.6;  // of the colour of the curve
-constexpr double limitDepth = 15.0;   // below the curves, above the grid
+constexpr int digitsOfLine = 6;
+constexpr double limitDepth = 15.0;  // below the curves, above the grid
 
 QwtPlot::Axis qwtAxis(PlotCurveSettings::Axis axis)
 {
@@ -65,6 +68,30 @@ void PlotCurves::bind(const PlotSettings &settings, const CurveSources *sources,
         m_curves.push_back(std::move(curve));
     }
     select(m_selected, theme);
+    m_lines.clear();
+    showLines(PlotCurveSettings::Left, settings.left.lines, theme);
+    showLines(PlotCurveSettings::Right, settings.right.lines, theme);
+}
+
+void PlotCurves::showLines(PlotCurveSettings::Axis axis, const QVector<double> &lines, const Theme &theme)
+{
+    m_lineValues[axis] = hasAxis(axis) ? lines : QVector<double>();
+    for (const double line : qAsConst(m_lineValues[axis])) {
+        auto marker = std::make_unique<QwtPlotMarker>();
+        marker->setLineStyle(QwtPlotMarker::HLine);
+        marker->setLinePen(theme.text, 1.0, Qt::DashDotLine);
+        marker->setYValue(line);
+        marker->setYAxis(qwtAxis(axis));
+        marker->setZ(limitDepth);
+        QwtText text(QString::number(line, 'g', digitsOfLine));
+        text.setColor(theme.text);
+        text.setFont(scaleFont(m_plot->font()));
+        marker->setLabel(text);
+        marker->setLabelAlignment((axis == PlotCurveSettings::Left ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignTop);
+        marker->setSpacing(1);
+        marker->attach(m_plot);
+        m_lines.push_back(std::move(marker));
+    }
 }
 
 void PlotCurves::show(PlotCurve *curve, bool showsLimits, const Theme &theme)
@@ -130,6 +157,15 @@ bool PlotCurves::hasAxis(PlotCurveSettings::Axis axis) const
                        [axis](const PlotCurve &each) { return each.settings.axis == axis && each.settings.isVisible; });
 }
 
+bool PlotCurves::isWhole(PlotCurveSettings::Axis axis) const
+{
+    const auto isOther = [axis](const PlotCurve &each) {
+        const bool isOfAxis = each.settings.axis == axis && each.isSeen();
+        return isOfAxis && !(each.source.isStepped && !each.settings.isScaled());
+    };
+    return hasAxis(axis) && std::none_of(m_curves.begin(), m_curves.end(), isOther);
+}
+
 QString PlotCurves::unit(PlotCurveSettings::Axis axis) const
 {
     std::optional<QString> common;
@@ -150,6 +186,8 @@ SignalStore::Range PlotCurves::range(PlotCurveSettings::Axis axis, double begin,
         if (curve.isSeen() && curve.settings.axis == axis)
             all = united(all, curve.item->valueRange(begin, end));
     }
+    for (const double line : m_lineValues[axis])
+        all = united(all, {float(line), float(line)});
     return all;
 }
 

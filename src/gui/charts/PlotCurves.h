@@ -59,9 +59,11 @@ public:
     /// Of the curves that are seen, each once.
     const std::vector<const SignalStore *> &stores() const { return m_stores; }
     bool hasAxis(PlotCurveSettings::Axis axis) const;
+    /// Whether an axis has curves, and all of them are whole numbers.
+    bool isWhole(PlotCurveSettings::Axis axis) const;
     /// Of all seen curves of an axis; empty when they differ.
     QString unit(PlotCurveSettings::Axis axis) const;
-    /// Smallest and largest value of all seen curves of an axis.
+    /// Smallest and largest value of all seen curves of an axis, and of its lines.
     SignalStore::Range range(PlotCurveSettings::Axis axis, double begin, double end) const;
     /// Times of the first and the last row; false: there are none.
     bool timeRange(SignalStore::Time *begin, SignalStore::Time *end) const;
@@ -69,10 +71,13 @@ public:
 private:
     void show(PlotCurve *curve, bool showsLimits, const Theme &theme);
     void showLimit(PlotCurve *curve, double limit);
+    void showLines(PlotCurveSettings::Axis axis, const QVector<double> &lines, const Theme &theme);
 
     QwtPlot *m_plot;
     std::vector<PlotCurve> m_curves;
     std::vector<const SignalStore *> m_stores;
+    std::vector<std::unique_ptr<QwtPlotMarker>> m_lines;  // for reference
+    QVector<double> m_lineValues[2];                      // of the y axes
     SignalStore::Time m_origin = 0;
     int m_selected = -1;
 };

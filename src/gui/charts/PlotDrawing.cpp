@@ -3,7 +3,6 @@
 #include "QPlcTimePlotPrivate.h"
 #include "gui/models/ValueFormat.h"
 
-#include <QtWidgets/QLabel>
 #include <QtWidgets/QScrollArea>
 #include <QtWidgets/QToolButton>
 
@@ -20,8 +19,9 @@ constexpr int compactWidth = 300;
 constexpr int leastLegendHeight = 100;      // [px] of the panel: below there are curves only
 constexpr int leastStatisticsHeight = 220;  // [px] of the panel: below there is one line of statistics
 constexpr double legendShare = 0.3;         // of the height of the panel, at most
-constexpr int successTime = 6000;           // [ms] that good news are shown
-constexpr int buttonMargin = 4;             // [px]
+constexpr double legendShareBesideTable = 0.15;
+constexpr double statisticsShare = 0.3;
+constexpr int buttonMargin = 4;  // [px]
 
 }  // namespace
 
@@ -99,7 +99,11 @@ void QPlcTimePlot::Private::showRange(Axis axis)
         minimum = wanted.minimum ? *wanted.minimum : maximum - 1.0;
         maximum = wanted.minimum ? minimum + 1.0 : maximum;
     }
-    values.isHeld ? canvas->setRange(axis, values.minimum, values.maximum) : canvas->setRange(axis, minimum, maximum);
+    if (values.isHeld) {
+        minimum = values.minimum;
+        maximum = values.maximum;
+    }
+    canvas->setRange(axis, minimum, maximum, curves.isWhole(axis) ? PlotCanvas::WholeTicks : PlotCanvas::AnyTicks);
 }
 
 void QPlcTimePlot::Private::showOverlay()
@@ -229,12 +233,11 @@ void QPlcTimePlot::Private::arrange()
     canvas->setCompact(q->height() < compactHeight || q->width() < compactWidth);
     legendArea->setVerticalScrollBarPolicy(canvas->isCompact() ? Qt::ScrollBarAlwaysOff : Qt::ScrollBarAsNeeded);
     legend->setCompact(canvas->isCompact());
-    const int legendRoom = canvas->isCompact() ? 0 : int(legendShare * q->height());
-    legendArea->setFixedHeight(legend->heightWithin(q->contentsRect().width(), legendRoom));
     statistics->setUnfolded(settings.hasStatistics && q->height() >= leastStatisticsHeight);
-    const int messageHeight = message->heightForWidth(q->width());  // over the rest, which stays where it is
-    message->setGeometry(0, q->height() - messageHeight, q->width(), messageHeight);
-    message->raise();
+    statistics->setRoom(int(statisticsShare * q->height()));
+    const bool hasTable = !statistics->isHidden() && statistics->isUnfolded();  // which names the curves, too
+    const double share = canvas->isCompact() ? 0.0 : hasTable ? legendShareBesideTable : legendShare;
+    legendArea->setFixedHeight(legend->heightWithin(q->contentsRect().width(), int(share * q->height())));
 }
 
 void QPlcTimePlot::Private::showTheme()
@@ -247,22 +250,11 @@ void QPlcTimePlot::Private::showTheme()
     canvas->setTheme(theme);
     overlay->setTheme(theme);
     legend->setTheme(theme);
+    exporter->setTheme(theme);
     QPalette button = palette;
     button.setColor(QPalette::Button, theme.accent);
     button.setColor(QPalette::ButtonText, theme.surface);
     liveButton->setPalette(button);
     liveButton->setFont(overlay->font());
     bind();
-}
-
-void QPlcTimePlot::Private::say(const QString &sentence, bool isFailure)
-{
-    const Theme theme = q->context() ? q->context()->theme() : Theme::byName(Theme::System);
-    QPalette palette = q->palette();
-    palette.setColor(QPalette::WindowText, isFailure ? theme.alarm : theme.text);
-    message->setPalette(palette);
-    message->setText(isFailure ? QPlcTimePlot::tr("%1 (Esc)").arg(sentence) : sentence);
-    message->show();
-    arrange();
-    isFailure ? messageTimer.stop() : messageTimer.start(successTime);
 }

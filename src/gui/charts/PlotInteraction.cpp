@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "PlotInteraction.h"
 
+#include "PinchZoom.h"
+
 #include <QtGui/QMouseEvent>
 #include <QtGui/QWheelEvent>
 #include <QtWidgets/QApplication>
@@ -31,8 +33,24 @@ PlotInteraction::PlotInteraction(PlotCanvas *canvas, QObject *parent)
     canvas->canvas()->installEventFilter(this);
     for (const QwtPlot::Axis axis : {QwtPlot::yLeft, QwtPlot::yRight, QwtPlot::xBottom})
         canvas->axisWidget(axis)->installEventFilter(this);
+    followPinches();
     canvas->axisWidget(QwtPlot::yLeft)->setCursor(Qt::SizeVerCursor);
     canvas->axisWidget(QwtPlot::yRight)->setCursor(Qt::SizeVerCursor);
+}
+
+void PlotInteraction::followPinches()
+{
+    auto *pinch = new PinchZoom(m_canvas->canvas(), this);
+    connect(pinch, &PinchZoom::began, this, [this] {
+        m_action = Nothing;
+        m_isPinching = true;
+        Q_EMIT boxChanged(QRect());
+    });
+    connect(pinch, &PinchZoom::zoomed, this, [this](double factor, const QPointF &about, const QPointF &by) {
+        Q_EMIT zoomTime(factor, m_canvas->timeAt(about.x()));
+        Q_EMIT panTime(m_canvas->timeAt(0.0) - m_canvas->timeAt(by.x()));
+    });
+    connect(pinch, &PinchZoom::ended, this, [this] { m_isPinching = false; });
 }
 
 void PlotInteraction::setCursors(std::optional<int> a, std::optional<int> b)
@@ -77,7 +95,7 @@ std::optional<PlotInteraction::Axis> PlotInteraction::axisOf(const QWidget *watc
 bool PlotInteraction::press(QWidget *watched, QMouseEvent *event)
 {
     Q_EMIT pressed();
-    if (m_action != Nothing)
+    if (m_action != Nothing || m_isPinching)
         return true;
     const QPoint position = watched->mapTo(m_canvas, event->pos()) - m_canvas->canvas()->pos();
     const bool isOnCanvas = watched == m_canvas->canvas();

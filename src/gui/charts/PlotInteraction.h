@@ -15,7 +15,7 @@ namespace qplc {
 /// Turns what a mouse does over a plot into wishes, in pixels of its canvas and in times.
 ///
 /// The wheel zooms about the mouse, with Ctrl or over a y axis the values; dragging pans, over a y axis the values; dragging with Shift or the right button is a box; cursors are dragged; a double click wants
-/// all; the right button alone wants a menu.
+/// all; the right button alone wants a menu. Two fingers zoom and pan the time.
 class PlotInteraction : public QObject
 {
     Q_OBJECT
@@ -59,6 +59,7 @@ private:
     bool move(QWidget *watched, QMouseEvent *event);
     bool release(QWidget *watched, QMouseEvent *event);
     bool wheel(QWidget *watched, QWheelEvent *event);
+    void followPinches();
     void drag(QPoint position);
     QRect box(QPoint position) const;
     Cursor cursorAt(int x) const;
@@ -77,6 +78,7 @@ private:
     QPoint m_origin;  // of the drag
     QPoint m_last;
     bool m_hasMoved = false;
+    bool m_isPinching = false;  // what a mouse does is by the first finger
 };
 
 }  // namespace qplc

@@ -90,7 +90,7 @@ void PlotLegend::show(const PlotCurves &curves, std::optional<SignalStore::Time>
         entry.isVisible = curve.settings.isVisible;
         entry.isTrusted = !curve.isMissing() && !(curve.isStale() && !time);
         if (curve.isStale() && !time)
-            entry.unit += QStringLiteral(" (%1)").arg(ageText(curve.source.plant->age()));
+            entry.age = ageText(curve.source.plant->age());
         entry.isSelected = place == curves.selected();
         entries.append(entry);
     }
@@ -135,6 +135,12 @@ int PlotLegend::wantedWidth() const
     return swatch + m_nameWidth + m_valueWidth + m_unitWidth + 3 * spacing;
 }
 
+/// With the room before it [px]; 0: there is no age.
+int PlotLegend::ageWidth(const Entry &entry) const
+{
+    return entry.age.isEmpty() ? 0 : spacing + QFontMetrics(fontOf(entry)).horizontalAdvance(entry.age);
+}
+
 int PlotLegend::columnsFor(int width) const
 {
     const int room = width - 2 * margin + gap;
@@ -167,8 +173,8 @@ QRect PlotLegend::entryRect(int place) const
     const int room = (width() - 2 * margin + gap) / columns;
     const int wanted = wantedWidth();
     const int column = place % columns;
-    return {margin + column * room, margin + place / columns * m_lineHeight, std::min(room - gap, wanted),
-            m_lineHeight};
+    const int width = std::min(room - gap, wanted + ageWidth(m_entries[place]));
+    return {margin + column * room, margin + place / columns * m_lineHeight, width, m_lineHeight};
 }
 
 int PlotLegend::entryAt(QPoint position) const
@@ -199,9 +205,9 @@ void PlotLegend::paint(QPainter *painter, bool hasHover) const
     }
 }
 
-void PlotLegend::paintEntry(QPainter *painter, const QRect &rect, const Entry &entry) const
+void PlotLegend::paintEntry(QPainter *painter, const QRect &wholeRect, const Entry &entry) const
 {
-    const QRect box(rect.left(), rect.center().y() - swatch / 2 + 1, swatch, swatch);
+    const QRect box(wholeRect.left(), wholeRect.center().y() - swatch / 2 + 1, swatch, swatch);
     if (entry.isVisible && entry.isTrusted) {
         painter->fillRect(box, entry.color);
     } else {
@@ -212,6 +218,11 @@ void PlotLegend::paintEntry(QPainter *painter, const QRect &rect, const Entry &e
     const QFont font = fontOf(entry);
     painter->setFont(font);
     const bool isQuiet = !entry.isVisible || !entry.isTrusted;
+    const int age = ageWidth(entry);
+    const bool isAgeLast
+        = age > 0 && wholeRect.width() >= wantedWidth() + age;  // else it takes of the name: nothing moves
+    painter->setPen(m_theme.stale);
+    const QRect rect = isAgeLast ? paintAge(painter, wholeRect, entry) : wholeRect;
     const bool hasValues = !m_isCompact || m_entries.size() == 1 || rect.width() >= wantedWidth();
     const int unitWidth = hasValues ? m_unitWidth : 0;
     const int room = rect.width() - swatch - (hasValues ? 3 : 1) * spacing - unitWidth;
@@ -221,17 +232,27 @@ void PlotLegend::paintEntry(QPainter *painter, const QRect &rect, const Entry &e
     const int nameWidth = room - valueWidth;
     QRect part(rect.left() + swatch + spacing, rect.top(), nameWidth, rect.height());
     painter->setPen(isQuiet ? m_theme.stale : m_theme.text);
+    if (!isAgeLast && age > 0)
+        part = paintAge(painter, part, entry);
     painter->drawText(part, Qt::AlignVCenter | Qt::TextSingleLine,
-                      QFontMetrics(font).elidedText(entry.name, Qt::ElideMiddle, nameWidth));
+                      QFontMetrics(font).elidedText(entry.name, Qt::ElideMiddle, part.width()));
     if (!hasValues)
         return;
-    part.setLeft(part.right() + 1 + spacing);
+    part.setLeft(rect.left() + swatch + spacing + nameWidth + spacing);
     part.setWidth(valueWidth);
     painter->drawText(part, Qt::AlignVCenter | Qt::AlignRight | Qt::TextSingleLine, entry.value);
     part.setLeft(part.right() + 1 + spacing);
     part.setWidth(unitWidth);
     painter->setPen(isQuiet ? m_theme.stale : m_theme.mutedText);
     painter->drawText(part, Qt::AlignVCenter | Qt::TextSingleLine, entry.unit);
+}
+
+/// What is at the right end of an entry. \return the room that is left
+QRect PlotLegend::paintAge(QPainter *painter, const QRect &room, const Entry &entry) const
+{
+    const int width = ageWidth(entry);
+    painter->drawText(room, Qt::AlignVCenter | Qt::AlignRight | Qt::TextSingleLine, entry.age);
+    return room.adjusted(0, 0, -width, 0);
 }
 
 void PlotLegend::mousePressEvent(QMouseEvent *event)

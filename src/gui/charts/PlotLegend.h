@@ -21,6 +21,7 @@ public:
         QString name;
         QString value;
         QString unit;
+        QString age;   // of a value that is no longer true
         QString hint;  // what is shown when the mouse rests on it
         QColor color;
         bool isVisible = true;
@@ -28,8 +29,9 @@ public:
         bool isSelected = false;
         friend bool operator==(const Entry &a, const Entry &b)
         {
-            return a.name == b.name && a.value == b.value && a.unit == b.unit && a.hint == b.hint && a.color == b.color
-                && a.isVisible == b.isVisible && a.isTrusted == b.isTrusted && a.isSelected == b.isSelected;
+            return a.name == b.name && a.value == b.value && a.unit == b.unit && a.age == b.age && a.hint == b.hint
+                && a.color == b.color && a.isVisible == b.isVisible && a.isTrusted == b.isTrusted
+                && a.isSelected == b.isSelected;
         }
     };
 
@@ -68,6 +70,8 @@ private:
     void measure();
     int columnsFor(int width) const;
     int entryAt(QPoint position) const;
+    int ageWidth(const Entry &entry) const;
+    QRect paintAge(QPainter *painter, const QRect &room, const Entry &entry) const;
     void paintEntry(QPainter *painter, const QRect &rect, const Entry &entry) const;
     int wantedWidth() const;
     QFont fontOf(const Entry &entry) const;

@@ -9,11 +9,11 @@
 
 namespace qplc {
 
-/// Labels of a y axis: as many digits as the step needs, and room that does not depend on them, so that canvases neither jump nor differ from plot to plot.
+/// Labels of an axis of values: as many digits as the step needs, and room that does not depend on them, so that canvases neither jump nor differ from plot to plot.
 class ValueScaleDraw : public QwtScaleDraw
 {
 public:
-    /// \param characters  that there is always room for
+    /// \param characters  that there is always room for beside a y axis
     ValueScaleDraw(const QFont &font, int characters);
     QwtText label(double value) const override;
 };

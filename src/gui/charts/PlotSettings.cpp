@@ -33,6 +33,7 @@ const QString axisKey = QStringLiteral("axis");
 const QString visibleKey = QStringLiteral("visible");
 const QString minimumKey = QStringLiteral("minimum");
 const QString maximumKey = QStringLiteral("maximum");
+const QString linesKey = QStringLiteral("lines");
 
 constexpr double shortestSpan = 1e-4;  // [s], as TimeView
 constexpr double longestSpan = 86400.0;
@@ -52,7 +53,13 @@ std::optional<double> numberIn(const QJsonObject &json, const QString &key)
 
 PlotRangeSettings rangeIn(const QJsonObject &json)
 {
-    return {numberIn(json, minimumKey), numberIn(json, maximumKey)};
+    PlotRangeSettings range{numberIn(json, minimumKey), numberIn(json, maximumKey), {}};
+    const QJsonArray lines = json.value(linesKey).toArray();
+    for (const QJsonValue &line : lines) {
+        if (line.isDouble())
+            range.lines.append(line.toDouble());
+    }
+    return range;
 }
 
 void insertRange(QJsonObject *json, const QString &key, const PlotRangeSettings &range)
@@ -62,6 +69,11 @@ void insertRange(QJsonObject *json, const QString &key, const PlotRangeSettings 
         ends.insert(minimumKey, *range.minimum);
     if (range.maximum)
         ends.insert(maximumKey, *range.maximum);
+    QJsonArray lines;
+    for (const double line : range.lines)
+        lines.append(line);
+    if (!lines.isEmpty())
+        ends.insert(linesKey, lines);
     if (!ends.isEmpty())
         json->insert(key, ends);
 }

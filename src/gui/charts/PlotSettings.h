@@ -37,6 +37,7 @@ struct PlotRangeSettings
 {
     std::optional<double> minimum;
     std::optional<double> maximum;
+    QVector<double> lines{};  // across the plot, for reference
 
     /// Both ends are given, and are a range.
     bool isFixed() const { return minimum && maximum && *minimum < *maximum; }
@@ -48,7 +49,7 @@ struct PlotRangeSettings
 ///
 /// ```json
 /// {"curves": [{"signal": "kite.elevation", "name": "Elevation", "gain": 2, "offset": -1, "color": "#d55e00", "axis": "right", "visible": false}],
-///  "left": {"minimum": 0, "maximum": 90}, "right": {}, "time": "own", "span": 10, "labels": "seconds", "grid": false, "limits": true,
+///  "left": {"minimum": 0, "maximum": 90, "lines": [60, 75]}, "right": {}, "time": "own", "span": 10, "labels": "seconds", "grid": false, "limits": true,
 ///  "legend": false, "statistics": false, "trigger": {"on": true, "signal": "kite.elevation", "level": 30, "mode": "normal"}}
 /// ```
 struct PlotSettings

@@ -260,6 +260,8 @@ QWidget *PlotSettingsEditor::makeOptions()
         line->addWidget(makeEnd(tr("%1: smallest value").arg(title), range, &PlotRangeSettings::minimum));
         line->addWidget(new QLabel(QStringLiteral("…"), options));
         line->addWidget(makeEnd(tr("%1: largest value").arg(title), range, &PlotRangeSettings::maximum));
+        line->addWidget(new QLabel(tr("lines"), options));
+        line->addWidget(makeLines(tr("%1: reference lines").arg(title), range));
         form->addRow(title, line);
     };
     addRange(tr("Left axis"), &PlotSettings::left);
@@ -290,6 +292,31 @@ QLineEdit *PlotSettingsEditor::makeEnd(const QString &name, PlotRangeSettings Pl
         if (!isNumber && !text.isEmpty())
             return;  // "-" is not finished
         m_settings.*range.*end = isNumber ? std::optional<double>(number) : std::nullopt;
+        tell();
+    });
+    return edit;
+}
+
+/// Values with spaces between them.
+QLineEdit *PlotSettingsEditor::makeLines(const QString &name, PlotRangeSettings PlotSettings::*range)
+{
+    auto *edit = new QLineEdit(this);
+    QStringList texts;
+    for (const double line : qAsConst((m_settings.*range).lines))
+        texts << QString::number(line, 'g', digits);
+    edit->setText(texts.join(QLatin1Char(' ')));
+    edit->setPlaceholderText(tr("4000 4500"));
+    edit->setAccessibleName(name);
+    connect(edit, &QLineEdit::textEdited, this, [this, range](const QString &text) {
+        QVector<double> lines;
+        const QStringList parts = text.split(QLatin1Char(' '), Qt::SkipEmptyParts);
+        for (const QString &part : parts) {
+            bool isNumber = false;
+            lines.append(part.toDouble(&isNumber));
+            if (!isNumber)
+                return;  // not finished
+        }
+        (m_settings.*range).lines = lines;
         tell();
     });
     return edit;

@@ -41,6 +41,7 @@ private:
     QWidget *makeOptions();
     QLineEdit *makeEnd(const QString &name, PlotRangeSettings PlotSettings::*range,
                        std::optional<double> PlotRangeSettings::*end);
+    QLineEdit *makeLines(const QString &name, PlotRangeSettings PlotSettings::*range);
     QCheckBox *makeCheck(const QString &text, bool PlotSettings::*member);
     QWidget *makeTimeAxis();
     void removeCurve(int place);

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "QPlcJitterHistogram.h"
 
+#include "ChartExport.h"
+#include "ChartLook.h"
 #include "JitterCanvas.h"
 #include "JitterEditor.h"
 #include "gui/models/ValueFormat.h"
+#include "gui/panel/PanelSettings.h"
 #include "gui/panel/WindowContext.h"
 
 #include <QtCore/QElapsedTimer>
@@ -11,6 +14,7 @@
 #include <QtCore/QMap>
 #include <QtCore/QPointer>
 #include <QtCore/QTimer>
+#include <QtGui/QKeyEvent>
 #include <QtWidgets/QAction>
 #include <QtWidgets/QLabel>
 #include <QtWidgets/QVBoxLayout>
@@ -26,9 +30,9 @@ constexpr int staleAfter = 3000;  // [ms]
 
 constexpr int leastHeight = 150;  // [px] of panels with a caption
 
-const QString plantKey = QStringLiteral("plant");
-const QString showKey = QStringLiteral("show");
-const QString windowKey = QStringLiteral("window");
+constexpr const char *plantKey = "plant";
+constexpr const char *showKey = "show";
+constexpr const char *windowKey = "window";
 const QString sinceStart = QStringLiteral("sinceStart");
 const QString last10s = QStringLiteral("last10s");
 const QString masterLateness = QStringLiteral("Master.lateness");
@@ -47,6 +51,7 @@ public:
     void take(const QPlcMessage &answer);
     void draw();
     QString problem(const QVector<JitterDistribution> &shown) const;
+    QString captionText(const QVector<JitterDistribution> &shown, bool isStale) const;
     QStringList shownKeys() const;
     void setShown(const QString &key, bool isShown);
     void showActions();
@@ -57,9 +62,10 @@ public:
     JitterCanvas *canvas;
     QLabel *message;
     QLabel *caption;
+    ChartExport *exporter;
     QAction *last = nullptr;
     QMap<QString, QAction *> masterActions;  // by key
-    QJsonObject settings;                    // of our keys, as they were given
+    PanelSettings settings{plantKey, showKey, windowKey};
     QJsonObject statistics;
     QPointer<Plant> asked;  // the plant whose statistics these are
     QElapsedTimer sinceAnswer;
@@ -71,6 +77,7 @@ QPlcJitterHistogram::Private::Private(QPlcJitterHistogram *histogram)
     , canvas(new JitterCanvas)
     , message(new QLabel)
     , caption(new QLabel)
+    , exporter(new ChartExport(q, [this] { return std::make_unique<ChartPicture>(canvas, caption->text()); }))
 {
     auto *all = new QVBoxLayout(q);
     all->setContentsMargins(2, 2, 2, 2);
@@ -87,6 +94,7 @@ QPlcJitterHistogram::Private::Private(QPlcJitterHistogram *histogram)
     caption->setWordWrap(true);
     caption->setAlignment(Qt::AlignRight);
     caption->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+    caption->setFont(scaleFont(caption->font()));
     canvas->setAccessibleName(tr("Histogram of durations"));
     q->setFocusPolicy(Qt::StrongFocus);
     makeActions();
@@ -107,7 +115,7 @@ void QPlcJitterHistogram::Private::makeActions()
 {
     last = addAction(tr("Only the last 10 s"), Qt::Key_T);
     QObject::connect(last, &QAction::triggered, q, [this](bool isLast) {
-        settings.insert(windowKey, isLast ? last10s : sinceStart);
+        settings.set(windowKey, isLast ? last10s : sinceStart, sinceStart);
         draw();
         Q_EMIT q->settingsEdited();
     });
@@ -119,6 +127,14 @@ void QPlcJitterHistogram::Private::makeActions()
         masterActions.insert(key, action);
         QObject::connect(action, &QAction::triggered, q, [this, name = key](bool isShown) { setShown(name, isShown); });
     }
+    const auto addExport = [this](const QString &text, int keys, const char *name, auto act) {
+        QAction *action = addAction(text, keys);
+        action->setCheckable(false);
+        action->setObjectName(QLatin1String(name));
+        QObject::connect(action, &QAction::triggered, exporter, act);
+    };
+    addExport(tr("Save picture..."), Qt::CTRL | Qt::SHIFT | Qt::Key_E, "savePicture", &ChartExport::savePicture);
+    addExport(tr("Copy picture"), Qt::CTRL | Qt::SHIFT | Qt::Key_C, "copyPicture", &ChartExport::copyPicture);
     showActions();
 }
 
@@ -131,7 +147,7 @@ void QPlcJitterHistogram::Private::showActions()
 
 QStringList QPlcJitterHistogram::Private::shownKeys() const
 {
-    if (!settings.contains(showKey))
+    if (settings.value(showKey).isUndefined())
         return {masterLateness};
     QStringList keys;
     const QJsonArray shown = settings.value(showKey).toArray();
@@ -147,7 +163,7 @@ void QPlcJitterHistogram::Private::setShown(const QString &key, bool isShown)
     keys.removeAll(key);
     if (isShown)
         keys << key;
-    settings.insert(showKey, QJsonArray::fromStringList(keys));
+    settings.set(showKey, QJsonArray::fromStringList(keys), QJsonArray{masterLateness});
     showActions();
     draw();
     Q_EMIT q->settingsEdited();
@@ -235,13 +251,28 @@ void QPlcJitterHistogram::Private::draw()
     caption->setVisible(text.isEmpty() && (isStale || q->height() >= leastHeight));
     if (!text.isEmpty())
         return;
-    QStringList parts{isLast ? tr("last 10 s") : tr("since start")};
+    canvas->show(shown, isStale);
+    caption->setText(captionText(shown, isStale));
+}
+
+/// One line of what has room, the most important last; the names of several histograms may take more lines.
+QString QPlcJitterHistogram::Private::captionText(const QVector<JitterDistribution> &shown, bool isStale) const
+{
+    QStringList parts;
     if (shown.size() == 1)
-        parts << shown.first().title().toHtmlEscaped() << tr("%L1 values").arg(shown.first().count, 0, 'f', 0);
+        parts << tr("%1 values").arg(shown.first().count, 0, 'f', 0);
+    parts << (settings.value(windowKey).toString() == last10s ? tr("last 10 s") : tr("since start"));
+    if (shown.size() == 1)
+        parts << shown.first().title();
     if (isStale)
         parts << tr("stale, %1").arg(ageText(double(sinceAnswer.elapsed()) * 1e-3));
-    canvas->show(shown, isStale);
-    caption->setText(parts.join(QStringLiteral(" &nbsp;·&nbsp; ")) + QStringLiteral(" &nbsp; ") + canvas->legend());
+    const bool isSmall = q->height() < leastHeight;
+    const auto text = [&] { return parts.join(QStringLiteral(" · ")); };
+    const QFontMetrics metrics(caption->font());
+    while (parts.size() > 1 && (isSmall || metrics.horizontalAdvance(text()) > q->width() - 4 * caption->margin()))
+        parts.removeFirst();
+    const QString legend = isSmall ? QString() : canvas->legend();
+    return legend.isEmpty() ? text().toHtmlEscaped() : text().toHtmlEscaped() + QStringLiteral(" &nbsp; ") + legend;
 }
 
 void QPlcJitterHistogram::Private::applyTheme()
@@ -253,6 +284,7 @@ void QPlcJitterHistogram::Private::applyTheme()
     q->setPalette(palette);
     q->setAutoFillBackground(true);
     canvas->setTheme(theme);
+    exporter->setTheme(theme);
 }
 
 QPlcJitterHistogram::QPlcJitterHistogram(QWidget *parent)
@@ -266,21 +298,12 @@ QPlcJitterHistogram::~QPlcJitterHistogram() = default;
 
 QJsonObject QPlcJitterHistogram::settings() const
 {
-    QJsonObject all = QPlcWidget::settings();
-    for (auto entry = d->settings.begin(); entry != d->settings.end(); ++entry)
-        all.insert(entry.key(), entry.value());
-    return all;
+    return d->settings.addedTo(QPlcWidget::settings());
 }
 
 void QPlcJitterHistogram::applySettings(const QJsonObject &settings)
 {
-    QJsonObject others = settings;
-    for (const QString &key : {plantKey, showKey, windowKey}) {
-        const QJsonValue value = others.take(key);
-        if (!value.isUndefined())
-            d->settings.insert(key, value);
-    }
-    QPlcWidget::applySettings(others);
+    QPlcWidget::applySettings(d->settings.take(settings));
     d->showActions();
     d->ask();
     d->draw();
@@ -321,6 +344,18 @@ void QPlcJitterHistogram::showEvent(QShowEvent *event)
     QPlcWidget::showEvent(event);
     d->timer.start(askPause);
     d->ask();
+}
+
+void QPlcJitterHistogram::keyPressEvent(QKeyEvent *event)
+{
+    if (event->key() != Qt::Key_Escape || !d->exporter->dismiss())
+        QPlcWidget::keyPressEvent(event);
+}
+
+void QPlcJitterHistogram::resizeEvent(QResizeEvent *event)
+{
+    QPlcWidget::resizeEvent(event);
+    d->draw();
 }
 
 void QPlcJitterHistogram::hideEvent(QHideEvent *event)

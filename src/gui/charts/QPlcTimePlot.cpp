@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "QPlcTimePlot.h"
 
+#include "PlotPicture.h"
 #include "PlotSettingsEditor.h"
 #include "QPlcTimePlotPrivate.h"
 
 #include <QtGui/QContextMenuEvent>
-#include <QtWidgets/QLabel>
 #include <QtWidgets/QMenu>
 #include <QtWidgets/QScrollArea>
 #include <QtWidgets/QToolButton>
@@ -30,7 +30,7 @@ QPlcTimePlot::Private::Private(QPlcTimePlot *plot)
     , legendArea(new QScrollArea(plot))
     , legend(new PlotLegend)
     , statistics(new StatisticsView(plot))
-    , message(new QLabel(plot))
+    , exporter(new ChartExport(plot, [this] { return std::make_unique<PlotPicture>(canvas, overlay, legend); }))
     , curves(canvas)
 {
     legendArea->setWidget(legend);
@@ -41,12 +41,6 @@ QPlcTimePlot::Private::Private(QPlcTimePlot *plot)
     statistics->hide();
     triggerBar->hide();
     triggerBar->setOwnTime(&ownTime);
-    message->hide();
-    message->setWordWrap(true);
-    message->setMargin(6);
-    message->setAutoFillBackground(true);
-    message->setFrameShape(QFrame::StyledPanel);
-    message->setTextInteractionFlags(Qt::TextSelectableByMouse);
     auto *column = new QVBoxLayout(plot);
     column->setContentsMargins(2, 4, 2, 2);
     column->setSpacing(0);
@@ -57,12 +51,10 @@ QPlcTimePlot::Private::Private(QPlcTimePlot *plot)
     canvas->setAccessibleName(QPlcTimePlot::tr("Curves over time"));
     drawTimer.setSingleShot(true);
     drawTimer.setTimerType(Qt::PreciseTimer);  // others come up to 5 % early
-    messageTimer.setSingleShot(true);
     numberTimer.setInterval(numberPeriod);
     clock.start();
     connect(&drawTimer, &QTimer::timeout, this, &Private::draw);
     connect(&numberTimer, &QTimer::timeout, this, &Private::showNumbers);
-    connect(&messageTimer, &QTimer::timeout, message, &QWidget::hide);
     connect(&ownTime, &TimeView::viewChanged, this, &Private::schedule);
     connect(triggerBar, &TriggerBar::triggered, this, &Private::schedule);
     connect(triggerBar, &TriggerBar::settingsEdited, this, [this] {
@@ -73,8 +65,6 @@ QPlcTimePlot::Private::Private(QPlcTimePlot *plot)
         ++version;
         schedule();
     });
-    connect(&tableExport, &PlotExport::finished, this, [this](const QString &text) { say(text, false); });
-    connect(&tableExport, &PlotExport::failed, this, [this](const QString &text) { say(text, true); });
     makeActions();
     connectInteraction();
 }
@@ -167,9 +157,7 @@ void QPlcTimePlot::contextMenuEvent(QContextMenuEvent *event)
 
 void QPlcTimePlot::keyPressEvent(QKeyEvent *event)
 {
-    if (event->key() == Qt::Key_Escape && d->message->isVisible())
-        d->message->hide();
-    else
+    if (event->key() != Qt::Key_Escape || !d->exporter->dismiss())
         QPlcWidget::keyPressEvent(event);
 }
 
@@ -194,7 +182,7 @@ void QPlcTimePlot::Private::followContext()
     for (const auto changed : {&TimeView::viewChanged, &TimeView::cursorsChanged, &TimeView::pointerChanged})
         connect(time, changed, this, &Private::schedule);
     connect(context->curveSources(), &CurveSources::changed, this, [this] {
-        tableExport.cancel(QPlcTimePlot::tr("The signals have changed while they were exported. Export them again."));
+        exporter->cancel(QPlcTimePlot::tr("The signals have changed while they were exported. Export them again."));
         bind();
     });
     connect(context->curveSources(), &CurveSources::filled, this, [this] {

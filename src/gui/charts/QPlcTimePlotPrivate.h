@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "ChartExport.h"
 #include "PlotCanvas.h"
 #include "PlotCurves.h"
-#include "PlotExport.h"
 #include "PlotInteraction.h"
 #include "PlotLegend.h"
 #include "PlotOverlay.h"
@@ -22,7 +22,6 @@
 #include <array>
 #include <functional>
 
-class QLabel;
 class QMenu;
 class QScrollArea;
 class QToolButton;
@@ -75,13 +74,12 @@ public:
     void showLiveButton();
     void arrange();
     void showTheme();
-    void say(const QString &sentence, bool isFailure);
 
     // -- PlotCommands.cpp: what a person can do --
     void makeActions();
     void connectInteraction();
     QAction *make(const QString &text, const QList<QKeySequence> &keys, const char *name, std::function<void()> act);
-    QMenu *createMenu(int curve, std::optional<int> x);
+    QMenu *createMenu(int curve, std::optional<QPoint> mouse);
     void openAddBar();
     void showAll();
     void zoomTime(double factor);
@@ -93,15 +91,20 @@ public:
     Time nearestRow(Time time) const;
     void removeCursors();
     void moveCursor(int pixels);
+    bool hasLines() const;
+    void addLine();
+    void removeLines();
     void toggleLive();
     void toggleTrigger();
     void showTrigger();
     void takeTrigger();
-    std::vector<qplc::TableExport::Column> exportColumns() const;
-    void saveTable();
-    void copyTable();
-    void savePicture();
-    void copyPicture();
+    void makeExportActions();
+    /// Of the curves that are seen, at the moment when it is called.
+    qplc::ChartExport::Table table(Time begin, Time end) const;
+    qplc::ChartExport::Table shownTable() const;
+    /// Without both cursors all that is seen.
+    qplc::ChartExport::Table tableBetweenCursors() const;
+    bool hasBothCursors() const;
 
     /// A y axis: by settings, by what is seen, or as a person has zoomed it.
     struct ValueAxis
@@ -126,9 +129,8 @@ public:
     QScrollArea *legendArea;
     qplc::PlotLegend *legend;
     qplc::StatisticsView *statistics;
-    QLabel *message;
+    qplc::ChartExport *exporter;
     qplc::PlotCurves curves;
-    qplc::PlotExport tableExport{this};
 
     std::array<ValueAxis, 2> axes;
     std::vector<qplc::RedrawRule> redraw;  // for each store
@@ -140,7 +142,6 @@ public:
     QRect box;
     QTimer drawTimer;
     QTimer numberTimer;
-    QTimer messageTimer;
     QElapsedTimer sinceDrawing;
     QElapsedTimer clock;
     QAction *addAction = nullptr;

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "QPlcXyPlot.h"
 
-#include "XyCanvas.h"
+#include "ChartLook.h"
+#include "QPlcXyPlotPrivate.h"
 #include "XyPlotEditor.h"
 #include "gui/models/ValueFormat.h"
-#include "gui/panel/WindowContext.h"
 
 #include <QtCore/QDateTime>
 #include <QtCore/QElapsedTimer>
 #include <QtCore/QJsonArray>
-#include <QtCore/QTimer>
-#include <QtWidgets/QAction>
+#include <QtGui/QContextMenuEvent>
 #include <QtWidgets/QLabel>
+#include <QtWidgets/QMenu>
 #include <QtWidgets/QVBoxLayout>
 
 #include <algorithm>
@@ -20,51 +20,19 @@ using namespace qplc;
 
 namespace {
 
-constexpr int shortestPause = 40;  // [ms] between pictures
 constexpr int longestPause = 1000;
 constexpr int costShare = 4;   // drawing takes at most so small a share of the time
 constexpr int agePause = 500;  // [ms]
 
 constexpr int leastHeight = 150;  // [px] of panels with a legend
 
-const QString curvesKey = QStringLiteral("curves");
+constexpr const char *curvesKey = "curves";
 const QString xKey = QStringLiteral("x");
 const QString yKey = QStringLiteral("y");
 const QString colorKey = QStringLiteral("color");
-const QString aspectKey = QStringLiteral("equalAspect");
+constexpr const char *aspectKey = "equalAspect";
 
 }  // namespace
-
-class QPlcXyPlot::Private
-{
-public:
-    explicit Private(QPlcXyPlot *plot);
-
-    void bind();
-    void follow(WindowContext *context);
-    void schedule();
-    void draw();
-    void edit(const QJsonArray &curves);
-    void showMessage();
-    void showLegend();
-    void applyTheme();
-    QString messageText(const QString &error) const;
-    QString timeText() const;
-    const Plant *stalePlant() const;
-
-    QPlcXyPlot *q;
-    XyCanvas *canvas;
-    QLabel *message;  // what is missing
-    QLabel *legend;
-    QLabel *moment;  // when the dot was
-    QAction *equal;
-    QJsonArray curves;
-    bool hasAspect = false;  // in the settings
-    QString error;           // of the first curve that cannot be drawn
-    QTimer redraw;
-    QTimer age;
-    int pause = shortestPause;
-};
 
 QPlcXyPlot::Private::Private(QPlcXyPlot *plot)
     : q(plot)
@@ -72,7 +40,8 @@ QPlcXyPlot::Private::Private(QPlcXyPlot *plot)
     , message(new QLabel)
     , legend(new QLabel)
     , moment(new QLabel)
-    , equal(new QAction(tr("Equal aspect"), plot))
+    , interaction(new XyInteraction(canvas, plot))
+    , exporter(new ChartExport(plot, [this] { return std::make_unique<ChartPicture>(canvas, legend->text()); }))
 {
     auto *all = new QVBoxLayout(plot);
     all->setContentsMargins(2, 2, 2, 2);
@@ -86,23 +55,19 @@ QPlcXyPlot::Private::Private(QPlcXyPlot *plot)
     message->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     legend->setWordWrap(true);
     legend->setMargin(4);
+    legend->setFont(scaleFont(legend->font()));
     legend->setTextFormat(Qt::RichText);
     legend->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     moment->setMargin(2);
+    moment->setFont(scaleFont(moment->font()));
     moment->setAlignment(Qt::AlignRight);
     canvas->setAccessibleName(tr("XY plot"));
-    equal->setCheckable(true);
-    equal->setShortcut(Qt::Key_E);
-    equal->setShortcutContext(Qt::WidgetWithChildrenShortcut);
-    plot->addAction(equal);
     plot->setFocusPolicy(Qt::StrongFocus);
     redraw.setSingleShot(true);
     connect(&redraw, &QTimer::timeout, plot, [this] { draw(); });
     connect(&age, &QTimer::timeout, plot, [this] { schedule(); });
-    connect(equal, &QAction::triggered, plot, [this](bool isEqual) {
-        q->setAspectEqual(isEqual);
-        Q_EMIT q->settingsEdited();
-    });
+    makeActions();
+    connectInteraction();
 }
 
 /// Finds what the expressions mean now.
@@ -111,7 +76,8 @@ void QPlcXyPlot::Private::bind()
     std::vector<std::unique_ptr<XyCurve>> found;
     std::vector<QColor> colors;
     error.clear();
-    for (const QJsonValue &entry : qAsConst(curves)) {
+    const QJsonArray wanted = curves();
+    for (const QJsonValue &entry : wanted) {
         const QString x = entry[xKey].toString();
         const QString y = entry[yKey].toString();
         if (!q->context() || x.isEmpty() || y.isEmpty())
@@ -139,11 +105,12 @@ QString QPlcXyPlot::Private::messageText(const QString &problem) const
 {
     if (!q->context())
         return tr("No window shares its plants with this plot.");
-    if (curves.isEmpty())
+    const QJsonArray wanted = curves();
+    if (wanted.isEmpty())
         return tr("Drop two signals here: the second one is drawn over the first.");
     if (!problem.isEmpty())
         return problem;
-    const QJsonValue last = curves.last();
+    const QJsonValue last = wanted.last();
     if (last[yKey].toString().isEmpty() && !last[xKey].toString().isEmpty())
         return tr("Drop a second signal here: it is drawn over %1.").arg(last[xKey].toString());
     return canvas->curves().empty() ? tr("Choose signals for x and y in the settings.") : QString();
@@ -174,7 +141,10 @@ void QPlcXyPlot::Private::follow(WindowContext *context)
     connect(time, &TimeView::newestChanged, q, scheduled);
     connect(time, &TimeView::displayTimeChanged, q, scheduled);
     connect(context->curveSources(), &CurveSources::filled, q, scheduled);
-    connect(context->curveSources(), &CurveSources::changed, q, [this] { bind(); });
+    connect(context->curveSources(), &CurveSources::changed, q, [this] {
+        exporter->cancel(tr("The signals have changed while they were exported. Export them again."));
+        bind();
+    });
     connect(context, &WindowContext::themeChanged, q, [this] { applyTheme(); });
 }
 
@@ -182,6 +152,7 @@ void QPlcXyPlot::Private::applyTheme()
 {
     const Theme &theme = q->context()->theme();
     canvas->setTheme(theme);
+    exporter->setTheme(theme);
     showLegend();
     QPalette palette = theme.palette();
     palette.setColor(QPalette::Window, theme.surface);
@@ -217,11 +188,19 @@ void QPlcXyPlot::Private::draw()
     QElapsedTimer cost;
     cost.start();
     const bool isStale = !displayed && stalePlant();
-    canvas->show({time->begin(), time->end(), displayed.value_or(time->newest()), isStale});
-    pause = std::clamp(int(cost.elapsed()) * costShare, shortestPause, longestPause);
-    const QString text = timeText();
-    moment->setVisible(!text.isEmpty() && !canvas->curves().empty());
+    canvas->show({time->begin(), time->end(), displayed, isStale});
     legend->setVisible(!legend->text().isEmpty() && q->height() >= leastHeight);
+    pause = std::clamp(int(cost.elapsed()) * costShare, shortestPause, longestPause);
+    showMoment();
+}
+
+/// Where the mouse is, or else when the dot was.
+void QPlcXyPlot::Private::showMoment()
+{
+    if (!q->context())
+        return;
+    const QString text = interaction->mouse() ? pointerText() : timeText();
+    moment->setVisible(!text.isEmpty() && !canvas->curves().empty());
     if (text != moment->text())
         moment->setText(text);
 }
@@ -237,10 +216,23 @@ QString QPlcXyPlot::Private::timeText() const
     return plant ? tr("stale, %1").arg(ageText(plant->age())) : QString();
 }
 
+QJsonArray QPlcXyPlot::Private::curves() const
+{
+    return settings.value(curvesKey).toArray();
+}
+
+void QPlcXyPlot::Private::showAspect()
+{
+    equal->setChecked(q->isAspectEqual());
+    canvas->setAspect(q->isAspectEqual() ? XyCanvas::Equal : XyCanvas::Free);
+    schedule();
+}
+
 /// What a person has changed.
 void QPlcXyPlot::Private::edit(const QJsonArray &edited)
 {
-    curves = edited;
+    settings.set(curvesKey, edited, QJsonArray());
+    canvas->release();  // what is added is to be seen
     bind();
     Q_EMIT q->settingsEdited();
 }
@@ -256,45 +248,32 @@ QPlcXyPlot::~QPlcXyPlot() = default;
 
 QJsonObject QPlcXyPlot::settings() const
 {
-    QJsonObject all = QPlcWidget::settings();
-    if (!d->curves.isEmpty())
-        all.insert(curvesKey, d->curves);
-    if (d->hasAspect || isAspectEqual())
-        all.insert(aspectKey, isAspectEqual());
-    return all;
+    return d->settings.addedTo(QPlcWidget::settings());
 }
 
 void QPlcXyPlot::applySettings(const QJsonObject &settings)
 {
-    QJsonObject others = settings;
-    const QJsonValue curves = others.take(curvesKey);
-    const QJsonValue aspect = others.take(aspectKey);
-    QPlcWidget::applySettings(others);
-    if (!aspect.isUndefined()) {
-        d->hasAspect = true;
-        setAspectEqual(aspect.toBool());
-    }
-    if (!curves.isUndefined()) {
-        d->curves = curves.toArray();
-        d->bind();
-    }
+    QPlcWidget::applySettings(d->settings.take(settings));
+    d->showAspect();
+    d->bind();
 }
 
 bool QPlcXyPlot::isAspectEqual() const
 {
-    return d->equal->isChecked();
+    return d->settings.value(aspectKey).toBool();
 }
 
 void QPlcXyPlot::setAspectEqual(bool isEqual)
 {
-    d->equal->setChecked(isEqual);
-    d->canvas->setAspect(isEqual ? XyCanvas::Equal : XyCanvas::Free);
-    d->schedule();
+    if (isEqual == isAspectEqual())
+        return;
+    d->settings.set(aspectKey, isEqual, false);
+    d->showAspect();
 }
 
 bool QPlcXyPlot::addSignals(const QStringList &references)
 {
-    QJsonArray curves = d->curves;
+    QJsonArray curves = d->curves();
     for (const QString &reference : references) {
         QJsonObject last = curves.isEmpty() ? QJsonObject() : curves.last().toObject();
         const bool isWaiting = !last[xKey].toString().isEmpty() && last[yKey].toString().isEmpty();
@@ -314,11 +293,12 @@ bool QPlcXyPlot::addSignals(const QStringList &references)
 QWidget *QPlcXyPlot::createSettingsEditor()
 {
     QVector<XyPlotEditor::Expressions> expressions;
-    for (const QJsonValue &curve : qAsConst(d->curves))
+    const QJsonArray shown = d->curves();
+    for (const QJsonValue &curve : shown)
         expressions.append({curve[xKey].toString(), curve[yKey].toString()});
     auto *editor = new XyPlotEditor(expressions, isAspectEqual());
     connect(editor, &XyPlotEditor::expressionChanged, this, [this](int curve, const QString &x, const QString &y) {
-        QJsonArray curves = d->curves;
+        QJsonArray curves = d->curves();
         QJsonObject object = curves.at(curve).toObject();
         object.insert(xKey, x);
         object.insert(yKey, y);
@@ -326,12 +306,12 @@ QWidget *QPlcXyPlot::createSettingsEditor()
         d->edit(curves);
     });
     connect(editor, &XyPlotEditor::curveAdded, this, [this] {
-        QJsonArray curves = d->curves;
+        QJsonArray curves = d->curves();
         curves.append(QJsonObject());
         d->edit(curves);
     });
     connect(editor, &XyPlotEditor::curveRemoved, this, [this](int curve) {
-        QJsonArray curves = d->curves;
+        QJsonArray curves = d->curves();
         curves.removeAt(curve);
         d->edit(curves);
     });
@@ -363,4 +343,16 @@ void QPlcXyPlot::hideEvent(QHideEvent *event)
     QPlcWidget::hideEvent(event);
     d->age.stop();
     d->redraw.stop();
+}
+
+void QPlcXyPlot::contextMenuEvent(QContextMenuEvent *event)
+{
+    d->createMenu()->popup(event->globalPos());
+    event->accept();
+}
+
+void QPlcXyPlot::keyPressEvent(QKeyEvent *event)
+{
+    if (event->key() != Qt::Key_Escape || !d->exporter->dismiss())
+        QPlcWidget::keyPressEvent(event);
 }

@@ -101,6 +101,14 @@ void StatisticsView::setUnfolded(bool isUnfolded)
     m_fold->setToolTip(isUnfolded ? tr("Fold the statistics (S)") : tr("Show statistics between the cursors (S)"));
 }
 
+void StatisticsView::setRoom(int room)
+{
+    if (room == m_room)
+        return;
+    m_room = room;
+    fitHeight();
+}
+
 QString StatisticsView::timesText() const
 {
     return m_times->text();
@@ -220,9 +228,11 @@ void StatisticsView::resizeEvent(QResizeEvent *event)
 
 void StatisticsView::fitHeight()
 {
-    const int lines = std::min(m_table->rowCount(), mostLines);
-    const int header = m_table->horizontalHeader()->sizeHint().height();
-    m_table->setFixedHeight(header + lines * m_table->verticalHeader()->defaultSectionSize() + 2);
+    const int line = m_table->verticalHeader()->defaultSectionSize();
+    const int header = m_table->horizontalHeader()->sizeHint().height() + 2;
+    const int linesWithRoom = std::max((m_room - header) / line, 1);
+    const int lines = std::min({m_table->rowCount(), mostLines, linesWithRoom});
+    m_table->setFixedHeight(header + lines * line);
 }
 
 }  // namespace qplc

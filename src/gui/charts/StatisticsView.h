@@ -30,6 +30,8 @@ public:
     void reset() { m_statistics.clear(); }
     bool isUnfolded() const;
     void setUnfolded(bool isUnfolded);
+    /// What the table may take at most [px]; there is always one line, and the rest is scrolled.
+    void setRoom(int room);
     QTableWidget *table() const { return m_table; }
     /// "A 12:03:15.250   B 12:03:18.460   Δt 3.21 s   1/Δt 0.3115 Hz"
     QString timesText() const;
@@ -54,6 +56,7 @@ private:
 
     QToolButton *m_fold;
     QLabel *m_times;
+    int m_room = 1000;  // [px]
     QTableWidget *m_table;
     std::vector<CursorStatistics> m_statistics;
 };

@@ -2,6 +2,7 @@
 #include "XyCanvas.h"
 
 #include "ChartLook.h"
+#include "PlotScales.h"
 
 #include <qwt_plot_grid.h>
 #include <qwt_plot_layout.h>
@@ -12,12 +13,20 @@
 
 namespace qplc {
 
+namespace {
+
+constexpr int usualCharacters = 5;  // of labels of the y axis: canvases do not jump with them
+
+}  // namespace
+
 XyCanvas::XyCanvas(QWidget *parent)
     : QwtPlot(parent)
     , m_grid(std::make_unique<QwtPlotGrid>())
 {
     setMinimumSize(60, 40);
     m_grid->attach(this);
+    setAxisScaleDraw(xBottom, new ValueScaleDraw(scaleFont(font()), 0));
+    setAxisScaleDraw(yLeft, new ValueScaleDraw(scaleFont(font()), usualCharacters));
     plotLayout()->setAlignCanvasToScales(true);
     setAxisMaxMinor(xBottom, 0);
     setAxisMaxMinor(yLeft, 0);
@@ -36,7 +45,8 @@ void XyCanvas::setCurves(std::vector<std::unique_ptr<XyCurve>> curves, const std
     m_colors = colors;
     for (const std::unique_ptr<XyCurve> &curve : m_curves)
         curve->attach(this);
-    m_x = m_y = Span();
+    if (!m_isHeld)
+        m_x = m_y = Span();
     colorCurves();
     showTitles();
 }
@@ -62,6 +72,7 @@ void XyCanvas::colorCurves()
 void XyCanvas::setAspect(Aspect aspect)
 {
     m_aspect = aspect;
+    m_isHeld = false;
     m_x = m_y = Span();
     ++m_looks;
 }
@@ -160,10 +171,71 @@ XyCanvas::Span XyCanvas::fitted(Span shown, Span data)
     return {data.begin - room, data.end + room};
 }
 
+XyCanvas::Span XyCanvas::shownSpan(QwtPlot::Axis axis) const
+{
+    const QwtInterval shown = axisInterval(axis);
+    return {shown.minValue(), shown.maxValue()};
+}
+
+/// Not closer than neighbours of 32-bit values are.
+void XyCanvas::hold(Span x, Span y)
+{
+    for (const Span &span : {x, y}) {
+        const double largest = std::max(std::fabs(span.begin), std::fabs(span.end));
+        if (!(span.length() > 1e-6 * largest) || !std::isfinite(span.length()))
+            return;
+    }
+    m_x = x;
+    m_y = y;
+    m_isHeld = true;
+    ++m_looks;
+    show(m_picture.moment);
+}
+
+void XyCanvas::zoom(double xFactor, double yFactor, QPointF about)
+{
+    const QPointF fixed = valueAt(about);
+    const auto zoomed = [](Span span, double middle, double factor) {
+        return Span{middle + factor * (span.begin - middle), middle + factor * (span.end - middle)};
+    };
+    const double common = xFactor != 1.0 ? xFactor : yFactor;
+    hold(zoomed(shownSpan(xBottom), fixed.x(), m_aspect == Equal ? common : xFactor),
+         zoomed(shownSpan(yLeft), fixed.y(), m_aspect == Equal ? common : yFactor));
+}
+
+void XyCanvas::pan(QPointF by)
+{
+    const QPointF shift = valueAt(QPointF()) - valueAt(by);
+    const auto moved = [](Span span, double distance) { return Span{span.begin + distance, span.end + distance}; };
+    hold(moved(shownSpan(xBottom), shift.x()), moved(shownSpan(yLeft), shift.y()));
+}
+
+void XyCanvas::zoomTo(const QRectF &box)
+{
+    const QPointF low = valueAt(box.bottomLeft());
+    const QPointF high = valueAt(box.topRight());
+    hold({low.x(), high.x()}, {low.y(), high.y()});
+}
+
+void XyCanvas::release()
+{
+    m_isHeld = false;
+    m_x = m_y = Span();
+    ++m_looks;
+    show(m_picture.moment);
+}
+
+QPointF XyCanvas::valueAt(QPointF place) const
+{
+    return {canvasMap(xBottom).invTransform(place.x()), canvasMap(yLeft).invTransform(place.y())};
+}
+
 void XyCanvas::scaleAxes()
 {
-    m_x = fitted(m_x, dataSpan(true));
-    m_y = fitted(m_y, dataSpan(false));
+    if (!m_isHeld) {
+        m_x = fitted(m_x, dataSpan(true));
+        m_y = fitted(m_y, dataSpan(false));
+    }
     // The labels of one axis change the length of the other one: twice is enough.
     for (int i = 0; i < 2; ++i) {
         Span x = m_x;

@@ -23,8 +23,8 @@ public:
     {
         Time begin = 0;
         Time end = 0;
-        Time dot = 0;
-        bool isStale = false;  // the dot is where the plant was
+        std::optional<Time> dot;  // empty: the newest values
+        bool isStale = false;     // the dot is where the plant was
     };
 
     explicit XyCanvas(QWidget *parent = nullptr);
@@ -37,6 +37,16 @@ public:
     void setAspect(Aspect aspect);
     /// Titles and colours of the curves as rich text; empty for less than two.
     QString legend() const;
+    /// About a place that stays where it is [px of the canvas]. \param xFactor, yFactor  < 1: shows less
+    void zoom(double xFactor, double yFactor, QPointF about);
+    void pan(QPointF by);
+    void zoomTo(const QRectF &box);
+    /// Axes that a person has zoomed stay so.
+    bool isHeld() const { return m_isHeld; }
+    /// Axes follow the curves again.
+    void release();
+    /// What is at a place of the canvas [px].
+    QPointF valueAt(QPointF place) const;
     /// Draws what was at a moment, if the picture is another one than before. \return whether it was drawn
     bool show(const Moment &moment);
 
@@ -62,6 +72,8 @@ private:
     Picture pictureOf(const Moment &moment) const;
     Span dataSpan(bool isOfX) const;
     static Span fitted(Span shown, Span data);
+    Span shownSpan(QwtPlot::Axis axis) const;
+    void hold(Span x, Span y);
     void scaleAxes();
     void makeUnitsEqual(Span *x, Span *y) const;
     void showTitles();
@@ -75,6 +87,7 @@ private:
     std::unique_ptr<QwtPlotGrid> m_grid;
     Span m_x;  // empty: not yet
     Span m_y;
+    bool m_isHeld = false;
     Picture m_picture;
     quint64 m_looks = 1;
 };

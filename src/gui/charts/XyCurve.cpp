@@ -62,7 +62,7 @@ void XyCurve::setTimes(Time begin, Time end)
     m_end = end;
 }
 
-void XyCurve::setDot(Time time, const QColor &color)
+void XyCurve::setDot(std::optional<Time> time, const QColor &color)
 {
     m_dotTime = time;
     m_dotColor = color;
@@ -77,7 +77,7 @@ SignalStore::Range XyCurve::rangeOf(const CurveSource &source) const
 QPointF XyCurve::dot() const
 {
     const SignalStore &store = *m_x.store;
-    const std::optional<Row> row = store.rowUpTo(m_dotTime);
+    const std::optional<Row> row = m_dotTime ? store.rowHoldingAt(*m_dotTime) : store.newestRow();
     if (!row)
         return {NAN, NAN};
     return {double(store.value(m_x.channel, *row)), double(Follower(m_y).at(store.time(*row)))};

@@ -8,6 +8,8 @@
 
 #include <qwt_plot_item.h>
 
+#include <optional>
+
 namespace qplc {
 
 /// Two channels as a path, one over the other, for a piece of time; and the values of one moment as a dot.
@@ -27,8 +29,8 @@ public:
     void setLineWidth(double width) { m_lineWidth = width; }
     /// The piece of time that is shown, \a end included.
     void setTimes(Time begin, Time end);
-    /// The values of the dot are those of the last row up to \a time. \param color  of the dot
-    void setDot(Time time, const QColor &color);
+    /// The dot is at the values of \a time, without one at the newest. \param color  of the dot
+    void setDot(std::optional<Time> time, const QColor &color);
 
     SignalStore::Range xRange() const { return rangeOf(m_x); }
     SignalStore::Range yRange() const { return rangeOf(m_y); }
@@ -51,7 +53,7 @@ private:
     double m_lineWidth = 1.5;  // [px]
     Time m_begin = 0;
     Time m_end = 0;
-    Time m_dotTime = 0;
+    std::optional<Time> m_dotTime;
     mutable PathShape m_shape;
 };
 

@@ -52,8 +52,7 @@ QPlcValue GaugeSource::newestValue() const
 
 QPlcValue GaugeSource::valueAt(SignalStore::Time time) const
 {
-    return isFormula() ? pastValue(*m_formula.store, m_formula.channel, m_plant->staleAfter(), time)
-                       : pastValue(m_signal, time);
+    return isFormula() ? pastValue(*m_formula.store, m_formula.channel, time) : pastValue(m_signal, time);
 }
 
 bool GaugeSource::isSame(const GaugeSource &other) const

@@ -85,7 +85,7 @@ std::optional<double> KiteSignals::element(const PlantList::Signal &signal, int 
     if (const auto time = pastTime()) {
         const SignalStore *store = signal.plant->store();
         const int channel = signal.plant->values().channels().channel(signal.index, element);
-        const std::optional<SignalStore::Row> row = store ? store->rowUpTo(*time) : std::nullopt;
+        const std::optional<SignalStore::Row> row = store ? store->rowHoldingAt(*time) : std::nullopt;
         if (row && channel != ChannelMap::NoChannel)
             value = double(store->value(channel, *row));
     } else {

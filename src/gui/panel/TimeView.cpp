@@ -67,15 +67,19 @@ std::optional<TimeView::Time> TimeView::displayTime() const
     if (m_isLive)
         return std::nullopt;
     const Time wanted = m_pointer.value_or(m_end);
-    return m_newest > 0 ? std::min(wanted, m_newest) : wanted;
+    const bool hasValues = m_newest > 0;  // before, what is looked at is an event of the log, say
+    return hasValues ? std::min(wanted, m_newest) : wanted;
 }
 
 void TimeView::setNewest(Time time)
 {
     if (time <= m_newest)
         return;
+    const std::optional<Time> before = displayTime();
     m_newest = time;
     Q_EMIT newestChanged();
+    if (displayTime() != before)  // a frozen view that reaches into the future
+        Q_EMIT displayTimeChanged();
 }
 
 void TimeView::reset()

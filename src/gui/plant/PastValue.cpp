@@ -6,23 +6,11 @@
 
 namespace qplc {
 
-namespace {
-
-/// The last row at or before a time that still tells about it.
-std::optional<SignalStore::Row> rowBefore(const SignalStore &store, double staleAfter, SignalStore::Time time)
-{
-    const std::optional<SignalStore::Row> row = store.rowUpTo(time);
-    const bool isTrue = row && double(time - store.time(*row)) * 1e-9 <= staleAfter;
-    return isTrue ? row : std::nullopt;
-}
-
-}  // namespace
-
 QPlcValue pastValue(const PlantList::Signal &signal, SignalStore::Time time)
 {
     if (!signal || !signal.definition().type.isNumeric() || !signal.plant->store())
         return {};
-    const std::optional<SignalStore::Row> row = rowBefore(*signal.plant->store(), signal.plant->staleAfter(), time);
+    const std::optional<SignalStore::Row> row = signal.plant->store()->rowHoldingAt(time);
     if (!row)
         return {};
     const QPlcSignalType type = signal.definition().type;
@@ -41,9 +29,9 @@ QPlcValue pastValue(const PlantList::Signal &signal, SignalStore::Time time)
     return QPlcValue::fromBytes(QPlcSignalType(QPlcSignalType::Real64, count), elements.data()).convertedTo(shown);
 }
 
-QPlcValue pastValue(const SignalStore &store, int channel, double staleAfter, SignalStore::Time time)
+QPlcValue pastValue(const SignalStore &store, int channel, SignalStore::Time time)
 {
-    const std::optional<SignalStore::Row> row = rowBefore(store, staleAfter, time);
+    const std::optional<SignalStore::Row> row = store.rowHoldingAt(time);
     return row ? QPlcValue(double(store.value(channel, *row))) : QPlcValue();
 }
 

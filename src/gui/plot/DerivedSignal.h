@@ -8,8 +8,8 @@ namespace qplc {
 
 /// A formula as one channel of a store of its own, which follows the store of a plant: a row for each of its rows, with the same times and interruptions, and as many of them.
 ///
-/// The past is calculated once, when somebody wants to see it, then each new row as it comes; the results are the same. At interruptions everything with a past begins anew. What is no
-/// number (0/0), or none that a 32-bit real can hold, is a gap.
+/// The past is calculated once, when somebody wants to see it, then each new row as it comes; the results are the same. At interruptions of more than 0.5 s everything with a past begins anew; the integral goes on over
+/// cycles that were lost, without their time. What is no number (0/0), or none that a 32-bit real can hold, is a gap.
 class DerivedSignal
 {
 public:

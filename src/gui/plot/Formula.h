@@ -20,7 +20,7 @@ namespace qplc {
 /// | function | of a quantity in u | is in |
 /// |---|---|---|
 /// | derivative(x) | difference to the row before over the time between | u/s |
-/// | integral(x) | by trapezoids, 0 at the first row | u s |
+/// | integral(x) | by trapezoids, 0 at the first row, without the time of cycles that were lost | u s |
 /// | mean(x, T) | of the rows of the last T seconds | u |
 /// | lowpass(x, T) | of first order, time constant T [s]; begins with the first value | u |
 /// | norm(x, ...) | root of the sum of squares, of all elements of arrays | u |

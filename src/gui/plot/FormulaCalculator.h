@@ -34,7 +34,7 @@ public:
     /// Those of muParser.
     static const QStringList &functions();
 
-    /// What follows does not continue what was: everything with a past begins anew.
+    /// There is a gap before the next row: of cycles that were lost (at most 0.5 s), which is as a NaN, or what follows does not continue what was, and everything with a past begins anew.
     void interrupt();
     /// The result of the next row. \param time  after that of the row before
     /// \param operands  one for each operand of the formula

@@ -11,9 +11,13 @@ PastFilter::PastFilter(Formula::Function function, double seconds)
 {
 }
 
-void PastFilter::interrupt()
+/// After an interruption.
+void PastFilter::goOnAt(Time time)
 {
+    m_isInterrupted = false;
     m_hasLast = false;
+    if (time - m_last.time <= longestLoss)
+        return;
     m_result = 0.0;
     m_window.clear();
     m_sum = 0.0;
@@ -22,6 +26,8 @@ void PastFilter::interrupt()
 
 double PastFilter::next(Time time, double value)
 {
+    if (m_isInterrupted)
+        goOnAt(time);
     const Row row{time, value};
     const bool isValue = std::isfinite(value);
     double result = NAN;

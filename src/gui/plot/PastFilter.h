@@ -16,7 +16,9 @@ public:
 
     PastFilter(Formula::Function function, double seconds);
 
-    void interrupt();
+    /// The next row comes after an interruption. One of at most longestLoss is as a NaN: cycles were lost. After a longer one everything begins anew.
+    void interrupt() { m_isInterrupted = true; }
+    static constexpr Time longestLoss = 500'000'000;
     /// \param time  after that of the row before
     double next(Time time, double value);
 
@@ -31,13 +33,15 @@ private:
     double integral(Row row);
     double lowPass(Row row);
     double mean(Row row);
+    void goOnAt(Time time);
     void forgetBefore(Time time);
     double secondsTo(Time time) const { return double(time - m_last.time) * 1e-9; }
 
     Formula::Function m_function;
     double m_seconds;
+    bool m_isInterrupted = false;
     bool m_hasLast = false;
-    Row m_last{0, 0.0};     // the row before, if it had a value
+    Row m_last{0, 0.0};     // the row before; its value, if it had one
     double m_result = 0.0;  // of integral and low-pass
     double m_weightTime = 0.0;
     double m_weight = 0.0;  // of a new value in the low-pass, for rows that are m_weightTime apart

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 
 namespace qplc {
 
@@ -21,6 +22,7 @@ void PixelSpans::begin(const QRect &clip, int thickness)
     m_before = (thickness - 1) / 2;
     m_behind = thickness / 2;
     m_spans.clear();
+    m_lineBefore.reset();
     m_rectangles.clear();
     m_spans.reserve(std::size_t(clip.width() + 2 * thickness + 4));
     m_rectangles.reserve(3 * m_spans.capacity());  // a core and what is above and below it
@@ -28,7 +30,8 @@ void PixelSpans::begin(const QRect &clip, int thickness)
 
 void PixelSpans::moveTo(int x, int top, int bottom)
 {
-    endLine();
+    m_lineBehind = Place{x, {top, bottom}};
+    finishLine();
     m_x = x;
     m_spans.push_back({top, bottom});
 }
@@ -68,10 +71,18 @@ void PixelSpans::lineTo(int fromX, int fromY, int x, int y)
 
 void PixelSpans::endLine()
 {
+    m_lineBehind.reset();
+    finishLine();
+}
+
+void PixelSpans::finishLine()
+{
     if (m_spans.empty())
         return;
-    if (m_spans.size() == 1 && m_spans.front().top == m_spans.front().bottom)
+    const Place end{m_x + int(m_spans.size()) - 1, m_spans.back()};
+    if (isLonely())
         growDot();
+    m_lineBefore = end;
     const int left = std::max(m_x - m_before, m_clip.left());
     const int right = std::min(m_x + int(m_spans.size()) - 1 + m_behind, m_clip.right());
     for (int x = left; x <= right; x += blockWidth)
@@ -99,6 +110,19 @@ void PixelSpans::emitBlock(int left, int right)
     m_rectangles.emplace_back(QPoint(left, core.top), QPoint(right, core.bottom));
     for (int x = left; x <= right; ++x)
         emitSpan(x, {core.bottom + 1, spans[std::size_t(x - left)].bottom});
+}
+
+/// A single pixel that touches no other line.
+bool PixelSpans::isLonely() const
+{
+    const Span own = m_spans.front();
+    const auto isTouching = [&](const std::optional<Place> &other) {
+        const int reach = m_before + m_behind + 1;
+        return other && std::abs(other->x - m_x) <= reach && other->span.top <= own.bottom + reach
+            && other->span.bottom >= own.top - reach;
+    };
+    const bool isPixel = m_spans.size() == 1 && own.top == own.bottom;
+    return isPixel && !isTouching(m_lineBefore) && !isTouching(m_lineBehind);
 }
 
 /// Nobody sees a single pixel.

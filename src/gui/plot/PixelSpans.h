@@ -3,6 +3,7 @@
 
 #include <QtCore/QRect>
 
+#include <optional>
 #include <vector>
 
 namespace qplc {
@@ -22,7 +23,7 @@ public:
     void lineTo(int fromX, int fromY, int x, int y);
     /// Adds pixels to the last column of the line.
     void include(int top, int bottom);
-    /// Ends the line, if there is one. A line of one pixel becomes a dot of three by three.
+    /// Ends the line, if there is one. A line of one pixel becomes a dot of three by three, unless it touches the line before or the one that begins next: a gap too short to be seen is none.
     void endLine();
 
     const std::vector<QRect> &rectangles() const { return m_rectangles; }
@@ -33,7 +34,15 @@ private:
         int top;
         int bottom;
     };
+    /// A span and its column.
+    struct Place
+    {
+        int x;
+        Span span;
+    };
 
+    bool isLonely() const;
+    void finishLine();
     void growDot();
     Span thickened(int column) const;
     void emitBlock(int left, int right);
@@ -44,6 +53,8 @@ private:
     int m_behind = 0;  // and to the right and to the bottom
     int m_x = 0;       // column of the first span
     std::vector<Span> m_spans;
+    std::optional<Place> m_lineBefore;  // where it ended
+    std::optional<Place> m_lineBehind;  // where it begins
     std::vector<QRect> m_rectangles;
 };
 

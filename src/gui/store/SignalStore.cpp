@@ -11,6 +11,8 @@ namespace {
 
 using Row = SignalStore::Row;
 
+constexpr SignalStore::Time periodsOfNewest = 3;
+constexpr SignalStore::Time leastOfNewest = 500'000'000;  // [ns]
 constexpr int fanOutBits = 4;
 constexpr Row fanOut = Row(1) << fanOutBits;
 constexpr int wordBits = 64;
@@ -165,6 +167,24 @@ Row SignalStore::rowAt(Time time, Row guess) const
             high = middle;
     }
     return low;
+}
+
+std::optional<SignalStore::Row> SignalStore::rowHoldingAt(Time time) const
+{
+    const std::optional<Row> row = rowUpTo(time);
+    if (!row)
+        return std::nullopt;
+    const Time age = time - this->time(*row);
+    const bool isNewest = *row + 1 == m_end;
+    if (isNewest)
+        return age <= std::max(periodsOfNewest * periodBefore(*row), leastOfNewest) ? row : std::nullopt;
+    return !beginsAnew(*row + 1) || age == 0 || age < periodBefore(*row) ? row : std::nullopt;
+}
+
+/// From the row before to this one; 0: not known.
+SignalStore::Time SignalStore::periodBefore(Row row) const
+{
+    return row > firstRow() && !beginsAnew(row) ? time(row) - time(row - 1) : 0;
 }
 
 SignalStore::Range SignalStore::range(int channel, Row begin, Row end) const

@@ -66,6 +66,10 @@ public:
         const Row behind = rowAt(time + 1);
         return behind > firstRow() ? std::optional<Row>(behind - 1) : std::nullopt;
     }
+    std::optional<Row> newestRow() const { return isEmpty() ? std::nullopt : std::optional<Row>(m_end - 1); }
+    /// The row whose values are those of \a time: the last one up to it, until the next row comes. Not across an interruption: the last row before one holds for a period. The newest row holds for as long as values
+    /// of a running plant may be old: three periods, at least half a second.
+    std::optional<Row> rowHoldingAt(Time time) const;
     /// Smallest and largest value of rows \a begin ... \a end - 1; NaN counts as nothing.
     Range range(int channel, Row begin, Row end) const;
 
@@ -77,6 +81,7 @@ private:
         std::vector<Range> bins;  // channel after channel
     };
 
+    Time periodBefore(Row row) const;
     std::size_t slot(Row row) const { return std::size_t(row % m_rows); }
     void closeBins();
     void includeValues(Range *range, int channel, Row begin, Row end) const;

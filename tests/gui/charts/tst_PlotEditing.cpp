@@ -5,6 +5,7 @@
 #include "gui/charts/PlotSettingsEditor.h"
 #include "gui/panel/SignalEdit.h"
 
+#include <QtCore/QJsonArray>
 #include <QtCore/QTemporaryDir>
 #include <QtGui/QClipboard>
 #include <QtWidgets/QApplication>
@@ -49,8 +50,10 @@ private Q_SLOTS:
     void thereIsAMenuForTheKeyboard();
     void whatIsSeenGoesIntoTheClipboard();
     void picturesHaveTwiceThePixels();
+    void whatIsBetweenTheCursorsGoesIntoTheClipboard();
     void aFileDialogDoesNotBlockAndFailuresAreSaid();
     void smallPanelsKeepTheirCurves();
+    void manyCurvesWithStatisticsLeaveRoomForThem();
     void staleValuesAreNotTrusted();
 };
 
@@ -258,6 +261,23 @@ void tst_PlotEditing::whatIsSeenGoesIntoTheClipboard()
     QCOMPARE(lines.size(), int(rows) + 2);  // with the header, and nothing behind the last line
 }
 
+void tst_PlotEditing::whatIsBetweenTheCursorsGoesIntoTheClipboard()
+{
+    PlotWindow window(R"({"curves":[{"signal":"count"}]})");
+    QVERIFY(window.run(0.5));
+    const CurveSource source = window.context.curveSources()->find(QStringLiteral("count"));
+    const SignalStore &store = *source.store;
+    const SignalStore::Row last = store.endRow() - 1;
+    window.time()->setCursor(TimeView::B, store.time(last - 20));  // in any order
+    window.time()->setCursor(TimeView::A, store.time(last - 10));
+    QGuiApplication::clipboard()->clear();
+    window.trigger("copyBetween");
+    QTRY_VERIFY(!QGuiApplication::clipboard()->text().isEmpty());
+    const QStringList lines = QGuiApplication::clipboard()->text().split(QLatin1Char('\n'));
+    QCOMPARE(lines.size(), 1 + 11 + 1);
+    QCOMPARE(lines.at(1).section(QLatin1Char('\t'), 2).toFloat(), store.value(source.channel, last - 20));
+}
+
 void tst_PlotEditing::picturesHaveTwiceThePixels()
 {
     PlotWindow window(R"({"curves":[{"signal":"count"}]})");
@@ -272,6 +292,10 @@ void tst_PlotEditing::picturesHaveTwiceThePixels()
     QFile svg(folder.filePath(QStringLiteral("a.svg")));
     QVERIFY(svg.open(QIODevice::ReadOnly));
     QVERIFY(svg.readAll().contains("<polyline"));
+    QCOMPARE(picture.save(folder.filePath(QStringLiteral("a.pdf"))), QString());
+    QFile pdf(folder.filePath(QStringLiteral("a.pdf")));
+    QVERIFY(pdf.open(QIODevice::ReadOnly));
+    QVERIFY(pdf.readAll().startsWith("%PDF-"));
     QVERIFY(!QImage(folder.filePath(QStringLiteral("a.png"))).isNull());
     QVERIFY(picture.save(QStringLiteral("/nowhere/a.png")).contains(QStringLiteral("/nowhere/a.png")));
 }
@@ -302,15 +326,33 @@ void tst_PlotEditing::smallPanelsKeepTheirCurves()
     QTRY_VERIFY(!window.part<PlotLegend>()->isVisible());
 }
 
+void tst_PlotEditing::manyCurvesWithStatisticsLeaveRoomForThem()
+{
+    PlotWindow window;
+    QJsonArray curves;
+    for (int i = 0; i < 12; ++i)
+        curves.append(QJsonObject{{QStringLiteral("signal"), QStringLiteral("= count + %1").arg(i)}});
+    window.plot->applySettings({{QStringLiteral("curves"), curves}});
+    window.plot->resize(500, 300);
+    QVERIFY(window.run(0.3));
+    window.trigger("cursorA");
+    window.trigger("cursorB");
+    QTRY_VERIFY(window.part<StatisticsView>()->isVisible());
+    QVERIFY(window.part<StatisticsView>()->isUnfolded());
+    QTRY_VERIFY(window.canvas()->height() >= 110);
+}
+
 void tst_PlotEditing::staleValuesAreNotTrusted()
 {
     PlotWindow window(R"({"curves":[{"signal":"count"}]})");
     QVERIFY(window.run(0.1));
     auto *legend = window.part<PlotLegend>();
     QTRY_VERIFY(legend->entries().first().isTrusted);
+    const int height = legend->heightForWidth(300);
     window.context.plants()->at(0)->close();
     QTRY_VERIFY(!legend->entries().first().isTrusted);
-    QTRY_VERIFY2(legend->entries().first().unit.contains(QLatin1Char('s')), qPrintable(legend->entries().first().unit));
+    QTRY_VERIFY2(legend->entries().first().age.contains(QLatin1Char('s')), qPrintable(legend->entries().first().age));
+    QCOMPARE(legend->heightForWidth(300), height);
 }
 
 QTEST_MAIN(tst_PlotEditing)

@@ -36,6 +36,8 @@ private Q_SLOTS:
     void nobodyAsksWhileItIsHidden();
     void whatIsShownIsChosenByActionsAndEditor();
     void histogramsOfALostMasterAreStale();
+    void aSettingThatIsMissingIsADefault();
+    void theCaptionIsOneLineOfWhatHasRoom();
 };
 
 void tst_QPlcJitterHistogram::settingsComeBackAsTheyWere_data()
@@ -162,6 +164,45 @@ void tst_QPlcJitterHistogram::histogramsOfALostMasterAreStale()
     master.reset();
     QTRY_VERIFY_WITH_TIMEOUT(showsText(panel, "stale"), 10000);
     QCOMPARE(curvesOf(panel), 1);
+}
+
+/// Undo brings back the settings of before.
+void tst_QPlcJitterHistogram::aSettingThatIsMissingIsADefault()
+{
+    QPlcJitterHistogram panel;
+    panel.applySettings(objectOf(R"({"show":["Master.execution"],"window":"last10s"})"));
+    panel.applySettings({});
+    QCOMPARE(panel.settings(), QJsonObject());
+    QVERIFY(!panel.actions().at(0)->isChecked());
+    QVERIFY(panel.actions().at(1)->isChecked());
+    QVERIFY(!panel.actions().at(2)->isChecked());
+    panel.actions().at(0)->trigger();
+    panel.actions().at(0)->trigger();
+    QCOMPARE(panel.settings(), QJsonObject());
+}
+
+void tst_QPlcJitterHistogram::theCaptionIsOneLineOfWhatHasRoom()
+{
+    RunningMaster master;
+    QVERIFY(master.startRealTime());
+    WindowContext context;
+    QPlcJitterHistogram panel;
+    panel.setContext(&context);
+    panel.resize(500, 300);
+    panel.show();
+    context.plants()->add(master.address());
+    QTRY_VERIFY(showsText(panel, "values"));
+    for (const int width : {500, 274, 160, 60}) {
+        panel.resize(width, 300);
+        const QList<QLabel *> labels = panel.findChildren<QLabel *>();
+        const auto caption = std::find_if(labels.begin(), labels.end(), [](const QLabel *label) {
+            return label->text().contains(QStringLiteral("lateness"));
+        });
+        QVERIFY(caption != labels.end());
+        QCOMPARE((*caption)->text().contains(QStringLiteral("values")), width == 500);
+        const int twoLines = 2 * (*caption)->fontMetrics().height();
+        QVERIFY(width == 60 || (*caption)->heightForWidth(width - 4) < twoLines);
+    }
 }
 
 QTEST_MAIN(tst_QPlcJitterHistogram)

@@ -4,17 +4,23 @@
 #include "PanelFixtures.h"
 #include "PlantFixtures.h"
 #include "gui/charts/XyCanvas.h"
+#include "gui/charts/XyInteraction.h"
 #include "gui/panel/WindowContext.h"
 
 #include <QtCore/QJsonArray>
 #include <QtCore/QJsonDocument>
+#include <QtGui/QClipboard>
+#include <QtGui/QGuiApplication>
+#include <QtGui/QWheelEvent>
 #include <QtWidgets/QAction>
 #include <QtWidgets/QLabel>
 #include <QtWidgets/QLineEdit>
 
 #include <cmath>
 
+#include <qwt_scale_draw.h>
 #include <qwt_scale_map.h>
+#include <qwt_scale_widget.h>
 
 using namespace qplc;
 
@@ -28,6 +34,30 @@ CurveSource sourceOf(SignalStore *store, int channel)
     source.title = QString::number(channel);
     source.unit = QStringLiteral("m");
     return source;
+}
+
+void wheel(QWidget *widget, QPoint at, int steps, Qt::KeyboardModifiers modifiers = Qt::NoModifier)
+{
+    QWheelEvent event(at, widget->mapToGlobal(at), {}, QPoint(0, 120 * steps), Qt::NoButton, modifiers,
+                      Qt::NoScrollPhase, false);
+    QCoreApplication::sendEvent(widget, &event);
+}
+
+void drag(QWidget *widget, QPoint from, QPoint to, Qt::MouseButton button)
+{
+    const auto send = [&](QEvent::Type type, QPoint at, Qt::MouseButton which, Qt::MouseButtons held) {
+        QMouseEvent event(type, at, widget->mapToGlobal(at), which, held, Qt::NoModifier);
+        QCoreApplication::sendEvent(widget, &event);
+    };
+    send(QEvent::MouseButtonPress, from, button, button);
+    for (int i = 1; i <= 10; ++i)
+        send(QEvent::MouseMove, from + (to - from) * i / 10, Qt::NoButton, button);
+    send(QEvent::MouseButtonRelease, to, button, Qt::NoButton);
+}
+
+bool isNear(QPointF a, QPointF b, double distance = 0.02)
+{
+    return std::hypot(a.x() - b.x(), a.y() - b.y()) < distance;
 }
 
 }  // namespace
@@ -48,6 +78,13 @@ private Q_SLOTS:
     void itIsDrawnOnlyWhenThePictureChanges();
     void theDotIsAtTheDisplayedTime();
     void pairsAreRowsOfTheSameTime();
+    void aSettingThatIsMissingIsADefault();
+    void theWheelZoomsAboutTheMouse();
+    void draggingPansAndABoxIsZoomedInto();
+    void twoFingersZoom();
+    void axesThatAreZoomedStay();
+    void theSameNumbersAsInOtherCharts();
+    void theTimeThatIsSeenIsExported();
 
 private:
     void fill();
@@ -241,7 +278,11 @@ void tst_QPlcXyPlot::theDotIsAtTheDisplayedTime()
     QCOMPARE(curve.dot(), QPointF(999, 999));
     canvas->show({0, 60 * s, 5, false});
     QVERIFY(std::isnan(curve.dot().x()));
+    canvas->show({0, 60 * s, 60 * s + s / 4, false});
+    QCOMPARE(curve.dot(), QPointF(5999, 5999));
     canvas->show({0, 60 * s, 1000 * s, false});
+    QVERIFY(std::isnan(curve.dot().x()));
+    canvas->show({0, 60 * s, std::nullopt, false});
     QCOMPARE(curve.dot(), QPointF(5999, 5999));
 }
 
@@ -267,6 +308,129 @@ void tst_QPlcXyPlot::pairsAreRowsOfTheSameTime()
     QCOMPARE(canvas.curves().front()->dot(), QPointF(10, 10));
     canvas.grab();
     QVERIFY(canvas.curves().front()->drawnPoints() > 1);
+}
+
+/// Undo brings back the settings of before the first curve.
+void tst_QPlcXyPlot::aSettingThatIsMissingIsADefault()
+{
+    WindowContext context;
+    QPlcXyPlot plot;
+    plot.setContext(&context);
+    plot.show();
+    plot.applySettings(objectOf(R"({"curves":[{"x":"a","y":"b"}],"equalAspect":true})"));
+    plot.applySettings({});
+    QCOMPARE(plot.settings(), QJsonObject());
+    QVERIFY(!plot.isAspectEqual());
+    QVERIFY(showsText(plot, "Drop two signals here"));
+}
+
+void tst_QPlcXyPlot::theWheelZoomsAboutTheMouse()
+{
+    const auto canvas = canvasOf(0, 1);
+    canvas->show({0, 60'000'000'000, 0, false});
+    XyInteraction interaction(canvas.get(), nullptr);
+    const QPoint at(120, 60);
+    const QPointF value = canvas->valueAt(at);
+    const double width = canvas->axisInterval(QwtPlot::xBottom).width();
+    const double height = canvas->axisInterval(QwtPlot::yLeft).width();
+    wheel(canvas->canvas(), at, 1);
+    QVERIFY(isNear(canvas->valueAt(at), value));
+    QVERIFY(std::fabs(canvas->axisInterval(QwtPlot::xBottom).width() - 0.8 * width) < 1e-6);
+    wheel(canvas->canvas(), at, 1, Qt::ControlModifier);
+    QVERIFY(std::fabs(canvas->axisInterval(QwtPlot::xBottom).width() - 0.8 * width) < 1e-6);
+    QVERIFY(std::fabs(canvas->axisInterval(QwtPlot::yLeft).width() - 0.64 * height) < 1e-6);
+    wheel(canvas->axisWidget(QwtPlot::xBottom), QPoint(50, 5), -1);
+    QVERIFY(std::fabs(canvas->axisInterval(QwtPlot::xBottom).width() - width) < 1e-6);
+    for (int i = 0; i < 1000; ++i)
+        wheel(canvas->canvas(), at, 10);
+    QVERIFY(canvas->axisInterval(QwtPlot::xBottom).width() > 0.0);
+    for (int i = 0; i < 1000; ++i)
+        wheel(canvas->canvas(), at, -100);
+    QVERIFY(std::isfinite(canvas->axisInterval(QwtPlot::xBottom).width()));
+    canvas->release();
+    QVERIFY(std::fabs(canvas->axisInterval(QwtPlot::xBottom).width() - width) < 1e-6);
+}
+
+void tst_QPlcXyPlot::draggingPansAndABoxIsZoomedInto()
+{
+    const auto canvas = canvasOf(0, 1);
+    canvas->show({0, 60'000'000'000, 0, false});
+    XyInteraction interaction(canvas.get(), nullptr);
+    const QPointF value = canvas->valueAt(QPoint(100, 50));
+    drag(canvas->canvas(), {100, 50}, {160, 90}, Qt::LeftButton);
+    QVERIFY(isNear(canvas->valueAt(QPoint(160, 90)), value));
+    QVERIFY(canvas->isHeld());
+    const QPointF low = canvas->valueAt(QPoint(100, 130));
+    const QPointF high = canvas->valueAt(QPoint(200, 50));
+    drag(canvas->canvas(), {100, 50}, {200, 130}, Qt::RightButton);
+    QVERIFY(isNear({canvas->axisInterval(QwtPlot::xBottom).minValue(), canvas->axisInterval(QwtPlot::yLeft).minValue()},
+                   low, 0.05));
+    QVERIFY(isNear({canvas->axisInterval(QwtPlot::xBottom).maxValue(), canvas->axisInterval(QwtPlot::yLeft).maxValue()},
+                   high, 0.05));
+}
+
+void tst_QPlcXyPlot::twoFingersZoom()
+{
+    const auto canvas = canvasOf(0, 1);
+    canvas->show({0, 60'000'000'000, 0, false});
+    XyInteraction interaction(canvas.get(), nullptr);
+    const double width = canvas->axisInterval(QwtPlot::xBottom).width();
+    QTouchDevice *screen = QTest::createTouchDevice();
+    QWidget *on = canvas->canvas();
+    QTest::touchEvent(on, screen).press(0, {150, 80}, on).press(1, {250, 80}, on);
+    for (int i = 1; i <= 10; ++i)
+        QTest::touchEvent(on, screen).move(0, {150 - 5 * i, 80}, on).move(1, {250 + 5 * i, 80}, on);
+    QTest::touchEvent(on, screen).release(0, {100, 80}, on).release(1, {300, 80}, on);
+    const double zoomed = canvas->axisInterval(QwtPlot::xBottom).width() / width;
+    QVERIFY2(zoomed > 0.4 && zoomed < 0.65, qPrintable(QString::number(zoomed)));
+}
+
+void tst_QPlcXyPlot::axesThatAreZoomedStay()
+{
+    const auto canvas = canvasOf(0, 1);
+    canvas->show({0, 60'000'000'000, 0, false});
+    canvas->zoom(0.5, 0.5, {100, 50});
+    const QwtInterval x = canvas->axisInterval(QwtPlot::xBottom);
+    const float values[] = {100, 100, 0};
+    m_store->append(61'000'000'000, values);
+    canvas->show({0, 61'000'000'000, 0, false});
+    QCOMPARE(canvas->axisInterval(QwtPlot::xBottom), x);
+    canvas->release();
+    QVERIFY(canvas->axisInterval(QwtPlot::xBottom).maxValue() >= 100.0);
+}
+
+void tst_QPlcXyPlot::theSameNumbersAsInOtherCharts()
+{
+    const auto canvas = canvasOf(2, 2);
+    canvas->show({0, 60'000'000'000, 0, false});
+    for (const int axis : {QwtPlot::xBottom, QwtPlot::yLeft})
+        QCOMPARE(canvas->axisScaleDraw(axis)->label(4000.0).text(), QStringLiteral("4000"));
+}
+
+void tst_QPlcXyPlot::theTimeThatIsSeenIsExported()
+{
+    RunningMaster master;
+    QVERIFY(master.startRealTime());
+    WindowContext context;
+    QPlcXyPlot plot;
+    plot.setContext(&context);
+    plot.applySettings(objectOf(R"({"curves":[{"x":"count","y":"= 2*count"},{"x":"count","y":"sum"}]})"));
+    plot.resize(300, 200);
+    plot.show();
+    Plant *plant = context.plants()->add(master.address());
+    QTRY_VERIFY(plant->values().rows() > 20);
+    context.timeView()->show(context.timeView()->newest() - 100'000'000, context.timeView()->newest());
+    QGuiApplication::clipboard()->clear();
+    plot.findChild<QAction *>(QStringLiteral("copyTable"))->trigger();
+    QTRY_VERIFY(!QGuiApplication::clipboard()->text().isEmpty());
+    const QStringList lines = QGuiApplication::clipboard()->text().split(QLatin1Char('\n'));
+    QCOMPARE(lines.first(), QStringLiteral("UTC\ttime [s]\tcount\t2*count\tsum [m]"));
+    QVERIFY(lines.size() > 3 && lines.size() < 30);
+    const QStringList fields = lines.at(1).split(QLatin1Char('\t'));
+    QCOMPARE(fields.size(), 5);
+    QCOMPARE(fields.at(3).toDouble(), 2.0 * fields.at(2).toDouble());
+    plot.findChild<QAction *>(QStringLiteral("copyPicture"))->trigger();
+    QVERIFY(QGuiApplication::clipboard()->image().width() > 400);
 }
 
 QTEST_MAIN(tst_QPlcXyPlot)

@@ -2,6 +2,7 @@
 // What a time plot shows, with a real plant, and what people do with the mouse.
 #include "PlotFixtures.h"
 
+#include <QtCore/QJsonArray>
 #include <QtWidgets/QTableWidget>
 #include <QtWidgets/QToolButton>
 
@@ -55,12 +56,15 @@ private Q_SLOTS:
     void controlAndTheWheelZoomTheValues();
     void theWheelOverAnAxisZoomsItsValues();
     void draggingPansByWhatTheMouseMoves();
+    void twoFingersZoomTheTime();
     void aBoxIsZoomedInto();
     void aDoubleClickShowsAll();
     void cursorsAreDragged();
     void theMousePointsInAllPlots();
     void anOwnTimeAxisIsItsOwn();
     void limitsAndStepsComeFromTheTable();
+    void referenceLinesAreSeen();
+    void wholeNumbersHaveNoTicksBetweenThem();
 };
 
 void tst_TimePlot::withoutAContextItWaits()
@@ -199,6 +203,26 @@ void tst_TimePlot::draggingPansByWhatTheMouseMoves()
     QVERIFY(std::abs(before - window.time()->end() - half) < half / 20);
 }
 
+void tst_TimePlot::twoFingersZoomTheTime()
+{
+    PlotWindow window(R"({"curves":[{"signal":"count"}]})");
+    QVERIFY(window.run(0.3));
+    const Time newest = window.time()->newest();
+    window.time()->show(newest - 10 * s, newest);
+    QTest::qWait(60);
+    QTouchDevice *screen = QTest::createTouchDevice();
+    QWidget *canvas = window.canvas()->canvas();
+    const Time about = window.canvas()->timeAt(200.0);
+    QTest::touchEvent(canvas, screen).press(0, {150, 80}, canvas).press(1, {250, 80}, canvas);
+    for (int i = 1; i <= 10; ++i)
+        QTest::touchEvent(canvas, screen).move(0, {150 - 5 * i, 80}, canvas).move(1, {250 + 5 * i, 80}, canvas);
+    QTest::touchEvent(canvas, screen).release(0, {100, 80}, canvas).release(1, {300, 80}, canvas);
+    const double zoomed = double(window.time()->span()) / double(10 * s);
+    QVERIFY2(zoomed > 0.4 && zoomed < 0.65, qPrintable(QString::number(zoomed)));
+    QTest::qWait(60);
+    QVERIFY(std::abs(window.canvas()->xOf(about) - 200.0) < 15.0);
+}
+
 void tst_TimePlot::aBoxIsZoomedInto()
 {
     PlotWindow window(R"({"curves":[{"signal":"count"}],"left":{"minimum":0,"maximum":100}})");
@@ -300,6 +324,38 @@ void tst_TimePlot::limitsAndStepsComeFromTheTable()
     window.apply(R"({"curves":[{"signal":"setpoint","gain":2}]})");
     QCOMPARE(window.canvas()->itemList(QwtPlotItem::Rtti_PlotMarker).size(), 0);
     QCOMPARE(window.canvas()->axisTitle(QwtPlot::yLeft).text(), QStringLiteral("m/s"));
+}
+
+void tst_TimePlot::referenceLinesAreSeen()
+{
+    PlotWindow window(R"({"curves":[{"signal":"count"}],"left":{"lines":[1000000]}})");
+    QVERIFY(window.run(0.2));
+    QTRY_VERIFY(window.canvas()->valueAt(PlotCurveSettings::Left, 0.0) >= 1e6);
+    QCOMPARE(window.canvas()->itemList(QwtPlotItem::Rtti_PlotMarker).size(), 1);
+    window.trigger("removeLines");
+    QCOMPARE(window.settings(), QByteArray(R"({"curves":[{"signal":"count"}]})"));
+    QCOMPARE(window.canvas()->itemList(QwtPlotItem::Rtti_PlotMarker).size(), 0);
+    QTRY_VERIFY(window.canvas()->valueAt(PlotCurveSettings::Left, 0.0) < 1e6);
+    const double middle = window.canvas()->valueAt(PlotCurveSettings::Left, 0.5 * window.canvas()->canvas()->height());
+    window.trigger("addLine");
+    const double line = window.plot->settings()["left"].toObject()["lines"].toArray().at(0).toDouble();
+    QVERIFY2(std::abs(line - middle) <= 0.1 * middle, qPrintable(QString::number(line)));
+    QCOMPARE(QString::number(line, 'g', 6).toDouble(), line);
+}
+
+void tst_TimePlot::wholeNumbersHaveNoTicksBetweenThem()
+{
+    PlotCanvas canvas;
+    canvas.resize(600, 500);
+    canvas.show();
+    QVERIFY(QTest::qWaitForWindowExposed(&canvas));
+    const auto ticks = [&] { return canvas.axisScaleDiv(QwtPlot::yLeft).ticks(QwtScaleDiv::MajorTick); };
+    canvas.setRange(PlotCurveSettings::Left, 0.0, 2.0);
+    QVERIFY(ticks().size() > 3);
+    canvas.setRange(PlotCurveSettings::Left, 0.0, 2.0, PlotCanvas::WholeTicks);
+    QCOMPARE(ticks(), (QList<double>{0.0, 1.0, 2.0}));
+    canvas.setRange(PlotCurveSettings::Left, 0.0, 1000.0, PlotCanvas::WholeTicks);
+    QVERIFY(ticks().size() > 3 && ticks().size() < 30);
 }
 
 QTEST_MAIN(tst_TimePlot)

@@ -24,6 +24,8 @@ private Q_SLOTS:
     void spansHaveLimits();
     void liveNobodyHasToLookAtAnotherTime();
     void frozenTheDisplayedTimeIsThatOfThePointerOrTheRightEdge();
+    void theDisplayedTimeOfAViewIntoTheFutureGoesOn();
+    void beforeTheFirstValuesAnyTimeCanBeLookedAt();
     void nothingIsToldTwice();
     void timeDoesNotGoBackButByAReset();
 
@@ -113,6 +115,25 @@ void tst_TimeView::liveNobodyHasToLookAtAnotherTime()
 {
     m_view->setPointer(95 * s);
     QVERIFY(!m_view->displayTime());
+}
+
+void tst_TimeView::theDisplayedTimeOfAViewIntoTheFutureGoesOn()
+{
+    m_view->jumpTo(100 * s);
+    QSignalSpy changes(m_view.get(), &TimeView::displayTimeChanged);
+    m_view->setNewest(101 * s);
+    QCOMPARE(*m_view->displayTime(), 101 * s);
+    QCOMPARE(changes.count(), 1);
+    m_view->setPointer(50 * s);
+    m_view->setNewest(102 * s);
+    QCOMPARE(changes.count(), 2);
+}
+
+void tst_TimeView::beforeTheFirstValuesAnyTimeCanBeLookedAt()
+{
+    m_view->reset();
+    m_view->show(40 * s, 50 * s);
+    QCOMPARE(*m_view->displayTime(), 50 * s);
 }
 
 void tst_TimeView::frozenTheDisplayedTimeIsThatOfThePointerOrTheRightEdge()

@@ -59,6 +59,7 @@ private Q_SLOTS:
     void theNormOfSeveralArgumentsIsTheRootOfTheirSquares();
     void whatIsNestedIsCalculatedFromInside();
     void interruptionsBeginEverythingAnew();
+    void cyclesThatWereLostAreAsNaN();
     void nanInIsNanOut();
     void whatIsNoNumberIsNoValue();
 };
@@ -310,6 +311,35 @@ void tst_Formula::interruptionsBeginEverythingAnew()
             second.push_back(calculator.next(FormulaCalculator::Time(100 + i) * s, &rows[i]));
         QVERIFY2(areSame(first, second), qPrintable(text));
     }
+}
+
+/// An integral that began at 0 after each lost cycle would be none on a computer that loses one now and then.
+void tst_Formula::cyclesThatWereLostAreAsNaN()
+{
+    constexpr FormulaCalculator::Time ms = 1'000'000;
+    const QStringList texts{"= derivative(x)", "= integral(x)", "= mean(x, 5)", "= lowpass(x, 5)",
+                            "= integral(mean(x, 5))"};
+    for (const QString &text : texts) {
+        FormulaCalculator withLoss(Formula::read(text, {}));
+        FormulaCalculator withNaN(Formula::read(text, {}));
+        const Values rows{1, 5, -2, 4};
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            if (i == 2) {
+                withLoss.interrupt();
+                withNaN.next(15 * ms, &none);
+            }
+            const auto time = FormulaCalculator::Time(i * (i < 2 ? 10 : 100)) * ms;
+            QVERIFY2(areSame({withLoss.next(time, &rows[i])}, {withNaN.next(time, &rows[i])}), qPrintable(text));
+        }
+    }
+    FormulaCalculator integral(Formula::read("= integral(x)", {}));
+    const double one = 1.0;
+    for (int i = 0; i <= 100; ++i)
+        integral.next(i * 10 * ms, &one);
+    integral.interrupt();
+    QCOMPARE(integral.next(1500 * ms, &one), 1.0);
+    integral.interrupt();
+    QCOMPARE(integral.next(2001 * ms, &one), 0.0);
 }
 
 void tst_Formula::nanInIsNanOut()

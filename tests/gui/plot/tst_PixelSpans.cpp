@@ -51,6 +51,7 @@ class tst_PixelSpans : public QObject
 private Q_SLOTS:
     void nothingIsNothing();
     void onePixelIsADot();
+    void onePixelBesideALineIsNoDot();
     void horizontalLineIsOneRectangle();
     void neighboursMeetHalfWay();
     void linesHaveNoHolesAndFillNoPixelTwice_data();
@@ -78,6 +79,31 @@ void tst_PixelSpans::onePixelIsADot()
     spans.moveTo(10, 10, 10);
     spans.endLine();
     QCOMPARE(spans.rectangles(), std::vector<QRect>{QRect(9, 9, 3, 3)});
+}
+
+/// Cycles that were lost within a pixel are no lump on the line.
+void tst_PixelSpans::onePixelBesideALineIsNoDot()
+{
+    PixelSpans spans;
+    for (const int pixel : {10, 14, 16}) {
+        spans.begin(clip, 1);
+        spans.moveTo(0, 10, 10);
+        spans.lineTo(0, 10, 9, 10);
+        spans.moveTo(pixel, 10, 10);
+        spans.moveTo(15, 10, 10);
+        spans.lineTo(15, 10, 20, 10);
+        spans.endLine();
+        QCOMPARE(columnOf(pixelsOf(spans), pixel), QPoint(10, 10));
+    }
+    for (const QPoint far : {QPoint(12, 10), QPoint(10, 20)}) {
+        spans.begin(clip, 1);
+        spans.moveTo(0, 10, 10);
+        spans.lineTo(0, 10, 9, 10);
+        spans.moveTo(far.x(), far.y(), far.y());
+        spans.moveTo(15, 10, 10);
+        spans.endLine();
+        QCOMPARE(columnOf(pixelsOf(spans), far.x()), QPoint(far.y() - 1, far.y() + 1));
+    }
 }
 
 void tst_PixelSpans::horizontalLineIsOneRectangle()

@@ -130,6 +130,7 @@ public:
         const Row expected = history.rowAt(time, store.firstRow());
         QCOMPARE(store.rowAt(time), expected);
         const Row behind = history.rowAt(time + 1, store.firstRow());
+        QCOMPARE(store.newestRow(), store.isEmpty() ? std::nullopt : std::make_optional(store.endRow() - 1));
         QCOMPARE(store.rowUpTo(time), behind > store.firstRow() ? std::make_optional(behind - 1) : std::nullopt);
         QCOMPARE(store.rowAt(time, store.firstRow() + below(kept + 1)), expected);
     }
@@ -172,6 +173,9 @@ private Q_SLOTS:
     void clearForgetsRowsButNotTheirNumbers();
     void binsOfForgottenRowsDoNotAnswer();
     void timesFarApartAndBelowZeroAreFound();
+    void aValueHoldsUntilTheNextRow();
+    void aValueDoesNotHoldAcrossAnInterruption();
+    void theNewestValueHoldsAsLongAsValuesMayBeOld();
     void memoryIsTakenAtTheBegin();
     void fourHundredSignalsForTenMinutesFit();
     void memoryIsWhatTheHeapGives();
@@ -341,6 +345,49 @@ void tst_SignalStore::timesFarApartAndBelowZeroAreFound()
     QCOMPARE(store.rowAt(0), Row(2));
     QCOMPARE(store.rowAt(1, 0), Row(3));
     QCOMPARE(store.rowAt(farAway + 1, 2), Row(4));
+}
+
+void tst_SignalStore::aValueHoldsUntilTheNextRow()
+{
+    SignalStore store(0, 16);
+    QVERIFY(!store.rowHoldingAt(0));
+    for (const Time time : {100, 110, 5000, 5010})
+        QVERIFY(store.append(time, nullptr));
+    QVERIFY(!store.rowHoldingAt(99));
+    QCOMPARE(store.rowHoldingAt(100).value(), Row(0));
+    QCOMPARE(store.rowHoldingAt(109).value(), Row(0));
+    QCOMPARE(store.rowHoldingAt(4999).value(), Row(1));
+    QCOMPARE(store.rowHoldingAt(5000).value(), Row(2));
+}
+
+void tst_SignalStore::aValueDoesNotHoldAcrossAnInterruption()
+{
+    SignalStore store(0, 16);
+    for (const Time time : {100, 110}) {
+        QVERIFY(store.append(time, nullptr));
+    }
+    store.interrupt();
+    QVERIFY(store.append(200, nullptr));
+    store.interrupt();
+    QVERIFY(store.append(300, nullptr));
+    QCOMPARE(store.rowHoldingAt(119).value(), Row(1));
+    QVERIFY(!store.rowHoldingAt(120));
+    QVERIFY(!store.rowHoldingAt(199));
+    QCOMPARE(store.rowHoldingAt(200).value(), Row(2));  // a row alone has no period
+    QVERIFY(!store.rowHoldingAt(201));
+}
+
+void tst_SignalStore::theNewestValueHoldsAsLongAsValuesMayBeOld()
+{
+    constexpr Time s = 1'000'000'000;
+    SignalStore store(0, 16);
+    QVERIFY(store.append(s, nullptr));
+    QCOMPARE(store.rowHoldingAt(s + s / 2).value(), Row(0));
+    QVERIFY(!store.rowHoldingAt(s + s / 2 + 1));
+    QVERIFY(store.append(2 * s, nullptr));
+    QCOMPARE(store.rowHoldingAt(5 * s).value(), Row(1));
+    QVERIFY(!store.rowHoldingAt(5 * s + 1));
+    QVERIFY(!store.rowHoldingAt(std::numeric_limits<Time>::max() / 2));
 }
 
 void tst_SignalStore::memoryIsTakenAtTheBegin()

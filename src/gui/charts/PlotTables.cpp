@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// What of a time plot goes into files and the clipboard.
+#include "QPlcTimePlotPrivate.h"
+
+#include <algorithm>
+
+using namespace qplc;
+
+void QPlcTimePlot::Private::makeExportActions()
+{
+    const auto key = [](int code) { return QKeySequence(code); };
+    make(QPlcTimePlot::tr("Export as CSV..."), {key(int(Qt::CTRL) | Qt::Key_E)}, "saveTable",
+         [this] { exporter->saveTable(shownTable()); });
+    make(QPlcTimePlot::tr("Copy as table"), {key(int(Qt::CTRL) | Qt::Key_C)}, "copyTable",
+         [this] { exporter->copyTable(shownTable()); });
+    make(QPlcTimePlot::tr("Export A ... B as CSV..."), {key(Qt::CTRL | Qt::ALT | Qt::Key_E)}, "saveBetween",
+         [this] { exporter->saveTable(tableBetweenCursors()); });
+    make(QPlcTimePlot::tr("Copy A ... B as table"), {key(Qt::CTRL | Qt::ALT | Qt::Key_C)}, "copyBetween",
+         [this] { exporter->copyTable(tableBetweenCursors()); });
+    make(QPlcTimePlot::tr("Save picture..."), {key(Qt::CTRL | Qt::SHIFT | Qt::Key_E)}, "savePicture",
+         [this] { exporter->savePicture(); });
+    make(QPlcTimePlot::tr("Copy picture"), {key(Qt::CTRL | Qt::SHIFT | Qt::Key_C)}, "copyPicture",
+         [this] { exporter->copyPicture(); });
+}
+
+ChartExport::Table QPlcTimePlot::Private::table(Time begin, Time end) const
+{
+    return [this, begin, end](TableExport::Format format) {
+        std::vector<TableExport::Column> columns;
+        for (const PlotCurve &curve : curves) {
+            if (curve.isSeen())
+                columns.push_back({curve.source.store, curve.source.channel, curve.settings.gain, curve.settings.offset,
+                                   curve.settings.text(), curve.source.unit, curve.source.derived});
+        }
+        return TableExport(format, std::move(columns), begin, end);
+    };
+}
+
+/// The range is that of the moment of the wish, whatever is seen when the name has been chosen.
+ChartExport::Table QPlcTimePlot::Private::shownTable() const
+{
+    return table(canvas->begin(), canvas->end() - 1);
+}
+
+bool QPlcTimePlot::Private::hasBothCursors() const
+{
+    return shared() && shared()->cursor(TimeView::A) && shared()->cursor(TimeView::B);
+}
+
+ChartExport::Table QPlcTimePlot::Private::tableBetweenCursors() const
+{
+    if (!hasBothCursors())
+        return shownTable();
+    const Time a = *shared()->cursor(TimeView::A);
+    const Time b = *shared()->cursor(TimeView::B);
+    return table(std::min(a, b), std::max(a, b));
+}
