@@ -199,10 +199,12 @@ void QPlcControlCenter::Private::connectTo(const QString &address)
     if (q->isSignalConnected(QMetaMethod::fromSignal(&QPlcControlCenter::connectRequested))) {
         // The program connects a node of its own. Names are looked up in the background.
         auto *resolver = new AddressResolver(q);
-        connect(resolver, &AddressResolver::resolved, q, [this, resolver](const QPlcUnderlyingProtocol &master) {
-            resolver->deleteLater();
-            Q_EMIT q->connectRequested(master);
-        });
+        connect(resolver, &AddressResolver::resolved, q,
+                [this, resolver, address](const QPlcUnderlyingProtocol &master) {
+                    resolver->deleteLater();
+                    requestedAddress = address;
+                    Q_EMIT q->connectRequested(master);
+                });
         connect(resolver, &AddressResolver::failed, q, [this, resolver](const QString &reason) {
             resolver->deleteLater();
             connectStrip->open();
@@ -252,7 +254,8 @@ Plant *QPlcControlCenter::Private::takeWiredPlant()
 {
     if (Plant *plant = wiredPlant())
         return plant;
-    Plant *plant = context.plants()->addFed(tr("plant"));
+    const QString name = !wiredName.isEmpty() ? wiredName : requestedAddress.isEmpty() ? tr("plant") : requestedAddress;
+    Plant *plant = context.plants()->addFed(name);
     connect(plant->feed(), &PlantFeed::commanded, q, &QPlcControlCenter::sendMessage);
     return plant;
 }

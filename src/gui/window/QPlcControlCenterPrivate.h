@@ -73,6 +73,8 @@ struct QPlcControlCenter::Private
     QList<QPlcWidgetFactory *> factories;
     QList<QAction *> startActions;
     QString layoutFile;
+    QString wiredName;         // of the plant that the program wires, if the program says one
+    QString requestedAddress;  // what a person has entered for it
     bool isStartPageWanted = false;
     bool isToBeSaved = false;
     bool isDockWanted = true;
