@@ -344,7 +344,7 @@ QString SignalTreeModel::signalText(const Item *item, int column) const
 QVariant SignalTreeModel::text(const Item *item, int column) const
 {
     if (item->kind == Item::PlantItem)
-        return column == Name ? item->plant->name() : column == Value ? item->plant->stateText() : QString();
+        return column == Name ? item->plant->name() : column == Value ? stateWord(*item->plant) : QString();
     if (item->kind == Item::Writer)
         return column != Name ? QString() : item->writer.isEmpty() ? QStringLiteral("Not written") : item->writer;
     return signalText(item, column);

@@ -137,6 +137,19 @@ QString qualityText(Plant::Quality quality)
     return {};
 }
 
+QString stateWord(const Plant &plant)
+{
+    switch (plant.connectionState()) {
+    case PlantConnection::Connected:
+        return plant.status().state;
+    case PlantConnection::Connecting:
+        return QStringLiteral("connecting");
+    case PlantConnection::Disconnected:
+        break;
+    }
+    return plant.store() ? QStringLiteral("lost") : QStringLiteral("not there");
+}
+
 QVariant foregroundOf(bool isTrusted)
 {
     return isTrusted ? QVariant() : QGuiApplication::palette().brush(QPalette::Disabled, QPalette::Text);
