@@ -23,24 +23,24 @@ QString healthText(NodeTableModel::HealthLevel level)
 {
     switch (level) {
     case NodeTableModel::Good:
-        return QStringLiteral("OK");
+        return NodeTableModel::tr("OK");
     case NodeTableModel::Warning:
-        return QStringLiteral("Warning");
+        return NodeTableModel::tr("Warning");
     case NodeTableModel::Error:
-        return QStringLiteral("Error");
+        return NodeTableModel::tr("Error");
     case NodeTableModel::Unavailable:
         break;
     }
-    return QStringLiteral("Unavailable");
+    return NodeTableModel::tr("Unavailable");
 }
 
 QString stateOf(const NodeStatus &node)
 {
     if (node.isListener)
-        return QStringLiteral("listens");
+        return NodeTableModel::tr("listens");
     if (node.isLate)
-        return QStringLiteral("late");
-    return node.late == 0 ? QStringLiteral("good") : QStringLiteral("good, was late");
+        return NodeTableModel::tr("late");
+    return node.late == 0 ? NodeTableModel::tr("good") : NodeTableModel::tr("good, was late");
 }
 
 }  // namespace
@@ -95,7 +95,7 @@ void NodeTableModel::appendLost(Plant *plant, QVector<Row> *rows) const
     NodeStatus lost;
     for (const QString &name : plant->status().gone) {
         lost.name = name;
-        rows->append({plant, false, lost, QStringLiteral("gone"), {}, false});
+        rows->append({plant, false, lost, tr("gone"), {}, false});
     }
     const bool isAnswered = plant->isConnected() && plant->status().period > 0;
     if (isAnswered)
@@ -104,7 +104,7 @@ void NodeTableModel::appendLost(Plant *plant, QVector<Row> *rows) const
         if (row.plant != plant || row.isMaster || row.node.isListener)
             continue;
         lost.name = row.node.name;
-        rows->append({plant, false, lost, QStringLiteral("not known"), {}, false});
+        rows->append({plant, false, lost, tr("not known"), {}, false});
     }
 }
 
@@ -112,7 +112,7 @@ QVector<NodeTableModel::Row> NodeTableModel::rowsOf(Plant *plant) const
 {
     const PlantStatus &status = plant->status();
     NodeStatus master;
-    master.name = QStringLiteral("Master");
+    master.name = tr("Master");
     master.address = plant->address();
     master.execution = status.execution;
     master.roundTrip = status.roundTrip;
@@ -189,19 +189,21 @@ int NodeTableModel::columnCount(const QModelIndex &parent) const
 QVariant NodeTableModel::headerData(int section, Qt::Orientation orientation, int role) const
 {
     static const char *const titles[ColumnCount]
-        = {"Plant",          "Name",           "Health",        "Transport",     "Address",       "Policy",
-           "State",          "Lateness p99",   "Execution p50", "Execution p99", "Execution max", "Round trip p50",
-           "Round trip p99", "Round trip max", "Late",          "Lost",          "Duplicated",    "Rejected"};
+        = {QT_TR_NOOP("Plant"),          QT_TR_NOOP("Name"),           QT_TR_NOOP("Health"),
+           QT_TR_NOOP("Transport"),      QT_TR_NOOP("Address"),        QT_TR_NOOP("Policy"),
+           QT_TR_NOOP("State"),          QT_TR_NOOP("Lateness p99"),   QT_TR_NOOP("Execution p50"),
+           QT_TR_NOOP("Execution p99"),  QT_TR_NOOP("Execution max"),  QT_TR_NOOP("Round trip p50"),
+           QT_TR_NOOP("Round trip p99"), QT_TR_NOOP("Round trip max"), QT_TR_NOOP("Late"),
+           QT_TR_NOOP("Lost"),           QT_TR_NOOP("Duplicated"),     QT_TR_NOOP("Rejected")};
     if (orientation != Qt::Horizontal || section < 0 || section >= ColumnCount)
         return {};
     if (role == Qt::DisplayRole)
-        return QString::fromLatin1(titles[section]);
+        return tr(titles[section]);
     if (role == Qt::TextAlignmentRole)
         return int(Qt::AlignVCenter | (section >= LatenessP99 ? Qt::AlignRight : Qt::AlignLeft));
     if (role == Qt::ToolTipRole && isDuration(section))
-        return section == ExecutionMaximum || section == RoundTripMaximum
-            ? QStringLiteral("since the start of the phase")
-            : QStringLiteral("over the last 10 s");
+        return section == ExecutionMaximum || section == RoundTripMaximum ? tr("since the start of the phase")
+                                                                          : tr("over the last 10 s");
     return {};
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ValueFormat.h"
 
+#include <QtCore/QCoreApplication>
 #include <QtCore/QJsonArray>
 #include <QtCore/QJsonDocument>
 #include <QtGui/QGuiApplication>
@@ -126,13 +127,13 @@ QString qualityText(Plant::Quality quality)
 {
     switch (quality) {
     case Plant::NoValue:
-        return QStringLiteral("no value");
+        return QCoreApplication::translate("ValueFormat", "no value");
     case Plant::Good:
-        return QStringLiteral("good");
+        return QCoreApplication::translate("ValueFormat", "good");
     case Plant::AtRest:
-        return QStringLiteral("at rest");
+        return QCoreApplication::translate("ValueFormat", "at rest");
     case Plant::Stale:
-        return QStringLiteral("stale");
+        return QCoreApplication::translate("ValueFormat", "stale");
     }
     return {};
 }
@@ -143,11 +144,12 @@ QString stateWord(const Plant &plant)
     case PlantConnection::Connected:
         return plant.status().state;
     case PlantConnection::Connecting:
-        return QStringLiteral("connecting");
+        return QCoreApplication::translate("ValueFormat", "connecting");
     case PlantConnection::Disconnected:
         break;
     }
-    return plant.store() ? QStringLiteral("lost") : QStringLiteral("not there");
+    return plant.store() ? QCoreApplication::translate("ValueFormat", "lost")
+                         : QCoreApplication::translate("ValueFormat", "not there");
 }
 
 QVariant foregroundOf(bool isTrusted)
