@@ -38,7 +38,7 @@ class QTPLC_GUI_EXPORT QPlcControlCenter : public QMainWindow
     Q_OBJECT
 public:
     enum Theme {
-        SystemTheme,  ///< light or dark, as the desktop is when the program begins
+        SystemTheme,  ///< light or dark, as the desktop is, also when it changes
         LightTheme,
         DarkTheme,
         SunlightTheme  ///< black on white, thick lines, for outdoors

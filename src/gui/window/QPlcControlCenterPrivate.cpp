@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "QPlcControlCenterPrivate.h"
 
+#include "DesktopTheme.h"
 #include "DoubleEscape.h"
+#include "LongPress.h"
 #include "PanelKeysFirst.h"
 #include "QPlcSignalTree.h"
 #include "StandardWidgets.h"
@@ -16,20 +18,8 @@
 
 using namespace qplc;
 
-namespace {
-
-/// As the desktop gave it, before the first window of the program changed the palette.
-const qplc::Theme &themeOfTheDesktop()
-{
-    static const qplc::Theme theme = qplc::Theme::byName(qplc::Theme::System);
-    return theme;
-}
-
-}  // namespace
-
 QPlcControlCenter::Private::Private(QPlcControlCenter *window)
     : q(window)
-    , desktopTheme(themeOfTheDesktop())
     , factories(standardWidgets())
     , actions(new ControlCenterActions(window))
 {
@@ -141,6 +131,11 @@ void QPlcControlCenter::Private::connectParts()
     });
     connect(topBar, &TopBar::stopRequested, q, [this] { stop(); });
     new PanelKeysFirst(q);
+    LongPress::watch();
+    connect(DesktopTheme::instance(), &DesktopTheme::changed, q, [this] {
+        if (theme == SystemTheme)
+            applyTheme();
+    });
     connect(new DoubleEscape(q), &DoubleEscape::pressed, q, [this] { stop(); });
     connect(&wiring, &PanelWiring::outputsChanged, q,
             [this] { Q_EMIT q->outputSignalIndicesChanged(q->outputSignalIndices()); });
