@@ -73,7 +73,7 @@ void ControlCenterActions::makeViewMenu()
         action->setActionGroup(group);
         themes.append(action);
     }
-    touch = add(viewMenu, tr("Large targets for &touch"));
+    touch = add(viewMenu, tr("Large tar&gets for touch"));
     touch->setCheckable(true);
     touch->setToolTip(tr("Buttons, menus and rows of 40 px; a finger that stays opens the context menu"));
     alarmSound = add(viewMenu, tr("Alarm s&ound"));

@@ -86,12 +86,8 @@ void QPlcControlCenter::Private::makeBars()
     q->addToolBar(Qt::TopToolBarArea, topBar);
     topBar->selector()->setMenuActions({actions->connectTo, actions->disconnectFrom});
 
-    auto *bottomBar = new QToolBar(tr("Time"), q);
+    auto *bottomBar = new FlatToolBar(tr("Time"), &context, q);
     bottomBar->setObjectName(QStringLiteral("BottomBar"));
-    bottomBar->setMovable(false);
-    bottomBar->setFloatable(false);
-    bottomBar->toggleViewAction()->setEnabled(false);
-    bottomBar->setContextMenuPolicy(Qt::PreventContextMenu);
     timeBar = new TimeBar(&context);
     eventLine = new EventLine(&context);
     bottomBar->addWidget(timeBar);
