@@ -17,6 +17,16 @@ QString tr(const char *text)
     return QCoreApplication::translate("PlantSummary", text);
 }
 
+}  // namespace
+
+QString linkText(double roundTrip, quint64 lost)
+{
+    const QString time = tr("link %1").arg(durationText(roundTrip));
+    return lost > 0 ? tr("%1, %2 lost").arg(time).arg(lost) : time;
+}
+
+namespace {
+
 QString figuresOf(const Plant &plant, const ViolationWatch &violations)
 {
     const PlantStatus &status = plant.status();
@@ -29,7 +39,7 @@ QString figuresOf(const Plant &plant, const ViolationWatch &violations)
     if (status.isRunning() && !plant.feed())
         parts << violations.text();
     if (status.roundTrip.last10s.count > 0)
-        parts << tr("link %1").arg(durationText(status.roundTrip.last10s.p50));
+        parts << linkText(status.roundTrip.last10s.p50, plant.ownNode() ? plant.ownNode()->lost : 0);
     return parts.join(QStringLiteral(" · "));
 }
 
