@@ -38,7 +38,7 @@ class QTPLC_GUI_EXPORT QPlcControlCenter : public QMainWindow
     Q_OBJECT
 public:
     enum Theme {
-        SystemTheme,  ///< light or dark, as the desktop is when the program begins
+        SystemTheme,  ///< light or dark, as the desktop is, also when it changes
         LightTheme,
         DarkTheme,
         SunlightTheme  ///< black on white, thick lines, for outdoors
@@ -108,6 +108,9 @@ public:
     //
     // The plant appears with connectedToMaster(). Whoever connects connectRequested() gets what people enter at 'Connect...' in place of the window.
 
+    /// The name of the plant, for people and references to signals; said before connectedToMaster(). Without one it is the address that was entered at 'Connect...', or else "plant"; with a number
+    /// where the name is taken.
+    void setPlantName(const QString &name);
     /// The table of the process, when it was read after the window had been made. Without it, the window takes what QPlcSignalIndexTable::current() says when the plant appears.
     void setSignalIndexTable(const QPlcSignalIndexTable &table);
     /// All signals of the table: the inputs of the node.

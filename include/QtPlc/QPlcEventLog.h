@@ -6,6 +6,8 @@
 
 /// What happened, newest last: filtered by severity and words, and acknowledged. A double click, or Enter, shows the time of the event in all plots of the window.
 ///
+/// N writes a note of a person into the log.
+///
 /// It follows the newest event unless somebody has scrolled up; who scrolls down again follows again.
 ///
 /// Settings: `severity` ("information", default; "warning", "error": at least so severe), `unacknowledged` (true: only what asks to be acknowledged), `search`, and `columns` (keys of those that are

@@ -68,8 +68,10 @@ void PanelFrame::makeActions()
     m_float = make(tr("Float"), tr("Ctrl+Shift+F"), LayoutIcon::Float);
     m_maximize = make(tr("Maximize"), tr("Ctrl+Shift+M"), LayoutIcon::Maximize);
     m_close = make(tr("Close"), tr("Ctrl+W"), LayoutIcon::Close);
-    for (QAction *action : {m_settings, m_float, m_maximize, m_close})
-        m_titleBar->addButton(action);
+    m_titleBar->addButton(m_settings);
+    m_titleBar->addButton(m_float, PanelTitleBar::WhereThereIsRoom);
+    m_titleBar->addButton(m_maximize, PanelTitleBar::WhereThereIsRoom);
+    m_titleBar->addButton(m_close);
     m_rename = new QAction(tr("Rename"), this);
     m_rename->setShortcut(tr("F2"));
     m_rename->setShortcutContext(Qt::WidgetWithChildrenShortcut);

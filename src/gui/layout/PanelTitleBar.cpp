@@ -10,6 +10,8 @@
 #include <QtWidgets/QHBoxLayout>
 #include <QtWidgets/QStyleOption>
 
+#include <algorithm>
+
 namespace qplc {
 
 PanelTitleBar::PanelTitleBar(QWidget *parent)
@@ -33,16 +35,49 @@ void PanelTitleBar::setTitle(const QString &title)
     update();
 }
 
-QToolButton *PanelTitleBar::addButton(QAction *action)
+QToolButton *PanelTitleBar::addButton(QAction *action, Presence presence)
 {
     auto *button = new QToolButton(this);
     button->setDefaultAction(action);
     button->setAutoRaise(true);
     button->setIconSize({14, 14});
-    button->setFixedSize(20, 20);
+    button->setFixedSize(buttonSize(), buttonSize());
     button->setFocusPolicy(Qt::TabFocus);
     m_buttons->addWidget(button);
+    if (presence == WhereThereIsRoom)
+        m_optional.append(button);
     return button;
+}
+
+/// Styles for fingers have higher title bars.
+int PanelTitleBar::buttonSize() const
+{
+    return std::max(20, style()->pixelMetric(QStyle::PM_TitleBarHeight, nullptr, this) - 4);
+}
+
+void PanelTitleBar::fitButtons()
+{
+    const bool isThereRoom = width() >= 10 * buttonSize();
+    for (QToolButton *button : qAsConst(m_optional))
+        button->setVisible(isThereRoom);
+}
+
+void PanelTitleBar::resizeEvent(QResizeEvent *event)
+{
+    QWidget::resizeEvent(event);
+    fitButtons();
+}
+
+void PanelTitleBar::changeEvent(QEvent *event)
+{
+    QWidget::changeEvent(event);
+    if (event->type() != QEvent::StyleChange)
+        return;
+    const QList<QToolButton *> buttons = findChildren<QToolButton *>();
+    for (QToolButton *button : buttons)
+        button->setFixedSize(buttonSize(), buttonSize());
+    fitButtons();
+    updateGeometry();
 }
 
 void PanelTitleBar::setActive(bool isActive)
@@ -55,7 +90,7 @@ void PanelTitleBar::setActive(bool isActive)
 
 QSize PanelTitleBar::sizeHint() const
 {
-    return {m_buttons->sizeHint().width() + 120, qMax(24, fontMetrics().height() + 6)};
+    return {m_buttons->sizeHint().width() + 120, std::max({24, fontMetrics().height() + 6, buttonSize() + 4})};
 }
 
 QSize PanelTitleBar::minimumSizeHint() const

@@ -17,8 +17,10 @@ public:
 
     QString title() const { return m_title; }
     void setTitle(const QString &title);
+    /// When a button is there: what can also be done by a double click, keys and the context menu gives its place to the title of a narrow panel.
+    enum Presence { Always, WhereThereIsRoom };
     /// A button at the right that shows and triggers \a action.
-    QToolButton *addButton(QAction *action);
+    QToolButton *addButton(QAction *action, Presence presence = Always);
     /// Whether the keyboard is in the panel.
     void setActive(bool isActive);
     void startRename();
@@ -35,6 +37,8 @@ Q_SIGNALS:
 
 protected:
     void paintEvent(QPaintEvent *event) override;
+    void resizeEvent(QResizeEvent *event) override;
+    void changeEvent(QEvent *event) override;
     void mousePressEvent(QMouseEvent *event) override;
     void mouseMoveEvent(QMouseEvent *event) override;
     void mouseReleaseEvent(QMouseEvent *event) override;
@@ -46,10 +50,13 @@ private:
     enum Drag { NotPressed, Pressed, Dragging };
 
     QRect titleRect() const;
+    int buttonSize() const;
+    void fitButtons();
     void endDrag();
 
     QString m_title;
     QBoxLayout *m_buttons;
+    QVector<QToolButton *> m_optional;  // there only where there is room
     bool m_isActive = false;
     Drag m_drag = NotPressed;
     QPoint m_pressed;

@@ -58,11 +58,11 @@ QString EventLogModel::severityText(PlantEvent::Severity severity)
 {
     switch (severity) {
     case PlantEvent::Information:
-        return QStringLiteral("Information");
+        return tr("Information");
     case PlantEvent::Warning:
-        return QStringLiteral("Warning");
+        return tr("Warning");
     case PlantEvent::Error:
-        return QStringLiteral("Error");
+        return tr("Error");
     }
     return {};
 }
@@ -79,10 +79,11 @@ int EventLogModel::columnCount(const QModelIndex &parent) const
 
 QVariant EventLogModel::headerData(int section, Qt::Orientation orientation, int role) const
 {
-    static const char *const titles[ColumnCount] = {"Time", "Severity", "Source", "Event"};
+    static const char *const titles[ColumnCount]
+        = {QT_TR_NOOP("Time"), QT_TR_NOOP("Severity"), QT_TR_NOOP("Source"), QT_TR_NOOP("Event")};
     if (orientation != Qt::Horizontal || role != Qt::DisplayRole || section < 0 || section >= ColumnCount)
         return {};
-    return QString::fromLatin1(titles[section]);
+    return tr(titles[section]);
 }
 
 QVariant EventLogModel::data(const QModelIndex &index, int role) const

@@ -23,15 +23,24 @@ QString healthText(NodeTableModel::HealthLevel level)
 {
     switch (level) {
     case NodeTableModel::Good:
-        return QStringLiteral("OK");
+        return NodeTableModel::tr("OK");
     case NodeTableModel::Warning:
-        return QStringLiteral("Warning");
+        return NodeTableModel::tr("Warning");
     case NodeTableModel::Error:
-        return QStringLiteral("Error");
+        return NodeTableModel::tr("Error");
     case NodeTableModel::Unavailable:
         break;
     }
-    return QStringLiteral("Unavailable");
+    return NodeTableModel::tr("Unavailable");
+}
+
+QString stateOf(const NodeStatus &node)
+{
+    if (node.isListener)
+        return NodeTableModel::tr("listens");
+    if (node.isLate)
+        return NodeTableModel::tr("late");
+    return node.late == 0 ? NodeTableModel::tr("good") : NodeTableModel::tr("good, was late");
 }
 
 }  // namespace
@@ -44,6 +53,8 @@ NodeTableModel::NodeTableModel(PlantList *plants, QObject *parent)
     connect(plants, &PlantList::removed, this, &NodeTableModel::remove);
     for (int i = 0; i < plants->size(); ++i)
         add(plants->at(i));
+    connect(plants, &PlantList::added, this, &NodeTableModel::tellNames);
+    connect(plants, &PlantList::removed, this, &NodeTableModel::tellNames);
 }
 
 void NodeTableModel::add(Plant *plant)
@@ -66,31 +77,56 @@ void NodeTableModel::remove(Plant *plant)
     endRemoveRows();
 }
 
-QVector<NodeTableModel::Row> NodeTableModel::rowsOf(Plant *plant)
+/// Names tell the plant where there are several.
+void NodeTableModel::tellNames()
+{
+    if (!m_rows.isEmpty())
+        Q_EMIT dataChanged(index(0, Name), index(m_rows.size() - 1, Name));
+}
+
+QString NodeTableModel::nameOf(const Row &row) const
+{
+    return m_plants->size() > 1 ? row.plant->name() + QLatin1Char('/') + row.node.name : row.node.name;
+}
+
+/// Whoever is missed keeps his row: nodes of a master that is lost, and nodes that have left in the middle of the work.
+void NodeTableModel::appendLost(Plant *plant, QVector<Row> *rows) const
+{
+    NodeStatus lost;
+    for (const QString &name : plant->status().gone) {
+        lost.name = name;
+        rows->append({plant, false, lost, tr("gone"), {}, false});
+    }
+    const bool isAnswered = plant->isConnected() && plant->status().period > 0;
+    if (isAnswered)
+        return;
+    for (const Row &row : m_rows) {
+        if (row.plant != plant || row.isMaster || row.node.isListener)
+            continue;
+        lost.name = row.node.name;
+        rows->append({plant, false, lost, tr("not known"), {}, false});
+    }
+}
+
+QVector<NodeTableModel::Row> NodeTableModel::rowsOf(Plant *plant) const
 {
     const PlantStatus &status = plant->status();
     NodeStatus master;
-    master.name = QStringLiteral("Master");
+    master.name = tr("Master");
     master.address = plant->address();
     master.execution = status.execution;
     master.roundTrip = status.roundTrip;
-    QVector<Row> rows{{plant, true, master, plant->stateText(), status.lateness}};
+    QVector<Row> rows{{plant, true, master, stateWord(*plant), status.lateness, true}};
     for (const NodeStatus &node : status.nodes)
-        rows.append({plant,
-                     false,
-                     node,
-                     node.isListener      ? QStringLiteral("listens")
-                         : node.isLate    ? QStringLiteral("late")
-                         : node.late == 0 ? QStringLiteral("good")
-                                          : QStringLiteral("good, was late"),
-                     {}});
+        rows.append({plant, false, node, stateOf(node), {}, true});
+    appendLost(plant, &rows);
     return rows;
 }
 
 /// Late now is a warning; when time stands still because of it, an error.
 NodeTableModel::HealthLevel NodeTableModel::healthOf(const Row &row)
 {
-    if (!row.plant->isConnected() || row.plant->status().state.isEmpty())
+    if (!row.isThere || !row.plant->isConnected() || row.plant->status().state.isEmpty())
         return Unavailable;
     const bool isWaiting = row.plant->status().state == QLatin1String("WaitingForLateSlaves");
     if (row.isMaster)
@@ -153,25 +189,28 @@ int NodeTableModel::columnCount(const QModelIndex &parent) const
 QVariant NodeTableModel::headerData(int section, Qt::Orientation orientation, int role) const
 {
     static const char *const titles[ColumnCount]
-        = {"Plant",          "Name",           "Health",        "Transport",     "Address",       "Policy",
-           "State",          "Lateness p99",   "Execution p50", "Execution p99", "Execution max", "Round trip p50",
-           "Round trip p99", "Round trip max", "Late",          "Lost",          "Duplicated",    "Rejected"};
+        = {QT_TR_NOOP("Plant"),          QT_TR_NOOP("Name"),           QT_TR_NOOP("Health"),
+           QT_TR_NOOP("Transport"),      QT_TR_NOOP("Address"),        QT_TR_NOOP("Policy"),
+           QT_TR_NOOP("State"),          QT_TR_NOOP("Lateness p99"),   QT_TR_NOOP("Execution p50"),
+           QT_TR_NOOP("Execution p99"),  QT_TR_NOOP("Execution max"),  QT_TR_NOOP("Round trip p50"),
+           QT_TR_NOOP("Round trip p99"), QT_TR_NOOP("Round trip max"), QT_TR_NOOP("Late"),
+           QT_TR_NOOP("Lost"),           QT_TR_NOOP("Duplicated"),     QT_TR_NOOP("Rejected")};
     if (orientation != Qt::Horizontal || section < 0 || section >= ColumnCount)
         return {};
     if (role == Qt::DisplayRole)
-        return QString::fromLatin1(titles[section]);
+        return tr(titles[section]);
     if (role == Qt::TextAlignmentRole)
         return int(Qt::AlignVCenter | (section >= LatenessP99 ? Qt::AlignRight : Qt::AlignLeft));
     if (role == Qt::ToolTipRole && isDuration(section))
-        return section == ExecutionMaximum || section == RoundTripMaximum
-            ? QStringLiteral("since the start of the phase")
-            : QStringLiteral("over the last 10 s");
+        return section == ExecutionMaximum || section == RoundTripMaximum ? tr("since the start of the phase")
+                                                                          : tr("over the last 10 s");
     return {};
 }
 
 QVariant NodeTableModel::number(const Row &row, int column)
 {
     const NodeStatus &node = row.node;
+    const bool isCounted = row.isThere && !row.isMaster;
     switch (column) {
     case LatenessP99:
         return figure(row.lateness.last10s, row.lateness.last10s.p99);
@@ -188,25 +227,25 @@ QVariant NodeTableModel::number(const Row &row, int column)
     case RoundTripMaximum:
         return figure(node.roundTrip.sinceStart, node.roundTrip.sinceStart.maximum);
     case Late:
-        return row.isMaster ? QVariant() : node.late;
+        return isCounted ? node.late : QVariant();
     case Lost:
-        return row.isMaster ? QVariant() : node.lost;
+        return isCounted ? node.lost : QVariant();
     case Duplicated:
-        return row.isMaster ? QVariant() : node.duplicated;
+        return isCounted ? node.duplicated : QVariant();
     case Rejected:
-        return row.isMaster ? QVariant() : node.rejected;
+        return isCounted ? node.rejected : QVariant();
     default:
         return {};
     }
 }
 
-QString NodeTableModel::text(const Row &row, int column)
+QString NodeTableModel::text(const Row &row, int column) const
 {
     switch (column) {
     case PlantColumn:
         return row.plant->name();
     case Name:
-        return row.node.name;
+        return nameOf(row);
     case Health:
         return healthText(healthOf(row));
     case Transport:
@@ -235,6 +274,8 @@ QVariant NodeTableModel::data(const QModelIndex &index, int role) const
     case Qt::DisplayRole:
         return text(row, index.column());
     case Qt::ToolTipRole:
+        if (row.isMaster && index.column() == State)
+            return row.plant->stateText();
         return index.column() < LatenessP99 ? text(row, index.column()) : QString();
     case HealthRole:
         return int(healthOf(row));
@@ -247,7 +288,7 @@ QVariant NodeTableModel::data(const QModelIndex &index, int role) const
     case Qt::TextAlignmentRole:
         return index.column() >= LatenessP99 ? QVariant(int(Qt::AlignRight | Qt::AlignVCenter)) : QVariant();
     case Qt::ForegroundRole:
-        return foregroundOf(row.plant->isConnected());
+        return foregroundOf(row.isThere && row.plant->isConnected());
     default:
         return {};
     }

@@ -55,16 +55,20 @@ private:
         NodeStatus node;
         QString state;
         DurationStatus lateness;
+        bool isThere;  // its master tells of it
     };
 
     void add(Plant *plant);
     void remove(Plant *plant);
     void update(Plant *plant);
     int firstRowOf(const Plant *plant) const;
+    QVector<Row> rowsOf(Plant *plant) const;
+    void appendLost(Plant *plant, QVector<Row> *rows) const;
+    void tellNames();
+    QString nameOf(const Row &row) const;
+    QString text(const Row &row, int column) const;
     static HealthLevel healthOf(const Row &row);
-    static QVector<Row> rowsOf(Plant *plant);
     static QVariant number(const Row &row, int column);
-    static QString text(const Row &row, int column);
 
     PlantList *m_plants;
     QVector<Row> m_rows;

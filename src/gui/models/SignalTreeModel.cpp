@@ -312,14 +312,15 @@ int SignalTreeModel::columnCount(const QModelIndex &) const
 
 QVariant SignalTreeModel::headerData(int section, Qt::Orientation orientation, int role) const
 {
-    static const char *const titles[ColumnCount] = {"Name", "Value", "Unit", "Age", "Description"};
+    static const char *const titles[ColumnCount]
+        = {QT_TR_NOOP("Name"), QT_TR_NOOP("Value"), QT_TR_NOOP("Unit"), QT_TR_NOOP("Age"), QT_TR_NOOP("Description")};
     if (orientation != Qt::Horizontal || section < 0 || section >= ColumnCount)
         return {};
     if (role == Qt::TextAlignmentRole)
         return int(Qt::AlignVCenter | (section == Value ? Qt::AlignRight : Qt::AlignLeft));
     if (role != Qt::DisplayRole)
         return {};
-    return QString::fromLatin1(titles[section]);
+    return tr(titles[section]);
 }
 
 QString SignalTreeModel::signalText(const Item *item, int column) const
@@ -344,9 +345,9 @@ QString SignalTreeModel::signalText(const Item *item, int column) const
 QVariant SignalTreeModel::text(const Item *item, int column) const
 {
     if (item->kind == Item::PlantItem)
-        return column == Name ? item->plant->name() : column == Value ? item->plant->stateText() : QString();
+        return column == Name ? item->plant->name() : column == Value ? stateWord(*item->plant) : QString();
     if (item->kind == Item::Writer)
-        return column != Name ? QString() : item->writer.isEmpty() ? QStringLiteral("Not written") : item->writer;
+        return column != Name ? QString() : item->writer.isEmpty() ? tr("Not written") : item->writer;
     return signalText(item, column);
 }
 
@@ -364,7 +365,7 @@ QVariant SignalTreeModel::toolTip(const Item *item) const
     if (!value.isEmpty())
         lines << value + QLatin1Char(' ') + definition.unit;
     const QString writer = item->plant->writer(item->signal);
-    lines << (writer.isEmpty() ? QStringLiteral("written by nobody") : QStringLiteral("written by %1").arg(writer));
+    lines << (writer.isEmpty() ? tr("written by nobody") : tr("written by %1").arg(writer));
     lines << qualityText(item->plant->quality());
     return lines.join(QLatin1Char('\n'));
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ValueFormat.h"
 
+#include <QtCore/QCoreApplication>
 #include <QtCore/QJsonArray>
 #include <QtCore/QJsonDocument>
 #include <QtGui/QGuiApplication>
@@ -126,15 +127,29 @@ QString qualityText(Plant::Quality quality)
 {
     switch (quality) {
     case Plant::NoValue:
-        return QStringLiteral("no value");
+        return QCoreApplication::translate("ValueFormat", "no value");
     case Plant::Good:
-        return QStringLiteral("good");
+        return QCoreApplication::translate("ValueFormat", "good");
     case Plant::AtRest:
-        return QStringLiteral("at rest");
+        return QCoreApplication::translate("ValueFormat", "at rest");
     case Plant::Stale:
-        return QStringLiteral("stale");
+        return QCoreApplication::translate("ValueFormat", "stale");
     }
     return {};
+}
+
+QString stateWord(const Plant &plant)
+{
+    switch (plant.connectionState()) {
+    case PlantConnection::Connected:
+        return plant.status().state;
+    case PlantConnection::Connecting:
+        return QCoreApplication::translate("ValueFormat", "connecting");
+    case PlantConnection::Disconnected:
+        break;
+    }
+    return plant.store() ? QCoreApplication::translate("ValueFormat", "lost")
+                         : QCoreApplication::translate("ValueFormat", "not there");
 }
 
 QVariant foregroundOf(bool isTrusted)

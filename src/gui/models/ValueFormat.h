@@ -27,6 +27,8 @@ QString ageText(double seconds);
 QString durationText(double nanoseconds);
 /// "good", "at rest", "stale", "no value".
 QString qualityText(Plant::Quality quality);
+/// The state of a plant in a word or two: that of its master, or "lost", "connecting", "not there"; Plant::stateText() says why.
+QString stateWord(const Plant &plant);
 /// What Qt::ForegroundRole gives: grey for what is not to be trusted, else nothing.
 QVariant foregroundOf(bool isTrusted);
 

@@ -184,7 +184,7 @@ QStringList ValueTableModel::textsOf(const Row &row) const
 {
     const QString name = row.reference.toString();
     if (!row.signal)
-        return {name, {}, {}, {}, {}, QStringLiteral("not there"), {}, {}};
+        return {name, {}, {}, {}, {}, tr("not there"), {}, {}};
     const Plant &plant = *row.signal.plant;
     const bool isPast = m_displayTime.has_value();
     const bool hasRange = row.signal.channel() != ChannelMap::NoChannel;
@@ -194,8 +194,8 @@ QStringList ValueTableModel::textsOf(const Row &row) const
             hasRange ? numberText(double(row.minimum)) : QString(),
             hasRange ? numberText(double(row.maximum)) : QString(),
             !isPast              ? qualityText(plant.quality())
-                : isTrusted(row) ? QStringLiteral("past")
-                                 : QStringLiteral("no value"),
+                : isTrusted(row) ? tr("past")
+                                 : tr("no value"),
             isPast ? QString() : ageText(plant.age()),
             plant.updateRate() > 0.0 ? QStringLiteral("%1 Hz").arg(plant.updateRate(), 0, 'g', 3) : QString()};
 }
@@ -230,14 +230,16 @@ int ValueTableModel::columnCount(const QModelIndex &parent) const
 
 QVariant ValueTableModel::headerData(int section, Qt::Orientation orientation, int role) const
 {
-    static const char *const titles[ColumnCount] = {"Signal", "Value", "Unit", "Min", "Max", "Quality", "Age", "Rate"};
+    static const char *const titles[ColumnCount]
+        = {QT_TR_NOOP("Signal"), QT_TR_NOOP("Value"),   QT_TR_NOOP("Unit"), QT_TR_NOOP("Min"),
+           QT_TR_NOOP("Max"),    QT_TR_NOOP("Quality"), QT_TR_NOOP("Age"),  QT_TR_NOOP("Rate")};
     if (orientation != Qt::Horizontal || section < 0 || section >= ColumnCount)
         return {};
     if (role == Qt::TextAlignmentRole)
         return alignmentOf(section);
     if (role != Qt::DisplayRole)
         return {};
-    return QString::fromLatin1(titles[section]);
+    return tr(titles[section]);
 }
 
 QVariant ValueTableModel::data(const QModelIndex &index, int role) const

@@ -198,11 +198,11 @@ QString Plant::stateText() const
     case PlantConnection::Connected:
         return m_status.state;
     case PlantConnection::Connecting:
-        return QStringLiteral("Connecting to %1").arg(address());
+        return tr("Connecting to %1").arg(address());
     case PlantConnection::Disconnected:
         break;
     }
-    return QStringLiteral("Disconnected: %1").arg(m_connection.reason());
+    return tr("Disconnected: %1").arg(m_connection.reason());
 }
 
 Plant::Action Plant::nextAction() const
@@ -221,11 +221,11 @@ QString Plant::actionText(Action action)
 {
     switch (action) {
     case Initialize:
-        return QStringLiteral("Initialize");
+        return tr("Initialize");
     case Start:
-        return QStringLiteral("Start");
+        return tr("Start");
     case StopAction:
-        return QStringLiteral("Stop");
+        return tr("Stop");
     case NoAction:
         break;
     }

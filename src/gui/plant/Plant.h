@@ -54,6 +54,8 @@ public:
     /// Time until the next attempt to connect [s]; -1 when none waits.
     double nextAttempt() const { return m_connection.nextAttempt(); }
     bool isConnected() const { return connectionState() == PlantConnection::Connected; }
+    /// What the master tells of this window, which is a node that listens; null: nothing yet.
+    const NodeStatus *ownNode() const { return m_status.node(m_connection.nodeName()); }
     /// One line for people: "RealTime", "Disconnected: Connection refused".
     QString stateText() const;
     /// The one thing that comes next: Start when the master is off, Stop while it runs.

@@ -61,6 +61,7 @@ const NodeStatus *PlantStatus::node(const QString &name) const
 void PlantStatus::takeState(const QJsonObject &fields)
 {
     const QPlcMessage message(QPlcMessage::State, fields);
+    const bool wasRunning = isRunning();
     state = text(fields, "state");
     cycle = message.hex64(QStringLiteral("cycle"));
     period = qint64(number(fields, "period"));
@@ -82,7 +83,20 @@ void PlantStatus::takeState(const QJsonObject &fields)
         status.outputs = int(number(of, "outputs"));
         now.append(status);
     }
-    nodes = now;
+    nodes.swap(now);
+    if (isRunning() && !wasRunning)
+        gone.clear();  // a phase that begins has all of its nodes
+    missNodes(now);
+}
+
+void PlantStatus::missNodes(const QVector<NodeStatus> &before)
+{
+    for (const NodeStatus &other : before) {
+        if (!other.isListener && !gone.contains(other.name))
+            gone.append(other.name);
+    }
+    gone.erase(std::remove_if(gone.begin(), gone.end(), [this](const QString &name) { return node(name) != nullptr; }),
+               gone.end());
 }
 
 void PlantStatus::takeStatistics(const QJsonObject &fields)

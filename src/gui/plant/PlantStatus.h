@@ -59,6 +59,8 @@ struct PlantStatus
     DurationStatus roundTrip;
     DurationStatus slack;
     QVector<NodeStatus> nodes;
+    QStringList
+        gone;  // nodes of the phase that runs or ran last which have left and are not back; listeners come and go as they like
     QPlcSchedule schedule;
 
     /// Whether cycles run, or stand still for a moment.
@@ -69,6 +71,9 @@ struct PlantStatus
     void takeState(const QJsonObject &fields);
     void takeStatistics(const QJsonObject &fields);
     void takeSchedule(const QJsonObject &fields);
+
+private:
+    void missNodes(const QVector<NodeStatus> &before);
 };
 
 }  // namespace qplc

@@ -96,7 +96,7 @@ void SignalControl::judge()
         Q_EMIT changed();
 }
 
-/// \return whether state(), who() or text() are other ones
+/// \return whether state(), who(), text() or mayTake() are other ones
 bool SignalControl::assess()
 {
     const State stateBefore = m_state;
@@ -118,7 +118,9 @@ bool SignalControl::assess()
     }
     m_who.removeAll(QString());
     m_who.removeDuplicates();
-    return m_state != stateBefore || m_who != whoBefore || m_plantText != plantTextBefore;
+    const bool couldTake = m_couldTake;
+    m_couldTake = mayTake();  // what a master knows is heard after its state
+    return m_couldTake != couldTake || m_state != stateBefore || m_who != whoBefore || m_plantText != plantTextBefore;
 }
 
 bool SignalControl::mayTake() const

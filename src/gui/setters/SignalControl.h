@@ -56,7 +56,7 @@ public:
 Q_SIGNALS:
     /// The signals are other ones, or stand for something else.
     void signalsChanged();
-    /// state(), who() or text().
+    /// state(), who(), text() or mayTake().
     void changed();
     /// A plant has new values.
     void updated();
@@ -78,6 +78,7 @@ private:
     State m_state = Missing;
     QStringList m_who;
     QString m_plantText;  // of one that is not connected
+    bool m_couldTake = false;
     QVector<QPair<Plant *, int>> m_commands;
 };
 

@@ -41,11 +41,14 @@ struct QPlcEventLog::Private
 {
     PanelTable *table = nullptr;
     EventFilterModel *filter = nullptr;
+    EventLogModel *events = nullptr;  // from contextChanged() on
     QComboBox *severity = nullptr;
     QLineEdit *search = nullptr;
+    QLineEdit *note = nullptr;
     QAction *onlyUnacknowledged = nullptr;
     QAction *acknowledge = nullptr;
     QAction *acknowledgeAll = nullptr;
+    QAction *writeNote = nullptr;
     PanelSettings settings{"severity", "unacknowledged", "search", "columns"};
     bool isFollowing = true;
 
@@ -57,7 +60,7 @@ struct QPlcEventLog::Private
         row->setSpacing(4);
         row->addWidget(severity);
         row->addWidget(search, 1);
-        for (QAction *action : {onlyUnacknowledged, acknowledge, acknowledgeAll}) {
+        for (QAction *action : {onlyUnacknowledged, acknowledge, acknowledgeAll, writeNote}) {
             auto *button = new QToolButton(bar);
             button->setDefaultAction(action);
             button->setAutoRaise(true);
@@ -65,6 +68,38 @@ struct QPlcEventLog::Private
             row->addWidget(button);
         }
         return bar;
+    }
+
+    /// The line for a note, there while one is written.
+    void makeNote(QWidget *parent)
+    {
+        note = new QLineEdit(parent);
+        note->setPlaceholderText(QPlcEventLog::tr("Note for the log; Enter writes it, Escape forgets it"));
+        note->setAccessibleName(QPlcEventLog::tr("Note for the log"));
+        note->setMaxLength(500);
+        note->setObjectName(QStringLiteral("note"));
+        note->hide();
+        QObject::connect(writeNote, &QAction::triggered, note, [this] {
+            note->show();
+            note->setFocus(Qt::ShortcutFocusReason);
+        });
+        const auto close = [this] {
+            note->clear();
+            note->hide();
+            table->setFocus(Qt::OtherFocusReason);
+        };
+        auto *forget = new QAction(note);
+        forget->setShortcut(QKeySequence(Qt::Key_Escape));
+        forget->setShortcutContext(Qt::WidgetShortcut);
+        note->addAction(forget);
+        QObject::connect(forget, &QAction::triggered, note, close);
+        QObject::connect(note, &QLineEdit::returnPressed, note, [this, close] {
+            const QString text = note->text().simplified();
+            if (!text.isEmpty() && events)
+                events->append(
+                    {QDateTime::currentDateTime(), PlantEvent::Information, QPlcEventLog::tr("Note"), text, false});
+            close();
+        });
     }
 
     /// New rows do not move what somebody reads.
@@ -93,6 +128,7 @@ QPlcEventLog::QPlcEventLog(QWidget *parent)
     d->severity->setAccessibleName(tr("Least severity"));
     d->severity->setToolTip(tr("Shows events that are at least so severe"));
     d->search = new QLineEdit(this);
+    d->search->setObjectName(QStringLiteral("search"));
     d->search->setPlaceholderText(tr("Search events"));
     d->search->setAccessibleName(tr("Search events"));
     d->search->setClearButtonEnabled(true);
@@ -102,6 +138,8 @@ QPlcEventLog::QPlcEventLog(QWidget *parent)
     column->setSpacing(0);
     column->addWidget(d->makeBar(this));
     column->addWidget(d->table);
+    d->makeNote(this);
+    column->addWidget(d->note);
     setFocusProxy(d->table);
     d->follow();
 }
@@ -124,6 +162,7 @@ void QPlcEventLog::makeActions()
     d->acknowledge = make(tr("Acknowledge the selected events"), tr("Ack"), QKeySequence(Qt::Key_A));
     d->acknowledgeAll
         = make(tr("Acknowledge all events"), tr("Ack all"), QKeySequence(int(Qt::SHIFT) | int(Qt::Key_A)));
+    d->writeNote = make(tr("Write a note into the log"), tr("Note"), QKeySequence(Qt::Key_N));
     QAction *find = make(tr("Search events"), tr("Search"), QKeySequence(QKeySequence::Find));
     connect(find, &QAction::triggered, d->search, [this] { d->search->setFocus(Qt::ShortcutFocusReason); });
     const auto take = [this](const char *key, const QJsonValue &value, const QJsonValue &defaultValue) {
@@ -173,6 +212,7 @@ void QPlcEventLog::filter()
 void QPlcEventLog::contextChanged()
 {
     EventLogModel *events = context()->events();
+    d->events = events;
     d->filter->setSourceModel(events);
     d->table->setContext(context());
     d->table->setColumns(columns);

@@ -35,11 +35,11 @@ TableDelegate::Sign signOf(const QModelIndex &index)
 
 const QVector<PanelTable::Column> columns = {{"plant", 10, false},
                                              {"node", 12, true},
-                                             {"health", 8, true},
+                                             {"health", 11, true},
                                              {"transport", 10, false},
                                              {"address", 18, false},
                                              {"policy", 18, false},
-                                             {"state", 7, true},
+                                             {"state", 13, true},
                                              {"latenessP99", 8, true},
                                              {"executionP50", 8, false},
                                              {"executionP99", 8, true},
@@ -52,10 +52,10 @@ const QVector<PanelTable::Column> columns = {{"plant", 10, false},
                                              {"duplicated", 10, false},
                                              {"rejected", 9, false}};
 
-/// Not those with words that come and go: names and figures.
 QVector<int> growingColumns()
 {
-    QVector<int> growing{NodeTableModel::PlantColumn, NodeTableModel::Name, NodeTableModel::Address};
+    QVector<int> growing{NodeTableModel::PlantColumn, NodeTableModel::Name, NodeTableModel::Health,
+                         NodeTableModel::Address, NodeTableModel::State};
     for (int column = NodeTableModel::LatenessP99; column < NodeTableModel::ColumnCount; ++column)
         growing << column;
     return growing;

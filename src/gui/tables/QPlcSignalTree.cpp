@@ -3,6 +3,7 @@
 
 #include "ExpansionMemory.h"
 #include "PanelTable.h"
+#include "TableTime.h"
 #include "TimeStrip.h"
 #include "gui/models/SignalFilterModel.h"
 #include "gui/models/SignalTreeModel.h"
@@ -175,10 +176,7 @@ void QPlcSignalTree::contextChanged()
     connect(d->table, &PanelTable::settingsEdited, this, take);
     connect(d->expansion, &ExpansionMemory::edited, this, take);
     d->strip->setContext(context());
-    TimeView *time = context()->timeView();
-    const auto showTime = [this, time] { d->model->setDisplayTime(time->displayTime()); };
-    connect(time, &TimeView::displayTimeChanged, this, showTime);
-    showTime();
+    followDisplayTime(d->model, context());
     addAction(d->table->createColumnMenu(this)->menuAction());
 }
 

@@ -2,6 +2,7 @@
 #include "QPlcValueTable.h"
 
 #include "PanelTable.h"
+#include "TableTime.h"
 #include "TimeStrip.h"
 #include "gui/models/ValueTableModel.h"
 #include "gui/panel/PanelSettings.h"
@@ -216,10 +217,7 @@ void QPlcValueTable::contextChanged()
     connect(d->model, &QAbstractItemModel::rowsInserted, this, &QPlcValueTable::takeSignals);
     connect(d->model, &QAbstractItemModel::rowsRemoved, this, &QPlcValueTable::takeSignals);
     d->strip->setContext(context());
-    TimeView *time = context()->timeView();
-    const auto showTime = [this, time] { d->model->setDisplayTime(time->displayTime()); };
-    connect(time, &TimeView::displayTimeChanged, this, showTime);
-    showTime();
+    followDisplayTime(d->model, context());
     addAction(d->table->createColumnMenu(this)->menuAction());
 }
 

@@ -20,6 +20,7 @@ TimeStrip::TimeStrip(QWidget *parent)
 {
     setMargin(3);
     setAlignment(Qt::AlignCenter);
+    setWordWrap(true);  // it must not make a table wider
     setVisible(false);
     connect(&m_timer, &QTimer::timeout, this, &TimeStrip::renew);
 }

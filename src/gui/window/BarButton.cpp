@@ -2,6 +2,7 @@
 #include "BarButton.h"
 
 #include <QtGui/QPainter>
+#include <QtWidgets/QStyle>
 
 #include <algorithm>
 
@@ -78,7 +79,8 @@ QSize BarButton::sizeHint() const
         return {std::clamp(width + 40, 120, 220), 44};
     }
     const int width = text.horizontalAdvance(this->text()) + between + detail.horizontalAdvance(m_detail);
-    return {width + (m_kind == Primary ? 32 : 16), m_kind == Primary ? 40 : std::max(24, text.height() + 6)};
+    const int target = style()->pixelMetric(QStyle::PM_TitleBarHeight, nullptr, this) - 4;  // larger for fingers
+    return {width + (m_kind == Primary ? 32 : 16), m_kind == Primary ? 40 : std::max({24, text.height() + 6, target})};
 }
 
 QColor BarButton::background() const

@@ -73,6 +73,13 @@ void ControlCenterActions::makeViewMenu()
         action->setActionGroup(group);
         themes.append(action);
     }
+    touch = add(viewMenu, tr("Large tar&gets for touch"));
+    touch->setCheckable(true);
+    touch->setToolTip(tr("Buttons, menus and rows of 40 px; a finger that stays opens the context menu"));
+    alarmSound = add(viewMenu, tr("Alarm s&ound"));
+    alarmSound->setCheckable(true);
+    alarmSound->setChecked(true);
+    alarmSound->setToolTip(tr("Errors are heard when they happen"));
     fullScreen = add(viewMenu, tr("F&ull screen"), tr("F11"));
     fullScreen->setCheckable(true);
 }

@@ -46,6 +46,8 @@ public:
     QAction *eventLog = nullptr;
     QAction *acknowledge = nullptr;
     QAction *fullScreen = nullptr;
+    QAction *touch = nullptr;
+    QAction *alarmSound = nullptr;
     QList<QAction *> themes;  // in the order of QPlcControlCenter::Theme
     // Layout
     QAction *open = nullptr;

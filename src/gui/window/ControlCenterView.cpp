@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // QPlcControlCenter::Private: what its commands do to the view, and what the window remembers.
+#include "DesktopTheme.h"
 #include "QPlcControlCenterPrivate.h"
 #include "QPlcSignalTree.h"
 #include "QPlcWidgetFactory.h"
+#include "TouchStyle.h"
 #include "gui/layout/LayoutJson.h"
 #include "gui/layout/PanelFrame.h"
 
@@ -50,6 +52,9 @@ void QPlcControlCenter::Private::connectViewActions()
     connect(actions->fullScreen, &QAction::toggled, q, [this](bool isFull) {
         q->setWindowState(isFull ? q->windowState() | Qt::WindowFullScreen : q->windowState() & ~Qt::WindowFullScreen);
     });
+    connect(actions->touch, &QAction::toggled, q, &TouchStyle::setOn);
+    connect(actions->alarmSound, &QAction::toggled, q, [this](bool isOn) { alarmSound.setOn(isOn); });
+    actions->touch->setChecked(TouchStyle::isUseful());
     for (int each = 0; each < actions->themes.size(); ++each)
         connect(actions->themes.at(each), &QAction::triggered, q, [this, each] { q->setTheme(Theme(each)); });
     connect(actions->keys, &QAction::triggered, q, [this] { openKeys(); });
@@ -107,9 +112,10 @@ void QPlcControlCenter::Private::saveLayoutTo(const QString &fileName)
 
 void QPlcControlCenter::Private::applyTheme()
 {
-    const qplc::Theme &chosen
-        = theme == SystemTheme ? desktopTheme : qplc::Theme::byName(qplc::Theme::Name(int(theme)));
-    QApplication::setPalette(chosen.palette());
+    DesktopTheme *desktop = DesktopTheme::instance();
+    const qplc::Theme chosen
+        = theme == SystemTheme ? desktop->theme() : qplc::Theme::byName(qplc::Theme::Name(int(theme)));
+    desktop->givePalette(chosen.palette());
     q->setPalette(chosen.palette());
     context.setTheme(chosen);
     actions->showTheme(int(theme));
@@ -229,6 +235,8 @@ void QPlcControlCenter::Private::save()
     settings.setValue(keyOf("signalTree"), QJsonDocument(dock->tree()->settings()).toJson(QJsonDocument::Compact));
     settings.setValue(keyOf("layout"), layoutToJson(editor.layout()));
     settings.setValue(keyOf("theme"), qplc::Theme::nameText(qplc::Theme::Name(int(theme))));
+    settings.setValue(keyOf("touch"), actions->touch->isChecked());
+    settings.setValue(keyOf("alarmSound"), actions->alarmSound->isChecked());
     settings.setValue(keyOf("plants"), plants);
     settings.sync();
     if (isStart)
@@ -243,6 +251,8 @@ void QPlcControlCenter::Private::restore()
         showDock(true);
     dock->tree()->applySettings(QJsonDocument::fromJson(settings.value(keyOf("signalTree")).toByteArray()).object());
     q->setTheme(Theme(int(qplc::Theme::nameOf(settings.value(keyOf("theme")).toString()))));
+    actions->touch->setChecked(settings.value(keyOf("touch"), TouchStyle::isUseful()).toBool());
+    actions->alarmSound->setChecked(settings.value(keyOf("alarmSound"), true).toBool());
     const QByteArray layout = settings.value(keyOf("layout")).toByteArray();
     if (!layout.isEmpty() && !shelf.restore(layout))
         hint->showText(tr("The layout of the last time cannot be read; this is the default one."));

@@ -12,14 +12,14 @@ HintLine::HintLine(WindowContext *context, QWidget *parent)
     , m_context(context)
     , m_label(new QLabel(this))
     , m_button(new BarButton(BarButton::Primary, context))
+    , m_close(new BarButton(BarButton::Quiet, context))
 {
     setObjectName(QStringLiteral("HintLine"));
     m_label->setWordWrap(true);
     m_label->setTextInteractionFlags(Qt::TextSelectableByMouse);
-    auto *close = new BarButton(BarButton::Quiet, context);
-    close->setText(tr("Close"));
-    close->setAccessibleName(tr("Close the hint"));
-    connect(close, &QAbstractButton::clicked, this, &QWidget::hide);
+    m_close->setText(tr("Close"));
+    m_close->setAccessibleName(tr("Close the hint"));
+    connect(m_close, &QAbstractButton::clicked, this, &QWidget::hide);
     connect(m_button, &QAbstractButton::clicked, this, [this] {
         if (m_remedy)
             m_remedy->trigger();
@@ -28,7 +28,7 @@ HintLine::HintLine(WindowContext *context, QWidget *parent)
     row->setContentsMargins(14, 4, 6, 4);
     row->addWidget(m_label, 1);
     row->addWidget(m_button, 0, Qt::AlignTop);
-    row->addWidget(close, 0, Qt::AlignTop);
+    row->addWidget(m_close, 0, Qt::AlignTop);
     hide();
 }
 
@@ -38,6 +38,7 @@ void HintLine::showText(const QString &text, QAction *remedy)
     m_button->setVisible(remedy != nullptr);
     if (remedy)
         m_button->setText(remedy->text());
+    m_close->setFixedHeight((remedy ? m_button : m_close)->sizeHint().height());  // on one line with its neighbour
     m_label->setText(text);
     m_label->setMinimumHeight(m_label->fontMetrics().lineSpacing() * (int(text.count(QLatin1Char('\n'))) + 1));
     setAccessibleName(text);

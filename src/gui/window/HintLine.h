@@ -28,6 +28,7 @@ private:
     WindowContext *m_context;
     QLabel *m_label;
     BarButton *m_button;
+    BarButton *m_close;
     QPointer<QAction> m_remedy;
 };
 

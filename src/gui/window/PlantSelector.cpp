@@ -112,7 +112,7 @@ void PlantSelector::drawFigures(QPainter *painter, const QRect &place)
 
 QSize PlantSelector::sizeHint() const
 {
-    return {400, 44};
+    return {440, 44};
 }
 
 QSize PlantSelector::minimumSizeHint() const

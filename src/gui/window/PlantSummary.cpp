@@ -17,6 +17,16 @@ QString tr(const char *text)
     return QCoreApplication::translate("PlantSummary", text);
 }
 
+}  // namespace
+
+QString linkText(double roundTrip, quint64 lost)
+{
+    const QString time = tr("link %1").arg(durationText(roundTrip));
+    return lost > 0 ? tr("%1, %2 lost").arg(time).arg(lost) : time;
+}
+
+namespace {
+
 QString figuresOf(const Plant &plant, const ViolationWatch &violations)
 {
     const PlantStatus &status = plant.status();
@@ -29,16 +39,17 @@ QString figuresOf(const Plant &plant, const ViolationWatch &violations)
     if (status.isRunning() && !plant.feed())
         parts << violations.text();
     if (status.roundTrip.last10s.count > 0)
-        parts << tr("link %1").arg(durationText(status.roundTrip.last10s.p50));
+        parts << linkText(status.roundTrip.last10s.p50, plant.ownNode() ? plant.ownNode()->lost : 0);
     return parts.join(QStringLiteral(" · "));
 }
 
 PlantSummary withoutConnection(const Plant &plant)
 {
     const QString reason = plant.stateText();
-    if (plant.connectionState() == PlantConnection::Connecting)
-        return {Tone::Warning, tr("connecting"), reason, {}};
     const bool wasThere = plant.store() != nullptr;
+    if (plant.connectionState() == PlantConnection::Connecting)
+        return {
+            wasThere ? Tone::Alarm : Tone::Warning, wasThere ? tr("lost; connecting") : tr("connecting"), reason, {}};
     const double pause = plant.nextAttempt();
     const QString what = wasThere ? tr("lost") : tr("not there");
     const QString next = pause >= 0.0 ? tr("%1; next attempt in %2 s").arg(what).arg(std::ceil(pause)) : what;
@@ -86,6 +97,10 @@ PlantSummary PlantSummary::of(const Plant &plant, const ViolationWatch &violatio
     if (!plant.isConnected())
         return withoutConnection(plant);
     PlantSummary summary = conditionOf(plant);
+    if (!plant.status().gone.isEmpty()) {
+        summary.tone = Tone::Warning;
+        summary.condition = tr("%1; %2 gone").arg(summary.condition, plant.status().gone.join(QStringLiteral(", ")));
+    }
     summary.figures = figuresOf(plant, violations);
     if (violations.recent() > 0)
         summary.violations = violations.text();
@@ -112,6 +127,8 @@ StateStep StateStep::of(const Plant *plant, bool isInitialized)
     if (!plant || !plant->isConnected())
         return {};
     const QString &state = plant->status().state;
+    if (plant->status().isRunning() && plant->quality() == Plant::Stale)
+        return {RealTime, Tone::Warning, tr("No cycles")};
     if (state == QLatin1String("RealTime"))
         return {RealTime, Tone::Good, {}};
     if (state == QLatin1String("WaitingForLateSlaves"))

@@ -161,6 +161,11 @@ QMenu *QPlcControlCenter::createPopupMenu()
 
 // ---- a wired node ----
 
+void QPlcControlCenter::setPlantName(const QString &name)
+{
+    d->wiredName = name;
+}
+
 void QPlcControlCenter::setSignalIndexTable(const QPlcSignalIndexTable & /*table*/)
 {
     if (Plant *plant = d->wiredPlant(); plant && plant->isConnected())

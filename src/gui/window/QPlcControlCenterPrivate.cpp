@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "QPlcControlCenterPrivate.h"
 
+#include "DesktopTheme.h"
 #include "DoubleEscape.h"
+#include "LongPress.h"
 #include "PanelKeysFirst.h"
 #include "QPlcSignalTree.h"
 #include "StandardWidgets.h"
@@ -16,20 +18,8 @@
 
 using namespace qplc;
 
-namespace {
-
-/// As the desktop gave it, before the first window of the program changed the palette.
-const qplc::Theme &themeOfTheDesktop()
-{
-    static const qplc::Theme theme = qplc::Theme::byName(qplc::Theme::System);
-    return theme;
-}
-
-}  // namespace
-
 QPlcControlCenter::Private::Private(QPlcControlCenter *window)
     : q(window)
-    , desktopTheme(themeOfTheDesktop())
     , factories(standardWidgets())
     , actions(new ControlCenterActions(window))
 {
@@ -96,12 +86,8 @@ void QPlcControlCenter::Private::makeBars()
     q->addToolBar(Qt::TopToolBarArea, topBar);
     topBar->selector()->setMenuActions({actions->connectTo, actions->disconnectFrom});
 
-    auto *bottomBar = new QToolBar(tr("Time"), q);
+    auto *bottomBar = new FlatToolBar(tr("Time"), &context, q);
     bottomBar->setObjectName(QStringLiteral("BottomBar"));
-    bottomBar->setMovable(false);
-    bottomBar->setFloatable(false);
-    bottomBar->toggleViewAction()->setEnabled(false);
-    bottomBar->setContextMenuPolicy(Qt::PreventContextMenu);
     timeBar = new TimeBar(&context);
     eventLine = new EventLine(&context);
     bottomBar->addWidget(timeBar);
@@ -141,6 +127,11 @@ void QPlcControlCenter::Private::connectParts()
     });
     connect(topBar, &TopBar::stopRequested, q, [this] { stop(); });
     new PanelKeysFirst(q);
+    LongPress::watch();
+    connect(DesktopTheme::instance(), &DesktopTheme::changed, q, [this] {
+        if (theme == SystemTheme)
+            applyTheme();
+    });
     connect(new DoubleEscape(q), &DoubleEscape::pressed, q, [this] { stop(); });
     connect(&wiring, &PanelWiring::outputsChanged, q,
             [this] { Q_EMIT q->outputSignalIndicesChanged(q->outputSignalIndices()); });
@@ -199,10 +190,12 @@ void QPlcControlCenter::Private::connectTo(const QString &address)
     if (q->isSignalConnected(QMetaMethod::fromSignal(&QPlcControlCenter::connectRequested))) {
         // The program connects a node of its own. Names are looked up in the background.
         auto *resolver = new AddressResolver(q);
-        connect(resolver, &AddressResolver::resolved, q, [this, resolver](const QPlcUnderlyingProtocol &master) {
-            resolver->deleteLater();
-            Q_EMIT q->connectRequested(master);
-        });
+        connect(resolver, &AddressResolver::resolved, q,
+                [this, resolver, address](const QPlcUnderlyingProtocol &master) {
+                    resolver->deleteLater();
+                    requestedAddress = address;
+                    Q_EMIT q->connectRequested(master);
+                });
         connect(resolver, &AddressResolver::failed, q, [this, resolver](const QString &reason) {
             resolver->deleteLater();
             connectStrip->open();
@@ -252,7 +245,8 @@ Plant *QPlcControlCenter::Private::takeWiredPlant()
 {
     if (Plant *plant = wiredPlant())
         return plant;
-    Plant *plant = context.plants()->addFed(tr("plant"));
+    const QString name = !wiredName.isEmpty() ? wiredName : requestedAddress.isEmpty() ? tr("plant") : requestedAddress;
+    Plant *plant = context.plants()->addFed(name);
     connect(plant->feed(), &PlantFeed::commanded, q, &QPlcControlCenter::sendMessage);
     return plant;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "AlarmSound.h"
 #include "CommandPalette.h"
 #include "ConnectStrip.h"
 #include "ControlCenterActions.h"
@@ -15,6 +16,8 @@
 #include "StartPage.h"
 #include "TimeBar.h"
 #include "TopBar.h"
+
+#include <QtWidgets/QApplication>
 
 class QStackedWidget;
 
@@ -68,8 +71,8 @@ struct QPlcControlCenter::Private
 
     QPlcControlCenter *q;
     Theme theme = SystemTheme;
-    qplc::Theme desktopTheme;  // before this program gave the desktop's palette another one
     qplc::WindowContext context;
+    qplc::AlarmSound alarmSound{context.events(), [] { QApplication::beep(); }};
     qplc::LayoutEditor editor;
     qplc::LayoutShelf shelf{&editor};
     qplc::PanelWiring wiring{&context};
@@ -78,6 +81,8 @@ struct QPlcControlCenter::Private
     QList<QPlcWidgetFactory *> factories;
     QList<QAction *> startActions;
     QString layoutFile;
+    QString wiredName;         // of the plant that the program wires, if the program says one
+    QString requestedAddress;  // what a person has entered for it
     bool isStartPageWanted = false;
     bool isToBeSaved = false;
     bool isDockWanted = true;

@@ -6,7 +6,7 @@
 namespace qplc {
 
 TopBar::TopBar(PlantSelection *selection, WindowContext *context, QWidget *parent)
-    : QToolBar(parent)
+    : FlatToolBar(tr("Plant"), context, parent)
     , m_selection(selection)
     , m_selector(new PlantSelector(selection, context))
     , m_stepper(new StateStepper(context))
@@ -15,11 +15,6 @@ TopBar::TopBar(PlantSelection *selection, WindowContext *context, QWidget *paren
     , m_stop(new BarButton(BarButton::Stop, context))
 {
     setObjectName(QStringLiteral("TopBar"));
-    setWindowTitle(tr("Plant"));
-    setMovable(false);
-    setFloatable(false);
-    toggleViewAction()->setEnabled(false);
-    setContextMenuPolicy(Qt::PreventContextMenu);
     m_stop->setText(tr("STOP"));
     m_stop->setToolTip(tr("Stops the plant at once (Esc Esc, or Ctrl+.)"));
 

@@ -3,15 +3,14 @@
 
 #include "BarButton.h"
 #include "ControlNotice.h"
+#include "FlatToolBar.h"
 #include "PlantSelector.h"
 #include "StateStepper.h"
-
-#include <QtWidgets/QToolBar>
 
 namespace qplc {
 
 /// What is always there, above everything: the selected plant, where its master is, the one next thing to do, who controls by hand, and STOP. It cannot be moved or hidden.
-class TopBar : public QToolBar
+class TopBar : public FlatToolBar
 {
     Q_OBJECT
 public:

@@ -16,6 +16,7 @@ private Q_SLOTS:
     void closeButtonClosesThePanel();
     void floatButtonMakesAWindowAndBringsItBack();
     void maximizeButtonShowsOnePanelAlone();
+    void aNarrowTitleKeepsTheButtonsThatMatter();
     void menuDoesWhatItSays_data();
     void menuDoesWhatItSays();
     void menuOffersOnlyWhatIsPossible();
@@ -114,6 +115,27 @@ void tst_LayoutView::maximizeButtonShowsOnePanelAlone()
     QCOMPARE(window.frame("panel3")->geometry(), before);
     QTest::mouseDClick(window.frame("panel3")->titleBar(), Qt::LeftButton, {}, {30, 10});
     QVERIFY(!window.frame("panel1")->isVisible());
+}
+
+void tst_LayoutView::aNarrowTitleKeepsTheButtonsThatMatter()
+{
+    ViewFixture window;
+    PanelTitleBar *bar = window.frame("panel1")->titleBar();
+    const auto shown = [bar] {
+        QStringList texts;
+        for (const QToolButton *button : bar->findChildren<QToolButton *>()) {
+            if (button->isVisible())
+                texts.append(button->defaultAction()->text());
+        }
+        return texts;
+    };
+    const QStringList all{QStringLiteral("Settings"), QStringLiteral("Float"), QStringLiteral("Maximize"),
+                          QStringLiteral("Close")};
+    QCOMPARE(shown(), all);
+    bar->resize(199, bar->height());
+    QCOMPARE(shown(), (QStringList{all.first(), all.last()}));
+    bar->resize(200, bar->height());
+    QCOMPARE(shown(), all);
 }
 
 void tst_LayoutView::menuDoesWhatItSays_data()

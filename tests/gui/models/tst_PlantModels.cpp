@@ -3,6 +3,7 @@
 #include "gui/models/EventLogModel.h"
 #include "gui/models/NodeTableModel.h"
 
+#include <QtCore/QJsonArray>
 #include <QtTest/QAbstractItemModelTester>
 
 using namespace qplc;
@@ -20,8 +21,7 @@ QStringList namesOf(const NodeTableModel &table)
 {
     QStringList names;
     for (int row = 0; row < table.rowCount(); ++row)
-        names << table.index(row, NodeTableModel::PlantColumn).data().toString() + QLatin1Char('/')
-                + table.index(row, NodeTableModel::Name).data().toString();
+        names << table.index(row, NodeTableModel::Name).data().toString();
     return names;
 }
 
@@ -33,6 +33,8 @@ class tst_PlantModels : public QObject
 
 private Q_SLOTS:
     void nodesComeAndGoInTheTable();
+    void whoeverIsMissedKeepsHisRow();
+    void aPhaseThatBeginsMissesNobody();
     void figuresOfNodesAreDurationsAndCounters();
     void eventsAreShownAndAcknowledged();
     void theLogIsBounded();
@@ -60,16 +62,64 @@ void tst_PlantModels::nodesComeAndGoInTheTable()
     QCOMPARE(table.index(3, NodeTableModel::Transport).data().toString(), QStringLiteral("udp"));
     QCOMPARE(table.index(3, NodeTableModel::Policy).data().toString(), QStringLiteral("ErrorZeroOrderHold"));
     QCOMPARE(table.index(2, NodeTableModel::State).data().toString(), QStringLiteral("listens"));
-    echo->disconnectFromMaster();
-    echo.reset();
-    QTRY_VERIFY(!namesOf(table).contains(QStringLiteral("north/Echo")));
-    first->close();
-    QTRY_COMPARE(namesOf(table).filter(QStringLiteral("north")), QStringList{QStringLiteral("north/Master")});
-    QVERIFY(table.index(0, NodeTableModel::State).data().toString().startsWith(QStringLiteral("Disconnected")));
-    QVERIFY(table.index(0, 0).data(Qt::ForegroundRole).isValid());
+    QCOMPARE(table.index(3, NodeTableModel::Late).data().toString(), QStringLiteral("0"));
     plants.remove(first);
-    QCOMPARE(namesOf(table).filter(QStringLiteral("north")), QStringList());
-    QCOMPARE(table.rowCount(), 3);
+    QCOMPARE(namesOf(table), (QStringList{"Master", "Counter", "Window"}));  // one plant needs no name
+}
+
+void tst_PlantModels::whoeverIsMissedKeepsHisRow()
+{
+    auto master = std::make_unique<RunningMaster>();
+    const QString address = master->address();
+    PlantList plants;
+    NodeTableModel table(&plants);
+    const QAbstractItemModelTester tester(&table, fatal);
+    Plant *plant = plants.add(address, QStringLiteral("kite"), QStringLiteral("Window"));
+    const auto cell = [&](int row, int column) { return table.index(row, column).data().toString(); };
+    EchoNode echo;
+    echo.setSignalTable(testTable());
+    QVERIFY(echo.connectToMasterAndWaitForConnected(master->protocol("udp")));
+    QTRY_COMPARE(namesOf(table).filter(QStringLiteral("Echo")).size(), 1);
+    echo.disconnectFromMaster();
+    const auto rowOfEcho = [&] { return namesOf(table).indexOf(QStringLiteral("Echo")); };
+    QTRY_COMPARE(cell(rowOfEcho(), NodeTableModel::State), QStringLiteral("gone"));
+    QCOMPARE(cell(rowOfEcho(), NodeTableModel::Health), QStringLiteral("Unavailable"));
+    QCOMPARE(cell(rowOfEcho(), NodeTableModel::Late), QString());
+    QVERIFY(table.index(rowOfEcho(), 0).data(Qt::ForegroundRole).isValid());
+    QVERIFY(echo.connectToMasterAndWaitForConnected(master->protocol("udp")));
+    QTRY_COMPARE(cell(rowOfEcho(), NodeTableModel::State), QStringLiteral("good"));
+
+    master.reset();
+    QTRY_COMPARE(cell(0, NodeTableModel::State), QStringLiteral("lost"));
+    QVERIFY(table.index(0, NodeTableModel::State).data(Qt::ToolTipRole).toString().startsWith(QStringLiteral("Disc")));
+    QCOMPARE(namesOf(table), (QStringList{"Master", "Counter", "Echo"}));  // the window itself is missed by nobody
+    for (int row = 0; row < 3; ++row)
+        QCOMPARE(cell(row, NodeTableModel::Health), QStringLiteral("Unavailable"));
+    QCOMPARE(cell(1, NodeTableModel::State), QStringLiteral("not known"));
+    plants.remove(plant);
+    QCOMPARE(table.rowCount(), 0);
+}
+
+void tst_PlantModels::aPhaseThatBeginsMissesNobody()
+{
+    const auto state = [](const char *name, const QStringList &nodes) {
+        QJsonArray rows;
+        for (const QString &node : nodes)
+            rows.append(QJsonObject{{QStringLiteral("name"), node},
+                                    {QStringLiteral("listener"), node.startsWith(QLatin1String("Window"))}});
+        return QJsonObject{{QStringLiteral("state"), QString::fromLatin1(name)}, {QStringLiteral("nodes"), rows}};
+    };
+    PlantStatus status;
+    status.takeState(state("RealTime", {"Model", "Autopilot", "Window1"}));
+    QCOMPARE(status.gone, QStringList());
+    status.takeState(state("RealTime", {"Autopilot"}));
+    QCOMPARE(status.gone, QStringList{"Model"});
+    status.takeState(state("Off", {}));
+    QCOMPARE(status.gone, (QStringList{"Model", "Autopilot"}));
+    status.takeState(state("Off", {"Model"}));
+    QCOMPARE(status.gone, QStringList{"Autopilot"});
+    status.takeState(state("RealTime", {"Model"}));
+    QCOMPARE(status.gone, QStringList());
 }
 
 void tst_PlantModels::figuresOfNodesAreDurationsAndCounters()

@@ -68,7 +68,7 @@ void tst_SignalModels::anEmptyTreeIsAModel()
     QVERIFY(tree.references({}).isEmpty());
     plants.add(QStringLiteral("127.0.0.1:%1").arg(freePort()), QStringLiteral("nobody"));
     QCOMPARE(linesOf(tree), QStringList{QStringLiteral("nobody")});
-    QTRY_VERIFY(tree.index(0, SignalTreeModel::Value).data().toString().startsWith(QStringLiteral("Disconnected")));
+    QTRY_COMPARE(tree.index(0, SignalTreeModel::Value).data().toString(), QStringLiteral("not there"));
 }
 
 void tst_SignalModels::theTreeShowsPlantsNodesSignalsAndElements()

@@ -70,6 +70,7 @@ private Q_SLOTS:
     void withoutControlNothingIsWritten();
     void whatIsHeldWhileControlIsTakenDoesNotAct();
     void whoLosesSomeSignalsLetsGoOfAll();
+    void afterAReconnectionControlMayBeTakenAgain();
     void anElementIsWrittenIntoItsArray();
     void aStreamEndsWithTheLastValueHoweverManyThereWere();
 };
@@ -248,6 +249,24 @@ void tst_ManualControl::whoLosesSomeSignalsLetsGoOfAll()
     QTRY_COMPARE(master.valueOf(echo.signal), 0.0);
     QVERIFY(pilot.window.isMine(echo.signal));  // still held, by nobody's finger
     QCOMPARE(control.control().state(), SignalControl::Other);
+}
+
+void tst_ManualControl::afterAReconnectionControlMayBeTakenAgain()
+{
+    FlyingMaster master;
+    TestWindow window(master.address());
+    QVERIFY(window.isReady());
+    SignalControl control;
+    control.setPlants(window.context.plants());
+    QString told;  // what a panel shows, which looks when it is told
+    connect(&control, &SignalControl::changed, &control, [&] { told = control.text(); });
+    control.setSignals({echo});
+    QCOMPARE(told, QStringLiteral("Echo writes this"));
+    window.plant->close();
+    QVERIFY(told.startsWith(QLatin1String("Disconnected")));
+    window.plant->open();
+    QTRY_COMPARE(told, QStringLiteral("Echo writes this"));
+    QVERIFY(control.mayTake());
 }
 
 void tst_ManualControl::anElementIsWrittenIntoItsArray()

@@ -109,6 +109,7 @@ private Q_SLOTS:
     void aWindowWithoutPlantsHasAnEmptyTable();
     void eventsAreFilteredAndAcknowledged();
     void theLogFollowsUnlessSomebodyReads();
+    void aNoteIsWrittenIntoTheLog();
     void anEventLeadsToItsTime();
 };
 
@@ -260,7 +261,7 @@ void tst_Tables::nodesHaveAStopLight()
     QTRY_COMPARE(bench.cells(NodeTableModel::Name), (QStringList{"Master", "Counter", "Window"}));
     QCOMPARE(bench.cells(NodeTableModel::Health), (QStringList{"OK", "OK", "OK"}));
     bench.plant->close();
-    QTRY_COMPARE(bench.cells(NodeTableModel::Health), QStringList{QStringLiteral("Unavailable")});
+    QTRY_COMPARE(bench.cells(NodeTableModel::Health), (QStringList{"Unavailable", "Unavailable"}));  // without itself
     QVERIFY(!bench.view->grab().isNull());
 }
 
@@ -269,6 +270,10 @@ void tst_Tables::columnsOfNodesGrowWithTheirTexts()
     Bench<QPlcNodeTable> bench;
     bench.panel.resize(632, 200);
     QTRY_COMPARE(bench.cells(NodeTableModel::Health), (QStringList{"OK", "OK", "OK"}));
+    const QFontMetrics metrics(bench.view->font());
+    QVERIFY(bench.view->columnWidth(NodeTableModel::Health) > metrics.horizontalAdvance(QStringLiteral("Unavailable")));
+    QVERIFY(bench.view->columnWidth(NodeTableModel::State)
+            > metrics.horizontalAdvance(QStringLiteral("good, was late")));
     for (const int column : {NodeTableModel::Name, NodeTableModel::RoundTripP99, NodeTableModel::Lost})
         QTRY_VERIFY(bench.view->columnWidth(column)
                     >= bench.view->header()->fontMetrics().horizontalAdvance(
@@ -290,7 +295,7 @@ void tst_Tables::aLongNameGetsItsSpace()
     const int before = bench.view->columnWidth(NodeTableModel::Name);
     const QString name = QStringLiteral("ControlCenterOfTheWinch-329");
     bench.context.plants()->add(bench.master.address(), QStringLiteral("again"), name);
-    QTRY_VERIFY(bench.cells(NodeTableModel::Name).contains(name));
+    QTRY_VERIFY(bench.cells(NodeTableModel::Name).contains(QStringLiteral("again/") + name));
     QTRY_VERIFY(bench.view->columnWidth(NodeTableModel::Name) > before);
 }
 
@@ -341,9 +346,9 @@ void tst_Tables::eventsAreFilteredAndAcknowledged()
     QTest::keyClick(severity, Qt::Key_Down);
     QCOMPARE(shown->rowCount(), 2);
     QCOMPARE(log.settings(), (QJsonObject{{"severity", "warning"}}));
-    QTest::keyClicks(log.findChild<QLineEdit *>(), QStringLiteral("los"));
+    QTest::keyClicks(log.findChild<QLineEdit *>(QStringLiteral("search")), QStringLiteral("los"));
     QCOMPARE(shown->rowCount(), 1);
-    log.findChild<QLineEdit *>()->clear();
+    log.findChild<QLineEdit *>(QStringLiteral("search"))->clear();
     QCOMPARE(shown->rowCount(), 2);
     QCOMPARE(log.settings(), (QJsonObject{{"severity", "warning"}}));
     auto *view = log.findChild<QTreeView *>();
@@ -384,6 +389,38 @@ void tst_Tables::theLogFollowsUnlessSomebodyReads()
     append();
     QTRY_VERIFY(bar->maximum() > 110);
     QTRY_COMPARE(bar->value(), bar->maximum());
+}
+
+void tst_Tables::aNoteIsWrittenIntoTheLog()
+{
+    WindowContext context;
+    QPlcEventLog log;
+    log.setContext(&context);
+    log.show();
+    log.activateWindow();
+    QVERIFY(QTest::qWaitForWindowActive(&log));
+    auto *view = log.findChild<QTreeView *>();
+    auto *note = log.findChild<QLineEdit *>(QStringLiteral("note"));
+    view->setFocus();
+    QVERIFY(note->isHidden());
+    QTest::keyClick(view, Qt::Key_N);
+    QVERIFY(note->hasFocus());
+    QTest::keyClicks(note, QStringLiteral("  gust at  the mast "));
+    QTest::keyClick(note, Qt::Key_Return);
+    QVERIFY(note->isHidden());
+    QVERIFY(view->hasFocus());
+    QCOMPARE(context.events()->rowCount(), 1);
+    QCOMPARE(context.events()->at(0).text, QStringLiteral("gust at the mast"));
+    QCOMPARE(context.events()->at(0).source, QStringLiteral("Note"));
+    QCOMPARE(context.events()->unacknowledged(), 0);  // it asks nobody
+    for (const Qt::Key key : {Qt::Key_Return, Qt::Key_Escape}) {
+        QTest::keyClick(view, Qt::Key_N);
+        QCOMPARE(note->text(), QString());
+        QTest::keyClicks(note, QStringLiteral(" "));
+        QTest::keyClick(note, key);
+        QVERIFY(note->isHidden());
+    }
+    QCOMPARE(context.events()->rowCount(), 1);
 }
 
 void tst_Tables::anEventLeadsToItsTime()

@@ -127,6 +127,7 @@ class tst_ThesisWiring : public QObject
 
 private Q_SLOTS:
     void theWiringOfTheThesisFlies();
+    void aWiredPlantHasTheNameThatItsProgramSays();
 };
 
 void tst_ThesisWiring::theWiringOfTheThesisFlies()
@@ -156,6 +157,7 @@ void tst_ThesisWiring::theWiringOfTheThesisFlies()
     QTest::keyClick(QApplication::focusWidget(), Qt::Key_Return);
     QTRY_COMPARE_WITH_TIMEOUT(program.controlCenter->plants().size(), 1, patience);
     const QString plant = program.controlCenter->plants().constFirst();
+    QCOMPARE(plant, QStringLiteral("127.0.0.1:%1").arg(master.serverPort()));  // as it was entered
     QVERIFY(program.controlCenter->isConnected(plant));
     QVERIFY(!program.controlCenter->isStartPageShown());
     QVERIFY(program.panel());
@@ -177,6 +179,19 @@ void tst_ThesisWiring::theWiringOfTheThesisFlies()
     QTest::keyClick(program.controlCenter, Qt::Key_D, Qt::ControlModifier);
     QTRY_VERIFY_WITH_TIMEOUT(!program.controlCenter->isConnected(plant), patience);
     master.removeLocalNode(&counter);
+}
+
+void tst_ThesisWiring::aWiredPlantHasTheNameThatItsProgramSays()
+{
+    QPlcSignalIndexTable::setCurrent(testTable());
+    QPlcControlCenter nameless;
+    nameless.connectedToMaster();
+    QCOMPARE(nameless.plants(), QStringList{QStringLiteral("plant")});
+    QPlcControlCenter window;
+    window.setPlantName(QStringLiteral("winch"));
+    window.connectedToMaster();
+    window.connectedToMaster();
+    QCOMPARE(window.plants(), QStringList{QStringLiteral("winch")});
 }
 
 int main(int argc, char **argv)

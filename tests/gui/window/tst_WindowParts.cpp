@@ -27,6 +27,7 @@ private Q_SLOTS:
     void droppedSignalsBecomeAPlotAtTheZone();
     void spansAreWrittenAsPeopleSayThem();
     void violationsAreNewForTenSeconds();
+    void theBarTellsOfLossOnTheLink();
     void theBarTellsHowAPlantIs();
 
 private:
@@ -209,6 +210,19 @@ void tst_WindowParts::violationsAreNewForTenSeconds()
     QCOMPARE(watch.text(), QStringLiteral("2 violations"));
     watch.take(2, 1'000'000);
     QCOMPARE(watch.total(), quint64(2));
+}
+
+void tst_WindowParts::theBarTellsOfLossOnTheLink()
+{
+    QCOMPARE(linkText(164e3, 0), QStringLiteral("link 164 µs"));
+    QCOMPARE(linkText(12.3e6, 7), QStringLiteral("link 12.3 ms, 7 lost"));
+    RunningMaster master;
+    PlantList plants;
+    Plant *plant = plants.add(master.address(), QStringLiteral("kite"), QStringLiteral("Window"));
+    QVERIFY(!plant->ownNode());
+    QTRY_VERIFY_WITH_TIMEOUT(plant->ownNode(), patience);
+    QVERIFY(plant->ownNode()->isListener);
+    QCOMPARE(plant->ownNode()->name, QStringLiteral("Window"));
 }
 
 void tst_WindowParts::theBarTellsHowAPlantIs()
