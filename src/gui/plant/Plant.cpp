@@ -381,7 +381,7 @@ void Plant::takeStatistics(const Message &answer)
         return;
     const PlantStatus before = m_status;
     m_status.takeStatistics(answer.fields());
-    if (m_status.overruns > before.overruns)
+    if (before.isCounted && m_status.overruns > before.overruns)
         tellOfMaster(PlantEvent::Warning,
                      QStringLiteral("%1 new overruns of the cycle, %2 since the start")
                          .arg(m_status.overruns - before.overruns)

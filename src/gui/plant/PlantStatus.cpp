@@ -117,7 +117,7 @@ void PlantStatus::takeStatistics(const QJsonObject &fields)
             continue;  // the next State tells of it
         const QJsonObject counters = object(of, "counters");
         const quint64 late = counter(counters, "late");
-        known->isLate = late > known->late;
+        known->isLate = isCounted && late > known->late;
         known->late = late;
         known->lost = counter(counters, "lost");
         known->duplicated = counter(counters, "duplicated");
@@ -125,6 +125,7 @@ void PlantStatus::takeStatistics(const QJsonObject &fields)
         known->execution = duration(of, "execution");
         known->roundTrip = duration(of, "roundTrip");
     }
+    isCounted = true;
 }
 
 void PlantStatus::takeSchedule(const QJsonObject &fields)

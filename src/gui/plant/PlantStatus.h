@@ -53,6 +53,7 @@ struct PlantStatus
     QString clock;
     double scale = 1.0;
     quint64 session = 0;
+    bool isCounted = false;  // the master has told its counters: what they show more from now on is new
     quint64 overruns = 0;
     DurationStatus lateness;
     DurationStatus execution;

@@ -41,7 +41,7 @@ void PlantSelector::watchViolations()
     const PlantList *plants = m_selection->plants();
     for (int place = 0; place < plants->size(); ++place) {
         const Plant *plant = plants->at(place);
-        if (plant->isConnected())
+        if (plant->isConnected() && plant->status().isCounted)
             m_watches[plant].take(ViolationWatch::totalOf(plant->status()), m_clock.elapsed());
         else
             m_watches.remove(plant);
