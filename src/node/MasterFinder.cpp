@@ -115,7 +115,7 @@ void MasterFinder::joinNetworks()
 void MasterFinder::readDatagrams()
 {
     if (m_socket->state() != QAbstractSocket::BoundState)
-        return;  // no multicast here
+        return;                           // no multicast here
     char bytes[Beacon::MaximumSize + 1];  // one that is longer is none of ours
     QHostAddress sender;
     for (int left = DatagramsAtOnce; left > 0 && m_socket->hasPendingDatagrams(); --left) {

@@ -21,7 +21,7 @@ ConnectStrip::ConnectStrip(WindowContext *context, QWidget *parent)
     , m_recent(new QWidget)
     , m_recentRow(new QHBoxLayout(m_recent))
     , m_close(new BarButton(BarButton::Quiet, context))
-    , m_found(new FoundMasters(QBoxLayout::LeftToRight, 2, context))
+    , m_found(new FoundMasters(QBoxLayout::LeftToRight, 3, context))
     , m_foundRow(makeFoundRow())
     , m_error(new QLabel)
 {
@@ -68,6 +68,7 @@ QWidget *ConnectStrip::makeFoundRow()
     row->addWidget(new QLabel(tr("Running masters:")));
     row->addWidget(m_found);
     row->addStretch(1);
+    line->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);  // names of others make no window wider
     line->hide();
     connect(m_found, &FoundMasters::masterChosen, this, &ConnectStrip::choose);
     return line;

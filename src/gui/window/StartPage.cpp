@@ -39,29 +39,45 @@ StartPage::StartPage(WindowContext *context, QWidget *parent)
                          : QApplication::applicationDisplayName());
     m_actions->setSpacing(10);
     m_recent->setSpacing(2);
-    auto *content = new QWidget;
-    content->setFixedWidth(columnWidth);
-    auto *column = new QVBoxLayout(content);
-    column->setContentsMargins(0, 0, 0, 0);
-    column->addWidget(m_title);
-    column->addWidget(m_sentence);
-    column->addSpacing(22);
-    column->addLayout(m_actions);
-    column->addSpacing(22);
-    column->addWidget(m_foundTitle);
-    column->addWidget(m_found);
-    column->addSpacing(14);
-    column->addWidget(m_recentTitle);
-    column->addLayout(m_recent);
+    // What is found and remembered has the room below for itself: as it grows, nothing above moves under the mouse.
     auto *page = new QVBoxLayout(this);
     page->addStretch(2);
-    page->addWidget(content, 0, Qt::AlignHCenter);
-    page->addStretch(3);
+    page->addWidget(makeHead(), 0, Qt::AlignHCenter);
+    page->addSpacing(22);
+    page->addWidget(makeMasters(), 3, Qt::AlignHCenter);
     m_recentTitle->hide();
     setFoundMasters({});
     connect(m_found, &FoundMasters::masterChosen, this, &StartPage::masterChosen);
     connect(context, &WindowContext::themeChanged, this, &StartPage::follow);
     follow();
+}
+
+QWidget *StartPage::makeHead()
+{
+    auto *head = new QWidget;
+    head->setFixedWidth(columnWidth);
+    auto *column = new QVBoxLayout(head);
+    column->setContentsMargins(0, 0, 0, 0);
+    column->addWidget(m_title);
+    column->addWidget(m_sentence);
+    column->addSpacing(22);
+    column->addLayout(m_actions);
+    return head;
+}
+
+QWidget *StartPage::makeMasters()
+{
+    auto *masters = new QWidget;
+    masters->setFixedWidth(columnWidth);
+    auto *column = new QVBoxLayout(masters);
+    column->setContentsMargins(0, 0, 0, 0);
+    column->addWidget(m_foundTitle);
+    column->addWidget(m_found);
+    column->addSpacing(14);
+    column->addWidget(m_recentTitle);
+    column->addLayout(m_recent);
+    column->addStretch(1);
+    return masters;
 }
 
 void StartPage::follow()

@@ -36,6 +36,8 @@ protected:
     void paintEvent(QPaintEvent *event) override;
 
 private:
+    QWidget *makeHead();
+    QWidget *makeMasters();
     void follow();
     QWidget *lastAction();
 
