@@ -413,6 +413,33 @@ def make_control():
     return {"good": good, "bad": [dict(name=n, hex=f.hex(), error=e) for n, f, e in bad]}
 
 
+def beacon(port, name, flags=0, table_hash=0, magic=b"QPLB", version=1, length=None):
+    text = name if isinstance(name, bytes) else name.encode()
+    body = struct.pack("<4sBBHQB", magic, version, flags, port, table_hash, len(text) if length is None else length) + text
+    return body + struct.pack("<I", crc32c(body))
+
+
+def make_beacons():
+    longest = "Höhenwindkraftanlage der Versuchsstation am Meer, Mast 3, unten"
+    good = [dict(name=n, port=p, secured=bool(f), tableHash=hex64(h), text=t, hex=beacon(p, t, f, h).hex()) for n, p, t, f, h in [
+        ("insecure", 50000, "awe_master", 0, 0x0123456789ABCDEF), ("secured", 50000, "kite", 1, 2**64 - 1),
+        ("the least", 1, "a", 0, 0), ("the most", 65535, longest, 1, 2**63)]]
+    assert len(longest.encode()) == 64
+    one = beacon(50000, "kite")
+    bad = [
+        ("nothing", b""), ("one byte", one[:1]), ("the last byte is missing", one[:-1]), ("one byte too many", one + b"\0"),
+        ("another magic", beacon(50000, "kite", magic=b"QPLC")), ("version 0", beacon(50000, "kite", version=0)),
+        ("version 2", beacon(50000, "kite", version=2)), ("an unknown flag", beacon(50000, "kite", flags=2)),
+        ("the highest flag", beacon(50000, "kite", flags=0x81)), ("port 0", beacon(0, "kite")), ("no name", beacon(50000, "")),
+        ("a name of 65 bytes", beacon(50000, "x" * 65)), ("a name of 255 bytes", beacon(50000, "x" * 255)),
+        ("a name that is longer than said", beacon(50000, "kite", length=3)), ("a name that is shorter than said", beacon(50000, "kite", length=5)),
+        ("a name in Latin-1", beacon(50000, b"H\xf6he")), ("a surrogate in the name", beacon(50000, b"\xed\xa0\x80")),
+        ("a wrong checksum", one[:-1] + bytes([one[-1] ^ 1])), ("a bit of the port", one[:6] + bytes([one[6] ^ 1]) + one[7:]),
+        ("200 zeros", bytes(200)),
+    ]
+    return {"good": good, "bad": [dict(name=n, hex=d.hex()) for n, d in bad]}
+
+
 def make_crc32c():
     rows = [("nothing", b""), ("the check value of all lists of CRCs", b"123456789"), ("one zero", b"\0"),
             ("RFC 3720: 32 zeros", bytes(32)), ("RFC 3720: 32 ones", b"\xff" * 32),
@@ -423,7 +450,7 @@ def make_crc32c():
 
 def main():
     files = {"crc32c.json": make_crc32c(), "layouts.json": make_layouts(), "cyclic_frames.json": make_cyclic(),
-             "control_frames.json": make_control()}
+             "control_frames.json": make_control(), "beacons.json": make_beacons()}
     if sys.argv[1:] not in (["--check"], ["--write"]):
         sys.exit(__doc__)
     different = []

@@ -121,6 +121,10 @@ public:
     /// A group (an IPv4 multicast address, say 239.255.76.68) for nodes that connect by QPlcUnderlyingProtocol::udpMulticast(); a null address: none.
     /// The datagrams do not leave the network of the address that the server listens on. Takes effect with startServer().
     void setMulticastGroup(const QHostAddress &group);
+    /// Lets people find this master on the network without knowing its address: sends a datagram every 2 s to the multicast group 239.255.81.80:50081 of the networks
+    /// of the address that the server listens on (of none beyond this machine for a loopback). It tells address, port, the local name or the name of the
+    /// program, and the hash of the signal table to everybody there. Off unless set. Takes effect with startServer().
+    void setBeacon(bool on);
     void stopServer();
     /// 0 when not listening.
     quint16 serverPort() const;

@@ -147,11 +147,17 @@ void QPlcMasterNode::setMulticastGroup(const QHostAddress &group)
     d->multicastGroup = group;
 }
 
+void QPlcMasterNode::setBeacon(bool on)
+{
+    d->hasBeacon = on;
+}
+
 void QPlcMasterNode::stopServer()
 {
     if (!d->server)
         return;
     stop();
+    d->beacon.end();
     d->server->close();
 }
 

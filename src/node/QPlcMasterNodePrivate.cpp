@@ -6,6 +6,7 @@
 #include "QPlcSignalIndexTable.h"
 #include "QPlcSlaveNodePrivate.h"
 
+#include <QtCore/QCoreApplication>
 #include <QtCore/QJsonArray>
 #include <QtCore/QMetaEnum>
 #include <QtCore/QRandomGenerator>
@@ -183,6 +184,10 @@ bool QPlcMasterNodePrivate::startServer(const QPlcUnderlyingProtocol &protocol)
     }
     if (!server->listen(address, protocol.port(), localName, multicastGroup))
         return setError(QPlcMasterNode::ServerError, server->errorString());
+    beacon.begin(
+        address,
+        {server->port(), false, table.hash(), localName.isEmpty() ? QCoreApplication::applicationName() : localName},
+        hasBeacon);
     qCInfo(lcMaster).noquote() << "listening on" << address.toString() << "port" << server->port();
     return true;
 }

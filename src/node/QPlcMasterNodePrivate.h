@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Journal.h"
+#include "MasterBeacon.h"
 #include "MasterCycle.h"
 #include "MasterLeases.h"
 #include "MasterServer.h"
@@ -59,6 +60,7 @@ public:
     QPlcRealTimeOptions realTimeOptions;
     quint64 cycleLimit = 0;
     bool insecureNetworkAllowed = false;
+    bool hasBeacon = false;
     QString localName;
     QHostAddress multicastGroup;
     QPlcSignalIndex timeSignal = QPlcInvalidSignalIndex;
@@ -76,6 +78,7 @@ public:
     qplc::CyclicHub hub;
     std::unique_ptr<qplc::MasterCycle> cycle;
     std::unique_ptr<qplc::MasterServer> server;
+    qplc::MasterBeacon beacon;
     qplc::StatisticSignals statisticSignals;
     std::unique_ptr<qplc::MasterSettings> settings;
     std::unique_ptr<qplc::MasterLeases> leases;

@@ -177,6 +177,18 @@ const QVector<Command> &commands()
          0,
          0,
          &showEvents},
+        {"find",
+         "",
+         "Finds masters, without knowing an address.",
+         "Those of this computer and user, and those of the network that send beacons\n"
+         "(--beacon). Anybody on a network can send one: compare address and table before\n"
+         "you command what was found. The exit code is 1 when nothing was found.",
+         {{"seconds", "SECONDS", "Looks for this time, 2.5 unless said."}},
+         {QStringLiteral("qtplc find"), QStringLiteral("qtplc find --seconds 6 --json | jq -r '.[].address'")},
+         Command::NoArguments,
+         0,
+         0,
+         &findMasters},
         {"doctor",
          "",
          "Examines this computer: is it fit for real time?",

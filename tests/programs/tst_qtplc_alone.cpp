@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Plant.h"
 
+#include <QtCore/QTemporaryDir>
 #include <QtTest/QtTest>
 
-/// What qtplc does by itself: help, completion, doctor.
+/// What qtplc does by itself: help, completion, doctor, find.
 class tst_qtplc_alone : public QObject
 {
     Q_OBJECT
@@ -20,6 +21,8 @@ private Q_SLOTS:
     void bashCompletes_data();
     void bashCompletes();
     void doctorExaminesThisComputer();
+    void findsMastersWithoutAnAddress();
+    void findingNoneIsSaid();
 
 private:
     static Outcome qtplc(const QStringList &arguments) { return runProgram(programPath("qtplc"), arguments); }
@@ -182,6 +185,51 @@ void tst_qtplc_alone::doctorExaminesThisComputer()
     QCOMPARE(document.value("ok").toBool(), isHealthy);
     QCOMPARE(outcome.exitCode, isHealthy ? 0 : 1);
     QCOMPARE(outcome.errors, QString());
+}
+
+// ---- find ----
+
+void tst_qtplc_alone::findsMastersWithoutAnAddress()
+{
+    const QTemporaryDir folder;
+    qputenv("XDG_RUNTIME_DIR", folder.path().toLocal8Bit());
+    Plant here;
+    QVERIFY(here.start());
+    const QString address = "127.0.0.1:" + here.port;
+    const Outcome text = qtplc({"find", "--seconds", "0.5"});
+    QCOMPARE(text.exitCode, 0);
+    QVERIFY2(text.output.contains(address + "  awe_master  this computer  insecure"), qPrintable(text.output));
+    const QJsonArray found = jsonOf(qtplc({"find", "--seconds=0.5", "--json"}).output).array();
+    QCOMPARE(found.size(), 1);
+    QCOMPARE(found.at(0)["address"].toString(), address);
+    QCOMPARE(found.at(0)["local"].toBool(), true);
+    QCOMPARE(found.at(0)["secured"].toBool(), false);
+
+    // One that is not seen as one of this computer, but sends beacons.
+    Program far(programPath("awe_master"), {"--port=0", "--beacon"});
+    QVERIFY(far.waitForOutput("\n"));
+    const QString port = far.output().section('\n', 0, 0).section(' ', 1);
+    const QTemporaryDir other;
+    qputenv("XDG_RUNTIME_DIR", other.path().toLocal8Bit());
+    const Outcome heard = qtplc({"find", "--seconds=3"});
+    qunsetenv("XDG_RUNTIME_DIR");
+    QVERIFY2(heard.output.contains("127.0.0.1:" + port + "  awe_master  network  insecure"), qPrintable(heard.output));
+    QVERIFY(!heard.output.contains(address));
+}
+
+void tst_qtplc_alone::findingNoneIsSaid()
+{
+    const QTemporaryDir folder;
+    qputenv("XDG_RUNTIME_DIR", folder.path().toLocal8Bit());
+    const Outcome none = qtplc({"find", "--seconds=0.3"});
+    const Outcome json = qtplc({"find", "--seconds=0.3", "--json"});
+    qunsetenv("XDG_RUNTIME_DIR");
+    QCOMPARE(none.exitCode, 1);
+    QCOMPARE(none.output, QString());
+    QVERIFY2(none.errors.contains("found no master in 0.3 s; start one"), qPrintable(none.errors));
+    QCOMPARE(json.output, QString("[]\n"));
+    QCOMPARE(qtplc({"find", "--seconds=0"}).exitCode, 2);
+    QCOMPARE(qtplc({"find", "kite"}).exitCode, 2);
 }
 
 QTEST_GUILESS_MAIN(tst_qtplc_alone)

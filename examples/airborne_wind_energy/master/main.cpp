@@ -36,6 +36,9 @@ void addMasterOptions(QPlcCoreApplication &application)
         QStringLiteral("insecure-network"),
         QStringLiteral("Lets --listen open the plant to the network, where everybody can command it.")));
     application.addOption(QCommandLineOption(
+        QStringLiteral("beacon"),
+        QStringLiteral("Tells the network of --listen every 2 s where this master is, for qtplc find and windows.")));
+    application.addOption(QCommandLineOption(
         QStringLiteral("start-with"),
         QStringLiteral(
             "Starts as soon as these nodes are there, and ends with the flight. Without it: by qtplc start, stop."),
@@ -115,6 +118,7 @@ int main(int argc, char **argv)
     master.setRealTimeOptions(settings.realTime);
     master.setInsecureNetworkAllowed(application.isSet(QStringLiteral("insecure-network")));
     master.setMulticastGroup(settings.multicastGroup);
+    master.setBeacon(application.isSet(QStringLiteral("beacon")));
     awe::FlightRun run(master, settings.run);
     if (!run.isValid() || !master.startServer(QPlcUnderlyingProtocol::tcp(settings.address, settings.port)))
         return QPlcCoreApplication::UsageError;

@@ -2,10 +2,12 @@
 #include "ConnectStrip.h"
 
 #include "BarButton.h"
+#include "FoundMasters.h"
 #include "gui/plant/AddressResolver.h"
 
 #include <QtGui/QKeyEvent>
 #include <QtGui/QPainter>
+#include <QtWidgets/QApplication>
 #include <QtWidgets/QHBoxLayout>
 #include <QtWidgets/QLabel>
 #include <QtWidgets/QLineEdit>
@@ -18,6 +20,9 @@ ConnectStrip::ConnectStrip(WindowContext *context, QWidget *parent)
     , m_address(new QLineEdit)
     , m_recent(new QWidget)
     , m_recentRow(new QHBoxLayout(m_recent))
+    , m_close(new BarButton(BarButton::Quiet, context))
+    , m_found(new FoundMasters(QBoxLayout::LeftToRight, 3, context))
+    , m_foundRow(makeFoundRow())
     , m_error(new QLabel)
 {
     setObjectName(QStringLiteral("ConnectStrip"));
@@ -31,8 +36,7 @@ ConnectStrip::ConnectStrip(WindowContext *context, QWidget *parent)
     auto *connectButton = new BarButton(BarButton::Quiet, context);
     connectButton->setText(tr("Connect"));
     connectButton->setDetail(tr("Enter"));
-    auto *close = new BarButton(BarButton::Quiet, context);
-    close->setText(tr("Close"));
+    m_close->setText(tr("Close"));
     auto *row = new QHBoxLayout;
     row->setSpacing(10);
     row->addWidget(label);
@@ -40,18 +44,49 @@ ConnectStrip::ConnectStrip(WindowContext *context, QWidget *parent)
     row->addWidget(connectButton);
     row->addWidget(m_recent);
     row->addStretch(1);
-    row->addWidget(close);
+    row->addWidget(m_close);
     auto *column = new QVBoxLayout(this);
     column->setContentsMargins(14, 8, 6, 8);
     column->setSpacing(2);
     column->addLayout(row);
+    column->addWidget(m_foundRow);
     column->addWidget(m_error);
     m_error->hide();
     connect(m_address, &QLineEdit::returnPressed, this, &ConnectStrip::accept);
     connect(m_address, &QLineEdit::textEdited, m_error, &QWidget::hide);
     connect(connectButton, &QAbstractButton::clicked, this, &ConnectStrip::accept);
-    connect(close, &QAbstractButton::clicked, this, &QWidget::hide);
+    connect(m_close, &QAbstractButton::clicked, this, &QWidget::hide);
     hide();
+}
+
+QWidget *ConnectStrip::makeFoundRow()
+{
+    auto *line = new QWidget;
+    auto *row = new QHBoxLayout(line);
+    row->setContentsMargins(0, 0, 0, 0);
+    row->setSpacing(10);
+    row->addWidget(new QLabel(tr("Running masters:")));
+    row->addWidget(m_found);
+    row->addStretch(1);
+    line->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);  // names of others make no window wider
+    line->hide();
+    connect(m_found, &FoundMasters::masterChosen, this, &ConnectStrip::choose);
+    return line;
+}
+
+void ConnectStrip::setFoundMasters(const QVector<FoundMaster> &masters)
+{
+    const bool hadFocus = m_found->isAncestorOf(QApplication::focusWidget());
+    m_found->setMasters(masters, m_close);
+    if (hadFocus && !m_found->isAncestorOf(QApplication::focusWidget()))
+        m_address->setFocus(Qt::OtherFocusReason);  // the keys were on one that is gone
+    m_foundRow->setVisible(!masters.isEmpty());
+}
+
+void ConnectStrip::choose(const QString &address)
+{
+    m_address->setText(address);
+    accept();
 }
 
 void ConnectStrip::setRecentMasters(const QStringList &addresses)
@@ -67,10 +102,7 @@ void ConnectStrip::setRecentMasters(const QStringList &addresses)
     for (const QString &address : addresses.mid(0, most)) {
         auto *button = new BarButton(BarButton::Link, m_context);
         button->setText(address);
-        connect(button, &QAbstractButton::clicked, this, [this, address] {
-            m_address->setText(address);
-            accept();
-        });
+        connect(button, &QAbstractButton::clicked, this, [this, address] { choose(address); });
         m_recentRow->addWidget(button);
     }
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "gui/panel/WindowContext.h"
+#include "node/MasterFinder.h"
 
 #include <QtWidgets/QWidget>
 
@@ -10,6 +11,9 @@ class QLabel;
 class QLineEdit;
 
 namespace qplc {
+
+class BarButton;
+class FoundMasters;
 
 /// Asks for the address of a master, over the panels and without stopping anything. Escape closes it.
 class ConnectStrip : public QWidget
@@ -20,6 +24,7 @@ public:
     explicit ConnectStrip(WindowContext *context, QWidget *parent = nullptr);
 
     void setRecentMasters(const QStringList &addresses);
+    void setFoundMasters(const QVector<FoundMaster> &masters);
     /// Shows the strip, with the keys in its field.
     void open();
     void showError(const QString &sentence);
@@ -37,12 +42,17 @@ protected:
     void paintEvent(QPaintEvent *event) override;
 
 private:
+    QWidget *makeFoundRow();
+    void choose(const QString &address);
     void accept();
 
     WindowContext *m_context;
     QLineEdit *m_address;
     QWidget *m_recent;
     QHBoxLayout *m_recentRow;
+    BarButton *m_close;
+    FoundMasters *m_found;
+    QWidget *m_foundRow;
     QLabel *m_error;
 };
 

@@ -63,6 +63,11 @@ void QPlcControlCenter::Private::makeCentre()
     panelsColumn->addWidget(view);
     placer = new SignalPlacer(view);
     placer->setParent(q);
+    search = new MasterSearch(q);
+    search->watch(startPage);
+    search->watch(connectStrip);
+    connect(search, &MasterSearch::found, startPage, &StartPage::setFoundMasters);
+    connect(search, &MasterSearch::found, connectStrip, &ConnectStrip::setFoundMasters);
     pages->addWidget(startPage);
     pages->addWidget(panels);
     column->addWidget(connectStrip);
@@ -204,7 +209,23 @@ void QPlcControlCenter::Private::connectTo(const QString &address)
         resolver->resolve(address);
         return;
     }
-    selection.select(context.plants()->find(q->connectToMaster(address)));
+    Plant *plant = plantAt(address);
+    if (!plant)
+        plant = context.plants()->find(q->connectToMaster(address));
+    isStartPageWanted = false;
+    followPlants();
+    selection.select(plant);
+}
+
+/// The plant that is connected to \a address already, as after a click on a master that was found.
+Plant *QPlcControlCenter::Private::plantAt(const QString &address)
+{
+    for (int place = 0; place < context.plants()->size(); ++place) {
+        Plant *plant = context.plants()->at(place);
+        if (!plant->feed() && plant->address() == address)
+            return plant;
+    }
+    return nullptr;
 }
 
 void QPlcControlCenter::Private::disconnectFrom()

@@ -8,6 +8,7 @@
 #include "EventLine.h"
 #include "HintLine.h"
 #include "LayoutShelf.h"
+#include "MasterSearch.h"
 #include "PanelWiring.h"
 #include "QPlcControlCenter.h"
 #include "RecentMasters.h"
@@ -43,6 +44,7 @@ struct QPlcControlCenter::Private
     void followPlants();
     void followSelection();
     void connectTo(const QString &address);
+    qplc::Plant *plantAt(const QString &address);
     void disconnectFrom();
     void perform(qplc::Plant::Action action);
     void stop();
@@ -78,6 +80,7 @@ struct QPlcControlCenter::Private
     qplc::PanelWiring wiring{&context};
     qplc::PlantSelection selection{context.plants()};
     qplc::RecentMasters recent;
+    qplc::MasterSearch *search = nullptr;
     QList<QPlcWidgetFactory *> factories;
     QList<QAction *> startActions;
     QString layoutFile;

@@ -2,6 +2,7 @@
 #include "StartPage.h"
 
 #include "BarButton.h"
+#include "FoundMasters.h"
 #include "StartButton.h"
 
 #include <QtGui/QPainter>
@@ -17,6 +18,7 @@ namespace qplc {
 namespace {
 
 constexpr int columnWidth = 520;  // [px]
+constexpr int mostFound = 5;      // qtplc find shows more
 
 }  // namespace
 
@@ -25,8 +27,10 @@ StartPage::StartPage(WindowContext *context, QWidget *parent)
     , m_context(context)
     , m_title(new QLabel)
     , m_sentence(new QLabel(tr("See, steer and understand a running plant.")))
+    , m_foundTitle(new QLabel)
     , m_recentTitle(new QLabel(tr("Recent plants")))
     , m_actions(new QVBoxLayout)
+    , m_found(new FoundMasters(QBoxLayout::TopToBottom, mostFound, context))
     , m_recent(new QVBoxLayout)
 {
     setObjectName(QStringLiteral("StartPage"));
@@ -35,24 +39,45 @@ StartPage::StartPage(WindowContext *context, QWidget *parent)
                          : QApplication::applicationDisplayName());
     m_actions->setSpacing(10);
     m_recent->setSpacing(2);
-    auto *content = new QWidget;
-    content->setFixedWidth(columnWidth);
-    auto *column = new QVBoxLayout(content);
+    // What is found and remembered has the room below for itself: as it grows, nothing above moves under the mouse.
+    auto *page = new QVBoxLayout(this);
+    page->addStretch(2);
+    page->addWidget(makeHead(), 0, Qt::AlignHCenter);
+    page->addSpacing(22);
+    page->addWidget(makeMasters(), 3, Qt::AlignHCenter);
+    m_recentTitle->hide();
+    setFoundMasters({});
+    connect(m_found, &FoundMasters::masterChosen, this, &StartPage::masterChosen);
+    connect(context, &WindowContext::themeChanged, this, &StartPage::follow);
+    follow();
+}
+
+QWidget *StartPage::makeHead()
+{
+    auto *head = new QWidget;
+    head->setFixedWidth(columnWidth);
+    auto *column = new QVBoxLayout(head);
     column->setContentsMargins(0, 0, 0, 0);
     column->addWidget(m_title);
     column->addWidget(m_sentence);
     column->addSpacing(22);
     column->addLayout(m_actions);
-    column->addSpacing(22);
+    return head;
+}
+
+QWidget *StartPage::makeMasters()
+{
+    auto *masters = new QWidget;
+    masters->setFixedWidth(columnWidth);
+    auto *column = new QVBoxLayout(masters);
+    column->setContentsMargins(0, 0, 0, 0);
+    column->addWidget(m_foundTitle);
+    column->addWidget(m_found);
+    column->addSpacing(14);
     column->addWidget(m_recentTitle);
     column->addLayout(m_recent);
-    auto *page = new QVBoxLayout(this);
-    page->addStretch(2);
-    page->addWidget(content, 0, Qt::AlignHCenter);
-    page->addStretch(3);
-    m_recentTitle->hide();
-    connect(context, &WindowContext::themeChanged, this, &StartPage::follow);
-    follow();
+    column->addStretch(1);
+    return masters;
 }
 
 void StartPage::follow()
@@ -63,6 +88,7 @@ void StartPage::follow()
     QPalette muted = palette();
     muted.setColor(QPalette::WindowText, m_context->theme().mutedText);
     m_sentence->setPalette(muted);
+    m_foundTitle->setPalette(muted);
     m_recentTitle->setPalette(muted);
     update();
 }
@@ -80,6 +106,12 @@ void StartPage::addAction(QAction *action)
     }
 }
 
+/// The last big button; this page when there is none yet.
+QWidget *StartPage::lastAction()
+{
+    return m_actions->count() == 0 ? this : m_actions->itemAt(m_actions->count() - 1)->widget();
+}
+
 void StartPage::setRecentMasters(const QStringList &addresses)
 {
     while (QLayoutItem *item = m_recent->takeAt(0)) {
@@ -94,6 +126,16 @@ void StartPage::setRecentMasters(const QStringList &addresses)
         connect(button, &QAbstractButton::clicked, this, [this, address] { Q_EMIT masterChosen(address); });
         m_recent->addWidget(button, 0, Qt::AlignLeft);
     }
+}
+
+void StartPage::setFoundMasters(const QVector<FoundMaster> &masters)
+{
+    const bool hadFocus = m_found->isAncestorOf(QApplication::focusWidget());
+    m_found->setMasters(masters, lastAction());
+    if (hadFocus && !m_found->isAncestorOf(QApplication::focusWidget()))
+        setFocus(Qt::OtherFocusReason);  // the keys were on one that is gone
+    m_found->setVisible(!masters.isEmpty());
+    m_foundTitle->setText(masters.isEmpty() ? tr("No running master has been found yet.") : tr("Running masters"));
 }
 
 QList<QWidget *> StartPage::buttons() const

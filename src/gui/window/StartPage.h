@@ -2,6 +2,7 @@
 #pragma once
 
 #include "gui/panel/WindowContext.h"
+#include "node/MasterFinder.h"
 
 #include <QtWidgets/QWidget>
 
@@ -11,7 +12,9 @@ class QVBoxLayout;
 
 namespace qplc {
 
-/// What a window without a plant shows: a few big things to begin with, and where one was before.
+class FoundMasters;
+
+/// What a window without a plant shows: a few big things to begin with, which masters there are, and where one was before.
 class StartPage : public QWidget
 {
     Q_OBJECT
@@ -23,6 +26,7 @@ public:
     void addAction(QAction *action);
     /// Addresses, newest first.
     void setRecentMasters(const QStringList &addresses);
+    void setFoundMasters(const QVector<FoundMaster> &masters);
     QList<QWidget *> buttons() const;
 
 Q_SIGNALS:
@@ -32,13 +36,18 @@ protected:
     void paintEvent(QPaintEvent *event) override;
 
 private:
+    QWidget *makeHead();
+    QWidget *makeMasters();
     void follow();
+    QWidget *lastAction();
 
     WindowContext *m_context;
     QLabel *m_title;
     QLabel *m_sentence;
+    QLabel *m_foundTitle;
     QLabel *m_recentTitle;
     QVBoxLayout *m_actions;
+    FoundMasters *m_found;
     QVBoxLayout *m_recent;
 };
 

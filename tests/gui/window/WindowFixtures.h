@@ -37,6 +37,7 @@ struct WindowFixture
 {
     WindowFixture()
     {
+        part<qplc::MasterSearch>()->setSilent(true);  // masters of other tests are none of ours
         window.resize(1366, 768);
         window.show();
         window.activateWindow();

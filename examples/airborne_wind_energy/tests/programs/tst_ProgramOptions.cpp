@@ -52,7 +52,7 @@ void tst_ProgramOptions::helpNamesEveryOption_data()
     row("awe_autopilot", QByteArray(node) + autopilot);
     row("awe_master",
         QByteArray(
-            "--listen --port --multicast --insecure-network --start-with --mean-wind --priority --cpu --lock-memory")
+            "--listen --port --multicast --insecure-network --beacon --start-with --mean-wind --priority --cpu --lock-memory")
             + run);
     row("awe_sil", QByteArray("--processes --transport --same-cycle") + run + model + autopilot);
 }

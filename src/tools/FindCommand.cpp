@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Commands.h"
+#include "TerminalText.h"
+#include "node/MasterFinder.h"
+
+#include <QtCore/QJsonArray>
+#include <QtCore/QTimer>
+
+#include <cmath>
+
+namespace tools {
+
+namespace {
+
+using qplc::FoundMaster;
+
+QString place(const FoundMaster &master)
+{
+    return master.isLocal ? QStringLiteral("this computer") : QStringLiteral("network");
+}
+
+void print(const QVector<FoundMaster> &masters)
+{
+    TextTable table;
+    for (const char *title : {"address", "name", "where", "security", "table"})
+        table.addColumn(QString::fromLatin1(title));
+    for (const FoundMaster &master : masters)
+        table.addRow({master.address, printable(master.name), place(master),
+                      master.isSecured ? QStringLiteral("secured") : QStringLiteral("insecure"),
+                      QPlcMessage::fromHex64(master.tableHash)});
+    table.print();
+}
+
+void printJson(const QVector<FoundMaster> &masters)
+{
+    QJsonArray array;
+    for (const FoundMaster &master : masters)
+        array.append(QJsonObject{{QStringLiteral("address"), master.address},
+                                 {QStringLiteral("name"), master.name},
+                                 {QStringLiteral("local"), master.isLocal},
+                                 {QStringLiteral("secured"), master.isSecured},
+                                 {QStringLiteral("tableHash"), QPlcMessage::fromHex64(master.tableHash)}});
+    tools::printJson(QJsonDocument(array));
+}
+
+}  // namespace
+
+int findMasters(const CommandCall &call)
+{
+    double seconds = 2.5;  // a beacon comes every 2 s
+    if (!call.readNumber("seconds", 0.1, 3600.0, &seconds))
+        return call.exitCode();
+    const auto endIsWanted = call.quitOnSignals();
+    qplc::MasterFinder finder;
+    finder.start();
+    QTimer::singleShot(std::chrono::milliseconds(std::llround(seconds * 1e3)), Qt::PreciseTimer, &finder,
+                       [] { QCoreApplication::quit(); });
+    if (!*endIsWanted)
+        QCoreApplication::exec();
+    finder.look();
+    const QVector<FoundMaster> masters = finder.masters();
+    if (call.isJson())
+        printJson(masters);
+    else if (!masters.isEmpty())
+        print(masters);
+    if (!masters.isEmpty())
+        return QPlcCoreApplication::Success;
+    QPlcCoreApplication::printError(QStringLiteral("found no master in %1 s; start one, or give one on the network the "
+                                                   "option --beacon")
+                                        .arg(seconds));
+    return QPlcCoreApplication::Failure;
+}
+
+}  // namespace tools
