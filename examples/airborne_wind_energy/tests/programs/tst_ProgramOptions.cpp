@@ -51,8 +51,8 @@ void tst_ProgramOptions::helpNamesEveryOption_data()
     row("awe_compact_model", QByteArray(node) + model);
     row("awe_autopilot", QByteArray(node) + autopilot);
     row("awe_master",
-        QByteArray(
-            "--listen --port --multicast --insecure-network --beacon --start-with --mean-wind --priority --cpu --lock-memory")
+        QByteArray("--listen --port --multicast --insecure-network --beacon --start-with --mean-wind --priority --cpu "
+                   "--lock-memory")
             + run);
     row("awe_sil", QByteArray("--processes --transport --same-cycle") + run + model + autopilot);
 }
