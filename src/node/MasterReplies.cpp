@@ -17,6 +17,7 @@ QJsonObject nodeFields(const QPlcNodeInfo &node)
             {QStringLiteral("inputs"), node.inputs},
             {QStringLiteral("outputs"), node.outputs},
             {QStringLiteral("listener"), node.listener},
+            {QStringLiteral("every"), node.every},
             {QStringLiteral("policy"), node.policy},
             {QStringLiteral("transport"), node.transport},
             {QStringLiteral("address"), node.address},

@@ -334,6 +334,11 @@ Refusal MasterServer::channelRefusal(const MasterConnection &connection, const N
         return {QStringLiteral("WrongState"),
                 QStringLiteral("node '%1' has same-cycle inputs or two phases: it is asked alone; use udp")
                     .arg(declaration.name)};
+    if (isMulticast && !declaration.interval.isEveryCycle())
+        return {QStringLiteral("WrongState"),
+                QStringLiteral("node '%1' wants one of %2 cycles: it is asked alone; use udp")
+                    .arg(declaration.name)
+                    .arg(declaration.interval.cycles())};
     return {};
 }
 

@@ -64,8 +64,11 @@ void NodeExchange::run(const Roster &roster, const Cycle &cycle) noexcept
 void NodeExchange::cutInputs() noexcept
 {
     for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
-        copyRuns(slot->inputRuns, m_image.data(), slot->inputs);
         slot->asked = slot->awaited = slot->answered = slot->late = false;
+        slot->due = slot->takesTurn(m_cycle.number);
+        if (!slot->due)
+            continue;
+        copyRuns(slot->inputRuns, m_image.data(), slot->inputs);
         slot->request.cycle = std::uint32_t(m_cycleZero + m_cycle.number);
         slot->request.info
             = std::uint32_t(std::min<std::int64_t>(m_cycle.lateness, std::numeric_limits<std::uint32_t>::max()));
@@ -86,6 +89,11 @@ void NodeExchange::askNodes(const Stage &stage) noexcept
 {
     for (const Roster::Turn &turn : stage) {
         NodeSlot &slot = *turn.slot;
+        if (!slot.due) {
+            if (slot.peer && !slot.isRequestSent())
+                sendParts(slot);
+            continue;
+        }
         copyRuns(slot.sameCycleRuns, m_image.data(), slot.inputs);
         if (!slot.peer)
             continue;
@@ -172,10 +180,9 @@ void NodeExchange::stepLocalNodes(const Stage &stage) noexcept
 {
     for (const Roster::Turn &turn : stage) {
         NodeSlot &slot = *turn.slot;
-        if (!slot.local)
+        if (!slot.local || !slot.due)
             continue;
-        const QPlcCycle &last = slot.local->cycle();
-        const quint64 missed = m_cycle.number > last.number() + 1 ? m_cycle.number - last.number() - 1 : 0;
+        const quint64 missed = slot.interval.missed(slot.local->cycle().number(), m_cycle.number);
         slot.computed = slot.local->step(QPlcCycle(m_cycle.number, m_period, missed), slot.inputs);
         slot.answered = true;
         if (!slot.computed && !slot.faulted)
@@ -344,7 +351,7 @@ void NodeExchange::pasteLocalNodes(const Stage &stage) noexcept
 {
     for (const Roster::Turn &turn : stage) {
         NodeSlot &slot = *turn.slot;
-        if (!slot.local || !slot.computed || !isFinite(slot, slot.local->outputs()))
+        if (!slot.local || !slot.due || !slot.computed || !isFinite(slot, slot.local->outputs()))
             continue;
         if (slot.twoPhase)
             slot.pending = true;

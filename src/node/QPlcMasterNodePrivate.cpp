@@ -387,6 +387,7 @@ QPlcNodeInfo QPlcMasterNodePrivate::info(const NodeSlot &slot) const
     node.policy
         = QString::fromLatin1(QMetaEnum::fromType<QPlcSlaveNode::RealTimeViolationPolicy>().valueToKey(slot.policy));
     node.listener = slot.listener;
+    node.every = slot.interval.cycles();
     node.inputs = int(slot.inputLayout.fields().size());
     node.outputs = int(slot.outputLayout.fields().size());
     node.lateAnswers = slot.statistics.late;

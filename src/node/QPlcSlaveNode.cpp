@@ -56,6 +56,19 @@ bool QPlcSlaveNode::isListener() const
     return d->listener;
 }
 
+void QPlcSlaveNode::setListeningInterval(int cycles)
+{
+    Q_ASSERT_X(d->state == Disconnected, "QPlcSlaveNode::setListeningInterval", "a registered node stays what it is");
+    Q_ASSERT_X(cycles >= 1 && cycles <= qplc::ListeningInterval::Longest, "QPlcSlaveNode::setListeningInterval",
+               "a listener hears one of 1 ... 1 000 000 cycles");
+    d->interval = qplc::ListeningInterval(cycles);
+}
+
+int QPlcSlaveNode::listeningInterval() const
+{
+    return d->interval.cycles();
+}
+
 void QPlcSlaveNode::setSameCycle(bool sameCycle)
 {
     Q_ASSERT_X(d->state == Disconnected, "QPlcSlaveNode::setSameCycle", "a registered node stays what it is");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "ListeningInterval.h"
 #include "NodeRuntime.h"
 #include "QPlcMasterNode.h"
 #include "QPlcMasterSocket.h"
@@ -32,6 +33,7 @@ public:
     QString name;
     QPlcSlaveNode::RealTimeViolationPolicy policy;
     bool listener = false;
+    qplc::ListeningInterval interval;
     bool sameCycle = false;  // all inputs
     bool twoPhase = false;
     QPlcSignalTable ownTable;

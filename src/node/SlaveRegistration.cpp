@@ -127,6 +127,8 @@ void QPlcSlaveNodePrivate::registerAtMaster()
         {QStringLiteral("inputs"), describe(runtime.table(), runtime.inputLayout(), runtime.sameCycle())},
         {QStringLiteral("outputs"), describe(runtime.table(), runtime.outputLayout())},
         {QStringLiteral("cyclic"), master.kindName()}};
+    if (!interval.isEveryCycle())
+        fields.insert(QStringLiteral("every"), interval.cycles());
     if (twoPhase)
         fields.insert(QStringLiteral("twoPhase"), true);
     if (master.kind() == QPlcUnderlyingProtocol::Udp || master.kind() == QPlcUnderlyingProtocol::UdpMulticast) {
