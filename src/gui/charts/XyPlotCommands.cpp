@@ -71,7 +71,8 @@ void QPlcXyPlot::Private::connectInteraction()
     connect(interaction, &XyInteraction::pressed, q, [this] { q->setFocus(Qt::MouseFocusReason); });
     connect(interaction, &XyInteraction::mouseMoved, q, [this] { showMoment(); });
     connect(interaction, &XyInteraction::allWanted, q, [this] { canvas->release(); });
-    connect(interaction, &XyInteraction::menuWanted, q, [this](const QPoint &global) { createMenu()->popup(global); });
+    connect(interaction, &XyInteraction::menuWanted, q,
+            [this](const QPoint &, const QPoint &global) { createMenu()->popup(global); });
 }
 
 QMenu *QPlcXyPlot::Private::createMenu()
