@@ -130,10 +130,7 @@ void StartPage::setRecentMasters(const QStringList &addresses)
 
 void StartPage::setFoundMasters(const QVector<FoundMaster> &masters)
 {
-    const bool hadFocus = m_found->isAncestorOf(QApplication::focusWidget());
-    m_found->setMasters(masters, lastAction());
-    if (hadFocus && !m_found->isAncestorOf(QApplication::focusWidget()))
-        setFocus(Qt::OtherFocusReason);  // the keys were on one that is gone
+    m_found->setMasters(masters, lastAction(), this);
     m_found->setVisible(!masters.isEmpty());
     m_foundTitle->setText(masters.isEmpty() ? tr("No running master has been found yet.") : tr("Running masters"));
 }
