@@ -52,12 +52,22 @@ StartPage::StartPage(WindowContext *context, QWidget *parent)
     follow();
 }
 
+namespace {
+
+QVBoxLayout *columnOf(QWidget *widget)
+{
+    widget->setFixedWidth(columnWidth);
+    auto *column = new QVBoxLayout(widget);
+    column->setContentsMargins(0, 0, 0, 0);
+    return column;
+}
+
+}  // namespace
+
 QWidget *StartPage::makeHead()
 {
     auto *head = new QWidget;
-    head->setFixedWidth(columnWidth);
-    auto *column = new QVBoxLayout(head);
-    column->setContentsMargins(0, 0, 0, 0);
+    QVBoxLayout *column = columnOf(head);
     column->addWidget(m_title);
     column->addWidget(m_sentence);
     column->addSpacing(22);
@@ -68,9 +78,7 @@ QWidget *StartPage::makeHead()
 QWidget *StartPage::makeMasters()
 {
     auto *masters = new QWidget;
-    masters->setFixedWidth(columnWidth);
-    auto *column = new QVBoxLayout(masters);
-    column->setContentsMargins(0, 0, 0, 0);
+    QVBoxLayout *column = columnOf(masters);
     column->addWidget(m_foundTitle);
     column->addWidget(m_found);
     column->addSpacing(14);
