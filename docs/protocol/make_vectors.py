@@ -381,6 +381,7 @@ def make_control():
     accepted("escapes", 40, "NodeFault", {"text": "a\"\\{[ü\n\U0001F642"}, b'{"text":"a\\"\\\\{[\\u00fc\\n\\ud83d\\ude42"}')
     accepted("depth 16", 23, "Stop", {"a": json.loads("[" * 15 + "]" * 15)}, b'{"a":' + b"[" * 15 + b"]" * 15 + b"}")
     accepted("neighbours are no depth", 23, "Stop", {"a": [[], {}] * 20}, b'{"a":[' + b",".join([b"[],{}"] * 20) + b"]}")
+    accepted("one name in several objects", 23, "Stop", {"a": {"a": [{"a": "a"}, {"a": "a"}]}}, b'{"a":{"a":[{"a":"a"},{"a":"a"}]}}')
     accepted("brackets in a text are no depth", 23, "Stop", {"a": "[" * 40 + '"' + "{" * 40},
              b'{"a":"' + b"[" * 40 + b'\\"' + b"{" * 40 + b'"}')
     bad = [
@@ -410,6 +411,8 @@ def make_control():
         ("UTF-8 longer than needed", control(23, b'{"a":"\xc0\xaf"}'), "InvalidJson"),
         ("a surrogate in UTF-8", control(23, b'{"a":"\xed\xa0\x80"}'), "InvalidJson"),
         ("beyond Unicode", control(23, b'{"a":"\xf5\x80\x80\x80"}'), "InvalidJson"),
+        ("a name twice", control(23, b'{"a":[1],"a":[2]}'), "InvalidJson"),
+        ("a name twice, once with an escape", control(23, b'{"b":{"a/":[1],"x":1,"\\u0061\\/" :[2]}}'), "InvalidJson"),
         ("UTF-16", control(23, '{"a":1}'.encode("utf-16-le")), "InvalidJson"),
     ]
     return {"good": good, "bad": [dict(name=n, hex=f.hex(), error=e) for n, f, e in bad]}

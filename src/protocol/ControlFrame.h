@@ -27,7 +27,7 @@ public:
         FrameTooLong,   ///< length beyond MaximumControlFrame
         FrameTooShort,  ///< length 0: not even a kind
         NestedTooDeep,
-        InvalidJson  ///< not UTF-8, not JSON, or not an object
+        InvalidJson  ///< not UTF-8, not JSON, not an object, or a name stands twice in one
     };
 
     /// Takes bytes of the stream. To be followed by next() until it has no more messages.
