@@ -36,6 +36,7 @@ public:
     qplc::ListeningInterval interval;
     bool sameCycle = false;  // all inputs
     bool twoPhase = false;
+    QString faultPlan;
     QPlcSignalTable ownTable;
     QPlcRealTimeOptions realTimeOptions;
     std::chrono::nanoseconds watchdog{0};
@@ -61,6 +62,7 @@ private:
     bool makeUdpLink(quint16 *port);
     bool openLocalLink(const QPlcMessage &registered);
     bool joinGroup(const QPlcMessage &registered);
+    void giveLink(std::unique_ptr<qplc::CyclicLink> link);
     void connectCyclicChannel();
     void cyclicChannelAttached();
     void sendInitialOutputs();
