@@ -133,7 +133,7 @@ public:
     void setInsecureNetworkAllowed(bool allowed);
     /// Lets the cyclic frames of all nodes meet the faults of a bad network, for a test: docs/faults.md has the words, for example "loss=5%,delay=2ms,seed=7"; empty: none.
     /// Whoever connects is told, and sees it. Takes effect with startServer(); multicast groups have no faults.
-    /// \return false when \a plan cannot be meant: error() is then StateError and nothing has changed
+    /// \return false when \a plan cannot be meant, or the server runs: error() is then StateError and nothing has changed
     bool setFaultPlan(const QString &plan);
     QString faultPlan() const;
     /// Who may connect, and what each identity may do; nobody is asked unless set. With it every address may be listened on. Files are read again for each connection:
