@@ -392,6 +392,7 @@ QPlcNodeInfo QPlcMasterNodePrivate::info(const NodeSlot &slot) const
     node.lateAnswers = slot.statistics.late;
     node.duplicates = slot.statistics.duplicated + slot.statistics.reordered;
     node.rejected = slot.statistics.rejected;
+    node.forged = slot.statistics.forged;
     node.resent = slot.statistics.resent;
     node.transport = QStringLiteral("inprocess");
     if (const Connection *connection = slot.local ? nullptr : server->connectionOf(&slot)) {

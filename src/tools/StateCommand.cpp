@@ -22,7 +22,8 @@ const NodeColumn nodeColumns[] = {
     {"policy", "policy", TextTable::Left, false},      {"listener", "listener", TextTable::Left, true},
     {"in", "inputs", TextTable::Right, false},         {"out", "outputs", TextTable::Right, false},
     {"late", "lateAnswers", TextTable::Right, false},  {"doubled", "duplicates", TextTable::Right, true},
-    {"rejected", "rejected", TextTable::Right, false}, {"resent", "resent", TextTable::Right, true},
+    {"rejected", "rejected", TextTable::Right, false}, {"forged", "forged", TextTable::Right, false},
+    {"resent", "resent", TextTable::Right, true},
 };
 
 void printField(const char *label, const QString &value)
