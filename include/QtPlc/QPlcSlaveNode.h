@@ -4,6 +4,7 @@
 #include "QPlcAbstractSocket.h"
 #include "QPlcCycle.h"
 #include "QPlcRealTimeOptions.h"
+#include "QPlcSecurity.h"
 #include "QPlcSignalIndexList.h"
 #include "QPlcSignalList.h"
 #include "QPlcSignalTable.h"
@@ -150,6 +151,10 @@ public:
                                             std::chrono::milliseconds timeout = std::chrono::seconds(5));
 
 public Q_SLOTS:
+    /// How this node and its master know each other; QPlcSecurity::current() unless set. Takes effect when it connects.
+    void setSecurity(const QPlcSecurity &security);
+    /// Whether the control connection is TLS, and the master proven.
+    bool isSecured() const;
     /// Begins to connect and register; connectedToMaster() or errorOccurred() follows.
     void connectToMaster(const QPlcUnderlyingProtocol &master);
     void disconnectFromMaster();

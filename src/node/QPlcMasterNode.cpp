@@ -171,6 +171,16 @@ void QPlcMasterNode::setInsecureNetworkAllowed(bool allowed)
     d->insecureNetworkAllowed = allowed;
 }
 
+void QPlcMasterNode::setSecurity(const QPlcSecurity &security)
+{
+    d->security = security;
+}
+
+QPlcSecurity QPlcMasterNode::security() const
+{
+    return d->security;
+}
+
 bool QPlcMasterNode::addLocalNode(QPlcSlaveNode *node)
 {
     Q_ASSERT_X(node, "QPlcMasterNode::addLocalNode", "a node is needed");

@@ -61,6 +61,8 @@ public:
     quint64 cycleLimit = 0;
     bool insecureNetworkAllowed = false;
     bool hasBeacon = false;
+    QPlcSecurity security;
+    QString networkSecurity = QStringLiteral("none");  // as Hello tells it
     QString localName;
     QHostAddress multicastGroup;
     QPlcSignalIndex timeSignal = QPlcInvalidSignalIndex;
@@ -103,6 +105,10 @@ private:
     void sendLeases(Connection *connection);
     void sendEvents(Connection *connection, const QPlcMessage &message);
     QString nameOf(const QObject *socket) const;
+    bool checkSecurity();
+    void chooseAddress(QHostAddress *address);
+    void watchSecurity();
+    QString cycleText() const;
 
     void begin(Step step, Connection::Stage owed);
     void continueSequence(Connection *connection, const QPlcMessage &message);

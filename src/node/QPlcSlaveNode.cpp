@@ -103,6 +103,16 @@ void QPlcSlaveNode::activateWorkloadMeasurement(const QString &signalName)
     d->runtime.setWorkloadSignal(signalName);
 }
 
+void QPlcSlaveNode::setSecurity(const QPlcSecurity &security)
+{
+    d->security = security;
+}
+
+bool QPlcSlaveNode::isSecured() const
+{
+    return d->control && d->control->isSecured();
+}
+
 void QPlcSlaveNode::activateWatchdog(std::chrono::nanoseconds time)
 {
     d->watchdog = time;

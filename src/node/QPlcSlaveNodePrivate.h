@@ -12,6 +12,7 @@
 #include <QtCore/QSocketNotifier>
 
 #include <memory>
+#include <optional>
 
 /// The control side of a slave: registration, and the phases that the master announces.
 class QPlcSlaveNodePrivate
@@ -37,6 +38,7 @@ public:
     QPlcSignalTable ownTable;
     QPlcRealTimeOptions realTimeOptions;
     std::chrono::nanoseconds watchdog{0};
+    std::optional<QPlcSecurity> security;  // else that of the process
     qplc::NodeRuntime runtime;
     QPlcSlaveNode::State state = QPlcSlaveNode::Disconnected;
     QPlcSlaveNode::Error error = QPlcSlaveNode::NoError;

@@ -187,6 +187,7 @@ bool QPlcSlaveNodePrivate::openLocalLink(const Message &registered)
 void QPlcSlaveNodePrivate::connectCyclicChannel()
 {
     m_cyclicSocket = new QPlcMasterSocket(q);
+    m_cyclicSocket->setSecurity(QPlcSecurity());  // frames are no TLS; the token came over the control connection
     QObject::connect(m_cyclicSocket, &QPlcAbstractSocket::connected, q, [this] {
         m_cyclicSocket->sendMessage(Message(Message::AttachCyclicChannel,
                                             {{QStringLiteral("node"), m_id}, {QStringLiteral("token"), m_token}}));

@@ -80,9 +80,9 @@ bool ControlFrameReader::next(QPlcMessage *message)
     const quint32 length = loadLittle<quint32>(m_buffer.constData() + m_begin);
     if (length < quint32(KindSize))
         return setError(FrameTooShort, QStringLiteral("control frame of 0 bytes%1; the kind needs one").arg(place()));
-    if (length > MaximumControlFrame) {
+    if (length > m_limit) {
         const QString text = QStringLiteral("control frame of %1 bytes%2; at most %3 are allowed");
-        return setError(FrameTooLong, text.arg(length).arg(place()).arg(MaximumControlFrame));
+        return setError(FrameTooLong, text.arg(length).arg(place()).arg(m_limit));
     }
     if (available - LengthSize < int(length))
         return false;
