@@ -149,6 +149,7 @@ public:
         quint64 duplicated = 0;  ///< requests that came again; answered, never computed twice
         quint64 outdated = 0;    ///< requests of cycles before the newest
         quint64 rejected = 0;    ///< garbage, other sessions, corrupted frames
+        quint64 forged = 0;      ///< sealed frames that were not as the master seals them
         quint64 watchdog = 0;    ///< watchdog time-outs
     };
     /// \threadsafe yes

@@ -24,6 +24,7 @@ QJsonObject nodeFields(const QPlcNodeInfo &node)
                        {QStringLiteral("lateAnswers"), double(node.lateAnswers)},
                        {QStringLiteral("duplicates"), double(node.duplicates)},
                        {QStringLiteral("rejected"), double(node.rejected)},
+                       {QStringLiteral("forged"), double(node.forged)},
                        {QStringLiteral("resent"), double(node.resent)}};
     if (!node.faultPlan.isEmpty())
         fields.insert(QStringLiteral("faults"), node.faultPlan);

@@ -405,6 +405,7 @@ QPlcNodeInfo QPlcMasterNodePrivate::info(const NodeSlot &slot) const
     node.lateAnswers = slot.statistics.late;
     node.duplicates = slot.statistics.duplicated + slot.statistics.reordered;
     node.rejected = slot.statistics.rejected;
+    node.forged = slot.statistics.forged;
     node.resent = slot.statistics.resent;
     node.faultPlan = slot.faultPlan;
     node.transport = QStringLiteral("inprocess");

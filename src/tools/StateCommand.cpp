@@ -23,7 +23,7 @@ const NodeColumn nodeColumns[] = {
     {"every", "every", TextTable::Right, true},        {"in", "inputs", TextTable::Right, false},
     {"out", "outputs", TextTable::Right, false},       {"late", "lateAnswers", TextTable::Right, false},
     {"doubled", "duplicates", TextTable::Right, true}, {"rejected", "rejected", TextTable::Right, false},
-    {"resent", "resent", TextTable::Right, true},
+    {"forged", "forged", TextTable::Right, false},     {"resent", "resent", TextTable::Right, true},
 };
 
 void printField(const char *label, const QString &value)

@@ -16,25 +16,48 @@ using qplc::FrameStatus;
 struct Channel
 {
     explicit Channel(fuzz::Input *input)
-        : kind(qplc::FrameKind(1 + input->number<std::uint8_t>() % 3))
     {
+        const auto kindAndSeal = input->number<std::uint8_t>();
+        isSealed = kindAndSeal & 0x80;
+        kind = qplc::FrameKind(1 + (kindAndSeal & 0x7f) % 3);
         seed.session = input->number<std::uint64_t>();
         seed.node = input->number<std::uint16_t>();
         seed.layoutHash = input->number<std::uint64_t>();
         firstCycle = input->number<std::uint64_t>();
         for (int parts = 1 + input->number<std::uint8_t>() % 70; parts > 0; --parts)
-            borders.push_back(borders.back()
-                              + std::uint32_t(input->number<std::uint16_t>() % (qplc::MaximumCyclicPayload + 1)));
+            borders.push_back(borders.back() + input->number<std::uint16_t>() % (qplc::maximumPayload(isSealed) + 1));
     }
 
     FrameDecoder decoder() const
     {
-        FrameDecoder decoder(kind, seed, borders);
+        const qplc::SealKey key(keyBytes);
+        FrameDecoder decoder(kind, seed, borders, isSealed ? &key : nullptr);
         decoder.restart(firstCycle);
         return decoder;
     }
-    /// Gives \a frame the checksum that no chance would find.
+    /// Gives \a frame the checksum, or the seal, that no chance would find.
     void repair(QByteArray *frame) const
+    {
+        if (isSealed)
+            seal(frame);
+        else
+            setChecksum(frame);
+    }
+
+    void seal(QByteArray *frame) const
+    {
+        if (frame->size() < int(qplc::SealedOverhead))
+            return;
+        const QByteArray plain = *frame;
+        const char *header = plain.constData();
+        const bool isPart = qplc::loadLittle<std::uint8_t>(header + 1) & qplc::PartFlag;
+        qplc::FrameSeal seal(qplc::SealKey(keyBytes), this->seed.session, this->seed.node);
+        seal.seal(qplc::extendCycle(qplc::loadLittle<std::uint32_t>(header + 4), firstCycle),
+                  std::uint16_t(isPart ? qplc::loadLittle<std::uint32_t>(header + 8) : 0), header,
+                  header + qplc::CyclicHeaderSize, std::size_t(plain.size()) - qplc::SealedOverhead, frame->data());
+    }
+
+    void setChecksum(QByteArray *frame) const
     {
         if (frame->size() < int(qplc::CyclicOverhead))
             return;
@@ -47,7 +70,9 @@ struct Channel
         qplc::storeLittle(qplc::crc32c(qplc::crc32c(0, bytes, sizeof bytes), target, checked), target + checked);
     }
 
-    qplc::FrameKind kind;
+    static constexpr char keyBytes[] = "0123456789abcdef0123456789abcdef";
+    qplc::FrameKind kind = qplc::FrameKind::Inputs;
+    bool isSealed = false;
     qplc::FrameSeed seed;
     std::uint64_t firstCycle = 0;
     std::vector<std::uint32_t> borders{0};
@@ -56,14 +81,14 @@ struct Channel
 bool isRefused(FrameStatus status)
 {
     return status == FrameStatus::WrongLength || status == FrameStatus::WrongVersion
-        || status == FrameStatus::WrongSession || status == FrameStatus::WrongChecksum;
+        || status == FrameStatus::WrongSession || status == FrameStatus::WrongChecksum || status == FrameStatus::Forged;
 }
 
 void decode(FrameDecoder *decoder, const QByteArray &frame, std::size_t payloadSize)
 {
     const QByteArray payload(decoder->payload(), int(payloadSize));
     const std::uint64_t cycle = decoder->cycle();
-    const std::uint32_t received = decoder->received().cycle;
+    const std::uint64_t received = decoder->received().cycle;
     const FrameStatus status = decoder->decode(frame.constData(), std::size_t(frame.size()));
     const bool sameValues = decoder->cycle() == cycle && payload == QByteArray(decoder->payload(), int(payloadSize));
     fuzz::check(status == FrameStatus::Complete || sameValues, "only a complete frame changes values");
@@ -100,7 +125,7 @@ void decodeStream(const Channel &channel, QByteArray stream)
 
 }  // namespace
 
-// Input: a channel (kind, session, node, layout hash, first cycle, parts and their lengths), then frames: whether to give it a right checksum, length, bytes.
+// Input: a channel (kind and whether it is sealed, session, node, layout hash, first cycle, parts and their lengths), then frames: whether to give it a right checksum or seal, length, bytes.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size)
 {
     fuzz::Input input(data, size);

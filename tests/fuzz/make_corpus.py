@@ -54,8 +54,9 @@ def control_frames():
 # ---- cyclic frames: a channel, then frames --------------------------------------------------------------------------
 
 def channel(row, first_cycle=0):
+    seal = 0x80 if "key" in row else 0
     sizes = [end - begin for begin, end in zip(row["borders"], row["borders"][1:])]
-    head = struct.pack("<BQHQQB", KINDS[row["kind"]] - 1, int(row["session"], 16), row["node"], int(row["layoutHash"], 16), first_cycle, len(sizes) - 1)
+    head = struct.pack("<BQHQQB", KINDS[row["kind"]] - 1 | seal, int(row["session"], 16), row["node"], int(row["layoutHash"], 16), first_cycle, len(sizes) - 1)
     return head + b"".join(struct.pack("<H", size) for size in sizes)
 
 
@@ -65,13 +66,19 @@ def frame(text, repair=0):
 
 
 def cyclic_frames():
-    rows = vectors("cyclic_frames")
-    files = {row["name"]: channel(row["channel"]) + b"".join(frame(f) for f in row["frames"]) for row in rows["frames"]}
-    refused = rows["refused"]
-    for repair in 0, 1:
-        files[f"refused {repair}"] = channel(refused["channel"]) + b"".join(frame(row["hex"], repair) for row in refused["frames"])
-    for row in rows["sequences"]:
-        files[row["name"]] = channel(row["channel"], int(row["firstCycle"], 16)) + b"".join(frame(step["hex"]) for step in row["steps"])
+    """Sealed ones are sealed again (repair 1) with the key of the fuzzer."""
+    files = {}
+    for name, repairs in ("cyclic_frames", (0, 1)), ("sealed_frames", (1,)):
+        rows = vectors(name)
+        kind = name.split("_")[0]
+        for row in rows["frames"]:
+            files[f"{kind} {row['name']}"] = channel(row["channel"]) + b"".join(frame(f, repairs[0]) for f in row["frames"])
+        refused = rows["refused"]
+        for repair in repairs:
+            files[f"{kind} refused {repair}"] = channel(refused["channel"]) + b"".join(frame(row["hex"], repair) for row in refused["frames"])
+        for row in rows["sequences"]:
+            files[f"{kind} {row['name']}"] = (channel(row["channel"], int(row["firstCycle"], 16))
+                                              + b"".join(frame(step["hex"], repairs[0]) for step in row["steps"]))
     return files
 
 
