@@ -32,7 +32,10 @@ QJsonObject counterFields(const QPlcMasterStatistics &statistics)
             {QStringLiteral("overruns"), double(statistics.overruns)},
             {QStringLiteral("skippedCycles"), double(statistics.skippedCycles)},
             {QStringLiteral("lateAnswers"), double(statistics.lateAnswers)},
-            {QStringLiteral("strangers"), double(statistics.strangers)}};
+            {QStringLiteral("strangers"), double(statistics.strangers)},
+            {QStringLiteral("refusedConnections"), double(statistics.refusedConnections)},
+            {QStringLiteral("failedHandshakes"), double(statistics.failedHandshakes)},
+            {QStringLiteral("deniedMessages"), double(statistics.deniedMessages)}};
 }
 
 }  // namespace

@@ -62,6 +62,7 @@ public:
     bool insecureNetworkAllowed = false;
     bool hasBeacon = false;
     QPlcSecurity security;
+    int maximumConnections = qplc::ConnectionGate::Limits().connections;
     QString networkSecurity = QStringLiteral("none");  // as Hello tells it
     QString localName;
     QHostAddress multicastGroup;

@@ -29,6 +29,7 @@ QPlcNodeApplication::QPlcNodeApplication(int &argc, char **argv)
         QStringLiteral("same-cycle"),
         QStringLiteral("Reads all inputs in the cycle in which they are written, without the dead time of a cycle.")));
     addRealTimeOptions();
+    addSecurityOptions(QPlcSecurity::NodeSide);
 }
 
 void QPlcNodeApplication::setDefaultSignals(const QString &fileName)
@@ -57,8 +58,11 @@ bool QPlcNodeApplication::configure(QPlcSlaveNode &node)
 {
     double watchdog = 0.0;
     QPlcRealTimeOptions realTimeOptions;
-    if (!number(QStringLiteral("watchdog"), 0.0, 3600.0, &watchdog) || !readRealTimeOptions(&realTimeOptions))
+    QPlcSecurity security;
+    if (!number(QStringLiteral("watchdog"), 0.0, 3600.0, &watchdog) || !readRealTimeOptions(&realTimeOptions)
+        || !readSecurityOptions(QPlcSecurity::NodeSide, &security))
         return false;
+    QPlcSecurity::setCurrent(security);
     node.activateWatchdog(watchdog);
     node.setRealTimeOptions(realTimeOptions);
     if (isSet(QStringLiteral("same-cycle")))

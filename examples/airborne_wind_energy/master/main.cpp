@@ -14,6 +14,7 @@ struct MasterSettings
     quint16 port = 0;
     QHostAddress multicastGroup;  // null: none
     QPlcRealTimeOptions realTime;
+    QPlcSecurity security;
 };
 
 void addMasterOptions(QPlcCoreApplication &application)
@@ -34,7 +35,9 @@ void addMasterOptions(QPlcCoreApplication &application)
                            QStringLiteral("ADDRESS")));
     application.addOption(QCommandLineOption(
         QStringLiteral("insecure-network"),
-        QStringLiteral("Lets --listen open the plant to the network, where everybody can command it.")));
+        QStringLiteral(
+            "Lets --listen open the plant to the network without --security: everybody there can command it.")));
+    application.addSecurityOptions(QPlcSecurity::MasterSide);
     application.addOption(QCommandLineOption(
         QStringLiteral("beacon"),
         QStringLiteral("Tells the network of --listen every 2 s where this master is, for qtplc find and windows.")));
@@ -79,7 +82,8 @@ bool readMasterOptions(QPlcCoreApplication &application, MasterSettings *setting
     if (!awe::readRunOptions(application, &settings->run)
         || !application.integer(QStringLiteral("port"), 0, 65535, &port)
         || !application.number(QStringLiteral("mean-wind"), 0.0, 100.0, &settings->run.nominalWindSpeed)
-        || !application.readRealTimeOptions(&settings->realTime))
+        || !application.readRealTimeOptions(&settings->realTime)
+        || !application.readSecurityOptions(QPlcSecurity::MasterSide, &settings->security))
         return false;
     settings->port = quint16(port);
     settings->run.stay = application.isSet(QStringLiteral("stay"));
@@ -117,6 +121,7 @@ int main(int argc, char **argv)
     QPlcMasterNode master;
     master.setRealTimeOptions(settings.realTime);
     master.setInsecureNetworkAllowed(application.isSet(QStringLiteral("insecure-network")));
+    master.setSecurity(settings.security);
     master.setMulticastGroup(settings.multicastGroup);
     master.setBeacon(application.isSet(QStringLiteral("beacon")));
     awe::FlightRun run(master, settings.run);

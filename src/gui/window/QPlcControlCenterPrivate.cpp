@@ -3,6 +3,7 @@
 
 #include "DesktopTheme.h"
 #include "DoubleEscape.h"
+#include "InsecureNotice.h"
 #include "LongPress.h"
 #include "PanelKeysFirst.h"
 #include "QPlcSignalTree.h"
@@ -71,6 +72,7 @@ void QPlcControlCenter::Private::makeCentre()
     pages->addWidget(startPage);
     pages->addWidget(panels);
     column->addWidget(connectStrip);
+    column->addWidget(new InsecureNotice(&context, centre));
     column->addWidget(hint);
     column->addWidget(pages, 1);
     q->setCentralWidget(centre);
