@@ -36,6 +36,12 @@ QPlcAbstractSocket::Error errorOf(QAbstractSocket::SocketError error)
     }
 }
 
+/// For the debug log. What is encrypted for the wire may hold keys: it stays secret here, too.
+QString shown(const QByteArray &frame, bool isSecured)
+{
+    return isSecured ? QStringLiteral("%1 bytes").arg(frame.size()) : QString::fromLatin1(frame.toHex(' '));
+}
+
 }  // namespace
 
 QPlcAbstractSocket::QPlcAbstractSocket(QTcpSocket *socket, QObject *parent)
@@ -109,7 +115,7 @@ bool QPlcAbstractSocket::sendMessage(const QPlcMessage &message)
                                        << "is too long or too deep to be sent";
         return false;
     }
-    qCDebug(lcControl).noquote() << "to" << peerName() << message.kindName() << frame.toHex(' ');
+    qCDebug(lcControl).noquote() << "to" << peerName() << message.kindName() << shown(frame, isSecured());
     const bool sent = d->socket->write(frame) == frame.size();
     d->socket->flush();
     return sent;
@@ -187,7 +193,8 @@ void QPlcAbstractSocket::readMessages()
     d->reader.append(d->socket->readAll());
     QPlcMessage message;
     while (self && d->reader.next(&message)) {
-        qCDebug(lcControl).noquote() << "from" << peerName() << message.kindName() << d->reader.lastFrame().toHex(' ');
+        qCDebug(lcControl).noquote() << "from" << peerName() << message.kindName()
+                                     << shown(d->reader.lastFrame(), isSecured());
         Q_EMIT messageReceived(message);
     }
     if (!self || d->reader.error() == qplc::ControlFrameReader::NoError)
