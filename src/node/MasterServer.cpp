@@ -2,6 +2,7 @@
 #include "MasterServer.h"
 
 #include "Logging.h"
+#include "SealFields.h"
 #include "protocol/ControlFrame.h"
 #include "realtime/TimeSource.h"
 #include "signals/Fnv1a.h"
@@ -23,6 +24,14 @@ namespace {
 constexpr quint32 LongestGreeting = 64 * 1024;       // [byte]
 constexpr qint64 MostUnread = 16 * 1024 * 1024;      // [byte] of answers
 constexpr std::chrono::seconds LongestAttaching{5};  // until the cyclic connection of a node is there
+
+/// For one registration. Memory that node and master share needs none: who may open it may look into both programs anyway.
+std::optional<SealKeys> newSealKeys(const MasterConnection &connection)
+{
+    if (!connection.isSecured() || connection.cyclicKind == QLatin1String("local"))
+        return std::nullopt;
+    return SealKeys::random();
+}
 
 /// Extensions that are in use: those that the other side names in its Hello, and that are known here.
 QJsonArray commonFeatures(const Message &hello)
@@ -366,7 +375,8 @@ void MasterServer::registerNode(MasterConnection *connection, const Message &mes
         return;
     }
     connection->slot->faultPlan = printable(message.text(QStringLiteral("faults"))).left(200);
-    connection->slot->prepare(m_image, m_session);
+    const std::optional<SealKeys> keys = newSealKeys(*connection);
+    connection->slot->prepare(m_image, m_session, keys ? &*keys : nullptr);
     connection->token = QRandomGenerator::system()->generate64();
     connection->stage = MasterConnection::Attaching;
     QJsonObject fields{{QStringLiteral("node"), connection->slot->id},
@@ -374,6 +384,8 @@ void MasterServer::registerNode(MasterConnection *connection, const Message &mes
                        {QStringLiteral("outputsHash"), Message::fromHex64(connection->slot->outputLayout.hash())},
                        {QStringLiteral("state"), m_hello().value(QStringLiteral("state"))},
                        {QStringLiteral("token"), Message::fromHex64(connection->token)}};
+    if (keys)
+        fields.insert(QStringLiteral("seal"), sealFields(*keys));
     if (isLocal && !makeLocalPeer(connection, &fields))
         return;
     if (isUdp)
@@ -410,6 +422,8 @@ Refusal MasterServer::channelRefusal(const MasterConnection &connection, const N
     if (isMulticast && m_group.length == 0)
         return {QStringLiteral("WrongState"),
                 QStringLiteral("this master has no multicast group; give it one, or use udp")};
+    if (isMulticast && connection.isSecured())
+        return {QStringLiteral("WrongState"), QStringLiteral("datagrams for many nodes are not sealed; use udp")};
     if (isMulticast && declaration.isOrdered())
         return {QStringLiteral("WrongState"),
                 QStringLiteral("node '%1' has same-cycle inputs or two phases: it is asked alone; use udp")
