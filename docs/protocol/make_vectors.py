@@ -439,7 +439,7 @@ def example_messages():
         (30, "GetState", {}),
         (31, "State", dict(state="RealTime", cycle=hex64(2**40 + 1), period=10000000, clock="RealTime", scale=1,
                            session=hex64(SESSION), counters=dict(cycles=12, overruns=0), digest=hex64(2**64 - 1),
-                           nodes=[dict(name="Winch", id=7, inputs=1, outputs=1, listener=False, policy="ErrorZeroOrderHold",
+                           nodes=[dict(name="Winch", id=7, inputs=1, outputs=1, listener=False, every=1, policy="ErrorZeroOrderHold",
                                        transport="udp", address="127.0.0.1:41000", lateAnswers=0, duplicates=0, rejected=0, forged=0, resent=0)])),
         (32, "GetSignals", dict(names=["tetherSpeed"])),
         (33, "Signals", dict(signals=[dict(name="tetherSpeed", type="Real32", unit="m/s", description="Höhe \"quoted\"",
@@ -453,6 +453,8 @@ def example_messages():
         (2, "Register", dict(name="Model", uuid=uuid, policy="ErrorZeroOrderHold", listener=False, cyclic="tcp", twoPhase=True,
                              inputs=[dict(name="tetherSpeed", type="Real32", unit="m/s", sameCycle=True)],
                              outputs=[dict(name="tetherLength", type="Real64", unit="m")])),
+        (2, "Register", dict(name="Control Center", uuid=uuid, policy="SilentZeroOrderHold", listener=True, every=10, cyclic="tcp",
+                             inputs=[dict(name="tetherSpeed", type="Real32", unit="m/s")], outputs=[])),
         (52, "GetSchedule", {}),
         (53, "Schedule", dict(
             stages=[[dict(node="Model", phase="outputs")], [dict(node="Autopilot", phase="step")], [dict(node="Model", phase="update")]],

@@ -4,6 +4,7 @@
 #include "Logging.h"
 #include "SealFields.h"
 #include "protocol/ControlFrame.h"
+#include "signals/Fnv1a.h"
 
 #include <QtCore/QJsonArray>
 #include <QtCore/QPointer>
@@ -332,6 +333,7 @@ void MasterServer::registerNode(MasterConnection *connection, const Message &mes
                 .arg(MulticastParts::MaximumInputs));
         return;
     }
+    connection->slot->faultPlan = printable(message.text(QStringLiteral("faults"))).left(200);
     const std::optional<SealKeys> keys = newSealKeys(*connection);
     connection->slot->prepare(m_image, m_session, keys ? &*keys : nullptr);
     connection->token = QRandomGenerator::system()->generate64();
@@ -383,6 +385,11 @@ Refusal MasterServer::channelRefusal(const MasterConnection &connection, const N
         return {QStringLiteral("WrongState"),
                 QStringLiteral("node '%1' has same-cycle inputs or two phases: it is asked alone; use udp")
                     .arg(declaration.name)};
+    if (isMulticast && !declaration.interval.isEveryCycle())
+        return {QStringLiteral("WrongState"),
+                QStringLiteral("node '%1' wants one of %2 cycles: it is asked alone; use udp")
+                    .arg(declaration.name)
+                    .arg(declaration.interval.cycles())};
     return {};
 }
 
@@ -442,6 +449,7 @@ void MasterServer::nodeAttached(MasterConnection *connection)
 {
     connection->slot->peer->owner = connection->slot.get();
     connection->slot->peer->isListener = connection->slot->listener;
+    m_hub.exposeToFaults(*connection->slot->peer, ~fnv1a64(connection->name.toUtf8()));  // not those of the node itself
     connection->stage = MasterConnection::Attached;
     Q_EMIT attached(connection);
 }

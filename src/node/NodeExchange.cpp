@@ -64,8 +64,11 @@ void NodeExchange::run(const Roster &roster, const Cycle &cycle) noexcept
 void NodeExchange::cutInputs() noexcept
 {
     for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
-        copyRuns(slot->inputRuns, m_image.data(), slot->inputs);
         slot->asked = slot->awaited = slot->answered = slot->late = false;
+        slot->due = slot->takesTurn(m_cycle.number);
+        if (!slot->due)
+            continue;
+        copyRuns(slot->inputRuns, m_image.data(), slot->inputs);
         slot->partsEncoded = 0;
         slot->request.cycle = m_cycleZero + m_cycle.number;
         slot->request.info
@@ -87,6 +90,11 @@ void NodeExchange::askNodes(const Stage &stage) noexcept
 {
     for (const Roster::Turn &turn : stage) {
         NodeSlot &slot = *turn.slot;
+        if (!slot.due) {
+            if (slot.peer && !slot.isRequestSent())
+                sendParts(slot);
+            continue;
+        }
         copyRuns(slot.sameCycleRuns, m_image.data(), slot.inputs);
         if (!slot.peer)
             continue;
@@ -178,10 +186,9 @@ void NodeExchange::stepLocalNodes(const Stage &stage) noexcept
 {
     for (const Roster::Turn &turn : stage) {
         NodeSlot &slot = *turn.slot;
-        if (!slot.local)
+        if (!slot.local || !slot.due)
             continue;
-        const QPlcCycle &last = slot.local->cycle();
-        const quint64 missed = m_cycle.number > last.number() + 1 ? m_cycle.number - last.number() - 1 : 0;
+        const quint64 missed = slot.interval.missed(slot.local->cycle().number(), m_cycle.number);
         slot.computed = slot.local->step(QPlcCycle(m_cycle.number, m_period, missed), slot.inputs);
         slot.answered = true;
         if (!slot.computed && !slot.faulted)
@@ -288,7 +295,7 @@ void NodeExchange::receive(std::int64_t timeout, int alarm) noexcept
     CyclicHub::Incoming incoming;
     while (m_hub.next(&incoming))
         takeAnswer(*static_cast<NodeSlot *>(incoming.peer->owner), incoming.frame, incoming.size);
-    m_statistics.setStrangers(m_hub.strangers());
+    m_statistics.setArrivals(m_hub.strangers(), m_hub.floods());
     for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
         if (slot->peer && slot->peer->isClosed() && !slot->lost.exchange(true))
             m_reports.post({CycleEvent::LinkClosed, slot->id, 0, m_cycle.number});
@@ -355,7 +362,7 @@ void NodeExchange::pasteLocalNodes(const Stage &stage) noexcept
 {
     for (const Roster::Turn &turn : stage) {
         NodeSlot &slot = *turn.slot;
-        if (!slot.local || !slot.computed || !isFinite(slot, slot.local->outputs()))
+        if (!slot.local || !slot.due || !slot.computed || !isFinite(slot, slot.local->outputs()))
             continue;
         if (slot.twoPhase)
             slot.pending = true;

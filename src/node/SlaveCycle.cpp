@@ -209,7 +209,7 @@ void SlaveCycle::take(const char *frame, std::size_t size) noexcept
 void SlaveCycle::skipToNewest() noexcept
 {
     const std::int64_t now = TimeSource::monotonic().now();
-    const bool paused = simulated(now - m_lastArrival) > 2 * m_phase.period.count();
+    const bool paused = simulated(now - m_lastArrival) > 2 * m_phase.interval.cycles() * m_phase.period.count();
     m_lastArrival = now;
     if (!paused)
         return;
@@ -222,7 +222,8 @@ void SlaveCycle::skipToNewest() noexcept
 void SlaveCycle::compute() noexcept
 {
     const std::uint64_t cycle = m_decoder.cycle();
-    const std::uint64_t missed = m_computedAny ? cycle - m_lastCycle - 1 : 0;
+    const std::uint64_t missed
+        = m_computedAny ? m_phase.interval.missed(m_lastCycle - m_phase.cycleZero, cycle - m_phase.cycleZero) : 0;
     count(m_counters.cycles);
     count(m_counters.missed, missed);
     const bool computed = m_runtime.step(QPlcCycle(cycle - m_phase.cycleZero, m_phase.period, missed),

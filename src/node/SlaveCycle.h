@@ -2,6 +2,7 @@
 #pragma once
 
 #include "CycleReports.h"
+#include "ListeningInterval.h"
 #include "NodeRuntime.h"
 #include "QPlcClock.h"
 #include "SlaveStatistics.h"
@@ -45,6 +46,7 @@ public:
         std::chrono::nanoseconds watchdog{0};  // 0: none
         QPlcRealTimeOptions realTimeOptions;
         Group group{};
+        ListeningInterval interval{};
     };
 
     /// \param runtime  bound, and outlives this object
