@@ -187,6 +187,16 @@ QString QPlcMasterNode::faultPlan() const
     return d->faultPlan;
 }
 
+void QPlcMasterNode::setSecurity(const QPlcSecurity &security)
+{
+    d->security = security;
+}
+
+QPlcSecurity QPlcMasterNode::security() const
+{
+    return d->security;
+}
+
 bool QPlcMasterNode::addLocalNode(QPlcSlaveNode *node)
 {
     Q_ASSERT_X(node, "QPlcMasterNode::addLocalNode", "a node is needed");
