@@ -318,8 +318,9 @@ void tst_BadNetwork::aHalfOpenLinkIsNoticedByTheWatchdogAndDelaysNobody()
     QVERIFY(plant.start());
     QTRY_COMPARE(barked.size(), 1);
     const quint64 late = plant.info().lateAnswers;
+    QTRY_VERIFY(plant.info().lateAnswers > late + 50);  // the last answers of a busy machine are in
     const double held = plant.master.signalValue("echo").toReal();
-    QTRY_VERIFY(plant.info().lateAnswers > late + 20);
+    QTRY_VERIFY(plant.info().lateAnswers > late + 100);
     QCOMPARE(plant.master.signalValue("echo").toReal(), held);
     QCOMPARE(plant.echo.state(), QPlcSlaveNode::RealTime);
     plant.master.stop();
