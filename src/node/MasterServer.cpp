@@ -4,6 +4,7 @@
 #include "Logging.h"
 #include "protocol/ControlFrame.h"
 #include "realtime/TimeSource.h"
+#include "signals/Fnv1a.h"
 
 #include <QtCore/QJsonArray>
 #include <QtCore/QPointer>
@@ -46,6 +47,7 @@ MasterServer::MasterServer(NodeRegistry &registry, const ProcessImage &image, Cy
     , m_hub(hub)
     , m_session(session)
     , m_hello(std::move(hello))
+    , m_door(this)
 {
     connect(&m_door, &MasterDoor::entered, this, &MasterServer::enter);
     connect(&m_door, &MasterDoor::refused, this, &MasterServer::strangerRefused);
@@ -364,6 +366,7 @@ void MasterServer::registerNode(MasterConnection *connection, const Message &mes
                 .arg(MulticastParts::MaximumInputs));
         return;
     }
+    connection->slot->faultPlan = printable(message.text(QStringLiteral("faults"))).left(200);
     connection->slot->prepare(m_image, m_session);
     connection->token = QRandomGenerator::system()->generate64();
     connection->stage = MasterConnection::Attaching;
@@ -412,6 +415,11 @@ Refusal MasterServer::channelRefusal(const MasterConnection &connection, const N
         return {QStringLiteral("WrongState"),
                 QStringLiteral("node '%1' has same-cycle inputs or two phases: it is asked alone; use udp")
                     .arg(declaration.name)};
+    if (isMulticast && !declaration.interval.isEveryCycle())
+        return {QStringLiteral("WrongState"),
+                QStringLiteral("node '%1' wants one of %2 cycles: it is asked alone; use udp")
+                    .arg(declaration.name)
+                    .arg(declaration.interval.cycles())};
     return {};
 }
 
@@ -482,6 +490,7 @@ void MasterServer::nodeAttached(MasterConnection *connection)
 {
     connection->slot->peer->owner = connection->slot.get();
     connection->slot->peer->isListener = connection->slot->listener;
+    m_hub.exposeToFaults(*connection->slot->peer, ~fnv1a64(connection->name.toUtf8()));  // not those of the node itself
     connection->stage = MasterConnection::Attached;
     Q_EMIT attached(connection);
 }

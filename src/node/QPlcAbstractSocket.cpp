@@ -37,6 +37,12 @@ QPlcAbstractSocket::Error errorOf(QAbstractSocket::SocketError error)
     }
 }
 
+/// A frame as the log shows it: keys are not for people.
+QByteArray shown(const QPlcMessage &message, const QByteArray &frame)
+{
+    return message.fields().contains(QStringLiteral("seal")) ? QByteArrayLiteral("(with keys)") : frame.toHex(' ');
+}
+
 }  // namespace
 
 QPlcAbstractSocket::QPlcAbstractSocket(QTcpSocket *socket, QObject *parent)
@@ -110,7 +116,7 @@ bool QPlcAbstractSocket::sendMessage(const QPlcMessage &message)
                                        << "is too long or too deep to be sent";
         return false;
     }
-    qCDebug(lcControl).noquote() << "to" << peerName() << message.kindName() << frame.toHex(' ');
+    qCDebug(lcControl).noquote() << "to" << peerName() << message.kindName() << shown(message, frame);
     const QPointer<QPlcAbstractSocket> self(this);  // who hears of an error may delete us
     d->isSending = true;
     const bool sent = d->socket->write(frame) == frame.size();
@@ -197,7 +203,8 @@ void QPlcAbstractSocket::readMessages()
     d->reader.append(d->socket->readAll());
     QPlcMessage message;
     while (self && d->reader.next(&message)) {
-        qCDebug(lcControl).noquote() << "from" << peerName() << message.kindName() << d->reader.lastFrame().toHex(' ');
+        qCDebug(lcControl).noquote() << "from" << peerName() << message.kindName()
+                                     << shown(message, d->reader.lastFrame());
         Q_EMIT messageReceived(message);
     }
     if (!self || d->reader.error() == qplc::ControlFrameReader::NoError)

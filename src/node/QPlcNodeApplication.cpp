@@ -30,6 +30,7 @@ QPlcNodeApplication::QPlcNodeApplication(int &argc, char **argv)
         QStringLiteral("Reads all inputs in the cycle in which they are written, without the dead time of a cycle.")));
     addRealTimeOptions();
     addSecurityOptions(QPlcSecurity::NodeSide);
+    addFaultOptions();
 }
 
 void QPlcNodeApplication::setDefaultSignals(const QString &fileName)
@@ -59,11 +60,13 @@ bool QPlcNodeApplication::configure(QPlcSlaveNode &node)
     double watchdog = 0.0;
     QPlcRealTimeOptions realTimeOptions;
     QPlcSecurity security;
+    QString faultPlan;
     if (!number(QStringLiteral("watchdog"), 0.0, 3600.0, &watchdog) || !readRealTimeOptions(&realTimeOptions)
-        || !readSecurityOptions(QPlcSecurity::NodeSide, &security))
+        || !readFaultPlan(&faultPlan) || !readSecurityOptions(QPlcSecurity::NodeSide, &security))
         return false;
     QPlcSecurity::setCurrent(security);
     node.activateWatchdog(watchdog);
+    node.setFaultPlan(faultPlan);
     node.setRealTimeOptions(realTimeOptions);
     if (isSet(QStringLiteral("same-cycle")))
         node.setSameCycle(true);

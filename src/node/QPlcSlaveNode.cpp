@@ -3,6 +3,7 @@
 
 #include "QPlcSignalIndexTable.h"
 #include "QPlcSlaveNodePrivate.h"
+#include "transport/FaultPlan.h"
 
 #include <QtCore/QEventLoop>
 #include <QtCore/QTimer>
@@ -56,6 +57,19 @@ bool QPlcSlaveNode::isListener() const
     return d->listener;
 }
 
+void QPlcSlaveNode::setListeningInterval(int cycles)
+{
+    Q_ASSERT_X(d->state == Disconnected, "QPlcSlaveNode::setListeningInterval", "a registered node stays what it is");
+    Q_ASSERT_X(cycles >= 1 && cycles <= qplc::ListeningInterval::Longest, "QPlcSlaveNode::setListeningInterval",
+               "a listener hears one of 1 ... 1 000 000 cycles");
+    d->interval = qplc::ListeningInterval(cycles);
+}
+
+int QPlcSlaveNode::listeningInterval() const
+{
+    return d->interval.cycles();
+}
+
 void QPlcSlaveNode::setSameCycle(bool sameCycle)
 {
     Q_ASSERT_X(d->state == Disconnected, "QPlcSlaveNode::setSameCycle", "a registered node stays what it is");
@@ -96,6 +110,23 @@ void QPlcSlaveNode::setRealTimeOptions(const QPlcRealTimeOptions &options)
 QPlcRealTimeOptions QPlcSlaveNode::realTimeOptions() const
 {
     return d->realTimeOptions;
+}
+
+bool QPlcSlaveNode::setFaultPlan(const QString &plan)
+{
+    Q_ASSERT_X(d->state == Disconnected, "QPlcSlaveNode::setFaultPlan", "a registered node stays what it is");
+    QString text;
+    if (!plan.isEmpty() && !qplc::FaultPlan::fromText(plan, &text)) {
+        d->setError(OptionError, QStringLiteral("node '%1': fault plan: %2").arg(d->name, text));
+        return false;
+    }
+    d->faultPlan = plan;
+    return true;
+}
+
+QString QPlcSlaveNode::faultPlan() const
+{
+    return d->faultPlan;
 }
 
 void QPlcSlaveNode::activateWorkloadMeasurement(const QString &signalName)

@@ -296,6 +296,7 @@ void QPlcSlaveNodePrivate::startCycles(const Message &message)
     phase.cycleZero = message.hex64(QStringLiteral("cycleZero"));
     phase.firstCycle = message.hex64(QStringLiteral("firstCycle"));
     phase.group = groupOf(message, runtime.inputLayout());
+    phase.interval = interval;
     phase.watchdog = watchdog;
     phase.realTimeOptions = realTimeOptions;
     if (!cycle->start(phase)) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "ListeningInterval.h"
 #include "NodeRuntime.h"
 #include "QPlcMasterNode.h"
 #include "QPlcMasterSocket.h"
@@ -33,8 +34,10 @@ public:
     QString name;
     QPlcSlaveNode::RealTimeViolationPolicy policy;
     bool listener = false;
+    qplc::ListeningInterval interval;
     bool sameCycle = false;  // all inputs
     bool twoPhase = false;
+    QString faultPlan;
     QPlcSignalTable ownTable;
     QPlcRealTimeOptions realTimeOptions;
     std::chrono::nanoseconds watchdog{0};
@@ -61,6 +64,7 @@ private:
     bool makeUdpLink(quint16 *port);
     bool openLocalLink(const QPlcMessage &registered);
     bool joinGroup(const QPlcMessage &registered);
+    void giveLink(std::unique_ptr<qplc::CyclicLink> link);
     void connectCyclicChannel();
     void cyclicChannelAttached();
     void sendInitialOutputs();

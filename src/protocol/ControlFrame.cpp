@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ControlFrame.h"
 
+#include "JsonNames.h"
 #include "LittleEndian.h"
 
 #include <QtCore/QJsonDocument>
@@ -120,6 +121,8 @@ bool ControlFrameReader::parse(const QByteArray &frame, QPlcMessage *message)
         const QString text = QStringLiteral("%1: arrays and objects %2 deep; at most %3 are allowed");
         return setError(NestedTooDeep, text.arg(thing).arg(depth).arg(MaximumControlDepth));
     }
+    if (const std::optional<QString> name = doubledJsonName(json))
+        return setError(InvalidJson, QStringLiteral("%1: the name '%2' stands twice in an object").arg(thing, *name));
     QJsonParseError error;
     const QJsonDocument document = QJsonDocument::fromJson(json, &error);
     if (!document.isObject())

@@ -27,7 +27,7 @@ public:
         FrameTooLong,   ///< length beyond the limit
         FrameTooShort,  ///< length 0: not even a kind
         NestedTooDeep,
-        InvalidJson  ///< not UTF-8, not JSON, or not an object
+        InvalidJson  ///< not UTF-8, not JSON, not an object, or a name stands twice in one
     };
 
     /// Frames behind those that were taken already may have so many bytes behind their length field; MaximumControlFrame unless set.

@@ -15,6 +15,7 @@ struct MasterSettings
     QHostAddress multicastGroup;  // null: none
     QPlcRealTimeOptions realTime;
     QPlcSecurity security;
+    QString faultPlan;
 };
 
 void addMasterOptions(QPlcCoreApplication &application)
@@ -55,6 +56,7 @@ void addMasterOptions(QPlcCoreApplication &application)
                            QStringLiteral("Wind speed that eta is related to [m/s]. 0: what the signals show."),
                            QStringLiteral("SPEED"), QStringLiteral("0")));
     application.addRealTimeOptions();
+    application.addFaultOptions();
 }
 
 /// \return false, with the message out, when an address cannot be meant
@@ -82,7 +84,7 @@ bool readMasterOptions(QPlcCoreApplication &application, MasterSettings *setting
     if (!awe::readRunOptions(application, &settings->run)
         || !application.integer(QStringLiteral("port"), 0, 65535, &port)
         || !application.number(QStringLiteral("mean-wind"), 0.0, 100.0, &settings->run.nominalWindSpeed)
-        || !application.readRealTimeOptions(&settings->realTime)
+        || !application.readRealTimeOptions(&settings->realTime) || !application.readFaultPlan(&settings->faultPlan)
         || !application.readSecurityOptions(QPlcSecurity::MasterSide, &settings->security))
         return false;
     settings->port = quint16(port);
@@ -123,6 +125,7 @@ int main(int argc, char **argv)
     master.setInsecureNetworkAllowed(application.isSet(QStringLiteral("insecure-network")));
     master.setSecurity(settings.security);
     master.setMulticastGroup(settings.multicastGroup);
+    master.setFaultPlan(settings.faultPlan);
     master.setBeacon(application.isSet(QStringLiteral("beacon")));
     awe::FlightRun run(master, settings.run);
     if (!run.isValid() || !master.startServer(QPlcUnderlyingProtocol::tcp(settings.address, settings.port)))

@@ -3,6 +3,7 @@
 
 #include "DesktopTheme.h"
 #include "DoubleEscape.h"
+#include "FaultBanner.h"
 #include "InsecureNotice.h"
 #include "LongPress.h"
 #include "PanelKeysFirst.h"
@@ -71,6 +72,7 @@ void QPlcControlCenter::Private::makeCentre()
     connect(search, &MasterSearch::found, connectStrip, &ConnectStrip::setFoundMasters);
     pages->addWidget(startPage);
     pages->addWidget(panels);
+    column->addWidget(new FaultBanner(&context, centre));
     column->addWidget(connectStrip);
     column->addWidget(new InsecureNotice(&context, centre));
     column->addWidget(hint);
