@@ -136,18 +136,23 @@ void MasterDoor::forget(ConnectionGate::Ticket ticket)
 
 void MasterDoor::sweep()
 {
-    for (ConnectionGate::Ticket ticket : m_gate.overdue(now())) {
+    const auto showOut = [this](ConnectionGate::Ticket ticket) {
         const auto found = m_handshakes.find(ticket);
+        if (!m_gate.overdue(now()).contains(ticket))
+            return;
         if (found == m_handshakes.end()) {
             Q_EMIT tooSlow(ticket);
-            continue;
+            return;
         }
         const QString from = found->second->address();
         const QString reason = found->second->stage();
         ++m_failedHandshakes;
         forget(ticket);
         Q_EMIT refused(QString(), from, reason);
-    }
+    };
+    // Not at once: when this thread was busy with something else, what they have said waits to be read.
+    for (ConnectionGate::Ticket ticket : m_gate.overdue(now()))
+        QTimer::singleShot(sweepInterval / 2, this, [showOut, ticket] { showOut(ticket); });
     goOn();
     acceptAll();
     if (m_gate.strangers() == 0 && m_listener.isAttentive())

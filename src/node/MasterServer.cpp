@@ -56,6 +56,7 @@ MasterServer::MasterServer(NodeRegistry &registry, const ProcessImage &image, Cy
     , m_hub(hub)
     , m_session(session)
     , m_hello(std::move(hello))
+    , m_door(this)
 {
     connect(&m_door, &MasterDoor::entered, this, &MasterServer::enter);
     connect(&m_door, &MasterDoor::refused, this, &MasterServer::strangerRefused);

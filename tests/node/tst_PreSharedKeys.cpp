@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SecurityFixtures.h"
 
+#include <QtCore/QLoggingCategory>
 #include <QtNetwork/QTcpServer>
 #include <QtTest/QtTest>
 
@@ -26,6 +27,8 @@ private Q_SLOTS:
     void anUncertainIdentityIsAsked();
     void aMasterThatSaysNothingIsGivenUp();
     void theOtherNodeIsNoMaster();
+    void noKeyIsEverLogged();
+    void multicastIsRefused();
     void oldVersionsAndWeakSuitesAreRefused_data();
     void oldVersionsAndWeakSuitesAreRefused();
 
@@ -240,6 +243,32 @@ void tst_PreSharedKeys::theOtherNodeIsNoMaster()
     node.setSecurity(m_files.counter());
     QVERIFY(!impostor.admit(node, "udp"));
     QVERIFY(!node.isSecured());
+}
+
+/// Not even at the debug level that shows every message: neither those of the file, nor those for frames.
+void tst_PreSharedKeys::noKeyIsEverLogged()
+{
+    QLoggingCategory::setFilterRules("qtplc.*.debug=true");
+    LogCapture log;
+    CounterNode node;
+    node.setSecurity(m_files.counter());
+    const bool isAdmitted = m_master->admit(node, "udp");
+    QLoggingCategory::setFilterRules(QString());
+    QVERIFY(isAdmitted);
+    QVERIFY(!log.matching("Registered").isEmpty());
+    QVERIFY(log.matching(QString(QByteArray("seal").toHex(' '))).isEmpty());
+    QVERIFY(log.matching(QString(32, 'a')).isEmpty());
+}
+
+void tst_PreSharedKeys::multicastIsRefused()
+{
+    LogCapture log;
+    TestMaster master;
+    master.setSecurity(QPlcSecurity::preSharedKeys(m_files.masterKeys()));
+    master.setMulticastGroup(QHostAddress("239.255.76.68"));
+    QVERIFY(!master.listen());
+    QVERIFY2(master.errorString().contains("a secured master has no multicast group"),
+             qPrintable(master.errorString()));
 }
 
 void tst_PreSharedKeys::oldVersionsAndWeakSuitesAreRefused_data()

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "WindowContext.h"
+#include "gui/panel/WindowContext.h"
 
 #include <QtWidgets/QWidget>
 
