@@ -44,6 +44,7 @@ bool MasterCycle::start(const Phase &phase)
         slot->faulted = slot->pending = false;
         slot->bucket = 0;
         slot->isSafe = false;
+        slot->nextTurn = 0;
         if (slot->local)
             slot->local->beginPhase(phase.clock.isLockstep(), m_time);
     }
@@ -71,7 +72,7 @@ void MasterCycle::clearStatistics()
 {
     m_cycle = 0;
     m_digest = 0;
-    m_statistics.restart(m_phase.clock.isLockstep(), m_hub.strangers());
+    m_statistics.restart(m_phase.clock.isLockstep(), m_hub.strangers(), m_hub.floods());
     for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes)
         slot->statistics.clear();
 }
@@ -244,6 +245,7 @@ void MasterCycle::adopt(Roster *roster) noexcept
         if (!slot->initialOutputs.empty())
             copyRuns(*slot->pasteRuns, slot->initialOutputs.data(), m_image.data());
         slot->decoder.restart(m_cycleZero + m_number);
+        slot->nextTurn = 0;
         if (slot->peer)
             m_hub.attach(slot->peer.get());
     }

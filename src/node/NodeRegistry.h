@@ -27,6 +27,7 @@ struct NodeDeclaration
     QPlcSlaveNode::RealTimeViolationPolicy policy = QPlcSlaveNode::ErrorZeroOrderHold;
     bool listener = false;
     bool critical = false;
+    ListeningInterval interval;
     bool twoPhase = false;
     QVector<Signal> inputs;
     QVector<Signal> outputs;
