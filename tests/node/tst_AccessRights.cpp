@@ -47,9 +47,10 @@ private:
                                          "GetSchedule", "GetLeases",  "GetEvents"};
         static const QStringList takingPart{
             "Hello",       "Register",      "AttachCyclicChannel", "ReceiveMyInitialOutputStates",
-            "Initialized", "RealTimeReady", "NodeFault",           "Stop"};
-        static const QStringList operating{"InitializeAllStates", "StartRealTime", "SetSignals", "TakeLease",
-                                           "ReleaseLease"};
+            "Initialized", "RealTimeReady", "NodeFault",           "Stop",
+            "SafeStop"};
+        static const QStringList operating{"InitializeAllStates", "Arm",       "Reset",       "StartRealTime",
+                                           "SetSignals",          "TakeLease", "ReleaseLease"};
         return looking.contains(kind) || takingPart.contains(kind)
             || (operating.contains(kind) && (role == Role::Operator || role == Role::Engineer));
     }
@@ -65,6 +66,7 @@ private:
                                        "StatesInitialized",
                                        "RealTimeStarted",
                                        "RealTimeStopped",
+                                       "Armed",
                                        "State",
                                        "Signals",
                                        "Done",
