@@ -104,8 +104,7 @@ void PlantConnection::attempt()
 void PlantConnection::greeted(const QPlcMessage &hello)
 {
     QVector<QPlcParseError> errors;
-    const QPlcSignalTable table = QPlcSignalTable::fromIni(hello.text(QStringLiteral("table")).toUtf8(), &errors,
-                                                           QStringLiteral("table of the master"));
+    const QPlcSignalTable table = QPlcSignalTable::fromMaster(hello.text(QStringLiteral("table")).toUtf8(), &errors);
     if (table.isEmpty()) {
         m_control.close();
         failed(QPlcParseError::toString(errors));
