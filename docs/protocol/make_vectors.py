@@ -338,6 +338,11 @@ def example_messages():
         (65, "GetEvents", dict(since=41)),
         (66, "Events", dict(more=False, events=[dict(sequence=42, time=hex64(1767225600123456789), severity="warning", kind="node", source="Winch",
                                                      text="node Winch has left: it closed the connection")])),
+        (66, "Events", dict(more=False, events=[
+            dict(sequence=43, time=hex64(1767225601000000000), severity="warning", kind="node", source="Winch", alarm="node Winch",
+                 active=True, text="node Winch is gone in the middle of its work: the connection ended"),
+            dict(sequence=44, time=hex64(1767225604200000000), severity="info", kind="node", source="Winch", alarm="node Winch",
+                 active=False, text="node Winch is back, after 3.2 s")])),
         (50, "GetStatistics", {}),
         (50, "GetStatistics", dict(histograms=True)),
         (51, "Statistics", example_statistics()),

@@ -78,8 +78,11 @@ bool QPlcMasterNodePrivate::setError(QPlcMasterNode::Error newError, const QStri
     using qplc::JournalEvent;
     error = newError;
     errorString = text;
-    journal.tell(newError == QPlcMasterNode::StateError ? JournalEvent::Warning : JournalEvent::Error, kind, source,
-                 text);
+    const auto severity = newError == QPlcMasterNode::StateError ? JournalEvent::Warning : JournalEvent::Error;
+    if (kind == JournalEvent::Fault)
+        journal.raise(QStringLiteral("fault of ") + source, severity, kind, source, text);
+    else
+        journal.tell(severity, kind, source, text);
     Q_EMIT q->errorOccurred(newError);
     return false;
 }
@@ -121,6 +124,8 @@ bool QPlcMasterNodePrivate::prepare()
         settings->leaveToWriters();
         journal.tell(qplc::JournalEvent::Info, qplc::JournalEvent::Node, connection->name,
                      QStringLiteral("node %1 registered over %2").arg(connection->name, connection->cyclicKind));
+        journal.clear(QStringLiteral("node ") + connection->name,
+                      QStringLiteral("node %1 is back").arg(connection->name));
         Q_EMIT q->nodeRegistered(connection->name);
         if (isRunning())
             join(connection);
