@@ -53,6 +53,8 @@ public:
     PlantConnection::State connectionState() const;
     /// Time until the next attempt to connect [s]; -1 when none waits.
     double nextAttempt() const { return m_connection.nextAttempt(); }
+    /// Why this window cannot work with a master that is there: "versions differ: ..."; empty: it can, or there is none.
+    QString refusal() const { return m_refusal; }
     bool isConnected() const { return connectionState() == PlantConnection::Connected; }
     /// What the master tells of this window, which is a node that listens; null: nothing yet.
     const NodeStatus *ownNode() const { return m_status.node(m_connection.nodeName()); }
@@ -140,6 +142,7 @@ private:
 
     void connected(const QPlcMessage &hello, const QPlcSignalTable &table);
     void disconnected(const QString &reason);
+    void refused(const QString &reason);
     void takeFrames();
     void measureRate();
     void poll();
@@ -152,6 +155,7 @@ private:
     QString sourceOf(const QString &node) const;
     void takePushed(const QPlcMessage &message);
     void tell(PlantEvent::Severity severity, const QString &text, const QString &node = QString());
+    void tell(const PlantEvent &event);
     void tellOfMaster(PlantEvent::Severity severity, const QString &text, const QString &node = QString());
     void tellWaiting();
     QStringList nodeNames() const;
@@ -163,6 +167,7 @@ private:
     PlantStatus m_status;
     PlantLeases m_leases{m_connection.control()};
     MasterJournal m_journal{m_connection.control()};
+    QString m_refusal;                    // that was told; empty: none
     QVector<PlantEvent> m_waitingEvents;  // of this window, while older ones of the master are on their way
     QVector<QString> m_writers;
     QTimer m_frameTimer;

@@ -132,6 +132,8 @@ void PlantConnection::failed(const QString &reason)
     setState(Disconnected, reason);
     if (wasConnected)
         Q_EMIT disconnected(reason);
+    else if (m_control.isRefused())
+        Q_EMIT refused(reason);
 }
 
 void PlantConnection::listen()
