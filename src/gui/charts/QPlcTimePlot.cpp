@@ -209,10 +209,13 @@ void QPlcTimePlot::Private::bind()
         const bool isDefault = axis == Axis::Left && !curves.hasAxis(Axis::Right);
         canvas->setAxisVisible(axis, !curves.isEmpty() && (isDefault || curves.hasAxis(axis)));
         canvas->setUnit(axis, curves.unit(axis));
+        canvas->setNames(axis, curves.names(axis));
+        canvas->setNumbersVisible(axis, curves.hasAxis(axis) || !curves.hasBands());
     }
     legend->show(curves, std::nullopt);
     removeAction->setEnabled(!curves.isEmpty());
     toggleAction->setEnabled(!curves.isEmpty());
+    showChecks();
     ++version;
     arrange();
     schedule();
@@ -304,6 +307,7 @@ void QPlcTimePlot::Private::select(int place)
 {
     curves.select(place, q->context() ? q->context()->theme() : Theme::byName(Theme::System));
     ++version;
+    showChecks();
     schedule();
     showNumbers();
 }

@@ -94,6 +94,11 @@ public:
     void addLine();
     void removeLines();
     void toggleLive();
+    void toggleBands();
+    /// Of the chosen curve, or of the only one; null: none.
+    const qplc::PlotCurve *chosenCurve() const;
+    void showChecks();
+    void toggleLimits();
     void toggleTrigger();
     void showTrigger();
     void takeTrigger();
@@ -147,5 +152,7 @@ public:
     QAction *removeAction = nullptr;
     QAction *toggleAction = nullptr;
     QAction *statisticsAction = nullptr;
+    QAction *bandsAction = nullptr;
+    QAction *limitsAction = nullptr;
     QAction *triggerAction = nullptr;
 };
