@@ -31,6 +31,7 @@ QPlcTimePlot::Private::Private(QPlcTimePlot *plot)
     , legend(new PlotLegend)
     , statistics(new StatisticsView(plot))
     , exporter(new ChartExport(plot, [this] { return std::make_unique<PlotPicture>(canvas, overlay, legend); }))
+    , eventFiles(new EventFiles(this))
     , curves(canvas)
 {
     legendArea->setWidget(legend);
@@ -67,6 +68,7 @@ QPlcTimePlot::Private::Private(QPlcTimePlot *plot)
     });
     makeActions();
     connectInteraction();
+    connectEventFiles();
 }
 
 QPlcTimePlot::QPlcTimePlot(QWidget *parent)
@@ -183,6 +185,7 @@ void QPlcTimePlot::Private::followContext()
         connect(time, changed, this, &Private::schedule);
     connect(context->curveSources(), &CurveSources::changed, this, [this] {
         exporter->cancel(QPlcTimePlot::tr("The signals have changed while they were exported. Export them again."));
+        eventFiles->cancel(QPlcTimePlot::tr("The signals have changed while an event was saved."));
         bind();
     });
     connect(context->curveSources(), &CurveSources::filled, this, [this] {

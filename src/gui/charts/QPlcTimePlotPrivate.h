@@ -2,6 +2,7 @@
 #pragma once
 
 #include "ChartExport.h"
+#include "EventFiles.h"
 #include "PlotCanvas.h"
 #include "PlotCurves.h"
 #include "PlotInteraction.h"
@@ -103,6 +104,7 @@ public:
     void showTrigger();
     void takeTrigger();
     void makeExportActions();
+    void connectEventFiles();
     /// Of the curves that are seen, at the moment when it is called.
     qplc::ChartExport::Table table(Time begin, Time end) const;
     qplc::ChartExport::Table shownTable() const;
@@ -134,6 +136,7 @@ public:
     qplc::PlotLegend *legend;
     qplc::StatisticsView *statistics;
     qplc::ChartExport *exporter;
+    qplc::EventFiles *eventFiles;
     qplc::PlotCurves curves;
 
     std::array<ValueAxis, 2> axes;
