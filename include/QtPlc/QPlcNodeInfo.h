@@ -21,7 +21,9 @@ struct QPlcNodeInfo
     quint64 lateAnswers = 0;  ///< cycles that ended without the answer of this node
     quint64 duplicates = 0;   ///< answers that came again
     quint64 rejected = 0;     ///< frames that did not decode
+    quint64 forged = 0;       ///< sealed frames that were not as the node seals them
     quint64 resent = 0;       ///< requests that were sent again
+    QString faultPlan;        ///< faults that the node injects into its own frames, for a test; empty: none
 };
 
 Q_DECLARE_METATYPE(QPlcNodeInfo)

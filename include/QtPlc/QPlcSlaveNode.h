@@ -4,6 +4,7 @@
 #include "QPlcAbstractSocket.h"
 #include "QPlcCycle.h"
 #include "QPlcRealTimeOptions.h"
+#include "QPlcSecurity.h"
 #include "QPlcSignalIndexList.h"
 #include "QPlcSignalList.h"
 #include "QPlcSignalTable.h"
@@ -122,6 +123,12 @@ public:
     void setRealTimeOptions(const QPlcRealTimeOptions &options);
     QPlcRealTimeOptions realTimeOptions() const;
 
+    /// Lets the cyclic frames of this node meet the faults of a bad network, for a test: docs/faults.md has the words, for example "loss=5%,delay=2ms,seed=7"; empty: none.
+    /// The master is told, and shows it. Without effect in the process of the master. \pre not connected
+    /// \return false when \a plan cannot be meant: error() is then OptionError and nothing has changed
+    bool setFaultPlan(const QString &plan);
+    QString faultPlan() const;
+
     /// Writes the workload [s] into the signal \a signalName (Real32 or Real64), which becomes an output of this node: the time from the frame at hand
     /// to the answer ready to be sent, in the same cycle; 0 in lockstep, where results must not depend on the machine.
     void activateWorkloadMeasurement(const QString &signalName);
@@ -142,6 +149,7 @@ public:
         quint64 duplicated = 0;  ///< requests that came again; answered, never computed twice
         quint64 outdated = 0;    ///< requests of cycles before the newest
         quint64 rejected = 0;    ///< garbage, other sessions, corrupted frames
+        quint64 forged = 0;      ///< sealed frames that were not as the master seals them
         quint64 watchdog = 0;    ///< watchdog time-outs
     };
     /// \threadsafe yes
@@ -156,6 +164,10 @@ public:
                                             std::chrono::milliseconds timeout = std::chrono::seconds(5));
 
 public Q_SLOTS:
+    /// How this node and its master know each other; QPlcSecurity::current() unless set. Takes effect when it connects.
+    void setSecurity(const QPlcSecurity &security);
+    /// Whether the control connection is TLS, and the master proven.
+    bool isSecured() const;
     /// Begins to connect and register; connectedToMaster() or errorOccurred() follows.
     void connectToMaster(const QPlcUnderlyingProtocol &master);
     void disconnectFromMaster();

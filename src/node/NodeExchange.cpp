@@ -69,7 +69,8 @@ void NodeExchange::cutInputs() noexcept
         if (!slot->due)
             continue;
         copyRuns(slot->inputRuns, m_image.data(), slot->inputs);
-        slot->request.cycle = std::uint32_t(m_cycleZero + m_cycle.number);
+        slot->partsEncoded = 0;
+        slot->request.cycle = m_cycleZero + m_cycle.number;
         slot->request.info
             = std::uint32_t(std::min<std::int64_t>(m_cycle.lateness, std::numeric_limits<std::uint32_t>::max()));
     }
@@ -115,6 +116,8 @@ void NodeExchange::sendRequest(NodeSlot &slot, std::uint8_t flags) noexcept
         slot.multicast->toBeSent = true;
         return;
     }
+    if (flags != slot.request.flags)
+        slot.partsEncoded = 0;
     slot.request.flags = flags;
     slot.partsSent = 0;
     slot.bytesSent = 0;
@@ -141,7 +144,10 @@ void NodeExchange::sendParts(NodeSlot &slot) noexcept
     for (; slot.partsSent < slot.encoder.partCount(); ++slot.partsSent) {
         const std::size_t size = slot.encoder.partSize(slot.partsSent);
         char *frame = slot.frames.data() + slot.bytesSent;
-        slot.encoder.encode(slot.partsSent, slot.request, slot.inputs, frame);
+        if (slot.partsSent == slot.partsEncoded) {
+            slot.encoder.encode(slot.partsSent, slot.request, slot.inputs, frame);
+            ++slot.partsEncoded;
+        }
         if (!m_hub.send(slot.peer.get(), frame, size))
             return;
         m_reports.tap(TappedFrame::Sent, slot.id, frame, size);
@@ -289,7 +295,7 @@ void NodeExchange::receive(std::int64_t timeout, int alarm) noexcept
     CyclicHub::Incoming incoming;
     while (m_hub.next(&incoming))
         takeAnswer(*static_cast<NodeSlot *>(incoming.peer->owner), incoming.frame, incoming.size);
-    m_statistics.setStrangers(m_hub.strangers());
+    m_statistics.setArrivals(m_hub.strangers(), m_hub.floods());
     for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
         if (slot->peer && slot->peer->isClosed() && !slot->lost.exchange(true))
             m_reports.post({CycleEvent::LinkClosed, slot->id, 0, m_cycle.number});
@@ -321,6 +327,9 @@ void NodeExchange::takeAnswer(NodeSlot &slot, const char *frame, std::size_t siz
         return;
     case FrameStatus::Old:
         slot.statistics.reordered.add();
+        return;
+    case FrameStatus::Forged:
+        slot.statistics.forged.add();
         return;
     default:
         slot.statistics.rejected.add();

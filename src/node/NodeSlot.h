@@ -28,6 +28,7 @@ struct NodeSlot
     ListeningInterval interval;     // longer than a cycle for listeners alone
     bool wantsMulticast = false;    // listens to the multicast group of the master
     bool twoPhase = false;          // the answer to cycle k holds the outputs of cycle k + 1
+    QString faultPlan;              // that the node injects; empty: none
     std::vector<bool> sameCycle;    // for each field of inputLayout
     NodeRuntime *local = nullptr;   // a node of this process; else over the network
     std::unique_ptr<HubPeer> peer;  // null for a local node
@@ -43,10 +44,12 @@ struct NodeSlot
     FrameEncoder encoder;
     FrameDecoder decoder;
     std::vector<char> frames;  // encoded parts, one behind the other
-    char *inputs = nullptr;    // payload of this cycle: where it lies in a frame of one part, else inputBytes
+    char *inputs
+        = nullptr;  // payload of this cycle: where it lies in a frame of one part that is not sealed, else inputBytes
     std::vector<char> inputBytes;
     FrameHeader request;
-    std::size_t partsSent = 0;  // of the request: a stream takes what the kernel has room for
+    std::size_t partsEncoded = 0;  // of the request; those stay as they are until it changes
+    std::size_t partsSent = 0;     // of the request: a stream takes what the kernel has room for
     std::size_t bytesSent = 0;
     std::shared_ptr<MulticastPart> multicast;  // null: the node gets frames of its own
     quint32 multicastOffset = 0;               // of its inputs in the payload of the part
@@ -78,7 +81,8 @@ struct NodeSlot
         return true;
     }
     /// Sets everything that follows from the layouts. \param session  of the master, for remote nodes
-    void prepare(const ProcessImage &image, quint64 session);
+    /// \param keys  to seal its frames with, for this registration alone; null: they are not sealed
+    void prepare(const ProcessImage &image, quint64 session, const SealKeys *keys = nullptr);
     FrameCutter outputCutter() const;
 };
 

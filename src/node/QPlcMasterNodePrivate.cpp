@@ -108,7 +108,7 @@ bool QPlcMasterNodePrivate::prepare()
     m_reportNotifier = std::make_unique<QSocketNotifier>(cycle->reports().descriptor(), QSocketNotifier::Read);
     QObject::connect(m_reportNotifier.get(), &QSocketNotifier::activated, q, [this] { takeReports(); });
     const auto hello = [this] {
-        return QJsonObject{{QStringLiteral("protocol"), 1},
+        QJsonObject fields{{QStringLiteral("protocol"), 1},
                            {QStringLiteral("name"), qplc::NodeRegistry::masterName()},
                            {QStringLiteral("uuid"), uuid},
                            {QStringLiteral("session"), Message::fromHex64(session)},
@@ -116,7 +116,11 @@ bool QPlcMasterNodePrivate::prepare()
                            {QStringLiteral("table"), QString::fromUtf8(table.toIni())},
                            {QStringLiteral("state"), qplc::stateName(state)},
                            {QStringLiteral("period"), double(interval.count())},
+                           {QStringLiteral("security"), networkSecurity},
                            {QStringLiteral("features"), QJsonArray()}};
+        if (!faultPlan.isEmpty())
+            fields.insert(QStringLiteral("faults"), faultPlan);
+        return fields;
     };
     server = std::make_unique<qplc::MasterServer>(*registry, cycle->image(), hub, session, hello, nullptr);
     QObject::connect(server.get(), &qplc::MasterServer::attached, q, [this](Connection *connection) {
@@ -126,18 +130,17 @@ bool QPlcMasterNodePrivate::prepare()
                      QStringLiteral("node %1 registered over %2").arg(connection->name, connection->cyclicKind));
         journal.clear(QStringLiteral("node ") + connection->name,
                       QStringLiteral("node %1 is back").arg(connection->name));
+        if (!connection->slot->faultPlan.isEmpty())
+            journal.tell(qplc::JournalEvent::Warning, qplc::JournalEvent::Node, connection->name,
+                         QStringLiteral("node %1 injects faults on purpose: %2")
+                             .arg(connection->name, connection->slot->faultPlan));
         Q_EMIT q->nodeRegistered(connection->name);
         if (isRunning())
             join(connection);
     });
     QObject::connect(server.get(), &qplc::MasterServer::lost, q,
                      [this](Connection *connection, const QString &reason) { nodeLost(connection, reason); });
-    QObject::connect(server.get(), &qplc::MasterServer::refused, q,
-                     [this](const QString &name, const QString &address, const QString &reason) {
-                         journal.tell(qplc::JournalEvent::Warning, qplc::JournalEvent::Node, name,
-                                      QStringLiteral("refused %1 %2").arg(address, reason));
-                         Q_EMIT q->nodeRefused(name, reason);
-                     });
+    watchSecurity();
     QObject::connect(server.get(), &qplc::MasterServer::received, q,
                      [this](Connection *connection, const Message &message) { receive(connection, message); });
     prepareViewers();
@@ -178,23 +181,32 @@ bool QPlcMasterNodePrivate::startServer(const QPlcUnderlyingProtocol &protocol)
         return setError(QPlcMasterNode::StateError,
                         QStringLiteral("the server can only be started while the master is off"));
     QHostAddress address = protocol.address();
-    if (!address.isLoopback() && !insecureNetworkAllowed) {
-        qCWarning(lcMaster).noquote()
-            << "listening on 127.0.0.1 only instead of" << address.toString()
-            << "- anybody on the network could read and command the plant; setInsecureNetworkAllowed(true) opens it";
-        address = QHostAddress::LocalHost;
-    } else if (!address.isLoopback()) {
-        qCWarning(lcMaster).noquote() << "listening on" << address.toString()
-                                      << "WITHOUT SECURITY: anybody on the network can read and command the plant";
-    }
+    if (!checkSecurity())
+        return false;
+    chooseAddress(&address);
+    server->setSecurity(security);
+    injectFaults();
     if (!server->listen(address, protocol.port(), localName, multicastGroup))
         return setError(QPlcMasterNode::ServerError, server->errorString());
-    beacon.begin(
-        address,
-        {server->port(), false, table.hash(), localName.isEmpty() ? QCoreApplication::applicationName() : localName},
-        hasBeacon);
-    qCInfo(lcMaster).noquote() << "listening on" << address.toString() << "port" << server->port();
+    beacon.begin(address,
+                 {server->port(), !security.isNone(), table.hash(),
+                  localName.isEmpty() ? QCoreApplication::applicationName() : localName},
+                 hasBeacon);
+    qCInfo(lcMaster).noquote() << "listening on" << address.toString() << "port" << server->port() << "security"
+                               << security.modeName();
     return true;
+}
+
+void QPlcMasterNodePrivate::injectFaults()
+{
+    QString text;
+    const std::optional<qplc::FaultPlan> plan = qplc::FaultPlan::fromText(faultPlan, &text);
+    server->close();  // the frames of its nodes follow the last plan
+    hub.setFaults(faultPlan.isEmpty() ? std::nullopt : plan);
+    if (faultPlan.isEmpty())
+        return;
+    journal.tell(qplc::JournalEvent::Warning, qplc::JournalEvent::State, qplc::NodeRegistry::masterName(),
+                 QStringLiteral("the master injects faults on purpose: %1").arg(faultPlan));
 }
 
 bool QPlcMasterNodePrivate::addLocalNode(QPlcSlaveNode *node)
@@ -398,7 +410,9 @@ QPlcNodeInfo QPlcMasterNodePrivate::info(const NodeSlot &slot) const
     node.lateAnswers = slot.statistics.late;
     node.duplicates = slot.statistics.duplicated + slot.statistics.reordered;
     node.rejected = slot.statistics.rejected;
+    node.forged = slot.statistics.forged;
     node.resent = slot.statistics.resent;
+    node.faultPlan = slot.faultPlan;
     node.transport = QStringLiteral("inprocess");
     if (const Connection *connection = slot.local ? nullptr : server->connectionOf(&slot)) {
         node.transport = connection->cyclicKind;

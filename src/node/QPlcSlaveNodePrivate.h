@@ -13,6 +13,7 @@
 #include <QtCore/QSocketNotifier>
 
 #include <memory>
+#include <optional>
 
 /// The control side of a slave: registration, and the phases that the master announces.
 class QPlcSlaveNodePrivate
@@ -36,9 +37,11 @@ public:
     qplc::ListeningInterval interval;
     bool sameCycle = false;  // all inputs
     bool twoPhase = false;
+    QString faultPlan;
     QPlcSignalTable ownTable;
     QPlcRealTimeOptions realTimeOptions;
     std::chrono::nanoseconds watchdog{0};
+    std::optional<QPlcSecurity> security;  // else that of the process
     qplc::NodeRuntime runtime;
     QPlcSlaveNode::State state = QPlcSlaveNode::Disconnected;
     QPlcSlaveNode::Error error = QPlcSlaveNode::NoError;
@@ -61,6 +64,7 @@ private:
     bool makeUdpLink(quint16 *port);
     bool openLocalLink(const QPlcMessage &registered);
     bool joinGroup(const QPlcMessage &registered);
+    void giveLink(std::unique_ptr<qplc::CyclicLink> link);
     void connectCyclicChannel();
     void cyclicChannelAttached();
     void sendInitialOutputs();

@@ -39,7 +39,7 @@ QJsonObject fieldsOf(const QPlcNodeStatistics &node)
         {QStringLiteral("answers"), double(node.answers)},     {QStringLiteral("late"), double(node.late)},
         {QStringLiteral("lost"), double(node.lost)},           {QStringLiteral("duplicated"), double(node.duplicated)},
         {QStringLiteral("reordered"), double(node.reordered)}, {QStringLiteral("rejected"), double(node.rejected)},
-        {QStringLiteral("resent"), double(node.resent)}};
+        {QStringLiteral("forged"), double(node.forged)},       {QStringLiteral("resent"), double(node.resent)}};
     return {{QStringLiteral("name"), node.name},
             {QStringLiteral("execution"), fieldsOf(node.execution)},
             {QStringLiteral("roundTrip"), fieldsOf(node.roundTrip)},
@@ -71,7 +71,8 @@ QJsonObject masterFields(const QPlcCycleStatistics &statistics)
                                {QStringLiteral("shiftedTime"), double(statistics.shiftedTime)},
                                {QStringLiteral("lateAnswers"), double(statistics.lateAnswers)},
                                {QStringLiteral("incompleteCycles"), double(statistics.incompleteCycles)},
-                               {QStringLiteral("strangers"), double(statistics.strangers)}};
+                               {QStringLiteral("strangers"), double(statistics.strangers)},
+                               {QStringLiteral("floods"), double(statistics.floods)}};
     return {{QStringLiteral("lateness"), fieldsOf(statistics.lateness)},
             {QStringLiteral("execution"), fieldsOf(statistics.execution)},
             {QStringLiteral("roundTrip"), fieldsOf(statistics.roundTrip)},

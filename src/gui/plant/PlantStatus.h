@@ -32,6 +32,7 @@ struct NodeStatus
     QString transport;
     QString address;
     QString policy;
+    QString faultPlan;  // that it injects on purpose; empty: none
     bool isListener = false;
     int inputs = 0;
     int outputs = 0;
@@ -41,6 +42,7 @@ struct NodeStatus
     quint64 lost = 0;
     quint64 duplicated = 0;
     quint64 rejected = 0;
+    quint64 forged = 0;
     bool isLate = false;  // there were late answers since the statistics before
 };
 
@@ -53,6 +55,7 @@ struct PlantStatus
     QString clock;
     double scale = 1.0;
     quint64 session = 0;
+    QString faultPlan;       // that the master injects on purpose; empty: none
     bool isCounted = false;  // the master has told its counters: what they show more from now on is new
     quint64 overruns = 0;
     DurationStatus lateness;
