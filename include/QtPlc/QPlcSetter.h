@@ -12,6 +12,8 @@
 /// | `slider` | sent while it is dragged, at most 20 times a second, and always where it ends |
 /// | `toggle` | on (`on`, 1 unless set) or off (neutral) |
 /// | `momentary` | `pressed` (the maximum unless set) while the button is held; then neutral |
+/// | `knob` | turned; sent once when the mouse lets go, or by Enter when keys or the wheel have turned it; Esc takes the turning back |
+/// | `list` | one of the names that the values of the signal have in the table (`values`); sent once, as its number |
 /// | `generator` | steps, ramps or a sine, a new value every 20 ms |
 ///
 /// Values beyond the limits of the signal table become the limit, and the setter says so. A signal that a node writes has to be taken over first (*Take control*, Ctrl+T), and is given back by *Give

@@ -3,6 +3,7 @@
 
 #include "QPlcSignalType.h"
 #include "QPlcValue.h"
+#include "QPlcValueNames.h"
 
 /// What the signal table says of one plc signal.
 struct QTPLC_EXPORT QPlcSignalDefinition
@@ -12,17 +13,22 @@ struct QTPLC_EXPORT QPlcSignalDefinition
     QString typeName;  ///< as written in the table ("Bool", "RealTriple"): a hint for views
     QString unit;      ///< "m/s", "deg"; empty: none
     QString description;
-    QPlcValue minimum;  ///< smallest allowed value of each element; invalid: none. Type: that of one element
-    QPlcValue maximum;  ///< largest allowed value of each element; invalid: none
-    QPlcValue initial;  ///< value before the first writer; always valid, zero unless said
-    QPlcValue safe;     ///< value when the writer is lost; invalid: keep the last
-    int hold = 0;       ///< cycles for which the last value is kept before `safe`
-    int line = 0;       ///< line of the section in the file, 0: not from a file
+    QPlcValue minimum;          ///< smallest allowed value of each element; invalid: none. Type: that of one element
+    QPlcValue maximum;          ///< largest allowed value of each element; invalid: none
+    QPlcValue initial;          ///< value before the first writer; always valid, zero unless said
+    QPlcValue safe;             ///< value when the writer is lost; invalid: keep the last
+    int hold = 0;               ///< cycles for which the last value is kept before `safe`
+    QPlcValueNames valueNames;  ///< of an integer or boolean signal, and of its elements; empty: none
+    int line = 0;               ///< line of the section in the file, 0: not from a file
 
     /// Whether every element of \a value, which has this type, is a number within minimum and maximum; without limits always true.
     bool isInRange(const QPlcValue &value) const;
     /// "-10 ... 10", "at least 0", "at most 5"; empty without limits.
     QString rangeText() const;
+    /// A value of this signal for people: with names where it has names ("ReelIn"), else as QPlcValue::toString().
+    QString textOf(const QPlcValue &value) const;
+    /// Reads a value: names where there are names, and everything that QPlcValue::fromString() reads. \return invalid when the text is no value, with the reason in \a error
+    QPlcValue valueFromText(const QString &text, QString *error = nullptr) const;
 };
 
 Q_DECLARE_METATYPE(QPlcSignalDefinition)

@@ -8,6 +8,10 @@
 #include <QtCore/QStringList>
 #include <QtCore/QVector>
 
+namespace qplc {
+class TableReader;
+}
+
 /// All plc signals of a controller, in the order of the file.
 ///
 /// ```ini
@@ -21,7 +25,7 @@
 /// ```
 ///
 /// Keys: `type` (required, see QPlcSignalType), `unit`, `description`, `min`, `max`, `initial`, `safe`, `hold`
-/// (cycles, an integer >= 0). Comments begin with `;` or `#` at the start of a line, or with ` ;` behind a value. Values of arrays are
+/// (cycles, an integer >= 0), and `values`, the names of the values of an integer or boolean signal: `values = 0: Off, 1: ReelOut` (see QPlcValueNames). Comments begin with `;` or `#` at the start of a line, or with ` ;` behind a value. Values of arrays are
 /// separated by commas ("0, 0, 1"); one number stands for all elements. UTF-8 with or without byte order mark, lines
 /// ended by LF or CRLF, at most 4096 bytes each. A value that begins with `"` ends with `"`; inside, `\n \r \t \" \\` stand for what they do in C++.
 /// A signal name is a letter or underscore followed by letters, digits, `_` or `.`, at most 63 characters.
@@ -40,6 +44,8 @@ public:
     /// \param fileName  only for the errors
     static QPlcSignalTable fromIni(const QByteArray &text, QVector<QPlcParseError> *errors = nullptr,
                                    const QString &fileName = QString());
+    /// Reads what a master has sent: the same, but keys that this version does not know are left out, for the master may be a newer one.
+    static QPlcSignalTable fromMaster(const QByteArray &text, QVector<QPlcParseError> *errors = nullptr);
     /// Reads the file \a fileName; a file that cannot be read is one error.
     static QPlcSignalTable fromIniFile(const QString &fileName, QVector<QPlcParseError> *errors = nullptr);
     /// The table as a text that fromIni() reads back as an equal table.
@@ -67,6 +73,7 @@ public:
     quint64 hash() const;
 
 private:
+    static QPlcSignalTable read(qplc::TableReader reader, QVector<QPlcParseError> *errors);
     void add(const QPlcSignalDefinition &definition);
 
     QVector<QPlcSignalDefinition> m_signals;

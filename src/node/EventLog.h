@@ -19,6 +19,8 @@ struct JournalEvent
     Kind kind = State;
     QString source;  // name of a node, or of the master
     QString text;
+    QString alarm{};        // name of a condition that begins or ends with this; empty: it is over at once
+    bool isActive = false;  // of an alarm: it begins
     // given by EventLog
     quint64 sequence = 0;   // from 1, without gaps
     std::int64_t time = 0;  // [ns since 1970]

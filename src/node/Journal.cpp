@@ -62,6 +62,34 @@ void Journal::tell(JournalEvent::Severity severity, JournalEvent::Kind kind, con
     append({severity, kind, source, text});
 }
 
+void Journal::raise(const QString &alarm, JournalEvent::Severity severity, JournalEvent::Kind kind,
+                    const QString &source, const QString &text)
+{
+    const JournalEvent event{severity, kind, source, text, alarm, true};
+    m_alarms.try_emplace(alarm, Alarm{event, now()});
+    append(event);
+}
+
+void Journal::clear(const QString &alarm, const QString &text)
+{
+    const auto found = m_alarms.find(alarm);
+    if (found == m_alarms.end())
+        return;
+    const Alarm lasted = found->second;
+    m_alarms.erase(found);
+    const double duration = double(now() - lasted.since) * 1e-9;  // [s]
+    append({JournalEvent::Info, lasted.event.kind, lasted.event.source,
+            QStringLiteral("%1, after %2 s").arg(text).arg(duration, 0, 'f', 1), alarm, false});
+}
+
+void Journal::clearAll(const QString &text)
+{
+    while (!m_alarms.empty()) {
+        const QString alarm = m_alarms.begin()->first;
+        clear(alarm, QStringLiteral("%1: %2").arg(alarm, text));
+    }
+}
+
 void Journal::stateChanged(const QString &state, bool isTransient)
 {
     const QString begin = QStringLiteral("state ");

@@ -8,6 +8,8 @@
 #include <QtCore/QObject>
 #include <QtCore/QTimer>
 
+#include <map>
+
 namespace qplc {
 
 /// What happens at a master, for people: the one place that makes a line of the log and an event for viewers out of it.
@@ -23,6 +25,14 @@ public:
 
     /// \param source  name of a node, or of the master
     void tell(JournalEvent::Severity severity, JournalEvent::Kind kind, const QString &source, const QString &text);
+    /// Tells that something abnormal begins, and lasts until it is cleared; its duration counts from the first time on.
+    /// \param alarm  what: "node Winch"
+    void raise(const QString &alarm, JournalEvent::Severity severity, JournalEvent::Kind kind, const QString &source,
+               const QString &text);
+    /// Tells that it is over, and how long it lasted. Nothing is told of what was not raised.
+    void clear(const QString &alarm, const QString &text);
+    /// All that lasts is over.
+    void clearAll(const QString &text);
     /// \param isTransient  time stands still, or goes on again: this may happen in every cycle
     void stateChanged(const QString &state, bool isTransient);
     void answeredLate(const QString &node, std::uint64_t cycle);
@@ -42,6 +52,12 @@ Q_SIGNALS:
     void appended();
 
 private:
+    struct Alarm
+    {
+        JournalEvent event;
+        std::int64_t since;  // [ns] on the monotonic clock
+    };
+
     void append(const JournalEvent &event);
     void tellLimited(const QString &thing, const QString &begin, const JournalEvent &event);
     void tellDue();
@@ -50,6 +66,7 @@ private:
 
     EventLog m_events;
     ReportLimiter m_limiter;
+    std::map<QString, Alarm> m_alarms;  // that last
     QTimer m_limiterTimer;
     QTimer m_overrunTimer;
     const CycleStatistics *m_statistics = nullptr;  // while cycles run

@@ -137,10 +137,13 @@ void QPlcMasterNodePrivate::fault(const QString &node, bool isCritical, const QS
 void QPlcMasterNodePrivate::nodeLost(Connection *connection, const QString &reason)
 {
     const bool isMissed = connection->stage > Connection::Attached && !connection->slot->listener;
-    journal.tell(
-        isMissed ? qplc::JournalEvent::Warning : qplc::JournalEvent::Info, qplc::JournalEvent::Node, connection->name,
-        isMissed ? QStringLiteral("node %1 is gone in the middle of its work: %2").arg(connection->name, reason)
-                 : QStringLiteral("node %1 has left: %2").arg(connection->name, reason));
+    if (isMissed)
+        journal.raise(QStringLiteral("node ") + connection->name, qplc::JournalEvent::Warning, qplc::JournalEvent::Node,
+                      connection->name,
+                      QStringLiteral("node %1 is gone in the middle of its work: %2").arg(connection->name, reason));
+    else
+        journal.tell(qplc::JournalEvent::Info, qplc::JournalEvent::Node, connection->name,
+                     QStringLiteral("node %1 has left: %2").arg(connection->name, reason));
     const auto participant = std::find(m_participants.begin(), m_participants.end(), connection);
     const bool wasAwaited = m_step != Step::None && participant != m_participants.end();
     if (participant != m_participants.end())

@@ -114,13 +114,19 @@ QJsonObject scheduleFields(const QPlcSchedule &schedule)
 QJsonObject eventFields(const std::vector<JournalEvent> &events)
 {
     QJsonArray array;
-    for (const JournalEvent &event : events)
-        array.append(QJsonObject{{QStringLiteral("sequence"), double(event.sequence)},
-                                 {QStringLiteral("time"), QPlcMessage::fromHex64(quint64(event.time))},
-                                 {QStringLiteral("severity"), severityName(event.severity)},
-                                 {QStringLiteral("kind"), kindName(event.kind)},
-                                 {QStringLiteral("source"), event.source},
-                                 {QStringLiteral("text"), event.text}});
+    for (const JournalEvent &event : events) {
+        QJsonObject fields{{QStringLiteral("sequence"), double(event.sequence)},
+                           {QStringLiteral("time"), QPlcMessage::fromHex64(quint64(event.time))},
+                           {QStringLiteral("severity"), severityName(event.severity)},
+                           {QStringLiteral("kind"), kindName(event.kind)},
+                           {QStringLiteral("source"), event.source},
+                           {QStringLiteral("text"), event.text}};
+        if (!event.alarm.isEmpty()) {
+            fields.insert(QStringLiteral("alarm"), event.alarm);
+            fields.insert(QStringLiteral("active"), event.isActive);
+        }
+        array.append(fields);
+    }
     return {{QStringLiteral("events"), array}};
 }
 

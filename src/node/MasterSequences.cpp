@@ -316,6 +316,7 @@ void QPlcMasterNodePrivate::startCycles()
     m_goneListeners.clear();
     statisticSignals.start(cycle.get(), registry.get(), clock.isLockstep());
     journal.watchOverruns(&cycle->cycleStatistics());
+    journal.clearAll(QStringLiteral("over, a real-time phase has begun"));
     apply(Event::CyclesStarted);
     for (const std::shared_ptr<NodeSlot> &slot : registry->nodes()) {
         if (!slot->local)

@@ -34,11 +34,12 @@ void QPlcMasterNodePrivate::prepareViewers()
     QObject::connect(
         settings.get(), &qplc::MasterSettings::valueSet, q,
         [this](const QObject *owner, QPlcSignalIndex signal, const QPlcValue &former, const QPlcValue &value) {
-            journal.valueSet(nameOf(owner), table.at(signal).name, former.toString(), value.toString());
+            const QPlcSignalDefinition &definition = table.at(signal);
+            journal.valueSet(nameOf(owner), definition.name, definition.textOf(former), definition.textOf(value));
         });
     QObject::connect(settings.get(), &qplc::MasterSettings::valueCameBack, q,
                      [this](QPlcSignalIndex signal, const QPlcValue &value) {
-                         journal.valueCameBack(table.at(signal).name, value.toString());
+                         journal.valueCameBack(table.at(signal).name, table.at(signal).textOf(value));
                      });
 }
 

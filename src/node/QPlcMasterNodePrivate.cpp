@@ -67,8 +67,11 @@ bool QPlcMasterNodePrivate::setError(QPlcMasterNode::Error newError, const QStri
     using qplc::JournalEvent;
     error = newError;
     errorString = text;
-    journal.tell(newError == QPlcMasterNode::StateError ? JournalEvent::Warning : JournalEvent::Error, kind, source,
-                 text);
+    const auto severity = newError == QPlcMasterNode::StateError ? JournalEvent::Warning : JournalEvent::Error;
+    if (kind == JournalEvent::Fault)
+        journal.raise(QStringLiteral("fault of ") + source, severity, kind, source, text);
+    else
+        journal.tell(severity, kind, source, text);
     Q_EMIT q->errorOccurred(newError);
     return false;
 }
@@ -113,6 +116,8 @@ bool QPlcMasterNodePrivate::prepare()
         settings->leaveToWriters();
         journal.tell(qplc::JournalEvent::Info, qplc::JournalEvent::Node, connection->name,
                      QStringLiteral("node %1 registered over %2").arg(connection->name, connection->cyclicKind));
+        journal.clear(QStringLiteral("node ") + connection->name,
+                      QStringLiteral("node %1 is back").arg(connection->name));
         if (!connection->slot->faultPlan.isEmpty())
             journal.tell(qplc::JournalEvent::Warning, qplc::JournalEvent::Node, connection->name,
                          QStringLiteral("node %1 injects faults on purpose: %2")

@@ -70,8 +70,7 @@ bool QPlcSlaveNodePrivate::chooseTable(const Message &hello, QPlcSignalTable *ta
     if (!table->isEmpty())
         return true;
     QVector<QPlcParseError> errors;
-    *table = QPlcSignalTable::fromIni(hello.text(QStringLiteral("table")).toUtf8(), &errors,
-                                      QStringLiteral("table of the master"));
+    *table = QPlcSignalTable::fromMaster(hello.text(QStringLiteral("table")).toUtf8(), &errors);
     if (table->isEmpty()) {
         giveUp(QPlcSlaveNode::ProtocolError, QPlcParseError::toString(errors));
         return false;

@@ -3,6 +3,8 @@
 
 #include "ValueOrder.h"
 
+#include <QtCore/QStringList>
+
 #include <cmath>
 
 bool QPlcSignalDefinition::isInRange(const QPlcValue &value) const
@@ -27,4 +29,32 @@ QString QPlcSignalDefinition::rangeText() const
     if (!minimum.isValid())
         return QStringLiteral("at most ") + maximum.toString();
     return minimum.toString() + QStringLiteral(" ... ") + maximum.toString();
+}
+
+QString QPlcSignalDefinition::textOf(const QPlcValue &value) const
+{
+    if (valueNames.isEmpty() || !value.type().isInteger())
+        return value.toString();
+    QStringList texts = value.toString().split(QStringLiteral(", "));
+    for (QString &text : texts) {
+        const QString found = valueNames.nameOf(text.toLongLong());
+        if (!found.isEmpty())
+            text = found;
+    }
+    return texts.join(QStringLiteral(", "));
+}
+
+QPlcValue QPlcSignalDefinition::valueFromText(const QString &text, QString *error) const
+{
+    if (valueNames.isEmpty())
+        return QPlcValue::fromString(type, text, error);
+    QStringList numbers = text.split(QLatin1Char(','));
+    for (QString &number : numbers) {
+        if (const std::optional<qint64> value = valueNames.valueOf(number.trimmed()))
+            number = QString::number(*value);
+    }
+    const QPlcValue value = QPlcValue::fromString(type, numbers.join(QLatin1Char(',')), error);
+    if (!value.isValid() && error)
+        *error += QStringLiteral("; its names are ") + valueNames.toText();
+    return value;
 }

@@ -46,7 +46,11 @@ QPlcSignalDefinition completed(QPlcSignalDefinition signal)
 QPlcSignalTable QPlcSignalTable::fromIni(const QByteArray &text, QVector<QPlcParseError> *errors,
                                          const QString &fileName)
 {
-    qplc::TableReader reader(text, fileName);
+    return read({text, fileName, qplc::TableReader::UnknownKeys::Refused}, errors);
+}
+
+QPlcSignalTable QPlcSignalTable::read(qplc::TableReader reader, QVector<QPlcParseError> *errors)
+{
     const QVector<QPlcSignalDefinition> definitions = reader.read();
     const QVector<QPlcParseError> found = reader.errors();
     if (errors)
@@ -58,6 +62,11 @@ QPlcSignalTable QPlcSignalTable::fromIni(const QByteArray &text, QVector<QPlcPar
     for (const QPlcSignalDefinition &definition : definitions)
         table.add(definition);
     return table;
+}
+
+QPlcSignalTable QPlcSignalTable::fromMaster(const QByteArray &text, QVector<QPlcParseError> *errors)
+{
+    return read({text, QStringLiteral("table of the master"), qplc::TableReader::UnknownKeys::Ignored}, errors);
 }
 
 QPlcSignalTable QPlcSignalTable::fromIniFile(const QString &fileName, QVector<QPlcParseError> *errors)

@@ -128,6 +128,30 @@ void checkType(SignalKey key, const QPlcValue &value, QPlcSignalType type, Compl
                                 .arg(quoted(value.toString()), value.type().name(), type.name())});
 }
 
+void checkNames(const QPlcSignalDefinition &signal, Complaints *complaints)
+{
+    if (signal.valueNames.isEmpty())
+        return;
+    checkText(SignalKey::Values, signal.valueNames.toText(), LineBreaks::Refused, complaints);
+    if (!signal.type.isInteger()) {
+        complaints->append({SignalKey::Values,
+                            QStringLiteral("values of %1 have no names; take an integer type, or remove 'values ='")
+                                .arg(signal.type.name())});
+        return;
+    }
+    const QPlcSignalType element = elementType(signal.type);
+    for (const QPlcValueNames::Entry &entry : signal.valueNames) {
+        const QPlcValue value = QPlcValue::fromString(element, QString::number(entry.value));
+        if (value.isValid() && signal.isInRange(value))
+            continue;
+        const QString reason = value.isValid() ? QStringLiteral("is outside of min and max")
+                                               : QStringLiteral("does not fit into ") + element.name();
+        complaints->append(
+            {SignalKey::Values,
+             QStringLiteral("the value %1 (%2) %3; remove its name").arg(entry.value).arg(quoted(entry.name), reason)});
+    }
+}
+
 QString iniLine(SignalKey key, const QString &value)
 {
     return signalKeyNames().at(int(key)) + QStringLiteral(" = ") + value;
@@ -163,6 +187,8 @@ void checkLines(const QPlcSignalDefinition &signal, Complaints *complaints)
         checkLine(SignalKey::Unit, IniParser::valueText(signal.unit), complaints);
     if (signal.description.size() > longText)
         checkLine(SignalKey::Description, IniParser::valueText(signal.description), complaints);
+    if (!signal.valueNames.isEmpty())
+        checkLine(SignalKey::Values, IniParser::valueText(signal.valueNames.toText()), complaints);
     if (signal.type.size() > longValue) {
         checkLine(SignalKey::Initial, listText(signal.initial), complaints);
         checkLine(SignalKey::Safe, listText(signal.safe), complaints);
@@ -173,9 +199,9 @@ void checkLines(const QPlcSignalDefinition &signal, Complaints *complaints)
 
 const QStringList &signalKeyNames()
 {
-    static const QStringList names
-        = {QStringLiteral("type"), QStringLiteral("unit"),    QStringLiteral("description"), QStringLiteral("min"),
-           QStringLiteral("max"),  QStringLiteral("initial"), QStringLiteral("safe"),        QStringLiteral("hold")};
+    static const QStringList names = {QStringLiteral("type"), QStringLiteral("unit"), QStringLiteral("description"),
+                                      QStringLiteral("min"),  QStringLiteral("max"),  QStringLiteral("initial"),
+                                      QStringLiteral("safe"), QStringLiteral("hold"), QStringLiteral("values")};
     return names;
 }
 
@@ -195,6 +221,8 @@ QVector<Complaint> complaintsAbout(const QPlcSignalDefinition &signal)
     checkType(SignalKey::Safe, signal.safe, signal.type, &complaints);
     if (complaints.size() == before)
         checkValues(signal, &complaints);
+    if (signal.type.isValid())
+        checkNames(signal, &complaints);
     checkLines(signal, &complaints);
     return complaints;
 }
@@ -216,6 +244,8 @@ QString iniSection(const QPlcSignalDefinition &signal)
         lines.append(iniLine(SignalKey::Safe, listText(signal.safe)));
     if (signal.hold != 0)
         lines.append(iniLine(SignalKey::Hold, QString::number(signal.hold)));
+    if (!signal.valueNames.isEmpty())
+        lines.append(iniLine(SignalKey::Values, IniParser::valueText(signal.valueNames.toText())));
     return lines.join(QLatin1Char('\n')) + QLatin1Char('\n');
 }
 

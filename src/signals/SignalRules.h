@@ -8,7 +8,7 @@
 namespace qplc {
 
 /// The keys of a signal in its table. Name: the section itself.
-enum class SignalKey : quint8 { Type, Unit, Description, Minimum, Maximum, Initial, Safe, Hold, Name };
+enum class SignalKey : quint8 { Type, Unit, Description, Minimum, Maximum, Initial, Safe, Hold, Values, Name };
 constexpr int signalKeyCount = int(SignalKey::Name);
 
 /// "type", "unit", ... in the order of SignalKey

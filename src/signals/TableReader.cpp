@@ -29,8 +29,9 @@ QVector<QPlcParseError> ErrorCollector::errors() const
 
 // ---- TableReader ----
 
-TableReader::TableReader(const QByteArray &text, const QString &fileName)
+TableReader::TableReader(const QByteArray &text, const QString &fileName, UnknownKeys unknownKeys)
     : m_parser(text)
+    , m_unknownKeys(unknownKeys)
     , m_errors(fileName)
 {
 }
@@ -83,6 +84,8 @@ void TableReader::addEntry(const IniItem &item)
         return;
     }
     const int key = signalKeyNames().indexOf(item.name);
+    if (key < 0 && m_unknownKeys == UnknownKeys::Ignored)
+        return;
     if (key < 0) {
         const QStringList close = closeNames(item.name, signalKeyNames());
         m_errors.add(item.line, item.column,
@@ -153,6 +156,20 @@ void TableReader::readValues()
     QPlcValue hold(0);
     readValue(SignalKey::Hold, hold.type(), &hold);
     m_signal.hold = hold.toInt();
+    readNames();
+}
+
+void TableReader::readNames()
+{
+    Entry &source = entry(SignalKey::Values);
+    if (source.line == 0 || source.isWrong)
+        return;
+    QString error;
+    m_signal.valueNames = QPlcValueNames::fromText(source.value, &error);
+    if (error.isEmpty())
+        return;
+    source.isWrong = true;
+    m_errors.add(source.line, source.valueColumn, error);
 }
 
 // Leaves `value` as it is when there is no such key or its text is no such value.

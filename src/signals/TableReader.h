@@ -36,7 +36,9 @@ private:
 class TableReader
 {
 public:
-    TableReader(const QByteArray &text, const QString &fileName);
+    enum class UnknownKeys : quint8 { Refused, Ignored };
+
+    TableReader(const QByteArray &text, const QString &fileName, UnknownKeys unknownKeys);
 
     /// The signals in the order of the text; not to be used when there are errors.
     QVector<QPlcSignalDefinition> read();
@@ -58,10 +60,12 @@ private:
     void readType();
     void readValues();
     void readValue(SignalKey key, QPlcSignalType type, QPlcValue *value);
+    void readNames();
     void complain(const Complaint &complaint);
     Entry &entry(SignalKey key) { return m_entries[std::size_t(key)]; }
 
     IniParser m_parser;
+    UnknownKeys m_unknownKeys;
     ErrorCollector m_errors;
     QVector<QPlcSignalDefinition> m_signals;
     QHash<QString, int> m_firstLines;  // of signal names

@@ -158,8 +158,7 @@ bool ControlClient::askFor(Message::Kind request, Message::Kind expected, const 
 QPlcSignalTable ControlClient::table()
 {
     QVector<QPlcParseError> errors;
-    const QPlcSignalTable table = QPlcSignalTable::fromIni(m_hello.text(QStringLiteral("table")).toUtf8(), &errors,
-                                                           QStringLiteral("table of the master"));
+    const QPlcSignalTable table = QPlcSignalTable::fromMaster(m_hello.text(QStringLiteral("table")).toUtf8(), &errors);
     if (table.isEmpty())
         setError(Lost, QPlcParseError::toString(errors));
     return table;

@@ -94,8 +94,8 @@ private:
     {
         if (m_lines) {
             QStringList cells{time};
-            for (const QPlcValue &value : values)
-                cells << value.toString();
+            for (int i = 0; i < values.size(); ++i)  // people read names, programs numbers
+                cells << (isTerminal() ? m_listener.definitions().at(i).textOf(values.at(i)) : values.at(i).toString());
             m_lines->print(cells);
         } else {
             object.insert(QStringLiteral("values"), m_listener.toJson(values));

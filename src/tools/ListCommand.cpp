@@ -42,7 +42,28 @@ QJsonValue valueOf(const QPlcSignalTable &table, const QJsonObject &row)
                                            : toJson(table.at(index), text(row, "value"));
 }
 
-void printTable(const QVector<QJsonObject> &rows, bool verbose)
+/// What people read: names of values where the table has some.
+QString readableValue(const QPlcSignalTable &table, const QJsonObject &row)
+{
+    const QString value = text(row, "value");
+    const QPlcSignalIndex index = table.indexOf(text(row, "name"));
+    if (index == QPlcInvalidSignalIndex || table.at(index).valueNames.isEmpty())
+        return value;
+    return table.at(index).textOf(QPlcValue::fromString(table.at(index).type, value));
+}
+
+QJsonObject namesOf(const QPlcSignalTable &table, const QJsonObject &row)
+{
+    QJsonObject names;
+    const QPlcSignalIndex index = table.indexOf(text(row, "name"));
+    if (index != QPlcInvalidSignalIndex) {
+        for (const QPlcValueNames::Entry &entry : table.at(index).valueNames)
+            names.insert(QString::number(entry.value), entry.name);
+    }
+    return names;
+}
+
+void printTable(const QPlcSignalTable &signalTable, const QVector<QJsonObject> &rows, bool verbose)
 {
     QStringList fields{QStringLiteral("name"), QStringLiteral("type"), QStringLiteral("unit"), QStringLiteral("value"),
                        QStringLiteral("writer")};
@@ -54,7 +75,7 @@ void printTable(const QVector<QJsonObject> &rows, bool verbose)
     for (const QJsonObject &row : rows) {
         QStringList cells;
         for (const QString &field : qAsConst(fields))
-            cells << row.value(field).toString();
+            cells << (field == QLatin1String("value") ? readableValue(signalTable, row) : row.value(field).toString());
         table.addRow(cells);
     }
     table.print();
@@ -69,12 +90,15 @@ int listSignals(const CommandCall &call)
     if (!askForSignals(call, &table, &rows))
         return call.exitCode();
     if (!call.isJson()) {
-        printTable(rows, call.application.isSet(QStringLiteral("verbose")));
+        printTable(table, rows, call.application.isSet(QStringLiteral("verbose")));
         return QPlcCoreApplication::Success;
     }
     QJsonArray array;
     for (QJsonObject &row : rows) {
         row.insert(QStringLiteral("value"), valueOf(table, row));
+        const QJsonObject names = namesOf(table, row);
+        if (!names.isEmpty())
+            row.insert(QStringLiteral("names"), names);
         array.append(row);
     }
     printJson(QJsonDocument(array));
@@ -92,7 +116,7 @@ int getSignals(const CommandCall &call)
         return call.exitCode();
     QJsonObject values;
     for (const QJsonObject &row : qAsConst(rows)) {
-        const QString value = printable(text(row, "value"));
+        const QString value = printable(isPlain ? text(row, "value") : readableValue(table, row));
         if (call.isJson())
             values.insert(text(row, "name"), valueOf(table, row));
         else

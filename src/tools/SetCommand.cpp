@@ -39,7 +39,7 @@ bool readValues(const CommandCall &call, const QPlcSignalTable &table, Settings 
             return false;
         QString error;
         const QPlcSignalDefinition &definition = table.at(table.indexOf(names.constFirst()));
-        const QPlcValue value = QPlcValue::fromString(definition.type, call.arguments.at(i + 1), &error);
+        const QPlcValue value = definition.valueFromText(call.arguments.at(i + 1), &error);
         if (!value.isValid())
             error = QStringLiteral("signal '%1': %2").arg(definition.name, error);
         else if (settings->values.contains(definition.name))
@@ -61,7 +61,9 @@ void print(const CommandCall &call, const Settings &settings)
         const QString text = settings.values.value(definition.name).toString();
         values.insert(definition.name, toJson(definition, text));
         if (!call.isJson())
-            printLine(QStringLiteral("%1 = %2").arg(definition.name, withUnit(text, definition.unit)));
+            printLine(QStringLiteral("%1 = %2").arg(
+                definition.name,
+                withUnit(definition.textOf(QPlcValue::fromString(definition.type, text)), definition.unit)));
     }
     QJsonObject document{{QStringLiteral("values"), values}};
     if (settings.duration > 0.0)

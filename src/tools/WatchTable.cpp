@@ -62,7 +62,7 @@ void WatchTable::update(const QVector<QPlcValue> &values, double now)
     int row = 0;
     for (int i = 0; i < m_definitions.size(); ++i) {
         const QPlcSignalType type = m_definitions.at(i).type;
-        const QString text = printable(values.at(i).toString());
+        const QString text = printable(m_definitions.at(i).textOf(values.at(i)));
         if (!m_rows.at(row).isNumber) {
             update(&m_rows[row++], text, 0.0, now);
             continue;

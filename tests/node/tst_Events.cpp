@@ -15,6 +15,8 @@ private Q_SLOTS:
     void init();
     void statesAreEventsWithReasons();
     void nodesComeAndGoWithReasons();
+    void aNodeThatIsMissedIsAnAlarmUntilItIsBack();
+    void aPhaseThatBeginsWithoutANodeEndsItsAlarm();
     void refusedNodeIsAWarning();
     void lateAnswersAreToldOnceASecond();
     void faultsAreErrorsOfTheirNode();
@@ -39,6 +41,17 @@ private:
             if (event["kind"].toString() == kind)
                 texts << QStringLiteral("%1 %2: %3")
                              .arg(event["severity"].toString(), event["source"].toString(), event["text"].toString());
+        }
+        return texts;
+    }
+    /// All alarms, as "+ node X" and "- node X".
+    QStringList alarms()
+    {
+        QStringList texts;
+        const QPlcMessage answer = m_tool->ask(QPlcMessage::GetEvents);
+        for (const QJsonValue event : answer.fields().value("events").toArray()) {
+            if (event["alarm"].isString())
+                texts << (event["active"].toBool() ? "+ " : "- ") + event["alarm"].toString();
         }
         return texts;
     }
@@ -96,6 +109,43 @@ void tst_Events::nodesComeAndGoWithReasons()
     QCOMPARE(texts.at(0), QString("info Scripted: node Scripted registered over udp"));
     QVERIFY2(texts.at(1).startsWith("warning Scripted: node Scripted is gone in the middle of its work: "),
              qPrintable(texts.at(1)));
+    m_master->stop();
+}
+
+void tst_Events::aNodeThatIsMissedIsAnAlarmUntilItIsBack()
+{
+    ScriptedNode node;
+    node.answerAll();
+    QVERIFY(node.registerAt(m_master->serverPort()));
+    QCOMPARE(alarms(), QStringList());
+    QVERIFY(start());
+    QVERIFY(node.waitForRequests(3));
+    node.control.abort();
+    QTRY_VERIFY(m_master->nodes().isEmpty());
+    QCOMPARE(alarms(), QStringList{"+ node Scripted"});
+    ScriptedNode again;
+    again.answerAll();
+    QVERIFY(again.registerAt(m_master->serverPort()));
+    QCOMPARE(alarms(), (QStringList{"+ node Scripted", "- node Scripted"}));
+    const QString text = events("node").constLast();
+    QVERIFY2(text.startsWith("info Scripted: node Scripted is back, after ") && text.endsWith(" s"), qPrintable(text));
+    m_master->stop();
+}
+
+void tst_Events::aPhaseThatBeginsWithoutANodeEndsItsAlarm()
+{
+    ScriptedNode node;
+    node.answerAll();
+    QVERIFY(node.registerAt(m_master->serverPort()));
+    QVERIFY(start());
+    QVERIFY(node.waitForRequests(3));
+    node.control.abort();
+    QTRY_VERIFY(m_master->nodes().isEmpty());
+    m_master->stop();
+    QVERIFY(m_master->waitForState(QPlcMasterNode::Off));
+    QCOMPARE(alarms(), QStringList{"+ node Scripted"});
+    QVERIFY(start());
+    QCOMPARE(alarms(), (QStringList{"+ node Scripted", "- node Scripted"}));
     m_master->stop();
 }
 

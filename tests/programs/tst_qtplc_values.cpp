@@ -100,6 +100,8 @@ class tst_qtplc_values : public QObject
 private Q_SLOTS:
     void init() { QVERIFY(m_plant.start()); }
     void getPrintsNameValueAndUnit();
+    void namesOfValuesAreForPeopleAndNumbersForPrograms();
+    void valuesAreSetByNameAndWrongNamesAreRefused();
     void getForScripts();
     void getTakesPatterns();
     void unmatchedPatternIsRefused_data();
@@ -137,7 +139,35 @@ void tst_qtplc_values::getPrintsNameValueAndUnit()
     m_plant.qtplc("set tetherSpeed -1.5 windVelocity_earth 5,-3,0");
     const Outcome outcome = m_plant.qtplc("get windVelocity_earth tetherSpeed flightPhase");
     QCOMPARE(outcome.exitCode, 0);
-    QCOMPARE(outcome.output, QString("windVelocity_earth = 5, -3, 0 m/s\ntetherSpeed = -1.5 m/s\nflightPhase = 0\n"));
+    QCOMPARE(outcome.output,
+             QString("windVelocity_earth = 5, -3, 0 m/s\ntetherSpeed = -1.5 m/s\nflightPhase = Launch\n"));
+}
+
+void tst_qtplc_values::namesOfValuesAreForPeopleAndNumbersForPrograms()
+{
+    m_plant.qtplc("set flightPhase 2");
+    QCOMPARE(m_plant.qtplc("get flightPhase").output, QString("flightPhase = ReelOut\n"));
+    QCOMPARE(m_plant.qtplc("get --plain flightPhase").output, QString("2\n"));
+    QCOMPARE(jsonOf(m_plant.qtplc("get --json flightPhase").output).object()["flightPhase"], QJsonValue(2));
+    QVERIFY(m_plant.qtplc("list flightPhase").output.contains("ReelOut"));
+    const QJsonObject row = jsonOf(m_plant.qtplc("list --json flightPhase").output).array().at(0).toObject();
+    QCOMPARE(row["value"], QJsonValue(2));
+    QCOMPARE(row["names"].toObject()["2"], QJsonValue("ReelOut"));
+    QCOMPARE(m_plant.qtplc("echo flightPhase --count 1").output.section('\n', 1), QString("-\t2\n"));
+}
+
+void tst_qtplc_values::valuesAreSetByNameAndWrongNamesAreRefused()
+{
+    const Outcome outcome = m_plant.qtplc("set flightPhase reelin crashed Yes");
+    QCOMPARE(outcome.exitCode, 0);
+    QCOMPARE(outcome.output, QString("flightPhase = ReelIn\ncrashed = Yes\n"));
+    QCOMPARE(value("flightPhase"), QString("4"));
+    QCOMPARE(value("crashed"), QString("1"));
+    const Outcome refused = m_plant.qtplc("set flightPhase Reel");
+    QCOMPARE(refused.exitCode, 2);
+    QVERIFY2(refused.errors.contains("signal 'flightPhase': 'Reel' is no")
+                 && refused.errors.contains("its names are 0: Launch, 1: Power"),
+             qPrintable(refused.errors));
 }
 
 void tst_qtplc_values::getForScripts()

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "FlightView.h"
 
+#include <QPlcSignalTable.h>
+
 #include <QtCore/QRegularExpression>
 #include <QtTest/QtTest>
 
@@ -62,6 +64,7 @@ class tst_FlightView : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
+    void theTableNamesPhasesAsTheAutopilotDoes();
     void pictureLooksLikeThis();
     void kiteStandsWhereItIsSeen_data();
     void kiteStandsWhereItIsSeen();
@@ -266,6 +269,16 @@ void tst_FlightView::progressLineIsBounded()
     moment.time = 86400.0;
     moment.energy = 99999.9e3;
     QVERIFY(awe::progressLine(moment, 86400.0).size() < 80);
+}
+
+void tst_FlightView::theTableNamesPhasesAsTheAutopilotDoes()
+{
+    const QPlcSignalTable table = QPlcSignalTable::fromIniFile(QStringLiteral(":/signals/airborne_wind_energy.ini"));
+    QVERIFY(table.contains(QStringLiteral("flightPhase")));
+    const QPlcValueNames names = table.at(table.indexOf(QStringLiteral("flightPhase"))).valueNames;
+    QCOMPARE(names.size(), awe::flightPhaseCount);
+    for (int i = 0; i < awe::flightPhaseCount; ++i)
+        QCOMPARE(names.nameOf(i), QString::fromLatin1(awe::flightPhaseName(FlightPhase(i))));
 }
 
 QTEST_APPLESS_MAIN(tst_FlightView)

@@ -53,9 +53,10 @@ void PlotCanvas::renewScales()
     m_timeScale = new TimeScaleDraw(font, m_isCompact);
     setAxisScaleDraw(xBottom, m_timeScale);
     axisWidget(xBottom)->setMinBorderDist(m_timeScale->sideRoom(), m_timeScale->sideRoom());
-    for (const QwtPlot::Axis axis : {yLeft, yRight}) {
-        setAxisScaleDraw(axis, new ValueScaleDraw(font, m_isCompact ? fewCharacters : usualCharacters));
-        axisWidget(axis)->setSpacing(1);
+    for (const Axis axis : {Axis::Left, Axis::Right}) {
+        setAxisScaleDraw(qwtAxis(axis), new ValueScaleDraw(font, m_isCompact ? fewCharacters : usualCharacters));
+        axisWidget(qwtAxis(axis))->setSpacing(1);
+        applyNames(axis);
     }
     for (const QwtPlot::Axis axis : {yLeft, yRight, xBottom}) {
         setAxisFont(axis, font);
@@ -80,6 +81,26 @@ void PlotCanvas::setUnit(Axis axis, const QString &unit)
 {
     m_units[axis] = unit;
     showUnits();
+}
+
+void PlotCanvas::setNames(Axis axis, const QPlcValueNames &names)
+{
+    m_names[axis] = names;
+    applyNames(axis);
+}
+
+void PlotCanvas::setNumbersVisible(Axis axis, bool areVisible)
+{
+    m_hasNumbers[axis] = areVisible;
+    applyNames(axis);
+}
+
+void PlotCanvas::applyNames(Axis axis)
+{
+    auto *draw = static_cast<ValueScaleDraw *>(axisScaleDraw(qwtAxis(axis)));
+    draw->setNames(m_names[axis]);
+    draw->enableComponent(QwtAbstractScaleDraw::Labels, m_hasNumbers[axis]);
+    draw->enableComponent(QwtAbstractScaleDraw::Ticks, m_hasNumbers[axis]);
 }
 
 void PlotCanvas::showUnits()

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "PlotSettings.h"
+#include "QPlcValueNames.h"
 #include "TimeTicks.h"
 #include "gui/panel/Theme.h"
 #include "gui/plot/TimeColumns.h"
@@ -30,6 +31,10 @@ public:
     void setTheme(const Theme &theme);
     void setGridVisible(bool isVisible) { m_grid.setVisible(isVisible); }
     void setUnit(Axis axis, const QString &unit);
+    /// Without numbers an axis keeps its room, so that canvases stay aligned.
+    void setNumbersVisible(Axis axis, bool areVisible);
+    /// What ticks are called; empty: numbers.
+    void setNames(Axis axis, const QPlcValueNames &names);
     /// Small panels have little room at their sides: for short labels, and none for units.
     bool isCompact() const { return m_isCompact; }
     void setCompact(bool isCompact);
@@ -63,11 +68,14 @@ protected:
 
 private:
     void renewScales();
+    void applyNames(Axis axis);
     void showUnits();
 
     QwtPlotGrid m_grid;
     TimeScaleDraw *m_timeScale = nullptr;  // of the x axis, which owns it
     QString m_units[2];                    // of the y axes
+    QPlcValueNames m_names[2];
+    bool m_hasNumbers[2] = {true, true};
     bool m_isCompact = false;
     Time m_origin = 0;
     Time m_begin = 0;

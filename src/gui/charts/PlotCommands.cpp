@@ -86,6 +86,10 @@ void QPlcTimePlot::Private::makeActions()
     make(QPlcTimePlot::tr("Reference line"), {key(Qt::Key_R)}, "addLine", [this] { addLine(); });
     make(QPlcTimePlot::tr("Remove reference lines"), {key(int(Qt::SHIFT) | Qt::Key_R)}, "removeLines",
          [this] { removeLines(); });
+    bandsAction = make(QPlcTimePlot::tr("Show as state bands"), {key(Qt::Key_B)}, "bands", [this] { toggleBands(); });
+    bandsAction->setCheckable(true);
+    limitsAction = make(QPlcTimePlot::tr("Limits"), {key(Qt::Key_M)}, "limits", [this] { toggleLimits(); });
+    limitsAction->setCheckable(true);
     triggerAction = make(QPlcTimePlot::tr("Trigger"), {key(Qt::Key_T)}, "trigger", [this] { toggleTrigger(); });
     triggerAction->setCheckable(true);
     makeExportActions();
@@ -148,6 +152,8 @@ QMenu *QPlcTimePlot::Private::createMenu(int curve, std::optional<QPoint> mouse)
         menu->addSection(curves.at(curve).settings.text());
         add("toggle");
         add("remove");
+        if (curves.at(curve).canBeBands())
+            add("bands");
     }
     menu->addSeparator();
     if (mouse) {
@@ -165,6 +171,7 @@ QMenu *QPlcTimePlot::Private::createMenu(int curve, std::optional<QPoint> mouse)
     add("removeCursors");
     add("statistics");
     menu->addSeparator();
+    add("limits");
     add("addLine");
     if (hasLines())
         add("removeLines");
@@ -343,6 +350,38 @@ void QPlcTimePlot::Private::moveCursor(int pixels)
 bool QPlcTimePlot::Private::hasLines() const
 {
     return !settings.left.lines.isEmpty() || !settings.right.lines.isEmpty();
+}
+
+const PlotCurve *QPlcTimePlot::Private::chosenCurve() const
+{
+    const int place = curves.selected() < 0 && curves.size() == 1 ? 0 : curves.selected();
+    return place >= 0 && place < curves.size() ? &curves.at(place) : nullptr;
+}
+
+void QPlcTimePlot::Private::toggleBands()
+{
+    const PlotCurve *curve = chosenCurve();
+    if (!curve || !curve->canBeBands())
+        return;
+    PlotSettings wanted = settings;
+    PlotCurveSettings &chosen = wanted.curves[wanted.indexOf(curve->settings.signal)];
+    chosen.isBands = !chosen.isBands;
+    edit(wanted);
+}
+
+void QPlcTimePlot::Private::showChecks()
+{
+    const PlotCurve *curve = chosenCurve();
+    bandsAction->setEnabled(curve && curve->canBeBands());
+    bandsAction->setChecked(curve && curve->isDrawnAsBands());
+    limitsAction->setChecked(settings.showsLimits());
+}
+
+void QPlcTimePlot::Private::toggleLimits()
+{
+    PlotSettings wanted = settings;
+    wanted.limits = !settings.showsLimits();
+    edit(wanted);
 }
 
 /// At the mouse, or in the middle; a value with as many digits as pixels tell apart.

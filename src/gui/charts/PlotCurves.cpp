@@ -64,9 +64,10 @@ void PlotCurves::bind(const PlotSettings &settings, const CurveSources *sources,
         curve.source = sources ? sources->find(wanted.signal) : CurveSource();
         curve.color = wanted.color.isValid() ? wanted.color : theme.curve(size());
         if (curve.isSeen())
-            show(&curve, settings.showsLimits, theme);
+            show(&curve, settings.showsLimits(), theme);
         m_curves.push_back(std::move(curve));
     }
+    placeBands();
     select(m_selected, theme);
     m_lines.clear();
     showLines(PlotCurveSettings::Left, settings.left.lines, theme);
@@ -99,6 +100,10 @@ void PlotCurves::show(PlotCurve *curve, bool showsLimits, const Theme &theme)
     const CurveSource &source = curve->source;
     if (std::find(m_stores.begin(), m_stores.end(), source.store) == m_stores.end())
         m_stores.push_back(source.store);
+    if (curve->isDrawnAsBands()) {
+        showBands(curve, theme);
+        return;
+    }
     curve->item = std::make_unique<StoreCurve>(source.store, source.channel, curve->settings.text());
     curve->item->setColor(curve->color);
     curve->item->setLineWidth(theme.curveWidth);
@@ -111,6 +116,30 @@ void PlotCurves::show(PlotCurve *curve, bool showsLimits, const Theme &theme)
     for (const std::optional<double> &limit : {source.minimum, source.maximum}) {
         if (showsLimits && limit)
             showLimit(curve, curve->settings.gain * *limit + curve->settings.offset);
+    }
+}
+
+void PlotCurves::showBands(PlotCurve *curve, const Theme &theme)
+{
+    curve->bands = std::make_unique<StateBands>(curve->source.store, curve->source.channel, curve->source.names, theme);
+    curve->bands->setTitle(curve->settings.text());
+    curve->bands->setFont(scaleFont(m_plot->font()));
+    curve->bands->setOrigin(m_origin);
+    curve->bands->setZ(limitDepth - 1.0);
+    curve->bands->attach(m_plot);
+}
+
+/// Above each other at the bottom, or, where there is nothing else, over all the height.
+void PlotCurves::placeBands()
+{
+    const auto isBands = [](const PlotCurve &each) { return each.bands != nullptr; };
+    const int count = int(std::count_if(m_curves.begin(), m_curves.end(), isBands));
+    const bool isAlone
+        = std::none_of(m_curves.begin(), m_curves.end(), [](const PlotCurve &each) { return each.isLine(); });
+    int place = 0;
+    for (const PlotCurve &curve : m_curves) {
+        if (curve.bands)
+            curve.bands->setPlace(place++, count, isAlone ? StateBands::AllHeight : StateBands::AtTheBottom);
     }
 }
 
@@ -148,29 +177,50 @@ void PlotCurves::setOrigin(SignalStore::Time origin)
     for (const PlotCurve &curve : m_curves) {
         if (curve.item)
             curve.item->setOrigin(origin);
+        if (curve.bands)
+            curve.bands->setOrigin(origin);
     }
 }
 
 bool PlotCurves::hasAxis(PlotCurveSettings::Axis axis) const
 {
-    return std::any_of(m_curves.begin(), m_curves.end(),
-                       [axis](const PlotCurve &each) { return each.settings.axis == axis && each.settings.isVisible; });
+    return std::any_of(m_curves.begin(), m_curves.end(), [axis](const PlotCurve &each) {
+        return each.settings.axis == axis && each.settings.isVisible && !each.isDrawnAsBands();
+    });
+}
+
+bool PlotCurves::hasBands() const
+{
+    return std::any_of(m_curves.begin(), m_curves.end(), [](const PlotCurve &each) { return each.bands != nullptr; });
 }
 
 bool PlotCurves::isWhole(PlotCurveSettings::Axis axis) const
 {
     const auto isOther = [axis](const PlotCurve &each) {
-        const bool isOfAxis = each.settings.axis == axis && each.isSeen();
+        const bool isOfAxis = each.settings.axis == axis && each.isLine();
         return isOfAxis && !(each.source.isStepped && !each.settings.isScaled());
     };
     return hasAxis(axis) && std::none_of(m_curves.begin(), m_curves.end(), isOther);
+}
+
+QPlcValueNames PlotCurves::names(PlotCurveSettings::Axis axis) const
+{
+    std::optional<QPlcValueNames> common;
+    for (const PlotCurve &curve : m_curves) {
+        if (!curve.isLine() || curve.settings.axis != axis)
+            continue;
+        if (common && *common != curve.names())
+            return {};
+        common = curve.names();
+    }
+    return common.value_or(QPlcValueNames());
 }
 
 QString PlotCurves::unit(PlotCurveSettings::Axis axis) const
 {
     std::optional<QString> common;
     for (const PlotCurve &curve : m_curves) {
-        if (!curve.isSeen() || curve.settings.axis != axis)
+        if (!curve.isLine() || curve.settings.axis != axis)
             continue;
         if (common && *common != curve.source.unit)
             return {};
@@ -183,7 +233,7 @@ SignalStore::Range PlotCurves::range(PlotCurveSettings::Axis axis, double begin,
 {
     SignalStore::Range all{NAN, NAN};
     for (const PlotCurve &curve : m_curves) {
-        if (curve.isSeen() && curve.settings.axis == axis)
+        if (curve.isLine() && curve.settings.axis == axis)
             all = united(all, curve.item->valueRange(begin, end));
     }
     for (const double line : m_lineValues[axis])

@@ -3,6 +3,7 @@
 
 #include "CursorStatistics.h"
 #include "PlotSettings.h"
+#include "StateBands.h"
 #include "gui/panel/Theme.h"
 #include "gui/plot/CurveSources.h"
 #include "gui/plot/StoreCurve.h"
@@ -21,7 +22,8 @@ struct PlotCurve
     PlotCurveSettings settings;
     CurveSource source;  // held as long as the item draws its store
     QColor color;
-    std::unique_ptr<StoreCurve> item;
+    std::unique_ptr<StoreCurve> item;   // of a line
+    std::unique_ptr<StateBands> bands;  // of what is drawn as bands
     std::vector<std::unique_ptr<QwtPlotMarker>> limits;
 
     PlotCurve();
@@ -30,6 +32,12 @@ struct PlotCurve
 
     bool isMissing() const { return !source; }
     bool isSeen() const { return settings.isVisible && !isMissing(); }
+    /// Whether it is a line, with values on an axis.
+    bool isLine() const { return isSeen() && !isDrawnAsBands(); }
+    bool canBeBands() const { return source.isStepped && !settings.isScaled(); }
+    bool isDrawnAsBands() const { return settings.isBands && canBeBands(); }
+    /// Of the values that are drawn; empty: none.
+    QPlcValueNames names() const { return settings.isScaled() ? QPlcValueNames() : source.names; }
     bool isStale() const { return source.plant && source.plant->quality() == Plant::Stale; }
     CursorStatistics::Scaling scaling() const { return {settings.gain, settings.offset, source.isStepped}; }
     /// At \a time, the newest one without; NaN: none.
@@ -59,8 +67,11 @@ public:
     /// Of the curves that are seen, each once.
     const std::vector<const SignalStore *> &stores() const { return m_stores; }
     bool hasAxis(PlotCurveSettings::Axis axis) const;
+    bool hasBands() const;
     /// Whether an axis has curves, and all of them are whole numbers.
     bool isWhole(PlotCurveSettings::Axis axis) const;
+    /// Of the values of all lines of an axis; empty when they differ.
+    QPlcValueNames names(PlotCurveSettings::Axis axis) const;
     /// Of all seen curves of an axis; empty when they differ.
     QString unit(PlotCurveSettings::Axis axis) const;
     /// Smallest and largest value of all seen curves of an axis, and of its lines.
@@ -70,6 +81,8 @@ public:
 
 private:
     void show(PlotCurve *curve, bool showsLimits, const Theme &theme);
+    void showBands(PlotCurve *curve, const Theme &theme);
+    void placeBands();
     void showLimit(PlotCurve *curve, double limit);
     void showLines(PlotCurveSettings::Axis axis, const QVector<double> &lines, const Theme &theme);
 

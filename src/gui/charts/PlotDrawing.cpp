@@ -128,7 +128,7 @@ void QPlcTimePlot::Private::showOverlay()
         if (!canvas->isCompact())
             picture.pointerText = TimeTicks::clockText(moment, isCoarse ? 1'000'000 : 1'000);
         for (const PlotCurve &curve : curves) {
-            const double value = curve.isSeen() ? curve.value(moment) : NAN;
+            const double value = curve.isLine() ? curve.value(moment) : NAN;
             if (!std::isnan(value))
                 picture.dots.append({QPointF(*picture.pointer, canvas->yOf(curve.settings.axis, value)), curve.color});
         }
@@ -152,7 +152,7 @@ void QPlcTimePlot::Private::placeTrigger(PlotOverlay::Picture *picture)
         picture->event = int(std::lround(canvas->xOf(*drawnEvent)));
     const QString signal = triggerBar->settings().value(QStringLiteral("signal")).toString();
     const auto found = std::find_if(curves.begin(), curves.end(), [&](const PlotCurve &curve) {
-        return curve.isSeen() && curve.settings.signal == signal;
+        return curve.isLine() && curve.settings.signal == signal;
     });
     if (found == curves.end())
         return;

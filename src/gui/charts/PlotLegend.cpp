@@ -28,7 +28,7 @@ QString valueOf(const PlotCurve &curve, std::optional<SignalStore::Time> time, i
 {
     if (curve.isMissing())
         return PlotLegend::tr("missing");
-    return numberText(curve.value(time), precision);
+    return numberText(curve.value(time), precision, curve.names());
 }
 
 QString hintOf(const PlotCurve &curve)

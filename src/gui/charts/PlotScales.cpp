@@ -30,13 +30,24 @@ double stepOf(const QList<double> &ticks)
 }  // namespace
 
 ValueScaleDraw::ValueScaleDraw(const QFont &font, int characters)
+    : m_metrics(font)
+    , m_room(m_metrics.horizontalAdvance(QLatin1Char('8')) * characters)
 {
     setTicksShort(this);
-    setMinimumExtent(QFontMetricsF(font).horizontalAdvance(QLatin1Char('8')) * characters + lengthOfTick + spacing());
+    setMinimumExtent(m_room + lengthOfTick + spacing());
+}
+
+void ValueScaleDraw::setNames(const QPlcValueNames &names)
+{
+    m_names = names;
+    invalidateCache();
 }
 
 QwtText ValueScaleDraw::label(double value) const
 {
+    const QString name = m_names.isEmpty() ? QString() : m_names.nameOf(std::llround(value));
+    if (!name.isEmpty())
+        return QwtText(m_metrics.elidedText(name, Qt::ElideRight, m_room), QwtText::PlainText);
     const double step = stepOf(scaleDiv().ticks(QwtScaleDiv::MajorTick));
     if (std::abs(value) < 1e-6 * step)
         return QStringLiteral("0");

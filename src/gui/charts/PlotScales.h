@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "QPlcValueNames.h"
 #include "TimeTicks.h"
 
 #include <qwt_scale_draw.h>
@@ -15,7 +16,14 @@ class ValueScaleDraw : public QwtScaleDraw
 public:
     /// \param characters  that there is always room for beside a y axis
     ValueScaleDraw(const QFont &font, int characters);
+    /// What ticks are called, shortened to the usual room; empty: numbers.
+    void setNames(const QPlcValueNames &names);
     QwtText label(double value) const override;
+
+private:
+    QFontMetricsF m_metrics;
+    double m_room;  // of a label [px]
+    QPlcValueNames m_names;
 };
 
 /// Labels of a time axis. What would reach over the edge is left out, for the canvas would become narrower.

@@ -31,6 +31,7 @@ const QString offsetKey = QStringLiteral("offset");
 const QString colorKey = QStringLiteral("color");
 const QString axisKey = QStringLiteral("axis");
 const QString visibleKey = QStringLiteral("visible");
+const QString bandsKey = QStringLiteral("bands");
 const QString minimumKey = QStringLiteral("minimum");
 const QString maximumKey = QStringLiteral("maximum");
 const QString linesKey = QStringLiteral("lines");
@@ -104,6 +105,7 @@ PlotCurveSettings PlotCurveSettings::fromJson(const QJsonObject &json)
     curve.color = QColor(curve.others.take(colorKey).toString());
     curve.axis = curve.others.take(axisKey).toString() == rightKey ? Right : Left;
     curve.isVisible = curve.others.take(visibleKey).toBool(true);
+    curve.isBands = curve.others.take(bandsKey).toBool(false);
     return curve;
 }
 
@@ -119,6 +121,7 @@ QJsonObject PlotCurveSettings::toJson() const
     if (axis == Right)
         json.insert(axisKey, rightKey);
     insertUnless(&json, visibleKey, isVisible, true);
+    insertUnless(&json, bandsKey, isBands, false);
     return json;
 }
 
@@ -142,11 +145,18 @@ PlotSettings PlotSettings::fromJson(const QJsonObject &json)
     const bool isSeconds = json.value(labelsKey).toString() == QLatin1String("seconds");
     settings.labels = isSeconds ? Labels::Seconds : Labels::Clock;
     settings.hasGrid = json.value(gridKey).toBool(true);
-    settings.showsLimits = json.value(limitsKey).toBool(false);
+    if (json.value(limitsKey).isBool())
+        settings.limits = json.value(limitsKey).toBool();
     settings.hasLegend = json.value(legendKey).toBool(true);
     settings.hasStatistics = json.value(statisticsKey).toBool(true);
     settings.trigger = json.value(triggerKey).toObject();
     return settings;
+}
+
+bool PlotSettings::showsLimits() const
+{
+    const auto isLine = [](const PlotCurveSettings &each) { return !each.isBands; };
+    return limits.value_or(std::count_if(curves.begin(), curves.end(), isLine) == 1);
 }
 
 bool PlotSettings::hasTrigger() const
@@ -176,7 +186,8 @@ QJsonObject PlotSettings::toJson() const
     if (labels == Labels::Seconds)
         json.insert(labelsKey, QStringLiteral("seconds"));
     insertUnless(&json, gridKey, hasGrid, true);
-    insertUnless(&json, limitsKey, showsLimits, false);
+    if (limits)
+        json.insert(limitsKey, *limits);
     insertUnless(&json, legendKey, hasLegend, true);
     insertUnless(&json, statisticsKey, hasStatistics, true);
     insertUnless(&json, triggerKey, trigger, QJsonObject());

@@ -22,7 +22,8 @@ struct PlotCurveSettings
     QColor color;  // invalid: by place, from the theme
     Axis axis = Left;
     bool isVisible = true;
-    QJsonObject others;  // keys that nobody knows
+    bool isBands = false;  // states as coloured bands in place of a line
+    QJsonObject others;    // keys that nobody knows
 
     bool isScaled() const { return gain != 1.0 || offset != 0.0; }
     /// The name; without one what is drawn: "kite.elevation", "0.001*tetherForce+5", "mean(power, 5)", "2*(a + b)".
@@ -48,7 +49,7 @@ struct PlotRangeSettings
 /// What has its default is not written, and what is not there has its default: settings that were written are read as the same, byte by byte.
 ///
 /// ```json
-/// {"curves": [{"signal": "kite.elevation", "name": "Elevation", "gain": 2, "offset": -1, "color": "#d55e00", "axis": "right", "visible": false}],
+/// {"curves": [{"signal": "kite.elevation", "name": "Elevation", "gain": 2, "offset": -1, "color": "#d55e00", "axis": "right", "visible": false, "bands": true}],
 ///  "left": {"minimum": 0, "maximum": 90, "lines": [60, 75]}, "right": {}, "time": "own", "span": 10, "labels": "seconds", "grid": false, "limits": true,
 ///  "legend": false, "statistics": false, "trigger": {"on": true, "signal": "kite.elevation", "level": 30, "mode": "normal"}}
 /// ```
@@ -65,11 +66,13 @@ struct PlotSettings
     double span = defaultSpan;  // of an own time axis [s]
     Labels labels = Labels::Clock;
     bool hasGrid = true;
-    bool showsLimits = false;
+    std::optional<bool> limits;  // lines at the limits of the table; not chosen: showsLimits()
     bool hasLegend = true;
     bool hasStatistics = true;  // between cursors A and B, when both are there
     QJsonObject trigger;        // as TriggerBar has it, and "on"
 
+    /// As chosen; else where there is one line, whose limits nobody takes for those of another one.
+    bool showsLimits() const;
     bool hasTrigger() const;
     void setTriggerOn(bool isOn);
 

@@ -182,6 +182,12 @@ QLineEdit *PlotSettingsEditor::makeName(int place)
     return edit;
 }
 
+void PlotSettingsEditor::tell()
+{
+    m_limits->setChecked(m_settings.showsLimits());
+    Q_EMIT edited(m_settings);
+}
+
 void PlotSettingsEditor::removeCurve(int place)
 {
     m_settings.curves.removeAt(place);
@@ -269,7 +275,7 @@ QWidget *PlotSettingsEditor::makeOptions()
     form->addRow(tr("Time axis"), makeTimeAxis());
     auto *checks = new QHBoxLayout;
     checks->addWidget(makeCheck(tr("Grid"), &PlotSettings::hasGrid));
-    checks->addWidget(makeCheck(tr("Limits"), &PlotSettings::showsLimits));
+    checks->addWidget(makeLimits());
     checks->addWidget(makeCheck(tr("Legend"), &PlotSettings::hasLegend));
     checks->addWidget(makeCheck(tr("Statistics"), &PlotSettings::hasStatistics));
     checks->addStretch();
@@ -331,6 +337,18 @@ QCheckBox *PlotSettingsEditor::makeCheck(const QString &text, bool PlotSettings:
         tell();
     });
     return check;
+}
+
+QCheckBox *PlotSettingsEditor::makeLimits()
+{
+    m_limits = new QCheckBox(tr("Limits"), this);
+    m_limits->setToolTip(tr("Lines at the limits of the signal table"));
+    m_limits->setChecked(m_settings.showsLimits());
+    connect(m_limits, &QCheckBox::clicked, this, [this](bool isOn) {
+        m_settings.limits = isOn;
+        tell();
+    });
+    return m_limits;
 }
 
 QWidget *PlotSettingsEditor::makeTimeAxis()

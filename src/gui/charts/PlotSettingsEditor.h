@@ -43,14 +43,16 @@ private:
                        std::optional<double> PlotRangeSettings::*end);
     QLineEdit *makeLines(const QString &name, PlotRangeSettings PlotSettings::*range);
     QCheckBox *makeCheck(const QString &text, bool PlotSettings::*member);
+    QCheckBox *makeLimits();
     QWidget *makeTimeAxis();
     void removeCurve(int place);
-    void tell() { Q_EMIT edited(m_settings); }
+    void tell();
 
     PlotSettings m_settings;
     const PlantList *m_plants;
     Theme m_theme;
     QWidget *m_curves = nullptr;
+    QCheckBox *m_limits = nullptr;
     QGridLayout *m_grid = nullptr;
 };
 

@@ -3,6 +3,8 @@
 #include "ChartAction.h"
 #include "QPlcTimePlotPrivate.h"
 
+#include <QtCore/QDateTime>
+
 #include <algorithm>
 
 using namespace qplc;
@@ -48,4 +50,20 @@ ChartExport::Table QPlcTimePlot::Private::tableBetweenCursors() const
     const Time a = *shared()->cursor(TimeView::A);
     const Time b = *shared()->cursor(TimeView::B);
     return table(std::min(a, b), std::max(a, b));
+}
+
+/// What a trigger shows goes into files; what goes wrong with them into the event log.
+void QPlcTimePlot::Private::connectEventFiles()
+{
+    connect(triggerBar, &TriggerBar::savingBegins, this, [this] { eventFiles->begin(triggerBar->fileSettings()); });
+    connect(triggerBar, &TriggerBar::eventCame, this, [this](Time event, Time begin, Time end) {
+        const QString signal = triggerBar->settings().value(QStringLiteral("signal")).toString();
+        eventFiles->save(event, signal, table(begin, end)(TableExport::Csv));
+    });
+    connect(eventFiles, &EventFiles::savedChanged, this, [this] { triggerBar->showSaved(eventFiles->saved()); });
+    connect(eventFiles, &EventFiles::failed, this, [this](const QString &sentence) {
+        if (q->context())
+            q->context()->events()->append(
+                {QDateTime::currentDateTime(), PlantEvent::Warning, QPlcTimePlot::tr("Trigger"), sentence, false});
+    });
 }

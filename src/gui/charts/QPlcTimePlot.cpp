@@ -31,6 +31,7 @@ QPlcTimePlot::Private::Private(QPlcTimePlot *plot)
     , legend(new PlotLegend)
     , statistics(new StatisticsView(plot))
     , exporter(new ChartExport(plot, [this] { return std::make_unique<PlotPicture>(canvas, overlay, legend); }))
+    , eventFiles(new EventFiles(this))
     , curves(canvas)
 {
     legendArea->setWidget(legend);
@@ -67,6 +68,7 @@ QPlcTimePlot::Private::Private(QPlcTimePlot *plot)
     });
     makeActions();
     connectInteraction();
+    connectEventFiles();
 }
 
 QPlcTimePlot::QPlcTimePlot(QWidget *parent)
@@ -183,6 +185,7 @@ void QPlcTimePlot::Private::followContext()
         connect(time, changed, this, &Private::schedule);
     connect(context->curveSources(), &CurveSources::changed, this, [this] {
         exporter->cancel(QPlcTimePlot::tr("The signals have changed while they were exported. Export them again."));
+        eventFiles->cancel(QPlcTimePlot::tr("The signals have changed while an event was saved."));
         bind();
     });
     connect(context->curveSources(), &CurveSources::filled, this, [this] {
@@ -209,10 +212,13 @@ void QPlcTimePlot::Private::bind()
         const bool isDefault = axis == Axis::Left && !curves.hasAxis(Axis::Right);
         canvas->setAxisVisible(axis, !curves.isEmpty() && (isDefault || curves.hasAxis(axis)));
         canvas->setUnit(axis, curves.unit(axis));
+        canvas->setNames(axis, curves.names(axis));
+        canvas->setNumbersVisible(axis, curves.hasAxis(axis) || !curves.hasBands());
     }
     legend->show(curves, std::nullopt);
     removeAction->setEnabled(!curves.isEmpty());
     toggleAction->setEnabled(!curves.isEmpty());
+    showChecks();
     ++version;
     arrange();
     schedule();
@@ -304,6 +310,7 @@ void QPlcTimePlot::Private::select(int place)
 {
     curves.select(place, q->context() ? q->context()->theme() : Theme::byName(Theme::System));
     ++version;
+    showChecks();
     schedule();
     showNumbers();
 }

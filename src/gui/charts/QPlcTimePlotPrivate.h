@@ -2,6 +2,7 @@
 #pragma once
 
 #include "ChartExport.h"
+#include "EventFiles.h"
 #include "PlotCanvas.h"
 #include "PlotCurves.h"
 #include "PlotInteraction.h"
@@ -94,10 +95,16 @@ public:
     void addLine();
     void removeLines();
     void toggleLive();
+    void toggleBands();
+    /// Of the chosen curve, or of the only one; null: none.
+    const qplc::PlotCurve *chosenCurve() const;
+    void showChecks();
+    void toggleLimits();
     void toggleTrigger();
     void showTrigger();
     void takeTrigger();
     void makeExportActions();
+    void connectEventFiles();
     /// Of the curves that are seen, at the moment when it is called.
     qplc::ChartExport::Table table(Time begin, Time end) const;
     qplc::ChartExport::Table shownTable() const;
@@ -129,6 +136,7 @@ public:
     qplc::PlotLegend *legend;
     qplc::StatisticsView *statistics;
     qplc::ChartExport *exporter;
+    qplc::EventFiles *eventFiles;
     qplc::PlotCurves curves;
 
     std::array<ValueAxis, 2> axes;
@@ -147,5 +155,7 @@ public:
     QAction *removeAction = nullptr;
     QAction *toggleAction = nullptr;
     QAction *statisticsAction = nullptr;
+    QAction *bandsAction = nullptr;
+    QAction *limitsAction = nullptr;
     QAction *triggerAction = nullptr;
 };

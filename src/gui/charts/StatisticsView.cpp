@@ -170,8 +170,8 @@ void StatisticsView::showRow(int row, const PlotCurve &curve, CursorStatistics *
     if (setText(row, Signal, curve.settings.text() + unit))
         fitWidth();
     m_table->item(row, Signal)->setData(Qt::DecorationRole, curve.color);
-    setText(row, ValueA, numberText(atA, digits));
-    setText(row, ValueB, numberText(atB, digits));
+    setText(row, ValueA, numberText(atA, digits, curve.names()));
+    setText(row, ValueB, numberText(atB, digits, curve.names()));
     setText(row, Difference, numberText(atB - atA, digits));
     setText(row, Minimum, between(result.minimum));
     setText(row, Maximum, between(result.maximum));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TriggerBar.h"
 
+#include "EventFileEditor.h"
 #include "gui/panel/WindowContext.h"
 
 #include <QtCore/QSignalBlocker>
@@ -23,6 +24,7 @@ constexpr double largest = 1e12;
 constexpr int leastWideBar = 520;  // [px]: with less, controls are in the menu
 const QString signalKey = QStringLiteral("signal");
 const QString linkedKey = QStringLiteral("linked");
+const QString saveKey = QStringLiteral("save");
 
 QString stateText(Trigger::State state)
 {
@@ -79,10 +81,11 @@ void TriggerBar::makeControls()
     m_mode->addItems({tr("Auto"), tr("Normal"), tr("Single")});
     m_more = new QToolButton(this);
     m_more->setText(QStringLiteral("…"));
-    m_more->setToolTip(tr("Hysteresis, share before the event, hold-off"));
+    m_more->setToolTip(tr("Hysteresis, share before the event, hold-off, saving"));
     m_more->setAccessibleName(m_more->toolTip());
     m_more->setPopupMode(QToolButton::InstantPopup);
     m_linked = new QCheckBox(tr("Show the event in all plots"), this);
+    m_files = new EventFileEditor(this);
     m_arm = new QToolButton(this);
     m_arm->setText(tr("Arm"));
     m_arm->setToolTip(tr("Forget the events so far and wait for the next one"));
@@ -91,6 +94,10 @@ void TriggerBar::makeControls()
     for (QComboBox *box : {m_signal, m_kind, m_mode})
         connect(box, QOverload<int>::of(&QComboBox::activated), this, &TriggerBar::takeEdits);
     connect(m_linked, &QCheckBox::toggled, this, &TriggerBar::takeEdits);
+    connect(m_files, &EventFileEditor::edited, this, [this] {
+        arm();
+        Q_EMIT settingsEdited();
+    });
     connect(m_arm, &QToolButton::clicked, this, &TriggerBar::arm);
 }
 
@@ -134,6 +141,7 @@ void TriggerBar::fillMenu()
     m_form->addRow(tr("Before the event"), m_preShare);
     m_form->addRow(tr("Hold-off"), m_holdOff);
     m_form->addRow(m_linked);
+    m_form->addRow(m_files);
     auto *menu = new QMenu(this);
     auto *action = new QWidgetAction(menu);
     action->setDefaultWidget(rest);
@@ -217,12 +225,15 @@ QJsonObject TriggerBar::settings() const
         settings.insert(signalKey, m_wanted);
     if (m_isLinked)
         settings.insert(linkedKey, true);
+    const QJsonObject save = m_files->settings().toJson();
+    if (!save.isEmpty())
+        settings.insert(saveKey, save);
     return settings;
 }
 
 QStringList TriggerBar::keys()
 {
-    return Trigger::Settings::keys() + QStringList{signalKey, linkedKey};
+    return Trigger::Settings::keys() + QStringList{signalKey, linkedKey, saveKey};
 }
 
 TimeView *TriggerBar::time() const
@@ -256,6 +267,7 @@ void TriggerBar::applySettings(const QJsonObject &settings)
     m_trigger.setSettings(Trigger::Settings::fromJson(settings));
     m_wanted = settings.value(signalKey).toString();
     link(settings.value(linkedKey).toBool());
+    m_files->show(EventFileSettings::fromJson(settings.value(saveKey).toObject()));
     if (!m_wanted.isEmpty() && m_signal->findText(m_wanted) < 0)
         m_signal->addItem(m_wanted);
     showSettings();
@@ -325,6 +337,8 @@ void TriggerBar::arm()
 {
     m_trigger.arm();
     m_seenEvent.reset();
+    m_awaited.clear();
+    Q_EMIT savingBegins();
     if (m_source)
         m_trigger.take(*m_source.store, m_source.channel);
     showState();
@@ -336,12 +350,14 @@ void TriggerBar::take(Plant *plant)
     if (isHidden() || !m_source || m_source.plant != plant)
         return;
     m_trigger.setSpan(time()->span());
+    tellCompleteEvents();
     const Trigger::State before = m_trigger.state();
     if (!m_trigger.take(*m_source.store, m_source.channel))
         return;
     if (m_trigger.state() == Trigger::FreeRunning && before != Trigger::FreeRunning)
         time()->goLive();
     showEventView();
+    tellCompleteEvents();
     showState();
     Q_EMIT triggered();
 }
@@ -354,6 +370,29 @@ void TriggerBar::showEventView()
     m_seenEvent = m_trigger.shownEvent();
     time()->show(view->begin, view->end);
     m_hasFrozen = true;
+    if (fileSettings().isOn)
+        m_awaited.push_back({*m_seenEvent, *view});
+}
+
+void TriggerBar::tellCompleteEvents()
+{
+    while (!m_awaited.empty() && !m_source.store->isEmpty()
+           && m_source.store->time(m_source.store->endRow() - 1) >= m_awaited.front().view.end) {
+        const Awaited complete = m_awaited.front();
+        m_awaited.pop_front();
+        Q_EMIT eventCame(complete.event, complete.view.begin, complete.view.end);
+    }
+}
+
+const EventFileSettings &TriggerBar::fileSettings() const
+{
+    return m_files->settings();
+}
+
+void TriggerBar::showSaved(int files)
+{
+    m_saved = files;
+    showState();
 }
 
 void TriggerBar::showState()
@@ -362,7 +401,8 @@ void TriggerBar::showState()
     const QColor color = m_context ? stateColor(m_trigger.state(), m_context->theme()) : QColor(Qt::gray);
     m_state->setText(QStringLiteral("<span style='color:%1'>●</span> %2").arg(color.name(), text.toHtmlEscaped()));
     m_state->setToolTip(m_source.error);
-    m_count->setText(tr("events: %1").arg(m_trigger.count()));
+    const QString events = tr("events: %1").arg(m_trigger.count());
+    m_count->setText(fileSettings().isOn ? tr("%1, saved: %2").arg(events).arg(m_saved) : events);
 }
 
 /// Hidden, it holds no source either.

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "EventFiles.h"
 #include "gui/plot/CurveSources.h"
 #include "gui/plot/Trigger.h"
 
 #include <QtWidgets/QWidget>
+
+#include <deque>
 
 class QCheckBox;
 class QComboBox;
@@ -16,6 +19,7 @@ class QToolButton;
 
 namespace qplc {
 
+class EventFileEditor;
 class TimeView;
 class WindowContext;
 
@@ -54,7 +58,10 @@ public:
     void setContext(WindowContext *context);
     /// What can be chosen: expressions as CurveSources::find() takes them.
     void setSignals(const QStringList &expressions);
-    /// "signal", "linked", and what Trigger::Settings::toJson() gives; defaults are left out.
+    /// Whether and where events are saved; who saves them tells it by showSaved().
+    const EventFileSettings &fileSettings() const;
+    void showSaved(int files);
+    /// "signal", "linked", "save", and what Trigger::Settings::toJson() gives; defaults are left out.
     QJsonObject settings() const;
     void applySettings(const QJsonObject &settings);
     const Trigger &trigger() const { return m_trigger; }
@@ -68,6 +75,10 @@ Q_SIGNALS:
     void settingsEdited();
     /// State, count or shown event are others.
     void triggered();
+    /// All that is shown around an event has come, while events are to be saved. \param begin, end  of what is shown [ns]
+    void eventCame(qint64 event, qint64 begin, qint64 end);
+    /// What is saved begins anew: armed, or other settings.
+    void savingBegins();
 
 protected:
     void resizeEvent(QResizeEvent *event) override;
@@ -88,6 +99,7 @@ private:
     void take(Plant *plant);
     void follow(Plant *plant);
     void showEventView();
+    void tellCompleteEvents();
     void showState();
     bool hasWindow() const;
 
@@ -100,6 +112,13 @@ private:
     Trigger m_trigger;
     QString m_wanted;  // signal
     std::optional<Trigger::Time> m_seenEvent;
+    struct Awaited
+    {
+        Trigger::Time event;
+        Trigger::View view;
+    };
+    std::deque<Awaited> m_awaited;  // events of which not all has come
+    int m_saved = 0;
     bool m_isFilling = false;  // controls follow settings, not the other way round
     QComboBox *m_signal = nullptr;
     QComboBox *m_kind = nullptr;
@@ -110,6 +129,7 @@ private:
     QDoubleSpinBox *m_holdOff = nullptr;
     QComboBox *m_mode = nullptr;
     QCheckBox *m_linked = nullptr;
+    EventFileEditor *m_files = nullptr;
     QHBoxLayout *m_row = nullptr;
     QFormLayout *m_form = nullptr;
     QToolButton *m_more = nullptr;

@@ -299,6 +299,8 @@ void GaugeFeed::showValue(GaugePicture *picture, const QPlcValue &value, bool ha
         if (text.size() > picture->widest.size())
             picture->widest = text;
     };
+    for (const QPlcValueNames::Entry &entry : m_definition.valueNames)
+        widen(entry.name);
     if (isNumeric) {
         widen(valueText(picture->scale.minimum));
         widen(valueText(picture->scale.maximum));
@@ -316,6 +318,8 @@ void GaugeFeed::showValue(GaugePicture *picture, const QPlcValue &value, bool ha
 
 QString GaugeFeed::valueText(double number) const
 {
+    if (!m_definition.valueNames.isEmpty())
+        return numberText(number, 6, m_definition.valueNames);
     if (isBoolean())
         return number != 0.0 ? tr("On") : tr("Off");
     return gaugeNumber(number, m_definition.type.isReal() ? scale().decimals() : 0);

@@ -20,26 +20,70 @@ void EventLogModel::count(int change)
     Q_EMIT unacknowledgedChanged(m_unacknowledged);
 }
 
+QString EventLogModel::keyOf(const PlantEvent &event)
+{
+    return event.source + QLatin1Char('\n') + event.alarm;
+}
+
 void EventLogModel::append(const PlantEvent &event)
 {
     int change = asks(event) ? 1 : 0;
     if (rowCount() == MostEvents) {
-        change -= asks(m_events.front()) ? 1 : 0;
+        const Entry &oldest = m_events.front();
+        change -= asks(oldest.event) ? 1 : 0;
+        if (m_active.value(keyOf(oldest.event), m_gone + 1) == m_gone)
+            m_active.remove(keyOf(oldest.event));
         beginRemoveRows({}, 0, 0);
         m_events.pop_front();
+        ++m_gone;
         endRemoveRows();
     }
+    if (event.stage != PlantEvent::Once)
+        endAlarm(event);
+    if (event.stage == PlantEvent::Begins)
+        m_active.insert(keyOf(event), m_gone + m_events.size());
     beginInsertRows({}, rowCount(), rowCount());
-    m_events.push_back(event);
+    m_events.push_back({event});
     endInsertRows();
     count(change);
+}
+
+/// An alarm that begins again ends what lasted before, too.
+void EventLogModel::endAlarm(const PlantEvent &event)
+{
+    const auto found = m_active.find(keyOf(event));
+    if (found == m_active.end())
+        return;
+    const int row = int(*found - m_gone);
+    m_active.erase(found);
+    m_events[std::size_t(row)].end = event.time;
+    Q_EMIT dataChanged(index(row, 0), index(row, ColumnCount - 1));
+}
+
+QString EventLogModel::stateText(const Entry &entry) const
+{
+    if (entry.end.isValid())
+        return tr("Cleared");
+    if (entry.event.isAcknowledged)
+        return tr("Acknowledged");
+    return isActive(entry) ? tr("Active") : QString();
+}
+
+QString EventLogModel::stateHint(const Entry &entry) const
+{
+    if (entry.end.isValid())
+        return tr("Cleared at %1, after %2")
+            .arg(entry.end.toString(QStringLiteral("HH:mm:ss.zzz")),
+                 ageText(double(entry.event.time.msecsTo(entry.end)) * 1e-3));
+    return isActive(entry) ? tr("It lasts since %1").arg(entry.event.time.toString(Qt::ISODateWithMs))
+                           : stateText(entry);
 }
 
 void EventLogModel::acknowledge(const QModelIndex &index)
 {
     if (!index.isValid() || !asks(at(index.row())))
         return;
-    m_events[std::size_t(index.row())].isAcknowledged = true;
+    m_events[std::size_t(index.row())].event.isAcknowledged = true;
     Q_EMIT dataChanged(index.sibling(index.row(), 0), index.sibling(index.row(), ColumnCount - 1));
     count(-1);
 }
@@ -48,8 +92,8 @@ void EventLogModel::acknowledgeAll()
 {
     if (m_unacknowledged == 0)
         return;
-    for (PlantEvent &event : m_events)
-        event.isAcknowledged = event.isAcknowledged || asks(event);
+    for (Entry &entry : m_events)
+        entry.event.isAcknowledged = entry.event.isAcknowledged || asks(entry.event);
     Q_EMIT dataChanged(index(0, 0), index(rowCount() - 1, ColumnCount - 1));
     count(-m_unacknowledged);
 }
@@ -80,7 +124,7 @@ int EventLogModel::columnCount(const QModelIndex &parent) const
 QVariant EventLogModel::headerData(int section, Qt::Orientation orientation, int role) const
 {
     static const char *const titles[ColumnCount]
-        = {QT_TR_NOOP("Time"), QT_TR_NOOP("Severity"), QT_TR_NOOP("Source"), QT_TR_NOOP("Event")};
+        = {QT_TR_NOOP("Time"), QT_TR_NOOP("Severity"), QT_TR_NOOP("State"), QT_TR_NOOP("Source"), QT_TR_NOOP("Event")};
     if (orientation != Qt::Horizontal || role != Qt::DisplayRole || section < 0 || section >= ColumnCount)
         return {};
     return tr(titles[section]);
@@ -90,16 +134,21 @@ QVariant EventLogModel::data(const QModelIndex &index, int role) const
 {
     if (!index.isValid())
         return {};
-    const PlantEvent &event = at(index.row());
+    const Entry &entry = m_events[std::size_t(index.row())];
+    const PlantEvent &event = entry.event;
     switch (role) {
     case SeverityRole:
         return int(event.severity);
     case AcknowledgedRole:
         return event.isAcknowledged;
+    case ActiveRole:
+        return isActive(entry);
     case Qt::ForegroundRole:
         return foregroundOf(!event.isAcknowledged);
     case Qt::ToolTipRole:
-        return index.column() == Time ? event.time.toString(Qt::ISODateWithMs) : event.text;
+        return index.column() == State ? stateHint(entry)
+            : index.column() == Time   ? event.time.toString(Qt::ISODateWithMs)
+                                       : event.text;
     case Qt::DisplayRole:
         break;
     default:
@@ -110,6 +159,8 @@ QVariant EventLogModel::data(const QModelIndex &index, int role) const
         return event.time.toString(QStringLiteral("HH:mm:ss.zzz"));
     case Severity:
         return severityText(event.severity);
+    case State:
+        return stateText(entry);
     case Source:
         return event.source;
     default:
@@ -125,9 +176,9 @@ void EventFilterModel::setLeastSeverity(PlantEvent::Severity severity)
     invalidateFilter();
 }
 
-void EventFilterModel::setOnlyUnacknowledged(bool only)
+void EventFilterModel::setOnlyOpen(bool only)
 {
-    m_onlyUnacknowledged = only;
+    m_onlyOpen = only;
     invalidateFilter();
 }
 
@@ -144,7 +195,7 @@ bool EventFilterModel::filterAcceptsRow(int row, const QModelIndex &parent) cons
     if (severity < m_leastSeverity)
         return false;
     const bool asks = severity != PlantEvent::Information && !index.data(EventLogModel::AcknowledgedRole).toBool();
-    if (m_onlyUnacknowledged && !asks)
+    if (m_onlyOpen && !asks && !index.data(EventLogModel::ActiveRole).toBool())
         return false;
     const QString text
         = index.data().toString() + QLatin1Char('\n') + index.siblingAtColumn(EventLogModel::Source).data().toString();

@@ -4,19 +4,20 @@
 #include "gui/plant/PlantEvent.h"
 
 #include <QtCore/QAbstractTableModel>
+#include <QtCore/QHash>
 #include <QtCore/QSortFilterProxyModel>
 
 #include <deque>
 
 namespace qplc {
 
-/// What happened, newest last, at most 10 000 events: the oldest ones go. What is not information asks to be acknowledged.
+/// What happened, newest last, at most 10 000 events: the oldest ones go. What is not information asks to be acknowledged; what lasts (PlantEvent::Begins) is active until it ends, acknowledged or not.
 class EventLogModel : public QAbstractTableModel
 {
     Q_OBJECT
 public:
-    enum Column { Time, Severity, Source, Text, ColumnCount };
-    enum Role { SeverityRole = Qt::UserRole, AcknowledgedRole };
+    enum Column { Time, Severity, State, Source, Text, ColumnCount };
+    enum Role { SeverityRole = Qt::UserRole, AcknowledgedRole, ActiveRole };
 
     static constexpr int MostEvents = 10'000;
 
@@ -26,9 +27,11 @@ public:
     void append(const qplc::PlantEvent &event);
     void acknowledge(const QModelIndex &index);
     void acknowledgeAll();
+    /// Alarms that last.
+    int active() const { return m_active.size(); }
     /// Warnings and errors that nobody has acknowledged; of those that are still there.
     int unacknowledged() const { return m_unacknowledged; }
-    const PlantEvent &at(int row) const { return m_events[std::size_t(row)]; }
+    const PlantEvent &at(int row) const { return m_events[std::size_t(row)].event; }
 
     int rowCount(const QModelIndex &parent = QModelIndex()) const override;
     int columnCount(const QModelIndex &parent = QModelIndex()) const override;
@@ -41,14 +44,27 @@ Q_SIGNALS:
     void unacknowledgedChanged(int count);
 
 private:
+    struct Entry
+    {
+        PlantEvent event;
+        QDateTime end{};  // of what lasted
+    };
+
     static bool asks(const PlantEvent &event);
+    static QString keyOf(const PlantEvent &event);
+    QString stateText(const Entry &entry) const;
+    QString stateHint(const Entry &entry) const;
+    bool isActive(const Entry &entry) const { return entry.event.stage == PlantEvent::Begins && !entry.end.isValid(); }
+    void endAlarm(const PlantEvent &event);
     void count(int change);
 
-    std::deque<PlantEvent> m_events;
+    std::deque<Entry> m_events;
+    quint64 m_gone = 0;                // events that were the oldest ones
+    QHash<QString, quint64> m_active;  // alarms that last, and where they began, counted from the first event ever
     int m_unacknowledged = 0;
 };
 
-/// Of an EventLogModel what is severe enough, not acknowledged if wanted, and has all words of a search in source or text.
+/// Of an EventLogModel what is severe enough, active or not acknowledged if wanted, and has all words of a search in source or text.
 class EventFilterModel : public QSortFilterProxyModel
 {
     Q_OBJECT
@@ -56,7 +72,7 @@ public:
     using QSortFilterProxyModel::QSortFilterProxyModel;
 
     void setLeastSeverity(qplc::PlantEvent::Severity severity);
-    void setOnlyUnacknowledged(bool only);
+    void setOnlyOpen(bool only);
     void setSearch(const QString &text);
 
 protected:
@@ -64,7 +80,7 @@ protected:
 
 private:
     PlantEvent::Severity m_leastSeverity = PlantEvent::Information;
-    bool m_onlyUnacknowledged = false;
+    bool m_onlyOpen = false;
     QStringList m_words;
 };
 

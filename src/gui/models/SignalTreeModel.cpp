@@ -212,7 +212,7 @@ QPlcValue SignalTreeModel::shownValue(const Item *item) const
 bool SignalTreeModel::renew(Item *item) const
 {
     const QPlcValue shown = shownValue(item);
-    const QString value = shortValueText(shown);
+    const QString value = shortValueText(shown, definitionOf(item));
     const QString age = m_displayTime ? QString() : ageText(item->plant->age());
     const Plant::Quality quality = !m_displayTime ? item->plant->quality()
         : shown.isValid()                         ? Plant::Good
@@ -361,7 +361,9 @@ QVariant SignalTreeModel::toolTip(const Item *item) const
         lines << definition.rangeText() + QLatin1Char(' ') + definition.unit;
     if (!definition.description.isEmpty())
         lines << definition.description;
-    const QString value = valueText(shownValue(item));
+    if (!definition.valueNames.isEmpty())
+        lines << definition.valueNames.toText();
+    const QString value = valueText(shownValue(item), definition);
     if (!value.isEmpty())
         lines << value + QLatin1Char(' ') + definition.unit;
     const QString writer = item->plant->writer(item->signal);

@@ -38,6 +38,13 @@ QString numberText(double value, int digits)
     return std::isnan(value) ? QStringLiteral("–") : QString::number(value, 'g', digits);
 }
 
+QString numberText(double value, int digits, const QPlcValueNames &names)
+{
+    const bool isInteger = !names.isEmpty() && std::abs(value) < 1e15 && std::floor(value) == value;
+    const QString name = isInteger ? names.nameOf(qint64(value)) : QString();
+    return name.isEmpty() ? numberText(value, digits) : name;
+}
+
 namespace {
 
 QString timeText(const QPlcValue &value)
@@ -87,6 +94,26 @@ QString valueText(const QPlcValue &value)
     const int digits = type.scalar() == QPlcSignalType::Real32 ? 7 : 10;
     return type.isArray() ? elementsText(value, [digits](double element) { return numberText(element, digits); })
                           : numberText(value.toReal(), digits);
+}
+
+namespace {
+
+QString namedText(const QPlcValue &value, const QPlcSignalDefinition &definition)
+{
+    const QString text = definition.textOf(value);
+    return value.type().isArray() ? QStringLiteral("[%1]").arg(text) : text;
+}
+
+}  // namespace
+
+QString valueText(const QPlcValue &value, const QPlcSignalDefinition &definition)
+{
+    return definition.valueNames.isEmpty() ? valueText(value) : namedText(value, definition);
+}
+
+QString shortValueText(const QPlcValue &value, const QPlcSignalDefinition &definition)
+{
+    return definition.valueNames.isEmpty() ? shortValueText(value) : namedText(value, definition);
 }
 
 QString shortValueText(const QPlcValue &value)

@@ -189,7 +189,7 @@ QStringList ValueTableModel::textsOf(const Row &row) const
     const bool isPast = m_displayTime.has_value();
     const bool hasRange = row.signal.channel() != ChannelMap::NoChannel;
     return {name,
-            valueText(shownValue(row)),
+            valueText(shownValue(row), row.signal.definition()),
             row.signal.definition().unit,
             hasRange ? numberText(double(row.minimum)) : QString(),
             hasRange ? numberText(double(row.maximum)) : QString(),

@@ -7,6 +7,7 @@ WindowContext::WindowContext(QObject *parent)
     : QObject(parent)
 {
     connect(&m_plants, &PlantList::eventOccurred, &m_events, &EventLogModel::append);
+    connect(&m_limitAlarms, &LimitAlarms::eventOccurred, &m_events, &EventLogModel::append);
     connect(&m_plants, &PlantList::added, this, &WindowContext::follow);
 }
 

@@ -4,6 +4,7 @@
 #include "Theme.h"
 #include "TimeView.h"
 #include "gui/models/EventLogModel.h"
+#include "gui/plant/LimitAlarms.h"
 #include "gui/plant/PlantList.h"
 #include "gui/plot/CurveSources.h"
 
@@ -33,6 +34,7 @@ private:
     void follow(Plant *plant);
 
     PlantList m_plants;
+    LimitAlarms m_limitAlarms{&m_plants};
     EventLogModel m_events;
     CurveSources m_curveSources{&m_plants};
     TimeView m_timeView;

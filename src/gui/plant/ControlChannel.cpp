@@ -80,6 +80,7 @@ void ControlChannel::connectToMaster(const QPlcUnderlyingProtocol &master)
 {
     close();
     m_begin = milliseconds();
+    m_isRefused = false;
     m_socket = new QPlcMasterSocket(this);
     connect(m_socket, &QPlcAbstractSocket::connected, this, [this] {
         m_socket->sendMessage(
@@ -130,7 +131,10 @@ void ControlChannel::receive(const Message &message)
         receiveHello(message);
         break;
     case Message::Rejected:
-        end(QStringLiteral("the master refuses: %1").arg(printable(message.text(QStringLiteral("text")))));
+        refuse(message.text(QStringLiteral("error")) == QLatin1String("VersionMismatch")
+                   ? QStringLiteral("versions differ: %1; update the older one")
+                   : QStringLiteral("the master refuses: %1"),
+               message);
         break;
     case Message::MasterEnds:
         end(QStringLiteral("the master has ended"));
@@ -156,11 +160,19 @@ void ControlChannel::receive(const Message &message)
     }
 }
 
+void ControlChannel::refuse(const QString &form, const Message &message)
+{
+    m_isRefused = true;
+    end(form.arg(printable(message.text(QStringLiteral("text")))));
+}
+
 void ControlChannel::receiveHello(const Message &message)
 {
     const int protocol = message.fields().value(QStringLiteral("protocol")).toInt();
     if (protocol != 1) {
-        end(QStringLiteral("it speaks protocol version %1, this program version 1; update the older one")
+        m_isRefused = true;
+        end(QStringLiteral("versions differ: the master speaks protocol version %1, this window version 1; update the "
+                           "older one")
                 .arg(protocol));
         return;
     }

@@ -37,6 +37,8 @@ public:
     /// Ends the connection without a word. Who waits for an answer gets Failed.
     void close();
     bool isGreeted() const { return m_isGreeted; }
+    /// Whether the last attempt reached a master, with which this window cannot work: of another version, say.
+    bool isRefused() const { return m_isRefused; }
 
     /// Asks GetState, GetSignals, GetStatistics, GetSchedule, GetLeases or GetEvents. \a handler gets the answer, or Failed.
     void ask(const Message &question, const Handler &handler);
@@ -68,11 +70,13 @@ private:
     void sendNextCommand();
     void checkAnswerTimes();
     void end(const QString &reason);
+    void refuse(const QString &form, const Message &message);
     static bool isQuestion(Message::Kind kind);
 
     QPlcMasterSocket *m_socket = nullptr;
     QTimer *m_timer;
     bool m_isGreeted = false;
+    bool m_isRefused = false;
     int m_answerTime = AnswerTime;
     qint64 m_begin = 0;  // [ms] of the attempt
     QQueue<Request> m_sent;

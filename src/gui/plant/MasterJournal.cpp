@@ -36,8 +36,10 @@ MasterJournal::MasterJournal(ControlChannel &control, QObject *parent)
 
 void MasterJournal::begin(quint64 session, bool hasFeature)
 {
-    if (session != m_session)
+    if (session != m_session) {
         m_newest = 0.0;
+        endAlarms();
+    }
     m_session = session;
     m_hasFeature = hasFeature;
     if (hasFeature)
@@ -113,8 +115,29 @@ void MasterJournal::tell(const QJsonObject &event)
     const auto text = [&](const char *field) { return printable(event.value(QLatin1String(field)).toString()); };
     const quint64 time = text("time").toULongLong(nullptr, 16);  // [ns since 1970]
     const QString source = text("source");
-    Q_EMIT happened(QDateTime::fromMSecsSinceEpoch(qint64(time / 1'000'000)), severityOf(text("severity")),
-                    source == QLatin1String("Master") ? QString() : source, text("text"));
+    PlantEvent told{QDateTime::fromMSecsSinceEpoch(qint64(time / 1'000'000)), severityOf(text("severity")),
+                    source == QLatin1String("Master") ? QString() : source, text("text"), false};
+    told.alarm = text("alarm");
+    if (!told.alarm.isEmpty())
+        told.stage = event.value(QStringLiteral("active")).toBool() ? PlantEvent::Begins : PlantEvent::Ends;
+    if (told.stage == PlantEvent::Begins)
+        m_alarms.insert(told.alarm, told);
+    else
+        m_alarms.remove(told.alarm);
+    Q_EMIT happened(told);
+}
+
+/// A master that begins anew knows nothing of what lasted before.
+void MasterJournal::endAlarms()
+{
+    for (PlantEvent event : qAsConst(m_alarms)) {
+        event.time = QDateTime::currentDateTime();
+        event.severity = PlantEvent::Information;
+        event.text = tr("%1: over, the master has begun anew").arg(event.alarm);
+        event.stage = PlantEvent::Ends;
+        Q_EMIT happened(event);
+    }
+    m_alarms.clear();
 }
 
 }  // namespace qplc

@@ -4,6 +4,7 @@
 #include "ControlChannel.h"
 #include "PlantEvent.h"
 
+#include <QtCore/QMap>
 #include <QtCore/QVector>
 
 namespace qplc {
@@ -28,8 +29,8 @@ public:
     void take(const QPlcMessage &message);
 
 Q_SIGNALS:
-    /// \param node  empty: the master itself
-    void happened(const QDateTime &time, qplc::PlantEvent::Severity severity, const QString &node, const QString &text);
+    /// Its source is the name of a node, empty for the master itself.
+    void happened(const qplc::PlantEvent &event);
     /// Those of before are told, or there is nobody to ask any more.
     void fetched();
 
@@ -39,13 +40,15 @@ private:
     void endFetching();
     void tellNew(const QPlcMessage &message);
     void tell(const QJsonObject &event);
+    void endAlarms();
 
     ControlChannel &m_control;
     bool m_hasFeature = false;
     bool m_isFetching = false;
     quint64 m_session = 0;
-    double m_newest = 0.0;          // sequence number of the last event that was told
-    QVector<QPlcMessage> m_pushed;  // while fetching
+    QMap<QString, PlantEvent> m_alarms;  // that last
+    double m_newest = 0.0;               // sequence number of the last event that was told
+    QVector<QPlcMessage> m_pushed;       // while fetching
 };
 
 }  // namespace qplc

@@ -44,6 +44,12 @@ QVector<QStringList> groupsOfNames(const QPlcSignalTable &table)
     return groups;
 }
 
+/// The alarm that lasts while a master is looked for.
+QString lostMaster()
+{
+    return QStringLiteral("connection");
+}
+
 }  // namespace
 
 Plant::Plant(const QString &address, const QString &name, const QString &nodeName, QObject *parent)
@@ -59,16 +65,17 @@ Plant::Plant(const QString &address, const QString &name, const QString &nodeNam
     connect(&m_pollTimer, &QTimer::timeout, this, &Plant::poll);
     connect(&m_connection, &PlantConnection::connected, this, &Plant::connected);
     connect(&m_connection, &PlantConnection::disconnected, this, &Plant::disconnected);
+    connect(&m_connection, &PlantConnection::refused, this, &Plant::refused);
     connect(&m_connection, &PlantConnection::stateChanged, this, &Plant::stateChanged);
     connect(&m_connection, &PlantConnection::listenerFailed, this,
             [this](const QString &sentence) { tell(PlantEvent::Error, sentence); });
     connect(&m_connection.control(), &ControlChannel::pushed, this, &Plant::takePushed);
     connect(&m_leases, &PlantLeases::changed, this, &Plant::leasesChanged);
     connect(&m_journal, &MasterJournal::fetched, this, &Plant::tellWaiting);
-    connect(&m_journal, &MasterJournal::happened, this,
-            [this](const QDateTime &time, PlantEvent::Severity severity, const QString &node, const QString &text) {
-                Q_EMIT eventOccurred({time, severity, sourceOf(node), text, false});
-            });
+    connect(&m_journal, &MasterJournal::happened, this, [this](PlantEvent event) {
+        event.source = sourceOf(event.source);
+        Q_EMIT eventOccurred(event);
+    });
 }
 
 Plant::~Plant()
@@ -88,7 +95,11 @@ QString Plant::sourceOf(const QString &node) const
 
 void Plant::tell(PlantEvent::Severity severity, const QString &text, const QString &node)
 {
-    const PlantEvent event{QDateTime::currentDateTime(), severity, sourceOf(node), text, false};
+    tell({QDateTime::currentDateTime(), severity, sourceOf(node), text, false});
+}
+
+void Plant::tell(const PlantEvent &event)
+{
     if (m_journal.isFetching())
         m_waitingEvents.append(event);
     else
@@ -143,6 +154,7 @@ void Plant::connected(const Message &hello, const QPlcSignalTable &newTable)
     m_status = {};
     m_status.state = printable(hello.text(QStringLiteral("state")));
     m_isInsecure = hello.text(QStringLiteral("security")) == QLatin1String("insecure");
+    m_refusal.clear();
     m_polls = 0;
     m_frameTimer.start();
     m_pollTimer.start();
@@ -155,10 +167,22 @@ void Plant::connected(const Message &hello, const QPlcSignalTable &newTable)
     const QJsonArray features = hello.fields().value(QStringLiteral("features")).toArray();
     m_leases.begin(features.contains(QStringLiteral("leases")));
     m_journal.begin(hello.hex64(QStringLiteral("session")), features.contains(QStringLiteral("events")));
-    tell(PlantEvent::Information, QStringLiteral("connected to the master at %1").arg(address()));
+    tell({QDateTime::currentDateTime(), PlantEvent::Information, sourceOf({}),
+          QStringLiteral("connected to the master at %1").arg(address()), false, PlantEvent::Ends, lostMaster()});
     Q_EMIT stateChanged();
     poll();
     askSignals();
+}
+
+/// Told once, however often it is tried.
+void Plant::refused(const QString &reason)
+{
+    if (reason == m_refusal)
+        return;
+    m_refusal = reason;
+    tell({QDateTime::currentDateTime(), PlantEvent::Error, sourceOf({}),
+          QStringLiteral("cannot work with the master at %1: %2").arg(address(), reason), false, PlantEvent::Begins,
+          lostMaster()});
 }
 
 void Plant::disconnected(const QString &reason)
@@ -172,7 +196,9 @@ void Plant::disconnected(const QString &reason)
     m_leases.end();
     m_journal.end();
     if (m_connection.isOpen())
-        tell(PlantEvent::Error, QStringLiteral("lost the master at %1: %2").arg(address(), reason));
+        tell({QDateTime::currentDateTime(), PlantEvent::Error, sourceOf({}),
+              QStringLiteral("lost the master at %1: %2").arg(address(), reason), false, PlantEvent::Begins,
+              lostMaster()});
     else
         tell(PlantEvent::Information, QStringLiteral("left the master at %1").arg(address()));
     Q_EMIT statusChanged();

@@ -53,6 +53,8 @@ public:
     PlantConnection::State connectionState() const;
     /// Time until the next attempt to connect [s]; -1 when none waits.
     double nextAttempt() const { return m_connection.nextAttempt(); }
+    /// Why this window cannot work with a master that is there: "versions differ: ..."; empty: it can, or there is none.
+    QString refusal() const { return m_refusal; }
     bool isConnected() const { return connectionState() == PlantConnection::Connected; }
     /// Whether the master listens to a network, and asks nobody who he is.
     bool isInsecure() const { return m_isInsecure; }
@@ -142,6 +144,7 @@ private:
 
     void connected(const QPlcMessage &hello, const QPlcSignalTable &table);
     void disconnected(const QString &reason);
+    void refused(const QString &reason);
     void takeFrames();
     void measureRate();
     void poll();
@@ -154,6 +157,7 @@ private:
     QString sourceOf(const QString &node) const;
     void takePushed(const QPlcMessage &message);
     void tell(PlantEvent::Severity severity, const QString &text, const QString &node = QString());
+    void tell(const PlantEvent &event);
     void tellOfMaster(PlantEvent::Severity severity, const QString &text, const QString &node = QString());
     void tellWaiting();
     QStringList nodeNames() const;
@@ -166,6 +170,7 @@ private:
     PlantStatus m_status;
     PlantLeases m_leases{m_connection.control()};
     MasterJournal m_journal{m_connection.control()};
+    QString m_refusal;                    // that was told; empty: none
     QVector<PlantEvent> m_waitingEvents;  // of this window, while older ones of the master are on their way
     QVector<QString> m_writers;
     QTimer m_frameTimer;

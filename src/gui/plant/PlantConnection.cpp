@@ -104,8 +104,7 @@ void PlantConnection::attempt()
 void PlantConnection::greeted(const QPlcMessage &hello)
 {
     QVector<QPlcParseError> errors;
-    const QPlcSignalTable table = QPlcSignalTable::fromIni(hello.text(QStringLiteral("table")).toUtf8(), &errors,
-                                                           QStringLiteral("table of the master"));
+    const QPlcSignalTable table = QPlcSignalTable::fromMaster(hello.text(QStringLiteral("table")).toUtf8(), &errors);
     if (table.isEmpty()) {
         m_control.close();
         failed(QPlcParseError::toString(errors));
@@ -133,6 +132,8 @@ void PlantConnection::failed(const QString &reason)
     setState(Disconnected, reason);
     if (wasConnected)
         Q_EMIT disconnected(reason);
+    else if (m_control.isRefused())
+        Q_EMIT refused(reason);
 }
 
 void PlantConnection::listen()

@@ -53,6 +53,8 @@ Q_SIGNALS:
     void stateChanged();
     void connected(const QPlcMessage &hello, const QPlcSignalTable &table);
     void disconnected(const QString &reason);
+    /// A master is there, but this window cannot work with it. Attempts go on.
+    void refused(const QString &reason);
     void listeningChanged();
     /// The listener is not taken, or was lost, while the master answers.
     void listenerFailed(const QString &sentence);

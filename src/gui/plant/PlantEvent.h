@@ -17,6 +17,10 @@ struct PlantEvent
     QString source;  // a plant, or "plant/node"
     QString text;
     bool isAcknowledged = false;
+    /// What lasts has a name, the same one (of the same source) when it ends.
+    enum Stage { Once, Begins, Ends };
+    Stage stage = Once;
+    QString alarm{};
 };
 
 }  // namespace qplc

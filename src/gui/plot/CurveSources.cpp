@@ -51,6 +51,7 @@ CurveSource CurveSources::find(const QString &expression) const
     source.unit = definition.unit;
     source.minimum = limitOf(definition.minimum);
     source.maximum = limitOf(definition.maximum);
+    source.names = definition.valueNames;
     source.isStepped = !definition.type.isReal();
     return source;
 }

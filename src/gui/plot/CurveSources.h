@@ -23,6 +23,7 @@ struct CurveSource
     QString unit;
     std::optional<double> minimum;  // limits of the table
     std::optional<double> maximum;
+    QPlcValueNames names{};  // of the values; empty: none
     bool isStepped = false;  // integers and booleans hold until the next value
     QString error;
     std::shared_ptr<DerivedSignal> derived;  // what owns the store, if it is not the plant

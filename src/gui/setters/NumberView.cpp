@@ -123,7 +123,9 @@ void NumberView::apply()
 void NumberView::applyNumber(const QString &text)
 {
     QString error;
-    const QPlcValue typed = QPlcValue::fromString(QPlcSignalType(QPlcSignalType::Real64), text, &error);
+    const std::optional<qint64> named = target().signal().definition().valueNames.valueOf(text);
+    const QPlcValue typed = named ? QPlcValue(double(*named))
+                                  : QPlcValue::fromString(QPlcSignalType(QPlcSignalType::Real64), text, &error);
     if (!typed.isValid() || !typed.isFinite()) {
         Q_EMIT said(error.isEmpty() ? tr("'%1' is no number").arg(text) : error);
         return;

@@ -133,7 +133,8 @@ QString QPlcSetter::Private::actualText() const
     if (!target.signal())
         return {};
     const double number = target.actualNumber();
-    const QString value = target.isNumber() ? numberText(number, 5) : valueText(target.actual());
+    const QString value = target.isNumber() ? numberText(number, 5, target.signal().definition().valueNames)
+                                            : valueText(target.actual(), target.signal().definition());
     const Plant *plant = target.signal().plant;
     const QString text = QStringLiteral("%1 %2").arg(value, target.unit()).trimmed();
     return plant->quality() == Plant::Stale ? tr("%1, %2 old").arg(text, ageText(plant->age())) : text;
@@ -221,6 +222,9 @@ bool QPlcSetter::addSignals(const QStringList &references)
         SetterSettings wanted = d->settings;
         wanted.signal = reference;
         wanted.minimum = wanted.maximum = std::nullopt;  // they were those of another signal
+        const PlantList::Signal signal = context() ? context()->plants()->resolve(reference) : PlantList::Signal();
+        if (signal && !signal.definition().valueNames.isEmpty() && wanted.style == SetterView::styles().constFirst())
+            wanted.style = QStringLiteral("list");
         d->apply(wanted);
         Q_EMIT settingsEdited();
         return true;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SetterView.h"
 
+#include "ChoiceView.h"
 #include "GeneratorView.h"
+#include "KnobView.h"
 #include "MomentaryView.h"
 #include "NumberView.h"
 #include "SliderView.h"
@@ -26,6 +28,10 @@ SetterView *SetterView::create(const QString &style, SetterTarget *target, QWidg
         return new MomentaryView(target, parent);
     case 4:
         return new GeneratorView(target, parent);
+    case 5:
+        return new KnobView(target, parent);
+    case 6:
+        return new ChoiceView(target, parent);
     default:
         return new NumberView(target, parent);
     }
@@ -33,8 +39,9 @@ SetterView *SetterView::create(const QString &style, SetterTarget *target, QWidg
 
 QStringList SetterView::styles()
 {
-    return {QStringLiteral("number"), QStringLiteral("slider"), QStringLiteral("toggle"), QStringLiteral("momentary"),
-            QStringLiteral("generator")};
+    return {QStringLiteral("number"),    QStringLiteral("slider"),    QStringLiteral("toggle"),
+            QStringLiteral("momentary"), QStringLiteral("generator"), QStringLiteral("knob"),
+            QStringLiteral("list")};
 }
 
 }  // namespace qplc

@@ -19,15 +19,17 @@ using namespace qplc;
 namespace {
 
 const QVector<PanelTable::Column> columns
-    = {{"time", 14, true}, {"severity", 13, true}, {"source", 16, true}, {"event", 40, true}};
+    = {{"time", 14, true}, {"severity", 13, true}, {"state", 13, true}, {"source", 16, true}, {"event", 40, true}};
 
 const QStringList severities = {QStringLiteral("information"), QStringLiteral("warning"), QStringLiteral("error")};
 
 TableDelegate::Sign signOf(const QModelIndex &index)
 {
+    const int severity = index.data(EventLogModel::SeverityRole).toInt();
+    if (index.column() == EventLogModel::State && index.data(EventLogModel::ActiveRole).toBool())
+        return severity == PlantEvent::Error ? TableDelegate::Alarm : TableDelegate::Warning;
     if (index.column() != EventLogModel::Severity)
         return TableDelegate::NoSign;
-    const int severity = index.data(EventLogModel::SeverityRole).toInt();
     if (severity == PlantEvent::Information)
         return TableDelegate::Note;
     if (index.data(EventLogModel::AcknowledgedRole).toBool())
@@ -157,7 +159,8 @@ void QPlcEventLog::makeActions()
         addAction(action);
         return action;
     };
-    d->onlyUnacknowledged = make(tr("Show only what is not acknowledged"), tr("Open"), QKeySequence(Qt::Key_O));
+    d->onlyUnacknowledged
+        = make(tr("Show only what is active or not acknowledged"), tr("Open"), QKeySequence(Qt::Key_O));
     d->onlyUnacknowledged->setCheckable(true);
     d->acknowledge = make(tr("Acknowledge the selected events"), tr("Ack"), QKeySequence(Qt::Key_A));
     d->acknowledgeAll
@@ -205,7 +208,7 @@ void QPlcEventLog::filter()
         d->search->setText(search);
     d->onlyUnacknowledged->setChecked(isOnlyUnacknowledged);
     d->filter->setLeastSeverity(PlantEvent::Severity(severity));
-    d->filter->setOnlyUnacknowledged(isOnlyUnacknowledged);
+    d->filter->setOnlyOpen(isOnlyUnacknowledged);
     d->filter->setSearch(search);
 }
 

@@ -42,7 +42,8 @@ void EventLine::follow()
     const int count = m_context->events()->unacknowledged();
     const PlantEvent *event = count > 0 ? newestThatAsks(*m_context->events()) : nullptr;
     if (!event) {
-        setText(tr("No events to acknowledge"));
+        const int active = m_context->events()->active();
+        setText(active > 0 ? tr("Active, and acknowledged: %1").arg(active) : tr("No events to acknowledge"));
         setTextColor(m_context->theme().mutedText);
     } else {
         const QString more = count > 1 ? tr("   (and %1 more)").arg(count - 1) : QString();

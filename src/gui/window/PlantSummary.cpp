@@ -54,7 +54,9 @@ PlantSummary withoutConnection(const Plant &plant)
         return {
             wasThere ? Tone::Alarm : Tone::Warning, wasThere ? tr("lost; connecting") : tr("connecting"), reason, {}};
     const double pause = plant.nextAttempt();
-    const QString what = wasThere ? tr("lost") : tr("not there");
+    const QString what = !plant.refusal().isEmpty() ? plant.refusal().section(QLatin1Char(':'), 0, 0)
+        : wasThere                                  ? tr("lost")
+                                                    : tr("not there");
     const QString next = pause >= 0.0 ? tr("%1; next attempt in %2 s").arg(what).arg(std::ceil(pause)) : what;
     return {wasThere ? Tone::Alarm : Tone::Warning, next, reason, {}};
 }

@@ -207,7 +207,7 @@ void tst_PlotEditing::theEditorChangesAtOnce()
             check->click();
     }
     QCOMPARE(window.settings(),
-             QByteArray(R"({"curves":[{"gain":-2,"signal":"count"}],"left":{"minimum":5},"limits":true})"));
+             QByteArray(R"({"curves":[{"gain":-2,"signal":"count"}],"left":{"minimum":5},"limits":false})"));
     QCOMPARE(edited.size(), 3);
 }
 

@@ -28,6 +28,7 @@ private Q_SLOTS:
     void whatIsWrittenIsReadAsTheSame();
     void defaultsAreNotWritten();
     void nonsenseIsADefault();
+    void limitsAreThoseOfTheOnlyLineUnlessChosen();
     void aRangeIsFixedWithBothEndsInOrder();
     void aCurveIsNamedByWhatItShows();
 };
@@ -73,6 +74,18 @@ void tst_PlotSettings::nonsenseIsADefault()
     QVERIFY(!settings.left.minimum);
     QVERIFY(settings.span > 0.0);
     QVERIFY(settings.hasGrid);
+}
+
+void tst_PlotSettings::limitsAreThoseOfTheOnlyLineUnlessChosen()
+{
+    const auto shows
+        = [](const char *json) { return PlotSettings::fromJson(QJsonDocument::fromJson(json).object()).showsLimits(); };
+    QVERIFY(!shows(R"({})"));
+    QVERIFY(shows(R"({"curves":[{"signal":"a"}]})"));
+    QVERIFY(shows(R"({"curves":[{"signal":"a"},{"signal":"b","bands":true}]})"));
+    QVERIFY(!shows(R"({"curves":[{"signal":"a"},{"signal":"b"}]})"));
+    QVERIFY(shows(R"({"curves":[{"signal":"a"},{"signal":"b"}],"limits":true})"));
+    QVERIFY(!shows(R"({"curves":[{"signal":"a"}],"limits":false})"));
 }
 
 void tst_PlotSettings::aRangeIsFixedWithBothEndsInOrder()

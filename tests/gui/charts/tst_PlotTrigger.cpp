@@ -3,6 +3,9 @@
 #include "PlotFixtures.h"
 #include "gui/charts/TriggerBar.h"
 
+#include <QtCore/QDir>
+#include <QtCore/QTemporaryDir>
+#include <QtWidgets/QApplication>
 #include <QtWidgets/QToolButton>
 
 #include <qwt_scale_draw.h>
@@ -36,6 +39,8 @@ private Q_SLOTS:
     void whoPansKeepsTheViewUntilTheNextEvent();
     void autoGoesBackToLiveWithoutEvents();
     void otherSettingsDoNotArmAgain();
+    void everyEventIsSaved();
+    void whatCannotBeSavedIsInTheEventLog();
     void aNarrowPlotKeepsItsWidth();
 };
 
@@ -170,6 +175,36 @@ void tst_PlotTrigger::otherSettingsDoNotArmAgain()
     window.plot->addSignals({QStringLiteral("count")});
     window.trigger("statistics");
     QCOMPARE(trigger.state(), Trigger::Done);
+}
+
+void tst_PlotTrigger::everyEventIsSaved()
+{
+    const QTemporaryDir folder;
+    const QByteArray save = R"(,"save":{"on":true,"folder":")" + folder.path().toUtf8() + R"(","most":3})";
+    PlotWindow window(triggered(R"(,"mode":"normal")" + save));
+    QVERIFY(window.run(0.1));
+    const auto files = [&] { return QDir(folder.path()).entryList(QDir::Files); };
+    QTRY_COMPARE_WITH_TIMEOUT(files().size(), 3, 20'000);
+    QFile file(QDir(folder.path()).filePath(files().first()));
+    QVERIFY(file.open(QIODevice::ReadOnly));
+    const QList<QByteArray> rows = file.readAll().trimmed().split('\n');
+    QVERIFY2(rows.first().contains("2*(sin(count/5))+1"), rows.first().constData());
+    QVERIFY2(rows.size() > 90 && rows.size() < 110, qPrintable(QString::number(rows.size())));  // a second at 100 Hz
+    const auto told = [&] {
+        const EventLogModel &log = *window.context.events();
+        return log.at(log.rowCount() - 1).text;
+    };
+    QTRY_VERIFY(told().contains(QStringLiteral("has 3 files of events")));
+}
+
+void tst_PlotTrigger::whatCannotBeSavedIsInTheEventLog()
+{
+    PlotWindow window(triggered(R"(,"mode":"normal","save":{"on":true,"folder":"/proc/no/place"})"));
+    QVERIFY(window.run(0.1));
+    const EventLogModel &log = *window.context.events();
+    QTRY_VERIFY(log.at(log.rowCount() - 1).text.contains(QStringLiteral("/proc/no/place cannot be made")));
+    QCOMPARE(log.at(log.rowCount() - 1).severity, PlantEvent::Warning);
+    QVERIFY(!QApplication::activeModalWidget());
 }
 
 void tst_PlotTrigger::aNarrowPlotKeepsItsWidth()

@@ -321,8 +321,13 @@ void tst_TimePlot::limitsAndStepsComeFromTheTable()
     QCOMPARE(static_cast<StoreCurve *>(items.last())->style(), StoreCurve::Line);
     QCOMPARE(window.canvas()->itemList(QwtPlotItem::Rtti_PlotMarker).size(), 2);
     QCOMPARE(window.canvas()->axisTitle(QwtPlot::yLeft).text(), QString());  // two units
-    window.apply(R"({"curves":[{"signal":"setpoint","gain":2}]})");
+    window.apply(R"({"curves":[{"signal":"count"},{"signal":"setpoint"}]})");
     QCOMPARE(window.canvas()->itemList(QwtPlotItem::Rtti_PlotMarker).size(), 0);
+    window.apply(R"({"curves":[{"signal":"setpoint","gain":2}]})");
+    QCOMPARE(window.canvas()->itemList(QwtPlotItem::Rtti_PlotMarker).size(), 2);  // nobody takes them for others
+    window.trigger("limits");
+    QCOMPARE(window.canvas()->itemList(QwtPlotItem::Rtti_PlotMarker).size(), 0);
+    QCOMPARE(window.settings(), QByteArray(R"({"curves":[{"gain":2,"signal":"setpoint"}],"limits":false})"));
     QCOMPARE(window.canvas()->axisTitle(QwtPlot::yLeft).text(), QStringLiteral("m/s"));
 }
 

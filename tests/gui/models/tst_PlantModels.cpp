@@ -17,6 +17,17 @@ PlantEvent eventOf(PlantEvent::Severity severity, const QString &text)
     return {QDateTime(QDate(2026, 1, 31), QTime(12, 0, 1, 250)), severity, QStringLiteral("kite"), text, false};
 }
 
+/// \param time  [ms] after those of other events
+PlantEvent alarmOf(PlantEvent::Stage stage, const char *alarm, int time)
+{
+    PlantEvent event
+        = eventOf(stage == PlantEvent::Begins ? PlantEvent::Warning : PlantEvent::Information, QLatin1String(alarm));
+    event.time = event.time.addMSecs(time);
+    event.stage = stage;
+    event.alarm = QLatin1String(alarm);
+    return event;
+}
+
 QStringList namesOf(const NodeTableModel &table)
 {
     QStringList names;
@@ -39,6 +50,10 @@ private Q_SLOTS:
     void eventsAreShownAndAcknowledged();
     void theLogIsBounded();
     void eventsAreFiltered();
+    void anAlarmIsActiveUntilItEndsAcknowledgedOrNot();
+    void alarmsOfTwoPlantsDoNotEndEachOther();
+    void anAlarmThatBeginsAgainIsActiveOnce();
+    void theEndOfAForgottenAlarmIsALineOnly();
     void whatHappensToAPlantIsInTheLog();
 };
 
@@ -205,13 +220,75 @@ void tst_PlantModels::eventsAreFiltered()
     filter.setSearch(QStringLiteral(" KITE  winch"));
     QCOMPARE(filter.rowCount(), 1);
     filter.setSearch(QString());
-    filter.setOnlyUnacknowledged(true);
+    filter.setOnlyOpen(true);
     log.acknowledge(log.index(2, 0));
     QCOMPARE(filter.rowCount(), 1);
     filter.setLeastSeverity(PlantEvent::Information);
     QCOMPARE(filter.rowCount(), 1);  // information asks nobody
-    filter.setOnlyUnacknowledged(false);
+    filter.setOnlyOpen(false);
     QCOMPARE(filter.rowCount(), 3);
+}
+
+void tst_PlantModels::anAlarmIsActiveUntilItEndsAcknowledgedOrNot()
+{
+    EventLogModel log;
+    const QAbstractItemModelTester tester(&log, fatal);
+    EventFilterModel open;
+    open.setSourceModel(&log);
+    open.setOnlyOpen(true);
+    const auto state = [&](int row) { return log.index(row, EventLogModel::State).data().toString(); };
+    log.append(alarmOf(PlantEvent::Begins, "hot", 0));
+    log.append(eventOf(PlantEvent::Warning, QStringLiteral("late")));
+    QCOMPARE(state(0), QStringLiteral("Active"));
+    QCOMPARE(state(1), QString());
+    QCOMPARE(log.active(), 1);
+    log.acknowledge(log.index(0, 0));
+    log.acknowledge(log.index(1, 0));
+    QCOMPARE(state(0), QStringLiteral("Acknowledged"));
+    QCOMPARE(open.rowCount(), 1);  // it lasts
+    QCOMPARE(log.active(), 1);
+    log.append(alarmOf(PlantEvent::Ends, "hot", 3200));
+    QCOMPARE(state(0), QStringLiteral("Cleared"));
+    QVERIFY(
+        log.index(0, EventLogModel::State).data(Qt::ToolTipRole).toString().endsWith(QStringLiteral("after 3.2 s")));
+    QCOMPARE(log.active(), 0);
+    QCOMPARE(open.rowCount(), 0);
+    log.append(alarmOf(PlantEvent::Begins, "cold", 4000));
+    log.append(alarmOf(PlantEvent::Ends, "cold", 5000));
+    QCOMPARE(state(3), QStringLiteral("Cleared"));
+    QCOMPARE(log.unacknowledged(), 1);  // over, but nobody has seen it yet
+    QCOMPARE(open.rowCount(), 1);
+}
+
+void tst_PlantModels::alarmsOfTwoPlantsDoNotEndEachOther()
+{
+    EventLogModel log;
+    log.append(alarmOf(PlantEvent::Begins, "hot", 0));
+    PlantEvent other = alarmOf(PlantEvent::Ends, "hot", 1000);
+    other.source = QStringLiteral("south");
+    log.append(other);
+    QCOMPARE(log.active(), 1);
+}
+
+void tst_PlantModels::anAlarmThatBeginsAgainIsActiveOnce()
+{
+    EventLogModel log;
+    log.append(alarmOf(PlantEvent::Begins, "hot", 0));
+    log.append(alarmOf(PlantEvent::Begins, "hot", 1000));
+    QCOMPARE(log.active(), 1);
+    QCOMPARE(log.index(0, EventLogModel::State).data().toString(), QStringLiteral("Cleared"));
+    QCOMPARE(log.index(1, EventLogModel::State).data().toString(), QStringLiteral("Active"));
+}
+
+void tst_PlantModels::theEndOfAForgottenAlarmIsALineOnly()
+{
+    EventLogModel log;
+    log.append(alarmOf(PlantEvent::Begins, "hot", 0));
+    for (int i = 0; i < EventLogModel::MostEvents; ++i)
+        log.append(eventOf(PlantEvent::Information, QString::number(i)));
+    QCOMPARE(log.active(), 0);
+    log.append(alarmOf(PlantEvent::Ends, "hot", 1000));
+    QCOMPARE(log.rowCount(), EventLogModel::MostEvents);
 }
 
 void tst_PlantModels::whatHappensToAPlantIsInTheLog()

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "StateBands.h"
+
+#include "gui/models/ValueFormat.h"
+
+#include <QtGui/QFontMetricsF>
+#include <QtGui/QPainter>
+
+#include <qwt_scale_map.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace qplc {
+
+namespace {
+
+constexpr double textMargin = 4.0;     // [px] beside a name
+constexpr double lineRoom = 4.0;       // [px] above and below a name, together
+constexpr double gap = 1.0;            // [px] between strips
+constexpr double leastText = 18.0;     // [px] with less there is no name
+constexpr double colorOfLight = 0.35;  // share of the colour of a state, so that names are read
+constexpr double colorOfDark = 0.45;
+constexpr int digits = 6;
+
+QColor mixed(const QColor &color, const QColor &ground, double share)
+{
+    const auto part = [share](int of, int with) { return int(std::lround(share * of + (1.0 - share) * with)); };
+    return {part(color.red(), ground.red()), part(color.green(), ground.green()), part(color.blue(), ground.blue())};
+}
+
+}  // namespace
+
+StateBands::StateBands(const SignalStore *store, int channel, const QPlcValueNames &names, const Theme &theme)
+    : m_store(store)
+    , m_channel(channel)
+    , m_names(names)
+    , m_theme(theme)
+{
+}
+
+void StateBands::setPlace(int place, int count, Room room)
+{
+    m_place = place;
+    m_count = std::max(count, 1);
+    m_room = room;
+}
+
+QRectF StateBands::strip(const QRectF &canvas) const
+{
+    if (m_room == AllHeight) {
+        const double height = canvas.height() / m_count;
+        return {canvas.left(), canvas.top() + m_place * height, canvas.width(), height - gap};
+    }
+    const double height = std::min(QFontMetricsF(m_font).height() + lineRoom, canvas.height() / m_count);
+    return {canvas.left(), canvas.bottom() - (m_place + 1) * height, canvas.width(), height - gap};
+}
+
+/// States with names in the order of these; others by their value.
+QColor StateBands::colorOf(float value) const
+{
+    const auto number = qint64(std::llround(value));
+    const auto found = std::find_if(m_names.begin(), m_names.end(),
+                                    [number](const QPlcValueNames::Entry &entry) { return entry.value == number; });
+    const qint64 place = found != m_names.end() ? qint64(found - m_names.begin()) : m_names.size() + std::abs(number);
+    constexpr int colors = 8;
+    return mixed(m_theme.curve(int(place % colors)), m_theme.surface, m_theme.isDark ? colorOfDark : colorOfLight);
+}
+
+QString StateBands::textOf(float value) const
+{
+    return numberText(double(value), digits, m_names);
+}
+
+void StateBands::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap & /*yMap*/,
+                      const QRectF &canvasRect) const
+{
+    if (!m_store || m_store->isEmpty())
+        return;
+    const double scale = std::max(1.0, painter->deviceTransform().m11());  // device pixels of a pixel
+    const auto timeAt = [this](double x) { return m_origin + std::llround(x * 1e9); };
+    const int columns = std::max(1, int(std::lround(xMap.pDist() * scale)));
+    m_shape.read(*m_store, m_channel, TimeColumns(timeAt(xMap.s1()), timeAt(xMap.s2()), columns));
+    m_runs.read(m_shape);
+    const QRectF place = strip(canvasRect);
+    const auto xOf = [&](int column) { return std::min(xMap.p1(), xMap.p2()) + column / scale; };
+    const QFontMetricsF metrics(m_font);
+    bool needsTitle = m_count > 1;
+    painter->save();
+    painter->setFont(m_font);
+    painter->setRenderHint(QPainter::Antialiasing, false);
+    for (const StateRuns::Run &run : m_runs.runs()) {
+        const double left = std::max(xOf(run.begin), place.left());
+        const double right = std::min(xOf(run.end), place.right());
+        if (right <= left)
+            continue;
+        const QRectF piece(left, place.top(), right - left, place.height());
+        painter->fillRect(piece, colorOf(run.value));
+        if (piece.width() < leastText || piece.height() < metrics.ascent())
+            continue;
+        const QString text = needsTitle ? title().text() + QStringLiteral(": ") + textOf(run.value) : textOf(run.value);
+        needsTitle = false;
+        painter->setPen(m_theme.text);
+        painter->drawText(piece.adjusted(textMargin, 0.0, 0.0, 0.0), Qt::AlignLeft | Qt::AlignVCenter,
+                          metrics.elidedText(text, Qt::ElideRight, piece.width() - 1.5 * textMargin));
+    }
+    for (const int spike : m_runs.spikes()) {
+        const double x = xOf(spike);
+        if (x >= place.left() && x < place.right())
+            painter->fillRect(QRectF(x, place.top(), std::max(1.0, 1.0 / scale), place.height()), m_theme.text);
+    }
+    painter->restore();
+}
+
+}  // namespace qplc

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "QPlcValueNames.h"
+#include "gui/panel/Theme.h"
+#include "gui/plot/StateRuns.h"
+
+#include <QtGui/QFont>
+
+#include <qwt_plot_item.h>
+
+namespace qplc {
+
+/// A channel of states as a strip of a plot: a coloured piece for each time in which a value held, with its name. Behind curves; on no y axis.
+///
+/// The x axis is in seconds after the origin, as that of StoreCurve. Values that held for less than a column of pixels are lines across the strip.
+class StateBands : public QwtPlotItem
+{
+public:
+    enum Room {
+        AtTheBottom,  // as high as a line of text, above each other
+        AllHeight     // of the canvas, shared
+    };
+
+    /// \param store  has to live as long as it is drawn \param names  of the values; without, numbers are shown
+    StateBands(const SignalStore *store, int channel, const QPlcValueNames &names, const Theme &theme);
+
+    void setFont(const QFont &font) { m_font = font; }
+    /// The time that is 0 on the x axis [ns].
+    void setOrigin(SignalStore::Time origin) { m_origin = origin; }
+    /// \param place  0 ... count - 1; at the bottom from below, else from above. Of several, each one says its title
+    void setPlace(int place, int count, Room room);
+
+    int rtti() const override { return Rtti_PlotUserItem + 2; }
+    void draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap &yMap,
+              const QRectF &canvasRect) const override;
+
+private:
+    QRectF strip(const QRectF &canvas) const;
+    QColor colorOf(float value) const;
+    QString textOf(float value) const;
+
+    const SignalStore *m_store;
+    int m_channel;
+    QPlcValueNames m_names;
+    Theme m_theme;
+    QFont m_font;
+    SignalStore::Time m_origin = 0;
+    int m_place = 0;
+    int m_count = 1;
+    Room m_room = AtTheBottom;
+    // Kept from picture to picture, so that drawing takes little memory.
+    mutable CurveShape m_shape;
+    mutable StateRuns m_runs;
+};
+
+}  // namespace qplc

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ChoiceView.h"
+
+#include "gui/models/ValueFormat.h"
+
+#include <QtGui/QKeyEvent>
+#include <QtGui/QWheelEvent>
+#include <QtWidgets/QAbstractItemView>
+#include <QtWidgets/QComboBox>
+#include <QtWidgets/QHBoxLayout>
+
+#include <cmath>
+
+namespace qplc {
+
+namespace {
+
+/// Neither a wheel nor a letter chooses: a plant is no form that is filled in.
+class CarefulList : public QComboBox
+{
+public:
+    using QComboBox::QComboBox;
+
+protected:
+    void wheelEvent(QWheelEvent *event) override { event->ignore(); }
+    void keyPressEvent(QKeyEvent *event) override
+    {
+        switch (event->key()) {
+        case Qt::Key_Up:
+        case Qt::Key_Down:
+        case Qt::Key_Space:
+        case Qt::Key_Return:
+        case Qt::Key_Enter:
+            showPopup();
+            break;
+        default:
+            event->ignore();
+        }
+    }
+};
+
+}  // namespace
+
+ChoiceView::ChoiceView(SetterTarget *target, QWidget *parent)
+    : SetterView(target, parent)
+    , m_list(new CarefulList(this))
+{
+    auto *row = new QHBoxLayout(this);
+    row->setContentsMargins(0, 0, 0, 0);
+    row->addWidget(m_list);
+    m_list->setAccessibleName(tr("New value"));
+    setFocusProxy(m_list);
+    connect(m_list, QOverload<int>::of(&QComboBox::activated), this, &ChoiceView::choose);
+    refresh();
+}
+
+void ChoiceView::refresh()
+{
+    fill();
+    m_list->setEnabled(target().control().mayWrite() && target().isNumber() && m_list->count() > 0);
+    if (target().signal() && m_names.isEmpty())
+        Q_EMIT said(
+            tr("The values of '%1' have no names: give it 'values = 0: Off, 1: On' in the table, or this setter "
+               "another style")
+                .arg(target().reference().toString()));
+    showActual();
+}
+
+void ChoiceView::fill()
+{
+    const QPlcValueNames names = target().signal() ? target().signal().definition().valueNames : QPlcValueNames();
+    if (names == m_names && target().minimum() == m_minimum && target().maximum() == m_maximum)
+        return;
+    m_names = names;
+    m_minimum = target().minimum();
+    m_maximum = target().maximum();
+    m_list->clear();
+    for (const QPlcValueNames::Entry &entry : m_names) {
+        const auto value = double(entry.value);
+        if (target().clamped(value) == value)
+            m_list->addItem(entry.name, value);
+    }
+}
+
+void ChoiceView::showActual()
+{
+    if (m_waits > 0)
+        --m_waits;
+    if (m_waits > 0 || m_list->view()->isVisible())
+        return;
+    const double actual = target().actualNumber();
+    m_list->setPlaceholderText(std::isnan(actual) ? QString() : numberText(actual));
+    m_list->setCurrentIndex(m_list->findData(actual));
+}
+
+void ChoiceView::choose(int place)
+{
+    m_waits = 4;
+    target().sendOnce(m_list->itemData(place).toDouble());
+}
+
+}  // namespace qplc

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "KnobView.h"
+
+#include "gui/models/ValueFormat.h"
+
+#include <QtGui/QKeyEvent>
+#include <QtWidgets/QHBoxLayout>
+#include <QtWidgets/QLabel>
+
+#include <qwt_knob.h>
+#include <qwt_round_scale_draw.h>
+#include <qwt_scale_div.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace qplc {
+
+namespace {
+
+constexpr int smallestKnob = 96;      // [px]
+constexpr double totalAngle = 270.0;  // [deg]
+constexpr uint stepsOfRange = 100;    // of a key
+constexpr uint stepsOfPage = 10;
+constexpr int digits = 4;
+constexpr int majorTicks = 5;
+constexpr double tickLength = 5.0;  // [px]
+
+}  // namespace
+
+KnobView::KnobView(SetterTarget *target, QWidget *parent)
+    : SetterView(target, parent)
+    , m_knob(new QwtKnob(this))
+    , m_wanted(new QLabel(this))
+{
+    auto *row = new QHBoxLayout(this);
+    row->setContentsMargins(0, 0, 0, 0);
+    row->addWidget(m_knob, 2);
+    row->addWidget(m_wanted, 1);
+    m_knob->setMinimumSize(smallestKnob, smallestKnob);
+    m_knob->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
+    m_knob->setKnobStyle(QwtKnob::Flat);
+    m_knob->setMarkerStyle(QwtKnob::Tick);
+    m_knob->setTotalAngle(totalAngle);
+    m_knob->setPageSteps(stepsOfPage);
+    m_knob->setScaleMaxMajor(majorTicks);
+    m_knob->scaleDraw()->enableComponent(QwtAbstractScaleDraw::Labels, false);  // they would leave the knob no room
+    m_knob->scaleDraw()->setTickLength(QwtScaleDiv::MajorTick, tickLength);
+    m_knob->setFocusPolicy(Qt::StrongFocus);
+    m_knob->setAccessibleName(tr("New value"));
+    m_knob->installEventFilter(this);
+    m_wanted->setAlignment(Qt::AlignCenter);
+    m_wanted->setMinimumWidth(fontMetrics().horizontalAdvance(QStringLiteral("-00.000")));
+    setFocusProxy(m_knob);
+    connect(m_knob, &QwtKnob::valueChanged, this, &KnobView::turned);
+    connect(m_knob, &QwtKnob::sliderReleased, this, &KnobView::apply);
+    refresh();
+}
+
+void KnobView::refresh()
+{
+    const bool mayWrite = target().control().mayWrite();
+    if (!mayWrite) {
+        m_hasSent = false;
+        setEdited(false);
+    }
+    takeRange();
+    m_knob->setEnabled(mayWrite && hasRange() && target().isNumber());
+    if (target().signal() && !hasRange())
+        Q_EMIT said(tr("'%1' has no limits in the table: give the knob some in its settings")
+                        .arg(target().reference().toString()));
+    showActual();
+}
+
+void KnobView::takeRange()
+{
+    if (!hasRange() || (m_knob->lowerBound() == *target().minimum() && m_knob->upperBound() == *target().maximum()))
+        return;
+    const double range = *target().maximum() - *target().minimum();
+    const bool isReal = target().signal() && target().signal().definition().type.isReal();
+    m_isShowing = true;
+    m_knob->setScale(*target().minimum(), *target().maximum());
+    m_knob->setToolTip(QStringLiteral("%1 … %2 %3")
+                           .arg(numberText(*target().minimum()), numberText(*target().maximum()), target().unit())
+                           .trimmed());
+    m_knob->setTotalSteps(isReal || range > stepsOfRange ? stepsOfRange : uint(range));
+    m_isShowing = false;
+}
+
+void KnobView::showActual()
+{
+    const double actual = target().actualNumber();
+    if (!m_isEdited && !m_hasSent && hasRange() && !std::isnan(actual)) {
+        m_isShowing = true;
+        m_knob->setValue(target().clamped(actual));
+        m_isShowing = false;
+    }
+    showWanted();
+}
+
+void KnobView::showWanted()
+{
+    const bool isWanted = hasRange() && (m_isEdited || m_hasSent);
+    const QPlcValueNames names = target().signal() ? target().signal().definition().valueNames : QPlcValueNames();
+    const QString text = isWanted ? numberText(m_knob->value(), digits, names) : QString();
+    if (text != m_wanted->text())
+        m_wanted->setText(text);
+}
+
+void KnobView::turned()
+{
+    if (m_isShowing)
+        return;
+    setEdited(true);
+    showWanted();
+}
+
+void KnobView::setEdited(bool edited)
+{
+    if (edited == m_isEdited)
+        return;
+    m_isEdited = edited;
+    QFont font = m_wanted->font();
+    font.setBold(edited);
+    m_wanted->setFont(font);
+    Q_EMIT said(edited ? tr("Not sent yet: letting go, or Enter, sends; Esc takes it back") : QString());
+}
+
+void KnobView::apply()
+{
+    if (!m_isEdited || !target().control().mayWrite())
+        return;
+    setEdited(false);
+    m_hasSent = true;
+    target().sendOnce(m_knob->value());
+    showWanted();
+}
+
+void KnobView::revert()
+{
+    setEdited(false);
+    m_hasSent = false;
+    showActual();
+}
+
+bool KnobView::eventFilter(QObject *watched, QEvent *event)
+{
+    if (watched == m_knob && event->type() == QEvent::KeyPress && m_isEdited) {
+        const auto *press = static_cast<QKeyEvent *>(event);
+        const bool isEnter = press->key() == Qt::Key_Return || press->key() == Qt::Key_Enter;
+        if (isEnter && !press->isAutoRepeat())
+            apply();
+        else if (press->key() == Qt::Key_Escape)
+            revert();
+        else
+            return false;
+        return true;
+    }
+    return SetterView::eventFilter(watched, event);
+}
+
+}  // namespace qplc
