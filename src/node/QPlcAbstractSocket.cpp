@@ -14,6 +14,7 @@ struct QPlcAbstractSocket::Private
     QTcpSocket *socket = nullptr;
     QSslSocket *tls = nullptr;  // the same, when it is or will be encrypted, or comes from a master with security
     qplc::ControlFrameReader reader;
+    bool isSending = false;
     Error error = NoError;
     QString errorString;
 };
@@ -116,8 +117,12 @@ bool QPlcAbstractSocket::sendMessage(const QPlcMessage &message)
         return false;
     }
     qCDebug(lcControl).noquote() << "to" << peerName() << message.kindName() << shown(frame, isSecured());
+    const QPointer<QPlcAbstractSocket> self(this);  // who hears of an error may delete us
+    d->isSending = true;
     const bool sent = d->socket->write(frame) == frame.size();
     d->socket->flush();
+    if (self)
+        d->isSending = false;
     return sent;
 }
 
@@ -189,6 +194,11 @@ void QPlcAbstractSocket::readError()
 
 void QPlcAbstractSocket::readMessages()
 {
+    if (d->isSending) {
+        // TLS reads when it writes. Messages that came between two sends of somebody who walks over connections would surprise him, and answers to answers would fill the stack.
+        QMetaObject::invokeMethod(this, &QPlcAbstractSocket::readMessages, Qt::QueuedConnection);
+        return;
+    }
     const QPointer<QPlcAbstractSocket> self(this);  // who receives a message may delete us
     d->reader.append(d->socket->readAll());
     QPlcMessage message;

@@ -181,6 +181,7 @@ bool QPlcMasterNodePrivate::startServer(const QPlcUnderlyingProtocol &protocol)
     chooseAddress(&address);
     server->setSecurity(security);
     injectFaults();
+    server->setMaximumConnections(maximumConnections);
     if (!server->listen(address, protocol.port(), localName, multicastGroup))
         return setError(QPlcMasterNode::ServerError, server->errorString());
     beacon.begin(address,
