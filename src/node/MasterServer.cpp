@@ -238,12 +238,12 @@ void MasterServer::reject(MasterConnection *connection, const QString &error, co
     drop(connection, text);
 }
 
-/// A request is refused, and the connection stays; before the greeting there is nothing that could stay.
-void MasterServer::deny(MasterConnection *connection, const QString &reason)
+/// A request is refused, and the connection stays; not so before the greeting, and of a node that is none.
+void MasterServer::deny(MasterConnection *connection, const QString &reason, bool isRegistration)
 {
     ++m_deniedMessages;
     Q_EMIT denied(connection, reason);
-    if (connection->stage == MasterConnection::Silent || connection->peer.isCyclicOnly)
+    if (connection->stage == MasterConnection::Silent || connection->peer.isCyclicOnly || isRegistration)
         reject(connection, QStringLiteral("Denied"), reason);
     else
         connection->fail(QStringLiteral("Denied"), reason);
@@ -271,7 +271,7 @@ void MasterServer::receive(MasterConnection *connection, const Message &message)
         return;
     const QString refusal = refusalOf(connection->peer, message);
     if (!refusal.isEmpty()) {
-        deny(connection, refusal);
+        deny(connection, refusal, message.kind() == Message::Register);
         return;
     }
     if (connection->peer.isSecured && isCommand(message.kind()))

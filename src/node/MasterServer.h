@@ -71,7 +71,7 @@ private:
     bool isTooMuch(MasterConnection *connection);
     void dropUnattached(const MasterConnection *connection);
     MasterConnection *connectionOf(const QPlcSlaveSocket *socket) const;
-    void deny(MasterConnection *connection, const QString &reason);
+    void deny(MasterConnection *connection, const QString &reason, bool isRegistration);
     void receive(MasterConnection *connection, const QPlcMessage &message);
     void dropClosed(const QPlcSlaveSocket *socket);
     void receiveGarbage(MasterConnection *connection);

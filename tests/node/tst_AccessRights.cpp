@@ -176,7 +176,8 @@ void tst_AccessRights::aNodeHasTheNameOfItsIdentity()
     QVERIFY(master.listen());
     EchoNode node(QStringLiteral("Counter"));
     node.setSecurity(m_files.echo());
-    QVERIFY(!node.connectToMasterAndWaitForConnected(master.protocol("udp"), std::chrono::milliseconds(500)));
+    QVERIFY(!master.admit(node, "udp"));
+    QCOMPARE(node.error(), QPlcSlaveNode::RegistrationError);
     QVERIFY(!log.matching("identity 'Echo' may not be node 'Counter'").isEmpty());
     QVERIFY(master.nodes().isEmpty());
 }
@@ -227,7 +228,8 @@ void tst_AccessRights::signalsAreWrittenByThoseWhoMay()
     QCOMPARE(set(carl, {{"free", "1"}}).text("error"), QString("Denied"));
     CounterNode counter;  // writes sum, too
     counter.setSecurity(m_files.counter());
-    QVERIFY(!counter.connectToMasterAndWaitForConnected(master.protocol("udp"), std::chrono::milliseconds(500)));
+    QVERIFY(!master.admit(counter, "udp"));
+    QVERIFY(counter.errorString().contains("may not write signal 'sum'"));
     QVERIFY(!log.matching("identity 'Counter' with role Node may not write signal 'sum'").isEmpty());
 }
 
