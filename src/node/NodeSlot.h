@@ -4,6 +4,7 @@
 #include "MulticastParts.h"
 #include "NodeRuntime.h"
 #include "NodeStatistics.h"
+#include "SignalGuard.h"
 #include "protocol/CyclicFrame.h"
 #include "signals/ProcessImage.h"
 #include "transport/CyclicHub.h"
@@ -33,11 +34,13 @@ struct NodeSlot
     PayloadLayout outputLayout;
     std::vector<CopyRun> inputRuns;      // image -> inputs
     std::vector<CopyRun> sameCycleRuns;  // image -> same-cycle inputs, again when their writers have answered
-    std::vector<CopyRun> outputRuns;     // outputs -> image
+    SignalGuard::Frame outputs;          // outputs -> image
     std::vector<char> initialOutputs;    // pasted into the image when a node joins while others run
 
     // ---- cycle thread ----
-    const std::vector<CopyRun> *pasteRuns = nullptr;  // outputRuns, or those of them that the roster does not hold
+    const SignalGuard::Frame *paste = nullptr;  // outputs, or those of them that the roster does not hold
+    SignalGuard::Writer written;
+    SignalGuard::Claims claims;
     FrameEncoder encoder;
     FrameDecoder decoder;
     std::vector<char> frames;  // encoded parts, one behind the other
@@ -63,6 +66,9 @@ struct NodeSlot
     bool isRequestSent() const { return multicast || (partsSent == encoder.partCount() && !peer->hasRest()); }
     bool waits() const { return policy == QPlcSlaveNode::SilentWait || policy == QPlcSlaveNode::ErrorWait; }
     bool reports() const { return policy == QPlcSlaveNode::ErrorZeroOrderHold || policy == QPlcSlaveNode::ErrorWait; }
+
+    /// The cycle to which the initial outputs belong when the next one is \a next.
+    std::int64_t initialCycle(std::int64_t next) const { return twoPhase ? next : next - 1; }
 
     /// Sets everything that follows from the layouts. \param session  of the master, for remote nodes
     void prepare(const ProcessImage &image, quint64 session);

@@ -265,13 +265,13 @@ void QPlcSlaveNodePrivate::initializeWith(const Message &message)
         return;
     }
     control->sendMessage(Message(Message::Initialized));
-    tellInitialized(values);
+    tellInitialized();
 }
 
-void QPlcSlaveNodePrivate::tellInitialized(const QByteArray &inputs)
+void QPlcSlaveNodePrivate::tellInitialized()
 {
     if (q->isSignalConnected(QMetaMethod::fromSignal(&QPlcSlaveNode::hasInitialized)))
-        Q_EMIT q->hasInitialized(qplc::NodeRuntime::toList(runtime.inputLayout(), inputs.constData()));
+        Q_EMIT q->hasInitialized(qplc::NodeRuntime::toList(runtime.inputLayout(), runtime.inputs()));
 }
 
 /// The master has given up what it began: nothing more will come.

@@ -22,8 +22,8 @@ public:
     void connectToMaster(const QPlcUnderlyingProtocol &master);
     void disconnectFromMaster();
 
-    /// Emits hasInitialized() with the bytes of the inputs, when anybody listens.
-    void tellInitialized(const QByteArray &inputs);
+    /// Emits hasInitialized() with the inputs, when anybody listens.
+    void tellInitialized();
 
     void setState(QPlcSlaveNode::State newState);
     void setError(QPlcSlaveNode::Error newError, const QString &text);
@@ -34,6 +34,7 @@ public:
     bool listener = false;
     bool sameCycle = false;  // all inputs
     bool twoPhase = false;
+    bool receivesQuality = false;
     QPlcSignalTable ownTable;
     QPlcRealTimeOptions realTimeOptions;
     std::chrono::nanoseconds watchdog{0};

@@ -25,16 +25,22 @@ struct Roster
     std::vector<std::shared_ptr<NodeSlot>> nodes;
     /// By index: signals that keep the value that they have been given, whatever their writer answers; empty: none.
     std::vector<bool> held{};
+    /// Signals whose writer has left before it was among the nodes.
+    std::vector<QPlcSignalIndex> abandoned{};
 
     // made by arrange()
     std::vector<std::vector<Turn>> stages{};
     std::vector<NodeSlot *> twoPhase{};
     std::vector<std::shared_ptr<NodeSlot>> multicast{};  // one node of each part
-    std::vector<std::vector<CopyRun>> pasteRuns{};       // of each node, without what is held; empty: nothing is
+    std::vector<SignalGuard::Frame> pasted{};            // of each node, without what is held; empty: nothing is
+    std::vector<SignalGuard::Contest> contests{};        // signals that several nodes may write, but for what is held
     bool anyRemote = false;
 
     /// Puts the nodes into stages. \pre they have no algebraic loop: NodeRegistry admits none
     void arrange(const ProcessImage &image);
+
+private:
+    void findContests(const QPlcSignalTable &table);
 };
 
 /// What the nodes declare makes this order.

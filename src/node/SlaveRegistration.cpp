@@ -12,6 +12,7 @@ using Message = QPlcMessage;
 namespace {
 
 const QString sameCycleFeature = QStringLiteral("sameCycle");
+const QString qualityFeature = QStringLiteral("quality");
 
 QJsonArray describe(const QPlcSignalTable &table, const qplc::PayloadLayout &layout,
                     const std::vector<bool> &sameCycle = {})
@@ -45,7 +46,12 @@ bool QPlcSlaveNodePrivate::isOrdered() const
 /// Extensions that this node needs: one that needs none says what nodes always said.
 QJsonArray QPlcSlaveNodePrivate::features() const
 {
-    return isOrdered() ? QJsonArray{sameCycleFeature} : QJsonArray();
+    QJsonArray needed;
+    if (isOrdered())
+        needed.append(sameCycleFeature);
+    if (receivesQuality)
+        needed.append(qualityFeature);
+    return needed;
 }
 
 void QPlcSlaveNodePrivate::greet()
@@ -96,6 +102,7 @@ void QPlcSlaveNodePrivate::receiveHello(const Message &message)
                    .arg(master.toString(), name));
         return;
     }
+    runtime.setQualityOffered(message.fields().value(QStringLiteral("features")).toArray().contains(qualityFeature));
     QPlcSignalTable table;
     QString text;
     if (!chooseTable(message, &table))
@@ -129,6 +136,8 @@ void QPlcSlaveNodePrivate::registerAtMaster()
         {QStringLiteral("cyclic"), master.kindName()}};
     if (twoPhase)
         fields.insert(QStringLiteral("twoPhase"), true);
+    if (runtime.inputLayout().hasQualities())
+        fields.insert(QStringLiteral("quality"), true);
     if (master.kind() == QPlcUnderlyingProtocol::Udp || master.kind() == QPlcUnderlyingProtocol::UdpMulticast) {
         quint16 port = 0;
         if (!makeUdpLink(&port))

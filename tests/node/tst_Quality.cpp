@@ -1,0 +1,469 @@
+// SPDX-License-Identifier: Apache-2.0
+// The qualities of signals from their writer to the code of their reader: with real nodes, and with scripted ones that break the rules.
+#include "NodeFixtures.h"
+#include "ScriptedNode.h"
+
+#include <QtTest/QtTest>
+
+namespace {
+
+QPlcSignalTable qualityTable(const QByteArray &more = {})
+{
+    QVector<QPlcParseError> errors;
+    const QPlcSignalTable table
+        = QPlcSignalTable::fromIni("[count]\ntype = Int32\n[echo]\ntype = Real64\nmin = -100\nmax = 100\nsafe = -5\n"
+                                   "[sum]\ntype = Real64\nunit = m\n[vector]\ntype = Real64Triple\nmax = 9\nhold = 1\n"
+                                   "[free]\ntype = Real32\ninitial = 3\n[alone]\ntype = Real64\nwriter = Source\n"
+                                       + more,
+                                   &errors);
+    Q_ASSERT_X(errors.isEmpty(), "qualityTable", qPrintable(QPlcParseError::toString(errors)));
+    return table;
+}
+
+/// Writes "echo": the number of the cycle, unless the test has another idea.
+class Source : public QPlcCompactSlaveNode
+{
+public:
+    explicit Source(const QString &name = QStringLiteral("Source"))
+        : QPlcCompactSlaveNode(name)
+    {
+    }
+    std::function<double(quint64)> idea;
+    QPlcOutput<double> m_echo{this, "echo"};
+    QPlcOutput<std::array<double, 3>> m_vector{this, "vector"};
+
+private:
+    void reset() override { m_echo = 0.5; }
+    void step(const QPlcCycle &cycle) override { m_echo = idea ? idea(cycle.number()) : double(cycle.number()); }
+};
+
+/// Moves something by "echo", and writes down what it was told in each cycle: "7 good".
+class Actuator : public QPlcCompactSlaveNode
+{
+public:
+    explicit Actuator(QPlcInputTiming::Value timing = QPlcInputTiming::LastCycle, bool asks = true)
+        : QPlcCompactSlaveNode(QStringLiteral("Actuator"))
+        , m_echo(this, "echo", timing)
+    {
+        setReceivesQuality(asks);
+    }
+    QStringList record;
+    QPlcInput<double> m_echo;
+    QPlcInput<float> m_free{this, "free"};
+
+private:
+    void reset() override { record.clear(); }
+    void step(const QPlcCycle &) override
+    {
+        record << QStringLiteral("%1 %2").arg(m_echo.value()).arg(m_echo.quality().toString());
+    }
+};
+
+void addKinds()
+{
+    QTest::addColumn<QString>("kind");
+    for (const char *kind : {"local", "tcp", "udp"})
+        QTest::newRow(kind) << QString(kind);
+}
+
+}  // namespace
+
+class tst_Quality : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void aBadValueNeverReachesTheActuator_data() { addKinds(); }
+    void aBadValueNeverReachesTheActuator();
+    void aSameCycleReaderSeesTheGuardedValue_data() { addKinds(); }
+    void aSameCycleReaderSeesTheGuardedValue();
+    void whoDoesNotAskGetsSafeValuesToo_data() { addKinds(); }
+    void whoDoesNotAskGetsSafeValuesToo();
+    void whatNobodyWritesIsInvalidUntilSomebodySetsIt();
+    void aWriterThatIsLostIsHeldAndThenSafe_data();
+    void aWriterThatIsLostIsHeldAndThenSafe();
+    void aListenerIsGoodUntilItIsGone();
+    void theNextPhaseBeginsWithoutOldValues();
+    void theNodeItselfDoesNotBelieveAMasterThatIsMad();
+    void refusedValuesAreCountedAndToldOnce();
+    void initialOutputsOutOfRangeEndTheInitialization();
+    void aNodeThatIsNotNamedIsRefused();
+    void theFirstWriterThatIsFreshIsTheSource();
+    void aWriterWithNonsenseLosesItsClaimAtOnce();
+    void viewersSeeQualityAndSource();
+};
+
+void tst_Quality::aBadValueNeverReachesTheActuator()
+{
+    QFETCH(QString, kind);
+    TestMaster master(QPlcClock::lockstep(), qualityTable());
+    QVERIFY(master.listen());
+    Source source;
+    source.idea = [](quint64 cycle) {
+        const double bad[] = {qQNaN(), qInf(), -qInf(), 100.5, -1e9, qQNaN()};
+        return cycle >= 4 && cycle < 10 ? bad[cycle - 4] : double(cycle);
+    };
+    Actuator actuator;
+    QVERIFY(master.admit(source, kind) && master.admit(actuator, kind));
+    master.setCycleLimit(14);
+    QVERIFY(master.startRealTime());
+    QVERIFY(master.waitForState(QPlcMasterNode::Off));
+    QCOMPARE(master.error(), QPlcMasterNode::NoError);
+    QCOMPARE(actuator.record,
+             (QStringList{"0.5 good", "0 good", "1 good", "2 good", "3 good", "3 held 1", "3 held 2", "3 held 3",
+                          "-5 safe", "-5 safe", "-5 safe", "10 good", "11 good", "12 good"}));
+    source.disconnectFromMaster();
+    actuator.disconnectFromMaster();
+}
+
+void tst_Quality::aSameCycleReaderSeesTheGuardedValue()
+{
+    QFETCH(QString, kind);
+    TestMaster master(QPlcClock::lockstep(), qualityTable());
+    QVERIFY(master.listen());
+    Source source;
+    source.idea = [](quint64 cycle) { return cycle == 2 || cycle == 4 ? qQNaN() : double(cycle); };
+    Actuator actuator(QPlcInputTiming::SameCycle);
+    QVERIFY(master.admit(source, kind) && master.admit(actuator, kind));
+    master.setCycleLimit(6);
+    QVERIFY(master.startRealTime());
+    QVERIFY(master.waitForState(QPlcMasterNode::Off));
+    QCOMPARE(actuator.record, (QStringList{"0 good", "1 good", "1 held 1", "3 good", "3 held 1", "5 good"}));
+    source.disconnectFromMaster();
+    actuator.disconnectFromMaster();
+}
+
+void tst_Quality::whoDoesNotAskGetsSafeValuesToo()
+{
+    QFETCH(QString, kind);
+    TestMaster master(QPlcClock::lockstep(), qualityTable());
+    QVERIFY(master.listen());
+    Source source;
+    source.idea = [](quint64 cycle) { return cycle < 2 ? double(cycle) : qQNaN(); };
+    Actuator actuator(QPlcInputTiming::LastCycle, false);
+    QVERIFY(master.admit(source, kind) && master.admit(actuator, kind));
+    master.setCycleLimit(8);
+    QVERIFY(master.startRealTime());
+    QVERIFY(master.waitForState(QPlcMasterNode::Off));
+    QCOMPARE(actuator.record,
+             (QStringList{"0.5 invalid", "0 invalid", "1 invalid", "1 invalid", "1 invalid", "1 invalid", "-5 invalid",
+                          "-5 invalid"}));
+    source.disconnectFromMaster();
+    actuator.disconnectFromMaster();
+}
+
+void tst_Quality::whatNobodyWritesIsInvalidUntilSomebodySetsIt()
+{
+    TestMaster master(QPlcClock::lockstep(), qualityTable());
+    QVERIFY(master.listen());
+    Actuator actuator;
+    QStringList seen;
+    QVERIFY(master.addLocalNode(&actuator));
+    QCOMPARE(master.signalQuality("free").kind(), QPlcQuality::Invalid);
+    master.setCycleLimit(3);
+    QVERIFY(master.startRealTime());
+    QVERIFY(master.waitForState(QPlcMasterNode::Off));
+    QCOMPARE(actuator.m_free.value(), 3.0F);
+    QCOMPARE(actuator.m_free.quality().kind(), QPlcQuality::Invalid);
+    QCOMPARE(actuator.record.last(), QString("0 invalid"));
+    QVERIFY(master.setSignalValue("free", 4.0));
+    master.setCycleLimit(8);
+    QVERIFY(master.startRealTime());
+    QVERIFY(master.waitForState(QPlcMasterNode::Off));
+    QCOMPARE(actuator.m_free.value(), 4.0F);
+    QCOMPARE(actuator.m_free.quality().kind(), QPlcQuality::Good);
+    QCOMPARE(master.signalQuality("free").kind(), QPlcQuality::Good);
+    QCOMPARE(master.signalQuality("nonsense").kind(), QPlcQuality::Invalid);
+}
+
+void tst_Quality::aWriterThatIsLostIsHeldAndThenSafe_data()
+{
+    QTest::addColumn<QString>("cyclic");
+    QTest::addColumn<bool>("isSameCycle");
+    for (const char *cyclic : {"udp", "tcp"}) {
+        QTest::addRow("%s", cyclic) << QString(cyclic) << false;
+        QTest::addRow("%s, same cycle", cyclic) << QString(cyclic) << true;
+    }
+}
+
+/// In lockstep the master waits for the writer until it is gone: the actuator's own record has each step of the way.
+void tst_Quality::aWriterThatIsLostIsHeldAndThenSafe()
+{
+    QFETCH(QString, cyclic);
+    QFETCH(bool, isSameCycle);
+    TestMaster master(QPlcClock::lockstep(), qualityTable());
+    Actuator actuator(isSameCycle ? QPlcInputTiming::SameCycle : QPlcInputTiming::LastCycle);
+    QVERIFY(master.addLocalNode(&actuator));
+    QVERIFY(master.listen());
+    ScriptedNode writer;
+    writer.table = qualityTable();
+    writer.cyclic = cyclic;
+    writer.onRequest = [&](const ScriptedNode::Request &request) {
+        if (request.cycle < 20)
+            writer.answer(request.cycle, QPlcValue(double(request.cycle)).toBytes());
+        else if (request.cycle == 20) {
+            writer.control.close();
+            writer.stream.abort();
+        }
+    };
+    QVERIFY(writer.registerAt(master.serverPort()));
+    master.setCycleLimit(40);
+    QVERIFY(master.startRealTime());
+    QVERIFY(master.waitForState(QPlcMasterNode::Off));
+    const int first = actuator.record.indexOf("19 held 1");
+    QCOMPARE(first, isSameCycle ? 20 : 21);
+    QCOMPARE(actuator.record.mid(first - 1, 6),
+             (QStringList{"19 good", "19 held 1", "19 held 2", "19 held 3", "-5 safe", "-5 safe"}));
+    QCOMPARE(actuator.record.last(), QString("-5 safe"));
+    QCOMPARE(master.signalQuality("echo").kind(), QPlcQuality::Safe);
+}
+
+void tst_Quality::aListenerIsGoodUntilItIsGone()
+{
+    TestMaster master(QPlcClock::lockstep(), qualityTable());
+    Actuator actuator;
+    QVERIFY(master.addLocalNode(&actuator));
+    QVERIFY(master.listen());
+    ScriptedNode window;
+    window.table = qualityTable();
+    window.listener = true;
+    window.initialValues = QPlcValue(8.0).toBytes();
+    QVERIFY(window.registerAt(master.serverPort()));
+    QVERIFY(master.initializeAllStates());
+    QVERIFY(window.waitForMessage(QPlcMessage::InitializeWithValues));
+    QVERIFY(master.startRealTime());
+    QVERIFY(window.waitForRequests(1));
+    QVERIFY(master.waitForCycles(master.statistics().cycles + 1000));  // not one of which it has answered
+    QCOMPARE(master.signalQuality("echo").kind(), QPlcQuality::Good);
+    window.control.close();
+    QTRY_COMPARE(master.signalQuality("echo").kind(), QPlcQuality::Safe);
+    master.stop();
+    QVERIFY(actuator.record.contains("8 held 3"));
+    QCOMPARE(actuator.record.last(), QString("-5 safe"));
+}
+
+void tst_Quality::theNextPhaseBeginsWithoutOldValues()
+{
+    TestMaster master(QPlcClock::lockstep(), qualityTable());
+    Actuator actuator;
+    QVERIFY(master.addLocalNode(&actuator));
+    {
+        Source source;
+        QVERIFY(master.addLocalNode(&source));
+        master.setCycleLimit(10);
+        QVERIFY(master.startRealTime());
+        QVERIFY(master.waitForState(QPlcMasterNode::Off));
+        QCOMPARE(master.signalQuality("echo").kind(), QPlcQuality::Good);
+    }
+    master.setCycleLimit(10);
+    QVERIFY(master.startRealTime());
+    QVERIFY(master.waitForState(QPlcMasterNode::Off));
+    QCOMPARE(actuator.record.size(), 10);
+    QCOMPARE(actuator.record.count("-5 safe"), 10);
+}
+
+void tst_Quality::theNodeItselfDoesNotBelieveAMasterThatIsMad()
+{
+    // The table of the node is stricter than that of the master.
+    TestMaster master(QPlcClock::lockstep(), qualityTable());
+    QVERIFY(master.listen());
+    Source source;
+    source.idea = [](quint64 cycle) { return cycle == 3 ? 50.0 : 1.0; };
+    Actuator actuator;
+    actuator.setSignalTable(QPlcSignalTable::fromIni(qualityTable().toIni().replace("max = 100", "max = 10")));
+    QVERIFY(master.admit(source, "tcp") && master.admit(actuator, "tcp"));
+    master.setCycleLimit(7);
+    QVERIFY(master.startRealTime());
+    QVERIFY(master.waitForState(QPlcMasterNode::Off));
+    QCOMPARE(actuator.record, (QStringList{"0.5 good", "1 good", "1 good", "1 good", "1 held 1", "1 good", "1 good"}));
+    QCOMPARE(actuator.counters().refused, quint64(1));
+    source.disconnectFromMaster();
+    actuator.disconnectFromMaster();
+}
+
+void tst_Quality::refusedValuesAreCountedAndToldOnce()
+{
+    LogCapture log;
+    TestMaster master(QPlcClock::lockstep(), qualityTable());
+    Source source;
+    source.idea = [](quint64 cycle) { return cycle == 2 ? qQNaN() : cycle >= 5 ? 112.5 : 1.0; };
+    QVERIFY(master.addLocalNode(&source));
+    master.setCycleLimit(20);
+    QVERIFY(master.startRealTime());
+    QVERIFY(master.waitForState(QPlcMasterNode::Off));
+    const QPlcCycleStatistics statistics = master.cycleStatistics();
+    QCOMPARE(statistics.nodes.size(), 1);
+    QCOMPARE(statistics.nodes.at(0).nonFinite, quint64(1));
+    QCOMPARE(statistics.nodes.at(0).outOfRange, quint64(15));
+    QCOMPARE(log.matching("echo of Source: nan is not a finite number; held").size(), 1);
+    QTRY_COMPARE(log.matching("echo of Source: 112.5 is above its maximum 100; held").size(), 1);
+    QCOMPARE(log.matching("safe ones: echo = -5").size(), 1);
+    QCOMPARE(log.matching("echo").size(), 3);
+}
+
+void tst_Quality::initialOutputsOutOfRangeEndTheInitialization()
+{
+    TestMaster master(QPlcClock::lockstep(), qualityTable());
+    ScriptedNode writer;
+    writer.table = qualityTable();
+    writer.initialValues = QPlcValue(101.0).toBytes();
+    QVERIFY(master.listen() && writer.registerAt(master.serverPort()));
+    LogCapture log;
+    QVERIFY(master.startRealTime());
+    QTRY_COMPARE(master.error(), QPlcMasterNode::InitializationError);
+    QVERIFY2(master.errorString().contains(
+                 "node 'Scripted': the initial value of signal 'echo': 101 is above its maximum 100"),
+             qPrintable(master.errorString()));
+}
+
+void tst_Quality::aNodeThatIsNotNamedIsRefused()
+{
+    class Writer : public QPlcCompactSlaveNode
+    {
+    public:
+        explicit Writer(const QString &name)
+            : QPlcCompactSlaveNode(name)
+        {
+        }
+        QPlcOutput<double> m_alone{this, "alone"};
+    };
+    TestMaster master(QPlcClock::lockstep(), qualityTable());
+    QVERIFY(master.listen());
+    Writer stranger("Stranger");
+    Writer named("Source");
+    LogCapture log;
+    QVERIFY(!master.admit(stranger, "tcp"));
+    QVERIFY2(stranger.errorString().contains("signal 'alone' cannot be written by node 'Stranger'")
+                 && stranger.errorString().contains("'writer = Source'"),
+             qPrintable(stranger.errorString()));
+    QVERIFY(!master.addLocalNode(&stranger));
+    QVERIFY(master.admit(named, "tcp"));
+    QCOMPARE(master.writer("alone"), QString("Source"));
+    named.disconnectFromMaster();
+}
+
+// ---- several writers ----
+
+namespace {
+
+const QByteArray contested = "[speed]\ntype = Real64\nmin = -10\nmax = 10\nsafe = -1\nhold = 8\nwriter = A > B > C\n";
+
+class Pilot : public QPlcCompactSlaveNode
+{
+public:
+    explicit Pilot(const QString &name, double value)
+        : QPlcCompactSlaveNode(name)
+        , m_value(value)
+    {
+    }
+    std::function<double(quint64)> idea;
+
+private:
+    void reset() override { m_speed = m_value; }
+    void step(const QPlcCycle &cycle) override { m_speed = idea ? idea(cycle.number()) : m_value; }
+    double m_value;
+    QPlcOutput<double> m_speed{this, "speed"};
+};
+
+class Winch : public QPlcCompactSlaveNode
+{
+public:
+    Winch()
+        : QPlcCompactSlaveNode(QStringLiteral("Winch"))
+    {
+        setReceivesQuality(true);
+    }
+    QStringList record;
+
+private:
+    void step(const QPlcCycle &) override
+    {
+        record << QStringLiteral("%1 %2").arg(m_speed.value()).arg(m_speed.quality().toString());
+    }
+    QPlcInput<double> m_speed{this, "speed", QPlcInputTiming::SameCycle};
+};
+
+}  // namespace
+
+void tst_Quality::theFirstWriterThatIsFreshIsTheSource()
+{
+    LogCapture log;
+    TestMaster master(QPlcClock::lockstep(), qualityTable(contested));
+    Pilot b("B", 2.0);
+    Pilot c("C", 3.0);
+    Winch winch;
+    QVERIFY(master.addLocalNode(&c) && master.addLocalNode(&b) && master.addLocalNode(&winch));
+    QVERIFY(master.listen());
+    ScriptedNode a("A");
+    a.table = qualityTable(contested);
+    a.inputs.clear();
+    a.outputs = QStringList{"speed"};
+    a.initialValues = QPlcValue(1.0).toBytes();
+    a.cyclic = "tcp";
+    a.onRequest = [&](const ScriptedNode::Request &request) {
+        if (request.cycle < 10)
+            a.answer(request.cycle, QPlcValue(1.0).toBytes());
+        else if (request.cycle == 10) {
+            a.control.close();
+            a.stream.abort();
+        }
+    };
+    QVERIFY(a.registerAt(master.serverPort()));
+    QCOMPARE(master.writer("speed"), QString("A > B > C"));
+    master.setCycleLimit(20);
+    QVERIFY(master.startRealTime());
+    QVERIFY(master.waitForState(QPlcMasterNode::Off));
+    QStringList expected;
+    for (int cycle = 0; cycle < 20; ++cycle)
+        expected << (cycle < 10       ? QString("1 good")
+                         : cycle < 15 ? QString("1 held %1").arg(cycle - 9)
+                                      : QString("2 good"));
+    QCOMPARE(winch.record, expected);
+    QCOMPARE(log.matching("speed: its source is now B, instead of A").size(), 1);
+}
+
+void tst_Quality::aWriterWithNonsenseLosesItsClaimAtOnce()
+{
+    TestMaster master(QPlcClock::lockstep(), qualityTable(contested));
+    Pilot a("A", 1.0);
+    Pilot b("B", 2.0);
+    Winch winch;
+    a.idea = [](quint64 cycle) { return cycle == 3 ? qQNaN() : cycle >= 6 ? 11.0 : 1.0; };
+    b.idea = [](quint64 cycle) { return cycle >= 8 ? qInf() : 2.0; };
+    QVERIFY(master.addLocalNode(&a) && master.addLocalNode(&b) && master.addLocalNode(&winch));
+    master.setCycleLimit(20);
+    QVERIFY(master.startRealTime());
+    QVERIFY(master.waitForState(QPlcMasterNode::Off));
+    QCOMPARE(winch.record.mid(0, 9),
+             (QStringList{"1 good", "1 good", "1 good", "2 good", "1 good", "1 good", "2 good", "2 good", "2 held 1"}));
+    QCOMPARE(winch.record.mid(15), (QStringList{"2 held 8", "-1 safe", "-1 safe", "-1 safe", "-1 safe"}));
+}
+
+void tst_Quality::viewersSeeQualityAndSource()
+{
+    TestMaster master(QPlcClock::lockstep(), qualityTable(contested));
+    Pilot a("A", 1.0);
+    Pilot b("B", 2.0);
+    a.idea = [](quint64) { return qQNaN(); };
+    QVERIFY(master.addLocalNode(&a) && master.addLocalNode(&b));
+    QVERIFY(master.listen());
+    master.setCycleLimit(5);
+    QVERIFY(master.startRealTime());
+    QVERIFY(master.waitForState(QPlcMasterNode::Off));
+    ScriptedNode viewer("Viewer");
+    QVERIFY(viewer.connectTo(master.serverPort()));
+    viewer.send(QPlcMessage::Hello, viewer.helloFields());
+    QCOMPARE(viewer.next().kind(), QPlcMessage::Hello);
+    viewer.send(QPlcMessage::GetSignals, {{"names", QJsonArray{"speed", "free"}}});
+    const QJsonArray answered = viewer.next().fields().value("signals").toArray();
+    QCOMPARE(answered.size(), 2);
+    const QJsonObject speed = answered.at(0).toObject();
+    QCOMPARE(speed.value("quality").toInt(-1), 0);
+    QCOMPARE(speed.value("writer").toString(), QString("A > B"));
+    QCOMPARE(speed.value("source").toString(), QString("B"));
+    QCOMPARE(answered.at(1).toObject().value("quality").toInt(-1), 254);
+    QVERIFY(!answered.at(1).toObject().contains("source"));
+}
+
+QTEST_GUILESS_MAIN(tst_Quality)
+#include "tst_Quality.moc"
