@@ -3,6 +3,7 @@
 #include "NodeFixtures.h"
 #include "ScriptedNode.h"
 
+#include <QtCore/QProcess>
 #include <QtTest/QtTest>
 
 namespace {
@@ -82,6 +83,8 @@ private Q_SLOTS:
     void whatNobodyWritesIsInvalidUntilSomebodySetsIt();
     void aWriterThatIsLostIsHeldAndThenSafe_data();
     void aWriterThatIsLostIsHeldAndThenSafe();
+    void aWriterThatIsKilledIsHeldAndThenSafe_data();
+    void aWriterThatIsKilledIsHeldAndThenSafe();
     void aListenerIsGoodUntilItIsGone();
     void theNextPhaseBeginsWithoutOldValues();
     void theNodeItselfDoesNotBelieveAMasterThatIsMad();
@@ -216,6 +219,42 @@ void tst_Quality::aWriterThatIsLostIsHeldAndThenSafe()
              (QStringList{"19 good", "19 held 1", "19 held 2", "19 held 3", "-5 safe", "-5 safe"}));
     QCOMPARE(actuator.record.last(), QString("-5 safe"));
     QCOMPARE(master.signalQuality("echo").kind(), QPlcQuality::Safe);
+}
+
+void tst_Quality::aWriterThatIsKilledIsHeldAndThenSafe_data()
+{
+    QTest::addColumn<QString>("kind");
+    for (const char *kind : {"tcp", "udp", "local"})
+        QTest::newRow(kind) << QString(kind);
+}
+
+/// As above, with a process that gets no chance to say goodbye.
+void tst_Quality::aWriterThatIsKilledIsHeldAndThenSafe()
+{
+    QFETCH(QString, kind);
+    TestMaster master(QPlcClock::lockstep(), qualityTable());
+    Actuator actuator;
+    QVERIFY(master.addLocalNode(&actuator));
+    QVERIFY(master.listen());
+    QProcess writer;
+    writer.start(QCoreApplication::applicationFilePath(),
+                 {"--writer", QStringLiteral("%1://127.0.0.1:%2").arg(kind).arg(master.serverPort())});
+    QTRY_COMPARE(master.writer("echo"), QString("Source"));
+    QTRY_COMPARE(master.nodes().size(), 2);
+    QVERIFY(master.startRealTime());
+    QVERIFY(master.waitForCycles(50));
+    writer.kill();
+    QVERIFY(writer.waitForFinished());
+    QTRY_COMPARE(master.signalQuality("echo").kind(), QPlcQuality::Safe);
+    master.stop();
+    int last = actuator.record.size() - 1;
+    while (last >= 0 && !actuator.record.at(last).endsWith("good"))
+        --last;
+    QVERIFY(last > 40 && last + 6 < actuator.record.size());
+    const QString value = actuator.record.at(last).section(' ', 0, 0);
+    QCOMPARE(actuator.record.mid(last + 1, 5),
+             (QStringList{value + " held 1", value + " held 2", value + " held 3", "-5 safe", "-5 safe"}));
+    QCOMPARE(actuator.record.mid(0, last).filter("good").size(), last);
 }
 
 void tst_Quality::aListenerIsGoodUntilItIsGone()
@@ -465,5 +504,28 @@ void tst_Quality::viewersSeeQualityAndSource()
     QVERIFY(!answered.at(1).toObject().contains("source"));
 }
 
-QTEST_GUILESS_MAIN(tst_Quality)
+namespace {
+
+/// The process that is killed: a node that writes "echo" until it dies.
+int runWriter(const QString &master)
+{
+    QPlcSignalIndexTable::setCurrent(qualityTable());
+    Source source;
+    source.idea = [](quint64 cycle) { return double(cycle % 100); };
+    return source.connectToMasterAndWaitForConnected(QPlcUnderlyingProtocol::fromString(master))
+        ? QCoreApplication::exec()
+        : EXIT_FAILURE;
+}
+
+}  // namespace
+
+int main(int argc, char **argv)
+{
+    QCoreApplication application(argc, argv);
+    if (argc == 3 && QByteArray(argv[1]) == "--writer")
+        return runWriter(QString::fromLocal8Bit(argv[2]));
+    tst_Quality test;
+    return QTest::qExec(&test, argc, argv);
+}
+
 #include "tst_Quality.moc"
