@@ -15,13 +15,15 @@ constexpr std::int64_t ResendAfter = 20'000'000;   // [ns] a request that must b
 }  // namespace
 
 NodeExchange::NodeExchange(ProcessImage &image, SignalGuard &signalGuard, CyclicHub &hub, CycleReports &reports,
-                           CycleStatistics &statistics, TimeSource &time, const std::atomic<bool> &stop)
+                           CycleStatistics &statistics, TimeSource &time, SafetyGuard &guard,
+                           const std::atomic<bool> &stop)
     : m_image(image)
     , m_signalGuard(signalGuard)
     , m_hub(hub)
     , m_reports(reports)
     , m_statistics(statistics)
     , m_time(time)
+    , m_guard(guard)
     , m_stop(stop)
 {
 }
@@ -42,6 +44,7 @@ void NodeExchange::run(const Roster &roster, const Cycle &cycle) noexcept
     m_roster = &roster;
     m_cycle = cycle;
     m_hasReceived = false;
+    m_isSafe = m_guard.isTripped();
     cutInputs();
     m_signalGuard.ageAbandoned(guardCycle());
     pasteKnownOutputs();
@@ -80,13 +83,18 @@ void NodeExchange::cutInputs() noexcept
 void NodeExchange::pasteKnownOutputs() noexcept
 {
     for (NodeSlot *slot : m_roster->twoPhase) {
+        if (m_isSafe) {
+            slot->pending = false;
+            continue;
+        }
         if (slot->pending)
             take(*slot, slot->local ? slot->local->outputs() : slot->decoder.payload(), guardCycle());
         else
             noteMissing(*slot);
         slot->pending = false;
     }
-    decideContests();
+    if (!m_isSafe)
+        decideContests();
 }
 
 void NodeExchange::askNodes(const Stage &stage) noexcept
@@ -114,7 +122,7 @@ void NodeExchange::sendRequest(NodeSlot &slot, std::uint8_t flags) noexcept
         slot.multicast->toBeSent = true;
         return;
     }
-    slot.request.flags = flags;
+    slot.request.flags = m_isSafe ? flags | SafeStopFlag : flags;
     slot.partsSent = 0;
     slot.bytesSent = 0;
     sendParts(slot);
@@ -127,7 +135,7 @@ void NodeExchange::sendMulticast(std::uint8_t flags) noexcept
         if (!slot->multicast->toBeSent)
             continue;
         FrameHeader header = slot->request;
-        header.flags = flags;
+        header.flags = m_isSafe ? flags | SafeStopFlag : flags;
         slot->multicast->send(m_hub, header);
         m_reports.tap(TappedFrame::Sent, 0, slot->multicast->frame.data(), slot->multicast->frame.size());
     }
@@ -183,6 +191,8 @@ void NodeExchange::stepLocalNodes(const Stage &stage) noexcept
             continue;
         const QPlcCycle &last = slot.local->cycle();
         const quint64 missed = m_cycle.number > last.number() + 1 ? m_cycle.number - last.number() - 1 : 0;
+        if (m_isSafe)
+            slot.local->makeSafe(QPlcSlaveNode::MasterStopsSafely);
         slot.computed = slot.local->step(QPlcCycle(m_cycle.number, m_period, missed), slot.inputs);
         slot.answered = true;
         if (!slot.computed && !slot.faulted)
@@ -254,7 +264,8 @@ void NodeExchange::reportLateNodes() noexcept
         slot->late = true;
         slot->statistics.late.add();
         m_statistics.lateAnswer();
-        if (slot->reports())
+        m_guard.answeredLate(*slot, m_cycle.number);
+        if (slot->reports() && !m_isSafe)
             m_reports.post({CycleEvent::LateAnswer, slot->id, 0, m_cycle.number});
     }
 }
@@ -264,8 +275,10 @@ void NodeExchange::waitForLateNodes(std::int64_t deadline) noexcept
 {
     if (!m_isLockstep)
         m_reports.post({CycleEvent::WaitingForNode, 0, 0, m_cycle.number});
-    std::int64_t resendAt = m_time.now() + ResendAfter;
-    while (anyMissing(true) && !m_stop.load(std::memory_order_relaxed)) {
+    const std::int64_t begin = m_time.now();
+    std::int64_t resendAt = begin + ResendAfter;
+    while (anyMissing(true) && !m_stop.load(std::memory_order_relaxed) && !m_guard.isTripped()
+           && !hasWaitedTooLong(begin)) {
         receive(continueRequests() ? ContinueAfter : ResendAfter);
         if (m_time.now() < resendAt)
             continue;
@@ -276,6 +289,14 @@ void NodeExchange::waitForLateNodes(std::int64_t deadline) noexcept
         m_grid->shift(std::max<std::int64_t>(0, m_time.now() - deadline));
         m_reports.post({CycleEvent::WaitingEnded, 0, 0, m_cycle.number});
     }
+}
+
+bool NodeExchange::hasWaitedTooLong(std::int64_t since) noexcept
+{
+    const auto isMissing
+        = [this](const std::shared_ptr<NodeSlot> &slot) { return isAwaited(*slot) && mustBeWaitedFor(*slot); };
+    const auto missing = std::find_if(m_roster->nodes.begin(), m_roster->nodes.end(), isMissing);
+    return missing != m_roster->nodes.end() && m_guard.waitedFor(**missing, m_cycle.number, m_time.now() - since);
 }
 
 void NodeExchange::receive(std::int64_t timeout, int alarm) noexcept
@@ -328,7 +349,10 @@ void NodeExchange::takeAnswer(NodeSlot &slot, const char *frame, std::size_t siz
     }
     // An answer to an older cycle is late and counted as such, but still newer than what the image holds.
     const bool current = slot.decoder.cycle() == m_cycleZero + m_cycle.number;
+    if (current && !slot.answered && !slot.late)
+        m_guard.answeredInTime(slot);
     slot.answered = slot.answered || current;
+    slot.isSafe.store(slot.decoder.header().flags & SafeStopFlag, std::memory_order_relaxed);
     const std::int64_t arrival = now();
     slot.statistics.answered(slot.decoder.cycle() - m_cycleZero, arrival, slot.decoder.header().info);
     if (current)
@@ -338,7 +362,7 @@ void NodeExchange::takeAnswer(NodeSlot &slot, const char *frame, std::size_t siz
         m_reports.post({CycleEvent::NodeFaulted, slot.id, 0, m_cycle.number});
     slot.faulted = faulted;
     slot.pending = false;
-    if (faulted)
+    if (m_isSafe || faulted)
         return;
     if (slot.twoPhase && current)
         slot.pending = true;  // the outputs of the next cycle
@@ -351,7 +375,7 @@ void NodeExchange::pasteLocalNodes(const Stage &stage) noexcept
 {
     for (const Roster::Turn &turn : stage) {
         NodeSlot &slot = *turn.slot;
-        if (!slot.local || !slot.computed)
+        if (m_isSafe || !slot.local || !slot.computed)
             continue;
         if (slot.twoPhase)
             slot.pending = true;
@@ -389,6 +413,10 @@ void NodeExchange::noteMissing(NodeSlot &slot) noexcept
 /// Later stages read what this one has written, or what is left of it.
 void NodeExchange::endStage(const Stage &stage) noexcept
 {
+    if (m_isSafe)
+        return;
+    if (m_isSafe)
+        return;
     for (const Roster::Turn &turn : stage) {
         if (turn.feedsLaterStage && !turn.slot->twoPhase)
             noteMissing(*turn.slot);
@@ -399,6 +427,10 @@ void NodeExchange::endStage(const Stage &stage) noexcept
 /// The cycle ends: whatever has no value of it is older by one.
 void NodeExchange::settle() noexcept
 {
+    if (m_isSafe)
+        return;
+    if (m_isSafe)
+        return;
     for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
         if (!slot->twoPhase)
             noteMissing(*slot);

@@ -50,6 +50,7 @@ bool NodeDeclaration::fromMessage(const QPlcMessage &message, NodeDeclaration *d
                                                                                                 &knownPolicy);
     declaration->name = message.text(QStringLiteral("name"));
     declaration->listener = fields.value(QStringLiteral("listener")).toBool();
+    declaration->critical = fields.value(QStringLiteral("critical")).toBool() && !declaration->listener;
     declaration->twoPhase = fields.value(QStringLiteral("twoPhase")).toBool();
     declaration->quality = fields.value(QStringLiteral("quality")).toBool();
     if (declaration->name.isEmpty() || declaration->name.size() > 64)
@@ -71,6 +72,7 @@ NodeDeclaration NodeDeclaration::fromRuntime(const NodeRuntime &runtime)
     declaration.name = runtime.node().name();
     declaration.policy = runtime.node().realTimeViolationPolicy();
     declaration.listener = runtime.node().isListener();
+    declaration.critical = runtime.node().isCritical() && !declaration.listener;
     declaration.twoPhase = runtime.node().isTwoPhase();
     declaration.quality = runtime.inputLayout().hasQualities();
     declaration.inputs = describe(runtime.table(), runtime.inputLayout());
@@ -154,6 +156,7 @@ std::shared_ptr<NodeSlot> NodeRegistry::admit(const NodeDeclaration &declaration
     slot->id = freeId();
     slot->policy = declaration.policy;
     slot->listener = declaration.listener;
+    slot->critical = declaration.critical;
     slot->twoPhase = declaration.twoPhase;
     for (const NodeDeclaration::Signal &input : declaration.inputs)
         slot->sameCycle.push_back(input.sameCycle);

@@ -26,6 +26,7 @@ struct NodeDeclaration
     QString name;
     QPlcSlaveNode::RealTimeViolationPolicy policy = QPlcSlaveNode::ErrorZeroOrderHold;
     bool listener = false;
+    bool critical = false;
     bool twoPhase = false;
     bool quality = false;  // wants the qualities of its inputs
     QVector<Signal> inputs;

@@ -16,6 +16,7 @@ QPlcSlaveNode::QPlcSlaveNode(const QString &name, RealTimeViolationPolicy policy
 {
     qRegisterMetaType<QPlcSlaveNode::Error>("QPlcSlaveNode::Error");
     qRegisterMetaType<QPlcSlaveNode::State>("QPlcSlaveNode::State");
+    qRegisterMetaType<QPlcSlaveNode::SafeStateReason>("QPlcSlaveNode::SafeStateReason");
     qRegisterMetaType<QPlcSignalList>("QPlcSignalList");
     qRegisterMetaType<QPlcUnderlyingProtocol>("QPlcUnderlyingProtocol");
     qRegisterMetaType<QPlcMessage>("QPlcMessage");
@@ -36,7 +37,7 @@ QString QPlcSlaveNode::name() const
 
 void QPlcSlaveNode::setName(const QString &name)
 {
-    Q_ASSERT_X(d->state == Disconnected, "QPlcSlaveNode::setName", "a registered node keeps its name");
+    Q_ASSERT_X(!d->hasChannel, "QPlcSlaveNode::setName", "a registered node keeps its name");
     d->name = name;
 }
 
@@ -47,7 +48,7 @@ QPlcSlaveNode::RealTimeViolationPolicy QPlcSlaveNode::realTimeViolationPolicy() 
 
 void QPlcSlaveNode::setListener(bool listener)
 {
-    Q_ASSERT_X(d->state == Disconnected, "QPlcSlaveNode::setListener", "a registered node stays what it is");
+    Q_ASSERT_X(!d->hasChannel, "QPlcSlaveNode::setListener", "a registered node stays what it is");
     d->listener = listener;
 }
 
@@ -56,9 +57,30 @@ bool QPlcSlaveNode::isListener() const
     return d->listener;
 }
 
+void QPlcSlaveNode::setCritical(bool critical)
+{
+    Q_ASSERT_X(!d->hasChannel, "QPlcSlaveNode::setCritical", "a registered node stays what it is");
+    d->critical = critical;
+}
+
+bool QPlcSlaveNode::isCritical() const
+{
+    return d->critical;
+}
+
+void QPlcSlaveNode::setReconnectPolicy(ReconnectPolicy policy)
+{
+    d->reconnectPolicy = policy;
+}
+
+QPlcSlaveNode::ReconnectPolicy QPlcSlaveNode::reconnectPolicy() const
+{
+    return d->reconnectPolicy;
+}
+
 void QPlcSlaveNode::setSameCycle(bool sameCycle)
 {
-    Q_ASSERT_X(d->state == Disconnected, "QPlcSlaveNode::setSameCycle", "a registered node stays what it is");
+    Q_ASSERT_X(!d->hasChannel, "QPlcSlaveNode::setSameCycle", "a registered node stays what it is");
     d->sameCycle = sameCycle;
 }
 
@@ -69,7 +91,7 @@ bool QPlcSlaveNode::isSameCycle() const
 
 void QPlcSlaveNode::setTwoPhase(bool twoPhase)
 {
-    Q_ASSERT_X(d->state == Disconnected, "QPlcSlaveNode::setTwoPhase", "a registered node stays what it is");
+    Q_ASSERT_X(!d->hasChannel, "QPlcSlaveNode::setTwoPhase", "a registered node stays what it is");
     d->twoPhase = twoPhase;
 }
 
@@ -166,18 +188,19 @@ bool QPlcSlaveNode::connectToMasterAndWaitForConnected(const QPlcUnderlyingProto
     connect(this, &QPlcSlaveNode::connectedToMaster, &loop, &QEventLoop::quit);
     connect(this, &QPlcSlaveNode::errorOccurred, &loop, &QEventLoop::quit);
     connectToMaster(master);
-    if (d->state == Connecting) {
+    const auto isComing = [this] { return d->state == Connecting || d->state == Registering; };
+    if (isComing()) {
         timer.start(timeout);
         loop.exec(QEventLoop::ExcludeUserInputEvents);
     }
-    if (d->state == Connecting) {
+    if (isComing()) {
         d->disconnectFromMaster();
         d->setError(ConnectionError,
                     QStringLiteral("node '%1': no answer of a master at %2 within %3 ms; check address and port")
                         .arg(name(), master.toString())
                         .arg(timeout.count()));
     }
-    return d->state >= Off;
+    return d->hasChannel;
 }
 
 void QPlcSlaveNode::connectToMaster(const QPlcUnderlyingProtocol &master)
@@ -240,6 +263,11 @@ void QPlcSlaveNode::resetFrame(char *outputs)
 void QPlcSlaveNode::initializeFrame(const char *inputs)
 {
     initialize(qplc::NodeRuntime::toList(d->runtime.inputLayout(), inputs));
+}
+
+void QPlcSlaveNode::safeFrame(SafeStateReason reason, const char *)
+{
+    safeState(reason);
 }
 
 void QPlcSlaveNode::stepFrame(const QPlcCycle &, const char *inputs, char *outputs)

@@ -55,6 +55,7 @@ void Roster::arrange(const ProcessImage &image)
             pasted.push_back(SignalGuard::frameFor(image, slot->outputLayout, held));
     }
     findContests(image.table());
+    safeImage = SafeImage(image, safe);
 }
 
 void Roster::findContests(const QPlcSignalTable &table)

@@ -3,6 +3,7 @@
 
 #include "NodeSlot.h"
 #include "QPlcSchedule.h"
+#include "SafeValues.h"
 #include "Schedule.h"
 
 #include <memory>
@@ -25,6 +26,8 @@ struct Roster
     std::vector<std::shared_ptr<NodeSlot>> nodes;
     /// By index: signals that keep the value that they have been given, whatever their writer answers; empty: none.
     std::vector<bool> held{};
+    /// By index: signals that have their safe value while the master stops safely.
+    std::vector<bool> safe{};
     /// Signals whose writer has left before it was among the nodes.
     std::vector<QPlcSignalIndex> abandoned{};
 
@@ -32,8 +35,9 @@ struct Roster
     std::vector<std::vector<Turn>> stages{};
     std::vector<NodeSlot *> twoPhase{};
     std::vector<std::shared_ptr<NodeSlot>> multicast{};  // one node of each part
-    std::vector<SignalGuard::Frame> pasted{};            // of each node, without what is held; empty: nothing is
-    std::vector<SignalGuard::Contest> contests{};        // signals that several nodes may write, but for what is held
+    SafeImage safeImage{};
+    std::vector<SignalGuard::Frame> pasted{};      // of each node, without what is held; empty: nothing is
+    std::vector<SignalGuard::Contest> contests{};  // signals that several nodes may write, but for what is held
     bool anyRemote = false;
 
     /// Puts the nodes into stages. \pre they have no algebraic loop: NodeRegistry admits none

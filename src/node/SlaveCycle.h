@@ -77,6 +77,7 @@ private:
     void compute() noexcept;
     bool isRepeatedRequest() const noexcept;
     void answer() noexcept;
+    void makeSafe(QPlcSlaveNode::SafeStateReason reason, const CycleEvent &event) noexcept;
     void checkWatchdog() noexcept;
     std::int64_t watchdogLooks() const noexcept;
     std::int64_t simulated(std::int64_t time) const noexcept;
