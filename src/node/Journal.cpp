@@ -30,7 +30,8 @@ void log(const JournalEvent &event)
         qCDebug(lcMaster).noquote() << event.text;
     else if (event.severity != JournalEvent::Info)
         qCWarning(lcMaster).noquote() << event.text;
-    else if (event.kind == JournalEvent::Node || event.kind == JournalEvent::Lease)
+    else if (event.kind == JournalEvent::Node || event.kind == JournalEvent::Lease
+             || event.kind == JournalEvent::Quality)
         qCInfo(lcMaster).noquote() << event.text;
     else
         qCDebug(lcMaster).noquote() << event.text;

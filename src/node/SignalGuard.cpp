@@ -183,6 +183,8 @@ void SignalGuard::decide(const Contest &contest, std::int64_t now) noexcept
     if (signal.good == Forever)
         signal.good = now;  // it was a person's
     startGrowing(contest.place);
+    if (quality(contest.place).isUsable())
+        age(contest.place, now);
 }
 
 void SignalGuard::setSource(Place place, std::uint16_t writer) noexcept

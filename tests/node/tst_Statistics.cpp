@@ -274,7 +274,9 @@ void tst_Statistics::statisticsOverTheWireAreThoseOfTheApi()
                               {"duplicated", double(node.duplicated)},
                               {"reordered", double(node.reordered)},
                               {"rejected", double(node.rejected)},
-                              {"resent", double(node.resent)}}));
+                              {"resent", double(node.resent)},
+                              {"nonFinite", double(node.nonFinite)},
+                              {"outOfRange", double(node.outOfRange)}}));
     }
     const QJsonArray worst = message.fields().value("worst").toArray();
     QCOMPARE(worst.size(), api.worst.size());
