@@ -39,6 +39,7 @@ public:
         const char *
             inputs;  ///< values one behind the other in the order of the inputs, little-endian and packed (QPlcValue::fromBytes()); valid during the call
         int size;    ///< [byte]
+        int every = 1;  ///< listeningInterval(): cycles from one frame to the next
         /// A byte for each input (QPlcQuality::fromByte()), in their order; null: none are received.
         const char *qualities = nullptr;
     };

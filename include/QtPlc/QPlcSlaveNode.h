@@ -4,6 +4,7 @@
 #include "QPlcAbstractSocket.h"
 #include "QPlcCycle.h"
 #include "QPlcRealTimeOptions.h"
+#include "QPlcSecurity.h"
 #include "QPlcSignalIndexList.h"
 #include "QPlcSignalList.h"
 #include "QPlcSignalTable.h"
@@ -129,6 +130,12 @@ public:
     /// ReconnectWhenLost unless set.
     void setReconnectPolicy(ReconnectPolicy policy);
     ReconnectPolicy reconnectPolicy() const;
+    /// Lets a listener without outputs hear fewer cycles, for a slow link or a slow reader: the first one at once, then the first one of each turn of \a cycles, counted from cycle 0 of the
+    /// phase. The others are not sent, and their values are nowhere: a peak between two frames is not seen. They are not missed either: QPlcCycle::missedCycles() and Counters::missed
+    /// then count turns. A master that does not know of this sends every cycle.
+    /// \param cycles  1 (every cycle, the default) ... 1 000 000. A node that is no listener, has outputs, or uses multicast is refused with more than 1: RegistrationError. \pre not connected
+    void setListeningInterval(int cycles);
+    int listeningInterval() const;
 
     /// Makes all inputs of this node same-cycle (QPlcInputTiming::SameCycle), however each of them was declared. \pre not connected
     void setSameCycle(bool sameCycle);
@@ -154,6 +161,12 @@ public:
     void setRealTimeOptions(const QPlcRealTimeOptions &options);
     QPlcRealTimeOptions realTimeOptions() const;
 
+    /// Lets the cyclic frames of this node meet the faults of a bad network, for a test: docs/faults.md has the words, for example "loss=5%,delay=2ms,seed=7"; empty: none.
+    /// The master is told, and shows it. Without effect in the process of the master. \pre not connected
+    /// \return false when \a plan cannot be meant: error() is then OptionError and nothing has changed
+    bool setFaultPlan(const QString &plan);
+    QString faultPlan() const;
+
     /// Writes the workload [s] into the signal \a signalName (Real32 or Real64), which becomes an output of this node: the time from the frame at hand
     /// to the answer ready to be sent, in the same cycle; 0 in lockstep, where results must not depend on the machine.
     void activateWorkloadMeasurement(const QString &signalName);
@@ -172,10 +185,11 @@ public:
     struct Counters
     {
         quint64 cycles = 0;      ///< computed
-        quint64 missed = 0;      ///< cycles that never arrived
+        quint64 missed = 0;      ///< cycles that never arrived; turns of setListeningInterval()
         quint64 duplicated = 0;  ///< requests that came again; answered, never computed twice
         quint64 outdated = 0;    ///< requests of cycles before the newest
         quint64 rejected = 0;    ///< garbage, other sessions, corrupted frames
+        quint64 forged = 0;      ///< sealed frames that were not as the master seals them
         quint64 watchdog = 0;    ///< watchdog time-outs
         quint64 refused
             = 0;  ///< values of inputs that were not taken, because they are not finite or outside of the limits of the table
@@ -192,6 +206,10 @@ public:
                                             std::chrono::milliseconds timeout = std::chrono::seconds(5));
 
 public Q_SLOTS:
+    /// How this node and its master know each other; QPlcSecurity::current() unless set. Takes effect when it connects.
+    void setSecurity(const QPlcSecurity &security);
+    /// Whether the control connection is TLS, and the master proven.
+    bool isSecured() const;
     /// Begins to connect and register; connectedToMaster() or errorOccurred() follows.
     void connectToMaster(const QPlcUnderlyingProtocol &master);
     void disconnectFromMaster();

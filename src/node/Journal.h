@@ -34,6 +34,12 @@ public:
     void becameSafe(const QStringList &values);
     /// A signal with several writers has its values from another one.
     void sourceChanged(const QString &signal, const QString &from, const QString &to);
+    /// A message without the right to it. \param identity  proven; empty: nobody's
+    void denied(const QString &identity, const QString &text);
+    /// Somebody with a right to it has commanded \a what.
+    void commanded(const QString &identity, const QString &what, const QString &from);
+    /// Somebody who was not let in.
+    void strangerRefused(const QString &address, const QString &reason);
     void valueCameBack(const QString &signal, const QString &value);
 
     /// From here on overruns are told. \param statistics  of the cycles; null: they have ended

@@ -45,6 +45,7 @@ bool MasterCycle::start(const Phase &phase)
         slot->faulted = slot->pending = false;
         slot->bucket = 0;
         slot->isSafe = false;
+        slot->nextTurn = 0;
         if (slot->local)
             slot->local->beginPhase(phase.clock.isLockstep(), m_time);
     }
@@ -109,7 +110,7 @@ void MasterCycle::clearStatistics()
 {
     m_cycle = 0;
     m_digest = 0;
-    m_statistics.restart(m_phase.clock.isLockstep(), m_hub.strangers());
+    m_statistics.restart(m_phase.clock.isLockstep(), m_hub.strangers(), m_hub.floods());
     for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes)
         slot->statistics.clear();
 }
@@ -314,6 +315,7 @@ void MasterCycle::join(NodeSlot &slot, std::int64_t last) noexcept
         m_signalGuard.claim(*slot.paste, slot.written, slot.claims, slot.initialOutputs.data(), cycle);
     }
     slot.decoder.restart(m_cycleZero + m_number);
+    slot.nextTurn = 0;
     if (slot.peer)
         m_hub.attach(slot.peer.get());
 }

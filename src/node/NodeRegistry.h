@@ -27,6 +27,7 @@ struct NodeDeclaration
     QPlcSlaveNode::RealTimeViolationPolicy policy = QPlcSlaveNode::ErrorZeroOrderHold;
     bool listener = false;
     bool critical = false;
+    ListeningInterval interval;
     bool twoPhase = false;
     bool quality = false;  // wants the qualities of its inputs
     QVector<Signal> inputs;

@@ -94,7 +94,7 @@ bool QPlcMasterNodePrivate::prepare()
     m_reportNotifier = std::make_unique<QSocketNotifier>(cycle->reports().descriptor(), QSocketNotifier::Read);
     QObject::connect(m_reportNotifier.get(), &QSocketNotifier::activated, q, [this] { takeReports(); });
     const auto hello = [this] {
-        return QJsonObject{{QStringLiteral("protocol"), 1},
+        QJsonObject fields{{QStringLiteral("protocol"), 1},
                            {QStringLiteral("name"), qplc::NodeRegistry::masterName()},
                            {QStringLiteral("uuid"), uuid},
                            {QStringLiteral("session"), Message::fromHex64(session)},
@@ -102,13 +102,21 @@ bool QPlcMasterNodePrivate::prepare()
                            {QStringLiteral("table"), QString::fromUtf8(table.toIni())},
                            {QStringLiteral("state"), qplc::stateName(state)},
                            {QStringLiteral("period"), double(interval.count())},
+                           {QStringLiteral("security"), networkSecurity},
                            {QStringLiteral("features"), QJsonArray()}};
+        if (!faultPlan.isEmpty())
+            fields.insert(QStringLiteral("faults"), faultPlan);
+        return fields;
     };
     server = std::make_unique<qplc::MasterServer>(*registry, cycle->image(), hub, session, hello, nullptr);
     QObject::connect(server.get(), &qplc::MasterServer::attached, q, [this](Connection *connection) {
         settings->leaveToWriters();
         journal.tell(qplc::JournalEvent::Info, qplc::JournalEvent::Node, connection->name,
                      QStringLiteral("node %1 registered over %2").arg(connection->name, connection->cyclicKind));
+        if (!connection->slot->faultPlan.isEmpty())
+            journal.tell(qplc::JournalEvent::Warning, qplc::JournalEvent::Node, connection->name,
+                         QStringLiteral("node %1 injects faults on purpose: %2")
+                             .arg(connection->name, connection->slot->faultPlan));
         Q_EMIT q->nodeRegistered(connection->name);
         m_joiner = connection;
         apply(connection->slot->listener ? Event::ListenerJoined : Event::NodeJoined,
@@ -117,12 +125,7 @@ bool QPlcMasterNodePrivate::prepare()
     });
     QObject::connect(server.get(), &qplc::MasterServer::lost, q,
                      [this](Connection *connection, const QString &reason) { nodeLost(connection, reason); });
-    QObject::connect(server.get(), &qplc::MasterServer::refused, q,
-                     [this](const QString &name, const QString &address, const QString &reason) {
-                         journal.tell(qplc::JournalEvent::Warning, qplc::JournalEvent::Node, name,
-                                      QStringLiteral("refused %1 %2").arg(address, reason));
-                         Q_EMIT q->nodeRefused(name, reason);
-                     });
+    watchSecurity();
     QObject::connect(server.get(), &qplc::MasterServer::received, q,
                      [this](Connection *connection, const Message &message) { receive(connection, message); });
     prepareViewers();
@@ -162,26 +165,37 @@ bool QPlcMasterNodePrivate::startServer(const QPlcUnderlyingProtocol &protocol)
     if (!apply(Event::Listen))
         return false;
     QHostAddress address = protocol.address();
-    if (!address.isLoopback() && !insecureNetworkAllowed) {
-        qCWarning(lcMaster).noquote()
-            << "listening on 127.0.0.1 only instead of" << address.toString()
-            << "- anybody on the network could read and command the plant; setInsecureNetworkAllowed(true) opens it";
-        address = QHostAddress::LocalHost;
-    } else if (!address.isLoopback()) {
-        qCWarning(lcMaster).noquote() << "listening on" << address.toString()
-                                      << "WITHOUT SECURITY: anybody on the network can read and command the plant";
+    if (!checkSecurity()) {
+        apply(Event::ServerFailed, errorString);
+        return false;
     }
+    chooseAddress(&address);
+    server->setSecurity(security);
+    injectFaults();
     if (!server->listen(address, protocol.port(), localName, multicastGroup)) {
         apply(Event::ServerFailed, server->errorString());
         return setError(QPlcMasterNode::ServerError, server->errorString());
     }
     apply(Event::ServerListens);
-    beacon.begin(
-        address,
-        {server->port(), false, table.hash(), localName.isEmpty() ? QCoreApplication::applicationName() : localName},
-        hasBeacon);
-    qCInfo(lcMaster).noquote() << "listening on" << address.toString() << "port" << server->port();
+    beacon.begin(address,
+                 {server->port(), !security.isNone(), table.hash(),
+                  localName.isEmpty() ? QCoreApplication::applicationName() : localName},
+                 hasBeacon);
+    qCInfo(lcMaster).noquote() << "listening on" << address.toString() << "port" << server->port() << "security"
+                               << security.modeName();
     return true;
+}
+
+void QPlcMasterNodePrivate::injectFaults()
+{
+    QString text;
+    const std::optional<qplc::FaultPlan> plan = qplc::FaultPlan::fromText(faultPlan, &text);
+    server->close();  // the frames of its nodes follow the last plan
+    hub.setFaults(faultPlan.isEmpty() ? std::nullopt : plan);
+    if (faultPlan.isEmpty())
+        return;
+    journal.tell(qplc::JournalEvent::Warning, qplc::JournalEvent::State, qplc::NodeRegistry::masterName(),
+                 QStringLiteral("the master injects faults on purpose: %1").arg(faultPlan));
 }
 
 bool QPlcMasterNodePrivate::addLocalNode(QPlcSlaveNode *node)
@@ -399,12 +413,15 @@ QPlcNodeInfo QPlcMasterNodePrivate::info(const NodeSlot &slot) const
     node.listener = slot.listener;
     node.critical = slot.critical;
     node.state = stateOf(slot);
+    node.every = slot.interval.cycles();
     node.inputs = int(slot.inputLayout.fields().size());
     node.outputs = int(slot.outputLayout.fields().size());
     node.lateAnswers = slot.statistics.late;
     node.duplicates = slot.statistics.duplicated + slot.statistics.reordered;
     node.rejected = slot.statistics.rejected;
+    node.forged = slot.statistics.forged;
     node.resent = slot.statistics.resent;
+    node.faultPlan = slot.faultPlan;
     node.transport = QStringLiteral("inprocess");
     if (const Connection *connection = slot.local ? nullptr : server->connectionOf(&slot)) {
         node.transport = connection->cyclicKind;

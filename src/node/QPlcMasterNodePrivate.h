@@ -36,6 +36,7 @@ public:
     bool claimSignal(const QString &name, QPlcSignalIndex *place, bool (*accepts)(QPlcSignalType),
                      const QString &wantedType);
     bool startServer(const QPlcUnderlyingProtocol &protocol);
+    void injectFaults();
     bool addLocalNode(QPlcSlaveNode *node);
     void removeLocalNode(QPlcSlaveNode *node);
 
@@ -74,6 +75,9 @@ public:
     quint64 cycleLimit = 0;
     bool insecureNetworkAllowed = false;
     bool hasBeacon = false;
+    QString faultPlan;
+    QPlcSecurity security;
+    QString networkSecurity = QStringLiteral("none");  // as Hello tells it
     QString localName;
     QHostAddress multicastGroup;
     QPlcSignalIndex timeSignal = QPlcInvalidSignalIndex;
@@ -128,6 +132,10 @@ private:
     void sendLeases(Connection *connection);
     void sendEvents(Connection *connection, const QPlcMessage &message);
     QString nameOf(const QObject *socket) const;
+    bool checkSecurity();
+    void chooseAddress(QHostAddress *address);
+    void watchSecurity();
+    QString cycleText() const;
 
     void begin(Step step, Connection::Stage owed);
     void continueSequence(Connection *connection, const QPlcMessage &message);

@@ -3,6 +3,7 @@
 
 #include "QPlcSignalIndexTable.h"
 #include "QPlcSlaveNodePrivate.h"
+#include "transport/FaultPlan.h"
 
 #include <QtCore/QEventLoop>
 #include <QtCore/QTimer>
@@ -78,6 +79,19 @@ QPlcSlaveNode::ReconnectPolicy QPlcSlaveNode::reconnectPolicy() const
     return d->reconnectPolicy;
 }
 
+void QPlcSlaveNode::setListeningInterval(int cycles)
+{
+    Q_ASSERT_X(!d->hasChannel, "QPlcSlaveNode::setListeningInterval", "a registered node stays what it is");
+    Q_ASSERT_X(cycles >= 1 && cycles <= qplc::ListeningInterval::Longest, "QPlcSlaveNode::setListeningInterval",
+               "a listener hears one of 1 ... 1 000 000 cycles");
+    d->interval = qplc::ListeningInterval(cycles);
+}
+
+int QPlcSlaveNode::listeningInterval() const
+{
+    return d->interval.cycles();
+}
+
 void QPlcSlaveNode::setSameCycle(bool sameCycle)
 {
     Q_ASSERT_X(!d->hasChannel, "QPlcSlaveNode::setSameCycle", "a registered node stays what it is");
@@ -131,9 +145,36 @@ QPlcRealTimeOptions QPlcSlaveNode::realTimeOptions() const
     return d->realTimeOptions;
 }
 
+bool QPlcSlaveNode::setFaultPlan(const QString &plan)
+{
+    Q_ASSERT_X(!d->hasChannel, "QPlcSlaveNode::setFaultPlan", "a registered node stays what it is");
+    QString text;
+    if (!plan.isEmpty() && !qplc::FaultPlan::fromText(plan, &text)) {
+        d->setError(OptionError, QStringLiteral("node '%1': fault plan: %2").arg(d->name, text));
+        return false;
+    }
+    d->faultPlan = plan;
+    return true;
+}
+
+QString QPlcSlaveNode::faultPlan() const
+{
+    return d->faultPlan;
+}
+
 void QPlcSlaveNode::activateWorkloadMeasurement(const QString &signalName)
 {
     d->runtime.setWorkloadSignal(signalName);
+}
+
+void QPlcSlaveNode::setSecurity(const QPlcSecurity &security)
+{
+    d->security = security;
+}
+
+bool QPlcSlaveNode::isSecured() const
+{
+    return d->control && d->control->isSecured();
 }
 
 void QPlcSlaveNode::activateWatchdog(std::chrono::nanoseconds time)

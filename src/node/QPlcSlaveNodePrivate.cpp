@@ -123,6 +123,8 @@ void QPlcSlaveNodePrivate::openConnection()
     if (m_wasRegistered || reconnectPolicy == QPlcSlaveNode::ReconnectAlways)
         m_patience.start();
     control = new QPlcMasterSocket(q);
+    if (security)
+        control->setSecurity(*security);
     QObject::connect(control, &QPlcAbstractSocket::connected, q, [this] { apply(Event::Connected); });
     QObject::connect(control, &QPlcAbstractSocket::messageReceived, q,
                      [this](const Message &message) { receive(message); });
@@ -195,13 +197,15 @@ void QPlcSlaveNodePrivate::retryLater(Event event)
 void QPlcSlaveNodePrivate::masterLost(QPlcAbstractSocket::Error socketError, const QString &text)
 {
     const bool wasConnecting = state == QPlcSlaveNode::Connecting || state == QPlcSlaveNode::Registering;
-    const QString sentence = wasConnecting
+    const QString sentence = socketError == QPlcAbstractSocket::SecurityError
+        ? QStringLiteral("node '%1' is not accepted at %2: %3")
+        : wasConnecting
         ? QStringLiteral("node '%1' cannot reach a master at %2: %3; start the master, or check address and port")
         : QStringLiteral("node '%1' has lost the master at %2: %3");
     const QString full = sentence.arg(name, master.toString(), text);
     const QPlcAbstractSocket::Error reason
         = socketError == QPlcAbstractSocket::NoError ? QPlcAbstractSocket::ConnectionLostError : socketError;
-    apply(Event::ConnectionLost);
+    apply(socketError == QPlcAbstractSocket::SecurityError ? Event::Refused : Event::ConnectionLost);
     setError(reason == QPlcAbstractSocket::ProtocolError ? QPlcSlaveNode::ProtocolError
                                                          : QPlcSlaveNode::ConnectionError,
              full);
@@ -345,6 +349,7 @@ bool QPlcSlaveNodePrivate::startCycles(const Message &message)
     phase.cycleZero = message.hex64(QStringLiteral("cycleZero"));
     phase.firstCycle = message.hex64(QStringLiteral("firstCycle"));
     phase.group = groupOf(message, runtime.inputLayout());
+    phase.interval = interval;
     phase.watchdog = watchdog;
     phase.realTimeOptions = realTimeOptions;
     if (!cycle->start(phase)) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "BackOff.h"
+#include "ListeningInterval.h"
 #include "NodeRuntime.h"
 #include "QPlcMasterNode.h"
 #include "QPlcMasterSocket.h"
@@ -15,6 +16,7 @@
 #include <QtCore/QTimer>
 
 #include <memory>
+#include <optional>
 
 /// The control side of a slave: registration, and the phases that the master announces.
 class QPlcSlaveNodePrivate
@@ -44,12 +46,15 @@ public:
     bool critical = false;
     bool hasChannel = false;  // registered, with the cyclic channel; or in the process of the master
     QPlcSlaveNode::ReconnectPolicy reconnectPolicy = QPlcSlaveNode::ReconnectWhenLost;
+    qplc::ListeningInterval interval;
     bool sameCycle = false;  // all inputs
     bool twoPhase = false;
     bool receivesQuality = false;
+    QString faultPlan;
     QPlcSignalTable ownTable;
     QPlcRealTimeOptions realTimeOptions;
     std::chrono::nanoseconds watchdog{0};
+    std::optional<QPlcSecurity> security;  // else that of the process
     qplc::NodeRuntime runtime;
     QPlcSlaveNode::State state = QPlcSlaveNode::Disconnected;
     QPlcSlaveNode::Error error = QPlcSlaveNode::NoError;
@@ -83,6 +88,7 @@ private:
     bool makeUdpLink(quint16 *port);
     bool openLocalLink(const QPlcMessage &registered);
     bool joinGroup(const QPlcMessage &registered);
+    void giveLink(std::unique_ptr<qplc::CyclicLink> link);
     void connectCyclicChannel();
     void tellRegistered();
     void sendInitialOutputs();

@@ -35,15 +35,12 @@ QJsonObject fieldsOf(const QPlcDurationStatistics &duration)
 
 QJsonObject fieldsOf(const QPlcNodeStatistics &node)
 {
-    const QJsonObject counters{{QStringLiteral("answers"), double(node.answers)},
-                               {QStringLiteral("late"), double(node.late)},
-                               {QStringLiteral("lost"), double(node.lost)},
-                               {QStringLiteral("duplicated"), double(node.duplicated)},
-                               {QStringLiteral("reordered"), double(node.reordered)},
-                               {QStringLiteral("rejected"), double(node.rejected)},
-                               {QStringLiteral("resent"), double(node.resent)},
-                               {QStringLiteral("nonFinite"), double(node.nonFinite)},
-                               {QStringLiteral("outOfRange"), double(node.outOfRange)}};
+    const QJsonObject counters{
+        {QStringLiteral("answers"), double(node.answers)},     {QStringLiteral("late"), double(node.late)},
+        {QStringLiteral("lost"), double(node.lost)},           {QStringLiteral("duplicated"), double(node.duplicated)},
+        {QStringLiteral("reordered"), double(node.reordered)}, {QStringLiteral("rejected"), double(node.rejected)},
+        {QStringLiteral("forged"), double(node.forged)},       {QStringLiteral("resent"), double(node.resent)},
+        {QStringLiteral("nonFinite"), double(node.nonFinite)}, {QStringLiteral("outOfRange"), double(node.outOfRange)}};
     return {{QStringLiteral("name"), node.name},
             {QStringLiteral("execution"), fieldsOf(node.execution)},
             {QStringLiteral("roundTrip"), fieldsOf(node.roundTrip)},
@@ -75,7 +72,8 @@ QJsonObject masterFields(const QPlcCycleStatistics &statistics)
                                {QStringLiteral("shiftedTime"), double(statistics.shiftedTime)},
                                {QStringLiteral("lateAnswers"), double(statistics.lateAnswers)},
                                {QStringLiteral("incompleteCycles"), double(statistics.incompleteCycles)},
-                               {QStringLiteral("strangers"), double(statistics.strangers)}};
+                               {QStringLiteral("strangers"), double(statistics.strangers)},
+                               {QStringLiteral("floods"), double(statistics.floods)}};
     return {{QStringLiteral("lateness"), fieldsOf(statistics.lateness)},
             {QStringLiteral("execution"), fieldsOf(statistics.execution)},
             {QStringLiteral("roundTrip"), fieldsOf(statistics.roundTrip)},

@@ -21,9 +21,10 @@ const NodeColumn nodeColumns[] = {
     {"address", "address", TextTable::Left, true},     {"number", "id", TextTable::Right, true},
     {"state", "state", TextTable::Left, false},        {"critical", "critical", TextTable::Left, true},
     {"policy", "policy", TextTable::Left, false},      {"listener", "listener", TextTable::Left, true},
-    {"in", "inputs", TextTable::Right, false},         {"out", "outputs", TextTable::Right, false},
-    {"late", "lateAnswers", TextTable::Right, false},  {"doubled", "duplicates", TextTable::Right, true},
-    {"rejected", "rejected", TextTable::Right, false}, {"resent", "resent", TextTable::Right, true},
+    {"every", "every", TextTable::Right, true},        {"in", "inputs", TextTable::Right, false},
+    {"out", "outputs", TextTable::Right, false},       {"late", "lateAnswers", TextTable::Right, false},
+    {"doubled", "duplicates", TextTable::Right, true}, {"rejected", "rejected", TextTable::Right, false},
+    {"forged", "forged", TextTable::Right, false},     {"resent", "resent", TextTable::Right, true},
 };
 
 void printField(const char *label, const QString &value)
@@ -45,6 +46,21 @@ QString countersText(const QJsonObject &counters)
     QStringList texts;
     for (auto it = counters.begin(); it != counters.end(); ++it)
         texts << QStringLiteral("%1 %2").arg(it.key(), it.value().toVariant().toString());
+    return texts.join(QStringLiteral(", "));
+}
+
+/// Who injects what on purpose; empty: nobody.
+QString faultsText(const QJsonObject &state)
+{
+    QStringList texts;
+    const auto add = [&texts](const QString &name, const QJsonObject &of) {
+        if (of.contains(QStringLiteral("faults")))
+            texts << QStringLiteral("%1 (%2)").arg(name, of.value(QStringLiteral("faults")).toString());
+    };
+    add(QStringLiteral("Master"), state);
+    const QJsonArray nodes = state.value(QStringLiteral("nodes")).toArray();
+    for (const QJsonValue &node : nodes)
+        add(node.toObject().value(QStringLiteral("name")).toString(), node.toObject());
     return texts.join(QStringLiteral(", "));
 }
 
@@ -93,6 +109,8 @@ int showState(const CommandCall &call)
     printField("counters", countersText(state.value(QStringLiteral("counters")).toObject()));
     printField("session", answer.text(QStringLiteral("session")));
     printField("digest", answer.text(QStringLiteral("digest")));
+    if (const QString faults = faultsText(state); !faults.isEmpty())
+        printField("FAULTS", QStringLiteral("injected on purpose by %1").arg(faults));
     printLine(QString());
     printNodes(state.value(QStringLiteral("nodes")).toArray(), call.application.isSet(QStringLiteral("verbose")));
     return QPlcCoreApplication::Success;

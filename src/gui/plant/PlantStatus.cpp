@@ -78,6 +78,7 @@ void PlantStatus::takeState(const QJsonObject &fields)
     clock = text(fields, "clock");
     scale = number(fields, "scale");
     session = message.hex64(QStringLiteral("session"));
+    faultPlan = text(fields, "faults");
     QVector<NodeStatus> now;
     const QJsonArray rows = fields.value(QLatin1String("nodes")).toArray();
     for (const QJsonValue &row : rows) {
@@ -90,6 +91,7 @@ void PlantStatus::takeState(const QJsonObject &fields)
         status.policy = text(of, "policy");
         status.state = text(of, "state");
         status.isCritical = of.value(QLatin1String("critical")).toBool();
+        status.faultPlan = text(of, "faults");
         status.isListener = of.value(QLatin1String("listener")).toBool();
         status.inputs = int(number(of, "inputs"));
         status.outputs = int(number(of, "outputs"));
@@ -134,6 +136,7 @@ void PlantStatus::takeStatistics(const QJsonObject &fields)
         known->lost = counter(counters, "lost");
         known->duplicated = counter(counters, "duplicated");
         known->rejected = counter(counters, "rejected");
+        known->forged = counter(counters, "forged");
         known->execution = duration(of, "execution");
         known->roundTrip = duration(of, "roundTrip");
     }

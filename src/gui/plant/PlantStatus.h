@@ -33,6 +33,7 @@ struct NodeStatus
     QString address;
     QString policy;
     QString state;
+    QString faultPlan;  // that it injects on purpose; empty: none
     bool isListener = false;
     bool isCritical = false;
     int inputs = 0;
@@ -43,6 +44,7 @@ struct NodeStatus
     quint64 lost = 0;
     quint64 duplicated = 0;
     quint64 rejected = 0;
+    quint64 forged = 0;
     bool isLate = false;  // there were late answers since the statistics before
 };
 
@@ -59,6 +61,7 @@ struct PlantStatus
     QString clock;
     double scale = 1.0;
     quint64 session = 0;
+    QString faultPlan;       // that the master injects on purpose; empty: none
     bool isCounted = false;  // the master has told its counters: what they show more from now on is new
     quint64 overruns = 0;
     DurationStatus lateness;

@@ -3,6 +3,7 @@
 
 #include "DesktopTheme.h"
 #include "DoubleEscape.h"
+#include "FaultBanner.h"
 #include "LongPress.h"
 #include "PanelKeysFirst.h"
 #include "QPlcSignalTree.h"
@@ -72,6 +73,7 @@ void QPlcControlCenter::Private::makeCentre()
     pages->addWidget(panels);
     latchBanner = new LatchBanner(&context, centre);
     column->addWidget(latchBanner);
+    column->addWidget(new FaultBanner(&context, centre));
     column->addWidget(connectStrip);
     column->addWidget(hint);
     column->addWidget(pages, 1);
