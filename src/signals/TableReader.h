@@ -61,6 +61,8 @@ private:
     void readValues();
     void readValue(SignalKey key, QPlcSignalType type, QPlcValue *value);
     void readNames();
+    void readWriters();
+    void readNan();
     void complain(const Complaint &complaint);
     Entry &entry(SignalKey key) { return m_entries[std::size_t(key)]; }
 

@@ -63,10 +63,18 @@ QJsonObject namesOf(const QPlcSignalTable &table, const QJsonObject &row)
     return names;
 }
 
+/// "B of A > B": of several writers the one whose values the signal has.
+QString writerOf(const QJsonObject &row)
+{
+    const QString source = text(row, "source");
+    const QString writer = text(row, "writer");
+    return source.isEmpty() || source == writer ? writer : QStringLiteral("%1 of %2").arg(source, writer);
+}
+
 void printTable(const QPlcSignalTable &signalTable, const QVector<QJsonObject> &rows, bool verbose)
 {
-    QStringList fields{QStringLiteral("name"), QStringLiteral("type"), QStringLiteral("unit"), QStringLiteral("value"),
-                       QStringLiteral("writer")};
+    QStringList fields{QStringLiteral("name"),  QStringLiteral("type"),    QStringLiteral("unit"),
+                       QStringLiteral("value"), QStringLiteral("quality"), QStringLiteral("writer")};
     if (verbose)
         fields << QStringLiteral("description");
     TextTable table;
@@ -75,7 +83,10 @@ void printTable(const QPlcSignalTable &signalTable, const QVector<QJsonObject> &
     for (const QJsonObject &row : rows) {
         QStringList cells;
         for (const QString &field : qAsConst(fields))
-            cells << (field == QLatin1String("value") ? readableValue(signalTable, row) : row.value(field).toString());
+            cells << (field == QLatin1String("value")         ? readableValue(signalTable, row)
+                          : field == QLatin1String("quality") ? qualityOf(row).toString()
+                          : field == QLatin1String("writer")  ? writerOf(row)
+                                                              : row.value(field).toString());
         table.addRow(cells);
     }
     table.print();
@@ -99,6 +110,7 @@ int listSignals(const CommandCall &call)
         const QJsonObject names = namesOf(table, row);
         if (!names.isEmpty())
             row.insert(QStringLiteral("names"), names);
+        row.insert(QStringLiteral("quality"), qualityOf(row).toString());
         array.append(row);
     }
     printJson(QJsonDocument(array));
@@ -117,12 +129,14 @@ int getSignals(const CommandCall &call)
     QJsonObject values;
     for (const QJsonObject &row : qAsConst(rows)) {
         const QString value = printable(isPlain ? text(row, "value") : readableValue(table, row));
+        const QPlcQuality quality = qualityOf(row);
+        const QString doubt = quality.isGood() ? QString() : QStringLiteral("  (%1)").arg(quality.toString());
         if (call.isJson())
             values.insert(text(row, "name"), valueOf(table, row));
         else
             printLine(isPlain ? value
-                              : QStringLiteral("%1 = %2").arg(text(row, "name"),
-                                                              withUnit(value, printable(text(row, "unit")))));
+                              : QStringLiteral("%1 = %2%3")
+                                    .arg(text(row, "name"), withUnit(value, printable(text(row, "unit"))), doubt));
     }
     if (call.isJson())
         printJson(QJsonDocument(values));
