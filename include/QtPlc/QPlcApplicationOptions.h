@@ -56,15 +56,15 @@ public:
     /// \return false, with the message out, when one of them cannot be meant
     bool readRealTimeOptions(QPlcRealTimeOptions *options);
 
-    /// Adds --security, --keys, --identity, --certificate, --key and --authority, and for a master --access: how this program and others know each other.
-    void addSecurityOptions(QPlcSecurity::Side side);
-    /// \return false, with the message out, when they do not fit together, or when a file cannot be used: missing, wrong, or open to others
-    bool readSecurityOptions(QPlcSecurity::Side side, QPlcSecurity *security);
-
     /// Adds --enable-fault-injection and --faults, which are wanted together: a bad network, for a test.
     void addFaultOptions();
     /// \param plan  for setFaultPlan(); empty: none. \return false, with the message out, when it cannot be meant
     bool readFaultPlan(QString *plan);
+
+    /// Adds --security, --keys, --identity, --certificate, --key and --authority, and for a master --access: how this program and others know each other.
+    void addSecurityOptions(QPlcSecurity::Side side);
+    /// \return false, with the message out, when they do not fit together, or when a file cannot be used: missing, wrong, or open to others
+    bool readSecurityOptions(QPlcSecurity::Side side, QPlcSecurity *security);
 
     /// Prints "program: text" to the standard error.
     static void printError(const QString &text);

@@ -18,15 +18,16 @@ struct QPlcMasterStatistics
     quint64 strangers = 0;           ///< datagrams from addresses that belong to no node
     quint64 floods = 0;              ///< times that more had arrived than may be read at once; the rest waited
     quint64 refusedConnections = 0;  ///< since the server was started: for which there was no room
-    quint64 failedHandshakes = 0;  ///< since the server was started: without the right key or certificate, or too slow
-    quint64 deniedMessages = 0;    ///< since the server was started: of those without the right to them
-    qint64 latenessMedian = 0;     ///< wake-up after the nominal time [ns]
-    qint64 lateness99 = 0;         ///< 99th percentile [ns]
-    qint64 latenessMaximum = 0;    ///< [ns]
-    qint64 roundTripMedian = 0;    ///< first request out to last answer in [ns]
-    qint64 roundTrip99 = 0;        ///< [ns]
-    qint64 roundTripMaximum = 0;   ///< [ns]
-    quint64 imageDigest = 0;       ///< over the process image of every cycle, in order
+    quint64 failedHandshakes
+        = 0;  ///< since the server was started: of strangers without the right key or certificate, or too slow
+    quint64 deniedMessages = 0;   ///< since the server was started: of known ones without the right to them
+    qint64 latenessMedian = 0;    ///< wake-up after the nominal time [ns]
+    qint64 lateness99 = 0;        ///< 99th percentile [ns]
+    qint64 latenessMaximum = 0;   ///< [ns]
+    qint64 roundTripMedian = 0;   ///< first request out to last answer in [ns]
+    qint64 roundTrip99 = 0;       ///< [ns]
+    qint64 roundTripMaximum = 0;  ///< [ns]
+    quint64 imageDigest = 0;      ///< over the process image of every cycle, in order
 };
 
 Q_DECLARE_METATYPE(QPlcMasterStatistics)

@@ -20,6 +20,7 @@ struct CycleEvent
         WaitingEnded,      // cycle
         NodeFaulted,       // node, cycle: the code of the node threw
         NotFinite,         // node, signal, cycle: NaN or infinity; the values of this node were not taken
+        ForgedFrame,       // node, cycle: the first sealed frame of a phase that was not as it is sealed
         LinkClosed,        // node: its cyclic connection is gone
         WatchdogTimedOut,  // cycle: no frame since
         Overrun,           // cycle, duration: it is that late, and the policy is Stop

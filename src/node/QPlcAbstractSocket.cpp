@@ -37,10 +37,10 @@ QPlcAbstractSocket::Error errorOf(QAbstractSocket::SocketError error)
     }
 }
 
-/// A frame as the log shows it: keys are not for people.
-QByteArray shown(const QPlcMessage &message, const QByteArray &frame)
+/// For the debug log. What is encrypted for the wire may hold keys: it stays secret here, too.
+QString shown(const QByteArray &frame, bool isSecured)
 {
-    return message.fields().contains(QStringLiteral("seal")) ? QByteArrayLiteral("(with keys)") : frame.toHex(' ');
+    return isSecured ? QStringLiteral("%1 bytes").arg(frame.size()) : QString::fromLatin1(frame.toHex(' '));
 }
 
 }  // namespace
@@ -116,7 +116,7 @@ bool QPlcAbstractSocket::sendMessage(const QPlcMessage &message)
                                        << "is too long or too deep to be sent";
         return false;
     }
-    qCDebug(lcControl).noquote() << "to" << peerName() << message.kindName() << shown(message, frame);
+    qCDebug(lcControl).noquote() << "to" << peerName() << message.kindName() << shown(frame, isSecured());
     const QPointer<QPlcAbstractSocket> self(this);  // who hears of an error may delete us
     d->isSending = true;
     const bool sent = d->socket->write(frame) == frame.size();
@@ -204,7 +204,7 @@ void QPlcAbstractSocket::readMessages()
     QPlcMessage message;
     while (self && d->reader.next(&message)) {
         qCDebug(lcControl).noquote() << "from" << peerName() << message.kindName()
-                                     << shown(message, d->reader.lastFrame());
+                                     << shown(d->reader.lastFrame(), isSecured());
         Q_EMIT messageReceived(message);
     }
     if (!self || d->reader.error() == qplc::ControlFrameReader::NoError)

@@ -180,8 +180,8 @@ bool QPlcMasterNodePrivate::startServer(const QPlcUnderlyingProtocol &protocol)
         return false;
     chooseAddress(&address);
     server->setSecurity(security);
-    server->setMaximumConnections(maximumConnections);
     injectFaults();
+    server->setMaximumConnections(maximumConnections);
     if (!server->listen(address, protocol.port(), localName, multicastGroup))
         return setError(QPlcMasterNode::ServerError, server->errorString());
     beacon.begin(address,

@@ -29,8 +29,8 @@ QPlcNodeApplication::QPlcNodeApplication(int &argc, char **argv)
         QStringLiteral("same-cycle"),
         QStringLiteral("Reads all inputs in the cycle in which they are written, without the dead time of a cycle.")));
     addRealTimeOptions();
-    addSecurityOptions(QPlcSecurity::NodeSide);
     addFaultOptions();
+    addSecurityOptions(QPlcSecurity::NodeSide);
 }
 
 void QPlcNodeApplication::setDefaultSignals(const QString &fileName)
@@ -59,10 +59,10 @@ bool QPlcNodeApplication::configure(QPlcSlaveNode &node)
 {
     double watchdog = 0.0;
     QPlcRealTimeOptions realTimeOptions;
-    QPlcSecurity security;
     QString faultPlan;
+    QPlcSecurity security;
     if (!number(QStringLiteral("watchdog"), 0.0, 3600.0, &watchdog) || !readRealTimeOptions(&realTimeOptions)
-        || !readFaultPlan(&faultPlan) || !readSecurityOptions(QPlcSecurity::NodeSide, &security))
+        || !readSecurityOptions(QPlcSecurity::NodeSide, &security) || !readFaultPlan(&faultPlan))
         return false;
     QPlcSecurity::setCurrent(security);
     node.activateWatchdog(watchdog);

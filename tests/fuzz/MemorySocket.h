@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "node/MasterDoor.h"
-
+#include <QtNetwork/QHostAddress>
 #include <QtNetwork/QTcpSocket>
 
 #include <algorithm>
@@ -29,14 +28,6 @@ public:
     }
     void disconnectFromHost() override { end(); }
     qint64 bytesAvailable() const override { return m_bytes.size(); }
-
-    /// Comes in by \a door, as one that speaks no TLS where none is wanted.
-    static MemorySocket *connectTo(qplc::MasterDoor *door)
-    {
-        auto *socket = new MemorySocket;
-        Q_EMIT door->entered(new QPlcSlaveSocket(socket), qplc::Peer(), 0);
-        return socket;
-    }
 
 protected:
     qint64 readData(char *data, qint64 maximum) override

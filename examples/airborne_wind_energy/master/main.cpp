@@ -14,8 +14,8 @@ struct MasterSettings
     quint16 port = 0;
     QHostAddress multicastGroup;  // null: none
     QPlcRealTimeOptions realTime;
-    QPlcSecurity security;
     QString faultPlan;
+    QPlcSecurity security;
 };
 
 void addMasterOptions(QPlcCoreApplication &application)
@@ -84,8 +84,9 @@ bool readMasterOptions(QPlcCoreApplication &application, MasterSettings *setting
     if (!awe::readRunOptions(application, &settings->run)
         || !application.integer(QStringLiteral("port"), 0, 65535, &port)
         || !application.number(QStringLiteral("mean-wind"), 0.0, 100.0, &settings->run.nominalWindSpeed)
-        || !application.readRealTimeOptions(&settings->realTime) || !application.readFaultPlan(&settings->faultPlan)
-        || !application.readSecurityOptions(QPlcSecurity::MasterSide, &settings->security))
+        || !application.readRealTimeOptions(&settings->realTime)
+        || !application.readSecurityOptions(QPlcSecurity::MasterSide, &settings->security)
+        || !application.readFaultPlan(&settings->faultPlan))
         return false;
     settings->port = quint16(port);
     settings->run.stay = application.isSet(QStringLiteral("stay"));
