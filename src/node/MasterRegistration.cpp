@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a node is registered by MasterServer, and how its cyclic channel is attached.
+// The registration of nodes at MasterServer: from the greeting to the cyclic channel that is there.
+#include "Logging.h"
 #include "MasterServer.h"
 #include "SealFields.h"
+#include "protocol/ControlFrame.h"
 #include "signals/Fnv1a.h"
 
+#include <QtCore/QJsonArray>
 #include <QtCore/QRandomGenerator>
 #include <QtCore/QTimer>
 
@@ -25,7 +28,53 @@ std::optional<SealKeys> newSealKeys(const MasterConnection &connection)
     return SealKeys::random();
 }
 
+/// Extensions that are in use: those that the other side names in its Hello, and that are known here.
+QJsonArray commonFeatures(const Message &hello)
+{
+    QJsonArray common;
+    const QJsonArray offered = hello.fields().value(QStringLiteral("features")).toArray();
+    for (const char *known : {"sameCycle", "leases", "events", "quality"}) {
+        const QString feature = QString::fromLatin1(known);
+        if (offered.contains(feature))
+            common.append(feature);
+    }
+    return common;
+}
+
 }  // namespace
+
+void MasterServer::greet(MasterConnection *connection, const Message &message)
+{
+    if (connection->stage != MasterConnection::Silent) {
+        reject(connection, QStringLiteral("WrongState"), QStringLiteral("'%1' greets twice").arg(connection->name));
+        return;
+    }
+    const int protocol = message.fields().value(QStringLiteral("protocol")).toInt();
+    connection->name = printable(message.text(QStringLiteral("name")));
+    connection->uuid = message.text(QStringLiteral("uuid"));
+    if (protocol != 1) {
+        reject(connection, QStringLiteral("VersionMismatch"),
+               QStringLiteral("protocol version %1 of '%2' is not spoken here; this master speaks version 1")
+                   .arg(protocol)
+                   .arg(connection->name));
+        return;
+    }
+    QJsonObject hello = m_hello();
+    const QJsonArray features = commonFeatures(message);
+    hello.insert(QStringLiteral("features"), features);
+    if (message.hex64(QStringLiteral("tableHash")) == m_image.table().hash())
+        hello.remove(QStringLiteral("table"));
+    connection->stage = MasterConnection::Greeted;
+    connection->socket->setMessageLimit(MaximumControlFrame);
+    m_door.know(connection->ticket);
+    connection->wantsLeases = features.contains(QStringLiteral("leases"));
+    connection->wantsEvents = features.contains(QStringLiteral("events"));
+    Q_EMIT greeted(connection);
+    if (!connection->send(Message::Hello, hello))
+        reject(connection, QStringLiteral("TooLong"),
+               QStringLiteral("the signal table is too long to be sent; give '%1' the same table as the master")
+                   .arg(connection->name));
+}
 
 void MasterServer::registerNode(MasterConnection *connection, const Message &message)
 {

@@ -5,7 +5,6 @@
 #include "protocol/ControlFrame.h"
 #include "realtime/TimeSource.h"
 
-#include <QtCore/QJsonArray>
 #include <QtCore/QPointer>
 #include <QtNetwork/QUdpSocket>
 
@@ -19,19 +18,6 @@ namespace {
 
 constexpr quint32 LongestGreeting = 64 * 1024;   // [byte]
 constexpr qint64 MostUnread = 16 * 1024 * 1024;  // [byte] of answers
-
-/// Extensions that are in use: those that the other side names in its Hello, and that are known here.
-QJsonArray commonFeatures(const Message &hello)
-{
-    QJsonArray common;
-    const QJsonArray offered = hello.fields().value(QStringLiteral("features")).toArray();
-    for (const char *known : {"sameCycle", "leases", "events", "quality"}) {
-        const QString feature = QString::fromLatin1(known);
-        if (offered.contains(feature))
-            common.append(feature);
-    }
-    return common;
-}
 
 }  // namespace
 
@@ -287,41 +273,6 @@ void MasterServer::receive(MasterConnection *connection, const Message &message)
 void MasterServer::receiveGarbage(MasterConnection *connection)
 {
     reject(connection, QStringLiteral("MalformedMessage"), connection->socket->errorString());
-}
-
-// ---- registration ----
-
-void MasterServer::greet(MasterConnection *connection, const Message &message)
-{
-    if (connection->stage != MasterConnection::Silent) {
-        reject(connection, QStringLiteral("WrongState"), QStringLiteral("'%1' greets twice").arg(connection->name));
-        return;
-    }
-    const int protocol = message.fields().value(QStringLiteral("protocol")).toInt();
-    connection->name = printable(message.text(QStringLiteral("name")));
-    connection->uuid = message.text(QStringLiteral("uuid"));
-    if (protocol != 1) {
-        reject(connection, QStringLiteral("VersionMismatch"),
-               QStringLiteral("protocol version %1 of '%2' is not spoken here; this master speaks version 1")
-                   .arg(protocol)
-                   .arg(connection->name));
-        return;
-    }
-    QJsonObject hello = m_hello();
-    const QJsonArray features = commonFeatures(message);
-    hello.insert(QStringLiteral("features"), features);
-    if (message.hex64(QStringLiteral("tableHash")) == m_image.table().hash())
-        hello.remove(QStringLiteral("table"));
-    connection->stage = MasterConnection::Greeted;
-    connection->socket->setMessageLimit(MaximumControlFrame);
-    m_door.know(connection->ticket);
-    connection->wantsLeases = features.contains(QStringLiteral("leases"));
-    connection->wantsEvents = features.contains(QStringLiteral("events"));
-    Q_EMIT greeted(connection);
-    if (!connection->send(Message::Hello, hello))
-        reject(connection, QStringLiteral("TooLong"),
-               QStringLiteral("the signal table is too long to be sent; give '%1' the same table as the master")
-                   .arg(connection->name));
 }
 
 }  // namespace qplc

@@ -27,7 +27,7 @@ REMOVALS = [
     Removal("loop of same-cycle inputs", "src/node/NodeRegistry.cpp",
             "    if (closesLoop(slot, refusal))\n        return nullptr;\n", "",
             "tst_AlgebraicLoops", "aLoopIsRefusedWithItsPath"),
-    Removal("node of another protocol version", "src/node/MasterServer.cpp",
+    Removal("node of another protocol version", "src/node/MasterRegistration.cpp",
             "if (protocol != 1)", "if (protocol < 0)",
             "tst_Refusals", "anotherVersionIsNamed"),
     Removal("late answer", "src/node/NodeExchange.cpp",
