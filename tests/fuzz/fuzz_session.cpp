@@ -14,14 +14,16 @@
 
 namespace {
 
-// The inner side of a master, which keeps it to itself: an explicit instantiation may name what is private.
+// The inner side of a master and the door of its server, which they keep to themselves: an explicit instantiation may name what is private.
 std::unique_ptr<QPlcMasterNodePrivate> &insideOf(QPlcMasterNode &master);
-template<std::unique_ptr<QPlcMasterNodePrivate> QPlcMasterNode::*Member>
-struct Inside
+qplc::MasterDoor &doorOf(qplc::MasterServer &server);
+template<std::unique_ptr<QPlcMasterNodePrivate> QPlcMasterNode::*Inside, qplc::MasterDoor qplc::MasterServer::*Door>
+struct Members
 {
-    friend std::unique_ptr<QPlcMasterNodePrivate> &insideOf(QPlcMasterNode &master) { return master.*Member; }
+    friend std::unique_ptr<QPlcMasterNodePrivate> &insideOf(QPlcMasterNode &master) { return master.*Inside; }
+    friend qplc::MasterDoor &doorOf(qplc::MasterServer &server) { return server.*Door; }
 };
-template struct Inside<&QPlcMasterNode::d>;
+template struct Members<&QPlcMasterNode::d, &qplc::MasterServer::m_door>;
 
 constexpr char tableText[] = "[tetherSpeed]\ntype = Real\nunit = m/s\nmin = -10\nmax = 10\nsafe = 0\n"
                              "[tetherLength]\ntype = Real64\nunit = m\nmin = 1\ninitial = 1\n"
@@ -98,8 +100,7 @@ private:
         if (m_sockets.size() >= 16)
             return;
         m_sockets.emplace_back(new MemorySocket);
-        auto &door = const_cast<qplc::MasterDoor &>(m_inside.server->door());
-        Q_EMIT door.entered(new QPlcSlaveSocket(m_sockets.back()), m_peer, 0);
+        Q_EMIT doorOf(*m_inside.server).entered(new QPlcSlaveSocket(m_sockets.back()), m_peer, 0);
     }
 
     /// Who comes next: anybody without security (at first), or somebody known with a role.
