@@ -3,6 +3,8 @@
 
 #include <QtCore/QElapsedTimer>
 #include <QtCore/QEventLoop>
+#include <QtCore/QFile>
+#include <QtCore/QRandomGenerator>
 #include <QtCore/QTimer>
 
 #include <algorithm>
@@ -74,6 +76,21 @@ bool BenchMaster::prepare()
     return m_master.addLocalNode(&m_probe) || setError(m_master.errorString());
 }
 
+/// One key for all slaves: an engineer may be any node.
+bool BenchMaster::makeKeys()
+{
+    QFile file(m_keysFolder.filePath(QStringLiteral("keys.ini")));
+    const QByteArray key = QByteArray::number(QRandomGenerator::system()->generate64(), 16).rightJustified(64, 'a');
+    const bool isWritten = file.open(QIODevice::WriteOnly)
+        && file.setPermissions(QFileDevice::ReadOwner | QFileDevice::WriteOwner)
+        && file.write("[bench]\nkey = " + key + "\nrole = Engineer\n") > 0;
+    if (!isWritten)
+        return setError(QStringLiteral("cannot write %1: %2").arg(file.fileName(), file.errorString()));
+    m_keysFile = file.fileName();
+    m_master.setSecurity(QPlcSecurity::preSharedKeys(m_keysFile));
+    return true;
+}
+
 bool BenchMaster::addSlaves()
 {
     if (m_options.isInProcess()) {
@@ -86,11 +103,13 @@ bool BenchMaster::addSlaves()
     }
     if (m_options.transport == QLatin1String("udp-multicast"))
         m_master.setMulticastGroup(QHostAddress(QStringLiteral("239.255.76.68")));
+    if (m_options.isSealed && !makeKeys())
+        return false;
     if (!m_master.startServer(QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, 0)))
         return setError(m_master.errorString());
     const QString address = QStringLiteral("%1://127.0.0.1:%2").arg(m_options.transport).arg(m_master.serverPort());
     for (int i = 0; i < m_options.slaves; ++i) {
-        if (!m_processes.start(m_options.slaveArguments(i, address)))
+        if (!m_processes.start(m_options.slaveArguments(i, address, m_keysFile)))
             return setError(QStringLiteral("cannot start slave process %1").arg(i));
     }
     return waitForSlaves();
@@ -184,20 +203,21 @@ QJsonObject BenchMaster::result() const
     const QPlcCycleStatistics &statistics = m_after.statistics;
     const double cycles = std::max(1.0, double(statistics.cycles - m_before.statistics.cycles));
     const double seconds = double(m_after.time - m_before.time) * 1e-9;
-    QJsonObject fields{{QStringLiteral("peer"), QStringLiteral("qtplc")},
-                       {QStringLiteral("variant"), m_options.transport},
-                       {QStringLiteral("slaves"), m_options.slaves},
-                       {QStringLiteral("in"), m_options.inputs},
-                       {QStringLiteral("out"), m_options.outputs},
-                       {QStringLiteral("period_us"), m_options.periodUs},
-                       {QStringLiteral("policy"),
-                        ::sched_getscheduler(0) == SCHED_FIFO ? QStringLiteral("fifo") : QStringLiteral("other")},
-                       {QStringLiteral("cycles"), cycles},
-                       {QStringLiteral("all_cycles"), double(m_allCycles)},
-                       {QStringLiteral("seconds"), seconds},
-                       {QStringLiteral("cycles_per_s"), cycles / seconds},
-                       {QStringLiteral("errors"), double(m_probe.errors())},
-                       {QStringLiteral("overruns"), missedCycles(statistics) - missedCycles(m_before.statistics)}};
+    QJsonObject fields{
+        {QStringLiteral("peer"), QStringLiteral("qtplc")},
+        {QStringLiteral("variant"), m_options.transport + (m_options.isSealed ? QStringLiteral(" sealed") : QString())},
+        {QStringLiteral("slaves"), m_options.slaves},
+        {QStringLiteral("in"), m_options.inputs},
+        {QStringLiteral("out"), m_options.outputs},
+        {QStringLiteral("period_us"), m_options.periodUs},
+        {QStringLiteral("policy"),
+         ::sched_getscheduler(0) == SCHED_FIFO ? QStringLiteral("fifo") : QStringLiteral("other")},
+        {QStringLiteral("cycles"), cycles},
+        {QStringLiteral("all_cycles"), double(m_allCycles)},
+        {QStringLiteral("seconds"), seconds},
+        {QStringLiteral("cycles_per_s"), cycles / seconds},
+        {QStringLiteral("errors"), double(m_probe.errors())},
+        {QStringLiteral("overruns"), missedCycles(statistics) - missedCycles(m_before.statistics)}};
     if (m_options.isBackToBack()) {
         addPercentiles(&fields, QStringLiteral("rtt"), distributionOf(m_probe.intervals()));
     } else {

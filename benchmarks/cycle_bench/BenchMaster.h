@@ -6,6 +6,7 @@
 #include "SlaveProcesses.h"
 
 #include <QtCore/QJsonObject>
+#include <QtCore/QTemporaryDir>
 
 /// The master process: starts the slaves, runs the cycles, and measures.
 class BenchMaster
@@ -30,6 +31,7 @@ private:
     };
 
     bool prepare();
+    bool makeKeys();
     bool addSlaves();
     bool waitForSlaves();
     bool startPhase();
@@ -44,6 +46,8 @@ private:
     BenchProbe m_probe;
     std::vector<std::unique_ptr<BenchSlave>> m_localSlaves;
     SlaveProcesses m_processes;
+    QTemporaryDir m_keysFolder;
+    QString m_keysFile;       // empty: no security
     quint64 m_allCycles = 0;  // of all phases, those that were not measured included
     Snapshot m_before;
     Snapshot m_after;

@@ -37,11 +37,14 @@ bool isPeriodPossible(QPlcCoreApplication &application, const BenchOptions &opti
 
 }  // namespace
 
-QStringList BenchOptions::slaveArguments(int index, const QString &address) const
+QStringList BenchOptions::slaveArguments(int index, const QString &address, const QString &keysFile) const
 {
-    return {QStringLiteral("--slave"),   QString::number(index),  QStringLiteral("--master"), address,
-            QStringLiteral("--in"),      QString::number(inputs), QStringLiteral("--out"),    QString::number(outputs),
-            QStringLiteral("--spin-us"), QString::number(spinUs)};
+    return {QStringLiteral("--bench-keys"), keysFile,
+            QStringLiteral("--slave"),      QString::number(index),
+            QStringLiteral("--master"),     address,
+            QStringLiteral("--in"),         QString::number(inputs),
+            QStringLiteral("--out"),        QString::number(outputs),
+            QStringLiteral("--spin-us"),    QString::number(spinUs)};
 }
 
 bool readBenchOptions(QPlcCoreApplication &application, BenchOptions *options)
@@ -61,16 +64,25 @@ bool readBenchOptions(QPlcCoreApplication &application, BenchOptions *options)
     addOption(application, "idle-latency-us",
               "Time that processors may need to wake up [us]; -1: as the system is set.", "US", "-1");
     addOption(application, "spin-us", "Time that master and slaves look again before they sleep [us].", "US", "0");
+    application.addOption(QCommandLineOption(
+        QStringLiteral("sealed"), QStringLiteral("Master and slaves have keys: frames are sealed (udp, tcp).")));
+    addOption(application, "bench-keys", "With --slave: file with its key.", "FILE", "");
     addOption(application, "slave", "Be a slave: what the master starts.", "INDEX", "-1");
     addOption(application, "master", "With --slave: where the master is.", "ADDRESS", "");
     if (!application.parseOptions())
         return false;
     options->master = application.value(QStringLiteral("master"));
+    options->keys = application.value(QStringLiteral("bench-keys"));
+    options->isSealed = application.isSet(QStringLiteral("sealed"));
     options->transport = application.value(QStringLiteral("transport"));
     if (!transports.contains(options->transport))
         return refuse(application,
                       QStringLiteral("--transport %1: use one of %2")
                           .arg(options->transport, transports.join(QStringLiteral(", "))));
+    if (options->isSealed && options->transport != QLatin1String("udp") && options->transport != QLatin1String("tcp"))
+        return refuse(
+            application,
+            QStringLiteral("--sealed: frames over %1 are not sealed; use udp or tcp").arg(options->transport));
     return readInteger(application, "slave", -1, 249, &options->slaveIndex)
         && readInteger(application, "slaves", 1, 250, &options->slaves)
         && readInteger(application, "in", 1, 1000, &options->inputs)

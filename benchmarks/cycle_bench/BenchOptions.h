@@ -15,15 +15,17 @@ struct BenchOptions
     double warmup = 0.2;  // [s] before it
     int spinUs = 0;
     int idleLatencyUs = -1;
+    bool isSealed = false;  // with security: frames are sealed
 
     int slaveIndex = -1;  // of a slave process
     QString master;       // where its master is
+    QString keys;         // file with the key of the slaves; empty: no security
 
     bool isBackToBack() const { return periodUs == 0; }
     bool isInProcess() const { return transport == QLatin1String("inprocess"); }
     bool isSlave() const { return slaveIndex >= 0; }
-    /// Command line of slave \a index of a master at \a address.
-    QStringList slaveArguments(int index, const QString &address) const;
+    /// Command line of slave \a index of a master at \a address. \param keysFile  empty: no security
+    QStringList slaveArguments(int index, const QString &address, const QString &keysFile) const;
 };
 
 /// Declares the options at \a application and reads them. \return false when the program is to end now, with its exitCode()

@@ -18,6 +18,8 @@ int runSlave(QPlcCoreApplication &application, const BenchOptions &options)
     QPlcRealTimeOptions realTime;
     realTime.spin = qint64(options.spinUs) * 1000;
     slave.setRealTimeOptions(realTime);
+    if (!options.keys.isEmpty())
+        slave.setSecurity(QPlcSecurity::preSharedKeys(options.keys, QStringLiteral("bench")));
     if (!master.isValid() || !slave.connectToMasterAndWaitForConnected(master)) {
         QPlcCoreApplication::printError(master.isValid() ? slave.errorString() : error);
         return QPlcCoreApplication::Failure;

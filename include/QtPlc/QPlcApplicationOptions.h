@@ -3,6 +3,7 @@
 
 #include "QPlcGlobal.h"
 #include "QPlcRealTimeOptions.h"
+#include "QPlcSecurity.h"
 
 #include <QtCore/QCommandLineOption>
 #include <QtCore/QString>
@@ -59,6 +60,11 @@ public:
     void addFaultOptions();
     /// \param plan  for setFaultPlan(); empty: none. \return false, with the message out, when it cannot be meant
     bool readFaultPlan(QString *plan);
+
+    /// Adds --security, --keys, --identity, --certificate, --key and --authority, and for a master --access: how this program and others know each other.
+    void addSecurityOptions(QPlcSecurity::Side side);
+    /// \return false, with the message out, when they do not fit together, or when a file cannot be used: missing, wrong, or open to others
+    bool readSecurityOptions(QPlcSecurity::Side side, QPlcSecurity *security);
 
     /// Prints "program: text" to the standard error.
     static void printError(const QString &text);

@@ -23,6 +23,7 @@ struct CycleEvent
         ValueRefused,      // node, signal, cycle, fault: the value was not taken
         SourceChanged,     // node, signal, cycle, duration: id of the node that was the source before
         SignalSafe,        // signal, cycle: no good value for too long
+        ForgedFrame,       // node, cycle: the first sealed frame of a phase that was not as it is sealed
         LinkClosed,        // node: its cyclic connection is gone
         WatchdogTimedOut,  // cycle: no frame since
         Overrun,           // cycle, duration: it is that late, and the policy is Stop

@@ -35,7 +35,7 @@ const Keyring::Entry *Keyring::find(const QString &identity) const
 bool Keyring::read(const QString &fileName, QString *error)
 {
     QByteArray text;
-    return SecretFile::read(fileName, &text, error) && parse(text, fileName, error);
+    return SecretFile::read(fileName, SecretFile::Secret, &text, error) && parse(text, fileName, error);
 }
 
 bool Keyring::parse(const QByteArray &text, const QString &fileName, QString *error)

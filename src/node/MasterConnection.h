@@ -35,11 +35,12 @@ struct MasterConnection
     ConnectionGate::Ticket ticket = 0;  // of the door
     QString name;                       // as greeted
     QString uuid;
-    QString cyclicKind;              // "udp", "tcp"
-    quint64 token = 0;               // names this node on its cyclic TCP connection
-    std::shared_ptr<NodeSlot> slot;  // null: no node
-    qint64 stageSince = 0;           // [ms] for time-outs
-    bool wantsLeases = false;        // has offered the feature, and so the next ones
+    QString cyclicKind;                // "udp", "tcp"
+    TokenBucket messages{1000, 4000};  // of tools; nodes have their cycle
+    quint64 token = 0;                 // names this node on its cyclic TCP connection
+    std::shared_ptr<NodeSlot> slot;    // null: no node
+    qint64 stageSince = 0;             // [ms] for time-outs
+    bool wantsLeases = false;          // has offered the feature, and so the next ones
     bool wantsEvents = false;
     bool hasFailed = false;  // has sent NodeFault since it was initialized last
     bool leasesDue = false;  // they have changed and it was not told yet

@@ -62,6 +62,14 @@ void QPlcMasterNodePrivate::report(const CycleEvent &event)
                   QStringLiteral("node '%1' in cycle %2: %3").arg(nodeName(event.node)).arg(event.cycle).arg(what));
         break;
     }
+    case CycleEvent::ForgedFrame:
+        journal.tell(qplc::JournalEvent::Warning, qplc::JournalEvent::Security, nodeName(event.node),
+                     QStringLiteral(
+                         "frames under the address of node %1 are not as it seals them, since cycle %2: somebody else "
+                         "sends them, or they are changed on the way")
+                         .arg(nodeName(event.node))
+                         .arg(event.cycle));
+        break;
     case CycleEvent::LinkClosed:
         if (const std::shared_ptr<NodeSlot> slot = registry->find(event.node)) {
             if (Connection *connection = server->connectionOf(slot.get()))

@@ -40,7 +40,10 @@ QJsonObject counterFields(const QPlcMasterStatistics &statistics)
             {QStringLiteral("skippedCycles"), double(statistics.skippedCycles)},
             {QStringLiteral("lateAnswers"), double(statistics.lateAnswers)},
             {QStringLiteral("strangers"), double(statistics.strangers)},
-            {QStringLiteral("floods"), double(statistics.floods)}};
+            {QStringLiteral("floods"), double(statistics.floods)},
+            {QStringLiteral("refusedConnections"), double(statistics.refusedConnections)},
+            {QStringLiteral("failedHandshakes"), double(statistics.failedHandshakes)},
+            {QStringLiteral("deniedMessages"), double(statistics.deniedMessages)}};
 }
 
 }  // namespace

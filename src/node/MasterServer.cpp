@@ -2,12 +2,15 @@
 #include "MasterServer.h"
 
 #include "Logging.h"
+#include "SealFields.h"
 #include "protocol/ControlFrame.h"
+#include "realtime/TimeSource.h"
 #include "signals/Fnv1a.h"
 
 #include <QtCore/QJsonArray>
 #include <QtCore/QPointer>
 #include <QtCore/QRandomGenerator>
+#include <QtCore/QTimer>
 #include <QtNetwork/QUdpSocket>
 
 #include <algorithm>
@@ -18,7 +21,17 @@ using Message = QPlcMessage;
 
 namespace {
 
-constexpr quint32 LongestGreeting = 64 * 1024;  // [byte]
+constexpr quint32 LongestGreeting = 64 * 1024;       // [byte]
+constexpr qint64 MostUnread = 16 * 1024 * 1024;      // [byte] of answers
+constexpr std::chrono::seconds LongestAttaching{5};  // until the cyclic connection of a node is there
+
+/// For one registration. Memory that node and master share needs none: who may open it may look into both programs anyway.
+std::optional<SealKeys> newSealKeys(const MasterConnection &connection)
+{
+    if (!connection.isSecured() || connection.cyclicKind == QLatin1String("local"))
+        return std::nullopt;
+    return SealKeys::random();
+}
 
 /// Extensions that are in use: those that the other side names in its Hello, and that are known here.
 QJsonArray commonFeatures(const Message &hello)
@@ -52,6 +65,20 @@ MasterServer::MasterServer(NodeRegistry &registry, const ProcessImage &image, Cy
 MasterServer::~MasterServer()
 {
     close();
+}
+
+void MasterServer::setMaximumConnections(int connections)
+{
+    ConnectionGate::Limits limits = m_door.limits();
+    limits.connections = connections;
+    m_door.setLimits(limits);
+}
+
+void MasterServer::count(QPlcMasterStatistics *statistics) const
+{
+    statistics->refusedConnections = m_door.turnedAway();
+    statistics->failedHandshakes = m_door.failedHandshakes();
+    statistics->deniedMessages = m_deniedMessages;
 }
 
 // ---- ports ----
@@ -154,15 +181,21 @@ void MasterServer::dropSlow(ConnectionGate::Ticket ticket)
         reject(found->get(), QStringLiteral("TimedOut"), QStringLiteral("it has not greeted in time"));
 }
 
-void MasterServer::dropClosed(const QPlcSlaveSocket *socket)
+MasterConnection *MasterServer::connectionOf(const QPlcSlaveSocket *socket) const
 {
     const auto isIt
         = [socket](const std::unique_ptr<MasterConnection> &connection) { return connection->socket == socket; };
     const auto found = std::find_if(m_connections.begin(), m_connections.end(), isIt);
-    if (found == m_connections.end())
-        return;  // dropped meanwhile
+    return found == m_connections.end() ? nullptr : found->get();  // dropped meanwhile
+}
+
+void MasterServer::dropClosed(const QPlcSlaveSocket *socket)
+{
+    MasterConnection *connection = connectionOf(socket);
+    if (!connection)
+        return;
     const QString error = socket->errorString();
-    drop(found->get(), error.isEmpty() ? QStringLiteral("it closed the connection") : error);
+    drop(connection, error.isEmpty() ? QStringLiteral("it closed the connection") : error);
 }
 
 MasterConnection *MasterServer::connectionOf(const NodeSlot *slot) const
@@ -215,9 +248,26 @@ void MasterServer::deny(MasterConnection *connection, const QString &reason)
         connection->fail(QStringLiteral("Denied"), reason);
 }
 
+/// Whether somebody asks faster than is good for the others, or does not read the answers; then the connection has ended.
+bool MasterServer::isTooMuch(MasterConnection *connection)
+{
+    QString reason;
+    if (!connection->isNode() && !connection->messages.take(TimeSource::monotonic().now()))
+        reason = QStringLiteral("'%1' sends too many messages; send at most 1000 in a second").arg(connection->name);
+    else if (connection->socket->bytesToSend() > MostUnread)
+        reason = QStringLiteral("'%1' does not read the answers to what it asks").arg(connection->name);
+    if (reason.isEmpty())
+        return false;
+    ++m_deniedMessages;
+    reject(connection, QStringLiteral("TooMuch"), reason);
+    return true;
+}
+
 /// The one place where control messages come in.
 void MasterServer::receive(MasterConnection *connection, const Message &message)
 {
+    if (isTooMuch(connection))
+        return;
     const QString refusal = refusalOf(connection->peer, message);
     if (!refusal.isEmpty()) {
         deny(connection, refusal);
@@ -325,7 +375,8 @@ void MasterServer::registerNode(MasterConnection *connection, const Message &mes
         return;
     }
     connection->slot->faultPlan = printable(message.text(QStringLiteral("faults"))).left(200);
-    connection->slot->prepare(m_image, m_session);
+    const std::optional<SealKeys> keys = newSealKeys(*connection);
+    connection->slot->prepare(m_image, m_session, keys ? &*keys : nullptr);
     connection->token = QRandomGenerator::system()->generate64();
     connection->stage = MasterConnection::Attaching;
     QJsonObject fields{{QStringLiteral("node"), connection->slot->id},
@@ -333,6 +384,8 @@ void MasterServer::registerNode(MasterConnection *connection, const Message &mes
                        {QStringLiteral("outputsHash"), Message::fromHex64(connection->slot->outputLayout.hash())},
                        {QStringLiteral("state"), m_hello().value(QStringLiteral("state"))},
                        {QStringLiteral("token"), Message::fromHex64(connection->token)}};
+    if (keys)
+        fields.insert(QStringLiteral("seal"), sealFields(*keys));
     if (isLocal && !makeLocalPeer(connection, &fields))
         return;
     if (isUdp)
@@ -343,8 +396,10 @@ void MasterServer::registerNode(MasterConnection *connection, const Message &mes
         fields.insert(QStringLiteral("groupPort"), m_group.port());
     }
     connection->send(Message::Registered, fields);
-    if (!isUdp && !isLocal)
+    if (!isUdp && !isLocal) {
+        dropUnattached(connection);
         return;
+    }
     connection->send(Message::CyclicChannelAttached);
     nodeAttached(connection);
 }
@@ -367,6 +422,8 @@ Refusal MasterServer::channelRefusal(const MasterConnection &connection, const N
     if (isMulticast && m_group.length == 0)
         return {QStringLiteral("WrongState"),
                 QStringLiteral("this master has no multicast group; give it one, or use udp")};
+    if (isMulticast && connection.isSecured())
+        return {QStringLiteral("WrongState"), QStringLiteral("datagrams for many nodes are not sealed; use udp")};
     if (isMulticast && declaration.isOrdered())
         return {QStringLiteral("WrongState"),
                 QStringLiteral("node '%1' has same-cycle inputs or two phases: it is asked alone; use udp")
@@ -394,6 +451,17 @@ bool MasterServer::makeLocalPeer(MasterConnection *connection, QJsonObject *fiel
     fields->insert(QStringLiteral("pipe"), paths.pipe);
     connection->slot->peer = HubPeer::local(std::move(memory));
     return true;
+}
+
+/// Who registers and does not attach keeps a name and signals from others: not for ever.
+void MasterServer::dropUnattached(const MasterConnection *connection)
+{
+    QTimer::singleShot(LongestAttaching, connection->socket, [this, socket = connection->socket] {
+        MasterConnection *late = connectionOf(socket);
+        if (late && late->stage == MasterConnection::Attaching)
+            reject(late, QStringLiteral("TimedOut"),
+                   QStringLiteral("node '%1' has not attached its cyclic connection in time").arg(late->name));
+    });
 }
 
 /// A node that comes back before its last connection is known to be dead takes its own place.

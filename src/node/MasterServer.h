@@ -3,6 +3,7 @@
 
 #include "MasterConnection.h"
 #include "MasterDoor.h"
+#include "QPlcMasterStatistics.h"
 #include "QPlcUnderlyingProtocol.h"
 #include "transport/LocalName.h"
 
@@ -27,9 +28,9 @@ public:
     /// Takes effect with listen().
     void setSecurity(const QPlcSecurity &security) { m_door.setSecurity(security); }
     bool isSecured() const { return !m_door.security().isNone(); }
-    const MasterDoor &door() const { return m_door; }
-    /// Messages that were not carried out because their senders have no right to them.
-    quint64 deniedMessages() const { return m_deniedMessages; }
+    void setMaximumConnections(int connections);
+    /// Adds who was not let in, and what was not carried out.
+    void count(QPlcMasterStatistics *statistics) const;
 
     /// \param name  under which local nodes find the port; empty: none
     /// \param group  multicast group for nodes that want one; null: none
@@ -67,6 +68,9 @@ Q_SIGNALS:
 private:
     void enter(QPlcSlaveSocket *socket, const Peer &peer, ConnectionGate::Ticket ticket);
     void dropSlow(ConnectionGate::Ticket ticket);
+    bool isTooMuch(MasterConnection *connection);
+    void dropUnattached(const MasterConnection *connection);
+    MasterConnection *connectionOf(const QPlcSlaveSocket *socket) const;
     void deny(MasterConnection *connection, const QString &reason);
     void receive(MasterConnection *connection, const QPlcMessage &message);
     void dropClosed(const QPlcSlaveSocket *socket);

@@ -358,6 +358,8 @@ void NodeExchange::takeAnswer(NodeSlot &slot, const char *frame, std::size_t siz
         slot.statistics.reordered.add();
         return;
     case FrameStatus::Forged:
+        if (slot.statistics.forged == 0)
+            m_reports.post({CycleEvent::ForgedFrame, slot.id, 0, m_cycle.number});
         slot.statistics.forged.add();
         return;
     default:

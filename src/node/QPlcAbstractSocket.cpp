@@ -14,6 +14,7 @@ struct QPlcAbstractSocket::Private
     QTcpSocket *socket = nullptr;
     QSslSocket *tls = nullptr;  // the same, when it is or will be encrypted, or comes from a master with security
     qplc::ControlFrameReader reader;
+    bool isSending = false;
     Error error = NoError;
     QString errorString;
 };
@@ -34,6 +35,12 @@ QPlcAbstractSocket::Error errorOf(QAbstractSocket::SocketError error)
     default:
         return QPlcAbstractSocket::NetworkError;
     }
+}
+
+/// For the debug log. What is encrypted for the wire may hold keys: it stays secret here, too.
+QString shown(const QByteArray &frame, bool isSecured)
+{
+    return isSecured ? QStringLiteral("%1 bytes").arg(frame.size()) : QString::fromLatin1(frame.toHex(' '));
 }
 
 }  // namespace
@@ -109,9 +116,13 @@ bool QPlcAbstractSocket::sendMessage(const QPlcMessage &message)
                                        << "is too long or too deep to be sent";
         return false;
     }
-    qCDebug(lcControl).noquote() << "to" << peerName() << message.kindName() << frame.toHex(' ');
+    qCDebug(lcControl).noquote() << "to" << peerName() << message.kindName() << shown(frame, isSecured());
+    const QPointer<QPlcAbstractSocket> self(this);  // who hears of an error may delete us
+    d->isSending = true;
     const bool sent = d->socket->write(frame) == frame.size();
     d->socket->flush();
+    if (self)
+        d->isSending = false;
     return sent;
 }
 
@@ -183,11 +194,17 @@ void QPlcAbstractSocket::readError()
 
 void QPlcAbstractSocket::readMessages()
 {
+    if (d->isSending) {
+        // TLS reads when it writes. Messages that came between two sends of somebody who walks over connections would surprise him, and answers to answers would fill the stack.
+        QMetaObject::invokeMethod(this, &QPlcAbstractSocket::readMessages, Qt::QueuedConnection);
+        return;
+    }
     const QPointer<QPlcAbstractSocket> self(this);  // who receives a message may delete us
     d->reader.append(d->socket->readAll());
     QPlcMessage message;
     while (self && d->reader.next(&message)) {
-        qCDebug(lcControl).noquote() << "from" << peerName() << message.kindName() << d->reader.lastFrame().toHex(' ');
+        qCDebug(lcControl).noquote() << "from" << peerName() << message.kindName()
+                                     << shown(d->reader.lastFrame(), isSecured());
         Q_EMIT messageReceived(message);
     }
     if (!self || d->reader.error() == qplc::ControlFrameReader::NoError)

@@ -223,6 +223,11 @@ QPlcSecurity QPlcMasterNode::security() const
     return d->security;
 }
 
+void QPlcMasterNode::setMaximumConnections(int connections)
+{
+    d->maximumConnections = connections;
+}
+
 bool QPlcMasterNode::addLocalNode(QPlcSlaveNode *node)
 {
     Q_ASSERT_X(node, "QPlcMasterNode::addLocalNode", "a node is needed");
@@ -289,7 +294,10 @@ QString QPlcMasterNode::errorString() const
 
 QPlcMasterStatistics QPlcMasterNode::statistics() const
 {
-    return d->cycle ? d->cycle->statistics() : QPlcMasterStatistics();
+    QPlcMasterStatistics statistics = d->cycle ? d->cycle->statistics() : QPlcMasterStatistics();
+    if (d->server)
+        d->server->count(&statistics);
+    return statistics;
 }
 
 QPlcCycleStatistics QPlcMasterNode::cycleStatistics(QPlcDistribution::Detail detail) const

@@ -172,6 +172,7 @@ bool QPlcMasterNodePrivate::startServer(const QPlcUnderlyingProtocol &protocol)
     chooseAddress(&address);
     server->setSecurity(security);
     injectFaults();
+    server->setMaximumConnections(maximumConnections);
     if (!server->listen(address, protocol.port(), localName, multicastGroup)) {
         apply(Event::ServerFailed, server->errorString());
         return setError(QPlcMasterNode::ServerError, server->errorString());

@@ -77,6 +77,7 @@ public:
     bool hasBeacon = false;
     QString faultPlan;
     QPlcSecurity security;
+    int maximumConnections = qplc::ConnectionGate::Limits().connections;
     QString networkSecurity = QStringLiteral("none");  // as Hello tells it
     QString localName;
     QHostAddress multicastGroup;

@@ -38,6 +38,7 @@ QPlcNodeApplication::QPlcNodeApplication(int &argc, char **argv)
         QStringLiteral("Reads all inputs in the cycle in which they are written, without the dead time of a cycle.")));
     addRealTimeOptions();
     addFaultOptions();
+    addSecurityOptions(QPlcSecurity::NodeSide);
 }
 
 void QPlcNodeApplication::setDefaultSignals(const QString &fileName)
@@ -67,9 +68,11 @@ bool QPlcNodeApplication::configure(QPlcSlaveNode &node)
     double watchdog = 0.0;
     QPlcRealTimeOptions realTimeOptions;
     QString faultPlan;
+    QPlcSecurity security;
     if (!number(QStringLiteral("watchdog"), 0.0, 3600.0, &watchdog) || !readRealTimeOptions(&realTimeOptions)
-        || !readFaultPlan(&faultPlan))
+        || !readSecurityOptions(QPlcSecurity::NodeSide, &security) || !readFaultPlan(&faultPlan))
         return false;
+    QPlcSecurity::setCurrent(security);
     node.activateWatchdog(watchdog);
     node.setFaultPlan(faultPlan);
     node.setRealTimeOptions(realTimeOptions);

@@ -415,6 +415,11 @@ void QPlcSlaveNodePrivate::report(const qplc::CycleEvent &event)
                        .arg(event.cycle)
                        .arg(QString::fromLocal8Bit(runtime.faultText())));
         break;
+    case qplc::CycleEvent::ForgedFrame:
+        qCWarning(lcSlave).noquote() << "node" << name
+                                     << "drops frames that are not as its master seals them, since cycle" << event.cycle
+                                     << "- somebody else sends them, or they are changed on the way";
+        break;
     case qplc::CycleEvent::LinkClosed:
         qCDebug(lcSlave).noquote()
             << "node" << name << "has lost its cyclic connection";  // the control connection follows, with the reason

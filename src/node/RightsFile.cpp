@@ -5,8 +5,6 @@
 #include "SecretFile.h"
 #include "signals/IniParser.h"
 
-#include <QtCore/QFile>
-
 namespace qplc {
 
 namespace {
@@ -19,10 +17,8 @@ QString placeOf(const QString &fileName, int line, int column)
 /// What is wrong with a line of such a file; empty: nothing.
 QString complaint(const IniItem &item, const QStringList &keys, const QVector<RightsSection> &sections)
 {
-    if (!item.error.isEmpty())
-        return item.error;
-    if (item.kind == IniItem::Broken)
-        return QStringLiteral("this is neither [identity] nor name = value");
+    if (!item.error.isEmpty() || item.kind == IniItem::Broken)
+        return QStringLiteral("this line cannot be read; use [identity] or name = value, in UTF-8");  // it may be a key
     if (item.kind == IniItem::Section) {
         if (!Keyring::isIdentity(item.name))
             return QStringLiteral("'%1' is no identity; use 1 ... %2 letters, digits, '.', '-', '_'")
@@ -84,12 +80,8 @@ bool RightsSection::readRole(Role *role, QString *error) const
 
 bool AccessList::read(const QString &fileName, QString *error)
 {
-    QFile file(fileName);
-    if (!file.open(QIODevice::ReadOnly)) {
-        *error = QStringLiteral("cannot open %1: %2").arg(fileName, file.errorString());
-        return false;
-    }
-    return parse(file.read(SecretFile::MaximumSize), fileName, error);
+    QByteArray text;
+    return SecretFile::read(fileName, SecretFile::Trusted, &text, error) && parse(text, fileName, error);
 }
 
 bool AccessList::parse(const QByteArray &text, const QString &fileName, QString *error)

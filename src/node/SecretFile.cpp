@@ -14,19 +14,21 @@ namespace qplc {
 
 namespace {
 
-constexpr mode_t othersBits = S_IRWXG | S_IRWXO;
-
-/// Why a file with these attributes keeps no secret; empty: it does.
-QString weakness(const QString &fileName, const struct stat &status)
+/// Why a file with these attributes is not as it needs to be; empty: it is.
+QString weakness(const QString &fileName, SecretFile::Need need, const struct stat &status)
 {
+    const QString mode = QStringLiteral("%1").arg(uint(status.st_mode & 07777U), 4, 8, QLatin1Char('0'));
     if (!S_ISREG(status.st_mode))
         return QStringLiteral("%1 is no file").arg(fileName);
-    if ((status.st_mode & othersBits) != 0)
+    if (need == SecretFile::Secret && (status.st_mode & (S_IRWXG | S_IRWXO)) != 0)
         return QStringLiteral("%1 has the mode %2, others than its owner can get at the keys in it; use chmod 600 %1")
-            .arg(fileName)
-            .arg(uint(status.st_mode & 07777U), 4, 8, QLatin1Char('0'));
+            .arg(fileName, mode);
+    if ((status.st_mode & (S_IWGRP | S_IWOTH)) != 0)
+        return QStringLiteral(
+                   "%1 has the mode %2, others than its owner can change the rights in it; use chmod go-w %1")
+            .arg(fileName, mode);
     if (status.st_uid != ::geteuid() && status.st_uid != 0)
-        return QStringLiteral("%1 belongs to another user, who can change the keys in it; use chown").arg(fileName);
+        return QStringLiteral("%1 belongs to another user, who can change it; use chown").arg(fileName);
     if (status.st_size > SecretFile::MaximumSize)
         return QStringLiteral("%1 has %2 bytes; at most %3 are read")
             .arg(fileName)
@@ -37,7 +39,7 @@ QString weakness(const QString &fileName, const struct stat &status)
 
 }  // namespace
 
-bool SecretFile::read(const QString &fileName, QByteArray *content, QString *error)
+bool SecretFile::read(const QString &fileName, Need need, QByteArray *content, QString *error)
 {
     const int descriptor = ::open(QFile::encodeName(fileName).constData(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (descriptor < 0) {
@@ -48,7 +50,7 @@ bool SecretFile::read(const QString &fileName, QByteArray *content, QString *err
     QFile file;
     file.open(descriptor, QIODevice::ReadOnly, QFileDevice::AutoCloseHandle);
     *error = ::fstat(descriptor, &status) < 0 ? QStringLiteral("%1: %2").arg(fileName, systemErrorText())
-                                              : weakness(fileName, status);
+                                              : weakness(fileName, need, status);
     if (!error->isEmpty())
         return false;
     *content = file.read(MaximumSize);

@@ -175,6 +175,8 @@ FrameStatus SlaveCycle::decode(const char *frame, std::size_t size) noexcept
         count(m_counters.outdated);
         break;
     case FrameStatus::Forged:
+        if (m_counters.forged.load(std::memory_order_relaxed) == 0)
+            m_reports.post({CycleEvent::ForgedFrame, m_identity.node, 0, m_lastCycle - m_phase.cycleZero});
         count(m_counters.forged);
         break;
     default:

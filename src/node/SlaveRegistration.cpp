@@ -3,6 +3,7 @@
 #include "Logging.h"
 #include "QPlcSignalIndexTable.h"
 #include "QPlcSlaveNodePrivate.h"
+#include "SealFields.h"
 #include "signals/Fnv1a.h"
 #include "transport/FaultLink.h"
 
@@ -168,7 +169,17 @@ void QPlcSlaveNodePrivate::receiveRegistered(const Message &message)
                QStringLiteral("master and node '%1' disagree on the layout of the frames").arg(name));
         return;
     }
-    cycle = std::make_unique<qplc::SlaveCycle>(runtime, qplc::SlaveCycle::Identity{m_session, quint16(m_id)},
+    std::optional<qplc::SealKeys> keys;
+    if (control->isSecured() && master.kind() != QPlcUnderlyingProtocol::Local) {
+        keys = qplc::sealKeys(message.fields().value(QStringLiteral("seal")).toObject());
+        if (!keys) {
+            giveUp(QPlcSlaveNode::ProtocolError,
+                   QStringLiteral("the master at %1 gives node '%2' no keys for its frames; update the master")
+                       .arg(master.toString(), name));
+            return;
+        }
+    }
+    cycle = std::make_unique<qplc::SlaveCycle>(runtime, qplc::SlaveCycle::Identity{m_session, quint16(m_id), keys},
                                                lcCyclic().isDebugEnabled());
     m_reportNotifier = std::make_unique<QSocketNotifier>(cycle->reports().descriptor(), QSocketNotifier::Read);
     QObject::connect(m_reportNotifier.get(), &QSocketNotifier::activated, q, [this] { takeReports(); });

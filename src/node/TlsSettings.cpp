@@ -41,7 +41,7 @@ bool readPlain(const QString &fileName, QByteArray *content, QString *error)
 bool readPrivateKey(const QString &fileName, QSslKey *key, QString *error)
 {
     QByteArray pem;
-    if (!SecretFile::read(fileName, &pem, error))
+    if (!SecretFile::read(fileName, SecretFile::Secret, &pem, error))
         return false;
     for (QSsl::KeyAlgorithm algorithm : {QSsl::Ec, QSsl::Rsa}) {
         *key = QSslKey(pem, algorithm);

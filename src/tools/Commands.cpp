@@ -221,6 +221,25 @@ const QVector<Command> &commands()
          0,
          0,
          &findMasters},
+        {"keys",
+         "new|list|revoke [IDENTITY]",
+         "Makes, shows and revokes pre-shared keys.",
+         "new makes a key for IDENTITY in the file --keys, which is made if need be and\n"
+         "which only its owner may read; --role says what it may do: Observer, Operator,\n"
+         "Node (unless said) or Engineer. --copy writes the key alone into another file,\n"
+         "for the computer of IDENTITY. new replaces a key with --replace only. list shows\n"
+         "identities and roles, never keys. A running master reads the file again for\n"
+         "each connection: who is revoked does not come in again.",
+         {{"role", "ROLE", "What the identity may do; Node unless said."},
+          {"copy", "FILE", "Writes the new key alone into FILE, too."},
+          {"replace", "", "Replaces the key of an identity that has one."}},
+         {QStringLiteral("qtplc keys new Winch --keys keys.ini --copy winch.ini"),
+          QStringLiteral("qtplc keys new anna --role Operator --keys keys.ini --copy anna.ini"),
+          QStringLiteral("qtplc keys revoke Winch --keys keys.ini")},
+         Command::NoArguments,
+         1,
+         2,
+         &manageKeys},
         {"doctor",
          "",
          "Examines this computer: is it fit for real time?",
@@ -282,6 +301,12 @@ const QVector<Option> &commonOptions()
         {"master", "HOST:PORT", "Where the master is, 127.0.0.1:50000 unless said."},
         {"timeout", "SECONDS", "Longest wait for an answer, 5 unless said."},
         {"json", "", "Prints JSON (echo, watch, events: an object a line)."},
+        {"security", "psk|cert", "TLS with pre-shared keys, or with certificates."},
+        {"keys", "FILE", "For psk: keys of identities."},
+        {"identity", "NAME", "For psk: who you are; the only one in FILE unless said."},
+        {"certificate", "FILE", "For cert: your certificate (PEM)."},
+        {"key", "FILE", "For cert: its private key (PEM)."},
+        {"authority", "FILE", "For cert: certificate of the authority (PEM)."},
     };
     return options;
 }

@@ -90,6 +90,7 @@ int showJitter(const CommandCall &call);
 int showLeases(const CommandCall &call);
 int showEvents(const CommandCall &call);
 int findMasters(const CommandCall &call);
+int manageKeys(const CommandCall &call);
 int examineComputer(const CommandCall &call);
 int showHelp(const CommandCall &call);
 int completeWord(const CommandCall &call);

@@ -98,6 +98,12 @@ int run(QPlcCoreApplication &application)
         = QPlcUnderlyingProtocol::fromString(address, QPlcUnderlyingProtocol::Tcp, &error);
     if (!master.isValid())
         return application.usageError(QStringLiteral("--master: %1").arg(error));
+    QPlcSecurity security;
+    if (command->run != &tools::manageKeys) {  // which has --keys of its own
+        if (!application.readSecurityOptions(QPlcSecurity::NodeSide, &security))
+            return application.exitCode();
+        QPlcSecurity::setCurrent(security);
+    }
     tools::ControlClient client(std::chrono::milliseconds(qRound64(timeout * 1e3)));
     return command->run({application, client, master, application.positionalArguments().mid(1)});
 }

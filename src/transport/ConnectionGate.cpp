@@ -13,7 +13,7 @@ std::optional<ConnectionGate::Ticket> ConnectionGate::admit(const QHostAddress &
         *refusal = TooManyConnections;
     else if (!isLocal && strangersOf(address) >= m_limits.strangersOfAddress)
         *refusal = TooManyOfAddress;
-    else if (!isLocal && !takeToken(now))
+    else if (!isLocal && !m_accepts.take(now))
         *refusal = TooFast;
     if (*refusal != Admitted)
         return std::nullopt;
@@ -74,19 +74,6 @@ int ConnectionGate::strangersOf(const QHostAddress &address) const
 {
     return int(std::count_if(m_guests.begin(), m_guests.end(),
                              [&](const Guest &guest) { return guest.isStranger && guest.address.isEqual(address); }));
-}
-
-bool ConnectionGate::takeToken(qint64 now)
-{
-    const qint64 token = 1'000'000'000 / m_limits.acceptsPerSecond;
-    const qint64 full = token * m_limits.acceptsAtOnce;
-    m_filled = m_isFilled ? std::min(full, m_filled + (now - m_filledAt)) : full;
-    m_isFilled = true;
-    m_filledAt = now;
-    if (m_filled < token)
-        return false;
-    m_filled -= token;
-    return true;
 }
 
 }  // namespace qplc

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "TokenBucket.h"
+
 #include <QtCore/QHash>
 #include <QtCore/QVector>
 #include <QtNetwork/QHostAddress>
@@ -27,7 +29,11 @@ public:
     enum Refusal : quint8 { Admitted, TooManyConnections, TooManyOfAddress, TooFast };
     using Ticket = quint64;  // of a connection; never 0
 
-    void setLimits(const Limits &limits) { m_limits = limits; }
+    void setLimits(const Limits &limits)
+    {
+        m_limits = limits;
+        m_accepts = TokenBucket(limits.acceptsPerSecond, limits.acceptsAtOnce);
+    }
     const Limits &limits() const { return m_limits; }
 
     /// Whether the next connection may be taken out of the queue of the system.
@@ -55,16 +61,12 @@ private:
         qint64 deadline = 0;
     };
     int strangersOf(const QHostAddress &address) const;
-    bool takeToken(qint64 now);
 
     Limits m_limits;
     QHash<Ticket, Guest> m_guests;
     int m_strangers = 0;
     Ticket m_last = 0;
-    // tokens of a bucket that fills with acceptsPerSecond; counted in ns of filling
-    qint64 m_filled = 0;
-    qint64 m_filledAt = 0;
-    bool m_isFilled = false;
+    TokenBucket m_accepts{Limits().acceptsPerSecond, Limits().acceptsAtOnce};
 };
 
 }  // namespace qplc

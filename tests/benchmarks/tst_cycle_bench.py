@@ -40,6 +40,13 @@ class Bench(unittest.TestCase):
                     self.assertLessEqual(figures["rtt_p50_us"], figures["rtt_p99_us"])
                     self.assertLessEqual(figures["rtt_p99_us"], figures["rtt_max_us"])
 
+    def test_sealed_frames_give_right_answers(self):
+        for transport in ("udp", "tcp"):
+            with self.subTest(transport=transport):
+                figures = self.figures("--transport", transport, "--slaves", "3", "--sealed")
+                self.assertEqual((figures["variant"], figures["errors"], figures["overruns"]), (f"{transport} sealed", 0, 0))
+                self.assertGreater(figures["cycles"], 20)
+
     def test_a_paced_run_keeps_its_grid(self):
         figures = self.figures("--period-us", "5000", "--slaves", "2")
         self.assertEqual(set(figures), PACED_KEYS)
@@ -56,7 +63,7 @@ class Bench(unittest.TestCase):
         self.assertEqual((figures["in"], figures["out"], figures["errors"]), (1, 1000, 0))
 
     def test_bad_calls_are_refused_in_one_sentence(self):
-        for arguments, text in ((["--transport", "pigeon"], "use one of"), (["--slaves", "0"], "1 ... 250"), (["--period-us", "9"], "use 10 or more"),
+        for arguments, text in ((["--transport", "pigeon"], "use one of"), (["--slaves", "0"], "1 ... 250"), (["--sealed", "--transport", "local"], "not sealed"), (["--period-us", "9"], "use 10 or more"),
                                 (["--period-us", "-1"], "0 ... 10000000"), (["--seconds", "x"], "--seconds"), (["--nonsense"], "nonsense")):
             with self.subTest(arguments=arguments):
                 result = run(*arguments)

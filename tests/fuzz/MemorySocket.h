@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <QtNetwork/QTcpServer>
 #include <QtNetwork/QTcpSocket>
 
 #include <algorithm>
@@ -28,19 +27,6 @@ public:
     }
     void disconnectFromHost() override { end(); }
     qint64 bytesAvailable() const override { return m_bytes.size(); }
-
-    /// Makes \a server accept a new connection.
-    static MemorySocket *connectTo(QTcpServer *server)
-    {
-        struct Door : QTcpServer
-        {
-            using QTcpServer::addPendingConnection;
-        };
-        auto *socket = new MemorySocket;
-        (server->*&Door::addPendingConnection)(socket);
-        Q_EMIT server->newConnection();
-        return socket;
-    }
 
 protected:
     qint64 readData(char *data, qint64 maximum) override

@@ -56,7 +56,7 @@ public:
         const auto what = input->number<std::uint8_t>();
         const auto who = input->number<std::uint8_t>();
         const QByteArray bytes = input->bytes(input->number<std::uint16_t>());
-        switch (what % 8) {
+        switch (what % 9) {
         case 0:
             send(who, bytes);
             break;
@@ -79,6 +79,9 @@ public:
         case 6:
             timeOut();
             break;
+        case 7:
+            become(who);
+            break;
         default:
             QCoreApplication::processEvents();
             break;
@@ -92,8 +95,23 @@ private:
 
     void connect()
     {
-        if (m_sockets.size() < 16)
-            m_sockets.emplace_back(MemorySocket::connectTo(m_inside.server->findChild<QTcpServer *>()));
+        if (m_sockets.size() >= 16)
+            return;
+        m_sockets.emplace_back(new MemorySocket);
+        auto &door = const_cast<qplc::MasterDoor &>(m_inside.server->door());
+        Q_EMIT door.entered(new QPlcSlaveSocket(m_sockets.back()), m_peer, 0);
+    }
+
+    /// Who comes next: anybody without security (at first), or somebody known with a role.
+    void become(std::uint8_t who)
+    {
+        m_peer = {};
+        m_peer.isSecured = who > 0;
+        m_peer.isCyclicOnly = who % 8 == 7;
+        m_peer.role = qplc::Role(who / 8 % 4);
+        m_peer.mayWriteAll = who < 128;
+        m_peer.writes = QStringList{QStringLiteral("tether*")};
+        m_peer.identity = who == 0 ? QString() : QStringLiteral("Winch");
     }
 
     MemorySocket *socketOf(std::size_t who) const
@@ -186,6 +204,7 @@ private:
 
     QPlcMasterNode m_master;
     QPlcMasterNodePrivate &m_inside;
+    qplc::Peer m_peer;
     std::vector<QPointer<MemorySocket>> m_sockets;
 };
 

@@ -84,7 +84,7 @@ def cyclic_frames():
 
 # ---- sessions: records of what, who, length, bytes ------------------------------------------------------------------
 
-MESSAGE, RAW, CONNECT, CLOSE, ANSWER, ATTACH, TIME_OUT, EVENTS = range(8)
+MESSAGE, RAW, CONNECT, CLOSE, ANSWER, ATTACH, TIME_OUT, BECOME, EVENTS = range(9)
 NUMBERS = {row["kindName"]: row["kind"] for row in vectors("control_frames")["good"]}
 
 
@@ -154,6 +154,9 @@ def sessions():
         "leases": winch + tools_all + leases + record(CLOSE, 2),
         "every message before hello": every,
         "every message of a tool": hello(0, "Anna", "tool") + every[:3000],
+        "an observer": record(BECOME, 1) + winch + start + commands + settings,
+        "every role": b"".join(record(BECOME, 8 * role + 1) + record(CONNECT) + message(role, "Hello", protocol=1, name="Winch", role="node", features=[])
+                               + message(role, "Stop") + message(role, "SetSignals", values=dict(tetherSpeed="1", mode="2")) for role in range(4)),
         "garbage": record(RAW, 0, b"GET / HTTP/1.1\r\n\r\n") + record(CONNECT) + record(RAW, 1, b"\xff" * 64),
     }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "NodeFixtures.h"
+#include "node/SealFields.h"
 #include "protocol/ControlFrame.h"
 #include "protocol/CyclicFrame.h"
 #include "signals/PayloadLayout.h"
@@ -153,10 +154,12 @@ public:
         const auto node = quint16(message.fields().value(QStringLiteral("node")).toInt());
         const qplc::PayloadLayout in(table, indicesOf(table, inputs));
         const qplc::PayloadLayout out(table, indicesOf(table, outputs));
-        m_decoder = qplc::FrameDecoder(qplc::FrameKind::Inputs, {session, node, in.hash()},
-                                       in.partBorders(qplc::MaximumCyclicPayload));
-        m_encoder = qplc::FrameEncoder(qplc::FrameKind::Outputs, {session, node, out.hash()},
-                                       out.partBorders(qplc::MaximumCyclicPayload));
+        const auto keys = qplc::sealKeys(message.fields().value(QStringLiteral("seal")).toObject());
+        const quint32 longest = qplc::maximumPayload(keys.has_value());
+        m_decoder = qplc::FrameDecoder(qplc::FrameKind::Inputs, {session, node, in.hash()}, in.partBorders(longest),
+                                       keys ? &keys->inputs : nullptr);
+        m_encoder = qplc::FrameEncoder(qplc::FrameKind::Outputs, {session, node, out.hash()}, out.partBorders(longest),
+                                       keys ? &keys->outputs : nullptr);
         return message.kind() == QPlcMessage::Registered;
     }
     /// Attaches the cyclic TCP connection with the token given, or that of the registration.
@@ -182,7 +185,7 @@ public:
         QVector<QByteArray> parts;
         qplc::FrameHeader header;
         header.flags = flags;
-        header.cycle = quint32(cycle);
+        header.cycle = cycle;
         for (std::size_t part = 0; part < m_encoder.partCount(); ++part) {
             parts << QByteArray(int(m_encoder.partSize(part)), '\0');
             m_encoder.encode(part, header, values.constData(), parts.last().data());

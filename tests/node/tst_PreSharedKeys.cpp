@@ -232,13 +232,13 @@ void tst_PreSharedKeys::aMasterThatSaysNothingIsGivenUp()
 void tst_PreSharedKeys::theOtherNodeIsNoMaster()
 {
     LogCapture log;
-    TestMaster false_;
-    false_.setSecurity(QPlcSecurity::preSharedKeys(
+    TestMaster impostor;
+    impostor.setSecurity(QPlcSecurity::preSharedKeys(
         m_files.write("false.ini", SecurityFiles::section("Counter", SecurityFiles::key('b'), "Node"))));
-    QVERIFY(false_.listen());
+    QVERIFY(impostor.listen());
     CounterNode node;
     node.setSecurity(m_files.counter());
-    QVERIFY(!false_.admit(node, "udp"));
+    QVERIFY(!impostor.admit(node, "udp"));
     QVERIFY(!node.isSecured());
 }
 

@@ -15,6 +15,7 @@ private Q_SLOTS:
     void listsEveryKindWithItsNumber();
     void describesTheFieldsOfEveryExample();
     void worksOutTheExampleOfTheVectors();
+    void worksOutTheSealedExampleOfTheVectors();
 
 private:
     QString m_text;
@@ -55,6 +56,17 @@ void tst_ProtocolDocument::worksOutTheExampleOfTheVectors()
                            example[QStringLiteral("payload")], example[QStringLiteral("frames")].toArray().at(0)};
     for (const QJsonValue hex : parts)
         QVERIFY2(m_text.contains(hex.toString()), qPrintable(hex.toString()));
+}
+
+void tst_ProtocolDocument::worksOutTheSealedExampleOfTheVectors()
+{
+    const QJsonObject example
+        = vectors::file(QStringLiteral("sealed_frames.json"))[QStringLiteral("frames")].toArray().at(0).toObject();
+    const QString frame = example[QStringLiteral("frames")].toArray().at(0).toString();
+    const int header = 2 * 12;
+    const int tag = frame.size() - 2 * 16;
+    for (const QString &hex : {frame.left(header), frame.mid(header, tag - header), frame.mid(tag)})
+        QVERIFY2(m_text.contains(hex), qPrintable(hex));
 }
 
 QTEST_APPLESS_MAIN(tst_ProtocolDocument)

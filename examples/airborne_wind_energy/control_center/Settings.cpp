@@ -94,6 +94,7 @@ void addControlCenterOptions(QPlcApplicationOptions &application)
         QStringLiteral(
             "Time until the picture is made: of flight with --demo, else since the window is open [s]. Without it 5."),
         "SECONDS");
+    application.addSecurityOptions(QPlcSecurity::NodeSide);
 }
 
 bool readControlCenterOptions(QPlcApplicationOptions &application, ControlCenterSettings *settings)
@@ -103,7 +104,15 @@ bool readControlCenterOptions(QPlcApplicationOptions &application, ControlCenter
     if (application.isSet(QStringLiteral("after"))
         && !application.number(QStringLiteral("after"), 0.0, 86400.0, &settings->after))
         return false;
-    QString error = readMasters(application.values(QStringLiteral("master")), settings);
+    QPlcSecurity security;
+    if (!application.readSecurityOptions(QPlcSecurity::NodeSide, &security))
+        return false;
+    QPlcSecurity::setCurrent(security);
+    QString error = settings->demo && !security.isNone()
+        ? QStringLiteral("--demo flies without security, on this computer; leave out --security")
+        : QString();
+    if (error.isEmpty())
+        error = readMasters(application.values(QStringLiteral("master")), settings);
     if (error.isEmpty())
         error = readLook(application, settings);
     if (error.isEmpty() && application.isSet(QStringLiteral("screenshot")))

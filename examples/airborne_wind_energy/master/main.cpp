@@ -15,6 +15,7 @@ struct MasterSettings
     QHostAddress multicastGroup;  // null: none
     QPlcRealTimeOptions realTime;
     QString faultPlan;
+    QPlcSecurity security;
 };
 
 void addMasterOptions(QPlcCoreApplication &application)
@@ -35,7 +36,9 @@ void addMasterOptions(QPlcCoreApplication &application)
                            QStringLiteral("ADDRESS")));
     application.addOption(QCommandLineOption(
         QStringLiteral("insecure-network"),
-        QStringLiteral("Lets --listen open the plant to the network, where everybody can command it.")));
+        QStringLiteral(
+            "Lets --listen open the plant to the network without --security: everybody there can command it.")));
+    application.addSecurityOptions(QPlcSecurity::MasterSide);
     application.addOption(QCommandLineOption(
         QStringLiteral("beacon"),
         QStringLiteral("Tells the network of --listen every 2 s where this master is, for qtplc find and windows.")));
@@ -81,7 +84,9 @@ bool readMasterOptions(QPlcCoreApplication &application, MasterSettings *setting
     if (!awe::readRunOptions(application, &settings->run)
         || !application.integer(QStringLiteral("port"), 0, 65535, &port)
         || !application.number(QStringLiteral("mean-wind"), 0.0, 100.0, &settings->run.nominalWindSpeed)
-        || !application.readRealTimeOptions(&settings->realTime) || !application.readFaultPlan(&settings->faultPlan))
+        || !application.readRealTimeOptions(&settings->realTime)
+        || !application.readSecurityOptions(QPlcSecurity::MasterSide, &settings->security)
+        || !application.readFaultPlan(&settings->faultPlan))
         return false;
     settings->port = quint16(port);
     settings->run.stay = application.isSet(QStringLiteral("stay"));
@@ -119,6 +124,7 @@ int main(int argc, char **argv)
     QPlcMasterNode master;
     master.setRealTimeOptions(settings.realTime);
     master.setInsecureNetworkAllowed(application.isSet(QStringLiteral("insecure-network")));
+    master.setSecurity(settings.security);
     master.setMulticastGroup(settings.multicastGroup);
     master.setFaultPlan(settings.faultPlan);
     master.setBeacon(application.isSet(QStringLiteral("beacon")));

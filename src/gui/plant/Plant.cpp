@@ -142,6 +142,7 @@ void Plant::connected(const Message &hello, const QPlcSignalTable &newTable)
     }
     m_status = {};
     m_status.state = printable(hello.text(QStringLiteral("state")));
+    m_isInsecure = hello.text(QStringLiteral("security")) == QLatin1String("insecure");
     m_polls = 0;
     m_frameTimer.start();
     m_pollTimer.start();

@@ -54,6 +54,8 @@ public:
     /// Time until the next attempt to connect [s]; -1 when none waits.
     double nextAttempt() const { return m_connection.nextAttempt(); }
     bool isConnected() const { return connectionState() == PlantConnection::Connected; }
+    /// Whether the master listens to a network, and asks nobody who he is.
+    bool isInsecure() const { return m_isInsecure; }
     /// What the master tells of this window, which is a node that listens; null: nothing yet.
     const NodeStatus *ownNode() const { return m_status.node(m_connection.nodeName()); }
     /// One line for people: "RealTime", "Disconnected: Connection refused".
@@ -174,6 +176,7 @@ private:
     QElapsedTimer m_sinceRate;
     quint64 m_rowsAtRate = 0;
     double m_updateRate = 0.0;
+    bool m_isInsecure = false;
     int m_lastCommand = 0;
 };
 

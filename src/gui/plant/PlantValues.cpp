@@ -11,7 +11,7 @@ namespace {
 constexpr int leastRows = 16;
 constexpr std::int64_t bytesOfRow(int channels)
 {
-    return 9 + std::int64_t(channels) * 23 / 5;  // as SignalStore says
+    return 9 + std::int64_t(channels) * 13 / 3;  // as SignalStore says
 }
 
 }  // namespace

@@ -13,21 +13,24 @@ using Row = SignalStore::Row;
 
 constexpr SignalStore::Time periodsOfNewest = 3;
 constexpr SignalStore::Time leastOfNewest = 500'000'000;  // [ns]
-constexpr int fanOutBits = 4;
+constexpr int binBits = 5;                                // of the first level: half the memory of bins of 16 rows
+constexpr int fanOutBits = 4;                             // from there on: larger steps would be slower to draw
+constexpr Row rowsOfBin = Row(1) << binBits;
 constexpr Row fanOut = Row(1) << fanOutBits;
 constexpr int wordBits = 64;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr float noValue = std::numeric_limits<float>::quiet_NaN();
 constexpr SignalStore::Range nothing{infinity, -infinity};
 
-Row roundedUp(Row row)
+Row roundedUp(Row row, int bits)
 {
-    return (row + fanOut - 1) & ~(fanOut - 1);
+    const Row step = Row(1) << bits;
+    return (row + step - 1) & ~(step - 1);
 }
 
-Row roundedDown(Row row)
+Row roundedDown(Row row, int bits)
 {
-    return row & ~(fanOut - 1);
+    return row & ~((Row(1) << bits) - 1);
 }
 
 // Each comparison with NaN is false: NaN changes nothing.
@@ -71,13 +74,13 @@ std::size_t firstBit(const std::vector<std::uint64_t> &words, std::size_t from, 
 SignalStore::SignalStore(int channels, int capacity)
     : m_channels(channels)
     , m_capacity(capacity)
-    , m_rows(std::size_t(roundedUp(Row(std::max(capacity, int(fanOut))))))
+    , m_rows(std::size_t(roundedUp(Row(std::max(capacity, int(rowsOfBin))), binBits)))
     , m_times(m_rows)
     , m_values(std::size_t(channels) * m_rows)
     , m_beginsAnew((m_rows + wordBits - 1) / wordBits)
 {
-    assert(channels >= 0 && capacity >= int(fanOut));
-    for (std::size_t size = fanOut; size <= m_rows; size *= fanOut) {
+    assert(channels >= 0 && capacity >= 16);
+    for (std::size_t size = rowsOfBin; size <= m_rows; size *= fanOut) {
         const std::size_t slots = m_rows / size;  // no more bins than that are whole
         m_levels.push_back({slots, std::vector<Range>(std::size_t(channels) * slots)});
     }
@@ -196,12 +199,15 @@ SignalStore::Range SignalStore::range(int channel, Row begin, Row end) const
             level ? includeBins(&range, *level, channel, from, to) : includeValues(&range, channel, from, to);
     };
     for (const Level &coarser : m_levels) {
-        if (roundedUp(begin) >= roundedDown(end))
+        const int bits = level ? fanOutBits : binBits;
+        const Row first = roundedUp(begin, bits);
+        const Row last = roundedDown(end, bits);
+        if (first >= last)
             break;
-        add(begin, roundedUp(begin));
-        add(roundedDown(end), end);
-        begin = roundedUp(begin) >> fanOutBits;
-        end = roundedDown(end) >> fanOutBits;
+        add(begin, first);
+        add(last, end);
+        begin = first >> bits;
+        end = last >> bits;
         level = &coarser;
     }
     add(begin, end);
@@ -243,15 +249,17 @@ void SignalStore::closeBins()
     Row end = m_end;
     const Level *finer = nullptr;  // null: single rows
     for (Level &level : m_levels) {
-        if (end % fanOut != 0)
+        const int bits = finer ? fanOutBits : binBits;
+        const Row size = Row(1) << bits;
+        if (end % size != 0)
             return;
-        const Row begin = end - fanOut;
-        end >>= fanOutBits;
+        const Row begin = end - size;
+        end >>= bits;
         Range *bin = level.bins.data() + (end - 1) % level.slots;
         for (int channel = 0; channel < m_channels; ++channel, bin += level.slots) {
             *bin = nothing;
-            finer ? includeBins(bin, *finer, channel, begin, begin + fanOut)
-                  : includeValues(bin, channel, begin, begin + fanOut);
+            finer ? includeBins(bin, *finer, channel, begin, begin + size)
+                  : includeValues(bin, channel, begin, begin + size);
         }
         finer = &level;
     }

@@ -38,9 +38,9 @@ BarButton *FoundMasters::makeButton(const QString &address)
 
 void FoundMasters::describe(BarButton *button, const FoundMaster &master) const
 {
-    const QString place = master.isLocal ? tr("this computer")
-        : master.isSecured               ? tr("network")
-                                         : tr("network, insecure");
+    const QString place = master.isSecured ? (master.isLocal ? tr("this computer, secured") : tr("network, secured"))
+        : master.isLocal                   ? tr("this computer")
+                                           : tr("network, insecure");
     button->setText(fontMetrics().elidedText(master.name, Qt::ElideMiddle, m_nameWidth));
     button->setShortcut(QKeySequence());  // an '&' that somebody has sent takes no keys
     button->setDetail(tr("%1, %2").arg(master.address, place));

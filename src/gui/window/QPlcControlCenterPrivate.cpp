@@ -4,6 +4,7 @@
 #include "DesktopTheme.h"
 #include "DoubleEscape.h"
 #include "FaultBanner.h"
+#include "InsecureNotice.h"
 #include "LongPress.h"
 #include "PanelKeysFirst.h"
 #include "QPlcSignalTree.h"
@@ -75,6 +76,7 @@ void QPlcControlCenter::Private::makeCentre()
     column->addWidget(latchBanner);
     column->addWidget(new FaultBanner(&context, centre));
     column->addWidget(connectStrip);
+    column->addWidget(new InsecureNotice(&context, centre));
     column->addWidget(hint);
     column->addWidget(pages, 1);
     q->setCentralWidget(centre);

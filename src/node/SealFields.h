@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "protocol/FrameSeal.h"
+
+#include <QtCore/QJsonObject>
+
+#include <optional>
+
+namespace qplc {
+
+/// What a master tells its node to seal frames with: field `seal` of Registered. Only for a secured connection.
+QJsonObject sealFields(const SealKeys &keys);
+/// Nothing unless both keys are there and whole.
+std::optional<SealKeys> sealKeys(const QJsonObject &fields);
+
+}  // namespace qplc

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QtCore/QtGlobal>
+
+#include <algorithm>
+
+namespace qplc {
+
+/// Allows something so many times a second on the long run, and some times more after a pause. Looks at no clock: times are ns on any steady clock.
+class TokenBucket
+{
+public:
+    /// \param perSecond  1 ... 10^9; \param atOnce  at least 1
+    TokenBucket(int perSecond, int atOnce)
+        : m_token(1'000'000'000 / perSecond)
+        , m_full(m_token * atOnce)
+        , m_filled(m_full)
+    {
+    }
+    /// \return false: not now
+    bool take(qint64 now)
+    {
+        if (m_filled < m_full)
+            m_filled = std::min(m_full, m_filled + std::max<qint64>(now - m_filledAt, 0));
+        m_filledAt = now;
+        if (m_filled < m_token)
+            return false;
+        m_filled -= m_token;
+        return true;
+    }
+
+private:
+    qint64 m_token;  // [ns] that it takes to fill in one
+    qint64 m_full;
+    qint64 m_filled;
+    qint64 m_filledAt = 0;
+};
+
+}  // namespace qplc

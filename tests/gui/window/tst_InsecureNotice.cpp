@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "WindowFixtures.h"
+#include "gui/window/InsecureNotice.h"
+
+using namespace qplc;
+
+/// What the window says of masters that anybody in the network can command, and only of those.
+class tst_InsecureNotice : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void initTestCase() { m_settings = std::make_unique<TestSettings>(); }
+    void aMasterOfThisComputerIsNoReason();
+    void anOpenMasterIsNamedUntilItIsLeft();
+
+private:
+    std::unique_ptr<TestSettings> m_settings;
+};
+
+void tst_InsecureNotice::aMasterOfThisComputerIsNoReason()
+{
+    RunningMaster master;
+    WindowFixture fixture;
+    fixture.connectTo(master.address());
+    QTRY_VERIFY_WITH_TIMEOUT(fixture.window.isConnected(master.address()), patience);
+    QCOMPARE(fixture.part<InsecureNotice>()->text(), QString());
+}
+
+void tst_InsecureNotice::anOpenMasterIsNamedUntilItIsLeft()
+{
+    QTest::ignoreMessage(QtWarningMsg, QRegularExpression(QStringLiteral("WITHOUT SECURITY")));
+    TestMaster master;
+    master.setInsecureNetworkAllowed(true);
+    QVERIFY(master.listen(QHostAddress::AnyIPv4));
+    const QString address = QStringLiteral("127.0.0.1:%1").arg(master.serverPort());
+    WindowFixture fixture;
+    fixture.connectTo(address);
+    QTRY_COMPARE_WITH_TIMEOUT(
+        fixture.part<InsecureNotice>()->text(),
+        QStringLiteral("Without security: everybody in the network can read and command %1.").arg(address), patience);
+    QVERIFY(fixture.part<InsecureNotice>()->isVisible());
+    fixture.window.disconnectFromMaster(address);
+    QTRY_COMPARE_WITH_TIMEOUT(fixture.part<InsecureNotice>()->text(), QString(), patience);
+}
+
+QTEST_MAIN(tst_InsecureNotice)
+#include "tst_InsecureNotice.moc"

@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "SecurityFixtures.h"
+#include "node/AccessRights.h"
+#include "node/Keyring.h"
+
+#include <QtCore/QMetaEnum>
+#include <QtTest/QtTest>
+
+using qplc::Keyring;
+using qplc::Peer;
+using qplc::Role;
+
+// Who may do what: the table, the rights of single signals, and that a real master keeps to them.
+class tst_AccessRights : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void eachRoleMaySendWhatItIsMeantTo_data();
+    void eachRoleMaySendWhatItIsMeantTo();
+    void aMasterKeepsToTheTable_data();
+    void aMasterKeepsToTheTable();
+    void everybodyWhoIsKnownMayStop_data();
+    void everybodyWhoIsKnownMayStop();
+    void withoutSecurityEverybodyMayEverything();
+    void aNodeHasTheNameOfItsIdentity();
+    void anObserverListensOnly();
+    void signalsAreWrittenByThoseWhoMay();
+    void commandsAreWrittenDown();
+    void rolesHaveNames();
+    void keysFilesHaveClearErrors_data();
+    void keysFilesHaveClearErrors();
+
+private:
+    static Peer peerOf(Role role)
+    {
+        Peer peer;
+        peer.isSecured = true;
+        peer.identity = "somebody";
+        peer.role = role;
+        return peer;
+    }
+    /// Whether a person who reads the manual would expect \a role to be allowed to send \a kind. Written apart from the table.
+    static bool isMeantTo(Role role, const QString &kind)
+    {
+        static const QStringList looking{"GetState",    "GetSignals", "GetStatistics",
+                                         "GetSchedule", "GetLeases",  "GetEvents"};
+        static const QStringList takingPart{
+            "Hello",       "Register",      "AttachCyclicChannel", "ReceiveMyInitialOutputStates",
+            "Initialized", "RealTimeReady", "NodeFault",           "Stop",
+            "SafeStop"};
+        static const QStringList operating{"InitializeAllStates", "Arm",       "Reset",       "StartRealTime",
+                                           "SetSignals",          "TakeLease", "ReleaseLease"};
+        return looking.contains(kind) || takingPart.contains(kind)
+            || (operating.contains(kind) && (role == Role::Operator || role == Role::Engineer));
+    }
+    static bool isOfMasters(const QString &kind)
+    {
+        static const QStringList kinds{"Invalid",
+                                       "Registered",
+                                       "Rejected",
+                                       "CyclicChannelAttached",
+                                       "MasterEnds",
+                                       "SendYourInitialOutputStates",
+                                       "InitializeWithValues",
+                                       "StatesInitialized",
+                                       "RealTimeStarted",
+                                       "RealTimeStopped",
+                                       "Armed",
+                                       "State",
+                                       "Signals",
+                                       "Done",
+                                       "Failed",
+                                       "Statistics",
+                                       "Schedule",
+                                       "Leases",
+                                       "LeasesChanged",
+                                       "Events"};
+        return kinds.contains(kind);
+    }
+    void everyRoleAndKind();
+    SecurityFiles m_files;
+};
+
+/// Each role and each kind that a client may send.
+void tst_AccessRights::everyRoleAndKind()
+{
+    QTest::addColumn<int>("role");
+    QTest::addColumn<int>("kind");
+    const QMetaEnum kinds = QMetaEnum::fromType<QPlcMessage::Kind>();
+    for (int i = 0; i < kinds.keyCount(); ++i) {
+        for (Role role : qplc::allRoles)
+            QTest::addRow("%s %s", qPrintable(qplc::roleName(role)), kinds.key(i)) << int(role) << kinds.value(i);
+    }
+}
+
+void tst_AccessRights::eachRoleMaySendWhatItIsMeantTo_data()
+{
+    everyRoleAndKind();
+}
+
+void tst_AccessRights::eachRoleMaySendWhatItIsMeantTo()
+{
+    QFETCH(int, role);
+    QFETCH(int, kind);
+    const auto message = QPlcMessage::Kind(kind);
+    const QString name = QPlcMessage::kindName(message);
+    QCOMPARE(qplc::whoMaySend(message).contains(Role(role)), isMeantTo(Role(role), name));
+    QCOMPARE(qplc::whoMaySend(message).isEmpty(), isOfMasters(name));
+}
+
+void tst_AccessRights::aMasterKeepsToTheTable_data()
+{
+    everyRoleAndKind();
+}
+
+/// A client without any fields: what it may not do is denied, whatever else would be wrong; what it may is answered with something else.
+void tst_AccessRights::aMasterKeepsToTheTable()
+{
+    QFETCH(int, role);
+    QFETCH(int, kind);
+    const QString name = QPlcMessage::kindName(QPlcMessage::Kind(kind));
+    if (isOfMasters(name) || isMeantTo(Role(role), name))
+        return;  // without a right there is nothing to be denied; rights are shown by the tests of each message
+    LogCapture log;
+    TestMaster master;
+    master.setSecurity(QPlcSecurity::preSharedKeys(m_files.masterKeys()));
+    QVERIFY(master.listen());
+    const QPlcSecurity securities[] = {m_files.bert(), m_files.anna(), m_files.counter(), m_files.carl()};
+    SecuredTool tool(securities[role]);
+    QVERIFY(tool.greetAt(master.serverPort()));
+    const QPlcMessage answer = tool.ask(QPlcMessage::Kind(kind));
+    QCOMPARE(answer.kind(), QPlcMessage::Failed);
+    QCOMPARE(answer.text("error"), QString("Denied"));
+    QCOMPARE(answer.text("text"), QString("Denied: role %1 may not %2").arg(qplc::roleName(Role(role)), name));
+    QCOMPARE(master.statistics().deniedMessages, quint64(1));
+    QCOMPARE(master.state(), QPlcMasterNode::Off);
+    QVERIFY(!log.matching("qtplc.audit: " + answer.text("text")).isEmpty());
+    QCOMPARE(tool.ask(QPlcMessage::GetState).kind(), QPlcMessage::State);  // the connection stays
+}
+
+void tst_AccessRights::everybodyWhoIsKnownMayStop_data()
+{
+    QTest::addColumn<int>("role");
+    for (Role role : qplc::allRoles)
+        QTest::newRow(qPrintable(qplc::roleName(role))) << int(role);
+}
+
+void tst_AccessRights::everybodyWhoIsKnownMayStop()
+{
+    QFETCH(int, role);
+    TestMaster master(QPlcClock::realTime());
+    master.setSecurity(QPlcSecurity::preSharedKeys(m_files.masterKeys()));
+    CounterNode local;
+    QVERIFY(master.addLocalNode(&local) && master.listen() && master.startRealTime());
+    QVERIFY(master.waitForState(QPlcMasterNode::RealTime));
+    const QPlcSecurity securities[] = {m_files.bert(), m_files.anna(), m_files.echo(), m_files.carl()};
+    SecuredTool tool(securities[role]);
+    QVERIFY(tool.greetAt(master.serverPort()));
+    QCOMPARE(tool.ask(QPlcMessage::Stop).kind(), QPlcMessage::Done);
+    QCOMPARE(master.state(), QPlcMasterNode::Off);
+}
+
+void tst_AccessRights::withoutSecurityEverybodyMayEverything()
+{
+    const QMetaEnum kinds = QMetaEnum::fromType<QPlcMessage::Kind>();
+    for (int i = 0; i < kinds.keyCount(); ++i)
+        QCOMPARE(qplc::refusalOf(Peer(), QPlcMessage(QPlcMessage::Kind(kinds.value(i)))), QString());
+}
+
+void tst_AccessRights::aNodeHasTheNameOfItsIdentity()
+{
+    LogCapture log;
+    TestMaster master;
+    master.setSecurity(QPlcSecurity::preSharedKeys(m_files.masterKeys()));
+    QVERIFY(master.listen());
+    EchoNode node(QStringLiteral("Counter"));
+    node.setSecurity(m_files.echo());
+    QVERIFY(!node.connectToMasterAndWaitForConnected(master.protocol("udp"), std::chrono::milliseconds(500)));
+    QVERIFY(!log.matching("identity 'Echo' may not be node 'Counter'").isEmpty());
+    QVERIFY(master.nodes().isEmpty());
+}
+
+void tst_AccessRights::anObserverListensOnly()
+{
+    TestMaster master;
+    master.setSecurity(QPlcSecurity::preSharedKeys(m_files.masterKeys()));
+    QVERIFY(master.listen());
+    ScriptedNode node;
+    node.control.setSecurity(m_files.bert());
+    node.listener = true;
+    node.outputs.clear();
+    node.initialValues.clear();
+    QVERIFY(node.registerAt(master.serverPort()));
+    QCOMPARE(qplc::refusalOf(peerOf(Role::Observer), QPlcMessage(QPlcMessage::Register, {{"name", "x"}})).isEmpty(),
+             false);
+    const QJsonObject fields{{"name", "x"}, {"listener", true}, {"outputs", QJsonArray{QJsonObject{{"name", "sum"}}}}};
+    QVERIFY(qplc::refusalOf(peerOf(Role::Observer), QPlcMessage(QPlcMessage::Register, fields))
+                .contains("may not write signal 'sum'"));
+}
+
+void tst_AccessRights::signalsAreWrittenByThoseWhoMay()
+{
+    LogCapture log;
+    QPlcSecurity security = QPlcSecurity::preSharedKeys(m_files.masterKeys());
+    security.setAccessFile(
+        m_files.write("access.ini",
+                      "[anna]\nrole = Operator\nwrites = set*, free\n"
+                      "[carl]\nrole = Engineer\nwrites =\n[Counter]\nrole = Node\nwrites = count\n"));
+    TestMaster master;
+    master.setSecurity(security);
+    QVERIFY2(master.listen(), qPrintable(master.errorString()));
+    SecuredTool anna(m_files.anna());
+    QVERIFY(anna.greetAt(master.serverPort()));
+    const auto set = [](SecuredTool &tool, const QJsonObject &values) {
+        return tool.ask(QPlcMessage::SetSignals, {{"values", values}});
+    };
+    QCOMPARE(set(anna, {{"setpoint", "1"}, {"free", "2"}}).kind(), QPlcMessage::Done);
+    QCOMPARE(set(anna, {{"setpoint", "3"}, {"echo", "2"}}).text("text"),
+             QString("Denied: identity 'anna' with role Operator may not write signal 'echo'"));
+    QCOMPARE(master.signalValue("setpoint").toReal(), 1.0);
+    QCOMPARE(anna.ask(QPlcMessage::TakeLease, {{"signals", QJsonArray{"setpoint", "vector"}}}).text("error"),
+             QString("Denied"));
+    QCOMPARE(anna.ask(QPlcMessage::TakeLease, {{"signals", QJsonArray{"setpoint"}}}).kind(), QPlcMessage::Done);
+    SecuredTool carl(m_files.carl());
+    QVERIFY(carl.greetAt(master.serverPort()));
+    QCOMPARE(set(carl, {{"free", "1"}}).text("error"), QString("Denied"));
+    CounterNode counter;  // writes sum, too
+    counter.setSecurity(m_files.counter());
+    QVERIFY(!counter.connectToMasterAndWaitForConnected(master.protocol("udp"), std::chrono::milliseconds(500)));
+    QVERIFY(!log.matching("identity 'Counter' with role Node may not write signal 'sum'").isEmpty());
+}
+
+void tst_AccessRights::commandsAreWrittenDown()
+{
+    LogCapture log;
+    TestMaster master;
+    master.setSecurity(QPlcSecurity::preSharedKeys(m_files.masterKeys()));
+    CounterNode local;
+    QVERIFY(master.addLocalNode(&local) && master.listen());
+    SecuredTool anna(m_files.anna());
+    QVERIFY(anna.greetAt(master.serverPort()));
+    QCOMPARE(anna.ask(QPlcMessage::Stop).kind(), QPlcMessage::Done);
+    QCOMPARE(log.matching("qtplc.audit: accepted identity 'anna' with role Operator from 127.0.0.1:").size(), 1);
+    QCOMPARE(log.matching("qtplc.audit: identity 'anna' commands Stop from 127.0.0.1:").size(), 1);
+    const QJsonArray events = anna.ask(QPlcMessage::GetEvents).fields().value("events").toArray();
+    int ofSecurity = 0;
+    for (const QJsonValue &event : events)
+        ofSecurity += event["kind"].toString() == QLatin1String("security") ? 1 : 0;
+    QCOMPARE(ofSecurity, 2);
+}
+
+void tst_AccessRights::rolesHaveNames()
+{
+    for (Role role : qplc::allRoles)
+        QVERIFY(qplc::roleOf(qplc::roleName(role)) == role);
+    QVERIFY(!qplc::roleOf("operator") && !qplc::roleOf(""));
+}
+
+void tst_AccessRights::keysFilesHaveClearErrors_data()
+{
+    QTest::addColumn<QByteArray>("text");
+    QTest::addColumn<QString>("error");
+    const QByteArray key = SecurityFiles::key('7');
+    QTest::newRow("good") << "[a]\nkey = " + key + "\nrole = Node\n"
+                          << "";
+    QTest::newRow("empty") << QByteArray() << "";
+    QTest::newRow("short key") << "[a]\nkey = " + key.left(63) + "\nrole = Node\n"
+                               << "k.ini:2:7: 'a' needs key = 64 hexadecimal digits";
+    QTest::newRow("long key") << "[a]\nkey = " + key + "7\nrole = Node\n"
+                              << "k.ini:2:7: 'a' needs key";
+    QTest::newRow("other digits") << "[a]\nkey = " + key.left(63) + "g\nrole = Node\n"
+                                  << "k.ini:2:7: 'a' needs key";
+    QTest::newRow("no key") << QByteArray("[a]\nrole = Node\n") << "k.ini:1:1: 'a' needs key";
+    QTest::newRow("no role") << "[a]\nkey = " + key + "\n"
+                             << "k.ini:1:1: 'a' has the role ''";
+    QTest::newRow("garbage") << QByteArray("\x16\x03\x01\xff") << "k.ini:1:";
+    QTest::newRow("key twice") << "[a]\nkey = " + key + "\nkey = " + key + "\n"
+                               << "k.ini:3:1: 'key' twice";
+    QTest::newRow("key behind a typing error") << "[a]\nkey " + key + "\n"
+                                               << "k.ini:2:";
+}
+
+/// And never a key in them.
+void tst_AccessRights::keysFilesHaveClearErrors()
+{
+    QFETCH(QByteArray, text);
+    QFETCH(QString, error);
+    Keyring keys;
+    QString told;
+    QCOMPARE(keys.parse(text, "k.ini", &told), error.isEmpty());
+    QVERIFY2(error.isEmpty() || told.startsWith(error), qPrintable(told));
+    QVERIFY2(!told.contains("77777777"), qPrintable(told));
+}
+
+QTEST_GUILESS_MAIN(tst_AccessRights)
+#include "tst_AccessRights.moc"

@@ -1,0 +1,408 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "SecurityFixtures.h"
+#include "WireTap.h"
+
+#include <QtTest/QtTest>
+
+#include <random>
+
+// Cycles over a network on which others listen, change, repeat and forge: a real master and real nodes with pre-shared keys on loopback.
+class tst_SealedCycles : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void init() { QPlcSignalIndexTable::setCurrent({}); }
+    void noNonceServesTwoFrames();
+    void valuesAreNotSeenOnTheWire_data();
+    void valuesAreNotSeenOnTheWire();
+    void sharedMemoryIsNotSealed();
+    void everyChangedFrameIsCountedAndDropped_data();
+    void everyChangedFrameIsCountedAndDropped();
+    void framesOfThisRegistrationThatComeAgainAreOld();
+    void framesOfTheLastRegistrationAreForged();
+    void framesOfAnotherNodeOrDirectionAreForged();
+    void aForgedFrameIsToldOnce();
+    void keysAreNotLogged();
+
+private:
+    static QByteArray bytesOf(double value) { return QByteArray(reinterpret_cast<const char *>(&value), sizeof value); }
+    SecurityFiles m_files;
+};
+
+static const double Secret = 1.234567890123456;
+
+// 3 parts of inputs, 3 of outputs when sealed.
+static const QByteArray WideTable = "[a]\ntype = Real64[150]\n[b]\ntype = Real64[150]\n[c]\ntype = Real64[150]\n"
+                                    "[d]\ntype = Real64[150]\n[e]\ntype = Real64[150]\n[f]\ntype = Real64[150]\n";
+
+/// Its output is its input, and 1.
+class Mirror : public QPlcCompactSlaveNode
+{
+    Q_OBJECT
+public:
+    explicit Mirror(const QString &name, const char *input = "setpoint", const char *output = "echo")
+        : QPlcCompactSlaveNode(name)
+        , m_in(this, input)
+        , m_out(this, output)
+    {
+    }
+
+protected:
+    void step(const QPlcCycle &) override { m_out = m_in + 1.0; }
+
+private:
+    QPlcInput<double> m_in;
+    QPlcOutput<double> m_out;
+};
+
+class Wide : public QPlcCompactSlaveNode
+{
+    Q_OBJECT
+public:
+    Wide()
+        : QPlcCompactSlaveNode(QStringLiteral("Wide"))
+    {
+    }
+
+protected:
+    void step(const QPlcCycle &) override { m_d = m_a; }
+
+private:
+    using Values = std::array<double, 150>;
+    QPlcInput<Values> m_a{this, "a"}, m_b{this, "b"}, m_c{this, "c"};
+    QPlcOutput<Values> m_d{this, "d"}, m_e{this, "e"}, m_f{this, "f"};
+};
+
+/// A master with the keys of the nodes Mirror, Stream, Wide and Lossy.
+class SecuredMaster : public TestMaster
+{
+    Q_OBJECT
+public:
+    explicit SecuredMaster(const SecurityFiles &files)
+        : TestMaster(QPlcClock::realTime(), QPlcSignalTable::fromIni(testTable().toIni() + WideTable))
+    {
+        QByteArray keys;
+        for (const char *name : {"Mirror", "Stream", "Wide", "Lossy"})
+            keys += SecurityFiles::section(name, keyOf(name), "Node");
+        setSecurity(QPlcSecurity::preSharedKeys(files.write("plant.ini", keys)));
+        setInterval(std::chrono::milliseconds(5));
+    }
+    static QByteArray keyOf(const QString &name) { return SecurityFiles::key(name.toLower().at(0) == 'm' ? 'a' : 'b'); }
+    static QPlcSecurity securityOf(const SecurityFiles &files, const QString &name)
+    {
+        return QPlcSecurity::preSharedKeys(
+            files.write(name + ".ini", SecurityFiles::section(name.toUtf8(), keyOf(name), "Node")), name);
+    }
+    bool admitSecured(const SecurityFiles &files, QPlcSlaveNode &node, const QString &kind)
+    {
+        node.setSecurity(securityOf(files, node.name()));
+        return admit(node, kind);
+    }
+    bool fly(quint64 cycles) { return startRealTime() && waitForState(RealTime) && waitForCycles(cycles); }
+    QPlcNodeInfo infoOf(const QString &name) const
+    {
+        for (const QPlcNodeInfo &info : nodes()) {
+            if (info.name == name)
+                return info;
+        }
+        return {};
+    }
+};
+
+static bool isOutputs(const wire::Sent &frame)
+{
+    return frame.bytes.size() > 12 && frame.bytes.at(0) == 0x12;
+}
+
+static bool isInputs(const wire::Sent &frame)
+{
+    return frame.bytes.size() > 12 && frame.bytes.at(0) == 0x11;
+}
+
+// ---- nonces ----
+
+/// Answers after some requests were lost: the master sends them again, and the node its answers.
+static void playLossy(ScriptedNode *node, const SecurityFiles &files)
+{
+    node->name = QStringLiteral("Lossy");
+    node->policy = QStringLiteral("SilentWait");
+    node->inputs = QStringList{QStringLiteral("free")};
+    node->outputs = QStringList{QStringLiteral("sum")};
+    node->control.setSecurity(SecuredMaster::securityOf(files, node->name));
+    auto random = std::make_shared<std::mt19937>(7);
+    auto sent = std::make_shared<QHash<quint64, QVector<QByteArray>>>();
+    node->onRequest = [=](const ScriptedNode::Request &request) {
+        if ((*random)() % 4 == 0)
+            return;  // as if it was lost
+        if (!sent->contains(request.cycle))
+            sent->insert(request.cycle, node->answerFrames(request.cycle, QByteArray(8, '\0')));
+        for (const QByteArray &frame : qAsConst((*sent)[request.cycle]))
+            node->sendFrame(frame);
+    };
+}
+
+void tst_SealedCycles::noNonceServesTwoFrames()
+{
+    wire::resetSeals();
+    int registrations = 0;
+    quint64 resent = 0;
+    for (int restart = 0; restart < 2; ++restart) {
+        SecuredMaster master(m_files);
+        QVERIFY(master.listen());
+        Mirror mirror("Mirror");
+        Mirror stream("Stream", "echo", "masterWorkload");
+        Wide wide;
+        ScriptedNode lossy;
+        playLossy(&lossy, m_files);
+        QVERIFY(master.admitSecured(m_files, mirror, "udp"));
+        QVERIFY(master.admitSecured(m_files, stream, "tcp"));
+        QVERIFY(master.admitSecured(m_files, wide, "udp"));
+        QVERIFY(lossy.registerAt(master.serverPort()));
+        registrations += 4;
+        for (int phase = 0; phase < 3; ++phase) {
+            QVERIFY(master.fly(15));
+            mirror.disconnectFromMaster();
+            QTRY_VERIFY(master.infoOf("Mirror").name.isEmpty());
+            QVERIFY(master.admitSecured(m_files, mirror, "udp"));  // while the others run
+            ++registrations;
+            QVERIFY(master.waitForCycles(30));
+            master.stop();
+            resent += master.infoOf("Lossy").resent;
+            QCOMPARE(master.infoOf("Wide").forged + master.infoOf("Stream").forged + master.infoOf("Mirror").forged,
+                     quint64(0));
+        }
+    }
+    const wire::Seals seals = wire::seals();
+    QCOMPARE(seals.conflicts, quint64(0));
+    QCOMPARE(seals.repeated, quint64(0));  // what is sent again was kept
+    QCOMPARE(seals.keys, 2 * registrations);
+    QVERIFY2(seals.frames > 1000, qPrintable(QString::number(seals.frames)));
+    QVERIFY(resent > 10);
+}
+
+// ---- what others see ----
+
+void tst_SealedCycles::valuesAreNotSeenOnTheWire_data()
+{
+    QTest::addColumn<QString>("kind");
+    QTest::addColumn<bool>("isSecured");
+    for (const char *kind : {"udp", "tcp"}) {
+        QTest::addRow("%s, sealed", kind) << kind << true;
+        QTest::addRow("%s, plain: the tap works", kind) << kind << false;
+    }
+}
+
+void tst_SealedCycles::valuesAreNotSeenOnTheWire()
+{
+    QFETCH(QString, kind);
+    QFETCH(bool, isSecured);
+    SecuredMaster master(m_files);
+    if (!isSecured)
+        master.setSecurity(QPlcSecurity());
+    QVERIFY(master.listen());
+    Mirror mirror("Mirror");
+    QVERIFY(isSecured ? master.admitSecured(m_files, mirror, kind) : master.admit(mirror, kind));
+    QVERIFY(master.setSignalValue("setpoint", Secret));
+    wire::listen();
+    QVERIFY(master.fly(20));
+    QCOMPARE(master.signalValue("echo").toReal(), Secret + 1.0);
+    master.stop();
+    const QVector<wire::Sent> inputs = wire::heard(isInputs);
+    const QVector<wire::Sent> outputs = wire::heard(isOutputs);
+    QVERIFY(inputs.size() >= 20 && outputs.size() >= 20);
+    QCOMPARE(inputs.first().bytes.size(), isSecured ? 8 + 28 : 8 + 16);
+    for (const wire::Sent &frame : inputs)
+        QCOMPARE(frame.bytes.contains(bytesOf(Secret)), !isSecured);
+    const auto showsEcho = [](const wire::Sent &f) { return f.bytes.contains(bytesOf(Secret + 1.0)); };
+    QCOMPARE(std::any_of(outputs.begin(), outputs.end(), showsEcho), !isSecured);
+    QVERIFY(!isSecured || wire::heard(showsEcho).isEmpty());
+}
+
+void tst_SealedCycles::sharedMemoryIsNotSealed()
+{
+    SecuredMaster master(m_files);
+    QVERIFY(master.listen());
+    Mirror mirror("Mirror");
+    mirror.setSecurity(SecuredMaster::securityOf(m_files, "Mirror"));
+    wire::resetSeals();
+    QVERIFY2(
+        mirror.connectToMasterAndWaitForConnected(QPlcUnderlyingProtocol::local(QString::number(master.serverPort()))),
+        qPrintable(mirror.errorString()));
+    QVERIFY(master.fly(10));
+    master.stop();
+    QCOMPARE(wire::seals().frames, quint64(0));
+}
+
+// ---- what others send ----
+
+void tst_SealedCycles::everyChangedFrameIsCountedAndDropped_data()
+{
+    QTest::addColumn<bool>("toMaster");
+    QTest::newRow("to the master") << true;
+    QTest::newRow("to the node") << false;
+}
+
+void tst_SealedCycles::everyChangedFrameIsCountedAndDropped()
+{
+    QFETCH(bool, toMaster);
+    SecuredMaster master(m_files);
+    QVERIFY(master.listen());
+    Mirror mirror("Mirror");
+    QVERIFY(master.admitSecured(m_files, mirror, "udp"));
+    QVERIFY(master.setSignalValue("setpoint", Secret));
+    wire::listen();
+    QVERIFY(master.fly(10));
+    const wire::Sent good = wire::heard(toMaster ? isOutputs : isInputs).last();
+    QCOMPARE(good.bytes.size(), 36);
+
+    quint64 rejected = 0;
+    quint64 forged = 0;
+    for (int bit = 0; bit < 36 * 8; ++bit) {
+        QByteArray changed = good.bytes;
+        changed[bit / 8] = char(changed.at(bit / 8) ^ (1 << bit % 8));
+        wire::forge(good, changed);
+        const bool isOfFirstChecks = bit < 8 || bit == 15 || (bit >= 16 && bit < 32);  // kind, Part, session
+        ++(isOfFirstChecks ? rejected : forged);
+        if (bit % 32 == 31)
+            QTest::qWait(5);  // no receiver loses datagrams for want of room
+    }
+    const QByteArray long36(36, 'x');
+    for (const QByteArray &garbage : {QByteArray(), good.bytes.left(35), good.bytes + 'x', long36}) {
+        wire::forge(good, garbage);
+        ++rejected;
+    }
+    if (toMaster) {
+        QTRY_COMPARE(master.infoOf("Mirror").forged, forged);
+        QTRY_COMPARE(master.infoOf("Mirror").rejected, rejected);
+    } else {
+        QTRY_COMPARE(mirror.counters().forged, forged);
+        QTRY_COMPARE(mirror.counters().rejected, rejected);
+    }
+    QCOMPARE(forged, quint64(36 * 8 - 25));
+    QCOMPARE(master.signalValue("echo").toReal(), Secret + 1.0);
+    QVERIFY(master.waitForCycles(master.statistics().cycles + 5));
+    master.stop();
+}
+
+void tst_SealedCycles::framesOfThisRegistrationThatComeAgainAreOld()
+{
+    SecuredMaster master(m_files);
+    QVERIFY(master.listen());
+    Mirror mirror("Mirror");
+    QVERIFY(master.admitSecured(m_files, mirror, "udp"));
+    wire::listen();
+    QVERIFY(master.setSignalValue("setpoint", 5.0));
+    QVERIFY(master.fly(10));
+    QVERIFY(master.setSignalValue("setpoint", Secret));
+    QVERIFY(master.waitForCycles(master.statistics().cycles + 5));
+    const QVector<wire::Sent> outputs = wire::heard(isOutputs).mid(0, 8);
+    const QVector<wire::Sent> inputs = wire::heard(isInputs).mid(0, 8);
+    for (int phase = 0; phase < 2; ++phase) {
+        const quint64 duplicates = master.infoOf("Mirror").duplicates;
+        const quint64 outdated = mirror.counters().outdated + mirror.counters().duplicated;
+        for (const wire::Sent &frame : outputs + inputs)
+            wire::forge(frame, frame.bytes);
+        QTRY_COMPARE(master.infoOf("Mirror").duplicates, duplicates + 8);
+        QTRY_COMPARE(mirror.counters().outdated + mirror.counters().duplicated, outdated + 8);
+        QCOMPARE(master.infoOf("Mirror").forged + mirror.counters().forged, quint64(0));
+        QCOMPARE(master.signalValue("echo").toReal(), Secret + 1.0);
+        master.stop();
+        QVERIFY(master.fly(5));  // a new phase of the same registration
+    }
+    master.stop();
+}
+
+void tst_SealedCycles::framesOfTheLastRegistrationAreForged()
+{
+    SecuredMaster master(m_files);
+    QVERIFY(master.listen());
+    Mirror mirror("Mirror");
+    QVERIFY(master.admitSecured(m_files, mirror, "udp"));
+    wire::listen();
+    QVERIFY(master.fly(10));
+    const QVector<wire::Sent> old = wire::heard(isOutputs).mid(0, 8);
+    master.stop();
+    mirror.disconnectFromMaster();
+    QTRY_VERIFY(master.nodes().isEmpty());
+    QVERIFY(master.admitSecured(m_files, mirror, "udp"));
+    wire::listen();
+    QVERIFY(master.fly(10));
+    const wire::Sent now = wire::heard(isOutputs).last();
+    for (const wire::Sent &frame : old)
+        wire::forge(now, frame.bytes);
+    QTRY_COMPARE(master.infoOf("Mirror").forged, quint64(8));
+    QCOMPARE(master.infoOf("Mirror").duplicates, quint64(0));
+    master.stop();
+}
+
+void tst_SealedCycles::framesOfAnotherNodeOrDirectionAreForged()
+{
+    SecuredMaster master(m_files);
+    QVERIFY(master.listen());
+    Mirror mirror("Mirror");
+    Mirror stream("Stream", "echo", "masterWorkload");  // the same sizes
+    QVERIFY(master.admitSecured(m_files, mirror, "udp") && master.admitSecured(m_files, stream, "udp"));
+    wire::listen();
+    QVERIFY(master.fly(10));
+    const QVector<wire::Sent> outputs = wire::heard(isOutputs);
+    const int mirrorsSocket = outputs.last().descriptor;
+    const auto isOthers = [&](const wire::Sent &f) { return isOutputs(f) && f.descriptor != mirrorsSocket; };
+    const wire::Sent others = wire::heard(isOthers).last();
+    wire::forge(outputs.last(), others.bytes);  // the answer of one node from the address of the other
+    QByteArray turned = wire::heard(isInputs).last().bytes;
+    turned[0] = 0x12;
+    wire::forge(outputs.last(), turned);  // a request, made to look like an answer
+    const auto forged = [&] { return master.infoOf("Mirror").forged + master.infoOf("Stream").forged; };
+    QTRY_COMPARE(forged(), quint64(2));
+    master.stop();
+}
+
+void tst_SealedCycles::aForgedFrameIsToldOnce()
+{
+    LogCapture log;
+    SecuredMaster master(m_files);
+    QVERIFY(master.listen());
+    Mirror mirror("Mirror");
+    QVERIFY(master.admitSecured(m_files, mirror, "udp"));
+    wire::listen();
+    QVERIFY(master.fly(5));
+    for (const wire::Sent &frame : {wire::heard(isOutputs).last(), wire::heard(isInputs).last()}) {
+        for (int i = 0; i < 10; ++i)
+            wire::forge(frame, frame.bytes.left(20) + QByteArray(16, char(i)));
+    }
+    QTRY_COMPARE(master.infoOf("Mirror").forged, quint64(10));
+    QTRY_COMPARE(mirror.counters().forged, quint64(10));
+    QTRY_COMPARE(log.matching("frames under the address of node Mirror are not as it seals them").size(), 1);
+    QTRY_COMPARE(log.matching("drops frames that are not as its master seals them").size(), 1);
+    master.stop();
+}
+
+void tst_SealedCycles::keysAreNotLogged()
+{
+    QLoggingCategory::setFilterRules("qtplc.*.debug=true");
+    {
+        LogCapture log;
+        SecuredMaster master(m_files);
+        QVERIFY(master.listen());
+        ScriptedNode node;
+        playLossy(&node, m_files);
+        QVERIFY(node.registerAt(master.serverPort()));
+        const QJsonObject seal = node.registered.fields().value("seal").toObject();
+        QVERIFY(qplc::sealKeys(seal));
+        QVERIFY(!log.matching("Registered").isEmpty());
+        for (const QString &direction : seal.keys()) {
+            const QByteArray base64 = seal.value(direction).toString().toLatin1();
+            for (const QString &line : log.all()) {
+                const QString bytes = QString(line).remove(' ');
+                QVERIFY2(!line.contains(base64) && !bytes.contains(base64.toHex())
+                             && !bytes.contains(QByteArray::fromBase64(base64).toHex()),
+                         qPrintable(line));
+            }
+        }
+    }
+    QLoggingCategory::setFilterRules(QString());
+}
+
+QTEST_GUILESS_MAIN(tst_SealedCycles)
+#include "tst_SealedCycles.moc"

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Plant.h"
+
+#include <QtCore/QTemporaryDir>
+#include <QtTest/QtTest>
+
+/// Keys by the tool, and a plant of programs that is secured with them.
+class tst_qtplc_keys : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void init() { m_folder.reset(new QTemporaryDir); }
+    void keysAreMadeShownAndRevoked();
+    void otherLinesOfTheFileStay();
+    void mistakesAreSentences_data();
+    void mistakesAreSentences();
+    void aFileForOthersIsRefused();
+    void programsFlyWithKeys();
+    void optionsThatDoNotFitAreRefused_data();
+    void optionsThatDoNotFitAreRefused();
+
+private:
+    QString path(const char *name) const { return m_folder->filePath(QString::fromLatin1(name)); }
+    Outcome keys(const QStringList &arguments, const char *file = "keys.ini") const
+    {
+        return runProgram(programPath("qtplc"), QStringList{"keys"} + arguments + QStringList{"--keys", path(file)});
+    }
+    QByteArray content(const char *name) const
+    {
+        QFile file(path(name));
+        return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray("none");
+    }
+    QScopedPointer<QTemporaryDir> m_folder;
+};
+
+void tst_qtplc_keys::keysAreMadeShownAndRevoked()
+{
+    const Outcome made = keys({"new", "Model", "--copy", path("model.ini")});
+    QCOMPARE(made.errors, QString());
+    QCOMPARE(made.exitCode, 0);
+    QCOMPARE(keys({"new", "anna", "--role", "Operator"}).exitCode, 0);
+    const QByteArray text = content("keys.ini");
+    QVERIFY(text.startsWith(content("model.ini")));
+    QVERIFY(
+        QRegularExpression("^\\[Model\\]\nkey = [0-9a-f]{64}\nrole = Node\n$").match(content("model.ini")).hasMatch());
+    const QString key = QString::fromLatin1(content("model.ini").split('\n').at(1).mid(6));
+    QVERIFY(!made.output.contains(key));
+    for (const char *file : {"keys.ini", "model.ini"})
+        QCOMPARE(QFile::permissions(path(file)) & 0x077, QFile::Permissions());
+    const Outcome list = keys({"list"});
+    QVERIFY2(list.output.contains("Model     Node") && list.output.contains("anna      Operator"),
+             qPrintable(list.output));
+    QVERIFY(!list.output.contains(key));
+    QCOMPARE(jsonOf(keys({"list", "--json"}).output).array().size(), 2);
+    QCOMPARE(keys({"new", "Model"}).exitCode, 1);
+    QCOMPARE(content("keys.ini"), text);
+    QCOMPARE(keys({"new", "Model", "--replace"}).exitCode, 0);
+    QVERIFY(!content("keys.ini").contains(key.toLatin1()));
+    QCOMPARE(keys({"revoke", "Model"}).exitCode, 0);
+    QVERIFY(!content("keys.ini").contains("Model") && content("keys.ini").contains("anna"));
+    QCOMPARE(keys({"revoke", "anna"}).exitCode, 0);
+    QCOMPARE(keys({"list"}).exitCode, 0);
+}
+
+void tst_qtplc_keys::otherLinesOfTheFileStay()
+{
+    QCOMPARE(keys({"new", "a"}).exitCode, 0);
+    QFile file(path("keys.ini"));
+    QVERIFY(file.open(QIODevice::ReadWrite));
+    const QByteArray first = file.readAll();
+    file.seek(0);
+    file.write("; keys of the north plant\n" + first + "; the others");
+    file.close();
+    QCOMPARE(keys({"new", "b"}).exitCode, 0);
+    QCOMPARE(keys({"revoke", "b"}).exitCode, 0);
+    QCOMPARE(content("keys.ini"), "; keys of the north plant\n" + first + "; the others\n");
+}
+
+void tst_qtplc_keys::mistakesAreSentences_data()
+{
+    QTest::addColumn<QStringList>("arguments");
+    QTest::addColumn<int>("exitCode");
+    QTest::addColumn<QString>("sentence");
+    QTest::newRow("no action") << QStringList{"make"} << 2 << "keys make: use new, list or revoke";
+    QTest::newRow("no identity") << QStringList{"new"} << 2 << "keys new needs an IDENTITY";
+    QTest::newRow("too much") << QStringList{"list", "a"} << 2 << "keys list takes no IDENTITY";
+    QTest::newRow("bad identity") << QStringList{"new", "a b"} << 2 << "'a b' is no identity";
+    QTest::newRow("bad role") << QStringList{"new", "a", "--role", "king"} << 2 << "--role 'king': use Observer";
+    QTest::newRow("no file") << QStringList{"list"} << 1 << "cannot open";
+    QTest::newRow("nobody to revoke") << QStringList{"revoke", "a"} << 1 << "cannot open";
+    QTest::newRow("no folder") << QStringList{"new", "a", "--copy", "/nowhere/a.ini"} << 1
+                               << "cannot write /nowhere/a.ini";
+}
+
+void tst_qtplc_keys::mistakesAreSentences()
+{
+    QFETCH(QStringList, arguments);
+    QFETCH(int, exitCode);
+    QFETCH(QString, sentence);
+    const Outcome outcome = keys(arguments);
+    QCOMPARE(outcome.exitCode, exitCode);
+    QVERIFY2(outcome.errors.contains(sentence), qPrintable(outcome.errors));
+    QCOMPARE(outcome.errors.count('\n'), 1);
+}
+
+void tst_qtplc_keys::aFileForOthersIsRefused()
+{
+    QCOMPARE(keys({"new", "a"}).exitCode, 0);
+    QVERIFY(QFile::setPermissions(path("keys.ini"), QFile::ReadOwner | QFile::WriteOwner | QFile::ReadOther));
+    for (const QStringList &arguments : {QStringList{"list"}, QStringList{"new", "b"}, QStringList{"revoke", "a"}}) {
+        const Outcome outcome = keys(arguments);
+        QCOMPARE(outcome.exitCode, 1);
+        QVERIFY2(outcome.errors.contains("chmod 600 " + path("keys.ini")), qPrintable(outcome.errors));
+    }
+}
+
+void tst_qtplc_keys::programsFlyWithKeys()
+{
+    for (const char *name : {"Model", "Autopilot"})
+        QCOMPARE(keys({"new", name, "--copy", path(name)}).exitCode, 0);
+    QCOMPARE(keys({"new", "anna", "--role", "Operator", "--copy", path("anna")}).exitCode, 0);
+    QCOMPARE(keys({"new", "bert", "--role", "Observer", "--copy", path("bert")}).exitCode, 0);
+    Program master(programPath("awe_master"), {"--port=0", "--security=psk", "--keys=" + path("keys.ini")});
+    QVERIFY(master.waitForOutput("\n"));
+    const QString port = master.output().section('\n', 0, 0).section(' ', 1);
+    const auto secured = [&](const char *name) {
+        return QStringList{"--master=127.0.0.1:" + port, "--security=psk", "--keys=" + path(name)};
+    };
+    Program model(programPath("awe_model"), secured("Model"));
+    Program autopilot(programPath("awe_autopilot"), secured("Autopilot"));
+    QVERIFY2(model.waitForErrors("registered") && autopilot.waitForErrors("registered"), qPrintable(model.errors()));
+    const auto qtplc = [&](const char *who, const QStringList &command) {
+        return runProgram(programPath("qtplc"), secured(who) + command);
+    };
+    const Outcome denied = qtplc("bert", {"start"});
+    QCOMPARE(denied.exitCode, 1);
+    QVERIFY2(denied.errors.contains("Denied: role Observer may not StartRealTime"), qPrintable(denied.errors));
+    QCOMPARE(qtplc("bert", {"get", "power", "--plain"}).exitCode, 0);
+    QCOMPARE(qtplc("anna", {"start", "--cycles", "10"}).exitCode, 0);
+    QCOMPARE(qtplc("bert", {"echo", "power", "--count", "1"}).exitCode, 0);
+    QCOMPARE(qtplc("bert", {"stop"}).exitCode, 0);
+    const Outcome plain = runProgram(programPath("qtplc"), {"--master=127.0.0.1:" + port, "state"});
+    QCOMPARE(plain.exitCode, 1);
+    QVERIFY2(plain.errors.contains("this master is secured; connect with --security psk"), qPrintable(plain.errors));
+    QCOMPARE(keys({"revoke", "anna"}).exitCode, 0);
+    const Outcome revoked = qtplc("anna", {"state"});
+    QCOMPARE(revoked.exitCode, 2);
+    QVERIFY2(revoked.errors.contains("does not know identity 'anna'"), qPrintable(revoked.errors));
+    QVERIFY2(master.waitForErrors("unknown identity 'anna'"), qPrintable(master.errors()));
+}
+
+void tst_qtplc_keys::optionsThatDoNotFitAreRefused_data()
+{
+    QTest::addColumn<QString>("options");
+    QTest::addColumn<QString>("sentence");
+    QTest::newRow("unknown") << "--security=ssh"
+                             << "--security 'ssh': use psk or cert";
+    QTest::newRow("no keys") << "--security=psk"
+                             << "--security psk needs --keys FILE";
+    QTest::newRow("no certificate") << "--security=cert"
+                                    << "--security cert needs --certificate FILE";
+    QTest::newRow("keys alone") << "--keys=keys.ini"
+                                << "--keys is for --security psk";
+    QTest::newRow("no file") << "--security=psk --keys=/nowhere/keys.ini"
+                             << "cannot open /nowhere/keys.ini";
+}
+
+void tst_qtplc_keys::optionsThatDoNotFitAreRefused()
+{
+    QFETCH(QString, options);
+    QFETCH(QString, sentence);
+    for (const char *program : {"awe_master", "awe_model", "qtplc"}) {
+        QStringList arguments = options.split(' ');
+        if (QLatin1String(program) == QLatin1String("qtplc"))
+            arguments << "state";
+        const Outcome outcome = runProgram(programPath(program), arguments);
+        QCOMPARE(outcome.exitCode, 2);
+        QVERIFY2(outcome.errors.contains(sentence), qPrintable(outcome.errors));
+    }
+}
+
+QTEST_GUILESS_MAIN(tst_qtplc_keys)
+#include "tst_qtplc_keys.moc"
