@@ -14,7 +14,7 @@ using qplc::NodeSlot;
 QString QPlcMasterNodePrivate::nodeName(quint16 id) const
 {
     const std::shared_ptr<NodeSlot> slot = registry->find(id);
-    return slot ? slot->name : QStringLiteral("number %1").arg(id);
+    return slot ? slot->name : m_goneNames.value(id, QStringLiteral("number %1").arg(id));
 }
 
 void QPlcMasterNodePrivate::takeReports()
@@ -153,6 +153,7 @@ void QPlcMasterNodePrivate::nodeLost(Connection *connection, const QString &reas
     const bool wasAwaited = m_step != Step::None && participant != m_participants.end();
     if (participant != m_participants.end())
         m_participants.erase(participant);
+    m_goneNames.insert(connection->slot->id, connection->name);
     if (connection->slot->listener)
         m_goneListeners.insert(connection->slot->id);
     const bool wasRunning = connection->stage == Connection::Running;

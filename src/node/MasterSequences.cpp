@@ -334,6 +334,7 @@ void QPlcMasterNodePrivate::startCycles()
     }
     m_participants.clear();
     m_goneListeners.clear();
+    m_goneNames.clear();
     m_abandoned.clear();
     statisticSignals.start(cycle.get(), registry.get(), clock.isLockstep());
     journal.watchOverruns(&cycle->cycleStatistics());

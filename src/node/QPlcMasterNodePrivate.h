@@ -190,6 +190,7 @@ private:
     qplc::MulticastParts m_multicastParts;
     QPointer<QPlcSlaveSocket> m_requester;
     QSet<quint16> m_goneListeners;         // of this phase, whose reports may still come
+    QHash<quint16, QString> m_goneNames;   // of this phase, as for listeners
     QVector<QPlcSignalIndex> m_abandoned;  // of this phase: signals whose writer left before it was ready for cycles
     QStringList m_becameSafe;              // signals of the reports at hand
     std::unique_ptr<QSocketNotifier> m_reportNotifier;

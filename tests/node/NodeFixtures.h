@@ -8,7 +8,7 @@
 
 #include <functional>
 
-/// The table of most node tests.
+/// The table of most node tests. Values are held for long: a computer that is busy with other tests makes no signal safe.
 inline QPlcSignalTable testTable()
 {
     QVector<QPlcParseError> errors;
@@ -21,23 +21,30 @@ type = Real
 type = Real64
 [workload]
 type = Real
+hold = 1000
 [setpoint]
 type = Real64
+hold = 1000
 min = -10
 max = 10
 unit = m/s
 [count]
 type = Int32
+hold = 1000
 initial = 7
 [echo]
 type = Real64
+hold = 1000
 [sum]
 type = Real64
+hold = 1000
 unit = m
 [vector]
 type = Real64Triple
+hold = 1000
 [free]
 type = Real32
+hold = 1000
 )",
                                                            &errors);
     Q_ASSERT_X(errors.isEmpty(), "testTable", qPrintable(QPlcParseError::toString(errors)));

@@ -48,8 +48,7 @@ void tst_HotJoin::joinerGetsTheValuesOfNow()
 
 void tst_HotJoin::initialOutputsOfAJoinerAppear()
 {
-    TestMaster master(QPlcClock::realTime(),
-                      QPlcSignalTable::fromIni(testTable().toIni().replace("[echo]\n", "[echo]\nhold = 1000\n")));
+    TestMaster master(QPlcClock::realTime());
     master.setInterval(0.002);
     QVERIFY(master.listen());
     QVERIFY(master.startRealTime());

@@ -215,7 +215,7 @@ void tst_ListenerSequence::itsOutputsCountWhenTheyCome()
     QVERIFY(listener.waitForMessage(QPlcMessage::InitializeWithValues));
     master.stop();
     QVERIFY(master.startRealTime());
-    QCOMPARE(master.signalValue("echo").toReal(), 0.25);
+    QCOMPARE(master.signalQuality("echo").kind(), QPlcQuality::Safe);  // it is of another phase
     listener.initialValues = QPlcValue(0.75).toBytes();
     listener.playsAlong = true;
     listener.send(QPlcMessage::Initialized);

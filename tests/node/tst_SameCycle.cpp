@@ -313,7 +313,7 @@ void tst_SameCycle::twoPhaseValuesAreCheckedToo()
         QVERIFY(master.startRealTime());
         QVERIFY(master.waitForState(QPlcMasterNode::Off));
         QCOMPARE(log.matching("sum of Integrator: nan is not a finite number; held").size(), 1);
-        QCOMPARE(master.signalQuality("sum").kind(), QPlcQuality::Safe);
+        QVERIFY(master.signalQuality("sum").heldCycles() >= 7);
         QVERIFY(std::isfinite(master.signalValue("sum").toReal()));
         integrator.disconnectFromMaster();
     }
