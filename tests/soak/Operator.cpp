@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Operator.h"
+
+#include <QtCore/QElapsedTimer>
+#include <QtCore/QEventLoop>
+#include <QtCore/QTimer>
+
+using Message = QPlcMessage;
+
+namespace soak {
+
+Operator::Operator(HistoryWriter &history, int nodes)
+    : m_history(history)
+    , m_nodes(nodes)
+{
+}
+
+void Operator::useMaster(quint16 port)
+{
+    m_port = port;
+    m_client.reset();
+}
+
+void Operator::wait(int milliseconds)
+{
+    QEventLoop loop;
+    QTimer::singleShot(milliseconds, Qt::PreciseTimer, &loop, &QEventLoop::quit);
+    loop.exec();
+}
+
+bool Operator::ask(Message::Kind request, Message *answer)
+{
+    if (!m_client || m_client->error() != tools::ControlClient::NoError) {
+        m_client = std::make_unique<tools::ControlClient>(std::chrono::seconds(3));
+        m_client->connectToMaster(QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, m_port));
+    }
+    if (m_client->ask(request, answer))
+        return true;
+    m_errorString = QStringLiteral("%1: %2").arg(Message::kindName(request), m_client->errorString());
+    return false;
+}
+
+bool Operator::goOn()
+{
+    Message state;
+    if (!ask(Message::GetState, &state))
+        return false;
+    const QString name = state.text(QStringLiteral("state"));
+    const int registered = state.fields().value(QStringLiteral("nodes")).toArray().size() - 1;  // the recorder is one
+    m_errorString = QStringLiteral("the master is in %1 and has %2 of %3 nodes").arg(name).arg(registered).arg(m_nodes);
+    if (registered < m_nodes)
+        return false;
+    if (name == QLatin1String("Off") || name == QLatin1String("Ready")) {
+        m_history.append(Record::Command, -1);
+        ask(Message::StartRealTime, &state);
+    }
+    return name == QLatin1String("RealTime");
+}
+
+bool Operator::bringToRealTime(int patience)
+{
+    QElapsedTimer timer;
+    timer.start();
+    while (timer.elapsed() < patience) {
+        if (goOn())
+            return true;
+        wait(10);
+    }
+    return false;
+}
+
+bool Operator::stop()
+{
+    Message done;
+    return ask(Message::Stop, &done);
+}
+
+QStringList Operator::datagramAddresses()
+{
+    Message state;
+    QStringList addresses;
+    if (!ask(Message::GetState, &state))
+        return addresses;
+    const QJsonArray nodes = state.fields().value(QStringLiteral("nodes")).toArray();
+    for (const QJsonValue &node : nodes) {
+        const QJsonObject fields = node.toObject();
+        if (fields.value(QStringLiteral("transport")).toString() == QLatin1String("udp"))
+            addresses << fields.value(QStringLiteral("address")).toString();
+    }
+    return addresses;
+}
+
+}  // namespace soak
