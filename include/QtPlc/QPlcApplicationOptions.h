@@ -55,6 +55,11 @@ public:
     /// \return false, with the message out, when one of them cannot be meant
     bool readRealTimeOptions(QPlcRealTimeOptions *options);
 
+    /// Adds --enable-fault-injection and --faults, which are wanted together: a bad network, for a test.
+    void addFaultOptions();
+    /// \param plan  for setFaultPlan(); empty: none. \return false, with the message out, when it cannot be meant
+    bool readFaultPlan(QString *plan);
+
     /// Prints "program: text" to the standard error.
     static void printError(const QString &text);
     /// Prints the error and returns UsageError, for `return application.usageError(...)`.

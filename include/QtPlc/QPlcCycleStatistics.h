@@ -34,6 +34,7 @@ struct QPlcCycleStatistics
     quint64 incompleteCycles
         = 0;  ///< computed, but over without the answer of at least one node: one for each cycle, however many answers were late
     quint64 strangers = 0;  ///< datagrams from addresses that belong to no node
+    quint64 floods = 0;     ///< times that more had arrived than may be read at once; the rest waited
 
     QVector<QPlcNodeStatistics> nodes;  ///< in the order of their registration
     QVector<QPlcWorstCycle> worst;      ///< at most 16, the worst one first

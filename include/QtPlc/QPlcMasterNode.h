@@ -130,6 +130,11 @@ public:
     quint16 serverPort() const;
     /// Lets startServer() listen to the network, where everybody can read and command the plant.
     void setInsecureNetworkAllowed(bool allowed);
+    /// Lets the cyclic frames of all nodes meet the faults of a bad network, for a test: docs/faults.md has the words, for example "loss=5%,delay=2ms,seed=7"; empty: none.
+    /// Whoever connects is told, and sees it. Takes effect with startServer(); multicast groups have no faults.
+    /// \return false when \a plan cannot be meant: error() is then StateError and nothing has changed
+    bool setFaultPlan(const QString &plan);
+    QString faultPlan() const;
     /// Registers \a node, which then lives in this process and is called on the cycle thread. The caller keeps owning it. A node that ends leaves
     /// the master; while cycles run it must not end before removeLocalNode(). \return false when it is refused, or when the state is not Off
     bool addLocalNode(QPlcSlaveNode *node);

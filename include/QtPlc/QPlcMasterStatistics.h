@@ -16,6 +16,7 @@ struct QPlcMasterStatistics
     quint64 lateAnswers = 0;       ///< over all nodes
     quint64 incompleteCycles = 0;  ///< cycles that ended without the answer of at least one node
     quint64 strangers = 0;         ///< datagrams from addresses that belong to no node
+    quint64 floods = 0;            ///< times that more had arrived than may be read at once; the rest waited
     qint64 latenessMedian = 0;     ///< wake-up after the nominal time [ns]
     qint64 lateness99 = 0;         ///< 99th percentile [ns]
     qint64 latenessMaximum = 0;    ///< [ns]

@@ -21,6 +21,7 @@ struct QPlcNodeInfo
     quint64 duplicates = 0;   ///< answers that came again
     quint64 rejected = 0;     ///< frames that did not decode
     quint64 resent = 0;       ///< requests that were sent again
+    QString faultPlan;        ///< faults that the node injects into its own frames, for a test; empty: none
 };
 
 Q_DECLARE_METATYPE(QPlcNodeInfo)

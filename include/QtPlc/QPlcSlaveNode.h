@@ -115,6 +115,12 @@ public:
     void setRealTimeOptions(const QPlcRealTimeOptions &options);
     QPlcRealTimeOptions realTimeOptions() const;
 
+    /// Lets the cyclic frames of this node meet the faults of a bad network, for a test: docs/faults.md has the words, for example "loss=5%,delay=2ms,seed=7"; empty: none.
+    /// The master is told, and shows it. Without effect in the process of the master. \pre not connected
+    /// \return false when \a plan cannot be meant: error() is then OptionError and nothing has changed
+    bool setFaultPlan(const QString &plan);
+    QString faultPlan() const;
+
     /// Writes the workload [s] into the signal \a signalName (Real32 or Real64), which becomes an output of this node: the time from the frame at hand
     /// to the answer ready to be sent, in the same cycle; 0 in lockstep, where results must not depend on the machine.
     void activateWorkloadMeasurement(const QString &signalName);

@@ -26,13 +26,14 @@ QString stageName(std::size_t stage)
 
 }  // namespace
 
-void CycleStatistics::restart(bool lockstep, std::uint64_t strangers) noexcept
+void CycleStatistics::restart(bool lockstep, std::uint64_t strangers, std::uint64_t floods) noexcept
 {
     m_lockstep = lockstep;
     m_strangersBefore = strangers;
+    m_floodsBefore = floods;
     m_workload = 0;
     for (Counter *counter : {&m_cycles, &m_overruns, &m_skipped, &m_caughtUp, &m_shifted, &m_lateAnswers,
-                             &m_incompleteCycles, &m_strangers, &m_newest})
+                             &m_incompleteCycles, &m_strangers, &m_floods, &m_newest})
         counter->set(0);
     m_durations.clear();
     m_worst.clear();
@@ -106,6 +107,7 @@ void CycleStatistics::readCounters(Statistics *statistics) const
     statistics->lateAnswers = m_lateAnswers;
     statistics->incompleteCycles = m_incompleteCycles;
     statistics->strangers = m_strangers;
+    statistics->floods = m_floods;
 }
 
 QPlcCycleStatistics CycleStatistics::read(QPlcDistribution::Detail detail) const

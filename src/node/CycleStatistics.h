@@ -12,13 +12,13 @@ namespace qplc {
 
 /// What a master measures of its cycles. The cycle thread records, others read at any time. docs/design/statistics.md defines the figures.
 ///
-/// In lockstep only cycles and strangers are counted; all times given are 0.
+/// In lockstep only cycles and what the hub counts are counted; all times given are 0.
 class CycleStatistics
 {
 public:
     // ---- no cycle runs ----
-    /// Begins a phase. \param strangers  counted by the hub so far
-    void restart(bool lockstep, std::uint64_t strangers) noexcept;
+    /// Begins a phase. \param strangers, floods  counted by the hub so far
+    void restart(bool lockstep, std::uint64_t strangers, std::uint64_t floods) noexcept;
 
     // ---- cycle thread; times in ns on the clock ----
     void begin(const CycleClock::Tick &tick, std::int64_t period) noexcept;
@@ -40,7 +40,11 @@ public:
         m_lateAnswers.add();
         m_incomplete = true;
     }
-    void setStrangers(std::uint64_t strangers) noexcept { m_strangers.set(strangers - m_strangersBefore); }
+    void setArrivals(std::uint64_t strangers, std::uint64_t floods) noexcept
+    {
+        m_strangers.set(strangers - m_strangersBefore);
+        m_floods.set(floods - m_floodsBefore);
+    }
     void end(std::int64_t now) noexcept;
     /// Makes the durations that were measured visible to readers; they wait for it for 0.1 s at most.
     void fold() noexcept { m_durations.fold(); }
@@ -72,6 +76,7 @@ private:
     // cycle thread
     bool m_lockstep = true;
     std::uint64_t m_strangersBefore = 0;
+    std::uint64_t m_floodsBefore = 0;
     CycleRecord m_record;  // of the cycle in progress
     std::int64_t m_overdue = 0;
     std::int64_t m_woken = 0;
@@ -90,6 +95,7 @@ private:
     Counter m_lateAnswers;
     Counter m_incompleteCycles;
     Counter m_strangers;
+    Counter m_floods;
     Counter m_newest;
     Durations m_durations;
     WorstCycles m_worst;

@@ -64,7 +64,7 @@ void MasterCycle::clearStatistics()
 {
     m_cycle = 0;
     m_digest = 0;
-    m_statistics.restart(m_phase.clock.isLockstep(), m_hub.strangers());
+    m_statistics.restart(m_phase.clock.isLockstep(), m_hub.strangers(), m_hub.floods());
     for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes)
         slot->statistics.clear();
 }

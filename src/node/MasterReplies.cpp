@@ -12,18 +12,21 @@ namespace {
 
 QJsonObject nodeFields(const QPlcNodeInfo &node)
 {
-    return {{QStringLiteral("name"), node.name},
-            {QStringLiteral("id"), node.id},
-            {QStringLiteral("inputs"), node.inputs},
-            {QStringLiteral("outputs"), node.outputs},
-            {QStringLiteral("listener"), node.listener},
-            {QStringLiteral("policy"), node.policy},
-            {QStringLiteral("transport"), node.transport},
-            {QStringLiteral("address"), node.address},
-            {QStringLiteral("lateAnswers"), double(node.lateAnswers)},
-            {QStringLiteral("duplicates"), double(node.duplicates)},
-            {QStringLiteral("rejected"), double(node.rejected)},
-            {QStringLiteral("resent"), double(node.resent)}};
+    QJsonObject fields{{QStringLiteral("name"), node.name},
+                       {QStringLiteral("id"), node.id},
+                       {QStringLiteral("inputs"), node.inputs},
+                       {QStringLiteral("outputs"), node.outputs},
+                       {QStringLiteral("listener"), node.listener},
+                       {QStringLiteral("policy"), node.policy},
+                       {QStringLiteral("transport"), node.transport},
+                       {QStringLiteral("address"), node.address},
+                       {QStringLiteral("lateAnswers"), double(node.lateAnswers)},
+                       {QStringLiteral("duplicates"), double(node.duplicates)},
+                       {QStringLiteral("rejected"), double(node.rejected)},
+                       {QStringLiteral("resent"), double(node.resent)}};
+    if (!node.faultPlan.isEmpty())
+        fields.insert(QStringLiteral("faults"), node.faultPlan);
+    return fields;
 }
 
 QJsonObject counterFields(const QPlcMasterStatistics &statistics)
@@ -32,7 +35,8 @@ QJsonObject counterFields(const QPlcMasterStatistics &statistics)
             {QStringLiteral("overruns"), double(statistics.overruns)},
             {QStringLiteral("skippedCycles"), double(statistics.skippedCycles)},
             {QStringLiteral("lateAnswers"), double(statistics.lateAnswers)},
-            {QStringLiteral("strangers"), double(statistics.strangers)}};
+            {QStringLiteral("strangers"), double(statistics.strangers)},
+            {QStringLiteral("floods"), double(statistics.floods)}};
 }
 
 }  // namespace
@@ -62,15 +66,18 @@ QJsonObject stateFields(const QPlcMasterNode &master, quint64 session)
     for (const QPlcNodeInfo &node : infos)
         nodes.append(nodeFields(node));
     const QPlcMasterStatistics statistics = master.statistics();
-    return {{QStringLiteral("state"), stateName(master.state())},
-            {QStringLiteral("cycle"), QPlcMessage::fromHex64(master.cycle())},
-            {QStringLiteral("period"), double(master.interval().count())},
-            {QStringLiteral("clock"), clockName(master.clock())},
-            {QStringLiteral("scale"), master.clock().scale()},
-            {QStringLiteral("session"), QPlcMessage::fromHex64(session)},
-            {QStringLiteral("nodes"), nodes},
-            {QStringLiteral("counters"), counterFields(statistics)},
-            {QStringLiteral("digest"), QPlcMessage::fromHex64(statistics.imageDigest)}};
+    QJsonObject fields{{QStringLiteral("state"), stateName(master.state())},
+                       {QStringLiteral("cycle"), QPlcMessage::fromHex64(master.cycle())},
+                       {QStringLiteral("period"), double(master.interval().count())},
+                       {QStringLiteral("clock"), clockName(master.clock())},
+                       {QStringLiteral("scale"), master.clock().scale()},
+                       {QStringLiteral("session"), QPlcMessage::fromHex64(session)},
+                       {QStringLiteral("nodes"), nodes},
+                       {QStringLiteral("counters"), counterFields(statistics)},
+                       {QStringLiteral("digest"), QPlcMessage::fromHex64(statistics.imageDigest)}};
+    if (!master.faultPlan().isEmpty())
+        fields.insert(QStringLiteral("faults"), master.faultPlan());
+    return fields;
 }
 
 QJsonObject scheduleFields(const QPlcSchedule &schedule)

@@ -2,6 +2,7 @@
 #include "MasterServer.h"
 
 #include "Logging.h"
+#include "signals/Fnv1a.h"
 
 #include <QtCore/QJsonArray>
 #include <QtCore/QPointer>
@@ -288,6 +289,7 @@ void MasterServer::registerNode(MasterConnection *connection, const Message &mes
                 .arg(MulticastParts::MaximumInputs));
         return;
     }
+    connection->slot->faultPlan = printable(message.text(QStringLiteral("faults"))).left(200);
     connection->slot->prepare(m_image, m_session);
     connection->token = QRandomGenerator::system()->generate64();
     connection->stage = MasterConnection::Attaching;
@@ -392,6 +394,7 @@ void MasterServer::nodeAttached(MasterConnection *connection)
 {
     connection->slot->peer->owner = connection->slot.get();
     connection->slot->peer->isListener = connection->slot->listener;
+    m_hub.exposeToFaults(*connection->slot->peer, ~fnv1a64(connection->name.toUtf8()));  // not those of the node itself
     connection->stage = MasterConnection::Attached;
     Q_EMIT attached(connection);
 }

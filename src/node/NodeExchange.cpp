@@ -282,7 +282,7 @@ void NodeExchange::receive(std::int64_t timeout, int alarm) noexcept
     CyclicHub::Incoming incoming;
     while (m_hub.next(&incoming))
         takeAnswer(*static_cast<NodeSlot *>(incoming.peer->owner), incoming.frame, incoming.size);
-    m_statistics.setStrangers(m_hub.strangers());
+    m_statistics.setArrivals(m_hub.strangers(), m_hub.floods());
     for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
         if (slot->peer && slot->peer->isClosed() && !slot->lost.exchange(true))
             m_reports.post({CycleEvent::LinkClosed, slot->id, 0, m_cycle.number});

@@ -26,6 +26,7 @@ struct NodeSlot
     bool listener = false;
     bool wantsMulticast = false;    // listens to the multicast group of the master
     bool twoPhase = false;          // the answer to cycle k holds the outputs of cycle k + 1
+    QString faultPlan;              // that the node injects; empty: none
     std::vector<bool> sameCycle;    // for each field of inputLayout
     NodeRuntime *local = nullptr;   // a node of this process; else over the network
     std::unique_ptr<HubPeer> peer;  // null for a local node

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "QPlcApplicationOptions.h"
 
+#include "transport/FaultPlan.h"
+
 #include <QtCore/QCommandLineParser>
 #include <QtCore/QCoreApplication>
 #include <QtCore/QSocketNotifier>
@@ -252,6 +254,35 @@ bool QPlcApplicationOptions::readRealTimeOptions(QPlcRealTimeOptions *options)
     }
     options->lockMemory = isSet(QStringLiteral("lock-memory"));
     return true;
+}
+
+void QPlcApplicationOptions::addFaultOptions()
+{
+    addOption(QCommandLineOption(QStringLiteral("enable-fault-injection"),
+                                 QStringLiteral("Allows --faults: this is a test, and no plant depends on it.")));
+    addOption(QCommandLineOption(QStringLiteral("faults"),
+                                 QStringLiteral("Treats cyclic frames like a bad network, for example "
+                                                "loss=5%,delay=2ms,seed=7: loss, duplicate, reorder, corrupt, delay, "
+                                                "jitter, cut, each with -sent or -received for one direction; seed."),
+                                 QStringLiteral("PLAN")));
+}
+
+bool QPlcApplicationOptions::readFaultPlan(QString *plan)
+{
+    *plan = value(QStringLiteral("faults"));
+    QString error;
+    if (!isSet(QStringLiteral("faults")) && !isSet(QStringLiteral("enable-fault-injection")))
+        return true;
+    if (!isSet(QStringLiteral("faults")))
+        usageError(QStringLiteral("--enable-fault-injection alone does nothing: name the faults by --faults PLAN"));
+    else if (!isSet(QStringLiteral("enable-fault-injection")))
+        usageError(
+            QStringLiteral("--faults disturbs the plant on purpose: only together with --enable-fault-injection"));
+    else if (!qplc::FaultPlan::fromText(*plan, &error))
+        usageError(QStringLiteral("--faults %1").arg(error));
+    else
+        return true;
+    return false;
 }
 
 void QPlcApplicationOptions::printError(const QString &text)

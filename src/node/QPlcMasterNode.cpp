@@ -171,6 +171,20 @@ void QPlcMasterNode::setInsecureNetworkAllowed(bool allowed)
     d->insecureNetworkAllowed = allowed;
 }
 
+bool QPlcMasterNode::setFaultPlan(const QString &plan)
+{
+    QString text;
+    if (!plan.isEmpty() && !qplc::FaultPlan::fromText(plan, &text))
+        return d->setError(StateError, QStringLiteral("fault plan: %1").arg(text));
+    d->faultPlan = plan;
+    return true;
+}
+
+QString QPlcMasterNode::faultPlan() const
+{
+    return d->faultPlan;
+}
+
 bool QPlcMasterNode::addLocalNode(QPlcSlaveNode *node)
 {
     Q_ASSERT_X(node, "QPlcMasterNode::addLocalNode", "a node is needed");

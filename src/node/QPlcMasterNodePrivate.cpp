@@ -105,7 +105,7 @@ bool QPlcMasterNodePrivate::prepare()
     m_reportNotifier = std::make_unique<QSocketNotifier>(cycle->reports().descriptor(), QSocketNotifier::Read);
     QObject::connect(m_reportNotifier.get(), &QSocketNotifier::activated, q, [this] { takeReports(); });
     const auto hello = [this] {
-        return QJsonObject{{QStringLiteral("protocol"), 1},
+        QJsonObject fields{{QStringLiteral("protocol"), 1},
                            {QStringLiteral("name"), qplc::NodeRegistry::masterName()},
                            {QStringLiteral("uuid"), uuid},
                            {QStringLiteral("session"), Message::fromHex64(session)},
@@ -114,6 +114,9 @@ bool QPlcMasterNodePrivate::prepare()
                            {QStringLiteral("state"), qplc::stateName(state)},
                            {QStringLiteral("period"), double(interval.count())},
                            {QStringLiteral("features"), QJsonArray()}};
+        if (!faultPlan.isEmpty())
+            fields.insert(QStringLiteral("faults"), faultPlan);
+        return fields;
     };
     server = std::make_unique<qplc::MasterServer>(*registry, cycle->image(), hub, session, hello, nullptr);
     QObject::connect(server.get(), &qplc::MasterServer::attached, q, [this](Connection *connection) {
@@ -121,6 +124,10 @@ bool QPlcMasterNodePrivate::prepare()
         settings->leaveToWriters();
         journal.tell(qplc::JournalEvent::Info, qplc::JournalEvent::Node, connection->name,
                      QStringLiteral("node %1 registered over %2").arg(connection->name, connection->cyclicKind));
+        if (!connection->slot->faultPlan.isEmpty())
+            journal.tell(qplc::JournalEvent::Warning, qplc::JournalEvent::Node, connection->name,
+                         QStringLiteral("node %1 injects faults on purpose: %2")
+                             .arg(connection->name, connection->slot->faultPlan));
         Q_EMIT q->nodeRegistered(connection->name);
         if (isRunning())
             join(connection);
@@ -182,6 +189,7 @@ bool QPlcMasterNodePrivate::startServer(const QPlcUnderlyingProtocol &protocol)
         qCWarning(lcMaster).noquote() << "listening on" << address.toString()
                                       << "WITHOUT SECURITY: anybody on the network can read and command the plant";
     }
+    injectFaults();
     if (!server->listen(address, protocol.port(), localName, multicastGroup))
         return setError(QPlcMasterNode::ServerError, server->errorString());
     beacon.begin(
@@ -190,6 +198,18 @@ bool QPlcMasterNodePrivate::startServer(const QPlcUnderlyingProtocol &protocol)
         hasBeacon);
     qCInfo(lcMaster).noquote() << "listening on" << address.toString() << "port" << server->port();
     return true;
+}
+
+void QPlcMasterNodePrivate::injectFaults()
+{
+    QString text;
+    const std::optional<qplc::FaultPlan> plan = qplc::FaultPlan::fromText(faultPlan, &text);
+    server->close();  // the frames of its nodes follow the last plan
+    hub.setFaults(faultPlan.isEmpty() ? std::nullopt : plan);
+    if (faultPlan.isEmpty())
+        return;
+    journal.tell(qplc::JournalEvent::Warning, qplc::JournalEvent::State, qplc::NodeRegistry::masterName(),
+                 QStringLiteral("the master injects faults on purpose: %1").arg(faultPlan));
 }
 
 bool QPlcMasterNodePrivate::addLocalNode(QPlcSlaveNode *node)
@@ -393,6 +413,7 @@ QPlcNodeInfo QPlcMasterNodePrivate::info(const NodeSlot &slot) const
     node.duplicates = slot.statistics.duplicated + slot.statistics.reordered;
     node.rejected = slot.statistics.rejected;
     node.resent = slot.statistics.resent;
+    node.faultPlan = slot.faultPlan;
     node.transport = QStringLiteral("inprocess");
     if (const Connection *connection = slot.local ? nullptr : server->connectionOf(&slot)) {
         node.transport = connection->cyclicKind;

@@ -34,6 +34,7 @@ public:
     bool claimSignal(const QString &name, QPlcSignalIndex *place, bool (*accepts)(QPlcSignalType),
                      const QString &wantedType);
     bool startServer(const QPlcUnderlyingProtocol &protocol);
+    void injectFaults();
     bool addLocalNode(QPlcSlaveNode *node);
     void removeLocalNode(QPlcSlaveNode *node);
 
@@ -61,6 +62,7 @@ public:
     quint64 cycleLimit = 0;
     bool insecureNetworkAllowed = false;
     bool hasBeacon = false;
+    QString faultPlan;
     QString localName;
     QHostAddress multicastGroup;
     QPlcSignalIndex timeSignal = QPlcInvalidSignalIndex;

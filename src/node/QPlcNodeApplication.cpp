@@ -29,6 +29,7 @@ QPlcNodeApplication::QPlcNodeApplication(int &argc, char **argv)
         QStringLiteral("same-cycle"),
         QStringLiteral("Reads all inputs in the cycle in which they are written, without the dead time of a cycle.")));
     addRealTimeOptions();
+    addFaultOptions();
 }
 
 void QPlcNodeApplication::setDefaultSignals(const QString &fileName)
@@ -57,9 +58,12 @@ bool QPlcNodeApplication::configure(QPlcSlaveNode &node)
 {
     double watchdog = 0.0;
     QPlcRealTimeOptions realTimeOptions;
-    if (!number(QStringLiteral("watchdog"), 0.0, 3600.0, &watchdog) || !readRealTimeOptions(&realTimeOptions))
+    QString faultPlan;
+    if (!number(QStringLiteral("watchdog"), 0.0, 3600.0, &watchdog) || !readRealTimeOptions(&realTimeOptions)
+        || !readFaultPlan(&faultPlan))
         return false;
     node.activateWatchdog(watchdog);
+    node.setFaultPlan(faultPlan);
     node.setRealTimeOptions(realTimeOptions);
     if (isSet(QStringLiteral("same-cycle")))
         node.setSameCycle(true);

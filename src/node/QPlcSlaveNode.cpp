@@ -3,6 +3,7 @@
 
 #include "QPlcSignalIndexTable.h"
 #include "QPlcSlaveNodePrivate.h"
+#include "transport/FaultPlan.h"
 
 #include <QtCore/QEventLoop>
 #include <QtCore/QTimer>
@@ -96,6 +97,23 @@ void QPlcSlaveNode::setRealTimeOptions(const QPlcRealTimeOptions &options)
 QPlcRealTimeOptions QPlcSlaveNode::realTimeOptions() const
 {
     return d->realTimeOptions;
+}
+
+bool QPlcSlaveNode::setFaultPlan(const QString &plan)
+{
+    Q_ASSERT_X(d->state == Disconnected, "QPlcSlaveNode::setFaultPlan", "a registered node stays what it is");
+    QString text;
+    if (!plan.isEmpty() && !qplc::FaultPlan::fromText(plan, &text)) {
+        d->setError(OptionError, QStringLiteral("node '%1': fault plan: %2").arg(d->name, text));
+        return false;
+    }
+    d->faultPlan = plan;
+    return true;
+}
+
+QString QPlcSlaveNode::faultPlan() const
+{
+    return d->faultPlan;
 }
 
 void QPlcSlaveNode::activateWorkloadMeasurement(const QString &signalName)

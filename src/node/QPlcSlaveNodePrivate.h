@@ -34,6 +34,7 @@ public:
     bool listener = false;
     bool sameCycle = false;  // all inputs
     bool twoPhase = false;
+    QString faultPlan;
     QPlcSignalTable ownTable;
     QPlcRealTimeOptions realTimeOptions;
     std::chrono::nanoseconds watchdog{0};
@@ -59,6 +60,7 @@ private:
     bool makeUdpLink(quint16 *port);
     bool openLocalLink(const QPlcMessage &registered);
     bool joinGroup(const QPlcMessage &registered);
+    void giveLink(std::unique_ptr<qplc::CyclicLink> link);
     void connectCyclicChannel();
     void cyclicChannelAttached();
     void sendInitialOutputs();

@@ -3,6 +3,8 @@
 #include "Logging.h"
 #include "QPlcSignalIndexTable.h"
 #include "QPlcSlaveNodePrivate.h"
+#include "signals/Fnv1a.h"
+#include "transport/FaultLink.h"
 
 #include <QtCore/QJsonArray>
 #include <QtCore/QMetaEnum>
@@ -89,6 +91,9 @@ void QPlcSlaveNodePrivate::receiveHello(const Message &message)
         return;
     }
     m_session = message.hex64(QStringLiteral("session"));
+    if (const QString faults = message.text(QStringLiteral("faults")); !faults.isEmpty())
+        qCWarning(lcSlave).noquote() << "the master at" << master.toString()
+                                     << "injects faults on purpose:" << qplc::printable(faults);
     if (isOrdered() && !message.fields().value(QStringLiteral("features")).toArray().contains(sameCycleFeature)) {
         giveUp(QPlcSlaveNode::RegistrationError,
                QStringLiteral("the master at %1 knows no same-cycle inputs and two-phase nodes, which node '%2' needs; "
@@ -129,6 +134,8 @@ void QPlcSlaveNodePrivate::registerAtMaster()
         {QStringLiteral("cyclic"), master.kindName()}};
     if (twoPhase)
         fields.insert(QStringLiteral("twoPhase"), true);
+    if (!faultPlan.isEmpty())
+        fields.insert(QStringLiteral("faults"), faultPlan);
     if (master.kind() == QPlcUnderlyingProtocol::Udp || master.kind() == QPlcUnderlyingProtocol::UdpMulticast) {
         quint16 port = 0;
         if (!makeUdpLink(&port))
@@ -157,7 +164,7 @@ void QPlcSlaveNodePrivate::receiveRegistered(const Message &message)
     if (master.kind() == QPlcUnderlyingProtocol::UdpMulticast && !joinGroup(message))
         return;
     if (m_link)
-        cycle->setLink(std::move(m_link));
+        giveLink(std::move(m_link));
     else
         connectCyclicChannel();
 }
@@ -184,6 +191,17 @@ bool QPlcSlaveNodePrivate::openLocalLink(const Message &registered)
     return m_link != nullptr;
 }
 
+/// Gives the cycle its link, with the faults that are wanted in between.
+void QPlcSlaveNodePrivate::giveLink(std::unique_ptr<qplc::CyclicLink> link)
+{
+    QString text;
+    if (const auto plan = qplc::FaultPlan::fromText(faultPlan, &text); plan && !faultPlan.isEmpty()) {
+        qCWarning(lcSlave).noquote() << "node" << name << "injects faults on purpose:" << faultPlan;
+        link = std::make_unique<qplc::FaultLink>(std::move(link), *plan, qplc::fnv1a64(name.toUtf8()));
+    }
+    cycle->setLink(std::move(link));
+}
+
 void QPlcSlaveNodePrivate::connectCyclicChannel()
 {
     m_cyclicSocket = new QPlcMasterSocket(q);
@@ -203,7 +221,7 @@ void QPlcSlaveNodePrivate::connectCyclicChannel()
         const int descriptor = m_cyclicSocket->takeDescriptor();
         m_cyclicSocket->deleteLater();
         m_cyclicSocket = nullptr;
-        cycle->setLink(qplc::CyclicLink::tcp(descriptor, cycle->inputCutter(), qplc::MaximumCyclicFrame));
+        giveLink(qplc::CyclicLink::tcp(descriptor, cycle->inputCutter(), qplc::MaximumCyclicFrame));
         cyclicChannelAttached();
     });
     m_cyclicSocket->connectToMaster(master);

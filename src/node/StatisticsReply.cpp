@@ -71,7 +71,8 @@ QJsonObject masterFields(const QPlcCycleStatistics &statistics)
                                {QStringLiteral("shiftedTime"), double(statistics.shiftedTime)},
                                {QStringLiteral("lateAnswers"), double(statistics.lateAnswers)},
                                {QStringLiteral("incompleteCycles"), double(statistics.incompleteCycles)},
-                               {QStringLiteral("strangers"), double(statistics.strangers)}};
+                               {QStringLiteral("strangers"), double(statistics.strangers)},
+                               {QStringLiteral("floods"), double(statistics.floods)}};
     return {{QStringLiteral("lateness"), fieldsOf(statistics.lateness)},
             {QStringLiteral("execution"), fieldsOf(statistics.execution)},
             {QStringLiteral("roundTrip"), fieldsOf(statistics.roundTrip)},

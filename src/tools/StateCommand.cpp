@@ -47,6 +47,21 @@ QString countersText(const QJsonObject &counters)
     return texts.join(QStringLiteral(", "));
 }
 
+/// Who injects what on purpose; empty: nobody.
+QString faultsText(const QJsonObject &state)
+{
+    QStringList texts;
+    const auto add = [&texts](const QString &name, const QJsonObject &of) {
+        if (of.contains(QStringLiteral("faults")))
+            texts << QStringLiteral("%1 (%2)").arg(name, of.value(QStringLiteral("faults")).toString());
+    };
+    add(QStringLiteral("Master"), state);
+    const QJsonArray nodes = state.value(QStringLiteral("nodes")).toArray();
+    for (const QJsonValue &node : nodes)
+        add(node.toObject().value(QStringLiteral("name")).toString(), node.toObject());
+    return texts.join(QStringLiteral(", "));
+}
+
 void printNodes(const QJsonArray &nodes, bool verbose)
 {
     QStringList fields;
@@ -87,6 +102,8 @@ int showState(const CommandCall &call)
     printField("counters", countersText(state.value(QStringLiteral("counters")).toObject()));
     printField("session", answer.text(QStringLiteral("session")));
     printField("digest", answer.text(QStringLiteral("digest")));
+    if (const QString faults = faultsText(state); !faults.isEmpty())
+        printField("FAULTS", QStringLiteral("injected on purpose by %1").arg(faults));
     printLine(QString());
     printNodes(state.value(QStringLiteral("nodes")).toArray(), call.application.isSet(QStringLiteral("verbose")));
     return QPlcCoreApplication::Success;

@@ -5,11 +5,12 @@
 #include <algorithm>
 #include <cerrno>
 #include <fcntl.h>
+#include <linux/sock_diag.h>
 #include <netinet/in.h>
-#include <netinet/tcp.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
+#include <utility>
 
 namespace qplc {
 
@@ -20,50 +21,6 @@ constexpr std::int64_t CoarseWait = 4'000'000;  // [ns]
 constexpr std::int64_t LongWait = 20'000'000;   // [ns]
 
 }  // namespace
-
-// ---- one peer ----
-
-std::unique_ptr<HubPeer> HubPeer::udp(const SocketAddress &address)
-{
-    std::unique_ptr<HubPeer> peer(new HubPeer);
-    peer->m_address = address;
-    return peer;
-}
-
-std::unique_ptr<HubPeer> HubPeer::tcp(int descriptor, const FrameCutter &cutter, std::size_t largestFrame)
-{
-    std::unique_ptr<HubPeer> peer(new HubPeer);
-    const int on = 1;
-    ::setsockopt(descriptor, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
-    peer->m_descriptor = descriptor;
-    peer->m_cutter = cutter;
-    peer->m_received = std::make_unique<FrameBuffer>(4 * largestFrame);
-    peer->m_sender.emplace(largestFrame);
-    return peer;
-}
-
-std::unique_ptr<HubPeer> HubPeer::local(std::unique_ptr<SharedMemory> memory)
-{
-    std::unique_ptr<HubPeer> peer(new HubPeer);
-    peer->m_memory = std::move(memory);
-    return peer;
-}
-
-HubPeer::~HubPeer()
-{
-    if (m_descriptor >= 0)
-        ::close(m_descriptor);
-}
-
-bool HubPeer::sendStream(const char *frame, std::size_t size) noexcept
-{
-    if (!m_closed && m_sender->send(m_descriptor, frame, size, MSG_DONTWAIT))
-        return true;
-    ++m_sendFailures;
-    return false;
-}
-
-// ---- all peers ----
 
 struct CyclicHub::Messages
 {
@@ -160,6 +117,24 @@ CyclicHub::LocalPaths CyclicHub::localPaths() const
     return {m_doorbell.path(), QStringLiteral("/proc/%1/fd/%2").arg(::getpid()).arg(m_pipe[1])};
 }
 
+void CyclicHub::setFaults(const std::optional<FaultPlan> &plan, TimeSource &time)
+{
+    m_faults = plan ? std::make_unique<HubFaults>(*plan, time) : nullptr;
+}
+
+void CyclicHub::exposeToFaults(HubPeer &peer, std::uint64_t stream) const
+{
+    if (m_faults)
+        peer.m_faults = std::make_unique<PeerFaults>(m_faults->plan(), stream);
+}
+
+std::uint64_t CyclicHub::unread() const
+{
+    std::array<std::uint32_t, SK_MEMINFO_VARS> memory{};
+    socklen_t size = sizeof memory;
+    return ::getsockopt(m_udp, SOL_SOCKET, SO_MEMINFO, memory.data(), &size) == 0 ? memory[SK_MEMINFO_DROPS] : 0;
+}
+
 void CyclicHub::attach(HubPeer *peer) noexcept
 {
     if (m_peers.size() < MaximumPeers) {
@@ -173,6 +148,8 @@ void CyclicHub::attach(HubPeer *peer) noexcept
 void CyclicHub::detach(HubPeer *peer) noexcept
 {
     flush();
+    if (m_faults)
+        m_faults->forget(peer);
     m_peers.erase(std::remove(m_peers.begin(), m_peers.end(), peer), m_peers.end());
     rebuild();
 }
@@ -224,6 +201,14 @@ void CyclicHub::sendRest(HubPeer *peer) noexcept
 
 bool CyclicHub::send(HubPeer *peer, const char *frame, std::size_t size) noexcept
 {
+    // What a bad network does to a frame is no failure of sending it.
+    if (peer->m_faults && !m_faults->sends(*peer->m_faults, peer, frame, size))
+        return true;
+    return sendNow(peer, frame, size);
+}
+
+bool CyclicHub::sendNow(HubPeer *peer, const char *frame, std::size_t size) noexcept
+{
     if (peer->isStream())
         return peer->sendStream(frame, size);
     if (peer->isLocal()) {
@@ -233,7 +218,7 @@ bool CyclicHub::send(HubPeer *peer, const char *frame, std::size_t size) noexcep
         return peer->m_toBeWoken;
     }
     if (m_outgoing == MaximumPeers)
-        flush();
+        flushNow();
     m_messages->outgoingBytes[m_outgoing] = {const_cast<char *>(frame), size};
     m_messages->outgoingPeer[m_outgoing] = peer;
     msghdr &header = m_messages->outgoing[m_outgoing].msg_hdr;
@@ -247,6 +232,22 @@ bool CyclicHub::send(HubPeer *peer, const char *frame, std::size_t size) noexcep
 }
 
 void CyclicHub::flush() noexcept
+{
+    flushNow();
+    if (m_faults)
+        sendDelayed();
+}
+
+/// What was kept under way so far.
+void CyclicHub::sendDelayed() noexcept
+{
+    for (DelayLine::Frame frame; m_faults->takeSending(&frame);) {
+        sendNow(static_cast<HubPeer *>(frame.owner), frame.bytes, frame.size);
+        flushNow();  // the bytes stay until the next one is taken
+    }
+}
+
+void CyclicHub::flushNow() noexcept
 {
     std::size_t done = 0;
     while (done < m_outgoing) {
@@ -283,8 +284,22 @@ void CyclicHub::wakeLocals() noexcept
 
 bool CyclicHub::wait(std::int64_t timeout, int alarm) noexcept
 {
+    m_read = 0;
+    if (!m_faults)
+        return waitForArrivals(timeout, alarm);
+    sendDelayed();
+    const std::int64_t left = m_faults->timeLeft(timeout);
+    const bool arrived = waitForArrivals(left, left < timeout ? -1 : alarm);
+    sendDelayed();
+    return m_faults->hasArrived() || arrived;
+}
+
+bool CyclicHub::waitForArrivals(std::int64_t timeout, int alarm) noexcept
+{
     if (m_locals.empty())
         return waitForDescriptors(timeout, alarm);
+    const bool isFlooded = std::exchange(m_isFlooded, false);
+    timeout = isFlooded ? 0 : timeout;
     const bool hasOthers = m_udpPeers + m_streams.size() > 0;
     bool arrived = false;
     if (timeout > 0 && (hasOthers || alarm >= 0) && doorbell()->beginPoll())
@@ -295,10 +310,10 @@ bool CyclicHub::wait(std::int64_t timeout, int alarm) noexcept
         doorbell()->sleep(timeout);
     doorbell()->endPoll();
     const std::uint32_t rung = doorbell()->count();
-    arrived = arrived || rung != m_rung;
+    arrived = arrived || rung != m_rung || isFlooded;
     m_rung = rung;
     doorbell()->want(rung + 1);
-    m_local = 0;
+    m_local = m_readOfLocal = 0;
     return arrived;
 }
 
@@ -336,6 +351,22 @@ bool CyclicHub::pollDescriptors(std::int64_t timeout, int alarm) noexcept
 
 bool CyclicHub::next(Incoming *incoming) noexcept
 {
+    if (!m_faults)
+        return nextArrived(incoming);
+    while (nextArrived(incoming)) {
+        HubPeer *peer = incoming->peer;
+        if (!peer->m_faults || m_faults->receives(*peer->m_faults, peer, incoming->frame, incoming->size))
+            return true;
+    }
+    DelayLine::Frame frame;
+    if (!m_faults->takeReceived(&frame))
+        return false;
+    *incoming = {static_cast<HubPeer *>(frame.owner), frame.bytes, frame.size};
+    return true;
+}
+
+bool CyclicHub::nextArrived(Incoming *incoming) noexcept
+{
     return nextDatagram(incoming) || nextFromStream(incoming) || nextLocal(incoming);
 }
 
@@ -346,6 +377,7 @@ int CyclicHub::receiveDatagrams(int flags) noexcept
     const int count = ::recvmmsg(m_udp, m_messages->incoming.data(), Batch, flags, nullptr);
     m_taken = 0;
     m_arrived = count > 0 ? std::size_t(count) : 0;
+    m_read += m_arrived;
     return count;
 }
 
@@ -355,6 +387,11 @@ bool CyclicHub::nextDatagram(Incoming *incoming) noexcept
         if (m_taken == m_arrived) {
             if (!m_moreDatagrams)
                 return false;
+            if (m_read >= FramesPerWait) {
+                m_moreDatagrams = false;
+                ++m_floods;
+                return false;
+            }
             m_moreDatagrams = receiveDatagrams(MSG_DONTWAIT) == int(Batch);
             if (m_arrived == 0)
                 return false;
@@ -371,9 +408,15 @@ bool CyclicHub::nextDatagram(Incoming *incoming) noexcept
 
 bool CyclicHub::nextLocal(Incoming *incoming) noexcept
 {
-    for (; m_local < m_locals.size(); ++m_local) {
+    for (; m_local < m_locals.size(); ++m_local, m_readOfLocal = 0) {
+        if (m_readOfLocal >= FramesPerWait) {
+            m_isFlooded = true;
+            ++m_floods;
+            continue;
+        }
         const std::size_t size = m_locals[m_local]->channel()->outputs.pop(m_localFrame.data(), m_localFrame.size());
         if (size > 0) {
+            ++m_readOfLocal;
             *incoming = {m_locals[m_local], m_localFrame.data(), size};
             return true;
         }

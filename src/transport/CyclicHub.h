@@ -2,6 +2,7 @@
 #pragma once
 
 #include "FrameCutter.h"
+#include "HubFaults.h"
 #include "SharedChannel.h"
 #include "SocketAddress.h"
 #include "StreamSender.h"
@@ -62,6 +63,7 @@ private:
     std::optional<StreamSender> m_sender;
     std::uint64_t m_sendFailures = 0;
     bool m_closed = false;
+    std::unique_ptr<PeerFaults> m_faults;  // null: frames go their way
 };
 
 /// The master's end of the cyclic channels of all nodes: sends many frames and takes many answers with few system calls.
@@ -71,6 +73,9 @@ class CyclicHub
 {
 public:
     static constexpr std::size_t MaximumPeers = 1024;
+    /// Most datagrams, and most frames of each local node, that next() reads after a wait(), up to a batch more: a flood cannot keep the caller from its other work. The next
+    /// wait() goes on with the rest.
+    static constexpr std::size_t FramesPerWait = 256;
 
     struct Incoming
     {
@@ -100,6 +105,11 @@ public:
     bool openLocal(QString *error);
     LocalPaths localPaths() const;
 
+    /// From now on frames of peers are treated like those on a bad network, or no longer. By the owner, while there are no peers. \param time  instead of the clock of the machine; for tests
+    void setFaults(const std::optional<FaultPlan> &plan, TimeSource &time = TimeSource::monotonic());
+    /// Makes \a peer meet these faults, if there are any. By its owner, before attach(). \param stream  tells peers apart
+    void exposeToFaults(HubPeer &peer, std::uint64_t stream) const;
+
     void attach(HubPeer *peer) noexcept;
     void detach(HubPeer *peer) noexcept;
 
@@ -119,6 +129,10 @@ public:
 
     /// Datagrams whose sender is no peer.
     std::uint64_t strangers() const { return m_strangers; }
+    /// How often frames were left to the next wait(), as there were more than FramesPerWait.
+    std::uint64_t floods() const { return m_floods; }
+    /// Datagrams since open() that the kernel had no room for, as nobody read those before them in time. Thread of the owner.
+    std::uint64_t unread() const;
 
 private:
     static constexpr std::size_t Batch = 32;
@@ -127,6 +141,11 @@ private:
     enum Polled : std::size_t { Datagrams, Pipe, Alarm, FirstStream };  // places in m_polled
     struct Messages;
 
+    bool sendNow(HubPeer *peer, const char *frame, std::size_t size) noexcept;
+    void flushNow() noexcept;
+    void sendDelayed() noexcept;
+    bool waitForArrivals(std::int64_t timeout, int alarm) noexcept;
+    bool nextArrived(Incoming *incoming) noexcept;
     bool waitForDescriptors(std::int64_t timeout, int alarm) noexcept;
     bool pollDescriptors(std::int64_t timeout, int alarm) noexcept;
     void wakeLocals() noexcept;
@@ -159,7 +178,12 @@ private:
     std::uint32_t m_rung = 0;  // count of the doorbell when the rings were looked at last
     bool m_localsToWake = false;
     std::array<char, LargestDatagram> m_localFrame{};
+    std::size_t m_read = 0;         // datagrams since the last wait()
+    std::size_t m_readOfLocal = 0;  // frames of m_local since then
+    bool m_isFlooded = false;       // local frames were left unread
     std::uint64_t m_strangers = 0;
+    std::uint64_t m_floods = 0;
+    std::unique_ptr<HubFaults> m_faults;  // null: none are wanted
 };
 
 }  // namespace qplc

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Checks the documents: code blocks are what the files hold that they are said to show, and links lead somewhere.
+"""Checks the documents: code blocks are what the files hold that they are said to show, links lead somewhere, and tests that are named
+(`tst_X::aSentence`) exist.
 
 A block that stands behind the line <!-- file: PATH --> (from the root of the repository) shows that file without its licence line.
 
@@ -11,6 +12,7 @@ import sys
 from pathlib import Path
 
 BLOCK = re.compile(r"<!-- file: (?P<path>\S+) -->\n```(?P<language>\w*)\n(?P<text>.*?)```\n", re.S)
+TEST = re.compile(r"`(tst_\w+)::(\w+)`")
 LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)\s]*)?\)")
 
 
@@ -43,14 +45,32 @@ def check_links(root, document, errors):
             errors.append(f"{document.relative_to(root)}: the link to {link} leads nowhere")
 
 
+def sources_of_tests(root):
+    """Name of a test program: the source of all that have it."""
+    sources = {}
+    for path in [*(root / "tests").rglob("tst_*.cpp"), *(root / "examples").rglob("tst_*.cpp")]:
+        sources[path.stem] = sources.get(path.stem, "") + path.read_text()
+    return sources
+
+
+def check_tests(root, document, sources, errors):
+    for program, name in TEST.findall(document.read_text()):
+        if program not in sources:
+            errors.append(f"{document.relative_to(root)}: names {program}::{name}, and there is no {program}.cpp")
+        elif not re.search(rf"void (?:{program}::)?{name}\(\)", sources[program]):
+            errors.append(f"{document.relative_to(root)}: names {program}::{name}, which {program}.cpp has not")
+
+
 def main():
     arguments = [argument for argument in sys.argv[1:] if argument != "--write"]
     root = Path(arguments[0]).resolve()
     errors = []
     documents = sorted(root.glob("*.md")) + sorted((root / "docs").rglob("*.md"))
+    sources = sources_of_tests(root)
     for document in documents:
         check_blocks(root, document, "--write" in sys.argv, errors)
         check_links(root, document, errors)
+        check_tests(root, document, sources, errors)
     print("\n".join(errors) or f"{len(documents)} documents are in order")
     return 1 if errors or not documents else 0
 

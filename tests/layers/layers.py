@@ -12,7 +12,7 @@ from pathlib import Path
 ARROWS = {
     "signals": {"signals"},
     "realtime": {"realtime"},
-    "transport": {"transport"},
+    "transport": {"realtime", "transport"},
     "protocol": {"signals", "protocol"},
     "node": {"signals", "realtime", "transport", "protocol", "node"},
     "gui": {"signals", "node", "gui"},

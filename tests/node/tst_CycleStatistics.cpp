@@ -321,7 +321,7 @@ void tst_CycleStatistics::incompleteCyclesAreCountedOncePerCycle()
     CycleStatistics statistics;
     std::mt19937_64 random{19};
     for (int phase = 0; phase < 2; ++phase) {  // the second one begins with nothing
-        statistics.restart(false, 0);
+        statistics.restart(false, 0, 0);
         quint64 answers = 0;
         quint64 cycles = 0;
         for (std::uint64_t number = 0; number < 1000; ++number) {

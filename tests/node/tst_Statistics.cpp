@@ -258,7 +258,8 @@ void tst_Statistics::statisticsOverTheWireAreThoseOfTheApi()
                           {"shiftedTime", double(api.shiftedTime)},
                           {"lateAnswers", double(api.lateAnswers)},
                           {"incompleteCycles", double(api.incompleteCycles)},
-                          {"strangers", double(api.strangers)}}));
+                          {"strangers", double(api.strangers)},
+                          {"floods", double(api.floods)}}));
     const QJsonArray nodes = message.fields().value("nodes").toArray();
     QCOMPARE(nodes.size(), 2);
     for (int i = 0; i < 2; ++i) {

@@ -21,18 +21,20 @@ class Plant
 {
 public:
     /// \return false when the master does not listen
-    bool start()
+    bool start(const QStringList &options = {})
     {
-        m_master = std::make_unique<Program>(programPath("awe_master"), QStringList{QStringLiteral("--port=0")});
+        m_master
+            = std::make_unique<Program>(programPath("awe_master"), QStringList{QStringLiteral("--port=0")} + options);
         if (!m_master->waitForOutput(QStringLiteral("\n")))
             return false;
         port = m_master->output().section(QLatin1Char('\n'), 0, 0).section(QLatin1Char(' '), 1);
         return true;
     }
-    bool startNodes()
+    bool startNodes(const QStringList &autopilotOptions = {})
     {
         m_model = std::make_unique<Program>(programPath("awe_model"), QStringList{address()});
-        m_autopilot = std::make_unique<Program>(programPath("awe_autopilot"), QStringList{address()});
+        m_autopilot
+            = std::make_unique<Program>(programPath("awe_autopilot"), QStringList{address()} + autopilotOptions);
         return m_model->waitForErrors(QStringLiteral("registered"))
             && m_autopilot->waitForErrors(QStringLiteral("registered"));
     }
@@ -44,6 +46,7 @@ public:
     /// Runs qtplc with words that have no blanks.
     Outcome qtplc(const QString &command) const { return runProgram(programPath("qtplc"), withMaster(command)); }
     Program &master() { return *m_master; }
+    Program &autopilot() { return *m_autopilot; }
 
     QString port;
 

@@ -5,6 +5,7 @@
 
 using qplc::CyclicHub;
 using qplc::HubPeer;
+using qplc::SharedChannel;
 using qplc::SocketAddress;
 
 class tst_CyclicHub : public QObject
@@ -14,6 +15,9 @@ class tst_CyclicHub : public QObject
 private Q_SLOTS:
     void datagramsGoToAndComeFromPeers();
     void strangersAreCounted();
+    void aFloodOfStrangersIsReadInPortions();
+    void aFloodOfALocalNodeLeavesTheOthersTheirTurn();
+    void datagramsThatTheKernelDropsAreCounted();
     void ipv6PeersAreFound();
     void anyAddressServesIpv4AndIpv6();
     void manyPeersAreServedWithFewCalls();
@@ -97,6 +101,79 @@ void tst_CyclicHub::strangersAreCounted()
     QCOMPARE(taken.size(), 1);
     QCOMPARE(taken.at(0).second, QByteArray("y"));
     QCOMPARE(hub.strangers(), std::uint64_t(40));
+}
+
+void tst_CyclicHub::aFloodOfStrangersIsReadInPortions()
+{
+    CyclicHub hub;
+    const SocketAddress self = open(hub);
+    UdpSocket known;
+    UdpSocket stranger;
+    const auto peer = HubPeer::udp(known.self);
+    hub.attach(peer.get());
+    for (int i = 0; i < 400; ++i)  // more than a socket holds
+        stranger.send("x", self);
+    CyclicHub::Incoming incoming;
+    QVERIFY(hub.wait(1'000'000'000));
+    QVERIFY(!hub.next(&incoming));
+    QCOMPARE(hub.strangers(), std::uint64_t(CyclicHub::FramesPerWait));
+    QCOMPARE(hub.floods(), std::uint64_t(1));
+    QVERIFY(known.send("y", self));
+    QVERIFY(hub.wait(0));  // there is more
+    QVERIFY(hub.next(&incoming));
+    QCOMPARE(incoming.peer, peer.get());
+    QVERIFY(!hub.next(&incoming));
+    QCOMPARE(hub.floods(), std::uint64_t(1));
+    QCOMPARE(hub.strangers() + hub.unread(), std::uint64_t(400));
+}
+
+void tst_CyclicHub::aFloodOfALocalNodeLeavesTheOthersTheirTurn()
+{
+    CyclicHub hub;
+    open(hub);
+    QString error;
+    QVERIFY2(hub.openLocal(&error), qPrintable(error));
+    std::array<std::unique_ptr<HubPeer>, 2> peers;
+    std::array<SharedChannel *, 2> channels{};
+    for (std::size_t i = 0; i < 2; ++i) {
+        auto memory = std::make_unique<qplc::SharedMemory>();
+        QVERIFY(memory->create(sizeof(SharedChannel), &error));
+        channels[i] = static_cast<SharedChannel *>(memory->data());
+        peers[i] = HubPeer::local(std::move(memory));
+        hub.attach(peers[i].get());
+    }
+    for (int i = 0; i < 1000; ++i)
+        QVERIFY(channels[0]->outputs.push("flood", 5));
+    QVERIFY(channels[1]->outputs.push("other", 5));
+    hub.wait(0);
+    CyclicHub::Incoming incoming;
+    int floods = 0;
+    int others = 0;
+    while (hub.next(&incoming))
+        ++(incoming.peer == peers[0].get() ? floods : others);
+    QCOMPARE(floods, int(CyclicHub::FramesPerWait));
+    QCOMPARE(others, 1);
+    QCOMPARE(hub.floods(), std::uint64_t(1));
+    while (hub.wait(0)) {  // says itself that there is more
+        while (hub.next(&incoming))
+            ++floods;
+    }
+    QCOMPARE(floods, 1000);
+}
+
+void tst_CyclicHub::datagramsThatTheKernelDropsAreCounted()
+{
+    CyclicHub hub;
+    const SocketAddress self = open(hub);
+    UdpSocket stranger;
+    const QByteArray datagram(1400, 'x');
+    for (int i = 0; i < 5000; ++i)
+        stranger.send(datagram, self);
+    CyclicHub::Incoming incoming;
+    for (int i = 0; i < 1000 && hub.wait(0); ++i)
+        while (hub.next(&incoming)) {}
+    QVERIFY(hub.unread() > 0);
+    QCOMPARE(hub.strangers() + hub.unread(), std::uint64_t(5000));
 }
 
 void tst_CyclicHub::ipv6PeersAreFound()

@@ -14,6 +14,7 @@ struct MasterSettings
     quint16 port = 0;
     QHostAddress multicastGroup;  // null: none
     QPlcRealTimeOptions realTime;
+    QString faultPlan;
 };
 
 void addMasterOptions(QPlcCoreApplication &application)
@@ -52,6 +53,7 @@ void addMasterOptions(QPlcCoreApplication &application)
                            QStringLiteral("Wind speed that eta is related to [m/s]. 0: what the signals show."),
                            QStringLiteral("SPEED"), QStringLiteral("0")));
     application.addRealTimeOptions();
+    application.addFaultOptions();
 }
 
 /// \return false, with the message out, when an address cannot be meant
@@ -79,7 +81,7 @@ bool readMasterOptions(QPlcCoreApplication &application, MasterSettings *setting
     if (!awe::readRunOptions(application, &settings->run)
         || !application.integer(QStringLiteral("port"), 0, 65535, &port)
         || !application.number(QStringLiteral("mean-wind"), 0.0, 100.0, &settings->run.nominalWindSpeed)
-        || !application.readRealTimeOptions(&settings->realTime))
+        || !application.readRealTimeOptions(&settings->realTime) || !application.readFaultPlan(&settings->faultPlan))
         return false;
     settings->port = quint16(port);
     settings->run.stay = application.isSet(QStringLiteral("stay"));
@@ -118,6 +120,7 @@ int main(int argc, char **argv)
     master.setRealTimeOptions(settings.realTime);
     master.setInsecureNetworkAllowed(application.isSet(QStringLiteral("insecure-network")));
     master.setMulticastGroup(settings.multicastGroup);
+    master.setFaultPlan(settings.faultPlan);
     master.setBeacon(application.isSet(QStringLiteral("beacon")));
     awe::FlightRun run(master, settings.run);
     if (!run.isValid() || !master.startServer(QPlcUnderlyingProtocol::tcp(settings.address, settings.port)))

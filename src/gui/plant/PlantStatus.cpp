@@ -68,6 +68,7 @@ void PlantStatus::takeState(const QJsonObject &fields)
     clock = text(fields, "clock");
     scale = number(fields, "scale");
     session = message.hex64(QStringLiteral("session"));
+    faultPlan = text(fields, "faults");
     QVector<NodeStatus> now;
     const QJsonArray rows = fields.value(QLatin1String("nodes")).toArray();
     for (const QJsonValue &row : rows) {
@@ -78,6 +79,7 @@ void PlantStatus::takeState(const QJsonObject &fields)
         status.transport = text(of, "transport");
         status.address = text(of, "address");
         status.policy = text(of, "policy");
+        status.faultPlan = text(of, "faults");
         status.isListener = of.value(QLatin1String("listener")).toBool();
         status.inputs = int(number(of, "inputs"));
         status.outputs = int(number(of, "outputs"));

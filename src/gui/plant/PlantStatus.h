@@ -32,6 +32,7 @@ struct NodeStatus
     QString transport;
     QString address;
     QString policy;
+    QString faultPlan;  // that it injects on purpose; empty: none
     bool isListener = false;
     int inputs = 0;
     int outputs = 0;
@@ -53,6 +54,7 @@ struct PlantStatus
     QString clock;
     double scale = 1.0;
     quint64 session = 0;
+    QString faultPlan;       // that the master injects on purpose; empty: none
     bool isCounted = false;  // the master has told its counters: what they show more from now on is new
     quint64 overruns = 0;
     DurationStatus lateness;

@@ -3,6 +3,7 @@
 
 #include "DesktopTheme.h"
 #include "DoubleEscape.h"
+#include "FaultBanner.h"
 #include "LongPress.h"
 #include "PanelKeysFirst.h"
 #include "QPlcSignalTree.h"
@@ -70,6 +71,7 @@ void QPlcControlCenter::Private::makeCentre()
     connect(search, &MasterSearch::found, connectStrip, &ConnectStrip::setFoundMasters);
     pages->addWidget(startPage);
     pages->addWidget(panels);
+    column->addWidget(new FaultBanner(&context, centre));
     column->addWidget(connectStrip);
     column->addWidget(hint);
     column->addWidget(pages, 1);

@@ -40,7 +40,8 @@ void tst_ProgramOptions::helpNamesEveryOption_data()
 {
     QTest::addColumn<QString>("program");
     QTest::addColumn<QString>("options");
-    const char *const node = "--master --signals --name --watchdog --same-cycle --priority --cpu --lock-memory";
+    const char *const node = "--master --signals --name --watchdog --same-cycle --priority --cpu --lock-memory "
+                             "--enable-fault-injection --faults";
     const char *const model = " --wind --turbulence --seed";
     const char *const autopilot = " --gains --force-limit --dead-time";
     const char *const run = " --lockstep --real-time --scale --overrun --duration --report --watch --signals";
@@ -52,7 +53,7 @@ void tst_ProgramOptions::helpNamesEveryOption_data()
     row("awe_autopilot", QByteArray(node) + autopilot);
     row("awe_master",
         QByteArray("--listen --port --multicast --insecure-network --beacon --start-with --mean-wind --priority --cpu "
-                   "--lock-memory")
+                   "--lock-memory --enable-fault-injection --faults")
             + run);
     row("awe_sil", QByteArray("--processes --transport --same-cycle") + run + model + autopilot);
 }
@@ -98,6 +99,11 @@ void tst_ProgramOptions::badOptionsAreRefusedWithOneSentence_data()
         row(program, "--signals", "Missing value after '--signals'");
         row(program, "--signals /nowhere/signals.ini", "/nowhere/signals.ini");
         row(program, "--help=yes", "--help");
+    }
+    for (const char *program : {"awe_master", "awe_model", "awe_compact_model", "awe_autopilot"}) {
+        row(program, "--faults loss=5%", "only together with --enable-fault-injection");
+        row(program, "--enable-fault-injection", "name the faults by --faults PLAN");
+        row(program, "--enable-fault-injection --faults loss=5%,lose=1%", "--faults 'lose=1%': use loss, duplicate,");
     }
     for (const char *node : {"awe_model", "awe_compact_model", "awe_autopilot"}) {
         row(node, "--master :", "':' is no address");

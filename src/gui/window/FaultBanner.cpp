@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "FaultBanner.h"
+
+#include <QtGui/QPainter>
+
+namespace qplc {
+
+namespace {
+
+/// "Winch (loss=5%)" for everybody in the plant who injects faults.
+QStringList injectors(const Plant &plant)
+{
+    QStringList all;
+    if (!plant.status().faultPlan.isEmpty())
+        all << FaultBanner::tr("the master (%1)").arg(plant.status().faultPlan);
+    for (const NodeStatus &node : plant.status().nodes) {
+        if (!node.faultPlan.isEmpty())
+            all << QStringLiteral("%1 (%2)").arg(node.name, node.faultPlan);
+    }
+    return all;
+}
+
+}  // namespace
+
+FaultBanner::FaultBanner(WindowContext *context, QWidget *parent)
+    : QWidget(parent)
+    , m_context(context)
+{
+    setObjectName(QStringLiteral("FaultBanner"));
+    setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+    PlantList *plants = context->plants();
+    connect(plants, &PlantList::added, this, &FaultBanner::listenTo);
+    connect(plants, &PlantList::removed, this, &FaultBanner::follow);
+    connect(context, &WindowContext::themeChanged, this, QOverload<>::of(&QWidget::update));
+    for (int place = 0; place < plants->size(); ++place)
+        listenTo(plants->at(place));
+    follow();
+}
+
+void FaultBanner::listenTo(Plant *plant)
+{
+    connect(plant, &Plant::statusChanged, this, &FaultBanner::follow);
+    follow();
+}
+
+void FaultBanner::follow()
+{
+    QStringList sentences;
+    const PlantList &plants = *m_context->plants();
+    for (int place = 0; place < plants.size(); ++place) {
+        const QStringList who = injectors(*plants.at(place));
+        if (!who.isEmpty())
+            sentences << tr("%1: faults are injected on purpose by %2")
+                             .arg(plants.at(place)->name(), who.join(QStringLiteral(", ")));
+    }
+    m_text = sentences.join(QStringLiteral("; "));
+    setToolTip(m_text);
+    setAccessibleName(m_text);
+    setVisible(!m_text.isEmpty());
+    update();
+}
+
+void FaultBanner::paintEvent(QPaintEvent * /*event*/)
+{
+    const Theme &theme = m_context->theme();
+    QPainter painter(this);
+    painter.fillRect(rect(), theme.warning);
+    QFont used = font();
+    used.setBold(true);
+    painter.setFont(used);
+    painter.setPen(theme.window);
+    const QRect place = rect().adjusted(12, 0, -12, 0);
+    painter.drawText(place, Qt::AlignLeft | Qt::AlignVCenter,
+                     QFontMetrics(used).elidedText(m_text, Qt::ElideRight, place.width()));
+}
+
+}  // namespace qplc

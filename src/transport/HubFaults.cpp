@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "HubFaults.h"
+
+#include <algorithm>
+
+namespace qplc {
+
+namespace {
+
+constexpr std::size_t Capacity = 2048;  // frames of all peers under way in each direction; what comes then is lost
+
+}  // namespace
+
+HubFaults::HubFaults(const FaultPlan &plan, TimeSource &time)
+    : m_plan(plan)
+    , m_time(time)
+    , m_sending(Capacity, FaultStream::LargestFrame)
+    , m_receiving(Capacity, FaultStream::LargestFrame)
+{
+}
+
+std::int64_t HubFaults::timeLeft(std::int64_t longest) noexcept
+{
+    const std::int64_t due = std::min(m_sending.nextDue(), m_receiving.nextDue());
+    return due == DelayLine::Never ? longest : std::clamp<std::int64_t>(due - m_time.now(), 0, longest);
+}
+
+void HubFaults::forget(const void *peer) noexcept
+{
+    m_sending.forget(peer);
+    m_receiving.forget(peer);
+}
+
+}  // namespace qplc

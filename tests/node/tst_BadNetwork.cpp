@@ -1,0 +1,386 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ScriptedMaster.h"
+#include "ScriptedNode.h"
+#include "signals/Fnv1a.h"
+#include "transport/FaultInjector.h"
+
+#include <QtTest/QtTest>
+
+#include <atomic>
+#include <thread>
+
+using namespace std::chrono_literals;
+
+// A whole plant on a network that loses, doubles, delays, mixes and corrupts frames, by a seed.
+class tst_BadNetwork : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void init() { QPlcSignalIndexTable::setCurrent({}); }
+    void wrongPlansAreRefused();
+    void everybodyIsToldOfFaults();
+    void withoutAPlanNobodySaysAnything();
+    void lockstepGivesTheSameBitsOnABadNetwork_data();
+    void lockstepGivesTheSameBitsOnABadNetwork();
+    void tenPercentLossMissesWhatChanceSays();
+    void aPlantGoesOnWithTenPercentLoss();
+    void copiesAndMixedOrderAreNeverAppliedTwiceOrBackwards();
+    void aCutLinkComesBack_data();
+    void aCutLinkComesBack();
+    void aHalfOpenLinkIsNoticedByTheWatchdogAndDelaysNobody();
+    void aFloodOfStrangersChangesNoResult();
+    void aFloodOfBadFramesOfANodeChangesNoResult();
+    void cyclesRunOnOver32Bits();
+};
+
+namespace {
+
+constexpr double Loss = 0.1;
+
+/// The stream of a node, in its own direction and in that of its master, as FaultLink numbers them.
+qplc::FaultInjector injector(const qplc::FaultPlan::Direction &plan, std::uint64_t seed, bool isReceived)
+{
+    return {plan, seed, 2 * qplc::fnv1a64("Echo") + (isReceived ? 1 : 0)};
+}
+
+struct Misses
+{
+    int missed = 0;
+    int longestRun = 0;
+};
+
+/// What becomes of \a cycles cycles: those without an answer, as the request or the answer was lost.
+Misses missesOf(std::uint64_t seed, int cycles)
+{
+    qplc::FaultPlan::Direction plan;
+    plan.loss = Loss;
+    qplc::FaultInjector requests = injector(plan, seed, true);
+    qplc::FaultInjector answers = injector(plan, seed, false);
+    Misses misses;
+    int run = 0;
+    for (int i = 0; i < cycles; ++i) {
+        const bool isAnswered = requests.decide(0).passes && answers.decide(0).passes;
+        misses.missed += isAnswered ? 0 : 1;
+        run = isAnswered ? 0 : run + 1;
+        misses.longestRun = std::max(misses.longestRun, run);
+    }
+    return misses;
+}
+
+quint64 digestAfter(TestMaster &master, quint64 cycles)
+{
+    master.setCycleLimit(cycles);
+    if (!master.startRealTime() || !QTest::qWaitFor([&] { return master.statistics().cycles == cycles; }, 60000)
+        || !master.waitForState(QPlcMasterNode::Off))
+        return 0;
+    return master.statistics().imageDigest;
+}
+
+quint64 cleanDigest(quint64 cycles)
+{
+    TestMaster master;
+    CounterNode counter;
+    EchoNode echo;
+    return master.addLocalNode(&echo) && master.addLocalNode(&counter) ? digestAfter(master, cycles) : 0;
+}
+
+/// Master in real time with a node of its own that counts, and Echo on a bad network.
+struct Plant
+{
+    explicit Plant(const char *plan, std::chrono::milliseconds period = 5ms)
+        : master(QPlcClock::realTime())
+    {
+        master.setInterval(period);
+        counter.onStep = [this](const QPlcCycle &) { ++steps; };
+        echo.onStep = [this](const QPlcCycle &cycle) {
+            isInOrder = isInOrder && (echoSteps == 0 || cycle.number() > newest);
+            newest = cycle.number();
+            ++echoSteps;
+        };
+        isThere = echo.setFaultPlan(QString::fromLatin1(plan)) && master.addLocalNode(&counter) && master.listen()
+            && echo.connectToMasterAndWaitForConnected(master.protocol("udp"));
+    }
+    bool start() { return isThere && master.startRealTime() && master.waitForCycles(1); }
+    QPlcNodeInfo info() const { return master.nodes().last(); }
+    std::atomic<quint64> newest{0};
+    std::atomic<int> steps{0};
+    std::atomic<int> echoSteps{0};
+    std::atomic<bool> isInOrder{true};
+    TestMaster master;
+    CounterNode counter;
+    EchoNode echo;
+    bool isThere = false;
+};
+
+}  // namespace
+
+void tst_BadNetwork::wrongPlansAreRefused()
+{
+    TestMaster master;
+    QVERIFY(!master.setFaultPlan("lose=1%"));
+    QCOMPARE(master.error(), QPlcMasterNode::StateError);
+    QVERIFY2(master.errorString().contains("'lose=1%': use loss"), qPrintable(master.errorString()));
+    QVERIFY(master.faultPlan().isEmpty());
+    EchoNode echo;
+    QVERIFY(!echo.setFaultPlan("loss=a lot"));
+    QCOMPARE(echo.error(), QPlcSlaveNode::OptionError);
+    QVERIFY2(echo.errorString().contains("'Echo': fault plan: 'loss=a lot'"), qPrintable(echo.errorString()));
+    QVERIFY(echo.faultPlan().isEmpty());
+}
+
+void tst_BadNetwork::everybodyIsToldOfFaults()
+{
+    const LogCapture log;
+    TestMaster master;
+    QVERIFY(master.setFaultPlan("delay=1ms,seed=3"));
+    EchoNode echo;
+    QVERIFY(echo.setFaultPlan("loss=5%"));
+    QVERIFY(master.listen());
+    QVERIFY(master.admit(echo, "udp"));
+    QCOMPARE(master.nodes().at(0).faultPlan, QString("loss=5%"));
+    QCOMPARE(log.matching("the master injects faults on purpose: delay=1ms,seed=3").size(), 1);
+    QCOMPARE(log.matching("node Echo injects faults on purpose: loss=5%").size(), 2);  // by itself, and by its master
+    QCOMPARE(log.matching("injects faults on purpose: delay=1ms,seed=3").size(), 2);   // the node tells it, too
+
+    ScriptedTool tool;
+    QVERIFY(tool.connectTo(master.serverPort()));
+    QJsonObject fields = tool.helloFields();
+    fields.insert("role", "tool");
+    tool.send(QPlcMessage::Hello, fields);
+    QCOMPARE(tool.next().text("faults"), QString("delay=1ms,seed=3"));
+    const QPlcMessage state = tool.ask(QPlcMessage::GetState);
+    QCOMPARE(state.text("faults"), QString("delay=1ms,seed=3"));
+    QCOMPARE(state.fields().value("nodes")[0]["faults"].toString(), QString("loss=5%"));
+    const QString events = QString::fromUtf8(QJsonDocument(tool.ask(QPlcMessage::GetEvents).fields()).toJson());
+    QVERIFY2(events.contains("node Echo injects faults on purpose: loss=5%"), qPrintable(events));
+    QVERIFY2(events.contains("the master injects faults on purpose: delay=1ms,seed=3"), qPrintable(events));
+}
+
+void tst_BadNetwork::withoutAPlanNobodySaysAnything()
+{
+    TestMaster master;
+    EchoNode echo;
+    QVERIFY(master.setFaultPlan("loss=5%"));
+    QVERIFY(master.setFaultPlan({}));
+    QVERIFY(master.listen());
+    QVERIFY(master.admit(echo, "udp"));
+    ScriptedTool tool;
+    QVERIFY(tool.greetAt(master.serverPort()));
+    QVERIFY(!tool.messages.at(0).fields().contains("faults"));
+    const QPlcMessage state = tool.ask(QPlcMessage::GetState);
+    QVERIFY(!state.fields().contains("faults"));
+    QVERIFY(!state.fields().value("nodes")[0].toObject().contains("faults"));
+}
+
+void tst_BadNetwork::lockstepGivesTheSameBitsOnABadNetwork_data()
+{
+    QTest::addColumn<QString>("kind");
+    QTest::addColumn<QString>("ofMaster");
+    QTest::addColumn<QString>("ofNode");
+    const char *everything = "loss=5%,duplicate=5%,reorder=5%,corrupt=5%,delay=100us,jitter=300us,seed=4";
+    const char *slow = "duplicate=20%,delay=100us,jitter=300us,seed=4";  // what a stream can do to frames
+    QTest::newRow("udp, master") << "udp" << everything << "";
+    QTest::newRow("udp, node") << "udp"
+                               << "" << everything;
+    QTest::newRow("udp, both") << "udp" << everything << everything;
+    QTest::newRow("tcp, both") << "tcp" << slow << slow;
+    QTest::newRow("local, both") << "local" << slow << slow;
+}
+
+void tst_BadNetwork::lockstepGivesTheSameBitsOnABadNetwork()
+{
+    QFETCH(QString, kind);
+    QFETCH(QString, ofMaster);
+    QFETCH(QString, ofNode);
+    constexpr quint64 cycles = 50;
+    TestMaster master;
+    CounterNode counter;
+    EchoNode echo;
+    QVERIFY(master.setFaultPlan(ofMaster));
+    QVERIFY(counter.setFaultPlan(ofNode) && echo.setFaultPlan(ofNode));
+    QVERIFY(master.listen());
+    const QPlcUnderlyingProtocol address = kind == "local"
+        ? QPlcUnderlyingProtocol::fromString(QStringLiteral("local://%1").arg(master.serverPort()))
+        : master.protocol(kind);
+    QVERIFY(echo.connectToMasterAndWaitForConnected(address));
+    QVERIFY(counter.connectToMasterAndWaitForConnected(address));
+    QCOMPARE(digestAfter(master, cycles), cleanDigest(cycles));
+    QCOMPARE(echo.counters().cycles, cycles);
+    QCOMPARE(counter.counters().cycles, cycles);
+    if (kind == "udp")
+        QVERIFY(master.nodes().at(0).resent > 0);  // else this test has shown nothing
+}
+
+void tst_BadNetwork::tenPercentLossMissesWhatChanceSays()
+{
+    constexpr int cycles = 10'000;
+    const double theory = 1.0 - (1.0 - Loss) * (1.0 - Loss);
+    for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+        const Misses misses = missesOf(seed, cycles);
+        const double share = double(misses.missed) / cycles;
+        QVERIFY2(share <= theory + 0.02 && share >= theory - 0.02, qPrintable(QString::number(share)));
+        QVERIFY2(misses.longestRun <= 12, qPrintable(QString::number(misses.longestRun)));
+    }
+}
+
+/// The losses are those that the seed says, cycle by cycle; a busy machine may add some.
+void tst_BadNetwork::aPlantGoesOnWithTenPercentLoss()
+{
+    constexpr int cycles = 400;
+    Plant plant("loss=10%,seed=7");
+    plant.master.setCycleLimit(cycles);
+    QVERIFY(plant.start());
+    QVERIFY(QTest::qWaitFor([&] { return plant.master.state() == QPlcMasterNode::Off; }, 20000));
+    const Misses expected = missesOf(7, int(plant.master.statistics().cycles));
+    QVERIFY(expected.missed > 40);
+    QVERIFY2(plant.info().lateAnswers >= quint64(expected.missed),
+             qPrintable(QStringLiteral("%1 late, %2 lost").arg(plant.info().lateAnswers).arg(expected.missed)));
+    QCOMPARE(quint64(plant.steps), plant.master.statistics().cycles);  // the other node never waited
+    QVERIFY(plant.isInOrder);
+    QVERIFY(plant.echoSteps > 100);
+}
+
+void tst_BadNetwork::copiesAndMixedOrderAreNeverAppliedTwiceOrBackwards()
+{
+    Plant plant("duplicate=30%,reorder=30%,jitter=12ms,seed=5");
+    double newest = -1.0;
+    int backwards = 0;
+    QVERIFY(plant.start());
+    QVERIFY(QTest::qWaitFor(
+        [&] {
+            const double echo = plant.master.signalValue("echo").toReal();
+            backwards += echo < newest ? 1 : 0;
+            newest = echo;
+            return plant.echoSteps > 150;
+        },
+        20000));
+    plant.master.stop();
+    QCOMPARE(backwards, 0);
+    QVERIFY(plant.isInOrder);
+    QVERIFY(plant.echo.counters().duplicated > 0 && plant.echo.counters().outdated > 0);
+    QVERIFY(plant.info().duplicates > 0);
+}
+
+void tst_BadNetwork::aCutLinkComesBack_data()
+{
+    QTest::addColumn<QString>("plan");
+    QTest::addColumn<bool>("barks");
+    QTest::newRow("50 ms") << "cut=200ms+50ms" << true;
+    QTest::newRow("500 ms") << "cut=200ms+500ms" << true;
+    QTest::newRow("500 ms, nothing arrives") << "cut-received=200ms+500ms" << true;
+    QTest::newRow("500 ms, nothing leaves") << "cut-sent=200ms+500ms" << false;
+}
+
+void tst_BadNetwork::aCutLinkComesBack()
+{
+    QFETCH(QString, plan);
+    QFETCH(bool, barks);
+    Plant plant(plan.toLatin1().constData());
+    plant.echo.activateWatchdog(25ms);
+    QSignalSpy barked(&plant.echo, &QPlcSlaveNode::watchdogTimedOut);
+    QVERIFY(plant.start());
+    // Late in a row: the cut; then punctual again.
+    QVERIFY(QTest::qWaitFor([&] { return plant.info().lateAnswers >= 8; }, 10000));
+    if (barks)
+        QTRY_VERIFY(barked.size() > 0);
+    const int during = plant.echoSteps;
+    const auto answers = [&] { return plant.master.cycleStatistics().nodes.last().answers; };
+    QTRY_VERIFY(plant.echoSteps > during + 50);
+    const quint64 before = answers();
+    QTRY_VERIFY(answers() > before + 20);
+    QCOMPARE(plant.master.state(), QPlcMasterNode::RealTime);
+    plant.master.stop();
+    QVERIFY(plant.isInOrder);
+    QCOMPARE(quint64(plant.steps), plant.master.statistics().cycles);
+}
+
+/// The control connection never tells: only the cycles do.
+void tst_BadNetwork::aHalfOpenLinkIsNoticedByTheWatchdogAndDelaysNobody()
+{
+    Plant plant("cut-received=100ms");
+    plant.echo.activateWatchdog(25ms);
+    QSignalSpy barked(&plant.echo, &QPlcSlaveNode::watchdogTimedOut);
+    QVERIFY(plant.start());
+    QTRY_COMPARE(barked.size(), 1);
+    const quint64 late = plant.info().lateAnswers;
+    QTRY_VERIFY(plant.info().lateAnswers > late + 20);
+    QCOMPARE(plant.echo.state(), QPlcSlaveNode::RealTime);
+    plant.master.stop();
+    QCOMPARE(quint64(plant.steps), plant.master.statistics().cycles);
+    QCOMPARE(plant.master.signalValue("echo").toReal(), double(plant.newest));  // the last value is held
+}
+
+void tst_BadNetwork::aFloodOfStrangersChangesNoResult()
+{
+    constexpr quint64 cycles = 2000;
+    const quint64 expected = cleanDigest(cycles);
+    TestMaster master;
+    CounterNode counter;
+    EchoNode echo;
+    QVERIFY(master.listen() && master.admit(echo, "udp") && master.admit(counter, "udp"));
+    const quint16 port = master.serverPort();
+    std::atomic<bool> stop{false};
+    std::thread flood([&stop, port] {
+        QUdpSocket stranger;
+        const QByteArray garbage(200, char(0x11));
+        while (!stop) {  // some 10 000 a second
+            for (int i = 0; i < 10; ++i)
+                stranger.writeDatagram(garbage, QHostAddress::LocalHost, port);
+            std::this_thread::sleep_for(1ms);
+        }
+    });
+    const quint64 digest = digestAfter(master, cycles);
+    stop = true;
+    flood.join();
+    QCOMPARE(digest, expected);
+    QVERIFY(master.statistics().strangers > 0);
+    QCOMPARE(master.nodes().at(0).rejected, quint64(0));
+}
+
+void tst_BadNetwork::aFloodOfBadFramesOfANodeChangesNoResult()
+{
+    TestMaster master;
+    ScriptedNode node;
+    node.answerAll();
+    QVERIFY(node.beginWith(master));
+    const QByteArray good = node.answerFrames(node.requests.at(0).cycle, QPlcValue(9.0).toBytes()).at(0);
+    for (int i = 0; i < 5000; ++i) {
+        QByteArray bad = good;
+        bad[4 + i % (good.size() - 4)] = char(bad.at(4 + i % (good.size() - 4)) ^ (1 + i % 255));
+        node.sendFrame(bad);
+        if (i % 50 == 0)
+            QTest::qWait(1);
+    }
+    const quint64 before = master.statistics().cycles;
+    QVERIFY(master.waitForCycles(before + 100));
+    QVERIFY(master.nodes().at(0).rejected > 1000);
+    QCOMPARE(master.signalValue("echo").toReal(), 0.0);  // what the node really says
+    master.stop();
+}
+
+void tst_BadNetwork::cyclesRunOnOver32Bits()
+{
+    ScriptedMaster master;
+    master.first = 0xFFFFFFF8;
+    CounterNode node;
+    QVector<quint64> numbers;
+    node.onStep = [&numbers](const QPlcCycle &cycle) { numbers << cycle.number(); };
+    QVERIFY(master.beginWith(node));
+    for (quint64 cycle = 0; cycle < 16; ++cycle) {
+        master.request(cycle);
+        QVERIFY(master.waitForAnswers(int(cycle) + 1));
+    }
+    master.request(7);  // of before the wrap: old, and not four thousand million cycles ahead
+    master.request(16);
+    QVERIFY(master.waitForAnswers(17));
+    QCOMPARE(node.counters().cycles, quint64(17));
+    QCOMPARE(node.counters().missed, quint64(0));
+    QCOMPARE(node.counters().outdated, quint64(1));
+    node.disconnectFromMaster();
+    for (int i = 0; i < 17; ++i)
+        QCOMPARE(numbers.at(i), quint64(i));
+}
+
+QTEST_GUILESS_MAIN(tst_BadNetwork)
+#include "tst_BadNetwork.moc"

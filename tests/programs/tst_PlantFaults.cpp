@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Plant.h"
+
+#include <QtNetwork/QTcpSocket>
+#include <QtNetwork/QUdpSocket>
+#include <QtTest/QtTest>
+
+#include <csignal>
+#include <random>
+
+// Programs of a plant that are killed, stopped and shouted at while cycles run.
+class tst_PlantFaults : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void init() { m_plant = std::make_unique<Plant>(); }
+    void cleanup() { m_plant.reset(); }
+    void aStoppedNodeIsLateAndGoesOn_data();
+    void aStoppedNodeIsLateAndGoesOn();
+    void aStoppedMasterLeavesOutWhatIsOver();
+    void aKilledNodeIsToldAndAnotherOneTakesItsPlace();
+    void garbageOnEveryPortChangesNothing();
+    void faultsOnPurposeAreSeenByEverybody();
+
+private:
+    bool start(const QStringList &autopilotOptions = {})
+    {
+        return m_plant->start() && m_plant->startNodes(autopilotOptions)
+            && m_plant->qtplc(QStringLiteral("start")).exitCode == 0 && waitForCycles(20);
+    }
+    QJsonObject state() const { return jsonOf(m_plant->qtplc(QStringLiteral("state --json")).output).object(); }
+    double counter(const char *name) const
+    {
+        return state().value(QStringLiteral("counters")).toObject().value(QLatin1String(name)).toDouble();
+    }
+    QJsonObject node(const QString &name) const
+    {
+        const QJsonArray nodes = state().value(QStringLiteral("nodes")).toArray();
+        for (const QJsonValue &node : nodes) {
+            if (node.toObject().value(QStringLiteral("name")).toString() == name)
+                return node.toObject();
+        }
+        return {};
+    }
+    bool hasBothNodes() const
+    {
+        return !node(QStringLiteral("Model")).isEmpty() && !node(QStringLiteral("Autopilot")).isEmpty();
+    }
+    double late(const QString &name) const { return node(name).value(QStringLiteral("lateAnswers")).toDouble(); }
+    /// Waits for so many cycles more.
+    bool waitForCycles(int count) const
+    {
+        const double before = counter("cycles");
+        return QTest::qWaitFor([&] { return counter("cycles") >= before + count; }, Program::patience);
+    }
+    QString events() const { return m_plant->qtplc(QStringLiteral("events")).output; }
+
+    std::unique_ptr<Plant> m_plant;
+};
+
+void tst_PlantFaults::aStoppedNodeIsLateAndGoesOn_data()
+{
+    QTest::addColumn<int>("milliseconds");
+    QTest::newRow("0.3 s") << 300;
+    QTest::newRow("2 s") << 2000;
+}
+
+void tst_PlantFaults::aStoppedNodeIsLateAndGoesOn()
+{
+    QFETCH(int, milliseconds);
+    QVERIFY(start());
+    const double lateBefore = late("Autopilot");
+    m_plant->autopilot().sendSignal(SIGSTOP);
+    QTest::qWait(milliseconds);
+    QVERIFY(waitForCycles(10));  // the others go on
+    m_plant->autopilot().sendSignal(SIGCONT);
+    const double lateAfter = late("Autopilot");
+    QVERIFY2(lateAfter - lateBefore >= 5, qPrintable(QString::number(lateAfter - lateBefore)));
+    // It computes the newest cycle, and then each one: punctual again for many cycles in a row.
+    QVERIFY(QTest::qWaitFor(
+        [&] {
+            const double before = late("Autopilot");
+            return waitForCycles(20) && late("Autopilot") - before < 15;
+        },
+        Program::patience));
+    QCOMPARE(state().value("state").toString(), QString("RealTime"));
+    QVERIFY(hasBothNodes());
+}
+
+void tst_PlantFaults::aStoppedMasterLeavesOutWhatIsOver()
+{
+    QVERIFY(start());
+    const double skippedBefore = counter("skippedCycles");
+    m_plant->master().sendSignal(SIGSTOP);
+    QTest::qWait(2000);
+    m_plant->master().sendSignal(SIGCONT);
+    QTRY_VERIFY_WITH_TIMEOUT(counter("skippedCycles") - skippedBefore >= 150, Program::patience);  // of about 200
+    QVERIFY(waitForCycles(10));
+    const QJsonObject all = state();
+    const QJsonObject counters = all.value("counters").toObject();
+    const QByteArray cycle = all.value("cycle").toString().toLatin1();
+    QVERIFY(counters.value("overruns").toDouble() >= 1);
+    // None is lost, and none is computed twice to catch up.
+    QVERIFY(std::abs(double(cycle.toULongLong(nullptr, 16)) + 1 - counters.value("cycles").toDouble()
+                     - counters.value("skippedCycles").toDouble())
+            <= 2);
+    QVERIFY(hasBothNodes());
+}
+
+void tst_PlantFaults::aKilledNodeIsToldAndAnotherOneTakesItsPlace()
+{
+    QVERIFY(start());
+    m_plant->autopilot().sendSignal(SIGKILL);
+    QTRY_VERIFY_WITH_TIMEOUT(node("Autopilot").isEmpty(), Program::patience);
+    QVERIFY2(events().contains("node Autopilot is gone in the middle of its work"), qPrintable(events()));
+    QCOMPARE(node("Model").value("name").toString(), QString("Model"));
+    Program another(programPath("awe_autopilot"), {m_plant->address()});
+    QVERIFY(another.waitForErrors(QStringLiteral("registered")));
+    QTRY_VERIFY_WITH_TIMEOUT(!node("Autopilot").isEmpty(), Program::patience);
+}
+
+void tst_PlantFaults::garbageOnEveryPortChangesNothing()
+{
+    QVERIFY(start({QStringLiteral("--faults=delay=0s,jitter=1ns"), QStringLiteral("--enable-fault-injection")}));
+    const auto port = quint16(m_plant->port.toUInt());
+    std::mt19937 random(1);
+    const auto garbage = [&random](int size) {
+        QByteArray bytes(size, '\0');
+        for (char &byte : bytes)
+            byte = char(random());
+        return bytes;
+    };
+    const double cyclesBefore = counter("cycles");
+    QUdpSocket udp;
+    for (int i = 0; i < 5000; ++i) {
+        udp.writeDatagram(garbage(int(random() % 1500)), QHostAddress::LocalHost, port);
+        if (i % 100 == 0) {
+            QTcpSocket tcp;
+            tcp.connectToHost(QHostAddress::LocalHost, port);
+            if (tcp.waitForConnected(1000)) {
+                tcp.write(garbage(2000));
+                tcp.waitForBytesWritten(1000);
+            }
+        }
+        if (i % 10 == 0)
+            QTest::qWait(1);
+    }
+    QTRY_VERIFY_WITH_TIMEOUT(counter("strangers") > 1000, Program::patience);
+    QVERIFY(counter("cycles") > cyclesBefore + 10);
+    QVERIFY(waitForCycles(20));
+    const QJsonObject after = state();
+    QCOMPARE(after.value("state").toString(), QString("RealTime"));
+    QVERIFY(hasBothNodes());
+    QCOMPARE(node("Model").value("rejected").toDouble(), 0.0);
+    QVERIFY(!udp.hasPendingDatagrams());  // nobody is told that somebody is there
+}
+
+void tst_PlantFaults::faultsOnPurposeAreSeenByEverybody()
+{
+    const QString enabled = QStringLiteral("--enable-fault-injection");
+    QVERIFY(m_plant->start({enabled, QStringLiteral("--faults=delay=100us")}));
+    QVERIFY(m_plant->startNodes({enabled, QStringLiteral("--faults=duplicate=50%,seed=9")}));
+    QVERIFY(m_plant->autopilot().waitForErrors("node Autopilot injects faults on purpose: duplicate=50%,seed=9"));
+    QVERIFY(m_plant->autopilot().waitForErrors("injects faults on purpose: delay=100us"));
+    QVERIFY2(m_plant->master().waitForErrors("the master injects faults on purpose: delay=100us"),
+             qPrintable(m_plant->master().errors()));
+    const QString shown = m_plant->qtplc(QStringLiteral("state")).output;
+    QVERIFY2(shown.contains("FAULTS    injected on purpose by Master (delay=100us), Autopilot (duplicate=50%,seed=9)"),
+             qPrintable(shown));
+    QCOMPARE(m_plant->qtplc(QStringLiteral("start")).exitCode, 0);
+    QTRY_VERIFY_WITH_TIMEOUT(node("Autopilot").value("duplicates").toDouble() > 5, Program::patience);
+}
+
+QTEST_GUILESS_MAIN(tst_PlantFaults)
+#include "tst_PlantFaults.moc"
