@@ -69,6 +69,7 @@ void Evidence::complete()
             fault.kind = FaultKind(record.numbers[0]);
             fault.node = record.subject == Record::Nobody ? -1 : record.subject;
             fault.begin = record.time;
+            fault.seed = record.numbers[2];
             fault.end = fault.recovered = std::numeric_limits<qint64>::max();
             faults.push_back(fault);
             break;

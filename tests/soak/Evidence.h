@@ -35,6 +35,7 @@ struct DoneFault
     qint64 end = 0;        // its cause is gone; when it never went: begin of the next one
     qint64 recovered = 0;  // the whole plant runs again; when it never did: the end of the run
     qint64 amount = 0;     // what was really done
+    quint64 seed = 0;
 
     bool isOfMaster() const { return kind == FaultKind::KillMaster || kind == FaultKind::StopMaster; }
 };

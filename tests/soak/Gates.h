@@ -47,6 +47,8 @@ Gate faultsAreSeen(const Evidence &evidence);     // by an event, within hold + 
 Gate plantRecovers(const Evidence &evidence);     // within 2 s
 Gate faultsAreCounted(const Evidence &evidence);  // exactly as many as there were
 
+Gate linkFaultsAreCounted(const Evidence &evidence);  // what a link did to frames, by frame (LinkGates.cpp)
+
 // Resources (ResourceGates.cpp)
 Gate nothingLeaks(const Evidence &evidence);                         // descriptors and threads
 Gate memoryStays(const Evidence &evidence, const Profile &profile);  // resident memory

@@ -20,7 +20,6 @@ struct Record
         Safe,      // the node itself went to its safe state. numbers: what the drive does
         PhaseEnded,
         MasterLost,
-        Faulted,  // what the link of the node did. numbers: see LinkNumber
         // of a master; subject: a node, or Nobody
         Cycle = 100,
         State,  // numbers: a MasterState
@@ -33,7 +32,7 @@ struct Record
         NodeCounters,  // numbers: see NodeNumber
         // of the runner; subject: a node, or Nobody
         Started = 200,  // a process of the plant. numbers: process, life
-        FaultBegins,    // numbers: kind, amount
+        FaultBegins,    // numbers: kind, amount, seed
         FaultEnds,      // numbers: kind, amount that was really done
         Command,        // of the operator: the plant may move. numbers: life of the master
         Recovered,      // the whole plant runs again
@@ -52,7 +51,6 @@ struct Record
         Drive,
         Quality
     };
-    enum LinkNumber { LinkLost, LinkDuplicated, LinkReordered, LinkCorrupted, LinkCut };
     enum MasterNumber { MasterPhase, Cycles, Skipped, Strangers, LateAnswers, Overruns, Incomplete };
     enum NodeNumber { NodePhase, Answers, NodeLate, AnswersLost, Duplicated, Reordered, Rejected, Resent };
     enum UsageNumber { Descriptors, Threads, ResidentKb, UsageLife, IsCompared };

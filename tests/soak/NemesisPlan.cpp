@@ -24,13 +24,12 @@ int amountOf(FaultKind kind)
         return 8;
     case FaultKind::ConnectFlood:
         return 200;
-    case FaultKind::CutLink:
-        return 200;
     case FaultKind::LoseFrames:
     case FaultKind::DuplicateFrames:
     case FaultKind::ReorderFrames:
     case FaultKind::CorruptFrames:
-        return 500;
+    case FaultKind::CutLink:
+        return 700;
     default:
         return 1;
     }
@@ -71,6 +70,23 @@ std::optional<Profile> Profile::named(const QString &name)
     return profile;
 }
 
+QString linkFaultsOf(FaultKind kind, quint64 seed)
+{
+    const QString end = QStringLiteral(",seed=%1").arg(seed);
+    switch (kind) {
+    case FaultKind::LoseFrames:
+        return QStringLiteral("loss-sent=10%") + end;
+    case FaultKind::DuplicateFrames:
+        return QStringLiteral("duplicate-sent=20%,duplicate-received=20%") + end;
+    case FaultKind::ReorderFrames:
+        return QStringLiteral("reorder-sent=10%,reorder-received=10%") + end;
+    case FaultKind::CorruptFrames:
+        return QStringLiteral("corrupt-sent=10%,corrupt-received=10%") + end;
+    default:
+        return QStringLiteral("cut=300ms+200ms") + end;
+    }
+}
+
 QStringList Profile::names()
 {
     return {QStringLiteral("short"), QStringLiteral("steady"), QStringLiteral("faults"), QStringLiteral("crowd")};
@@ -98,6 +114,8 @@ std::vector<Fault> planOf(const Profile &profile, int count, quint64 seed)
         std::swap(plan[i - 1], plan[random() % i]);
     for (Fault &fault : plan) {
         fault.node = hasNode(fault.kind) ? int(random() % quint64(profile.shape.nodes)) : -1;
+        if (isLinkFault(fault.kind) && isOnStream(fault.node))
+            --fault.node;
         fault.seed = random();
     }
     return plan;

@@ -21,7 +21,7 @@ enum class FaultKind : quint8 {
     GarbageToNodes,    ///< from strangers to the UDP ports of the nodes
     StoppedReader,     ///< a tool that asks and asks, and takes no answer
     ConnectFlood,      ///< connections that say nothing
-    LoseFrames,        ///< from here on: a node whose link does this to its frames
+    LoseFrames,  ///< from here on: a node whose link does this to its frames, for a while; not of a stream, which knows no such faults
     DuplicateFrames,
     ReorderFrames,
     CorruptFrames,
@@ -50,6 +50,9 @@ struct Fault
     int amount = 0;    // datagrams, connections, requests; [ms] of a stop, cut or faulty link
     quint64 seed = 0;  // for all that is drawn while it happens
 };
+
+/// What a node is told of the faults of its link: docs/faults.md. What is counted is done to the frames that it sends.
+QString linkFaultsOf(FaultKind kind, quint64 seed);
 
 /// What a soak is.
 struct Profile

@@ -115,22 +115,41 @@ qint64 waitedBetween(const History &master, const Record &event, qint64 begin)
     return std::max<qint64>(0, event.waited - waited);
 }
 
+/// The time of the last step before the link of a node was cut.
+qint64 cutOf(const Evidence &evidence, const DoneFault &fault)
+{
+    const Record *last = nullptr;
+    for (const History &history : evidence.nodes) {
+        if (history.node != fault.node)
+            continue;
+        for (const Record &record : history.records) {
+            if (record.kind != Record::Step || record.time < fault.begin || record.time > fault.end)
+                continue;
+            if (last && record.time - last->time > 100'000'000)
+                return last->time;
+            last = &record;
+        }
+    }
+    return last ? last->time : fault.begin;
+}
+
 void lookAtEvent(const Evidence &evidence, const DoneFault &fault, Gate *gate)
 {
     const History *master = evidence.masterAt(fault.begin);
     if (!master)
         return;
     ++gate->looked;
+    const qint64 begin = fault.kind == FaultKind::CutLink ? cutOf(evidence, fault) : fault.begin;
     const std::vector<const Record *> events
-        = recordsOf(*master, eventOf(fault.kind), fault.node, fault.begin, fault.recovered);
+        = recordsOf(*master, eventOf(fault.kind), fault.node, begin, fault.recovered);
     if (events.empty()) {
         gate->fail(QStringLiteral("nobody was told of: %1").arg(nameOf(fault)));
         return;
     }
     const Record &event = *events.front();
     const qint64 limit = evidence.shape.hold + 2;
-    const qint64 cycles = cyclesBetween(*master, fault.begin, event.time);
-    const qint64 stalled = evidence.stalls.within(fault.begin, event.time) + waitedBetween(*master, event, fault.begin);
+    const qint64 cycles = cyclesBetween(*master, begin, event.time);
+    const qint64 stalled = evidence.stalls.within(begin, event.time) + waitedBetween(*master, event, begin);
     gate->largest(QString::fromLatin1(FaultNames[std::size_t(fault.kind)]) + QStringLiteral(" [cycles]"),
                   double(cycles));
     if (cycles <= limit)

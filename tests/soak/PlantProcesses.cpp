@@ -120,7 +120,6 @@ bool PlantProcesses::startMaster(QString *error)
 
 void PlantProcesses::startNode(int node, const QStringList &extraArguments)
 {
-    static const char *const transports[] = {"udp", "tcp", "local"};
     Node &slot = m_nodes[std::size_t(node)];
     if (slot.process)
         slot.process->destroy();
@@ -132,7 +131,7 @@ void PlantProcesses::startNode(int node, const QStringList &extraArguments)
                       QStringLiteral("--watchdog"),
                       QString::number(watchdog),
                       QStringLiteral("--master"),
-                      QStringLiteral("%1://127.0.0.1:%2").arg(QString::fromLatin1(transports[node % 3])).arg(m_port)};
+                      QStringLiteral("%1://127.0.0.1:%2").arg(QString::fromLatin1(transportOf(node))).arg(m_port)};
     slot.process = std::make_unique<PlantProcess>(QStringLiteral("soak_node"), arguments + extraArguments,
                                                   file(name + QStringLiteral(".log")));
     m_history.append(Record::Started, node, {quint64(slot.process->processId()), slot.life});

@@ -56,6 +56,12 @@ int nodeNumber(const QString &name)
     return isNumber && name == nodeName(node) ? node : -1;
 }
 
+const char *transportOf(int node)
+{
+    static const char *const transports[] = {"udp", "tcp", "local"};
+    return transports[node % 3];
+}
+
 QPlcSignalTable table(const PlantShape &shape)
 {
     static const char *const types[Kinds] = {"Real64", "Real32", "Int32", "Real32[3]"};

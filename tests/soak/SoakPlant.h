@@ -27,6 +27,13 @@ QString nodeName(int node);
 int nodeNumber(const QString &name);
 QPlcSignalTable table(const PlantShape &shape);
 
+/// How a node is connected: "udp", "tcp" or "local".
+const char *transportOf(int node);
+inline bool isOnStream(int node)
+{
+    return node % 3 == 1;
+}
+
 /// What a node writes in one step.
 struct Stamp
 {

@@ -94,7 +94,7 @@ bool SoakRun::suffer(const Fault &fault)
 {
     QElapsedTimer timer;
     timer.start();
-    m_history.append(Record::FaultBegins, fault.node, {quint64(fault.kind), quint64(fault.amount)});
+    m_history.append(Record::FaultBegins, fault.node, {quint64(fault.kind), quint64(fault.amount), fault.seed});
     const int amount = inject(fault);
     m_history.append(Record::FaultEnds, fault.node, {quint64(fault.kind), quint64(amount)});
     const bool isOfNode = hasNode(fault.kind) || fault.kind == FaultKind::KillMaster;
@@ -160,7 +160,12 @@ int SoakRun::inject(const Fault &fault)
         return made;
     }
     default:
-        return 0;
+        m_plant.startNode(fault.node,
+                          {QStringLiteral("--enable-fault-injection"), QStringLiteral("--faults"),
+                           linkFaultsOf(fault.kind, fault.seed)});
+        Operator::wait(fault.amount);
+        m_plant.startNode(fault.node);
+        return fault.amount;
     }
 }
 
