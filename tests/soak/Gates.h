@@ -47,6 +47,7 @@ Gate faultsAreSeen(const Evidence &evidence);     // by an event, within hold + 
 Gate plantRecovers(const Evidence &evidence);     // within 2 s
 Gate faultsAreCounted(const Evidence &evidence);  // exactly as many as there were
 
+Gate attemptsAreRefused(const Evidence &evidence);    // all of them, and each one is told
 Gate linkFaultsAreCounted(const Evidence &evidence);  // what a link did to frames, by frame (LinkGates.cpp)
 
 // Resources (ResourceGates.cpp)

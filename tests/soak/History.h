@@ -36,6 +36,7 @@ struct Record
         FaultEnds,      // numbers: kind, amount that was really done
         Command,        // of the operator: the plant may move. numbers: life of the master
         Recovered,      // the whole plant runs again
+        Attempts,       // of strangers to get in, so far. numbers: how many
         Usage,          // of a process. numbers: see UsageNumber
         Stall           // the machine did not let a thread run that was ready. numbers: begin [ns]; time: end
     };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "NemesisPlan.h"
 
+#include <algorithm>
 #include <random>
 
 namespace soak {
@@ -62,7 +63,9 @@ std::optional<Profile> Profile::named(const QString &name)
         profile.periodUs = 20'000;
         profile.seconds = 600;
         profile.judgesMemory = true;
-        profile.churn = 0.2;
+        profile.restless = 0.2;
+        profile.faultEvery = 200;
+        profile.weights[std::size_t(FaultKind::KillNode)] = 1;
         profile.attemptsPerSecond = 100;
     } else {
         return std::nullopt;
@@ -112,8 +115,9 @@ std::vector<Fault> planOf(const Profile &profile, int count, quint64 seed)
     }
     for (std::size_t i = plan.size(); i > 1; --i)
         std::swap(plan[i - 1], plan[random() % i]);
+    const int nodes = std::max(1, int(profile.shape.nodes * profile.restless));
     for (Fault &fault : plan) {
-        fault.node = hasNode(fault.kind) ? int(random() % quint64(profile.shape.nodes)) : -1;
+        fault.node = hasNode(fault.kind) ? int(random() % quint64(nodes)) : -1;
         if (isLinkFault(fault.kind) && isOnStream(fault.node))
             --fault.node;
         fault.seed = random();

@@ -65,8 +65,8 @@ struct Profile
     int faultCount = 0;         // 0: as many as fit into the duration
     bool isLoaded = false;      // stress-ng runs beside
     bool judgesMemory = false;  // long enough for a slope
-    double churn = 0.0;         // share of the nodes that come and go all the time
-    int attemptsPerSecond = 0;  // of strangers to command the plant
+    double restless = 1.0;      // share of the nodes that have faults
+    int attemptsPerSecond = 0;  // of strangers to get in
     std::array<int, FaultKinds> weights{};
 
     static std::optional<Profile> named(const QString &name);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Operator.h"
 
+#include "SoakPlant.h"
+
 #include <QtCore/QElapsedTimer>
 #include <QtCore/QEventLoop>
 #include <QtCore/QTimer>
@@ -18,7 +20,26 @@ Operator::Operator(HistoryWriter &history, int nodes)
 void Operator::useMaster(quint16 port)
 {
     m_port = port;
+    m_formerId = 0;
     m_client.reset();
+}
+
+int Operator::idOf(const Message &state, int node)
+{
+    const QJsonArray nodes = state.fields().value(QStringLiteral("nodes")).toArray();
+    for (const QJsonValue &value : nodes) {
+        const QJsonObject fields = value.toObject();
+        if (fields.value(QStringLiteral("name")).toString() == nodeName(node))
+            return fields.value(QStringLiteral("id")).toInt();
+    }
+    return 0;
+}
+
+void Operator::expectAnother(int node)
+{
+    Message state;
+    m_formerNode = node;
+    m_formerId = ask(Message::GetState, &state) ? idOf(state, node) : 0;
 }
 
 void Operator::wait(int milliseconds)
@@ -48,7 +69,7 @@ bool Operator::goOn()
     const QString name = state.text(QStringLiteral("state"));
     const int registered = state.fields().value(QStringLiteral("nodes")).toArray().size() - 1;  // the recorder is one
     m_errorString = QStringLiteral("the master is in %1 and has %2 of %3 nodes").arg(name).arg(registered).arg(m_nodes);
-    if (registered < m_nodes)
+    if (registered < m_nodes || (m_formerId != 0 && idOf(state, m_formerNode) == m_formerId))
         return false;
     if (name == QLatin1String("Off") || name == QLatin1String("Ready")) {
         m_history.append(Record::Command, -1);

@@ -20,6 +20,8 @@ public:
     void useMaster(quint16 port);
     /// Does what there is to do until the whole plant runs. \return false when it does not within \a patience [ms]: errorString() says what is missing
     bool bringToRealTime(int patience);
+    /// From now on the whole plant runs only with a node \a node that has registered anew. To be called before its process ends.
+    void expectAnother(int node);
     bool stop();
     /// "127.0.0.1:40312" of the nodes that have datagrams.
     QStringList datagramAddresses();
@@ -29,12 +31,15 @@ public:
 
 private:
     bool ask(QPlcMessage::Kind request, QPlcMessage *answer);
+    static int idOf(const QPlcMessage &state, int node);
     /// Does the next thing. \return whether the whole plant runs
     bool goOn();
 
     HistoryWriter &m_history;
     const int m_nodes;
     quint16 m_port = 0;
+    int m_formerNode = -1;
+    int m_formerId = 0;  // of this node, which its next registration will not have; 0: none
     std::unique_ptr<tools::ControlClient> m_client;
     QString m_errorString;
 };

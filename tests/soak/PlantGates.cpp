@@ -294,4 +294,22 @@ Gate faultsAreCounted(const Evidence &evidence)
     return gate;
 }
 
+Gate attemptsAreRefused(const Evidence &evidence)
+{
+    Gate gate("attempts are refused");
+    for (const Record &record : evidence.runner.records) {
+        if (record.kind == Record::Attempts)
+            gate.looked = qint64(record.numbers[0]);
+    }
+    gate.isAsked = gate.looked > 0;
+    if (!gate.isAsked)
+        return gate;
+    qint64 refused = 0;
+    for (const History &master : evidence.masters)
+        refused += qint64(recordsOf(master, Record::Refused, -1, 0, std::numeric_limits<qint64>::max()).size());
+    if (refused != gate.looked)
+        gate.fail(QStringLiteral("%1 attempts, %2 refused").arg(gate.looked).arg(refused));
+    return gate;
+}
+
 }  // namespace soak

@@ -104,20 +104,11 @@ Gate memoryStays(const Evidence &evidence, const Profile &profile)
 
 std::vector<Gate> judge(const Evidence &evidence, const Profile &profile)
 {
-    return {valuesAreWhole(evidence),
-            valuesWereWritten(evidence),
-            valuesNeverGoBack(evidence),
-            stepsComeOnce(evidence),
-            silentWritersBecomeSafe(evidence),
-            nodesAloneBecomeSafe(evidence),
-            nothingMovesByItself(evidence),
-            noFalseAlarms(evidence),
-            cyclesAddUp(evidence),
-            faultsAreSeen(evidence),
-            plantRecovers(evidence),
-            faultsAreCounted(evidence),
-            linkFaultsAreCounted(evidence),
-            nothingLeaks(evidence),
+    return {valuesAreWhole(evidence),       valuesWereWritten(evidence),       valuesNeverGoBack(evidence),
+            stepsComeOnce(evidence),        silentWritersBecomeSafe(evidence), nodesAloneBecomeSafe(evidence),
+            nothingMovesByItself(evidence), noFalseAlarms(evidence),           cyclesAddUp(evidence),
+            faultsAreSeen(evidence),        plantRecovers(evidence),           faultsAreCounted(evidence),
+            linkFaultsAreCounted(evidence), attemptsAreRefused(evidence),      nothingLeaks(evidence),
             memoryStays(evidence, profile)};
 }
 

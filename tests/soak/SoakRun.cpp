@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SoakRun.h"
 
+#include "Intruder.h"
 #include "ReferenceClock.h"
 #include "Strangers.h"
 
 #include <QtCore/QDir>
 #include <QtCore/QElapsedTimer>
+#include <QtCore/QStandardPaths>
 
 #include <csignal>
 
@@ -22,6 +24,7 @@ SoakRun::SoakRun(const Profile &profile, int seconds, quint64 seed, const QStrin
     : m_profile(profile)
     , m_seconds(seconds)
     , m_seed(seed)
+    , m_folder(folder)
     , m_plant(profile, folder, m_history)
     , m_operator(m_history, profile.shape.nodes)
 {
@@ -55,12 +58,31 @@ bool SoakRun::recover()
     return true;
 }
 
+/// Programs beside the plant that take processors, memory and disk, until the object goes.
+bool SoakRun::startLoad(std::unique_ptr<PlantProcess> *load)
+{
+    if (!m_profile.isLoaded)
+        return true;
+    const QString program = QStandardPaths::findExecutable(QStringLiteral("stress-ng"));
+    if (program.isEmpty())
+        return setError(QStringLiteral("no stress-ng; scripts/setup --tests installs it"));
+    *load = std::make_unique<PlantProcess>(
+        program,
+        QStringList{QStringLiteral("--cpu"), QStringLiteral("2"), QStringLiteral("--vm"), QStringLiteral("1"),
+                    QStringLiteral("--vm-bytes"), QStringLiteral("64M"), QStringLiteral("--hdd"), QStringLiteral("1"),
+                    QStringLiteral("--temp-path"), m_folder},
+        QDir(m_folder).filePath(QStringLiteral("Load.log")));
+    return true;
+}
+
 bool SoakRun::run()
 {
     const ReferenceClock reference(m_history, std::max<qint64>(1'000'000, m_profile.periodUs * 1000 / 4));
-    if (!start())
+    std::unique_ptr<PlantProcess> load;
+    if (!start() || !startLoad(&load))
         return false;
     rest(2);
+    const Intruder intruder(m_plant.port(), m_profile.attemptsPerSecond, m_seed, m_history);
     if (m_profile.faultEvery == 0) {
         rest(m_seconds);
     } else {
@@ -97,12 +119,10 @@ bool SoakRun::suffer(const Fault &fault)
     m_history.append(Record::FaultBegins, fault.node, {quint64(fault.kind), quint64(fault.amount), fault.seed});
     const int amount = inject(fault);
     m_history.append(Record::FaultEnds, fault.node, {quint64(fault.kind), quint64(amount)});
-    const bool isOfNode = hasNode(fault.kind) || fault.kind == FaultKind::KillMaster;
-    if (isOfNode)
-        Operator::wait(50);  // the master learns of it
     if (!recover())
         return false;
-    Operator::wait(std::max(Settling, m_profile.faultEvery - int(timer.elapsed())));
+    const int settling = fault.kind == FaultKind::KillNode ? 0 : Settling;
+    Operator::wait(std::max(settling, m_profile.faultEvery - int(timer.elapsed())));
     m_plant.recordUsage(true);
     return true;
 }
@@ -120,6 +140,7 @@ int SoakRun::inject(const Fault &fault)
     Strangers strangers(fault.seed);
     switch (fault.kind) {
     case FaultKind::KillNode:
+        m_operator.expectAnother(fault.node);
         m_plant.startNode(fault.node);  // kills the life before
         return 1;
     case FaultKind::StopNode:
@@ -164,6 +185,7 @@ int SoakRun::inject(const Fault &fault)
                           {QStringLiteral("--enable-fault-injection"), QStringLiteral("--faults"),
                            linkFaultsOf(fault.kind, fault.seed)});
         Operator::wait(fault.amount);
+        m_operator.expectAnother(fault.node);
         m_plant.startNode(fault.node);
         return fault.amount;
     }

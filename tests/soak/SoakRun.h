@@ -20,6 +20,7 @@ public:
 
 private:
     bool start();
+    bool startLoad(std::unique_ptr<PlantProcess> *load);
     bool recover();
     bool suffer(const Fault &fault);
     void rest(int seconds);
@@ -30,6 +31,7 @@ private:
     const Profile &m_profile;
     const int m_seconds;
     const quint64 m_seed;
+    const QString m_folder;
     HistoryWriter m_history;
     PlantProcesses m_plant;
     Operator m_operator;
