@@ -23,7 +23,8 @@ bool wasStopped(const Evidence &evidence, int node, qint64 begin, qint64 end)
 /// What a node does when nothing more comes: from the last step of a phase to what is recorded next.
 void lookAtSilence(const Evidence &evidence, const History &history, const Record &step, const Record &next, Gate *gate)
 {
-    const qint64 limit = (evidence.shape.hold + 1) * evidence.period;
+    // A quarter of a period is what the reference clock bears without a word.
+    const qint64 limit = (evidence.shape.hold + 1) * evidence.period + evidence.period / 4;
     const qint64 silence = next.time - step.time;
     const bool isSafe = next.kind == Record::Safe;
     if (wasStopped(evidence, history.node, step.time, next.time) || (!isSafe && silence <= limit))

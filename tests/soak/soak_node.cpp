@@ -18,6 +18,8 @@ public:
         , m_written(this, options.shape, options.node)
         , m_seen(this, options.shape, (options.node + options.shape.nodes - 1) % options.shape.nodes)
     {
+        if (options.node % 8 != 0)  // the others get theirs from the master
+            setSignalTable(table(options.shape));
         connect(this, &QPlcSlaveNode::realTimeHasStarted, this,
                 [this] { m_history.append(Record::Phase, m_options.node); });
         connect(this, &QPlcSlaveNode::watchdogTimedOut, this, [this] { becomeSafe(); });

@@ -95,16 +95,16 @@ void tst_SafetyGates::aDriveThatIsHeldForTooLongIsFound()
 
 void tst_SafetyGates::aNodeThatGoesSafeInTimePasses()
 {
-    HandMade plant = silence(HandMade::at(49) + 40 * ms);  // its last step was 1 ms after the begin of cycle 49
+    HandMade plant = silence(HandMade::at(49) + 43 * ms);  // its last step was 1 ms after the begin of cycle 49
     const Gate gate = plant.judge(&soak::nodesAloneBecomeSafe);
     QVERIFY2(gate.passed(), textOf(gate));
     QCOMPARE(gate.looked, qint64(1));
-    QCOMPARE(gate.figures["longest until safe [ms]"], 39.0);
+    QCOMPARE(gate.figures["longest until safe [ms]"], 42.0);
 }
 
 void tst_SafetyGates::aNodeThatGoesSafeTooLateIsFound()
 {
-    HandMade plant = silence(HandMade::at(49) + 42 * ms);
+    HandMade plant = silence(HandMade::at(49) + 44 * ms);
     QCOMPARE(plant.judge(&soak::nodesAloneBecomeSafe).failed, qint64(1));
 }
 
@@ -118,7 +118,7 @@ void tst_SafetyGates::aNodeThatNeverGoesSafeIsFound()
 
 void tst_SafetyGates::aNodeThatTheMachineStalledIsExcused()
 {
-    HandMade plant = silence(HandMade::at(49) + 42 * ms);
+    HandMade plant = silence(HandMade::at(49) + 44 * ms);
     HandMade::add(plant.runner(), Record::Stall, -1, HandMade::at(49) + 40 * ms, {quint64(HandMade::at(49) + 35 * ms)});
     const Gate gate = plant.judge(&soak::nodesAloneBecomeSafe);
     QVERIFY2(gate.passed(), textOf(gate));
@@ -128,7 +128,7 @@ void tst_SafetyGates::aNodeThatTheMachineStalledIsExcused()
 void tst_SafetyGates::aNodeThatWaitedForAProcessorIsExcused()
 {
     for (const quint32 thread : {1U, 2U}) {  // what another thread waited for says nothing
-        HandMade plant = silence(HandMade::at(49) + 42 * ms);
+        HandMade plant = silence(HandMade::at(49) + 44 * ms);
         Record &safe = plant.node(1).records.back();
         QCOMPARE(int(safe.kind), int(Record::Safe));
         safe.waited = 5 * ms;
