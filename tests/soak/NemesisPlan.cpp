@@ -47,7 +47,8 @@ std::optional<Profile> Profile::named(const QString &name)
         profile.faultCount = 60;
         profile.weights = AllKinds;
     } else if (name == QLatin1String("steady")) {
-        profile.shape = {16, 250, 3};
+        profile.shape = {16, 250, 25};
+        profile.priority = 40;
         profile.periodUs = 2000;
         profile.seconds = 600;
         profile.isLoaded = true;

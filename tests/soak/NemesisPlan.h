@@ -65,6 +65,7 @@ struct Profile
     int faultCount = 0;         // 0: as many as fit into the duration
     bool isLoaded = false;      // stress-ng runs beside
     bool judgesMemory = false;  // long enough for a slope
+    int priority = 0;           // of the cycle threads, SCHED_FIFO; 0: they are ordinary
     double restless = 1.0;      // share of the nodes that have faults
     int attemptsPerSecond = 0;  // of strangers to get in
     std::array<int, FaultKinds> weights{};

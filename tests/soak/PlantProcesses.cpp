@@ -96,6 +96,12 @@ QString PlantProcesses::file(const QString &name) const
     return QDir(m_folder).filePath(name);
 }
 
+QStringList PlantProcesses::priorityArguments() const
+{
+    return m_profile.priority > 0 ? QStringList{QStringLiteral("--priority"), QString::number(m_profile.priority)}
+                                  : QStringList();
+}
+
 bool PlantProcesses::startMaster(QString *error)
 {
     if (m_master)
@@ -104,7 +110,8 @@ bool PlantProcesses::startMaster(QString *error)
     const QString log = file(name + QStringLiteral(".log"));
     const QStringList arguments = shapeArguments(m_profile.shape, m_masterLife, file(name + QStringLiteral(".history")))
         + QStringList{QStringLiteral("--period-us"), QString::number(m_profile.periodUs), QStringLiteral("--port"),
-                      QString::number(m_port)};
+                      QString::number(m_port)}
+        + priorityArguments();
     m_master = std::make_unique<PlantProcess>(QStringLiteral("soak_master"), arguments, log);
     m_history.append(Record::Started, -1, {quint64(m_master->processId()), m_masterLife});
     QElapsedTimer timer;
@@ -132,8 +139,9 @@ void PlantProcesses::startNode(int node, const QStringList &extraArguments)
                       QString::number(watchdog),
                       QStringLiteral("--master"),
                       QStringLiteral("%1://127.0.0.1:%2").arg(QString::fromLatin1(transportOf(node))).arg(m_port)};
-    slot.process = std::make_unique<PlantProcess>(QStringLiteral("soak_node"), arguments + extraArguments,
-                                                  file(name + QStringLiteral(".log")));
+    slot.process
+        = std::make_unique<PlantProcess>(QStringLiteral("soak_node"), arguments + priorityArguments() + extraArguments,
+                                         file(name + QStringLiteral(".log")));
     m_history.append(Record::Started, node, {quint64(slot.process->processId()), slot.life});
 }
 

@@ -54,6 +54,7 @@ private:
         quint32 life = 0;
     };
     QString file(const QString &name) const;
+    QStringList priorityArguments() const;
 
     const Profile &m_profile;
     const QString m_folder;

@@ -81,8 +81,9 @@ Gate memoryStays(const Evidence &evidence, const Profile &profile)
     constexpr qint64 shortest = 120'000'000'000;  // [ns] below this a slope says nothing
     constexpr qint64 warmUp = 30'000'000'000;     // [ns] of each life
     Gate gate("memory stays");
-    gate.isAsked = profile.judgesMemory;
     const auto all = usages(evidence);
+    gate.isAsked = profile.judgesMemory && !all.isEmpty()
+        && all.begin()->back()->time - all.begin()->front()->time >= warmUp + shortest;
     for (auto process = all.begin(); process != all.end(); ++process) {
         std::vector<const Record *> warm;
         for (const Record *usage : *process) {

@@ -149,7 +149,9 @@ Gate noFalseAlarms(const Evidence &evidence)
 {
     Gate gate("no false alarms");
     ++gate.looked;
-    const qint64 end = evidence.runner.records.empty() ? 0 : evidence.runner.records.back().time;
+    qint64 end = 0;  // what comes later is the end of the plant
+    for (const Record &record : evidence.runner.records)
+        end = record.kind == Record::Recovered ? record.time : end;
     const auto look = [&](const History &history, const Record &record, int node, const char *what) {
         ++gate.looked;
         if (evidence.isExplained(record.time, node) || record.time > end)

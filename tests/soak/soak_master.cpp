@@ -118,15 +118,18 @@ int main(int argc, char **argv)
         {QStringLiteral("period-us"), QStringLiteral("Period [us]."), QStringLiteral("US"), QStringLiteral("10000")});
     application.addOption({QStringLiteral("port"), QStringLiteral("Port to listen on. 0: a free one."),
                            QStringLiteral("PORT"), QStringLiteral("0")});
+    application.addRealTimeOptions();
     soak::NodeOptions options;
     soak::HistoryWriter history;
+    QPlcRealTimeOptions realTime;
     qint64 period = 0, port = 0;
     if (!application.parseOptions() || !application.integer(QStringLiteral("period-us"), 100, 1'000'000, &period)
-        || !application.integer(QStringLiteral("port"), 0, 65535, &port)
+        || !application.integer(QStringLiteral("port"), 0, 65535, &port) || !application.readRealTimeOptions(&realTime)
         || !soak::readShapeOptions(application, &options, &history))
         return application.exitCode();
     history.append(soak::Record::Born, soak::Record::Nobody, {quint64(QCoreApplication::applicationPid())});
     soak::Master master(options, history);
+    master.setRealTimeOptions(realTime);
     if (!master.start(std::chrono::microseconds(period), quint16(port)))
         return application.usageError(master.errorString());
     std::printf("port %d\n", int(master.serverPort()));
