@@ -31,6 +31,7 @@ if(TARGET QtPlcGui3D)
     )
     install(EXPORT QtPlcGui3DTargets NAMESPACE QtPlc:: DESTINATION ${package_directory})
 endif()
+install(FILES ${CMAKE_CURRENT_LIST_DIR}/FindSodium.cmake DESTINATION ${package_directory})
 install(TARGETS qtplc RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(EXPORT QtPlcTargets NAMESPACE QtPlc:: DESTINATION ${package_directory})
 

@@ -45,6 +45,57 @@ def hex64(number):
     return format(number, "016x")
 
 
+# ---- ChaCha20-Poly1305, by RFC 8439 -----------------------------------------------------------------------------------
+
+def chacha20_block(key, counter, nonce):
+    def rotated(x, bits):
+        return ((x << bits) | (x >> (32 - bits))) & 0xFFFFFFFF
+
+    def quarter(x, a, b, c, d):
+        for to, other, turned, bits in ((a, b, d, 16), (c, d, b, 12), (a, b, d, 8), (c, d, b, 7)):
+            x[to] = (x[to] + x[other]) & 0xFFFFFFFF
+            x[turned] = rotated(x[turned] ^ x[to], bits)
+
+    start = list(struct.unpack("<16I", b"expand 32-byte k" + key + struct.pack("<I", counter) + nonce))
+    x = list(start)
+    for _ in range(10):
+        for column in range(4):
+            quarter(x, column, 4 + column, 8 + column, 12 + column)
+        for row in range(4):
+            quarter(x, row, 4 + (row + 1) % 4, 8 + (row + 2) % 4, 12 + (row + 3) % 4)
+    return struct.pack("<16I", *((a + b) & 0xFFFFFFFF for a, b in zip(x, start)))
+
+
+def chacha20(key, counter, nonce, data):
+    blocks = b"".join(chacha20_block(key, counter + i, nonce) for i in range((len(data) + 63) // 64))
+    return bytes(a ^ b for a, b in zip(data, blocks))
+
+
+def poly1305(key, data):
+    r = int.from_bytes(key[:16], "little") & 0x0FFFFFFC0FFFFFFC0FFFFFFC0FFFFFFF
+    total = 0
+    for i in range(0, len(data), 16):
+        total = (total + int.from_bytes(data[i:i + 16] + b"\1", "little")) * r % (2**130 - 5)
+    return ((total + int.from_bytes(key[16:], "little")) % 2**128).to_bytes(16, "little")
+
+
+def aead(key, nonce, plain, header):
+    """What is sealed, then the tag."""
+    def padded(data):
+        return data + bytes(-len(data) % 16)
+
+    sealed = chacha20(key, 1, nonce, plain)
+    told = padded(header) + padded(sealed) + struct.pack("<QQ", len(header), len(sealed))
+    return sealed + poly1305(chacha20_block(key, 0, nonce)[:32], told)
+
+
+def check_aead():
+    """The example of RFC 8439, section 2.8.2."""
+    plain = (b"Ladies and Gentlemen of the class of '99: If I could offer you only one tip for the future, sunscreen would be it.")
+    result = aead(bytes(range(0x80, 0xA0)), bytes.fromhex("070000004041424344454647"), plain, bytes.fromhex("50515253c0c1c2c3c4c5c6c7"))
+    assert result[:16].hex() == "d31a8d34648e60db7b86afbc53ef7ec2" and result[-16:].hex() == "1ae10b594f09e26a7e902ecbd0600691"
+
+
 # ---- layouts and values ---------------------------------------------------------------------------------------------
 
 SIZES = {"Int8": 1, "Int16": 2, "Int32": 4, "Int64": 8, "UInt8": 1, "UInt16": 2, "UInt32": 4, "UInt64": 8,
@@ -117,14 +168,17 @@ def make_layouts():
 class Channel:
     """One direction of one node."""
 
-    def __init__(self, kind, node, layout_hash, borders, session=SESSION):
-        self.kind, self.node, self.layout_hash, self.borders, self.session = kind, node, layout_hash, borders, session
+    def __init__(self, kind, node, layout_hash, borders, session=SESSION, key=None):
+        self.kind, self.node, self.layout_hash, self.borders, self.session, self.key = kind, node, layout_hash, borders, session, key
         self.seed = crc32c(struct.pack("<QHQ", session, node, layout_hash))
 
     def part(self, number, cycle, info, payload, flags=0, version=VERSION):
         if number > 0:
             flags, info = flags | PART, number
-        body = struct.pack("<BBHII", version << 4 | self.kind, flags, self.session & 0xFFFF, cycle, info)
+        body = struct.pack("<BBHII", version << 4 | self.kind, flags, self.session & 0xFFFF, cycle & 0xFFFFFFFF, info)
+        if self.key:
+            nonce = struct.pack("<QH", cycle ^ self.session, number ^ self.node) + body[:2]
+            return body + aead(self.key, nonce, payload[self.borders[number]:self.borders[number + 1]], body)
         body += payload[self.borders[number]:self.borders[number + 1]]
         return body + struct.pack("<I", crc32c(body, self.seed))
 
@@ -133,7 +187,7 @@ class Channel:
 
     def json(self):
         return {"kind": {INPUTS: "Inputs", OUTPUTS: "Outputs", GROUP_INPUTS: "GroupInputs"}[self.kind], "session": hex64(self.session),
-                "node": self.node, "layoutHash": hex64(self.layout_hash), "borders": self.borders}
+                "node": self.node, "layoutHash": hex64(self.layout_hash), "borders": self.borders, **({"key": self.key.hex()} if self.key else {})}
 
 
 def good_frame(name, channel, cycle, info, payload, flags=0):
@@ -260,6 +314,87 @@ def make_cyclic():
             "sequences": make_sequences(Channel(INPUTS, 7, layout_hash, [0, 4]), split)}
 
 
+# ---- sealed cyclic frames -------------------------------------------------------------------------------------------
+
+def make_sealed_refused(channel, payload):
+    good = channel.part(0, 42, 1000, payload)
+
+    def by(**change):
+        arguments = dict(kind=INPUTS, node=channel.node, layout_hash=channel.layout_hash, borders=channel.borders, key=channel.key)
+        return Channel(**{**arguments, **change})
+
+    plain = by(key=None).part(0, 42, 1000, payload)
+    rows = [
+        ("a header alone", good[:12], "WrongLength"),
+        ("a tag cut short", good[:-1], "WrongLength"),
+        ("one byte long", good + b"\0", "WrongLength"),
+        ("a frame that is not sealed", plain, "WrongLength"),
+        ("a frame that is not sealed, of the right length", plain + bytes(12), "Forged"),
+        ("version 2", channel.part(0, 42, 1000, payload, version=2), "WrongVersion"),
+        ("the kind of the other direction", by(kind=OUTPUTS).part(0, 42, 1000, payload), "WrongVersion"),
+        ("other low 16 bits of the session", by(session=SESSION + 1).part(0, 42, 1000, payload), "WrongSession"),
+        ("another session with the same low 16 bits", by(session=SESSION ^ 0x10000).part(0, 42, 1000, payload), "Forged"),
+        ("another node", by(node=channel.node + 1).part(0, 42, 1000, payload), "Forged"),
+        ("another key", by(key=bytes(reversed(channel.key))).part(0, 42, 1000, payload), "Forged"),
+        ("the other direction, made to look like this one", good[:1] + by(kind=OUTPUTS).part(0, 42, 1000, payload)[1:], "Forged"),
+        ("another cycle with the same low 32 bits", channel.part(0, 42 + (1 << 32), 1000, payload), "Forged"),
+        ("the cycle changed on the way", good[:4] + bytes([43]) + good[5:], "Forged"),
+        ("a flag set on the way", good[:1] + bytes([RESENT]) + good[2:], "Forged"),
+        ("the time changed on the way", good[:8] + bytes([good[8] ^ 1]) + good[9:], "Forged"),
+        ("a bit of the payload", good[:12] + bytes([good[12] ^ 1]) + good[13:], "Forged"),
+        ("a bit of the tag", good[:-1] + bytes([good[-1] ^ 0x80]), "Forged"),
+        ("a tag of zeros", good[:-16] + bytes(16), "Forged"),
+        ("part 1 as part 0", good[:12] + channel.part(1, 42, 0, payload)[12:], "Forged"),
+    ]
+    return {"channel": channel.json(), "frames": [{"name": n, "hex": f.hex(), "status": s} for n, f, s in rows]}
+
+
+def make_sealed():
+    check_aead()
+    key = bytes(range(0x40, 0x60))
+    reals = layout("", [("bodyControlPitchSpeed", "Real32"), ("bodyControlYawSpeed", "Real32"), ("tetherSpeed", "Real32")])
+    layout_hash = int(reals["hash"], 16)
+    payload = struct.pack("<3f", 0.5, -1.25, 1.5)
+    example = Channel(INPUTS, 7, layout_hash, [0, 12], key=key)
+    answer = Channel(OUTPUTS, 7, fnv1a64(b"tetherForce:Real64@0\n"), [0, 8], key=bytes(range(0xC0, 0xE0)))
+    split = Channel(INPUTS, 2, 0x1122334455667788, [0, 8, 13], key=key)
+    largest = Channel(OUTPUTS, 65535, 0xFFFFFFFFFFFFFFFF, [0, 1444, 2888, 2900], 0xFFFFFFFFFFFFFFFF, key=bytes([0xFF]) * 32)
+    largest_payload = bytes((i * 7 + i // 256) & 0xFF for i in range(2900))
+    frames = [
+        good_frame("the worked example, sealed", example, 42, 1000, payload),
+        good_frame("the same, resent", example, 42, 1000, payload, RESENT),
+        good_frame("the next cycle", example, 43, 1000, payload),
+        good_frame("the answer", answer, 42, 25000, struct.pack("<d", 1234.5)),
+        good_frame("the answer of a node with a fault", answer, 43, 0, struct.pack("<d", 1234.5), FAULT),
+        good_frame("no signal", Channel(OUTPUTS, 1, fnv1a64(b""), [0, 0], 1, key=key), 0, 0, b""),
+        good_frame("two parts", split, 9, 77, bytes(range(13)), RESENT),
+        good_frame("three datagrams of the largest size", largest, 1, 5, largest_payload),
+    ]
+    single, wrap = Channel(INPUTS, 7, layout_hash, [0, 4], key=key), 1 << 32
+
+    def values(cycle):
+        return bytes((cycle * 31 + i) & 0xFF for i in range(4))
+
+    def whole(cycle, flags=0):
+        return single.part(0, cycle, 0, values(cycle), flags)
+
+    def seen(cycle):
+        return cycle, values(cycle)
+
+    sequences = [
+        sequence("the 32 bits of the wire run over", single, wrap - 1, [
+            (whole(wrap - 1), "Complete", seen(wrap - 1)), (whole(wrap), "Complete", seen(wrap)), (whole(wrap - 1), "Old", seen(wrap)),
+            (whole(wrap + 1), "Complete", seen(wrap + 1))]),
+        sequence("frames of 2^32 cycles ago", single, wrap + 5, [
+            (whole(5), "Forged", None), (whole(wrap + 5), "Complete", seen(wrap + 5)), (whole(6), "Forged", seen(wrap + 5))]),
+        sequence("frames that come again", single, 5, [
+            (whole(5), "Complete", seen(5)), (whole(5), "Duplicate", seen(5)), (whole(5, RESENT), "Duplicate", seen(5)), (whole(4), "Old", seen(5)),
+            (whole(6), "Complete", seen(6)), (whole(5), "Old", seen(6))]),
+    ]
+    refused = make_sealed_refused(Channel(INPUTS, 7, layout_hash, [0, 12, 24], key=key), payload + bytes(range(12)))
+    return {"frames": frames, "refused": refused, "sequences": sequences}
+
+
 # ---- control frames -------------------------------------------------------------------------------------------------
 
 def control(kind, body):
@@ -283,6 +418,9 @@ def example_messages():
                              outputs=[dict(name="tetherLength", type="Real64", unit="m")])),
         (3, "Registered", dict(node=7, inputsHash=hex64(fnv1a64(b"tetherSpeed:Real32@0\n")),
                                outputsHash=hex64(fnv1a64(b"tetherLength:Real64@0\n")), state="Off", token="00000000075bcd15")),
+        (3, "Registered", dict(node=7, inputsHash=hex64(fnv1a64(b"tetherSpeed:Real32@0\n")),
+                               outputsHash=hex64(fnv1a64(b"tetherLength:Real64@0\n")), state="Off", token="00000000075bcd15",
+                               seal=dict(inputs=base64.b64encode(bytes(range(32))).decode(), outputs=base64.b64encode(bytes(range(32, 64))).decode()))),
         (4, "Rejected", dict(error="SignalHasWriter", text="signal 'tetherLength' is written by node 'Model'; stop it first")),
         (5, "AttachCyclicChannel", dict(node=7, token="00000000075bcd15")),
         (6, "CyclicChannelAttached", {}),
@@ -301,8 +439,8 @@ def example_messages():
         (30, "GetState", {}),
         (31, "State", dict(state="RealTime", cycle=hex64(2**40 + 1), period=10000000, clock="RealTime", scale=1,
                            session=hex64(SESSION), counters=dict(cycles=12, overruns=0), digest=hex64(2**64 - 1),
-                           nodes=[dict(name="Winch", id=7, inputs=1, outputs=1, listener=False, policy="ErrorZeroOrderHold",
-                                       transport="udp", address="127.0.0.1:41000", lateAnswers=0, duplicates=0, rejected=0, resent=0)])),
+                           nodes=[dict(name="Winch", id=7, inputs=1, outputs=1, listener=False, every=1, policy="ErrorZeroOrderHold",
+                                       transport="udp", address="127.0.0.1:41000", lateAnswers=0, duplicates=0, rejected=0, forged=0, resent=0)])),
         (32, "GetSignals", dict(names=["tetherSpeed"])),
         (33, "Signals", dict(signals=[dict(name="tetherSpeed", type="Real32", unit="m/s", description="Höhe \"quoted\"",
                                            value="1.5", writer="")])),
@@ -315,6 +453,8 @@ def example_messages():
         (2, "Register", dict(name="Model", uuid=uuid, policy="ErrorZeroOrderHold", listener=False, cyclic="tcp", twoPhase=True,
                              inputs=[dict(name="tetherSpeed", type="Real32", unit="m/s", sameCycle=True)],
                              outputs=[dict(name="tetherLength", type="Real64", unit="m")])),
+        (2, "Register", dict(name="Control Center", uuid=uuid, policy="SilentZeroOrderHold", listener=True, every=10, cyclic="tcp",
+                             inputs=[dict(name="tetherSpeed", type="Real32", unit="m/s")], outputs=[])),
         (52, "GetSchedule", {}),
         (53, "Schedule", dict(
             stages=[[dict(node="Model", phase="outputs")], [dict(node="Autopilot", phase="step")], [dict(node="Model", phase="update")]],
@@ -355,9 +495,9 @@ def example_statistics():
                     slack=duration(9000000, 9900000),
                     counters=dict(cycles=12, overruns=1, skippedCycles=2, caughtUpCycles=0, shiftedTime=0, lateAnswers=1, incompleteCycles=1, strangers=0)),
         nodes=[dict(name="Winch", execution=duration(11000, 12000), roundTrip=duration(90000, 25300000), slack=duration(0, 9900000),
-                    counters=dict(answers=11, late=1, lost=0, duplicated=0, reordered=0, rejected=0, resent=0)),
+                    counters=dict(answers=11, late=1, lost=0, duplicated=0, reordered=0, rejected=0, forged=0, resent=0)),
                dict(name="View", execution=nothing, roundTrip=nothing, slack=nothing,
-                    counters=dict(answers=0, late=0, lost=0, duplicated=0, reordered=0, rejected=0, resent=0))],
+                    counters=dict(answers=0, late=0, lost=0, duplicated=0, reordered=0, rejected=0, forged=0, resent=0))],
         worst=[dict(cycle=7, skipped=2, lateness=80001, roundTrip=300000, execution=40000, slack=9600000,
                     stages=[dict(name="commands", duration=1000), dict(name="ask", duration=15000),
                             dict(name="local nodes", duration=0), dict(name="collect", duration=300000),
@@ -379,6 +519,7 @@ def make_control():
     accepted("escapes", 40, "NodeFault", {"text": "a\"\\{[ü\n\U0001F642"}, b'{"text":"a\\"\\\\{[\\u00fc\\n\\ud83d\\ude42"}')
     accepted("depth 16", 23, "Stop", {"a": json.loads("[" * 15 + "]" * 15)}, b'{"a":' + b"[" * 15 + b"]" * 15 + b"}")
     accepted("neighbours are no depth", 23, "Stop", {"a": [[], {}] * 20}, b'{"a":[' + b",".join([b"[],{}"] * 20) + b"]}")
+    accepted("one name in several objects", 23, "Stop", {"a": {"a": [{"a": "a"}, {"a": "a"}]}}, b'{"a":{"a":[{"a":"a"},{"a":"a"}]}}')
     accepted("brackets in a text are no depth", 23, "Stop", {"a": "[" * 40 + '"' + "{" * 40},
              b'{"a":"' + b"[" * 40 + b'\\"' + b"{" * 40 + b'"}')
     bad = [
@@ -408,6 +549,8 @@ def make_control():
         ("UTF-8 longer than needed", control(23, b'{"a":"\xc0\xaf"}'), "InvalidJson"),
         ("a surrogate in UTF-8", control(23, b'{"a":"\xed\xa0\x80"}'), "InvalidJson"),
         ("beyond Unicode", control(23, b'{"a":"\xf5\x80\x80\x80"}'), "InvalidJson"),
+        ("a name twice", control(23, b'{"a":[1],"a":[2]}'), "InvalidJson"),
+        ("a name twice, once with an escape", control(23, b'{"b":{"a/":[1],"x":1,"\\u0061\\/" :[2]}}'), "InvalidJson"),
         ("UTF-16", control(23, '{"a":1}'.encode("utf-16-le")), "InvalidJson"),
     ]
     return {"good": good, "bad": [dict(name=n, hex=f.hex(), error=e) for n, f, e in bad]}
@@ -450,7 +593,7 @@ def make_crc32c():
 
 def main():
     files = {"crc32c.json": make_crc32c(), "layouts.json": make_layouts(), "cyclic_frames.json": make_cyclic(),
-             "control_frames.json": make_control(), "beacons.json": make_beacons()}
+             "sealed_frames.json": make_sealed(), "control_frames.json": make_control(), "beacons.json": make_beacons()}
     if sys.argv[1:] not in (["--check"], ["--write"]):
         sys.exit(__doc__)
     different = []

@@ -12,7 +12,7 @@ QT_BEGIN_NAMESPACE
 class QTcpSocket;
 QT_END_NAMESPACE
 
-/// A control connection: sends and receives QPlcMessages over TCP.
+/// A control connection: sends and receives QPlcMessages over TCP, or over TLS when there is a QPlcSecurity.
 ///
 /// \threadsafe no: lives in the thread of its owner and needs its event loop
 class QTPLC_EXPORT QPlcAbstractSocket : public QObject
@@ -26,13 +26,16 @@ public:
         TimeoutError,            ///< no answer in time
         ConnectionLostError,     ///< the other end is gone
         ProtocolError,           ///< what came is no QtPLC message; the connection has been closed
-        NetworkError             ///< everything else: see errorString()
+        NetworkError,            ///< everything else: see errorString()
+        SecurityError  ///< the two ends do not accept each other, or a file of the QPlcSecurity cannot be used
     };
     Q_ENUM(Error)
 
     ~QPlcAbstractSocket() override;
 
     bool isConnected() const;
+    /// Whether the connection is TLS, and the other end was found to be who it says.
+    bool isSecured() const;
     /// Sends \a message. \return false when there is no connection
     bool sendMessage(const QPlcMessage &message);
     /// Bytes that wait to be sent because the other end is slow.
@@ -49,6 +52,9 @@ public:
     /// What went wrong, with whom; empty: nothing.
     QString errorString() const;
 
+    /// Longest message that is taken from here on [byte]; 1 MiB unless set. A longer one is a ProtocolError.
+    void setMessageLimit(quint32 bytes);
+
     /// Takes the connection out of this object, for a cyclic channel: the caller owns the descriptor, this object is disconnected without a
     /// sound. \return -1 when there is no connection
     int takeDescriptor();
@@ -62,6 +68,10 @@ Q_SIGNALS:
 protected:
     QPlcAbstractSocket(QTcpSocket *socket, QObject *parent);
     QTcpSocket *socket() const;
+    /// Uses another socket, which is not connected yet and becomes owned.
+    void setSocket(QTcpSocket *socket);
+    /// What is said of an error of the socket, in place of its own words. \return empty: those
+    virtual QString securityErrorText() const { return {}; }
     void setError(Error error, const QString &text);
 
 private:

@@ -25,7 +25,8 @@ public:
     constexpr std::chrono::nanoseconds time() const { return m_period * qint64(m_number); }
     /// The period [s].
     constexpr double dt() const { return double(m_period.count()) * 1e-9; }
-    /// Cycles since the last step() that this node never saw (overrun of the master, lost frames); 0 when all is well.
+    /// Cycles since the last step() that this node never saw (overrun of the master, lost frames); 0 when all is well. Those that a listener does not want
+    /// (QPlcSlaveNode::setListeningInterval()) do not count.
     constexpr quint64 missedCycles() const { return m_missed; }
 
 private:

@@ -9,6 +9,7 @@
 #include "QPlcOverrunPolicy.h"
 #include "QPlcRealTimeOptions.h"
 #include "QPlcSchedule.h"
+#include "QPlcSecurity.h"
 #include "QPlcSignalTable.h"
 #include "QPlcSlaveNode.h"
 #include "QPlcStatisticFigure.h"
@@ -132,9 +133,13 @@ public:
     void setInsecureNetworkAllowed(bool allowed);
     /// Lets the cyclic frames of all nodes meet the faults of a bad network, for a test: docs/faults.md has the words, for example "loss=5%,delay=2ms,seed=7"; empty: none.
     /// Whoever connects is told, and sees it. Takes effect with startServer(); multicast groups have no faults.
-    /// \return false when \a plan cannot be meant: error() is then StateError and nothing has changed
+    /// \return false when \a plan cannot be meant, or the server runs: error() is then StateError and nothing has changed
     bool setFaultPlan(const QString &plan);
     QString faultPlan() const;
+    /// Who may connect, and what each identity may do; nobody is asked unless set. With it every address may be listened on. Files are read again for each connection:
+    /// who was revoked does not come in again, and who was added does. Takes effect with startServer().
+    void setSecurity(const QPlcSecurity &security);
+    QPlcSecurity security() const;
     /// Registers \a node, which then lives in this process and is called on the cycle thread. The caller keeps owning it. A node that ends leaves
     /// the master; while cycles run it must not end before removeLocalNode(). \return false when it is refused, or when the state is not Off
     bool addLocalNode(QPlcSlaveNode *node);

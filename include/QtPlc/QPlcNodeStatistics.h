@@ -30,7 +30,9 @@ struct QPlcNodeStatistics
     quint64 reordered
         = 0;  ///< answers that came after the answer to a newer request; not taken, and their requests are among the lost
     quint64 rejected = 0;  ///< frames that did not decode
-    quint64 resent = 0;    ///< requests that were sent again
+    quint64 forged
+        = 0;  ///< sealed frames that were not as the node seals them: made or changed by a stranger, or corrupted
+    quint64 resent = 0;  ///< requests that were sent again
 };
 
 Q_DECLARE_METATYPE(QPlcNodeStatistics)

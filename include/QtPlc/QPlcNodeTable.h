@@ -4,10 +4,10 @@
 #include "QPlcWidget.h"
 #include "QPlcWidgetFactoryOf.h"
 
-/// Masters and nodes of all plants: a stop-light (OK, Warning, Error, Unavailable), state, lateness, execution time, round trip, and answers that were late, lost, duplicated or rejected.
+/// Masters and nodes of all plants: a stop-light (OK, Warning, Error, Unavailable), state, lateness, execution time, round trip, and answers that were late, lost, duplicated, rejected or forged.
 ///
 /// Settings: `columns` (keys of those that are shown: plant, node, health, transport, address, policy, state, latenessP99, executionP50, executionP99, executionMaximum, roundTripP50, roundTripP99,
-/// roundTripMaximum, late, lost, duplicated, rejected), `sort` (key of a column) and `descending`.
+/// roundTripMaximum, late, lost, duplicated, rejected, forged), `sort` (key of a column) and `descending`.
 ///
 /// Threads: the thread of the window.
 class QTPLC_GUI_EXPORT QPlcNodeTable : public QPlcWidget

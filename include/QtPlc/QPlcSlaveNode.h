@@ -4,6 +4,7 @@
 #include "QPlcAbstractSocket.h"
 #include "QPlcCycle.h"
 #include "QPlcRealTimeOptions.h"
+#include "QPlcSecurity.h"
 #include "QPlcSignalIndexList.h"
 #include "QPlcSignalList.h"
 #include "QPlcSignalTable.h"
@@ -96,6 +97,13 @@ public:
     void setListener(bool listener);
     bool isListener() const;
 
+    /// Lets a listener without outputs hear fewer cycles, for a slow link or a slow reader: the first one at once, then the first one of each turn of \a cycles, counted from cycle 0 of the
+    /// phase. The others are not sent, and their values are nowhere: a peak between two frames is not seen. They are not missed either: QPlcCycle::missedCycles() and Counters::missed
+    /// then count turns. A master that does not know of this sends every cycle.
+    /// \param cycles  1 (every cycle, the default) ... 1 000 000. A node that is no listener, has outputs, or uses multicast is refused with more than 1: RegistrationError. \pre not connected
+    void setListeningInterval(int cycles);
+    int listeningInterval() const;
+
     /// Makes all inputs of this node same-cycle (QPlcInputTiming::SameCycle), however each of them was declared. \pre not connected
     void setSameCycle(bool sameCycle);
     bool isSameCycle() const;
@@ -137,10 +145,11 @@ public:
     struct Counters
     {
         quint64 cycles = 0;      ///< computed
-        quint64 missed = 0;      ///< cycles that never arrived
+        quint64 missed = 0;      ///< cycles that never arrived; turns of setListeningInterval()
         quint64 duplicated = 0;  ///< requests that came again; answered, never computed twice
         quint64 outdated = 0;    ///< requests of cycles before the newest
         quint64 rejected = 0;    ///< garbage, other sessions, corrupted frames
+        quint64 forged = 0;      ///< sealed frames that were not as the master seals them
         quint64 watchdog = 0;    ///< watchdog time-outs
     };
     /// \threadsafe yes
@@ -155,6 +164,10 @@ public:
                                             std::chrono::milliseconds timeout = std::chrono::seconds(5));
 
 public Q_SLOTS:
+    /// How this node and its master know each other; QPlcSecurity::current() unless set. Takes effect when it connects.
+    void setSecurity(const QPlcSecurity &security);
+    /// Whether the control connection is TLS, and the master proven.
+    bool isSecured() const;
     /// Begins to connect and register; connectedToMaster() or errorOccurred() follows.
     void connectToMaster(const QPlcUnderlyingProtocol &master);
     void disconnectFromMaster();

@@ -36,7 +36,8 @@ public:
         Duplicated,      ///< of a node
         Reordered,       ///< of a node
         Rejected,        ///< of a node
-        Resent           ///< of a node
+        Resent,          ///< of a node
+        Forged           ///< of a node
     };
     /// Of a duration.
     enum Statistic : quint8 { Minimum, Mean, P001, P01, P50, P99, P999, Maximum };

@@ -244,9 +244,10 @@ std::vector<SceneLabel> sceneLabels(const SceneInput &input, float forceUnit)
     const std::array<QColor, 3> colors = axisColors(input.theme);
     if (input.show.axes) {
         const float length = 0.13f * input.size;
-        labels.push_back({{length, 0, 0}, tr("east"), colors[0]});
-        labels.push_back({{0, length, 0}, tr("north"), colors[1]});
-        labels.push_back({{0, 0, length}, tr("up"), colors[2]});
+        const QVector3D begin;
+        labels.push_back({{length, 0, 0}, tr("east"), colors[0], begin});
+        labels.push_back({{0, length, 0}, tr("north"), colors[1], begin});
+        labels.push_back({{0, 0, length}, tr("up"), colors[2], begin});
         if (input.state.wind)
             labels.push_back({positionOf({input.downwind, 0, 0.31f * input.size}),
                               tr("wind %1 m/s").arg(double(input.state.wind->length()), 0, 'f', 1),

@@ -16,6 +16,7 @@ struct SceneLabel
     QVector3D place;
     QString text;
     QColor color;
+    std::optional<QVector3D> begin = {};  // of the arrow that the text names, if it says nothing else
 };
 
 /// Everything that the lines of a scene depend on.

@@ -2,8 +2,10 @@
 #include "View3DOverlay.h"
 
 #include <QtCore/QCoreApplication>
+#include <QtCore/QLineF>
 #include <QtCore/QtMath>
 
+#include <algorithm>
 #include <cmath>
 
 namespace qplc {
@@ -47,27 +49,62 @@ double roundLength(double longest)
     return power;
 }
 
+namespace {
+
+/// Whether the arrow of a label is seen end on, so that its name would lie on what is there.
+bool pointsAtViewer(const SceneLabel &label, const QPointF &place, const CameraPose &pose, const QSizeF &size)
+{
+    constexpr double leastArrow = 14.0;  // [px]
+    const std::optional<QPointF> begin = label.begin ? projected(pose, *label.begin, size) : std::nullopt;
+    return begin && QLineF(*begin, place).length() < leastArrow;
+}
+
+/// The nearest place below where it lies on none of the others.
+QRectF freeBelow(QRectF box, const std::vector<QRectF> &others)
+{
+    const auto next = [&] {
+        return std::find_if(others.begin(), others.end(), [&](const QRectF &other) { return other.intersects(box); });
+    };
+    for (auto other = next(); other != others.end(); other = next())
+        box.moveTop(other->bottom());
+    return box;
+}
+
+}  // namespace
+
+std::vector<QRectF> labelBoxes(const std::vector<SceneLabel> &labels, const CameraPose &pose, const QSizeF &size,
+                               const std::function<QSizeF(const QString &)> &sizeOf)
+{
+    std::vector<QRectF> boxes;
+    for (const SceneLabel &label : labels) {
+        QRectF box;
+        const std::optional<QPointF> place = projected(pose, label.place, size);
+        if (place && QRectF(QPointF(), size).adjusted(-20, -10, 20, 10).contains(*place)
+            && !pointsAtViewer(label, *place, pose, size)) {
+            box.setSize(sizeOf(label.text));
+            box.moveCenter(*place);
+            box = freeBelow(box, boxes);
+        }
+        boxes.push_back(box);
+    }
+    return boxes;
+}
+
 void drawLabels(QPainter *painter, const std::vector<SceneLabel> &labels, const CameraPose &pose, const QSizeF &size,
                 const Theme &theme)
 {
     const QFontMetricsF metrics(painter->font());
-    std::vector<QRectF> taken;
-    for (const SceneLabel &label : labels) {
-        const std::optional<QPointF> place = projected(pose, label.place, size);
-        if (!place || !QRectF(QPointF(), size).adjusted(-20, -10, 20, 10).contains(*place))
+    const std::vector<QRectF> boxes = labelBoxes(labels, pose, size, [&metrics](const QString &text) {
+        return QSizeF(metrics.horizontalAdvance(text) + 4, metrics.height());
+    });
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        if (boxes[i].isNull())
             continue;
-        QRectF box(0, 0, metrics.horizontalAdvance(label.text) + 4, metrics.height());
-        box.moveCenter(*place);
-        for (const QRectF &other : taken) {
-            if (other.intersects(box))
-                box.moveTop(other.bottom());
-        }
-        taken.push_back(box);
         QColor back = theme.surface;
         back.setAlpha(150);
-        painter->fillRect(box, back);
-        painter->setPen(label.color);
-        painter->drawText(box, Qt::AlignCenter, label.text);
+        painter->fillRect(boxes[i], back);
+        painter->setPen(labels[i].color);
+        painter->drawText(boxes[i], Qt::AlignCenter, labels[i].text);
     }
 }
 

@@ -35,6 +35,8 @@ QString kindName(JournalEvent::Kind kind)
         return QStringLiteral("lease");
     case JournalEvent::Overrun:
         return QStringLiteral("overrun");
+    case JournalEvent::Security:
+        return QStringLiteral("security");
     }
     return {};
 }

@@ -26,7 +26,11 @@ std::int64_t now()
 /// system they come with every breath of another program, and the statistics count them.
 void log(const JournalEvent &event)
 {
-    if (event.kind == JournalEvent::Overrun && event.severity == JournalEvent::Warning)
+    if (event.kind == JournalEvent::Security && event.severity == JournalEvent::Info)
+        qCInfo(lcAudit).noquote() << event.text;
+    else if (event.kind == JournalEvent::Security)
+        qCWarning(lcAudit).noquote() << event.text;
+    else if (event.kind == JournalEvent::Overrun && event.severity == JournalEvent::Warning)
         qCDebug(lcMaster).noquote() << event.text;
     else if (event.severity != JournalEvent::Info)
         qCWarning(lcMaster).noquote() << event.text;
@@ -89,6 +93,28 @@ void Journal::valueCameBack(const QString &signal, const QString &value)
     tellLimited(QStringLiteral("back ") + signal, QStringLiteral("the former value has come back: "),
                 {JournalEvent::Info, JournalEvent::Set, NodeRegistry::masterName(),
                  QStringLiteral("%1 = %2").arg(signal, value)});
+}
+
+// ---- security: strangers may do it as often as they like ----
+
+void Journal::denied(const QString &identity, const QString &text)
+{
+    tellLimited(QStringLiteral("denied ") + identity, QString(),
+                {JournalEvent::Warning, JournalEvent::Security, identity, text});
+}
+
+void Journal::commanded(const QString &identity, const QString &what, const QString &from)
+{
+    tellLimited(QStringLiteral("commanded %1 %2").arg(identity, what),
+                QStringLiteral("identity '%1' commands %2").arg(identity, what),
+                {JournalEvent::Info, JournalEvent::Security, identity, from});
+}
+
+void Journal::strangerRefused(const QString &address, const QString &reason)
+{
+    tellLimited(QStringLiteral("strangers"), QString(),
+                {JournalEvent::Warning, JournalEvent::Security, NodeRegistry::masterName(),
+                 QStringLiteral("refused %1: %2").arg(address, reason)});
 }
 
 // ---- what may happen often ----

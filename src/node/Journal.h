@@ -27,6 +27,12 @@ public:
     void stateChanged(const QString &state, bool isTransient);
     void answeredLate(const QString &node, std::uint64_t cycle);
     void valueSet(const QString &who, const QString &signal, const QString &former, const QString &value);
+    /// A message without the right to it. \param identity  proven; empty: nobody's
+    void denied(const QString &identity, const QString &text);
+    /// Somebody with a right to it has commanded \a what.
+    void commanded(const QString &identity, const QString &what, const QString &from);
+    /// Somebody who was not let in.
+    void strangerRefused(const QString &address, const QString &reason);
     void valueCameBack(const QString &signal, const QString &value);
 
     /// From here on overruns are told. \param statistics  of the cycles; null: they have ended

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "AccessRights.h"
 #include "NodeRegistry.h"
 #include "QPlcSlaveSocket.h"
+#include "transport/ConnectionGate.h"
 
 #include <QtCore/QObject>
 
@@ -29,7 +31,9 @@ struct MasterConnection
 
     QPlcSlaveSocket *socket = nullptr;
     Stage stage = Silent;
-    QString name;  // as greeted
+    Peer peer;                          // who it is, as far as it was proven
+    ConnectionGate::Ticket ticket = 0;  // of the door
+    QString name;                       // as greeted
     QString uuid;
     QString cyclicKind;              // "udp", "tcp"
     quint64 token = 0;               // names this node on its cyclic TCP connection
@@ -40,6 +44,8 @@ struct MasterConnection
     bool leasesDue = false;  // they have changed and it was not told yet
     quint64 eventsTold = 0;  // sequence number of the newest event that was sent
 
+    /// Whether it is TLS, and the peer proven: secrets may travel over it.
+    bool isSecured() const { return peer.isSecured && socket->isSecured(); }
     bool isNode() const { return slot != nullptr; }
     bool isAttached() const { return slot && stage >= Attached; }
     bool send(QPlcMessage::Kind kind, const QJsonObject &fields = QJsonObject()) const

@@ -41,6 +41,7 @@ bool MasterCycle::start(const Phase &phase)
     for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
         slot->decoder.restart(m_cycleZero);
         slot->faulted = slot->pending = false;
+        slot->nextTurn = 0;
         if (slot->local)
             slot->local->setLockstep(phase.clock.isLockstep(), m_time);
     }
@@ -221,6 +222,7 @@ void MasterCycle::adopt(Roster *roster) noexcept
         if (!slot->initialOutputs.empty())
             copyRuns(*slot->pasteRuns, slot->initialOutputs.data(), m_image.data());
         slot->decoder.restart(m_cycleZero + m_number);
+        slot->nextTurn = 0;
         if (slot->peer)
             m_hub.attach(slot->peer.get());
     }

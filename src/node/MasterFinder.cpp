@@ -102,12 +102,15 @@ void MasterFinder::stop()
 /// Again and again, because networks come and go; one that was joined before stays so.
 void MasterFinder::joinNetworks()
 {
-    m_ownAddresses = QNetworkInterface::allAddresses();
-    if (m_socket->state() != QAbstractSocket::BoundState)
-        return;
+    m_ownAddresses.clear();
+    const bool isBound = m_socket->state() == QAbstractSocket::BoundState;
     const QList<QNetworkInterface> networks = QNetworkInterface::allInterfaces();
     for (const QNetworkInterface &network : networks) {
-        if (network.flags().testFlag(QNetworkInterface::IsUp))
+        if (!network.flags().testFlag(QNetworkInterface::IsUp))
+            continue;
+        for (const QNetworkAddressEntry &entry : network.addressEntries())
+            m_ownAddresses.append(entry.ip());
+        if (isBound)
             m_socket->joinMulticastGroup(QHostAddress(QLatin1String(Beacon::Group)), network);
     }
 }

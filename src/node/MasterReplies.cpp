@@ -17,12 +17,14 @@ QJsonObject nodeFields(const QPlcNodeInfo &node)
                        {QStringLiteral("inputs"), node.inputs},
                        {QStringLiteral("outputs"), node.outputs},
                        {QStringLiteral("listener"), node.listener},
+                       {QStringLiteral("every"), node.every},
                        {QStringLiteral("policy"), node.policy},
                        {QStringLiteral("transport"), node.transport},
                        {QStringLiteral("address"), node.address},
                        {QStringLiteral("lateAnswers"), double(node.lateAnswers)},
                        {QStringLiteral("duplicates"), double(node.duplicates)},
                        {QStringLiteral("rejected"), double(node.rejected)},
+                       {QStringLiteral("forged"), double(node.forged)},
                        {QStringLiteral("resent"), double(node.resent)}};
     if (!node.faultPlan.isEmpty())
         fields.insert(QStringLiteral("faults"), node.faultPlan);

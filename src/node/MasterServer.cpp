@@ -2,13 +2,12 @@
 #include "MasterServer.h"
 
 #include "Logging.h"
+#include "protocol/ControlFrame.h"
 #include "signals/Fnv1a.h"
 
 #include <QtCore/QJsonArray>
 #include <QtCore/QPointer>
 #include <QtCore/QRandomGenerator>
-#include <QtNetwork/QTcpServer>
-#include <QtNetwork/QTcpSocket>
 #include <QtNetwork/QUdpSocket>
 
 #include <algorithm>
@@ -18,6 +17,8 @@ namespace qplc {
 using Message = QPlcMessage;
 
 namespace {
+
+constexpr quint32 LongestGreeting = 64 * 1024;  // [byte]
 
 /// Extensions that are in use: those that the other side names in its Hello, and that are known here.
 QJsonArray commonFeatures(const Message &hello)
@@ -42,9 +43,10 @@ MasterServer::MasterServer(NodeRegistry &registry, const ProcessImage &image, Cy
     , m_hub(hub)
     , m_session(session)
     , m_hello(std::move(hello))
-    , m_server(new QTcpServer(this))
 {
-    connect(m_server, &QTcpServer::newConnection, this, &MasterServer::accept);
+    connect(&m_door, &MasterDoor::entered, this, &MasterServer::enter);
+    connect(&m_door, &MasterDoor::refused, this, &MasterServer::strangerRefused);
+    connect(&m_door, &MasterDoor::tooSlow, this, &MasterServer::dropSlow);
 }
 
 MasterServer::~MasterServer()
@@ -56,18 +58,17 @@ MasterServer::~MasterServer()
 
 bool MasterServer::openPorts(const QHostAddress &address, quint16 port)
 {
-    if (!m_server->listen(address, port)) {
+    if (!m_door.listen(address, port)) {
         m_errorString
             = QStringLiteral("cannot listen on %1:%2: %3; choose another port, or end the program that uses it")
                   .arg(address.toString())
                   .arg(port)
-                  .arg(m_server->errorString());
+                  .arg(m_door.errorString());
         return false;
     }
-    if (m_hub.open(SocketAddress(m_server->serverAddress(), m_server->serverPort()), &m_errorString)
-        && m_hub.openLocal(&m_errorString))
+    if (m_hub.open(SocketAddress(m_door.address(), m_door.port()), &m_errorString) && m_hub.openLocal(&m_errorString))
         return true;
-    m_server->close();
+    m_door.close();
     return false;
 }
 
@@ -105,7 +106,7 @@ bool MasterServer::openMulticast(const QHostAddress &address, const QHostAddress
 void MasterServer::close()
 {
     m_name.release();
-    m_server->close();
+    m_door.close();
     for (const std::unique_ptr<MasterConnection> &connection : m_connections)
         connection->send(Message::MasterEnds);
     while (!m_connections.empty())
@@ -115,30 +116,42 @@ void MasterServer::close()
 
 quint16 MasterServer::port() const
 {
-    return m_server->serverPort();
+    return m_door.port();
 }
 
 // ---- connections ----
 
-void MasterServer::accept()
+void MasterServer::enter(QPlcSlaveSocket *socket, const Peer &peer, ConnectionGate::Ticket ticket)
 {
-    while (QTcpSocket *socket = m_server->nextPendingConnection()) {
-        m_connections.push_back(std::make_unique<MasterConnection>());
-        MasterConnection *connection = m_connections.back().get();
-        connection->socket = new QPlcSlaveSocket(socket, this);
-        connect(connection->socket, &QPlcAbstractSocket::messageReceived, this,
-                [this, connection](const Message &message) { receive(connection, message); });
-        connect(connection->socket, &QPlcAbstractSocket::errorOccurred, this,
-                [this, connection](QPlcAbstractSocket::Error error) {
-                    if (error == QPlcAbstractSocket::ProtocolError)
-                        receiveGarbage(connection);
-                });
-        // Not at once: a message that cannot be sent ends the connection, and who sends to many of them walks over m_connections.
-        const QPointer<QPlcSlaveSocket> guarded(connection->socket);
-        connect(
-            connection->socket, &QPlcAbstractSocket::disconnected, this, [this, guarded] { dropClosed(guarded); },
-            Qt::QueuedConnection);
-    }
+    m_connections.push_back(std::make_unique<MasterConnection>());
+    MasterConnection *connection = m_connections.back().get();
+    connection->socket = socket;
+    connection->peer = peer;
+    connection->ticket = ticket;
+    socket->setParent(this);
+    socket->setMessageLimit(LongestGreeting);
+    connect(socket, &QPlcAbstractSocket::messageReceived, this,
+            [this, connection](const Message &message) { receive(connection, message); });
+    connect(socket, &QPlcAbstractSocket::errorOccurred, this, [this, connection](QPlcAbstractSocket::Error error) {
+        if (error == QPlcAbstractSocket::ProtocolError)
+            receiveGarbage(connection);
+    });
+    // Not at once: a message that cannot be sent ends the connection, and who sends to many of them walks over m_connections.
+    const QPointer<QPlcSlaveSocket> guarded(socket);
+    connect(
+        socket, &QPlcAbstractSocket::disconnected, this, [this, guarded] { dropClosed(guarded); },
+        Qt::QueuedConnection);
+    if (peer.isSecured)
+        Q_EMIT authenticated(connection);
+}
+
+void MasterServer::dropSlow(ConnectionGate::Ticket ticket)
+{
+    const auto isIt
+        = [ticket](const std::unique_ptr<MasterConnection> &connection) { return connection->ticket == ticket; };
+    const auto found = std::find_if(m_connections.begin(), m_connections.end(), isIt);
+    if (found != m_connections.end())
+        reject(found->get(), QStringLiteral("TimedOut"), QStringLiteral("it has not greeted in time"));
 }
 
 void MasterServer::dropClosed(const QPlcSlaveSocket *socket)
@@ -175,6 +188,7 @@ void MasterServer::drop(MasterConnection *connection, const QString &reason)
 
 void MasterServer::forget(MasterConnection *connection)
 {
+    m_door.leave(connection->ticket);
     connection->socket->disconnect(this);
     connection->socket->deleteLater();
     const auto isIt
@@ -190,8 +204,27 @@ void MasterServer::reject(MasterConnection *connection, const QString &error, co
     drop(connection, text);
 }
 
+/// A request is refused, and the connection stays; before the greeting there is nothing that could stay.
+void MasterServer::deny(MasterConnection *connection, const QString &reason)
+{
+    ++m_deniedMessages;
+    Q_EMIT denied(connection, reason);
+    if (connection->stage == MasterConnection::Silent || connection->peer.isCyclicOnly)
+        reject(connection, QStringLiteral("Denied"), reason);
+    else
+        connection->fail(QStringLiteral("Denied"), reason);
+}
+
+/// The one place where control messages come in.
 void MasterServer::receive(MasterConnection *connection, const Message &message)
 {
+    const QString refusal = refusalOf(connection->peer, message);
+    if (!refusal.isEmpty()) {
+        deny(connection, refusal);
+        return;
+    }
+    if (connection->peer.isSecured && isCommand(message.kind()))
+        Q_EMIT commanded(connection, message);
     switch (message.kind()) {
     case Message::Hello:
         greet(connection, message);
@@ -242,6 +275,8 @@ void MasterServer::greet(MasterConnection *connection, const Message &message)
     if (message.hex64(QStringLiteral("tableHash")) == m_image.table().hash())
         hello.remove(QStringLiteral("table"));
     connection->stage = MasterConnection::Greeted;
+    connection->socket->setMessageLimit(MaximumControlFrame);
+    m_door.know(connection->ticket);
     connection->wantsLeases = features.contains(QStringLiteral("leases"));
     connection->wantsEvents = features.contains(QStringLiteral("events"));
     Q_EMIT greeted(connection);
@@ -336,6 +371,11 @@ Refusal MasterServer::channelRefusal(const MasterConnection &connection, const N
         return {QStringLiteral("WrongState"),
                 QStringLiteral("node '%1' has same-cycle inputs or two phases: it is asked alone; use udp")
                     .arg(declaration.name)};
+    if (isMulticast && !declaration.interval.isEveryCycle())
+        return {QStringLiteral("WrongState"),
+                QStringLiteral("node '%1' wants one of %2 cycles: it is asked alone; use udp")
+                    .arg(declaration.name)
+                    .arg(declaration.interval.cycles())};
     return {};
 }
 
@@ -360,7 +400,8 @@ bool MasterServer::makeLocalPeer(MasterConnection *connection, QJsonObject *fiel
 void MasterServer::replace(const MasterConnection *newcomer, const QString &name)
 {
     const auto isItself = [&](const std::unique_ptr<MasterConnection> &other) {
-        return other->isNode() && other->name == name && other->uuid == newcomer->uuid && !newcomer->uuid.isEmpty();
+        return other->isNode() && other->name == name && other->uuid == newcomer->uuid && !newcomer->uuid.isEmpty()
+            && other->peer.identity == newcomer->peer.identity;
     };
     const auto found = std::find_if(m_connections.begin(), m_connections.end(), isItself);
     if (found != m_connections.end())

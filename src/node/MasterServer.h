@@ -2,6 +2,7 @@
 #pragma once
 
 #include "MasterConnection.h"
+#include "MasterDoor.h"
 #include "QPlcUnderlyingProtocol.h"
 #include "transport/LocalName.h"
 
@@ -10,10 +11,6 @@
 #include <functional>
 #include <memory>
 #include <vector>
-
-QT_BEGIN_NAMESPACE
-class QTcpServer;
-QT_END_NAMESPACE
 
 namespace qplc {
 
@@ -26,6 +23,13 @@ public:
     MasterServer(NodeRegistry &registry, const ProcessImage &image, CyclicHub &hub, quint64 session,
                  std::function<QJsonObject()> hello, QObject *parent);
     ~MasterServer() override;
+
+    /// Takes effect with listen().
+    void setSecurity(const QPlcSecurity &security) { m_door.setSecurity(security); }
+    bool isSecured() const { return !m_door.security().isNone(); }
+    const MasterDoor &door() const { return m_door; }
+    /// Messages that were not carried out because their senders have no right to them.
+    quint64 deniedMessages() const { return m_deniedMessages; }
 
     /// \param name  under which local nodes find the port; empty: none
     /// \param group  multicast group for nodes that want one; null: none
@@ -49,11 +53,21 @@ Q_SIGNALS:
     /// The node is no longer registered; the connection is deleted afterwards.
     void lost(qplc::MasterConnection *connection, const QString &reason);
     void refused(const QString &name, const QString &address, const QString &reason);
+    /// Somebody did not get as far as a message. \param identity  as claimed; empty: none
+    void strangerRefused(const QString &identity, const QString &address, const QString &reason);
+    /// A message of somebody proven that others may not send is carried out.
+    void commanded(qplc::MasterConnection *connection, const QPlcMessage &message);
+    /// Somebody has proven who it is.
+    void authenticated(qplc::MasterConnection *connection);
+    /// A message was not carried out: its sender has no right to it.
+    void denied(qplc::MasterConnection *connection, const QString &reason);
     /// A message that is not about registration.
     void received(qplc::MasterConnection *connection, const QPlcMessage &message);
 
 private:
-    void accept();
+    void enter(QPlcSlaveSocket *socket, const Peer &peer, ConnectionGate::Ticket ticket);
+    void dropSlow(ConnectionGate::Ticket ticket);
+    void deny(MasterConnection *connection, const QString &reason);
     void receive(MasterConnection *connection, const QPlcMessage &message);
     void dropClosed(const QPlcSlaveSocket *socket);
     void receiveGarbage(MasterConnection *connection);
@@ -74,11 +88,12 @@ private:
     CyclicHub &m_hub;
     const quint64 m_session;
     std::function<QJsonObject()> m_hello;
-    QTcpServer *m_server;
+    MasterDoor m_door;
     LocalName m_name;
     SocketAddress m_group;
     std::vector<std::unique_ptr<MasterConnection>> m_connections;
     QString m_errorString;
+    quint64 m_deniedMessages = 0;
 };
 
 }  // namespace qplc

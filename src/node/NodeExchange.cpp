@@ -64,9 +64,13 @@ void NodeExchange::run(const Roster &roster, const Cycle &cycle) noexcept
 void NodeExchange::cutInputs() noexcept
 {
     for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
-        copyRuns(slot->inputRuns, m_image.data(), slot->inputs);
         slot->asked = slot->awaited = slot->answered = slot->late = false;
-        slot->request.cycle = std::uint32_t(m_cycleZero + m_cycle.number);
+        slot->due = slot->takesTurn(m_cycle.number);
+        if (!slot->due)
+            continue;
+        copyRuns(slot->inputRuns, m_image.data(), slot->inputs);
+        slot->partsEncoded = 0;
+        slot->request.cycle = m_cycleZero + m_cycle.number;
         slot->request.info
             = std::uint32_t(std::min<std::int64_t>(m_cycle.lateness, std::numeric_limits<std::uint32_t>::max()));
     }
@@ -86,6 +90,11 @@ void NodeExchange::askNodes(const Stage &stage) noexcept
 {
     for (const Roster::Turn &turn : stage) {
         NodeSlot &slot = *turn.slot;
+        if (!slot.due) {
+            if (slot.peer && !slot.isRequestSent())
+                sendParts(slot);
+            continue;
+        }
         copyRuns(slot.sameCycleRuns, m_image.data(), slot.inputs);
         if (!slot.peer)
             continue;
@@ -107,6 +116,8 @@ void NodeExchange::sendRequest(NodeSlot &slot, std::uint8_t flags) noexcept
         slot.multicast->toBeSent = true;
         return;
     }
+    if (flags != slot.request.flags)
+        slot.partsEncoded = 0;
     slot.request.flags = flags;
     slot.partsSent = 0;
     slot.bytesSent = 0;
@@ -133,7 +144,10 @@ void NodeExchange::sendParts(NodeSlot &slot) noexcept
     for (; slot.partsSent < slot.encoder.partCount(); ++slot.partsSent) {
         const std::size_t size = slot.encoder.partSize(slot.partsSent);
         char *frame = slot.frames.data() + slot.bytesSent;
-        slot.encoder.encode(slot.partsSent, slot.request, slot.inputs, frame);
+        if (slot.partsSent == slot.partsEncoded) {
+            slot.encoder.encode(slot.partsSent, slot.request, slot.inputs, frame);
+            ++slot.partsEncoded;
+        }
         if (!m_hub.send(slot.peer.get(), frame, size))
             return;
         m_reports.tap(TappedFrame::Sent, slot.id, frame, size);
@@ -172,10 +186,9 @@ void NodeExchange::stepLocalNodes(const Stage &stage) noexcept
 {
     for (const Roster::Turn &turn : stage) {
         NodeSlot &slot = *turn.slot;
-        if (!slot.local)
+        if (!slot.local || !slot.due)
             continue;
-        const QPlcCycle &last = slot.local->cycle();
-        const quint64 missed = m_cycle.number > last.number() + 1 ? m_cycle.number - last.number() - 1 : 0;
+        const quint64 missed = slot.interval.missed(slot.local->cycle().number(), m_cycle.number);
         slot.computed = slot.local->step(QPlcCycle(m_cycle.number, m_period, missed), slot.inputs);
         slot.answered = true;
         if (!slot.computed && !slot.faulted)
@@ -315,6 +328,9 @@ void NodeExchange::takeAnswer(NodeSlot &slot, const char *frame, std::size_t siz
     case FrameStatus::Old:
         slot.statistics.reordered.add();
         return;
+    case FrameStatus::Forged:
+        slot.statistics.forged.add();
+        return;
     default:
         slot.statistics.rejected.add();
         return;
@@ -344,7 +360,7 @@ void NodeExchange::pasteLocalNodes(const Stage &stage) noexcept
 {
     for (const Roster::Turn &turn : stage) {
         NodeSlot &slot = *turn.slot;
-        if (!slot.local || !slot.computed || !isFinite(slot, slot.local->outputs()))
+        if (!slot.local || !slot.due || !slot.computed || !isFinite(slot, slot.local->outputs()))
             continue;
         if (slot.twoPhase)
             slot.pending = true;

@@ -31,6 +31,16 @@ bool readSignals(const QJsonValue &json, QVector<NodeDeclaration::Signal> *decla
     return true;
 }
 
+/// \return false when it is no number of cycles
+bool readInterval(const QJsonValue &json, ListeningInterval *interval)
+{
+    const int cycles = json.isUndefined() ? 1 : json.toInt(0);
+    if (cycles < 1 || cycles > ListeningInterval::Longest)
+        return false;
+    *interval = ListeningInterval(cycles);
+    return true;
+}
+
 QVector<NodeDeclaration::Signal> describe(const QPlcSignalTable &table, const PayloadLayout &layout)
 {
     QVector<NodeDeclaration::Signal> declared;
@@ -60,6 +70,8 @@ bool NodeDeclaration::fromMessage(const QPlcMessage &message, NodeDeclaration *d
     else if (!readSignals(fields.value(QStringLiteral("inputs")), &declaration->inputs)
              || !readSignals(fields.value(QStringLiteral("outputs")), &declaration->outputs))
         *error = QStringLiteral("'inputs' and 'outputs' are lists of {name, type, unit}");
+    else if (!readInterval(fields.value(QStringLiteral("every")), &declaration->interval))
+        *error = QStringLiteral("'every' is a number of cycles, 1 ... %1").arg(ListeningInterval::Longest);
     declaration->policy = QPlcSlaveNode::RealTimeViolationPolicy(policy);
     return error->isEmpty();
 }
@@ -70,6 +82,7 @@ NodeDeclaration NodeDeclaration::fromRuntime(const NodeRuntime &runtime)
     declaration.name = runtime.node().name();
     declaration.policy = runtime.node().realTimeViolationPolicy();
     declaration.listener = runtime.node().isListener();
+    declaration.interval = ListeningInterval(runtime.node().listeningInterval());
     declaration.twoPhase = runtime.node().isTwoPhase();
     declaration.inputs = describe(runtime.table(), runtime.inputLayout());
     for (int i = 0; i < declaration.inputs.size(); ++i)
@@ -138,6 +151,15 @@ std::shared_ptr<NodeSlot> NodeRegistry::admit(const NodeDeclaration &declaration
                         .arg(MaximumNodes)};
         return nullptr;
     }
+    if (!declaration.interval.isEveryCycle() && !(declaration.listener && declaration.outputs.isEmpty())) {
+        *refusal
+            = {QStringLiteral("MalformedMessage"),
+               QStringLiteral("node '%1' wants one of %2 cycles: that is for listeners without outputs; let it take "
+                              "every cycle, or declare it a listener and its outputs elsewhere")
+                   .arg(declaration.name)
+                   .arg(declaration.interval.cycles())};
+        return nullptr;
+    }
     QVector<QPlcSignalIndex> inputs;
     QVector<QPlcSignalIndex> outputs;
     if (!resolve(declaration.name, declaration.inputs, &inputs, refusal)
@@ -157,6 +179,7 @@ std::shared_ptr<NodeSlot> NodeRegistry::admit(const NodeDeclaration &declaration
     slot->id = freeId();
     slot->policy = declaration.policy;
     slot->listener = declaration.listener;
+    slot->interval = declaration.interval;
     slot->twoPhase = declaration.twoPhase;
     for (const NodeDeclaration::Signal &input : declaration.inputs)
         slot->sameCycle.push_back(input.sameCycle);

@@ -12,17 +12,18 @@ std::size_t sizeOfOutputFrame(const void *decoder, const char *header)
 
 }  // namespace
 
-void NodeSlot::prepare(const ProcessImage &image, quint64 session)
+void NodeSlot::prepare(const ProcessImage &image, quint64 session, const SealKeys *keys)
 {
     inputRuns = image.gatherRuns(inputLayout);
     outputRuns = image.scatterRuns(outputLayout);
     sameCycleRuns = image.gatherRuns(inputLayout, sameCycle);
-    encoder = FrameEncoder(FrameKind::Inputs, {session, id, inputLayout.hash()},
-                           inputLayout.partBorders(MaximumCyclicPayload));
-    decoder = FrameDecoder(FrameKind::Outputs, {session, id, outputLayout.hash()},
-                           outputLayout.partBorders(MaximumCyclicPayload));
+    const std::uint32_t longest = maximumPayload(keys != nullptr);
+    encoder = FrameEncoder(FrameKind::Inputs, {session, id, inputLayout.hash()}, inputLayout.partBorders(longest),
+                           keys ? &keys->inputs : nullptr);
+    decoder = FrameDecoder(FrameKind::Outputs, {session, id, outputLayout.hash()}, outputLayout.partBorders(longest),
+                           keys ? &keys->outputs : nullptr);
     frames.assign(encoder.totalSize(), 0);
-    inputBytes.assign(encoder.partCount() == 1 ? 0 : inputLayout.size(), 0);
+    inputBytes.assign(encoder.partCount() == 1 && !keys ? 0 : inputLayout.size(), 0);
     inputs = inputBytes.empty() ? frames.data() + CyclicHeaderSize : inputBytes.data();
 }
 

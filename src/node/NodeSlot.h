@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "ListeningInterval.h"
 #include "MulticastParts.h"
 #include "NodeRuntime.h"
 #include "NodeStatistics.h"
@@ -24,6 +25,7 @@ struct NodeSlot
     quint16 id = 0;
     QPlcSlaveNode::RealTimeViolationPolicy policy = QPlcSlaveNode::ErrorZeroOrderHold;
     bool listener = false;
+    ListeningInterval interval;     // longer than a cycle for listeners alone
     bool wantsMulticast = false;    // listens to the multicast group of the master
     bool twoPhase = false;          // the answer to cycle k holds the outputs of cycle k + 1
     QString faultPlan;              // that the node injects; empty: none
@@ -42,13 +44,17 @@ struct NodeSlot
     FrameEncoder encoder;
     FrameDecoder decoder;
     std::vector<char> frames;  // encoded parts, one behind the other
-    char *inputs = nullptr;    // payload of this cycle: where it lies in a frame of one part, else inputBytes
+    char *inputs
+        = nullptr;  // payload of this cycle: where it lies in a frame of one part that is not sealed, else inputBytes
     std::vector<char> inputBytes;
     FrameHeader request;
-    std::size_t partsSent = 0;  // of the request: a stream takes what the kernel has room for
+    std::size_t partsEncoded = 0;  // of the request; those stay as they are until it changes
+    std::size_t partsSent = 0;     // of the request: a stream takes what the kernel has room for
     std::size_t bytesSent = 0;
     std::shared_ptr<MulticastPart> multicast;  // null: the node gets frames of its own
     quint32 multicastOffset = 0;               // of its inputs in the payload of the part
+    std::uint64_t nextTurn = 0;                // of its interval
+    bool due = false;                          // to be asked in this cycle
     bool asked = false;                        // in this cycle
     bool awaited = false;                      // its answer is waited for now
     bool answered = false;                     // in this cycle
@@ -65,8 +71,18 @@ struct NodeSlot
     bool waits() const { return policy == QPlcSlaveNode::SilentWait || policy == QPlcSlaveNode::ErrorWait; }
     bool reports() const { return policy == QPlcSlaveNode::ErrorZeroOrderHold || policy == QPlcSlaveNode::ErrorWait; }
 
+    /// Whether it is asked in this cycle: in the first one of each turn that takes place. Once a cycle.
+    bool takesTurn(std::uint64_t cycle) noexcept
+    {
+        const std::uint64_t turn = interval.turn(cycle);
+        if (turn < nextTurn)
+            return false;
+        nextTurn = turn + 1;
+        return true;
+    }
     /// Sets everything that follows from the layouts. \param session  of the master, for remote nodes
-    void prepare(const ProcessImage &image, quint64 session);
+    /// \param keys  to seal its frames with, for this registration alone; null: they are not sealed
+    void prepare(const ProcessImage &image, quint64 session, const SealKeys *keys = nullptr);
     FrameCutter outputCutter() const;
 };
 

@@ -5,7 +5,7 @@ namespace qplc {
 
 void NodeStatistics::clear() noexcept
 {
-    for (Counter *counter : {&answers, &late, &lost, &duplicated, &reordered, &rejected, &resent})
+    for (Counter *counter : {&answers, &late, &lost, &duplicated, &reordered, &rejected, &forged, &resent})
         counter->set(0);
     m_durations.clear();
     m_requests.fill({});
@@ -26,6 +26,7 @@ QPlcNodeStatistics NodeStatistics::read(std::int64_t now, QPlcDistribution::Deta
     statistics.duplicated = duplicated;
     statistics.reordered = reordered;
     statistics.rejected = rejected;
+    statistics.forged = forged;
     statistics.resent = resent;
     return statistics;
 }

@@ -34,6 +34,7 @@ public:
     Counter duplicated;
     Counter reordered;
     Counter rejected;
+    Counter forged;
     Counter resent;
 
 private:

@@ -5,13 +5,14 @@
 #include "protocol/ControlFrame.h"
 
 #include <QtCore/QPointer>
-#include <QtNetwork/QTcpSocket>
+#include <QtNetwork/QSslSocket>
 
 #include <fcntl.h>
 
 struct QPlcAbstractSocket::Private
 {
     QTcpSocket *socket = nullptr;
+    QSslSocket *tls = nullptr;  // the same, when it is or will be encrypted, or comes from a master with security
     qplc::ControlFrameReader reader;
     bool isPaused = false;  // the other end takes nothing in
     Error error = NoError;
@@ -48,13 +49,30 @@ QPlcAbstractSocket::QPlcAbstractSocket(QTcpSocket *socket, QObject *parent)
 {
     qRegisterMetaType<QPlcAbstractSocket::Error>("QPlcAbstractSocket::Error");
     qRegisterMetaType<QPlcMessage>("QPlcMessage");
+    setSocket(socket);
+    if (socket->bytesAvailable() > 0)  // of a connection that was accepted by others
+        QMetaObject::invokeMethod(this, &QPlcAbstractSocket::readMessages, Qt::QueuedConnection);
+}
+
+void QPlcAbstractSocket::setSocket(QTcpSocket *socket)
+{
+    if (d->socket) {
+        d->socket->disconnect(this);
+        d->socket->deleteLater();
+    }
     d->socket = socket;
+    d->tls = qobject_cast<QSslSocket *>(socket);
+    d->reader = qplc::ControlFrameReader();
     socket->setParent(this);
     socket->setSocketOption(QAbstractSocket::LowDelayOption, 1);
-    connect(socket, &QTcpSocket::connected, this, [this] {
+    const auto nowConnected = [this] {
         d->socket->setSocketOption(QAbstractSocket::LowDelayOption, 1);
         Q_EMIT connected();
-    });
+    };
+    if (d->tls)
+        connect(d->tls, &QSslSocket::encrypted, this, nowConnected);
+    else
+        connect(socket, &QTcpSocket::connected, this, nowConnected);
     connect(socket, &QTcpSocket::disconnected, this, &QPlcAbstractSocket::disconnected);
     connect(socket, &QTcpSocket::readyRead, this, &QPlcAbstractSocket::readMessages);
     connect(socket, &QTcpSocket::bytesWritten, this, [this] {
@@ -77,7 +95,18 @@ QTcpSocket *QPlcAbstractSocket::socket() const
 
 bool QPlcAbstractSocket::isConnected() const
 {
-    return d->socket->state() == QAbstractSocket::ConnectedState;
+    const bool isHandshaking = d->tls && d->tls->mode() != QSslSocket::UnencryptedMode && !d->tls->isEncrypted();
+    return d->socket->state() == QAbstractSocket::ConnectedState && !isHandshaking;
+}
+
+bool QPlcAbstractSocket::isSecured() const
+{
+    return isConnected() && d->tls && d->tls->isEncrypted();
+}
+
+void QPlcAbstractSocket::setMessageLimit(quint32 bytes)
+{
+    d->reader.setLimit(bytes);
 }
 
 bool QPlcAbstractSocket::sendMessage(const QPlcMessage &message)
@@ -98,7 +127,7 @@ bool QPlcAbstractSocket::sendMessage(const QPlcMessage &message)
 
 qint64 QPlcAbstractSocket::bytesToSend() const
 {
-    return d->socket->bytesToWrite();
+    return d->socket->bytesToWrite() + (d->tls ? d->tls->encryptedBytesToWrite() : 0);
 }
 
 void QPlcAbstractSocket::close()
@@ -155,7 +184,11 @@ void QPlcAbstractSocket::setError(Error error, const QString &text)
 
 void QPlcAbstractSocket::readError()
 {
-    setError(errorOf(d->socket->error()), d->socket->errorString());
+    const QString text = securityErrorText();
+    if (text.isEmpty())
+        setError(errorOf(d->socket->error()), d->socket->errorString());
+    else
+        setError(SecurityError, text);
 }
 
 void QPlcAbstractSocket::readMessages()

@@ -25,6 +25,7 @@ struct QPlcIOBufferSlaveNode::Buffer
     int size = 1000;
     std::mutex mutex;  // reader against registration; not for the cycle thread
     qplc::PayloadLayout layout;
+    int every = 1;                         // of the frames in the ring
     std::unique_ptr<qplc::ByteRing> ring;  // items: Head, payload
     std::atomic<quint64> phase{0};
     std::atomic<quint64> lost{0};
@@ -81,7 +82,7 @@ int QPlcIOBufferSlaveNode::takeFrames(const std::function<void(const Frame &)> &
             return count;
         Head head;
         std::memcpy(&head, item, sizeof head);
-        take({head.cycle, head.phase, head.period, item + sizeof head, int(m_buffer->layout.size())});
+        take({head.cycle, head.phase, head.period, item + sizeof head, int(m_buffer->layout.size()), m_buffer->every});
         m_buffer->ring->pop();
     }
     return most;
@@ -96,6 +97,7 @@ void QPlcIOBufferSlaveNode::attachPorts(const qplc::PayloadLayout &inputs, const
 {
     const std::lock_guard<std::mutex> lock(m_buffer->mutex);
     m_buffer->layout = inputs;
+    m_buffer->every = listeningInterval();
     m_buffer->ring = std::make_unique<qplc::ByteRing>(sizeof(Head) + inputs.size(), std::size_t(m_buffer->size));
     QPlcIOSlaveNode::attachPorts(inputs, outputs);
 }

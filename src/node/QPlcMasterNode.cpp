@@ -176,6 +176,8 @@ bool QPlcMasterNode::setFaultPlan(const QString &plan)
     QString text;
     if (!plan.isEmpty() && !qplc::FaultPlan::fromText(plan, &text))
         return d->setError(StateError, QStringLiteral("fault plan: %1").arg(text));
+    if (serverPort() != 0)
+        return d->setError(StateError, QStringLiteral("a fault plan is set before the server starts: stop it first"));
     d->faultPlan = plan;
     return true;
 }
@@ -183,6 +185,16 @@ bool QPlcMasterNode::setFaultPlan(const QString &plan)
 QString QPlcMasterNode::faultPlan() const
 {
     return d->faultPlan;
+}
+
+void QPlcMasterNode::setSecurity(const QPlcSecurity &security)
+{
+    d->security = security;
+}
+
+QPlcSecurity QPlcMasterNode::security() const
+{
+    return d->security;
 }
 
 bool QPlcMasterNode::addLocalNode(QPlcSlaveNode *node)

@@ -113,6 +113,7 @@ bool QPlcMasterNodePrivate::prepare()
                            {QStringLiteral("table"), QString::fromUtf8(table.toIni())},
                            {QStringLiteral("state"), qplc::stateName(state)},
                            {QStringLiteral("period"), double(interval.count())},
+                           {QStringLiteral("security"), networkSecurity},
                            {QStringLiteral("features"), QJsonArray()}};
         if (!faultPlan.isEmpty())
             fields.insert(QStringLiteral("faults"), faultPlan);
@@ -134,12 +135,7 @@ bool QPlcMasterNodePrivate::prepare()
     });
     QObject::connect(server.get(), &qplc::MasterServer::lost, q,
                      [this](Connection *connection, const QString &reason) { nodeLost(connection, reason); });
-    QObject::connect(server.get(), &qplc::MasterServer::refused, q,
-                     [this](const QString &name, const QString &address, const QString &reason) {
-                         journal.tell(qplc::JournalEvent::Warning, qplc::JournalEvent::Node, name,
-                                      QStringLiteral("refused %1 %2").arg(address, reason));
-                         Q_EMIT q->nodeRefused(name, reason);
-                     });
+    watchSecurity();
     QObject::connect(server.get(), &qplc::MasterServer::received, q,
                      [this](Connection *connection, const Message &message) { receive(connection, message); });
     prepareViewers();
@@ -180,23 +176,19 @@ bool QPlcMasterNodePrivate::startServer(const QPlcUnderlyingProtocol &protocol)
         return setError(QPlcMasterNode::StateError,
                         QStringLiteral("the server can only be started while the master is off"));
     QHostAddress address = protocol.address();
-    if (!address.isLoopback() && !insecureNetworkAllowed) {
-        qCWarning(lcMaster).noquote()
-            << "listening on 127.0.0.1 only instead of" << address.toString()
-            << "- anybody on the network could read and command the plant; setInsecureNetworkAllowed(true) opens it";
-        address = QHostAddress::LocalHost;
-    } else if (!address.isLoopback()) {
-        qCWarning(lcMaster).noquote() << "listening on" << address.toString()
-                                      << "WITHOUT SECURITY: anybody on the network can read and command the plant";
-    }
+    if (!checkSecurity())
+        return false;
+    chooseAddress(&address);
+    server->setSecurity(security);
     injectFaults();
     if (!server->listen(address, protocol.port(), localName, multicastGroup))
         return setError(QPlcMasterNode::ServerError, server->errorString());
-    beacon.begin(
-        address,
-        {server->port(), false, table.hash(), localName.isEmpty() ? QCoreApplication::applicationName() : localName},
-        hasBeacon);
-    qCInfo(lcMaster).noquote() << "listening on" << address.toString() << "port" << server->port();
+    beacon.begin(address,
+                 {server->port(), !security.isNone(), table.hash(),
+                  localName.isEmpty() ? QCoreApplication::applicationName() : localName},
+                 hasBeacon);
+    qCInfo(lcMaster).noquote() << "listening on" << address.toString() << "port" << server->port() << "security"
+                               << security.modeName();
     return true;
 }
 
@@ -407,11 +399,13 @@ QPlcNodeInfo QPlcMasterNodePrivate::info(const NodeSlot &slot) const
     node.policy
         = QString::fromLatin1(QMetaEnum::fromType<QPlcSlaveNode::RealTimeViolationPolicy>().valueToKey(slot.policy));
     node.listener = slot.listener;
+    node.every = slot.interval.cycles();
     node.inputs = int(slot.inputLayout.fields().size());
     node.outputs = int(slot.outputLayout.fields().size());
     node.lateAnswers = slot.statistics.late;
     node.duplicates = slot.statistics.duplicated + slot.statistics.reordered;
     node.rejected = slot.statistics.rejected;
+    node.forged = slot.statistics.forged;
     node.resent = slot.statistics.resent;
     node.faultPlan = slot.faultPlan;
     node.transport = QStringLiteral("inprocess");

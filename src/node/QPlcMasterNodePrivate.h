@@ -63,6 +63,8 @@ public:
     bool insecureNetworkAllowed = false;
     bool hasBeacon = false;
     QString faultPlan;
+    QPlcSecurity security;
+    QString networkSecurity = QStringLiteral("none");  // as Hello tells it
     QString localName;
     QHostAddress multicastGroup;
     QPlcSignalIndex timeSignal = QPlcInvalidSignalIndex;
@@ -105,6 +107,10 @@ private:
     void sendLeases(Connection *connection);
     void sendEvents(Connection *connection, const QPlcMessage &message);
     QString nameOf(const QObject *socket) const;
+    bool checkSecurity();
+    void chooseAddress(QHostAddress *address);
+    void watchSecurity();
+    QString cycleText() const;
 
     void begin(Step step, Connection::Stage owed);
     void continueSequence(Connection *connection, const QPlcMessage &message);

@@ -57,6 +57,19 @@ bool QPlcSlaveNode::isListener() const
     return d->listener;
 }
 
+void QPlcSlaveNode::setListeningInterval(int cycles)
+{
+    Q_ASSERT_X(d->state == Disconnected, "QPlcSlaveNode::setListeningInterval", "a registered node stays what it is");
+    Q_ASSERT_X(cycles >= 1 && cycles <= qplc::ListeningInterval::Longest, "QPlcSlaveNode::setListeningInterval",
+               "a listener hears one of 1 ... 1 000 000 cycles");
+    d->interval = qplc::ListeningInterval(cycles);
+}
+
+int QPlcSlaveNode::listeningInterval() const
+{
+    return d->interval.cycles();
+}
+
 void QPlcSlaveNode::setSameCycle(bool sameCycle)
 {
     Q_ASSERT_X(d->state == Disconnected, "QPlcSlaveNode::setSameCycle", "a registered node stays what it is");
@@ -119,6 +132,16 @@ QString QPlcSlaveNode::faultPlan() const
 void QPlcSlaveNode::activateWorkloadMeasurement(const QString &signalName)
 {
     d->runtime.setWorkloadSignal(signalName);
+}
+
+void QPlcSlaveNode::setSecurity(const QPlcSecurity &security)
+{
+    d->security = security;
+}
+
+bool QPlcSlaveNode::isSecured() const
+{
+    return d->control && d->control->isSecured();
 }
 
 void QPlcSlaveNode::activateWatchdog(std::chrono::nanoseconds time)

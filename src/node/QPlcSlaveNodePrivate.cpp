@@ -80,6 +80,8 @@ void QPlcSlaveNodePrivate::connectToMaster(const QPlcUnderlyingProtocol &newMast
     }
     setState(QPlcSlaveNode::Connecting);
     control = new QPlcMasterSocket(q);
+    if (security)
+        control->setSecurity(*security);
     QObject::connect(control, &QPlcAbstractSocket::connected, q, [this] { greet(); });
     QObject::connect(control, &QPlcAbstractSocket::messageReceived, q,
                      [this](const Message &message) { receive(message); });
@@ -128,7 +130,9 @@ void QPlcSlaveNodePrivate::closeSockets()
 void QPlcSlaveNodePrivate::masterLost(QPlcAbstractSocket::Error socketError, const QString &text)
 {
     const bool wasConnecting = state == QPlcSlaveNode::Connecting;
-    const QString sentence = wasConnecting
+    const QString sentence = socketError == QPlcAbstractSocket::SecurityError
+        ? QStringLiteral("node '%1' is not accepted at %2: %3")
+        : wasConnecting
         ? QStringLiteral("node '%1' cannot reach a master at %2: %3; start the master, or check address and port")
         : QStringLiteral("node '%1' has lost the master at %2: %3");
     const QString full = sentence.arg(name, master.toString(), text);
@@ -292,6 +296,7 @@ void QPlcSlaveNodePrivate::startCycles(const Message &message)
     phase.cycleZero = message.hex64(QStringLiteral("cycleZero"));
     phase.firstCycle = message.hex64(QStringLiteral("firstCycle"));
     phase.group = groupOf(message, runtime.inputLayout());
+    phase.interval = interval;
     phase.watchdog = watchdog;
     phase.realTimeOptions = realTimeOptions;
     if (!cycle->start(phase)) {

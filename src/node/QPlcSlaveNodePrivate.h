@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "ListeningInterval.h"
 #include "NodeRuntime.h"
 #include "QPlcMasterNode.h"
 #include "QPlcMasterSocket.h"
@@ -12,6 +13,7 @@
 #include <QtCore/QSocketNotifier>
 
 #include <memory>
+#include <optional>
 
 /// The control side of a slave: registration, and the phases that the master announces.
 class QPlcSlaveNodePrivate
@@ -32,12 +34,14 @@ public:
     QString name;
     QPlcSlaveNode::RealTimeViolationPolicy policy;
     bool listener = false;
+    qplc::ListeningInterval interval;
     bool sameCycle = false;  // all inputs
     bool twoPhase = false;
     QString faultPlan;
     QPlcSignalTable ownTable;
     QPlcRealTimeOptions realTimeOptions;
     std::chrono::nanoseconds watchdog{0};
+    std::optional<QPlcSecurity> security;  // else that of the process
     qplc::NodeRuntime runtime;
     QPlcSlaveNode::State state = QPlcSlaveNode::Disconnected;
     QPlcSlaveNode::Error error = QPlcSlaveNode::NoError;

@@ -34,9 +34,10 @@ SlaveCycle::SlaveCycle(NodeRuntime &runtime, const Identity &identity, bool tapF
     , m_identity(identity)
     , m_decoder(ownDecoder())
     , m_encoder(FrameKind::Outputs, seedOf(identity, runtime.outputLayout()),
-                runtime.outputLayout().partBorders(MaximumCyclicPayload))
+                runtime.outputLayout().partBorders(maximumPayload(identity.keys.has_value())),
+                identity.keys ? &identity.keys->outputs : nullptr)
     , m_reports(tapFrames)
-    , m_frame(MaximumCyclicFrame)
+    , m_frames(m_encoder.totalSize())
 {
 }
 
@@ -44,7 +45,8 @@ SlaveCycle::SlaveCycle(NodeRuntime &runtime, const Identity &identity, bool tapF
 FrameDecoder SlaveCycle::ownDecoder() const
 {
     return {FrameKind::Inputs, seedOf(m_identity, m_runtime.inputLayout()),
-            m_runtime.inputLayout().partBorders(MaximumCyclicPayload)};
+            m_runtime.inputLayout().partBorders(maximumPayload(m_identity.keys.has_value())),
+            m_identity.keys ? &m_identity.keys->inputs : nullptr};
 }
 
 SlaveCycle::~SlaveCycle()
@@ -67,8 +69,9 @@ bool SlaveCycle::start(const Phase &phase)
         : FrameDecoder(FrameKind::GroupInputs, {m_identity.session, 0, group.hash}, {0, group.size});
     m_decoder.restart(phase.firstCycle);
     m_runtime.setLockstep(phase.clock.isLockstep());
-    for (std::atomic<quint64> *counter : {&m_counters.cycles, &m_counters.missed, &m_counters.duplicated,
-                                          &m_counters.outdated, &m_counters.rejected, &m_counters.watchdog})
+    for (std::atomic<quint64> *counter :
+         {&m_counters.cycles, &m_counters.missed, &m_counters.duplicated, &m_counters.outdated, &m_counters.rejected,
+          &m_counters.forged, &m_counters.watchdog})
         counter->store(0);
     m_statistics.restart(phase.clock.isLockstep() ? 0
                                                   : std::int64_t(double(phase.period.count()) / phase.clock.scale()));
@@ -100,6 +103,7 @@ QPlcSlaveNode::Counters SlaveCycle::counters() const
     counters.duplicated = m_counters.duplicated;
     counters.outdated = m_counters.outdated;
     counters.rejected = m_counters.rejected;
+    counters.forged = m_counters.forged;
     counters.watchdog = m_counters.watchdog;
     return counters;
 }
@@ -166,6 +170,9 @@ FrameStatus SlaveCycle::decode(const char *frame, std::size_t size) noexcept
     case FrameStatus::Old:
         count(m_counters.outdated);
         break;
+    case FrameStatus::Forged:
+        count(m_counters.forged);
+        break;
     default:
         count(m_counters.rejected);
         break;
@@ -184,7 +191,7 @@ void SlaveCycle::take(const char *frame, std::size_t size) noexcept
 {
     const FrameStatus status = decode(frame, size);
     if (status == FrameStatus::Duplicate && m_computedAny && isRepeatedRequest())
-        answer();
+        sendAnswer();
     if (status != FrameStatus::Complete) {
         checkWatchdog();  // frames that are no use do not calm it
         return;
@@ -200,7 +207,7 @@ void SlaveCycle::take(const char *frame, std::size_t size) noexcept
 void SlaveCycle::skipToNewest() noexcept
 {
     const std::int64_t now = TimeSource::monotonic().now();
-    const bool paused = simulated(now - m_lastArrival) > 2 * m_phase.period.count();
+    const bool paused = simulated(now - m_lastArrival) > 2 * m_phase.interval.cycles() * m_phase.period.count();
     m_lastArrival = now;
     if (!paused)
         return;
@@ -213,7 +220,8 @@ void SlaveCycle::skipToNewest() noexcept
 void SlaveCycle::compute() noexcept
 {
     const std::uint64_t cycle = m_decoder.cycle();
-    const std::uint64_t missed = m_computedAny ? cycle - m_lastCycle - 1 : 0;
+    const std::uint64_t missed
+        = m_computedAny ? m_phase.interval.missed(m_lastCycle - m_phase.cycleZero, cycle - m_phase.cycleZero) : 0;
     count(m_counters.cycles);
     count(m_counters.missed, missed);
     const bool computed = m_runtime.step(QPlcCycle(cycle - m_phase.cycleZero, m_phase.period, missed),
@@ -225,25 +233,38 @@ void SlaveCycle::compute() noexcept
     m_lastCycle = cycle;
     m_watchdogBarked = false;
     m_answer.flags = computed ? 0 : FaultFlag;
-    m_answer.cycle = std::uint32_t(cycle);
+    m_answer.cycle = cycle;
     m_answer.info
         = std::uint32_t(std::min<std::int64_t>(m_runtime.executionTime(), std::numeric_limits<std::uint32_t>::max()));
-    answer();
+    encodeAnswer();
+    sendAnswer();
 }
 
 /// Whether the last good frame asks again for the cycle that was computed last; of several parts only the first one counts.
 bool SlaveCycle::isRepeatedRequest() const noexcept
 {
     const FrameHeader &request = m_decoder.received();
-    return (request.flags & ResentFlag) && !(request.flags & PartFlag) && request.cycle == std::uint32_t(m_lastCycle);
+    return (request.flags & ResentFlag) && !(request.flags & PartFlag) && request.cycle == m_lastCycle;
 }
 
-void SlaveCycle::answer() noexcept
+void SlaveCycle::encodeAnswer() noexcept
 {
+    char *frame = m_frames.data();
     for (std::size_t part = 0; part < m_encoder.partCount(); ++part) {
-        m_encoder.encode(part, m_answer, m_runtime.outputs(), m_frame.data());
-        m_reports.tap(TappedFrame::Sent, m_identity.node, m_frame.data(), m_encoder.partSize(part));
-        m_link->send(m_frame.data(), m_encoder.partSize(part));
+        m_encoder.encode(part, m_answer, m_runtime.outputs(), frame);
+        frame += m_encoder.partSize(part);
+    }
+}
+
+/// The same bytes, however often it is asked for.
+void SlaveCycle::sendAnswer() noexcept
+{
+    const char *frame = m_frames.data();
+    for (std::size_t part = 0; part < m_encoder.partCount(); ++part) {
+        const std::size_t size = m_encoder.partSize(part);
+        m_reports.tap(TappedFrame::Sent, m_identity.node, frame, size);
+        m_link->send(frame, size);
+        frame += size;
     }
     m_link->flush();
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "CycleReports.h"
+#include "ListeningInterval.h"
 #include "NodeRuntime.h"
 #include "QPlcClock.h"
 #include "SlaveStatistics.h"
@@ -11,6 +12,7 @@
 
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace qplc {
@@ -25,6 +27,7 @@ public:
     {
         std::uint64_t session = 0;
         std::uint16_t node = 0;
+        std::optional<SealKeys> keys{};  // none: frames are not sealed
     };
     /// Where the inputs of the node lie in the datagrams for many nodes.
     struct Group
@@ -43,6 +46,7 @@ public:
         std::chrono::nanoseconds watchdog{0};  // 0: none
         QPlcRealTimeOptions realTimeOptions;
         Group group{};
+        ListeningInterval interval{};
     };
 
     /// \param runtime  bound, and outlives this object
@@ -76,7 +80,8 @@ private:
     void skipToNewest() noexcept;
     void compute() noexcept;
     bool isRepeatedRequest() const noexcept;
-    void answer() noexcept;
+    void encodeAnswer() noexcept;
+    void sendAnswer() noexcept;
     void checkWatchdog() noexcept;
     std::int64_t watchdogLooks() const noexcept;
     std::int64_t simulated(std::int64_t time) const noexcept;
@@ -93,8 +98,8 @@ private:
 
     // cycle thread
     Phase m_phase;
-    std::vector<char> m_frame;  // one encoded part
-    FrameHeader m_answer;       // of the newest cycle
+    std::vector<char> m_frames;  // encoded parts of the newest answer, one behind the other
+    FrameHeader m_answer;        // of the newest cycle
     bool m_computedAny = false;
     bool m_faulted = false;
     bool m_watchdogBarked = false;
@@ -103,7 +108,7 @@ private:
 
     struct AtomicCounters
     {
-        std::atomic<quint64> cycles{0}, missed{0}, duplicated{0}, outdated{0}, rejected{0}, watchdog{0};
+        std::atomic<quint64> cycles{0}, missed{0}, duplicated{0}, outdated{0}, rejected{0}, forged{0}, watchdog{0};
     } m_counters;
     SlaveStatistics m_statistics;
 };

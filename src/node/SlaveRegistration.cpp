@@ -132,6 +132,8 @@ void QPlcSlaveNodePrivate::registerAtMaster()
         {QStringLiteral("inputs"), describe(runtime.table(), runtime.inputLayout(), runtime.sameCycle())},
         {QStringLiteral("outputs"), describe(runtime.table(), runtime.outputLayout())},
         {QStringLiteral("cyclic"), master.kindName()}};
+    if (!interval.isEveryCycle())
+        fields.insert(QStringLiteral("every"), interval.cycles());
     if (twoPhase)
         fields.insert(QStringLiteral("twoPhase"), true);
     if (!faultPlan.isEmpty())
@@ -205,6 +207,7 @@ void QPlcSlaveNodePrivate::giveLink(std::unique_ptr<qplc::CyclicLink> link)
 void QPlcSlaveNodePrivate::connectCyclicChannel()
 {
     m_cyclicSocket = new QPlcMasterSocket(q);
+    m_cyclicSocket->setSecurity(QPlcSecurity());  // frames are no TLS; the token came over the control connection
     QObject::connect(m_cyclicSocket, &QPlcAbstractSocket::connected, q, [this] {
         m_cyclicSocket->sendMessage(Message(Message::AttachCyclicChannel,
                                             {{QStringLiteral("node"), m_id}, {QStringLiteral("token"), m_token}}));

@@ -88,6 +88,8 @@ double figureOf(const QPlcNodeStatistics &node, QPlcStatisticFigure figure)
         return double(node.rejected);
     case QPlcStatisticFigure::Resent:
         return double(node.resent);
+    case QPlcStatisticFigure::Forged:
+        return double(node.forged);
     default:
         return 0.0;  // of a master
     }

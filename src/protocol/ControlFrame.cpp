@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ControlFrame.h"
 
+#include "JsonNames.h"
 #include "LittleEndian.h"
 
 #include <QtCore/QJsonDocument>
@@ -79,9 +80,9 @@ bool ControlFrameReader::next(QPlcMessage *message)
     const quint32 length = loadLittle<quint32>(m_buffer.constData() + m_begin);
     if (length < quint32(KindSize))
         return setError(FrameTooShort, QStringLiteral("control frame of 0 bytes%1; the kind needs one").arg(place()));
-    if (length > MaximumControlFrame) {
+    if (length > m_limit) {
         const QString text = QStringLiteral("control frame of %1 bytes%2; at most %3 are allowed");
-        return setError(FrameTooLong, text.arg(length).arg(place()).arg(MaximumControlFrame));
+        return setError(FrameTooLong, text.arg(length).arg(place()).arg(m_limit));
     }
     if (available - LengthSize < int(length))
         return false;
@@ -120,6 +121,8 @@ bool ControlFrameReader::parse(const QByteArray &frame, QPlcMessage *message)
         const QString text = QStringLiteral("%1: arrays and objects %2 deep; at most %3 are allowed");
         return setError(NestedTooDeep, text.arg(thing).arg(depth).arg(MaximumControlDepth));
     }
+    if (const std::optional<QString> name = doubledJsonName(json))
+        return setError(InvalidJson, QStringLiteral("%1: the name '%2' stands twice in an object").arg(thing, *name));
     QJsonParseError error;
     const QJsonDocument document = QJsonDocument::fromJson(json, &error);
     if (!document.isObject())

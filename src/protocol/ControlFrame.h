@@ -24,12 +24,14 @@ class ControlFrameReader
 public:
     enum Error {
         NoError,
-        FrameTooLong,   ///< length beyond MaximumControlFrame
+        FrameTooLong,   ///< length beyond the limit
         FrameTooShort,  ///< length 0: not even a kind
         NestedTooDeep,
-        InvalidJson  ///< not UTF-8, not JSON, or not an object
+        InvalidJson  ///< not UTF-8, not JSON, not an object, or a name stands twice in one
     };
 
+    /// Frames behind those that were taken already may have so many bytes behind their length field; MaximumControlFrame unless set.
+    void setLimit(quint32 bytes) { m_limit = bytes; }
     /// Takes bytes of the stream. To be followed by next() until it has no more messages.
     void append(const QByteArray &bytes);
     /// Takes the next complete message. \return false when there is none (yet), or error() is set
@@ -48,6 +50,7 @@ private:
     QString place() const;
     bool setError(Error error, const QString &text);
 
+    quint32 m_limit = MaximumControlFrame;  // [byte]
     QByteArray m_buffer;
     int m_begin = 0;  // [byte] of m_buffer: what is before it has been used
     QByteArray m_lastFrame;

@@ -34,16 +34,6 @@ std::uint32_t crcOfSeed(const FrameSeed &seed) noexcept
     return crc32c(0, bytes, sizeof bytes);
 }
 
-FrameHeader readHeader(FrameKind kind, const char *bytes) noexcept
-{
-    FrameHeader header;
-    header.kind = kind;
-    header.flags = loadLittle<std::uint8_t>(bytes + FlagsAt);
-    header.cycle = loadLittle<std::uint32_t>(bytes + CycleAt);
-    header.info = loadLittle<std::uint32_t>(bytes + InfoAt);
-    return header;
-}
-
 // An empty payload has no bytes, and perhaps no address; another one may be where it belongs already.
 void copyBytes(const char *from, std::size_t size, char *to) noexcept
 {
@@ -58,17 +48,37 @@ std::vector<std::uint32_t> checkedBorders(std::vector<std::uint32_t> borders)
     return borders;
 }
 
+std::size_t largestPart(const std::vector<std::uint32_t> &borders)
+{
+    std::size_t largest = 0;
+    for (std::size_t part = 0; part + 1 < borders.size(); ++part)
+        largest = std::max<std::size_t>(largest, borders[part + 1] - borders[part]);
+    return largest;
+}
+
+std::unique_ptr<FrameSeal> sealOf(const SealKey *key, const FrameSeed &seed)
+{
+    return key ? std::make_unique<FrameSeal>(*key, seed.session, seed.node) : nullptr;
+}
+
+std::size_t partOf(const FrameHeader &header)
+{
+    return (header.flags & PartFlag) != 0 ? header.info : 0;
+}
+
 }  // namespace
 
-FrameEncoder::FrameEncoder(FrameKind kind, const FrameSeed &seed, std::vector<std::uint32_t> partBorders)
+FrameEncoder::FrameEncoder(FrameKind kind, const FrameSeed &seed, std::vector<std::uint32_t> partBorders,
+                           const SealKey *key)
     : m_kind(kind)
     , m_session(std::uint16_t(seed.session))
     , m_seedCrc(crcOfSeed(seed))
     , m_borders(checkedBorders(std::move(partBorders)))
+    , m_seal(sealOf(key, seed))
 {
 }
 
-void FrameEncoder::encode(std::size_t part, FrameHeader header, const char *payload, char *target) const noexcept
+bool FrameEncoder::encode(std::size_t part, FrameHeader header, const char *payload, char *target) const noexcept
 {
     const std::size_t begin = m_borders[part];
     const std::size_t size = m_borders[part + 1] - begin;
@@ -76,16 +86,22 @@ void FrameEncoder::encode(std::size_t part, FrameHeader header, const char *payl
     if (part > 0)
         header.info = std::uint32_t(part);
 
-    target[0] = versionAndKind(m_kind);
-    storeLittle(header.flags, target + FlagsAt);
-    storeLittle(m_session, target + SessionAt);
-    storeLittle(header.cycle, target + CycleAt);
-    storeLittle(header.info, target + InfoAt);
+    char head[CyclicHeaderSize];
+    head[0] = versionAndKind(m_kind);
+    storeLittle(header.flags, head + FlagsAt);
+    storeLittle(m_session, head + SessionAt);
+    storeLittle(std::uint32_t(header.cycle), head + CycleAt);
+    storeLittle(header.info, head + InfoAt);
+    if (m_seal)
+        return m_seal->seal(header.cycle, std::uint16_t(part), head, payload + begin, size, target);
+    std::memcpy(target, head, CyclicHeaderSize);
     copyBytes(payload + begin, size, target + CyclicHeaderSize);
     storeLittle(crc32c(m_seedCrc, target, CyclicHeaderSize + size), target + CyclicHeaderSize + size);
+    return true;
 }
 
-FrameDecoder::FrameDecoder(FrameKind kind, const FrameSeed &seed, std::vector<std::uint32_t> partBorders)
+FrameDecoder::FrameDecoder(FrameKind kind, const FrameSeed &seed, std::vector<std::uint32_t> partBorders,
+                           const SealKey *key)
     : m_kind(kind)
     , m_session(std::uint16_t(seed.session))
     , m_seedCrc(crcOfSeed(seed))
@@ -93,22 +109,42 @@ FrameDecoder::FrameDecoder(FrameKind kind, const FrameSeed &seed, std::vector<st
     , m_partCount(m_borders.size() - 1)
     , m_payload(std::make_unique<char[]>(m_borders.back()))
     , m_incomplete(std::make_unique<char[]>(m_borders.back()))
+    , m_seal(sealOf(key, seed))
+    , m_opened(key ? std::make_unique<char[]>(largestPart(m_borders)) : nullptr)
     , m_partsSeen((m_partCount + PartsPerWord - 1) / PartsPerWord)
 {
 }
 
 FrameStatus FrameDecoder::decode(const char *bytes, std::size_t size) noexcept
 {
-    if (size < CyclicOverhead || size != claimedSize(bytes))
+    if (size < overhead() || size != claimedSize(bytes))
         return FrameStatus::WrongLength;
     if (!isOfThisKind(bytes))
         return FrameStatus::WrongVersion;
     if (loadLittle<std::uint16_t>(bytes + SessionAt) != m_session)
         return FrameStatus::WrongSession;
+    const FrameHeader header = readHeader(bytes);
+    if (m_seal) {
+        const std::size_t sealed = size - SealedOverhead;
+        if (!m_seal->open(header.cycle, std::uint16_t(partOf(header)), bytes, sealed, m_opened.get()))
+            return FrameStatus::Forged;
+        return accept(header, m_opened.get());
+    }
     const std::size_t checked = size - sizeof(std::uint32_t);
     if (loadLittle<std::uint32_t>(bytes + checked) != crc32c(m_seedCrc, bytes, checked))
         return FrameStatus::WrongChecksum;
-    return accept(readHeader(m_kind, bytes), bytes + CyclicHeaderSize);
+    return accept(header, bytes + CyclicHeaderSize);
+}
+
+/// The cycle is the one nearest to the newest cycle seen.
+FrameHeader FrameDecoder::readHeader(const char *bytes) const noexcept
+{
+    FrameHeader header;
+    header.kind = m_kind;
+    header.flags = loadLittle<std::uint8_t>(bytes + FlagsAt);
+    header.cycle = extendCycle(loadLittle<std::uint32_t>(bytes + CycleAt), m_newest);
+    header.info = loadLittle<std::uint32_t>(bytes + InfoAt);
+    return header;
 }
 
 std::size_t FrameDecoder::frameSize(const char *header) const noexcept
@@ -133,7 +169,7 @@ std::size_t FrameDecoder::claimedSize(const char *header) const noexcept
         if (part == 0)
             return 0;
     }
-    return part < m_partCount ? CyclicOverhead + m_borders[part + 1] - m_borders[part] : 0;
+    return part < m_partCount ? overhead() + m_borders[part + 1] - m_borders[part] : 0;
 }
 
 bool FrameDecoder::isOfThisKind(const char *header) const noexcept
@@ -145,12 +181,12 @@ bool FrameDecoder::isOfThisKind(const char *header) const noexcept
 FrameStatus FrameDecoder::accept(const FrameHeader &header, const char *payload) noexcept
 {
     m_received = header;
-    const std::int32_t ahead = std::int32_t(header.cycle - std::uint32_t(m_newest));
+    const auto ahead = std::int64_t(header.cycle - m_newest);
     if (ahead < 0)
-        return m_anyComplete && header.cycle == std::uint32_t(m_cycle) ? FrameStatus::Duplicate : FrameStatus::Old;
+        return m_anyComplete && header.cycle == m_cycle ? FrameStatus::Duplicate : FrameStatus::Old;
     if (ahead > 0 || !m_any)
-        beginCycle(extendCycle(header.cycle, m_newest));
-    return takePart((header.flags & PartFlag) != 0 ? header.info : 0, payload);
+        beginCycle(header.cycle);
+    return takePart(partOf(header), payload);
 }
 
 void FrameDecoder::beginCycle(std::uint64_t cycle) noexcept

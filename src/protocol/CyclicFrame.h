@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "FrameSeal.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -10,13 +12,21 @@ namespace qplc {
 
 /// The frames that carry values in every cycle: little-endian,
 ///   u8 version << 4 | kind, u8 flags, u16 session, u32 cycle, u32 info, payload, u32 CRC-32C
-/// = 16 bytes + payload. The CRC is seeded with session id, node id and layout hash. See docs/protocol.md.
+/// = 16 bytes + payload. The CRC is seeded with session id, node id and layout hash. A sealed frame has a sealed payload, and a tag of 16 bytes in the place of the CRC:
+/// 28 bytes + payload. See docs/protocol.md.
 constexpr std::uint8_t CyclicVersion = 1;
 constexpr std::size_t CyclicHeaderSize = 12;
 constexpr std::size_t CyclicOverhead = 16;
 /// Longest frame: an Ethernet MTU without IPv4 and UDP headers.
 constexpr std::size_t MaximumCyclicFrame = 1472;
 constexpr std::size_t MaximumCyclicPayload = MaximumCyclicFrame - CyclicOverhead;
+constexpr std::size_t SealedOverhead = CyclicHeaderSize + FrameSeal::TagSize;
+constexpr std::size_t MaximumSealedPayload = MaximumCyclicFrame - SealedOverhead;
+/// Most bytes of a part.
+constexpr std::uint32_t maximumPayload(bool isSealed)
+{
+    return std::uint32_t(isSealed ? MaximumSealedPayload : MaximumCyclicPayload);
+}
 
 enum class FrameKind : std::uint8_t {
     Inputs = 1,      ///< master -> node: TimeoutWithNewValues
@@ -34,7 +44,7 @@ struct FrameHeader
 {
     FrameKind kind = FrameKind::Inputs;
     std::uint8_t flags = 0;
-    std::uint32_t cycle = 0;
+    std::uint64_t cycle = 0;  ///< the wire carries its low 32 bits
     std::uint32_t info
         = 0;  ///< inputs: lateness of the cycle [ns]; outputs: execution time [ns]; saturated. Parts > 0: number of the part
 };
@@ -55,7 +65,8 @@ enum class FrameStatus : std::uint8_t {
     WrongLength,   ///< for the part that it says to be, or there is no such part
     WrongVersion,  ///< of the protocol, or the kind of the other direction
     WrongSession,  ///< low 16 bits differ
-    WrongChecksum  ///< corrupted, or of another session, node or table
+    WrongChecksum,  ///< corrupted, or of another session, node or table
+    Forged  ///< not sealed with this key as it is: made or changed by a stranger, corrupted, or of another session, node or direction
 };
 
 /// The 64-bit number of the cycle whose low 32 bits are \a wire, nearest to \a reference.
@@ -64,39 +75,47 @@ constexpr std::uint64_t extendCycle(std::uint32_t wire, std::uint64_t reference)
     return reference + std::uint64_t(std::int64_t(std::int32_t(wire - std::uint32_t(reference))));
 }
 
-/// Writes the frames of one direction of one node. Allocation-free after construction; encode() is thread-safe.
+/// Writes the frames of one direction of one node. Allocation-free after construction; encode() is thread-safe unless it seals.
 class FrameEncoder
 {
 public:
     FrameEncoder() = default;
-    /// \param partBorders  PayloadLayout::partBorders(MaximumCyclicPayload): n parts have n + 1 borders, from 0, never falling
-    FrameEncoder(FrameKind kind, const FrameSeed &seed, std::vector<std::uint32_t> partBorders);
+    /// \param partBorders  PayloadLayout::partBorders(MaximumCyclicPayload or MaximumSealedPayload): n parts have n + 1 borders, from 0, never falling
+    /// \param key  to seal the frames with; for one encoder alone. Null: they are not sealed
+    FrameEncoder(FrameKind kind, const FrameSeed &seed, std::vector<std::uint32_t> partBorders,
+                 const SealKey *key = nullptr);
 
     std::size_t partCount() const { return m_borders.size() - 1; }
-    std::size_t partSize(std::size_t part) const { return CyclicOverhead + m_borders[part + 1] - m_borders[part]; }
+    std::size_t partSize(std::size_t part) const { return overhead() + m_borders[part + 1] - m_borders[part]; }
     /// Bytes of all parts together.
-    std::size_t totalSize() const { return CyclicOverhead * partCount() + m_borders.back(); }
+    std::size_t totalSize() const { return overhead() * partCount() + m_borders.back(); }
     /// Writes part \a part to \a target (partSize(part) bytes). \a header.kind, PartFlag and, in parts > 0, \a header.info are set here.
     /// \param payload  begin of the whole payload, also for parts > 0; may be \a target + CyclicHeaderSize, then nothing is copied
-    void encode(std::size_t part, FrameHeader header, const char *payload, char *target) const noexcept;
+    /// \return false when this frame or a later one has been sealed already: what was sent is sent again as it is, see FrameSeal. Nothing is written
+    bool encode(std::size_t part, FrameHeader header, const char *payload, char *target) const noexcept;
 
 private:
+    std::size_t overhead() const { return m_seal ? SealedOverhead : CyclicOverhead; }
+
     FrameKind m_kind = FrameKind::Inputs;
     std::uint16_t m_session = 0;
     std::uint32_t m_seedCrc = 0;
     std::vector<std::uint32_t> m_borders{0, 0};
+    std::unique_ptr<FrameSeal> m_seal;
 };
 
 /// Checks the frames of one direction of one node and puts their parts together. Allocation-free after construction.
 ///
 /// The newest complete payload stays whole and visible while parts of the next cycle arrive: they are put together in a second buffer. A frame that is
-/// refused (WrongLength, WrongVersion, WrongSession, WrongChecksum) changes nothing at all.
+/// refused (WrongLength, WrongVersion, WrongSession, WrongChecksum, Forged) changes nothing at all.
 class FrameDecoder
 {
 public:
     /// Refuses every frame.
     FrameDecoder() = default;
-    FrameDecoder(FrameKind kind, const FrameSeed &seed, std::vector<std::uint32_t> partBorders);
+    /// \param key  that the frames are sealed with; null: they are not sealed
+    FrameDecoder(FrameKind kind, const FrameSeed &seed, std::vector<std::uint32_t> partBorders,
+                 const SealKey *key = nullptr);
 
     /// Takes one datagram. With Complete, payload() holds the values, header() the header of part 0 and cycle() the cycle.
     FrameStatus decode(const char *bytes, std::size_t size) noexcept;
@@ -116,7 +135,9 @@ public:
     void restart(std::uint64_t firstCycle) noexcept;
 
 private:
+    std::size_t overhead() const { return m_seal ? SealedOverhead : CyclicOverhead; }
     std::size_t claimedSize(const char *header) const noexcept;
+    FrameHeader readHeader(const char *bytes) const noexcept;
     bool isOfThisKind(const char *header) const noexcept;
     FrameStatus accept(const FrameHeader &header, const char *payload) noexcept;
     void beginCycle(std::uint64_t cycle) noexcept;
@@ -126,9 +147,11 @@ private:
     std::uint16_t m_session = 0;
     std::uint32_t m_seedCrc = 0;
     std::vector<std::uint32_t> m_borders;
-    std::size_t m_partCount = 0;             // 0: no frame has the right length
-    std::unique_ptr<char[]> m_payload;       // newest complete one
-    std::unique_ptr<char[]> m_incomplete;    // of m_newest, as long as parts are missing
+    std::size_t m_partCount = 0;           // 0: no frame has the right length
+    std::unique_ptr<char[]> m_payload;     // newest complete one
+    std::unique_ptr<char[]> m_incomplete;  // of m_newest, as long as parts are missing
+    std::unique_ptr<FrameSeal> m_seal;
+    std::unique_ptr<char[]> m_opened;        // payload of a sealed part
     std::vector<std::uint64_t> m_partsSeen;  // of m_newest, one bit a part
     std::size_t m_missingParts = 0;          // of m_newest
     FrameHeader m_received;

@@ -11,6 +11,7 @@ constexpr int any = std::numeric_limits<int>::max();
 
 const Option verbose{"verbose", "", "Every column."};
 const Option count{"count", "N", "Ends after so many lines."};
+const Option every{"every", "CYCLES", "Hears one of so many cycles only, for slow links."};
 
 }  // namespace
 
@@ -58,7 +59,7 @@ const QVector<Command> &commands()
          "Prints values as they come, until Ctrl-C.",
          "Aligned columns on a terminal, separated by tabs elsewhere. While no cycle runs,\n"
          "the present values are printed once. --json prints an object for each line.",
-         {{"rate", "HZ", "Most lines per second, 10 unless said."}, count},
+         {{"rate", "HZ", "Most lines per second, 10 unless said."}, every, count},
          {QStringLiteral("qtplc echo tetherLength power --rate 2"),
           QStringLiteral("qtplc echo power --json --rate 1000 > power.jsonl")},
          Command::Signals,
@@ -69,10 +70,10 @@ const QVector<Command> &commands()
          "[SIGNAL|PATTERN...]",
          "Shows values, extremes and age on the whole terminal.",
          "All signals unless names or patterns are given; a line for each element of an\n"
-         "array. Every cycle counts for the extremes. Age is the time since the value\n"
-         "changed. Keys: q ends, arrows and page keys scroll, r forgets the extremes.\n"
-         "Where the output is no terminal, watch is echo.",
-         {{"rate", "HZ", "Pictures (or lines) per second, 10 unless said."}},
+         "array. Every cycle that is heard counts for the extremes, with --every not all.\n"
+         "Age is the time since the value changed. Keys: q ends, arrows and page keys\n"
+         "scroll, r forgets the extremes. Where the output is no terminal, watch is echo.",
+         {{"rate", "HZ", "Pictures (or lines) per second, 10 unless said."}, every},
          {QStringLiteral("qtplc watch 'tether*' power"), QStringLiteral("qtplc watch")},
          Command::Signals,
          0,

@@ -4,6 +4,7 @@
 #include "SignalListener.h"
 #include "SignalSelection.h"
 #include "TerminalText.h"
+#include "node/ListeningInterval.h"
 
 #include <QtCore/QDeadlineTimer>
 #include <QtCore/QJsonArray>
@@ -122,12 +123,17 @@ private:
 
 }  // namespace
 
-int printLines(const CommandCall &call, const QPlcSignalTable &table, const QStringList &names, double rate,
-               qint64 count)
+bool readEvery(const CommandCall &call, qint64 *every)
+{
+    return call.readInteger("every", 1, qplc::ListeningInterval::Longest, every);
+}
+
+int printLines(const CommandCall &call, const QPlcSignalTable &table, const QStringList &names, const LineRate &rate)
 {
     // Twice as often as lines come, and often enough for the buffer.
-    SignalListener listener(QStringLiteral("echo"), table, names, std::clamp(int(500.0 / rate), 1, 50));
-    Echo echo(listener, call.isJson(), rate, count);
+    SignalListener listener(QStringLiteral("echo"), table, names, std::clamp(int(500.0 / rate.rate), 1, 50));
+    listener.setInterval(int(rate.every));
+    Echo echo(listener, call.isJson(), rate.rate, rate.count);
     QObject::connect(&listener, &SignalListener::valuesAtRest, &echo, &Echo::printAtRest);
     QPlcMessage state;
     QPlcMessage values;
@@ -147,14 +153,14 @@ int printLines(const CommandCall &call, const QPlcSignalTable &table, const QStr
 
 int echoSignals(const CommandCall &call)
 {
-    double rate = 10.0;
-    qint64 count = -1;
+    LineRate rate;
     QPlcSignalTable table;
     QStringList names;
-    if (!call.readNumber("rate", 0.01, 1000.0, &rate) || !call.readInteger("count", 1, 1'000'000'000, &count)
-        || !call.connect(&table) || !selectSignals(call.application, table, call.arguments, &names))
+    if (!call.readNumber("rate", 0.01, 1000.0, &rate.rate) || !call.readInteger("count", 1, 1'000'000'000, &rate.count)
+        || !readEvery(call, &rate.every) || !call.connect(&table)
+        || !selectSignals(call.application, table, call.arguments, &names))
         return call.exitCode();
-    return printLines(call, table, names, rate, count);
+    return printLines(call, table, names, rate);
 }
 
 }  // namespace tools

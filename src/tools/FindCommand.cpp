@@ -25,7 +25,7 @@ void print(const QVector<FoundMaster> &masters)
     for (const char *title : {"address", "name", "where", "security", "table"})
         table.addColumn(QString::fromLatin1(title));
     for (const FoundMaster &master : masters)
-        table.addRow({master.address, printable(master.name), place(master),
+        table.addRow({master.address, master.name, place(master),
                       master.isSecured ? QStringLiteral("secured") : QStringLiteral("insecure"),
                       QPlcMessage::fromHex64(master.tableHash)});
     table.print();

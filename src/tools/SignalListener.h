@@ -23,6 +23,8 @@ public:
     SignalListener(const QString &purpose, const QPlcSignalTable &table, const QStringList &names, int pause);
     ~SignalListener() override;
 
+    /// Hears one of so many cycles only. Before join().
+    void setInterval(int cycles) { m_node.setListeningInterval(cycles); }
     const QVector<QPlcSignalDefinition> &definitions() const { return m_definitions; }
     /// Names and values of one sample, as JSON.
     QJsonObject toJson(const QVector<QPlcValue> &values) const;

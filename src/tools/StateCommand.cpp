@@ -20,9 +20,10 @@ const NodeColumn nodeColumns[] = {
     {"node", "name", TextTable::Left, false},          {"transport", "transport", TextTable::Left, false},
     {"address", "address", TextTable::Left, true},     {"number", "id", TextTable::Right, true},
     {"policy", "policy", TextTable::Left, false},      {"listener", "listener", TextTable::Left, true},
-    {"in", "inputs", TextTable::Right, false},         {"out", "outputs", TextTable::Right, false},
-    {"late", "lateAnswers", TextTable::Right, false},  {"doubled", "duplicates", TextTable::Right, true},
-    {"rejected", "rejected", TextTable::Right, false}, {"resent", "resent", TextTable::Right, true},
+    {"every", "every", TextTable::Right, true},        {"in", "inputs", TextTable::Right, false},
+    {"out", "outputs", TextTable::Right, false},       {"late", "lateAnswers", TextTable::Right, false},
+    {"doubled", "duplicates", TextTable::Right, true}, {"rejected", "rejected", TextTable::Right, false},
+    {"forged", "forged", TextTable::Right, false},     {"resent", "resent", TextTable::Right, true},
 };
 
 void printField(const char *label, const QString &value)

@@ -133,15 +133,17 @@ private:
     double m_heardAt = 0.0;  // [s]; 0: never
 };
 
-int watchOnTerminal(const CommandCall &call, const QPlcSignalTable &table, const QStringList &names, double rate)
+int watchOnTerminal(const CommandCall &call, const QPlcSignalTable &table, const QStringList &names,
+                    const LineRate &rate)
 {
     constexpr int listenPause = 20;  // [ms]
     SignalListener listener(QStringLiteral("watch"), table, names, listenPause);
+    listener.setInterval(int(rate.every));
     const auto endIsWanted = call.quitOnSignals();
     const bool hasJoined = listener.join(call);
     if (*endIsWanted || !hasJoined)
         return *endIsWanted ? QPlcCoreApplication::Success : QPlcCoreApplication::Failure;
-    Watch watch(listener, call.master.toString().section(QStringLiteral("://"), 1), rate);
+    Watch watch(listener, call.master.toString().section(QStringLiteral("://"), 1), rate.rate);
     return QCoreApplication::exec();
 }
 
@@ -149,14 +151,14 @@ int watchOnTerminal(const CommandCall &call, const QPlcSignalTable &table, const
 
 int watchSignals(const CommandCall &call)
 {
-    double rate = 10.0;
+    LineRate rate;
     QPlcSignalTable table;
     QStringList names;
-    if (!call.readNumber("rate", 0.01, 100.0, &rate) || !call.connect(&table)
+    if (!call.readNumber("rate", 0.01, 100.0, &rate.rate) || !readEvery(call, &rate.every) || !call.connect(&table)
         || !selectSignalsOrAll(call.application, table, call.arguments, &names))
         return call.exitCode();
     return isTerminal() && !call.isJson() ? watchOnTerminal(call, table, names, rate)
-                                          : printLines(call, table, names, rate, -1);
+                                          : printLines(call, table, names, rate);
 }
 
 }  // namespace tools

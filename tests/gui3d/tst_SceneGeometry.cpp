@@ -71,6 +71,9 @@ private Q_SLOTS:
     void settingsThatAreNonsenseAreDefaults();
     void picturesComeAtMostThirtyTimesASecondAndLessWhenTheyCostMuch();
     void lengthsOfTheScaleAreRound();
+    void theNameOfAnAxisThatPointsAtTheViewerIsNotSeen_data();
+    void theNameOfAnAxisThatPointsAtTheViewerIsNotSeen();
+    void labelsDoNotLieOnEachOther();
 };
 
 void tst_SceneGeometry::everyPresetSeesTheKiteAndAllButTheChaseTheWinch_data()
@@ -451,6 +454,56 @@ void tst_SceneGeometry::lengthsOfTheScaleAreRound()
     QCOMPARE(roundLength(0.3), 0.2);
     QCOMPARE(roundLength(0), 0.0);
     QCOMPARE(roundLength(NAN), 0.0);
+}
+
+namespace {
+
+constexpr QSizeF viewSize(640, 480);
+
+std::vector<QRectF> boxesOf(const std::vector<SceneLabel> &labels, const CameraPose &pose)
+{
+    return labelBoxes(labels, pose, viewSize, [](const QString &text) { return QSizeF(8.0 * text.size(), 16.0); });
+}
+
+}  // namespace
+
+void tst_SceneGeometry::theNameOfAnAxisThatPointsAtTheViewerIsNotSeen_data()
+{
+    QTest::addColumn<QVector3D>("eye");
+    QTest::addColumn<QVector3D>("up");
+    QTest::addColumn<QString>("hidden");
+    QTest::newRow("from the east") << QVector3D(300, 0, 0) << QVector3D(0, 0, 1) << "east";
+    QTest::newRow("from the south") << QVector3D(0, -300, 0) << QVector3D(0, 0, 1) << "north";
+    QTest::newRow("from above") << QVector3D(0, 0, 300) << QVector3D(0, 1, 0) << "up";
+    QTest::newRow("from a corner") << QVector3D(200, -200, 100) << QVector3D(-0.24f, 0.24f, 0.94f) << "";
+}
+
+void tst_SceneGeometry::theNameOfAnAxisThatPointsAtTheViewerIsNotSeen()
+{
+    QFETCH(QVector3D, eye);
+    QFETCH(QVector3D, up);
+    QFETCH(QString, hidden);
+    SceneInput input;
+    input.size = 300;
+    input.state.wind = QVector3D(8, 0, 0);
+    const std::vector<SceneLabel> labels = sceneLabels(input, 1);
+    QCOMPARE(int(labels.size()), 4);
+    const std::vector<QRectF> boxes = boxesOf(labels, {eye, {}, up});
+    for (std::size_t i = 0; i < labels.size(); ++i)
+        QVERIFY2(boxes[i].isNull() == (labels[i].text == hidden), qPrintable(labels[i].text));
+}
+
+void tst_SceneGeometry::labelsDoNotLieOnEachOther()
+{
+    std::vector<SceneLabel> labels;
+    for (const char *text : {"one", "two", "a longer one", "four", "five"})
+        labels.push_back({{0, 0, float(labels.size() % 2)}, QString::fromLatin1(text), {}});
+    const std::vector<QRectF> boxes = boxesOf(labels, {{0, -300, 0}, {}, {0, 0, 1}});
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        QVERIFY(!boxes[i].isNull());
+        for (std::size_t other = 0; other < i; ++other)
+            QVERIFY(!boxes[i].intersects(boxes[other]));
+    }
 }
 
 QTEST_GUILESS_MAIN(tst_SceneGeometry)

@@ -54,6 +54,7 @@ public:
     QString policy = QStringLiteral("ErrorZeroOrderHold");
     QString cyclic = QStringLiteral("udp");
     bool listener = false;
+    int every = 1;  // cycles
     QPlcSignalTable table = testTable();
     QStringList inputs{QStringLiteral("count")};
     QStringList outputs{QStringLiteral("echo")};
@@ -127,6 +128,7 @@ public:
                 {QStringLiteral("uuid"), uuid},
                 {QStringLiteral("policy"), policy},
                 {QStringLiteral("listener"), listener},
+                {QStringLiteral("every"), every},
                 {QStringLiteral("inputs"), describe(inputs)},
                 {QStringLiteral("outputs"), describe(outputs)},
                 {QStringLiteral("cyclic"), cyclic},

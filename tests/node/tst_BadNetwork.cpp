@@ -122,6 +122,10 @@ void tst_BadNetwork::wrongPlansAreRefused()
     QCOMPARE(master.error(), QPlcMasterNode::StateError);
     QVERIFY2(master.errorString().contains("'lose=1%': use loss"), qPrintable(master.errorString()));
     QVERIFY(master.faultPlan().isEmpty());
+    QVERIFY(master.listen());
+    QVERIFY(!master.setFaultPlan("loss=1%"));
+    QVERIFY2(master.errorString().contains("stop it first"), qPrintable(master.errorString()));
+    QVERIFY(master.faultPlan().isEmpty());
     EchoNode echo;
     QVERIFY(!echo.setFaultPlan("loss=a lot"));
     QCOMPARE(echo.error(), QPlcSlaveNode::OptionError);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/RuntimeFolder.h"
 #include "NodeFixtures.h"
 #include "node/MasterBeacon.h"
 #include "node/MasterFinder.h"
 
-#include <QtCore/QTemporaryDir>
 #include <QtNetwork/QNetworkInterface>
 #include <QtNetwork/QUdpSocket>
 #include <QtTest/QtTest>
@@ -18,12 +18,8 @@ class tst_MasterFinder : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void init()
-    {
-        m_folder = std::make_unique<QTemporaryDir>();
-        qputenv("XDG_RUNTIME_DIR", m_folder->path().toLocal8Bit());
-    }
-    void cleanup() { qunsetenv("XDG_RUNTIME_DIR"); }
+    void init() { m_folder = std::make_unique<RuntimeFolder>(); }
+    void cleanup() { m_folder.reset(); }
     void aMasterOfThisMachineIsFoundAndMissed();
     void theNameOfAMasterIsShown();
     void mastersAreHeardOverTheNetworkAndOneGoesAway();
@@ -70,7 +66,7 @@ private:
     static void hideNotices() { qputenv("XDG_RUNTIME_DIR", "/proc/nowhere"); }
 
     static constexpr int patience = 20000;  // [ms]
-    std::unique_ptr<QTemporaryDir> m_folder;
+    std::unique_ptr<RuntimeFolder> m_folder;
 };
 
 void tst_MasterFinder::aMasterOfThisMachineIsFoundAndMissed()

@@ -275,6 +275,7 @@ void tst_Statistics::statisticsOverTheWireAreThoseOfTheApi()
                               {"duplicated", double(node.duplicated)},
                               {"reordered", double(node.reordered)},
                               {"rejected", double(node.rejected)},
+                              {"forged", double(node.forged)},
                               {"resent", double(node.resent)}}));
     }
     const QJsonArray worst = message.fields().value("worst").toArray();

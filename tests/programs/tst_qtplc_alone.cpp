@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/RuntimeFolder.h"
 #include "Plant.h"
 
-#include <QtCore/QTemporaryDir>
 #include <QtTest/QtTest>
 
 /// What qtplc does by itself: help, completion, doctor, find.
@@ -191,8 +191,7 @@ void tst_qtplc_alone::doctorExaminesThisComputer()
 
 void tst_qtplc_alone::findsMastersWithoutAnAddress()
 {
-    const QTemporaryDir folder;
-    qputenv("XDG_RUNTIME_DIR", folder.path().toLocal8Bit());
+    const RuntimeFolder folder;
     Plant here;
     QVERIFY(here.start());
     const QString address = "127.0.0.1:" + here.port;
@@ -209,21 +208,17 @@ void tst_qtplc_alone::findsMastersWithoutAnAddress()
     Program far(programPath("awe_master"), {"--port=0", "--beacon"});
     QVERIFY(far.waitForOutput("\n"));
     const QString port = far.output().section('\n', 0, 0).section(' ', 1);
-    const QTemporaryDir other;
-    qputenv("XDG_RUNTIME_DIR", other.path().toLocal8Bit());
+    const RuntimeFolder other;
     const Outcome heard = qtplc({"find", "--seconds=3"});
-    qunsetenv("XDG_RUNTIME_DIR");
     QVERIFY2(heard.output.contains("127.0.0.1:" + port + "  awe_master  network  insecure"), qPrintable(heard.output));
     QVERIFY(!heard.output.contains(address));
 }
 
 void tst_qtplc_alone::findingNoneIsSaid()
 {
-    const QTemporaryDir folder;
-    qputenv("XDG_RUNTIME_DIR", folder.path().toLocal8Bit());
+    const RuntimeFolder folder;
     const Outcome none = qtplc({"find", "--seconds=0.3"});
     const Outcome json = qtplc({"find", "--seconds=0.3", "--json"});
-    qunsetenv("XDG_RUNTIME_DIR");
     QCOMPARE(none.exitCode, 1);
     QCOMPARE(none.output, QString());
     QVERIFY2(none.errors.contains("found no master in 0.3 s; start one"), qPrintable(none.errors));

@@ -109,6 +109,7 @@ private Q_SLOTS:
     void jsonIsOneDocument();
     void echoAndWatchPrintAnObjectPerLine_data();
     void echoAndWatchPrintAnObjectPerLine();
+    void oneOfSoManyCyclesIsHeard();
     void watchIsEchoWithoutATerminal();
     void watchTakesAndGivesBackTheTerminal_data();
     void watchTakesAndGivesBackTheTerminal();
@@ -236,6 +237,23 @@ void tst_qtplc_values::echoAndWatchPrintAnObjectPerLine()
         const QJsonObject object = QJsonDocument::fromJson(line.toUtf8()).object();
         QVERIFY2(object.value("cycle").isDouble() && object.value("time").isDouble(), qPrintable(line));
         QCOMPARE(object.value("values").toObject().value("windVelocity_earth").toArray().size(), 3);
+    }
+}
+
+void tst_qtplc_values::oneOfSoManyCyclesIsHeard()
+{
+    Program program(programPath("qtplc"), m_plant.withMaster("echo power --json --rate 1000 --every 7"));
+    QVERIFY(program.waitForOutput("\n"));
+    QCOMPARE(m_plant.qtplc("start").exitCode, 0);
+    QTRY_VERIFY_WITH_TIMEOUT(program.output().count('\n') >= 5, Program::patience);
+    program.sendSignal(SIGINT);
+    QCOMPARE(program.waitForEnd(), 0);
+    const QStringList lines = program.output().split('\n', Qt::SkipEmptyParts);
+    int turn = -1;
+    for (const QString &line : lines.mid(1)) {
+        const int cycle = QJsonDocument::fromJson(line.toUtf8()).object().value("cycle").toInt();
+        QVERIFY2(cycle / 7 > turn, qPrintable(line));
+        turn = cycle / 7;
     }
 }
 

@@ -8,6 +8,7 @@
 #include <QtCore/QJsonDocument>
 #include <QtCore/QJsonObject>
 
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -54,10 +55,12 @@ struct Channel
         seed.layoutHash = number(json[QStringLiteral("layoutHash")]);
         for (const QJsonValue border : json[QStringLiteral("borders")].toArray())
             borders.push_back(std::uint32_t(border.toInt()));
+        if (const QByteArray bytes = vectors::bytes(json[QStringLiteral("key")]); !bytes.isEmpty())
+            key.emplace(bytes.constData());
     }
 
-    qplc::FrameEncoder encoder() const { return qplc::FrameEncoder(kind, seed, borders); }
-    qplc::FrameDecoder decoder() const { return qplc::FrameDecoder(kind, seed, borders); }
+    qplc::FrameEncoder encoder() const { return qplc::FrameEncoder(kind, seed, borders, key ? &*key : nullptr); }
+    qplc::FrameDecoder decoder() const { return qplc::FrameDecoder(kind, seed, borders, key ? &*key : nullptr); }
     QByteArray payload(const qplc::FrameDecoder &decoder) const
     {
         return QByteArray(decoder.payload(), int(borders.back()));
@@ -66,12 +69,13 @@ struct Channel
     qplc::FrameKind kind;
     qplc::FrameSeed seed;
     std::vector<std::uint32_t> borders;
+    std::optional<qplc::SealKey> key;  // none: the frames are not sealed
 };
 
 inline QString name(qplc::FrameStatus status)
 {
-    const char *const names[] = {"Complete",    "Incomplete",   "Duplicate",    "Old",
-                                 "WrongLength", "WrongVersion", "WrongSession", "WrongChecksum"};
+    const char *const names[] = {"Complete",     "Incomplete",   "Duplicate",     "Old",   "WrongLength",
+                                 "WrongVersion", "WrongSession", "WrongChecksum", "Forged"};
     return QString::fromLatin1(names[std::size_t(status)]);
 }
 

@@ -35,27 +35,38 @@ private:
     static void goodFrames();
 };
 
-static QJsonObject cyclicVectors()
+// Frames as they are, and sealed ones: they follow the same rules.
+static const QStringList files{QStringLiteral("cyclic_frames.json"), QStringLiteral("sealed_frames.json")};
+
+static QByteArray rowName(const QString &file, const QJsonValue &row)
 {
-    return vectors::file(QStringLiteral("cyclic_frames.json"));
+    return (file.section(QLatin1Char('_'), 0, 0) + QStringLiteral(": ") + row[QStringLiteral("name")].toString())
+        .toUtf8();
+}
+
+static void addRows(const QString &array)
+{
+    QTest::addColumn<QJsonObject>("row");
+    for (const QString &file : files) {
+        const QJsonArray rows = vectors::file(file)[array].toArray();
+        QVERIFY(!rows.isEmpty());
+        for (const QJsonValue row : rows)
+            QTest::newRow(rowName(file, row).constData()) << row.toObject();
+    }
 }
 
 static FrameHeader headerOf(const QJsonObject &row)
 {
     FrameHeader header;
     header.flags = std::uint8_t(row[QStringLiteral("flags")].toInt());
-    header.cycle = std::uint32_t(row[QStringLiteral("cycle")].toDouble());
+    header.cycle = std::uint64_t(row[QStringLiteral("cycle")].toDouble());
     header.info = std::uint32_t(row[QStringLiteral("info")].toDouble());
     return header;
 }
 
 void tst_CyclicFrame::goodFrames()
 {
-    QTest::addColumn<QJsonObject>("row");
-    const QJsonArray rows = cyclicVectors()[QStringLiteral("frames")].toArray();
-    QVERIFY(!rows.isEmpty());
-    for (const QJsonValue row : rows)
-        QTest::newRow(qPrintable(row[QStringLiteral("name")].toString())) << row.toObject();
+    addRows(QStringLiteral("frames"));
 }
 
 void tst_CyclicFrame::encodesTheVectors()
@@ -98,21 +109,26 @@ void tst_CyclicFrame::decodesTheVectors()
 
 void tst_CyclicFrame::refusesTheBadVectors_data()
 {
+    QTest::addColumn<QJsonValue>("channelOfAll");
     QTest::addColumn<QByteArray>("frame");
     QTest::addColumn<QString>("status");
-    const QJsonArray rows = cyclicVectors()[QStringLiteral("refused")].toObject()[QStringLiteral("frames")].toArray();
-    QVERIFY(!rows.isEmpty());
-    for (const QJsonValue row : rows) {
-        QTest::newRow(qPrintable(row[QStringLiteral("name")].toString()))
-            << vectors::bytes(row[QStringLiteral("hex")]) << row[QStringLiteral("status")].toString();
+    for (const QString &file : files) {
+        const QJsonValue refused = vectors::file(file)[QStringLiteral("refused")];
+        const QJsonArray rows = refused[QStringLiteral("frames")].toArray();
+        QVERIFY(!rows.isEmpty());
+        for (const QJsonValue row : rows)
+            QTest::newRow(rowName(file, row).constData())
+                << refused[QStringLiteral("channel")] << vectors::bytes(row[QStringLiteral("hex")])
+                << row[QStringLiteral("status")].toString();
     }
 }
 
 void tst_CyclicFrame::refusesTheBadVectors()
 {
+    QFETCH(QJsonValue, channelOfAll);
     QFETCH(QByteArray, frame);
     QFETCH(QString, status);
-    const vectors::Channel channel(cyclicVectors()[QStringLiteral("refused")].toObject()[QStringLiteral("channel")]);
+    const vectors::Channel channel(channelOfAll);
     FrameDecoder decoder = channel.decoder();
     QCOMPARE(vectors::name(vectors::decode(decoder, frame)), status);
 
@@ -127,11 +143,7 @@ void tst_CyclicFrame::refusesTheBadVectors()
 
 void tst_CyclicFrame::followsTheSequences_data()
 {
-    QTest::addColumn<QJsonObject>("row");
-    const QJsonArray rows = cyclicVectors()[QStringLiteral("sequences")].toArray();
-    QVERIFY(!rows.isEmpty());
-    for (const QJsonValue row : rows)
-        QTest::newRow(qPrintable(row[QStringLiteral("name")].toString())) << row.toObject();
+    addRows(QStringLiteral("sequences"));
 }
 
 void tst_CyclicFrame::followsTheSequences()

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../common/RuntimeFolder.h"
 #include "transport/LocalNotice.h"
 
 #include <QtCore/QDir>
-#include <QtCore/QTemporaryDir>
 #include <QtTest/QtTest>
 
 #include <algorithm>
@@ -14,12 +14,8 @@ class tst_LocalNotice : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void init()
-    {
-        m_folder = std::make_unique<QTemporaryDir>();
-        qputenv("XDG_RUNTIME_DIR", m_folder->path().toLocal8Bit());
-    }
-    void cleanup() { qunsetenv("XDG_RUNTIME_DIR"); }
+    void init() { m_folder = std::make_unique<RuntimeFolder>(); }
+    void cleanup() { m_folder.reset(); }
     void whatIsPostedIsReadUntilItIsWithdrawn();
     void aNewNoticeTakesThePlaceOfTheOldOne();
     void noticesOfTheDeadAreNotReadAndGoAway();
@@ -29,14 +25,14 @@ private Q_SLOTS:
     void manyAreCutOff();
 
 private:
-    QString home() const { return m_folder->filePath(QStringLiteral("qtplc-masters")); }
+    QString home() const { return m_folder->notices(); }
     static QVector<QByteArray> sorted()
     {
         QVector<QByteArray> notices = LocalNotice::all();
         std::sort(notices.begin(), notices.end());
         return notices;
     }
-    std::unique_ptr<QTemporaryDir> m_folder;
+    std::unique_ptr<RuntimeFolder> m_folder;
 };
 
 void tst_LocalNotice::whatIsPostedIsReadUntilItIsWithdrawn()

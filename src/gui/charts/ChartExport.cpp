@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ChartExport.h"
 
+#include "ChartAction.h"
+
 #include <QtCore/QEvent>
 #include <QtGui/QClipboard>
 #include <QtGui/QGuiApplication>
@@ -46,6 +48,22 @@ ChartExport::ChartExport(QWidget *panel, Picture picture)
     connect(&m_timer, &QTimer::timeout, m_notice, &QWidget::hide);
     connect(&m_export, &PlotExport::finished, this, [this](const QString &text) { say(text, false); });
     connect(&m_export, &PlotExport::failed, this, [this](const QString &text) { say(text, true); });
+}
+
+void ChartExport::addTableActions(const std::function<Table()> &table)
+{
+    addChartAction(m_panel, tr("Export as CSV..."), {QKeySequence(int(Qt::CTRL) | Qt::Key_E)}, "saveTable",
+                   [this, table] { saveTable(table()); });
+    addChartAction(m_panel, tr("Copy as table"), {QKeySequence(int(Qt::CTRL) | Qt::Key_C)}, "copyTable",
+                   [this, table] { copyTable(table()); });
+}
+
+void ChartExport::addPictureActions()
+{
+    addChartAction(m_panel, tr("Save picture..."), {QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_E)}, "savePicture",
+                   [this] { savePicture(); });
+    addChartAction(m_panel, tr("Copy picture"), {QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_C)}, "copyPicture",
+                   [this] { copyPicture(); });
 }
 
 void ChartExport::saveTable(const Table &table)

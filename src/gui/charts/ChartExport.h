@@ -25,6 +25,11 @@ public:
     /// \param panel  in which it tells  \param picture  of what is seen at the moment
     ChartExport(QWidget *panel, Picture picture);
 
+    /// Gives the panel the actions that save and copy a table, "saveTable" and "copyTable". \param table  of the moment at which one of them is chosen
+    void addTableActions(const std::function<Table()> &table);
+    /// The same for the picture, "savePicture" and "copyPicture".
+    void addPictureActions();
+
     void setTheme(const Theme &theme) { m_theme = theme; }
     /// \param table  makes it when the name has been chosen
     void saveTable(const Table &table);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a person can do with a time plot, by mouse, keys and menu.
+#include "ChartAction.h"
 #include "QPlcTimePlotPrivate.h"
 #include "gui/panel/SignalEdit.h"
 
@@ -22,21 +23,11 @@ constexpr double secondCursor = 0.65;
 
 }  // namespace
 
-QAction *QPlcTimePlot::Private::make(const QString &text, const QList<QKeySequence> &keys, const char *name,
-                                     std::function<void()> act)
-{
-    auto *action = new QAction(text, q);
-    action->setObjectName(QLatin1String(name));
-    action->setShortcuts(keys);
-    action->setShortcutContext(Qt::WidgetWithChildrenShortcut);
-    connect(action, &QAction::triggered, this, std::move(act));
-    q->addAction(action);
-    return action;
-}
-
 void QPlcTimePlot::Private::makeActions()
 {
     const auto key = [](int code) { return QKeySequence(code); };
+    const auto make = [this](const QString &text, const QList<QKeySequence> &keys, const char *name,
+                             std::function<void()> act) { return addChartAction(q, text, keys, name, std::move(act)); };
     const auto pan = [this](double share) {
         return [this, share] { view()->pan(Time(std::llround(share * double(view()->span())))); };
     };

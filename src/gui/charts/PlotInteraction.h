@@ -1,22 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "ChartInteraction.h"
 #include "PlotCanvas.h"
-
-#include <QtCore/QObject>
-
-#include <optional>
-
-class QMouseEvent;
-class QWheelEvent;
 
 namespace qplc {
 
 /// Turns what a mouse does over a plot into wishes, in pixels of its canvas and in times.
 ///
-/// The wheel zooms about the mouse, with Ctrl or over a y axis the values; dragging pans, over a y axis the values; dragging with Shift or the right button is a box; cursors are dragged; a double click wants
-/// all; the right button alone wants a menu. Two fingers zoom and pan the time.
-class PlotInteraction : public QObject
+/// The wheel zooms about the mouse, with Ctrl or over a y axis the values; dragging pans, over a y axis the values; cursors are dragged. Two fingers zoom and pan the time.
+class PlotInteraction : public ChartInteraction
 {
     Q_OBJECT
 public:
@@ -28,10 +21,8 @@ public:
 
     /// Where cursors can be taken [px].
     void setCursors(std::optional<int> a, std::optional<int> b);
-    /// Where the mouse is over the canvas [px]; empty: elsewhere.
-    std::optional<QPoint> mouse() const { return m_mouse; }
     /// The one that is dragged.
-    Cursor draggedCursor() const { return m_action == DragCursor ? m_cursor : NoCursor; }
+    Cursor draggedCursor() const { return isDragging() ? m_cursor : NoCursor; }
 
 Q_SIGNALS:
     void zoomTime(double factor, qint64 about);
@@ -44,41 +35,25 @@ Q_SIGNALS:
     void boxChanged(const QRect &box);
     void boxChosen(const QRect &box);
     void cursorDragged(qplc::PlotInteraction::Cursor cursor, double x);
-    void mouseMoved();
-    void allWanted();
-    void menuWanted(const QPoint &position, const QPoint &global);
-    void pressed();
 
 protected:
-    bool eventFilter(QObject *watched, QEvent *event) override;
+    Begin begin(const QWidget *watched, QPoint position, Qt::MouseButton button) override;
+    void drag(const QWidget *watched, QPoint position, QPoint by) override;
+    void showBox(const QRect &box) override { Q_EMIT boxChanged(box); }
+    void chooseBox(const QRect &box) override { Q_EMIT boxChosen(box); }
+    void hover(QPoint position) override;
+    void pinch(double factor, const QPointF &about, const QPointF &by) override;
+    void wheel(const QWidget *watched, const QWheelEvent &event) override;
 
 private:
-    enum Action { Nothing, PanTime, PanValues, Box, DragCursor };
-
-    bool press(QWidget *watched, QMouseEvent *event);
-    bool move(QWidget *watched, QMouseEvent *event);
-    bool release(QWidget *watched, QMouseEvent *event);
-    bool wheel(QWidget *watched, QWheelEvent *event);
-    void followPinches();
-    void drag(QPoint position);
-    QRect box(QPoint position) const;
     Cursor cursorAt(int x) const;
-    void showShape(QPoint position);
     std::optional<Axis> axisOf(const QWidget *watched) const;
-    void setMouse(std::optional<QPoint> position);
+    void pan(double x);
 
     PlotCanvas *m_canvas;
     std::optional<int> m_cursorA;
     std::optional<int> m_cursorB;
-    std::optional<QPoint> m_mouse;
-    Action m_action = Nothing;
-    Cursor m_cursor = NoCursor;
-    Axis m_axis = Axis::Left;
-    Qt::MouseButton m_button = Qt::NoButton;
-    QPoint m_origin;  // of the drag
-    QPoint m_last;
-    bool m_hasMoved = false;
-    bool m_isPinching = false;  // what a mouse does is by the first finger
+    Cursor m_cursor = NoCursor;  // that the drag has taken
 };
 
 }  // namespace qplc

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What of a time plot goes into files and the clipboard.
+#include "ChartAction.h"
 #include "QPlcTimePlotPrivate.h"
 
 #include <algorithm>
@@ -8,19 +9,12 @@ using namespace qplc;
 
 void QPlcTimePlot::Private::makeExportActions()
 {
-    const auto key = [](int code) { return QKeySequence(code); };
-    make(QPlcTimePlot::tr("Export as CSV..."), {key(int(Qt::CTRL) | Qt::Key_E)}, "saveTable",
-         [this] { exporter->saveTable(shownTable()); });
-    make(QPlcTimePlot::tr("Copy as table"), {key(int(Qt::CTRL) | Qt::Key_C)}, "copyTable",
-         [this] { exporter->copyTable(shownTable()); });
-    make(QPlcTimePlot::tr("Export A ... B as CSV..."), {key(Qt::CTRL | Qt::ALT | Qt::Key_E)}, "saveBetween",
-         [this] { exporter->saveTable(tableBetweenCursors()); });
-    make(QPlcTimePlot::tr("Copy A ... B as table"), {key(Qt::CTRL | Qt::ALT | Qt::Key_C)}, "copyBetween",
-         [this] { exporter->copyTable(tableBetweenCursors()); });
-    make(QPlcTimePlot::tr("Save picture..."), {key(Qt::CTRL | Qt::SHIFT | Qt::Key_E)}, "savePicture",
-         [this] { exporter->savePicture(); });
-    make(QPlcTimePlot::tr("Copy picture"), {key(Qt::CTRL | Qt::SHIFT | Qt::Key_C)}, "copyPicture",
-         [this] { exporter->copyPicture(); });
+    exporter->addTableActions([this] { return shownTable(); });
+    addChartAction(q, QPlcTimePlot::tr("Export A ... B as CSV..."), {QKeySequence(Qt::CTRL | Qt::ALT | Qt::Key_E)},
+                   "saveBetween", [this] { exporter->saveTable(tableBetweenCursors()); });
+    addChartAction(q, QPlcTimePlot::tr("Copy A ... B as table"), {QKeySequence(Qt::CTRL | Qt::ALT | Qt::Key_C)},
+                   "copyBetween", [this] { exporter->copyTable(tableBetweenCursors()); });
+    exporter->addPictureActions();
 }
 
 ChartExport::Table QPlcTimePlot::Private::table(Time begin, Time end) const

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "QPlcJitterHistogram.h"
 
+#include "ChartAction.h"
 #include "ChartExport.h"
 #include "ChartLook.h"
 #include "JitterCanvas.h"
@@ -45,7 +46,6 @@ public:
     explicit Private(QPlcJitterHistogram *histogram);
 
     void makeActions();
-    QAction *addAction(const QString &text, const QKeySequence &shortcut);
     Plant *plant() const;
     void ask();
     void take(const QPlcMessage &answer);
@@ -101,40 +101,24 @@ QPlcJitterHistogram::Private::Private(QPlcJitterHistogram *histogram)
     QObject::connect(&timer, &QTimer::timeout, q, [this] { ask(); });
 }
 
-QAction *QPlcJitterHistogram::Private::addAction(const QString &text, const QKeySequence &shortcut)
-{
-    auto *action = new QAction(text, q);
-    action->setCheckable(true);
-    action->setShortcut(shortcut);
-    action->setShortcutContext(Qt::WidgetWithChildrenShortcut);
-    q->addAction(action);
-    return action;
-}
-
 void QPlcJitterHistogram::Private::makeActions()
 {
-    last = addAction(tr("Only the last 10 s"), Qt::Key_T);
-    QObject::connect(last, &QAction::triggered, q, [this](bool isLast) {
-        settings.set(windowKey, isLast ? last10s : sinceStart, sinceStart);
+    last = addChartAction(q, tr("Only the last 10 s"), {QKeySequence(Qt::Key_T)}, "last10s", [this] {
+        settings.set(windowKey, last->isChecked() ? last10s : sinceStart, sinceStart);
         draw();
         Q_EMIT q->settingsEdited();
     });
+    last->setCheckable(true);
     const QVector<QPair<QString, int>> quantities{{masterLateness, Qt::Key_L},
                                                   {QStringLiteral("Master.execution"), Qt::Key_X},
                                                   {QStringLiteral("Master.roundTrip"), Qt::Key_R}};
     for (const auto &[key, shortcut] : quantities) {
-        QAction *action = addAction(JitterDistribution::titleOf(key), shortcut);
+        QAction *action = addChartAction(q, JitterDistribution::titleOf(key), {QKeySequence(shortcut)}, qPrintable(key),
+                                         [this, name = key] { setShown(name, masterActions[name]->isChecked()); });
+        action->setCheckable(true);
         masterActions.insert(key, action);
-        QObject::connect(action, &QAction::triggered, q, [this, name = key](bool isShown) { setShown(name, isShown); });
     }
-    const auto addExport = [this](const QString &text, int keys, const char *name, auto act) {
-        QAction *action = addAction(text, keys);
-        action->setCheckable(false);
-        action->setObjectName(QLatin1String(name));
-        QObject::connect(action, &QAction::triggered, exporter, act);
-    };
-    addExport(tr("Save picture..."), Qt::CTRL | Qt::SHIFT | Qt::Key_E, "savePicture", &ChartExport::savePicture);
-    addExport(tr("Copy picture"), Qt::CTRL | Qt::SHIFT | Qt::Key_C, "copyPicture", &ChartExport::copyPicture);
+    exporter->addPictureActions();
     showActions();
 }
 

@@ -78,7 +78,6 @@ public:
     // -- PlotCommands.cpp: what a person can do --
     void makeActions();
     void connectInteraction();
-    QAction *make(const QString &text, const QList<QKeySequence> &keys, const char *name, std::function<void()> act);
     QMenu *createMenu(int curve, std::optional<QPoint> mouse);
     void openAddBar();
     void showAll();

@@ -42,7 +42,6 @@ public:
 
     // -- XyPlotCommands.cpp: what a person can do --
     void makeActions();
-    QAction *make(const QString &text, const QList<QKeySequence> &keys, const char *name, std::function<void()> act);
     void connectInteraction();
     QMenu *createMenu();
     void zoom(double factor);

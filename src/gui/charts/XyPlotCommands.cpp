@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a person can do with an XY plot, by mouse, keys and menu.
+#include "ChartAction.h"
 #include "QPlcXyPlotPrivate.h"
 #include "gui/models/ValueFormat.h"
 
@@ -24,21 +25,11 @@ QString textOf(const CurveSource &source, double value)
 
 }  // namespace
 
-QAction *QPlcXyPlot::Private::make(const QString &text, const QList<QKeySequence> &keys, const char *name,
-                                   std::function<void()> act)
-{
-    auto *action = new QAction(text, q);
-    action->setObjectName(QLatin1String(name));
-    action->setShortcuts(keys);
-    action->setShortcutContext(Qt::WidgetWithChildrenShortcut);
-    connect(action, &QAction::triggered, q, std::move(act));
-    q->addAction(action);
-    return action;
-}
-
 void QPlcXyPlot::Private::makeActions()
 {
     const auto key = [](int code) { return QKeySequence(code); };
+    const auto make = [this](const QString &text, const QList<QKeySequence> &keys, const char *name,
+                             std::function<void()> act) { return addChartAction(q, text, keys, name, std::move(act)); };
     const auto pan = [this](double x, double y) {
         return [this, x, y] {
             const QSizeF size = canvas->canvas()->size();
@@ -57,13 +48,8 @@ void QPlcXyPlot::Private::makeActions()
     make(tr("Move right"), {key(Qt::Key_Right)}, "right", pan(-1.0, 0.0));
     make(tr("Move up"), {key(Qt::Key_Up)}, "up", pan(0.0, 1.0));
     make(tr("Move down"), {key(Qt::Key_Down)}, "down", pan(0.0, -1.0));
-    make(tr("Export as CSV..."), {key(int(Qt::CTRL) | Qt::Key_E)}, "saveTable",
-         [this] { exporter->saveTable(table()); });
-    make(tr("Copy as table"), {key(int(Qt::CTRL) | Qt::Key_C)}, "copyTable", [this] { exporter->copyTable(table()); });
-    make(tr("Save picture..."), {key(Qt::CTRL | Qt::SHIFT | Qt::Key_E)}, "savePicture",
-         [this] { exporter->savePicture(); });
-    make(tr("Copy picture"), {key(Qt::CTRL | Qt::SHIFT | Qt::Key_C)}, "copyPicture",
-         [this] { exporter->copyPicture(); });
+    exporter->addTableActions([this] { return table(); });
+    exporter->addPictureActions();
 }
 
 void QPlcXyPlot::Private::connectInteraction()
@@ -71,7 +57,8 @@ void QPlcXyPlot::Private::connectInteraction()
     connect(interaction, &XyInteraction::pressed, q, [this] { q->setFocus(Qt::MouseFocusReason); });
     connect(interaction, &XyInteraction::mouseMoved, q, [this] { showMoment(); });
     connect(interaction, &XyInteraction::allWanted, q, [this] { canvas->release(); });
-    connect(interaction, &XyInteraction::menuWanted, q, [this](const QPoint &global) { createMenu()->popup(global); });
+    connect(interaction, &XyInteraction::menuWanted, q,
+            [this](const QPoint &, const QPoint &global) { createMenu()->popup(global); });
 }
 
 QMenu *QPlcXyPlot::Private::createMenu()

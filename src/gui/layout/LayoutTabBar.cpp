@@ -3,12 +3,12 @@
 
 #include "InlineEdit.h"
 #include "LayoutIcons.h"
+#include "TitleButton.h"
 
 #include <QtGui/QContextMenuEvent>
 #include <QtGui/QMouseEvent>
 #include <QtWidgets/QAction>
 #include <QtWidgets/QMenu>
-#include <QtWidgets/QToolButton>
 
 namespace qplc {
 
@@ -72,12 +72,10 @@ void LayoutTabBar::addTabOf(const LayoutTab &tab, int index)
 {
     const QString id = tab.id;
     setTabData(insertTab(index, shownName(tab.name)), id);
-    auto *close = new QToolButton(this);
+    auto *close = new TitleButton(this);
     close->setIcon(layoutIcon(LayoutIcon::Close));
     close->setToolTip(tr("Close tab"));
-    close->setAutoRaise(true);
     close->setIconSize({10, 10});
-    close->setFixedSize(18, 18);
     close->setFocusPolicy(Qt::NoFocus);  // keys: Ctrl+W
     connect(close, &QToolButton::clicked, this, [this, id] { m_editor->closeTab(id); });
     setTabButton(index, QTabBar::RightSide, close);

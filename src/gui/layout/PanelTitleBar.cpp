@@ -2,6 +2,7 @@
 #include "PanelTitleBar.h"
 
 #include "InlineEdit.h"
+#include "TitleButton.h"
 
 #include <QtGui/QMouseEvent>
 #include <QtGui/QPainter>
@@ -37,11 +38,8 @@ void PanelTitleBar::setTitle(const QString &title)
 
 QToolButton *PanelTitleBar::addButton(QAction *action, Presence presence)
 {
-    auto *button = new QToolButton(this);
+    auto *button = new TitleButton(this);
     button->setDefaultAction(action);
-    button->setAutoRaise(true);
-    button->setIconSize({14, 14});
-    button->setFixedSize(buttonSize(), buttonSize());
     button->setFocusPolicy(Qt::TabFocus);
     m_buttons->addWidget(button);
     if (presence == WhereThereIsRoom)
@@ -49,15 +47,9 @@ QToolButton *PanelTitleBar::addButton(QAction *action, Presence presence)
     return button;
 }
 
-/// Styles for fingers have higher title bars.
-int PanelTitleBar::buttonSize() const
-{
-    return std::max(20, style()->pixelMetric(QStyle::PM_TitleBarHeight, nullptr, this) - 4);
-}
-
 void PanelTitleBar::fitButtons()
 {
-    const bool isThereRoom = width() >= 10 * buttonSize();
+    const bool isThereRoom = width() >= 10 * TitleButton::sizeIn(this);
     for (QToolButton *button : qAsConst(m_optional))
         button->setVisible(isThereRoom);
 }
@@ -73,9 +65,6 @@ void PanelTitleBar::changeEvent(QEvent *event)
     QWidget::changeEvent(event);
     if (event->type() != QEvent::StyleChange)
         return;
-    const QList<QToolButton *> buttons = findChildren<QToolButton *>();
-    for (QToolButton *button : buttons)
-        button->setFixedSize(buttonSize(), buttonSize());
     fitButtons();
     updateGeometry();
 }
@@ -90,7 +79,8 @@ void PanelTitleBar::setActive(bool isActive)
 
 QSize PanelTitleBar::sizeHint() const
 {
-    return {m_buttons->sizeHint().width() + 120, std::max({24, fontMetrics().height() + 6, buttonSize() + 4})};
+    return {m_buttons->sizeHint().width() + 120,
+            std::max({24, fontMetrics().height() + 6, TitleButton::sizeIn(this) + 4})};
 }
 
 QSize PanelTitleBar::minimumSizeHint() const

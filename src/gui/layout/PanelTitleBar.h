@@ -50,7 +50,6 @@ private:
     enum Drag { NotPressed, Pressed, Dragging };
 
     QRect titleRect() const;
-    int buttonSize() const;
     void fitButtons();
     void endDrag();
 

@@ -194,7 +194,8 @@ QVariant NodeTableModel::headerData(int section, Qt::Orientation orientation, in
            QT_TR_NOOP("State"),          QT_TR_NOOP("Lateness p99"),   QT_TR_NOOP("Execution p50"),
            QT_TR_NOOP("Execution p99"),  QT_TR_NOOP("Execution max"),  QT_TR_NOOP("Round trip p50"),
            QT_TR_NOOP("Round trip p99"), QT_TR_NOOP("Round trip max"), QT_TR_NOOP("Late"),
-           QT_TR_NOOP("Lost"),           QT_TR_NOOP("Duplicated"),     QT_TR_NOOP("Rejected")};
+           QT_TR_NOOP("Lost"),           QT_TR_NOOP("Duplicated"),     QT_TR_NOOP("Rejected"),
+           QT_TR_NOOP("Forged")};
     if (orientation != Qt::Horizontal || section < 0 || section >= ColumnCount)
         return {};
     if (role == Qt::DisplayRole)
@@ -234,6 +235,8 @@ QVariant NodeTableModel::number(const Row &row, int column)
         return isCounted ? node.duplicated : QVariant();
     case Rejected:
         return isCounted ? node.rejected : QVariant();
+    case Forged:
+        return isCounted ? node.forged : QVariant();
     default:
         return {};
     }

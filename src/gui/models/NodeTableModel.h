@@ -31,6 +31,7 @@ public:
         Lost,
         Duplicated,
         Rejected,
+        Forged,
         ColumnCount
     };
     enum Role {

@@ -70,11 +70,6 @@ Theme sunlight()
     return theme;
 }
 
-bool isDesktopDark()
-{
-    return QGuiApplication::palette().color(QPalette::Window).lightness() < 128;
-}
-
 constexpr std::array<const char *, 4> names = {"System", "Light", "Dark", "Sunlight"};
 
 }  // namespace
@@ -83,7 +78,7 @@ Theme Theme::byName(Name name)
 {
     switch (name) {
     case System:
-        return isDesktopDark() ? dark() : light();
+        return isDarkPalette(QGuiApplication::palette()) ? dark() : light();
     case Light:
         return light();
     case Dark:
@@ -92,6 +87,12 @@ Theme Theme::byName(Name name)
         return sunlight();
     }
     return light();
+}
+
+bool Theme::isDarkPalette(const QPalette &palette)
+{
+    constexpr int middle = 128;
+    return palette.color(QPalette::Window).lightness() < middle;
 }
 
 QString Theme::nameText(Name name)

@@ -18,6 +18,8 @@ struct Theme
     };
 
     static Theme byName(Name name);
+    /// Whether texts of \a palette are light on dark.
+    static bool isDarkPalette(const QPalette &palette);
     /// "Light"; for layouts on disk and menus.
     static QString nameText(Name name);
     /// System when \a text is none of them.

@@ -83,13 +83,15 @@ void Listener::inThread(Task task)
     QMetaObject::invokeMethod(m_node, task, Qt::QueuedConnection);
 }
 
-void Listener::connectToMaster(const QPlcUnderlyingProtocol &master, const QPlcSignalTable &table, qint64 period)
+void Listener::connectToMaster(const QPlcUnderlyingProtocol &master, const QPlcSignalTable &table, qint64 period,
+                               int every)
 {
-    inThread([node = listening(m_node), attempt = ++m_attempt, master, table, period] {
+    inThread([node = listening(m_node), attempt = ++m_attempt, master, table, period, every] {
         node->disconnectFromMaster();
         node->attempt = attempt;
         node->setSignalTable(table);
-        node->setBufferSize(bufferSize(table, period));
+        node->setBufferSize(bufferSize(table, period * every));
+        node->setListeningInterval(every);
         node->connectToMaster(master);
     });
 }

@@ -18,8 +18,9 @@ public:
     ~Listener() override;
 
     /// Begins to register for all signals of \a table; joined() or lost() follows.
-    /// \param period  of a cycle [ns]: says how many cycles are kept, 2 s of them within 256 ... 16384 and 32 MB
-    void connectToMaster(const QPlcUnderlyingProtocol &master, const QPlcSignalTable &table, qint64 period);
+    /// \param period  of a cycle [ns]: says how many frames are kept, 2 s of them within 256 ... 16384 and 32 MB
+    /// \param every  cycles for each frame, see QPlcSlaveNode::setListeningInterval()
+    void connectToMaster(const QPlcUnderlyingProtocol &master, const QPlcSignalTable &table, qint64 period, int every);
     /// No Qt signal follows.
     void disconnectFromMaster();
     /// See QPlcIOBufferSlaveNode::takeFrames().

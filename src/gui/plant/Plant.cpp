@@ -270,7 +270,7 @@ double Plant::age() const
 
 double Plant::staleAfter() const
 {
-    return std::max(shortestStaleTime, 3.0 * double(m_values.period()) * 1e-9);
+    return std::max(shortestStaleTime, 3.0 * double(m_values.rowPeriod()) * 1e-9);
 }
 
 Plant::Quality Plant::quality() const
@@ -348,6 +348,9 @@ void Plant::takeState(const Message &answer)
     const QString stateBefore = m_status.state;
     const QStringList nodesBefore = nodeNames();
     m_status.takeState(answer.fields());
+    if (m_status.period > 0)
+        m_connection.setPeriod(m_status.scale > 0.0 ? qint64(double(m_status.period) / m_status.scale)
+                                                    : m_status.period);
     if (m_status.state != stateBefore) {
         tellOfMaster(PlantEvent::Information, QStringLiteral("%1 → %2").arg(stateBefore, m_status.state));
         Q_EMIT stateChanged();

@@ -74,9 +74,13 @@ public:
     Quality quality() const;
     /// Time since the values were true [s]; -1 before the first.
     double age() const;
-    /// Age from which on values of a running plant are stale: 3 periods, at least 0.5 s [s].
+    /// Wants the values at most so many times a second, for slow links; 0: in each cycle, as at the begin. What happens in between is not seen.
+    void setRate(double timesPerSecond) { m_connection.setRate(timesPerSecond); }
+    /// Cycles for each row of values.
+    int every() const { return m_connection.every(); }
+    /// Age from which on values of a running plant are stale: 3 rows, at least 0.5 s [s].
     double staleAfter() const;
-    /// Cycles that came per second, over the last 2 s.
+    /// Rows of values that came per second, over the last 2 s.
     double updateRate() const { return m_updateRate; }
 
     // -- leases: one writer at a time --

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "PlantConnection.h"
 
+#include "node/ListeningInterval.h"
+
 #include <QtCore/QCoreApplication>
 
 #include <algorithm>
+#include <cmath>
 
 namespace qplc {
 
@@ -12,6 +15,16 @@ namespace {
 QString defaultName()
 {
     return QStringLiteral("ControlCenter-%1").arg(QCoreApplication::applicationPid());
+}
+
+/// \param rate  most frames a second, 0: every cycle \param period  [ns]
+int cyclesForEach(double rate, qint64 period)
+{
+    if (rate <= 0.0 || period <= 0)
+        return 1;
+    constexpr double tolerance = 1e-6;  // a period of 10 ms is 100 Hz
+    return int(
+        std::clamp(std::ceil(1e9 / (rate * double(period)) - tolerance), 1.0, double(ListeningInterval::Longest)));
 }
 
 }  // namespace
@@ -102,6 +115,7 @@ void PlantConnection::greeted(const QPlcMessage &hello)
     m_listenerFailures = 0;
     m_table = table;
     m_period = qint64(hello.fields().value(QStringLiteral("period")).toDouble());
+    m_every = cyclesForEach(m_rate, m_period);
     listen();
     setState(Connected, {});
     Q_EMIT connected(hello, table);
@@ -123,7 +137,31 @@ void PlantConnection::failed(const QString &reason)
 
 void PlantConnection::listen()
 {
-    m_listener.connectToMaster(m_master, m_table, m_period);
+    m_listener.connectToMaster(m_master, m_table, m_period, m_every);
+}
+
+void PlantConnection::setRate(double framesPerSecond)
+{
+    m_rate = framesPerSecond;
+    chooseInterval();
+}
+
+void PlantConnection::setPeriod(qint64 period)
+{
+    m_period = period;
+    chooseInterval();
+}
+
+void PlantConnection::chooseInterval()
+{
+    const int every = cyclesForEach(m_rate, m_period);
+    if (every == m_every)
+        return;
+    m_every = every;
+    if (m_state != Connected)
+        return;
+    m_listenerRetry.stop();
+    listen();
 }
 
 void PlantConnection::listenerLost(const QString &sentence)

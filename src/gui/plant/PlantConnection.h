@@ -30,6 +30,13 @@ public:
     bool isOpen() const { return m_isOpen; }
 
     State state() const { return m_state; }
+    /// Wants at most so many frames a second; 0: one for each cycle, as at the begin. The listener registers again when that makes a difference.
+    void setRate(double framesPerSecond);
+    /// Tells the time between two cycles on the clock of people [ns], where it is another one than the master said first.
+    void setPeriod(qint64 period);
+    /// Cycles for each frame that is wanted.
+    int every() const { return m_every; }
+
     /// Why there is no connection; empty while there is one.
     QString reason() const { return m_reason; }
     /// Time until the next attempt [s]; -1 when none waits.
@@ -55,6 +62,7 @@ private:
     void greeted(const QPlcMessage &hello);
     void failed(const QString &reason);
     void listen();
+    void chooseInterval();
     void listenerLost(const QString &sentence);
     void setState(State state, const QString &reason);
     void setListening(bool listening);
@@ -76,6 +84,8 @@ private:
     QPlcUnderlyingProtocol m_master;
     QPlcSignalTable m_table;
     qint64 m_period = 0;  // [ns]
+    double m_rate = 0.0;  // [1/s]; 0: every cycle
+    int m_every = 1;
 };
 
 }  // namespace qplc

@@ -44,6 +44,7 @@ Plant *PlantList::insert(const QString &address, const QString &name, const QStr
 {
     m_plants.push_back(std::make_unique<Plant>(address, freeName(name.isEmpty() ? address : name), nodeName));
     Plant *plant = m_plants.back().get();
+    plant->setRate(m_rate);
     connect(plant, &Plant::tableChanged, this, &PlantList::signalsChanged);
     connect(plant, &Plant::eventOccurred, this, &PlantList::eventOccurred);
     return plant;
@@ -74,6 +75,13 @@ void PlantList::remove(Plant *plant)
     m_plants.erase(m_plants.begin() + place);
     Q_EMIT removed(plant);
     Q_EMIT signalsChanged();
+}
+
+void PlantList::setRate(double timesPerSecond)
+{
+    m_rate = timesPerSecond;
+    for (const std::unique_ptr<Plant> &plant : m_plants)
+        plant->setRate(timesPerSecond);
 }
 
 int PlantList::indexOf(const Plant *plant) const

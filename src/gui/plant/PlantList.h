@@ -37,6 +37,8 @@ public:
     /// Adds a plant that a program feeds (Plant::feed()).
     Plant *addFed(const QString &name);
     void remove(Plant *plant);
+    /// Of all plants, also those that come: Plant::setRate().
+    void setRate(double timesPerSecond);
     int size() const { return int(m_plants.size()); }
     Plant *at(int place) const { return m_plants[std::size_t(place)].get(); }
     /// -1 when it is none of them.
@@ -63,6 +65,7 @@ private:
     Signal find(Plant *plant, const SignalReference &reference) const;
 
     std::vector<std::unique_ptr<Plant>> m_plants;
+    double m_rate = 0.0;
 };
 
 }  // namespace qplc

@@ -124,6 +124,7 @@ void PlantStatus::takeStatistics(const QJsonObject &fields)
         known->lost = counter(counters, "lost");
         known->duplicated = counter(counters, "duplicated");
         known->rejected = counter(counters, "rejected");
+        known->forged = counter(counters, "forged");
         known->execution = duration(of, "execution");
         known->roundTrip = duration(of, "roundTrip");
     }

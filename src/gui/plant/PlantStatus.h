@@ -42,6 +42,7 @@ struct NodeStatus
     quint64 lost = 0;
     quint64 duplicated = 0;
     quint64 rejected = 0;
+    quint64 forged = 0;
     bool isLate = false;  // there were late answers since the statistics before
 };
 

@@ -59,9 +59,10 @@ void PlantValues::beginPhase(const QPlcIOBufferSlaveNode::Frame &frame, Time wal
 {
     m_phase = frame.phase;
     m_period = std::max<Time>(frame.period.count(), 1);
+    m_interval = ListeningInterval(frame.every);
     if (wantedRows() / 2 > m_store->capacity())  // the period has become much shorter
         makeStore();
-    m_phaseStart = std::max(wallTime, m_lastTime + m_period) - Time(frame.cycle) * m_period;
+    m_phaseStart = std::max(wallTime, m_lastTime + rowPeriod()) - Time(frame.cycle) * m_period;
     interrupt();
 }
 
@@ -71,7 +72,7 @@ void PlantValues::takeFrame(const QPlcIOBufferSlaveNode::Frame &frame, Time wall
         return;  // of another table
     if (!m_isContinued || frame.phase != m_phase) {
         beginPhase(frame, wallTime);
-    } else if (frame.cycle != m_lastCycle + 1) {
+    } else if (frame.cycle <= m_lastCycle || m_interval.missed(m_lastCycle, frame.cycle) > 0) {
         ++m_gaps;
         interrupt();
     }

@@ -4,6 +4,7 @@
 #include "ChannelMap.h"
 #include "QPlcIOBufferSlaveNode.h"
 #include "gui/store/SignalStore.h"
+#include "node/ListeningInterval.h"
 
 #include <QtCore/QByteArray>
 
@@ -53,9 +54,11 @@ public:
     QList<QPlcSignalList> batch(const QVector<QPlcSignalIndex> &signalIndices) const;
     int batchSize() const { return m_batchSize; }
     Time period() const { return m_period; }
+    /// Time between two rows that follow each other: a listener need not hear every cycle.
+    Time rowPeriod() const { return m_period * Time(m_interval.cycles()); }
     quint64 cycle() const { return m_lastCycle; }
     quint64 rows() const { return m_rows; }  // taken, ever
-    quint64 gaps() const { return m_gaps; }  // interruptions of the cycle numbers within a phase, ever
+    quint64 gaps() const { return m_gaps; }  // frames within a phase before which others were lost, ever
 
 private:
     QPlcValue valueIn(const char *payload, QPlcSignalIndex signal) const;
@@ -74,6 +77,7 @@ private:
     int m_batchSize = 0;
 
     Time m_period = 1;
+    ListeningInterval m_interval;
     Time m_phaseStart = 0;
     Time m_lastTime = 0;
     quint64 m_phase = 0;

@@ -50,7 +50,8 @@ const QVector<PanelTable::Column> columns = {{"plant", 10, false},
                                              {"late", 3, true},
                                              {"lost", 3, true},
                                              {"duplicated", 10, false},
-                                             {"rejected", 9, false}};
+                                             {"rejected", 9, false},
+                                             {"forged", 7, false}};
 
 QVector<int> growingColumns()
 {

@@ -7,7 +7,6 @@
 
 #include <QtGui/QKeyEvent>
 #include <QtGui/QPainter>
-#include <QtWidgets/QApplication>
 #include <QtWidgets/QHBoxLayout>
 #include <QtWidgets/QLabel>
 #include <QtWidgets/QLineEdit>
@@ -76,10 +75,7 @@ QWidget *ConnectStrip::makeFoundRow()
 
 void ConnectStrip::setFoundMasters(const QVector<FoundMaster> &masters)
 {
-    const bool hadFocus = m_found->isAncestorOf(QApplication::focusWidget());
-    m_found->setMasters(masters, m_close);
-    if (hadFocus && !m_found->isAncestorOf(QApplication::focusWidget()))
-        m_address->setFocus(Qt::OtherFocusReason);  // the keys were on one that is gone
+    m_found->setMasters(masters, m_close, m_address);
     m_foundRow->setVisible(!masters.isEmpty());
 }
 

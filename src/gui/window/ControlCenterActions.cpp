@@ -60,6 +60,7 @@ void ControlCenterActions::makeViewMenu()
     freeze = add(viewMenu, tr("&Freeze"), tr("Ctrl+Shift+L"));
     shorterSpan = add(viewMenu, tr("Shorter time span"), tr("Ctrl+["));
     longerSpan = add(viewMenu, tr("Longer time span"), tr("Ctrl+]"));
+    makeRateMenu();
     viewMenu->addSeparator();
     eventLog = add(viewMenu, tr("&Event log"), tr("F8"));
     acknowledge = add(viewMenu, tr("&Acknowledge all events"), tr("Ctrl+Shift+A"));
@@ -82,6 +83,23 @@ void ControlCenterActions::makeViewMenu()
     alarmSound->setToolTip(tr("Errors are heard when they happen"));
     fullScreen = add(viewMenu, tr("F&ull screen"), tr("F11"));
     fullScreen->setCheckable(true);
+}
+
+void ControlCenterActions::makeRateMenu()
+{
+    QMenu *menu = viewMenu->addMenu(tr("&Rate of values"));
+    menu->setToolTipsVisible(true);
+    auto *group = new QActionGroup(this);
+    for (const int rate : {0, 100, 50, 20, 10}) {
+        QAction *action = add(menu, rate == 0 ? tr("Rate: every cycle") : tr("Rate: %1 per second").arg(rate));
+        action->setCheckable(true);
+        action->setActionGroup(group);
+        if (rate > 0)
+            action->setToolTip(
+                tr("For slow links: fewer values come, and what happens between two of them is not seen"));
+        rates.append({action, double(rate)});
+    }
+    showRate(0.0);
 }
 
 void ControlCenterActions::makeLayoutMenu()
@@ -116,6 +134,12 @@ void ControlCenterActions::showLayouts(const QStringList &names, const std::func
 void ControlCenterActions::showTheme(int theme)
 {
     themes.at(theme)->setChecked(true);
+}
+
+void ControlCenterActions::showRate(double timesPerSecond)
+{
+    for (const Rate &rate : qAsConst(rates))
+        rate.action->setChecked(rate.timesPerSecond == timesPerSecond);
 }
 
 QVector<KeysWindow::Group> ControlCenterActions::groups() const

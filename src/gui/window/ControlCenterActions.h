@@ -21,6 +21,12 @@ class ControlCenterActions : public QObject
 public:
     explicit ControlCenterActions(QPlcControlCenter *window);
 
+    struct Rate
+    {
+        QAction *action;
+        double timesPerSecond;  // 0: every cycle
+    };
+
     QMenu *plantMenu = nullptr;
     QMenu *viewMenu = nullptr;
     QMenu *layoutMenu = nullptr;
@@ -43,6 +49,7 @@ public:
     QAction *freeze = nullptr;
     QAction *shorterSpan = nullptr;
     QAction *longerSpan = nullptr;
+    QVector<Rate> rates;
     QAction *eventLog = nullptr;
     QAction *acknowledge = nullptr;
     QAction *fullScreen = nullptr;
@@ -64,6 +71,7 @@ public:
     /// The layouts of the program stand at the begin of their menu.
     void showLayouts(const QStringList &names, const std::function<void(const QString &)> &show);
     void showTheme(int theme);
+    void showRate(double timesPerSecond);
     /// By menu.
     QVector<KeysWindow::Group> groups() const;
 
@@ -71,6 +79,7 @@ private:
     QAction *add(QMenu *menu, const QString &text, const QString &keys = {});
     void makePlantMenu();
     void makeViewMenu();
+    void makeRateMenu();
     void makeLayoutMenu();
 
     QMainWindow *m_window;

@@ -17,6 +17,8 @@
 #include <QtWidgets/QFileDialog>
 #include <QtWidgets/QMenu>
 
+#include <algorithm>
+
 using namespace qplc;
 
 // ---- commands ----
@@ -47,6 +49,8 @@ void QPlcControlCenter::Private::connectViewActions()
     connect(actions->freeze, &QAction::triggered, context.timeView(), &TimeView::freeze);
     connect(actions->shorterSpan, &QAction::triggered, timeBar, [this] { timeBar->stepSpan(-1); });
     connect(actions->longerSpan, &QAction::triggered, timeBar, [this] { timeBar->stepSpan(1); });
+    for (const ControlCenterActions::Rate &each : qAsConst(actions->rates))
+        connect(each.action, &QAction::triggered, q, [this, each] { setRate(each.timesPerSecond); });
     connect(actions->eventLog, &QAction::triggered, placer, [this] { placer->showPanel(QStringLiteral("Event log")); });
     connect(actions->acknowledge, &QAction::triggered, context.events(), &EventLogModel::acknowledgeAll);
     connect(actions->fullScreen, &QAction::toggled, q, [this](bool isFull) {
@@ -119,6 +123,13 @@ void QPlcControlCenter::Private::applyTheme()
     q->setPalette(chosen.palette());
     context.setTheme(chosen);
     actions->showTheme(int(theme));
+}
+
+void QPlcControlCenter::Private::setRate(double timesPerSecond)
+{
+    rate = timesPerSecond;
+    context.plants()->setRate(rate);
+    actions->showRate(rate);
 }
 
 void QPlcControlCenter::Private::openKeys()
@@ -235,6 +246,7 @@ void QPlcControlCenter::Private::save()
     settings.setValue(keyOf("signalTree"), QJsonDocument(dock->tree()->settings()).toJson(QJsonDocument::Compact));
     settings.setValue(keyOf("layout"), layoutToJson(editor.layout()));
     settings.setValue(keyOf("theme"), qplc::Theme::nameText(qplc::Theme::Name(int(theme))));
+    settings.setValue(keyOf("rate"), rate);
     settings.setValue(keyOf("touch"), actions->touch->isChecked());
     settings.setValue(keyOf("alarmSound"), actions->alarmSound->isChecked());
     settings.setValue(keyOf("plants"), plants);
@@ -251,6 +263,7 @@ void QPlcControlCenter::Private::restore()
         showDock(true);
     dock->tree()->applySettings(QJsonDocument::fromJson(settings.value(keyOf("signalTree")).toByteArray()).object());
     q->setTheme(Theme(int(qplc::Theme::nameOf(settings.value(keyOf("theme")).toString()))));
+    setRate(std::clamp(settings.value(keyOf("rate")).toDouble(), 0.0, 1e6));
     actions->touch->setChecked(settings.value(keyOf("touch"), TouchStyle::isUseful()).toBool());
     actions->alarmSound->setChecked(settings.value(keyOf("alarmSound"), true).toBool());
     const QByteArray layout = settings.value(keyOf("layout")).toByteArray();

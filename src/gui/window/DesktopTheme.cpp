@@ -11,15 +11,6 @@
 
 namespace qplc {
 
-namespace {
-
-bool isDark(const QPalette &palette)
-{
-    return palette.color(QPalette::Window).lightness() < 128;
-}
-
-}  // namespace
-
 DesktopTheme *DesktopTheme::instance()
 {
     static QPointer<DesktopTheme> theme;
@@ -60,7 +51,7 @@ void DesktopTheme::takePalette(const QPalette &palette)
 {
     if (m_isGiving)
         return;
-    m_isPaletteDark = isDark(palette);
+    m_isPaletteDark = Theme::isDarkPalette(palette);
     follow();
 }
 
@@ -76,7 +67,7 @@ void DesktopTheme::readPalette()
 {
     m_isGiving = true;
     QApplication::setPalette(QPalette());
-    m_isPaletteDark = isDark(QApplication::palette());
+    m_isPaletteDark = Theme::isDarkPalette(QApplication::palette());
     if (m_isGiven)
         QApplication::setPalette(m_given);
     m_isGiving = false;

@@ -4,6 +4,7 @@
 #include "BarButton.h"
 
 #include <QtGui/QKeyEvent>
+#include <QtWidgets/QApplication>
 
 #include <algorithm>
 
@@ -59,8 +60,14 @@ void FoundMasters::removeAllBut(const QVector<FoundMaster> &masters)
     }
 }
 
-void FoundMasters::setMasters(const QVector<FoundMaster> &masters, QWidget *before)
+bool FoundMasters::hasFocusWithin() const
 {
+    return isAncestorOf(QApplication::focusWidget());
+}
+
+void FoundMasters::setMasters(const QVector<FoundMaster> &masters, QWidget *before, QWidget *refuge)
+{
+    const bool hadFocus = hasFocusWithin();
     const QVector<FoundMaster> wanted = masters.mid(0, m_most);
     removeAllBut(wanted);
     QVector<BarButton *> buttons;
@@ -78,6 +85,8 @@ void FoundMasters::setMasters(const QVector<FoundMaster> &masters, QWidget *befo
         buttons.append(button);
     }
     m_buttons = buttons;
+    if (hadFocus && !hasFocusWithin())
+        refuge->setFocus(Qt::OtherFocusReason);
 }
 
 void FoundMasters::keyPressEvent(QKeyEvent *event)

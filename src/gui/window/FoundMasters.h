@@ -21,7 +21,8 @@ public:
     FoundMasters(QBoxLayout::Direction direction, int most, WindowContext *context, QWidget *parent = nullptr);
 
     /// \param before  the widget behind which keys come to the list
-    void setMasters(const QVector<FoundMaster> &masters, QWidget *before);
+    /// \param refuge  gets the focus when the master that had it is gone
+    void setMasters(const QVector<FoundMaster> &masters, QWidget *before, QWidget *refuge);
 
 Q_SIGNALS:
     void masterChosen(const QString &address);
@@ -33,6 +34,7 @@ private:
     BarButton *buttonOf(const QString &address) const;
     BarButton *makeButton(const QString &address);
     void removeAllBut(const QVector<FoundMaster> &masters);
+    bool hasFocusWithin() const;
     void describe(BarButton *button, const FoundMaster &master) const;
 
     WindowContext *m_context;

@@ -14,6 +14,7 @@ constexpr int noFit = -1'000'000;
 constexpr int hit = 4;
 constexpr int inRun = 12;
 constexpr int atBegin = 16;
+constexpr int atEnd = 4;
 
 bool isBeginOfWord(const QString &text, int place)
 {
@@ -21,6 +22,11 @@ bool isBeginOfWord(const QString &text, int place)
         return true;
     const QChar before = text.at(place - 1);
     return !before.isLetterOrNumber() || (before.isLower() && text.at(place).isUpper());
+}
+
+bool isEndOfWord(const QString &text, int place)
+{
+    return place + 1 == text.size() || !text.at(place + 1).isLetterOrNumber();
 }
 
 /// Best sum over all ways to find the letters of \a word in \a text.
@@ -40,6 +46,10 @@ int wordScore(const QString &word, const QString &text)
             next[place] = std::max(bestBefore, run) + hit + (isBeginOfWord(text, place) ? atBegin : 0);
         }
         best = next;
+    }
+    for (int place = 0; place < size; ++place) {
+        if (best[place] > noFit && isEndOfWord(text, place))
+            best[place] += atEnd;  // "large" is rather "Large targets" than "Larger values"
     }
     return size > 0 ? *std::max_element(best.begin(), best.end()) : noFit;
 }

@@ -32,8 +32,11 @@ QString figuresOf(const Plant &plant, const ViolationWatch &violations)
     const PlantStatus &status = plant.status();
     QStringList parts;
     const double period = double(status.period > 0 ? status.period : plant.values().period());
-    if (period > 1.0)
-        parts << tr("%1 Hz").arg(1e9 / period, 0, 'g', 4);
+    if (period > 1.0) {
+        const double rate = 1e9 / period;
+        const QString text = tr("%1 Hz").arg(rate, 0, 'g', 4);
+        parts << (plant.every() == 1 ? text : tr("%1, %2 shown").arg(text).arg(rate / plant.every(), 0, 'g', 4));
+    }
     if (status.lateness.last10s.count > 0)
         parts << tr("jitter %1 p99").arg(durationText(status.lateness.last10s.p99));
     if (status.isRunning() && !plant.feed())

@@ -55,6 +55,7 @@ struct QPlcControlCenter::Private
     void showPages();
     void showDock(bool isStart);
     void applyTheme();
+    void setRate(double timesPerSecond);
     void openPalette();
     QVector<qplc::PaletteItem> paletteItems();
     void appendActions(QVector<qplc::PaletteItem> *items, const QString &group, const QList<QAction *> &actions) const;
@@ -73,6 +74,7 @@ struct QPlcControlCenter::Private
 
     QPlcControlCenter *q;
     Theme theme = SystemTheme;
+    double rate = 0.0;  // rows of values per second; 0: every cycle
     qplc::WindowContext context;
     qplc::AlarmSound alarmSound{context.events(), [] { QApplication::beep(); }};
     qplc::LayoutEditor editor;

@@ -3,10 +3,10 @@
 
 #include "QPlcSignalTree.h"
 #include "gui/layout/LayoutIcons.h"
+#include "gui/layout/TitleButton.h"
 
 #include <QtWidgets/QHBoxLayout>
 #include <QtWidgets/QLabel>
-#include <QtWidgets/QToolButton>
 
 namespace qplc {
 
@@ -29,11 +29,8 @@ QWidget *SignalDock::createTitle()
     row->setSpacing(0);
     row->addWidget(new QLabel(windowTitle()), 1);
     const auto add = [&](LayoutIcon icon, const QString &text) {
-        auto *button = new QToolButton;
+        auto *button = new TitleButton;
         button->setIcon(layoutIcon(icon));
-        button->setIconSize({14, 14});
-        button->setFixedSize(20, 20);
-        button->setAutoRaise(true);
         button->setFocusPolicy(Qt::TabFocus);
         button->setToolTip(text);
         button->setAccessibleName(tr("%1: %2").arg(windowTitle(), text));

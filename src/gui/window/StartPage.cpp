@@ -52,12 +52,22 @@ StartPage::StartPage(WindowContext *context, QWidget *parent)
     follow();
 }
 
+namespace {
+
+QVBoxLayout *columnOf(QWidget *widget)
+{
+    widget->setFixedWidth(columnWidth);
+    auto *column = new QVBoxLayout(widget);
+    column->setContentsMargins(0, 0, 0, 0);
+    return column;
+}
+
+}  // namespace
+
 QWidget *StartPage::makeHead()
 {
     auto *head = new QWidget;
-    head->setFixedWidth(columnWidth);
-    auto *column = new QVBoxLayout(head);
-    column->setContentsMargins(0, 0, 0, 0);
+    QVBoxLayout *column = columnOf(head);
     column->addWidget(m_title);
     column->addWidget(m_sentence);
     column->addSpacing(22);
@@ -68,9 +78,7 @@ QWidget *StartPage::makeHead()
 QWidget *StartPage::makeMasters()
 {
     auto *masters = new QWidget;
-    masters->setFixedWidth(columnWidth);
-    auto *column = new QVBoxLayout(masters);
-    column->setContentsMargins(0, 0, 0, 0);
+    QVBoxLayout *column = columnOf(masters);
     column->addWidget(m_foundTitle);
     column->addWidget(m_found);
     column->addSpacing(14);
@@ -130,10 +138,7 @@ void StartPage::setRecentMasters(const QStringList &addresses)
 
 void StartPage::setFoundMasters(const QVector<FoundMaster> &masters)
 {
-    const bool hadFocus = m_found->isAncestorOf(QApplication::focusWidget());
-    m_found->setMasters(masters, lastAction());
-    if (hadFocus && !m_found->isAncestorOf(QApplication::focusWidget()))
-        setFocus(Qt::OtherFocusReason);  // the keys were on one that is gone
+    m_found->setMasters(masters, lastAction(), this);
     m_found->setVisible(!masters.isEmpty());
     m_foundTitle->setText(masters.isEmpty() ? tr("No running master has been found yet.") : tr("Running masters"));
 }

@@ -21,6 +21,21 @@ int curvesOf(const QPlcJitterHistogram &panel)
     return panel.findChild<JitterCanvas *>()->itemList(QwtPlotItem::Rtti_PlotUserItem + 3).size();
 }
 
+/// A histogram in a window, and the plant of a master.
+struct ShownHistogram
+{
+    explicit ShownHistogram(const RunningMaster &master, const char *settings = "{}")
+    {
+        panel.setContext(&context);
+        panel.applySettings(objectOf(settings));
+        panel.resize(400, 300);
+        panel.show();
+        context.plants()->add(master.address());
+    }
+    WindowContext context;
+    QPlcJitterHistogram panel;
+};
+
 }  // namespace
 
 class tst_QPlcJitterHistogram : public QObject
@@ -72,47 +87,31 @@ void tst_QPlcJitterHistogram::withoutAPlantItSaysSo()
 void tst_QPlcJitterHistogram::beforeTheFirstCycleItSaysWhatToDo()
 {
     RunningMaster master;
-    WindowContext context;
-    QPlcJitterHistogram panel;
-    panel.setContext(&context);
-    panel.resize(400, 300);
-    panel.show();
-    context.plants()->add(master.address());
-    QTRY_VERIFY(showsText(panel, "No cycles yet"));
+    ShownHistogram shown(master);
+    QTRY_VERIFY(showsText(shown.panel, "No cycles yet"));
 }
 
 void tst_QPlcJitterHistogram::theLatenessOfARunningMasterIsShown()
 {
     RunningMaster master;
     QVERIFY(master.startRealTime());
-    WindowContext context;
-    QPlcJitterHistogram panel;
-    panel.setContext(&context);
-    panel.resize(400, 300);
-    panel.show();
-    context.plants()->add(master.address());
-    QTRY_COMPARE(curvesOf(panel), 1);
-    QVERIFY(panel.findChild<JitterCanvas *>()->isVisible());
-    QVERIFY(showsText(panel, "since start"));
-    QVERIFY(showsText(panel, "Master lateness"));
+    ShownHistogram shown(master);
+    QTRY_COMPARE(curvesOf(shown.panel), 1);
+    QVERIFY(shown.panel.findChild<JitterCanvas *>()->isVisible());
+    QVERIFY(showsText(shown.panel, "since start"));
+    QVERIFY(showsText(shown.panel, "Master lateness"));
 }
 
 void tst_QPlcJitterHistogram::masterAndNodesAreShownTogether()
 {
     RunningMaster master;
     QVERIFY(master.startRealTime());
-    WindowContext context;
-    QPlcJitterHistogram panel;
-    panel.setContext(&context);
-    panel.applySettings(
-        objectOf(R"({"show":["Master.execution","Counter.execution","Nobody.execution"],"window":"last10s"})"));
-    panel.resize(400, 300);
-    panel.show();
-    context.plants()->add(master.address());
-    QTRY_COMPARE(curvesOf(panel), 2);
-    QVERIFY(showsText(panel, "last 10 s"));
-    panel.applySettings(objectOf(R"({"show":["Nobody.execution"]})"));
-    QVERIFY(showsText(panel, "no figures of Nobody.execution"));
+    ShownHistogram shown(master,
+                         R"({"show":["Master.execution","Counter.execution","Nobody.execution"],"window":"last10s"})");
+    QTRY_COMPARE(curvesOf(shown.panel), 2);
+    QVERIFY(showsText(shown.panel, "last 10 s"));
+    shown.panel.applySettings(objectOf(R"({"show":["Nobody.execution"]})"));
+    QVERIFY(showsText(shown.panel, "no figures of Nobody.execution"));
 }
 
 void tst_QPlcJitterHistogram::nobodyAsksWhileItIsHidden()
@@ -154,16 +153,11 @@ void tst_QPlcJitterHistogram::histogramsOfALostMasterAreStale()
 {
     auto master = std::make_unique<RunningMaster>();
     QVERIFY(master->startRealTime());
-    WindowContext context;
-    QPlcJitterHistogram panel;
-    panel.setContext(&context);
-    panel.resize(400, 300);
-    panel.show();
-    context.plants()->add(master->address());
-    QTRY_COMPARE(curvesOf(panel), 1);
+    ShownHistogram shown(*master);
+    QTRY_COMPARE(curvesOf(shown.panel), 1);
     master.reset();
-    QTRY_VERIFY_WITH_TIMEOUT(showsText(panel, "stale"), 10000);
-    QCOMPARE(curvesOf(panel), 1);
+    QTRY_VERIFY_WITH_TIMEOUT(showsText(shown.panel, "stale"), 10000);
+    QCOMPARE(curvesOf(shown.panel), 1);
 }
 
 /// Undo brings back the settings of before.
@@ -185,16 +179,11 @@ void tst_QPlcJitterHistogram::theCaptionIsOneLineOfWhatHasRoom()
 {
     RunningMaster master;
     QVERIFY(master.startRealTime());
-    WindowContext context;
-    QPlcJitterHistogram panel;
-    panel.setContext(&context);
-    panel.resize(500, 300);
-    panel.show();
-    context.plants()->add(master.address());
-    QTRY_VERIFY(showsText(panel, "values"));
+    ShownHistogram shown(master);
+    QTRY_VERIFY(showsText(shown.panel, "values"));
     for (const int width : {500, 274, 160, 60}) {
-        panel.resize(width, 300);
-        const QList<QLabel *> labels = panel.findChildren<QLabel *>();
+        shown.panel.resize(width, 300);
+        const QList<QLabel *> labels = shown.panel.findChildren<QLabel *>();
         const auto caption = std::find_if(labels.begin(), labels.end(), [](const QLabel *label) {
             return label->text().contains(QStringLiteral("lateness"));
         });

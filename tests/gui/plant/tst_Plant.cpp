@@ -31,6 +31,8 @@ private Q_SLOTS:
     void withoutAConnectionCommandsFailAndNothingBlocks();
     void valuesComeWhileNoCycleRuns();
     void valuesComeAtMostFiftyTimesASecond();
+    void aRateIsKeptAndTheRowsLieFurtherApart();
+    void aRateIsThatOfTheClockOfPeople();
     void aMasterThatComesLaterIsFound();
     void aLostMasterIsFoundAgainAndTheGapIsKept();
     void anotherTableReplacesSignalsAndStore();
@@ -173,6 +175,49 @@ void tst_Plant::valuesComeAtMostFiftyTimesASecond()
     QTRY_VERIFY(plant.values().rows() > rows + 500);
     QVERIFY2(double(updated.size()) <= 50.0 * double(time.elapsed()) * 1e-3 + 2.0,
              qPrintable(QString::number(updated.size())));
+}
+
+void tst_Plant::aRateIsKeptAndTheRowsLieFurtherApart()
+{
+    RunningMaster master;
+    QVERIFY(master.startRealTime());
+    Plant plant(master.address(), QString(), QStringLiteral("Window"));
+    plant.setRate(15.0);
+    plant.open();
+    QTRY_VERIFY(plant.values().rows() > 3);
+    QCOMPARE(plant.every(), 7);  // at most 15: 14.3
+    const auto newestDistance = [&] {
+        const SignalStore &store = *plant.store();
+        const SignalStore::Row last = store.endRow() - 1;
+        return last > store.firstRow() && !store.beginsAnew(last) ? qint64(store.time(last) - store.time(last - 1)) : 0;
+    };
+    QTRY_COMPARE(newestDistance(), qint64(70'000'000));
+    QCOMPARE(plant.quality(), Plant::Good);
+    QTRY_VERIFY(plant.updateRate() > 5.0);
+    QVERIFY(plant.updateRate() < 20.0);
+    const quint64 rows = plant.values().rows();
+    plant.setRate(0.0);  // while cycles run
+    QCOMPARE(plant.every(), 1);
+    QTRY_COMPARE(newestDistance(), qint64(10'000'000));
+    QVERIFY(plant.store()->endRow() > SignalStore::Row(rows));  // and the past is still there
+    QTRY_COMPARE(plant.status().nodes.size(), 2);
+    QCOMPARE(plant.connectionState(), PlantConnection::Connected);
+}
+
+void tst_Plant::aRateIsThatOfTheClockOfPeople()
+{
+    RunningMaster master;
+    master.setClock(QPlcClock::scaled(5.0));  // 500 cycles in a second
+    QVERIFY(master.startRealTime());
+    Plant plant(master.address());
+    plant.setRate(50.0);
+    plant.open();
+    QTRY_COMPARE(plant.every(), 10);
+    QTRY_VERIFY(plant.values().rows() > 3);
+    master.stop();
+    master.setInterval(std::chrono::milliseconds(5));
+    QVERIFY(master.startRealTime());
+    QTRY_COMPARE(plant.every(), 20);
 }
 
 void tst_Plant::aMasterThatComesLaterIsFound()

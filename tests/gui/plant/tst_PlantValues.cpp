@@ -31,10 +31,10 @@ QByteArray payload(int n)
         + QPlcValue(float(n) / 2).toBytes() + QPlcValue(float(-n)).toBytes() + QPlcValue(qint64(-n)).toBytes();
 }
 
-void give(PlantValues *values, quint64 cycle, quint64 phase, qint64 now, qint64 period = 10 * ms)
+void give(PlantValues *values, quint64 cycle, quint64 phase, qint64 now, qint64 period = 10 * ms, int every = 1)
 {
     const QByteArray bytes = payload(int(cycle));
-    values->takeFrame({cycle, phase, std::chrono::nanoseconds(period), bytes.constData(), bytes.size()}, now);
+    values->takeFrame({cycle, phase, std::chrono::nanoseconds(period), bytes.constData(), bytes.size(), every}, now);
 }
 
 }  // namespace
@@ -49,6 +49,9 @@ private Q_SLOTS:
     void anEmptyTableHasNoChannels();
     void rowsLieAPeriodApartFromTheBeginOfThePhase();
     void aJumpOfCyclesIsAGap();
+    void oneOfSoManyCyclesIsNoGap();
+    void aTurnWithoutAFrameIsAGap();
+    void anotherIntervalKeepsThePast();
     void aNewPhaseBeginsAnewAndLater();
     void anInterruptionIsNoGapOfCycles();
     void framesOfAnotherTableAreNotTaken();
@@ -131,6 +134,49 @@ void tst_PlantValues::aJumpOfCyclesIsAGap()
     QCOMPARE(values.gaps(), quint64(1));
     QVERIFY(values.store()->beginsAnew(2));
     QCOMPARE(qint64(values.store()->time(2)), wall + 1000 * ms);
+}
+
+void tst_PlantValues::oneOfSoManyCyclesIsNoGap()
+{
+    PlantValues values;
+    values.setTable(table(), 10 * ms);
+    for (const quint64 cycle : {23, 30, 40, 53, 60})  // joined late, and skipped 50 ... 52
+        give(&values, cycle, 1, wall, 10 * ms, 10);
+    QCOMPARE(values.gaps(), quint64(0));
+    SignalStore &store = *values.store();
+    for (SignalStore::Row row = 1; row < store.endRow(); ++row)
+        QVERIFY(!store.beginsAnew(row));
+    QCOMPARE(qint64(store.time(0)), wall);
+    QCOMPARE(qint64(store.time(4)), wall + 370 * ms);
+    QCOMPARE(qint64(values.rowPeriod()), 100 * ms);
+    QCOMPARE(qint64(values.period()), 10 * ms);
+}
+
+void tst_PlantValues::aTurnWithoutAFrameIsAGap()
+{
+    PlantValues values;
+    values.setTable(table(), 10 * ms);
+    for (const quint64 cycle : {0, 10, 30})
+        give(&values, cycle, 1, wall, 10 * ms, 10);
+    QCOMPARE(values.gaps(), quint64(1));
+    QVERIFY(!values.store()->beginsAnew(1));
+    QVERIFY(values.store()->beginsAnew(2));
+}
+
+void tst_PlantValues::anotherIntervalKeepsThePast()
+{
+    PlantValues values;
+    values.setTable(table(), 1 * ms);
+    const SignalStore *store = values.store();
+    for (quint64 cycle = 0; cycle < 100; cycle += 10)
+        give(&values, cycle, 1, wall, 1 * ms, 10);
+    give(&values, 150, 2, wall + 150 * ms, 1 * ms, 1);  // registered again
+    give(&values, 151, 2, wall + 150 * ms, 1 * ms, 1);
+    QCOMPARE(values.store(), const_cast<SignalStore *>(store));
+    QCOMPARE(store->endRow(), SignalStore::Row(12));
+    QVERIFY(store->beginsAnew(10));  // nobody knows what was in between
+    QVERIFY(!store->beginsAnew(11));
+    QCOMPARE(qint64(store->time(10)), wall + 150 * ms);
 }
 
 void tst_PlantValues::aNewPhaseBeginsAnewAndLater()

@@ -68,6 +68,15 @@ public:
     QTreeView *view;
 };
 
+/// Shows a log as a window does.
+bool openLog(QPlcEventLog *log, WindowContext *context)
+{
+    log->setContext(context);
+    log->show();
+    log->activateWindow();
+    return QTest::qWaitForWindowActive(log);
+}
+
 PlantEvent eventOf(PlantEvent::Severity severity, const QString &text)
 {
     return {QDateTime(QDate(2026, 1, 31), QTime(12, 0, 1, 250)), severity, QStringLiteral("kite"), text, false};
@@ -332,10 +341,7 @@ void tst_Tables::eventsAreFilteredAndAcknowledged()
 {
     WindowContext context;
     QPlcEventLog log;
-    log.setContext(&context);
-    log.show();
-    log.activateWindow();
-    QVERIFY(QTest::qWaitForWindowActive(&log));
+    QVERIFY(openLog(&log, &context));
     const QAbstractItemModel *shown = log.findChild<QTreeView *>()->model();
     context.events()->append(eventOf(PlantEvent::Information, QStringLiteral("begin")));
     context.events()->append(eventOf(PlantEvent::Warning, QStringLiteral("late")));
@@ -395,10 +401,7 @@ void tst_Tables::aNoteIsWrittenIntoTheLog()
 {
     WindowContext context;
     QPlcEventLog log;
-    log.setContext(&context);
-    log.show();
-    log.activateWindow();
-    QVERIFY(QTest::qWaitForWindowActive(&log));
+    QVERIFY(openLog(&log, &context));
     auto *view = log.findChild<QTreeView *>();
     auto *note = log.findChild<QLineEdit *>(QStringLiteral("note"));
     view->setFocus();
@@ -427,8 +430,7 @@ void tst_Tables::anEventLeadsToItsTime()
 {
     WindowContext context;
     QPlcEventLog log;
-    log.setContext(&context);
-    log.show();
+    QVERIFY(openLog(&log, &context));
     const PlantEvent event = eventOf(PlantEvent::Warning, QStringLiteral("late"));
     context.events()->append(eventOf(PlantEvent::Information, QStringLiteral("begin")));
     context.events()->append(event);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "WindowFixtures.h"
+#include "gui/layout/LayoutTabBar.h"
 #include "gui/layout/PanelTitleBar.h"
+#include "gui/layout/TitleButton.h"
 #include "gui/window/DesktopTheme.h"
 #include "gui/window/LongPress.h"
 #include "gui/window/TouchStyle.h"
@@ -99,6 +101,15 @@ void tst_Comfort::targetsForFingersAreLarge()
     QCOMPARE(closeButton->size(), QSize(20, 20));
     const QSize before = button.sizeHint();
     touch->trigger();
+    fixture.window.connectToMaster(QStringLiteral("127.0.0.1:%1").arg(freePort()));  // shows dock and tabs
+    for (QWidget *place : {static_cast<QWidget *>(fixture.part<SignalDock>()->titleBarWidget()),
+                           static_cast<QWidget *>(fixture.part<LayoutTabBar>())}) {
+        const QList<TitleButton *> closing = place->findChildren<TitleButton *>();
+        QVERIFY(!closing.isEmpty());
+        for (const TitleButton *each : closing)
+            QCOMPARE(each->size(), QSize(40, 40));
+        QVERIFY(place->height() >= TouchStyle::Target);
+    }
     QVERIFY(button.sizeHint().height() >= TouchStyle::Target);
     QVERIFY(menu.actionGeometry(entry).height() >= TouchStyle::Target);
     QVERIFY(menu.actionGeometry(line).height() < TouchStyle::Target);

@@ -21,6 +21,7 @@ private Q_SLOTS:
     void barsCannotBeMovedHiddenOrCut_data();
     void barsCannotBeMovedHiddenOrCut();
     void freezingTellsHowFarBehindAndLComesBack();
+    void theRateIsThatOfAllPlantsAndIsRemembered();
     void theWindowComesBackAsItWasClosed();
     void theTreeOfSignalsComesBackAsItWas();
     void withoutRestoreViewNothingIsSaved();
@@ -207,6 +208,30 @@ void tst_ControlCenter::theWindowComesBackAsItWasClosed()
     QVERIFY(again.findChild<SignalDock *>()->isHidden());
     QTRY_VERIFY_WITH_TIMEOUT(again.isConnected(QStringLiteral("kite")), patience);
     again.setTheme(QPlcControlCenter::SystemTheme);
+}
+
+void tst_ControlCenter::theRateIsThatOfAllPlantsAndIsRemembered()
+{
+    RunningMaster master;
+    QVERIFY(master.startRealTime());
+    {
+        WindowFixture fixture;
+        fixture.window.restoreView();
+        QVERIFY(fixture.action("Rate: every cycle")->isChecked());
+        fixture.connectTo(master.address());
+        const auto figures = [&] { return fixture.topBar()->selector()->toolTip(); };
+        QTRY_VERIFY_WITH_TIMEOUT(figures().startsWith(QStringLiteral("100 Hz ·")), patience);
+        fixture.action("Rate: 10 per second")->trigger();
+        QVERIFY(!fixture.action("Rate: every cycle")->isChecked());
+        QTRY_COMPARE(fixture.plant()->every(), 10);
+        QTRY_VERIFY_WITH_TIMEOUT(figures().startsWith(QStringLiteral("100 Hz, 10 shown")), patience);
+        fixture.window.close();
+    }
+    WindowFixture fixture;
+    fixture.window.restoreView();
+    QVERIFY(fixture.action("Rate: 10 per second")->isChecked());
+    QTRY_COMPARE_WITH_TIMEOUT(fixture.plant()->every(), 10, patience);
+    QTRY_VERIFY_WITH_TIMEOUT(fixture.plant()->values().rows() > 3, patience);
 }
 
 void tst_ControlCenter::theTreeOfSignalsComesBackAsItWas()

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../../common/RuntimeFolder.h"
 #include "WindowFixtures.h"
 #include "gui/window/FoundMasters.h"
 
@@ -200,8 +201,7 @@ void tst_FoundMasters::whoIsConnectedIsShownAgain()
 
 void tst_FoundMasters::theSearchRunsWhileSomebodyLooks()
 {
-    const QTemporaryDir folder;
-    qputenv("XDG_RUNTIME_DIR", folder.path().toLocal8Bit());
+    const RuntimeFolder folder;
     RunningMaster running;
     MasterSearch search;
     QVector<FoundMaster> found;
@@ -221,7 +221,6 @@ void tst_FoundMasters::theSearchRunsWhileSomebodyLooks()
     QVERIFY(found.isEmpty());
     page.show();
     QVERIFY(isFound());
-    qunsetenv("XDG_RUNTIME_DIR");
 }
 
 QTEST_MAIN(tst_FoundMasters)

@@ -53,6 +53,7 @@ void tst_WindowParts::wholeRunsAndBeginsOfWordsFitBest()
     QVERIFY(score("tetherSpeed") > score("crisp"));
     QVERIFY(score("crisp") > score("asepsis"));
     QVERIFY(score("speed") > score("speed of the tether"));
+    QVERIFY(fuzzyScore("large", "Large targets for touch") > fuzzyScore("large", "Larger values"));  // a whole word
 }
 
 void tst_WindowParts::thePaletteShowsTheBestFirstAndNotTooMany()

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "QPlcMessage.h"
+
+#include <QtCore/QStringList>
+
+#include <optional>
+
+namespace qplc {
+
+/// What an identity is in a plant.
+enum class Role : quint8 {
+    Observer,  ///< looks
+    Operator,  ///< looks, starts, stops, sets values
+    Node,      ///< takes part in the cycle
+    Engineer   ///< may do everything
+};
+constexpr Role allRoles[] = {Role::Observer, Role::Operator, Role::Node, Role::Engineer};
+
+QString roleName(Role role);
+/// Nothing when no role has this name.
+std::optional<Role> roleOf(const QString &name);
+
+/// A set of roles.
+class Roles
+{
+public:
+    constexpr Roles() = default;
+    constexpr Roles(Role role)  // NOLINT(google-explicit-constructor): a role is a set of one
+        : m_bits(quint8(1U << unsigned(role)))
+    {
+    }
+    constexpr bool contains(Role role) const { return (m_bits & (1U << unsigned(role))) != 0; }
+    constexpr bool isEmpty() const { return m_bits == 0; }
+    friend constexpr Roles operator|(Roles a, Roles b)
+    {
+        Roles both;
+        both.m_bits = quint8(a.m_bits | b.m_bits);
+        return both;
+    }
+
+private:
+    quint8 m_bits = 0;
+};
+
+/// Who may send a message of \a kind to a master: the one table of rights. Nobody: a master sends it, or this version does not know it.
+///
+/// A kind without a row does not compile. What a message writes is checked signal by signal besides: see refusalOf().
+#pragma GCC diagnostic push
+#pragma GCC diagnostic error "-Wswitch"
+constexpr Roles whoMaySend(QPlcMessage::Kind kind)
+{
+    constexpr Roles nobody;
+    constexpr Roles everybody = Role::Observer | Roles(Role::Operator) | Role::Node | Role::Engineer;
+    constexpr Roles operators = Role::Operator | Roles(Role::Engineer);
+    using Kind = QPlcMessage;
+    // clang-format off
+    switch (kind) {
+    case Kind::Invalid:                      return nobody;
+    case Kind::Hello:                        return everybody;
+    case Kind::Register:                     return everybody;  // an Observer as a listener without outputs
+    case Kind::Registered:                   return nobody;
+    case Kind::Rejected:                     return nobody;
+    case Kind::AttachCyclicChannel:          return everybody;
+    case Kind::CyclicChannelAttached:        return nobody;
+    case Kind::MasterEnds:                   return nobody;
+    case Kind::InitializeAllStates:          return operators;
+    case Kind::SendYourInitialOutputStates:  return nobody;
+    case Kind::ReceiveMyInitialOutputStates: return everybody;
+    case Kind::InitializeWithValues:         return nobody;
+    case Kind::Initialized:                  return everybody;
+    case Kind::StatesInitialized:            return nobody;
+    case Kind::StartRealTime:                return operators;
+    case Kind::RealTimeStarted:              return nobody;
+    case Kind::RealTimeReady:                return everybody;
+    case Kind::Stop:                         return everybody;
+    case Kind::RealTimeStopped:              return nobody;
+    case Kind::GetState:                     return everybody;
+    case Kind::State:                        return nobody;
+    case Kind::GetSignals:                   return everybody;
+    case Kind::Signals:                      return nobody;
+    case Kind::SetSignals:                   return operators;
+    case Kind::Done:                         return nobody;
+    case Kind::Failed:                       return nobody;
+    case Kind::NodeFault:                    return everybody;
+    case Kind::GetStatistics:                return everybody;
+    case Kind::Statistics:                   return nobody;
+    case Kind::GetSchedule:                  return everybody;
+    case Kind::Schedule:                     return nobody;
+    case Kind::TakeLease:                    return operators;
+    case Kind::ReleaseLease:                 return operators;
+    case Kind::GetLeases:                    return everybody;
+    case Kind::Leases:                       return nobody;
+    case Kind::LeasesChanged:                return nobody;
+    case Kind::GetEvents:                    return everybody;
+    case Kind::Events:                       return nobody;
+    }
+    // clang-format on
+    return nobody;
+}
+#pragma GCC diagnostic pop
+
+/// Whether a message of \a kind does something to the plant, and is written down: what not everybody may do, and Stop.
+constexpr bool isCommand(QPlcMessage::Kind kind)
+{
+    const Roles roles = whoMaySend(kind);
+    return kind == QPlcMessage::Stop || (!roles.isEmpty() && !roles.contains(Role::Observer));
+}
+
+/// Who is at the other end of a control connection, as far as it was proven.
+struct Peer
+{
+    bool isSecured = false;  // the connection is TLS and the identity proven
+    bool isCyclicOnly
+        = false;       // a plain connection to a secured master: it may attach as a cyclic channel, and nothing else
+    QString identity;  // empty: nobody asked
+    Role role = Role::Engineer;  // without security everybody may do everything
+    bool mayWriteAll = true;
+    QStringList writes;  // otherwise: names and patterns (*, ?, [...]) of signals
+};
+
+/// Whether \a peer may write \a signal.
+bool mayWrite(const Peer &peer, const QString &signal);
+/// Why \a peer may not send \a message: "Denied: role Observer may not StartRealTime"; empty: it may. Looks at the kind, and at the signals that the message writes.
+/// What only masters send is nobody's right and is left to those who answer that it makes no sense.
+QString refusalOf(const Peer &peer, const QPlcMessage &message);
+
+}  // namespace qplc

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// Who may come to QPlcMasterNodePrivate, and what is written down about it.
+#include "Logging.h"
+#include "QPlcMasterNodePrivate.h"
+
+bool QPlcMasterNodePrivate::checkSecurity()
+{
+    const QString wrong = security.errorString(QPlcSecurity::MasterSide);
+    if (!wrong.isEmpty())
+        return setError(QPlcMasterNode::ServerError, wrong);
+    if (!security.isNone() && !multicastGroup.isNull())
+        return setError(QPlcMasterNode::ServerError,
+                        QStringLiteral("a secured master has no multicast group yet: there is no key for all nodes; "
+                                       "leave out %1, or the security")
+                            .arg(multicastGroup.toString()));
+    return true;
+}
+
+/// Nobody who was not asked for opens the plant to a network.
+void QPlcMasterNodePrivate::chooseAddress(QHostAddress *address)
+{
+    networkSecurity = security.modeName();
+    if (address->isLoopback() || !security.isNone())
+        return;
+    if (insecureNetworkAllowed) {
+        networkSecurity = QStringLiteral("insecure");
+        qCWarning(lcMaster).noquote() << "listening on" << address->toString()
+                                      << "WITHOUT SECURITY: anybody on the network can read and command the plant";
+        return;
+    }
+    qCWarning(lcMaster).noquote() << "listening on 127.0.0.1 only instead of" << address->toString()
+                                  << "- anybody on the network could read and command the plant; use setSecurity() "
+                                     "(--security psk), or open it by setInsecureNetworkAllowed(true)";
+    *address = QHostAddress::LocalHost;
+}
+
+QString QPlcMasterNodePrivate::cycleText() const
+{
+    return isRunning() ? QStringLiteral(" in cycle %1").arg(q->cycle()) : QString();
+}
+
+void QPlcMasterNodePrivate::watchSecurity()
+{
+    QObject::connect(server.get(), &qplc::MasterServer::authenticated, q, [this](Connection *connection) {
+        journal.tell(qplc::JournalEvent::Info, qplc::JournalEvent::Security, connection->peer.identity,
+                     QStringLiteral("accepted identity '%1' with role %2 from %3%4")
+                         .arg(qplc::printable(connection->peer.identity), qplc::roleName(connection->peer.role),
+                              connection->socket->peerName(), cycleText()));
+    });
+    QObject::connect(
+        server.get(), &qplc::MasterServer::denied, q, [this](Connection *connection, const QString &reason) {
+            journal.denied(connection->peer.identity,
+                           QStringLiteral("%1 from %2").arg(reason, connection->socket->peerName()) + cycleText());
+        });
+    QObject::connect(server.get(), &qplc::MasterServer::strangerRefused, q,
+                     [this](const QString &, const QString &address, const QString &reason) {
+                         journal.strangerRefused(address, reason + cycleText());
+                     });
+    QObject::connect(
+        server.get(), &qplc::MasterServer::commanded, q, [this](Connection *connection, const QPlcMessage &message) {
+            journal.commanded(connection->peer.identity, message.kindName(),
+                              QStringLiteral(" from %1%2").arg(connection->socket->peerName(), cycleText()));
+        });
+    QObject::connect(server.get(), &qplc::MasterServer::refused, q,
+                     [this](const QString &name, const QString &address, const QString &reason) {
+                         journal.tell(qplc::JournalEvent::Warning, qplc::JournalEvent::Node, name,
+                                      QStringLiteral("refused %1 %2").arg(address, reason));
+                         Q_EMIT q->nodeRefused(name, reason);
+                     });
+}

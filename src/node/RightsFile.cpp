@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "RightsFile.h"
+
+#include "Keyring.h"
+#include "SecretFile.h"
+#include "signals/IniParser.h"
+
+#include <QtCore/QFile>
+
+namespace qplc {
+
+namespace {
+
+QString placeOf(const QString &fileName, int line, int column)
+{
+    return QStringLiteral("%1:%2:%3").arg(fileName).arg(line).arg(column);
+}
+
+/// What is wrong with a line of such a file; empty: nothing.
+QString complaint(const IniItem &item, const QStringList &keys, const QVector<RightsSection> &sections)
+{
+    if (!item.error.isEmpty())
+        return item.error;
+    if (item.kind == IniItem::Broken)
+        return QStringLiteral("this is neither [identity] nor name = value");
+    if (item.kind == IniItem::Section) {
+        if (!Keyring::isIdentity(item.name))
+            return QStringLiteral("'%1' is no identity; use 1 ... %2 letters, digits, '.', '-', '_'")
+                .arg(item.name)
+                .arg(Keyring::LongestIdentity);
+        for (const RightsSection &section : sections) {
+            if (section.identity == item.name)
+                return QStringLiteral("'%1' has a section in line %2 already").arg(item.name).arg(section.line);
+        }
+        return {};
+    }
+    if (sections.isEmpty())
+        return QStringLiteral("an entry before the first [identity]");
+    if (!keys.contains(item.name))
+        return QStringLiteral("unknown entry '%1'; use %2").arg(item.name, keys.join(QStringLiteral(", ")));
+    if (sections.constLast().values.contains(item.name))
+        return QStringLiteral("'%1' twice").arg(item.name);
+    return {};
+}
+
+}  // namespace
+
+bool RightsSection::parse(const QByteArray &text, const QString &fileName, const QStringList &keys,
+                          QVector<RightsSection> *sections, QString *error)
+{
+    IniParser parser(text);
+    for (IniItem item = parser.next(); item.kind != IniItem::End; item = parser.next()) {
+        const QString wrong = complaint(item, keys, *sections);
+        if (!wrong.isEmpty()) {
+            *error = QStringLiteral("%1: %2").arg(
+                placeOf(fileName, item.line, item.error.isEmpty() ? item.column : item.errorColumn), wrong);
+            return false;
+        }
+        if (item.kind == IniItem::Section)
+            sections->append({fileName, item.name, item.line, {}});
+        else
+            sections->last().values.insert(item.name, {item.value, item.line, item.valueColumn});
+    }
+    return true;
+}
+
+QString RightsSection::place(const QString &key) const
+{
+    const Value value = values.value(key);
+    return value.line > 0 ? placeOf(fileName, value.line, value.column) : placeOf(fileName, line, 1);
+}
+
+bool RightsSection::readRole(Role *role, QString *error) const
+{
+    const QString name = QStringLiteral("role");
+    if (const std::optional<Role> known = roleOf(value(name))) {
+        *role = *known;
+        return true;
+    }
+    *error = QStringLiteral("%1: '%2' has the role '%3'; use role = Observer, Operator, Node or Engineer")
+                 .arg(place(name), identity, value(name));
+    return false;
+}
+
+bool AccessList::read(const QString &fileName, QString *error)
+{
+    QFile file(fileName);
+    if (!file.open(QIODevice::ReadOnly)) {
+        *error = QStringLiteral("cannot open %1: %2").arg(fileName, file.errorString());
+        return false;
+    }
+    return parse(file.read(SecretFile::MaximumSize), fileName, error);
+}
+
+bool AccessList::parse(const QByteArray &text, const QString &fileName, QString *error)
+{
+    m_peers.clear();
+    QVector<RightsSection> sections;
+    const QString writes = QStringLiteral("writes");
+    if (!RightsSection::parse(text, fileName, {QStringLiteral("role"), writes}, &sections, error))
+        return false;
+    for (const RightsSection &section : qAsConst(sections)) {
+        Peer peer;
+        if (!section.readRole(&peer.role, error))
+            return false;
+        peer.mayWriteAll = !section.values.contains(writes);
+        for (const QString &pattern : section.value(writes).split(QLatin1Char(','), Qt::SkipEmptyParts))
+            peer.writes << pattern.trimmed();
+        if (peer.role == Role::Observer && !peer.writes.isEmpty()) {
+            *error = QStringLiteral("%1: '%2' is an Observer, who writes nothing; give it another role")
+                         .arg(section.place(writes), section.identity);
+            return false;
+        }
+        m_peers.insert(section.identity, peer);
+    }
+    return true;
+}
+
+void AccessList::apply(Peer *peer) const
+{
+    const auto known = m_peers.constFind(peer->identity);
+    if (known == m_peers.constEnd())
+        return;
+    peer->role = known->role;
+    peer->mayWriteAll = known->mayWriteAll;
+    peer->writes = known->writes;
+}
+
+}  // namespace qplc

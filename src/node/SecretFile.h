@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QtCore/QByteArray>
+#include <QtCore/QString>
+
+namespace qplc {
+
+/// A file that only its owner may read, like one with keys.
+class SecretFile
+{
+public:
+    static constexpr int MaximumSize = 1024 * 1024;  // [byte]
+
+    /// Reads a file of this user (or root's) whose mode gives nothing to anybody else.
+    /// \return false, with file and remedy in \a error, when it is not such a file
+    static bool read(const QString &fileName, QByteArray *content, QString *error);
+    /// Writes the file as a whole, or leaves it as it was; its mode becomes 0600.
+    static bool write(const QString &fileName, const QByteArray &content, QString *error);
+};
+
+}  // namespace qplc

@@ -1,0 +1,212 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Makes the inputs that the fuzzers begin with, and the words that they put into them, out of docs/protocol/vectors and signals.
+
+    make_corpus.py --check    says whether corpus/ and the dictionaries hold what this script makes (exit code 1 when not)
+    make_corpus.py --write    writes them
+"""
+import json
+import pathlib
+import re
+import struct
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
+VECTORS = ROOT / "docs/protocol/vectors"
+KINDS = {"Inputs": 1, "Outputs": 2, "GroupInputs": 3}
+
+
+def vectors(name):
+    return json.loads((VECTORS / f"{name}.json").read_text(encoding="utf-8"))
+
+
+def file_name(text):
+    return re.sub(r"[^a-z0-9]+", "_", text.lower().replace("+", "plus").replace("-", " minus ")).strip("_")
+
+
+# ---- signal tables: the text as it is -------------------------------------------------------------------------------
+
+ODD_TABLES = {
+    "every key": '[a]\ntype = Real\nunit = m/s ; of the wind\ndescription = "two\\nlines \\"quoted\\""\nmin = -1e3\nmax = 1e3\ninitial = 0.5\nsafe = 0\nhold = 3\n',
+    "byte order mark and crlf": "\ufeff; winch\r\n[a.b_1]\r\ntype = UInt8\r\nmax = 3\r\n\r\n# end\r\n",
+    "arrays and texts": '[m]\ntype = Real64[9]\ninitial = 1, 0, 0, 0, 1, 0, 0, 0, 1\n[t]\ntype = String(6)\ninitial = "H\u00f6he"\n[n]\ntype = DateTime\ninitial = 2026-01-31T12:00:00.5Z\n',
+    "everything wrong": "[]\n[a\n[a]\ntype\ntype = Reel\n[a]\ntype = Real\ntype = Real\nmin = 2\nmax = 1\ncolour = red\n[\u00e4]\ntype = Real[1]\n[b]\ntype = Int8\ninitial = 300\n",
+}
+
+
+def signal_tables():
+    files = {row["name"]: row["table"].encode() for row in vectors("layouts")["layouts"] if len(row["fields"]) < 100}
+    files.update({path.stem: path.read_bytes() for path in (ROOT / "signals").glob("*.ini")})
+    files.update({name: text.encode() for name, text in ODD_TABLES.items()})
+    return files
+
+
+# ---- control frames: the stream as it is ----------------------------------------------------------------------------
+
+def control_frames():
+    rows = vectors("control_frames")
+    files = {row["name"]: bytes.fromhex(row["hex"]) for row in rows["good"] + rows["bad"]}
+    files["several frames"] = b"".join(bytes.fromhex(row["hex"]) for row in rows["good"][:8])
+    return files
+
+
+# ---- cyclic frames: a channel, then frames --------------------------------------------------------------------------
+
+def channel(row, first_cycle=0):
+    seal = 0x80 if "key" in row else 0
+    sizes = [end - begin for begin, end in zip(row["borders"], row["borders"][1:])]
+    head = struct.pack("<BQHQQB", KINDS[row["kind"]] - 1 | seal, int(row["session"], 16), row["node"], int(row["layoutHash"], 16), first_cycle, len(sizes) - 1)
+    return head + b"".join(struct.pack("<H", size) for size in sizes)
+
+
+def frame(text, repair=0):
+    data = bytes.fromhex(text)
+    return struct.pack("<BH", repair, len(data)) + data
+
+
+def cyclic_frames():
+    """Sealed ones are sealed again (repair 1) with the key of the fuzzer."""
+    files = {}
+    for name, repairs in ("cyclic_frames", (0, 1)), ("sealed_frames", (1,)):
+        rows = vectors(name)
+        kind = name.split("_")[0]
+        for row in rows["frames"]:
+            files[f"{kind} {row['name']}"] = channel(row["channel"]) + b"".join(frame(f, repairs[0]) for f in row["frames"])
+        refused = rows["refused"]
+        for repair in repairs:
+            files[f"{kind} refused {repair}"] = channel(refused["channel"]) + b"".join(frame(row["hex"], repair) for row in refused["frames"])
+        for row in rows["sequences"]:
+            files[f"{kind} {row['name']}"] = (channel(row["channel"], int(row["firstCycle"], 16))
+                                              + b"".join(frame(step["hex"], repairs[0]) for step in row["steps"]))
+    return files
+
+
+# ---- sessions: records of what, who, length, bytes ------------------------------------------------------------------
+
+MESSAGE, RAW, CONNECT, CLOSE, ANSWER, ATTACH, TIME_OUT, EVENTS = range(8)
+NUMBERS = {row["kindName"]: row["kind"] for row in vectors("control_frames")["good"]}
+
+
+def record(what, who=0, data=b""):
+    return struct.pack("<BBH", what, who, len(data)) + data
+
+
+def message(who, kind, **fields):
+    body = json.dumps(fields, sort_keys=True, separators=(",", ":"), ensure_ascii=False).encode() if fields else b""
+    return record(MESSAGE, who, bytes([NUMBERS[kind]]) + body)
+
+
+def hello(who, name, role="node", **more):
+    return record(CONNECT) + message(who, "Hello", protocol=1, name=name, uuid=f"6f1f6f5a-7a5e-4b57-9d0c-3a2f4cf0b1d{who}", role=role,
+                                     features=["sameCycle", "leases", "events"], **more)
+
+
+def register(who, name, cyclic="udp", inputs=(("tetherSpeed", "Real32", "m/s"),), outputs=(("tetherLength", "Real64", "m"),), **more):
+    def described(rows):
+        return [dict(name=n, type=t, unit=u) for n, t, u in rows]
+    return message(who, "Register", **dict(dict(name=name, policy="ErrorZeroOrderHold", listener=False, cyclic=cyclic, udpPort=40000 + who,
+                                                inputs=described(inputs), outputs=described(outputs)), **more))
+
+
+def give_outputs(who, values="AAAAAADAckA="):
+    return message(who, "ReceiveMyInitialOutputStates", values=values)
+
+
+def sessions():
+    winch = hello(0, "Winch") + register(0, "Winch")
+    other = hello(1, "Model") + register(1, "Model", inputs=[("tetherLength", "Real64", "m")], outputs=[("position", "Real32[3]", "")])
+    tool = hello(2, "Anna", "tool")
+    start = message(0, "StartRealTime") + give_outputs(0) + message(0, "Initialized") + message(0, "RealTimeReady") + record(EVENTS)
+    values = struct.pack("<BIId", 0, 0, 1000, 300.0)
+    commands = (message(2, "GetState") + message(2, "GetSignals") + message(2, "GetSignals", names=["tetherSpeed"]) + message(2, "GetSchedule")
+                + message(2, "GetStatistics", histograms=True) + message(2, "GetEvents", since=1) + message(2, "GetLeases"))
+    settings = (message(2, "SetSignals", values=dict(tetherSpeed="-1.5", mode="2")) + message(2, "SetSignals", values=dict(tetherSpeed="2"), duration=2500000000)
+                + message(2, "SetSignals", values=dict(title="kite", now="2026-01-31T12:00:00Z", position="1, -2.5, 3")))
+    leases = (message(2, "TakeLease", signals=["tetherLength"], values=dict(tetherLength="5"), whoever="Anna at desk 3", timeout=500000000)
+              + message(0, "TakeLease", signals=["tetherLength"], takeOver=True) + message(2, "ReleaseLease", signals=["tetherLength"])
+              + message(0, "ReleaseLease"))
+    good = vectors("control_frames")["good"]
+    every = b"".join(record(RAW, 0, bytes.fromhex(row["hex"])) for row in good)
+    tools_all = record(CONNECT) + record(CONNECT) + tool
+    return {
+        "register and leave": winch + record(CLOSE, 0),
+        "initialize": winch + message(0, "InitializeAllStates") + give_outputs(0) + message(0, "Initialized"),
+        "start and stop": winch + start + message(0, "GetState") + message(0, "Stop"),
+        "answers": winch + record(ANSWER, 0, values) + record(ANSWER, 0, struct.pack("<BIId", 2, 1, 0, float("nan"))) + record(ANSWER, 0, values),
+        "tcp": hello(0, "Winch") + register(0, "Winch", "tcp") + record(ATTACH),
+        "local": hello(0, "Winch") + register(0, "Winch", "local") + start,
+        "multicast": hello(0, "Winch") + register(0, "Winch", "udp-multicast") + start,
+        "listener": hello(0, "View") + register(0, "View", listener=True, outputs=[]) + start,
+        "two nodes": winch + other + message(1, "StartRealTime") + give_outputs(0) + give_outputs(1, "AAAAAAAAAAAAAAAA") + message(0, "Initialized")
+                     + message(1, "Initialized") + message(0, "RealTimeReady") + message(1, "RealTimeReady") + message(0, "NodeFault", text="sensor lost"),
+        "joins while others run": winch + start + other + give_outputs(1, "AAAAAAAAAAAAAAAA") + message(1, "Initialized") + message(1, "RealTimeReady"),
+        "a node that does not answer": winch + message(0, "InitializeAllStates") + record(TIME_OUT),
+        "outputs of a wrong size": winch + message(0, "InitializeAllStates") + give_outputs(0, "AAAA"),
+        "the same node again": winch + record(CONNECT) + message(1, "Hello", protocol=1, name="Winch", uuid="6f1f6f5a-7a5e-4b57-9d0c-3a2f4cf0b1d0", role="node", features=[])
+                               + register(1, "Winch", uuid="6f1f6f5a-7a5e-4b57-9d0c-3a2f4cf0b1d0"),
+        "the same output": winch + hello(1, "Model") + register(1, "Model"),
+        "a loop": winch + hello(1, "Model") + message(1, "Register", name="Model", policy="SilentWait", listener=False, cyclic="udp", udpPort=4, twoPhase=True,
+                                                      inputs=[dict(name="tetherLength", type="Real64", unit="m", sameCycle=True)],
+                                                      outputs=[dict(name="tetherSpeed", type="Real32", unit="m/s")]),
+        "commands": winch + start + tools_all + commands,
+        "settings": tools_all + settings + record(CLOSE, 2),
+        "leases": winch + tools_all + leases + record(CLOSE, 2),
+        "every message before hello": every,
+        "every message of a tool": hello(0, "Anna", "tool") + every[:3000],
+        "garbage": record(RAW, 0, b"GET / HTTP/1.1\r\n\r\n") + record(CONNECT) + record(RAW, 1, b"\xff" * 64),
+    }
+
+
+# ---- words that inputs are made of ----------------------------------------------------------------------------------
+
+KEYS = ["type", "unit", "description", "min", "max", "initial", "safe", "hold", "Bool", "Byte", "Int", "Int64", "UInt16", "Real", "Real64", "RealTriple",
+        "String", "String(", "DateTime", " = ", " ; ", "\\n", "\\\"", "1e308", "2026-01-31T12:00:00Z"]
+
+
+def texts_of(value):
+    """Names and short texts of a JSON value."""
+    if isinstance(value, dict):
+        return set(value).union(*(texts_of(v) for v in value.values()))
+    if isinstance(value, list):
+        return set().union(*(texts_of(v) for v in value))
+    return {value} if isinstance(value, str) and re.fullmatch(r"[!-~]{1,24}", value) and value.isalpha() else set()
+
+
+def dictionary(words):
+    escaped = (word.replace("\\", "\\\\").replace('"', '\\"') for word in words)
+    return "".join(f'"{word}"\n' for word in escaped).encode()
+
+
+def dictionaries():
+    fields = set().union(*(texts_of(row["fields"]) for row in vectors("control_frames")["good"]))
+    return {"keys.dict": dictionary(KEYS), "fields.dict": dictionary(sorted(word for word in fields if word.isascii()))}
+
+
+# ---- files ----------------------------------------------------------------------------------------------------------
+
+def main():
+    if sys.argv[1:] not in (["--check"], ["--write"]):
+        sys.exit(__doc__)
+    wanted = {HERE / name: data for name, data in dictionaries().items()}
+    for folder, files in (("signal_table", signal_tables()), ("control_frames", control_frames()), ("cyclic_frames", cyclic_frames()),
+                          ("session", sessions())):
+        for name, data in files.items():
+            path = HERE / "corpus" / folder / file_name(name)
+            assert path not in wanted, f"two inputs are called {path}"
+            wanted[path] = data
+    found = {path: path.read_bytes() for path in [*HERE.glob("*.dict"), *HERE.glob("corpus/*/*")] if path.is_file()}
+    if sys.argv[1] == "--check":
+        different = sorted(str(path.relative_to(HERE)) for path in wanted.keys() | found.keys() if wanted.get(path) != found.get(path))
+        if different:
+            sys.exit(f"{', '.join(different[:10])}: not what this script makes; remedy: tests/fuzz/make_corpus.py --write")
+        return
+    for path in found.keys() - wanted.keys():
+        path.unlink()
+    for path, data in wanted.items():
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(data)
+
+
+if __name__ == "__main__":
+    main()

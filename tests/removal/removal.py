@@ -1,0 +1,128 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Takes the defences of QtPLC away, one after the other, in a copy of the sources, and sees whether the test notices that is said to show the defence.
+
+usage: removal.py [--work FOLDER] [--only WORD] [--check] SOURCE_FOLDER
+
+--work FOLDER  keeps the copy and its build there: the next call is faster
+--only WORD    only the faults with this word in their names
+--check        builds nothing: sees whether all that is to be taken away is there, and all tests are
+"""
+import argparse
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from removals import REMOVALS
+
+PATIENCE = 60  # [s] of a test that nothing ends without its defence
+
+
+def test_exists(root, removal):
+    sources = [path.read_text() for path in (root / "tests").rglob(removal.program + ".cpp")]
+    return any(re.search(rf"void (?:\w+::)?{removal.test}\(\)", source) for source in sources)
+
+
+def errors_of(root, removals):
+    """What has changed since the list was written."""
+    errors = []
+    for removal in removals:
+        count = (root / removal.file).read_text().count(removal.old)
+        if count != 1:
+            errors.append(f"{removal.fault}: {removal.file} has what is to be taken away {count} times, not once")
+        if not test_exists(root, removal):
+            errors.append(f"{removal.fault}: there is no {removal.program}::{removal.test}")
+    return errors
+
+
+def copy(root, target):
+    """The files of the repository; those that are the same keep their times, so that little is built again."""
+    listed = subprocess.run(["git", "-C", root, "ls-files", "-z", "--cached", "--others", "--exclude-standard"], capture_output=True, check=True)
+    for name in filter(None, listed.stdout.decode().split("\0")):
+        source, place = root / name, target / name
+        if not source.is_file() or (place.is_file() and place.read_bytes() == source.read_bytes()):
+            continue
+        place.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(source, place)
+        shutil.copymode(source, place)
+
+
+def run(*command, **options):
+    return subprocess.run([str(word) for word in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, **options)
+
+
+def build(folder, *targets):
+    result = run("cmake", "--build", folder, "--parallel", 2, "--target", *targets)
+    return None if result.returncode == 0 else result.stdout
+
+
+def passes(folder, removal):
+    try:
+        return run(folder / "bin" / removal.program, removal.test, timeout=PATIENCE, cwd=folder).returncode == 0
+    except subprocess.TimeoutExpired:
+        return False
+
+
+def outcome(source, folder, removal):
+    """What the test says without the defence."""
+    path = source / removal.file
+    text = path.read_text()
+    path.write_text(text.replace(removal.old, removal.new))
+    try:
+        log = build(folder, removal.program)
+        if log:
+            return "NOT BUILT: " + next((line for line in log.split("\n") if "error" in line), "")
+        return "NOT NOTICED" if passes(folder, removal) else "noticed"
+    finally:
+        path.write_text(text)
+
+
+def prove(root, work, removals):
+    source, folder = work, work / "build/removal"
+    copy(root, source)
+    # As the preset release says, so that a compiler cache knows most of it.
+    options = ["-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG", "-DQTPLC_WARNINGS_AS_ERRORS=ON", "-DQTPLC_BUILD_GUI=OFF",
+               "-DQTPLC_BUILD_EXAMPLES=OFF", "-DQTPLC_BUILD_BENCHMARKS=OFF"]
+    configured = run("cmake", "-S", source, "-B", folder, "-G", "Ninja", *options)
+    log = configured.stdout if configured.returncode != 0 else build(folder, *sorted({removal.program for removal in removals}))
+    if log:
+        sys.exit(log)
+    failed = 0
+    for removal in removals:
+        result = outcome(source, folder, removal)
+        failed += result != "noticed"
+        print(f"{result:12} {removal.fault:55} {removal.program}::{removal.test}", flush=True)
+    log = build(folder, *sorted({removal.program for removal in removals}))
+    broken = sorted({f"{removal.program}::{removal.test}" for removal in removals if log or not passes(folder, removal)})
+    for test in broken:
+        print(f"fails with its defence, too: {test}")
+    print(f"{len(removals)} defences taken away, {failed} of them without notice")
+    return 1 if failed or broken else 0
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--work", type=Path)
+    parser.add_argument("--only", default="")
+    parser.add_argument("--check", action="store_true")
+    parser.add_argument("root", type=Path)
+    arguments = parser.parse_args()
+    root = arguments.root.resolve()
+    removals = [removal for removal in REMOVALS if arguments.only in removal.fault]
+    errors = errors_of(root, removals)
+    if errors or not removals:
+        sys.exit("\n".join(errors) or f"no fault has '{arguments.only}' in its name")
+    if arguments.check:
+        print(f"{len(removals)} defences are where they were")
+        return 0
+    if arguments.work:
+        return prove(root, arguments.work.resolve(), removals)
+    with tempfile.TemporaryDirectory(prefix="qtplc-removal-") as work:
+        return prove(root, Path(work), removals)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
