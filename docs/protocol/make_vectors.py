@@ -17,7 +17,7 @@ import sys
 FOLDER = pathlib.Path(__file__).resolve().parent / "vectors"
 
 INPUTS, OUTPUTS, GROUP_INPUTS = 1, 2, 3
-RESENT, FAULT, PART = 0x01, 0x02, 0x80
+RESENT, FAULT, SAFE_STOP, PART = 0x01, 0x02, 0x04, 0x80
 VERSION = 1
 SESSION = 0x8F3A61C2D4E5B097
 
@@ -301,6 +301,9 @@ def make_cyclic():
         good_frame("the same, resent", example, 42, 1000, payload, RESENT),
         good_frame("the answer", answer, 42, 25000, struct.pack("<d", 1234.5)),
         good_frame("the answer of a node with a fault", answer, 43, 0, struct.pack("<d", 1234.5), FAULT),
+        good_frame("the master stops safely", example, 44, 1000, bytes(12), SAFE_STOP),
+        good_frame("the answer of a node in its safe state", answer, 44, 0, bytes(8), SAFE_STOP),
+        good_frame("the answer of a node in its safe state, with a fault", answer, 45, 0, bytes(8), SAFE_STOP | FAULT),
         good_frame("no signal", Channel(OUTPUTS, 1, fnv1a64(b""), [0, 0], 1), 0, 0, b""),
         good_frame("largest numbers", example, 0xFFFFFFFF, 0xFFFFFFFF, b"\xff" * 12, 0x7F),
         good_frame("one byte", Channel(INPUTS, 3, 5, [0, 1]), 1, 2, b"\x5a"),
@@ -473,6 +476,19 @@ def example_messages():
         (65, "GetEvents", dict(since=41)),
         (66, "Events", dict(more=False, events=[dict(sequence=42, time=hex64(1767225600123456789), severity="warning", kind="node", source="Winch",
                                                      text="node Winch has left: it closed the connection")])),
+        (25, "SafeStop", dict(reason="smoke at the winch")),
+        (25, "SafeStop", {}),
+        (26, "Reset", {}),
+        (27, "Arm", {}),
+        (28, "Armed", dict(token="00f1e2d3c4b5a697", validFor=5000000000)),
+        (20, "StartRealTime", dict(cycles=1000, token="00f1e2d3c4b5a697")),
+        (2, "Register", dict(name="Winch", uuid=uuid, policy="SafeStopWhenLate", listener=False, critical=True, cyclic="udp", udpPort=40123,
+                             inputs=[dict(name="tetherSpeed", type="Real32", unit="m/s")], outputs=[])),
+        (31, "State", dict(state="SafeStop", reason="critical node 'Winch' has left: it closed the connection", remains="node 'Winch' is not back; start it again",
+                           armed=False, armingRequired=True, cycle=hex64(4711), period=10000000, clock="RealTime", scale=1,
+                           session=hex64(SESSION), counters=dict(cycles=4711), digest=hex64(1),
+                           nodes=[dict(name="Model", id=8, inputs=1, outputs=1, listener=False, critical=False, state="SafeStop", policy="ErrorZeroOrderHold",
+                                       transport="udp", address="127.0.0.1:41000", lateAnswers=0, duplicates=0, rejected=0, resent=0)])),
         (50, "GetStatistics", {}),
         (50, "GetStatistics", dict(histograms=True)),
         (51, "Statistics", example_statistics()),

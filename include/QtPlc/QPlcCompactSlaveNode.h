@@ -75,6 +75,7 @@ private:
     void resetFrame(char *outputs) override;
     void initializeFrame(const char *inputs) override;
     void stepFrame(const QPlcCycle &cycle, const char *inputs, char *outputs) override;
+    void safeFrame(SafeStateReason reason, const char *safeInputs) override;
     void load(const char *inputs);
     void store(char *outputs) const;
 

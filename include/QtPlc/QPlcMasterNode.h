@@ -51,9 +51,12 @@ class QTPLC_EXPORT QPlcMasterNode : public QObject
 public:
     enum State : quint8 {
         Off,
-        Initializing,
+        Initializing,  ///< an initialization, or a start, is under way
+        Ready,         ///< all nodes are initialized: can be armed and started
         RealTime,
-        WaitingForLateSlaves  ///< a node with a Wait policy has not answered: time stands still
+        WaitingForLateSlaves,  ///< a node with a Wait policy has not answered: time stands still
+        SafeStop,  ///< latched: cycles go on, all nodes are told their safe values and compute nothing, until reset()
+        Fault      ///< it cannot run: no port, or no cycle thread; until reset() or a startServer() that succeeds
     };
     Q_ENUM(State)
 
@@ -112,6 +115,19 @@ public:
     /// Longest wait for each answer of a node during initialization and start; 2 s unless set.
     void setInitializationTimeout(std::chrono::milliseconds time);
 
+    // ---- safe stop (docs/design/states.md) ----
+    // Besides these limits, safeStop(), a late node with the policy SafeStopWhenLate, and a critical node that is lost, fails or is late too often
+    // (QPlcSlaveNode::setCritical()) lead to State::SafeStop. All limits take effect at the next start.
+    /// Longest stay in WaitingForLateSlaves, by the clock of the master; 5 s unless set, 0: for ever. Lockstep waits for ever.
+    void setLongestWait(std::chrono::nanoseconds time);
+    /// Longest time by which a cycle may begin late (the program was stopped, the computer slept); 1 s unless set, 0: any. Lockstep has none.
+    void setGapLimit(std::chrono::nanoseconds time);
+    /// Overruns in a row that are too many; 0 (unless set): any number is borne, as on a computer that does other things, too.
+    void setOverrunLimit(int overruns);
+    /// Whether a start needs arm() before; unless set it does not.
+    void setArmingRequired(bool required);
+    bool isArmingRequired() const;
+
     // ---- nodes ----
     /// Accepts nodes at the address and port of \a protocol: control over TCP, cyclic frames over TCP and UDP, as each node likes. Port 0 takes a free one.
     /// An address that is not loopback is bound only after setInsecureNetworkAllowed(true); else the server listens on loopback, and says so.
@@ -155,6 +171,12 @@ public:
 
     // ---- state ----
     State state() const;
+    /// Why the state is SafeStop or Fault, with names; else empty.
+    QString stateReason() const;
+    /// What still keeps reset() from leaving SafeStop, with names; empty: nothing.
+    QString causeThatRemains() const;
+    /// Whether arm() was called, and the start is still to come.
+    bool isArmed() const;
     Error error() const;
     /// What went wrong last, with the remedy; empty: nothing.
     QString errorString() const;
@@ -176,10 +198,18 @@ public:
 public Q_SLOTS:
     /// Asks all nodes for their initial outputs and gives all of them their initial inputs; statesInitialized() or errorOccurred() follows.
     bool initializeAllStates();
+    /// Permits one start within the next 5 s: the first of two steps, so that nothing moves by a single mistake. \return false unless the state is Ready
+    bool arm();
     /// Begins the real-time phase, after an initialization if there was none since the last phase; stateChanged(RealTime) or errorOccurred() follows.
+    /// \return false when arming is required and arm() was not called in the last 5 s, or when the state does not permit it
     bool startRealTime();
-    /// Ends the real-time phase. Outputs keep their values.
+    /// Ends the real-time phase: nodes go to their safe state, signals keep their values here. SafeStop stays what it is.
     void stop();
+    /// Stops safely, and latches: from the next cycle on all nodes are told their safe values and compute nothing. When no cycle runs, what was begun or armed
+    /// ends, and the state is Off.
+    void safeStop(const QString &reason = QString());
+    /// Leaves SafeStop or Fault for Off. \return false when the cause is still there: errorString() tells which, and what to do
+    bool reset();
 
 Q_SIGNALS:
     void stateChanged(QPlcMasterNode::State state);
@@ -192,6 +222,8 @@ Q_SIGNALS:
     void realTimeHasStopped();
     /// A node with an Error policy had not answered in cycle \a cycle when its time was over.
     void realTimeViolated(const QString &name, quint64 cycle);
+    /// From stateChanged(SafeStop) on; \a reason is that of stateReason().
+    void safelyStopped(const QString &reason);
     /// Somebody has taken, released or lost a lease: leases() has changed.
     void leaseChanged();
     void errorOccurred(QPlcMasterNode::Error error);

@@ -36,6 +36,10 @@ public:
         RealTimeReady = 22,                 ///< node -> master: waiting for the first cyclic frame
         Stop = 23,                          ///< anyone -> master
         RealTimeStopped = 24,               ///< master -> node
+        SafeStop = 25,                      ///< anyone -> master: stops safely, until Reset
+        Reset = 26,                         ///< anyone -> master: leaves SafeStop or Fault
+        Arm = 27,                           ///< anyone -> master: permits one StartRealTime
+        Armed = 28,                         ///< master -> asker: token, and how long it is valid
         GetState = 30,                      ///< anyone -> master
         State = 31,                         ///< master -> asker
         GetSignals = 32,                    ///< anyone -> master: names, or none for all

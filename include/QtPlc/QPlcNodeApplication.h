@@ -4,7 +4,7 @@
 #include "QPlcCoreApplication.h"
 #include "QPlcSlaveNode.h"
 
-/// The program around one node, with the options that all nodes have: --master, --signals, --name, --watchdog, --same-cycle, --priority, --cpu, ...
+/// The program around one node, with the options that all nodes have: --master, --signals, --name, --watchdog, --critical, --stay, --same-cycle, --priority, --cpu, ...
 ///
 /// The usual main():
 /// ```cpp

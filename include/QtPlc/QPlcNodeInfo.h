@@ -15,6 +15,9 @@ struct QPlcNodeInfo
     QString address;    ///< "127.0.0.1:40312"; empty for a local node
     QString policy;     ///< name of the RealTimeViolationPolicy
     bool listener = false;
+    bool critical = false;
+    QString
+        state;  ///< name of a QPlcSlaveNode::State, as far as the master knows: "Registered", "Initializing", "Ready", "RealTime", "SafeStop", "Fault"
     int every = 1;   ///< cycles for each frame that a listener gets
     int inputs = 0;  ///< number of signals
     int outputs = 0;

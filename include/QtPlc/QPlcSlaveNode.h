@@ -58,18 +58,43 @@ public:
         SilentZeroOrderHold,  ///< goes on with the last values
         ErrorZeroOrderHold,   ///< goes on with the last values and reports
         SilentWait,           ///< time stands still until the answer is there
-        ErrorWait             ///< as SilentWait, and reports
+        ErrorWait,            ///< as SilentWait, and reports
+        SafeStopWhenLate      ///< reports, and the whole plant stops safely
     };
     Q_ENUM(RealTimeViolationPolicy)
 
     enum State : quint8 {
         Disconnected,
         Connecting,
-        Off,  ///< registered; no cycles
+        Registering,  ///< connected; the master has not accepted yet
+        Rejected,     ///< the master has refused, for a reason that does not pass by itself
+        Registered,   ///< no cycles
         Initializing,
-        RealTime
+        Ready,  ///< initialized
+        RealTime,
+        SafeStop,  ///< its safe state: told so by the master, or by the silence or loss of it
+        Fault,     ///< its own code has failed: safe state until the next initialization
+        Off = Registered
     };
     Q_ENUM(State)
+
+    /// Why safeState() is called.
+    enum SafeStateReason : quint8 {
+        PhaseEnded,         ///< the master has stopped, or this node leaves
+        MasterStopsSafely,  ///< the master has told so: SafeStop
+        WatchdogReason,     ///< no frame within the watchdog time
+        MasterLost,         ///< the connection is gone
+        CodeFailed          ///< realTimeout() or step() of this node threw
+    };
+    Q_ENUM(SafeStateReason)
+
+    /// When the node connects again by itself, after 0.1 s at first, and then at longer and longer intervals up to 5 s.
+    enum ReconnectPolicy : quint8 {
+        NeverReconnect,
+        ReconnectWhenLost,  ///< after it was registered and has lost its master; not when the master ended as wanted
+        ReconnectAlways     ///< for ever, also when the master is not there yet, ends, or refuses
+    };
+    Q_ENUM(ReconnectPolicy)
 
     enum Error {
         NoError,
@@ -97,6 +122,14 @@ public:
     void setListener(bool listener);
     bool isListener() const;
 
+    /// A critical node is one that the plant must not go on without: when it is lost, fails, or is late too often (each late answer counts 2, each one in time
+    /// takes 1 off, 10 are too many), the master stops safely. A node is not critical unless set, and a listener never is. \pre not connected
+    void setCritical(bool critical);
+    bool isCritical() const;
+
+    /// ReconnectWhenLost unless set.
+    void setReconnectPolicy(ReconnectPolicy policy);
+    ReconnectPolicy reconnectPolicy() const;
     /// Lets a listener without outputs hear fewer cycles, for a slow link or a slow reader: the first one at once, then the first one of each turn of \a cycles, counted from cycle 0 of the
     /// phase. The others are not sent, and their values are nowhere: a peak between two frames is not seen. They are not missed either: QPlcCycle::missedCycles() and Counters::missed
     /// then count turns. A master that does not know of this sends every cycle.
@@ -132,7 +165,9 @@ public:
     /// Writes the workload [s] into the signal \a signalName (Real32 or Real64), which becomes an output of this node: the time from the frame at hand
     /// to the answer ready to be sent, in the same cycle; 0 in lockstep, where results must not depend on the machine.
     void activateWorkloadMeasurement(const QString &signalName);
-    /// Reports when no frame has come for \a time (of the master's clock) during the real-time phase: watchdogTimedOut().
+    /// When no frame has come for \a time (of the master's clock) during the real-time phase, the node goes to its safe state by itself: safeState(), watchdogTimedOut().
+    /// It drops its connection then, and connects again. A master that waits for a late node sends nothing to others: be longer than what it may wait
+    /// (QPlcMasterNode::setLongestWait()) where nodes have a Wait policy. 0: never.
     void activateWatchdog(std::chrono::nanoseconds time);
     void activateWatchdog(double seconds) { activateWatchdog(std::chrono::nanoseconds(qRound64(seconds * 1e9))); }
 
@@ -189,6 +224,8 @@ Q_SIGNALS:
     void realTimeHasStopped();
     /// No frame since the one of cycle \a cycle for longer than the watchdog time.
     void watchdogTimedOut(quint64 cycle);
+    /// safeState() has been called.
+    void safeStateEntered(QPlcSlaveNode::SafeStateReason reason);
     /// A message of the master that this class has no use for (State, Signals, Done, Failed, StatesInitialized).
     void messageReceived(const QPlcMessage &message);
 
@@ -207,6 +244,11 @@ protected:
     virtual QPlcSignalList outputSignals() { return {}; }
     /// Two-phase node: moves the state on with the inputs of the cycle at hand, cycle().
     virtual void updateStates(const QPlcSignalList &inputSignals) { Q_UNUSED(inputSignals) }
+    /// Brings what this node drives into its safe state. Its outputs have their safe values from here on (`safe` of the signal table, else 0), without being asked,
+    /// and the inputs of a node with ports (QPlcInput) have theirs now.
+    /// Called once at the end of each real-time phase at the latest, before stopped(); on the thread of realTimeout() when it is urgent (master, watchdog, fault), else in
+    /// the thread of the object; never while another function of the node runs. The rules of realTimeout() hold: short, and without waiting.
+    virtual void safeState(SafeStateReason reason) { Q_UNUSED(reason) }
     /// The real-time phase has ended.
     virtual void stopped() {}
 
@@ -228,9 +270,11 @@ private:
     virtual void resetFrame(char *outputs);
     virtual void initializeFrame(const char *inputs);
     virtual void stepFrame(const QPlcCycle &cycle, const char *inputs, char *outputs);
+    virtual void safeFrame(SafeStateReason reason, const char *safeInputs);
 
     std::unique_ptr<QPlcSlaveNodePrivate> d;
 };
 
 Q_DECLARE_METATYPE(QPlcSlaveNode::Error)
 Q_DECLARE_METATYPE(QPlcSlaveNode::State)
+Q_DECLARE_METATYPE(QPlcSlaveNode::SafeStateReason)

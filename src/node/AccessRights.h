@@ -76,6 +76,10 @@ constexpr Roles whoMaySend(QPlcMessage::Kind kind)
     case Kind::RealTimeReady:                return everybody;
     case Kind::Stop:                         return everybody;
     case Kind::RealTimeStopped:              return nobody;
+    case Kind::SafeStop:                     return everybody;
+    case Kind::Reset:                        return operators;
+    case Kind::Arm:                          return operators;
+    case Kind::Armed:                        return nobody;
     case Kind::GetState:                     return everybody;
     case Kind::State:                        return nobody;
     case Kind::GetSignals:                   return everybody;
@@ -101,11 +105,12 @@ constexpr Roles whoMaySend(QPlcMessage::Kind kind)
 }
 #pragma GCC diagnostic pop
 
-/// Whether a message of \a kind does something to the plant, and is written down: what not everybody may do, and Stop.
+/// Whether a message of \a kind does something to the plant, and is written down: what not everybody may do, Stop and SafeStop.
 constexpr bool isCommand(QPlcMessage::Kind kind)
 {
     const Roles roles = whoMaySend(kind);
-    return kind == QPlcMessage::Stop || (!roles.isEmpty() && !roles.contains(Role::Observer));
+    return kind == QPlcMessage::Stop || kind == QPlcMessage::SafeStop
+        || (!roles.isEmpty() && !roles.contains(Role::Observer));
 }
 
 /// Who is at the other end of a control connection, as far as it was proven.

@@ -23,7 +23,14 @@ struct CycleEvent
         LinkClosed,        // node: its cyclic connection is gone
         WatchdogTimedOut,  // cycle: no frame since
         Overrun,           // cycle, duration: it is that late, and the policy is Stop
-        Ended              // cycle: the cycle thread has left its loop
+        // The master stops safely from this cycle on, because of
+        TrippedByLateAnswer,   // node, cycle: its policy
+        TrippedByLateAnswers,  // node, cycle: a critical node is late too often
+        TrippedByWait,         // node, cycle, duration: it was waited for so long
+        TrippedByGap,          // cycle, duration: no cycle could begin for so long
+        TrippedByOverruns,     // cycle: too many in a row
+        ToldSafeStop,          // cycle: the master has told a node to be safe
+        Ended                  // cycle: the cycle thread has left its loop
     };
     Kind kind = Ended;
     std::uint16_t node = 0;

@@ -41,6 +41,7 @@ struct MasterConnection
     qint64 stageSince = 0;           // [ms] for time-outs
     bool wantsLeases = false;        // has offered the feature, and so the next ones
     bool wantsEvents = false;
+    bool hasFailed = false;  // has sent NodeFault since it was initialized last
     bool leasesDue = false;  // they have changed and it was not told yet
     quint64 eventsTold = 0;  // sequence number of the newest event that was sent
 

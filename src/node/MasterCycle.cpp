@@ -12,7 +12,8 @@ MasterCycle::MasterCycle(const QPlcSignalTable &table, CyclicHub &hub, bool tapF
     , m_image(table)
     , m_hub(hub)
     , m_reports(tapFrames)
-    , m_exchange(m_image, m_hub, m_reports, m_statistics, m_time, m_stop)
+    , m_guard(m_reports)
+    , m_exchange(m_image, m_hub, m_reports, m_statistics, m_time, m_guard, m_stop)
     , m_snapshot(m_image.size())
     , m_roster(std::make_unique<Roster>())
 {
@@ -41,10 +42,16 @@ bool MasterCycle::start(const Phase &phase)
     for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
         slot->decoder.restart(m_cycleZero);
         slot->faulted = slot->pending = false;
+        slot->bucket = 0;
+        slot->isSafe = false;
         slot->nextTurn = 0;
         if (slot->local)
-            slot->local->setLockstep(phase.clock.isLockstep(), m_time);
+            slot->local->beginPhase(phase.clock.isLockstep(), m_time);
     }
+    const bool isTimed = !phase.clock.isLockstep();
+    m_guard.start({isTimed ? phase.gapLimit.count() : 0,
+                   isTimed ? std::int64_t(double(phase.longestWait.count()) / phase.clock.scale()) : 0,
+                   isTimed ? phase.overrunLimit : 0});
     m_exchange.start(*m_clock, phase.period, phase.clock, m_cycleZero, phase.realTimeOptions.spin);
     m_snapshot.publish(m_image.data(), 0);
     return m_thread.start(QStringLiteral("qtplc-master"), phase.realTimeOptions, [this] { run(); });
@@ -154,6 +161,10 @@ void MasterCycle::run() noexcept
         const CycleClock::Tick tick = m_clock->next(shouldStop);
         if (tick.interrupted || isBeyondLimit(tick.cycle))
             break;
+        if (tick.stopped && m_guard.isTripped()) {
+            m_clock->shift(tick.lateness);  // whoever is to be safe must go on hearing it
+            continue;
+        }
         if (tick.stopped) {
             m_reports.post({CycleEvent::Overrun, 0, 0, tick.cycle, tick.lateness});
             break;
@@ -161,6 +172,8 @@ void MasterCycle::run() noexcept
         runCycle(tick);
         if (isBeyondLimit(m_number + 1))
             break;
+        if (m_guard.isTripped() && m_phase.clock.isLockstep())
+            pause();
     }
     m_statistics.fold();
     for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes)
@@ -168,13 +181,23 @@ void MasterCycle::run() noexcept
     m_reports.post({CycleEvent::Ended, 0, 0, m_number});
 }
 
+/// Nobody is waited for in a safe stop: in lockstep something else has to hold the cycles back.
+void MasterCycle::pause() noexcept
+{
+    constexpr std::int64_t longest = 50'000'000;  // [ns] a stop is never noticed later than this
+    m_time.sleepUntil(m_time.now() + std::min(m_phase.period.count(), longest));
+}
+
 /// One cycle. Everything that happens in it stands here, in order.
 void MasterCycle::runCycle(const CycleClock::Tick &tick) noexcept
 {
     m_number = tick.cycle;
     m_statistics.begin(tick, m_clock->period());
+    m_guard.begin(tick, m_clock->period(), m_phase.clock.isLockstep() ? 0 : m_time.slept());
     takeCommands();
     writeOwnSignals(tick);
+    if (m_guard.isTripped())
+        m_roster->safeImage.applyTo(m_image.data());
     m_statistics.stageEnded(CycleStage::Commands, now());
     m_exchange.run(*m_roster, {m_number, tick.lateness, tick.deadline});
     finish();

@@ -7,6 +7,7 @@
 #include "NodeSlot.h"
 #include "QPlcClock.h"
 #include "QPlcOverrunPolicy.h"
+#include "SafetyGuard.h"
 #include "realtime/AlarmTime.h"
 #include "realtime/CycleClock.h"
 #include "realtime/CycleThread.h"
@@ -43,6 +44,9 @@ public:
         QPlcSignalIndex jitterSignal = QPlcInvalidSignalIndex;
         QPlcSignalIndex workloadSignal = QPlcInvalidSignalIndex;
         QPlcRealTimeOptions realTimeOptions;
+        std::chrono::nanoseconds gapLimit{0};     // but for lockstep; 0: none
+        std::chrono::nanoseconds longestWait{0};  // on the clock of the nodes, but for lockstep; 0: none
+        int overrunLimit = 0;                     // in a row; 0: none
     };
 
     /// \param time  instead of the clock of the machine; for tests
@@ -59,6 +63,9 @@ public:
     /// Waits until the cycle in progress has ended. The hub then holds the nodes of the last roster.
     void stop();
     bool isRunning() const { return m_thread.isRunning(); }
+    /// Lets the cycles be safe from the next one on: nodes are told their safe values and compute nothing, until stop().
+    void makeSafe() { m_guard.request(); }
+    bool isSafe() const { return m_guard.isTripped(); }
     QString errorString() const { return m_thread.errorString(); }
     /// Time between two cycles on the clock of the machine [ns]; 0 in lockstep.
     std::int64_t period() const { return m_clock ? m_clock->period() : 0; }
@@ -96,8 +103,9 @@ private:
     void runCycle(const CycleClock::Tick &tick) noexcept;
     bool isBeyondLimit(std::uint64_t cycle) const noexcept
     {
-        return m_phase.cycleLimit > 0 && cycle >= m_phase.cycleLimit;
+        return m_phase.cycleLimit > 0 && cycle >= m_phase.cycleLimit && !m_guard.isTripped();
     }
+    void pause() noexcept;
     void takeCommands() noexcept;
     void adoptPending() noexcept;
     void adopt(Roster *roster) noexcept;
@@ -116,6 +124,7 @@ private:
     CycleThread m_thread;
     CycleReports m_reports;
     std::atomic<bool> m_stop{false};
+    SafetyGuard m_guard;
     NodeExchange m_exchange;
     std::atomic<Roster *> m_pendingRoster{nullptr};
     SpscRing<Roster *> m_retiredRosters{64};

@@ -3,9 +3,11 @@
 #include "FrameLog.h"
 #include "Logging.h"
 #include "QPlcMasterNodePrivate.h"
+#include "QPlcSlaveNodePrivate.h"
 
 #include <algorithm>
 
+using Event = qplc::MasterEvent;
 using qplc::CycleEvent;
 using qplc::NodeSlot;
 
@@ -30,25 +32,28 @@ void QPlcMasterNodePrivate::report(const CycleEvent &event)
         Q_EMIT q->realTimeViolated(nodeName(event.node), event.cycle);
         break;
     case CycleEvent::WaitingForNode:
-        setState(isRunning() ? QPlcMasterNode::WaitingForLateSlaves : state);
+        apply(Event::WaitBegan);
         break;
     case CycleEvent::WaitingEnded:
-        setState(isRunning() ? QPlcMasterNode::RealTime : state);
+        apply(Event::WaitEnded);
         break;
     case CycleEvent::NotFinite: {
         const QString text = QStringLiteral("signal '%1' is not a finite number in cycle %2")
                                  .arg(table.at(event.signal).name)
                                  .arg(event.cycle);
         if (!dropFaulty(event.node, text))
-            fault(nodeName(event.node), QStringLiteral("node '%1': %2").arg(nodeName(event.node), text));
+            fault(nodeName(event.node), isCritical(event.node),
+                  QStringLiteral("node '%1': %2").arg(nodeName(event.node), text));
         break;
     }
     case CycleEvent::NodeFaulted: {
         const std::shared_ptr<NodeSlot> slot = registry->find(event.node);
         const QString what = slot && slot->local ? QString::fromLocal8Bit(slot->local->faultText())
                                                  : QStringLiteral("its code failed");
+        if (slot && slot->local)
+            slot->local->node().d->apply(qplc::SlaveEvent::CodeFailed);
         if (!dropFaulty(event.node, what))
-            fault(nodeName(event.node),
+            fault(nodeName(event.node), isCritical(event.node),
                   QStringLiteral("node '%1' in cycle %2: %3").arg(nodeName(event.node)).arg(event.cycle).arg(what));
         break;
     }
@@ -62,10 +67,18 @@ void QPlcMasterNodePrivate::report(const CycleEvent &event)
         stopAfterOverrun(event);
         break;
     case CycleEvent::Ended:
-        if (isRunning() && cycleLimit + m_cyclesWanted > 0)
-            stop(QStringLiteral("the cycle limit was reached"));
+        if (cycleLimit + m_cyclesWanted > 0)
+            apply(Event::CycleLimitReached, QStringLiteral("the cycle limit was reached"));
+        break;
+    case CycleEvent::TrippedByLateAnswer:
+    case CycleEvent::TrippedByLateAnswers:
+    case CycleEvent::TrippedByWait:
+    case CycleEvent::TrippedByGap:
+    case CycleEvent::TrippedByOverruns:
+        tripped(event);
         break;
     case CycleEvent::WatchdogTimedOut:
+    case CycleEvent::ToldSafeStop:
         break;
     }
 }
@@ -84,7 +97,7 @@ void QPlcMasterNodePrivate::stopAfterOverrun(const CycleEvent &event)
               .arg(double(event.duration) * 1e-6, 0, 'f', 3)
               .arg(double(cycle->period()) * 1e-6, 0, 'f', 3);
     setError(QPlcMasterNode::RealTimeError, text, qplc::NodeRegistry::masterName(), qplc::JournalEvent::Overrun);
-    stop(text);
+    apply(Event::OverrunStop, text);
 }
 
 /// A listener in another process cannot go on: it has to leave, and the plant goes on. \return false when the node is none
@@ -97,15 +110,20 @@ bool QPlcMasterNodePrivate::dropFaulty(quint16 id, const QString &text)
     return connection || (!slot && m_goneListeners.contains(id));  // gone: it has reported more than once
 }
 
-/// A node cannot go on: the plant stops. What follows from the first fault is its echo and says nothing new.
-void QPlcMasterNodePrivate::fault(const QString &node, const QString &text)
+bool QPlcMasterNodePrivate::isCritical(quint16 id) const
 {
-    if (m_step != Step::None) {
-        abortSequence(text);
-    } else if (isRunning()) {
+    const std::shared_ptr<NodeSlot> slot = registry->find(id);
+    return slot && slot->critical;
+}
+
+/// A node cannot go on: the plant stops. What follows from the first fault is its echo and says nothing new.
+void QPlcMasterNodePrivate::fault(const QString &node, bool isCritical, const QString &text)
+{
+    const bool isNews = isRunning() && state != QPlcMasterNode::SafeStop;
+    if (isNews)
         setError(QPlcMasterNode::NodeError, text, node, qplc::JournalEvent::Fault);
-        stop(text);
-    }
+    blame(node, false);
+    apply(isCritical ? Event::CriticalNodeFailed : Event::NodeFailed, text);
 }
 
 void QPlcMasterNodePrivate::nodeLost(Connection *connection, const QString &reason)
@@ -121,9 +139,23 @@ void QPlcMasterNodePrivate::nodeLost(Connection *connection, const QString &reas
         m_participants.erase(participant);
     if (connection->slot->listener)
         m_goneListeners.insert(connection->slot->id);
-    if (connection->stage == Connection::Running)
+    const bool wasRunning = connection->stage == Connection::Running;
+    if (wasRunning)
         giveRoster();
     Q_EMIT q->nodeLost(connection->name, reason);
+    const QString text = QStringLiteral("node '%1' has left: %2").arg(connection->name, reason);
     if (wasAwaited)
-        abortSequence(QStringLiteral("node '%1' has left: %2").arg(connection->name, reason));
+        sequenceFailed(text);
+    else if (wasRunning && connection->slot->critical)
+        criticalNodeLost(connection->name, text);
+    else if (connection->stage >= Connection::Attached && !connection->slot->listener)
+        apply(Event::NodeLeft, text);
+}
+
+void QPlcMasterNodePrivate::criticalNodeLost(const QString &node, const QString &text)
+{
+    if (state != QPlcMasterNode::SafeStop)
+        setError(QPlcMasterNode::NodeError, QStringLiteral("critical %1").arg(text), node, qplc::JournalEvent::Fault);
+    blame(node, true);
+    apply(Event::CriticalNodeLeft, QStringLiteral("critical %1").arg(text));
 }

@@ -19,6 +19,7 @@ std::vector<qplc::MasterConnection *> QPlcMasterNodePrivate::listeners() const
 void QPlcMasterNodePrivate::join(Connection *connection)
 {
     connection->stage = Connection::GivingOutputs;
+    connection->hasFailed = false;
     connection->send(Message::SendYourInitialOutputStates);
 }
 

@@ -17,6 +17,8 @@ QJsonObject nodeFields(const QPlcNodeInfo &node)
                        {QStringLiteral("inputs"), node.inputs},
                        {QStringLiteral("outputs"), node.outputs},
                        {QStringLiteral("listener"), node.listener},
+                       {QStringLiteral("critical"), node.critical},
+                       {QStringLiteral("state"), node.state},
                        {QStringLiteral("every"), node.every},
                        {QStringLiteral("policy"), node.policy},
                        {QStringLiteral("transport"), node.transport},
@@ -69,6 +71,10 @@ QJsonObject stateFields(const QPlcMasterNode &master, quint64 session)
         nodes.append(nodeFields(node));
     const QPlcMasterStatistics statistics = master.statistics();
     QJsonObject fields{{QStringLiteral("state"), stateName(master.state())},
+                       {QStringLiteral("reason"), master.stateReason()},
+                       {QStringLiteral("remains"), master.causeThatRemains()},
+                       {QStringLiteral("armed"), master.isArmed()},
+                       {QStringLiteral("armingRequired"), master.isArmingRequired()},
                        {QStringLiteral("cycle"), QPlcMessage::fromHex64(master.cycle())},
                        {QStringLiteral("period"), double(master.interval().count())},
                        {QStringLiteral("clock"), clockName(master.clock())},

@@ -6,25 +6,18 @@
 #include "QPlcSlaveNodePrivate.h"
 
 #include <algorithm>
+#include <utility>
 
+using Event = qplc::MasterEvent;
 using Message = QPlcMessage;
+using NodeEvent = qplc::SlaveEvent;
 using qplc::NodeSlot;
 
 // ---- initialization ----
 
 bool QPlcMasterNodePrivate::initializeAllStates()
 {
-    if (!prepare())
-        return false;
-    if (state != QPlcMasterNode::Off)
-        return setError(QPlcMasterNode::StateError,
-                        QStringLiteral("states can only be initialized while the master is off; stop it first"));
-    error = QPlcMasterNode::NoError;
-    errorString.clear();
-    m_startAfterwards = false;
-    setState(QPlcMasterNode::Initializing);
-    collectOutputs();
-    return error == QPlcMasterNode::NoError;
+    return prepare() && apply(Event::Initialize) && error == QPlcMasterNode::NoError;
 }
 
 /// Every node that is waited for now owes the answer that brings it to stage \a owed.
@@ -32,8 +25,10 @@ void QPlcMasterNodePrivate::begin(Step step, Connection::Stage owed)
 {
     m_step = step;
     m_owed = owed;
-    for (Connection *connection : m_participants)
+    for (Connection *connection : m_participants) {
         connection->stage = Connection::Stage(owed - 1);
+        connection->hasFailed = connection->hasFailed && step != Step::CollectOutputs;
+    }
     stepTimer.start();
 }
 
@@ -78,6 +73,8 @@ void QPlcMasterNodePrivate::continueSequence(Connection *connection, const Messa
 
 void QPlcMasterNodePrivate::collectOutputs()
 {
+    error = QPlcMasterNode::NoError;
+    errorString.clear();
     statisticSignals.reset(cycle.get());
     m_participants.clear();
     for (const std::unique_ptr<Connection> &connection : server->connections()) {
@@ -93,9 +90,10 @@ void QPlcMasterNodePrivate::collectOutputs()
         if (!slot->local)
             continue;
         QString text;
-        slot->local->node().d->setState(QPlcSlaveNode::Initializing);
+        slot->local->node().d->apply(NodeEvent::OutputsWanted);
         if (!slot->local->reset(&text)) {
-            abortSequence(QStringLiteral("node '%1': %2").arg(slot->name, text));
+            slot->local->node().d->apply(NodeEvent::CodeFailed);
+            sequenceFailed(QStringLiteral("node '%1': %2").arg(slot->name, text));
             return;
         }
         if (!takeOutputs(*slot, slot->local->outputs()))
@@ -107,8 +105,8 @@ void QPlcMasterNodePrivate::collectOutputs()
 bool QPlcMasterNodePrivate::takeOutputs(NodeSlot &slot, const char *outputs)
 {
     if (const qplc::PayloadLayout::Field *field = slot.outputLayout.firstNotFinite(outputs)) {
-        abortSequence(QStringLiteral("node '%1': the initial value of signal '%2' is not a finite number")
-                          .arg(slot.name, table.at(field->signal).name));
+        sequenceFailed(QStringLiteral("node '%1': the initial value of signal '%2' is not a finite number")
+                           .arg(slot.name, table.at(field->signal).name));
         return false;
     }
     qplc::copyRuns(cycle->image().scatterRuns(slot.outputLayout, leaseBooks.mask()), outputs, cycle->image().data());
@@ -160,10 +158,11 @@ void QPlcMasterNodePrivate::distributeInputs()
         QString text;
         const QByteArray values = cycle->gather(slot->inputRuns, slot->inputLayout.size());
         if (!slot->local->initialize(values.constData(), &text)) {
-            abortSequence(QStringLiteral("node '%1': %2").arg(slot->name, text));
+            slot->local->node().d->apply(NodeEvent::CodeFailed);
+            sequenceFailed(QStringLiteral("node '%1': %2").arg(slot->name, text));
             return;
         }
-        slot->local->node().d->setState(QPlcSlaveNode::Off);
+        slot->local->node().d->apply(NodeEvent::ValuesCame);
         slot->local->node().d->tellInitialized(values);
     }
     advance();
@@ -171,7 +170,6 @@ void QPlcMasterNodePrivate::distributeInputs()
 
 void QPlcMasterNodePrivate::initializationEnded()
 {
-    m_initialized = true;
     m_step = Step::None;
     for (const std::unique_ptr<Connection> &connection : server->connections()) {
         if (connection->stage >= Connection::Greeted)
@@ -182,7 +180,7 @@ void QPlcMasterNodePrivate::initializationEnded()
         beginStart();
         return;
     }
-    setState(QPlcMasterNode::Off);
+    apply(Event::StatesInitialized);
     answerRequester(true, {});
 }
 
@@ -196,18 +194,22 @@ void QPlcMasterNodePrivate::stepTimedOut()
     const QString what = m_step == Step::Start ? QStringLiteral("RealTimeStarted")
         : m_step == Step::CollectOutputs       ? QStringLiteral("SendYourInitialOutputStates")
                                                : QStringLiteral("InitializeWithValues");
-    abortSequence(QStringLiteral("no answer to %1 within %2 ms from node %3; is it busy, or stopped?")
-                      .arg(what)
-                      .arg(stepTimer.interval())
-                      .arg(names.join(QStringLiteral(", "))));
+    sequenceFailed(QStringLiteral("no answer to %1 within %2 ms from node %3; is it busy, or stopped?")
+                       .arg(what)
+                       .arg(stepTimer.interval())
+                       .arg(names.join(QStringLiteral(", "))));
 }
 
-void QPlcMasterNodePrivate::abortSequence(const QString &reason)
+void QPlcMasterNodePrivate::sequenceFailed(const QString &reason)
+{
+    apply(Event::SequenceFailed, reason);
+}
+
+void QPlcMasterNodePrivate::endSequence(const QString &reason)
 {
     stepTimer.stop();
     const bool wasStarting = m_step == Step::Start;
     m_step = Step::None;
-    m_initialized = false;
     const Message initializationFailed(Message::StatesInitialized,
                                        {{QStringLiteral("ok"), false}, {QStringLiteral("text"), reason}});
     for (const std::unique_ptr<Connection> &connection : server->connections()) {
@@ -219,37 +221,27 @@ void QPlcMasterNodePrivate::abortSequence(const QString &reason)
     }
     for (const std::shared_ptr<NodeSlot> &slot : registry->nodes()) {
         if (slot->local)
-            slot->local->node().d->setState(QPlcSlaveNode::Off);
+            slot->local->node().d->apply(NodeEvent::InitializationFailed);
     }
     m_participants.clear();
-    setState(QPlcMasterNode::Off);
     setError(QPlcMasterNode::InitializationError, reason);
     answerRequester(false, reason);
 }
 
 // ---- start ----
 
-bool QPlcMasterNodePrivate::startRealTime(quint64 cycles)
+bool QPlcMasterNodePrivate::startRealTime(quint64 cycles, bool isPermitted)
 {
     if (!prepare())
         return false;
-    if (state != QPlcMasterNode::Off)
-        return setError(
-            QPlcMasterNode::StateError,
-            QStringLiteral("the real-time phase can only be started while the master is off; stop it first"));
     const QString optionError = realTimeOptions.errorString();
     if (!optionError.isEmpty())
         return setError(QPlcMasterNode::RealTimeError, optionError);
-    error = QPlcMasterNode::NoError;
-    errorString.clear();
-    m_cyclesWanted = cycles;
-    m_startAfterwards = true;
-    setState(QPlcMasterNode::Initializing);
-    if (m_initialized)
-        beginStart();
-    else
-        collectOutputs();
-    return error == QPlcMasterNode::NoError;
+    const quint64 cyclesOfThisPhase = std::exchange(m_cyclesWanted, cycles);
+    if (apply(isPermitted ? Event::Start : Event::StartUnarmed))
+        return error == QPlcMasterNode::NoError;
+    m_cyclesWanted = cyclesOfThisPhase;
+    return false;
 }
 
 QJsonObject QPlcMasterNodePrivate::startFields(const NodeSlot &slot) const
@@ -271,6 +263,8 @@ QJsonObject QPlcMasterNodePrivate::startFields(const NodeSlot &slot) const
 
 void QPlcMasterNodePrivate::beginStart()
 {
+    error = QPlcMasterNode::NoError;
+    errorString.clear();
     begin(Step::Start, Connection::Running);
     std::vector<Connection *> told = m_participants;
     for (Connection *listener : listeners()) {
@@ -302,12 +296,17 @@ void QPlcMasterNodePrivate::startCycles()
     phase.jitterSignal = jitterSignal;
     phase.workloadSignal = workloadSignal;
     phase.realTimeOptions = realTimeOptions;
+    phase.gapLimit = gapLimit;
+    phase.longestWait = longestWait;
+    phase.overrunLimit = overrunLimit;
+    m_written.clear();
     giveRoster();
     if (!cycle->start(phase)) {
         m_step = Step::Start;
-        abortSequence(cycle->errorString());
+        apply(Event::ThreadFailed, cycle->errorString());
         return;
     }
+    m_isRunning = true;
     for (const QPlcRealTimeSetting &setting : cycle->realTimeSettings()) {
         if (!setting.granted)
             journal.tell(qplc::JournalEvent::Warning, qplc::JournalEvent::State, qplc::NodeRegistry::masterName(),
@@ -317,11 +316,11 @@ void QPlcMasterNodePrivate::startCycles()
     m_goneListeners.clear();
     statisticSignals.start(cycle.get(), registry.get(), clock.isLockstep());
     journal.watchOverruns(&cycle->cycleStatistics());
-    setState(QPlcMasterNode::RealTime);
+    apply(Event::CyclesStarted);
     for (const std::shared_ptr<NodeSlot> &slot : registry->nodes()) {
         if (!slot->local)
             continue;
-        slot->local->node().d->setState(QPlcSlaveNode::RealTime);
+        slot->local->node().d->apply(NodeEvent::PhaseStarted);
         Q_EMIT slot->local->node().realTimeHasStarted();
     }
     Q_EMIT q->realTimeHasStarted();
@@ -331,6 +330,25 @@ void QPlcMasterNodePrivate::startCycles()
         if (connection->stage == Connection::Attached)
             join(connection.get());
     }
+}
+
+/// Signals that are to be safe when the master stops safely: what nodes write, or have written in this phase, what is taken over, and whatever else has a value for
+/// it in the table. Not what the master writes itself.
+std::vector<bool> QPlcMasterNodePrivate::safeSignals(const qplc::Roster &roster)
+{
+    m_written.resize(std::size_t(table.size()));
+    for (const std::shared_ptr<NodeSlot> &slot : roster.nodes) {
+        for (const qplc::PayloadLayout::Field &field : slot->outputLayout.fields())
+            m_written[field.signal] = true;
+    }
+    std::vector<bool> safe = m_written;
+    for (QPlcSignalIndex signal = 0; signal < safe.size(); ++signal) {
+        if (registry->writer(signal) == qplc::NodeRegistry::masterName())
+            safe[signal] = false;
+        else if (table.at(signal).safe.isValid() || (signal < roster.held.size() && roster.held[signal]))
+            safe[signal] = true;
+    }
+    return safe;
 }
 
 /// Nodes of the cycle: those of this process, and those over the network that are ready.
@@ -343,6 +361,7 @@ void QPlcMasterNodePrivate::giveRoster()
             roster.nodes.push_back(slot);
     }
     roster.held = leaseBooks.mask();
+    roster.safe = safeSignals(roster);
     cycle->setRoster(roster);
 }
 
@@ -350,15 +369,29 @@ void QPlcMasterNodePrivate::giveRoster()
 
 void QPlcMasterNodePrivate::stop(const QString &reason)
 {
-    if (m_step != Step::None)
-        abortSequence(QStringLiteral("stopped: %1").arg(reason));
-    if (!isRunning())
+    apply(Event::Stop, state == QPlcMasterNode::Initializing ? QStringLiteral("stopped: %1").arg(reason) : reason);
+}
+
+void QPlcMasterNodePrivate::end(const QString &reason)
+{
+    apply(Event::End, reason);
+}
+
+void QPlcMasterNodePrivate::endCycles()
+{
+    if (!m_isRunning)
         return;
+    m_isRunning = false;
     cycle->stop();
     statisticSignals.stop();
     journal.watchOverruns(nullptr);
-    m_initialized = false;
-    setState(QPlcMasterNode::Off, reason);
+    m_hasEnded = true;
+}
+
+void QPlcMasterNodePrivate::tellStopped(const QString &reason)
+{
+    if (!std::exchange(m_hasEnded, false))
+        return;
     for (const std::unique_ptr<Connection> &connection : server->connections()) {
         if (connection->stage <= Connection::Attached)
             continue;
@@ -369,8 +402,9 @@ void QPlcMasterNodePrivate::stop(const QString &reason)
     for (const std::shared_ptr<NodeSlot> &slot : registry->nodes()) {
         if (!slot->local)
             continue;
+        slot->local->node().d->makeSafe(QPlcSlaveNode::PhaseEnded);
         slot->local->stopped();
-        slot->local->node().d->setState(QPlcSlaveNode::Off);
+        slot->local->node().d->apply(NodeEvent::PhaseStopped);
         Q_EMIT slot->local->node().realTimeHasStopped();
     }
     takeReports();

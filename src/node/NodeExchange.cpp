@@ -15,12 +15,13 @@ constexpr std::int64_t ResendAfter = 20'000'000;   // [ns] a request that must b
 }  // namespace
 
 NodeExchange::NodeExchange(ProcessImage &image, CyclicHub &hub, CycleReports &reports, CycleStatistics &statistics,
-                           TimeSource &time, const std::atomic<bool> &stop)
+                           TimeSource &time, SafetyGuard &guard, const std::atomic<bool> &stop)
     : m_image(image)
     , m_hub(hub)
     , m_reports(reports)
     , m_statistics(statistics)
     , m_time(time)
+    , m_guard(guard)
     , m_stop(stop)
 {
 }
@@ -41,6 +42,7 @@ void NodeExchange::run(const Roster &roster, const Cycle &cycle) noexcept
     m_roster = &roster;
     m_cycle = cycle;
     m_hasReceived = false;
+    m_isSafe = m_guard.isTripped();
     cutInputs();
     pasteKnownOutputs();
     for (std::size_t i = 0; i < roster.stages.size(); ++i) {
@@ -80,7 +82,7 @@ void NodeExchange::cutInputs() noexcept
 void NodeExchange::pasteKnownOutputs() noexcept
 {
     for (NodeSlot *slot : m_roster->twoPhase) {
-        if (slot->pending)
+        if (slot->pending && !m_isSafe)
             paste(*slot, slot->local ? slot->local->outputs() : slot->decoder.payload());
         slot->pending = false;
     }
@@ -116,9 +118,10 @@ void NodeExchange::sendRequest(NodeSlot &slot, std::uint8_t flags) noexcept
         slot.multicast->toBeSent = true;
         return;
     }
-    if (flags != slot.request.flags)
+    const auto all = std::uint8_t(m_isSafe ? flags | SafeStopFlag : flags);
+    if (all != slot.request.flags)
         slot.partsEncoded = 0;
-    slot.request.flags = flags;
+    slot.request.flags = all;
     slot.partsSent = 0;
     slot.bytesSent = 0;
     sendParts(slot);
@@ -131,7 +134,7 @@ void NodeExchange::sendMulticast(std::uint8_t flags) noexcept
         if (!slot->multicast->toBeSent)
             continue;
         FrameHeader header = slot->request;
-        header.flags = flags;
+        header.flags = m_isSafe ? flags | SafeStopFlag : flags;
         slot->multicast->send(m_hub, header);
         m_reports.tap(TappedFrame::Sent, 0, slot->multicast->frame.data(), slot->multicast->frame.size());
     }
@@ -189,6 +192,8 @@ void NodeExchange::stepLocalNodes(const Stage &stage) noexcept
         if (!slot.local || !slot.due)
             continue;
         const quint64 missed = slot.interval.missed(slot.local->cycle().number(), m_cycle.number);
+        if (m_isSafe)
+            slot.local->makeSafe(QPlcSlaveNode::MasterStopsSafely);
         slot.computed = slot.local->step(QPlcCycle(m_cycle.number, m_period, missed), slot.inputs);
         slot.answered = true;
         if (!slot.computed && !slot.faulted)
@@ -260,7 +265,8 @@ void NodeExchange::reportLateNodes() noexcept
         slot->late = true;
         slot->statistics.late.add();
         m_statistics.lateAnswer();
-        if (slot->reports())
+        m_guard.answeredLate(*slot, m_cycle.number);
+        if (slot->reports() && !m_isSafe)
             m_reports.post({CycleEvent::LateAnswer, slot->id, 0, m_cycle.number});
     }
 }
@@ -270,8 +276,10 @@ void NodeExchange::waitForLateNodes(std::int64_t deadline) noexcept
 {
     if (!m_isLockstep)
         m_reports.post({CycleEvent::WaitingForNode, 0, 0, m_cycle.number});
-    std::int64_t resendAt = m_time.now() + ResendAfter;
-    while (anyMissing(true) && !m_stop.load(std::memory_order_relaxed)) {
+    const std::int64_t begin = m_time.now();
+    std::int64_t resendAt = begin + ResendAfter;
+    while (anyMissing(true) && !m_stop.load(std::memory_order_relaxed) && !m_guard.isTripped()
+           && !hasWaitedTooLong(begin)) {
         receive(continueRequests() ? ContinueAfter : ResendAfter);
         if (m_time.now() < resendAt)
             continue;
@@ -282,6 +290,14 @@ void NodeExchange::waitForLateNodes(std::int64_t deadline) noexcept
         m_grid->shift(std::max<std::int64_t>(0, m_time.now() - deadline));
         m_reports.post({CycleEvent::WaitingEnded, 0, 0, m_cycle.number});
     }
+}
+
+bool NodeExchange::hasWaitedTooLong(std::int64_t since) noexcept
+{
+    const auto isMissing
+        = [this](const std::shared_ptr<NodeSlot> &slot) { return isAwaited(*slot) && mustBeWaitedFor(*slot); };
+    const auto missing = std::find_if(m_roster->nodes.begin(), m_roster->nodes.end(), isMissing);
+    return missing != m_roster->nodes.end() && m_guard.waitedFor(**missing, m_cycle.number, m_time.now() - since);
 }
 
 void NodeExchange::receive(std::int64_t timeout, int alarm) noexcept
@@ -337,7 +353,10 @@ void NodeExchange::takeAnswer(NodeSlot &slot, const char *frame, std::size_t siz
     }
     // An answer to an older cycle is late and counted as such, but still newer than what the image holds.
     const bool current = slot.decoder.cycle() == m_cycleZero + m_cycle.number;
+    if (current && !slot.answered && !slot.late)
+        m_guard.answeredInTime(slot);
     slot.answered = slot.answered || current;
+    slot.isSafe.store(slot.decoder.header().flags & SafeStopFlag, std::memory_order_relaxed);
     const std::int64_t arrival = now();
     slot.statistics.answered(slot.decoder.cycle() - m_cycleZero, arrival, slot.decoder.header().info);
     if (current)
@@ -347,7 +366,7 @@ void NodeExchange::takeAnswer(NodeSlot &slot, const char *frame, std::size_t siz
         m_reports.post({CycleEvent::NodeFaulted, slot.id, 0, m_cycle.number});
     slot.faulted = faulted;
     slot.pending = false;
-    if (faulted || !isFinite(slot, slot.decoder.payload()))
+    if (m_isSafe || faulted || !isFinite(slot, slot.decoder.payload()))
         return;
     if (slot.twoPhase && current)
         slot.pending = true;  // the outputs of the next cycle
@@ -360,7 +379,7 @@ void NodeExchange::pasteLocalNodes(const Stage &stage) noexcept
 {
     for (const Roster::Turn &turn : stage) {
         NodeSlot &slot = *turn.slot;
-        if (!slot.local || !slot.due || !slot.computed || !isFinite(slot, slot.local->outputs()))
+        if (m_isSafe || !slot.local || !slot.due || !slot.computed || !isFinite(slot, slot.local->outputs()))
             continue;
         if (slot.twoPhase)
             slot.pending = true;

@@ -5,6 +5,7 @@
 #include "CycleStatistics.h"
 #include "QPlcClock.h"
 #include "Roster.h"
+#include "SafetyGuard.h"
 #include "realtime/CycleClock.h"
 #include "transport/CyclicHub.h"
 
@@ -31,7 +32,7 @@ public:
 
     /// All of them outlive this object. \param stop  ends every waiting
     NodeExchange(ProcessImage &image, CyclicHub &hub, CycleReports &reports, CycleStatistics &statistics,
-                 TimeSource &time, const std::atomic<bool> &stop);
+                 TimeSource &time, SafetyGuard &guard, const std::atomic<bool> &stop);
 
     /// Before a phase. \param grid  of the cycles; time that stands still shifts it
     /// \param spin  [ns] to look for answers again and again before a sleep
@@ -64,9 +65,10 @@ private:
     bool isFinite(NodeSlot &slot, const char *outputs) noexcept;
     void paste(NodeSlot &slot, const char *outputs) noexcept;
     bool anyMissing(bool onlyWaiting) const noexcept;
+    bool hasWaitedTooLong(std::int64_t since) noexcept;
     bool mustBeWaitedFor(const NodeSlot &slot) const noexcept
     {
-        return !slot.listener && (m_isLockstep || slot.waits());
+        return !slot.listener && !m_isSafe && (m_isLockstep || slot.waits());
     }
     bool isUnanswered(const NodeSlot &slot) const noexcept
     {
@@ -80,6 +82,7 @@ private:
     CycleReports &m_reports;
     CycleStatistics &m_statistics;
     TimeSource &m_time;
+    SafetyGuard &m_guard;
     const std::atomic<bool> &m_stop;
 
     // of the phase
@@ -93,6 +96,7 @@ private:
     const Roster *m_roster = nullptr;
     Cycle m_cycle;
     bool m_hasReceived = false;  // looked for answers
+    bool m_isSafe = false;       // the master stops safely: nodes are told so, and nothing of theirs is taken
 };
 
 }  // namespace qplc

@@ -60,6 +60,7 @@ bool NodeDeclaration::fromMessage(const QPlcMessage &message, NodeDeclaration *d
                                                                                                 &knownPolicy);
     declaration->name = message.text(QStringLiteral("name"));
     declaration->listener = fields.value(QStringLiteral("listener")).toBool();
+    declaration->critical = fields.value(QStringLiteral("critical")).toBool() && !declaration->listener;
     declaration->twoPhase = fields.value(QStringLiteral("twoPhase")).toBool();
     if (declaration->name.isEmpty() || declaration->name.size() > 64)
         *error = QStringLiteral("a node needs a name of 1 ... 64 characters");
@@ -82,6 +83,7 @@ NodeDeclaration NodeDeclaration::fromRuntime(const NodeRuntime &runtime)
     declaration.name = runtime.node().name();
     declaration.policy = runtime.node().realTimeViolationPolicy();
     declaration.listener = runtime.node().isListener();
+    declaration.critical = runtime.node().isCritical() && !declaration.listener;
     declaration.interval = ListeningInterval(runtime.node().listeningInterval());
     declaration.twoPhase = runtime.node().isTwoPhase();
     declaration.inputs = describe(runtime.table(), runtime.inputLayout());
@@ -179,6 +181,7 @@ std::shared_ptr<NodeSlot> NodeRegistry::admit(const NodeDeclaration &declaration
     slot->id = freeId();
     slot->policy = declaration.policy;
     slot->listener = declaration.listener;
+    slot->critical = declaration.critical;
     slot->interval = declaration.interval;
     slot->twoPhase = declaration.twoPhase;
     for (const NodeDeclaration::Signal &input : declaration.inputs)

@@ -26,6 +26,7 @@ struct NodeDeclaration
     QString name;
     QPlcSlaveNode::RealTimeViolationPolicy policy = QPlcSlaveNode::ErrorZeroOrderHold;
     bool listener = false;
+    bool critical = false;
     ListeningInterval interval;
     bool twoPhase = false;
     QVector<Signal> inputs;

@@ -2,6 +2,7 @@
 #include "NodeRuntime.h"
 
 #include "QSplitPrimitive.h"
+#include "SafeValues.h"
 
 #include <QtCore/QSet>
 
@@ -85,6 +86,8 @@ bool NodeRuntime::bind(const QPlcSignalTable &table, QString *error)
         m_sameCycle.push_back(m_node.isSameCycle() || sameCycle.contains(input));
     m_outputs.assign(m_outputLayout.size(), 0);
     m_scratch.assign(m_outputLayout.size(), 0);
+    m_safeInputs = safeFrame(table, m_inputLayout);
+    m_safeOutputs = safeFrame(table, m_outputLayout);
     m_workload = nullptr;
     for (const PayloadLayout::Field &field : m_outputLayout.fields()) {
         if (!m_workloadSignal.isEmpty() && table.at(field.signal).name == m_workloadSignal)
@@ -135,25 +138,56 @@ void NodeRuntime::stopped()
         setFault(text.toLocal8Bit().constData());
 }
 
+void NodeRuntime::beginPhase(bool isLockstep, TimeSource &time)
+{
+    m_time = isLockstep ? nullptr : &time;
+    m_isSafe = m_hasFailed = false;
+}
+
+void NodeRuntime::makeSafe(QPlcSlaveNode::SafeStateReason reason) noexcept
+{
+    if (m_isSafe)
+        return;
+    m_isSafe = true;
+    m_outputs = m_safeOutputs;
+    try {
+        m_node.safeFrame(reason, m_safeInputs.data());
+    } catch (const std::exception &thrown) {
+        setFault(thrown.what());
+    } catch (...) {
+        setFault("an exception that is not derived from std::exception");
+    }
+}
+
 bool NodeRuntime::step(const QPlcCycle &cycle, const char *inputs) noexcept
 {
+    if (m_hasFailed || (m_isSafe && !m_node.isListener()))
+        return !m_hasFailed;
     const std::int64_t begin = now();
     m_cycle = cycle;
     try {
         m_node.stepFrame(cycle, inputs, m_scratch.data());
     } catch (const std::exception &thrown) {
-        setFault(thrown.what());
-        measure(begin);
+        fail(thrown.what(), begin);
         return false;
     } catch (...) {
-        setFault("an exception that is not derived from std::exception");
-        measure(begin);
+        fail("an exception that is not derived from std::exception", begin);
         return false;
     }
     measure(begin);
+    if (m_isSafe)
+        return true;  // a listener that watches: what it writes stays safe
     writeWorkload(m_executionTime);
     m_outputs = m_scratch;
     return true;
+}
+
+void NodeRuntime::fail(const char *text, std::int64_t begin) noexcept
+{
+    setFault(text);
+    measure(begin);
+    m_hasFailed = true;
+    makeSafe(QPlcSlaveNode::CodeFailed);
 }
 
 void NodeRuntime::measure(std::int64_t begin) noexcept

@@ -37,9 +37,13 @@ public:
     /// Tells the node that the phase has ended.
     void stopped();
 
-    /// In lockstep no clock is read and the workload is 0.
-    void setLockstep(bool lockstep, TimeSource &time = TimeSource::monotonic()) { m_time = lockstep ? nullptr : &time; }
-    /// One cycle. \return false when the code of the node threw: outputs() are then those of the cycle before
+    /// A real-time phase begins. In lockstep no clock is read and the workload is 0.
+    void beginPhase(bool isLockstep, TimeSource &time = TimeSource::monotonic());
+    /// Brings the node into its safe state, once in a phase: outputs() have their safe values, safeState() is called, and step() computes nothing any more
+    /// (but for a listener, which goes on watching). On the thread of step(), or that of the node while no cycle runs.
+    void makeSafe(QPlcSlaveNode::SafeStateReason reason) noexcept;
+    bool isSafe() const { return m_isSafe; }
+    /// One cycle. \return false when the code of the node threw, now or before in this phase: it is in its safe state then
     bool step(const QPlcCycle &cycle, const char *inputs) noexcept;
     const char *outputs() const { return m_outputs.data(); }
     /// Duration of the last step, the code of the node alone [ns].
@@ -59,6 +63,7 @@ private:
     void bindWorkloadSignal(QVector<QPlcSignalIndex> *outputs, QStringList *errors);
     std::int64_t now() noexcept { return m_time ? m_time->now() : 0; }
     void measure(std::int64_t begin) noexcept;
+    void fail(const char *text, std::int64_t begin) noexcept;
     void writeWorkload(std::int64_t duration);
     void setFault(const char *text) noexcept;
 
@@ -69,6 +74,10 @@ private:
     std::vector<bool> m_sameCycle;
     std::vector<char> m_outputs;  // given away
     std::vector<char> m_scratch;  // being computed
+    std::vector<char> m_safeInputs;
+    std::vector<char> m_safeOutputs;
+    bool m_isSafe = false;
+    bool m_hasFailed = false;  // in this phase
     QString m_workloadSignal;
     const PayloadLayout::Field *m_workload = nullptr;
     TimeSource *m_time = &TimeSource::monotonic();  // null: lockstep

@@ -25,6 +25,7 @@ struct NodeSlot
     quint16 id = 0;
     QPlcSlaveNode::RealTimeViolationPolicy policy = QPlcSlaveNode::ErrorZeroOrderHold;
     bool listener = false;
+    bool critical = false;          // the plant must not go on without it
     ListeningInterval interval;     // longer than a cycle for listeners alone
     bool wantsMulticast = false;    // listens to the multicast group of the master
     bool twoPhase = false;          // the answer to cycle k holds the outputs of cycle k + 1
@@ -64,12 +65,18 @@ struct NodeSlot
     bool faulted = false;
 
     // ---- both ----
-    std::atomic<bool> lost{false};  // its connection is gone: not to be waited for
+    std::atomic<bool> lost{false};    // its connection is gone: not to be waited for
+    std::atomic<int> bucket{0};       // fills with late answers and empties with those in time; see SafetyGuard
+    std::atomic<bool> isSafe{false};  // says that it is in its safe state
     NodeStatistics statistics;
 
     bool isRequestSent() const { return multicast || (partsSent == encoder.partCount() && !peer->hasRest()); }
     bool waits() const { return policy == QPlcSlaveNode::SilentWait || policy == QPlcSlaveNode::ErrorWait; }
-    bool reports() const { return policy == QPlcSlaveNode::ErrorZeroOrderHold || policy == QPlcSlaveNode::ErrorWait; }
+    bool reports() const
+    {
+        return policy == QPlcSlaveNode::ErrorZeroOrderHold || policy == QPlcSlaveNode::ErrorWait
+            || policy == QPlcSlaveNode::SafeStopWhenLate;
+    }
 
     /// Whether it is asked in this cycle: in the first one of each turn that takes place. Once a cycle.
     bool takesTurn(std::uint64_t cycle) noexcept

@@ -123,6 +123,12 @@ void QPlcCompactSlaveNode::stepFrame(const QPlcCycle &cycle, const char *inputs,
     store(outputs);
 }
 
+void QPlcCompactSlaveNode::safeFrame(SafeStateReason reason, const char *safeInputs)
+{
+    load(safeInputs);
+    safeState(reason);
+}
+
 bool QPlcCompactSlaveNode::declaresSameCycle()
 {
     return std::any_of(m_ports.begin(), m_ports.end(), [](const QPlcPort *port) { return port->isSameCycle(); });

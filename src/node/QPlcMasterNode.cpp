@@ -3,6 +3,7 @@
 
 #include "QPlcMasterNodePrivate.h"
 #include "QPlcSignalIndexTable.h"
+#include "realtime/TimeSource.h"
 
 using namespace std::chrono_literals;
 
@@ -31,7 +32,7 @@ QPlcMasterNode::QPlcMasterNode(QObject *parent)
 QPlcMasterNode::~QPlcMasterNode()
 {
     const QSignalBlocker silence(this);  // nobody wants to hear from a master that is half gone
-    stop();
+    d->end(QStringLiteral("the master ends"));
     stopServer();
 }
 
@@ -132,6 +133,31 @@ void QPlcMasterNode::setInitializationTimeout(std::chrono::milliseconds time)
     d->stepTimer.setInterval(time);
 }
 
+void QPlcMasterNode::setLongestWait(std::chrono::nanoseconds time)
+{
+    d->longestWait = time;
+}
+
+void QPlcMasterNode::setGapLimit(std::chrono::nanoseconds time)
+{
+    d->gapLimit = time;
+}
+
+void QPlcMasterNode::setOverrunLimit(int overruns)
+{
+    d->overrunLimit = overruns;
+}
+
+void QPlcMasterNode::setArmingRequired(bool required)
+{
+    d->isArmingRequired = required;
+}
+
+bool QPlcMasterNode::isArmingRequired() const
+{
+    return d->isArmingRequired;
+}
+
 bool QPlcMasterNode::startServer(const QPlcUnderlyingProtocol &protocol)
 {
     return d->startServer(protocol);
@@ -156,7 +182,7 @@ void QPlcMasterNode::stopServer()
 {
     if (!d->server)
         return;
-    stop();
+    d->end(QStringLiteral("the server of the master ends"));
     d->beacon.end();
     d->server->close();
 }
@@ -236,6 +262,21 @@ QPlcMasterNode::State QPlcMasterNode::state() const
     return d->state;
 }
 
+QString QPlcMasterNode::stateReason() const
+{
+    return d->stateReason;
+}
+
+QString QPlcMasterNode::causeThatRemains() const
+{
+    return d->remainingCause();
+}
+
+bool QPlcMasterNode::isArmed() const
+{
+    return d->arming.isArmed(qplc::TimeSource::monotonic().now());
+}
+
 QPlcMasterNode::Error QPlcMasterNode::error() const
 {
     return d->error;
@@ -289,7 +330,22 @@ bool QPlcMasterNode::initializeAllStates()
 
 bool QPlcMasterNode::startRealTime()
 {
-    return d->startRealTime(0);
+    return d->startRealTime(0, d->isStartPermitted(isArmed() ? d->arming.token() : 0));
+}
+
+void QPlcMasterNode::safeStop(const QString &reason)
+{
+    d->safeStop(reason.isEmpty() ? QStringLiteral("the master was told to") : reason);
+}
+
+bool QPlcMasterNode::arm()
+{
+    return d->arm();
+}
+
+bool QPlcMasterNode::reset()
+{
+    return d->reset();
 }
 
 void QPlcMasterNode::stop()

@@ -17,6 +17,7 @@
 #include <algorithm>
 
 using Message = QPlcMessage;
+using Event = qplc::MasterEvent;
 using qplc::NodeSlot;
 
 namespace {
@@ -54,18 +55,6 @@ QPlcMasterNodePrivate::QPlcMasterNodePrivate(QPlcMasterNode *master)
 }
 
 QPlcMasterNodePrivate::~QPlcMasterNodePrivate() = default;
-
-void QPlcMasterNodePrivate::setState(QPlcMasterNode::State newState, const QString &reason)
-{
-    if (state == newState)
-        return;
-    const bool isTransient = newState == QPlcMasterNode::WaitingForLateSlaves
-        || (state == QPlcMasterNode::WaitingForLateSlaves && newState == QPlcMasterNode::RealTime);
-    state = newState;
-    const QString name = qplc::stateName(newState);
-    journal.stateChanged(reason.isEmpty() ? name : QStringLiteral("%1: %2").arg(name, reason), isTransient);
-    Q_EMIT q->stateChanged(newState);
-}
 
 bool QPlcMasterNodePrivate::setError(QPlcMasterNode::Error newError, const QString &text)
 {
@@ -121,7 +110,6 @@ bool QPlcMasterNodePrivate::prepare()
     };
     server = std::make_unique<qplc::MasterServer>(*registry, cycle->image(), hub, session, hello, nullptr);
     QObject::connect(server.get(), &qplc::MasterServer::attached, q, [this](Connection *connection) {
-        m_initialized = false;
         settings->leaveToWriters();
         journal.tell(qplc::JournalEvent::Info, qplc::JournalEvent::Node, connection->name,
                      QStringLiteral("node %1 registered over %2").arg(connection->name, connection->cyclicKind));
@@ -130,8 +118,10 @@ bool QPlcMasterNodePrivate::prepare()
                          QStringLiteral("node %1 injects faults on purpose: %2")
                              .arg(connection->name, connection->slot->faultPlan));
         Q_EMIT q->nodeRegistered(connection->name);
-        if (isRunning())
-            join(connection);
+        m_joiner = connection;
+        apply(connection->slot->listener ? Event::ListenerJoined : Event::NodeJoined,
+              QStringLiteral("node %1 has joined").arg(connection->name));
+        m_joiner = nullptr;
     });
     QObject::connect(server.get(), &qplc::MasterServer::lost, q,
                      [this](Connection *connection, const QString &reason) { nodeLost(connection, reason); });
@@ -172,17 +162,21 @@ bool QPlcMasterNodePrivate::startServer(const QPlcUnderlyingProtocol &protocol)
 {
     if (!prepare())
         return false;
-    if (state != QPlcMasterNode::Off)
-        return setError(QPlcMasterNode::StateError,
-                        QStringLiteral("the server can only be started while the master is off"));
-    QHostAddress address = protocol.address();
-    if (!checkSecurity())
+    if (!apply(Event::Listen))
         return false;
+    QHostAddress address = protocol.address();
+    if (!checkSecurity()) {
+        apply(Event::ServerFailed, errorString);
+        return false;
+    }
     chooseAddress(&address);
     server->setSecurity(security);
     injectFaults();
-    if (!server->listen(address, protocol.port(), localName, multicastGroup))
+    if (!server->listen(address, protocol.port(), localName, multicastGroup)) {
+        apply(Event::ServerFailed, server->errorString());
         return setError(QPlcMasterNode::ServerError, server->errorString());
+    }
+    apply(Event::ServerListens);
     beacon.begin(address,
                  {server->port(), !security.isNone(), table.hash(),
                   localName.isEmpty() ? QCoreApplication::applicationName() : localName},
@@ -208,9 +202,8 @@ bool QPlcMasterNodePrivate::addLocalNode(QPlcSlaveNode *node)
 {
     if (!prepare())
         return false;
-    if (state != QPlcMasterNode::Off)
-        return setError(QPlcMasterNode::StateError,
-                        QStringLiteral("node '%1' can only be added while the master is off").arg(node->name()));
+    if (!apply(Event::AddNode, QStringLiteral("node '%1' is added").arg(node->name())))
+        return false;
     if (QPlcSignalIndexTable::current().isEmpty())
         QPlcSignalIndexTable::setCurrent(table);  // what the node's lists of signals look their names up in
     QString text;
@@ -223,10 +216,10 @@ bool QPlcMasterNodePrivate::addLocalNode(QPlcSlaveNode *node)
         return setError(QPlcMasterNode::NodeError, refusal.text);
     slot->local = &runtime;
     slot->prepare(cycle->image(), session);
-    m_initialized = false;
     settings->leaveToWriters();
     node->d->localMaster = q;
-    node->d->setState(QPlcSlaveNode::Off);
+    node->d->hasChannel = true;
+    node->d->apply(qplc::SlaveEvent::AddedLocally);
     Q_EMIT q->nodeRegistered(slot->name);
     return true;
 }
@@ -235,12 +228,13 @@ void QPlcMasterNodePrivate::removeLocalNode(QPlcSlaveNode *node)
 {
     if (!registry)
         return;
-    stop(QStringLiteral("node '%1' is removed").arg(node->name()));
+    end(QStringLiteral("node '%1' is removed").arg(node->name()));
     for (const std::shared_ptr<NodeSlot> &slot : registry->nodes()) {
         if (slot->local == &node->d->runtime) {
             registry->remove(std::shared_ptr<NodeSlot>(slot));
             node->d->localMaster.clear();
-            node->d->setState(QPlcSlaveNode::Disconnected);
+            node->d->hasChannel = false;
+            node->d->apply(qplc::SlaveEvent::Leave);
             break;
         }
     }
@@ -272,10 +266,12 @@ void QPlcMasterNodePrivate::receive(Connection *connection, const Message &messa
             server->drop(connection,
                          qplc::printable(message.text(QStringLiteral(
                              "text"))));  // a listener, or it failed to join: no reason to stop the others
-        else
-            fault(connection->name,
+        else {
+            connection->hasFailed = true;
+            fault(connection->name, connection->slot->critical,
                   QStringLiteral("node '%1': %2")
                       .arg(connection->name, qplc::printable(message.text(QStringLiteral("text")))));
+        }
         break;
     default:
         receiveCommand(connection, message);
@@ -298,6 +294,20 @@ void QPlcMasterNodePrivate::receiveCommand(Connection *connection, const Message
     case Message::Stop:
         stop(QStringLiteral("'%1' asked for it").arg(connection->name));
         connection->send(Message::Done);
+        break;
+    case Message::Arm:
+        armAsAsked(connection);
+        break;
+    case Message::SafeStop:
+        safeStop(QStringLiteral("'%1' asked for it%2")
+                     .arg(connection->name,
+                          message.text(QStringLiteral("reason")).isEmpty()
+                              ? QString()
+                              : QStringLiteral(": ") + qplc::printable(message.text(QStringLiteral("reason")))));
+        connection->send(Message::Done);
+        break;
+    case Message::Reset:
+        request(connection, reset());
         break;
     case Message::GetState:
         connection->send(Message::State, qplc::stateFields(*q, session));
@@ -365,7 +375,9 @@ void QPlcMasterNodePrivate::startAsAsked(Connection *connection, const Message &
         connection->fail(QStringLiteral("MalformedMessage"),
                          QStringLiteral("'cycles' is a whole number of cycles; leave it out to run until Stop"));
     else
-        request(connection, startRealTime(cycles.isUndefined() ? 0 : quint64(wanted)));
+        request(connection,
+                startRealTime(cycles.isUndefined() ? 0 : quint64(wanted),
+                              isStartPermitted(message.hex64(QStringLiteral("token")))));
 }
 
 // ---- values from outside ----
@@ -399,6 +411,8 @@ QPlcNodeInfo QPlcMasterNodePrivate::info(const NodeSlot &slot) const
     node.policy
         = QString::fromLatin1(QMetaEnum::fromType<QPlcSlaveNode::RealTimeViolationPolicy>().valueToKey(slot.policy));
     node.listener = slot.listener;
+    node.critical = slot.critical;
+    node.state = stateOf(slot);
     node.every = slot.interval.cycles();
     node.inputs = int(slot.inputLayout.fields().size());
     node.outputs = int(slot.outputLayout.fields().size());

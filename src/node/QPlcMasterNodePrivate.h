@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "Arming.h"
 #include "Journal.h"
 #include "MasterBeacon.h"
 #include "MasterCycle.h"
 #include "MasterLeases.h"
 #include "MasterServer.h"
 #include "MasterSettings.h"
+#include "MasterStates.h"
 #include "NodeRegistry.h"
 #include "QPlcMasterNode.h"
 #include "StatisticSignals.h"
@@ -39,12 +41,23 @@ public:
     void removeLocalNode(QPlcSlaveNode *node);
 
     bool initializeAllStates();
-    bool startRealTime(quint64 cycles);
+    /// \param isPermitted  false: arming is required, and what the asker showed permits nothing
+    bool startRealTime(quint64 cycles, bool isPermitted);
     void stop(const QString &reason);
+    /// The master, its server or a local node ends.
+    void end(const QString &reason);
+    void safeStop(const QString &reason);
+    bool arm();
+    bool isStartPermitted(quint64 token) const;
+    bool reset();
+    /// Why the latched fault cannot be reset yet; empty: it can.
+    QString remainingCause() const;
     bool setSignalValue(const QString &name, const QPlcValue &value);
 
+    /// Something has happened: the master goes to the next state as qplc::masterStates() says, and does what belongs to it.
     /// \param reason  for people; empty: none
-    void setState(QPlcMasterNode::State newState, const QString &reason = QString());
+    /// \return false when the present state refuses \a event: error() is StateError then and says why
+    bool apply(qplc::MasterEvent event, const QString &reason = QString());
     bool setError(QPlcMasterNode::Error newError, const QString &text);
     /// \param source  the node that is to blame
     bool setError(QPlcMasterNode::Error newError, const QString &text, const QString &source,
@@ -70,7 +83,13 @@ public:
     QPlcSignalIndex timeSignal = QPlcInvalidSignalIndex;
     QPlcSignalIndex jitterSignal = QPlcInvalidSignalIndex;
     QPlcSignalIndex workloadSignal = QPlcInvalidSignalIndex;
+    std::chrono::nanoseconds longestWait{5'000'000'000};
+    std::chrono::nanoseconds gapLimit{1'000'000'000};
+    int overrunLimit = 0;
+    bool isArmingRequired = false;
+    qplc::Arming arming;
     QPlcMasterNode::State state = QPlcMasterNode::Off;
+    QString stateReason;  // of SafeStop and Fault
     QPlcMasterNode::Error error = QPlcMasterNode::NoError;
     QString errorString;
     QTimer stepTimer;
@@ -92,13 +111,19 @@ private:
     using Connection = qplc::MasterConnection;
     enum class Step : quint8 { None, CollectOutputs, DistributeInputs, Start };
 
-    bool isRunning() const
-    {
-        return state == QPlcMasterNode::RealTime || state == QPlcMasterNode::WaitingForLateSlaves;
-    }
+    /// Whether cycles run, safe ones or others.
+    bool isRunning() const { return m_isRunning; }
     void receive(Connection *connection, const QPlcMessage &message);
     void receiveCommand(Connection *connection, const QPlcMessage &message);
     void request(Connection *connection, bool accepted);
+    void enter(QPlcMasterNode::State newState, const QString &reason);
+    void prepareFor(qplc::MasterAction action);
+    void carryOut(qplc::MasterAction action, const QString &reason);
+    void tellRefusal(qplc::MasterEvent event, const char *text);
+    void blame(const QString &node, bool mustReturn);
+    void tellSafeStop();
+    QString stateOf(const qplc::NodeSlot &slot) const;
+    void armAsAsked(Connection *connection);
     void startAsAsked(Connection *connection, const QPlcMessage &message);
     void setSignals(Connection *connection, const QPlcMessage &message);
     void sendStatistics(Connection *connection, const QPlcMessage &message);
@@ -121,7 +146,10 @@ private:
     void initializationEnded();
     void beginStart();
     void startCycles();
-    void abortSequence(const QString &reason);
+    void endSequence(const QString &reason);
+    void endCycles();
+    void tellStopped(const QString &reason);
+    void sequenceFailed(const QString &reason);
     void stepTimedOut();
     void answerRequester(bool done, const QString &text);
 
@@ -133,20 +161,29 @@ private:
     bool storeOutputs(Connection *connection, const QPlcMessage &message);
     QJsonObject startFields(const qplc::NodeSlot &slot) const;
     void giveRoster();
+    std::vector<bool> safeSignals(const qplc::Roster &roster);
 
     void nodeLost(Connection *connection, const QString &reason);
     void takeReports();
     void report(const qplc::CycleEvent &event);
     void stopAfterOverrun(const qplc::CycleEvent &event);
     bool dropFaulty(quint16 id, const QString &text);
-    void fault(const QString &node, const QString &text);
+    void fault(const QString &node, bool isCritical, const QString &text);
+    void tripped(const qplc::CycleEvent &event);
+    void criticalNodeLost(const QString &node, const QString &text);
+    bool isCritical(quint16 id) const;
     QString nodeName(quint16 id) const;
 
     Step m_step = Step::None;
     Connection::Stage m_owed = Connection::Silent;  // stage that every participant reaches by its answer
     std::vector<Connection *> m_participants;
+    Connection *m_joiner = nullptr;  // who LetJoin is about
+    QString m_culprit;               // node that the latched fault is about; empty: none
+    bool m_mustReturn = false;       // the culprit was lost: it has to be there again before a reset
+    std::vector<bool> m_written;     // by index: signals that nodes have written since the phase began
+    bool m_isRunning = false;
+    bool m_hasEnded = false;  // the cycles; and the nodes are still to be told
     bool m_startAfterwards = false;
-    bool m_initialized = false;  // since the last phase and the last join
     quint64 m_cyclesWanted = 0;
     qplc::MulticastParts m_multicastParts;
     QPointer<QPlcSlaveSocket> m_requester;

@@ -23,8 +23,16 @@ QPlcNodeApplication::QPlcNodeApplication(int &argc, char **argv)
     addOption(option("signals", QStringLiteral("Signal table of this node. Without one the master sends its table."),
                      "FILE"));
     addOption(option("name", QStringLiteral("Name under which the node registers."), "NAME"));
-    addOption(option("watchdog", QStringLiteral("Reports when no frame has come for so long. 0: never."), "SECONDS",
-                     QStringLiteral("0")));
+    addOption(option("watchdog", QStringLiteral("Goes to its safe state when no frame has come for so long. 0: never."),
+                     "SECONDS", QStringLiteral("0")));
+    addOption(QCommandLineOption(
+        QStringLiteral("critical"),
+        QStringLiteral("The plant stops safely when this node is lost, fails, or is late too often.")));
+    addOption(QCommandLineOption(
+        QStringLiteral("stay"),
+        QStringLiteral(
+            "Waits for its master, also for the next one when it ends. Without it the node ends when there is "
+            "no master at first, or when it ends as wanted; one that is lost is waited for in any case.")));
     addOption(QCommandLineOption(
         QStringLiteral("same-cycle"),
         QStringLiteral("Reads all inputs in the cycle in which they are written, without the dead time of a cycle.")));
@@ -65,6 +73,10 @@ bool QPlcNodeApplication::configure(QPlcSlaveNode &node)
     node.activateWatchdog(watchdog);
     node.setFaultPlan(faultPlan);
     node.setRealTimeOptions(realTimeOptions);
+    if (isSet(QStringLiteral("critical")))
+        node.setCritical(true);
+    node.setReconnectPolicy(isSet(QStringLiteral("stay")) ? QPlcSlaveNode::ReconnectAlways
+                                                          : QPlcSlaveNode::ReconnectWhenLost);
     if (isSet(QStringLiteral("same-cycle")))
         node.setSameCycle(true);
     if (isSet(QStringLiteral("name")))
@@ -83,15 +95,25 @@ int QPlcNodeApplication::run(QPlcSlaveNode &node)
         return usageError(QStringLiteral("--master: %1").arg(text));
     if (!configure(node))
         return exitCode();
-    if (!node.connectToMasterAndWaitForConnected(master))
+    const bool stays = isSet(QStringLiteral("stay"));
+    if (stays)
+        node.connectToMaster(master);
+    else if (!node.connectToMasterAndWaitForConnected(master))
         return node.error() == QPlcSlaveNode::NoError
             ? Success
             : UsageError;  // the node has said why; without an error the master has just ended
-    connect(&node, &QPlcSlaveNode::disconnectedFromMaster, this, [this, &node] {
-        // When the master was lost, and did not just end, the error follows.
-        QMetaObject::invokeMethod(
-            this, [&node] { exit(node.error() == QPlcSlaveNode::NoError ? Success : Failure); }, Qt::QueuedConnection);
-    });
+    if (!stays) {
+        connect(&node, &QPlcSlaveNode::disconnectedFromMaster, this, [this, &node] {
+            // When the master was lost, and did not just end, the error follows, and the node connects again.
+            QMetaObject::invokeMethod(
+                this,
+                [&node] {
+                    if (node.state() == QPlcSlaveNode::Disconnected && node.error() == QPlcSlaveNode::NoError)
+                        exit(Success);
+                },
+                Qt::QueuedConnection);
+        });
+    }
     quitOnSignals();
     const int code = exec();
     node.disconnect(this);

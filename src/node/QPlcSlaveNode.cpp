@@ -17,6 +17,7 @@ QPlcSlaveNode::QPlcSlaveNode(const QString &name, RealTimeViolationPolicy policy
 {
     qRegisterMetaType<QPlcSlaveNode::Error>("QPlcSlaveNode::Error");
     qRegisterMetaType<QPlcSlaveNode::State>("QPlcSlaveNode::State");
+    qRegisterMetaType<QPlcSlaveNode::SafeStateReason>("QPlcSlaveNode::SafeStateReason");
     qRegisterMetaType<QPlcSignalList>("QPlcSignalList");
     qRegisterMetaType<QPlcUnderlyingProtocol>("QPlcUnderlyingProtocol");
     qRegisterMetaType<QPlcMessage>("QPlcMessage");
@@ -37,7 +38,7 @@ QString QPlcSlaveNode::name() const
 
 void QPlcSlaveNode::setName(const QString &name)
 {
-    Q_ASSERT_X(d->state == Disconnected, "QPlcSlaveNode::setName", "a registered node keeps its name");
+    Q_ASSERT_X(!d->hasChannel, "QPlcSlaveNode::setName", "a registered node keeps its name");
     d->name = name;
 }
 
@@ -48,7 +49,7 @@ QPlcSlaveNode::RealTimeViolationPolicy QPlcSlaveNode::realTimeViolationPolicy() 
 
 void QPlcSlaveNode::setListener(bool listener)
 {
-    Q_ASSERT_X(d->state == Disconnected, "QPlcSlaveNode::setListener", "a registered node stays what it is");
+    Q_ASSERT_X(!d->hasChannel, "QPlcSlaveNode::setListener", "a registered node stays what it is");
     d->listener = listener;
 }
 
@@ -57,9 +58,30 @@ bool QPlcSlaveNode::isListener() const
     return d->listener;
 }
 
+void QPlcSlaveNode::setCritical(bool critical)
+{
+    Q_ASSERT_X(!d->hasChannel, "QPlcSlaveNode::setCritical", "a registered node stays what it is");
+    d->critical = critical;
+}
+
+bool QPlcSlaveNode::isCritical() const
+{
+    return d->critical;
+}
+
+void QPlcSlaveNode::setReconnectPolicy(ReconnectPolicy policy)
+{
+    d->reconnectPolicy = policy;
+}
+
+QPlcSlaveNode::ReconnectPolicy QPlcSlaveNode::reconnectPolicy() const
+{
+    return d->reconnectPolicy;
+}
+
 void QPlcSlaveNode::setListeningInterval(int cycles)
 {
-    Q_ASSERT_X(d->state == Disconnected, "QPlcSlaveNode::setListeningInterval", "a registered node stays what it is");
+    Q_ASSERT_X(!d->hasChannel, "QPlcSlaveNode::setListeningInterval", "a registered node stays what it is");
     Q_ASSERT_X(cycles >= 1 && cycles <= qplc::ListeningInterval::Longest, "QPlcSlaveNode::setListeningInterval",
                "a listener hears one of 1 ... 1 000 000 cycles");
     d->interval = qplc::ListeningInterval(cycles);
@@ -72,7 +94,7 @@ int QPlcSlaveNode::listeningInterval() const
 
 void QPlcSlaveNode::setSameCycle(bool sameCycle)
 {
-    Q_ASSERT_X(d->state == Disconnected, "QPlcSlaveNode::setSameCycle", "a registered node stays what it is");
+    Q_ASSERT_X(!d->hasChannel, "QPlcSlaveNode::setSameCycle", "a registered node stays what it is");
     d->sameCycle = sameCycle;
 }
 
@@ -83,7 +105,7 @@ bool QPlcSlaveNode::isSameCycle() const
 
 void QPlcSlaveNode::setTwoPhase(bool twoPhase)
 {
-    Q_ASSERT_X(d->state == Disconnected, "QPlcSlaveNode::setTwoPhase", "a registered node stays what it is");
+    Q_ASSERT_X(!d->hasChannel, "QPlcSlaveNode::setTwoPhase", "a registered node stays what it is");
     d->twoPhase = twoPhase;
 }
 
@@ -114,7 +136,7 @@ QPlcRealTimeOptions QPlcSlaveNode::realTimeOptions() const
 
 bool QPlcSlaveNode::setFaultPlan(const QString &plan)
 {
-    Q_ASSERT_X(d->state == Disconnected, "QPlcSlaveNode::setFaultPlan", "a registered node stays what it is");
+    Q_ASSERT_X(!d->hasChannel, "QPlcSlaveNode::setFaultPlan", "a registered node stays what it is");
     QString text;
     if (!plan.isEmpty() && !qplc::FaultPlan::fromText(plan, &text)) {
         d->setError(OptionError, QStringLiteral("node '%1': fault plan: %2").arg(d->name, text));
@@ -194,18 +216,19 @@ bool QPlcSlaveNode::connectToMasterAndWaitForConnected(const QPlcUnderlyingProto
     connect(this, &QPlcSlaveNode::connectedToMaster, &loop, &QEventLoop::quit);
     connect(this, &QPlcSlaveNode::errorOccurred, &loop, &QEventLoop::quit);
     connectToMaster(master);
-    if (d->state == Connecting) {
+    const auto isComing = [this] { return d->state == Connecting || d->state == Registering; };
+    if (isComing()) {
         timer.start(timeout);
         loop.exec(QEventLoop::ExcludeUserInputEvents);
     }
-    if (d->state == Connecting) {
+    if (isComing()) {
         d->disconnectFromMaster();
         d->setError(ConnectionError,
                     QStringLiteral("node '%1': no answer of a master at %2 within %3 ms; check address and port")
                         .arg(name(), master.toString())
                         .arg(timeout.count()));
     }
-    return d->state >= Off;
+    return d->hasChannel;
 }
 
 void QPlcSlaveNode::connectToMaster(const QPlcUnderlyingProtocol &master)
@@ -268,6 +291,11 @@ void QPlcSlaveNode::resetFrame(char *outputs)
 void QPlcSlaveNode::initializeFrame(const char *inputs)
 {
     initialize(qplc::NodeRuntime::toList(d->runtime.inputLayout(), inputs));
+}
+
+void QPlcSlaveNode::safeFrame(SafeStateReason reason, const char *)
+{
+    safeState(reason);
 }
 
 void QPlcSlaveNode::stepFrame(const QPlcCycle &, const char *inputs, char *outputs)

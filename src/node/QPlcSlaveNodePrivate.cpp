@@ -4,10 +4,16 @@
 #include "FrameLog.h"
 #include "Logging.h"
 
+#include <QtCore/QCoreApplication>
 #include <QtCore/QMetaMethod>
+#include <QtCore/QRandomGenerator>
 #include <QtCore/QUuid>
 
+#include <optional>
+#include <utility>
+
 using Message = QPlcMessage;
+using Event = qplc::SlaveEvent;
 
 namespace {
 
@@ -34,6 +40,33 @@ qplc::SlaveCycle::Group groupOf(const Message &message, const qplc::PayloadLayou
             QPlcMessage(Message::RealTimeStarted, fields).hex64(QStringLiteral("hash"))};
 }
 
+/// What a message of the master means to the node; none: nothing to its state.
+std::optional<Event> eventOf(const Message &message)
+{
+    switch (message.kind()) {
+    case Message::Hello:
+        return Event::HelloCame;
+    case Message::Registered:
+        return Event::Accepted;
+    case Message::CyclicChannelAttached:
+        return Event::ChannelAttached;
+    case Message::Rejected:
+        return Event::Refused;
+    case Message::MasterEnds:
+        return Event::MasterEnded;
+    case Message::SendYourInitialOutputStates:
+        return Event::OutputsWanted;
+    case Message::InitializeWithValues:
+        return Event::ValuesCame;
+    case Message::RealTimeStarted:
+        return Event::PhaseStarted;
+    case Message::RealTimeStopped:
+        return Event::PhaseStopped;
+    default:
+        return {};
+    }
+}
+
 }  // namespace
 
 QPlcSlaveNodePrivate::QPlcSlaveNodePrivate(QPlcSlaveNode *node, const QString &nodeName,
@@ -42,17 +75,19 @@ QPlcSlaveNodePrivate::QPlcSlaveNodePrivate(QPlcSlaveNode *node, const QString &n
     , name(nodeName)
     , policy(violationPolicy)
     , runtime(*node)
+    , m_retryTimer(q)
+    , m_patience(q)
     , m_uuid(QUuid::createUuid().toString(QUuid::WithoutBraces))
 {
-}
-
-void QPlcSlaveNodePrivate::setState(QPlcSlaveNode::State newState)
-{
-    if (state == newState)
-        return;
-    state = newState;
-    qCDebug(lcSlave) << name << newState;
-    Q_EMIT q->stateChanged(newState);
+    m_retryTimer.setSingleShot(true);
+    QObject::connect(&m_retryTimer, &QTimer::timeout, q, [this] { apply(Event::Retry); });
+    m_patience.setSingleShot(true);
+    m_patience.setInterval(2000);
+    QObject::connect(&m_patience, &QTimer::timeout, q,
+                     [this] { masterLost(QPlcAbstractSocket::NoError, QStringLiteral("no answer within 2 s")); });
+    // A program that ends says goodbye in time: its node reaches its safe state before its destructor runs.
+    if (QCoreApplication *application = QCoreApplication::instance())
+        QObject::connect(application, &QCoreApplication::aboutToQuit, q, [this] { disconnectFromMaster(); });
 }
 
 void QPlcSlaveNodePrivate::setError(QPlcSlaveNode::Error newError, const QString &text)
@@ -71,18 +106,26 @@ void QPlcSlaveNodePrivate::connectToMaster(const QPlcUnderlyingProtocol &newMast
     error = QPlcSlaveNode::NoError;
     errorString.clear();
     master = newMaster;
-    m_session = 0;
+    m_wasRegistered = false;
+    m_backOff.reset();
     if (!master.isValid()) {
         setError(QPlcSlaveNode::OptionError,
                  QStringLiteral("node '%1': no master given; use QPlcUnderlyingProtocol::tcp(), udp() or local()")
                      .arg(name));
         return;
     }
-    setState(QPlcSlaveNode::Connecting);
+    apply(Event::Connect);
+}
+
+void QPlcSlaveNodePrivate::openConnection()
+{
+    m_session = 0;
+    if (m_wasRegistered || reconnectPolicy == QPlcSlaveNode::ReconnectAlways)
+        m_patience.start();
     control = new QPlcMasterSocket(q);
     if (security)
         control->setSecurity(*security);
-    QObject::connect(control, &QPlcAbstractSocket::connected, q, [this] { greet(); });
+    QObject::connect(control, &QPlcAbstractSocket::connected, q, [this] { apply(Event::Connected); });
     QObject::connect(control, &QPlcAbstractSocket::messageReceived, q,
                      [this](const Message &message) { receive(message); });
     // Not at once: a message that cannot be sent ends the connection, and who sends has more to do.
@@ -101,18 +144,13 @@ void QPlcSlaveNodePrivate::connectToMaster(const QPlcUnderlyingProtocol &newMast
 
 void QPlcSlaveNodePrivate::disconnectFromMaster()
 {
-    if (!control)
-        return;  // not connected, or in the process of its master, who removes it
-    const bool wasRegistered = state >= QPlcSlaveNode::Off;
-    stopCycles();
-    closeSockets();
-    setState(QPlcSlaveNode::Disconnected);
-    if (wasRegistered)
-        Q_EMIT q->disconnectedFromMaster();
+    if (!localMaster)  // else the master removes it
+        apply(Event::Leave);
 }
 
-void QPlcSlaveNodePrivate::closeSockets()
+void QPlcSlaveNodePrivate::closeConnection(QPlcSlaveNode::SafeStateReason reason)
 {
+    endPhase(reason);
     for (QPlcMasterSocket **socket : {&control, &m_cyclicSocket}) {
         if (!*socket)
             continue;
@@ -121,15 +159,44 @@ void QPlcSlaveNodePrivate::closeSockets()
         (*socket)->deleteLater();
         *socket = nullptr;
     }
+    m_patience.stop();
     m_link.reset();
     m_reportNotifier.reset();
     m_outputsAwaited = false;
+    hasChannel = false;
     cycle.reset();
+}
+
+/// The reports of the cycle, which tell of the watchdog, are being read: the cycle ends behind them.
+void QPlcSlaveNodePrivate::closeAfterWatchdog()
+{
+    const auto close = [this, phase = m_phase] {
+        if (phase != m_phase || !m_inPhase)
+            return;  // ended meanwhile
+        const bool hadChannel = hasChannel;
+        haltCycles();
+        closeConnection(QPlcSlaveNode::WatchdogReason);
+        retryLater(Event::WatchdogTimedOut);
+        Q_EMIT q->realTimeHasStopped();
+        if (hadChannel)
+            Q_EMIT q->disconnectedFromMaster();
+    };
+    QMetaObject::invokeMethod(q, close, Qt::QueuedConnection);
+}
+
+void QPlcSlaveNodePrivate::retryLater(Event event)
+{
+    const bool isWanted = reconnectPolicy == QPlcSlaveNode::ReconnectAlways
+        || (reconnectPolicy == QPlcSlaveNode::ReconnectWhenLost && m_wasRegistered && event != Event::MasterEnded);
+    if (!isWanted || QCoreApplication::closingDown())
+        return;
+    const double chance = QRandomGenerator::global()->generateDouble();
+    m_retryTimer.start(event == Event::Refused ? m_backOff.afterRefusal(chance) : m_backOff.next(chance));
 }
 
 void QPlcSlaveNodePrivate::masterLost(QPlcAbstractSocket::Error socketError, const QString &text)
 {
-    const bool wasConnecting = state == QPlcSlaveNode::Connecting;
+    const bool wasConnecting = state == QPlcSlaveNode::Connecting || state == QPlcSlaveNode::Registering;
     const QString sentence = socketError == QPlcAbstractSocket::SecurityError
         ? QStringLiteral("node '%1' is not accepted at %2: %3")
         : wasConnecting
@@ -138,36 +205,35 @@ void QPlcSlaveNodePrivate::masterLost(QPlcAbstractSocket::Error socketError, con
     const QString full = sentence.arg(name, master.toString(), text);
     const QPlcAbstractSocket::Error reason
         = socketError == QPlcAbstractSocket::NoError ? QPlcAbstractSocket::ConnectionLostError : socketError;
-    disconnectFromMaster();
+    apply(socketError == QPlcAbstractSocket::SecurityError ? Event::Refused : Event::ConnectionLost);
     setError(reason == QPlcAbstractSocket::ProtocolError ? QPlcSlaveNode::ProtocolError
                                                          : QPlcSlaveNode::ConnectionError,
              full);
     Q_EMIT q->errorWithMaster(reason, full);
 }
 
+/// What master and node say of each other cannot be: it does not pass by itself.
 void QPlcSlaveNodePrivate::giveUp(QPlcSlaveNode::Error newError, const QString &text)
 {
-    disconnectFromMaster();
+    apply(Event::Refused);
     setError(newError, text);
 }
 
 // ---- messages ----
 
-/// Whether a master may send \a kind now. Anything else would call the code of the node before it is bound, or on two threads at a time.
-bool QPlcSlaveNodePrivate::isExpected(Message::Kind kind) const
+/// Whether a master may send \a message now. Anything else would call the code of the node before it is bound, or on two threads at a time.
+bool QPlcSlaveNodePrivate::isExpected(const Message &message) const
 {
-    switch (kind) {
+    const std::optional<Event> event = eventOf(message);
+    if (event && qplc::slaveStates().at(state, *event).verdict == qplc::Verdict::Refused)
+        return false;
+    switch (message.kind()) {  // steps of the registration
     case Message::Hello:
-        return state == QPlcSlaveNode::Connecting && m_session == 0;
+        return m_session == 0;
     case Message::Registered:
-        return state == QPlcSlaveNode::Connecting && m_session != 0 && !cycle;
+        return m_session != 0 && !cycle;
     case Message::CyclicChannelAttached:
-        return state == QPlcSlaveNode::Connecting && cycle && master.kind() != QPlcUnderlyingProtocol::Tcp;
-    case Message::SendYourInitialOutputStates:
-    case Message::InitializeWithValues:
-        return state == QPlcSlaveNode::Off || state == QPlcSlaveNode::Initializing;
-    case Message::RealTimeStarted:
-        return state == QPlcSlaveNode::Off;
+        return cycle && master.kind() != QPlcUnderlyingProtocol::Tcp;
     default:
         return true;
     }
@@ -175,73 +241,72 @@ bool QPlcSlaveNodePrivate::isExpected(Message::Kind kind) const
 
 void QPlcSlaveNodePrivate::receive(const Message &message)
 {
-    if (state == QPlcSlaveNode::Connecting && m_cyclicSocket
+    if (state == QPlcSlaveNode::Registering && m_cyclicSocket
         && message.kind() == Message::SendYourInitialOutputStates) {
         m_outputsAwaited = true;  // it overtook CyclicChannelAttached, which comes on the other connection
         return;
     }
-    if (!isExpected(message.kind())) {
+    if (!isExpected(message)) {
         qCWarning(lcSlave).noquote() << "node" << name << "ignores" << message.kindName()
                                      << "of the master: not possible now";
         return;
     }
     switch (message.kind()) {
-    case Message::Hello:
-        receiveHello(message);
-        break;
-    case Message::Registered:
-        receiveRegistered(message);
-        break;
-    case Message::CyclicChannelAttached:
-        cyclicChannelAttached();
-        break;
     case Message::Rejected:
         giveUp(QPlcSlaveNode::RegistrationError,
                QStringLiteral("the master at %1 refuses node '%2': %3")
                    .arg(master.toString(), name, qplc::printable(message.text(QStringLiteral("text")))));
-        break;
+        return;
     case Message::MasterEnds:
         qCInfo(lcSlave).noquote() << "node" << name << "- the master has ended";
-        disconnectFromMaster();
-        break;
-    case Message::SendYourInitialOutputStates:
-        sendInitialOutputs();
-        break;
-    case Message::InitializeWithValues:
-        initializeWith(message);
-        break;
-    case Message::RealTimeStarted:
-        startCycles(message);
         break;
     case Message::RealTimeStopped:
-        stopCycles();
-        initializationFailed();
+        m_outputsAwaited = false;
         break;
     case Message::StatesInitialized:
-        if (!message.fields().value(QStringLiteral("ok")).toBool())
-            initializationFailed();
-        Q_EMIT q->messageReceived(message);
+        if (!message.fields().value(QStringLiteral("ok")).toBool()) {
+            m_outputsAwaited = false;  // the master has given up what it began
+            apply(Event::InitializationFailed);
+        }
         break;
     case Message::Failed:
         qCWarning(lcSlave).noquote() << "node" << name
                                      << "asked in vain:" << qplc::printable(message.text(QStringLiteral("text")));
-        Q_FALLTHROUGH();
+        break;
     default:
-        Q_EMIT q->messageReceived(message);
         break;
     }
+    if (const std::optional<Event> event = eventOf(message))
+        apply(*event, message);
+    else
+        Q_EMIT q->messageReceived(message);
+}
+
+void QPlcSlaveNodePrivate::proceed(Event event, const Message &message)
+{
+    if (event == Event::HelloCame)
+        receiveHello(message);
+    else
+        receiveRegistered(message);
 }
 
 // ---- phases ----
 
+/// The code of the derived class threw: the master is told, and the node waits in its safe state for the next initialization.
+void QPlcSlaveNodePrivate::codeFailed(const QString &text)
+{
+    if (control)
+        control->sendMessage(Message(Message::NodeFault, {{QStringLiteral("text"), text}}));
+    makeSafe(QPlcSlaveNode::CodeFailed);
+    apply(Event::CodeFailed);
+    setError(QPlcSlaveNode::UserCodeError, QStringLiteral("node '%1': %2").arg(name, text));
+}
+
 void QPlcSlaveNodePrivate::sendInitialOutputs()
 {
-    setState(QPlcSlaveNode::Initializing);
     QString text;
     if (!runtime.reset(&text)) {
-        control->sendMessage(Message(Message::NodeFault, {{QStringLiteral("text"), text}}));
-        setState(QPlcSlaveNode::Off);
-        setError(QPlcSlaveNode::UserCodeError, QStringLiteral("node '%1': %2").arg(name, text));
+        codeFailed(text);
         return;
     }
     const QByteArray values(runtime.outputs(), int(runtime.outputLayout().size()));
@@ -249,7 +314,7 @@ void QPlcSlaveNodePrivate::sendInitialOutputs()
         Message(Message::ReceiveMyInitialOutputStates, {{QStringLiteral("values"), Message::fromBytes(values)}}));
 }
 
-void QPlcSlaveNodePrivate::initializeWith(const Message &message)
+bool QPlcSlaveNodePrivate::initializeWith(const Message &message)
 {
     const QByteArray values = message.bytes(QStringLiteral("values"));
     if (values.size() != int(runtime.inputLayout().size())) {
@@ -258,18 +323,16 @@ void QPlcSlaveNodePrivate::initializeWith(const Message &message)
                    .arg(name)
                    .arg(values.size())
                    .arg(runtime.inputLayout().size()));
-        return;
+        return false;
     }
     QString text;
-    const bool initialized = runtime.initialize(values.constData(), &text);
-    setState(QPlcSlaveNode::Off);
-    if (!initialized) {
-        control->sendMessage(Message(Message::NodeFault, {{QStringLiteral("text"), text}}));
-        setError(QPlcSlaveNode::UserCodeError, QStringLiteral("node '%1': %2").arg(name, text));
-        return;
+    if (!runtime.initialize(values.constData(), &text)) {
+        codeFailed(text);
+        return false;
     }
     control->sendMessage(Message(Message::Initialized));
     tellInitialized(values);
+    return true;
 }
 
 void QPlcSlaveNodePrivate::tellInitialized(const QByteArray &inputs)
@@ -278,18 +341,8 @@ void QPlcSlaveNodePrivate::tellInitialized(const QByteArray &inputs)
         Q_EMIT q->hasInitialized(qplc::NodeRuntime::toList(runtime.inputLayout(), inputs.constData()));
 }
 
-/// The master has given up what it began: nothing more will come.
-void QPlcSlaveNodePrivate::initializationFailed()
+bool QPlcSlaveNodePrivate::startCycles(const Message &message)
 {
-    m_outputsAwaited = false;
-    if (state == QPlcSlaveNode::Initializing)
-        setState(QPlcSlaveNode::Off);
-}
-
-void QPlcSlaveNodePrivate::startCycles(const Message &message)
-{
-    if (!cycle)
-        return;
     qplc::SlaveCycle::Phase phase;
     phase.period = std::chrono::nanoseconds(qint64(message.fields().value(QStringLiteral("period")).toDouble()));
     phase.clock = clockOf(message);
@@ -302,26 +355,33 @@ void QPlcSlaveNodePrivate::startCycles(const Message &message)
     if (!cycle->start(phase)) {
         control->sendMessage(Message(Message::NodeFault, {{QStringLiteral("text"), cycle->errorString()}}));
         setError(QPlcSlaveNode::OptionError, QStringLiteral("node '%1': %2").arg(name, cycle->errorString()));
-        return;
+        return false;
     }
     for (const QPlcRealTimeSetting &setting : cycle->realTimeSettings()) {
         if (!setting.granted)
             qCWarning(lcSlave).noquote() << "node" << name << setting.toString();
     }
-    setState(QPlcSlaveNode::RealTime);
-    control->sendMessage(Message(Message::RealTimeReady));
-    Q_EMIT q->realTimeHasStarted();
+    m_inPhase = true;
+    ++m_phase;
+    return true;
 }
 
-void QPlcSlaveNodePrivate::stopCycles()
+void QPlcSlaveNodePrivate::haltCycles()
 {
-    if (state != QPlcSlaveNode::RealTime)
+    if (!m_inPhase)
         return;
     cycle->stop();
     takeReports();
+}
+
+/// \pre haltCycles()
+void QPlcSlaveNodePrivate::endPhase(QPlcSlaveNode::SafeStateReason reason)
+{
+    if (!m_inPhase)
+        return;
+    m_inPhase = false;
+    makeSafe(reason);
     runtime.stopped();
-    setState(QPlcSlaveNode::Off);
-    Q_EMIT q->realTimeHasStopped();
 }
 
 void QPlcSlaveNodePrivate::takeReports()
@@ -335,23 +395,26 @@ void QPlcSlaveNodePrivate::takeReports()
 void QPlcSlaveNodePrivate::report(const qplc::CycleEvent &event)
 {
     switch (event.kind) {
+    case qplc::CycleEvent::ToldSafeStop:
+        qCWarning(lcSlave).noquote() << "node" << name << "- the master stops safely, in cycle" << event.cycle;
+        tellSafe(QPlcSlaveNode::MasterStopsSafely);
+        apply(Event::ToldSafeStop);
+        break;
     case qplc::CycleEvent::WatchdogTimedOut:
+        tellSafe(QPlcSlaveNode::WatchdogReason);
+        apply(Event::WatchdogTimedOut);
         setError(QPlcSlaveNode::WatchdogError,
-                 QStringLiteral("node '%1': no frame of the master for %2 ms since cycle %3")
+                 QStringLiteral("node '%1': no frame of the master for %2 ms since cycle %3: safe state")
                      .arg(name)
                      .arg(double(watchdog.count()) * 1e-6)
                      .arg(event.cycle));
         Q_EMIT q->watchdogTimedOut(event.cycle);
         break;
-    case qplc::CycleEvent::NodeFaulted: {
-        const QString text = QStringLiteral("the code of the node threw in cycle %1: %2")
-                                 .arg(event.cycle)
-                                 .arg(QString::fromLocal8Bit(runtime.faultText()));
-        if (control)
-            control->sendMessage(Message(Message::NodeFault, {{QStringLiteral("text"), text}}));
-        setError(QPlcSlaveNode::UserCodeError, QStringLiteral("node '%1': %2").arg(name, text));
+    case qplc::CycleEvent::NodeFaulted:
+        codeFailed(QStringLiteral("the code of the node threw in cycle %1: %2")
+                       .arg(event.cycle)
+                       .arg(QString::fromLocal8Bit(runtime.faultText())));
         break;
-    }
     case qplc::CycleEvent::LinkClosed:
         qCDebug(lcSlave).noquote()
             << "node" << name << "has lost its cyclic connection";  // the control connection follows, with the reason

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "BackOff.h"
 #include "ListeningInterval.h"
 #include "NodeRuntime.h"
 #include "QPlcMasterNode.h"
 #include "QPlcMasterSocket.h"
 #include "QPlcSlaveNode.h"
 #include "SlaveCycle.h"
+#include "SlaveStates.h"
 
 #include <QtCore/QJsonArray>
 #include <QtCore/QPointer>
 #include <QtCore/QSocketNotifier>
+#include <QtCore/QTimer>
 
 #include <memory>
 #include <optional>
@@ -27,13 +30,22 @@ public:
     /// Emits hasInitialized() with the bytes of the inputs, when anybody listens.
     void tellInitialized(const QByteArray &inputs);
 
-    void setState(QPlcSlaveNode::State newState);
+    /// Something has happened: the node goes to the next state as qplc::slaveStates() says, and does what belongs to it.
+    /// \return whether the present state accepts \a event
+    bool apply(qplc::SlaveEvent event, const QPlcMessage &message = QPlcMessage());
+    /// The safe state, in the thread of the node, while no cycle runs.
+    void makeSafe(QPlcSlaveNode::SafeStateReason reason);
+    /// Emits safeStateEntered(), once in a phase.
+    void tellSafe(QPlcSlaveNode::SafeStateReason reason);
     void setError(QPlcSlaveNode::Error newError, const QString &text);
 
     QPlcSlaveNode *const q;
     QString name;
     QPlcSlaveNode::RealTimeViolationPolicy policy;
     bool listener = false;
+    bool critical = false;
+    bool hasChannel = false;  // registered, with the cyclic channel; or in the process of the master
+    QPlcSlaveNode::ReconnectPolicy reconnectPolicy = QPlcSlaveNode::ReconnectWhenLost;
     qplc::ListeningInterval interval;
     bool sameCycle = false;  // all inputs
     bool twoPhase = false;
@@ -52,11 +64,22 @@ public:
     QPlcMasterSocket *control = nullptr;
 
 private:
-    bool isExpected(QPlcMessage::Kind kind) const;
+    void enter(QPlcSlaveNode::State newState);
+    bool prepareFor(qplc::SlaveAction action, qplc::SlaveEvent event, const QPlcMessage &message);
+    void carryOut(qplc::SlaveAction action);
+    void openConnection();
+    void closeConnection(QPlcSlaveNode::SafeStateReason reason);
+    void closeAfterWatchdog();
+    void retryLater(qplc::SlaveEvent event);
+    void haltCycles();
+    void endPhase(QPlcSlaveNode::SafeStateReason reason);
+    void codeFailed(const QString &text);
+    bool isExpected(const QPlcMessage &message) const;
     void receive(const QPlcMessage &message);
     bool isOrdered() const;
     QJsonArray features() const;
     void greet();
+    void proceed(qplc::SlaveEvent event, const QPlcMessage &message);
     void receiveHello(const QPlcMessage &message);
     bool chooseTable(const QPlcMessage &hello, QPlcSignalTable *table);
     void registerAtMaster();
@@ -66,14 +89,11 @@ private:
     bool joinGroup(const QPlcMessage &registered);
     void giveLink(std::unique_ptr<qplc::CyclicLink> link);
     void connectCyclicChannel();
-    void cyclicChannelAttached();
+    void tellRegistered();
     void sendInitialOutputs();
-    void initializeWith(const QPlcMessage &message);
-    void startCycles(const QPlcMessage &message);
-    void stopCycles();
-    void initializationFailed();
+    bool initializeWith(const QPlcMessage &message);
+    bool startCycles(const QPlcMessage &message);
     void masterLost(QPlcAbstractSocket::Error socketError, const QString &text);
-    void closeSockets();
     void giveUp(QPlcSlaveNode::Error newError, const QString &text);
     void takeReports();
     void report(const qplc::CycleEvent &event);
@@ -82,6 +102,13 @@ private:
     bool m_outputsAwaited = false;             // by the master, which knows already that the cyclic connection is there
     std::unique_ptr<qplc::CyclicLink> m_link;  // until the cycle takes it
     std::unique_ptr<QSocketNotifier> m_reportNotifier;
+    QTimer m_retryTimer;  // children of the node: they go with it into another thread
+    QTimer m_patience;    // with an attempt to connect again
+    qplc::BackOff m_backOff;
+    bool m_wasRegistered = false;  // since connectToMaster()
+    bool m_inPhase = false;        // from startCycles() to endPhase(); not for a node in the process of its master
+    quint64 m_phase = 0;           // ordinal
+    bool m_isSafeTold = false;     // in this phase
     QString m_uuid;
     quint64 m_session = 0;
     QString m_token;

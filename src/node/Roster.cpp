@@ -53,6 +53,7 @@ void Roster::arrange(const ProcessImage &image)
         if (!held.empty())
             pasteRuns.push_back(image.scatterRuns(slot->outputLayout, held));
     }
+    safeImage = SafeImage(image, safe);
 }
 
 QString loopText(const Schedule &schedule, const std::vector<std::shared_ptr<NodeSlot>> &nodes,

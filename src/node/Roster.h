@@ -3,6 +3,7 @@
 
 #include "NodeSlot.h"
 #include "QPlcSchedule.h"
+#include "SafeValues.h"
 #include "Schedule.h"
 
 #include <memory>
@@ -25,12 +26,15 @@ struct Roster
     std::vector<std::shared_ptr<NodeSlot>> nodes;
     /// By index: signals that keep the value that they have been given, whatever their writer answers; empty: none.
     std::vector<bool> held{};
+    /// By index: signals that have their safe value while the master stops safely.
+    std::vector<bool> safe{};
 
     // made by arrange()
     std::vector<std::vector<Turn>> stages{};
     std::vector<NodeSlot *> twoPhase{};
     std::vector<std::shared_ptr<NodeSlot>> multicast{};  // one node of each part
     std::vector<std::vector<CopyRun>> pasteRuns{};       // of each node, without what is held; empty: nothing is
+    SafeImage safeImage{};
     bool anyRemote = false;
 
     /// Puts the nodes into stages. \pre they have no algebraic loop: NodeRegistry admits none

@@ -68,7 +68,7 @@ bool SlaveCycle::start(const Phase &phase)
         ? ownDecoder()
         : FrameDecoder(FrameKind::GroupInputs, {m_identity.session, 0, group.hash}, {0, group.size});
     m_decoder.restart(phase.firstCycle);
-    m_runtime.setLockstep(phase.clock.isLockstep());
+    m_runtime.beginPhase(phase.clock.isLockstep());
     for (std::atomic<quint64> *counter :
          {&m_counters.cycles, &m_counters.missed, &m_counters.duplicated, &m_counters.outdated, &m_counters.rejected,
           &m_counters.forged, &m_counters.watchdog})
@@ -132,12 +132,16 @@ void SlaveCycle::run() noexcept
     m_ended = true;
 }
 
-/// How often to look at the watchdog while nothing comes [ns]; 0: there is none.
+/// How often to look at the watchdog while nothing comes [ns], so that it barks a cycle late at most; 0: there is none.
 std::int64_t SlaveCycle::watchdogLooks() const noexcept
 {
+    constexpr std::int64_t shortest = 100'000;
     constexpr std::int64_t longest = 50'000'000;
     const auto watchdog = std::int64_t(double(m_phase.watchdog.count()) / m_phase.clock.scale());
-    return watchdog > 0 && !m_phase.clock.isLockstep() ? std::min(watchdog / 2 + 1, longest) : 0;
+    const auto period = std::int64_t(double(m_phase.period.count()) / m_phase.clock.scale());
+    return watchdog > 0 && !m_phase.clock.isLockstep()
+        ? std::min({watchdog / 2 + 1, std::max(period, shortest), longest})
+        : 0;
 }
 
 CyclicLink::Status SlaveCycle::receive(const char **frame, std::size_t *size) noexcept
@@ -222,6 +226,9 @@ void SlaveCycle::compute() noexcept
     const std::uint64_t cycle = m_decoder.cycle();
     const std::uint64_t missed
         = m_computedAny ? m_phase.interval.missed(m_lastCycle - m_phase.cycleZero, cycle - m_phase.cycleZero) : 0;
+    if (m_decoder.header().flags & SafeStopFlag)
+        makeSafe(QPlcSlaveNode::MasterStopsSafely,
+                 {CycleEvent::ToldSafeStop, m_identity.node, 0, cycle - m_phase.cycleZero});
     count(m_counters.cycles);
     count(m_counters.missed, missed);
     const bool computed = m_runtime.step(QPlcCycle(cycle - m_phase.cycleZero, m_phase.period, missed),
@@ -232,7 +239,7 @@ void SlaveCycle::compute() noexcept
     m_computedAny = true;
     m_lastCycle = cycle;
     m_watchdogBarked = false;
-    m_answer.flags = computed ? 0 : FaultFlag;
+    m_answer.flags = std::uint8_t((computed ? 0 : FaultFlag) | (m_runtime.isSafe() ? SafeStopFlag : 0));
     m_answer.cycle = cycle;
     m_answer.info
         = std::uint32_t(std::min<std::int64_t>(m_runtime.executionTime(), std::numeric_limits<std::uint32_t>::max()));
@@ -269,6 +276,15 @@ void SlaveCycle::sendAnswer() noexcept
     m_link->flush();
 }
 
+/// Once in a phase; nothing but the next phase ends it.
+void SlaveCycle::makeSafe(QPlcSlaveNode::SafeStateReason reason, const CycleEvent &event) noexcept
+{
+    if (m_runtime.isSafe())
+        return;
+    m_runtime.makeSafe(reason);
+    m_reports.post(event);
+}
+
 /// Duration on the clock of the master [ns].
 std::int64_t SlaveCycle::simulated(std::int64_t time) const noexcept
 {
@@ -283,6 +299,7 @@ void SlaveCycle::checkWatchdog() noexcept
         return;
     m_watchdogBarked = true;
     count(m_counters.watchdog);
+    m_runtime.makeSafe(QPlcSlaveNode::WatchdogReason);
     m_reports.post({CycleEvent::WatchdogTimedOut, m_identity.node, 0, m_lastCycle - m_phase.cycleZero});
 }
 

@@ -82,6 +82,7 @@ private:
     bool isRepeatedRequest() const noexcept;
     void encodeAnswer() noexcept;
     void sendAnswer() noexcept;
+    void makeSafe(QPlcSlaveNode::SafeStateReason reason, const CycleEvent &event) noexcept;
     void checkWatchdog() noexcept;
     std::int64_t watchdogLooks() const noexcept;
     std::int64_t simulated(std::int64_t time) const noexcept;

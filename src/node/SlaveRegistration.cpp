@@ -132,6 +132,8 @@ void QPlcSlaveNodePrivate::registerAtMaster()
         {QStringLiteral("inputs"), describe(runtime.table(), runtime.inputLayout(), runtime.sameCycle())},
         {QStringLiteral("outputs"), describe(runtime.table(), runtime.outputLayout())},
         {QStringLiteral("cyclic"), master.kindName()}};
+    if (critical)
+        fields.insert(QStringLiteral("critical"), true);
     if (!interval.isEveryCycle())
         fields.insert(QStringLiteral("every"), interval.cycles());
     if (twoPhase)
@@ -225,17 +227,22 @@ void QPlcSlaveNodePrivate::connectCyclicChannel()
         m_cyclicSocket->deleteLater();
         m_cyclicSocket = nullptr;
         giveLink(qplc::CyclicLink::tcp(descriptor, cycle->inputCutter(), qplc::MaximumCyclicFrame));
-        cyclicChannelAttached();
+        apply(qplc::SlaveEvent::ChannelAttached);
     });
     m_cyclicSocket->connectToMaster(master);
 }
 
-void QPlcSlaveNodePrivate::cyclicChannelAttached()
+void QPlcSlaveNodePrivate::tellRegistered()
 {
     qCInfo(lcSlave).noquote() << "node" << name << "registered at" << master.toString();
-    setState(QPlcSlaveNode::Off);
+    error = QPlcSlaveNode::NoError;
+    errorString.clear();
+    m_wasRegistered = true;
+    m_backOff.reset();
+    m_patience.stop();
+    hasChannel = true;
     Q_EMIT q->connectedToMaster();
-    if (m_outputsAwaited && state == QPlcSlaveNode::Off)
-        sendInitialOutputs();
+    if (m_outputsAwaited)
+        apply(qplc::SlaveEvent::OutputsWanted);
     m_outputsAwaited = false;
 }

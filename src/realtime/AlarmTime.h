@@ -23,6 +23,7 @@ public:
     void setPeriod(std::int64_t period) noexcept;
 
     std::int64_t now() noexcept override;
+    std::int64_t slept() noexcept override { return monotonic().slept(); }
     bool sleepUntil(std::int64_t deadline) noexcept override;
     int alarm(std::int64_t deadline) noexcept override;
 

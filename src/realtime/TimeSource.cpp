@@ -21,6 +21,7 @@ class MonotonicTime final : public TimeSource
 {
 public:
     std::int64_t now() noexcept override { return read(CLOCK_MONOTONIC); }
+    std::int64_t slept() noexcept override { return -read(CLOCK_MONOTONIC) + read(CLOCK_BOOTTIME); }
     bool sleepUntil(std::int64_t deadline) noexcept override
     {
         const std::int64_t instant = std::max<std::int64_t>(deadline, 0);  // an instant before 0 is no valid timespec

@@ -13,6 +13,8 @@ public:
     virtual ~TimeSource() = default;
     /// Time of a clock that never steps [ns].
     virtual std::int64_t now() noexcept = 0;
+    /// How long the computer has slept since it was switched on [ns]: now() stood still meanwhile.
+    virtual std::int64_t slept() noexcept { return 0; }
     /// Sleeps until now() >= \a deadline. \return false when it was interrupted before
     virtual bool sleepUntil(std::int64_t deadline) noexcept = 0;
     /// A descriptor that is readable from \a deadline on, until the next call of alarm() or sleepUntil(); for a poll() that waits for other things, too.

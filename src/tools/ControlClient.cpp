@@ -12,6 +12,12 @@ namespace tools {
 
 using Message = QPlcMessage;
 
+bool hasCycles(const QString &state)
+{
+    return state == QLatin1String("RealTime") || state == QLatin1String("WaitingForLateSlaves")
+        || state == QLatin1String("SafeStop");
+}
+
 ControlClient::ControlClient(std::chrono::milliseconds timeout)
     : m_timeout(timeout)
 {

@@ -15,6 +15,9 @@ class QDeadlineTimer;
 
 namespace tools {
 
+/// Whether cycles run in this state of a master.
+bool hasCycles(const QString &state);
+
 /// A tool at the control channel of a master (docs/protocol.md): greets, asks, waits for the answer. Takes no part in the cycle.
 class ControlClient : public QObject
 {

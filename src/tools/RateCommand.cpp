@@ -53,7 +53,7 @@ struct MasterState
             return false;
         const QString name = answer.text(QStringLiteral("state"));
         const QJsonObject counters = answer.fields().value(QStringLiteral("counters")).toObject();
-        state->isRunning = name != QLatin1String("Off") && name != QLatin1String("Initializing");
+        state->isRunning = hasCycles(name);
         state->period = answer.fields().value(QStringLiteral("period")).toDouble() * 1e-9;
         state->clock = answer.text(QStringLiteral("clock"));
         state->skipped = quint64(counters.value(QStringLiteral("skippedCycles")).toDouble());
@@ -138,6 +138,7 @@ int measureRate(const CommandCall &call)
     }
     const auto endIsWanted = call.quitOnSignals();
     CycleEar ear;
+    ear.setReconnectPolicy(QPlcSlaveNode::NeverReconnect);
     RateStatistics rate;
     if (!ear.connectToMasterAndWaitForConnected(call.master, call.client.timeout()))
         return QPlcCoreApplication::Failure;  // the node has said why

@@ -18,6 +18,7 @@ SignalListener::SignalListener(const QString &purpose, const QPlcSignalTable &ta
         m_wanted << indices.insert(name);
         m_definitions << table.at(table.indexOf(name));
     }
+    m_node.setReconnectPolicy(QPlcSlaveNode::NeverReconnect);
     m_node.setInputSignalIndices(indices);
     m_node.setBufferSize(10000);
     m_timer.setTimerType(Qt::PreciseTimer);
@@ -52,7 +53,7 @@ void SignalListener::take(const QPlcMessage &answer)
     if (answer.kind() == QPlcMessage::State) {
         m_period = answer.fields().value(QStringLiteral("period")).toDouble() * 1e-9;
         m_state = answer.text(QStringLiteral("state"));
-        m_isRunning = m_state != QLatin1String("Off") && m_state != QLatin1String("Initializing");
+        m_isRunning = hasCycles(m_state);
     } else if (answer.kind() == QPlcMessage::Signals) {
         const QJsonArray rows = answer.fields().value(QStringLiteral("signals")).toArray();
         QVector<QPlcValue> values;

@@ -19,6 +19,7 @@ struct NodeColumn
 const NodeColumn nodeColumns[] = {
     {"node", "name", TextTable::Left, false},          {"transport", "transport", TextTable::Left, false},
     {"address", "address", TextTable::Left, true},     {"number", "id", TextTable::Right, true},
+    {"state", "state", TextTable::Left, false},        {"critical", "critical", TextTable::Left, true},
     {"policy", "policy", TextTable::Left, false},      {"listener", "listener", TextTable::Left, true},
     {"every", "every", TextTable::Right, true},        {"in", "inputs", TextTable::Right, false},
     {"out", "outputs", TextTable::Right, false},       {"late", "lateAnswers", TextTable::Right, false},
@@ -96,7 +97,12 @@ int showState(const CommandCall &call)
     }
     const double period = state.value(QStringLiteral("period")).toDouble() * 1e-9;
     const quint64 cycle = answer.hex64(QStringLiteral("cycle"));
-    printField("state", answer.text(QStringLiteral("state")));
+    const bool isArmed = state.value(QStringLiteral("armed")).toBool();
+    printField("state", answer.text(QStringLiteral("state")) + (isArmed ? QStringLiteral(", armed") : QString()));
+    if (!answer.text(QStringLiteral("reason")).isEmpty())
+        printField("reason", answer.text(QStringLiteral("reason")));
+    if (!answer.text(QStringLiteral("remains")).isEmpty())
+        printField("remains", answer.text(QStringLiteral("remains")));
     printField("cycle", QStringLiteral("%1 (%2 s)").arg(cycle).arg(double(cycle) * period, 0, 'f', 3));
     printField("period", QStringLiteral("%1 ms").arg(period * 1e3));
     printField("clock", clockText(state));

@@ -160,7 +160,7 @@ void tst_IONodes::aRefusedChangeIsAnError()
     QTRY_COMPARE(node.error(), QPlcSlaveNode::RegistrationError);
     QVERIFY2(node.errorString().contains("'count'") && node.errorString().contains("'Counter'"),
              qPrintable(node.errorString()));
-    QCOMPARE(node.state(), QPlcSlaveNode::Disconnected);
+    QCOMPARE(node.state(), QPlcSlaveNode::Rejected);
     QCOMPARE(master.writer("count"), QString("Counter"));
     node.setOutputSignalIndices(indices({"setpoint"}));
     QVERIFY2(node.connectToMasterAndWaitForConnected(master.protocol("udp")), qPrintable(node.errorString()));

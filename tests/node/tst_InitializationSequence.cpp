@@ -80,7 +80,7 @@ void tst_InitializationSequence::masterAsksAllBeforeItTellsAnyone()
     QCOMPARE(tool.next().kind(), QPlcMessage::Done);
     QCOMPARE(states.size(), 2);
     QCOMPARE(states.at(0).at(0).value<QPlcMasterNode::State>(), QPlcMasterNode::Initializing);
-    QCOMPARE(states.at(1).at(0).value<QPlcMasterNode::State>(), QPlcMasterNode::Off);
+    QCOMPARE(states.at(1).at(0).value<QPlcMasterNode::State>(), QPlcMasterNode::Ready);
 }
 
 void tst_InitializationSequence::everyNodeGetsTheInitialOutputsOfTheOthers_data()
@@ -114,7 +114,7 @@ void tst_InitializationSequence::everyNodeGetsTheInitialOutputsOfTheOthers()
     QCOMPARE(counter.resets, 1);
     QCOMPARE(initialized.size(), 1);
     QCOMPARE(initialized.at(0).at(0).value<QPlcSignalList>().value(testTable().indexOf("echo")).toReal(), 0.5);
-    QCOMPARE(counter.state(), QPlcSlaveNode::Off);
+    QCOMPARE(counter.state(), QPlcSlaveNode::Ready);
     QCOMPARE(master.signalValue("echo").toReal(), 0.5);
     QCOMPARE(master.signalValue("count").toInt(), 0);  // the node's word is newer than the initial value 7 of the table
     counter.disconnectFromMaster();
@@ -133,7 +133,7 @@ void tst_InitializationSequence::slaveAnswersStepByStep()
     QCOMPARE(node.state(), QPlcSlaveNode::Initializing);
     master.send(QPlcMessage::InitializeWithValues, {{"values", QPlcMessage::fromBytes(QPlcValue(1).toBytes())}});
     QCOMPARE(master.next().kind(), QPlcMessage::Initialized);
-    QCOMPARE(node.state(), QPlcSlaveNode::Off);
+    QCOMPARE(node.state(), QPlcSlaveNode::Ready);
 
     master.send(QPlcMessage::SendYourInitialOutputStates);
     QCOMPARE(master.next().kind(), QPlcMessage::ReceiveMyInitialOutputStates);
@@ -288,7 +288,7 @@ void tst_InitializationSequence::codeThatThrowsEndsTheInitialization()
     QVERIFY2(master.errorString().contains("'Thrower'"), qPrintable(master.errorString()));
     QVERIFY2(master.errorString().contains(inReset ? "no parameters" : "not derived from std::exception"),
              qPrintable(master.errorString()));
-    QCOMPARE(node.state(), QPlcSlaveNode::Off);
+    QCOMPARE(node.state(), QPlcSlaveNode::Fault);
     if (!local)
         QCOMPARE(node.error(), QPlcSlaveNode::UserCodeError);
     node.disconnectFromMaster();
@@ -344,7 +344,7 @@ void tst_InitializationSequence::answersCountOnceAndInTheirTurn()
     QCOMPARE(node.next().text("error"), QString("WrongState"));
     QCOMPARE(master.state(), QPlcMasterNode::Initializing);
     node.send(QPlcMessage::Initialized);
-    QVERIFY(master.waitForState(QPlcMasterNode::Off));
+    QVERIFY(master.waitForState(QPlcMasterNode::Ready));
     QCOMPARE(master.error(), QPlcMasterNode::NoError);
 }
 
@@ -368,7 +368,7 @@ void tst_InitializationSequence::withoutNodesItSucceedsAtOnce()
     QSignalSpy all(&master, &QPlcMasterNode::statesInitialized);
     QVERIFY(master.initializeAllStates());
     QCOMPARE(all.size(), 1);
-    QCOMPARE(master.state(), QPlcMasterNode::Off);
+    QCOMPARE(master.state(), QPlcMasterNode::Ready);
     QCOMPARE(master.signalValue("count").toInt(), 7);
     QPlcMasterNode empty;
     QVERIFY(!empty.initializeAllStates());

@@ -128,7 +128,7 @@ void tst_RegisterSequence::slaveSpeaksStepByStep()
     QCOMPARE(input, (QJsonObject{{"name", "echo"}, {"type", "Real64"}, {"unit", ""}}));
     QCOMPARE(request.fields().value("outputs").toArray().size(), 2);
     QCOMPARE(request.fields().value("udpPort").toInt() > 0, udp);
-    QCOMPARE(node.state(), QPlcSlaveNode::Connecting);
+    QCOMPARE(node.state(), QPlcSlaveNode::Registering);
     master.send(QPlcMessage::Registered, master.registeredFields(request));
 
     if (udp) {
@@ -169,7 +169,7 @@ void tst_RegisterSequence::slaveGoesOnOnlyWithEqualLayouts()
     master.send(QPlcMessage::Registered, fields);
     QTRY_COMPARE(node.error(), QPlcSlaveNode::ProtocolError);
     QVERIFY2(node.errorString().contains("layout"), qPrintable(node.errorString()));
-    QCOMPARE(node.state(), QPlcSlaveNode::Disconnected);
+    QCOMPARE(node.state(), QPlcSlaveNode::Rejected);
 }
 
 void tst_RegisterSequence::slaveRefusesAnotherProtocolVersion()
@@ -195,7 +195,7 @@ void tst_RegisterSequence::slaveReportsARejection()
     master.send(QPlcMessage::Rejected, {{"error", "TooManyNodes"}, {"text", "the house is full\x1b[2J"}});
     QTRY_COMPARE(node.error(), QPlcSlaveNode::RegistrationError);
     QVERIFY2(node.errorString().contains("the house is full?[2J"), qPrintable(node.errorString()));
-    QCOMPARE(node.state(), QPlcSlaveNode::Disconnected);
+    QCOMPARE(node.state(), QPlcSlaveNode::Rejected);
     QCOMPARE(errors.size(), 1);
 }
 

@@ -273,7 +273,7 @@ void tst_StartAndStopSequence::masterEndIsSaidAndMasterLossIsAnError()
     master.control->abort();
     QTRY_COMPARE(errors.size(), 1);
     QCOMPARE(lost.error(), QPlcSlaveNode::ConnectionError);
-    QCOMPARE(lost.state(), QPlcSlaveNode::Disconnected);
+    QCOMPARE(lost.state(), QPlcSlaveNode::SafeStop);
     QCOMPARE(lost.stops, 1);
 }
 

@@ -98,6 +98,7 @@ void tst_PlantFaults::aStoppedMasterLeavesOutWhatIsOver()
     QTRY_VERIFY_WITH_TIMEOUT(counter("skippedCycles") - skippedBefore >= 150, Program::patience);  // of about 200
     QVERIFY(waitForCycles(10));
     const QJsonObject all = state();
+    QCOMPARE(all.value("state").toString(), QString("SafeStop"));
     const QJsonObject counters = all.value("counters").toObject();
     const QByteArray cycle = all.value("cycle").toString().toLatin1();
     QVERIFY(counters.value("overruns").toDouble() >= 1);

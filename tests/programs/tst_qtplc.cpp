@@ -137,8 +137,8 @@ void tst_qtplc::helpShowsEveryCommand()
     const Outcome outcome = runProgram(path("qtplc"), {QStringLiteral("--help")});
     QCOMPARE(outcome.exitCode, 0);
     QCOMPARE(outcome.errors, QString());
-    for (const char *command : {"list", "get", "set", "echo", "watch", "hz", "state", "init", "start", "stop",
-                                "schedule", "jitter", "doctor", "help", "complete"})
+    for (const char *command : {"list", "get", "set", "echo", "watch", "hz", "state", "init", "arm", "start", "stop",
+                                "safestop", "reset", "schedule", "jitter", "doctor", "help", "complete"})
         QVERIFY2(outcome.output.contains(QStringLiteral("\n  %1 ").arg(QLatin1String(command))), command);
     QVERIFY(outcome.output.contains(QLatin1String("\nExamples:\n  qtplc list\n")));
     QCOMPARE(runProgram(path("qtplc"), {QStringLiteral("--version")}).exitCode, 0);
@@ -221,7 +221,7 @@ void tst_qtplc::stateNamesTheNodes()
     for (const char *line : {"state     Off\n", "cycle     0 (0.000 s)\n", "period    10 ms\n", "clock     RealTime\n",
                              "counters  cycles 0, ", "session   ", "digest    "})
         QVERIFY2(outcome.output.contains(QLatin1String(line)), qPrintable(outcome.output));
-    const QRegularExpression model(QStringLiteral("\nModel +tcp +ErrorZeroOrderHold +3 +18 +0 +0\n"));
+    const QRegularExpression model(QStringLiteral("\nModel +tcp +Registered +ErrorZeroOrderHold +3 +18 +0 +0\n"));
     QVERIFY2(model.match(outcome.output).hasMatch(), qPrintable(outcome.output));
     QVERIFY2(qtplc(QStringLiteral("state --verbose"))
                  .output.contains(QRegularExpression(QStringLiteral("\nAutopilot +tcp +127\\.0\\.0\\.1:\\d+ +"))),

@@ -61,7 +61,7 @@ int main(int argc, char **argv)
 
     CompactModelNode compactModelNode;
     compactModelNode.activateWorkloadMeasurement("modelWorkload");
-    compactModelNode.activateWatchdog(0.015);
+    compactModelNode.activateWatchdog(0.150);
     if (!compactModelNode.connectToMasterAndWaitForConnected(
             QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, application.arguments().value(1).toUShort())))
         return 2;

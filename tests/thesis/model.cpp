@@ -81,7 +81,7 @@ int main(int argc, char **argv)
 
     ModelNode modelNode;
     modelNode.activateWorkloadMeasurement("modelWorkload");
-    modelNode.activateWatchdog(0.015);
+    modelNode.activateWatchdog(0.150);
     if (!modelNode.connectToMasterAndWaitForConnected(
             QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, application.arguments().value(1).toUShort())))
         return 2;

@@ -17,7 +17,7 @@ namespace {
 
 using Values = QHash<QString, QPlcValue>;
 
-const char masterSilent[] = "no frame of the master for 15 ms";
+const char masterSilent[] = "no frame of the master for 150 ms";
 const double speed = 2.5;  // what the test sets [1/s]
 const double valve = 0.5;
 
@@ -268,6 +268,9 @@ void tst_ThesisPrograms::silentPartnersAreReported()
     const bool barked = m_model->waitForErrors(QString::fromLatin1(masterSilent));
     m_master->sendSignal(SIGCONT);
     QVERIFY2(barked, qPrintable(m_model->errors()));
+    QTRY_VERIFY_WITH_TIMEOUT(m_model->errors().count(QStringLiteral("registered")) > 1,
+                             Program::patience);  // it is back
+    QTRY_VERIFY_WITH_TIMEOUT(modelTime() > 0.02, Program::patience);
 
     // ErrorZeroOrderHold: the master reports a late model and goes on with its last values.
     m_model->sendSignal(SIGSTOP);

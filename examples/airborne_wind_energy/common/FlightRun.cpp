@@ -178,6 +178,8 @@ void FlightRun::end()
 {
     m_ending = true;
     m_master.stop();
+    if (m_master.state() == QPlcMasterNode::SafeStop)
+        m_master.stopServer();  // a stop does not leave it; the end of the program does
     finish();
 }
 

@@ -48,6 +48,8 @@ Message::Kind answerOf(Message::Kind question)
         return Message::Leases;
     case Message::GetEvents:
         return Message::Events;
+    case Message::Arm:
+        return Message::Armed;
     default:
         return Message::Done;
     }
@@ -138,6 +140,7 @@ void ControlChannel::receive(const Message &message)
     case Message::Schedule:
     case Message::Statistics:
     case Message::Leases:
+    case Message::Armed:
     case Message::Done:
     case Message::Failed:
         answer(message);
@@ -198,7 +201,7 @@ void ControlChannel::command(const Message &command, const Handler &handler)
 {
     if (!m_isGreeted) {
         handler(failed(QStringLiteral("there is no connection to the master")));
-    } else if (command.kind() == Message::Stop) {
+    } else if (command.kind() == Message::Stop || command.kind() == Message::SafeStop) {
         send({command, handler});
     } else {
         m_waiting.enqueue({command, handler});

@@ -50,6 +50,7 @@ Listener::Listener(const QString &name, QObject *parent)
     , m_node(new ListeningNode(name))
 {
     m_thread.setObjectName(QStringLiteral("plc"));
+    m_node->setReconnectPolicy(QPlcSlaveNode::NeverReconnect);  // whoever owns it connects again
     m_node->moveToThread(&m_thread);
     connect(&m_thread, &QThread::finished, m_node, &QObject::deleteLater);
     // The number of the attempt is read in the thread of the node, where it is true.
@@ -64,7 +65,9 @@ Listener::Listener(const QString &name, QObject *parent)
     connect(m_node, &QPlcSlaveNode::connectedToMaster, m_node,
             [this, forward] { forward([this] { Q_EMIT joined(); }); });
     connect(m_node, &QPlcSlaveNode::errorOccurred, m_node, [this, node, forward] {
-        if (node->state() == QPlcSlaveNode::Disconnected)  // else it goes on
+        const QPlcSlaveNode::State state = node->state();
+        if (state == QPlcSlaveNode::Disconnected || state == QPlcSlaveNode::Rejected
+            || state == QPlcSlaveNode::SafeStop)  // else it goes on
             forward([this, text = node->errorString()] { Q_EMIT lost(text); });
     });
     m_thread.start();

@@ -209,12 +209,15 @@ Plant::Action Plant::nextAction() const
 {
     if (!isConnected())
         return NoAction;
+    if (m_status.isLatched())
+        return Reset;
     if (m_status.isRunning())
         return StopAction;
-    if (m_status.state == QLatin1String("SafeStop"))
-        return Initialize;
-    const bool canStart = m_status.state == QLatin1String("Off") || m_status.state == QLatin1String("Initialized");
-    return canStart ? Start : NoAction;
+    if (m_status.state == QLatin1String("Off"))
+        return m_status.isArmingRequired ? Initialize : Start;
+    if (m_status.state == QLatin1String("Ready") || m_status.state == QLatin1String("Initialized"))
+        return m_status.isArmingRequired && !m_status.isArmed ? Arm : Start;
+    return NoAction;
 }
 
 QString Plant::actionText(Action action)
@@ -222,8 +225,12 @@ QString Plant::actionText(Action action)
     switch (action) {
     case Initialize:
         return tr("Initialize");
+    case Arm:
+        return tr("Arm");
     case Start:
         return tr("Start");
+    case Reset:
+        return tr("Reset");
     case StopAction:
         return tr("Stop");
     case NoAction:
@@ -346,8 +353,13 @@ void Plant::takeState(const Message &answer)
     if (answer.kind() != Message::State)
         return;
     const QString stateBefore = m_status.state;
+    const bool wasArmed = m_status.isArmed;
     const QStringList nodesBefore = nodeNames();
     m_status.takeState(answer.fields());
+    if (!m_status.isArmed && wasArmed)
+        m_token.clear();
+    if (m_status.isArmed != wasArmed)
+        Q_EMIT stateChanged();
     if (m_status.period > 0)
         m_connection.setPeriod(m_status.scale > 0.0 ? qint64(double(m_status.period) / m_status.scale)
                                                     : m_status.period);

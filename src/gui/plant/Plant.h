@@ -30,7 +30,7 @@ public:
         Stale    // no new values for longer than staleAfter(), or no connection
     };
     Q_ENUM(Quality)
-    enum Action { NoAction, Initialize, Start, StopAction };
+    enum Action { NoAction, Initialize, Arm, Start, StopAction, Reset };
     Q_ENUM(Action)
 
     /// \param address, nodeName  as for PlantConnection
@@ -58,7 +58,7 @@ public:
     const NodeStatus *ownNode() const { return m_status.node(m_connection.nodeName()); }
     /// One line for people: "RealTime", "Disconnected: Connection refused".
     QString stateText() const;
-    /// The one thing that comes next: Start when the master is off, Stop while it runs.
+    /// The one thing that comes next: Start when the master is off (Initialize, Arm and Start, where it wants starts to be armed), Stop while it runs, Reset when a fault is latched.
     Action nextAction() const;
     static QString actionText(Action action);
     const PlantStatus &status() const { return m_status; }
@@ -158,6 +158,7 @@ private:
 
     QString m_name;
     PlantConnection m_connection;
+    QString m_token;  // that permits a start
     PlantFeed *m_feed = nullptr;
     PlantValues m_values;
     PlantStatus m_status;

@@ -26,7 +26,9 @@ int Plant::command(const Message &message)
 {
     const int number = ++m_lastCommand;
     const auto tellOutcome = [this, number, name = message.kindName()](const Message &answer) {
-        if (answer.kind() == Message::Done) {
+        if (answer.kind() == Message::Armed)
+            m_token = answer.text(QStringLiteral("token"));
+        if (answer.kind() == Message::Done || answer.kind() == Message::Armed) {
             Q_EMIT commandDone(number);
         } else {
             const QString sentence = printable(answer.text(QStringLiteral("text")));
@@ -62,7 +64,11 @@ int Plant::initialize()
 
 int Plant::start()
 {
-    return command(Message(Message::StartRealTime));
+    QJsonObject fields;
+    if (!m_token.isEmpty())
+        fields.insert(QStringLiteral("token"), m_token);
+    m_token.clear();
+    return command(Message(Message::StartRealTime, fields));
 }
 
 int Plant::stop()
@@ -73,7 +79,20 @@ int Plant::stop()
 int Plant::perform(Action action)
 {
     Q_ASSERT_X(action != NoAction, "Plant::perform", "there is nothing to do");
-    return action == Initialize ? initialize() : action == Start ? start() : stop();
+    switch (action) {
+    case Initialize:
+        return initialize();
+    case Arm:
+        return command(Message(Message::Arm));
+    case Start:
+        return start();
+    case Reset:
+        return command(Message(Message::Reset));
+    case StopAction:
+    case NoAction:
+        break;
+    }
+    return stop();
 }
 
 int Plant::setValues(const QHash<QString, QPlcValue> &values, std::chrono::nanoseconds duration)

@@ -48,7 +48,13 @@ DurationStatus duration(const QJsonObject &fields, const char *name)
 
 bool PlantStatus::isRunning() const
 {
-    return state == QLatin1String("RealTime") || state == QLatin1String("WaitingForLateSlaves");
+    return state == QLatin1String("RealTime") || state == QLatin1String("WaitingForLateSlaves")
+        || state == QLatin1String("SafeStop");
+}
+
+bool PlantStatus::isLatched() const
+{
+    return state == QLatin1String("SafeStop") || state == QLatin1String("Fault");
 }
 
 const NodeStatus *PlantStatus::node(const QString &name) const
@@ -63,6 +69,10 @@ void PlantStatus::takeState(const QJsonObject &fields)
     const QPlcMessage message(QPlcMessage::State, fields);
     const bool wasRunning = isRunning();
     state = text(fields, "state");
+    reason = text(fields, "reason");
+    remains = text(fields, "remains");
+    isArmed = fields.value(QLatin1String("armed")).toBool();
+    isArmingRequired = fields.value(QLatin1String("armingRequired")).toBool();
     cycle = message.hex64(QStringLiteral("cycle"));
     period = qint64(number(fields, "period"));
     clock = text(fields, "clock");
@@ -79,6 +89,8 @@ void PlantStatus::takeState(const QJsonObject &fields)
         status.transport = text(of, "transport");
         status.address = text(of, "address");
         status.policy = text(of, "policy");
+        status.state = text(of, "state");
+        status.isCritical = of.value(QLatin1String("critical")).toBool();
         status.faultPlan = text(of, "faults");
         status.isListener = of.value(QLatin1String("listener")).toBool();
         status.inputs = int(number(of, "inputs"));

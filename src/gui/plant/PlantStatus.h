@@ -32,8 +32,10 @@ struct NodeStatus
     QString transport;
     QString address;
     QString policy;
+    QString state;
     QString faultPlan;  // that it injects on purpose; empty: none
     bool isListener = false;
+    bool isCritical = false;
     int inputs = 0;
     int outputs = 0;
     DurationStatus execution;
@@ -49,7 +51,11 @@ struct NodeStatus
 /// A master and its nodes, put together of its answers State, Statistics and Schedule. A value type.
 struct PlantStatus
 {
-    QString state;  // as the master names it; empty: not known
+    QString state;    // as the master names it; empty: not known
+    QString reason;   // why it is SafeStop or Fault
+    QString remains;  // what still keeps it from being reset; empty: nothing
+    bool isArmed = false;
+    bool isArmingRequired = false;
     quint64 cycle = 0;
     qint64 period = 0;  // [ns]
     QString clock;
@@ -67,8 +73,10 @@ struct PlantStatus
         gone;  // nodes of the phase that runs or ran last which have left and are not back; listeners come and go as they like
     QPlcSchedule schedule;
 
-    /// Whether cycles run, or stand still for a moment.
+    /// Whether cycles run, or stand still for a moment; safe ones, too.
     bool isRunning() const;
+    /// Whether it is SafeStop or Fault: nothing moves until it is reset.
+    bool isLatched() const;
     const NodeStatus *node(const QString &name) const;
 
     /// Takes an answer State. Figures of nodes that were there before stay.

@@ -41,7 +41,11 @@ void ControlCenterActions::makePlantMenu()
     nextPlant = add(plantMenu, tr("&Next plant"), tr("Ctrl+P"));
     plantMenu->addSeparator();
     initialize = add(plantMenu, tr("&Initialize"), tr("F4"));
+    arm = add(plantMenu, tr("&Arm"), tr("F6"));
+    arm->setToolTip(tr("Permits one start within 5 s, where the master wants it"));
     start = add(plantMenu, tr("&Start"), tr("F5"));
+    resetPlant = add(plantMenu, tr("&Reset the plant"), tr("F7"));
+    resetPlant->setToolTip(tr("Leaves the safe stop when its cause is gone; nothing moves by it"));
     stop = add(plantMenu, tr("S&top (Esc Esc)"), tr("Ctrl+."));
     stop->setShortcutContext(Qt::ApplicationShortcut);
     giveBack = add(plantMenu, tr("&Give back control"), tr("Ctrl+G"));

@@ -37,7 +37,9 @@ public:
     QAction *disconnectFrom = nullptr;
     QAction *nextPlant = nullptr;
     QAction *initialize = nullptr;
+    QAction *arm = nullptr;
     QAction *start = nullptr;
+    QAction *resetPlant = nullptr;
     QAction *stop = nullptr;
     QAction *giveBack = nullptr;
     QAction *startPage = nullptr;

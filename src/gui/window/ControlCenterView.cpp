@@ -29,7 +29,10 @@ void QPlcControlCenter::Private::connectPlantActions()
     connect(actions->disconnectFrom, &QAction::triggered, q, [this] { disconnectFrom(); });
     connect(actions->nextPlant, &QAction::triggered, &selection, &PlantSelection::selectNext);
     connect(actions->initialize, &QAction::triggered, q, [this] { perform(Plant::Initialize); });
+    connect(actions->arm, &QAction::triggered, q, [this] { perform(Plant::Arm); });
     connect(actions->start, &QAction::triggered, q, [this] { perform(Plant::Start); });
+    connect(actions->resetPlant, &QAction::triggered, q, [this] { perform(Plant::Reset); });
+    connect(latchBanner, &LatchBanner::resetRequested, q, [](Plant *plant) { plant->perform(Plant::Reset); });
     connect(actions->stop, &QAction::triggered, q, [this] { stop(); });
     connect(actions->giveBack, &QAction::triggered, q, [this] { giveBackControl(*context.plants()); });
     connect(topBar->controlNotice(), &ControlNotice::factsChanged, actions->giveBack,

@@ -14,13 +14,14 @@ PlantSelection::PlantSelection(PlantList *plants, QObject *parent)
 void PlantSelection::follow(Plant *plant)
 {
     connect(plant, &Plant::messagePushed, this, [this, plant](const QPlcMessage &message) {
-        if (message.kind() != QPlcMessage::StatesInitialized)
+        if (message.kind() != QPlcMessage::StatesInitialized || !message.fields().value(QStringLiteral("ok")).toBool())
             return;
         m_initialized.insert(plant);
         Q_EMIT changed();
     });
     connect(plant, &Plant::stateChanged, this, [this, plant] {
-        if (!plant->isConnected() || plant->status().isRunning())
+        const bool isBack = plant->status().state == QLatin1String("Off") && m_initialized.contains(plant);
+        if (!plant->isConnected() || plant->status().isRunning() || plant->status().isLatched() || isBack)
             m_initialized.remove(plant);
         Q_EMIT changed();
     });

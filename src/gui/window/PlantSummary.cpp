@@ -137,9 +137,15 @@ StateStep StateStep::of(const Plant *plant, bool isInitialized)
     if (state == QLatin1String("WaitingForLateSlaves"))
         return {RealTime, Tone::Warning, tr("Waiting for late nodes")};
     if (state == QLatin1String("SafeStop"))
-        return {Off, Tone::Alarm, tr("Safe stop")};
+        return {RealTime, Tone::Alarm, tr("Safe stop")};
+    if (state == QLatin1String("Fault"))
+        return {Off, Tone::Alarm, tr("Fault")};
     if (state == QLatin1String("Initializing"))
         return {Initialized, Tone::Calm, tr("Initializing …")};
+    if (state == QLatin1String("Ready") && plant->status().isArmed)
+        return {Initialized, Tone::Warning, tr("Armed")};
+    if (state == QLatin1String("Ready"))
+        return {Initialized, Tone::Calm, tr("Ready")};
     if (isInitialized || state == QLatin1String("Initialized"))
         return {Initialized, Tone::Calm, {}};
     return {Off, Tone::Calm, {}};

@@ -71,6 +71,8 @@ void QPlcControlCenter::Private::makeCentre()
     connect(search, &MasterSearch::found, connectStrip, &ConnectStrip::setFoundMasters);
     pages->addWidget(startPage);
     pages->addWidget(panels);
+    latchBanner = new LatchBanner(&context, centre);
+    column->addWidget(latchBanner);
     column->addWidget(new FaultBanner(&context, centre));
     column->addWidget(connectStrip);
     column->addWidget(hint);
@@ -180,9 +182,11 @@ void QPlcControlCenter::Private::followSelection()
 {
     const Plant *plant = selection.plant();
     const Plant::Action next = plant ? plant->nextAction() : Plant::NoAction;
-    const bool isAtRest = plant && plant->isConnected() && !plant->status().isRunning();
+    const bool isAtRest = plant && plant->isConnected() && !plant->status().isRunning() && !plant->status().isLatched();
     actions->initialize->setEnabled(isAtRest);
-    actions->start->setEnabled(isAtRest && next != Plant::Initialize);
+    actions->arm->setEnabled(next == Plant::Arm);
+    actions->start->setEnabled(next == Plant::Start);
+    actions->resetPlant->setEnabled(next == Plant::Reset);
     actions->disconnectFrom->setEnabled(plant != nullptr);
     actions->disconnectFrom->setText(plant ? tr("&Disconnect from %1").arg(plant->name()) : tr("&Disconnect"));
     actions->nextPlant->setEnabled(context.plants()->size() > 1);

@@ -7,6 +7,7 @@
 #include "ControlCenterActions.h"
 #include "EventLine.h"
 #include "HintLine.h"
+#include "LatchBanner.h"
 #include "LayoutShelf.h"
 #include "MasterSearch.h"
 #include "PanelWiring.h"
@@ -94,6 +95,7 @@ struct QPlcControlCenter::Private
 
     qplc::ControlCenterActions *actions = nullptr;
     qplc::TopBar *topBar = nullptr;
+    qplc::LatchBanner *latchBanner = nullptr;
     qplc::HintLine *hint = nullptr;
     qplc::ConnectStrip *connectStrip = nullptr;
     QStackedWidget *pages = nullptr;

@@ -5,6 +5,24 @@
 
 namespace qplc {
 
+namespace {
+
+QString keysOf(Plant::Action action)
+{
+    switch (action) {
+    case Plant::Start:
+        return TopBar::tr("F5");
+    case Plant::Arm:
+        return TopBar::tr("F6");
+    case Plant::Reset:
+        return TopBar::tr("F7");
+    default:
+        return TopBar::tr("F4");
+    }
+}
+
+}  // namespace
+
 TopBar::TopBar(PlantSelection *selection, WindowContext *context, QWidget *parent)
     : FlatToolBar(tr("Plant"), context, parent)
     , m_selection(selection)
@@ -48,11 +66,11 @@ void TopBar::follow()
     m_stepper->show(StateStep::of(plant, m_selection->isInitialized()));
     const Plant::Action next = plant ? plant->nextAction() : Plant::NoAction;
     // While cycles run, STOP is the next action.
-    const bool hasNext = next == Plant::Initialize || next == Plant::Start;
+    const bool hasNext = next != Plant::NoAction && next != Plant::StopAction;
     m_next->setVisible(hasNext);
     if (hasNext) {
         m_next->setText(Plant::actionText(next));
-        m_next->setDetail(next == Plant::Start ? tr("F5") : tr("F4"));
+        m_next->setDetail(keysOf(next));
         m_next->setToolTip(tr("%1 %2").arg(Plant::actionText(next), plant->name()));
     }
     m_stop->setDetail(m_selection->plants()->size() > 1 && plant ? plant->name() : QString());

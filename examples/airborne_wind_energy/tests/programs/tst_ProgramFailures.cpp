@@ -51,8 +51,8 @@ private Q_SLOTS:
     void nodeThatDoesNotFitTheMasterIsRefused();
     void nodeThatWantsAMissingMulticastGroupIsRefused();
     void masterWhoseTableLacksItsOwnSignalDoesNotBegin();
-    void nodesEndWithTheirMaster_data();
-    void nodesEndWithTheirMaster();
+    void nodesEndWithTheirMasterUnlessTheyAreToStay();
+    void nodesWaitForTheNextMasterWhenTheirsIsLost();
     void notANumberEndsTheFlight();
     void lostNodeEndsTheFlight();
     void bothModelsFlyTheSameFlight_data();
@@ -201,30 +201,36 @@ void tst_ProgramFailures::masterWhoseTableLacksItsOwnSignalDoesNotBegin()
     }
 }
 
-void tst_ProgramFailures::nodesEndWithTheirMaster_data()
+void tst_ProgramFailures::nodesEndWithTheirMasterUnlessTheyAreToStay()
 {
-    QTest::addColumn<int>("signal");
-    QTest::addColumn<int>("exitCode");
-    QTest::newRow("orderly end") << SIGTERM << 0;
-    QTest::newRow("crash") << SIGKILL << 1;
-}
-
-void tst_ProgramFailures::nodesEndWithTheirMaster()
-{
-    QFETCH(int, signal);
-    QFETCH(int, exitCode);
     Program master(path("awe_master"), {QStringLiteral("--port=0")});
     const QString where = address(master);
     Program model(path("awe_model"), {where});
     Program autopilot(path("awe_autopilot"),
-                      {QString(where).replace(QStringLiteral("--master="), QStringLiteral("--master=udp://"))});
+                      {QStringLiteral("--stay"),
+                       QString(where).replace(QStringLiteral("--master="), QStringLiteral("--master=udp://"))});
     QVERIFY(model.waitForErrors(QStringLiteral("registered")) && autopilot.waitForErrors(QStringLiteral("registered")));
-    master.sendSignal(signal);
-    QCOMPARE(model.waitForEnd(), exitCode);
-    QCOMPARE(autopilot.waitForEnd(), exitCode);
-    QVERIFY2(model.errors().contains(exitCode == 0 ? QLatin1String("the master has ended")
-                                                   : QLatin1String("has lost the master")),
-             qPrintable(model.errors()));
+    master.sendSignal(SIGTERM);
+    QCOMPARE(model.waitForEnd(), 0);
+    QVERIFY2(model.errors().contains(QLatin1String("the master has ended")), qPrintable(model.errors()));
+    QVERIFY(autopilot.waitForErrors(QStringLiteral("cannot reach a master")));
+    autopilot.sendSignal(SIGTERM);
+    QCOMPARE(autopilot.waitForEnd(), 0);
+}
+
+void tst_ProgramFailures::nodesWaitForTheNextMasterWhenTheirsIsLost()
+{
+    Program master(path("awe_master"), {QStringLiteral("--port=0")});
+    const QString where = address(master);
+    Program model(path("awe_model"), {where});
+    QVERIFY(model.waitForErrors(QStringLiteral("registered")));
+    master.sendSignal(SIGKILL);
+    QVERIFY(model.waitForErrors(QStringLiteral("has lost the master")));
+    master.waitForEnd();
+    Program next(path("awe_master"), {QStringLiteral("--port=%1").arg(where.section(QLatin1Char(':'), -1))});
+    QVERIFY(next.waitForErrors(QStringLiteral("node Model registered")));
+    next.sendSignal(SIGTERM);
+    QCOMPARE(model.waitForEnd(), 0);
 }
 
 void tst_ProgramFailures::notANumberEndsTheFlight()

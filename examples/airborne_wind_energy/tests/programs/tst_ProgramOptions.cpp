@@ -40,8 +40,8 @@ void tst_ProgramOptions::helpNamesEveryOption_data()
 {
     QTest::addColumn<QString>("program");
     QTest::addColumn<QString>("options");
-    const char *const node = "--master --signals --name --watchdog --same-cycle --priority --cpu --lock-memory "
-                             "--enable-fault-injection --faults";
+    const char *const node = "--master --signals --name --watchdog --critical --stay --same-cycle --priority --cpu "
+                             "--lock-memory --enable-fault-injection --faults";
     const char *const model = " --wind --turbulence --seed";
     const char *const autopilot = " --gains --force-limit --dead-time";
     const char *const run = " --lockstep --real-time --scale --overrun --duration --report --watch --signals";

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "LatchBanner.h"
+
+#include <QtGui/QPainter>
+#include <QtWidgets/QHBoxLayout>
+#include <QtWidgets/QLabel>
+
+namespace qplc {
+
+LatchBanner::LatchBanner(WindowContext *context, QWidget *parent)
+    : QWidget(parent)
+    , m_context(context)
+    , m_label(new QLabel(this))
+    , m_reset(new BarButton(BarButton::Outlined, context))
+{
+    setObjectName(QStringLiteral("LatchBanner"));
+    m_label->setTextFormat(Qt::PlainText);
+    m_label->setWordWrap(true);
+    m_label->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    m_reset->setText(Plant::actionText(Plant::Reset));
+    m_reset->setDetail(tr("F7"));
+    connect(m_reset, &QAbstractButton::clicked, this, [this] {
+        if (m_plant)
+            Q_EMIT resetRequested(m_plant);
+    });
+    auto *row = new QHBoxLayout(this);
+    row->setContentsMargins(18, 6, 8, 6);
+    row->setSpacing(12);
+    row->addWidget(m_label, 1);
+    row->addWidget(m_reset, 0, Qt::AlignVCenter);
+    PlantList *plants = context->plants();
+    connect(plants, &PlantList::added, this, &LatchBanner::listenTo);
+    connect(plants, &PlantList::removed, this, &LatchBanner::follow);
+    connect(context, &WindowContext::themeChanged, this, &LatchBanner::colour);
+    for (int place = 0; place < plants->size(); ++place)
+        listenTo(plants->at(place));
+    colour();
+    follow();
+}
+
+void LatchBanner::listenTo(Plant *plant)
+{
+    connect(plant, &Plant::stateChanged, this, &LatchBanner::follow);
+    connect(plant, &Plant::statusChanged, this, &LatchBanner::follow);
+    follow();
+}
+
+void LatchBanner::follow()
+{
+    PlantList *plants = m_context->plants();
+    m_plant.clear();
+    m_text.clear();
+    for (int place = 0; place < plants->size() && !m_plant; ++place) {
+        if (plants->at(place)->isConnected() && plants->at(place)->status().isLatched())
+            m_plant = plants->at(place);
+    }
+    if (m_plant) {
+        const PlantStatus &status = m_plant->status();
+        const QString what
+            = status.state == QLatin1String("SafeStop") ? tr("%1 has stopped safely") : tr("%1 cannot run");
+        m_text = what.arg(m_plant->name());
+        if (!status.reason.isEmpty())
+            m_text += tr(": %1").arg(status.reason);
+        m_text += status.remains.isEmpty() ? tr(". Reset it, then initialize and start.")
+                                           : tr(". Before a reset: %1.").arg(status.remains);
+        m_reset->setEnabled(status.remains.isEmpty());
+        m_reset->setAccessibleName(tr("Reset %1").arg(m_plant->name()));
+    }
+    m_label->setText(m_text);
+    setAccessibleName(m_text);
+    setVisible(!m_text.isEmpty());
+}
+
+void LatchBanner::colour()
+{
+    QPalette colours = m_label->palette();
+    colours.setColor(QPalette::WindowText, m_context->theme().text);
+    m_label->setPalette(colours);
+    update();
+}
+
+void LatchBanner::paintEvent(QPaintEvent * /*event*/)
+{
+    const Theme &theme = m_context->theme();
+    QPainter painter(this);
+    QColor tint = theme.alarm;
+    tint.setAlphaF(0.16);
+    painter.fillRect(rect(), theme.surface);
+    painter.fillRect(rect(), tint);
+    painter.fillRect(QRect(0, 0, 6, height()), theme.alarm);
+    painter.fillRect(QRect(0, height() - 1, width(), 1), theme.alarm);
+}
+
+}  // namespace qplc

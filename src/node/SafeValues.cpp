@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "SafeValues.h"
+
+#include "Leases.h"
+
+namespace qplc {
+
+std::vector<char> safeFrame(const QPlcSignalTable &table, const PayloadLayout &layout)
+{
+    std::vector<char> bytes(layout.size());
+    for (const PayloadLayout::Field &field : layout.fields())
+        neutralValue(table.at(field.signal)).toBytes(bytes.data() + field.offset);
+    return bytes;
+}
+
+SafeImage::SafeImage(const ProcessImage &image, const std::vector<bool> &wanted)
+    : m_bytes(image.size())
+{
+    const QPlcSignalTable &table = image.table();
+    for (QPlcSignalIndex signal = 0; signal < table.size() && signal < wanted.size(); ++signal) {
+        if (!wanted[signal])
+            continue;
+        const quint32 offset = image.offset(signal);
+        const auto size = quint32(table.at(signal).type.size());
+        neutralValue(table.at(signal)).toBytes(m_bytes.data() + offset);
+        if (!m_runs.empty() && m_runs.back().to + m_runs.back().size == offset)
+            m_runs.back().size += size;  // neighbours: one copy
+        else
+            m_runs.push_back({offset, offset, size});
+    }
+}
+
+void SafeImage::applyTo(char *bytes) const noexcept
+{
+    copyRuns(m_runs, m_bytes.data(), bytes);
+}
+
+}  // namespace qplc

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// The states of QPlcSlaveNodePrivate: the table carried out.
+#include "Logging.h"
+#include "QPlcSlaveNodePrivate.h"
+
+#include <utility>
+
+using Message = QPlcMessage;
+using Event = qplc::SlaveEvent;
+using Action = qplc::SlaveAction;
+
+namespace {
+
+/// Why a node that is in its phase goes to its safe state.
+QPlcSlaveNode::SafeStateReason reasonOf(Event event)
+{
+    return event == Event::ConnectionLost  ? QPlcSlaveNode::MasterLost
+        : event == Event::WatchdogTimedOut ? QPlcSlaveNode::WatchdogReason
+                                           : QPlcSlaveNode::PhaseEnded;
+}
+
+/// Ends the phase, if there is one: what the cycle thread still has to say comes before.
+bool endsPhase(Event event)
+{
+    switch (event) {
+    case Event::Leave:
+    case Event::ConnectionLost:
+    case Event::Refused:
+    case Event::MasterEnded:
+    case Event::PhaseStopped:
+        return true;
+    default:
+        return false;
+    }
+}
+
+}  // namespace
+
+bool QPlcSlaveNodePrivate::apply(Event event, const Message &message)
+{
+    if (endsPhase(event))
+        haltCycles();
+    const auto &cell = qplc::slaveStates().at(state, event);
+    if (cell.verdict != qplc::Verdict::Accepted)
+        return false;
+    const bool wasInPhase = m_inPhase;
+    const bool hadChannel = hasChannel;
+    if (event == Event::PhaseStarted)
+        m_isSafeTold = false;
+    if (!localMaster && !prepareFor(cell.action, event, message))
+        return true;
+    enter(cell.next);
+    if (wasInPhase && !m_inPhase)
+        Q_EMIT q->realTimeHasStopped();
+    if (!wasInPhase && m_inPhase) {
+        control->sendMessage(Message(Message::RealTimeReady));
+        Q_EMIT q->realTimeHasStarted();
+    }
+    if (hadChannel && !hasChannel)
+        Q_EMIT q->disconnectedFromMaster();
+    if (!localMaster && state == cell.next)
+        carryOut(cell.action);
+    if (cell.action == Action::Proceed)
+        proceed(event, message);
+    return true;
+}
+
+void QPlcSlaveNodePrivate::enter(QPlcSlaveNode::State newState)
+{
+    if (state == newState)
+        return;
+    state = newState;
+    qCDebug(lcSlave) << name << newState;
+    Q_EMIT q->stateChanged(newState);
+}
+
+/// What has to be done before the next state is there. \return false when it failed and has led to another state
+bool QPlcSlaveNodePrivate::prepareFor(Action action, Event event, const Message &message)
+{
+    switch (action) {
+    case Action::CloseConnection:
+        m_retryTimer.stop();
+        closeConnection(reasonOf(event));
+        return true;
+    case Action::CloseAndRetry:
+        if (event == Event::WatchdogTimedOut) {
+            closeAfterWatchdog();
+            return true;
+        }
+        closeConnection(reasonOf(event));
+        retryLater(event);
+        return true;
+    case Action::EndCycles:
+        endPhase(reasonOf(event));
+        return true;
+    case Action::TakeValues:
+        return initializeWith(message);
+    case Action::StartCycles:
+        return startCycles(message);
+    default:
+        return true;
+    }
+}
+
+/// What is done in the state that has been reached.
+void QPlcSlaveNodePrivate::carryOut(Action action)
+{
+    switch (action) {
+    case Action::OpenConnection:
+        openConnection();
+        break;
+    case Action::Greet:
+        greet();
+        break;
+    case Action::TellRegistered:
+        tellRegistered();
+        break;
+    case Action::GiveOutputs:
+        sendInitialOutputs();
+        break;
+    default:
+        break;
+    }
+}
+
+void QPlcSlaveNodePrivate::makeSafe(QPlcSlaveNode::SafeStateReason reason)
+{
+    runtime.makeSafe(reason);
+    tellSafe(reason);
+}
+
+void QPlcSlaveNodePrivate::tellSafe(QPlcSlaveNode::SafeStateReason reason)
+{
+    if (!std::exchange(m_isSafeTold, true))
+        Q_EMIT q->safeStateEntered(reason);
+}
