@@ -17,7 +17,7 @@ struct Record
         Reset,     // initial outputs. numbers: see StepNumber, what is written only
         Phase,     // the real-time phase has begun
         Step,      // numbers: see StepNumber
-        Safe,      // the node itself went to its safe state. numbers: what the drive does
+        Safe,      // the node itself went to its safe state. numbers: see SafeNumber
         PhaseEnded,
         MasterLost,
         // of a master; subject: a node, or Nobody
@@ -54,6 +54,7 @@ struct Record
     };
     enum MasterNumber { MasterPhase, Cycles, Skipped, Strangers, LateAnswers, Overruns, Incomplete };
     enum NodeNumber { NodePhase, Answers, NodeLate, AnswersLost, Duplicated, Reordered, Rejected, Resent };
+    enum SafeNumber { SafeDriveBits, IsWanted };  // wanted: the phase ended
     enum UsageNumber { Descriptors, Threads, ResidentKb, UsageLife, IsCompared };
     static constexpr quint64 NoQuality = 255;  // of a plant without qualities
     static constexpr quint16 Nobody = 0xffff;

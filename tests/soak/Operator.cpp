@@ -61,16 +61,32 @@ bool Operator::ask(Message::Kind request, Message *answer)
     return false;
 }
 
+bool Operator::areAllThere(const Message &state) const
+{
+    const int registered = state.fields().value(QStringLiteral("nodes")).toArray().size() - 1;  // the recorder is one
+    return registered >= m_nodes && (m_formerId == 0 || idOf(state, m_formerNode) != m_formerId);
+}
+
+bool Operator::isRunning()
+{
+    Message state;
+    return ask(Message::GetState, &state) && areAllThere(state)
+        && state.text(QStringLiteral("state")) == QLatin1String("RealTime");
+}
+
 bool Operator::goOn()
 {
     Message state;
     if (!ask(Message::GetState, &state))
         return false;
     const QString name = state.text(QStringLiteral("state"));
-    const int registered = state.fields().value(QStringLiteral("nodes")).toArray().size() - 1;  // the recorder is one
-    m_errorString = QStringLiteral("the master is in %1 and has %2 of %3 nodes").arg(name).arg(registered).arg(m_nodes);
-    if (registered < m_nodes || (m_formerId != 0 && idOf(state, m_formerNode) == m_formerId))
+    m_errorString = QStringLiteral("the master is in %1; of %2 nodes some are missing, or it does not start")
+                        .arg(name)
+                        .arg(m_nodes);
+    if (!areAllThere(state))
         return false;
+    if (name == QLatin1String("SafeStop") || name == QLatin1String("Fault"))
+        ask(Message::Reset, &state);
     if (name == QLatin1String("Off") || name == QLatin1String("Ready")) {
         m_history.append(Record::Command, -1);
         ask(Message::StartRealTime, &state);

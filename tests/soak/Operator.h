@@ -20,6 +20,8 @@ public:
     void useMaster(quint16 port);
     /// Does what there is to do until the whole plant runs. \return false when it does not within \a patience [ms]: errorString() says what is missing
     bool bringToRealTime(int patience);
+    /// Whether the whole plant runs. Does nothing about it.
+    bool isRunning();
     /// From now on the whole plant runs only with a node \a node that has registered anew. To be called before its process ends.
     void expectAnother(int node);
     bool stop();
@@ -31,6 +33,7 @@ public:
 
 private:
     bool ask(QPlcMessage::Kind request, QPlcMessage *answer);
+    bool areAllThere(const QPlcMessage &state) const;
     static int idOf(const QPlcMessage &state, int node);
     /// Does the next thing. \return whether the whole plant runs
     bool goOn();

@@ -139,9 +139,10 @@ void PlantProcesses::startNode(int node, const QStringList &extraArguments)
                       QString::number(watchdog),
                       QStringLiteral("--master"),
                       QStringLiteral("%1://127.0.0.1:%2").arg(QString::fromLatin1(transportOf(node))).arg(m_port)};
-    slot.process
-        = std::make_unique<PlantProcess>(QStringLiteral("soak_node"), arguments + priorityArguments() + extraArguments,
-                                         file(name + QStringLiteral(".log")));
+    const QStringList critical = isCritical(node) ? QStringList{QStringLiteral("--critical")} : QStringList();
+    slot.process = std::make_unique<PlantProcess>(QStringLiteral("soak_node"),
+                                                  arguments + critical + priorityArguments() + extraArguments,
+                                                  file(name + QStringLiteral(".log")));
     m_history.append(Record::Started, node, {quint64(slot.process->processId()), slot.life});
 }
 

@@ -111,9 +111,14 @@ Gate nothingMovesByItself(const Evidence &evidence)
     for (const History &history : evidence.nodes) {
         const Record *safe = nullptr;
         for (const Record &record : history.records) {
-            if (record.kind == Record::Safe)
+            if (record.kind == Record::Safe) {
                 safe = &record;
-            else if (record.kind == Record::Phase)
+                if (fromBits(record.numbers[Record::SafeDriveBits]) != SafeDrive)
+                    gate.fail(QStringLiteral("%1: its safe state has a drive of %2")
+                                  .arg(history.name)
+                                  .arg(fromBits(record.numbers[Record::SafeDriveBits])));
+            }
+            if (record.kind == Record::Phase)
                 safe = nullptr;
             if (record.kind != Record::Step)
                 continue;
@@ -163,7 +168,7 @@ Gate noFalseAlarms(const Evidence &evidence)
     };
     for (const History &history : evidence.nodes) {
         for (const Record &record : history.records) {
-            if (record.kind == Record::Safe)
+            if (record.kind == Record::Safe && record.numbers[Record::IsWanted] == 0)
                 look(history, record, -1, "a safe state");  // the whole plant goes safe for one node
             else if (record.kind == Record::MasterLost)
                 look(history, record, history.node, "the master is lost");

@@ -29,6 +29,11 @@ QPlcSignalTable table(const PlantShape &shape);
 
 /// How a node is connected: "udp", "tcp" or "local".
 const char *transportOf(int node);
+/// Without a critical node the plant stops safely.
+inline bool isCritical(int node)
+{
+    return node % 4 == 3;
+}
 inline bool isOnStream(int node)
 {
     return node % 3 == 1;

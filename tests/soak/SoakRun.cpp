@@ -15,8 +15,9 @@ namespace soak {
 
 namespace {
 
-constexpr int Patience = 20'000;  // [ms]
-constexpr int Settling = 350;     // [ms] after a fault, until all of it has been counted
+constexpr int Patience = 20'000;   // [ms]
+constexpr int Consequences = 100;  // [ms] after a fault, until watchdogs and connections have had their say
+constexpr int Settling = 350;      // [ms] after a fault, until all of it has been counted
 
 }  // namespace
 
@@ -106,24 +107,28 @@ bool SoakRun::run()
 void SoakRun::rest(int seconds)
 {
     for (int i = 0; i < seconds; ++i) {
-        m_plant.recordUsage(true);
+        m_plant.recordUsage(m_operator.isRunning());
         Operator::wait(1000);
     }
-    m_plant.recordUsage(true);
+    m_plant.recordUsage(m_operator.isRunning());
 }
 
 bool SoakRun::suffer(const Fault &fault)
 {
+    if (!recover())  // it may have gone safe for a stall of the machine
+        return false;
     QElapsedTimer timer;
     timer.start();
     m_history.append(Record::FaultBegins, fault.node, {quint64(fault.kind), quint64(fault.amount), fault.seed});
     const int amount = inject(fault);
     m_history.append(Record::FaultEnds, fault.node, {quint64(fault.kind), quint64(amount)});
+    if (fault.kind == FaultKind::StopNode || fault.kind == FaultKind::StopMaster)
+        Operator::wait(Consequences);
     if (!recover())
         return false;
-    const int settling = fault.kind == FaultKind::KillNode ? 0 : Settling;
+    const int settling = fault.kind == FaultKind::KillNode ? Consequences : Settling;
     Operator::wait(std::max(settling, m_profile.faultEvery - int(timer.elapsed())));
-    m_plant.recordUsage(true);
+    m_plant.recordUsage(m_operator.isRunning());
     return true;
 }
 

@@ -118,8 +118,8 @@ Gate valuesNeverGoBack(const Evidence &evidence)
                 continue;
             ++gate.looked;
             const Stamp seen = seenIn(record);
-            const bool isSafe = record.numbers[Record::Quality] != Record::NoQuality
-                && fromBits(record.numbers[Record::Drive]) == SafeDrive;
+            const bool isSafe
+                = fromBits(record.numbers[Record::Drive]) == SafeDrive;  // of a writer that went safe itself
             if (seen.life == 0 && (isPhaseNew || isSafe))
                 continue;
             isPhaseNew = false;

@@ -59,11 +59,15 @@ public:
     ~Master() override { removeLocalNode(&m_recorder); }
     bool start(std::chrono::microseconds period, quint16 port)
     {
+        setGapLimit(LongestGap);
         return setSignalTable(table(m_options.shape)) && setInterval(period) && addLocalNode(&m_recorder)
             && startServer(QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, port));
     }
 
 private:
+    static constexpr std::chrono::milliseconds LongestGap{
+        200};  // less than a master is stopped for, more than a busy machine takes
+
     void recordNodes()
     {
         const auto record

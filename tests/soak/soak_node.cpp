@@ -4,8 +4,6 @@
 #include "NodeOptions.h"
 #include "SoakPlant.h"
 
-#include <QtCore/QThread>
-
 namespace soak {
 
 class Node : public QPlcCompactSlaveNode
@@ -22,11 +20,8 @@ public:
             setSignalTable(table(options.shape));
         connect(this, &QPlcSlaveNode::realTimeHasStarted, this,
                 [this] { m_history.append(Record::Phase, m_options.node); });
-        connect(this, &QPlcSlaveNode::watchdogTimedOut, this, [this] { becomeSafe(); });
-        connect(this, &QPlcSlaveNode::disconnectedFromMaster, this, [this] {
-            becomeSafe();
-            m_history.append(Record::MasterLost, m_options.node);
-        });
+        connect(this, &QPlcSlaveNode::disconnectedFromMaster, this,
+                [this] { m_history.append(Record::MasterLost, m_options.node); });
     }
 
 private:
@@ -45,7 +40,10 @@ private:
                          cycle.number());
     }
     void stopped() override { m_history.append(Record::PhaseEnded, m_options.node); }
-    void becomeSafe() { m_history.append(Record::Safe, m_options.node, {bitsOf(SafeDrive)}); }
+    void safeState(SafeStateReason reason) override
+    {
+        m_history.append(Record::Safe, m_options.node, {bitsOf(m_seen.drive), reason == PhaseEnded ? 1U : 0U});
+    }
 
     const NodeOptions m_options;
     HistoryWriter &m_history;
@@ -66,8 +64,5 @@ int main(int argc, char **argv)
         return application.exitCode();
     soak::Node node(options, history);
     history.append(soak::Record::Born, options.node, {quint64(application.applicationPid())});
-    // The master may be killed and come back.
-    while (application.run(node) != QPlcCoreApplication::Success)
-        QThread::msleep(100);
-    return QPlcCoreApplication::Success;
+    return application.run(node);
 }

@@ -22,6 +22,7 @@ private Q_SLOTS:
     void aFaultThatIsToldTooLateIsFound();
     void aFaultThatNobodyIsToldOfIsFound();
     void aFaultThatIsToldLateBecauseOfTheMachineIsExcused();
+    void aNodeThatTheMachineHadTakenBeforeIsExcused();
     void aNodeThatIsBackInTimePasses();
     void aNodeThatIsBackTooLateIsFound();
     void aNodeThatNeverComesBackIsFound();
@@ -166,6 +167,15 @@ void tst_PlantGates::aFaultThatIsToldLateBecauseOfTheMachineIsExcused()
     plant.addFault(FaultKind::KillNode, 1, HandMade::at(50) + ms, HandMade::at(51));
     HandMade::add(plant.master(), Record::Lost, 1, HandMade::at(57) + ms).waited = 15 * ms;
     QCOMPARE(plant.judge(&soak::faultsAreSeen).excused, qint64(1));
+}
+
+void tst_PlantGates::aNodeThatTheMachineHadTakenBeforeIsExcused()
+{
+    HandMade plant;
+    plant.addFault(FaultKind::KillNode, 1, HandMade::at(50), HandMade::at(51));
+    HandMade::add(plant.runner(), Record::Stall, -1, HandMade::at(45), {quint64(HandMade::at(42))});
+    QCOMPARE(plant.judge(&soak::faultsAreSeen).excused, qint64(1));
+    QCOMPARE(plant.judge(&soak::faultsAreCounted).excused, qint64(1));
 }
 
 void tst_PlantGates::aNodeThatIsBackInTimePasses()

@@ -22,11 +22,13 @@ private Q_SLOTS:
     void aNodeThatWaitedForAProcessorIsExcused();
     void aStoppedNodeCannotGoSafe();
     void aNodeThatMovesAfterASafeStateIsFound();
+    void aSafeStateThatIsNotSafeIsFound();
     void aNewPhaseEndsASafeState();
     void aMasterThatStartsByItselfIsFound();
     void aRestartedMasterNeedsANewCommand();
     void aMasterThatWaitedGoesOnByItself();
     void anAlarmWithoutAFaultIsFound();
+    void theSafeStateAtTheEndOfAPhaseIsNoAlarm();
     void anAlarmOfAFaultIsExplained();
     void theLossOfAnotherNodeIsNotExplained();
     void anAlarmInAStallIsExcused();
@@ -150,6 +152,13 @@ void tst_SafetyGates::aNodeThatMovesAfterASafeStateIsFound()
     QCOMPARE(plant.judge(&soak::nothingMovesByItself).failed, qint64(20));
 }
 
+void tst_SafetyGates::aSafeStateThatIsNotSafeIsFound()
+{
+    HandMade plant;
+    HandMade::add(plant.node(1), Record::Safe, 1, plant.end(), {soak::bitsOf(0.5)});
+    QCOMPARE(plant.judge(&soak::nothingMovesByItself).failed, qint64(1));
+}
+
 void tst_SafetyGates::aNewPhaseEndsASafeState()
 {
     HandMade plant = silence(HandMade::at(49) + 40 * ms);
@@ -196,6 +205,13 @@ void tst_SafetyGates::anAlarmWithoutAFaultIsFound()
     HandMade plant;
     HandMade::add(plant.node(1), Record::Safe, 1, HandMade::at(50), {soak::bitsOf(soak::SafeDrive)});
     QCOMPARE(plant.judge(&soak::noFalseAlarms).failed, qint64(1));
+}
+
+void tst_SafetyGates::theSafeStateAtTheEndOfAPhaseIsNoAlarm()
+{
+    HandMade plant;
+    HandMade::add(plant.node(1), Record::Safe, 1, HandMade::at(50), {soak::bitsOf(soak::SafeDrive), 1});
+    QVERIFY(plant.judge(&soak::noFalseAlarms).passed());
 }
 
 void tst_SafetyGates::anAlarmOfAFaultIsExplained()

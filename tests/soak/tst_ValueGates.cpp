@@ -20,6 +20,7 @@ private Q_SLOTS:
     void anOlderValueAfterANewerOneIsFound();
     void aValueOfAnEarlierLifeAfterALaterOneIsFound();
     void nothingAfterSomethingIsFound();
+    void aWriterThatWentSafeIsNoOlderValue();
     void nothingAtTheBeginOfAPhaseIsNoOlderValue();
     void aHeldValueIsNoOlderValue();
     void aStepThatComesTwiceIsFound();
@@ -99,6 +100,14 @@ void tst_ValueGates::nothingAfterSomethingIsFound()
     HandMade plant;
     plant.step(1, 50).numbers[Record::SeenLife] = 0;
     QCOMPARE(plant.judge(&soak::valuesNeverGoBack).failed, qint64(1));
+}
+
+void tst_ValueGates::aWriterThatWentSafeIsNoOlderValue()
+{
+    HandMade plant;
+    plant.step(1, 50).numbers[Record::SeenLife] = 0;
+    plant.step(1, 50).numbers[Record::Drive] = soak::bitsOf(soak::SafeDrive);
+    QVERIFY(plant.judge(&soak::valuesNeverGoBack).passed());
 }
 
 void tst_ValueGates::nothingAtTheBeginOfAPhaseIsNoOlderValue()
