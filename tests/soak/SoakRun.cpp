@@ -186,9 +186,11 @@ int SoakRun::inject(const Fault &fault)
         return made;
     }
     default:
+        m_operator.expectAnother(fault.node);
         m_plant.startNode(fault.node,
                           {QStringLiteral("--enable-fault-injection"), QStringLiteral("--faults"),
                            linkFaultsOf(fault.kind, fault.seed)});
+        m_operator.bringToRealTime(Patience);  // what is done begins with the first frame
         Operator::wait(fault.amount);
         m_operator.expectAnother(fault.node);
         m_plant.startNode(fault.node);
