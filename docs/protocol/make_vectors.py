@@ -111,8 +111,8 @@ def size_of(type_name):
     return SIZES[type_name]
 
 
-def layout(name, fields, table=None, maximum=1456):
-    """fields: (signal, canonical type); table: type names as written in the signal table, where they differ."""
+def layout(name, fields, table=None, maximum=1456, qualities=False):
+    """fields: (signal, canonical type); table: type names as written in the signal table, where they differ; qualities: they follow the values."""
     table = table or {}
     offset, lines, placed, borders = 0, [], [], [0]
     for signal, type_name in fields:
@@ -122,11 +122,17 @@ def layout(name, fields, table=None, maximum=1456):
         lines.append(f"{signal}:{type_name}@{offset}\n")
         placed.append({"name": signal, "type": type_name, "offset": offset})
         offset += size
+    if qualities and fields:
+        lines.append(f"qualities@{offset}\n")
+        for _ in fields:  # one byte each
+            if offset + 1 - borders[-1] > maximum:
+                borders.append(offset)
+            offset += 1
     borders.append(offset)
     text = "".join(lines)
     ini = "".join(f"[{signal}]\ntype = {table.get(signal, type_name)}\n" for signal, type_name in fields)
     return {"name": name, "table": ini, "fields": placed, "text": text, "hash": hex64(fnv1a64(text.encode())),
-            "size": offset, "maximum": maximum, "borders": borders}
+            "size": offset, "maximum": maximum, "borders": borders, "qualities": qualities}
 
 
 def make_layouts():
@@ -146,6 +152,13 @@ def make_layouts():
                                                                 ("d", "Real64")], maximum=16),
         layout("a part that is exactly full", [("a", "Real64"), ("b", "Real64"), ("c", "Int8")], maximum=16),
         layout("three datagrams", many),
+        layout("qualities behind the values", [("bodyControlPitchSpeed", "Real32"), ("bodyControlYawSpeed", "Real32"),
+                                               ("tetherSpeed", "Real32")], qualities=True),
+        layout("qualities of no signal", [], qualities=True),
+        layout("qualities that fill a part", [("a", "Real64"), ("b", "Real32"), ("c", "Int8"), ("d", "Int8")], maximum=18, qualities=True),
+        layout("qualities that are parted", [("a", "Real64"), ("b", "Real32"), ("c", "Int8"), ("d", "Int8")], maximum=16, qualities=True),
+        layout("qualities in a part of their own", [("a", "Real64"), ("b", "Real64")], maximum=16, qualities=True),
+        layout("qualities of three datagrams", many, qualities=True),
     ]
     values = [
         ("Int8", "-128", b"\x80"), ("Int8", "true", b"\x01"), ("UInt8", "255", b"\xff"),
@@ -456,6 +469,14 @@ def example_messages():
         (2, "Register", dict(name="Model", uuid=uuid, policy="ErrorZeroOrderHold", listener=False, cyclic="tcp", twoPhase=True,
                              inputs=[dict(name="tetherSpeed", type="Real32", unit="m/s", sameCycle=True)],
                              outputs=[dict(name="tetherLength", type="Real64", unit="m")])),
+        (1, "Hello", dict(protocol=1, name="Viewer", uuid=uuid, role="node", features=["quality"])),
+        (2, "Register", dict(name="Viewer", uuid=uuid, policy="SilentZeroOrderHold", listener=True, cyclic="tcp", quality=True,
+                             inputs=[dict(name="tetherSpeed", type="Real32", unit="m/s")], outputs=[])),
+        (3, "Registered", dict(node=8, inputsHash=hex64(fnv1a64(b"tetherSpeed:Real32@0\nqualities@4\n")),
+                               outputsHash=hex64(fnv1a64(b"")), state="Off", token="00000000075bcd16")),
+        (4, "Rejected", dict(error="WriterNotNamed", text="signal 'tetherSpeed' cannot be written by node 'Model': the table of the master has 'writer = Autopilot'")),
+        (33, "Signals", dict(signals=[dict(name="tetherSpeed", type="Real32", unit="m/s", description="", value="0", writer="Autopilot > Pilot",
+                                           source="Pilot", quality=253)])),
         (2, "Register", dict(name="Control Center", uuid=uuid, policy="SilentZeroOrderHold", listener=True, every=10, cyclic="tcp",
                              inputs=[dict(name="tetherSpeed", type="Real32", unit="m/s")], outputs=[])),
         (52, "GetSchedule", {}),

@@ -101,4 +101,6 @@ private:
     std::vector<QPlcPort *> m_ports;
     Plan m_inputs;
     Plan m_outputs;
+    quint32 m_inputValues = 0;      // [byte]
+    std::vector<char> m_qualities;  // of the inputs, when they are received
 };

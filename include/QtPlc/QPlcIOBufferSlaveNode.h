@@ -40,6 +40,8 @@ public:
             inputs;  ///< values one behind the other in the order of the inputs, little-endian and packed (QPlcValue::fromBytes()); valid during the call
         int size;    ///< [byte]
         int every = 1;  ///< listeningInterval(): cycles from one frame to the next
+        /// A byte for each input (QPlcQuality::fromByte()), in their order; null: none are received.
+        const char *qualities = nullptr;
     };
     /// As takeInputSignals() for readers of many signals: no list is made, \a take gets the bytes of each cycle. \return number of cycles
     int takeFrames(const std::function<void(const Frame &)> &take);

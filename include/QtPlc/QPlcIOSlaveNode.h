@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "QPlcQuality.h"
 #include "QPlcSlaveNode.h"
 
 #include <memory>
@@ -28,6 +29,8 @@ public:
     QPlcSignalIndexList outputSignalIndices() const;
     /// The newest inputs; empty before the first. \threadsafe yes
     QPlcSignalList inputSignals() const;
+    /// Quality of the newest value of an input; Invalid before the first, and for a signal that is no input. \threadsafe yes
+    QPlcQuality inputQuality(QPlcSignalIndex signal) const;
 
 public Q_SLOTS:
     /// Signals that the node wants. A connected node registers again.

@@ -7,6 +7,7 @@
 #include "QPlcMasterStatistics.h"
 #include "QPlcNodeInfo.h"
 #include "QPlcOverrunPolicy.h"
+#include "QPlcQuality.h"
 #include "QPlcRealTimeOptions.h"
 #include "QPlcSchedule.h"
 #include "QPlcSecurity.h"
@@ -191,6 +192,8 @@ public:
     quint64 cycle() const;
     /// Newest value of a signal; invalid when there is no such signal.
     QPlcValue signalValue(const QString &signalName) const;
+    /// How far the newest value of a signal can be trusted; Invalid when there is no such signal.
+    QPlcQuality signalQuality(const QString &signalName) const;
     /// Sets a signal that no node writes, between two cycles.
     /// \return false when it has a writer, is taken over by a lease, does not exist, or \a value does not fit
     bool setSignalValue(const QString &signalName, const QPlcValue &value);

@@ -32,7 +32,10 @@ struct QPlcNodeStatistics
     quint64 rejected = 0;  ///< frames that did not decode
     quint64 forged
         = 0;  ///< sealed frames that were not as the node seals them: made or changed by a stranger, or corrupted
-    quint64 resent = 0;  ///< requests that were sent again
+    quint64 resent = 0;     ///< requests that were sent again
+    quint64 nonFinite = 0;  ///< values of its signals that were not taken, because they were NaN or infinite
+    quint64 outOfRange
+        = 0;  ///< values of its signals that were not taken, because they were outside of the limits of the table
 };
 
 Q_DECLARE_METATYPE(QPlcNodeStatistics)

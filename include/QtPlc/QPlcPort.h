@@ -2,6 +2,7 @@
 #pragma once
 
 #include "QPlcInputTiming.h"
+#include "QPlcQuality.h"
 #include "QPlcSignalType.h"
 
 #include <QtCore/QString>
@@ -25,6 +26,8 @@ public:
     QString name() const { return m_name; }
     Direction direction() const { return m_direction; }
     bool isInput() const { return m_direction == Input; }
+    /// How far the value of an input can be trusted. Invalid as long as the node has not asked for qualities (QPlcSlaveNode::setReceivesQuality()), and for an output.
+    QPlcQuality quality() const { return m_quality ? QPlcQuality::fromByte(quint8(*m_quality)) : QPlcQuality(); }
     /// An input that was declared with QPlcInputTiming::SameCycle.
     bool isSameCycle() const { return isInput() && m_timing == QPlcInputTiming::SameCycle; }
 
@@ -51,6 +54,7 @@ private:
     QString m_name;
     Direction m_direction;
     QPlcInputTiming::Value m_timing;
+    const char *m_quality = nullptr;  // where its byte lies
 };
 
 namespace QPlcPortDetail {

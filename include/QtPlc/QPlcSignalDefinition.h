@@ -4,6 +4,8 @@
 #include "QPlcSignalType.h"
 #include "QPlcValue.h"
 
+#include <QtCore/QStringList>
+
 /// What the signal table says of one plc signal.
 struct QTPLC_EXPORT QPlcSignalDefinition
 {
@@ -12,14 +14,21 @@ struct QTPLC_EXPORT QPlcSignalDefinition
     QString typeName;  ///< as written in the table ("Bool", "RealTriple"): a hint for views
     QString unit;      ///< "m/s", "deg"; empty: none
     QString description;
-    QPlcValue minimum;  ///< smallest allowed value of each element; invalid: none. Type: that of one element
-    QPlcValue maximum;  ///< largest allowed value of each element; invalid: none
-    QPlcValue initial;  ///< value before the first writer; always valid, zero unless said
-    QPlcValue safe;     ///< value when the writer is lost; invalid: keep the last
-    int hold = 0;       ///< cycles for which the last value is kept before `safe`
-    int line = 0;       ///< line of the section in the file, 0: not from a file
+    QPlcValue minimum;        ///< smallest allowed value of each element; invalid: none. Type: that of one element
+    QPlcValue maximum;        ///< largest allowed value of each element; invalid: none
+    QPlcValue initial;        ///< value before the first writer; always valid, zero unless said
+    QPlcValue safe;           ///< value when there is no good one for longer than `hold`; invalid: see safeValue()
+    int hold = UsualHold;     ///< cycles for which the last good value is kept before the safe one, >= 0
+    QStringList writers;      ///< names of the nodes that may write it, the preferred one first; empty: any one
+    bool nanAllowed = false;  ///< NaN is a value like others: "no measurement". Real types only
+    int line = 0;             ///< line of the section in the file, 0: not from a file
 
-    /// Whether every element of \a value, which has this type, is a number within minimum and maximum; without limits always true.
+    /// Cycles to hold unless the table says otherwise.
+    static constexpr int UsualHold = 3;
+
+    /// The value that harms least: `safe`, else 0, else the limit that is nearest to 0. \pre the type is valid
+    QPlcValue safeValue() const;
+    /// Whether every element of \a value, which has this type, is a number within minimum and maximum (or NaN where that is allowed); without limits always true.
     bool isInRange(const QPlcValue &value) const;
     /// "-10 ... 10", "at least 0", "at most 5"; empty without limits.
     QString rangeText() const;

@@ -20,8 +20,17 @@
 /// safe = 0
 /// ```
 ///
-/// Keys: `type` (required, see QPlcSignalType), `unit`, `description`, `min`, `max`, `initial`, `safe`, `hold`
-/// (cycles, an integer >= 0). Comments begin with `;` or `#` at the start of a line, or with ` ;` behind a value. Values of arrays are
+/// Keys: `type` (required, see QPlcSignalType), `unit`, `description`, and what is a value of the signal, and what becomes of it without one:
+/// | key       | meaning                                                                                                           |
+/// |-----------|-------------------------------------------------------------------------------------------------------------------|
+/// | `initial` | value before anybody has written the signal; zero unless said                                                     |
+/// | `min`, `max` | limits of every element. A value outside, like NaN or infinity, is counted and never taken                     |
+/// | `hold`    | cycles for which the last good value is kept when no new one comes, an integer >= 0; 3 unless said                |
+/// | `safe`    | value after that, until a good one comes; unless said 0, or the limit nearest to 0                                |
+/// | `writer`  | `A`: the node A alone may write the signal. `A > B > C`: these nodes may, and the first one that has a fresh value is the source |
+/// | `nan`     | `allowed`: NaN ("no measurement") is taken like a number                                                          |
+///
+/// Comments begin with `;` or `#` at the start of a line, or with ` ;` behind a value. Values of arrays are
 /// separated by commas ("0, 0, 1"); one number stands for all elements. UTF-8 with or without byte order mark, lines
 /// ended by LF or CRLF, at most 4096 bytes each. A value that begins with `"` ends with `"`; inside, `\n \r \t \" \\` stand for what they do in C++.
 /// A signal name is a letter or underscore followed by letters, digits, `_` or `.`, at most 63 characters.

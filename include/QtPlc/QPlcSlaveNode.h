@@ -147,6 +147,11 @@ public:
     void setTwoPhase(bool twoPhase);
     bool isTwoPhase() const;
 
+    /// Lets the master send the quality of each input (QPlcQuality) with its value, at the price of a byte: QPlcInput::quality(), QPlcIOSlaveNode::inputQuality().
+    /// With it or without, the node gets safe values for inputs that have no good ones. \pre not connected
+    void setReceivesQuality(bool wanted);
+    bool receivesQuality() const;
+
     /// The table in which the signals of this node are looked up. Unless set: that of the process (QPlcSignalIndexTable), else the one that the
     /// master sends at registration. Only signals that the node uses have to match those of the master.
     void setSignalTable(const QPlcSignalTable &table);
@@ -186,6 +191,8 @@ public:
         quint64 rejected = 0;    ///< garbage, other sessions, corrupted frames
         quint64 forged = 0;      ///< sealed frames that were not as the master seals them
         quint64 watchdog = 0;    ///< watchdog time-outs
+        quint64 refused
+            = 0;  ///< values of inputs that were not taken, because they are not finite or outside of the limits of the table
     };
     /// \threadsafe yes
     Counters counters() const;

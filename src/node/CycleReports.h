@@ -3,6 +3,7 @@
 
 #include "realtime/SpscRing.h"
 #include "realtime/WakeUp.h"
+#include "signals/PayloadRules.h"
 
 #include <array>
 #include <atomic>
@@ -19,7 +20,9 @@ struct CycleEvent
         WaitingForNode,    // node, cycle: time stands still
         WaitingEnded,      // cycle
         NodeFaulted,       // node, cycle: the code of the node threw
-        NotFinite,         // node, signal, cycle: NaN or infinity; the values of this node were not taken
+        ValueRefused,      // node, signal, cycle, fault: the value was not taken
+        SourceChanged,     // node, signal, cycle, duration: id of the node that was the source before
+        SignalSafe,        // signal, cycle: no good value for too long
         LinkClosed,        // node: its cyclic connection is gone
         WatchdogTimedOut,  // cycle: no frame since
         Overrun,           // cycle, duration: it is that late, and the policy is Stop
@@ -37,6 +40,7 @@ struct CycleEvent
     std::uint16_t signal = 0;
     std::uint64_t cycle = 0;
     std::int64_t duration = 0;  // [ns]
+    ValueFault fault{};
 };
 
 /// A copy of a cyclic frame for the debug log.

@@ -37,6 +37,8 @@ QString kindName(JournalEvent::Kind kind)
         return QStringLiteral("overrun");
     case JournalEvent::Security:
         return QStringLiteral("security");
+    case JournalEvent::Quality:
+        return QStringLiteral("quality");
     }
     return {};
 }

@@ -13,7 +13,7 @@ namespace qplc {
 struct JournalEvent
 {
     enum Severity : std::uint8_t { Info, Warning, Error };
-    enum Kind : std::uint8_t { State, Node, Late, Fault, Set, Lease, Overrun, Security };
+    enum Kind : std::uint8_t { State, Node, Late, Fault, Set, Lease, Overrun, Security, Quality };
 
     Severity severity = Info;
     Kind kind = State;
@@ -26,7 +26,7 @@ struct JournalEvent
 
 /// "info", "warning", "error"
 QString severityName(JournalEvent::Severity severity);
-/// "state", "node", "late", "fault", "set", "lease", "overrun", "security"
+/// "state", "node", "late", "fault", "set", "lease", "overrun", "security", "quality"
 QString kindName(JournalEvent::Kind kind);
 
 /// The newest events of a master; older ones are forgotten.

@@ -34,7 +34,8 @@ void log(const JournalEvent &event)
         qCDebug(lcMaster).noquote() << event.text;
     else if (event.severity != JournalEvent::Info)
         qCWarning(lcMaster).noquote() << event.text;
-    else if (event.kind == JournalEvent::Node || event.kind == JournalEvent::Lease)
+    else if (event.kind == JournalEvent::Node || event.kind == JournalEvent::Lease
+             || event.kind == JournalEvent::Quality)
         qCInfo(lcMaster).noquote() << event.text;
     else
         qCDebug(lcMaster).noquote() << event.text;
@@ -86,6 +87,28 @@ void Journal::valueSet(const QString &who, const QString &signal, const QString 
     tellLimited(
         QStringLiteral("set %1 %2").arg(signal, who), QStringLiteral("'%1' has set %2: %3").arg(who, signal, former),
         {JournalEvent::Info, JournalEvent::Set, NodeRegistry::masterName(), QStringLiteral(" -> %1").arg(value)});
+}
+
+void Journal::valueRefused(const QString &node, const QString &signal, const QString &what)
+{
+    tellLimited(QStringLiteral("refused ") + signal, QStringLiteral("%1 of %2: ").arg(signal, node),
+                {JournalEvent::Warning, JournalEvent::Quality, node, QStringLiteral("%1; held").arg(what)});
+}
+
+void Journal::becameSafe(const QStringList &values)
+{
+    constexpr int mostNames = 8;
+    QString text = QStringList(values.mid(0, mostNames)).join(QStringLiteral(", "));
+    if (values.size() > mostNames)
+        text += QStringLiteral(" and %1 more").arg(values.size() - mostNames);
+    tellLimited(QStringLiteral("safe ") + values.first(), QStringLiteral("no good values for too long; safe ones: "),
+                {JournalEvent::Warning, JournalEvent::Quality, NodeRegistry::masterName(), text});
+}
+
+void Journal::sourceChanged(const QString &signal, const QString &from, const QString &to)
+{
+    tellLimited(QStringLiteral("source ") + signal, QStringLiteral("%1: its source is now ").arg(signal),
+                {JournalEvent::Info, JournalEvent::Quality, to, QStringLiteral("%1, instead of %2").arg(to, from)});
 }
 
 void Journal::valueCameBack(const QString &signal, const QString &value)

@@ -6,6 +6,7 @@
 #include "ReportLimiter.h"
 
 #include <QtCore/QObject>
+#include <QtCore/QStringList>
 #include <QtCore/QTimer>
 
 namespace qplc {
@@ -27,6 +28,12 @@ public:
     void stateChanged(const QString &state, bool isTransient);
     void answeredLate(const QString &node, std::uint64_t cycle);
     void valueSet(const QString &who, const QString &signal, const QString &former, const QString &value);
+    /// \param what  "12 is above its maximum 10"
+    void valueRefused(const QString &node, const QString &signal, const QString &what);
+    /// \param values  "tetherSpeed = 0"
+    void becameSafe(const QStringList &values);
+    /// A signal with several writers has its values from another one.
+    void sourceChanged(const QString &signal, const QString &from, const QString &to);
     /// A message without the right to it. \param identity  proven; empty: nobody's
     void denied(const QString &identity, const QString &text);
     /// Somebody with a right to it has commanded \a what.

@@ -99,15 +99,4 @@ std::vector<bool> Leases::mask() const
     return held;
 }
 
-QPlcValue neutralValue(const QPlcSignalDefinition &definition)
-{
-    if (definition.safe.isValid())
-        return definition.safe;
-    const QPlcValue zero(definition.type);
-    if (definition.isInRange(zero))
-        return zero;
-    const bool isAboveZero = definition.minimum.isValid() && definition.minimum.toReal() > 0.0;
-    return (isAboveZero ? definition.minimum : definition.maximum).convertedTo(definition.type);
-}
-
 }  // namespace qplc

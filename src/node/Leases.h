@@ -59,7 +59,4 @@ private:
     std::map<QPlcSignalIndex, Lease> m_leases;
 };
 
-/// Where a signal goes whose holder is lost: its safe value, else 0, or the limit that is nearest to 0.
-QPlcValue neutralValue(const QPlcSignalDefinition &definition);
-
 }  // namespace qplc

@@ -10,11 +10,12 @@ namespace qplc {
 MasterCycle::MasterCycle(const QPlcSignalTable &table, CyclicHub &hub, bool tapFrames, TimeSource *time)
     : m_time(time ? *time : m_alarm)
     , m_image(table)
+    , m_signalGuard(m_image, this)
     , m_hub(hub)
     , m_reports(tapFrames)
     , m_guard(m_reports)
-    , m_exchange(m_image, m_hub, m_reports, m_statistics, m_time, m_guard, m_stop)
-    , m_snapshot(m_image.size())
+    , m_exchange(m_image, m_signalGuard, m_hub, m_reports, m_statistics, m_time, m_guard, m_stop)
+    , m_snapshot(m_image.totalSize())
     , m_roster(std::make_unique<Roster>())
 {
 }
@@ -52,6 +53,7 @@ bool MasterCycle::start(const Phase &phase)
     m_guard.start({isTimed ? phase.gapLimit.count() : 0,
                    isTimed ? std::int64_t(double(phase.longestWait.count()) / phase.clock.scale()) : 0,
                    isTimed ? phase.overrunLimit : 0});
+    startGuard();
     m_exchange.start(*m_clock, phase.period, phase.clock, m_cycleZero, phase.realTimeOptions.spin);
     m_snapshot.publish(m_image.data(), 0);
     return m_thread.start(QStringLiteral("qtplc-master"), phase.realTimeOptions, [this] { run(); });
@@ -66,6 +68,42 @@ void MasterCycle::stop()
     m_cycleZero += m_number + 1;  // frames of this phase can never be taken for frames of the next
     takeCommands();
     freeRetired();
+}
+
+/// Cycles are counted from 0 again: what has its initial value now is as if it were of the cycle before.
+void MasterCycle::startGuard()
+{
+    for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes)
+        slot->written.taken = slot->initialCycle(0);  // and so is what it says of contested signals
+    for (const QPlcSignalIndex own : {m_phase.timeSignal, m_phase.jitterSignal, m_phase.workloadSignal}) {
+        if (own != QPlcInvalidSignalIndex)
+            m_signalGuard.set(own, QPlcQuality::Good);
+    }
+    m_signalGuard.settle(-1);
+    m_signalGuard.clearCounters();
+}
+
+void MasterCycle::takeInitialOutputs(NodeSlot &slot, const char *outputs, const std::vector<bool> &held)
+{
+    const std::int64_t cycle = slot.initialCycle(0);
+    const SignalGuard::Frame frame = SignalGuard::frameFor(m_image, slot.outputLayout, held);
+    slot.claims.forget();  // what it said in another phase
+    slot.written.isWhole = false;
+    m_signalGuard.take(frame, slot.written, outputs, cycle, cycle);
+    m_signalGuard.claim(frame, slot.written, slot.claims, outputs, cycle);
+}
+
+void MasterCycle::forgetOutputs()
+{
+    m_signalGuard.forget();
+}
+
+void MasterCycle::initialOutputsTaken(Roster roster)
+{
+    roster.arrange(m_image);
+    for (const SignalGuard::Contest &contest : roster.contests)
+        m_signalGuard.decide(contest, -1);
+    m_signalGuard.settle(-1);
 }
 
 void MasterCycle::clearStatistics()
@@ -84,7 +122,7 @@ void MasterCycle::setRoster(const Roster &roster)
     copy->arrange(m_image);
     if (!isRunning()) {
         delete m_pendingRoster.exchange(nullptr);
-        adopt(copy.release());
+        adopt(copy.release(), -1);
         freeRetired();
         return;
     }
@@ -100,8 +138,10 @@ void MasterCycle::freeRetired()
 bool MasterCycle::setValues(const std::vector<SignalSetting> &settings)
 {
     if (!isRunning()) {
-        for (const SignalSetting &setting : settings)
+        for (const SignalSetting &setting : settings) {
             m_image.setValue(setting.signal, setting.value);
+            m_signalGuard.set(setting.signal, setting.quality);
+        }
         return true;
     }
     if (!hasRoomFor(settings.size()))
@@ -109,6 +149,7 @@ bool MasterCycle::setValues(const std::vector<SignalSetting> &settings)
     for (const SignalSetting &setting : settings) {
         SetCommand *command = m_setCommands.beginPush();
         command->signal = setting.signal;
+        command->quality = setting.quality;
         setting.value.toBytes(command->bytes.data());
         m_setCommands.commitPush();
     }
@@ -125,8 +166,8 @@ bool MasterCycle::hasRoomFor(std::size_t settings) const
 std::vector<char> MasterCycle::values() const
 {
     if (!isRunning())
-        return std::vector<char>(m_image.data(), m_image.data() + m_image.size());
-    std::vector<char> bytes(m_image.size());
+        return std::vector<char>(m_image.data(), m_image.data() + m_image.totalSize());
+    std::vector<char> bytes(m_image.totalSize());
     std::uint64_t stamp = 0;
     m_snapshot.read(bytes.data(), &stamp);
     return bytes;
@@ -207,7 +248,7 @@ void MasterCycle::adoptPending() noexcept
 {
     if (m_pendingRoster.load(std::memory_order_relaxed)) {
         if (Roster *roster = m_pendingRoster.exchange(nullptr, std::memory_order_acquire))
-            adopt(roster);
+            adopt(roster, std::int64_t(m_number) - 1);
     }
 }
 
@@ -219,40 +260,64 @@ void MasterCycle::takeCommands() noexcept
         adoptPending();
         std::memcpy(m_image.data() + m_image.offset(command->signal), command->bytes.data(),
                     std::size_t(m_image.table().at(command->signal).type.size()));
+        m_signalGuard.set(command->signal, command->quality);
         m_setCommands.pop();
         m_setsTaken.store(m_setsTaken.load(std::memory_order_relaxed) + 1, std::memory_order_release);
     }
 }
 
-void MasterCycle::adopt(Roster *roster) noexcept
+/// \param last  the newest cycle that has ended
+void MasterCycle::adopt(Roster *roster, std::int64_t last) noexcept
 {
     const auto contains = [](const Roster &where, const NodeSlot *slot) {
         return std::any_of(where.nodes.begin(), where.nodes.end(),
                            [slot](const std::shared_ptr<NodeSlot> &other) { return other.get() == slot; });
     };
     for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
-        if (contains(*roster, slot.get()))
-            continue;
-        slot->statistics.fold();
-        if (slot->peer)
-            m_hub.detach(slot->peer.get());
+        if (!contains(*roster, slot.get()))
+            leave(*slot);
     }
+    const bool isHeldAnew = roster->held != m_roster->held;
     for (std::size_t i = 0; i < roster->nodes.size(); ++i) {
-        const std::shared_ptr<NodeSlot> &slot = roster->nodes[i];
-        slot->pasteRuns = roster->pasteRuns.empty() ? &slot->outputRuns : &roster->pasteRuns[i];
-        if (contains(*m_roster, slot.get()))
-            continue;
-        if (!slot->initialOutputs.empty())
-            copyRuns(*slot->pasteRuns, slot->initialOutputs.data(), m_image.data());
-        slot->decoder.restart(m_cycleZero + m_number);
-        slot->nextTurn = 0;
-        if (slot->peer)
-            m_hub.attach(slot->peer.get());
+        NodeSlot &slot = *roster->nodes[i];
+        slot.paste = roster->pasted.empty() ? &slot.outputs : &roster->pasted[i];
+        if (!contains(*m_roster, &slot))
+            join(slot, last);
+        else if (isHeldAnew)
+            m_signalGuard.resume(*slot.paste, slot.written, last);
+    }
+    for (const QPlcSignalIndex signal : roster->abandoned)
+        m_signalGuard.abandon(signal);
+    for (std::size_t signal = 0; isHeldAnew && signal < roster->held.size(); ++signal) {
+        if (roster->held[signal])
+            m_signalGuard.keep(SignalGuard::Place(signal));
     }
     Roster *retired = m_roster.release();
     m_roster.reset(roster);
     if (!m_retiredRosters.push(retired))
         delete retired;  // 64 changes of the roster between two looks of the owner: better a slow cycle than a leak
+}
+
+void MasterCycle::leave(NodeSlot &slot) noexcept
+{
+    slot.statistics.fold();
+    m_signalGuard.leave(*slot.paste, slot.written);
+    if (slot.peer)
+        m_hub.detach(slot.peer.get());
+}
+
+void MasterCycle::join(NodeSlot &slot, std::int64_t last) noexcept
+{
+    const std::int64_t cycle = slot.initialCycle(last + 1);
+    m_signalGuard.resume(*slot.paste, slot.written, last);
+    if (!slot.initialOutputs.empty()) {
+        m_signalGuard.take(*slot.paste, slot.written, slot.initialOutputs.data(), cycle, cycle);
+        m_signalGuard.claim(*slot.paste, slot.written, slot.claims, slot.initialOutputs.data(), cycle);
+    }
+    slot.decoder.restart(m_cycleZero + m_number);
+    slot.nextTurn = 0;
+    if (slot.peer)
+        m_hub.attach(slot.peer.get());
 }
 
 void MasterCycle::writeReal(QPlcSignalIndex signal, double value) noexcept
@@ -264,6 +329,18 @@ void MasterCycle::writeReal(QPlcSignalIndex signal, double value) noexcept
         QSplitPrimitive<float>(float(value)).toBytes(bytes);
     else
         QSplitPrimitive<double>(value).toBytes(bytes);
+}
+
+void MasterCycle::valueRefused(std::uint16_t writer, SignalGuard::Place place, const ValueFault &fault,
+                               bool isFirst) noexcept
+{
+    if (isFirst)
+        m_reports.post({CycleEvent::ValueRefused, writer, std::uint16_t(place), m_number, 0, fault});
+}
+
+void MasterCycle::signalBecameSafe(SignalGuard::Place place) noexcept
+{
+    m_reports.post({CycleEvent::SignalSafe, 0, std::uint16_t(place), m_number});
 }
 
 void MasterCycle::writeOwnSignals(const CycleClock::Tick &tick) noexcept
@@ -295,6 +372,12 @@ void MasterCycle::foldStatistics() noexcept
         m_roster->nodes[turn]->statistics.fold();
     else
         m_statistics.fold();
+}
+
+void MasterCycle::sourceChanged(SignalGuard::Place place, std::uint16_t from, std::uint16_t to) noexcept
+{
+    if (from != 0 && to != 0)
+        m_reports.post({CycleEvent::SourceChanged, to, std::uint16_t(place), m_number, from});
 }
 
 }  // namespace qplc

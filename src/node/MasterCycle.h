@@ -8,6 +8,7 @@
 #include "QPlcClock.h"
 #include "QPlcOverrunPolicy.h"
 #include "SafetyGuard.h"
+#include "SignalGuard.h"
 #include "realtime/AlarmTime.h"
 #include "realtime/CycleClock.h"
 #include "realtime/CycleThread.h"
@@ -26,12 +27,13 @@ struct SignalSetting
 {
     QPlcSignalIndex signal = QPlcInvalidSignalIndex;
     QPlcValue value;  // of the type of the signal
+    QPlcQuality quality = QPlcQuality::Good;
 };
 
 /// The cycle of a master: keeps time and the process image, and lets a NodeExchange ask the nodes. Owns the thread on which that happens.
 ///
 /// Everything is called by the thread of the master; what is marked so also while cycles run.
-class MasterCycle
+class MasterCycle : private SignalGuard::Observer
 {
 public:
     struct Phase
@@ -80,8 +82,18 @@ public:
     const QPlcSignalTable &table() const { return m_image.table(); }
     /// Where a signal lies in values() [byte].
     quint32 offset(QPlcSignalIndex signal) const { return m_image.offset(signal); }
-    /// The newest values of all signals, of one cycle; also while cycles run.
+    /// The newest values of all signals with their qualities, of one cycle, as they lie in the process image; also while cycles run.
     std::vector<char> values() const;
+    /// Where the quality of a signal lies in values() [byte].
+    quint32 qualityOffset(QPlcSignalIndex signal) const { return m_image.qualityOffset(signal); }
+    /// An initialization begins: what nodes have written before counts for nothing. \pre not running
+    void forgetOutputs();
+    /// Takes the initial outputs of a node, which have been checked, but for the signals that are \a held. \pre not running
+    void takeInitialOutputs(NodeSlot &slot, const char *outputs, const std::vector<bool> &held);
+    /// The initial outputs of all nodes of \a roster have been taken: what has no value by now is Safe, or Invalid as ever. \pre not running
+    void initialOutputsTaken(Roster roster);
+    /// Counters of the values that were not taken; also while cycles run.
+    const SignalGuard &signalGuard() const { return m_signalGuard; }
     /// The newest value; also while cycles run.
     QPlcValue value(QPlcSignalIndex signal) const;
     /// The values of a frame, cut from the newest image; also while cycles run.
@@ -96,6 +108,7 @@ private:
     struct SetCommand
     {
         QPlcSignalIndex signal;
+        QPlcQuality quality;
         std::array<char, QPlcSignalType::MaximumSize> bytes;
     };
 
@@ -108,18 +121,26 @@ private:
     void pause() noexcept;
     void takeCommands() noexcept;
     void adoptPending() noexcept;
-    void adopt(Roster *roster) noexcept;
+    void adopt(Roster *roster, std::int64_t last) noexcept;
+    void leave(NodeSlot &slot) noexcept;
+    void join(NodeSlot &slot, std::int64_t last) noexcept;
     void writeOwnSignals(const CycleClock::Tick &tick) noexcept;
     void writeReal(QPlcSignalIndex signal, double value) noexcept;
     void finish() noexcept;
     void foldStatistics() noexcept;
     std::int64_t now() noexcept { return m_phase.clock.isLockstep() ? 0 : m_time.now(); }
     void clearStatistics();
+    void startGuard();
+    void valueRefused(std::uint16_t writer, SignalGuard::Place place, const ValueFault &fault,
+                      bool isFirst) noexcept override;
+    void signalBecameSafe(SignalGuard::Place place) noexcept override;
+    void sourceChanged(SignalGuard::Place place, std::uint16_t from, std::uint16_t to) noexcept override;
     void freeRetired();
 
     AlarmTime m_alarm;
     TimeSource &m_time;
     ProcessImage m_image;
+    SignalGuard m_signalGuard;
     CyclicHub &m_hub;
     CycleThread m_thread;
     CycleReports m_reports;

@@ -22,6 +22,9 @@ void QPlcMasterNodePrivate::takeReports()
     cycle->reports().take(
         [this](const CycleEvent &event) { report(event); },
         [](const qplc::TappedFrame &frame) { qplc::logFrame(qplc::NodeRegistry::masterName(), frame); });
+    if (!m_becameSafe.isEmpty())
+        journal.becameSafe(m_becameSafe);  // of one node, as a rule: told together
+    m_becameSafe.clear();
 }
 
 void QPlcMasterNodePrivate::report(const CycleEvent &event)
@@ -37,15 +40,17 @@ void QPlcMasterNodePrivate::report(const CycleEvent &event)
     case CycleEvent::WaitingEnded:
         apply(Event::WaitEnded);
         break;
-    case CycleEvent::NotFinite: {
-        const QString text = QStringLiteral("signal '%1' is not a finite number in cycle %2")
-                                 .arg(table.at(event.signal).name)
-                                 .arg(event.cycle);
-        if (!dropFaulty(event.node, text))
-            fault(nodeName(event.node), isCritical(event.node),
-                  QStringLiteral("node '%1': %2").arg(nodeName(event.node), text));
+    case CycleEvent::ValueRefused:
+        journal.valueRefused(nodeName(event.node), table.at(event.signal).name,
+                             qplc::faultText(table.at(event.signal), event.fault));
         break;
-    }
+    case CycleEvent::SourceChanged:
+        journal.sourceChanged(table.at(event.signal).name, nodeName(quint16(event.duration)), nodeName(event.node));
+        break;
+    case CycleEvent::SignalSafe:
+        m_becameSafe.append(
+            QStringLiteral("%1 = %2").arg(table.at(event.signal).name, table.at(event.signal).safeValue().toString()));
+        break;
     case CycleEvent::NodeFaulted: {
         const std::shared_ptr<NodeSlot> slot = registry->find(event.node);
         const QString what = slot && slot->local ? QString::fromLocal8Bit(slot->local->faultText())
@@ -140,8 +145,13 @@ void QPlcMasterNodePrivate::nodeLost(Connection *connection, const QString &reas
     if (connection->slot->listener)
         m_goneListeners.insert(connection->slot->id);
     const bool wasRunning = connection->stage == Connection::Running;
-    if (wasRunning)
+    if (wasRunning) {
         giveRoster();
+    } else if (isRunning() && connection->stage >= Connection::OutputsGiven) {
+        for (const qplc::PayloadLayout::Field &field : connection->slot->outputLayout.fields())
+            m_abandoned.append(field.signal);
+        giveRoster();
+    }
     Q_EMIT q->nodeLost(connection->name, reason);
     const QString text = QStringLiteral("node '%1' has left: %2").arg(connection->name, reason);
     if (wasAwaited)

@@ -216,7 +216,7 @@ void MasterLeases::lose(const Leases::Signals &indices, const QString &why)
     std::vector<SignalSetting> neutral;
     std::map<QString, Leases::Signals> byHolder;
     for (const QPlcSignalIndex signal : indices) {
-        neutral.push_back({signal, neutralValue(m_table.at(signal))});
+        neutral.push_back({signal, m_table.at(signal).safeValue(), QPlcQuality::Safe});
         byHolder[m_leases.find(signal)->name].push_back(signal);
     }
     m_settings.keepPresent(indices);
@@ -230,7 +230,7 @@ void MasterLeases::tellLost(const QString &name, const Leases::Signals &indices,
 {
     QStringList texts;
     for (const QPlcSignalIndex signal : indices)
-        texts << QStringLiteral("%1 = %2").arg(m_table.at(signal).name, neutralValue(m_table.at(signal)).toString());
+        texts << QStringLiteral("%1 = %2").arg(m_table.at(signal).name, m_table.at(signal).safeValue().toString());
     Q_EMIT changed(JournalEvent::Warning,
                    QStringLiteral("'%1' %2: %3, until somebody takes or releases the lease")
                        .arg(name, why, texts.join(QStringLiteral(", "))));

@@ -145,7 +145,12 @@ bool signalFields(const MasterCycle &cycle, const NodeRegistry &registry, const 
                            {QStringLiteral("description"), definition.description},
                            {QStringLiteral("value"),
                             QPlcValue::fromBytes(definition.type, values.data() + cycle.offset(index)).toString()},
-                           {QStringLiteral("writer"), registry.writer(index)}};
+                           {QStringLiteral("writer"), registry.writer(index)},
+                           {QStringLiteral("quality"), quint8(values[cycle.qualityOffset(index)])}};
+        if (definition.writers.size() > 1) {
+            const std::shared_ptr<NodeSlot> source = registry.find(cycle.signalGuard().source(index));
+            signal.insert(QStringLiteral("source"), source ? source->name : QString());
+        }
         if (const Leases::Lease *lease = leases.find(index)) {
             signal.insert(QStringLiteral("holder"), lease->name);
             signal.insert(QStringLiteral("lease"), lease->stateName());

@@ -75,6 +75,7 @@ void QPlcMasterNodePrivate::collectOutputs()
 {
     error = QPlcMasterNode::NoError;
     errorString.clear();
+    cycle->forgetOutputs();
     statisticSignals.reset(cycle.get());
     m_participants.clear();
     for (const std::unique_ptr<Connection> &connection : server->connections()) {
@@ -102,14 +103,27 @@ void QPlcMasterNodePrivate::collectOutputs()
     advance();
 }
 
+/// What is wrong with the initial outputs of a node; empty: nothing.
+QString QPlcMasterNodePrivate::faultOfOutputs(const NodeSlot &slot, const char *outputs) const
+{
+    for (const qplc::SignalGuard::Frame::Field &field : slot.outputs.fields) {
+        const qplc::ValueFault fault = slot.outputs.rules.fault(field.number, outputs);
+        const QPlcSignalDefinition &signal = table.at(QPlcSignalIndex(field.place));
+        if (fault)
+            return QStringLiteral("the initial value of signal '%1': %2")
+                .arg(signal.name, qplc::faultText(signal, fault));
+    }
+    return {};
+}
+
 bool QPlcMasterNodePrivate::takeOutputs(NodeSlot &slot, const char *outputs)
 {
-    if (const qplc::PayloadLayout::Field *field = slot.outputLayout.firstNotFinite(outputs)) {
-        sequenceFailed(QStringLiteral("node '%1': the initial value of signal '%2' is not a finite number")
-                           .arg(slot.name, table.at(field->signal).name));
+    const QString fault = faultOfOutputs(slot, outputs);
+    if (!fault.isEmpty()) {
+        sequenceFailed(QStringLiteral("node '%1': %2").arg(slot.name, fault));
         return false;
     }
-    qplc::copyRuns(cycle->image().scatterRuns(slot.outputLayout, leaseBooks.mask()), outputs, cycle->image().data());
+    cycle->takeInitialOutputs(slot, outputs, leaseBooks.mask());
     return true;
 }
 
@@ -128,14 +142,13 @@ bool QPlcMasterNodePrivate::storeOutputs(Connection *connection, const Message &
     slot.initialOutputs.assign(values.begin(), values.end());
     if (!isRunning() && !slot.listener)
         return takeOutputs(slot, values.constData());
-    if (const qplc::PayloadLayout::Field *field = slot.outputLayout.firstNotFinite(values.constData())) {
-        server->drop(connection,
-                     QStringLiteral("the initial value of signal '%1' is not a finite number")
-                         .arg(table.at(field->signal).name));
+    const QString fault = faultOfOutputs(slot, values.constData());
+    if (!fault.isEmpty()) {
+        server->drop(connection, fault);
         return false;
     }
     if (!isRunning())
-        qplc::copyRuns(slot.outputRuns, values.constData(), cycle->image().data());
+        cycle->takeInitialOutputs(slot, values.constData(), leaseBooks.mask());
     return true;
 }
 
@@ -147,6 +160,13 @@ void QPlcMasterNodePrivate::sendInitialInputs(const Connection *connection)
 
 void QPlcMasterNodePrivate::distributeInputs()
 {
+    qplc::Roster roster;
+    for (const std::shared_ptr<NodeSlot> &slot : registry->nodes()) {
+        if (slot->local || slot->peer)
+            roster.nodes.push_back(slot);
+    }
+    roster.held = leaseBooks.mask();
+    cycle->initialOutputsTaken(roster);
     begin(Step::DistributeInputs, Connection::Initialized);
     for (const Connection *connection : m_participants)
         sendInitialInputs(connection);
@@ -163,7 +183,7 @@ void QPlcMasterNodePrivate::distributeInputs()
             return;
         }
         slot->local->node().d->apply(NodeEvent::ValuesCame);
-        slot->local->node().d->tellInitialized(values);
+        slot->local->node().d->tellInitialized();
     }
     advance();
 }
@@ -314,6 +334,7 @@ void QPlcMasterNodePrivate::startCycles()
     }
     m_participants.clear();
     m_goneListeners.clear();
+    m_abandoned.clear();
     statisticSignals.start(cycle.get(), registry.get(), clock.isLockstep());
     journal.watchOverruns(&cycle->cycleStatistics());
     apply(Event::CyclesStarted);
@@ -362,6 +383,10 @@ void QPlcMasterNodePrivate::giveRoster()
     }
     roster.held = leaseBooks.mask();
     roster.safe = safeSignals(roster);
+    for (const QPlcSignalIndex signal : qAsConst(m_abandoned)) {
+        if (registry->writer(signal).isEmpty())
+            roster.abandoned.push_back(signal);
+    }
     cycle->setRoster(roster);
 }
 

@@ -102,7 +102,7 @@ bool MasterSettings::setLeased(const std::vector<SignalSetting> &settings, Refus
 void MasterSettings::setSoon(const std::vector<SignalSetting> &settings)
 {
     for (const SignalSetting &setting : settings)
-        m_debts[setting.signal] = setting.value;
+        m_debts[setting.signal] = setting;
     payDebts();
     waitForNext();
 }
@@ -125,10 +125,12 @@ void MasterSettings::leaveToWriters()
         if (isOfWriter(signal))
             m_temporary.forget(signal);
     }
-    for (auto *values : {&m_given, &m_debts}) {
+    const auto leave = [this](auto *values) {
         for (auto value = values->begin(); value != values->end();)
             value = isOfWriter(value->first) ? values->erase(value) : std::next(value);
-    }
+    };
+    leave(&m_given);
+    leave(&m_debts);
 }
 
 // ---- checks ----
@@ -231,7 +233,7 @@ QPlcValue MasterSettings::presentValue(QPlcSignalIndex signal) const
 {
     const auto debt = m_debts.find(signal);
     if (debt != m_debts.end())
-        return debt->second;
+        return debt->second.value;
     const auto given = m_given.find(signal);
     return given != m_given.end() ? given->second : m_cycle.value(signal);
 }
@@ -248,8 +250,8 @@ void MasterSettings::payDebts()
 {
     while (!m_debts.empty()) {
         Refusal refusal;
-        const auto [signal, value] = *m_debts.begin();
-        if (!give({{signal, value}}, &refusal))  // erases what it could give
+        const SignalSetting setting = m_debts.begin()->second;
+        if (!give({setting}, &refusal))  // erases what it could give
             return;
     }
 }

@@ -70,9 +70,9 @@ private:
     const Leases &m_leases;
     const QPlcSignalTable &m_table;
     TemporaryValues m_temporary;
-    std::map<QPlcSignalIndex, QPlcValue> m_given;  // newest values; the cycle may not have taken them yet
-    std::map<QPlcSignalIndex, QPlcValue> m_debts;  // values to come back that the cycle had no room for
-    std::set<const QObject *> m_owners;            // whose end is listened to
+    std::map<QPlcSignalIndex, QPlcValue> m_given;      // newest values; the cycle may not have taken them yet
+    std::map<QPlcSignalIndex, SignalSetting> m_debts;  // values to come back that the cycle had no room for
+    std::set<const QObject *> m_owners;                // whose end is listened to
     QTimer m_timer;
 };
 

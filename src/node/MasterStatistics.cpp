@@ -26,7 +26,12 @@ QPlcCycleStatistics QPlcMasterNodePrivate::cycleStatistics(QPlcDistribution::Det
         if (!slot->local && !slot->peer)
             continue;  // its cyclic channel is not there yet
         statistics.nodes.append(slot->statistics.read(cycle->cycleStatistics().newest(), detail));
-        statistics.nodes.last().name = slot->name;
+        QPlcNodeStatistics &node = statistics.nodes.last();
+        node.name = slot->name;
+        for (const qplc::PayloadLayout::Field &field : slot->outputLayout.fields()) {
+            node.nonFinite += cycle->signalGuard().nonFinite(field.signal);
+            node.outOfRange += cycle->signalGuard().outOfRange(field.signal);
+        }
     }
     return statistics;
 }

@@ -14,9 +14,11 @@ constexpr std::int64_t ResendAfter = 20'000'000;   // [ns] a request that must b
 
 }  // namespace
 
-NodeExchange::NodeExchange(ProcessImage &image, CyclicHub &hub, CycleReports &reports, CycleStatistics &statistics,
-                           TimeSource &time, SafetyGuard &guard, const std::atomic<bool> &stop)
+NodeExchange::NodeExchange(ProcessImage &image, SignalGuard &signalGuard, CyclicHub &hub, CycleReports &reports,
+                           CycleStatistics &statistics, TimeSource &time, SafetyGuard &guard,
+                           const std::atomic<bool> &stop)
     : m_image(image)
+    , m_signalGuard(signalGuard)
     , m_hub(hub)
     , m_reports(reports)
     , m_statistics(statistics)
@@ -44,6 +46,7 @@ void NodeExchange::run(const Roster &roster, const Cycle &cycle) noexcept
     m_hasReceived = false;
     m_isSafe = m_guard.isTripped();
     cutInputs();
+    m_signalGuard.ageAbandoned(guardCycle());
     pasteKnownOutputs();
     for (std::size_t i = 0; i < roster.stages.size(); ++i) {
         const Stage &stage = roster.stages[i];
@@ -57,7 +60,9 @@ void NodeExchange::run(const Roster &roster, const Cycle &cycle) noexcept
         pasteLocalNodes(stage);
         if (!complete)
             return;
+        endStage(stage);
     }
+    settle();
 }
 
 // ---- requests ----
@@ -82,10 +87,18 @@ void NodeExchange::cutInputs() noexcept
 void NodeExchange::pasteKnownOutputs() noexcept
 {
     for (NodeSlot *slot : m_roster->twoPhase) {
-        if (slot->pending && !m_isSafe)
-            paste(*slot, slot->local ? slot->local->outputs() : slot->decoder.payload());
+        if (m_isSafe) {
+            slot->pending = false;
+            continue;
+        }
+        if (slot->pending)
+            take(*slot, slot->local ? slot->local->outputs() : slot->decoder.payload(), guardCycle());
+        else
+            noteMissing(*slot);
         slot->pending = false;
     }
+    if (!m_isSafe)
+        decideContests();
 }
 
 void NodeExchange::askNodes(const Stage &stage) noexcept
@@ -366,12 +379,12 @@ void NodeExchange::takeAnswer(NodeSlot &slot, const char *frame, std::size_t siz
         m_reports.post({CycleEvent::NodeFaulted, slot.id, 0, m_cycle.number});
     slot.faulted = faulted;
     slot.pending = false;
-    if (m_isSafe || faulted || !isFinite(slot, slot.decoder.payload()))
+    if (m_isSafe || faulted)
         return;
     if (slot.twoPhase && current)
         slot.pending = true;  // the outputs of the next cycle
     else
-        paste(slot, slot.decoder.payload());
+        take(slot, slot.decoder.payload(), std::int64_t(slot.decoder.cycle() - m_cycleZero) + (slot.twoPhase ? 1 : 0));
 }
 
 /// Local nodes saw the image as it was when their stage began, whatever their order: their outputs come in only now.
@@ -379,26 +392,68 @@ void NodeExchange::pasteLocalNodes(const Stage &stage) noexcept
 {
     for (const Roster::Turn &turn : stage) {
         NodeSlot &slot = *turn.slot;
-        if (m_isSafe || !slot.local || !slot.due || !slot.computed || !isFinite(slot, slot.local->outputs()))
+        if (m_isSafe || !slot.local || !slot.due || !slot.computed)
             continue;
         if (slot.twoPhase)
             slot.pending = true;
         else
-            paste(slot, slot.local->outputs());
+            take(slot, slot.local->outputs(), guardCycle());
     }
 }
 
-bool NodeExchange::isFinite(NodeSlot &slot, const char *outputs) noexcept
+// ---- values ----
+
+/// \param cycle  to which the values belong; a listener is never late
+void NodeExchange::take(NodeSlot &slot, const char *outputs, std::int64_t cycle) noexcept
 {
-    const PayloadLayout::Field *field = slot.outputLayout.firstNotFinite(outputs);
-    if (field)
-        m_reports.post({CycleEvent::NotFinite, slot.id, field->signal, m_cycle.number});
-    return field == nullptr;
+    const std::int64_t written = slot.listener ? guardCycle() : cycle;
+    m_signalGuard.take(*slot.paste, slot.written, outputs, written, guardCycle());
+    m_signalGuard.claim(*slot.paste, slot.written, slot.claims, outputs, written);
 }
 
-void NodeExchange::paste(NodeSlot &slot, const char *outputs) noexcept
+void NodeExchange::decideContests() noexcept
 {
-    copyRuns(*slot.pasteRuns, outputs, m_image.data());
+    for (const SignalGuard::Contest &contest : m_roster->contests)
+        m_signalGuard.decide(contest, guardCycle());
+}
+
+/// The values of this cycle are not there, and what reads them cannot wait.
+void NodeExchange::noteMissing(NodeSlot &slot) noexcept
+{
+    const bool isNeverLate = slot.listener && !slot.lost.load(std::memory_order_relaxed);
+    if (isNeverLate)
+        slot.written.taken = guardCycle();
+    else
+        m_signalGuard.miss(*slot.paste, slot.written, guardCycle());
+}
+
+/// Later stages read what this one has written, or what is left of it.
+void NodeExchange::endStage(const Stage &stage) noexcept
+{
+    if (m_isSafe)
+        return;
+    if (m_isSafe)
+        return;
+    for (const Roster::Turn &turn : stage) {
+        if (turn.feedsLaterStage && !turn.slot->twoPhase)
+            noteMissing(*turn.slot);
+    }
+    decideContests();
+}
+
+/// The cycle ends: whatever has no value of it is older by one.
+void NodeExchange::settle() noexcept
+{
+    if (m_isSafe)
+        return;
+    if (m_isSafe)
+        return;
+    for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
+        if (!slot->twoPhase)
+            noteMissing(*slot);
+    }
+    decideContests();
+    m_signalGuard.settle(guardCycle());
 }
 
 }  // namespace qplc

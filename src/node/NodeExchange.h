@@ -17,7 +17,7 @@ namespace qplc {
 ///
 /// The inputs of all nodes are cut from the image as the last cycle left it, before anything is pasted; same-cycle inputs are cut again when the stage of their
 /// node begins. A stage begins when those nodes of the stages before it have answered whose outputs are read in this cycle; for all others the master waits
-/// at the end only.
+/// at the end only. What they answer passes the SignalGuard of the image: same-cycle inputs see guarded values, too.
 ///
 /// Used by the cycle thread.
 class NodeExchange
@@ -31,8 +31,8 @@ public:
     };
 
     /// All of them outlive this object. \param stop  ends every waiting
-    NodeExchange(ProcessImage &image, CyclicHub &hub, CycleReports &reports, CycleStatistics &statistics,
-                 TimeSource &time, SafetyGuard &guard, const std::atomic<bool> &stop);
+    NodeExchange(ProcessImage &image, SignalGuard &signalGuard, CyclicHub &hub, CycleReports &reports,
+                 CycleStatistics &statistics, TimeSource &time, SafetyGuard &guard, const std::atomic<bool> &stop);
 
     /// Before a phase. \param grid  of the cycles; time that stands still shifts it
     /// \param spin  [ns] to look for answers again and again before a sleep
@@ -62,8 +62,13 @@ private:
     void receive(std::int64_t timeout, int alarm = -1) noexcept;
     bool waitForFrames(std::int64_t timeout, int alarm) noexcept;
     void takeAnswer(NodeSlot &slot, const char *frame, std::size_t size) noexcept;
-    bool isFinite(NodeSlot &slot, const char *outputs) noexcept;
-    void paste(NodeSlot &slot, const char *outputs) noexcept;
+    void take(NodeSlot &slot, const char *outputs, std::int64_t cycle) noexcept;
+    void noteMissing(NodeSlot &slot) noexcept;
+    void decideContests() noexcept;
+    void endStage(const Stage &stage) noexcept;
+    void settle() noexcept;
+    /// The cycle at hand, as the guard counts.
+    std::int64_t guardCycle() const noexcept { return std::int64_t(m_cycle.number); }
     bool anyMissing(bool onlyWaiting) const noexcept;
     bool hasWaitedTooLong(std::int64_t since) noexcept;
     bool mustBeWaitedFor(const NodeSlot &slot) const noexcept
@@ -78,6 +83,7 @@ private:
     std::int64_t now() noexcept { return m_isLockstep ? 0 : m_time.now(); }
 
     ProcessImage &m_image;
+    SignalGuard &m_signalGuard;
     CyclicHub &m_hub;
     CycleReports &m_reports;
     CycleStatistics &m_statistics;

@@ -62,6 +62,7 @@ bool NodeDeclaration::fromMessage(const QPlcMessage &message, NodeDeclaration *d
     declaration->listener = fields.value(QStringLiteral("listener")).toBool();
     declaration->critical = fields.value(QStringLiteral("critical")).toBool() && !declaration->listener;
     declaration->twoPhase = fields.value(QStringLiteral("twoPhase")).toBool();
+    declaration->quality = fields.value(QStringLiteral("quality")).toBool();
     if (declaration->name.isEmpty() || declaration->name.size() > 64)
         *error = QStringLiteral("a node needs a name of 1 ... 64 characters");
     else if (declaration->name != printable(declaration->name))
@@ -86,6 +87,7 @@ NodeDeclaration NodeDeclaration::fromRuntime(const NodeRuntime &runtime)
     declaration.critical = runtime.node().isCritical() && !declaration.listener;
     declaration.interval = ListeningInterval(runtime.node().listeningInterval());
     declaration.twoPhase = runtime.node().isTwoPhase();
+    declaration.quality = runtime.inputLayout().hasQualities();
     declaration.inputs = describe(runtime.table(), runtime.inputLayout());
     for (int i = 0; i < declaration.inputs.size(); ++i)
         declaration.inputs[i].sameCycle = runtime.sameCycle()[std::size_t(i)];
@@ -168,13 +170,8 @@ std::shared_ptr<NodeSlot> NodeRegistry::admit(const NodeDeclaration &declaration
         || !resolve(declaration.name, declaration.outputs, &outputs, refusal))
         return nullptr;
     for (QPlcSignalIndex output : outputs) {
-        if (!m_writers.at(output).isEmpty()) {
-            *refusal = {QStringLiteral("SignalHasWriter"),
-                        QStringLiteral(
-                            "signal '%1' cannot be written by node '%2': node '%3' writes it; a signal has one writer")
-                            .arg(m_table.at(output).name, declaration.name, m_writers.at(output))};
+        if (!mayWrite(declaration.name, output, refusal))
             return nullptr;
-        }
     }
     auto slot = std::make_shared<NodeSlot>();
     slot->name = declaration.name;
@@ -186,14 +183,41 @@ std::shared_ptr<NodeSlot> NodeRegistry::admit(const NodeDeclaration &declaration
     slot->twoPhase = declaration.twoPhase;
     for (const NodeDeclaration::Signal &input : declaration.inputs)
         slot->sameCycle.push_back(input.sameCycle);
-    slot->inputLayout = PayloadLayout(m_table, inputs);
+    slot->inputLayout = PayloadLayout(
+        m_table, inputs, declaration.quality ? PayloadLayout::WithQualities : PayloadLayout::WithoutQualities);
     slot->outputLayout = PayloadLayout(m_table, outputs);
     if (closesLoop(slot, refusal))
         return nullptr;
     for (QPlcSignalIndex output : outputs)
-        m_writers[output] = declaration.name;
+        addWriter(declaration.name, output);
     m_nodes.push_back(slot);
     return slot;
+}
+
+bool NodeRegistry::mayWrite(const QString &name, QPlcSignalIndex signal, Refusal *refusal) const
+{
+    const QPlcSignalDefinition &definition = m_table.at(signal);
+    const QStringList &present = m_writers.at(signal);
+    if (!definition.writers.isEmpty() && !definition.writers.contains(name))
+        *refusal
+            = {QStringLiteral("WriterNotNamed"),
+               QStringLiteral("signal '%1' cannot be written by node '%2': the table of the master has 'writer = %3'; "
+                              "name the node there, or give it one of these names")
+                   .arg(definition.name, name, definition.writers.join(QStringLiteral(" > ")))};
+    else if (!present.isEmpty() && (definition.writers.size() < 2 || present.contains(masterName())))
+        *refusal = {QStringLiteral("SignalHasWriter"),
+                    QStringLiteral("signal '%1' cannot be written by node '%2': node '%3' writes it; a signal has one "
+                                   "writer, unless 'writer =' of the table names several")
+                        .arg(definition.name, name, present.first())};
+    return refusal->error.isEmpty();
+}
+
+void NodeRegistry::addWriter(const QString &name, QPlcSignalIndex signal)
+{
+    QStringList &present = m_writers[signal];
+    const QStringList &order = m_table.at(signal).writers;
+    const auto isBehind = [&](const QString &other) { return order.indexOf(other) > order.indexOf(name); };
+    present.insert(std::find_if(present.begin(), present.end(), isBehind), name);
 }
 
 bool NodeRegistry::closesLoop(const std::shared_ptr<NodeSlot> &slot, Refusal *refusal) const
@@ -230,7 +254,7 @@ std::shared_ptr<NodeSlot> NodeRegistry::find(quint16 id) const
 void NodeRegistry::remove(const std::shared_ptr<NodeSlot> &slot)
 {
     for (const PayloadLayout::Field &field : slot->outputLayout.fields())
-        m_writers[field.signal].clear();
+        m_writers[field.signal].removeAll(slot->name);
     m_nodes.erase(std::remove(m_nodes.begin(), m_nodes.end(), slot), m_nodes.end());
 }
 
@@ -238,14 +262,13 @@ bool NodeRegistry::claim(QPlcSignalIndex signal)
 {
     if (!m_writers.at(signal).isEmpty())
         return false;
-    m_writers[signal] = masterName();
+    m_writers[signal] = QStringList{masterName()};
     return true;
 }
 
 void NodeRegistry::release(QPlcSignalIndex signal)
 {
-    if (m_writers.at(signal) == masterName())
-        m_writers[signal].clear();
+    m_writers[signal].removeAll(masterName());
 }
 
 }  // namespace qplc

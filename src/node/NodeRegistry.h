@@ -29,6 +29,7 @@ struct NodeDeclaration
     bool critical = false;
     ListeningInterval interval;
     bool twoPhase = false;
+    bool quality = false;  // wants the qualities of its inputs
     QVector<Signal> inputs;
     QVector<Signal> outputs;
 
@@ -48,7 +49,7 @@ struct NodeDeclaration
 struct Refusal
 {
     QString
-        error;  ///< "UnknownSignal", "TypeMismatch", "UnitMismatch", "SignalHasWriter", "NameInUse", "TooManyNodes", "AlgebraicLoop", "LeaseHeld", "MalformedMessage", "WrongState"
+        error;  ///< "UnknownSignal", "TypeMismatch", "UnitMismatch", "SignalHasWriter", "WriterNotNamed", "NameInUse", "TooManyNodes", "AlgebraicLoop", "LeaseHeld", "MalformedMessage", "WrongState"
     QString text;  ///< a sentence with names and remedy
 };
 
@@ -71,8 +72,8 @@ public:
     /// Makes the master the writer of \a signal. \return false when it has another writer
     bool claim(QPlcSignalIndex signal);
     void release(QPlcSignalIndex signal);
-    /// Empty: nobody.
-    QString writer(QPlcSignalIndex signal) const { return m_writers.at(signal); }
+    /// Empty: nobody. "A > B" when the table allows several writers, and these are there.
+    QString writer(QPlcSignalIndex signal) const { return m_writers.at(signal).join(QStringLiteral(" > ")); }
 
 private:
     /// Indices of the declared signals. \return false with the refusal of the first that does not fit
@@ -80,10 +81,13 @@ private:
                  QVector<QPlcSignalIndex> *indices, Refusal *refusal) const;
     /// Whether \a slot would close a loop of same-cycle inputs, with the path in \a refusal.
     bool closesLoop(const std::shared_ptr<NodeSlot> &slot, Refusal *refusal) const;
+    /// Whether the node \a name may write \a signal, with the reason in \a refusal.
+    bool mayWrite(const QString &name, QPlcSignalIndex signal, Refusal *refusal) const;
+    void addWriter(const QString &name, QPlcSignalIndex signal);
     quint16 freeId() const;
 
     const QPlcSignalTable m_table;
-    QVector<QString> m_writers;
+    QVector<QStringList> m_writers;  // of each signal, in the order of the table
     std::vector<std::shared_ptr<NodeSlot>> m_nodes;
     mutable quint16 m_lastId = 0;
 };

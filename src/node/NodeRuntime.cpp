@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstring>
 #include <stdexcept>
 
 namespace qplc {
@@ -79,22 +80,56 @@ bool NodeRuntime::bind(const QPlcSignalTable &table, QString *error)
         *error = QStringLiteral("node '%1': %2").arg(m_node.name(), errors.join(QStringLiteral("; ")));
         return false;
     }
-    m_inputLayout = PayloadLayout(table, inputs);
+    bindInputs(inputs);
     m_outputLayout = PayloadLayout(table, outputs);
     m_sameCycle.clear();
     for (QPlcSignalIndex input : qAsConst(inputs))
         m_sameCycle.push_back(m_node.isSameCycle() || sameCycle.contains(input));
     m_outputs.assign(m_outputLayout.size(), 0);
     m_scratch.assign(m_outputLayout.size(), 0);
-    m_safeInputs = safeFrame(table, m_inputLayout);
+    m_safeInputs = safeFrame(table, m_seenLayout);
     m_safeOutputs = safeFrame(table, m_outputLayout);
     m_workload = nullptr;
     for (const PayloadLayout::Field &field : m_outputLayout.fields()) {
         if (!m_workloadSignal.isEmpty() && table.at(field.signal).name == m_workloadSignal)
             m_workload = &field;
     }
-    m_node.attachPorts(m_inputLayout, m_outputLayout);
+    m_node.attachPorts(m_seenLayout, m_outputLayout);
     return true;
+}
+
+void NodeRuntime::bindInputs(const QVector<QPlcSignalIndex> &inputs)
+{
+    const auto wanted = m_node.receivesQuality() ? PayloadLayout::WithQualities : PayloadLayout::WithoutQualities;
+    m_seenLayout = PayloadLayout(m_table, inputs, wanted);
+    m_inputLayout = m_qualityOffered ? m_seenLayout : PayloadLayout(m_table, inputs);
+    m_inputFrame = SignalGuard::frameFor(m_table, m_inputLayout);
+    m_inputs.assign(m_seenLayout.size(), 0);
+    m_ownQualities.assign(m_seenLayout.fields().size(), 0);
+    restartGuard();
+}
+
+void NodeRuntime::restartGuard()
+{
+    m_guard.emplace(m_table, m_seenLayout, m_inputs.data(), m_ownQualities.data(),
+                    static_cast<SignalGuard::Observer *>(this));
+    m_master = {};
+    m_refusedInputs.set(0);
+}
+
+/// The master guards its image; a frame may still be that of another table, or a fault that nobody thought of. What moves things looks for itself.
+const char *NodeRuntime::guardedInputs(const char *payload, std::int64_t cycle) noexcept
+{
+    m_guard->take(m_inputFrame, m_master, payload, cycle, cycle);
+    m_guard->settle(cycle);
+    if (!m_seenLayout.hasQualities())
+        return m_inputs.data();
+    const char *given = m_inputLayout.hasQualities() ? payload + m_inputLayout.valueSize() : m_ownQualities.data();
+    char *seen = m_inputs.data() + m_seenLayout.valueSize();
+    std::memcpy(seen, given, m_ownQualities.size());
+    for (std::size_t i = 0; !m_master.isWhole && i < m_ownQualities.size(); ++i)
+        seen[i] = char(std::max(quint8(seen[i]), quint8(m_ownQualities[i])));  // the greater byte is the worse quality
+    return m_inputs.data();
 }
 
 void NodeRuntime::bindWorkloadSignal(QVector<QPlcSignalIndex> *outputs, QStringList *errors)
@@ -128,7 +163,9 @@ bool NodeRuntime::reset(QString *error)
 
 bool NodeRuntime::initialize(const char *inputs, QString *error)
 {
-    return guarded("initialize()", error, [&] { m_node.initializeFrame(inputs); });
+    restartGuard();
+    const char *seen = guardedInputs(inputs, -1);
+    return guarded("initialize()", error, [&] { m_node.initializeFrame(seen); });
 }
 
 void NodeRuntime::stopped()
@@ -165,8 +202,9 @@ bool NodeRuntime::step(const QPlcCycle &cycle, const char *inputs) noexcept
         return !m_hasFailed;
     const std::int64_t begin = now();
     m_cycle = cycle;
+    const char *seen = guardedInputs(inputs, std::int64_t(cycle.number()));
     try {
-        m_node.stepFrame(cycle, inputs, m_scratch.data());
+        m_node.stepFrame(cycle, seen, m_scratch.data());
     } catch (const std::exception &thrown) {
         fail(thrown.what(), begin);
         return false;

@@ -3,10 +3,12 @@
 
 #include "QPlcCycle.h"
 #include "QPlcSlaveNode.h"
+#include "SignalGuard.h"
 #include "realtime/TimeSource.h"
 #include "signals/PayloadLayout.h"
 
 #include <array>
+#include <optional>
 #include <vector>
 
 namespace qplc {
@@ -15,7 +17,7 @@ namespace qplc {
 ///
 /// Used by a slave (over a CyclicLink) and by a master (for a local node) alike. bind(), reset() and initialize() in the thread of the node, step() on
 /// a cycle thread, never at the same time.
-class NodeRuntime
+class NodeRuntime : private SignalGuard::Observer
 {
 public:
     explicit NodeRuntime(QPlcSlaveNode &node);
@@ -23,9 +25,13 @@ public:
     QPlcSlaveNode &node() const { return m_node; }
     void setWorkloadSignal(const QString &name) { m_workloadSignal = name; }
 
+    /// Whether the master sends qualities to who asks for them. Takes effect with bind().
+    void setQualityOffered(bool offered) { m_qualityOffered = offered; }
+
     /// Looks all declared signals up in \a table. \return false with a message that names every mismatch
     bool bind(const QPlcSignalTable &table, QString *error);
     const QPlcSignalTable &table() const { return m_table; }
+    /// As the frames of the master have them.
     const PayloadLayout &inputLayout() const { return m_inputLayout; }
     const PayloadLayout &outputLayout() const { return m_outputLayout; }
     /// Whether the node wants the value of the cycle at hand, for each field of inputLayout().
@@ -34,6 +40,10 @@ public:
     /// Brings the node into its initial state: outputs() holds its initial outputs. \return false when its code threw
     bool reset(QString *error);
     bool initialize(const char *inputs, QString *error);
+    /// The inputs of the node as it sees them: guarded, and with qualities behind them if it wants them.
+    const char *inputs() const { return m_inputs.data(); }
+    /// Values of inputs that were not taken since initialize(): not finite, or outside of the limits of the table. \threadsafe yes
+    std::uint64_t refusedInputs() const { return m_refusedInputs; }
     /// Tells the node that the phase has ended.
     void stopped();
 
@@ -60,6 +70,15 @@ public:
     void fromList(const QPlcSignalList &list, const PayloadLayout &layout, char *frame) const;
 
 private:
+    void bindInputs(const QVector<QPlcSignalIndex> &inputs);
+    void restartGuard();
+    const char *guardedInputs(const char *payload, std::int64_t cycle) noexcept;
+    void valueRefused(std::uint16_t, SignalGuard::Place, const ValueFault &, bool) noexcept override
+    {
+        m_refusedInputs.add();
+    }
+    void signalBecameSafe(SignalGuard::Place) noexcept override {}
+    void sourceChanged(SignalGuard::Place, std::uint16_t, std::uint16_t) noexcept override {}
     void bindWorkloadSignal(QVector<QPlcSignalIndex> *outputs, QStringList *errors);
     std::int64_t now() noexcept { return m_time ? m_time->now() : 0; }
     void measure(std::int64_t begin) noexcept;
@@ -69,8 +88,16 @@ private:
 
     QPlcSlaveNode &m_node;
     QPlcSignalTable m_table;
+    bool m_qualityOffered = true;
     PayloadLayout m_inputLayout;
     PayloadLayout m_outputLayout;
+    PayloadLayout m_seenLayout;          // of m_inputs
+    std::vector<char> m_inputs;          // that the node sees
+    std::vector<char> m_ownQualities;    // what the guard thinks of them
+    std::optional<SignalGuard> m_guard;  // before m_inputs
+    SignalGuard::Frame m_inputFrame;
+    SignalGuard::Writer m_master;
+    Counter m_refusedInputs;
     std::vector<bool> m_sameCycle;
     std::vector<char> m_outputs;  // given away
     std::vector<char> m_scratch;  // being computed

@@ -15,7 +15,9 @@ std::size_t sizeOfOutputFrame(const void *decoder, const char *header)
 void NodeSlot::prepare(const ProcessImage &image, quint64 session, const SealKeys *keys)
 {
     inputRuns = image.gatherRuns(inputLayout);
-    outputRuns = image.scatterRuns(outputLayout);
+    outputs = SignalGuard::frameFor(image, outputLayout);
+    written.id = id;
+    claims.resize(outputLayout);
     sameCycleRuns = image.gatherRuns(inputLayout, sameCycle);
     const std::uint32_t longest = maximumPayload(keys != nullptr);
     encoder = FrameEncoder(FrameKind::Inputs, {session, id, inputLayout.hash()}, inputLayout.partBorders(longest),

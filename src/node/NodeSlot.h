@@ -5,6 +5,7 @@
 #include "MulticastParts.h"
 #include "NodeRuntime.h"
 #include "NodeStatistics.h"
+#include "SignalGuard.h"
 #include "protocol/CyclicFrame.h"
 #include "signals/ProcessImage.h"
 #include "transport/CyclicHub.h"
@@ -37,11 +38,13 @@ struct NodeSlot
     PayloadLayout outputLayout;
     std::vector<CopyRun> inputRuns;      // image -> inputs
     std::vector<CopyRun> sameCycleRuns;  // image -> same-cycle inputs, again when their writers have answered
-    std::vector<CopyRun> outputRuns;     // outputs -> image
+    SignalGuard::Frame outputs;          // outputs -> image
     std::vector<char> initialOutputs;    // pasted into the image when a node joins while others run
 
     // ---- cycle thread ----
-    const std::vector<CopyRun> *pasteRuns = nullptr;  // outputRuns, or those of them that the roster does not hold
+    const SignalGuard::Frame *paste = nullptr;  // outputs, or those of them that the roster does not hold
+    SignalGuard::Writer written;
+    SignalGuard::Claims claims;
     FrameEncoder encoder;
     FrameDecoder decoder;
     std::vector<char> frames;  // encoded parts, one behind the other
@@ -78,6 +81,8 @@ struct NodeSlot
             || policy == QPlcSlaveNode::SafeStopWhenLate;
     }
 
+    /// The cycle to which the initial outputs belong when the next one is \a next.
+    std::int64_t initialCycle(std::int64_t next) const { return twoPhase ? next : next - 1; }
     /// Whether it is asked in this cycle: in the first one of each turn that takes place. Once a cycle.
     bool takesTurn(std::uint64_t cycle) noexcept
     {

@@ -71,12 +71,17 @@ void QPlcCompactSlaveNode::Plan::add(QPlcPort *port, quint32 offset, quint32 siz
 void QPlcCompactSlaveNode::attachPorts(const qplc::PayloadLayout &inputs, const qplc::PayloadLayout &outputs)
 {
     m_inputs = m_outputs = Plan();
+    m_inputValues = inputs.valueSize();
+    m_qualities.assign(inputs.hasQualities() ? inputs.fields().size() : 0, char(QPlcQuality().toByte()));
+    std::size_t number = 0;  // of the input
     // The layouts follow the order in which bindPorts() named the ports.
     auto input = inputs.fields().begin();
     auto output = outputs.fields().begin();
     for (QPlcPort *port : m_ports) {
         const qplc::PayloadLayout::Field &field = port->isInput() ? *input++ : *output++;
         port->attach(field.type);
+        if (port->isInput())
+            port->m_quality = m_qualities.empty() ? nullptr : &m_qualities[number++];
         (port->isInput() ? m_inputs : m_outputs).add(port, field.offset, quint32(field.type.size()));
     }
 }
@@ -87,6 +92,8 @@ void QPlcCompactSlaveNode::load(const char *inputs)
         copyBytes(copy.variable, inputs + copy.offset, copy.size);
     for (const Plan::Conversion &conversion : m_inputs.conversions)
         conversion.port->load(inputs + conversion.offset);
+    if (!m_qualities.empty())
+        std::memcpy(m_qualities.data(), inputs + m_inputValues, m_qualities.size());
 }
 
 void QPlcCompactSlaveNode::store(char *outputs) const

@@ -82,7 +82,10 @@ int QPlcIOBufferSlaveNode::takeFrames(const std::function<void(const Frame &)> &
             return count;
         Head head;
         std::memcpy(&head, item, sizeof head);
-        take({head.cycle, head.phase, head.period, item + sizeof head, int(m_buffer->layout.size()), m_buffer->every});
+        const char *inputs = item + sizeof head;
+        const auto size = int(m_buffer->layout.valueSize());
+        take({head.cycle, head.phase, head.period, inputs, size, m_buffer->every,
+              m_buffer->layout.hasQualities() ? inputs + size : nullptr});
         m_buffer->ring->pop();
     }
     return most;

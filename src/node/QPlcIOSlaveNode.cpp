@@ -32,6 +32,7 @@ QPlcIOSlaveNode::QPlcIOSlaveNode(const QString &name, RealTimeViolationPolicy po
     : QPlcSlaveNode(name, policy, parent)
     , d(std::make_unique<Private>())
 {
+    setReceivesQuality(true);
 }
 
 QPlcIOSlaveNode::~QPlcIOSlaveNode()
@@ -59,6 +60,20 @@ QPlcSignalList QPlcIOSlaveNode::inputSignals() const
     if (!d->newInputs->read(bytes.data(), &cycle))
         return {};
     return qplc::NodeRuntime::toList(d->inputLayout, bytes.data());
+}
+
+QPlcQuality QPlcIOSlaveNode::inputQuality(QPlcSignalIndex signal) const
+{
+    const std::lock_guard<std::mutex> lock(d->layoutMutex);
+    std::vector<char> bytes(d->inputLayout.size());
+    std::uint64_t cycle = 0;
+    const std::vector<qplc::PayloadLayout::Field> &fields = d->inputLayout.fields();
+    const auto found = std::find_if(fields.begin(), fields.end(), [signal](const qplc::PayloadLayout::Field &field) {
+        return field.signal == signal;
+    });
+    if (found == fields.end() || !d->inputLayout.hasQualities() || !d->newInputs->read(bytes.data(), &cycle))
+        return {};
+    return QPlcQuality::fromByte(quint8(bytes[d->inputLayout.valueSize() + std::size_t(found - fields.begin())]));
 }
 
 void QPlcIOSlaveNode::setInputSignalIndices(const QPlcSignalIndexList &indices)

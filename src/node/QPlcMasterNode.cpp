@@ -318,6 +318,14 @@ QPlcValue QPlcMasterNode::signalValue(const QString &signalName) const
     return d->cycle && index != QPlcInvalidSignalIndex ? d->cycle->value(index) : QPlcValue();
 }
 
+QPlcQuality QPlcMasterNode::signalQuality(const QString &signalName) const
+{
+    const QPlcSignalIndex index = d->table.indexOf(signalName);
+    if (!d->cycle || index == QPlcInvalidSignalIndex)
+        return {};
+    return QPlcQuality::fromByte(quint8(d->cycle->values()[d->cycle->qualityOffset(index)]));
+}
+
 bool QPlcMasterNode::setSignalValue(const QString &signalName, const QPlcValue &value)
 {
     return d->setSignalValue(signalName, value);

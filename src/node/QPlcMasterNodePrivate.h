@@ -141,6 +141,7 @@ private:
     void continueSequence(Connection *connection, const QPlcMessage &message);
     void advance();
     void collectOutputs();
+    QString faultOfOutputs(const qplc::NodeSlot &slot, const char *outputs) const;
     bool takeOutputs(qplc::NodeSlot &slot, const char *outputs);
     void distributeInputs();
     void initializationEnded();
@@ -187,6 +188,8 @@ private:
     quint64 m_cyclesWanted = 0;
     qplc::MulticastParts m_multicastParts;
     QPointer<QPlcSlaveSocket> m_requester;
-    QSet<quint16> m_goneListeners;  // of this phase, whose reports may still come
+    QSet<quint16> m_goneListeners;         // of this phase, whose reports may still come
+    QVector<QPlcSignalIndex> m_abandoned;  // of this phase: signals whose writer left before it was ready for cycles
+    QStringList m_becameSafe;              // signals of the reports at hand
     std::unique_ptr<QSocketNotifier> m_reportNotifier;
 };

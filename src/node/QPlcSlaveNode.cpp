@@ -114,6 +114,17 @@ bool QPlcSlaveNode::isTwoPhase() const
     return d->twoPhase;
 }
 
+void QPlcSlaveNode::setReceivesQuality(bool wanted)
+{
+    Q_ASSERT_X(d->state == Disconnected, "QPlcSlaveNode::setReceivesQuality", "a registered node stays what it is");
+    d->receivesQuality = wanted;
+}
+
+bool QPlcSlaveNode::receivesQuality() const
+{
+    return d->receivesQuality;
+}
+
 void QPlcSlaveNode::setSignalTable(const QPlcSignalTable &table)
 {
     d->ownTable = table;
@@ -198,7 +209,9 @@ QPlcSlaveStatistics QPlcSlaveNode::statistics(QPlcDistribution::Detail detail) c
 
 QPlcSlaveNode::Counters QPlcSlaveNode::counters() const
 {
-    return d->cycle ? d->cycle->counters() : Counters();
+    Counters counters = d->cycle ? d->cycle->counters() : Counters();
+    counters.refused = d->runtime.refusedInputs();
+    return counters;
 }
 
 const QPlcCycle &QPlcSlaveNode::cycle() const

@@ -331,14 +331,14 @@ bool QPlcSlaveNodePrivate::initializeWith(const Message &message)
         return false;
     }
     control->sendMessage(Message(Message::Initialized));
-    tellInitialized(values);
+    tellInitialized();
     return true;
 }
 
-void QPlcSlaveNodePrivate::tellInitialized(const QByteArray &inputs)
+void QPlcSlaveNodePrivate::tellInitialized()
 {
     if (q->isSignalConnected(QMetaMethod::fromSignal(&QPlcSlaveNode::hasInitialized)))
-        Q_EMIT q->hasInitialized(qplc::NodeRuntime::toList(runtime.inputLayout(), inputs.constData()));
+        Q_EMIT q->hasInitialized(qplc::NodeRuntime::toList(runtime.inputLayout(), runtime.inputs()));
 }
 
 bool QPlcSlaveNodePrivate::startCycles(const Message &message)

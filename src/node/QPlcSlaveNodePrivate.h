@@ -27,8 +27,8 @@ public:
     void connectToMaster(const QPlcUnderlyingProtocol &master);
     void disconnectFromMaster();
 
-    /// Emits hasInitialized() with the bytes of the inputs, when anybody listens.
-    void tellInitialized(const QByteArray &inputs);
+    /// Emits hasInitialized() with the inputs, when anybody listens.
+    void tellInitialized();
 
     /// Something has happened: the node goes to the next state as qplc::slaveStates() says, and does what belongs to it.
     /// \return whether the present state accepts \a event
@@ -49,6 +49,7 @@ public:
     qplc::ListeningInterval interval;
     bool sameCycle = false;  // all inputs
     bool twoPhase = false;
+    bool receivesQuality = false;
     QString faultPlan;
     QPlcSignalTable ownTable;
     QPlcRealTimeOptions realTimeOptions;

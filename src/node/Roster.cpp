@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 
 namespace qplc {
 
@@ -51,9 +52,37 @@ void Roster::arrange(const ProcessImage &image)
         if (slot->multicast && std::none_of(multicast.begin(), multicast.end(), isOfItsPart))
             multicast.push_back(slot);
         if (!held.empty())
-            pasteRuns.push_back(image.scatterRuns(slot->outputLayout, held));
+            pasted.push_back(SignalGuard::frameFor(image, slot->outputLayout, held));
     }
+    findContests(image.table());
     safeImage = SafeImage(image, safe);
+}
+
+void Roster::findContests(const QPlcSignalTable &table)
+{
+    std::map<QPlcSignalIndex, SignalGuard::Contest> bySignal;
+    for (const std::shared_ptr<NodeSlot> &slot : nodes) {
+        for (const SignalGuard::Frame::Field &field : slot->outputs.contested) {
+            SignalGuard::Contest &contest = bySignal[QPlcSignalIndex(field.place)];
+            contest.place = field.place;
+            contest.candidates.push_back({slot->id, &slot->claims, field.number, field.from});
+        }
+    }
+    const auto nameOf = [this](const SignalGuard::Contest::Candidate &candidate) {
+        return (*std::find_if(nodes.begin(), nodes.end(),
+                              [&](const std::shared_ptr<NodeSlot> &slot) { return slot->id == candidate.writer; }))
+            ->name;
+    };
+    for (auto &[signal, contest] : bySignal) {
+        if (signal < held.size() && held[signal])
+            continue;
+        const QStringList &order = table.at(signal).writers;
+        std::sort(contest.candidates.begin(), contest.candidates.end(),
+                  [&](const SignalGuard::Contest::Candidate &a, const SignalGuard::Contest::Candidate &b) {
+                      return order.indexOf(nameOf(a)) < order.indexOf(nameOf(b));
+                  });
+        contests.push_back(contest);
+    }
 }
 
 QString loopText(const Schedule &schedule, const std::vector<std::shared_ptr<NodeSlot>> &nodes,

@@ -28,17 +28,23 @@ struct Roster
     std::vector<bool> held{};
     /// By index: signals that have their safe value while the master stops safely.
     std::vector<bool> safe{};
+    /// Signals whose writer has left before it was among the nodes.
+    std::vector<QPlcSignalIndex> abandoned{};
 
     // made by arrange()
     std::vector<std::vector<Turn>> stages{};
     std::vector<NodeSlot *> twoPhase{};
     std::vector<std::shared_ptr<NodeSlot>> multicast{};  // one node of each part
-    std::vector<std::vector<CopyRun>> pasteRuns{};       // of each node, without what is held; empty: nothing is
     SafeImage safeImage{};
+    std::vector<SignalGuard::Frame> pasted{};      // of each node, without what is held; empty: nothing is
+    std::vector<SignalGuard::Contest> contests{};  // signals that several nodes may write, but for what is held
     bool anyRemote = false;
 
     /// Puts the nodes into stages. \pre they have no algebraic loop: NodeRegistry admits none
     void arrange(const ProcessImage &image);
+
+private:
+    void findContests(const QPlcSignalTable &table);
 };
 
 /// What the nodes declare makes this order.

@@ -8,9 +8,9 @@
 
 namespace qplc {
 
-// Which values are in force where nobody's are believed: for a safe stop of the master, and for the outputs of a node in its safe state. Both are neutralValue().
+// Which values are in force where nobody's are believed: for a safe stop of the master, and for the outputs of a node in its safe state. Both are QPlcSignalDefinition::safeValue(), and their quality is Safe.
 
-/// The safe values of \a layout as a frame has them.
+/// The safe values of \a layout as a frame has them, with their qualities where it has these.
 std::vector<char> safeFrame(const QPlcSignalTable &table, const PayloadLayout &layout);
 
 /// The safe values of some signals, ready to be copied over a process image: without an allocation, as few copies as can be.
@@ -26,6 +26,8 @@ public:
     void applyTo(char *bytes) const noexcept;
 
 private:
+    void add(quint32 offset, quint32 size);
+
     std::vector<char> m_bytes;  // of a whole image
     std::vector<CopyRun> m_runs;
 };

@@ -19,20 +19,24 @@ Schedule::Schedule(const std::vector<Node> &nodes)
 std::size_t Schedule::writer(QPlcSignalIndex signal) const
 {
     const auto found = m_writers.find(signal);
-    return found == m_writers.end() ? Nobody : found->second;
+    return found == m_writers.end() ? Nobody : found->second.front();
 }
 
 void Schedule::findDependents(const std::vector<Node> &nodes)
 {
     for (std::size_t node = 0; node < nodes.size(); ++node) {
         for (QPlcSignalIndex output : nodes[node].outputs)
-            m_writers[output] = node;
+            m_writers[output].push_back(node);
     }
     for (std::size_t node = 0; node < nodes.size(); ++node) {
         for (const Input &input : nodes[node].inputs) {
-            const std::size_t from = input.sameCycle ? writer(input.signal) : Nobody;
-            if (from != Nobody && !nodes[from].twoPhase)
-                m_dependents[from].push_back({node, input.signal});
+            const auto writers = input.sameCycle ? m_writers.find(input.signal) : m_writers.end();
+            if (writers == m_writers.end())
+                continue;
+            for (const std::size_t from : writers->second) {
+                if (!nodes[from].twoPhase)
+                    m_dependents[from].push_back({node, input.signal});
+            }
         }
     }
 }

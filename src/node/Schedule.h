@@ -50,7 +50,7 @@ public:
     /// Whether a later stage reads what \a node writes in this cycle.
     bool feedsLaterStage(std::size_t node) const { return !m_dependents[node].empty(); }
 
-    /// Node that writes \a signal; Nobody: none of them.
+    /// Node that writes \a signal, of several the first one; Nobody: none of them.
     std::size_t writer(QPlcSignalIndex signal) const;
 
 private:
@@ -64,7 +64,7 @@ private:
     std::size_t placeInStages();
     std::vector<Hop> shortestLoop(std::size_t start) const;
 
-    std::unordered_map<QPlcSignalIndex, std::size_t> m_writers;
+    std::unordered_map<QPlcSignalIndex, std::vector<std::size_t>> m_writers;
     std::vector<std::vector<Dependent>> m_dependents;  // of each node
     std::vector<std::size_t> m_stages;
     std::size_t m_stageCount = 0;

@@ -14,6 +14,7 @@ using Message = QPlcMessage;
 namespace {
 
 const QString sameCycleFeature = QStringLiteral("sameCycle");
+const QString qualityFeature = QStringLiteral("quality");
 
 QJsonArray describe(const QPlcSignalTable &table, const qplc::PayloadLayout &layout,
                     const std::vector<bool> &sameCycle = {})
@@ -47,7 +48,12 @@ bool QPlcSlaveNodePrivate::isOrdered() const
 /// Extensions that this node needs: one that needs none says what nodes always said.
 QJsonArray QPlcSlaveNodePrivate::features() const
 {
-    return isOrdered() ? QJsonArray{sameCycleFeature} : QJsonArray();
+    QJsonArray needed;
+    if (isOrdered())
+        needed.append(sameCycleFeature);
+    if (receivesQuality)
+        needed.append(qualityFeature);
+    return needed;
 }
 
 void QPlcSlaveNodePrivate::greet()
@@ -101,6 +107,7 @@ void QPlcSlaveNodePrivate::receiveHello(const Message &message)
                    .arg(master.toString(), name));
         return;
     }
+    runtime.setQualityOffered(message.fields().value(QStringLiteral("features")).toArray().contains(qualityFeature));
     QPlcSignalTable table;
     QString text;
     if (!chooseTable(message, &table))
@@ -138,6 +145,8 @@ void QPlcSlaveNodePrivate::registerAtMaster()
         fields.insert(QStringLiteral("every"), interval.cycles());
     if (twoPhase)
         fields.insert(QStringLiteral("twoPhase"), true);
+    if (runtime.inputLayout().hasQualities())
+        fields.insert(QStringLiteral("quality"), true);
     if (!faultPlan.isEmpty())
         fields.insert(QStringLiteral("faults"), faultPlan);
     if (master.kind() == QPlcUnderlyingProtocol::Udp || master.kind() == QPlcUnderlyingProtocol::UdpMulticast) {

@@ -39,7 +39,8 @@ QJsonObject fieldsOf(const QPlcNodeStatistics &node)
         {QStringLiteral("answers"), double(node.answers)},     {QStringLiteral("late"), double(node.late)},
         {QStringLiteral("lost"), double(node.lost)},           {QStringLiteral("duplicated"), double(node.duplicated)},
         {QStringLiteral("reordered"), double(node.reordered)}, {QStringLiteral("rejected"), double(node.rejected)},
-        {QStringLiteral("forged"), double(node.forged)},       {QStringLiteral("resent"), double(node.resent)}};
+        {QStringLiteral("forged"), double(node.forged)},       {QStringLiteral("resent"), double(node.resent)},
+        {QStringLiteral("nonFinite"), double(node.nonFinite)}, {QStringLiteral("outOfRange"), double(node.outOfRange)}};
     return {{QStringLiteral("name"), node.name},
             {QStringLiteral("execution"), fieldsOf(node.execution)},
             {QStringLiteral("roundTrip"), fieldsOf(node.roundTrip)},

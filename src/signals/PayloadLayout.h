@@ -22,6 +22,9 @@ inline void copyRuns(const std::vector<CopyRun> &runs, const char *from, char *t
 {
     for (const CopyRun &run : runs) {
         switch (run.size) {
+        case 1:
+            to[run.to] = from[run.from];
+            break;
         case 4:
             std::memcpy(to + run.to, from + run.from, 4);
             break;
@@ -48,44 +51,30 @@ public:
         QPlcSignalType type;
     };
 
+    /// Whether a byte for the quality of each value follows behind all values, in the order of the fields.
+    enum Qualities : quint8 { WithoutQualities, WithQualities };
+
     PayloadLayout() = default;
     /// \pre every index is in \a table and occurs once
-    PayloadLayout(const QPlcSignalTable &table, const QVector<QPlcSignalIndex> &signalIndices);
+    PayloadLayout(const QPlcSignalTable &table, const QVector<QPlcSignalIndex> &signalIndices,
+                  Qualities qualities = WithoutQualities);
 
     const std::vector<Field> &fields() const { return m_fields; }
     quint32 size() const { return m_size; }  // [byte]
-    /// FNV-1a-64 of "name:type@offset\n" of all fields in order.
+    bool hasQualities() const { return m_size > m_valueSize; }
+    /// Bytes of the values alone; there the qualities begin.
+    quint32 valueSize() const { return m_valueSize; }
+    /// FNV-1a-64 of "name:type@offset\n" of all fields in order, and of "qualities@offset\n" where they follow.
     quint64 hash() const { return m_hash; }
 
     /// Borders of the parts into which the payload is split so that no part is longer than \a maximum bytes and no
-    /// signal is torn (one that is longer itself is a part of its own): part i is [borders[i], borders[i+1]). An empty
+    /// value is torn (one that is longer itself is a part of its own; qualities may be parted anywhere): part i is [borders[i], borders[i+1]). An empty
     /// payload is one empty part.
     std::vector<quint32> partBorders(quint32 maximum) const;
 
-    /// The field of the first real value in \a payload that is NaN or infinite; null when all are finite.
-    const Field *firstNotFinite(const char *payload) const noexcept
-    {
-        for (const RealRun &run : m_realRuns) {
-            if (!isFinite(run.scalar, payload + run.offset, run.size))
-                return firstNotFiniteField(payload);
-        }
-        return nullptr;
-    }
-
 private:
-    /// Real values of one type that lie side by side.
-    struct RealRun
-    {
-        QPlcSignalType::Scalar scalar;
-        quint32 offset;  // [byte]
-        quint32 size;    // [byte]
-    };
-    static bool isFinite(QPlcSignalType::Scalar scalar, const char *bytes, quint32 size) noexcept;
-    const Field *firstNotFiniteField(const char *payload) const noexcept;
-    void addRealRun(const Field &field);
-
     std::vector<Field> m_fields;
-    std::vector<RealRun> m_realRuns;
+    quint32 m_valueSize = 0;
     quint32 m_size = 0;
     quint64 m_hash = fnv1a64Start;
 };

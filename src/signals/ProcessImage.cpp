@@ -49,7 +49,8 @@ ProcessImage::ProcessImage(const QPlcSignalTable &table)
         m_offsets.push_back(m_size);
         m_size += quint32(signal.type.size());
     }
-    const std::size_t bytes = paddedSize(m_size);
+    m_qualityOffset = quint32(paddedSize(m_size));
+    const std::size_t bytes = paddedSize(totalSize());
     m_bytes.reset(static_cast<char *>(::operator new[](bytes, std::align_val_t(alignment))));
     std::memset(m_bytes.get(), 0, bytes);
     reset();
@@ -77,23 +78,27 @@ void ProcessImage::reset()
 {
     for (std::size_t i = 0; i < m_offsets.size(); ++i)
         m_table.at(QPlcSignalIndex(i)).initial.toBytes(data() + m_offsets[i]);
+    if (!m_offsets.empty())
+        std::memset(data() + m_qualityOffset, QPlcQuality().toByte(), m_offsets.size());
 }
 
 std::vector<CopyRun> ProcessImage::gatherRuns(const PayloadLayout &layout) const
 {
-    std::vector<CopyRun> runs;
-    for (const PayloadLayout::Field &field : layout.fields())
-        appendRun(runs, {offset(field.signal), field.offset, quint32(field.type.size())});
-    return runs;
+    return gatherRuns(layout, std::vector<bool>(layout.fields().size(), true));
 }
 
 std::vector<CopyRun> ProcessImage::gatherRuns(const PayloadLayout &layout, const std::vector<bool> &wanted) const
 {
     std::vector<CopyRun> runs;
-    for (std::size_t i = 0; i < std::min(wanted.size(), layout.fields().size()); ++i) {
+    const std::size_t count = std::min(wanted.size(), layout.fields().size());
+    for (std::size_t i = 0; i < count; ++i) {
         const PayloadLayout::Field &field = layout.fields()[i];
         if (wanted[i])
             appendRun(runs, {offset(field.signal), field.offset, quint32(field.type.size())});
+    }
+    for (std::size_t i = 0; i < count && layout.hasQualities(); ++i) {
+        if (wanted[i])
+            appendRun(runs, {qualityOffset(layout.fields()[i].signal), layout.valueSize() + quint32(i), 1});
     }
     return runs;
 }

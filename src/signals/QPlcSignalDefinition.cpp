@@ -11,11 +11,22 @@ bool QPlcSignalDefinition::isInRange(const QPlcValue &value) const
     for (int i = 0; isLimited && i < value.type().count(); ++i) {
         const bool isBelow = minimum.isValid() && qplc::isLess(value, i, minimum, 0);
         const bool isAbove = maximum.isValid() && qplc::isLess(maximum, 0, value, i);
-        const bool isNumber = !value.type().isReal() || !std::isnan(value.toReal(i));
+        const bool isNumber = nanAllowed || !value.type().isReal() || !std::isnan(value.toReal(i));
         if (isBelow || isAbove || !isNumber)
             return false;
     }
     return true;
+}
+
+QPlcValue QPlcSignalDefinition::safeValue() const
+{
+    if (safe.isValid())
+        return safe;
+    const QPlcValue zero(type);
+    if (isInRange(zero))
+        return zero;
+    const bool isAboveZero = minimum.isValid() && minimum.toReal() > 0.0;
+    return (isAboveZero ? minimum : maximum).convertedTo(type);
 }
 
 QString QPlcSignalDefinition::rangeText() const

@@ -12,6 +12,7 @@ namespace qplc {
 namespace {
 
 constexpr int longestName = 63;
+constexpr int longestNodeName = 64;
 
 using Complaints = QVector<Complaint>;
 
@@ -111,6 +112,8 @@ void checkValues(const QPlcSignalDefinition &signal, Complaints *complaints)
         checkText(SignalKey::Initial, signal.initial.toString(), LineBreaks::Allowed, complaints);
         checkText(SignalKey::Safe, signal.safe.toString(), LineBreaks::Allowed, complaints);
     }
+    if (signal.nanAllowed && !signal.type.isReal())
+        complaints->append({SignalKey::Nan, QStringLiteral("%1 knows no NaN; remove 'nan ='").arg(signal.type.name())});
     checkRange(signal, SignalKey::Initial, signal.initial, complaints);
     if (!signal.safe.isFinite())
         complaints->append(
@@ -126,6 +129,26 @@ void checkType(SignalKey key, const QPlcValue &value, QPlcSignalType type, Compl
         complaints->append({key,
                             QStringLiteral("%1 is a %2; give a value of the type %3")
                                 .arg(quoted(value.toString()), value.type().name(), type.name())});
+}
+
+void checkWriters(const QPlcSignalDefinition &signal, Complaints *complaints)
+{
+    for (int i = 0; i < signal.writers.size(); ++i) {
+        const QString &name = signal.writers.at(i);
+        const bool isName = !name.isEmpty() && name.size() <= longestNodeName && name == name.trimmed()
+            && !name.contains(QLatin1Char('>'));
+        if (!isName)
+            complaints->append(
+                {SignalKey::Writer,
+                 QStringLiteral("%1 is no name of a node; write 1 ... %2 characters for each writer, and "
+                                "'>' between two of them")
+                     .arg(quoted(name))
+                     .arg(longestNodeName)});
+        else if (signal.writers.indexOf(name) < i)
+            complaints->append({SignalKey::Writer,
+                                QStringLiteral("the node %1 is named twice; name each writer once").arg(quoted(name))});
+    }
+    checkText(SignalKey::Writer, writersText(signal.writers), LineBreaks::Refused, complaints);
 }
 
 QString iniLine(SignalKey key, const QString &value)
@@ -163,6 +186,7 @@ void checkLines(const QPlcSignalDefinition &signal, Complaints *complaints)
         checkLine(SignalKey::Unit, IniParser::valueText(signal.unit), complaints);
     if (signal.description.size() > longText)
         checkLine(SignalKey::Description, IniParser::valueText(signal.description), complaints);
+    checkLine(SignalKey::Writer, IniParser::valueText(writersText(signal.writers)), complaints);
     if (signal.type.size() > longValue) {
         checkLine(SignalKey::Initial, listText(signal.initial), complaints);
         checkLine(SignalKey::Safe, listText(signal.safe), complaints);
@@ -171,11 +195,17 @@ void checkLines(const QPlcSignalDefinition &signal, Complaints *complaints)
 
 }  // namespace
 
+QString writersText(const QStringList &writers)
+{
+    return writers.join(QStringLiteral(" > "));
+}
+
 const QStringList &signalKeyNames()
 {
     static const QStringList names
-        = {QStringLiteral("type"), QStringLiteral("unit"),    QStringLiteral("description"), QStringLiteral("min"),
-           QStringLiteral("max"),  QStringLiteral("initial"), QStringLiteral("safe"),        QStringLiteral("hold")};
+        = {QStringLiteral("type"),   QStringLiteral("unit"),    QStringLiteral("description"), QStringLiteral("min"),
+           QStringLiteral("max"),    QStringLiteral("initial"), QStringLiteral("safe"),        QStringLiteral("hold"),
+           QStringLiteral("writer"), QStringLiteral("nan")};
     return names;
 }
 
@@ -188,6 +218,7 @@ QVector<Complaint> complaintsAbout(const QPlcSignalDefinition &signal)
     if (signal.hold < 0)
         complaints.append({SignalKey::Hold,
                            QStringLiteral("a value cannot be held for %1 cycles; give at least 0").arg(signal.hold)});
+    checkWriters(signal, &complaints);
     const int before = complaints.size();
     if (!signal.type.isValid())
         complaints.append({SignalKey::Type, QStringLiteral("the type is not valid; take one of the table's types")});
@@ -214,8 +245,12 @@ QString iniSection(const QPlcSignalDefinition &signal)
         lines.append(iniLine(SignalKey::Initial, listText(signal.initial)));
     if (signal.safe.isValid())
         lines.append(iniLine(SignalKey::Safe, listText(signal.safe)));
-    if (signal.hold != 0)
+    if (signal.hold != QPlcSignalDefinition::UsualHold)
         lines.append(iniLine(SignalKey::Hold, QString::number(signal.hold)));
+    if (!signal.writers.isEmpty())
+        lines.append(iniLine(SignalKey::Writer, IniParser::valueText(writersText(signal.writers))));
+    if (signal.nanAllowed)
+        lines.append(iniLine(SignalKey::Nan, nanAllowedText()));
     return lines.join(QLatin1Char('\n')) + QLatin1Char('\n');
 }
 

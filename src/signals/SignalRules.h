@@ -8,7 +8,7 @@
 namespace qplc {
 
 /// The keys of a signal in its table. Name: the section itself.
-enum class SignalKey : quint8 { Type, Unit, Description, Minimum, Maximum, Initial, Safe, Hold, Name };
+enum class SignalKey : quint8 { Type, Unit, Description, Minimum, Maximum, Initial, Safe, Hold, Writer, Nan, Name };
 constexpr int signalKeyCount = int(SignalKey::Name);
 
 /// "type", "unit", ... in the order of SignalKey
@@ -18,6 +18,14 @@ const QStringList &signalKeyNames();
 inline QPlcSignalType elementType(QPlcSignalType type)
 {
     return type.isString() ? type : QPlcSignalType(type.scalar());
+}
+
+/// "A > B > C"
+QString writersText(const QStringList &writers);
+/// What stands behind `nan =` where NaN is a value.
+inline QString nanAllowedText()
+{
+    return QStringLiteral("allowed");
 }
 
 struct Complaint

@@ -150,9 +150,34 @@ void TableReader::readValues()
     readValue(SignalKey::Safe, m_signal.type, &m_signal.safe);
     m_signal.initial = QPlcValue(m_signal.type);
     readValue(SignalKey::Initial, m_signal.type, &m_signal.initial);
-    QPlcValue hold(0);
+    QPlcValue hold(m_signal.hold);
     readValue(SignalKey::Hold, hold.type(), &hold);
     m_signal.hold = hold.toInt();
+    readWriters();
+    readNan();
+}
+
+void TableReader::readWriters()
+{
+    const Entry &source = entry(SignalKey::Writer);
+    if (source.line == 0 || source.isWrong)
+        return;
+    for (const QString &name : source.value.split(QLatin1Char('>')))
+        m_signal.writers.append(name.trimmed());
+}
+
+void TableReader::readNan()
+{
+    Entry &source = entry(SignalKey::Nan);
+    if (source.line == 0 || source.isWrong)
+        return;
+    m_signal.nanAllowed = source.value == nanAllowedText();
+    if (m_signal.nanAllowed)
+        return;
+    source.isWrong = true;
+    m_errors.add(source.line, source.valueColumn,
+                 QStringLiteral("%1 is nothing that 'nan' can be; write 'nan = %2', or remove the line")
+                     .arg(quoted(source.value), nanAllowedText()));
 }
 
 // Leaves `value` as it is when there is no such key or its text is no such value.

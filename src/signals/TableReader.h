@@ -58,6 +58,8 @@ private:
     void readType();
     void readValues();
     void readValue(SignalKey key, QPlcSignalType type, QPlcValue *value);
+    void readWriters();
+    void readNan();
     void complain(const Complaint &complaint);
     Entry &entry(SignalKey key) { return m_entries[std::size_t(key)]; }
 

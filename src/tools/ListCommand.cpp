@@ -42,10 +42,18 @@ QJsonValue valueOf(const QPlcSignalTable &table, const QJsonObject &row)
                                            : toJson(table.at(index), text(row, "value"));
 }
 
+/// "B of A > B": of several writers the one whose values the signal has.
+QString writerOf(const QJsonObject &row)
+{
+    const QString source = text(row, "source");
+    const QString writer = text(row, "writer");
+    return source.isEmpty() || source == writer ? writer : QStringLiteral("%1 of %2").arg(source, writer);
+}
+
 void printTable(const QVector<QJsonObject> &rows, bool verbose)
 {
-    QStringList fields{QStringLiteral("name"), QStringLiteral("type"), QStringLiteral("unit"), QStringLiteral("value"),
-                       QStringLiteral("writer")};
+    QStringList fields{QStringLiteral("name"),  QStringLiteral("type"),    QStringLiteral("unit"),
+                       QStringLiteral("value"), QStringLiteral("quality"), QStringLiteral("writer")};
     if (verbose)
         fields << QStringLiteral("description");
     TextTable table;
@@ -54,7 +62,9 @@ void printTable(const QVector<QJsonObject> &rows, bool verbose)
     for (const QJsonObject &row : rows) {
         QStringList cells;
         for (const QString &field : qAsConst(fields))
-            cells << row.value(field).toString();
+            cells << (field == QLatin1String("quality")      ? qualityOf(row).toString()
+                          : field == QLatin1String("writer") ? writerOf(row)
+                                                             : row.value(field).toString());
         table.addRow(cells);
     }
     table.print();
@@ -75,6 +85,7 @@ int listSignals(const CommandCall &call)
     QJsonArray array;
     for (QJsonObject &row : rows) {
         row.insert(QStringLiteral("value"), valueOf(table, row));
+        row.insert(QStringLiteral("quality"), qualityOf(row).toString());
         array.append(row);
     }
     printJson(QJsonDocument(array));
@@ -93,12 +104,14 @@ int getSignals(const CommandCall &call)
     QJsonObject values;
     for (const QJsonObject &row : qAsConst(rows)) {
         const QString value = printable(text(row, "value"));
+        const QPlcQuality quality = qualityOf(row);
+        const QString doubt = quality.isGood() ? QString() : QStringLiteral("  (%1)").arg(quality.toString());
         if (call.isJson())
             values.insert(text(row, "name"), valueOf(table, row));
         else
             printLine(isPlain ? value
-                              : QStringLiteral("%1 = %2").arg(text(row, "name"),
-                                                              withUnit(value, printable(text(row, "unit")))));
+                              : QStringLiteral("%1 = %2%3")
+                                    .arg(text(row, "name"), withUnit(value, printable(text(row, "unit"))), doubt));
     }
     if (call.isJson())
         printJson(QJsonDocument(values));

@@ -15,8 +15,16 @@ SignalListener::SignalListener(const QString &purpose, const QPlcSignalTable &ta
     QPlcSignalIndexTable::setCurrent(table);
     QPlcSignalIndexList indices;
     for (const QString &name : names) {
-        m_wanted << indices.insert(name);
+        indices.insert(name);
         m_definitions << table.at(table.indexOf(name));
+    }
+    for (const QPlcSignalDefinition &definition : qAsConst(m_definitions)) {
+        const QVector<QPlcSignalIndex> inputs = indices.toVector();
+        m_places << inputs.indexOf(table.indexOf(definition.name));
+        int offset = 0;
+        for (int i = 0; i < m_places.last(); ++i)
+            offset += table.at(inputs.at(i)).type.size();
+        m_offsets << offset;
     }
     m_node.setReconnectPolicy(QPlcSlaveNode::NeverReconnect);
     m_node.setInputSignalIndices(indices);
@@ -57,11 +65,14 @@ void SignalListener::take(const QPlcMessage &answer)
     } else if (answer.kind() == QPlcMessage::Signals) {
         const QJsonArray rows = answer.fields().value(QStringLiteral("signals")).toArray();
         QVector<QPlcValue> values;
-        for (int i = 0; i < rows.size() && i < m_definitions.size(); ++i)
-            values << QPlcValue::fromString(m_definitions.at(i).type,
-                                            rows.at(i).toObject().value(QStringLiteral("value")).toString());
+        QVector<QPlcQuality> qualities;
+        for (int i = 0; i < rows.size() && i < m_definitions.size(); ++i) {
+            const QJsonObject row = rows.at(i).toObject();
+            values << QPlcValue::fromString(m_definitions.at(i).type, row.value(QStringLiteral("value")).toString());
+            qualities << qualityOf(row);
+        }
         if (!m_isRunning && values.size() == m_definitions.size())
-            Q_EMIT valuesAtRest(values);
+            Q_EMIT valuesAtRest(values, qualities);
     }
 }
 
@@ -81,15 +92,15 @@ void SignalListener::refresh()
 
 void SignalListener::takeCycles()
 {
-    QVector<quint64> cycles;
-    const QList<QPlcSignalList> batch = m_node.takeInputSignals(&cycles);
     QVector<Sample> samples;
-    for (int i = 0; i < batch.size(); ++i) {
-        Sample sample{cycles.at(i), {}};
-        for (const QPlcSignalIndex index : qAsConst(m_wanted))
-            sample.values << batch.at(i).value(index);
+    m_node.takeFrames([&](const QPlcIOBufferSlaveNode::Frame &frame) {
+        Sample sample{frame.cycle, {}, {}};
+        for (int i = 0; i < m_definitions.size(); ++i) {
+            sample.values << QPlcValue::fromBytes(m_definitions.at(i).type, frame.inputs + m_offsets.at(i));
+            sample.qualities << QPlcQuality::fromByte(quint8(frame.qualities[m_places.at(i)]));
+        }
         samples << sample;
-    }
+    });
     Q_EMIT heard(samples);
 }
 

@@ -16,6 +16,7 @@ public:
     {
         quint64 cycle;
         QVector<QPlcValue> values;  // in the order of names()
+        QVector<QPlcQuality> qualities;
     };
 
     /// \param purpose  becomes part of the name under which the master knows this listener
@@ -47,7 +48,7 @@ Q_SIGNALS:
     /// Cycles that came since the last time, oldest first. Empty: none came.
     void heard(const QVector<tools::SignalListener::Sample> &samples);
     /// The values while no cycle runs.
-    void valuesAtRest(const QVector<QPlcValue> &values);
+    void valuesAtRest(const QVector<QPlcValue> &values, const QVector<QPlcQuality> &qualities);
     void masterEnded();
 
 private:
@@ -55,7 +56,8 @@ private:
 
     QStringList m_names;
     QVector<QPlcSignalDefinition> m_definitions;
-    QVector<QPlcSignalIndex> m_wanted;
+    QVector<int> m_places;   // of names() among the inputs of the node
+    QVector<int> m_offsets;  // and of their values in a frame [byte]
     QPlcIOBufferSlaveNode m_node;
     QTimer m_timer;
     double m_period = 0.0;  // [s]

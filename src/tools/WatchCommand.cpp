@@ -29,7 +29,9 @@ public:
     {
         connect(&listener, &SignalListener::heard, this, &Watch::takeCycles);
         connect(&listener, &SignalListener::valuesAtRest, this,
-                [this](const QVector<QPlcValue> &values) { m_table.update(values, now()); });
+                [this](const QVector<QPlcValue> &values, const QVector<QPlcQuality> &qualities) {
+                    m_table.update(values, now(), qualities);
+                });
         connect(&listener, &SignalListener::masterEnded, this, [this] {
             QCoreApplication::exit(m_listener.isSound() ? QPlcCoreApplication::Success : QPlcCoreApplication::Failure);
         });
@@ -50,7 +52,7 @@ private:
     void takeCycles(const QVector<SignalListener::Sample> &samples)
     {
         for (const SignalListener::Sample &sample : samples) {
-            m_table.update(sample.values, now());
+            m_table.update(sample.values, now(), sample.qualities);
             m_cycle = sample.cycle;
         }
         if (!samples.isEmpty())

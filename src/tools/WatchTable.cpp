@@ -10,8 +10,8 @@ namespace tools {
 namespace {
 
 constexpr int numberWidth = 11;  // of extremes
-constexpr int ageWidth = 7;
-constexpr int gaps = 5 * 2;  // between six columns
+constexpr int ageWidth = 8;      // of an age, or a quality
+constexpr int gaps = 5 * 2;      // between six columns
 constexpr int titleLines = 1;
 
 /// At most \a width characters; "…" stands for what was cut.
@@ -42,14 +42,19 @@ QString ageText(double seconds)
     return QStringLiteral("%1 h").arg(std::floor(seconds / 3600.0));
 }
 
+int elementRows(const QPlcSignalDefinition &definition)
+{
+    return definition.type.isNumeric() ? definition.type.count() : 1;
+}
+
 }  // namespace
 
 WatchTable::WatchTable(const QVector<QPlcSignalDefinition> &definitions)
     : m_definitions(definitions)
 {
     for (const QPlcSignalDefinition &definition : definitions) {
-        const bool isNumber = definition.type.isReal() || definition.type.isInteger();
-        const int count = isNumber ? definition.type.count() : 1;
+        const bool isNumber = definition.type.isNumeric();
+        const int count = elementRows(definition);
         for (int i = 0; i < count; ++i) {
             const QString name = count > 1 ? QStringLiteral("%1[%2]").arg(definition.name).arg(i) : definition.name;
             m_rows.append({name, printable(definition.unit), isNumber, QString()});
@@ -57,10 +62,13 @@ WatchTable::WatchTable(const QVector<QPlcSignalDefinition> &definitions)
     }
 }
 
-void WatchTable::update(const QVector<QPlcValue> &values, double now)
+void WatchTable::update(const QVector<QPlcValue> &values, double now, const QVector<QPlcQuality> &qualities)
 {
     int row = 0;
     for (int i = 0; i < m_definitions.size(); ++i) {
+        const QPlcQuality quality = qualities.value(i, QPlcQuality::Good);
+        for (int k = row; k < row + elementRows(m_definitions.at(i)); ++k)
+            m_rows[k].quality = quality;
         const QPlcSignalType type = m_definitions.at(i).type;
         const QString text = printable(values.at(i).toString());
         if (!m_rows.at(row).isNumber) {
@@ -127,7 +135,9 @@ QStringList WatchTable::lines(int first, int width, int height, double now) cons
         const QString none = QStringLiteral("-");
         lines << line(row.name, row.value, row.unit, row.hasExtremes ? shortNumber(row.minimum) : none,
                       row.hasExtremes ? shortNumber(row.maximum) : none,
-                      row.value.isEmpty() ? none : ageText(now - row.changedAt));
+                      row.value.isEmpty()        ? none
+                          : row.quality.isGood() ? ageText(now - row.changedAt)
+                                                 : row.quality.toString());
     }
     return lines;
 }

@@ -5,14 +5,15 @@
 
 namespace tools {
 
-/// The table of watch: a row for each element of each signal, with its value, the extremes seen, and when it changed last.
+/// The table of watch: a row for each element of each signal, with its value, the extremes seen, and when it changed last, or its quality where that is not good.
 class WatchTable
 {
 public:
     explicit WatchTable(const QVector<QPlcSignalDefinition> &definitions);
 
     /// \param values  one for each definition \param now  [s] on any clock that does not step
-    void update(const QVector<QPlcValue> &values, double now);
+    /// \param qualities  one for each definition; empty: all good
+    void update(const QVector<QPlcValue> &values, double now, const QVector<QPlcQuality> &qualities = {});
     /// The extremes begin with the next values.
     void forgetExtremes();
     int rowCount() const { return m_rows.size(); }
@@ -31,6 +32,7 @@ private:
         double maximum = 0.0;
         bool hasExtremes = false;
         double changedAt = 0.0;  // [s]
+        QPlcQuality quality = QPlcQuality::Good;
     };
     struct Widths
     {

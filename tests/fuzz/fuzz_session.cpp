@@ -139,8 +139,8 @@ private:
         std::vector<char> frame(encoder.partSize(0));
         encoder.encode(0, header, payload.constData(), frame.data());
         const qplc::FrameStatus status = slot.decoder.decode(frame.data(), frame.size());
-        if (status == qplc::FrameStatus::Complete && !slot.outputLayout.firstNotFinite(slot.decoder.payload()))
-            qplc::copyRuns(slot.outputRuns, slot.decoder.payload(), m_inside.cycle->image().data());
+        if (status == qplc::FrameStatus::Complete && slot.outputs.rules.allow(slot.decoder.payload()))
+            qplc::copyRuns(slot.outputs.runs, slot.decoder.payload(), m_inside.cycle->image().data());
     }
 
     /// The cyclic TCP connection of a node that waits for it, with the token that no chance would find.

@@ -48,7 +48,8 @@ void tst_HotJoin::joinerGetsTheValuesOfNow()
 
 void tst_HotJoin::initialOutputsOfAJoinerAppear()
 {
-    TestMaster master(QPlcClock::realTime());
+    TestMaster master(QPlcClock::realTime(),
+                      QPlcSignalTable::fromIni(testTable().toIni().replace("[echo]\n", "[echo]\nhold = 1000\n")));
     master.setInterval(0.002);
     QVERIFY(master.listen());
     QVERIFY(master.startRealTime());
@@ -56,9 +57,11 @@ void tst_HotJoin::initialOutputsOfAJoinerAppear()
     joiner.initialValues = QPlcValue(0.25).toBytes();
     QVERIFY(joiner.registerAt(master.serverPort()));
     QTRY_COMPARE(master.signalValue("echo").toReal(), 0.25);
+    QVERIFY(master.signalQuality("echo").isUsable());
     joiner.control.abort();
     QTRY_VERIFY(master.nodes().isEmpty());
-    QCOMPARE(master.signalValue("echo").toReal(), 0.25);  // and stay when it leaves
+    QTRY_COMPARE(master.signalQuality("echo").kind(), QPlcQuality::Safe);  // and do not stay for ever
+    QCOMPARE(master.signalValue("echo").toReal(), 0.0);
     master.stop();
 }
 

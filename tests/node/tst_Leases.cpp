@@ -21,8 +21,6 @@ private Q_SLOTS:
     void lostHolderLosesItsOwnLeasesOnce();
     void lostLeaseIsHeldByNobodyAndStaysInTheMask();
     void nextDeadlineIsThatOfTheFirstLeaseThatCanBeLost();
-    void neutralValueIsSafeOrZeroOrTheLimitNearestToIt_data();
-    void neutralValueIsSafeOrZeroOrTheLimitNearestToIt();
 
 private:
     Leases m_leases;
@@ -129,33 +127,6 @@ void tst_Leases::nextDeadlineIsThatOfTheFirstLeaseThatCanBeLost()
     QCOMPARE(*m_leases.nextDeadline(), std::int64_t(1100));
     m_leases.loseSilent(1100);
     QVERIFY(!m_leases.nextDeadline());
-}
-
-void tst_Leases::neutralValueIsSafeOrZeroOrTheLimitNearestToIt_data()
-{
-    QTest::addColumn<QByteArray>("lines");
-    QTest::addColumn<QString>("neutral");
-    QTest::newRow("nothing said") << QByteArray("type = Real64\n") << "0";
-    QTest::newRow("safe") << QByteArray("type = Real64\nsafe = 3\nmin = -5\nmax = 5\n") << "3";
-    QTest::newRow("zero is allowed") << QByteArray("type = Real64\nmin = -5\nmax = 5\ninitial = 4\n") << "0";
-    QTest::newRow("above zero") << QByteArray("type = Int32\nmin = 2\nmax = 5\ninitial = 4\n") << "2";
-    QTest::newRow("below zero") << QByteArray("type = Real32\nmin = -7\nmax = -2.5\ninitial = -4\n") << "-2.5";
-    QTest::newRow("at least") << QByteArray("type = Real64\nmin = 1\ninitial = 4\n") << "1";
-    QTest::newRow("at most") << QByteArray("type = Real64\nmax = -1\ninitial = -4\n") << "-1";
-    QTest::newRow("every element") << QByteArray("type = Real64Triple\nmin = 2\nmax = 5\ninitial = 4\n") << "2, 2, 2";
-    QTest::newRow("truth") << QByteArray("type = Bool\ninitial = 1\n") << "0";
-    QTest::newRow("text") << QByteArray("type = String\n") << "";
-}
-
-void tst_Leases::neutralValueIsSafeOrZeroOrTheLimitNearestToIt()
-{
-    QFETCH(QByteArray, lines);
-    QFETCH(QString, neutral);
-    QVector<QPlcParseError> errors;
-    const QPlcSignalTable table = QPlcSignalTable::fromIni("[s]\n" + lines, &errors);
-    QVERIFY2(errors.isEmpty(), qPrintable(QPlcParseError::toString(errors)));
-    QCOMPARE(neutralValue(table.at(0)).toString(), neutral);
-    QVERIFY(neutralValue(table.at(0)).type() == table.at(0).type);
 }
 
 QTEST_APPLESS_MAIN(tst_Leases)

@@ -251,8 +251,8 @@ void tst_ListenerSequence::itMayLeaveInTheMiddleOfASequence()
 void tst_ListenerSequence::itsFaultsStopNothing_data()
 {
     QTest::addColumn<QString>("what");
-    for (const char *what : {"wrong size", "not finite", "fault in the initialization", "fault in a cycle",
-                             "answer with a fault", "answer that is not finite"})
+    for (const char *what :
+         {"wrong size", "not finite", "fault in the initialization", "fault in a cycle", "answer with a fault"})
         QTest::newRow(what) << QString(what);
 }
 
@@ -280,7 +280,7 @@ void tst_ListenerSequence::itsFaultsStopNothing()
         QVERIFY(listener.waitForMessage(QPlcMessage::InitializeWithValues));
         QVERIFY(master.startRealTime());
         QVERIFY(listener.waitForRequests(1));
-        const QByteArray values = QPlcValue(what.contains("finite") ? qQNaN() : 1.0).toBytes();
+        const QByteArray values = QPlcValue(1.0).toBytes();
         const quint8 flags = what.contains("fault") ? qplc::FaultFlag : 0;
         if (what.contains("cycle"))
             listener.send(QPlcMessage::NodeFault, {{"text", "no screen"}});

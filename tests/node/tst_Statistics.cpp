@@ -276,7 +276,9 @@ void tst_Statistics::statisticsOverTheWireAreThoseOfTheApi()
                               {"reordered", double(node.reordered)},
                               {"rejected", double(node.rejected)},
                               {"forged", double(node.forged)},
-                              {"resent", double(node.resent)}}));
+                              {"resent", double(node.resent)},
+                              {"nonFinite", double(node.nonFinite)},
+                              {"outOfRange", double(node.outOfRange)}}));
     }
     const QJsonArray worst = message.fields().value("worst").toArray();
     QCOMPARE(worst.size(), api.worst.size());

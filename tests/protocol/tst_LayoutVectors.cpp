@@ -40,7 +40,9 @@ void tst_LayoutVectors::layoutsAreThoseOfTheVectors()
     for (const QJsonValue field : fields)
         indices.append(table.indexOf(field[QStringLiteral("name")].toString()));
 
-    const qplc::PayloadLayout layout(table, indices);
+    const qplc::PayloadLayout layout(table, indices,
+                                     row[QStringLiteral("qualities")].toBool() ? qplc::PayloadLayout::WithQualities
+                                                                               : qplc::PayloadLayout::WithoutQualities);
     QCOMPARE(layout.fields().size(), std::size_t(fields.size()));
     for (int i = 0; i < fields.size(); ++i) {
         QCOMPARE(layout.fields()[std::size_t(i)].type.name(), fields.at(i)[QStringLiteral("type")].toString());

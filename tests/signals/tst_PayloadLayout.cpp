@@ -1,30 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "QSplitPrimitive.h"
+#include "signals/Fnv1a.h"
 #include "signals/PayloadLayout.h"
 
 #include <QtTest/QtTest>
 
-#include <limits>
 #include <vector>
 
 using qplc::PayloadLayout;
 
 namespace {
 
-/// Reals of both sizes side by side, torn apart by what is no real.
-QPlcSignalTable realsAndOthers()
+QPlcSignalTable reals(int count)
 {
-    return QPlcSignalTable::fromIni(
-        "[a]\ntype = Real32\n[b]\ntype = RealTriple\n[mask]\ntype = UInt32\n[c]\ntype = Real64\n"
-        "[d]\ntype = Real64\n[e]\ntype = Real32\n");
+    QByteArray text;
+    for (int i = 0; i < count; ++i)
+        text += "[r" + QByteArray::number(i) + "]\ntype = Real64\n";
+    return QPlcSignalTable::fromIni(text);
 }
 
-PayloadLayout layoutOfAll(const QPlcSignalTable &table)
+PayloadLayout layoutOfAll(const QPlcSignalTable &table, PayloadLayout::Qualities qualities)
 {
     QVector<QPlcSignalIndex> all;
     for (int i = 0; i < table.size(); ++i)
         all.append(QPlcSignalIndex(i));
-    return {table, all};
+    return {table, all, qualities};
 }
 
 }  // namespace
@@ -34,76 +33,52 @@ class tst_PayloadLayout : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void finiteValuesAreFinite();
-    void theFirstValueThatIsNotFiniteIsFound_data();
-    void theFirstValueThatIsNotFiniteIsFound();
-    void integersMayHaveAnyBits();
-    void aPayloadWithoutRealsIsFinite();
+    void qualitiesFollowTheValues();
+    void aPayloadWithoutValuesHasNoQualities();
+    void partsWithQualitiesAreFullAndTearNoValue_data();
+    void partsWithQualitiesAreFullAndTearNoValue();
 };
 
-void tst_PayloadLayout::finiteValuesAreFinite()
+void tst_PayloadLayout::qualitiesFollowTheValues()
 {
-    const QPlcSignalTable table = realsAndOthers();
-    const PayloadLayout layout = layoutOfAll(table);
-    std::vector<char> payload(layout.size(), 0);
-    QVERIFY(!layout.firstNotFinite(payload.data()));
-    for (const PayloadLayout::Field &field : layout.fields()) {
-        char *bytes = payload.data() + field.offset;
-        if (field.type.scalar() == QPlcSignalType::Real32)
-            QSplitPrimitive<float>(-std::numeric_limits<float>::max()).toBytes(bytes);
-        else if (field.type.scalar() == QPlcSignalType::Real64)
-            QSplitPrimitive<double>(std::numeric_limits<double>::denorm_min()).toBytes(bytes);
-    }
-    QVERIFY(!layout.firstNotFinite(payload.data()));
+    const QPlcSignalTable table = reals(3);
+    const PayloadLayout without = layoutOfAll(table, PayloadLayout::WithoutQualities);
+    QVERIFY(!without.hasQualities());
+    QCOMPARE(without.size(), 24u);
+    QCOMPARE(without.valueSize(), 24u);
+    const PayloadLayout with = layoutOfAll(table, PayloadLayout::WithQualities);
+    QVERIFY(with.hasQualities());
+    QCOMPARE(with.size(), 27u);
+    QCOMPARE(with.valueSize(), 24u);
+    QCOMPARE(with.hash(), qplc::fnv1a64("r0:Real64@0\nr1:Real64@8\nr2:Real64@16\nqualities@24\n"));
+    QVERIFY(with.hash() != without.hash());
 }
 
-void tst_PayloadLayout::theFirstValueThatIsNotFiniteIsFound_data()
+void tst_PayloadLayout::aPayloadWithoutValuesHasNoQualities()
 {
-    QTest::addColumn<QString>("signal");
-    QTest::addColumn<int>("element");
-    QTest::addColumn<double>("value");
-    const double infinity = std::numeric_limits<double>::infinity();
-    QTest::newRow("first") << "a" << 0 << infinity;
-    QTest::newRow("first of an array") << "b" << 0 << -infinity;
-    QTest::newRow("last of an array") << "b" << 2 << qQNaN();
-    QTest::newRow("double") << "c" << 0 << infinity;
-    QTest::newRow("double beside a double") << "d" << 0 << qSNaN();
-    QTest::newRow("last") << "e" << 0 << qQNaN();
+    const PayloadLayout layout(reals(1), {}, PayloadLayout::WithQualities);
+    QVERIFY(!layout.hasQualities());
+    QCOMPARE(layout.size(), 0u);
+    QCOMPARE(layout.hash(), PayloadLayout().hash());
 }
 
-void tst_PayloadLayout::theFirstValueThatIsNotFiniteIsFound()
+void tst_PayloadLayout::partsWithQualitiesAreFullAndTearNoValue_data()
 {
-    QFETCH(QString, signal);
-    QFETCH(int, element);
-    QFETCH(double, value);
-    const QPlcSignalTable table = realsAndOthers();
-    const PayloadLayout layout = layoutOfAll(table);
-    std::vector<char> payload(layout.size(), 0);
-    for (const PayloadLayout::Field &field : layout.fields()) {
-        if (table.at(field.signal).name != signal)
-            continue;
-        if (field.type.scalar() == QPlcSignalType::Real32)
-            QSplitPrimitive<float>(float(value)).toBytes(payload.data() + field.offset + 4 * element);
-        else
-            QSplitPrimitive<double>(value).toBytes(payload.data() + field.offset + 8 * element);
-    }
-    const PayloadLayout::Field *found = layout.firstNotFinite(payload.data());
-    QVERIFY(found);
-    QCOMPARE(table.at(found->signal).name, signal);
+    QTest::addColumn<int>("count");
+    QTest::addColumn<QVector<quint32>>("borders");
+    QTest::newRow("all in one") << 10 << QVector<quint32>{0, 90};
+    QTest::newRow("full") << 11 << QVector<quint32>{0, 99};
+    QTest::newRow("qualities are parted") << 12 << QVector<quint32>{0, 100, 108};
+    QTest::newRow("the last value has a part of its own") << 13 << QVector<quint32>{0, 96, 117};
+    QTest::newRow("many") << 100 << QVector<quint32>{0, 96, 192, 288, 384, 480, 576, 672, 768, 868, 900};
 }
 
-void tst_PayloadLayout::integersMayHaveAnyBits()
+void tst_PayloadLayout::partsWithQualitiesAreFullAndTearNoValue()
 {
-    const QPlcSignalTable table = realsAndOthers();
-    const PayloadLayout layout = layoutOfAll(table);
-    std::vector<char> payload(layout.size(), 0);
-    QSplitPrimitive<quint32>(0xffffffffu).toBytes(payload.data() + layout.fields().at(2).offset);
-    QVERIFY(!layout.firstNotFinite(payload.data()));
-}
-
-void tst_PayloadLayout::aPayloadWithoutRealsIsFinite()
-{
-    QVERIFY(!PayloadLayout().firstNotFinite(nullptr));
+    QFETCH(int, count);
+    QFETCH(QVector<quint32>, borders);
+    const std::vector<quint32> made = layoutOfAll(reals(count), PayloadLayout::WithQualities).partBorders(100);
+    QCOMPARE(QVector<quint32>(made.begin(), made.end()), borders);
 }
 
 QTEST_APPLESS_MAIN(tst_PayloadLayout)

@@ -14,6 +14,9 @@ private Q_SLOTS:
     void readsTheTableOfTheThesis();
     void readsEveryKey();
     void initialIsZeroUnlessSaid();
+    void safeValueIsSafeOrZeroOrTheLimitNearestToIt_data();
+    void safeValueIsSafeOrZeroOrTheLimitNearestToIt();
+    void writersAreReadInTheirOrder();
     void byteOrderMarkAndCarriageReturnsChangeNothing();
     void namesThatDifferInCaseAreTwoSignals();
     void iniIsReadBackAsAnEqualTable();
@@ -65,6 +68,8 @@ void compareTables(const QPlcSignalTable &a, const QPlcSignalTable &b)
         QCOMPARE(x.initial, y.initial);
         QCOMPARE(x.safe, y.safe);
         QCOMPARE(x.hold, y.hold);
+        QCOMPARE(x.writers, y.writers);
+        QCOMPARE(x.nanAllowed, y.nanAllowed);
     }
     QCOMPARE(a.hash(), b.hash());
 }
@@ -90,9 +95,9 @@ void tst_QPlcSignalTable::readsTheTableOfTheThesis()
 
 void tst_QPlcSignalTable::readsEveryKey()
 {
-    const QPlcSignalTable table
-        = read("[wind.speed_2]\nhold = 3 ; cycles\nsafe = 1\ninitial = 0, 1, 2\nmax = 10\nmin = -1e1\n"
-               "description = at the \"mast\"\nunit = m/s\ntype = Real64Triple\n");
+    const QPlcSignalTable table = read("[wind.speed_2]\nhold = 5 ; cycles\nwriter = Mast\nnan = allowed\nsafe = "
+                                       "1\ninitial = 0, 1, 2\nmax = 10\nmin = -1e1\n"
+                                       "description = at the \"mast\"\nunit = m/s\ntype = Real64Triple\n");
     QCOMPARE(table.size(), 1);
     const QPlcSignalDefinition &signal = table.at(0);
     QCOMPARE(signal.name, QStringLiteral("wind.speed_2"));
@@ -102,7 +107,9 @@ void tst_QPlcSignalTable::readsEveryKey()
     QCOMPARE(signal.maximum, QPlcValue(10.0));
     QCOMPARE(signal.initial, QPlcValue({0.0, 1.0, 2.0}));
     QCOMPARE(signal.safe, QPlcValue({1.0, 1.0, 1.0}));
-    QCOMPARE(signal.hold, 3);
+    QCOMPARE(signal.hold, 5);
+    QCOMPARE(signal.writers, QStringList{"Mast"});
+    QVERIFY(signal.nanAllowed);
 }
 
 void tst_QPlcSignalTable::initialIsZeroUnlessSaid()
@@ -112,6 +119,43 @@ void tst_QPlcSignalTable::initialIsZeroUnlessSaid()
         QCOMPARE(signal.initial, QPlcValue(signal.type));
         QVERIFY(!signal.minimum.isValid() && !signal.maximum.isValid() && !signal.safe.isValid());
     }
+}
+
+void tst_QPlcSignalTable::safeValueIsSafeOrZeroOrTheLimitNearestToIt_data()
+{
+    QTest::addColumn<QByteArray>("lines");
+    QTest::addColumn<QString>("safe");
+    QTest::newRow("nothing said") << QByteArray("type = Real64\n") << "0";
+    QTest::newRow("safe") << QByteArray("type = Real64\nsafe = 3\nmin = -5\nmax = 5\n") << "3";
+    QTest::newRow("zero is allowed") << QByteArray("type = Real64\nmin = -5\nmax = 5\ninitial = 4\n") << "0";
+    QTest::newRow("above zero") << QByteArray("type = Int32\nmin = 2\nmax = 5\ninitial = 4\n") << "2";
+    QTest::newRow("below zero") << QByteArray("type = Real32\nmin = -7\nmax = -2.5\ninitial = -4\n") << "-2.5";
+    QTest::newRow("at least") << QByteArray("type = Real64\nmin = 1\ninitial = 4\n") << "1";
+    QTest::newRow("at most") << QByteArray("type = Real64\nmax = -1\ninitial = -4\n") << "-1";
+    QTest::newRow("every element") << QByteArray("type = Real64Triple\nmin = 2\nmax = 5\ninitial = 4\n") << "2, 2, 2";
+    QTest::newRow("truth") << QByteArray("type = Bool\ninitial = 1\n") << "0";
+    QTest::newRow("text") << QByteArray("type = String\n") << "";
+}
+
+void tst_QPlcSignalTable::safeValueIsSafeOrZeroOrTheLimitNearestToIt()
+{
+    QFETCH(QByteArray, lines);
+    QFETCH(QString, safe);
+    QVector<QPlcParseError> errors;
+    const QPlcSignalTable table = QPlcSignalTable::fromIni("[s]\n" + lines, &errors);
+    QVERIFY2(errors.isEmpty(), qPrintable(QPlcParseError::toString(errors)));
+    QCOMPARE(table.at(0).safeValue().toString(), safe);
+    QVERIFY(table.at(0).safeValue().type() == table.at(0).type);
+}
+
+void tst_QPlcSignalTable::writersAreReadInTheirOrder()
+{
+    const QPlcSignalTable table
+        = read("[a]\ntype = Real\nwriter = Autopilot B>  Autopilot A >C\n[b]\ntype = Int\nwriter=X\n"
+               "[c]\ntype = Int\n");
+    QCOMPARE(table.at(0).writers, (QStringList{"Autopilot B", "Autopilot A", "C"}));
+    QCOMPARE(table.at(1).writers, QStringList{"X"});
+    QVERIFY(table.at(2).writers.isEmpty());
 }
 
 void tst_QPlcSignalTable::byteOrderMarkAndCarriageReturnsChangeNothing()
@@ -129,16 +173,17 @@ void tst_QPlcSignalTable::namesThatDifferInCaseAreTwoSignals()
 
 void tst_QPlcSignalTable::iniIsReadBackAsAnEqualTable()
 {
-    const QPlcSignalTable table
-        = read("[a]\ntype = Bool\nsafe = true\n[b]\ntype = Real\nmin = -inf\nmax = 1e10\ninitial = -0\n"
-               "[c]\ntype = String(20)\ninitial = \" ; \\\"x\\\"\\n\"\nsafe =\nunit = \xC2\xB0 ; degree\n"
-               "[d]\ntype = DateTime\ninitial = 2026-01-31T12:00:00.000000001Z\n"
-               "[e]\ntype = Real[3]\nunit = \"; m\"\ndescription = \"a\\nb\"\ninitial = nan, inf, 1\nhold = 7\n"
-               "[f]\ntype = UInt64[2]\nmax = 18446744073709551615\ninitial = 18446744073709551615\n");
-    QCOMPARE(table.size(), 6);
+    const QPlcSignalTable table = read(
+        "[a]\ntype = Bool\nsafe = true\n[b]\ntype = Real\nmin = -inf\nmax = 1e10\ninitial = -0\n"
+        "[c]\ntype = String(20)\ninitial = \" ; \\\"x\\\"\\n\"\nsafe =\nunit = \xC2\xB0 ; degree\n"
+        "[d]\ntype = DateTime\ninitial = 2026-01-31T12:00:00.000000001Z\n"
+        "[e]\ntype = Real[3]\nunit = \"; m\"\ndescription = \"a\\nb\"\ninitial = nan, inf, 1\nhold = 7\nnan = allowed\n"
+        "[f]\ntype = UInt64[2]\nmax = 18446744073709551615\ninitial = 18446744073709551615\n"
+        "[g]\ntype = Real\nwriter = \"A ; 1 > B\"\nhold = 0\n");
+    QCOMPARE(table.size(), 7);
     compareTables(read(table.toIni()), table);
     QCOMPARE(QPlcSignalTable().toIni(), QByteArray());
-    QCOMPARE(read("#x\n[a]\nhold=0\ntype=Bool\ninitial=false").toIni(), QByteArray("[a]\ntype = Bool\n"));
+    QCOMPARE(read("#x\n[a]\nhold=3\ntype=Bool\ninitial=false").toIni(), QByteArray("[a]\ntype = Bool\n"));
 }
 
 void tst_QPlcSignalTable::exampleTableHasTheSignalsOfTheThesisFirst()

@@ -89,6 +89,13 @@ void tst_SignalTableErrors::badTextIsRefusedWithPlaceAndRemedy_data()
     row("min of a time", "[a]\ntype = DateTime\nmin = 2026-01-31T12:00:00Z\n", "t.ini:3:7: DateTime has no order");
     row("negative hold", real + "hold = -1\n", "t.ini:3:8: a value cannot be held for -1 cycles");
     row("hold in seconds", real + "hold = 0.1 s\n", "t.ini:3:8: '0.1 s' is no integer");
+    row("empty writer", real + "writer =\n", "t.ini:3:9: '' is no name of a node; write 1 ... 64 characters");
+    row("writer missing", real + "writer = A > > B\n", "t.ini:3:10: '' is no name of a node");
+    row("writer twice", real + "writer = A > B > A\n",
+        "t.ini:3:10: the node 'A' is named twice; name each writer once");
+    row("long writer", real + "writer = " + QByteArray(65, 'x') + '\n', "t.ini:3:10: 'xxx");
+    row("nan forbidden", real + "nan = no\n", "t.ini:3:7: 'no' is nothing that 'nan' can be; write 'nan = allowed'");
+    row("nan of an integer", "[a]\ntype = Int\nnan = allowed\n", "t.ini:3:7: Int32 knows no NaN; remove 'nan ='");
     row("open quotation", real + "unit = \"m\n", "t.ini:3:8: the quotation has no end");
     row("behind quotation", real + "unit = \"m\" s\n", "t.ini:3:12: stray characters 's' behind the quotation");
     row("wrong escape", real + "unit = \"\\m\"\n", "t.ini:3:9: '\\' stands before none of");

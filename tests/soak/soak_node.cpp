@@ -16,8 +16,11 @@ public:
         , m_written(this, options.shape, options.node)
         , m_seen(this, options.shape, (options.node + options.shape.nodes - 1) % options.shape.nodes)
     {
-        if (options.node % 8 != 0)  // the others get theirs from the master
+        // Every eighth gets its table from the master, and no qualities.
+        if (options.node % 8 != 0) {
             setSignalTable(table(options.shape));
+            setReceivesQuality(true);
+        }
         connect(this, &QPlcSlaveNode::realTimeHasStarted, this,
                 [this] { m_history.append(Record::Phase, m_options.node); });
         connect(this, &QPlcSlaveNode::disconnectedFromMaster, this,
@@ -36,7 +39,8 @@ private:
         write(m_written, m_options.life, ++m_counter);
         m_history.append(Record::Step, m_options.node,
                          {cycle.missedCycles(), m_counter, m_written.check, seen.life, seen.counter, seen.check,
-                          m_seen.computedCheck(), bitsOf(m_seen.drive), Record::NoQuality},
+                          m_seen.computedCheck(), bitsOf(m_seen.drive),
+                          receivesQuality() ? m_seen.drive.quality().toByte() : Record::NoQuality},
                          cycle.number());
     }
     void stopped() override { m_history.append(Record::PhaseEnded, m_options.node); }

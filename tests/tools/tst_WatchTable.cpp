@@ -14,6 +14,7 @@ private Q_SLOTS:
     void extremesAreThoseOfAllValues();
     void extremesCanBeForgotten();
     void ageIsTheTimeSinceTheChange();
+    void whereAValueIsNotGoodItsQualityTakesThePlaceOfItsAge();
     void ageHasAReadableUnit_data();
     void ageHasAReadableUnit();
     void elementsOfAnArrayHaveRows();
@@ -73,6 +74,18 @@ void tst_WatchTable::ageIsTheTimeSinceTheChange()
     QCOMPARE(words(table, 0, 102.5).mid(5), (QStringList{"2.5", "s"}));
     table.update({2.0}, 103.0);
     QCOMPARE(words(table, 0, 103.0).mid(5), (QStringList{"0.0", "s"}));
+}
+
+void tst_WatchTable::whereAValueIsNotGoodItsQualityTakesThePlaceOfItsAge()
+{
+    WatchTable table(definitions("[v]\ntype = Real64[2]\n[b]\ntype = Int\n"));
+    table.update({QPlcValue({1.0, 2.0}), 3}, 0.0, {QPlcQuality::held(12), QPlcQuality::Good});
+    QCOMPARE(words(table, 0).mid(4), (QStringList{"held", "12"}));
+    QCOMPARE(words(table, 1).mid(4), (QStringList{"held", "12"}));
+    QCOMPARE(words(table, 2).mid(4), (QStringList{"0.0", "s"}));
+    table.update({QPlcValue({1.0, 2.0}), 3}, 1.0, {QPlcQuality::Safe, QPlcQuality::Invalid});
+    QCOMPARE(words(table, 1).mid(4), QStringList{"safe"});
+    QCOMPARE(words(table, 2).mid(4), QStringList{"invalid"});
 }
 
 void tst_WatchTable::ageHasAReadableUnit_data()

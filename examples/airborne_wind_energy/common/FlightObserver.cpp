@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "FlightObserver.h"
 
+#include <stdexcept>
+
 namespace awe {
 
 namespace {
@@ -18,10 +20,21 @@ FlightObserver::FlightObserver(double nominalWindSpeed)
     : QPlcCompactSlaveNode(QStringLiteral("FlightObserver"), SilentZeroOrderHold)
     , m_statistics(withWindSpeed(nominalWindSpeed))
 {
+    setReceivesQuality(true);
+}
+
+void FlightObserver::requireGoodValues() const
+{
+    for (const QPlcPort *state :
+         std::initializer_list<const QPlcPort *>{&m_position, &m_windVelocity, &m_tetherForce, &m_power, &m_energy}) {
+        if (state->quality().kind() == QPlcQuality::Safe)
+            throw std::runtime_error(QStringLiteral("there is no good value of '%1'").arg(state->name()).toStdString());
+    }
 }
 
 void FlightObserver::step(const QPlcCycle &)
 {
+    requireGoodValues();
     FlightSample sample;
     sample.position = m_position;
     sample.windVelocity = m_windVelocity;

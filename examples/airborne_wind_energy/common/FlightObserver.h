@@ -7,7 +7,7 @@
 
 namespace awe {
 
-/// Watches a flight from its signals: a node without outputs in the process of the master.
+/// Watches a flight from its signals: a node without outputs in the process of the master. A flight without good values is none: it ends with a fault.
 class FlightObserver : public QPlcCompactSlaveNode
 {
     Q_OBJECT
@@ -23,6 +23,7 @@ private:
 
     void reset() override { m_statistics.reset(); }
     void step(const QPlcCycle &cycle) override;
+    void requireGoodValues() const;
 
     FlightStatistics m_statistics;
 

@@ -263,7 +263,8 @@ void GaugeFeed::showSignal(GaugePicture *picture, bool hasNewTexts)
     const QPlcValue value = time ? m_source.valueAt(*time) : m_context ? m_source.newestValue() : givenValue();
     const Plant::Quality quality = m_source.plant() ? m_source.plant()->quality() : Plant::Good;
     const bool isNow = quality == Plant::Good || (quality == Plant::AtRest && !m_source.isFormula());
-    picture->isTrusted = value.isValid() && (time || isNow);
+    const bool isUsable = !m_source.plant() || quality != Plant::Good || m_source.newestQuality().isUsable();
+    picture->isTrusted = value.isValid() && (time || (isNow && isUsable));
     picture->isBoolean = isBoolean();
     picture->unit = m_definition.unit;
     if (!m_definition.type.isNumeric() || elements() > 1)
@@ -342,6 +343,22 @@ QString GaugeFeed::statusText(const QPlcValue &value, std::optional<TimeView::Ti
         // What is calculated comes of cycles; a signal is what the master holds.
         return m_source.isFormula() ? tr("at rest, last cycle") : tr("at rest");
     case Plant::Good:
+        break;
+    }
+    return doubtText(m_source.newestQuality());
+}
+
+/// Why a value of now is not what its writer says now; empty: it is.
+QString GaugeFeed::doubtText(QPlcQuality quality)
+{
+    switch (quality.kind()) {
+    case QPlcQuality::Held:
+        return tr("held %1 cycles").arg(quality.heldCycles());
+    case QPlcQuality::Safe:
+        return tr("safe value: there is no good one");
+    case QPlcQuality::Invalid:
+        return tr("nobody has written it");
+    case QPlcQuality::Good:
         break;
     }
     return {};

@@ -62,6 +62,7 @@ private:
     void showValue(GaugePicture *picture, const QPlcValue &value, bool hasNewTexts);
     void judge(GaugePicture *picture, bool isPast);
     QString missingText() const;
+    static QString doubtText(QPlcQuality quality);
     QString statusText(const QPlcValue &value, std::optional<TimeView::Time> time) const;
     QString valueText(double number) const;
     QPlcValue givenValue() const;

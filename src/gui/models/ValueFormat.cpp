@@ -138,6 +138,29 @@ QString qualityText(Plant::Quality quality)
     return {};
 }
 
+QString qualityText(const PlantList::Signal &signal)
+{
+    const Plant::Quality ofPlant = signal.plant->quality();
+    const QPlcQuality quality = signal.quality();
+    switch (ofPlant == Plant::Good ? quality.kind() : QPlcQuality::Good) {  // at rest no value is of now
+    case QPlcQuality::Good:
+        break;
+    case QPlcQuality::Held:
+        return QCoreApplication::translate("ValueFormat", "held %1").arg(quality.heldCycles());
+    case QPlcQuality::Safe:
+        return QCoreApplication::translate("ValueFormat", "safe");
+    case QPlcQuality::Invalid:
+        return QCoreApplication::translate("ValueFormat", "not written");
+    }
+    return qualityText(ofPlant);
+}
+
+bool isTrusted(const PlantList::Signal &signal)
+{
+    const Plant::Quality ofPlant = signal.plant->quality();
+    return ofPlant == Plant::AtRest || (ofPlant == Plant::Good && signal.quality().isUsable());
+}
+
 QString stateWord(const Plant &plant)
 {
     switch (plant.connectionState()) {

@@ -27,6 +27,10 @@ QString ageText(double seconds);
 QString durationText(double nanoseconds);
 /// "good", "at rest", "stale", "no value".
 QString qualityText(Plant::Quality quality);
+/// What stands in the way of trust in the newest value of a signal: the plant, or else its own quality.
+QString qualityText(const PlantList::Signal &signal);
+/// Whether the newest value of a signal is of now, or of the plant at rest, and usable.
+bool isTrusted(const PlantList::Signal &signal);
 /// The state of a plant in a word or two: that of its master, or "lost", "connecting", "not there"; Plant::stateText() says why.
 QString stateWord(const Plant &plant);
 /// What Qt::ForegroundRole gives: grey for what is not to be trusted, else nothing.

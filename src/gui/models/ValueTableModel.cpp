@@ -19,6 +19,18 @@ QVariant alignmentOf(int column)
     return int(Qt::AlignVCenter | (isNumber ? Qt::AlignRight : Qt::AlignLeft));
 }
 
+/// Time since the newest value was true [s]; -1: it never was, or nobody knows.
+double ageOf(const PlantList::Signal &signal)
+{
+    const double age = signal.plant->age();
+    const QPlcQuality quality = signal.quality();
+    if (signal.plant->quality() != Plant::Good)
+        return age;
+    return age < 0.0 || !quality.isUsable()
+        ? -1.0
+        : age + quality.heldCycles() * double(signal.plant->values().period()) * 1e-9;
+}
+
 constexpr float noNumber = std::numeric_limits<float>::quiet_NaN();
 
 }  // namespace
@@ -160,8 +172,7 @@ bool ValueTableModel::isTrusted(const Row &row) const
         return false;
     if (m_displayTime)
         return shownValue(row).isValid();
-    const Plant::Quality quality = row.signal.plant->quality();
-    return quality == Plant::Good || quality == Plant::AtRest;
+    return qplc::isTrusted(row.signal);
 }
 
 /// Nothing sorts before all numbers.
@@ -173,7 +184,7 @@ QVariant ValueTableModel::sortValue(const Row &row, int column) const
     if (!row.signal)
         return column == Name || column == QualityColumn ? QVariant(row.texts.at(column)) : QVariant();
     if (column == Age)
-        return row.signal.plant->age();
+        return ageOf(row.signal);
     if (column == Rate)
         return row.signal.plant->updateRate();
     const QPlcValue value = column == Value ? shownValue(row) : QPlcValue();
@@ -193,10 +204,10 @@ QStringList ValueTableModel::textsOf(const Row &row) const
             row.signal.definition().unit,
             hasRange ? numberText(double(row.minimum)) : QString(),
             hasRange ? numberText(double(row.maximum)) : QString(),
-            !isPast              ? qualityText(plant.quality())
+            !isPast              ? qualityText(row.signal)
                 : isTrusted(row) ? tr("past")
                                  : tr("no value"),
-            isPast ? QString() : ageText(plant.age()),
+            isPast ? QString() : ageText(ageOf(row.signal)),
             plant.updateRate() > 0.0 ? QStringLiteral("%1 Hz").arg(plant.updateRate(), 0, 'g', 3) : QString()};
 }
 

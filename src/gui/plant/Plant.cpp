@@ -429,7 +429,8 @@ void Plant::takeSignals(const Message &answer)
         m_writers[signal] = printable(of.value(QStringLiteral("writer")).toString());
         if (isAtRest)
             m_values.takeValue(
-                signal, QPlcValue::fromString(table().at(signal).type, of.value(QStringLiteral("value")).toString()));
+                signal, QPlcValue::fromString(table().at(signal).type, of.value(QStringLiteral("value")).toString()),
+                QPlcQuality::fromByte(quint8(of.value(QStringLiteral("quality")).toInt(0))));
     }
     if (isAtRest) {
         m_sinceValues.start();

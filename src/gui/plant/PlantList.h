@@ -25,6 +25,8 @@ public:
         const QPlcSignalDefinition &definition() const { return plant->table().at(index); }
         /// The value of the signal, or of its element; invalid before the first.
         QPlcValue value() const;
+        /// What the master says of it; Plant::quality() says whether that is of now.
+        QPlcQuality quality() const { return plant->values().quality(index); }
         /// The channel in the store of the plant: of the element, or of the only one; ChannelMap::NoChannel for texts, times and whole arrays.
         int channel() const;
     };

@@ -2,6 +2,7 @@
 #include "PlantValues.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace qplc {
 
@@ -23,6 +24,7 @@ void PlantValues::setTable(const QPlcSignalTable &table, Time period, Budget bud
     m_period = std::max<Time>(period, 1);
     m_row.assign(std::size_t(m_channels.channels()), 0.0F);
     m_newest.assign(std::size_t(m_channels.payloadSize()), 0);
+    m_qualities.assign(std::size_t(table.size()), char(QPlcQuality(QPlcQuality::Good).toByte()));
     m_hasValues = false;
     m_lastTime = 0;
     makeStore();
@@ -78,14 +80,16 @@ void PlantValues::takeFrame(const QPlcIOBufferSlaveNode::Frame &frame, Time wall
     }
     m_isContinued = true;
     m_lastCycle = frame.cycle;
-    takeRow(frame.inputs, m_phaseStart + Time(frame.cycle) * m_period);
+    takeRow(frame.inputs, m_phaseStart + Time(frame.cycle) * m_period, frame.qualities);
 }
 
-void PlantValues::takeRow(const char *payload, Time time)
+void PlantValues::takeRow(const char *payload, Time time, const char *qualities)
 {
     const int size = m_channels.payloadSize();
     m_lastTime = time;
     m_channels.toFloats(payload, m_row.data());
+    if (qualities)
+        leaveGaps(qualities);
     m_store->append(time, m_row.data());
     std::copy_n(payload, size, m_newest.begin());
     m_batch.insert(m_batch.end(), payload, payload + size);
@@ -94,12 +98,33 @@ void PlantValues::takeRow(const char *payload, Time time)
     m_hasValues = true;
 }
 
-void PlantValues::takeValue(QPlcSignalIndex signal, const QPlcValue &value)
+/// A value that nobody has written is none for a curve.
+void PlantValues::leaveGaps(const char *qualities)
+{
+    std::copy_n(qualities, m_qualities.size(), m_qualities.begin());
+    const char invalid = char(QPlcQuality(QPlcQuality::Invalid).toByte());
+    auto found = std::find(m_qualities.begin(), m_qualities.end(), invalid);
+    for (; found != m_qualities.end(); found = std::find(found + 1, m_qualities.end(), invalid)) {
+        const auto signal = QPlcSignalIndex(found - m_qualities.begin());
+        const int channel = m_channels.channel(signal);
+        if (channel != ChannelMap::NoChannel)
+            std::fill_n(m_row.begin() + channel, m_table.at(signal).type.count(),
+                        std::numeric_limits<float>::quiet_NaN());
+    }
+}
+
+void PlantValues::takeValue(QPlcSignalIndex signal, const QPlcValue &value, QPlcQuality quality)
 {
     if (signal >= m_table.size() || value.type() != m_table.at(signal).type)
         return;
     value.toBytes(m_newest.data() + m_channels.offset(signal));
+    m_qualities[signal] = char(quality.toByte());
     m_hasValues = true;
+}
+
+QPlcQuality PlantValues::quality(QPlcSignalIndex signal) const
+{
+    return m_hasValues && signal < m_table.size() ? QPlcQuality::fromByte(quint8(m_qualities[signal])) : QPlcQuality();
 }
 
 QPlcValue PlantValues::valueIn(const char *payload, QPlcSignalIndex signal) const

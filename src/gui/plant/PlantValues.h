@@ -3,6 +3,7 @@
 
 #include "ChannelMap.h"
 #include "QPlcIOBufferSlaveNode.h"
+#include "QPlcQuality.h"
 #include "gui/store/SignalStore.h"
 #include "node/ListeningInterval.h"
 
@@ -41,15 +42,18 @@ public:
     /// Takes the values of one cycle. \param wallTime  now, since 1970
     void takeFrame(const QPlcIOBufferSlaveNode::Frame &frame, Time wallTime);
     /// Takes the values of one cycle whose time somebody else knows. \param payload  as ChannelMap says  \param time  after that of the row before
-    void takeRow(const char *payload, Time time);
+    /// \param qualities  a byte for each signal; null: nobody told them, and all are good. In the store an invalid value is a gap.
+    void takeRow(const char *payload, Time time, const char *qualities = nullptr);
     /// Takes a value that came outside of a cycle. Nothing becomes of one that does not fit.
-    void takeValue(QPlcSignalIndex signal, const QPlcValue &value);
+    void takeValue(QPlcSignalIndex signal, const QPlcValue &value, QPlcQuality quality = QPlcQuality::Good);
     /// What comes next does not continue what is there.
     void interrupt();
 
     bool hasValues() const { return m_hasValues; }
     /// The newest value; invalid before the first, or when there is no such signal.
     QPlcValue value(QPlcSignalIndex signal) const;
+    /// How far the newest value can be trusted; invalid before the first, or when there is no such signal.
+    QPlcQuality quality(QPlcSignalIndex signal) const;
     /// The values of \a signalIndices in each cycle of the last batch, oldest first.
     QList<QPlcSignalList> batch(const QVector<QPlcSignalIndex> &signalIndices) const;
     int batchSize() const { return m_batchSize; }
@@ -61,6 +65,7 @@ public:
     quint64 gaps() const { return m_gaps; }  // frames within a phase before which others were lost, ever
 
 private:
+    void leaveGaps(const char *qualities);
     QPlcValue valueIn(const char *payload, QPlcSignalIndex signal) const;
     int wantedRows() const;
     void makeStore();
@@ -72,6 +77,7 @@ private:
     std::unique_ptr<SignalStore> m_store;
     std::vector<float> m_row;
     std::vector<char> m_newest;
+    std::vector<char> m_qualities;  // of m_newest, a byte for each signal
     bool m_hasValues = false;
     std::vector<char> m_batch;  // payloads, one behind the other
     int m_batchSize = 0;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SignalControl.h"
 
-#include "node/Leases.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -10,7 +8,7 @@ namespace qplc {
 
 QPlcValue neutralValue(const PlantList::Signal &signal)
 {
-    const QPlcValue whole = neutralValue(signal.definition());
+    const QPlcValue whole = signal.definition().safeValue();
     if (signal.element == SignalReference::Whole)
         return whole;
     return QPlcValue(whole.toReal(signal.element)).convertedTo(QPlcSignalType(signal.definition().type.scalar()));
@@ -183,7 +181,7 @@ void SignalControl::take(Plant::TakeOver takeOver)
     for (auto of = names.begin(); of != names.end(); ++of) {
         QHash<QString, QPlcValue> neutral;
         for (const QString &name : of.value())
-            neutral.insert(name, neutralValue(of.key()->table().at(of.key()->table().indexOf(name))));
+            neutral.insert(name, of.key()->table().at(of.key()->table().indexOf(name)).safeValue());
         m_commands.append({of.key(), of.key()->takeLease(of.value(), neutral, takeOver)});
     }
 }

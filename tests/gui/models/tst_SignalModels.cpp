@@ -244,12 +244,16 @@ void tst_SignalModels::chosenSignalsShowRangeQualityAndRate()
     QCOMPARE(cell(table, 2, ValueTableModel::Minimum), QString());
     QCOMPARE(cell(table, 3, ValueTableModel::Minimum), QString());
     QCOMPARE(cell(table, 3, ValueTableModel::Value), QStringLiteral("[0, 0, 0]"));
+    QCOMPARE(cell(table, 1, ValueTableModel::QualityColumn), QStringLiteral("not written"));
+    QCOMPARE(cell(table, 1, ValueTableModel::Age), QString());
+    QVERIFY(table.index(1, 0).data(Qt::ForegroundRole).isValid());
     // A spike of few cycles between two looks at the table counts.
     QVERIFY(master.setSignalValue(QStringLiteral("setpoint"), 9.0));
     QTest::qWait(40);
     QVERIFY(master.setSignalValue(QStringLiteral("setpoint"), 1.0));
     QTRY_COMPARE(cell(table, 1, ValueTableModel::Value), QStringLiteral("1"));
     QTRY_COMPARE(cell(table, 1, ValueTableModel::Maximum), QStringLiteral("9"));
+    QTRY_COMPARE(cell(table, 1, ValueTableModel::QualityColumn), QStringLiteral("good"));
     table.reset();
     QCOMPARE(cell(table, 1, ValueTableModel::Maximum), QStringLiteral("1"));
     plant->close();

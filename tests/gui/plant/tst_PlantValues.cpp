@@ -48,6 +48,7 @@ private Q_SLOTS:
     void allTypesBecomeFloats();
     void anEmptyTableHasNoChannels();
     void rowsLieAPeriodApartFromTheBeginOfThePhase();
+    void whatNobodyHasWrittenIsNoValueOfACurve();
     void aJumpOfCyclesIsAGap();
     void oneOfSoManyCyclesIsNoGap();
     void aTurnWithoutAFrameIsAGap();
@@ -122,6 +123,31 @@ void tst_PlantValues::rowsLieAPeriodApartFromTheBeginOfThePhase()
     QCOMPARE(values.value(4).toReal(), 3.5);
     QCOMPARE(values.value(0).toString(), QStringLiteral("t7"));
     QCOMPARE(values.gaps(), quint64(0));
+}
+
+void tst_PlantValues::whatNobodyHasWrittenIsNoValueOfACurve()
+{
+    PlantValues values;
+    values.setTable(table(), 10 * ms);
+    const QByteArray bytes = payload(3);
+    QByteArray qualities(7, '\0');  // good
+    qualities[1] = char(QPlcQuality::held(2).toByte());
+    for (const int invalid : {0, 2, 5})
+        qualities[invalid] = char(QPlcQuality(QPlcQuality::Invalid).toByte());
+    qualities[6] = char(QPlcQuality(QPlcQuality::Safe).toByte());
+    values.takeFrame({0, 1, std::chrono::nanoseconds(10 * ms), bytes.constData(), bytes.size(), qualities.constData()},
+                     wall);
+    const auto isGap = [&](int signal, int element = 0) {
+        const int channel = values.channels().channel(QPlcSignalIndex(signal), element);
+        return std::isnan(values.store()->value(channel, 0));
+    };
+    QVERIFY(!isGap(1) && !isGap(4) && !isGap(6));
+    QVERIFY(isGap(2, 0) && isGap(2, 1) && isGap(2, 2) && isGap(5));
+    QCOMPARE(values.quality(1).heldCycles(), 2);
+    QCOMPARE(values.quality(2).kind(), QPlcQuality::Invalid);
+    QCOMPARE(values.quality(4).kind(), QPlcQuality::Good);
+    QCOMPARE(values.quality(6).kind(), QPlcQuality::Safe);
+    QCOMPARE(values.value(5).toReal(), -3.0);  // the table shows what there is
 }
 
 void tst_PlantValues::aJumpOfCyclesIsAGap()
