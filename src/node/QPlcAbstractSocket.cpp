@@ -15,11 +15,16 @@ struct QPlcAbstractSocket::Private
     QSslSocket *tls = nullptr;  // the same, when it is or will be encrypted, or comes from a master with security
     qplc::ControlFrameReader reader;
     bool isSending = false;
+    bool isPaused = false;  // the other end takes nothing in
     Error error = NoError;
     QString errorString;
 };
 
 namespace {
+
+constexpr qint64 MostUnread
+    = 1 << 20;  // [byte] that the other end has not taken in; then its requests wait, most of them with it
+constexpr qint64 MostBuffered = 1 << 16;  // [byte] of them that wait here
 
 QPlcAbstractSocket::Error errorOf(QAbstractSocket::SocketError error)
 {
@@ -77,6 +82,11 @@ void QPlcAbstractSocket::setSocket(QTcpSocket *socket)
         connect(socket, &QTcpSocket::connected, this, nowConnected);
     connect(socket, &QTcpSocket::disconnected, this, &QPlcAbstractSocket::disconnected);
     connect(socket, &QTcpSocket::readyRead, this, &QPlcAbstractSocket::readMessages);
+    connect(socket, &QTcpSocket::bytesWritten, this, [this] {
+        if (d->isPaused && bytesToSend() <= MostUnread)  // not at once: who sends may be in the middle of a message
+            QMetaObject::invokeMethod(this, &QPlcAbstractSocket::readMessages, Qt::QueuedConnection);
+    });
+    socket->setReadBufferSize(MostBuffered);
     connect(socket, &QTcpSocket::errorOccurred, this, &QPlcAbstractSocket::readError);
 }
 
@@ -200,12 +210,17 @@ void QPlcAbstractSocket::readMessages()
         return;
     }
     const QPointer<QPlcAbstractSocket> self(this);  // who receives a message may delete us
-    d->reader.append(d->socket->readAll());
     QPlcMessage message;
-    while (self && d->reader.next(&message)) {
+    d->isPaused = bytesToSend() > MostUnread;
+    if (d->isPaused)
+        return;
+    d->reader.append(d->socket->readAll());
+    while (self && !d->isPaused && d->reader.next(&message)) {
         qCDebug(lcControl).noquote() << "from" << peerName() << message.kindName()
                                      << shown(d->reader.lastFrame(), isSecured());
         Q_EMIT messageReceived(message);
+        if (self)
+            d->isPaused = bytesToSend() > MostUnread;
     }
     if (!self || d->reader.error() == qplc::ControlFrameReader::NoError)
         return;

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Evidence.h"
+
+#include <QtCore/QDir>
+
+#include <algorithm>
+#include <limits>
+
+namespace soak {
+
+Stalls::Stalls(const History &runner)
+{
+    std::vector<Span> spans;
+    for (const Record &record : runner.records) {
+        if (record.kind == Record::Stall)
+            spans.push_back({qint64(record.numbers[0]), record.time});
+    }
+    std::sort(spans.begin(), spans.end(), [](const Span &a, const Span &b) { return a.begin < b.begin; });
+    for (const Span &span : spans) {
+        if (!m_spans.empty() && span.begin <= m_spans.back().end)
+            m_spans.back().end = std::max(m_spans.back().end, span.end);
+        else
+            m_spans.push_back(span);
+    }
+}
+
+qint64 Stalls::within(qint64 begin, qint64 end) const
+{
+    qint64 sum = 0;
+    for (const Span &span : m_spans)
+        sum += std::max<qint64>(0, std::min(end, span.end) - std::max(begin, span.begin));
+    return sum;
+}
+
+bool Evidence::read(const QString &folder, const Profile &profile, Evidence *evidence, QString *error)
+{
+    evidence->shape = profile.shape;
+    evidence->period = profile.periodUs * 1000;
+    const QStringList names = QDir(folder).entryList({QStringLiteral("*.history")}, QDir::Files);
+    for (const QString &name : names) {
+        History history;
+        if (!History::read(QDir(folder).filePath(name), &history, error))
+            return false;
+        history.name = name.section(QLatin1Char('.'), 0, 0);
+        history.life = history.name.section(QLatin1String("-life"), 1).toUInt();
+        history.node = nodeNumber(history.name.section(QLatin1Char('-'), 0, 0));
+        if (history.node >= 0)
+            evidence->nodes.push_back(std::move(history));
+        else if (history.name.startsWith(QLatin1String("Master")))
+            evidence->masters.push_back(std::move(history));
+        else
+            evidence->runner = std::move(history);
+    }
+    evidence->complete();
+    return true;
+}
+
+void Evidence::complete()
+{
+    const auto byLife = [](const History &a, const History &b) { return a.life < b.life; };
+    std::stable_sort(nodes.begin(), nodes.end(), byLife);
+    std::stable_sort(masters.begin(), masters.end(), byLife);
+    stalls = Stalls(runner);
+    faults.clear();
+    for (const Record &record : runner.records) {
+        switch (record.kind) {
+        case Record::FaultBegins: {
+            DoneFault fault;
+            fault.kind = FaultKind(record.numbers[0]);
+            fault.node = record.subject == Record::Nobody ? -1 : record.subject;
+            fault.begin = record.time;
+            fault.seed = record.numbers[2];
+            fault.end = fault.recovered = std::numeric_limits<qint64>::max();
+            faults.push_back(fault);
+            break;
+        }
+        case Record::FaultEnds:
+            if (!faults.empty()) {
+                faults.back().end = record.time;
+                faults.back().amount = qint64(record.numbers[1]);
+            }
+            break;
+        case Record::Recovered:
+            if (!faults.empty())
+                faults.back().recovered = std::min(faults.back().recovered, record.time);
+            break;
+        default:
+            break;
+        }
+    }
+}
+
+const History *Evidence::masterAt(qint64 time) const
+{
+    const History *found = nullptr;
+    for (const History &master : masters) {
+        if (!master.records.empty() && master.records.front().time <= time)
+            found = &master;
+    }
+    return found;
+}
+
+const History *Evidence::lifeOf(int node, quint32 life) const
+{
+    const auto isIt = [&](const History &history) { return history.node == node && history.life == life; };
+    const auto found = std::find_if(nodes.begin(), nodes.end(), isIt);
+    return found == nodes.end() ? nullptr : &*found;
+}
+
+bool Evidence::isExplained(qint64 time, int node) const
+{
+    return std::any_of(faults.begin(), faults.end(), [&](const DoneFault &fault) {
+        return fault.begin <= time && time <= fault.recovered && (fault.isOfMaster() || fault.node == node || node < 0);
+    });
+}
+
+std::vector<const Record *> recordsOf(const History &history, Record::Kind kind, int subject, qint64 begin, qint64 end)
+{
+    const quint16 wanted = subject < 0 ? Record::Nobody : quint16(subject);
+    std::vector<const Record *> found;
+    for (const Record &record : history.records) {
+        if (record.kind == kind && record.subject == wanted && record.time >= begin && record.time <= end)
+            found.push_back(&record);
+    }
+    return found;
+}
+
+}  // namespace soak

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QtCore/QString>
+
+#include <cstdint>
+#include <vector>
+
+namespace soak {
+
+/// What one process has seen and done, in a file that it alone appends to. A process that is killed loses nothing that append() has returned from.
+struct Record
+{
+    enum Kind : quint16 {
+        // of a node; subject: its number
+        Born = 1,  // numbers: process
+        Reset,     // initial outputs. numbers: see StepNumber, what is written only
+        Phase,     // the real-time phase has begun
+        Step,      // numbers: see StepNumber
+        Safe,      // the node itself went to its safe state. numbers: see SafeNumber
+        PhaseEnded,
+        MasterLost,
+        // of a master; subject: a node, or Nobody
+        Cycle = 100,
+        State,  // numbers: a MasterState
+        Registered,
+        Lost,
+        Refused,
+        Late,
+        Error,         // numbers: error
+        Counters,      // of the master. numbers: see MasterNumber
+        NodeCounters,  // numbers: see NodeNumber
+        // of the runner; subject: a node, or Nobody
+        Started = 200,  // a process of the plant. numbers: process, life
+        FaultBegins,    // numbers: kind, amount, seed
+        FaultEnds,      // numbers: kind, amount that was really done
+        Command,        // of the operator: the plant may move. numbers: life of the master
+        Recovered,      // the whole plant runs again
+        Attempts,       // of strangers to get in, so far. numbers: how many
+        Usage,          // of a process. numbers: see UsageNumber
+        Stall           // the machine did not let a thread run that was ready. numbers: begin [ns]; time: end
+    };
+    enum MasterState { Off, Initializing, Ready, RealTime, WaitingForLateSlaves, SafeStop, Fault, UnknownState };
+    enum StepNumber {
+        Missed,
+        WrittenCounter,
+        WrittenCheck,
+        SeenLife,
+        SeenCounter,
+        SeenCheck,
+        ComputedCheck,
+        Drive,
+        Quality
+    };
+    enum MasterNumber { MasterPhase, Cycles, Skipped, Strangers, LateAnswers, Overruns, Incomplete };
+    enum NodeNumber { NodePhase, Answers, NodeLate, AnswersLost, Duplicated, Reordered, Rejected, Resent };
+    enum SafeNumber { SafeDriveBits, IsWanted };  // wanted: the phase ended
+    enum UsageNumber { Descriptors, Threads, ResidentKb, UsageLife, IsCompared };
+    static constexpr quint64 NoQuality = 255;  // of a plant without qualities
+    static constexpr quint16 Nobody = 0xffff;
+    static constexpr int Numbers = 9;
+
+    quint16 kind = 0;
+    quint16 subject = Nobody;
+    quint32 thread = 0;
+    qint64 time = 0;    // [ns] of the monotonic clock, which is one for all processes of the machine
+    qint64 waited = 0;  // [ns] that this thread was ready to run and did not
+    quint64 cycle = 0;
+    quint64 numbers[Numbers] = {};
+    quint64 check = 0;
+};
+
+class History
+{
+public:
+    QString name;  // "node3-life2"
+    quint32 life = 0;
+    int node = -1;  // -1: not of a node
+    std::vector<Record> records;
+    bool isTorn = false;  // its last record was cut
+
+    /// \return false when there is no such file, or a record in it is not what was written: \a error has the sentence
+    static bool read(const QString &fileName, History *history, QString *error);
+};
+
+/// Appends to a history. A record is one write(): threads of a process may share the writer, and who is killed leaves whole records.
+class HistoryWriter
+{
+public:
+    HistoryWriter() = default;
+    ~HistoryWriter();
+    HistoryWriter(const HistoryWriter &) = delete;
+    HistoryWriter &operator=(const HistoryWriter &) = delete;
+
+    bool open(const QString &fileName, QString *error);
+    /// Adds time, thread and check to \a record. \threadsafe yes; allocates nothing after the first call of a thread
+    void append(Record record) noexcept;
+    void append(Record::Kind kind, int subject, std::initializer_list<quint64> numbers = {},
+                quint64 cycle = 0) noexcept;
+
+private:
+    int m_file = -1;
+};
+
+Record makeRecord(Record::Kind kind, int subject, std::initializer_list<quint64> numbers, quint64 cycle = 0) noexcept;
+quint64 checkOf(const Record &record) noexcept;
+qint64 monotonicNow() noexcept;
+quint64 bitsOf(double number) noexcept;
+double fromBits(quint64 bits) noexcept;
+
+}  // namespace soak

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Gates.h"
+
+#include "signals/Fnv1a.h"
+#include "transport/FaultInjector.h"
+
+namespace soak {
+
+namespace {
+
+using qplc::FaultInjector;
+
+struct Counted
+{
+    FaultKind fault;
+    FaultInjector::Kind done;
+    Record::NodeNumber counter;
+};
+constexpr Counted counters[] = {{FaultKind::LoseFrames, FaultInjector::Lost, Record::AnswersLost},
+                                {FaultKind::DuplicateFrames, FaultInjector::Duplicated, Record::Duplicated},
+                                {FaultKind::ReorderFrames, FaultInjector::Reordered, Record::Reordered},
+                                {FaultKind::CorruptFrames, FaultInjector::Corrupted, Record::Rejected}};
+
+/// The same decisions again: how often a link has done something to the first \a frames that it sent.
+quint64 doneTo(const DoneFault &fault, const Counted &what, qint64 frames)
+{
+    QString error;
+    const auto plan = qplc::FaultPlan::fromText(linkFaultsOf(fault.kind, fault.seed), &error);
+    FaultInjector injector(plan->sent, plan->seed, 2 * qplc::fnv1a64(nodeName(fault.node).toUtf8()));
+    quint64 done = 0;
+    quint64 before = 0;
+    bool isHolding = false;  // a frame waits for this one: it cannot wait itself
+    for (qint64 i = 0; i < frames; ++i) {
+        injector.decide(0);
+        const bool isMeant = injector.count(what.done) > before;
+        before = injector.count(what.done);
+        const bool isDone = isMeant && !(what.done == FaultInjector::Reordered && isHolding);
+        isHolding = isDone;
+        done += isDone ? 1 : 0;
+    }
+    return done;
+}
+
+/// Cycles that a life never saw: there was nothing to be answered.
+quint64 missedBy(const History &life)
+{
+    quint64 missed = 0;
+    for (const Record &record : life.records)
+        missed += record.kind == Record::Step ? record.numbers[Record::Missed] : 0;
+    return missed;
+}
+
+qint64 stepsUntil(const History &life, qint64 time)
+{
+    return qint64(recordsOf(life, Record::Step, life.node, 0, time).size());
+}
+
+/// The life of the node whose link had the faults.
+const History *lifeOf(const Evidence &evidence, const DoneFault &fault)
+{
+    for (const History &history : evidence.nodes) {
+        if (history.node == fault.node && !history.records.empty() && history.records.front().time >= fault.begin)
+            return &history;
+    }
+    return nullptr;
+}
+
+/// The last counters of the node before its life ended; null when they are those of several phases, or none.
+const Record *countersOf(const Evidence &evidence, const DoneFault &fault, const History &life)
+{
+    const History *master = evidence.masterAt(fault.begin);
+    if (!master)
+        return nullptr;
+    const std::vector<const Record *> all
+        = recordsOf(*master, Record::NodeCounters, fault.node, life.records.front().time, fault.end);
+    const bool isOnePhase
+        = !all.empty() && all.front()->numbers[Record::NodePhase] == all.back()->numbers[Record::NodePhase];
+    return isOnePhase ? all.back() : nullptr;
+}
+
+void lookAt(const Evidence &evidence, const DoneFault &fault, const Counted &what, Gate *gate)
+{
+    const QString name = QString::fromLatin1(FaultNames[std::size_t(fault.kind)]);
+    const History *life = lifeOf(evidence, fault);
+    const Record *record = life ? countersOf(evidence, fault, *life) : nullptr;
+    if (!record) {
+        gate->figures[name + QStringLiteral(" not judged")] += 1.0;
+        return;
+    }
+    ++gate->looked;
+    // Frames under way while the counters were read may be in them or not.
+    const quint64 least = doneTo(fault, what, stepsUntil(*life, record->time - 3 * evidence.period));
+    const quint64 most = doneTo(fault, what, stepsUntil(*life, record->time + evidence.period))
+        + (what.fault == FaultKind::LoseFrames ? missedBy(*life) : 0);
+    const quint64 counted = record->numbers[what.counter];
+    gate->figures[name + QStringLiteral(" done")] += double(most);
+    gate->figures[name + QStringLiteral(" counted")] += double(counted);
+    if (counted < least || counted > most)
+        gate->fail(QStringLiteral("%1 (%2): %3 ... %4 were done, %5 counted")
+                       .arg(name, nodeName(fault.node))
+                       .arg(least)
+                       .arg(most)
+                       .arg(counted));
+}
+
+}  // namespace
+
+Gate linkFaultsAreCounted(const Evidence &evidence)
+{
+    Gate gate("link faults are counted");
+    gate.isAsked = false;
+    for (const DoneFault &fault : evidence.faults) {
+        for (const Counted &what : counters) {
+            if (fault.kind != what.fault)
+                continue;
+            gate.isAsked = true;
+            lookAt(evidence, fault, what, &gate);
+        }
+    }
+    return gate;
+}
+
+}  // namespace soak

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "NemesisPlan.h"
+
+#include <algorithm>
+#include <random>
+
+namespace soak {
+
+namespace {
+
+// Order of FaultKind.
+constexpr std::array<int, FaultKinds> AllKinds{14, 6, 2, 2, 6, 5, 3, 3, 2, 4, 3, 3, 3, 4};
+
+int amountOf(FaultKind kind)
+{
+    switch (kind) {
+    case FaultKind::StopNode:
+    case FaultKind::StopMaster:
+        return 300;
+    case FaultKind::GarbageDatagrams:
+    case FaultKind::GarbageToNodes:
+    case FaultKind::StoppedReader:
+        return 100;
+    case FaultKind::GarbageControl:
+        return 8;
+    case FaultKind::ConnectFlood:
+        return 200;
+    case FaultKind::LoseFrames:
+    case FaultKind::DuplicateFrames:
+    case FaultKind::ReorderFrames:
+    case FaultKind::CorruptFrames:
+    case FaultKind::CutLink:
+        return 700;
+    default:
+        return 1;
+    }
+}
+
+}  // namespace
+
+std::optional<Profile> Profile::named(const QString &name)
+{
+    Profile profile;
+    profile.name = name;
+    if (name == QLatin1String("short")) {
+        profile.faultEvery = 500;
+        profile.faultCount = 60;
+        profile.weights = AllKinds;
+    } else if (name == QLatin1String("steady")) {
+        profile.shape = {16, 250, 25};
+        profile.priority = 40;
+        profile.periodUs = 2000;
+        profile.seconds = 600;
+        profile.isLoaded = true;
+        profile.judgesMemory = true;
+    } else if (name == QLatin1String("faults")) {
+        profile.shape = {64, 100, 3};
+        profile.seconds = 600;
+        profile.faultEvery = 1000;
+        profile.judgesMemory = true;
+        profile.weights = AllKinds;
+    } else if (name == QLatin1String("crowd")) {
+        profile.shape = {254, 20, 3};
+        profile.periodUs = 20'000;
+        profile.seconds = 600;
+        profile.judgesMemory = true;
+        profile.restless = 0.2;
+        profile.faultEvery = 200;
+        profile.weights[std::size_t(FaultKind::KillNode)] = 1;
+        profile.attemptsPerSecond = 100;
+    } else {
+        return std::nullopt;
+    }
+    return profile;
+}
+
+QString linkFaultsOf(FaultKind kind, quint64 seed)
+{
+    const QString end = QStringLiteral(",seed=%1").arg(seed);
+    switch (kind) {
+    case FaultKind::LoseFrames:
+        return QStringLiteral("loss-sent=10%") + end;
+    case FaultKind::DuplicateFrames:
+        return QStringLiteral("duplicate-sent=20%,duplicate-received=20%") + end;
+    case FaultKind::ReorderFrames:
+        return QStringLiteral("reorder-sent=10%,reorder-received=10%") + end;
+    case FaultKind::CorruptFrames:
+        return QStringLiteral("corrupt-sent=10%,corrupt-received=10%") + end;
+    default:
+        return QStringLiteral("cut=300ms+200ms") + end;
+    }
+}
+
+QStringList Profile::names()
+{
+    return {QStringLiteral("short"), QStringLiteral("steady"), QStringLiteral("faults"), QStringLiteral("crowd")};
+}
+
+std::vector<Fault> planOf(const Profile &profile, int count, quint64 seed)
+{
+    std::mt19937_64 random(seed);
+    int allWeights = 0;
+    for (const int weight : profile.weights)
+        allWeights += weight;
+    std::vector<Fault> plan;
+    // Number i of the kinds in their order of weights: what is drawn is the order alone, so that every run has all kinds.
+    for (int i = 0; i < count && allWeights > 0; ++i) {
+        int place = int(qint64(i) * allWeights / count);
+        int kind = 0;
+        while (place >= profile.weights[std::size_t(kind)])
+            place -= profile.weights[std::size_t(kind++)];
+        Fault fault;
+        fault.kind = FaultKind(kind);
+        fault.amount = amountOf(fault.kind);
+        plan.push_back(fault);
+    }
+    for (std::size_t i = plan.size(); i > 1; --i)
+        std::swap(plan[i - 1], plan[random() % i]);
+    const int nodes = std::max(1, int(profile.shape.nodes * profile.restless));
+    for (Fault &fault : plan) {
+        fault.node = hasNode(fault.kind) ? int(random() % quint64(nodes)) : -1;
+        if (isLinkFault(fault.kind) && isOnStream(fault.node))
+            --fault.node;
+        fault.seed = random();
+    }
+    return plan;
+}
+
+}  // namespace soak

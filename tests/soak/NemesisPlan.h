@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "SoakPlant.h"
+
+#include <QtCore/QMap>
+
+#include <optional>
+#include <vector>
+
+namespace soak {
+
+/// What is done to the plant.
+enum class FaultKind : quint8 {
+    KillNode,          ///< SIGKILL, and started again at once
+    StopNode,          ///< SIGSTOP for 0.3 s
+    KillMaster,        ///< SIGKILL, and started again at once
+    StopMaster,        ///< SIGSTOP for 0.3 s
+    GarbageDatagrams,  ///< from strangers to the UDP port of the master
+    GarbageControl,    ///< connections to the TCP port of the master that send no message
+    GarbageToNodes,    ///< from strangers to the UDP ports of the nodes
+    StoppedReader,     ///< a tool that asks and asks, and takes no answer
+    ConnectFlood,      ///< connections that say nothing
+    LoseFrames,  ///< from here on: a node whose link does this to its frames, for a while; not of a stream, which knows no such faults
+    DuplicateFrames,
+    ReorderFrames,
+    CorruptFrames,
+    CutLink
+};
+constexpr int FaultKinds = int(FaultKind::CutLink) + 1;
+constexpr std::array<const char *, FaultKinds> FaultNames{
+    "kill a node",      "stop a node",      "kill the master", "stop the master", "garbage datagrams",
+    "garbage control",  "garbage to nodes", "stopped reader",  "connect flood",   "lose frames",
+    "duplicate frames", "reorder frames",   "corrupt frames",  "cut a link"};
+
+constexpr bool isLinkFault(FaultKind kind)
+{
+    return kind >= FaultKind::LoseFrames;
+}
+/// Whether a fault of this kind is one of a single node.
+constexpr bool hasNode(FaultKind kind)
+{
+    return kind == FaultKind::KillNode || kind == FaultKind::StopNode || isLinkFault(kind);
+}
+
+struct Fault
+{
+    FaultKind kind = FaultKind::KillNode;
+    int node = -1;     // -1: not of a node
+    int amount = 0;    // datagrams, connections, requests; [ms] of a stop, cut or faulty link
+    quint64 seed = 0;  // for all that is drawn while it happens
+};
+
+/// What a node is told of the faults of its link: docs/faults.md. What is counted is done to the frames that it sends.
+QString linkFaultsOf(FaultKind kind, quint64 seed);
+
+/// What a soak is.
+struct Profile
+{
+    QString name;
+    PlantShape shape;
+    qint64 periodUs = 10'000;
+    int seconds = 60;           // unless the command line says another duration
+    int faultEvery = 0;         // [ms] from fault to fault at least; 0: there are none
+    int faultCount = 0;         // 0: as many as fit into the duration
+    bool isLoaded = false;      // stress-ng runs beside
+    bool judgesMemory = false;  // long enough for a slope
+    int priority = 0;           // of the cycle threads, SCHED_FIFO; 0: they are ordinary
+    double restless = 1.0;      // share of the nodes that have faults
+    int attemptsPerSecond = 0;  // of strangers to get in
+    std::array<int, FaultKinds> weights{};
+
+    static std::optional<Profile> named(const QString &name);
+    static QStringList names();
+};
+
+/// The faults of a run, in order: the same for the same profile, number and seed. Kinds come as often as their weights say, up to one.
+std::vector<Fault> planOf(const Profile &profile, int count, quint64 seed);
+
+}  // namespace soak

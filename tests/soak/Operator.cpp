@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Operator.h"
+
+#include "SoakPlant.h"
+
+#include <QtCore/QElapsedTimer>
+#include <QtCore/QEventLoop>
+#include <QtCore/QTimer>
+
+using Message = QPlcMessage;
+
+namespace soak {
+
+Operator::Operator(HistoryWriter &history, int nodes)
+    : m_history(history)
+    , m_nodes(nodes)
+{
+}
+
+void Operator::useMaster(quint16 port)
+{
+    m_port = port;
+    m_formerId = 0;
+    m_client.reset();
+}
+
+int Operator::idOf(const Message &state, int node)
+{
+    const QJsonArray nodes = state.fields().value(QStringLiteral("nodes")).toArray();
+    for (const QJsonValue &value : nodes) {
+        const QJsonObject fields = value.toObject();
+        if (fields.value(QStringLiteral("name")).toString() == nodeName(node))
+            return fields.value(QStringLiteral("id")).toInt();
+    }
+    return 0;
+}
+
+void Operator::expectAnother(int node)
+{
+    Message state;
+    m_formerNode = node;
+    m_formerId = ask(Message::GetState, &state) ? idOf(state, node) : 0;
+}
+
+void Operator::wait(int milliseconds)
+{
+    QEventLoop loop;
+    QTimer::singleShot(milliseconds, Qt::PreciseTimer, &loop, &QEventLoop::quit);
+    loop.exec();
+}
+
+bool Operator::ask(Message::Kind request, Message *answer)
+{
+    if (!m_client || m_client->error() != tools::ControlClient::NoError) {
+        m_client = std::make_unique<tools::ControlClient>(std::chrono::seconds(3));
+        m_client->connectToMaster(QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, m_port));
+    }
+    if (m_client->ask(request, answer))
+        return true;
+    m_errorString = QStringLiteral("%1: %2").arg(Message::kindName(request), m_client->errorString());
+    return false;
+}
+
+bool Operator::areAllThere(const Message &state) const
+{
+    const int registered = state.fields().value(QStringLiteral("nodes")).toArray().size() - 1;  // the recorder is one
+    return registered >= m_nodes && (m_formerId == 0 || idOf(state, m_formerNode) != m_formerId);
+}
+
+bool Operator::isRunning()
+{
+    Message state;
+    return ask(Message::GetState, &state) && areAllThere(state)
+        && state.text(QStringLiteral("state")) == QLatin1String("RealTime");
+}
+
+bool Operator::goOn()
+{
+    Message state;
+    if (!ask(Message::GetState, &state))
+        return false;
+    const QString name = state.text(QStringLiteral("state"));
+    m_errorString = QStringLiteral("the master is in %1; of %2 nodes some are missing, or it does not start")
+                        .arg(name)
+                        .arg(m_nodes);
+    if (!areAllThere(state))
+        return false;
+    if (name == QLatin1String("SafeStop") || name == QLatin1String("Fault"))
+        ask(Message::Reset, &state);
+    if (name == QLatin1String("Off") || name == QLatin1String("Ready")) {
+        m_history.append(Record::Command, -1);
+        ask(Message::StartRealTime, &state);
+    }
+    return name == QLatin1String("RealTime");
+}
+
+bool Operator::bringToRealTime(int patience)
+{
+    QElapsedTimer timer;
+    timer.start();
+    while (timer.elapsed() < patience) {
+        if (goOn())
+            return true;
+        wait(10);
+    }
+    return false;
+}
+
+bool Operator::stop()
+{
+    Message done;
+    return ask(Message::Stop, &done);
+}
+
+QStringList Operator::datagramAddresses()
+{
+    Message state;
+    QStringList addresses;
+    if (!ask(Message::GetState, &state))
+        return addresses;
+    const QJsonArray nodes = state.fields().value(QStringLiteral("nodes")).toArray();
+    for (const QJsonValue &node : nodes) {
+        const QJsonObject fields = node.toObject();
+        if (fields.value(QStringLiteral("transport")).toString() == QLatin1String("udp"))
+            addresses << fields.value(QStringLiteral("address")).toString();
+    }
+    return addresses;
+}
+
+}  // namespace soak

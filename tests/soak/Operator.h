@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "History.h"
+#include "tools/ControlClient.h"
+
+#include <QtCore/QJsonArray>
+
+#include <memory>
+
+namespace soak {
+
+/// The person at the plant: looks at the state of the master, and brings the plant back to motion after a fault. Every command is written down.
+class Operator
+{
+public:
+    Operator(HistoryWriter &history, int nodes);
+
+    /// From now on the master is here; an earlier one is gone.
+    void useMaster(quint16 port);
+    /// Does what there is to do until the whole plant runs. \return false when it does not within \a patience [ms]: errorString() says what is missing
+    bool bringToRealTime(int patience);
+    /// Whether the whole plant runs. Does nothing about it.
+    bool isRunning();
+    /// From now on the whole plant runs only with a node \a node that has registered anew. To be called before its process ends.
+    void expectAnother(int node);
+    bool stop();
+    /// "127.0.0.1:40312" of the nodes that have datagrams.
+    QStringList datagramAddresses();
+    QString errorString() const { return m_errorString; }
+
+    static void wait(int milliseconds);
+
+private:
+    bool ask(QPlcMessage::Kind request, QPlcMessage *answer);
+    bool areAllThere(const QPlcMessage &state) const;
+    static int idOf(const QPlcMessage &state, int node);
+    /// Does the next thing. \return whether the whole plant runs
+    bool goOn();
+
+    HistoryWriter &m_history;
+    const int m_nodes;
+    quint16 m_port = 0;
+    int m_formerNode = -1;
+    int m_formerId = 0;  // of this node, which its next registration will not have; 0: none
+    std::unique_ptr<tools::ControlClient> m_client;
+    QString m_errorString;
+};
+
+}  // namespace soak

@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Gates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace soak {
+
+namespace {
+
+constexpr qint64 LongestRecovery = 2'000'000'000;  // [ns]
+constexpr qint64 Settled = 250'000'000;            // [ns] after a fault, what it did has been counted
+
+QString nameOf(const DoneFault &fault)
+{
+    const QString name = QString::fromLatin1(FaultNames[std::size_t(fault.kind)]);
+    return fault.node < 0 ? name : QStringLiteral("%1 (%2)").arg(name, nodeName(fault.node));
+}
+
+/// The cycles of one real-time phase, and the counters at its end.
+struct Phase
+{
+    std::vector<const Record *> cycles;
+    const Record *counters = nullptr;
+    bool hasEnded = false;  // by a stop: the counters are those of all its cycles
+};
+
+std::vector<Phase> phasesOf(const History &master)
+{
+    std::vector<Phase> phases;
+    for (const Record &record : master.records) {
+        if (record.kind == Record::Cycle) {
+            if (phases.empty() || record.cycle <= phases.back().cycles.back()->cycle)
+                phases.emplace_back();
+            phases.back().cycles.push_back(&record);
+        } else if (record.kind == Record::Counters && !phases.empty()
+                   && record.numbers[Record::MasterPhase] == phases.size()) {
+            phases.back().counters = &record;
+        } else if (record.kind == Record::State && !phases.empty()) {
+            phases.back().hasEnded = record.numbers[0] == Record::Off || record.numbers[0] == Record::Ready;
+        }
+    }
+    return phases;
+}
+
+void lookAtPhase(const Evidence &evidence, const History &master, const Phase &phase, Gate *gate)
+{
+    const Record &first = *phase.cycles.front();
+    const Record &last = *phase.cycles.back();
+    ++gate->looked;
+    gate->figures[QStringLiteral("cycles")] += double(phase.cycles.size());
+    gate->figures[QStringLiteral("skipped")] += double(last.cycle + 1 - phase.cycles.size());
+    const double periods = double(last.time - first.time) / double(evidence.period);
+    const double ahead = double(last.cycle - first.cycle) - periods;
+    const double stalled = double(std::max<qint64>(0, last.waited - first.waited)) / double(evidence.period);
+    gate->largest(QStringLiteral("away from the grid [cycles]"), std::abs(ahead));
+    if (std::abs(ahead) > 1.0) {
+        if (std::abs(ahead) <= 1.0 + std::min(stalled, 1.0))
+            ++gate->excused;
+        else
+            gate->fail(QStringLiteral("%1: %2 cycles in the time of %3")
+                           .arg(master.name)
+                           .arg(last.cycle - first.cycle)
+                           .arg(periods));
+    }
+    if (!phase.hasEnded || !phase.counters)
+        return;
+    const quint64 computed = phase.counters->numbers[Record::Cycles];
+    const quint64 skipped = phase.counters->numbers[Record::Skipped];
+    gate->figures[QStringLiteral("overruns")] += double(phase.counters->numbers[Record::Overruns]);
+    if (computed != phase.cycles.size() || computed + skipped != last.cycle + 1)
+        gate->fail(QStringLiteral("%1 counts %2 cycles and %3 skipped ones; there were %4 and %5")
+                       .arg(master.name)
+                       .arg(computed)
+                       .arg(skipped)
+                       .arg(phase.cycles.size())
+                       .arg(last.cycle + 1 - phase.cycles.size()));
+}
+
+/// How many cycles \a master computed from \a begin to \a end.
+qint64 cyclesBetween(const History &master, qint64 begin, qint64 end)
+{
+    return qint64(recordsOf(master, Record::Cycle, -1, begin, end).size());
+}
+
+/// The event by which a master tells people of a fault.
+Record::Kind eventOf(FaultKind kind)
+{
+    switch (kind) {
+    case FaultKind::KillNode:
+        return Record::Lost;
+    case FaultKind::StopNode:
+    case FaultKind::CutLink:
+        return Record::Late;
+    default:
+        return Record::Refused;
+    }
+}
+
+bool isToldByAnEvent(FaultKind kind)
+{
+    return kind == FaultKind::KillNode || kind == FaultKind::StopNode || kind == FaultKind::CutLink
+        || kind == FaultKind::GarbageControl;
+}
+
+/// [ns] that the thread of the master that tells of events was kept from running between two times.
+qint64 waitedBetween(const History &master, const Record &event, qint64 begin)
+{
+    qint64 waited = event.waited;
+    for (const Record &record : master.records) {
+        if (record.thread == event.thread && record.time <= begin)
+            waited = record.waited;
+    }
+    return std::max<qint64>(0, event.waited - waited);
+}
+
+/// Whether the plant may have gone safe for a stall of the machine just before a fault: what is not there cannot be hit.
+bool fellBefore(const Evidence &evidence, const DoneFault &fault)
+{
+    constexpr qint64 before = 500'000'000;  // [ns]
+    return evidence.stalls.within(fault.begin - before, fault.end) >= evidence.period;
+}
+
+/// The time of the last step before the link of a node was cut.
+qint64 cutOf(const Evidence &evidence, const DoneFault &fault)
+{
+    const Record *last = nullptr;
+    for (const History &history : evidence.nodes) {
+        if (history.node != fault.node)
+            continue;
+        for (const Record &record : history.records) {
+            if (record.kind != Record::Step || record.time < fault.begin || record.time > fault.end)
+                continue;
+            if (last && record.time - last->time > 100'000'000)
+                return last->time;
+            last = &record;
+        }
+    }
+    return last ? last->time : fault.begin;
+}
+
+void lookAtEvent(const Evidence &evidence, const DoneFault &fault, Gate *gate)
+{
+    const History *master = evidence.masterAt(fault.begin);
+    if (!master)
+        return;
+    ++gate->looked;
+    const qint64 begin = fault.kind == FaultKind::CutLink ? cutOf(evidence, fault) : fault.begin;
+    const std::vector<const Record *> events
+        = recordsOf(*master, eventOf(fault.kind), fault.node, begin, fault.recovered);
+    if (events.empty() && fellBefore(evidence, fault)) {
+        ++gate->excused;
+        return;
+    }
+    if (events.empty()) {
+        gate->fail(QStringLiteral("nobody was told of: %1").arg(nameOf(fault)));
+        return;
+    }
+    const Record &event = *events.front();
+    const qint64 limit = evidence.shape.hold + 2;
+    const qint64 cycles = cyclesBetween(*master, begin, event.time);
+    const qint64 stalled = evidence.stalls.within(begin, event.time) + waitedBetween(*master, event, begin);
+    gate->largest(QString::fromLatin1(FaultNames[std::size_t(fault.kind)]) + QStringLiteral(" [cycles]"),
+                  double(cycles));
+    if (cycles <= limit)
+        return;
+    if (cycles <= limit + 1 + stalled / evidence.period)
+        ++gate->excused;
+    else
+        gate->fail(
+            QStringLiteral("%1: told after %2 cycles, the limit is %3").arg(nameOf(fault)).arg(cycles).arg(limit));
+}
+
+/// When what belongs to \a fault works again; 0: never.
+qint64 recoveryOf(const Evidence &evidence, const DoneFault &fault)
+{
+    if (fault.isOfMaster())
+        return fault.recovered;
+    for (const History &history : evidence.nodes) {
+        if (history.node != fault.node)
+            continue;
+        const std::vector<const Record *> steps
+            = recordsOf(history, Record::Step, fault.node, fault.end, fault.recovered + LongestRecovery);
+        if (!steps.empty())
+            return steps.front()->time;
+    }
+    return 0;
+}
+
+}  // namespace
+
+Gate cyclesAddUp(const Evidence &evidence)
+{
+    Gate gate("cycles add up");
+    for (const History &master : evidence.masters) {
+        const std::vector<Phase> phases = phasesOf(master);
+        for (const Phase &phase : phases)
+            lookAtPhase(evidence, master, phase, &gate);
+    }
+    return gate;
+}
+
+Gate faultsAreSeen(const Evidence &evidence)
+{
+    Gate gate("faults are seen");
+    gate.isAsked = false;
+    for (const DoneFault &fault : evidence.faults) {
+        if (!isToldByAnEvent(fault.kind))
+            continue;
+        gate.isAsked = true;
+        lookAtEvent(evidence, fault, &gate);
+    }
+    return gate;
+}
+
+Gate plantRecovers(const Evidence &evidence)
+{
+    Gate gate("the plant recovers");
+    gate.isAsked = false;
+    for (const DoneFault &fault : evidence.faults) {
+        if (!hasNode(fault.kind) && !fault.isOfMaster())
+            continue;
+        gate.isAsked = true;
+        ++gate.looked;
+        const qint64 end = recoveryOf(evidence, fault);
+        const qint64 took = end - fault.end;
+        if (end == 0 || fault.recovered == std::numeric_limits<qint64>::max()) {
+            gate.fail(QStringLiteral("%1: never recovered").arg(nameOf(fault)));
+            continue;
+        }
+        gate.largest(QStringLiteral("longest [ms]"), double(took) * 1e-6);
+        if (took <= LongestRecovery)
+            continue;
+        if (took <= LongestRecovery + evidence.stalls.within(fault.end, end))
+            ++gate.excused;
+        else
+            gate.fail(QStringLiteral("%1: took %2 ms").arg(nameOf(fault)).arg(double(took) * 1e-6));
+    }
+    return gate;
+}
+
+namespace {
+
+/// By how much a counter of the master has grown from the last look before a fault to the first one after it; -1 when nobody can tell.
+qint64 growth(const Evidence &evidence, const DoneFault &fault, Record::MasterNumber number)
+{
+    const History *master = evidence.masterAt(fault.begin);
+    const Record *before = nullptr;
+    const Record *after = nullptr;
+    if (!master)
+        return -1;
+    for (const Record &record : master->records) {
+        if (record.kind != Record::Counters)
+            continue;
+        if (record.time < fault.begin)
+            before = &record;
+        else if (!after && record.time >= fault.end + Settled / 2)
+            after = &record;
+    }
+    const bool isOnePhase
+        = before && after && before->numbers[Record::MasterPhase] == after->numbers[Record::MasterPhase];
+    return isOnePhase ? qint64(after->numbers[number] - before->numbers[number]) : -1;
+}
+
+/// What the product counts of a fault, and what was done; -1: it does not count such a thing.
+qint64 countedOf(const Evidence &evidence, const DoneFault &fault)
+{
+    const History *master = evidence.masterAt(fault.begin);
+    switch (fault.kind) {
+    case FaultKind::GarbageDatagrams:
+        return growth(evidence, fault, Record::Strangers);
+    case FaultKind::GarbageControl:
+        return master ? qint64(recordsOf(*master, Record::Refused, -1, fault.begin, fault.end + Settled).size()) : 0;
+    case FaultKind::KillNode:
+        return master ? qint64(recordsOf(*master, Record::Lost, fault.node, fault.begin, fault.recovered).size()) : 0;
+    default:
+        return -1;
+    }
+}
+
+bool isCounted(FaultKind kind)
+{
+    return kind == FaultKind::GarbageDatagrams || kind == FaultKind::GarbageControl || kind == FaultKind::KillNode;
+}
+
+}  // namespace
+
+Gate faultsAreCounted(const Evidence &evidence)
+{
+    Gate gate("faults are counted");
+    gate.isAsked = false;
+    for (const DoneFault &fault : evidence.faults) {
+        if (!isCounted(fault.kind))
+            continue;
+        gate.isAsked = true;
+        ++gate.looked;
+        const qint64 counted = countedOf(evidence, fault);
+        const QString name = QString::fromLatin1(FaultNames[std::size_t(fault.kind)]);
+        gate.figures[name + QStringLiteral(" done")] += double(fault.amount);
+        gate.figures[name + QStringLiteral(" counted")] += double(counted);
+        if (counted == fault.amount)
+            continue;
+        if (fault.kind == FaultKind::KillNode && counted == 0 && fellBefore(evidence, fault))
+            ++gate.excused;
+        else
+            gate.fail(QStringLiteral("%1: %2 were done, %3 counted").arg(nameOf(fault)).arg(fault.amount).arg(counted));
+    }
+    return gate;
+}
+
+Gate attemptsAreRefused(const Evidence &evidence)
+{
+    Gate gate("attempts are refused");
+    for (const Record &record : evidence.runner.records) {
+        if (record.kind == Record::Attempts)
+            gate.looked = qint64(record.numbers[0]);
+    }
+    gate.isAsked = gate.looked > 0;
+    if (!gate.isAsked)
+        return gate;
+    qint64 refused = 0;
+    for (const History &master : evidence.masters)
+        refused += qint64(recordsOf(master, Record::Refused, -1, 0, std::numeric_limits<qint64>::max()).size());
+    if (refused != gate.looked)
+        gate.fail(QStringLiteral("%1 attempts, %2 refused").arg(gate.looked).arg(refused));
+    return gate;
+}
+
+}  // namespace soak

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "PlantProcesses.h"
+
+#include "NodeOptions.h"
+
+#include <QtCore/QCoreApplication>
+#include <QtCore/QDir>
+#include <QtCore/QElapsedTimer>
+#include <QtCore/QFile>
+
+#include <csignal>
+#include <sys/prctl.h>
+
+namespace soak {
+
+namespace {
+
+constexpr int Patience = 20000;  // [ms], far more than a loaded machine needs
+
+/// Descriptors, threads and resident memory [kB] of a process.
+std::array<quint64, 3> usageOf(qint64 process)
+{
+    const QString folder = QStringLiteral("/proc/%1/").arg(process);
+    std::array<quint64, 3> usage{};
+    usage[0] = quint64(
+        QDir(folder + QStringLiteral("fd")).entryList(QDir::AllEntries | QDir::System | QDir::NoDotAndDotDot).size());
+    QFile status(folder + QStringLiteral("status"));
+    if (!status.open(QIODevice::ReadOnly))
+        return usage;
+    const QList<QByteArray> lines = status.readAll().split('\n');
+    for (const QByteArray &line : lines) {
+        if (line.startsWith("Threads:"))
+            usage[1] = line.mid(8).trimmed().toULongLong();
+        else if (line.startsWith("VmRSS:"))
+            usage[2] = line.mid(6).trimmed().split(' ').constFirst().toULongLong();
+    }
+    return usage;
+}
+
+}  // namespace
+
+PlantProcess::PlantProcess(const QString &program, const QStringList &arguments, const QString &logFile)
+{
+    setStandardErrorFile(logFile, QIODevice::Append);
+    start(QDir(QCoreApplication::applicationDirPath()).filePath(program), arguments);
+    waitForStarted(Patience);
+}
+
+PlantProcess::~PlantProcess()
+{
+    destroy();
+}
+
+void PlantProcess::setupChildProcess()
+{
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+}
+
+void PlantProcess::sendSignal(int number) const
+{
+    if (processId() > 0)
+        ::kill(pid_t(processId()), number);
+}
+
+void PlantProcess::destroy()
+{
+    if (state() == NotRunning)
+        return;
+    kill();
+    waitForFinished(Patience);
+}
+
+bool PlantProcess::end()
+{
+    if (state() == NotRunning)
+        return exitStatus() == NormalExit;
+    terminate();
+    if (waitForFinished(Patience))
+        return exitStatus() == NormalExit;
+    destroy();
+    return false;
+}
+
+PlantProcesses::PlantProcesses(const Profile &profile, const QString &folder, HistoryWriter &history)
+    : m_profile(profile)
+    , m_folder(folder)
+    , m_history(history)
+    , m_nodes(std::size_t(profile.shape.nodes))
+{
+}
+
+PlantProcesses::~PlantProcesses() = default;
+
+QString PlantProcesses::file(const QString &name) const
+{
+    return QDir(m_folder).filePath(name);
+}
+
+QStringList PlantProcesses::priorityArguments() const
+{
+    return m_profile.priority > 0 ? QStringList{QStringLiteral("--priority"), QString::number(m_profile.priority)}
+                                  : QStringList();
+}
+
+bool PlantProcesses::startMaster(QString *error)
+{
+    if (m_master)
+        m_master->destroy();
+    const QString name = QStringLiteral("Master-life%1").arg(++m_masterLife);
+    const QString log = file(name + QStringLiteral(".log"));
+    const QStringList arguments = shapeArguments(m_profile.shape, m_masterLife, file(name + QStringLiteral(".history")))
+        + QStringList{QStringLiteral("--period-us"), QString::number(m_profile.periodUs), QStringLiteral("--port"),
+                      QString::number(m_port)}
+        + priorityArguments();
+    m_master = std::make_unique<PlantProcess>(QStringLiteral("soak_master"), arguments, log);
+    m_history.append(Record::Started, -1, {quint64(m_master->processId()), m_masterLife});
+    QElapsedTimer timer;
+    timer.start();
+    while (!m_master->canReadLine() && m_master->state() == QProcess::Running && timer.elapsed() < Patience)
+        m_master->waitForReadyRead(20);
+    const QByteArray line = m_master->readLine().trimmed();
+    m_port = quint16(line.mid(5).toUInt());
+    if (!line.startsWith("port ") || m_port == 0)
+        *error = QStringLiteral("the master does not listen; %1 says why").arg(log);
+    return m_port != 0;
+}
+
+void PlantProcesses::startNode(int node, const QStringList &extraArguments)
+{
+    Node &slot = m_nodes[std::size_t(node)];
+    if (slot.process)
+        slot.process->destroy();
+    const QString name = QStringLiteral("%1-life%2").arg(nodeName(node)).arg(++slot.life);
+    const double watchdog = double(m_profile.shape.hold * m_profile.periodUs) * 1e-6;
+    const QStringList arguments = shapeArguments(m_profile.shape, slot.life, file(name + QStringLiteral(".history")))
+        + QStringList{QStringLiteral("--node"),
+                      QString::number(node),
+                      QStringLiteral("--watchdog"),
+                      QString::number(watchdog),
+                      QStringLiteral("--master"),
+                      QStringLiteral("%1://127.0.0.1:%2").arg(QString::fromLatin1(transportOf(node))).arg(m_port)};
+    const QStringList critical = isCritical(node) ? QStringList{QStringLiteral("--critical")} : QStringList();
+    slot.process = std::make_unique<PlantProcess>(QStringLiteral("soak_node"),
+                                                  arguments + critical + priorityArguments() + extraArguments,
+                                                  file(name + QStringLiteral(".log")));
+    m_history.append(Record::Started, node, {quint64(slot.process->processId()), slot.life});
+}
+
+void PlantProcesses::recordUsage(bool compare)
+{
+    const auto record = [&](int node, quint32 life, const PlantProcess &process) {
+        const std::array<quint64, 3> usage = usageOf(process.processId());
+        m_history.append(Record::Usage, node, {usage[0], usage[1], usage[2], life, compare ? 1U : 0U});
+    };
+    record(-1, m_masterLife, *m_master);
+    for (std::size_t node = 0; node < m_nodes.size(); ++node) {
+        if (m_nodes[node].process && m_nodes[node].process->state() == QProcess::Running)
+            record(int(node), m_nodes[node].life, *m_nodes[node].process);
+    }
+}
+
+QStringList PlantProcesses::end()
+{
+    QStringList bad;
+    for (std::size_t node = 0; node < m_nodes.size(); ++node) {
+        if (m_nodes[node].process && !m_nodes[node].process->end())
+            bad << nodeName(int(node));
+    }
+    if (m_master && !m_master->end())
+        bad << QStringLiteral("Master");
+    return bad;
+}
+
+}  // namespace soak

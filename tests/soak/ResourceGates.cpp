@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Gates.h"
+
+#include <algorithm>
+
+namespace soak {
+
+namespace {
+
+struct Process
+{
+    int node;  // -1: the master
+    quint32 life;
+    bool operator<(const Process &other) const { return node != other.node ? node < other.node : life < other.life; }
+};
+
+/// What the runner has seen of each process at times at which the whole plant ran.
+QMap<Process, std::vector<const Record *>> usages(const Evidence &evidence)
+{
+    QMap<Process, std::vector<const Record *>> found;
+    for (const Record &record : evidence.runner.records) {
+        if (record.kind != Record::Usage || record.numbers[Record::IsCompared] == 0)
+            continue;
+        const int node = record.subject == Record::Nobody ? -1 : record.subject;
+        found[{node, quint32(record.numbers[Record::UsageLife])}].push_back(&record);
+    }
+    return found;
+}
+
+QString nameOf(const Process &process)
+{
+    return QStringLiteral("%1, life %2")
+        .arg(process.node < 0 ? QStringLiteral("the master") : nodeName(process.node))
+        .arg(process.life);
+}
+
+/// Slope of the straight line through resident memory over time [kB/s].
+double slopeOf(const std::vector<const Record *> &usages)
+{
+    double n = 0.0, t = 0.0, m = 0.0, tt = 0.0, tm = 0.0;
+    for (const Record *usage : usages) {
+        const double time = double(usage->time - usages.front()->time) * 1e-9;
+        const double memory = double(usage->numbers[Record::ResidentKb]);
+        n += 1.0;
+        t += time;
+        m += memory;
+        tt += time * time;
+        tm += time * memory;
+    }
+    const double spread = n * tt - t * t;
+    return spread > 0.0 ? (n * tm - t * m) / spread : 0.0;
+}
+
+}  // namespace
+
+Gate nothingLeaks(const Evidence &evidence)
+{
+    Gate gate("nothing leaks");
+    const auto all = usages(evidence);
+    constexpr qint64 beginning = 1'000'000'000;  // [ns] a new process has not done everything once
+    for (auto process = all.begin(); process != all.end(); ++process) {
+        const auto isOld = [&](const Record *usage) { return usage->time >= process->front()->time + beginning; };
+        const auto oldest = std::find_if(process->begin(), process->end(), isOld);
+        if (oldest == process->end() || *oldest == process->back())
+            continue;
+        const Record &first = **oldest;
+        const Record &last = *process->back();
+        ++gate.looked;
+        for (const auto &[number, what] :
+             {std::pair(Record::Descriptors, "descriptors"), {Record::Threads, "threads"}}) {
+            gate.largest(QString::fromLatin1(what), double(last.numbers[number]));
+            if (first.numbers[number] != last.numbers[number])
+                gate.fail(QStringLiteral("%1: %2 %3 at first, %4 at last")
+                              .arg(nameOf(process.key()))
+                              .arg(first.numbers[number])
+                              .arg(QString::fromLatin1(what))
+                              .arg(last.numbers[number]));
+        }
+    }
+    return gate;
+}
+
+Gate memoryStays(const Evidence &evidence, const Profile &profile)
+{
+    constexpr double mostGrowth = 100.0;          // [kB] in 10 minutes
+    constexpr qint64 shortest = 120'000'000'000;  // [ns] below this a slope says nothing
+    constexpr qint64 warmUp = 30'000'000'000;     // [ns] of each life
+    Gate gate("memory stays");
+    const auto all = usages(evidence);
+    gate.isAsked = profile.judgesMemory && !all.isEmpty()
+        && all.begin()->back()->time - all.begin()->front()->time >= warmUp + shortest;
+    for (auto process = all.begin(); process != all.end(); ++process) {
+        std::vector<const Record *> warm;
+        for (const Record *usage : *process) {
+            if (usage->time >= process->front()->time + warmUp)
+                warm.push_back(usage);
+        }
+        if (process.key().node < 0)
+            gate.largest(QStringLiteral("master resident [kB]"), double(process->back()->numbers[Record::ResidentKb]));
+        if (warm.size() < 10 || warm.back()->time - warm.front()->time < shortest)
+            continue;
+        ++gate.looked;
+        const double growth = slopeOf(warm) * 600.0;
+        gate.largest(QStringLiteral("largest growth [kB per 10 min]"), growth);
+        if (growth > mostGrowth)
+            gate.fail(QStringLiteral("%1 grows by %2 kB in 10 minutes").arg(nameOf(process.key())).arg(growth));
+    }
+    return gate;
+}
+
+std::vector<Gate> judge(const Evidence &evidence, const Profile &profile)
+{
+    return {valuesAreWhole(evidence),       valuesWereWritten(evidence),       valuesNeverGoBack(evidence),
+            stepsComeOnce(evidence),        silentWritersBecomeSafe(evidence), nodesAloneBecomeSafe(evidence),
+            nothingMovesByItself(evidence), noFalseAlarms(evidence),           cyclesAddUp(evidence),
+            faultsAreSeen(evidence),        plantRecovers(evidence),           faultsAreCounted(evidence),
+            linkFaultsAreCounted(evidence), attemptsAreRefused(evidence),      nothingLeaks(evidence),
+            memoryStays(evidence, profile)};
+}
+
+}  // namespace soak

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Gates.h"
+
+namespace soak {
+
+namespace {
+
+double milliseconds(qint64 time)
+{
+    return double(time) * 1e-6;
+}
+
+/// Whether the node itself was stopped by a fault at some time from \a begin to \a end, or just after.
+bool wasStopped(const Evidence &evidence, int node, qint64 begin, qint64 end)
+{
+    for (const DoneFault &fault : evidence.faults) {
+        if (fault.kind == FaultKind::StopNode && fault.node == node && fault.begin <= end && begin <= fault.end)
+            return true;
+    }
+    return false;
+}
+
+/// What a node does when nothing more comes: from the last step of a phase to what is recorded next.
+void lookAtSilence(const Evidence &evidence, const History &history, const Record &step, const Record &next, Gate *gate)
+{
+    // A quarter of a period is what the reference clock bears without a word.
+    const qint64 limit = (evidence.shape.hold + 1) * evidence.period + evidence.period / 4;
+    const qint64 silence = next.time - step.time;
+    const bool isSafe = next.kind == Record::Safe;
+    if (wasStopped(evidence, history.node, step.time, next.time) || (!isSafe && silence <= limit))
+        return;
+    const qint64 stalled = evidence.stalls.within(step.time, next.time)
+        + std::max<qint64>(0, next.thread == step.thread ? next.waited - step.waited : 0);
+    ++gate->looked;
+    if (isSafe)
+        gate->largest(QStringLiteral("longest until safe [ms]"), milliseconds(silence));
+    if (silence <= limit)
+        return;
+    if (silence <= limit + stalled)
+        ++gate->excused;
+    else
+        gate->fail(QStringLiteral("%1: %2 %3 ms after the last frame, cycle %4; the limit is %5 ms")
+                       .arg(history.name, isSafe ? QStringLiteral("safe only") : QStringLiteral("not safe at all,"))
+                       .arg(milliseconds(silence))
+                       .arg(step.cycle)
+                       .arg(milliseconds(limit)));
+}
+
+bool isOfPhase(const Record &record)
+{
+    return record.kind == Record::Step || record.kind == Record::Safe || record.kind == Record::PhaseEnded
+        || record.kind == Record::MasterLost;
+}
+
+}  // namespace
+
+Gate silentWritersBecomeSafe(const Evidence &evidence)
+{
+    Gate gate("silent writers become safe");
+    gate.isAsked = false;
+    for (const History &history : evidence.nodes) {
+        const Record *fresh = nullptr;  // the step that brought something new
+        for (const Record &record : history.records) {
+            if (record.kind == Record::Phase)
+                fresh = nullptr;
+            if (record.kind != Record::Step || record.numbers[Record::Quality] == Record::NoQuality)
+                continue;
+            gate.isAsked = true;
+            const bool isNews = !fresh || record.numbers[Record::SeenLife] != fresh->numbers[Record::SeenLife]
+                || record.numbers[Record::SeenCounter] != fresh->numbers[Record::SeenCounter];
+            const double drive = fromBits(record.numbers[Record::Drive]);
+            if (isNews && record.numbers[Record::SeenLife] != 0) {
+                fresh = &record;
+            } else if (!fresh || record.cycle - fresh->cycle > quint64(evidence.shape.hold)) {
+                ++gate.looked;
+                if (drive != SafeDrive)
+                    gate.fail(QStringLiteral("%1, cycle %2: the drive is %3, its writer was silent since cycle %4")
+                                  .arg(history.name)
+                                  .arg(record.cycle)
+                                  .arg(drive)
+                                  .arg(fresh ? fresh->cycle : 0));
+            }
+        }
+    }
+    return gate;
+}
+
+Gate nodesAloneBecomeSafe(const Evidence &evidence)
+{
+    Gate gate("nodes alone become safe");
+    gate.isAsked = false;
+    for (const DoneFault &fault : evidence.faults)
+        gate.isAsked = gate.isAsked || fault.isOfMaster();
+    for (const History &history : evidence.nodes) {
+        const Record *step = nullptr;
+        for (const Record &record : history.records) {
+            if (step && isOfPhase(record))
+                lookAtSilence(evidence, history, *step, record, &gate);
+            if (record.kind == Record::Step)
+                step = &record;
+            else if (isOfPhase(record) || record.kind == Record::Phase)
+                step = nullptr;
+        }
+    }
+    return gate;
+}
+
+Gate nothingMovesByItself(const Evidence &evidence)
+{
+    Gate gate("nothing moves by itself");
+    for (const History &history : evidence.nodes) {
+        const Record *safe = nullptr;
+        for (const Record &record : history.records) {
+            if (record.kind == Record::Safe) {
+                safe = &record;
+                if (fromBits(record.numbers[Record::SafeDriveBits]) != SafeDrive)
+                    gate.fail(QStringLiteral("%1: its safe state has a drive of %2")
+                                  .arg(history.name)
+                                  .arg(fromBits(record.numbers[Record::SafeDriveBits])));
+            }
+            if (record.kind == Record::Phase)
+                safe = nullptr;
+            if (record.kind != Record::Step)
+                continue;
+            ++gate.looked;
+            if (safe && fromBits(record.numbers[Record::Drive]) != SafeDrive)
+                gate.fail(QStringLiteral("%1 moves in cycle %2, %3 ms after it went safe")
+                              .arg(history.name)
+                              .arg(record.cycle)
+                              .arg(milliseconds(record.time - safe->time)));
+        }
+    }
+    for (const History &master : evidence.masters) {
+        // A command that is later than this allows the next entry.
+        qint64 allowed = master.records.empty() ? 0 : master.records.front().time;
+        quint64 state = Record::Off;
+        for (const Record &record : master.records) {
+            if (record.kind != Record::State)
+                continue;
+            const bool begins = record.numbers[0] == Record::RealTime && state != Record::WaitingForLateSlaves;
+            state = record.numbers[0];
+            if (!begins)
+                continue;
+            ++gate.looked;
+            if (recordsOf(evidence.runner, Record::Command, -1, allowed, record.time).empty())
+                gate.fail(QStringLiteral("%1 goes to RealTime, and nobody has told it to").arg(master.name));
+            allowed = record.time;
+        }
+    }
+    return gate;
+}
+
+Gate noFalseAlarms(const Evidence &evidence)
+{
+    Gate gate("no false alarms");
+    ++gate.looked;
+    qint64 end = 0;  // what comes later is the end of the plant
+    for (const Record &record : evidence.runner.records)
+        end = record.kind == Record::Recovered ? record.time : end;
+    const auto look = [&](const History &history, const Record &record, int node, const char *what) {
+        ++gate.looked;
+        if (evidence.isExplained(record.time, node) || record.time > end)
+            return;
+        if (evidence.stalls.within(record.time - 100'000'000, record.time) >= evidence.period)
+            ++gate.excused;
+        else
+            gate.fail(QStringLiteral("%1: %2 without a cause").arg(history.name, QString::fromLatin1(what)));
+    };
+    for (const History &history : evidence.nodes) {
+        for (const Record &record : history.records) {
+            if (record.kind == Record::Safe && record.numbers[Record::IsWanted] == 0)
+                look(history, record, -1, "a safe state");  // the whole plant goes safe for one node
+            else if (record.kind == Record::MasterLost)
+                look(history, record, history.node, "the master is lost");
+        }
+    }
+    for (const History &master : evidence.masters) {
+        for (const Record &record : master.records) {
+            const int node = record.subject == Record::Nobody ? -1 : record.subject;
+            if (record.kind == Record::Lost)
+                look(master, record, node, "a node is lost");
+            else if (record.kind == Record::State && record.numbers[0] == Record::SafeStop)
+                look(master, record, -1, "SafeStop");
+        }
+    }
+    return gate;
+}
+
+}  // namespace soak

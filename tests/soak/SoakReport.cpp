@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "SoakReport.h"
+
+#include <QtCore/QJsonArray>
+
+#include <algorithm>
+
+namespace soak {
+
+namespace {
+
+/// Counts of the faults that were done, by name.
+QMap<QString, int> faultsByName(const Evidence &evidence)
+{
+    QMap<QString, int> counts;
+    for (const DoneFault &fault : evidence.faults)
+        ++counts[QString::fromLatin1(FaultNames[std::size_t(fault.kind)])];
+    return counts;
+}
+
+QJsonObject toObject(const Gate &gate)
+{
+    QJsonObject figures;
+    for (auto figure = gate.figures.begin(); figure != gate.figures.end(); ++figure)
+        figures.insert(figure.key(), *figure);
+    return {{QStringLiteral("name"), gate.name},
+            {QStringLiteral("asked"), gate.isAsked},
+            {QStringLiteral("passed"), gate.passed()},
+            {QStringLiteral("looked"), double(gate.looked)},
+            {QStringLiteral("failed"), double(gate.failed)},
+            {QStringLiteral("excused"), double(gate.excused)},
+            {QStringLiteral("examples"), QJsonArray::fromStringList(gate.examples)},
+            {QStringLiteral("figures"), figures}};
+}
+
+QString lineOf(const Gate &gate)
+{
+    const QString result = !gate.isAsked ? QStringLiteral("-   ")
+        : gate.passed()                  ? QStringLiteral("ok  ")
+                                         : QStringLiteral("FAIL");
+    QString line = QStringLiteral("%1  %2 %3 looked at, %4 failed, %5 excused\n")
+                       .arg(result, gate.name.leftJustified(28))
+                       .arg(gate.looked, 8)
+                       .arg(gate.failed)
+                       .arg(gate.excused);
+    for (auto figure = gate.figures.begin(); figure != gate.figures.end(); ++figure)
+        line += QStringLiteral("          %1: %2\n").arg(figure.key()).arg(*figure);
+    for (const QString &example : gate.examples)
+        line += QStringLiteral("        ! %1\n").arg(example);
+    return line;
+}
+
+}  // namespace
+
+bool SoakReport::passed() const
+{
+    return error.isEmpty() && !gates.empty()
+        && std::all_of(gates.begin(), gates.end(), [](const Gate &gate) { return gate.passed(); });
+}
+
+QString SoakReport::command() const
+{
+    return QStringLiteral("qtplc_soak --profile %1 --seed %2 --duration %3 --keep").arg(profile).arg(seed).arg(seconds);
+}
+
+QJsonObject SoakReport::toJson() const
+{
+    QJsonObject faults;
+    const QMap<QString, int> counts = faultsByName(evidence);
+    for (auto count = counts.begin(); count != counts.end(); ++count)
+        faults.insert(count.key(), *count);
+    QJsonArray all;
+    for (const Gate &gate : gates)
+        all.append(toObject(gate));
+    return {{QStringLiteral("profile"), profile},
+            {QStringLiteral("seed"), QString::number(seed)},
+            {QStringLiteral("seconds"), seconds},
+            {QStringLiteral("command"), command()},
+            {QStringLiteral("passed"), passed()},
+            {QStringLiteral("error"), error},
+            {QStringLiteral("nodes"), evidence.shape.nodes},
+            {QStringLiteral("signals_per_node"), evidence.shape.signalCount},
+            {QStringLiteral("period_us"), double(evidence.period) * 1e-3},
+            {QStringLiteral("stalls_of_the_machine"), double(evidence.stalls.count())},
+            {QStringLiteral("faults"), faults},
+            {QStringLiteral("gates"), all}};
+}
+
+QString SoakReport::toText() const
+{
+    QString text = QStringLiteral("soak %1: %2 nodes x %3 signals x %4 Hz, seed %5\n")
+                       .arg(profile)
+                       .arg(evidence.shape.nodes)
+                       .arg(evidence.shape.signalCount)
+                       .arg(1e9 / double(evidence.period))
+                       .arg(seed);
+    const QMap<QString, int> counts = faultsByName(evidence);
+    text += QStringLiteral("%1 faults:").arg(evidence.faults.size());
+    for (auto count = counts.begin(); count != counts.end(); ++count)
+        text
+            += QStringLiteral(" %1 %2%3").arg(*count).arg(count.key()).arg(std::next(count) == counts.end() ? "" : ",");
+    text += QStringLiteral("\nstalls of the machine: %1\n\n").arg(evidence.stalls.count());
+    for (const Gate &gate : gates)
+        text += lineOf(gate);
+    if (!error.isEmpty())
+        text += QStringLiteral("\nended early: %1\n").arg(error);
+    text += passed() ? QStringLiteral("\npassed\n")
+                     : QStringLiteral("\nFAILED with seed %1; again: %2\n").arg(seed).arg(command());
+    if (!folder.isEmpty())
+        text += QStringLiteral("histories and logs: %1\n").arg(folder);
+    return text;
+}
+
+}  // namespace soak

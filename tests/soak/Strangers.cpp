@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Strangers.h"
+
+#include "protocol/ControlFrame.h"
+
+#include <QtCore/QJsonArray>
+#include <QtCore/QThread>
+
+#include <arpa/inet.h>
+#include <cerrno>
+#include <netinet/in.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+namespace soak {
+
+namespace {
+
+sockaddr_in loopback(quint16 port)
+{
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(port);
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    return address;
+}
+
+}  // namespace
+
+Strangers::Strangers(quint64 seed)
+    : m_random(seed)
+{
+}
+
+Strangers::~Strangers()
+{
+    leave();
+}
+
+void Strangers::leave()
+{
+    for (const int connection : m_connections)
+        ::close(connection);
+    m_connections.clear();
+}
+
+QByteArray Strangers::randomBytes(int size)
+{
+    QByteArray bytes(size, '\0');
+    for (char &byte : bytes)
+        byte = char(m_random());
+    return bytes;
+}
+
+/// What a receiver knows to be no message as soon as it has all of it.
+QByteArray Strangers::garbageMessage()
+{
+    switch (m_random() % 3) {
+    case 0:  // longer than a frame may be
+        return QByteArray::fromHex("ffffffff") + randomBytes(64);
+    case 1:  // of no length
+        return QByteArray::fromHex("00000000") + randomBytes(64);
+    default:  // a body that is no JSON
+        return QByteArray::fromHex("2100000001") + QByteArray(32, '}');
+    }
+}
+
+int Strangers::sendDatagrams(quint16 port, int count)
+{
+    const int socket = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+    const sockaddr_in address = loopback(port);
+    int sent = 0;
+    for (int i = 0; i < count; ++i) {
+        const QByteArray bytes = randomBytes(int(m_random() % 600));
+        sent += ::sendto(socket, bytes.constData(), std::size_t(bytes.size()), 0,
+                         reinterpret_cast<const sockaddr *>(&address), sizeof address)
+                == bytes.size()
+            ? 1
+            : 0;
+        if (i % 10 == 9)
+            QThread::msleep(2);
+    }
+    ::close(socket);
+    return sent;
+}
+
+/// A connection to this machine; -1: there is none.
+int Strangers::connection(quint16 port, int receiveBuffer)
+{
+    const int socket = ::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+    if (receiveBuffer > 0)
+        ::setsockopt(socket, SOL_SOCKET, SO_RCVBUF, &receiveBuffer, sizeof receiveBuffer);
+    const sockaddr_in address = loopback(port);
+    pollfd polled{socket, POLLOUT, 0};
+    const bool begins
+        = ::connect(socket, reinterpret_cast<const sockaddr *>(&address), sizeof address) == 0 || errno == EINPROGRESS;
+    if (begins && ::poll(&polled, 1, 1500) == 1 && (polled.revents & (POLLERR | POLLHUP)) == 0) {
+        m_connections.push_back(socket);
+        return socket;
+    }
+    ::close(socket);
+    return -1;
+}
+
+int Strangers::sendGarbage(quint16 port, int count)
+{
+    int made = 0;
+    for (int i = 0; i < count; ++i) {
+        const int socket = connection(port);
+        const QByteArray bytes = garbageMessage();
+        if (socket >= 0 && ::send(socket, bytes.constData(), std::size_t(bytes.size()), MSG_NOSIGNAL) == bytes.size())
+            ++made;
+    }
+    return made;
+}
+
+int Strangers::connectOnly(quint16 port, int count)
+{
+    int made = 0;
+    for (int i = 0; i < count; ++i)
+        made += connection(port) >= 0 ? 1 : 0;
+    return made;
+}
+
+int Strangers::askWithoutReading(quint16 port, int count)
+{
+    const int socket = connection(port, 4096);
+    if (socket < 0)
+        return 0;
+    const auto send = [socket](const QPlcMessage &message) {
+        const QByteArray frame = qplc::encodeControlFrame(message);
+        return ::send(socket, frame.constData(), std::size_t(frame.size()), MSG_NOSIGNAL) == frame.size();
+    };
+    send(QPlcMessage(QPlcMessage::Hello,
+                     {{QStringLiteral("protocol"), 1},
+                      {QStringLiteral("name"), QStringLiteral("StoppedReader")},
+                      {QStringLiteral("uuid"), QStringLiteral("5704ed00-0000-4000-8000-000000000000")},
+                      {QStringLiteral("role"), QStringLiteral("tool")},
+                      {QStringLiteral("features"), QJsonArray{QStringLiteral("events")}}}));
+    int asked = 0;
+    while (asked < count && send(QPlcMessage(QPlcMessage::GetSignals)))
+        ++asked;
+    return asked;
+}
+
+}  // namespace soak

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QtCore/QByteArray>
+
+#include <random>
+#include <vector>
+
+namespace soak {
+
+/// Who has no business with the plant, and sends all the same. All of it goes to this machine.
+class Strangers
+{
+public:
+    explicit Strangers(quint64 seed);
+    ~Strangers();
+    Strangers(const Strangers &) = delete;
+    Strangers &operator=(const Strangers &) = delete;
+
+    /// Datagrams of random bytes, from a port of its own, so slowly that the system drops none of them. \return how many were sent
+    int sendDatagrams(quint16 port, int count);
+    /// Connections that send bytes which are no message. \return how many could be made
+    int sendGarbage(quint16 port, int count);
+    /// Connections that say nothing, and stay until leave(). \return how many could be made
+    int connectOnly(quint16 port, int count);
+    /// A tool that greets, asks \a count times for much, and reads nothing; it stays until leave(). \return requests that the master's system took
+    int askWithoutReading(quint16 port, int count);
+    /// Closes all connections.
+    void leave();
+
+private:
+    QByteArray randomBytes(int size);
+    QByteArray garbageMessage();
+    int connection(quint16 port, int receiveBuffer = 0);
+
+    std::mt19937_64 m_random;
+    std::vector<int> m_connections;
+};
+
+}  // namespace soak

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+// soak_master: the master of the soak's plant, with a history of every cycle, of what happens to its nodes, and of its counters.
+#include "NodeOptions.h"
+
+#include <QtCore/QMetaEnum>
+#include <QtCore/QTimer>
+
+#include <cstdio>
+
+namespace soak {
+
+namespace {
+
+/// Records each cycle on the cycle thread itself.
+class CycleRecorder : public QPlcCompactSlaveNode
+{
+public:
+    explicit CycleRecorder(HistoryWriter &history)
+        : QPlcCompactSlaveNode(QStringLiteral("Recorder"), SilentZeroOrderHold)
+        , m_history(history)
+    {
+    }
+
+private:
+    void step(const QPlcCycle &cycle) override { m_history.append(Record::Cycle, Record::Nobody, {}, cycle.number()); }
+    HistoryWriter &m_history;
+    QPlcInput<quint32> m_counter{this, "n0.counter"};
+};
+
+/// By its name: histories are read by who knows nothing of the numbers of the library.
+Record::MasterState numberOf(QPlcMasterNode::State state)
+{
+    static const char *const names[]
+        = {"Off", "Initializing", "Ready", "RealTime", "WaitingForLateSlaves", "SafeStop", "Fault"};
+    const char *name = QMetaEnum::fromType<QPlcMasterNode::State>().valueToKey(state);
+    int number = 0;
+    while (number < Record::UnknownState && qstrcmp(names[number], name) != 0)
+        ++number;
+    return Record::MasterState(number);
+}
+
+class Master : public QPlcMasterNode
+{
+public:
+    Master(const NodeOptions &options, HistoryWriter &history)
+        : m_options(options)
+        , m_history(history)
+        , m_recorder(history)
+    {
+        connect(this, &QPlcMasterNode::stateChanged, this, [this](State state) {
+            m_history.append(Record::State, Record::Nobody, {quint64(numberOf(state))}, cycle());
+        });
+        connect(this, &QPlcMasterNode::realTimeHasStarted, this, [this] { ++m_phase; });
+        connect(this, &QPlcMasterNode::realTimeHasStopped, this, [this] { count(); });
+        recordNodes();
+        connect(&m_timer, &QTimer::timeout, this, [this] { count(); });
+        m_timer.start(100);
+    }
+    ~Master() override { removeLocalNode(&m_recorder); }
+    bool start(std::chrono::microseconds period, quint16 port)
+    {
+        setGapLimit(LongestGap);
+        return setSignalTable(table(m_options.shape)) && setInterval(period) && addLocalNode(&m_recorder)
+            && startServer(QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, port));
+    }
+
+private:
+    static constexpr std::chrono::milliseconds LongestGap{
+        200};  // less than a master is stopped for, more than a busy machine takes
+
+    void recordNodes()
+    {
+        const auto record
+            = [this](Record::Kind kind, const QString &name) { m_history.append(kind, nodeNumber(name), {}, cycle()); };
+        connect(this, &QPlcMasterNode::nodeRegistered, this,
+                [=](const QString &name) { record(Record::Registered, name); });
+        connect(this, &QPlcMasterNode::nodeLost, this, [=](const QString &name) {
+            if (nodeNumber(name) >= 0)
+                record(Record::Lost, name);
+        });
+        connect(this, &QPlcMasterNode::nodeRefused, this, [=](const QString &name) { record(Record::Refused, name); });
+        connect(this, &QPlcMasterNode::realTimeViolated, this, [=](const QString &name, quint64 cycle) {
+            m_history.append(Record::Late, nodeNumber(name), {}, cycle);
+        });
+        connect(this, &QPlcMasterNode::errorOccurred, this,
+                [this](Error error) { m_history.append(Record::Error, Record::Nobody, {quint64(error)}, cycle()); });
+    }
+    void count()
+    {
+        if (m_phase == 0)
+            return;
+        const QPlcCycleStatistics all = cycleStatistics();
+        m_history.append(Record::Counters, Record::Nobody,
+                         {m_phase, all.cycles, all.skippedCycles, all.strangers, all.lateAnswers, all.overruns,
+                          all.incompleteCycles},
+                         cycle());
+        for (const QPlcNodeStatistics &node : all.nodes) {
+            if (nodeNumber(node.name) >= 0)
+                m_history.append(Record::NodeCounters, nodeNumber(node.name),
+                                 {m_phase, node.answers, node.late, node.lost, node.duplicated, node.reordered,
+                                  node.rejected, node.resent},
+                                 cycle());
+        }
+    }
+
+    const NodeOptions m_options;
+    HistoryWriter &m_history;
+    CycleRecorder m_recorder;
+    QTimer m_timer;
+    quint64 m_phase = 0;
+};
+
+}  // namespace
+
+}  // namespace soak
+
+int main(int argc, char **argv)
+{
+    QPlcCoreApplication application(argc, argv);
+    soak::addShapeOptions(application);
+    application.addOption(
+        {QStringLiteral("period-us"), QStringLiteral("Period [us]."), QStringLiteral("US"), QStringLiteral("10000")});
+    application.addOption({QStringLiteral("port"), QStringLiteral("Port to listen on. 0: a free one."),
+                           QStringLiteral("PORT"), QStringLiteral("0")});
+    application.addRealTimeOptions();
+    soak::NodeOptions options;
+    soak::HistoryWriter history;
+    QPlcRealTimeOptions realTime;
+    qint64 period = 0, port = 0;
+    if (!application.parseOptions() || !application.integer(QStringLiteral("period-us"), 100, 1'000'000, &period)
+        || !application.integer(QStringLiteral("port"), 0, 65535, &port) || !application.readRealTimeOptions(&realTime)
+        || !soak::readShapeOptions(application, &options, &history))
+        return application.exitCode();
+    history.append(soak::Record::Born, soak::Record::Nobody, {quint64(QCoreApplication::applicationPid())});
+    soak::Master master(options, history);
+    master.setRealTimeOptions(realTime);
+    if (!master.start(std::chrono::microseconds(period), quint16(port)))
+        return application.usageError(master.errorString());
+    std::printf("port %d\n", int(master.serverPort()));
+    std::fflush(stdout);
+    application.quitOnSignals();
+    const int code = QCoreApplication::exec();
+    master.stop();
+    master.stopServer();
+    return code;
+}

@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "HandMade.h"
+
+#include <QtTest/QtTest>
+
+using soak::FaultKind;
+using soak::Gate;
+using soak::Record;
+
+class tst_PlantGates : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void cyclesOfAGoodPlantAddUp();
+    void skippedCyclesThatAreCountedAddUp();
+    void skippedCyclesThatAreNotCountedAreFound();
+    void aCycleThatWasCountedAndNeverComputedIsFound();
+    void aGridThatDriftsIsFound();
+    void aPhaseThatWasCutOffIsJudgedByItsGridAlone();
+    void aFaultThatIsToldInTimePasses();
+    void aFaultThatIsToldTooLateIsFound();
+    void aFaultThatNobodyIsToldOfIsFound();
+    void aFaultThatIsToldLateBecauseOfTheMachineIsExcused();
+    void aNodeThatTheMachineHadTakenBeforeIsExcused();
+    void aNodeThatIsBackInTimePasses();
+    void aNodeThatIsBackTooLateIsFound();
+    void aNodeThatNeverComesBackIsFound();
+    void aPlantThatNeverRunsAgainIsFound();
+    void datagramsThatAreCountedPass();
+    void aDatagramThatIsNotCountedIsFound();
+    void aRefusalThatIsNotToldIsFound();
+    void aNodeThatIsLostTwiceIsFound();
+    void anAttemptThatIsNotRefusedIsFound();
+    void aDescriptorThatLeaksIsFound();
+    void aThreadThatLeaksIsFound();
+    void aNewLifeIsNotComparedWithAnOldOne();
+    void memoryThatGrowsIsFound();
+    void memoryThatStaysPasses();
+    void memoryIsNotAskedForInAShortRun();
+};
+
+namespace {
+
+constexpr qint64 ms = HandMade::Millisecond;
+
+HandMade withStrangers(quint64 counted)
+{
+    HandMade plant;
+    HandMade::remove(plant.master(), [](const Record &record) { return record.kind == Record::Counters; });
+    plant.addCounters(40, 0, 7, HandMade::at(40));
+    plant.addFault(FaultKind::GarbageDatagrams, -1, HandMade::at(41), HandMade::at(44), 100);
+    plant.addCounters(60, 0, 7 + counted, HandMade::at(60));
+    plant.addCounters(100, 0, 7 + counted, plant.end());
+    return plant;
+}
+
+/// The master uses these in each of ten looks; each tenth of a minute \a growth [kB] more.
+HandMade withUsage(quint64 descriptors, quint64 threads, quint64 growth = 0, quint32 lastLife = 1)
+{
+    HandMade plant;
+    for (quint64 i = 0; i < 60; ++i)
+        HandMade::add(
+            plant.runner(), Record::Usage, -1, HandMade::at(0) + qint64(i) * 6'000 * ms,
+            {i == 59 ? descriptors : 40, i == 59 ? threads : 2, 10'000 + i * growth / 100, i == 59 ? lastLife : 1, 1});
+    return plant;
+}
+
+/// Node 1 is killed in cycle 50; its next life does its first step at \a back (0: never).
+HandMade withRestart(qint64 back)
+{
+    HandMade plant;
+    plant.addFault(FaultKind::KillNode, 1, HandMade::at(50), HandMade::at(51));
+    HandMade::removeCycles(plant.node(1), 51, 99);
+    plant.addLife(1, 2, HandMade::at(52));
+    if (back > 0)
+        plant.addStep(1, 99).time = back;
+    return plant;
+}
+
+}  // namespace
+
+void tst_PlantGates::cyclesOfAGoodPlantAddUp()
+{
+    HandMade plant;
+    const Gate gate = plant.judge(&soak::cyclesAddUp);
+    QVERIFY2(gate.passed(), textOf(gate));
+    QCOMPARE(gate.figures["cycles"], 100.0);
+    QCOMPARE(gate.figures["skipped"], 0.0);
+}
+
+void tst_PlantGates::skippedCyclesThatAreCountedAddUp()
+{
+    HandMade plant;
+    HandMade::removeCycles(plant.master(), 50, 54);
+    plant.addCounters(95, 5);
+    const Gate gate = plant.judge(&soak::cyclesAddUp);
+    QVERIFY2(gate.passed(), textOf(gate));
+    QCOMPARE(gate.figures["skipped"], 5.0);
+}
+
+void tst_PlantGates::skippedCyclesThatAreNotCountedAreFound()
+{
+    HandMade plant;
+    HandMade::removeCycles(plant.master(), 50, 54);
+    plant.addCounters(95, 4);
+    QCOMPARE(plant.judge(&soak::cyclesAddUp).failed, qint64(1));
+}
+
+void tst_PlantGates::aCycleThatWasCountedAndNeverComputedIsFound()
+{
+    HandMade plant;
+    HandMade::removeCycles(plant.master(), 50, 50);  // counted as computed
+    QCOMPARE(plant.judge(&soak::cyclesAddUp).failed, qint64(1));
+}
+
+void tst_PlantGates::aGridThatDriftsIsFound()
+{
+    HandMade plant;
+    for (Record &record : plant.master().records) {
+        if (record.kind == Record::Cycle)
+            record.time += qint64(record.cycle) * HandMade::Period / 50;  // 2 %
+    }
+    QCOMPARE(plant.judge(&soak::cyclesAddUp).failed, qint64(1));
+}
+
+void tst_PlantGates::aPhaseThatWasCutOffIsJudgedByItsGridAlone()
+{
+    HandMade plant;
+    HandMade::remove(plant.master(), [&](const Record &record) { return record.time > plant.end(); });
+    plant.addCounters(97, 0);  // the master was killed after this
+    const Gate gate = plant.judge(&soak::cyclesAddUp);
+    QVERIFY2(gate.passed(), textOf(gate));
+}
+
+void tst_PlantGates::aFaultThatIsToldInTimePasses()
+{
+    HandMade plant;
+    plant.addFault(FaultKind::KillNode, 1, HandMade::at(50) + ms, HandMade::at(51));
+    HandMade::add(plant.master(), Record::Lost, 1, HandMade::at(55) + ms);
+    const Gate gate = plant.judge(&soak::faultsAreSeen);
+    QVERIFY2(gate.passed(), textOf(gate));
+    QCOMPARE(gate.figures["kill a node [cycles]"], 5.0);
+}
+
+void tst_PlantGates::aFaultThatIsToldTooLateIsFound()
+{
+    HandMade plant;
+    plant.addFault(FaultKind::KillNode, 1, HandMade::at(50) + ms, HandMade::at(51));
+    HandMade::add(plant.master(), Record::Lost, 1, HandMade::at(57) + ms);
+    QCOMPARE(plant.judge(&soak::faultsAreSeen).failed, qint64(1));
+}
+
+void tst_PlantGates::aFaultThatNobodyIsToldOfIsFound()
+{
+    HandMade plant;
+    plant.addFault(FaultKind::StopNode, 1, HandMade::at(50), HandMade::at(51));
+    HandMade::add(plant.master(), Record::Late, 2, HandMade::at(51));  // of another node
+    const Gate gate = plant.judge(&soak::faultsAreSeen);
+    QCOMPARE(gate.failed, qint64(1));
+    QVERIFY2(gate.examples.first().contains("nobody was told of: stop a node (Node1)"), textOf(gate));
+}
+
+void tst_PlantGates::aFaultThatIsToldLateBecauseOfTheMachineIsExcused()
+{
+    HandMade plant;
+    plant.addFault(FaultKind::KillNode, 1, HandMade::at(50) + ms, HandMade::at(51));
+    HandMade::add(plant.master(), Record::Lost, 1, HandMade::at(57) + ms).waited = 15 * ms;
+    QCOMPARE(plant.judge(&soak::faultsAreSeen).excused, qint64(1));
+}
+
+void tst_PlantGates::aNodeThatTheMachineHadTakenBeforeIsExcused()
+{
+    HandMade plant;
+    plant.addFault(FaultKind::KillNode, 1, HandMade::at(50), HandMade::at(51));
+    HandMade::add(plant.runner(), Record::Stall, -1, HandMade::at(45), {quint64(HandMade::at(42))});
+    QCOMPARE(plant.judge(&soak::faultsAreSeen).excused, qint64(1));
+    QCOMPARE(plant.judge(&soak::faultsAreCounted).excused, qint64(1));
+}
+
+void tst_PlantGates::aNodeThatIsBackInTimePasses()
+{
+    HandMade plant = withRestart(HandMade::at(99));
+    const Gate gate = plant.judge(&soak::plantRecovers);
+    QVERIFY2(gate.passed(), textOf(gate));
+    QCOMPARE(gate.figures["longest [ms]"], 480.0);
+}
+
+void tst_PlantGates::aNodeThatIsBackTooLateIsFound()
+{
+    HandMade plant = withRestart(HandMade::at(51) + 2001 * ms);
+    QCOMPARE(plant.judge(&soak::plantRecovers).failed, qint64(1));
+}
+
+void tst_PlantGates::aNodeThatNeverComesBackIsFound()
+{
+    HandMade plant = withRestart(0);
+    QCOMPARE(plant.judge(&soak::plantRecovers).failed, qint64(1));
+}
+
+void tst_PlantGates::aPlantThatNeverRunsAgainIsFound()
+{
+    HandMade plant;
+    HandMade::add(plant.runner(), Record::FaultBegins, -1, plant.end() + 600 * ms, {quint64(FaultKind::KillMaster), 1});
+    QCOMPARE(plant.judge(&soak::plantRecovers).failed, qint64(1));
+}
+
+void tst_PlantGates::datagramsThatAreCountedPass()
+{
+    HandMade plant = withStrangers(100);
+    const Gate gate = plant.judge(&soak::faultsAreCounted);
+    QVERIFY2(gate.passed(), textOf(gate));
+    QCOMPARE(gate.figures["garbage datagrams counted"], 100.0);
+}
+
+void tst_PlantGates::aDatagramThatIsNotCountedIsFound()
+{
+    for (const quint64 counted : {99U, 101U}) {
+        HandMade plant = withStrangers(counted);
+        QCOMPARE(plant.judge(&soak::faultsAreCounted).failed, qint64(1));
+    }
+}
+
+void tst_PlantGates::aRefusalThatIsNotToldIsFound()
+{
+    for (const int told : {7, 8}) {
+        HandMade plant;
+        plant.addFault(FaultKind::GarbageControl, -1, HandMade::at(50), HandMade::at(51), 8);
+        for (int i = 0; i < told; ++i)
+            HandMade::add(plant.master(), Record::Refused, -1, HandMade::at(51));
+        QCOMPARE(plant.judge(&soak::faultsAreCounted).passed(), told == 8);
+    }
+}
+
+void tst_PlantGates::aNodeThatIsLostTwiceIsFound()
+{
+    for (const int told : {1, 2}) {
+        HandMade plant;
+        plant.addFault(FaultKind::KillNode, 1, HandMade::at(50), HandMade::at(51));
+        for (int i = 0; i < told; ++i)
+            HandMade::add(plant.master(), Record::Lost, 1, HandMade::at(51));
+        QCOMPARE(plant.judge(&soak::faultsAreCounted).passed(), told == 1);
+    }
+}
+
+void tst_PlantGates::anAttemptThatIsNotRefusedIsFound()
+{
+    QVERIFY(!HandMade().judge(&soak::attemptsAreRefused).isAsked);
+    for (const int refused : {2, 3}) {
+        HandMade plant;
+        HandMade::add(plant.runner(), Record::Attempts, -1, HandMade::at(50), {1});
+        HandMade::add(plant.runner(), Record::Attempts, -1, HandMade::at(60), {3});
+        for (int i = 0; i < refused; ++i)
+            HandMade::add(plant.master(), Record::Refused, -1, HandMade::at(50));
+        QCOMPARE(plant.judge(&soak::attemptsAreRefused).passed(), refused == 3);
+    }
+}
+
+void tst_PlantGates::aDescriptorThatLeaksIsFound()
+{
+    HandMade good = withUsage(40, 2);
+    QVERIFY(good.judge(&soak::nothingLeaks).passed());
+    HandMade bad = withUsage(41, 2);
+    QCOMPARE(bad.judge(&soak::nothingLeaks).failed, qint64(1));
+}
+
+void tst_PlantGates::aThreadThatLeaksIsFound()
+{
+    HandMade plant = withUsage(40, 3);
+    QCOMPARE(plant.judge(&soak::nothingLeaks).failed, qint64(1));
+}
+
+void tst_PlantGates::aNewLifeIsNotComparedWithAnOldOne()
+{
+    HandMade plant = withUsage(41, 2, 0, 2);
+    QVERIFY(plant.judge(&soak::nothingLeaks).passed());
+}
+
+namespace {
+
+Gate judgeMemory(quint64 growth, bool isLong)
+{
+    HandMade plant = withUsage(40, 2, growth);
+    soak::Profile profile;
+    profile.judgesMemory = isLong;
+    return plant.judge([&](const soak::Evidence &evidence) { return soak::memoryStays(evidence, profile); });
+}
+
+}  // namespace
+
+void tst_PlantGates::memoryThatGrowsIsFound()
+{
+    const Gate gate = judgeMemory(120, true);
+    QCOMPARE(gate.failed, qint64(1));
+    QVERIFY2(qAbs(gate.figures["largest growth [kB per 10 min]"] - 120.0) < 3.0, textOf(gate));
+}
+
+void tst_PlantGates::memoryThatStaysPasses()
+{
+    const Gate gate = judgeMemory(80, true);
+    QVERIFY2(gate.passed(), textOf(gate));
+}
+
+void tst_PlantGates::memoryIsNotAskedForInAShortRun()
+{
+    QVERIFY(!judgeMemory(120, false).isAsked);
+}
+
+QTEST_APPLESS_MAIN(tst_PlantGates)
+#include "tst_PlantGates.moc"
