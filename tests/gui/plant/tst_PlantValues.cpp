@@ -135,8 +135,8 @@ void tst_PlantValues::whatNobodyHasWrittenIsNoValueOfACurve()
     for (const int invalid : {0, 2, 5})
         qualities[invalid] = char(QPlcQuality(QPlcQuality::Invalid).toByte());
     qualities[6] = char(QPlcQuality(QPlcQuality::Safe).toByte());
-    values.takeFrame({0, 1, std::chrono::nanoseconds(10 * ms), bytes.constData(), bytes.size(), qualities.constData()},
-                     wall);
+    values.takeFrame(
+        {0, 1, std::chrono::nanoseconds(10 * ms), bytes.constData(), bytes.size(), 1, qualities.constData()}, wall);
     const auto isGap = [&](int signal, int element = 0) {
         const int channel = values.channels().channel(QPlcSignalIndex(signal), element);
         return std::isnan(values.store()->value(channel, 0));
