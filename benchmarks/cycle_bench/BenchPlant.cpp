@@ -23,9 +23,9 @@ QPlcSignalTable benchTable(const BenchOptions &options)
     QByteArray ini;
     for (int slave = 0; slave < options.slaves; ++slave) {
         for (int i = 0; i < options.inputs; ++i)
-            ini += '[' + signalName("in", slave, i) + "]\ntype = Real32\n";
+            ini += '[' + signalName("in", slave, i) + "]\ntype = Real32\nhold = 1000000\n";
         for (int i = 0; i < options.outputs; ++i)
-            ini += '[' + signalName("out", slave, i) + "]\ntype = Real32\n";
+            ini += '[' + signalName("out", slave, i) + "]\ntype = Real32\nhold = 1000000\n";
     }
     return QPlcSignalTable::fromIni(ini);
 }

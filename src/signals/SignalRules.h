@@ -8,7 +8,20 @@
 namespace qplc {
 
 /// The keys of a signal in its table. Name: the section itself.
-enum class SignalKey : quint8 { Type, Unit, Description, Minimum, Maximum, Initial, Safe, Hold, Values, Writer, Nan, Name };
+enum class SignalKey : quint8 {
+    Type,
+    Unit,
+    Description,
+    Minimum,
+    Maximum,
+    Initial,
+    Safe,
+    Hold,
+    Values,
+    Writer,
+    Nan,
+    Name
+};
 constexpr int signalKeyCount = int(SignalKey::Name);
 
 /// "type", "unit", ... in the order of SignalKey

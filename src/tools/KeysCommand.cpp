@@ -57,7 +57,10 @@ struct KeyFile
     QByteArray text;
     Keyring keys;
 
-    bool read(QString *error) { return SecretFile::read(name, SecretFile::Secret, &text, error) && keys.parse(text, name, error); }
+    bool read(QString *error)
+    {
+        return SecretFile::read(name, SecretFile::Secret, &text, error) && keys.parse(text, name, error);
+    }
     bool write(const QByteArray &content, QString *error) const { return SecretFile::write(name, content, error); }
 };
 

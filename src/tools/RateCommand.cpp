@@ -113,8 +113,10 @@ bool listen(CycleEar &ear, double seconds, RateStatistics *rate)
             rate->take(arrival);
     };
     QObject::connect(&drain, &QTimer::timeout, takeAll);
-    QObject::connect(&ear, &QPlcSlaveNode::disconnectedFromMaster, &drain,
-                     [] { QCoreApplication::exit(QPlcCoreApplication::Failure); });
+    // Queued: the node says goodbye when the event loop ends, too, and who ends a loop that has ended ends all later ones.
+    QObject::connect(
+        &ear, &QPlcSlaveNode::disconnectedFromMaster, &drain,
+        [] { QCoreApplication::exit(QPlcCoreApplication::Failure); }, Qt::QueuedConnection);
     drain.start(drainPause);
     QTimer::singleShot(std::chrono::milliseconds(std::llround(seconds * 1e3)), Qt::PreciseTimer, &drain,
                        [] { QCoreApplication::quit(); });

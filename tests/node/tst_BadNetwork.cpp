@@ -315,14 +315,13 @@ void tst_BadNetwork::aHalfOpenLinkIsNoticedByTheWatchdogAndDelaysNobody()
     Plant plant("cut-received=100ms");
     plant.echo.activateWatchdog(25ms);
     QSignalSpy barked(&plant.echo, &QPlcSlaveNode::watchdogTimedOut);
+    QSignalSpy safe(&plant.echo, &QPlcSlaveNode::safeStateEntered);
     QVERIFY(plant.start());
-    QTRY_COMPARE(barked.size(), 1);
-    const quint64 late = plant.info().lateAnswers;
-    QTRY_VERIFY(plant.info().lateAnswers > late + 50);  // the last answers of a busy machine are in
-    const double held = plant.master.signalValue("echo").toReal();
-    QTRY_VERIFY(plant.info().lateAnswers > late + 100);
-    QCOMPARE(plant.master.signalValue("echo").toReal(), held);
-    QCOMPARE(plant.echo.state(), QPlcSlaveNode::RealTime);
+    QTRY_VERIFY(barked.size() > 0);
+    QTRY_VERIFY(safe.size() > 0);  // without a word of the master
+    const int steps = plant.steps;
+    QTRY_VERIFY(plant.steps > steps + 50);
+    QCOMPARE(plant.master.state(), QPlcMasterNode::RealTime);
     plant.master.stop();
     QCOMPARE(quint64(plant.steps), plant.master.statistics().cycles);
 }

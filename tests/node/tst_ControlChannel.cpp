@@ -94,7 +94,8 @@ void tst_ControlChannel::getSignalsTellsAllOrSome()
                           {"unit", "m"},
                           {"description", ""},
                           {"value", "0"},
-                          {"writer", "Counter"}}));
+                          {"writer", "Counter"},
+                          {"quality", QPlcQuality(QPlcQuality::Invalid).toByte()}}));
     QCOMPARE(some.at(1).toObject().value("value").toString(), QString("7"));
     const QPlcMessage failed = m_tool->ask(QPlcMessage::GetSignals, {{"names", QJsonArray{"sum", "setpiont"}}});
     QCOMPARE(failed.text("error"), QString("UnknownSignal"));

@@ -140,7 +140,7 @@ void tst_qtplc_values::getPrintsNameValueAndUnit()
     const Outcome outcome = m_plant.qtplc("get windVelocity_earth tetherSpeed flightPhase");
     QCOMPARE(outcome.exitCode, 0);
     QCOMPARE(outcome.output,
-             QString("windVelocity_earth = 5, -3, 0 m/s\ntetherSpeed = -1.5 m/s\nflightPhase = Launch\n"));
+             QString("windVelocity_earth = 5, -3, 0 m/s\ntetherSpeed = -1.5 m/s\nflightPhase = Launch  (invalid)\n"));
 }
 
 void tst_qtplc_values::namesOfValuesAreForPeopleAndNumbersForPrograms()

@@ -102,7 +102,7 @@ void tst_ThesisPrograms::cleanup()
 bool tst_ThesisPrograms::startMaster(const QString &variant)
 {
     m_master = std::make_unique<Program>(path(variant, QStringLiteral("master")), QStringList{QStringLiteral("0")});
-    const QRegularExpression listening(QStringLiteral("listening on 127\\.0\\.0\\.1 port (\\d+)\n"));
+    const QRegularExpression listening(QStringLiteral("listening on 127\\.0\\.0\\.1 port (\\d+) security none\n"));
     if (!QTest::qWaitFor([&] { return listening.match(m_master->errors()).hasMatch(); }, Program::patience))
         return false;
     m_port = listening.match(m_master->errors()).captured(1).toUShort();

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "ExampleOptions.h"
 #include "FlightView.h"
 
 #include <QPlcSignalTable.h>
@@ -273,7 +274,7 @@ void tst_FlightView::progressLineIsBounded()
 
 void tst_FlightView::theTableNamesPhasesAsTheAutopilotDoes()
 {
-    const QPlcSignalTable table = QPlcSignalTable::fromIniFile(QStringLiteral(":/signals/airborne_wind_energy.ini"));
+    const QPlcSignalTable table = QPlcSignalTable::fromIniFile(awe::builtInSignals());
     QVERIFY(table.contains(QStringLiteral("flightPhase")));
     const QPlcValueNames names = table.at(table.indexOf(QStringLiteral("flightPhase"))).valueNames;
     QCOMPARE(names.size(), awe::flightPhaseCount);

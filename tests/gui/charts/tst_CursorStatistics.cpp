@@ -200,18 +200,18 @@ void tst_CursorStatistics::newRowsAreAddedWithoutBeginningAnew()
 
 void tst_CursorStatistics::rowsThatHaveGoneAreSkipped()
 {
-    SignalStore store(1, 16);
-    for (int i = 1; i <= 16; ++i)
+    SignalStore store(1, 32);
+    for (int i = 1; i <= 32; ++i)
         append(&store, i * s, 1.0F);
     CursorStatistics statistics;
     statistics.set(&store, 0, {}, 0, 100 * s);
     statistics.advance(4);
-    for (int i = 17; i <= 28; ++i)
+    for (int i = 33; i <= 44; ++i)
         append(&store, i * s, 1.0F);
     statistics.set(&store, 0, {}, 0, 100 * s);
     QVERIFY(statistics.advance(all));
-    QCOMPARE(statistics.result().count, std::int64_t(4 + 16));
-    QCOMPARE(statistics.result().integral, 3.0 + 15.0);  // none over what was not seen
+    QCOMPARE(statistics.result().count, std::int64_t(4 + 32));
+    QCOMPARE(statistics.result().integral, 3.0 + 31.0);  // none over what was not seen
 }
 
 void tst_CursorStatistics::anotherRangeBeginsAnew()

@@ -161,11 +161,11 @@ void tst_TableExport::piecesAreBounded()
 
 void tst_TableExport::rowsThatHaveGoneAreLeftOut()
 {
-    SignalStore store(1, 16);
-    for (int i = 0; i < 16; ++i)
+    SignalStore store(1, 32);
+    for (int i = 0; i < 32; ++i)
         append(&store, begin + i * s, {float(i)});
     TableExport table(TableExport::Csv, {column(store, 0)}, begin, begin + 99 * s);
-    for (int i = 16; i < 20; ++i)
+    for (int i = 32; i < 36; ++i)
         append(&store, begin + i * s, {float(i)});
     QVERIFY(table.next(1).endsWith("Z,4,4\r\n"));
 }

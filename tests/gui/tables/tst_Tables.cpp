@@ -251,11 +251,11 @@ void tst_Tables::columnsAreChosenInAMenu()
     QMenu *menu = bench.panel.actions().last()->menu();
     QVERIFY(menu);
     QCOMPARE(menu->actions().size(), NodeTableModel::ColumnCount - 1);
-    QVERIFY(bench.view->isColumnHidden(NodeTableModel::Rejected));
+    QVERIFY(bench.view->isColumnHidden(NodeTableModel::Forged));
     menu->actions().last()->trigger();
-    QVERIFY(!bench.view->isColumnHidden(NodeTableModel::Rejected));
+    QVERIFY(!bench.view->isColumnHidden(NodeTableModel::Forged));
     QCOMPARE(edits.size(), 1);
-    QVERIFY(bench.panel.settings().value(QStringLiteral("columns")).toArray().contains(QStringLiteral("rejected")));
+    QVERIFY(bench.panel.settings().value(QStringLiteral("columns")).toArray().contains(QStringLiteral("forged")));
     menu->actions().last()->trigger();
     QCOMPARE(bench.panel.settings(), QJsonObject());
     Q_EMIT bench.view->header()->customContextMenuRequested(QPoint(5, 5));
