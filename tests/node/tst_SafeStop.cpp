@@ -130,6 +130,7 @@ void tst_SafeStop::allNodesGetTheSafeValuesOfTheTable()
     QVERIFY(master.setSignalValue("free", 6.0));
     QVERIFY(master.startRealTime());
     QTRY_COMPARE(master.signalValue("echo").toReal(), 7.0);
+    QTRY_VERIFY(!reader.requests.isEmpty());
     for (const ScriptedNode::Request &request : qAsConst(reader.requests))
         QCOMPARE(int(request.flags), 0);
     master.safeStop();
