@@ -239,7 +239,8 @@ void tst_qtplc::listShowsEverySignal()
     QVERIFY(table.initializeFromIniFile(QStringLiteral(QTPLC_SIGNALS)));
     QCOMPARE(lines.size(), 1 + QPlcSignalIndexTable::current().size());
     QCOMPARE(lines.constFirst().simplified(), QStringLiteral("name type unit value quality writer"));
-    QVERIFY(outcome.output.contains(QRegularExpression(QStringLiteral("\ntetherSpeed +Real32 +m/s +0 +invalid +Autopilot\n"))));
+    QVERIFY(outcome.output.contains(
+        QRegularExpression(QStringLiteral("\ntetherSpeed +Real32 +m/s +0 +invalid +Autopilot\n"))));
     QVERIFY(outcome.output.contains(QRegularExpression(QStringLiteral("\ncrashed +Int8 +- +No +invalid +Model\n"))));
     // Columns are aligned: the second begins at the same place everywhere.
     const int column = lines.constFirst().indexOf(QLatin1String("type"));
@@ -312,9 +313,9 @@ void tst_qtplc::setChangesWhatNobodyWrites()
     const QString list = qtplc(QStringLiteral("list")).output;
     QVERIFY2(list.contains(QRegularExpression(QStringLiteral("\ntetherSpeed +Real32 +m/s +-1\\.5 +good +-\n"))),
              qPrintable(list));
-    QVERIFY2(
-        list.contains(QRegularExpression(QStringLiteral("\nwindVelocity_earth +Real32\\[3\\] +m/s +5, -3, 0 +good +-\n"))),
-        qPrintable(list));
+    QVERIFY2(list.contains(
+                 QRegularExpression(QStringLiteral("\nwindVelocity_earth +Real32\\[3\\] +m/s +5, -3, 0 +good +-\n"))),
+             qPrintable(list));
 }
 
 void tst_qtplc::setRefusesBadValues_data()
