@@ -116,7 +116,7 @@ bool QPlcSlaveNode::isTwoPhase() const
 
 void QPlcSlaveNode::setReceivesQuality(bool wanted)
 {
-    Q_ASSERT_X(d->state == Disconnected, "QPlcSlaveNode::setReceivesQuality", "a registered node stays what it is");
+    Q_ASSERT_X(!d->hasChannel, "QPlcSlaveNode::setReceivesQuality", "a registered node stays what it is");
     d->receivesQuality = wanted;
 }
 
