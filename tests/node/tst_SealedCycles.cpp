@@ -101,7 +101,7 @@ public:
         node.setSecurity(securityOf(files, node.name()));
         return admit(node, kind);
     }
-    bool fly(quint64 cycles) { return startRealTime() && waitForState(RealTime) && waitForCycles(cycles); }
+    bool fly(quint64 cycles) { return (isArmingRequired() ? startArmed() : startRealTime()) && waitForState(RealTime) && waitForCycles(cycles); }
     QPlcNodeInfo infoOf(const QString &name) const
     {
         for (const QPlcNodeInfo &info : nodes()) {
