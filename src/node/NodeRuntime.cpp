@@ -68,6 +68,7 @@ bool NodeRuntime::bind(const QPlcSignalTable &table, QString *error)
     QString text;
     m_table = table;
     bool bound = false;
+    m_isCodeGone = false;
     if (!guarded("the declaration of signals", &text,
                  [&] { bound = m_node.bindPorts(table, &inputs, &outputs, &sameCycle, &text); })
         || !bound)
@@ -170,6 +171,8 @@ bool NodeRuntime::initialize(const char *inputs, QString *error)
 
 void NodeRuntime::stopped()
 {
+    if (m_isCodeGone.load(std::memory_order_relaxed))
+        return;
     QString text;
     if (!guarded("stopped()", &text, [this] { m_node.stopped(); }))
         setFault(text.toLocal8Bit().constData());
@@ -187,6 +190,8 @@ void NodeRuntime::makeSafe(QPlcSlaveNode::SafeStateReason reason) noexcept
         return;
     m_isSafe = true;
     m_outputs = m_safeOutputs;
+    if (m_isCodeGone.load(std::memory_order_relaxed))
+        return;
     try {
         m_node.safeFrame(reason, m_safeInputs.data());
     } catch (const std::exception &thrown) {
