@@ -270,6 +270,13 @@ void tst_PreSharedKeys::multicastIsRefused()
     QVERIFY(!master.listen());
     QVERIFY2(master.errorString().contains("a secured master has no multicast group"),
              qPrintable(master.errorString()));
+    QVERIFY(master.errorString().contains("connect nodes by udp://"));
+    CounterNode node;
+    node.setSecurity(m_files.counter());
+    QVERIFY(!node.connectToMasterAndWaitForConnected(
+        QPlcUnderlyingProtocol::udpMulticast(QHostAddress::LocalHost, m_master->serverPort())));
+    QVERIFY2(node.errorString().contains("a secured master sends no datagrams for many nodes; use udp"),
+             qPrintable(node.errorString()));
 }
 
 void tst_PreSharedKeys::oldVersionsAndWeakSuitesAreRefused_data()
