@@ -88,6 +88,7 @@ bool BenchMaster::makeKeys()
         return setError(QStringLiteral("cannot write %1: %2").arg(file.fileName(), file.errorString()));
     m_keysFile = file.fileName();
     m_master.setSecurity(QPlcSecurity::preSharedKeys(m_keysFile));
+    m_master.setArmingRequired(false);  // nothing moves here
     return true;
 }
 

@@ -76,6 +76,7 @@ private:
     void initializeFrame(const char *inputs) override;
     void stepFrame(const QPlcCycle &cycle, const char *inputs, char *outputs) override;
     void safeFrame(SafeStateReason reason, const char *safeInputs) override;
+    void remove(const QPlcPort *port);
     void load(const char *inputs);
     void store(char *outputs) const;
 

@@ -125,7 +125,7 @@ public:
     void setGapLimit(std::chrono::nanoseconds time);
     /// Overruns in a row that are too many; 0 (unless set): any number is borne, as on a computer that does other things, too.
     void setOverrunLimit(int overruns);
-    /// Whether a start needs arm() before; unless set it does not.
+    /// Whether a start, by whomever, is two steps: arm() in state Ready, then the start within 5 s. Unless set, with security (setSecurity()) it is, and without it is not.
     void setArmingRequired(bool required);
     bool isArmingRequired() const;
 

@@ -14,7 +14,7 @@ class QPlcCompactSlaveNode;
 
 /// A variable of a node that is tied to a signal by name. See QPlcInput, QPlcOutput, QPlcBoundInput, QPlcBoundOutput, QPlcCompactSignal.
 ///
-/// A port registers itself at its node when it is made; it is neither copied nor moved. Used by the cycle thread of the node while cycles run.
+/// A port registers itself at its node when it is made; it is neither copied nor moved. Used by the cycle thread of the node while cycles run; destroying it ends them.
 class QTPLC_EXPORT QPlcPort
 {
 public:

@@ -48,7 +48,14 @@ class QPlcSlaveNodePrivate;
 ///
 /// Threads: the object lives in the thread that made it and needs its event loop. realTimeout() is called on the cycle thread of the node (of the
 /// master, for a local node); all other virtual functions are called in the thread of the object while no cycle runs. They never run at the same time.
-/// Disconnect a node before you destroy it: while cycles run the members of a derived class are in use.
+/// While cycles run the members of a derived class are in use, so it disconnects before it loses them:
+///
+/// ```cpp
+/// ~Doubler() override { disconnectFromMaster(); }
+/// ```
+///
+/// QPlcNodeApplication does so before it returns, and ports (QPlcInput, QPlcOutput, ...) protect themselves and all members that are declared before the last one of them. Whoever forgets
+/// it is warned: the cycles then end in the destructor of this class, and safeState() is not called.
 class QTPLC_EXPORT QPlcSlaveNode : public QObject
 {
     Q_OBJECT
@@ -212,6 +219,7 @@ public Q_SLOTS:
     bool isSecured() const;
     /// Begins to connect and register; connectedToMaster() or errorOccurred() follows.
     void connectToMaster(const QPlcUnderlyingProtocol &master);
+    /// Ends the cycles of this node, with safeState() and stopped(), and then the connection; a node in the process of its master is removed there. Nothing of the node is called afterwards.
     void disconnectFromMaster();
     /// Sends any control message, for example InitializeAllStates. Nothing happens without a connection.
     void sendMessageToMaster(const QPlcMessage &message);
@@ -245,8 +253,8 @@ protected:
     virtual QPlcSignalList initialOutputSignals() { return {}; }
     /// Gets the values of the inputs when all nodes have given their initial outputs.
     virtual void initialize(const QPlcSignalList &initialSignals) { Q_UNUSED(initialSignals) }
-    /// One cycle. Outputs left out keep their last value. Not called for a two-phase node.
-    virtual QPlcSignalList realTimeout(const QPlcSignalList &inputSignals) = 0;
+    /// One cycle. Outputs left out keep their last value. Every node overrides it, except a two-phase node, for which it is not called: else each phase ends with a fault that says so.
+    virtual QPlcSignalList realTimeout(const QPlcSignalList &inputSignals);
     /// Two-phase node: its outputs, out of its state alone; those left out keep their last value. Called after updateStates(), for the next cycle.
     virtual QPlcSignalList outputSignals() { return {}; }
     /// Two-phase node: moves the state on with the inputs of the cycle at hand, cycle().

@@ -159,11 +159,12 @@ Refusal MasterServer::channelRefusal(const MasterConnection &connection, const N
                 QStringLiteral("unknown cyclic channel '%1'; use tcp, udp, udp-multicast or local").arg(kind)};
     if (isUdp && (udpPort < 1 || udpPort > 65535))
         return {QStringLiteral("MalformedMessage"), QStringLiteral("UDP port %1 is out of 1 ... 65535").arg(udpPort)};
+    if (isMulticast && connection.isSecured())
+        return {QStringLiteral("WrongState"),
+                QStringLiteral("a secured master sends no datagrams for many nodes; use udp")};
     if (isMulticast && m_group.length == 0)
         return {QStringLiteral("WrongState"),
                 QStringLiteral("this master has no multicast group; give it one, or use udp")};
-    if (isMulticast && connection.isSecured())
-        return {QStringLiteral("WrongState"), QStringLiteral("datagrams for many nodes are not sealed; use udp")};
     if (isMulticast && declaration.isOrdered())
         return {QStringLiteral("WrongState"),
                 QStringLiteral("node '%1' has same-cycle inputs or two phases: it is asked alone; use udp")

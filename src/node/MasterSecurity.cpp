@@ -9,10 +9,11 @@ bool QPlcMasterNodePrivate::checkSecurity()
     if (!wrong.isEmpty())
         return setError(QPlcMasterNode::ServerError, wrong);
     if (!security.isNone() && !multicastGroup.isNull())
-        return setError(QPlcMasterNode::ServerError,
-                        QStringLiteral("a secured master has no multicast group yet: there is no key for all nodes; "
-                                       "leave out %1, or the security")
-                            .arg(multicastGroup.toString()));
+        return setError(
+            QPlcMasterNode::ServerError,
+            QStringLiteral("a secured master has no multicast group: with a key for all nodes each of them could "
+                           "speak for the master; leave out the group %1, and connect nodes by udp://")
+                .arg(multicastGroup.toString()));
     return true;
 }
 

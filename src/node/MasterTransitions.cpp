@@ -207,7 +207,7 @@ bool QPlcMasterNodePrivate::arm()
 bool QPlcMasterNodePrivate::isStartPermitted(quint64 token) const
 {
     const bool isPermitted = arming.permits(token, qplc::TimeSource::monotonic().now());
-    return isPermitted || (!isArmingRequired && token == 0);
+    return isPermitted || (!isArmingRequired() && token == 0);
 }
 
 void QPlcMasterNodePrivate::armAsAsked(Connection *connection)

@@ -70,6 +70,7 @@ bool NodeRuntime::bind(const QPlcSignalTable &table, QString *error)
     QString text;
     m_table = table;
     bool bound = false;
+    m_isCodeGone = false;
     if (!guarded("the declaration of signals", &text,
                  [&] { bound = m_node.bindPorts(table, &inputs, &outputs, &sameCycle, &text); })
         || !bound)
@@ -172,6 +173,8 @@ bool NodeRuntime::initialize(const char *inputs, QString *error)
 
 void NodeRuntime::stopped()
 {
+    if (m_isCodeGone.load(std::memory_order_relaxed))
+        return;
     QString text;
     if (!guarded("stopped()", &text, [this] { m_node.stopped(); }))
         setFault(text.toLocal8Bit().constData());
@@ -189,7 +192,8 @@ void NodeRuntime::makeSafe(QPlcSlaveNode::SafeStateReason reason) noexcept
         return;
     m_isSafe = true;
     m_outputs = m_safeOutputs;
-    attempt([&] { m_node.safeFrame(reason, m_safeInputs.data()); });
+    if (!m_isCodeGone.load(std::memory_order_relaxed))
+        attempt([&] { m_node.safeFrame(reason, m_safeInputs.data()); });
 }
 
 /// Calls code of the user in a cycle. \return false when it threw

@@ -8,6 +8,7 @@
 #include "signals/PayloadLayout.h"
 
 #include <array>
+#include <atomic>
 #include <optional>
 #include <vector>
 
@@ -53,6 +54,8 @@ public:
     /// (but for a listener, which goes on watching). On the thread of step(), or that of the node while no cycle runs.
     void makeSafe(QPlcSlaveNode::SafeStateReason reason) noexcept;
     bool isSafe() const { return m_isSafe; }
+    /// The class of the user is about to be destroyed: makeSafe() and stopped() call nothing of it any more, until bind(). \threadsafe yes
+    void leaveCodeAlone() { m_isCodeGone.store(true, std::memory_order_relaxed); }
     /// One cycle. \return false when the code of the node threw, now or before in this phase: it is in its safe state then
     bool step(const QPlcCycle &cycle, const char *inputs) noexcept;
     const char *outputs() const { return m_outputs.data(); }
@@ -104,6 +107,7 @@ private:
     std::vector<char> m_scratch;  // being computed
     std::vector<char> m_safeInputs;
     std::vector<char> m_safeOutputs;
+    std::atomic<bool> m_isCodeGone{false};
     bool m_isSafe = false;
     bool m_hasFailed = false;  // in this phase
     QString m_workloadSignal;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "QPlcCompactSlaveNode.h"
 
+#include "QPlcSlaveNodePrivate.h"
 #include "signals/PayloadLayout.h"
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
 
 namespace {
 
@@ -26,7 +28,21 @@ QPlcCompactSlaveNode::QPlcCompactSlaveNode(const QString &name, RealTimeViolatio
 {
 }
 
-QPlcCompactSlaveNode::~QPlcCompactSlaveNode() = default;
+QPlcCompactSlaveNode::~QPlcCompactSlaveNode()
+{
+    d->endBeforeDestruction();
+    for (QPlcPort *port : m_ports)
+        port->m_node = nullptr;  // it lives longer
+}
+
+/// Its variable is in use as long as cycles run.
+void QPlcCompactSlaveNode::remove(const QPlcPort *port)
+{
+    d->endBeforeDestruction();
+    const auto found = std::find(m_ports.rbegin(), m_ports.rend(), port);  // most often the last one
+    if (found != m_ports.rend())
+        m_ports.erase(std::next(found).base());
+}
 
 bool QPlcCompactSlaveNode::bindPorts(const QPlcSignalTable &table, QVector<QPlcSignalIndex> *inputs,
                                      QVector<QPlcSignalIndex> *outputs, QVector<QPlcSignalIndex> *sameCycle,

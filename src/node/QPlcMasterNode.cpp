@@ -150,12 +150,12 @@ void QPlcMasterNode::setOverrunLimit(int overruns)
 
 void QPlcMasterNode::setArmingRequired(bool required)
 {
-    d->isArmingRequired = required;
+    d->armingWanted = required;
 }
 
 bool QPlcMasterNode::isArmingRequired() const
 {
-    return d->isArmingRequired;
+    return d->isArmingRequired();
 }
 
 bool QPlcMasterNode::startServer(const QPlcUnderlyingProtocol &protocol)

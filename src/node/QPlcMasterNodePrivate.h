@@ -48,6 +48,7 @@ public:
     void end(const QString &reason);
     void safeStop(const QString &reason);
     bool arm();
+    bool isArmingRequired() const { return armingWanted.value_or(!security.isNone()); }
     bool isStartPermitted(quint64 token) const;
     bool reset();
     /// Why the latched fault cannot be reset yet; empty: it can.
@@ -87,7 +88,7 @@ public:
     std::chrono::nanoseconds longestWait{5'000'000'000};
     std::chrono::nanoseconds gapLimit{1'000'000'000};
     int overrunLimit = 0;
-    bool isArmingRequired = false;
+    std::optional<bool> armingWanted;  // else: with security
     qplc::Arming arming;
     QPlcMasterNode::State state = QPlcMasterNode::Off;
     QString stateReason;  // of SafeStop and Fault

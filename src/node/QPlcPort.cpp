@@ -14,7 +14,11 @@ QPlcPort::QPlcPort(QPlcCompactSlaveNode *node, const char *name, Direction direc
     m_node->m_ports.push_back(this);
 }
 
-QPlcPort::~QPlcPort() = default;
+QPlcPort::~QPlcPort()
+{
+    if (m_node)
+        m_node->remove(this);
+}
 
 namespace QPlcPortDetail {
 

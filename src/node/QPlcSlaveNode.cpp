@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <stdexcept>
 
 QPlcSlaveNode::QPlcSlaveNode(const QString &name, RealTimeViolationPolicy policy, QObject *parent)
     : QObject(parent)
@@ -25,7 +26,7 @@ QPlcSlaveNode::QPlcSlaveNode(const QString &name, RealTimeViolationPolicy policy
 
 QPlcSlaveNode::~QPlcSlaveNode()
 {
-    // The derived class is gone already: the cycles stop without a word to it.
+    d->endBeforeDestruction();
     d->cycle.reset();
     if (d->localMaster)
         d->localMaster->removeLocalNode(this);
@@ -116,7 +117,7 @@ bool QPlcSlaveNode::isTwoPhase() const
 
 void QPlcSlaveNode::setReceivesQuality(bool wanted)
 {
-    Q_ASSERT_X(d->state == Disconnected, "QPlcSlaveNode::setReceivesQuality", "a registered node stays what it is");
+    Q_ASSERT_X(!d->hasChannel, "QPlcSlaveNode::setReceivesQuality", "a registered node stays what it is");
     d->receivesQuality = wanted;
 }
 
@@ -261,6 +262,12 @@ void QPlcSlaveNode::sendMessageToMaster(const QPlcMessage &message)
 }
 
 // ---- lists on top of frames ----
+
+QPlcSignalList QPlcSlaveNode::realTimeout(const QPlcSignalList &)
+{
+    throw std::logic_error("there is no realTimeout() to call: override it, or use setTwoPhase(true); and disconnect "
+                           "the node before it is destroyed");
+}
 
 bool QPlcSlaveNode::bindPorts(const QPlcSignalTable &table, QVector<QPlcSignalIndex> *inputs,
                               QVector<QPlcSignalIndex> *outputs, QVector<QPlcSignalIndex> *sameCycle, QString *error)

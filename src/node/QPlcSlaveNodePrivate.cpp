@@ -40,6 +40,12 @@ qplc::SlaveCycle::Group groupOf(const Message &message, const qplc::PayloadLayou
             QPlcMessage(Message::RealTimeStarted, fields).hex64(QStringLiteral("hash"))};
 }
 
+bool hasCycles(QPlcMasterNode::State state)
+{
+    return state == QPlcMasterNode::RealTime || state == QPlcMasterNode::WaitingForLateSlaves
+        || state == QPlcMasterNode::SafeStop;
+}
+
 /// What a message of the master means to the node; none: nothing to its state.
 std::optional<Event> eventOf(const Message &message)
 {
@@ -87,7 +93,10 @@ QPlcSlaveNodePrivate::QPlcSlaveNodePrivate(QPlcSlaveNode *node, const QString &n
                      [this] { masterLost(QPlcAbstractSocket::NoError, QStringLiteral("no answer within 2 s")); });
     // A program that ends says goodbye in time: its node reaches its safe state before its destructor runs.
     if (QCoreApplication *application = QCoreApplication::instance())
-        QObject::connect(application, &QCoreApplication::aboutToQuit, q, [this] { disconnectFromMaster(); });
+        QObject::connect(application, &QCoreApplication::aboutToQuit, q, [this] {
+            if (!localMaster)  // else its master ends, too
+                disconnectFromMaster();
+        });
 }
 
 void QPlcSlaveNodePrivate::setError(QPlcSlaveNode::Error newError, const QString &text)
@@ -144,8 +153,27 @@ void QPlcSlaveNodePrivate::openConnection()
 
 void QPlcSlaveNodePrivate::disconnectFromMaster()
 {
-    if (!localMaster)  // else the master removes it
+    if (localMaster)
+        localMaster->removeLocalNode(q);
+    else
         apply(Event::Leave);
+}
+
+void QPlcSlaveNodePrivate::endBeforeDestruction()
+{
+    const bool cyclesRun = localMaster ? hasCycles(localMaster->state()) : m_inPhase;
+    if (!cyclesRun)
+        return;
+    qCWarning(lcSlave).noquote() << "node" << name
+                                 << "is destroyed while its cycles run: they end here, without its safeState(); call "
+                                    "disconnectFromMaster() first, in the destructor of its class at the latest";
+    runtime.leaveCodeAlone();
+    if (localMaster) {
+        localMaster->removeLocalNode(q);
+        return;
+    }
+    cycle->stop();
+    m_inPhase = false;
 }
 
 void QPlcSlaveNodePrivate::closeConnection(QPlcSlaveNode::SafeStateReason reason)

@@ -26,6 +26,8 @@ public:
 
     void connectToMaster(const QPlcUnderlyingProtocol &master);
     void disconnectFromMaster();
+    /// The class of the user is being destroyed, and no part of ours yet: cycles that still run end here, with a warning, and call nothing of it any more.
+    void endBeforeDestruction();
 
     /// Emits hasInitialized() with the inputs, when anybody listens.
     void tellInitialized();

@@ -2,7 +2,6 @@
 #include "SlaveCycle.h"
 
 #include "protocol/LittleEndian.h"
-#include "realtime/InterruptibleWaits.h"
 
 #include <algorithm>
 #include <limits>
@@ -73,11 +72,10 @@ bool SlaveCycle::start(const Phase &phase)
          {&m_counters.cycles, &m_counters.missed, &m_counters.duplicated, &m_counters.outdated, &m_counters.rejected,
           &m_counters.forged, &m_counters.watchdog})
         counter->store(0);
-    m_statistics.restart(phase.clock.isLockstep() ? 0
-                                                  : std::int64_t(double(phase.period.count()) / phase.clock.scale()));
-    m_computedAny = m_faulted = m_watchdogBarked = false;
+    m_statistics.restart(phase.clock.isLockstep() ? 0 : lasting(phase.period));
+    m_computedAny = m_faulted = false;
     m_lastCycle = phase.firstCycle;
-    m_lastArrival = TimeSource::monotonic().now();
+    m_watchdog.start(phase.clock.isLockstep() ? 0 : lasting(phase.watchdog), TimeSource::monotonic().now());
     m_stop = m_ended = false;
     if (m_thread.start(m_runtime.node().name(), phase.realTimeOptions, [this] { run(); }))
         return true;
@@ -110,7 +108,8 @@ QPlcSlaveNode::Counters SlaveCycle::counters() const
 
 void SlaveCycle::run() noexcept
 {
-    const InterruptibleWaits interruptible(watchdogLooks());
+    m_waits.emplace();
+    setAlarm();
     const char *frame = nullptr;
     std::size_t size = 0;
     bool open = true;
@@ -129,19 +128,8 @@ void SlaveCycle::run() noexcept
         }
     }
     m_statistics.fold();
+    m_waits.reset();
     m_ended = true;
-}
-
-/// How often to look at the watchdog while nothing comes [ns], so that it barks a cycle late at most; 0: there is none.
-std::int64_t SlaveCycle::watchdogLooks() const noexcept
-{
-    constexpr std::int64_t shortest = 100'000;
-    constexpr std::int64_t longest = 50'000'000;
-    const auto watchdog = std::int64_t(double(m_phase.watchdog.count()) / m_phase.clock.scale());
-    const auto period = std::int64_t(double(m_phase.period.count()) / m_phase.clock.scale());
-    return watchdog > 0 && !m_phase.clock.isLockstep()
-        ? std::min({watchdog / 2 + 1, std::max(period, shortest), longest})
-        : 0;
 }
 
 CyclicLink::Status SlaveCycle::receive(const char **frame, std::size_t *size) noexcept
@@ -206,15 +194,16 @@ void SlaveCycle::take(const char *frame, std::size_t size) noexcept
         skipToNewest();
     compute();
     if (!m_phase.clock.isLockstep())
-        m_statistics.answered(m_lastArrival, m_runtime.executionTime(), TimeSource::monotonic().now());
+        m_statistics.answered(m_watchdog.lastHeard(), m_runtime.executionTime(), TimeSource::monotonic().now());
 }
 
 /// After a pause requests may have queued up; only the newest is worth an answer. Costs a system call only after a pause.
 void SlaveCycle::skipToNewest() noexcept
 {
     const std::int64_t now = TimeSource::monotonic().now();
-    const bool paused = simulated(now - m_lastArrival) > 2 * m_phase.interval.cycles() * m_phase.period.count();
-    m_lastArrival = now;
+    const bool paused
+        = simulated(now - m_watchdog.lastHeard()) > 2 * m_phase.interval.cycles() * m_phase.period.count();
+    m_watchdog.hear(now);
     if (!paused)
         return;
     const char *frame = nullptr;
@@ -240,7 +229,6 @@ void SlaveCycle::compute() noexcept
     m_faulted = !computed;
     m_computedAny = true;
     m_lastCycle = cycle;
-    m_watchdogBarked = false;
     m_answer.flags = std::uint8_t((computed ? 0 : FaultFlag) | (m_runtime.isSafe() ? SafeStopFlag : 0));
     m_answer.cycle = cycle;
     m_answer.info
@@ -293,16 +281,33 @@ std::int64_t SlaveCycle::simulated(std::int64_t time) const noexcept
     return std::int64_t(double(time) * m_phase.clock.scale());
 }
 
+/// What \a simulated takes of real time [ns].
+std::int64_t SlaveCycle::lasting(std::chrono::nanoseconds simulated) const noexcept
+{
+    return std::int64_t(double(simulated.count()) / m_phase.clock.scale());
+}
+
 void SlaveCycle::checkWatchdog() noexcept
 {
-    if (m_phase.watchdog.count() == 0 || m_watchdogBarked || m_phase.clock.isLockstep())
+    if (!m_watchdog.isOn())
         return;
-    if (simulated(TimeSource::monotonic().now() - m_lastArrival) < m_phase.watchdog.count())
+    const Watchdog::Answer answer = m_watchdog.look(TimeSource::monotonic().now());
+    if (answer == Watchdog::TooEarly)
         return;
-    m_watchdogBarked = true;
+    setAlarm();
+    if (answer != Watchdog::Barks)
+        return;
     count(m_counters.watchdog);
     m_runtime.makeSafe(QPlcSlaveNode::WatchdogReason);
     m_reports.post({CycleEvent::WatchdogTimedOut, m_identity.node, 0, m_lastCycle - m_phase.cycleZero});
+}
+
+/// The wait for frames ends when the watchdog wants to be looked at. Not in each cycle: a timer that is set costs a system call.
+void SlaveCycle::setAlarm() noexcept
+{
+    constexpr std::int64_t again = 1'000'000;  // [ns] in case that nothing waits just then
+    if (m_watchdog.isOn())
+        m_waits->interruptAt(m_watchdog.alarm(), again);
 }
 
 }  // namespace qplc

@@ -6,8 +6,10 @@
 #include "NodeRuntime.h"
 #include "QPlcClock.h"
 #include "SlaveStatistics.h"
+#include "Watchdog.h"
 #include "protocol/CyclicFrame.h"
 #include "realtime/CycleThread.h"
+#include "realtime/InterruptibleWaits.h"
 #include "transport/CyclicLink.h"
 
 #include <atomic>
@@ -84,8 +86,9 @@ private:
     void sendAnswer() noexcept;
     void makeSafe(QPlcSlaveNode::SafeStateReason reason, const CycleEvent &event) noexcept;
     void checkWatchdog() noexcept;
-    std::int64_t watchdogLooks() const noexcept;
+    void setAlarm() noexcept;
     std::int64_t simulated(std::int64_t time) const noexcept;
+    std::int64_t lasting(std::chrono::nanoseconds simulated) const noexcept;
 
     NodeRuntime &m_runtime;
     const Identity m_identity;
@@ -103,9 +106,9 @@ private:
     FrameHeader m_answer;        // of the newest cycle
     bool m_computedAny = false;
     bool m_faulted = false;
-    bool m_watchdogBarked = false;
-    std::uint64_t m_lastCycle = 0;   // computed last
-    std::int64_t m_lastArrival = 0;  // [ns], 0 in lockstep
+    std::uint64_t m_lastCycle = 0;  // computed last
+    Watchdog m_watchdog;            // hears new frames; not in lockstep
+    std::optional<InterruptibleWaits> m_waits;
 
     struct AtomicCounters
     {

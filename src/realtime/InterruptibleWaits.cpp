@@ -3,6 +3,7 @@
 
 #include "TimeSource.h"
 
+#include <algorithm>
 #include <csignal>
 #include <mutex>
 #include <sys/syscall.h>
@@ -41,17 +42,20 @@ InterruptibleWaits::InterruptibleWaits(std::int64_t period)
     static std::once_flag once;
     std::call_once(once, &installHandler);
     unblock();
-    if (period == 0)
-        return;
     sigevent event{};
     event.sigev_notify = SIGEV_THREAD_ID;
     event.sigev_signo = SIGURG;
     event._sigev_un._tid = pid_t(::syscall(SYS_gettid));
     m_exists = ::timer_create(CLOCK_MONOTONIC, &event, &m_timer) == 0;
-    if (!m_exists)
-        return;
-    const itimerspec times{timeSpec(period), timeSpec(period)};
-    ::timer_settime(m_timer, 0, &times, nullptr);
+    if (period > 0)
+        interruptAt(TimeSource::monotonic().now() + period, period);
+}
+
+void InterruptibleWaits::interruptAt(std::int64_t instant, std::int64_t period) noexcept
+{
+    const itimerspec times{timeSpec(period), timeSpec(std::max<std::int64_t>(instant, 1))};  // 0 would stop it
+    if (m_exists)
+        ::timer_settime(m_timer, TIMER_ABSTIME, &times, nullptr);
 }
 
 InterruptibleWaits::~InterruptibleWaits()

@@ -114,8 +114,8 @@ const QVector<Command> &commands()
         {"start",
          "",
          "Starts the real-time phase.",
-         "Where the master wants starts to be armed, this is done, too, unless a token is\n"
-         "given.",
+         "Where the master wants starts to be armed, it is initialized and armed before,\n"
+         "unless a token is given.",
          {{"cycles", "N", "Ends by itself after so many."}, {"token", "TOKEN", "That of qtplc arm."}},
          {QStringLiteral("qtplc start"), QStringLiteral("qtplc start --cycles 1000")},
          Command::NoArguments,

@@ -66,6 +66,9 @@ bool armIfRequired(const CommandCall &call, QString *token)
         return false;
     if (!state.fields().value(QStringLiteral("armingRequired")).toBool())
         return true;
+    if (state.text(QStringLiteral("state")) == QLatin1String("Off")
+        && !call.ask(QPlcMessage(QPlcMessage::InitializeAllStates)))
+        return false;  // a start would have done it, but permits are given in Ready
     if (!call.askFor(QPlcMessage::Arm, QPlcMessage::Armed, {}, &armed))
         return false;
     *token = armed.text(QStringLiteral("token"));

@@ -65,7 +65,7 @@ FaultInjector::Decision FaultInjector::decide(std::int64_t now) noexcept
     if (happens(Corrupted, m_plan.corrupt))
         decision.flips = spread(draw(Corrupted)) | 1;
     decision.isDuplicated = happens(Duplicated, m_plan.duplicate);
-    decision.isHeld = happens(Reordered, m_plan.reorder);
+    m_isHolding = decision.isHeld = !m_isHolding && happens(Reordered, m_plan.reorder);
     decision.delay = lateness(Delayed);
     decision.copyDelay = lateness(Duplicated);
     m_counts[Delayed].add(decision.delay > 0 ? 1 : 0);

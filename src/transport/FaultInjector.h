@@ -20,7 +20,7 @@ public:
     struct Decision
     {
         bool passes = true;          // else the frame is gone
-        bool isHeld = false;         // it comes behind the next one
+        bool isHeld = false;         // it comes behind the next one that passes; never two at a time
         bool isDuplicated = false;   // a copy comes, too
         std::uint64_t flips = 0;     // not 0: see corrupt()
         std::int64_t delay = 0;      // [ns]
@@ -46,6 +46,7 @@ private:
     const FaultPlan::Direction m_plan;
     const std::uint64_t m_base;
     std::int64_t m_begin = 0;  // [ns] of the first frame
+    bool m_isHolding = false;  // the frame before waits for this one
     Counter m_frames;
     std::array<Counter, Kinds> m_counts;
 };

@@ -24,7 +24,7 @@ bool FaultStream::passes(std::int64_t now, const char *frame, std::size_t size, 
     const FaultInjector::Decision decision = m_injector.decide(now);
     if (!decision.passes || size > LargestFrame)
         return decision.passes;
-    if (decision.isHeld && m_heldSize == 0) {
+    if (decision.isHeld) {
         if (decision.isDuplicated)
             line.put(now + decision.copyDelay, owner, frame, size);
         hold(frame, size, decision.flips);

@@ -91,6 +91,8 @@ public:
         return kind == QLatin1String("local") ? addLocalNode(&node)
                                               : node.connectToMasterAndWaitForConnected(protocol(kind));
     }
+    /// The steps of a start where arming is required.
+    bool startArmed() { return initializeAllStates() && waitForState(Ready) && arm() && startRealTime(); }
     bool waitForCycles(quint64 cycles)
     {
         return QTest::qWaitFor([&] { return statistics().cycles >= cycles; }, 10000);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "NodeFixtures.h"
+#include "node/Handshake.h"
 #include "protocol/CyclicFrame.h"
 #include "signals/PayloadLayout.h"
 
@@ -9,6 +10,8 @@
 #include <QtNetwork/QTcpServer>
 #include <QtNetwork/QTcpSocket>
 #include <QtNetwork/QUdpSocket>
+
+#include <unistd.h>
 
 /// A master that speaks the protocol as the test tells it, message by message and frame by frame, to one real node.
 class ScriptedMaster : public QObject
@@ -52,6 +55,9 @@ public:
     {
         return QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, m_server.serverPort());
     }
+
+    /// Nodes come over TLS from now on.
+    void setSecurity(const QPlcSecurity &security) { m_security = security; }
 
     // ---- control channel ----
     void send(QPlcMessage::Kind kind, const QJsonObject &fields = {})
@@ -161,7 +167,18 @@ private:
     }
     void accept()
     {
-        auto *socket = new QPlcSlaveSocket(m_server.nextPendingConnection(), this);
+        QTcpSocket *newcomer = m_server.nextPendingConnection();
+        if (m_security.isNone() || control) {  // the cyclic connection has no TLS
+            take(new QPlcSlaveSocket(newcomer, this));
+            return;
+        }
+        auto *handshake = new qplc::Handshake(::dup(int(newcomer->socketDescriptor())), m_security, this);
+        delete newcomer;
+        connect(handshake, &qplc::Handshake::succeeded, this,
+                [this, handshake] { take(new QPlcSlaveSocket(handshake->takeSocket(), this)); });
+    }
+    void take(QPlcSlaveSocket *socket)
+    {
         if (!control)
             control = socket;
         connect(socket, &QPlcAbstractSocket::messageReceived, this, [this, socket](const QPlcMessage &message) {
@@ -200,6 +217,7 @@ private:
                           QByteArray(m_decoder.payload(), int(m_out.size()))};
     }
 
+    QPlcSecurity m_security;
     int m_taken = 0;
     quint16 m_peerPort = 0;
     QTcpServer m_server;

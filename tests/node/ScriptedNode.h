@@ -330,4 +330,12 @@ public:
         send(kind, fields);
         return next();
     }
+    /// The answer, behind what all are told of the initialization that belongs to it.
+    QPlcMessage answerTo(QPlcMessage::Kind kind, const QJsonObject &fields = {})
+    {
+        QPlcMessage answer = ask(kind, fields);
+        while (answer.kind() == QPlcMessage::StatesInitialized)
+            answer = next();
+        return answer;
+    }
 };

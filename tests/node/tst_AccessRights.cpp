@@ -22,6 +22,8 @@ private Q_SLOTS:
     void aMasterKeepsToTheTable();
     void everybodyWhoIsKnownMayStop_data();
     void everybodyWhoIsKnownMayStop();
+    void aSecuredPlantStartsInTwoSteps();
+    void armingIsLeftOutByAnExplicitWishOnly();
     void withoutSecurityEverybodyMayEverything();
     void aNodeHasTheNameOfItsIdentity();
     void anObserverListensOnly();
@@ -152,13 +154,54 @@ void tst_AccessRights::everybodyWhoIsKnownMayStop()
     TestMaster master(QPlcClock::realTime());
     master.setSecurity(QPlcSecurity::preSharedKeys(m_files.masterKeys()));
     CounterNode local;
-    QVERIFY(master.addLocalNode(&local) && master.listen() && master.startRealTime());
+    QVERIFY(master.addLocalNode(&local) && master.listen() && master.startArmed());
     QVERIFY(master.waitForState(QPlcMasterNode::RealTime));
     const QPlcSecurity securities[] = {m_files.bert(), m_files.anna(), m_files.echo(), m_files.carl()};
     SecuredTool tool(securities[role]);
     QVERIFY(tool.greetAt(master.serverPort()));
     QCOMPARE(tool.ask(QPlcMessage::Stop).kind(), QPlcMessage::Done);
     QCOMPARE(master.state(), QPlcMasterNode::Off);
+}
+
+void tst_AccessRights::aSecuredPlantStartsInTwoSteps()
+{
+    TestMaster master(QPlcClock::realTime());
+    QVERIFY(!master.isArmingRequired());
+    master.setSecurity(QPlcSecurity::preSharedKeys(m_files.masterKeys()));
+    QVERIFY(master.isArmingRequired());
+    CounterNode local;
+    QVERIFY(master.addLocalNode(&local) && master.listen());
+    SecuredTool anna(m_files.anna());
+    QVERIFY(anna.greetAt(master.serverPort()));
+    QVERIFY(anna.ask(QPlcMessage::GetState).fields().value("armingRequired").toBool());
+    QVERIFY(anna.ask(QPlcMessage::StartRealTime).text("text").contains("initialize, arm, then start"));
+    QCOMPARE(anna.answerTo(QPlcMessage::InitializeAllStates).kind(), QPlcMessage::Done);
+    QVERIFY(anna.ask(QPlcMessage::StartRealTime).text("text").contains("not armed"));
+    QVERIFY(!master.startRealTime());
+    const QString token = anna.ask(QPlcMessage::Arm).text("token");
+    SecuredTool carl(m_files.carl());
+    QVERIFY(carl.greetAt(master.serverPort()));
+    QCOMPARE(carl.answerTo(QPlcMessage::StartRealTime).kind(),
+             QPlcMessage::Failed);  // who has not armed starts nothing
+    QCOMPARE(master.state(), QPlcMasterNode::Ready);
+    QCOMPARE(anna.ask(QPlcMessage::StartRealTime, {{"token", token}}).kind(), QPlcMessage::Done);
+    QCOMPARE(master.state(), QPlcMasterNode::RealTime);
+    QCOMPARE(carl.ask(QPlcMessage::Stop).kind(), QPlcMessage::Done);
+}
+
+void tst_AccessRights::armingIsLeftOutByAnExplicitWishOnly()
+{
+    TestMaster master(QPlcClock::realTime());
+    master.setSecurity(QPlcSecurity::preSharedKeys(m_files.masterKeys()));
+    master.setArmingRequired(false);
+    CounterNode local;
+    QVERIFY(master.addLocalNode(&local) && master.listen());
+    SecuredTool anna(m_files.anna());
+    QVERIFY(anna.greetAt(master.serverPort()));
+    QVERIFY(!anna.ask(QPlcMessage::GetState).fields().value("armingRequired").toBool(true));
+    QCOMPARE(anna.answerTo(QPlcMessage::StartRealTime).kind(), QPlcMessage::Done);
+    QTRY_COMPARE(master.state(), QPlcMasterNode::RealTime);
+    master.stop();
 }
 
 void tst_AccessRights::withoutSecurityEverybodyMayEverything()

@@ -60,7 +60,7 @@ void tst_Certificates::aNodeWithACertificateTakesPart()
     QVERIFY2(m_master->admit(node, "udp"), qPrintable(node.errorString()));
     QVERIFY(node.isSecured());
     m_master->setCycleLimit(5);
-    QVERIFY(m_master->startRealTime());
+    QVERIFY(m_master->startArmed());
     QVERIFY(m_master->waitForCycles(5) && m_master->waitForState(QPlcMasterNode::Off));
     QCOMPARE(m_master->signalValue("count").toInt(), 5);
 }

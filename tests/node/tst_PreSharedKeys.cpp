@@ -66,7 +66,7 @@ void tst_PreSharedKeys::aNodeWithItsKeyTakesPart()
     QVERIFY2(node.connectToMasterAndWaitForConnected(protocol), qPrintable(node.errorString()));
     QVERIFY(node.isSecured());
     m_master->setCycleLimit(5);
-    QVERIFY(m_master->startRealTime());
+    QVERIFY(m_master->startArmed());
     QVERIFY(m_master->waitForCycles(5));
     QVERIFY(m_master->waitForState(QPlcMasterNode::Off));
     QCOMPARE(m_master->signalValue("count").toInt(), 5);
@@ -81,8 +81,9 @@ void tst_PreSharedKeys::twoNodesAndAToolFlyTogether()
     QVERIFY(m_master->admit(counter, "udp") && m_master->admit(echo, "tcp"));
     SecuredTool anna(m_files.anna());
     QVERIFY(anna.greetAt(m_master->serverPort()));
-    anna.send(QPlcMessage::StartRealTime, {{"cycles", 10}});
-    QVERIFY(anna.waitForMessage(QPlcMessage::Done));
+    QCOMPARE(anna.answerTo(QPlcMessage::InitializeAllStates).kind(), QPlcMessage::Done);
+    const QString token = anna.ask(QPlcMessage::Arm).text("token");
+    QCOMPARE(anna.ask(QPlcMessage::StartRealTime, {{"cycles", 10}, {"token", token}}).kind(), QPlcMessage::Done);
     QVERIFY(m_master->waitForState(QPlcMasterNode::Off));
     QCOMPARE(m_master->statistics().cycles, quint64(10));
 }
@@ -172,7 +173,7 @@ void tst_PreSharedKeys::aKeyIsReplacedWithoutARestart()
     QVERIFY2(m_master->admit(node, "udp"), qPrintable(node.errorString()));
     QCOMPARE(echo.state(), QPlcSlaveNode::Off);
     m_master->setCycleLimit(3);
-    QVERIFY(m_master->startRealTime());
+    QVERIFY(m_master->startArmed());
     QVERIFY(m_master->waitForCycles(3) && m_master->waitForState(QPlcMasterNode::Off));
 }
 
@@ -269,6 +270,13 @@ void tst_PreSharedKeys::multicastIsRefused()
     QVERIFY(!master.listen());
     QVERIFY2(master.errorString().contains("a secured master has no multicast group"),
              qPrintable(master.errorString()));
+    QVERIFY(master.errorString().contains("connect nodes by udp://"));
+    CounterNode node;
+    node.setSecurity(m_files.counter());
+    QVERIFY(!node.connectToMasterAndWaitForConnected(
+        QPlcUnderlyingProtocol::udpMulticast(QHostAddress::LocalHost, m_master->serverPort())));
+    QVERIFY2(node.errorString().contains("a secured master sends no datagrams for many nodes; use udp"),
+             qPrintable(node.errorString()));
 }
 
 void tst_PreSharedKeys::oldVersionsAndWeakSuitesAreRefused_data()

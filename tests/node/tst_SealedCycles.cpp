@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "ScriptedMaster.h"
 #include "SecurityFixtures.h"
 #include "WireTap.h"
 
@@ -14,6 +15,9 @@ class tst_SealedCycles : public QObject
 private Q_SLOTS:
     void init() { QPlcSignalIndexTable::setCurrent({}); }
     void noNonceServesTwoFrames();
+    void aSecuredNodeTakesNoFramesWithoutKeys_data();
+    void aSecuredNodeTakesNoFramesWithoutKeys();
+    void aSecuredNodeComputesNoFrameThatIsNotSealed();
     void valuesAreNotSeenOnTheWire_data();
     void valuesAreNotSeenOnTheWire();
     void sharedMemoryIsNotSealed();
@@ -101,7 +105,10 @@ public:
         node.setSecurity(securityOf(files, node.name()));
         return admit(node, kind);
     }
-    bool fly(quint64 cycles) { return startRealTime() && waitForState(RealTime) && waitForCycles(cycles); }
+    bool fly(quint64 cycles)
+    {
+        return (isArmingRequired() ? startArmed() : startRealTime()) && waitForState(RealTime) && waitForCycles(cycles);
+    }
     QPlcNodeInfo infoOf(const QString &name) const
     {
         for (const QPlcNodeInfo &info : nodes()) {
@@ -181,6 +188,70 @@ void tst_SealedCycles::noNonceServesTwoFrames()
     QCOMPARE(seals.keys, 2 * registrations);
     QVERIFY2(seals.frames > 1000, qPrintable(QString::number(seals.frames)));
     QVERIFY(resent > 10);
+}
+
+// ---- a master that does not seal ----
+
+/// Greets \a node over TLS as its master. \return what the master says to its registration, without `seal`
+static QJsonObject greetSecured(ScriptedMaster &master, const SecurityFiles &files, QPlcSlaveNode &node)
+{
+    master.setSecurity(QPlcSecurity::preSharedKeys(files.write(
+        "plant.ini", SecurityFiles::section(node.name().toUtf8(), SecuredMaster::keyOf(node.name()), "Node"))));
+    node.setSecurity(SecuredMaster::securityOf(files, node.name()));
+    node.connectToMaster(master.udp());
+    if (master.next().kind() != QPlcMessage::Hello)
+        return {};
+    master.send(QPlcMessage::Hello, master.helloFields());
+    return master.registeredFields(master.next());
+}
+
+void tst_SealedCycles::aSecuredNodeTakesNoFramesWithoutKeys_data()
+{
+    QTest::addColumn<QJsonValue>("seal");
+    const QString key = QPlcMessage::fromBytes(QByteArray(32, 'k'));
+    const QString shorter = QPlcMessage::fromBytes(QByteArray(31, 'k'));
+    QTest::newRow("no field") << QJsonValue(QJsonValue::Undefined);
+    QTest::newRow("false") << QJsonValue(false);
+    QTest::newRow("null") << QJsonValue(QJsonValue::Null);
+    QTest::newRow("empty") << QJsonValue(QJsonObject());
+    QTest::newRow("one direction") << QJsonValue(QJsonObject{{"inputs", key}});
+    QTest::newRow("too short") << QJsonValue(QJsonObject{{"inputs", key}, {"outputs", shorter}});
+    QTest::newRow("no text") << QJsonValue(QJsonObject{{"inputs", key}, {"outputs", 7}});
+}
+
+void tst_SealedCycles::aSecuredNodeTakesNoFramesWithoutKeys()
+{
+    QFETCH(QJsonValue, seal);
+    ScriptedMaster master;
+    Mirror mirror("Mirror");
+    QJsonObject fields = greetSecured(master, m_files, mirror);
+    QVERIFY(!fields.isEmpty());
+    fields.insert("seal", seal);
+    master.send(QPlcMessage::Registered, fields);
+    master.send(QPlcMessage::CyclicChannelAttached);
+    QTRY_COMPARE(mirror.error(), QPlcSlaveNode::ProtocolError);
+    QCOMPARE(mirror.state(), QPlcSlaveNode::Rejected);
+    QVERIFY2(mirror.errorString().contains("gives node 'Mirror' no keys for its frames"),
+             qPrintable(mirror.errorString()));
+}
+
+void tst_SealedCycles::aSecuredNodeComputesNoFrameThatIsNotSealed()
+{
+    ScriptedMaster master;
+    Mirror mirror("Mirror");
+    QJsonObject fields = greetSecured(master, m_files, mirror);
+    const QString key = QPlcMessage::fromBytes(QByteArray(32, 'k'));
+    fields.insert("seal", QJsonObject{{"inputs", key}, {"outputs", key}});
+    master.send(QPlcMessage::Registered, fields);
+    master.send(QPlcMessage::CyclicChannelAttached);
+    QTRY_COMPARE(mirror.state(), QPlcSlaveNode::Registered);
+    QVERIFY(master.start());
+    master.request(0);  // in clear, and else as it should be
+    QByteArray asLongAsSealed = master.requestFrames(1, QByteArray(8, '\0')).first() + QByteArray(12, '\0');
+    master.sendFrame(asLongAsSealed);
+    QTRY_COMPARE(mirror.counters().rejected + mirror.counters().forged, quint64(2));
+    QCOMPARE(mirror.counters().cycles, quint64(0));
+    mirror.disconnectFromMaster();
 }
 
 // ---- what others see ----

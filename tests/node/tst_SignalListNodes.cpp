@@ -226,10 +226,11 @@ void tst_SignalListNodes::aLocalIoNodeKeepsItsPlace()
     LogCapture log;
     node.setInputSignalIndices(indices({"count"}));
     QCOMPARE(log.matching("process of its master").size(), 1);
-    node.disconnectFromMaster();  // nothing to disconnect
     QCOMPARE(node.state(), QPlcSlaveNode::RealTime);
     QVERIFY(master.waitForCycles(10));
-    master.stop();
+    node.disconnectFromMaster();  // as every node does
+    QCOMPARE(node.state(), QPlcSlaveNode::Disconnected);
+    QVERIFY(master.nodes().isEmpty());
 }
 
 void tst_SignalListNodes::aBufferNodeKeepsEveryCycleInOrder_data()

@@ -17,6 +17,7 @@ private Q_SLOTS:
     void mistakesAreSentences();
     void aFileForOthersIsRefused();
     void programsFlyWithKeys();
+    void aSecuredFlightStartsWithItsNodes();
     void optionsThatDoNotFitAreRefused_data();
     void optionsThatDoNotFitAreRefused();
 
@@ -135,7 +136,7 @@ void tst_qtplc_keys::programsFlyWithKeys()
     };
     const Outcome denied = qtplc("bert", {"start"});
     QCOMPARE(denied.exitCode, 1);
-    QVERIFY2(denied.errors.contains("Denied: role Observer may not StartRealTime"), qPrintable(denied.errors));
+    QVERIFY2(denied.errors.contains("Denied: role Observer may not InitializeAllStates"), qPrintable(denied.errors));
     QCOMPARE(qtplc("bert", {"get", "power", "--plain"}).exitCode, 0);
     QCOMPARE(qtplc("anna", {"start", "--cycles", "10"}).exitCode, 0);
     QCOMPARE(qtplc("bert", {"echo", "power", "--count", "1"}).exitCode, 0);
@@ -148,6 +149,24 @@ void tst_qtplc_keys::programsFlyWithKeys()
     QCOMPARE(revoked.exitCode, 2);
     QVERIFY2(revoked.errors.contains("does not know identity 'anna'"), qPrintable(revoked.errors));
     QVERIFY2(master.waitForErrors("unknown identity 'anna'"), qPrintable(master.errors()));
+}
+
+void tst_qtplc_keys::aSecuredFlightStartsWithItsNodes()
+{
+    for (const char *name : {"Model", "Autopilot"})
+        QCOMPARE(keys({"new", name, "--copy", path(name)}).exitCode, 0);
+    Program master(programPath("awe_master"),
+                   {"--port=0", "--security=psk", "--keys=" + path("keys.ini"), "--start-with=Model,Autopilot",
+                    "--lockstep", "--duration=1"});
+    QVERIFY(master.waitForOutput("\n"));
+    const QString port = master.output().section('\n', 0, 0).section(' ', 1);
+    const auto node = [&](const char *program, const char *name) {
+        return std::make_unique<Program>(
+            programPath(program), QStringList{"--master=127.0.0.1:" + port, "--security=psk", "--keys=" + path(name)});
+    };
+    const auto model = node("awe_model", "Model");
+    const auto autopilot = node("awe_autopilot", "Autopilot");
+    QVERIFY2(master.waitForEnd() == 0, qPrintable(master.errors()));
 }
 
 void tst_qtplc_keys::optionsThatDoNotFitAreRefused_data()

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "realtime/InterruptibleWaits.h"
+#include "realtime/TimeSource.h"
 
 #include <QtCore/QElapsedTimer>
 #include <QtTest/QtTest>
@@ -11,6 +12,7 @@
 #include <unistd.h>
 
 using qplc::InterruptibleWaits;
+using qplc::TimeSource;
 
 class tst_InterruptibleWaits : public QObject
 {
@@ -18,6 +20,7 @@ class tst_InterruptibleWaits : public QObject
 
 private Q_SLOTS:
     void aWaitEndsEachPeriod();
+    void aWaitEndsAtAnInstantAndAgainUntilAnotherOneIsSet();
     void onlyTheThreadThatWantsItIsInterrupted();
     void nothingComesAfterwards();
     void anotherThreadEndsAWait();
@@ -39,6 +42,26 @@ void tst_InterruptibleWaits::aWaitEndsEachPeriod()
     const InterruptibleWaits interrupt(2'000'000);
     for (int i = 0; i < 5; ++i)
         QCOMPARE(waitInVain(20'000), EINTR);
+}
+
+void tst_InterruptibleWaits::aWaitEndsAtAnInstantAndAgainUntilAnotherOneIsSet()
+{
+    TimeSource &clock = TimeSource::monotonic();
+    InterruptibleWaits interrupt;
+    QCOMPARE(waitInVain(5), 0);  // none is set
+    const std::int64_t instant = clock.now() + 10'000'000;
+    interrupt.interruptAt(instant, 1'000'000);
+    for (int i = 0; i < 3; ++i) {
+        QCOMPARE(waitInVain(20'000), EINTR);
+        QVERIFY(clock.now() >= instant);
+    }
+    interrupt.interruptAt(clock.now() + 3'600'000'000'000, 1'000'000);
+    waitInVain(3);  // one that was under way
+    QCOMPARE(waitInVain(20), 0);
+    interrupt.interruptAt(clock.now() - 5, 1'000'000'000);  // over: at once
+    // It comes before the wait, as it may: the next one ends it.
+    interrupt.interruptAt(0, 1'000'000);
+    QCOMPARE(waitInVain(20'000), EINTR);
 }
 
 void tst_InterruptibleWaits::onlyTheThreadThatWantsItIsInterrupted()
@@ -65,7 +88,7 @@ void tst_InterruptibleWaits::nothingComesAfterwards()
 
 void tst_InterruptibleWaits::anotherThreadEndsAWait()
 {
-    const InterruptibleWaits interruptible(0);
+    const InterruptibleWaits interruptible;
     std::atomic<bool> ended{false};
     std::thread other([&, waiting = ::pthread_self()] {
         while (!ended) {

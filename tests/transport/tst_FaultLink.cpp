@@ -153,6 +153,8 @@ void tst_FaultLink::aHeldFrameComesBehindTheNext()
     QCOMPARE(fixture.receive(0), numbers({1, 0, 3, 2}));  // 4 waits for the next
     fixture.toy->arrived.push_back("5");
     QCOMPARE(fixture.receive(0), numbers({5, 4}));
+    QCOMPARE(fixture.link->received().count(FaultInjector::Reordered),
+             std::uint64_t(3));  // 0, 2 and 4, no other could be
 }
 
 void tst_FaultLink::delayedFramesComeWhenTheyAreDue()

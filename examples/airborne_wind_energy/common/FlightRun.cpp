@@ -150,9 +150,26 @@ void FlightRun::startIfComplete()
     if (m_begun && !m_started && missing.isEmpty() && !m_settings.awaitedNodes.isEmpty()) {
         m_started = true;
         // Not from within the registration of a node.
-        QMetaObject::invokeMethod(
-            this, [this] { m_master.startRealTime(); }, Qt::QueuedConnection);
+        QMetaObject::invokeMethod(this, &FlightRun::start, Qt::QueuedConnection);
     }
+}
+
+/// --start-with permits this one start, also where every start has to be permitted.
+void FlightRun::start()
+{
+    if (!m_master.isArmingRequired()) {
+        m_master.startRealTime();
+        return;
+    }
+    const auto armAndStart = [this](QPlcMasterNode::State state) {
+        if (state != QPlcMasterNode::Ready)
+            return;
+        disconnect(&m_master, &QPlcMasterNode::stateChanged, this, nullptr);
+        if (m_master.arm())
+            m_master.startRealTime();
+    };
+    connect(&m_master, &QPlcMasterNode::stateChanged, this, armAndStart, Qt::QueuedConnection);
+    m_master.initializeAllStates();
 }
 
 void FlightRun::started()

@@ -54,6 +54,7 @@ Q_SIGNALS:
 
 private:
     void startIfComplete();
+    void start();
     void started();
     void stopped();
     /// Whether the program ends with the flight that has begun by itself.

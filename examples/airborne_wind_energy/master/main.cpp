@@ -40,6 +40,10 @@ void addMasterOptions(QPlcCoreApplication &application)
             "Lets --listen open the plant to the network without --security: everybody there can command it.")));
     application.addSecurityOptions(QPlcSecurity::MasterSide);
     application.addOption(QCommandLineOption(
+        QStringLiteral("no-arming"),
+        QStringLiteral(
+            "Lets one message start the plant. Without it a start has to be armed before, with --security.")));
+    application.addOption(QCommandLineOption(
         QStringLiteral("beacon"),
         QStringLiteral("Tells the network of --listen every 2 s where this master is, for qtplc find and windows.")));
     application.addOption(QCommandLineOption(
@@ -125,6 +129,8 @@ int main(int argc, char **argv)
     master.setRealTimeOptions(settings.realTime);
     master.setInsecureNetworkAllowed(application.isSet(QStringLiteral("insecure-network")));
     master.setSecurity(settings.security);
+    if (application.isSet(QStringLiteral("no-arming")))
+        master.setArmingRequired(false);
     master.setMulticastGroup(settings.multicastGroup);
     master.setFaultPlan(settings.faultPlan);
     master.setBeacon(application.isSet(QStringLiteral("beacon")));

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "NodeFixtures.h"
+
+#include <QtTest/QtTest>
+
+#include <atomic>
+#include <memory>
+#include <thread>
+
+using namespace std::chrono_literals;
+
+// Nodes that are destroyed while their cycles run.
+class tst_Destruction : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void init() { QPlcSignalIndexTable::setCurrent({}); }
+    void portsEndTheCyclesBeforeTheyGo_data() { addKinds(); }
+    void portsEndTheCyclesBeforeTheyGo();
+    void aNodeThatDisconnectsFirstIsMadeSafe_data() { addKinds(); }
+    void aNodeThatDisconnectsFirstIsMadeSafe();
+    void aNodeWithoutPortsIsWarnedOfAndDoesNotCrash_data() { addKinds(); }
+    void aNodeWithoutPortsIsWarnedOfAndDoesNotCrash();
+    void aNodeDrivenFromOutsideMayEndAtAnyTime_data() { addKinds(); }
+    void aNodeDrivenFromOutsideMayEndAtAnyTime();
+    void aPortMayLiveLongerThanItsNode();
+    void aNodeWithoutRealTimeoutIsAFaultThatSaysSo();
+
+private:
+    static constexpr int Rounds = 20;
+    static void addKinds()
+    {
+        QTest::addColumn<QString>("kind");
+        for (const char *kind : {"local", "udp", "tcp"})
+            QTest::newRow(kind) << kind;
+    }
+    /// A plant as fast as it can be, in which \a node computes.
+    static bool fly(TestMaster &master, QPlcSlaveNode &node, const QString &kind)
+    {
+        return (kind == QLatin1String("local") || master.listen()) && master.admit(node, kind) && master.startRealTime()
+            && master.waitForState(QPlcMasterNode::RealTime) && master.waitForCycles(3);
+    }
+};
+
+namespace {
+
+/// What step() needs beside its ports. It is destroyed behind them, slowly.
+struct Tool
+{
+    ~Tool()
+    {
+        isGone = true;
+        std::this_thread::sleep_for(3ms);
+    }
+    std::atomic<bool> isGone{false};
+};
+
+class Winch : public QPlcCompactSlaveNode
+{
+    Q_OBJECT
+public:
+    explicit Winch(std::atomic<int> &late)
+        : QPlcCompactSlaveNode(QStringLiteral("Winch"))
+        , m_late(late)
+    {
+    }
+
+private:
+    void step(const QPlcCycle &) override
+    {
+        if (m_tool.isGone)
+            ++m_late;
+        *m_length = *m_length + m_setpoint;
+        m_echo = *m_length;
+    }
+    void safeState(SafeStateReason) override
+    {
+        if (m_tool.isGone)
+            ++m_late;
+    }
+
+    std::atomic<int> &m_late;
+    Tool m_tool;
+    std::unique_ptr<double> m_length = std::make_unique<double>(0.0);
+    QPlcInput<double> m_setpoint{this, "setpoint"};
+    QPlcOutput<double> m_echo{this, "echo"};
+};
+
+/// As Winch, with lists.
+class ListNode : public QPlcSlaveNode
+{
+    Q_OBJECT
+public:
+    enum Leaving { ByItself, NotAtAll };
+
+    ListNode(Leaving leaving, std::atomic<int> &safeStates)
+        : QPlcSlaveNode(QStringLiteral("Lists"))
+        , m_leaving(leaving)
+        , m_safeStates(safeStates)
+    {
+    }
+    ~ListNode() override
+    {
+        if (m_leaving == ByItself)
+            disconnectFromMaster();
+    }
+
+private:
+    QPlcSignalIndexList declareInputSignals() override { return indices({"setpoint"}); }
+    QPlcSignalList realTimeout(const QPlcSignalList &) override { return {}; }
+    void safeState(SafeStateReason) override { ++m_safeStates; }
+
+    const Leaving m_leaving;
+    std::atomic<int> &m_safeStates;
+};
+
+const QString Warning = QStringLiteral("is destroyed while its cycles run");
+
+}  // namespace
+
+void tst_Destruction::portsEndTheCyclesBeforeTheyGo()
+{
+    QFETCH(QString, kind);
+    for (int i = 0; i < Rounds; ++i) {
+        LogCapture log;
+        std::atomic<int> late{0};
+        TestMaster master;
+        auto winch = std::make_unique<Winch>(late);
+        QVERIFY(fly(master, *winch, kind));
+        winch.reset();
+        QCOMPARE(late.load(), 0);
+        QCOMPARE(log.matching("node Winch " + Warning).size(), 1);
+        QVERIFY(log.matching(Warning).first().contains("call disconnectFromMaster() first"));
+        QTRY_VERIFY(master.nodes().isEmpty());
+    }
+}
+
+void tst_Destruction::aNodeThatDisconnectsFirstIsMadeSafe()
+{
+    QFETCH(QString, kind);
+    QPlcSignalIndexTable::setCurrent(testTable());
+    for (int i = 0; i < Rounds; ++i) {
+        LogCapture log;
+        std::atomic<int> safeStates{0};
+        TestMaster master;
+        auto node = std::make_unique<ListNode>(ListNode::ByItself, safeStates);
+        QVERIFY(fly(master, *node, kind));
+        node.reset();
+        QCOMPARE(safeStates.load(), 1);
+        QVERIFY(log.matching(Warning).isEmpty());
+        QTRY_VERIFY(master.nodes().isEmpty());
+    }
+}
+
+void tst_Destruction::aNodeWithoutPortsIsWarnedOfAndDoesNotCrash()
+{
+    QFETCH(QString, kind);
+    QPlcSignalIndexTable::setCurrent(testTable());
+    for (int i = 0; i < Rounds; ++i) {
+        LogCapture log;
+        std::atomic<int> safeStates{0};
+        TestMaster master;
+        auto node = std::make_unique<ListNode>(ListNode::NotAtAll, safeStates);
+        QVERIFY(fly(master, *node, kind));
+        node.reset();
+        QCOMPARE(log.matching("node Lists " + Warning).size(), 1);
+        QTRY_VERIFY(master.nodes().isEmpty());
+    }
+}
+
+void tst_Destruction::aNodeDrivenFromOutsideMayEndAtAnyTime()
+{
+    QFETCH(QString, kind);
+    QPlcSignalIndexTable::setCurrent(testTable());
+    for (int i = 0; i < Rounds; ++i) {
+        LogCapture log;
+        TestMaster master;
+        std::unique_ptr<QPlcIOSlaveNode> node;
+        if (i % 2 == 0)
+            node = std::make_unique<QPlcIOSlaveNode>(QStringLiteral("Panel"));
+        else
+            node = std::make_unique<QPlcIOBufferSlaveNode>(QStringLiteral("Panel"));
+        node->setInputSignalIndices(indices({"setpoint"}));
+        QVERIFY(fly(master, *node, kind));
+        node.reset();
+        QVERIFY(log.matching(Warning).isEmpty());
+        QTRY_VERIFY(master.nodes().isEmpty());
+    }
+}
+
+void tst_Destruction::aPortMayLiveLongerThanItsNode()
+{
+    std::unique_ptr<QPlcInput<double>> port;
+    {
+        EchoNode node;
+        port = std::make_unique<QPlcInput<double>>(&node, "setpoint");
+    }
+    port.reset();
+    EchoNode node;
+    {
+        const QPlcInput<double> gone(&node, "no such signal");
+    }
+    TestMaster master;
+    QVERIFY2(master.addLocalNode(&node), qPrintable(master.errorString()));
+}
+
+namespace {
+
+class Empty : public QPlcSlaveNode
+{
+public:
+    Empty()
+        : QPlcSlaveNode(QStringLiteral("Empty"))
+    {
+    }
+};
+
+}  // namespace
+
+void tst_Destruction::aNodeWithoutRealTimeoutIsAFaultThatSaysSo()
+{
+    LogCapture log;
+    TestMaster master;
+    Empty node;
+    QVERIFY(master.addLocalNode(&node));
+    QVERIFY(master.startRealTime());
+    QTRY_VERIFY2(master.errorString().contains("override it"), qPrintable(master.errorString()));
+    node.disconnectFromMaster();
+    QVERIFY(master.nodes().isEmpty());
+}
+
+QTEST_GUILESS_MAIN(tst_Destruction)
+#include "tst_Destruction.moc"
