@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace soak {
 
@@ -26,19 +27,19 @@ struct Phase
     bool hasEnded = false;  // by a stop: the counters are those of all its cycles
 };
 
-std::vector<Phase> phasesOf(const History &master)
+/// By their numbers.
+std::map<quint64, Phase> phasesOf(const History &master)
 {
-    std::vector<Phase> phases;
+    std::map<quint64, Phase> phases;
     for (const Record &record : master.records) {
         if (record.kind == Record::Cycle) {
-            if (phases.empty() || record.cycle <= phases.back().cycles.back()->cycle)
-                phases.emplace_back();
-            phases.back().cycles.push_back(&record);
-        } else if (record.kind == Record::Counters && !phases.empty()
-                   && record.numbers[Record::MasterPhase] == phases.size()) {
-            phases.back().counters = &record;
+            phases[record.numbers[Record::CyclePhase]].cycles.push_back(&record);
+        } else if (record.kind == Record::Counters) {
+            const auto phase = phases.find(record.numbers[Record::MasterPhase]);
+            if (phase != phases.end())
+                phase->second.counters = &record;
         } else if (record.kind == Record::State && !phases.empty()) {
-            phases.back().hasEnded = record.numbers[0] == Record::Off || record.numbers[0] == Record::Ready;
+            phases.rbegin()->second.hasEnded = record.numbers[0] == Record::Off || record.numbers[0] == Record::Ready;
         }
     }
     return phases;
@@ -107,12 +108,13 @@ bool isToldByAnEvent(FaultKind kind)
 /// [ns] that the thread of the master that tells of events was kept from running between two times.
 qint64 waitedBetween(const History &master, const Record &event, qint64 begin)
 {
-    qint64 waited = event.waited;
-    for (const Record &record : master.records) {
-        if (record.thread == event.thread && record.time <= begin)
-            waited = record.waited;
+    auto record = firstFrom(master, begin + 1);
+    while (record != master.records.begin()) {
+        --record;
+        if (record->thread == event.thread)
+            return std::max<qint64>(0, event.waited - record->waited);
     }
-    return std::max<qint64>(0, event.waited - waited);
+    return 0;
 }
 
 /// Whether the plant may have gone safe for a stall of the machine just before a fault: what is not there cannot be hit.
@@ -194,8 +196,8 @@ Gate cyclesAddUp(const Evidence &evidence)
 {
     Gate gate("cycles add up");
     for (const History &master : evidence.masters) {
-        const std::vector<Phase> phases = phasesOf(master);
-        for (const Phase &phase : phases)
+        const std::map<quint64, Phase> phases = phasesOf(master);
+        for (const auto &[number, phase] : phases)
             lookAtPhase(evidence, master, phase, &gate);
     }
     return gate;
@@ -306,24 +308,6 @@ Gate faultsAreCounted(const Evidence &evidence)
         else
             gate.fail(QStringLiteral("%1: %2 were done, %3 counted").arg(nameOf(fault)).arg(fault.amount).arg(counted));
     }
-    return gate;
-}
-
-Gate attemptsAreRefused(const Evidence &evidence)
-{
-    Gate gate("attempts are refused");
-    for (const Record &record : evidence.runner.records) {
-        if (record.kind == Record::Attempts)
-            gate.looked = qint64(record.numbers[0]);
-    }
-    gate.isAsked = gate.looked > 0;
-    if (!gate.isAsked)
-        return gate;
-    qint64 refused = 0;
-    for (const History &master : evidence.masters)
-        refused += qint64(recordsOf(master, Record::Refused, -1, 0, std::numeric_limits<qint64>::max()).size());
-    if (refused != gate.looked)
-        gate.fail(QStringLiteral("%1 attempts, %2 refused").arg(gate.looked).arg(refused));
     return gate;
 }
 

@@ -31,7 +31,6 @@ private Q_SLOTS:
     void aDatagramThatIsNotCountedIsFound();
     void aRefusalThatIsNotToldIsFound();
     void aNodeThatIsLostTwiceIsFound();
-    void anAttemptThatIsNotRefusedIsFound();
     void aDescriptorThatLeaksIsFound();
     void aThreadThatLeaksIsFound();
     void aNewLifeIsNotComparedWithAnOldOne();
@@ -240,19 +239,6 @@ void tst_PlantGates::aNodeThatIsLostTwiceIsFound()
         for (int i = 0; i < told; ++i)
             HandMade::add(plant.master(), Record::Lost, 1, HandMade::at(51));
         QCOMPARE(plant.judge(&soak::faultsAreCounted).passed(), told == 1);
-    }
-}
-
-void tst_PlantGates::anAttemptThatIsNotRefusedIsFound()
-{
-    QVERIFY(!HandMade().judge(&soak::attemptsAreRefused).isAsked);
-    for (const int refused : {2, 3}) {
-        HandMade plant;
-        HandMade::add(plant.runner(), Record::Attempts, -1, HandMade::at(50), {1});
-        HandMade::add(plant.runner(), Record::Attempts, -1, HandMade::at(60), {3});
-        for (int i = 0; i < refused; ++i)
-            HandMade::add(plant.master(), Record::Refused, -1, HandMade::at(50));
-        QCOMPARE(plant.judge(&soak::attemptsAreRefused).passed(), refused == 3);
     }
 }
 
