@@ -45,13 +45,27 @@ std::map<quint64, Phase> phasesOf(const History &master)
     return phases;
 }
 
-void lookAtPhase(const Evidence &evidence, const History &master, const Phase &phase, Gate *gate)
+/// Whether the master was stopped on purpose when it wrote this: then it did so as long after its cycle as it was stopped.
+bool wasStopped(const Evidence &evidence, const Record &cycle)
+{
+    return std::any_of(evidence.faults.begin(), evidence.faults.end(), [&](const DoneFault &fault) {
+        return fault.kind == FaultKind::StopMaster && fault.begin <= cycle.time
+            && cycle.time <= fault.end + evidence.period;
+    });
+}
+
+/// Of a phase that ended with a stop of the master, the last cycle that was written down in time.
+const Record &lastInTime(const Evidence &evidence, const Phase &phase)
+{
+    const auto found = std::find_if(phase.cycles.rbegin(), phase.cycles.rend(),
+                                    [&](const Record *cycle) { return !wasStopped(evidence, *cycle); });
+    return found == phase.cycles.rend() ? *phase.cycles.front() : **found;
+}
+
+void lookAtGrid(const Evidence &evidence, const History &master, const Phase &phase, Gate *gate)
 {
     const Record &first = *phase.cycles.front();
-    const Record &last = *phase.cycles.back();
-    ++gate->looked;
-    gate->figures[QStringLiteral("cycles")] += double(phase.cycles.size());
-    gate->figures[QStringLiteral("skipped")] += double(last.cycle + 1 - phase.cycles.size());
+    const Record &last = lastInTime(evidence, phase);
     const double periods = double(last.time - first.time) / double(evidence.period);
     const double ahead = double(last.cycle - first.cycle) - periods;
     const double stalled = double(std::max<qint64>(0, last.waited - first.waited)) / double(evidence.period);
@@ -65,6 +79,15 @@ void lookAtPhase(const Evidence &evidence, const History &master, const Phase &p
                            .arg(last.cycle - first.cycle)
                            .arg(periods));
     }
+}
+
+void lookAtPhase(const Evidence &evidence, const History &master, const Phase &phase, Gate *gate)
+{
+    const Record &last = *phase.cycles.back();
+    ++gate->looked;
+    gate->figures[QStringLiteral("cycles")] += double(phase.cycles.size());
+    gate->figures[QStringLiteral("skipped")] += double(last.cycle + 1 - phase.cycles.size());
+    lookAtGrid(evidence, master, phase, gate);
     if (!phase.hasEnded || !phase.counters)
         return;
     const quint64 computed = phase.counters->numbers[Record::Cycles];
@@ -124,12 +147,12 @@ bool fellBefore(const Evidence &evidence, const DoneFault &fault)
     return evidence.stalls.within(fault.begin - before, fault.end) >= evidence.period;
 }
 
-/// The time of the last step before the link of a node was cut.
+/// The time of the last step before the link of a node was cut. The life before that with the link had a good one.
 qint64 cutOf(const Evidence &evidence, const DoneFault &fault)
 {
     const Record *last = nullptr;
     for (const History &history : evidence.nodes) {
-        if (history.node != fault.node)
+        if (history.node != fault.node || history.records.empty() || history.records.front().time < fault.begin)
             continue;
         for (const Record &record : history.records) {
             if (record.kind != Record::Step || record.time < fault.begin || record.time > fault.end)
