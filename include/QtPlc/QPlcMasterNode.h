@@ -157,7 +157,7 @@ public:
     /// who was revoked does not come in again, and who was added does. Takes effect with startServer().
     void setSecurity(const QPlcSecurity &security);
     QPlcSecurity security() const;
-    /// How many nodes and tools may be connected at a time; 256 unless set. Further ones are closed at once. Takes effect with startServer().
+    /// How many nodes and tools may be connected at a time; 320 unless set, which is for 254 nodes. Further ones are closed at once. Takes effect with startServer().
     void setMaximumConnections(int connections);
     /// Registers \a node, which then lives in this process and is called on the cycle thread. The caller keeps owning it. A node that ends leaves
     /// the master; while cycles run it must not end before removeLocalNode(). \return false when it is refused, or when the state is not Off

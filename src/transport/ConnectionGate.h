@@ -19,7 +19,7 @@ class ConnectionGate
 public:
     struct Limits
     {
-        int connections = 256;            // at a time
+        int connections = 320;            // at a time: 254 nodes, strangers, and as many tools
         int strangers = 32;               // of them, at a time; more wait in the queue of the system
         int strangersOfAddress = 8;       // of them, from one address
         int acceptsPerSecond = 50;        // on the long run

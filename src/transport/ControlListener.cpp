@@ -8,6 +8,12 @@
 
 namespace qplc {
 
+namespace {
+
+constexpr int Queue = 512;  // of who has not been taken yet: all nodes of a plant may come back at once
+
+}  // namespace
+
 ControlListener::ControlListener(QObject *parent)
     : QObject(parent)
 {
@@ -23,7 +29,8 @@ bool ControlListener::listen(const QHostAddress &address, quint16 port)
     close();
     if (!m_server.listen(address, port))
         return false;
-    m_server.pauseAccepting();  // its notifier is off: this one takes its place
+    ::listen(int(m_server.socketDescriptor()), Queue);  // Qt asks for 50
+    m_server.pauseAccepting();                          // its notifier is off: this one takes its place
     m_notifier = std::make_unique<QSocketNotifier>(m_server.socketDescriptor(), QSocketNotifier::Read);
     connect(m_notifier.get(), &QSocketNotifier::activated, this, &ControlListener::arrived);
     reserve();

@@ -2,7 +2,6 @@
 #include "NodeFixtures.h"
 
 #include <QtCore/QStandardPaths>
-#include <QtNetwork/QNetworkInterface>
 #include <QtNetwork/QTcpServer>
 #include <QtNetwork/QTcpSocket>
 #include <QtNetwork/QUdpSocket>
@@ -251,13 +250,10 @@ void tst_Transports::theNetworkIsClosedUnlessSaidLoudly()
     TestMaster master;
     QVERIFY(master.listen(QHostAddress::Any));
     QCOMPARE(log.matching("listening on 127.0.0.1 only").size(), 1);
-    for (const QHostAddress &own : QNetworkInterface::allAddresses()) {
-        if (own.isLoopback() || own.protocol() != QAbstractSocket::IPv4Protocol)
-            continue;
-        QTcpSocket socket;
-        socket.connectToHost(own, master.serverPort());
-        QTRY_COMPARE(socket.state(), QAbstractSocket::UnconnectedState);
-    }
+    // Another address of this machine, which each machine has, with or without a network: who listens on all of them answers there, too.
+    QTcpSocket socket;
+    socket.connectToHost(QHostAddress(QStringLiteral("127.0.0.2")), master.serverPort());
+    QTRY_COMPARE(socket.error(), QAbstractSocket::ConnectionRefusedError);
     CounterNode counter;
     QVERIFY(counter.connectToMasterAndWaitForConnected(master.protocol("udp")));
     counter.disconnectFromMaster();

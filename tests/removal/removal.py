@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Takes the defences of QtPLC away, one after the other, in a copy of the sources, and sees whether the test notices that is said to show the defence.
 
-usage: removal.py [--work FOLDER] [--only WORD] [--check] SOURCE_FOLDER
+usage: removal.py [--work FOLDER] [--only WORD]... [--jobs N] [--check] SOURCE_FOLDER
 
 --work FOLDER  keeps the copy and its build there: the next call is faster
---only WORD    only the faults with this word in their names
+--only WORD    only the faults with this word in their names; may come several times
+--jobs N       compilers at a time; one leaves the rest of the machine to others
 --check        builds nothing: sees whether all that is to be taken away is there, and all tests are
 """
 import argparse
@@ -54,8 +55,8 @@ def run(*command, **options):
     return subprocess.run([str(word) for word in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, **options)
 
 
-def build(folder, *targets):
-    result = run("cmake", "--build", folder, "--parallel", 2, "--target", *targets)
+def build(folder, jobs, *targets):
+    result = run("cmake", "--build", folder, "--parallel", jobs, "--target", *targets)
     return None if result.returncode == 0 else result.stdout
 
 
@@ -66,13 +67,13 @@ def passes(folder, removal):
         return False
 
 
-def outcome(source, folder, removal):
+def outcome(source, folder, jobs, removal):
     """What the test says without the defence."""
     path = source / removal.file
     text = path.read_text()
     path.write_text(text.replace(removal.old, removal.new))
     try:
-        log = build(folder, removal.program)
+        log = build(folder, jobs, removal.program)
         if log:
             return "NOT BUILT: " + next((line for line in log.split("\n") if "error" in line), "")
         return "NOT NOTICED" if passes(folder, removal) else "noticed"
@@ -80,22 +81,22 @@ def outcome(source, folder, removal):
         path.write_text(text)
 
 
-def prove(root, work, removals):
+def prove(root, work, jobs, removals):
     source, folder = work, work / "build/removal"
     copy(root, source)
     # As the preset release says, so that a compiler cache knows most of it.
     options = ["-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG", "-DQTPLC_WARNINGS_AS_ERRORS=ON", "-DQTPLC_BUILD_GUI=OFF",
                "-DQTPLC_BUILD_EXAMPLES=OFF", "-DQTPLC_BUILD_BENCHMARKS=OFF"]
     configured = run("cmake", "-S", source, "-B", folder, "-G", "Ninja", *options)
-    log = configured.stdout if configured.returncode != 0 else build(folder, *sorted({removal.program for removal in removals}))
+    log = configured.stdout if configured.returncode != 0 else build(folder, jobs, *sorted({removal.program for removal in removals}))
     if log:
         sys.exit(log)
     failed = 0
     for removal in removals:
-        result = outcome(source, folder, removal)
+        result = outcome(source, folder, jobs, removal)
         failed += result != "noticed"
         print(f"{result:12} {removal.fault:55} {removal.program}::{removal.test}", flush=True)
-    log = build(folder, *sorted({removal.program for removal in removals}))
+    log = build(folder, jobs, *sorted({removal.program for removal in removals}))
     broken = sorted({f"{removal.program}::{removal.test}" for removal in removals if log or not passes(folder, removal)})
     for test in broken:
         print(f"fails with its defence, too: {test}")
@@ -106,22 +107,23 @@ def prove(root, work, removals):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--work", type=Path)
-    parser.add_argument("--only", default="")
+    parser.add_argument("--only", action="append")
+    parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--check", action="store_true")
     parser.add_argument("root", type=Path)
     arguments = parser.parse_args()
     root = arguments.root.resolve()
-    removals = [removal for removal in REMOVALS if arguments.only in removal.fault]
+    removals = [removal for removal in REMOVALS if any(word in removal.fault for word in arguments.only or [""])]
     errors = errors_of(root, removals)
     if errors or not removals:
-        sys.exit("\n".join(errors) or f"no fault has '{arguments.only}' in its name")
+        sys.exit("\n".join(errors) or f"no fault has one of {arguments.only} in its name")
     if arguments.check:
         print(f"{len(removals)} defences are where they were")
         return 0
     if arguments.work:
-        return prove(root, arguments.work.resolve(), removals)
+        return prove(root, arguments.work.resolve(), arguments.jobs, removals)
     with tempfile.TemporaryDirectory(prefix="qtplc-removal-") as work:
-        return prove(root, Path(work), removals)
+        return prove(root, Path(work), arguments.jobs, removals)
 
 
 if __name__ == "__main__":

@@ -8,6 +8,18 @@
 
 namespace soak {
 
+namespace {
+
+/// Threads of a process share its history, and may have overtaken each other on their way to it.
+void sortByTime(History *history)
+{
+    const auto isBefore = [](const Record &a, const Record &b) { return a.time < b.time; };
+    if (!std::is_sorted(history->records.begin(), history->records.end(), isBefore))
+        std::stable_sort(history->records.begin(), history->records.end(), isBefore);
+}
+
+}  // namespace
+
 Stalls::Stalls(const History &runner)
 {
     std::vector<Span> spans;
@@ -27,8 +39,10 @@ Stalls::Stalls(const History &runner)
 qint64 Stalls::within(qint64 begin, qint64 end) const
 {
     qint64 sum = 0;
-    for (const Span &span : m_spans)
-        sum += std::max<qint64>(0, std::min(end, span.end) - std::max(begin, span.begin));
+    const auto isBefore = [](const Span &span, qint64 time) { return span.end < time; };
+    auto span = std::lower_bound(m_spans.begin(), m_spans.end(), begin, isBefore);
+    for (; span != m_spans.end() && span->begin < end; ++span)
+        sum += std::min(end, span->end) - std::max(begin, span->begin);
     return sum;
 }
 
@@ -60,6 +74,11 @@ void Evidence::complete()
     const auto byLife = [](const History &a, const History &b) { return a.life < b.life; };
     std::stable_sort(nodes.begin(), nodes.end(), byLife);
     std::stable_sort(masters.begin(), masters.end(), byLife);
+    for (std::vector<History> *histories : {&nodes, &masters}) {
+        for (History &history : *histories)
+            sortByTime(&history);
+    }
+    sortByTime(&runner);
     stalls = Stalls(runner);
     faults.clear();
     for (const Record &record : runner.records) {
@@ -114,13 +133,19 @@ bool Evidence::isExplained(qint64 time, int node) const
     });
 }
 
+std::vector<Record>::const_iterator firstFrom(const History &history, qint64 time)
+{
+    const auto isBefore = [](const Record &record, qint64 begin) { return record.time < begin; };
+    return std::lower_bound(history.records.begin(), history.records.end(), time, isBefore);
+}
+
 std::vector<const Record *> recordsOf(const History &history, Record::Kind kind, int subject, qint64 begin, qint64 end)
 {
     const quint16 wanted = subject < 0 ? Record::Nobody : quint16(subject);
     std::vector<const Record *> found;
-    for (const Record &record : history.records) {
-        if (record.kind == kind && record.subject == wanted && record.time >= begin && record.time <= end)
-            found.push_back(&record);
+    for (auto record = firstFrom(history, begin); record != history.records.end() && record->time <= end; ++record) {
+        if (record->kind == kind && record->subject == wanted)
+            found.push_back(&*record);
     }
     return found;
 }

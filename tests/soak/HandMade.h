@@ -27,7 +27,7 @@ public:
         add(runner(), soak::Record::Command, -1, 1000 * Millisecond);
         setState(soak::Record::RealTime, 1900 * Millisecond);
         for (int cycle = 0; cycle < cycles; ++cycle) {
-            add(master(), soak::Record::Cycle, -1, at(quint64(cycle)), {}, quint64(cycle));
+            add(master(), soak::Record::Cycle, -1, at(quint64(cycle)), {1}, quint64(cycle));
             for (int node = 0; node < 3; ++node)
                 addStep(node, quint64(cycle));
         }

@@ -21,8 +21,8 @@ struct Record
         PhaseEnded,
         MasterLost,
         // of a master; subject: a node, or Nobody
-        Cycle = 100,
-        State,  // numbers: a MasterState
+        Cycle = 100,  // numbers: see CycleNumber
+        State,        // numbers: a MasterState
         Registered,
         Lost,
         Refused,
@@ -36,7 +36,7 @@ struct Record
         FaultEnds,      // numbers: kind, amount that was really done
         Command,        // of the operator: the plant may move. numbers: life of the master
         Recovered,      // the whole plant runs again
-        Attempts,       // of strangers to get in, so far. numbers: how many
+        Attempts,       // to do what is forbidden, so far. numbers: see AttemptNumber
         Usage,          // of a process. numbers: see UsageNumber
         Stall           // the machine did not let a thread run that was ready. numbers: begin [ns]; time: end
     };
@@ -52,7 +52,24 @@ struct Record
         Drive,
         Quality
     };
-    enum MasterNumber { MasterPhase, Cycles, Skipped, Strangers, LateAnswers, Overruns, Incomplete };
+    enum CycleNumber { CyclePhase };  // of the same count as MasterPhase and NodePhase
+    enum MasterNumber {
+        MasterPhase,
+        Cycles,
+        Skipped,
+        Strangers,
+        LateAnswers,
+        Overruns,
+        Incomplete,
+        FailedHandshakes,
+        DeniedMessages
+    };
+    enum AttemptNumber {
+        Made,
+        Ended,
+        Commands,
+        Denials
+    };  // connections of strangers; messages of who may not send them
     enum NodeNumber { NodePhase, Answers, NodeLate, AnswersLost, Duplicated, Reordered, Rejected, Resent };
     enum SafeNumber { SafeDriveBits, IsWanted };  // wanted: the phase ended
     enum UsageNumber { Descriptors, Threads, ResidentKb, UsageLife, IsCompared };

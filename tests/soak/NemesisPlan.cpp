@@ -61,13 +61,20 @@ std::optional<Profile> Profile::named(const QString &name)
         profile.weights = AllKinds;
     } else if (name == QLatin1String("crowd")) {
         profile.shape = {254, 20, 3};
-        profile.periodUs = 20'000;
+        profile.periodUs = 50'000;  // as two processors hold it
         profile.seconds = 600;
         profile.judgesMemory = true;
         profile.restless = 0.2;
         profile.faultEvery = 200;
         profile.weights[std::size_t(FaultKind::KillNode)] = 1;
         profile.attemptsPerSecond = 100;
+    } else if (name == QLatin1String("intruders")) {
+        profile.seconds = 30;
+        profile.faultEvery = 1000;
+        profile.attemptsPerSecond = 100;
+        for (const FaultKind kind : {FaultKind::KillNode, FaultKind::StopNode, FaultKind::GarbageDatagrams,
+                                     FaultKind::GarbageToNodes, FaultKind::LoseFrames, FaultKind::CutLink})
+            profile.weights[std::size_t(kind)] = 1;
     } else {
         return std::nullopt;
     }
@@ -93,7 +100,8 @@ QString linkFaultsOf(FaultKind kind, quint64 seed)
 
 QStringList Profile::names()
 {
-    return {QStringLiteral("short"), QStringLiteral("steady"), QStringLiteral("faults"), QStringLiteral("crowd")};
+    return {QStringLiteral("short"), QStringLiteral("steady"), QStringLiteral("faults"), QStringLiteral("crowd"),
+            QStringLiteral("intruders")};
 }
 
 std::vector<Fault> planOf(const Profile &profile, int count, quint64 seed)

@@ -67,9 +67,11 @@ struct Profile
     bool judgesMemory = false;  // long enough for a slope
     int priority = 0;           // of the cycle threads, SCHED_FIFO; 0: they are ordinary
     double restless = 1.0;      // share of the nodes that have faults
-    int attemptsPerSecond = 0;  // of strangers to get in
+    int attemptsPerSecond = 0;  // of strangers to get in; the plant is secured then
     std::array<int, FaultKinds> weights{};
 
+    /// Whether control connections are TLS with a key for each node, and frames are sealed.
+    bool isSecured() const { return attemptsPerSecond > 0; }
     static std::optional<Profile> named(const QString &name);
     static QStringList names();
 };

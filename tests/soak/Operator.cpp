@@ -11,6 +11,15 @@ using Message = QPlcMessage;
 
 namespace soak {
 
+namespace {
+
+int registeredIn(const Message &state)
+{
+    return state.fields().value(QStringLiteral("nodes")).toArray().size() - 1;  // the recorder is one
+}
+
+}  // namespace
+
 Operator::Operator(HistoryWriter &history, int nodes)
     : m_history(history)
     , m_nodes(nodes)
@@ -49,7 +58,30 @@ void Operator::wait(int milliseconds)
     loop.exec();
 }
 
-bool Operator::ask(Message::Kind request, Message *answer)
+void Operator::start(const Message &state)
+{
+    QJsonObject fields;
+    Message answer;
+    if (state.fields().value(QStringLiteral("armingRequired")).toBool() && ask(Message::Arm, &answer))
+        fields.insert(QStringLiteral("token"), answer.text(QStringLiteral("token")));
+    ask(Message(Message::StartRealTime, fields), &answer);
+}
+
+bool Operator::waitForNodes(int count, int patience)
+{
+    QElapsedTimer timer;
+    timer.start();
+    Message state;
+    while (timer.elapsed() < patience) {
+        if (ask(Message::GetState, &state) && registeredIn(state) >= count)
+            return true;
+        wait(10 + m_nodes / 4);
+    }
+    m_errorString = QStringLiteral("%1 of the first %2 nodes have registered").arg(registeredIn(state)).arg(count);
+    return false;
+}
+
+bool Operator::ask(const Message &request, Message *answer)
 {
     if (!m_client || m_client->error() != tools::ControlClient::NoError) {
         m_client = std::make_unique<tools::ControlClient>(std::chrono::seconds(3));
@@ -57,14 +89,13 @@ bool Operator::ask(Message::Kind request, Message *answer)
     }
     if (m_client->ask(request, answer))
         return true;
-    m_errorString = QStringLiteral("%1: %2").arg(Message::kindName(request), m_client->errorString());
+    m_errorString = QStringLiteral("%1: %2").arg(request.kindName(), m_client->errorString());
     return false;
 }
 
 bool Operator::areAllThere(const Message &state) const
 {
-    const int registered = state.fields().value(QStringLiteral("nodes")).toArray().size() - 1;  // the recorder is one
-    return registered >= m_nodes && (m_formerId == 0 || idOf(state, m_formerNode) != m_formerId);
+    return registeredIn(state) >= m_nodes && (m_formerId == 0 || idOf(state, m_formerNode) != m_formerId);
 }
 
 bool Operator::isRunning()
@@ -80,8 +111,9 @@ bool Operator::goOn()
     if (!ask(Message::GetState, &state))
         return false;
     const QString name = state.text(QStringLiteral("state"));
-    m_errorString = QStringLiteral("the master is in %1; of %2 nodes some are missing, or it does not start")
+    m_errorString = QStringLiteral("the master is in %1; %2 of %3 nodes are there")
                         .arg(name)
+                        .arg(registeredIn(state))
                         .arg(m_nodes);
     if (!areAllThere(state))
         return false;
@@ -89,7 +121,7 @@ bool Operator::goOn()
         ask(Message::Reset, &state);
     if (name == QLatin1String("Off") || name == QLatin1String("Ready")) {
         m_history.append(Record::Command, -1);
-        ask(Message::StartRealTime, &state);
+        start(state);
     }
     return name == QLatin1String("RealTime");
 }
@@ -101,7 +133,7 @@ bool Operator::bringToRealTime(int patience)
     while (timer.elapsed() < patience) {
         if (goOn())
             return true;
-        wait(10);
+        wait(10 + m_nodes / 4);  // the answer has a part for each node: it is work for the master
     }
     return false;
 }

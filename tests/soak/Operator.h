@@ -24,6 +24,8 @@ public:
     bool isRunning();
     /// From now on the whole plant runs only with a node \a node that has registered anew. To be called before its process ends.
     void expectAnother(int node);
+    /// Waits until this many nodes have registered. \return false when they have not within \a patience [ms]
+    bool waitForNodes(int count, int patience);
     bool stop();
     /// "127.0.0.1:40312" of the nodes that have datagrams.
     QStringList datagramAddresses();
@@ -32,8 +34,10 @@ public:
     static void wait(int milliseconds);
 
 private:
-    bool ask(QPlcMessage::Kind request, QPlcMessage *answer);
+    bool ask(const QPlcMessage &request, QPlcMessage *answer);
     bool areAllThere(const QPlcMessage &state) const;
+    /// Arms where the master wants it, and starts.
+    void start(const QPlcMessage &state);
     static int idOf(const QPlcMessage &state, int node);
     /// Does the next thing. \return whether the whole plant runs
     bool goOn();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace soak {
 
@@ -26,31 +27,45 @@ struct Phase
     bool hasEnded = false;  // by a stop: the counters are those of all its cycles
 };
 
-std::vector<Phase> phasesOf(const History &master)
+/// By their numbers.
+std::map<quint64, Phase> phasesOf(const History &master)
 {
-    std::vector<Phase> phases;
+    std::map<quint64, Phase> phases;
     for (const Record &record : master.records) {
         if (record.kind == Record::Cycle) {
-            if (phases.empty() || record.cycle <= phases.back().cycles.back()->cycle)
-                phases.emplace_back();
-            phases.back().cycles.push_back(&record);
-        } else if (record.kind == Record::Counters && !phases.empty()
-                   && record.numbers[Record::MasterPhase] == phases.size()) {
-            phases.back().counters = &record;
+            phases[record.numbers[Record::CyclePhase]].cycles.push_back(&record);
+        } else if (record.kind == Record::Counters) {
+            const auto phase = phases.find(record.numbers[Record::MasterPhase]);
+            if (phase != phases.end())
+                phase->second.counters = &record;
         } else if (record.kind == Record::State && !phases.empty()) {
-            phases.back().hasEnded = record.numbers[0] == Record::Off || record.numbers[0] == Record::Ready;
+            phases.rbegin()->second.hasEnded = record.numbers[0] == Record::Off || record.numbers[0] == Record::Ready;
         }
     }
     return phases;
 }
 
-void lookAtPhase(const Evidence &evidence, const History &master, const Phase &phase, Gate *gate)
+/// Whether the master was stopped on purpose when it wrote this: then it did so as long after its cycle as it was stopped.
+bool wasStopped(const Evidence &evidence, const Record &cycle)
+{
+    return std::any_of(evidence.faults.begin(), evidence.faults.end(), [&](const DoneFault &fault) {
+        return fault.kind == FaultKind::StopMaster && fault.begin <= cycle.time
+            && cycle.time <= fault.end + evidence.period;
+    });
+}
+
+/// Of a phase that ended with a stop of the master, the last cycle that was written down in time.
+const Record &lastInTime(const Evidence &evidence, const Phase &phase)
+{
+    const auto found = std::find_if(phase.cycles.rbegin(), phase.cycles.rend(),
+                                    [&](const Record *cycle) { return !wasStopped(evidence, *cycle); });
+    return found == phase.cycles.rend() ? *phase.cycles.front() : **found;
+}
+
+void lookAtGrid(const Evidence &evidence, const History &master, const Phase &phase, Gate *gate)
 {
     const Record &first = *phase.cycles.front();
-    const Record &last = *phase.cycles.back();
-    ++gate->looked;
-    gate->figures[QStringLiteral("cycles")] += double(phase.cycles.size());
-    gate->figures[QStringLiteral("skipped")] += double(last.cycle + 1 - phase.cycles.size());
+    const Record &last = lastInTime(evidence, phase);
     const double periods = double(last.time - first.time) / double(evidence.period);
     const double ahead = double(last.cycle - first.cycle) - periods;
     const double stalled = double(std::max<qint64>(0, last.waited - first.waited)) / double(evidence.period);
@@ -64,6 +79,15 @@ void lookAtPhase(const Evidence &evidence, const History &master, const Phase &p
                            .arg(last.cycle - first.cycle)
                            .arg(periods));
     }
+}
+
+void lookAtPhase(const Evidence &evidence, const History &master, const Phase &phase, Gate *gate)
+{
+    const Record &last = *phase.cycles.back();
+    ++gate->looked;
+    gate->figures[QStringLiteral("cycles")] += double(phase.cycles.size());
+    gate->figures[QStringLiteral("skipped")] += double(last.cycle + 1 - phase.cycles.size());
+    lookAtGrid(evidence, master, phase, gate);
     if (!phase.hasEnded || !phase.counters)
         return;
     const quint64 computed = phase.counters->numbers[Record::Cycles];
@@ -107,12 +131,13 @@ bool isToldByAnEvent(FaultKind kind)
 /// [ns] that the thread of the master that tells of events was kept from running between two times.
 qint64 waitedBetween(const History &master, const Record &event, qint64 begin)
 {
-    qint64 waited = event.waited;
-    for (const Record &record : master.records) {
-        if (record.thread == event.thread && record.time <= begin)
-            waited = record.waited;
+    auto record = firstFrom(master, begin + 1);
+    while (record != master.records.begin()) {
+        --record;
+        if (record->thread == event.thread)
+            return std::max<qint64>(0, event.waited - record->waited);
     }
-    return std::max<qint64>(0, event.waited - waited);
+    return 0;
 }
 
 /// Whether the plant may have gone safe for a stall of the machine just before a fault: what is not there cannot be hit.
@@ -122,12 +147,12 @@ bool fellBefore(const Evidence &evidence, const DoneFault &fault)
     return evidence.stalls.within(fault.begin - before, fault.end) >= evidence.period;
 }
 
-/// The time of the last step before the link of a node was cut.
+/// The time of the last step before the link of a node was cut. The life before that with the link had a good one.
 qint64 cutOf(const Evidence &evidence, const DoneFault &fault)
 {
     const Record *last = nullptr;
     for (const History &history : evidence.nodes) {
-        if (history.node != fault.node)
+        if (history.node != fault.node || history.records.empty() || history.records.front().time < fault.begin)
             continue;
         for (const Record &record : history.records) {
             if (record.kind != Record::Step || record.time < fault.begin || record.time > fault.end)
@@ -194,8 +219,8 @@ Gate cyclesAddUp(const Evidence &evidence)
 {
     Gate gate("cycles add up");
     for (const History &master : evidence.masters) {
-        const std::vector<Phase> phases = phasesOf(master);
-        for (const Phase &phase : phases)
+        const std::map<quint64, Phase> phases = phasesOf(master);
+        for (const auto &[number, phase] : phases)
             lookAtPhase(evidence, master, phase, &gate);
     }
     return gate;
@@ -306,24 +331,6 @@ Gate faultsAreCounted(const Evidence &evidence)
         else
             gate.fail(QStringLiteral("%1: %2 were done, %3 counted").arg(nameOf(fault)).arg(fault.amount).arg(counted));
     }
-    return gate;
-}
-
-Gate attemptsAreRefused(const Evidence &evidence)
-{
-    Gate gate("attempts are refused");
-    for (const Record &record : evidence.runner.records) {
-        if (record.kind == Record::Attempts)
-            gate.looked = qint64(record.numbers[0]);
-    }
-    gate.isAsked = gate.looked > 0;
-    if (!gate.isAsked)
-        return gate;
-    qint64 refused = 0;
-    for (const History &master : evidence.masters)
-        refused += qint64(recordsOf(master, Record::Refused, -1, 0, std::numeric_limits<qint64>::max()).size());
-    if (refused != gate.looked)
-        gate.fail(QStringLiteral("%1 attempts, %2 refused").arg(gate.looked).arg(refused));
     return gate;
 }
 

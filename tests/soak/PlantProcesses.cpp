@@ -2,6 +2,7 @@
 #include "PlantProcesses.h"
 
 #include "NodeOptions.h"
+#include "PlantKeys.h"
 
 #include <QtCore/QCoreApplication>
 #include <QtCore/QDir>
@@ -102,6 +103,16 @@ QStringList PlantProcesses::priorityArguments() const
                                   : QStringList();
 }
 
+/// \param identity  empty: the master
+QStringList PlantProcesses::securityArguments(const QString &identity) const
+{
+    if (!m_profile.isSecured())
+        return {};
+    const QStringList mode{QStringLiteral("--security"), QStringLiteral("psk"), QStringLiteral("--keys"),
+                           PlantKeys::fileIn(m_folder)};
+    return identity.isEmpty() ? mode : mode + QStringList{QStringLiteral("--identity"), identity};
+}
+
 bool PlantProcesses::startMaster(QString *error)
 {
     if (m_master)
@@ -111,7 +122,7 @@ bool PlantProcesses::startMaster(QString *error)
     const QStringList arguments = shapeArguments(m_profile.shape, m_masterLife, file(name + QStringLiteral(".history")))
         + QStringList{QStringLiteral("--period-us"), QString::number(m_profile.periodUs), QStringLiteral("--port"),
                       QString::number(m_port)}
-        + priorityArguments();
+        + priorityArguments() + securityArguments(QString());
     m_master = std::make_unique<PlantProcess>(QStringLiteral("soak_master"), arguments, log);
     m_history.append(Record::Started, -1, {quint64(m_master->processId()), m_masterLife});
     QElapsedTimer timer;
@@ -137,11 +148,13 @@ void PlantProcesses::startNode(int node, const QStringList &extraArguments)
                       QString::number(node),
                       QStringLiteral("--watchdog"),
                       QString::number(watchdog),
+                      QStringLiteral("--stay"),
                       QStringLiteral("--master"),
                       QStringLiteral("%1://127.0.0.1:%2").arg(QString::fromLatin1(transportOf(node))).arg(m_port)};
     const QStringList critical = isCritical(node) ? QStringList{QStringLiteral("--critical")} : QStringList();
     slot.process = std::make_unique<PlantProcess>(QStringLiteral("soak_node"),
-                                                  arguments + critical + priorityArguments() + extraArguments,
+                                                  arguments + critical + priorityArguments()
+                                                      + securityArguments(nodeName(node)) + extraArguments,
                                                   file(name + QStringLiteral(".log")));
     m_history.append(Record::Started, node, {quint64(slot.process->processId()), slot.life});
 }

@@ -55,6 +55,7 @@ private:
     };
     QString file(const QString &name) const;
     QStringList priorityArguments() const;
+    QStringList securityArguments(const QString &identity) const;
 
     const Profile &m_profile;
     const QString m_folder;

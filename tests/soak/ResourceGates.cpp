@@ -114,8 +114,8 @@ std::vector<Gate> judge(const Evidence &evidence, const Profile &profile)
             stepsComeOnce(evidence),        silentWritersBecomeSafe(evidence), nodesAloneBecomeSafe(evidence),
             nothingMovesByItself(evidence), noFalseAlarms(evidence),           cyclesAddUp(evidence),
             faultsAreSeen(evidence),        plantRecovers(evidence),           faultsAreCounted(evidence),
-            linkFaultsAreCounted(evidence), attemptsAreRefused(evidence),      nothingLeaks(evidence),
-            memoryStays(evidence, profile)};
+            linkFaultsAreCounted(evidence), attemptsAreRefused(evidence),      commandsAreDenied(evidence),
+            nothingLeaks(evidence),         memoryStays(evidence, profile)};
 }
 
 }  // namespace soak

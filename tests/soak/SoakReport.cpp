@@ -60,7 +60,12 @@ bool SoakReport::passed() const
 
 QString SoakReport::command() const
 {
-    return QStringLiteral("qtplc_soak --profile %1 --seed %2 --duration %3 --keep").arg(profile).arg(seed).arg(seconds);
+    return QStringLiteral("qtplc_soak --profile %1 --seed %2 --duration %3 --nodes %4 --hz %5 --keep")
+        .arg(profile)
+        .arg(seed)
+        .arg(seconds)
+        .arg(evidence.shape.nodes)
+        .arg(1'000'000'000 / evidence.period);
 }
 
 QJsonObject SoakReport::toJson() const

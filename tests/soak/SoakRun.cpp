@@ -2,6 +2,7 @@
 #include "SoakRun.h"
 
 #include "Intruder.h"
+#include "PlantKeys.h"
 #include "ReferenceClock.h"
 #include "Strangers.h"
 
@@ -17,7 +18,8 @@ namespace {
 
 constexpr int Patience = 20'000;   // [ms]
 constexpr int Consequences = 100;  // [ms] after a fault, until watchdogs and connections have had their say
-constexpr int Settling = 350;      // [ms] after a fault, until all of it has been counted
+constexpr int AtOnce = 8;      // processes that start beside each other: hundreds would leave the master no processor
+constexpr int Settling = 350;  // [ms] after a fault, until all of it has been counted
 
 }  // namespace
 
@@ -40,13 +42,25 @@ bool SoakRun::setError(const QString &text)
     return false;
 }
 
+/// Makes keys, and takes those of the operator.
+bool SoakRun::secure()
+{
+    if (!m_profile.isSecured())
+        return true;
+    QPlcSecurity::setCurrent(PlantKeys::ofOperator(m_folder));
+    return PlantKeys::write(m_folder, m_profile.shape.nodes, &m_errorString);
+}
+
 bool SoakRun::start()
 {
-    if (!m_errorString.isEmpty() || !m_plant.startMaster(&m_errorString))
+    if (!m_errorString.isEmpty() || !secure() || !m_plant.startMaster(&m_errorString))
         return false;
     m_operator.useMaster(m_plant.port());
-    for (int node = 0; node < m_profile.shape.nodes; ++node)
+    for (int node = 0; node < m_profile.shape.nodes; ++node) {
         m_plant.startNode(node);
+        if (node % AtOnce == AtOnce - 1 && !m_operator.waitForNodes(node + 1, Patience))
+            return setError(m_operator.errorString());
+    }
     return recover();
 }
 
@@ -83,7 +97,7 @@ bool SoakRun::run()
     if (!start() || !startLoad(&load))
         return false;
     rest(2);
-    const Intruder intruder(m_plant.port(), m_profile.attemptsPerSecond, m_seed, m_history);
+    Intruder intruder(m_plant.port(), m_profile.attemptsPerSecond, m_seed, m_folder, m_history);
     if (m_profile.faultEvery == 0) {
         rest(m_seconds);
     } else {
@@ -94,6 +108,7 @@ bool SoakRun::run()
                 return false;
         }
     }
+    intruder.end();  // what is used at last is what was used before there was one
     rest(1);
     m_history.append(Record::Recovered, -1);  // what comes now is the end
     m_operator.stop();

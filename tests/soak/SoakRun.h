@@ -19,6 +19,7 @@ public:
     QString errorString() const { return m_errorString; }
 
 private:
+    bool secure();
     bool start();
     bool startLoad(std::unique_ptr<PlantProcess> *load);
     bool recover();

@@ -6,6 +6,7 @@
 #include <QtCore/QJsonArray>
 #include <QtCore/QThread>
 
+#include <algorithm>
 #include <arpa/inet.h>
 #include <cerrno>
 #include <netinet/in.h>
@@ -24,6 +25,16 @@ sockaddr_in loopback(quint16 port)
     address.sin_port = htons(port);
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     return address;
+}
+
+QPlcMessage greeting()
+{
+    return QPlcMessage(QPlcMessage::Hello,
+                       {{QStringLiteral("protocol"), 1},
+                        {QStringLiteral("name"), QStringLiteral("Stranger")},
+                        {QStringLiteral("uuid"), QStringLiteral("5704ed00-0000-4000-8000-000000000000")},
+                        {QStringLiteral("role"), QStringLiteral("tool")},
+                        {QStringLiteral("features"), QJsonArray{QStringLiteral("events")}}});
 }
 
 }  // namespace
@@ -103,16 +114,58 @@ int Strangers::connection(quint16 port, int receiveBuffer)
     return -1;
 }
 
+bool Strangers::connectAndSend(quint16 port, const QByteArray &bytes)
+{
+    const int socket = connection(port);
+    if (socket < 0)
+        return false;
+    if (::send(socket, bytes.constData(), std::size_t(bytes.size()), MSG_NOSIGNAL) == bytes.size())
+        return true;
+    ::close(socket);
+    m_connections.pop_back();
+    return false;
+}
+
 int Strangers::sendGarbage(quint16 port, int count)
 {
     int made = 0;
-    for (int i = 0; i < count; ++i) {
-        const int socket = connection(port);
-        const QByteArray bytes = garbageMessage();
-        if (socket >= 0 && ::send(socket, bytes.constData(), std::size_t(bytes.size()), MSG_NOSIGNAL) == bytes.size())
-            ++made;
-    }
+    for (int i = 0; i < count; ++i)
+        made += connectAndSend(port, garbageMessage()) ? 1 : 0;
     return made;
+}
+
+int Strangers::sendCommands(quint16 port, int count)
+{
+    static const QPlcMessage::Kind commands[]
+        = {QPlcMessage::StartRealTime, QPlcMessage::Stop,       QPlcMessage::SafeStop,
+           QPlcMessage::Arm,           QPlcMessage::SetSignals, QPlcMessage::Reset};
+    int made = 0;
+    for (int i = 0; i < count; ++i)
+        made += connectAndSend(port,
+                               qplc::encodeControlFrame(greeting())
+                                   + qplc::encodeControlFrame(QPlcMessage(commands[m_random() % std::size(commands)])))
+            ? 1
+            : 0;
+    return made;
+}
+
+int Strangers::leaveEnded()
+{
+    const auto hasEnded = [](int socket) {
+        char bytes[1024];
+        ssize_t size = 0;
+        do
+            size = ::recv(socket, bytes, sizeof bytes, MSG_DONTWAIT);
+        while (size > 0);
+        const bool isOver = size == 0 || (errno != EAGAIN && errno != EINTR);
+        if (isOver)
+            ::close(socket);
+        return isOver;
+    };
+    const auto open = std::remove_if(m_connections.begin(), m_connections.end(), hasEnded);
+    const int ended = int(m_connections.end() - open);
+    m_connections.erase(open, m_connections.end());
+    return ended;
 }
 
 int Strangers::connectOnly(quint16 port, int count)
@@ -132,12 +185,7 @@ int Strangers::askWithoutReading(quint16 port, int count)
         const QByteArray frame = qplc::encodeControlFrame(message);
         return ::send(socket, frame.constData(), std::size_t(frame.size()), MSG_NOSIGNAL) == frame.size();
     };
-    send(QPlcMessage(QPlcMessage::Hello,
-                     {{QStringLiteral("protocol"), 1},
-                      {QStringLiteral("name"), QStringLiteral("StoppedReader")},
-                      {QStringLiteral("uuid"), QStringLiteral("5704ed00-0000-4000-8000-000000000000")},
-                      {QStringLiteral("role"), QStringLiteral("tool")},
-                      {QStringLiteral("features"), QJsonArray{QStringLiteral("events")}}}));
+    send(greeting());
     int asked = 0;
     while (asked < count && send(QPlcMessage(QPlcMessage::GetSignals)))
         ++asked;

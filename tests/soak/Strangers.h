@@ -21,6 +21,10 @@ public:
     int sendDatagrams(quint16 port, int count);
     /// Connections that send bytes which are no message. \return how many could be made
     int sendGarbage(quint16 port, int count);
+    /// Connections that greet without TLS, and tell the master to start, to stop, to arm or to set a signal. \return how many could be made
+    int sendCommands(quint16 port, int count);
+    /// Closes the connections that the master has ended. \return how many these were
+    int leaveEnded();
     /// Connections that say nothing, and stay until leave(). \return how many could be made
     int connectOnly(quint16 port, int count);
     /// A tool that greets, asks \a count times for much, and reads nothing; it stays until leave(). \return requests that the master's system took
@@ -32,6 +36,7 @@ private:
     QByteArray randomBytes(int size);
     QByteArray garbageMessage();
     int connection(quint16 port, int receiveBuffer = 0);
+    bool connectAndSend(quint16 port, const QByteArray &bytes);
 
     std::mt19937_64 m_random;
     std::vector<int> m_connections;

@@ -38,6 +38,10 @@ void addOptions(QPlcCoreApplication &application)
     application.addOption(
         option("seed", QStringLiteral("What happens, and when. Without one: another each time."), "N", QString()));
     application.addOption(
+        option("nodes", QStringLiteral("Nodes of the plant. 0: those of the profile."), "N", QStringLiteral("0")));
+    application.addOption(
+        option("hz", QStringLiteral("Cycles in a second. 0: as the profile says."), "HZ", QStringLiteral("0")));
+    application.addOption(
         option("duration", QStringLiteral("Seconds. 0: that of the profile."), "S", QStringLiteral("0")));
     application.addOption(
         option("json", QStringLiteral("Report for programs."), "FILE", QStringLiteral("soak-report.json")));
@@ -65,8 +69,16 @@ bool readOptions(QPlcCoreApplication &application, Options *options)
         return false;
     }
     qint64 seconds = 0;
-    if (!application.integer(QStringLiteral("duration"), 0, 86'400, &seconds))
+    qint64 nodes = 0;
+    qint64 hz = 0;
+    if (!application.integer(QStringLiteral("duration"), 0, 86'400, &seconds)
+        || !application.integer(QStringLiteral("nodes"), 0, 254, &nodes)
+        || !application.integer(QStringLiteral("hz"), 0, 1000, &hz))
         return false;
+    if (nodes > 0)
+        options->profile.shape.nodes = std::max(2, int(nodes));
+    if (hz > 0)
+        options->profile.periodUs = 1'000'000 / hz;
     options->seconds = seconds > 0 ? int(seconds) : profile->seconds;
     options->json = application.value(QStringLiteral("json"));
     options->keep = application.isSet(QStringLiteral("keep"));

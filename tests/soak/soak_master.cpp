@@ -5,6 +5,7 @@
 #include <QtCore/QMetaEnum>
 #include <QtCore/QTimer>
 
+#include <atomic>
 #include <cstdio>
 
 namespace soak {
@@ -21,9 +22,17 @@ public:
     {
     }
 
+    /// That runs, or comes next; 0: none.
+    quint64 phase() const { return m_phase; }
+
 private:
-    void step(const QPlcCycle &cycle) override { m_history.append(Record::Cycle, Record::Nobody, {}, cycle.number()); }
+    void reset() override { ++m_phase; }
+    void step(const QPlcCycle &cycle) override
+    {
+        m_history.append(Record::Cycle, Record::Nobody, {m_phase}, cycle.number());
+    }
     HistoryWriter &m_history;
+    std::atomic<quint64> m_phase{0};
     QPlcInput<quint32> m_counter{this, "n0.counter"};
 };
 
@@ -50,11 +59,10 @@ public:
         connect(this, &QPlcMasterNode::stateChanged, this, [this](State state) {
             m_history.append(Record::State, Record::Nobody, {quint64(numberOf(state))}, cycle());
         });
-        connect(this, &QPlcMasterNode::realTimeHasStarted, this, [this] { ++m_phase; });
         connect(this, &QPlcMasterNode::realTimeHasStopped, this, [this] { count(); });
         recordNodes();
         connect(&m_timer, &QTimer::timeout, this, [this] { count(); });
-        m_timer.start(100);
+        m_timer.start(options.shape.nodes > 100 ? 1000 : 100);  // each look at a crowd is work
     }
     ~Master() override { removeLocalNode(&m_recorder); }
     bool start(std::chrono::microseconds period, quint16 port)
@@ -87,17 +95,19 @@ private:
     }
     void count()
     {
-        if (m_phase == 0)
+        const quint64 phase = m_recorder.phase();
+        if (phase == 0)
             return;
         const QPlcCycleStatistics all = cycleStatistics();
+        const QPlcMasterStatistics sinceStart = statistics();
         m_history.append(Record::Counters, Record::Nobody,
-                         {m_phase, all.cycles, all.skippedCycles, all.strangers, all.lateAnswers, all.overruns,
-                          all.incompleteCycles},
+                         {phase, all.cycles, all.skippedCycles, all.strangers, all.lateAnswers, all.overruns,
+                          all.incompleteCycles, sinceStart.failedHandshakes, sinceStart.deniedMessages},
                          cycle());
         for (const QPlcNodeStatistics &node : all.nodes) {
             if (nodeNumber(node.name) >= 0)
                 m_history.append(Record::NodeCounters, nodeNumber(node.name),
-                                 {m_phase, node.answers, node.late, node.lost, node.duplicated, node.reordered,
+                                 {phase, node.answers, node.late, node.lost, node.duplicated, node.reordered,
                                   node.rejected, node.resent},
                                  cycle());
         }
@@ -107,7 +117,6 @@ private:
     HistoryWriter &m_history;
     CycleRecorder m_recorder;
     QTimer m_timer;
-    quint64 m_phase = 0;
 };
 
 }  // namespace
@@ -123,17 +132,21 @@ int main(int argc, char **argv)
     application.addOption({QStringLiteral("port"), QStringLiteral("Port to listen on. 0: a free one."),
                            QStringLiteral("PORT"), QStringLiteral("0")});
     application.addRealTimeOptions();
+    application.addSecurityOptions(QPlcSecurity::MasterSide);
     soak::NodeOptions options;
     soak::HistoryWriter history;
     QPlcRealTimeOptions realTime;
+    QPlcSecurity security;
     qint64 period = 0, port = 0;
     if (!application.parseOptions() || !application.integer(QStringLiteral("period-us"), 100, 1'000'000, &period)
         || !application.integer(QStringLiteral("port"), 0, 65535, &port) || !application.readRealTimeOptions(&realTime)
+        || !application.readSecurityOptions(QPlcSecurity::MasterSide, &security)
         || !soak::readShapeOptions(application, &options, &history))
         return application.exitCode();
     history.append(soak::Record::Born, soak::Record::Nobody, {quint64(QCoreApplication::applicationPid())});
     soak::Master master(options, history);
     master.setRealTimeOptions(realTime);
+    master.setSecurity(security);
     if (!master.start(std::chrono::microseconds(period), quint16(port)))
         return application.usageError(master.errorString());
     std::printf("port %d\n", int(master.serverPort()));

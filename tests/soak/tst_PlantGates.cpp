@@ -17,9 +17,11 @@ private Q_SLOTS:
     void skippedCyclesThatAreNotCountedAreFound();
     void aCycleThatWasCountedAndNeverComputedIsFound();
     void aGridThatDriftsIsFound();
+    void aCycleInWhichTheMasterIsStoppedIsWrittenLate();
     void aPhaseThatWasCutOffIsJudgedByItsGridAlone();
     void aFaultThatIsToldInTimePasses();
     void aFaultThatIsToldTooLateIsFound();
+    void aCutIsOneOfTheLifeThatHasIt();
     void aFaultThatNobodyIsToldOfIsFound();
     void aFaultThatIsToldLateBecauseOfTheMachineIsExcused();
     void aNodeThatTheMachineHadTakenBeforeIsExcused();
@@ -31,7 +33,6 @@ private Q_SLOTS:
     void aDatagramThatIsNotCountedIsFound();
     void aRefusalThatIsNotToldIsFound();
     void aNodeThatIsLostTwiceIsFound();
-    void anAttemptThatIsNotRefusedIsFound();
     void aDescriptorThatLeaksIsFound();
     void aThreadThatLeaksIsFound();
     void aNewLifeIsNotComparedWithAnOldOne();
@@ -124,6 +125,22 @@ void tst_PlantGates::aGridThatDriftsIsFound()
     QCOMPARE(plant.judge(&soak::cyclesAddUp).failed, qint64(1));
 }
 
+void tst_PlantGates::aCycleInWhichTheMasterIsStoppedIsWrittenLate()
+{
+    for (const bool isOnPurpose : {false, true}) {
+        HandMade plant;
+        HandMade::removeCycles(plant.master(), 81, 99);
+        HandMade::remove(plant.master(), [](const Record &record) { return record.kind == Record::Counters; });
+        for (Record &record : plant.master().records) {
+            if (record.kind == Record::Cycle && record.cycle == 80)
+                record.time += 150 * ms;
+        }
+        if (isOnPurpose)
+            plant.addFault(FaultKind::StopMaster, -1, HandMade::at(79), HandMade::at(80) + 150 * ms);
+        QCOMPARE(plant.judge(&soak::cyclesAddUp).passed(), isOnPurpose);
+    }
+}
+
 void tst_PlantGates::aPhaseThatWasCutOffIsJudgedByItsGridAlone()
 {
     HandMade plant;
@@ -149,6 +166,20 @@ void tst_PlantGates::aFaultThatIsToldTooLateIsFound()
     plant.addFault(FaultKind::KillNode, 1, HandMade::at(50) + ms, HandMade::at(51));
     HandMade::add(plant.master(), Record::Lost, 1, HandMade::at(57) + ms);
     QCOMPARE(plant.judge(&soak::faultsAreSeen).failed, qint64(1));
+}
+
+void tst_PlantGates::aCutIsOneOfTheLifeThatHasIt()
+{
+    // The life before it computes once more after the fault has begun, and the next one begins 150 ms later.
+    HandMade plant(100);
+    HandMade::removeCycles(plant.node(1), 41, 99);
+    plant.addLife(1, 2, HandMade::at(50));
+    for (quint64 cycle = 55; cycle < 70; ++cycle)
+        plant.addStep(1, cycle);
+    HandMade::add(plant.master(), Record::Late, 1, HandMade::at(72));
+    plant.addFault(FaultKind::CutLink, 1, HandMade::at(40), HandMade::at(90));
+    const Gate gate = plant.judge(&soak::faultsAreSeen);
+    QVERIFY2(gate.passed(), textOf(gate));
 }
 
 void tst_PlantGates::aFaultThatNobodyIsToldOfIsFound()
@@ -240,19 +271,6 @@ void tst_PlantGates::aNodeThatIsLostTwiceIsFound()
         for (int i = 0; i < told; ++i)
             HandMade::add(plant.master(), Record::Lost, 1, HandMade::at(51));
         QCOMPARE(plant.judge(&soak::faultsAreCounted).passed(), told == 1);
-    }
-}
-
-void tst_PlantGates::anAttemptThatIsNotRefusedIsFound()
-{
-    QVERIFY(!HandMade().judge(&soak::attemptsAreRefused).isAsked);
-    for (const int refused : {2, 3}) {
-        HandMade plant;
-        HandMade::add(plant.runner(), Record::Attempts, -1, HandMade::at(50), {1});
-        HandMade::add(plant.runner(), Record::Attempts, -1, HandMade::at(60), {3});
-        for (int i = 0; i < refused; ++i)
-            HandMade::add(plant.master(), Record::Refused, -1, HandMade::at(50));
-        QCOMPARE(plant.judge(&soak::attemptsAreRefused).passed(), refused == 3);
     }
 }
 
