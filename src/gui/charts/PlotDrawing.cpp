@@ -76,9 +76,18 @@ void QPlcTimePlot::Private::draw()
         }
         canvas->replot();
         ++drawnPictures;
+        if (!view()->isLive())
+            pointAtMouse();
     }
     showOverlay();
     showLiveButton();
+}
+
+/// A mouse that rests points at another time when the view moves below it.
+void QPlcTimePlot::Private::pointAtMouse()
+{
+    if (shared() && interaction->mouse())
+        shared()->setPointer(canvas->timeAt(interaction->mouse()->x()));
 }
 
 bool QPlcTimePlot::Private::fitRange(Axis axis)
@@ -185,9 +194,8 @@ void QPlcTimePlot::Private::showNumbers()
     if (!q->isVisible())
         return;
     const TimeView *time = shared();
-    // Live, a mouse that rests points at ever later times.
-    if (time && interaction->mouse() && view()->isLive())
-        q->context()->timeView()->setPointer(canvas->timeAt(interaction->mouse()->x()));
+    if (view()->isLive())
+        pointAtMouse();
     std::optional<Time> moment = time ? time->pointer() : std::nullopt;
     if (!moment && !view()->isLive())
         moment = std::min(view()->end(), view()->newest());  // around an event, the rest is still to come

@@ -248,8 +248,7 @@ void tst_PlotEditing::whatIsSeenGoesIntoTheClipboard()
 {
     PlotWindow window(R"({"curves":[{"signal":"count"},{"signal":"sum","gain":2},{"signal":"echo","visible":false}]})");
     QVERIFY(window.run(0.5));
-    window.time()->show(window.time()->newest() - 100'000'000, window.time()->newest());
-    QTest::qWait(60);
+    QVERIFY(window.show(window.time()->newest() - 100'000'000, window.time()->newest()));
     QGuiApplication::clipboard()->clear();
     window.trigger("copyTable");
     QTRY_VERIFY(!QGuiApplication::clipboard()->text().isEmpty());
