@@ -90,7 +90,7 @@ private Q_SLOTS:
     void aListenerIsGoodUntilItIsGone();
     void theNextPhaseBeginsWithoutOldValues();
     void theNodeItselfDoesNotBelieveAMasterThatIsMad();
-    void refusedValuesAreCountedAndToldOnce();
+    void refusedValuesAreCountedAndAnAlarm();
     void initialOutputsOutOfRangeEndTheInitialization();
 };
 
@@ -315,7 +315,7 @@ void tst_Quality::theNodeItselfDoesNotBelieveAMasterThatIsMad()
     actuator.disconnectFromMaster();
 }
 
-void tst_Quality::refusedValuesAreCountedAndToldOnce()
+void tst_Quality::refusedValuesAreCountedAndAnAlarm()
 {
     LogCapture log;
     TestMaster master(QPlcClock::lockstep(), qualityTable());
@@ -330,7 +330,10 @@ void tst_Quality::refusedValuesAreCountedAndToldOnce()
     QCOMPARE(statistics.nodes.at(0).nonFinite, quint64(1));
     QCOMPARE(statistics.nodes.at(0).outOfRange, quint64(15));
     QCOMPARE(log.matching("echo of Source: nan is not a finite number; held").size(), 1);
-    QTRY_COMPARE(log.matching("echo of Source: 112.5 is above its maximum 100; held").size(), 1);
+    QCOMPARE(log.matching("echo of Source: no more values are refused; refused: 16, "
+                          "the last one: 112.5 is above its maximum 100, after ")
+                 .size(),
+             1);
     QCOMPARE(log.matching("safe ones: echo = -5").size(), 1);
     QCOMPARE(log.matching("echo").size(), 3);
 }

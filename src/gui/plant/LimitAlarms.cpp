@@ -24,6 +24,8 @@ LimitAlarms::LimitAlarms(PlantList *plants, QObject *parent)
 
 void LimitAlarms::follow(Plant *plant)
 {
+    if (!plant->feed())
+        return;
     begin(plant);
     connect(plant, &Plant::storeChanged, this, [this, plant] { begin(plant); });
     connect(plant, &Plant::updated, this, [this, plant] { take(plant); });
