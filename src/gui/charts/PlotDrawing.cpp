@@ -112,7 +112,9 @@ void QPlcTimePlot::Private::showRange(Axis axis)
         minimum = values.minimum;
         maximum = values.maximum;
     }
-    canvas->setRange(axis, minimum, maximum, curves.isWhole(axis) ? PlotCanvas::WholeTicks : PlotCanvas::AnyTicks);
+    // What a person has chosen is that of the whole canvas.
+    canvas->setRange(axis, minimum, maximum, curves.isWhole(axis) ? PlotCanvas::WholeTicks : PlotCanvas::AnyTicks,
+                     values.isHeld ? 0.0 : curves.laneHeight());
 }
 
 void QPlcTimePlot::Private::showOverlay()

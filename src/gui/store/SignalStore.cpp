@@ -78,6 +78,7 @@ SignalStore::SignalStore(int channels, int capacity)
     , m_times(m_rows)
     , m_values(std::size_t(channels) * m_rows)
     , m_beginsAnew((m_rows + wordBits - 1) / wordBits)
+    , m_marks(std::size_t(std::max(channels, 0)))
 {
     assert(channels >= 0 && capacity >= 16);
     for (std::size_t size = rowsOfBin; size <= m_rows; size *= fanOut) {
@@ -92,6 +93,8 @@ std::size_t SignalStore::memory() const
         = m_times.size() * sizeof(Time) + m_values.size() * sizeof(float) + m_beginsAnew.size() * sizeof(std::uint64_t);
     for (const Level &level : m_levels)
         bytes += level.bins.size() * sizeof(Range);
+    for (const RowMarks &marks : m_marks)
+        bytes += sizeof(marks) + marks.memory();
     return bytes;
 }
 
@@ -112,9 +115,18 @@ bool SignalStore::append(Time time, const float *values)
     return true;
 }
 
+void SignalStore::mark(int channel, Mark mark)
+{
+    RowMarks &marks = m_marks[std::size_t(channel)];
+    marks.forgetBefore(firstRow());
+    marks.mark(m_end - 1, mark);
+}
+
 void SignalStore::clear()
 {
     m_begin = m_end;
+    for (RowMarks &marks : m_marks)
+        marks.clear();
     m_interrupted = false;
 }
 
