@@ -160,9 +160,14 @@ GaugeScale GaugeFeed::scale() const
     return scale;
 }
 
+/// Beyond the limits of the table is alarm, unless the settings say where it begins.
 AlarmLimits GaugeFeed::limits() const
 {
     AlarmLimits limits = m_settings.limits;
+    if (!limits.alarmLow)
+        limits.alarmLow = limitOf(m_definition.minimum);
+    if (!limits.alarmHigh)
+        limits.alarmHigh = limitOf(m_definition.maximum);
     limits.hysteresis = std::max(0.0, m_settings.hysteresis.value_or(scale().span() * 0.01));
     return limits;
 }

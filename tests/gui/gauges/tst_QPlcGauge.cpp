@@ -88,6 +88,7 @@ private Q_SLOTS:
     void theScaleIsThatOfTheTableUnlessChosen();
     void whatIsBeyondTheTableSaysSo();
     void bandsSaySoWithHysteresis();
+    void beyondTheLimitsOfTheTableIsAlarm();
     void integersBooleansAndTextsAreShownAsSuch();
     void aTripleIsThreeNumbersAndAMatrixAsksForAChoice();
     void aLostMasterLeavesAGreyValueWithItsAge();
@@ -223,6 +224,24 @@ void tst_QPlcGauge::bandsSaySoWithHysteresis()
     feed.setSettings(settingsOf({{"signal", "level"}, {"warningHigh", 50}, {"hysteresis", 0}}));
     QCOMPARE(status(50.5f), QStringLiteral("▲ high"));
     QCOMPARE(status(49.9f), QString());
+}
+
+void tst_QPlcGauge::beyondTheLimitsOfTheTableIsAlarm()
+{
+    QPlcSignalIndexTable::setCurrent(gaugeTable());
+    GaugeFeed feed;
+    feed.setActive(true);
+    const auto bands = [&](const QJsonObject &settings) {
+        feed.setSettings(settingsOf(settings));
+        QStringList texts;
+        for (const GaugePicture::Band &band : feed.picture().bands)
+            texts << QStringLiteral("%1 ... %2: %3").arg(band.begin).arg(band.end).arg(band.level);
+        return texts.join(QStringLiteral(", "));
+    };
+    QCOMPARE(bands({{"signal", "level"}}), QString());  // the scale is what the table allows
+    QCOMPARE(bands({{"signal", "level"}, {"minimum", -50}, {"maximum", 150}}),
+             QStringLiteral("-50 ... 0: 2, 100 ... 150: 2"));
+    QCOMPARE(bands({{"signal", "level"}, {"maximum", 150}, {"alarmHigh", 120}}), QStringLiteral("120 ... 150: 2"));
 }
 
 void tst_QPlcGauge::integersBooleansAndTextsAreShownAsSuch()
