@@ -34,9 +34,7 @@ void GaugeFeed::setContext(WindowContext *context)
     PlantList *plants = context->plants();
     connect(context->curveSources(), &CurveSources::changed, this, &GaugeFeed::resolve);
     connect(context->curveSources(), &CurveSources::filled, this, [this] { refresh(Texts::WhenDue); });
-    connect(plants, &PlantList::added, this, &GaugeFeed::follow);
-    for (int i = 0; i < plants->size(); ++i)
-        follow(plants->at(i));
+    plants->forEach(this, &GaugeFeed::follow);
     connect(context->timeView(), &TimeView::displayTimeChanged, this, [this] { refresh(Texts::WhenDue); });
     resolve();
 }

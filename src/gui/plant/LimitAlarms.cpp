@@ -17,9 +17,7 @@ QString numberOf(double value, const QString &unit)
 LimitAlarms::LimitAlarms(PlantList *plants, QObject *parent)
     : QObject(parent)
 {
-    connect(plants, &PlantList::added, this, &LimitAlarms::follow);
-    for (int i = 0; i < plants->size(); ++i)
-        follow(plants->at(i));
+    plants->forEach(this, &LimitAlarms::follow);
 }
 
 void LimitAlarms::follow(Plant *plant)
