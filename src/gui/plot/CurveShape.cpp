@@ -71,6 +71,7 @@ void CurveShape::readColumns(const SignalStore &store, int channel, const TimeCo
         add(column - columns.first(), store.value(channel, row), store.value(channel, next - 1),
             store.range(channel, row, next), markOf(store, channel, row, next));
         guess = std::min(next + (next - row), end);
+        store.prefetch(channel, guess);
         row = next;
     }
 }

@@ -226,6 +226,20 @@ SignalStore::Range SignalStore::range(int channel, Row begin, Row end) const
     return range.isEmpty() ? Range{noValue, noValue} : range;
 }
 
+void SignalStore::prefetch(int channel, Row row) const
+{
+    constexpr std::size_t lineSize = 64;  // [byte]
+    const auto fetch = [](const auto *begin, std::size_t count) {
+        const auto *bytes = reinterpret_cast<const char *>(begin);
+        for (std::size_t line = 0; line < count * sizeof(*begin); line += lineSize)
+            __builtin_prefetch(bytes + line);
+    };
+    const std::size_t bin = slot(row) >> binBits;
+    const Level &level = m_levels.front();
+    fetch(m_values.data() + std::size_t(channel) * m_rows + (bin << binBits), rowsOfBin);
+    fetch(level.bins.data() + std::size_t(channel) * level.slots + (bin & ~(fanOut - 1)), fanOut);
+}
+
 void SignalStore::includeValues(Range *range, int channel, Row begin, Row end) const
 {
     const float *values = m_values.data() + std::size_t(channel) * m_rows;

@@ -77,6 +77,8 @@ public:
     std::optional<Row> rowHoldingAt(Time time) const;
     /// Smallest and largest value of rows \a begin ... \a end - 1; NaN counts as nothing.
     Range range(int channel, Row begin, Row end) const;
+    /// A range that begins or ends about \a row is wanted soon: what it needs comes from memory meanwhile.
+    void prefetch(int channel, Row row) const;
     /// The greatest mark of rows \a begin ... \a end - 1; 0: there is none. May be above 0 for rows between very many marked ones.
     Mark greatestMark(int channel, Row begin, Row end) const
     {
