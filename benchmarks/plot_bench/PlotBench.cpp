@@ -45,6 +45,21 @@ double percentile(std::vector<double> values, double share)
     return values[std::min(values.size() - 1, std::size_t(share * double(values.size())))];
 }
 
+/// Smallest and largest value of 6000 rows, all over the store [s]
+double rangeTime(const qplc::SignalStore &store)
+{
+    constexpr qplc::SignalStore::Row rows = 6000;
+    double sum = 0.0;  // so that nothing is left out
+    int count = 0;
+    const auto begin = Clock::now();
+    for (int channel = 0; channel < store.channels(); ++channel) {
+        for (auto row = store.firstRow(); row + rows <= store.endRow(); row += rows + 1000, ++count)
+            sum += double(store.range(channel, row, row + rows).maximum);
+    }
+    const double time = secondsSince(begin);
+    return count > 0 && std::isfinite(sum) ? time / count : 0.0;
+}
+
 }  // namespace
 
 PlotBench::PlotBench(const PlotBenchOptions &options)
@@ -126,6 +141,7 @@ QJsonObject PlotBench::result() const
             {QStringLiteral("frame_p50_ms"), 1e3 * percentile(m_frames, 0.5)},
             {QStringLiteral("frame_p99_ms"), 1e3 * percentile(m_frames, 0.99)},
             {QStringLiteral("append_ns"), 1e9 * m_appendTime},
+            {QStringLiteral("range_ns"), 1e9 * rangeTime(m_store)},
             {QStringLiteral("bytes_per_sample"), double(m_store.memory()) / samples},
             {QStringLiteral("store_mb"), 1e-6 * m_residentOfStore},
             {QStringLiteral("resident_mb"), 1e-6 * residentMemory()}};

@@ -112,12 +112,6 @@ void Journal::valueSet(const QString &who, const QString &signal, const QString 
         {JournalEvent::Info, JournalEvent::Set, NodeRegistry::masterName(), QStringLiteral(" -> %1").arg(value)});
 }
 
-void Journal::valueRefused(const QString &node, const QString &signal, const QString &what)
-{
-    tellLimited(QStringLiteral("refused ") + signal, QStringLiteral("%1 of %2: ").arg(signal, node),
-                {JournalEvent::Warning, JournalEvent::Quality, node, QStringLiteral("%1; held").arg(what)});
-}
-
 void Journal::becameSafe(const QStringList &values)
 {
     constexpr int mostNames = 8;

@@ -38,8 +38,6 @@ public:
     void stateChanged(const QString &state, bool isTransient);
     void answeredLate(const QString &node, std::uint64_t cycle);
     void valueSet(const QString &who, const QString &signal, const QString &former, const QString &value);
-    /// \param what  "12 is above its maximum 10"
-    void valueRefused(const QString &node, const QString &signal, const QString &what);
     /// \param values  "tetherSpeed = 0"
     void becameSafe(const QStringList &values);
     /// A signal with several writers has its values from another one.

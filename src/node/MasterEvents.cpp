@@ -41,8 +41,8 @@ void QPlcMasterNodePrivate::report(const CycleEvent &event)
         apply(Event::WaitEnded);
         break;
     case CycleEvent::ValueRefused:
-        journal.valueRefused(nodeName(event.node), table.at(event.signal).name,
-                             qplc::faultText(table.at(event.signal), event.fault));
+        refusedValues.refused(event.signal, table.at(event.signal).name, nodeName(event.node),
+                              qplc::faultText(table.at(event.signal), event.fault));
         break;
     case CycleEvent::SourceChanged:
         journal.sourceChanged(table.at(event.signal).name, nodeName(quint16(event.duration)), nodeName(event.node));

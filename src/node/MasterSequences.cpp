@@ -435,5 +435,6 @@ void QPlcMasterNodePrivate::tellStopped(const QString &reason)
         Q_EMIT slot->local->node().realTimeHasStopped();
     }
     takeReports();
+    refusedValues.end();
     Q_EMIT q->realTimeHasStopped();
 }

@@ -46,6 +46,11 @@ qplc::JournalEvent::Kind kindOf(QPlcMasterNode::Error error)
 
 QPlcMasterNodePrivate::QPlcMasterNodePrivate(QPlcMasterNode *master)
     : q(master)
+    , refusedValues(journal,
+                    [this](QPlcSignalIndex signal) {
+                        const qplc::SignalGuard &guard = cycle->signalGuard();
+                        return guard.nonFinite(signal) + guard.outOfRange(signal);
+                    })
     , session(newSession())
     , uuid(QUuid::createUuid().toString(QUuid::WithoutBraces))
 {

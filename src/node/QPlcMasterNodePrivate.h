@@ -11,6 +11,7 @@
 #include "MasterStates.h"
 #include "NodeRegistry.h"
 #include "QPlcMasterNode.h"
+#include "RefusedValues.h"
 #include "StatisticSignals.h"
 #include "ViewerPushes.h"
 
@@ -96,6 +97,7 @@ public:
     QString errorString;
     QTimer stepTimer;
     qplc::Journal journal;
+    qplc::RefusedValues refusedValues;
     qplc::Leases leaseBooks;
     const quint64 session;
     const QString uuid;

@@ -6,6 +6,8 @@
 #include <QtCore/QProcess>
 #include <QtTest/QtTest>
 
+#include <atomic>
+
 namespace {
 
 QPlcSignalTable qualityTable(const QByteArray &more = {})
@@ -90,7 +92,8 @@ private Q_SLOTS:
     void aListenerIsGoodUntilItIsGone();
     void theNextPhaseBeginsWithoutOldValues();
     void theNodeItselfDoesNotBelieveAMasterThatIsMad();
-    void refusedValuesAreCountedAndToldOnce();
+    void refusedValuesAreCountedAndAnAlarm();
+    void aSignalThatTremblesAboutItsLimitIsOneAlarm();
     void initialOutputsOutOfRangeEndTheInitialization();
 };
 
@@ -315,7 +318,7 @@ void tst_Quality::theNodeItselfDoesNotBelieveAMasterThatIsMad()
     actuator.disconnectFromMaster();
 }
 
-void tst_Quality::refusedValuesAreCountedAndToldOnce()
+void tst_Quality::refusedValuesAreCountedAndAnAlarm()
 {
     LogCapture log;
     TestMaster master(QPlcClock::lockstep(), qualityTable());
@@ -330,9 +333,35 @@ void tst_Quality::refusedValuesAreCountedAndToldOnce()
     QCOMPARE(statistics.nodes.at(0).nonFinite, quint64(1));
     QCOMPARE(statistics.nodes.at(0).outOfRange, quint64(15));
     QCOMPARE(log.matching("echo of Source: nan is not a finite number; held").size(), 1);
-    QTRY_COMPARE(log.matching("echo of Source: 112.5 is above its maximum 100; held").size(), 1);
+    QCOMPARE(log.matching("echo of Source: no more values are refused; refused: 16, "
+                          "the last one: 112.5 is above its maximum 100, after ")
+                 .size(),
+             1);
     QCOMPARE(log.matching("safe ones: echo = -5").size(), 1);
     QCOMPARE(log.matching("echo").size(), 3);
+}
+
+void tst_Quality::aSignalThatTremblesAboutItsLimitIsOneAlarm()
+{
+    LogCapture log;
+    std::atomic<bool> isBad{true};
+    TestMaster master(QPlcClock::realTime(), qualityTable());
+    master.setInterval(std::chrono::milliseconds(5));
+    Source source;
+    source.idea = [&isBad](quint64 cycle) { return isBad && cycle % 2 == 0 ? 112.5 : 1.0; };
+    QVERIFY(master.addLocalNode(&source));
+    QVERIFY(master.startRealTime());
+    const auto lines = [&log] { return log.matching("echo of Source").size(); };
+    QTRY_VERIFY(master.cycleStatistics().nodes.value(0).outOfRange > 50);
+    QCOMPARE(lines(), 1);
+    isBad = false;
+    QTRY_COMPARE(log.matching("echo of Source: no more values are refused").size(), 1);
+    QCOMPARE(lines(), 2);
+    isBad = true;
+    QTRY_COMPARE(lines(), 3);
+    master.stop();
+    QVERIFY(master.waitForState(QPlcMasterNode::Off));
+    QCOMPARE(lines(), 4);
 }
 
 void tst_Quality::initialOutputsOutOfRangeEndTheInitialization()

@@ -150,17 +150,21 @@ void PlotCanvas::setTime(const TimeColumns &columns, PlotSettings::Labels labels
                                 seconds(ticks.minor()), {}, seconds(ticks.major())));
 }
 
-void PlotCanvas::setRange(Axis axis, double minimum, double maximum, Ticks ticks)
+void PlotCanvas::setRange(Axis axis, double minimum, double maximum, Ticks ticks, double lane)
 {
     const QwtPlot::Axis place = qwtAxis(axis);
     const double line = QFontMetricsF(axisFont(place)).height();
-    const int most = std::max(fewestTicks, int(canvas()->height() / (linesOfLabel * line)));
+    const double height = canvas()->height() - lane;
+    const int most = std::max(fewestTicks, int(height / (linesOfLabel * line)));
     const QwtScaleEngine *engine = axisScaleEngine(place);
-    const QwtScaleDiv scale = engine->divideScale(minimum, maximum, most, 5);
+    QwtScaleDiv scale = engine->divideScale(minimum, maximum, most, 5);
     const QList<double> major = scale.ticks(QwtScaleDiv::MajorTick);
     const bool isFiner = major.size() > 1 && major[1] - major[0] < 1.0;
-    setAxisScaleDiv(place,
-                    ticks == WholeTicks && isFiner ? engine->divideScale(minimum, maximum, most, 0, 1.0) : scale);
+    if (ticks == WholeTicks && isFiner)
+        scale = engine->divideScale(minimum, maximum, most, 0, 1.0);
+    if (lane > 0.0 && height > lane)
+        scale.setLowerBound(minimum - (maximum - minimum) * lane / height);
+    setAxisScaleDiv(place, scale);
 }
 
 PlotCanvas::Time PlotCanvas::timeAt(double x) const

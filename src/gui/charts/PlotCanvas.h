@@ -46,7 +46,8 @@ public:
     void setTime(const TimeColumns &columns, PlotSettings::Labels labels, Time reference,
                  std::optional<Time> event = std::nullopt);
     enum Ticks { AnyTicks, WholeTicks };
-    void setRange(Axis axis, double minimum, double maximum, Ticks ticks = AnyTicks);
+    /// \param lane  room below \a minimum [px], where no values are
+    void setRange(Axis axis, double minimum, double maximum, Ticks ticks = AnyTicks, double lane = 0.0);
 
     Time origin() const { return m_origin; }
     /// Times of the left and the right edge.

@@ -13,8 +13,10 @@ namespace qplc {
 
 namespace {
 
-constexpr double boldness = 1.0;      // [px] that the selected curve is thicker
-constexpr double limitOpacity = 0.6;  // of the colour of the curve
+constexpr SignalStore::Time calmTime = 200'000'000;  // [ns] for which the legend says what has been wrong
+constexpr double boldness = 1.0;                     // [px] that the selected curve is thicker
+constexpr double limitOpacity = 0.6;                 // of the colour of the curve
+constexpr double laneMargin = 3.0;                   // [px] between bands and lines
 constexpr int digitsOfLine = 6;
 constexpr double limitDepth = 15.0;  // below the curves, above the grid
 
@@ -43,6 +45,17 @@ double PlotCurve::value(std::optional<SignalStore::Time> time) const
     if (time)
         return CursorStatistics::valueAt(*source.store, source.channel, scaling(), *time);
     return settings.gain * double(source.store->value(source.channel, source.store->endRow() - 1)) + settings.offset;
+}
+
+SignalStore::Mark PlotCurve::mark(std::optional<SignalStore::Time> time) const
+{
+    if (isMissing() || source.store->isEmpty())
+        return RowMarks::None;
+    const SignalStore &store = *source.store;
+    const SignalStore::Row end = time ? store.rowAt(*time + 1) : store.endRow();
+    const SignalStore::Row newest = std::max(end, store.firstRow() + 1) - 1;
+    const SignalStore::Row begin = time ? newest : store.rowAt(store.time(newest) - calmTime, newest);
+    return store.greatestMark(source.channel, begin, end);
 }
 
 PlotCurves::PlotCurves(QwtPlot *plot)
@@ -192,6 +205,16 @@ bool PlotCurves::hasAxis(PlotCurveSettings::Axis axis) const
 bool PlotCurves::hasBands() const
 {
     return std::any_of(m_curves.begin(), m_curves.end(), [](const PlotCurve &each) { return each.bands != nullptr; });
+}
+
+double PlotCurves::laneHeight() const
+{
+    const bool hasLines
+        = std::any_of(m_curves.begin(), m_curves.end(), [](const PlotCurve &each) { return each.isLine(); });
+    double height = 0.0;
+    for (const PlotCurve &curve : m_curves)
+        height += hasLines && curve.bands ? curve.bands->lineHeight() : 0.0;
+    return height > 0.0 ? height + laneMargin : 0.0;
 }
 
 bool PlotCurves::isWhole(PlotCurveSettings::Axis axis) const

@@ -42,6 +42,8 @@ struct PlotCurve
     CursorStatistics::Scaling scaling() const { return {settings.gain, settings.offset, source.isStepped}; }
     /// At \a time, the newest one without; NaN: none.
     double value(std::optional<SignalStore::Time> time) const;
+    /// Of the value at \a time, a QPlcQuality::Kind; without, the worst one of the last moments.
+    SignalStore::Mark mark(std::optional<SignalStore::Time> time) const;
 };
 
 /// The curves of a plot, which draws them.
@@ -68,6 +70,8 @@ public:
     const std::vector<const SignalStore *> &stores() const { return m_stores; }
     bool hasAxis(PlotCurveSettings::Axis axis) const;
     bool hasBands() const;
+    /// Of bands below lines, which leave it free [px]
+    double laneHeight() const;
     /// Whether an axis has curves, and all of them are whole numbers.
     bool isWhole(PlotCurveSettings::Axis axis) const;
     /// Of the values of all lines of an axis; empty when they differ.

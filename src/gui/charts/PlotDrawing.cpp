@@ -76,9 +76,18 @@ void QPlcTimePlot::Private::draw()
         }
         canvas->replot();
         ++drawnPictures;
+        if (!view()->isLive())
+            pointAtMouse();
     }
     showOverlay();
     showLiveButton();
+}
+
+/// A mouse that rests points at another time when the view moves below it.
+void QPlcTimePlot::Private::pointAtMouse()
+{
+    if (shared() && interaction->mouse())
+        shared()->setPointer(canvas->timeAt(interaction->mouse()->x()));
 }
 
 bool QPlcTimePlot::Private::fitRange(Axis axis)
@@ -103,7 +112,9 @@ void QPlcTimePlot::Private::showRange(Axis axis)
         minimum = values.minimum;
         maximum = values.maximum;
     }
-    canvas->setRange(axis, minimum, maximum, curves.isWhole(axis) ? PlotCanvas::WholeTicks : PlotCanvas::AnyTicks);
+    // What a person has chosen is that of the whole canvas.
+    canvas->setRange(axis, minimum, maximum, curves.isWhole(axis) ? PlotCanvas::WholeTicks : PlotCanvas::AnyTicks,
+                     values.isHeld ? 0.0 : curves.laneHeight());
 }
 
 void QPlcTimePlot::Private::showOverlay()
@@ -185,9 +196,8 @@ void QPlcTimePlot::Private::showNumbers()
     if (!q->isVisible())
         return;
     const TimeView *time = shared();
-    // Live, a mouse that rests points at ever later times.
-    if (time && interaction->mouse() && view()->isLive())
-        q->context()->timeView()->setPointer(canvas->timeAt(interaction->mouse()->x()));
+    if (view()->isLive())
+        pointAtMouse();
     std::optional<Time> moment = time ? time->pointer() : std::nullopt;
     if (!moment && !view()->isLive())
         moment = std::min(view()->end(), view()->newest());  // around an event, the rest is still to come

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "PlotLegend.h"
 
+#include "QPlcQuality.h"
 #include "gui/models/ValueFormat.h"
 
 #include <QtGui/QHelpEvent>
@@ -29,6 +30,21 @@ QString valueOf(const PlotCurve &curve, std::optional<SignalStore::Time> time, i
     if (curve.isMissing())
         return PlotLegend::tr("missing");
     return numberText(curve.value(time), precision, curve.names());
+}
+
+/// Empty for values like others.
+QString markText(SignalStore::Mark mark)
+{
+    switch (mark) {
+    case QPlcQuality::Held:
+        return PlotLegend::tr("held");
+    case QPlcQuality::Safe:
+        return PlotLegend::tr("safe");
+    case QPlcQuality::Invalid:
+        return PlotLegend::tr("not written");
+    default:
+        return {};
+    }
 }
 
 QString hintOf(const PlotCurve &curve)
@@ -88,9 +104,9 @@ void PlotLegend::show(const PlotCurves &curves, std::optional<SignalStore::Time>
         entry.hint = hintOf(curve);
         entry.color = curve.color;
         entry.isVisible = curve.settings.isVisible;
-        entry.isTrusted = !curve.isMissing() && !(curve.isStale() && !time);
-        if (curve.isStale() && !time)
-            entry.age = ageText(curve.source.plant->age());
+        const bool isOld = curve.isStale() && !time;
+        entry.doubt = isOld ? ageText(curve.source.plant->age()) : markText(curve.mark(time));
+        entry.isTrusted = !curve.isMissing() && !isOld && entry.doubt.isEmpty();
         entry.isSelected = place == curves.selected();
         entries.append(entry);
     }
@@ -135,10 +151,10 @@ int PlotLegend::wantedWidth() const
     return swatch + m_nameWidth + m_valueWidth + m_unitWidth + 3 * spacing;
 }
 
-/// With the room before it [px]; 0: there is no age.
-int PlotLegend::ageWidth(const Entry &entry) const
+/// With the room before it [px]; 0: there is no doubt.
+int PlotLegend::doubtWidth(const Entry &entry) const
 {
-    return entry.age.isEmpty() ? 0 : spacing + QFontMetrics(fontOf(entry)).horizontalAdvance(entry.age);
+    return entry.doubt.isEmpty() ? 0 : spacing + QFontMetrics(fontOf(entry)).horizontalAdvance(entry.doubt);
 }
 
 int PlotLegend::columnsFor(int width) const
@@ -173,7 +189,7 @@ QRect PlotLegend::entryRect(int place) const
     const int room = (width() - 2 * margin + gap) / columns;
     const int wanted = wantedWidth();
     const int column = place % columns;
-    const int width = std::min(room - gap, wanted + ageWidth(m_entries[place]));
+    const int width = std::min(room - gap, wanted + doubtWidth(m_entries[place]));
     return {margin + column * room, margin + place / columns * m_lineHeight, width, m_lineHeight};
 }
 
@@ -218,11 +234,11 @@ void PlotLegend::paintEntry(QPainter *painter, const QRect &wholeRect, const Ent
     const QFont font = fontOf(entry);
     painter->setFont(font);
     const bool isQuiet = !entry.isVisible || !entry.isTrusted;
-    const int age = ageWidth(entry);
-    const bool isAgeLast
-        = age > 0 && wholeRect.width() >= wantedWidth() + age;  // else it takes of the name: nothing moves
+    const int doubt = doubtWidth(entry);
+    const bool isDoubtLast
+        = doubt > 0 && wholeRect.width() >= wantedWidth() + doubt;  // else it takes of the name: nothing moves
     painter->setPen(m_theme.stale);
-    const QRect rect = isAgeLast ? paintAge(painter, wholeRect, entry) : wholeRect;
+    const QRect rect = isDoubtLast ? paintDoubt(painter, wholeRect, entry) : wholeRect;
     const bool hasValues = !m_isCompact || m_entries.size() == 1 || rect.width() >= wantedWidth();
     const int unitWidth = hasValues ? m_unitWidth : 0;
     const int room = rect.width() - swatch - (hasValues ? 3 : 1) * spacing - unitWidth;
@@ -232,8 +248,8 @@ void PlotLegend::paintEntry(QPainter *painter, const QRect &wholeRect, const Ent
     const int nameWidth = room - valueWidth;
     QRect part(rect.left() + swatch + spacing, rect.top(), nameWidth, rect.height());
     painter->setPen(isQuiet ? m_theme.stale : m_theme.text);
-    if (!isAgeLast && age > 0)
-        part = paintAge(painter, part, entry);
+    if (!isDoubtLast && doubt > 0)
+        part = paintDoubt(painter, part, entry);
     painter->drawText(part, Qt::AlignVCenter | Qt::TextSingleLine,
                       QFontMetrics(font).elidedText(entry.name, Qt::ElideMiddle, part.width()));
     if (!hasValues)
@@ -248,10 +264,10 @@ void PlotLegend::paintEntry(QPainter *painter, const QRect &wholeRect, const Ent
 }
 
 /// What is at the right end of an entry. \return the room that is left
-QRect PlotLegend::paintAge(QPainter *painter, const QRect &room, const Entry &entry) const
+QRect PlotLegend::paintDoubt(QPainter *painter, const QRect &room, const Entry &entry) const
 {
-    const int width = ageWidth(entry);
-    painter->drawText(room, Qt::AlignVCenter | Qt::AlignRight | Qt::TextSingleLine, entry.age);
+    const int width = doubtWidth(entry);
+    painter->drawText(room, Qt::AlignVCenter | Qt::AlignRight | Qt::TextSingleLine, entry.doubt);
     return room.adjusted(0, 0, -width, 0);
 }
 

@@ -21,15 +21,15 @@ public:
         QString name;
         QString value;
         QString unit;
-        QString age;   // of a value that is no longer true
-        QString hint;  // what is shown when the mouse rests on it
+        QString doubt;  // why the value is not one of its time: its age, or its quality
+        QString hint;   // what is shown when the mouse rests on it
         QColor color;
         bool isVisible = true;
         bool isTrusted = true;
         bool isSelected = false;
         friend bool operator==(const Entry &a, const Entry &b)
         {
-            return a.name == b.name && a.value == b.value && a.unit == b.unit && a.age == b.age && a.hint == b.hint
+            return a.name == b.name && a.value == b.value && a.unit == b.unit && a.doubt == b.doubt && a.hint == b.hint
                 && a.color == b.color && a.isVisible == b.isVisible && a.isTrusted == b.isTrusted
                 && a.isSelected == b.isSelected;
         }
@@ -70,8 +70,8 @@ private:
     void measure();
     int columnsFor(int width) const;
     int entryAt(QPoint position) const;
-    int ageWidth(const Entry &entry) const;
-    QRect paintAge(QPainter *painter, const QRect &room, const Entry &entry) const;
+    int doubtWidth(const Entry &entry) const;
+    QRect paintDoubt(QPainter *painter, const QRect &room, const Entry &entry) const;
     void paintEntry(QPainter *painter, const QRect &rect, const Entry &entry) const;
     int wantedWidth() const;
     QFont fontOf(const Entry &entry) const;

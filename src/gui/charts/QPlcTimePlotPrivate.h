@@ -67,6 +67,7 @@ public:
     /// The event of the trigger that is seen, or was before somebody moved the view.
     std::optional<Time> shownEvent();
     void placeTrigger(qplc::PlotOverlay::Picture *picture);
+    void pointAtMouse();
     bool fitRange(Axis axis);
     void showRange(Axis axis);
     void showOverlay();

@@ -21,6 +21,8 @@ constexpr double gap = 1.0;            // [px] between strips
 constexpr double leastText = 18.0;     // [px] with less there is no name
 constexpr double colorOfLight = 0.35;  // share of the colour of a state, so that names are read
 constexpr double colorOfDark = 0.45;
+constexpr double markedShare = 0.4;  // of that share, for values that are not like others
+constexpr int fewestLetters = 3;     // of a longer name, with the ellipsis
 constexpr int digits = 6;
 
 QColor mixed(const QColor &color, const QColor &ground, double share)
@@ -46,25 +48,32 @@ void StateBands::setPlace(int place, int count, Room room)
     m_room = room;
 }
 
+double StateBands::lineHeight() const
+{
+    return QFontMetricsF(m_font).height() + lineRoom;
+}
+
 QRectF StateBands::strip(const QRectF &canvas) const
 {
     if (m_room == AllHeight) {
         const double height = canvas.height() / m_count;
         return {canvas.left(), canvas.top() + m_place * height, canvas.width(), height - gap};
     }
-    const double height = std::min(QFontMetricsF(m_font).height() + lineRoom, canvas.height() / m_count);
+    const double height = std::min(lineHeight(), canvas.height() / m_count);
     return {canvas.left(), canvas.bottom() - (m_place + 1) * height, canvas.width(), height - gap};
 }
 
 /// States with names in the order of these; others by their value.
-QColor StateBands::colorOf(float value) const
+QColor StateBands::colorOf(const StateRuns::Run &run) const
 {
-    const auto number = qint64(std::llround(value));
+    const auto number = qint64(std::llround(run.value));
     const auto found = std::find_if(m_names.begin(), m_names.end(),
                                     [number](const QPlcValueNames::Entry &entry) { return entry.value == number; });
     const qint64 place = found != m_names.end() ? qint64(found - m_names.begin()) : m_names.size() + std::abs(number);
     constexpr int colors = 8;
-    return mixed(m_theme.curve(int(place % colors)), m_theme.surface, m_theme.isDark ? colorOfDark : colorOfLight);
+    const double share = m_theme.isDark ? colorOfDark : colorOfLight;
+    return mixed(m_theme.curve(int(place % colors)), m_theme.surface,
+                 run.mark == RowMarks::None ? share : markedShare * share);
 }
 
 QString StateBands::textOf(float value) const
@@ -95,14 +104,16 @@ void StateBands::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScale
         if (right <= left)
             continue;
         const QRectF piece(left, place.top(), right - left, place.height());
-        painter->fillRect(piece, colorOf(run.value));
+        painter->fillRect(piece, colorOf(run));
         if (piece.width() < leastText || piece.height() < metrics.ascent())
             continue;
         const QString text = needsTitle ? title().text() + QStringLiteral(": ") + textOf(run.value) : textOf(run.value);
+        const QString shown = metrics.elidedText(text, Qt::ElideRight, piece.width() - 1.5 * textMargin);
+        if (shown.size() < std::min(text.size(), fewestLetters))
+            continue;
         needsTitle = false;
         painter->setPen(m_theme.text);
-        painter->drawText(piece.adjusted(textMargin, 0.0, 0.0, 0.0), Qt::AlignLeft | Qt::AlignVCenter,
-                          metrics.elidedText(text, Qt::ElideRight, piece.width() - 1.5 * textMargin));
+        painter->drawText(piece.adjusted(textMargin, 0.0, 0.0, 0.0), Qt::AlignLeft | Qt::AlignVCenter, shown);
     }
     for (const int spike : m_runs.spikes()) {
         const double x = xOf(spike);

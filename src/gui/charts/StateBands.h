@@ -13,7 +13,7 @@ namespace qplc {
 
 /// A channel of states as a strip of a plot: a coloured piece for each time in which a value held, with its name. Behind curves; on no y axis.
 ///
-/// The x axis is in seconds after the origin, as that of StoreCurve. Values that held for less than a column of pixels are lines across the strip.
+/// Runs with a mark are paler. The x axis is in seconds after the origin, as that of StoreCurve. Values that held for less than a column of pixels are lines across the strip.
 class StateBands : public QwtPlotItem
 {
 public:
@@ -31,13 +31,16 @@ public:
     /// \param place  0 ... count - 1; at the bottom from below, else from above. Of several, each one says its title
     void setPlace(int place, int count, Room room);
 
+    /// Of a strip at the bottom [px]
+    double lineHeight() const;
+
     int rtti() const override { return Rtti_PlotUserItem + 2; }
     void draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap &yMap,
               const QRectF &canvasRect) const override;
 
 private:
     QRectF strip(const QRectF &canvas) const;
-    QColor colorOf(float value) const;
+    QColor colorOf(const StateRuns::Run &run) const;
     QString textOf(float value) const;
 
     const SignalStore *m_store;

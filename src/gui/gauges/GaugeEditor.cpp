@@ -63,15 +63,15 @@ void GaugeEditor::addStyles(QFormLayout *form)
 
 void GaugeEditor::addNumbers(QFormLayout *form, const QPlcSignalDefinition &definition)
 {
-    const auto ofTable = [](const QPlcValue &limit) {
-        return limit.isValid() ? tr("%1 (of the table)").arg(limit.toString()) : tr("automatic");
+    const auto ofTable = [](const QPlcValue &limit, const QString &otherwise) {
+        return limit.isValid() ? tr("%1 (of the table)").arg(limit.toString()) : otherwise;
     };
-    addNumber(form, tr("Scale from"), "minimum", ofTable(definition.minimum));
-    addNumber(form, tr("Scale to"), "maximum", ofTable(definition.maximum));
-    addNumber(form, tr("Alarm below"), "alarmLow", tr("none"));
+    addNumber(form, tr("Scale from"), "minimum", ofTable(definition.minimum, tr("automatic")));
+    addNumber(form, tr("Scale to"), "maximum", ofTable(definition.maximum, tr("automatic")));
+    addNumber(form, tr("Alarm below"), "alarmLow", ofTable(definition.minimum, tr("none")));
     addNumber(form, tr("Warning below"), "warningLow", tr("none"));
     addNumber(form, tr("Warning above"), "warningHigh", tr("none"));
-    addNumber(form, tr("Alarm above"), "alarmHigh", tr("none"));
+    addNumber(form, tr("Alarm above"), "alarmHigh", ofTable(definition.maximum, tr("none")));
     addNumber(form, tr("Hysteresis"), "hysteresis", tr("1 % of the scale"));
 }
 

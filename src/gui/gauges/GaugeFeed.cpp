@@ -34,9 +34,7 @@ void GaugeFeed::setContext(WindowContext *context)
     PlantList *plants = context->plants();
     connect(context->curveSources(), &CurveSources::changed, this, &GaugeFeed::resolve);
     connect(context->curveSources(), &CurveSources::filled, this, [this] { refresh(Texts::WhenDue); });
-    connect(plants, &PlantList::added, this, &GaugeFeed::follow);
-    for (int i = 0; i < plants->size(); ++i)
-        follow(plants->at(i));
+    plants->forEach(this, &GaugeFeed::follow);
     connect(context->timeView(), &TimeView::displayTimeChanged, this, [this] { refresh(Texts::WhenDue); });
     resolve();
 }
@@ -160,9 +158,14 @@ GaugeScale GaugeFeed::scale() const
     return scale;
 }
 
+/// Beyond the limits of the table is alarm, unless the settings say where it begins.
 AlarmLimits GaugeFeed::limits() const
 {
     AlarmLimits limits = m_settings.limits;
+    if (!limits.alarmLow)
+        limits.alarmLow = limitOf(m_definition.minimum);
+    if (!limits.alarmHigh)
+        limits.alarmHigh = limitOf(m_definition.maximum);
     limits.hysteresis = std::max(0.0, m_settings.hysteresis.value_or(scale().span() * 0.01));
     return limits;
 }

@@ -50,6 +50,15 @@ QPlcValue GaugeSource::newestValue() const
     return isNow ? QPlcValue(double(rows.value(m_formula.channel, rows.endRow() - 1))) : QPlcValue();
 }
 
+QPlcQuality GaugeSource::newestQuality() const
+{
+    if (!isFormula())
+        return m_signal.quality();
+    const std::optional<SignalStore::Row> row = m_formula.store->newestRow();
+    const int kind = row ? m_formula.store->greatestMark(m_formula.channel, *row, *row + 1) : RowMarks::None;
+    return kind == QPlcQuality::Held ? QPlcQuality::held(1) : QPlcQuality(QPlcQuality::Kind(kind));
+}
+
 QPlcValue GaugeSource::valueAt(SignalStore::Time time) const
 {
     return isFormula() ? pastValue(*m_formula.store, m_formula.channel, time) : pastValue(m_signal, time);

@@ -28,8 +28,8 @@ public:
 
     /// Invalid before the first. For a formula that of the last cycle.
     QPlcValue newestValue() const;
-    /// Of the newest value of a signal; what is calculated is as good as its plant.
-    QPlcQuality newestQuality() const { return isFormula() ? QPlcQuality::Good : m_signal.quality(); }
+    /// Of the newest value; what is calculated is as good as the worst value that it is calculated of.
+    QPlcQuality newestQuality() const;
     QPlcValue valueAt(SignalStore::Time time) const;
 
     /// Whether both mean the same, whatever their stores.

@@ -40,8 +40,10 @@ void EventLogModel::append(const PlantEvent &event)
     }
     if (event.stage != PlantEvent::Once)
         endAlarm(event);
-    if (event.stage == PlantEvent::Begins)
+    if (event.stage == PlantEvent::Begins) {
+        joinBurst(event);
         m_active.insert(keyOf(event), m_gone + m_events.size());
+    }
     beginInsertRows({}, rowCount(), rowCount());
     m_events.push_back({event});
     endInsertRows();
@@ -60,16 +62,43 @@ void EventLogModel::endAlarm(const PlantEvent &event)
     Q_EMIT dataChanged(index(row, 0), index(row, ColumnCount - 1));
 }
 
+/// The event is about to be the newest one.
+void EventLogModel::joinBurst(const PlantEvent &event)
+{
+    const QString plant = event.source.section(QLatin1Char('/'), 0, 0);
+    const auto burst = m_bursts.find(plant);
+    if (burst == m_bursts.end() || burst->last.msecsTo(event.time) > BurstPause) {
+        m_bursts.insert(plant, {m_gone + m_events.size(), event.time});
+        return;
+    }
+    burst->last = std::max(burst->last, event.time);
+    if (burst->first < m_gone)
+        return;
+    const int row = int(burst->first - m_gone);
+    if (keyOf(at(row)) == keyOf(event))
+        return;  // it has begun again
+    ++m_events[std::size_t(row)].followers;
+    Q_EMIT dataChanged(index(row, State), index(row, State));
+}
+
 QString EventLogModel::stateText(const Entry &entry) const
 {
-    if (entry.end.isValid())
-        return tr("Cleared");
-    if (entry.event.isAcknowledged)
-        return tr("Acknowledged");
-    return isActive(entry) ? tr("Active") : QString();
+    const QString state = entry.end.isValid() ? tr("Cleared")
+        : entry.event.isAcknowledged          ? tr("Acknowledged")
+        : isActive(entry)                     ? tr("Active")
+                                              : QString();
+    return entry.followers > 0 ? tr("1st · %1").arg(state) : state;
 }
 
 QString EventLogModel::stateHint(const Entry &entry) const
+{
+    const QString burst = entry.followers > 0
+        ? tr("\nThe first of a burst: alarms that came after it, and may come from it: %1").arg(entry.followers)
+        : QString();
+    return lifeText(entry) + burst;
+}
+
+QString EventLogModel::lifeText(const Entry &entry) const
 {
     if (entry.end.isValid())
         return tr("Cleared at %1, after %2")
@@ -143,6 +172,8 @@ QVariant EventLogModel::data(const QModelIndex &index, int role) const
         return event.isAcknowledged;
     case ActiveRole:
         return isActive(entry);
+    case FollowersRole:
+        return entry.followers;
     case Qt::ForegroundRole:
         return foregroundOf(!event.isAcknowledged);
     case Qt::ToolTipRole:

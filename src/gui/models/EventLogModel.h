@@ -12,14 +12,17 @@
 namespace qplc {
 
 /// What happened, newest last, at most 10 000 events: the oldest ones go. What is not information asks to be acknowledged; what lasts (PlantEvent::Begins) is active until it ends, acknowledged or not.
+///
+/// Alarms of one plant that follow each other within BurstPause are a burst: the first of them, which the others may come from, says so.
 class EventLogModel : public QAbstractTableModel
 {
     Q_OBJECT
 public:
     enum Column { Time, Severity, State, Source, Text, ColumnCount };
-    enum Role { SeverityRole = Qt::UserRole, AcknowledgedRole, ActiveRole };
+    enum Role { SeverityRole = Qt::UserRole, AcknowledgedRole, ActiveRole, FollowersRole };
 
     static constexpr int MostEvents = 10'000;
+    static constexpr int BurstPause = 5000;  // [ms]
 
     using QAbstractTableModel::QAbstractTableModel;
 
@@ -44,23 +47,32 @@ Q_SIGNALS:
     void unacknowledgedChanged(int count);
 
 private:
+    struct Burst
+    {
+        quint64 first;  // its alarm, counted from the first event ever
+        QDateTime last;
+    };
     struct Entry
     {
         PlantEvent event;
-        QDateTime end{};  // of what lasted
+        QDateTime end{};    // of what lasted
+        int followers = 0;  // alarms of the burst that it began
     };
 
     static bool asks(const PlantEvent &event);
     static QString keyOf(const PlantEvent &event);
     QString stateText(const Entry &entry) const;
     QString stateHint(const Entry &entry) const;
+    QString lifeText(const Entry &entry) const;
     bool isActive(const Entry &entry) const { return entry.event.stage == PlantEvent::Begins && !entry.end.isValid(); }
     void endAlarm(const PlantEvent &event);
+    void joinBurst(const PlantEvent &event);
     void count(int change);
 
     std::deque<Entry> m_events;
     quint64 m_gone = 0;                // events that were the oldest ones
     QHash<QString, quint64> m_active;  // alarms that last, and where they began, counted from the first event ever
+    QHash<QString, Burst> m_bursts;    // of each plant, the last one
     int m_unacknowledged = 0;
 };
 

@@ -49,10 +49,8 @@ NodeTableModel::NodeTableModel(PlantList *plants, QObject *parent)
     : QAbstractTableModel(parent)
     , m_plants(plants)
 {
-    connect(plants, &PlantList::added, this, &NodeTableModel::add);
+    plants->forEach(this, &NodeTableModel::add);
     connect(plants, &PlantList::removed, this, &NodeTableModel::remove);
-    for (int i = 0; i < plants->size(); ++i)
-        add(plants->at(i));
     connect(plants, &PlantList::added, this, &NodeTableModel::tellNames);
     connect(plants, &PlantList::removed, this, &NodeTableModel::tellNames);
 }

@@ -38,10 +38,8 @@ SignalTreeModel::SignalTreeModel(PlantList *plants, QObject *parent)
 {
     m_timer.setInterval(RefreshPause);
     connect(&m_timer, &QTimer::timeout, this, &SignalTreeModel::refresh);
-    connect(plants, &PlantList::added, this, &SignalTreeModel::add);
+    plants->forEach(this, &SignalTreeModel::add);
     connect(plants, &PlantList::removed, this, &SignalTreeModel::remove);
-    for (int i = 0; i < plants->size(); ++i)
-        add(plants->at(i));
     m_timer.start();
 }
 

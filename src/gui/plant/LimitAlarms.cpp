@@ -17,13 +17,13 @@ QString numberOf(double value, const QString &unit)
 LimitAlarms::LimitAlarms(PlantList *plants, QObject *parent)
     : QObject(parent)
 {
-    connect(plants, &PlantList::added, this, &LimitAlarms::follow);
-    for (int i = 0; i < plants->size(); ++i)
-        follow(plants->at(i));
+    plants->forEach(this, &LimitAlarms::follow);
 }
 
 void LimitAlarms::follow(Plant *plant)
 {
+    if (!plant->feed())
+        return;
     begin(plant);
     connect(plant, &Plant::storeChanged, this, [this, plant] { begin(plant); });
     connect(plant, &Plant::updated, this, [this, plant] { take(plant); });

@@ -10,7 +10,7 @@
 
 namespace qplc {
 
-/// Tells when signals of the plants of a window leave the limits of their tables, and when they are back: alarms of the event log.
+/// Tells when signals of plants that a program feeds leave the limits of their tables, and when they are back: alarms of the event log. A master refuses such values, and tells that itself.
 ///
 /// Threads: that of the window.
 class LimitAlarms : public QObject

@@ -39,6 +39,14 @@ public:
     /// Adds a plant that a program feeds (Plant::feed()).
     Plant *addFed(const QString &name);
     void remove(Plant *plant);
+    /// Calls \a follow with each plant: with those that are there now, and with those that come, as long as \a receiver lives.
+    template<typename Receiver>
+    void forEach(Receiver *receiver, void (Receiver::*follow)(Plant *))
+    {
+        connect(this, &PlantList::added, receiver, follow);
+        for (const std::unique_ptr<Plant> &plant : m_plants)
+            (receiver->*follow)(plant.get());
+    }
     /// Of all plants, also those that come: Plant::setRate().
     void setRate(double timesPerSecond);
     int size() const { return int(m_plants.size()); }

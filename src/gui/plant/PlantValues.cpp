@@ -90,7 +90,8 @@ void PlantValues::takeRow(const char *payload, Time time, const char *qualities)
     m_channels.toFloats(payload, m_row.data());
     if (qualities)
         leaveGaps(qualities);
-    m_store->append(time, m_row.data());
+    if (m_store->append(time, m_row.data()) && qualities)
+        markDoubts();
     std::copy_n(payload, size, m_newest.begin());
     m_batch.insert(m_batch.end(), payload, payload + size);
     ++m_batchSize;
@@ -110,6 +111,19 @@ void PlantValues::leaveGaps(const char *qualities)
         if (channel != ChannelMap::NoChannel)
             std::fill_n(m_row.begin() + channel, m_table.at(signal).type.count(),
                         std::numeric_limits<float>::quiet_NaN());
+    }
+}
+
+void PlantValues::markDoubts()
+{
+    const auto isDoubtful = [](char quality) { return !QPlcQuality::fromByte(quint8(quality)).isGood(); };
+    auto found = std::find_if(m_qualities.begin(), m_qualities.end(), isDoubtful);
+    for (; found != m_qualities.end(); found = std::find_if(found + 1, m_qualities.end(), isDoubtful)) {
+        const auto signal = QPlcSignalIndex(found - m_qualities.begin());
+        const int channel = m_channels.channel(signal);
+        const int count = channel != ChannelMap::NoChannel ? m_table.at(signal).type.count() : 0;
+        for (int element = 0; element < count; ++element)
+            m_store->mark(channel + element, QPlcQuality::fromByte(quint8(*found)).kind());
     }
 }
 

@@ -42,7 +42,7 @@ public:
     /// Takes the values of one cycle. \param wallTime  now, since 1970
     void takeFrame(const QPlcIOBufferSlaveNode::Frame &frame, Time wallTime);
     /// Takes the values of one cycle whose time somebody else knows. \param payload  as ChannelMap says  \param time  after that of the row before
-    /// \param qualities  a byte for each signal; null: nobody told them, and all are good. In the store an invalid value is a gap.
+    /// \param qualities  a byte for each signal; null: nobody told them, and all are good. In the store a value that is not good has the kind of its quality as mark, and an invalid one is a gap.
     void takeRow(const char *payload, Time time, const char *qualities = nullptr);
     /// Takes a value that came outside of a cycle. Nothing becomes of one that does not fit.
     void takeValue(QPlcSignalIndex signal, const QPlcValue &value, QPlcQuality quality = QPlcQuality::Good);
@@ -66,6 +66,7 @@ public:
 
 private:
     void leaveGaps(const char *qualities);
+    void markDoubts();
     QPlcValue valueIn(const char *payload, QPlcSignalIndex signal) const;
     int wantedRows() const;
     void makeStore();

@@ -44,6 +44,7 @@ void CurveShape::read(const SignalStore &store, int channel, const TimeColumns &
     m_isDense = hasManyRows(store, columns, inside);
     const Row end = std::min(inside.end + 1, store.endRow());
     Row begin = inside.begin > store.firstRow() ? inside.begin - 1 : inside.begin;
+    m_hasMarks = begin < end && store.greatestMark(channel, begin, end) != RowMarks::None;
     while (begin < end) {
         const Row next = store.nextBeginAnew(begin + 1, end);
         m_isInterrupted = true;
@@ -56,7 +57,8 @@ void CurveShape::readRows(const SignalStore &store, int channel, const TimeColum
 {
     for (Row row = begin; row < end; ++row) {
         const float value = store.value(channel, row);
-        add(columns.columnOf(store.time(row)) - columns.first(), value, value, {value, value});
+        add(columns.columnOf(store.time(row)) - columns.first(), value, value, {value, value},
+            markOf(store, channel, row, row + 1));
     }
 }
 
@@ -67,18 +69,19 @@ void CurveShape::readColumns(const SignalStore &store, int channel, const TimeCo
         const std::int64_t column = columns.columnOf(store.time(row));
         const Row next = std::min(store.rowAt(columns.beginOf(column + 1), guess), end);
         add(column - columns.first(), store.value(channel, row), store.value(channel, next - 1),
-            store.range(channel, row, next));
+            store.range(channel, row, next), markOf(store, channel, row, next));
         guess = std::min(next + (next - row), end);
+        store.prefetch(channel, guess);
         row = next;
     }
 }
 
-void CurveShape::add(std::int64_t x, float first, float last, SignalStore::Range range)
+void CurveShape::add(std::int64_t x, float first, float last, SignalStore::Range range, SignalStore::Mark mark)
 {
     if (!range.isEmpty()) {
         const bool isJoined = !m_isInterrupted && !std::isnan(first);
         m_points.push_back(
-            {int(std::clamp(x, -farthestX, farthestX)), isJoined, first, last, range.minimum, range.maximum});
+            {int(std::clamp(x, -farthestX, farthestX)), isJoined, first, last, range.minimum, range.maximum, mark});
     }
     m_isInterrupted = std::isnan(last);
 }

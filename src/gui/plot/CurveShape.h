@@ -23,12 +23,15 @@ public:
         float last;
         float minimum;  // never NaN
         float maximum;
+        SignalStore::Mark mark;  // the greatest one
     };
 
     /// Reads a channel anew; takes memory only when a view is larger than all before.
     void read(const SignalStore &store, int channel, const TimeColumns &columns);
 
     const std::vector<Point> &points() const { return m_points; }
+    /// Whether some of the points have a mark.
+    bool hasMarks() const { return m_hasMarks; }
     /// Whether points are columns.
     bool isDense() const { return m_isDense; }
 
@@ -37,10 +40,15 @@ private:
                   SignalStore::Row end);
     void readColumns(const SignalStore &store, int channel, const TimeColumns &columns, SignalStore::Row begin,
                      SignalStore::Row end);
-    void add(std::int64_t x, float first, float last, SignalStore::Range range);
+    void add(std::int64_t x, float first, float last, SignalStore::Range range, SignalStore::Mark mark);
+    SignalStore::Mark markOf(const SignalStore &store, int channel, SignalStore::Row begin, SignalStore::Row end) const
+    {
+        return m_hasMarks ? store.greatestMark(channel, begin, end) : RowMarks::None;
+    }
 
     std::vector<Point> m_points;
     bool m_isDense = false;
+    bool m_hasMarks = false;
     bool m_isInterrupted = true;  // no line leads to what is added next
 };
 

@@ -13,10 +13,8 @@ CurveSources::CurveSources(PlantList *plants, QObject *parent)
 {
     connect(plants, &PlantList::signalsChanged, m_derived.get(), &DerivedSignals::forgetStale);
     connect(plants, &PlantList::signalsChanged, this, &CurveSources::changed);
-    connect(plants, &PlantList::added, this, &CurveSources::follow);
     connect(m_derived.get(), &DerivedSignals::filled, this, &CurveSources::filled);
-    for (int place = 0; place < plants->size(); ++place)
-        follow(plants->at(place));
+    plants->forEach(this, &CurveSources::follow);
 }
 
 CurveSources::~CurveSources() = default;

@@ -58,10 +58,23 @@ void DerivedSignal::takeRow(const SignalStore &source, Row row)
     for (std::size_t i = 0; i < m_operands.size(); ++i)
         m_operands[i] = operand(source, i, row);
     const float value = toFloat(m_calculator.next(source.time(row), m_operands.data()));
-    if (m_store.append(source.time(row), &value))
-        return;
-    m_store.clear();  // the clock of the source has begun again
-    m_store.append(source.time(row), &value);
+    if (!m_store.append(source.time(row), &value)) {
+        m_store.clear();  // the clock of the source has begun again
+        m_store.append(source.time(row), &value);
+    }
+    if (const SignalStore::Mark mark = markOf(source, row))
+        m_store.mark(0, mark);
+}
+
+/// As good as the worst of what it is calculated of in this row.
+SignalStore::Mark DerivedSignal::markOf(const SignalStore &source, Row row) const
+{
+    SignalStore::Mark worst = RowMarks::None;
+    for (const std::vector<int> &channels : m_channels) {
+        for (const int channel : channels)
+            worst = std::max(worst, source.greatestMark(channel, row, row + 1));
+    }
+    return worst;
 }
 
 double DerivedSignal::operand(const SignalStore &source, std::size_t operand, Row row) const

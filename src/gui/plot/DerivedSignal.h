@@ -25,6 +25,7 @@ public:
 private:
     void catchUp(const SignalStore &source);
     void takeRow(const SignalStore &source, SignalStore::Row row);
+    SignalStore::Mark markOf(const SignalStore &source, SignalStore::Row row) const;
     double operand(const SignalStore &source, std::size_t operand, SignalStore::Row row) const;
 
     FormulaCalculator m_calculator;

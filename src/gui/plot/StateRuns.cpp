@@ -21,10 +21,10 @@ void StateRuns::read(const CurveShape &shape)
         const float greatest = std::max(former, value);
         if (point.minimum < least || point.maximum > greatest)
             m_spikes.push_back(point.x);
-        if (isJoined && former == value)
+        if (isJoined && former == value && m_runs.back().mark == point.mark)
             m_runs.back().end = point.x + 1;
         else
-            m_runs.push_back({point.x, point.x + 1, value});
+            m_runs.push_back({point.x, point.x + 1, value, point.mark});
         before = &point;
     }
 }

@@ -15,6 +15,7 @@ public:
         int begin;
         int end;
         float value;
+        SignalStore::Mark mark;
     };
 
     /// Reads a shape anew.

@@ -20,6 +20,8 @@ constexpr double nanosecondsOfSecond = 1e9;
 constexpr double farthestY = 1e6;  // [px]
 
 constexpr std::size_t mostSmoothPoints = 300;
+constexpr double markedOpacity = 0.45;  // of the colour of the curve
+constexpr SignalStore::Mark anyMark = 1;
 
 bool isVector(QPaintEngine::Type type)
 {
@@ -57,6 +59,7 @@ public:
         , m_left(pixelOf(device.m11() * std::min(xMap.p1(), xMap.p2()) + device.dx() + 0.5))
         , m_clip(device.mapRect(canvas).toAlignedRect())
         , m_thickness(std::max(1, int(std::lround(curve.lineWidth() * device.m11()))))
+        , m_thinness(std::max(1, int(std::lround(device.m11()))))
     {
         const double y0 = yMap.transform(0.0) * m_scale + m_shift;
         const double slope = (yMap.p2() - yMap.p1()) / (yMap.s2() - yMap.s1()) * m_scale;
@@ -76,6 +79,8 @@ public:
     int bottom(const Point &point) const { return std::max(y(point.minimum), y(point.maximum)); }
     const QRect &clip() const { return m_clip; }
     int thickness() const { return m_thickness; }
+    /// Of values with a mark.
+    int thinness() const { return m_thinness; }
 
 private:
     const QwtScaleMap &m_yMap;
@@ -89,6 +94,7 @@ private:
     int m_left;
     QRect m_clip;
     int m_thickness;
+    int m_thinness;
 };
 
 StoreCurve::StoreCurve(const SignalStore *store, int channel, const QString &title)
@@ -192,24 +198,38 @@ bool StoreCurve::isDrawnAsLine(const QPainter &painter) const
 void StoreCurve::drawSpans(QPainter *painter, const PixelScale &scale) const
 {
     m_spans.begin(scale.clip(), scale.thickness());
+    if (m_shape.hasMarks())
+        m_markedSpans.begin(scale.clip(), scale.thinness());
+    const PixelSpans *before = nullptr;
     const Point *last = nullptr;
     for (const Point &point : m_shape.points()) {
+        PixelSpans *spans = point.mark == RowMarks::None ? &m_spans : &m_markedSpans;
         const int x = scale.x(point.x);
         if (!last || !point.isJoined) {
-            m_spans.moveTo(x, scale.top(point), scale.bottom(point));
+            spans->moveTo(x, scale.top(point), scale.bottom(point));
         } else {
             const int from = scale.y(last->last);
             const int to = scale.y(point.first);
-            m_spans.lineTo(scale.x(last->x), from, x, m_style == Steps ? from : to);
-            m_spans.include(scale.top(point), scale.bottom(point));
+            if (spans != before)
+                spans->moveTo(scale.x(last->x), from, from);
+            spans->lineTo(scale.x(last->x), from, x, m_style == Steps ? from : to);
+            spans->include(scale.top(point), scale.bottom(point));
         }
+        before = spans;
         last = &point;
     }
-    m_spans.endLine();
     painter->setRenderHint(QPainter::Antialiasing, false);
     painter->setPen(Qt::NoPen);
-    painter->setBrush(m_color);
-    painter->drawRects(m_spans.rectangles().data(), int(m_spans.rectangles().size()));
+    fill(painter, &m_spans, colorOf(RowMarks::None));
+    if (m_shape.hasMarks())
+        fill(painter, &m_markedSpans, colorOf(anyMark));
+}
+
+void StoreCurve::fill(QPainter *painter, PixelSpans *spans, const QColor &color) const
+{
+    spans->endLine();
+    painter->setBrush(color);
+    painter->drawRects(spans->rectangles().data(), int(spans->rectangles().size()));
 }
 
 void StoreCurve::drawLines(QPainter *painter, const PixelScale &scale) const
@@ -218,17 +238,39 @@ void StoreCurve::drawLines(QPainter *painter, const PixelScale &scale) const
         painter->setRenderHint(QPainter::Antialiasing);
         painter->translate(0.5, 0.5);  // smooth lines run between pixels, others through them
     }
-    painter->setPen(QPen(m_color, scale.thickness(), Qt::SolidLine, Qt::SquareCap, Qt::BevelJoin));
+    const auto setPen = [&](bool isMarked) {
+        painter->setPen(QPen(colorOf(isMarked ? anyMark : RowMarks::None),
+                             isMarked ? scale.thinness() : scale.thickness(), Qt::SolidLine,
+                             isMarked ? Qt::FlatCap : Qt::SquareCap, Qt::BevelJoin));
+    };
+    bool isMarked = false;
+    setPen(isMarked);
     m_line.resize(0);
     for (const Point &point : m_shape.points()) {
         if (!point.isJoined)
             flushLine(painter);
+        if ((point.mark != RowMarks::None) != isMarked) {
+            const QPolygon before = m_line;
+            flushLine(painter);
+            isMarked = !isMarked;
+            setPen(isMarked);
+            if (!before.isEmpty())
+                m_line.append(before.last());
+        }
         const QPoint next(scale.x(point.x), scale.y(point.last));
         if (m_style == Steps && !m_line.isEmpty())
             m_line.append(QPoint(next.x(), m_line.last().y()));
         m_line.append(next);
     }
     flushLine(painter);
+}
+
+QColor StoreCurve::colorOf(SignalStore::Mark mark) const
+{
+    QColor color = m_color;
+    if (mark != RowMarks::None)
+        color.setAlphaF(markedOpacity * color.alphaF());
+    return color;
 }
 
 void StoreCurve::flushLine(QPainter *painter) const

@@ -16,7 +16,7 @@ namespace qplc {
 /// A channel of a SignalStore as a curve of a plot.
 ///
 /// The x axis is in seconds after origin(), the y axis in units of gain * value + offset. Each column of device pixels shows all that happened in it, so that no spike is lost; NaN and interruptions
-/// are gaps. What is drawn costs as much as the plot is wide, whatever the number of rows. With RenderAntialiased, curves of few rows are drawn smoothly; in vector pictures they are lines.
+/// are gaps; values with a mark are drawn paler and thinner. What is drawn costs as much as the plot is wide, whatever the number of rows. With RenderAntialiased, curves of few rows are drawn smoothly; in vector pictures they are lines.
 class StoreCurve : public QwtPlotItem
 {
 public:
@@ -63,6 +63,8 @@ private:
     void drawSpans(QPainter *painter, const PixelScale &scale) const;
     void drawLines(QPainter *painter, const PixelScale &scale) const;
     void flushLine(QPainter *painter) const;
+    void fill(QPainter *painter, PixelSpans *spans, const QColor &color) const;
+    QColor colorOf(SignalStore::Mark mark) const;
 
     const SignalStore *m_store;
     int m_channel;
@@ -75,6 +77,7 @@ private:
     // Kept from picture to picture, so that drawing takes no memory.
     mutable CurveShape m_shape;
     mutable PixelSpans m_spans;
+    mutable PixelSpans m_markedSpans;
     mutable QPolygon m_line;
 };
 

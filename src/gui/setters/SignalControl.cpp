@@ -35,10 +35,8 @@ void SignalControl::setPlants(PlantList *plants)
         m_plants->disconnect(this);
     m_plants = plants;
     if (plants) {
-        connect(plants, &PlantList::added, this, &SignalControl::listenTo);
+        plants->forEach(this, &SignalControl::listenTo);
         connect(plants, &PlantList::signalsChanged, this, &SignalControl::resolve);
-        for (int i = 0; i < plants->size(); ++i)
-            listenTo(plants->at(i));
     }
     resolve();
 }

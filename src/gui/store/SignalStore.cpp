@@ -78,6 +78,7 @@ SignalStore::SignalStore(int channels, int capacity)
     , m_times(m_rows)
     , m_values(std::size_t(channels) * m_rows)
     , m_beginsAnew((m_rows + wordBits - 1) / wordBits)
+    , m_marks(std::size_t(std::max(channels, 0)))
 {
     assert(channels >= 0 && capacity >= 16);
     for (std::size_t size = rowsOfBin; size <= m_rows; size *= fanOut) {
@@ -92,6 +93,8 @@ std::size_t SignalStore::memory() const
         = m_times.size() * sizeof(Time) + m_values.size() * sizeof(float) + m_beginsAnew.size() * sizeof(std::uint64_t);
     for (const Level &level : m_levels)
         bytes += level.bins.size() * sizeof(Range);
+    for (const RowMarks &marks : m_marks)
+        bytes += sizeof(marks) + marks.memory();
     return bytes;
 }
 
@@ -112,9 +115,18 @@ bool SignalStore::append(Time time, const float *values)
     return true;
 }
 
+void SignalStore::mark(int channel, Mark mark)
+{
+    RowMarks &marks = m_marks[std::size_t(channel)];
+    marks.forgetBefore(firstRow());
+    marks.mark(m_end - 1, mark);
+}
+
 void SignalStore::clear()
 {
     m_begin = m_end;
+    for (RowMarks &marks : m_marks)
+        marks.clear();
     m_interrupted = false;
 }
 
@@ -212,6 +224,20 @@ SignalStore::Range SignalStore::range(int channel, Row begin, Row end) const
     }
     add(begin, end);
     return range.isEmpty() ? Range{noValue, noValue} : range;
+}
+
+void SignalStore::prefetch(int channel, Row row) const
+{
+    constexpr std::size_t lineSize = 64;  // [byte]
+    const auto fetch = [](const auto *begin, std::size_t count) {
+        const auto *bytes = reinterpret_cast<const char *>(begin);
+        for (std::size_t line = 0; line < count * sizeof(*begin); line += lineSize)
+            __builtin_prefetch(bytes + line);
+    };
+    const std::size_t bin = slot(row) >> binBits;
+    const Level &level = m_levels.front();
+    fetch(m_values.data() + std::size_t(channel) * m_rows + (bin << binBits), rowsOfBin);
+    fetch(level.bins.data() + std::size_t(channel) * level.slots + (bin & ~(fanOut - 1)), fanOut);
 }
 
 void SignalStore::includeValues(Range *range, int channel, Row begin, Row end) const

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "gui/store/RowMarks.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -12,14 +14,15 @@ namespace qplc {
 ///
 /// Rows are numbered from 0 on for ever; those of firstRow() ... endRow() - 1 are kept. A value is a 32-bit real, NaN where there was none: curves are interrupted there, as they are at a row
 /// that begins after a gap. For each 32, 512, ... rows, counted from row 0 and so never shifting, smallest and largest value are kept, so that a range of a million rows
-/// costs as much as one of a thousand.
+/// costs as much as one of a thousand. Single values can have a mark, a small number that says in which way they are not like others.
 ///
-/// Memory: 4.3 bytes for each value, 9 bytes for each row, all of it taken at the begin. One thread.
+/// Memory: 4.3 bytes for each value, 9 bytes for each row, all of it taken at the begin; up to 8 KiB more for a channel with marks. One thread.
 class SignalStore
 {
 public:
     using Row = std::uint64_t;
     using Time = std::int64_t;  // [ns] on the clock of the plant
+    using Mark = RowMarks::Mark;
 
     struct Range
     {
@@ -41,6 +44,8 @@ public:
     /// \param values  one for each channel
     /// \return whether it was taken
     bool append(Time time, const float *values);
+    /// Marks the value of a channel in the newest row. \param mark  above 0
+    void mark(int channel, Mark mark);
     /// What is appended next does not continue what is there.
     void interrupt() { m_interrupted = true; }
     /// Forgets all rows. Their numbers are not given again, and any time may follow.
@@ -72,6 +77,14 @@ public:
     std::optional<Row> rowHoldingAt(Time time) const;
     /// Smallest and largest value of rows \a begin ... \a end - 1; NaN counts as nothing.
     Range range(int channel, Row begin, Row end) const;
+    /// A range that begins or ends about \a row is wanted soon: what it needs comes from memory meanwhile.
+    void prefetch(int channel, Row row) const;
+    /// The greatest mark of rows \a begin ... \a end - 1; 0: there is none. May be above 0 for rows between very many marked ones.
+    Mark greatestMark(int channel, Row begin, Row end) const
+    {
+        const RowMarks &marks = m_marks[std::size_t(channel)];
+        return marks.isEmpty() ? RowMarks::None : marks.greatest(begin, end);
+    }
 
 private:
     /// Smallest and largest values of as many rows, of all channels. A bin is written when its last row is there, and overwritten after its first row has gone: each bin whose rows are all kept is right.
@@ -93,6 +106,7 @@ private:
     std::vector<Time> m_times;                // [rows]
     std::vector<float> m_values;              // [channels x rows], channel after channel
     std::vector<std::uint64_t> m_beginsAnew;  // a bit for each row
+    std::vector<RowMarks> m_marks;            // of each channel
     std::vector<Level> m_levels;              // bins of 32, 512, ... rows
     Row m_begin = 0;                          // the first row since clear()
     Row m_end = 0;

@@ -19,7 +19,7 @@ using namespace qplc;
 namespace {
 
 const QVector<PanelTable::Column> columns
-    = {{"time", 14, true}, {"severity", 13, true}, {"state", 13, true}, {"source", 16, true}, {"event", 40, true}};
+    = {{"time", 14, true}, {"severity", 13, true}, {"state", 16, true}, {"source", 16, true}, {"event", 40, true}};
 
 const QStringList severities = {QStringLiteral("information"), QStringLiteral("warning"), QStringLiteral("error")};
 

@@ -27,11 +27,9 @@ ControlNotice::ControlNotice(WindowContext *context, QWidget *parent)
     row->addWidget(m_giveBack);
     PlantList *plants = context->plants();
     connect(m_giveBack, &QAbstractButton::clicked, this, [plants] { giveBackControl(*plants); });
-    connect(plants, &PlantList::added, this, &ControlNotice::listenTo);
     connect(plants, &PlantList::removed, this, &ControlNotice::follow);
     connect(context, &WindowContext::themeChanged, this, QOverload<>::of(&QWidget::update));
-    for (int place = 0; place < plants->size(); ++place)
-        listenTo(plants->at(place));
+    plants->forEach(this, &ControlNotice::listenTo);
     follow();
 }
 

@@ -29,11 +29,9 @@ FaultBanner::FaultBanner(WindowContext *context, QWidget *parent)
     setObjectName(QStringLiteral("FaultBanner"));
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
     PlantList *plants = context->plants();
-    connect(plants, &PlantList::added, this, &FaultBanner::listenTo);
     connect(plants, &PlantList::removed, this, &FaultBanner::follow);
     connect(context, &WindowContext::themeChanged, this, QOverload<>::of(&QWidget::update));
-    for (int place = 0; place < plants->size(); ++place)
-        listenTo(plants->at(place));
+    plants->forEach(this, &FaultBanner::listenTo);
     follow();
 }
 

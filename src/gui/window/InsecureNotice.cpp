@@ -8,10 +8,8 @@ InsecureNotice::InsecureNotice(WindowContext *context, QWidget *parent)
 {
     setObjectName(QStringLiteral("InsecureNotice"));
     PlantList *plants = context->plants();
-    connect(plants, &PlantList::added, this, &InsecureNotice::listenTo);
     connect(plants, &PlantList::removed, this, &InsecureNotice::follow);
-    for (int place = 0; place < plants->size(); ++place)
-        listenTo(plants->at(place));
+    plants->forEach(this, &InsecureNotice::listenTo);
     follow();
 }
 

@@ -29,11 +29,9 @@ LatchBanner::LatchBanner(WindowContext *context, QWidget *parent)
     row->addWidget(m_label, 1);
     row->addWidget(m_reset, 0, Qt::AlignVCenter);
     PlantList *plants = context->plants();
-    connect(plants, &PlantList::added, this, &LatchBanner::listenTo);
     connect(plants, &PlantList::removed, this, &LatchBanner::follow);
     connect(context, &WindowContext::themeChanged, this, &LatchBanner::colour);
-    for (int place = 0; place < plants->size(); ++place)
-        listenTo(plants->at(place));
+    plants->forEach(this, &LatchBanner::listenTo);
     colour();
     follow();
 }

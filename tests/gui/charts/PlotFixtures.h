@@ -12,6 +12,7 @@
 #include <QtCore/QJsonDocument>
 #include <QtWidgets/QAction>
 
+#include <cstdlib>
 #include <memory>
 
 /// A window with a time plot and a running plant, whose signals are those of testTable().
@@ -44,6 +45,21 @@ public:
         if (!store || store->isEmpty())
             return 0.0;
         return double(store->time(store->endRow() - 1) - store->time(store->firstRow())) * 1e-9;
+    }
+    /// Freezes the view, and waits until the plot has it: a busy machine draws later.
+    bool show(qplc::TimeView::Time begin, qplc::TimeView::Time end)
+    {
+        time()->show(begin, end);
+        return isDrawn();
+    }
+    /// Waits until the plot shows the frozen view, but for a column of pixels.
+    bool isDrawn()
+    {
+        return QTest::qWaitFor([this] {
+            const auto column = time()->span() / canvas()->deviceWidth() + 1;
+            return std::abs(canvas()->begin() - time()->begin()) <= column
+                && std::abs(canvas()->end() - time()->end()) <= column;
+        });
     }
     qplc::TimeView *time() { return context.timeView(); }
     template<typename Part>

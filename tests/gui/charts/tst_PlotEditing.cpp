@@ -54,6 +54,7 @@ private Q_SLOTS:
     void aFileDialogDoesNotBlockAndFailuresAreSaid();
     void smallPanelsKeepTheirCurves();
     void manyCurvesWithStatisticsLeaveRoomForThem();
+    void theLegendSaysTheQualityAtThePointer();
     void staleValuesAreNotTrusted();
 };
 
@@ -248,8 +249,7 @@ void tst_PlotEditing::whatIsSeenGoesIntoTheClipboard()
 {
     PlotWindow window(R"({"curves":[{"signal":"count"},{"signal":"sum","gain":2},{"signal":"echo","visible":false}]})");
     QVERIFY(window.run(0.5));
-    window.time()->show(window.time()->newest() - 100'000'000, window.time()->newest());
-    QTest::qWait(60);
+    QVERIFY(window.show(window.time()->newest() - 100'000'000, window.time()->newest()));
     QGuiApplication::clipboard()->clear();
     window.trigger("copyTable");
     QTRY_VERIFY(!QGuiApplication::clipboard()->text().isEmpty());
@@ -342,6 +342,26 @@ void tst_PlotEditing::manyCurvesWithStatisticsLeaveRoomForThem()
     QTRY_VERIFY(window.canvas()->height() >= 110);
 }
 
+void tst_PlotEditing::theLegendSaysTheQualityAtThePointer()
+{
+    PlotWindow window(R"({"curves":[{"signal":"count"}]})");
+    QVERIFY(window.run(0.3));
+    window.time()->freeze();
+    window.context.plants()->at(0)->close();
+    SignalStore *store = window.context.plants()->at(0)->store();
+    const auto channel = window.context.plants()->at(0)->values().channels().channel(
+        window.context.plants()->at(0)->table().indexOf(QStringLiteral("count")));
+    store->mark(channel, QPlcQuality::Safe);
+    const SignalStore::Row newest = *store->newestRow();
+    auto *legend = window.part<PlotLegend>();
+    window.time()->setPointer(store->time(newest));
+    QTRY_COMPARE(legend->entries().first().doubt, QStringLiteral("safe"));
+    QVERIFY(!legend->entries().first().isTrusted);
+    window.time()->setPointer(store->time(newest - 1));
+    QTRY_COMPARE(legend->entries().first().doubt, QString());
+    QVERIFY(legend->entries().first().isTrusted);
+}
+
 void tst_PlotEditing::staleValuesAreNotTrusted()
 {
     PlotWindow window(R"({"curves":[{"signal":"count"}]})");
@@ -351,7 +371,8 @@ void tst_PlotEditing::staleValuesAreNotTrusted()
     const int height = legend->heightForWidth(300);
     window.context.plants()->at(0)->close();
     QTRY_VERIFY(!legend->entries().first().isTrusted);
-    QTRY_VERIFY2(legend->entries().first().age.contains(QLatin1Char('s')), qPrintable(legend->entries().first().age));
+    QTRY_VERIFY2(legend->entries().first().doubt.contains(QLatin1Char('s')),
+                 qPrintable(legend->entries().first().doubt));
     QCOMPARE(legend->heightForWidth(300), height);
 }
 

@@ -71,10 +71,10 @@ void tst_PlotSources::moreOfThePastIsDrawnInFrozenViews()
     PlotWindow window(derivedCurve);
     QVERIFY(window.run(0.3));
     window.time()->freeze();
-    QTest::qWait(300);
+    QVERIFY(window.isDrawn());
     const int before = window.plot->drawnPictures();
     Q_EMIT window.context.curveSources()->filled();
-    QTRY_COMPARE(window.plot->drawnPictures(), before + 1);
+    QTRY_VERIFY(window.plot->drawnPictures() > before);
 }
 
 void tst_PlotSources::aFormulaIsShownWithoutTheEqualsSign()

@@ -146,8 +146,9 @@ void tst_PlotTrigger::whoPansKeepsTheViewUntilTheNextEvent()
 {
     PlotWindow window(triggered(R"(,"mode":"single")"));
     QVERIFY(window.run(0.2));
-    QTRY_COMPARE(window.part<TriggerBar>()->trigger().state(), Trigger::Done);
-    QTest::qWait(50);
+    const Trigger &trigger = window.part<TriggerBar>()->trigger();
+    QTRY_COMPARE(trigger.state(), Trigger::Done);
+    QTRY_VERIFY(std::abs(window.canvas()->begin() - (*trigger.shownEvent() - s / 4)) < s / 100);
     const Time begin = window.canvas()->begin();
     window.trigger("earlier");
     QTRY_VERIFY(window.canvas()->begin() < begin - s / 10);

@@ -164,6 +164,9 @@ void tst_StatesInPlots::bandsAreAtTheBottomBehindOtherCurves()
     QVERIFY(off != reelIn);
     QCOMPARE(window.colorAt(0.25, 0.2), surface);
     QCOMPARE(window.label(100.0), QStringLiteral("100"));  // the axis is that of the speed
+    const auto *canvas = window.plot->findChild<PlotCanvas *>();
+    const int strip = QFontMetrics(canvas->axisFont(QwtPlot::xBottom)).height();
+    QVERIFY(canvas->yOf(PlotCurveSettings::Left, 0.0) < canvas->canvas()->height() - strip);  // no line is below it
 }
 
 void tst_StatesInPlots::bandsAloneTakeAllOfThePlot()

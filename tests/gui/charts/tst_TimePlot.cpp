@@ -22,6 +22,12 @@ void wheel(QWidget *widget, QPoint at, int steps, Qt::KeyboardModifiers modifier
     QCoreApplication::sendEvent(widget, &event);
 }
 
+void moveMouse(QWidget *widget, QPoint to)
+{
+    QMouseEvent event(QEvent::MouseMove, to, widget->mapToGlobal(to), Qt::NoButton, Qt::NoButton, Qt::NoModifier);
+    QCoreApplication::sendEvent(widget, &event);
+}
+
 void drag(QWidget *widget, QPoint from, QPoint to, Qt::MouseButton button = Qt::LeftButton,
           Qt::KeyboardModifiers modifiers = Qt::NoModifier)
 {
@@ -61,6 +67,7 @@ private Q_SLOTS:
     void aDoubleClickShowsAll();
     void cursorsAreDragged();
     void theMousePointsInAllPlots();
+    void aMouseThatRestsPointsIntoTheNewView();
     void anOwnTimeAxisIsItsOwn();
     void limitsAndStepsComeFromTheTable();
     void referenceLinesAreSeen();
@@ -133,9 +140,8 @@ void tst_TimePlot::aFrozenPlotIsDrawnOnceAndDataGoOn()
 {
     PlotWindow window(R"({"curves":[{"signal":"count"}],"left":{"minimum":0,"maximum":1000}})");
     QVERIFY(window.run(0.5));
-    window.time()->show(window.time()->newest() - s / 2, window.time()->newest() - s / 10);
+    QVERIFY(window.show(window.time()->newest() - s / 2, window.time()->newest() - s / 10));
     QTRY_VERIFY(liveButton(window)->isVisible());
-    QTest::qWait(50);
     const int before = window.plot->drawnPictures();
     const double past = window.past();
     QTRY_VERIFY(window.past() > past + 1.2);
@@ -195,7 +201,7 @@ void tst_TimePlot::draggingPansByWhatTheMouseMoves()
     PlotWindow window(R"({"curves":[{"signal":"count"}]})");
     QVERIFY(window.run(0.2));
     window.time()->freeze();
-    QTest::qWait(50);
+    QVERIFY(window.isDrawn());
     QWidget *canvas = window.canvas()->canvas();
     const Time before = window.time()->end();
     drag(canvas, {100, 50}, {100 + canvas->width() / 2, 60});
@@ -208,8 +214,7 @@ void tst_TimePlot::twoFingersZoomTheTime()
     PlotWindow window(R"({"curves":[{"signal":"count"}]})");
     QVERIFY(window.run(0.3));
     const Time newest = window.time()->newest();
-    window.time()->show(newest - 10 * s, newest);
-    QTest::qWait(60);
+    QVERIFY(window.show(newest - 10 * s, newest));
     QTouchDevice *screen = QTest::createTouchDevice();
     QWidget *canvas = window.canvas()->canvas();
     const Time about = window.canvas()->timeAt(200.0);
@@ -219,8 +224,7 @@ void tst_TimePlot::twoFingersZoomTheTime()
     QTest::touchEvent(canvas, screen).release(0, {100, 80}, canvas).release(1, {300, 80}, canvas);
     const double zoomed = double(window.time()->span()) / double(10 * s);
     QVERIFY2(zoomed > 0.4 && zoomed < 0.65, qPrintable(QString::number(zoomed)));
-    QTest::qWait(60);
-    QVERIFY(std::abs(window.canvas()->xOf(about) - 200.0) < 15.0);
+    QTRY_VERIFY(std::abs(window.canvas()->xOf(about) - 200.0) < 15.0);
 }
 
 void tst_TimePlot::aBoxIsZoomedInto()
@@ -228,7 +232,7 @@ void tst_TimePlot::aBoxIsZoomedInto()
     PlotWindow window(R"({"curves":[{"signal":"count"}],"left":{"minimum":0,"maximum":100}})");
     QVERIFY(window.run(0.2));
     window.time()->freeze();
-    QTest::qWait(50);
+    QVERIFY(window.isDrawn());
     for (const bool isByKey : {true, false}) {
         window.trigger("all");
         QTRY_COMPARE(qRound(window.canvas()->valueAt(PlotCurveSettings::Left, 0.0)), 100);
@@ -258,8 +262,7 @@ void tst_TimePlot::cursorsAreDragged()
 {
     PlotWindow window(R"({"curves":[{"signal":"count"}]})");
     QVERIFY(window.run(2.5));
-    window.time()->show(window.time()->newest() - 2 * s, window.time()->newest());
-    QTest::qWait(50);
+    QVERIFY(window.show(window.time()->newest() - 2 * s, window.time()->newest()));
     window.trigger("cursorA");
     window.trigger("cursorB");
     const auto &picture = window.part<PlotOverlay>()->picture();
@@ -284,11 +287,9 @@ void tst_TimePlot::theMousePointsInAllPlots()
 {
     PlotWindow window(R"({"curves":[{"signal":"count"}]})");
     QVERIFY(window.run(0.4));
-    window.time()->show(window.time()->newest() - s / 4, window.time()->newest());
-    QTest::qWait(50);
+    QVERIFY(window.show(window.time()->newest() - s / 4, window.time()->newest()));
     QWidget *canvas = window.canvas()->canvas();
-    QMouseEvent move(QEvent::MouseMove, QPoint(canvas->width() / 2, 30), Qt::NoButton, Qt::NoButton, Qt::NoModifier);
-    QCoreApplication::sendEvent(canvas, &move);
+    moveMouse(canvas, {canvas->width() / 2, 30});
     QVERIFY(window.time()->pointer());
     QCOMPARE(*window.time()->pointer(), window.canvas()->timeAt(canvas->width() / 2));
     const auto &picture = window.part<PlotOverlay>()->picture();
@@ -296,6 +297,18 @@ void tst_TimePlot::theMousePointsInAllPlots()
     QEvent leave(QEvent::Leave);
     QCoreApplication::sendEvent(canvas, &leave);
     QVERIFY(!window.time()->pointer());
+}
+
+void tst_TimePlot::aMouseThatRestsPointsIntoTheNewView()
+{
+    PlotWindow window(R"({"curves":[{"signal":"count"}]})");
+    QVERIFY(window.run(0.4));
+    QWidget *canvas = window.canvas()->canvas();
+    moveMouse(canvas, {canvas->width() / 2, 30});  // in the middle of 30 s, where there are no values
+    const Time newest = window.time()->newest();
+    QVERIFY(window.show(newest - s / 4, newest));
+    QTRY_COMPARE(*window.time()->pointer(), window.canvas()->timeAt(canvas->width() / 2));
+    QTRY_COMPARE(window.part<PlotOverlay>()->picture().dots.size(), 1);
 }
 
 void tst_TimePlot::anOwnTimeAxisIsItsOwn()

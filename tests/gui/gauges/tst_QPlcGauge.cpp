@@ -87,7 +87,6 @@ private Q_SLOTS:
     void aSignalThatIsNotThereComesToLifeWithItsPlant();
     void theScaleIsThatOfTheTableUnlessChosen();
     void whatIsBeyondTheTableSaysSo();
-    void bandsSaySoWithHysteresis();
     void integersBooleansAndTextsAreShownAsSuch();
     void aTripleIsThreeNumbersAndAMatrixAsksForAChoice();
     void aLostMasterLeavesAGreyValueWithItsAge();
@@ -198,31 +197,6 @@ void tst_QPlcGauge::whatIsBeyondTheTableSaysSo()
     take(5.0f);
     QCOMPARE(feed.picture().status, QString());
     QCOMPARE(feed.picture().level, AlarmState::Normal);
-}
-
-void tst_QPlcGauge::bandsSaySoWithHysteresis()
-{
-    QPlcSignalIndexTable::setCurrent(gaugeTable());
-    GaugeFeed feed;
-    feed.setSettings(settingsOf({{"signal", "level"}, {"warningHigh", 50}, {"alarmHigh", 80}, {"alarmLow", 10}}));
-    feed.setActive(true);
-    const QPlcSignalIndex index = QPlcSignalIndexTable::index(QStringLiteral("level"));
-    const auto status = [&](float value) {
-        QPlcSignalList list;
-        list.insert(index, value);
-        feed.take({list}, index);
-        return feed.picture().status;
-    };
-    QCOMPARE(feed.picture().bands.size(), 3);
-    QCOMPARE(status(49.5f), QString());
-    QCOMPARE(status(50.5f), QStringLiteral("▲ high"));
-    QCOMPARE(status(49.5f), QStringLiteral("▲ high"));  // 1 % of the scale
-    QCOMPARE(status(48.9f), QString());
-    QCOMPARE(status(81.0f), QStringLiteral("▲▲ high high"));
-    QCOMPARE(status(9.0f), QStringLiteral("▼▼ low low"));
-    feed.setSettings(settingsOf({{"signal", "level"}, {"warningHigh", 50}, {"hysteresis", 0}}));
-    QCOMPARE(status(50.5f), QStringLiteral("▲ high"));
-    QCOMPARE(status(49.9f), QString());
 }
 
 void tst_QPlcGauge::integersBooleansAndTextsAreShownAsSuch()

@@ -53,6 +53,8 @@ private Q_SLOTS:
     void anAlarmIsActiveUntilItEndsAcknowledgedOrNot();
     void alarmsOfTwoPlantsDoNotEndEachOther();
     void anAlarmThatBeginsAgainIsActiveOnce();
+    void theFirstAlarmOfABurstSaysSo();
+    void eachPlantHasBurstsOfItsOwn();
     void theEndOfAForgottenAlarmIsALineOnly();
     void whatHappensToAPlantIsInTheLog();
 };
@@ -278,6 +280,39 @@ void tst_PlantModels::anAlarmThatBeginsAgainIsActiveOnce()
     QCOMPARE(log.active(), 1);
     QCOMPARE(log.index(0, EventLogModel::State).data().toString(), QStringLiteral("Cleared"));
     QCOMPARE(log.index(1, EventLogModel::State).data().toString(), QStringLiteral("Active"));
+}
+
+void tst_PlantModels::theFirstAlarmOfABurstSaysSo()
+{
+    EventLogModel log;
+    const QAbstractItemModelTester tester(&log, fatal);
+    const auto state = [&](int row) { return log.index(row, EventLogModel::State).data().toString(); };
+    log.append(alarmOf(PlantEvent::Begins, "node Winch", 0));
+    QCOMPARE(state(0), QStringLiteral("Active"));  // alone it is the first of nothing
+    log.append(eventOf(PlantEvent::Warning, QStringLiteral("late")));
+    log.append(alarmOf(PlantEvent::Begins, "value of force", 3000));
+    log.append(alarmOf(PlantEvent::Begins, "value of speed", 7000));
+    QCOMPARE(state(0), QStringLiteral("1st · Active"));
+    QCOMPARE(state(2), QStringLiteral("Active"));
+    QCOMPARE(state(3), QStringLiteral("Active"));
+    QVERIFY(log.index(0, EventLogModel::State).data(Qt::ToolTipRole).toString().endsWith(QStringLiteral("from it: 2")));
+    log.append(alarmOf(PlantEvent::Ends, "node Winch", 8000));
+    QCOMPARE(state(0), QStringLiteral("1st · Cleared"));
+    log.append(alarmOf(PlantEvent::Begins, "node Kite", 12'001));  // another burst
+    log.append(alarmOf(PlantEvent::Begins, "value of position", 12'002));
+    QCOMPARE(state(5), QStringLiteral("1st · Active"));
+    QCOMPARE(log.index(0, 0).data(EventLogModel::FollowersRole).toInt(), 2);
+}
+
+void tst_PlantModels::eachPlantHasBurstsOfItsOwn()
+{
+    EventLogModel log;
+    log.append(alarmOf(PlantEvent::Begins, "hot", 0));
+    PlantEvent other = alarmOf(PlantEvent::Begins, "cold", 1);
+    other.source = QStringLiteral("south/Winch");
+    log.append(other);
+    QCOMPARE(log.index(0, 0).data(EventLogModel::FollowersRole).toInt(), 0);
+    QCOMPARE(log.index(1, 0).data(EventLogModel::FollowersRole).toInt(), 0);
 }
 
 void tst_PlantModels::theEndOfAForgottenAlarmIsALineOnly()

@@ -148,6 +148,13 @@ void tst_PlantValues::whatNobodyHasWrittenIsNoValueOfACurve()
     QCOMPARE(values.quality(4).kind(), QPlcQuality::Good);
     QCOMPARE(values.quality(6).kind(), QPlcQuality::Safe);
     QCOMPARE(values.value(5).toReal(), -3.0);  // the table shows what there is
+    const auto mark = [&](int signal, int element = 0) {
+        return int(values.store()->greatestMark(values.channels().channel(QPlcSignalIndex(signal), element), 0, 1));
+    };
+    QCOMPARE(mark(1), int(QPlcQuality::Held));
+    QCOMPARE(mark(2, 2), int(QPlcQuality::Invalid));
+    QCOMPARE(mark(4), int(QPlcQuality::Good));
+    QCOMPARE(mark(6), int(QPlcQuality::Safe));
 }
 
 void tst_PlantValues::aJumpOfCyclesIsAGap()

@@ -48,6 +48,7 @@ private Q_SLOTS:
     void aStateShorterThanAColumnIsASpike();
     void aChangeWithinAColumnIsNoSpike();
     void gapsEndStates();
+    void aMarkEndsARunOfTheSameState();
 };
 
 void tst_StateRuns::noRowsAreNoRuns()
@@ -92,6 +93,25 @@ void tst_StateRuns::gapsEndStates()
 {
     QCOMPARE(runsOf({1, 1, noValue, 1, 1}, 50), QStringLiteral("0-11:1 30-41:1"));
     QCOMPARE(runsOf({1, 1, 1, 1}, 40, nullptr, 2), QStringLiteral("0-11:1 20-31:1"));
+}
+
+void tst_StateRuns::aMarkEndsARunOfTheSameState()
+{
+    SignalStore store(1, 100);
+    const float value = 1.0F;
+    for (int i = 0; i < 6; ++i) {
+        store.append(i * millisecond, &value);
+        if (i == 2 || i == 3)
+            store.mark(0, 2);
+    }
+    CurveShape shape;
+    shape.read(store, 0, TimeColumns(0, 6 * millisecond, 60));
+    StateRuns runs;
+    runs.read(shape);
+    QStringList texts;
+    for (const StateRuns::Run &run : runs.runs())
+        texts << QStringLiteral("%1-%2:%3").arg(run.begin).arg(run.end).arg(run.mark);
+    QCOMPARE(texts.join(QLatin1Char(' ')), QStringLiteral("0-20:0 20-40:2 40-51:0"));
 }
 
 QTEST_APPLESS_MAIN(tst_StateRuns)

@@ -90,6 +90,8 @@ private Q_SLOTS:
     void spikeOfOneSampleReachesItsHeight();
     void eachColumnOfACurveIsDrawn();
     void gapsStayWhite();
+    void valuesWithAMarkArePalerAndThinnerAndKeepTheirPeaks_data();
+    void valuesWithAMarkArePalerAndThinnerAndKeepTheirPeaks();
     void stepsHoldTheirValue_data();
     void stepsHoldTheirValue();
     void gainAndOffsetMoveTheCurve();
@@ -155,6 +157,50 @@ void tst_StoreCurve::gapsStayWhite()
         for (int x = 0; x < width - 2; ++x)
             QCOMPARE(canvas.count(x) > 0, x <= (rows == 100 ? 48 : 49) || x >= 100);
     }
+}
+
+void tst_StoreCurve::valuesWithAMarkArePalerAndThinnerAndKeepTheirPeaks_data()
+{
+    QTest::addColumn<int>("rows");
+    QTest::addColumn<bool>("isSmooth");
+    QTest::newRow("spans, a column for each row and more") << 150 << false;
+    QTest::newRow("spans of many rows") << 20'000 << false;
+    QTest::newRow("smooth lines") << 150 << true;
+}
+
+void tst_StoreCurve::valuesWithAMarkArePalerAndThinnerAndKeepTheirPeaks()
+{
+    QFETCH(int, rows);
+    QFETCH(bool, isSmooth);
+    SignalStore store(1, rows);
+    for (int i = 0; i < rows; ++i) {
+        const float value = i == rows * 5 / 8 ? 90.0F : 50.0F;
+        QVERIFY(store.append(i * millisecond, &value));
+        if (i >= rows / 2 && i < rows * 3 / 4)
+            store.mark(0, 1);
+    }
+    Canvas canvas;
+    StoreCurve curve(&store, 0);
+    curve.setLineWidth(3.0);
+    curve.setRenderHint(QwtPlotItem::RenderAntialiased, isSmooth);
+    canvas.draw(curve, 0.0, 0.001 * rows);
+    const auto darkest = [&](int x) {
+        int grey = 255;
+        for (int y = 0; y < height; ++y)
+            grey = std::min(grey, qGray(canvas.image.pixel(x, y)));
+        return grey;
+    };
+    QVERIFY(darkest(50) < 20 && darkest(180) < 20);
+    QVERIFY(darkest(110) > 90 && darkest(110) < 200);
+    QVERIFY(canvas.count(110) < canvas.count(50));
+    int top = height;
+    for (int x = 120; x < 130; ++x) {
+        for (int y = 0; y < top; ++y)
+            top = canvas.isSet(x, y) ? y : top;
+    }
+    QVERIFY2(std::abs(top - 10) <= 1, qPrintable(QString::number(top)));
+    for (int x = 0; x < width - 2; ++x)
+        QVERIFY2(canvas.count(x) > 0, qPrintable(QString::number(x)));
 }
 
 void tst_StoreCurve::stepsHoldTheirValue_data()
