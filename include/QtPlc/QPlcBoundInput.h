@@ -15,4 +15,5 @@ public:
         : QPlcPortDetail::VariablePort<T>(node, name, QPlcPort::Input, variable, timing)
     {
     }
+    ~QPlcBoundInput() override { this->leaveNode(); }
 };

@@ -14,4 +14,5 @@ public:
         : QPlcPortDetail::VariablePort<T>(node, name, QPlcPort::Output, variable)
     {
     }
+    ~QPlcBoundOutput() override { this->leaveNode(); }
 };

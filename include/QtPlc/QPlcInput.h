@@ -15,6 +15,7 @@ public:
         : QPlcPortDetail::VariablePort<T>(node, name, QPlcPort::Input, &m_value, timing)
     {
     }
+    ~QPlcInput() override { this->leaveNode(); }
     const T &value() const { return m_value; }
     operator const T &() const { return m_value; }
 

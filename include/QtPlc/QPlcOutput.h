@@ -15,6 +15,7 @@ public:
         : QPlcPortDetail::VariablePort<T>(node, name, QPlcPort::Output, &m_value)
     {
     }
+    ~QPlcOutput() override { this->leaveNode(); }
     QPlcOutput &operator=(const T &value)
     {
         m_value = value;

@@ -36,6 +36,8 @@ protected:
     QPlcPort(QPlcCompactSlaveNode *node, const char *name, Direction direction,
              QPlcInputTiming::Value timing = QPlcInputTiming::LastCycle);
     virtual ~QPlcPort();
+    /// Ends the cycles of the node, which use this port no more. The first thing that the destructor of a port does, while the port is still whole.
+    void leaveNode();
 
 private:
     friend class QPlcCompactSlaveNode;

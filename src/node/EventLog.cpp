@@ -47,6 +47,7 @@ void EventLog::append(JournalEvent event, std::int64_t time)
 {
     if (event.text.size() > LongestText)
         event.text = event.text.left(LongestText - 1) + QChar(0x2026);
+    event.source.truncate(LongestSource);
     event.sequence = ++m_newest;
     event.time = time;
     m_events.push_back(std::move(event));

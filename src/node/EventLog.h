@@ -36,7 +36,8 @@ class EventLog
 {
 public:
     static constexpr std::size_t Capacity = 1000;
-    static constexpr int LongestText = 500;  // [characters] what is longer ends with an ellipsis
+    static constexpr int LongestText = 500;    // [characters] what is longer ends with an ellipsis
+    static constexpr int LongestSource = 100;  // [characters] a name that somebody has sent
 
     /// \param time  of the wall clock [ns since 1970]
     void append(JournalEvent event, std::int64_t time);

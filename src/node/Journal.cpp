@@ -150,6 +150,16 @@ void Journal::commanded(const QString &identity, const QString &what, const QStr
                 {JournalEvent::Info, JournalEvent::Security, identity, from});
 }
 
+void Journal::refused(const QString &name, const QString &address, const QString &reason)
+{
+    const JournalEvent event{JournalEvent::Warning, JournalEvent::Node, name,
+                             QStringLiteral("refused %1 %2").arg(address, reason)};
+    if (m_refusals.take(now()))
+        append(event);
+    else
+        tellLimited(QStringLiteral("refused"), QString(), event);
+}
+
 void Journal::strangerRefused(const QString &address, const QString &reason)
 {
     tellLimited(QStringLiteral("strangers"), QString(),

@@ -4,6 +4,7 @@
 #include "CycleStatistics.h"
 #include "EventLog.h"
 #include "ReportLimiter.h"
+#include "transport/TokenBucket.h"
 
 #include <QtCore/QObject>
 #include <QtCore/QStringList>
@@ -46,6 +47,8 @@ public:
     void denied(const QString &identity, const QString &text);
     /// Somebody with a right to it has commanded \a what.
     void commanded(const QString &identity, const QString &what, const QString &from);
+    /// Somebody whose greeting or registration was refused; anybody can be, again and again. \param name  as he calls himself
+    void refused(const QString &name, const QString &address, const QString &reason);
     /// Somebody who was not let in.
     void strangerRefused(const QString &address, const QString &reason);
     void valueCameBack(const QString &signal, const QString &value);
@@ -71,6 +74,7 @@ private:
 
     EventLog m_events;
     ReportLimiter m_limiter;
+    TokenBucket m_refusals{1, 16};      // that are told one by one; more of them are told together
     std::map<QString, Alarm> m_alarms;  // that last
     QTimer m_limiterTimer;
     QTimer m_overrunTimer;

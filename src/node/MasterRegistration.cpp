@@ -19,6 +19,13 @@ using Message = QPlcMessage;
 namespace {
 
 constexpr std::chrono::seconds LongestAttaching{5};  // until the cyclic connection of a node is there
+constexpr int LongestUuid = 64;                      // [characters] twice as many as there are
+
+/// As somebody calls himself, fit to be shown and kept.
+QString nameOf(const QString &given)
+{
+    return printable(given.left(NodeDeclaration::LongestName));
+}
 
 /// For one registration. Memory that node and master share needs none: who may open it may look into both programs anyway.
 std::optional<SealKeys> newSealKeys(const MasterConnection &connection)
@@ -50,8 +57,8 @@ void MasterServer::greet(MasterConnection *connection, const Message &message)
         return;
     }
     const int protocol = message.fields().value(QStringLiteral("protocol")).toInt();
-    connection->name = printable(message.text(QStringLiteral("name")));
-    connection->uuid = message.text(QStringLiteral("uuid"));
+    connection->name = nameOf(message.text(QStringLiteral("name")));
+    connection->uuid = message.text(QStringLiteral("uuid")).left(LongestUuid);
     if (protocol != 1) {
         reject(connection, QStringLiteral("VersionMismatch"),
                QStringLiteral("protocol version %1 of '%2' is not spoken here; this master speaks version 1")
@@ -100,7 +107,7 @@ void MasterServer::registerNode(MasterConnection *connection, const Message &mes
         connection->slot = m_registry.admit(declaration, &refusal);
     }
     if (!connection->slot) {
-        connection->name = declaration.name.isEmpty() ? connection->name : printable(declaration.name);
+        connection->name = declaration.name.isEmpty() ? connection->name : nameOf(declaration.name);
         reject(connection, refusal.error, refusal.text);
         return;
     }

@@ -64,8 +64,7 @@ void QPlcMasterNodePrivate::watchSecurity()
         });
     QObject::connect(server.get(), &qplc::MasterServer::refused, q,
                      [this](const QString &name, const QString &address, const QString &reason) {
-                         journal.tell(qplc::JournalEvent::Warning, qplc::JournalEvent::Node, name,
-                                      QStringLiteral("refused %1 %2").arg(address, reason));
+                         journal.refused(name, address, reason);
                          Q_EMIT q->nodeRefused(name, reason);
                      });
 }

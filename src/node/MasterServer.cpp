@@ -17,6 +17,7 @@ using Message = QPlcMessage;
 namespace {
 
 constexpr quint32 LongestGreeting = 64 * 1024;  // [byte]
+constexpr int LongestReason = 4000;             // [characters] of a refusal, which may quote what was sent
 
 }  // namespace
 
@@ -204,7 +205,7 @@ void MasterServer::forget(MasterConnection *connection)
 
 void MasterServer::reject(MasterConnection *connection, const QString &error, const QString &reason)
 {
-    const QString text = printable(reason);
+    const QString text = printable(reason.left(LongestReason));
     connection->send(Message::Rejected, {{QStringLiteral("error"), error}, {QStringLiteral("text"), text}});
     Q_EMIT refused(connection->name, connection->socket->peerName(), text);
     drop(connection, text);

@@ -63,8 +63,8 @@ bool NodeDeclaration::fromMessage(const QPlcMessage &message, NodeDeclaration *d
     declaration->critical = fields.value(QStringLiteral("critical")).toBool() && !declaration->listener;
     declaration->twoPhase = fields.value(QStringLiteral("twoPhase")).toBool();
     declaration->quality = fields.value(QStringLiteral("quality")).toBool();
-    if (declaration->name.isEmpty() || declaration->name.size() > 64)
-        *error = QStringLiteral("a node needs a name of 1 ... 64 characters");
+    if (declaration->name.isEmpty() || declaration->name.size() > LongestName)
+        *error = QStringLiteral("a node needs a name of 1 ... %1 characters").arg(LongestName);
     else if (declaration->name != printable(declaration->name))
         *error = QStringLiteral("the name '%1' has control characters").arg(printable(declaration->name));
     else if (!knownPolicy)

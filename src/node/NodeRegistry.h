@@ -16,6 +16,8 @@ namespace qplc {
 /// What a node says of itself when it registers.
 struct NodeDeclaration
 {
+    static constexpr int LongestName = 64;  // [characters]
+
     struct Signal
     {
         QString name;

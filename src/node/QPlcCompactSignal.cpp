@@ -9,7 +9,10 @@ QPlcCompactSignal::QPlcCompactSignal(const char *name, Direction direction, QPlc
 {
 }
 
-QPlcCompactSignal::~QPlcCompactSignal() = default;
+QPlcCompactSignal::~QPlcCompactSignal()
+{
+    leaveNode();
+}
 
 QString QPlcCompactSignal::variableType() const
 {

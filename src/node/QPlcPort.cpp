@@ -16,8 +16,14 @@ QPlcPort::QPlcPort(QPlcCompactSlaveNode *node, const char *name, Direction direc
 
 QPlcPort::~QPlcPort()
 {
+    leaveNode();
+}
+
+void QPlcPort::leaveNode()
+{
     if (m_node)
         m_node->remove(this);
+    m_node = nullptr;
 }
 
 namespace QPlcPortDetail {

@@ -85,6 +85,7 @@ private:
     std::unique_ptr<double> m_length = std::make_unique<double>(0.0);
     QPlcInput<double> m_setpoint{this, "setpoint"};
     QPlcOutput<double> m_echo{this, "echo"};
+    QPlcCompactSignal m_free{"free", QPlcPort::Input, this};  // the first to go: it is loaded by a virtual function
 };
 
 /// As Winch, with lists.

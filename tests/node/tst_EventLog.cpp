@@ -16,6 +16,7 @@ private Q_SLOTS:
     void oldestEventsAreForgotten();
     void askingGoesOnWhereItEnded();
     void longTextIsCutWithAnEllipsis();
+    void aLongSourceIsCut();
     void firstReportIsToldAtOnceAndFurtherOnesTogether();
     void everyThingHasAPauseOfItsOwn();
     void whatIsToldTogetherHasTheBeginOfTheFirstAndTheEndOfTheLast();
@@ -90,6 +91,15 @@ void tst_EventLog::longTextIsCutWithAnEllipsis()
     const std::vector<JournalEvent> all = log.after(0, 2);
     QCOMPARE(all[0].text, QString(EventLog::LongestText, 'x'));
     QCOMPARE(all[1].text, QString(EventLog::LongestText - 1, 'x') + QChar(0x2026));
+}
+
+void tst_EventLog::aLongSourceIsCut()
+{
+    EventLog log;
+    JournalEvent event = anEvent("a");
+    event.source = QString(60000, 'n');
+    log.append(event, 0);
+    QCOMPARE(log.after(0, 1)[0].source, QString(EventLog::LongestSource, 'n'));
 }
 
 void tst_EventLog::firstReportIsToldAtOnceAndFurtherOnesTogether()

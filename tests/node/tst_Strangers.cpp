@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SecurityFixtures.h"
+#include "protocol/ControlFrame.h"
 
 #include <QtCore/QDir>
 #include <QtCore/QElapsedTimer>
@@ -22,6 +23,7 @@ private Q_SLOTS:
     void whoSaysNothingIsShownOut();
     void whoSpeaksSlowlyIsShownOut();
     void whoStaysSilentKeepsNobodyOut();
+    void whoIsRefusedAgainAndAgainFillsNoLog();
     void garbageEndsItsOwnConnectionOnly();
     void aLongGreetingIsRefusedBeforeItIsRead();
     void tooManyConnectionsAreClosedAtOnce();
@@ -159,6 +161,26 @@ void tst_Strangers::whoStaysSilentKeepsNobodyOut()
     QVERIFY(lets("Counter"));
     for (int descriptor : crowd)
         ::close(descriptor);
+}
+
+void tst_Strangers::whoIsRefusedAgainAndAgainFillsNoLog()
+{
+    // What a stranger may say first, to masters of both kinds.
+    const QString longName(20000, 'n');
+    const QPlcMessage tooNew(QPlcMessage::Hello, {{"name", longName}, {"protocol", 99}});
+    const QPlcMessage wrongToken(QPlcMessage::AttachCyclicChannel, {{"node", 1}, {"name", longName}});
+    const QByteArray frame = qplc::encodeControlFrame(m_isSecured ? wrongToken : tooNew);
+    constexpr int times = 200;
+    for (int i = 0; i < times; ++i) {
+        const int descriptor = connected();
+        QCOMPARE(::write(descriptor, frame.constData(), std::size_t(frame.size())), ssize_t(frame.size()));
+        QTRY_VERIFY(isClosed(descriptor));
+        ::close(descriptor);
+    }
+    const QStringList told = m_log->matching("refused 127.0.0.1:");
+    QVERIFY2(!told.isEmpty() && told.size() < 40, qPrintable(QString::number(told.size())));
+    for (const QString &line : told)
+        QVERIFY2(line.size() < 1000, qPrintable(line));
 }
 
 void tst_Strangers::garbageEndsItsOwnConnectionOnly()
