@@ -12,9 +12,29 @@ CycleReports::CycleReports(bool tapFrames)
     m_wakeUp.arm();
 }
 
+/// Places of the ring that events of this kind leave to those that weigh more.
+std::size_t CycleReports::reserveAgainst(CycleEvent::Kind kind) noexcept
+{
+    switch (kind) {
+    case CycleEvent::LateAnswer:
+    case CycleEvent::ForgedFrame:
+    case CycleEvent::ValueRefused:
+    case CycleEvent::SourceChanged:
+    case CycleEvent::SignalSafe:
+        return Capacity / 2;
+    case CycleEvent::WaitingForNode:
+    case CycleEvent::WaitingEnded:
+    case CycleEvent::NodeFaulted:
+    case CycleEvent::LinkClosed:
+        return Capacity / 16;
+    default:
+        return 0;
+    }
+}
+
 void CycleReports::post(const CycleEvent &event) noexcept
 {
-    if (!m_events.push(event))
+    if (!m_events.push(event, reserveAgainst(event.kind)))
         m_dropped.fetch_add(1, std::memory_order_relaxed);
     m_wakeUp.notify();
 }

@@ -56,7 +56,8 @@ struct TappedFrame
 };
 
 /// How a cycle thread tells the thread of its owner what happened: rings, and a descriptor that becomes readable when there is something in them.
-/// The cycle thread posts and never waits; a full ring counts what it could not take.
+/// The cycle thread posts and never waits; a full ring counts what it could not take. News of which there may be thousands at once (each late answer, each signal that goes safe) leave
+/// room for what changes the state of a node, and this for what is said once in a phase: that the master stops safely or has ended is never lost.
 class CycleReports
 {
 public:
@@ -98,7 +99,11 @@ private:
         }
     }
 
-    SpscRing<CycleEvent> m_events{1024};
+    static constexpr std::size_t Capacity = 1024;
+
+    static std::size_t reserveAgainst(CycleEvent::Kind kind) noexcept;
+
+    SpscRing<CycleEvent> m_events{Capacity};
     std::unique_ptr<SpscRing<TappedFrame>> m_frames;
     WakeUp m_wakeUp;
     std::atomic<std::uint64_t> m_dropped{0};

@@ -28,13 +28,14 @@ public:
 
     std::size_t capacity() const { return m_mask + 1; }
 
-    /// The place of the next value, to be filled and then given by commit(); null when the ring is full. Producer only.
-    T *beginPush() noexcept
+    /// The place of the next value, to be filled and then given by commitPush(); null when the ring is full. Producer only.
+    /// \param reserve  places that stay free for others: with so few left the ring is full. Less than capacity()
+    T *beginPush(std::size_t reserve = 0) noexcept
     {
         const std::size_t head = m_head.load(std::memory_order_relaxed);
-        if (head - m_cachedTail > m_mask) {
+        if (head - m_cachedTail > m_mask - reserve) {
             m_cachedTail = m_tail.load(std::memory_order_acquire);
-            if (head - m_cachedTail > m_mask)
+            if (head - m_cachedTail > m_mask - reserve)
                 return nullptr;
         }
         return &m_items[head & m_mask];
@@ -42,9 +43,9 @@ public:
     void commitPush() noexcept { m_head.store(m_head.load(std::memory_order_relaxed) + 1, std::memory_order_release); }
 
     /// \return false when the ring is full. Producer only.
-    bool push(const T &value) noexcept
+    bool push(const T &value, std::size_t reserve = 0) noexcept
     {
-        T *place = beginPush();
+        T *place = beginPush(reserve);
         if (!place)
             return false;
         *place = value;

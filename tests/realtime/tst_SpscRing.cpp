@@ -46,6 +46,7 @@ private Q_SLOTS:
     void capacityIsRoundedUpToAPowerOfTwo();
     void emptyRingGivesNothing();
     void fullRingRefusesAndOverwritesNothing();
+    void whoLeavesAReserveFindsItFullEarlier();
     void valuesComeOutInOrderRoundAfterRound();
     void placeIsFilledBeforeItIsCommitted();
     void frontStaysUntilItIsPopped();
@@ -85,6 +86,22 @@ void tst_SpscRing::emptyRingGivesNothing()
     QVERIFY(!ring.front());
     QVERIFY(!ring.pop(&value));
     QCOMPARE(value, 42);
+}
+
+void tst_SpscRing::whoLeavesAReserveFindsItFullEarlier()
+{
+    SpscRing<int> ring(8);
+    int pushed = 0;
+    while (ring.push(pushed, 3))
+        ++pushed;
+    QCOMPARE(pushed, 5);
+    int value = 0;
+    QVERIFY(ring.pop(&value));
+    QVERIFY(ring.push(pushed++, 3));
+    QVERIFY(!ring.push(pushed, 3));
+    while (ring.push(pushed))
+        ++pushed;
+    QCOMPARE(pushed, 9);  // 8 are there, 1 was taken
 }
 
 void tst_SpscRing::fullRingRefusesAndOverwritesNothing()

@@ -21,6 +21,7 @@ private Q_SLOTS:
     void aWaitTripsWhenItIsTooLong();
     void withoutLimitsNothingTrips();
     void theFirstReasonIsToldOnce();
+    void aReasonIsNeverLostAmongNews();
 
 private:
     static QVector<CycleEvent> taken(CycleReports &reports)
@@ -203,6 +204,26 @@ void tst_SafetyGuard::theFirstReasonIsToldOnce()
     guard.answeredLate(slot, 1);
     guard.answeredLate(slot, 2);
     QCOMPARE(taken(reports).size(), 1);
+}
+
+/// A large plant in which everything goes wrong at once has more to tell than anybody has taken meanwhile.
+void tst_SafetyGuard::aReasonIsNeverLostAmongNews()
+{
+    CycleReports reports(false);
+    SafetyGuard guard(reports);
+    guard.start({1, 1, 1});
+    for (int i = 0; i < 10'000; ++i)
+        reports.post({CycleEvent::SignalSafe, 0, 0, 1});
+    for (int i = 0; i < 10'000; ++i)
+        reports.post({CycleEvent::WaitingForNode, 0, 0, 1});
+    guard.begin(tick(5, 1'000), Period, 0);
+    reports.post({CycleEvent::Ended, 0, 0, 6});
+    const QVector<CycleEvent> events = taken(reports);
+    QCOMPARE(events.at(events.size() - 2).kind, CycleEvent::TrippedByGap);
+    QCOMPARE(events.last().kind, CycleEvent::Ended);
+    const auto isWait = [](const CycleEvent &event) { return event.kind == CycleEvent::WaitingForNode; };
+    QVERIFY(std::any_of(events.begin(), events.end(), isWait));
+    QCOMPARE(reports.dropped() + quint64(events.size()), quint64(20'002));
 }
 
 QTEST_GUILESS_MAIN(tst_SafetyGuard)
