@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Gates.h"
 
+#include <algorithm>
+
 namespace soak {
 
 namespace {
@@ -44,6 +46,20 @@ void lookAtSilence(const Evidence &evidence, const History &history, const Recor
                        .arg(milliseconds(silence))
                        .arg(step.cycle)
                        .arg(milliseconds(limit)));
+}
+
+/// Whether a node went safe by itself, or left its master, not long before: then that is what has to have a cause.
+bool wasAloneBefore(const Evidence &evidence, int node, qint64 time)
+{
+    constexpr qint64 longestEcho = 2'000'000'000;  // [ns] until a busy master has heard of it
+    const auto isUnwanted = [](const Record *safe) { return safe->numbers[Record::IsWanted] == 0; };
+    return std::any_of(evidence.nodes.begin(), evidence.nodes.end(), [&](const History &history) {
+        if (history.node != node)
+            return false;
+        const auto safe = recordsOf(history, Record::Safe, node, time - longestEcho, time);
+        return std::any_of(safe.begin(), safe.end(), isUnwanted)
+            || !recordsOf(history, Record::MasterLost, node, time - longestEcho, time).empty();
+    });
 }
 
 bool isOfPhase(const Record &record)
@@ -177,7 +193,7 @@ Gate noFalseAlarms(const Evidence &evidence)
     for (const History &master : evidence.masters) {
         for (const Record &record : master.records) {
             const int node = record.subject == Record::Nobody ? -1 : record.subject;
-            if (record.kind == Record::Lost)
+            if (record.kind == Record::Lost && !wasAloneBefore(evidence, node, record.time))
                 look(master, record, node, "a node is lost");
             else if (record.kind == Record::State && record.numbers[0] == Record::SafeStop)
                 look(master, record, -1, "SafeStop");

@@ -32,6 +32,7 @@ private Q_SLOTS:
     void anAlarmOfAFaultIsExplained();
     void theLossOfAnotherNodeIsNotExplained();
     void anAlarmInAStallIsExcused();
+    void aLossThatTheNodeKnewOfFirstIsJudgedThere();
 };
 
 namespace {
@@ -236,6 +237,18 @@ void tst_SafetyGates::anAlarmInAStallIsExcused()
     HandMade::add(plant.node(1), Record::Safe, 1, HandMade::at(50), {soak::bitsOf(soak::SafeDrive)});
     HandMade::add(plant.runner(), Record::Stall, -1, HandMade::at(50), {quint64(HandMade::at(46))});
     QCOMPARE(plant.judge(&soak::noFalseAlarms).excused, qint64(1));
+}
+
+void tst_SafetyGates::aLossThatTheNodeKnewOfFirstIsJudgedThere()
+{
+    for (const quint64 isWanted : {0, 1}) {
+        HandMade plant;
+        HandMade::add(plant.node(1), Record::Safe, 1, HandMade::at(50), {soak::bitsOf(soak::SafeDrive), isWanted});
+        HandMade::add(plant.master(), Record::Lost, 1, HandMade::at(51));
+        const Gate gate = plant.judge(&soak::noFalseAlarms);
+        QCOMPARE(gate.failed, qint64(1));
+        QVERIFY2(gate.examples.constFirst().contains(isWanted == 0 ? "safe state" : "is lost"), textOf(gate));
+    }
 }
 
 QTEST_APPLESS_MAIN(tst_SafetyGates)
