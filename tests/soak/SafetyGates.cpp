@@ -166,6 +166,62 @@ Gate nothingMovesByItself(const Evidence &evidence)
     return gate;
 }
 
+namespace {
+
+/// A time in which a master was in SafeStop.
+struct SafeSpan
+{
+    qint64 begin, end;
+};
+
+/// In order, of all masters.
+std::vector<SafeSpan> safeSpans(const Evidence &evidence)
+{
+    std::vector<SafeSpan> spans;
+    for (const History &master : evidence.masters) {
+        bool isSafe = false;
+        for (const Record &record : master.records) {
+            if (record.kind != Record::State)
+                continue;
+            if (isSafe)
+                spans.back().end = record.time;
+            isSafe = record.numbers[0] == Record::SafeStop;
+            if (isSafe)
+                spans.push_back({record.time, master.records.back().time});
+        }
+    }
+    return spans;
+}
+
+}  // namespace
+
+Gate safeStopsAreTold(const Evidence &evidence)
+{
+    constexpr qint64 longest = 1'000'000'000;  // [ns] between what a node does and what the master says
+    Gate gate("safe stops are told");
+    gate.isAsked = false;
+    const std::vector<SafeSpan> spans = safeSpans(evidence);
+    const auto isTold = [&](qint64 time) {
+        const auto isBefore = [](const SafeSpan &span, qint64 begin) { return span.end < begin; };
+        const auto span = std::lower_bound(spans.begin(), spans.end(), time - longest, isBefore);
+        return span != spans.end() && span->begin <= time + longest;
+    };
+    for (const History &history : evidence.nodes) {
+        for (const Record &record : history.records) {
+            if (record.kind != Record::Safe || record.numbers[Record::IsOrdered] == 0)
+                continue;
+            gate.isAsked = true;
+            ++gate.looked;
+            const History *master = evidence.masterAt(record.time);
+            const bool wasKilled = !master || master->records.back().time < record.time + longest;
+            if (!isTold(record.time) && !wasKilled)  // who is killed at once may not have come to say it
+                gate.fail(QStringLiteral("%1 is told to be safe, and the master does not say that it stops")
+                              .arg(history.name));
+        }
+    }
+    return gate;
+}
+
 Gate noFalseAlarms(const Evidence &evidence)
 {
     Gate gate("no false alarms");

@@ -33,6 +33,7 @@ private Q_SLOTS:
     void theLossOfAnotherNodeIsNotExplained();
     void anAlarmInAStallIsExcused();
     void aLossThatTheNodeKnewOfFirstIsJudgedThere();
+    void aSafeStopThatTheMasterKeepsToItselfIsFound();
 };
 
 namespace {
@@ -248,6 +249,18 @@ void tst_SafetyGates::aLossThatTheNodeKnewOfFirstIsJudgedThere()
         const Gate gate = plant.judge(&soak::noFalseAlarms);
         QCOMPARE(gate.failed, qint64(1));
         QVERIFY2(gate.examples.constFirst().contains(isWanted == 0 ? "safe state" : "is lost"), textOf(gate));
+    }
+}
+
+void tst_SafetyGates::aSafeStopThatTheMasterKeepsToItselfIsFound()
+{
+    QVERIFY(!HandMade().judge(&soak::safeStopsAreTold).isAsked);
+    for (const bool isTold : {false, true}) {
+        HandMade plant(400);
+        HandMade::add(plant.node(1), Record::Safe, 1, HandMade::at(150), {soak::bitsOf(soak::SafeDrive), 0, 1});
+        if (isTold)
+            plant.setState(Record::SafeStop, HandMade::at(152));
+        QCOMPARE(plant.judge(&soak::safeStopsAreTold).passed(), isTold);
     }
 }
 
