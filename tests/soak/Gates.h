@@ -39,6 +39,7 @@ Gate stepsComeOnce(const Evidence &evidence);      // no cycle twice or backward
 Gate silentWritersBecomeSafe(const Evidence &evidence);  // a drive goes safe after hold cycles without news
 Gate nodesAloneBecomeSafe(const Evidence &evidence);     // a node without its master goes safe by itself
 Gate nothingMovesByItself(const Evidence &evidence);     // after a safe state or another master: by the operator only
+Gate safeStopsAreTold(const Evidence &evidence);         // a master that stops its nodes safely says so itself
 Gate noFalseAlarms(const Evidence &evidence);            // no loss, no safe state that no fault explains
 
 // The plant as a whole (PlantGates.cpp)

@@ -71,7 +71,11 @@ struct Record
         Denials
     };  // connections of strangers; messages of who may not send them
     enum NodeNumber { NodePhase, Answers, NodeLate, AnswersLost, Duplicated, Reordered, Rejected, Resent };
-    enum SafeNumber { SafeDriveBits, IsWanted };  // wanted: the phase ended
+    enum SafeNumber {
+        SafeDriveBits,
+        IsWanted,
+        IsOrdered
+    };  // wanted: the phase ended; ordered: the master stops safely
     enum UsageNumber { Descriptors, Threads, ResidentKb, UsageLife, IsCompared };
     static constexpr quint64 NoQuality = 255;  // of a plant without qualities
     static constexpr quint16 Nobody = 0xffff;

@@ -110,12 +110,24 @@ Gate memoryStays(const Evidence &evidence, const Profile &profile)
 
 std::vector<Gate> judge(const Evidence &evidence, const Profile &profile)
 {
-    return {valuesAreWhole(evidence),       valuesWereWritten(evidence),       valuesNeverGoBack(evidence),
-            stepsComeOnce(evidence),        silentWritersBecomeSafe(evidence), nodesAloneBecomeSafe(evidence),
-            nothingMovesByItself(evidence), noFalseAlarms(evidence),           cyclesAddUp(evidence),
-            faultsAreSeen(evidence),        plantRecovers(evidence),           faultsAreCounted(evidence),
-            linkFaultsAreCounted(evidence), attemptsAreRefused(evidence),      commandsAreDenied(evidence),
-            nothingLeaks(evidence),         memoryStays(evidence, profile)};
+    return {valuesAreWhole(evidence),
+            valuesWereWritten(evidence),
+            valuesNeverGoBack(evidence),
+            stepsComeOnce(evidence),
+            silentWritersBecomeSafe(evidence),
+            nodesAloneBecomeSafe(evidence),
+            nothingMovesByItself(evidence),
+            safeStopsAreTold(evidence),
+            noFalseAlarms(evidence),
+            cyclesAddUp(evidence),
+            faultsAreSeen(evidence),
+            plantRecovers(evidence),
+            faultsAreCounted(evidence),
+            linkFaultsAreCounted(evidence),
+            attemptsAreRefused(evidence),
+            commandsAreDenied(evidence),
+            nothingLeaks(evidence),
+            memoryStays(evidence, profile)};
 }
 
 }  // namespace soak

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Gates.h"
 
+#include <algorithm>
+
 namespace soak {
 
 namespace {
@@ -44,6 +46,20 @@ void lookAtSilence(const Evidence &evidence, const History &history, const Recor
                        .arg(milliseconds(silence))
                        .arg(step.cycle)
                        .arg(milliseconds(limit)));
+}
+
+/// Whether a node went safe by itself, or left its master, not long before: then that is what has to have a cause.
+bool wasAloneBefore(const Evidence &evidence, int node, qint64 time)
+{
+    constexpr qint64 longestEcho = 2'000'000'000;  // [ns] until a busy master has heard of it
+    const auto isUnwanted = [](const Record *safe) { return safe->numbers[Record::IsWanted] == 0; };
+    return std::any_of(evidence.nodes.begin(), evidence.nodes.end(), [&](const History &history) {
+        if (history.node != node)
+            return false;
+        const auto safe = recordsOf(history, Record::Safe, node, time - longestEcho, time);
+        return std::any_of(safe.begin(), safe.end(), isUnwanted)
+            || !recordsOf(history, Record::MasterLost, node, time - longestEcho, time).empty();
+    });
 }
 
 bool isOfPhase(const Record &record)
@@ -150,6 +166,62 @@ Gate nothingMovesByItself(const Evidence &evidence)
     return gate;
 }
 
+namespace {
+
+/// A time in which a master was in SafeStop.
+struct SafeSpan
+{
+    qint64 begin, end;
+};
+
+/// In order, of all masters.
+std::vector<SafeSpan> safeSpans(const Evidence &evidence)
+{
+    std::vector<SafeSpan> spans;
+    for (const History &master : evidence.masters) {
+        bool isSafe = false;
+        for (const Record &record : master.records) {
+            if (record.kind != Record::State)
+                continue;
+            if (isSafe)
+                spans.back().end = record.time;
+            isSafe = record.numbers[0] == Record::SafeStop;
+            if (isSafe)
+                spans.push_back({record.time, master.records.back().time});
+        }
+    }
+    return spans;
+}
+
+}  // namespace
+
+Gate safeStopsAreTold(const Evidence &evidence)
+{
+    constexpr qint64 longest = 1'000'000'000;  // [ns] between what a node does and what the master says
+    Gate gate("safe stops are told");
+    gate.isAsked = false;
+    const std::vector<SafeSpan> spans = safeSpans(evidence);
+    const auto isTold = [&](qint64 time) {
+        const auto isBefore = [](const SafeSpan &span, qint64 begin) { return span.end < begin; };
+        const auto span = std::lower_bound(spans.begin(), spans.end(), time - longest, isBefore);
+        return span != spans.end() && span->begin <= time + longest;
+    };
+    for (const History &history : evidence.nodes) {
+        for (const Record &record : history.records) {
+            if (record.kind != Record::Safe || record.numbers[Record::IsOrdered] == 0)
+                continue;
+            gate.isAsked = true;
+            ++gate.looked;
+            const History *master = evidence.masterAt(record.time);
+            const bool wasKilled = !master || master->records.back().time < record.time + longest;
+            if (!isTold(record.time) && !wasKilled)  // who is killed at once may not have come to say it
+                gate.fail(QStringLiteral("%1 is told to be safe, and the master does not say that it stops")
+                              .arg(history.name));
+        }
+    }
+    return gate;
+}
+
 Gate noFalseAlarms(const Evidence &evidence)
 {
     Gate gate("no false alarms");
@@ -177,7 +249,7 @@ Gate noFalseAlarms(const Evidence &evidence)
     for (const History &master : evidence.masters) {
         for (const Record &record : master.records) {
             const int node = record.subject == Record::Nobody ? -1 : record.subject;
-            if (record.kind == Record::Lost)
+            if (record.kind == Record::Lost && !wasAloneBefore(evidence, node, record.time))
                 look(master, record, node, "a node is lost");
             else if (record.kind == Record::State && record.numbers[0] == Record::SafeStop)
                 look(master, record, -1, "SafeStop");

@@ -46,7 +46,8 @@ private:
     void stopped() override { m_history.append(Record::PhaseEnded, m_options.node); }
     void safeState(SafeStateReason reason) override
     {
-        m_history.append(Record::Safe, m_options.node, {bitsOf(m_seen.drive), reason == PhaseEnded ? 1U : 0U});
+        m_history.append(Record::Safe, m_options.node,
+                         {bitsOf(m_seen.drive), reason == PhaseEnded ? 1U : 0U, reason == MasterStopsSafely ? 1U : 0U});
     }
 
     const NodeOptions m_options;

@@ -32,6 +32,8 @@ private Q_SLOTS:
     void anAlarmOfAFaultIsExplained();
     void theLossOfAnotherNodeIsNotExplained();
     void anAlarmInAStallIsExcused();
+    void aLossThatTheNodeKnewOfFirstIsJudgedThere();
+    void aSafeStopThatTheMasterKeepsToItselfIsFound();
 };
 
 namespace {
@@ -236,6 +238,30 @@ void tst_SafetyGates::anAlarmInAStallIsExcused()
     HandMade::add(plant.node(1), Record::Safe, 1, HandMade::at(50), {soak::bitsOf(soak::SafeDrive)});
     HandMade::add(plant.runner(), Record::Stall, -1, HandMade::at(50), {quint64(HandMade::at(46))});
     QCOMPARE(plant.judge(&soak::noFalseAlarms).excused, qint64(1));
+}
+
+void tst_SafetyGates::aLossThatTheNodeKnewOfFirstIsJudgedThere()
+{
+    for (const quint64 isWanted : {0, 1}) {
+        HandMade plant;
+        HandMade::add(plant.node(1), Record::Safe, 1, HandMade::at(50), {soak::bitsOf(soak::SafeDrive), isWanted});
+        HandMade::add(plant.master(), Record::Lost, 1, HandMade::at(51));
+        const Gate gate = plant.judge(&soak::noFalseAlarms);
+        QCOMPARE(gate.failed, qint64(1));
+        QVERIFY2(gate.examples.constFirst().contains(isWanted == 0 ? "safe state" : "is lost"), textOf(gate));
+    }
+}
+
+void tst_SafetyGates::aSafeStopThatTheMasterKeepsToItselfIsFound()
+{
+    QVERIFY(!HandMade().judge(&soak::safeStopsAreTold).isAsked);
+    for (const bool isTold : {false, true}) {
+        HandMade plant(400);
+        HandMade::add(plant.node(1), Record::Safe, 1, HandMade::at(150), {soak::bitsOf(soak::SafeDrive), 0, 1});
+        if (isTold)
+            plant.setState(Record::SafeStop, HandMade::at(152));
+        QCOMPARE(plant.judge(&soak::safeStopsAreTold).passed(), isTold);
+    }
 }
 
 QTEST_APPLESS_MAIN(tst_SafetyGates)

@@ -87,7 +87,7 @@ void tst_ConnectionGate::allConnectionsTogetherAreLimited()
 {
     cleanup();
     quint64 last = 0;
-    for (int i = 0; i < 256; ++i) {
+    for (int i = 0; i < ConnectionGate::Limits().connections; ++i) {
         last = admit(QHostAddress::LocalHost);
         QVERIFY(last != 0);
         m_gate.know(last);
