@@ -223,6 +223,8 @@ QMenu *LayoutView::createAddMenu()
 
 void LayoutView::openAddMenu(QWidget *below)
 {
+    if (!below)
+        below = m_add;
     QMenu *menu = createAddMenu();
     menu->setAttribute(Qt::WA_DeleteOnClose);
     menu->popup(below->mapToGlobal(QPoint(0, below->height())));

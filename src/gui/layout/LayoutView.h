@@ -44,7 +44,8 @@ public:
     QList<FloatingWindow *> floatingWindows() const { return m_windows.values(); }
     /// A list of the available widgets, each of which adds a panel to the current tab, and of a new tab. The caller owns it.
     QMenu *createAddMenu();
-    void openAddMenu(QWidget *below);
+    /// Below a widget, else below the button that adds panels.
+    void openAddMenu(QWidget *below = nullptr);
 
 Q_SIGNALS:
     /// A widget has been made for a panel.
