@@ -52,7 +52,7 @@ Q_SIGNALS:
     void widgetAdded(const QString &panelId, QPlcWidget *widget);
     /// The widget is deleted when control returns to the event loop.
     void widgetRemoved(const QString &panelId, QPlcWidget *widget);
-    /// Signals (mime type signalsMimeType()) were dropped. \a panelId is empty, and \a zone the center, for an empty tab, which is the current one.
+    /// Signals (mime type signalsMimeType()) were dropped. \a panelId is empty, for the current tab (\a zone is the center) and for a new one.
     void signalsDropped(const QString &panelId, qplc::DropZone zone, const QMimeData *data);
 
 private:
