@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "MasterReplies.h"
 
+#include "MasterStates.h"
 #include "QPlcMessage.h"
 
 #include <QtCore/QJsonArray>
-#include <QtCore/QMetaEnum>
 
 namespace qplc {
 
@@ -61,11 +61,6 @@ QString clockName(QPlcClock clock)
     return {};
 }
 
-QString stateName(QPlcMasterNode::State state)
-{
-    return QLatin1String(QMetaEnum::fromType<QPlcMasterNode::State>().valueToKey(state));
-}
-
 QJsonObject stateFields(const QPlcMasterNode &master, quint64 session)
 {
     QJsonArray nodes;
@@ -73,7 +68,7 @@ QJsonObject stateFields(const QPlcMasterNode &master, quint64 session)
     for (const QPlcNodeInfo &node : infos)
         nodes.append(nodeFields(node));
     const QPlcMasterStatistics statistics = master.statistics();
-    QJsonObject fields{{QStringLiteral("state"), stateName(master.state())},
+    QJsonObject fields{{QStringLiteral("state"), QLatin1String(nameOf(master.state()))},
                        {QStringLiteral("reason"), master.stateReason()},
                        {QStringLiteral("remains"), master.causeThatRemains()},
                        {QStringLiteral("armed"), master.isArmed()},

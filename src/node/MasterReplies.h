@@ -24,6 +24,5 @@ QJsonObject eventFields(const std::vector<JournalEvent> &events);
 /// Fields of the message Schedule.
 QJsonObject scheduleFields(const QPlcSchedule &schedule);
 QString clockName(QPlcClock clock);
-QString stateName(QPlcMasterNode::State state);
 
 }  // namespace qplc

@@ -16,8 +16,7 @@ using Message = QPlcMessage;
 
 namespace {
 
-constexpr quint32 LongestGreeting = 64 * 1024;   // [byte]
-constexpr qint64 MostUnread = 16 * 1024 * 1024;  // [byte] of answers
+constexpr quint32 LongestGreeting = 64 * 1024;  // [byte]
 
 }  // namespace
 
@@ -222,18 +221,14 @@ void MasterServer::deny(MasterConnection *connection, const QString &reason, boo
         connection->fail(QStringLiteral("Denied"), reason);
 }
 
-/// Whether somebody asks faster than is good for the others, or does not read the answers; then the connection has ended.
+/// Whether somebody asks faster than is good for the others; then the connection has ended. Who does not read the answers is not listened to by the socket.
 bool MasterServer::isTooMuch(MasterConnection *connection)
 {
-    QString reason;
-    if (!connection->isNode() && !connection->messages.take(TimeSource::monotonic().now()))
-        reason = QStringLiteral("'%1' sends too many messages; send at most 1000 in a second").arg(connection->name);
-    else if (connection->socket->bytesToSend() > MostUnread)
-        reason = QStringLiteral("'%1' does not read the answers to what it asks").arg(connection->name);
-    if (reason.isEmpty())
+    if (connection->isNode() || connection->messages.take(TimeSource::monotonic().now()))
         return false;
     ++m_deniedMessages;
-    reject(connection, QStringLiteral("TooMuch"), reason);
+    reject(connection, QStringLiteral("TooMuch"),
+           QStringLiteral("'%1' sends too many messages; send at most 1000 in a second").arg(connection->name));
     return true;
 }
 

@@ -27,8 +27,6 @@ public:
 
     /// Takes effect with listen().
     void setSecurity(const QPlcSecurity &security) { m_door.setSecurity(security); }
-    bool isSecured() const { return !m_door.security().isNone(); }
-    const MasterDoor &door() const { return m_door; }
     void setMaximumConnections(int connections);
     /// Adds who was not let in, and what was not carried out.
     void count(QPlcMasterStatistics *statistics) const;

@@ -434,8 +434,6 @@ void NodeExchange::endStage(const Stage &stage) noexcept
 {
     if (m_isSafe)
         return;
-    if (m_isSafe)
-        return;
     for (const Roster::Turn &turn : stage) {
         if (turn.feedsLaterStage && !turn.slot->twoPhase)
             noteMissing(*turn.slot);
@@ -446,8 +444,6 @@ void NodeExchange::endStage(const Stage &stage) noexcept
 /// The cycle ends: whatever has no value of it is older by one.
 void NodeExchange::settle() noexcept
 {
-    if (m_isSafe)
-        return;
     if (m_isSafe)
         return;
     for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {

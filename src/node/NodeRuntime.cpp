@@ -15,6 +15,8 @@ namespace qplc {
 
 namespace {
 
+constexpr char unknownException[] = "an exception that is not derived from std::exception";
+
 QString describeException(std::exception_ptr exception)
 {
     try {
@@ -22,7 +24,7 @@ QString describeException(std::exception_ptr exception)
     } catch (const std::exception &thrown) {
         return QString::fromLocal8Bit(thrown.what());
     } catch (...) {
-        return QStringLiteral("an exception that is not derived from std::exception");
+        return QLatin1String(unknownException);
     }
 }
 
@@ -187,13 +189,22 @@ void NodeRuntime::makeSafe(QPlcSlaveNode::SafeStateReason reason) noexcept
         return;
     m_isSafe = true;
     m_outputs = m_safeOutputs;
+    attempt([&] { m_node.safeFrame(reason, m_safeInputs.data()); });
+}
+
+/// Calls code of the user in a cycle. \return false when it threw
+template<typename Code>
+bool NodeRuntime::attempt(Code code) noexcept
+{
     try {
-        m_node.safeFrame(reason, m_safeInputs.data());
+        code();
+        return true;
     } catch (const std::exception &thrown) {
         setFault(thrown.what());
     } catch (...) {
-        setFault("an exception that is not derived from std::exception");
+        setFault(unknownException);
     }
+    return false;
 }
 
 bool NodeRuntime::step(const QPlcCycle &cycle, const char *inputs) noexcept
@@ -203,29 +214,18 @@ bool NodeRuntime::step(const QPlcCycle &cycle, const char *inputs) noexcept
     const std::int64_t begin = now();
     m_cycle = cycle;
     const char *seen = guardedInputs(inputs, std::int64_t(cycle.number()));
-    try {
-        m_node.stepFrame(cycle, seen, m_scratch.data());
-    } catch (const std::exception &thrown) {
-        fail(thrown.what(), begin);
-        return false;
-    } catch (...) {
-        fail("an exception that is not derived from std::exception", begin);
+    const bool isComputed = attempt([&] { m_node.stepFrame(cycle, seen, m_scratch.data()); });
+    measure(begin);
+    if (!isComputed) {
+        m_hasFailed = true;
+        makeSafe(QPlcSlaveNode::CodeFailed);
         return false;
     }
-    measure(begin);
     if (m_isSafe)
         return true;  // a listener that watches: what it writes stays safe
     writeWorkload(m_executionTime);
     m_outputs = m_scratch;
     return true;
-}
-
-void NodeRuntime::fail(const char *text, std::int64_t begin) noexcept
-{
-    setFault(text);
-    measure(begin);
-    m_hasFailed = true;
-    makeSafe(QPlcSlaveNode::CodeFailed);
 }
 
 void NodeRuntime::measure(std::int64_t begin) noexcept

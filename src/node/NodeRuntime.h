@@ -82,7 +82,8 @@ private:
     void bindWorkloadSignal(QVector<QPlcSignalIndex> *outputs, QStringList *errors);
     std::int64_t now() noexcept { return m_time ? m_time->now() : 0; }
     void measure(std::int64_t begin) noexcept;
-    void fail(const char *text, std::int64_t begin) noexcept;
+    template<typename Code>
+    bool attempt(Code code) noexcept;
     void writeWorkload(std::int64_t duration);
     void setFault(const char *text) noexcept;
 

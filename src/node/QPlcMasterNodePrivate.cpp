@@ -103,7 +103,7 @@ bool QPlcMasterNodePrivate::prepare()
                            {QStringLiteral("session"), Message::fromHex64(session)},
                            {QStringLiteral("tableHash"), Message::fromHex64(table.hash())},
                            {QStringLiteral("table"), QString::fromUtf8(table.toIni())},
-                           {QStringLiteral("state"), qplc::stateName(state)},
+                           {QStringLiteral("state"), QLatin1String(qplc::nameOf(state))},
                            {QStringLiteral("period"), double(interval.count())},
                            {QStringLiteral("security"), networkSecurity},
                            {QStringLiteral("features"), QJsonArray()}};

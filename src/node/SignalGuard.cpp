@@ -93,7 +93,7 @@ void SignalGuard::takeOneByOne(const Frame &frame, Writer &writer, const char *p
         Signal &signal = m_signals[field.place];
         const ValueFault fault = frame.rules.fault(field.number, payload);
         if (fault)
-            refuse(writer.id, field.place, fault);
+            refuse(writer.id, field.place, fault, !signal.isRefused);
         signal.isRefused = bool(fault);
         if (fault || now - cycle > signal.hold) {
             isWhole = false;
@@ -117,11 +117,11 @@ void SignalGuard::put(Place place, const char *value, std::int64_t cycle, std::i
         startGrowing(place);
 }
 
-void SignalGuard::refuse(std::uint16_t writer, Place place, const ValueFault &fault) noexcept
+void SignalGuard::refuse(std::uint16_t writer, Place place, const ValueFault &fault, bool isFirst) noexcept
 {
     (fault.kind == ValueFault::NotFinite ? m_nonFinite : m_outOfRange)[place].add();
     if (m_observer)
-        m_observer->valueRefused(writer, place, fault, !m_signals[place].isRefused);
+        m_observer->valueRefused(writer, place, fault, isFirst);
 }
 
 /// From now on each signal of the writer has an age of its own.
@@ -156,9 +156,7 @@ void SignalGuard::claim(const Frame &frame, const Writer &writer, Claims &claims
         const ValueFault fault = frame.rules.fault(field.number, payload);
         const std::int64_t former = claims.good[field.number];
         if (fault) {
-            (fault.kind == ValueFault::NotFinite ? m_nonFinite : m_outOfRange)[field.place].add();
-            if (m_observer)
-                m_observer->valueRefused(writer.id, field.place, fault, former != Never);
+            refuse(writer.id, field.place, fault, former != Never);
             claims.good[field.number] = Never;  // who says nonsense now is not believed either in what it said before
         } else if (cycle > former) {
             std::memcpy(claims.bytes.data() + field.from, payload + field.from, m_signals[field.place].size);

@@ -164,7 +164,7 @@ private:
                       std::int64_t now) noexcept;
     void setSource(Place place, std::uint16_t writer) noexcept;
     void put(Place place, const char *value, std::int64_t cycle, std::int64_t now) noexcept;
-    void refuse(std::uint16_t writer, Place place, const ValueFault &fault) noexcept;
+    void refuse(std::uint16_t writer, Place place, const ValueFault &fault, bool isFirst) noexcept;
     void grow(const Frame &frame, Writer &writer, std::int64_t now) noexcept;
     void partWays(const Frame &frame, Writer &writer) noexcept;
     void startGrowing(Place place) noexcept;

@@ -2,6 +2,7 @@
 #include "SignalListener.h"
 
 #include "SignalSelection.h"
+#include "signals/PayloadLayout.h"
 
 #include <QtCore/QJsonArray>
 
@@ -18,13 +19,11 @@ SignalListener::SignalListener(const QString &purpose, const QPlcSignalTable &ta
         indices.insert(name);
         m_definitions << table.at(table.indexOf(name));
     }
+    const QVector<QPlcSignalIndex> inputs = indices.toVector();
+    const qplc::PayloadLayout layout(table, inputs);
     for (const QPlcSignalDefinition &definition : qAsConst(m_definitions)) {
-        const QVector<QPlcSignalIndex> inputs = indices.toVector();
         m_places << inputs.indexOf(table.indexOf(definition.name));
-        int offset = 0;
-        for (int i = 0; i < m_places.last(); ++i)
-            offset += table.at(inputs.at(i)).type.size();
-        m_offsets << offset;
+        m_offsets << int(layout.fields()[std::size_t(m_places.last())].offset);
     }
     m_node.setReconnectPolicy(QPlcSlaveNode::NeverReconnect);
     m_node.setInputSignalIndices(indices);

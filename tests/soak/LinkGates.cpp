@@ -4,6 +4,8 @@
 #include "signals/Fnv1a.h"
 #include "transport/FaultInjector.h"
 
+#include <algorithm>
+
 namespace soak {
 
 namespace {
@@ -65,14 +67,27 @@ const History *lifeOf(const Evidence &evidence, const DoneFault &fault)
     return nullptr;
 }
 
+/// When the next life of the same node began, which the master counts from zero; \a otherwise when there was none.
+qint64 nextLifeOf(const Evidence &evidence, const History &life, qint64 otherwise)
+{
+    qint64 begin = otherwise;
+    for (const History &history : evidence.nodes) {
+        const bool isLater = history.node == life.node && !history.records.empty()
+            && history.records.front().time > life.records.front().time;
+        if (isLater)
+            begin = std::min(begin, history.records.front().time);
+    }
+    return begin;
+}
+
 /// The last counters of the node before its life ended; null when they are those of several phases, or none.
 const Record *countersOf(const Evidence &evidence, const DoneFault &fault, const History &life)
 {
     const History *master = evidence.masterAt(fault.begin);
     if (!master)
         return nullptr;
-    const std::vector<const Record *> all
-        = recordsOf(*master, Record::NodeCounters, fault.node, life.records.front().time, fault.end);
+    const std::vector<const Record *> all = recordsOf(*master, Record::NodeCounters, fault.node,
+                                                      life.records.front().time, nextLifeOf(evidence, life, fault.end));
     const bool isOnePhase
         = !all.empty() && all.front()->numbers[Record::NodePhase] == all.back()->numbers[Record::NodePhase];
     return isOnePhase ? all.back() : nullptr;

@@ -23,6 +23,7 @@ private Q_SLOTS:
     void cyclesThatTheNodeMissedMayBeAmongTheLost();
     void framesUnderWayMayBeCountedOrNot();
     void countersOfTwoPhasesAreNotJudged();
+    void countersOfALaterLifeAreNotThoseOfTheLifeWithTheFault();
 
 private:
     static constexpr int Frames = 80;
@@ -135,6 +136,17 @@ void tst_LinkGates::countersOfTwoPhasesAreNotJudged()
     const Gate gate = plant.judge(&soak::linkFaultsAreCounted);
     QCOMPARE(gate.looked, qint64(0));
     QVERIFY(gate.isAsked && !gate.passed());
+}
+
+void tst_LinkGates::countersOfALaterLifeAreNotThoseOfTheLifeWithTheFault()
+{
+    HandMade plant = badLink(FaultKind::CorruptFrames, Record::Rejected,
+                             done(FaultKind::CorruptFrames, FaultInjector::Corrupted, Frames));
+    plant.addLife(2, 2, plant.end() + 55 * HandMade::Millisecond);
+    addCounters(plant, Record::Rejected, 0, plant.end() + 60 * HandMade::Millisecond);
+    const Gate gate = plant.judge(&soak::linkFaultsAreCounted);
+    QVERIFY2(gate.passed(), textOf(gate));
+    QCOMPARE(gate.looked, qint64(1));
 }
 
 QTEST_APPLESS_MAIN(tst_LinkGates)

@@ -2,16 +2,15 @@
 #pragma once
 
 #include "BarButton.h"
+#include "NoticeLine.h"
 
 #include <QtCore/QPointer>
 #include <QtWidgets/QAction>
 
-class QLabel;
-
 namespace qplc {
 
 /// A line over the panels that says one thing until it is closed; hidden while it has nothing to say.
-class HintLine : public QWidget
+class HintLine : public NoticeLine
 {
     Q_OBJECT
 public:
@@ -19,14 +18,8 @@ public:
 
     /// Empty: closes the line. \param remedy  what a button of the line does; null: there is none
     void showText(const QString &text, QAction *remedy = nullptr);
-    QString text() const;
-
-protected:
-    void paintEvent(QPaintEvent *event) override;
 
 private:
-    WindowContext *m_context;
-    QLabel *m_label;
     BarButton *m_button;
     BarButton *m_close;
     QPointer<QAction> m_remedy;
