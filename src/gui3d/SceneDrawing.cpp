@@ -238,6 +238,16 @@ void drawTrail(LineBatch *lines, const FlightTrail &trail, const ColorScale &sca
     }
 }
 
+namespace {
+
+/// Thin letters need more contrast than arrows.
+QColor textColor(const QColor &arrow, const Theme &theme)
+{
+    return theme.isDark ? arrow.lighter(135) : arrow.darker(115);
+}
+
+}  // namespace
+
 std::vector<SceneLabel> sceneLabels(const SceneInput &input, float forceUnit)
 {
     std::vector<SceneLabel> labels;
@@ -261,10 +271,11 @@ std::vector<SceneLabel> sceneLabels(const SceneInput &input, float forceUnit)
         return labels;
     const auto place = [&input](const QVector3D &vector) { return *input.state.position + 1.12f * vector; };
     if (const auto wind = windVector(input))
-        labels.push_back(
-            {place(*wind), tr("%1 m/s").arg(double(input.state.relativeWind()->length()), 0, 'f', 0), windColor});
+        labels.push_back({place(*wind), tr("%1 m/s").arg(double(input.state.relativeWind()->length()), 0, 'f', 0),
+                          textColor(windColor, input.theme)});
     if (const auto force = forceVector(input, forceUnit))
-        labels.push_back({place(*force), tr("%1 N").arg(double(input.state.force->length()), 0, 'f', 0), forceColor});
+        labels.push_back({place(*force), tr("%1 N").arg(double(input.state.force->length()), 0, 'f', 0),
+                          textColor(forceColor, input.theme)});
     return labels;
 }
 

@@ -169,7 +169,8 @@ void View3DPicture::draw()
 void View3DPicture::updateInput()
 {
     const KiteState state = m_kite->state();
-    const float length = float(state.tetherLength.value_or(double(state.position->length())));
+    const QVector3D position = state.position.value_or(QVector3D());
+    const float length = float(state.tetherLength.value_or(double(position.length())));
     const float size = roundSceneSize(length, m_input.size);
     const bool isTurned = std::abs(wrappedAngle(double(state.downwind() - m_input.downwind))) > double(windTurn);
     m_isGroundDue = m_isGroundDue || size != m_input.size;
@@ -183,13 +184,12 @@ void View3DPicture::updateInput()
     m_input.theme = theme();
     m_missing.clear();
     m_input.entities = SceneEntity::read(
-        m_settings.entities, *state.position, [this](const QString &name) { return m_kite->vectorOf(name); },
-        &m_missing);
+        m_settings.entities, position, [this](const QString &name) { return m_kite->vectorOf(name); }, &m_missing);
     const OrbitCamera::Scene scene
-        = {m_input.size, m_input.downwind, *state.position, state.course.value_or(QQuaternion()), m_model.radius()};
+        = {m_input.size, m_input.downwind, position, state.course.value_or(QQuaternion()), m_model.radius()};
     m_pose = m_settings.camera.pose(scene);
-    m_input.bodyScale = m_settings.bodyScale > 0 ? float(m_settings.bodyScale)
-                                                 : visibleBodyScale(m_pose, *state.position, m_model.radius());
+    m_input.bodyScale
+        = m_settings.bodyScale > 0 ? float(m_settings.bodyScale) : visibleBodyScale(m_pose, position, m_model.radius());
     m_input.vectorUnit = 2.2f * m_input.bodyScale * m_model.radius();
     if (state.force)
         m_forceUnit = forceReference(state.force->length(), m_forceUnit);
@@ -210,9 +210,9 @@ void View3DPicture::drawScene()
     drawKiteScene(&m_lines, m_input, m_model, m_forceUnit);
     m_renderer->lines()->setLines(m_lines);
     Qt3DCore::QTransform *transform = m_renderer->mesh()->transform();
-    transform->setTranslation(*m_input.state.position);
+    transform->setTranslation(m_input.state.position.value_or(QVector3D()));
     transform->setRotation(m_input.state.body.value_or(QQuaternion()));
-    transform->setScale(m_input.bodyScale);
+    transform->setScale(m_input.state.position ? m_input.bodyScale : 0.0f);  // no position, no kite
 }
 
 void View3DPicture::takePicture(const QImage &picture, double windowTime, double pictureTime)

@@ -138,7 +138,7 @@ void PlotLegend::measure()
     for (const Entry &entry : qAsConst(m_entries)) {
         m_nameWidth = std::max(m_nameWidth, metrics.horizontalAdvance(entry.name));
         m_unitWidth = std::max(m_unitWidth, metrics.horizontalAdvance(entry.unit));
-        if (m_isCompact && entry.isTrusted)  // grows only, so that nothing trembles
+        if (m_isCompact)  // grows only, so that nothing trembles
             m_valueWidth = std::max(m_valueWidth, metrics.horizontalAdvance(entry.value));
     }
     if (m_nameWidth + m_valueWidth + m_unitWidth != before || sizeHint().height() != height())

@@ -362,7 +362,7 @@ QString GaugeFeed::doubtText(QPlcQuality quality)
     case QPlcQuality::Held:
         return tr("held %1 cycles").arg(quality.heldCycles());
     case QPlcQuality::Safe:
-        return tr("safe value: there is no good one");
+        return tr("safe value");
     case QPlcQuality::Invalid:
         return tr("nobody has written it");
     case QPlcQuality::Good:

@@ -39,7 +39,7 @@ void FlightTrail::read(const SignalStore &store, int firstChannel, int valueChan
                                  store.value(firstChannel + 2, row));
         isInterrupted = isInterrupted || store.nextBeginAnew(last + 1, row + 1) <= row;
         last = row;
-        if (std::isnan(position.x()) || std::isnan(position.y()) || std::isnan(position.z())) {
+        if (std::isnan(position.x()) || std::isnan(position.y()) || std::isnan(position.z()) || position.isNull()) {
             isInterrupted = true;
             continue;
         }

@@ -86,6 +86,8 @@ QString stateText(const KiteState &state)
     }
     if (state.quality == Plant::Stale)
         return tr("stale, %1").arg(ageText(state.age));
+    if (!state.position)
+        return tr("no position");
     return {};
 }
 

@@ -67,7 +67,7 @@ QString KiteSignals::problem() const
         return tr("There is no signal %1 at the moment: choose another one in the settings.").arg(m_settings.position);
     if (m_position.definition().type.count() < 3)
         return tr("%1 is no position: a signal with three elements is needed.").arg(m_settings.position);
-    if (!state().position)
+    if (!vector(m_position))
         return tr("Waiting for the first values of %1.").arg(m_settings.position);
     return {};
 }
@@ -116,6 +116,8 @@ KiteState KiteSignals::state() const
 {
     KiteState state;
     state.position = vector(m_position);
+    if (state.position && state.position->isNull())
+        state.position.reset();
     state.velocity = vector(m_velocity);
     state.wind = vector(m_wind);
     state.force = vector(m_force);

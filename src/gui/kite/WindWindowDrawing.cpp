@@ -202,7 +202,9 @@ void WindWindowDrawing::drawCorners(const KiteState &state, const ColorScale &sc
     if (text.isEmpty())
         return;
     const double height = QFontMetricsF(m_painter->font()).height();
-    m_painter->setPen(state.pastTime ? m_theme.accent : m_theme.warning);
+    m_painter->setPen(state.pastTime                      ? m_theme.accent
+                          : state.quality == Plant::Stale ? m_theme.warning
+                                                          : m_theme.mutedText);
     m_painter->drawText(QRectF(margin, m_size.height() - height - 2, m_size.width(), height), text);
 }
 

@@ -33,6 +33,7 @@ QRect dropZoneRect(const QRect &area, DropZone zone)
     case DropZone::Below:
         return area.adjusted(0, halfHeight, 0, 0);
     case DropZone::Center:
+    case DropZone::NewTab:
         break;
     }
     return area;

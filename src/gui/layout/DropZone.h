@@ -5,8 +5,8 @@
 
 namespace qplc {
 
-/// Where in a panel something is dropped.
-enum class DropZone { Left, Right, Above, Below, Center };
+/// Where in a panel something is dropped, or in no panel but a new tab.
+enum class DropZone { Left, Right, Above, Below, Center, NewTab };
 enum class DropCenter { IsAZone, BelongsToTheNearestEdge };
 
 /// The zone of \a area at \a position, which may be outside. The center has the middle half of width and height.

@@ -4,9 +4,30 @@
 #include "PageView.h"
 
 #include <QtGui/QCloseEvent>
+#include <QtGui/QGuiApplication>
+#include <QtGui/QScreen>
 #include <QtWidgets/QVBoxLayout>
 
+#include <algorithm>
+
 namespace qplc {
+
+namespace {
+
+/// The same, or moved and made smaller, so that a person sees all of it: a layout may come from a larger screen.
+QRect onScreen(const QRect &geometry)
+{
+    const QScreen *screen = QGuiApplication::screenAt(geometry.center());
+    if (!screen)
+        screen = QGuiApplication::primaryScreen();
+    const QRect room = screen->availableGeometry();
+    QRect moved(geometry.topLeft(), geometry.size().boundedTo(room.size()));
+    moved.moveLeft(std::clamp(moved.left(), room.left(), room.right() + 1 - moved.width()));
+    moved.moveTop(std::clamp(moved.top(), room.top(), room.bottom() + 1 - moved.height()));
+    return moved;
+}
+
+}  // namespace
 
 FloatingWindow::FloatingWindow(LayoutEditor *editor, const QString &windowId, QWidget *parent)
     : QWidget(parent, Qt::Window)
@@ -28,8 +49,9 @@ void FloatingWindow::showWindow(const LayoutWindow &window)
     for (const LayoutPanel *panel : panels)
         titles.append(panel->title());
     setWindowTitle(titles.join(QStringLiteral(", ")));
-    if (geometry() != window.geometry)
-        setGeometry(window.geometry);
+    if (m_geometry != window.geometry && geometry() != window.geometry)
+        setGeometry(isVisible() ? window.geometry : onScreen(window.geometry));
+    m_geometry = window.geometry;
     show();
     m_isFollowing = false;
 }

@@ -32,6 +32,7 @@ private:
     LayoutEditor *m_editor;
     QString m_id;
     PageView *m_page;
+    QRect m_geometry;  // as the layout had it last
     bool m_isFollowing = false;
 };
 

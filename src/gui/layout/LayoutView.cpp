@@ -10,6 +10,7 @@
 #include "PanelFrame.h"
 #include "PanelTitleBar.h"
 #include "QPlcWidgetFactory.h"
+#include "TabDrop.h"
 
 #include <QtWidgets/QAction>
 #include <QtWidgets/QHBoxLayout>
@@ -31,6 +32,7 @@ LayoutView::LayoutView(LayoutEditor *editor, QWidget *parent)
     , m_drag(new PanelDrag(this))
 {
     qRegisterMetaType<DropZone>("qplc::DropZone");
+    m_add->setObjectName(QStringLiteral("addPanel"));
     m_add->setIcon(layoutIcon(LayoutIcon::Add));
     m_add->setAutoRaise(true);
     m_add->setText(tr("Add a panel or a tab"));
@@ -38,6 +40,8 @@ LayoutView::LayoutView(LayoutEditor *editor, QWidget *parent)
     m_add->setAccessibleName(m_add->text());
     m_add->setFocusPolicy(Qt::TabFocus);
     connect(m_add, &QToolButton::clicked, this, [this] { openAddMenu(m_add); });
+    connect(new TabDrop(m_tabBar, m_add, editor), &TabDrop::signalsDropped, this,
+            [this](DropZone zone, const QMimeData *dropped) { Q_EMIT signalsDropped({}, zone, dropped); });
     auto *bar = new QHBoxLayout;
     bar->setSpacing(2);
     bar->addWidget(m_tabBar);
@@ -223,6 +227,8 @@ QMenu *LayoutView::createAddMenu()
 
 void LayoutView::openAddMenu(QWidget *below)
 {
+    if (!below)
+        below = m_add;
     QMenu *menu = createAddMenu();
     menu->setAttribute(Qt::WA_DeleteOnClose);
     menu->popup(below->mapToGlobal(QPoint(0, below->height())));

@@ -44,14 +44,15 @@ public:
     QList<FloatingWindow *> floatingWindows() const { return m_windows.values(); }
     /// A list of the available widgets, each of which adds a panel to the current tab, and of a new tab. The caller owns it.
     QMenu *createAddMenu();
-    void openAddMenu(QWidget *below);
+    /// Below a widget, else below the button that adds panels.
+    void openAddMenu(QWidget *below = nullptr);
 
 Q_SIGNALS:
     /// A widget has been made for a panel.
     void widgetAdded(const QString &panelId, QPlcWidget *widget);
     /// The widget is deleted when control returns to the event loop.
     void widgetRemoved(const QString &panelId, QPlcWidget *widget);
-    /// Signals (mime type signalsMimeType()) were dropped. \a panelId is empty, and \a zone the center, for an empty tab, which is the current one.
+    /// Signals (mime type signalsMimeType()) were dropped. \a panelId is empty, for the current tab (\a zone is the center) and for a new one.
     void signalsDropped(const QString &panelId, qplc::DropZone zone, const QMimeData *data);
 
 private:

@@ -8,6 +8,7 @@
 #include "PanelFrame.h"
 
 #include <QtWidgets/QStackedWidget>
+#include <QtWidgets/QToolButton>
 
 namespace qplc {
 
@@ -43,6 +44,8 @@ PanelDrag::Place PanelDrag::placeAt(const QString &panelId, const QPoint &global
     }
     if (contains(m_view->tabBar(), globalPosition))
         return placeInTabs(panelId, globalPosition);
+    if (contains(m_view->m_add, globalPosition))
+        return {m_view->m_add, m_view->m_add->rect(), LayoutTarget::inNewTab()};
     if (contains(m_view, globalPosition))
         return placeIn(m_view->m_stack, panelId, globalPosition);
     // Beside the view, but in its window: bars of others, where nothing can stand.

@@ -41,7 +41,7 @@ void ControlCenterActions::makePlantMenu()
     nextPlant = add(plantMenu, tr("&Next plant"), tr("Ctrl+P"));
     plantMenu->addSeparator();
     initialize = add(plantMenu, tr("&Initialize"), tr("F4"));
-    arm = add(plantMenu, tr("&Arm"), tr("F6"));
+    arm = add(plantMenu, tr("&Arm"), tr("F9"));
     arm->setToolTip(tr("Permits one start within 5 s, where the master wants it"));
     start = add(plantMenu, tr("&Start"), tr("F5"));
     resetPlant = add(plantMenu, tr("&Reset the plant"), tr("F7"));

@@ -38,7 +38,7 @@ void QPlcControlCenter::Private::connectPlantActions()
     connect(topBar->controlNotice(), &ControlNotice::factsChanged, actions->giveBack,
             [this] { actions->giveBack->setEnabled(topBar->controlNotice()->isToGiveBack()); });
     connect(actions->startPage, &QAction::triggered, q, [this] {
-        isStartPageWanted = !isStartPageWanted && context.plants()->size() > 0;
+        isStartPageWanted = !isStartPageWanted;
         showPages();
     });
     connect(actions->quit, &QAction::triggered, q, &QWidget::close);
@@ -86,7 +86,7 @@ void QPlcControlCenter::Private::connectLayoutActions()
     });
     connect(actions->reset, &QAction::triggered, q, [this] { q->resetLayout(); });
     connect(actions->newTab, &QAction::triggered, q, [this] { editor.addTab(); });
-    connect(actions->addPanel, &QAction::triggered, q, [this] { view->openAddMenu(view); });
+    connect(actions->addPanel, &QAction::triggered, q, [this] { view->openAddMenu(); });
 }
 
 void QPlcControlCenter::Private::askForLayoutFile(bool isToSave)

@@ -82,6 +82,9 @@ namespace {
 
 PlantSummary conditionOf(const Plant &plant)
 {
+    if (plant.status().isLatched())
+        return {
+            Tone::Alarm, plant.status().state == QLatin1String("Fault") ? tr("fault") : tr("stopped safely"), {}, {}};
     switch (plant.quality()) {
     case Plant::Good:
         return {Tone::Good, tr("live"), {}, {}};
@@ -103,7 +106,7 @@ PlantSummary PlantSummary::of(const Plant &plant, const ViolationWatch &violatio
         return withoutConnection(plant);
     PlantSummary summary = conditionOf(plant);
     if (!plant.status().gone.isEmpty()) {
-        summary.tone = Tone::Warning;
+        summary.tone = summary.tone == Tone::Alarm ? Tone::Alarm : Tone::Warning;
         summary.condition = tr("%1; %2 gone").arg(summary.condition, plant.status().gone.join(QStringLiteral(", ")));
     }
     summary.figures = figuresOf(plant, violations);

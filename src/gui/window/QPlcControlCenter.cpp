@@ -37,10 +37,7 @@ void QPlcControlCenter::disconnectFromMaster(const QString &plant)
 
 QStringList QPlcControlCenter::plants() const
 {
-    QStringList names;
-    for (int place = 0; place < d->context.plants()->size(); ++place)
-        names.append(d->context.plants()->at(place)->name());
-    return names;
+    return d->plantNames();
 }
 
 bool QPlcControlCenter::isConnected(const QString &plant) const

@@ -32,6 +32,7 @@ QPlcControlCenter::Private::Private(QPlcControlCenter *window)
     connectViewActions();
     connectLayoutActions();
     startPage->addAction(actions->connectTo);
+    startPage->setWayBack(actions->startPage);
     pages->setCurrentIndex(1);
     applyTheme();
     followPlants();
@@ -159,17 +160,30 @@ void QPlcControlCenter::Private::followPlants()
     followSelection();
 }
 
+QStringList QPlcControlCenter::Private::plantNames()
+{
+    QStringList names;
+    for (int place = 0; place < context.plants()->size(); ++place)
+        names.append(context.plants()->at(place)->name());
+    return names;
+}
+
 void QPlcControlCenter::Private::showPages()
 {
     const bool isStart = isStartPageWanted || context.plants()->size() == 0;
     if (isStart != (pages->currentIndex() == 0))
         showDock(isStart);
     pages->setCurrentIndex(isStart ? 0 : 1);
+    const QStringList names = plantNames();
+    startPage->showWayBack(!names.isEmpty());
+    actions->startPage->setEnabled(!names.isEmpty());
+    actions->startPage->setText(!isStart || names.isEmpty() ? tr("Start &page")
+                                    : names.size() == 1     ? tr("&Back to %1").arg(names.first())
+                                                            : tr("&Back to the plants"));
     if (isStart && !connectStrip->isVisible())
         startPage->setFocus(Qt::OtherFocusReason);
-    q->setWindowTitle(context.plants()->size() == 0
-                          ? tr("Control Center")
-                          : tr("%1 - Control Center").arg(q->plants().join(QStringLiteral(", "))));
+    q->setWindowTitle(names.isEmpty() ? tr("Control Center")
+                                      : tr("%1 - Control Center").arg(names.join(QStringLiteral(", "))));
 }
 
 /// The start page has no use for signals; behind it the dock is as a person left it.

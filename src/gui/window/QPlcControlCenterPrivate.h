@@ -53,6 +53,7 @@ struct QPlcControlCenter::Private
     qplc::Plant *takeWiredPlant();
 
     // -- view --
+    QStringList plantNames();
     void showPages();
     void showDock(bool isStart);
     void applyTheme();

@@ -27,6 +27,7 @@ LayoutSide sideOf(DropZone zone)
         return LayoutSide::Below;
     case DropZone::Right:
     case DropZone::Center:
+    case DropZone::NewTab:
         break;
     }
     return LayoutSide::Right;
@@ -78,8 +79,9 @@ void SignalPlacer::drop(const QString &panelId, DropZone zone, const QStringList
     if (references.isEmpty() || (zone == DropZone::Center && addTo(panelId, references)))
         return;
     LayoutEditor *editor = m_view->editor();
-    const LayoutTarget target = panelId.isEmpty() ? LayoutTarget::inTab(editor->layout().currentTab().id)
-                                                  : LayoutTarget::beside(panelId, sideOf(zone));
+    const LayoutTarget target = zone == DropZone::NewTab ? LayoutTarget::inNewTab()
+        : panelId.isEmpty()                              ? LayoutTarget::inTab(editor->layout().currentTab().id)
+                                                         : LayoutTarget::beside(panelId, sideOf(zone));
     editor->addPanel(timePlot, settingsFor(timePlot, references), target);
 }
 

@@ -79,7 +79,8 @@ void StartButton::paintEvent(QPaintEvent * /*event*/)
                      Qt::AlignLeft | Qt::AlignVCenter, text());
     painter.setFont(font());
     painter.setPen(theme.mutedText);
-    painter.drawText(QRect(left, 10, right - left, 26), Qt::AlignRight | Qt::AlignVCenter, m_keys);
+    painter.drawText(QRect(left, isAlone ? 0 : 10, right - left, isAlone ? height() : 26),
+                     Qt::AlignRight | Qt::AlignVCenter, m_keys);
     painter.drawText(QRect(left, 36, right - left, 22), Qt::AlignLeft | Qt::AlignVCenter,
                      fontMetrics().elidedText(m_sentence, Qt::ElideRight, right - left));
     if (hasFocus())

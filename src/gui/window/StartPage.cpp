@@ -30,6 +30,7 @@ StartPage::StartPage(WindowContext *context, QWidget *parent)
     , m_foundTitle(new QLabel)
     , m_recentTitle(new QLabel(tr("Recent plants")))
     , m_actions(new QVBoxLayout)
+    , m_ways(new QVBoxLayout)
     , m_found(new FoundMasters(QBoxLayout::TopToBottom, mostFound, context))
     , m_recent(new QVBoxLayout)
 {
@@ -38,6 +39,8 @@ StartPage::StartPage(WindowContext *context, QWidget *parent)
                          ? tr("Control Center")
                          : QApplication::applicationDisplayName());
     m_actions->setSpacing(10);
+    m_ways->setSpacing(10);
+    m_ways->addLayout(m_actions);
     m_recent->setSpacing(2);
     // What is found and remembered has the room below for itself: as it grows, nothing above moves under the mouse.
     auto *page = new QVBoxLayout(this);
@@ -71,7 +74,7 @@ QWidget *StartPage::makeHead()
     column->addWidget(m_title);
     column->addWidget(m_sentence);
     column->addSpacing(22);
-    column->addLayout(m_actions);
+    column->addLayout(m_ways);
     return head;
 }
 
@@ -114,9 +117,24 @@ void StartPage::addAction(QAction *action)
     }
 }
 
+void StartPage::setWayBack(QAction *action)
+{
+    m_back = new StartButton(action, m_context);
+    m_back->setRank(StartButton::Other);
+    m_back->hide();
+    m_ways->addWidget(m_back);
+}
+
+void StartPage::showWayBack(bool isShown)
+{
+    m_back->setVisible(isShown);
+}
+
 /// The last big button; this page when there is none yet.
 QWidget *StartPage::lastAction()
 {
+    if (m_back && !m_back->isHidden())
+        return m_back;
     return m_actions->count() == 0 ? this : m_actions->itemAt(m_actions->count() - 1)->widget();
 }
 
@@ -146,8 +164,10 @@ void StartPage::setFoundMasters(const QVector<FoundMaster> &masters)
 QList<QWidget *> StartPage::buttons() const
 {
     QList<QWidget *> all;
-    for (QAbstractButton *button : findChildren<QAbstractButton *>())
-        all.append(button);
+    for (QAbstractButton *button : findChildren<QAbstractButton *>()) {
+        if (!button->isHidden())
+            all.append(button);
+    }
     return all;
 }
 

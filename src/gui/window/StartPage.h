@@ -13,6 +13,7 @@ class QVBoxLayout;
 namespace qplc {
 
 class FoundMasters;
+class StartButton;
 
 /// What a window without a plant shows: a few big things to begin with, which masters there are, and where one was before.
 class StartPage : public QWidget
@@ -24,6 +25,9 @@ public:
 
     /// A big button; those that come later stand before the last one. \param action  owned by others; text, icon, and toolTip as a sentence below the text
     void addAction(QAction *action);
+    /// The big button below all others, which leads back to the panels; hidden until showWayBack(). \param action  owned by others
+    void setWayBack(QAction *action);
+    void showWayBack(bool isShown);
     /// Addresses, newest first.
     void setRecentMasters(const QStringList &addresses);
     void setFoundMasters(const QVector<FoundMaster> &masters);
@@ -47,6 +51,8 @@ private:
     QLabel *m_foundTitle;
     QLabel *m_recentTitle;
     QVBoxLayout *m_actions;
+    QVBoxLayout *m_ways;  // m_actions, and the way back
+    StartButton *m_back = nullptr;
     FoundMasters *m_found;
     QVBoxLayout *m_recent;
 };

@@ -13,7 +13,7 @@ QString keysOf(Plant::Action action)
     case Plant::Start:
         return TopBar::tr("F5");
     case Plant::Arm:
-        return TopBar::tr("F6");
+        return TopBar::tr("F9");
     case Plant::Reset:
         return TopBar::tr("F7");
     default:

@@ -19,7 +19,8 @@ private Q_SLOTS:
     void anEmptyStoreHasNoPath();
     void aPathIsTheRowsOfItsTime();
     void aPathIsInterruptedWhereTheStoreIs();
-    void aPlaceThatIsNoNumberInterruptsThePath();
+    void aRowWithoutAPlaceInterruptsThePath_data();
+    void aRowWithoutAPlaceInterruptsThePath();
     void aLongPathHasFewPointsAndEndsWithTheNewestRow();
     void pointsStayWhereTheyAreWhileTimeGoesOn();
     void anInterruptionBetweenTwoPointsIsSeen();
@@ -35,7 +36,7 @@ void tst_FlightTrail::append(int rows)
 {
     for (int i = 0; i < rows; ++i) {
         const auto n = float(m_store->endRow());
-        const float values[] = {n, 2 * n, 3 * n, 10 + n};
+        const float values[] = {n, 2 * n, 3 * n + 1, 10 + n};
         QVERIFY(m_store->append(SignalStore::Time(n) * 10 * ms, values));
     }
 }
@@ -52,8 +53,8 @@ void tst_FlightTrail::aPathIsTheRowsOfItsTime()
     append(10);
     m_trail.read(*m_store, 0, 3, 20 * ms, 50 * ms);
     QCOMPARE(m_trail.points().size(), std::size_t(4));
-    QCOMPARE(m_trail.points().front().position, QVector3D(2, 4, 6));
-    QCOMPARE(m_trail.points().back().position, QVector3D(5, 10, 15));
+    QCOMPARE(m_trail.points().front().position, QVector3D(2, 4, 7));
+    QCOMPARE(m_trail.points().back().position, QVector3D(5, 10, 16));
     QCOMPARE(m_trail.points().back().value, 15.0f);
     QVERIFY(!m_trail.points().front().isJoined);
     QVERIFY(m_trail.points().back().isJoined);
@@ -74,10 +75,18 @@ void tst_FlightTrail::aPathIsInterruptedWhereTheStoreIs()
     QVERIFY(std::isnan(m_trail.points()[0].value));
 }
 
-void tst_FlightTrail::aPlaceThatIsNoNumberInterruptsThePath()
+void tst_FlightTrail::aRowWithoutAPlaceInterruptsThePath_data()
 {
+    QTest::addColumn<QVector3D>("place");
+    QTest::newRow("no number") << QVector3D(1, NAN, 1);
+    QTest::newRow("nobody has written it") << QVector3D();
+}
+
+void tst_FlightTrail::aRowWithoutAPlaceInterruptsThePath()
+{
+    QFETCH(QVector3D, place);
     append(2);
-    const float values[] = {1, NAN, 1, 1};
+    const float values[] = {place.x(), place.y(), place.z(), 1};
     QVERIFY(m_store->append(20 * ms, values));
     append(2);
     m_trail.read(*m_store, 0, 3, 0, 1000 * ms);

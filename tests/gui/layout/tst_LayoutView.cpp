@@ -2,6 +2,7 @@
 #include "ViewFixtures.h"
 #include "gui/layout/EmptyPage.h"
 
+#include <QtGui/QScreen>
 #include <QtWidgets/QPushButton>
 
 using namespace qplc;
@@ -37,6 +38,7 @@ private Q_SLOTS:
     void keysReachEverything();
     void everythingHasAnAccessibleName();
     void closedWindowClosesItsPanels();
+    void windowOfALargerScreenIsSeenWhole();
     void movedWindowIsNoStep();
     void thousandsOfFormerSplittersDoNotStay();
 };
@@ -450,6 +452,18 @@ void tst_LayoutView::closedWindowClosesItsPanels()
     window.undoAndRedo();
     QCOMPARE(window.view.floatingWindows().size(), 1);
     QVERIFY(window.panel("panel2")->isVisible());
+}
+
+void tst_LayoutView::windowOfALargerScreenIsSeenWhole()
+{
+    Layout layout = threePanels();
+    layout.floatPanel("panel2", {3000, 2000, 400, 300});
+    ViewFixture window(layout);
+    const QRect room = window.view.screen()->availableGeometry();
+    const QRect seen = window.view.floatingWindows().first()->geometry();
+    QVERIFY(room.contains(seen));
+    QCOMPARE(seen.size(), QSize(400, 300));
+    QCOMPARE(window.editor.layout().windows().front().geometry, QRect(3000, 2000, 400, 300));  // for that screen
 }
 
 void tst_LayoutView::movedWindowIsNoStep()

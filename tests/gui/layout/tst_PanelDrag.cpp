@@ -5,6 +5,7 @@
 #include "gui/layout/EmptyPage.h"
 
 #include <QtCore/QMimeData>
+#include <QtWidgets/QToolButton>
 
 using namespace qplc;
 
@@ -75,6 +76,8 @@ private Q_SLOTS:
     void droppedSignalsSayPanelAndZone_data();
     void droppedSignalsSayPanelAndZone();
     void droppedSignalsOfAnEmptyTabSayNoPanel();
+    void signalsAreDroppedOnTabs();
+    void panelIsDroppedIntoANewTab();
     void otherThingsAreNotTaken();
 };
 
@@ -178,7 +181,7 @@ void tst_PanelDrag::panelThatLeavesTheWindowFloats()
     const QPoint outside = window.view.mapToGlobal({1100, 300});
     drag(window.frame("panel1"), outside);
     QCOMPARE(window.shown(), QStringLiteral("V[panel2 panel3] / panel1"));
-    QVERIFY(window.view.floatingWindows().first()->geometry().contains(outside));
+    QVERIFY(window.editor.layout().windows().front().geometry.contains(outside));
     window.undoAndRedo();
     QVERIFY(window.view.floatingWindows().isEmpty());
 }
@@ -300,6 +303,38 @@ void tst_PanelDrag::droppedSignalsOfAnEmptyTabSayNoPanel()
     });
     QVERIFY(dropSignals(window.view.findChild<EmptyPage *>(), {100, 100}, signalsMimeType()));
     QCOMPARE(drops, 1);
+}
+
+void tst_PanelDrag::signalsAreDroppedOnTabs()
+{
+    ViewFixture window;
+    const QString first = window.editor.layout().currentTab().id;
+    window.editor.addTab();
+    QVERIFY(window.editor.layout().currentTab().id != first);
+    DropZone where = DropZone::Left;
+    connect(&window.view, &LayoutView::signalsDropped, this, [&](const QString &id, DropZone zone) {
+        QVERIFY(id.isEmpty());
+        where = zone;
+    });
+    LayoutTabBar *bar = window.view.tabBar();
+    QVERIFY(dropSignals(bar, bar->tabRect(0).center(), signalsMimeType()));
+    QCOMPARE(window.editor.layout().currentTab().id, first);  // it came to the front
+    QCOMPARE(int(where), int(DropZone::Center));
+    auto *add = window.view.findChild<QToolButton *>(QStringLiteral("addPanel"));
+    QVERIFY(dropSignals(add, add->rect().center(), signalsMimeType()));
+    QCOMPARE(int(where), int(DropZone::NewTab));
+    QVERIFY(!dropSignals(add, add->rect().center(), "text/plain"));
+}
+
+void tst_PanelDrag::panelIsDroppedIntoANewTab()
+{
+    ViewFixture window;
+    const std::size_t tabs = window.editor.layout().tabs().size();
+    auto *add = window.view.findChild<QToolButton *>(QStringLiteral("addPanel"));
+    drag(window.frame("panel1"), add->mapToGlobal(add->rect().center()));
+    QCOMPARE(window.editor.layout().tabs().size(), tabs + 1);
+    QCOMPARE(window.editor.layout().pageOf("panel1")->id, window.editor.layout().currentTab().id);
+    QCOMPARE(window.editor.undoStack()->count(), 1);
 }
 
 void tst_PanelDrag::otherThingsAreNotTaken()

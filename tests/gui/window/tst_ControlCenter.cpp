@@ -52,7 +52,13 @@ void tst_ControlCenter::withoutAPlantThereIsTheStartPage()
     QVERIFY(fixture.part<SignalDock>()->isVisible());
     fixture.window.showStartPage();
     QVERIFY(fixture.window.isStartPageShown());
+    QTRY_VERIFY(fixture.structure().shows(QStringLiteral("Back to %1").arg(name)));
+    fixture.press(Qt::Key_Home, Qt::ControlModifier);
+    QVERIFY(!fixture.window.isStartPageShown());
+    fixture.press(Qt::Key_Home, Qt::ControlModifier);
+    QVERIFY(fixture.window.isStartPageShown());
     fixture.window.disconnectFromMaster(name);
+    QVERIFY(!fixture.structure().shows(QStringLiteral("Back to %1").arg(name)));
     QVERIFY(fixture.window.isStartPageShown());
     fixture.window.disconnectFromMaster(QStringLiteral("nobody"));
 }
@@ -71,7 +77,7 @@ void tst_ControlCenter::aTypedAddressConnectsAndTheNextActionStarts()
     QTRY_COMPARE_WITH_TIMEOUT(fixture.topBar()->stepper()->step(), StateStep::RealTime, patience);
     QVERIFY(!fixture.topBar()->nextButton()->isVisible());  // STOP is the next one
     QTRY_COMPARE_WITH_TIMEOUT(fixture.topBar()->selector()->headline(), QStringLiteral("live"), patience);
-    QCOMPARE(fixture.part<StartPage>()->buttons().size(), 2);  // Connect..., and the address for the next time
+    QCOMPARE(fixture.part<StartPage>()->buttons().size(), 3);  // Connect..., Back, and the address for the next time
 }
 
 void tst_ControlCenter::stopWorksByButtonAndByKeys()

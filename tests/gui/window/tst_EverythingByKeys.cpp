@@ -144,6 +144,7 @@ private Q_SLOTS:
     void actionsOfAPanelRunByTheirKeysOrAreInThePalette_data();
     void actionsOfAPanelRunByTheirKeysOrAreInThePalette();
     void actionsOfTheWindowRunByTheirKeysWhereverTheFocusIs();
+    void keysOfCommandsToThePlantMeanNothingElse();
     void keysOfAPanelComeBeforeThoseOfTheTabs();
     void noButtonIsForTheMouseOnly_data();
     void noButtonIsForTheMouseOnly();
@@ -193,6 +194,26 @@ void tst_EverythingByKeys::actionsOfTheWindowRunByTheirKeysWhereverTheFocusIs()
         QCOMPARE(QApplication::focusWidget(), place);
         for (QAction *action : fixture.window.actions() + fixture.view->actions())
             QCOMPARE(keyError(fixture, action), QString());
+    }
+}
+
+void tst_EverythingByKeys::keysOfCommandsToThePlantMeanNothingElse()
+{
+    PanelFixture fixture(QStringLiteral("Gauge"));
+    for (const QPlcWidgetFactory *factory : standardWidgets())
+        fixture.view->editor()->addPanel(factory->name(), {},
+                                         LayoutTarget::beside(fixture.frame->panelId(), LayoutSide::Right));
+    const auto *actions = fixture.part<ControlCenterActions>();
+    const QList<QAction *> commands
+        = {actions->initialize, actions->arm, actions->start, actions->resetPlant, actions->stop, actions->giveBack};
+    for (const QAction *action : fixture.window.findChildren<QAction *>()) {
+        for (const QAction *command : commands) {
+            for (const QKeySequence &keys : command->shortcuts())
+                QVERIFY2(
+                    action == command || !action->shortcuts().contains(keys),
+                    qPrintable(
+                        QStringLiteral("%1 is for %2 and %3").arg(keys.toString(), textOf(command), textOf(action))));
+        }
     }
 }
 

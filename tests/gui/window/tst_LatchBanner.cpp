@@ -45,6 +45,8 @@ void tst_LatchBanner::aSafeStopIsShownWithItsReasonUntilItIsReset()
     QCOMPARE(banner->text(),
              QStringLiteral("kite has stopped safely: smoke at the winch. Reset it, then initialize and start."));
     QCOMPARE(banner->accessibleName(), banner->text());
+    QCOMPARE(fixture.topBar()->selector()->headline(), QStringLiteral("stopped safely"));
+    QCOMPARE(PlantSummary::of(*fixture.plant()).tone, Tone::Alarm);
     QCOMPARE(fixture.topBar()->nextButton()->text(), QStringLiteral("Reset"));
     QTRY_VERIFY_WITH_TIMEOUT(fixture.topBar()->stepper()->toolTip().contains(QLatin1String("Safe stop")), patience);
     QTest::qWait(100);  // a picture with values
@@ -61,6 +63,7 @@ void tst_LatchBanner::aSafeStopIsShownWithItsReasonUntilItIsReset()
 void tst_LatchBanner::whatRemainsIsSaidAndTheButtonWaits()
 {
     RunningMaster master;
+    master.setInterval(std::chrono::milliseconds(100));  // a busy computer is not to be the reason
     EchoNode critical;
     critical.setCritical(true);
     QVERIFY(critical.connectToMasterAndWaitForConnected(master.protocol(QStringLiteral("udp"))));

@@ -76,7 +76,7 @@ void tst_BuiltInLayout::everySignalIsInTheTable()
     QVERIFY(table.size() > 0);
     const QStringList texts = signalTexts(QJsonDocument::fromJson(layoutText()).object());
     QVERIFY(texts.size() > 15);
-    static const QRegularExpression name(QStringLiteral("[A-Za-z_]\\w*(?!\\w*\\()"));
+    static const QRegularExpression name(QStringLiteral("\\b[A-Za-z_]\\w*(?!\\w*\\()"));
     for (const QString &text : texts) {
         QRegularExpressionMatchIterator names = name.globalMatch(text);
         QVERIFY2(names.hasNext(), qPrintable(text));
