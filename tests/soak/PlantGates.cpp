@@ -326,7 +326,8 @@ Gate faultsAreCounted(const Evidence &evidence)
         gate.figures[name + QStringLiteral(" counted")] += double(counted);
         if (counted == fault.amount)
             continue;
-        if (fault.kind == FaultKind::KillNode && counted == 0 && fellBefore(evidence, fault))
+        const bool isUnknown = counted < 0 || (fault.kind == FaultKind::KillNode && counted == 0);
+        if (isUnknown && fellBefore(evidence, fault))
             ++gate.excused;
         else
             gate.fail(QStringLiteral("%1: %2 were done, %3 counted").arg(nameOf(fault)).arg(fault.amount).arg(counted));

@@ -59,6 +59,8 @@ public:
         connect(this, &QPlcMasterNode::stateChanged, this, [this](State state) {
             m_history.append(Record::State, Record::Nobody, {quint64(numberOf(state))}, cycle());
         });
+        // Not earlier: until then the counters are those of the phase before.
+        connect(this, &QPlcMasterNode::realTimeHasStarted, this, [this] { m_phase = m_recorder.phase(); });
         connect(this, &QPlcMasterNode::realTimeHasStopped, this, [this] { count(); });
         recordNodes();
         connect(&m_timer, &QTimer::timeout, this, [this] { count(); });
@@ -95,19 +97,18 @@ private:
     }
     void count()
     {
-        const quint64 phase = m_recorder.phase();
-        if (phase == 0)
+        if (m_phase == 0)
             return;
         const QPlcCycleStatistics all = cycleStatistics();
         const QPlcMasterStatistics sinceStart = statistics();
         m_history.append(Record::Counters, Record::Nobody,
-                         {phase, all.cycles, all.skippedCycles, all.strangers, all.lateAnswers, all.overruns,
+                         {m_phase, all.cycles, all.skippedCycles, all.strangers, all.lateAnswers, all.overruns,
                           all.incompleteCycles, sinceStart.failedHandshakes, sinceStart.deniedMessages},
                          cycle());
         for (const QPlcNodeStatistics &node : all.nodes) {
             if (nodeNumber(node.name) >= 0)
                 m_history.append(Record::NodeCounters, nodeNumber(node.name),
-                                 {phase, node.answers, node.late, node.lost, node.duplicated, node.reordered,
+                                 {m_phase, node.answers, node.late, node.lost, node.duplicated, node.reordered,
                                   node.rejected, node.resent},
                                  cycle());
         }
@@ -117,6 +118,7 @@ private:
     HistoryWriter &m_history;
     CycleRecorder m_recorder;
     QTimer m_timer;
+    quint64 m_phase = 0;  // whose counters there are; 0: none
 };
 
 }  // namespace
