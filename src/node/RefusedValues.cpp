@@ -12,11 +12,6 @@ namespace {
 
 constexpr int lookPeriod = 250;  // [ms]
 
-std::int64_t now()
-{
-    return TimeSource::monotonic().now();
-}
-
 QString alarmOf(const QString &signal)
 {
     return QStringLiteral("value of ") + signal;
@@ -35,7 +30,7 @@ RefusedValues::RefusedValues(Journal &journal, Count count)
 void RefusedValues::refused(QPlcSignalIndex signal, const QString &name, const QString &node, const QString &what)
 {
     const bool isNew = !m_rows.contains(signal);
-    m_rows.insert(signal, {name, node, what, m_count(signal), now()});
+    m_rows.insert(signal, {name, node, what, m_count(signal), monotonicNow()});
     m_timer.start();
     if (isNew)
         m_journal.raise(alarmOf(name), JournalEvent::Warning, JournalEvent::Quality, node,
@@ -48,9 +43,9 @@ void RefusedValues::look()
         const std::uint64_t count = m_count(row.key());
         if (count != row->count) {
             row->count = count;
-            row->since = now();
+            row->since = monotonicNow();
         }
-        if (now() - row->since < CalmTime) {
+        if (monotonicNow() - row->since < CalmTime) {
             ++row;
             continue;
         }
