@@ -41,10 +41,13 @@ void NodeExchange::start(CycleClock &grid, std::chrono::nanoseconds period, QPlc
 /// Everything that nodes and master exchange in a cycle stands here, in order.
 void NodeExchange::run(const Roster &roster, const Cycle &cycle) noexcept
 {
+    const bool hasSkipped = cycle.number > m_cycle.number + 1;
     m_roster = &roster;
     m_cycle = cycle;
     m_hasReceived = false;
     m_isSafe = m_guard.isTripped();
+    if (hasSkipped && !m_isSafe)
+        m_signalGuard.settle(guardCycle() - 1);  // what has no new value is older by the cycles that were left out, too
     cutInputs();
     m_signalGuard.ageAbandoned(guardCycle());
     pasteKnownOutputs();

@@ -51,6 +51,7 @@ public:
         setReceivesQuality(asks);
     }
     QStringList record;
+    std::function<void()> afterStep;
     QString seenFree;
     QPlcInput<double> m_echo;
     QPlcInput<float> m_free{this, "free"};
@@ -61,6 +62,8 @@ private:
     {
         record << QStringLiteral("%1 %2").arg(m_echo.value()).arg(m_echo.quality().toString());
         seenFree = QStringLiteral("%1 %2").arg(double(m_free.value())).arg(m_free.quality().toString());
+        if (afterStep)
+            afterStep();
     }
 };
 
@@ -88,6 +91,7 @@ private Q_SLOTS:
     void aWriterThatIsLostIsHeldAndThenSafe_data();
     void aWriterThatIsLostIsHeldAndThenSafe();
     void aWriterThatIsKilledIsHeldAndThenSafe_data();
+    void cyclesThatAreLeftOutAreTimeThatHasPassed();
     void aWriterThatIsKilledIsHeldAndThenSafe();
     void aListenerIsGoodUntilItIsGone();
     void theNextPhaseBeginsWithoutOldValues();
@@ -227,6 +231,34 @@ void tst_Quality::aWriterThatIsKilledIsHeldAndThenSafe_data()
 }
 
 /// As above, with a process that gets no chance to say goodbye.
+void tst_Quality::cyclesThatAreLeftOutAreTimeThatHasPassed()
+{
+    TestMaster master(QPlcClock::realTime(), qualityTable());
+    master.setInterval(0.02);
+    Actuator actuator;
+    actuator.afterStep = [&] {
+        if (actuator.record.last() == QLatin1String("19 held 1"))
+            QThread::msleep(150);  // the master leaves out more cycles than the value may be held
+    };
+    QVERIFY(master.addLocalNode(&actuator));
+    QVERIFY(master.listen());
+    ScriptedNode writer;
+    writer.table = qualityTable();
+    writer.onRequest = [&](const ScriptedNode::Request &request) {
+        if (request.cycle < 20)
+            writer.answer(request.cycle, QPlcValue(19.0).toBytes());
+    };
+    QVERIFY(writer.registerAt(master.serverPort()));
+    QVERIFY(master.startRealTime());
+    QTRY_VERIFY(master.cycle() > 40);
+    master.stop();
+    QVERIFY(master.statistics().skippedCycles >= 3);
+    const int held = actuator.record.indexOf("19 held 1");
+    if (held < 0)
+        QSKIP("the machine stood still just then");
+    QCOMPARE(actuator.record.value(held + 1), QString("-5 safe"));
+}
+
 void tst_Quality::aWriterThatIsKilledIsHeldAndThenSafe()
 {
     QFETCH(QString, kind);

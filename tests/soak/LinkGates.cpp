@@ -80,7 +80,7 @@ qint64 nextLifeOf(const Evidence &evidence, const History &life, qint64 otherwis
     return begin;
 }
 
-/// The last counters of the node before its life ended; null when they are those of several phases, or none.
+/// The last counters of the node before its life ended; null when they are those of several phases or registrations, or none.
 const Record *countersOf(const Evidence &evidence, const DoneFault &fault, const History &life)
 {
     const History *master = evidence.masterAt(fault.begin);
@@ -90,7 +90,11 @@ const Record *countersOf(const Evidence &evidence, const DoneFault &fault, const
                                                       life.records.front().time, nextLifeOf(evidence, life, fault.end));
     const bool isOnePhase
         = !all.empty() && all.front()->numbers[Record::NodePhase] == all.back()->numbers[Record::NodePhase];
-    return isOnePhase ? all.back() : nullptr;
+    if (!isOnePhase)
+        return nullptr;
+    const auto registrations
+        = recordsOf(*master, Record::Registered, fault.node, life.records.front().time, all.back()->time);
+    return registrations.size() <= 1 ? all.back() : nullptr;
 }
 
 void lookAt(const Evidence &evidence, const DoneFault &fault, const Counted &what, Gate *gate)

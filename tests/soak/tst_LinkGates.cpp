@@ -23,6 +23,7 @@ private Q_SLOTS:
     void cyclesThatTheNodeMissedMayBeAmongTheLost();
     void framesUnderWayMayBeCountedOrNot();
     void countersOfTwoPhasesAreNotJudged();
+    void aNodeThatRegisteredTwiceIsNotJudged();
     void countersOfALaterLifeAreNotThoseOfTheLifeWithTheFault();
 
 private:
@@ -127,6 +128,17 @@ void tst_LinkGates::framesUnderWayMayBeCountedOrNot()
         addCounters(plant, Record::Duplicated, counted, HandMade::at(quint64(frames + 2)) + 2 * HandMade::Millisecond);
         QCOMPARE(plant.judge(&soak::linkFaultsAreCounted).passed(), counted >= least && counted <= most);
     }
+}
+
+void tst_LinkGates::aNodeThatRegisteredTwiceIsNotJudged()
+{
+    HandMade plant
+        = badLink(FaultKind::LoseFrames, Record::AnswersLost, 0);  // what was counted went with the first registration
+    HandMade::add(plant.master(), Record::Registered, 2, HandMade::at(0) - 100 * HandMade::Millisecond);
+    HandMade::add(plant.master(), Record::Registered, 2, HandMade::at(70));
+    const Gate gate = plant.judge(&soak::linkFaultsAreCounted);
+    QCOMPARE(gate.failed, qint64(0));
+    QCOMPARE(gate.looked, qint64(0));
 }
 
 void tst_LinkGates::countersOfTwoPhasesAreNotJudged()
