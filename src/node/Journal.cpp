@@ -17,11 +17,6 @@ QString waiting()
     return QStringLiteral("waiting");
 }
 
-std::int64_t now()
-{
-    return TimeSource::monotonic().now();
-}
-
 /// What is abnormal is seen by default, and so is who comes and takes over; the rest is for those who look for it. So are overruns that end nothing: on an ordinary
 /// system they come with every breath of another program, and the statistics count them.
 void log(const JournalEvent &event)
@@ -67,7 +62,7 @@ void Journal::raise(const QString &alarm, JournalEvent::Severity severity, Journ
                     const QString &source, const QString &text)
 {
     const JournalEvent event{severity, kind, source, text, alarm, true};
-    m_alarms.try_emplace(alarm, Alarm{event, now()});
+    m_alarms.try_emplace(alarm, Alarm{event, monotonicNow()});
     append(event);
 }
 
@@ -78,7 +73,7 @@ void Journal::clear(const QString &alarm, const QString &text)
         return;
     const Alarm lasted = found->second;
     m_alarms.erase(found);
-    const double duration = double(now() - lasted.since) * 1e-9;  // [s]
+    const double duration = double(monotonicNow() - lasted.since) * 1e-9;  // [s]
     append({JournalEvent::Info, lasted.event.kind, lasted.event.source,
             QStringLiteral("%1, after %2 s").arg(text).arg(duration, 0, 'f', 1), alarm, false});
 }
@@ -182,14 +177,14 @@ void Journal::strangerRefused(const QString &address, const QString &reason)
 
 void Journal::tellLimited(const QString &thing, const QString &begin, const JournalEvent &event)
 {
-    if (const std::optional<JournalEvent> told = m_limiter.report(thing, begin, event, now()))
+    if (const std::optional<JournalEvent> told = m_limiter.report(thing, begin, event, monotonicNow()))
         append(*told);
     waitForNext();
 }
 
 void Journal::tellDue()
 {
-    for (const JournalEvent &event : m_limiter.takeDue(now()))
+    for (const JournalEvent &event : m_limiter.takeDue(monotonicNow()))
         append(event);
     waitForNext();
 }
@@ -197,7 +192,7 @@ void Journal::tellDue()
 void Journal::waitForNext()
 {
     if (const std::optional<std::int64_t> next = m_limiter.nextDue())
-        m_limiterTimer.start(int(std::max<std::int64_t>(*next - now(), 0) / 1'000'000 + 1));
+        m_limiterTimer.start(int(std::max<std::int64_t>(*next - monotonicNow(), 0) / 1'000'000 + 1));
 }
 
 // ---- overruns ----

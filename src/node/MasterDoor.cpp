@@ -13,11 +13,6 @@ namespace {
 
 constexpr int sweepInterval = 100;  // [ms]
 
-qint64 now()
-{
-    return TimeSource::monotonic().now();
-}
-
 QHostAddress peerOf(int descriptor)
 {
     SocketAddress address;
@@ -91,7 +86,7 @@ void MasterDoor::accept(int descriptor)
 {
     const QHostAddress address = peerOf(descriptor);
     ConnectionGate::Refusal refusal = ConnectionGate::Admitted;
-    const std::optional<ConnectionGate::Ticket> ticket = m_gate.admit(address, now(), &refusal);
+    const std::optional<ConnectionGate::Ticket> ticket = m_gate.admit(address, monotonicNow(), &refusal);
     if (!ticket) {
         ::close(descriptor);
         ++m_turnedAway;
@@ -116,7 +111,7 @@ void MasterDoor::handshakeEnded(ConnectionGate::Ticket ticket)
 {
     Handshake *handshake = m_handshakes[ticket];
     m_handshakes.erase(ticket);
-    m_gate.renew(ticket, now());
+    m_gate.renew(ticket, monotonicNow());
     auto *socket = new QPlcSlaveSocket(handshake->takeSocket());
     const Peer peer = handshake->peer();
     handshake->deleteLater();
@@ -138,7 +133,7 @@ void MasterDoor::sweep()
 {
     const auto showOut = [this](ConnectionGate::Ticket ticket) {
         const auto found = m_handshakes.find(ticket);
-        if (!m_gate.overdue(now()).contains(ticket))
+        if (!m_gate.overdue(monotonicNow()).contains(ticket))
             return;
         if (found == m_handshakes.end()) {
             Q_EMIT tooSlow(ticket);
@@ -151,7 +146,7 @@ void MasterDoor::sweep()
         Q_EMIT refused(QString(), from, reason);
     };
     // Not at once: when this thread was busy with something else, what they have said waits to be read.
-    for (ConnectionGate::Ticket ticket : m_gate.overdue(now()))
+    for (ConnectionGate::Ticket ticket : m_gate.overdue(monotonicNow()))
         QTimer::singleShot(sweepInterval / 2, this, [showOut, ticket] { showOut(ticket); });
     goOn();
     acceptAll();

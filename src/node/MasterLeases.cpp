@@ -18,11 +18,6 @@ constexpr double longestTimeout = 3.6e12;  // [ns] an hour: whoever is silent fo
 constexpr double usualTimeout = 1e9;       // [ns]
 constexpr int longestName = 64;            // [characters] as of nodes
 
-std::int64_t now()
-{
-    return TimeSource::monotonic().now();
-}
-
 Refusal malformed(const QString &text)
 {
     return {QStringLiteral("MalformedMessage"), text};
@@ -61,7 +56,7 @@ MasterLeases::MasterLeases(Leases &leases, NodeRegistry &registry, MasterCycle &
     m_timer.setSingleShot(true);
     m_timer.setTimerType(Qt::PreciseTimer);
     connect(&m_timer, &QTimer::timeout, this,
-            [this] { lose(m_leases.loseSilent(now()), QStringLiteral("has been silent for too long")); });
+            [this] { lose(m_leases.loseSilent(monotonicNow()), QStringLiteral("has been silent for too long")); });
 }
 
 // ---- taking ----
@@ -81,7 +76,7 @@ bool MasterLeases::take(const QObject *holder, const QString &name, const QJsonO
     if (wish.name.isEmpty())
         wish.name = name;
     const QString from = othersText(holder, wish.indices);
-    m_leases.take(wish.indices, holder, wish.name, wish.timeout, now());
+    m_leases.take(wish.indices, holder, wish.name, wish.timeout, monotonicNow());
     m_settings.keepPresent(wish.indices);
     listenToTheEndOf(holder);
     Q_EMIT heldSignalsChanged();
@@ -198,7 +193,7 @@ bool MasterLeases::release(const QObject *asker, const QString &name, const QJso
 void MasterLeases::renew(const QObject *holder)
 {
     if (m_holders.count(holder))
-        m_leases.renew(holder, now());  // the timer finds out by itself that it is early
+        m_leases.renew(holder, monotonicNow());  // the timer finds out by itself that it is early
 }
 
 void MasterLeases::listenToTheEndOf(const QObject *holder)
@@ -240,7 +235,7 @@ void MasterLeases::waitForNext()
 {
     const std::optional<std::int64_t> next = m_leases.nextDeadline();
     if (next)
-        m_timer.start(int(std::max<std::int64_t>(*next - now(), 0) / 1'000'000 + 1));
+        m_timer.start(int(std::max<std::int64_t>(*next - monotonicNow(), 0) / 1'000'000 + 1));
     else
         m_timer.stop();
 }

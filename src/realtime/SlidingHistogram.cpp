@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SlidingHistogram.h"
 
+#include "TimeSource.h"
+
 #include <algorithm>
 #include <thread>
 
 namespace qplc {
 
 namespace {
-
-constexpr std::int64_t NanosecondsPerSecond = 1'000'000'000;
 
 std::int64_t secondOf(std::int64_t now) noexcept
 {

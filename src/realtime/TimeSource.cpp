@@ -8,9 +8,7 @@ namespace qplc {
 
 namespace {
 
-constexpr std::int64_t NanosecondsPerSecond = 1'000'000'000;
-
-std::int64_t read(clockid_t clock) noexcept
+std::int64_t readClock(clockid_t clock) noexcept
 {
     timespec time{};
     clock_gettime(clock, &time);
@@ -20,8 +18,8 @@ std::int64_t read(clockid_t clock) noexcept
 class MonotonicTime final : public TimeSource
 {
 public:
-    std::int64_t now() noexcept override { return read(CLOCK_MONOTONIC); }
-    std::int64_t slept() noexcept override { return -read(CLOCK_MONOTONIC) + read(CLOCK_BOOTTIME); }
+    std::int64_t now() noexcept override { return readClock(CLOCK_MONOTONIC); }
+    std::int64_t slept() noexcept override { return -readClock(CLOCK_MONOTONIC) + readClock(CLOCK_BOOTTIME); }
     bool sleepUntil(std::int64_t deadline) noexcept override
     {
         const std::int64_t instant = std::max<std::int64_t>(deadline, 0);  // an instant before 0 is no valid timespec
@@ -46,7 +44,7 @@ timespec timeSpec(std::int64_t time) noexcept
 
 std::int64_t wallClockNow() noexcept
 {
-    return read(CLOCK_REALTIME);
+    return readClock(CLOCK_REALTIME);
 }
 
 }  // namespace qplc

@@ -25,6 +25,14 @@ public:
     static TimeSource &monotonic();
 };
 
+constexpr std::int64_t NanosecondsPerSecond = 1'000'000'000;
+
+/// Time of the clock of TimeSource::monotonic() [ns].
+inline std::int64_t monotonicNow() noexcept
+{
+    return TimeSource::monotonic().now();
+}
+
 /// \a time [ns], >= 0, as the kernel takes it.
 timespec timeSpec(std::int64_t time) noexcept;
 

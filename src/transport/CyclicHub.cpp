@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "CyclicHub.h"
 
+#include "realtime/TimeSource.h"
+
 #include <QtCore/qendian.h>
 #include <algorithm>
 #include <cerrno>
@@ -333,9 +335,7 @@ bool CyclicHub::waitInReceive() noexcept
 
 bool CyclicHub::pollDescriptors(std::int64_t timeout, int alarm) noexcept
 {
-    timespec limit{};
-    limit.tv_sec = time_t(timeout / 1'000'000'000);
-    limit.tv_nsec = long(timeout % 1'000'000'000);
+    const timespec limit = timeSpec(timeout);
     m_polled[Alarm].fd = alarm;
     m_polled[Alarm].revents = 0;
     const int ready = ::ppoll(m_polled.data(), m_polled.size(), alarm < 0 ? &limit : nullptr, nullptr);

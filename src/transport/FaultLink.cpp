@@ -7,7 +7,7 @@ namespace qplc {
 
 namespace {
 
-constexpr std::size_t Capacity = 256;  // frames under way in each direction; what comes then is lost
+constexpr std::size_t framesOfOneLink = 256;  // frames under way in each direction; what comes then is lost
 
 }  // namespace
 
@@ -17,8 +17,8 @@ FaultLink::FaultLink(std::unique_ptr<CyclicLink> link, const FaultPlan &plan, st
     , m_time(time)
     , m_sent(plan.sent, plan.seed, 2 * stream)
     , m_received(plan.received, plan.seed, 2 * stream + 1)
-    , m_sending(Capacity, FaultStream::LargestFrame)
-    , m_receiving(Capacity, FaultStream::LargestFrame)
+    , m_sending(framesOfOneLink, FaultStream::LargestFrame)
+    , m_receiving(framesOfOneLink, FaultStream::LargestFrame)
 {
 }
 

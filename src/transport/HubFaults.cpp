@@ -7,15 +7,16 @@ namespace qplc {
 
 namespace {
 
-constexpr std::size_t Capacity = 2048;  // frames of all peers under way in each direction; what comes then is lost
+constexpr std::size_t framesOfAllLinks
+    = 2048;  // frames of all peers under way in each direction; what comes then is lost
 
 }  // namespace
 
 HubFaults::HubFaults(const FaultPlan &plan, TimeSource &time)
     : m_plan(plan)
     , m_time(time)
-    , m_sending(Capacity, FaultStream::LargestFrame)
-    , m_receiving(Capacity, FaultStream::LargestFrame)
+    , m_sending(framesOfAllLinks, FaultStream::LargestFrame)
+    , m_receiving(framesOfAllLinks, FaultStream::LargestFrame)
 {
 }
 

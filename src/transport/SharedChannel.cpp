@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SharedChannel.h"
 
+#include "realtime/TimeSource.h"
+
 #include "SocketAddress.h"
 
 #include <algorithm>
@@ -178,9 +180,7 @@ void Doorbell::ring(int pipe) noexcept
 
 void Doorbell::sleep(std::int64_t timeout) noexcept
 {
-    timespec limit{};
-    limit.tv_sec = time_t(timeout / 1'000'000'000);
-    limit.tv_nsec = long(timeout % 1'000'000'000);
+    const timespec limit = timeSpec(timeout);
     m_sleeping.store(InFutex);
     const std::uint32_t count = m_count.load();
     if (!isWanted(count))
