@@ -160,7 +160,7 @@ void Journal::refused(const QString &name, const QString &address, const QString
 {
     const JournalEvent event{JournalEvent::Warning, JournalEvent::Node, name,
                              QStringLiteral("refused %1 %2").arg(address, reason)};
-    if (m_refusals.take(now()))
+    if (m_refusals.take(monotonicNow()))
         append(event);
     else
         tellLimited(QStringLiteral("refused"), QString(), event);
