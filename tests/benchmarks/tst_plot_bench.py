@@ -14,7 +14,7 @@ import unittest
 
 PROGRAM = sys.argv.pop(1)
 KEYS = {"plots", "curves", "points", "channels", "fps", "line_width", "noise", "mode", "columns", "frames", "drawn_plots", "cpu_percent", "frame_p50_ms", "frame_p99_ms",
-        "append_ns", "bytes_per_sample", "store_mb", "resident_mb"}
+        "append_ns", "range_ns", "bytes_per_sample", "store_mb", "resident_mb"}
 
 
 def run(*arguments):

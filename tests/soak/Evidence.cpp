@@ -46,6 +46,15 @@ qint64 Stalls::within(qint64 begin, qint64 end) const
     return sum;
 }
 
+double Stalls::shareOf(const History &runner) const
+{
+    if (runner.records.empty())
+        return 0.0;
+    const qint64 begin = runner.records.front().time;
+    const qint64 end = runner.records.back().time;
+    return end > begin ? double(within(begin, end)) / double(end - begin) : 0.0;
+}
+
 bool Evidence::read(const QString &folder, const Profile &profile, Evidence *evidence, QString *error)
 {
     evidence->shape = profile.shape;

@@ -17,6 +17,8 @@ public:
     /// [ns] of the time from \a begin to \a end that the machine stood still.
     qint64 within(qint64 begin, qint64 end) const;
     std::size_t count() const { return m_spans.size(); }
+    /// Of all the time that \a runner has records of [0 ... 1].
+    double shareOf(const History &runner) const;
 
 private:
     struct Span

@@ -16,7 +16,8 @@ struct Gate
     }
 
     QString name;
-    bool isAsked = true;  // of this run: there was something that could go wrong
+    bool isOfTime = false;  // a machine that stands still can make it fail: see SoakReport::Unjudged
+    bool isAsked = true;    // of this run: there was something that could go wrong
     qint64 looked = 0;
     qint64 failed = 0;
     qint64 excused = 0;    // would have failed, had the machine not stood still meanwhile

@@ -50,6 +50,10 @@ Intruder::Intruder(quint16 port, int attempts, quint64 seed, const QString &fold
     if (m_attempts == 0)
         return;
     enterAsObserver();
+    QElapsedTimer timer;  // the runner has other work afterwards, and a handshake has to end in time
+    timer.start();
+    while (!m_isObserverIn && timer.elapsed() < Patience)
+        Operator::wait(Interval);
     m_timer.start(Interval);
 }
 

@@ -62,8 +62,13 @@ void Operator::start(const Message &state)
 {
     QJsonObject fields;
     Message answer;
-    if (state.fields().value(QStringLiteral("armingRequired")).toBool() && ask(Message::Arm, &answer))
+    if (state.fields().value(QStringLiteral("armingRequired")).toBool()) {  // permits are given in Ready
+        if (state.text(QStringLiteral("state")) == QLatin1String("Off") && !ask(Message::InitializeAllStates, &answer))
+            return;
+        if (!ask(Message::Arm, &answer))
+            return;
         fields.insert(QStringLiteral("token"), answer.text(QStringLiteral("token")));
+    }
     ask(Message(Message::StartRealTime, fields), &answer);
 }
 

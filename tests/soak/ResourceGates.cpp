@@ -108,26 +108,33 @@ Gate memoryStays(const Evidence &evidence, const Profile &profile)
     return gate;
 }
 
+/// A gate that a machine which stands still can make fail.
+static Gate ofTime(Gate gate)
+{
+    gate.isOfTime = true;
+    return gate;
+}
+
 std::vector<Gate> judge(const Evidence &evidence, const Profile &profile)
 {
     return {valuesAreWhole(evidence),
             valuesWereWritten(evidence),
             valuesNeverGoBack(evidence),
             stepsComeOnce(evidence),
-            silentWritersBecomeSafe(evidence),
-            nodesAloneBecomeSafe(evidence),
+            ofTime(silentWritersBecomeSafe(evidence)),
+            ofTime(nodesAloneBecomeSafe(evidence)),
             nothingMovesByItself(evidence),
             safeStopsAreTold(evidence),
-            noFalseAlarms(evidence),
-            cyclesAddUp(evidence),
-            faultsAreSeen(evidence),
-            plantRecovers(evidence),
-            faultsAreCounted(evidence),
-            linkFaultsAreCounted(evidence),
+            ofTime(noFalseAlarms(evidence)),
+            ofTime(cyclesAddUp(evidence)),
+            ofTime(faultsAreSeen(evidence)),
+            ofTime(plantRecovers(evidence)),
+            ofTime(faultsAreCounted(evidence)),
+            ofTime(linkFaultsAreCounted(evidence)),
             attemptsAreRefused(evidence),
             commandsAreDenied(evidence),
-            nothingLeaks(evidence),
-            memoryStays(evidence, profile)};
+            ofTime(nothingLeaks(evidence)),
+            ofTime(memoryStays(evidence, profile))};
 }
 
 }  // namespace soak

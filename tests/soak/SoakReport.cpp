@@ -52,10 +52,15 @@ QString lineOf(const Gate &gate)
 
 }  // namespace
 
-bool SoakReport::passed() const
+SoakReport::Verdict SoakReport::verdict() const
 {
-    return error.isEmpty() && !gates.empty()
-        && std::all_of(gates.begin(), gates.end(), [](const Gate &gate) { return gate.passed(); });
+    if (!error.isEmpty() || gates.empty())
+        return Failed;
+    if (std::all_of(gates.begin(), gates.end(), [](const Gate &gate) { return gate.passed(); }))
+        return Passed;
+    const bool isExcused
+        = std::all_of(gates.begin(), gates.end(), [](const Gate &gate) { return gate.passed() || gate.isOfTime; });
+    return isExcused && evidence.stalls.shareOf(evidence.runner) > MostStalls ? Unjudged : Failed;
 }
 
 QString SoakReport::command() const
@@ -87,6 +92,8 @@ QJsonObject SoakReport::toJson() const
             {QStringLiteral("signals_per_node"), evidence.shape.signalCount},
             {QStringLiteral("period_us"), double(evidence.period) * 1e-3},
             {QStringLiteral("stalls_of_the_machine"), double(evidence.stalls.count())},
+            {QStringLiteral("share_of_stalls"), evidence.stalls.shareOf(evidence.runner)},
+            {QStringLiteral("judged"), verdict() != Unjudged},
             {QStringLiteral("faults"), faults},
             {QStringLiteral("gates"), all}};
 }
@@ -104,13 +111,27 @@ QString SoakReport::toText() const
     for (auto count = counts.begin(); count != counts.end(); ++count)
         text
             += QStringLiteral(" %1 %2%3").arg(*count).arg(count.key()).arg(std::next(count) == counts.end() ? "" : ",");
-    text += QStringLiteral("\nstalls of the machine: %1\n\n").arg(evidence.stalls.count());
+    text += QStringLiteral("\nstalls of the machine: %1, %2 % of the time\n\n")
+                .arg(evidence.stalls.count())
+                .arg(100.0 * evidence.stalls.shareOf(evidence.runner), 0, 'f', 1);
     for (const Gate &gate : gates)
         text += lineOf(gate);
     if (!error.isEmpty())
         text += QStringLiteral("\nended early: %1\n").arg(error);
-    text += passed() ? QStringLiteral("\npassed\n")
-                     : QStringLiteral("\nFAILED with seed %1; again: %2\n").arg(seed).arg(command());
+    switch (verdict()) {
+    case Passed:
+        text += QStringLiteral("\npassed\n");
+        break;
+    case Unjudged:
+        text += QStringLiteral("\nNOT JUDGED: values and commands passed, but the machine stood still for more than %1 "
+                               "% of the time, "
+                               "which makes gates of time fail; again, on a calm machine: %2\n")
+                    .arg(100.0 * MostStalls)
+                    .arg(command());
+        break;
+    case Failed:
+        text += QStringLiteral("\nFAILED with seed %1; again: %2\n").arg(seed).arg(command());
+    }
     if (!folder.isEmpty())
         text += QStringLiteral("histories and logs: %1\n").arg(folder);
     return text;

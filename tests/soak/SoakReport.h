@@ -18,7 +18,16 @@ struct SoakReport
     Evidence evidence;
     std::vector<Gate> gates;
 
-    bool passed() const;
+    /// Of the time; a machine that stands still for more is no measure of deadlines.
+    static constexpr double MostStalls = 0.05;
+
+    enum Verdict {
+        Passed,
+        Failed,
+        Unjudged  ///< values, commands and attempts passed; a gate of time did not, on a machine that stood still for too long
+    };
+    Verdict verdict() const;
+    bool passed() const { return verdict() == Passed; }
     /// The command that does the same again.
     QString command() const;
     QJsonObject toJson() const;

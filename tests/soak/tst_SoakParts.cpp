@@ -26,6 +26,7 @@ private Q_SLOTS:
     void stallsThatOverlapCountOnce();
     void aFaultThatNeverEndsIsKnownAsSuch();
     void aReportNamesSeedAndCommandOfAFailure();
+    void aMachineThatStandsStillIsNoMeasureOfTimeButOfValues();
 };
 
 namespace {
@@ -262,6 +263,30 @@ void tst_SoakParts::aReportNamesSeedAndCommandOfAFailure()
     QCOMPARE(report.toJson()["gates"].toArray().at(0).toObject()["failed"].toDouble(), 1.0);
     report.gates.clear();
     QVERIFY2(!report.passed(), "nothing was judged");
+}
+
+void tst_SoakParts::aMachineThatStandsStillIsNoMeasureOfTimeButOfValues()
+{
+    using soak::SoakReport;
+    soak::Gate values("values are whole"), time("cycles add up");
+    time.isOfTime = true;
+    values.looked = time.looked = 10;
+    time.fail(QStringLiteral("35 cycles in the time of 47"));
+    for (const int percent : {4, 6}) {
+        SoakReport report;
+        HandMade::add(report.evidence.runner, Record::Born, -1, 0);
+        HandMade::add(report.evidence.runner, Record::Stall, -1, 500 + 10 * percent, {500});
+        HandMade::add(report.evidence.runner, Record::Command, -1, 1000);
+        report.evidence.complete();
+        report.gates = {values, time};
+        QCOMPARE(report.verdict(), percent > 5 ? SoakReport::Unjudged : SoakReport::Failed);
+        QVERIFY(!report.passed());
+        QCOMPARE(report.toText().contains("NOT JUDGED"), percent > 5);
+        report.gates[0].fail(QStringLiteral("a value of two cycles"));
+        QCOMPARE(report.verdict(), SoakReport::Failed);
+        report.gates = {values};
+        QCOMPARE(report.verdict(), SoakReport::Passed);
+    }
 }
 
 QTEST_APPLESS_MAIN(tst_SoakParts)

@@ -126,7 +126,7 @@ void tst_LayoutPictures::everyPanelShowsTheFlight_data()
     QTest::addColumn<QStringList>("panels");
     QTest::addColumn<int>("curves");
     const auto row = [](const char *tab, const char *panels, int curves) {
-        QTest::newRow(tab) << QString::fromLatin1(tab) << QString::fromLatin1(panels).split(QStringLiteral(", "))
+        QTest::newRow(tab) << QString::fromLatin1(tab) << QString::fromUtf8(panels).split(QStringLiteral(", "))
                            << curves;
     };
     row("Fly", "3D view, Altitude, Speed, Length, Force, Wind window, Power, Keyboard control", 1);
@@ -134,7 +134,7 @@ void tst_LayoutPictures::everyPanelShowsTheFlight_data()
         "Tether speed, Tether length, Tether force, Power over tether length, Power, Mean, Energy, Tether speed, "
         "Pitch rate, Yaw rate",
         3);
-    row("Real time", "Node table, Jitter histogram, Master, Nodes, Event log", 2);
+    row("Real time", "Node table, Jitter histogram, Master [µs], Nodes [µs], Event log", 2);
 }
 
 void tst_LayoutPictures::everyPanelShowsTheFlight()
