@@ -21,7 +21,7 @@ MILLION = 1_000_000
 NETWORK_CYCLES = 20_000
 PACED = {"period_us": 1000, "lengths": (300, 900)}
 INTERRUPTIONS = 0.1  # a cycle: now and then a timer ends a wait, so that stop is noticed
-TRIES = 3  # a loaded machine makes threads wake up more often, never less: the cheapest try counts
+TRIES = 5  # a loaded machine makes threads wake up more often, never less: the cheapest try counts
 FEW = {"lengths": (300, 900)}
 
 
