@@ -50,8 +50,8 @@ def reason_to_skip():
 
 
 def loss_rules(share):
-    """Lose packets that arrive: one that is dropped on its way out would be an error of the sender."""
-    drop = f"numgen random mod 1000 < {round(1000 * share)} drop\n" if share > 0 else ""
+    """Lose packets that arrive over the wire: one that is dropped on its way out would be an error of the sender, and who asks the master beside it wants an answer."""
+    drop = f'iifname != "lo" numgen random mod 1000 < {round(1000 * share)} drop\n' if share > 0 else ""
     return f"table inet bad\ndelete table inet bad\ntable inet bad {{\nchain arrive {{\ntype filter hook input priority 0;\n{drop}}}\n}}\n"
 
 
@@ -88,11 +88,12 @@ class Plant:
     def __init__(self, folder, network):
         self.folder, self.network, self.programs = folder, network, []
         self.start(0, "awe_master", "--listen", MASTER, "--port", "50000", "--insecure-network")
-        self.wait(lambda: self.state(), "the master listens")
+        self.wait(lambda: self.ask("state").returncode == 0, "the master listens")
         for node in ("awe_model", "awe_autopilot"):
             self.start(1, node, "--master", f"udp://{MASTER}:50000")
         self.wait(lambda: {"Model", "Autopilot"} <= set(self.nodes()), "both nodes are there")
-        must(*self.inside(0), folder / "qtplc", f"--master={MASTER}:50000", "start")
+        started = self.ask("start")
+        assert started.returncode == 0, started.stderr
 
     def inside(self, side):
         return ["ip", "netns", "exec", self.network.names[side]]
@@ -101,12 +102,19 @@ class Plant:
         words = [*self.inside(side), str(self.folder / program), *options]
         self.programs.append(subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL))
 
+    def ask(self, *words):
+        return command(*self.inside(0), self.folder / "qtplc", f"--master={MASTER}:50000", *words)
+
     def state(self):
-        result = command(*self.inside(0), self.folder / "qtplc", f"--master={MASTER}:50000", "state", "--json")
-        return json.loads(result.stdout) if result.returncode == 0 else {}
+        result = self.ask("state", "--json")
+        assert result.returncode == 0, f"no answer of the master: {result.stderr.strip()}"
+        return json.loads(result.stdout)
 
     def nodes(self):
-        return {node["name"]: node for node in self.state().get("nodes", [])}
+        return {node["name"]: node for node in self.state()["nodes"]}
+
+    def events(self):
+        return "\n".join(self.ask("events").stdout.splitlines()[-20:])
 
     def wait(self, condition, what):
         end = time.monotonic() + PATIENCE
@@ -119,11 +127,11 @@ class Plant:
         """What has been counted of the autopilot and of all meanwhile."""
         before, node = self.state(), self.nodes()["Autopilot"]
         time.sleep(seconds)
-        after, then = self.state(), self.nodes()["Autopilot"]
-        counted = {key: then[key] - node[key] for key in ("lateAnswers", "duplicates", "rejected")}
+        after, nodes = self.state(), self.nodes()
+        assert after["state"] == "RealTime", f"{after['state']}\n{self.events()}"
+        assert {"Model", "Autopilot"} <= set(nodes), f"a node has left: {', '.join(nodes)}\n{self.events()}"
+        counted = {key: nodes["Autopilot"][key] - node[key] for key in ("lateAnswers", "duplicates", "rejected")}
         counted["cycles"] = after["counters"]["cycles"] - before["counters"]["cycles"]
-        assert after["state"] == "RealTime", after["state"]
-        assert {"Model", "Autopilot"} <= set(self.nodes()), "a node has left"
         assert counted["cycles"] > 0.5 * seconds / 0.01, f"hardly a cycle: {counted}"
         return counted
 
