@@ -67,10 +67,10 @@ public:
     /// Whether as many lines are out as were wanted.
     bool isComplete() const { return m_remaining == 0; }
 
-    /// While no cycle runs one line with the values as they are, without time.
+    /// While no cycle runs one line with the values as they are, without time, if it is the first.
     void printAtRest(const QVector<QPlcValue> &values)
     {
-        if (!m_listener.isRunning())
+        if (!m_listener.isRunning() && !m_hasPrinted)
             print(QJsonObject{{QStringLiteral("time"), QJsonValue()}}, QStringLiteral("-"), values);
     }
 
@@ -92,6 +92,7 @@ private:
 
     void print(QJsonObject object, const QString &time, const QVector<QPlcValue> &values)
     {
+        m_hasPrinted = true;
         if (m_lines) {
             QStringList cells{time};
             for (int i = 0; i < values.size(); ++i)  // people read names, programs numbers
@@ -119,6 +120,7 @@ private:
     qint64 m_pause;                                  // between two lines [ns]
     QDeadlineTimer m_next{0, Qt::PreciseTimer};
     qint64 m_remaining;  // lines; below 0: no end
+    bool m_hasPrinted = false;
 };
 
 }  // namespace

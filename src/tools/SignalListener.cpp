@@ -33,7 +33,11 @@ SignalListener::SignalListener(const QString &purpose, const QPlcSignalTable &ta
     connect(&m_timer, &QTimer::timeout, this, [this] { takeCycles(); });
     connect(&m_node, &QPlcSlaveNode::realTimeHasStarted, this, [this] {
         m_isRunning = true;
-        m_node.sendMessageToMaster(QPlcMessage(QPlcMessage::GetState));
+        askForState();
+    });
+    connect(&m_node, &QPlcSlaveNode::realTimeHasStopped, this, [this] {
+        m_isRunning = false;
+        askForState();
     });
     connect(&m_node, &QPlcSlaveNode::messageReceived, this, &SignalListener::take);
     connect(&m_node, &QPlcSlaveNode::disconnectedFromMaster, this, [this] {
@@ -61,6 +65,8 @@ void SignalListener::take(const QPlcMessage &answer)
         m_period = answer.fields().value(QStringLiteral("period")).toDouble() * 1e-9;
         m_state = answer.text(QStringLiteral("state"));
         m_isRunning = hasCycles(m_state);
+        if (!m_isRunning && m_node.state() != QPlcSlaveNode::Disconnected)
+            askForValues();
     } else if (answer.kind() == QPlcMessage::Signals) {
         const QJsonArray rows = answer.fields().value(QStringLiteral("signals")).toArray();
         QVector<QPlcValue> values;
@@ -78,15 +84,21 @@ void SignalListener::take(const QPlcMessage &answer)
 bool SignalListener::join(const CommandCall &call)
 {
     m_timer.start();
-    return m_node.connectToMasterAndWaitForConnected(call.master, call.client.timeout());  // says why not
+    if (!m_node.connectToMasterAndWaitForConnected(call.master, call.client.timeout()))  // says why not
+        return false;
+    askForState();  // a phase may have ended meanwhile
+    return true;
 }
 
-void SignalListener::refresh()
+void SignalListener::askForState()
 {
     m_node.sendMessageToMaster(QPlcMessage(QPlcMessage::GetState));
-    if (!m_isRunning)
-        m_node.sendMessageToMaster(
-            QPlcMessage(QPlcMessage::GetSignals, {{QStringLiteral("names"), QJsonArray::fromStringList(m_names)}}));
+}
+
+void SignalListener::askForValues()
+{
+    m_node.sendMessageToMaster(
+        QPlcMessage(QPlcMessage::GetSignals, {{QStringLiteral("names"), QJsonArray::fromStringList(m_names)}}));
 }
 
 void SignalListener::takeCycles()

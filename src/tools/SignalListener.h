@@ -33,8 +33,8 @@ public:
     void take(const QPlcMessage &answer);
     /// Registers and listens from now on. \return false, with the message out
     bool join(const CommandCall &call);
-    /// Asks for State, and for the values while no cycle runs; the answers come as heard() and stateChanged().
-    void refresh();
+    /// Asks for the state, and while no cycle runs for the values, which come as valuesAtRest().
+    void askForState();
 
     bool isRunning() const { return m_isRunning; }
     /// As the master names it.
@@ -47,12 +47,13 @@ public:
 Q_SIGNALS:
     /// Cycles that came since the last time, oldest first. Empty: none came.
     void heard(const QVector<tools::SignalListener::Sample> &samples);
-    /// The values while no cycle runs.
+    /// The values while no cycle runs: after each answer about the state.
     void valuesAtRest(const QVector<QPlcValue> &values, const QVector<QPlcQuality> &qualities);
     void masterEnded();
 
 private:
     void takeCycles();
+    void askForValues();
 
     QStringList m_names;
     QVector<QPlcSignalDefinition> m_definitions;

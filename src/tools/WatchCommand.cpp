@@ -15,7 +15,7 @@ namespace {
 
 double now()  // [s]
 {
-    return double(qplc::TimeSource::monotonic().now()) * 1e-9;
+    return double(qplc::monotonicNow()) * 1e-9;
 }
 
 /// What a listener hears, as a table on the whole terminal.
@@ -37,10 +37,10 @@ public:
         });
         connect(&m_screen, &FullScreen::pressed, this, &Watch::obey);
         connect(&m_paint, &QTimer::timeout, this, [this] { paint(); });
-        connect(&m_refresh, &QTimer::timeout, &listener, &SignalListener::refresh);
+        connect(&m_refresh, &QTimer::timeout, &listener, &SignalListener::askForState);
         m_paint.start(int(std::lround(1e3 / rate)));
         m_refresh.start(refreshPause);
-        listener.refresh();
+        listener.askForState();
         paint();
     }
 

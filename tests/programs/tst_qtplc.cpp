@@ -36,6 +36,7 @@ private Q_SLOTS:
     void echoBeforeTheFlightShowsPresentValuesOnce();
     void echoPrintsLinesAtItsRate();
     void echoStartedBeforeTheFlightSeesIt();
+    void echoOfAPhaseThatEndsMeanwhileShowsWhatIsLeft();
     void echoEndsWellOnSignal_data();
     void echoEndsWellOnSignal();
     void echoEndsWithTheMaster_data();
@@ -401,6 +402,20 @@ void tst_qtplc::echoStartedBeforeTheFlightSeesIt()
     QCOMPARE(echo.waitForEnd(), 0);
     QCOMPARE(echo.output().count(QLatin1Char('\n')), 4);
     QVERIFY(!echo.output().contains(QLatin1Char('\033')));
+}
+
+void tst_qtplc::echoOfAPhaseThatEndsMeanwhileShowsWhatIsLeft()
+{
+    QVERIFY(startNodes());
+    for (unsigned long pause = 0; pause < 16; ++pause) {  // [ms], so that each step of joining meets the end of a phase
+        QCOMPARE(qtplc(QStringLiteral("start")).exitCode, 0);
+        Program stop(path("qtplc"), withMaster(QStringLiteral("stop")));
+        QThread::msleep(pause / 2);
+        Program echo(path("qtplc"), withMaster(QStringLiteral("echo tetherLength --count 1")));
+        QCOMPARE(stop.waitForEnd(), 0);
+        QCOMPARE(echo.waitForEnd(), 0);
+        QCOMPARE(echo.output().count(QLatin1Char('\n')), 2);
+    }
 }
 
 void tst_qtplc::echoEndsWellOnSignal_data()
