@@ -31,14 +31,14 @@ public:
         , m_row(source.store->firstRow())
     {
     }
-    /// NaN where there is no row of just this time.
+    /// NaN where there is no row of just this time, or no value that its writer gave.
     float at(SignalStore::Time time)
     {
         const SignalStore &store = *m_source.store;
         if (m_row >= store.endRow() || store.time(m_row) != time)
             m_row = store.rowAt(time, m_row);
         const bool isThere = m_row < store.endRow() && store.time(m_row) == time;
-        return isThere ? store.value(m_source.channel, m_row++) : NAN;
+        return isThere ? store.writtenValue(m_source.channel, m_row++) : NAN;
     }
 
 private:
@@ -80,7 +80,7 @@ QPointF XyCurve::dot() const
     const std::optional<Row> row = m_dotTime ? store.rowHoldingAt(*m_dotTime) : store.newestRow();
     if (!row)
         return {NAN, NAN};
-    return {double(store.value(m_x.channel, *row)), double(Follower(m_y).at(store.time(*row)))};
+    return {double(store.writtenValue(m_x.channel, *row)), double(Follower(m_y).at(store.time(*row)))};
 }
 
 void XyCurve::readPath(const QwtScaleMap &xMap, const QwtScaleMap &yMap) const
@@ -90,7 +90,7 @@ void XyCurve::readPath(const QwtScaleMap &xMap, const QwtScaleMap &yMap) const
     Follower follower(m_y);
     const Row end = store.rowAt(m_end + 1);
     for (Row row = store.rowAt(m_begin); row < end; ++row) {
-        const auto x = double(store.value(m_x.channel, row));
+        const auto x = double(store.writtenValue(m_x.channel, row));
         const auto y = double(follower.at(store.time(row)));
         const bool isPair = !std::isnan(x) && !std::isnan(y);
         if (!isPair || store.beginsAnew(row))

@@ -35,11 +35,11 @@ void FlightTrail::read(const SignalStore &store, int firstChannel, int valueChan
     bool isInterrupted = true;
     for (SignalStore::Row row = first; row < behind;
          row = std::min((row / step + 1) * step, std::max(behind - 1, row + 1))) {
-        const QVector3D position(store.value(firstChannel, row), store.value(firstChannel + 1, row),
-                                 store.value(firstChannel + 2, row));
+        const QVector3D position(store.writtenValue(firstChannel, row), store.writtenValue(firstChannel + 1, row),
+                                 store.writtenValue(firstChannel + 2, row));
         isInterrupted = isInterrupted || store.nextBeginAnew(last + 1, row + 1) <= row;
         last = row;
-        if (std::isnan(position.x()) || std::isnan(position.y()) || std::isnan(position.z()) || position.isNull()) {
+        if (std::isnan(position.x()) || std::isnan(position.y()) || std::isnan(position.z())) {
             isInterrupted = true;
             continue;
         }

@@ -11,7 +11,7 @@ namespace qplc {
 
 /// The way of a point through space in a span of time, with few points, whatever the number of rows.
 ///
-/// A row without a position interrupts it: NaN, and the middle of the winch, which is the value of a signal that no node has written.
+/// A row without a position interrupts it: NaN, and a value that stands in for that of the writer.
 /// Points are rows whose number is a multiple of a power of two, so that the path does not shimmer while time goes on, and the newest row.
 class FlightTrail
 {

@@ -67,7 +67,7 @@ QString KiteSignals::problem() const
         return tr("There is no signal %1 at the moment: choose another one in the settings.").arg(m_settings.position);
     if (m_position.definition().type.count() < 3)
         return tr("%1 is no position: a signal with three elements is needed.").arg(m_settings.position);
-    if (!vector(m_position))
+    if (!pastTime() && m_position.quality().kind() == QPlcQuality::Invalid)
         return tr("Waiting for the first values of %1.").arg(m_settings.position);
     return {};
 }
@@ -87,8 +87,8 @@ std::optional<double> KiteSignals::element(const PlantList::Signal &signal, int 
         const int channel = signal.plant->values().channels().channel(signal.index, element);
         const std::optional<SignalStore::Row> row = store ? store->rowHoldingAt(*time) : std::nullopt;
         if (row && channel != ChannelMap::NoChannel)
-            value = double(store->value(channel, *row));
-    } else {
+            value = double(store->writtenValue(channel, *row));
+    } else if (signal.quality().isUsable()) {
         bool isNumber = false;
         value = signal.plant->value(signal.index).toReal(element, &isNumber);
         if (!isNumber)
@@ -116,8 +116,6 @@ KiteState KiteSignals::state() const
 {
     KiteState state;
     state.position = vector(m_position);
-    if (state.position && state.position->isNull())
-        state.position.reset();
     state.velocity = vector(m_velocity);
     state.wind = vector(m_wind);
     state.force = vector(m_force);

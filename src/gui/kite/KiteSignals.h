@@ -9,17 +9,17 @@
 
 namespace qplc {
 
-/// A kite at one time, as far as it is known.
+/// A kite at one time, as far as it is known: a value that stands in for that of a lost writer is none.
 struct KiteState
 {
-    std::optional<QVector3D> position;   // [m], earth; none at 0, which is what a signal says that no node has written
-    std::optional<QVector3D> velocity;   // [m/s], earth
-    std::optional<QVector3D> wind;       // [m/s], earth
-    std::optional<QVector3D> force;      // [N], earth
-    std::optional<QQuaternion> body;     // body to earth
-    std::optional<QQuaternion> course;   // the same without pitch
-    std::optional<double> tetherLength;  // [m]
-    std::optional<double> value;         // of the signal that colours
+    std::optional<QVector3D> position;       // [m], earth
+    std::optional<QVector3D> velocity;       // [m/s], earth
+    std::optional<QVector3D> wind;           // [m/s], earth
+    std::optional<QVector3D> force;          // [N], earth
+    std::optional<QQuaternion> body;         // body to earth
+    std::optional<QQuaternion> course;       // the same without pitch
+    std::optional<double> tetherLength;      // [m]
+    std::optional<double> value;             // of the signal that colours
     std::optional<TimeView::Time> pastTime;  // these are the values of that time; none: now
     Plant::Quality quality = Plant::NoValue;
     double age = -1.0;  // [s]

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gui/store/SignalStore.h"
 
+#include "QPlcQuality.h"
+
 #include <algorithm>
 #include <cassert>
 #include <limits>
@@ -200,6 +202,12 @@ std::optional<SignalStore::Row> SignalStore::rowHoldingAt(Time time) const
 SignalStore::Time SignalStore::periodBefore(Row row) const
 {
     return row > firstRow() && !beginsAnew(row) ? time(row) - time(row - 1) : 0;
+}
+
+float SignalStore::writtenValue(int channel, Row row) const
+{
+    const bool isWritten = greatestMark(channel, row, row + 1) < QPlcQuality::Safe;
+    return isWritten ? value(channel, row) : std::numeric_limits<float>::quiet_NaN();
 }
 
 SignalStore::Range SignalStore::range(int channel, Row begin, Row end) const

@@ -14,7 +14,7 @@ namespace qplc {
 ///
 /// Rows are numbered from 0 on for ever; those of firstRow() ... endRow() - 1 are kept. A value is a 32-bit real, NaN where there was none: curves are interrupted there, as they are at a row
 /// that begins after a gap. For each 32, 512, ... rows, counted from row 0 and so never shifting, smallest and largest value are kept, so that a range of a million rows
-/// costs as much as one of a thousand. Single values can have a mark, a small number that says in which way they are not like others.
+/// costs as much as one of a thousand. Single values can have a mark that says in which way they are not like others: the kind of their quality (QPlcQuality).
 ///
 /// Memory: 4.3 bytes for each value, 9 bytes for each row, all of it taken at the begin; up to 8 KiB more for a channel with marks. One thread.
 class SignalStore
@@ -61,6 +61,8 @@ public:
     /// The first row of \a begin ... \a end - 1 that begins after an interruption; \a end when there is none.
     Row nextBeginAnew(Row begin, Row end) const;
     float value(int channel, Row row) const { return m_values[std::size_t(channel) * m_rows + slot(row)]; }
+    /// The value that the writer of the signal gave; NaN where another one stands in for it, as a mark of QPlcQuality::Safe or above says.
+    float writtenValue(int channel, Row row) const;
     /// The first row at or after \a time; endRow() when there is none.
     Row rowAt(Time time) const;
     /// The same, in few steps when the row is near \a guess, firstRow() ... endRow().

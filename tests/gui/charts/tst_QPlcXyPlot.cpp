@@ -78,6 +78,7 @@ private Q_SLOTS:
     void itIsDrawnOnlyWhenThePictureChanges();
     void theDotIsAtTheDisplayedTime();
     void pairsAreRowsOfTheSameTime();
+    void aValueThatStandsInForAnotherIsNoPartOfThePath();
     void aSettingThatIsMissingIsADefault();
     void theWheelZoomsAboutTheMouse();
     void draggingPansAndABoxIsZoomedInto();
@@ -311,6 +312,29 @@ void tst_QPlcXyPlot::pairsAreRowsOfTheSameTime()
 }
 
 /// Undo brings back the settings of before the first curve.
+void tst_QPlcXyPlot::aValueThatStandsInForAnotherIsNoPartOfThePath()
+{
+    const auto canvas = canvasOf(0, 1);
+    const SignalStore::Time s = 1'000'000'000;
+    const auto pathOf = [&] {
+        canvas->show({0, 100 * s, std::nullopt, false});
+        canvas->grab();
+        return canvas->curves().front()->drawnPoints();
+    };
+    const float values[] = {0, 0, 0};
+    for (int channel : {0, 1}) {
+        const std::size_t points = pathOf();
+        m_store->append((61 + channel) * s, values);
+        m_store->mark(channel, QPlcQuality::Safe);
+        QCOMPARE(pathOf(), points);
+        const QPointF dot = canvas->curves().front()->dot();
+        QVERIFY(std::isnan(dot.x()) || std::isnan(dot.y()));
+    }
+    m_store->append(63 * s, values);
+    m_store->mark(0, QPlcQuality::Held);
+    QCOMPARE(canvas->curves().front()->dot(), QPointF(0, 0));
+}
+
 void tst_QPlcXyPlot::aSettingThatIsMissingIsADefault()
 {
     WindowContext context;

@@ -74,15 +74,15 @@ private:
 /// A master in this process whose kite flies in real time, and a window that sees it.
 struct FlyingPlant
 {
-    explicit FlyingPlant(bool isStanding = false)
+    explicit FlyingPlant(bool isStanding = false, const QString &kind = QStringLiteral("local"))
         : master(QPlcClock::realTime(), kiteTable())
     {
         kite.isStanding = isStanding;
         master.setInterval(std::chrono::milliseconds(10));
         QVERIFY(master.listen());
-        QVERIFY(master.addLocalNode(&kite));
+        QVERIFY(master.admit(kite, kind));
     }
-    ~FlyingPlant() { master.removeLocalNode(&kite); }
+    ~FlyingPlant() { kite.disconnectFromMaster(); }
 
     /// Connects, starts, and waits for values.
     bool fly()

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "QPlcQuality.h"
 #include "gui/kite/FlightTrail.h"
 
 #include <QtTest/QtTest>
@@ -78,16 +79,20 @@ void tst_FlightTrail::aPathIsInterruptedWhereTheStoreIs()
 void tst_FlightTrail::aRowWithoutAPlaceInterruptsThePath_data()
 {
     QTest::addColumn<QVector3D>("place");
-    QTest::newRow("no number") << QVector3D(1, NAN, 1);
-    QTest::newRow("nobody has written it") << QVector3D();
+    QTest::addColumn<int>("mark");
+    QTest::newRow("no number") << QVector3D(1, NAN, 1) << 0;
+    QTest::newRow("its writer is lost") << QVector3D(1, 2, 3) << int(QPlcQuality::Safe);
 }
 
 void tst_FlightTrail::aRowWithoutAPlaceInterruptsThePath()
 {
     QFETCH(QVector3D, place);
+    QFETCH(int, mark);
     append(2);
     const float values[] = {place.x(), place.y(), place.z(), 1};
     QVERIFY(m_store->append(20 * ms, values));
+    if (mark != 0)
+        m_store->mark(1, SignalStore::Mark(mark));
     append(2);
     m_trail.read(*m_store, 0, 3, 0, 1000 * ms);
     QCOMPARE(m_trail.points().size(), std::size_t(4));

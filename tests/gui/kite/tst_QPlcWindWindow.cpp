@@ -14,6 +14,7 @@ private Q_SLOTS:
     void initTestCase();
     void withoutAContextItSaysCalmlyWhatIsMissing();
     void aMissingSignalIsNamed();
+    void aKiteWhoseNodeIsLostIsNowhere();
     void theKiteIsWhereItFlies_data();
     void theKiteIsWhereItFlies();
     void aFlownPathIsColored();
@@ -68,6 +69,23 @@ void tst_QPlcWindWindow::aMissingSignalIsNamed()
     QVERIFY(!kite.state().position);
     FlightTrail trail;
     QVERIFY(!kite.readTrail(&trail));
+}
+
+void tst_QPlcWindWindow::aKiteWhoseNodeIsLostIsNowhere()
+{
+    FlyingPlant plant(false, QStringLiteral("tcp"));
+    QVERIFY(plant.fly());
+    KiteSignals kite;
+    kite.setContext(&plant.context);
+    QVERIFY(kite.state().position);
+    plant.kite.disconnectFromMaster();
+    QTRY_VERIFY(!kite.state().position);
+    QCOMPARE(kite.problem(), QString());  // its path is still to be seen
+    FlightTrail trail;
+    QVERIFY(kite.readTrail(&trail));
+    QVERIFY(trail.points().size() > 10);
+    for (const FlightTrail::Point &point : trail.points())
+        QVERIFY(!point.position.isNull());
 }
 
 void tst_QPlcWindWindow::theKiteIsWhereItFlies_data()
