@@ -98,6 +98,14 @@ Plant *PlantList::find(const QString &name) const
     return found == m_plants.end() ? nullptr : found->get();
 }
 
+QStringList PlantList::names() const
+{
+    QStringList names;
+    for (const std::unique_ptr<Plant> &plant : m_plants)
+        names << plant->name();
+    return names;
+}
+
 PlantList::Signal PlantList::find(Plant *plant, const SignalReference &reference) const
 {
     const QPlcSignalIndex index = plant->table().indexOf(reference.signal);

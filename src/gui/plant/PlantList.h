@@ -55,6 +55,7 @@ public:
     int indexOf(const Plant *plant) const;
     /// Null when there is none.
     Plant *find(const QString &name) const;
+    QStringList names() const;
 
     /// Without a plant: in the first plant that has such a signal. False when there is no such signal or element now.
     Signal resolve(const SignalReference &reference) const;

@@ -88,10 +88,13 @@ void PlantValues::takeRow(const char *payload, Time time, const char *qualities)
     const int size = m_channels.payloadSize();
     m_lastTime = time;
     m_channels.toFloats(payload, m_row.data());
+    m_doubts.clear();
     if (qualities)
-        leaveGaps(qualities);
-    if (m_store->append(time, m_row.data()) && qualities)
-        markDoubts();
+        takeQualities(qualities);
+    if (m_store->append(time, m_row.data())) {
+        for (const Doubt &doubt : m_doubts)
+            m_store->mark(doubt.channel, doubt.kind);
+    }
     std::copy_n(payload, size, m_newest.begin());
     m_batch.insert(m_batch.end(), payload, payload + size);
     ++m_batchSize;
@@ -99,31 +102,22 @@ void PlantValues::takeRow(const char *payload, Time time, const char *qualities)
     m_hasValues = true;
 }
 
-/// A value that nobody has written is none for a curve.
-void PlantValues::leaveGaps(const char *qualities)
-{
-    std::copy_n(qualities, m_qualities.size(), m_qualities.begin());
-    const char invalid = char(QPlcQuality(QPlcQuality::Invalid).toByte());
-    auto found = std::find(m_qualities.begin(), m_qualities.end(), invalid);
-    for (; found != m_qualities.end(); found = std::find(found + 1, m_qualities.end(), invalid)) {
-        const auto signal = QPlcSignalIndex(found - m_qualities.begin());
-        const int channel = m_channels.channel(signal);
-        if (channel != ChannelMap::NoChannel)
-            std::fill_n(m_row.begin() + channel, m_table.at(signal).type.count(),
-                        std::numeric_limits<float>::quiet_NaN());
-    }
-}
-
-void PlantValues::markDoubts()
+/// Finds the values of the row that are not good. One that nobody has written is none for a curve.
+void PlantValues::takeQualities(const char *qualities)
 {
     const auto isDoubtful = [](char quality) { return !QPlcQuality::fromByte(quint8(quality)).isGood(); };
+    std::copy_n(qualities, m_qualities.size(), m_qualities.begin());
     auto found = std::find_if(m_qualities.begin(), m_qualities.end(), isDoubtful);
     for (; found != m_qualities.end(); found = std::find_if(found + 1, m_qualities.end(), isDoubtful)) {
         const auto signal = QPlcSignalIndex(found - m_qualities.begin());
-        const int channel = m_channels.channel(signal);
-        const int count = channel != ChannelMap::NoChannel ? m_table.at(signal).type.count() : 0;
-        for (int element = 0; element < count; ++element)
-            m_store->mark(channel + element, QPlcQuality::fromByte(quint8(*found)).kind());
+        const int first = m_channels.channel(signal);
+        const int behind = first != ChannelMap::NoChannel ? first + m_table.at(signal).type.count() : first;
+        const QPlcQuality::Kind kind = QPlcQuality::fromByte(quint8(*found)).kind();
+        for (int channel = first; channel < behind; ++channel) {
+            m_doubts.push_back({channel, kind});
+            if (kind == QPlcQuality::Invalid)
+                m_row[std::size_t(channel)] = std::numeric_limits<float>::quiet_NaN();
+        }
     }
 }
 

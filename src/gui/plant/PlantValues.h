@@ -65,8 +65,13 @@ public:
     quint64 gaps() const { return m_gaps; }  // frames within a phase before which others were lost, ever
 
 private:
-    void leaveGaps(const char *qualities);
-    void markDoubts();
+    struct Doubt
+    {
+        int channel;
+        QPlcQuality::Kind kind;
+    };
+
+    void takeQualities(const char *qualities);
     QPlcValue valueIn(const char *payload, QPlcSignalIndex signal) const;
     int wantedRows() const;
     void makeStore();
@@ -77,6 +82,7 @@ private:
     ChannelMap m_channels;
     std::unique_ptr<SignalStore> m_store;
     std::vector<float> m_row;
+    std::vector<Doubt> m_doubts;  // of m_row: values that are not good
     std::vector<char> m_newest;
     std::vector<char> m_qualities;  // of m_newest, a byte for each signal
     bool m_hasValues = false;

@@ -13,14 +13,6 @@ DerivedSignals::DerivedSignals(PlantList *plants, QObject *parent)
     connect(&m_filler, &QTimer::timeout, this, &DerivedSignals::fillSlice);
 }
 
-QStringList DerivedSignals::plantNames() const
-{
-    QStringList names;
-    for (int place = 0; place < m_plants->size(); ++place)
-        names << m_plants->at(place)->name();
-    return names;
-}
-
 bool DerivedSignals::isTrue(const Entry &entry) const
 {
     return !entry.derived.expired() && m_plants->indexOf(entry.plant) >= 0 && entry.plant->store() == entry.source
@@ -30,7 +22,7 @@ bool DerivedSignals::isTrue(const Entry &entry) const
 DerivedSignals::Result DerivedSignals::find(const QString &text)
 {
     Result result;
-    const Formula formula = Formula::read(text, plantNames(), &result.error);
+    const Formula formula = Formula::read(text, m_plants->names(), &result.error);
     if (!formula.isValid())
         return result;
     const Operands operands = resolve(formula);

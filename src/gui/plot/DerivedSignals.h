@@ -66,7 +66,6 @@ private:
     bool isTrue(const Entry &entry) const;
     Operands resolve(const Formula &formula) const;
     QString resolveOperand(const Formula &formula, const Formula::Operand &operand, Operands *found) const;
-    QStringList plantNames() const;
     void fillSlice();
 
     PlantList *m_plants;

@@ -37,7 +37,7 @@ void QPlcControlCenter::disconnectFromMaster(const QString &plant)
 
 QStringList QPlcControlCenter::plants() const
 {
-    return d->plantNames();
+    return d->context.plants()->names();
 }
 
 bool QPlcControlCenter::isConnected(const QString &plant) const

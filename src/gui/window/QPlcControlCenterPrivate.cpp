@@ -160,21 +160,13 @@ void QPlcControlCenter::Private::followPlants()
     followSelection();
 }
 
-QStringList QPlcControlCenter::Private::plantNames()
-{
-    QStringList names;
-    for (int place = 0; place < context.plants()->size(); ++place)
-        names.append(context.plants()->at(place)->name());
-    return names;
-}
-
 void QPlcControlCenter::Private::showPages()
 {
     const bool isStart = isStartPageWanted || context.plants()->size() == 0;
     if (isStart != (pages->currentIndex() == 0))
         showDock(isStart);
     pages->setCurrentIndex(isStart ? 0 : 1);
-    const QStringList names = plantNames();
+    const QStringList names = context.plants()->names();
     startPage->showWayBack(!names.isEmpty());
     actions->startPage->setEnabled(!names.isEmpty());
     actions->startPage->setText(!isStart || names.isEmpty() ? tr("Start &page")

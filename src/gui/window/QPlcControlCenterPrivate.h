@@ -53,7 +53,6 @@ struct QPlcControlCenter::Private
     qplc::Plant *takeWiredPlant();
 
     // -- view --
-    QStringList plantNames();
     void showPages();
     void showDock(bool isStart);
     void applyTheme();
