@@ -230,35 +230,39 @@ void tst_Quality::aWriterThatIsKilledIsHeldAndThenSafe_data()
         QTest::newRow(kind) << QString(kind);
 }
 
-/// As above, with a process that gets no chance to say goodbye.
 void tst_Quality::cyclesThatAreLeftOutAreTimeThatHasPassed()
 {
-    TestMaster master(QPlcClock::realTime(), qualityTable());
-    master.setInterval(0.02);
+    constexpr int Tries = 5;  // a machine that stands still leaves out cycles by itself, at another time
+    int held = -1;
     Actuator actuator;
-    actuator.afterStep = [&] {
-        if (actuator.record.last() == QLatin1String("19 held 1"))
-            QThread::msleep(150);  // the master leaves out more cycles than the value may be held
-    };
-    QVERIFY(master.addLocalNode(&actuator));
-    QVERIFY(master.listen());
-    ScriptedNode writer;
-    writer.table = qualityTable();
-    writer.onRequest = [&](const ScriptedNode::Request &request) {
-        if (request.cycle < 20)
-            writer.answer(request.cycle, QPlcValue(19.0).toBytes());
-    };
-    QVERIFY(writer.registerAt(master.serverPort()));
-    QVERIFY(master.startRealTime());
-    QTRY_VERIFY(master.cycle() > 40);
-    master.stop();
-    QVERIFY(master.statistics().skippedCycles >= 3);
-    const int held = actuator.record.indexOf("19 held 1");
-    if (held < 0)
-        QSKIP("the machine stood still just then");
+    for (int i = 0; i < Tries && held < 0; ++i) {
+        TestMaster master(QPlcClock::realTime(), qualityTable());
+        master.setInterval(0.02);
+        actuator.afterStep = [&] {
+            if (actuator.record.last() == QLatin1String("19 held 1"))
+                QThread::msleep(150);  // the master leaves out more cycles than the value may be held
+        };
+        QVERIFY(master.addLocalNode(&actuator));
+        QVERIFY(master.listen());
+        ScriptedNode writer;
+        writer.table = qualityTable();
+        writer.onRequest = [&](const ScriptedNode::Request &request) {
+            if (request.cycle < 20)
+                writer.answer(request.cycle, QPlcValue(19.0).toBytes());
+        };
+        QVERIFY(writer.registerAt(master.serverPort()));
+        QVERIFY(master.startRealTime());
+        QTRY_VERIFY(master.cycle() > 40);
+        master.stop();
+        held = actuator.record.indexOf("19 held 1");
+        QVERIFY(held < 0 || master.statistics().skippedCycles >= 3);
+        master.removeLocalNode(&actuator);
+    }
+    QVERIFY(held >= 0);
     QCOMPARE(actuator.record.value(held + 1), QString("-5 safe"));
 }
 
+/// The process gets no chance to say goodbye.
 void tst_Quality::aWriterThatIsKilledIsHeldAndThenSafe()
 {
     QFETCH(QString, kind);
