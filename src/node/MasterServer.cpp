@@ -225,7 +225,7 @@ void MasterServer::deny(MasterConnection *connection, const QString &reason, boo
 /// Whether somebody asks faster than is good for the others; then the connection has ended. Who does not read the answers is not listened to by the socket.
 bool MasterServer::isTooMuch(MasterConnection *connection)
 {
-    if (connection->isNode() || connection->messages.take(TimeSource::monotonic().now()))
+    if (connection->isNode() || connection->messages.take(monotonicNow()))
         return false;
     ++m_deniedMessages;
     reject(connection, QStringLiteral("TooMuch"),

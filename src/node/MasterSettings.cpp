@@ -52,7 +52,7 @@ MasterSettings::MasterSettings(NodeRegistry &registry, MasterCycle &cycle, const
     m_timer.setTimerType(Qt::PreciseTimer);
     connect(&m_timer, &QTimer::timeout, this, [this] {
         payDebts();
-        bringBack(m_temporary.endDue(TimeSource::monotonic().now()));
+        bringBack(m_temporary.endDue(monotonicNow()));
     });
 }
 
@@ -69,7 +69,7 @@ bool MasterSettings::setSignals(const QObject *owner, const QJsonObject &fields,
     if (!give(settings, refusal))
         return false;
     if (duration > 0) {
-        keepFor(owner, settings, former, TimeSource::monotonic().now() + duration);
+        keepFor(owner, settings, former, monotonicNow() + duration);
     } else {
         for (const SignalSetting &setting : settings)
             m_temporary.forget(setting.signal);
@@ -262,7 +262,7 @@ void MasterSettings::waitForNext()
     if (!m_debts.empty()) {
         m_timer.start(retryPause);
     } else if (next) {
-        const std::int64_t pause = *next - TimeSource::monotonic().now();
+        const std::int64_t pause = *next - monotonicNow();
         m_timer.start(int(std::max<std::int64_t>(pause, 0) / 1'000'000 + 1));
     } else {
         m_timer.stop();

@@ -83,7 +83,7 @@ void QPlcMasterNodePrivate::carryOut(Action action, const QString &reason)
         beginStart();
         break;
     case Action::IssueToken:
-        arming.arm(QRandomGenerator::system()->generate64() | 1, qplc::TimeSource::monotonic().now());
+        arming.arm(QRandomGenerator::system()->generate64() | 1, qplc::monotonicNow());
         journal.tell(qplc::JournalEvent::Warning, qplc::JournalEvent::State, qplc::NodeRegistry::masterName(),
                      QStringLiteral("armed: one start is permitted within 5 s"));
         break;
@@ -206,7 +206,7 @@ bool QPlcMasterNodePrivate::arm()
 
 bool QPlcMasterNodePrivate::isStartPermitted(quint64 token) const
 {
-    const bool isPermitted = arming.permits(token, qplc::TimeSource::monotonic().now());
+    const bool isPermitted = arming.permits(token, qplc::monotonicNow());
     return isPermitted || (!isArmingRequired() && token == 0);
 }
 

@@ -279,7 +279,7 @@ QString QPlcMasterNode::causeThatRemains() const
 
 bool QPlcMasterNode::isArmed() const
 {
-    return d->arming.isArmed(qplc::TimeSource::monotonic().now());
+    return d->arming.isArmed(qplc::monotonicNow());
 }
 
 QPlcMasterNode::Error QPlcMasterNode::error() const

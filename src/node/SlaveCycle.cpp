@@ -75,7 +75,7 @@ bool SlaveCycle::start(const Phase &phase)
     m_statistics.restart(phase.clock.isLockstep() ? 0 : lasting(phase.period));
     m_computedAny = m_faulted = false;
     m_lastCycle = phase.firstCycle;
-    m_watchdog.start(phase.clock.isLockstep() ? 0 : lasting(phase.watchdog), TimeSource::monotonic().now());
+    m_watchdog.start(phase.clock.isLockstep() ? 0 : lasting(phase.watchdog), monotonicNow());
     m_stop = m_ended = false;
     if (m_thread.start(m_runtime.node().name(), phase.realTimeOptions, [this] { run(); }))
         return true;
@@ -136,12 +136,12 @@ CyclicLink::Status SlaveCycle::receive(const char **frame, std::size_t *size) no
 {
     const std::int64_t spin = m_phase.realTimeOptions.spin;
     if (spin > 0) {
-        const std::int64_t end = TimeSource::monotonic().now() + spin;
+        const std::int64_t end = monotonicNow() + spin;
         do {
             const CyclicLink::Status status = m_link->poll(frame, size);
             if (status != CyclicLink::Nothing)
                 return status;
-        } while (TimeSource::monotonic().now() < end);
+        } while (monotonicNow() < end);
     }
     return m_link->receive(frame, size);
 }
@@ -194,13 +194,13 @@ void SlaveCycle::take(const char *frame, std::size_t size) noexcept
         skipToNewest();
     compute();
     if (!m_phase.clock.isLockstep())
-        m_statistics.answered(m_watchdog.lastHeard(), m_runtime.executionTime(), TimeSource::monotonic().now());
+        m_statistics.answered(m_watchdog.lastHeard(), m_runtime.executionTime(), monotonicNow());
 }
 
 /// After a pause requests may have queued up; only the newest is worth an answer. Costs a system call only after a pause.
 void SlaveCycle::skipToNewest() noexcept
 {
-    const std::int64_t now = TimeSource::monotonic().now();
+    const std::int64_t now = monotonicNow();
     const bool paused
         = simulated(now - m_watchdog.lastHeard()) > 2 * m_phase.interval.cycles() * m_phase.period.count();
     m_watchdog.hear(now);
@@ -291,7 +291,7 @@ void SlaveCycle::checkWatchdog() noexcept
 {
     if (!m_watchdog.isOn())
         return;
-    const Watchdog::Answer answer = m_watchdog.look(TimeSource::monotonic().now());
+    const Watchdog::Answer answer = m_watchdog.look(monotonicNow());
     if (answer == Watchdog::TooEarly)
         return;
     setAlarm();

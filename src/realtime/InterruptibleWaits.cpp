@@ -48,7 +48,7 @@ InterruptibleWaits::InterruptibleWaits(std::int64_t period)
     event._sigev_un._tid = pid_t(::syscall(SYS_gettid));
     m_exists = ::timer_create(CLOCK_MONOTONIC, &event, &m_timer) == 0;
     if (period > 0)
-        interruptAt(TimeSource::monotonic().now() + period, period);
+        interruptAt(monotonicNow() + period, period);
 }
 
 void InterruptibleWaits::interruptAt(std::int64_t instant, std::int64_t period) noexcept

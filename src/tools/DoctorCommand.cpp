@@ -56,8 +56,7 @@ QVector<Finding> examine()
     findings += qplc::judgeEffects(facts, tryOrdinary(), tryRealTime());
     qplc::Histogram roundTrips;
     qplc::probeLoopback(
-        datagrams, [] { return qplc::TimeSource::monotonic().now(); },
-        [&roundTrips](std::int64_t time) { roundTrips.record(time); });
+        datagrams, [] { return qplc::monotonicNow(); }, [&roundTrips](std::int64_t time) { roundTrips.record(time); });
     findings += qplc::judgeLoopback(roundTrips);
     return findings;
 }

@@ -29,10 +29,7 @@ public:
     bool take(Arrival *arrival) { return m_arrivals.pop(arrival); }
 
 protected:
-    void step(const QPlcCycle &cycle) override
-    {
-        m_arrivals.push({cycle.number(), qplc::TimeSource::monotonic().now()});
-    }
+    void step(const QPlcCycle &cycle) override { m_arrivals.push({cycle.number(), qplc::monotonicNow()}); }
 
 private:
     qplc::SpscRing<Arrival> m_arrivals{65536};

@@ -7,8 +7,8 @@ namespace qplc {
 
 namespace {
 
-constexpr std::size_t framesOfAllLinks
-    = 2048;  // frames of all peers under way in each direction; what comes then is lost
+/// Frames of all peers under way in each direction; what comes then is lost.
+constexpr std::size_t framesOfAllLinks = 2048;
 
 }  // namespace
 

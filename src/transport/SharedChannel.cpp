@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SharedChannel.h"
 
-#include "realtime/TimeSource.h"
-
 #include "SocketAddress.h"
+#include "realtime/TimeSource.h"
 
 #include <algorithm>
 #include <cerrno>

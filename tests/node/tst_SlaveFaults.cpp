@@ -57,13 +57,13 @@ class Timed : public CounterNode
 public:
     Timed()
     {
-        onStep = [this](const QPlcCycle &) { stepped = qplc::TimeSource::monotonic().now(); };
+        onStep = [this](const QPlcCycle &) { stepped = qplc::monotonicNow(); };
     }
     std::atomic<qint64> stepped{0};
     std::atomic<qint64> safe{0};
 
 private:
-    void safeState(SafeStateReason) override { safe = qplc::TimeSource::monotonic().now(); }
+    void safeState(SafeStateReason) override { safe = qplc::monotonicNow(); }
 };
 
 }  // namespace

@@ -49,10 +49,12 @@ Gate faultsAreSeen(const Evidence &evidence);     // by an event, within hold + 
 Gate plantRecovers(const Evidence &evidence);     // within 2 s
 Gate faultsAreCounted(const Evidence &evidence);  // exactly as many as there were
 
-Gate attemptsAreRefused(
-    const Evidence &evidence);  // of strangers: all of them, and each one is counted (IntruderGates.cpp)
-Gate commandsAreDenied(const Evidence &evidence);     // of who may only look: likewise
-Gate linkFaultsAreCounted(const Evidence &evidence);  // what a link did to frames, by frame (LinkGates.cpp)
+// Who does not belong (IntruderGates.cpp)
+Gate attemptsAreRefused(const Evidence &evidence);  // of strangers: all of them, and each one is counted
+Gate commandsAreDenied(const Evidence &evidence);   // of who may only look: likewise
+
+// Frames on the way (LinkGates.cpp)
+Gate linkFaultsAreCounted(const Evidence &evidence);  // what a link did, by frame
 
 // Resources (ResourceGates.cpp)
 Gate nothingLeaks(const Evidence &evidence);                         // descriptors and threads

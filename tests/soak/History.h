@@ -64,18 +64,11 @@ struct Record
         FailedHandshakes,
         DeniedMessages
     };
-    enum AttemptNumber {
-        Made,
-        Ended,
-        Commands,
-        Denials
-    };  // connections of strangers; messages of who may not send them
+    /// Connections of strangers, and messages of who may not send them.
+    enum AttemptNumber { Made, Ended, Commands, Denials };
     enum NodeNumber { NodePhase, Answers, NodeLate, AnswersLost, Duplicated, Reordered, Rejected, Resent };
-    enum SafeNumber {
-        SafeDriveBits,
-        IsWanted,
-        IsOrdered
-    };  // wanted: the phase ended; ordered: the master stops safely
+    /// Wanted: the phase ended. Ordered: the master stops safely.
+    enum SafeNumber { SafeDriveBits, IsWanted, IsOrdered };
     enum UsageNumber { Descriptors, Threads, ResidentKb, UsageLife, IsCompared };
     static constexpr quint64 NoQuality = 255;  // of a plant without qualities
     static constexpr quint16 Nobody = 0xffff;
