@@ -2,22 +2,40 @@
 #include "ConnectionGate.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace qplc {
+
+namespace {
+
+/// What counts as one address: in IPv6 a whole network, whose addresses a single computer can use one after the other.
+QHostAddress originOf(const QHostAddress &address)
+{
+    bool isV4 = false;
+    const quint32 v4 = address.toIPv4Address(&isV4);
+    if (isV4)
+        return QHostAddress(v4);
+    Q_IPV6ADDR v6 = address.toIPv6Address();
+    std::fill(std::begin(v6.c) + 8, std::end(v6.c), quint8(0));
+    return QHostAddress(v6);
+}
+
+}  // namespace
 
 std::optional<ConnectionGate::Ticket> ConnectionGate::admit(const QHostAddress &address, qint64 now, Refusal *refusal)
 {
     const bool isLocal = address.isLoopback();
+    const QHostAddress origin = originOf(address);
     *refusal = Admitted;
     if (connections() >= m_limits.connections)
         *refusal = TooManyConnections;
-    else if (!isLocal && strangersOf(address) >= m_limits.strangersOfAddress)
+    else if (!isLocal && strangersOf(origin) >= m_limits.strangersOfAddress)
         *refusal = TooManyOfAddress;
     else if (!isLocal && !m_accepts.take(now))
         *refusal = TooFast;
     if (*refusal != Admitted)
         return std::nullopt;
-    m_guests.insert(++m_last, {address, true, now + m_limits.patience});
+    m_guests.insert(++m_last, {origin, true, now + m_limits.patience});
     ++m_strangers;
     return m_last;
 }
@@ -70,10 +88,10 @@ const char *ConnectionGate::textOf(Refusal refusal)
     return "";
 }
 
-int ConnectionGate::strangersOf(const QHostAddress &address) const
+int ConnectionGate::strangersOf(const QHostAddress &origin) const
 {
     return int(std::count_if(m_guests.begin(), m_guests.end(),
-                             [&](const Guest &guest) { return guest.isStranger && guest.address.isEqual(address); }));
+                             [&](const Guest &guest) { return guest.isStranger && guest.origin == origin; }));
 }
 
 }  // namespace qplc

@@ -21,7 +21,7 @@ public:
     {
         int connections = 320;            // at a time: 254 nodes, strangers, and as many tools
         int strangers = 32;               // of them, at a time; more wait in the queue of the system
-        int strangersOfAddress = 8;       // of them, from one address
+        int strangersOfAddress = 8;       // of them, from one address, or one IPv6 network of 64 bits
         int acceptsPerSecond = 50;        // on the long run
         int acceptsAtOnce = 64;           // after a pause
         qint64 patience = 2'000'000'000;  // with a stranger [ns]
@@ -56,11 +56,11 @@ public:
 private:
     struct Guest
     {
-        QHostAddress address;
+        QHostAddress origin;
         bool isStranger = true;
         qint64 deadline = 0;
     };
-    int strangersOf(const QHostAddress &address) const;
+    int strangersOf(const QHostAddress &origin) const;
 
     Limits m_limits;
     QHash<Ticket, Guest> m_guests;

@@ -191,7 +191,7 @@ REMOVALS = [
             "if (connections() >= m_limits.connections)", "if (connections() > 1000000)",
             "tst_Strangers", "tooManyConnectionsAreClosedAtOnce"),
     Removal("flood of connections: of one address", "src/transport/ConnectionGate.cpp",
-            "strangersOf(address) >= m_limits.strangersOfAddress", "strangersOf(address) > 1000000",
+            "strangersOf(origin) >= m_limits.strangersOfAddress", "strangersOf(origin) > 1000000",
             "tst_ConnectionGate", "strangersOfOneAddressAreFew"),
     Removal("flood of connections: rate", "src/transport/ConnectionGate.cpp",
             "else if (!isLocal && !m_accepts.take(now))", "else if (!isLocal && !m_accepts.take(now) && now < 0)",

@@ -28,6 +28,7 @@ class tst_ConnectionGate : public QObject
 
 private Q_SLOTS:
     void strangersOfOneAddressAreFew();
+    void aNetworkOfIPv6IsOneAddress();
     void strangersOfThisMachineHaveNoLimitOfTheirOwn();
     void theRoomForStrangersIsLimited();
     void allConnectionsTogetherAreLimited();
@@ -60,6 +61,16 @@ void tst_ConnectionGate::strangersOfOneAddressAreFew()
     QVERIFY(admit(far("192.0.2.2")) != 0);
     m_gate.know(first);
     QVERIFY(admit(far()) != 0);
+}
+
+void tst_ConnectionGate::aNetworkOfIPv6IsOneAddress()
+{
+    cleanup();
+    for (int i = 0; i < 8; ++i)
+        QVERIFY(admit(QHostAddress(QStringLiteral("2001:db8:0:1::%1").arg(i + 1))) != 0);
+    QCOMPARE(admit(QHostAddress(QStringLiteral("2001:db8:0:1:ffff::9"))), quint64(0));
+    QCOMPARE(m_refusal, ConnectionGate::TooManyOfAddress);
+    QVERIFY(admit(QHostAddress(QStringLiteral("2001:db8:0:2::9"))) != 0);
 }
 
 void tst_ConnectionGate::strangersOfThisMachineHaveNoLimitOfTheirOwn()
