@@ -14,7 +14,10 @@ using qplc::NodeSlot;
 QString QPlcMasterNodePrivate::nodeName(quint16 id) const
 {
     const std::shared_ptr<NodeSlot> slot = registry->find(id);
-    return slot ? slot->name : m_goneNames.value(id, QStringLiteral("number %1").arg(id));
+    if (slot)
+        return slot->name;
+    const qplc::GoneNodes::Node *gone = m_gone.find(id);
+    return gone ? gone->name : QStringLiteral("number %1").arg(id);
 }
 
 void QPlcMasterNodePrivate::takeReports()
@@ -120,7 +123,8 @@ bool QPlcMasterNodePrivate::dropFaulty(quint16 id, const QString &text)
     Connection *connection = slot && slot->listener && !slot->local ? server->connectionOf(slot.get()) : nullptr;
     if (connection)
         server->drop(connection, text);
-    return connection || (!slot && m_goneListeners.contains(id));  // gone: it has reported more than once
+    const qplc::GoneNodes::Node *gone = slot ? nullptr : m_gone.find(id);
+    return connection || (gone && gone->isListener);  // gone: it has reported more than once
 }
 
 bool QPlcMasterNodePrivate::isCritical(quint16 id) const
@@ -153,15 +157,13 @@ void QPlcMasterNodePrivate::nodeLost(Connection *connection, const QString &reas
     const bool wasAwaited = m_step != Step::None && participant != m_participants.end();
     if (participant != m_participants.end())
         m_participants.erase(participant);
-    m_goneNames.insert(connection->slot->id, connection->name);
-    if (connection->slot->listener)
-        m_goneListeners.insert(connection->slot->id);
+    m_gone.add({connection->slot->id, connection->name, connection->slot->listener});
     const bool wasRunning = connection->stage == Connection::Running;
     if (wasRunning) {
         giveRoster();
     } else if (isRunning() && connection->stage >= Connection::OutputsGiven) {
         for (const qplc::PayloadLayout::Field &field : connection->slot->outputLayout.fields())
-            m_abandoned.append(field.signal);
+            m_abandoned.insert(field.signal);
         giveRoster();
     }
     Q_EMIT q->nodeLost(connection->name, reason);

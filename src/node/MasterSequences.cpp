@@ -333,8 +333,7 @@ void QPlcMasterNodePrivate::startCycles()
                          setting.toString());
     }
     m_participants.clear();
-    m_goneListeners.clear();
-    m_goneNames.clear();
+    m_gone.clear();
     m_abandoned.clear();
     statisticSignals.start(cycle.get(), registry.get(), clock.isLockstep());
     journal.watchOverruns(&cycle->cycleStatistics());
@@ -385,7 +384,7 @@ void QPlcMasterNodePrivate::giveRoster()
     }
     roster.held = leaseBooks.mask();
     roster.safe = safeSignals(roster);
-    for (const QPlcSignalIndex signal : qAsConst(m_abandoned)) {
+    for (const QPlcSignalIndex signal : m_abandoned) {
         if (registry->writer(signal).isEmpty())
             roster.abandoned.push_back(signal);
     }

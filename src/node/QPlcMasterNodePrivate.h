@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Arming.h"
+#include "GoneNodes.h"
 #include "Journal.h"
 #include "MasterBeacon.h"
 #include "MasterCycle.h"
@@ -16,11 +17,11 @@
 #include "ViewerPushes.h"
 
 #include <QtCore/QPointer>
-#include <QtCore/QSet>
 #include <QtCore/QSocketNotifier>
 #include <QtCore/QTimer>
 
 #include <memory>
+#include <set>
 
 /// States and sequences of a master: initialization, start, stop, and nodes that join while others run.
 ///
@@ -192,9 +193,8 @@ private:
     quint64 m_cyclesWanted = 0;
     qplc::MulticastParts m_multicastParts;
     QPointer<QPlcSlaveSocket> m_requester;
-    QSet<quint16> m_goneListeners;         // of this phase, whose reports may still come
-    QHash<quint16, QString> m_goneNames;   // of this phase, as for listeners
-    QVector<QPlcSignalIndex> m_abandoned;  // of this phase: signals whose writer left before it was ready for cycles
-    QStringList m_becameSafe;              // signals of the reports at hand
+    qplc::GoneNodes m_gone;                 // of this phase
+    std::set<QPlcSignalIndex> m_abandoned;  // of this phase: signals whose writer left before it was ready for cycles
+    QStringList m_becameSafe;               // signals of the reports at hand
     std::unique_ptr<QSocketNotifier> m_reportNotifier;
 };

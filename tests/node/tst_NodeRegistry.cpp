@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "NodeFixtures.h"
+#include "node/GoneNodes.h"
 #include "node/NodeRegistry.h"
 
 #include <QtTest/QtTest>
@@ -10,6 +11,7 @@ class tst_NodeRegistry : public QObject
 
 private Q_SLOTS:
     void oneNodeTooManyIsRefusedWithTheLimit();
+    void theLastNodesThatLeftAreKnownAndNoMore();
 };
 
 void tst_NodeRegistry::oneNodeTooManyIsRefusedWithTheLimit()
@@ -27,6 +29,21 @@ void tst_NodeRegistry::oneNodeTooManyIsRefusedWithTheLimit()
     QCOMPARE(refusal.text, QString("node 'Winch' would be number 1001; a master serves at most 1000"));
     registry.remove(registry.nodes().front());
     QVERIFY(registry.admit(declaration, &refusal));
+}
+
+void tst_NodeRegistry::theLastNodesThatLeftAreKnownAndNoMore()
+{
+    qplc::GoneNodes gone;
+    for (quint16 id = 0; id < 300; ++id)
+        gone.add({id, QStringLiteral("node %1").arg(id), id % 2 == 1});
+    QVERIFY(!gone.find(43));
+    QVERIFY(gone.find(44));
+    QCOMPARE(gone.find(299)->name, QString("node 299"));
+    QVERIFY(gone.find(299)->isListener);
+    gone.add({299, QStringLiteral("another of this number"), false});
+    QCOMPARE(gone.find(299)->name, QString("another of this number"));
+    gone.clear();
+    QVERIFY(!gone.find(299));
 }
 
 QTEST_GUILESS_MAIN(tst_NodeRegistry)
