@@ -17,6 +17,7 @@ private Q_SLOTS:
     void mistakesAreSentences();
     void aFileForOthersIsRefused();
     void programsFlyWithKeys();
+    void startsAreArmedUnlessSaidOtherwise();
     void aSecuredFlightStartsWithItsNodes();
     void optionsThatDoNotFitAreRefused_data();
     void optionsThatDoNotFitAreRefused();
@@ -149,6 +150,23 @@ void tst_qtplc_keys::programsFlyWithKeys()
     QCOMPARE(revoked.exitCode, 2);
     QVERIFY2(revoked.errors.contains("does not know identity 'anna'"), qPrintable(revoked.errors));
     QVERIFY2(master.waitForErrors("unknown identity 'anna'"), qPrintable(master.errors()));
+}
+
+void tst_qtplc_keys::startsAreArmedUnlessSaidOtherwise()
+{
+    QCOMPARE(keys({"new", "anna", "--role", "Operator"}).exitCode, 0);
+    for (const bool isArming : {true, false}) {
+        QStringList options{"--port=0", "--security=psk", "--keys=" + path("keys.ini")};
+        if (!isArming)
+            options << "--no-arming";
+        Program master(programPath("awe_master"), options);
+        QVERIFY(master.waitForOutput("\n"));
+        const QString port = master.output().section('\n', 0, 0).section(' ', 1);
+        const Outcome state = runProgram(
+            programPath("qtplc"),
+            {"--master=127.0.0.1:" + port, "--security=psk", "--keys=" + path("keys.ini"), "state", "--json"});
+        QCOMPARE(jsonOf(state.output).object().value("armingRequired"), QJsonValue(isArming));
+    }
 }
 
 void tst_qtplc_keys::aSecuredFlightStartsWithItsNodes()

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "SecurityFixtures.h"
+#include "WindowFixtures.h"
+
+using namespace qplc;
+
+/// A window at a master that wants to know who it is, over TLS with pre-shared keys.
+class tst_SecuredPlant : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void initTestCase() { m_settings = std::make_unique<TestSettings>(); }
+    void init();
+    void cleanup();
+    void anOperatorInitializesArmsAndStarts();
+    void withoutArmingAnOperatorStarts();
+    void anObserverSeesAndMayStopAndNothingElse();
+    void whoIsNotKnownIsTold();
+
+private:
+    /// Presses the one next thing to do when it is \a text.
+    bool next(WindowFixture *fixture, const char *text)
+    {
+        BarButton *button = fixture->topBar()->nextButton();
+        if (!QTest::qWaitFor([&] { return button->isVisible() && button->text() == QLatin1String(text); }, patience))
+            return false;
+        QTest::mouseClick(button, Qt::LeftButton);
+        return true;
+    }
+
+    QString address() const { return QStringLiteral("127.0.0.1:%1").arg(m_master->serverPort()); }
+
+    std::unique_ptr<TestSettings> m_settings;
+    SecurityFiles m_files;
+    CounterNode m_counter;
+    std::unique_ptr<TestMaster> m_master;
+};
+
+void tst_SecuredPlant::init()
+{
+    m_master = std::make_unique<TestMaster>(QPlcClock::realTime());
+    m_master->setInterval(std::chrono::milliseconds(10));
+    m_master->setSecurity(QPlcSecurity::preSharedKeys(m_files.masterKeys()));
+    QVERIFY(m_master->addLocalNode(&m_counter));
+    QVERIFY(m_master->listen());
+}
+
+void tst_SecuredPlant::cleanup()
+{
+    m_master.reset();
+    QPlcSecurity::setCurrent(QPlcSecurity());
+}
+
+void tst_SecuredPlant::anOperatorInitializesArmsAndStarts()
+{
+    QPlcSecurity::setCurrent(m_files.anna());
+    WindowFixture fixture;
+    fixture.connectTo(address());
+    QVERIFY(next(&fixture, "Initialize"));
+    QVERIFY(next(&fixture, "Arm"));
+    QVERIFY(next(&fixture, "Start"));
+    QVERIFY(m_master->waitForState(QPlcMasterNode::RealTime));
+    QTRY_VERIFY_WITH_TIMEOUT(fixture.plant()->store()->endRow() > 5, patience);
+    QTest::mouseClick(fixture.topBar()->stopButton(), Qt::LeftButton);
+    QVERIFY(m_master->waitForState(QPlcMasterNode::Off));
+}
+
+void tst_SecuredPlant::withoutArmingAnOperatorStarts()
+{
+    m_master->setArmingRequired(false);
+    QPlcSecurity::setCurrent(m_files.anna());
+    WindowFixture fixture;
+    fixture.connectTo(address());
+    QVERIFY(next(&fixture, "Start"));
+    QVERIFY(m_master->waitForState(QPlcMasterNode::RealTime));
+}
+
+void tst_SecuredPlant::anObserverSeesAndMayStopAndNothingElse()
+{
+    QPlcSecurity::setCurrent(m_files.bert());
+    WindowFixture fixture;
+    fixture.connectTo(address());
+    QVERIFY(next(&fixture, "Initialize"));
+    QTRY_VERIFY_WITH_TIMEOUT(fixture.hint().contains(QLatin1String("role Observer may not")), patience);
+    QCOMPARE(m_master->state(), QPlcMasterNode::Off);
+    QVERIFY(m_master->startArmed());
+    QTRY_VERIFY_WITH_TIMEOUT(fixture.plant()->store()->endRow() > 5, patience);
+    QTest::mouseClick(fixture.topBar()->stopButton(), Qt::LeftButton);
+    QVERIFY(m_master->waitForState(QPlcMasterNode::Off));
+}
+
+void tst_SecuredPlant::whoIsNotKnownIsTold()
+{
+    QPlcSecurity::setCurrent(m_files.of(QStringLiteral("mallory"), 'f'));
+    WindowFixture fixture;
+    fixture.connectTo(address());
+    QTRY_VERIFY_WITH_TIMEOUT(fixture.plant()->stateText().contains(QLatin1String("does not know identity 'mallory'")),
+                             patience);
+    QVERIFY(!fixture.window.isConnected(address()));
+}
+
+QTEST_MAIN(tst_SecuredPlant)
+#include "tst_SecuredPlant.moc"
