@@ -119,10 +119,12 @@ bool PlantProcesses::startMaster(QString *error)
         m_master->destroy();
     const QString name = QStringLiteral("Master-life%1").arg(++m_masterLife);
     const QString log = file(name + QStringLiteral(".log"));
-    const QStringList arguments = shapeArguments(m_profile.shape, m_masterLife, file(name + QStringLiteral(".history")))
+    QStringList arguments = shapeArguments(m_profile.shape, m_masterLife, file(name + QStringLiteral(".history")))
         + QStringList{QStringLiteral("--period-us"), QString::number(m_profile.periodUs), QStringLiteral("--port"),
                       QString::number(m_port)}
         + priorityArguments() + securityArguments(QString());
+    if (m_profile.judgesMemory)  // what it has taken is resident at once, and what becomes more is growth
+        arguments << QStringLiteral("--lock-memory");
     m_master = std::make_unique<PlantProcess>(QStringLiteral("soak_master"), arguments, log);
     m_history.append(Record::Started, -1, {quint64(m_master->processId()), m_masterLife});
     QElapsedTimer timer;

@@ -73,7 +73,11 @@ bool isOfPhase(const Record &record)
 Gate silentWritersBecomeSafe(const Evidence &evidence)
 {
     Gate gate("silent writers become safe");
-    gate.isAsked = false;
+    const qint64 longestHold = (evidence.shape.hold + 1) * evidence.period;
+    const bool wasSilent = std::any_of(evidence.faults.begin(), evidence.faults.end(), [&](const DoneFault &fault) {
+        return fault.kind == FaultKind::StopNode && fault.end - fault.begin > longestHold;
+    });
+    bool hasQualities = false;
     for (const History &history : evidence.nodes) {
         const Record *fresh = nullptr;  // the step that brought something new
         for (const Record &record : history.records) {
@@ -81,7 +85,7 @@ Gate silentWritersBecomeSafe(const Evidence &evidence)
                 fresh = nullptr;
             if (record.kind != Record::Step || record.numbers[Record::Quality] == Record::NoQuality)
                 continue;
-            gate.isAsked = true;
+            hasQualities = true;
             const bool isNews = !fresh || record.numbers[Record::SeenLife] != fresh->numbers[Record::SeenLife]
                 || record.numbers[Record::SeenCounter] != fresh->numbers[Record::SeenCounter];
             const double drive = fromBits(record.numbers[Record::Drive]);
@@ -98,6 +102,7 @@ Gate silentWritersBecomeSafe(const Evidence &evidence)
             }
         }
     }
+    gate.isAsked = hasQualities && (wasSilent || gate.looked > 0);  // who is back soon is held all the time
     return gate;
 }
 

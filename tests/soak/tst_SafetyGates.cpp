@@ -13,6 +13,7 @@ class tst_SafetyGates : public QObject
 
 private Q_SLOTS:
     void aPlantWithoutQualitiesIsNotAskedForThem();
+    void aWriterThatWasStoppedIsSilentForSomebody();
     void aDriveThatGoesSafeInTimePasses();
     void aDriveThatIsHeldForTooLongIsFound();
     void aNodeThatGoesSafeInTimePasses();
@@ -79,6 +80,17 @@ void tst_SafetyGates::aPlantWithoutQualitiesIsNotAskedForThem()
 {
     HandMade plant;
     QVERIFY(!plant.judge(&soak::silentWritersBecomeSafe).isAsked);
+}
+
+void tst_SafetyGates::aWriterThatWasStoppedIsSilentForSomebody()
+{
+    HandMade plant;
+    for (quint64 cycle = 0; cycle < 100; ++cycle)
+        plant.step(1, cycle).numbers[Record::Quality] = 0;
+    QVERIFY(!plant.judge(&soak::silentWritersBecomeSafe).isAsked);
+    plant.addFault(FaultKind::StopNode, 0, HandMade::at(50), HandMade::at(80), 300);
+    const Gate gate = plant.judge(&soak::silentWritersBecomeSafe);
+    QVERIFY2(gate.isAsked && !gate.passed(), textOf(gate));
 }
 
 void tst_SafetyGates::aDriveThatGoesSafeInTimePasses()
