@@ -20,6 +20,7 @@ struct Record
         Safe,      // the node itself went to its safe state. numbers: see SafeNumber
         PhaseEnded,
         MasterLost,
+        KeptOut,  // an attempt to connect has failed, or the connection
         // of a master; subject: a node, or Nobody
         Cycle = 100,  // numbers: see CycleNumber
         State,        // numbers: a MasterState

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Gates.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace soak {
@@ -34,6 +35,15 @@ qint64 refusedIn(const Evidence &evidence, qint64 begin)
     return sum;
 }
 
+/// Attempts of nodes to come in that may have failed: on a busy machine a handshake takes longer than a stranger's may.
+qint64 failuresOfNodes(const Evidence &evidence, qint64 begin)
+{
+    qint64 sum = 0;
+    for (const History &node : evidence.nodes)
+        sum += qint64(recordsOf(node, Record::KeptOut, node.node, begin, std::numeric_limits<qint64>::max()).size());
+    return sum;
+}
+
 /// The first and the last record of attempts; null: there were none.
 std::pair<const Record *, const Record *> attemptsIn(const Evidence &evidence)
 {
@@ -48,14 +58,16 @@ std::pair<const Record *, const Record *> attemptsIn(const Evidence &evidence)
     return {first, last};
 }
 
-void compare(quint64 done, quint64 refused, qint64 told, Gate *gate)
+/// \param others  of those that were told, at most so many were not tried by intruders
+void compare(quint64 done, quint64 refused, qint64 told, qint64 others, Gate *gate)
 {
     gate->looked = qint64(done);
     gate->isAsked = done > 0;
     gate->figures[QStringLiteral("done")] = double(done);
     gate->figures[QStringLiteral("refused")] = double(refused);
     gate->figures[QStringLiteral("counted")] = double(told);
-    if (refused != done || told != qint64(done))
+    gate->excused = std::clamp<qint64>(told - qint64(done), 0, others);
+    if (refused != done || told - gate->excused != qint64(done))
         gate->fail(QStringLiteral("%1 were tried, %2 refused, %3 counted").arg(done).arg(refused).arg(told));
 }
 
@@ -72,7 +84,7 @@ Gate attemptsAreRefused(const Evidence &evidence)
     const qint64 begin = first->time - longestAttempt;
     // Who is not let in is a failed handshake; garbage that looks like the cyclic connection of a node gets one step further.
     const qint64 told = counted(evidence, begin, Record::FailedHandshakes) + refusedIn(evidence, begin);
-    compare(last->numbers[Record::Made], last->numbers[Record::Ended], told, &gate);
+    compare(last->numbers[Record::Made], last->numbers[Record::Ended], told, failuresOfNodes(evidence, begin), &gate);
     return gate;
 }
 
@@ -83,7 +95,7 @@ Gate commandsAreDenied(const Evidence &evidence)
     gate.isAsked = last;
     if (last)
         compare(last->numbers[Record::Commands], last->numbers[Record::Denials],
-                counted(evidence, 0, Record::DeniedMessages), &gate);
+                counted(evidence, 0, Record::DeniedMessages), 0, &gate);
     return gate;
 }
 

@@ -25,6 +25,8 @@ public:
                 [this] { m_history.append(Record::Phase, m_options.node); });
         connect(this, &QPlcSlaveNode::disconnectedFromMaster, this,
                 [this] { m_history.append(Record::MasterLost, m_options.node); });
+        connect(this, &QPlcSlaveNode::errorWithMaster, this,
+                [this] { m_history.append(Record::KeptOut, m_options.node); });
     }
 
 private:

@@ -16,6 +16,7 @@ private Q_SLOTS:
     void anAttemptThatIsNotAsItShouldBeIsFound_data();
     void anAttemptThatIsNotAsItShouldBeIsFound();
     void whatWasCountedBeforeTheFirstAttemptIsOfSomebodyElse();
+    void aNodeThatDoesNotComeInAtOnceIsNoIntruder();
 };
 
 namespace {
@@ -87,6 +88,18 @@ void tst_IntruderGates::whatWasCountedBeforeTheFirstAttemptIsOfSomebodyElse()
     HandMade plant = withIntruders(5, 4, 7, 7);
     HandMade::add(plant.master(), Record::Refused, -1, HandMade::at(10));
     QVERIFY(plant.judge(&soak::attemptsAreRefused).passed());
+}
+
+void tst_IntruderGates::aNodeThatDoesNotComeInAtOnceIsNoIntruder()
+{
+    HandMade plant = withIntruders(5, 5, 7, 7);
+    HandMade::add(plant.node(1), Record::KeptOut, 1, HandMade::at(56));
+    const Gate gate = plant.judge(&soak::attemptsAreRefused);
+    QVERIFY2(gate.passed(), textOf(gate));
+    QCOMPARE(gate.excused, qint64(1));
+    HandMade other = withIntruders(5, 6, 7, 7);
+    HandMade::add(other.node(1), Record::KeptOut, 1, HandMade::at(56));
+    QVERIFY(!other.judge(&soak::attemptsAreRefused).passed());
 }
 
 QTEST_GUILESS_MAIN(tst_IntruderGates)
