@@ -80,7 +80,7 @@ public:
     QString unknownSignalText(const QString &name) const;
 
     /// FNV-1a-64 of "name:type:unit\n" of all signals in order, the type by its canonical name: equal tables have equal hashes on all machines.
-    quint64 hash() const;
+    quint64 hash() const { return m_hash; }
 
 private:
     static QPlcSignalTable read(qplc::TableReader reader, QVector<QPlcParseError> *errors);
@@ -88,6 +88,7 @@ private:
 
     QVector<QPlcSignalDefinition> m_signals;
     QHash<QString, QPlcSignalIndex> m_indices;
+    quint64 m_hash = 0xCBF29CE484222325;  // as FNV-1a-64 begins
 };
 
 Q_DECLARE_METATYPE(QPlcSignalTable)

@@ -16,6 +16,12 @@ public:
     static constexpr std::chrono::milliseconds Shortest{100};
     static constexpr std::chrono::milliseconds Longest{5000};
 
+    static constexpr std::chrono::milliseconds ShortestPatience{2000};
+    static constexpr std::chrono::milliseconds LongestPatience{16000};
+
+    /// How long the next attempt may take: 2 s at first, then twice as long each time up to 16 s. A master that hundreds ask at once answers late, and who gives up stands at the end of
+    /// its queue again.
+    std::chrono::milliseconds patience() const { return std::clamp(10 * m_pause, ShortestPatience, LongestPatience); }
     /// An attempt has succeeded: the next pause is the shortest again.
     void reset() { m_pause = Shortest; }
     /// \param chance  0 ... 1, by chance

@@ -69,8 +69,8 @@ void MasterServer::greet(MasterConnection *connection, const Message &message)
     QJsonObject hello = m_hello();
     const QJsonArray features = commonFeatures(message);
     hello.insert(QStringLiteral("features"), features);
-    if (message.hex64(QStringLiteral("tableHash")) == m_image.table().hash())
-        hello.remove(QStringLiteral("table"));
+    if (message.hex64(QStringLiteral("tableHash")) != m_image.table().hash())
+        hello.insert(QStringLiteral("table"), m_tableText);
     connection->stage = MasterConnection::Greeted;
     connection->socket->setMessageLimit(MaximumControlFrame);
     m_door.know(connection->ticket);

@@ -29,6 +29,7 @@ MasterServer::MasterServer(NodeRegistry &registry, const ProcessImage &image, Cy
     , m_hub(hub)
     , m_session(session)
     , m_hello(std::move(hello))
+    , m_tableText(QString::fromUtf8(image.table().toIni()))
     , m_door(this)
 {
     connect(&m_door, &MasterDoor::entered, this, &MasterServer::enter);

@@ -91,6 +91,7 @@ private:
     CyclicHub &m_hub;
     const quint64 m_session;
     std::function<QJsonObject()> m_hello;
+    const QString m_tableText;  // for who has another one
     MasterDoor m_door;
     LocalName m_name;
     SocketAddress m_group;

@@ -107,7 +107,6 @@ bool QPlcMasterNodePrivate::prepare()
                            {QStringLiteral("uuid"), uuid},
                            {QStringLiteral("session"), Message::fromHex64(session)},
                            {QStringLiteral("tableHash"), Message::fromHex64(table.hash())},
-                           {QStringLiteral("table"), QString::fromUtf8(table.toIni())},
                            {QStringLiteral("state"), QLatin1String(qplc::nameOf(state))},
                            {QStringLiteral("period"), double(interval.count())},
                            {QStringLiteral("security"), networkSecurity},

@@ -88,9 +88,10 @@ QPlcSlaveNodePrivate::QPlcSlaveNodePrivate(QPlcSlaveNode *node, const QString &n
     m_retryTimer.setSingleShot(true);
     QObject::connect(&m_retryTimer, &QTimer::timeout, q, [this] { apply(Event::Retry); });
     m_patience.setSingleShot(true);
-    m_patience.setInterval(2000);
-    QObject::connect(&m_patience, &QTimer::timeout, q,
-                     [this] { masterLost(QPlcAbstractSocket::NoError, QStringLiteral("no answer within 2 s")); });
+    QObject::connect(&m_patience, &QTimer::timeout, q, [this] {
+        masterLost(QPlcAbstractSocket::NoError,
+                   QStringLiteral("no answer within %1 s").arg(m_patience.interval() / 1000));
+    });
     // A program that ends says goodbye in time: its node reaches its safe state before its destructor runs.
     if (QCoreApplication *application = QCoreApplication::instance())
         QObject::connect(application, &QCoreApplication::aboutToQuit, q, [this] {
@@ -130,7 +131,7 @@ void QPlcSlaveNodePrivate::openConnection()
 {
     m_session = 0;
     if (m_wasRegistered || reconnectPolicy == QPlcSlaveNode::ReconnectAlways)
-        m_patience.start();
+        m_patience.start(m_backOff.patience());
     control = new QPlcMasterSocket(q);
     if (security)
         control->setSecurity(*security);

@@ -122,6 +122,9 @@ void QPlcSignalTable::add(const QPlcSignalDefinition &definition)
 {
     m_indices.insert(definition.name, QPlcSignalIndex(m_signals.size()));
     m_signals.append(definition);
+    const QString text = definition.name + QLatin1Char(':') + definition.type.name() + QLatin1Char(':')
+        + definition.unit + QLatin1Char('\n');
+    m_hash = qplc::fnv1a64(text.toUtf8(), m_hash);
 }
 
 QStringList QPlcSignalTable::closeNames(const QString &name, int count) const
@@ -141,15 +144,4 @@ QString QPlcSignalTable::unknownSignalText(const QString &name) const
     const QStringList close = closeNames(name);
     return close.isEmpty() ? text + QStringLiteral("; the signal table has none like it, add it there")
                            : text + qplc::didYouMean(close);
-}
-
-quint64 QPlcSignalTable::hash() const
-{
-    quint64 hash = qplc::fnv1a64Start;
-    for (const QPlcSignalDefinition &signal : m_signals) {
-        const QString text
-            = signal.name + QLatin1Char(':') + signal.type.name() + QLatin1Char(':') + signal.unit + QLatin1Char('\n');
-        hash = qplc::fnv1a64(text.toUtf8(), hash);
-    }
-    return hash;
 }

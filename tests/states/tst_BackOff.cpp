@@ -14,6 +14,7 @@ class tst_BackOff : public QObject
 
 private Q_SLOTS:
     void pausesGrowFromATenthToFiveSeconds();
+    void patienceGrowsFromTwoToSixteenSeconds();
     void chanceMovesAPauseByAFifth();
     void successBeginsAtTheShortestAgain();
     void aRefusalWaitsLongest();
@@ -28,6 +29,20 @@ void tst_BackOff::pausesGrowFromATenthToFiveSeconds()
     for (int i = 0; i < 9; ++i)
         found << pauses.next(0.5).count();
     QCOMPARE(found, (QVector<qint64>{100, 200, 400, 800, 1600, 3200, 5000, 5000, 5000}));
+}
+
+void tst_BackOff::patienceGrowsFromTwoToSixteenSeconds()
+{
+    BackOff pauses;
+    QCOMPARE(pauses.patience(), std::chrono::milliseconds(2s));  // of the attempt that somebody wants now
+    QVector<qint64> found;
+    for (int i = 0; i < 6; ++i) {
+        pauses.next(0.5);
+        found << pauses.patience().count();
+    }
+    QCOMPARE(found, (QVector<qint64>{2000, 4000, 8000, 16000, 16000, 16000}));
+    pauses.reset();
+    QCOMPARE(pauses.patience(), std::chrono::milliseconds(2s));
 }
 
 void tst_BackOff::chanceMovesAPauseByAFifth()
