@@ -95,7 +95,7 @@ Gate memoryStays(const Evidence &evidence, const Profile &profile)
 {
     constexpr double mostGrowth = 100.0;          // [kB] in 10 minutes
     constexpr qint64 shortest = 120'000'000'000;  // [ns] below this a slope says nothing
-    constexpr qint64 warmUp = 30'000'000'000;     // [ns] of each life
+    constexpr qint64 warmUp = 180'000'000'000;    // [ns] of each life: the log of events is full
     Gate gate("memory stays");
     const auto all = usages(evidence);
     gate.isAsked = profile.judgesMemory && !all.isEmpty()

@@ -112,8 +112,8 @@ bool SoakRun::run()
                 return false;
         }
     }
-    intruder.end();  // what is used at last is what was used before there was one
-    rest(1);
+    intruder.end();                           // what is used at last is what was used before there was one
+    rest(3);                                  // longer than the master is patient with a stranger
     m_history.append(Record::Recovered, -1);  // what comes now is the end
     m_operator.stop();
     Operator::wait(Settling);
