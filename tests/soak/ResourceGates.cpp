@@ -93,9 +93,9 @@ Gate nothingLeaks(const Evidence &evidence)
 
 Gate memoryStays(const Evidence &evidence, const Profile &profile)
 {
-    constexpr double mostGrowth = 100.0;          // [kB] in 10 minutes
-    constexpr qint64 shortest = 120'000'000'000;  // [ns] below this a slope says nothing
-    constexpr qint64 warmUp = 180'000'000'000;    // [ns] of each life: the log of events is full
+    constexpr double mostGrowth = 100.0;            // [kB] in 10 minutes
+    constexpr qint64 shortest = 1'200'000'000'000;  // [ns] in less, one step by which a heap grows (132 kB) is more
+    constexpr qint64 warmUp = 180'000'000'000;      // [ns] of each life: the log of events is full
     Gate gate("memory stays");
     const auto all = usages(evidence);
     gate.isAsked = profile.judgesMemory && !all.isEmpty()
