@@ -65,7 +65,7 @@ Gate nothingLeaks(const Evidence &evidence)
 {
     Gate gate("nothing leaks");
     const auto all = usages(evidence);
-    constexpr std::ptrdiff_t Looks = 5;          // at the begin, and at the end
+    constexpr std::ptrdiff_t Looks = 4;          // of the rest at the end, and as many at the begin
     constexpr qint64 beginning = 1'000'000'000;  // [ns] a new process has not done everything once
     for (auto process = all.begin(); process != all.end(); ++process) {
         const auto isOld = [&](const Record *usage) { return usage->time >= process->front()->time + beginning; };
@@ -93,9 +93,9 @@ Gate nothingLeaks(const Evidence &evidence)
 
 Gate memoryStays(const Evidence &evidence, const Profile &profile)
 {
-    constexpr double mostGrowth = 100.0;            // [kB] in 10 minutes
-    constexpr qint64 shortest = 1'200'000'000'000;  // [ns] in less, one step by which a heap grows (132 kB) is more
-    constexpr qint64 warmUp = 180'000'000'000;      // [ns] of each life: the log of events is full
+    constexpr double mostGrowth = 100.0;          // [kB] in 10 minutes
+    constexpr qint64 shortest = 120'000'000'000;  // [ns] below this a slope says nothing
+    constexpr qint64 warmUp = 30'000'000'000;     // [ns] of each life
     Gate gate("memory stays");
     const auto all = usages(evidence);
     gate.isAsked = profile.judgesMemory && !all.isEmpty()

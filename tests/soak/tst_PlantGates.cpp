@@ -57,15 +57,15 @@ HandMade withStrangers(quint64 counted)
     return plant;
 }
 
-/// The master is looked at twice a minute, for half an hour, and uses \a growth [kB] more in ten minutes. The last five looks see what is said here.
+/// The master is looked at each tenth of a minute, sixty times, and uses \a growth [kB] more in ten minutes. The last four looks see what is said here.
 HandMade withUsage(quint64 descriptors, quint64 threads, quint64 growth = 0, quint32 lastLife = 1)
 {
     HandMade plant;
     for (quint64 i = 0; i < 60; ++i) {
-        const bool isLast = i >= 55;
+        const bool isLast = i >= 56;
         HandMade::add(
-            plant.runner(), Record::Usage, -1, HandMade::at(0) + qint64(i) * 30'000 * ms,
-            {isLast ? descriptors : 40, isLast ? threads : 2, 10'000 + i * growth / 20, isLast ? lastLife : 1, 1});
+            plant.runner(), Record::Usage, -1, HandMade::at(0) + qint64(i) * 6'000 * ms,
+            {isLast ? descriptors : 40, isLast ? threads : 2, 10'000 + i * growth / 100, isLast ? lastLife : 1, 1});
     }
     return plant;
 }
