@@ -407,10 +407,11 @@ void tst_qtplc::echoStartedBeforeTheFlightSeesIt()
 void tst_qtplc::echoOfAPhaseThatEndsMeanwhileShowsWhatIsLeft()
 {
     QVERIFY(startNodes());
-    for (unsigned long pause = 0; pause < 16; ++pause) {  // [ms], so that each step of joining meets the end of a phase
+    for (unsigned long pause = 0; pause < 8000;
+         pause += 500) {  // [us], so that each step of joining meets the end of a phase
         QCOMPARE(qtplc(QStringLiteral("start")).exitCode, 0);
         Program stop(path("qtplc"), withMaster(QStringLiteral("stop")));
-        QThread::msleep(pause / 2);
+        QThread::usleep(pause);
         Program echo(path("qtplc"), withMaster(QStringLiteral("echo tetherLength --count 1")));
         QCOMPARE(stop.waitForEnd(), 0);
         QCOMPARE(echo.waitForEnd(), 0);
