@@ -15,4 +15,7 @@ public:
     {
     }
     ~QPlcBoundOutput() override { this->leaveNode(); }
+    /// Says how far the value can be trusted: Good until something else is said. Held: the value is that many cycles old. Safe or Invalid: there is no value, and the
+    /// signal keeps its last good one for `hold` cycles, then its safe one. Told to others if the node sends qualities (QPlcCompactSlaveNode::setSendsQuality()).
+    void setQuality(QPlcQuality quality) { this->giveQuality(quality); }
 };

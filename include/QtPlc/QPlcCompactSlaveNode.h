@@ -40,6 +40,11 @@ public:
                                   QObject *parent = nullptr);
     ~QPlcCompactSlaveNode() override;
 
+    /// Lets the node say how far each of its outputs can be trusted (QPlcOutput::setQuality()), at the price of a byte for each: for what measures, and may have nothing to
+    /// tell. A master that does not know of this is refused. \pre not connected
+    void setSendsQuality(bool sends);
+    bool sendsQuality() const;
+
 protected:
     /// Brings the node into its initial state and sets its outputs. Called before every real-time phase, and at a join.
     virtual void reset() { compactInitializeOutputSignals(); }
@@ -102,6 +107,8 @@ private:
     std::vector<QPlcPort *> m_ports;
     Plan m_inputs;
     Plan m_outputs;
-    quint32 m_inputValues = 0;      // [byte]
-    std::vector<char> m_qualities;  // of the inputs, when they are received
+    quint32 m_inputValues = 0;                   // [byte]
+    std::vector<char> m_qualities;               // of the inputs, when they are received
+    quint32 m_outputValues = 0;                  // [byte]
+    std::vector<const QPlcPort *> m_qualifying;  // outputs, when their qualities are sent
 };

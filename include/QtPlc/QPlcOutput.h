@@ -23,6 +23,9 @@ public:
     }
     QPlcOutput &operator=(const QPlcOutput &other) { return *this = other.m_value; }
     const T &value() const { return m_value; }
+    /// Says how far the value can be trusted: Good until something else is said. Held: the value is that many cycles old. Safe or Invalid: there is no value, and the
+    /// signal keeps its last good one for `hold` cycles, then its safe one. Told to others if the node sends qualities (QPlcCompactSlaveNode::setSendsQuality()).
+    void setQuality(QPlcQuality quality) { this->giveQuality(quality); }
     operator const T &() const { return m_value; }
 
 private:

@@ -26,7 +26,8 @@ public:
     QString name() const { return m_name; }
     Direction direction() const { return m_direction; }
     bool isInput() const { return m_direction == Input; }
-    /// How far the value of an input can be trusted. Invalid as long as the node has not asked for qualities (QPlcSlaveNode::setReceivesQuality()), and for an output.
+    /// How far the value can be trusted. Of an input: Invalid as long as the node has not asked for qualities (QPlcSlaveNode::setReceivesQuality()). Of an output: as it
+    /// was set.
     QPlcQuality quality() const { return m_quality ? QPlcQuality::fromByte(quint8(*m_quality)) : QPlcQuality(); }
     /// An input that was declared with QPlcInputTiming::SameCycle.
     bool isSameCycle() const { return isInput() && m_timing == QPlcInputTiming::SameCycle; }
@@ -38,6 +39,8 @@ protected:
     virtual ~QPlcPort();
     /// Ends the cycles of the node, which use this port no more. The first thing that the destructor of a port does, while the port is still whole.
     void leaveNode();
+    /// Of an output.
+    void giveQuality(QPlcQuality quality) { m_given = char(quality.toByte()); }
 
 private:
     friend class QPlcCompactSlaveNode;
@@ -56,7 +59,8 @@ private:
     QString m_name;
     Direction m_direction;
     QPlcInputTiming::Value m_timing;
-    const char *m_quality = nullptr;  // where its byte lies
+    const char *m_quality = nullptr;                               // where its byte lies
+    char m_given = char(QPlcQuality(QPlcQuality::Good).toByte());  // of an output
 };
 
 namespace QPlcPortDetail {

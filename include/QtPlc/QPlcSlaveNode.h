@@ -183,6 +183,10 @@ public:
     void activateWatchdog(std::chrono::nanoseconds time);
     void activateWatchdog(double seconds) { activateWatchdog(std::chrono::nanoseconds(qRound64(seconds * 1e9))); }
 
+    /// Lets the master stop safely with the next answer of this node, as if it were late or lost while critical: an emergency stop button was pressed, a limit of the machine
+    /// was passed. From the cycles of the node or any thread; without effect outside of the real-time phase. \threadsafe yes
+    void requestSafeStop();
+
     State state() const;
     Error error() const;
     QString errorString() const;

@@ -33,6 +33,7 @@ struct CycleEvent
         TrippedByWait,         // node, cycle, duration: it was waited for so long
         TrippedByGap,          // cycle, duration: no cycle could begin for so long
         TrippedByOverruns,     // cycle: too many in a row
+        TrippedByNode,         // node, cycle: it asked for that
         ToldSafeStop,          // cycle: the master has told a node to be safe
         Ended                  // cycle: the cycle thread has left its loop
     };

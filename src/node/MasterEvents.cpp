@@ -91,6 +91,7 @@ void QPlcMasterNodePrivate::report(const CycleEvent &event)
     case CycleEvent::TrippedByWait:
     case CycleEvent::TrippedByGap:
     case CycleEvent::TrippedByOverruns:
+    case CycleEvent::TrippedByNode:
         tripped(event);
         break;
     case CycleEvent::WatchdogTimedOut:

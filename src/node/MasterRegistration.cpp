@@ -40,7 +40,7 @@ QJsonArray commonFeatures(const Message &hello)
 {
     QJsonArray common;
     const QJsonArray offered = hello.fields().value(QStringLiteral("features")).toArray();
-    for (const char *known : {"sameCycle", "leases", "events", "quality"}) {
+    for (const char *known : {"sameCycle", "leases", "events", "quality", "outputQuality"}) {
         const QString feature = QString::fromLatin1(known);
         if (offered.contains(feature))
             common.append(feature);

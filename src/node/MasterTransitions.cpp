@@ -147,7 +147,8 @@ void QPlcMasterNodePrivate::tripped(const qplc::CycleEvent &event)
     const QString name = nodeName(event.node);
     const double milliseconds = double(event.duration) * 1e-6;
     const bool isOfNode = event.kind == CycleEvent::TrippedByLateAnswer
-        || event.kind == CycleEvent::TrippedByLateAnswers || event.kind == CycleEvent::TrippedByWait;
+        || event.kind == CycleEvent::TrippedByLateAnswers || event.kind == CycleEvent::TrippedByWait
+        || event.kind == CycleEvent::TrippedByNode;
     QString text;
     switch (event.kind) {
     case CycleEvent::TrippedByLateAnswer:
@@ -161,6 +162,9 @@ void QPlcMasterNodePrivate::tripped(const qplc::CycleEvent &event)
                    .arg(name)
                    .arg(event.cycle)
                    .arg(milliseconds, 0, 'f', 0);
+        break;
+    case CycleEvent::TrippedByNode:
+        text = QStringLiteral("node '%1' asked for it in cycle %2").arg(name).arg(event.cycle);
         break;
     case CycleEvent::TrippedByGap:
         text = QStringLiteral("the master stood still for %1 ms before cycle %2")

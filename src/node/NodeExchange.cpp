@@ -215,6 +215,8 @@ void NodeExchange::stepLocalNodes(const Stage &stage) noexcept
         if (!slot.computed && !slot.faulted)
             m_reports.post({CycleEvent::NodeFaulted, slot.id, 0, m_cycle.number});
         slot.faulted = !slot.computed;
+        if (slot.local->wantsSafeStop())
+            m_guard.askedBy(slot, m_cycle.number);
         slot.statistics.stepped(slot.local->endOfStep(), slot.local->executionTime(), m_statistics.deadline());
     }
 }
@@ -375,6 +377,8 @@ void NodeExchange::takeAnswer(NodeSlot &slot, const char *frame, std::size_t siz
         m_guard.answeredInTime(slot);
     slot.answered = slot.answered || current;
     slot.isSafe.store(slot.decoder.header().flags & SafeStopFlag, std::memory_order_relaxed);
+    if (slot.decoder.header().flags & StopWantedFlag)
+        m_guard.askedBy(slot, m_cycle.number);
     const std::int64_t arrival = now();
     slot.statistics.answered(slot.decoder.cycle() - m_cycleZero, arrival, slot.decoder.header().info);
     if (current)

@@ -63,6 +63,7 @@ bool NodeDeclaration::fromMessage(const QPlcMessage &message, NodeDeclaration *d
     declaration->critical = fields.value(QStringLiteral("critical")).toBool() && !declaration->listener;
     declaration->twoPhase = fields.value(QStringLiteral("twoPhase")).toBool();
     declaration->quality = fields.value(QStringLiteral("quality")).toBool();
+    declaration->outputQuality = fields.value(QStringLiteral("outputQuality")).toBool();
     if (declaration->name.isEmpty() || declaration->name.size() > LongestName)
         *error = QStringLiteral("a node needs a name of 1 ... %1 characters").arg(LongestName);
     else if (declaration->name != printable(declaration->name))
@@ -88,6 +89,7 @@ NodeDeclaration NodeDeclaration::fromRuntime(const NodeRuntime &runtime)
     declaration.interval = ListeningInterval(runtime.node().listeningInterval());
     declaration.twoPhase = runtime.node().isTwoPhase();
     declaration.quality = runtime.inputLayout().hasQualities();
+    declaration.outputQuality = runtime.outputLayout().hasQualities();
     declaration.inputs = describe(runtime.table(), runtime.inputLayout());
     for (int i = 0; i < declaration.inputs.size(); ++i)
         declaration.inputs[i].sameCycle = runtime.sameCycle()[std::size_t(i)];
@@ -183,9 +185,10 @@ std::shared_ptr<NodeSlot> NodeRegistry::admit(const NodeDeclaration &declaration
     slot->twoPhase = declaration.twoPhase;
     for (const NodeDeclaration::Signal &input : declaration.inputs)
         slot->sameCycle.push_back(input.sameCycle);
-    slot->inputLayout = PayloadLayout(
-        m_table, inputs, declaration.quality ? PayloadLayout::WithQualities : PayloadLayout::WithoutQualities);
-    slot->outputLayout = PayloadLayout(m_table, outputs);
+    const auto with
+        = [](bool qualities) { return qualities ? PayloadLayout::WithQualities : PayloadLayout::WithoutQualities; };
+    slot->inputLayout = PayloadLayout(m_table, inputs, with(declaration.quality));
+    slot->outputLayout = PayloadLayout(m_table, outputs, with(declaration.outputQuality));
     if (closesLoop(slot, refusal))
         return nullptr;
     for (QPlcSignalIndex output : outputs)

@@ -31,7 +31,8 @@ struct NodeDeclaration
     bool critical = false;
     ListeningInterval interval;
     bool twoPhase = false;
-    bool quality = false;  // wants the qualities of its inputs
+    bool quality = false;        // wants the qualities of its inputs
+    bool outputQuality = false;  // gives the qualities of its outputs
     QVector<Signal> inputs;
     QVector<Signal> outputs;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "NodeRuntime.h"
 
+#include "QPlcSlaveNodePrivate.h"
 #include "QSplitPrimitive.h"
 #include "SafeValues.h"
 
@@ -84,7 +85,8 @@ bool NodeRuntime::bind(const QPlcSignalTable &table, QString *error)
         return false;
     }
     bindInputs(inputs);
-    m_outputLayout = PayloadLayout(table, outputs);
+    m_outputLayout = PayloadLayout(
+        table, outputs, m_node.d->sendsQuality ? PayloadLayout::WithQualities : PayloadLayout::WithoutQualities);
     m_sameCycle.clear();
     for (QPlcSignalIndex input : qAsConst(inputs))
         m_sameCycle.push_back(m_node.isSameCycle() || sameCycle.contains(input));
@@ -184,6 +186,7 @@ void NodeRuntime::beginPhase(bool isLockstep, TimeSource &time)
 {
     m_time = isLockstep ? nullptr : &time;
     m_isSafe = m_hasFailed = false;
+    m_wantsSafeStop.store(false, std::memory_order_relaxed);
 }
 
 void NodeRuntime::makeSafe(QPlcSlaveNode::SafeStateReason reason) noexcept

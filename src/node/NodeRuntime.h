@@ -54,6 +54,9 @@ public:
     /// (but for a listener, which goes on watching). On the thread of step(), or that of the node while no cycle runs.
     void makeSafe(QPlcSlaveNode::SafeStateReason reason) noexcept;
     bool isSafe() const { return m_isSafe; }
+    /// The master shall stop safely: it is told with the outputs of the next cycle. Until the next phase. \threadsafe yes
+    void requestSafeStop() { m_wantsSafeStop.store(true, std::memory_order_relaxed); }
+    bool wantsSafeStop() const { return m_wantsSafeStop.load(std::memory_order_relaxed); }
     /// The class of the user is about to be destroyed: makeSafe() and stopped() call nothing of it any more, until bind(). \threadsafe yes
     void leaveCodeAlone() { m_isCodeGone.store(true, std::memory_order_relaxed); }
     /// One cycle. \return false when the code of the node threw, now or before in this phase: it is in its safe state then
@@ -108,6 +111,7 @@ private:
     std::vector<char> m_safeInputs;
     std::vector<char> m_safeOutputs;
     std::atomic<bool> m_isCodeGone{false};
+    std::atomic<bool> m_wantsSafeStop{false};
     bool m_isSafe = false;
     bool m_hasFailed = false;  // in this phase
     QString m_workloadSignal;

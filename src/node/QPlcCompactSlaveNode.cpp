@@ -35,6 +35,17 @@ QPlcCompactSlaveNode::~QPlcCompactSlaveNode()
         port->m_node = nullptr;  // it lives longer
 }
 
+void QPlcCompactSlaveNode::setSendsQuality(bool sends)
+{
+    Q_ASSERT_X(!d->hasChannel, "QPlcCompactSlaveNode::setSendsQuality", "a registered node stays what it is");
+    d->sendsQuality = sends;
+}
+
+bool QPlcCompactSlaveNode::sendsQuality() const
+{
+    return d->sendsQuality;
+}
+
 /// Its variable is in use as long as cycles run.
 void QPlcCompactSlaveNode::remove(const QPlcPort *port)
 {
@@ -89,6 +100,8 @@ void QPlcCompactSlaveNode::attachPorts(const qplc::PayloadLayout &inputs, const 
     m_inputs = m_outputs = Plan();
     m_inputValues = inputs.valueSize();
     m_qualities.assign(inputs.hasQualities() ? inputs.fields().size() : 0, char(QPlcQuality().toByte()));
+    m_outputValues = outputs.valueSize();
+    m_qualifying.clear();
     std::size_t number = 0;  // of the input
     // The layouts follow the order in which bindPorts() named the ports.
     auto input = inputs.fields().begin();
@@ -98,6 +111,8 @@ void QPlcCompactSlaveNode::attachPorts(const qplc::PayloadLayout &inputs, const 
         port->attach(field.type);
         if (port->isInput())
             port->m_quality = m_qualities.empty() ? nullptr : &m_qualities[number++];
+        else if (outputs.hasQualities())
+            m_qualifying.push_back(port);
         (port->isInput() ? m_inputs : m_outputs).add(port, field.offset, quint32(field.type.size()));
     }
 }
@@ -118,6 +133,9 @@ void QPlcCompactSlaveNode::store(char *outputs) const
         copyBytes(outputs + copy.offset, copy.variable, copy.size);
     for (const Plan::Conversion &conversion : m_outputs.conversions)
         conversion.port->store(outputs + conversion.offset);
+    char *quality = outputs + m_outputValues;
+    for (const QPlcPort *port : m_qualifying)
+        *quality++ = port->m_given;
 }
 
 void QPlcCompactSlaveNode::resetFrame(char *outputs)

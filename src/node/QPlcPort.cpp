@@ -11,6 +11,8 @@ QPlcPort::QPlcPort(QPlcCompactSlaveNode *node, const char *name, Direction direc
     , m_direction(direction)
     , m_timing(timing)
 {
+    if (direction == Output)
+        m_quality = &m_given;
     m_node->m_ports.push_back(this);
 }
 

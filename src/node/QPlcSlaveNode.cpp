@@ -126,6 +126,11 @@ bool QPlcSlaveNode::receivesQuality() const
     return d->receivesQuality;
 }
 
+void QPlcSlaveNode::requestSafeStop()
+{
+    d->runtime.requestSafeStop();
+}
+
 void QPlcSlaveNode::setSignalTable(const QPlcSignalTable &table)
 {
     d->ownTable = table;

@@ -52,6 +52,7 @@ public:
     bool sameCycle = false;  // all inputs
     bool twoPhase = false;
     bool receivesQuality = false;
+    bool sendsQuality = false;
     QString faultPlan;
     QPlcSignalTable ownTable;
     QPlcRealTimeOptions realTimeOptions;

@@ -47,6 +47,11 @@ void SafetyGuard::answeredLate(NodeSlot &slot, std::uint64_t cycle) noexcept
         trip(CycleEvent::TrippedByLateAnswers, slot.id, cycle, 0);
 }
 
+void SafetyGuard::askedBy(const NodeSlot &slot, std::uint64_t cycle) noexcept
+{
+    trip(CycleEvent::TrippedByNode, slot.id, cycle, 0);
+}
+
 bool SafetyGuard::waitedFor(const NodeSlot &slot, std::uint64_t cycle, std::int64_t waited) noexcept
 {
     if (m_limits.longestWait == 0 || waited < m_limits.longestWait)

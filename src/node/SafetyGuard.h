@@ -40,6 +40,8 @@ public:
     void begin(const CycleClock::Tick &tick, std::int64_t period, std::int64_t slept) noexcept;
     void answeredInTime(NodeSlot &slot) noexcept;
     void answeredLate(NodeSlot &slot, std::uint64_t cycle) noexcept;
+    /// A node wants the master to stop safely.
+    void askedBy(const NodeSlot &slot, std::uint64_t cycle) noexcept;
     /// \param waited  [ns] for \a slot, until now. \return whether that is too long
     bool waitedFor(const NodeSlot &slot, std::uint64_t cycle, std::int64_t waited) noexcept;
 

@@ -68,6 +68,8 @@ SignalGuard::Frame SignalGuard::frameFor(const ProcessImage &image, const Payloa
         others[field.signal] = isContested;
     }
     frame.runs = image.scatterRuns(layout, others);
+    frame.qualities = layout.valueSize();
+    frame.qualityCount = layout.hasQualities() ? quint32(layout.fields().size()) : 0;
     return frame;
 }
 
@@ -91,16 +93,17 @@ void SignalGuard::takeOneByOne(const Frame &frame, Writer &writer, const char *p
     bool isWhole = cycle >= now;
     for (const Frame::Field &field : frame.fields) {
         Signal &signal = m_signals[field.place];
-        const ValueFault fault = frame.rules.fault(field.number, payload);
+        const QPlcQuality given = QPlcQuality::fromByte(frame.quality(field, payload));
+        const std::int64_t written = cycle - given.heldCycles();
+        const ValueFault fault = given.isUsable() ? frame.rules.fault(field.number, payload) : ValueFault();
         if (fault)
             refuse(writer.id, field.place, fault, !signal.isRefused);
         signal.isRefused = bool(fault);
-        if (fault || now - cycle > signal.hold) {
-            isWhole = false;
+        isWhole = isWhole && given == QPlcQuality::Good && !fault;
+        if (!given.isUsable() || fault || now - written > signal.hold)
             startGrowing(field.place);
-            continue;
-        }
-        put(field.place, payload + field.from, cycle, now);
+        else
+            put(field.place, payload + field.from, written, now);
     }
     writer.taken = cycle;
     writer.isWhole = isWhole;
@@ -153,14 +156,17 @@ void SignalGuard::claim(const Frame &frame, const Writer &writer, Claims &claims
                         std::int64_t cycle) noexcept
 {
     for (const Frame::Field &field : frame.contested) {
-        const ValueFault fault = frame.rules.fault(field.number, payload);
+        const QPlcQuality given = QPlcQuality::fromByte(frame.quality(field, payload));
+        const std::int64_t written = cycle - given.heldCycles();
+        const ValueFault fault = given.isUsable() ? frame.rules.fault(field.number, payload) : ValueFault();
         const std::int64_t former = claims.good[field.number];
-        if (fault) {
+        if (fault)
             refuse(writer.id, field.place, fault, former != Never);
+        if (fault || !given.isUsable()) {
             claims.good[field.number] = Never;  // who says nonsense now is not believed either in what it said before
-        } else if (cycle > former) {
+        } else if (written > former) {
             std::memcpy(claims.bytes.data() + field.from, payload + field.from, m_signals[field.place].size);
-            claims.good[field.number] = cycle;
+            claims.good[field.number] = written;
         }
     }
 }

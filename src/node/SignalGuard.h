@@ -52,6 +52,22 @@ public:
         std::vector<Field> fields;
         std::vector<CopyRun> runs;     // of all fields
         std::vector<Field> contested;  // of signals with several writers: see Contest
+        quint32 qualities = 0;         // [byte] where those that the writer gives begin
+        quint32 qualityCount = 0;      // 0: it gives none, all its values are good
+
+        /// What the writer says of a value: the byte of its QPlcQuality.
+        quint8 quality(const Field &field, const char *payload) const noexcept
+        {
+            return qualityCount == 0 ? 0 : quint8(payload[qualities + field.number]);
+        }
+        /// Whether every value is good and allowed.
+        bool isGood(const char *payload) const noexcept
+        {
+            quint8 worst = 0;
+            for (quint32 i = 0; i < qualityCount; ++i)
+                worst |= quint8(payload[qualities + i]);
+            return worst == 0 && rules.allow(payload);
+        }
     };
     /// What is known of a writer. As long as it is whole, all its signals are Good and of the cycle `taken`; else each signal has an age of its own.
     struct Writer
@@ -97,10 +113,11 @@ public:
     /// The frame of all values of a payload.
     static Frame frameFor(const QPlcSignalTable &table, const PayloadLayout &layout);
 
-    /// Takes the values of \a cycle out of \a payload; \a now is the cycle at hand: older values are Held, and not taken when they are too old.
+    /// Takes the values of \a cycle out of \a payload; \a now is the cycle at hand: older values are Held, and not taken when they are too old. A value that its
+    /// writer calls Held is that much older, one that it calls Safe or Invalid is none.
     void take(const Frame &frame, Writer &writer, const char *payload, std::int64_t cycle, std::int64_t now) noexcept
     {
-        if (writer.isWhole && cycle >= now && frame.rules.allow(payload)) {
+        if (writer.isWhole && cycle >= now && frame.isGood(payload)) {
             copyRuns(frame.runs, payload, m_values);
             writer.taken = cycle;
         } else {

@@ -229,7 +229,8 @@ void SlaveCycle::compute() noexcept
     m_faulted = !computed;
     m_computedAny = true;
     m_lastCycle = cycle;
-    m_answer.flags = std::uint8_t((computed ? 0 : FaultFlag) | (m_runtime.isSafe() ? SafeStopFlag : 0));
+    m_answer.flags = std::uint8_t((computed ? 0 : FaultFlag) | (m_runtime.isSafe() ? SafeStopFlag : 0)
+                                  | (m_runtime.wantsSafeStop() ? StopWantedFlag : 0));
     m_answer.cycle = cycle;
     m_answer.info
         = std::uint32_t(std::min<std::int64_t>(m_runtime.executionTime(), std::numeric_limits<std::uint32_t>::max()));

@@ -16,6 +16,7 @@ namespace {
 
 const QString sameCycleFeature = QStringLiteral("sameCycle");
 const QString qualityFeature = QStringLiteral("quality");
+const QString outputQualityFeature = QStringLiteral("outputQuality");
 
 QJsonArray describe(const QPlcSignalTable &table, const qplc::PayloadLayout &layout,
                     const std::vector<bool> &sameCycle = {})
@@ -54,6 +55,8 @@ QJsonArray QPlcSlaveNodePrivate::features() const
         needed.append(sameCycleFeature);
     if (receivesQuality)
         needed.append(qualityFeature);
+    if (sendsQuality)
+        needed.append(outputQualityFeature);
     return needed;
 }
 
@@ -100,14 +103,20 @@ void QPlcSlaveNodePrivate::receiveHello(const Message &message)
     if (const QString faults = message.text(QStringLiteral("faults")); !faults.isEmpty())
         qCWarning(lcSlave).noquote() << "the master at" << master.toString()
                                      << "injects faults on purpose:" << qplc::printable(faults);
-    if (isOrdered() && !message.fields().value(QStringLiteral("features")).toArray().contains(sameCycleFeature)) {
+    const QJsonArray offered = message.fields().value(QStringLiteral("features")).toArray();
+    const auto lacks = [&](bool needed, const QString &feature, const QString &what) {
+        if (!needed || offered.contains(feature))
+            return false;
         giveUp(QPlcSlaveNode::RegistrationError,
-               QStringLiteral("the master at %1 knows no same-cycle inputs and two-phase nodes, which node '%2' needs; "
-                              "update the master, or do without them")
-                   .arg(master.toString(), name));
+               QStringLiteral("the master at %1 knows no %2, which node '%3' needs; update the master, or do without "
+                              "them")
+                   .arg(master.toString(), what, name));
+        return true;
+    };
+    if (lacks(isOrdered(), sameCycleFeature, QStringLiteral("same-cycle inputs and two-phase nodes"))
+        || lacks(sendsQuality, outputQualityFeature, QStringLiteral("qualities of outputs")))
         return;
-    }
-    runtime.setQualityOffered(message.fields().value(QStringLiteral("features")).toArray().contains(qualityFeature));
+    runtime.setQualityOffered(offered.contains(qualityFeature));
     QPlcSignalTable table;
     QString text;
     if (!chooseTable(message, &table))
@@ -147,6 +156,8 @@ void QPlcSlaveNodePrivate::registerAtMaster()
         fields.insert(QStringLiteral("twoPhase"), true);
     if (runtime.inputLayout().hasQualities())
         fields.insert(QStringLiteral("quality"), true);
+    if (runtime.outputLayout().hasQualities())
+        fields.insert(QStringLiteral("outputQuality"), true);
     if (!faultPlan.isEmpty())
         fields.insert(QStringLiteral("faults"), faultPlan);
     if (master.kind() == QPlcUnderlyingProtocol::Udp || master.kind() == QPlcUnderlyingProtocol::UdpMulticast) {

@@ -38,7 +38,8 @@ enum FrameFlag : std::uint8_t {
     ResentFlag = 0x01,    ///< sent again because no answer came: to be answered from the cache
     FaultFlag = 0x02,     ///< outputs: the node could not compute this cycle, the values count for nothing
     SafeStopFlag = 0x04,  ///< inputs: the master stops safely, nothing may move; outputs: the node is in its safe state
-    PartFlag = 0x80       ///< part 1, 2, ... of a frame of several parts: `info` is the number of the part
+    StopWantedFlag = 0x08,  ///< outputs: the node wants the master to stop safely
+    PartFlag = 0x80         ///< part 1, 2, ... of a frame of several parts: `info` is the number of the part
 };
 
 struct FrameHeader

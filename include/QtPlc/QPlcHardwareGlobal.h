@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "QPlcGlobal.h"
+
+#if defined(QTPLC_STATIC)
+#define QTPLC_HARDWARE_EXPORT
+#elif defined(QTPLC_BUILD_HARDWARE_LIBRARY)
+#define QTPLC_HARDWARE_EXPORT Q_DECL_EXPORT
+#else
+#define QTPLC_HARDWARE_EXPORT Q_DECL_IMPORT
+#endif
