@@ -37,6 +37,7 @@ protected:
 
 private:
     friend class QPlcDriver;
+    friend class QPlcReadChannel;
     friend class qplc::DriverRunner;
 
     QPlcDriver *m_driver;

@@ -82,6 +82,8 @@ public:
         double age = 0.0;    ///< [s]
     };
     QVector<Wire> wires() const;
+    /// Takes new values from devices that are open. \pre no real-time phase runs, where the cycles do that
+    void readDevices();
 
 public Q_SLOTS:
     /// Begins to open the devices. Called at the first registration at the latest.
@@ -99,9 +101,10 @@ protected:
     void reset() override;
     void step(const QPlcCycle &cycle) override;
     void safeState(SafeStateReason reason) override;
-    void stopped() override;
 
 private:
+    void deviceChanged(const QString &driver, const QString &error);
+
     struct Private;
     std::unique_ptr<Private> m_hardware;
 };

@@ -2,12 +2,14 @@
 #pragma once
 
 #include "QPlcDriver.h"
+#include "QPlcHardwareNode.h"
 #include "QPlcReadChannel.h"
 #include "QPlcWriteChannel.h"
 #include "realtime/SnapshotBuffer.h"
 
 #include <atomic>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <thread>
 
@@ -41,7 +43,9 @@ public:
     /// Wires a channel. \return its number among those of its direction; -1, with the reason in \a error, when there is none of this name
     int wire(const QString &channel, QPlcChannel::Direction direction, QString *error);
 
-    /// \param report  outlives this object
+    /// The wires are known: values can be set. start() and openNow() do it, too.
+    void prepare();
+    /// Begins to open the device. \param report  what it needs outlives stop()
     void start(Report report);
     /// Gives the device its safe values and lets it go.
     void stop();
@@ -54,6 +58,8 @@ public:
     void write(qint64 now, bool isUrgent = false) noexcept;
     void read(qint64 now) noexcept;
     Sample sample(int readChannel, qint64 now) const noexcept;
+    /// The newest value of a channel, for people.
+    QPlcHardwareNode::Wire wireState(int channel, QPlcChannel::Direction direction, qint64 now) const;
 
     // ---- without start(): for tests and commissioning; one call after the other ----
     bool openNow();
@@ -63,44 +69,59 @@ public:
 
 private:
     enum State : int { Closed, Open, Failed };
-
-    void run();
-    void attemptToOpen();
-    void exchange();
-    void waitFor(std::chrono::nanoseconds time);
-    void takeOrders();
-    void publish();
-    void letGo();
-
-    const QString m_kind;
-    std::unique_ptr<QPlcDriver> m_driver;
-    std::vector<QPlcReadChannel *> m_readChannels;    // that are wired
-    std::vector<QPlcWriteChannel *> m_writeChannels;  // that are wired
-
+    /// Channels that every driver has.
+    enum class Own : quint8 { No, Online, Age, Failures };
+    struct ReadEnd
+    {
+        QPlcReadChannel *channel = nullptr;  // null: one of its own
+        Own own = Own::No;
+        friend bool operator==(const ReadEnd &a, const ReadEnd &b) { return a.channel == b.channel && a.own == b.own; }
+    };
     struct Order
     {
+        enum Kind : quint64 { None, Safe, Computed };
         double value = 0.0;
-        quint64 flags = 0;
+        Kind kind = None;
     };
     struct Reading
     {
         double value = 0.0;
-        qint64 time = 0;
-        qint64 timeout = 0;
+        qint64 time = std::numeric_limits<qint64>::min();  // [ns]; that: never
+        qint64 timeout = 0;                                // [ns]
     };
-    std::vector<Order> m_orders;      // of the cycle
-    std::vector<Reading> m_readings;  // of the cycle
 
-    // between the cycle and a driver with OwnPace
+    static QString ownName(Own own);
+    template<typename End>
+    static int placeOf(std::vector<End> *ends, const End &end);
+    void run();
+    void tell(const QString &error);
+    void waitFor(std::chrono::nanoseconds time);
+    void wake() noexcept;
+    void lose() noexcept;
+    void give(const std::vector<Order> &orders) noexcept;
+    void take(std::vector<Reading> *readings) const noexcept;
+    static void forget(std::vector<Reading> *readings) noexcept;
+    void takeOrders();
+    void publish();
+    double age(qint64 now) const noexcept;
+
+    const QString m_kind;
+    std::unique_ptr<QPlcDriver> m_driver;
+    std::vector<ReadEnd> m_readChannels;              // that are wired
+    std::vector<QPlcWriteChannel *> m_writeChannels;  // that are wired
+    std::vector<Order> m_orders;                      // of the cycle
+    std::vector<Reading> m_readings;                  // of the cycle
+    std::vector<Order> m_newOrders;                   // of the thread of the driver
+    std::vector<Reading> m_newReadings;               // of the thread of the driver
     std::unique_ptr<SnapshotBuffer> m_toDevice;
     std::unique_ptr<SnapshotBuffer> m_fromDevice;
 
     Report m_report;
     std::atomic<State> m_state{Closed};
     std::atomic<quint64> m_failures{0};
-    std::atomic<bool> m_isUrgent{false};
     std::atomic<bool> m_stop{false};
     int m_wakeUp = -1;  // eventfd
+    QString m_told;     // last error
     std::thread m_thread;
 };
 

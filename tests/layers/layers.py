@@ -15,17 +15,18 @@ ARROWS = {
     "transport": {"realtime", "transport"},
     "protocol": {"signals", "protocol"},
     "node": {"signals", "realtime", "transport", "protocol", "node"},
+    "hardware": {"signals", "realtime", "node", "hardware"},
     "gui": {"signals", "node", "gui"},
     "gui3d": {"signals", "node", "gui", "gui3d"},
     "tools": {"signals", "realtime", "protocol", "transport", "node", "tools"},
 }
 # Room with a library of its own: folder of its list of headers, and its umbrella header. All others belong to QtPlc::Core.
-LIBRARIES = {"gui": ("src/gui", "QtPlcGui"), "gui3d": ("src/gui3d", "QtPlcGui3D")}
+LIBRARIES = {"hardware": ("src/hardware", "QtPlcHardware"), "gui": ("src/gui", "QtPlcGui"), "gui3d": ("src/gui3d", "QtPlcGui3D")}
 # Public headers without a source file of their own; "all": a plain value that every room may use.
 HEADER_ONLY = {
     "QPlcBoundInput": "node", "QPlcBoundOutput": "node", "QPlcClock": "all", "QPlcCycle": "all",
     "QPlcCycleStatistics": "node", "QPlcDistribution": "all", "QPlcDurationStatistics": "all", "QPlcGlobal": "all",
-    "QPlcGuiGlobal": "gui", "QPlcGui3DGlobal": "gui3d", "QPlcInput": "node", "QPlcInputTiming": "all", "QPlcLease": "node", "QPlcMasterStatistics": "node", "QPlcNodeInfo": "node", "QPlcNodeStatistics": "node", "QPlcOutput": "node",
+    "QPlcGuiGlobal": "gui", "QPlcGui3DGlobal": "gui3d", "QPlcHardwareGlobal": "hardware", "QPlcReadChannel": "hardware", "QPlcWriteChannel": "hardware", "QPlcInput": "node", "QPlcInputTiming": "all", "QPlcLease": "node", "QPlcMasterStatistics": "node", "QPlcNodeInfo": "node", "QPlcNodeStatistics": "node", "QPlcOutput": "node",
     "QPlcRealTimeSetting": "realtime", "QPlcSignalDefinition": "signals", "QPlcSlaveStatistics": "node", "QPlcStatisticFigure": "node", "QPlcWidgetFactoryOf": "gui", "QPlcWorstCycle": "all",
     "QSplitPrimitive": "signals",
 }
@@ -40,6 +41,7 @@ FORBIDDEN = {
     "src/protocol": [(SOCKETS, "a socket"), (EVENT_LOOP, "the event loop of Qt"), (OTHER_CLOCKS, "a clock")],
     "src/transport": [(OTHER_CLOCKS, "a clock other than qplc::TimeSource")],
     "src/node": [(OTHER_CLOCKS, "a clock other than qplc::TimeSource")],
+    "src/hardware": [(OTHER_CLOCKS, "a clock other than qplc::TimeSource")],
     "src/tools": [(OTHER_CLOCKS, "a clock other than qplc::TimeSource")],
     "examples/airborne_wind_energy/plant": [(QT, "Qt")],
     "examples/airborne_wind_energy/flight_control": [(QT, "Qt")],

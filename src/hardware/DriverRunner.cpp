@@ -1,0 +1,383 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "DriverRunner.h"
+
+#include "QPlcDriverSettings.h"
+#include "node/BackOff.h"
+#include "realtime/TimeSource.h"
+#include "signals/MessageText.h"
+
+#include <QtCore/QRandomGenerator>
+
+#include <algorithm>
+
+#include <poll.h>
+#include <pthread.h>
+#include <sched.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+namespace qplc {
+
+namespace {
+
+constexpr std::chrono::hours longestTime{24};
+constexpr qint64 Never = std::numeric_limits<qint64>::min();
+
+}  // namespace
+
+QString DriverRunner::ownName(Own own)
+{
+    return own == Own::Online ? QStringLiteral("@online")
+        : own == Own::Age     ? QStringLiteral("@age")
+                              : QStringLiteral("@failures");
+}
+
+DriverRunner::DriverRunner(const QString &name, const QString &kind, std::unique_ptr<QPlcDriver> driver)
+    : m_kind(kind)
+    , m_driver(std::move(driver))
+    , m_wakeUp(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC))
+{
+    m_driver->m_name = name;
+}
+
+DriverRunner::~DriverRunner()
+{
+    stop();
+    ::close(m_wakeUp);
+}
+
+// ---- before the start ----
+
+void DriverRunner::configure(QPlcDriverSettings &settings)
+{
+    using namespace std::chrono_literals;
+    const bool isOwnPace = m_driver->pace() == QPlcDriver::OwnPace;
+    if (isOwnPace)
+        m_driver->m_interval = settings.duration(QStringLiteral("interval"), 10ms, 100us, longestTime);
+    m_driver->m_timeout
+        = settings.duration(QStringLiteral("timeout"),
+                            isOwnPace ? 3 * m_driver->m_interval : std::chrono::nanoseconds(100ms), 1ms, longestTime);
+    m_driver->configure(settings);
+}
+
+int DriverRunner::wire(const QString &name, QPlcChannel::Direction direction, QString *error)
+{
+    const bool isRead = direction == QPlcChannel::Read;
+    for (const Own own : {Own::Online, Own::Age, Own::Failures}) {
+        if (isRead && name == ownName(own))
+            return placeOf(&m_readChannels, ReadEnd{nullptr, own});
+    }
+    QPlcChannel *channel = m_driver->channel(name, direction, error);
+    if (!channel) {
+        if (error->isEmpty())
+            *error = QStringLiteral("driver '%1' has no channel %2 to %3%4")
+                         .arg(m_kind, quoted(name), isRead ? QStringLiteral("read") : QStringLiteral("write"),
+                              didYouMean(closeNames(name, m_driver->channelNames(direction))));
+        return -1;
+    }
+    channel->m_isWired = true;
+    if (isRead)
+        return placeOf(&m_readChannels, ReadEnd{static_cast<QPlcReadChannel *>(channel), Own::No});
+    return placeOf(&m_writeChannels, static_cast<QPlcWriteChannel *>(channel));
+}
+
+/// Number of \a end among \a ends; one that is new goes to their end.
+template<typename End>
+int DriverRunner::placeOf(std::vector<End> *ends, const End &end)
+{
+    const auto found = std::find(ends->begin(), ends->end(), end);
+    const auto place = int(found - ends->begin());
+    if (found == ends->end())
+        ends->push_back(end);
+    return place;
+}
+
+void DriverRunner::prepare()
+{
+    if (m_toDevice && m_orders.size() == m_writeChannels.size() && m_readings.size() == m_readChannels.size())
+        return;
+    m_orders.assign(m_writeChannels.size(), {});
+    m_readings.assign(m_readChannels.size(), {});
+    m_newReadings = m_readings;
+    m_newOrders = m_orders;
+    m_toDevice = std::make_unique<SnapshotBuffer>(m_orders.size() * sizeof(Order));
+    m_fromDevice = std::make_unique<SnapshotBuffer>(m_readings.size() * sizeof(Reading));
+    for (const ReadEnd &end : m_readChannels) {
+        if (end.channel && end.channel->m_timeout < 0)
+            end.channel->m_timeout = m_driver->m_timeout.count();
+    }
+}
+
+// ---- the cycle ----
+
+void DriverRunner::setValue(int writeChannel, double value, bool isSafe) noexcept
+{
+    m_orders[std::size_t(writeChannel)] = {value, isSafe ? Order::Safe : Order::Computed};
+}
+
+void DriverRunner::write(qint64 now, bool isUrgent) noexcept
+{
+    m_toDevice->publish(m_orders.data(), quint64(now));
+    if (m_driver->pace() == QPlcDriver::OwnPace) {
+        if (isUrgent)
+            wake();
+        return;
+    }
+    if (!isOnline())
+        return;
+    give(m_orders);
+    m_driver->m_now = now;
+    if (!m_driver->write())
+        lose();
+}
+
+void DriverRunner::read(qint64 now) noexcept
+{
+    if (m_driver->pace() == QPlcDriver::OwnPace) {
+        m_fromDevice->read(m_readings.data(), nullptr);
+        return;
+    }
+    if (isOnline()) {
+        m_driver->m_now = now;
+        if (!m_driver->read())
+            lose();
+    }
+    if (isOnline())
+        take(&m_readings);
+    else
+        forget(&m_readings);  // its channels belong to the thread of the driver now
+}
+
+DriverRunner::Sample DriverRunner::sample(int readChannel, qint64 now) const noexcept
+{
+    const Reading &reading = m_readings[std::size_t(readChannel)];
+    switch (m_readChannels[std::size_t(readChannel)].own) {
+    case Own::Online:
+        return {isOnline() ? 1.0 : 0.0, now, true};
+    case Own::Failures:
+        return {double(failures()), now, true};
+    case Own::Age:
+        return {age(now), now, true};
+    case Own::No:
+        break;
+    }
+    const bool isFresh = reading.time != Never && (reading.timeout == 0 || now - reading.time <= reading.timeout);
+    return {reading.value, reading.time, isFresh};
+}
+
+QPlcHardwareNode::Wire DriverRunner::wireState(int channel, QPlcChannel::Direction direction, qint64 now) const
+{
+    const auto place = std::size_t(channel);
+    QPlcHardwareNode::Wire wire;
+    wire.driver = name();
+    wire.direction = direction;
+    if (direction == QPlcChannel::Write) {
+        wire.channel = m_writeChannels[place]->name();
+        wire.value = m_orders[place].value;
+        wire.isFresh = m_orders[place].kind != Order::None;
+        return wire;
+    }
+    const Sample sample = this->sample(channel, now);
+    const ReadEnd &end = m_readChannels[place];
+    wire.channel = end.channel ? end.channel->name() : ownName(end.own);
+    wire.value = sample.value;
+    wire.isFresh = sample.isFresh;
+    wire.age = sample.time == Never ? std::numeric_limits<double>::infinity() : double(now - sample.time) * 1e-9;
+    return wire;
+}
+
+/// Of the oldest value that is wired [s]; infinite: one of them was never read.
+double DriverRunner::age(qint64 now) const noexcept
+{
+    qint64 oldest = now;
+    for (std::size_t i = 0; i < m_readings.size(); ++i) {
+        if (m_readChannels[i].own == Own::No)
+            oldest = std::min(oldest, m_readings[i].time);
+    }
+    return oldest == Never ? std::numeric_limits<double>::infinity() : double(now - oldest) * 1e-9;
+}
+
+/// The cycle has met an error: from here on the device belongs to the thread of the driver.
+void DriverRunner::lose() noexcept
+{
+    m_state.store(Failed, std::memory_order_release);
+    wake();
+}
+
+void DriverRunner::wake() noexcept
+{
+    const std::uint64_t one = 1;
+    const ssize_t written = ::write(m_wakeUp, &one, sizeof one);
+    Q_UNUSED(written)  // a counter that is full wakes, too
+}
+
+// ---- channels ----
+
+void DriverRunner::give(const std::vector<Order> &orders) noexcept
+{
+    for (std::size_t i = 0; i < orders.size(); ++i) {
+        QPlcWriteChannel &channel = *m_writeChannels[i];
+        channel.m_hasValue = orders[i].kind != Order::None;
+        channel.m_isSafe = orders[i].kind != Order::Computed;
+        channel.m_value = orders[i].value;
+    }
+}
+
+void DriverRunner::take(std::vector<Reading> *readings) const noexcept
+{
+    for (std::size_t i = 0; i < readings->size(); ++i) {
+        if (const QPlcReadChannel *channel = m_readChannels[i].channel)
+            (*readings)[i] = {channel->m_value, channel->m_time, channel->m_timeout};
+    }
+}
+
+void DriverRunner::forget(std::vector<Reading> *readings) noexcept
+{
+    for (Reading &reading : *readings)
+        reading.time = Never;
+}
+
+void DriverRunner::takeOrders()
+{
+    if (m_toDevice->read(m_newOrders.data(), nullptr))
+        give(m_newOrders);
+}
+
+/// What a driver with OwnPace has read.
+void DriverRunner::publish()
+{
+    if (m_driver->pace() != QPlcDriver::OwnPace)
+        return;
+    take(&m_newReadings);
+    m_fromDevice->publish(m_newReadings.data(), quint64(m_driver->m_now));
+}
+
+// ---- the thread of the driver ----
+
+void DriverRunner::start(Report report)
+{
+    if (m_thread.joinable())
+        return;
+    prepare();
+    m_report = std::move(report);
+    m_stop = false;
+    m_thread = std::thread([this] { run(); });
+}
+
+void DriverRunner::stop()
+{
+    if (!m_thread.joinable())
+        return;
+    m_stop = true;
+    wake();
+    m_thread.join();
+}
+
+void DriverRunner::run()
+{
+    const sched_param ordinary{};
+    pthread_setschedparam(pthread_self(), SCHED_OTHER,
+                          &ordinary);  // a slow bus is no part of the cycle, whatever chrt says
+    pthread_setname_np(pthread_self(), m_driver->m_name.toLocal8Bit().left(15).constData());
+    BackOff backOff;
+    qint64 next = monotonicNow();
+    while (!m_stop.load(std::memory_order_acquire)) {
+        switch (m_state.load(std::memory_order_acquire)) {
+        case Closed:
+            if (openNow()) {
+                backOff.reset();
+                next = monotonicNow();
+                tell({});
+            } else {
+                tell(m_driver->errorString());
+                waitFor(backOff.next(QRandomGenerator::global()->generateDouble()));
+            }
+            break;
+        case Open:
+            if (m_driver->pace() == QPlcDriver::EveryCycle) {
+                waitFor(longestTime);
+            } else if (writeNow(monotonicNow()) && readNow(monotonicNow())) {
+                next = std::max<qint64>(next + m_driver->m_interval.count(), monotonicNow());
+                waitFor(std::chrono::nanoseconds(next - monotonicNow()));
+            }
+            break;
+        case Failed:
+            tell(m_driver->errorString());
+            closeNow();
+            waitFor(backOff.next(QRandomGenerator::global()->generateDouble()));
+            break;
+        }
+    }
+    if (isOnline() && m_driver->pace() == QPlcDriver::OwnPace)
+        writeNow(monotonicNow());
+    closeNow();
+}
+
+void DriverRunner::tell(const QString &error)
+{
+    if (error.isEmpty() || error != m_told)
+        m_report(error);
+    m_told = error;
+}
+
+void DriverRunner::waitFor(std::chrono::nanoseconds time)
+{
+    pollfd descriptor{m_wakeUp, POLLIN, 0};
+    const timespec duration = timeSpec(std::max<qint64>(0, time.count()));
+    std::uint64_t count = 0;
+    if (::ppoll(&descriptor, 1, &duration, nullptr) > 0 && ::read(m_wakeUp, &count, sizeof count) < 0)
+        return;  // somebody else has read it: nobody does
+}
+
+bool DriverRunner::openNow()
+{
+    prepare();
+    m_driver->m_now = monotonicNow();
+    if (!m_driver->open())
+        return false;
+    takeOrders();
+    if (m_driver->pace() == QPlcDriver::EveryCycle && !m_driver->write()) {  // before the cycle may come between
+        m_driver->close();
+        return false;
+    }
+    m_state.store(Open, std::memory_order_release);
+    return true;
+}
+
+void DriverRunner::closeNow()
+{
+    const State state = m_state.exchange(Closed, std::memory_order_acq_rel);
+    if (state == Closed)
+        return;
+    if (state == Failed)
+        m_failures.fetch_add(1, std::memory_order_relaxed);
+    m_driver->close();
+    for (const ReadEnd &end : m_readChannels) {
+        if (end.channel)
+            end.channel->invalidate();
+    }
+    publish();
+}
+
+bool DriverRunner::readNow(qint64 now)
+{
+    m_driver->m_now = now;
+    const bool isRead = m_driver->read();
+    if (isRead)
+        publish();
+    else
+        m_state.store(Failed, std::memory_order_release);
+    return isRead;
+}
+
+bool DriverRunner::writeNow(qint64 now)
+{
+    m_driver->m_now = now;
+    takeOrders();
+    const bool isWritten = m_driver->write();
+    if (!isWritten)
+        m_state.store(Failed, std::memory_order_release);
+    return isWritten;
+}
+
+}  // namespace qplc

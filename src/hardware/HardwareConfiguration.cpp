@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "HardwareConfiguration.h"
+
+#include "DriverSettingsData.h"
+#include "signals/IniParser.h"
+#include "signals/MessageText.h"
+
+#include <QtCore/QJsonDocument>
+#include <QtCore/QJsonObject>
+#include <QtCore/QRegularExpression>
+
+#include <algorithm>
+#include <cmath>
+
+namespace qplc {
+
+namespace {
+
+const QString nodeSection = QStringLiteral("node");
+const QStringList partNames{QStringLiteral("read"), QStringLiteral("write"), QStringLiteral("safe")};
+
+bool toFiniteNumber(const QString &text, double *number)
+{
+    bool isNumber = false;
+    *number = text.toDouble(&isNumber);
+    return isNumber && std::isfinite(*number);
+}
+
+}  // namespace
+
+bool ConfigurationTerm::fromText(const QString &text, ConfigurationTerm *term, QString *error)
+{
+    static const QRegularExpression pattern(
+        QStringLiteral(R"(^([^\s*+\[\]]+)(?:\[(\d{1,4})\])?(?:\s*\*\s*(\S+))?(?:\s+([+-])\s*(\S+))?$)"));
+    const QRegularExpressionMatch match = pattern.match(text);
+    *term = {};
+    const QString sign = match.captured(4);
+    const bool isGood = match.hasMatch()
+        && (match.captured(3).isEmpty() || toFiniteNumber(match.captured(3), &term->factor))
+        && (sign.isEmpty() || toFiniteNumber(match.captured(5), &term->offset));
+    if (!isGood) {
+        *error = QStringLiteral("%1 is no name with a factor and an offset; write for example 'speed', 'speed * 0.1' "
+                                "or 'position[2] * 0.001 - 5'")
+                     .arg(quoted(text));
+        return false;
+    }
+    term->name = match.captured(1);
+    term->element = match.captured(2).isEmpty() ? -1 : match.captured(2).toInt();
+    term->offset = sign == QLatin1String("-") ? -term->offset : term->offset;
+    return true;
+}
+
+HardwareConfiguration::HardwareConfiguration(const QByteArray &text, const QString &fileName)
+    : m_fileName(fileName)
+{
+    if (fileName.endsWith(QLatin1String(".json"), Qt::CaseInsensitive))
+        readJson(text);
+    else
+        readIni(text);
+    interpret();
+}
+
+// ---- text ----
+
+void HardwareConfiguration::readIni(const QByteArray &text)
+{
+    IniParser parser(text);
+    for (IniItem item = parser.next(); item.kind != IniItem::End; item = parser.next()) {
+        if (!item.error.isEmpty())
+            addError(item.line, item.errorColumn, item.error);
+        else if (item.kind == IniItem::Section)
+            addSection(item.name, item.line, item.column);
+        else if (m_sections.isEmpty())
+            addError(item.line, item.column,
+                     QStringLiteral(
+                         "%1 stands before the first section; begin with [node] or the name of a device in brackets")
+                         .arg(quoted(item.name)));
+        else
+            addEntry({item.name, item.value, item.line, item.valueColumn});
+    }
+}
+
+void HardwareConfiguration::readJson(const QByteArray &text)
+{
+    QJsonParseError error{};
+    const QJsonDocument document = QJsonDocument::fromJson(text, &error);
+    if (error.error != QJsonParseError::NoError) {
+        const QByteArray before = text.left(error.offset);
+        addError(before.count('\n') + 1, error.offset - before.lastIndexOf('\n') - 1,
+                 QStringLiteral("this is no JSON: %1").arg(error.errorString()));
+        return;
+    }
+    const QJsonObject sections = document.object();
+    for (auto section = sections.begin(); section != sections.end(); ++section) {
+        if (section->isObject())
+            readJsonSection(section.key(), section->toObject(), false);
+        else
+            addError(0, 0,
+                     QStringLiteral("%1 is no object; write \"%2\": {\"driver\": ...}")
+                         .arg(quoted(section.key()), section.key()));
+    }
+}
+
+void HardwareConfiguration::readJsonSection(const QString &name, const QJsonObject &object, bool isPart)
+{
+    addSection(name, 0, 0);
+    const int own = m_sections.size() - 1;
+    for (auto entry = object.begin(); entry != object.end(); ++entry) {
+        if (entry->isObject() && !isPart)
+            readJsonSection(name + QLatin1Char('.') + entry.key(), entry->toObject(), true);
+        else if (entry->isString() || entry->isDouble() || entry->isBool())
+            m_sections[own].entries.append({entry.key(), entry->toVariant().toString(), 0, 0});
+        else
+            addError(0, 0,
+                     QStringLiteral("%1 of section %2 is no text, number or truth value")
+                         .arg(quoted(entry.key()), quoted(name)));
+    }
+}
+
+void HardwareConfiguration::addSection(const QString &name, int line, int column)
+{
+    const auto isSame = [&](const Section &section) { return section.name == name; };
+    if (std::any_of(m_sections.begin(), m_sections.end(), isSame))
+        addError(line, column, QStringLiteral("section %1 is there twice; put its lines together").arg(quoted(name)));
+    m_sections.append({name, line, {}});
+}
+
+void HardwareConfiguration::addEntry(const ConfigurationEntry &entry)
+{
+    QVector<ConfigurationEntry> &entries = m_sections.last().entries;
+    const auto isSame = [&](const ConfigurationEntry &other) { return other.key == entry.key; };
+    const auto former = std::find_if(entries.begin(), entries.end(), isSame);
+    if (former != entries.end())
+        addError(entry.line, 1,
+                 QStringLiteral("%1 is there twice, first in line %2; leave one of them out")
+                     .arg(quoted(entry.key))
+                     .arg(former->line));
+    else
+        entries.append(entry);
+}
+
+// ---- meaning ----
+
+void HardwareConfiguration::interpret()
+{
+    for (const Section &section : qAsConst(m_sections)) {
+        if (section.name == nodeSection)
+            readNode(section);
+        else if (!section.name.contains(QLatin1Char('.')))
+            readDriver(section);
+    }
+    for (const Section &section : qAsConst(m_sections)) {
+        const int dot = section.name.lastIndexOf(QLatin1Char('.'));
+        if (dot >= 0)
+            readPart(section, section.name.left(dot), section.name.mid(dot + 1));
+    }
+    if (m_drivers.isEmpty() && m_errors.isEmpty())
+        addError(0, 0,
+                 QStringLiteral("there is no device; begin a section for each of them: [drive], driver = can, ..."));
+}
+
+void HardwareConfiguration::readNode(const Section &section)
+{
+    for (const ConfigurationEntry &entry : section.entries) {
+        if (entry.key == QLatin1String("name")) {
+            m_nodeName = entry.value;
+        } else if (entry.key == QLatin1String("safeStop")) {
+            for (const QString &text : entry.value.split(QLatin1Char(','))) {
+                const QString name = text.trimmed();
+                const int dot = name.indexOf(QLatin1Char('.'));
+                if (dot <= 0 || dot + 1 == name.size())
+                    addError(entry,
+                             QStringLiteral("%1 is no channel of a device; write for example 'buttons.emergencyStop'")
+                                 .arg(quoted(name)));
+                else
+                    m_safeStops.append({name.left(dot), name.mid(dot + 1), entry});
+            }
+        } else {
+            addError(
+                entry,
+                QStringLiteral("%1 is no key of [node]; its keys are 'name' and 'safeStop'").arg(quoted(entry.key)));
+        }
+    }
+}
+
+void HardwareConfiguration::readDriver(const Section &section)
+{
+    Driver driver;
+    driver.name = section.name;
+    driver.entry.line = section.line;
+    for (const ConfigurationEntry &entry : section.entries) {
+        if (entry.key == QLatin1String("driver")) {
+            driver.kind = entry.value;
+            driver.entry = entry;
+        } else {
+            driver.keys.append(entry);
+        }
+    }
+    if (driver.kind.isEmpty())
+        addError(driver.entry,
+                 QStringLiteral("section %1 does not say what drives it; add for example 'driver = can'")
+                     .arg(quoted(section.name)));
+    m_drivers.append(driver);
+}
+
+void HardwareConfiguration::readPart(const Section &section, const QString &name, const QString &part)
+{
+    const auto driver
+        = std::find_if(m_drivers.begin(), m_drivers.end(), [&](const Driver &other) { return other.name == name; });
+    if (driver == m_drivers.end() || !partNames.contains(part)) {
+        QStringList known;
+        for (const Driver &other : qAsConst(m_drivers)) {
+            for (const QString &partName : partNames)
+                known << other.name + QLatin1Char('.') + partName;
+        }
+        addError(section.line, 2,
+                 QStringLiteral("section %1 belongs to no device, or is not one of its parts read, write and safe%2")
+                     .arg(quoted(section.name), didYouMean(closeNames(section.name, known))));
+        return;
+    }
+    for (const ConfigurationEntry &entry : section.entries) {
+        if (part == QLatin1String("safe"))
+            readSafeValue(&*driver, entry);
+        else
+            readWire(&*driver, part == QLatin1String("read") ? QPlcChannel::Read : QPlcChannel::Write, entry);
+    }
+}
+
+void HardwareConfiguration::readWire(Driver *driver, QPlcChannel::Direction direction, const ConfigurationEntry &entry)
+{
+    Wire wire;
+    wire.direction = direction;
+    wire.entry = entry;
+    QString error;
+    if (!ConfigurationTerm::fromText(entry.key, &wire.target, &error)
+        || !ConfigurationTerm::fromText(entry.value, &wire.source, &error))
+        addError(entry, error);
+    else if (wire.target.factor != 1.0 || wire.target.offset != 0.0)
+        addError(entry,
+                 QStringLiteral("factor and offset of %1 belong to the right side of '='").arg(quoted(entry.key)));
+    else if ((direction == QPlcChannel::Read ? wire.source : wire.target).element >= 0)
+        addError(entry, QStringLiteral("a channel has no elements: leave the brackets out"));
+    else
+        driver->wires.append(wire);
+}
+
+void HardwareConfiguration::readSafeValue(Driver *driver, const ConfigurationEntry &entry)
+{
+    SafeValue safe{entry.key, 0.0, entry};
+    if (toFiniteNumber(entry.value, &safe.value))
+        driver->safeValues.append(safe);
+    else
+        addError(entry,
+                 QStringLiteral("%1 is no number; write the safe value of %2 in the unit of the device")
+                     .arg(quoted(entry.value), quoted(entry.key)));
+}
+
+// ---- settings ----
+
+std::unique_ptr<QPlcDriverSettings> HardwareConfiguration::settings(const Driver &driver)
+{
+    auto data = std::make_unique<QPlcDriverSettings::Private>();
+    data->name = driver.name;
+    data->fileName = m_fileName;
+    data->entries = driver.keys;
+    data->section = driver.entry;
+    data->errors = &m_errors;
+    return std::unique_ptr<QPlcDriverSettings>(new QPlcDriverSettings(std::move(data)));
+}
+
+void HardwareConfiguration::checkUse(const QPlcDriverSettings &settings)
+{
+    const QPlcDriverSettings::Private &data = *settings.d;
+    for (const ConfigurationEntry &entry : data.entries) {
+        if (!data.used.contains(entry.key))
+            addError(entry,
+                     QStringLiteral("%1 is no key of this driver%2")
+                         .arg(quoted(entry.key), didYouMean(closeNames(entry.key, data.asked))));
+    }
+}
+
+// ---- errors ----
+
+void HardwareConfiguration::addError(const ConfigurationEntry &entry, const QString &message)
+{
+    addError(entry.line, entry.column, message);
+}
+
+void HardwareConfiguration::addError(int line, int column, const QString &message)
+{
+    m_errors.append({m_fileName, line, column, message});
+}
+
+}  // namespace qplc

@@ -1,0 +1,376 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "QPlcHardwareNode.h"
+
+#include "ChannelPort.h"
+#include "DriverCatalog.h"
+#include "DriverRunner.h"
+#include "HardwareConfiguration.h"
+#include "HardwareLogging.h"
+#include "realtime/TimeSource.h"
+#include "signals/MessageText.h"
+
+#include <QtCore/QFile>
+
+#include <algorithm>
+
+using qplc::ChannelPort;
+using qplc::DriverCatalog;
+using qplc::DriverRunner;
+using qplc::HardwareConfiguration;
+
+struct QPlcHardwareNode::Private
+{
+    /// A channel that stops the plant.
+    struct SafeStop
+    {
+        DriverRunner *runner = nullptr;
+        int channel = -1;
+    };
+    /// A safe value that the configuration gives.
+    struct SafeValue
+    {
+        DriverRunner *runner = nullptr;
+        int channel = -1;
+        double value = 0.0;
+    };
+
+    explicit Private(QPlcHardwareNode *node)
+        : q(node)
+    {
+    }
+
+    void build(HardwareConfiguration *configuration);
+    void buildDriver(HardwareConfiguration *configuration, const HardwareConfiguration::Driver &driver);
+    void buildWire(HardwareConfiguration *configuration, DriverRunner *runner, const HardwareConfiguration::Wire &wire);
+    void buildSafeValue(HardwareConfiguration *configuration, DriverRunner *runner,
+                        const HardwareConfiguration::SafeValue &safe);
+    void buildSafeStop(HardwareConfiguration *configuration, const HardwareConfiguration::Watched &watched);
+    ChannelPort *port(const QString &signal, QPlcPort::Direction direction);
+    void clear();
+    void writeAll(bool isUrgent) noexcept;
+    void readAll(qint64 now) noexcept;
+    void setSafeValues(bool knowTable);
+
+    QPlcHardwareNode *q;
+    QVector<QPlcParseError> errors;
+    std::vector<std::unique_ptr<DriverRunner>> runners;
+    std::vector<std::unique_ptr<ChannelPort>> ports;  // destroyed before the runners
+    std::vector<SafeStop> safeStops;
+    std::vector<SafeValue> safeValues;
+    QMap<QString, QString> failures;  // of drivers that are not online
+    bool isOpen = false;
+};
+
+// ---- configuration ----
+
+void QPlcHardwareNode::Private::build(HardwareConfiguration *configuration)
+{
+    for (const HardwareConfiguration::Driver &driver : configuration->drivers())
+        buildDriver(configuration, driver);
+    for (const HardwareConfiguration::Watched &watched : configuration->safeStops())
+        buildSafeStop(configuration, watched);
+    for (const std::unique_ptr<ChannelPort> &port : ports) {
+        const QString missing = port->isInput() ? QString() : port->missingElements();
+        if (!missing.isEmpty())
+            configuration->addError(
+                {}, QStringLiteral("no channel gives a value to %1; add it to a section 'read'").arg(missing));
+    }
+}
+
+void QPlcHardwareNode::Private::buildDriver(HardwareConfiguration *configuration,
+                                            const HardwareConfiguration::Driver &driver)
+{
+    const QMap<QString, DriverCatalog::Kind> &kinds = DriverCatalog::instance().kinds();
+    const auto kind = kinds.find(driver.kind);
+    if (kind == kinds.end()) {
+        if (!driver.kind.isEmpty())
+            configuration->addError(driver.entry,
+                                    QStringLiteral("there is no driver %1%2; known are: %3")
+                                        .arg(qplc::quoted(driver.kind),
+                                             qplc::didYouMean(qplc::closeNames(driver.kind, kinds.keys())),
+                                             kinds.keys().join(QStringLiteral(", "))));
+        return;
+    }
+    runners.push_back(std::make_unique<DriverRunner>(driver.name, driver.kind, kind->make()));
+    DriverRunner *runner = runners.back().get();
+    const std::unique_ptr<QPlcDriverSettings> settings = configuration->settings(driver);
+    const int former = configuration->errors().size();
+    runner->configure(*settings);
+    configuration->checkUse(*settings);
+    if (configuration->errors().size() > former)
+        return;  // what its channels are is not known: their errors would be echoes
+    for (const HardwareConfiguration::Wire &wire : driver.wires)
+        buildWire(configuration, runner, wire);
+    for (const HardwareConfiguration::SafeValue &safe : driver.safeValues)
+        buildSafeValue(configuration, runner, safe);
+}
+
+void QPlcHardwareNode::Private::buildWire(HardwareConfiguration *configuration, DriverRunner *runner,
+                                          const HardwareConfiguration::Wire &wire)
+{
+    const bool isRead = wire.direction == QPlcChannel::Read;
+    const qplc::ConfigurationTerm &signal = isRead ? wire.target : wire.source;
+    const QString channel = (isRead ? wire.source : wire.target).name;
+    QString error;
+    const int number = runner->wire(channel, wire.direction, &error);
+    if (number < 0) {
+        configuration->addError(wire.entry, error);
+        return;
+    }
+    ChannelPort *port = this->port(signal.name, isRead ? QPlcPort::Output : QPlcPort::Input);
+    if (!port->add(signal.element, {runner, number, wire.source.factor, wire.source.offset}))
+        configuration->addError(
+            wire.entry,
+            QStringLiteral("%1 is wired twice, or with brackets and without; wire each element once")
+                .arg(qplc::quoted(signal.name)));
+}
+
+void QPlcHardwareNode::Private::buildSafeValue(HardwareConfiguration *configuration, DriverRunner *runner,
+                                               const HardwareConfiguration::SafeValue &safe)
+{
+    QString error;
+    const int number = runner->wire(safe.channel, QPlcChannel::Write, &error);
+    if (number < 0)
+        configuration->addError(safe.entry, error);
+    else
+        safeValues.push_back({runner, number, safe.value});
+}
+
+void QPlcHardwareNode::Private::buildSafeStop(HardwareConfiguration *configuration,
+                                              const HardwareConfiguration::Watched &watched)
+{
+    QStringList names;
+    for (const std::unique_ptr<DriverRunner> &runner : runners) {
+        names << runner->name();
+        if (runner->name() != watched.driver)
+            continue;
+        QString error;
+        const int number = runner->wire(watched.channel, QPlcChannel::Read, &error);
+        if (number < 0)
+            configuration->addError(watched.entry, error);
+        else
+            safeStops.push_back({runner.get(), number});
+        return;
+    }
+    configuration->addError(
+        watched.entry,
+        QStringLiteral("there is no device %1%2")
+            .arg(qplc::quoted(watched.driver), qplc::didYouMean(qplc::closeNames(watched.driver, names))));
+}
+
+ChannelPort *QPlcHardwareNode::Private::port(const QString &signal, QPlcPort::Direction direction)
+{
+    const auto found = std::find_if(ports.begin(), ports.end(), [&](const std::unique_ptr<ChannelPort> &port) {
+        return port->name() == signal && port->direction() == direction;
+    });
+    if (found != ports.end())
+        return found->get();
+    ports.push_back(std::make_unique<ChannelPort>(q, signal, direction));
+    return ports.back().get();
+}
+
+void QPlcHardwareNode::Private::clear()
+{
+    ports.clear();
+    runners.clear();
+    safeStops.clear();
+    safeValues.clear();
+}
+
+QPlcHardwareNode::QPlcHardwareNode(const QString &name, QObject *parent)
+    : QPlcCompactSlaveNode(name, ErrorZeroOrderHold, parent)
+    , m_hardware(std::make_unique<Private>(this))
+{
+    setSendsQuality(true);
+}
+
+QPlcHardwareNode::~QPlcHardwareNode()
+{
+    disconnectFromMaster();
+    closeDevices();
+    m_hardware->clear();
+}
+
+bool QPlcHardwareNode::configureFromFile(const QString &fileName)
+{
+    QFile file(fileName);
+    if (file.open(QIODevice::ReadOnly))
+        return configure(file.readAll(), fileName);
+    m_hardware->errors = {{fileName, 0, 0, QStringLiteral("cannot be read: %1").arg(file.errorString())}};
+    return false;
+}
+
+bool QPlcHardwareNode::configure(const QByteArray &text, const QString &fileName)
+{
+    Q_ASSERT_X(m_hardware->runners.empty(), "QPlcHardwareNode::configure", "a node is configured once");
+    HardwareConfiguration configuration(text, fileName);
+    if (configuration.errors().isEmpty())
+        m_hardware->build(&configuration);
+    m_hardware->errors = configuration.errors();
+    if (!m_hardware->errors.isEmpty()) {
+        m_hardware->clear();
+        return false;
+    }
+    for (const std::unique_ptr<DriverRunner> &runner : m_hardware->runners)
+        runner->prepare();
+    m_hardware->setSafeValues(false);
+    m_hardware->writeAll(false);
+    if (!configuration.nodeName().isEmpty())
+        setName(configuration.nodeName());
+    return true;
+}
+
+QVector<QPlcParseError> QPlcHardwareNode::configurationErrors() const
+{
+    return m_hardware->errors;
+}
+
+void QPlcHardwareNode::addDriverKind(const QString &kind, const QString &description,
+                                     std::function<std::unique_ptr<QPlcDriver>()> make)
+{
+    DriverCatalog::instance().add(kind, {description, std::move(make)});
+}
+
+QVector<QPair<QString, QString>> QPlcHardwareNode::driverKinds()
+{
+    QVector<QPair<QString, QString>> kinds;
+    const QMap<QString, DriverCatalog::Kind> &known = DriverCatalog::instance().kinds();
+    for (auto kind = known.begin(); kind != known.end(); ++kind)
+        kinds.append({kind.key(), kind->description});
+    return kinds;
+}
+
+// ---- devices ----
+
+void QPlcHardwareNode::openDevices()
+{
+    if (m_hardware->isOpen)
+        return;
+    m_hardware->isOpen = true;
+    for (const std::unique_ptr<DriverRunner> &runner : m_hardware->runners) {
+        const QString name = runner->name();
+        runner->start([this, name](const QString &error) {
+            QMetaObject::invokeMethod(
+                this, [this, name, error] { deviceChanged(name, error); }, Qt::QueuedConnection);
+        });
+    }
+}
+
+void QPlcHardwareNode::deviceChanged(const QString &driver, const QString &error)
+{
+    if (error.isEmpty()) {
+        m_hardware->failures.remove(driver);
+        qCInfo(lcHardware).noquote() << QStringLiteral("%1: device '%2' is open").arg(name(), driver);
+        Q_EMIT deviceOpened(driver);
+        return;
+    }
+    m_hardware->failures.insert(driver, error);
+    qCWarning(lcHardware).noquote() << QStringLiteral("%1: device '%2': %3 (trying again)").arg(name(), driver, error);
+    Q_EMIT deviceFailed(driver, error);
+}
+
+void QPlcHardwareNode::closeDevices()
+{
+    if (!m_hardware->isOpen)
+        return;
+    m_hardware->setSafeValues(true);
+    m_hardware->writeAll(true);
+    for (const std::unique_ptr<DriverRunner> &runner : m_hardware->runners)
+        runner->stop();
+    m_hardware->isOpen = false;
+}
+
+QVector<QPlcHardwareNode::DriverState> QPlcHardwareNode::drivers() const
+{
+    QVector<DriverState> states;
+    for (const std::unique_ptr<DriverRunner> &runner : m_hardware->runners)
+        states.append({runner->name(), runner->kind(), runner->isOnline(), runner->failures(),
+                       m_hardware->failures.value(runner->name())});
+    return states;
+}
+
+QVector<QPlcHardwareNode::Wire> QPlcHardwareNode::wires() const
+{
+    const qint64 now = qplc::monotonicNow();
+    QVector<Wire> wires;
+    for (const std::unique_ptr<ChannelPort> &port : m_hardware->ports) {
+        for (std::size_t i = 0; i < port->elements().size(); ++i) {
+            const ChannelPort::Element &element = port->elements()[i];
+            if (element.channel >= 0)
+                wires.append(element.runner->wireState(element.channel,
+                                                       port->isInput() ? QPlcChannel::Write : QPlcChannel::Read, now));
+            if (element.channel >= 0)
+                wires.last().signal = port->elementName(i);
+        }
+    }
+    return wires;
+}
+
+void QPlcHardwareNode::readDevices()
+{
+    m_hardware->readAll(qplc::monotonicNow());
+}
+
+void QPlcHardwareNode::Private::readAll(qint64 now) noexcept
+{
+    for (const std::unique_ptr<DriverRunner> &runner : runners)
+        runner->read(now);
+    for (const std::unique_ptr<ChannelPort> &port : ports) {
+        if (!port->isInput())
+            port->refresh(now);
+    }
+}
+
+void QPlcHardwareNode::Private::writeAll(bool isUrgent) noexcept
+{
+    const qint64 now = qplc::monotonicNow();
+    for (const std::unique_ptr<DriverRunner> &runner : runners)
+        runner->write(now, isUrgent);
+}
+
+/// What the configuration says wins over the signal table. \param knowTable  that the ports are bound to
+void QPlcHardwareNode::Private::setSafeValues(bool knowTable)
+{
+    const QPlcSignalTable table = knowTable ? q->signalTable() : QPlcSignalTable();
+    for (const std::unique_ptr<ChannelPort> &port : ports) {
+        const QPlcSignalIndex index = table.indexOf(port->name());
+        if (port->isInput() && index != QPlcInvalidSignalIndex)
+            port->setSafe(table.at(index).safeValue());
+    }
+    for (const SafeValue &safe : safeValues)
+        safe.runner->setValue(safe.channel, safe.value, true);
+}
+
+// ---- cycles ----
+
+void QPlcHardwareNode::reset()
+{
+    m_hardware->setSafeValues(true);
+    m_hardware->writeAll(false);
+    openDevices();
+    m_hardware->readAll(qplc::monotonicNow());
+}
+
+void QPlcHardwareNode::step(const QPlcCycle &)
+{
+    m_hardware->writeAll(false);
+    const qint64 now = qplc::monotonicNow();
+    m_hardware->readAll(now);
+    for (const Private::SafeStop &stop : m_hardware->safeStops) {
+        const DriverRunner::Sample sample = stop.runner->sample(stop.channel, now);
+        if (!sample.isFresh || sample.value != 0.0)
+            requestSafeStop();
+    }
+}
+
+/// The ports have passed the safe values of the table already; those of the configuration win.
+void QPlcHardwareNode::safeState(SafeStateReason)
+{
+    for (const std::unique_ptr<ChannelPort> &port : m_hardware->ports) {
+        if (port->isInput())
+            port->pass(true);
+    }
+    for (const Private::SafeValue &safe : m_hardware->safeValues)
+        safe.runner->setValue(safe.channel, safe.value, true);
+    m_hardware->writeAll(true);
+}

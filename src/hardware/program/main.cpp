@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// The program of a node whose signals are wired to devices, as a file says: see QPlcHardwareNode.
+#include <QtPlcHardware>
+
+#include <QtCore/QTextStream>
+#include <QtCore/QTimer>
+
+namespace {
+
+void print(const QString &text)
+{
+    QTextStream(stdout) << text << Qt::endl;
+}
+
+void printKinds()
+{
+    for (const auto &[kind, description] : QPlcHardwareNode::driverKinds())
+        print(QStringLiteral("%1 %2").arg(kind, -16).arg(description));
+}
+
+QString valueText(const QPlcHardwareNode::Wire &wire)
+{
+    if (!wire.isFresh)
+        return QStringLiteral("-");
+    return QStringLiteral("%1").arg(wire.value, 0, 'g', 7);
+}
+
+void printWires(const QPlcHardwareNode &node)
+{
+    for (const QPlcHardwareNode::DriverState &driver : node.drivers())
+        print(QStringLiteral("%1 (%2): %3")
+                  .arg(driver.name, driver.kind,
+                       driver.isOnline              ? QStringLiteral("open")
+                           : driver.error.isEmpty() ? QStringLiteral("opening")
+                                                    : driver.error));
+    for (const QPlcHardwareNode::Wire &wire : node.wires()) {
+        const QString channel = wire.driver + QLatin1Char('.') + wire.channel;
+        const bool isRead = wire.direction == QPlcChannel::Read;
+        print(QStringLiteral("  %1 %2 %3  %4%5")
+                  .arg(channel, -36)
+                  .arg(isRead ? QStringLiteral("->") : QStringLiteral("<-"))
+                  .arg(wire.signal, -28)
+                  .arg(valueText(wire), 14)
+                  .arg(isRead && wire.isFresh ? QStringLiteral("  %1 ms old").arg(wire.age * 1e3, 0, 'f', 1)
+                                              : QString()));
+    }
+}
+
+/// Shows what comes from the devices, without a master, until a signal ends it.
+int monitor(QPlcNodeApplication &application, QPlcHardwareNode &node)
+{
+    QTimer timer;
+    QObject::connect(&timer, &QTimer::timeout, [&] {
+        node.readDevices();
+        printWires(node);
+        print({});
+    });
+    node.openDevices();
+    timer.start(1000);
+    application.quitOnSignals();
+    const int code = QPlcNodeApplication::exec();
+    node.closeDevices();
+    return code;
+}
+
+}  // namespace
+
+int main(int argc, char **argv)
+{
+    QPlcNodeApplication application(argc, argv);
+    application.setDescription(
+        QStringLiteral("A node that ties plc signals to devices: CAN, switches, sensors, drives, as a file says."));
+    application.setExamples({QStringLiteral("qtplc_hardware winch.ini --master 192.168.1.5 --stay"),
+                             QStringLiteral("qtplc_hardware winch.ini --monitor"),
+                             QStringLiteral("qtplc_hardware --drivers")});
+    application.addPositionalArgument(
+        QStringLiteral("configuration"),
+        QStringLiteral("File that says which devices there are, and what their channels are tied to."),
+        QStringLiteral("CONFIGURATION"));
+    application.addOption(
+        {QStringLiteral("check"), QStringLiteral("Reads the configuration, shows the wires, and ends.")});
+    application.addOption({QStringLiteral("monitor"),
+                           QStringLiteral("Opens the devices and shows their values each second, without a master. "
+                                          "Nothing but safe values is written to them.")});
+    application.addOption({QStringLiteral("drivers"), QStringLiteral("Lists the kinds of drivers.")});
+    if (!application.parseNodeOptions())
+        return application.exitCode();
+    if (application.isSet(QStringLiteral("drivers"))) {
+        printKinds();
+        return QPlcNodeApplication::Success;
+    }
+    if (application.positionalArguments().size() != 1)
+        return application.usageError(QStringLiteral("name one configuration: qtplc_hardware winch.ini"));
+    QPlcHardwareNode node;
+    if (!node.configureFromFile(application.positionalArguments().first()))
+        return application.usageError(QPlcParseError::toString(node.configurationErrors()));
+    if (node.name().isEmpty() && !application.isSet(QStringLiteral("name")))
+        return application.usageError(
+            QStringLiteral("the node has no name: add 'name = ...' to [node] of the configuration, or use --name"));
+    if (application.isSet(QStringLiteral("check"))) {
+        printWires(node);
+        return QPlcNodeApplication::Success;
+    }
+    if (application.isSet(QStringLiteral("monitor")))
+        return monitor(application, node);
+    node.openDevices();
+    return application.run(node);
+}

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "QPlcDriver.h"
+#include "QPlcDriverSettings.h"
+#include "QPlcReadChannel.h"
+#include "QPlcWriteChannel.h"
+
+#include <atomic>
+#include <cerrno>
+#include <memory>
+
+/// The device behind a BenchDriver, as the test holds it: it can be unplugged, break, and be silent.
+struct BenchDevice
+{
+    std::atomic<bool> isPlugged{true};
+    std::atomic<bool> isBroken{false};  // each exchange fails
+    std::atomic<bool> isSilent{false};  // nothing new is measured
+    std::atomic<double> speed{0.0};
+    std::atomic<double> torque{-1.0};  // as written last
+    std::atomic<double> brake{-1.0};
+    std::atomic<bool> torqueWasSafe{false};
+    std::atomic<int> opened{0};
+    std::atomic<int> closed{0};
+    std::atomic<int> reads{0};
+    std::atomic<int> writes{0};
+    std::atomic<double> torqueAtClose{-1.0};
+};
+
+/// A driver whose device is a piece of memory of the test.
+class BenchDriver : public QPlcDriver
+{
+public:
+    BenchDriver(std::shared_ptr<BenchDevice> device, Pace pace)
+        : QPlcDriver(pace)
+        , m_device(std::move(device))
+    {
+    }
+
+private:
+    void configure(QPlcDriverSettings &settings) override
+    {
+        m_port = settings.requiredText(QStringLiteral("device"), QStringLiteral("bench0"));
+        m_gain = settings.number(QStringLiteral("gain"), 1.0, 0.0, 100.0);
+    }
+    bool open() override
+    {
+        if (!m_device->isPlugged)
+            return fail(QStringLiteral("there is no device '%1'; plug it in").arg(m_port));
+        ++m_device->opened;
+        return true;
+    }
+    void close() override
+    {
+        ++m_device->closed;
+        m_device->torqueAtClose = m_device->torque.load();
+    }
+    bool read() override
+    {
+        ++m_device->reads;
+        if (m_device->isBroken)
+            return fail("read from the bench", EIO);
+        if (!m_device->isSilent)
+            m_speed.set(m_gain * m_device->speed);
+        return true;
+    }
+    bool write() override
+    {
+        ++m_device->writes;
+        if (m_torque.hasValue()) {
+            m_device->torque = m_torque.value();
+            m_device->torqueWasSafe = m_torque.isSafe();
+        }
+        if (m_brake.hasValue())
+            m_device->brake = m_brake.isOn() ? 1.0 : 0.0;
+        return true;
+    }
+
+    std::shared_ptr<BenchDevice> m_device;
+    QString m_port;
+    double m_gain = 1.0;
+    QPlcReadChannel m_speed{this, QStringLiteral("speed")};
+    QPlcWriteChannel m_torque{this, QStringLiteral("torque")};
+    QPlcWriteChannel m_brake{this, QStringLiteral("brake")};
+};

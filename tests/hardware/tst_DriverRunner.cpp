@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "BenchDriver.h"
+#include "DriverBench.h"
+
+#include <QtTest/QtTest>
+
+#include <mutex>
+
+using namespace qplc;
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr QPlcDriver::Pace Paces[]{QPlcDriver::EveryCycle, QPlcDriver::OwnPace};
+
+void addPaces()
+{
+    QTest::addColumn<int>("pace");
+    QTest::newRow("every cycle") << int(QPlcDriver::EveryCycle);
+    QTest::newRow("own pace") << int(QPlcDriver::OwnPace);
+}
+
+struct Bench : DriverBench
+{
+    explicit Bench(int pace, const QByteArray &keys = "device = bench0\n",
+                   std::shared_ptr<BenchDevice> memory = std::make_shared<BenchDevice>())
+        : DriverBench(QStringLiteral("bench"), keys, QStringLiteral("bench.ini"),
+                      [=] { return std::make_unique<BenchDriver>(memory, QPlcDriver::Pace(pace)); })
+        , device(memory)
+    {
+    }
+    std::shared_ptr<BenchDevice> device;
+};
+
+/// What the thread of a driver has told.
+struct Reports
+{
+    void add(const QString &error)
+    {
+        const std::lock_guard lock(mutex);
+        texts << error;
+    }
+    QStringList taken()
+    {
+        const std::lock_guard lock(mutex);
+        return texts;
+    }
+    std::mutex mutex;
+    QStringList texts;
+};
+
+}  // namespace
+
+class tst_DriverRunner : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void valuesFlowBothWays_data() { addPaces(); }
+    void valuesFlowBothWays();
+    void aValueIsFreshForItsTimeout_data() { addPaces(); }
+    void aValueIsFreshForItsTimeout();
+    void theTimeoutIsThreeIntervalsUnlessGiven();
+    void withoutASafeValueTheDeviceIsLeftAlone_data() { addPaces(); }
+    void withoutASafeValueTheDeviceIsLeftAlone();
+    void aDeviceIsGivenWhatIsKnownWhenItOpens();
+    void aDeviceThatFailsHasNoValues_data() { addPaces(); }
+    void aDeviceThatFailsHasNoValues();
+    void aDeviceThatIsMissingIsOpenedAgainAndAgain_data() { addPaces(); }
+    void aDeviceThatIsMissingIsOpenedAgainAndAgain();
+    void anErrorIsToldOnceAndItsEndToo();
+    void stopGivesTheLastValuesAndCloses_data() { addPaces(); }
+    void stopGivesTheLastValuesAndCloses();
+    void everyDriverTellsWhetherItIsOnline();
+    void anUnknownChannelIsNamedWithThoseThatAreClose();
+    void theErrorOfACycleNamesWhatAndWhyAndTheRemedy();
+};
+
+void tst_DriverRunner::valuesFlowBothWays()
+{
+    QFETCH(int, pace);
+    Bench bench(pace, "device = bench0\ngain = 2\n");
+    QCOMPARE(bench.errors(), QString());
+    QCOMPARE(bench.wireRead("speed"), QString());
+    QCOMPARE(bench.wireWrite("torque"), QString());
+    QVERIFY(bench.open());
+    bench.device->speed = 3.0;
+    bench.set("torque", 7.5);
+    QVERIFY(bench.exchange());
+    QCOMPARE(bench.value("speed"), 6.0);
+    QCOMPARE(bench.device->torque.load(), 7.5);
+    QVERIFY(!bench.device->torqueWasSafe);
+    QCOMPARE(bench.device->brake.load(), -1.0);  // not wired
+}
+
+void tst_DriverRunner::aValueIsFreshForItsTimeout()
+{
+    QFETCH(int, pace);
+    Bench bench(pace, "device = bench0\ntimeout = 50 ms\n");
+    bench.wireRead("speed");
+    QVERIFY(bench.open());
+    QVERIFY(bench.exchange());
+    QVERIFY(bench.isFresh("speed"));
+    bench.device->isSilent = true;
+    bench.advance(50ms);
+    QVERIFY(bench.exchange());
+    QVERIFY(bench.isFresh("speed"));
+    bench.advance(1ns);
+    QVERIFY(bench.exchange());
+    QVERIFY(!bench.isFresh("speed"));
+    bench.device->isSilent = false;
+    QVERIFY(bench.exchange());
+    QVERIFY(bench.isFresh("speed"));
+}
+
+void tst_DriverRunner::theTimeoutIsThreeIntervalsUnlessGiven()
+{
+    QCOMPARE(Bench(QPlcDriver::OwnPace, "device = b\ninterval = 20 ms\n").runner().driver().timeout(),
+             std::chrono::nanoseconds(60ms));
+    QCOMPARE(Bench(QPlcDriver::EveryCycle).runner().driver().timeout(), std::chrono::nanoseconds(100ms));
+    QCOMPARE(Bench(QPlcDriver::EveryCycle, "device = b\ninterval = 20 ms\n").errors(),
+             QString("bench.ini:4:12: 'interval' is no key of this driver"));
+}
+
+void tst_DriverRunner::withoutASafeValueTheDeviceIsLeftAlone()
+{
+    QFETCH(int, pace);
+    Bench bench(pace);
+    bench.wireWrite("torque");
+    bench.wireWrite("brake");
+    QVERIFY(bench.open());
+    QVERIFY(bench.exchange());
+    QCOMPARE(bench.device->torque.load(), -1.0);
+    bench.set("brake", 1.0, true);
+    QVERIFY(bench.exchange());
+    QCOMPARE(bench.device->torque.load(), -1.0);
+    QCOMPARE(bench.device->brake.load(), 1.0);
+}
+
+void tst_DriverRunner::aDeviceIsGivenWhatIsKnownWhenItOpens()
+{
+    Bench bench(QPlcDriver::EveryCycle);
+    bench.wireWrite("torque");
+    bench.set("torque", 4.0, true);
+    bench.runner().write(0);  // nothing is open yet
+    QCOMPARE(bench.device->torque.load(), -1.0);
+    QVERIFY(bench.open());
+    QCOMPARE(bench.device->torque.load(), 4.0);
+    QVERIFY(bench.device->torqueWasSafe);
+}
+
+void tst_DriverRunner::aDeviceThatFailsHasNoValues()
+{
+    QFETCH(int, pace);
+    Bench bench(pace);
+    bench.wireRead("speed");
+    QVERIFY(bench.open());
+    QVERIFY(bench.exchange());
+    QVERIFY(bench.isFresh("speed"));
+    bench.device->isBroken = true;
+    QVERIFY(!bench.exchange());
+    QVERIFY(!bench.isFresh("speed"));
+    bench.close();
+    QCOMPARE(bench.runner().failures(), quint64(1));
+    QCOMPARE(bench.device->closed.load(), 1);
+    bench.device->isBroken = false;
+    QVERIFY(bench.open());
+    QVERIFY(bench.exchange());
+    QVERIFY(bench.isFresh("speed"));
+}
+
+void tst_DriverRunner::aDeviceThatIsMissingIsOpenedAgainAndAgain()
+{
+    QFETCH(int, pace);
+    Reports reports;
+    Bench bench(pace);
+    bench.wireRead("speed");
+    bench.device->isPlugged = false;
+    bench.runner().start([&](const QString &error) { reports.add(error); });
+    QTRY_COMPARE(reports.taken(), QStringList{"there is no device 'bench0'; plug it in"});
+    QVERIFY(!bench.isOnline());
+    bench.device->isPlugged = true;
+    QTRY_VERIFY(bench.isOnline());
+    QTRY_COMPARE(reports.taken().size(), 2);  // not once for each attempt
+    QCOMPARE(reports.taken().last(), QString());
+    bench.runner().stop();
+    QCOMPARE(bench.device->closed.load(), 1);
+}
+
+void tst_DriverRunner::anErrorIsToldOnceAndItsEndToo()
+{
+    Reports reports;
+    Bench bench(QPlcDriver::OwnPace, "device = bench0\ninterval = 1 ms\n");
+    bench.wireRead("speed");
+    bench.runner().start([&](const QString &error) { reports.add(error); });
+    QTRY_COMPARE(reports.taken(), QStringList{""});
+    bench.device->isPlugged = false;
+    bench.device->isBroken = true;
+    QTRY_COMPARE(reports.taken().size(), 3);
+    QVERIFY2(reports.taken().at(1).startsWith("read from the bench: "), qPrintable(reports.taken().at(1)));
+    QCOMPARE(reports.taken().at(2), QString("there is no device 'bench0'; plug it in"));
+    bench.device->isBroken = false;
+    bench.device->isPlugged = true;
+    QTRY_COMPARE(reports.taken().size(), 4);
+    QCOMPARE(bench.runner().failures(), quint64(1));
+    bench.runner().stop();
+}
+
+void tst_DriverRunner::stopGivesTheLastValuesAndCloses()
+{
+    QFETCH(int, pace);
+    Reports reports;
+    Bench bench(pace, pace == QPlcDriver::OwnPace ? "device = bench0\ninterval = 1 h\n" : "device = bench0\n");
+    bench.wireWrite("torque");
+    bench.runner().start([&](const QString &error) { reports.add(error); });
+    QTRY_VERIFY(bench.isOnline());
+    bench.set("torque", 0.25, true);
+    bench.runner().write(monotonicNow());
+    bench.runner().stop();
+    QCOMPARE(bench.device->torqueAtClose.load(), 0.25);
+    QCOMPARE(bench.device->closed.load(), 1);
+}
+
+void tst_DriverRunner::everyDriverTellsWhetherItIsOnline()
+{
+    Bench bench(QPlcDriver::EveryCycle);
+    for (const char *channel : {"speed", "@online", "@failures", "@age"})
+        QCOMPARE(bench.wireRead(channel), QString());
+    bench.runner().read(0);
+    QCOMPARE(bench.value("@online"), 0.0);
+    QVERIFY(std::isinf(bench.value("@age")));
+    QVERIFY(bench.open());
+    QVERIFY(bench.exchange());
+    QCOMPARE(bench.value("@online"), 1.0);
+    bench.device->isSilent = true;
+    bench.advance(250ms);
+    QVERIFY(bench.exchange());
+    QCOMPARE(bench.value("@age"), 0.25);
+    bench.device->isBroken = true;
+    QVERIFY(!bench.exchange());
+    bench.close();
+    QCOMPARE(bench.value("@online"), 0.0);
+    QCOMPARE(bench.value("@failures"), 1.0);
+}
+
+void tst_DriverRunner::anUnknownChannelIsNamedWithThoseThatAreClose()
+{
+    Bench bench(QPlcDriver::EveryCycle);
+    QCOMPARE(bench.wireRead("sped"), QString("driver 'bench' has no channel 'sped' to read; did you mean 'speed'?"));
+    QCOMPARE(bench.wireRead("torque"), QString("driver 'bench' has no channel 'torque' to read"));
+}
+
+void tst_DriverRunner::theErrorOfACycleNamesWhatAndWhyAndTheRemedy()
+{
+    for (const QPlcDriver::Pace pace : Paces) {
+        Bench bench(pace);
+        bench.wireRead("speed");
+        QVERIFY(bench.open());
+        bench.device->isBroken = true;
+        QVERIFY(!bench.exchange());
+        QCOMPARE(bench.errorString(),
+                 QString("read from the bench: Input/output error; the device does not answer: look at its power, its "
+                         "wires and its address"));
+    }
+}
+
+QTEST_GUILESS_MAIN(tst_DriverRunner)
+#include "tst_DriverRunner.moc"

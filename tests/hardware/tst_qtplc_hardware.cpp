@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// The program of hardware nodes, as a process.
+#include <QtCore/QProcess>
+#include <QtCore/QTemporaryDir>
+#include <QtTest/QtTest>
+
+class tst_qtplc_hardware : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void helpNamesItsOptions();
+    void whatCannotBeMeantEndsItWithTwo_data();
+    void whatCannotBeMeantEndsItWithTwo();
+
+private:
+    struct Run
+    {
+        int code = -1;
+        QString output;
+        QString errors;
+    };
+    static Run run(const QStringList &arguments);
+};
+
+tst_qtplc_hardware::Run tst_qtplc_hardware::run(const QStringList &arguments)
+{
+    QProcess process;
+    process.start(QStringLiteral(QTPLC_HARDWARE_PROGRAM), arguments);
+    if (!process.waitForFinished(20000))
+        return {};
+    return {process.exitCode(), QString::fromUtf8(process.readAllStandardOutput()),
+            QString::fromUtf8(process.readAllStandardError())};
+}
+
+void tst_qtplc_hardware::helpNamesItsOptions()
+{
+    const Run help = run({"--help"});
+    QCOMPARE(help.code, 0);
+    for (const char *word : {"--check", "--monitor", "--drivers", "--master", "configuration"})
+        QVERIFY2(help.output.contains(word), qPrintable(help.output));
+    QCOMPARE(run({"--drivers"}).code, 0);
+}
+
+void tst_qtplc_hardware::whatCannotBeMeantEndsItWithTwo_data()
+{
+    QTest::addColumn<QByteArray>("text");
+    QTest::addColumn<QString>("error");
+    QTest::newRow("unknown driver") << QByteArray("[node]\nname = A\n[x]\ndriver = nonsense\n")
+                                    << "4:10: there is no driver 'nonsense'";
+    QTest::newRow("missing") << QByteArray() << "cannot be read: No such file or directory";
+}
+
+void tst_qtplc_hardware::whatCannotBeMeantEndsItWithTwo()
+{
+    QFETCH(QByteArray, text);
+    QFETCH(QString, error);
+    QTemporaryDir folder;
+    const QString fileName = folder.filePath("a.ini");
+    if (!text.isEmpty()) {
+        QFile file(fileName);
+        QVERIFY(file.open(QIODevice::WriteOnly));
+        file.write(text);
+    }
+    const Run refused = run({fileName});
+    QCOMPARE(refused.code, 2);
+    QVERIFY2(refused.errors.contains(error), qPrintable(refused.errors));
+    QCOMPARE(run({}).code, 2);
+    QCOMPARE(run({"a", "b"}).code, 2);
+}
+
+QTEST_GUILESS_MAIN(tst_qtplc_hardware)
+#include "tst_qtplc_hardware.moc"
