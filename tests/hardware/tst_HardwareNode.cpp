@@ -3,6 +3,7 @@
 #include "BenchDriver.h"
 #include "NodeFixtures.h"
 #include "QPlcHardwareNode.h"
+#include "ThreadCosts.h"
 
 #include <QtTest/QtTest>
 
@@ -72,6 +73,8 @@ private Q_SLOTS:
     void aPressedButtonStopsThePlantSafely();
     void aButtonWithoutAValueStopsThePlantToo();
     void aSignalThatIsNotInTheTableIsNamed();
+    void aCycleTakesNoMemoryAndNoLock_data() { addKinds(); }
+    void aCycleTakesNoMemoryAndNoLock();
 
 private:
     bool start(TestMaster &master);
@@ -300,6 +303,41 @@ void tst_HardwareNode::aSignalThatIsNotInTheTableIsNamed()
     QVERIFY2(text.contains("spede") && text.contains("did you mean 'speed'?"), qPrintable(text));
     QVERIFY2(text.contains("signal 'pair' is Real32[2] in the table, but the node writes it as 1 numbers"),
              qPrintable(text));
+}
+
+void tst_HardwareNode::aCycleTakesNoMemoryAndNoLock()
+{
+    QFETCH(QString, kind);
+    QFETCH(int, pace);
+    if (!ThreadCosts::areCounted())
+        QSKIP("the sanitizer owns malloc", "");
+    /// Tells the counter which thread the cycles run on.
+    class Watched : public QPlcHardwareNode
+    {
+        void step(const QPlcCycle &cycle) override
+        {
+            ThreadCosts::watchThisThread();
+            QPlcHardwareNode::step(cycle);
+        }
+    };
+    m_pace = QPlcDriver::Pace(pace);
+    TestMaster master(QPlcClock::lockstep(), winchTable());
+    QVERIFY(master.listen());
+    Watched node;
+    QVERIFY(node.configure(wiring, "winch.ini"));
+    QVERIFY(master.admit(node, kind));
+    node.openDevices();
+    QTRY_VERIFY(node.drivers().first().isOnline);
+    master.setCycleLimit(5000);
+    QVERIFY(master.startRealTime());
+    QVERIFY(master.waitForCycles(100));
+    const ThreadCosts before = ThreadCosts::ofWatchedThreads();
+    QVERIFY(master.waitForCycles(4900));
+    const ThreadCosts spent = ThreadCosts::ofWatchedThreads() - before;
+    QVERIFY(master.waitForState(QPlcMasterNode::Off));
+    QCOMPARE(spent.allocations, std::uint64_t(0));
+    QCOMPARE(spent.locks, std::uint64_t(0));
+    node.disconnectFromMaster();
 }
 
 QTEST_GUILESS_MAIN(tst_HardwareNode)
