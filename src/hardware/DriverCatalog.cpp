@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "DriverCatalog.h"
 
+#include "gpio/GpioDriver.h"
+
 namespace qplc {
 
 DriverCatalog &DriverCatalog::instance()
@@ -10,6 +12,11 @@ DriverCatalog &DriverCatalog::instance()
 }
 
 /// A line for each kind of this library.
-DriverCatalog::DriverCatalog() = default;
+DriverCatalog::DriverCatalog()
+{
+    add(QStringLiteral("gpio"), {QStringLiteral("switches and lamps at the lines of a GPIO chip"), [] {
+                                     return std::make_unique<GpioDriver>();
+                                 }});
+}
 
 }  // namespace qplc
