@@ -2,6 +2,8 @@
 #include "DriverCatalog.h"
 
 #include "gpio/GpioDriver.h"
+#include "i2c/I2cRegistersDriver.h"
+#include "i2c/Mpu6050Driver.h"
 
 namespace qplc {
 
@@ -17,6 +19,11 @@ DriverCatalog::DriverCatalog()
     add(QStringLiteral("gpio"), {QStringLiteral("switches and lamps at the lines of a GPIO chip"), [] {
                                      return std::make_unique<GpioDriver>();
                                  }});
+    add(QStringLiteral("i2c-registers"),
+        {QStringLiteral("any I2C device, its registers named by the configuration"),
+         [] { return std::make_unique<I2cRegistersDriver>(); }});
+    add(QStringLiteral("mpu6050"),
+        {QStringLiteral("inertial sensor MPU-6050 on I2C"), [] { return std::make_unique<Mpu6050Driver>(); }});
 }
 
 }  // namespace qplc
