@@ -4,6 +4,7 @@
 #include "gpio/GpioDriver.h"
 #include "i2c/I2cRegistersDriver.h"
 #include "i2c/Mpu6050Driver.h"
+#include "spi/Mcp3208Driver.h"
 
 namespace qplc {
 
@@ -22,6 +23,8 @@ DriverCatalog::DriverCatalog()
     add(QStringLiteral("i2c-registers"),
         {QStringLiteral("any I2C device, its registers named by the configuration"),
          [] { return std::make_unique<I2cRegistersDriver>(); }});
+    add(QStringLiteral("mcp3208"),
+        {QStringLiteral("converter MCP3208 on SPI: 8 voltages"), [] { return std::make_unique<Mcp3208Driver>(); }});
     add(QStringLiteral("mpu6050"),
         {QStringLiteral("inertial sensor MPU-6050 on I2C"), [] { return std::make_unique<Mpu6050Driver>(); }});
 }
