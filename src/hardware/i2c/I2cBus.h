@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QtCore/QString>
+
+#include <memory>
+
+namespace qplc {
+
+/// One device on an I2C bus, seen as numbered registers of a byte each: `/dev/i2c-N`, or a fake one.
+///
+/// read() and write() wait for the bus; they return false, with errno, when the device does not answer (ENXIO, EREMOTEIO, EIO, ETIMEDOUT) or the bus is gone (ENODEV).
+class I2cBus
+{
+public:
+    I2cBus() = default;
+    virtual ~I2cBus() = default;
+    I2cBus(const I2cBus &) = delete;
+    I2cBus &operator=(const I2cBus &) = delete;
+
+    static constexpr int FirstAddress = 0x08;  // those below and above are for the bus itself
+    static constexpr int LastAddress = 0x77;
+
+    /// \param device  "/dev/i2c-1", "i2c-1" or "fake:NAME" \param address  7 bits
+    /// \return null, with the reason and the remedy in \a error
+    static std::unique_ptr<I2cBus> open(const QString &device, int address, QString *error);
+
+    /// Registers \a first, first + 1, ...
+    virtual bool read(quint8 first, quint8 *bytes, int count) noexcept = 0;
+    virtual bool write(quint8 first, const quint8 *bytes, int count) noexcept = 0;
+};
+
+/// "0x68"
+QString i2cAddressText(int address);
+/// What to do when a device on a bus does not answer, for QPlcDriver::remedy(). Empty for errors that are no errors of the bus.
+QString i2cRemedy(int errorNumber);
+
+}  // namespace qplc

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "KernelI2cBus.h"
+
+#include <QtCore/QDir>
+#include <QtCore/QFile>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <linux/i2c-dev.h>
+#include <linux/i2c.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+namespace qplc {
+
+namespace {
+
+QString i2cOpenErrorText(const QString &device, int errorNumber)
+{
+    const QStringList buses
+        = QDir(QStringLiteral("/dev")).entryList({QStringLiteral("i2c-*")}, QDir::System, QDir::Name);
+    QString remedy = QStringLiteral("close what uses it");
+    if (errorNumber == EACCES || errorNumber == EPERM)
+        remedy = QStringLiteral("let the user into the group of the device: 'sudo usermod -aG i2c USER', and log in "
+                                "again");
+    else if (buses.isEmpty())
+        remedy = QStringLiteral("this computer has no I2C buses: 'sudo modprobe i2c-dev', and switch the bus on (on a "
+                                "Raspberry Pi: dtparam=i2c_arm=on in config.txt)");
+    else if (errorNumber == ENOENT || errorNumber == ENODEV || errorNumber == ENXIO)
+        remedy = QStringLiteral("there are %1").arg(buses.join(QStringLiteral(", ")));
+    return QStringLiteral("cannot open the I2C bus '%1': %2; %3").arg(device, qt_error_string(errorNumber), remedy);
+}
+
+QString i2cAddressErrorText(const QString &device, int address, int errorNumber)
+{
+    return errorNumber == EBUSY
+        ? QStringLiteral("address %1 of %2 is used by a driver of the kernel; take its values from there, or take it "
+                         "away: echo N-00%3 | sudo tee /sys/bus/i2c/devices/N-00%3/driver/unbind")
+              .arg(i2cAddressText(address), device, i2cAddressText(address).mid(2))
+        : QStringLiteral("cannot use address %1 of %2: %3; is that an I2C bus?")
+              .arg(i2cAddressText(address), device, qt_error_string(errorNumber));
+}
+
+}  // namespace
+
+std::unique_ptr<KernelI2cBus> KernelI2cBus::open(const QString &device, int address, QString *error)
+{
+    auto bus = std::make_unique<KernelI2cBus>();
+    const QString path = device.startsWith(QLatin1Char('/')) ? device : QStringLiteral("/dev/") + device;
+    bus->m_descriptor = ::open(QFile::encodeName(path).constData(), O_RDWR | O_CLOEXEC);
+    if (bus->m_descriptor < 0) {
+        *error = i2cOpenErrorText(device, errno);
+        return nullptr;
+    }
+    if (::ioctl(bus->m_descriptor, I2C_FUNCS, &bus->m_abilities) < 0
+        || ::ioctl(bus->m_descriptor, I2C_SLAVE, address) < 0) {
+        *error = i2cAddressErrorText(device, address, errno);
+        return nullptr;
+    }
+    constexpr unsigned long needed = I2C_FUNC_SMBUS_BYTE_DATA;
+    if ((bus->m_abilities & needed) != needed) {
+        *error = QStringLiteral("the adapter of %1 cannot read and write single registers; take another adapter")
+                     .arg(device);
+        return nullptr;
+    }
+    return bus;
+}
+
+KernelI2cBus::~KernelI2cBus()
+{
+    if (m_descriptor >= 0)
+        ::close(m_descriptor);
+}
+
+bool KernelI2cBus::call(bool isRead, quint8 reg, quint32 size, void *data) noexcept
+{
+    i2c_smbus_ioctl_data arguments = {};
+    arguments.read_write = isRead ? I2C_SMBUS_READ : I2C_SMBUS_WRITE;
+    arguments.command = reg;
+    arguments.size = size;
+    arguments.data = static_cast<i2c_smbus_data *>(data);
+    return ::ioctl(m_descriptor, I2C_SMBUS, &arguments) >= 0;
+}
+
+// Blocks come in one transfer, so that bytes of one measurement stay together; an adapter that cannot do them gives words, then single bytes.
+bool KernelI2cBus::read(quint8 first, quint8 *bytes, int count) noexcept
+{
+    for (int done = 0; done < count;) {
+        i2c_smbus_data data = {};
+        const auto reg = quint8(first + done);
+        const int left = std::min(count - done, I2C_SMBUS_BLOCK_MAX);
+        int taken = 1;
+        if (left > 1 && (m_abilities & I2C_FUNC_SMBUS_READ_I2C_BLOCK)) {
+            data.block[0] = __u8(left);
+            if (!call(true, reg, I2C_SMBUS_I2C_BLOCK_DATA, &data))
+                return false;
+            taken = std::min<int>(data.block[0], left);
+            if (taken == 0) {
+                errno = EIO;
+                return false;
+            }
+            std::memcpy(bytes + done, data.block + 1, std::size_t(taken));
+        } else if (left > 1 && (m_abilities & I2C_FUNC_SMBUS_READ_WORD_DATA)) {
+            if (!call(true, reg, I2C_SMBUS_WORD_DATA, &data))
+                return false;
+            taken = 2;
+            bytes[done] = quint8(data.word & 0xff);  // the first byte on the wire is the low one
+            bytes[done + 1] = quint8(data.word >> 8);
+        } else {
+            if (!call(true, reg, I2C_SMBUS_BYTE_DATA, &data))
+                return false;
+            bytes[done] = data.byte;
+        }
+        done += taken;
+    }
+    return true;
+}
+
+bool KernelI2cBus::write(quint8 first, const quint8 *bytes, int count) noexcept
+{
+    for (int done = 0; done < count;) {
+        i2c_smbus_data data = {};
+        const auto reg = quint8(first + done);
+        const int left = std::min(count - done, I2C_SMBUS_BLOCK_MAX);
+        int given = 1;
+        bool isRight = false;
+        if (left > 1 && (m_abilities & I2C_FUNC_SMBUS_WRITE_I2C_BLOCK)) {
+            given = left;
+            data.block[0] = __u8(left);
+            std::memcpy(data.block + 1, bytes + done, std::size_t(left));
+            isRight = call(false, reg, I2C_SMBUS_I2C_BLOCK_DATA, &data);
+        } else if (left > 1 && (m_abilities & I2C_FUNC_SMBUS_WRITE_WORD_DATA)) {
+            given = 2;
+            data.word = __u16(bytes[done] | bytes[done + 1] << 8);
+            isRight = call(false, reg, I2C_SMBUS_WORD_DATA, &data);
+        } else {
+            data.byte = bytes[done];
+            isRight = call(false, reg, I2C_SMBUS_BYTE_DATA, &data);
+        }
+        if (!isRight)
+            return false;
+        done += given;
+    }
+    return true;
+}
+
+}  // namespace qplc

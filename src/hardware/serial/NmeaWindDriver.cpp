@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "NmeaWindDriver.h"
+
+#include "QPlcDriverSettings.h"
+
+#include <cerrno>
+
+namespace qplc {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr qint64 LongestGarbage = std::chrono::nanoseconds(1s).count();
+constexpr quint64 LeastGarbage = 20;  // [byte] less may be half a sentence of a sensor that was switched off
+constexpr qint64 LongestSilence = std::chrono::nanoseconds(5s).count();
+constexpr std::chrono::nanoseconds UsualTimeout = 2500ms;  // wind sensors talk once or several times a second
+constexpr int MostBytesAtOnce = 4096;                      // in one call: a line that never rests must not hold us
+
+void setOrLeave(QPlcReadChannel *channel, const std::optional<double> &value)
+{
+    if (value)
+        channel->set(*value);
+}
+
+}  // namespace
+
+NmeaWindDriver::NmeaWindDriver()
+    : QPlcDriver(OwnPace)
+{
+}
+
+void NmeaWindDriver::configure(QPlcDriverSettings &settings)
+{
+    m_device = settings.requiredText(QStringLiteral("device"), QStringLiteral("/dev/ttyUSB0"));
+    m_settings.baud = int(settings.integer(QStringLiteral("baud"), 4800, 1, 10000000));
+    if (!SerialLine::isKnownRate(m_settings.baud))
+        settings.addError(QStringLiteral("baud"),
+                          QStringLiteral("%1 is no rate of a serial line; there are %2")
+                              .arg(m_settings.baud)
+                              .arg(SerialLine::knownRates()));
+    const QString format = settings.text(QStringLiteral("format"), QStringLiteral("8N1"));
+    if (!m_settings.setFormat(format))
+        settings.addError(QStringLiteral("format"),
+                          QStringLiteral("'%1' is no format of a serial line; it is data bits, "
+                                         "parity (N, E, O) and stop bits: '8N1', '7E1'")
+                              .arg(format));
+    m_stream.setChecksumRequired(
+        settings.choice(QStringLiteral("checksum"), {QStringLiteral("required"), QStringLiteral("optional")}) == 0);
+    configureTimeout(settings);
+}
+
+void NmeaWindDriver::configureTimeout(QPlcDriverSettings &settings)
+{
+    if (settings.has(QStringLiteral("timeout")))
+        return;
+    for (QPlcReadChannel *channel : {&m_relative.speed, &m_relative.angle, &m_true.speed, &m_true.angle, &m_direction,
+                                     &m_temperature, &m_pressure, &m_humidity, &m_status})
+        channel->setTimeout(UsualTimeout);
+}
+
+bool NmeaWindDriver::open()
+{
+    QString error;
+    m_stream.reset();
+    m_isFirstRead = true;
+    m_bytesWithoutSentence = 0;
+    m_otherType.clear();
+    return m_line.open(m_device, m_settings, &error) || fail(error);
+}
+
+bool NmeaWindDriver::read()
+{
+    if (m_isFirstRead)
+        m_lastByte = m_lastSentence = m_lastWind = now();
+    m_isFirstRead = false;
+    return readLine() && judge();
+}
+
+bool NmeaWindDriver::readLine()
+{
+    char bytes[256];
+    int taken = 0;
+    for (int count = 1; count > 0 && taken < MostBytesAtOnce; taken += count) {
+        count = m_line.read(bytes, sizeof bytes);
+        if (count < 0)
+            return fail(QStringLiteral("cannot read from the serial line '%1': %2; %3")
+                            .arg(m_device, qt_error_string(errno), remedy(errno)));
+        for (int i = 0; i < count; ++i) {
+            if (m_bytesWithoutSentence++ == 0)
+                m_firstWithout = now();
+            if (m_stream.feed(bytes[i]))
+                take(m_stream.sentence());
+        }
+    }
+    if (taken > 0)
+        m_lastByte = now();
+    return true;
+}
+
+void NmeaWindDriver::take(const NmeaSentence &sentence)
+{
+    m_lastSentence = now();
+    m_bytesWithoutSentence = 0;
+    const NmeaWind wind = NmeaWind::read(sentence);
+    if (!wind.isOfWind) {
+        m_otherType = sentence.talker() + sentence.type();
+        return;
+    }
+    m_lastWind = now();
+    publish(wind, sentence);
+}
+
+void NmeaWindDriver::publish(const NmeaWind &wind, const NmeaSentence &sentence)
+{
+    setOrLeave(&m_relative.speed, wind.relative.speed);
+    setOrLeave(&m_relative.angle, wind.relative.angle);
+    setOrLeave(&m_true.speed, wind.theoretical.speed);
+    setOrLeave(&m_true.angle, wind.theoretical.angle);
+    setOrLeave(&m_direction, wind.direction);
+    setOrLeave(&m_temperature, wind.temperature);
+    setOrLeave(&m_pressure, wind.pressure);
+    setOrLeave(&m_humidity, wind.humidity);
+    if (!wind.isValid)
+        return;
+    m_status.set(*wind.isValid ? 1.0 : 0.0);
+    if (!*wind.isValid) {  // the sensor says so itself: its last value counts no more
+        WindChannels &channels = sentence.isLetter(1, 'R') ? m_relative : m_true;
+        channels.speed.invalidate();
+        channels.angle.invalidate();
+    }
+}
+
+// What a person who wires a sensor does wrong: another rate, another device, nothing at all.
+bool NmeaWindDriver::judge()
+{
+    if (m_bytesWithoutSentence >= LeastGarbage && now() - m_firstWithout > LongestGarbage)
+        return fail(
+            QStringLiteral("what comes from '%1' at %2 is no NMEA 0183: not one sentence in a second; look for the "
+                           "sensor's rate and format, and set 'baud' (usual are 4800, 9600, 38400) and 'format'; "
+                           "when it sends no checksums, 'checksum = optional'")
+                .arg(m_device, m_settings.toString()));
+    if (now() - m_lastByte > LongestSilence)
+        return fail(
+            QStringLiteral("nothing comes from '%1'; look at the sensor's power, at its wires (its TX is our RX), "
+                           "and whether it has to be told to talk")
+                .arg(m_device));
+    if (!m_otherType.isEmpty() && now() - m_lastWind > LongestSilence)
+        return fail(
+            QStringLiteral("'%1' speaks NMEA 0183, %2 for example, but not of wind; set the sensor up to send MWV "
+                           "(or VWR, VWT, MDA, XDR), or take another 'device'")
+                .arg(m_device, QString::fromLatin1(m_otherType)));
+    return true;
+}
+
+QString NmeaWindDriver::remedy(int errorNumber) const
+{
+    const QString text = SerialLine::remedy(errorNumber);
+    return text.isEmpty() ? QPlcDriver::remedy(errorNumber) : text;
+}
+
+}  // namespace qplc

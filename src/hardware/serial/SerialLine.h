@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QtCore/QString>
+
+namespace qplc {
+
+/// What both ends of a serial line have to agree upon.
+struct SerialSettings
+{
+    enum Parity : quint8 { NoParity, Even, Odd };
+
+    int baud = 9600;  // [bit/s]
+    int dataBits = 8;
+    Parity parity = NoParity;
+    int stopBits = 1;
+
+    /// "8N1", "7E2", ... \return false when it is something else; nothing has changed then
+    bool setFormat(const QString &text);
+    /// "4800 8N1"
+    QString toString() const;
+};
+
+/// A serial line: bytes in and out, without waiting. It belongs to this program alone as long as it is open.
+///
+/// `/dev/ttyUSB0`, a pseudo-terminal, or `fake:NAME`: the name NAME in FakeMemory::folder(), a symbolic link to a pseudo-terminal as a rule.
+class SerialLine
+{
+public:
+    SerialLine() = default;
+    ~SerialLine();
+    SerialLine(const SerialLine &) = delete;
+    SerialLine &operator=(const SerialLine &) = delete;
+
+    /// Bytes that have come before are thrown away. \return false, with the reason and the remedy in \a error
+    bool open(const QString &device, const SerialSettings &settings, QString *error);
+    void close();
+    bool isOpen() const { return m_descriptor >= 0; }
+
+    /// \return how many bytes have come, at most \a size; 0: none; -1, with errno, when the line is gone (ENODEV: unplugged)
+    int read(char *bytes, int size) noexcept;
+    /// \return how many bytes were taken; -1, with errno, when the line is gone
+    int write(const char *bytes, int size) noexcept;
+
+    /// Rates that the kernel knows [bit/s].
+    static bool isKnownRate(int baud);
+    static QString knownRates();
+    /// What to do when a line is gone, for QPlcDriver::remedy(). Empty for errors that are no errors of a line.
+    static QString remedy(int errorNumber);
+
+private:
+    bool setUp(const SerialSettings &settings, QString *error);
+
+    int m_descriptor = -1;
+    QString m_device;
+};
+
+}  // namespace qplc

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "TestDevice.h"
+#include "hardware/serial/NmeaSentence.h"
+#include "hardware/serial/SerialLine.h"
+#include "serial/PseudoTerminal.h"
+
+/// A wind sensor that talks as often as it may. At a pseudo-terminal, or at the other end of a real line: QTPLC_TEST_SERIAL=NEAR:FAR, two ports that are tied together
+/// ("/dev/ttyUSB0:/dev/ttyUSB1").
+class WindSensorDevice : public TestDevice
+{
+public:
+    explicit WindSensorDevice(const QStringList &parts)
+        : m_parts(parts)
+    {
+    }
+
+    QString kind() const override { return QStringLiteral("nmea-wind"); }
+    QByteArray keys() const override { return "device = " + name().toUtf8() + "\nbaud = 9600\n"; }
+    QString name() const override { return m_parts.value(0, QStringLiteral("fake:wind")); }
+    QStringList inputs() const override { return {QStringLiteral("relativeSpeed")}; }
+    QVector<double> values() const override { return {7.5, 12.0}; }
+
+    bool plugIn() override
+    {
+        QString error;
+        qplc::SerialSettings settings;
+        settings.baud = 9600;
+        m_isTalking
+            = m_parts.isEmpty() ? m_pseudo.plugIn(name()) : m_far.isOpen() || m_far.open(m_parts[1], settings, &error);
+        return m_isTalking;
+    }
+    bool unplug() override
+    {
+        m_isTalking = false;
+        m_pseudo.unplug();
+        return m_parts.isEmpty();
+    }
+    bool fallSilent() override
+    {
+        m_isTalking = false;
+        return true;
+    }
+    void live() override
+    {
+        if (!m_isTalking)
+            return;
+        const QByteArray body = "WIMWV,45,R," + QByteArray::number(m_speed) + ",M,A";
+        const quint8 sum = qplc::NmeaSentence::checksum(body.constData(), body.size());
+        const QByteArray line = '$' + body + '*' + QByteArray::number(sum, 16).rightJustified(2, '0') + "\r\n";
+        if (m_parts.isEmpty())
+            m_pseudo.send(line);
+        else
+            m_far.write(line.constData(), line.size());
+    }
+    void give(const QString &, double value) override { m_speed = value; }
+
+private:
+    const QStringList m_parts;
+    PseudoTerminal m_pseudo;
+    qplc::SerialLine m_far;
+    bool m_isTalking = false;
+    double m_speed = 0.0;
+};
+
+inline void addSerialDevices(TestDevices *devices)
+{
+    devices->insert(QStringLiteral("nmea-wind, fake"),
+                    [] { return std::make_unique<WindSensorDevice>(QStringList()); });
+    const QStringList parts = testDeviceParts("QTPLC_TEST_SERIAL");
+    if (parts.size() == 2)
+        devices->insert(QStringLiteral("nmea-wind, real line"),
+                        [parts] { return std::make_unique<WindSensorDevice>(parts); });
+}

@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "../DriverBench.h"
+#include "../FakeDevices.h"
+#include "hardware/i2c/FakeI2cBus.h"
+#include "hardware/i2c/I2cRegister.h"
+
+#include <QtTest/QtTest>
+
+using namespace qplc;
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr int Address = 0x68;
+
+/// A bus with a device at Address.
+struct Bus
+{
+    Bus(const QString &kind, const QByteArray &keys)
+        : bench(kind, "device = fake:bus\n" + keys)
+    {
+        QString error;
+        if (!memory.create(QStringLiteral("fake:bus"), FakeI2cBus::Size, &error))
+            qFatal("%s", qPrintable(error));
+        memory.at(Address) = 1;
+    }
+    void set(int first, const QByteArray &bytes)
+    {
+        for (int i = 0; i < bytes.size(); ++i)
+            memory.at(FakeI2cBus::placeOf(Address, first + i)) = quint8(bytes.at(i));
+    }
+    QByteArray get(int first, int count) const
+    {
+        QByteArray bytes;
+        for (int i = 0; i < count; ++i)
+            bytes.append(char(memory.at(FakeI2cBus::placeOf(Address, first + i)).load()));
+        return bytes;
+    }
+
+    const FakeDevices devices;
+    FakeMemory memory;
+    DriverBench bench;
+};
+
+struct Imu : Bus
+{
+    explicit Imu(const QByteArray &keys = {}, quint8 identity = 0x68)
+        : Bus(QStringLiteral("mpu6050"), keys)
+    {
+        set(0x75, QByteArray(1, char(identity)));
+    }
+    /// One measurement: acceleration, temperature, rate.
+    void measure(const QByteArray &hex) { set(0x3a, QByteArray::fromHex("01" + hex)); }
+    void wire()
+    {
+        for (const char *name :
+             {"accelerationX", "accelerationY", "accelerationZ", "rateX", "rateY", "rateZ", "temperature"})
+            bench.wireRead(name);
+    }
+};
+
+}  // namespace
+
+class tst_I2cDrivers : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void registersAreNumbers_data();
+    void registersAreNumbers();
+    void numbersThatDoNotFitAreLimited();
+    void wrongWordsAreNamed_data();
+    void wrongWordsAreNamed();
+    void registersAreReadAndWritten();
+    void aWrittenValueIsRepeated();
+    void whatIsToBeSetUpIsWrittenFirst();
+    void anotherDeviceIsRefused();
+    void aDeviceThatIsSilentIsNamed();
+    void theImuIsSetUp();
+    void theImuMeasuresInSiUnits();
+    void aSampleOfTheImuCountsOnce();
+    void anImuThatForgotItsSettingsIsOpenedAnew();
+    void anotherChipIsNoImu();
+    void aRateThatTheImuCannotDoIsRefused();
+};
+
+void tst_I2cDrivers::registersAreNumbers_data()
+{
+    QTest::addColumn<QStringList>("words");
+    QTest::addColumn<QByteArray>("hex");
+    QTest::addColumn<double>("value");
+    QTest::newRow("a byte") << QStringList{"0x10"} << QByteArray("fe") << 254.0;
+    QTest::newRow("a signed byte") << QStringList{"0x10", "int8"} << QByteArray("fe") << -2.0;
+    QTest::newRow("big-endian unless said") << QStringList{"16", "int16"} << QByteArray("fffe") << -2.0;
+    QTest::newRow("little-endian") << QStringList{"16", "int16 little-endian"} << QByteArray("0180") << -32767.0;
+    QTest::newRow("unsigned") << QStringList{"16", "UINT16  Big-Endian"} << QByteArray("8001") << 32769.0;
+    QTest::newRow("24 bits") << QStringList{"16", "int24"} << QByteArray("800000") << -8388608.0;
+    QTest::newRow("24 bits, positive") << QStringList{"16", "uint24 little-endian"} << QByteArray("010080")
+                                       << 8388609.0;
+    QTest::newRow("32 bits") << QStringList{"16", "int32"} << QByteArray("80000000") << -2147483648.0;
+    QTest::newRow("32 bits, unsigned") << QStringList{"16", "uint32"} << QByteArray("ffffffff") << 4294967295.0;
+    QTest::newRow("a real") << QStringList{"16", "real32"} << QByteArray("c0200000") << -2.5;
+    QTest::newRow("factor and offset") << QStringList{"16", "int16", "factor 0.5", "offset -10"} << QByteArray("0003")
+                                       << -8.5;
+}
+
+void tst_I2cDrivers::registersAreNumbers()
+{
+    QFETCH(QStringList, words);
+    QFETCH(QByteArray, hex);
+    I2cRegister reg;
+    QCOMPARE(I2cRegister::read(words, &reg), QString());
+    const QByteArray bytes = QByteArray::fromHex(hex);
+    QCOMPARE(reg.first, quint8(16));
+    QCOMPARE(reg.size, bytes.size());
+    QTEST(reg.valueOf(reinterpret_cast<const quint8 *>(bytes.constData())), "value");
+
+    QByteArray written(I2cRegister::MostBytes, '\0');
+    QFETCH(double, value);
+    reg.bytesOf(value, reinterpret_cast<quint8 *>(written.data()));
+    QCOMPARE(written.left(reg.size).toHex(), hex);
+}
+
+void tst_I2cDrivers::numbersThatDoNotFitAreLimited()
+{
+    I2cRegister reg;
+    quint8 bytes[I2cRegister::MostBytes] = {};
+    QCOMPARE(I2cRegister::read({"0", "int16", "factor 0.1"}, &reg), QString());
+    for (const auto &[value, limited] :
+         {std::pair{1e9, 3276.7}, {-1e9, -3276.8}, {0.26, 0.3}, {-0.26, -0.3}, {std::nan(""), 0.0}}) {
+        reg.bytesOf(value, bytes);
+        QCOMPARE(reg.valueOf(bytes), limited);
+    }
+    QCOMPARE(I2cRegister::read({"0", "uint32"}, &reg), QString());
+    reg.bytesOf(1e300, bytes);
+    QCOMPARE(reg.valueOf(bytes), 4294967295.0);
+    reg.bytesOf(-1.0, bytes);
+    QCOMPARE(reg.valueOf(bytes), 0.0);
+}
+
+void tst_I2cDrivers::wrongWordsAreNamed_data()
+{
+    QTest::addColumn<QByteArray>("keys");
+    QTest::addColumn<QString>("part");
+    QTest::newRow("no address") << QByteArray("register.a = 1\n") << "address = 0x68";
+    QTest::newRow("reserved address") << QByteArray("address = 3\nregister.a = 1\n") << "from 8 to 119";
+    QTest::newRow("no register") << QByteArray("address = 0x68\n") << "register.NAME";
+    QTest::newRow("a register that is none")
+        << QByteArray("address = 0x68\nregister.a = int16\n") << "'int16' is no register";
+    QTest::newRow("too high") << QByteArray("address = 0x68\nregister.a = 256\n") << "'256' is no register";
+    QTest::newRow("ends too high") << QByteArray("address = 0x68\nregister.a = 0xff, int16\n") << "in register 256";
+    QTest::newRow("a type that is none") << QByteArray("address = 0x68\nregister.a = 1, short\n")
+                                         << "'short' is nothing";
+    QTest::newRow("an order that is none")
+        << QByteArray("address = 0x68\nregister.a = 1, int16 middle\n") << "'int16 middle'";
+    QTest::newRow("factor zero") << QByteArray("address = 0x68\nregister.a = 1, factor 0\n") << "'factor 0'";
+    QTest::newRow("set up without value")
+        << QByteArray("address = 0x68\nregister.a = 1\nsetup = 0x6b\n") << "'0x6b' is no register with its value";
+}
+
+void tst_I2cDrivers::wrongWordsAreNamed()
+{
+    QFETCH(QByteArray, keys);
+    QFETCH(QString, part);
+    const DriverBench bench(QStringLiteral("i2c-registers"), "device = fake:bus\n" + keys);
+    QVERIFY2(bench.errors().contains(part), qPrintable(bench.errors()));
+}
+
+void tst_I2cDrivers::registersAreReadAndWritten()
+{
+    Bus bus("i2c-registers",
+            "address = 0x68\nregister.current = 0x20, int16, factor 0.01\nregister.limit = 0x30, uint16 little-endian, "
+            "write\n");
+    QCOMPARE(bus.bench.errors(), QString());
+    QCOMPARE(bus.bench.wireRead("current") + bus.bench.wireWrite("limit"), QString());
+    QVERIFY(bus.bench.wireRead("limit").contains("no channel 'limit' to read"));
+    bus.set(0x20, QByteArray::fromHex("ff9c"));
+    QVERIFY2(bus.bench.open(), qPrintable(bus.bench.errorString()));
+    QVERIFY(bus.bench.exchange());
+    QCOMPARE(bus.bench.value("current"), -1.0);
+    QCOMPARE(bus.get(0x30, 2), QByteArray(2, '\0'));  // no value yet
+    bus.bench.set("limit", 513.0);
+    QVERIFY(bus.bench.exchange());
+    QCOMPARE(bus.get(0x30, 2), QByteArray("\x01\x02"));
+}
+
+void tst_I2cDrivers::aWrittenValueIsRepeated()
+{
+    Bus bus("i2c-registers", "address = 0x68\nregister.limit = 0x30, write\n");
+    bus.bench.wireWrite("limit");
+    QVERIFY2(bus.bench.open(), qPrintable(bus.bench.errorString()));
+    bus.bench.set("limit", 5.0);
+    QVERIFY(bus.bench.exchange());
+    bus.set(0x30, QByteArray(1, '\0'));  // the device was reset
+    QVERIFY(bus.bench.exchange());
+    QCOMPARE(bus.get(0x30, 1), QByteArray("\x05"));
+}
+
+void tst_I2cDrivers::whatIsToBeSetUpIsWrittenFirst()
+{
+    Bus bus("i2c-registers", "address = 0x68\nsetup = 0x6b 0x01, 0x1a 3, 0x6b 2\nregister.a = 0x6b\n");
+    QCOMPARE(bus.bench.errors(), QString());
+    bus.bench.wireRead("a");
+    QVERIFY2(bus.bench.open(), qPrintable(bus.bench.errorString()));
+    QCOMPARE(bus.get(0x6b, 1), QByteArray("\x02"));
+    QCOMPARE(bus.get(0x1a, 1), QByteArray("\x03"));
+}
+
+void tst_I2cDrivers::anotherDeviceIsRefused()
+{
+    Bus bus("i2c-registers", "address = 0x68\nidentity = 0x0f 0x33\nsetup = 0x20 1\nregister.a = 1\n");
+    bus.set(0x0f, "\x32");
+    QVERIFY(!bus.bench.open());
+    QVERIFY2(bus.bench.errorString().contains("register 0x0f of the device at 0x68 of fake:bus is 0x32, and not 0x33"),
+             qPrintable(bus.bench.errorString()));
+    QCOMPARE(bus.get(0x20, 1), QByteArray(1, '\0'));
+    bus.set(0x0f, "\x33");
+    QVERIFY2(bus.bench.open(), qPrintable(bus.bench.errorString()));
+}
+
+void tst_I2cDrivers::aDeviceThatIsSilentIsNamed()
+{
+    Bus bus("i2c-registers", "address = 0x68\nregister.a = 1\n");
+    bus.bench.wireRead("a");
+    QVERIFY2(bus.bench.open(), qPrintable(bus.bench.errorString()));
+    bus.memory.at(Address) = 0;
+    QVERIFY(!bus.bench.exchange());
+    QVERIFY2(bus.bench.errorString().contains("at 0x68 of fake:bus") && bus.bench.errorString().contains("i2cdetect"),
+             qPrintable(bus.bench.errorString()));
+    QVERIFY(!bus.bench.isFresh("a"));
+}
+
+void tst_I2cDrivers::theImuIsSetUp()
+{
+    Imu imu("accelerationRange = 8 g\nrateRange = 2000 deg/s\nsampleRate = 100\nbandwidth = 20 Hz\n");
+    QCOMPARE(imu.bench.errors(), QString());
+    QVERIFY2(imu.bench.open(), qPrintable(imu.bench.errorString()));
+    QCOMPARE(imu.get(0x6b, 1).toHex(), QByteArray("01"));        // awake, clock of the gyroscope
+    QCOMPARE(imu.get(0x19, 4).toHex(), QByteArray("09041810"));  // 1000 Hz / 10, filter 4, 2000 deg/s, 8 g
+    QCOMPARE(imu.get(0x38, 1).toHex(), QByteArray("01"));        // samples are announced
+}
+
+void tst_I2cDrivers::theImuMeasuresInSiUnits()
+{
+    Imu imu("accelerationRange = 2 g\nrateRange = 250 deg/s\n");
+    imu.wire();
+    QVERIFY2(imu.bench.open(), qPrintable(imu.bench.errorString()));
+    imu.measure("4000"
+                "c000"
+                "0000"
+                "0154"
+                "2ffc"
+                "d004"
+                "0000");  // 1 g, -1 g, 0; 340 counts; 12284, -12284 counts, 0
+    QVERIFY(imu.bench.exchange());
+    QCOMPARE(imu.bench.value("accelerationX"), 9.80665);
+    QCOMPARE(imu.bench.value("accelerationY"), -9.80665);
+    QCOMPARE(imu.bench.value("accelerationZ"), 0.0);
+    QCOMPARE(imu.bench.value("temperature"), 37.53);
+    const double rate = 12284.0 / 131.0 * M_PI / 180.0;
+    QVERIFY(std::abs(imu.bench.value("rateX") - rate) < 1e-9);
+    QVERIFY(std::abs(imu.bench.value("rateY") + rate) < 1e-9);
+    QCOMPARE(imu.bench.value("rateZ"), 0.0);
+}
+
+void tst_I2cDrivers::aSampleOfTheImuCountsOnce()
+{
+    Imu imu("timeout = 30 ms\n");
+    imu.wire();
+    QVERIFY2(imu.bench.open(), qPrintable(imu.bench.errorString()));
+    imu.measure("4000000000000000000000000000");
+    QVERIFY(imu.bench.exchange());
+    QVERIFY(imu.bench.isFresh("accelerationX"));
+    imu.set(0x3a, QByteArray(1, '\0'));  // as the device does when it is read
+    imu.bench.advance(30ms);
+    QVERIFY(imu.bench.exchange());
+    QVERIFY(imu.bench.isFresh("accelerationX"));
+    imu.bench.advance(1ms);
+    QVERIFY(imu.bench.exchange());
+    QVERIFY(!imu.bench.isFresh("accelerationX"));
+}
+
+void tst_I2cDrivers::anImuThatForgotItsSettingsIsOpenedAnew()
+{
+    Imu imu("timeout = 30 ms\n");
+    imu.wire();
+    QVERIFY2(imu.bench.open(), qPrintable(imu.bench.errorString()));
+    QVERIFY(imu.bench.exchange());
+    imu.bench.advance(1030ms);
+    QVERIFY(imu.bench.exchange());
+    imu.bench.advance(1ms);
+    QVERIFY(!imu.bench.exchange());
+    QVERIFY2(imu.bench.errorString().contains("takes no samples any more")
+                 && imu.bench.errorString().contains("supply"),
+             qPrintable(imu.bench.errorString()));
+    imu.set(0x6b, "\x40");  // asleep, as after switching on
+    imu.bench.close();
+    QVERIFY2(imu.bench.open(), qPrintable(imu.bench.errorString()));
+    QCOMPARE(imu.get(0x6b, 1).toHex(), QByteArray("01"));
+}
+
+void tst_I2cDrivers::anotherChipIsNoImu()
+{
+    Imu imu({}, 0x58);
+    QVERIFY(!imu.bench.open());
+    QVERIFY2(imu.bench.errorString().contains("at 0x68 of fake:bus is no MPU-6050")
+                 && imu.bench.errorString().contains("is 0x58") && imu.bench.errorString().contains("AD0"),
+             qPrintable(imu.bench.errorString()));
+}
+
+void tst_I2cDrivers::aRateThatTheImuCannotDoIsRefused()
+{
+    const Imu imu("sampleRate = 300\n");
+    QVERIFY2(imu.bench.errors().contains("near are 250 Hz and 333.333 Hz"), qPrintable(imu.bench.errors()));
+}
+
+QTEST_GUILESS_MAIN(tst_I2cDrivers)
+#include "tst_I2cDrivers.moc"
