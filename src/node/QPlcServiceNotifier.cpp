@@ -29,14 +29,14 @@ std::chrono::microseconds watchdogTimeOfEnvironment()
 }
 
 template<typename State>
-QString nameOf(State state)
+QString stateName(State state)
 {
     return QString::fromLatin1(QMetaEnum::fromType<State>().valueToKey(int(state)));
 }
 
 QString statusOf(const QPlcSlaveNode &node)
 {
-    const QString state = nameOf(node.state());
+    const QString state = stateName(node.state());
     if (node.state() == QPlcSlaveNode::RealTime)
         return QStringLiteral("%1, %2 cycles").arg(state).arg(node.counters().cycles);
     return node.errorString().isEmpty() ? state : QStringLiteral("%1; %2").arg(state, node.errorString());
@@ -45,7 +45,7 @@ QString statusOf(const QPlcSlaveNode &node)
 QString statusOf(const QPlcMasterNode &master)
 {
     const QString text = QStringLiteral("%1, %2 nodes, port %3")
-                             .arg(nameOf(master.state()))
+                             .arg(stateName(master.state()))
                              .arg(master.nodes().size())
                              .arg(master.serverPort());
     if (master.state() == QPlcMasterNode::RealTime)
