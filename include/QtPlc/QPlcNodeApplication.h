@@ -19,6 +19,7 @@
 /// Winch winch(application.value("drum").toDouble());
 /// return application.run(winch);
 /// ```
+/// As a service of systemd (Type=notify) it tells when the node is registered, or with --stay when it waits for its master, and feeds the watchdog: QPlcServiceNotifier.
 class QTPLC_EXPORT QPlcNodeApplication : public QPlcCoreApplication
 {
     Q_OBJECT

@@ -280,6 +280,7 @@ private:
     friend class QPlcMasterNodePrivate;
     friend class QPlcCompactSlaveNode;
     friend class QPlcIOSlaveNode;
+    friend class QPlcServiceNotifier;
 
     // The same functions one level below: on the bytes of the frames, without lists.
     virtual bool bindPorts(const QPlcSignalTable &table, QVector<QPlcSignalIndex> *inputs,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "QPlcNodeApplication.h"
 
+#include "QPlcServiceNotifier.h"
 #include "QPlcSignalIndexTable.h"
 
 namespace {
@@ -99,12 +100,14 @@ int QPlcNodeApplication::run(QPlcSlaveNode &node)
     if (!configure(node))
         return exitCode();
     const bool stays = isSet(QStringLiteral("stay"));
+    QPlcServiceNotifier service(node);
     if (stays)
         node.connectToMaster(master);
     else if (!node.connectToMasterAndWaitForConnected(master))
         return node.error() == QPlcSlaveNode::NoError
             ? Success
             : UsageError;  // the node has said why; without an error the master has just ended
+    service.setReady();    // one that stays does its work already when it waits for its master
     if (!stays) {
         connect(&node, &QPlcSlaveNode::disconnectedFromMaster, this, [this, &node] {
             // When the master was lost, and did not just end, the error follows, and the node connects again.

@@ -13,7 +13,7 @@
 #include <utility>
 
 using Message = QPlcMessage;
-using Event = qplc::SlaveEvent;
+using qplc::SlaveEvent;
 
 namespace {
 
@@ -47,27 +47,27 @@ bool hasCycles(QPlcMasterNode::State state)
 }
 
 /// What a message of the master means to the node; none: nothing to its state.
-std::optional<Event> eventOf(const Message &message)
+std::optional<SlaveEvent> eventOf(const Message &message)
 {
     switch (message.kind()) {
     case Message::Hello:
-        return Event::HelloCame;
+        return SlaveEvent::HelloCame;
     case Message::Registered:
-        return Event::Accepted;
+        return SlaveEvent::Accepted;
     case Message::CyclicChannelAttached:
-        return Event::ChannelAttached;
+        return SlaveEvent::ChannelAttached;
     case Message::Rejected:
-        return Event::Refused;
+        return SlaveEvent::Refused;
     case Message::MasterEnds:
-        return Event::MasterEnded;
+        return SlaveEvent::MasterEnded;
     case Message::SendYourInitialOutputStates:
-        return Event::OutputsWanted;
+        return SlaveEvent::OutputsWanted;
     case Message::InitializeWithValues:
-        return Event::ValuesCame;
+        return SlaveEvent::ValuesCame;
     case Message::RealTimeStarted:
-        return Event::PhaseStarted;
+        return SlaveEvent::PhaseStarted;
     case Message::RealTimeStopped:
-        return Event::PhaseStopped;
+        return SlaveEvent::PhaseStopped;
     default:
         return {};
     }
@@ -86,7 +86,7 @@ QPlcSlaveNodePrivate::QPlcSlaveNodePrivate(QPlcSlaveNode *node, const QString &n
     , m_uuid(QUuid::createUuid().toString(QUuid::WithoutBraces))
 {
     m_retryTimer.setSingleShot(true);
-    QObject::connect(&m_retryTimer, &QTimer::timeout, q, [this] { apply(Event::Retry); });
+    QObject::connect(&m_retryTimer, &QTimer::timeout, q, [this] { apply(SlaveEvent::Retry); });
     m_patience.setSingleShot(true);
     QObject::connect(&m_patience, &QTimer::timeout, q, [this] {
         masterLost(QPlcAbstractSocket::NoError,
@@ -124,7 +124,7 @@ void QPlcSlaveNodePrivate::connectToMaster(const QPlcUnderlyingProtocol &newMast
                      .arg(name));
         return;
     }
-    apply(Event::Connect);
+    apply(SlaveEvent::Connect);
 }
 
 void QPlcSlaveNodePrivate::openConnection()
@@ -135,7 +135,7 @@ void QPlcSlaveNodePrivate::openConnection()
     control = new QPlcMasterSocket(q);
     if (security)
         control->setSecurity(*security);
-    QObject::connect(control, &QPlcAbstractSocket::connected, q, [this] { apply(Event::Connected); });
+    QObject::connect(control, &QPlcAbstractSocket::connected, q, [this] { apply(SlaveEvent::Connected); });
     QObject::connect(control, &QPlcAbstractSocket::messageReceived, q,
                      [this](const Message &message) { receive(message); });
     // Not at once: a message that cannot be sent ends the connection, and who sends has more to do.
@@ -157,7 +157,7 @@ void QPlcSlaveNodePrivate::disconnectFromMaster()
     if (localMaster)
         localMaster->removeLocalNode(q);
     else
-        apply(Event::Leave);
+        apply(SlaveEvent::Leave);
 }
 
 void QPlcSlaveNodePrivate::endBeforeDestruction()
@@ -205,7 +205,7 @@ void QPlcSlaveNodePrivate::closeAfterWatchdog()
         const bool hadChannel = hasChannel;
         haltCycles();
         closeConnection(QPlcSlaveNode::WatchdogReason);
-        retryLater(Event::WatchdogTimedOut);
+        retryLater(SlaveEvent::WatchdogTimedOut);
         Q_EMIT q->realTimeHasStopped();
         if (hadChannel)
             Q_EMIT q->disconnectedFromMaster();
@@ -213,14 +213,14 @@ void QPlcSlaveNodePrivate::closeAfterWatchdog()
     QMetaObject::invokeMethod(q, close, Qt::QueuedConnection);
 }
 
-void QPlcSlaveNodePrivate::retryLater(Event event)
+void QPlcSlaveNodePrivate::retryLater(SlaveEvent event)
 {
     const bool isWanted = reconnectPolicy == QPlcSlaveNode::ReconnectAlways
-        || (reconnectPolicy == QPlcSlaveNode::ReconnectWhenLost && m_wasRegistered && event != Event::MasterEnded);
+        || (reconnectPolicy == QPlcSlaveNode::ReconnectWhenLost && m_wasRegistered && event != SlaveEvent::MasterEnded);
     if (!isWanted || QCoreApplication::closingDown())
         return;
     const double chance = QRandomGenerator::global()->generateDouble();
-    m_retryTimer.start(event == Event::Refused ? m_backOff.afterRefusal(chance) : m_backOff.next(chance));
+    m_retryTimer.start(event == SlaveEvent::Refused ? m_backOff.afterRefusal(chance) : m_backOff.next(chance));
 }
 
 void QPlcSlaveNodePrivate::masterLost(QPlcAbstractSocket::Error socketError, const QString &text)
@@ -234,7 +234,7 @@ void QPlcSlaveNodePrivate::masterLost(QPlcAbstractSocket::Error socketError, con
     const QString full = sentence.arg(name, master.toString(), text);
     const QPlcAbstractSocket::Error reason
         = socketError == QPlcAbstractSocket::NoError ? QPlcAbstractSocket::ConnectionLostError : socketError;
-    apply(socketError == QPlcAbstractSocket::SecurityError ? Event::Refused : Event::ConnectionLost);
+    apply(socketError == QPlcAbstractSocket::SecurityError ? SlaveEvent::Refused : SlaveEvent::ConnectionLost);
     setError(reason == QPlcAbstractSocket::ProtocolError ? QPlcSlaveNode::ProtocolError
                                                          : QPlcSlaveNode::ConnectionError,
              full);
@@ -244,7 +244,7 @@ void QPlcSlaveNodePrivate::masterLost(QPlcAbstractSocket::Error socketError, con
 /// What master and node say of each other cannot be: it does not pass by itself.
 void QPlcSlaveNodePrivate::giveUp(QPlcSlaveNode::Error newError, const QString &text)
 {
-    apply(Event::Refused);
+    apply(SlaveEvent::Refused);
     setError(newError, text);
 }
 
@@ -253,7 +253,7 @@ void QPlcSlaveNodePrivate::giveUp(QPlcSlaveNode::Error newError, const QString &
 /// Whether a master may send \a message now. Anything else would call the code of the node before it is bound, or on two threads at a time.
 bool QPlcSlaveNodePrivate::isExpected(const Message &message) const
 {
-    const std::optional<Event> event = eventOf(message);
+    const std::optional<SlaveEvent> event = eventOf(message);
     if (event && qplc::slaveStates().at(state, *event).verdict == qplc::Verdict::Refused)
         return false;
     switch (message.kind()) {  // steps of the registration
@@ -295,7 +295,7 @@ void QPlcSlaveNodePrivate::receive(const Message &message)
     case Message::StatesInitialized:
         if (!message.fields().value(QStringLiteral("ok")).toBool()) {
             m_outputsAwaited = false;  // the master has given up what it began
-            apply(Event::InitializationFailed);
+            apply(SlaveEvent::InitializationFailed);
         }
         break;
     case Message::Failed:
@@ -305,15 +305,15 @@ void QPlcSlaveNodePrivate::receive(const Message &message)
     default:
         break;
     }
-    if (const std::optional<Event> event = eventOf(message))
+    if (const std::optional<SlaveEvent> event = eventOf(message))
         apply(*event, message);
     else
         Q_EMIT q->messageReceived(message);
 }
 
-void QPlcSlaveNodePrivate::proceed(Event event, const Message &message)
+void QPlcSlaveNodePrivate::proceed(SlaveEvent event, const Message &message)
 {
-    if (event == Event::HelloCame)
+    if (event == SlaveEvent::HelloCame)
         receiveHello(message);
     else
         receiveRegistered(message);
@@ -327,7 +327,7 @@ void QPlcSlaveNodePrivate::codeFailed(const QString &text)
     if (control)
         control->sendMessage(Message(Message::NodeFault, {{QStringLiteral("text"), text}}));
     makeSafe(QPlcSlaveNode::CodeFailed);
-    apply(Event::CodeFailed);
+    apply(SlaveEvent::CodeFailed);
     setError(QPlcSlaveNode::UserCodeError, QStringLiteral("node '%1': %2").arg(name, text));
 }
 
@@ -427,11 +427,11 @@ void QPlcSlaveNodePrivate::report(const qplc::CycleEvent &event)
     case qplc::CycleEvent::ToldSafeStop:
         qCWarning(lcSlave).noquote() << "node" << name << "- the master stops safely, in cycle" << event.cycle;
         tellSafe(QPlcSlaveNode::MasterStopsSafely);
-        apply(Event::ToldSafeStop);
+        apply(SlaveEvent::ToldSafeStop);
         break;
     case qplc::CycleEvent::WatchdogTimedOut:
         tellSafe(QPlcSlaveNode::WatchdogReason);
-        apply(Event::WatchdogTimedOut);
+        apply(SlaveEvent::WatchdogTimedOut);
         setError(QPlcSlaveNode::WatchdogError,
                  QStringLiteral("node '%1': no frame of the master for %2 ms since cycle %3: safe state")
                      .arg(name)

@@ -70,7 +70,7 @@ bool SlaveCycle::start(const Phase &phase)
     m_runtime.beginPhase(phase.clock.isLockstep());
     for (std::atomic<quint64> *counter :
          {&m_counters.cycles, &m_counters.missed, &m_counters.duplicated, &m_counters.outdated, &m_counters.rejected,
-          &m_counters.forged, &m_counters.watchdog})
+          &m_counters.forged, &m_counters.watchdog, &m_counters.finished})
         counter->store(0);
     m_statistics.restart(phase.clock.isLockstep() ? 0 : lasting(phase.period));
     m_computedAny = m_faulted = false;
@@ -104,6 +104,12 @@ QPlcSlaveNode::Counters SlaveCycle::counters() const
     counters.forged = m_counters.forged;
     counters.watchdog = m_counters.watchdog;
     return counters;
+}
+
+quint64 SlaveCycle::cycleInProgress() const
+{
+    const quint64 begun = m_counters.cycles;
+    return m_counters.finished < begun ? begun : 0;
 }
 
 void SlaveCycle::run() noexcept
@@ -217,13 +223,14 @@ void SlaveCycle::compute() noexcept
     const std::uint64_t cycle = m_decoder.cycle();
     const std::uint64_t missed
         = m_computedAny ? m_phase.interval.missed(m_lastCycle - m_phase.cycleZero, cycle - m_phase.cycleZero) : 0;
+    count(m_counters.cycles);
+    count(m_counters.missed, missed);
     if (m_decoder.header().flags & SafeStopFlag)
         makeSafe(QPlcSlaveNode::MasterStopsSafely,
                  {CycleEvent::ToldSafeStop, m_identity.node, 0, cycle - m_phase.cycleZero});
-    count(m_counters.cycles);
-    count(m_counters.missed, missed);
     const bool computed = m_runtime.step(QPlcCycle(cycle - m_phase.cycleZero, m_phase.period, missed),
                                          m_decoder.payload() + m_phase.group.offset);
+    count(m_counters.finished);
     if (!computed && !m_faulted)
         m_reports.post({CycleEvent::NodeFaulted, m_identity.node, 0, cycle - m_phase.cycleZero});
     m_faulted = !computed;

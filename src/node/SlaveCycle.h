@@ -70,6 +70,8 @@ public:
 
     CycleReports &reports() { return m_reports; }
     QPlcSlaveNode::Counters counters() const;
+    /// How many cycles the one is that is being computed, from 1; 0: none is. \threadsafe yes
+    quint64 cycleInProgress() const;
     const SlaveStatistics &statistics() const { return m_statistics; }
 
 private:
@@ -112,7 +114,8 @@ private:
 
     struct AtomicCounters
     {
-        std::atomic<quint64> cycles{0}, missed{0}, duplicated{0}, outdated{0}, rejected{0}, forged{0}, watchdog{0};
+        std::atomic<quint64> cycles{0}, missed{0}, duplicated{0}, outdated{0}, rejected{0}, forged{0}, watchdog{0},
+            finished{0};
     } m_counters;
     SlaveStatistics m_statistics;
 };

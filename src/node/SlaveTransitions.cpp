@@ -6,28 +6,28 @@
 #include <utility>
 
 using Message = QPlcMessage;
-using Event = qplc::SlaveEvent;
-using Action = qplc::SlaveAction;
+using qplc::SlaveAction;
+using qplc::SlaveEvent;
 
 namespace {
 
 /// Why a node that is in its phase goes to its safe state.
-QPlcSlaveNode::SafeStateReason reasonOf(Event event)
+QPlcSlaveNode::SafeStateReason reasonOf(SlaveEvent event)
 {
-    return event == Event::ConnectionLost  ? QPlcSlaveNode::MasterLost
-        : event == Event::WatchdogTimedOut ? QPlcSlaveNode::WatchdogReason
-                                           : QPlcSlaveNode::PhaseEnded;
+    return event == SlaveEvent::ConnectionLost  ? QPlcSlaveNode::MasterLost
+        : event == SlaveEvent::WatchdogTimedOut ? QPlcSlaveNode::WatchdogReason
+                                                : QPlcSlaveNode::PhaseEnded;
 }
 
 /// Ends the phase, if there is one: what the cycle thread still has to say comes before.
-bool endsPhase(Event event)
+bool endsPhase(SlaveEvent event)
 {
     switch (event) {
-    case Event::Leave:
-    case Event::ConnectionLost:
-    case Event::Refused:
-    case Event::MasterEnded:
-    case Event::PhaseStopped:
+    case SlaveEvent::Leave:
+    case SlaveEvent::ConnectionLost:
+    case SlaveEvent::Refused:
+    case SlaveEvent::MasterEnded:
+    case SlaveEvent::PhaseStopped:
         return true;
     default:
         return false;
@@ -36,7 +36,7 @@ bool endsPhase(Event event)
 
 }  // namespace
 
-bool QPlcSlaveNodePrivate::apply(Event event, const Message &message)
+bool QPlcSlaveNodePrivate::apply(SlaveEvent event, const Message &message)
 {
     if (endsPhase(event))
         haltCycles();
@@ -45,7 +45,7 @@ bool QPlcSlaveNodePrivate::apply(Event event, const Message &message)
         return false;
     const bool wasInPhase = m_inPhase;
     const bool hadChannel = hasChannel;
-    if (event == Event::PhaseStarted)
+    if (event == SlaveEvent::PhaseStarted)
         m_isSafeTold = false;
     if (!localMaster && !prepareFor(cell.action, event, message))
         return true;
@@ -60,7 +60,7 @@ bool QPlcSlaveNodePrivate::apply(Event event, const Message &message)
         Q_EMIT q->disconnectedFromMaster();
     if (!localMaster && state == cell.next)
         carryOut(cell.action);
-    if (cell.action == Action::Proceed)
+    if (cell.action == SlaveAction::Proceed)
         proceed(event, message);
     return true;
 }
@@ -75,27 +75,27 @@ void QPlcSlaveNodePrivate::enter(QPlcSlaveNode::State newState)
 }
 
 /// What has to be done before the next state is there. \return false when it failed and has led to another state
-bool QPlcSlaveNodePrivate::prepareFor(Action action, Event event, const Message &message)
+bool QPlcSlaveNodePrivate::prepareFor(SlaveAction action, SlaveEvent event, const Message &message)
 {
     switch (action) {
-    case Action::CloseConnection:
+    case SlaveAction::CloseConnection:
         m_retryTimer.stop();
         closeConnection(reasonOf(event));
         return true;
-    case Action::CloseAndRetry:
-        if (event == Event::WatchdogTimedOut) {
+    case SlaveAction::CloseAndRetry:
+        if (event == SlaveEvent::WatchdogTimedOut) {
             closeAfterWatchdog();
             return true;
         }
         closeConnection(reasonOf(event));
         retryLater(event);
         return true;
-    case Action::EndCycles:
+    case SlaveAction::EndCycles:
         endPhase(reasonOf(event));
         return true;
-    case Action::TakeValues:
+    case SlaveAction::TakeValues:
         return initializeWith(message);
-    case Action::StartCycles:
+    case SlaveAction::StartCycles:
         return startCycles(message);
     default:
         return true;
@@ -103,19 +103,19 @@ bool QPlcSlaveNodePrivate::prepareFor(Action action, Event event, const Message 
 }
 
 /// What is done in the state that has been reached.
-void QPlcSlaveNodePrivate::carryOut(Action action)
+void QPlcSlaveNodePrivate::carryOut(SlaveAction action)
 {
     switch (action) {
-    case Action::OpenConnection:
+    case SlaveAction::OpenConnection:
         openConnection();
         break;
-    case Action::Greet:
+    case SlaveAction::Greet:
         greet();
         break;
-    case Action::TellRegistered:
+    case SlaveAction::TellRegistered:
         tellRegistered();
         break;
-    case Action::GiveOutputs:
+    case SlaveAction::GiveOutputs:
         sendInitialOutputs();
         break;
     default:

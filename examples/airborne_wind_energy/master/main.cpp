@@ -134,11 +134,13 @@ int main(int argc, char **argv)
     master.setMulticastGroup(settings.multicastGroup);
     master.setFaultPlan(settings.faultPlan);
     master.setBeacon(application.isSet(QStringLiteral("beacon")));
+    QPlcServiceNotifier service(master);
     awe::FlightRun run(master, settings.run);
     if (!run.isValid() || !master.startServer(QPlcUnderlyingProtocol::tcp(settings.address, settings.port)))
         return QPlcCoreApplication::UsageError;
     std::printf("port %d\n", int(master.serverPort()));
     std::fflush(stdout);
+    service.setReady();
 
     QObject::connect(&run, &awe::FlightRun::finished, &application, [&](int exitCode) {
         if (!run.report().isEmpty())
