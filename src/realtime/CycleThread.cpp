@@ -91,6 +91,7 @@ bool CycleThread::start(const QString &name, const QPlcRealTimeOptions &options,
     if (!reason.isEmpty())
         return setError(reason);
 
+    m_settings = applyHeapOptions(m_options);  // of this thread: the new one allocates nothing while it runs
     m_applied = false;
     m_inherited = std::make_unique<Scheduling>(Scheduling::current());
     if (const int error = create()) {
@@ -135,7 +136,7 @@ void *CycleThread::run(void *self) noexcept
 void CycleThread::applyOptions()
 {
     pthread_setname_np(pthread_self(), kernelName(m_name).constData());
-    m_settings = applyRealTimeOptions(m_options, *m_inherited);
+    m_settings = applyRealTimeOptions(m_options, *m_inherited) + m_settings;
     if (m_options.idleLatency)
         m_settings += m_idleLatency.limit(*m_options.idleLatency);
     const std::lock_guard<std::mutex> lock(m_mutex);

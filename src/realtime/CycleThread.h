@@ -29,7 +29,8 @@ public:
     CycleThread(const CycleThread &) = delete;
     CycleThread &operator=(const CycleThread &) = delete;
 
-    /// Starts \a body on the thread with \a options and returns when these have been applied. What the system refused
+    /// Starts \a body on the thread with \a options and returns when these have been applied. The reserve of the heap is
+    /// taken by the caller, whose heap it is. What the system refused
     /// does not keep the thread from running: settings() tells.
     /// \param name  shown by ps and top, at most 15 bytes of UTF-8 count
     /// \param body  must not throw: nobody is there to catch it, so an exception ends the program by std::terminate(),

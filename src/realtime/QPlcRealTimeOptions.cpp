@@ -6,6 +6,7 @@ namespace {
 constexpr int MaximumPriority = 99;
 constexpr int MaximumCpu = 1023;                     // what a cpu_set_t holds
 constexpr int MaximumPrefault = 64 * 1024 * 1024;    // [byte]
+constexpr int MaximumReserve = 1024 * 1024 * 1024;   // [byte]
 constexpr qint64 MaximumTimerSlack = 1'000'000'000;  // [ns]
 constexpr int MaximumIdleLatency = 1'000'000;        // [us]
 constexpr qint64 MaximumSpin = 10'000'000;           // [ns]
@@ -46,6 +47,8 @@ QString QPlcRealTimeOptions::errorString() const
         return outOfRange("cpu", *cpu, 0, MaximumCpu);
     if (prefaultStack < 0 || prefaultStack > MaximumPrefault)
         return outOfRange("prefaultStack", prefaultStack, 0, MaximumPrefault, " byte");
+    if (heapReserve < 0 || heapReserve > MaximumReserve)
+        return outOfRange("heapReserve", heapReserve, 0, MaximumReserve, " byte");
     if (timerSlack && (*timerSlack < 1 || *timerSlack > MaximumTimerSlack))
         return outOfRange("timerSlack", *timerSlack, 1, MaximumTimerSlack, " ns");
     if (idleLatency && (*idleLatency < 0 || *idleLatency > MaximumIdleLatency))

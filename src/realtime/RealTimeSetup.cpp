@@ -2,6 +2,7 @@
 #include "RealTimeSetup.h"
 
 #include "CycleThread.h"
+#include "HeapReserve.h"
 #include "Remedies.h"
 #include "StackPrefault.h"
 
@@ -185,6 +186,20 @@ QString Scheduling::toString() const
             return QStringLiteral("%1 %2").arg(QLatin1String(name.text)).arg(priority);
     }
     return QStringLiteral("policy %1, priority %2").arg(policy).arg(priority);
+}
+
+QVector<QPlcRealTimeSetting> applyHeapOptions(const QPlcRealTimeOptions &options)
+{
+    if (!options.lockMemory || options.heapReserve == 0)
+        return {};
+    QPlcRealTimeSetting result = setting("heap", QStringLiteral("%1 byte").arg(options.heapReserve));
+    const std::size_t wanted = std::size_t(options.heapReserve);
+    const std::size_t reserved = reserveHeap(wanted);
+    result.obtained = QStringLiteral("%1 byte").arg(reserved);
+    result.granted = reserved >= wanted;
+    if (!result.granted)
+        result.remedy = heapRemedy();
+    return {result};
 }
 
 // The memory is locked before the stack is touched: what is touched then stays. Scheduling comes last but one, so that

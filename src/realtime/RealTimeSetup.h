@@ -21,6 +21,12 @@ struct Scheduling
     friend bool operator==(Scheduling a, Scheduling b) { return a.policy == b.policy && a.priority == b.priority; }
 };
 
+/// What \a options wish of the heap of the calling thread, which is the one that works beside the cycle and allocates.
+/// Once in a process has an effect; before memory is locked, so that the reserve is locked with the rest.
+/// \return empty when nothing is wished
+/// \pre options.errorString() is empty
+QVector<QPlcRealTimeSetting> applyHeapOptions(const QPlcRealTimeOptions &options);
+
 /// Applies \a options to the calling thread and reads back what was obtained.
 /// \param inherited  what Inherit means: the scheduling of the thread that started this one
 /// \pre options.errorString() is empty

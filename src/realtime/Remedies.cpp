@@ -82,6 +82,14 @@ QString memoryLockRemedy(int error, const QString &program)
     return grantRight(program, QStringLiteral("cap_ipc_lock"), limit, QStringLiteral("memlock unlimited"));
 }
 
+QString heapRemedy()
+{
+    return QStringLiteral(
+               "set a smaller heapReserve (0: none), or allow a larger heap: ulimit [kB] -d is %1, -v is %2; "
+               "only the C library of GNU without sanitizers has a reserve")
+        .arg(softLimit(RLIMIT_DATA, 1024), softLimit(RLIMIT_AS, 1024));
+}
+
 QString stackRemedy()
 {
     return QStringLiteral("set a smaller prefaultStack, or allow a larger stack: ulimit -s (%1 kB now)")

@@ -18,6 +18,8 @@ QString inheritanceRemedy();
 QString cpuRemedy(const QString &allowed);
 /// \param error  errno of mlockall(), 0 when it claimed success
 QString memoryLockRemedy(int error, const QString &program = thisProgram());
+/// The heap got less than it shall have in reserve.
+QString heapRemedy();
 QString stackRemedy();
 QString timerSlackRemedy();
 /// \param error  errno of the device that limits the sleep of processors

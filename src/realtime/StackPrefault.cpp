@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "StackPrefault.h"
 
+#include "ResidentPages.h"
+
 #include <algorithm>
 #include <alloca.h>
-#include <cstdint>
 #include <pthread.h>
-#include <sys/mman.h>
-#include <unistd.h>
 
 namespace qplc {
 
@@ -14,11 +13,6 @@ namespace {
 
 constexpr std::size_t Reserve
     = std::size_t(32) * 1024;  // [byte] left alone at the end of the stack, for the calls made here
-
-std::size_t pageSize() noexcept
-{
-    return std::size_t(sysconf(_SC_PAGESIZE));
-}
 
 /// [byte] of the calling thread's stack below \a address, without the reserve.
 std::size_t roomBelow(std::uintptr_t address) noexcept
@@ -34,20 +28,6 @@ std::size_t roomBelow(std::uintptr_t address) noexcept
     return address > end ? address - end : 0;
 }
 
-/// [byte] of [begin, begin + size) whose pages are in memory.
-std::size_t residentBytes(char *begin, std::size_t size) noexcept
-{
-    const std::size_t page = pageSize();
-    char *const end = begin + size;
-    std::size_t resident = 0;
-    for (char *at = begin - std::uintptr_t(begin) % page; at < end; at += page) {
-        unsigned char state = 0;
-        if (mincore(at, page, &state) == 0 && (state & 1) != 0)
-            resident += std::size_t(std::min(at + page, end) - std::max(at, begin));
-    }
-    return resident;
-}
-
 /// \return [byte] that are in memory afterwards
 __attribute__((noinline)) std::size_t touch(std::size_t size) noexcept
 {
@@ -56,7 +36,7 @@ __attribute__((noinline)) std::size_t touch(std::size_t size) noexcept
     for (std::size_t left = size; left > 0; left -= std::min(left, page))
         *static_cast<volatile char *>(bytes + left - 1) = 0;  // downwards, as a stack grows
     *static_cast<volatile char *>(bytes) = 0;
-    return residentBytes(bytes, size);
+    return residentBytes(std::uintptr_t(bytes), size);
 }
 
 }  // namespace

@@ -52,7 +52,9 @@ void tst_QPlcRealTimeOptions::nonsenseIsNamedWithItsRange_data()
     row(
         "all wishes", [](O &o) { o.cpu = 0, o.lockMemory = true, o.prefaultStack = 0, o.timerSlack = 1; }, "");
     row(
-        "largest values", [](O &o) { o.cpu = 1023, o.prefaultStack = 67108864, o.timerSlack = 1000000000; }, "");
+        "largest values",
+        [](O &o) { o.cpu = 1023, o.prefaultStack = 67108864, o.heapReserve = 1073741824, o.timerSlack = 1000000000; },
+        "");
 
     row(
         "no priority", [](O &o) { o.policy = O::Fifo; }, "priority 0: use 1 ... 99");
@@ -76,6 +78,11 @@ void tst_QPlcRealTimeOptions::nonsenseIsNamedWithItsRange_data()
         "stack below 0", [](O &o) { o.prefaultStack = -1; }, "prefaultStack -1: use 0 ... 67108864 byte");
     row(
         "stack too large", [](O &o) { o.prefaultStack = 67108865; }, "prefaultStack 67108865: use 0 ... 67108864 byte");
+    row(
+        "reserve below 0", [](O &o) { o.heapReserve = -1; }, "heapReserve -1: use 0 ... 1073741824 byte");
+    row(
+        "reserve too large", [](O &o) { o.heapReserve = 1073741825; },
+        "heapReserve 1073741825: use 0 ... 1073741824 byte");
     row(
         "negative idle latency", [](O &o) { o.idleLatency = -1; }, "idleLatency -1: use 0 ... 1000000 us");
     row(

@@ -58,7 +58,7 @@ Gate linkFaultsAreCounted(const Evidence &evidence);  // what a link did, by fra
 
 // Resources (ResourceGates.cpp)
 Gate nothingLeaks(const Evidence &evidence);                         // descriptors and threads
-Gate memoryStays(const Evidence &evidence, const Profile &profile);  // resident memory
+Gate memoryStays(const Evidence &evidence, const Profile &profile);  // resident memory, and heap in use
 
 /// All of them, in this order.
 std::vector<Gate> judge(const Evidence &evidence, const Profile &profile);

@@ -31,6 +31,7 @@ struct Record
         Error,         // numbers: error
         Counters,      // of the master. numbers: see MasterNumber
         NodeCounters,  // numbers: see NodeNumber
+        Heap,          // numbers: see HeapNumber
         // of the runner; subject: a node, or Nobody
         Started = 200,  // a process of the plant. numbers: process, life
         FaultBegins,    // numbers: kind, amount, seed
@@ -67,6 +68,8 @@ struct Record
     };
     /// Connections of strangers, and messages of who may not send them.
     enum AttemptNumber { Made, Ended, Commands, Denials };
+    /// [byte] of the heap that the program has taken and not given back, that the heap has from the system, and that are free at its end.
+    enum HeapNumber { HeapInUse, HeapTaken, HeapTop };
     enum NodeNumber { NodePhase, Answers, NodeLate, AnswersLost, Duplicated, Reordered, Rejected, Resent };
     /// Wanted: the phase ended. Ordered: the master stops safely.
     enum SafeNumber { SafeDriveBits, IsWanted, IsOrdered };

@@ -42,21 +42,77 @@ quint64 leastOf(Record::UsageNumber number, Look begin, Look end)
     return (*std::min_element(begin, end, isLess))->numbers[number];
 }
 
-/// Slope of the straight line through resident memory over time [kB/s].
-double slopeOf(const std::vector<const Record *> &usages)
+struct Sample
+{
+    qint64 time;    // [ns]
+    double memory;  // [kB]
+};
+
+using Samples = std::vector<Sample>;
+
+Samples residentMemory(const std::vector<const Record *> &usages, qint64 begin)
+{
+    Samples samples;
+    for (const Record *usage : usages) {
+        if (usage->time >= begin)
+            samples.push_back({usage->time, double(usage->numbers[Record::ResidentKb])});
+    }
+    return samples;
+}
+
+/// What a master had in use of its heap, by its own words.
+Samples heapInUse(const Evidence &evidence, quint32 life, qint64 begin, qint64 end)
+{
+    Samples samples;
+    for (const History &master : evidence.masters) {
+        if (master.life != life)
+            continue;
+        for (const Record *record : recordsOf(master, Record::Heap, -1, begin, end))
+            samples.push_back({record->time, double(record->numbers[Record::HeapInUse]) / 1024.0});
+    }
+    return samples;
+}
+
+/// Slope of the straight line through memory over time [kB/s].
+double slopeOf(const Samples &samples)
 {
     double n = 0.0, t = 0.0, m = 0.0, tt = 0.0, tm = 0.0;
-    for (const Record *usage : usages) {
-        const double time = double(usage->time - usages.front()->time) * 1e-9;
-        const double memory = double(usage->numbers[Record::ResidentKb]);
+    for (const Sample &sample : samples) {
+        const double time = double(sample.time - samples.front().time) * 1e-9;
         n += 1.0;
         t += time;
-        m += memory;
+        m += sample.memory;
         tt += time * time;
-        tm += time * memory;
+        tm += time * sample.memory;
     }
     const double spread = n * tt - t * t;
     return spread > 0.0 ? (n * tm - t * m) / spread : 0.0;
+}
+
+constexpr std::size_t FewestSamples = 10;  // for a slope
+
+/// \param figure  under which the growth is shown \param what  that grows
+void judgeGrowth(Gate *gate, const Samples &samples, const QString &figure, const QString &what)
+{
+    constexpr double mostGrowth = 100.0;  // [kB] in 10 minutes
+    const double growth = slopeOf(samples) * 600.0;
+    ++gate->looked;
+    gate->largest(figure, growth);
+    if (growth > mostGrowth)
+        gate->fail(QStringLiteral("%1 grows by %2 kB in 10 minutes").arg(what).arg(growth));
+}
+
+/// A heap with a reserve hides for hours what leaks: what is in use tells.
+void judgeHeap(Gate *gate, const Evidence &evidence, const Process &master, qint64 begin, qint64 end)
+{
+    const Samples samples = heapInUse(evidence, master.life, begin, end);
+    if (samples.size() < FewestSamples) {
+        gate->fail(QStringLiteral("%1 has not written what it has in use of its heap").arg(nameOf(master)));
+        return;
+    }
+    gate->largest(QStringLiteral("master heap in use [kB]"), samples.back().memory);
+    judgeGrowth(gate, samples, QStringLiteral("growth of the master's heap in use [kB per 10 min]"),
+                QStringLiteral("the heap in use of %1").arg(nameOf(master)));
 }
 
 }  // namespace
@@ -93,7 +149,6 @@ Gate nothingLeaks(const Evidence &evidence)
 
 Gate memoryStays(const Evidence &evidence, const Profile &profile)
 {
-    constexpr double mostGrowth = 100.0;          // [kB] in 10 minutes
     constexpr qint64 shortest = 120'000'000'000;  // [ns] below this a slope says nothing
     constexpr qint64 warmUp = 30'000'000'000;     // [ns] of each life
     Gate gate("memory stays");
@@ -101,20 +156,15 @@ Gate memoryStays(const Evidence &evidence, const Profile &profile)
     gate.isAsked = profile.judgesMemory && !all.isEmpty()
         && all.begin()->back()->time - all.begin()->front()->time >= warmUp + shortest;
     for (auto process = all.begin(); process != all.end(); ++process) {
-        std::vector<const Record *> warm;
-        for (const Record *usage : *process) {
-            if (usage->time >= process->front()->time + warmUp)
-                warm.push_back(usage);
-        }
-        if (process.key().node < 0)
+        const bool isMaster = process.key().node < 0;
+        if (isMaster)
             gate.largest(QStringLiteral("master resident [kB]"), double(process->back()->numbers[Record::ResidentKb]));
-        if (warm.size() < 10 || warm.back()->time - warm.front()->time < shortest)
+        const Samples warm = residentMemory(*process, process->front()->time + warmUp);
+        if (warm.size() < FewestSamples || warm.back().time - warm.front().time < shortest)
             continue;
-        ++gate.looked;
-        const double growth = slopeOf(warm) * 600.0;
-        gate.largest(QStringLiteral("largest growth [kB per 10 min]"), growth);
-        if (growth > mostGrowth)
-            gate.fail(QStringLiteral("%1 grows by %2 kB in 10 minutes").arg(nameOf(process.key())).arg(growth));
+        judgeGrowth(&gate, warm, QStringLiteral("largest growth [kB per 10 min]"), nameOf(process.key()));
+        if (isMaster)
+            judgeHeap(&gate, evidence, process.key(), warm.front().time, warm.back().time);
     }
     return gate;
 }

@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <cstdio>
+#include <malloc.h>
 
 namespace soak {
 
@@ -65,6 +66,8 @@ public:
         recordNodes();
         connect(&m_timer, &QTimer::timeout, this, [this] { count(); });
         m_timer.start(options.shape.nodes > 100 ? 1000 : 100);  // each look at a crowd is work
+        connect(&m_heapTimer, &QTimer::timeout, this, [this] { weigh(); });
+        m_heapTimer.start(1000);
     }
     ~Master() override { removeLocalNode(&m_recorder); }
     bool start(std::chrono::microseconds period, quint16 port)
@@ -114,10 +117,21 @@ private:
         }
     }
 
+    /// What the heap has lent, for a leak that does not show in resident memory as long as the heap has a reserve.
+    void weigh()
+    {
+#if defined(__GLIBC__) && __GLIBC_PREREQ(2, 33)
+        const struct mallinfo2 heap = ::mallinfo2();
+        m_history.append(Record::Heap, Record::Nobody,
+                         {heap.uordblks + heap.hblkhd, heap.arena + heap.hblkhd, heap.keepcost}, cycle());
+#endif
+    }
+
     const NodeOptions m_options;
     HistoryWriter &m_history;
     CycleRecorder m_recorder;
     QTimer m_timer;
+    QTimer m_heapTimer;
     quint64 m_phase = 0;  // whose counters there are; 0: none
 };
 

@@ -39,12 +39,17 @@ private Q_SLOTS:
     void aNewLifeIsNotComparedWithAnOldOne();
     void memoryThatGrowsIsFound();
     void memoryThatStaysPasses();
+    void aLeakInsideOfTheReserveIsFound();
+    void aHeapInUseThatOnlyBreathesPasses();
+    void theHeapIsJudgedInTheWindowOfTheMemory();
+    void aMasterThatDoesNotTellItsHeapIsFound();
     void memoryIsNotAskedForInAShortRun();
 };
 
 namespace {
 
 constexpr qint64 ms = HandMade::Millisecond;
+constexpr quint64 InUse = 8'000 * 1024;  // [byte]
 
 HandMade withStrangers(quint64 counted)
 {
@@ -57,7 +62,7 @@ HandMade withStrangers(quint64 counted)
     return plant;
 }
 
-/// The master is looked at each tenth of a minute, sixty times, and uses \a growth [kB] more in ten minutes. The last four looks see what is said here.
+/// The master is looked at each tenth of a minute, sixty times, and uses \a growth [kB] more in ten minutes; what it has in use of its heap stays. The last four looks see what is said here.
 HandMade withUsage(quint64 descriptors, quint64 threads, quint64 growth = 0, quint32 lastLife = 1)
 {
     HandMade plant;
@@ -66,6 +71,7 @@ HandMade withUsage(quint64 descriptors, quint64 threads, quint64 growth = 0, qui
         HandMade::add(
             plant.runner(), Record::Usage, -1, HandMade::at(0) + qint64(i) * 6'000 * ms,
             {isLast ? descriptors : 40, isLast ? threads : 2, 10'000 + i * growth / 100, isLast ? lastLife : 1, 1});
+        HandMade::add(plant.master(), Record::Heap, -1, HandMade::at(0) + qint64(i) * 6'000 * ms, {InUse, 2 * InUse});
     }
     return plant;
 }
@@ -307,32 +313,81 @@ void tst_PlantGates::aNewLifeIsNotComparedWithAnOldOne()
 
 namespace {
 
-Gate judgeMemory(quint64 growth, bool isLong)
+Gate judgeMemory(HandMade plant, bool isLong = true)
 {
-    HandMade plant = withUsage(40, 2, growth);
     soak::Profile profile;
     profile.judgesMemory = isLong;
     return plant.judge([&](const soak::Evidence &evidence) { return soak::memoryStays(evidence, profile); });
+}
+
+/// Resident memory stays. \param more  [kB] that more of the heap is in use at a look, by its number
+template<typename More>
+HandMade withHeap(More more)
+{
+    HandMade plant = withUsage(40, 2);
+    quint64 i = 0;
+    for (Record &record : plant.master().records) {
+        if (record.kind == Record::Heap)
+            record.numbers[Record::HeapInUse] += quint64(more(i++)) * 1024;
+    }
+    return plant;
 }
 
 }  // namespace
 
 void tst_PlantGates::memoryThatGrowsIsFound()
 {
-    const Gate gate = judgeMemory(120, true);
+    const Gate gate = judgeMemory(withUsage(40, 2, 120));
     QCOMPARE(gate.failed, qint64(1));
     QVERIFY2(qAbs(gate.figures["largest growth [kB per 10 min]"] - 120.0) < 3.0, textOf(gate));
 }
 
 void tst_PlantGates::memoryThatStaysPasses()
 {
-    const Gate gate = judgeMemory(80, true);
+    const Gate gate = judgeMemory(withUsage(40, 2, 80));
     QVERIFY2(gate.passed(), textOf(gate));
+}
+
+void tst_PlantGates::aLeakInsideOfTheReserveIsFound()
+{
+    const Gate gate = judgeMemory(withHeap([](quint64 i) { return i * 120 / 100; }));
+    QCOMPARE(gate.failed, qint64(1));
+    QVERIFY2(gate.examples.first().startsWith("the heap in use of the master, life 1 grows by"), textOf(gate));
+    QVERIFY2(qAbs(gate.figures["growth of the master's heap in use [kB per 10 min]"] - 120.0) < 3.0, textOf(gate));
+    QCOMPARE(gate.figures["largest growth [kB per 10 min]"], 0.0);
+    const Gate below = judgeMemory(withHeap([](quint64 i) { return i * 80 / 100; }));
+    QVERIFY2(below.passed(), textOf(below));
+}
+
+void tst_PlantGates::aHeapInUseThatOnlyBreathesPasses()
+{
+    const Gate gate = judgeMemory(withHeap([](quint64 i) { return i % 2 * 400; }));  // nodes come and go
+    QVERIFY2(gate.passed(), textOf(gate));
+    QCOMPARE(gate.looked, qint64(2));
+    QCOMPARE(gate.figures["master heap in use [kB]"], 8400.0);
+}
+
+void tst_PlantGates::theHeapIsJudgedInTheWindowOfTheMemory()
+{
+    // Half a minute of warm-up are five looks.
+    const Gate warmUp = judgeMemory(withHeap([](quint64 i) { return i < 5 ? 0 : 4000; }));
+    QVERIFY2(warmUp.passed(), textOf(warmUp));
+    const Gate later = judgeMemory(withHeap([](quint64 i) { return i < 7 ? 0 : 4000; }));
+    QCOMPARE(later.failed, qint64(1));
+}
+
+void tst_PlantGates::aMasterThatDoesNotTellItsHeapIsFound()
+{
+    HandMade plant = withUsage(40, 2);
+    HandMade::remove(plant.master(), [](const Record &record) { return record.kind == Record::Heap; });
+    const Gate gate = judgeMemory(plant);
+    QCOMPARE(gate.failed, qint64(1));
+    QVERIFY2(gate.examples.first().contains("has not written what it has in use"), textOf(gate));
 }
 
 void tst_PlantGates::memoryIsNotAskedForInAShortRun()
 {
-    QVERIFY(!judgeMemory(120, false).isAsked);
+    QVERIFY(!judgeMemory(withUsage(40, 2, 120), false).isAsked);
 }
 
 QTEST_APPLESS_MAIN(tst_PlantGates)
