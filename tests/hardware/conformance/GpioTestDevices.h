@@ -22,11 +22,8 @@ public:
         QString error;
         return m_memory.create(name(), 8, &error);
     }
-    bool unplug() override
-    {
-        qplc::FakeMemory::remove(name());
-        return true;
-    }
+    bool canBeUnplugged() const override { return true; }
+    void unplug() override { qplc::FakeMemory::remove(name()); }
     void give(const QString &, double value) override
     {
         m_memory.at(2) = value >= 0.5 ? qplc::FakeGpioChip::Pulled : 0;

@@ -17,6 +17,7 @@ public:
 
     QString bus() const { return m_bus; }
     QByteArray keys() const { return QStringLiteral("device = %1\naddress = %2\n").arg(m_bus).arg(m_address).toUtf8(); }
+    /// It can be unplugged and fall silent; the stub of the kernel cannot.
     bool isFake() const { return qplc::FakeMemory::isFake(m_bus); }
 
     bool plugIn()
@@ -29,17 +30,9 @@ public:
         m_device = qplc::I2cBus::open(m_bus, m_address, &error);
         return bool(m_device);
     }
-    bool unplug()
-    {
-        qplc::FakeMemory::remove(m_bus);
-        return isFake();
-    }
-    bool fallSilent()
-    {
-        if (isFake())
-            m_memory.at(std::size_t(m_address)) = 0;
-        return isFake();
-    }
+    void unplug() { qplc::FakeMemory::remove(m_bus); }
+    /// \pre isFake()
+    void fallSilent() { m_memory.at(std::size_t(m_address)) = 0; }
     void set(quint8 first, const QByteArray &bytes)
     {
         m_device->write(first, reinterpret_cast<const quint8 *>(bytes.constData()), bytes.size());
@@ -91,8 +84,10 @@ public:
             m_registers.set(0x20, Untouched);
         return isThere;
     }
-    bool unplug() override { return m_registers.unplug(); }
-    bool fallSilent() override { return m_registers.fallSilent(); }
+    bool canBeUnplugged() const override { return m_registers.isFake(); }
+    void unplug() override { m_registers.unplug(); }
+    bool canFallSilent() const override { return m_registers.isFake(); }
+    void fallSilent() override { m_registers.fallSilent(); }
     void give(const QString &, double value) override { m_registers.set(0x10, i2cTestWord(value / 0.5)); }
     std::optional<double> taken(const QString &) override
     {
@@ -129,12 +124,13 @@ public:
             m_registers.set(0x75, "\x68");
         return m_isTalking;
     }
-    bool unplug() override { return m_registers.unplug(); }
-    bool fallSilent() override
+    bool canBeUnplugged() const override { return m_registers.isFake(); }
+    void unplug() override { m_registers.unplug(); }
+    bool canFallSilent() const override { return true; }
+    void fallSilent() override
     {
         m_isTalking = false;
         m_registers.set(0x3a, QByteArray(1, '\0'));
-        return true;
     }
     void live() override
     {

@@ -31,17 +31,14 @@ public:
             = m_parts.isEmpty() ? m_pseudo.plugIn(name()) : m_far.isOpen() || m_far.open(m_parts[1], settings, &error);
         return m_isTalking;
     }
-    bool unplug() override
+    bool canBeUnplugged() const override { return m_parts.isEmpty(); }
+    void unplug() override
     {
         m_isTalking = false;
         m_pseudo.unplug();
-        return m_parts.isEmpty();
     }
-    bool fallSilent() override
-    {
-        m_isTalking = false;
-        return true;
-    }
+    bool canFallSilent() const override { return true; }
+    void fallSilent() override { m_isTalking = false; }
     void live() override
     {
         if (!m_isTalking)

@@ -22,16 +22,10 @@ public:
             m_memory.at(qplc::FakeMcp3208::Power) = 1;
         return isThere;
     }
-    bool unplug() override
-    {
-        qplc::FakeMemory::remove(name());
-        return true;
-    }
-    bool fallSilent() override
-    {
-        m_memory.at(qplc::FakeMcp3208::Power) = 0;
-        return true;
-    }
+    bool canBeUnplugged() const override { return true; }
+    void unplug() override { qplc::FakeMemory::remove(name()); }
+    bool canFallSilent() const override { return true; }
+    void fallSilent() override { m_memory.at(qplc::FakeMcp3208::Power) = 0; }
     void give(const QString &, double value) override
     {
         const int counts = qRound(value * 1000.0);

@@ -30,15 +30,18 @@ public:
     virtual QStringList inputs() const = 0;
     /// Channels that are written.
     virtual QStringList outputs() const { return {}; }
+    bool hasOutputs() const { return !outputs().isEmpty(); }
+    bool hasOutputsAndCanBeUnplugged() const { return hasOutputs() && canBeUnplugged(); }
     /// Two values that the channels can have.
     virtual QVector<double> values() const = 0;
 
     /// The device is there from now on, and answers. \return whether it is
     virtual bool plugIn() = 0;
-    /// \return false when that cannot be done with this device
-    virtual bool unplug() { return false; }
-    /// It is there and has nothing to say, until it is plugged in anew. \return false when that cannot be with this device
-    virtual bool fallSilent() { return false; }
+    virtual bool canBeUnplugged() const { return false; }
+    virtual void unplug() {}
+    virtual bool canFallSilent() const { return false; }
+    /// It is there and has nothing to say, until it is plugged in anew.
+    virtual void fallSilent() {}
     /// Called again and again: the device does what it does by itself.
     virtual void live() {}
 
