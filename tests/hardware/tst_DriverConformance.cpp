@@ -122,13 +122,13 @@ private Q_SLOTS:
     void everyKindIsHere();
     void valuesArriveFresh_data() { addRows(); }
     void valuesArriveFresh();
-    void aSilentDeviceHasNoFreshValues_data() { addRows(&TestDevice::canFallSilent); }
+    void aSilentDeviceHasNoFreshValues_data() { addRows(&TestDevice::isEverSilent); }
     void aSilentDeviceHasNoFreshValues();
-    void aMissingDeviceIsNamedWithARemedy_data() { addRows(&TestDevice::canBeUnplugged); }
+    void aMissingDeviceIsNamedWithARemedy_data() { addRows(&TestDevice::isPluggable); }
     void aMissingDeviceIsNamedWithARemedy();
-    void aDeviceThatIsUnpluggedIsNoticedAndComesBack_data() { addRows(&TestDevice::canBeUnplugged); }
+    void aDeviceThatIsUnpluggedIsNoticedAndComesBack_data() { addRows(&TestDevice::isPluggable); }
     void aDeviceThatIsUnpluggedIsNoticedAndComesBack();
-    void aMissingDeviceIsOpenedAgainAndAgain_data() { addRows(&TestDevice::canBeUnplugged); }
+    void aMissingDeviceIsOpenedAgainAndAgain_data() { addRows(&TestDevice::isPluggable); }
     void aMissingDeviceIsOpenedAgainAndAgain();
     void outputsAreLeftAloneUntilTheirValueIsKnown_data() { addRows(&TestDevice::hasOutputs); }
     void outputsAreLeftAloneUntilTheirValueIsKnown();
@@ -136,7 +136,7 @@ private Q_SLOTS:
     void outputsAreSafeBeforeTheFirstCycle();
     void outputsAreSafeAgainAtTheEnd_data() { addRows(&TestDevice::hasOutputs); }
     void outputsAreSafeAgainAtTheEnd();
-    void outputsOfADeviceThatComesBackAreThoseOfNow_data() { addRows(&TestDevice::hasOutputsAndCanBeUnplugged); }
+    void outputsOfADeviceThatComesBackAreThoseOfNow_data() { addRows(&TestDevice::hasOutputsAndIsPluggable); }
     void outputsOfADeviceThatComesBackAreThoseOfNow();
 
 private:
@@ -198,7 +198,7 @@ void tst_DriverConformance::aSilentDeviceHasNoFreshValues()
     rig.give(rig.device->values().first());
     QVERIFY2(rig.bench.open(), qPrintable(rig.bench.errorString()));
     QTRY_VERIFY(rig.step() && rig.isFresh());
-    rig.device->fallSilent();
+    QVERIFY(rig.device->fallSilent());
     // What was under way may still come.
     const auto hasGoneOld = [&] {
         if (!rig.step())
@@ -212,7 +212,7 @@ void tst_DriverConformance::aSilentDeviceHasNoFreshValues()
 void tst_DriverConformance::aMissingDeviceIsNamedWithARemedy()
 {
     Rig rig(deviceOfRow());
-    rig.device->unplug();
+    QVERIFY(rig.device->unplug());
     QVERIFY(!rig.bench.open());
     QVERIFY(!rig.bench.isOnline());
     const QString error = rig.bench.errorString();
@@ -227,7 +227,7 @@ void tst_DriverConformance::aDeviceThatIsUnpluggedIsNoticedAndComesBack()
     rig.give(rig.device->values().first());
     QVERIFY2(rig.bench.open(), qPrintable(rig.bench.errorString()));
     QTRY_VERIFY(rig.step() && rig.isFresh());
-    rig.device->unplug();
+    QVERIFY(rig.device->unplug());
     QVERIFY(!rig.step());
     QVERIFY(!rig.isFresh());
     QVERIFY2(rig.bench.errorString().contains(rig.device->name()), qPrintable(rig.bench.errorString()));
@@ -242,7 +242,7 @@ void tst_DriverConformance::aDeviceThatIsUnpluggedIsNoticedAndComesBack()
 void tst_DriverConformance::aMissingDeviceIsOpenedAgainAndAgain()
 {
     Rig rig(deviceOfRow());
-    rig.device->unplug();
+    QVERIFY(rig.device->unplug());
     rig.start();
     QTRY_VERIFY(rig.told().value(0).contains(rig.device->name()));
     QVERIFY(!rig.bench.isOnline());
@@ -250,7 +250,7 @@ void tst_DriverConformance::aMissingDeviceIsOpenedAgainAndAgain()
     rig.give(rig.device->values().first());
     QTRY_VERIFY(rig.isFreshInCycle());
     QCOMPARE(rig.told().last(), QString());
-    rig.device->unplug();
+    QVERIFY(rig.device->unplug());
     QTRY_VERIFY(!rig.isFreshInCycle() && !rig.told().last().isEmpty());
     QCOMPARE(rig.bench.runner().failures(), quint64(1));
     QVERIFY(rig.device->plugIn());
@@ -312,7 +312,7 @@ void tst_DriverConformance::outputsOfADeviceThatComesBackAreThoseOfNow()
     QVERIFY2(rig.bench.open(), qPrintable(rig.bench.errorString()));
     QVERIFY(rig.step());
     QVERIFY(rig.hasTaken(computed));
-    rig.device->unplug();
+    QVERIFY(rig.device->unplug());
     QVERIFY(!rig.step());
     rig.bench.close();
     rig.set(safe, true);

@@ -30,9 +30,17 @@ public:
         m_device = qplc::I2cBus::open(m_bus, m_address, &error);
         return bool(m_device);
     }
-    void unplug() { qplc::FakeMemory::remove(m_bus); }
-    /// \pre isFake()
-    void fallSilent() { m_memory.at(std::size_t(m_address)) = 0; }
+    bool unplug()
+    {
+        qplc::FakeMemory::remove(m_bus);
+        return isFake();
+    }
+    bool fallSilent()
+    {
+        if (isFake())
+            m_memory.at(std::size_t(m_address)) = 0;
+        return isFake();
+    }
     void set(quint8 first, const QByteArray &bytes)
     {
         m_device->write(first, reinterpret_cast<const quint8 *>(bytes.constData()), bytes.size());
@@ -84,10 +92,10 @@ public:
             m_registers.set(0x20, Untouched);
         return isThere;
     }
-    bool canBeUnplugged() const override { return m_registers.isFake(); }
-    void unplug() override { m_registers.unplug(); }
-    bool canFallSilent() const override { return m_registers.isFake(); }
-    void fallSilent() override { m_registers.fallSilent(); }
+    bool isPluggable() const override { return m_registers.isFake(); }
+    bool unplug() override { return m_registers.unplug(); }
+    bool isEverSilent() const override { return m_registers.isFake(); }
+    bool fallSilent() override { return m_registers.fallSilent(); }
     void give(const QString &, double value) override { m_registers.set(0x10, i2cTestWord(value / 0.5)); }
     std::optional<double> taken(const QString &) override
     {
@@ -124,13 +132,13 @@ public:
             m_registers.set(0x75, "\x68");
         return m_isTalking;
     }
-    bool canBeUnplugged() const override { return m_registers.isFake(); }
-    void unplug() override { m_registers.unplug(); }
-    bool canFallSilent() const override { return true; }
-    void fallSilent() override
+    bool isPluggable() const override { return m_registers.isFake(); }
+    bool unplug() override { return m_registers.unplug(); }
+    bool fallSilent() override
     {
         m_isTalking = false;
         m_registers.set(0x3a, QByteArray(1, '\0'));
+        return true;
     }
     void live() override
     {

@@ -31,14 +31,18 @@ public:
             = m_parts.isEmpty() ? m_pseudo.plugIn(name()) : m_far.isOpen() || m_far.open(m_parts[1], settings, &error);
         return m_isTalking;
     }
-    bool canBeUnplugged() const override { return m_parts.isEmpty(); }
-    void unplug() override
+    bool isPluggable() const override { return m_parts.isEmpty(); }
+    bool unplug() override
     {
         m_isTalking = false;
         m_pseudo.unplug();
+        return isPluggable();
     }
-    bool canFallSilent() const override { return true; }
-    void fallSilent() override { m_isTalking = false; }
+    bool fallSilent() override
+    {
+        m_isTalking = false;
+        return true;
+    }
     void live() override
     {
         if (!m_isTalking)
