@@ -249,10 +249,10 @@ void tst_DriverConformance::aMissingDeviceIsOpenedAgainAndAgain()
     QVERIFY(rig.device->plugIn());
     rig.give(rig.device->values().first());
     QTRY_VERIFY(rig.isFreshInCycle());
-    QCOMPARE(rig.told().last(), QString());
+    QTRY_COMPARE(rig.told().last(), QString());
     QVERIFY(rig.device->unplug());
     QTRY_VERIFY(!rig.isFreshInCycle() && !rig.told().last().isEmpty());
-    QCOMPARE(rig.bench.runner().failures(), quint64(1));
+    QTRY_COMPARE(rig.bench.runner().failures(), quint64(1));
     QVERIFY(rig.device->plugIn());
     rig.give(rig.device->values().first());
     QTRY_VERIFY(rig.isFreshInCycle());
