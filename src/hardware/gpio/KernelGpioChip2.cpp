@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // By libgpiod 2.
 #include "GpioChip.h"
+#include "hardware/DeviceFiles.h"
 
 #include <QtCore/QDir>
 #include <QtCore/QFile>
@@ -192,7 +193,7 @@ ChipPointer chipWithLabel(const QString &label)
 
 std::unique_ptr<GpioChip> openKernelGpioChip(const QString &device, QString *error)
 {
-    const QString path = device.startsWith(QLatin1Char('/')) ? device : QStringLiteral("/dev/") + device;
+    const QString path = DeviceFiles::path(device);
     ChipPointer chip = QFile::exists(path) ? ChipPointer(gpiod_chip_open(QFile::encodeName(path).constData()))
                                            : chipWithLabel(device);
     if (chip)

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "KernelI2cBus.h"
 
-#include <QtCore/QDir>
+#include "hardware/DeviceFiles.h"
+
 #include <QtCore/QFile>
 
 #include <algorithm>
@@ -17,20 +18,12 @@ namespace qplc {
 
 namespace {
 
-QString i2cOpenErrorText(const QString &device, int errorNumber)
+DeviceFiles i2cFiles()
 {
-    const QStringList buses
-        = QDir(QStringLiteral("/dev")).entryList({QStringLiteral("i2c-*")}, QDir::System, QDir::Name);
-    QString remedy = QStringLiteral("close what uses it");
-    if (errorNumber == EACCES || errorNumber == EPERM)
-        remedy = QStringLiteral("let the user into the group of the device: 'sudo usermod -aG i2c USER', and log in "
-                                "again");
-    else if (buses.isEmpty())
-        remedy = QStringLiteral("this computer has no I2C buses: 'sudo modprobe i2c-dev', and switch the bus on (on a "
-                                "Raspberry Pi: dtparam=i2c_arm=on in config.txt)");
-    else if (errorNumber == ENOENT || errorNumber == ENODEV || errorNumber == ENXIO)
-        remedy = QStringLiteral("there are %1").arg(buses.join(QStringLiteral(", ")));
-    return QStringLiteral("cannot open the I2C bus '%1': %2; %3").arg(device, qt_error_string(errorNumber), remedy);
+    return {
+        QStringLiteral("the I2C bus"), QStringLiteral("i2c-*"), QStringLiteral("i2c"),
+        QStringLiteral("this computer has no I2C buses: 'sudo modprobe i2c-dev', and switch the bus on (on a Raspberry "
+                       "Pi: dtparam=i2c_arm=on in config.txt)")};
 }
 
 QString i2cAddressErrorText(const QString &device, int address, int errorNumber)
@@ -48,10 +41,10 @@ QString i2cAddressErrorText(const QString &device, int address, int errorNumber)
 std::unique_ptr<KernelI2cBus> KernelI2cBus::open(const QString &device, int address, QString *error)
 {
     auto bus = std::make_unique<KernelI2cBus>();
-    const QString path = device.startsWith(QLatin1Char('/')) ? device : QStringLiteral("/dev/") + device;
+    const QString path = DeviceFiles::path(device);
     bus->m_descriptor = ::open(QFile::encodeName(path).constData(), O_RDWR | O_CLOEXEC);
     if (bus->m_descriptor < 0) {
-        *error = i2cOpenErrorText(device, errno);
+        *error = i2cFiles().errorText(device, errno);
         return nullptr;
     }
     if (::ioctl(bus->m_descriptor, I2C_FUNCS, &bus->m_abilities) < 0

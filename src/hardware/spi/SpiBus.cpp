@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SpiBus.h"
 
-#include <QtCore/QDir>
+#include "hardware/DeviceFiles.h"
+
 #include <QtCore/QFile>
 
 #include <cerrno>
@@ -14,20 +15,12 @@ namespace qplc {
 
 namespace {
 
-QString spiOpenErrorText(const QString &device, int errorNumber)
+DeviceFiles spiFiles()
 {
-    const QStringList devices
-        = QDir(QStringLiteral("/dev")).entryList({QStringLiteral("spidev*")}, QDir::System, QDir::Name);
-    QString remedy = QStringLiteral("close what uses it");
-    if (errorNumber == EACCES || errorNumber == EPERM)
-        remedy = QStringLiteral("let the user into the group of the device: 'sudo usermod -aG spi USER', and log in "
-                                "again");
-    else if (devices.isEmpty())
-        remedy = QStringLiteral("this computer has no SPI devices: 'sudo modprobe spidev', and switch the bus on (on a "
-                                "Raspberry Pi: dtparam=spi=on in config.txt)");
-    else if (errorNumber == ENOENT || errorNumber == ENODEV || errorNumber == ENXIO)
-        remedy = QStringLiteral("there are %1").arg(devices.join(QStringLiteral(", ")));
-    return QStringLiteral("cannot open the SPI device '%1': %2; %3").arg(device, qt_error_string(errorNumber), remedy);
+    return {QStringLiteral("the SPI device"), QStringLiteral("spidev*"), QStringLiteral("spi"),
+            QStringLiteral(
+                "this computer has no SPI devices: 'sudo modprobe spidev', and switch the bus on (on a Raspberry "
+                "Pi: dtparam=spi=on in config.txt)")};
 }
 
 class KernelSpiBus : public SpiBus
@@ -65,10 +58,10 @@ private:
 
 std::unique_ptr<SpiBus> SpiBus::open(const QString &device, const SpiSettings &settings, QString *error)
 {
-    const QString path = device.startsWith(QLatin1Char('/')) ? device : QStringLiteral("/dev/") + device;
+    const QString path = DeviceFiles::path(device);
     const int descriptor = ::open(QFile::encodeName(path).constData(), O_RDWR | O_CLOEXEC);
     if (descriptor < 0) {
-        *error = spiOpenErrorText(device, errno);
+        *error = spiFiles().errorText(device, errno);
         return nullptr;
     }
     auto bus = std::make_unique<KernelSpiBus>(descriptor);

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "DeviceFiles.h"
+
+#include <QtCore/QDir>
+
+#include <cerrno>
+
+namespace qplc {
+
+QString DeviceFiles::path(const QString &device)
+{
+    return device.startsWith(QLatin1Char('/')) ? device : QStringLiteral("/dev/") + device;
+}
+
+QString DeviceFiles::errorText(const QString &device, int errorNumber) const
+{
+    const QStringList names = QDir(QStringLiteral("/dev")).entryList({pattern}, QDir::System, QDir::Name);
+    QString remedy = QStringLiteral("close what uses it");
+    if (errorNumber == EACCES || errorNumber == EPERM)
+        remedy
+            = QStringLiteral("let the user into the group of the device: 'sudo usermod -aG %1 USER', and log in again")
+                  .arg(group);
+    else if (names.isEmpty())
+        remedy = whenNone;
+    else if (errorNumber == ENOENT || errorNumber == ENODEV || errorNumber == ENXIO)
+        remedy = QStringLiteral("there are %1").arg(names.join(QStringLiteral(", ")));
+    return QStringLiteral("cannot open %1 '%2': %3; %4").arg(what, device, qt_error_string(errorNumber), remedy);
+}
+
+}  // namespace qplc
