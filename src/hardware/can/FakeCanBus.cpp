@@ -128,8 +128,20 @@ bool FakeCanBus::openBoard()
     return true;
 }
 
+bool FakeCanBus::setPlugged(const QString &name, bool isPlugged)
+{
+    FakeCanBus bus(name);
+    bus.m_folder = bus.folder().toLocal8Bit();
+    if (!bus.openBoard())
+        return false;
+    bus.m_board->isUnplugged = isPlugged ? 0 : 1;
+    return true;
+}
+
 bool FakeCanBus::takePlace()
 {
+    if (isUnplugged())
+        return fail(QStringLiteral("fake:%1 is not plugged in; plug it in").arg(m_name));
     const FakeBusLock lock(m_boardFile);
     for (int number = 0; number < MaximumPlaces; ++number) {
         if (!isAlive(number))
@@ -179,6 +191,8 @@ void FakeCanBus::preparePeers()
 
 int FakeCanBus::take(CanFrame *frames, int capacity) noexcept
 {
+    if (isUnplugged())
+        return lose(ENODEV);
     for (int number = 0; number < MaximumPlaces; ++number) {
         if (m_peers[number].count > 0 && meet(number))
             flush(&m_peers[number]);
@@ -214,6 +228,8 @@ void FakeCanBus::noteLost() noexcept
 
 int FakeCanBus::give(const CanFrame *frames, int count) noexcept
 {
+    if (isUnplugged())
+        return lose(ENODEV);
     const qint64 now = m_time.now();
     for (int number = 0; number < MaximumPlaces; ++number) {
         if (number == m_place || !meet(number))

@@ -30,6 +30,8 @@ public:
     ~FakeCanBus() override;
 
     static bool isName(const QString &name);
+    /// Takes the adapters of all participants away, or gives them back: for tests. \return false when the folder cannot be used
+    static bool setPlugged(const QString &name, bool isPlugged);
     /// Of the bus.
     QString folder() const;
 
@@ -53,6 +55,7 @@ private:
     struct Board
     {
         std::array<Place, MaximumPlaces> places;
+        std::atomic<quint32> isUnplugged{0};
     };
     /// Frames that wait for the socket of another participant: a ring.
     struct Peer
@@ -73,6 +76,7 @@ private:
     sockaddr_un addressOf(int number) const;
     void preparePeers();
 
+    bool isUnplugged() const noexcept { return m_board->isUnplugged.load(std::memory_order_relaxed) != 0; }
     bool takeDatagram() noexcept;
     void noteLost() noexcept;
     bool meet(int number) noexcept;
