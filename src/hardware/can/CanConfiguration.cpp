@@ -134,16 +134,13 @@ bool CanConfiguration::addFrame(const QString &name, const QStringList &words, Q
         || !readCanSize(words.at(1), &message.size))
         return false;
     for (const QString &word : words.mid(2)) {
-        std::chrono::nanoseconds period{0};
         if (word == QLatin1String("extended"))
             message.isExtended = true;
         else if (word == QLatin1String("fd"))
             message.isFd = true;
         else if (word == QLatin1String("no bit rate switch"))
             message.hasBitRateSwitch = false;
-        else if (readCanPeriod(word, &period))
-            message.cycleTime = std::chrono::duration_cast<std::chrono::milliseconds>(period);
-        else
+        else if (!readCanPeriod(word, &message.cycleTime))
             return false;
     }
     message.isFd = message.isFd || message.size > 8;

@@ -15,11 +15,11 @@ struct DbcMessage
 {
     QString name;
     quint32 id = 0;
-    bool isExtended = false;                 // id of 29 bits
-    bool isFd = false;                       // frames of CAN FD
-    bool hasBitRateSwitch = true;            // CAN FD only
-    int size = 8;                            // [byte]
-    std::chrono::milliseconds cycleTime{0};  // between two frames; 0: not cyclic, or not said
+    bool isExtended = false;                // id of 29 bits
+    bool isFd = false;                      // frames of CAN FD
+    bool hasBitRateSwitch = true;           // CAN FD only
+    int size = 8;                           // [byte]
+    std::chrono::nanoseconds cycleTime{0};  // between two frames; 0: not cyclic, or not said
     QVector<DbcSignal> content;
     int multiplexor = -1;  // index in content; -1: none
     QString unsupported;   // why its frames cannot be used; empty: they can

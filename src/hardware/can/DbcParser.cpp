@@ -330,7 +330,7 @@ void DbcParser::setAttribute(DbcMessage *message, const Attribute &attribute)
                           QStringLiteral("the cycle time %1 of message '%2' is no number of milliseconds")
                               .arg(value.shown(), message->name));
         else
-            message->cycleTime = std::chrono::milliseconds(static_cast<qint64>(time));
+            message->cycleTime = std::chrono::nanoseconds(static_cast<qint64>(time * 1e6));
     } else if (attribute.name == QLatin1String("VFrameFormat"))
         message->isFd = message->isFd || value.text.endsWith(QLatin1String("_FD")) || value.text == QLatin1String("14")
             || value.text == QLatin1String("15");

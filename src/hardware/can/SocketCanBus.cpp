@@ -9,6 +9,7 @@
 #include <linux/can/error.h>
 #include <linux/can/raw.h>
 #include <net/if.h>
+#include <net/if_arp.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -144,10 +145,10 @@ bool SocketCanBus::findInterface(bool needsFd)
         return failWith(QStringLiteral("there is no such interface"),
                         QStringLiteral("plug in the adapter and load its module; 'ip link' lists what there is"));
     m_index = request.ifr_ifindex;
-    if (ioctl(m_socket, SIOCGIFMTU, &request) < 0 || (request.ifr_mtu != CAN_MTU && request.ifr_mtu != CANFD_MTU))
+    if (ioctl(m_socket, SIOCGIFHWADDR, &request) < 0 || request.ifr_hwaddr.sa_family != ARPHRD_CAN)
         return fail(QStringLiteral("%1 is no CAN interface; give one of those that 'ip link show type can' lists")
                         .arg(m_interface));
-    m_isFd = request.ifr_mtu == CANFD_MTU;
+    m_isFd = ioctl(m_socket, SIOCGIFMTU, &request) == 0 && request.ifr_mtu >= int(CANFD_MTU);
     if (needsFd && !m_isFd)
         return fail(QStringLiteral("%1 is not set up for CAN FD, which messages of the configuration use; as root: ip "
                                    "link set %1 down, ip link set %1 up type can bitrate 500000 dbitrate 2000000 fd on")

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "CanBench.h"
+#include "hardware/can/CanSender.h"
 
 #include <QtTest/QtTest>
 
@@ -32,6 +33,7 @@ private Q_SLOTS:
     void withoutRuleEveryCycleSends();
     void withoutValueNothingIsSent();
     void cycleTimeOfTheMessageIsItsPeriod();
+    void periodMayBeShorterThanAMillisecond();
     void periodIsKept();
     void trembleOfTheCycleDoesNotShiftThePeriod();
     void skippedTimeIsNotMadeUpFor();
@@ -49,6 +51,7 @@ private Q_SLOTS:
     void messagesKeepTheOrderOfTheWires();
     void fdFramesAreFdFrames();
     void openSendsSafeValues();
+    void whatTheBusDoesNotTakeIsSentAgain();
 };
 
 void tst_CanSending::withoutRuleEveryCycleSends()
@@ -81,6 +84,20 @@ void tst_CanSending::cycleTimeOfTheMessageIsItsPeriod()
     QVERIFY(bench.open());
     bench.driver.set(speed, 1.0);
     QCOMPARE(bench.framesIn(50), 10);
+}
+
+void tst_CanSending::periodMayBeShorterThanAMillisecond()
+{
+    CanBench bench("frame.Command = 0x200, 2 bytes, every 0.5 ms\nsignal.Command.Speed = 0|8@1-\n");
+    bench.driver.wireWrite(speed);
+    QVERIFY(bench.open());
+    bench.driver.set(speed, 1.0);
+    int sent = 0;
+    for (int i = 0; i < 100; ++i) {
+        bench.cycle(100us);
+        sent += bench.received().isEmpty() ? 0 : 1;
+    }
+    QCOMPARE(sent, 20);
 }
 
 void tst_CanSending::periodIsKept()
@@ -318,6 +335,27 @@ void tst_CanSending::openSendsSafeValues()
     bench.driver.close();
     QVERIFY(bench.driver.open());
     QCOMPARE(bench.received(), QByteArray("200#0300"));
+}
+
+// A bus that is full now and then: seen from the sender alone.
+void tst_CanSending::whatTheBusDoesNotTakeIsSentAgain()
+{
+    CanBench bench(commandSent("on change"));
+    CanMessage message;
+    message.rule.onChange = true;
+    message.description.size = 2;
+    DbcSignal signal;
+    signal.name = QStringLiteral("Speed");
+    signal.length = 8;
+    message.description.content = {signal};
+    CanSender sender(&bench.driver.runner().driver(), message);
+    sender.prepare();
+    CanFrame frame;
+    QCOMPARE(sender.collect(0, &frame), 1);
+    sender.sent(false);
+    QCOMPARE(sender.collect(1, &frame), 1);
+    sender.sent(true);
+    QCOMPARE(sender.collect(2, &frame), 0);
 }
 
 QTEST_GUILESS_MAIN(tst_CanSending)

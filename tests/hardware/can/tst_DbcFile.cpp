@@ -116,8 +116,9 @@ void tst_DbcFile::floatsAreSaidBehindTheMessages()
 void tst_DbcFile::attributesAreTaken()
 {
     const DbcFile file = readDbc(winchDrive());
-    QCOMPARE(file.find(QStringLiteral("DriveStatus"))->cycleTime, 10ms);
-    QCOMPARE(file.find(QStringLiteral("Temperatures"))->cycleTime, 100ms);  // the default of the file
+    QCOMPARE(file.find(QStringLiteral("DriveStatus"))->cycleTime, std::chrono::nanoseconds(10ms));
+    QCOMPARE(file.find(QStringLiteral("Temperatures"))->cycleTime,
+             std::chrono::nanoseconds(100ms));  // the default of the file
     QCOMPARE(file.find(QStringLiteral("DriveStatus"))->find(QStringLiteral("Mode"))->initial, 3.0);
     QVERIFY(!file.find(QStringLiteral("Wide"))->hasBitRateSwitch);
 }
