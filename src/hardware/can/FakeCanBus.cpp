@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "FakeCanBus.h"
 
+#include "hardware/fake/FakeMemory.h"
+
 #include <QtCore/QDir>
 #include <QtCore/QRegularExpression>
-#include <QtCore/QStandardPaths>
 
 #include <algorithm>
 #include <cerrno>
@@ -18,6 +19,8 @@
 namespace qplc {
 
 namespace {
+
+constexpr int fakeSendBuffer = 4 << 20;  // [byte]
 
 /// Only one participant at a time takes a place.
 class FakeBusLock
@@ -57,10 +60,7 @@ bool FakeCanBus::isName(const QString &name)
 
 QString FakeCanBus::folder() const
 {
-    QString parent = qEnvironmentVariable("QTPLC_FAKE_DEVICES");
-    if (parent.isEmpty())
-        parent = QStandardPaths::writableLocation(QStandardPaths::RuntimeLocation) + QStringLiteral("/qtplc-fake");
-    return parent + QStringLiteral("/can-") + m_name;
+    return FakeMemory::folder() + QStringLiteral("/can-") + m_name;
 }
 
 bool FakeCanBus::failWith(const QString &what)
@@ -171,6 +171,8 @@ bool FakeCanBus::openSocket(int number)
     if (m_socket < 0 || m_sender < 0
         || bind(m_socket, reinterpret_cast<const sockaddr *>(&address), sizeof address) != 0)
         return failWith(QStringLiteral("cannot make a socket"));
+    // What one slow receiver has not taken is kept for it and must not keep frames from the others.
+    setsockopt(m_sender, SOL_SOCKET, SO_SNDBUF, &fakeSendBuffer, sizeof fakeSendBuffer);
     Place &place = m_board->places[number];
     m_place = number;
     m_lost = place.lost.load();

@@ -18,7 +18,7 @@ namespace qplc {
 /// arrive in order. A datagram holds the frames of one call of send(). What does not fit into the socket of a receiver waits at its sender, up to Backlog frames; what does not fit there
 /// either is lost, and counted by the receiver. Frames are stamped when they are sent. A participant that was killed leaves its place to the next one.
 ///
-/// The folder is can-NAME in that of the environment variable QTPLC_FAKE_DEVICES, else in the runtime folder of the user.
+/// The folder of the bus is can-NAME among the fake devices (FakeMemory::folder()).
 class FakeCanBus : public CanBus
 {
 public:

@@ -2,9 +2,8 @@
 #pragma once
 
 #include "DriverBench.h"
+#include "FakeDevices.h"
 #include "hardware/can/FakeCanBus.h"
-
-#include <QtCore/QTemporaryDir>
 
 #include <vector>
 
@@ -14,14 +13,14 @@ class CanBench
 public:
     /// \param keys  of the driver, without the device
     explicit CanBench(const QByteArray &keys)
-        : m_environment(m_folder.path())
-        , driver("can", "device = fake:bench\n" + keys, m_folder.filePath(QStringLiteral("bench.ini")))
+        : driver("can", "device = fake:bench\n" + keys, m_devices.path(QStringLiteral("bench.ini")))
         , m_clock(driver)
         , m_partner(QStringLiteral("bench"), m_clock)
     {
     }
 
-    QString folder() const { return m_folder.path(); }
+    /// A file beside the configuration.
+    QString filePath(const QString &name) const { return m_devices.path(name); }
 
     /// Both join the bus.
     bool open()
@@ -73,11 +72,6 @@ public:
     qplc::CanBus &partner() { return m_partner; }
 
 private:
-    struct Environment
-    {
-        explicit Environment(const QString &folder) { qputenv("QTPLC_FAKE_DEVICES", folder.toLocal8Bit()); }
-        ~Environment() { qunsetenv("QTPLC_FAKE_DEVICES"); }
-    };
     class Clock : public qplc::TimeSource
     {
     public:
@@ -92,8 +86,7 @@ private:
         const DriverBench &m_bench;
     };
 
-    QTemporaryDir m_folder;
-    Environment m_environment;
+    const FakeDevices m_devices;
 
 public:
     DriverBench driver;

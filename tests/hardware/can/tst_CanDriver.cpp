@@ -285,7 +285,7 @@ void tst_CanDriver::logHasEverythingOnTheBus()
     QVERIFY(bench.cycle());
     QCOMPARE(bench.driver.value(text("@logDropped")), 0.0);
     bench.driver.close();
-    QFile file(bench.folder() + QStringLiteral("/drive.log"));
+    QFile file(bench.filePath(QStringLiteral("drive.log")));
     QVERIFY(file.open(QIODevice::ReadOnly));
     QVector<QPlcParseError> errors;
     const auto lines = CanLog::read(file.readAll(), file.fileName(), &errors);
