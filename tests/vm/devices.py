@@ -13,6 +13,7 @@ from steps import Process, Skipped, command, wait_until
 CONFIG = Path("/sys/kernel/config/gpio-sim/bench")
 LINES = 8
 I2C_ADDRESSES = ("0x20", "0x68", "0x76")  # a port expander, an IMU, a barometer
+SPI_ANSWER = "/sys/module/spi_loop/parameters/answer"
 SPI_TRANSFER = struct.Struct("=QQIIHBBBBBB")  # struct spi_ioc_transfer
 
 
@@ -34,9 +35,16 @@ class Bench:
 
     def environment(self):
         """What the conformance test of the drivers asks for."""
-        values = {"QTPLC_TEST_CAN": self.can, "QTPLC_TEST_GPIO": self.gpio, "QTPLC_TEST_GPIO_LINES": str(self.gpio_lines or ""), "QTPLC_TEST_I2C": self.i2c,
-                  "QTPLC_TEST_SPI": self.spi}
-        return {name: value for name, value in values.items() if value}
+        values = {}
+        if self.can:
+            values["QTPLC_TEST_CAN"] = self.can
+        if self.gpio:
+            values["QTPLC_TEST_GPIO"] = f"{self.gpio}:{self.gpio_lines}:2:5"
+        if self.i2c:
+            values["QTPLC_TEST_I2C"] = f"{self.i2c}:0x68"
+        if self.spi:
+            values["QTPLC_TEST_SPI"] = f"{self.spi}:{SPI_ANSWER}"
+        return values
 
     def build_folder(self, name):
         return f"{os.environ['QTPLC_VM']}/{name}-{os.environ['QTPLC_VM_VERSION']}"
@@ -89,6 +97,9 @@ class Bench:
         """The level of the line as the kernel has it."""
         return int((self.line(number) / "value").read_text())
 
+    def gpio_record(self):
+        return GpioRecord()
+
     # ---- I2C ----
 
     def make_i2c(self):
@@ -117,10 +128,6 @@ class Bench:
         self.spi = str(device)
         return self.spi
 
-    def set_spi_answer(self, values):
-        """Bytes that the chip answers in each transfer."""
-        Path("/sys/module/spi_loop/parameters/answer").write_text(",".join(str(value) for value in values))
-
     def test_spi(self):
         module = Path(f"{self.build_folder('modules')}/spi-loopback-test.ko")
         if not self.spi or not module.exists():
@@ -129,6 +136,43 @@ class Bench:
         lines = [line for line in command("dmesg").splitlines() if "spi-loopback-test" in line]
         assert lines and not any("FAIL" in line.upper() or "error" in line for line in lines), "\n".join(lines[-20:])
         assert any("Finished spi-loopback-tests with return: 0" in line for line in lines), "\n".join(lines[-20:])
+
+
+class GpioRecord:
+    """What the kernel tells the chip, with its own time stamps: probes in the functions of gpio-sim."""
+
+    TRACING = Path("/sys/kernel/debug/tracing")
+    PROBES = ("p:qtplc/set gpio_sim_set offset=%si:u32 value=%dx:s32", "p:qtplc/set_multiple gpio_sim_set_multiple mask=+0(%si):x64 bits=+0(%dx):x64")
+
+    def __enter__(self):
+        (self.TRACING / "kprobe_events").write_text("\n".join(self.PROBES) + "\n")
+        (self.TRACING / "trace_clock").write_text("mono")
+        (self.TRACING / "trace").write_text("")
+        (self.TRACING / "events/qtplc/enable").write_text("1")
+        return self
+
+    def __exit__(self, kind, error, trace):
+        if error is not None:
+            print((self.TRACING / "trace").read_text()[-2000:])
+        (self.TRACING / "events/qtplc/enable").write_text("0")
+        (self.TRACING / "kprobe_events").write_text("")
+
+    def first_low(self, line):
+        """When the line was set low first [s, monotonic clock]; None: it was not."""
+        for entry in (self.TRACING / "trace").read_text().splitlines():
+            time = re.search(r"\s(\d+\.\d+): (set|set_multiple): ", entry)
+            if time and self.level(entry, line) == 0:
+                return float(time[1])
+        return None
+
+    @staticmethod
+    def level(entry, line):
+        single = re.search(r"offset=(\d+) value=(-?\d+)", entry)
+        if single:
+            return int(single[2] != "0") if int(single[1]) == line else None
+        several = re.search(r"mask=(0x[0-9a-f]+) bits=(0x[0-9a-f]+)", entry)
+        mask, bits = (int(several[i], 16) for i in (1, 2))
+        return bits >> line & 1 if mask >> line & 1 else None
 
 
 def transfer(device, sent):
