@@ -4,7 +4,7 @@ from pathlib import Path
 
 from steps import Skipped, command, program
 
-CORE_TESTS = ("tst_QPlcRealTimeOptions", "tst_CycleThread", "tst_HotPath", "tst_WakeUp", "tst_SystemFacts", "tst_MasterCycle")
+CORE_TESTS = ("tst_QPlcRealTimeOptions", "tst_CycleThread", "tst_HotPath", "tst_SystemFacts", "tst_MasterCycle")
 SKIP_CODE = 77
 
 

@@ -92,6 +92,9 @@ int runLamp(QPlcCoreApplication &application, const QStringList &arguments)
     Lamp lamp;
     if (!lamp.configureFromFile(arguments.at(2)))
         return application.usageError(QPlcParseError::toString(lamp.configurationErrors()));
+    QObject::connect(&lamp, &QPlcHardwareNode::deviceFailed,
+                     [](const QString &driver, const QString &text) { tell(driver + QStringLiteral(": ") + text); });
+    lamp.openDevices();
     lamp.activateWatchdog(std::chrono::milliseconds(arguments.at(3).toInt()));
     return runNode(application, lamp, arguments.at(1));
 }
