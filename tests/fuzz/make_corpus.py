@@ -161,6 +161,33 @@ def sessions():
     }
 
 
+# ---- sentences of NMEA 0183: what comes from a serial line ------------------------------------------------------------
+
+def sentence(body):
+    total = 0
+    for byte in body.encode():
+        total ^= byte
+    return f"${body}*{total:02X}\r\n".encode()
+
+
+def nmea():
+    good = ["WIMWV,214.8,R,5.1,M,A", "WIMWV,045,T,36,N,A", "WIMWV,0,R,,K,V", "IIMWV,359.9,R,100,S,A", "IIVWR,45,L,10.1,N,5.2,M,18.7,K", "IIVWT,45,R,36,N,,M,,K",
+            "WIMDA,29.92,I,1.0132,B,21.5,C,,C,55,,12.1,C,90,T,87,M,10,N,5.14,M", "WIXDR,C,21.5,C,AIR,H,55,P,0,P,1.0132,B,0", "GPGGA,120000,5130.0,N,00007.0,W,1,08,0.9,10,M,47,M,,",
+            "PGRMZ,93,f,3"]
+    every = b"".join(map(sentence, good))
+    files = {body: sentence(body) for body in good}
+    files.update({
+        "several": every,
+        "without checksum": b"$WIMWV,214.8,R,5.1,M,A\r\n!AIVDM,1,1,,A,15,0\n",
+        "wrong checksum": every.replace(b"*", b"*0"),
+        "cut off": every[7:40] + every[60:],
+        "wrong rate": bytes((b * 37 + 11) % 256 for b in every),
+        "without end": b"$WIMWV," + b"1" * 600 + every,
+        "odd numbers": sentence("WIMWV,-0,R,1e5,M,A") + sentence("WIMWV,+.5,R,999999999999999999999,N,A") + sentence("WIMWV,--1,R,1.2.3,K,A"),
+    })
+    return files
+
+
 # ---- words that inputs are made of ----------------------------------------------------------------------------------
 
 KEYS = ["type", "unit", "description", "min", "max", "initial", "safe", "hold", "Bool", "Byte", "Int", "Int64", "UInt16", "Real", "Real64", "RealTriple",
@@ -193,7 +220,7 @@ def main():
         sys.exit(__doc__)
     wanted = {HERE / name: data for name, data in dictionaries().items()}
     for folder, files in (("signal_table", signal_tables()), ("control_frames", control_frames()), ("cyclic_frames", cyclic_frames()),
-                          ("session", sessions())):
+                          ("session", sessions()), ("nmea", nmea())):
         for name, data in files.items():
             path = HERE / "corpus" / folder / file_name(name)
             assert path not in wanted, f"two inputs are called {path}"

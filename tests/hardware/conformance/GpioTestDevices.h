@@ -27,6 +27,7 @@ public:
         qplc::FakeMemory::remove(name());
         return true;
     }
+    bool isEverSilent() const override { return false; }
     void give(const QString &, double value) override
     {
         m_memory.at(2) = value >= 0.5 ? qplc::FakeGpioChip::Pulled : 0;
@@ -66,6 +67,8 @@ public:
     QVector<double> values() const override { return {1.0, 0.0}; }
 
     bool plugIn() override { return QFile::exists(file(2, "pull")) && QFile::exists(file(3, "value")); }
+    bool isPluggable() const override { return false; }
+    bool isEverSilent() const override { return false; }
     void give(const QString &, double value) override
     {
         QFile pull(file(2, "pull"));

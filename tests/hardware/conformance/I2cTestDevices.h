@@ -17,6 +17,7 @@ public:
 
     QString bus() const { return m_bus; }
     QByteArray keys() const { return QStringLiteral("device = %1\naddress = %2\n").arg(m_bus).arg(m_address).toUtf8(); }
+    /// It can be unplugged and fall silent; the stub of the kernel cannot.
     bool isFake() const { return qplc::FakeMemory::isFake(m_bus); }
 
     bool plugIn()
@@ -91,7 +92,9 @@ public:
             m_registers.set(0x20, Untouched);
         return isThere;
     }
+    bool isPluggable() const override { return m_registers.isFake(); }
     bool unplug() override { return m_registers.unplug(); }
+    bool isEverSilent() const override { return m_registers.isFake(); }
     bool fallSilent() override { return m_registers.fallSilent(); }
     void give(const QString &, double value) override { m_registers.set(0x10, i2cTestWord(value / 0.5)); }
     std::optional<double> taken(const QString &) override
@@ -129,6 +132,7 @@ public:
             m_registers.set(0x75, "\x68");
         return m_isTalking;
     }
+    bool isPluggable() const override { return m_registers.isFake(); }
     bool unplug() override { return m_registers.unplug(); }
     bool fallSilent() override
     {

@@ -75,6 +75,7 @@ public:
         m_server.reset();
         return true;
     }
+    bool isEverSilent() const override { return false; }
     void give(const QString &, double value) override
     {
         m_server->with([&](modbus_mapping_t &values) { values.tab_input_registers[1] = word(value); });

@@ -31,11 +31,12 @@ public:
             = m_parts.isEmpty() ? m_pseudo.plugIn(name()) : m_far.isOpen() || m_far.open(m_parts[1], settings, &error);
         return m_isTalking;
     }
+    bool isPluggable() const override { return m_parts.isEmpty(); }
     bool unplug() override
     {
         m_isTalking = false;
         m_pseudo.unplug();
-        return m_parts.isEmpty();
+        return isPluggable();
     }
     bool fallSilent() override
     {

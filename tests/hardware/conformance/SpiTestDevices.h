@@ -4,6 +4,8 @@
 #include "TestDevice.h"
 #include "hardware/spi/FakeMcp3208.h"
 
+#include <QtCore/QFile>
+
 /// A converter with a voltage at its input 3.
 class FakeMcp3208Device : public TestDevice
 {
@@ -43,7 +45,46 @@ private:
     qplc::FakeMemory m_memory;
 };
 
+/// An SPI bus of the kernel whose chip answers what a file says, numbers of bytes with commas between them: QTPLC_TEST_SPI=DEVICE:FILE,
+/// `/dev/spidev0.0:/sys/module/spi_loop/parameters/answer` with the module of tests/vm. What the driver asks is not looked at.
+class AnsweringSpiDevice : public TestDevice
+{
+public:
+    explicit AnsweringSpiDevice(const QStringList &parts)
+        : m_parts(parts)
+    {
+    }
+
+    QString kind() const override { return QStringLiteral("mcp3208"); }
+    QByteArray keys() const override { return "device = " + name().toUtf8() + "\nreference = 4.096\n"; }
+    QString name() const override { return m_parts[0]; }
+    QStringList inputs() const override { return {QStringLiteral("voltage3")}; }
+    QVector<double> values() const override { return {0.5, 4.095}; }
+
+    bool plugIn() override { return QFile::exists(m_parts[0]) && answer("255,224,0"); }
+    bool isPluggable() const override { return false; }
+    bool fallSilent() override { return answer("255,255,255"); }
+    void give(const QString &, double value) override
+    {
+        const int counts = qRound(value * 1000.0);
+        if (!answer("255," + QByteArray::number(0xe0 | counts >> 8) + "," + QByteArray::number(counts & 0xff)))
+            qFatal("cannot write %s", qPrintable(m_parts[1]));
+    }
+
+private:
+    bool answer(const QByteArray &bytes)
+    {
+        QFile file(m_parts[1]);
+        return file.open(QIODevice::WriteOnly) && file.write(bytes) == bytes.size();
+    }
+    const QStringList m_parts;
+};
+
 inline void addSpiDevices(TestDevices *devices)
 {
     devices->insert(QStringLiteral("mcp3208, fake"), [] { return std::make_unique<FakeMcp3208Device>(); });
+    const QStringList parts = testDeviceParts("QTPLC_TEST_SPI");
+    if (parts.size() == 2)
+        devices->insert(QStringLiteral("mcp3208, spidev"),
+                        [parts] { return std::make_unique<AnsweringSpiDevice>(parts); });
 }

@@ -30,15 +30,19 @@ public:
     virtual QStringList inputs() const = 0;
     /// Channels that are written.
     virtual QStringList outputs() const { return {}; }
+    bool hasOutputs() const { return !outputs().isEmpty(); }
+    bool hasOutputsAndIsPluggable() const { return hasOutputs() && isPluggable(); }
     /// Two values that the channels can have.
     virtual QVector<double> values() const = 0;
 
     /// The device is there from now on, and answers. \return whether it is
     virtual bool plugIn() = 0;
-    /// \return false when that cannot be done with this device
+    /// \return false when that cannot be done with this device; isPluggable() is false then, too
     virtual bool unplug() { return false; }
-    /// It is there and has nothing to say, until it is plugged in anew. \return false when that cannot be with this device
+    virtual bool isPluggable() const { return true; }
+    /// It is there and has nothing to say, until it is plugged in anew. \return false when that cannot be; isEverSilent() is false then, too
     virtual bool fallSilent() { return false; }
+    virtual bool isEverSilent() const { return true; }
     /// Called again and again: the device does what it does by itself.
     virtual void live() {}
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "../DriverBench.h"
 #include "../FakeDevices.h"
+#include "../conformance/GpioTestDevices.h"
+#include "ThreadCosts.h"
 #include "hardware/gpio/FakeGpioChip.h"
 #include "hardware/gpio/GpioLineWords.h"
 
@@ -54,9 +56,11 @@ private Q_SLOTS:
     void anOutputIsLeftAloneUntilItHasAValue();
     void anOutputBeginsWithItsSafeValue();
     void anOutputThatIsKeptDoesNotGetItsSafeValue();
+    void aCycleTakesNoMemoryAndNoLock();
     void aMissingLineIsNamed();
     void aBoardThatIsUnpluggedIsAnErrorAndComesBack();
     void withoutTheChipThereIsARemedy();
+    void edgesBetweenTwoCyclesAreCountedByTheKernel();
 };
 
 void tst_GpioDriver::wordsOfALine_data()
@@ -258,6 +262,29 @@ void tst_GpioDriver::anOutputThatIsKeptDoesNotGetItsSafeValue()
     QCOMPARE(board.driven(5), 0);
 }
 
+void tst_GpioDriver::aCycleTakesNoMemoryAndNoLock()
+{
+    if (!ThreadCosts::areCounted())
+        QSKIP("a sanitizer has the functions that are counted");
+    Board board("input.stop = 3, debounce 1 ms\noutput.lamp = 4\n");
+    QCOMPARE(board.bench.wireRead("stop") + board.bench.wireRead("stop.@edges") + board.bench.wireWrite("lamp"),
+             QString());
+    QVERIFY2(board.bench.open(), qPrintable(board.bench.errorString()));
+    board.bench.runner().setValue(0, 0.0, true);
+    QVERIFY(board.bench.exchange());
+    const ThreadCosts before = ThreadCosts::ofThisThread();
+    for (int i = 0; i < 1000; ++i) {
+        board.pull(3, i % 4 < 2);
+        board.bench.advance(1ms);
+        board.bench.runner().setValue(0, i % 2, false);
+        board.bench.exchange();
+    }
+    const ThreadCosts costs = ThreadCosts::ofThisThread() - before;
+    QCOMPARE(costs.allocations, std::uint64_t(0));
+    QCOMPARE(costs.locks, std::uint64_t(0));
+    QVERIFY(board.bench.value("stop.@edges") > 100.0);
+}
+
 void tst_GpioDriver::aMissingLineIsNamed()
 {
     Board board("output.lamp = 8\n");
@@ -297,6 +324,27 @@ void tst_GpioDriver::withoutTheChipThereIsARemedy()
                  && (error.contains("there are ") || error.contains("this computer has none")
                      || error.contains("built without libgpiod")),
              qPrintable(error));
+}
+
+void tst_GpioDriver::edgesBetweenTwoCyclesAreCountedByTheKernel()
+{
+    const QStringList parts = testDeviceParts("QTPLC_TEST_GPIO");
+    if (parts.size() != 4)
+        QSKIP("needs a chip of the module gpio-sim: QTPLC_TEST_GPIO names it");
+    SimulatedGpioDevice device(parts);
+    DriverBench bench(QStringLiteral("gpio"), device.keys());
+    QCOMPARE(bench.wireRead("in") + bench.wireRead("in.@edges") + bench.wireRead("in.@time"), QString());
+    device.give("in", 0.0);
+    QVERIFY2(bench.open(), qPrintable(bench.errorString()));
+    QVERIFY(bench.exchange());
+    const double before = double(monotonicNow()) * 1e-9;
+    for (const double level : {1.0, 0.0, 1.0, 0.0, 1.0})
+        device.give("in", level);
+    const double after = double(monotonicNow()) * 1e-9;
+    QTRY_VERIFY(bench.exchange() && bench.value("in.@edges") >= 5.0);
+    QCOMPARE(bench.value("in.@edges"), 5.0);
+    QCOMPARE(bench.value("in"), 1.0);
+    QVERIFY(bench.value("in.@time") >= before && bench.value("in.@time") <= after);
 }
 
 QTEST_GUILESS_MAIN(tst_GpioDriver)

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+// The program of hardware nodes as a process, with a board that this test plays, at a master that this test runs.
+#include "../FakeDevices.h"
+#include "NodeFixtures.h"
+#include "hardware/gpio/FakeGpioChip.h"
+
+#include <QtCore/QProcess>
+#include <QtTest/QtTest>
+
+using qplc::FakeGpioChip;
+
+namespace {
+
+const QByteArray tableText = "[button]\ntype = Bool\nhold = 1000\n"
+                             "[brake]\ntype = Bool\nsafe = 1\ninitial = 0\nhold = 1000\n";
+const QByteArray wiring = "[node]\nname = Buttons\n[board]\ndriver = gpio\ndevice = fake:board\n"
+                          "input.button = 2, active-low\noutput.brake = 5\n"
+                          "[board.read]\nbutton = button\n[board.write]\nbrake = brake\n";
+
+/// A plant of a master and a board, in a phase.
+struct Plant
+{
+    Plant()
+        : master(std::make_unique<TestMaster>(QPlcClock::realTime(), QPlcSignalTable::fromIni(tableText)))
+    {
+    }
+    ~Plant()
+    {
+        program.kill();
+        program.waitForFinished();
+    }
+
+    bool start()
+    {
+        QString error;
+        QFile file(folder.filePath(QStringLiteral("board.ini")));
+        if (!memory.create(QStringLiteral("fake:board"), 8, &error) || !file.open(QIODevice::WriteOnly)
+            || file.write(wiring) != wiring.size() || !master->listen())
+            return false;
+        file.close();
+        program.setProcessChannelMode(QProcess::ForwardedErrorChannel);
+        program.start(QStringLiteral(QTPLC_HARDWARE_PROGRAM),
+                      {file.fileName(), QStringLiteral("--watchdog"), QStringLiteral("2"), QStringLiteral("--master"),
+                       QStringLiteral("udp://127.0.0.1:%1").arg(master->serverPort())});
+        return QTest::qWaitFor([this] { return !master->nodes().isEmpty(); }, 20000) && master->startRealTime()
+            && master->waitForState(QPlcMasterNode::RealTime);
+    }
+    void pull(bool isHigh) { memory.at(2) = isHigh ? FakeGpioChip::Pulled : 0; }
+    /// 0 or 1; -1: nobody drives it.
+    int brake() const
+    {
+        const quint8 byte = memory.at(5);
+        return byte & FakeGpioChip::IsOutput ? (byte & FakeGpioChip::Driven ? 1 : 0) : -1;
+    }
+
+    const FakeDevices devices;
+    const QTemporaryDir folder;
+    qplc::FakeMemory memory;
+    std::unique_ptr<TestMaster> master;
+    QProcess program;
+};
+
+}  // namespace
+
+class tst_BoardOfAProgram : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void linesAreSignals();
+    void theBoardIsSafeWhenTheProgramIsTerminated();
+    void theBoardIsSafeWhenTheMasterIsGone();
+    void aBoardThatIsUnpluggedComesBackInThePhase();
+};
+
+void tst_BoardOfAProgram::linesAreSignals()
+{
+    Plant plant;
+    QVERIFY(plant.start());
+    QTRY_COMPARE(plant.master->signalValue("button").toInt(), 1);  // low
+    plant.pull(true);
+    QTRY_COMPARE(plant.master->signalValue("button").toInt(), 0);
+    QTRY_COMPARE(plant.brake(), 0);
+    QVERIFY(plant.master->setSignalValue("brake", 1));
+    QTRY_COMPARE(plant.brake(), 1);
+}
+
+void tst_BoardOfAProgram::theBoardIsSafeWhenTheProgramIsTerminated()
+{
+    Plant plant;
+    QVERIFY(plant.start());
+    QTRY_COMPARE(plant.brake(), 0);
+    plant.program.terminate();
+    QVERIFY(plant.program.waitForFinished(20000));
+    QCOMPARE(plant.brake(), 1);
+}
+
+void tst_BoardOfAProgram::theBoardIsSafeWhenTheMasterIsGone()
+{
+    Plant plant;
+    QVERIFY(plant.start());
+    QTRY_COMPARE(plant.brake(), 0);
+    plant.master.reset();
+    QTRY_COMPARE(plant.brake(), 1);
+}
+
+void tst_BoardOfAProgram::aBoardThatIsUnpluggedComesBackInThePhase()
+{
+    Plant plant;
+    QVERIFY(plant.start());
+    QTRY_COMPARE(plant.brake(), 0);
+    qplc::FakeMemory::remove("fake:board");
+    QString error;
+    QVERIFY2(plant.memory.create("fake:board", 8, &error), qPrintable(error));
+    plant.pull(true);
+    QTRY_COMPARE(plant.brake(), 0);
+    QTRY_COMPARE(plant.master->signalValue("button").toInt(), 0);
+    plant.pull(false);
+    QTRY_COMPARE(plant.master->signalValue("button").toInt(), 1);
+}
+
+QTEST_GUILESS_MAIN(tst_BoardOfAProgram)
+#include "tst_BoardOfAProgram.moc"
