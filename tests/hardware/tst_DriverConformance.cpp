@@ -4,6 +4,7 @@
 #include "conformance/CanTestDevices.h"
 #include "conformance/GpioTestDevices.h"
 #include "conformance/I2cTestDevices.h"
+#include "conformance/ModbusTestDevices.h"
 #include "conformance/SerialTestDevices.h"
 #include "conformance/SpiTestDevices.h"
 
@@ -168,6 +169,7 @@ void tst_DriverConformance::initTestCase()
     addCanDevices(&m_devices);
     addGpioDevices(&m_devices);
     addI2cDevices(&m_devices);
+    addModbusDevices(&m_devices);
     addSerialDevices(&m_devices);
     addSpiDevices(&m_devices);
 }
