@@ -33,9 +33,9 @@ printf '#!/bin/sh\nexit 101\n' > "$root/usr/sbin/policy-rc.d"
 chmod 755 "$root/usr/sbin/policy-rc.d"
 inside() { chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive "$@"; }
 apt() { inside apt-get --quiet=2 -o Dpkg::Use-Pty=0 --yes --no-install-recommends "$@" > "$root/tmp/apt.log" 2>&1 || { cat "$root/tmp/apt.log" >&2; fail "apt-get $* failed"; }; }
-# All files of the system but what the kernel, apt and dpkg keep about themselves; and all users and groups.
+# All files of the system but what the kernel, apt, dpkg and adduser (copies of its last state) keep about themselves; and all users and groups.
 inventory() {
-    (cd "$root" && find . -xdev \( -path ./proc -o -path ./dev -o -path ./tmp -o -path ./var/cache -o -path ./var/lib/apt -o -path ./var/lib/dpkg -o -path ./var/log -o -path ./root \) -prune -o -print | sort)
+    (cd "$root" && find . -xdev \( -path ./proc -o -path ./dev -o -path ./tmp -o -path ./var/cache -o -path ./var/lib/apt -o -path ./var/lib/dpkg -o -path ./var/log -o -path ./root -o -path ./run -o -path "./etc/*shadow-" -o -path "./etc/passwd-" -o -path "./etc/group-" \) -prune -o -print | sort)
     cut -d: -f1 "$root/etc/passwd" | sed 's/^/user /'
     cut -d: -f1 "$root/etc/group" | sed 's/^/group /'
 }

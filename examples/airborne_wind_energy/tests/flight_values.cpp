@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Flies in lockstep and prints every value of every cycle, bit by bit: a line "CYCLE SIGNAL BYTES VALUE" each. scripts/test-arm64 compares what two processors print.
 //
-//   awe_flight_values SECONDS
+//   awe_flight_values --duration SECONDS [--turbulence ...]
 #include "AutopilotNode.h"
 #include "CompactModelNode.h"
 #include "ExampleOptions.h"
@@ -45,27 +45,34 @@ private:
 int main(int argc, char **argv)
 {
     QPlcCoreApplication application(argc, argv);
-    QPlcSignalIndexTable table;
-    if (argc != 2 || !table.initializeFromIniFile(awe::builtInSignals()))
-        return application.usageError(QStringLiteral("give the length of the flight [s]"));
+    application.setDescription(
+        QStringLiteral("Flies in lockstep and prints every value of every cycle: cycle, signal, bytes, value."));
+    awe::addRunOptions(application, QStringLiteral("10"));
+    awe::addModelOptions(application);
     awe::RunSettings settings;
+    awe::ModelSettings model;
+    QPlcSignalIndexTable table;
+    if (!application.parseOptions() || !awe::readRunOptions(application, &settings)
+        || !awe::readModelOptions(application, &model))
+        return application.exitCode();
+    if (!table.initializeFromIniFile(awe::builtInSignals()))
+        return application.usageError(table.errorString());
     settings.clock = QPlcClock::lockstep();
-    settings.duration = QByteArray(argv[1]).toDouble();
     settings.awaitedNodes = QStringList{QStringLiteral("Model"), QStringLiteral("Autopilot")};
 
-    awe::CompactModelNode model(awe::KiteSimulation(awe::PlantParameters(), awe::WindParameters()));
-    awe::AutopilotNode autopilot(awe::AutopilotGains(), 0);
+    awe::CompactModelNode kite{awe::KiteSimulation{model.plant, model.wind}};
+    awe::AutopilotNode autopilot{awe::AutopilotGains{}, 0};
     Printer printer;
     QPlcMasterNode master;
     awe::FlightRun run(master, settings);
-    if (!run.isValid() || !master.addLocalNode(&printer) || !master.addLocalNode(&model)
+    if (!run.isValid() || !master.addLocalNode(&printer) || !master.addLocalNode(&kite)
         || !master.addLocalNode(&autopilot))
         return QPlcCoreApplication::UsageError;
     QObject::connect(&run, &awe::FlightRun::finished, &application,
                      [](int exitCode) { QCoreApplication::exit(exitCode); });
     run.begin();
     const int exitCode = QCoreApplication::exec();
-    for (QPlcSlaveNode *node : std::initializer_list<QPlcSlaveNode *>{&printer, &model, &autopilot})
+    for (QPlcSlaveNode *node : std::initializer_list<QPlcSlaveNode *>{&printer, &kite, &autopilot})
         node->disconnectFromMaster();
     return exitCode;
 }
