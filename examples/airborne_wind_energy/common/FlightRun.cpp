@@ -129,9 +129,11 @@ FlightRun::FlightRun(QPlcMasterNode &master, const RunSettings &settings)
     });
     connect(&master, &QPlcMasterNode::nodeLost, this, &FlightRun::nodeIsLost);
     connect(&master, &QPlcMasterNode::safelyStopped, this, [this](const QString &reason) {
-        if (m_begun && !m_ending)
-            fail(QPlcCoreApplication::Failure,
-                 QStringLiteral("the plant has stopped safely (%1): the flight ends").arg(reason));
+        if (!m_begun || m_ending || !endsWithFlight())
+            return;
+        m_exitCode = 0;  // what the master has told is a consequence
+        fail(QPlcCoreApplication::Failure,
+             QStringLiteral("the plant has stopped safely (%1): the flight ends").arg(reason));
     });
 }
 

@@ -5,6 +5,7 @@
 #include <QtPlcHardware>
 
 #include <QtCore/QFile>
+#include <QtCore/QTimer>
 
 #include <cstdio>
 
@@ -32,16 +33,25 @@ void printEnergies(const awe::WinchDrive &drive)
         energy.friction * 1e-3, energy.brake * 1e-3);
 }
 
-bool run(QPlcCoreApplication &application, QPlcMasterNode &firmware, QPlcHardwareNode &bus, awe::WinchDriveNode &drive)
+void print(const QString &line)
 {
-    QObject::connect(&bus, &QPlcHardwareNode::deviceOpened, &application, [] {
-        std::puts("on the bus");
-        std::fflush(stdout);
-    });
-    QObject::connect(&bus, &QPlcHardwareNode::deviceFailed, &application,
-                     [](const QString &, const QString &text) { QPlcCoreApplication::printError(text); });
-    application.quitOnSignals();
-    return firmware.addLocalNode(&bus) && firmware.addLocalNode(&drive) && firmware.startRealTime();
+    std::puts(qPrintable(line));
+    std::fflush(stdout);
+}
+
+/// Tells each new state of the drive, as its display would. \param last  what was told last
+void showState(const QPlcMasterNode &firmware, QString *last)
+{
+    const QPlcSignalTable table = firmware.signalTable();
+    const auto text
+        = [&](const QString &signal) { return table.at(table.indexOf(signal)).textOf(firmware.signalValue(signal)); };
+    const QString state = text(QStringLiteral("driveState"));
+    const QString line = state == QLatin1String("Enabled")
+        ? state
+        : QStringLiteral("%1 (%2)").arg(state, text(QStringLiteral("driveStop")));
+    if (*last != line)
+        print(line);
+    *last = line;
 }
 
 }  // namespace
@@ -81,9 +91,15 @@ int main(int argc, char **argv)
     firmware.setInterval(parameters.step);
     firmware.setClock(scale == 1.0 ? QPlcClock::realTime() : QPlcClock::scaled(scale));
     firmware.setGapLimit(std::chrono::nanoseconds(0));  // a drive has a watchdog of its own, and nobody to reset it
-    if (!run(application, firmware, bus, drive))
+    application.quitOnSignals();
+    if (!firmware.addLocalNode(&bus) || !firmware.addLocalNode(&drive) || !firmware.startRealTime())
         return application.usageError(firmware.errorString());
+    QTimer display;
+    QString shown;
+    QObject::connect(&display, &QTimer::timeout, &firmware, [&] { showState(firmware, &shown); });
+    display.start(10);
     const int exitCode = QCoreApplication::exec();
+    display.stop();
     firmware.stop();
     printEnergies(drive.drive());
     return exitCode;
