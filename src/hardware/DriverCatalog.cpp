@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "DriverCatalog.h"
 
+#include "can/CanDriver.h"
 #include "gpio/GpioDriver.h"
 #include "i2c/I2cRegistersDriver.h"
 #include "i2c/Mpu6050Driver.h"
@@ -18,6 +19,9 @@ DriverCatalog &DriverCatalog::instance()
 /// A line for each kind of this library.
 DriverCatalog::DriverCatalog()
 {
+    add(QStringLiteral("can"),
+        {QStringLiteral("messages of a CAN bus: SocketCAN, Qt Serial Bus, or a fake bus of this computer"),
+         [] { return std::make_unique<CanDriver>(); }});
     add(QStringLiteral("gpio"), {QStringLiteral("switches and lamps at the lines of a GPIO chip"), [] {
                                      return std::make_unique<GpioDriver>();
                                  }});

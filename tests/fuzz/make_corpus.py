@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Makes the inputs that the fuzzers begin with, and the words that they put into them, out of docs/protocol/vectors and signals.
+"""Makes the inputs that the fuzzers begin with, and the words that they put into them, out of docs/protocol/vectors, signals and tests/hardware.
 
     make_corpus.py --check    says whether corpus/ and the dictionaries hold what this script makes (exit code 1 when not)
     make_corpus.py --write    writes them
@@ -161,6 +161,32 @@ def sessions():
     }
 
 
+# ---- DBC files: the text as it is -----------------------------------------------------------------------------------
+
+DBC_HEAD = 'VERSION ""\nNS_ :\n\tCM_\n\tBA_\nBS_:\nBU_: A B\n'
+ODD_DBC_FILES = {
+    "one message": 'BO_ 1 A: 8 X\n SG_ S : 0|16@1- (0.1,0) [0|0] "" X\n',
+    "multiplexed": 'BO_ 1 A: 8 X\n SG_ P M : 0|8@1+ (1,0) [0|0] "" X\n SG_ Q m3 : 15|16@0- (0.5,-1) [-1|1] "m" X\nSG_MUL_VAL_ 1 Q P 3-3;\n',
+    "extended multiplexing": 'BO_ 1 A: 8 X\n SG_ P M : 0|8@1+ (1,0) [0|0] "" X\n SG_ Q m0M : 8|8@1+ (1,0) [0|0] "" X\nSG_MUL_VAL_ 1 Q P 0-2, 5-7;\n',
+    "attributes": DBC_HEAD + 'BO_ 2566840318 A: 64 X\n SG_ F : 0|32@1- (1,0) [0|0] "" X\nBA_DEF_ BO_ "GenMsgCycleTime" INT 0 9;\nBA_DEF_DEF_ "GenMsgCycleTime" 5;\n'
+                             'BA_ "GenMsgCycleTime" BO_ 2566840318 10;\nBA_ "GenSigStartValue" SG_ 2566840318 F 1e3;\nBA_ "VFrameFormat" BO_ 2566840318 15;\n'
+                             'BA_ "CANFD_BRS" BO_ 2566840318 "0";\nSIG_VALTYPE_ 2566840318 F : 1;\nVAL_ 2566840318 F -1 "off" 1 "on";\n',
+    "independent signals": 'BO_ 3221225472 VECTOR__INDEPENDENT_SIG_MSG: 0 Vector__XXX\n SG_ S : 0|8@1- (1,0) [0|0] "" X\nBO_ 7 B: 39 X\n',
+    "everything wrong": 'BO_ x\nBO_ 1 A: 8 X\n SG_ S : 60|8@1+ (0,x) [0|0\nSG_ S\nCM_ "no end\n',
+}
+
+
+def dbc_files():
+    files = {"winch drive": (ROOT / "tests/hardware/can/winch_drive.dbc").read_bytes()}
+    files.update({name: text.encode() for name, text in ODD_DBC_FILES.items()})
+    return files
+
+
+DBC_WORDS = ["BO_ ", "SG_ ", "VAL_ ", "SIG_VALTYPE_ ", "SG_MUL_VAL_ ", "BA_ ", "BA_DEF_DEF_ ", "CM_ ", "NS_", "BS_:", "BU_:", "VERSION", "VAL_TABLE_", "EV_ ",
+             " M : ", " m1 : ", " m0M : ", "0|8@1+ ", "7|16@0- ", "(1,0) ", "[0|0] ", "\"\" ", "GenMsgCycleTime", "GenSigStartValue", "VFrameFormat", "CANFD_BRS",
+             "1e308", "18446744073709551615", "2147483648"]
+
+
 # ---- words that inputs are made of ----------------------------------------------------------------------------------
 
 KEYS = ["type", "unit", "description", "min", "max", "initial", "safe", "hold", "Bool", "Byte", "Int", "Int64", "UInt16", "Real", "Real64", "RealTriple",
@@ -183,7 +209,7 @@ def dictionary(words):
 
 def dictionaries():
     fields = set().union(*(texts_of(row["fields"]) for row in vectors("control_frames")["good"]))
-    return {"keys.dict": dictionary(KEYS), "fields.dict": dictionary(sorted(word for word in fields if word.isascii()))}
+    return {"keys.dict": dictionary(KEYS), "dbc.dict": dictionary(DBC_WORDS), "fields.dict": dictionary(sorted(word for word in fields if word.isascii()))}
 
 
 # ---- files ----------------------------------------------------------------------------------------------------------
@@ -193,7 +219,7 @@ def main():
         sys.exit(__doc__)
     wanted = {HERE / name: data for name, data in dictionaries().items()}
     for folder, files in (("signal_table", signal_tables()), ("control_frames", control_frames()), ("cyclic_frames", cyclic_frames()),
-                          ("session", sessions())):
+                          ("session", sessions()), ("dbc_file", dbc_files())):
         for name, data in files.items():
             path = HERE / "corpus" / folder / file_name(name)
             assert path not in wanted, f"two inputs are called {path}"

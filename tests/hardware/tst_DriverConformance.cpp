@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "DriverBench.h"
 #include "FakeDevices.h"
+#include "conformance/CanTestDevices.h"
 #include "conformance/GpioTestDevices.h"
 #include "conformance/I2cTestDevices.h"
 #include "conformance/SerialTestDevices.h"
@@ -165,6 +166,7 @@ private:
 
 void tst_DriverConformance::initTestCase()
 {
+    addCanDevices(&m_devices);
     addGpioDevices(&m_devices);
     addI2cDevices(&m_devices);
     addSerialDevices(&m_devices);

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "hardware/can/CanBus.h"
+
+#include <QtCore/QJsonObject>
+
+#include <vector>
+
+/// What all frames of the benchmark carry: `count` of its message, and when it was made.
+struct CanStamp
+{
+    static constexpr quint32 ToPartner = 0x200;    // first id
+    static constexpr quint32 FromPartner = 0x300;  // first id
+
+    quint32 count = 0;
+    quint32 time = 0;  // CLOCK_MONOTONIC [us]
+};
+
+/// The device at the other end: sends frames in each period as soon as the driver has sent the first one, and looks whether those of the driver are complete and in order.
+class CanPartner
+{
+public:
+    /// \param frames  in each period, both ways
+    CanPartner(const QString &device, int frames, qint64 period);
+
+    /// Until the standard input ends. \return false with errorString()
+    bool run();
+    QString errorString() const { return m_error; }
+    QJsonObject result() const;
+
+private:
+    bool step(bool isSending);
+    void take(const qplc::CanFrame &frame);
+
+    QString m_device;
+    qint64 m_period;
+    QString m_error;
+    std::unique_ptr<qplc::CanBus> m_bus;
+    std::vector<qplc::CanFrame> m_outgoing;
+    std::vector<quint32> m_next;  // count of the next frame of each message; 0: none came yet
+    quint32 m_count = 0;
+    quint32 m_lastId = 0;
+    quint64 m_lost = 0;
+    quint64 m_reordered = 0;
+};

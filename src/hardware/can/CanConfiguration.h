@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "DbcFile.h"
+
+#include <QtCore/QStringList>
+
+#include <chrono>
+
+class QPlcDriverSettings;
+
+namespace qplc {
+
+/// When a message is sent. More than one of them: as soon as one says so.
+struct CanSendRule
+{
+    bool everyCycle = false;
+    bool onChange = false;
+    bool onRequest = false;
+    std::chrono::nanoseconds period{0};  // 0: not periodically
+};
+
+/// A message of the bus: what it carries, when it is sent, and how long it is fresh.
+struct CanMessage
+{
+    DbcMessage description;
+    CanSendRule rule;
+    std::chrono::nanoseconds timeout{0};  // 0: that of the driver
+};
+
+/// The keys of a CanDriver, which describes them.
+class CanConfiguration
+{
+public:
+    /// What is wrong is told to \a settings.
+    void read(QPlcDriverSettings &settings);
+
+    QString device() const { return m_device; }
+    QString logFile() const { return m_logFile; }
+    const QVector<CanMessage> &messages() const { return m_messages; }
+    /// Null when there is none.
+    const CanMessage *find(const QString &message) const;
+
+private:
+    void readDbc(QPlcDriverSettings &settings);
+    void readFrames(QPlcDriverSettings &settings);
+    void readSignals(QPlcDriverSettings &settings);
+    void readRules(QPlcDriverSettings &settings);
+    void readTimeouts(QPlcDriverSettings &settings);
+    void finish(QPlcDriverSettings &settings);
+    bool addFrame(const QString &name, const QStringList &words, QString *error);
+    bool addSignal(const QString &name, const QString &text, QString *error);
+    CanMessage *messageOf(const QString &name, const QString &key, QPlcDriverSettings &settings);
+    QStringList names() const;
+
+    QString m_device;
+    QString m_logFile;
+    QVector<CanMessage> m_messages;
+};
+
+}  // namespace qplc

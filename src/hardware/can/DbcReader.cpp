@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "DbcReader.h"
+
+#include <cmath>
+#include <limits>
+
+namespace qplc {
+
+DbcReader::DbcReader(const QString &text, const QString &fileName)
+    : m_lexer(text)
+    , m_fileName(fileName)
+{
+}
+
+bool DbcReader::fail(const DbcToken &at, const QString &message)
+{
+    m_isBroken = true;
+    m_errors.append({m_fileName, at.line, at.column, message});
+    return false;
+}
+
+bool DbcReader::expected(const char *what)
+{
+    return fail(peek(), QStringLiteral("%1 instead of %2").arg(peek().shown(), QLatin1String(what)));
+}
+
+bool DbcReader::takes(char sign)
+{
+    if (m_isBroken || !peek().isSign(sign))
+        return false;
+    take();
+    return true;
+}
+
+bool DbcReader::expectSign(char sign, const char *what)
+{
+    return takes(sign) || (!m_isBroken && expected(what));
+}
+
+bool DbcReader::expectWord(QString *word, const char *what)
+{
+    if (m_isBroken)
+        return false;
+    if (peek().kind != DbcToken::Word)
+        return expected(what);
+    *word = take().text;
+    return true;
+}
+
+bool DbcReader::expectText(QString *text, const char *what)
+{
+    if (m_isBroken)
+        return false;
+    if (peek().kind != DbcToken::Text)
+        return expected(what);
+    *text = take().text;
+    return true;
+}
+
+bool DbcReader::expectNumber(double *number, const char *what)
+{
+    if (m_isBroken)
+        return false;
+    if (peek().kind != DbcToken::Number)
+        return expected(what);
+    bool isNumber = false;
+    *number = peek().text.toDouble(&isNumber);
+    if (!isNumber || !std::isfinite(*number))
+        return expected(what);
+    take();
+    return true;
+}
+
+bool DbcReader::expectInteger(qint64 *number, qint64 minimum, qint64 maximum, const char *what)
+{
+    if (m_isBroken)
+        return false;
+    bool isNumber = false;
+    *number = peek().kind == DbcToken::Number ? peek().text.toLongLong(&isNumber) : 0;
+    if (!isNumber)
+        return expected(what);
+    if (*number < minimum || *number > maximum)
+        return fail(peek(),
+                    QStringLiteral("%1 is %2; it has to be %3 ... %4")
+                        .arg(QLatin1String(what), peek().text)
+                        .arg(minimum)
+                        .arg(maximum));
+    take();
+    return true;
+}
+
+bool DbcReader::expectUnsigned(quint64 *number, const char *what)
+{
+    if (m_isBroken)
+        return false;
+    bool isNumber = false;
+    *number = peek().kind == DbcToken::Number ? peek().text.toULongLong(&isNumber) : 0;
+    if (!isNumber)
+        return expected(what);
+    take();
+    return true;
+}
+
+bool DbcReader::expectRole(DbcSignal *signal, bool *isExtended)
+{
+    if (m_isBroken)
+        return false;
+    if (peek().kind != DbcToken::Word)
+        return true;
+    const DbcToken token = take();
+    if (token.text == QLatin1String("M")) {
+        signal->role = DbcSignal::Multiplexor;
+        return true;
+    }
+    *isExtended = token.text.size() > 2 && token.text.endsWith(QLatin1Char('M'));
+    bool isNumber = false;
+    signal->multiplexValue = token.text.mid(1, token.text.size() - (*isExtended ? 2 : 1)).toULongLong(&isNumber);
+    signal->role = DbcSignal::Multiplexed;
+    if (!isNumber || token.text.at(0) != QLatin1Char('m'))
+        return fail(token,
+                    QStringLiteral("%1 behind the name of signal '%2'; use ':', M for a multiplexor, or m with a "
+                                   "number, m3 for example")
+                        .arg(token.shown(), signal->name));
+    return true;
+}
+
+bool DbcReader::expectPlace(DbcSignal *signal)
+{
+    qint64 start = 0;
+    qint64 length = 0;
+    if (!expectInteger(&start, 0, 511, "the start bit of the signal")
+        || !expectSign('|', "'|' behind the start bit: write start|length@order sign, 8|16@1- for example")
+        || !expectInteger(&length, 1, 64, "the length of the signal in bits")
+        || !expectSign('@', "'@' behind the length: write start|length@order sign, 8|16@1- for example"))
+        return false;
+    signal->start = int(start);
+    signal->length = int(length);
+    return expectByteOrder(signal) && expectScale(signal);
+}
+
+bool DbcReader::expectByteOrder(DbcSignal *signal)
+{
+    qint64 order = 0;
+    if (!expectInteger(&order, 0, 1, "the byte order (1: little endian, Intel; 0: big endian, Motorola)"))
+        return false;
+    signal->byteOrder = order == 1 ? DbcSignal::Intel : DbcSignal::Motorola;
+    if (takes('-'))
+        signal->kind = DbcSignal::Signed;
+    else if (peek().isWord("f")) {
+        take();
+        signal->kind = signal->length == 64 ? DbcSignal::Float64 : DbcSignal::Float32;
+    } else
+        return expectSign('+', "'+' (without sign) or '-' (with sign) behind the byte order");
+    return true;
+}
+
+bool DbcReader::expectScale(DbcSignal *signal)
+{
+    if (takes('(')) {
+        const DbcToken token = peek();
+        if (!expectNumber(&signal->factor, "the factor") || !expectSign(',', "',' between factor and offset")
+            || !expectNumber(&signal->offset, "the offset") || !expectSign(')', "')' behind the offset"))
+            return false;
+        if (signal->factor == 0.0)
+            return fail(token, QStringLiteral("the factor is 0; no value could be told from another"));
+    }
+    if (takes('[')
+        && (!expectNumber(&signal->minimum, "the minimum") || !expectSign('|', "'|' between minimum and maximum")
+            || !expectNumber(&signal->maximum, "the maximum") || !expectSign(']', "']' behind the maximum")))
+        return false;
+    if (!m_isBroken && peek().kind == DbcToken::Text)
+        signal->unit = take().text;
+    return !m_isBroken;
+}
+
+void DbcReader::skipStatement()
+{
+    while (!atEnd() && !peek().isSign(';') && peek().kind != DbcToken::Broken)
+        take();
+    if (peek().isSign(';'))
+        take();
+    else if (!m_isBroken)
+        expected("';' at the end of the statement");
+}
+
+void DbcReader::skipToLine(bool (*isKeyword)(const QString &word))
+{
+    while (!atEnd() && !(peek().kind == DbcToken::Word && peek().isFirst && isKeyword(peek().text)))
+        take();
+}
+
+}  // namespace qplc

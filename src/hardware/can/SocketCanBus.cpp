@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "SocketCanBus.h"
+
+#include "realtime/TimeSource.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <linux/can/error.h>
+#include <linux/can/raw.h>
+#include <net/if.h>
+#include <net/if_arp.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+namespace qplc {
+
+namespace {
+
+constexpr int canQueueSize = 4 << 20;  // [byte] some thousand frames
+
+// What is told of errors; each of the others can come with every frame.
+constexpr can_err_mask_t canErrorKinds = CAN_ERR_TX_TIMEOUT | CAN_ERR_CRTL | CAN_ERR_TRX | CAN_ERR_ACK | CAN_ERR_BUSOFF
+    | CAN_ERR_BUSERROR | CAN_ERR_RESTARTED;
+
+ifreq requestFor(const QString &interface)
+{
+    ifreq request;
+    std::memset(&request, 0, sizeof request);
+    const QByteArray name = interface.toLocal8Bit();
+    std::memcpy(request.ifr_name, name.constData(), std::min(size_t(name.size()), sizeof request.ifr_name - 1));
+    return request;
+}
+
+can_filter filterFor(quint32 key)
+{
+    can_filter filter;
+    filter.can_id = key;  // the bit for 29 bits is that of the kernel
+    filter.can_mask = CAN_EFF_FLAG | ((key & CAN_EFF_FLAG) ? CAN_EFF_MASK : CAN_SFF_MASK);
+    return filter;
+}
+
+canfd_frame kernelFrame(const CanFrame &frame)
+{
+    canfd_frame result;
+    std::memset(&result, 0, sizeof result);
+    result.can_id = frame.key();
+    if (frame.has(CanFrame::Remote))
+        result.can_id |= CAN_RTR_FLAG;
+    if (frame.has(CanFrame::Error))
+        result.can_id |= CAN_ERR_FLAG;
+    if (frame.has(CanFrame::Fd))
+        result.flags = quint8((frame.has(CanFrame::BitRateSwitch) ? CANFD_BRS : 0)
+                              | (frame.has(CanFrame::ErrorPassive) ? CANFD_ESI : 0));
+    result.len = frame.size;
+    if (!frame.has(CanFrame::Remote))
+        std::memcpy(result.data, frame.data.data(), frame.size);
+    return result;
+}
+
+CanFrame frameOfKernel(const canfd_frame &frame, bool isFd)
+{
+    CanFrame result;
+    const bool isError = (frame.can_id & CAN_ERR_FLAG) != 0;
+    const bool isExtended = (frame.can_id & CAN_EFF_FLAG) != 0 && !isError;
+    result.id = frame.can_id & (isExtended || isError ? CAN_EFF_MASK : CAN_SFF_MASK);
+    result.flags = quint8((isExtended ? CanFrame::Extended : 0) | (isError ? CanFrame::Error : 0)
+                          | ((frame.can_id & CAN_RTR_FLAG) && !isError ? CanFrame::Remote : 0));
+    if (isFd)
+        result.flags |= quint8(CanFrame::Fd | ((frame.flags & CANFD_BRS) ? CanFrame::BitRateSwitch : 0)
+                               | ((frame.flags & CANFD_ESI) ? CanFrame::ErrorPassive : 0));
+    result.size = std::min<quint8>(frame.len, isFd ? CANFD_MAX_DLEN : CAN_MAX_DLEN);
+    if (!result.has(CanFrame::Remote))
+        std::memcpy(result.data.data(), frame.data, result.size);
+    return result;
+}
+
+// The interface has no room now; the next frames may find some.
+bool isCanQueueFull(int error)
+{
+    return error == ENOBUFS || error == EAGAIN || error == EWOULDBLOCK || error == ENOMEM;
+}
+
+}  // namespace
+
+SocketCanBus::SocketCanBus(const QString &interface)
+    : m_interface(interface)
+{
+}
+
+SocketCanBus::~SocketCanBus()
+{
+    SocketCanBus::close();
+}
+
+bool SocketCanBus::isName(const QString &interface)
+{
+    const auto isAllowed = [](QChar character) {
+        return character > QLatin1Char(' ') && character < QChar(0x7F) && character != QLatin1Char('/')
+            && character != QLatin1Char(':');
+    };
+    return !interface.isEmpty() && interface.size() < IFNAMSIZ
+        && std::all_of(interface.cbegin(), interface.cend(), isAllowed);
+}
+
+void SocketCanBus::close()
+{
+    if (m_socket >= 0)
+        ::close(m_socket);
+    m_socket = -1;
+}
+
+bool SocketCanBus::join(const Options &options)
+{
+    close();
+    m_dropped = 0;
+    if (makeSocket() && findInterface(options.needsFd) && setOptions() && setFilters(options) && bindSocket()) {
+        m_clock.begin(monotonicNow(), wallClockNow());
+        m_clock.drained();
+        return true;
+    }
+    close();
+    return false;
+}
+
+bool SocketCanBus::failWith(const QString &what, const QString &remedy)
+{
+    const int number = errno;
+    return fail(QStringLiteral("%1: %2 (%3); %4")
+                    .arg(m_interface, what, QString::fromLocal8Bit(std::strerror(number)), remedy));
+}
+
+bool SocketCanBus::makeSocket()
+{
+    m_socket = socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW);
+    return m_socket >= 0
+        || failWith(QStringLiteral("the kernel has no CAN"),
+                    QStringLiteral("load its modules as root: modprobe can_raw, and that of the adapter"));
+}
+
+bool SocketCanBus::findInterface(bool needsFd)
+{
+    ifreq request = requestFor(m_interface);
+    if (ioctl(m_socket, SIOCGIFINDEX, &request) < 0)
+        return failWith(QStringLiteral("there is no such interface"),
+                        QStringLiteral("plug in the adapter and load its module; 'ip link' lists what there is"));
+    m_index = request.ifr_ifindex;
+    if (ioctl(m_socket, SIOCGIFHWADDR, &request) < 0 || request.ifr_hwaddr.sa_family != ARPHRD_CAN)
+        return fail(QStringLiteral("%1 is no CAN interface; give one of those that 'ip link show type can' lists")
+                        .arg(m_interface));
+    m_isFd = ioctl(m_socket, SIOCGIFMTU, &request) == 0 && request.ifr_mtu >= int(CANFD_MTU);
+    if (needsFd && !m_isFd)
+        return fail(QStringLiteral("%1 is not set up for CAN FD, which messages of the configuration use; as root: ip "
+                                   "link set %1 down, ip link set %1 up type can bitrate 500000 dbitrate 2000000 fd on")
+                        .arg(m_interface));
+    if (ioctl(m_socket, SIOCGIFFLAGS, &request) < 0 || !(request.ifr_flags & IFF_UP))
+        return fail(QStringLiteral("%1 is down; as root: ip link set %1 up type can bitrate 500000 restart-ms 100 "
+                                   "(with the bit rate of the bus)")
+                        .arg(m_interface));
+    return (request.ifr_flags & IFF_RUNNING)
+        || fail(QStringLiteral("%1 is bus-off; check wires, terminators and bit rate, then as root: ip link set %1 "
+                               "type can restart (with restart-ms 100 the kernel does it by itself)")
+                    .arg(m_interface));
+}
+
+bool SocketCanBus::setOption(int level, int name, const void *value, socklen_t size, const char *what)
+{
+    return setsockopt(m_socket, level, name, value, size) == 0
+        || failWith(QStringLiteral("cannot set %1").arg(QLatin1String(what)),
+                    QStringLiteral("the kernel is too old; use 5.4 or newer"));
+}
+
+bool SocketCanBus::setOptions()
+{
+    const int on = 1;
+    // The larger queue is a wish: only root gets more than net.core.rmem_max.
+    if (setsockopt(m_socket, SOL_SOCKET, SO_RCVBUFFORCE, &canQueueSize, sizeof canQueueSize) != 0)
+        setsockopt(m_socket, SOL_SOCKET, SO_RCVBUF, &canQueueSize, sizeof canQueueSize);
+    return (!m_isFd || setOption(SOL_CAN_RAW, CAN_RAW_FD_FRAMES, &on, sizeof on, "CAN FD"))
+        && setOption(SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on, "time stamps")
+        && setOption(SOL_SOCKET, SO_RXQ_OVFL, &on, sizeof on, "the counter of lost frames")
+        && setOption(SOL_CAN_RAW, CAN_RAW_ERR_FILTER, &canErrorKinds, sizeof canErrorKinds, "error frames");
+}
+
+bool SocketCanBus::setFilters(const Options &options)
+{
+    std::vector<can_filter> filters;
+    for (const quint32 key : options.keys)
+        filters.push_back(filterFor(key));
+    if (options.receivesAll || filters.size() > CAN_RAW_FILTER_MAX) {
+        const can_filter all{0, 0};
+        return setOption(SOL_CAN_RAW, CAN_RAW_FILTER, &all, sizeof all, "filters");
+    }
+    return setOption(SOL_CAN_RAW, CAN_RAW_FILTER, filters.data(), socklen_t(filters.size() * sizeof(can_filter)),
+                     "filters");
+}
+
+bool SocketCanBus::bindSocket()
+{
+    sockaddr_can address;
+    std::memset(&address, 0, sizeof address);
+    address.can_family = AF_CAN;
+    address.can_ifindex = m_index;
+    return bind(m_socket, reinterpret_cast<const sockaddr *>(&address), sizeof address) == 0
+        || failWith(QStringLiteral("cannot be used"), QStringLiteral("'ip link' lists the interfaces that there are"));
+}
+
+int SocketCanBus::take(CanFrame *frames, int capacity) noexcept
+{
+    m_clock.begin(monotonicNow(), wallClockNow());
+    int count = 0;
+    while (count < capacity) {
+        const int wanted = std::min(capacity - count, BatchSize);
+        for (int i = 0; i < wanted; ++i) {
+            m_parts[i] = {&m_frames[i], sizeof m_frames[i]};
+            m_messages[i].msg_hdr = {nullptr, 0, &m_parts[i], 1, &m_control[i], sizeof m_control[i], 0};
+        }
+        const int received = recvmmsg(m_socket, m_messages.data(), unsigned(wanted), MSG_DONTWAIT, nullptr);
+        if (received < 0 && errno == EINTR)
+            continue;
+        if (received < 0 && errno != EAGAIN && errno != EWOULDBLOCK)
+            return count > 0 ? count : lose(errno);  // told again at the next call
+        count += convert(std::max(received, 0), frames + count);
+        if (received < wanted) {
+            m_clock.drained();
+            break;
+        }
+    }
+    return count;
+}
+
+// Frames that came in, without those whose size is none of a frame. Returns how many.
+int SocketCanBus::convert(int received, CanFrame *frames) noexcept
+{
+    int count = 0;
+    for (int i = 0; i < received; ++i) {
+        const qint64 time = readControl(&m_messages[i].msg_hdr);
+        const unsigned size = m_messages[i].msg_len;
+        if (size != CAN_MTU && size != CANFD_MTU)
+            continue;
+        frames[count] = frameOfKernel(m_frames[i], size == CANFD_MTU);
+        frames[count].time = time;
+        ++count;
+    }
+    return count;
+}
+
+// Returns when the frame came in [ns].
+qint64 SocketCanBus::readControl(msghdr *message) noexcept
+{
+    qint64 time = 0;
+    for (cmsghdr *part = CMSG_FIRSTHDR(message); part; part = CMSG_NXTHDR(message, part)) {
+        if (part->cmsg_level != SOL_SOCKET)
+            continue;
+        if (part->cmsg_type == SO_TIMESTAMPNS) {
+            timespec stamp;
+            std::memcpy(&stamp, CMSG_DATA(part), sizeof stamp);
+            time = qint64(stamp.tv_sec) * NanosecondsPerSecond + stamp.tv_nsec;
+        } else if (part->cmsg_type == SO_RXQ_OVFL) {
+            quint32 dropped = 0;
+            std::memcpy(&dropped, CMSG_DATA(part), sizeof dropped);
+            countLost(quint32(dropped - m_dropped));
+            m_dropped = dropped;
+        }
+    }
+    return m_clock.toMonotonic(time);
+}
+
+int SocketCanBus::give(const CanFrame *frames, int count) noexcept
+{
+    int sent = 0;
+    while (sent < count) {
+        const int wanted = std::min(count - sent, BatchSize);
+        for (int i = 0; i < wanted; ++i) {
+            const CanFrame &frame = frames[sent + i];
+            m_frames[i] = kernelFrame(frame);
+            m_parts[i] = {&m_frames[i], size_t(frame.has(CanFrame::Fd) ? CANFD_MTU : CAN_MTU)};
+            m_messages[i].msg_hdr = {nullptr, 0, &m_parts[i], 1, nullptr, 0, 0};
+        }
+        const int given = sendmmsg(m_socket, m_messages.data(), unsigned(wanted), MSG_DONTWAIT);
+        if (given < 0 && errno == EINTR)
+            continue;
+        if (given < 0)
+            return isCanQueueFull(errno) || sent > 0 ? sent : lose(errno);
+        sent += given;
+        // A short count says that the next frame met an error; the next call of sendmmsg() tells which.
+    }
+    return sent;
+}
+
+}  // namespace qplc

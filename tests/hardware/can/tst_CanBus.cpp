@@ -1,0 +1,418 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hardware/can/CanBus.h"
+#include "hardware/can/FakeCanBus.h"
+#include "hardware/can/WallTimeConverter.h"
+#include "realtime/TimeSource.h"
+
+#include <QtTest/QtTest>
+
+#include <linux/can/error.h>
+#include <memory>
+
+using namespace qplc;
+
+namespace {
+
+CanFrame frameOf(quint32 id, quint8 flags = 0)
+{
+    CanFrame frame;
+    frame.id = id;
+    frame.flags = flags;
+    frame.size = 2;
+    frame.data[0] = quint8(id);
+    frame.data[1] = quint8(id >> 8);
+    return frame;
+}
+
+CanBus::Options everything()
+{
+    CanBus::Options options;
+    options.receivesAll = true;
+    return options;
+}
+
+std::unique_ptr<CanBus> join(const QString &device, const CanBus::Options &options = everything())
+{
+    QString error;
+    auto bus = CanBus::make(device, &error);
+    if (!bus || !bus->open(options))
+        qFatal("%s", qPrintable(bus ? bus->errorString() : error));
+    return bus;
+}
+
+std::vector<CanFrame> receiveAll(CanBus &bus)
+{
+    std::vector<CanFrame> frames;
+    CanFrame frame;
+    while (bus.receive(&frame, 1) == 1)
+        frames.push_back(frame);
+    return frames;
+}
+
+bool hasQtSerialBus()
+{
+    QString error;
+    return CanBus::make(QStringLiteral("qtcan:virtualcan:can0"), &error) != nullptr;
+}
+
+const QString testBus = QStringLiteral("fake:test");
+
+}  // namespace
+
+class tst_CanBus : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void init();
+    void cleanup();
+    void textThatNamesNoBusIsRefused_data();
+    void textThatNamesNoBusIsRefused();
+    void missingInterfaceIsNamed();
+    void frameGoesToAllOthersUnchanged();
+    void busesOfOtherNamesHearNothing();
+    void onlyWantedMessagesComeIn();
+    void framesStayInOrder();
+    void slowReceiverLosesNothingThatFits();
+    void whatDoesNotFitIsCountedByTheReceiver();
+    void whoJoinsLaterHearsNothingOfBefore();
+    void placeOfTheDeadIsTaken();
+    void tooManyParticipantsAreRefused();
+    void folderWithALongNameIsRefused();
+    void errorFramesTellTheState();
+    void overflowOfTheControllerIsALoss();
+    void anotherProcessAnswers();
+    void stampsFollowTheMonotonicClock();
+    void stampsSurviveAStepOfTheWallClock();
+    void virtualPluginCarriesFrames();
+    void missingPluginIsNamed();
+
+private:
+    std::unique_ptr<QTemporaryDir> m_folder;
+};
+
+void tst_CanBus::init()
+{
+    m_folder = std::make_unique<QTemporaryDir>();
+    qputenv("QTPLC_FAKE_DEVICES", m_folder->path().toLocal8Bit());
+}
+
+void tst_CanBus::cleanup()
+{
+    qunsetenv("QTPLC_FAKE_DEVICES");
+}
+
+void tst_CanBus::textThatNamesNoBusIsRefused_data()
+{
+    QTest::addColumn<QString>("error");
+    const auto row = [](const char *device, const char *error) { QTest::newRow(device) << QString::fromLatin1(error); };
+    row("", "'' names no CAN bus; write an interface like can0");
+    row("an interface", "'an interface' names no CAN bus");
+    row("interface0123456", "'interface0123456' names no CAN bus");
+    row("/dev/can0", "'/dev/can0' names no CAN bus");
+    row("fake:", "'fake:' names no fake bus; write fake:NAME");
+    row("fake:../x", "'fake:../x' names no fake bus");
+    row("qtcan:peakcan", "'qtcan:peakcan");
+}
+
+void tst_CanBus::textThatNamesNoBusIsRefused()
+{
+    QFETCH(QString, error);
+    QString message;
+    QVERIFY(!CanBus::make(QString::fromLatin1(QTest::currentDataTag()), &message));
+    QVERIFY2(message.startsWith(error), qPrintable(message));
+}
+
+void tst_CanBus::missingInterfaceIsNamed()
+{
+    QString error;
+    const auto bus = CanBus::make(QStringLiteral("nocan7"), &error);
+    QVERIFY(bus);
+    QVERIFY(!bus->open(everything()));
+    QVERIFY2(bus->errorString().startsWith(QLatin1String("nocan7: the kernel has no CAN"))
+                 || bus->errorString().startsWith(QLatin1String("nocan7: there is no such interface")),
+             qPrintable(bus->errorString()));
+}
+
+void tst_CanBus::frameGoesToAllOthersUnchanged()
+{
+    const auto a = join(testBus);
+    const auto b = join(testBus);
+    const auto c = join(testBus);
+    CanFrame frame = frameOf(0x18FEDFFE, CanFrame::Extended | CanFrame::Fd | CanFrame::BitRateSwitch);
+    frame.size = 64;
+    frame.data[63] = 0xAB;
+    const qint64 before = monotonicNow();
+    QCOMPARE(a->send(&frame, 1), 1);
+    for (CanBus *bus : {b.get(), c.get()}) {
+        const auto frames = receiveAll(*bus);
+        QCOMPARE(frames.size(), std::size_t(1));
+        QCOMPARE(frames[0].id, frame.id);
+        QCOMPARE(frames[0].flags, frame.flags);
+        QCOMPARE(frames[0].size, frame.size);
+        QVERIFY(frames[0].data == frame.data);
+        QVERIFY(frames[0].time >= before && frames[0].time <= monotonicNow());
+    }
+    QVERIFY(receiveAll(*a).empty());
+    QCOMPARE(a->counters().sent, quint64(1));
+    QCOMPARE(b->counters().received, quint64(1));
+}
+
+void tst_CanBus::busesOfOtherNamesHearNothing()
+{
+    const auto a = join(testBus);
+    const auto b = join(QStringLiteral("fake:other"));
+    const CanFrame frame = frameOf(1);
+    a->send(&frame, 1);
+    QVERIFY(receiveAll(*b).empty());
+}
+
+void tst_CanBus::onlyWantedMessagesComeIn()
+{
+    CanBus::Options options;
+    options.keys = {0x123, 0x80000005};
+    const auto a = join(testBus);
+    const auto b = join(testBus, options);
+    const CanFrame frames[] = {frameOf(0x122),
+                               frameOf(0x123),
+                               frameOf(5),
+                               frameOf(5, CanFrame::Extended),
+                               frameOf(0x123, CanFrame::Remote),
+                               frameOf(0x123, CanFrame::Extended)};
+    a->send(frames, 6);
+    const auto received = receiveAll(*b);
+    QCOMPARE(received.size(), std::size_t(3));
+    QCOMPARE(received[0].key(), 0x123U);
+    QCOMPARE(received[1].key(), 0x80000005U);
+    QVERIFY(received[2].has(CanFrame::Remote));
+}
+
+void tst_CanBus::framesStayInOrder()
+{
+    const auto a = join(testBus);
+    const auto b = join(testBus);
+    quint32 sent = 0;
+    quint32 expected = 0;
+    for (int round = 0; round < 200; ++round) {
+        std::vector<CanFrame> frames;
+        for (int i = 0; i < round % 7; ++i)
+            frames.push_back(frameOf(sent++));
+        QCOMPARE(a->send(frames.data(), int(frames.size())), int(frames.size()));
+        if (round % 5 == 0) {
+            for (const CanFrame &frame : receiveAll(*b))
+                QCOMPARE(frame.id, expected++);
+        }
+    }
+    for (const CanFrame &frame : receiveAll(*b))
+        QCOMPARE(frame.id, expected++);
+    QCOMPARE(expected, sent);
+}
+
+void tst_CanBus::slowReceiverLosesNothingThatFits()
+{
+    const auto a = join(testBus);
+    const auto b = join(testBus);
+    for (quint32 i = 0; i < 1000; ++i) {
+        const CanFrame frame = frameOf(i);
+        a->send(&frame, 1);
+    }
+    quint32 expected = 0;
+    for (int turn = 0; turn < 1000 && expected < 1000; ++turn) {
+        for (const CanFrame &frame : receiveAll(*b))
+            QCOMPARE(frame.id, expected++);
+        receiveAll(*a);  // gives on what has waited for room
+    }
+    QCOMPARE(expected, 1000U);
+    QCOMPARE(b->counters().lost, quint64(0));
+}
+
+void tst_CanBus::whatDoesNotFitIsCountedByTheReceiver()
+{
+    const auto a = join(testBus);
+    const auto b = join(testBus);
+    for (quint32 i = 0; i < 5000; ++i) {
+        const CanFrame frame = frameOf(i);
+        a->send(&frame, 1);
+    }
+    quint64 received = 0;
+    for (std::size_t count = 1; count > 0;) {
+        count = receiveAll(*b).size();
+        received += count;
+        receiveAll(*a);
+    }
+    QVERIFY(b->counters().lost > 0);
+    QCOMPARE(received + b->counters().lost, quint64(5000));
+}
+
+void tst_CanBus::whoJoinsLaterHearsNothingOfBefore()
+{
+    const auto a = join(testBus);
+    auto b = join(testBus);
+    for (quint32 i = 0; i < 100; ++i) {
+        const CanFrame frame = frameOf(i);
+        a->send(&frame, 1);
+    }
+    b.reset();
+    b = join(testBus);
+    const CanFrame last = frameOf(0x777);
+    a->send(&last, 1);
+    const auto frames = receiveAll(*b);
+    QCOMPARE(frames.size(), std::size_t(1));
+    QCOMPARE(frames[0].id, 0x777U);
+}
+
+void tst_CanBus::placeOfTheDeadIsTaken()
+{
+    const auto a = join(testBus);
+    for (int i = 0; i < FakeCanBus::MaximumPlaces + 2; ++i) {
+        QProcess partner;
+        partner.start(QStringLiteral(CAN_PARTNER), {testBus});
+        QVERIFY(partner.waitForReadyRead());
+        partner.kill();
+        QVERIFY(partner.waitForFinished());
+        const CanFrame frame = frameOf(1);
+        QCOMPARE(a->send(&frame, 1), 1);
+    }
+}
+
+void tst_CanBus::tooManyParticipantsAreRefused()
+{
+    std::vector<std::unique_ptr<CanBus>> all;
+    for (int i = 0; i < FakeCanBus::MaximumPlaces; ++i)
+        all.push_back(join(testBus));
+    QString error;
+    const auto one = CanBus::make(testBus, &error);
+    QVERIFY(!one->open(everything()));
+    QCOMPARE(one->errorString(), QStringLiteral("fake:test has 16 participants already; end one of them"));
+}
+
+void tst_CanBus::folderWithALongNameIsRefused()
+{
+    qputenv("QTPLC_FAKE_DEVICES", m_folder->path().toLocal8Bit() + '/' + QByteArray(100, 'x'));
+    QString error;
+    const auto bus = CanBus::make(testBus, &error);
+    QVERIFY(!bus->open(everything()));
+    QVERIFY2(bus->errorString().contains(QLatin1String("set QTPLC_FAKE_DEVICES to a shorter one")),
+             qPrintable(bus->errorString()));
+}
+
+void tst_CanBus::errorFramesTellTheState()
+{
+    const auto a = join(testBus);
+    const auto b = join(testBus, CanBus::Options());
+    const auto tell = [&](quint32 error, quint8 controller) {
+        CanFrame frame = frameOf(error, CanFrame::Error);
+        frame.size = 8;
+        frame.data = {};
+        frame.data[1] = controller;
+        a->send(&frame, 1);
+        receiveAll(*b);
+        return b->state();
+    };
+    QCOMPARE(tell(CAN_ERR_CRTL, CAN_ERR_CRTL_TX_WARNING), CanBus::Warning);
+    QCOMPARE(tell(CAN_ERR_CRTL, CAN_ERR_CRTL_RX_PASSIVE), CanBus::Passive);
+    QCOMPARE(tell(CAN_ERR_ACK, 0), CanBus::Passive);
+    QCOMPARE(tell(CAN_ERR_BUSOFF, 0), CanBus::BusOff);
+    QCOMPARE(tell(CAN_ERR_BUSOFF, 0), CanBus::BusOff);
+    QCOMPARE(tell(CAN_ERR_RESTARTED, 0), CanBus::Active);
+    QCOMPARE(tell(CAN_ERR_CRTL, CAN_ERR_CRTL_TX_WARNING), CanBus::Warning);
+    QCOMPARE(tell(CAN_ERR_CRTL, CAN_ERR_CRTL_ACTIVE), CanBus::Active);
+    QCOMPARE(b->counters().errorFrames, quint64(8));
+    QCOMPARE(b->counters().busOffs, quint64(1));
+    QCOMPARE(b->counters().received, quint64(0));
+}
+
+void tst_CanBus::overflowOfTheControllerIsALoss()
+{
+    const auto a = join(testBus);
+    const auto b = join(testBus);
+    CanFrame frame = frameOf(CAN_ERR_CRTL, CanFrame::Error);
+    frame.data[1] = CAN_ERR_CRTL_RX_OVERFLOW;
+    a->send(&frame, 1);
+    receiveAll(*b);
+    QCOMPARE(b->counters().lost, quint64(1));
+    QCOMPARE(b->state(), CanBus::Active);
+}
+
+void tst_CanBus::anotherProcessAnswers()
+{
+    const auto a = join(testBus);
+    QProcess partner;
+    partner.start(QStringLiteral(CAN_PARTNER), {testBus});
+    QVERIFY(partner.waitForReadyRead());
+    for (quint32 i = 0; i < 100; ++i) {
+        const CanFrame frame = frameOf(i);
+        a->send(&frame, 1);
+    }
+    quint32 expected = 0;
+    QTRY_VERIFY_WITH_TIMEOUT(([&] {
+                                 for (const CanFrame &frame : receiveAll(*a)) {
+                                     if (frame.id != ++expected)
+                                         qFatal("frame %u instead of %u", frame.id, expected);
+                                 }
+                                 return expected == 100;
+                             }()),
+                             10000);
+    const CanFrame last = frameOf(CanFrame::StandardIds);
+    a->send(&last, 1);
+    QVERIFY(partner.waitForFinished());
+    QCOMPARE(partner.exitCode(), 0);
+}
+
+void tst_CanBus::stampsFollowTheMonotonicClock()
+{
+    WallTimeConverter converter;
+    converter.begin(1000, 5'000'000'000);
+    converter.drained();
+    converter.begin(3000, 5'000'002'000);
+    QCOMPARE(converter.toMonotonic(5'000'001'500), 2500LL);
+    QCOMPARE(converter.toMonotonic(5'000'002'600), 3000LL);  // never in the future
+}
+
+void tst_CanBus::stampsSurviveAStepOfTheWallClock()
+{
+    constexpr qint64 second = 1'000'000'000;
+    WallTimeConverter converter;
+    converter.begin(10 * second, 5000 * second);
+    converter.drained();
+    converter.begin(11 * second, 8601 * second);  // set forward by an hour after the frame
+    QCOMPARE(converter.toMonotonic(5000 * second + second / 2), 10 * second + second / 2);
+    QCOMPARE(converter.toMonotonic(8600 * second + second / 2), 10 * second + second / 2);
+    QCOMPARE(converter.toMonotonic(17 * second), 11 * second);  // whatever that was
+}
+
+void tst_CanBus::virtualPluginCarriesFrames()
+{
+    if (!hasQtSerialBus())
+        QSKIP("this build has no Qt Serial Bus (libqt5serialbus5-dev)");
+    const auto a = join(QStringLiteral("qtcan:virtualcan:can0"));
+    const auto b = join(QStringLiteral("qtcan:virtualcan:can0"));
+    quint32 expected = 0;
+    std::vector<CanFrame> frames;
+    for (quint32 i = 0; i < 50; ++i)
+        frames.push_back(frameOf(i));
+    QCOMPARE(a->send(frames.data(), 50), 50);
+    QTRY_VERIFY_WITH_TIMEOUT(([&] {
+                                 for (const CanFrame &frame : receiveAll(*b)) {
+                                     if (frame.id != expected++)
+                                         qFatal("frame %u instead of %u", frame.id, expected - 1);
+                                 }
+                                 return expected == 50;
+                             }()),
+                             10000);
+}
+
+void tst_CanBus::missingPluginIsNamed()
+{
+    if (!hasQtSerialBus())
+        QSKIP("this build has no Qt Serial Bus (libqt5serialbus5-dev)");
+    QString error;
+    const auto bus = CanBus::make(QStringLiteral("qtcan:nosuchplugin:can0"), &error);
+    QVERIFY(!bus->open(everything()));
+    QVERIFY2(
+        bus->errorString().startsWith(QLatin1String("Qt Serial Bus has no device 'can0' of plugin 'nosuchplugin'")),
+        qPrintable(bus->errorString()));
+}
+
+QTEST_GUILESS_MAIN(tst_CanBus)
+#include "tst_CanBus.moc"

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "CanBench.h"
+
+#include <QtTest/QtTest>
+
+class tst_CanConfiguration : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void goodKeysAreTaken_data();
+    void goodKeysAreTaken();
+    void badKeysAreNamed_data();
+    void badKeysAreNamed();
+    void deviceIsNeeded();
+    void errorsOfTheDbcFileAreThoseOfTheConfiguration();
+    void unknownChannelsAreRefused_data();
+    void unknownChannelsAreRefused();
+    void unsupportedMessageSaysWhy();
+    void onceWiredTwiceTheSame();
+};
+
+void tst_CanConfiguration::goodKeysAreTaken_data()
+{
+    QTest::addColumn<QByteArray>("keys");
+    for (const char *keys :
+         {"frame.A = 0x123, 8 bytes", "frame.A = 291, 1 byte", "frame.A = 0x00000123, 8 bytes, every 0.5 s",
+          "frame.A = 0x18FEDFFE, 64 bytes, fd, no bit rate switch", "frame.A = 5, 0 bytes, extended",
+          "frame.A = 1, 8 bytes\nsignal.A.S = 0|16@1- (0.1,0)",
+          "frame.A = 1, 8 bytes\nsignal.A.M = M 0|8@1+\nsignal.A.S = m1 8|16@0+",
+          "frame.A = 1, 8 bytes\nsend.A = every cycle",
+          "frame.A = 1, 8 bytes\nsend.A = every 10 ms, on change, on request",
+          "frame.A = 1, 8 bytes\nsend.A = every 250us\ntimeout.A = 20 ms"})
+        QTest::newRow(QByteArray(keys).replace("\n", " / ")) << QByteArray(keys) + '\n';
+}
+
+void tst_CanConfiguration::goodKeysAreTaken()
+{
+    QFETCH(QByteArray, keys);
+    CanBench bench(keys);
+    QCOMPARE(bench.driver.errors(), QString());
+}
+
+void tst_CanConfiguration::badKeysAreNamed_data()
+{
+    QTest::addColumn<QByteArray>("keys");
+    QTest::addColumn<QString>("error");
+    const auto row = [](const char *keys, const char *error) {
+        QTest::newRow(QByteArray(keys).replace("\n", " / ")) << QByteArray(keys) + '\n' << QString::fromLatin1(error);
+    };
+    row("frame.A = 0x123", "'0x123' is no frame; write frame.A = 0x123, 8 bytes");
+    row("frame.A = 0x20000000, 8 bytes", "is no frame");
+    row("frame.A = x, 8 bytes", "is no frame");
+    row("frame.A = 1, eight bytes", "is no frame");
+    row("frame.A = 1, 8 bytes, soon", "is no frame");
+    row("frame.a b = 1, 8 bytes", "is no frame");
+    row("frame.A = 1, 9 bytes", "no frame has 9 bytes");
+    row("frame.A = 1, 65 bytes", "no frame has 65 bytes");
+    row("frame.A = 1, 8 bytes\nframe.B = 1, 4 bytes", "frame 'B' has the id of message 'A'");
+    row("signal.A.S = 0|8@1+", "there is no frame 'A'; write a line frame.A");
+    row("frame.A = 1, 8 bytes\nsignal.A.S = 0|8", "'0|8' is no place of a signal: the end of the file instead of '@'");
+    row("frame.A = 1, 1 byte\nsignal.A.S = 0|16@1+", "ends in byte 1, but message 'A' has only 1 bytes");
+    row("frame.A = 1, 8 bytes\nsignal.A.S = 0|16@1f", "signal 'S' has 16 bits; a float has 32 or 64");
+    row("frame.A = 1, 8 bytes\nsignal.A.S = M 0|8@1+\nsignal.A.T = M 8|8@1+", "frame 'A' has two multiplexors");
+    row("frame.Drive = 1, 8 bytes\nsend.Drife = on change", "there is no message 'Drife'; did you mean 'Drive'?");
+    row("frame.A = 1, 8 bytes\nsend.A = sometimes", "'sometimes' does not say when to send; write every cycle");
+    row("frame.A = 1, 8 bytes\nsend.A = every 10", "'every 10' does not say when to send");
+    row("frame.A = 1, 8 bytes\nsend.A = every 0 ms", "'every 0 ms' does not say when to send");
+    row("frame.A = 1, 64 bytes\nsend.A = on request", "is one of CAN FD, which has no requests");
+    row("timeout.A = 10 ms", "there is no message 'A'");
+    row("frame.A = 1, 8 bytes\ntimeout.A = soon", "'soon' is no duration");
+    row("dbc = nowhere.dbc", "nowhere.dbc: cannot read the DBC file");
+    row("bitrate = 500000", "bitrate");
+}
+
+void tst_CanConfiguration::badKeysAreNamed()
+{
+    QFETCH(QByteArray, keys);
+    QFETCH(QString, error);
+    CanBench bench(keys);
+    QVERIFY2(bench.driver.errors().contains(error), qPrintable(bench.driver.errors()));
+    QCOMPARE(bench.driver.errors().count(QLatin1Char('\n')), 0);
+}
+
+void tst_CanConfiguration::deviceIsNeeded()
+{
+    const DriverBench bench("can", "frame.A = 1, 8 bytes\n");
+    QVERIFY2(bench.errors().contains(QLatin1String("device")), qPrintable(bench.errors()));
+    const DriverBench other("can", "device = fake:\n");
+    QVERIFY2(other.errors().contains(QLatin1String("'fake:' names no fake bus")), qPrintable(other.errors()));
+}
+
+void tst_CanConfiguration::errorsOfTheDbcFileAreThoseOfTheConfiguration()
+{
+    const QTemporaryDir folder;
+    QFile file(folder.filePath(QStringLiteral("a.dbc")));
+    QVERIFY(file.open(QIODevice::WriteOnly));
+    file.write("BO_ 1 A: 8 X\n SG_ S : 60|8@1+ (1,0) [0|0] \"\" X\n");
+    file.close();
+    CanBench bench("dbc = " + file.fileName().toUtf8() + "\n");
+    QVERIFY2(bench.driver.errors().startsWith(file.fileName() + QStringLiteral(":2:6: signal 'S' has 8 bits")),
+             qPrintable(bench.driver.errors()));
+}
+
+void tst_CanConfiguration::unknownChannelsAreRefused_data()
+{
+    QTest::addColumn<bool>("isRead");
+    QTest::addColumn<QString>("error");
+    const auto row = [](const char *channel, bool isRead, const char *error) {
+        QTest::newRow(channel) << isRead << QString::fromLatin1(error);
+    };
+    row("Status.Sped", true, "driver 'can' has no channel 'Status.Sped' to read; did you mean 'Status.Speed'?");
+    row("Status.@ages", true, "'Status.@ages' to read; did you mean 'Status.@age'?");
+    row("Nothing", true, "driver 'can' has no channel 'Nothing' to read");
+    row("@lots", true, "'@lots' to read; did you mean '@lost'?");
+    row("Status.@count", false, "driver 'can' has no channel 'Status.@count' to write");
+    row("@lost", false, "driver 'can' has no channel '@lost' to write");
+}
+
+void tst_CanConfiguration::unknownChannelsAreRefused()
+{
+    QFETCH(bool, isRead);
+    QFETCH(QString, error);
+    CanBench bench("frame.Status = 1, 8 bytes\nsignal.Status.Speed = 0|8@1+\n");
+    const QString channel = QString::fromLatin1(QTest::currentDataTag());
+    const QString message = isRead ? bench.driver.wireRead(channel) : bench.driver.wireWrite(channel);
+    QVERIFY2(message.contains(error), qPrintable(message));
+}
+
+void tst_CanConfiguration::unsupportedMessageSaysWhy()
+{
+    CanBench bench("frame.A = 1, 8 bytes\nsignal.A.S = m1 0|8@1+\n");
+    QCOMPARE(bench.driver.errors(), QString());
+    QCOMPARE(bench.driver.wireRead(QStringLiteral("A.S")),
+             QStringLiteral("message 'A' cannot be used: it has multiplexed signals and no multiplexor (M)"));
+}
+
+void tst_CanConfiguration::onceWiredTwiceTheSame()
+{
+    CanBench bench("frame.A = 1, 8 bytes\nsignal.A.S = 0|8@1+\n");
+    bench.driver.wireRead(QStringLiteral("A.S"));
+    bench.driver.wireRead(QStringLiteral("A.S"));
+    bench.driver.wireRead(QStringLiteral("@lost"));
+    bench.driver.wireRead(QStringLiteral("@lost"));
+    QVERIFY(bench.open());
+    bench.send(1, "07");
+    bench.send(1, "0700000000000000");
+    QVERIFY(bench.cycle());
+    QCOMPARE(bench.driver.value(QStringLiteral("A.S")), 7.0);
+}
+
+QTEST_GUILESS_MAIN(tst_CanConfiguration)
+#include "tst_CanConfiguration.moc"

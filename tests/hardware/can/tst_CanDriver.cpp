@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "CanBench.h"
+#include "hardware/can/CanLog.h"
+
+#include <QtTest/QtTest>
+
+#include <linux/can/error.h>
+
+using namespace qplc;
+using namespace std::chrono_literals;
+
+namespace {
+
+const QByteArray statusKeys = "frame.Status = 0x123, 4 bytes, every 10 ms\nsignal.Status.Speed = 0|16@1- (0.5,10)\n"
+                              "signal.Status.Mode = 16|4@1+\n";
+
+QString text(const char *name)
+{
+    return QString::fromLatin1(name);
+}
+
+}  // namespace
+
+class tst_CanDriver : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void valueOfAFrameIsThatOfItsChannel();
+    void newestFrameOfACycleCounts();
+    void valueIsAsOldAsItsFrame();
+    void valueIsFreshForThreeCycleTimes();
+    void timeoutOfTheMessageCounts();
+    void messageWithoutCycleTimeHasTheTimeoutOfTheDriver();
+    void ageGrowsAndCountCounts();
+    void multiplexedValuesComeWithTheirPage();
+    void otherMessagesAreLeftAlone();
+    void tooShortFramesAreCounted();
+    void floodOfFramesIsTakenInOrder();
+    void lossesAreCounted();
+    void stateFollowsTheController();
+    void busOffThatStaysLosesTheDevice();
+    void afterReopeningNothingIsFresh();
+    void logHasEverythingOnTheBus();
+    void missingInterfaceIsToldWithARemedy();
+};
+
+void tst_CanDriver::valueOfAFrameIsThatOfItsChannel()
+{
+    CanBench bench(statusKeys);
+    QCOMPARE(bench.driver.wireRead(text("Status.Speed")), QString());
+    QCOMPARE(bench.driver.wireRead(text("Status.Mode")), QString());
+    QVERIFY2(bench.open(), qPrintable(bench.driver.errorString()));
+    QVERIFY(bench.cycle());
+    QVERIFY(!bench.driver.isFresh(text("Status.Speed")));
+    bench.send(0x123, "feff0500");
+    QVERIFY(bench.cycle());
+    QCOMPARE(bench.driver.value(text("Status.Speed")), 9.0);
+    QCOMPARE(bench.driver.value(text("Status.Mode")), 5.0);
+}
+
+void tst_CanDriver::newestFrameOfACycleCounts()
+{
+    CanBench bench(statusKeys);
+    bench.driver.wireRead(text("Status.Mode"));
+    bench.driver.wireRead(text("Status.@count"));
+    QVERIFY(bench.open());
+    for (const char *data : {"00000100", "00000200", "00000300"})
+        bench.send(0x123, data);
+    QVERIFY(bench.cycle());
+    QCOMPARE(bench.driver.value(text("Status.Mode")), 3.0);
+    QCOMPARE(bench.driver.value(text("Status.@count")), 3.0);
+}
+
+void tst_CanDriver::valueIsAsOldAsItsFrame()
+{
+    CanBench bench(statusKeys);
+    bench.driver.wireRead(text("Status.Mode"));
+    QVERIFY(bench.open());
+    bench.send(0x123, "00000100");
+    const qint64 sent = bench.driver.now();
+    QVERIFY(bench.cycle(7ms));
+    QCOMPARE(bench.driver.time(text("Status.Mode")), sent);
+}
+
+void tst_CanDriver::valueIsFreshForThreeCycleTimes()
+{
+    CanBench bench(statusKeys);
+    bench.driver.wireRead(text("Status.Mode"));
+    QVERIFY(bench.open());
+    bench.send(0x123, "00000100");
+    QVERIFY(bench.cycle(30ms));
+    QVERIFY(bench.driver.isFresh(text("Status.Mode")));
+    QVERIFY(bench.cycle(1ns));
+    QVERIFY(!bench.driver.isFresh(text("Status.Mode")));
+    bench.send(0x123, "00000200");
+    QVERIFY(bench.cycle());
+    QCOMPARE(bench.driver.value(text("Status.Mode")), 2.0);
+}
+
+void tst_CanDriver::timeoutOfTheMessageCounts()
+{
+    CanBench bench(statusKeys + "timeout.Status = 200 ms\n");
+    bench.driver.wireRead(text("Status.Mode"));
+    QVERIFY(bench.open());
+    bench.send(0x123, "00000100");
+    QVERIFY(bench.cycle(200ms));
+    QVERIFY(bench.driver.isFresh(text("Status.Mode")));
+    QVERIFY(bench.cycle(1ns));
+    QVERIFY(!bench.driver.isFresh(text("Status.Mode")));
+}
+
+void tst_CanDriver::messageWithoutCycleTimeHasTheTimeoutOfTheDriver()
+{
+    CanBench bench("timeout = 50 ms\nframe.A = 1, 1 byte\nsignal.A.S = 0|8@1+\n");
+    bench.driver.wireRead(text("A.S"));
+    QVERIFY(bench.open());
+    bench.send(1, "07");
+    QVERIFY(bench.cycle(50ms));
+    QVERIFY(bench.driver.isFresh(text("A.S")));
+    QVERIFY(bench.cycle(1ns));
+    QVERIFY(!bench.driver.isFresh(text("A.S")));
+}
+
+void tst_CanDriver::ageGrowsAndCountCounts()
+{
+    CanBench bench(statusKeys);
+    bench.driver.wireRead(text("Status.@age"));
+    bench.driver.wireRead(text("Status.@count"));
+    QVERIFY(bench.open());
+    QVERIFY(bench.cycle());
+    QVERIFY(!bench.driver.isFresh(text("Status.@age")));
+    QCOMPARE(bench.driver.value(text("Status.@count")), 0.0);
+    bench.send(0x123, "00000000");
+    QVERIFY(bench.cycle(250ms));
+    QCOMPARE(bench.driver.value(text("Status.@age")), 0.25);
+    QVERIFY(bench.cycle(1s));
+    QCOMPARE(bench.driver.value(text("Status.@age")), 1.25);
+    QCOMPARE(bench.driver.value(text("Status.@count")), 1.0);
+}
+
+void tst_CanDriver::multiplexedValuesComeWithTheirPage()
+{
+    CanBench bench(
+        "frame.T = 5, 3 bytes\nsignal.T.Page = M 0|8@1+\nsignal.T.Motor = m0 8|16@1-\nsignal.T.Inverter = m1 8|16@1-\n"
+        "signal.T.Always = 4|4@1+\n");
+    for (const char *name : {"T.Page", "T.Motor", "T.Inverter"})
+        QCOMPARE(bench.driver.wireRead(text(name)), QString());
+    QVERIFY(bench.open());
+    bench.send(5, "000700");
+    QVERIFY(bench.cycle());
+    QCOMPARE(bench.driver.value(text("T.Motor")), 7.0);
+    QVERIFY(!bench.driver.isFresh(text("T.Inverter")));
+    bench.send(5, "010900");
+    bench.send(5, "020b00");
+    QVERIFY(bench.cycle());
+    QCOMPARE(bench.driver.value(text("T.Motor")), 7.0);
+    QCOMPARE(bench.driver.value(text("T.Inverter")), 9.0);
+    QCOMPARE(bench.driver.value(text("T.Page")), 2.0);
+}
+
+void tst_CanDriver::otherMessagesAreLeftAlone()
+{
+    CanBench bench(statusKeys + "frame.Other = 0x00000123, 4 bytes\nsignal.Other.S = 0|8@1+\n");
+    bench.driver.wireRead(text("Status.Mode"));
+    bench.driver.wireRead(text("Other.S"));
+    bench.driver.wireRead(text("@received"));
+    QVERIFY(bench.open());
+    bench.send(0x124, "00000100");
+    bench.send(0x123, "00000100", CanFrame::Remote);
+    bench.send(0x123, "00000100", CanFrame::Extended);
+    QVERIFY(bench.cycle());
+    QVERIFY(!bench.driver.isFresh(text("Status.Mode")));
+    QVERIFY(bench.driver.isFresh(text("Other.S")));
+    QCOMPARE(bench.driver.value(text("@received")), 2.0);
+}
+
+void tst_CanDriver::tooShortFramesAreCounted()
+{
+    CanBench bench(statusKeys);
+    bench.driver.wireRead(text("Status.Mode"));
+    bench.driver.wireRead(text("@tooShort"));
+    QVERIFY(bench.open());
+    bench.send(0x123, "000001");
+    QVERIFY(bench.cycle());
+    QVERIFY(!bench.driver.isFresh(text("Status.Mode")));
+    QCOMPARE(bench.driver.value(text("@tooShort")), 1.0);
+}
+
+void tst_CanDriver::floodOfFramesIsTakenInOrder()
+{
+    CanBench bench("frame.A = 1, 2 bytes\nsignal.A.S = 0|16@1+\n");
+    bench.driver.wireRead(text("A.S"));
+    bench.driver.wireRead(text("A.@count"));
+    QVERIFY(bench.open());
+    for (int i = 0; i < 500; ++i) {
+        const char bytes[] = {char(i), char(i >> 8)};
+        bench.send(1, QByteArray(bytes, 2).toHex());
+    }
+    for (int i = 0; i < 60 && bench.driver.value(text("A.@count")) != 500.0; ++i) {
+        QVERIFY(bench.cycle());
+        bench.received();  // what has waited for room is given on
+    }
+    QCOMPARE(bench.driver.value(text("A.@count")), 500.0);
+    QCOMPARE(bench.driver.value(text("A.S")), 499.0);
+}
+
+void tst_CanDriver::lossesAreCounted()
+{
+    CanBench bench("frame.A = 1, 2 bytes\nsignal.A.S = 0|16@1+\n");
+    bench.driver.wireRead(text("A.@count"));
+    bench.driver.wireRead(text("@lost"));
+    QVERIFY(bench.open());
+    for (int i = 0; i < 3000; ++i)
+        bench.send(1, "0000");
+    for (int i = 0; i < 60; ++i) {
+        QVERIFY(bench.cycle());
+        bench.received();
+    }
+    QVERIFY(bench.driver.value(text("@lost")) > 0.0);
+    QCOMPARE(bench.driver.value(text("A.@count")) + bench.driver.value(text("@lost")), 3000.0);
+}
+
+void tst_CanDriver::stateFollowsTheController()
+{
+    CanBench bench(statusKeys);
+    for (const char *name : {"@state", "@errors", "@busOffs"})
+        bench.driver.wireRead(text(name));
+    QVERIFY(bench.open());
+    bench.send(CAN_ERR_CRTL, "0010000000000000", CanFrame::Error);
+    QVERIFY(bench.cycle());
+    QCOMPARE(bench.driver.value(text("@state")), 2.0);
+    bench.send(CAN_ERR_BUSOFF, "0000000000000000", CanFrame::Error);
+    QVERIFY(bench.cycle());
+    QCOMPARE(bench.driver.value(text("@state")), 3.0);
+    bench.send(CAN_ERR_RESTARTED, "0000000000000000", CanFrame::Error);
+    QVERIFY(bench.cycle());
+    QCOMPARE(bench.driver.value(text("@state")), 0.0);
+    QCOMPARE(bench.driver.value(text("@errors")), 3.0);
+    QCOMPARE(bench.driver.value(text("@busOffs")), 1.0);
+}
+
+void tst_CanDriver::busOffThatStaysLosesTheDevice()
+{
+    CanBench bench(statusKeys);
+    bench.driver.wireRead(text("Status.Mode"));
+    QVERIFY(bench.open());
+    bench.send(CAN_ERR_BUSOFF, "0000000000000000", CanFrame::Error);
+    QVERIFY(bench.cycle());
+    QVERIFY(bench.cycle(999ms));
+    QVERIFY(!bench.cycle(1ms));
+    QVERIFY2(bench.driver.errorString().startsWith(
+                 QLatin1String("receive from fake:bench: Network is down; the interface is down or bus-off")),
+             qPrintable(bench.driver.errorString()));
+}
+
+void tst_CanDriver::afterReopeningNothingIsFresh()
+{
+    CanBench bench(statusKeys);
+    for (const char *name : {"Status.Mode", "Status.@age", "@state"})
+        bench.driver.wireRead(text(name));
+    QVERIFY(bench.open());
+    bench.send(0x123, "00000100");
+    bench.send(CAN_ERR_BUSOFF, "0000000000000000", CanFrame::Error);
+    QVERIFY(bench.cycle());
+    QVERIFY(!bench.cycle(1s));
+    bench.driver.close();
+    QVERIFY(bench.driver.open());
+    QVERIFY(bench.cycle());
+    QVERIFY(!bench.driver.isFresh(text("Status.Mode")));
+    QVERIFY(!bench.driver.isFresh(text("Status.@age")));
+    QCOMPARE(bench.driver.value(text("@state")), 0.0);
+}
+
+void tst_CanDriver::logHasEverythingOnTheBus()
+{
+    CanBench bench(statusKeys + "frame.Out = 0x200, 1 byte\nsignal.Out.S = 0|8@1+\nlog = drive.log\n");
+    bench.driver.wireRead(text("Status.Mode"));
+    bench.driver.wireRead(text("@logDropped"));
+    bench.driver.wireWrite(text("Out.S"));
+    QVERIFY2(bench.open(), qPrintable(bench.driver.errorString()));
+    bench.send(0x123, "00000100");
+    bench.send(0x7ab, "", CanFrame::Remote);
+    bench.driver.set(text("Out.S"), 9.0);
+    QVERIFY(bench.cycle());
+    QCOMPARE(bench.driver.value(text("@logDropped")), 0.0);
+    bench.driver.close();
+    QFile file(bench.filePath(QStringLiteral("drive.log")));
+    QVERIFY(file.open(QIODevice::ReadOnly));
+    QVector<QPlcParseError> errors;
+    const auto lines = CanLog::read(file.readAll(), file.fileName(), &errors);
+    QVERIFY2(errors.isEmpty(), qPrintable(QPlcParseError::toString(errors)));
+    QCOMPARE(lines.size(), 3);
+    QCOMPARE(lines.at(0).frame.id, 0x200U);
+    QCOMPARE(lines.at(0).frame.data[0], quint8(9));
+    QCOMPARE(lines.at(1).frame.id, 0x123U);
+    QVERIFY(lines.at(2).frame.has(CanFrame::Remote));
+    QCOMPARE(lines.at(2).interface, QStringLiteral("fake:bench"));
+}
+
+void tst_CanDriver::missingInterfaceIsToldWithARemedy()
+{
+    DriverBench bench("can", "device = nocan7\nframe.A = 1, 8 bytes\n");
+    QCOMPARE(bench.errors(), QString());
+    QVERIFY(!bench.open());
+    QVERIFY2(bench.errorString().contains(QLatin1String("modprobe can_raw"))
+                 || bench.errorString().contains(QLatin1String("'ip link' lists what there is")),
+             qPrintable(bench.errorString()));
+}
+
+QTEST_GUILESS_MAIN(tst_CanDriver)
+#include "tst_CanDriver.moc"
