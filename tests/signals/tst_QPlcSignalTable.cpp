@@ -219,6 +219,12 @@ void tst_QPlcSignalTable::exampleTableHasTheSignalsOfTheThesisFirst()
         {"crashed", "Bool"},
         {"autopilotWorkload", "Real"},
         {"flightPhase", "Int8"},
+        {"winchLoad", "Real"},
+        {"winchState", "Int8"},
+        {"winchSpeed", "Real"},
+        {"winchPosition", "Real"},
+        {"winchCurrent", "Real"},
+        {"winchElectricalPower", "Real"},
     };
     QCOMPARE(table.size(), int(std::size(expected)));
     for (int i = 0; i < table.size(); ++i) {

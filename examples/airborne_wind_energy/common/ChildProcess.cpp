@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ChildProcess.h"
 
+#include <QtCore/QFile>
+#include <QtCore/QStandardPaths>
+
 #include <csignal>
 #include <sys/prctl.h>
 #include <unistd.h>
@@ -9,7 +12,9 @@ namespace awe {
 
 QString ChildProcess::pathOf(const QString &program)
 {
-    return QStringLiteral("%1/%2").arg(QCoreApplication::applicationDirPath(), program);
+    const QString beside = QStringLiteral("%1/%2").arg(QCoreApplication::applicationDirPath(), program);
+    const QString installed = QFile::exists(beside) ? QString() : QStandardPaths::findExecutable(program);
+    return installed.isEmpty() ? beside : installed;
 }
 
 void ChildProcess::setupChildProcess()

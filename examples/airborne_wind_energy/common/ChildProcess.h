@@ -15,7 +15,7 @@ class ChildProcess : public QProcess
 public:
     using QProcess::QProcess;
 
-    /// The path of a program that lies beside this one.
+    /// The path of a program that lies beside this one, or else in the search path: programs of an installed QtPLC.
     static QString pathOf(const QString &program);
 
 protected:

@@ -96,6 +96,32 @@ bool readModelOptions(QPlcCoreApplication &application, ModelSettings *settings)
     return accept(application, settings->wind.validate()) && accept(application, settings->plant.validate());
 }
 
+void addPlantOptions(QPlcCoreApplication &application)
+{
+    add(application, "plant",
+        QStringLiteral(
+            "File that says what of the plant is a model, and what is hardware. Without one all is a model."),
+        "FILE", "");
+    add(application, "winch", QStringLiteral("ideal or drive: in place of the word in the file of --plant."), "KIND",
+        "");
+}
+
+bool readPlantOptions(QPlcCoreApplication &application, PlantConfiguration *configuration)
+{
+    const QString builtIn = PlantConfiguration::builtInFile();
+    const QString fileName = application.value(QStringLiteral("plant"));
+    QString error;
+    if (!PlantConfiguration::read(fileName.isEmpty() ? builtIn : fileName, configuration, &error)) {
+        application.usageError(error);
+        return false;
+    }
+    const QString winch = application.value(QStringLiteral("winch"));
+    if (winch.isEmpty() || winchKindFromText(winch, &configuration->winch))
+        return true;
+    application.usageError(QStringLiteral("--winch %1: use ideal or drive").arg(winch));
+    return false;
+}
+
 void addAutopilotOptions(QPlcCoreApplication &application)
 {
     add(application, "gains", QStringLiteral("Gain set: default (more height) or tuned (more power)."), "SET",

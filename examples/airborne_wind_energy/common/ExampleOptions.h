@@ -2,6 +2,7 @@
 #pragma once
 
 #include "AutopilotGains.h"
+#include "PlantConfiguration.h"
 #include "PlantParameters.h"
 #include "WindParameters.h"
 
@@ -35,6 +36,10 @@ QHostAddress defaultMulticastGroup();
 void addModelOptions(QPlcCoreApplication &application);
 /// \return false, with the message out, when an option cannot be meant
 bool readModelOptions(QPlcCoreApplication &application, ModelSettings *settings);
+/// --plant and --winch: what of the plant is hardware.
+void addPlantOptions(QPlcCoreApplication &application);
+/// \return false, with the message out, when the file or a word in it cannot be meant
+bool readPlantOptions(QPlcCoreApplication &application, PlantConfiguration *configuration);
 void addAutopilotOptions(QPlcCoreApplication &application);
 /// \pre the application has an option --same-cycle
 bool readAutopilotOptions(QPlcCoreApplication &application, AutopilotSettings *settings);

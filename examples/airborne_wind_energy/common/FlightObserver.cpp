@@ -16,9 +16,10 @@ FlightStatisticsParameters withWindSpeed(double speed)
 
 }  // namespace
 
-FlightObserver::FlightObserver(double nominalWindSpeed)
+FlightObserver::FlightObserver(double nominalWindSpeed, WinchKind winch)
     : QPlcCompactSlaveNode(QStringLiteral("FlightObserver"), SilentZeroOrderHold)
     , m_statistics(withWindSpeed(nominalWindSpeed))
+    , m_tetherSpeed(this, winchSpeedSignal(winch))
 {
     setReceivesQuality(true);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "FlightStatistics.h"
+#include "PlantConfiguration.h"
 
 #include <QtPlcCore>
 
@@ -13,7 +14,7 @@ class FlightObserver : public QPlcCompactSlaveNode
     Q_OBJECT
 public:
     /// \param nominalWindSpeed  for eta [m/s]; 0: the mean of what is seen
-    explicit FlightObserver(double nominalWindSpeed);
+    explicit FlightObserver(double nominalWindSpeed, WinchKind winch = WinchKind::Ideal);
 
     /// \pre no cycle runs
     FlightReport report() const { return m_statistics.report(); }
@@ -30,7 +31,7 @@ private:
     QPlcInput<Vector> m_position{this, "bodyPosition_earth"};      // [m]
     QPlcInput<Vector> m_windVelocity{this, "windVelocity_earth"};  // [m/s]
     QPlcInput<Vector> m_tetherForce{this, "tetherForce_earth"};    // [N]
-    QPlcInput<double> m_tetherSpeed{this, "tetherSpeed"};          // [m/s]
+    QPlcInput<double> m_tetherSpeed;                               // [m/s]
     QPlcInput<double> m_power{this, "power"};                      // [W]
     QPlcInput<double> m_energy{this, "energy"};                    // [J]
     QPlcInput<qint8> m_phase{this, "flightPhase"};

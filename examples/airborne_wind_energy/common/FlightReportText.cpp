@@ -23,6 +23,29 @@ QString cycles(int count)
     return count == 1 ? QStringLiteral("1 cycle") : QStringLiteral("%1 cycles").arg(count);
 }
 
+/// What the winch drive made of the energy, and how well it followed.
+QString winchRows(const QJsonObject &winch)
+{
+    const double mechanical = number(winch, "mechanical_energy_J");
+    const double losses = number(winch, "losses_J");
+    return row("winch drive",
+               QStringLiteral("%1 kJ mechanical, %2 kJ electrical, losses %3 kJ (%4 %)")
+                   .arg(mechanical * 1e-3, 0, 'f', 1)
+                   .arg(number(winch, "electrical_energy_J") * 1e-3, 0, 'f', 1)
+                   .arg(losses * 1e-3, 0, 'f', 1)
+                   .arg(mechanical > 0.0 ? 100.0 * losses / mechanical : 0.0, 0, 'f', 1))
+        + row("winch speed",
+              QStringLiteral("%1 m/s rms from what was wanted, at most %2 m/s; position %3 m off")
+                  .arg(number(winch, "speed_error_rms_m_s"), 0, 'f', 3)
+                  .arg(number(winch, "speed_error_max_m_s"), 0, 'f', 2)
+                  .arg(number(winch, "position_error_m"), 0, 'f', 2))
+        + row("winch current",
+              QStringLiteral("%1 A at most; without the drive for %2 s, interruptions %3")
+                  .arg(number(winch, "max_current_A"), 0, 'f', 0)
+                  .arg(number(winch, "disabled_s"), 0, 'f', 2)
+                  .arg(number(winch, "interruptions")));
+}
+
 QString notWritable(const QSaveFile &file)
 {
     return QStringLiteral("cannot write the report %1: %2; choose another file")
@@ -62,6 +85,9 @@ QString summary(const QJsonObject &report)
     const QJsonValue deadTime = report.value(QStringLiteral("dead_time_cycles"));
     if (!deadTime.isUndefined())
         text += row("dead time", QStringLiteral("%1 from sensor to actuator").arg(cycles(deadTime.toInt())));
+    const QJsonValue winch = report.value(QStringLiteral("winch"));
+    if (winch.isObject())
+        text += winchRows(winch.toObject());
     text += row("image digest", report.value(QStringLiteral("image_digest")).toString());
     return text;
 }

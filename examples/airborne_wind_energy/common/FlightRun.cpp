@@ -103,17 +103,22 @@ QStringList givenRunOptions(const QPlcCoreApplication &application)
 
 // ---- the flight ----
 
+QString winchNode()
+{
+    return QStringLiteral("Winch");
+}
+
 FlightRun::FlightRun(QPlcMasterNode &master, const RunSettings &settings)
     : m_master(master)
     , m_settings(settings)
-    , m_observer(settings.nominalWindSpeed)
+    , m_observer(settings.nominalWindSpeed, settings.plant.winch)
     , m_display(master, settings.duration, settings.watch ? FlightDisplay::Picture : FlightDisplay::Line)
 {
     m_valid = master.setTimeSignal(QStringLiteral("masterTime"))
         && master.activateJitterMeasurement(QStringLiteral("masterJitter"))
         && master.activateWorkloadMeasurement(QStringLiteral("masterWorkload")) && master.setInterval(period)
         && master.setClock(settings.clock) && master.setOverrunPolicy(settings.overrunPolicy)
-        && master.addLocalNode(&m_observer) && m_display.isValid();
+        && master.addLocalNode(&m_observer) && addWinchObserver() && m_display.isValid();
     master.setCycleLimit(quint64(std::llround(settings.duration / std::chrono::duration<double>(period).count())));
     connect(&master, &QPlcMasterNode::nodeRegistered, this, &FlightRun::startIfComplete);
     connect(&master, &QPlcMasterNode::realTimeHasStarted, this, &FlightRun::started);
@@ -122,17 +127,37 @@ FlightRun::FlightRun(QPlcMasterNode &master, const RunSettings &settings)
         if (m_begun && !m_ending)
             fail(QPlcCoreApplication::UsageError, {});  // the master has said why
     });
-    connect(&master, &QPlcMasterNode::nodeLost, this, [this](const QString &name, const QString &reason) {
-        if (m_begun && m_settings.awaitedNodes.contains(name))
-            fail(QPlcCoreApplication::Failure,
-                 QStringLiteral("node '%1' is gone (%2): the flight ends").arg(name, reason));
+    connect(&master, &QPlcMasterNode::nodeLost, this, &FlightRun::nodeIsLost);
+    connect(&master, &QPlcMasterNode::safelyStopped, this, [this](const QString &reason) {
+        if (!m_begun || m_ending || !endsWithFlight())
+            return;
+        m_exitCode = 0;  // what the master has told is a consequence
+        fail(QPlcCoreApplication::Failure,
+             QStringLiteral("the plant has stopped safely (%1): the flight ends").arg(reason));
     });
+}
+
+bool FlightRun::addWinchObserver()
+{
+    if (!m_settings.plant.hasDrive())
+        return true;
+    m_winchObserver = std::make_unique<WinchObserver>();
+    return m_master.addLocalNode(m_winchObserver.get());
+}
+
+void FlightRun::nodeIsLost(const QString &name, const QString &reason)
+{
+    const bool mayComeBack = m_settings.plant.hasDrive() && name == winchNode();
+    if (m_begun && m_settings.awaitedNodes.contains(name) && !mayComeBack)
+        fail(QPlcCoreApplication::Failure, QStringLiteral("node '%1' is gone (%2): the flight ends").arg(name, reason));
 }
 
 FlightRun::~FlightRun()
 {
     m_master.disconnect(this);
     m_master.removeLocalNode(&m_observer);
+    if (m_winchObserver)
+        m_master.removeLocalNode(m_winchObserver.get());
 }
 
 void FlightRun::begin()
@@ -282,6 +307,8 @@ QJsonObject FlightRun::makeReport() const
                        {QStringLiteral("lateness_p99_us"), double(statistics.lateness99) * 1e-3},
                        {QStringLiteral("image_digest"), QPlcMessage::fromHex64(statistics.imageDigest)}};
     reportLinks(&report);
+    if (m_winchObserver)
+        report.insert(QStringLiteral("winch"), m_winchObserver->report());
     return report;
 }
 

@@ -3,10 +3,13 @@
 
 #include "FlightDisplay.h"
 #include "FlightObserver.h"
+#include "WinchObserver.h"
 
 #include <QtCore/QElapsedTimer>
 #include <QtCore/QJsonObject>
 #include <QtPlcCore>
+
+#include <memory>
 
 namespace awe {
 
@@ -18,8 +21,9 @@ struct RunSettings
     QString reportFile;             // empty: none
     double nominalWindSpeed = 0.0;  // [m/s]
     bool watch = false;             // a live picture instead of a progress line
-    QStringList awaitedNodes;       // the flight begins as soon as all of them have registered
-    bool stay = false;              // the program does not end with that flight: people stop and start as they like
+    PlantConfiguration plant;
+    QStringList awaitedNodes;  // the flight begins as soon as all of them have registered
+    bool stay = false;         // the program does not end with that flight: people stop and start as they like
 };
 
 /// --lockstep, --real-time, --scale, --overrun, --duration, --report, --watch: how a flight is run.
@@ -28,6 +32,9 @@ void addRunOptions(QPlcCoreApplication &application, const QString &defaultDurat
 bool readRunOptions(QPlcCoreApplication &application, RunSettings *settings);
 /// Those of the run options that were given, to be handed on to another program.
 QStringList givenRunOptions(const QPlcCoreApplication &application);
+
+/// The node between the plant and a winch drive. Hardware may come and go: without it the signals of the winch have their safe values, and the flight goes on.
+QString winchNode();
 
 /// One flight of a master from the registration of its nodes to the report.
 class FlightRun : public QObject
@@ -53,6 +60,8 @@ Q_SIGNALS:
     void finished(int exitCode);
 
 private:
+    bool addWinchObserver();
+    void nodeIsLost(const QString &name, const QString &reason);
     void startIfComplete();
     void start();
     void started();
@@ -67,6 +76,7 @@ private:
     QPlcMasterNode &m_master;
     RunSettings m_settings;
     FlightObserver m_observer;
+    std::unique_ptr<WinchObserver> m_winchObserver;  // of a drive
     FlightDisplay m_display;
     QElapsedTimer m_wallClock;
     QPlcSchedule m_schedule;  // as the flight began

@@ -17,10 +17,13 @@ int runModelProgram(int argc, char **argv, const QString &description)
     application.setDefaultSignals(builtInSignals());
     application.setWorkloadSignal(QStringLiteral("modelWorkload"));
     addModelOptions(application);
+    addPlantOptions(application);
     ModelSettings settings;
-    if (!application.parseNodeOptions() || !readModelOptions(application, &settings))
+    PlantConfiguration plant;
+    if (!application.parseNodeOptions() || !readModelOptions(application, &settings)
+        || !readPlantOptions(application, &plant))
         return application.exitCode();
-    Node node(KiteSimulation(settings.plant, settings.wind));
+    Node node(KiteSimulation(settings.plant, settings.wind), plant.winch);
     node.setTwoPhase(application.isSet(QStringLiteral("same-cycle")));  // else it would close an algebraic loop
     return application.run(node);
 }

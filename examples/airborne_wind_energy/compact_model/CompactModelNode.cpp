@@ -3,6 +3,15 @@
 
 namespace awe {
 
+CompactModelNode::CompactModelNode(const KiteSimulation &simulation, WinchKind winch)
+    : QPlcCompactSlaveNode(QStringLiteral("Model"), ErrorZeroOrderHold)
+    , m_simulation(simulation)
+    , m_tetherSpeed(this, winchSpeedSignal(winch))
+{
+    if (winch == WinchKind::Drive)
+        m_winchLoad.emplace(this, "winchLoad");
+}
+
 void CompactModelNode::collect(const PlantOutputs &outputs)
 {
     m_position = outputs.position;
@@ -22,6 +31,8 @@ void CompactModelNode::collect(const PlantOutputs &outputs)
     m_averagePower = outputs.averagePower;
     m_energy = outputs.energy;
     m_crashed = outputs.crashed;
+    if (m_winchLoad)
+        *m_winchLoad = outputs.tetherForce.norm();
 }
 
 }  // namespace awe

@@ -2,8 +2,11 @@
 #pragma once
 
 #include "KiteSimulation.h"
+#include "PlantConfiguration.h"
 
 #include <QtPlcCore>
+
+#include <optional>
 
 namespace awe {
 
@@ -12,11 +15,7 @@ class CompactModelNode : public QPlcCompactSlaveNode
 {
     Q_OBJECT
 public:
-    explicit CompactModelNode(const KiteSimulation &simulation)
-        : QPlcCompactSlaveNode(QStringLiteral("Model"), ErrorZeroOrderHold)
-        , m_simulation(simulation)
-    {
-    }
+    explicit CompactModelNode(const KiteSimulation &simulation, WinchKind winch = WinchKind::Ideal);
 
 private:
     using Vector = Eigen::Vector3d;
@@ -31,7 +30,7 @@ private:
 
     QPlcInput<double> m_pitchSpeed{this, "bodyControlPitchSpeed"};  // [deg/s]
     QPlcInput<double> m_yawSpeed{this, "bodyControlYawSpeed"};      // [deg/s]
-    QPlcInput<double> m_tetherSpeed{this, "tetherSpeed"};           // [m/s], > 0 reels out
+    QPlcInput<double> m_tetherSpeed;                                // [m/s], > 0 reels out
 
     QPlcOutput<Vector> m_position{this, "bodyPosition_earth"};                  // [m]
     QPlcOutput<Vector> m_velocity{this, "bodyVelocity_earth"};                  // [m/s]
@@ -50,6 +49,7 @@ private:
     QPlcOutput<double> m_averagePower{this, "averagePower"};                    // [W]
     QPlcOutput<double> m_energy{this, "energy"};                                // [J]
     QPlcOutput<bool> m_crashed{this, "crashed"};
+    std::optional<QPlcOutput<double>> m_winchLoad;  // [N]
 };
 
 }  // namespace awe

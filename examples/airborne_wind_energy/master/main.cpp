@@ -55,6 +55,7 @@ void addMasterOptions(QPlcCoreApplication &application)
         QStringLiteral("stay"),
         QStringLiteral("With --start-with: does not end with the flight, but waits for qtplc start, stop.")));
     awe::addRunOptions(application, QStringLiteral("0"));
+    awe::addPlantOptions(application);
     application.addOption(
         QCommandLineOption(QStringLiteral("mean-wind"),
                            QStringLiteral("Wind speed that eta is related to [m/s]. 0: what the signals show."),
@@ -85,7 +86,7 @@ bool readAddresses(QPlcCoreApplication &application, MasterSettings *settings)
 bool readMasterOptions(QPlcCoreApplication &application, MasterSettings *settings)
 {
     qint64 port = 0;
-    if (!awe::readRunOptions(application, &settings->run)
+    if (!awe::readRunOptions(application, &settings->run) || !awe::readPlantOptions(application, &settings->run.plant)
         || !application.integer(QStringLiteral("port"), 0, 65535, &port)
         || !application.number(QStringLiteral("mean-wind"), 0.0, 100.0, &settings->run.nominalWindSpeed)
         || !application.readRealTimeOptions(&settings->realTime)

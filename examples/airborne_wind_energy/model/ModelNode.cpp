@@ -12,9 +12,10 @@ QPlcValue triple(const Eigen::Vector3d &vector)
 
 }  // namespace
 
-ModelNode::ModelNode(const KiteSimulation &simulation)
+ModelNode::ModelNode(const KiteSimulation &simulation, WinchKind winch)
     : QPlcSlaveNode(QStringLiteral("Model"), ErrorZeroOrderHold)
     , m_simulation(simulation)
+    , m_winch(winch)
 {
 }
 
@@ -23,7 +24,7 @@ QPlcSignalIndexList ModelNode::declareInputSignals()
     QPlcSignalIndexList inputs;
     m_pitchSpeed = inputs.insert(QStringLiteral("bodyControlPitchSpeed"));
     m_yawSpeed = inputs.insert(QStringLiteral("bodyControlYawSpeed"));
-    m_tetherSpeed = inputs.insert(QStringLiteral("tetherSpeed"));
+    m_tetherSpeed = inputs.insert(QString::fromLatin1(winchSpeedSignal(m_winch)));
     return inputs;
 }
 
@@ -47,6 +48,8 @@ QPlcSignalIndexList ModelNode::declareOutputSignals()
     m_averagePower = outputs.insert(QStringLiteral("averagePower"));
     m_energy = outputs.insert(QStringLiteral("energy"));
     m_crashed = outputs.insert(QStringLiteral("crashed"));
+    if (m_winch == WinchKind::Drive)
+        m_winchLoad = outputs.insert(QStringLiteral("winchLoad"));
     return outputs;
 }
 
@@ -92,6 +95,8 @@ QPlcSignalList ModelNode::collect(const PlantOutputs &outputs) const
     list.insert(m_averagePower, outputs.averagePower);
     list.insert(m_energy, outputs.energy);
     list.insert(m_crashed, outputs.crashed);
+    if (m_winch == WinchKind::Drive)
+        list.insert(m_winchLoad, outputs.tetherForce.norm());
     return list;
 }
 

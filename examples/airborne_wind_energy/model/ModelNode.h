@@ -2,6 +2,7 @@
 #pragma once
 
 #include "KiteSimulation.h"
+#include "PlantConfiguration.h"
 
 #include <QtPlcCore>
 
@@ -13,7 +14,7 @@ class ModelNode : public QPlcSlaveNode
 {
     Q_OBJECT
 public:
-    explicit ModelNode(const KiteSimulation &simulation);
+    explicit ModelNode(const KiteSimulation &simulation, WinchKind winch = WinchKind::Ideal);
 
 protected:
     QPlcSignalIndexList declareInputSignals() override;
@@ -27,6 +28,7 @@ private:
     QPlcSignalList collect(const PlantOutputs &outputs) const;
 
     KiteSimulation m_simulation;
+    const WinchKind m_winch;
 
     QPlcSignalIndex m_pitchSpeed = QPlcInvalidSignalIndex;
     QPlcSignalIndex m_yawSpeed = QPlcInvalidSignalIndex;
@@ -49,6 +51,7 @@ private:
     QPlcSignalIndex m_averagePower = QPlcInvalidSignalIndex;
     QPlcSignalIndex m_energy = QPlcInvalidSignalIndex;
     QPlcSignalIndex m_crashed = QPlcInvalidSignalIndex;
+    QPlcSignalIndex m_winchLoad = QPlcInvalidSignalIndex;
 };
 
 }  // namespace awe

@@ -16,10 +16,12 @@ struct ProcessArguments
     QStringList model;
     QStringList autopilot;
     QString transport;   // "tcp", "udp", "udp-multicast", "local"
+    QString hardware;    // configuration of the node Winch; empty: there is none
+    QStringList winch;   // of the simulated drive; empty: there is none
     bool watch = false;  // the master draws on the terminal
 };
 
-/// The flight with master, model and autopilot as processes of their own.
+/// The flight with master, model and autopilot as processes of their own; with a winch drive also the node Winch, and the drive where it is simulated.
 class ProcessFlight : public QObject
 {
     Q_OBJECT
@@ -37,9 +39,18 @@ Q_SIGNALS:
 
 private:
     void startNodes();
+    QStringList nodes() const;
+    ProcessGroup::Errors errorsOfNodes() const;
+    void hardwareEnded(const QString &program, int exitCode);
+    void plugInDevices() const;
+    bool startDrive();
+    bool startWinch();
+    /// A file for other processes: where it is, or a copy of what is compiled into this program.
+    QString accessible(const QString &fileName);
     void ended(const QString &program, int exitCode);
 
     ProcessArguments m_arguments;
+    QString m_address;  // of the master, for nodes
     QTemporaryDir m_directory;
     QJsonObject m_report;
     ChildProcess *m_master = nullptr;

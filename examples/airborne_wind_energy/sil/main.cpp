@@ -6,6 +6,8 @@
 #include "FlightRun.h"
 #include "ProcessFlight.h"
 
+#include <QtCore/QFile>
+
 #include <cstdio>
 #include <sched.h>
 
@@ -30,6 +32,7 @@ void addOptions(QPlcCoreApplication &application)
                                              QStringLiteral("FILE"), awe::builtInSignals()));
     awe::addRunOptions(application, QStringLiteral("600"));
     awe::addModelOptions(application);
+    awe::addPlantOptions(application);
     awe::addAutopilotOptions(application);
     application.addOption(QCommandLineOption(
         QStringLiteral("same-cycle"),
@@ -65,9 +68,36 @@ bool canTransport(QPlcCoreApplication &application, const Settings &settings)
     return error.isEmpty();
 }
 
+/// A drive is hardware, or a program that behaves like it: it does not wait for a simulation. \return false, with the message out, when it is to
+bool readPlant(QPlcCoreApplication &application, Settings *settings)
+{
+    awe::RunSettings &run = settings->run;
+    if (!awe::readPlantOptions(application, &run.plant))
+        return false;
+    if (!run.plant.hasDrive())
+        return true;
+    if (application.isSet(QStringLiteral("lockstep"))) {
+        application.usageError(QStringLiteral("--lockstep and a winch drive exclude each other, because a drive does "
+                                              "not wait: use --real-time or --scale"));
+        return false;
+    }
+    if (run.clock.isLockstep())
+        run.clock = QPlcClock::realTime();
+    if (!QFile::exists(run.plant.winchHardware)) {
+        application.usageError(QStringLiteral("the plant has a winch drive, and its configuration '%1' is not there: "
+                                              "name it by 'hardware' in the file of --plant")
+                                   .arg(run.plant.winchHardware));
+        return false;
+    }
+    settings->processes = true;
+    return true;
+}
+
 bool readOptions(QPlcCoreApplication &application, Settings *settings)
 {
     settings->processes = application.isSet(QStringLiteral("processes"));
+    if (!awe::readRunOptions(application, &settings->run) || !readPlant(application, settings))
+        return false;
     settings->sameCycle = application.isSet(QStringLiteral("same-cycle"));
     settings->transport = application.isSet(QStringLiteral("transport"))
         ? application.value(QStringLiteral("transport"))
@@ -75,7 +105,7 @@ bool readOptions(QPlcCoreApplication &application, Settings *settings)
                               : QStringLiteral("inprocess");
     if (!canTransport(application, *settings))
         return false;
-    if (!awe::readRunOptions(application, &settings->run) || !awe::readModelOptions(application, &settings->model)
+    if (!awe::readModelOptions(application, &settings->model)
         || !awe::readAutopilotOptions(application, &settings->autopilot))
         return false;
     settings->run.nominalWindSpeed = settings->model.wind.meanVelocity.norm();
@@ -100,6 +130,22 @@ int conclude(QJsonObject report, const Settings &settings, int exitCode)
     return exitCode == 0 ? int(QPlcCoreApplication::Failure) : exitCode;
 }
 
+/// What the programs are told of the winch drive.
+void addWinch(QPlcCoreApplication &application, const awe::RunSettings &run, awe::ProcessArguments *arguments)
+{
+    const QString winch = QStringLiteral("--winch=drive");
+    arguments->master << winch;
+    arguments->model << winch;
+    arguments->hardware = run.plant.winchHardware;
+    if (!application.isSet(QStringLiteral("scale")) && !application.isSet(QStringLiteral("real-time")))
+        arguments->master << QStringLiteral("--real-time");
+    if (run.plant.simulatedWinch.isEmpty())
+        return;
+    arguments->winch << QStringLiteral("--bus=%1").arg(run.plant.simulatedWinch);
+    if (application.isSet(QStringLiteral("scale")))
+        arguments->winch << QStringLiteral("--scale=%1").arg(application.value(QStringLiteral("scale")));
+}
+
 int flyInProcesses(QPlcCoreApplication &application, const Settings &settings)
 {
     const QStringList table{QStringLiteral("--signals=%1").arg(application.value(QStringLiteral("signals")))};
@@ -119,6 +165,8 @@ int flyInProcesses(QPlcCoreApplication &application, const Settings &settings)
     arguments.model = table + processor + order + awe::givenModelOptions(application);
     arguments.autopilot = table + processor + order + awe::givenAutopilotOptions(application);
     arguments.transport = settings.transport;
+    if (settings.run.plant.hasDrive())
+        addWinch(application, settings.run, &arguments);
     arguments.watch = settings.run.watch;
 
     awe::ProcessFlight flight;
@@ -179,7 +227,8 @@ int main(int argc, char **argv)
     application.setExamples({QStringLiteral("awe_sil --duration 1800 --report flight.json"),
                              QStringLiteral("awe_sil --scale 10 --turbulence 0.15 --seed 3"),
                              QStringLiteral("awe_sil --processes --transport udp --gains tuned"),
-                             QStringLiteral("awe_sil --processes --transport udp-multicast")});
+                             QStringLiteral("awe_sil --processes --transport udp-multicast"),
+                             QStringLiteral("awe_sil --winch drive --duration 120 --report flight.json")});
     addOptions(application);
     Settings settings;
     if (!application.parseOptions() || !readOptions(application, &settings))

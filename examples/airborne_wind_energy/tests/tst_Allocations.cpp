@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ClosedLoopFlight.h"
+#include "WinchDrive.h"
+#include "WinchStatistics.h"
 
 #include "Near.h"
 
@@ -61,6 +63,7 @@ private Q_SLOTS:
     void wholeLoopTakesNoMemoryInAnyPhase();
     void crashedFlightTakesNoMemory();
     void resetTakesNoMemory();
+    void winchDriveTakesNoMemory();
 };
 
 void tst_Allocations::counterCounts()
@@ -111,6 +114,29 @@ void tst_Allocations::resetTakesNoMemory()
     const long before = allocations;
     flight.reset();
     QCOMPARE(allocations - before, 0L);
+}
+
+void tst_Allocations::winchDriveTakesNoMemory()
+{
+    WinchDrive drive;
+    WinchStatistics statistics;
+    WinchDriveInputs inputs;
+    inputs.enable = true;
+    const long before = allocations;
+    for (int i = 0; i < 10000; ++i) {
+        inputs.hasCommand = i < 5000;  // then it stops by itself
+        inputs.speedSetpoint = i < 2500 ? 65.0 : -130.0;
+        inputs.tetherForce = 1000.0;
+        inputs.emergencyStop = i > 9000;
+        drive.step(inputs);
+        WinchSample sample;
+        sample.speed = drive.speed();
+        statistics.step(sample);
+    }
+    const WinchReport report = statistics.report();
+    QCOMPARE(allocations - before, 0L);
+    QCOMPARE(drive.state(), DriveState::Fault);
+    QCOMPARE(report.interruptions, 0);
 }
 
 QTEST_APPLESS_MAIN(tst_Allocations)

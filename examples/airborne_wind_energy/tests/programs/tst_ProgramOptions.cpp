@@ -42,7 +42,7 @@ void tst_ProgramOptions::helpNamesEveryOption_data()
     QTest::addColumn<QString>("options");
     const char *const node = "--master --signals --name --watchdog --critical --stay --same-cycle --priority --cpu "
                              "--lock-memory --enable-fault-injection --faults";
-    const char *const model = " --wind --turbulence --seed";
+    const char *const model = " --wind --turbulence --seed --plant --winch";
     const char *const autopilot = " --gains --force-limit --dead-time";
     const char *const run = " --lockstep --real-time --scale --overrun --duration --report --watch --signals";
     const auto row = [](const char *program, const QByteArray &options) {
@@ -52,7 +52,8 @@ void tst_ProgramOptions::helpNamesEveryOption_data()
     row("awe_compact_model", QByteArray(node) + model);
     row("awe_autopilot", QByteArray(node) + autopilot);
     row("awe_master",
-        QByteArray("--listen --port --multicast --insecure-network --beacon --start-with --mean-wind --priority --cpu "
+        QByteArray("--listen --port --multicast --insecure-network --beacon --start-with --mean-wind --plant --winch "
+                   "--priority --cpu "
                    "--lock-memory --enable-fault-injection --faults")
             + run);
     row("awe_sil", QByteArray("--processes --transport --same-cycle") + run + model + autopilot);
