@@ -87,7 +87,9 @@ void ProcessFlight::plugInDevices() const
     const char *const variable = "QTPLC_FAKE_DEVICES";
     if (qEnvironmentVariableIsEmpty(variable))
         qputenv(variable, m_directory.path().toLocal8Bit());
-    QFile buttons(QDir(qEnvironmentVariable(variable)).filePath(QStringLiteral("buttons")));
+    const QDir folder(qEnvironmentVariable(variable));
+    folder.mkpath(QStringLiteral("."));
+    QFile buttons(folder.filePath(QStringLiteral("buttons")));
     if (!buttons.exists() && buttons.open(QIODevice::WriteOnly))
         buttons.write(QByteArray(lines, '\1'));
 }
