@@ -33,7 +33,7 @@
 /// input.emergencyStop = 17, active-low, debounce 5 ms
 /// ```
 ///
-/// An element of an array is `acceleration[0]`. Each driver also has the read channels `@online` (1 while the device is open), `@age` [s] (of the oldest value that is wired) and
+/// A signal may go to several channels; a number in its place is a constant while the node computes, and needs a line in `safe`. An element of an array is `acceleration[0]`. Each driver also has the read channels `@online` (1 while the device is open), `@age` [s] (of the oldest value that is wired) and
 /// `@failures` (how often the device was lost). The same as JSON: an object of sections, whose `read`, `write` and `safe` are objects of texts.
 ///
 /// In each cycle the node gives its inputs to the devices, and takes its outputs from them. An output without a fresh value is told to have none (QPlcQuality). A device that

@@ -67,20 +67,21 @@ ChannelPort::~ChannelPort()
     leaveNode();
 }
 
-bool ChannelPort::add(int index, const Element &element)
+bool ChannelPort::add(int index, Wire wire)
 {
     const bool isArray = index >= 0;
-    if (!m_elements.empty() && isArray != m_isArray)
+    wire.element = std::size_t(std::max(index, 0));
+    if (!m_wires.empty() && (isArray != m_isArray || (!isInput() && isWired(wire.element))))
         return false;
     m_isArray = isArray;
-    const auto place = std::size_t(std::max(index, 0));
-    if (m_elements.size() <= place)
-        m_elements.resize(place + 1);
-    if (m_elements[place].channel >= 0)
-        return false;
-    m_elements[place] = element;
-    m_values.assign(m_elements.size(), 0.0);
+    m_wires.push_back(wire);
+    m_values.resize(std::max(m_values.size(), wire.element + 1));
     return true;
+}
+
+bool ChannelPort::isWired(std::size_t element) const
+{
+    return std::any_of(m_wires.begin(), m_wires.end(), [element](const Wire &wire) { return wire.element == element; });
 }
 
 QString ChannelPort::elementName(std::size_t index) const
@@ -91,8 +92,8 @@ QString ChannelPort::elementName(std::size_t index) const
 QString ChannelPort::missingElements() const
 {
     QStringList names;
-    for (std::size_t i = 0; i < m_elements.size(); ++i) {
-        if (m_elements[i].channel < 0)
+    for (std::size_t i = 0; i < m_values.size(); ++i) {
+        if (!isWired(i))
             names << elementName(i);
     }
     return names.join(QStringLiteral(", "));
@@ -100,7 +101,7 @@ QString ChannelPort::missingElements() const
 
 QString ChannelPort::variableType() const
 {
-    return m_isArray ? QStringLiteral("%1 numbers").arg(m_elements.size()) : QStringLiteral("a number");
+    return m_isArray ? QStringLiteral("%1 numbers").arg(m_values.size()) : QStringLiteral("a number");
 }
 
 /// What is written to devices may leave elements out, what is read from them may not.
@@ -108,7 +109,7 @@ bool ChannelPort::accepts(QPlcSignalType type) const
 {
     const auto count = std::size_t(type.count());
     return type.isNumeric() && (m_isArray ? type.isArray() : count == 1)
-        && (isInput() ? count >= m_elements.size() : count == m_elements.size());
+        && (isInput() ? count >= m_values.size() : count == m_values.size());
 }
 
 // ---- to the devices ----
@@ -128,11 +129,8 @@ void ChannelPort::setSafe(const QPlcValue &value) noexcept
 
 void ChannelPort::pass(bool isSafe) noexcept
 {
-    for (std::size_t i = 0; i < m_elements.size(); ++i) {
-        const Element &element = m_elements[i];
-        if (element.channel >= 0)
-            element.runner->setValue(element.channel, m_values[i] * element.factor + element.offset, isSafe);
-    }
+    for (const Wire &wire : m_wires)
+        wire.runner->setValue(wire.channel, m_values[wire.element] * wire.factor + wire.offset, isSafe);
 }
 
 // ---- from the devices ----
@@ -140,13 +138,12 @@ void ChannelPort::pass(bool isSafe) noexcept
 void ChannelPort::refresh(qint64 now) noexcept
 {
     bool isGood = true;
-    for (std::size_t i = 0; i < m_elements.size(); ++i) {
-        const Element &element = m_elements[i];
-        const DriverRunner::Sample sample = element.runner->sample(element.channel, now);
-        const double value = sample.value * element.factor + element.offset;
+    for (const Wire &wire : m_wires) {
+        const DriverRunner::Sample sample = wire.runner->sample(wire.channel, now);
+        const double value = sample.value * wire.factor + wire.offset;
         isGood = isGood && sample.isFresh && fits(value, m_type);
         if (isGood)
-            m_values[i] = m_type.isReal() ? value : std::nearbyint(value);
+            m_values[wire.element] = m_type.isReal() ? value : std::nearbyint(value);
     }
     giveQuality(isGood ? QPlcQuality::Good : QPlcQuality::Invalid);
 }

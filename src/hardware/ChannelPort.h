@@ -10,21 +10,24 @@ namespace qplc {
 class ChannelPort final : public QPlcPort
 {
 public:
-    struct Element
+    /// What ties an element of the signal to a channel.
+    struct Wire
     {
         DriverRunner *runner = nullptr;
-        int channel = -1;  // its number at the runner; -1: there is none
+        int channel = -1;  // its number at the runner
         double factor = 1.0;
         double offset = 0.0;
+        std::size_t element = 0;
     };
 
     ChannelPort(QPlcCompactSlaveNode *node, const QString &signal, Direction direction);
     ~ChannelPort() override;
 
+    /// Ties an element to a channel. What is written may go to several of them, what is read comes from one.
     /// \param index  of an array; -1: the signal is none
-    /// \return false when the signal has this element already, or is used with and without brackets
-    bool add(int index, const Element &element);
-    const std::vector<Element> &elements() const { return m_elements; }
+    /// \return false when the signal has a value for this element already, or is used with and without brackets
+    bool add(int index, Wire wire);
+    const std::vector<Wire> &wires() const { return m_wires; }
     /// "acceleration[2]", or the name alone
     QString elementName(std::size_t index) const;
     /// Elements that have no channel, in words; empty: it is complete.
@@ -43,10 +46,11 @@ private:
     void attach(QPlcSignalType type) override { m_type = type; }
     void load(const char *bytes) override;
     void store(char *bytes) const override;
+    bool isWired(std::size_t element) const;
     QPlcSignalType m_type;
     bool m_isArray = false;
-    std::vector<Element> m_elements;
-    std::vector<double> m_values;
+    std::vector<Wire> m_wires;
+    std::vector<double> m_values;  // of the elements
 };
 
 }  // namespace qplc

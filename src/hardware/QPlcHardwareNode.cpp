@@ -12,6 +12,7 @@
 #include <QtCore/QFile>
 
 #include <algorithm>
+#include <thread>
 
 using qplc::ChannelPort;
 using qplc::DriverCatalog;
@@ -26,8 +27,8 @@ struct QPlcHardwareNode::Private
         DriverRunner *runner = nullptr;
         int channel = -1;
     };
-    /// A safe value that the configuration gives.
-    struct SafeValue
+    /// A value that the configuration gives to a channel.
+    struct GivenValue
     {
         DriverRunner *runner = nullptr;
         int channel = -1;
@@ -45,19 +46,23 @@ struct QPlcHardwareNode::Private
     void buildSafeValue(HardwareConfiguration *configuration, DriverRunner *runner,
                         const HardwareConfiguration::SafeValue &safe);
     void buildSafeStop(HardwareConfiguration *configuration, const HardwareConfiguration::Watched &watched);
+    void addConstant(HardwareConfiguration *configuration, const GivenValue &constant,
+                     const qplc::ConfigurationEntry &entry);
     ChannelPort *port(const QString &signal, QPlcPort::Direction direction);
     void clear();
     void writeAll(bool isUrgent) noexcept;
     void readAll(qint64 now) noexcept;
     void setSafeValues(bool knowTable);
+    void awaitSafeStops();
 
     QPlcHardwareNode *q;
     QVector<QPlcParseError> errors;
     std::vector<std::unique_ptr<DriverRunner>> runners;
     std::vector<std::unique_ptr<ChannelPort>> ports;  // destroyed before the runners
     std::vector<SafeStop> safeStops;
-    std::vector<SafeValue> safeValues;
-    QMap<QString, QString> failures;  // of drivers that are not online
+    std::vector<GivenValue> safeValues;
+    std::vector<GivenValue> constants;  // while the node computes
+    QMap<QString, QString> failures;    // of drivers that are not online
     bool isOpen = false;
 };
 
@@ -99,10 +104,10 @@ void QPlcHardwareNode::Private::buildDriver(HardwareConfiguration *configuration
     configuration->checkUse(*settings);
     if (configuration->errors().size() > former)
         return;  // what its channels are is not known: their errors would be echoes
-    for (const HardwareConfiguration::Wire &wire : driver.wires)
-        buildWire(configuration, runner, wire);
     for (const HardwareConfiguration::SafeValue &safe : driver.safeValues)
         buildSafeValue(configuration, runner, safe);
+    for (const HardwareConfiguration::Wire &wire : driver.wires)
+        buildWire(configuration, runner, wire);
 }
 
 void QPlcHardwareNode::Private::buildWire(HardwareConfiguration *configuration, DriverRunner *runner,
@@ -117,12 +122,33 @@ void QPlcHardwareNode::Private::buildWire(HardwareConfiguration *configuration, 
         configuration->addError(wire.entry, error);
         return;
     }
+    bool isConstant = false;
+    const double constant = isRead ? 0.0 : signal.name.toDouble(&isConstant);
+    if (isConstant) {
+        addConstant(configuration, {runner, number, constant * signal.factor + signal.offset}, wire.entry);
+        return;
+    }
     ChannelPort *port = this->port(signal.name, isRead ? QPlcPort::Output : QPlcPort::Input);
     if (!port->add(signal.element, {runner, number, wire.source.factor, wire.source.offset}))
         configuration->addError(
             wire.entry,
             QStringLiteral("%1 is wired twice, or with brackets and without; wire each element once")
                 .arg(qplc::quoted(signal.name)));
+}
+
+/// A number in place of a signal: while the node computes, the channel has it.
+void QPlcHardwareNode::Private::addConstant(HardwareConfiguration *configuration, const GivenValue &constant,
+                                            const qplc::ConfigurationEntry &entry)
+{
+    const auto isSame
+        = [&](const GivenValue &safe) { return safe.runner == constant.runner && safe.channel == constant.channel; };
+    if (std::any_of(safeValues.begin(), safeValues.end(), isSame))
+        constants.push_back(constant);
+    else
+        configuration->addError(entry,
+                                QStringLiteral("%1 has no signal that knows its safe value; add '%2 = ...' to the "
+                                               "section 'safe' of the device")
+                                    .arg(qplc::quoted(entry.key), entry.key));
 }
 
 void QPlcHardwareNode::Private::buildSafeValue(HardwareConfiguration *configuration, DriverRunner *runner,
@@ -175,6 +201,7 @@ void QPlcHardwareNode::Private::clear()
     runners.clear();
     safeStops.clear();
     safeValues.clear();
+    constants.clear();
 }
 
 QPlcHardwareNode::QPlcHardwareNode(const QString &name, QObject *parent)
@@ -294,14 +321,15 @@ QVector<QPlcHardwareNode::Wire> QPlcHardwareNode::wires() const
     const qint64 now = qplc::monotonicNow();
     QVector<Wire> wires;
     for (const std::unique_ptr<ChannelPort> &port : m_hardware->ports) {
-        for (std::size_t i = 0; i < port->elements().size(); ++i) {
-            const ChannelPort::Element &element = port->elements()[i];
-            if (element.channel >= 0)
-                wires.append(element.runner->wireState(element.channel,
-                                                       port->isInput() ? QPlcChannel::Write : QPlcChannel::Read, now));
-            if (element.channel >= 0)
-                wires.last().signal = port->elementName(i);
+        for (const ChannelPort::Wire &wire : port->wires()) {
+            const auto direction = port->isInput() ? QPlcChannel::Write : QPlcChannel::Read;
+            wires.append(wire.runner->wireState(wire.channel, direction, now));
+            wires.last().signal = port->elementName(wire.element);
         }
+    }
+    for (const Private::GivenValue &constant : m_hardware->constants) {
+        wires.append(constant.runner->wireState(constant.channel, QPlcChannel::Write, now));
+        wires.last().signal = QString::number(constant.value);
     }
     return wires;
 }
@@ -328,6 +356,16 @@ void QPlcHardwareNode::Private::writeAll(bool isUrgent) noexcept
         runner->write(now, isUrgent);
 }
 
+/// A device that has just been asked for would be an emergency stop in the first cycle.
+void QPlcHardwareNode::Private::awaitSafeStops()
+{
+    constexpr qint64 patience = 500'000'000;  // [ns]
+    const qint64 end = qplc::monotonicNow() + patience;
+    const auto isMissing = [](const SafeStop &stop) { return !stop.runner->isOnline(); };
+    while (std::any_of(safeStops.begin(), safeStops.end(), isMissing) && qplc::monotonicNow() < end)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
+
 /// What the configuration says wins over the signal table. \param knowTable  that the ports are bound to
 void QPlcHardwareNode::Private::setSafeValues(bool knowTable)
 {
@@ -337,7 +375,7 @@ void QPlcHardwareNode::Private::setSafeValues(bool knowTable)
         if (port->isInput() && index != QPlcInvalidSignalIndex)
             port->setSafe(table.at(index).safeValue());
     }
-    for (const SafeValue &safe : safeValues)
+    for (const GivenValue &safe : safeValues)
         safe.runner->setValue(safe.channel, safe.value, true);
 }
 
@@ -348,11 +386,14 @@ void QPlcHardwareNode::reset()
     m_hardware->setSafeValues(true);
     m_hardware->writeAll(false);
     openDevices();
+    m_hardware->awaitSafeStops();
     m_hardware->readAll(qplc::monotonicNow());
 }
 
 void QPlcHardwareNode::step(const QPlcCycle &)
 {
+    for (const Private::GivenValue &constant : m_hardware->constants)
+        constant.runner->setValue(constant.channel, constant.value, false);
     m_hardware->writeAll(false);
     const qint64 now = qplc::monotonicNow();
     m_hardware->readAll(now);
@@ -370,7 +411,7 @@ void QPlcHardwareNode::safeState(SafeStateReason)
         if (port->isInput())
             port->pass(true);
     }
-    for (const Private::SafeValue &safe : m_hardware->safeValues)
+    for (const Private::GivenValue &safe : m_hardware->safeValues)
         safe.runner->setValue(safe.channel, safe.value, true);
     m_hardware->writeAll(true);
 }

@@ -71,7 +71,8 @@ public:
     bool exchange()
     {
         m_runner.write(m_now);
-        if (m_runner.driver().pace() == QPlcDriver::OwnPace && !(m_runner.writeNow(m_now) && m_runner.readNow(m_now)))
+        if (m_runner.isOnline() && m_runner.driver().pace() == QPlcDriver::OwnPace
+            && !(m_runner.writeNow(m_now) && m_runner.readNow(m_now)))
             m_runner.closeNow();
         m_runner.read(m_now);
         return m_runner.isOnline();

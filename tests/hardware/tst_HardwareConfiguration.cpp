@@ -171,6 +171,8 @@ void tst_HardwareConfiguration::whatIsWrongIsNamedWithItsPlace_data()
         "6:9: 'a' is wired twice, or with brackets and without; wire each element once");
     add("with and without brackets", drive + "[drive.read]\na[0] = speed\na = speed\n",
         "6:5: 'a' is wired twice, or with brackets and without; wire each element once");
+    add("constant without a safe value", drive + "[drive.write]\nbrake = 1\n",
+        "5:9: 'brake' has no signal that knows its safe value; add 'brake = ...' to the section 'safe' of the device");
     add("key twice", drive + "device = c\n", "4:1: 'device' is there twice, first in line 3; leave one of them out");
     add("section twice", drive + "[drive]\ndriver = bench\ndevice = c\n",
         "4:2: section 'drive' is there twice; put its lines together");

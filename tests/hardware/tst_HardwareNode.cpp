@@ -69,6 +69,7 @@ private Q_SLOTS:
     void aLostDeviceIsHeldThenSafeAndComesBack();
     void valuesThatDoNotFitTheSignalAreNone();
     void elementsOfAnArrayComeFromDifferentChannels();
+    void aSignalMayGoToSeveralChannelsAndANumberToOne();
     void aPressedButtonStopsThePlantSafely_data() { addKinds(); }
     void aPressedButtonStopsThePlantSafely();
     void aButtonWithoutAValueStopsThePlantToo();
@@ -252,6 +253,31 @@ void tst_HardwareNode::elementsOfAnArrayComeFromDifferentChannels()
     QVERIFY(master.addLocalNode(&node));
     QVERIFY(start(master));
     QTRY_COMPARE(master.signalValue("pair").toString(), QString("8, 6"));
+}
+
+void tst_HardwareNode::aSignalMayGoToSeveralChannelsAndANumberToOne()
+{
+    TestMaster master(QPlcClock::realTime(), winchTable());
+    QPlcHardwareNode node("Winch");
+    QVERIFY(node.configure("[a]\ndriver = bench\ndevice = b\n[a.write]\ntorque = torque * 2\nbrake = torque\n",
+                           "winch.ini"));
+    QPlcHardwareNode enabler("Enabler");
+    const auto other = std::make_shared<BenchDevice>();
+    QPlcHardwareNode::addDriverKind("bench", "memory of the test",
+                                    [=] { return std::make_unique<BenchDriver>(other, QPlcDriver::EveryCycle); });
+    QVERIFY(enabler.configure("[b]\ndriver = bench\ndevice = b\n[b.write]\nbrake = 1\n[b.safe]\nbrake = 0\n", "e.ini"));
+    QCOMPARE(enabler.wires().size(), 1);
+    QCOMPARE(enabler.wires().first().signal, QString("1"));
+    enabler.openDevices();
+    QTRY_COMPARE(other->brake.load(), 0.0);
+    QVERIFY(master.addLocalNode(&node) && master.addLocalNode(&enabler));
+    QVERIFY(master.setSignalValue("torque", 0.75));
+    QVERIFY(start(master));
+    QTRY_COMPARE(m_device->torque.load(), 1.5);
+    QTRY_COMPARE(m_device->brake.load(), 1.0);
+    QTRY_COMPARE(other->brake.load(), 1.0);
+    master.stop();
+    QTRY_COMPARE(other->brake.load(), 0.0);
 }
 
 void tst_HardwareNode::aPressedButtonStopsThePlantSafely()
