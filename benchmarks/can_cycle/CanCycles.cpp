@@ -10,7 +10,7 @@
 namespace {
 
 constexpr int ownChannels = 3;           // before those of the messages
-constexpr qint64 stampTolerance = 1000;  // [us] between the making of a frame and its stamp
+constexpr qint64 stampTolerance = 1000;  // [us] that a frame may need from its making to the bus, besides a period
 
 }  // namespace
 
@@ -128,7 +128,7 @@ void CanCycles::look(std::size_t message, qint64 now)
     if (quint32(count.value) != m_last[message]) {
         const auto made = quint32(m_runner->sample(channel + 1, now).value);
         const auto delay = qint32(quint32(count.time / 1000) - made);  // [us]
-        m_wrongAges += delay < 0 || delay > stampTolerance || count.time > now + 1'000'000 ? 1 : 0;
+        m_wrongAges += delay < 0 || delay > stampTolerance + m_period / 1000 || count.time > now + 1'000'000 ? 1 : 0;
         m_age.record(now - count.time);
     }
     m_last[message] = quint32(count.value);

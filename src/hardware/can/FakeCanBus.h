@@ -23,7 +23,7 @@ class FakeCanBus : public CanBus
 {
 public:
     static constexpr int MaximumPlaces = 16;
-    static constexpr int Backlog = 1024;  // [frame]
+    static constexpr int Backlog = 4096;  // [frame]
 
     /// \param time  stamps the frames that are sent here; outlives this object
     explicit FakeCanBus(const QString &name, TimeSource &time = TimeSource::monotonic());

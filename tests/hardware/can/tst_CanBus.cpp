@@ -8,6 +8,7 @@
 
 #include <linux/can/error.h>
 #include <memory>
+#include <poll.h>
 
 using namespace qplc;
 
@@ -57,6 +58,29 @@ bool hasQtSerialBus()
 
 const QString testBus = QStringLiteral("fake:test");
 
+// What has come in when it is `count` frames, or after some seconds: a bus of the kernel needs a moment.
+std::vector<CanFrame> receive(CanBus &bus, std::size_t count)
+{
+    std::vector<CanFrame> frames;
+    for (int turn = 0; turn < 500 && frames.size() < count; ++turn) {
+        pollfd descriptor{bus.descriptor(), POLLIN, 0};
+        poll(&descriptor, 1, 10);
+        const auto more = receiveAll(bus);
+        frames.insert(frames.end(), more.begin(), more.end());
+    }
+    return frames;
+}
+
+// Buses that have to behave alike: a fake one, and an interface of the kernel, if QTPLC_TEST_CAN names one.
+void addBuses()
+{
+    QTest::addColumn<QString>("device");
+    QTest::newRow("fake") << testBus;
+    const QString interface = qEnvironmentVariable("QTPLC_TEST_CAN");
+    if (!interface.isEmpty())
+        QTest::newRow("kernel") << interface;
+}
+
 }  // namespace
 
 class tst_CanBus : public QObject
@@ -69,9 +93,12 @@ private Q_SLOTS:
     void textThatNamesNoBusIsRefused_data();
     void textThatNamesNoBusIsRefused();
     void missingInterfaceIsNamed();
+    void frameGoesToAllOthersUnchanged_data() { addBuses(); }
     void frameGoesToAllOthersUnchanged();
     void busesOfOtherNamesHearNothing();
+    void onlyWantedMessagesComeIn_data() { addBuses(); }
     void onlyWantedMessagesComeIn();
+    void framesStayInOrder_data() { addBuses(); }
     void framesStayInOrder();
     void slowReceiverLosesNothingThatFits();
     void whatDoesNotFitIsCountedByTheReceiver();
@@ -79,7 +106,9 @@ private Q_SLOTS:
     void placeOfTheDeadIsTaken();
     void tooManyParticipantsAreRefused();
     void folderWithALongNameIsRefused();
+    void errorFramesTellTheState_data() { addBuses(); }
     void errorFramesTellTheState();
+    void overflowOfTheControllerIsALoss_data() { addBuses(); }
     void overflowOfTheControllerIsALoss();
     void anotherProcessAnswers();
     void stampsFollowTheMonotonicClock();
@@ -136,22 +165,23 @@ void tst_CanBus::missingInterfaceIsNamed()
 
 void tst_CanBus::frameGoesToAllOthersUnchanged()
 {
-    const auto a = join(testBus);
-    const auto b = join(testBus);
-    const auto c = join(testBus);
+    QFETCH(QString, device);
+    const auto a = join(device);
+    const auto b = join(device);
+    const auto c = join(device);
     CanFrame frame = frameOf(0x18FEDFFE, CanFrame::Extended | CanFrame::Fd | CanFrame::BitRateSwitch);
     frame.size = 64;
     frame.data[63] = 0xAB;
     const qint64 before = monotonicNow();
     QCOMPARE(a->send(&frame, 1), 1);
     for (CanBus *bus : {b.get(), c.get()}) {
-        const auto frames = receiveAll(*bus);
+        const auto frames = receive(*bus, 1);
         QCOMPARE(frames.size(), std::size_t(1));
         QCOMPARE(frames[0].id, frame.id);
         QCOMPARE(frames[0].flags, frame.flags);
         QCOMPARE(frames[0].size, frame.size);
         QVERIFY(frames[0].data == frame.data);
-        QVERIFY(frames[0].time >= before && frames[0].time <= monotonicNow());
+        QVERIFY(frames[0].time >= before - 1'000'000 && frames[0].time <= monotonicNow());
     }
     QVERIFY(receiveAll(*a).empty());
     QCOMPARE(a->counters().sent, quint64(1));
@@ -169,10 +199,11 @@ void tst_CanBus::busesOfOtherNamesHearNothing()
 
 void tst_CanBus::onlyWantedMessagesComeIn()
 {
+    QFETCH(QString, device);
     CanBus::Options options;
     options.keys = {0x123, 0x80000005};
-    const auto a = join(testBus);
-    const auto b = join(testBus, options);
+    const auto a = join(device);
+    const auto b = join(device, options);
     const CanFrame frames[] = {frameOf(0x122),
                                frameOf(0x123),
                                frameOf(5),
@@ -180,7 +211,7 @@ void tst_CanBus::onlyWantedMessagesComeIn()
                                frameOf(0x123, CanFrame::Remote),
                                frameOf(0x123, CanFrame::Extended)};
     a->send(frames, 6);
-    const auto received = receiveAll(*b);
+    const auto received = receive(*b, 3);
     QCOMPARE(received.size(), std::size_t(3));
     QCOMPARE(received[0].key(), 0x123U);
     QCOMPARE(received[1].key(), 0x80000005U);
@@ -189,8 +220,9 @@ void tst_CanBus::onlyWantedMessagesComeIn()
 
 void tst_CanBus::framesStayInOrder()
 {
-    const auto a = join(testBus);
-    const auto b = join(testBus);
+    QFETCH(QString, device);
+    const auto a = join(device);
+    const auto b = join(device);
     quint32 sent = 0;
     quint32 expected = 0;
     for (int round = 0; round < 200; ++round) {
@@ -203,7 +235,7 @@ void tst_CanBus::framesStayInOrder()
                 QCOMPARE(frame.id, expected++);
         }
     }
-    for (const CanFrame &frame : receiveAll(*b))
+    for (const CanFrame &frame : receive(*b, sent - expected))
         QCOMPARE(frame.id, expected++);
     QCOMPARE(expected, sent);
 }
@@ -230,7 +262,7 @@ void tst_CanBus::whatDoesNotFitIsCountedByTheReceiver()
 {
     const auto a = join(testBus);
     const auto b = join(testBus);
-    for (quint32 i = 0; i < 5000; ++i) {
+    for (quint32 i = 0; i < 10000; ++i) {
         const CanFrame frame = frameOf(i);
         a->send(&frame, 1);
     }
@@ -241,7 +273,7 @@ void tst_CanBus::whatDoesNotFitIsCountedByTheReceiver()
         receiveAll(*a);
     }
     QVERIFY(b->counters().lost > 0);
-    QCOMPARE(received + b->counters().lost, quint64(5000));
+    QCOMPARE(received + b->counters().lost, quint64(10000));
 }
 
 void tst_CanBus::whoJoinsLaterHearsNothingOfBefore()
@@ -298,15 +330,16 @@ void tst_CanBus::folderWithALongNameIsRefused()
 
 void tst_CanBus::errorFramesTellTheState()
 {
-    const auto a = join(testBus);
-    const auto b = join(testBus, CanBus::Options());
+    QFETCH(QString, device);
+    const auto a = join(device);
+    const auto b = join(device, CanBus::Options());
     const auto tell = [&](quint32 error, quint8 controller) {
         CanFrame frame = frameOf(error, CanFrame::Error);
         frame.size = 8;
         frame.data = {};
         frame.data[1] = controller;
         a->send(&frame, 1);
-        receiveAll(*b);
+        receive(*b, 1);
         return b->state();
     };
     QCOMPARE(tell(CAN_ERR_CRTL, CAN_ERR_CRTL_TX_WARNING), CanBus::Warning);
@@ -324,12 +357,13 @@ void tst_CanBus::errorFramesTellTheState()
 
 void tst_CanBus::overflowOfTheControllerIsALoss()
 {
-    const auto a = join(testBus);
-    const auto b = join(testBus);
+    QFETCH(QString, device);
+    const auto a = join(device);
+    const auto b = join(device);
     CanFrame frame = frameOf(CAN_ERR_CRTL, CanFrame::Error);
     frame.data[1] = CAN_ERR_CRTL_RX_OVERFLOW;
     a->send(&frame, 1);
-    receiveAll(*b);
+    receive(*b, 1);
     QCOMPARE(b->counters().lost, quint64(1));
     QCOMPARE(b->state(), CanBus::Active);
 }

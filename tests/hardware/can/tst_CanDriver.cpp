@@ -211,14 +211,14 @@ void tst_CanDriver::lossesAreCounted()
     bench.driver.wireRead(text("A.@count"));
     bench.driver.wireRead(text("@lost"));
     QVERIFY(bench.open());
-    for (int i = 0; i < 3000; ++i)
+    for (int i = 0; i < 10000; ++i)
         bench.send(1, "0000");
     for (int i = 0; i < 60; ++i) {
         QVERIFY(bench.cycle());
         bench.received();
     }
     QVERIFY(bench.driver.value(text("@lost")) > 0.0);
-    QCOMPARE(bench.driver.value(text("A.@count")) + bench.driver.value(text("@lost")), 3000.0);
+    QCOMPARE(bench.driver.value(text("A.@count")) + bench.driver.value(text("@lost")), 10000.0);
 }
 
 void tst_CanDriver::stateFollowsTheController()
