@@ -281,4 +281,7 @@ REMOVALS = [
     Removal("a serial line at a wrong rate", "src/hardware/serial/NmeaWindDriver.cpp",
             "now() - m_firstWithout > LongestGarbage", "now() < LongestGarbage",
             "tst_NmeaWindDriver", "aWrongRateIsNamed"),
+    Removal("a cycle of a service hangs", "src/node/CycleWatch.h",
+            "m_still = mark == 0 || mark != m_mark ? 0 : m_still + 1;", "m_still = 0;",
+            "tst_ServiceNotifier", "aNodeWhoseStepHangsIsNotFed"),
 ]
