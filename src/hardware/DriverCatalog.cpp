@@ -4,6 +4,7 @@
 #include "gpio/GpioDriver.h"
 #include "i2c/I2cRegistersDriver.h"
 #include "i2c/Mpu6050Driver.h"
+#include "modbus/ModbusDriver.h"
 #include "serial/NmeaWindDriver.h"
 #include "spi/Mcp3208Driver.h"
 
@@ -26,6 +27,7 @@ DriverCatalog::DriverCatalog()
          [] { return std::make_unique<I2cRegistersDriver>(); }});
     add(QStringLiteral("mcp3208"),
         {QStringLiteral("converter MCP3208 on SPI: 8 voltages"), [] { return std::make_unique<Mcp3208Driver>(); }});
+    add(QStringLiteral("modbus"), {ModbusDriver::description(), [] { return std::make_unique<ModbusDriver>(); }});
     add(QStringLiteral("mpu6050"),
         {QStringLiteral("inertial sensor MPU-6050 on I2C"), [] { return std::make_unique<Mpu6050Driver>(); }});
     add(QStringLiteral("nmea-wind"), {QStringLiteral("wind sensor on a serial line that speaks NMEA 0183"), [] {

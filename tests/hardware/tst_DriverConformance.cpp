@@ -3,6 +3,7 @@
 #include "FakeDevices.h"
 #include "conformance/GpioTestDevices.h"
 #include "conformance/I2cTestDevices.h"
+#include "conformance/ModbusTestDevices.h"
 #include "conformance/SerialTestDevices.h"
 #include "conformance/SpiTestDevices.h"
 
@@ -166,6 +167,7 @@ void tst_DriverConformance::initTestCase()
 {
     addGpioDevices(&m_devices);
     addI2cDevices(&m_devices);
+    addModbusDevices(&m_devices);
     addSerialDevices(&m_devices);
     addSpiDevices(&m_devices);
 }

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "FakeModbusDevice.h"
+
+#include <algorithm>
+
+namespace qplc {
+
+std::shared_ptr<FakeModbusDevice> FakeModbusDevice::named(const QString &name)
+{
+    static std::mutex mutex;
+    static std::map<QString, std::weak_ptr<FakeModbusDevice>> devices;
+    const std::lock_guard<std::mutex> lock(mutex);
+    std::shared_ptr<FakeModbusDevice> device = devices[name].lock();
+    if (!device) {
+        device = std::make_shared<FakeModbusDevice>();
+        devices[name] = device;
+    }
+    return device;
+}
+
+void FakeModbusDevice::set(ModbusRegister::Space space, quint16 first, const std::vector<quint16> &values, quint8 unit)
+{
+    const std::lock_guard<std::mutex> lock(m_mutex);
+    std::copy(values.begin(), values.end(), m_values[{unit, space}].begin() + first);
+}
+
+std::vector<quint16> FakeModbusDevice::values(ModbusRegister::Space space, quint16 first, int count, quint8 unit) const
+{
+    const std::lock_guard<std::mutex> lock(m_mutex);
+    const auto found = m_values.find({unit, space});
+    if (found == m_values.end())
+        return std::vector<quint16>(std::size_t(count), 0);
+    const auto begin = found->second.begin() + first;
+    return std::vector<quint16>(begin, begin + count);
+}
+
+void FakeModbusDevice::setPresent(bool isPresent)
+{
+    const std::lock_guard<std::mutex> lock(m_mutex);
+    m_isPresent = isPresent;
+}
+
+void FakeModbusDevice::answerWith(ModbusException exception, ModbusRegister::Space space, quint16 address)
+{
+    const std::lock_guard<std::mutex> lock(m_mutex);
+    m_exception = exception;
+    m_exceptionSpace = space;
+    m_exceptionAddress = address;
+}
+
+std::vector<ModbusRequest> FakeModbusDevice::takeReads()
+{
+    const std::lock_guard<std::mutex> lock(m_mutex);
+    return std::exchange(m_reads, {});
+}
+
+std::vector<ModbusRequest> FakeModbusDevice::takeWrites()
+{
+    const std::lock_guard<std::mutex> lock(m_mutex);
+    return std::exchange(m_writes, {});
+}
+
+ModbusException FakeModbusDevice::exceptionFor(const ModbusRequest &request) const
+{
+    const bool isMeant = request.space == m_exceptionSpace && m_exceptionAddress >= request.first
+        && m_exceptionAddress < request.first + request.count;
+    return isMeant ? m_exception : ModbusException::None;
+}
+
+bool FakeModbusLink::open()
+{
+    const std::lock_guard<std::mutex> lock(m_device->m_mutex);
+    return m_device->m_isPresent || fail(QStringLiteral("there is no device now; the test has taken it away"));
+}
+
+bool FakeModbusLink::check(const ModbusRequest &request)
+{
+    if (!m_device->m_isPresent)
+        return fail(QStringLiteral("no answer; the test has taken the device away"));
+    const ModbusException exception = m_device->exceptionFor(request);
+    return exception == ModbusException::None || fail(exception);
+}
+
+bool FakeModbusLink::read(const ModbusRequest &request, quint16 *values)
+{
+    const std::lock_guard<std::mutex> lock(m_device->m_mutex);
+    m_device->m_reads.push_back(request);
+    if (!check(request))
+        return false;
+    const auto begin = m_device->m_values[{request.unit, request.space}].begin() + request.first;
+    std::copy(begin, begin + request.count, values);
+    return true;
+}
+
+bool FakeModbusLink::write(const ModbusRequest &request, const quint16 *values)
+{
+    const std::lock_guard<std::mutex> lock(m_device->m_mutex);
+    m_device->m_writes.push_back(request);
+    if (!check(request))
+        return false;
+    std::copy(values, values + request.count,
+              m_device->m_values[{request.unit, request.space}].begin() + request.first);
+    return true;
+}
+
+}  // namespace qplc

@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ModbusRegister.h"
+
+#include "signals/MessageText.h"
+
+#include <QtCore/QStringList>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+namespace qplc {
+
+namespace {
+
+const QStringList &spaceWords()
+{
+    static const QStringList words{QStringLiteral("coil"), QStringLiteral("discrete"), QStringLiteral("input"),
+                                   QStringLiteral("holding")};
+    return words;
+}
+
+const QStringList &typeWords()  // in the order of ModbusRegister::Type, without Bit
+{
+    static const QStringList words{QStringLiteral("int16"),  QStringLiteral("uint16"),  QStringLiteral("int32"),
+                                   QStringLiteral("uint32"), QStringLiteral("float32"), QStringLiteral("int64"),
+                                   QStringLiteral("float64")};
+    return words;
+}
+
+template<typename Number>
+Number nearest(double value)
+{
+    using Limits = std::numeric_limits<Number>;
+    const double rounded = Limits::is_integer ? std::round(value) : value;
+    if (rounded <= double(Limits::lowest()))
+        return Limits::lowest();
+    if (rounded >= double(Limits::max()))
+        return Limits::max();
+    return Number(rounded);
+}
+
+/// Bits of a number as an integer, and back.
+template<typename To, typename From>
+To sameBits(From from)
+{
+    static_assert(sizeof(To) == sizeof(From));
+    To to;
+    std::memcpy(&to, &from, sizeof to);
+    return to;
+}
+
+bool toWhole(const QString &text, qint64 minimum, qint64 maximum, qint64 *result)
+{
+    bool ok = false;
+    const bool isHexadecimal = text.startsWith(QLatin1String("0x"), Qt::CaseInsensitive);
+    *result = isHexadecimal ? text.midRef(2).toLongLong(&ok, 16) : text.toLongLong(&ok);
+    return ok && *result >= minimum && *result <= maximum;
+}
+
+bool toFinite(const QString &text, double *result)
+{
+    bool ok = false;
+    *result = text.toDouble(&ok);
+    return ok && std::isfinite(*result);
+}
+
+/// One attribute after the other, each of one or two words.
+class RegisterReader
+{
+public:
+    explicit RegisterReader(const ModbusRegister &defaults)
+        : m_register(defaults)
+    {
+    }
+
+    bool read(const QString &text)
+    {
+        const QStringList parts = text.split(QLatin1Char(','));
+        if (!readPlace(parts.first().simplified()))
+            return false;
+        for (int i = 1; i < parts.size(); ++i) {
+            if (!readAttribute(parts[i].simplified()))
+                return false;
+        }
+        return check();
+    }
+    const ModbusRegister &result() const { return m_register; }
+    const QString &error() const { return m_error; }
+
+private:
+    bool fail(const QString &text)
+    {
+        m_error = text;
+        return false;
+    }
+
+    bool readPlace(const QString &part)
+    {
+        const QStringList words = part.split(QLatin1Char(' '));
+        const int space = spaceWords().indexOf(words.first());
+        qint64 address = 0;
+        if (space < 0 || words.size() != 2 || !toWhole(words[1], 0, 0xffff, &address)) {
+            return fail(QStringLiteral("%1 is no place in a device: one of %2 and an address of 0 ... 65535 belong "
+                                       "here, \"holding 100\" for example")
+                            .arg(quoted(part), spaceWords().join(QStringLiteral(", "))));
+        }
+        m_register.space = ModbusRegister::Space(space);
+        m_register.address = quint16(address);
+        m_register.type = m_register.isOfBits() ? ModbusRegister::Bit : ModbusRegister::UInt16;
+        return true;
+    }
+
+    bool readAttribute(const QString &part)
+    {
+        const int type = typeWords().indexOf(part);
+        if (type >= 0) {
+            if (m_register.isOfBits())
+                return fail(QStringLiteral("%1: a coil or discrete input is a bit and has no type").arg(quoted(part)));
+            m_register.type = ModbusRegister::Type(type + 1);
+            return true;
+        }
+        const QString key = part.section(QLatin1Char(' '), 0, 0);
+        const QString value = part.section(QLatin1Char(' '), 1);
+        if (key == QLatin1String("factor"))
+            return (toFinite(value, &m_register.factor) && m_register.factor != 0.0) || refuse(part, "a number, not 0");
+        if (key == QLatin1String("offset"))
+            return toFinite(value, &m_register.offset) || refuse(part, "a number");
+        if (key == QLatin1String("bit"))
+            return readBit(part, value);
+        if (key == QLatin1String("unit"))
+            return readUnit(part, value);
+        if (key == QLatin1String("word-order"))
+            return readWordOrder(part, value);
+        return fail(QStringLiteral("%1 is not known: %2, factor, offset, bit, unit and word-order are")
+                        .arg(quoted(part), typeWords().join(QStringLiteral(", "))));
+    }
+
+    bool refuse(const QString &part, const char *right)
+    {
+        return fail(QStringLiteral("%1 cannot be meant: %2 belongs behind the first word")
+                        .arg(quoted(part), QLatin1String(right)));
+    }
+
+    bool readBit(const QString &part, const QString &value)
+    {
+        qint64 bit = 0;
+        if (!toWhole(value, 0, 15, &bit))
+            return refuse(part, "a number of 0 ... 15");
+        if (m_register.isOfBits())
+            return fail(QStringLiteral("%1: a coil or discrete input is a bit itself").arg(quoted(part)));
+        m_register.type = ModbusRegister::Bit;
+        m_register.bit = quint8(bit);
+        return true;
+    }
+
+    bool readUnit(const QString &part, const QString &value)
+    {
+        qint64 unit = 0;
+        if (!toWhole(value, 0, 255, &unit))
+            return refuse(part, "a number of 0 ... 255");
+        m_register.unit = quint8(unit);
+        return true;
+    }
+
+    bool readWordOrder(const QString &part, const QString &value)
+    {
+        m_register.isLowWordFirst = value == QLatin1String("little");
+        return m_register.isLowWordFirst || value == QLatin1String("big") || refuse(part, "big or little");
+    }
+
+    bool check()
+    {
+        if (m_register.address + m_register.size() <= 0x10000)
+            return true;
+        return fail(QStringLiteral("the value takes %1 registers from %2 on, and the last one of a device is 65535")
+                        .arg(m_register.size())
+                        .arg(m_register.address));
+    }
+
+    ModbusRegister m_register;
+    QString m_error;
+};
+
+}  // namespace
+
+int ModbusRegister::size() const
+{
+    switch (type) {
+    case Int32:
+    case UInt32:
+    case Float32:
+        return 2;
+    case Int64:
+    case Float64:
+        return 4;
+    default:
+        return 1;
+    }
+}
+
+double ModbusRegister::decode(const quint16 *words) const
+{
+    const int count = size();
+    quint64 bits = 0;
+    for (int i = 0; i < count; ++i)
+        bits = (bits << 16) | words[isLowWordFirst ? count - 1 - i : i];
+
+    double raw = 0.0;
+    switch (type) {
+    case Bit:
+        raw = double((bits >> bit) & 1);
+        break;
+    case Int16:
+        raw = double(qint16(bits));
+        break;
+    case Int32:
+        raw = double(qint32(bits));
+        break;
+    case Float32:
+        raw = double(sameBits<float>(quint32(bits)));
+        break;
+    case Int64:
+        raw = double(qint64(bits));
+        break;
+    case Float64:
+        raw = sameBits<double>(bits);
+        break;
+    case UInt16:
+    case UInt32:
+        raw = double(bits);
+        break;
+    }
+    return raw * factor + offset;
+}
+
+void ModbusRegister::encode(double value, quint16 *words) const
+{
+    const double raw = (value - offset) / factor;
+    quint64 bits = 0;
+    switch (type) {
+    case Bit:
+        bits = raw >= 0.5 ? 1 : 0;
+        break;
+    case Int16:
+        bits = quint16(nearest<qint16>(raw));
+        break;
+    case UInt16:
+        bits = nearest<quint16>(raw);
+        break;
+    case Int32:
+        bits = quint32(nearest<qint32>(raw));
+        break;
+    case UInt32:
+        bits = nearest<quint32>(raw);
+        break;
+    case Float32:
+        bits = sameBits<quint32>(nearest<float>(raw));
+        break;
+    case Int64:
+        bits = quint64(nearest<qint64>(raw));
+        break;
+    case Float64:
+        bits = sameBits<quint64>(raw);
+        break;
+    }
+    const int count = size();
+    for (int i = 0; i < count; ++i, bits >>= 16)
+        words[isLowWordFirst ? i : count - 1 - i] = quint16(bits);
+}
+
+bool ModbusRegister::parse(const QString &text, const ModbusRegister &defaults, ModbusRegister *result, QString *error)
+{
+    RegisterReader reader(defaults);
+    const bool ok = reader.read(text);
+    if (ok)
+        *result = reader.result();
+    else
+        *error = reader.error();
+    return ok;
+}
+
+}  // namespace qplc

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QtCore/QString>
+
+namespace qplc {
+
+/// Where a value lies in a Modbus device, and what its bits mean: "holding 100, int32, factor 0.1".
+struct ModbusRegister
+{
+    enum Space : quint8 {
+        Coil,      ///< a bit, read and written
+        Discrete,  ///< a bit, read
+        Input,     ///< 16 bits, read
+        Holding    ///< 16 bits, read and written
+    };
+    enum Type : quint8 { Bit, Int16, UInt16, Int32, UInt32, Float32, Int64, Float64 };
+
+    Space space = Holding;
+    Type type = UInt16;
+    quint8 unit = 1;
+    quint8 bit = 0;  // of the register, when it is one of an Input or Holding register; 0 is the lowest
+    bool isLowWordFirst = false;
+    quint16 address = 0;  // as on the wire: from 0
+    double factor = 1.0;
+    double offset = 0.0;
+
+    bool isOfBits() const { return space == Coil || space == Discrete; }
+    bool isWritable() const { return space == Coil || (space == Holding && type != Bit); }
+    /// How many bits (Coil, Discrete) or registers it takes.
+    int size() const;
+
+    /// \param words  size() of them, one for each bit or register
+    double decode(const quint16 *words) const;
+    /// The nearest value that the type can hold.
+    void encode(double value, quint16 *words) const;
+
+    /// \param defaults  has what \a text does not say
+    /// \return false with the offending text and what would be right in \a error
+    static bool parse(const QString &text, const ModbusRegister &defaults, ModbusRegister *result, QString *error);
+};
+
+}  // namespace qplc

@@ -1,0 +1,319 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "../DriverBench.h"
+#include "hardware/modbus/FakeModbusDevice.h"
+
+#include <QtTest/QtTest>
+
+using qplc::FakeModbusDevice;
+using qplc::ModbusException;
+using qplc::ModbusRegister;
+using qplc::ModbusRequest;
+using namespace std::chrono_literals;
+using Words = std::vector<quint16>;
+
+// The driver with a device of this process: what it asks for, what it makes of the answers, what it says.
+class tst_ModbusDriver : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void init() { m_device = FakeModbusDevice::named("drive"); }
+    void cleanup() { m_device.reset(); }
+
+    void valuesHaveTheirNames();
+    void onlyWhatIsWiredIsRead();
+    void aChannelMayBeReadAndWritten();
+    void neighboursAreWrittenInOneRequest();
+    void singleValuesMayBeWrittenAsMany();
+    void valuesAreWrittenAgainAndAgain();
+    void valuesMayBeWrittenWhenTheyChange();
+    void afterALossAllIsWrittenAgain();
+    void aValueThatIsNoNumberIsNone();
+    void severalUnitsShareADevice();
+    void anExceptionNamesTheRegistersInWords_data();
+    void anExceptionNamesTheRegistersInWords();
+    void aRefusedWriteNamesItsRegister();
+    void aBusyDeviceIsAskedAgainForAWhile();
+    void aDeviceThatIsNotThereIsSaid();
+    void aLostDeviceIsNoSourceOfValues();
+    void whatCanOnlyBeReadIsNotWritten();
+    void onePlaceHasOneWriter();
+    void keysThatCannotBeMeantAreErrors_data();
+    void keysThatCannotBeMeantAreErrors();
+
+private:
+    static QByteArray keys(const QByteArray &more) { return "device = fake:drive\n" + more; }
+    std::shared_ptr<FakeModbusDevice> m_device;
+};
+
+void tst_ModbusDriver::valuesHaveTheirNames()
+{
+    DriverBench bench("modbus",
+                      keys("register.speed = holding 100, int16, factor 0.1\nregister.ready = discrete 3\n"
+                           "register.position = input 7, int32, word-order little\n"));
+    QCOMPARE(bench.errors(), QString());
+    for (const char *name : {"speed", "ready", "position"})
+        QCOMPARE(bench.wireRead(name), QString());
+    m_device->set(ModbusRegister::Holding, 100, {quint16(-125)});
+    m_device->set(ModbusRegister::Discrete, 3, {1});
+    m_device->set(ModbusRegister::Input, 7, {0x5678, 0x1234});
+    QVERIFY2(bench.open(), qPrintable(bench.errorString()));
+    QVERIFY(!bench.isFresh("speed"));
+    QVERIFY2(bench.exchange(), qPrintable(bench.errorString()));
+    QCOMPARE(bench.value("speed"), -12.5);
+    QCOMPARE(bench.value("ready"), 1.0);
+    QCOMPARE(bench.value("position"), double(0x12345678));
+    bench.advance(31ms);
+    QVERIFY(!bench.isFresh("speed"));
+}
+
+void tst_ModbusDriver::onlyWhatIsWiredIsRead()
+{
+    DriverBench bench("modbus", keys("register.a = holding 1\nregister.b = holding 2\nregister.c = holding 3\n"));
+    bench.wireRead("a");
+    bench.wireRead("b");
+    QVERIFY(bench.open() && bench.exchange());
+    const std::vector<ModbusRequest> reads = m_device->takeReads();
+    QCOMPARE(reads.size(), std::size_t(1));
+    QCOMPARE(reads[0].first, quint16(1));
+    QCOMPARE(reads[0].count, 2);
+    QVERIFY(m_device->takeWrites().empty());
+}
+
+void tst_ModbusDriver::aChannelMayBeReadAndWritten()
+{
+    DriverBench bench("modbus", keys("register.torque = holding 5, int16\n"));
+    QCOMPARE(bench.wireRead("torque"), QString());
+    QCOMPARE(bench.wireWrite("torque"), QString());
+    QVERIFY(bench.open());
+    QVERIFY(bench.exchange());
+    QVERIFY(m_device->takeWrites().empty());  // nobody has said a value
+    bench.set("torque", -7.0);
+    QVERIFY(bench.exchange());
+    QCOMPARE(m_device->values(ModbusRegister::Holding, 5, 1), Words{quint16(-7)});
+    QCOMPARE(bench.value("torque"), -7.0);
+}
+
+void tst_ModbusDriver::neighboursAreWrittenInOneRequest()
+{
+    DriverBench bench("modbus",
+                      keys("register.a = holding 10, int32\nregister.b = holding 12\nregister.on = coil 4\n"));
+    for (const char *name : {"a", "b", "on"})
+        bench.wireWrite(name);
+    QVERIFY(bench.open());
+    bench.set("a", 65537.0);
+    bench.set("b", 3.0);
+    bench.set("on", 1.0);
+    QVERIFY(bench.exchange());
+    const std::vector<ModbusRequest> writes = m_device->takeWrites();
+    QCOMPARE(writes.size(), std::size_t(2));
+    QVERIFY(writes[0].isSingle);
+    QCOMPARE(writes[1].count, 3);
+    QVERIFY(!writes[1].isSingle);
+    QCOMPARE(m_device->values(ModbusRegister::Holding, 10, 3), (Words{1, 1, 3}));
+    QCOMPARE(m_device->values(ModbusRegister::Coil, 4, 1), Words{1});
+}
+
+void tst_ModbusDriver::singleValuesMayBeWrittenAsMany()
+{
+    DriverBench bench("modbus", keys("write-single = no\nregister.a = holding 10\n"));
+    bench.wireWrite("a");
+    QVERIFY(bench.open());
+    bench.set("a", 1.0);
+    QVERIFY(bench.exchange());
+    QVERIFY(!m_device->takeWrites().at(0).isSingle);
+}
+
+void tst_ModbusDriver::valuesAreWrittenAgainAndAgain()
+{
+    DriverBench bench("modbus", keys("register.a = holding 10\n"));
+    bench.wireWrite("a");
+    QVERIFY(bench.open());
+    bench.set("a", 1.0);
+    for (int i = 0; i < 3; ++i)
+        QVERIFY(bench.exchange());
+    QCOMPARE(m_device->takeWrites().size(), std::size_t(3));
+}
+
+void tst_ModbusDriver::valuesMayBeWrittenWhenTheyChange()
+{
+    DriverBench bench("modbus", keys("write = on-change\nregister.a = holding 10\nregister.b = holding 11\n"));
+    bench.wireWrite("a");
+    bench.wireWrite("b");
+    QVERIFY(bench.open());
+    bench.set("a", 1.0);
+    bench.set("b", 2.0);
+    QVERIFY(bench.exchange());
+    m_device->takeWrites();
+    bench.set("a", 1.2);  // the same for the device
+    QVERIFY(bench.exchange());
+    QVERIFY(m_device->takeWrites().empty());
+    bench.set("b", 5.0);
+    QVERIFY(bench.exchange());
+    QCOMPARE(m_device->takeWrites().at(0).first, quint16(11));
+    QCOMPARE(m_device->values(ModbusRegister::Holding, 10, 2), (Words{1, 5}));
+}
+
+void tst_ModbusDriver::afterALossAllIsWrittenAgain()
+{
+    DriverBench bench("modbus", keys("write = on-change\nregister.a = holding 10\n"));
+    bench.wireWrite("a");
+    QVERIFY(bench.open());
+    bench.set("a", 1.0);
+    QVERIFY(bench.exchange());
+    bench.close();
+    m_device->set(ModbusRegister::Holding, 10, {0});  // it was switched off
+    QVERIFY(bench.open());
+    QVERIFY(bench.exchange());
+    QCOMPARE(m_device->values(ModbusRegister::Holding, 10, 1), Words{1});
+}
+
+void tst_ModbusDriver::aValueThatIsNoNumberIsNone()
+{
+    DriverBench bench("modbus", keys("register.level = input 0, float32\n"));
+    bench.wireRead("level");
+    m_device->set(ModbusRegister::Input, 0, {0x3f80, 0});
+    QVERIFY(bench.open() && bench.exchange());
+    QCOMPARE(bench.value("level"), 1.0);
+    m_device->set(ModbusRegister::Input, 0, {0x7fc0, 0});  // how a device says that its sensor is broken
+    QVERIFY(bench.exchange());
+    QVERIFY(!bench.isFresh("level"));
+}
+
+void tst_ModbusDriver::severalUnitsShareADevice()
+{
+    DriverBench bench("modbus", keys("unit = 3\nregister.a = holding 1\nregister.b = holding 2, unit 4\n"));
+    bench.wireRead("a");
+    bench.wireRead("b");
+    m_device->set(ModbusRegister::Holding, 1, {10, 11}, 3);
+    m_device->set(ModbusRegister::Holding, 1, {20, 21}, 4);
+    QVERIFY(bench.open() && bench.exchange());
+    QCOMPARE(bench.value("a"), 10.0);
+    QCOMPARE(bench.value("b"), 21.0);
+}
+
+void tst_ModbusDriver::anExceptionNamesTheRegistersInWords_data()
+{
+    QTest::addColumn<int>("exception");
+    QTest::addColumn<QString>("words");
+    QTest::newRow("1") << 1 << "does not know this function (exception 1)";
+    QTest::newRow("2") << 2 << "has not all of these addresses (exception 2); they count from 0 here";
+    QTest::newRow("3") << 3 << "refuses the value (exception 3)";
+    QTest::newRow("4") << 4 << "it has failed (exception 4)";
+    QTest::newRow("8") << 8 << "answers with exception 8";
+    QTest::newRow("11") << 11 << "the gateway gets no answer from this unit";
+}
+
+void tst_ModbusDriver::anExceptionNamesTheRegistersInWords()
+{
+    QFETCH(int, exception);
+    QFETCH(QString, words);
+    DriverBench bench("modbus", keys("register.speed = holding 100\nregister.torque = holding 101\n"));
+    bench.wireRead("speed");
+    bench.wireRead("torque");
+    QVERIFY(bench.open() && bench.exchange());
+    m_device->answerWith(ModbusException(exception), ModbusRegister::Holding, 101);
+    QVERIFY(!bench.exchange());
+    const QString error = bench.errorString();
+    QVERIFY2(error.startsWith("fake:drive: cannot read holding registers 100 ... 101 (speed, torque) of unit 1: "),
+             qPrintable(error));
+    QVERIFY2(error.contains(words), qPrintable(error));
+    QVERIFY(!bench.isFresh("speed"));
+}
+
+void tst_ModbusDriver::aRefusedWriteNamesItsRegister()
+{
+    DriverBench bench("modbus", keys("register.limit = holding 7, unit 2\n"));
+    bench.wireWrite("limit");
+    QVERIFY(bench.open());
+    m_device->answerWith(ModbusException::RefusedValue, ModbusRegister::Holding, 7);
+    bench.set("limit", 5.0);
+    QVERIFY(!bench.exchange());
+    QVERIFY2(bench.errorString().contains("cannot write holding register 7 (limit) of unit 2: it refuses the value"),
+             qPrintable(bench.errorString()));
+}
+
+void tst_ModbusDriver::aBusyDeviceIsAskedAgainForAWhile()
+{
+    DriverBench bench("modbus", keys("interval = 10 ms\ntimeout = 100 ms\nregister.a = holding 1\n"));
+    bench.wireRead("a");
+    QVERIFY(bench.open() && bench.exchange());
+    m_device->answerWith(ModbusException::Busy, ModbusRegister::Holding, 1);
+    for (int i = 0; i <= 10; ++i) {
+        bench.advance(10ms);
+        QVERIFY2(bench.exchange(), qPrintable(bench.errorString()));
+    }
+    bench.advance(10ms);
+    QVERIFY(!bench.exchange());
+    QVERIFY2(bench.errorString().contains("busy for too long"), qPrintable(bench.errorString()));
+}
+
+void tst_ModbusDriver::aDeviceThatIsNotThereIsSaid()
+{
+    DriverBench bench("modbus", keys("register.a = holding 1\n"));
+    bench.wireRead("a");
+    m_device->setPresent(false);
+    QVERIFY(!bench.open());
+    QVERIFY2(bench.errorString().startsWith("fake:drive: "), qPrintable(bench.errorString()));
+    m_device->setPresent(true);
+    QVERIFY(bench.open());
+}
+
+void tst_ModbusDriver::aLostDeviceIsNoSourceOfValues()
+{
+    DriverBench bench("modbus", keys("register.a = holding 1\n"));
+    bench.wireRead("a");
+    QVERIFY(bench.open() && bench.exchange());
+    m_device->setPresent(false);
+    QVERIFY(!bench.exchange());
+    QVERIFY(!bench.isFresh("a"));
+    QVERIFY2(bench.errorString().contains("cannot read holding register 1 (a)"), qPrintable(bench.errorString()));
+    m_device->setPresent(true);
+    QVERIFY(bench.open() && bench.exchange());
+    QVERIFY(bench.isFresh("a"));
+}
+
+void tst_ModbusDriver::whatCanOnlyBeReadIsNotWritten()
+{
+    DriverBench bench("modbus", keys("register.a = input 1\nregister.b = discrete 1\nregister.c = holding 1, bit 3\n"));
+    QCOMPARE(bench.errors(), QString());
+    QCOMPARE(bench.wireWrite("a"), QString("'a' can only be read: it is of the input registers"));
+    QCOMPARE(bench.wireWrite("b"), QString("'b' can only be read: it is of the discrete inputs"));
+    QCOMPARE(bench.wireWrite("c"),
+             QString("'c' is a bit of a register, which can only be read; write the whole register"));
+    QVERIFY(bench.wireRead("aa").contains("did you mean 'a'"));
+}
+
+void tst_ModbusDriver::onePlaceHasOneWriter()
+{
+    DriverBench bench("modbus", keys("register.a = holding 1, int32\nregister.b = holding 2\n"));
+    QCOMPARE(bench.wireWrite("a"), QString());
+    QCOMPARE(bench.wireWrite("b"), QString("'b' and 'a' are the same place of the device; write one of them"));
+    QCOMPARE(bench.wireRead("b"), QString());
+}
+
+void tst_ModbusDriver::keysThatCannotBeMeantAreErrors_data()
+{
+    QTest::addColumn<QByteArray>("text");
+    QTest::addColumn<QString>("error");
+    const QByteArray a = "register.a = holding 1\n";
+    QTest::newRow("no device") << a << "device";
+    QTest::newRow("unknown way") << "device = udp:host\n" + a << "'udp:host' is no Modbus device; tcp:HOST";
+    QTest::newRow("no registers") << QByteArray("device = fake:x\n") << "no register is named";
+    QTest::newRow("register") << QByteArray("device = fake:x\nregister.a = holding\n") << "4:14: 'holding' is no place";
+    QTest::newRow("misspelt") << "device = fake:x\nbuad = 9600\n" + a << "buad";
+    QTest::newRow("gap") << "device = fake:x\ngap = -1\n" + a << "gap";
+    QTest::newRow("write") << "device = fake:x\nwrite = never\n" + a << "never";
+    QTest::newRow("fake without a name") << "device = fake:\n" + a << "is no Modbus device";
+}
+
+void tst_ModbusDriver::keysThatCannotBeMeantAreErrors()
+{
+    QFETCH(QByteArray, text);
+    QFETCH(QString, error);
+    const DriverBench bench("modbus", text);
+    QVERIFY2(bench.errors().contains(error), qPrintable(bench.errors()));
+}
+
+QTEST_APPLESS_MAIN(tst_ModbusDriver)
+#include "tst_ModbusDriver.moc"
