@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The hardware library on the devices of the kernel, and what of the core depends on the kernel."""
+from pathlib import Path
+
+from steps import Skipped, command, program
+
+CORE_TESTS = ("tst_QPlcRealTimeOptions", "tst_CycleThread", "tst_HotPath", "tst_SystemFacts", "tst_MasterCycle")
+SKIP_CODE = 77
+
+
+def steps(bench):
+    for name in CORE_TESTS:
+        yield f"core: {name}", lambda name=name: test(name)
+    yield "hardware: conformance of the drivers on devices of the kernel", lambda: test("tst_DriverConformance", bench.environment())
+    yield "hardware: 20 CAN frames a cycle on vcan", lambda: can_frames(bench)
+
+
+def test(name, environment=None):
+    """Runs a Qt Test program. \\return how many functions passed"""
+    output = command(program(name), seconds=240, environment=environment)
+    totals = [line for line in output.splitlines() if line.startswith("Totals:")]
+    skipped = [line.strip() for line in output.splitlines() if line.startswith("SKIP")]
+    print("\n".join(skipped), end="\n" if skipped else "")
+    return totals[-1].removeprefix("Totals: ") if totals else None
+
+
+def can_frames(bench):
+    if not bench.can:
+        raise Skipped("there is no CAN")
+    benchmark = program("can_cycles")
+    return command(benchmark, bench.can, seconds=240).strip().splitlines()[-1]
