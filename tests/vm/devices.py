@@ -157,13 +157,17 @@ class GpioRecord:
         (self.TRACING / "events/qtplc/enable").write_text("0")
         (self.TRACING / "kprobe_events").write_text("")
 
-    def first_low(self, line):
-        """When the line was set low first [s, monotonic clock]; None: it was not."""
+    def low_since(self, line):
+        """Since when the line has been set low [s, monotonic clock]; None: it is not, or it was before the record."""
+        since = None
         for entry in (self.TRACING / "trace").read_text().splitlines():
             time = re.search(r"\s(\d+\.\d+): (set|set_multiple): ", entry)
-            if time and self.level(entry, line) == 0:
-                return float(time[1])
-        return None
+            level = self.level(entry, line) if time else None
+            if level == 1:
+                since = None
+            elif level == 0 and since is None:
+                since = float(time[1])
+        return since
 
     @staticmethod
     def level(entry, line):

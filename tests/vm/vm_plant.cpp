@@ -14,7 +14,7 @@
 
 namespace {
 
-constexpr const char *table = "[lamp]\ntype = Real64\nsafe = 0\nhold = 2\n";
+constexpr const char *table = "[lamp]\ntype = Real64\nsafe = 0\nhold = 10\n";
 volatile std::sig_atomic_t isToThrow = 0;
 
 void throwOnSignal()
