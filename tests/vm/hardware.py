@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The hardware library on the devices of the kernel, and what of the core depends on the kernel."""
+import json
 from pathlib import Path
 
 from steps import Skipped, command, program
@@ -27,5 +28,8 @@ def test(name, environment=None):
 def can_frames(bench):
     if not bench.can:
         raise Skipped("there is no CAN")
-    benchmark = program("can_cycles")
-    return command(benchmark, bench.can, seconds=240).strip().splitlines()[-1]
+    output = command(program("qtplc_can_cycle"), "--device", bench.can, "--period-us", "20000", "--seconds", "20", seconds=240)
+    result = json.loads(output.strip().splitlines()[-1])
+    faults = {name: result[name] for name in ("lost", "reordered", "unsent")}
+    assert not any(faults.values()), f"frames went wrong: {faults}"
+    return f"{result['frames_in']:.0f} frames in, {result['frames_out']:.0f} out, none lost, reordered or unsent"
