@@ -139,6 +139,9 @@ void tst_HardwareConfiguration::whatIsWrongIsNamedWithItsPlace_data()
     const auto add = [](const char *name, const QByteArray &text, const QString &error) {
         QTest::newRow(name) << text << QStringLiteral("winch.ini:") + error;
     };
+    QStringList kinds;
+    for (const auto &kind : QPlcHardwareNode::driverKinds())
+        kinds << kind.first;
     QTest::newRow("empty")
         << QByteArray()
         << "winch.ini: there is no device; begin a section for each of them: [drive], driver = can, ...";
@@ -147,7 +150,7 @@ void tst_HardwareConfiguration::whatIsWrongIsNamedWithItsPlace_data()
     add("no kind", "[drive]\ndevice = b\n",
         "1: section 'drive' does not say what drives it; add for example 'driver = can'");
     add("unknown kind", "[drive]\ndriver = bensh\n",
-        "2:10: there is no driver 'bensh'; did you mean 'bench'?; known are: bench");
+        "2:10: there is no driver 'bensh'; did you mean 'bench'?; known are: " + kinds.join(", "));
     add("unknown key", drive + "gian = 3\n", "4:8: 'gian' is no key of this driver; did you mean 'gain'?");
     add("missing key", "[drive]\ndriver = bench\n",
         "2:10: section 'drive' needs the key 'device', for example 'device = bench0'");
