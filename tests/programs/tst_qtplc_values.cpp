@@ -342,9 +342,9 @@ void tst_qtplc_values::watchScrolls()
     terminal.press("\033[B\033[6~");
     QTRY_VERIFY_WITH_TIMEOUT(terminal.screen().contains("rows 19-35 of"), Program::patience);
     terminal.press("G");
-    QTRY_VERIFY_WITH_TIMEOUT(terminal.screen().contains("rows 26-42 of 42"), Program::patience);
+    QTRY_VERIFY_WITH_TIMEOUT(terminal.screen().contains("rows 32-48 of 48"), Program::patience);
     terminal.press("xyz\033[A");
-    QTRY_VERIFY_WITH_TIMEOUT(terminal.screen().contains("rows 25-41 of"), Program::patience);
+    QTRY_VERIFY_WITH_TIMEOUT(terminal.screen().contains("rows 31-47 of"), Program::patience);
     terminal.press("q");
     QCOMPARE(watch.waitForEnd(), 0);
 }
