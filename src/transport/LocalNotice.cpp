@@ -13,7 +13,7 @@ namespace qplc {
 namespace {
 
 /// Of this user alone; empty: there is none. Not that of QStandardPaths, which warns where there is no session of a desktop.
-QByteArray folder()
+QByteArray noticeFolder()
 {
     const QByteArray session = qgetenv("XDG_RUNTIME_DIR");
     const QByteArray path = session.startsWith('/') ? session + "/qtplc-masters"
@@ -77,7 +77,7 @@ void removeDead(const QByteArray &folder)
 bool LocalNotice::post(const QByteArray &content)
 {
     withdraw();
-    const QByteArray home = folder();
+    const QByteArray home = noticeFolder();
     if (home.isEmpty() || content.size() > MaximumSize)
         return false;
     removeDead(home);
@@ -106,7 +106,7 @@ void LocalNotice::withdraw()
 QVector<QByteArray> LocalNotice::all()
 {
     QVector<QByteArray> notices;
-    const QByteArray home = folder();
+    const QByteArray home = noticeFolder();
     if (home.isEmpty())
         return notices;
     for (const QByteArray &file : filesIn(home)) {
