@@ -267,7 +267,22 @@ Gate plantRecovers(const Evidence &evidence)
 
 namespace {
 
-/// By how much a counter of the master has grown from the last look before a fault to the first one after it; -1 when nobody can tell.
+/// When the phase began that the master was in at \a time; 0: in none.
+qint64 beginOfPhase(const History &master, qint64 time)
+{
+    qint64 begin = 0;
+    for (const Record &record : master.records) {
+        if (record.kind != Record::State || record.time > time)
+            continue;
+        const bool isRunning
+            = record.numbers[0] == Record::RealTime || record.numbers[0] == Record::WaitingForLateSlaves;
+        begin = !isRunning ? 0 : begin > 0 ? begin : record.time;
+    }
+    return begin;
+}
+
+/// By how much a counter of the master has grown from the last look before a fault to the first one after it, or since its phase began, when nobody has looked since; -1 when nobody can
+/// tell.
 qint64 growth(const Evidence &evidence, const DoneFault &fault, Record::MasterNumber number)
 {
     const History *master = evidence.masterAt(fault.begin);
@@ -283,9 +298,14 @@ qint64 growth(const Evidence &evidence, const DoneFault &fault, Record::MasterNu
         else if (!after && record.time >= fault.end + Settled / 2)
             after = &record;
     }
-    const bool isOnePhase
-        = before && after && before->numbers[Record::MasterPhase] == after->numbers[Record::MasterPhase];
-    return isOnePhase ? qint64(after->numbers[number] - before->numbers[number]) : -1;
+    if (!after)
+        return -1;
+    if (before && before->numbers[Record::MasterPhase] == after->numbers[Record::MasterPhase])
+        return qint64(after->numbers[number] - before->numbers[number]);
+    const qint64 begin = beginOfPhase(*master, fault.begin);
+    const bool isSincePhase
+        = begin > 0 && (!before || before->time < begin) && beginOfPhase(*master, after->time) == begin;
+    return isSincePhase ? qint64(after->numbers[number]) : -1;  // counters begin at 0
 }
 
 /// What the product counts of a fault, and what was done; -1: it does not count such a thing.

@@ -31,6 +31,7 @@ private Q_SLOTS:
     void aPlantThatNeverRunsAgainIsFound();
     void datagramsThatAreCountedPass();
     void aDatagramThatIsNotCountedIsFound();
+    void aFaultInTheFirstMomentsOfAPhaseIsCountedToo();
     void aRefusalThatIsNotToldIsFound();
     void aNodeThatIsLostTwiceIsFound();
     void aDescriptorThatLeaksIsFound();
@@ -258,6 +259,17 @@ void tst_PlantGates::aDatagramThatIsNotCountedIsFound()
     for (const quint64 counted : {99U, 101U}) {
         HandMade plant = withStrangers(counted);
         QCOMPARE(plant.judge(&soak::faultsAreCounted).failed, qint64(1));
+    }
+}
+
+void tst_PlantGates::aFaultInTheFirstMomentsOfAPhaseIsCountedToo()
+{
+    for (const quint64 counted : {99U, 100U}) {  // nobody has looked at the counters of this phase before
+        HandMade plant;
+        HandMade::remove(plant.master(), [](const Record &record) { return record.kind == Record::Counters; });
+        plant.addFault(FaultKind::GarbageDatagrams, -1, HandMade::at(1), HandMade::at(4), 100);
+        plant.addCounters(60, 0, counted, HandMade::at(60));
+        QCOMPARE(plant.judge(&soak::faultsAreCounted).passed(), counted == 100);
     }
 }
 
