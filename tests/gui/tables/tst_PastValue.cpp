@@ -47,9 +47,11 @@ void tst_PastValue::aValueHoldsUntilTheNextRow()
     PlantList plants;
     Plant *plant = plants.add(master.address());
     QVERIFY(master.startRealTime());
-    QTRY_VERIFY(plant->store() && plant->store()->endRow() > plant->store()->firstRow() + 5);
+    QTRY_VERIFY(plant->store() && plant->store()->endRow() > plant->store()->firstRow() + 50);
     const SignalStore &store = *plant->store();
-    const SignalStore::Row row = store.firstRow() + 3;
+    SignalStore::Row row = store.firstRow() + 3;
+    while (row < store.endRow() && store.beginsAnew(row + 1))  // a busy computer interrupts
+        ++row;
     const PlantList::Signal count = signalOf(plants, "count");
     const double value = double(store.value(count.channel(), row));
     QCOMPARE(pastValue(count, store.time(row)).toReal(), value);
