@@ -96,12 +96,17 @@ void Evidence::complete()
             DoneFault fault;
             fault.kind = FaultKind(record.numbers[0]);
             fault.node = record.subject == Record::Nobody ? -1 : record.subject;
-            fault.begin = record.time;
+            fault.begin = fault.effect = record.time;
             fault.seed = record.numbers[2];
             fault.end = fault.recovered = std::numeric_limits<qint64>::max();
             faults.push_back(fault);
             break;
         }
+        case Record::Gone:
+            if (!faults.empty() && faults.back().kind == FaultKind::KillNode && faults.back().node == record.subject
+                && faults.back().effect == faults.back().begin)
+                faults.back().effect = record.time;
+            break;
         case Record::FaultEnds:
             if (!faults.empty()) {
                 faults.back().end = record.time;

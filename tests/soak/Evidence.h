@@ -34,6 +34,7 @@ struct DoneFault
     FaultKind kind = FaultKind::KillNode;
     int node = -1;
     qint64 begin = 0;      // [ns]
+    qint64 effect = 0;     // from here on it can be seen: a killed process is gone
     qint64 end = 0;        // its cause is gone; when it never went: begin of the next one
     qint64 recovered = 0;  // the whole plant runs again; when it never did: the end of the run
     qint64 amount = 0;     // what was really done

@@ -40,7 +40,8 @@ struct Record
         Recovered,      // the whole plant runs again
         Attempts,       // to do what is forbidden, so far. numbers: see AttemptNumber
         Usage,          // of a process. numbers: see UsageNumber
-        Stall           // the machine did not let a thread run that was ready. numbers: begin [ns]; time: end
+        Stall,          // the machine did not let a thread run that was ready. numbers: begin [ns]; time: end
+        Gone  // a process of the plant that was killed is gone: the kernel takes its time where it waits for a disk
     };
     enum MasterState { Off, Initializing, Ready, RealTime, WaitingForLateSlaves, SafeStop, Fault, UnknownState };
     enum StepNumber {

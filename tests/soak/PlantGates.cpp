@@ -184,8 +184,9 @@ void lookAtEvent(const Evidence &evidence, const DoneFault &fault, Gate *gate)
     }
     const Record &event = *events.front();
     const qint64 limit = evidence.shape.hold + 2;
-    const qint64 cycles = cyclesBetween(*master, begin, event.time);
-    const qint64 stalled = evidence.stalls.within(begin, event.time) + waitedBetween(*master, event, begin);
+    const qint64 from = std::min(std::max(begin, fault.effect), event.time);
+    const qint64 cycles = cyclesBetween(*master, from, event.time);
+    const qint64 stalled = evidence.stalls.within(from, event.time) + waitedBetween(*master, event, from);
     gate->largest(QString::fromLatin1(FaultNames[std::size_t(fault.kind)]) + QStringLiteral(" [cycles]"),
                   double(cycles));
     if (cycles <= limit)

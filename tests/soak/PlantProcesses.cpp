@@ -141,8 +141,10 @@ bool PlantProcesses::startMaster(QString *error)
 void PlantProcesses::startNode(int node, const QStringList &extraArguments)
 {
     Node &slot = m_nodes[std::size_t(node)];
-    if (slot.process)
+    if (slot.process) {
         slot.process->destroy();
+        m_history.append(Record::Gone, node);
+    }
     const QString name = QStringLiteral("%1-life%2").arg(nodeName(node)).arg(++slot.life);
     const double watchdog = double(m_profile.shape.hold * m_profile.periodUs) * 1e-6;
     const QStringList arguments = shapeArguments(m_profile.shape, slot.life, file(name + QStringLiteral(".history")))

@@ -21,6 +21,7 @@ private Q_SLOTS:
     void aPhaseThatWasCutOffIsJudgedByItsGridAlone();
     void aFaultThatIsToldInTimePasses();
     void aFaultThatIsToldTooLateIsFound();
+    void aProcessThatEndsSlowlyIsToldInTimeAfterItsEnd();
     void aCutIsOneOfTheLifeThatHasIt();
     void aFaultThatNobodyIsToldOfIsFound();
     void aFaultThatIsToldLateBecauseOfTheMachineIsExcused();
@@ -176,6 +177,19 @@ void tst_PlantGates::aFaultThatIsToldTooLateIsFound()
     plant.addFault(FaultKind::KillNode, 1, HandMade::at(50) + ms, HandMade::at(51));
     HandMade::add(plant.master(), Record::Lost, 1, HandMade::at(57) + ms);
     QCOMPARE(plant.judge(&soak::faultsAreSeen).failed, qint64(1));
+}
+
+void tst_PlantGates::aProcessThatEndsSlowlyIsToldInTimeAfterItsEnd()
+{
+    for (const int cycle : {84, 87}) {
+        HandMade plant(100);
+        HandMade::add(plant.runner(), Record::Gone, 1, HandMade::at(80) + ms);
+        plant.addFault(FaultKind::KillNode, 1, HandMade::at(50) + ms, HandMade::at(81));
+        HandMade::add(plant.master(), Record::Lost, 1, HandMade::at(cycle) + ms);
+        const Gate gate = plant.judge(&soak::faultsAreSeen);
+        QCOMPARE(gate.failed, qint64(cycle == 87));
+        QCOMPARE(gate.figures["kill a node [cycles]"], double(cycle - 80));
+    }
 }
 
 void tst_PlantGates::aCutIsOneOfTheLifeThatHasIt()
