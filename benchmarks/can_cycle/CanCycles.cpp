@@ -9,8 +9,9 @@
 
 namespace {
 
-constexpr int ownChannels = 3;           // before those of the messages
-constexpr qint64 stampTolerance = 1000;  // [us] that a frame may need from its making to the bus, besides a period
+constexpr int ownChannels = 3;          // before those of the messages
+constexpr int inChannels = 3;           // of each message that comes in
+constexpr qint64 stampTolerance = 100;  // [us] the stamps of the kernel are of the other clock
 
 }  // namespace
 
@@ -25,12 +26,13 @@ QByteArray CanCycles::configurationText(const QString &device, int frames)
 {
     QByteArray text = "[bench]\ndriver = can\ndevice = " + device.toUtf8() + "\n";
     const auto add = [&text](const QByteArray &name, quint32 id) {
-        text += "frame." + name + " = " + QByteArray::number(id) + ", 8 bytes\nsignal." + name
-            + ".Count = 0|32@1+\nsignal." + name + ".Time = 32|32@1+\n";
+        text += "frame." + name + " = " + QByteArray::number(id) + ", 8 bytes\nsignal." + name + ".Count = 0|24@1+\n";
     };
     for (int i = 0; i < frames; ++i) {
         add("To" + QByteArray::number(i), CanStamp::ToPartner + quint32(i));
-        add("From" + QByteArray::number(i), CanStamp::FromPartner + quint32(i));
+        const QByteArray from = "From" + QByteArray::number(i);
+        add(from, CanStamp::FromPartner + quint32(i));
+        text += "signal." + from + ".Time = 24|24@1+\nsignal." + from + ".Took = 48|16@1+\n";
     }
     return text;
 }
@@ -50,10 +52,9 @@ bool CanCycles::makeDriver()
     for (const char *name : {"@received", "@lost", "@unsent"})
         m_runner->wire(QString::fromLatin1(name), QPlcChannel::Read, &m_error);
     for (int i = 0; i < m_frames; ++i) {
-        for (const QString &signal : {QStringLiteral("Count"), QStringLiteral("Time")}) {
-            m_runner->wire(QStringLiteral("From%1.%2").arg(i).arg(signal), QPlcChannel::Read, &m_error);
-            m_runner->wire(QStringLiteral("To%1.%2").arg(i).arg(signal), QPlcChannel::Write, &m_error);
-        }
+        for (const char *signal : {"Count", "Time", "Took"})
+            m_runner->wire(QStringLiteral("From%1.%2").arg(i).arg(QLatin1String(signal)), QPlcChannel::Read, &m_error);
+        m_runner->wire(QStringLiteral("To%1.Count").arg(i), QPlcChannel::Write, &m_error);
     }
     return m_error.isEmpty();
 }
@@ -63,7 +64,7 @@ bool CanCycles::begin(bool withCan)
     m_withCan = withCan;
     m_received = 0.0;
     if (withCan) {
-        m_last.assign(std::size_t(m_frames), 0);
+        m_last.assign(std::size_t(m_frames), Seen());
         if (!makeDriver())
             return false;
         if (!m_runner->openNow()) {
@@ -111,27 +112,36 @@ void CanCycles::exchange(qint64 now, quint32 cycle)
     m_runner->read(now);
     for (std::size_t i = 0; i < m_last.size(); ++i)
         look(i, now);
-    for (int i = 0; i < m_frames; ++i) {
-        m_runner->setValue(2 * i, cycle, false);
-        m_runner->setValue(2 * i + 1, double(quint32(now / 1000)), false);
-    }
+    for (int i = 0; i < m_frames; ++i)
+        m_runner->setValue(i, cycle, false);
     m_runner->write(now);
 }
 
 void CanCycles::look(std::size_t message, qint64 now)
 {
-    const int channel = ownChannels + 2 * int(message);
-    const qplc::DriverRunner::Sample count = m_runner->sample(channel, now);
-    if (!count.isFresh)
+    const int channel = ownChannels + inChannels * int(message);
+    const qplc::DriverRunner::Sample sample = m_runner->sample(channel, now);
+    if (!sample.isFresh)
         return;
-    m_wentBack += quint32(count.value) < m_last[message] ? 1 : 0;
-    if (quint32(count.value) != m_last[message]) {
-        const auto made = quint32(m_runner->sample(channel + 1, now).value);
-        const auto delay = qint32(quint32(count.time / 1000) - made);  // [us]
-        m_wrongAges += delay < 0 || delay > stampTolerance + m_period / 1000 || count.time > now + 1'000'000 ? 1 : 0;
-        m_age.record(now - count.time);
-    }
-    m_last[message] = quint32(count.value);
+    const auto valueOf = [&](int which) { return quint32(m_runner->sample(channel + which, now).value); };
+    const quint32 count = quint32(sample.value);
+    Seen &seen = m_last[message];
+    m_wentBack += count < seen.count ? 1 : 0;
+    if (count == seen.count)
+        return;
+    judge(seen, count, valueOf(2));
+    // The low bits of a difference are those of the time between.
+    const quint32 delay = (quint32(sample.time / 1000) - valueOf(1)) & CanStamp::TimeMask;
+    seen = {count, delay <= CanStamp::TimeMask / 2 ? qint64(delay) : qint64(delay) - CanStamp::TimeMask - 1};
+    m_age.record(now - sample.time);
+}
+
+void CanCycles::judge(const Seen &seen, quint32 count, quint32 took)
+{
+    if (seen.count == 0 || count != seen.count + 1 || took == CanStamp::LongestTook)
+        return;  // the frame that told how long it was is not there
+    ++m_judgedAges;
+    m_wrongAges += seen.delay < -stampTolerance || seen.delay > took + stampTolerance ? 1 : 0;
 }
 
 void CanCycles::addFigures(QJsonObject *fields, const QString &name, const qplc::Histogram &histogram) const
@@ -158,6 +168,7 @@ QJsonObject CanCycles::result() const
     }
     addFigures(&fields, QStringLiteral("age"), m_age);
     fields.insert(QStringLiteral("reordered_here"), double(m_wentBack));
+    fields.insert(QStringLiteral("judged_ages"), double(m_judgedAges));
     fields.insert(QStringLiteral("wrong_ages"), double(m_wrongAges));
     fields.insert(QStringLiteral("queue_overflows"), double(m_lost));
     fields.insert(QStringLiteral("unsent_here"), double(m_unsent));

@@ -26,11 +26,19 @@ public:
     quint64 cycles(bool withCan) const { return m_lateness[withCan].count(); }
 
 private:
+    /// A frame whose stamp is judged when the next one has told how long it was under way.
+    struct Seen
+    {
+        quint32 count = 0;
+        qint64 delay = 0;  // of the stamp after the making of the frame [us]
+    };
+
     static QByteArray configurationText(const QString &device, int frames);
     bool makeDriver();
     void run();
     void exchange(qint64 now, quint32 cycle);
     void look(std::size_t message, qint64 now);
+    void judge(const Seen &seen, quint32 count, quint32 took);
     void addFigures(QJsonObject *fields, const QString &name, const qplc::Histogram &histogram) const;
 
     QString m_device;
@@ -39,7 +47,7 @@ private:
     QString m_error;
     std::unique_ptr<qplc::HardwareConfiguration> m_configuration;
     std::unique_ptr<qplc::DriverRunner> m_runner;
-    std::vector<quint32> m_last;  // count of each message as seen last
+    std::vector<Seen> m_last;  // of each message
     double m_received = 0.0;
     bool m_withCan = false;
     std::atomic<bool> m_stop{false};
@@ -48,8 +56,10 @@ private:
     qplc::Histogram m_lateness[2];  // without and with CAN
     qplc::Histogram m_execution[2];
     quint64 m_skipped[2] = {0, 0};
-    quint64 m_wentBack = 0;   // a count that was smaller than the one before
-    quint64 m_wrongAges = 0;  // stamps that are not those of the frame
+    quint64 m_wentBack = 0;  // a count that was smaller than the one before
+    quint64 m_judgedAges = 0;
+    quint64 m_wrongAges
+        = 0;  // stamps that are not of the time between the making of the frame and the end of its sending
     qplc::Histogram m_age;
     quint64 m_lost = 0;
     quint64 m_unsent = 0;

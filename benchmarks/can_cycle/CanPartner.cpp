@@ -3,6 +3,7 @@
 
 #include "realtime/CycleClock.h"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <poll.h>
@@ -16,7 +17,7 @@ CanPartner::CanPartner(const QString &device, int frames, qint64 period)
 {
     for (std::size_t i = 0; i < m_outgoing.size(); ++i) {
         m_outgoing[i].id = CanStamp::FromPartner + quint32(i);
-        m_outgoing[i].size = sizeof(CanStamp);
+        m_outgoing[i].size = CanStamp::Size;
     }
 }
 
@@ -57,10 +58,13 @@ bool CanPartner::step(bool isSending)
     } while (count == int(frames.size()));
     if (!isSending || m_lastId == 0)
         return count >= 0;
-    const CanStamp stamp{++m_count, quint32(qplc::monotonicNow() / 1000)};
+    const qint64 begin = qplc::monotonicNow() / 1000;  // [us]
+    const quint64 stamp = CanStamp{++m_count, quint32(begin), m_took}.packed();
     for (qplc::CanFrame &frame : m_outgoing)
         std::memcpy(frame.data.data(), &stamp, sizeof stamp);
-    return count >= 0 && m_bus->send(m_outgoing.data(), int(m_outgoing.size())) >= 0;
+    const bool isSent = m_bus->send(m_outgoing.data(), int(m_outgoing.size())) >= 0;
+    m_took = quint32(std::min<qint64>(qplc::monotonicNow() / 1000 + 1 - begin, CanStamp::LongestTook));
+    return count >= 0 && isSent;
 }
 
 void CanPartner::take(const qplc::CanFrame &frame)
@@ -68,15 +72,14 @@ void CanPartner::take(const qplc::CanFrame &frame)
     const quint32 message = frame.id - CanStamp::ToPartner;
     if (message >= m_next.size())
         return;
-    CanStamp stamp;
-    std::memcpy(&stamp, frame.data.data(), sizeof stamp);
+    const quint32 count = CanStamp::countOf(frame);
     quint32 &next = m_next[message];
     const bool isInTurn = m_lastId == 0 || frame.id == m_lastId + 1 || message == 0;
-    if (next != 0 && stamp.count > next)
-        m_lost += stamp.count - next;
-    if ((next != 0 && stamp.count < next) || !isInTurn)
+    if (next != 0 && count > next)
+        m_lost += count - next;
+    if ((next != 0 && count < next) || !isInTurn)
         ++m_reordered;
-    next = stamp.count + 1;
+    next = count + 1;
     m_lastId = frame.id;
 }
 

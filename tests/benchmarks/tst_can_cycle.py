@@ -27,6 +27,7 @@ class CanCycle(unittest.TestCase):
         self.assertEqual([figures[name] for name in ("lost", "reordered", "wrong_ages", "unsent")], [0, 0, 0, 0])
         self.assertGreater(figures["frames_in"], 700)
         self.assertGreater(figures["frames_out"], 700)
+        self.assertGreater(figures["judged_ages"], 700)
         self.assertGreater(figures["without_can_cycles"], 10)
         self.assertLessEqual(figures["age_p50_us"], figures["age_max_us"])
 
