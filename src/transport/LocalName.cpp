@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "LocalName.h"
 
-#include <QtCore/QDir>
+#include "realtime/SessionFolder.h"
+
+#include <QtCore/QFile>
 #include <QtCore/QRegularExpression>
 #include <QtCore/QSaveFile>
-#include <QtCore/QStandardPaths>
 
 namespace qplc {
 
 namespace {
 
-QDir folder()
+/// Empty: there is no folder that is of this user alone.
+QString fileOf(const QString &name)
 {
-    return QDir(QStandardPaths::writableLocation(QStandardPaths::RuntimeLocation) + QStringLiteral("/qtplc"));
+    const QByteArray folder = SessionFolder::path("qtplc");
+    return SessionFolder::make(folder) ? QFile::decodeName(folder) + QLatin1Char('/') + name : QString();
 }
 
 bool isName(const QString &name, QString *error)
@@ -31,11 +34,10 @@ bool LocalName::hold(const QString &name, quint16 port, QString *error)
     release();
     if (!isName(name, error))
         return false;
-    folder().mkpath(QStringLiteral("."));
-    QSaveFile file(folder().filePath(name));
+    QSaveFile file(fileOf(name));
     if (!file.open(QIODevice::WriteOnly) || file.write(QByteArray::number(port)) < 0 || !file.commit()) {
-        *error
-            = QStringLiteral("cannot publish the name '%1' in %2: %3").arg(name, file.fileName(), file.errorString());
+        *error = QStringLiteral("cannot publish the name '%1' in the folder %2: %3")
+                     .arg(name, QFile::decodeName(SessionFolder::path("qtplc")), file.errorString());
         return false;
     }
     m_file = file.fileName();
@@ -53,7 +55,7 @@ quint16 LocalName::portOf(const QString &name, QString *error)
 {
     if (!isName(name, error))
         return 0;
-    QFile file(folder().filePath(name));
+    QFile file(fileOf(name));
     const quint16 port = file.open(QIODevice::ReadOnly) ? file.read(16).toUShort() : quint16(0);
     if (port == 0)
         *error = QStringLiteral("no master with the name '%1' runs on this machine for this user; start it with this "

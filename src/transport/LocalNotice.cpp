@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "LocalNotice.h"
 
+#include "realtime/SessionFolder.h"
+
 #include <QtCore/QDir>
 
 #include <cstdlib>
@@ -12,17 +14,11 @@ namespace qplc {
 
 namespace {
 
-/// Of this user alone; empty: there is none. Not that of QStandardPaths, which warns where there is no session of a desktop.
+/// Empty: there is none that is of this user alone.
 QByteArray noticeFolder()
 {
-    const QByteArray session = qgetenv("XDG_RUNTIME_DIR");
-    const QByteArray path = session.startsWith('/') ? session + "/qtplc-masters"
-                                                    : "/tmp/qtplc-masters-" + QByteArray::number(quint64(::getuid()));
-    ::mkdir(path.constData(), S_IRWXU);
-    struct stat status = {};
-    const bool isOurs = ::lstat(path.constData(), &status) == 0 && S_ISDIR(status.st_mode)
-        && status.st_uid == ::getuid() && (status.st_mode & (S_IWGRP | S_IWOTH)) == 0;
-    return isOurs ? path : QByteArray();
+    const QByteArray path = SessionFolder::path("qtplc-masters");
+    return SessionFolder::make(path) ? path : QByteArray();
 }
 
 struct flock wholeFile()

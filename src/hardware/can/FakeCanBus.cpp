@@ -117,7 +117,8 @@ bool FakeCanBus::openBoard()
                            "QTPLC_FAKE_DEVICES to a shorter one")
                 .arg(m_name, folder())
                 .arg(sizeof(sockaddr_un::sun_path) - 4));
-    QDir().mkpath(folder());
+    if (!FakeMemory::makeFolder() || !QDir().mkpath(folder()))
+        return failWith(QStringLiteral("cannot make the bus"));
     m_boardFile = ::open((m_folder + "/board").constData(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
     if (m_boardFile < 0 || ftruncate(m_boardFile, sizeof(Board)) != 0)
         return failWith(QStringLiteral("cannot make the file 'board'"));

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "FakeMemory.h"
 
+#include "realtime/SessionFolder.h"
+
 #include <QtCore/QDir>
 #include <QtCore/QFile>
-#include <QtCore/QStandardPaths>
 
 #include <cerrno>
 #include <fcntl.h>
@@ -35,7 +36,13 @@ QString FakeMemory::folder()
     const QString chosen = QFile::decodeName(qgetenv("QTPLC_FAKE_DEVICES"));
     if (!chosen.isEmpty())
         return chosen;
-    return QStandardPaths::writableLocation(QStandardPaths::RuntimeLocation) + QStringLiteral("/qtplc-devices");
+    return QFile::decodeName(SessionFolder::path("qtplc-devices"));
+}
+
+bool FakeMemory::makeFolder()
+{
+    const bool isChosen = !qEnvironmentVariableIsEmpty("QTPLC_FAKE_DEVICES");
+    return isChosen ? QDir().mkpath(folder()) : SessionFolder::make(QFile::encodeName(folder()));
 }
 
 bool FakeMemory::isFake(const QString &device)
@@ -59,7 +66,10 @@ QString FakeMemory::missingText(const QString &device)
 bool FakeMemory::create(const QString &device, std::size_t size, QString *error)
 {
     close();
-    QDir().mkpath(folder());
+    if (!makeFolder()) {
+        *error = fakeErrorText(QStringLiteral("make"), path(device));
+        return false;
+    }
     // Under another name until it has its size: nobody sees half a device.
     const QByteArray name = QFile::encodeName(path(device));
     const QByteArray unfinished = name + '.' + QByteArray::number(qint64(::getpid()));

@@ -22,6 +22,8 @@ public:
 
     /// Of the fake devices: the environment variable QTPLC_FAKE_DEVICES, else qtplc-devices in the folder of the user's session.
     static QString folder();
+    /// If it is not there. \return false when it cannot be made, or is not of this user alone; errno tells why
+    static bool makeFolder();
     /// Whether \a device is "fake:NAME".
     static bool isFake(const QString &device);
     /// File of "fake:NAME", or of NAME.
