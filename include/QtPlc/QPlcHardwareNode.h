@@ -86,7 +86,7 @@ public:
     void readDevices();
 
 public Q_SLOTS:
-    /// Begins to open the devices. Called at the first registration at the latest.
+    /// Begins to open the devices. Called at the first initialization at the latest.
     void openDevices();
     /// Gives all devices their safe values and lets them go.
     void closeDevices();

@@ -14,6 +14,9 @@
 class QTPLC_HARDWARE_EXPORT QPlcReadChannel final : public QPlcChannel
 {
 public:
+    /// The time of a value that there is not.
+    static constexpr qint64 Never = std::numeric_limits<qint64>::min();
+
     QPlcReadChannel(QPlcDriver *driver, const QString &name);
 
     /// A new value, measured now.
@@ -31,13 +34,11 @@ public:
     void setTimeout(std::chrono::nanoseconds timeout) { m_timeout = timeout.count(); }
 
     double value() const { return m_value; }
-    /// When the value was measured [ns].
+    /// When the value was measured [ns], or Never.
     qint64 time() const { return m_time; }
-    bool isFresh(qint64 now) const { return m_time != Never && (m_timeout <= 0 || now - m_time <= m_timeout); }
 
 private:
     friend class qplc::DriverRunner;
-    static constexpr qint64 Never = std::numeric_limits<qint64>::min();
 
     double m_value = 0.0;
     qint64 m_time = Never;  // [ns]

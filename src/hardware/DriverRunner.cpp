@@ -21,7 +21,7 @@ namespace qplc {
 namespace {
 
 constexpr std::chrono::hours longestTime{24};
-constexpr qint64 Never = std::numeric_limits<qint64>::min();
+constexpr qint64 Never = QPlcReadChannel::Never;
 
 }  // namespace
 

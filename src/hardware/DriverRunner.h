@@ -86,8 +86,8 @@ private:
     struct Reading
     {
         double value = 0.0;
-        qint64 time = std::numeric_limits<qint64>::min();  // [ns]; that: never
-        qint64 timeout = 0;                                // [ns]
+        qint64 time = QPlcReadChannel::Never;  // [ns]
+        qint64 timeout = 0;                    // [ns]; 0: it is fresh for ever
     };
 
     static QString ownName(Own own);

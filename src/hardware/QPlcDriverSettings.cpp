@@ -2,12 +2,11 @@
 #include "QPlcDriverSettings.h"
 
 #include "DriverSettingsData.h"
+#include "DurationText.h"
 #include "signals/MessageText.h"
 
 #include <QtCore/QDir>
 #include <QtCore/QFileInfo>
-#include <QtCore/QHash>
-#include <QtCore/QRegularExpression>
 
 #include <algorithm>
 #include <cmath>
@@ -30,19 +29,6 @@ QString durationText(std::chrono::nanoseconds duration)
             return QStringLiteral("%1 %2").arg(count / unit.size).arg(QLatin1String(unit.unit));
     }
     return {};
-}
-
-/// \return false when \a text is no duration
-bool toDuration(const QString &text, double *nanoseconds)
-{
-    static const QRegularExpression pattern(QStringLiteral(R"(^([0-9.eE+-]+)\s*(ns|us|ms|s|min|h)$)"));
-    static const QHash<QString, double> units{{QStringLiteral("ns"), 1.0},   {QStringLiteral("us"), 1e3},
-                                              {QStringLiteral("ms"), 1e6},   {QStringLiteral("s"), 1e9},
-                                              {QStringLiteral("min"), 6e10}, {QStringLiteral("h"), 3.6e12}};
-    const QRegularExpressionMatch match = pattern.match(text);
-    bool isNumber = false;
-    *nanoseconds = match.captured(1).toDouble(&isNumber) * units.value(match.captured(2));
-    return match.hasMatch() && isNumber && std::isfinite(*nanoseconds);
 }
 
 }  // namespace
@@ -145,7 +131,7 @@ std::chrono::nanoseconds QPlcDriverSettings::duration(const QString &key, std::c
     if (!entry)
         return defaultValue;
     double value = 0.0;
-    if (!toDuration(entry->value, &value))
+    if (!qplc::durationFromText(entry->value, &value))
         d->addError(*entry,
                     QStringLiteral("%1 = %2 is no duration; write a number and its unit: '10 ms', '250 us', '2 s'")
                         .arg(key, quoted(entry->value)));

@@ -53,6 +53,7 @@ struct QPlcHardwareNode::Private
     void writeAll(bool isUrgent) noexcept;
     void readAll(qint64 now) noexcept;
     void setSafeValues(bool knowTable);
+    static void give(const std::vector<GivenValue> &values, bool isSafe) noexcept;
     void awaitSafeStops();
 
     QPlcHardwareNode *q;
@@ -375,8 +376,13 @@ void QPlcHardwareNode::Private::setSafeValues(bool knowTable)
         if (port->isInput() && index != QPlcInvalidSignalIndex)
             port->setSafe(table.at(index).safeValue());
     }
-    for (const GivenValue &safe : safeValues)
-        safe.runner->setValue(safe.channel, safe.value, true);
+    give(safeValues, true);
+}
+
+void QPlcHardwareNode::Private::give(const std::vector<GivenValue> &values, bool isSafe) noexcept
+{
+    for (const GivenValue &given : values)
+        given.runner->setValue(given.channel, given.value, isSafe);
 }
 
 // ---- cycles ----
@@ -392,8 +398,7 @@ void QPlcHardwareNode::reset()
 
 void QPlcHardwareNode::step(const QPlcCycle &)
 {
-    for (const Private::GivenValue &constant : m_hardware->constants)
-        constant.runner->setValue(constant.channel, constant.value, false);
+    Private::give(m_hardware->constants, false);
     m_hardware->writeAll(false);
     const qint64 now = qplc::monotonicNow();
     m_hardware->readAll(now);
@@ -411,7 +416,6 @@ void QPlcHardwareNode::safeState(SafeStateReason)
         if (port->isInput())
             port->pass(true);
     }
-    for (const Private::GivenValue &safe : m_hardware->safeValues)
-        safe.runner->setValue(safe.channel, safe.value, true);
+    Private::give(m_hardware->safeValues, true);
     m_hardware->writeAll(true);
 }

@@ -107,9 +107,7 @@ void QPlcMasterNodePrivate::collectOutputs()
 QString QPlcMasterNodePrivate::faultOfOutputs(const NodeSlot &slot, const char *outputs) const
 {
     for (const qplc::SignalGuard::Frame::Field &field : slot.outputs.fields) {
-        if (!QPlcQuality::fromByte(slot.outputs.quality(field, outputs)).isUsable())
-            continue;
-        const qplc::ValueFault fault = slot.outputs.rules.fault(field.number, outputs);
+        const qplc::ValueFault fault = slot.outputs.fault(field, outputs);
         const QPlcSignalDefinition &signal = table.at(QPlcSignalIndex(field.place));
         if (fault)
             return QStringLiteral("the initial value of signal '%1': %2")

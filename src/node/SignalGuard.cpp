@@ -93,9 +93,9 @@ void SignalGuard::takeOneByOne(const Frame &frame, Writer &writer, const char *p
     bool isWhole = cycle >= now;
     for (const Frame::Field &field : frame.fields) {
         Signal &signal = m_signals[field.place];
-        const QPlcQuality given = QPlcQuality::fromByte(frame.quality(field, payload));
+        const QPlcQuality given = frame.quality(field, payload);
         const std::int64_t written = cycle - given.heldCycles();
-        const ValueFault fault = given.isUsable() ? frame.rules.fault(field.number, payload) : ValueFault();
+        const ValueFault fault = frame.fault(field, payload);
         if (fault)
             refuse(writer.id, field.place, fault, !signal.isRefused);
         signal.isRefused = bool(fault);
@@ -156,9 +156,9 @@ void SignalGuard::claim(const Frame &frame, const Writer &writer, Claims &claims
                         std::int64_t cycle) noexcept
 {
     for (const Frame::Field &field : frame.contested) {
-        const QPlcQuality given = QPlcQuality::fromByte(frame.quality(field, payload));
+        const QPlcQuality given = frame.quality(field, payload);
         const std::int64_t written = cycle - given.heldCycles();
-        const ValueFault fault = given.isUsable() ? frame.rules.fault(field.number, payload) : ValueFault();
+        const ValueFault fault = frame.fault(field, payload);
         const std::int64_t former = claims.good[field.number];
         if (fault)
             refuse(writer.id, field.place, fault, former != Never);

@@ -55,10 +55,16 @@ public:
         quint32 qualities = 0;         // [byte] where those that the writer gives begin
         quint32 qualityCount = 0;      // 0: it gives none, all its values are good
 
-        /// What the writer says of a value: the byte of its QPlcQuality.
-        quint8 quality(const Field &field, const char *payload) const noexcept
+        /// How far the writer trusts a value; one that is not usable is none.
+        QPlcQuality quality(const Field &field, const char *payload) const noexcept
         {
-            return qualityCount == 0 ? 0 : quint8(payload[qualities + field.number]);
+            return qualityCount == 0 ? QPlcQuality(QPlcQuality::Good)
+                                     : QPlcQuality::fromByte(quint8(payload[qualities + field.number]));
+        }
+        /// What is wrong with a value; nothing, when the writer says that there is none.
+        ValueFault fault(const Field &field, const char *payload) const noexcept
+        {
+            return quality(field, payload).isUsable() ? rules.fault(field.number, payload) : ValueFault();
         }
         /// Whether every value is good and allowed.
         bool isGood(const char *payload) const noexcept

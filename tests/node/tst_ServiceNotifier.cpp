@@ -9,6 +9,26 @@
 
 using namespace std::chrono_literals;
 
+namespace {
+
+/// Hangs in cycle 3 until it may go on.
+class HangingCounter : public CounterNode
+{
+public:
+    HangingCounter()
+    {
+        onStep = [this](const QPlcCycle &cycle) {
+            if (cycle.number() != 3)
+                return;
+            entered.release();
+            goOn.acquire();
+        };
+    }
+    QSemaphore entered, goOn;
+};
+
+}  // namespace
+
 // What a service manager is told of a node or a master, and when its watchdog is fed. Looks are taken by hand: a minute is far away.
 class tst_ServiceNotifier : public QObject
 {
@@ -213,24 +233,17 @@ void tst_ServiceNotifier::aMasterWhoseCycleHangsIsNotFed()
 {
     TestMaster master(QPlcClock::realTime());
     master.setGapLimit(0s);
-    CounterNode counter;
+    HangingCounter counter;
     EchoNode echo;
-    QSemaphore entered, goOn;
-    counter.onStep = [&](const QPlcCycle &cycle) {
-        if (cycle.number() != 3)
-            return;
-        entered.release();
-        goOn.acquire();
-    };
     QPlcServiceNotifier service(master);
     QVERIFY(master.addLocalNode(&counter) && master.addLocalNode(&echo));
     QVERIFY(master.startRealTime());
     QVERIFY(master.waitForState(QPlcMasterNode::RealTime));
-    QVERIFY(entered.tryAcquire(1, 5000));
+    QVERIFY(counter.entered.tryAcquire(1, 5000));
     QVERIFY(feeds(service));  // the last cycle may have ended just now
     QVERIFY(!feeds(service));
     QVERIFY(!feeds(service));
-    goOn.release();
+    counter.goOn.release();
     QTRY_VERIFY(master.cycle() > 3);
     QVERIFY(feeds(service));
     master.stop();
@@ -261,21 +274,14 @@ void tst_ServiceNotifier::longPeriodsAreWaitedFor()
 void tst_ServiceNotifier::lockstepMayStandStill()
 {
     TestMaster master;
-    CounterNode counter;
+    HangingCounter counter;
     EchoNode echo;
-    QSemaphore entered, goOn;
-    counter.onStep = [&](const QPlcCycle &cycle) {
-        if (cycle.number() != 3)
-            return;
-        entered.release();
-        goOn.acquire();
-    };
     QPlcServiceNotifier service(master);
     QVERIFY(master.addLocalNode(&counter) && master.addLocalNode(&echo));
     QVERIFY(master.startRealTime());
-    QVERIFY(entered.tryAcquire(1, 5000));
+    QVERIFY(counter.entered.tryAcquire(1, 5000));
     QVERIFY(feeds(service) && feeds(service) && feeds(service));
-    goOn.release();
+    counter.goOn.release();
     master.stop();
     QVERIFY(master.waitForState(QPlcMasterNode::Off));
 }

@@ -3,6 +3,7 @@
 
 #include "CanFrame.h"
 #include "QPlcDriverSettings.h"
+#include "hardware/DurationText.h"
 #include "signals/MessageText.h"
 
 #include <QtCore/QHash>
@@ -21,12 +22,10 @@ constexpr std::chrono::hours longestCanTime{24};
 // "every 10 ms"
 bool readCanPeriod(const QString &word, std::chrono::nanoseconds *period)
 {
-    static const QRegularExpression pattern(QStringLiteral("^every ([0-9]+(?:\\.[0-9]+)?) ?(us|ms|s)$"));
-    static const QHash<QString, double> units{
-        {QStringLiteral("us"), 1e3}, {QStringLiteral("ms"), 1e6}, {QStringLiteral("s"), 1e9}};
+    static const QRegularExpression pattern(QStringLiteral("^every ([0-9]+(?:\\.[0-9]+)? ?(?:us|ms|s))$"));
     const QRegularExpressionMatch match = pattern.match(word);
-    const double time = match.captured(1).toDouble() * units.value(match.captured(2));  // [ns]
-    if (!match.hasMatch() || !(time >= 1e5 && time <= 1e12))
+    double time = 0.0;  // [ns]
+    if (!durationFromText(match.captured(1), &time) || !(time >= 1e5 && time <= 1e12))
         return false;
     *period = std::chrono::nanoseconds(static_cast<qint64>(time));
     return true;
@@ -264,7 +263,7 @@ void CanConfiguration::finish(QPlcDriverSettings &settings)
         }
         if (message.timeout.count() == 0)
             message.timeout = 3 * description.cycleTime;
-        const quint32 key = description.id | (description.isExtended ? 0x80000000U : 0U);
+        const quint32 key = CanFrame::keyOf(description.id, description.isExtended);
         if (nameOfKey.contains(key))
             settings.addError(QStringLiteral("frame.") + description.name,
                               QStringLiteral("frame '%1' has the id of message '%2'; give each its own")

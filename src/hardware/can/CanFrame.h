@@ -31,7 +31,8 @@ struct CanFrame
 
     bool has(Flag flag) const { return (flags & flag) != 0; }
     /// The same for all frames of a message, whether they carry it or ask for it: id and kind of id.
-    quint32 key() const { return id | (has(Extended) ? 0x80000000U : 0U); }
+    quint32 key() const { return keyOf(id, has(Extended)); }
+    static constexpr quint32 keyOf(quint32 id, bool isExtended) { return id | (isExtended ? 0x80000000U : 0U); }
 
     /// Whether a frame can have this size. \param isFd  of CAN FD
     static constexpr bool isSize(int size, bool isFd)

@@ -10,7 +10,7 @@ namespace qplc {
 CanReceiver::CanReceiver(QPlcDriver *driver, const CanMessage &message)
     : m_driver(driver)
     , m_message(message)
-    , m_key(message.description.id | (message.description.isExtended ? 0x80000000U : 0U))
+    , m_key(CanFrame::keyOf(message.description.id, message.description.isExtended))
     , m_isMultiplexed(message.description.multiplexor >= 0)
 {
     if (m_isMultiplexed)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "GpioLineWords.h"
 
+#include "hardware/DurationText.h"
 #include "signals/MessageText.h"
 
 #include <QtCore/QRegularExpression>
@@ -14,13 +15,10 @@ constexpr qint64 LongestDebounce = 1'000'000'000;  // [ns]
 /// "5 ms", "250us", "0.01 s" [ns]; -1: something else
 qint64 debounceTime(const QString &text)
 {
-    static const QRegularExpression form(QStringLiteral("^([0-9]+(?:\\.[0-9]+)?) ?(us|ms|s)$"));
-    const QRegularExpressionMatch match = form.match(text);
-    if (!match.hasMatch())
+    static const QRegularExpression form(QStringLiteral("^[0-9]+(?:\\.[0-9]+)? ?(?:us|ms|s)$"));
+    double time = 0.0;
+    if (!form.match(text).hasMatch() || !durationFromText(text, &time))
         return -1;
-    const QString unit = match.captured(2);
-    const double factor = unit == QLatin1String("us") ? 1e3 : unit == QLatin1String("ms") ? 1e6 : 1e9;
-    const double time = match.captured(1).toDouble() * factor;
     return time <= double(LongestDebounce) ? qint64(time) : -1;
 }
 
