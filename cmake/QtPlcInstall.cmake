@@ -21,6 +21,13 @@ install(TARGETS qtplc RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT qtpl
 if(TARGET QtPlcHardware)
     qtplc_install_library(QtPlcHardware QtPlcHardwareTargets libqtplc)
     install(TARGETS qtplc_hardware RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT qtplc-tools)
+    # Whoever links the static library links what it uses, too.
+    if(NOT BUILD_SHARED_LIBS)
+        get_target_property(dependencies QtPlcHardware QTPLC_STATIC_DEPENDENCIES)
+        list(TRANSFORM dependencies REPLACE "(.+)" "    find_dependency(\\1)\n")
+        string(CONCAT QTPLC_HARDWARE_DEPENDENCIES "    list(PREPEND CMAKE_MODULE_PATH \${CMAKE_CURRENT_LIST_DIR})\n" ${dependencies} "    list(POP_FRONT CMAKE_MODULE_PATH)\n")
+        install(FILES ${CMAKE_CURRENT_LIST_DIR}/FindModbus.cmake DESTINATION ${package_directory} COMPONENT libqtplc-dev)
+    endif()
 endif()
 if(QTPLC_BUILD_GUI)
     qtplc_install_library(QtPlcGui QtPlcGuiTargets libqtplc-gui)

@@ -52,6 +52,12 @@ endif()
 build_project(tutorial ${SOURCE}/docs/tutorial/code)
 run(${WORK}/tutorial/tst_Winch)
 
+if(EXISTS ${prefix}/include/QtPlc/QPlcHardwareNode.h)
+    build_project(howto ${SOURCE}/docs/howto/code)
+    run(${WORK}/howto/weather_node --help)
+    expect("configuration")
+endif()
+
 if(EXAMPLES)
     build_project(example ${SOURCE}/examples/airborne_wind_energy -DAWE_BUILD_TESTS=OFF)
     run(${CMAKE_COMMAND} --install ${WORK}/example)
