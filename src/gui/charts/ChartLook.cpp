@@ -16,8 +16,8 @@ namespace qplc {
 
 namespace {
 
-constexpr double fontShare = 0.85;    // of the font of the window
-constexpr double smallestFont = 7.0;  // [pt]
+constexpr double axisFontShare = 0.85;  // of the font of the window
+constexpr double smallestFont = 7.0;    // [pt]
 
 void applyToAxis(QwtPlot *plot, int axis)
 {
@@ -35,7 +35,7 @@ QFont scaleFont(const QFont &font)
 {
     QFont small(font);
     small.setBold(false);
-    small.setPointSizeF(std::max(smallestFont, fontShare * font.pointSizeF()));
+    small.setPointSizeF(std::max(smallestFont, axisFontShare * font.pointSizeF()));
     return small;
 }
 

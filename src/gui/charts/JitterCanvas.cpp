@@ -16,8 +16,6 @@ namespace qplc {
 
 namespace {
 
-constexpr double microsecond = 1e3;  // [ns]
-
 /// "100 000", and "10⁶" where that is too long.
 class CountScale : public QwtScaleDraw
 {
@@ -130,7 +128,8 @@ void JitterCanvas::scaleAxes(const QVector<JitterDistribution> &distributions)
         return;
     constexpr double least = 1e-3;  // [us]
     constexpr double room = 1.25;
-    setAxisScale(xBottom, std::max(shortest / microsecond, least) / room, longest / microsecond * room);
+    setAxisScale(xBottom, std::max(shortest / JitterCurve::Microsecond, least) / room,
+                 longest / JitterCurve::Microsecond * room);
     setAxisScale(yLeft, 0.5, std::pow(10.0, std::ceil(std::log10(most * 2.0))));
 }
 

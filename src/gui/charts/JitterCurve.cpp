@@ -16,8 +16,7 @@ namespace qplc {
 
 namespace {
 
-constexpr double microsecond = 1e3;  // [ns]
-constexpr double shortest = 1e-3;    // [us] that a logarithmic axis shows
+constexpr double shortest = 1e-3;  // [us] that a logarithmic axis shows
 
 }  // namespace
 
@@ -35,8 +34,8 @@ void JitterCurve::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScal
     QPainterPath outline;
     double end = -1.0;
     for (const JitterDistribution::Bin &bin : m_distribution.bins) {
-        const double left = xMap.transform(std::max(bin.low / microsecond, shortest));
-        const double right = xMap.transform(std::max(bin.high / microsecond, shortest));
+        const double left = xMap.transform(std::max(bin.low / Microsecond, shortest));
+        const double right = xMap.transform(std::max(bin.high / Microsecond, shortest));
         const double top = yMap.transform(bin.count);
         if (left > end + 0.5) {
             if (end >= 0.0)
@@ -84,7 +83,7 @@ void JitterFigures::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtSc
     constexpr int fewestLines = 7;  // with less room, texts would hide what they are about
     const bool isSmall = canvas.height() < fewestLines * QFontMetricsF(painter->font()).height();
     for (const Figure &figure : figures) {
-        const double x = xMap.transform(std::max(figure.value / microsecond, shortest));
+        const double x = xMap.transform(std::max(figure.value / JitterCurve::Microsecond, shortest));
         const QString text = QStringLiteral("%1 %2").arg(QLatin1String(figure.name), durationText(figure.value));
         const bool isTold = !isSmall || figure.value == m_distribution.p99;
         drawFigure(painter, x, isSmall ? m_place : line++, isTold ? text : QString(), canvas);

@@ -13,6 +13,8 @@ namespace qplc {
 class JitterCurve : public QwtPlotItem
 {
 public:
+    static constexpr double Microsecond = 1e3;  // [ns]
+
     explicit JitterCurve(const JitterDistribution &distribution);
 
     void setColor(const QColor &color) { m_color = color; }

@@ -20,10 +20,10 @@ constexpr int spacing = 6;   // [px] between parts of an entry
 constexpr int gap = 14;      // [px] between entries
 constexpr int margin = 4;    // [px] around all
 constexpr int lineRoom = 3;  // [px] above and below a text, together
-constexpr int digits = 6;
+constexpr int legendDigits = 6;
 constexpr int fewDigits = 4;    // in small panels
 constexpr int leastWidth = 36;  // [px] of an entry
-constexpr double fontShare = 0.9;
+constexpr double legendFontShare = 0.9;
 
 QString valueOf(const PlotCurve &curve, std::optional<SignalStore::Time> time, int precision)
 {
@@ -99,7 +99,7 @@ void PlotLegend::show(const PlotCurves &curves, std::optional<SignalStore::Time>
         const PlotCurve &curve = curves.at(place);
         Entry entry;
         entry.name = curve.settings.text();
-        entry.value = valueOf(curve, time, m_isCompact ? fewDigits : digits);
+        entry.value = valueOf(curve, time, m_isCompact ? fewDigits : legendDigits);
         entry.unit = curve.source.unit;
         entry.hint = hintOf(curve);
         entry.color = curve.color;
@@ -120,7 +120,7 @@ void PlotLegend::show(const PlotCurves &curves, std::optional<SignalStore::Time>
 QFont PlotLegend::fontOf(const Entry &entry) const
 {
     QFont font = this->font();
-    font.setPointSizeF(fontShare * font.pointSizeF());
+    font.setPointSizeF(legendFontShare * font.pointSizeF());
     font.setBold(entry.isSelected);
     return font;
 }

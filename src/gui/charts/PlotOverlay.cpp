@@ -12,11 +12,11 @@ namespace {
 
 constexpr double shadeOpacity = 0.07;  // of the accent, between the cursors
 constexpr double boxOpacity = 0.15;
-constexpr double fontShare = 0.9;  // of the window
-constexpr int dotRadius = 3;       // [px]
-constexpr int labelMargin = 4;     // [px]
-constexpr int hintMargin = 12;     // [px]
-constexpr int arrowSize = 6;       // [px] of the marks of a trigger
+constexpr double overlayFontShare = 0.9;  // of the window
+constexpr int dotRadius = 3;              // [px]
+constexpr int labelMargin = 4;            // [px]
+constexpr int hintMargin = 12;            // [px]
+constexpr int arrowSize = 6;              // [px] of the marks of a trigger
 
 QColor faint(QColor color, double opacity)
 {
@@ -40,7 +40,7 @@ PlotOverlay::PlotOverlay(QWidget *canvas)
     setFocusPolicy(Qt::NoFocus);
     canvas->installEventFilter(this);
     QFont small = font();
-    small.setPointSizeF(fontShare * small.pointSizeF());
+    small.setPointSizeF(overlayFontShare * small.pointSizeF());
     setFont(small);
     resize(canvas->size());
 }

@@ -23,7 +23,7 @@ namespace {
 constexpr int colorSize = 14;   // [px]
 constexpr int themeColors = 8;  // of the theme
 constexpr int numberChars = 9;  // that are seen
-constexpr int digits = 10;
+constexpr int editedDigits = 10;
 constexpr int leastSignalChars = 24;
 constexpr int leastNameChars = 12;
 
@@ -198,7 +198,7 @@ void PlotSettingsEditor::removeCurve(int place)
 QLineEdit *PlotSettingsEditor::makeNumber(double value, const QString &name, double PlotCurveSettings::*member,
                                           int place)
 {
-    auto *edit = new QLineEdit(QString::number(value, 'g', digits), m_curves);
+    auto *edit = new QLineEdit(QString::number(value, 'g', editedDigits), m_curves);
     edit->setValidator(numberValidator(edit));
     edit->setMaximumWidth(widthOf(edit, numberChars) + 12);
     edit->setAccessibleName(name);
@@ -288,7 +288,7 @@ QLineEdit *PlotSettingsEditor::makeEnd(const QString &name, PlotRangeSettings Pl
 {
     auto *edit = new QLineEdit(this);
     const std::optional<double> value = m_settings.*range.*end;
-    edit->setText(value ? QString::number(*value, 'g', digits) : QString());
+    edit->setText(value ? QString::number(*value, 'g', editedDigits) : QString());
     edit->setPlaceholderText(tr("automatic"));
     edit->setValidator(numberValidator(edit));
     edit->setAccessibleName(name);
@@ -309,7 +309,7 @@ QLineEdit *PlotSettingsEditor::makeLines(const QString &name, PlotRangeSettings 
     auto *edit = new QLineEdit(this);
     QStringList texts;
     for (const double line : qAsConst((m_settings.*range).lines))
-        texts << QString::number(line, 'g', digits);
+        texts << QString::number(line, 'g', editedDigits);
     edit->setText(texts.join(QLatin1Char(' ')));
     edit->setPlaceholderText(tr("4000 4500"));
     edit->setAccessibleName(name);
@@ -360,7 +360,7 @@ QWidget *PlotSettingsEditor::makeTimeAxis()
     own->addItems({tr("That of the window"), tr("Its own")});
     own->setCurrentIndex(m_settings.hasOwnTime ? 1 : 0);
     own->setAccessibleName(tr("Time axis"));
-    auto *span = new QLineEdit(QString::number(m_settings.span, 'g', digits), options);
+    auto *span = new QLineEdit(QString::number(m_settings.span, 'g', editedDigits), options);
     span->setValidator(numberValidator(span));
     span->setMaximumWidth(widthOf(span, numberChars));
     span->setEnabled(m_settings.hasOwnTime);

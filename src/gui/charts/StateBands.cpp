@@ -23,7 +23,7 @@ constexpr double colorOfLight = 0.35;  // share of the colour of a state, so tha
 constexpr double colorOfDark = 0.45;
 constexpr double markedShare = 0.4;  // of that share, for values that are not like others
 constexpr int fewestLetters = 3;     // of a longer name, with the ellipsis
-constexpr int digits = 6;
+constexpr int bandDigits = 6;
 
 QColor mixed(const QColor &color, const QColor &ground, double share)
 {
@@ -78,7 +78,7 @@ QColor StateBands::colorOf(const StateRuns::Run &run) const
 
 QString StateBands::textOf(float value) const
 {
-    return numberText(double(value), digits, m_names);
+    return numberText(double(value), bandDigits, m_names);
 }
 
 void StateBands::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap & /*yMap*/,

@@ -20,11 +20,11 @@ namespace {
 using Time = SignalStore::Time;
 
 constexpr int mostRowsOfUpdate = 200'000;  // of all curves together: some milliseconds
-constexpr int digits = 4;
+constexpr int statisticsDigits = 4;
 constexpr int cellMargin = 8;  // [px]
 constexpr int swatch = 10;     // [px]
 constexpr int mostLines = 6;   // of the table, before it scrolls
-constexpr double fontShare = 0.9;
+constexpr double tableFontShare = 0.9;
 constexpr Time resolution = 1'000'000;  // of times in words [ns]
 
 enum Column { Signal, ValueA, ValueB, Difference, Minimum, Maximum, Mean, Rms, Sigma, Integral, ColumnCount };
@@ -43,7 +43,7 @@ StatisticsView::StatisticsView(QWidget *parent)
     , m_table(new QTableWidget(0, ColumnCount, this))
 {
     QFont small = font();
-    small.setPointSizeF(fontShare * small.pointSizeF());
+    small.setPointSizeF(tableFontShare * small.pointSizeF());
     m_times->setFont(small);
     m_times->setTextInteractionFlags(Qt::TextSelectableByMouse);
     m_times->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
@@ -132,7 +132,7 @@ void StatisticsView::showTimes(std::optional<Time> a, std::optional<Time> b)
     if (a && b) {
         parts << QStringLiteral("Δt %1").arg(differenceText(*b - *a));
         if (*a != *b)
-            parts << QStringLiteral("1/Δt %1 Hz").arg(numberText(1e9 / double(*b - *a), digits));
+            parts << QStringLiteral("1/Δt %1 Hz").arg(numberText(1e9 / double(*b - *a), statisticsDigits));
     }
     m_times->setText(parts.join(QStringLiteral("    ")));
 }
@@ -164,15 +164,15 @@ void StatisticsView::showRow(int row, const PlotCurve &curve, CursorStatistics *
     const double atA = curve.value(a);
     const double atB = curve.value(b);
     const auto between = [&](double value) {
-        return numberText(value, digits) + (statistics->isComplete() ? QString() : QStringLiteral(" …"));
+        return numberText(value, statisticsDigits) + (statistics->isComplete() ? QString() : QStringLiteral(" …"));
     };
     const QString unit = curve.source.unit.isEmpty() ? QString() : QStringLiteral(" [%1]").arg(curve.source.unit);
     if (setText(row, Signal, curve.settings.text() + unit))
         fitWidth();
     m_table->item(row, Signal)->setData(Qt::DecorationRole, curve.color);
-    setText(row, ValueA, numberText(atA, digits, curve.names()));
-    setText(row, ValueB, numberText(atB, digits, curve.names()));
-    setText(row, Difference, numberText(atB - atA, digits));
+    setText(row, ValueA, numberText(atA, statisticsDigits, curve.names()));
+    setText(row, ValueB, numberText(atB, statisticsDigits, curve.names()));
+    setText(row, Difference, numberText(atB - atA, statisticsDigits));
     setText(row, Minimum, between(result.minimum));
     setText(row, Maximum, between(result.maximum));
     setText(row, Mean, between(result.mean));

@@ -13,13 +13,13 @@ namespace {
 
 using Time = SignalStore::Time;
 
-constexpr Time second = 1'000'000'000;
+constexpr Time wholeSecond = 1'000'000'000;
 
 /// Exact, whatever the size: "12.345", with nine digits at most.
 void appendSeconds(Time time, QByteArray *text)
 {
-    *text += QByteArray::number(qint64(time / second));
-    QByteArray fraction = QByteArray::number(qint64(time % second)).rightJustified(9, '0');
+    *text += QByteArray::number(qint64(time / wholeSecond));
+    QByteArray fraction = QByteArray::number(qint64(time % wholeSecond)).rightJustified(9, '0');
     while (fraction.endsWith('0'))
         fraction.chop(1);
     if (!fraction.isEmpty())
@@ -28,9 +28,9 @@ void appendSeconds(Time time, QByteArray *text)
 
 void appendMoment(Time time, QByteArray *text)
 {
-    const QDateTime moment = QDateTime::fromSecsSinceEpoch(time / second, Qt::UTC);
+    const QDateTime moment = QDateTime::fromSecsSinceEpoch(time / wholeSecond, Qt::UTC);
     *text += moment.toString(QStringLiteral("yyyy-MM-ddTHH:mm:ss.")).toLatin1();
-    *text += QByteArray::number(qint64(time % second / 1000)).rightJustified(6, '0') + 'Z';
+    *text += QByteArray::number(qint64(time % wholeSecond / 1000)).rightJustified(6, '0') + 'Z';
 }
 
 void appendNumber(float value, QByteArray *text)

@@ -15,12 +15,12 @@ namespace {
 
 constexpr double zoomOfKey = 0.7;  // what a key leaves
 constexpr double panOfKey = 0.15;  // of the canvas
-constexpr int digits = 5;
+constexpr int xyDigits = 5;
 
 QString textOf(const CurveSource &source, double value)
 {
     const QString unit = source.unit.isEmpty() ? QString() : QLatin1Char(' ') + source.unit;
-    return QStringLiteral("%1%2").arg(numberText(value, digits), unit);
+    return QStringLiteral("%1%2").arg(numberText(value, xyDigits), unit);
 }
 
 }  // namespace

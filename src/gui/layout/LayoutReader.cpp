@@ -3,7 +3,6 @@
 
 #include "LayoutJson.h"
 
-#include <QtCore/QCoreApplication>
 #include <QtCore/QJsonDocument>
 
 #include <cmath>
@@ -12,11 +11,6 @@
 namespace qplc {
 
 namespace {
-
-QString tr(const char *text)
-{
-    return QCoreApplication::translate("qplc::LayoutReader", text);
-}
 
 QJsonObject without(QJsonObject json, std::initializer_list<const char *> keys)
 {
@@ -39,10 +33,10 @@ QString entry(const QString &place, int index)
 QString shown(const QJsonValue &value)
 {
     if (value.isUndefined())
-        return tr("is missing");
+        return LayoutReader::tr("is missing");
     const QByteArray json = QJsonDocument(QJsonArray{value}).toJson(QJsonDocument::Compact);
     const QString text = QString::fromUtf8(json.mid(1, json.size() - 2));
-    return tr("is %1").arg(text.size() > 40 ? text.left(40) + QStringLiteral("...") : text);
+    return LayoutReader::tr("is %1").arg(text.size() > 40 ? text.left(40) + QStringLiteral("...") : text);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include "Layout.h"
 
+#include <QtCore/QCoreApplication>
 #include <QtCore/QJsonArray>
 #include <QtCore/QJsonValue>
 
@@ -11,6 +12,8 @@ namespace qplc {
 /// Makes a layout of JSON, and keeps the first thing that is wrong: its place ("tabs[0].tree.children[1].share") and a sentence.
 class LayoutReader
 {
+    Q_DECLARE_TR_FUNCTIONS(qplc::LayoutReader)
+
 public:
     explicit LayoutReader(const QJsonObject &root);
 

@@ -18,7 +18,7 @@ namespace qplc {
 
 namespace {
 
-constexpr double largest = 1e9;
+constexpr double largestValue = 1e9;
 
 }  // namespace
 
@@ -79,8 +79,8 @@ void KeyMapEditor::addKeyRow(QGridLayout *grid, int place)
     addSignalField(
         grid, row, 1, [ this, place ]() -> auto & { return m_bindings.keys[place].signal; });
     addNumber(
-        grid, row, 2, tr("Value"), [ this, place ]() -> auto & { return m_bindings.keys[place].value; }, -largest,
-        largest);
+        grid, row, 2, tr("Value"), [ this, place ]() -> auto & { return m_bindings.keys[place].value; }, -largestValue,
+        largestValue);
     addRemove(grid, row, 5, [this, place] { m_bindings.keys.remove(place); });
 }
 
@@ -100,7 +100,7 @@ void KeyMapEditor::addAxisRow(QGridLayout *grid, int place)
         grid, row, 1, [ this, place ]() -> auto & { return m_bindings.axes[place].signal; });
     addNumber(
         grid, row, 2, tr("Value at full deflection"),
-        [ this, place ]() -> auto & { return m_bindings.axes[place].value; }, -largest, largest);
+        [ this, place ]() -> auto & { return m_bindings.axes[place].value; }, -largestValue, largestValue);
     addNumber(
         grid, row, 3, tr("Dead zone"), [ this, place ]() -> auto & { return m_bindings.axes[place].deadZone; }, 0.0,
         0.9);

@@ -23,7 +23,7 @@ const QVector<PanelTable::Column> columns
 
 const QStringList severities = {QStringLiteral("information"), QStringLiteral("warning"), QStringLiteral("error")};
 
-TableDelegate::Sign signOf(const QModelIndex &index)
+TableDelegate::Sign signOfEvent(const QModelIndex &index)
 {
     const int severity = index.data(EventLogModel::SeverityRole).toInt();
     if (index.column() == EventLogModel::State && index.data(EventLogModel::ActiveRole).toBool())
@@ -121,7 +121,7 @@ QPlcEventLog::QPlcEventLog(QWidget *parent)
     : QPlcWidget(parent)
     , d(std::make_unique<Private>())
 {
-    d->table = new PanelTable(signOf, PanelTable::Sorting::None, this);
+    d->table = new PanelTable(signOfEvent, PanelTable::Sorting::None, this);
     d->table->setAccessibleName(tr("Events"));
     d->filter = new EventFilterModel(this);
     d->table->setModel(d->filter);

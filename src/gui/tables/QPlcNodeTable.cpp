@@ -17,7 +17,7 @@ using namespace qplc;
 
 namespace {
 
-TableDelegate::Sign signOf(const QModelIndex &index)
+TableDelegate::Sign signOfNode(const QModelIndex &index)
 {
     if (index.column() != NodeTableModel::Health)
         return TableDelegate::NoSign;
@@ -33,25 +33,25 @@ TableDelegate::Sign signOf(const QModelIndex &index)
     }
 }
 
-const QVector<PanelTable::Column> columns = {{"plant", 10, false},
-                                             {"node", 12, true},
-                                             {"health", 11, true},
-                                             {"transport", 10, false},
-                                             {"address", 18, false},
-                                             {"policy", 18, false},
-                                             {"state", 13, true},
-                                             {"latenessP99", 8, true},
-                                             {"executionP50", 8, false},
-                                             {"executionP99", 8, true},
-                                             {"executionMaximum", 8, false},
-                                             {"roundTripP50", 8, false},
-                                             {"roundTripP99", 8, true},
-                                             {"roundTripMaximum", 8, false},
-                                             {"late", 3, true},
-                                             {"lost", 3, true},
-                                             {"duplicated", 10, false},
-                                             {"rejected", 9, false},
-                                             {"forged", 7, false}};
+const QVector<PanelTable::Column> nodeColumns = {{"plant", 10, false},
+                                                 {"node", 12, true},
+                                                 {"health", 11, true},
+                                                 {"transport", 10, false},
+                                                 {"address", 18, false},
+                                                 {"policy", 18, false},
+                                                 {"state", 13, true},
+                                                 {"latenessP99", 8, true},
+                                                 {"executionP50", 8, false},
+                                                 {"executionP99", 8, true},
+                                                 {"executionMaximum", 8, false},
+                                                 {"roundTripP50", 8, false},
+                                                 {"roundTripP99", 8, true},
+                                                 {"roundTripMaximum", 8, false},
+                                                 {"late", 3, true},
+                                                 {"lost", 3, true},
+                                                 {"duplicated", 10, false},
+                                                 {"rejected", 9, false},
+                                                 {"forged", 7, false}};
 
 QVector<int> growingColumns()
 {
@@ -75,7 +75,7 @@ QPlcNodeTable::QPlcNodeTable(QWidget *parent)
     : QPlcWidget(parent)
     , d(std::make_unique<Private>())
 {
-    d->table = new PanelTable(signOf, PanelTable::Sorting::ByHeader, this);
+    d->table = new PanelTable(signOfNode, PanelTable::Sorting::ByHeader, this);
     d->table->setAccessibleName(tr("Nodes"));
     d->sorted = new QSortFilterProxyModel(this);
     d->sorted->setSortRole(NodeTableModel::SortRole);
@@ -114,7 +114,7 @@ void QPlcNodeTable::contextChanged()
 {
     d->sorted->setSourceModel(new NodeTableModel(context()->plants(), this));
     d->table->setContext(context());
-    d->table->setColumns(columns);
+    d->table->setColumns(nodeColumns);
     d->table->setNameColumn(NodeTableModel::Name);
     d->table->setStretchedColumn(NodeTableModel::Name, 12);
     d->table->setGrowing(growingColumns());

@@ -24,7 +24,7 @@ using namespace qplc;
 
 namespace {
 
-const QVector<PanelTable::Column> columns
+const QVector<PanelTable::Column> valueColumns
     = {{"signal", 20, true},  {"value", 13, true},  {"unit", 7, true}, {"minimum", 12, true},
        {"maximum", 12, true}, {"quality", 9, true}, {"age", 8, false}, {"rate", 9, false}};
 
@@ -209,7 +209,7 @@ void QPlcValueTable::contextChanged()
     d->model = new ValueTableModel(context()->plants(), this);
     d->sorted->setSourceModel(d->model);
     d->table->setContext(context());
-    d->table->setColumns(columns);
+    d->table->setColumns(valueColumns);
     d->table->setNameColumn(ValueTableModel::Name);
     d->table->setStretchedColumn(ValueTableModel::Name, 16);
     d->showSignals();

@@ -8,7 +8,7 @@ namespace qplc {
 namespace {
 
 constexpr StateStep::Step steps[] = {StateStep::Off, StateStep::Initialized, StateStep::RealTime};
-constexpr int columnWidth = 104;  // [px]
+constexpr int stepWidth = 104;  // [px]
 
 }  // namespace
 
@@ -37,7 +37,7 @@ QString StateStepper::textOf(StateStep::Step step) const
 
 QSize StateStepper::sizeHint() const
 {
-    return {3 * columnWidth, 44};
+    return {3 * stepWidth, 44};
 }
 
 void StateStepper::paintEvent(QPaintEvent * /*event*/)
@@ -46,7 +46,7 @@ void StateStepper::paintEvent(QPaintEvent * /*event*/)
     QPainter painter(this);
     painter.setRenderHint(QPainter::Antialiasing);
     constexpr double dotY = 14.0;
-    const auto center = [](int place) { return (place + 0.5) * columnWidth; };
+    const auto center = [](int place) { return (place + 0.5) * stepWidth; };
     for (int place = 0; place < 3; ++place) {
         const bool isPresent = steps[place] == m_step.step;
         const bool isDone = steps[place] < m_step.step;
@@ -63,7 +63,7 @@ void StateStepper::paintEvent(QPaintEvent * /*event*/)
         textFont.setBold(isPresent);
         painter.setFont(textFont);
         painter.setPen(isPresent ? color : theme.mutedText);
-        const QRectF textRect(place * columnWidth - 12, 24, columnWidth + 24, 18);
+        const QRectF textRect(place * stepWidth - 12, 24, stepWidth + 24, 18);
         painter.drawText(textRect, Qt::AlignCenter, textOf(steps[place]));
     }
 }
