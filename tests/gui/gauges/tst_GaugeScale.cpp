@@ -9,7 +9,7 @@ using namespace qplc;
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double notANumber = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -37,7 +37,7 @@ void tst_GaugeScale::sharesAreClamped()
     QCOMPARE(scale.share(-11.0), 0.0);
     QCOMPARE(scale.share(0.0), 0.5);
     QCOMPARE(scale.share(infinity), 1.0);
-    QCOMPARE(scale.share(nan), 0.0);
+    QCOMPARE(scale.share(notANumber), 0.0);
     QCOMPARE((GaugeScale{3.0, 3.0}).share(3.0), 0.0);
 }
 
@@ -91,7 +91,7 @@ void tst_GaugeScale::aScaleGrowsToRoundNumbersAndNeverShrinks()
 {
     GaugeScale scale;
     QVERIFY(!scale.extendTo(0.7));
-    QVERIFY(!scale.extendTo(nan));
+    QVERIFY(!scale.extendTo(notANumber));
     QVERIFY(!scale.extendTo(infinity));
     QVERIFY(scale.extendTo(3.0));
     QCOMPARE(scale, (GaugeScale{0.0, 5.0}));
@@ -117,7 +117,7 @@ void tst_GaugeScale::numbersKeepTheirDecimals_data()
     QTest::newRow("five digits") << 1234.5678 << 3 << QStringLiteral("1234.6");
     QTest::newRow("whole digits stay") << 152204.7 << 3 << QStringLiteral("152205");
     QTest::newRow("below one") << 0.123456 << 6 << QStringLiteral("0.1235");
-    QTest::newRow("not a number") << nan << 2 << QStringLiteral("NaN");
+    QTest::newRow("not a number") << notANumber << 2 << QStringLiteral("NaN");
     QTest::newRow("infinite") << -infinity << 2 << QStringLiteral("−∞");
 }
 
@@ -165,8 +165,8 @@ void tst_GaugeScale::whatNobodyCanSeeIsNotDrawn()
     QVERIFY(!looksLike(picture(GaugeStyle::Number, 1.0), picture(GaugeStyle::Number, 1.0, "2")));
     QVERIFY(looksLike(picture(GaugeStyle::Led, 1.0), picture(GaugeStyle::Led, 2.0)));
     QVERIFY(!looksLike(picture(GaugeStyle::Led, 1.0), picture(GaugeStyle::Led, 0.0)));
-    QVERIFY(!looksLike(picture(GaugeStyle::Number, 1.0), picture(GaugeStyle::Number, nan)));
-    QVERIFY(looksLike(picture(GaugeStyle::Dial, nan), picture(GaugeStyle::Dial, nan)));
+    QVERIFY(!looksLike(picture(GaugeStyle::Number, 1.0), picture(GaugeStyle::Number, notANumber)));
+    QVERIFY(looksLike(picture(GaugeStyle::Dial, notANumber), picture(GaugeStyle::Dial, notANumber)));
     QVERIFY(!looksLike(picture(GaugeStyle::Dial, 1.0), picture(GaugeStyle::Bar, 1.0)));
 }
 
