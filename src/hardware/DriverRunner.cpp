@@ -23,6 +23,22 @@ namespace {
 constexpr std::chrono::hours longestTime{24};
 constexpr qint64 Never = QPlcReadChannel::Never;
 
+/// For a message about the channel \a name: those that it might have meant, or all.
+QString remedyFor(const QString &name, QStringList channels)
+{
+    constexpr int most = 12;
+    if (channels.isEmpty())
+        return QStringLiteral("; it has none");
+    const QStringList close = closeNames(name, channels);
+    if (!close.isEmpty())
+        return didYouMean(close);
+    channels.sort();
+    const int more = channels.size() - most;
+    return QStringLiteral("; known are: %1%2")
+        .arg(channels.mid(0, most).join(QStringLiteral(", ")),
+             more > 0 ? QStringLiteral(" and %1 more").arg(more) : QString());
+}
+
 }  // namespace
 
 QString DriverRunner::ownName(Own own)
@@ -72,7 +88,7 @@ int DriverRunner::wire(const QString &name, QPlcChannel::Direction direction, QS
         if (error->isEmpty())
             *error = QStringLiteral("driver '%1' has no channel %2 to %3%4")
                          .arg(m_kind, quoted(name), isRead ? QStringLiteral("read") : QStringLiteral("write"),
-                              didYouMean(closeNames(name, m_driver->channelNames(direction))));
+                              remedyFor(name, m_driver->channelNames(direction)));
         return -1;
     }
     channel->m_isWired = true;

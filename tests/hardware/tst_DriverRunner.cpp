@@ -72,7 +72,7 @@ private Q_SLOTS:
     void stopGivesTheLastValuesAndCloses_data() { addPaces(); }
     void stopGivesTheLastValuesAndCloses();
     void everyDriverTellsWhetherItIsOnline();
-    void anUnknownChannelIsNamedWithThoseThatAreClose();
+    void anUnknownChannelIsNamedWithThoseThatThereAre();
     void theErrorOfACycleNamesWhatAndWhyAndTheRemedy();
 };
 
@@ -243,11 +243,11 @@ void tst_DriverRunner::everyDriverTellsWhetherItIsOnline()
     QCOMPARE(bench.value("@failures"), 1.0);
 }
 
-void tst_DriverRunner::anUnknownChannelIsNamedWithThoseThatAreClose()
+void tst_DriverRunner::anUnknownChannelIsNamedWithThoseThatThereAre()
 {
     Bench bench(QPlcDriver::EveryCycle);
     QCOMPARE(bench.wireRead("sped"), QString("driver 'bench' has no channel 'sped' to read; did you mean 'speed'?"));
-    QCOMPARE(bench.wireRead("torque"), QString("driver 'bench' has no channel 'torque' to read"));
+    QCOMPARE(bench.wireRead("torque"), QString("driver 'bench' has no channel 'torque' to read; known are: speed"));
 }
 
 void tst_DriverRunner::theErrorOfACycleNamesWhatAndWhyAndTheRemedy()
