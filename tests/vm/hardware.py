@@ -30,6 +30,6 @@ def can_frames(bench):
         raise Skipped("there is no CAN")
     output = command(program("qtplc_can_cycle"), "--device", bench.can, "--period-us", "20000", "--seconds", "20", seconds=240)
     result = json.loads(output.strip().splitlines()[-1])
-    faults = {name: result[name] for name in ("lost", "reordered", "unsent")}
+    faults = {name: result[name] for name in ("lost", "reordered", "unsent", "wrong_ages")}
     assert not any(faults.values()), f"frames went wrong: {faults}"
-    return f"{result['frames_in']:.0f} frames in, {result['frames_out']:.0f} out, none lost, reordered or unsent"
+    return f"{result['frames_in']:.0f} frames in, {result['frames_out']:.0f} out, none lost, reordered or unsent, {result['judged_ages']:.0f} ages right"
