@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # qtplc_add_test(tst_name SOURCES a.cpp ... [LIBRARIES target ...] [LABELS label ...] [TIMEOUT seconds])
-# Label not-emulated: an emulator of another processor cannot run it (it starts programs of the build, asks the scheduler, ...), which a comment beside it says.
+# Label not-emulated: an emulator of another processor cannot run it (it starts programs, asks the scheduler, ...), which a comment beside it says. Nor does it run what is labelled programs.
 # One Qt Test program, one CTest entry; it may use the headers of every room of src/. Target tests_LABEL builds the tests of a label.
 find_package(Qt5 5.15 REQUIRED COMPONENTS Test)
 
