@@ -198,7 +198,9 @@ QPlcHardwareNode::Wire DriverRunner::wireState(int channel, QPlcChannel::Directi
     wire.channel = end.channel ? end.channel->name() : ownName(end.own);
     wire.value = sample.value;
     wire.isFresh = sample.isFresh;
-    wire.age = sample.time == Never ? std::numeric_limits<double>::infinity() : double(now - sample.time) * 1e-9;
+    // What has come in since the cycle began is new, not of the future.
+    wire.age = sample.time == Never ? std::numeric_limits<double>::infinity()
+                                    : double(std::max<qint64>(now - sample.time, 0)) * 1e-9;
     return wire;
 }
 

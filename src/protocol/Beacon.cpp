@@ -44,8 +44,7 @@ QByteArray Beacon::encoded() const
     Q_ASSERT_X(port != 0, "Beacon::encoded", "a master that listens has a port");
     const QByteArray text = nameBytes(name);
     const int end = nameOffset + text.size();
-    QByteArray bytes(end + checksumSize, '\0');
-    char *data = bytes.data();
+    char data[nameOffset + MaximumName + checksumSize];
     std::memcpy(data, magic, sizeof magic);
     storeLittle<quint8>(version, data + versionOffset);
     storeLittle<quint8>(isSecured ? secured : 0, data + flagsOffset);
@@ -54,7 +53,7 @@ QByteArray Beacon::encoded() const
     storeLittle<quint8>(quint8(text.size()), data + lengthOffset);
     std::memcpy(data + nameOffset, text.constData(), std::size_t(text.size()));
     storeLittle<quint32>(checksum(data, end), data + end);
-    return bytes;
+    return QByteArray(data, end + checksumSize);
 }
 
 std::optional<Beacon> Beacon::decode(const char *bytes, int size)

@@ -38,6 +38,7 @@ private:
     bool bindSocket();
     bool setOption(int level, int name, const void *value, socklen_t size, const char *what);
     bool failWith(const QString &what, const QString &remedy);
+    void lookAtClocks() noexcept;
     int convert(int received, CanFrame *frames) noexcept;
     qint64 readControl(msghdr *message) noexcept;
 

@@ -396,9 +396,9 @@ void tst_CanBus::anotherProcessAnswers()
 void tst_CanBus::stampsFollowTheMonotonicClock()
 {
     WallTimeConverter converter;
-    converter.begin(1000, 5'000'000'000);
-    converter.drained();
-    converter.begin(3000, 5'000'002'000);
+    converter.look(1000, 5'000'000'000);
+    converter.drained(1000);
+    converter.look(3000, 5'000'002'000);
     QCOMPARE(converter.toMonotonic(5'000'001'500), 2500LL);
     QCOMPARE(converter.toMonotonic(5'000'002'600), 3000LL);  // never in the future
 }
@@ -407,12 +407,14 @@ void tst_CanBus::stampsSurviveAStepOfTheWallClock()
 {
     constexpr qint64 second = 1'000'000'000;
     WallTimeConverter converter;
-    converter.begin(10 * second, 5000 * second);
-    converter.drained();
-    converter.begin(11 * second, 8601 * second);  // set forward by an hour after the frame
+    converter.look(10 * second, 5000 * second);
+    converter.drained(10 * second);
+    converter.look(11 * second, 8601 * second);  // set forward by an hour after the frame
     QCOMPARE(converter.toMonotonic(5000 * second + second / 2), 10 * second + second / 2);
     QCOMPARE(converter.toMonotonic(8600 * second + second / 2), 10 * second + second / 2);
     QCOMPARE(converter.toMonotonic(17 * second), 11 * second);  // whatever that was
+    converter.look(11 * second + 1000, 8601 * second + 1000);   // the next frames of the same queue
+    QCOMPARE(converter.toMonotonic(5000 * second + second / 2), 10 * second + second / 2);
 }
 
 void tst_CanBus::virtualPluginCarriesFrames()
