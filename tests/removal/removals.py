@@ -249,7 +249,7 @@ REMOVALS = [
             "(reading.timeout == 0 || now - reading.time <= reading.timeout)", "reading.timeout >= 0",
             "tst_DriverRunner", "aValueIsFreshForItsTimeout"),
     Removal("a value that does not fit its signal", "src/hardware/ChannelPort.cpp",
-            "isGood = isGood && sample.isFresh && fits(value, m_type);", "isGood = isGood && sample.isFresh && m_type.isValid();",
+            "isGood = isGood && sample.isFresh && fits(value, m_type);", "isGood = isGood && sample.isFresh && (fits(value, m_type) || m_type.isValid());",
             "tst_HardwareNode", "valuesThatDoNotFitTheSignalAreNone"),
     Removal("the safe state reaches the devices", "src/hardware/QPlcHardwareNode.cpp",
             "    m_hardware->writeAll(true);\n}", "}",
