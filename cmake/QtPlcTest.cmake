@@ -19,7 +19,7 @@ function(qtplc_precompile_headers test)
     endif()
     set(headers ${kind}_test_headers)
     if(NOT TARGET ${headers})
-        file(WRITE ${CMAKE_BINARY_DIR}/${headers}.cpp "int main() { return 0; }\n")
+        file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/${headers}.cpp CONTENT "int main() { return 0; }\n") # written once only
         add_executable(${headers} EXCLUDE_FROM_ALL ${CMAKE_BINARY_DIR}/${headers}.cpp)
         set_target_properties(${headers} PROPERTIES AUTOMOC OFF)
         target_link_libraries(${headers} PRIVATE Qt5::Test ${needs})

@@ -58,8 +58,7 @@ private:
     quint64 m_skipped[2] = {0, 0};
     quint64 m_wentBack = 0;  // a count that was smaller than the one before
     quint64 m_judgedAges = 0;
-    quint64 m_wrongAges
-        = 0;  // stamps that are not of the time between the making of the frame and the end of its sending
+    quint64 m_wrongAges = 0;  // stamps from before the frame was made, or after it was sent
     qplc::Histogram m_age;
     quint64 m_lost = 0;
     quint64 m_unsent = 0;

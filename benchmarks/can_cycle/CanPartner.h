@@ -20,8 +20,8 @@ struct CanStamp
 
     quint32 count = 0;  // of its message
     quint32 time = 0;   // when it was made, CLOCK_MONOTONIC [us]
-    quint32 took
-        = 0;  // from the making of the frame before to the end of its sending [us]; the longest: that or longer
+    /// From the making of the frame before to the end of its sending [us]; the longest: that or longer.
+    quint32 took = 0;
 
     quint64 packed() const
     {

@@ -44,7 +44,8 @@ bool readOptions(QPlcCoreApplication &application, Options *options)
     if (!application.parseOptions() || !application.integer(QStringLiteral("frames"), 1, 200, &frames)
         || !application.integer(QStringLiteral("period-us"), 100, 1'000'000, &period)
         || !application.number(QStringLiteral("seconds"), 0.1, 86400.0, &options->seconds)
-        || !application.number(QStringLiteral("round"), 0.1, 3600.0, &options->round))
+        // Counts of frames have 24 bits.
+        || !application.number(QStringLiteral("round"), 0.1, 1600.0, &options->round))
         return false;
     options->device = application.value(QStringLiteral("device"));
     options->frames = int(frames);

@@ -24,19 +24,10 @@ constexpr std::chrono::hours longestTime{24};
 constexpr qint64 Never = QPlcReadChannel::Never;
 
 /// For a message about the channel \a name: those that it might have meant, or all.
-QString remedyFor(const QString &name, QStringList channels)
+QString remedyFor(const QString &name, const QStringList &channels)
 {
-    constexpr int most = 12;
-    if (channels.isEmpty())
-        return QStringLiteral("; it has none");
     const QStringList close = closeNames(name, channels);
-    if (!close.isEmpty())
-        return didYouMean(close);
-    channels.sort();
-    const int more = channels.size() - most;
-    return QStringLiteral("; known are: %1%2")
-        .arg(channels.mid(0, most).join(QStringLiteral(", ")),
-             more > 0 ? QStringLiteral(" and %1 more").arg(more) : QString());
+    return close.isEmpty() ? knownAre(channels) : didYouMean(close);
 }
 
 }  // namespace

@@ -91,10 +91,10 @@ void QPlcHardwareNode::Private::buildDriver(HardwareConfiguration *configuration
     if (kind == kinds.end()) {
         if (!driver.kind.isEmpty())
             configuration->addError(driver.entry,
-                                    QStringLiteral("there is no driver %1%2; known are: %3")
+                                    QStringLiteral("there is no driver %1%2%3")
                                         .arg(qplc::quoted(driver.kind),
                                              qplc::didYouMean(qplc::closeNames(driver.kind, kinds.keys())),
-                                             kinds.keys().join(QStringLiteral(", "))));
+                                             qplc::knownAre(kinds.keys())));
         return;
     }
     runners.push_back(std::make_unique<DriverRunner>(driver.name, driver.kind, kind->make()));

@@ -102,4 +102,15 @@ QString didYouMean(const QStringList &names)
     return text + QLatin1Char('?');
 }
 
+QString knownAre(QStringList names)
+{
+    constexpr int most = 12;
+    if (names.isEmpty())
+        return QStringLiteral("; there is none");
+    names.sort();
+    const int more = names.size() - most;
+    return QStringLiteral("; known are: ") + names.mid(0, most).join(QStringLiteral(", "))
+        + (more > 0 ? QStringLiteral(" and %1 more").arg(more) : QString());
+}
+
 }  // namespace qplc

@@ -15,4 +15,7 @@ QStringList closeNames(const QString &name, const QStringList &candidates, int c
 /// "; did you mean 'a' or 'b'?"; empty when \a names is empty.
 QString didYouMean(const QStringList &names);
 
+/// "; known are: a, b and 3 more": the first of \a names, sorted; "; there is none" when it is empty.
+QString knownAre(QStringList names);
+
 }  // namespace qplc

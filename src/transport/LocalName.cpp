@@ -7,15 +7,25 @@
 #include <QtCore/QRegularExpression>
 #include <QtCore/QSaveFile>
 
+#include <cerrno>
+
 namespace qplc {
 
 namespace {
 
-/// Empty: there is no folder that is of this user alone.
+QByteArray namesFolder()
+{
+    return SessionFolder::path("qtplc");
+}
+
 QString fileOf(const QString &name)
 {
-    const QByteArray folder = SessionFolder::path("qtplc");
-    return SessionFolder::make(folder) ? QFile::decodeName(folder) + QLatin1Char('/') + name : QString();
+    return QFile::decodeName(namesFolder()) + QLatin1Char('/') + name;
+}
+
+QString publishError(const QString &name, const QString &reason)
+{
+    return QStringLiteral("cannot publish the name '%1' in %2: %3").arg(name, fileOf(name), reason);
 }
 
 bool isName(const QString &name, QString *error)
@@ -34,10 +44,13 @@ bool LocalName::hold(const QString &name, quint16 port, QString *error)
     release();
     if (!isName(name, error))
         return false;
+    if (!SessionFolder::make(namesFolder())) {
+        *error = publishError(name, qt_error_string(errno));
+        return false;
+    }
     QSaveFile file(fileOf(name));
     if (!file.open(QIODevice::WriteOnly) || file.write(QByteArray::number(port)) < 0 || !file.commit()) {
-        *error = QStringLiteral("cannot publish the name '%1' in the folder %2: %3")
-                     .arg(name, QFile::decodeName(SessionFolder::path("qtplc")), file.errorString());
+        *error = publishError(name, file.errorString());
         return false;
     }
     m_file = file.fileName();
@@ -56,7 +69,8 @@ quint16 LocalName::portOf(const QString &name, QString *error)
     if (!isName(name, error))
         return 0;
     QFile file(fileOf(name));
-    const quint16 port = file.open(QIODevice::ReadOnly) ? file.read(16).toUShort() : quint16(0);
+    const bool isTrusted = SessionFolder::make(namesFolder());
+    const quint16 port = isTrusted && file.open(QIODevice::ReadOnly) ? file.read(16).toUShort() : quint16(0);
     if (port == 0)
         *error = QStringLiteral("no master with the name '%1' runs on this machine for this user; start it with this "
                                 "name, or give its port")

@@ -17,7 +17,8 @@ namespace qplc {
 namespace {
 
 constexpr double axisFontShare = 0.85;  // of the font of the window
-constexpr double smallestFont = 7.0;    // [pt]
+constexpr double smallFontShare = 0.9;
+constexpr double smallestFont = 7.0;  // [pt]
 
 void applyToAxis(QwtPlot *plot, int axis)
 {
@@ -36,6 +37,13 @@ QFont scaleFont(const QFont &font)
     QFont small(font);
     small.setBold(false);
     small.setPointSizeF(std::max(smallestFont, axisFontShare * font.pointSizeF()));
+    return small;
+}
+
+QFont smallFont(const QFont &font)
+{
+    QFont small(font);
+    small.setPointSizeF(smallFontShare * font.pointSizeF());
     return small;
 }
 
@@ -68,8 +76,7 @@ void fitAxes(QwtPlot *plot)
 
 void setAxisText(QwtPlot *plot, int axis, const QString &text, const Theme &theme)
 {
-    constexpr int leastHeight = 150;  // [px] of plots with titles
-    QwtText title(plot->height() < leastHeight ? QString() : text);
+    QwtText title(plot->height() < leastHeightOfTexts ? QString() : text);
     title.setColor(theme.mutedText);
     const QFont font = scaleFont(plot->font());
     title.setFont(font);

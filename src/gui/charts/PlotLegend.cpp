@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "PlotLegend.h"
 
+#include "ChartLook.h"
 #include "QPlcQuality.h"
 #include "gui/models/ValueFormat.h"
 
@@ -23,7 +24,6 @@ constexpr int lineRoom = 3;  // [px] above and below a text, together
 constexpr int legendDigits = 6;
 constexpr int fewDigits = 4;    // in small panels
 constexpr int leastWidth = 36;  // [px] of an entry
-constexpr double legendFontShare = 0.9;
 
 QString valueOf(const PlotCurve &curve, std::optional<SignalStore::Time> time, int precision)
 {
@@ -119,8 +119,7 @@ void PlotLegend::show(const PlotCurves &curves, std::optional<SignalStore::Time>
 
 QFont PlotLegend::fontOf(const Entry &entry) const
 {
-    QFont font = this->font();
-    font.setPointSizeF(legendFontShare * font.pointSizeF());
+    QFont font = smallFont(this->font());
     font.setBold(entry.isSelected);
     return font;
 }

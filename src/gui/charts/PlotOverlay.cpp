@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "PlotOverlay.h"
 
+#include "ChartLook.h"
+
 #include <QtCore/QEvent>
 #include <QtGui/QPainter>
 
@@ -12,11 +14,10 @@ namespace {
 
 constexpr double shadeOpacity = 0.07;  // of the accent, between the cursors
 constexpr double boxOpacity = 0.15;
-constexpr double overlayFontShare = 0.9;  // of the window
-constexpr int dotRadius = 3;              // [px]
-constexpr int labelMargin = 4;            // [px]
-constexpr int hintMargin = 12;            // [px]
-constexpr int arrowSize = 6;              // [px] of the marks of a trigger
+constexpr int dotRadius = 3;    // [px]
+constexpr int labelMargin = 4;  // [px]
+constexpr int hintMargin = 12;  // [px]
+constexpr int arrowSize = 6;    // [px] of the marks of a trigger
 
 QColor faint(QColor color, double opacity)
 {
@@ -39,9 +40,7 @@ PlotOverlay::PlotOverlay(QWidget *canvas)
     setAttribute(Qt::WA_NoSystemBackground);
     setFocusPolicy(Qt::NoFocus);
     canvas->installEventFilter(this);
-    QFont small = font();
-    small.setPointSizeF(overlayFontShare * small.pointSizeF());
-    setFont(small);
+    setFont(smallFont(font()));
     resize(canvas->size());
 }
 

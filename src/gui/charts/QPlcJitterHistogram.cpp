@@ -29,8 +29,6 @@ namespace {
 constexpr int askPause = 1000;    // [ms]
 constexpr int staleAfter = 3000;  // [ms]
 
-constexpr int leastHeight = 150;  // [px] of panels with a caption
-
 constexpr const char *plantKey = "plant";
 constexpr const char *showKey = "show";
 constexpr const char *windowKey = "window";
@@ -232,7 +230,7 @@ void QPlcJitterHistogram::Private::draw()
     message->setVisible(!text.isEmpty());
     canvas->setVisible(text.isEmpty());
     const bool isStale = !sinceAnswer.isValid() || sinceAnswer.elapsed() > staleAfter;
-    caption->setVisible(text.isEmpty() && (isStale || q->height() >= leastHeight));
+    caption->setVisible(text.isEmpty() && (isStale || q->height() >= leastHeightOfTexts));
     if (!text.isEmpty())
         return;
     canvas->show(shown, isStale);
@@ -250,7 +248,7 @@ QString QPlcJitterHistogram::Private::captionText(const QVector<JitterDistributi
         parts << shown.first().title();
     if (isStale)
         parts << tr("stale, %1").arg(ageText(double(sinceAnswer.elapsed()) * 1e-3));
-    const bool isSmall = q->height() < leastHeight;
+    const bool isSmall = q->height() < leastHeightOfTexts;
     const auto text = [&] { return parts.join(QStringLiteral(" · ")); };
     const QFontMetrics metrics(caption->font());
     while (parts.size() > 1 && (isSmall || metrics.horizontalAdvance(text()) > q->width() - 4 * caption->margin()))

@@ -24,8 +24,6 @@ constexpr int longestPause = 1000;
 constexpr int costShare = 4;   // drawing takes at most so small a share of the time
 constexpr int agePause = 500;  // [ms]
 
-constexpr int leastHeightWithLegend = 150;  // [px] of panels with a legend
-
 constexpr const char *curvesKey = "curves";
 const QString xKey = QStringLiteral("x");
 const QString yKey = QStringLiteral("y");
@@ -130,7 +128,7 @@ void QPlcXyPlot::Private::showMessage()
 void QPlcXyPlot::Private::showLegend()
 {
     legend->setText(canvas->legend());
-    legend->setVisible(!legend->text().isEmpty() && q->height() >= leastHeightWithLegend);
+    legend->setVisible(!legend->text().isEmpty() && q->height() >= leastHeightOfTexts);
 }
 
 void QPlcXyPlot::Private::follow(WindowContext *context)
@@ -189,7 +187,7 @@ void QPlcXyPlot::Private::draw()
     cost.start();
     const bool isStale = !displayed && stalePlant();
     canvas->show({time->begin(), time->end(), displayed, isStale});
-    legend->setVisible(!legend->text().isEmpty() && q->height() >= leastHeightWithLegend);
+    legend->setVisible(!legend->text().isEmpty() && q->height() >= leastHeightOfTexts);
     pause = std::clamp(int(cost.elapsed()) * costShare, shortestPause, longestPause);
     showMoment();
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "StatisticsView.h"
 
+#include "ChartLook.h"
 #include "TimeTicks.h"
 #include "gui/models/ValueFormat.h"
 
@@ -21,10 +22,9 @@ using Time = SignalStore::Time;
 
 constexpr int mostRowsOfUpdate = 200'000;  // of all curves together: some milliseconds
 constexpr int statisticsDigits = 4;
-constexpr int cellMargin = 8;  // [px]
-constexpr int swatch = 10;     // [px]
-constexpr int mostLines = 6;   // of the table, before it scrolls
-constexpr double tableFontShare = 0.9;
+constexpr int cellMargin = 8;           // [px]
+constexpr int swatch = 10;              // [px]
+constexpr int mostLines = 6;            // of the table, before it scrolls
 constexpr Time resolution = 1'000'000;  // of times in words [ns]
 
 enum Column { Signal, ValueA, ValueB, Difference, Minimum, Maximum, Mean, Rms, Sigma, Integral, ColumnCount };
@@ -42,8 +42,7 @@ StatisticsView::StatisticsView(QWidget *parent)
     , m_times(new QLabel(this))
     , m_table(new QTableWidget(0, ColumnCount, this))
 {
-    QFont small = font();
-    small.setPointSizeF(tableFontShare * small.pointSizeF());
+    const QFont small = smallFont(font());
     m_times->setFont(small);
     m_times->setTextInteractionFlags(Qt::TextSelectableByMouse);
     m_times->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);

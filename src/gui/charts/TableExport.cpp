@@ -13,13 +13,11 @@ namespace {
 
 using Time = SignalStore::Time;
 
-constexpr Time wholeSecond = 1'000'000'000;
-
 /// Exact, whatever the size: "12.345", with nine digits at most.
 void appendSeconds(Time time, QByteArray *text)
 {
-    *text += QByteArray::number(qint64(time / wholeSecond));
-    QByteArray fraction = QByteArray::number(qint64(time % wholeSecond)).rightJustified(9, '0');
+    *text += QByteArray::number(qint64(time / SignalStore::Second));
+    QByteArray fraction = QByteArray::number(qint64(time % SignalStore::Second)).rightJustified(9, '0');
     while (fraction.endsWith('0'))
         fraction.chop(1);
     if (!fraction.isEmpty())
@@ -28,9 +26,9 @@ void appendSeconds(Time time, QByteArray *text)
 
 void appendMoment(Time time, QByteArray *text)
 {
-    const QDateTime moment = QDateTime::fromSecsSinceEpoch(time / wholeSecond, Qt::UTC);
+    const QDateTime moment = QDateTime::fromSecsSinceEpoch(time / SignalStore::Second, Qt::UTC);
     *text += moment.toString(QStringLiteral("yyyy-MM-ddTHH:mm:ss.")).toLatin1();
-    *text += QByteArray::number(qint64(time % wholeSecond / 1000)).rightJustified(6, '0') + 'Z';
+    *text += QByteArray::number(qint64(time % SignalStore::Second / 1000)).rightJustified(6, '0') + 'Z';
 }
 
 void appendNumber(float value, QByteArray *text)

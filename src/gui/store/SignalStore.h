@@ -22,6 +22,7 @@ class SignalStore
 public:
     using Row = std::uint64_t;
     using Time = std::int64_t;  // [ns] on the clock of the plant
+    static constexpr Time Second = 1'000'000'000;
     using Mark = RowMarks::Mark;
 
     struct Range

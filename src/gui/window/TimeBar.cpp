@@ -12,7 +12,7 @@ namespace qplc {
 
 namespace {
 
-constexpr TimeView::Time second = 1'000'000'000;
+constexpr TimeView::Time second = SignalStore::Second;
 constexpr TimeView::Time spans[] = {second,      2 * second,  5 * second,   10 * second,  20 * second,
                                     30 * second, 60 * second, 120 * second, 300 * second, 600 * second};
 

@@ -16,11 +16,8 @@ public:
     void look(qint64 now, qint64 wall) noexcept
     {
         const qint64 offset = now - wall;
-        if (m_isFirst)
-            m_before = offset;
-        else if (offset - m_offset > drift || m_offset - offset > drift)
+        if (qAbs(offset - m_offset) > drift)
             m_before = m_offset;
-        m_isFirst = false;
         m_offset = offset;
         m_now = now;
     }
@@ -45,7 +42,6 @@ private:
     qint64 m_before = 0;  // until the wall clock was set
     qint64 m_now = 0;
     qint64 m_earliest = 0;
-    bool m_isFirst = true;
 };
 
 }  // namespace qplc

@@ -18,6 +18,11 @@ namespace {
 
 const QLatin1String fakePrefix("fake:");
 
+QString chosenFolder()
+{
+    return QFile::decodeName(qgetenv("QTPLC_FAKE_DEVICES"));
+}
+
 QString fakeErrorText(const QString &operation, const QString &path)
 {
     return QStringLiteral("cannot %1 the fake device %2: %3; QTPLC_FAKE_DEVICES names another folder")
@@ -33,16 +38,13 @@ FakeMemory::~FakeMemory()
 
 QString FakeMemory::folder()
 {
-    const QString chosen = QFile::decodeName(qgetenv("QTPLC_FAKE_DEVICES"));
-    if (!chosen.isEmpty())
-        return chosen;
-    return QFile::decodeName(SessionFolder::path("qtplc-devices"));
+    const QString chosen = chosenFolder();
+    return chosen.isEmpty() ? QFile::decodeName(SessionFolder::path("qtplc-devices")) : chosen;
 }
 
 bool FakeMemory::makeFolder()
 {
-    const bool isChosen = !qEnvironmentVariableIsEmpty("QTPLC_FAKE_DEVICES");
-    return isChosen ? QDir().mkpath(folder()) : SessionFolder::make(QFile::encodeName(folder()));
+    return chosenFolder().isEmpty() ? SessionFolder::make(QFile::encodeName(folder())) : QDir().mkpath(folder());
 }
 
 bool FakeMemory::isFake(const QString &device)
