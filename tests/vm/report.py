@@ -27,7 +27,7 @@ def main():
     print(f"""# The virtual machine
 
 `scripts/test-vm` boots Debian's kernel with PREEMPT_RT in QEMU, on processors that are emulated, with the devices that the kernel has for tests: CAN (`vcan`), GPIO (`gpio-sim`), I2C (`i2c-stub`), SPI (`spidev` on a bus without wires,
-`tests/vm/spi_loop`). The hardware library, and a master with nodes under `SCHED_FIFO`, are tested with them. It needs root and Debian 12 on x86-64, no rights to virtualisation and no CAN, GPIO or I2C of the computer. `scripts/test` calls it too, and tells where it is not possible.
+`tests/vm/spi_loop`). The hardware library, and a master with nodes under `SCHED_FIFO`, are tested with them. It needs root and Debian 12 on x86-64, no rights to virtualisation and no CAN, GPIO or I2C of the computer. It is a job of its own: how long it takes depends on the computer that emulates, three minutes to more than fifteen.
 `scripts/test-vm --run COMMAND` runs a command of yours there.
 
 Times are for function only: a program emulates these processors. This page is written by the script.
