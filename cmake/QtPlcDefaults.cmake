@@ -24,6 +24,9 @@ add_link_options($<$<PLATFORM_ID:Linux>:LINKER:-Bsymbolic-functions>)
 # Qt's logging macros without arguments are an extension to clang's -Wpedantic.
 add_compile_options($<$<CXX_COMPILER_ID:Clang>:-Wno-gnu-zero-variadic-macro-arguments>)
 add_compile_definitions(QT_NO_KEYWORDS QT_NO_CAST_TO_ASCII QT_DISABLE_DEPRECATED_BEFORE=0x050F00)
+if(CMAKE_UNITY_BUILD)
+    add_compile_options(-Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)  # sources are headers of each other: a build that compiles each alone looks at these
+endif()
 if(QTPLC_WARNINGS_AS_ERRORS)
     add_compile_options(-Werror)
 endif()

@@ -1,21 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "OpenGlProbe.h"
 
-#include <QtCore/QCoreApplication>
+#include "gui/WindowText.h"
+
 #include <QtGui/QOffscreenSurface>
 #include <QtGui/QOpenGLContext>
 #include <QtGui/QOpenGLFunctions>
 
 namespace qplc {
-
-namespace {
-
-QString tr(const char *text)
-{
-    return QCoreApplication::translate("OpenGlProbe", text);
-}
-
-}  // namespace
 
 const OpenGlProbe &OpenGlProbe::instance()
 {
@@ -26,22 +18,22 @@ const OpenGlProbe &OpenGlProbe::instance()
 OpenGlProbe OpenGlProbe::probe()
 {
     if (qgetenv("QTPLC_OPENGL") == "off")
-        return {tr("OpenGL is switched off by QTPLC_OPENGL."), {}};
+        return {WindowText::tr("OpenGL is switched off by QTPLC_OPENGL."), {}};
     QOpenGLContext context;
     if (!context.create())
-        return {tr("There is no OpenGL on this screen."), {}};
+        return {WindowText::tr("There is no OpenGL on this screen."), {}};
     QOffscreenSurface surface;
     surface.setFormat(context.format());
     surface.create();
     if (!surface.isValid() || !context.makeCurrent(&surface))
-        return {tr("OpenGL does not start on this screen."), {}};
+        return {WindowText::tr("OpenGL does not start on this screen."), {}};
     const auto *name = reinterpret_cast<const char *>(context.functions()->glGetString(GL_RENDERER));
     const QString renderer = QString::fromLatin1(name);
     const bool hasFramebuffers = context.functions()->hasOpenGLFeature(QOpenGLFunctions::Framebuffers);
     const bool hasShaders = context.format().majorVersion() >= 2;  // without them, Qt 3D ends the program
     context.doneCurrent();
     if (!hasFramebuffers || !hasShaders)
-        return {tr("The OpenGL of %1 is too old.").arg(renderer), renderer};
+        return {WindowText::tr("The OpenGL of %1 is too old.").arg(renderer), renderer};
     return {{}, renderer};
 }
 

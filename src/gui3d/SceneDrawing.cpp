@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SceneDrawing.h"
 
+#include "gui/WindowText.h"
 #include "gui/kite/KiteOverlay.h"
-
-#include <QtCore/QCoreApplication>
 
 #include <algorithm>
 #include <array>
@@ -15,11 +14,6 @@ namespace {
 
 constexpr int tetherPoints = 25;
 constexpr float visibleShare = 0.085f;  // of the height of the picture: a smaller body is drawn larger
-
-QString tr(const char *text)
-{
-    return QCoreApplication::translate("SceneDrawing", text);
-}
 
 QColor faded(QColor color, double opacity)
 {
@@ -255,12 +249,12 @@ std::vector<SceneLabel> sceneLabels(const SceneInput &input, float forceUnit)
     if (input.show.axes) {
         const float length = 0.13f * input.size;
         const QVector3D begin;
-        labels.push_back({{length, 0, 0}, tr("east"), colors[0], begin});
-        labels.push_back({{0, length, 0}, tr("north"), colors[1], begin});
-        labels.push_back({{0, 0, length}, tr("up"), colors[2], begin});
+        labels.push_back({{length, 0, 0}, WindowText::tr("east"), colors[0], begin});
+        labels.push_back({{0, length, 0}, WindowText::tr("north"), colors[1], begin});
+        labels.push_back({{0, 0, length}, WindowText::tr("up"), colors[2], begin});
         if (input.state.wind)
             labels.push_back({positionOf({input.downwind, 0, 0.31f * input.size}),
-                              tr("wind %1 m/s").arg(double(input.state.wind->length()), 0, 'f', 1),
+                              WindowText::tr("wind %1 m/s").arg(double(input.state.wind->length()), 0, 'f', 1),
                               input.theme.accent});
     }
     for (const SceneEntity &entity : input.entities) {
@@ -271,10 +265,11 @@ std::vector<SceneLabel> sceneLabels(const SceneInput &input, float forceUnit)
         return labels;
     const auto place = [&input](const QVector3D &vector) { return *input.state.position + 1.12f * vector; };
     if (const auto wind = windVector(input))
-        labels.push_back({place(*wind), tr("%1 m/s").arg(double(input.state.relativeWind()->length()), 0, 'f', 0),
+        labels.push_back({place(*wind),
+                          WindowText::tr("%1 m/s").arg(double(input.state.relativeWind()->length()), 0, 'f', 0),
                           textColor(windColor, input.theme)});
     if (const auto force = forceVector(input, forceUnit))
-        labels.push_back({place(*force), tr("%1 N").arg(double(input.state.force->length()), 0, 'f', 0),
+        labels.push_back({place(*force), WindowText::tr("%1 N").arg(double(input.state.force->length()), 0, 'f', 0),
                           textColor(forceColor, input.theme)});
     return labels;
 }

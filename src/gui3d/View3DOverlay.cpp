@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "View3DOverlay.h"
 
-#include <QtCore/QCoreApplication>
+#include "gui/WindowText.h"
+
 #include <QtCore/QLineF>
 #include <QtCore/QtMath>
 
@@ -13,11 +14,6 @@ namespace qplc {
 namespace {
 
 constexpr double roseRadius = 15.0;  // [px]
-
-QString tr(const char *text)
-{
-    return QCoreApplication::translate("View3DOverlay", text);
-}
 
 /// Azimuth of the line of sight; of what is up in the picture when the camera looks straight down [deg].
 float lookAzimuth(const CameraPose &pose)
@@ -120,7 +116,7 @@ void drawScale(QPainter *painter, const QRectF &area, const CameraPose &pose, co
     painter->drawLine(left + QPointF(0, -3), left + QPointF(0, 3));
     painter->drawLine(left + QPointF(pixels, -3), left + QPointF(pixels, 3));
     painter->drawText(QRectF(left.x(), left.y() - line - 3, area.width(), line),
-                      tr("%1 m · %2").arg(length).arg(camera));
+                      WindowText::tr("%1 m · %2").arg(length).arg(camera));
 }
 
 void drawCompass(QPainter *painter, const QPointF &center, const CameraPose &pose, std::optional<float> downwind,
@@ -135,7 +131,7 @@ void drawCompass(QPainter *painter, const QPointF &center, const CameraPose &pos
     painter->drawLine(center + 0.55 * roseRadius * north, center + roseRadius * north);
     QRectF letter(0, 0, 14, 14);
     letter.moveCenter(center + (roseRadius + 7) * north);
-    painter->drawText(letter, Qt::AlignCenter, tr("N"));
+    painter->drawText(letter, Qt::AlignCenter, WindowText::tr("N"));
     if (!downwind)
         return;
     const QPointF along = onRose(*downwind, top);

@@ -76,7 +76,7 @@ void print(const QVector<Finding> &findings)
     }
 }
 
-void printJson(const QVector<Finding> &findings, bool isHealthy)
+void printAsJson(const QVector<Finding> &findings, bool isHealthy)
 {
     QJsonArray array;
     for (const Finding &finding : findings) {
@@ -87,8 +87,7 @@ void printJson(const QVector<Finding> &findings, bool isHealthy)
             object.insert(QStringLiteral("cure"), finding.remedy);
         array.append(object);
     }
-    tools::printJson(
-        QJsonDocument(QJsonObject{{QStringLiteral("ok"), isHealthy}, {QStringLiteral("findings"), array}}));
+    printJson(QJsonDocument(QJsonObject{{QStringLiteral("ok"), isHealthy}, {QStringLiteral("findings"), array}}));
 }
 
 }  // namespace
@@ -98,7 +97,7 @@ int examineComputer(const CommandCall &call)
     const QVector<Finding> findings = examine();
     const bool isHealthy = std::none_of(findings.begin(), findings.end(),
                                         [](const Finding &finding) { return finding.verdict == Finding::ToCure; });
-    call.isJson() ? printJson(findings, isHealthy) : print(findings);
+    call.isJson() ? printAsJson(findings, isHealthy) : print(findings);
     return isHealthy ? QPlcCoreApplication::Success : QPlcCoreApplication::Failure;
 }
 

@@ -82,22 +82,22 @@ void print(const RateStatistics &rate, const MasterState &state, quint64 skipped
                                  .arg(skipped));
 }
 
-void printJson(const RateStatistics &rate, const MasterState &state, quint64 skipped)
+void printAsJson(const RateStatistics &rate, const MasterState &state, quint64 skipped)
 {
     const QJsonObject interval{{QStringLiteral("count"), double(rate.intervals())},
                                {QStringLiteral("mean"), rate.mean()},
                                {QStringLiteral("minimum"), rate.minimum()},
                                {QStringLiteral("maximum"), rate.maximum()},
                                {QStringLiteral("std"), rate.deviation()}};
-    tools::printJson(QJsonDocument(QJsonObject{{QStringLiteral("cycles"), double(rate.cycles())},
-                                               {QStringLiteral("duration"), rate.duration()},
-                                               {QStringLiteral("rate"), rate.rate()},
-                                               {QStringLiteral("clock"), state.clock},
-                                               {QStringLiteral("period"), state.period},
-                                               {QStringLiteral("interval"), interval},
-                                               {QStringLiteral("lost"), double(rate.lost())},
-                                               {QStringLiteral("lostCycles"), rate.gaps()},
-                                               {QStringLiteral("skippedByMaster"), double(skipped)}}));
+    printJson(QJsonDocument(QJsonObject{{QStringLiteral("cycles"), double(rate.cycles())},
+                                        {QStringLiteral("duration"), rate.duration()},
+                                        {QStringLiteral("rate"), rate.rate()},
+                                        {QStringLiteral("clock"), state.clock},
+                                        {QStringLiteral("period"), state.period},
+                                        {QStringLiteral("interval"), interval},
+                                        {QStringLiteral("lost"), double(rate.lost())},
+                                        {QStringLiteral("lostCycles"), rate.gaps()},
+                                        {QStringLiteral("skippedByMaster"), double(skipped)}}));
 }
 
 /// Listens for a time. \return false when the master was lost meanwhile
@@ -153,7 +153,7 @@ int measureRate(const CommandCall &call)
         return QPlcCoreApplication::Failure;
     }
     const quint64 skipped = after.skipped >= before.skipped ? after.skipped - before.skipped : after.skipped;
-    call.isJson() ? printJson(rate, after, skipped) : print(rate, after, skipped);
+    call.isJson() ? printAsJson(rate, after, skipped) : print(rate, after, skipped);
     return rate.lost() > 0 ? QPlcCoreApplication::Failure : QPlcCoreApplication::Success;
 }
 

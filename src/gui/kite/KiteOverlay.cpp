@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "KiteOverlay.h"
 
+#include "gui/WindowText.h"
 #include "gui/models/ValueFormat.h"
 
-#include <QtCore/QCoreApplication>
 #include <QtCore/QDateTime>
 
 #include <algorithm>
@@ -15,11 +15,6 @@ namespace {
 
 constexpr double barWidth = 84.0;  // [px]
 constexpr double barHeight = 5.0;  // [px]
-
-QString tr(const char *text)
-{
-    return QCoreApplication::translate("KiteOverlay", text);
-}
 
 QLinearGradient gradient(const ColorScale &scale, const QPointF &from, const QPointF &to)
 {
@@ -65,9 +60,9 @@ void drawReadout(QPainter *painter, const QRectF &area, const KiteState &state, 
     const SkyPosition sky = skyPosition(*state.position);
     const double azimuth = std::round(wrappedAngle(double(sky.azimuth - state.downwind()))) + 0.0;  // no -0
     const QString lines[] = {
-        tr("azimuth %1°").arg(azimuth, 0, 'f', 0),
-        tr("elevation %1°").arg(double(sky.elevation), 0, 'f', 0),
-        tr("distance %1 m").arg(double(sky.distance), 0, 'f', 0),
+        WindowText::tr("azimuth %1°").arg(azimuth, 0, 'f', 0),
+        WindowText::tr("elevation %1°").arg(double(sky.elevation), 0, 'f', 0),
+        WindowText::tr("distance %1 m").arg(double(sky.distance), 0, 'f', 0),
     };
     painter->setPen(state.quality == Plant::Stale && !state.pastTime ? theme.stale : theme.mutedText);
     const double height = QFontMetricsF(painter->font()).height();
@@ -82,12 +77,12 @@ QString stateText(const KiteState &state)
 {
     if (state.pastTime) {
         const QDateTime time = QDateTime::fromMSecsSinceEpoch(*state.pastTime / 1'000'000);
-        return tr("at %1").arg(time.toString(QStringLiteral("HH:mm:ss.zzz")).chopped(2));
+        return WindowText::tr("at %1").arg(time.toString(QStringLiteral("HH:mm:ss.zzz")).chopped(2));
     }
     if (state.quality == Plant::Stale)
-        return tr("stale, %1").arg(ageText(state.age));
+        return WindowText::tr("stale, %1").arg(ageText(state.age));
     if (!state.position)
-        return tr("no position");
+        return WindowText::tr("no position");
     return {};
 }
 

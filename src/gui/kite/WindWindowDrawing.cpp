@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "WindWindowDrawing.h"
 
-#include <QtCore/QCoreApplication>
+#include "gui/WindowText.h"
+
 #include <QtCore/QtMath>
 
 #include <algorithm>
@@ -14,14 +15,9 @@ namespace {
 constexpr double belowHorizon = 5.0;  // [deg] of ground that is seen
 constexpr double margin = 8.0;        // [px]
 
-QString tr(const char *text)
-{
-    return QCoreApplication::translate("WindWindowDrawing", text);
-}
-
 QString windText(double speed)
 {
-    return tr("wind %1 m/s").arg(speed, 0, 'f', 1);
+    return WindowText::tr("wind %1 m/s").arg(speed, 0, 'f', 1);
 }
 
 }  // namespace
@@ -126,11 +122,11 @@ void WindWindowDrawing::drawLabels()
         const QPointF place = m_frame.toPixels(windWindowPoint(float(azimuth), 0, 0));
         const QRectF box(place.x() - 30, place.y() + 0.5 * belowHorizon * m_frame.scale(), 60, metrics.height());
         if (std::abs(place.x() - m_frame.origin().x()) > half)
-            m_painter->drawText(box, Qt::AlignHCenter | Qt::AlignTop, tr("%1°").arg(azimuth));
+            m_painter->drawText(box, Qt::AlignHCenter | Qt::AlignTop, WindowText::tr("%1°").arg(azimuth));
     }
     for (int elevation = step; elevation < 90; elevation += step) {
         const QPointF place = m_frame.toPixels(windWindowPoint(0, float(elevation), 0));
-        m_painter->drawText(place + QPointF(3, -2), tr("%1°").arg(elevation));
+        m_painter->drawText(place + QPointF(3, -2), WindowText::tr("%1°").arg(elevation));
     }
 }
 

@@ -2,8 +2,8 @@
 #include "LayoutJson.h"
 
 #include "LayoutReader.h"
+#include "gui/WindowText.h"
 
-#include <QtCore/QCoreApplication>
 #include <QtCore/QFile>
 #include <QtCore/QJsonDocument>
 #include <QtCore/QSaveFile>
@@ -109,11 +109,6 @@ QJsonObject LayoutWriter::home(const LayoutHome &home)
 
 namespace {
 
-QString tr(const char *text)
-{
-    return QCoreApplication::translate("qplc::LayoutJson", text);
-}
-
 void setError(QPlcParseError *error, const QPlcParseError &value)
 {
     if (error)
@@ -127,7 +122,7 @@ QPlcParseError syntaxError(const QByteArray &text, const QJsonParseError &json)
     QPlcParseError error;
     error.line = before.count('\n') + 1;
     error.column = QString::fromUtf8(before.mid(before.lastIndexOf('\n') + 1)).size() + 1;
-    error.message = tr("this is no JSON (%1): correct it, or choose another file").arg(json.errorString());
+    error.message = WindowText::tr("this is no JSON (%1): correct it, or choose another file").arg(json.errorString());
     return error;
 }
 
@@ -149,7 +144,7 @@ std::optional<Layout> layoutFromJson(const QByteArray &text, QPlcParseError *err
     const LayoutReader reader(document.object());
     if (reader.hasError()) {
         QPlcParseError structure;
-        structure.message = tr("%1; correct it, or choose another layout").arg(reader.error());
+        structure.message = WindowText::tr("%1; correct it, or choose another layout").arg(reader.error());
         setError(error, structure);
         return {};
     }
@@ -163,11 +158,12 @@ std::optional<Layout> readLayoutFile(const QString &fileName, QPlcParseError *er
     QPlcParseError inFile;
     std::optional<Layout> layout;
     if (!file.open(QIODevice::ReadOnly)) {
-        inFile.message = tr("the layout cannot be read (%1): check name and rights").arg(file.errorString());
+        inFile.message
+            = WindowText::tr("the layout cannot be read (%1): check name and rights").arg(file.errorString());
     } else {
         const QByteArray text = file.read(LargestFile + 1);
         if (text.size() > LargestFile)
-            inFile.message = tr("a file of more than 16 MiB is no layout: choose another file");
+            inFile.message = WindowText::tr("a file of more than 16 MiB is no layout: choose another file");
         else
             layout = layoutFromJson(text, &inFile);
     }
@@ -184,7 +180,7 @@ bool writeLayoutFile(const Layout &layout, const QString &fileName, QString *err
     if (file.open(QIODevice::WriteOnly) && file.write(text) == text.size() && file.commit())
         return true;
     if (error)
-        *error = tr("layout '%1' cannot be written (%2): check folder, rights and space")
+        *error = WindowText::tr("layout '%1' cannot be written (%2): check folder, rights and space")
                      .arg(fileName, file.errorString());
     return false;
 }

@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ControlSummary.h"
 
-#include <QtCore/QCoreApplication>
+#include "gui/WindowText.h"
 
 #include <algorithm>
 
 namespace qplc {
 
 namespace {
-
-QString tr(const char *text)
-{
-    return QCoreApplication::translate("ControlSummary", text);
-}
 
 ControlFact::Kind kindOf(const LeaseStatus &lease)
 {
@@ -61,19 +56,19 @@ QString ControlFact::headline() const
 {
     switch (kind) {
     case Mine:
-        return tr("You control");
+        return WindowText::tr("You control");
     case Lost:
-        return tr("Control is lost: neutral");
+        return WindowText::tr("Control is lost: neutral");
     case Others:
         break;
     }
-    return tr("%1 controls").arg(holder);
+    return WindowText::tr("%1 controls").arg(holder);
 }
 
 QString ControlFact::sentence() const
 {
     const QString names = references.join(QStringLiteral(", "));
-    return kind == Lost ? tr("Control of %1 is lost: neutral").arg(names)
+    return kind == Lost ? WindowText::tr("Control of %1 is lost: neutral").arg(names)
                         : QStringLiteral("%1 %2").arg(headline(), names);
 }
 
@@ -81,13 +76,14 @@ QString ControlFact::remedy() const
 {
     switch (kind) {
     case Mine:
-        return tr("Give back: the nodes write them again.");
+        return WindowText::tr("Give back: the nodes write them again.");
     case Lost:
-        return tr("%1 is gone. Take control in a setter, or give back: the nodes write them again.").arg(holder);
+        return WindowText::tr("%1 is gone. Take control in a setter, or give back: the nodes write them again.")
+            .arg(holder);
     case Others:
         break;
     }
-    return tr("A setter can take control from %1.").arg(holder);
+    return WindowText::tr("A setter can take control from %1.").arg(holder);
 }
 
 QVector<ControlFact> ControlFact::of(const PlantList &plants)

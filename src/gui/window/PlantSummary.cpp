@@ -1,28 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "PlantSummary.h"
 
+#include "gui/WindowText.h"
 #include "gui/models/ValueFormat.h"
 
-#include <QtCore/QCoreApplication>
 #include <QtCore/QStringList>
 
 #include <cmath>
 
 namespace qplc {
 
-namespace {
-
-QString tr(const char *text)
-{
-    return QCoreApplication::translate("PlantSummary", text);
-}
-
-}  // namespace
-
 QString linkText(double roundTrip, quint64 lost)
 {
-    const QString time = tr("link %1").arg(durationText(roundTrip));
-    return lost > 0 ? tr("%1, %2 lost").arg(time).arg(lost) : time;
+    const QString time = WindowText::tr("link %1").arg(durationText(roundTrip));
+    return lost > 0 ? WindowText::tr("%1, %2 lost").arg(time).arg(lost) : time;
 }
 
 namespace {
@@ -34,11 +25,12 @@ QString figuresOf(const Plant &plant, const ViolationWatch &violations)
     const double period = double(status.period > 0 ? status.period : plant.values().period());
     if (period > 1.0) {
         const double rate = 1e9 / period;
-        const QString text = tr("%1 Hz").arg(rate, 0, 'g', 4);
-        parts << (plant.every() == 1 ? text : tr("%1, %2 shown").arg(text).arg(rate / plant.every(), 0, 'g', 4));
+        const QString text = WindowText::tr("%1 Hz").arg(rate, 0, 'g', 4);
+        parts << (plant.every() == 1 ? text
+                                     : WindowText::tr("%1, %2 shown").arg(text).arg(rate / plant.every(), 0, 'g', 4));
     }
     if (status.lateness.last10s.count > 0)
-        parts << tr("jitter %1 p99").arg(durationText(status.lateness.last10s.p99));
+        parts << WindowText::tr("jitter %1 p99").arg(durationText(status.lateness.last10s.p99));
     if (status.isRunning() && !plant.feed())
         parts << violations.text();
     if (status.roundTrip.last10s.count > 0)
@@ -51,13 +43,16 @@ PlantSummary withoutConnection(const Plant &plant)
     const QString reason = plant.stateText();
     const bool wasThere = plant.store() != nullptr;
     if (plant.connectionState() == PlantConnection::Connecting)
-        return {
-            wasThere ? Tone::Alarm : Tone::Warning, wasThere ? tr("lost; connecting") : tr("connecting"), reason, {}};
+        return {wasThere ? Tone::Alarm : Tone::Warning,
+                wasThere ? WindowText::tr("lost; connecting") : WindowText::tr("connecting"),
+                reason,
+                {}};
     const double pause = plant.nextAttempt();
     const QString what = !plant.refusal().isEmpty() ? plant.refusal().section(QLatin1Char(':'), 0, 0)
-        : wasThere                                  ? tr("lost")
-                                                    : tr("not there");
-    const QString next = pause >= 0.0 ? tr("%1; next attempt in %2 s").arg(what).arg(std::ceil(pause)) : what;
+        : wasThere                                  ? WindowText::tr("lost")
+                                                    : WindowText::tr("not there");
+    const QString next
+        = pause >= 0.0 ? WindowText::tr("%1; next attempt in %2 s").arg(what).arg(std::ceil(pause)) : what;
     return {wasThere ? Tone::Alarm : Tone::Warning, next, reason, {}};
 }
 
@@ -83,19 +78,22 @@ namespace {
 PlantSummary conditionOf(const Plant &plant)
 {
     if (plant.status().isLatched())
-        return {
-            Tone::Alarm, plant.status().state == QLatin1String("Fault") ? tr("fault") : tr("stopped safely"), {}, {}};
+        return {Tone::Alarm,
+                plant.status().state == QLatin1String("Fault") ? WindowText::tr("fault")
+                                                               : WindowText::tr("stopped safely"),
+                {},
+                {}};
     switch (plant.quality()) {
     case Plant::Good:
-        return {Tone::Good, tr("live"), {}, {}};
+        return {Tone::Good, WindowText::tr("live"), {}, {}};
     case Plant::AtRest:
-        return {Tone::Calm, tr("at rest"), {}, {}};
+        return {Tone::Calm, WindowText::tr("at rest"), {}, {}};
     case Plant::Stale:
-        return {Tone::Warning, tr("values stale for %1").arg(ageText(plant.age())), {}, {}};
+        return {Tone::Warning, WindowText::tr("values stale for %1").arg(ageText(plant.age())), {}, {}};
     case Plant::NoValue:
         break;
     }
-    return {Tone::Calm, tr("no values yet"), {}, {}};
+    return {Tone::Calm, WindowText::tr("no values yet"), {}, {}};
 }
 
 }  // namespace
@@ -107,7 +105,8 @@ PlantSummary PlantSummary::of(const Plant &plant, const ViolationWatch &violatio
     PlantSummary summary = conditionOf(plant);
     if (!plant.status().gone.isEmpty()) {
         summary.tone = summary.tone == Tone::Alarm ? Tone::Alarm : Tone::Warning;
-        summary.condition = tr("%1; %2 gone").arg(summary.condition, plant.status().gone.join(QStringLiteral(", ")));
+        summary.condition
+            = WindowText::tr("%1; %2 gone").arg(summary.condition, plant.status().gone.join(QStringLiteral(", ")));
     }
     summary.figures = figuresOf(plant, violations);
     if (violations.recent() > 0)
@@ -119,11 +118,11 @@ QString StateStep::name(Step step)
 {
     switch (step) {
     case Off:
-        return tr("Off");
+        return WindowText::tr("Off");
     case Initialized:
-        return tr("Initialized");
+        return WindowText::tr("Initialized");
     case RealTime:
-        return tr("Real time");
+        return WindowText::tr("Real time");
     case None:
         break;
     }
@@ -136,21 +135,21 @@ StateStep StateStep::of(const Plant *plant, bool isInitialized)
         return {};
     const QString &state = plant->status().state;
     if (plant->status().isRunning() && plant->quality() == Plant::Stale)
-        return {RealTime, Tone::Warning, tr("No cycles")};
+        return {RealTime, Tone::Warning, WindowText::tr("No cycles")};
     if (state == QLatin1String("RealTime"))
         return {RealTime, Tone::Good, {}};
     if (state == QLatin1String("WaitingForLateSlaves"))
-        return {RealTime, Tone::Warning, tr("Waiting for late nodes")};
+        return {RealTime, Tone::Warning, WindowText::tr("Waiting for late nodes")};
     if (state == QLatin1String("SafeStop"))
-        return {RealTime, Tone::Alarm, tr("Safe stop")};
+        return {RealTime, Tone::Alarm, WindowText::tr("Safe stop")};
     if (state == QLatin1String("Fault"))
-        return {Off, Tone::Alarm, tr("Fault")};
+        return {Off, Tone::Alarm, WindowText::tr("Fault")};
     if (state == QLatin1String("Initializing"))
-        return {Initialized, Tone::Calm, tr("Initializing …")};
+        return {Initialized, Tone::Calm, WindowText::tr("Initializing …")};
     if (state == QLatin1String("Ready") && plant->status().isArmed)
-        return {Initialized, Tone::Warning, tr("Armed")};
+        return {Initialized, Tone::Warning, WindowText::tr("Armed")};
     if (state == QLatin1String("Ready"))
-        return {Initialized, Tone::Calm, tr("Ready")};
+        return {Initialized, Tone::Calm, WindowText::tr("Ready")};
     if (isInitialized || state == QLatin1String("Initialized"))
         return {Initialized, Tone::Calm, {}};
     return {Off, Tone::Calm, {}};

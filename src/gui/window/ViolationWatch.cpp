@@ -1,20 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ViolationWatch.h"
 
-#include <QtCore/QCoreApplication>
+#include "gui/WindowText.h"
 
 namespace qplc {
 
 namespace {
 
-QString tr(const char *text)
-{
-    return QCoreApplication::translate("ViolationWatch", text);
-}
-
 QString counted(quint64 count)
 {
-    return count == 1 ? tr("1 violation") : tr("%1 violations").arg(count);
+    return count == 1 ? WindowText::tr("1 violation") : WindowText::tr("%1 violations").arg(count);
 }
 
 }  // namespace
@@ -41,7 +36,7 @@ void ViolationWatch::take(quint64 total, qint64 now)
 
 QString ViolationWatch::text() const
 {
-    return recent() > 0 ? tr("%1 in 10 s").arg(counted(recent())) : counted(total());
+    return recent() > 0 ? WindowText::tr("%1 in 10 s").arg(counted(recent())) : counted(total());
 }
 
 }  // namespace qplc
