@@ -3,6 +3,7 @@
 
 #include "Logging.h"
 #include "protocol/ControlFrame.h"
+#include "transport/LossWatch.h"
 
 #include <QtCore/QPointer>
 #include <QtNetwork/QSslSocket>
@@ -42,6 +43,13 @@ QPlcAbstractSocket::Error errorOf(QAbstractSocket::SocketError error)
     }
 }
 
+/// What a control connection needs of its socket. Before it is connected there is nothing to set.
+void setControlOptions(QTcpSocket *socket)
+{
+    socket->setSocketOption(QAbstractSocket::LowDelayOption, 1);
+    qplc::LossWatch::begin(int(socket->socketDescriptor()));
+}
+
 /// For the debug log. What is encrypted for the wire may hold keys: it stays secret here, too.
 QString shown(const QByteArray &frame, bool isSecured)
 {
@@ -71,9 +79,9 @@ void QPlcAbstractSocket::setSocket(QTcpSocket *socket)
     d->tls = qobject_cast<QSslSocket *>(socket);
     d->reader = qplc::ControlFrameReader();
     socket->setParent(this);
-    socket->setSocketOption(QAbstractSocket::LowDelayOption, 1);
+    setControlOptions(socket);
     const auto nowConnected = [this] {
-        d->socket->setSocketOption(QAbstractSocket::LowDelayOption, 1);
+        setControlOptions(d->socket);
         Q_EMIT connected();
     };
     if (d->tls)
@@ -181,6 +189,7 @@ int QPlcAbstractSocket::takeDescriptor()
     if (!isConnected())
         return -1;
     const int descriptor = ::fcntl(int(d->socket->socketDescriptor()), F_DUPFD_CLOEXEC, 0);
+    qplc::LossWatch::end(descriptor);  // a node that is stopped takes no frames: it is late, and not lost
     d->socket->disconnect(this);
     d->socket->abort();  // closes the other descriptor; the connection lives on in the duplicate
     return descriptor;
