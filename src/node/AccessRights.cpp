@@ -54,6 +54,10 @@ QString registrationRefusal(const Peer &peer, const QPlcMessage &message)
         return QStringLiteral("Denied: identity '%1' may not be node '%2'; a node with the role Node has the name of "
                               "its identity")
             .arg(peer.identity, printable(name));
+    if (name != peer.identity && peer.known.contains(name))
+        return QStringLiteral("Denied: identity '%1' may not be node '%2', which is another identity; choose another "
+                              "name")
+            .arg(peer.identity, name);
     return {};
 }
 

@@ -118,8 +118,9 @@ struct Peer
 {
     bool isSecured = false;  // the connection is TLS and the identity proven
     bool isCyclicOnly
-        = false;       // a plain connection to a secured master: it may attach as a cyclic channel, and nothing else
-    QString identity;  // empty: nobody asked
+        = false;        // a plain connection to a secured master: it may attach as a cyclic channel, and nothing else
+    QString identity;   // empty: nobody asked
+    QStringList known;  // identities of the plant: nobody takes part under the name of another one
     Role role = Role::Engineer;  // without security everybody may do everything
     bool mayWriteAll = true;
     QStringList writes;  // otherwise: names and patterns (*, ?, [...]) of signals

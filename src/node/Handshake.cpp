@@ -190,6 +190,8 @@ bool Handshake::identify(QString *reason)
     }
     if (m_settings.hasAccess)
         m_settings.access.apply(&m_peer);
+    if (m_peer.role != Role::Node)  // who has its own name anyway
+        m_peer.known = m_settings.identities();
     return true;
 }
 

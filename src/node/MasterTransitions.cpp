@@ -183,12 +183,19 @@ void QPlcMasterNodePrivate::tripped(const qplc::CycleEvent &event)
     apply(Event::CyclesTripped, text);
 }
 
+/// Whether \a slot does the work of its node, or will in the next phase: a listener does none, nor does who has no cyclic channel yet.
+bool QPlcMasterNodePrivate::takesPart(const NodeSlot &slot) const
+{
+    const Connection *connection = server->connectionOf(&slot);
+    return !slot.listener && (slot.local || (connection && connection->isAttached()));
+}
+
 QString QPlcMasterNodePrivate::remainingCause() const
 {
     if (state != QPlcMasterNode::SafeStop || m_culprit.isEmpty())
         return {};
     for (const std::shared_ptr<NodeSlot> &slot : registry->nodes()) {
-        if (slot->name != m_culprit)
+        if (slot->name != m_culprit || !takesPart(*slot))
             continue;
         return slot->bucket > 0 ? QStringLiteral("node '%1' still answers late, or not at all").arg(m_culprit)
                                 : QString();

@@ -128,6 +128,7 @@ private:
     void blame(const QString &node, bool mustReturn);
     void tellSafeStop();
     QString stateOf(const qplc::NodeSlot &slot) const;
+    bool takesPart(const qplc::NodeSlot &slot) const;
     void armAsAsked(Connection *connection);
     void startAsAsked(Connection *connection, const QPlcMessage &message);
     void setSignals(Connection *connection, const QPlcMessage &message);

@@ -22,6 +22,9 @@ struct TlsSettings
     /// \return false, with the remedy in \a error, when a file is missing, wrong, or open to others
     static bool read(const QPlcSecurity &security, QPlcSecurity::Side side, TlsSettings *settings, QString *error);
 
+    /// All that a master knows by its files.
+    QStringList identities() const { return keys.entries().keys() + access.identities(); }
+
     /// Whether a suite has forward secrecy and authenticated encryption. \param mode  that of the security
     static bool isAcceptable(const QSslCipher &cipher, QPlcSecurity::Mode mode);
 };

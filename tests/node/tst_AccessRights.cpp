@@ -27,6 +27,8 @@ private Q_SLOTS:
     void withoutSecurityEverybodyMayEverything();
     void aNodeHasTheNameOfItsIdentity();
     void anObserverListensOnly();
+    void nobodyHasTheNameOfAnother_data();
+    void nobodyHasTheNameOfAnother();
     void signalsAreWrittenByThoseWhoMay();
     void commandsAreWrittenDown();
     void rolesHaveNames();
@@ -241,6 +243,47 @@ void tst_AccessRights::anObserverListensOnly()
     const QJsonObject fields{{"name", "x"}, {"listener", true}, {"outputs", QJsonArray{QJsonObject{{"name", "sum"}}}}};
     QVERIFY(qplc::refusalOf(peerOf(Role::Observer), QPlcMessage(QPlcMessage::Register, fields))
                 .contains("may not write signal 'sum'"));
+}
+
+void tst_AccessRights::nobodyHasTheNameOfAnother_data()
+{
+    QTest::addColumn<QString>("identity");
+    QTest::addColumn<QString>("digit");
+    QTest::newRow("Observer") << "bert"
+                              << "d";
+    QTest::newRow("Operator") << "anna"
+                              << "c";
+    QTest::newRow("Engineer") << "carl"
+                              << "e";
+}
+
+/// Not only of one in the file of keys: the access file knows identities, too.
+void tst_AccessRights::nobodyHasTheNameOfAnother()
+{
+    QFETCH(QString, identity);
+    QFETCH(QString, digit);
+    LogCapture log;
+    QPlcSecurity security = QPlcSecurity::preSharedKeys(m_files.masterKeys());
+    security.setAccessFile(m_files.write("names.ini", "[Winch]\nrole = Node\n"));
+    TestMaster master;
+    master.setSecurity(security);
+    QVERIFY(master.listen());
+    const auto answerTo = [&](const QString &name) {
+        ScriptedNode node(name);
+        node.control.setSecurity(m_files.of(identity, digit.at(0).toLatin1()));
+        node.listener = true;
+        node.outputs.clear();
+        (void)node.registerAt(master.serverPort());
+        return node.registered;
+    };
+    for (const char *name : {"Counter", "Winch"}) {
+        QCOMPARE(answerTo(name).text("text"),
+                 QString("Denied: identity '%1' may not be node '%2', which is another identity; choose another name")
+                     .arg(identity, name));
+    }
+    QVERIFY(master.nodes().isEmpty());
+    QCOMPARE(answerTo(identity).kind(), QPlcMessage::Registered);
+    QCOMPARE(answerTo("Screen").kind(), QPlcMessage::Registered);
 }
 
 void tst_AccessRights::signalsAreWrittenByThoseWhoMay()

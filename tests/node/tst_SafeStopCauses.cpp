@@ -17,6 +17,7 @@ class tst_SafeStopCauses : public QObject
 private Q_SLOTS:
     void init() { QPlcSignalIndexTable::setCurrent({}); }
     void aCriticalNodeThatLeavesStopsThePlantAndHasToBeBack();
+    void onlyANodeThatTakesPartIsBack();
     void aNodeThatIsNotCriticalMayLeave();
     void aCriticalNodeThatFailsStopsThePlantSafely();
     void aCriticalNodeThatIsLateTooOftenStopsThePlant();
@@ -62,6 +63,40 @@ void tst_SafeStopCauses::aCriticalNodeThatLeavesStopsThePlantAndHasToBeBack()
     QTRY_VERIFY(winch.steps > steps);
     master.stop();
     winch.disconnectFromMaster();
+}
+
+/// Somebody with its name is not enough: a listener does none of its work, and neither does who has no cyclic channel yet.
+void tst_SafeStopCauses::onlyANodeThatTakesPartIsBack()
+{
+    TestMaster master(QPlcClock::realTime());
+    QVERIFY(master.listen());
+    SafeNode winch;
+    winch.setCritical(true);
+    QVERIFY(master.admit(winch, "udp") && master.startRealTime());
+    QTRY_VERIFY(winch.steps > 3);
+    winch.disconnectFromMaster();
+    QVERIFY(master.waitForState(QPlcMasterNode::SafeStop));
+
+    ScriptedNode listener("Winch");
+    listener.listener = true;
+    listener.outputs.clear();
+    QVERIFY(listener.registerAt(master.serverPort()));
+    QCOMPARE(master.causeThatRemains(), QString("node 'Winch' is not back; start it again"));
+    listener.control.close();
+    QTRY_VERIFY(master.nodes().isEmpty());
+
+    ScriptedNode late("Winch");
+    late.cyclic = "tcp";
+    QVERIFY(late.connectTo(master.serverPort()));
+    late.send(QPlcMessage::Hello, late.helloFields());
+    QCOMPARE(late.next().kind(), QPlcMessage::Hello);
+    late.send(QPlcMessage::Register, late.registerFields());
+    QVERIFY(late.takeRegistered(late.next()));
+    QCOMPARE(master.causeThatRemains(), QString("node 'Winch' is not back; start it again"));
+    QVERIFY(!master.reset());
+    QVERIFY(late.attach());
+    QCOMPARE(master.causeThatRemains(), QString());
+    QVERIFY(master.reset());
 }
 
 void tst_SafeStopCauses::aNodeThatIsNotCriticalMayLeave()
