@@ -6,6 +6,8 @@
 
 #include <QtCore/QJsonArray>
 
+#include <numeric>
+
 namespace qplc {
 
 namespace {
@@ -44,6 +46,33 @@ QJsonObject counterFields(const QPlcMasterStatistics &statistics)
             {QStringLiteral("refusedConnections"), double(statistics.refusedConnections)},
             {QStringLiteral("failedHandshakes"), double(statistics.failedHandshakes)},
             {QStringLiteral("deniedMessages"), double(statistics.deniedMessages)}};
+}
+
+/// All of \a names are looked at before an answer is made: a short question that names one signal again and again would have an endless one.
+bool readNames(const QPlcSignalTable &table, const QStringList &names, std::vector<QPlcSignalIndex> *wanted,
+               Refusal *refusal)
+{
+    if (names.size() > table.size()) {
+        *refusal = {QStringLiteral("MalformedMessage"),
+                    QStringLiteral("%1 names are wanted, and the table has %2 signals; name each signal once")
+                        .arg(names.size())
+                        .arg(table.size())};
+        return false;
+    }
+    std::vector<bool> isWanted(std::size_t(table.size()));
+    for (const QString &name : names) {
+        const QPlcSignalIndex index = table.indexOf(name);
+        if (index == QPlcInvalidSignalIndex)
+            *refusal = {QStringLiteral("UnknownSignal"), table.unknownSignalText(name)};
+        else if (isWanted[index])
+            *refusal = {QStringLiteral("MalformedMessage"),
+                        QStringLiteral("'%1' is named twice; name each signal once").arg(name)};
+        if (!refusal->error.isEmpty())
+            return false;
+        isWanted[index] = true;
+        wanted->push_back(index);
+    }
+    return true;
 }
 
 }  // namespace
@@ -126,24 +155,21 @@ QJsonObject eventFields(const std::vector<JournalEvent> &events)
 }
 
 bool signalFields(const MasterCycle &cycle, const NodeRegistry &registry, const Leases &leases,
-                  const QStringList &names, QJsonObject *fields, QString *error)
+                  const QStringList &names, QJsonObject *fields, Refusal *refusal)
 {
     const QPlcSignalTable &table = cycle.table();
-    const std::vector<char> values = cycle.values();
-    QStringList wanted = names;
-    if (wanted.isEmpty()) {
-        for (const QPlcSignalDefinition &definition : table)
-            wanted << definition.name;
+    std::vector<QPlcSignalIndex> wanted;
+    if (!readNames(table, names, &wanted, refusal))
+        return false;
+    if (names.isEmpty()) {
+        wanted.resize(std::size_t(table.size()));
+        std::iota(wanted.begin(), wanted.end(), QPlcSignalIndex(0));
     }
+    const std::vector<char> values = cycle.values();
     QJsonArray signalArray;
-    for (const QString &name : qAsConst(wanted)) {
-        const QPlcSignalIndex index = table.indexOf(name);
-        if (index == QPlcInvalidSignalIndex) {
-            *error = table.unknownSignalText(name);
-            return false;
-        }
+    for (const QPlcSignalIndex index : wanted) {
         const QPlcSignalDefinition &definition = table.at(index);
-        QJsonObject signal{{QStringLiteral("name"), name},
+        QJsonObject signal{{QStringLiteral("name"), definition.name},
                            {QStringLiteral("type"), definition.type.name()},
                            {QStringLiteral("unit"), definition.unit},
                            {QStringLiteral("description"), definition.description},

@@ -16,9 +16,9 @@ namespace qplc {
 /// Fields of the message State.
 QJsonObject stateFields(const QPlcMasterNode &master, quint64 session);
 /// Fields of the message Signals, for \a names or, when empty, all; the values are those of one cycle.
-/// \return false with the first unknown name in \a error
+/// \return false with the first name that is unknown, or comes twice, in \a refusal
 bool signalFields(const MasterCycle &cycle, const NodeRegistry &registry, const Leases &leases,
-                  const QStringList &names, QJsonObject *fields, QString *error);
+                  const QStringList &names, QJsonObject *fields, Refusal *refusal);
 /// Fields of the message Events.
 QJsonObject eventFields(const std::vector<JournalEvent> &events);
 /// Fields of the message Schedule.

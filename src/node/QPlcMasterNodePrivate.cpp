@@ -293,7 +293,7 @@ void QPlcMasterNodePrivate::receiveCommand(Connection *connection, const Message
 {
     const QJsonObject fields = message.fields();
     QJsonObject reply;
-    QString text;
+    qplc::Refusal refusal;
     switch (message.kind()) {
     case Message::InitializeAllStates:
         request(connection, initializeAllStates());
@@ -327,8 +327,8 @@ void QPlcMasterNodePrivate::receiveCommand(Connection *connection, const Message
         break;
     case Message::GetSignals:
         if (!qplc::signalFields(*cycle, *registry, leaseBooks,
-                                fields.value(QStringLiteral("names")).toVariant().toStringList(), &reply, &text))
-            connection->fail(QStringLiteral("UnknownSignal"), text);
+                                fields.value(QStringLiteral("names")).toVariant().toStringList(), &reply, &refusal))
+            connection->fail(refusal.error, refusal.text);
         else if (!connection->send(Message::Signals, reply))
             connection->fail(QStringLiteral("TooLong"),
                              QStringLiteral("too many signals for one answer; ask for some of them by name"));

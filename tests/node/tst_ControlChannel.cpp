@@ -12,6 +12,7 @@ private Q_SLOTS:
     void init();
     void getStateTellsEverything();
     void getSignalsTellsAllOrSome();
+    void getSignalsTakesEachNameOnce();
     void setSignalsReadsWhatGetSignalsWrites();
     void setSignalsSetsAllOrNone_data();
     void setSignalsSetsAllOrNone();
@@ -100,6 +101,22 @@ void tst_ControlChannel::getSignalsTellsAllOrSome()
     const QPlcMessage failed = m_tool->ask(QPlcMessage::GetSignals, {{"names", QJsonArray{"sum", "setpiont"}}});
     QCOMPARE(failed.text("error"), QString("UnknownSignal"));
     QVERIFY2(failed.text("text").contains("'setpoint'"), qPrintable(failed.text("text")));
+}
+
+/// A short question has no endless answer.
+void tst_ControlChannel::getSignalsTakesEachNameOnce()
+{
+    const QPlcMessage twice = m_tool->ask(QPlcMessage::GetSignals, {{"names", QJsonArray{"sum", "count", "sum"}}});
+    QCOMPARE(twice.text("error"), QString("MalformedMessage"));
+    QCOMPARE(twice.text("text"), QString("'sum' is named twice; name each signal once"));
+    QJsonArray names;
+    for (int i = 0; i <= testTable().size(); ++i)
+        names << QString("unknown%1").arg(i);
+    const QPlcMessage tooMany = m_tool->ask(QPlcMessage::GetSignals, {{"names", names}});
+    QCOMPARE(tooMany.text("error"), QString("MalformedMessage"));
+    QVERIFY2(tooMany.text("text").contains("the table has 10 signals"), qPrintable(tooMany.text("text")));
+    names.removeLast();
+    QCOMPARE(m_tool->ask(QPlcMessage::GetSignals, {{"names", names}}).text("error"), QString("UnknownSignal"));
 }
 
 void tst_ControlChannel::setSignalsReadsWhatGetSignalsWrites()
