@@ -36,7 +36,7 @@ struct MasterConnection
     QString name;                       // as greeted
     QString uuid;
     QString cyclicKind;                // "udp", "tcp"
-    TokenBucket messages{1000, 4000};  // of tools; nodes have their cycle
+    TokenBucket messages{1000, 4000};  // that nobody has asked it for
     quint64 token = 0;                 // names this node on its cyclic TCP connection
     std::shared_ptr<NodeSlot> slot;    // null: no node
     qint64 stageSince = 0;             // [ms] for time-outs
@@ -50,6 +50,13 @@ struct MasterConnection
     bool isSecured() const { return peer.isSecured && socket->isSecured(); }
     bool isNode() const { return slot != nullptr; }
     bool isAttached() const { return slot && stage >= Attached; }
+    /// Whether a message of \a kind is the answer that the master waits for: there are as many of them as the master wants.
+    bool owes(QPlcMessage::Kind kind) const
+    {
+        return (stage == GivingOutputs && kind == QPlcMessage::ReceiveMyInitialOutputStates)
+            || (stage == Initializing && kind == QPlcMessage::Initialized)
+            || (stage == Starting && kind == QPlcMessage::RealTimeReady);
+    }
     bool send(QPlcMessage::Kind kind, const QJsonObject &fields = QJsonObject()) const
     {
         return socket->sendMessage(QPlcMessage(kind, fields));

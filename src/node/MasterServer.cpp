@@ -224,9 +224,9 @@ void MasterServer::deny(MasterConnection *connection, const QString &reason, boo
 }
 
 /// Whether somebody asks faster than is good for the others; then the connection has ended. Who does not read the answers is not listened to by the socket.
-bool MasterServer::isTooMuch(MasterConnection *connection)
+bool MasterServer::isTooMuch(MasterConnection *connection, const Message &message)
 {
-    if (connection->isNode() || connection->messages.take(monotonicNow()))
+    if (connection->owes(message.kind()) || connection->messages.take(monotonicNow()))
         return false;
     ++m_deniedMessages;
     reject(connection, QStringLiteral("TooMuch"),
@@ -237,7 +237,7 @@ bool MasterServer::isTooMuch(MasterConnection *connection)
 /// The one place where control messages come in.
 void MasterServer::receive(MasterConnection *connection, const Message &message)
 {
-    if (isTooMuch(connection))
+    if (isTooMuch(connection, message))
         return;
     const QString refusal = refusalOf(connection->peer, message);
     if (!refusal.isEmpty()) {

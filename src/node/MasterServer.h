@@ -67,7 +67,7 @@ Q_SIGNALS:
 private:
     void enter(QPlcSlaveSocket *socket, const Peer &peer, ConnectionGate::Ticket ticket);
     void dropSlow(ConnectionGate::Ticket ticket);
-    bool isTooMuch(MasterConnection *connection);
+    bool isTooMuch(MasterConnection *connection, const QPlcMessage &message);
     void dropUnattached(const MasterConnection *connection);
     MasterConnection *connectionOf(const QPlcSlaveSocket *socket) const;
     void deny(MasterConnection *connection, const QString &reason, bool isRegistration);

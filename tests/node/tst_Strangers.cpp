@@ -28,6 +28,8 @@ private Q_SLOTS:
     void aLongGreetingIsRefusedBeforeItIsRead();
     void tooManyConnectionsAreClosedAtOnce();
     void whoAsksTooMuchIsShownOut();
+    void aNodeThatAsksTooMuchIsShownOut_data();
+    void aNodeThatAsksTooMuchIsShownOut();
     void aNodeThatDoesNotAttachKeepsItsNameForAWhileOnly();
 
 private:
@@ -246,6 +248,29 @@ void tst_Strangers::whoAsksTooMuchIsShownOut()
         tool.send(QPlcMessage::GetLeases);
     QTRY_VERIFY_WITH_TIMEOUT(!gone.isEmpty(), 20000);
     QTRY_VERIFY(!m_log->matching("too many messages").isEmpty());  // it may not have read it before the end
+    QVERIFY(lets("Counter"));
+}
+
+void tst_Strangers::aNodeThatAsksTooMuchIsShownOut_data()
+{
+    QTest::addColumn<int>("kind");
+    QTest::newRow("questions") << int(QPlcMessage::GetLeases);
+    QTest::newRow("answers that nobody has asked for") << int(QPlcMessage::Initialized);
+}
+
+void tst_Strangers::aNodeThatAsksTooMuchIsShownOut()
+{
+    QFETCH(int, kind);
+    ScriptedNode node("Counter");
+    node.control.setSecurity(m_isSecured ? m_files.counter() : QPlcSecurity());
+    QVERIFY(node.registerAt(m_master->serverPort()));
+    QSignalSpy gone(&node.control, &QPlcAbstractSocket::disconnected);
+    QSignalSpy lost(m_master.data(), &QPlcMasterNode::nodeLost);
+    for (int i = 0; i < 20000 && node.control.isConnected(); ++i)
+        node.send(QPlcMessage::Kind(kind));
+    QTRY_VERIFY_WITH_TIMEOUT(!gone.isEmpty(), 20000);
+    QTRY_COMPARE(lost.size(), 1);
+    QTRY_VERIFY(!m_log->matching("too many messages").isEmpty());
     QVERIFY(lets("Counter"));
 }
 
