@@ -76,14 +76,16 @@ bool BenchMaster::prepare()
     return m_master.addLocalNode(&m_probe) || setError(m_master.errorString());
 }
 
-/// One key for all slaves: an engineer may be any node.
+/// One key, with which each slave is itself.
 bool BenchMaster::makeKeys()
 {
     QFile file(m_keysFolder.filePath(QStringLiteral("keys.ini")));
     const QByteArray key = QByteArray::number(QRandomGenerator::system()->generate64(), 16).rightJustified(64, 'a');
+    QByteArray text;
+    for (int i = 0; i < m_options.slaves; ++i)
+        text += "[" + BenchSlave::nameOf(i).toUtf8() + "]\nkey = " + key + "\nrole = Node\n";
     const bool isWritten = file.open(QIODevice::WriteOnly)
-        && file.setPermissions(QFileDevice::ReadOwner | QFileDevice::WriteOwner)
-        && file.write("[bench]\nkey = " + key + "\nrole = Engineer\n") > 0;
+        && file.setPermissions(QFileDevice::ReadOwner | QFileDevice::WriteOwner) && file.write(text) == text.size();
     if (!isWritten)
         return setError(QStringLiteral("cannot write %1: %2").arg(file.fileName(), file.errorString()));
     m_keysFile = file.fileName();

@@ -33,7 +33,7 @@ QPlcSignalTable benchTable(const BenchOptions &options)
 // ---- slave ----
 
 BenchSlave::BenchSlave(const BenchOptions &options, int index)
-    : QPlcCompactSlaveNode(QStringLiteral("Slave%1").arg(index), SilentZeroOrderHold)
+    : QPlcCompactSlaveNode(nameOf(index), SilentZeroOrderHold)
 {
     for (int i = 0; i < options.inputs; ++i)
         m_in.emplace_back(this, signalName("in", index, i).constData());

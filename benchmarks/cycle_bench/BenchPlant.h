@@ -15,6 +15,7 @@ class BenchSlave : public QPlcCompactSlaveNode
 {
 public:
     BenchSlave(const BenchOptions &options, int index);
+    static QString nameOf(int index) { return QStringLiteral("Slave%1").arg(index); }
 
 private:
     void step(const QPlcCycle &cycle) override;

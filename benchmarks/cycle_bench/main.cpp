@@ -19,7 +19,7 @@ int runSlave(QPlcCoreApplication &application, const BenchOptions &options)
     realTime.spin = qint64(options.spinUs) * 1000;
     slave.setRealTimeOptions(realTime);
     if (!options.keys.isEmpty())
-        slave.setSecurity(QPlcSecurity::preSharedKeys(options.keys, QStringLiteral("bench")));
+        slave.setSecurity(QPlcSecurity::preSharedKeys(options.keys, slave.name()));
     if (!master.isValid() || !slave.connectToMasterAndWaitForConnected(master)) {
         QPlcCoreApplication::printError(master.isValid() ? slave.errorString() : error);
         return QPlcCoreApplication::Failure;

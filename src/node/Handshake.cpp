@@ -209,6 +209,16 @@ void Handshake::encrypted()
     fail(reason);
 }
 
+void Handshake::turnAway(const QString &reason)
+{
+    m_socket->disconnect(this);
+    m_tls->write(encodeControlFrame(
+        QPlcMessage(QPlcMessage::Rejected,
+                    {{QStringLiteral("error"), QStringLiteral("TooMuch")}, {QStringLiteral("text"), reason}})));
+    m_tls->flush();
+    m_tls->disconnectFromHost();
+}
+
 /// QSslSocket closes the connection without the alert that OpenSSL has prepared: the other end is told here.
 void Handshake::tlsFailed()
 {

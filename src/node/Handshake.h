@@ -29,6 +29,8 @@ public:
     const Peer &peer() const { return m_peer; }
     /// The connection, after succeeded(). \return to be owned by the caller
     QTcpSocket *takeSocket();
+    /// There is no room for who is there, after succeeded() with TLS: it is told so, and the connection is closing.
+    void turnAway(const QString &reason);
     /// Why it takes so long.
     QString stage() const;
 

@@ -110,12 +110,27 @@ void MasterDoor::accept(int descriptor)
 void MasterDoor::handshakeEnded(ConnectionGate::Ticket ticket)
 {
     Handshake *handshake = m_handshakes[ticket];
+    if (handshake->peer().isSecured && !m_gate.prove(ticket, handshake->peer().identity)) {
+        turnAway(ticket, handshake);
+        return;
+    }
     m_handshakes.erase(ticket);
     m_gate.renew(ticket, monotonicNow());
     auto *socket = new QPlcSlaveSocket(handshake->takeSocket());
     const Peer peer = handshake->peer();
     handshake->deleteLater();
     Q_EMIT entered(socket, peer, ticket);
+}
+
+void MasterDoor::turnAway(ConnectionGate::Ticket ticket, Handshake *handshake)
+{
+    const QString reason = QString::fromLatin1(ConnectionGate::textOf(ConnectionGate::TooManyOfIdentity));
+    const QString identity = handshake->claimedIdentity();
+    const QString from = handshake->address();
+    handshake->turnAway(reason);
+    forget(ticket);
+    ++m_turnedAway;
+    Q_EMIT refused(identity, from, QStringLiteral("identity '%1': %2").arg(identity, reason));
 }
 
 void MasterDoor::forget(ConnectionGate::Ticket ticket)

@@ -34,7 +34,7 @@ public:
     /// Who has greeted is no stranger any more.
     void know(ConnectionGate::Ticket ticket);
     void leave(ConnectionGate::Ticket ticket);
-    /// Connections that were closed because there was no room, at the time.
+    /// Connections that were closed because there was no room, at the time, for them or for their identity.
     quint64 turnedAway() const { return m_turnedAway + m_listener.withoutDescriptor(); }
     /// Connections whose handshake has failed, or took too long.
     quint64 failedHandshakes() const { return m_failedHandshakes; }
@@ -51,6 +51,7 @@ private:
     void acceptAll();
     void accept(int descriptor);
     void handshakeEnded(ConnectionGate::Ticket ticket);
+    void turnAway(ConnectionGate::Ticket ticket, Handshake *handshake);
     void forget(ConnectionGate::Ticket ticket);
     void sweep();
     void goOn();

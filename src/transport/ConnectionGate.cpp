@@ -35,7 +35,7 @@ std::optional<ConnectionGate::Ticket> ConnectionGate::admit(const QHostAddress &
         *refusal = TooFast;
     if (*refusal != Admitted)
         return std::nullopt;
-    m_guests.insert(++m_last, {origin, true, now + m_limits.patience});
+    m_guests.insert(++m_last, {origin, QString(), true, now + m_limits.patience});
     ++m_strangers;
     return m_last;
 }
@@ -45,6 +45,17 @@ void ConnectionGate::renew(Ticket ticket, qint64 now)
     const auto guest = m_guests.find(ticket);
     if (guest != m_guests.end())
         guest->deadline = now + m_limits.patience;
+}
+
+bool ConnectionGate::prove(Ticket ticket, const QString &identity)
+{
+    const auto guest = m_guests.find(ticket);
+    const auto isIt = [&](const Guest &other) { return other.identity == identity; };
+    if (guest == m_guests.end()
+        || std::count_if(m_guests.begin(), m_guests.end(), isIt) >= m_limits.connectionsOfIdentity)
+        return false;
+    guest->identity = identity;
+    return true;
 }
 
 void ConnectionGate::know(Ticket ticket)
@@ -82,6 +93,8 @@ const char *ConnectionGate::textOf(Refusal refusal)
         return "too many connections";
     case TooManyOfAddress:
         return "too many connections of this address that have not said who they are";
+    case TooManyOfIdentity:
+        return "too many connections of this identity";
     case TooFast:
         return "too many new connections in a short time";
     }

@@ -20,13 +20,14 @@ public:
     struct Limits
     {
         int connections = 320;            // at a time: 254 nodes, strangers, and as many tools
+        int connectionsOfIdentity = 32;   // of them, at a time, of one that was proven
         int strangers = 32;               // of them, at a time; more wait in the queue of the system
         int strangersOfAddress = 8;       // of them, from one address, or one IPv6 network of 64 bits
         int acceptsPerSecond = 50;        // on the long run
         int acceptsAtOnce = 64;           // after a pause
         qint64 patience = 2'000'000'000;  // with a stranger [ns]
     };
-    enum Refusal : quint8 { Admitted, TooManyConnections, TooManyOfAddress, TooFast };
+    enum Refusal : quint8 { Admitted, TooManyConnections, TooManyOfAddress, TooManyOfIdentity, TooFast };
     using Ticket = quint64;  // of a connection; never 0
 
     void setLimits(const Limits &limits)
@@ -42,6 +43,8 @@ public:
     std::optional<Ticket> admit(const QHostAddress &address, qint64 now, Refusal *refusal);
     /// The stranger has done a step and gets time for the next one.
     void renew(Ticket ticket, qint64 now);
+    /// The stranger has proven to be \a identity. \return false when there are too many of it: he is to be closed
+    bool prove(Ticket ticket, const QString &identity);
     /// The stranger has said who he is.
     void know(Ticket ticket);
     /// Nobody of this ticket is here any more.
@@ -57,6 +60,7 @@ private:
     struct Guest
     {
         QHostAddress origin;
+        QString identity;  // as far as it was proven
         bool isStranger = true;
         qint64 deadline = 0;
     };

@@ -29,6 +29,7 @@ private Q_SLOTS:
     void anObserverListensOnly();
     void nobodyHasTheNameOfAnother_data();
     void nobodyHasTheNameOfAnother();
+    void oneIdentityHasThirtyTwoConnections();
     void signalsAreWrittenByThoseWhoMay();
     void commandsAreWrittenDown();
     void rolesHaveNames();
@@ -284,6 +285,31 @@ void tst_AccessRights::nobodyHasTheNameOfAnother()
     QVERIFY(master.nodes().isEmpty());
     QCOMPARE(answerTo(identity).kind(), QPlcMessage::Registered);
     QCOMPARE(answerTo("Screen").kind(), QPlcMessage::Registered);
+}
+
+/// So that nobody who is known keeps all others out.
+void tst_AccessRights::oneIdentityHasThirtyTwoConnections()
+{
+    LogCapture log;
+    TestMaster master;
+    master.setSecurity(QPlcSecurity::preSharedKeys(m_files.masterKeys()));
+    QVERIFY(master.listen());
+    std::vector<std::unique_ptr<SecuredTool>> tools;
+    for (int i = 0; i < 32; ++i) {
+        tools.push_back(std::make_unique<SecuredTool>(m_files.bert()));
+        QVERIFY(tools.back()->greetAt(master.serverPort()));
+    }
+    SecuredTool further(m_files.bert());
+    QVERIFY(!further.greetAt(master.serverPort()));
+    QCOMPARE(further.messages.constLast().text("error"), QString("TooMuch"));
+    QCOMPARE(further.messages.constLast().text("text"), QString("too many connections of this identity"));
+    QTRY_VERIFY(!further.control.isConnected());
+    QCOMPARE(master.statistics().refusedConnections, quint64(1));
+    QCOMPARE(log.matching("identity 'bert': too many connections of this identity").size(), 1);
+    SecuredTool other(m_files.anna());
+    QVERIFY(other.greetAt(master.serverPort()));
+    tools.pop_back();
+    QTRY_VERIFY_WITH_TIMEOUT(SecuredTool(m_files.bert()).greetAt(master.serverPort()), 10000);
 }
 
 void tst_AccessRights::signalsAreWrittenByThoseWhoMay()

@@ -32,6 +32,7 @@ private Q_SLOTS:
     void strangersOfThisMachineHaveNoLimitOfTheirOwn();
     void theRoomForStrangersIsLimited();
     void allConnectionsTogetherAreLimited();
+    void connectionsOfOneIdentityAreLimited();
     void theRateIsLimited();
     void strangersHaveTwoSeconds();
     void aStepGivesAStrangerNewTime();
@@ -107,6 +108,24 @@ void tst_ConnectionGate::allConnectionsTogetherAreLimited()
     QCOMPARE(m_refusal, ConnectionGate::TooManyConnections);
     m_gate.leave(last);
     QVERIFY(admit(QHostAddress::LocalHost) != 0);
+}
+
+void tst_ConnectionGate::connectionsOfOneIdentityAreLimited()
+{
+    cleanup();
+    quint64 last = 0;
+    for (int i = 0; i < 32; ++i) {
+        last = admit(QHostAddress::LocalHost);
+        QVERIFY(m_gate.prove(last, QStringLiteral("anna")));
+        if (i % 2 == 0)
+            m_gate.know(last);
+    }
+    const quint64 further = admit(QHostAddress::LocalHost);
+    QVERIFY(!m_gate.prove(further, QStringLiteral("anna")));
+    QVERIFY(m_gate.prove(further, QStringLiteral("bert")));
+    m_gate.leave(last);
+    QVERIFY(m_gate.prove(admit(QHostAddress::LocalHost), QStringLiteral("anna")));
+    QVERIFY(!m_gate.prove(last, QStringLiteral("carl")));  // who is gone proves nothing
 }
 
 void tst_ConnectionGate::theRateIsLimited()
