@@ -20,23 +20,6 @@ QStringList namesOf(const QJsonArray &array)
     return names;
 }
 
-/// Signals that \a message would write.
-QStringList writtenBy(const QPlcMessage &message)
-{
-    const QJsonObject fields = message.fields();
-    switch (message.kind()) {
-    case QPlcMessage::Register:
-        return namesOf(fields.value(QStringLiteral("outputs")).toArray());
-    case QPlcMessage::SetSignals:
-        return fields.value(QStringLiteral("values")).toObject().keys();
-    case QPlcMessage::TakeLease:
-    case QPlcMessage::ReleaseLease:
-        return namesOf(fields.value(QStringLiteral("signals")).toArray());
-    default:
-        return {};
-    }
-}
-
 bool matches(const QString &pattern, const QString &signal)
 {
     return pattern == signal
@@ -87,6 +70,30 @@ std::optional<Role> roleOf(const QString &name)
     return std::nullopt;
 }
 
+QString shownName(const Peer &peer, const QString &called)
+{
+    if (!peer.isSecured)
+        return called;
+    return called.isEmpty() || called == peer.identity ? peer.identity
+                                                       : QStringLiteral("%1 as \"%2\"").arg(peer.identity, called);
+}
+
+QStringList signalsWrittenBy(const QPlcMessage &message)
+{
+    const QJsonObject fields = message.fields();
+    switch (message.kind()) {
+    case QPlcMessage::Register:
+        return namesOf(fields.value(QStringLiteral("outputs")).toArray());
+    case QPlcMessage::SetSignals:
+        return fields.value(QStringLiteral("values")).toObject().keys();
+    case QPlcMessage::TakeLease:
+    case QPlcMessage::ReleaseLease:
+        return namesOf(fields.value(QStringLiteral("signals")).toArray());
+    default:
+        return {};
+    }
+}
+
 bool mayWrite(const Peer &peer, const QString &signal)
 {
     if (peer.role == Role::Observer)
@@ -110,7 +117,7 @@ QString refusalOf(const Peer &peer, const QPlcMessage &message)
         if (!refusal.isEmpty())
             return refusal;
     }
-    for (const QString &signal : writtenBy(message)) {
+    for (const QString &signal : signalsWrittenBy(message)) {
         if (!mayWrite(peer, signal))
             return QStringLiteral("Denied: identity '%1' with role %2 may not write signal '%3'")
                 .arg(peer.identity, roleName(peer.role), printable(signal));

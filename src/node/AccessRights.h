@@ -126,6 +126,11 @@ struct Peer
     QStringList writes;  // otherwise: names and patterns (*, ?, [...]) of signals
 };
 
+/// How somebody is shown to people: as what was proven, with what it calls itself behind it; without security nothing else is known.
+QString shownName(const Peer &peer, const QString &called);
+
+/// Signals that \a message would write, as it names them.
+QStringList signalsWrittenBy(const QPlcMessage &message);
 /// Whether \a peer may write \a signal.
 bool mayWrite(const Peer &peer, const QString &signal);
 /// Why \a peer may not send \a message: "Denied: role Observer may not StartRealTime"; empty: it may. Looks at the kind, and at the signals that the message writes.

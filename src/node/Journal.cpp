@@ -114,12 +114,8 @@ void Journal::valueSet(const QString &who, const QString &signal, const QString 
 
 void Journal::becameSafe(const QStringList &values)
 {
-    constexpr int mostNames = 8;
-    QString text = QStringList(values.mid(0, mostNames)).join(QStringLiteral(", "));
-    if (values.size() > mostNames)
-        text += QStringLiteral(" and %1 more").arg(values.size() - mostNames);
     tellLimited(QStringLiteral("safe ") + values.first(), QStringLiteral("no good values for too long; safe ones: "),
-                {JournalEvent::Warning, JournalEvent::Quality, NodeRegistry::masterName(), text});
+                {JournalEvent::Warning, JournalEvent::Quality, NodeRegistry::masterName(), firstOf(values)});
 }
 
 void Journal::sourceChanged(const QString &signal, const QString &from, const QString &to)

@@ -45,7 +45,7 @@ public:
     void sourceChanged(const QString &signal, const QString &from, const QString &to);
     /// A message without the right to it. \param identity  proven; empty: nobody's
     void denied(const QString &identity, const QString &text);
-    /// Somebody with a right to it has commanded \a what.
+    /// Somebody with a right to it has commanded \a what. \param from  where from, and what else differs from time to time
     void commanded(const QString &identity, const QString &what, const QString &from);
     /// Somebody whose greeting or registration was refused; anybody can be, again and again. \param name  as he calls himself
     void refused(const QString &name, const QString &address, const QString &reason);

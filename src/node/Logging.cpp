@@ -18,4 +18,11 @@ QString printable(QString text)
     return text;
 }
 
+QString firstOf(const QStringList &names)
+{
+    constexpr int most = 8;
+    const QString text = names.mid(0, most).join(QStringLiteral(", "));
+    return names.size() > most ? text + QStringLiteral(" and %1 more").arg(names.size() - most) : text;
+}
+
 }  // namespace qplc

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <QtCore/QLoggingCategory>
-#include <QtCore/QString>
+#include <QtCore/QStringList>
 
 // Abnormal events are warnings and shown by default. Debug levels, for example QT_LOGGING_RULES="qtplc.control.debug=true":
 Q_DECLARE_LOGGING_CATEGORY(lcMaster)   // qtplc.master: states, nodes
@@ -16,5 +16,8 @@ namespace qplc {
 
 /// \a text of the other side, fit to be shown: control characters have become '?'.
 QString printable(QString text);
+
+/// "a, b and 3 more": the first eight of \a names.
+QString firstOf(const QStringList &names);
 
 }  // namespace qplc

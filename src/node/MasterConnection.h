@@ -48,6 +48,7 @@ struct MasterConnection
 
     /// Whether it is TLS, and the peer proven: secrets may travel over it.
     bool isSecured() const { return peer.isSecured && socket->isSecured(); }
+    QString shownName() const { return qplc::shownName(peer, name); }
     bool isNode() const { return slot != nullptr; }
     bool isAttached() const { return slot && stage >= Attached; }
     /// Whether a message of \a kind is the answer that the master waits for: there are as many of them as the master wants.

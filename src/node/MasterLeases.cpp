@@ -61,9 +61,10 @@ MasterLeases::MasterLeases(Leases &leases, NodeRegistry &registry, MasterCycle &
 
 // ---- taking ----
 
-bool MasterLeases::take(const QObject *holder, const QString &name, const QJsonObject &fields, Refusal *refusal)
+bool MasterLeases::take(const MasterConnection &asker, const QJsonObject &fields, Refusal *refusal)
 {
     Wish wish;
+    const QObject *holder = asker.socket;
     const bool takeOver = fields.value(QStringLiteral("takeOver")).toBool();
     if (!readWish(fields, &wish, refusal) || !mayTake(holder, wish.indices, takeOver, refusal))
         return false;
@@ -73,8 +74,7 @@ bool MasterLeases::take(const QObject *holder, const QString &name, const QJsonO
                         .arg(wish.settings.size())};
         return false;
     }
-    if (wish.name.isEmpty())
-        wish.name = name;
+    wish.name = shownName(asker.peer, wish.name.isEmpty() ? asker.name : wish.name);
     const QString from = othersText(holder, wish.indices);
     m_leases.take(wish.indices, holder, wish.name, wish.timeout, monotonicNow());
     m_settings.keepPresent(wish.indices);
@@ -163,16 +163,16 @@ QString MasterLeases::othersText(const QObject *holder, const Leases::Signals &i
 
 // ---- ending ----
 
-bool MasterLeases::release(const QObject *asker, const QString &name, const QJsonObject &fields, Refusal *refusal)
+bool MasterLeases::release(const MasterConnection &asker, const QJsonObject &fields, Refusal *refusal)
 {
     Leases::Signals indices;
     const QJsonValue wanted = fields.value(QStringLiteral("signals"));
     if (wanted.isUndefined())
-        indices = m_leases.signalsOf(asker);
+        indices = m_leases.signalsOf(asker.socket);
     else if (!readSignals(wanted, &indices, refusal))
         return false;
     for (const QPlcSignalIndex signal : indices) {
-        if (m_leases.isHeldByOther(signal, asker)) {
+        if (m_leases.isHeldByOther(signal, asker.socket)) {
             *refusal = leaseRefusal(m_table.at(signal).name, *m_leases.find(signal));
             return false;
         }
@@ -186,7 +186,7 @@ bool MasterLeases::release(const QObject *asker, const QString &name, const QJso
     m_settings.leaveToWriters();
     Q_EMIT heldSignalsChanged();
     waitForNext();
-    Q_EMIT changed(JournalEvent::Info, QStringLiteral("'%1' has released %2").arg(name, names(indices)));
+    Q_EMIT changed(JournalEvent::Info, QStringLiteral("'%1' has released %2").arg(asker.shownName(), names(indices)));
     return true;
 }
 

@@ -3,6 +3,7 @@
 
 #include "EventLog.h"
 #include "Leases.h"
+#include "MasterConnection.h"
 #include "MasterSettings.h"
 #include "QPlcLease.h"
 
@@ -27,12 +28,10 @@ public:
     /// \param leases  the books, which others read
     MasterLeases(Leases &leases, NodeRegistry &registry, MasterCycle &cycle, MasterSettings &settings);
 
-    /// Carries out TakeLease: takes all signals of \a fields or none.
-    /// \param name  of the holder, unless \a fields has another one
-    /// \return false, with the reason in \a refusal
-    bool take(const QObject *holder, const QString &name, const QJsonObject &fields, Refusal *refusal);
-    /// Carries out ReleaseLease. \param name  of who asks
-    bool release(const QObject *asker, const QString &name, const QJsonObject &fields, Refusal *refusal);
+    /// Carries out TakeLease: takes all signals of \a fields or none. \return false, with the reason in \a refusal
+    bool take(const MasterConnection &asker, const QJsonObject &fields, Refusal *refusal);
+    /// Carries out ReleaseLease.
+    bool release(const MasterConnection &asker, const QJsonObject &fields, Refusal *refusal);
     /// A message of \a holder came.
     void renew(const QObject *holder);
 

@@ -3,6 +3,21 @@
 #include "Logging.h"
 #include "QPlcMasterNodePrivate.h"
 
+namespace {
+
+constexpr int longestNameTold = 48;  // [characters] of a signal in a line; eight of them fit into an event
+
+/// " of setpoint, free"; empty for a command that is about no signals.
+QString signalsText(const QPlcMessage &command)
+{
+    QStringList names = qplc::signalsWrittenBy(command);
+    for (QString &name : names)
+        name = qplc::printable(name.left(longestNameTold));
+    return names.isEmpty() ? QString() : QStringLiteral(" of ") + qplc::firstOf(names);
+}
+
+}  // namespace
+
 bool QPlcMasterNodePrivate::checkSecurity()
 {
     const QString wrong = security.errorString(QPlcSecurity::MasterSide);
@@ -59,8 +74,9 @@ void QPlcMasterNodePrivate::watchSecurity()
                      });
     QObject::connect(
         server.get(), &qplc::MasterServer::commanded, q, [this](Connection *connection, const QPlcMessage &message) {
-            journal.commanded(connection->peer.identity, message.kindName(),
-                              QStringLiteral(" from %1%2").arg(connection->socket->peerName(), cycleText()));
+            journal.commanded(
+                connection->peer.identity, message.kindName(),
+                QStringLiteral("%1 from %2%3").arg(signalsText(message), connection->socket->peerName(), cycleText()));
         });
     QObject::connect(server.get(), &qplc::MasterServer::refused, q,
                      [this](const QString &name, const QString &address, const QString &reason) {

@@ -208,7 +208,7 @@ void MasterServer::reject(MasterConnection *connection, const QString &error, co
 {
     const QString text = printable(reason.left(LongestReason));
     connection->send(Message::Rejected, {{QStringLiteral("error"), error}, {QStringLiteral("text"), text}});
-    Q_EMIT refused(connection->name, connection->socket->peerName(), text);
+    Q_EMIT refused(connection->shownName(), connection->socket->peerName(), text);
     drop(connection, text);
 }
 
@@ -230,7 +230,7 @@ bool MasterServer::isTooMuch(MasterConnection *connection, const Message &messag
         return false;
     ++m_deniedMessages;
     reject(connection, QStringLiteral("TooMuch"),
-           QStringLiteral("'%1' sends too many messages; send at most 1000 in a second").arg(connection->name));
+           QStringLiteral("'%1' sends too many messages; send at most 1000 in a second").arg(connection->shownName()));
     return true;
 }
 

@@ -48,7 +48,7 @@ QString QPlcMasterNodePrivate::nameOf(const QObject *socket) const
 {
     for (const std::unique_ptr<Connection> &connection : server->connections()) {
         if (connection->socket == socket)
-            return connection->name;
+            return connection->shownName();
     }
     return qplc::NodeRegistry::masterName();
 }
@@ -56,9 +56,8 @@ QString QPlcMasterNodePrivate::nameOf(const QObject *socket) const
 void QPlcMasterNodePrivate::changeLease(Connection *connection, const Message &message)
 {
     qplc::Refusal refusal;
-    const bool isDone = message.kind() == Message::TakeLease
-        ? leases->take(connection->socket, connection->name, message.fields(), &refusal)
-        : leases->release(connection->socket, connection->name, message.fields(), &refusal);
+    const bool isDone = message.kind() == Message::TakeLease ? leases->take(*connection, message.fields(), &refusal)
+                                                             : leases->release(*connection, message.fields(), &refusal);
     if (isDone)
         connection->send(Message::Done);
     else

@@ -302,7 +302,7 @@ void QPlcMasterNodePrivate::receiveCommand(Connection *connection, const Message
         startAsAsked(connection, message);
         break;
     case Message::Stop:
-        stop(QStringLiteral("'%1' asked for it").arg(connection->name));
+        stop(QStringLiteral("'%1' asked for it").arg(connection->shownName()));
         connection->send(Message::Done);
         break;
     case Message::Arm:
@@ -310,7 +310,7 @@ void QPlcMasterNodePrivate::receiveCommand(Connection *connection, const Message
         break;
     case Message::SafeStop:
         safeStop(QStringLiteral("'%1' asked for it%2")
-                     .arg(connection->name,
+                     .arg(connection->shownName(),
                           message.text(QStringLiteral("reason")).isEmpty()
                               ? QString()
                               : QStringLiteral(": ") + qplc::printable(message.text(QStringLiteral("reason")))));

@@ -32,6 +32,9 @@ private Q_SLOTS:
     void oneIdentityHasThirtyTwoConnections();
     void signalsAreWrittenByThoseWhoMay();
     void commandsAreWrittenDown();
+    void commandsNameTheirSignals();
+    void peopleAreShownAsWhatTheyHaveProven();
+    void shownNamesCannotBeMistaken();
     void rolesHaveNames();
     void keysFilesHaveClearErrors_data();
     void keysFilesHaveClearErrors();
@@ -362,6 +365,65 @@ void tst_AccessRights::commandsAreWrittenDown()
     for (const QJsonValue &event : events)
         ofSecurity += event["kind"].toString() == QLatin1String("security") ? 1 : 0;
     QCOMPARE(ofSecurity, 2);
+}
+
+void tst_AccessRights::commandsNameTheirSignals()
+{
+    LogCapture log;
+    TestMaster master;
+    master.setSecurity(QPlcSecurity::preSharedKeys(m_files.masterKeys()));
+    QVERIFY(master.listen());
+    SecuredTool anna(m_files.anna());
+    QVERIFY(anna.greetAt(master.serverPort()));
+    const QJsonObject values{{"setpoint", "1"}, {"free", "2"}};
+    QCOMPARE(anna.ask(QPlcMessage::SetSignals, {{"values", values}}).kind(), QPlcMessage::Done);
+    QCOMPARE(anna.ask(QPlcMessage::TakeLease, {{"signals", QJsonArray{"echo"}}}).kind(), QPlcMessage::Done);
+    QCOMPARE(log.matching("identity 'anna' commands SetSignals of free, setpoint from 127.0.0.1:").size(), 1);
+    QCOMPARE(log.matching("identity 'anna' commands TakeLease of echo from 127.0.0.1:").size(), 1);
+    QJsonArray many;
+    for (int i = 0; i < 1000; ++i)
+        many << QString(100, 'x') + QString::number(i) + "\n";
+    QCOMPARE(anna.ask(QPlcMessage::ReleaseLease, {{"signals", many}}).text("error"), QString("UnknownSignal"));
+    const QStringList lines = log.matching("identity 'anna' commands ReleaseLease of xxx");
+    QCOMPARE(lines.size(), 1);
+    QVERIFY2(lines.at(0).contains(" and 992 more from") && lines.at(0).size() < 520, qPrintable(lines.at(0)));
+}
+
+/// Whatever they call themselves: in leases, reasons and events.
+void tst_AccessRights::peopleAreShownAsWhatTheyHaveProven()
+{
+    TestMaster master(QPlcClock::realTime());
+    master.setSecurity(QPlcSecurity::preSharedKeys(m_files.masterKeys()));
+    CounterNode local;
+    QVERIFY(master.addLocalNode(&local) && master.listen() && master.startArmed());
+    SecuredTool anna(m_files.anna());
+    anna.name = "carl";
+    QVERIFY(anna.greetAt(master.serverPort()));
+    const auto hasEvent = [&](const QString &text) {
+        const QJsonArray events = anna.answerTo(QPlcMessage::GetEvents).fields().value("events").toArray();
+        return std::any_of(events.begin(), events.end(),
+                           [&](const QJsonValue &event) { return event["text"].toString().contains(text); });
+    };
+    QCOMPARE(anna.ask(QPlcMessage::SetSignals, {{"values", QJsonObject{{"free", "1"}}}}).kind(), QPlcMessage::Done);
+    QVERIFY(hasEvent("'anna as \"carl\"' has set free"));
+    const QJsonObject wish{{"signals", QJsonArray{"count"}}, {"whoever", "Bert at desk 3"}};
+    QCOMPARE(anna.ask(QPlcMessage::TakeLease, wish).kind(), QPlcMessage::Done);
+    QCOMPARE(master.leases().at(0).holder, QString("anna as \"Bert at desk 3\""));
+    QVERIFY(hasEvent("'anna as \"Bert at desk 3\"' has taken over count"));
+    QCOMPARE(anna.ask(QPlcMessage::ReleaseLease).kind(), QPlcMessage::Done);
+    QVERIFY(hasEvent("'anna as \"carl\"' has released count"));
+    QCOMPARE(anna.ask(QPlcMessage::SafeStop).kind(), QPlcMessage::Done);
+    QCOMPARE(master.stateReason(), QString("'anna as \"carl\"' asked for it"));
+    QVERIFY(master.reset());
+}
+
+void tst_AccessRights::shownNamesCannotBeMistaken()
+{
+    QCOMPARE(qplc::shownName(Peer(), "carl"), QString("carl"));
+    const Peer peer = peerOf(Role::Operator);
+    QCOMPARE(qplc::shownName(peer, "carl"), QString("somebody as \"carl\""));
+    QCOMPARE(qplc::shownName(peer, "somebody"), QString("somebody"));
+    QCOMPARE(qplc::shownName(peer, ""), QString("somebody"));
 }
 
 void tst_AccessRights::rolesHaveNames()
