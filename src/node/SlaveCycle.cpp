@@ -11,6 +11,8 @@ namespace qplc {
 
 namespace {
 
+constexpr int UselessFrames = 256;  // that are read before a computation at most: a flood keeps no node from its work
+
 void count(std::atomic<quint64> &counter, quint64 n = 1) noexcept
 {
     counter.store(counter.load(std::memory_order_relaxed) + n, std::memory_order_relaxed);  // one writer
@@ -204,6 +206,7 @@ void SlaveCycle::take(const char *frame, std::size_t size) noexcept
 }
 
 /// After a pause requests may have queued up; only the newest is worth an answer. Costs a system call only after a pause.
+/// Ends also where frames that are no use never end: run() goes on with the rest.
 void SlaveCycle::skipToNewest() noexcept
 {
     const std::int64_t now = monotonicNow();
@@ -214,8 +217,16 @@ void SlaveCycle::skipToNewest() noexcept
         return;
     const char *frame = nullptr;
     std::size_t size = 0;
-    while (m_link->poll(&frame, &size) == CyclicLink::Received)
-        decode(frame, size);
+    int useless = 0;
+    while (useless < UselessFrames && !m_stop.load(std::memory_order_relaxed)
+           && m_link->poll(&frame, &size) == CyclicLink::Received) {
+        if (decode(frame, size) == FrameStatus::Complete) {
+            m_watchdog.hear(monotonicNow());
+        } else {
+            ++useless;
+            checkWatchdog();
+        }
+    }
 }
 
 void SlaveCycle::compute() noexcept

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ScriptedMaster.h"
 #include "ScriptedNode.h"
+#include "node/SlaveCycle.h"
 #include "realtime/TimeSource.h"
 
 #include <QtCore/QSemaphore>
@@ -22,6 +23,7 @@ private Q_SLOTS:
     void theWatchdogBarksAtItsDeadlineAndNotAPeriodLater();
     void watchdogSleepsInLockstepAndOutsideOfAPhase();
     void afterAPauseOnlyTheNewestIsComputed();
+    void aFloodAfterAPauseHoldsNobody();
     void lockstepLeavesNothingOut();
     void aStepThatThrowsGivesSafeValuesAndAFault();
     void aStepThatThrowsStopsThePlant_data();
@@ -134,6 +136,72 @@ void tst_SlaveFaults::afterAPauseOnlyTheNewestIsComputed()
     node.disconnectFromMaster();
     QCOMPARE(cycles.size(), 2);
     QCOMPARE(cycles.at(1).missedCycles(), quint64(8));
+}
+
+namespace {
+
+/// Brings two requests with a pause between them, and then garbage for ever.
+class FloodedLink : public qplc::CyclicLink
+{
+public:
+    FloodedLink(const QVector<QByteArray> &requests, const std::atomic<bool> &ends)
+        : CyclicLink(-1)
+        , m_requests(requests)
+        , m_ends(ends)
+    {
+    }
+    Status receive(const char **frame, std::size_t *size) noexcept override
+    {
+        if (m_next > 0 && m_next < m_requests.size())
+            qplc::TimeSource::monotonic().sleepUntil(qplc::monotonicNow() + 5'000'000);
+        return poll(frame, size);
+    }
+    Status poll(const char **frame, std::size_t *size) noexcept override
+    {
+        const QByteArray &bytes = m_next < m_requests.size() ? m_requests.at(m_next++) : m_garbage;
+        *frame = bytes.constData();
+        *size = std::size_t(bytes.size());
+        return m_ends ? Closed : Received;
+    }
+    bool send(const char *, std::size_t) noexcept override { return true; }
+
+private:
+    const QVector<QByteArray> m_requests;
+    const QByteArray m_garbage{"garbage"};
+    const std::atomic<bool> &m_ends;
+    int m_next = 0;
+};
+
+}  // namespace
+
+void tst_SlaveFaults::aFloodAfterAPauseHoldsNobody()
+{
+    CounterNode node;
+    qplc::NodeRuntime runtime(node);
+    QString error;
+    QVERIFY2(runtime.bind(testTable(), &error) && runtime.reset(&error), qPrintable(error));
+    const qplc::SlaveCycle::Identity identity{ScriptedMaster::Session, ScriptedMaster::Node};
+    const qplc::PayloadLayout &layout = runtime.inputLayout();
+    const qplc::FrameEncoder encoder(qplc::FrameKind::Inputs, {identity.session, identity.node, layout.hash()},
+                                     layout.partBorders(qplc::MaximumCyclicPayload));
+    QVector<QByteArray> requests(2, QByteArray(int(encoder.totalSize()), '\0'));
+    for (int k = 0; k < requests.size(); ++k) {
+        qplc::FrameHeader header;
+        header.cycle = quint64(k);
+        encoder.encode(0, header, QByteArray(int(layout.size()), '\0').constData(), requests[k].data());
+    }
+    std::atomic<bool> ends{false};
+    qplc::SlaveCycle cycle(runtime, identity, false);
+    cycle.setLink(std::make_unique<FloodedLink>(requests, ends));
+    qplc::SlaveCycle::Phase phase;
+    phase.period = 1ms;
+    phase.watchdog = 20ms;
+    QVERIFY2(cycle.start(phase), qPrintable(cycle.errorString()));
+    const bool barks = QTest::qWaitFor([&] { return cycle.counters().watchdog == 1; }, 2000);
+    ends = !barks;  // else a node that is held never stops
+    cycle.stop();
+    QVERIFY(barks);
+    QCOMPARE(cycle.counters().cycles, quint64(2));
 }
 
 void tst_SlaveFaults::lockstepLeavesNothingOut()
