@@ -41,7 +41,7 @@ bool MasterCycle::start(const Phase &phase)
     m_wallStart = phase.clock.isLockstep() ? 0 : wallClockNow();
     m_number = 0;
     for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
-        slot->decoder.restart(m_cycleZero);
+        slot->expectFrom(m_cycleZero);
         slot->faulted = slot->pending = false;
         slot->bucket = 0;
         slot->isSafe = false;
@@ -314,7 +314,7 @@ void MasterCycle::join(NodeSlot &slot, std::int64_t last) noexcept
         m_signalGuard.take(*slot.paste, slot.written, slot.initialOutputs.data(), cycle, cycle);
         m_signalGuard.claim(*slot.paste, slot.written, slot.claims, slot.initialOutputs.data(), cycle);
     }
-    slot.decoder.restart(m_cycleZero + m_number);
+    slot.expectFrom(m_cycleZero + m_number);
     slot.nextTurn = 0;
     if (slot.peer)
         m_hub.attach(slot.peer.get());

@@ -117,6 +117,7 @@ void NodeExchange::askNodes(const Stage &stage) noexcept
         if (!slot.peer)
             continue;
         slot.asked = true;
+        slot.firstUnasked = slot.request.cycle + 1;
         slot.awaited = turn.feedsLaterStage && !slot.listener;
         slot.statistics.asked(m_cycle.number, m_statistics.stageBegin(), m_statistics.deadline());
         sendRequest(slot, 0);
@@ -351,7 +352,7 @@ bool NodeExchange::waitForFrames(std::int64_t timeout, int alarm) noexcept
 void NodeExchange::takeAnswer(NodeSlot &slot, const char *frame, std::size_t size) noexcept
 {
     m_reports.tap(TappedFrame::Received, slot.id, frame, size);
-    switch (slot.decoder.decode(frame, size)) {
+    switch (slot.decoder.decode(frame, size, slot.firstUnasked)) {
     case FrameStatus::Complete:
         break;
     case FrameStatus::Incomplete:

@@ -47,7 +47,8 @@ struct NodeSlot
     SignalGuard::Claims claims;
     FrameEncoder encoder;
     FrameDecoder decoder;
-    std::vector<char> frames;  // encoded parts, one behind the other
+    std::uint64_t firstUnasked = 0;  // number on the wire: an answer to it or a later one is none
+    std::vector<char> frames;        // encoded parts, one behind the other
     char *inputs
         = nullptr;  // payload of this cycle: where it lies in a frame of one part that is not sealed, else inputBytes
     std::vector<char> inputBytes;
@@ -96,6 +97,12 @@ struct NodeSlot
     /// \param keys  to seal its frames with, for this registration alone; null: they are not sealed
     void prepare(const ProcessImage &image, quint64 session, const SealKeys *keys = nullptr);
     FrameCutter outputCutter() const;
+    /// Answers count from cycle \a first on (number on the wire), as soon as it is asked for.
+    void expectFrom(std::uint64_t first) noexcept
+    {
+        decoder.restart(first);
+        firstUnasked = first;
+    }
 };
 
 }  // namespace qplc

@@ -115,7 +115,7 @@ FrameDecoder::FrameDecoder(FrameKind kind, const FrameSeed &seed, std::vector<st
 {
 }
 
-FrameStatus FrameDecoder::decode(const char *bytes, std::size_t size) noexcept
+FrameStatus FrameDecoder::decode(const char *bytes, std::size_t size, std::uint64_t end) noexcept
 {
     if (size < overhead() || size != claimedSize(bytes))
         return FrameStatus::WrongLength;
@@ -128,12 +128,12 @@ FrameStatus FrameDecoder::decode(const char *bytes, std::size_t size) noexcept
         const std::size_t sealed = size - SealedOverhead;
         if (!m_seal->open(header.cycle, std::uint16_t(partOf(header)), bytes, sealed, m_opened.get()))
             return FrameStatus::Forged;
-        return accept(header, m_opened.get());
+        return accept(header, m_opened.get(), end);
     }
     const std::size_t checked = size - sizeof(std::uint32_t);
     if (loadLittle<std::uint32_t>(bytes + checked) != crc32c(m_seedCrc, bytes, checked))
         return FrameStatus::WrongChecksum;
-    return accept(header, bytes + CyclicHeaderSize);
+    return accept(header, bytes + CyclicHeaderSize, end);
 }
 
 /// The cycle is the one nearest to the newest cycle seen.
@@ -178,10 +178,12 @@ bool FrameDecoder::isOfThisKind(const char *header) const noexcept
 }
 
 // Serial arithmetic on the 32 bits of the wire: up to 2^31 - 1 cycles ahead is newer, all else is not.
-FrameStatus FrameDecoder::accept(const FrameHeader &header, const char *payload) noexcept
+FrameStatus FrameDecoder::accept(const FrameHeader &header, const char *payload, std::uint64_t end) noexcept
 {
-    m_received = header;
     const auto ahead = std::int64_t(header.cycle - m_newest);
+    if (ahead >= 0 && header.cycle >= end)
+        return FrameStatus::Early;
+    m_received = header;
     if (ahead < 0)
         return m_anyComplete && header.cycle == m_cycle ? FrameStatus::Duplicate : FrameStatus::Old;
     if (ahead > 0 || !m_any)

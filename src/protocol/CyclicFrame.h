@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -68,7 +69,8 @@ enum class FrameStatus : std::uint8_t {
     WrongVersion,  ///< of the protocol, or the kind of the other direction
     WrongSession,  ///< low 16 bits differ
     WrongChecksum,  ///< corrupted, or of another session, node or table
-    Forged  ///< not sealed with this key as it is: made or changed by a stranger, corrupted, or of another session, node or direction
+    Forged,  ///< not sealed with this key as it is: made or changed by a stranger, corrupted, or of another session, node or direction
+    Early    ///< good, but of a cycle that is not due yet
 };
 
 /// The 64-bit number of the cycle whose low 32 bits are \a wire, nearest to \a reference.
@@ -109,7 +111,7 @@ private:
 /// Checks the frames of one direction of one node and puts their parts together. Allocation-free after construction.
 ///
 /// The newest complete payload stays whole and visible while parts of the next cycle arrive: they are put together in a second buffer. A frame that is
-/// refused (WrongLength, WrongVersion, WrongSession, WrongChecksum, Forged) changes nothing at all.
+/// refused (WrongLength, WrongVersion, WrongSession, WrongChecksum, Forged, Early) changes nothing at all.
 class FrameDecoder
 {
 public:
@@ -120,7 +122,9 @@ public:
                  const SealKey *key = nullptr);
 
     /// Takes one datagram. With Complete, payload() holds the values, header() the header of part 0 and cycle() the cycle.
-    FrameStatus decode(const char *bytes, std::size_t size) noexcept;
+    /// \param end  cycles from this one on are not due yet: their frames are Early
+    FrameStatus decode(const char *bytes, std::size_t size,
+                       std::uint64_t end = std::numeric_limits<std::uint64_t>::max()) noexcept;
     /// Payload of the newest complete frame (zeros before the first); valid until the next decode().
     const char *payload() const { return m_payload.get(); }
     /// Header of part 0 of the newest complete frame.
@@ -141,7 +145,7 @@ private:
     std::size_t claimedSize(const char *header) const noexcept;
     FrameHeader readHeader(const char *bytes) const noexcept;
     bool isOfThisKind(const char *header) const noexcept;
-    FrameStatus accept(const FrameHeader &header, const char *payload) noexcept;
+    FrameStatus accept(const FrameHeader &header, const char *payload, std::uint64_t end) noexcept;
     void beginCycle(std::uint64_t cycle) noexcept;
     FrameStatus takePart(std::size_t part, const char *payload) noexcept;
 

@@ -17,6 +17,8 @@ private Q_SLOTS:
     void slaveComputesOnceAndAnswers();
     void lockstepWaitsForAllButListeners();
     void framesOfTheLastPhaseAreNeverTaken();
+    void anAnswerToACycleToComeIsRejected_data();
+    void anAnswerToACycleToComeIsRejected();
     void framesBetweenPhasesAreDropped();
     void aListenerInLockstepIsHeardWhenItSpeaks();
     void valuesOfSeveralPartsTravel_data();
@@ -162,6 +164,34 @@ void tst_RealTimeSequence::framesOfTheLastPhaseAreNeverTaken()
     node.answer(node.requests.at(0).cycle, 2.0);
     QVERIFY(master.waitForCycles(1));
     QCOMPARE(master.signalValue("echo").toReal(), 2.0);
+    master.stop();
+}
+
+void tst_RealTimeSequence::anAnswerToACycleToComeIsRejected_data()
+{
+    QTest::addColumn<quint64>("ahead");
+    QTest::newRow("the next one") << Q_UINT64_C(1);
+    QTest::newRow("one of next week") << Q_UINT64_C(1'000'000'000);
+}
+
+void tst_RealTimeSequence::anAnswerToACycleToComeIsRejected()
+{
+    QFETCH(quint64, ahead);
+    TestMaster master;
+    ScriptedNode node;
+    QVERIFY(node.beginWith(master));
+    const quint64 first = node.requests.at(0).cycle;
+    node.answer(first + ahead, 666.0);
+    QTRY_COMPARE(master.nodes().at(0).rejected, quint64(1));
+    QCOMPARE(master.statistics().cycles, quint64(0));
+    for (int k = 0; k < 3; ++k) {  // those that were asked count as ever
+        QVERIFY(node.waitForRequests(k + 1));
+        node.answer(first + quint64(k), double(k));
+        QVERIFY(master.waitForCycles(quint64(k) + 1));
+        QCOMPARE(master.signalValue("echo").toReal(), double(k));
+        QCOMPARE(master.signalQuality("echo").kind(), QPlcQuality::Good);
+    }
+    QCOMPARE(master.nodes().at(0).duplicates, quint64(0));
     master.stop();
 }
 

@@ -74,8 +74,8 @@ struct Channel
 
 inline QString name(qplc::FrameStatus status)
 {
-    const char *const names[] = {"Complete",     "Incomplete",   "Duplicate",     "Old",   "WrongLength",
-                                 "WrongVersion", "WrongSession", "WrongChecksum", "Forged"};
+    const char *const names[] = {"Complete",     "Incomplete",   "Duplicate",     "Old",    "WrongLength",
+                                 "WrongVersion", "WrongSession", "WrongChecksum", "Forged", "Early"};
     return QString::fromLatin1(names[std::size_t(status)]);
 }
 

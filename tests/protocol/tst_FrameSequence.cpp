@@ -22,6 +22,8 @@ private Q_SLOTS:
     void restartWelcomesCyclesFromTheFirstOn();
     void restartForgetsTheIncompleteCycle();
     void nothingIsWelcomeBelowCycleZero();
+    void whatIsNotDueYetChangesNothing_data();
+    void whatIsNotDueYetChangesNothing();
     void lastPayloadStaysWholeWhilePartsArrive();
     void resentFrameOfTheCurrentCycleIsTellable();
     void movedDecoderGoesOn();
@@ -122,6 +124,37 @@ void tst_FrameSequence::nothingIsWelcomeBelowCycleZero()
     FrameDecoder decoder(FrameKind::Inputs, Seed, {0, 4});
     QCOMPARE(vectors::decode(decoder, frameOf({0, 4}, 0, 0xFFFFFFFF)), FrameStatus::Old);
     QCOMPARE(vectors::decode(decoder, frameOf({0, 4}, 0, 0)), FrameStatus::Complete);
+}
+
+void tst_FrameSequence::whatIsNotDueYetChangesNothing_data()
+{
+    QTest::addColumn<quint64>("first");
+    QTest::newRow("from the first cycle on") << Q_UINT64_C(0);
+    QTest::newRow("over the wrap") << Q_UINT64_C(0xFFFFFFFF);
+    QTest::newRow("far on") << Q_UINT64_C(0x7FFFFFFFF);
+}
+
+void tst_FrameSequence::whatIsNotDueYetChangesNothing()
+{
+    QFETCH(quint64, first);
+    const std::vector<std::uint32_t> borders{0, 4, 8};
+    FrameDecoder decoder(FrameKind::Inputs, Seed, borders);
+    decoder.restart(first);
+    const auto take = [&](std::uint64_t cycle, std::size_t part, std::uint64_t end) {
+        const QByteArray frame = frameOf(borders, part, cycle);
+        return decoder.decode(frame.constData(), std::size_t(frame.size()), end);
+    };
+    QCOMPARE(take(first, 0, first), FrameStatus::Early);
+    QCOMPARE(take(first - 1, 0, first), FrameStatus::Old);
+    QCOMPARE(take(first, 0, first + 1), FrameStatus::Incomplete);
+    for (std::uint64_t ahead : {1u, 2u, 1'000'000'000u, 0x7FFFFFFFu})
+        QCOMPARE(take(first + ahead, 0, first + 1), FrameStatus::Early);
+    QCOMPARE(take(first, 1, first + 1), FrameStatus::Complete);
+    QVERIFY(shows(decoder, 8, first));
+    QCOMPARE(decoder.received().cycle, first);
+    QCOMPARE(take(first, 0, first + 2), FrameStatus::Duplicate);
+    QCOMPARE(take(first + 1, 0, first + 2), FrameStatus::Incomplete);
+    QCOMPARE(take(first + 1, 1, first + 2), FrameStatus::Complete);
 }
 
 void tst_FrameSequence::lastPayloadStaysWholeWhilePartsArrive()
