@@ -14,7 +14,7 @@
 /// ```
 /// The control connection is TLS then: 1.2 with a key, 1.2 or 1.3 with certificates, with forward secrecy (ECDHE) and authenticated encryption (AEAD) only.
 /// Files are read when a connection is made, so that a key that was added, replaced or revoked counts from the next connection on, without a restart.
-/// A file with keys that others than its owner may read is refused.
+/// A file with keys that others than its owner may read is refused, and so is each other one that they may change. All files belong to the user of the program, or to root.
 ///
 /// A value type.
 class QTPLC_EXPORT QPlcSecurity

@@ -24,8 +24,7 @@ QString weakness(const QString &fileName, SecretFile::Need need, const struct st
         return QStringLiteral("%1 has the mode %2, others than its owner can get at the keys in it; use chmod 600 %1")
             .arg(fileName, mode);
     if ((status.st_mode & (S_IWGRP | S_IWOTH)) != 0)
-        return QStringLiteral(
-                   "%1 has the mode %2, others than its owner can change the rights in it; use chmod go-w %1")
+        return QStringLiteral("%1 has the mode %2, others than its owner can change it; use chmod go-w %1")
             .arg(fileName, mode);
     if (status.st_uid != ::geteuid() && status.st_uid != 0)
         return QStringLiteral("%1 belongs to another user, who can change it; use chown").arg(fileName);

@@ -6,7 +6,7 @@
 
 namespace qplc {
 
-/// A file that only its owner may read, like one with keys, or that only its owner may change, like one with rights.
+/// A file that only its owner may read, like one with keys, or that only its owner may change, like one with rights or certificates.
 class SecretFile
 {
 public:

@@ -3,7 +3,6 @@
 
 #include "SecretFile.h"
 
-#include <QtCore/QFile>
 #include <QtCore/QRegularExpression>
 #include <QtNetwork/QSslCertificate>
 #include <QtNetwork/QSslCipher>
@@ -27,17 +26,6 @@ QList<QSslCipher> acceptableCiphers(QPlcSecurity::Mode mode)
     return ciphers;
 }
 
-bool readPlain(const QString &fileName, QByteArray *content, QString *error)
-{
-    QFile file(fileName);
-    if (!file.open(QIODevice::ReadOnly)) {
-        *error = QStringLiteral("cannot open %1: %2").arg(fileName, file.errorString());
-        return false;
-    }
-    *content = file.read(SecretFile::MaximumSize);
-    return true;
-}
-
 bool readPrivateKey(const QString &fileName, QSslKey *key, QString *error)
 {
     QByteArray pem;
@@ -53,10 +41,11 @@ bool readPrivateKey(const QString &fileName, QSslKey *key, QString *error)
     return false;
 }
 
+/// Who could change the file of an authority could add one of his own.
 bool readCertificates(const QString &fileName, QList<QSslCertificate> *certificates, QString *error)
 {
     QByteArray pem;
-    if (!readPlain(fileName, &pem, error))
+    if (!SecretFile::read(fileName, SecretFile::Trusted, &pem, error))
         return false;
     *certificates = QSslCertificate::fromData(pem, QSsl::Pem);
     if (certificates->isEmpty())

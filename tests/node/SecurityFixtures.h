@@ -58,11 +58,17 @@ public:
             qDebug().noquote() << arguments.join(' ') << process.errorString() << process.readAll();
         return isDone;
     }
+    /// Certificates have the mode that they need, whatever the umask is.
+    bool protect(const QString &name) const
+    {
+        return QFile::setPermissions(path(name + ".pem"), QFileDevice::ReadOwner | QFileDevice::WriteOwner);
+    }
     /// An authority: NAME.pem and NAME.key.
     bool makeAuthority(const QString &name) const
     {
         return openssl({"req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:P-256", "-nodes", "-days", "2",
-                        "-subj", "/CN=" + name, "-keyout", name + ".key", "-out", name + ".pem"});
+                        "-subj", "/CN=" + name, "-keyout", name + ".key", "-out", name + ".pem"})
+            && protect(name);
     }
     /// A certificate of \a authority: NAME.pem and NAME.key. \param days  -1: it has ended yesterday
     bool makeCertificate(const QString &name, const QString &authority, const QString &file = QString(),
@@ -75,7 +81,8 @@ public:
         return openssl({"req", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:P-256", "-nodes", "-subj", "/CN=" + name,
                         "-keyout", base + ".key", "-out", base + ".csr"})
             && openssl({"x509", "-req", "-in", base + ".csr", "-CA", authority + ".pem", "-CAkey", authority + ".key",
-                        "-days", QString::number(days), "-extfile", base + ".ext", "-out", base + ".pem"});
+                        "-days", QString::number(days), "-extfile", base + ".ext", "-out", base + ".pem"})
+            && protect(base);
     }
     QPlcSecurity certificate(const QString &name, const QString &authority = "authority") const
     {
