@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "QPlcMasterNode.h"
 
+#include "PeriodRange.h"
 #include "QPlcMasterNodePrivate.h"
 #include "QPlcSignalIndexTable.h"
 #include "realtime/TimeSource.h"
@@ -73,7 +74,7 @@ bool QPlcMasterNode::activateStatisticSignal(QPlcStatisticFigure figure, const Q
 
 bool QPlcMasterNode::setInterval(std::chrono::nanoseconds period)
 {
-    if (period < 10us || period > 10s)
+    if (period < qplc::ShortestPeriod || period > qplc::LongestPeriod)
         return d->setError(IntervalError,
                            QStringLiteral("a period of %1 s is out of range; use 0.00001 ... 10 s")
                                .arg(double(period.count()) * 1e-9));

@@ -3,6 +3,7 @@
 
 #include "FrameLog.h"
 #include "Logging.h"
+#include "PeriodRange.h"
 
 #include <QtCore/QCoreApplication>
 #include <QtCore/QMetaMethod>
@@ -25,6 +26,22 @@ QPlcClock clockOf(const Message &message)
     if (kind == QLatin1String("Scaled"))
         return QPlcClock::scaled(message.fields().value(QStringLiteral("scale")).toDouble(1.0));
     return QPlcClock::realTime();
+}
+
+/// What a node cannot compute with of a phase that its master begins; empty: nothing.
+QString phaseError(const Message &message)
+{
+    const double period = message.fields().value(QStringLiteral("period")).toDouble();  // [ns]
+    if (!(period >= double(qplc::ShortestPeriod.count()) && period <= double(qplc::LongestPeriod.count())))
+        return QStringLiteral("a period of %1 s is out of range; use 0.00001 ... 10 s").arg(period * 1e-9);
+    const QPlcClock clock = clockOf(message);
+    if (!clock.isValid())
+        return QStringLiteral("a clock of %1 times real time is out of range; use 0.001 ... 1000, or lockstep")
+            .arg(clock.scale());
+    const quint64 first = message.hex64(QStringLiteral("firstCycle")) - message.hex64(QStringLiteral("cycleZero"));
+    if (first >= qplc::mostCycles(std::chrono::nanoseconds(qint64(period))))
+        return QStringLiteral("it begins with cycle %1, which has no time").arg(qint64(first));
+    return {};
 }
 
 /// Where the inputs lie in datagrams for many nodes; what is out of place is refused by its size of 0, and no frame will fit.
@@ -370,8 +387,19 @@ void QPlcSlaveNodePrivate::tellInitialized()
         Q_EMIT q->hasInitialized(qplc::NodeRuntime::toList(runtime.inputLayout(), runtime.inputs()));
 }
 
+bool QPlcSlaveNodePrivate::refusePhase(QPlcSlaveNode::Error reason, const QString &text)
+{
+    control->sendMessage(Message(Message::NodeFault, {{QStringLiteral("text"), text}}));
+    setError(reason, QStringLiteral("node '%1': %2").arg(name, text));
+    return false;
+}
+
 bool QPlcSlaveNodePrivate::startCycles(const Message &message)
 {
+    const QString wrong = phaseError(message);
+    if (!wrong.isEmpty())
+        return refusePhase(QPlcSlaveNode::ProtocolError,
+                           QStringLiteral("the phase that the master begins is refused: %1").arg(wrong));
     qplc::SlaveCycle::Phase phase;
     phase.period = std::chrono::nanoseconds(qint64(message.fields().value(QStringLiteral("period")).toDouble()));
     phase.clock = clockOf(message);
@@ -381,11 +409,8 @@ bool QPlcSlaveNodePrivate::startCycles(const Message &message)
     phase.interval = interval;
     phase.watchdog = watchdog;
     phase.realTimeOptions = realTimeOptions;
-    if (!cycle->start(phase)) {
-        control->sendMessage(Message(Message::NodeFault, {{QStringLiteral("text"), cycle->errorString()}}));
-        setError(QPlcSlaveNode::OptionError, QStringLiteral("node '%1': %2").arg(name, cycle->errorString()));
-        return false;
-    }
+    if (!cycle->start(phase))
+        return refusePhase(QPlcSlaveNode::OptionError, cycle->errorString());
     for (const QPlcRealTimeSetting &setting : cycle->realTimeSettings()) {
         if (!setting.granted)
             qCWarning(lcSlave).noquote() << "node" << name << setting.toString();

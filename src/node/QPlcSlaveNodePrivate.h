@@ -97,6 +97,7 @@ private:
     void sendInitialOutputs();
     bool initializeWith(const QPlcMessage &message);
     bool startCycles(const QPlcMessage &message);
+    bool refusePhase(QPlcSlaveNode::Error reason, const QString &text);
     void masterLost(QPlcAbstractSocket::Error socketError, const QString &text);
     void giveUp(QPlcSlaveNode::Error newError, const QString &text);
     void takeReports();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SlaveCycle.h"
 
+#include "PeriodRange.h"
 #include "protocol/LittleEndian.h"
 
 #include <algorithm>
@@ -69,6 +70,7 @@ bool SlaveCycle::start(const Phase &phase)
         ? ownDecoder()
         : FrameDecoder(FrameKind::GroupInputs, {m_identity.session, 0, group.hash}, {0, group.size});
     m_decoder.restart(phase.firstCycle);
+    m_endOfTime = phase.cycleZero + mostCycles(phase.period);
     m_runtime.beginPhase(phase.clock.isLockstep());
     for (std::atomic<quint64> *counter :
          {&m_counters.cycles, &m_counters.missed, &m_counters.duplicated, &m_counters.outdated, &m_counters.rejected,
@@ -159,7 +161,7 @@ FrameStatus SlaveCycle::decode(const char *frame, std::size_t size) noexcept
     if (isForOthers(frame, size))
         return FrameStatus::Incomplete;  // no error, and no use
     m_reports.tap(TappedFrame::Received, m_identity.node, frame, size);
-    const FrameStatus status = m_decoder.decode(frame, size);
+    const FrameStatus status = m_decoder.decode(frame, size, m_endOfTime);
     switch (status) {
     case FrameStatus::Complete:
     case FrameStatus::Incomplete:

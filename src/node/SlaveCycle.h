@@ -41,7 +41,7 @@ public:
     };
     struct Phase
     {
-        std::chrono::nanoseconds period{0};
+        std::chrono::nanoseconds period{0};  // of PeriodRange.h
         QPlcClock clock;
         std::uint64_t cycleZero = 0;           // number on the wire of cycle 0 of the phase
         std::uint64_t firstCycle = 0;          // number on the wire of the first cycle that may come
@@ -104,8 +104,9 @@ private:
 
     // cycle thread
     Phase m_phase;
-    std::vector<char> m_frames;  // encoded parts of the newest answer, one behind the other
-    FrameHeader m_answer;        // of the newest cycle
+    std::uint64_t m_endOfTime = 0;  // first cycle on the wire that is too far for a time in nanoseconds
+    std::vector<char> m_frames;     // encoded parts of the newest answer, one behind the other
+    FrameHeader m_answer;           // of the newest cycle
     bool m_computedAny = false;
     bool m_faulted = false;
     std::uint64_t m_lastCycle = 0;  // computed last

@@ -4,6 +4,8 @@
 
 #include <QtTest/QtTest>
 
+using namespace std::chrono_literals;
+
 // Figure 4.17 of the thesis: start and stop of the real-time phase, asked for by a tool.
 class tst_StartAndStopSequence : public QObject
 {
@@ -21,6 +23,9 @@ private Q_SLOTS:
     void aSecondStartIsRefused();
     void cyclesAreCheckedAndKept_data();
     void cyclesAreCheckedAndKept();
+    void aPhaseThatCannotBeMeantIsRefused_data();
+    void aPhaseThatCannotBeMeantIsRefused();
+    void aCycleAfterTheEndOfTimeIsRejected();
     void masterEndIsSaidAndMasterLossIsAnError();
 };
 
@@ -247,6 +252,65 @@ void tst_StartAndStopSequence::cyclesAreCheckedAndKept()
     QVERIFY(master.waitForState(QPlcMasterNode::Off));
     QCOMPARE(master.statistics().cycles, expected);
     QCOMPARE(master.signalValue("count").toUInt64(), expected);
+}
+
+void tst_StartAndStopSequence::aPhaseThatCannotBeMeantIsRefused_data()
+{
+    QTest::addColumn<QString>("field");
+    QTest::addColumn<QJsonValue>("value");
+    QTest::addColumn<QString>("word");
+    QTest::newRow("no period") << "period" << QJsonValue() << "a period of 0 s";
+    QTest::newRow("period 0") << "period" << QJsonValue(0) << "a period of 0 s";
+    QTest::newRow("period below 0") << "period" << QJsonValue(-10e6) << "a period of -0.01 s";
+    QTest::newRow("period too short") << "period" << QJsonValue(9999) << "a period of";
+    QTest::newRow("period too long") << "period" << QJsonValue(10e9 + 1) << "a period of 10";
+    QTest::newRow("period beyond 64 bits") << "period" << QJsonValue(1e300) << "a period of 1e+291 s";
+    QTest::newRow("scale 0") << "scale" << QJsonValue(0) << "a clock of 0 times";
+    QTest::newRow("scale below 0") << "scale" << QJsonValue(-1) << "a clock of -1 times";
+    QTest::newRow("scale too small") << "scale" << QJsonValue(1e-300) << "a clock of 1e-300 times";
+    QTest::newRow("scale too large") << "scale" << QJsonValue(1001) << "a clock of 1001 times";
+    QTest::newRow("first cycle before cycle 0")
+        << "cycleZero" << QJsonValue(QPlcMessage::fromHex64(101)) << "begins with cycle -1";
+    QTest::newRow("first cycle after the end of time")
+        << "firstCycle" << QJsonValue(QPlcMessage::fromHex64(Q_UINT64_C(1) << 62)) << "begins with cycle 4611";
+}
+
+void tst_StartAndStopSequence::aPhaseThatCannotBeMeantIsRefused()
+{
+    QFETCH(QString, field);
+    QFETCH(QJsonValue, value);
+    QFETCH(QString, word);
+    ScriptedMaster master;
+    CounterNode node;
+    node.activateWatchdog(20ms);
+    QVERIFY(master.admit(node, master.udp()));
+    QJsonObject fields = master.startFields(QStringLiteral("Scaled"));
+    fields.insert(field, value);
+    master.send(QPlcMessage::RealTimeStarted, fields);
+    const QPlcMessage answer = master.next();
+    QCOMPARE(answer.kind(), QPlcMessage::NodeFault);
+    QVERIFY2(answer.text("text").contains(word), qPrintable(answer.text("text")));
+    QCOMPARE(node.error(), QPlcSlaveNode::ProtocolError);
+    QVERIFY2(node.errorString().contains(word), qPrintable(node.errorString()));
+    QCOMPARE(node.state(), QPlcSlaveNode::Registered);
+    QVERIFY(master.start());  // one that can be meant
+    QCOMPARE(node.state(), QPlcSlaveNode::RealTime);
+    node.disconnectFromMaster();
+}
+
+void tst_StartAndStopSequence::aCycleAfterTheEndOfTimeIsRejected()
+{
+    ScriptedMaster master;
+    CounterNode node;
+    QVERIFY(master.admit(node, master.udp()));
+    QVERIFY(master.start(QStringLiteral("Lockstep"), 10'000'000'000));
+    master.request(0x7FFFFFFF);  // in 681 years
+    master.request(0);
+    QVERIFY(master.waitForAnswers(1));
+    QCOMPARE(node.counters().rejected, quint64(1));
+    QCOMPARE(node.counters().cycles, quint64(1));
+    QCOMPARE(node.counters().missed, quint64(0));
+    node.disconnectFromMaster();
 }
 
 void tst_StartAndStopSequence::masterEndIsSaidAndMasterLossIsAnError()
