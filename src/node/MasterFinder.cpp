@@ -19,17 +19,11 @@ constexpr int pause = 250;          // between two looks [ms]
 constexpr int looksForNotices = 4;  // so many looks from one reading of the notices to the next
 constexpr int looksForNetworks = 20;
 
-/// A name that somebody has sent: characters that turn or hide text are shown as '?'.
+/// A name that somebody has sent, as a short line.
 QString shown(const QString &name)
 {
     constexpr int most = 40;
-    QString text = printable(name.simplified());
-    for (QChar &character : text) {
-        const QChar::Category category = character.category();
-        if (category == QChar::Other_Format || category == QChar::Other_PrivateUse
-            || category == QChar::Other_NotAssigned)
-            character = QLatin1Char('?');
-    }
+    const QString text = printable(name.simplified());
     if (text.size() <= most)
         return text;
     const int cut = text.at(most - 2).isHighSurrogate() ? most - 2 : most - 1;

@@ -67,7 +67,7 @@ bool NodeDeclaration::fromMessage(const QPlcMessage &message, NodeDeclaration *d
     if (declaration->name.isEmpty() || declaration->name.size() > LongestName)
         *error = QStringLiteral("a node needs a name of 1 ... %1 characters").arg(LongestName);
     else if (declaration->name != printable(declaration->name))
-        *error = QStringLiteral("the name '%1' has control characters").arg(printable(declaration->name));
+        *error = QStringLiteral("the name '%1' has characters that cannot be shown").arg(printable(declaration->name));
     else if (!knownPolicy)
         *error = QStringLiteral("unknown policy '%1'").arg(QString::fromLatin1(policyName));
     else if (!readSignals(fields.value(QStringLiteral("inputs")), &declaration->inputs)

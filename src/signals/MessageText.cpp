@@ -54,16 +54,51 @@ QStringList namesThatBeginAlike(const QString &name, const QStringList &candidat
     return result;
 }
 
+bool isPrintable(uint character)
+{
+    switch (QChar::category(character)) {
+    case QChar::Other_Control:
+    case QChar::Other_Format:
+    case QChar::Other_Surrogate:
+    case QChar::Other_PrivateUse:
+    case QChar::Other_NotAssigned:
+    case QChar::Separator_Line:
+    case QChar::Separator_Paragraph:
+        return false;
+    default:
+        return true;
+    }
+}
+
 }  // namespace
+
+QString printable(const QString &text, const std::function<QString(uint)> &escape)
+{
+    QString shown;
+    shown.reserve(text.size());
+    for (int i = 0; i < text.size(); ++i) {
+        const QChar unit = text.at(i);
+        const bool isPair = unit.isHighSurrogate() && i + 1 < text.size() && text.at(i + 1).isLowSurrogate();
+        const uint character = isPair ? QChar::surrogateToUcs4(unit, text.at(i + 1)) : unit.unicode();
+        if (!isPrintable(character))
+            shown += escape(character);
+        else
+            shown.append(text.constData() + i, isPair ? 2 : 1);
+        i += isPair ? 1 : 0;
+    }
+    return shown;
+}
+
+QString printable(const QString &text)
+{
+    return printable(text, [](uint) { return QStringLiteral("?"); });
+}
 
 QString quoted(const QString &text)
 {
-    QString shown = text.size() > longestQuotation ? text.left(longestQuotation) + QStringLiteral("...") : text;
-    for (QChar &character : shown) {
-        if (character.category() == QChar::Other_Control)
-            character = QLatin1Char('?');
-    }
-    return QLatin1Char('\'') + shown + QLatin1Char('\'');
+    return QLatin1Char('\'')
+        + printable(text.size() > longestQuotation ? text.left(longestQuotation) + QStringLiteral("...") : text)
+        + QLatin1Char('\'');
 }
 
 QStringList closeNames(const QString &name, const QStringList &candidates, int count)
@@ -102,15 +137,18 @@ QString didYouMean(const QStringList &names)
     return text + QLatin1Char('?');
 }
 
+QString firstOf(const QStringList &names, int most)
+{
+    const QString text = names.mid(0, most).join(QStringLiteral(", "));
+    return names.size() > most ? text + QStringLiteral(" and %1 more").arg(names.size() - most) : text;
+}
+
 QString knownAre(QStringList names)
 {
-    constexpr int most = 12;
     if (names.isEmpty())
         return QStringLiteral("; there is none");
     names.sort();
-    const int more = names.size() - most;
-    return QStringLiteral("; known are: ") + names.mid(0, most).join(QStringLiteral(", "))
-        + (more > 0 ? QStringLiteral(" and %1 more").arg(more) : QString());
+    return QStringLiteral("; known are: ") + firstOf(names, 12);
 }
 
 }  // namespace qplc

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TerminalText.h"
 
+#include "signals/MessageText.h"
+
 #include <cstdio>
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -9,14 +11,10 @@ namespace tools {
 
 QString printable(const QString &text)
 {
-    QString result;
-    for (const QChar character : text) {
-        if (character.category() == QChar::Other_Control)
-            result += QStringLiteral("\\x%1").arg(character.unicode(), 2, 16, QLatin1Char('0'));
-        else
-            result += character;
-    }
-    return result;
+    return qplc::printable(text, [](uint character) {
+        const QString form = character < 0x100 ? QStringLiteral("\\x%1") : QStringLiteral("\\u%1");
+        return form.arg(character, character < 0x100 ? 2 : 4, 16, QLatin1Char('0'));
+    });
 }
 
 bool isTerminal()

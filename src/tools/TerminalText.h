@@ -7,7 +7,7 @@
 
 namespace tools {
 
-/// \a text with its control characters as \xNN: what came over the network must not command a terminal.
+/// \a text with its characters that are not fit to be shown (see signals/MessageText.h) as \xNN or \uNNNN: what came over the network must not command a terminal.
 QString printable(const QString &text);
 /// Whether the standard output is a terminal that a person looks at.
 bool isTerminal();

@@ -167,6 +167,8 @@ void tst_WatchTable::controlCharactersAreHarmless()
     WatchTable table(definitions("[s]\ntype = String\n"));
     table.update({QPlcValue("\033[2J")}, 0.0);
     QVERIFY(!table.lines(0, 80, 10, 0.0).join(QString()).contains(QLatin1Char('\033')));
+    table.update({QPlcValue(QString(QChar(0x202E)) + QStringLiteral("etik"))}, 0.0);
+    QVERIFY(table.lines(0, 80, 10, 0.0).join(QString()).contains(QStringLiteral("\\u202eetik")));
 }
 
 QTEST_APPLESS_MAIN(tst_WatchTable)
