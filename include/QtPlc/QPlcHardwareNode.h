@@ -5,6 +5,7 @@
 #include "QPlcDriver.h"
 #include "QPlcParseError.h"
 
+#include <chrono>
 #include <functional>
 #include <memory>
 
@@ -38,11 +39,16 @@
 ///
 /// In each cycle the node gives its inputs to the devices, and takes its outputs from them. An output without a fresh value is told to have none (QPlcQuality). A device that
 /// is missing or lost is opened again and again, and says so; the other devices and nodes go on. In the safe state of the node all devices get their safe values, at once.
+/// So they do when no frame of the master has come for DefaultWatchdog.
 /// Threads: that of the object.
 class QTPLC_HARDWARE_EXPORT QPlcHardwareNode : public QPlcCompactSlaveNode
 {
     Q_OBJECT
 public:
+    /// The watchdog of a hardware node, unless activateWatchdog() or --watchdog says another one, or 0 for none: what moves something does not go on when its link is cut.
+    /// A master with a period of more than 0.2 s needs a longer one.
+    static constexpr std::chrono::milliseconds DefaultWatchdog{500};
+
     explicit QPlcHardwareNode(const QString &name = QString(), QObject *parent = nullptr);
     ~QPlcHardwareNode() override;
 

@@ -33,7 +33,7 @@ public:
 
     /// parseOptions(), and reads the signal table into the process.
     bool parseNodeOptions();
-    /// Sets the node up as the options say, connects it and runs the event loop until a signal ends the program or the master is lost.
+    /// Sets the node up as the options say (the watchdog of the node stays as it is without --watchdog), connects it and runs the event loop until a signal ends the program or the master is lost.
     /// \return the exit code
     int run(QPlcSlaveNode &node);
 

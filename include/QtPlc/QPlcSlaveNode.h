@@ -179,8 +179,10 @@ public:
     void activateWorkloadMeasurement(const QString &signalName);
     /// When no frame has come for \a time (of the master's clock) during the real-time phase, the node goes to its safe state by itself: safeState(), watchdogTimedOut().
     /// It drops its connection then, and connects again. A master that waits for a late node sends nothing to others: be longer than what it may wait
-    /// (QPlcMasterNode::setLongestWait()) where nodes have a Wait policy. 0: never.
+    /// (QPlcMasterNode::setLongestWait()) where nodes have a Wait policy. 0: never, and that is so unless set: a node whose link is cut while the control connection stays then keeps its last
+    /// outputs for ever, which is right for one that only computes. Whatever moves something needs a watchdog; QPlcHardwareNode has one.
     void activateWatchdog(std::chrono::nanoseconds time);
+    std::chrono::nanoseconds watchdog() const;
     void activateWatchdog(double seconds) { activateWatchdog(std::chrono::nanoseconds(qRound64(seconds * 1e9))); }
 
     /// Lets the master stop safely with the next answer of this node, as if it were late or lost while critical: an emergency stop button was pressed, a limit of the machine

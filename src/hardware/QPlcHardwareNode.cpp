@@ -210,6 +210,7 @@ QPlcHardwareNode::QPlcHardwareNode(const QString &name, QObject *parent)
     , m_hardware(std::make_unique<Private>(this))
 {
     setSendsQuality(true);
+    activateWatchdog(DefaultWatchdog);
 }
 
 QPlcHardwareNode::~QPlcHardwareNode()

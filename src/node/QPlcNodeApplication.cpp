@@ -24,8 +24,10 @@ QPlcNodeApplication::QPlcNodeApplication(int &argc, char **argv)
     addOption(option("signals", QStringLiteral("Signal table of this node. Without one the master sends its table."),
                      "FILE"));
     addOption(option("name", QStringLiteral("Name under which the node registers."), "NAME"));
-    addOption(option("watchdog", QStringLiteral("Goes to its safe state when no frame has come for so long. 0: never."),
-                     "SECONDS", QStringLiteral("0")));
+    addOption(option("watchdog",
+                     QStringLiteral("Goes to its safe state when no frame has come for so long. 0: never. Unless said: "
+                                    "as the program sets it, 0.5 for nodes with devices (qtplc_hardware), else never."),
+                     "SECONDS"));
     addOption(QCommandLineOption(
         QStringLiteral("critical"),
         QStringLiteral("The plant stops safely when this node is lost, fails, or is late too often.")));
@@ -66,15 +68,18 @@ bool QPlcNodeApplication::parseNodeOptions()
 
 bool QPlcNodeApplication::configure(QPlcSlaveNode &node)
 {
+    const bool hasWatchdog = isSet(QStringLiteral("watchdog"));
     double watchdog = 0.0;
     QPlcRealTimeOptions realTimeOptions;
     QString faultPlan;
     QPlcSecurity security;
-    if (!number(QStringLiteral("watchdog"), 0.0, 3600.0, &watchdog) || !readRealTimeOptions(&realTimeOptions)
-        || !readSecurityOptions(QPlcSecurity::NodeSide, &security) || !readFaultPlan(&faultPlan))
+    if ((hasWatchdog && !number(QStringLiteral("watchdog"), 0.0, 3600.0, &watchdog))
+        || !readRealTimeOptions(&realTimeOptions) || !readSecurityOptions(QPlcSecurity::NodeSide, &security)
+        || !readFaultPlan(&faultPlan))
         return false;
     QPlcSecurity::setCurrent(security);
-    node.activateWatchdog(watchdog);
+    if (hasWatchdog)
+        node.activateWatchdog(watchdog);
     node.setFaultPlan(faultPlan);
     node.setRealTimeOptions(realTimeOptions);
     if (isSet(QStringLiteral("critical")))

@@ -188,6 +188,11 @@ void QPlcSlaveNode::activateWatchdog(std::chrono::nanoseconds time)
     d->watchdog = time;
 }
 
+std::chrono::nanoseconds QPlcSlaveNode::watchdog() const
+{
+    return d->watchdog;
+}
+
 QPlcSlaveNode::State QPlcSlaveNode::state() const
 {
     return d->state;

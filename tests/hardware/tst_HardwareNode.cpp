@@ -65,6 +65,8 @@ private Q_SLOTS:
     void theDeviceIsSafeBeforeAndAfterAPhase();
     void theDeviceIsSafeWhenTheMasterIsLost_data() { addKinds(); }
     void theDeviceIsSafeWhenTheMasterIsLost();
+    void theDeviceIsSafeWhenTheLinkIsCut();
+    void theWatchdogCanBeAnotherOneOrNone();
     void theConfigurationKnowsBetterThanTheTable();
     void aLostDeviceIsHeldThenSafeAndComesBack();
     void valuesThatDoNotFitTheSignalAreNone();
@@ -171,6 +173,37 @@ void tst_HardwareNode::theDeviceIsSafeWhenTheMasterIsLost()
     QTRY_COMPARE(m_device->torque.load(), 30.0);
     QTRY_COMPARE(m_device->brake.load(), 1.0);
     node.disconnectFromMaster();
+}
+
+/// Nobody has asked for a watchdog, and the control connection stays.
+void tst_HardwareNode::theDeviceIsSafeWhenTheLinkIsCut()
+{
+    TestMaster master(QPlcClock::realTime(), winchTable());
+    QVERIFY(master.listen());
+    QPlcHardwareNode node;
+    QVERIFY(node.configure(wiring, "winch.ini"));
+    QVERIFY(node.setFaultPlan(QStringLiteral("cut=100ms")));
+    QVERIFY(master.admit(node, "udp"));
+    QVERIFY(master.setSignalValue("torque", 0.5));
+    QSignalSpy barked(&node, &QPlcSlaveNode::watchdogTimedOut);
+    LogCapture log;
+    QVERIFY(start(master));
+    QTRY_COMPARE(m_device->torque.load(), 5.0);
+    QTRY_COMPARE(m_device->torque.load(), 30.0);
+    QTRY_COMPARE(m_device->brake.load(), 1.0);
+    QTRY_COMPARE(barked.size(), 1);
+    node.disconnectFromMaster();
+}
+
+void tst_HardwareNode::theWatchdogCanBeAnotherOneOrNone()
+{
+    QPlcHardwareNode node;
+    QCOMPARE(node.watchdog(), std::chrono::nanoseconds(500'000'000));
+    node.activateWatchdog(0.02);
+    QCOMPARE(node.watchdog(), std::chrono::nanoseconds(20'000'000));
+    node.activateWatchdog(0.0);
+    QCOMPARE(node.watchdog(), std::chrono::nanoseconds(0));
+    QCOMPARE(CounterNode().watchdog(), std::chrono::nanoseconds(0));  // a node that drives nothing has none
 }
 
 void tst_HardwareNode::theConfigurationKnowsBetterThanTheTable()

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The program of hardware nodes, as a process.
+#include "NodeFixtures.h"
+
 #include <QtCore/QProcess>
 #include <QtCore/QTemporaryDir>
 #include <QtTest/QtTest>
@@ -10,6 +12,8 @@ class tst_qtplc_hardware : public QObject
 
 private Q_SLOTS:
     void helpNamesItsOptions();
+    void itHasAWatchdogUnlessToldOtherwise_data();
+    void itHasAWatchdogUnlessToldOtherwise();
     void whatCannotBeMeantEndsItWithTwo_data();
     void whatCannotBeMeantEndsItWithTwo();
 
@@ -37,9 +41,47 @@ void tst_qtplc_hardware::helpNamesItsOptions()
 {
     const Run help = run({"--help"});
     QCOMPARE(help.code, 0);
-    for (const char *word : {"--check", "--monitor", "--drivers", "--master", "configuration"})
-        QVERIFY2(help.output.contains(word), qPrintable(help.output));
+    for (const char *word :
+         {"--check", "--monitor", "--drivers", "--master", "configuration", "0.5 for nodes with devices"})
+        QVERIFY2(help.output.simplified().contains(word), qPrintable(help.output));
     QCOMPARE(run({"--drivers"}).code, 0);
+}
+
+void tst_qtplc_hardware::itHasAWatchdogUnlessToldOtherwise_data()
+{
+    QTest::addColumn<QStringList>("options");
+    QTest::addColumn<bool>("barks");
+    QTest::newRow("as it is") << QStringList() << true;
+    QTest::newRow("off") << QStringList{"--watchdog", "0"} << false;
+}
+
+/// Its link is cut; the control connection stays.
+void tst_qtplc_hardware::itHasAWatchdogUnlessToldOtherwise()
+{
+    QFETCH(QStringList, options);
+    QFETCH(bool, barks);
+    QTemporaryDir folder;
+    QFile file(folder.filePath("board.ini"));
+    QVERIFY(file.open(QIODevice::WriteOnly));
+    file.write("[node]\nname = Board\n[adc]\ndriver = mcp3208\ndevice = fake:none\n[adc.read]\nfree = @online\n");
+    file.close();
+    TestMaster master(QPlcClock::realTime());
+    QVERIFY(master.listen());
+    QSignalSpy lost(&master, &QPlcMasterNode::nodeLost);
+    QProcess board;
+    board.setProcessChannelMode(QProcess::MergedChannels);
+    board.start(QStringLiteral(QTPLC_HARDWARE_PROGRAM),
+                QStringList{file.fileName(), "--master", master.protocol("udp").toString(), "--enable-fault-injection",
+                            "--faults", "cut=50ms"}
+                    + options);
+    QTRY_COMPARE(master.nodes().size(), 1);
+    QVERIFY(master.startRealTime());
+    QVERIFY(master.waitForCycles(5));
+    QCOMPARE(QTest::qWaitFor([&] { return !lost.isEmpty(); }, barks ? 5000 : 1000), barks);
+    master.stop();
+    board.terminate();
+    QVERIFY(board.waitForFinished(10000));
+    QCOMPARE(board.readAll().contains("safe state"), barks);
 }
 
 void tst_qtplc_hardware::whatCannotBeMeantEndsItWithTwo_data()
