@@ -43,13 +43,13 @@ class DriverRunner;
 /// The node calls configure(), then channel() for each name in its configuration, open() until it succeeds (with growing pauses of 0.1 ... 5 s), then write() and read() in
 /// turn, and close() when one of them has failed or the node ends. No two functions run at the same time.
 ///
-/// Threads: configure() and channel() in that of the node; open() and close() in a thread of the driver, where they may take their time; read() and write() in the cycle
-/// thread (EveryCycle) or in the thread of the driver (OwnPace).
+/// Threads: configure() and channel() in that of the node; open() and close() in a thread of the driver, where they may take their time; read() and write() in that one, too (OwnPace, and
+/// EveryCycle while no cycles run), or in the cycle thread (EveryCycle, from the first cycle of a phase to its safe state).
 class QTPLC_HARDWARE_EXPORT QPlcDriver
 {
 public:
     enum Pace : quint8 {
-        EveryCycle,  ///< read() and write() are part of each cycle: short, without waiting, without taking memory
+        EveryCycle,  ///< read() and write() are part of each cycle: short, without waiting, without taking memory; every interval() while no cycles run
         OwnPace  ///< they are called every interval() and may wait for the device; the cycle takes the newest values and never waits
     };
 
@@ -61,7 +61,7 @@ public:
     Pace pace() const { return m_pace; }
     /// Name of its section in the configuration.
     QString name() const { return m_name; }
-    /// Time between two calls of read() of a driver with OwnPace: key `interval`, 10 ms unless it is given.
+    /// Time between two calls of read() by the thread of the driver: 10 ms; OwnPace: key `interval`.
     std::chrono::nanoseconds interval() const { return m_interval; }
     /// How long what is read is fresh: key `timeout`; unless given it is three intervals, and 100 ms for EveryCycle.
     std::chrono::nanoseconds timeout() const { return m_timeout; }

@@ -38,8 +38,8 @@
 /// `@failures` (how often the device was lost). The same as JSON: an object of sections, whose `read`, `write` and `safe` are objects of texts.
 ///
 /// In each cycle the node gives its inputs to the devices, and takes its outputs from them. An output without a fresh value is told to have none (QPlcQuality). A device that
-/// is missing or lost is opened again and again, and says so; the other devices and nodes go on. In the safe state of the node all devices get their safe values, at once.
-/// So they do when no frame of the master has come for DefaultWatchdog.
+/// is missing or lost is opened again and again, and says so; the other devices and nodes go on. In the safe state of the node all devices get their safe values, at once, and again and again until
+/// the next phase. So they do when no frame of the master has come for DefaultWatchdog.
 /// Threads: that of the object.
 class QTPLC_HARDWARE_EXPORT QPlcHardwareNode : public QPlcCompactSlaveNode
 {

@@ -122,15 +122,10 @@ void DriverRunner::setValue(int writeChannel, double value, bool isSafe) noexcep
     m_orders[std::size_t(writeChannel)] = {value, isSafe ? Order::Safe : Order::Computed};
 }
 
-void DriverRunner::write(qint64 now, bool isUrgent) noexcept
+void DriverRunner::write(qint64 now) noexcept
 {
     m_toDevice->publish(m_orders.data(), quint64(now));
-    if (m_driver->pace() == QPlcDriver::OwnPace) {
-        if (isUrgent)
-            wake();
-        return;
-    }
-    if (!isOnline())
+    if (!takeForCycle())
         return;
     give(m_orders);
     m_driver->m_now = now;
@@ -138,19 +133,26 @@ void DriverRunner::write(qint64 now, bool isUrgent) noexcept
         lose();
 }
 
+void DriverRunner::leave(qint64 now) noexcept
+{
+    write(now);
+    State state = InCycle;
+    m_state.compare_exchange_strong(state, Open, std::memory_order_release, std::memory_order_relaxed);
+    wake();
+}
+
 void DriverRunner::read(qint64 now) noexcept
 {
-    if (m_driver->pace() == QPlcDriver::OwnPace) {
-        m_fromDevice->read(m_readings.data(), nullptr);
-        return;
-    }
-    if (isOnline()) {
+    if (m_state.load(std::memory_order_acquire) == InCycle) {
         m_driver->m_now = now;
-        if (!m_driver->read())
-            lose();
+        if (m_driver->read()) {
+            take(&m_readings);
+            return;
+        }
+        lose();
     }
     if (isOnline())
-        take(&m_readings);
+        m_fromDevice->read(m_readings.data(), nullptr);
     else
         forget(&m_readings);  // its channels belong to the thread of the driver now
 }
@@ -206,6 +208,16 @@ double DriverRunner::age(qint64 now) const noexcept
     return oldest == Never ? std::numeric_limits<double>::infinity() : double(now - oldest) * 1e-9;
 }
 
+/// Whether the device is the cycle's, now or already; it never waits for a thread that is at it.
+bool DriverRunner::takeForCycle() noexcept
+{
+    State state = m_state.load(std::memory_order_acquire);
+    if (state == Open && m_driver->pace() == QPlcDriver::EveryCycle
+        && m_state.compare_exchange_strong(state, InCycle, std::memory_order_acquire))
+        return true;
+    return state == InCycle;
+}
+
 /// The cycle has met an error: from here on the device belongs to the thread of the driver.
 void DriverRunner::lose() noexcept
 {
@@ -252,11 +264,9 @@ void DriverRunner::takeOrders()
         give(m_newOrders);
 }
 
-/// What a driver with OwnPace has read.
+/// What the thread of the driver has read.
 void DriverRunner::publish()
 {
-    if (m_driver->pace() != QPlcDriver::OwnPace)
-        return;
     take(&m_newReadings);
     m_fromDevice->publish(m_newReadings.data(), quint64(m_driver->m_now));
 }
@@ -303,12 +313,14 @@ void DriverRunner::run()
             }
             break;
         case Open:
-            if (m_driver->pace() == QPlcDriver::EveryCycle) {
-                waitFor(longestTime);
-            } else if (writeNow(monotonicNow()) && readNow(monotonicNow())) {
+            if (exchange()) {
                 next = std::max<qint64>(next + m_driver->m_interval.count(), monotonicNow());
                 waitFor(std::chrono::nanoseconds(next - monotonicNow()));
             }
+            break;
+        case InThread:  // only within exchange()
+        case InCycle:
+            waitFor(longestTime);
             break;
         case Failed:
             tell(m_driver->errorString());
@@ -317,7 +329,7 @@ void DriverRunner::run()
             break;
         }
     }
-    if (isOnline() && m_driver->pace() == QPlcDriver::OwnPace)
+    if (isOnline())
         writeNow(monotonicNow());
     closeNow();
 }
@@ -366,6 +378,17 @@ void DriverRunner::closeNow()
             end.channel->invalidate();
     }
     publish();
+}
+
+/// Writes and reads once. \return false when the device was lost, or the cycle has taken it
+bool DriverRunner::exchange()
+{
+    State state = Open;
+    if (!m_state.compare_exchange_strong(state, InThread, std::memory_order_acquire, std::memory_order_relaxed)
+        || !writeNow(monotonicNow()) || !readNow(monotonicNow()))
+        return false;
+    m_state.store(Open, std::memory_order_release);
+    return true;
 }
 
 bool DriverRunner::readNow(qint64 now)

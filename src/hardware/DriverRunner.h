@@ -17,7 +17,8 @@ namespace qplc {
 
 /// Runs one driver: opens its device again and again until that works, and lets values flow between the cycle and the device, at the pace of the driver.
 ///
-/// A driver with EveryCycle is called by the cycle itself while its device is open; one with OwnPace by a thread of its own, and the cycle meets copies of the newest values.
+/// Every driver has a thread, which opens its device, writes and reads at its interval, and closes it; a cycle meets copies of the newest values. With EveryCycle the cycle takes an open device
+/// for itself with its first write() and calls the driver from then on; leave() gives it back to the thread.
 class DriverRunner
 {
 public:
@@ -49,13 +50,15 @@ public:
     void start(Report report);
     /// Gives the device its safe values and lets it go.
     void stop();
-    bool isOnline() const { return m_state.load(std::memory_order_acquire) == Open; }
+    bool isOnline() const { return m_state.load(std::memory_order_acquire) >= Open; }
     quint64 failures() const { return m_failures.load(std::memory_order_relaxed); }
 
     // ---- in the cycle (or, while none runs, in the thread of the node): neither waits nor takes memory ----
     void setValue(int writeChannel, double value, bool isSafe) noexcept;
-    /// Gives the values that were set to the device; OwnPace: wakes its thread if \a isUrgent.
-    void write(qint64 now, bool isUrgent = false) noexcept;
+    /// Gives the values that were set to the device.
+    void write(qint64 now) noexcept;
+    /// As write(), for the last time until the next write(): the thread of the driver goes on with these values, at once.
+    void leave(qint64 now) noexcept;
     void read(qint64 now) noexcept;
     Sample sample(int readChannel, qint64 now) const noexcept;
     /// The newest value of a channel, for people.
@@ -68,7 +71,8 @@ public:
     bool writeNow(qint64 now);
 
 private:
-    enum State : int { Closed, Open, Failed };
+    /// Closed and Failed: the device belongs to the thread of the driver. Open: to nobody, and who wants it takes it. The others: to the one they name.
+    enum State : int { Closed, Failed, Open, InThread, InCycle };
     /// Channels that every driver has.
     enum class Own : quint8 { No, Online, Age, Failures };
     struct ReadEnd
@@ -98,6 +102,8 @@ private:
     void waitFor(std::chrono::nanoseconds time);
     void wake() noexcept;
     void lose() noexcept;
+    bool takeForCycle() noexcept;
+    bool exchange();
     void give(const std::vector<Order> &orders) noexcept;
     void take(std::vector<Reading> *readings) const noexcept;
     static void forget(std::vector<Reading> *readings) noexcept;

@@ -50,7 +50,8 @@ struct QPlcHardwareNode::Private
                      const qplc::ConfigurationEntry &entry);
     ChannelPort *port(const QString &signal, QPlcPort::Direction direction);
     void clear();
-    void writeAll(bool isUrgent) noexcept;
+    void writeAll() noexcept;
+    void leaveAll() noexcept;
     void readAll(qint64 now) noexcept;
     void setSafeValues(bool knowTable);
     static void give(const std::vector<GivenValue> &values, bool isSafe) noexcept;
@@ -243,7 +244,7 @@ bool QPlcHardwareNode::configure(const QByteArray &text, const QString &fileName
     for (const std::unique_ptr<DriverRunner> &runner : m_hardware->runners)
         runner->prepare();
     m_hardware->setSafeValues(false);
-    m_hardware->writeAll(false);
+    m_hardware->leaveAll();
     if (!configuration.nodeName().isEmpty())
         setName(configuration.nodeName());
     return true;
@@ -303,7 +304,7 @@ void QPlcHardwareNode::closeDevices()
     if (!m_hardware->isOpen)
         return;
     m_hardware->setSafeValues(true);
-    m_hardware->writeAll(true);
+    m_hardware->leaveAll();
     for (const std::unique_ptr<DriverRunner> &runner : m_hardware->runners)
         runner->stop();
     m_hardware->isOpen = false;
@@ -351,11 +352,19 @@ void QPlcHardwareNode::Private::readAll(qint64 now) noexcept
     }
 }
 
-void QPlcHardwareNode::Private::writeAll(bool isUrgent) noexcept
+void QPlcHardwareNode::Private::writeAll() noexcept
 {
     const qint64 now = qplc::monotonicNow();
     for (const std::unique_ptr<DriverRunner> &runner : runners)
-        runner->write(now, isUrgent);
+        runner->write(now);
+}
+
+/// Likewise, at once; then the devices belong to the threads of their drivers until the next writeAll().
+void QPlcHardwareNode::Private::leaveAll() noexcept
+{
+    const qint64 now = qplc::monotonicNow();
+    for (const std::unique_ptr<DriverRunner> &runner : runners)
+        runner->leave(now);
 }
 
 /// A device that has just been asked for would be an emergency stop in the first cycle.
@@ -391,7 +400,7 @@ void QPlcHardwareNode::Private::give(const std::vector<GivenValue> &values, bool
 void QPlcHardwareNode::reset()
 {
     m_hardware->setSafeValues(true);
-    m_hardware->writeAll(false);
+    m_hardware->leaveAll();
     openDevices();
     m_hardware->awaitSafeStops();
     m_hardware->readAll(qplc::monotonicNow());
@@ -400,7 +409,7 @@ void QPlcHardwareNode::reset()
 void QPlcHardwareNode::step(const QPlcCycle &)
 {
     Private::give(m_hardware->constants, false);
-    m_hardware->writeAll(false);
+    m_hardware->writeAll();
     const qint64 now = qplc::monotonicNow();
     m_hardware->readAll(now);
     for (const Private::SafeStop &stop : m_hardware->safeStops) {
@@ -418,5 +427,5 @@ void QPlcHardwareNode::safeState(SafeStateReason)
             port->pass(true);
     }
     Private::give(m_hardware->safeValues, true);
-    m_hardware->writeAll(true);
+    m_hardware->leaveAll();
 }

@@ -9,6 +9,7 @@
 #include <atomic>
 #include <cerrno>
 #include <memory>
+#include <thread>
 
 /// The device behind a BenchDriver, as the test holds it: it can be unplugged, break, and be silent.
 struct BenchDevice
@@ -16,6 +17,8 @@ struct BenchDevice
     std::atomic<bool> isPlugged{true};
     std::atomic<bool> isBroken{false};  // each exchange fails
     std::atomic<bool> isSilent{false};  // nothing new is measured
+    std::atomic<bool> isFull{false};    // it takes no values, as a bus without a partner
+    std::atomic<bool> isHeld{false};    // write() does not return
     std::atomic<double> speed{0.0};
     std::atomic<double> torque{-1.0};  // as written last
     std::atomic<double> brake{-1.0};
@@ -67,6 +70,10 @@ private:
     bool write() override
     {
         ++m_device->writes;
+        while (m_device->isHeld)
+            std::this_thread::yield();
+        if (m_device->isFull)
+            return true;
         if (m_torque.hasValue()) {
             m_device->torque = m_torque.value();
             m_device->torqueWasSafe = m_torque.isSafe();

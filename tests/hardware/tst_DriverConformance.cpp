@@ -279,7 +279,7 @@ void tst_DriverConformance::outputsAreSafeBeforeTheFirstCycle()
     QVERIFY(rig.device->plugIn());
     const double safe = rig.device->values().first();
     rig.set(safe, true);
-    rig.bench.runner().write(monotonicNow());
+    rig.bench.runner().leave(monotonicNow());
     rig.start();
     QTRY_VERIFY(rig.hasTaken(safe));
     rig.bench.runner().stop();
@@ -297,7 +297,7 @@ void tst_DriverConformance::outputsAreSafeAgainAtTheEnd()
     rig.set(computed, false);
     QTRY_VERIFY(rig.takesInCycle(computed));
     rig.set(safe, true);
-    rig.bench.runner().write(monotonicNow(), true);
+    rig.bench.runner().leave(monotonicNow());
     if (!rig.device->remembersOutputs())
         QTRY_VERIFY(rig.hasTaken(safe));
     rig.bench.runner().stop();

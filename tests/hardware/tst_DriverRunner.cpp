@@ -71,6 +71,15 @@ private Q_SLOTS:
     void anErrorIsToldOnceAndItsEndToo();
     void stopGivesTheLastValuesAndCloses_data() { addPaces(); }
     void stopGivesTheLastValuesAndCloses();
+    void valuesOfTheCycleAreGivenAgainAfterItHasLeft_data() { addPaces(); }
+    void valuesOfTheCycleAreGivenAgainAfterItHasLeft();
+    void valuesAreFreshWithoutCycles_data() { addPaces(); }
+    void valuesAreFreshWithoutCycles();
+    void aDeviceThatIsLostWithoutCyclesIsTold_data() { addPaces(); }
+    void aDeviceThatIsLostWithoutCyclesIsTold();
+    void theCycleTakesTheDeviceAgain();
+    void aDeviceThatOpensInTheMeantimeGetsTheValuesOfNow_data() { addPaces(); }
+    void aDeviceThatOpensInTheMeantimeGetsTheValuesOfNow();
     void everyDriverTellsWhetherItIsOnline();
     void anUnknownChannelIsNamedWithThoseThatThereAre();
     void theErrorOfACycleNamesWhatAndWhyAndTheRemedy();
@@ -219,6 +228,104 @@ void tst_DriverRunner::stopGivesTheLastValuesAndCloses()
     bench.runner().stop();
     QCOMPARE(bench.device->torqueAtClose.load(), 0.25);
     QCOMPARE(bench.device->closed.load(), 1);
+}
+
+void tst_DriverRunner::valuesOfTheCycleAreGivenAgainAfterItHasLeft()
+{
+    QFETCH(int, pace);
+    Bench bench(pace);
+    bench.wireWrite("torque");
+    bench.runner().start([](const QString &) {});
+    bench.set("torque", 8.0);
+    const auto takesInCycle = [&] {
+        bench.runner().write(monotonicNow());
+        return bench.device->torque.load() == 8.0;
+    };
+    QTRY_VERIFY(takesInCycle());
+    bench.device->isFull = true;
+    bench.set("torque", 0.5, true);
+    bench.runner().leave(monotonicNow());
+    QCOMPARE(bench.device->torque.load(), 8.0);
+    bench.device->isFull = false;
+    QTRY_COMPARE(bench.device->torque.load(), 0.5);
+    QVERIFY(bench.device->torqueWasSafe);
+    bench.runner().stop();
+}
+
+void tst_DriverRunner::valuesAreFreshWithoutCycles()
+{
+    QFETCH(int, pace);
+    Bench bench(pace);
+    bench.wireRead("speed");
+    bench.runner().start([](const QString &) {});
+    const auto hasFresh = [&](double speed) {
+        const qint64 now = monotonicNow();
+        bench.runner().read(now);
+        const DriverRunner::Sample sample = bench.runner().sample(0, now);
+        return sample.isFresh && sample.value == speed;
+    };
+    bench.device->speed = 2.0;
+    QTRY_VERIFY(hasFresh(2.0));
+    bench.runner().write(monotonicNow());
+    bench.runner().leave(monotonicNow());
+    bench.device->speed = 3.0;
+    QTRY_VERIFY(hasFresh(3.0));
+    bench.runner().stop();
+}
+
+void tst_DriverRunner::aDeviceThatIsLostWithoutCyclesIsTold()
+{
+    QFETCH(int, pace);
+    Reports reports;
+    Bench bench(pace);
+    bench.wireRead("speed");
+    bench.runner().start([&](const QString &error) { reports.add(error); });
+    QTRY_VERIFY(bench.isOnline());
+    bench.runner().write(monotonicNow());
+    bench.runner().leave(monotonicNow());
+    bench.device->isPlugged = false;
+    bench.device->isBroken = true;
+    QTRY_COMPARE(reports.taken().value(2), QString("there is no device 'bench0'; plug it in"));
+    QVERIFY(!bench.isOnline());
+    bench.runner().stop();
+}
+
+void tst_DriverRunner::theCycleTakesTheDeviceAgain()
+{
+    Bench bench(QPlcDriver::EveryCycle);
+    bench.wireWrite("torque");
+    bench.runner().start([](const QString &) {});
+    QTRY_VERIFY(bench.isOnline());
+    bench.runner().leave(monotonicNow());
+    const auto writesItself = [&] {
+        const int before = bench.device->writes;
+        for (int i = 0; i < 1000; ++i)
+            bench.runner().write(monotonicNow());
+        return bench.device->writes == before + 1000;
+    };
+    QTRY_VERIFY(writesItself());
+    const int before = bench.device->writes;
+    QTest::qWait(30);  // its thread leaves it alone
+    QCOMPARE(bench.device->writes.load(), before);
+    bench.runner().stop();
+}
+
+void tst_DriverRunner::aDeviceThatOpensInTheMeantimeGetsTheValuesOfNow()
+{
+    QFETCH(int, pace);
+    Bench bench(pace, pace == QPlcDriver::OwnPace ? "device = bench0\ninterval = 1 h\n" : "device = bench0\n");
+    bench.wireWrite("torque");
+    bench.device->isHeld = true;
+    bench.set("torque", 8.0);
+    bench.runner().write(monotonicNow());
+    bench.runner().start([](const QString &) {});
+    QTRY_COMPARE(bench.device->writes.load(), 1);  // the computed value is on its way
+    bench.set("torque", 0.5, true);
+    bench.runner().leave(monotonicNow());
+    bench.device->isHeld = false;
+    QTRY_COMPARE(bench.device->torque.load(), 0.5);
+    QVERIFY(bench.device->torqueWasSafe);
+    bench.runner().stop();
 }
 
 void tst_DriverRunner::everyDriverTellsWhetherItIsOnline()

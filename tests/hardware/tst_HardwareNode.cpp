@@ -63,6 +63,8 @@ private Q_SLOTS:
     void signalsAndDevicesAreTied();
     void theDeviceIsSafeBeforeAndAfterAPhase_data() { addKinds(); }
     void theDeviceIsSafeBeforeAndAfterAPhase();
+    void aDeviceThatTakesNothingAtTheEndIsSafeAsSoonAsItDoes_data() { addKinds(); }
+    void aDeviceThatTakesNothingAtTheEndIsSafeAsSoonAsItDoes();
     void theDeviceIsSafeWhenTheMasterIsLost_data() { addKinds(); }
     void theDeviceIsSafeWhenTheMasterIsLost();
     void theDeviceIsSafeWhenTheLinkIsCut();
@@ -150,6 +152,29 @@ void tst_HardwareNode::theDeviceIsSafeBeforeAndAfterAPhase()
     QTRY_COMPARE(m_device->torque.load(), 30.0);
     QTRY_COMPARE(m_device->brake.load(), 1.0);
     QVERIFY(m_device->torqueWasSafe);
+    node.disconnectFromMaster();
+}
+
+void tst_HardwareNode::aDeviceThatTakesNothingAtTheEndIsSafeAsSoonAsItDoes()
+{
+    QFETCH(QString, kind);
+    QFETCH(int, pace);
+    m_pace = QPlcDriver::Pace(pace);
+    TestMaster master(QPlcClock::realTime(), winchTable());
+    QVERIFY(master.listen());
+    QPlcHardwareNode node;
+    QVERIFY(node.configure(wiring, "winch.ini"));
+    QVERIFY(master.admit(node, kind));
+    QVERIFY(master.setSignalValue("torque", 0.5));
+    QVERIFY(start(master));
+    QTRY_COMPARE(m_device->torque.load(), 5.0);
+    QSignalSpy safe(&node, &QPlcHardwareNode::safeStateEntered);
+    m_device->isFull = true;
+    master.stop();
+    QTRY_COMPARE(safe.size(), 1);
+    QCOMPARE(m_device->torque.load(), 5.0);
+    m_device->isFull = false;
+    QTRY_COMPARE(m_device->torque.load(), 30.0);
     node.disconnectFromMaster();
 }
 

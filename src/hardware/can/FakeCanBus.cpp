@@ -131,11 +131,21 @@ bool FakeCanBus::openBoard()
 
 bool FakeCanBus::setPlugged(const QString &name, bool isPlugged)
 {
+    return setMark(name, &Board::isUnplugged, !isPlugged);
+}
+
+bool FakeCanBus::setFull(const QString &name, bool isFull)
+{
+    return setMark(name, &Board::isFull, isFull);
+}
+
+bool FakeCanBus::setMark(const QString &name, std::atomic<quint32> Board::*mark, bool isSet)
+{
     FakeCanBus bus(name);
     bus.m_folder = bus.folder().toLocal8Bit();
     if (!bus.openBoard())
         return false;
-    bus.m_board->isUnplugged = isPlugged ? 0 : 1;
+    bus.m_board->*mark = isSet ? 1 : 0;
     return true;
 }
 
@@ -233,6 +243,8 @@ int FakeCanBus::give(const CanFrame *frames, int count) noexcept
 {
     if (isUnplugged())
         return lose(ENODEV);
+    if (isFull())
+        return 0;
     const qint64 now = m_time.now();
     for (int number = 0; number < MaximumPlaces; ++number) {
         if (number == m_place || !meet(number))

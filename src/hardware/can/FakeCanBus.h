@@ -32,6 +32,8 @@ public:
     static bool isName(const QString &name);
     /// Takes the adapters of all participants away, or gives them back: for tests. \return false when the folder cannot be used
     static bool setPlugged(const QString &name, bool isPlugged);
+    /// Lets the bus take no frame any more, as one that nobody acknowledges, or take them again: for tests. \return false when the folder cannot be used
+    static bool setFull(const QString &name, bool isFull);
     /// Of the bus.
     QString folder() const;
 
@@ -56,6 +58,7 @@ private:
     {
         std::array<Place, MaximumPlaces> places;
         std::atomic<quint32> isUnplugged{0};
+        std::atomic<quint32> isFull{0};
     };
     /// Frames that wait for the socket of another participant: a ring.
     struct Peer
@@ -67,6 +70,7 @@ private:
         std::vector<CanFrame> frames;
     };
 
+    static bool setMark(const QString &name, std::atomic<quint32> Board::*mark, bool isSet);
     bool openBoard();
     bool takePlace();
     bool tryPlace(int number);
@@ -76,6 +80,7 @@ private:
     sockaddr_un addressOf(int number) const;
     void preparePeers();
 
+    bool isFull() const noexcept { return m_board->isFull.load(std::memory_order_relaxed) != 0; }
     bool isUnplugged() const noexcept { return m_board->isUnplugged.load(std::memory_order_relaxed) != 0; }
     bool takeDatagram() noexcept;
     void noteLost() noexcept;

@@ -52,6 +52,7 @@ private Q_SLOTS:
     void fdFramesAreFdFrames();
     void openSendsSafeValues();
     void whatTheBusDoesNotTakeIsSentAgain();
+    void safeValuesThatTheBusDoesNotTakeAreSentAgainWithoutCycles();
 };
 
 void tst_CanSending::withoutRuleEveryCycleSends()
@@ -356,6 +357,30 @@ void tst_CanSending::whatTheBusDoesNotTakeIsSentAgain()
     QCOMPARE(sender.collect(1, &frame), 1);
     sender.sent(true);
     QCOMPARE(sender.collect(2, &frame), 0);
+}
+
+void tst_CanSending::safeValuesThatTheBusDoesNotTakeAreSentAgainWithoutCycles()
+{
+    CanBench bench(commandSent("on change"));
+    bench.driver.wireWrite(speed);
+    QVERIFY(bench.open());
+    DriverRunner &runner = bench.driver.runner();
+    runner.start([](const QString &) {});
+    bench.driver.set(speed, 5.0);
+    QByteArray received;
+    const auto hasReceived = [&](const QByteArray &frame) { return (received += bench.received()).contains(frame); };
+    const auto sendsInCycle = [&](const QByteArray &frame) {
+        runner.write(monotonicNow());
+        return hasReceived(frame);
+    };
+    QTRY_VERIFY(sendsInCycle("200#0500"));
+    QVERIFY(FakeCanBus::setFull(QStringLiteral("bench"), true));
+    bench.driver.set(speed, 0.0, true);
+    runner.leave(monotonicNow());
+    QCOMPARE(bench.received(), QByteArray());
+    QVERIFY(FakeCanBus::setFull(QStringLiteral("bench"), false));
+    QTRY_VERIFY(hasReceived("200#0000"));
+    runner.stop();
 }
 
 QTEST_GUILESS_MAIN(tst_CanSending)
