@@ -367,12 +367,16 @@ void QPlcHardwareNode::Private::leaveAll() noexcept
         runner->leave(now);
 }
 
-/// A device that has just been asked for would be an emergency stop in the first cycle.
+/// A device that has just been asked for, or has nothing to say yet, would be an emergency stop in the first cycle.
 void QPlcHardwareNode::Private::awaitSafeStops()
 {
     constexpr qint64 patience = 500'000'000;  // [ns]
     const qint64 end = qplc::monotonicNow() + patience;
-    const auto isMissing = [](const SafeStop &stop) { return !stop.runner->isOnline(); };
+    const auto isMissing = [](const SafeStop &stop) {
+        const qint64 now = qplc::monotonicNow();
+        stop.runner->read(now);
+        return !stop.runner->sample(stop.channel, now).isFresh;
+    };
     while (std::any_of(safeStops.begin(), safeStops.end(), isMissing) && qplc::monotonicNow() < end)
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }

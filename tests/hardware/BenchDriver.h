@@ -17,6 +17,7 @@ struct BenchDevice
     std::atomic<bool> isPlugged{true};
     std::atomic<bool> isBroken{false};  // each exchange fails
     std::atomic<bool> isSilent{false};  // nothing new is measured
+    std::atomic<int> silentReads{0};    // so many reads find nothing
     std::atomic<bool> isFull{false};    // it takes no values, as a bus without a partner
     std::atomic<bool> isHeld{false};    // write() does not return
     std::atomic<double> speed{0.0};
@@ -63,7 +64,7 @@ private:
         ++m_device->reads;
         if (m_device->isBroken)
             return fail("read from the bench", EIO);
-        if (!m_device->isSilent)
+        if (!m_device->isSilent && m_device->reads > m_device->silentReads)
             m_speed.set(m_gain * m_device->speed);
         return true;
     }

@@ -76,6 +76,8 @@ private Q_SLOTS:
     void aSignalMayGoToSeveralChannelsAndANumberToOne();
     void aPressedButtonStopsThePlantSafely_data() { addKinds(); }
     void aPressedButtonStopsThePlantSafely();
+    void aButtonThatIsSlowAtFirstStopsNothing_data() { addKinds(); }
+    void aButtonThatIsSlowAtFirstStopsNothing();
     void aButtonWithoutAValueStopsThePlantToo();
     void aSignalThatIsNotInTheTableIsNamed();
     void aCycleTakesNoMemoryAndNoLock_data() { addKinds(); }
@@ -359,6 +361,24 @@ void tst_HardwareNode::aPressedButtonStopsThePlantSafely()
     QVERIFY(master.waitForState(QPlcMasterNode::SafeStop));
     QVERIFY2(master.stateReason().contains("node 'Winch' asked for it"), qPrintable(master.stateReason()));
     QTRY_COMPARE(m_device->brake.load(), 1.0);
+    node.disconnectFromMaster();
+}
+
+void tst_HardwareNode::aButtonThatIsSlowAtFirstStopsNothing()
+{
+    QFETCH(QString, kind);
+    QFETCH(int, pace);
+    m_pace = QPlcDriver::Pace(pace);
+    TestMaster master(QPlcClock::realTime(), winchTable());
+    QVERIFY(master.listen());
+    QPlcHardwareNode node;
+    QByteArray text = wiring;
+    QVERIFY(node.configure(text.replace("name = Winch\n", "name = Winch\nsafeStop = drive.speed\n"), "winch.ini"));
+    m_device->silentReads = 3;
+    QVERIFY(master.admit(node, kind));
+    QVERIFY(start(master));
+    QVERIFY(master.waitForCycles(20));
+    QCOMPARE(master.state(), QPlcMasterNode::RealTime);
     node.disconnectFromMaster();
 }
 

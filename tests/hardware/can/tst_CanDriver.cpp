@@ -37,6 +37,7 @@ private Q_SLOTS:
     void otherMessagesAreLeftAlone();
     void tooShortFramesAreCounted();
     void floodOfFramesIsTakenInOrder();
+    void floodOfFramesBeforeTheFirstCycleLeavesItThoseOfNow();
     void lossesAreCounted();
     void stateFollowsTheController();
     void busOffThatStaysLosesTheDevice();
@@ -203,6 +204,29 @@ void tst_CanDriver::floodOfFramesIsTakenInOrder()
     }
     QCOMPARE(bench.driver.value(text("A.@count")), 500.0);
     QCOMPARE(bench.driver.value(text("A.S")), 499.0);
+}
+
+void tst_CanDriver::floodOfFramesBeforeTheFirstCycleLeavesItThoseOfNow()
+{
+    CanBench bench(statusKeys);
+    bench.driver.wireRead(text("Status.Mode"));
+    bench.driver.wireRead(text("Status.@count"));
+    QVERIFY(bench.open());
+    bench.driver.runner().start([](const QString &) {});
+    constexpr int frames = 100;
+    for (int i = 0; i < frames; ++i) {
+        bench.driver.advance(1ms);
+        bench.send(0x123, "00000100");
+    }
+    const auto hasReadAll = [&] {
+        bench.received();  // what waits for room goes on
+        bench.driver.runner().read(bench.driver.now());
+        return bench.driver.value(text("Status.@count")) == frames;
+    };
+    QTRY_VERIFY(hasReadAll());
+    QVERIFY(bench.cycle());
+    QCOMPARE(bench.driver.value(text("Status.Mode")), 1.0);
+    bench.driver.runner().stop();
 }
 
 void tst_CanDriver::lossesAreCounted()
