@@ -128,8 +128,7 @@ void DriverRunner::write(qint64 now) noexcept
     if (!takeForCycle())
         return;
     give(m_orders);
-    m_driver->m_now = now;
-    if (!m_driver->write())
+    if (!writeDevice(now))
         lose();
 }
 
@@ -144,8 +143,7 @@ void DriverRunner::leave(qint64 now) noexcept
 void DriverRunner::read(qint64 now) noexcept
 {
     if (m_state.load(std::memory_order_acquire) == InCycle) {
-        m_driver->m_now = now;
-        if (m_driver->read()) {
+        if (readDevice(now)) {
             take(&m_readings);
             return;
         }
@@ -230,6 +228,46 @@ void DriverRunner::wake() noexcept
     const std::uint64_t one = 1;
     const ssize_t written = ::write(m_wakeUp, &one, sizeof one);
     Q_UNUSED(written)  // a counter that is full wakes, too
+}
+
+// ---- code of the driver ----
+
+/// What it throws is a failure. Its text takes memory, in a cycle too, as the exception has done.
+template<typename Code>
+bool DriverRunner::attempt(const char *function, Code code) noexcept
+{
+    const auto fail = [&](const QString &what) {
+        return m_driver->fail(QStringLiteral("%1() threw: %2").arg(QLatin1String(function), what));
+    };
+    try {
+        return code();
+    } catch (const std::exception &thrown) {
+        return fail(QString::fromLocal8Bit(thrown.what()));
+    } catch (...) {
+        return fail(QStringLiteral("an exception that is not derived from std::exception"));
+    }
+}
+
+bool DriverRunner::readDevice(qint64 now) noexcept
+{
+    m_driver->m_now = now;
+    return attempt("read", [this] { return m_driver->read(); });
+}
+
+bool DriverRunner::writeDevice(qint64 now) noexcept
+{
+    m_driver->m_now = now;
+    return attempt("write", [this] { return m_driver->write(); });
+}
+
+void DriverRunner::closeDevice() noexcept
+{
+    const auto close = [this] {
+        m_driver->close();
+        return true;
+    };
+    if (!attempt("close", close))
+        tell(m_driver->errorString());
 }
 
 // ---- channels ----
@@ -336,7 +374,7 @@ void DriverRunner::run()
 
 void DriverRunner::tell(const QString &error)
 {
-    if (error.isEmpty() || error != m_told)
+    if (m_report && (error.isEmpty() || error != m_told))
         m_report(error);
     m_told = error;
 }
@@ -354,11 +392,11 @@ bool DriverRunner::openNow()
 {
     prepare();
     m_driver->m_now = monotonicNow();
-    if (!m_driver->open())
+    if (!attempt("open", [this] { return m_driver->open(); }))
         return false;
     takeOrders();
-    if (m_driver->pace() == QPlcDriver::EveryCycle && !m_driver->write()) {  // before the cycle may come between
-        m_driver->close();
+    if (m_driver->pace() == QPlcDriver::EveryCycle && !writeDevice(monotonicNow())) {  // before the cycle may come
+        closeDevice();
         return false;
     }
     m_state.store(Open, std::memory_order_release);
@@ -372,7 +410,7 @@ void DriverRunner::closeNow()
         return;
     if (state == Failed)
         m_failures.fetch_add(1, std::memory_order_relaxed);
-    m_driver->close();
+    closeDevice();
     for (const ReadEnd &end : m_readChannels) {
         if (end.channel)
             end.channel->invalidate();
@@ -393,8 +431,7 @@ bool DriverRunner::exchange()
 
 bool DriverRunner::readNow(qint64 now)
 {
-    m_driver->m_now = now;
-    const bool isRead = m_driver->read();
+    const bool isRead = readDevice(now);
     if (isRead)
         publish();
     else
@@ -404,9 +441,8 @@ bool DriverRunner::readNow(qint64 now)
 
 bool DriverRunner::writeNow(qint64 now)
 {
-    m_driver->m_now = now;
     takeOrders();
-    const bool isWritten = m_driver->write();
+    const bool isWritten = writeDevice(now);
     if (!isWritten)
         m_state.store(Failed, std::memory_order_release);
     return isWritten;

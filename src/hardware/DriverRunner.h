@@ -101,6 +101,11 @@ private:
     void tell(const QString &error);
     void waitFor(std::chrono::nanoseconds time);
     void wake() noexcept;
+    template<typename Code>
+    bool attempt(const char *function, Code code) noexcept;
+    bool readDevice(qint64 now) noexcept;
+    bool writeDevice(qint64 now) noexcept;
+    void closeDevice() noexcept;
     void lose() noexcept;
     bool takeForCycle() noexcept;
     bool exchange();

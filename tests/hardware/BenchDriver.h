@@ -9,17 +9,19 @@
 #include <atomic>
 #include <cerrno>
 #include <memory>
+#include <stdexcept>
 #include <thread>
 
 /// The device behind a BenchDriver, as the test holds it: it can be unplugged, break, and be silent.
 struct BenchDevice
 {
     std::atomic<bool> isPlugged{true};
-    std::atomic<bool> isBroken{false};  // each exchange fails
-    std::atomic<bool> isSilent{false};  // nothing new is measured
-    std::atomic<int> silentReads{0};    // so many reads find nothing
-    std::atomic<bool> isFull{false};    // it takes no values, as a bus without a partner
-    std::atomic<bool> isHeld{false};    // write() does not return
+    std::atomic<bool> isBroken{false};       // each exchange fails
+    std::atomic<const char *> throwing{""};  // function whose code throws
+    std::atomic<bool> isSilent{false};       // nothing new is measured
+    std::atomic<int> silentReads{0};         // so many reads find nothing
+    std::atomic<bool> isFull{false};         // it takes no values, as a bus without a partner
+    std::atomic<bool> isHeld{false};         // write() does not return
     std::atomic<double> speed{0.0};
     std::atomic<double> torque{-1.0};  // as written last
     std::atomic<double> brake{-1.0};
@@ -49,6 +51,7 @@ private:
     }
     bool open() override
     {
+        throwIf("open");
         if (!m_device->isPlugged)
             return fail(QStringLiteral("there is no device '%1'; plug it in").arg(m_port));
         ++m_device->opened;
@@ -56,12 +59,14 @@ private:
     }
     void close() override
     {
+        throwIf("close");
         ++m_device->closed;
         m_device->torqueAtClose = m_device->torque.load();
     }
     bool read() override
     {
         ++m_device->reads;
+        throwIf("read");
         if (m_device->isBroken)
             return fail("read from the bench", EIO);
         if (!m_device->isSilent && m_device->reads > m_device->silentReads)
@@ -71,6 +76,7 @@ private:
     bool write() override
     {
         ++m_device->writes;
+        throwIf("write");
         while (m_device->isHeld)
             std::this_thread::yield();
         if (m_device->isFull)
@@ -82,6 +88,12 @@ private:
         if (m_brake.hasValue())
             m_device->brake = m_brake.isOn() ? 1.0 : 0.0;
         return true;
+    }
+
+    void throwIf(const char *function) const
+    {
+        if (qstrcmp(m_device->throwing, function) == 0)
+            throw std::runtime_error("the wire is too thin");
     }
 
     std::shared_ptr<BenchDevice> m_device;

@@ -80,6 +80,11 @@ private Q_SLOTS:
     void theCycleTakesTheDeviceAgain();
     void aDeviceThatOpensInTheMeantimeGetsTheValuesOfNow_data() { addPaces(); }
     void aDeviceThatOpensInTheMeantimeGetsTheValuesOfNow();
+    void codeThatThrowsIsADeviceThatFails_data();
+    void codeThatThrowsIsADeviceThatFails();
+    void codeThatThrowsInACycleIsADeviceThatIsLost_data();
+    void codeThatThrowsInACycleIsADeviceThatIsLost();
+    void codeThatThrowsAtTheEndIsTold();
     void everyDriverTellsWhetherItIsOnline();
     void anUnknownChannelIsNamedWithThoseThatThereAre();
     void theErrorOfACycleNamesWhatAndWhyAndTheRemedy();
@@ -326,6 +331,67 @@ void tst_DriverRunner::aDeviceThatOpensInTheMeantimeGetsTheValuesOfNow()
     QTRY_COMPARE(bench.device->torque.load(), 0.5);
     QVERIFY(bench.device->torqueWasSafe);
     bench.runner().stop();
+}
+
+void tst_DriverRunner::codeThatThrowsIsADeviceThatFails_data()
+{
+    QTest::addColumn<int>("pace");
+    QTest::addColumn<QByteArray>("function");
+    for (const char *function : {"open", "write", "read"}) {
+        QTest::addRow("%s, every cycle", function) << int(QPlcDriver::EveryCycle) << QByteArray(function);
+        QTest::addRow("%s, own pace", function) << int(QPlcDriver::OwnPace) << QByteArray(function);
+    }
+}
+
+void tst_DriverRunner::codeThatThrowsIsADeviceThatFails()
+{
+    QFETCH(int, pace);
+    QFETCH(QByteArray, function);
+    Reports reports;
+    Bench bench(pace);
+    bench.wireWrite("torque");
+    bench.device->throwing = function.constData();
+    bench.runner().start([&](const QString &error) { reports.add(error); });
+    const QString text = QString::fromLatin1(function) + "() threw: the wire is too thin";
+    QTRY_VERIFY(reports.taken().contains(text));
+    bench.device->throwing = "";
+    QTRY_VERIFY(bench.isOnline() && reports.taken().last().isEmpty());
+    bench.runner().stop();
+}
+
+void tst_DriverRunner::codeThatThrowsInACycleIsADeviceThatIsLost_data()
+{
+    QTest::addColumn<QByteArray>("function");
+    QTest::newRow("write") << QByteArray("write");
+    QTest::newRow("read") << QByteArray("read");
+}
+
+void tst_DriverRunner::codeThatThrowsInACycleIsADeviceThatIsLost()
+{
+    QFETCH(QByteArray, function);
+    Bench bench(QPlcDriver::EveryCycle);
+    bench.wireRead("speed");
+    QVERIFY(bench.open());
+    QVERIFY(bench.exchange());
+    bench.device->throwing = function.constData();
+    QVERIFY(!bench.exchange());
+    QCOMPARE(bench.errorString(), QString::fromLatin1(function) + "() threw: the wire is too thin");
+    QVERIFY(!bench.isFresh("speed"));
+    bench.close();
+    QCOMPARE(bench.device->closed.load(), 1);
+    QCOMPARE(bench.runner().failures(), quint64(1));
+}
+
+void tst_DriverRunner::codeThatThrowsAtTheEndIsTold()
+{
+    Reports reports;
+    Bench bench(QPlcDriver::OwnPace);
+    bench.runner().start([&](const QString &error) { reports.add(error); });
+    QTRY_VERIFY(bench.isOnline());
+    bench.device->throwing = "close";
+    bench.runner().stop();
+    QVERIFY(!bench.isOnline());
+    QCOMPARE(reports.taken().last(), QString("close() threw: the wire is too thin"));
 }
 
 void tst_DriverRunner::everyDriverTellsWhetherItIsOnline()
