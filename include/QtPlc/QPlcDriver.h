@@ -40,8 +40,8 @@ class DriverRunner;
 /// };
 /// ```
 ///
-/// The node calls configure(), then channel() for each name in its configuration, open() until it succeeds (with growing pauses of 0.1 ... 5 s), then write() and read() in
-/// turn, and close() when one of them has failed or the node ends. No two functions run at the same time. A function of these four that throws has failed: what() is its error.
+/// The node calls configure(), then channel() for each name in its configuration, open(), write() and read() until all three succeed (with growing pauses of 0.1 ... 5 s), then write() and
+/// read() in turn, and close() when one of them has failed or the node ends. No two functions run at the same time. A function of these four that throws has failed: what() is its error.
 ///
 /// Threads: configure() and channel() in that of the node; open() and close() in a thread of the driver, where they may take their time; read() and write() in that one, too (OwnPace, and
 /// EveryCycle while no cycles run), or in the cycle thread (EveryCycle, from the first cycle of a phase to its safe state).

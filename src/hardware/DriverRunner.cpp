@@ -268,6 +268,10 @@ void DriverRunner::closeDevice() noexcept
     };
     if (!attempt("close", close))
         tell(m_driver->errorString());
+    for (const ReadEnd &end : m_readChannels) {
+        if (end.channel)
+            end.channel->invalidate();
+    }
 }
 
 // ---- channels ----
@@ -395,10 +399,11 @@ bool DriverRunner::openNow()
     if (!attempt("open", [this] { return m_driver->open(); }))
         return false;
     takeOrders();
-    if (m_driver->pace() == QPlcDriver::EveryCycle && !writeDevice(monotonicNow())) {  // before the cycle may come
+    if (!writeDevice(monotonicNow()) || !readDevice(monotonicNow())) {  // before the cycle may come between
         closeDevice();
         return false;
     }
+    publish();
     m_state.store(Open, std::memory_order_release);
     return true;
 }
@@ -411,10 +416,6 @@ void DriverRunner::closeNow()
     if (state == Failed)
         m_failures.fetch_add(1, std::memory_order_relaxed);
     closeDevice();
-    for (const ReadEnd &end : m_readChannels) {
-        if (end.channel)
-            end.channel->invalidate();
-    }
     publish();
 }
 

@@ -22,7 +22,7 @@ namespace qplc {
 class DriverRunner
 {
 public:
-    /// A device was opened (\a error is empty) or cannot be used. Called in the thread of the driver.
+    /// A device was opened and has answered (\a error is empty), or it cannot be used. Called in the thread of the driver.
     using Report = std::function<void(const QString &error)>;
     /// What the cycle sees of a read channel.
     struct Sample
@@ -65,6 +65,7 @@ public:
     QPlcHardwareNode::Wire wireState(int channel, QPlcChannel::Direction direction, qint64 now) const;
 
     // ---- without start(): for tests and commissioning; one call after the other ----
+    /// Opens the device and exchanges values with it: only what answers is open.
     bool openNow();
     void closeNow();
     bool readNow(qint64 now);

@@ -68,6 +68,8 @@ private Q_SLOTS:
     void aDeviceThatFailsHasNoValues();
     void aDeviceThatIsMissingIsOpenedAgainAndAgain_data() { addPaces(); }
     void aDeviceThatIsMissingIsOpenedAgainAndAgain();
+    void aDeviceThatOpensAndDoesNotAnswerIsMissing_data() { addPaces(); }
+    void aDeviceThatOpensAndDoesNotAnswerIsMissing();
     void anErrorIsToldOnceAndItsEndToo();
     void stopGivesTheLastValuesAndCloses_data() { addPaces(); }
     void stopGivesTheLastValuesAndCloses();
@@ -199,6 +201,30 @@ void tst_DriverRunner::aDeviceThatIsMissingIsOpenedAgainAndAgain()
     QCOMPARE(reports.taken().last(), QString());
     bench.runner().stop();
     QCOMPARE(bench.device->closed.load(), 1);
+}
+
+void tst_DriverRunner::aDeviceThatOpensAndDoesNotAnswerIsMissing()
+{
+    QFETCH(int, pace);
+    Reports reports;
+    Bench bench(pace);
+    bench.wireRead("speed");
+    bench.device->isBroken = true;
+    QElapsedTimer timer;
+    timer.start();
+    bench.runner().start([&](const QString &error) { reports.add(error); });
+    QTRY_VERIFY(bench.device->opened >= 4);
+    QVERIFY2(timer.elapsed() > 500, "three growing pauses of 0.1, 0.2 and 0.4 s, 20 % less at most");
+    QVERIFY(!bench.isOnline());
+    QCOMPARE(bench.runner().failures(), quint64(0));
+    QCOMPARE(reports.taken().size(), 1);
+    QVERIFY2(reports.taken().first().startsWith("read from the bench: "), qPrintable(reports.taken().first()));
+    bench.device->isBroken = false;
+    QTRY_VERIFY(bench.isOnline());
+    QTRY_COMPARE(reports.taken().size(), 2);
+    QCOMPARE(reports.taken().last(), QString());
+    bench.runner().stop();
+    QCOMPARE(bench.device->closed.load(), bench.device->opened.load());
 }
 
 void tst_DriverRunner::anErrorIsToldOnceAndItsEndToo()

@@ -72,7 +72,7 @@ void tst_ModbusDriver::onlyWhatIsWiredIsRead()
     DriverBench bench("modbus", keys("register.a = holding 1\nregister.b = holding 2\nregister.c = holding 3\n"));
     bench.wireRead("a");
     bench.wireRead("b");
-    QVERIFY(bench.open() && bench.exchange());
+    QVERIFY(bench.open());
     const std::vector<ModbusRequest> reads = m_device->takeReads();
     QCOMPARE(reads.size(), std::size_t(1));
     QCOMPARE(reads[0].first, quint16(1));
