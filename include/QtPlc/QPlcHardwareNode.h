@@ -94,7 +94,7 @@ public:
 public Q_SLOTS:
     /// Begins to open the devices. Called at the first initialization at the latest.
     void openDevices();
-    /// Gives all devices their safe values and lets them go.
+    /// Gives all devices their safe values and lets them go. \pre no real-time phase runs: nothing but a warning happens then
     void closeDevices();
 
 Q_SIGNALS:

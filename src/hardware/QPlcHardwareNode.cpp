@@ -303,6 +303,13 @@ void QPlcHardwareNode::closeDevices()
 {
     if (!m_hardware->isOpen)
         return;
+    if (state() == RealTime) {
+        qCWarning(lcHardware).noquote()
+            << QStringLiteral("%1: devices are not closed while cycles run; stop the real-time phase first, or "
+                              "disconnect the node")
+                   .arg(name());
+        return;
+    }
     m_hardware->setSafeValues(true);
     m_hardware->leaveAll();
     for (const std::unique_ptr<DriverRunner> &runner : m_hardware->runners)

@@ -79,6 +79,8 @@ private Q_SLOTS:
     void aButtonThatIsSlowAtFirstStopsNothing_data() { addKinds(); }
     void aButtonThatIsSlowAtFirstStopsNothing();
     void aButtonWithoutAValueStopsThePlantToo();
+    void devicesAreNotClosedWhileCyclesRun_data() { addKinds(); }
+    void devicesAreNotClosedWhileCyclesRun();
     void aSignalThatIsNotInTheTableIsNamed();
     void aCycleTakesNoMemoryAndNoLock_data() { addKinds(); }
     void aCycleTakesNoMemoryAndNoLock();
@@ -393,6 +395,35 @@ void tst_HardwareNode::aButtonWithoutAValueStopsThePlantToo()
     LogCapture log;
     QVERIFY(master.startRealTime());
     QVERIFY(master.waitForState(QPlcMasterNode::SafeStop));
+}
+
+void tst_HardwareNode::devicesAreNotClosedWhileCyclesRun()
+{
+    QFETCH(QString, kind);
+    QFETCH(int, pace);
+    m_pace = QPlcDriver::Pace(pace);
+    TestMaster master(QPlcClock::realTime(), winchTable());
+    QVERIFY(master.listen());
+    QPlcHardwareNode node;
+    QVERIFY(node.configure(wiring, "winch.ini"));
+    QVERIFY(master.admit(node, kind));
+    QVERIFY(master.setSignalValue("torque", 0.5));
+    QVERIFY(start(master));
+    QTRY_COMPARE(m_device->torque.load(), 5.0);
+    {
+        LogCapture log;
+        node.closeDevices();
+        QCOMPARE(log.matching("Winch: devices are not closed while cycles run; stop the real-time phase first").size(),
+                 1);
+    }
+    QCOMPARE(m_device->closed.load(), 0);
+    QVERIFY(node.drivers().first().isOnline);
+    master.stop();
+    QTRY_COMPARE(node.state(), QPlcSlaveNode::Registered);
+    node.closeDevices();
+    QCOMPARE(m_device->closed.load(), 1);
+    QCOMPARE(m_device->torqueAtClose.load(), 30.0);
+    node.disconnectFromMaster();
 }
 
 void tst_HardwareNode::aSignalThatIsNotInTheTableIsNamed()
