@@ -66,6 +66,7 @@ struct QPlcHardwareNode::Private
     std::vector<GivenValue> constants;  // while the node computes
     QMap<QString, QString> failures;    // of drivers that are not online
     bool isOpen = false;
+    bool isSafe = false;  // until the next initialization
 };
 
 // ---- configuration ----
@@ -410,6 +411,7 @@ void QPlcHardwareNode::Private::give(const std::vector<GivenValue> &values, bool
 
 void QPlcHardwareNode::reset()
 {
+    m_hardware->isSafe = false;
     m_hardware->setSafeValues(true);
     m_hardware->leaveAll();
     openDevices();
@@ -419,6 +421,8 @@ void QPlcHardwareNode::reset()
 
 void QPlcHardwareNode::step(const QPlcCycle &)
 {
+    if (m_hardware->isSafe)
+        return;  // a listener is asked all the same
     Private::give(m_hardware->constants, false);
     m_hardware->writeAll();
     const qint64 now = qplc::monotonicNow();
@@ -433,6 +437,7 @@ void QPlcHardwareNode::step(const QPlcCycle &)
 /// The ports have passed the safe values of the table already; those of the configuration win.
 void QPlcHardwareNode::safeState(SafeStateReason)
 {
+    m_hardware->isSafe = true;
     for (const std::unique_ptr<ChannelPort> &port : m_hardware->ports) {
         if (port->isInput())
             port->pass(true);

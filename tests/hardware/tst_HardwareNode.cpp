@@ -69,6 +69,8 @@ private Q_SLOTS:
     void theDeviceIsSafeWhenTheMasterIsLost();
     void theDeviceIsSafeWhenTheLinkIsCut();
     void theWatchdogCanBeAnotherOneOrNone();
+    void theDeviceOfAListenerIsSafeWhenThePlantStopsSafely_data() { addKinds(); }
+    void theDeviceOfAListenerIsSafeWhenThePlantStopsSafely();
     void theConfigurationKnowsBetterThanTheTable();
     void aLostDeviceIsHeldThenSafeAndComesBack();
     void valuesThatDoNotFitTheSignalAreNone();
@@ -233,6 +235,33 @@ void tst_HardwareNode::theWatchdogCanBeAnotherOneOrNone()
     node.activateWatchdog(0.0);
     QCOMPARE(node.watchdog(), std::chrono::nanoseconds(0));
     QCOMPARE(CounterNode().watchdog(), std::chrono::nanoseconds(0));  // a node that drives nothing has none
+}
+
+void tst_HardwareNode::theDeviceOfAListenerIsSafeWhenThePlantStopsSafely()
+{
+    QFETCH(QString, kind);
+    QFETCH(int, pace);
+    m_pace = QPlcDriver::Pace(pace);
+    TestMaster master(QPlcClock::realTime(), winchTable());
+    QVERIFY(master.listen());
+    QPlcHardwareNode node;
+    node.setListener(true);
+    QVERIFY(node.configure("[node]\nname = Lamp\n[lamp]\ndriver = bench\ndevice = b\n[lamp.write]\n"
+                           "torque = torque * 10\nbrake = 0\n[lamp.safe]\nbrake = 1\n",
+                           "lamp.ini"));
+    QVERIFY(master.admit(node, kind));
+    QVERIFY(master.setSignalValue("torque", 0.5));
+    QVERIFY(start(master));
+    QTRY_COMPARE(m_device->torque.load(), 5.0);
+    QTRY_COMPARE(m_device->brake.load(), 0.0);
+    LogCapture log;
+    master.safeStop();
+    QTRY_COMPARE(m_device->brake.load(), 1.0);
+    QVERIFY(master.waitForCycles(master.statistics().cycles + 20));
+    QCOMPARE(m_device->torque.load(), 30.0);
+    QCOMPARE(m_device->brake.load(), 1.0);
+    QVERIFY(m_device->torqueWasSafe);
+    node.disconnectFromMaster();
 }
 
 void tst_HardwareNode::theConfigurationKnowsBetterThanTheTable()

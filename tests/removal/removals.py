@@ -294,6 +294,9 @@ REMOVALS = [
             "if (m_driver->pace() == QPlcDriver::EveryCycle) {\n                waitFor(longestTime);\n"
             "            } else if (exchange()) {",
             "tst_HardwareNode", "aDeviceThatTakesNothingAtTheEndIsSafeAsSoonAsItDoes"),
+    Removal("devices of a listener are safe, too", "src/hardware/QPlcHardwareNode.cpp",
+            "    m_hardware->isSafe = true;\n", "",
+            "tst_HardwareNode", "theDeviceOfAListenerIsSafeWhenThePlantStopsSafely"),
     Removal("a torn wire is a pressed button", "src/hardware/QPlcHardwareNode.cpp",
             "if (!sample.isFresh || sample.value != 0.0)", "if (sample.value != 0.0)",
             "tst_HardwareNode", "aButtonWithoutAValueStopsThePlantToo"),
