@@ -31,6 +31,9 @@ struct BenchDevice
     std::atomic<int> reads{0};
     std::atomic<int> writes{0};
     std::atomic<double> torqueAtClose{-1.0};
+    std::atomic<bool> isSlow{false};  // a call takes its time
+    std::atomic<bool> isVisited{false};
+    std::atomic<bool> hasMet{false};  // two threads have called the driver at a time
 };
 
 /// A driver whose device is a piece of memory of the test.
@@ -44,6 +47,20 @@ public:
     }
 
 private:
+    struct Visit
+    {
+        explicit Visit(BenchDevice *visited)
+            : device(visited)
+        {
+            if (device->isVisited.exchange(true))
+                device->hasMet = true;
+            if (device->isSlow)
+                std::this_thread::sleep_for(std::chrono::microseconds(1));
+        }
+        ~Visit() { device->isVisited = false; }
+        BenchDevice *const device;
+    };
+
     void configure(QPlcDriverSettings &settings) override
     {
         m_port = settings.requiredText(QStringLiteral("device"), QStringLiteral("bench0"));
@@ -51,6 +68,7 @@ private:
     }
     bool open() override
     {
+        const Visit visit(m_device.get());
         throwIf("open");
         if (!m_device->isPlugged)
             return fail(QStringLiteral("there is no device '%1'; plug it in").arg(m_port));
@@ -59,12 +77,14 @@ private:
     }
     void close() override
     {
+        const Visit visit(m_device.get());
         throwIf("close");
         ++m_device->closed;
         m_device->torqueAtClose = m_device->torque.load();
     }
     bool read() override
     {
+        const Visit visit(m_device.get());
         ++m_device->reads;
         throwIf("read");
         if (m_device->isBroken)
@@ -75,6 +95,7 @@ private:
     }
     bool write() override
     {
+        const Visit visit(m_device.get());
         ++m_device->writes;
         throwIf("write");
         while (m_device->isHeld)
@@ -82,8 +103,8 @@ private:
         if (m_device->isFull)
             return true;
         if (m_torque.hasValue()) {
-            m_device->torque = m_torque.value();
             m_device->torqueWasSafe = m_torque.isSafe();
+            m_device->torque = m_torque.value();
         }
         if (m_brake.hasValue())
             m_device->brake = m_brake.isOn() ? 1.0 : 0.0;
