@@ -6,6 +6,7 @@
 #include "hardware/DurationText.h"
 #include "signals/MessageText.h"
 
+#include <QtCore/QDir>
 #include <QtCore/QHash>
 #include <QtCore/QRegularExpression>
 
@@ -64,12 +65,21 @@ bool readCanSize(const QString &word, int *size)
     return match.hasMatch();
 }
 
+// A service may write into the folder that systemd gives it, and not beside its configuration.
+QString canLogFile(QPlcDriverSettings &settings)
+{
+    const QString key = QStringLiteral("log");
+    const QString name = settings.text(key);
+    const QString folder = qEnvironmentVariable("STATE_DIRECTORY").section(QLatin1Char(':'), 0, 0);
+    return name.isEmpty() || folder.isEmpty() ? settings.fileName(key) : QDir(folder).filePath(name);
+}
+
 }  // namespace
 
 void CanConfiguration::read(QPlcDriverSettings &settings)
 {
     m_device = settings.requiredText(QStringLiteral("device"), QStringLiteral("can0"));
-    m_logFile = settings.fileName(QStringLiteral("log"));
+    m_logFile = canLogFile(settings);
     readDbc(settings);
     readFrames(settings);
     readSignals(settings);

@@ -2,6 +2,7 @@
 #include "CanDriver.h"
 
 #include "QPlcDriverSettings.h"
+#include "hardware/HardwareLogging.h"
 #include "realtime/TimeSource.h"
 
 #include <algorithm>
@@ -167,10 +168,9 @@ bool CanDriver::open()
     if (!m_bus->open(busOptions()))
         return fail(m_bus->errorString());
     QString error;
-    if (!m_hasLog || m_log.open(m_configuration.logFile(), m_configuration.device(), &error))
-        return true;
-    m_bus->close();
-    return fail(error);
+    if (m_hasLog && !m_log.open(m_configuration.logFile(), m_configuration.device(), &error))
+        qCWarning(lcHardware).noquote() << name() << "goes on without a log:" << error;
+    return true;
 }
 
 void CanDriver::close()

@@ -11,7 +11,7 @@
 
 namespace qplc {
 
-/// Writes frames into a file, in the format of CanLog, by a thread of its own. What it cannot take in time, or cannot write, is left out and counted.
+/// Writes frames into a file, in the format of CanLog, by a thread of its own. What it cannot take in time, or cannot write, is left out and counted; without an open file that is everything.
 class CanLogWriter
 {
 public:
@@ -28,7 +28,7 @@ public:
     /// Neither waits nor takes memory. One thread at a time.
     void put(const CanFrame &frame) noexcept
     {
-        if (!m_ring.push(frame))
+        if (!m_thread.joinable() || !m_ring.push(frame))
             m_dropped.fetch_add(1, std::memory_order_relaxed);
     }
     /// Frames that are not in the file.

@@ -43,6 +43,8 @@ private Q_SLOTS:
     void busOffThatStaysLosesTheDevice();
     void afterReopeningNothingIsFresh();
     void logHasEverythingOnTheBus();
+    void logThatCannotBeWrittenIsToldAndTheBusOpens();
+    void logOfAServiceIsInItsStateFolder();
     void missingInterfaceIsToldWithARemedy();
 };
 
@@ -320,6 +322,35 @@ void tst_CanDriver::logHasEverythingOnTheBus()
     QCOMPARE(lines.at(1).frame.id, 0x123U);
     QVERIFY(lines.at(2).frame.has(CanFrame::Remote));
     QCOMPARE(lines.at(2).interface, QStringLiteral("fake:bench"));
+}
+
+void tst_CanDriver::logThatCannotBeWrittenIsToldAndTheBusOpens()
+{
+    CanBench bench(statusKeys + "log = no/such/folder/drive.log\n");
+    bench.driver.wireRead(text("Status.Mode"));
+    bench.driver.wireRead(text("@logDropped"));
+    const QString name = bench.filePath(QStringLiteral("no/such/folder/drive.log"));
+    QTest::ignoreMessage(QtWarningMsg,
+                         QRegularExpression(QStringLiteral("^bench goes on without a log: cannot write the log %1: ")
+                                                .arg(QRegularExpression::escape(name))));
+    QVERIFY2(bench.open(), qPrintable(bench.driver.errorString()));
+    bench.send(0x123, "00000100");
+    bench.send(0x7ab, "");
+    QVERIFY(bench.cycle());
+    QVERIFY(bench.driver.isFresh(text("Status.Mode")));
+    QCOMPARE(bench.driver.value(text("@logDropped")), 2.0);
+}
+
+// systemd lets a service write into its state folder, and not beside its configuration.
+void tst_CanDriver::logOfAServiceIsInItsStateFolder()
+{
+    const QTemporaryDir folder;
+    qputenv("STATE_DIRECTORY", folder.path().toLocal8Bit() + ":/another/one");
+    CanBench bench(statusKeys + "log = drive.log\n");
+    qunsetenv("STATE_DIRECTORY");
+    QVERIFY2(bench.open(), qPrintable(bench.driver.errorString()));
+    QVERIFY(QFile::exists(folder.filePath(QStringLiteral("drive.log"))));
+    QVERIFY(!QFile::exists(bench.filePath(QStringLiteral("drive.log"))));
 }
 
 void tst_CanDriver::missingInterfaceIsToldWithARemedy()
