@@ -74,6 +74,11 @@ std::unique_ptr<CanBus> CanBus::make(const QString &device, QString *error)
     return nullptr;
 }
 
+bool CanBus::setsBitRate(const QString &device)
+{
+    return device.startsWith(QLatin1String("qtcan:")) && !device.startsWith(QLatin1String("qtcan:socketcan:"));
+}
+
 bool CanBus::open(const Options &options)
 {
     m_options = options;
@@ -101,6 +106,12 @@ int CanBus::send(const CanFrame *frames, int count) noexcept
     m_counters.sent += quint64(std::max(sent, 0));
     m_counters.unsent += quint64(count - std::max(sent, 0));
     return sent;
+}
+
+void CanBus::countFailed(quint64 count) noexcept
+{
+    m_counters.sent -= std::min(count, m_counters.sent);
+    m_counters.unsent += count;
 }
 
 bool CanBus::fail(const QString &error)

@@ -33,6 +33,8 @@ public:
         std::vector<quint32> keys;  ///< of the messages that are received (CanFrame::key())
         bool receivesAll = false;   ///< all frames of the bus
         bool needsFd = false;       ///< frames of CAN FD are sent or received
+        int bitRate = 0;            ///< [bit/s]; 0: that of the plugin; of qtcan only (setsBitRate())
+        int dataBitRate = 0;        ///< likewise, of the data of CAN FD
     };
 
     struct Counters
@@ -47,6 +49,8 @@ public:
 
     /// \return null, with the reason in \a error, for a text that names no bus
     static std::unique_ptr<CanBus> make(const QString &device, QString *error);
+    /// Whether a bus of this name sets the bit rate itself.
+    static bool setsBitRate(const QString &device);
 
     CanBus() = default;
     virtual ~CanBus() = default;
@@ -81,6 +85,8 @@ protected:
     int lose(int errorNumber) noexcept;
     /// \a count frames have come in and found no room.
     void countLost(quint64 count) noexcept { m_counters.lost += count; }
+    /// \a count frames that were taken could not be sent.
+    void countFailed(quint64 count) noexcept;
     /// Whether the options let a frame in: for a bus that does not look itself.
     bool accepts(const CanFrame &frame) const noexcept;
 

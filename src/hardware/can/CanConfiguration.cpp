@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "CanConfiguration.h"
 
-#include "CanFrame.h"
+#include "CanBus.h"
 #include "QPlcDriverSettings.h"
 #include "hardware/DurationText.h"
 #include "signals/MessageText.h"
@@ -80,6 +80,8 @@ void CanConfiguration::read(QPlcDriverSettings &settings)
 {
     m_device = settings.requiredText(QStringLiteral("device"), QStringLiteral("can0"));
     m_logFile = canLogFile(settings);
+    m_bitRate = readBitRate(QStringLiteral("bitrate"), 1'000'000, settings);
+    m_dataBitRate = readBitRate(QStringLiteral("data-bitrate"), 12'000'000, settings);
     readDbc(settings);
     readFrames(settings);
     readSignals(settings);
@@ -101,6 +103,20 @@ QStringList CanConfiguration::names() const
     for (const CanMessage &message : m_messages)
         names << message.description.name;
     return names;
+}
+
+int CanConfiguration::readBitRate(const QString &key, int maximum, QPlcDriverSettings &settings)
+{
+    if (CanBus::setsBitRate(m_device))
+        return int(settings.integer(key, 0, 5000, maximum));
+    if (settings.has(key))
+        settings.addError(key,
+                          m_device.startsWith(QLatin1String("fake:"))
+                              ? QStringLiteral("'%1' has no bit rate; remove the key %2").arg(m_device, key)
+                              : QStringLiteral("root sets the bit rate of '%1' for all its programs (ip link set %2 up "
+                                               "type can bitrate 500000 restart-ms 100); remove the key %3")
+                                    .arg(m_device, m_device.section(QLatin1Char(':'), -1), key));
+    return 0;
 }
 
 void CanConfiguration::readDbc(QPlcDriverSettings &settings)

@@ -37,11 +37,14 @@ public:
 
     QString device() const { return m_device; }
     QString logFile() const { return m_logFile; }
+    int bitRate() const { return m_bitRate; }          ///< [bit/s]; 0: not said
+    int dataBitRate() const { return m_dataBitRate; }  ///< likewise, of the data of CAN FD
     const QVector<CanMessage> &messages() const { return m_messages; }
     /// Null when there is none.
     const CanMessage *find(const QString &message) const;
 
 private:
+    int readBitRate(const QString &key, int maximum, QPlcDriverSettings &settings);
     void readDbc(QPlcDriverSettings &settings);
     void readFrames(QPlcDriverSettings &settings);
     void readSignals(QPlcDriverSettings &settings);
@@ -55,6 +58,8 @@ private:
 
     QString m_device;
     QString m_logFile;
+    int m_bitRate = 0;
+    int m_dataBitRate = 0;
     QVector<CanMessage> m_messages;
 };
 

@@ -126,6 +126,8 @@ CanBus::Options CanDriver::busOptions() const
 {
     CanBus::Options options;
     options.receivesAll = m_hasLog;
+    options.bitRate = m_configuration.bitRate();
+    options.dataBitRate = m_configuration.dataBitRate();
     for (const auto &receiver : m_receivers) {
         options.keys.push_back(receiver->key());
         options.needsFd = options.needsFd || receiver->message().description.isFd;
@@ -190,6 +192,10 @@ QString CanDriver::remedy(int errorNumber) const
     case ENODEV:
     case ENXIO:
         return QStringLiteral("the adapter is gone; plug it in again");
+    case EIO:
+        return QStringLiteral(
+            "the adapter told errors only for a second, the last of which is in the log; check wires, "
+            "terminators and bit rate, and plug it in again");
     default:
         return QPlcDriver::remedy(errorNumber);
     }

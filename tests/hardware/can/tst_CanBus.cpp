@@ -424,7 +424,7 @@ void tst_CanBus::virtualPluginCarriesFrames()
     // Its usual port is one that the kernel gives away to clients, too, and keeps for a minute after their end.
     const int port = 20000 + int(QCoreApplication::applicationPid() % 10000);
     const QString device = QStringLiteral("qtcan:virtualcan:tcp://127.0.0.1:%1/can0").arg(port);
-    const auto a = join(device);
+    const auto a = join(device);  // its thread has the server of the plugin
     const auto b = join(device);
     // The plugin calls b connected before its server has heard of b: what is sent until then is not for b.
     const CanFrame probe = frameOf(CanFrame::StandardIds);
@@ -443,6 +443,10 @@ void tst_CanBus::virtualPluginCarriesFrames()
                                  return expected == 50;
                              }()),
                              10000);
+    const CanFrame last = frameOf(0x123);
+    QCOMPARE(b->send(&last, 1), 1);
+    b->close();
+    QTRY_COMPARE_WITH_TIMEOUT((receiveAll(*a), a->counters().received), quint64(1), 10000);
 }
 
 void tst_CanBus::missingPluginIsNamed()

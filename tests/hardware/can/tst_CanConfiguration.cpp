@@ -13,6 +13,8 @@ private Q_SLOTS:
     void badKeysAreNamed_data();
     void badKeysAreNamed();
     void deviceIsNeeded();
+    void bitRateIsThatOfAPlugin_data();
+    void bitRateIsThatOfAPlugin();
     void errorsOfTheDbcFileAreThoseOfTheConfiguration();
     void unknownChannelsAreRefused_data();
     void unknownChannelsAreRefused();
@@ -70,7 +72,7 @@ void tst_CanConfiguration::badKeysAreNamed_data()
     row("timeout.A = 10 ms", "there is no message 'A'");
     row("frame.A = 1, 8 bytes\ntimeout.A = soon", "'soon' is no duration");
     row("dbc = nowhere.dbc", "nowhere.dbc: cannot read the DBC file");
-    row("bitrate = 500000", "bitrate");
+    row("bitrate = 500000", "'fake:bench' has no bit rate; remove the key bitrate");
 }
 
 void tst_CanConfiguration::badKeysAreNamed()
@@ -88,6 +90,36 @@ void tst_CanConfiguration::deviceIsNeeded()
     QVERIFY2(bench.errors().contains(QLatin1String("device")), qPrintable(bench.errors()));
     const DriverBench other("can", "device = fake:\n");
     QVERIFY2(other.errors().contains(QLatin1String("'fake:' names no fake bus")), qPrintable(other.errors()));
+}
+
+void tst_CanConfiguration::bitRateIsThatOfAPlugin_data()
+{
+    QTest::addColumn<QByteArray>("keys");
+    QTest::addColumn<QString>("error");
+    const auto row = [](const char *keys, const char *error) {
+        QTest::newRow(QByteArray(keys).replace("\n", " / ")) << QByteArray(keys) + '\n' << QString::fromLatin1(error);
+    };
+    row("device = qtcan:peakcan:usb0\nbitrate = 250000", "");
+    row("device = qtcan:peakcan:usb0\nbitrate = 1000000\ndata-bitrate = 8000000", "");
+    row("device = qtcan:peakcan:usb0\nbitrate = 4999", "bitrate = '4999' is no whole number from 5000 to 1000000");
+    row("device = qtcan:peakcan:usb0\nbitrate = 1000001", "is no whole number from 5000 to 1000000");
+    row("device = qtcan:peakcan:usb0\nbitrate = 500k", "bitrate = '500k' is no whole number from 5000 to 1000000");
+    row("device = qtcan:peakcan:usb0\ndata-bitrate = 20000000", "is no whole number from 5000 to 12000000");
+    row("device = can0\nbitrate = 250000",
+        "root sets the bit rate of 'can0' for all its programs (ip link set can0 up type can bitrate 500000 restart-ms "
+        "100); remove the key bitrate");
+    row("device = qtcan:socketcan:can1\ndata-bitrate = 2000000", "(ip link set can1 up type can bitrate");
+}
+
+void tst_CanConfiguration::bitRateIsThatOfAPlugin()
+{
+    QFETCH(QByteArray, keys);
+    QFETCH(QString, error);
+    const DriverBench bench(QStringLiteral("can"), keys);
+    if (keys.contains("peakcan") && bench.errors().contains(QLatin1String("no Qt Serial Bus")))
+        QSKIP("this build has no Qt Serial Bus (libqt5serialbus5-dev)");
+    QCOMPARE(bench.errors().isEmpty(), error.isEmpty());
+    QVERIFY2(bench.errors().contains(error), qPrintable(bench.errors()));
 }
 
 void tst_CanConfiguration::errorsOfTheDbcFileAreThoseOfTheConfiguration()
