@@ -13,10 +13,18 @@ namespace {
 
 constexpr quint64 extendedIdBit = 0x80000000;
 constexpr quint64 noMessage = 0xC0000000;  // holds the signals that are in no message
+constexpr const char *startValueText = "the raw value of the signal before anybody has written it";
+constexpr double unsaidStart = std::numeric_limits<double>::quiet_NaN();
 
 QString idText(quint64 id)
 {
     return QStringLiteral("0x%1").arg(id & ~extendedIdBit, 0, 16);
+}
+
+// A value of VFrameFormat: a word, or its number.
+bool isFdFormat(const QString &value)
+{
+    return value.endsWith(QLatin1String("_FD")) || value == QLatin1String("14") || value == QLatin1String("15");
 }
 
 }  // namespace
@@ -171,6 +179,7 @@ bool DbcParser::addMessage(const DbcToken &at, const DbcMessage &message)
 void DbcParser::signal()
 {
     DbcSignal signal;
+    signal.initial = unsaidStart;
     bool isExtended = false;
     const DbcToken at = m_reader.peek();
     if (m_current < 0 && !m_isSkipped) {
@@ -303,7 +312,7 @@ void DbcParser::attribute()
         DbcMessage *message = expectMessage();
         DbcSignal *signal = isOfSignal ? expectSignal(message) : nullptr;
         if (signal && name == QLatin1String("GenSigStartValue") && m_reader.peek().kind == DbcToken::Number)
-            m_reader.expectNumber(&signal->initial, "the raw value of the signal before anybody has written it");
+            m_reader.expectNumber(&signal->initial, startValueText);
         else if (message && isOfMessage)
             m_attributes.append({int(message - m_messages.constData()), name, m_reader.peek()});
     }
@@ -315,7 +324,10 @@ void DbcParser::attributeDefault()
     QString name;
     if (!m_reader.expectText(&name, "the name of an attribute"))
         return;
-    m_defaults.append({-1, name, m_reader.peek()});
+    if (name == QLatin1String("GenSigStartValue") && m_reader.peek().kind == DbcToken::Number)
+        m_reader.expectNumber(&m_startValue, startValueText);
+    else
+        m_defaults.append({-1, name, m_reader.peek()});
     m_reader.skipStatement();
 }
 
@@ -332,8 +344,7 @@ void DbcParser::setAttribute(DbcMessage *message, const Attribute &attribute)
         else
             message->cycleTime = std::chrono::nanoseconds(static_cast<qint64>(time * 1e6));
     } else if (attribute.name == QLatin1String("VFrameFormat"))
-        message->isFd = message->isFd || value.text.endsWith(QLatin1String("_FD")) || value.text == QLatin1String("14")
-            || value.text == QLatin1String("15");
+        message->isFd = message->size > 8 || isFdFormat(value.text);
     else if (attribute.name == QLatin1String("CANFD_BRS"))
         message->hasBitRateSwitch = value.text != QLatin1String("0");
 }
@@ -344,6 +355,10 @@ void DbcParser::finish()
     for (const Attribute &attribute : qAsConst(m_defaults)) {
         for (DbcMessage &message : m_messages)
             setAttribute(&message, attribute);
+    }
+    for (DbcMessage &message : m_messages) {
+        for (DbcSignal &signal : message.content)
+            signal.initial = std::isnan(signal.initial) ? m_startValue : signal.initial;
     }
     for (const Attribute &attribute : qAsConst(m_attributes))
         setAttribute(&m_messages[attribute.message], attribute);

@@ -56,6 +56,7 @@ private:
     QHash<QString, int> m_indexOfName;
     QVector<Attribute> m_defaults;
     QVector<Attribute> m_attributes;  // of messages
+    double m_startValue = 0.0;        // raw, of signals that have none of their own
     int m_signalCount = 0;
     int m_current = -1;        // the message that SG_ belongs to; -1: none
     bool m_isSkipped = false;  // SG_ belongs to a message that is no message

@@ -39,6 +39,9 @@ private Q_SLOTS:
     void multiplexedSignalsKnowTheirPage();
     void floatsAreSaidBehindTheMessages();
     void attributesAreTaken();
+    void messageTakesTheDefaultFrameFormatBack_data();
+    void messageTakesTheDefaultFrameFormatBack();
+    void signalsWithoutAStartValueHaveTheDefault();
     void valuesHaveNames();
     void textMayBeLatin1();
     void endsOfLinesMayBeThoseOfWindows();
@@ -121,6 +124,40 @@ void tst_DbcFile::attributesAreTaken()
              std::chrono::nanoseconds(100ms));  // the default of the file
     QCOMPARE(file.find(QStringLiteral("DriveStatus"))->find(QStringLiteral("Mode"))->initial, 3.0);
     QVERIFY(!file.find(QStringLiteral("Wide"))->hasBitRateSwitch);
+}
+
+void tst_DbcFile::messageTakesTheDefaultFrameFormatBack_data()
+{
+    QTest::addColumn<QByteArray>("attributes");
+    QTest::addColumn<bool>("isFd");
+    const QByteArray fd = "BA_DEF_DEF_ \"VFrameFormat\" \"StandardCAN_FD\";\n";
+    const QByteArray classic = "BA_DEF_DEF_ \"VFrameFormat\" \"StandardCAN\";\n";
+    QTest::newRow("nothing is said") << QByteArray() << false;
+    QTest::newRow("FD by default") << fd << true;
+    QTest::newRow("FD by default, and not this one") << fd + "BA_ \"VFrameFormat\" BO_ 513 0;\n" << false;
+    QTest::newRow("the same in words") << fd + "BA_ \"VFrameFormat\" BO_ 513 \"StandardCAN\";\n" << false;
+    QTest::newRow("this one only") << classic + "BA_ \"VFrameFormat\" BO_ 513 14;\n" << true;
+}
+
+void tst_DbcFile::messageTakesTheDefaultFrameFormatBack()
+{
+    QFETCH(QByteArray, attributes);
+    QFETCH(bool, isFd);
+    const DbcFile file = readDbc("BO_ 513 A: 8 X\nBO_ 514 Long: 16 X\n" + attributes);
+    QCOMPARE(file.messages().at(0).isFd, isFd);
+    QVERIFY(file.messages().at(1).isFd);  // its size says so
+}
+
+void tst_DbcFile::signalsWithoutAStartValueHaveTheDefault()
+{
+    const DbcFile file = readDbc("BO_ 513 A: 8 X\n SG_ Own : 0|8@1+ (1,0) [0|0] \"\" X\n"
+                                 " SG_ Zero : 8|8@1+ (1,0) [0|0] \"\" X\n SG_ Other : 16|8@1+ (1,0) [0|0] \"\" X\n"
+                                 "BA_DEF_DEF_ \"GenSigStartValue\" 5;\nBA_ \"GenSigStartValue\" SG_ 513 Own 7;\n"
+                                 "BA_ \"GenSigStartValue\" SG_ 513 Zero 0;\n");
+    const auto &content = file.messages().at(0).content;
+    QCOMPARE(content.at(0).initial, 7.0);
+    QCOMPARE(content.at(1).initial, 0.0);
+    QCOMPARE(content.at(2).initial, 5.0);
 }
 
 void tst_DbcFile::valuesHaveNames()
