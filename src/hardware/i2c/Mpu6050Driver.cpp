@@ -15,9 +15,10 @@ using namespace std::chrono_literals;
 
 enum Mpu6050Register : quint8 {
     SampleRateDivider = 0x19,
-    Configuration = 0x1a,  // low-pass filter
+    Configuration = 0x1a,  // low-pass filter; of the rate only in an MPU-6500 and its like
     RateConfiguration = 0x1b,
     AccelerationConfiguration = 0x1c,
+    AccelerationFilter = 0x1d,  // of an MPU-6500 and its like
     InterruptEnable = 0x38,
     InterruptStatus = 0x3a,  // and behind it acceleration, temperature, rate
     UserControl = 0x6a,
@@ -106,6 +107,7 @@ bool Mpu6050Driver::checkIdentity()
     quint8 identity = 0;
     if (!m_bus->read(WhoAmI, &identity, 1))
         return failToTalk();
+    m_isMpu6500 = identity != 0x68;
     return isKnownIdentity(identity)
         || fail(QStringLiteral(
                     "the device at %1 of %2 is no MPU-6050: its register WHO_AM_I (0x75) is %3, and not 0x68; "
@@ -128,10 +130,11 @@ bool Mpu6050Driver::wakeUp()
         {Configuration, m_filter},
         {RateConfiguration, quint8(m_rateRange << 3)},
         {AccelerationConfiguration, quint8(m_accelerationRange << 3)},
+        {AccelerationFilter, m_filter},
         {InterruptEnable, DataReady},
     };
     for (const Order &order : orders) {
-        if (!m_bus->write(order.reg, &order.value, 1))
+        if ((m_isMpu6500 || order.reg != AccelerationFilter) && !m_bus->write(order.reg, &order.value, 1))
             return failToTalk();
     }
     m_lastSample = 0;
@@ -159,7 +162,8 @@ bool Mpu6050Driver::read()
         m_acceleration[axis].set(acceleration * countsAt(bytes + 1 + 2 * axis));
         m_rate[axis].set(rate * countsAt(bytes + 9 + 2 * axis));
     }
-    m_temperature.set(countsAt(bytes + 7) / 340.0 + 36.53);
+    const double counts = countsAt(bytes + 7);
+    m_temperature.set(m_isMpu6500 ? counts / 333.87 + 21.0 : counts / 340.0 + 36.53);
     return true;
 }
 

@@ -9,7 +9,7 @@
 
 namespace qplc {
 
-/// Kind `mpu6050`: the inertial sensor MPU-6050 (and MPU-9150, MPU-6500, MPU-9250, which have the same registers). See docs/hardware/i2c.md.
+/// Kind `mpu6050`: the inertial sensor MPU-6050 and its like: MPU-9150, which has one inside, MPU-6500, and MPU-9250 and 9255, which have that one. See docs/hardware/i2c.md.
 ///
 /// Axes are those that are printed on the chip.
 class Mpu6050Driver : public QPlcDriver
@@ -32,8 +32,9 @@ private:
 
     QString m_device;
     int m_address = 0;
-    quint8 m_filter = 0;   // register CONFIG
-    quint8 m_divider = 0;  // register SMPLRT_DIV
+    bool m_isMpu6500 = false;  // or one that has it inside
+    quint8 m_filter = 0;       // register CONFIG
+    quint8 m_divider = 0;      // register SMPLRT_DIV
     quint8 m_rateRange = 0;
     quint8 m_accelerationRange = 0;
     std::unique_ptr<I2cBus> m_bus;

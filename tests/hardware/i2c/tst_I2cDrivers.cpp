@@ -78,6 +78,8 @@ private Q_SLOTS:
     void aDeviceThatIsSilentIsNamed();
     void theImuIsSetUp();
     void theImuMeasuresInSiUnits();
+    void eachImuHasItsOwnTemperatureAndFilter_data();
+    void eachImuHasItsOwnTemperatureAndFilter();
     void aSampleOfTheImuCountsOnce();
     void anImuThatForgotItsSettingsIsOpenedAnew();
     void anotherChipIsNoImu();
@@ -261,6 +263,40 @@ void tst_I2cDrivers::theImuMeasuresInSiUnits()
     QVERIFY(std::abs(imu.bench.value("rateX") - rate) < 1e-9);
     QVERIFY(std::abs(imu.bench.value("rateY") + rate) < 1e-9);
     QCOMPARE(imu.bench.value("rateZ"), 0.0);
+}
+
+void tst_I2cDrivers::eachImuHasItsOwnTemperatureAndFilter_data()
+{
+    QTest::addColumn<int>("identity");
+    QTest::addColumn<double>("temperature");  // of 3339 counts [degC]
+    QTest::addColumn<QByteArray>("filter");   // of the acceleration
+    // Register 0x1d of an MPU-6050 is another one.
+    QTest::newRow("MPU-6050") << 0x68 << 3339.0 / 340.0 + 36.53 << QByteArray("ee");
+    QTest::newRow("MPU-6500") << 0x70 << 3339.0 / 333.87 + 21.0 << QByteArray("05");
+    QTest::newRow("MPU-9250") << 0x71 << 3339.0 / 333.87 + 21.0 << QByteArray("05");
+    QTest::newRow("MPU-9255") << 0x73 << 3339.0 / 333.87 + 21.0 << QByteArray("05");
+}
+
+void tst_I2cDrivers::eachImuHasItsOwnTemperatureAndFilter()
+{
+    QFETCH(int, identity);
+    QFETCH(double, temperature);
+    QFETCH(QByteArray, filter);
+    Imu imu("bandwidth = 10 Hz\n", quint8(identity));
+    imu.set(0x1d, "\xee");
+    imu.wire();
+    QVERIFY2(imu.bench.open(), qPrintable(imu.bench.errorString()));
+    QCOMPARE(imu.get(0x1a, 1).toHex(), QByteArray("05"));
+    QCOMPARE(imu.get(0x1d, 1).toHex(), filter);
+    imu.measure("0000"
+                "0000"
+                "0000"
+                "0d0b"
+                "0000"
+                "0000"
+                "0000");
+    QVERIFY(imu.bench.exchange());
+    QCOMPARE(imu.bench.value("temperature"), temperature);
 }
 
 void tst_I2cDrivers::aSampleOfTheImuCountsOnce()
