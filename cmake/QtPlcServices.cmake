@@ -19,7 +19,6 @@ list(TRANSFORM units_of_tools PREPEND ${PROJECT_BINARY_DIR}/systemd/)
 
 if(QTPLC_INSTALL_SERVICES)
     install(FILES ${units_of_tools} DESTINATION lib/systemd/system COMPONENT qtplc-tools)
-    install(FILES ${packaging}/systemd/modules.conf DESTINATION lib/modules-load.d RENAME qtplc.conf COMPONENT qtplc-tools)
     install(FILES ${packaging}/udev/50-qtplc.rules DESTINATION lib/udev/rules.d COMPONENT qtplc-tools)
     install(FILES ${packaging}/debian/qtplc-hardware.default DESTINATION /etc/default RENAME qtplc-hardware COMPONENT qtplc-tools)
     install(DIRECTORY DESTINATION /etc/qtplc COMPONENT qtplc-tools)

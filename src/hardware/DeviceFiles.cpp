@@ -12,14 +12,22 @@ QString DeviceFiles::path(const QString &device)
     return device.startsWith(QLatin1Char('/')) ? device : QStringLiteral("/dev/") + device;
 }
 
+QString DeviceFiles::permissionRemedy(const QString &group, int errorNumber)
+{
+    return errorNumber == EPERM
+        ? QStringLiteral("a service may open only kinds of devices that the kernel knew when it was started: 'sudo "
+                         "systemctl restart qtplc-hardware@NAME'; if that does not help, DeviceAllow= of its unit "
+                         "lacks them")
+        : QStringLiteral("let the user into the group of the device: 'sudo usermod -aG %1 USER', and log in again")
+              .arg(group);
+}
+
 QString DeviceFiles::errorText(const QString &device, int errorNumber) const
 {
     const QStringList names = QDir(QStringLiteral("/dev")).entryList({pattern}, QDir::System, QDir::Name);
     QString remedy = QStringLiteral("close what uses it");
     if (errorNumber == EACCES || errorNumber == EPERM)
-        remedy
-            = QStringLiteral("let the user into the group of the device: 'sudo usermod -aG %1 USER', and log in again")
-                  .arg(group);
+        remedy = permissionRemedy(group, errorNumber);
     else if (names.isEmpty())
         remedy = whenNone;
     else if (errorNumber == ENOENT || errorNumber == ENODEV || errorNumber == ENXIO)

@@ -13,6 +13,8 @@ import sys
 import tempfile
 from pathlib import Path
 
+# Classes of devices that come with a module: systemd allows none that the kernel does not know when the service starts.
+MODULES = {"char-i2c": "i2c_dev", "char-spi": "spidev", "char-ttyUSB": "usbserial", "char-ttyACM": "cdc_acm"}
 MOST_EXPOSED = 35  # tenths, as systemd-analyze security counts; "OK" begins at 50, "MEDIUM" above it
 errors = []
 
@@ -61,6 +63,15 @@ def check_real_time(unit):
             errors.append(f"{unit.name}: {key} is missing")
 
 
+def check_modules(unit):
+    """What brings the devices of a service is loaded before it starts, also where the computer has not been started since it was installed."""
+    for device in lines_of(unit, "DeviceAllow"):
+        module = MODULES.get(device.split()[0])
+        for key in ("Wants", "After"):
+            if module and f"modprobe@{module}.service" not in " ".join(lines_of(unit, key)).split():
+                errors.append(f"{unit.name}: {key} has no modprobe@{module}.service, which DeviceAllow={device} needs")
+
+
 def verify(units):
     return subprocess.run(["systemd-analyze", "verify", "--man=no", *units], capture_output=True, text=True, timeout=120)
 
@@ -97,6 +108,7 @@ def main():
     for unit in services:
         check_options(unit, options.programs, options.defaults)
         check_real_time(unit)
+        check_modules(unit)
     has_systemd = shutil.which("systemd-analyze") is not None
     if has_systemd:
         with tempfile.TemporaryDirectory() as folder:

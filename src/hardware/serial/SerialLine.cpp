@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SerialLine.h"
 
+#include "hardware/DeviceFiles.h"
 #include "hardware/fake/FakeMemory.h"
 
 #include <QtCore/QDir>
@@ -55,9 +56,7 @@ QString serialOpenErrorText(const QString &device, int errorNumber)
 {
     QString remedy = QStringLiteral("is that a serial line?");
     if (errorNumber == EACCES || errorNumber == EPERM)
-        remedy
-            = QStringLiteral("let the user into the group of the device: 'sudo usermod -aG dialout USER', and log in "
-                             "again");
+        remedy = DeviceFiles::permissionRemedy(QStringLiteral("dialout"), errorNumber);
     else if (errorNumber == EBUSY)
         remedy = QStringLiteral("another program has it: 'fuser -v %1' tells which").arg(device);
     else if (errorNumber == ENOENT || errorNumber == ENODEV || errorNumber == ENXIO) {

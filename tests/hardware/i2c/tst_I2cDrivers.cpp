@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "../DriverBench.h"
 #include "../FakeDevices.h"
+#include "hardware/DeviceFiles.h"
 #include "hardware/i2c/FakeI2cBus.h"
 #include "hardware/i2c/I2cRegister.h"
 
 #include <QtTest/QtTest>
+
+#include <cerrno>
 
 using namespace qplc;
 using namespace std::chrono_literals;
@@ -83,6 +86,7 @@ private Q_SLOTS:
     void aSampleOfTheImuCountsOnce();
     void anImuThatForgotItsSettingsIsOpenedAnew();
     void anotherChipIsNoImu();
+    void whoMayNotOpenABusIsToldWhatHelps();
     void aRateThatTheImuCannotDoIsRefused();
 };
 
@@ -342,6 +346,19 @@ void tst_I2cDrivers::anotherChipIsNoImu()
     QVERIFY2(imu.bench.errorString().contains("at 0x68 of fake:bus is no MPU-6050")
                  && imu.bench.errorString().contains("is 0x58") && imu.bench.errorString().contains("AD0"),
              qPrintable(imu.bench.errorString()));
+}
+
+// The user may not (EACCES), or systemd does not let the service (EPERM).
+void tst_I2cDrivers::whoMayNotOpenABusIsToldWhatHelps()
+{
+    const DeviceFiles files{QStringLiteral("the I2C bus"), QStringLiteral("i2c-*"), QStringLiteral("i2c"), {}};
+    QCOMPARE(files.errorText(QStringLiteral("i2c-1"), EACCES),
+             QStringLiteral("cannot open the I2C bus 'i2c-1': Permission denied; let the user into the group of the "
+                            "device: 'sudo usermod -aG i2c USER', and log in again"));
+    QCOMPARE(files.errorText(QStringLiteral("i2c-1"), EPERM),
+             QStringLiteral("cannot open the I2C bus 'i2c-1': Operation not permitted; a service may open only kinds "
+                            "of devices that the kernel knew when it was started: 'sudo systemctl restart "
+                            "qtplc-hardware@NAME'; if that does not help, DeviceAllow= of its unit lacks them"));
 }
 
 void tst_I2cDrivers::aRateThatTheImuCannotDoIsRefused()
