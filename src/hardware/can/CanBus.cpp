@@ -112,6 +112,7 @@ void CanBus::countFailed(quint64 count) noexcept
 {
     m_counters.sent -= std::min(count, m_counters.sent);
     m_counters.unsent += count;
+    m_counters.failed += count;
 }
 
 bool CanBus::fail(const QString &error)

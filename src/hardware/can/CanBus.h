@@ -42,7 +42,8 @@ public:
         quint64 received = 0;     ///< frames, without error frames
         quint64 sent = 0;         ///< frames that the bus has taken
         quint64 lost = 0;         ///< frames that came in and found no room
-        quint64 unsent = 0;       ///< frames that the bus has not taken
+        quint64 unsent = 0;       ///< frames that the bus has not taken, or not sent
+        quint64 failed = 0;       ///< those of them that it had taken
         quint64 errorFrames = 0;  ///< what the controller told of errors
         quint64 busOffs = 0;      ///< how often the controller has left the bus
     };

@@ -255,6 +255,7 @@ bool CanDriver::checkBusOff() noexcept
 
 bool CanDriver::write()
 {
+    repeatFailed();
     int count = 0;
     for (std::size_t i = 0; i < m_senders.size(); ++i) {
         m_counts[i] = m_senders[i]->collect(now(), m_outgoing.data() + count);
@@ -271,6 +272,16 @@ bool CanDriver::write()
         log(m_outgoing.data(), sent);
     }
     return true;
+}
+
+// Frames that the bus had taken were not sent, and nobody knows which: changes are sent again, the others are anyway.
+void CanDriver::repeatFailed() noexcept
+{
+    if (m_bus->counters().failed == m_failed)
+        return;
+    m_failed = m_bus->counters().failed;
+    for (const auto &sender : m_senders)
+        sender->repeatChange();
 }
 
 // The bus has taken the first `count` frames.

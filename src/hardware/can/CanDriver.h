@@ -80,6 +80,7 @@ private:
     void take(const CanFrame &frame) noexcept;
     void refresh() noexcept;
     bool checkBusOff() noexcept;
+    void repeatFailed() noexcept;
     void tellSent(int count) noexcept;
     void log(const CanFrame *frames, int count) noexcept;
 
@@ -113,6 +114,7 @@ private:
     std::vector<CanFrame> m_outgoing;
     std::vector<int> m_counts;  // frames of each sender in m_outgoing
     qint64 m_busOffSince = -1;  // [ns]; -1: it is not
+    quint64 m_failed = 0;       // frames, as the bus has counted them
 };
 
 }  // namespace qplc

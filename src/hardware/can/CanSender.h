@@ -38,6 +38,8 @@ public:
     int collect(qint64 now, CanFrame *frames) noexcept;
     /// After collect(): whether the bus has taken the frames. Those that it has not taken are due at once again.
     void sent(bool isTaken) noexcept;
+    /// What is sent on change is due again.
+    void repeatChange() noexcept { m_isPending = m_isPending || m_message.rule.onChange; }
 
     /// Frames for the bus in which a value did not fit into the bits of its signal.
     quint64 saturated() const { return m_saturated; }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "DriverBench.h"
 #include "TestCanPlugin.h"
 #include "hardware/can/QtCanBus.h"
 
@@ -48,6 +49,7 @@ private Q_SLOTS:
     void bitRateThatThePluginRefusesIsNamed();
     void frameThatThePluginRefusesIsUnsent();
     void frameThatFailsLaterIsUnsent();
+    void changeThatFailedIsSentAgain();
     void errorsThatPassKeepTheBus_data();
     void errorsThatPassKeepTheBus();
     void errorsThatStayEndTheBus_data();
@@ -157,6 +159,30 @@ void tst_QtCanBus::frameThatFailsLaterIsUnsent()
     send(0x123);
     QTRY_COMPARE(unsent(), quint64(1));
     QCOMPARE(m_bus->counters().sent, quint64(0));
+}
+
+// A safe value, perhaps: nothing else would send it.
+void tst_QtCanBus::changeThatFailedIsSentAgain()
+{
+    DriverBench bench(QStringLiteral("can"),
+                      "device = qtcan:test:can0\nframe.A = 0x123, 1 byte\nsignal.A.S = 0|8@1+\nsend.A = on change\n");
+    QCOMPARE(bench.errors(), QString());
+    const QString channel = QStringLiteral("A.S");
+    bench.wireRead(QStringLiteral("@unsent"));
+    bench.wireWrite(channel);
+    TestCanDevice::play().manner = TestCanDevice::Failed;
+    QVERIFY2(bench.open(), qPrintable(bench.errorString()));
+    bench.set(channel, 1.0);
+    QTRY_VERIFY(bench.exchange() && bench.value(QStringLiteral("@unsent")) > 0.0);
+    TestCanDevice::ask([](TestCanDevice &) { TestCanDevice::play().manner = TestCanDevice::Written; });
+    QTRY_VERIFY(bench.exchange() && written() > 0);
+    const auto isQuiet = [&bench] {  // as soon as those that were under way have failed
+        const int before = written();
+        for (int i = 0; i < 10; ++i)
+            bench.exchange();
+        return written() == before;
+    };
+    QTRY_VERIFY(isQuiet());
 }
 
 void tst_QtCanBus::errorsThatPassKeepTheBus_data()
