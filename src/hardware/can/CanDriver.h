@@ -20,7 +20,7 @@ namespace qplc {
 /// [drive]
 /// driver = can
 /// device = can0                         ; or qtcan:PLUGIN:INTERFACE, or fake:NAME (CanBus)
-/// bitrate = 500000                      ; [bit/s] of a plugin; data-bitrate: of the data of CAN FD
+/// bitrate = 500000                      ; [bit/s] of qtcan only; data-bitrate: of the data of CAN FD
 /// dbc = winch_drive.dbc                 ; what the messages carry (DbcFile), and/or, without DBC:
 /// frame.Wind = 0x321, 8 bytes, every 100 ms          ; id, size; more: extended, fd, no bit rate switch
 /// signal.Wind.Speed = 0|16@1- (0.01,0)               ; start|length@order sign (factor,offset) as in DBC; @1f is a float; before it M or m3 of a multiplexed one
