@@ -29,7 +29,7 @@ void QPlcTimePlot::Private::makeActions()
     const auto make = [this](const QString &text, const QList<QKeySequence> &keys, const char *name,
                              std::function<void()> act) { return addChartAction(q, text, keys, name, std::move(act)); };
     const auto pan = [this](double share) {
-        return [this, share] { view()->pan(Time(std::llround(share * double(view()->span())))); };
+        return [this, share] { panTime(Time(std::llround(share * double(view()->span())))); };
     };
     const auto panUp = [this](double share) {
         return [this, share] {
@@ -105,8 +105,8 @@ void QPlcTimePlot::Private::connectInteraction()
     connect(liveButton, &QToolButton::clicked, this, [this] { view()->goLive(); });
     connect(interaction, &PlotInteraction::pressed, q, [this] { q->setFocus(Qt::MouseFocusReason); });
     connect(interaction, &PlotInteraction::zoomTime, this,
-            [this](double factor, qint64 about) { view()->zoom(factor, about); });
-    connect(interaction, &PlotInteraction::panTime, this, [this](qint64 by) { view()->pan(by); });
+            [this](double factor, qint64 about) { zoomTime(factor, about); });
+    connect(interaction, &PlotInteraction::panTime, this, &Private::panTime);
     connect(interaction, &PlotInteraction::zoomValues, this, &Private::zoomValues);
     connect(interaction, &PlotInteraction::panValues, this, &Private::panValues);
     connect(interaction, &PlotInteraction::boxChanged, this, [this](const QRect &next) {
@@ -227,11 +227,24 @@ void QPlcTimePlot::Private::showAll()
     Time end = 0;
     if (curves.timeRange(&begin, &end)) {
         if (view()->isLive())
-            view()->setSpan(view()->newest() - begin);
+            view()->setSpan(newest() - begin);
         else
             view()->show(begin, std::max(end, begin + 1));
     }
     schedule();
+}
+
+/// What is seen here, which ends earlier than other plots when its plant has another clock.
+void QPlcTimePlot::Private::freezeHere()
+{
+    if (view()->isLive())
+        view()->show(newest() - view()->span(), newest());
+}
+
+void QPlcTimePlot::Private::panTime(Time by)
+{
+    freezeHere();
+    view()->pan(by);
 }
 
 /// About the mouse, the live edge, or the middle.
@@ -239,8 +252,16 @@ void QPlcTimePlot::Private::zoomTime(double factor)
 {
     const std::optional<QPoint> mouse = interaction->mouse();
     const TimeView *time = view();
-    const Time middle = time->isLive() ? time->end() : time->begin() + time->span() / 2;
-    view()->zoom(factor, mouse ? canvas->timeAt(mouse->x()) : middle);
+    const Time middle = time->isLive() ? newest() : time->begin() + time->span() / 2;
+    zoomTime(factor, mouse ? canvas->timeAt(mouse->x()) : middle);
+}
+
+void QPlcTimePlot::Private::zoomTime(double factor, Time about)
+{
+    const bool staysLive = view()->isLive() && about >= newest();
+    if (!staysLive)
+        freezeHere();
+    view()->zoom(factor, staysLive ? view()->end() : about);
 }
 
 void QPlcTimePlot::Private::zoomValues(Axis axis, double factor, double about)
@@ -412,7 +433,7 @@ void QPlcTimePlot::Private::removeLines()
 
 void QPlcTimePlot::Private::toggleLive()
 {
-    view()->isLive() ? view()->freeze() : view()->goLive();
+    view()->isLive() ? freezeHere() : view()->goLive();
 }
 
 /// Its time axis begins with the span that is seen.

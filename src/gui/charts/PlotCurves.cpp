@@ -264,6 +264,14 @@ SignalStore::Range PlotCurves::range(PlotCurveSettings::Axis axis, double begin,
     return all;
 }
 
+SignalStore::Time PlotCurves::newestTime() const
+{
+    SignalStore::Time newest = 0;
+    for (const PlotCurve &curve : m_curves)
+        newest = std::max(newest, curve.isSeen() ? curve.source.plant->newestTime() : 0);
+    return newest;
+}
+
 bool PlotCurves::timeRange(SignalStore::Time *begin, SignalStore::Time *end) const
 {
     bool isFound = false;

@@ -80,6 +80,8 @@ public:
     QString unit(PlotCurveSettings::Axis axis) const;
     /// Smallest and largest value of all seen curves of an axis, and of its lines.
     SignalStore::Range range(PlotCurveSettings::Axis axis, double begin, double end) const;
+    /// Of the newest row of the plants whose signals are seen; 0: there is none. A derived signal may still lack it.
+    SignalStore::Time newestTime() const;
     /// Times of the first and the last row; false: there are none.
     bool timeRange(SignalStore::Time *begin, SignalStore::Time *end) const;
 

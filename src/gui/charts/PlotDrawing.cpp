@@ -34,11 +34,17 @@ void QPlcTimePlot::Private::schedule()
     drawTimer.start(int(std::max<qint64>(0, framePeriod - passed)));
 }
 
+QPlcTimePlot::Private::Time QPlcTimePlot::Private::newest()
+{
+    const Time own = curves.newestTime();
+    return own == 0 && shared() ? shared()->newest() : own;
+}
+
 TimeColumns QPlcTimePlot::Private::columns()
 {
     const TimeView *time = view();
     const int width = canvas->deviceWidth();
-    return time->isLive() ? TimeColumns::upTo(time->newest(), time->span(), width)
+    return time->isLive() ? TimeColumns::upTo(newest(), time->span(), width)
                           : TimeColumns(time->begin(), time->end(), width);
 }
 
@@ -183,12 +189,24 @@ QString QPlcTimePlot::Private::hint() const
         if (!curve.settings.isVisible)
             continue;
         if (!curve.isMissing())
-            return {};
+            return hintOfTime();
         missing << curve.settings.signal;
     }
     if (missing.isEmpty())
         return QPlcTimePlot::tr("All curves are hidden: click one in the legend, or press V");
     return QPlcTimePlot::tr("Missing: %1\nDrawn as soon as it is there.").arg(missing.join(QStringLiteral(", ")));
+}
+
+/// A frozen view may be beyond all that is kept, or that the clock of the plant has come to.
+QString QPlcTimePlot::Private::hintOfTime() const
+{
+    Time first = 0;
+    Time last = 0;
+    if (!curves.timeRange(&first, &last) || (canvas->begin() <= last && first <= canvas->end()))
+        return {};
+    const auto text = [](Time time) { return TimeTicks::clockText(time, SignalStore::Second); };
+    return QPlcTimePlot::tr("No values at this time: they are from %1 to %2.\nA shows them all, L the newest.")
+        .arg(text(first), text(last));
 }
 
 void QPlcTimePlot::Private::showNumbers()
@@ -200,7 +218,7 @@ void QPlcTimePlot::Private::showNumbers()
         pointAtMouse();
     std::optional<Time> moment = time ? time->pointer() : std::nullopt;
     if (!moment && !view()->isLive())
-        moment = std::min(view()->end(), view()->newest());  // around an event, the rest is still to come
+        moment = std::min(view()->end(), newest());  // around an event, the rest is still to come
     legend->show(curves, moment);
     const bool hasCursors = time && (time->cursor(TimeView::A) || time->cursor(TimeView::B)) && !curves.isEmpty();
     if (hasCursors != !statistics->isHidden()) {
@@ -221,7 +239,7 @@ void QPlcTimePlot::Private::showLiveButton()
     liveButton->setVisible(isFrozen && !curves.isEmpty());
     if (!isFrozen)
         return;
-    const double behind = std::round(double(view()->behind()) * 1e-9);
+    const double behind = std::round(double(newest() - view()->end()) * 1e-9);
     const QString time = behind < 120.0 ? QPlcTimePlot::tr("%1 s").arg(behind)
                                         : QPlcTimePlot::tr("%1 min").arg(std::floor(behind / 60.0));
     const QString text = canvas->isCompact() ? QStringLiteral("L")

@@ -177,8 +177,8 @@ void QPlcTimePlot::Private::followContext()
     if (!context)
         return;
     TimeView *time = context->timeView();
-    connect(time, &TimeView::newestChanged, this, [this, time] {
-        ownTime.setNewest(time->newest());
+    connect(context, &WindowContext::valuesChanged, this, [this] {
+        ownTime.setNewest(newest());
         schedule();
     });
     for (const auto changed : {&TimeView::viewChanged, &TimeView::cursorsChanged, &TimeView::pointerChanged})
@@ -193,7 +193,7 @@ void QPlcTimePlot::Private::followContext()
         schedule();
     });
     connect(context, &WindowContext::themeChanged, this, &Private::showTheme);
-    ownTime.setNewest(time->newest());
+    ownTime.setNewest(newest());
     triggerBar->setContext(context);
     showTheme();
 }

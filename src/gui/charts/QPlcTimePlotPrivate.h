@@ -60,6 +60,8 @@ public:
         const bool hasOwn = settings.hasTrigger() ? !triggerBar->isLinked() : settings.hasOwnTime;
         return hasOwn || !shared() ? &ownTime : shared();
     }
+    /// Where it ends when it is live: with the newest values of the plants that it shows, as each has a clock of its own.
+    Time newest();
     void schedule();
     void draw();
     qplc::TimeColumns columns();
@@ -72,6 +74,7 @@ public:
     void showRange(Axis axis);
     void showOverlay();
     QString hint() const;
+    QString hintOfTime() const;
     void showNumbers();
     void showLiveButton();
     void arrange();
@@ -83,7 +86,10 @@ public:
     QMenu *createMenu(int curve, std::optional<QPoint> mouse);
     void openAddBar();
     void showAll();
+    void freezeHere();
+    void panTime(Time by);
     void zoomTime(double factor);
+    void zoomTime(double factor, Time about);
     void zoomValues(Axis axis, double factor, double about);
     void panValues(Axis axis, double by);
     std::pair<double, double> valuesOf(Axis axis) const;

@@ -136,7 +136,7 @@ void QPlcXyPlot::Private::follow(WindowContext *context)
     const TimeView *time = context->timeView();
     const auto scheduled = [this] { schedule(); };
     connect(time, &TimeView::viewChanged, q, scheduled);
-    connect(time, &TimeView::newestChanged, q, scheduled);
+    connect(context, &WindowContext::valuesChanged, q, scheduled);
     connect(time, &TimeView::displayTimeChanged, q, scheduled);
     connect(context->curveSources(), &CurveSources::filled, q, scheduled);
     connect(context->curveSources(), &CurveSources::changed, q, [this] {
@@ -177,16 +177,25 @@ const Plant *QPlcXyPlot::Private::stalePlant() const
     return nullptr;
 }
 
+/// The end of the time that is seen: live, that of the newest values of the plants that are drawn, as each has a clock of its own.
+SignalStore::Time QPlcXyPlot::Private::seenEnd() const
+{
+    const TimeView *time = q->context()->timeView();
+    SignalStore::Time newest = 0;
+    for (const std::unique_ptr<XyCurve> &curve : canvas->curves())
+        newest = std::max(newest, curve->xSource().plant->newestTime());
+    return time->isLive() && newest > 0 ? newest : time->end();
+}
+
 void QPlcXyPlot::Private::draw()
 {
     if (!q->isVisible() || !q->context())
         return;
-    const TimeView *time = q->context()->timeView();
-    const auto displayed = time->displayTime();
+    const auto displayed = q->context()->timeView()->displayTime();
     QElapsedTimer cost;
     cost.start();
     const bool isStale = !displayed && stalePlant();
-    canvas->show({time->begin(), time->end(), displayed, isStale});
+    canvas->show({seenEnd() - q->context()->timeView()->span(), seenEnd(), displayed, isStale});
     legend->setVisible(!legend->text().isEmpty() && q->height() >= leastHeightOfTexts);
     pause = std::clamp(int(cost.elapsed()) * costShare, shortestPause, longestPause);
     showMoment();

@@ -39,6 +39,7 @@ public:
     QString messageText(const QString &error) const;
     QString timeText() const;
     const qplc::Plant *stalePlant() const;
+    qplc::SignalStore::Time seenEnd() const;
 
     // -- XyPlotCommands.cpp: what a person can do --
     void makeActions();

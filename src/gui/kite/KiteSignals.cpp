@@ -148,7 +148,7 @@ bool KiteSignals::readTrail(FlightTrail *trail) const
     const int color = isColored ? m_color.plant->values().channels().channel(m_color.index, element) : -1;
     if (position == ChannelMap::NoChannel)
         return false;
-    const TimeView::Time newest = store->time(store->endRow() - 1);
+    const TimeView::Time newest = store->newestTime();
     const TimeView::Time end = std::min(pastTime().value_or(newest), newest);
     trail->read(*store, position, color, end - TimeView::Time(m_settings.trail * 1e9), end);
     return !trail->points().empty();

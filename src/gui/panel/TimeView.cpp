@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TimeView.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace qplc {
@@ -73,22 +72,10 @@ std::optional<TimeView::Time> TimeView::displayTime() const
 
 void TimeView::setNewest(Time time)
 {
-    if (time <= m_newest)
-        return;
     const std::optional<Time> before = displayTime();
     m_newest = time;
-    Q_EMIT newestChanged();
     if (displayTime() != before)  // a frozen view that reaches into the future
         Q_EMIT displayTimeChanged();
-}
-
-void TimeView::reset()
-{
-    m_newest = 0;
-    setCursor(A, std::nullopt);
-    setCursor(B, std::nullopt);
-    setPointer(std::nullopt);
-    change(true, 0, m_span);
 }
 
 void TimeView::change(bool isLive, Time end, Time span)

@@ -3,6 +3,7 @@
 
 #include <QtCore/QObject>
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 
@@ -10,7 +11,8 @@ namespace qplc {
 
 /// The time that a window shows: one time axis, two cursors and one pointer for all of its plots, gauges, 3D views and tables.
 ///
-/// Live, the axis ends with the newest values. Whoever zooms or pans freezes the view, never the data: goLive() comes back to the newest ones. Times are those of the rows of the stores.
+/// Live, the axis ends with the newest values. Whoever zooms or pans freezes the view, never the data: goLive() comes back to the newest ones. Times are those of the rows of the stores. Each plant has a clock of
+/// its own, which may run ahead (lockstep): a live plot ends with the newest values of its own plants, and whoever freezes it there freezes all of the window at that time.
 ///
 /// Threads: that of the window.
 class TimeView : public QObject
@@ -31,10 +33,10 @@ public:
     Time end() const { return m_isLive ? m_newest : m_end; }
     Time begin() const { return end() - m_span; }
     Time span() const { return m_span; }
-    /// Time of the newest values of all plants; 0 before the first.
+    /// Time of the newest values of all plants that are there; 0: there are none.
     Time newest() const { return m_newest; }
-    /// How far a frozen view is behind [ns]; 0 when live.
-    Time behind() const { return m_newest - end(); }
+    /// How far a frozen view is behind [ns]; 0 when live, or when what it shows is still to come.
+    Time behind() const { return std::max<Time>(m_newest - end(), 0); }
 
     /// Keeps the right edge, also when live. Spans beyond the shortest and longest one are taken as those.
     void setSpan(Time span);
@@ -57,15 +59,12 @@ public:
     /// The time whose values are to be seen in gauges and 3D views: the pointer in a frozen view, its right edge without one, but no time that is still to come; empty: now.
     std::optional<Time> displayTime() const;
 
-    /// The way in for the newest time. Later ones only.
+    /// The way in for the newest time, which goes back when values are gone.
     void setNewest(Time time);
-    /// Begins anew: no values, no cursors, live.
-    void reset();
 
 Q_SIGNALS:
     /// Begin, end, span, or live or not; while live not for each new value.
     void viewChanged();
-    void newestChanged();
     void cursorsChanged();
     void pointerChanged();
     /// displayTime() is another one, or there is none any more.

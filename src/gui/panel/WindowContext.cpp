@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "WindowContext.h"
 
+#include <algorithm>
+
 namespace qplc {
 
 WindowContext::WindowContext(QObject *parent)
@@ -9,9 +11,13 @@ WindowContext::WindowContext(QObject *parent)
     connect(&m_plants, &PlantList::eventOccurred, &m_events, &EventLogModel::append);
     connect(&m_limitAlarms, &LimitAlarms::eventOccurred, &m_events, &EventLogModel::append);
     connect(&m_plants, &PlantList::added, this, &WindowContext::follow);
+    connect(&m_plants, &PlantList::removed, this, &WindowContext::renewNewest);
 }
 
-WindowContext::~WindowContext() = default;
+WindowContext::~WindowContext()
+{
+    m_plants.disconnect(this);  // they go after the time view
+}
 
 void WindowContext::setTheme(const Theme &theme)
 {
@@ -21,11 +27,18 @@ void WindowContext::setTheme(const Theme &theme)
 
 void WindowContext::follow(Plant *plant)
 {
-    connect(plant, &Plant::updated, this, [this, plant] {
-        const SignalStore *store = plant->store();
-        if (store && !store->isEmpty())
-            m_timeView.setNewest(store->time(store->endRow() - 1));
-    });
+    connect(plant, &Plant::storeChanged, this, &WindowContext::renewNewest);
+    connect(plant, &Plant::updated, this, &WindowContext::renewNewest);
+}
+
+/// Of the plants that are there: the one that was ahead may have gone, or begun anew.
+void WindowContext::renewNewest()
+{
+    TimeView::Time newest = 0;
+    for (int place = 0; place < m_plants.size(); ++place)
+        newest = std::max(newest, m_plants.at(place)->newestTime());
+    m_timeView.setNewest(newest);
+    Q_EMIT valuesChanged();
 }
 
 }  // namespace qplc

@@ -29,9 +29,12 @@ public:
 
 Q_SIGNALS:
     void themeChanged();
+    /// There are new values, or old ones are gone; timeView() knows the newest time.
+    void valuesChanged();
 
 private:
     void follow(Plant *plant);
+    void renewNewest();
 
     PlantList m_plants;
     LimitAlarms m_limitAlarms{&m_plants};

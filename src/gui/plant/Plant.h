@@ -72,6 +72,8 @@ public:
     const PlantValues &values() const { return m_values; }
     /// Null before the first connection. storeChanged() tells of another one.
     SignalStore *store() const { return m_values.store(); }
+    /// Of the newest row of the store, on the clock of this plant [ns]; 0: there is none.
+    SignalStore::Time newestTime() const { return store() ? store()->newestTime() : 0; }
     QPlcValue value(QPlcSignalIndex signal) const { return m_values.value(signal); }
     /// Node that writes a signal, "Master"; empty: nobody.
     QString writer(QPlcSignalIndex signal) const { return m_writers.value(signal); }

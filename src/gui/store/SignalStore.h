@@ -75,6 +75,8 @@ public:
         return behind > firstRow() ? std::optional<Row>(behind - 1) : std::nullopt;
     }
     std::optional<Row> newestRow() const { return isEmpty() ? std::nullopt : std::optional<Row>(m_end - 1); }
+    /// Of the newest row; 0: there is none.
+    Time newestTime() const { return isEmpty() ? 0 : time(m_end - 1); }
     /// The row whose values are those of \a time: the last one up to it, until the next row comes. Not across an interruption: the last row before one holds for a period. The newest row holds for as long as values
     /// of a running plant may be old: three periods, at least half a second.
     std::optional<Row> rowHoldingAt(Time time) const;
