@@ -217,8 +217,11 @@ void QPlcTimePlot::Private::showNumbers()
     if (view()->isLive())
         pointAtMouse();
     std::optional<Time> moment = time ? time->pointer() : std::nullopt;
+    const bool isElsewhere = moment && (*moment < canvas->begin() || *moment > canvas->end());
+    if (isElsewhere && view()->isLive())
+        moment.reset();  // of a plot whose time is another one
     if (!moment && !view()->isLive())
-        moment = std::min(view()->end(), newest());  // around an event, the rest is still to come
+        moment = std::clamp(newest(), view()->begin(), view()->end());  // around an event, the rest is still to come
     legend->show(curves, moment);
     const bool hasCursors = time && (time->cursor(TimeView::A) || time->cursor(TimeView::B)) && !curves.isEmpty();
     if (hasCursors != !statistics->isHidden()) {

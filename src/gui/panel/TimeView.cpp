@@ -84,9 +84,12 @@ void TimeView::change(bool isLive, Time end, Time span)
     if (isLive == m_isLive && allowedSpan == m_span && (isLive || end == m_end))
         return;
     const std::optional<Time> before = displayTime();
+    const bool comesBack = isLive && !m_isLive;
     m_isLive = isLive;
     m_end = end;
     m_span = allowedSpan;
+    if (comesBack)
+        setPointer(std::nullopt);  // that of an event, say; a mouse points again
     Q_EMIT viewChanged();
     if (displayTime() != before)
         Q_EMIT displayTimeChanged();

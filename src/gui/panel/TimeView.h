@@ -47,6 +47,7 @@ public:
     /// Moves the view, and freezes.
     void pan(Time by);
     void freeze();
+    /// And forgets the pointer.
     void goLive();
     /// Shows a time in the middle, and freezes.
     void jumpTo(Time time);

@@ -4,6 +4,7 @@
 #include "QPlcTimePlot.h"
 #include "QPlcXyPlot.h"
 #include "gui/charts/PlotCanvas.h"
+#include "gui/charts/PlotLegend.h"
 #include "gui/charts/PlotOverlay.h"
 #include "gui/charts/XyCanvas.h"
 #include "gui/panel/WindowContext.h"
@@ -87,6 +88,7 @@ private Q_SLOTS:
     void zoomingAtTheLiveEdgeStaysLive();
     void aLiveXyPlotShowsTheNewestValuesOfItsPlant();
     void aPlotWithoutValuesAtTheFrozenTimeSaysSo();
+    void theLegendOfALivePlotIsThatOfItsTime();
     void theNewestTimeIsThatOfThePlantsThatAreThere();
     void aPlantThatBeginsAnewTakesItsNewestTimeAlong();
 };
@@ -173,8 +175,23 @@ void tst_PlantClocks::aPlotWithoutValuesAtTheFrozenTimeSaysSo()
     QTRY_COMPARE(hint(), QString());
     window.time()->freeze();
     QTRY_VERIFY2(hint().contains(QStringLiteral("No values at this time")), qPrintable(hint()));
+    QTRY_COMPARE(plot.findChild<PlotLegend *>()->entries().first().value, QStringLiteral("–"));
     window.time()->jumpTo(now);
     QTRY_COMPARE(hint(), QString());
+}
+
+/// Wherever a mouse points in a plot of another plant.
+void tst_PlantClocks::theLegendOfALivePlotIsThatOfItsTime()
+{
+    TwoClocks window;
+    QPlcTimePlot plot;
+    QVERIFY(window.show(&plot, R"({"curves":[{"signal":"kite/count"}]})"));
+    const auto value = [&plot] { return plot.findChild<PlotLegend *>()->entries().first().value; };
+    QTRY_COMPARE(value(), QStringLiteral("199"));
+    window.time()->setPointer(now - s);
+    QTRY_COMPARE(value(), QStringLiteral("99"));
+    window.time()->setPointer(now + ahead);
+    QTRY_COMPARE(value(), QStringLiteral("199"));
 }
 
 void tst_PlantClocks::theNewestTimeIsThatOfThePlantsThatAreThere()

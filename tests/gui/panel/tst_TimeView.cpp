@@ -26,6 +26,7 @@ private Q_SLOTS:
     void frozenTheDisplayedTimeIsThatOfThePointerOrTheRightEdge();
     void theDisplayedTimeOfAViewIntoTheFutureGoesOn();
     void beforeTheFirstValuesAnyTimeCanBeLookedAt();
+    void goingLiveForgetsThePointer();
     void nothingIsToldTwice();
     void theNewestTimeGoesBackWhenValuesAreGone();
 
@@ -148,6 +149,20 @@ void tst_TimeView::frozenTheDisplayedTimeIsThatOfThePointerOrTheRightEdge()
     m_view->goLive();
     QVERIFY(!m_view->displayTime());
     QCOMPARE(changes.count(), 4);
+}
+
+/// It is that of an event, say, which the view was at.
+void tst_TimeView::goingLiveForgetsThePointer()
+{
+    m_view->jumpTo(50 * s);
+    m_view->setPointer(50 * s);
+    QSignalSpy pointers(m_view.get(), &TimeView::pointerChanged);
+    m_view->goLive();
+    QVERIFY(!m_view->pointer());
+    QCOMPARE(pointers.count(), 1);
+    m_view->setPointer(95 * s);  // a mouse
+    m_view->setSpan(5 * s);
+    QVERIFY(m_view->pointer());
 }
 
 void tst_TimeView::nothingIsToldTwice()

@@ -444,6 +444,8 @@ void tst_Tables::anEventLeadsToItsTime()
     QVERIFY(!time->isLive());
     QCOMPARE(time->displayTime().value_or(0), event.time.toMSecsSinceEpoch() * 1'000'000);
     QCOMPARE((time->begin() + time->end()) / 2, event.time.toMSecsSinceEpoch() * 1'000'000);
+    context.timeView()->goLive();
+    QVERIFY(!time->pointer());  // legends show what is now
 }
 
 QTEST_MAIN(tst_Tables)
