@@ -34,8 +34,11 @@ QString healthText(NodeTableModel::HealthLevel level)
     return NodeTableModel::tr("Unavailable");
 }
 
+/// In a phase whether it keeps up, else its state.
 QString stateOf(const NodeStatus &node)
 {
+    if (node.isLatched() || (!node.isListener && !node.state.isEmpty() && node.state != QLatin1String("RealTime")))
+        return node.state;
     if (node.isListener)
         return NodeTableModel::tr("listens");
     if (node.isLate)
@@ -121,14 +124,17 @@ QVector<NodeTableModel::Row> NodeTableModel::rowsOf(Plant *plant) const
     return rows;
 }
 
-/// Late now is a warning; when time stands still because of it, an error.
+/// Late now is a warning, answers as cycles; when time stands still because of it, or nothing moves until somebody resets it, an error.
 NodeTableModel::HealthLevel NodeTableModel::healthOf(const Row &row)
 {
     if (!row.isThere || !row.plant->isConnected() || row.plant->status().state.isEmpty())
         return Unavailable;
-    const bool isWaiting = row.plant->status().state == QLatin1String("WaitingForLateSlaves");
+    const PlantStatus &status = row.plant->status();
+    const bool isWaiting = status.state == QLatin1String("WaitingForLateSlaves");
     if (row.isMaster)
-        return isWaiting ? Error : Good;
+        return isWaiting || status.isLatched() ? Error : status.isOverrunning ? Warning : Good;
+    if (row.node.isLatched())
+        return Error;
     return !row.node.isLate ? Good : isWaiting ? Error : Warning;
 }
 

@@ -44,6 +44,11 @@ DurationStatus duration(const QJsonObject &fields, const char *name)
     return {figures(object(of, "sinceStart")), figures(object(of, "last10s"))};
 }
 
+bool isLatchedState(const QString &state)
+{
+    return state == QLatin1String("SafeStop") || state == QLatin1String("Fault");
+}
+
 }  // namespace
 
 bool PlantStatus::isRunning() const
@@ -54,7 +59,12 @@ bool PlantStatus::isRunning() const
 
 bool PlantStatus::isLatched() const
 {
-    return state == QLatin1String("SafeStop") || state == QLatin1String("Fault");
+    return isLatchedState(state);
+}
+
+bool NodeStatus::isLatched() const
+{
+    return isLatchedState(state);
 }
 
 const NodeStatus *PlantStatus::node(const QString &name) const
@@ -120,7 +130,9 @@ void PlantStatus::takeStatistics(const QJsonObject &fields)
     execution = duration(master, "execution");
     roundTrip = duration(master, "roundTrip");
     slack = duration(master, "slack");
-    overruns = counter(object(master, "counters"), "overruns");
+    const quint64 overrunsNow = counter(object(master, "counters"), "overruns");
+    isOverrunning = isCounted && overrunsNow > overruns;
+    overruns = overrunsNow;
     const QJsonArray rows = fields.value(QLatin1String("nodes")).toArray();
     for (const QJsonValue &row : rows) {
         const QJsonObject of = row.toObject();

@@ -46,6 +46,9 @@ struct NodeStatus
     quint64 rejected = 0;
     quint64 forged = 0;
     bool isLate = false;  // there were late answers since the statistics before
+
+    /// As of the master: whether it is SafeStop or Fault.
+    bool isLatched() const;
 };
 
 /// A master and its nodes, put together of its answers State, Statistics and Schedule. A value type.
@@ -64,6 +67,7 @@ struct PlantStatus
     QString faultPlan;       // that the master injects on purpose; empty: none
     bool isCounted = false;  // the master has told its counters: what they show more from now on is new
     quint64 overruns = 0;
+    bool isOverrunning = false;  // there were overruns since the statistics before
     DurationStatus lateness;
     DurationStatus execution;
     DurationStatus roundTrip;

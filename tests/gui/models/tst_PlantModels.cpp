@@ -45,6 +45,7 @@ class tst_PlantModels : public QObject
 private Q_SLOTS:
     void nodesComeAndGoInTheTable();
     void whoeverIsMissedKeepsHisRow();
+    void whatStandsStillUntilAResetIsAnError();
     void aPhaseThatBeginsMissesNobody();
     void figuresOfNodesAreDurationsAndCounters();
     void eventsAreShownAndAcknowledged();
@@ -104,7 +105,7 @@ void tst_PlantModels::whoeverIsMissedKeepsHisRow()
     QCOMPARE(cell(rowOfEcho(), NodeTableModel::Late), QString());
     QVERIFY(table.index(rowOfEcho(), 0).data(Qt::ForegroundRole).isValid());
     QVERIFY(echo.connectToMasterAndWaitForConnected(master->protocol("udp")));
-    QTRY_COMPARE(cell(rowOfEcho(), NodeTableModel::State), QStringLiteral("good"));
+    QTRY_COMPARE(cell(rowOfEcho(), NodeTableModel::State), QStringLiteral("Registered"));
 
     master.reset();
     QTRY_COMPARE(cell(0, NodeTableModel::State), QStringLiteral("lost"));
@@ -115,6 +116,35 @@ void tst_PlantModels::whoeverIsMissedKeepsHisRow()
     QCOMPARE(cell(1, NodeTableModel::State), QStringLiteral("not known"));
     plants.remove(plant);
     QCOMPARE(table.rowCount(), 0);
+}
+
+void tst_PlantModels::whatStandsStillUntilAResetIsAnError()
+{
+    RunningMaster master;
+    master.setInterval(std::chrono::milliseconds(100));  // a busy computer is not to be the reason
+    EchoNode echo;
+    echo.setSignalTable(testTable());
+    QVERIFY(echo.connectToMasterAndWaitForConnected(master.protocol("udp")));
+    PlantList plants;
+    NodeTableModel table(&plants);
+    const QAbstractItemModelTester tester(&table, fatal);
+    plants.add(master.address(), QStringLiteral("kite"), QStringLiteral("Window"));
+    const auto cells = [&](int column) {
+        QStringList texts;
+        for (int row = 0; row < table.rowCount(); ++row)
+            texts << table.index(row, column).data().toString();
+        return texts;
+    };
+    QVERIFY(master.startRealTime());
+    QTRY_COMPARE(cells(NodeTableModel::State), (QStringList{"RealTime", "good", "good", "listens"}));
+    QTRY_COMPARE(cells(NodeTableModel::Health), (QStringList{"OK", "OK", "OK", "OK"}));
+    master.safeStop(QStringLiteral("smoke at the winch"));
+    QTRY_COMPARE(cells(NodeTableModel::State), (QStringList{"SafeStop", "SafeStop", "SafeStop", "SafeStop"}));
+    QCOMPARE(cells(NodeTableModel::Health), (QStringList{"Error", "Error", "Error", "Error"}));
+    QTRY_VERIFY(master.reset());
+    QTRY_COMPARE(cells(NodeTableModel::State).first(), QStringLiteral("Off"));
+    QTRY_COMPARE(cells(NodeTableModel::Health), (QStringList{"OK", "OK", "OK", "OK"}));
+    echo.disconnectFromMaster();
 }
 
 void tst_PlantModels::aPhaseThatBeginsMissesNobody()

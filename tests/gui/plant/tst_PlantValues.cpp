@@ -64,6 +64,7 @@ private Q_SLOTS:
     void referencesAreReadAndWritten();
     void nonsenseIsNoReference_data();
     void nonsenseIsNoReference();
+    void overrunsAreNewUntilTheNextStatistics();
     void aStatusKeepsTheFiguresOfItsNodes();
     void nonsenseOfAMasterIsAnEmptyStatus();
 };
@@ -365,6 +366,22 @@ void tst_PlantValues::nonsenseIsNoReference()
     QString error;
     QVERIFY(!SignalReference::fromString(text, &error).isValid());
     QVERIFY2(error.contains(QStringLiteral("write signal, signal[2] or plant/signal")), qPrintable(error));
+}
+
+void tst_PlantValues::overrunsAreNewUntilTheNextStatistics()
+{
+    const auto statistics = [](int overruns) {
+        return QJsonObject{{"master", QJsonObject{{"counters", QJsonObject{{"overruns", overruns}}}}}};
+    };
+    PlantStatus status;
+    status.takeStatistics(statistics(3));
+    QVERIFY(!status.isOverrunning);  // they were before anybody looked
+    status.takeStatistics(statistics(4));
+    QVERIFY(status.isOverrunning);
+    status.takeStatistics(statistics(4));
+    QVERIFY(!status.isOverrunning);
+    status.takeStatistics(statistics(0));  // a new phase
+    QVERIFY(!status.isOverrunning);
 }
 
 void tst_PlantValues::aStatusKeepsTheFiguresOfItsNodes()
