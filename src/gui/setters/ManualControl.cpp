@@ -30,20 +30,21 @@ bool ManualControl::isBound(int key) const
            });
 }
 
-bool ManualControl::press(int key, bool isAutoRepeat)
+bool ManualControl::press(int key, bool isAutoRepeat, quint32 place)
 {
     if (!isBound(key))
         return false;
-    if (isFlying() && m_keys.press(key, isAutoRepeat))
+    if (isFlying() && m_keys.press(key, isAutoRepeat, place))
         write();
     return true;
 }
 
-bool ManualControl::release(int key, bool isAutoRepeat)
+bool ManualControl::release(int key, bool isAutoRepeat, quint32 place)
 {
-    if (m_keys.release(key, isAutoRepeat))
+    const bool wasHeld = m_keys.release(key, isAutoRepeat, place);
+    if (wasHeld)
         write();
-    return isBound(key);
+    return wasHeld || isBound(key);
 }
 
 void ManualControl::moveAxis(const QString &axis, double deflection)
@@ -132,6 +133,21 @@ bool ManualControl::isMine(const PlantList::Signal &signal)
     return lease && lease->isMine;
 }
 
+/// The value of the whole signal: all elements that are steered here as they are wanted now, as what the plant has may be older than what was sent; the others as the plant has them.
+QPlcValue ManualControl::wholeOf(const PlantList::Signal &signal) const
+{
+    QPlcValue whole = signal.plant->value(signal.index);
+    for (int i = 0; i < m_control.resolved().size(); ++i) {
+        const PlantList::Signal &other = m_control.resolved().at(i);
+        if (other.plant != signal.plant || other.index != signal.index)
+            continue;
+        const QPlcValue with = wholeValue(other, wanted(m_control.references().at(i)), whole);
+        if (with.isValid())
+            whole = with;
+    }
+    return whole;
+}
+
 void ManualControl::write()
 {
     std::map<Plant *, ValueStream::Values> values;
@@ -141,7 +157,7 @@ void ManualControl::write()
             continue;
         const QString name = m_control.references().at(i).toString();
         const double number = wanted(m_control.references().at(i));
-        const QPlcValue value = wholeValue(signal, number);
+        const QPlcValue value = wholeOf(signal);
         if (m_sent.value(name, neutralValue(signal).toReal()) == number || !value.isValid())
             continue;
         m_sent[name] = number;

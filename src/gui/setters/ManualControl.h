@@ -29,8 +29,9 @@ public:
     bool isFlying() const { return m_control.state() == SignalControl::Mine; }
 
     /// Counts while this window has control. \return whether the key is one of the bindings
-    bool press(int key, bool isAutoRepeat);
-    bool release(int key, bool isAutoRepeat);
+    /// \param place  as for HeldKeys
+    bool press(int key, bool isAutoRepeat, quint32 place = 0);
+    bool release(int key, bool isAutoRepeat, quint32 place = 0);
     bool isHeld(int key) const { return m_keys.contains(key); }
     bool isBound(int key) const;
 
@@ -54,6 +55,7 @@ private:
     void controlChanged();
     void write();
     static bool isMine(const PlantList::Signal &signal);
+    QPlcValue wholeOf(const PlantList::Signal &signal) const;
     ValueStream &streamTo(Plant *plant);
 
     ManualBindings m_bindings;

@@ -248,13 +248,13 @@ bool QPlcKeyboardControl::event(QEvent *event)
 void QPlcKeyboardControl::keyPressEvent(QKeyEvent *event)
 {
     const bool isOurs = hasFocus() && isPlain(event) && d->control.isFlying();
-    if (!isOurs || !d->control.press(event->key(), event->isAutoRepeat()))
+    if (!isOurs || !d->control.press(event->key(), event->isAutoRepeat(), event->nativeScanCode()))
         QPlcWidget::keyPressEvent(event);
 }
 
 void QPlcKeyboardControl::keyReleaseEvent(QKeyEvent *event)
 {
-    if (!d->control.release(event->key(), event->isAutoRepeat()))
+    if (!d->control.release(event->key(), event->isAutoRepeat(), event->nativeScanCode()))
         QPlcWidget::keyReleaseEvent(event);
 }
 

@@ -16,15 +16,19 @@ QPlcValue neutralValue(const PlantList::Signal &signal)
 
 QPlcValue wholeValue(const PlantList::Signal &signal, double number)
 {
+    return wholeValue(signal, number, signal.plant->value(signal.index));
+}
+
+QPlcValue wholeValue(const PlantList::Signal &signal, double number, const QPlcValue &others)
+{
     const QPlcSignalType type = signal.definition().type;
     const double rounded = type.isReal() ? number : std::round(number);
     const QPlcValue element = QPlcValue(rounded).convertedTo(QPlcSignalType(type.scalar()));
     if (signal.element == SignalReference::Whole || !element.isValid())
         return element.convertedTo(type);
-    const QPlcValue present = signal.plant->value(signal.index);
-    if (!present.isValid())
+    if (!others.isValid())
         return {};
-    QByteArray bytes = present.toBytes();
+    QByteArray bytes = others.toBytes();
     bytes.replace(signal.element * type.elementSize(), type.elementSize(), element.toBytes());
     return QPlcValue::fromBytes(type, bytes);
 }

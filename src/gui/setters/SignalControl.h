@@ -86,5 +86,7 @@ private:
 QPlcValue neutralValue(const PlantList::Signal &signal);
 /// The whole value of \a signal in which the element that it stands for, or all, is \a number. Invalid: it is no number, or the value of the others is not known yet.
 QPlcValue wholeValue(const PlantList::Signal &signal, double number);
+/// \param others  the value of the other elements
+QPlcValue wholeValue(const PlantList::Signal &signal, double number, const QPlcValue &others);
 
 }  // namespace qplc

@@ -61,6 +61,7 @@ class tst_ManualControl : public QObject
 
 private Q_SLOTS:
     void keysThatRepeatThemselvesAreHeldOnce();
+    void aKeyIsReleasedAsWhatItWasPressedAs();
     void axesHaveADeadZoneAndExpo();
     void bindingsAreTheSameAfterJson();
     void waveformsAreExact();
@@ -72,6 +73,7 @@ private Q_SLOTS:
     void whoLosesSomeSignalsLetsGoOfAll();
     void afterAReconnectionControlMayBeTakenAgain();
     void anElementIsWrittenIntoItsArray();
+    void elementsOfAnArrayAreSteeredTogether();
     void aStreamEndsWithTheLastValueHoweverManyThereWere();
 };
 
@@ -89,6 +91,21 @@ void tst_ManualControl::keysThatRepeatThemselvesAreHeldOnce()
     QVERIFY(keys.press(Qt::Key_B, false));
     QVERIFY(keys.releaseAll());
     QVERIFY(!keys.contains(Qt::Key_B));
+}
+
+/// The 4 of the keypad is Left, and 4 as soon as Shift is held.
+void tst_ManualControl::aKeyIsReleasedAsWhatItWasPressedAs()
+{
+    constexpr quint32 keypad4 = 83;
+    constexpr quint32 left = 113;
+    HeldKeys keys;
+    QVERIFY(keys.press(Qt::Key_Left, false, keypad4));
+    QVERIFY(!keys.press(Qt::Key_4, false, keypad4));
+    QVERIFY(keys.press(Qt::Key_Left, false, left));
+    QVERIFY(keys.release(Qt::Key_4, false, keypad4));
+    QVERIFY(keys.contains(Qt::Key_Left));  // the other one
+    QVERIFY(keys.release(Qt::Key_Left, false, left));
+    QVERIFY(!keys.contains(Qt::Key_Left));
 }
 
 void tst_ManualControl::axesHaveADeadZoneAndExpo()
@@ -281,6 +298,29 @@ void tst_ManualControl::anElementIsWrittenIntoItsArray()
     QTRY_COMPARE(target.actualNumber(), 2.0);
     target.sendOnce(7.0);
     QTRY_COMPARE(master.signalValue(QStringLiteral("vector")), QPlcValue({1.0, 7.0, 3.0}));
+}
+
+/// What the plant has of one of them is older than what was sent of it, when both move within the time that a command takes.
+void tst_ManualControl::elementsOfAnArrayAreSteeredTogether()
+{
+    FlyingMaster master;
+    QVERIFY(master.setSignalValue(QStringLiteral("vector"), QPlcValue({1.0, 2.0, 3.0})));
+    QVERIFY(master.startRealTime());
+    Pilot pilot(master);
+    ManualControl &control = pilot.control;
+    const auto element = [](int place) { return SignalReference{QString(), QStringLiteral("vector"), place}; };
+    control.setBindings({{{Qt::Key_1, element(0), 5.0}, {Qt::Key_2, element(1), 7.0}}, {}});
+    QVERIFY(pilot.takesControl());
+    const auto vector = [&] { return master.signalValue(QStringLiteral("vector")); };
+    const auto seen = [&] { return pilot.window.plant->value(testTable().indexOf(QStringLiteral("vector"))); };
+    QTRY_COMPARE(vector(), QPlcValue({0.0, 0.0, 0.0}));
+    QTRY_COMPARE(seen(), vector());
+    control.press(Qt::Key_1, false);
+    control.press(Qt::Key_2, false);
+    QTRY_COMPARE(vector(), QPlcValue({5.0, 7.0, 0.0}));
+    QTRY_COMPARE(seen(), vector());
+    control.letGo();
+    QTRY_COMPARE(vector(), QPlcValue({0.0, 0.0, 0.0}));
 }
 
 void tst_ManualControl::aStreamEndsWithTheLastValueHoweverManyThereWere()

@@ -53,6 +53,7 @@ private Q_SLOTS:
     void aPersonTakesControlFliesAndGivesBack();
     void whatEndsTheHandleIsNeutralAtOnce_data();
     void whatEndsTheHandleIsNeutralAtOnce();
+    void aKeyThatMeansSomethingElseWhenItIsReleasedIsReleased();
     void aKilledConnectionIsNeutralByTheMaster();
     void someoneElseIsShownAndTakenFromOnlyAfterAQuestion();
     void aPlantThatIsLetGoIsMissing_data();
@@ -143,6 +144,23 @@ void tst_QPlcKeyboardControl::whatEndsTheHandleIsNeutralAtOnce()
     QTest::qWait(100);
     QCOMPARE(master.valueOf(echo), 0.0);  // held or not: it has to be pressed again
     QVERIFY(pilot->window.isMine(echo));
+}
+
+void tst_QPlcKeyboardControl::aKeyThatMeansSomethingElseWhenItIsReleasedIsReleased()
+{
+    FlyingMaster master;
+    QVERIFY(master.startRealTime());
+    Pilot pilot(master);
+    QVERIFY(pilot.begin());
+    const auto send = [&](QEvent::Type type, Qt::Key key, Qt::KeyboardModifiers modifiers, quint32 place) {
+        QKeyEvent event(type, key, modifiers, place, 0, 0);
+        QCoreApplication::sendEvent(&pilot.panel, &event);
+    };
+    send(QEvent::KeyPress, Qt::Key_Left, Qt::KeypadModifier, 83);
+    QTRY_COMPARE(master.valueOf(echo), -3.0);
+    send(QEvent::KeyPress, Qt::Key_Shift, Qt::ShiftModifier, 50);
+    send(QEvent::KeyRelease, Qt::Key_4, Qt::KeypadModifier | Qt::ShiftModifier, 83);
+    QTRY_COMPARE(master.valueOf(echo), 0.0);
 }
 
 void tst_QPlcKeyboardControl::aKilledConnectionIsNeutralByTheMaster()
