@@ -9,7 +9,6 @@ namespace qplc {
 namespace {
 
 constexpr qint64 longestPause = 600;  // [ms]
-constexpr qint64 samePress = 15;      // one press goes through several objects
 
 }  // namespace
 
@@ -21,23 +20,31 @@ DoubleEscape::DoubleEscape(QObject *parent)
 
 bool DoubleEscape::eventFilter(QObject *watched, QEvent *event)
 {
-    if (event->type() != QEvent::KeyPress)
+    const bool isPress = event->type() == QEvent::KeyPress;
+    if (!isPress && event->type() != QEvent::KeyRelease)
         return QObject::eventFilter(watched, event);
     const auto *key = static_cast<const QKeyEvent *>(event);
-    if (key->key() != Qt::Key_Escape)
+    const bool isEscape = key->key() == Qt::Key_Escape;
+    if (isPress && !isEscape)
         m_isArmed = false;
-    else if (!key->isAutoRepeat())
-        hear();
+    else if (isPress && !key->isAutoRepeat())
+        hear(qint64(key->timestamp()));
+    else if (isEscape && !key->isAutoRepeat())
+        m_isHeld = false;
     return QObject::eventFilter(watched, event);
 }
 
-void DoubleEscape::hear()
+/// \param time  when it was pressed [ms]; 0: not known
+void DoubleEscape::hear(qint64 time)
 {
-    const qint64 pause = m_sinceLast.isValid() ? m_sinceLast.elapsed() : longestPause + 1;
-    m_sinceLast.start();
-    if (pause <= samePress)
+    const bool isSame = time != 0 ? time == m_lastTime : m_isHeld;
+    m_isHeld = true;
+    if (isSame)
         return;
-    if (m_isArmed && pause <= longestPause) {
+    const qint64 pause = time != 0 && m_lastTime != 0 ? time - m_lastTime : m_sinceLast.elapsed();
+    m_lastTime = time;
+    m_sinceLast.start();
+    if (m_isArmed && pause >= 0 && pause <= longestPause) {
         m_isArmed = false;
         Q_EMIT pressed();
     } else {

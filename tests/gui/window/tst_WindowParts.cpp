@@ -9,6 +9,20 @@
 
 using namespace qplc;
 
+namespace {
+
+/// \param time  as QInputEvent::timestamp() [ms]
+void pressEscape(QWidget *widget, ulong time)
+{
+    for (const QEvent::Type type : {QEvent::KeyPress, QEvent::KeyRelease}) {
+        QKeyEvent event(type, Qt::Key_Escape, Qt::NoModifier);
+        event.setTimestamp(time);
+        QCoreApplication::sendEvent(widget, &event);
+    }
+}
+
+}  // namespace
+
 class tst_WindowParts : public QObject
 {
     Q_OBJECT
@@ -21,6 +35,9 @@ private Q_SLOTS:
     void addressesAreJudgedBeforeAnybodyConnects();
     void recentMastersAreNewestFirstAndFew();
     void escapeTwiceIsHeardAndOnceIsNot();
+    void onePressOfEscapeIsOneHoweverLongItTakes_data();
+    void onePressOfEscapeIsOneHoweverLongItTakes();
+    void escapeTwiceIsJudgedByWhenItWasPressed();
     void aLayoutWithAnErrorIsNotTakenAndSaysWhere();
     void theFirstLayoutIsTheDefault();
     void theDefaultLayoutHasSignalsAndRealTime();
@@ -107,6 +124,50 @@ void tst_WindowParts::escapeTwiceIsHeardAndOnceIsNot()
     QCOMPARE(pressed.count(), 1);
     QTest::qWait(650);  // too late
     press(Qt::Key_Escape);
+    QCOMPARE(pressed.count(), 1);
+}
+
+void tst_WindowParts::onePressOfEscapeIsOneHoweverLongItTakes_data()
+{
+    QTest::addColumn<ulong>("time");
+    QTest::newRow("of a keyboard") << 1000UL;
+    QTest::newRow("of a program") << 0UL;
+}
+
+void tst_WindowParts::onePressOfEscapeIsOneHoweverLongItTakes()
+{
+    QFETCH(ulong, time);
+    /// Whoever gets the key first takes his time.
+    class Slow : public QWidget
+    {
+    public:
+        using QWidget::QWidget;
+        void keyPressEvent(QKeyEvent *event) override
+        {
+            QTest::qSleep(40);
+            event->ignore();
+        }
+    };
+    DoubleEscape escape;
+    QSignalSpy pressed(&escape, &DoubleEscape::pressed);
+    QWidget parent;
+    Slow child(&parent);
+    pressEscape(&child, time);
+    QCOMPARE(pressed.count(), 0);
+    pressEscape(&child, time == 0 ? 0 : time + 300);
+    QCOMPARE(pressed.count(), 1);
+}
+
+/// A window that was busy hears both presses at once, or the second one late.
+void tst_WindowParts::escapeTwiceIsJudgedByWhenItWasPressed()
+{
+    DoubleEscape escape;
+    QSignalSpy pressed(&escape, &DoubleEscape::pressed);
+    QWidget widget;
+    pressEscape(&widget, 1000);
+    pressEscape(&widget, 3000);
+    QCOMPARE(pressed.count(), 0);
+    pressEscape(&widget, 3500);
     QCOMPARE(pressed.count(), 1);
 }
 
