@@ -9,7 +9,7 @@ namespace qplc {
 
 class PageView;
 
-/// A top-level window with panels. Closing it closes its panels, as one step that can be undone.
+/// A top-level window with panels. Closing it closes its panels, as one step that can be undone. Keys of the main window run the same commands here.
 class FloatingWindow : public QWidget
 {
     Q_OBJECT
@@ -22,6 +22,7 @@ public:
     void showWindow(const LayoutWindow &window);
 
 protected:
+    bool event(QEvent *event) override;
     void moveEvent(QMoveEvent *event) override;
     void resizeEvent(QResizeEvent *event) override;
     void closeEvent(QCloseEvent *event) override;

@@ -144,6 +144,7 @@ private Q_SLOTS:
     void actionsOfAPanelRunByTheirKeysOrAreInThePalette_data();
     void actionsOfAPanelRunByTheirKeysOrAreInThePalette();
     void actionsOfTheWindowRunByTheirKeysWhereverTheFocusIs();
+    void actionsOfTheWindowRunByTheirKeysInAFloatingPanel();
     void keysOfCommandsToThePlantMeanNothingElse();
     void keysOfAPanelComeBeforeThoseOfTheTabs();
     void noButtonIsForTheMouseOnly_data();
@@ -192,6 +193,23 @@ void tst_EverythingByKeys::actionsOfTheWindowRunByTheirKeysWhereverTheFocusIs()
     for (QWidget *place : places) {
         place->setFocus();
         QCOMPARE(QApplication::focusWidget(), place);
+        for (QAction *action : fixture.window.actions() + fixture.view->actions())
+            QCOMPARE(keyError(fixture, action), QString());
+    }
+}
+
+void tst_EverythingByKeys::actionsOfTheWindowRunByTheirKeysInAFloatingPanel()
+{
+    PanelFixture fixture(QStringLiteral("Gauge"));
+    QVERIFY(fixture.isReady);
+    fixture.view->editor()->floatPanel(fixture.frame->panelId(), QRect(40, 40, 400, 300));
+    QWidget *const floating = fixture.panel->window();
+    QVERIFY(floating != &fixture.window);
+    floating->activateWindow();
+    QTRY_COMPARE(QApplication::activeWindow(), floating);
+    for (QWidget *place : {static_cast<QWidget *>(fixture.panel), static_cast<QWidget *>(fixture.frame->titleBar())}) {
+        place->setFocus();
+        QVERIFY(QApplication::focusWidget() && QApplication::focusWidget()->window() == floating);
         for (QAction *action : fixture.window.actions() + fixture.view->actions())
             QCOMPARE(keyError(fixture, action), QString());
     }
