@@ -2,13 +2,13 @@
 #include "TriggerBar.h"
 
 #include "EventFileEditor.h"
+#include "gui/panel/NumberBox.h"
 #include "gui/panel/WindowContext.h"
 
 #include <QtCore/QSignalBlocker>
 #include <QtGui/QResizeEvent>
 #include <QtWidgets/QCheckBox>
 #include <QtWidgets/QComboBox>
-#include <QtWidgets/QDoubleSpinBox>
 #include <QtWidgets/QFormLayout>
 #include <QtWidgets/QHBoxLayout>
 #include <QtWidgets/QLabel>
@@ -21,6 +21,7 @@ namespace qplc {
 namespace {
 
 constexpr double largest = 1e12;
+constexpr double percent = 100.0;
 constexpr int leastWideBar = 520;  // [px]: with less, controls are in the menu
 const QString signalKey = QStringLiteral("signal");
 const QString linkedKey = QStringLiteral("linked");
@@ -69,13 +70,14 @@ void TriggerBar::makeControls()
     m_kind->setAccessibleName(tr("Kind of event"));
     m_kind->addItems(
         {tr("↗ rises"), tr("↘ falls"), tr("↕ crosses"), tr("≥ above"), tr("≤ below"), tr("→ enters"), tr("← leaves")});
-    m_level = addNumber(tr("Level"), -largest, {});
-    m_upperLevel = addNumber(tr("Upper level"), -largest, {});
-    m_hysteresis = addNumber(tr("Hysteresis"), 0.0, {});
-    m_preShare = addNumber(tr("Before the event"), 0.0, tr(" %"));
-    m_preShare->setMaximum(100.0);
-    m_preShare->setDecimals(0);
-    m_holdOff = addNumber(tr("Hold-off"), 0.0, tr(" s"));
+    m_level = addNumber(tr("Level"), -largest, &Trigger::Settings::level);
+    m_upperLevel = addNumber(tr("Upper level"), -largest, &Trigger::Settings::upperLevel);
+    m_hysteresis = addNumber(tr("Hysteresis"), 0.0, &Trigger::Settings::hysteresis);
+    m_preShare = addNumber(tr("Before the event"), 0.0, &Trigger::Settings::preShare, percent);
+    m_preShare->setMaximum(percent);
+    m_preShare->setSuffix(tr(" %"));
+    m_holdOff = addNumber(tr("Hold-off"), 0.0, &Trigger::Settings::holdOff);
+    m_holdOff->setSuffix(tr(" s"));
     m_mode = new QComboBox(this);
     m_mode->setAccessibleName(tr("Mode of the trigger"));
     m_mode->addItems({tr("Auto"), tr("Normal"), tr("Single")});
@@ -91,29 +93,25 @@ void TriggerBar::makeControls()
     m_arm->setToolTip(tr("Forget the events so far and wait for the next one"));
     m_state = new QLabel(this);
     m_count = new QLabel(this);
-    for (QComboBox *box : {m_signal, m_kind, m_mode})
-        connect(box, QOverload<int>::of(&QComboBox::activated), this, &TriggerBar::takeEdits);
-    connect(m_linked, &QCheckBox::toggled, this, &TriggerBar::takeEdits);
-    connect(m_files, &EventFileEditor::edited, this, [this] {
-        arm();
-        Q_EMIT settingsEdited();
-    });
+    const auto activated = QOverload<int>::of(&QComboBox::activated);
+    connect(m_signal, activated, this, &TriggerBar::chooseSignal);
+    connect(m_kind, activated, this, [this](int kind) { edit(&Trigger::Settings::kind, Trigger::Kind(kind)); });
+    connect(m_mode, activated, this, [this](int mode) { edit(&Trigger::Settings::mode, Trigger::Mode(mode)); });
+    connect(m_linked, &QCheckBox::toggled, this, &TriggerBar::chooseLink);
+    connect(m_files, &EventFileEditor::edited, this, &TriggerBar::begin);
     connect(m_arm, &QToolButton::clicked, this, &TriggerBar::arm);
 }
 
-QDoubleSpinBox *TriggerBar::addNumber(const QString &name, double minimum, const QString &suffix)
+/// \param shown  that a number of 1 is shown as
+NumberBox *TriggerBar::addNumber(const QString &name, double minimum, double Trigger::Settings::*number, double shown)
 {
-    auto *box = new QDoubleSpinBox(this);
-    box->setRange(minimum, largest);
-    box->setDecimals(3);
-    box->setSuffix(suffix);
+    auto *box = new NumberBox(minimum, largest, this);
     box->setAccessibleName(name);
     box->setToolTip(name);
-    box->setKeyboardTracking(false);
-    box->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
     box->setButtonSymbols(QAbstractSpinBox::NoButtons);
-    box->setMaximumWidth(90);
-    connect(box, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this, &TriggerBar::takeEdits);
+    box->setFixedWidth(90);
+    connect(box, QOverload<double>::of(&NumberBox::valueChanged), this,
+            [this, number, shown](double value) { edit(number, value / shown); });
     return box;
 }
 
@@ -285,7 +283,7 @@ void TriggerBar::showSettings()
     m_level->setValue(settings.level);
     m_upperLevel->setValue(settings.upperLevel);
     m_hysteresis->setValue(settings.hysteresis);
-    m_preShare->setValue(100.0 * settings.preShare);
+    m_preShare->setValue(percent * settings.preShare);
     m_holdOff->setValue(settings.holdOff);
     m_isFilling = false;
     showUpperLevel();
@@ -297,27 +295,38 @@ bool TriggerBar::hasWindow() const
     return m_trigger.settings().kind == Trigger::EntersWindow || m_trigger.settings().kind == Trigger::LeavesWindow;
 }
 
-void TriggerBar::takeEdits()
+/// What a person has changed, and nothing else.
+template<typename Number>
+void TriggerBar::edit(Number Trigger::Settings::*member, Number value)
 {
-    if (m_isFilling)
-        return;
     Trigger::Settings settings = m_trigger.settings();
-    settings.kind = Trigger::Kind(m_kind->currentIndex());
-    settings.mode = Trigger::Mode(m_mode->currentIndex());
-    settings.level = m_level->value();
-    settings.upperLevel = m_upperLevel->value();
-    settings.hysteresis = m_hysteresis->value();
-    settings.preShare = m_preShare->value() / 100.0;
-    settings.holdOff = m_holdOff->value();
-    const bool isOtherSignal = m_wanted != m_signal->currentText();
-    if (settings == m_trigger.settings() && !isOtherSignal && m_linked->isChecked() == m_isLinked)
+    if (m_isFilling || settings.*member == value)
         return;
-    link(m_linked->isChecked());
-    m_wanted = m_signal->currentText();
+    settings.*member = value;
     m_trigger.setSettings(settings);
     showSettings();
-    if (isOtherSignal)
-        findSource();
+    begin();
+}
+
+void TriggerBar::chooseSignal()
+{
+    if (m_wanted == m_signal->currentText())
+        return;
+    m_wanted = m_signal->currentText();
+    findSource();
+    begin();
+}
+
+void TriggerBar::chooseLink(bool isLinked)
+{
+    if (m_isFilling || isLinked == m_isLinked)
+        return;
+    link(isLinked);
+    begin();
+}
+
+void TriggerBar::begin()
+{
     arm();
     Q_EMIT settingsEdited();
 }
@@ -328,7 +337,7 @@ void TriggerBar::findSource()
     m_source = isWanted ? m_context->curveSources()->find(m_wanted) : CurveSource();
     m_signal->setToolTip(m_source.error);
     const QString unit = m_source.unit.isEmpty() ? QString() : QLatin1Char(' ') + m_source.unit;
-    for (QDoubleSpinBox *box : {m_level, m_upperLevel, m_hysteresis})
+    for (NumberBox *box : {m_level, m_upperLevel, m_hysteresis})
         box->setSuffix(unit);
     arm();
 }

@@ -11,7 +11,6 @@
 
 class QCheckBox;
 class QComboBox;
-class QDoubleSpinBox;
 class QFormLayout;
 class QHBoxLayout;
 class QLabel;
@@ -20,6 +19,7 @@ class QToolButton;
 namespace qplc {
 
 class EventFileEditor;
+class NumberBox;
 class TimeView;
 class WindowContext;
 
@@ -92,9 +92,13 @@ private:
     void release();
     void showUpperLevel();
     TimeView *time() const;
-    QDoubleSpinBox *addNumber(const QString &name, double minimum, const QString &suffix);
+    NumberBox *addNumber(const QString &name, double minimum, double Trigger::Settings::*number, double shown = 1.0);
     void findSource();
-    void takeEdits();
+    template<typename Number>
+    void edit(Number Trigger::Settings::*member, Number value);
+    void chooseSignal();
+    void chooseLink(bool isLinked);
+    void begin();
     void showSettings();
     void take(Plant *plant);
     void follow(Plant *plant);
@@ -122,11 +126,11 @@ private:
     bool m_isFilling = false;  // controls follow settings, not the other way round
     QComboBox *m_signal = nullptr;
     QComboBox *m_kind = nullptr;
-    QDoubleSpinBox *m_level = nullptr;
-    QDoubleSpinBox *m_upperLevel = nullptr;
-    QDoubleSpinBox *m_hysteresis = nullptr;
-    QDoubleSpinBox *m_preShare = nullptr;
-    QDoubleSpinBox *m_holdOff = nullptr;
+    NumberBox *m_level = nullptr;
+    NumberBox *m_upperLevel = nullptr;
+    NumberBox *m_hysteresis = nullptr;
+    NumberBox *m_preShare = nullptr;  // [%]
+    NumberBox *m_holdOff = nullptr;
     QComboBox *m_mode = nullptr;
     QCheckBox *m_linked = nullptr;
     EventFileEditor *m_files = nullptr;

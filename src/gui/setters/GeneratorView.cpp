@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "GeneratorView.h"
 
+#include "gui/panel/NumberBox.h"
+
+#include <QtCore/QSignalBlocker>
 #include <QtWidgets/QComboBox>
-#include <QtWidgets/QDoubleSpinBox>
 #include <QtWidgets/QGridLayout>
 #include <QtWidgets/QLabel>
 #include <QtWidgets/QPushButton>
@@ -52,52 +54,43 @@ void GeneratorView::makeFields()
     m_start = new QPushButton(tr("Start"), this);
     grid->addWidget(m_shape, 0, 0, 1, 2);
     grid->addWidget(m_start, 0, 2);
-    m_amplitude = makeField(tr("Amplitude"), 1, 0);
-    m_offset = makeField(tr("Offset"), 1, 1);
-    m_period = makeField(tr("Period"), 1, 2);
+    m_amplitude = makeField(tr("Amplitude"), 0, &Waveform::amplitude);
+    m_offset = makeField(tr("Offset"), 1, &Waveform::offset);
+    m_period = makeField(tr("Period"), 2, &Waveform::period);
     m_period->setRange(shortestPeriod, longestPeriod);
     m_period->setSuffix(QStringLiteral(" s"));
     m_period->setPrefix(QStringLiteral("T "));
     m_amplitude->setPrefix(QStringLiteral("± "));
     m_offset->setPrefix(QStringLiteral("∅ "));
     setFocusProxy(m_start);
-    connect(m_shape, qOverload<int>(&QComboBox::activated), this, &GeneratorView::edited);
+    connect(m_shape, qOverload<int>(&QComboBox::activated), this, [this](int shape) {
+        m_waveform.shape = Waveform::Shape(shape);
+        Q_EMIT settingsEdited();
+    });
 }
 
-QDoubleSpinBox *GeneratorView::makeField(const QString &name, int row, int column)
+NumberBox *GeneratorView::makeField(const QString &name, int column, double Waveform::*number)
 {
-    auto *field = new QDoubleSpinBox(this);
-    field->setRange(-largest, largest);
-    field->setDecimals(3);
-    field->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
-    field->setKeyboardTracking(false);
+    auto *field = new NumberBox(-largest, largest, this);
     field->setButtonSymbols(QAbstractSpinBox::NoButtons);
     field->setMinimumWidth(60);
     field->setToolTip(name);
     field->setAccessibleName(name);
-    static_cast<QGridLayout *>(layout())->addWidget(field, row, column);
-    connect(field, qOverload<double>(&QDoubleSpinBox::valueChanged), this, &GeneratorView::edited);
+    static_cast<QGridLayout *>(layout())->addWidget(field, 1, column);
+    connect(field, qOverload<double>(&NumberBox::valueChanged), this, [this, number](double value) {
+        m_waveform.*number = value;
+        Q_EMIT settingsEdited();
+    });
     return field;
-}
-
-void GeneratorView::edited()
-{
-    m_waveform = {Waveform::Shape(m_shape->currentIndex()), m_amplitude->value(), m_offset->value(), m_period->value()};
-    Q_EMIT settingsEdited();
 }
 
 void GeneratorView::showWaveform()
 {
-    for (QObject *field :
-         {static_cast<QObject *>(m_amplitude), static_cast<QObject *>(m_offset), static_cast<QObject *>(m_period)})
-        field->blockSignals(true);
+    const QSignalBlocker blockers[] = {QSignalBlocker(m_amplitude), QSignalBlocker(m_offset), QSignalBlocker(m_period)};
     m_shape->setCurrentIndex(m_waveform.shape);
     m_amplitude->setValue(m_waveform.amplitude);
     m_offset->setValue(m_waveform.offset);
     m_period->setValue(m_waveform.period);
-    for (QObject *field :
-         {static_cast<QObject *>(m_amplitude), static_cast<QObject *>(m_offset), static_cast<QObject *>(m_period)})
-        field->blockSignals(false);
 }
 
 void GeneratorView::refresh()

@@ -8,10 +8,11 @@
 #include <QtCore/QTimer>
 
 class QComboBox;
-class QDoubleSpinBox;
 class QPushButton;
 
 namespace qplc {
+
+class NumberBox;
 
 /// A test signal: steps, ramps or a sine, a new value every 20 ms. Stops with neutral when it is hidden, when the phase of the plant ends, and when control is lost.
 class GeneratorView : public SetterView
@@ -32,8 +33,7 @@ protected:
 
 private:
     void makeFields();
-    QDoubleSpinBox *makeField(const QString &name, int row, int column);
-    void edited();
+    NumberBox *makeField(const QString &name, int column, double Waveform::*number);
     void showWaveform();
     void toggle();
     void start();
@@ -43,9 +43,9 @@ private:
 
     Waveform m_waveform;
     QComboBox *m_shape = nullptr;
-    QDoubleSpinBox *m_amplitude = nullptr;
-    QDoubleSpinBox *m_offset = nullptr;
-    QDoubleSpinBox *m_period = nullptr;
+    NumberBox *m_amplitude = nullptr;
+    NumberBox *m_offset = nullptr;
+    NumberBox *m_period = nullptr;
     QPushButton *m_start = nullptr;
     QTimer m_timer;
     QElapsedTimer m_time;

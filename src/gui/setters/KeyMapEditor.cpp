@@ -5,9 +5,9 @@
 #include "Gamepad.h"
 #include "KeyButton.h"
 #include "gui/panel/EndOfEditor.h"
+#include "gui/panel/NumberBox.h"
 
 #include <QtWidgets/QComboBox>
-#include <QtWidgets/QDoubleSpinBox>
 #include <QtWidgets/QGridLayout>
 #include <QtWidgets/QLabel>
 #include <QtWidgets/QLineEdit>
@@ -128,15 +128,13 @@ void KeyMapEditor::addSignalField(QGridLayout *grid, int row, int column,
 void KeyMapEditor::addNumber(QGridLayout *grid, int row, int column, const QString &name,
                              const std::function<double &()> &number, double smallest, double largestNumber)
 {
-    auto *field = new QDoubleSpinBox(m_content);
-    field->setRange(smallest, largestNumber);
-    field->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
-    field->setKeyboardTracking(false);
+    auto *field = new NumberBox(smallest, largestNumber, m_content);
+    field->setMinimumWidth(64);
     field->setMaximumWidth(90);
     field->setValue(number());
     field->setToolTip(name);
     field->setAccessibleName(name);
-    connect(field, qOverload<double>(&QDoubleSpinBox::valueChanged), this, [this, number](double value) {
+    connect(field, qOverload<double>(&NumberBox::valueChanged), this, [this, number](double value) {
         number() = value;
         changed();
     });

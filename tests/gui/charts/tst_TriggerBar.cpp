@@ -32,6 +32,8 @@ private Q_SLOTS:
     void settingsComeBackAsTheyWere();
     void theFirstSignalIsChosenUntilAPersonDoes();
     void aPersonsChoiceIsTold();
+    void numbersOfAnySizeStayAsTheyAre();
+    void aSmallLevelIsWritten();
     void windowsHaveTwoLevels();
     void anEventMovesTheViewOfTheWindow();
     void aHiddenBarRests();
@@ -70,6 +72,34 @@ void tst_TriggerBar::aPersonsChoiceIsTold()
     control<QDoubleSpinBox>(bar, "Level")->setValue(4.5);
     QCOMPARE(edited.size(), 2);
     QCOMPARE(bar.settings(), objectOf(R"({"signal":"a","mode":"single","level":4.5})"));
+}
+
+void tst_TriggerBar::numbersOfAnySizeStayAsTheyAre()
+{
+    TriggerBar bar;
+    QJsonObject all = objectOf(R"({"signal":"a","level":0.0003,"upperLevel":0.00031234567890123,"hysteresis":1e-9,)"
+                               R"("pre":0.123,"holdOff":0.0004})");
+    bar.applySettings(all);
+    QCOMPARE(control<QDoubleSpinBox>(bar, "Level")->text(), QStringLiteral("0.0003"));
+    auto *mode = control<QComboBox>(bar, "Mode of the trigger");
+    mode->setCurrentIndex(Trigger::Single);
+    Q_EMIT mode->activated(Trigger::Single);
+    all.insert(QStringLiteral("mode"), QStringLiteral("single"));
+    QCOMPARE(bar.settings(), all);
+}
+
+void tst_TriggerBar::aSmallLevelIsWritten()
+{
+    TriggerBar bar;
+    bar.setSignals({"a"});
+    auto *level = control<QDoubleSpinBox>(bar, "Level");
+    level->selectAll();
+    QTest::keyClicks(level, QStringLiteral("2.5e-4"));
+    QCOMPARE(bar.trigger().settings().level, 0.0);  // not complete
+    QTest::keyClick(level, Qt::Key_Return);
+    QCOMPARE(bar.trigger().settings().level, 2.5e-4);
+    control<QDoubleSpinBox>(bar, "Before the event")->setValue(12.0);
+    QCOMPARE(bar.settings(), objectOf(R"({"signal":"a","level":0.00025,"pre":0.12})"));
 }
 
 void tst_TriggerBar::windowsHaveTwoLevels()

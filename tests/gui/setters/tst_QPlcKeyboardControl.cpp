@@ -6,6 +6,7 @@
 #include "gui/setters/KeyMapView.h"
 
 #include <QtCore/QJsonArray>
+#include <QtWidgets/QDoubleSpinBox>
 #include <QtWidgets/QLineEdit>
 #include <QtWidgets/QVBoxLayout>
 
@@ -59,6 +60,7 @@ private Q_SLOTS:
     void aPlantThatIsLetGoIsMissing_data();
     void aPlantThatIsLetGoIsMissing();
     void keysAreEdited();
+    void valuesOfKeysMayBeSmall();
     void withoutAGamepadNothingIsShownOfIt();
     void withoutPlantOrKeysThePanelIsCalm();
 };
@@ -249,6 +251,19 @@ void tst_QPlcKeyboardControl::keysAreEdited()
     QTest::mouseClick(buttonOf(editor.get(), QStringLiteral("×")), Qt::LeftButton);
     QCOMPARE(edited.size(), 2);
     QCOMPARE(panel.settings().value("keys").toArray().at(0).toObject().value("key").toString(), QStringLiteral("W"));
+}
+
+void tst_QPlcKeyboardControl::valuesOfKeysMayBeSmall()
+{
+    QPlcKeyboardControl panel;
+    panel.applySettings({{"keys", QJsonArray{QJsonObject{{"key", "Left"}, {"signal", "echo"}, {"value", 0.00025}}}}});
+    const std::unique_ptr<QWidget> editor(panel.createSettingsEditor());
+    editor->show();
+    auto *value = editor->findChild<QDoubleSpinBox *>();
+    QCOMPARE(value->text(), QStringLiteral("0.00025"));
+    value->selectAll();
+    QTest::keyClicks(value, QStringLiteral("-4e-5\r"));
+    QCOMPARE(panel.settings().value("keys").toArray().at(0).toObject().value("value").toDouble(), -4e-5);
 }
 
 void tst_QPlcKeyboardControl::withoutAGamepadNothingIsShownOfIt()

@@ -3,6 +3,7 @@
 #include "SetterFixtures.h"
 
 #include <QtWidgets/QComboBox>
+#include <QtWidgets/QDoubleSpinBox>
 #include <QtWidgets/QLineEdit>
 #include <QtWidgets/QPushButton>
 #include <QtWidgets/QSlider>
@@ -37,6 +38,7 @@ private Q_SLOTS:
     void aButtonIsAValueWhileItIsHeld_data();
     void aButtonIsAValueWhileItIsHeld();
     void aHeldButtonIsNeutralWhenTheWindowIsLost();
+    void aGeneratorKeepsNumbersOfAnySize();
     void aGeneratorRunsAndEndsInNeutral_data();
     void aGeneratorRunsAndEndsInNeutral();
     void whatANodeWritesIsTakenOverFirst();
@@ -286,6 +288,25 @@ void tst_QPlcSetter::aHeldButtonIsNeutralWhenTheWindowIsLost()
     QTRY_COMPARE(master.valueOf(setpoint), 0.0);
     QVERIFY(!button->isDown());
     QVERIFY(labelsOf(&setter).contains(QStringLiteral("Control was lost")));
+}
+
+void tst_QPlcSetter::aGeneratorKeepsNumbersOfAnySize()
+{
+    QPlcSetter setter;
+    QJsonObject waveform{{"amplitude", 0.00025}, {"offset", -0.00012345678912}};
+    const auto settings = [&waveform] {
+        return QJsonObject{{"signal", "echo"}, {"style", "generator"}, {"generator", waveform}};
+    };
+    setter.applySettings(settings());
+    QStringList texts;
+    for (const QDoubleSpinBox *field : setter.findChildren<QDoubleSpinBox *>())
+        texts << field->text();
+    QVERIFY2(texts.contains(QStringLiteral("± 0.00025")), qPrintable(texts.join(QStringLiteral("; "))));
+    auto *shape = setter.findChild<QComboBox *>();
+    shape->setCurrentIndex(0);
+    Q_EMIT shape->activated(0);
+    waveform.insert("shape", "step");
+    QCOMPARE(setter.settings(), settings());
 }
 
 void tst_QPlcSetter::aGeneratorRunsAndEndsInNeutral_data()
