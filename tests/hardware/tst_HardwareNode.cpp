@@ -1,64 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // A hardware node at a master, with devices that the test holds.
-#include "BenchDriver.h"
-#include "NodeFixtures.h"
-#include "QPlcHardwareNode.h"
 #include "ThreadCosts.h"
-
-#include <QtTest/QtTest>
-
-namespace {
-
-QPlcSignalTable winchTable()
-{
-    QVector<QPlcParseError> errors;
-    const QPlcSignalTable table = QPlcSignalTable::fromIni(R"(
-[speed]
-type = Real64
-safe = -7
-hold = 2
-[torque]
-type = Real64
-safe = 3
-hold = 1000
-[brake]
-type = Bool
-safe = 1
-hold = 1000
-[small]
-type = Int8
-[pair]
-type = Real32[2]
-[online]
-type = Bool
-)",
-                                                           &errors);
-    Q_ASSERT_X(errors.isEmpty(), "winchTable", qPrintable(QPlcParseError::toString(errors)));
-    return table;
-}
-
-const QByteArray wiring = "[node]\nname = Winch\n[drive]\ndriver = bench\ndevice = bench0\n"
-                          "[drive.read]\nspeed = speed * 2 + 1\nonline = @online\n"
-                          "[drive.write]\ntorque = torque * 10\nbrake = brake\n";
-
-void addKinds()
-{
-    QTest::addColumn<QString>("kind");
-    QTest::addColumn<int>("pace");
-    for (const char *kind : {"local", "tcp", "udp"}) {
-        QTest::addRow("%s, every cycle", kind) << QString(kind) << int(QPlcDriver::EveryCycle);
-        QTest::addRow("%s, own pace", kind) << QString(kind) << int(QPlcDriver::OwnPace);
-    }
-}
-
-}  // namespace
+#include "WinchBench.h"
 
 class tst_HardwareNode : public QObject
 {
     Q_OBJECT
 
 private Q_SLOTS:
-    void init();
+    void init() { m_bench.init(); }
     void signalsAndDevicesAreTied_data() { addKinds(); }
     void signalsAndDevicesAreTied();
     void theDeviceIsSafeBeforeAndAfterAPhase_data() { addKinds(); }
@@ -76,11 +26,6 @@ private Q_SLOTS:
     void valuesThatDoNotFitTheSignalAreNone();
     void elementsOfAnArrayComeFromDifferentChannels();
     void aSignalMayGoToSeveralChannelsAndANumberToOne();
-    void aPressedButtonStopsThePlantSafely_data() { addKinds(); }
-    void aPressedButtonStopsThePlantSafely();
-    void aButtonThatIsSlowAtFirstStopsNothing_data() { addKinds(); }
-    void aButtonThatIsSlowAtFirstStopsNothing();
-    void aButtonWithoutAValueStopsThePlantToo();
     void devicesAreNotClosedWhileCyclesRun_data() { addKinds(); }
     void devicesAreNotClosedWhileCyclesRun();
     void aSignalThatIsNotInTheTableIsNamed();
@@ -88,32 +33,15 @@ private Q_SLOTS:
     void aCycleTakesNoMemoryAndNoLock();
 
 private:
-    bool start(TestMaster &master);
-
-    std::shared_ptr<BenchDevice> m_device;
-    QPlcDriver::Pace m_pace = QPlcDriver::EveryCycle;
+    WinchBench m_bench;
 };
-
-void tst_HardwareNode::init()
-{
-    QPlcSignalIndexTable::setCurrent({});
-    m_device = std::make_shared<BenchDevice>();
-    m_pace = QPlcDriver::EveryCycle;
-    QPlcHardwareNode::addDriverKind("bench", "memory of the test",
-                                    [this] { return std::make_unique<BenchDriver>(m_device, m_pace); });
-}
-
-bool tst_HardwareNode::start(TestMaster &master)
-{
-    return master.startRealTime() && master.waitForState(QPlcMasterNode::RealTime);
-}
 
 void tst_HardwareNode::signalsAndDevicesAreTied()
 {
     QFETCH(QString, kind);
     QFETCH(int, pace);
-    m_pace = QPlcDriver::Pace(pace);
-    m_device->speed = 4.0;
+    m_bench.pace = QPlcDriver::Pace(pace);
+    m_bench.device->speed = 4.0;
     TestMaster master(QPlcClock::realTime(), winchTable());
     QVERIFY(master.listen());
     QPlcHardwareNode node;
@@ -121,14 +49,14 @@ void tst_HardwareNode::signalsAndDevicesAreTied()
     QVERIFY(master.admit(node, kind));
     QVERIFY(master.setSignalValue("torque", 0.5));
     QVERIFY(master.setSignalValue("brake", 0));
-    QVERIFY(start(master));
+    QVERIFY(WinchBench::start(master));
     QTRY_COMPARE(master.signalValue("speed").toReal(), 9.0);
-    QTRY_COMPARE(m_device->torque.load(), 5.0);
-    QTRY_COMPARE(m_device->brake.load(), 0.0);
-    QVERIFY(!m_device->torqueWasSafe);
+    QTRY_COMPARE(m_bench.device->torque.load(), 5.0);
+    QTRY_COMPARE(m_bench.device->brake.load(), 0.0);
+    QVERIFY(!m_bench.device->torqueWasSafe);
     QCOMPARE(master.signalValue("online").toInt(), 1);
     QVERIFY(node.drivers().first().isOnline);
-    m_device->speed = -1.0;
+    m_bench.device->speed = -1.0;
     QTRY_COMPARE(master.signalValue("speed").toReal(), -1.0);
     node.disconnectFromMaster();
 }
@@ -137,7 +65,7 @@ void tst_HardwareNode::theDeviceIsSafeBeforeAndAfterAPhase()
 {
     QFETCH(QString, kind);
     QFETCH(int, pace);
-    m_pace = QPlcDriver::Pace(pace);
+    m_bench.pace = QPlcDriver::Pace(pace);
     TestMaster master(QPlcClock::realTime(), winchTable());
     QVERIFY(master.listen());
     QPlcHardwareNode node;
@@ -145,19 +73,19 @@ void tst_HardwareNode::theDeviceIsSafeBeforeAndAfterAPhase()
     QVERIFY(master.admit(node, kind));
     node.openDevices();
     QTRY_VERIFY(node.drivers().first().isOnline);
-    QCOMPARE(m_device->brake.load(), -1.0);  // nothing is known of what is safe
+    QCOMPARE(m_bench.device->brake.load(), -1.0);  // nothing is known of what is safe
     QVERIFY(master.setSignalValue("torque", 0.5));
     QVERIFY(master.setSignalValue("brake", 0));
     QVERIFY(master.initializeAllStates());
     QVERIFY(master.waitForState(QPlcMasterNode::Ready));
-    QTRY_COMPARE(m_device->torque.load(), 30.0);
-    QTRY_COMPARE(m_device->brake.load(), 1.0);
-    QVERIFY(start(master));
-    QTRY_COMPARE(m_device->torque.load(), 5.0);
+    QTRY_COMPARE(m_bench.device->torque.load(), 30.0);
+    QTRY_COMPARE(m_bench.device->brake.load(), 1.0);
+    QVERIFY(WinchBench::start(master));
+    QTRY_COMPARE(m_bench.device->torque.load(), 5.0);
     master.stop();
-    QTRY_COMPARE(m_device->torque.load(), 30.0);
-    QTRY_COMPARE(m_device->brake.load(), 1.0);
-    QVERIFY(m_device->torqueWasSafe);
+    QTRY_COMPARE(m_bench.device->torque.load(), 30.0);
+    QTRY_COMPARE(m_bench.device->brake.load(), 1.0);
+    QVERIFY(m_bench.device->torqueWasSafe);
     node.disconnectFromMaster();
 }
 
@@ -165,22 +93,22 @@ void tst_HardwareNode::aDeviceThatTakesNothingAtTheEndIsSafeAsSoonAsItDoes()
 {
     QFETCH(QString, kind);
     QFETCH(int, pace);
-    m_pace = QPlcDriver::Pace(pace);
+    m_bench.pace = QPlcDriver::Pace(pace);
     TestMaster master(QPlcClock::realTime(), winchTable());
     QVERIFY(master.listen());
     QPlcHardwareNode node;
     QVERIFY(node.configure(wiring, "winch.ini"));
     QVERIFY(master.admit(node, kind));
     QVERIFY(master.setSignalValue("torque", 0.5));
-    QVERIFY(start(master));
-    QTRY_COMPARE(m_device->torque.load(), 5.0);
+    QVERIFY(WinchBench::start(master));
+    QTRY_COMPARE(m_bench.device->torque.load(), 5.0);
     QSignalSpy safe(&node, &QPlcHardwareNode::safeStateEntered);
-    m_device->isFull = true;
+    m_bench.device->isFull = true;
     master.stop();
     QTRY_COMPARE(safe.size(), 1);
-    QCOMPARE(m_device->torque.load(), 5.0);
-    m_device->isFull = false;
-    QTRY_COMPARE(m_device->torque.load(), 30.0);
+    QCOMPARE(m_bench.device->torque.load(), 5.0);
+    m_bench.device->isFull = false;
+    QTRY_COMPARE(m_bench.device->torque.load(), 30.0);
     node.disconnectFromMaster();
 }
 
@@ -190,7 +118,7 @@ void tst_HardwareNode::theDeviceIsSafeWhenTheMasterIsLost()
     QFETCH(int, pace);
     if (kind == QLatin1String("local"))
         return;  // it ends with its master
-    m_pace = QPlcDriver::Pace(pace);
+    m_bench.pace = QPlcDriver::Pace(pace);
     auto master = std::make_unique<TestMaster>(QPlcClock::realTime(), winchTable());
     QVERIFY(master->listen());
     QPlcHardwareNode node;
@@ -198,11 +126,11 @@ void tst_HardwareNode::theDeviceIsSafeWhenTheMasterIsLost()
     QVERIFY(master->admit(node, kind));
     QVERIFY(master->setSignalValue("torque", 0.5));
     QVERIFY(start(*master));
-    QTRY_COMPARE(m_device->torque.load(), 5.0);
+    QTRY_COMPARE(m_bench.device->torque.load(), 5.0);
     LogCapture log;
     master.reset();
-    QTRY_COMPARE(m_device->torque.load(), 30.0);
-    QTRY_COMPARE(m_device->brake.load(), 1.0);
+    QTRY_COMPARE(m_bench.device->torque.load(), 30.0);
+    QTRY_COMPARE(m_bench.device->brake.load(), 1.0);
     node.disconnectFromMaster();
 }
 
@@ -218,10 +146,10 @@ void tst_HardwareNode::theDeviceIsSafeWhenTheLinkIsCut()
     QVERIFY(master.setSignalValue("torque", 0.5));
     QSignalSpy barked(&node, &QPlcSlaveNode::watchdogTimedOut);
     LogCapture log;
-    QVERIFY(start(master));
-    QTRY_COMPARE(m_device->torque.load(), 5.0);
-    QTRY_COMPARE(m_device->torque.load(), 30.0);
-    QTRY_COMPARE(m_device->brake.load(), 1.0);
+    QVERIFY(WinchBench::start(master));
+    QTRY_COMPARE(m_bench.device->torque.load(), 5.0);
+    QTRY_COMPARE(m_bench.device->torque.load(), 30.0);
+    QTRY_COMPARE(m_bench.device->brake.load(), 1.0);
     QTRY_COMPARE(barked.size(), 1);
     node.disconnectFromMaster();
 }
@@ -241,7 +169,7 @@ void tst_HardwareNode::theDeviceOfAListenerIsSafeWhenThePlantStopsSafely()
 {
     QFETCH(QString, kind);
     QFETCH(int, pace);
-    m_pace = QPlcDriver::Pace(pace);
+    m_bench.pace = QPlcDriver::Pace(pace);
     TestMaster master(QPlcClock::realTime(), winchTable());
     QVERIFY(master.listen());
     QPlcHardwareNode node;
@@ -251,16 +179,16 @@ void tst_HardwareNode::theDeviceOfAListenerIsSafeWhenThePlantStopsSafely()
                            "lamp.ini"));
     QVERIFY(master.admit(node, kind));
     QVERIFY(master.setSignalValue("torque", 0.5));
-    QVERIFY(start(master));
-    QTRY_COMPARE(m_device->torque.load(), 5.0);
-    QTRY_COMPARE(m_device->brake.load(), 0.0);
+    QVERIFY(WinchBench::start(master));
+    QTRY_COMPARE(m_bench.device->torque.load(), 5.0);
+    QTRY_COMPARE(m_bench.device->brake.load(), 0.0);
     LogCapture log;
     master.safeStop();
-    QTRY_COMPARE(m_device->brake.load(), 1.0);
+    QTRY_COMPARE(m_bench.device->brake.load(), 1.0);
     QVERIFY(master.waitForCycles(master.statistics().cycles + 20));
-    QCOMPARE(m_device->torque.load(), 30.0);
-    QCOMPARE(m_device->brake.load(), 1.0);
-    QVERIFY(m_device->torqueWasSafe);
+    QCOMPARE(m_bench.device->torque.load(), 30.0);
+    QCOMPARE(m_bench.device->brake.load(), 1.0);
+    QVERIFY(m_bench.device->torqueWasSafe);
     node.disconnectFromMaster();
 }
 
@@ -271,19 +199,19 @@ void tst_HardwareNode::theConfigurationKnowsBetterThanTheTable()
         QPlcHardwareNode node;
         QVERIFY(node.configure(wiring + "[drive.safe]\ntorque = -2\n", "winch.ini"));
         node.openDevices();
-        QTRY_COMPARE(m_device->torque.load(), -2.0);  // before there is a master
+        QTRY_COMPARE(m_bench.device->torque.load(), -2.0);  // before there is a master
         QVERIFY(master.addLocalNode(&node));
         QVERIFY(master.setSignalValue("torque", 0.5));
-        QVERIFY(start(master));
-        QTRY_COMPARE(m_device->torque.load(), 5.0);
+        QVERIFY(WinchBench::start(master));
+        QTRY_COMPARE(m_bench.device->torque.load(), 5.0);
         master.stop();
         QVERIFY(master.waitForState(QPlcMasterNode::Off));
-        QTRY_COMPARE(m_device->torque.load(), -2.0);
-        QVERIFY(start(master));
-        QTRY_COMPARE(m_device->torque.load(), 5.0);
+        QTRY_COMPARE(m_bench.device->torque.load(), -2.0);
+        QVERIFY(WinchBench::start(master));
+        QTRY_COMPARE(m_bench.device->torque.load(), 5.0);
     }
-    QCOMPARE(m_device->torqueAtClose.load(), -2.0);  // the node has ended in the middle of a phase
-    QCOMPARE(m_device->closed.load(), 1);
+    QCOMPARE(m_bench.device->torqueAtClose.load(), -2.0);  // the node has ended in the middle of a phase
+    QCOMPARE(m_bench.device->closed.load(), 1);
 }
 
 void tst_HardwareNode::aLostDeviceIsHeldThenSafeAndComesBack()
@@ -293,14 +221,14 @@ void tst_HardwareNode::aLostDeviceIsHeldThenSafeAndComesBack()
     QVERIFY(node.configure(wiring, "winch.ini"));
     QSignalSpy failed(&node, &QPlcHardwareNode::deviceFailed);
     QSignalSpy opened(&node, &QPlcHardwareNode::deviceOpened);
-    m_device->speed = 4.0;
+    m_bench.device->speed = 4.0;
     QVERIFY(master.addLocalNode(&node));
-    QVERIFY(start(master));
+    QVERIFY(WinchBench::start(master));
     QTRY_COMPARE(master.signalValue("speed").toReal(), 9.0);
     QTRY_COMPARE(opened.size(), 1);
     LogCapture log;
-    m_device->isPlugged = false;
-    m_device->isBroken = true;
+    m_bench.device->isPlugged = false;
+    m_bench.device->isBroken = true;
     QTRY_COMPARE(master.signalQuality("speed").kind(), QPlcQuality::Safe);
     QCOMPARE(master.signalValue("speed").toReal(), -7.0);
     QCOMPARE(master.signalValue("online").toInt(), 0);
@@ -308,8 +236,8 @@ void tst_HardwareNode::aLostDeviceIsHeldThenSafeAndComesBack()
     QCOMPARE(failed.at(1).at(1).toString(), QString("there is no device 'bench0'; plug it in"));
     QCOMPARE(node.drivers().first().failures, quint64(1));
     QTRY_VERIFY(!log.matching("device 'drive': there is no device 'bench0'; plug it in (trying again)").isEmpty());
-    m_device->isBroken = false;
-    m_device->isPlugged = true;
+    m_bench.device->isBroken = false;
+    m_bench.device->isPlugged = true;
     QTRY_COMPARE(master.signalValue("speed").toReal(), 9.0);
     QCOMPARE(master.signalQuality("speed").kind(), QPlcQuality::Good);
     QTRY_COMPARE(opened.size(), 2);
@@ -321,15 +249,15 @@ void tst_HardwareNode::valuesThatDoNotFitTheSignalAreNone()
     TestMaster master(QPlcClock::realTime(), winchTable());
     QPlcHardwareNode node("Winch");
     QVERIFY(node.configure("[drive]\ndriver = bench\ndevice = b\n[drive.read]\nsmall = speed\n", "winch.ini"));
-    m_device->speed = 127.4;
+    m_bench.device->speed = 127.4;
     QVERIFY(master.addLocalNode(&node));
-    QVERIFY(start(master));
+    QVERIFY(WinchBench::start(master));
     QTRY_COMPARE(master.signalValue("small").toInt(), 127);
-    m_device->speed = 127.6;
+    m_bench.device->speed = 127.6;
     QTRY_COMPARE(master.signalQuality("small").kind(), QPlcQuality::Safe);
-    m_device->speed = -128.4;
+    m_bench.device->speed = -128.4;
     QTRY_COMPARE(master.signalValue("small").toInt(), -128);
-    m_device->speed = qQNaN();
+    m_bench.device->speed = qQNaN();
     QTRY_COMPARE(master.signalQuality("small").kind(), QPlcQuality::Safe);
 }
 
@@ -340,9 +268,9 @@ void tst_HardwareNode::elementsOfAnArrayComeFromDifferentChannels()
     QVERIFY(node.configure(
         "[drive]\ndriver = bench\ndevice = b\n[drive.read]\npair[1] = speed * 3\npair[0] = @failures + 8\n",
         "winch.ini"));
-    m_device->speed = 2.0;
+    m_bench.device->speed = 2.0;
     QVERIFY(master.addLocalNode(&node));
-    QVERIFY(start(master));
+    QVERIFY(WinchBench::start(master));
     QTRY_COMPARE(master.signalValue("pair").toString(), QString("8, 6"));
 }
 
@@ -363,95 +291,40 @@ void tst_HardwareNode::aSignalMayGoToSeveralChannelsAndANumberToOne()
     QTRY_COMPARE(other->brake.load(), 0.0);
     QVERIFY(master.addLocalNode(&node) && master.addLocalNode(&enabler));
     QVERIFY(master.setSignalValue("torque", 0.75));
-    QVERIFY(start(master));
-    QTRY_COMPARE(m_device->torque.load(), 1.5);
-    QTRY_COMPARE(m_device->brake.load(), 1.0);
+    QVERIFY(WinchBench::start(master));
+    QTRY_COMPARE(m_bench.device->torque.load(), 1.5);
+    QTRY_COMPARE(m_bench.device->brake.load(), 1.0);
     QTRY_COMPARE(other->brake.load(), 1.0);
     master.stop();
     QTRY_COMPARE(other->brake.load(), 0.0);
-}
-
-void tst_HardwareNode::aPressedButtonStopsThePlantSafely()
-{
-    QFETCH(QString, kind);
-    QFETCH(int, pace);
-    m_pace = QPlcDriver::Pace(pace);
-    TestMaster master(QPlcClock::realTime(), winchTable());
-    QVERIFY(master.listen());
-    QPlcHardwareNode node;
-    QByteArray text = wiring;
-    QVERIFY(node.configure(text.replace("name = Winch\n", "name = Winch\nsafeStop = drive.speed\n"), "winch.ini"));
-    node.openDevices();
-    QTRY_VERIFY(node.drivers().first().isOnline);
-    QVERIFY(master.admit(node, kind));
-    QVERIFY(start(master));
-    QVERIFY(master.waitForCycles(20));
-    QCOMPARE(master.state(), QPlcMasterNode::RealTime);
-    LogCapture log;
-    m_device->speed = 1.0;
-    QVERIFY(master.waitForState(QPlcMasterNode::SafeStop));
-    QVERIFY2(master.stateReason().contains("node 'Winch' asked for it"), qPrintable(master.stateReason()));
-    QTRY_COMPARE(m_device->brake.load(), 1.0);
-    node.disconnectFromMaster();
-}
-
-void tst_HardwareNode::aButtonThatIsSlowAtFirstStopsNothing()
-{
-    QFETCH(QString, kind);
-    QFETCH(int, pace);
-    m_pace = QPlcDriver::Pace(pace);
-    TestMaster master(QPlcClock::realTime(), winchTable());
-    QVERIFY(master.listen());
-    QPlcHardwareNode node;
-    QByteArray text = wiring;
-    QVERIFY(node.configure(text.replace("name = Winch\n", "name = Winch\nsafeStop = drive.speed\n"), "winch.ini"));
-    m_device->silentReads = 3;
-    QVERIFY(master.admit(node, kind));
-    QVERIFY(start(master));
-    QVERIFY(master.waitForCycles(20));
-    QCOMPARE(master.state(), QPlcMasterNode::RealTime);
-    node.disconnectFromMaster();
-}
-
-void tst_HardwareNode::aButtonWithoutAValueStopsThePlantToo()
-{
-    TestMaster master(QPlcClock::realTime(), winchTable());
-    QPlcHardwareNode node;
-    QByteArray text = wiring;
-    QVERIFY(node.configure(text.replace("name = Winch\n", "name = Winch\nsafeStop = drive.speed\n"), "winch.ini"));
-    m_device->isPlugged = false;
-    QVERIFY(master.addLocalNode(&node));
-    LogCapture log;
-    QVERIFY(master.startRealTime());
-    QVERIFY(master.waitForState(QPlcMasterNode::SafeStop));
 }
 
 void tst_HardwareNode::devicesAreNotClosedWhileCyclesRun()
 {
     QFETCH(QString, kind);
     QFETCH(int, pace);
-    m_pace = QPlcDriver::Pace(pace);
+    m_bench.pace = QPlcDriver::Pace(pace);
     TestMaster master(QPlcClock::realTime(), winchTable());
     QVERIFY(master.listen());
     QPlcHardwareNode node;
     QVERIFY(node.configure(wiring, "winch.ini"));
     QVERIFY(master.admit(node, kind));
     QVERIFY(master.setSignalValue("torque", 0.5));
-    QVERIFY(start(master));
-    QTRY_COMPARE(m_device->torque.load(), 5.0);
+    QVERIFY(WinchBench::start(master));
+    QTRY_COMPARE(m_bench.device->torque.load(), 5.0);
     {
         LogCapture log;
         node.closeDevices();
         QCOMPARE(log.matching("Winch: devices are not closed while cycles run; stop the real-time phase first").size(),
                  1);
     }
-    QCOMPARE(m_device->closed.load(), 0);
+    QCOMPARE(m_bench.device->closed.load(), 0);
     QVERIFY(node.drivers().first().isOnline);
     master.stop();
     QTRY_COMPARE(node.state(), QPlcSlaveNode::Registered);
     node.closeDevices();
-    QCOMPARE(m_device->closed.load(), 1);
-    QCOMPARE(m_device->torqueAtClose.load(), 30.0);
+    QCOMPARE(m_bench.device->closed.load(), 1);
+    QCOMPARE(m_bench.device->torqueAtClose.load(), 30.0);
     node.disconnectFromMaster();
 }
 
@@ -484,7 +357,7 @@ void tst_HardwareNode::aCycleTakesNoMemoryAndNoLock()
             QPlcHardwareNode::step(cycle);
         }
     };
-    m_pace = QPlcDriver::Pace(pace);
+    m_bench.pace = QPlcDriver::Pace(pace);
     TestMaster master(QPlcClock::lockstep(), winchTable());
     QVERIFY(master.listen());
     Watched node;
