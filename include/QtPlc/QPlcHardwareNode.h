@@ -46,7 +46,7 @@ class QTPLC_HARDWARE_EXPORT QPlcHardwareNode : public QPlcCompactSlaveNode
     Q_OBJECT
 public:
     /// The watchdog of a hardware node, unless activateWatchdog() or --watchdog says another one, or 0 for none: what moves something does not go on when its link is cut.
-    /// A master with a period of more than 0.2 s needs a longer one.
+    /// At a master whose four periods are longer, it is these.
     static constexpr std::chrono::milliseconds DefaultWatchdog{500};
 
     explicit QPlcHardwareNode(const QString &name = QString(), QObject *parent = nullptr);

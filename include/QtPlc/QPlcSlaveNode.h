@@ -273,6 +273,9 @@ protected:
     /// The real-time phase has ended.
     virtual void stopped() {}
 
+    /// The watchdog until activateWatchdog() says another one: \a time, or \a periods of the master where these are longer.
+    void setDefaultWatchdog(std::chrono::nanoseconds time, int periods);
+
     /// The cycle that realTimeout() or updateStates() computes. \pre called from there
     const QPlcCycle &cycle() const;
 

@@ -212,7 +212,7 @@ QPlcHardwareNode::QPlcHardwareNode(const QString &name, QObject *parent)
     , m_hardware(std::make_unique<Private>(this))
 {
     setSendsQuality(true);
-    activateWatchdog(DefaultWatchdog);
+    setDefaultWatchdog(DefaultWatchdog, 4);
 }
 
 QPlcHardwareNode::~QPlcHardwareNode()

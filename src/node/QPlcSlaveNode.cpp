@@ -185,7 +185,13 @@ bool QPlcSlaveNode::isSecured() const
 
 void QPlcSlaveNode::activateWatchdog(std::chrono::nanoseconds time)
 {
+    setDefaultWatchdog(time, 0);
+}
+
+void QPlcSlaveNode::setDefaultWatchdog(std::chrono::nanoseconds time, int periods)
+{
     d->watchdog = time;
+    d->watchdogPeriods = periods;
 }
 
 std::chrono::nanoseconds QPlcSlaveNode::watchdog() const

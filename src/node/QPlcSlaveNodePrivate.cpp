@@ -407,7 +407,7 @@ bool QPlcSlaveNodePrivate::startCycles(const Message &message)
     phase.firstCycle = message.hex64(QStringLiteral("firstCycle"));
     phase.group = groupOf(message, runtime.inputLayout());
     phase.interval = interval;
-    phase.watchdog = watchdog;
+    phase.watchdog = watchdogOfPhase = std::max(watchdog, watchdogPeriods * interval.cycles() * phase.period);
     phase.realTimeOptions = realTimeOptions;
     if (!cycle->start(phase))
         return refusePhase(QPlcSlaveNode::OptionError, cycle->errorString());
@@ -460,7 +460,7 @@ void QPlcSlaveNodePrivate::report(const qplc::CycleEvent &event)
         setError(QPlcSlaveNode::WatchdogError,
                  QStringLiteral("node '%1': no frame of the master for %2 ms since cycle %3: safe state")
                      .arg(name)
-                     .arg(double(watchdog.count()) * 1e-6)
+                     .arg(double(watchdogOfPhase.count()) * 1e-6)
                      .arg(event.cycle));
         Q_EMIT q->watchdogTimedOut(event.cycle);
         break;

@@ -57,6 +57,8 @@ public:
     QPlcSignalTable ownTable;
     QPlcRealTimeOptions realTimeOptions;
     std::chrono::nanoseconds watchdog{0};
+    int watchdogPeriods = 0;                      // it is at least as long
+    std::chrono::nanoseconds watchdogOfPhase{0};  // that is how long it is
     std::optional<QPlcSecurity> security;  // else that of the process
     qplc::NodeRuntime runtime;
     QPlcSlaveNode::State state = QPlcSlaveNode::Disconnected;

@@ -19,6 +19,7 @@ private Q_SLOTS:
     void theDeviceIsSafeWhenTheMasterIsLost();
     void theDeviceIsSafeWhenTheLinkIsCut();
     void theWatchdogCanBeAnotherOneOrNone();
+    void theWatchdogIsNoShorterThanFourPeriods();
     void theDeviceOfAListenerIsSafeWhenThePlantStopsSafely_data() { addKinds(); }
     void theDeviceOfAListenerIsSafeWhenThePlantStopsSafely();
     void theConfigurationKnowsBetterThanTheTable();
@@ -163,6 +164,21 @@ void tst_HardwareNode::theWatchdogCanBeAnotherOneOrNone()
     node.activateWatchdog(0.0);
     QCOMPARE(node.watchdog(), std::chrono::nanoseconds(0));
     QCOMPARE(CounterNode().watchdog(), std::chrono::nanoseconds(0));  // a node that drives nothing has none
+}
+
+void tst_HardwareNode::theWatchdogIsNoShorterThanFourPeriods()
+{
+    TestMaster master(QPlcClock::scaled(2.0), winchTable());
+    QVERIFY(master.setInterval(0.6));
+    QVERIFY(master.listen());
+    QPlcHardwareNode node;
+    QVERIFY(node.configure(wiring, "winch.ini"));
+    QVERIFY(master.admit(node, "udp"));
+    QSignalSpy barked(&node, &QPlcSlaveNode::watchdogTimedOut);
+    QVERIFY(WinchBench::start(master));
+    QVERIFY(master.waitForCycles(3));
+    QCOMPARE(barked.size(), 0);
+    node.disconnectFromMaster();
 }
 
 void tst_HardwareNode::theDeviceOfAListenerIsSafeWhenThePlantStopsSafely()
