@@ -10,6 +10,7 @@
 #include <QtCore/QRandomGenerator>
 #include <QtCore/QUuid>
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 

@@ -59,7 +59,7 @@ public:
     std::chrono::nanoseconds watchdog{0};
     int watchdogPeriods = 0;                      // it is at least as long
     std::chrono::nanoseconds watchdogOfPhase{0};  // that is how long it is
-    std::optional<QPlcSecurity> security;  // else that of the process
+    std::optional<QPlcSecurity> security;         // else that of the process
     qplc::NodeRuntime runtime;
     QPlcSlaveNode::State state = QPlcSlaveNode::Disconnected;
     QPlcSlaveNode::Error error = QPlcSlaveNode::NoError;
