@@ -198,7 +198,7 @@ void Layout::take(const QString &panelId)
 
 QString Layout::addPanel(const QString &type, const QJsonObject &settings, const LayoutTarget &target)
 {
-    if (type.isEmpty() || !hasTarget(target))
+    if (type.isEmpty() || !hasTarget(target) || isFull())
         return {};
     const LayoutPanel added{newId(QStringLiteral("panel")), type, settings, {}};
     place(added, target);
@@ -208,7 +208,7 @@ QString Layout::addPanel(const QString &type, const QJsonObject &settings, const
 QString Layout::duplicatePanel(const QString &panelId, LayoutSide side)
 {
     const LayoutPanel *original = panel(panelId);
-    if (!original)
+    if (!original || isFull())
         return {};
     LayoutPanel copy = *original;
     copy.id = newId(QStringLiteral("panel"));

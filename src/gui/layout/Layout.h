@@ -46,6 +46,9 @@ struct LayoutWindow : LayoutPage
 class Layout
 {
 public:
+    static constexpr int MostPanels
+        = 500;  // a file with more panels, tabs or splits is refused: a window cannot show them in time
+
     Layout();
 
     const std::vector<LayoutTab> &tabs() const { return m_tabs; }
@@ -61,7 +64,10 @@ public:
     std::vector<const LayoutPanel *> panels() const;
     bool isFloating(const QString &panelId) const;
 
-    /// Adds a panel of this type, and shows it. \return its id; empty when there is no such target
+    /// Whether there are as many panels as there may be.
+    bool isFull() const { return panels().size() >= MostPanels; }
+
+    /// Adds a panel of this type, and shows it. \return its id; empty when there is no such target, or isFull()
     QString addPanel(const QString &type, const QJsonObject &settings, const LayoutTarget &target);
     /// Adds a copy of a panel beside it.
     QString duplicatePanel(const QString &panelId, LayoutSide side);

@@ -104,8 +104,18 @@ QString LayoutEditor::quotedTab(const QString &tabId) const
     return tab ? tab->name : tabId;
 }
 
+bool LayoutEditor::hasRoom()
+{
+    if (!m_layout.isFull())
+        return true;
+    Q_EMIT refused(tr("A layout has at most %1 panels: close some first.").arg(Layout::MostPanels));
+    return false;
+}
+
 QString LayoutEditor::addPanel(const QString &type, const QJsonObject &settings, const LayoutTarget &target)
 {
+    if (!hasRoom())
+        return {};
     Layout after = m_layout;
     const QString id = after.addPanel(type, settings, target);
     if (!id.isEmpty())
@@ -115,6 +125,8 @@ QString LayoutEditor::addPanel(const QString &type, const QJsonObject &settings,
 
 QString LayoutEditor::duplicatePanel(const QString &panelId, LayoutSide side)
 {
+    if (!hasRoom())
+        return {};
     Layout after = m_layout;
     const QString id = after.duplicatePanel(panelId, side);
     if (!id.isEmpty())

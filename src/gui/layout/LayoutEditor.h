@@ -55,6 +55,8 @@ public:
 
 Q_SIGNALS:
     void layoutChanged();
+    /// Why a panel was not added, as a sentence.
+    void refused(const QString &sentence);
 
 private:
     class Step;
@@ -63,6 +65,7 @@ private:
     bool push(const Layout &after, const QString &text, MergeKind kind = NoMerge, const QString &mergeKey = {});
     bool edit(const std::function<bool(Layout *)> &change, const QString &text, MergeKind kind = NoMerge,
               const QString &mergeKey = {});
+    bool hasRoom();
     void show(const Layout &from, const Layout &to);
     QString quoted(const QString &panelId) const;
     QString quotedTab(const QString &tabId) const;

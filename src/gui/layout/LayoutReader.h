@@ -23,6 +23,7 @@ public:
 
 private:
     void readRoot(const QJsonObject &root);
+    void checkSize(const QJsonArray &tabs, const QJsonArray &windows);
     LayoutTab readTab(const QJsonObject &json, const QString &place);
     LayoutWindow readWindow(const QJsonObject &json, const QString &place);
     void readPage(const QJsonObject &json, const QString &place, LayoutPage *page);

@@ -132,6 +132,7 @@ void QPlcControlCenter::Private::connectParts()
     connect(connectStrip, &ConnectStrip::connectRequested, q, [this](const QString &address) { connectTo(address); });
     connect(startPage, &StartPage::masterChosen, q, [this](const QString &address) { connectTo(address); });
     connect(dock->tree(), &QPlcWidget::showRequested, placer, &SignalPlacer::show);
+    connect(&editor, &LayoutEditor::refused, q, [this](const QString &sentence) { hint->showText(sentence); });
     connect(eventLine, &QAbstractButton::clicked, q, [this] { actions->eventLog->trigger(); });
     connect(topBar, &TopBar::nextRequested, q, [this] {
         if (selection.plant() && selection.plant()->nextAction() != Plant::NoAction)

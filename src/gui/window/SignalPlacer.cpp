@@ -109,9 +109,13 @@ void SignalPlacer::show(const QStringList &references, const QString &type)
 {
     LayoutEditor *editor = m_view->editor();
     if (type == gauge || type == setter) {
-        for (const QString &reference : references)
-            editor->addPanel(type, settingsFor(type, {reference}),
-                             LayoutTarget::inTab(editor->layout().currentTab().id));
+        for (const QString &reference : references) {
+            if (editor
+                    ->addPanel(type, settingsFor(type, {reference}),
+                               LayoutTarget::inTab(editor->layout().currentTab().id))
+                    .isEmpty())
+                return;
+        }
         return;
     }
     const QString panel = panelOfType(type);
@@ -131,7 +135,8 @@ void SignalPlacer::showPanel(const QString &type)
         id = editor->addPanel(type, {}, LayoutTarget::inTab(editor->layout().currentTab().id));
     else if (const LayoutPage *page = editor->layout().pageOf(id); editor->layout().tab(page->id))
         editor->setCurrentTab(page->id);
-    m_view->frame(id)->titleBar()->setFocus(Qt::OtherFocusReason);
+    if (PanelFrame *frame = m_view->frame(id))  // none: the layout is full
+        frame->titleBar()->setFocus(Qt::OtherFocusReason);
 }
 
 }  // namespace qplc

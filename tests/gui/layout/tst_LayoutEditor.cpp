@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "LayoutFixtures.h"
 #include "gui/layout/LayoutEditor.h"
+#include "gui/layout/LayoutJson.h"
 
 #include <QtTest/QtTest>
 
@@ -22,6 +23,7 @@ private Q_SLOTS:
     void undoLeavesWindowsWhereTheyWerePut();
     void undoOfAnotherLayoutPutsItsWindowsBack();
     void anotherLayoutHasNothingToUndo();
+    void fullLayoutRefusesAnotherPanel();
 };
 
 void tst_LayoutEditor::stepSaysWhatItDid()
@@ -161,6 +163,25 @@ void tst_LayoutEditor::anotherLayoutHasNothingToUndo()
     QCOMPARE(changed.count(), 1);
     QVERIFY(!editor.undoStack()->canUndo());
     QVERIFY(editor.layout() == threePanels());
+}
+
+void tst_LayoutEditor::fullLayoutRefusesAnotherPanel()
+{
+    Layout layout;
+    const auto target = LayoutTarget::inTab(layout.currentTab().id);
+    while (!layout.isFull())
+        layout.addPanel("Gauge", {}, target);
+    LayoutEditor editor(layout);
+    QSignalSpy refused(&editor, &LayoutEditor::refused);
+    QCOMPARE(editor.addPanel("Gauge", {}, target), QString());
+    QCOMPARE(editor.duplicatePanel("panel1", LayoutSide::Right), QString());
+    QCOMPARE(refused.count(), 2);
+    QCOMPARE(refused.at(0).at(0).toString(), QStringLiteral("A layout has at most 500 panels: close some first."));
+    QVERIFY(editor.layout() == layout);
+    // What an edit can make, a file can hold.
+    QVERIFY(layoutFromJson(layoutToJson(layout)));
+    QVERIFY(editor.closePanel("panel1"));
+    QVERIFY(!editor.addPanel("Gauge", {}, target).isEmpty());
 }
 
 QTEST_GUILESS_MAIN(tst_LayoutEditor)

@@ -8,6 +8,25 @@ using namespace qplc;
 
 namespace {
 
+const QByteArray Panel = R"({"id": "p", "type": "Gauge", "settings": {}, "share": 1})";
+
+QByteArrayList many(int count, const QByteArray &child)
+{
+    return QVector<QByteArray>(count, child).toList();
+}
+
+QByteArray split(const QByteArray &orientation, const QByteArrayList &children)
+{
+    return R"({"share": 1, "split": ")" + orientation + R"(", "children": [)" + children.join(',') + "]}";
+}
+
+QByteArray withTree(const QByteArray &tree)
+{
+    return R"({"format": "QtPLC layout", "version": 1, "windows": [], "currentTab": "a", "tabs": [)"
+           R"({"id": "a", "name": "A", "tree": )"
+        + tree + "}]}";
+}
+
 /// As layoutToJson() writes it, with a key of its own at every level.
 const QByteArray WithOtherKeys = R"({
     "currentTab": "tab1",
@@ -182,7 +201,20 @@ void tst_LayoutJson::badTextIsRefusedWithPlaceAndRemedy_data()
         "windows[0].home.side must be one of left, right, above, below, and is \"under\"");
     row("no children", R"({"format": "QtPLC layout", "version": 1, "windows": [], "currentTab": "a",
         "tabs": [{"id": "a", "name": "A", "tree": {"split": "vertical", "children": []}}]})",
-        "tabs[0].tree.children must have 1 to 1000 entries, and has 0");
+        "tabs[0].tree.children must have at least one entry");
+    row("panels", withTree(split("vertical", many(501, Panel))),
+        "a layout has at most 500 panels, and this one has 501");
+    row("panels of splits that would be merged",
+        withTree(split("vertical", many(1000, split("vertical", many(20, Panel))))),
+        "a layout has at most 500 panels, and this one has 20000");
+    QByteArray chain = Panel;
+    for (int i = 0; i < 400; ++i)
+        chain = split("horizontal", {chain});
+    row("splits", withTree(split("vertical", {chain, chain})), "a layout has at most 500 splits, and this one has 801");
+    row("tabs",
+        R"({"format": "QtPLC layout", "version": 1, "windows": [], "currentTab": "a", "tabs": [)"
+            + many(501, R"({"id": "a", "name": "A"})").join(',') + "]}",
+        "a layout has at most 500 tabs, and this one has 501");
     row("deep", QByteArray(100000, '['), "this is no JSON");
 }
 
