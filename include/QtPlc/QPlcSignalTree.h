@@ -6,7 +6,8 @@
 
 /// All signals of all plants of a window, below the nodes that write them, with their present values and a search that is always there.
 ///
-/// Enter or a double click asks for a plot of the selected signals (showRequested()), G for a gauge, W for a value table; they are dragged to panels too.
+/// Enter or a double click asks for a plot of the selected signals (showRequested()), X for an XY plot, G for a gauge, W for a value table, S for a setter; they are dragged to panels too.
+/// The context menu has all of these, and whatever else is among the actions().
 ///
 /// Settings: `search`, `columns` (keys of those that are shown: name, value, unit, age, description), `collapsed` and `expanded` (what is unlike the default: plants and nodes
 /// are unfolded, triples are not).
@@ -32,11 +33,19 @@ public:
     /// Gives the search the focus.
     void startSearch();
 
+Q_SIGNALS:
+    /// selectedReferences() may be other ones.
+    void selectionChanged();
+
 protected:
     void contextChanged() override;
+    void contextMenuEvent(QContextMenuEvent *event) override;
 
 private:
     void makeActions();
+    void updateActions();
+    void openMenu(const QPoint &place);
+    void openMenuAtRow();
     void search(const QString &text);
     void request(const QString &typeName);
 

@@ -10,10 +10,15 @@
 #include "gui/panel/PanelSettings.h"
 #include "gui/panel/WindowContext.h"
 
+#include <QtCore/QSet>
+#include <QtCore/QTimer>
+#include <QtGui/QContextMenuEvent>
 #include <QtWidgets/QAction>
 #include <QtWidgets/QLineEdit>
 #include <QtWidgets/QMenu>
 #include <QtWidgets/QVBoxLayout>
+
+#include <algorithm>
 
 using namespace qplc;
 
@@ -32,6 +37,11 @@ struct QPlcSignalTree::Private
     SignalFilterModel *filter = nullptr;
     SignalTreeModel *model = nullptr;      // from contextChanged() on
     ExpansionMemory *expansion = nullptr;  // too
+    QList<QAction *> shows;                // in another panel
+    QAction *showSetter = nullptr;
+    QList<QAction *> others;  // search and columns; those of the window come between
+    QAction *openMenu = nullptr;
+    QTimer changed;  // the selection may be another one
     PanelSettings settings{"search", "columns", "collapsed", "expanded"};
 };
 
@@ -67,6 +77,13 @@ QPlcSignalTree::QPlcSignalTree(QWidget *parent)
             request(QStringLiteral("Time plot"));
     });
     makeActions();
+    d->changed.setSingleShot(true);
+    connect(&d->changed, &QTimer::timeout, this, &QPlcSignalTree::updateActions);
+    connect(d->filter, &QAbstractItemModel::modelReset, &d->changed, QOverload<>::of(&QTimer::start));
+    connect(d->filter, &QAbstractItemModel::rowsInserted, &d->changed, QOverload<>::of(&QTimer::start));
+    connect(d->filter, &QAbstractItemModel::rowsRemoved, &d->changed, QOverload<>::of(&QTimer::start));
+    connect(d->table->selectionModel(), &QItemSelectionModel::selectionChanged, this, &QPlcSignalTree::updateActions);
+    updateActions();
 }
 
 QPlcSignalTree::~QPlcSignalTree() = default;
@@ -79,11 +96,19 @@ void QPlcSignalTree::makeActions()
         action->setShortcutContext(Qt::WidgetWithChildrenShortcut);
         connect(action, &QAction::triggered, this, act);
         addAction(action);
+        return action;
     };
-    make(tr("Show in a plot"), {Qt::Key_Return, Qt::Key_Enter}, [this] { request(QStringLiteral("Time plot")); });
-    make(tr("Show as a gauge"), {Qt::Key_G}, [this] { request(QStringLiteral("Gauge")); });
-    make(tr("Watch in a value table"), {Qt::Key_W}, [this] { request(QStringLiteral("Value table")); });
-    make(tr("Search signals"), {QKeySequence::Find}, [this] { startSearch(); });
+    const auto makeShow = [&](const QString &text, const QList<QKeySequence> &keys, const QString &typeName) {
+        d->shows << make(text, keys, [this, typeName] { request(typeName); });
+    };
+    makeShow(tr("Show in a plot"), {Qt::Key_Return, Qt::Key_Enter}, QStringLiteral("Time plot"));
+    makeShow(tr("Show in an XY plot"), {Qt::Key_X}, QStringLiteral("XY plot"));
+    makeShow(tr("Show as a gauge"), {Qt::Key_G}, QStringLiteral("Gauge"));
+    makeShow(tr("Watch in a value table"), {Qt::Key_W}, QStringLiteral("Value table"));
+    makeShow(tr("Set by a setter"), {Qt::Key_S}, QStringLiteral("Setter"));
+    d->showSetter = d->shows.last();
+    d->others << make(tr("Search signals"), {QKeySequence::Find}, [this] { startSearch(); });
+    d->openMenu = make(tr("Menu of the signals"), {tr("Shift+F10")}, [this] { openMenuAtRow(); });
     auto *toTree = new QAction(d->search);  // from the line into the rows
     toTree->setShortcut(QKeySequence(Qt::Key_Down));
     toTree->setShortcutContext(Qt::WidgetShortcut);
@@ -93,6 +118,60 @@ void QPlcSignalTree::makeActions()
         if (!d->table->currentIndex().isValid())
             d->table->setCurrentIndex(d->filter->index(0, 0));
     });
+}
+
+void QPlcSignalTree::updateActions()
+{
+    const QStringList references = selectedReferences();
+    for (QAction *action : qAsConst(d->shows))
+        action->setEnabled(!references.isEmpty());
+    if (!context())
+        return;
+    // What the master measures is nobody else's to set.
+    const auto maySet = [this](const QString &text) {
+        const PlantList::Signal signal = context()->plants()->resolve(SignalReference::fromString(text));
+        return signal && signal.plant->writer(signal.index) != QLatin1String("Master");
+    };
+    d->showSetter->setEnabled(!references.isEmpty() && std::all_of(references.begin(), references.end(), maySet));
+    Q_EMIT selectionChanged();
+}
+
+/// All that is done with signals: as other panels, where the window puts them, and with the tree itself.
+void QPlcSignalTree::openMenu(const QPoint &place)
+{
+    updateActions();
+    auto *menu = new QMenu(this);
+    menu->setAttribute(Qt::WA_DeleteOnClose);
+    menu->addActions(d->shows);
+    menu->addSeparator();
+    for (QAction *action : actions()) {
+        if (!d->shows.contains(action) && !d->others.contains(action) && action != d->openMenu)
+            menu->addAction(action);
+    }
+    menu->addSeparator();
+    for (QAction *action : qAsConst(d->others))
+        menu->addAction(action);
+    if (auto *panelMenu = findChild<QAction *>(QStringLiteral("panelMenu")))  // of the frame around
+        menu->addAction(panelMenu);
+    for (QAction *action : menu->actions())
+        action->setShortcutVisibleInContextMenu(true);
+    menu->popup(place);
+}
+
+/// Below the row with the keyboard, where people look.
+void QPlcSignalTree::openMenuAtRow()
+{
+    const QRect row = d->table->visualRect(d->table->currentIndex());
+    const QRect seen = row & d->table->viewport()->rect();
+    openMenu(d->table->viewport()->mapToGlobal(seen.isEmpty() ? QPoint(0, 0) : seen.bottomLeft()));
+}
+
+void QPlcSignalTree::contextMenuEvent(QContextMenuEvent *event)
+{
+    if (event->reason() == QContextMenuEvent::Keyboard)
+        openMenuAtRow();
+    else
+        openMenu(event->globalPos());
 }
 
 void QPlcSignalTree::startSearch()
@@ -120,11 +199,14 @@ QStringList QPlcSignalTree::selectedReferences() const
         chosen << first;
     }
     QStringList references;
+    QSet<QString> known;
     for (const QModelIndex &index : qAsConst(chosen)) {
         const QVector<SignalReference> below = d->model->references(d->filter->mapToSource(index));
         for (const SignalReference &reference : below) {
-            if (!references.contains(reference.toString()))
-                references << reference.toString();
+            const QString text = reference.toString();
+            if (!known.contains(text))
+                references << text;
+            known << text;
         }
     }
     return references;
@@ -133,6 +215,7 @@ QStringList QPlcSignalTree::selectedReferences() const
 void QPlcSignalTree::search(const QString &text)
 {
     d->filter->setSearch(text);
+    updateActions();
     if (d->expansion)
         d->expansion->setSuspended(!text.isEmpty());
     if (d->settings.set("search", text, QString()))
@@ -177,7 +260,8 @@ void QPlcSignalTree::contextChanged()
     connect(d->expansion, &ExpansionMemory::edited, this, take);
     d->strip->setContext(context());
     followDisplayTime(d->model, context());
-    addAction(d->table->createColumnMenu(this)->menuAction());
+    d->others << d->table->createColumnMenu(this)->menuAction();
+    addAction(d->others.last());
 }
 
 QSize QPlcSignalTree::sizeHint() const

@@ -8,6 +8,7 @@
 #include "LongPress.h"
 #include "PanelKeysFirst.h"
 #include "QPlcSignalTree.h"
+#include "SignalPlaceActions.h"
 #include "StandardWidgets.h"
 #include "gui/plant/PlantFeed.h"
 
@@ -46,6 +47,7 @@ QPlcControlCenter::Private::~Private()
     context.plants()->disconnect(q);
     wiring.disconnect(q);
     delete palette;
+    delete dock;
     delete view;
 }
 
@@ -84,6 +86,8 @@ void QPlcControlCenter::Private::makeCentre()
     connect(view, &LayoutView::widgetAdded, &wiring, [this](const QString &, QPlcWidget *widget) {
         wiring.add(widget);
         connect(widget, &QPlcWidget::showRequested, placer, &SignalPlacer::show);
+        if (auto *tree = qobject_cast<QPlcSignalTree *>(widget))
+            new SignalPlaceActions(tree, view, placer);
     });
     connect(view, &LayoutView::widgetRemoved, &wiring,
             [this](const QString &, QPlcWidget *widget) { wiring.remove(widget); });
@@ -132,6 +136,7 @@ void QPlcControlCenter::Private::connectParts()
     connect(connectStrip, &ConnectStrip::connectRequested, q, [this](const QString &address) { connectTo(address); });
     connect(startPage, &StartPage::masterChosen, q, [this](const QString &address) { connectTo(address); });
     connect(dock->tree(), &QPlcWidget::showRequested, placer, &SignalPlacer::show);
+    new SignalPlaceActions(dock->tree(), view, placer);
     connect(&editor, &LayoutEditor::refused, q, [this](const QString &sentence) { hint->showText(sentence); });
     connect(eventLine, &QAbstractButton::clicked, q, [this] { actions->eventLog->trigger(); });
     connect(topBar, &TopBar::nextRequested, q, [this] {

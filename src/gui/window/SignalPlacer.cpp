@@ -15,6 +15,7 @@ namespace {
 const QString timePlot = QStringLiteral("Time plot");
 const QString gauge = QStringLiteral("Gauge");
 const QString setter = QStringLiteral("Setter");
+const QString xyPlot = QStringLiteral("XY plot");
 
 LayoutSide sideOf(DropZone zone)
 {
@@ -55,6 +56,13 @@ QJsonObject SignalPlacer::settingsFor(const QString &type, const QStringList &re
         QJsonArray curves;
         for (const QString &reference : references)
             curves.append(QJsonObject{{QStringLiteral("signal"), reference}});
+        return {{QStringLiteral("curves"), curves}};
+    }
+    if (type == xyPlot) {  // the first over time is the x of the second, and so on
+        QJsonArray curves;
+        for (int i = 0; i < references.size(); i += 2)
+            curves.append(
+                QJsonObject{{QStringLiteral("x"), references.at(i)}, {QStringLiteral("y"), references.value(i + 1)}});
         return {{QStringLiteral("curves"), curves}};
     }
     return {{QStringLiteral("signals"), QJsonArray::fromStringList(references)}};
