@@ -76,6 +76,7 @@ void PlotCurves::bind(const PlotSettings &settings, const CurveSources *sources,
         curve.settings = wanted;
         curve.source = sources ? sources->find(wanted.signal) : CurveSource();
         curve.color = wanted.color.isValid() ? wanted.color : theme.curve(size());
+        curve.penStyle = Theme::curveStyle(size());
         if (curve.isSeen())
             show(&curve, settings.showsLimits(), theme);
         m_curves.push_back(std::move(curve));
@@ -119,6 +120,7 @@ void PlotCurves::show(PlotCurve *curve, bool showsLimits, const Theme &theme)
     }
     curve->item = std::make_unique<StoreCurve>(source.store, source.channel, curve->settings.text());
     curve->item->setColor(curve->color);
+    curve->item->setPenStyle(curve->penStyle);
     curve->item->setLineWidth(theme.curveWidth);
     curve->item->setScaling(curve->settings.gain, curve->settings.offset);
     curve->item->setStyle(source.isStepped ? StoreCurve::Steps : StoreCurve::Line);

@@ -22,6 +22,7 @@ struct PlotCurve
     PlotCurveSettings settings;
     CurveSource source;  // held as long as the item draws its store
     QColor color;
+    Qt::PenStyle penStyle = Qt::SolidLine;
     std::unique_ptr<StoreCurve> item;   // of a line
     std::unique_ptr<StateBands> bands;  // of what is drawn as bands
     std::vector<std::unique_ptr<QwtPlotMarker>> limits;

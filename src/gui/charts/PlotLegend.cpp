@@ -16,11 +16,12 @@ namespace qplc {
 
 namespace {
 
-constexpr int swatch = 10;   // [px]
-constexpr int spacing = 6;   // [px] between parts of an entry
-constexpr int gap = 14;      // [px] between entries
-constexpr int margin = 4;    // [px] around all
-constexpr int lineRoom = 3;  // [px] above and below a text, together
+constexpr int swatch = 10;    // [px]
+constexpr int swatchGap = 2;  // [px] between dashes
+constexpr int spacing = 6;    // [px] between parts of an entry
+constexpr int gap = 14;       // [px] between entries
+constexpr int margin = 4;     // [px] around all
+constexpr int lineRoom = 3;   // [px] above and below a text, together
 constexpr int legendDigits = 6;
 constexpr int fewDigits = 4;    // in small panels
 constexpr int leastWidth = 36;  // [px] of an entry
@@ -103,6 +104,7 @@ void PlotLegend::show(const PlotCurves &curves, std::optional<SignalStore::Time>
         entry.unit = curve.source.unit;
         entry.hint = hintOf(curve);
         entry.color = curve.color;
+        entry.penStyle = curve.isDrawnAsBands() ? Qt::SolidLine : curve.penStyle;
         entry.isVisible = curve.settings.isVisible;
         const bool isOld = curve.isStale() && !time;
         entry.doubt = isOld ? ageText(curve.source.plant->age()) : markText(curve.mark(time));
@@ -220,16 +222,25 @@ void PlotLegend::paint(QPainter *painter, bool hasHover) const
     }
 }
 
+/// Full, or as two dashes or three dots beside each other; hollow without values.
+void PlotLegend::paintSwatch(QPainter *painter, const QRect &box, const Entry &entry) const
+{
+    const int parts = entry.penStyle == Qt::SolidLine ? 1 : entry.penStyle == Qt::DashLine ? 2 : 3;
+    const int width = (swatch - (parts - 1) * swatchGap) / parts;
+    painter->setPen(entry.isVisible ? m_theme.stale : entry.color);
+    painter->setBrush(Qt::NoBrush);
+    for (int part = 0; part < parts; ++part) {
+        const QRect rect(box.left() + part * (width + swatchGap), box.top(), width, box.height());
+        if (entry.isVisible && entry.isTrusted)
+            painter->fillRect(rect, entry.color);
+        else
+            painter->drawRect(rect.adjusted(0, 0, -1, -1));
+    }
+}
+
 void PlotLegend::paintEntry(QPainter *painter, const QRect &wholeRect, const Entry &entry) const
 {
-    const QRect box(wholeRect.left(), wholeRect.center().y() - swatch / 2 + 1, swatch, swatch);
-    if (entry.isVisible && entry.isTrusted) {
-        painter->fillRect(box, entry.color);
-    } else {
-        painter->setPen(entry.isVisible ? m_theme.stale : entry.color);
-        painter->setBrush(Qt::NoBrush);
-        painter->drawRect(box.adjusted(0, 0, -1, -1));
-    }
+    paintSwatch(painter, {wholeRect.left(), wholeRect.center().y() - swatch / 2 + 1, swatch, swatch}, entry);
     const QFont font = fontOf(entry);
     painter->setFont(font);
     const bool isQuiet = !entry.isVisible || !entry.isTrusted;

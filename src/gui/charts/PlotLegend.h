@@ -24,14 +24,15 @@ public:
         QString doubt;  // why the value is not one of its time: its age, or its quality
         QString hint;   // what is shown when the mouse rests on it
         QColor color;
+        Qt::PenStyle penStyle = Qt::SolidLine;
         bool isVisible = true;
         bool isTrusted = true;
         bool isSelected = false;
         friend bool operator==(const Entry &a, const Entry &b)
         {
             return a.name == b.name && a.value == b.value && a.unit == b.unit && a.doubt == b.doubt && a.hint == b.hint
-                && a.color == b.color && a.isVisible == b.isVisible && a.isTrusted == b.isTrusted
-                && a.isSelected == b.isSelected;
+                && a.color == b.color && a.penStyle == b.penStyle && a.isVisible == b.isVisible
+                && a.isTrusted == b.isTrusted && a.isSelected == b.isSelected;
         }
     };
 
@@ -72,6 +73,7 @@ private:
     int entryAt(QPoint position) const;
     int doubtWidth(const Entry &entry) const;
     QRect paintDoubt(QPainter *painter, const QRect &room, const Entry &entry) const;
+    void paintSwatch(QPainter *painter, const QRect &box, const Entry &entry) const;
     void paintEntry(QPainter *painter, const QRect &rect, const Entry &entry) const;
     int wantedWidth() const;
     QFont fontOf(const Entry &entry) const;

@@ -115,6 +115,12 @@ QColor Theme::curve(int index) const
     return QColor::fromRgb(curves[std::size_t(index) % curves.size()]);
 }
 
+Qt::PenStyle Theme::curveStyle(int index)
+{
+    constexpr std::array<Qt::PenStyle, 3> rounds = {Qt::SolidLine, Qt::DashLine, Qt::DotLine};
+    return rounds[std::size_t(index) / curvesOnWhite.size() % rounds.size()];
+}
+
 QPalette Theme::palette() const
 {
     QPalette palette(surface, window);

@@ -18,7 +18,13 @@ constexpr int dotGrowth = 1;    // pixels to each side of a value that stands al
 
 void PixelSpans::begin(const QRect &clip, int thickness)
 {
+    begin(clip, thickness, {});
+}
+
+void PixelSpans::begin(const QRect &clip, int thickness, const Dashes &dashes)
+{
     m_clip = clip;
+    m_dashes = dashes;
     m_before = (thickness - 1) / 2;
     m_behind = thickness / 2;
     m_spans.clear();
@@ -85,9 +91,44 @@ void PixelSpans::finishLine()
     m_lineBefore = end;
     const int left = std::max(m_x - m_before, m_clip.left());
     const int right = std::min(m_x + int(m_spans.size()) - 1 + m_behind, m_clip.right());
+    if (m_dashes.on > 0 && int(m_spans.size()) > m_dashes.on + m_dashes.off)
+        emitDashed(left, right);
+    else
+        emitWhole(left, right);
+    m_spans.clear();
+}
+
+void PixelSpans::emitWhole(int left, int right)
+{
     for (int x = left; x <= right; x += blockWidth)
         emitBlock(x, std::min(x + blockWidth - 1, right));
-    m_spans.clear();
+}
+
+bool PixelSpans::isOff(int x) const
+{
+    const int period = m_dashes.on + m_dashes.off;
+    const int place = (x - m_dashes.first) % period;
+    return (place < 0 ? place + period : place) >= m_dashes.on;
+}
+
+void PixelSpans::emitDashed(int left, int right)
+{
+    for (int x = left; x <= right; ++x) {
+        const Span span = thickened(x - m_x);
+        isOff(x) ? emitBetweenDashes(x, span) : emitSpan(x, span);
+    }
+}
+
+void PixelSpans::emitBetweenDashes(int x, Span span)
+{
+    const Span seen{std::max(span.top, m_clip.top()), std::min(span.bottom, m_clip.bottom())};
+    const int thickness = m_before + m_behind + 1;
+    if (seen.bottom - seen.top < thickness + m_dashes.off)
+        return;
+    const int lastTop = seen.bottom - m_dashes.on + 1;
+    for (int y = seen.top; y + m_dashes.on < lastTop; y += m_dashes.on + m_dashes.off)
+        emitSpan(x, {y, y + m_dashes.on - 1});
+    emitSpan(x, {std::max(lastTop, seen.top), seen.bottom});
 }
 
 /// Columns that have many rows in common get them as one rectangle: painters fill rows quicker than columns.

@@ -20,6 +20,9 @@ constexpr double nanosecondsOfSecond = 1e9;
 constexpr double farthestY = 1e6;  // [px]
 
 constexpr std::size_t mostSmoothPoints = 300;
+constexpr int dashOn = 5;  // lengths, in widths of the line
+constexpr int dashOff = 3;
+constexpr int dotLength = 2;            // on and off
 constexpr double markedOpacity = 0.45;  // of the colour of the curve
 constexpr SignalStore::Mark anyMark = 1;
 
@@ -67,6 +70,7 @@ public:
         m_zero = y0 + m_offset * slope;
     }
 
+    int left() const { return m_left; }
     int x(int column) const { return m_left + column; }
     int y(float value) const
     {
@@ -139,6 +143,13 @@ void StoreCurve::setLineWidth(double width)
     itemChanged();
 }
 
+void StoreCurve::setPenStyle(Qt::PenStyle style)
+{
+    m_penStyle = style;
+    legendChanged();
+    itemChanged();
+}
+
 void StoreCurve::setStyle(Style style)
 {
     m_style = style;
@@ -179,27 +190,40 @@ void StoreCurve::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScale
         return;
     const QTransform device = pixelsOf(*painter);
     const PixelScale scale(*this, device, xMap, yMap, canvasRect);
-    m_shape.read(*m_store, m_channel, columns(xMap, device.m11()));
+    const TimeColumns timeColumns = columns(xMap, device.m11());
+    m_shape.read(*m_store, m_channel, timeColumns);
     painter->save();
     painter->setWorldTransform(device.inverted() * painter->worldTransform());  // pixels of the device, one by one
-    isDrawnAsLine(*painter) ? drawLines(painter, scale) : drawSpans(painter, scale);
+    isDrawnAsLine(*painter) ? drawLines(painter, scale) : drawSpans(painter, scale, dashes(scale, timeColumns));
     painter->restore();
 }
 
-/// Where a line is a line, and where a painter's lines look better and are not too slow.
+/// Columns have numbers for ever, so that dashes move with the curve.
+PixelSpans::Dashes StoreCurve::dashes(const PixelScale &scale, const TimeColumns &columns) const
+{
+    if (m_penStyle == Qt::SolidLine)
+        return {};
+    const bool isDots = m_penStyle == Qt::DotLine;
+    const int on = scale.thickness() * (isDots ? dotLength : dashOn);
+    const int off = scale.thickness() * (isDots ? dotLength : dashOff);
+    return {on, off, scale.left() - int(columns.first() % (on + off))};
+}
+
+/// Where a line is a line, and where a painter's lines look better and are not too slow. Its dashes would begin anew at the edge of each picture.
 bool StoreCurve::isDrawnAsLine(const QPainter &painter) const
 {
     if (m_shape.isDense())
         return false;
-    const bool isSmooth = testRenderHint(RenderAntialiased) && m_shape.points().size() <= mostSmoothPoints;
+    const bool isSmooth = m_penStyle == Qt::SolidLine && testRenderHint(RenderAntialiased)
+        && m_shape.points().size() <= mostSmoothPoints;
     return isSmooth || isVector(painter.paintEngine()->type());
 }
 
-void StoreCurve::drawSpans(QPainter *painter, const PixelScale &scale) const
+void StoreCurve::drawSpans(QPainter *painter, const PixelScale &scale, const PixelSpans::Dashes &dashes) const
 {
-    m_spans.begin(scale.clip(), scale.thickness());
+    m_spans.begin(scale.clip(), scale.thickness(), dashes);
     if (m_shape.hasMarks())
-        m_markedSpans.begin(scale.clip(), scale.thinness());
+        m_markedSpans.begin(scale.clip(), scale.thinness(), dashes);
     const PixelSpans *before = nullptr;
     const Point *last = nullptr;
     for (const Point &point : m_shape.points()) {
@@ -238,13 +262,8 @@ void StoreCurve::drawLines(QPainter *painter, const PixelScale &scale) const
         painter->setRenderHint(QPainter::Antialiasing);
         painter->translate(0.5, 0.5);  // smooth lines run between pixels, others through them
     }
-    const auto setPen = [&](bool isMarked) {
-        painter->setPen(QPen(colorOf(isMarked ? anyMark : RowMarks::None),
-                             isMarked ? scale.thinness() : scale.thickness(), Qt::SolidLine,
-                             isMarked ? Qt::FlatCap : Qt::SquareCap, Qt::BevelJoin));
-    };
     bool isMarked = false;
-    setPen(isMarked);
+    painter->setPen(penOf(scale, isMarked));
     m_line.resize(0);
     for (const Point &point : m_shape.points()) {
         if (!point.isJoined)
@@ -253,7 +272,7 @@ void StoreCurve::drawLines(QPainter *painter, const PixelScale &scale) const
             const QPolygon before = m_line;
             flushLine(painter);
             isMarked = !isMarked;
-            setPen(isMarked);
+            painter->setPen(penOf(scale, isMarked));
             if (!before.isEmpty())
                 m_line.append(before.last());
         }
@@ -263,6 +282,18 @@ void StoreCurve::drawLines(QPainter *painter, const PixelScale &scale) const
         m_line.append(next);
     }
     flushLine(painter);
+}
+
+QPen StoreCurve::penOf(const PixelScale &scale, bool isMarked) const
+{
+    const bool isSolid = m_penStyle == Qt::SolidLine;
+    QPen pen(colorOf(isMarked ? anyMark : RowMarks::None), isMarked ? scale.thinness() : scale.thickness(),
+             Qt::SolidLine, isMarked || !isSolid ? Qt::FlatCap : Qt::SquareCap, Qt::BevelJoin);
+    if (m_penStyle == Qt::DashLine)
+        pen.setDashPattern({qreal(dashOn), qreal(dashOff)});
+    else if (m_penStyle == Qt::DotLine)
+        pen.setDashPattern({qreal(dotLength), qreal(dotLength)});
+    return pen;
 }
 
 QColor StoreCurve::colorOf(SignalStore::Mark mark) const

@@ -42,6 +42,9 @@ public:
     /// In pixels of the screen as the user counts them, > 0; at least one device pixel is drawn.
     double lineWidth() const { return m_lineWidth; }
     void setLineWidth(double width);
+    Qt::PenStyle penStyle() const { return m_penStyle; }
+    /// Qt::SolidLine, or Qt::DashLine and Qt::DotLine, which move with the curve. \pre one of these
+    void setPenStyle(Qt::PenStyle style);
     Style style() const { return m_style; }
     void setStyle(Style style);
 
@@ -57,10 +60,12 @@ public:
 
 private:
     class PixelScale;
+    PixelSpans::Dashes dashes(const PixelScale &scale, const TimeColumns &columns) const;
+    QPen penOf(const PixelScale &scale, bool isMarked) const;
 
     SignalStore::Time timeAt(double x) const;
     bool isDrawnAsLine(const QPainter &painter) const;
-    void drawSpans(QPainter *painter, const PixelScale &scale) const;
+    void drawSpans(QPainter *painter, const PixelScale &scale, const PixelSpans::Dashes &dashes) const;
     void drawLines(QPainter *painter, const PixelScale &scale) const;
     void flushLine(QPainter *painter) const;
     void fill(QPainter *painter, PixelSpans *spans, const QColor &color) const;
@@ -73,6 +78,7 @@ private:
     double m_offset = 0.0;
     QColor m_color = Qt::black;
     double m_lineWidth = 1.0;
+    Qt::PenStyle m_penStyle = Qt::SolidLine;
     Style m_style = Line;
     // Kept from picture to picture, so that drawing takes no memory.
     mutable CurveShape m_shape;

@@ -41,6 +41,7 @@ private Q_SLOTS:
     void arraysBecomeElementsAndTextsNothing();
     void formulasArePassedThrough();
     void aClickInTheLegendHidesAndSelects();
+    void fromTheNinthOnCurvesHaveDashes();
     void keysChooseHideAndRemoveCurves();
     void theAddBarCompletesNames();
     void plusAddsOnlyToAnEmptyPlot();
@@ -120,6 +121,38 @@ void tst_PlotEditing::aClickInTheLegendHidesAndSelects()
     QCOMPARE(window.canvas()->itemList(QwtPlotItem::Rtti_PlotUserItem + 1).size(), 1);
     QTest::mouseClick(legend, Qt::LeftButton, {}, legend->entryRect(1).center());
     QCOMPARE(window.canvas()->itemList(QwtPlotItem::Rtti_PlotUserItem + 1).size(), 2);
+}
+
+void tst_PlotEditing::fromTheNinthOnCurvesHaveDashes()
+{
+    QJsonArray wanted;
+    for (int i = 0; i < 17; ++i)
+        wanted.append(QJsonObject{{"signal", "count"}, {"offset", 10 * i}});
+    PlotWindow window;
+    window.plot->applySettings({{"curves", wanted}});
+    QVERIFY(window.run(0.2));
+    auto *legend = window.part<PlotLegend>();
+    QTRY_VERIFY(legend->isVisible() && legend->entries().size() == 17 && legend->entries().first().isTrusted);
+    const QList<QwtPlotItem *> curves = window.canvas()->itemList(QwtPlotItem::Rtti_PlotUserItem + 1);
+    QCOMPARE(curves.size(), 17);
+    QImage picture(legend->size(), QImage::Format_RGB32);
+    legend->render(&picture);
+    for (int i = 0; i < 17; ++i) {
+        const Qt::PenStyle expected = i < 8 ? Qt::SolidLine : i < 16 ? Qt::DashLine : Qt::DotLine;
+        QCOMPARE(static_cast<const StoreCurve *>(curves[i])->penStyle(), expected);
+        const PlotLegend::Entry entry = legend->entries()[i];
+        QCOMPARE(entry.penStyle, expected);
+        // The swatch: pieces of its colour, from left to right.
+        const QRect rect = legend->entryRect(i);
+        int pieces = 0;
+        bool isColored = false;
+        for (int x = rect.left(); x < rect.left() + 11; ++x) {
+            const bool isHere = picture.pixel(x, rect.center().y()) == entry.color.rgb();
+            pieces += isHere && !isColored ? 1 : 0;
+            isColored = isHere;
+        }
+        QCOMPARE(pieces, i < 8 ? 1 : i < 16 ? 2 : 3);
+    }
 }
 
 void tst_PlotEditing::keysChooseHideAndRemoveCurves()

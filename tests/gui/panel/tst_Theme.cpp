@@ -34,6 +34,7 @@ private Q_SLOTS:
     void textsStandOutFromTheirBackground();
     void curvesAreAllDifferentAndSeen_data() { textsStandOutFromTheirBackground_data(); }
     void curvesAreAllDifferentAndSeen();
+    void lineTellsCurvesOfOneColourApart();
     void namesComeBack();
     void theSystemThemeIsOneOfTheOthers();
 };
@@ -84,6 +85,18 @@ void tst_Theme::theSystemThemeIsOneOfTheOthers()
 {
     const Theme system = Theme::byName(Theme::System);
     QCOMPARE(system.window, Theme::byName(system.isDark ? Theme::Dark : Theme::Light).window);
+}
+
+void tst_Theme::lineTellsCurvesOfOneColourApart()
+{
+    const Theme theme = Theme::byName(Theme::Light);
+    QSet<QPair<QRgb, int>> looks;
+    for (int curve = 0; curve < 24; ++curve)
+        looks.insert({theme.curve(curve).rgb(), int(Theme::curveStyle(curve))});
+    QCOMPARE(looks.size(), 24);
+    for (int curve = 0; curve < 8; ++curve)
+        QCOMPARE(Theme::curveStyle(curve), Qt::SolidLine);
+    QCOMPARE(Theme::curveStyle(24), Qt::SolidLine);
 }
 
 QTEST_MAIN(tst_Theme)

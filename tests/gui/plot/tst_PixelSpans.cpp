@@ -62,6 +62,10 @@ private Q_SLOTS:
     void nothingIsOutsideOfTheClip();
     void farAwayLinesPassThroughTheClip();
     void beginForgets();
+    void dashesBeginWhereTheyShould();
+    void dashesKeepPeaksFromEndToEnd();
+    void dashesFillNoPixelTwice();
+    void shortLinesHaveNoDashes();
 };
 
 void tst_PixelSpans::nothingIsNothing()
@@ -257,6 +261,78 @@ void tst_PixelSpans::beginForgets()
     spans.begin(clip, 1);
     spans.endLine();
     QVERIFY(spans.rectangles().empty());
+}
+
+void tst_PixelSpans::dashesBeginWhereTheyShould()
+{
+    PixelSpans spans;
+    for (const int first : {-3, 5, 13}) {
+        spans.begin(clip, 1, {5, 3, first});
+        spans.moveTo(0, 10, 10);
+        spans.lineTo(0, 10, 39, 10);
+        spans.endLine();
+        const std::vector<int> pixels = pixelsOf(spans);
+        for (int x = 0; x < clip.width(); ++x) {
+            const bool isOn = (x + 16 - first) % 8 < 5;
+            QCOMPARE(columnOf(pixels, x), isOn ? QPoint(10, 10) : QPoint(-1, -1));
+        }
+        QVERIFY(spans.rectangles().size() <= 6);
+    }
+}
+
+void tst_PixelSpans::dashesKeepPeaksFromEndToEnd()
+{
+    for (int x = 1; x < 39; ++x) {
+        PixelSpans spans;
+        spans.begin(clip, 1, {5, 3, 0});
+        spans.moveTo(0, 25, 25);
+        spans.lineTo(0, 25, x, 25);
+        spans.include(2, 25);
+        spans.lineTo(x, 25, 39, 25);
+        spans.endLine();
+        const std::vector<int> pixels = pixelsOf(spans);
+        const auto isSet = [&](int y) { return pixels[std::size_t(y * clip.width() + x)] > 0; };
+        QVERIFY(isSet(2) && isSet(25));
+        int set = 0;
+        for (int y = 2; y <= 25; ++y)
+            set += isSet(y) ? 1 : 0;
+        QVERIFY(set >= 24 * 5 / 8 && set <= (x % 8 < 5 ? 24 : 20));
+    }
+}
+
+void tst_PixelSpans::dashesFillNoPixelTwice()
+{
+    std::minstd_rand random(3);
+    for (int trial = 0; trial < 300; ++trial) {
+        PixelSpans spans;
+        const int thickness = 1 + int(random() % 4);
+        spans.begin(clip, thickness, {5 * thickness, 3 * thickness, int(random() % 20)});
+        int y = int(random() % 30);
+        spans.moveTo(0, y, y);
+        for (int x = 0; x < 39; ++x) {
+            const int nextY = int(random() % 30);
+            spans.lineTo(x, y, x + 1, nextY);
+            y = nextY;
+        }
+        spans.endLine();
+        const std::vector<int> pixels = pixelsOf(spans);
+        QCOMPARE(*std::max_element(pixels.begin(), pixels.end()), 1);
+        QVERIFY(spans.rectangles().size() < std::size_t(clip.width() * (2 + clip.height() / (8 * thickness))));
+        for (const QRect &rectangle : spans.rectangles())
+            QVERIFY(clip.contains(rectangle));
+    }
+}
+
+void tst_PixelSpans::shortLinesHaveNoDashes()
+{
+    for (int first = 0; first < 8; ++first) {
+        PixelSpans spans;
+        spans.begin(clip, 1, {5, 3, first});
+        spans.moveTo(20, 10, 10);
+        spans.lineTo(20, 10, 24, 10);
+        spans.endLine();
+        QCOMPARE(spans.rectangles(), std::vector<QRect>{QRect(20, 10, 5, 1)});
+    }
 }
 
 QTEST_APPLESS_MAIN(tst_PixelSpans)

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "CurveCanvas.h"
 #include "ThreadCosts.h"
-#include "gui/plot/StoreCurve.h"
 
 #include <QtCore/QBuffer>
-#include <QtGui/QImage>
-#include <QtGui/QPainter>
 #include <QtSvg/QSvgGenerator>
-#include <QtTest/QtTest>
 
 #include <qwt_graphic.h>
-#include <qwt_scale_map.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,69 +14,6 @@
 using qplc::SignalStore;
 using qplc::StoreCurve;
 using Time = SignalStore::Time;
-
-namespace {
-
-constexpr float noValue = std::numeric_limits<float>::quiet_NaN();
-constexpr Time millisecond = 1'000'000;
-constexpr int width = 200;
-constexpr int height = 100;
-
-/// Rows one millisecond apart from 0 on.
-template<typename ValueOf>
-void fill(SignalStore *store, int rows, ValueOf valueOf)
-{
-    for (int i = 0; i < rows; ++i) {
-        const float value = valueOf(i);
-        QVERIFY(store->append(i * millisecond, &value));
-    }
-}
-
-/// A canvas of 200 x 100 pixels; values 0 ... 100 are its rows from the bottom.
-struct Canvas
-{
-    explicit Canvas(double scale = 1.0)
-        : image(int(width * scale), int(height * scale), QImage::Format_RGB32)
-    {
-        image.setDevicePixelRatio(scale);
-        image.fill(Qt::white);
-        xMap.setPaintInterval(0, width);
-        yMap.setPaintInterval(height, 0);
-        yMap.setScaleInterval(0, height);
-    }
-
-    void draw(const StoreCurve &curve, double begin, double end)
-    {
-        xMap.setScaleInterval(begin, end);
-        QPainter painter(&image);
-        curve.draw(&painter, xMap, yMap, QRectF(0, 0, width, height));
-    }
-    bool isSet(int x, int y) const { return image.pixel(x, y) != qRgb(255, 255, 255); }
-    /// The number of pixels of a column that are drawn.
-    int count(int x) const
-    {
-        int pixels = 0;
-        for (int y = 0; y < image.height(); ++y)
-            pixels += isSet(x, y) ? 1 : 0;
-        return pixels;
-    }
-    /// The number of pixels that are neither black nor white.
-    int shades() const
-    {
-        int pixels = 0;
-        for (int i = 0; i < image.width() * image.height(); ++i) {
-            const int level = qGray(image.pixel(i % image.width(), i / image.width()));
-            pixels += level > 0 && level < 255 ? 1 : 0;
-        }
-        return pixels;
-    }
-
-    QImage image;
-    QwtScaleMap xMap;
-    QwtScaleMap yMap;
-};
-
-}  // namespace
 
 class tst_StoreCurve : public QObject
 {
@@ -102,6 +35,7 @@ private Q_SLOTS:
     void logarithmicAxisIsFollowed();
     void valuesFarOutsideAreCut();
     void originMovesTheAxis();
+    void curveMovesByWholePixels_data();
     void curveMovesByWholePixels();
     void smoothCurvesHaveShades();
     void vectorPicturesHaveLines();
@@ -345,11 +279,21 @@ void tst_StoreCurve::originMovesTheAxis()
     QCOMPARE(canvas.count(102), 0);
 }
 
+void tst_StoreCurve::curveMovesByWholePixels_data()
+{
+    QTest::addColumn<Qt::PenStyle>("style");
+    QTest::newRow("solid") << Qt::SolidLine;
+    QTest::newRow("dashes") << Qt::DashLine;
+    QTest::newRow("dots") << Qt::DotLine;
+}
+
 void tst_StoreCurve::curveMovesByWholePixels()
 {
+    QFETCH(Qt::PenStyle, style);
     SignalStore store(1, 20'000);
     fill(&store, 20'000, [](int i) { return float((i * 7919) % 97); });
-    const StoreCurve curve(&store, 0);
+    StoreCurve curve(&store, 0);
+    curve.setPenStyle(style);
     Canvas still;
     still.draw(curve, 2.0, 12.0);
     for (int shift = 1; shift < 200; shift += 7) {  // a pixel is 50 ms
