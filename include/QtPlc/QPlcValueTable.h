@@ -6,7 +6,8 @@
 
 /// Chosen signals with value, smallest and largest value since reset, unit, quality, age and rate. Signals are added (dropped on the panel, or by name after Insert), dragged out, sorted, and copied as text with tabs.
 ///
-/// Settings: `signals` (references, in order), `columns` (keys of those that are shown: signal, value, unit, minimum, maximum, quality, age, rate), `sort` (key of a column) and `descending`.
+/// Settings: `signals` (references, in order), `columns` (keys of those that are shown: signal, value, unit, minimum, maximum, quality, age, rate), `sort` (key of a column), `descending`, and
+/// `search`: words, all of which have to occur in name, unit, description, node or plant of the rows that are shown; Ctrl+F opens a line for them, Escape closes it.
 ///
 /// A signal that does not exist (yet) stays as a grey row. In a window whose plots are frozen it shows the values of the time that is looked at.
 ///
@@ -35,6 +36,10 @@ protected:
 private:
     void makeActions();
     void openAdding();
+    void openSearch();
+    void makeSearch();
+    void closeSearch();
+    void search(const QString &text);
     void takeSignals();
 
     struct Private;

@@ -6,7 +6,7 @@
 
 namespace qplc {
 
-/// Of a SignalTreeModel what fits a search: all words have to occur, in any order and case, in name, unit, description, node or plant of a signal.
+/// Of a SignalTreeModel or a ValueTableModel what fits a search: all words have to occur, in any order and case, in name, unit, description, node or plant of a signal.
 class SignalFilterModel : public QSortFilterProxyModel
 {
     Q_OBJECT
@@ -16,6 +16,8 @@ public:
     QString search() const { return m_words.join(QLatin1Char(' ')); }
     /// Empty: everything.
     void setSearch(const QString &text);
+    /// Searches again in texts that may have changed.
+    void searchAgain() { invalidateFilter(); }
 
 protected:
     bool filterAcceptsRow(int row, const QModelIndex &parent) const override;

@@ -253,6 +253,17 @@ QVariant ValueTableModel::headerData(int section, Qt::Orientation orientation, i
     return tr(titles[section]);
 }
 
+QString ValueTableModel::searchText(const Row &row)
+{
+    QStringList texts{row.reference.toString()};
+    if (row.signal) {
+        const QPlcSignalDefinition &definition = row.signal.definition();
+        texts << definition.unit << definition.description << row.signal.plant->writer(row.signal.index)
+              << row.signal.plant->name();
+    }
+    return texts.join(QLatin1Char('\n'));
+}
+
 QVariant ValueTableModel::data(const QModelIndex &index, int role) const
 {
     if (!index.isValid())
@@ -263,6 +274,8 @@ QVariant ValueTableModel::data(const QModelIndex &index, int role) const
         return row.texts.at(index.column());
     case SortRole:
         return sortValue(row, index.column());
+    case SearchRole:
+        return searchText(row);
     case Qt::ForegroundRole:
         return foregroundOf(row.isTrusted);
     case Qt::TextAlignmentRole:

@@ -18,7 +18,10 @@ class ValueTableModel : public QAbstractTableModel
     Q_OBJECT
 public:
     enum Column { Name, Value, Unit, Minimum, Maximum, QualityColumn, Age, Rate, ColumnCount };
-    enum Role { SortRole = Qt::UserRole };  // numbers as numbers
+    enum Role {
+        SortRole = Qt::UserRole,  // numbers as numbers
+        SearchRole                // QString, as that of SignalTreeModel
+    };
 
     explicit ValueTableModel(PlantList *plants, QObject *parent = nullptr);
 
@@ -64,6 +67,7 @@ private:
     QStringList textsOf(const Row &row) const;
     QPlcValue shownValue(const Row &row) const;
     bool isTrusted(const Row &row) const;
+    static QString searchText(const Row &row);
     QVariant sortValue(const Row &row, int column) const;
 
     PlantList *m_plants;

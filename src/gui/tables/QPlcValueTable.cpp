@@ -4,17 +4,18 @@
 #include "PanelTable.h"
 #include "TableTime.h"
 #include "TimeStrip.h"
+#include "gui/models/SignalFilterModel.h"
 #include "gui/models/ValueTableModel.h"
 #include "gui/panel/PanelSettings.h"
 #include "gui/panel/SignalEdit.h"
 #include "gui/panel/WindowContext.h"
 
-#include <QtCore/QSortFilterProxyModel>
 #include <QtCore/QTimer>
 #include <QtGui/QClipboard>
 #include <QtGui/QGuiApplication>
 #include <QtWidgets/QAction>
 #include <QtWidgets/QLabel>
+#include <QtWidgets/QLineEdit>
 #include <QtWidgets/QMenu>
 #include <QtWidgets/QVBoxLayout>
 
@@ -44,12 +45,13 @@ QVector<SignalReference> referencesOf(const QStringList &texts)
 struct QPlcValueTable::Private
 {
     PanelTable *table = nullptr;
-    QSortFilterProxyModel *sorted = nullptr;
+    SignalFilterModel *sorted = nullptr;
     ValueTableModel *model = nullptr;  // from contextChanged() on
     TimeStrip *strip = nullptr;
     QLabel *hint = nullptr;
+    QLineEdit *search = nullptr;  // null: nobody searches
     QVBoxLayout *column = nullptr;
-    PanelSettings settings{"signals", "columns", "sort", "descending"};
+    PanelSettings settings{"signals", "columns", "sort", "descending", "search"};
     bool isApplying = false;
 
     QStringList wanted() const { return settings.value("signals").toVariant().toStringList(); }
@@ -59,7 +61,16 @@ struct QPlcValueTable::Private
         isApplying = true;
         model->setReferences(referencesOf(wanted()));
         isApplying = false;
-        hint->setVisible(model->rowCount() == 0);
+        showHint();
+    }
+
+    /// Why there are no rows.
+    void showHint()
+    {
+        const bool isEmpty = !model || model->rowCount() == 0;
+        hint->setText(isEmpty ? tr("No signals yet. Drop some here, or press Insert.")
+                              : tr("No signal of this table fits the search."));
+        hint->setVisible(sorted->rowCount() == 0);
     }
 
     void removeSelected()
@@ -81,12 +92,12 @@ QPlcValueTable::QPlcValueTable(QWidget *parent)
     d->table = new PanelTable(nullptr, PanelTable::Sorting::ByHeader, this);
     d->table->setAccessibleName(tr("Values"));
     d->table->setDragDropMode(QAbstractItemView::DragOnly);  // drops are for the frame of the panel and its zones
-    d->sorted = new QSortFilterProxyModel(this);
+    d->sorted = new SignalFilterModel(this);
     d->sorted->setSortRole(ValueTableModel::SortRole);
     d->sorted->setDynamicSortFilter(false);  // rows do not jump while their values change
     d->table->setModel(d->sorted);
     d->strip = new TimeStrip(this);
-    d->hint = new QLabel(tr("No signals yet. Drop some here, or press Insert."), this);
+    d->hint = new QLabel(this);
     d->hint->setAlignment(Qt::AlignCenter);
     d->hint->setWordWrap(true);
     d->hint->setMargin(8);
@@ -102,6 +113,7 @@ QPlcValueTable::QPlcValueTable(QWidget *parent)
         d->table->writeSettings(&d->settings);
         Q_EMIT settingsEdited();
     });
+    d->showHint();
     makeActions();
 }
 
@@ -125,8 +137,65 @@ void QPlcValueTable::makeActions()
         if (d->model)
             d->model->reset();
     });
+    make(tr("Search in the table"), QKeySequence(QKeySequence::Find), [this] { openSearch(); });
     make(tr("Copy as text"), QKeySequence(QKeySequence::Copy),
          [this] { QGuiApplication::clipboard()->setText(d->table->toTabSeparated()); });
+}
+
+/// A line above the rows, until Escape.
+void QPlcValueTable::openSearch()
+{
+    makeSearch();
+    d->search->setFocus(Qt::ShortcutFocusReason);
+    d->search->selectAll();
+}
+
+void QPlcValueTable::makeSearch()
+{
+    if (d->search)
+        return;
+    d->search = new QLineEdit(this);
+    d->search->setPlaceholderText(tr("Search in the table"));
+    d->search->setAccessibleName(tr("Search in the table"));
+    d->search->setClearButtonEnabled(true);
+    d->column->insertWidget(0, d->search);
+    d->search->show();  // at once, so that it can have the focus
+    connect(d->search, &QLineEdit::textChanged, this, &QPlcValueTable::search);
+    const auto make = [this](const QList<QKeySequence> &keys, const auto &act) {
+        auto *action = new QAction(d->search);
+        action->setShortcuts(keys);
+        action->setShortcutContext(Qt::WidgetShortcut);
+        d->search->addAction(action);
+        connect(action, &QAction::triggered, this, act);
+    };
+    make({Qt::Key_Escape}, [this] { closeSearch(); });
+    make({Qt::Key_Down, Qt::Key_Return, Qt::Key_Enter}, [this] {  // from the line into the rows
+        d->table->setFocus(Qt::TabFocusReason);
+        if (!d->table->currentIndex().isValid())
+            d->table->setCurrentIndex(d->sorted->index(0, 0));
+    });
+}
+
+/// And shows all rows.
+void QPlcValueTable::closeSearch()
+{
+    if (!d->search)
+        return;
+    d->search->clear();
+    const bool hadFocus = d->search->hasFocus();
+    d->search->hide();
+    d->search->deleteLater();
+    d->search = nullptr;
+    if (hadFocus)
+        d->table->setFocus();
+}
+
+void QPlcValueTable::search(const QString &text)
+{
+    d->sorted->setSearch(text);
+    d->showHint();
+    if (d->settings.set("search", text, QString()))
+        Q_EMIT settingsEdited();
 }
 
 /// A line above the rows, until Escape.
@@ -174,6 +243,13 @@ void QPlcValueTable::applySettings(const QJsonObject &settings)
 {
     const QStringList before = d->wanted();
     QPlcWidget::applySettings(d->settings.take(settings));
+    const QString searched = d->settings.value("search").toString();
+    if (searched.isEmpty() && d->search && !d->search->text().isEmpty())
+        closeSearch();
+    if (!searched.isEmpty()) {
+        makeSearch();
+        d->search->setText(searched);
+    }
     if (!d->model)
         return;
     if (d->wanted() != before)
@@ -186,6 +262,7 @@ bool QPlcValueTable::addSignals(const QStringList &references)
     const QVector<SignalReference> known = referencesOf(references);
     if (known.isEmpty() || !d->model)
         return false;
+    closeSearch();  // what is added is seen
     d->model->add(known);
     return true;
 }
@@ -199,7 +276,7 @@ void QPlcValueTable::takeSignals()
     const QVector<SignalReference> references = d->model->references();
     for (const SignalReference &reference : references)
         names.append(reference.toString());
-    d->hint->setVisible(references.isEmpty());
+    d->showHint();
     if (d->settings.set("signals", names, QJsonArray()))
         Q_EMIT settingsEdited();
 }
@@ -216,6 +293,10 @@ void QPlcValueTable::contextChanged()
     d->table->applySettings(d->settings);
     connect(d->model, &QAbstractItemModel::rowsInserted, this, &QPlcValueTable::takeSignals);
     connect(d->model, &QAbstractItemModel::rowsRemoved, this, &QPlcValueTable::takeSignals);
+    connect(context()->plants(), &PlantList::signalsChanged, this, [this] {
+        d->sorted->searchAgain();
+        d->showHint();
+    });
     d->strip->setContext(context());
     followDisplayTime(d->model, context());
     addAction(d->table->createColumnMenu(this)->menuAction());
