@@ -12,7 +12,7 @@
 ///
 /// Keys: `T` the last 10 s, `L`, `X` and `R` lateness, execution and round trip of the master, `Ctrl+Shift+E` and `Ctrl+Shift+C` a picture (PNG, SVG, PDF) into a file or the clipboard.
 ///
-/// Settings: `{"plant": "tower", "show": ["Master.lateness", "Kite.roundTrip"], "window": "last10s"}`. Without plant: the first one; without show: the lateness of the master; window is "sinceStart"
+/// Settings: `{"plant": "tower", "show": ["Master.lateness", "Kite.roundTrip"], "window": "last10s"}`. Without plant: the first one (with several, the caption says whose figures these are); without show: the lateness of the master; window is "sinceStart"
 /// or "last10s", since the start if it is missing.
 ///
 /// Threads: the thread of the window.

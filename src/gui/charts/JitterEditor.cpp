@@ -4,6 +4,7 @@
 #include "JitterDistributions.h"
 
 #include <QtWidgets/QCheckBox>
+#include <QtWidgets/QComboBox>
 #include <QtWidgets/QLabel>
 #include <QtWidgets/QRadioButton>
 #include <QtWidgets/QVBoxLayout>
@@ -29,6 +30,24 @@ JitterEditor::JitterEditor(const QStringList &keys, const QStringList &shown, bo
         all->addWidget(box);
     }
     all->addStretch(1);
+}
+
+void JitterEditor::addPlants(const QStringList &plants, const QString &plant)
+{
+    auto *choice = new QComboBox;
+    choice->setAccessibleName(tr("Plant"));
+    choice->addItem(tr("The first one"), QString());
+    for (const QString &name : plants)
+        choice->addItem(name, name);
+    if (choice->findData(plant) < 0)
+        choice->addItem(tr("%1, which is not there").arg(plant), plant);
+    choice->setCurrentIndex(choice->findData(plant));
+    connect(choice, QOverload<int>::of(&QComboBox::activated), this,
+            [this, choice] { Q_EMIT plantChanged(choice->currentData().toString()); });
+    auto *all = qobject_cast<QVBoxLayout *>(layout());
+    all->insertWidget(0, new QLabel(tr("Plant")));
+    all->insertWidget(1, choice);
+    all->insertSpacing(2, 8);
 }
 
 }  // namespace qplc

@@ -45,6 +45,7 @@ public:
 
     void makeActions();
     Plant *plant() const;
+    void setPlant(const QString &name);
     void ask();
     void take(const QPlcMessage &answer);
     void draw();
@@ -159,6 +160,16 @@ Plant *QPlcJitterHistogram::Private::plant() const
     return name.isEmpty() ? q->context()->plants()->at(0) : q->context()->plants()->find(name);
 }
 
+/// A person's choice.
+void QPlcJitterHistogram::Private::setPlant(const QString &name)
+{
+    if (!settings.set(plantKey, name, QString()))
+        return;
+    ask();
+    draw();
+    Q_EMIT q->settingsEdited();
+}
+
 void QPlcJitterHistogram::Private::forget()
 {
     statistics = {};
@@ -244,8 +255,13 @@ QString QPlcJitterHistogram::Private::captionText(const QVector<JitterDistributi
     if (shown.size() == 1)
         parts << tr("%1 values").arg(shown.first().count, 0, 'f', 0);
     parts << (settings.value(windowKey).toString() == last10s ? tr("last 10 s") : tr("since start"));
+    QStringList what;
+    if (q->context()->plants()->size() > 1)
+        what << plant()->name();
     if (shown.size() == 1)
-        parts << shown.first().title();
+        what << shown.first().title();
+    if (!what.isEmpty())
+        parts << what.join(QStringLiteral(": "));
     if (isStale)
         parts << tr("stale, %1").arg(ageText(double(sinceAnswer.elapsed()) * 1e-3));
     const bool isSmall = q->height() < leastHeightOfTexts;
@@ -301,6 +317,13 @@ QWidget *QPlcJitterHistogram::createSettingsEditor()
             keys << key;
     }
     auto *editor = new JitterEditor(keys, d->shownKeys(), d->last->isChecked());
+    QStringList plants;
+    for (int place = 0; context() && place < context()->plants()->size(); ++place)
+        plants << context()->plants()->at(place)->name();
+    const QString chosen = d->settings.value(plantKey).toString();
+    if (plants.size() > 1 || !chosen.isEmpty())
+        editor->addPlants(plants, chosen);
+    connect(editor, &JitterEditor::plantChanged, this, [this](const QString &plant) { d->setPlant(plant); });
     connect(editor, &JitterEditor::shownChanged, this,
             [this](const QString &key, bool isShown) { d->setShown(key, isShown); });
     connect(editor, &JitterEditor::lastChanged, this, [this](bool isLast) {

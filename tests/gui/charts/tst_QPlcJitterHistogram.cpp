@@ -10,6 +10,7 @@
 #include <QtCore/QJsonDocument>
 #include <QtWidgets/QAction>
 #include <QtWidgets/QCheckBox>
+#include <QtWidgets/QComboBox>
 #include <QtWidgets/QLabel>
 
 using namespace qplc;
@@ -53,6 +54,8 @@ private Q_SLOTS:
     void histogramsOfALostMasterAreStale();
     void aSettingThatIsMissingIsADefault();
     void theCaptionIsOneLineOfWhatHasRoom();
+    void amongSeveralPlantsOneIsChosenAndNamed();
+    void aSinglePlantIsNoChoice();
 };
 
 void tst_QPlcJitterHistogram::settingsComeBackAsTheyWere_data()
@@ -192,6 +195,52 @@ void tst_QPlcJitterHistogram::theCaptionIsOneLineOfWhatHasRoom()
         const int twoLines = 2 * (*caption)->fontMetrics().height();
         QVERIFY(width == 60 || (*caption)->heightForWidth(width - 4) < twoLines);
     }
+}
+
+void tst_QPlcJitterHistogram::amongSeveralPlantsOneIsChosenAndNamed()
+{
+    RunningMaster north;
+    RunningMaster south;
+    QVERIFY(north.startRealTime() && south.startRealTime());
+    WindowContext context;
+    context.plants()->add(north.address(), QStringLiteral("north"), QStringLiteral("Window"));
+    context.plants()->add(south.address(), QStringLiteral("south"), QStringLiteral("Window"));
+    QPlcJitterHistogram panel;
+    panel.setContext(&context);
+    panel.resize(400, 300);
+    panel.show();
+    QTRY_VERIFY(showsText(panel, "north: Master lateness"));
+    const std::unique_ptr<QWidget> editor(panel.createSettingsEditor());
+    auto *choice = editor->findChild<QComboBox *>();
+    QVERIFY(choice);
+    QCOMPARE(choice->count(), 3);
+    QCOMPARE(choice->currentText(), QStringLiteral("The first one"));
+    QSignalSpy edited(&panel, &QPlcJitterHistogram::settingsEdited);
+    choice->setFocus();
+    QTest::keyClick(choice, Qt::Key_End);
+    QCOMPARE(panel.settings(), objectOf(R"({"plant":"south"})"));
+    QCOMPARE(edited.count(), 1);
+    QTRY_VERIFY(showsText(panel, "south: Master lateness"));
+    // So do several histograms.
+    panel.applySettings(objectOf(R"({"plant":"south","show":["Master.lateness","Master.execution"]})"));
+    QTRY_VERIFY(showsText(panel, "since start · south"));
+    panel.applySettings({});
+    QTRY_VERIFY(showsText(panel, "north: Master lateness"));
+}
+
+void tst_QPlcJitterHistogram::aSinglePlantIsNoChoice()
+{
+    RunningMaster master;
+    QVERIFY(master.startRealTime());
+    ShownHistogram shown(master);
+    QTRY_VERIFY(showsText(shown.panel, "Master lateness"));
+    QVERIFY(!showsText(shown.panel, ": Master lateness"));
+    const std::unique_ptr<QWidget> editor(shown.panel.createSettingsEditor());
+    QVERIFY(!editor->findChild<QComboBox *>());
+    // Unless it is not the one that was wanted.
+    shown.panel.applySettings(objectOf(R"({"plant":"tower"})"));
+    const std::unique_ptr<QWidget> other(shown.panel.createSettingsEditor());
+    QCOMPARE(other->findChild<QComboBox *>()->currentText(), QStringLiteral("tower, which is not there"));
 }
 
 QTEST_MAIN(tst_QPlcJitterHistogram)
