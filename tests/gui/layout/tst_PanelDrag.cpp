@@ -63,6 +63,7 @@ private Q_SLOTS:
     void zoneIsTheNearestEdge();
     void panelGoesToTheEdgeWhereItIsDropped_data();
     void panelGoesToTheEdgeWhereItIsDropped();
+    void panelInTheMiddleGoesToTheNearestEdge();
     void zoneIsShownWhileDragging();
     void panelGoesToTheTabWhereItIsDropped();
     void panelFillsAnEmptyTab();
@@ -131,6 +132,21 @@ void tst_PanelDrag::panelGoesToTheEdgeWhereItIsDropped()
     QCOMPARE(window.editor.undoStack()->undoText(), QStringLiteral("move of 'Time plot'"));
     window.undoAndRedo();
     QCOMPARE(window.onScreen("panel1"), QStringLiteral("H[panel1 V[panel2 panel3]]"));
+}
+
+/// Neither takes the place of the other, and none is lost.
+void tst_PanelDrag::panelInTheMiddleGoesToTheNearestEdge()
+{
+    for (const auto &[x, expected] :
+         {std::pair(0.45, "V[panel2 H[panel1 panel3]]"), std::pair(0.55, "V[panel2 H[panel3 panel1]]")}) {
+        ViewFixture window;
+        const QRect area = window.frame("panel3")->rect();
+        QVERIFY(int(dropZoneAt(area, {int(area.width() * x), area.height() / 2}, DropCenter::IsAZone))
+                == int(DropZone::Center));
+        drag(window.frame("panel1"), globalPoint(window.frame("panel3"), x, 0.5));
+        QCOMPARE(window.shown(), QString::fromLatin1(expected));
+        window.undoAndRedo();
+    }
 }
 
 void tst_PanelDrag::zoneIsShownWhileDragging()
