@@ -5,12 +5,16 @@
 
 #include <QtCore/QJsonDocument>
 
+#include <algorithm>
 #include <cmath>
 #include <initializer_list>
 
 namespace qplc {
 
 namespace {
+
+// The time of a window to arrange splits grows with the third power of their depth: 0.3 s for 50, a minute for 400.
+constexpr int deepest = 50;
 
 QJsonObject without(QJsonObject json, std::initializer_list<const char *> keys)
 {
@@ -29,8 +33,9 @@ struct LayoutSize
 {
     int panels = 0;
     int splits = 0;
+    int depth = 0;  // splits within each other
 
-    void add(const QJsonValue &node)
+    void add(const QJsonValue &node, int splitsAround = 0)
     {
         const QJsonObject json = node.toObject();
         if (!json.contains(QStringLiteral("split"))) {
@@ -38,9 +43,10 @@ struct LayoutSize
             return;
         }
         ++splits;
+        depth = std::max(depth, splitsAround + 1);
         const QJsonArray children = json.value(QStringLiteral("children")).toArray();
         for (const QJsonValue &child : children)
-            add(child);
+            add(child, splitsAround + 1);
     }
     void addPages(const QJsonArray &pages)
     {
@@ -131,14 +137,14 @@ void LayoutReader::checkSize(const QJsonArray &tabs, const QJsonArray &windows)
     LayoutSize size;
     size.addPages(tabs);
     size.addPages(windows);
-    const auto check = [this](const QString &what, int count) {
-        if (count > Layout::MostPanels)
-            fail(QString(),
-                 tr("a layout has at most %1 %2, and this one has %3").arg(Layout::MostPanels).arg(what).arg(count));
+    const auto check = [this](const QString &what, int count, int most) {
+        if (count > most)
+            fail(QString(), tr("a layout has at most %1 %2, and this one has %3").arg(most).arg(what).arg(count));
     };
-    check(tr("tabs"), tabs.size());
-    check(tr("panels"), size.panels);
-    check(tr("splits"), size.splits);
+    check(tr("tabs"), tabs.size(), Layout::MostPanels);
+    check(tr("panels"), size.panels, Layout::MostPanels);
+    check(tr("splits"), size.splits, Layout::MostPanels);
+    check(tr("splits within each other"), size.depth, deepest);
 }
 
 LayoutTab LayoutReader::readTab(const QJsonObject &json, const QString &place)

@@ -211,6 +211,11 @@ void tst_LayoutJson::badTextIsRefusedWithPlaceAndRemedy_data()
     for (int i = 0; i < 400; ++i)
         chain = split("horizontal", {chain});
     row("splits", withTree(split("vertical", {chain, chain})), "a layout has at most 500 splits, and this one has 801");
+    QByteArray nested = Panel;
+    for (int i = 0; i < 51; ++i)
+        nested = split(i % 2 == 0 ? "horizontal" : "vertical", {nested, Panel});
+    row("splits within splits", withTree(nested),
+        "a layout has at most 50 splits within each other, and this one has 51");
     row("tabs",
         R"({"format": "QtPLC layout", "version": 1, "windows": [], "currentTab": "a", "tabs": [)"
             + many(501, R"({"id": "a", "name": "A"})").join(',') + "]}",
