@@ -66,7 +66,7 @@ REMOVALS = [
             "    case QChar::Other_Format:\n", "",
             "tst_MessageText", "textsAreFitToBeShown"),
     Removal("link to a node with devices is cut", "src/hardware/QPlcHardwareNode.cpp",
-            "    activateWatchdog(DefaultWatchdog);\n", "",
+            "    setDefaultWatchdog(DefaultWatchdog, 4);\n", "",
             "tst_HardwareNode", "theDeviceIsSafeWhenTheLinkIsCut"),
     Removal("exception in step()", "src/node/NodeRuntime.cpp",
             "    } catch (const std::exception &thrown) {\n        setFault(thrown.what());\n    } catch (...) {",
