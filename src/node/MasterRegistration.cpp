@@ -212,26 +212,16 @@ void MasterServer::dropUnattached(const MasterConnection *connection)
     });
 }
 
-/// A node that comes back before its last connection is known to be dead takes its own place: the same program, or a program that has proven to be this node.
+/// A node that comes back before its last connection is known to be dead takes its own place.
 void MasterServer::replace(const MasterConnection *newcomer, const QString &name)
 {
-    const Peer &peer = newcomer->peer;
-    const bool isProven = peer.isSecured && peer.role == Role::Node && peer.identity == name;
     const auto isItself = [&](const std::unique_ptr<MasterConnection> &other) {
-        return other->isNode() && other->name == name && other->peer.identity == peer.identity
-            && (isProven || (other->uuid == newcomer->uuid && !newcomer->uuid.isEmpty()));
+        return other->isNode() && other->name == name && other->uuid == newcomer->uuid && !newcomer->uuid.isEmpty()
+            && other->peer.identity == newcomer->peer.identity;
     };
     const auto found = std::find_if(m_connections.begin(), m_connections.end(), isItself);
-    if (found == m_connections.end())
-        return;
-    if (found->get()->uuid != newcomer->uuid)  // should it be there after all, it is not to come back at once
-        found->get()->send(Message::Rejected,
-                           {{QStringLiteral("error"), QStringLiteral("NameInUse")},
-                            {QStringLiteral("text"),
-                             QStringLiteral("another program with the identity '%1' has taken the place of node '%2'; "
-                                            "let one of the two run")
-                                 .arg(peer.identity, name)}});
-    drop(found->get(), QStringLiteral("it registers again"));
+    if (found != m_connections.end())
+        drop(found->get(), QStringLiteral("it registers again"));
 }
 
 void MasterServer::attachCyclicChannel(MasterConnection *connection, const Message &message)

@@ -17,8 +17,6 @@ private Q_SLOTS:
     void bothEndsOfAControlConnectionAreWatched_data();
     void bothEndsOfAControlConnectionAreWatched();
     void aCyclicStreamMayStayUnread();
-    void aProvenNodeTakesThePlaceOfItsPredecessor();
-    void aNameAloneTakesNobodysPlace();
 
 private:
     static quint16 port(const sockaddr_in &address) { return ntohs(address.sin_port); }
@@ -89,43 +87,6 @@ void tst_LostConnections::aCyclicStreamMayStayUnread()
     const auto isPatient = [](int end) { return optionOf(end, IPPROTO_TCP, TCP_USER_TIMEOUT) == 0; };
     QCOMPARE(std::count_if(ends.begin(), ends.end(), isWatched), 2);
     QCOMPARE(std::count_if(ends.begin(), ends.end(), isPatient), 2);
-}
-
-/// A board that has lost its power is back before its last connection is known to be dead; its program has another uuid then.
-void tst_LostConnections::aProvenNodeTakesThePlaceOfItsPredecessor()
-{
-    TestMaster master;
-    master.setSecurity(QPlcSecurity::preSharedKeys(m_files.masterKeys()));
-    QVERIFY(master.listen());
-    QSignalSpy lost(&master, &QPlcMasterNode::nodeLost);
-    ScriptedNode before("Echo");
-    before.control.setSecurity(m_files.echo());
-    QVERIFY(before.registerAt(master.serverPort()));
-    ScriptedNode after("Echo");
-    after.control.setSecurity(m_files.echo());
-    QVERIFY(after.uuid != before.uuid);
-    QVERIFY(after.registerAt(master.serverPort()));
-    QCOMPARE(lost.size(), 1);
-    QTRY_VERIFY(!before.control.isConnected());
-    QVERIFY2(before.next().text("text").contains("has taken the place of node 'Echo'"), "not told");
-    QCOMPARE(master.nodes().size(), 1);
-    QCOMPARE(master.writer("echo"), QString("Echo"));
-}
-
-/// An engineer may run nodes of any name: two of them may be two programs.
-void tst_LostConnections::aNameAloneTakesNobodysPlace()
-{
-    TestMaster master;
-    master.setSecurity(QPlcSecurity::preSharedKeys(m_files.masterKeys()));
-    QVERIFY(master.listen());
-    ScriptedNode before("Camera");
-    before.control.setSecurity(m_files.carl());
-    QVERIFY(before.registerAt(master.serverPort()));
-    ScriptedNode after("Camera");
-    after.control.setSecurity(m_files.carl());
-    QVERIFY(!after.registerAt(master.serverPort()));
-    QCOMPARE(after.registered.text("error"), QString("NameInUse"));
-    QVERIFY(before.control.isConnected());
 }
 
 QTEST_GUILESS_MAIN(tst_LostConnections)
