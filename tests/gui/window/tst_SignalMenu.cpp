@@ -26,8 +26,10 @@ struct MenuFixture : WindowFixture
         master.setTimeSignal(QStringLiteral("time"));
         window.connectToMaster(master.address());
         editor->setLayout(threePanels());
-        isReady = QTest::qWaitFor([this] { return find("setpoint").isValid() && find("time").isValid(); }, patience)
-            && QTest::qWaitFor([this] { return plant()->writer(0) == QLatin1String("Master"); }, patience);
+        // Rows that move below their writers take no selection along.
+        isReady = QTest::qWaitFor([this] { return find("time").parent().data() == QLatin1String("Master"); }, patience)
+            && QTest::qWaitFor([this] { return find("count").parent().data() == QLatin1String("Counter"); }, patience)
+            && find("setpoint").isValid();
         rows->setFocus();
     }
     QModelIndex find(const char *name) const
