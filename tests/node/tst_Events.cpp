@@ -25,6 +25,7 @@ private Q_SLOTS:
     void valueThatComesBackIsTold();
     void leasesAreTold();
     void skippedCyclesAreTold();
+    void newsThatNobodyTakesHoldNoCycle();
     void backlogIsAskedForInParts();
     void eventsArePushedToWhoOffersTheFeature();
     void logAndEventHaveTheSameText();
@@ -262,6 +263,31 @@ void tst_Events::skippedCyclesAreTold()
                  QRegularExpression("^warning Master: cycles that began a period or more late since the last report: "
                                     "[1-9]\\d*; left out: [1-9]\\d*$")),
              qPrintable(texts.at(0)));
+}
+
+/// As when the event loop hangs: nobody takes what the cycles have to tell, which is far more than there is room for.
+void tst_Events::newsThatNobodyTakesHoldNoCycle()
+{
+    constexpr quint64 cycles = 10'000;
+    class Babbler : public QPlcCompactSlaveNode
+    {
+    public:
+        Babbler()
+            : QPlcCompactSlaveNode("Babbler")
+        {
+        }
+        void step(const QPlcCycle &cycle) override { m_echo = cycle.number() % 2 == 0 ? qQNaN() : 1.0; }
+        QPlcOutput<double> m_echo{this, "echo"};
+    } babbler;
+    const LogCapture log;
+    TestMaster master;
+    QVERIFY(master.addLocalNode(&babbler));
+    QVERIFY(master.startRealTime());
+    const QDeadlineTimer deadline(10'000);
+    while (master.statistics().cycles < cycles && !deadline.hasExpired())
+        QThread::msleep(1);  // without a look at events
+    QVERIFY(master.statistics().cycles >= cycles);
+    master.stop();
 }
 
 void tst_Events::backlogIsAskedForInParts()
