@@ -126,7 +126,7 @@ void tst_HardwareNode::theDeviceIsSafeWhenTheMasterIsLost()
     QVERIFY(node.configure(wiring, "winch.ini"));
     QVERIFY(master->admit(node, kind));
     QVERIFY(master->setSignalValue("torque", 0.5));
-    QVERIFY(start(*master));
+    QVERIFY(WinchBench::start(*master));
     QTRY_COMPARE(m_bench.device->torque.load(), 5.0);
     LogCapture log;
     master.reset();

@@ -12,8 +12,8 @@ namespace soak {
 
 namespace {
 
-constexpr int Patience = 10'000;      // [ms]
-constexpr int TurnsOfAHandshake = 5;  // a handshake is work for the master, with a wrong key, too
+constexpr int LongestSettling = 10'000;  // [ms]
+constexpr int TurnsOfAHandshake = 5;     // a handshake is work for the master, with a wrong key, too
 
 /// What an observer may not send.
 Message forbidden(int number)
@@ -52,7 +52,7 @@ Intruder::Intruder(quint16 port, int attempts, quint64 seed, const QString &fold
     enterAsObserver();
     QElapsedTimer timer;  // the runner has other work afterwards, and a handshake has to end in time
     timer.start();
-    while (!m_isObserverIn && timer.elapsed() < Patience)
+    while (!m_isObserverIn && timer.elapsed() < LongestSettling)
         Operator::wait(Interval);
     m_timer.start(Interval);
 }
@@ -64,7 +64,7 @@ void Intruder::end()
     m_timer.stop();
     QElapsedTimer timer;
     timer.start();
-    while (!isSettled() && timer.elapsed() < Patience) {
+    while (!isSettled() && timer.elapsed() < LongestSettling) {
         Operator::wait(Interval);
         m_ended += quint64(m_strangers.leaveEnded());
     }

@@ -16,8 +16,6 @@ namespace soak {
 
 namespace {
 
-constexpr int Patience = 20000;  // [ms], far more than a loaded machine needs
-
 /// Descriptors, threads and resident memory [kB] of a process.
 std::array<quint64, 3> usageOf(qint64 process)
 {

@@ -10,6 +10,8 @@
 
 namespace soak {
 
+inline constexpr int Patience = 20'000;  // [ms] with what is to come at once: far more than a loaded machine needs
+
 /// A process of the plant. It dies with the runner, and its words go to a file.
 class PlantProcess : public QProcess
 {

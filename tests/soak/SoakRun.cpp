@@ -16,7 +16,6 @@ namespace soak {
 
 namespace {
 
-constexpr int Patience = 20'000;   // [ms]
 constexpr int Consequences = 100;  // [ms] after a fault, until watchdogs and connections have had their say
 constexpr int AtOnce = 8;      // processes that start beside each other: hundreds would leave the master no processor
 constexpr int Settling = 350;  // [ms] after a fault, until all of it has been counted

@@ -10,7 +10,7 @@ namespace {
 const real_T stepSize = 0.01;     // [s]
 const real_T groundArea = 0.5;    // of each tank [m^2]
 const real_T pumpVolume = 0.004;  // of a turn [m^3]
-const real_T pipe = 0.02;         // flow per height [m^2/s]
+const real_T pipeFlow = 0.02;     // flow per height [m^2/s]
 
 }  // namespace
 
@@ -29,7 +29,7 @@ void TankModel_step()
     real_T inflow = pumpVolume * TankModel_U.speed;
     TankModel_Y.volume = 0.0;
     for (int i = 0; i < 3; ++i) {
-        const real_T outflow = openings[i] * pipe * TankModel_DW.level[i];
+        const real_T outflow = openings[i] * pipeFlow * TankModel_DW.level[i];
         TankModel_DW.level[i] += stepSize / groundArea * (inflow - outflow);
         TankModel_Y.level[i] = TankModel_DW.level[i];
         TankModel_Y.flow[i] = outflow;
