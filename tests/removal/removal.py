@@ -7,7 +7,7 @@ usage: removal.py [--work FOLDER] [--only WORD]... [--jobs N] [--check] SOURCE_F
 --work FOLDER  keeps the copy and its build there: the next call is faster
 --only WORD    only the faults with this word in their names; may come several times
 --jobs N       compilers at a time; one leaves the rest of the machine to others
---check        builds nothing: sees whether all that is to be taken away is there, and all tests are
+--check        builds nothing: sees whether all that is to be taken away is there, and all tests are, and whether each fault of docs/faults.md has a removal that one of its tests notices
 """
 import argparse
 import re
@@ -42,6 +42,21 @@ def errors_of(root, removals):
         if not test_exists(root, removal):
             errors.append(f"{removal.fault}: there is no {removal.program}::{removal.test}")
     return errors
+
+
+def faults_of(root):
+    """Each row of the tables that say by which tests a fault is shown: the fault, and the tests."""
+    tables = re.findall(r"^\|.*\| shown by \|\n\|[-|]+\|\n((?:\|.*\n)+)", (root / "docs/faults.md").read_text(), re.M)
+    rows = [row.strip("|").split("|") for row in "".join(tables).splitlines()]
+    return [(row[0].strip(), re.findall(r"`(tst_\w+::\w+)`", row[-1])) for row in rows]
+
+
+def faults_without_removal(root):
+    noticed = {f"{source_of(removal.program)}::{removal.test}" for removal in REMOVALS}
+    faults = faults_of(root)
+    if not faults:
+        return ["docs/faults.md: no table says by which tests a fault is shown"]
+    return [f"docs/faults.md: {fault}: none of its tests is named by a removal; add one" for fault, tests in faults if not noticed.intersection(tests)]
 
 
 def copy(root, target):
@@ -119,11 +134,11 @@ def main():
     arguments = parser.parse_args()
     root = arguments.root.resolve()
     removals = [removal for removal in REMOVALS if any(word in removal.fault for word in arguments.only or [""])]
-    errors = errors_of(root, removals)
+    errors = errors_of(root, removals) + (faults_without_removal(root) if arguments.check else [])
     if errors or not removals:
         sys.exit("\n".join(errors) or f"no fault has one of {arguments.only} in its name")
     if arguments.check:
-        print(f"{len(removals)} defences are where they were")
+        print(f"{len(removals)} defences are where they were, and {len(faults_of(root))} faults have one")
         return 0
     if arguments.work:
         return prove(root, arguments.work.resolve(), arguments.jobs, removals)
