@@ -222,12 +222,13 @@ void SlaveCycle::skipToNewest() noexcept
     int useless = 0;
     while (useless < UselessFrames && !m_stop.load(std::memory_order_relaxed)
            && m_link->poll(&frame, &size) == CyclicLink::Received) {
-        if (decode(frame, size) == FrameStatus::Complete) {
+        const FrameStatus status = decode(frame, size);
+        if (status == FrameStatus::Complete) {
             m_watchdog.hear(monotonicNow());
-        } else {
-            ++useless;
-            checkWatchdog();
+            continue;
         }
+        useless += status != FrameStatus::Incomplete;
+        checkWatchdog();
     }
 }
 

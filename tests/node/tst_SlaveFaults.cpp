@@ -24,6 +24,7 @@ private Q_SLOTS:
     void watchdogSleepsInLockstepAndOutsideOfAPhase();
     void afterAPauseOnlyTheNewestIsComputed();
     void aFloodAfterAPauseHoldsNobody();
+    void requestsOfManyPartsAreNoFlood();
     void lockstepLeavesNothingOut();
     void aStepThatThrowsGivesSafeValuesAndAFault();
     void aStepThatThrowsStopsThePlant_data();
@@ -140,37 +141,82 @@ void tst_SlaveFaults::afterAPauseOnlyTheNewestIsComputed()
 
 namespace {
 
-/// Brings two requests with a pause between them, and then garbage for ever.
+/// Brings a request, after a pause all others, and then garbage for ever, if there is any.
 class FloodedLink : public qplc::CyclicLink
 {
 public:
-    FloodedLink(const QVector<QByteArray> &requests, const std::atomic<bool> &ends)
+    FloodedLink(const QVector<QByteArray> &requests, const QByteArray &garbage, const std::atomic<bool> &ends)
         : CyclicLink(-1)
         , m_requests(requests)
+        , m_garbage(garbage)
         , m_ends(ends)
     {
     }
     Status receive(const char **frame, std::size_t *size) noexcept override
     {
-        if (m_next > 0 && m_next < m_requests.size())
+        if (m_next > 0 && (m_next < m_requests.size() || m_garbage.isEmpty()))
             qplc::TimeSource::monotonic().sleepUntil(qplc::monotonicNow() + 5'000'000);
         return poll(frame, size);
     }
     Status poll(const char **frame, std::size_t *size) noexcept override
     {
+        if (m_next >= m_requests.size() && m_garbage.isEmpty())
+            return Nothing;
         const QByteArray &bytes = m_next < m_requests.size() ? m_requests.at(m_next++) : m_garbage;
         *frame = bytes.constData();
         *size = std::size_t(bytes.size());
         return m_ends ? Closed : Received;
     }
     bool send(const char *, std::size_t) noexcept override { return true; }
+    bool hasBroughtAll() const { return m_next >= m_requests.size(); }
 
 private:
     const QVector<QByteArray> m_requests;
-    const QByteArray m_garbage{"garbage"};
+    const QByteArray m_garbage;
     const std::atomic<bool> &m_ends;
-    int m_next = 0;
+    std::atomic<int> m_next{0};
 };
+
+/// Hears more than one frame holds.
+class WideNode : public QPlcSlaveNode
+{
+public:
+    WideNode()
+        : QPlcSlaveNode("Wide", ErrorZeroOrderHold)
+    {
+    }
+
+protected:
+    QPlcSignalIndexList declareInputSignals() override
+    {
+        QPlcSignalIndexList list;
+        for (const char *name : {"a", "b", "c"})
+            list.insert(name);
+        return list;
+    }
+    QPlcSignalList realTimeout(const QPlcSignalList &) override { return {}; }
+};
+
+/// The frames of \a cycles requests from 0 on.
+QVector<QByteArray> requestsFor(const qplc::NodeRuntime &runtime, int cycles)
+{
+    const qplc::PayloadLayout &layout = runtime.inputLayout();
+    const qplc::FrameEncoder encoder(qplc::FrameKind::Inputs,
+                                     {ScriptedMaster::Session, ScriptedMaster::Node, layout.hash()},
+                                     layout.partBorders(qplc::MaximumCyclicPayload));
+    const QByteArray payload(int(layout.size()), '\0');
+    QVector<QByteArray> requests;
+    for (int k = 0; k < cycles; ++k) {
+        qplc::FrameHeader header;
+        header.cycle = quint64(k);
+        for (std::size_t part = 0; part < encoder.partCount(); ++part) {
+            QByteArray frame(int(encoder.partSize(part)), '\0');
+            encoder.encode(part, header, payload.constData(), frame.data());
+            requests << frame;
+        }
+    }
+    return requests;
+}
 
 }  // namespace
 
@@ -180,19 +226,9 @@ void tst_SlaveFaults::aFloodAfterAPauseHoldsNobody()
     qplc::NodeRuntime runtime(node);
     QString error;
     QVERIFY2(runtime.bind(testTable(), &error) && runtime.reset(&error), qPrintable(error));
-    const qplc::SlaveCycle::Identity identity{ScriptedMaster::Session, ScriptedMaster::Node};
-    const qplc::PayloadLayout &layout = runtime.inputLayout();
-    const qplc::FrameEncoder encoder(qplc::FrameKind::Inputs, {identity.session, identity.node, layout.hash()},
-                                     layout.partBorders(qplc::MaximumCyclicPayload));
-    QVector<QByteArray> requests(2, QByteArray(int(encoder.totalSize()), '\0'));
-    for (int k = 0; k < requests.size(); ++k) {
-        qplc::FrameHeader header;
-        header.cycle = quint64(k);
-        encoder.encode(0, header, QByteArray(int(layout.size()), '\0').constData(), requests[k].data());
-    }
     std::atomic<bool> ends{false};
-    qplc::SlaveCycle cycle(runtime, identity, false);
-    cycle.setLink(std::make_unique<FloodedLink>(requests, ends));
+    qplc::SlaveCycle cycle(runtime, {ScriptedMaster::Session, ScriptedMaster::Node}, false);
+    cycle.setLink(std::make_unique<FloodedLink>(requestsFor(runtime, 2), "garbage", ends));
     qplc::SlaveCycle::Phase phase;
     phase.period = 1ms;
     phase.watchdog = 20ms;
@@ -202,6 +238,33 @@ void tst_SlaveFaults::aFloodAfterAPauseHoldsNobody()
     cycle.stop();
     QVERIFY(barks);
     QCOMPARE(cycle.counters().cycles, quint64(2));
+}
+
+void tst_SlaveFaults::requestsOfManyPartsAreNoFlood()
+{
+    constexpr int cycles = 400;
+    const QPlcSignalTable table
+        = QPlcSignalTable::fromIni("[a]\ntype = Real64[150]\n[b]\ntype = Real64[150]\n[c]\ntype = Real64[150]\n");
+    QPlcSignalIndexTable::setCurrent(table);
+    WideNode node;
+    qplc::NodeRuntime runtime(node);
+    QString error;
+    QVERIFY2(runtime.bind(table, &error) && runtime.reset(&error), qPrintable(error));
+    const QVector<QByteArray> requests = requestsFor(runtime, cycles);
+    QVERIFY(requests.size() >= 3 * cycles);
+    const std::atomic<bool> ends{false};
+    qplc::SlaveCycle cycle(runtime, {ScriptedMaster::Session, ScriptedMaster::Node}, false);
+    auto link = std::make_unique<FloodedLink>(requests, QByteArray(), ends);
+    const FloodedLink *brought = link.get();
+    cycle.setLink(std::move(link));
+    qplc::SlaveCycle::Phase phase;
+    phase.period = 1ms;
+    QVERIFY2(cycle.start(phase), qPrintable(cycle.errorString()));
+    QTRY_VERIFY(brought->hasBroughtAll());
+    QTRY_VERIFY(cycle.counters().cycles > 0);
+    cycle.stop();
+    QPlcSignalIndexTable::setCurrent({});
+    QCOMPARE(cycle.counters().cycles, quint64(1));  // the parts of the first request come with pauses, too
 }
 
 void tst_SlaveFaults::lockstepLeavesNothingOut()
