@@ -31,7 +31,7 @@
 /// [buttons]
 /// driver = gpio
 /// device = gpiochip0
-/// input.emergencyStop = 17, active-low, debounce 5 ms
+/// input.emergencyStop = 17, pull-up, debounce 5 ms   ; normally closed contact to ground: a torn wire is 1, too
 /// ```
 ///
 /// A signal may go to several channels; a number in its place is a constant while the node computes, and needs a line in `safe`. An element of an array is `acceleration[0]`. Each driver also has the read channels `@online` (1 while the device is open), `@age` [s] (of the oldest value that is wired) and

@@ -1,8 +1,59 @@
 // SPDX-License-Identifier: Apache-2.0
-// A button at a hardware node stops the plant.
+// A button at a hardware node stops the plant, and so does its torn wire where it is wired as our pages say.
+#include "DriverBench.h"
+#include "FakeDevices.h"
 #include "WinchBench.h"
+#include "hardware/gpio/FakeGpioChip.h"
+
+#include <QtCore/QDirIterator>
+#include <QtCore/QRegularExpression>
+
+using namespace std::chrono_literals;
+using qplc::FakeGpioChip;
 
 namespace {
+
+constexpr int stopLine = 17;   // of docs/hardware/gpio.md
+constexpr int brakeLine = 22;  // likewise
+
+QByteArray contentOf(const QString &fileName)
+{
+    QFile file(fileName);
+    return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
+}
+
+/// The blocks of INI of docs/hardware/gpio.md: the configuration of a node, and its signal table.
+QStringList blocksOfTheGpioPage()
+{
+    static const QRegularExpression block(QStringLiteral("```ini\n(.*?)```"),
+                                          QRegularExpression::DotMatchesEverythingOption);
+    QStringList blocks;
+    auto matches
+        = block.globalMatch(QString::fromUtf8(contentOf(QStringLiteral(QTPLC_SOURCES "/docs/hardware/gpio.md"))));
+    while (matches.hasNext())
+        blocks << matches.next().captured(1);
+    return blocks;
+}
+
+/// A board with 32 lines. A line is a byte.
+struct PlayedBoard
+{
+    PlayedBoard()
+    {
+        QString error;
+        if (!memory.create(QStringLiteral("fake:board"), 32, &error))
+            qFatal("%s", qPrintable(error));
+    }
+    /// -1: the node does not drive it.
+    int driven(std::size_t line) const
+    {
+        const quint8 byte = memory.at(line);
+        return byte & FakeGpioChip::IsOutput ? (byte & FakeGpioChip::Driven ? 1 : 0) : -1;
+    }
+
+    const FakeDevices devices;
+    qplc::FakeMemory memory;
+};
 
 /// The speed is the button. Its values are fresh for longer than a busy machine lets its thread wait.
 QByteArray buttonWiring()
@@ -25,6 +76,10 @@ private Q_SLOTS:
     void aButtonThatIsSlowAtFirstStopsNothing_data() { addKinds(); }
     void aButtonThatIsSlowAtFirstStopsNothing();
     void aButtonWithoutAValueStopsThePlantToo();
+    void theWiringOfTheGpioPageStopsThePlantAndSetsTheBrake_data();
+    void theWiringOfTheGpioPageStopsThePlantAndSetsTheBrake();
+    void everyWiringThatWePublishTakesATornWireForAPressedButton_data();
+    void everyWiringThatWePublishTakesATornWireForAPressedButton();
 
 private:
     WinchBench m_bench;
@@ -80,6 +135,84 @@ void tst_EmergencyStop::aButtonWithoutAValueStopsThePlantToo()
     LogCapture log;
     QVERIFY(master.startRealTime());
     QVERIFY(master.waitForState(QPlcMasterNode::SafeStop));
+}
+
+void tst_EmergencyStop::theWiringOfTheGpioPageStopsThePlantAndSetsTheBrake_data()
+{
+    QTest::addColumn<int>("line");
+    QTest::newRow("button pressed: its contact opens, and the resistor pulls the line") << int(FakeGpioChip::Pulled);
+    QTest::newRow("wire torn") << int(FakeGpioChip::IsTorn);
+}
+
+void tst_EmergencyStop::theWiringOfTheGpioPageStopsThePlantAndSetsTheBrake()
+{
+    QFETCH(int, line);
+    const QStringList blocks = blocksOfTheGpioPage();
+    QVERIFY(blocks.size() >= 2);
+    QVector<QPlcParseError> errors;
+    const QPlcSignalTable table = QPlcSignalTable::fromIni(blocks[1].toUtf8(), &errors);
+    QVERIFY2(errors.isEmpty(), qPrintable(QPlcParseError::toString(errors)));
+    QByteArray configuration = blocks[0].toUtf8();
+    configuration.replace("device = gpiochip0\n", "device = fake:board\ntimeout = 2 s\n").replace("GPIO27", "27");
+
+    PlayedBoard board;
+    TestMaster master(QPlcClock::realTime(), table);
+    QPlcHardwareNode node;
+    QVERIFY2(node.configure(configuration, "gpio.ini"),
+             qPrintable(QPlcParseError::toString(node.configurationErrors())));
+    QVERIFY(master.addLocalNode(&node));
+    QVERIFY(WinchBench::start(master));
+    QVERIFY(master.setSignalValue("brakeRelease", 1));
+    QTRY_COMPARE(board.driven(brakeLine), 1);
+    QCOMPARE(master.signalValue("emergencyStopPressed").toInt(), 0);
+    QCOMPARE(master.state(), QPlcMasterNode::RealTime);
+
+    LogCapture log;
+    board.memory.at(stopLine) = quint8(line);
+    QVERIFY(master.waitForState(QPlcMasterNode::SafeStop));
+    QVERIFY2(master.stateReason().contains("node 'Winch' asked for it"), qPrintable(master.stateReason()));
+    QTRY_COMPARE(board.driven(brakeLine), 0);
+}
+
+/// Every line of a stop button in what people read and copy.
+void tst_EmergencyStop::everyWiringThatWePublishTakesATornWireForAPressedButton_data()
+{
+    static const QRegularExpression button(QStringLiteral("^[ /]*input\\.(\\w*[sS]top\\w*) = ([^;\n]*)"),
+                                           QRegularExpression::MultilineOption);
+    QTest::addColumn<QString>("name");
+    QTest::addColumn<QString>("words");
+    for (const char *folder : {"docs", "examples", "include", "packaging"}) {
+        QDirIterator files(QStringLiteral(QTPLC_SOURCES "/") + QLatin1String(folder), QDir::Files,
+                           QDirIterator::Subdirectories);
+        while (files.hasNext()) {
+            auto matches = button.globalMatch(QString::fromUtf8(contentOf(files.next())));
+            while (matches.hasNext()) {
+                const QRegularExpressionMatch match = matches.next();
+                QTest::addRow("%s: %s", qPrintable(files.fileName()), qPrintable(match.captured(1)))
+                    << match.captured(1) << match.captured(2).trimmed();
+            }
+        }
+    }
+}
+
+void tst_EmergencyStop::everyWiringThatWePublishTakesATornWireForAPressedButton()
+{
+    QFETCH(QString, name);
+    QFETCH(QString, words);
+    PlayedBoard board;
+    DriverBench bench(QStringLiteral("gpio"),
+                      QStringLiteral("device = fake:board\ninput.%1 = %2\n").arg(name, words).toUtf8());
+    QVERIFY2(bench.errors().isEmpty(), qPrintable(bench.errors()));
+    QCOMPARE(bench.wireRead(name), QString());
+    QVERIFY2(bench.open(), qPrintable(bench.errorString()));
+    QVERIFY(bench.exchange());
+    QCOMPARE(bench.value(name), 0.0);
+    board.memory.at(std::size_t(words.section(',', 0, 0).toInt())) = FakeGpioChip::IsTorn;
+    for (int i = 0; i < 3; ++i) {
+        bench.advance(10ms);
+        QVERIFY(bench.exchange());
+    }
+    QCOMPARE(bench.value(name), 1.0);
 }
 
 QTEST_GUILESS_MAIN(tst_EmergencyStop)

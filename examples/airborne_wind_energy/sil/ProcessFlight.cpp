@@ -80,7 +80,7 @@ bool ProcessFlight::startWinch()
         || m_processes.start(hardwareProgram, {accessible(m_arguments.hardware), m_address}, errorsOfNodes());
 }
 
-/// Devices that are played lie in a folder: that of the user, or else of this flight. The button of the emergency stop is not pressed.
+/// Devices that are played lie in a folder: that of the user, or else of this flight. The contact of the emergency stop is closed: low.
 void ProcessFlight::plugInDevices() const
 {
     constexpr int lines = 32;
@@ -91,7 +91,7 @@ void ProcessFlight::plugInDevices() const
     folder.mkpath(QStringLiteral("."));
     QFile buttons(folder.filePath(QStringLiteral("buttons")));
     if (!buttons.exists() && buttons.open(QIODevice::WriteOnly))
-        buttons.write(QByteArray(lines, '\1'));
+        buttons.write(QByteArray(lines, '\0'));
 }
 
 QString ProcessFlight::accessible(const QString &fileName)

@@ -14,20 +14,19 @@ public:
         : m_memory(memory)
         , m_byte(memory.at(offset))
         , m_isActiveLow(request.isActiveLow)
+        , m_pull(request.pull)
     {
         if (request.isOutput)
             drive(request.isOn);
         else
-            m_byte.fetch_and(FakeGpioChip::Pulled);
+            m_byte.fetch_and(Outside);
     }
 
     int value() noexcept override
     {
         if (!isThere())
             return -1;
-        const quint8 byte = m_byte.load();
-        const quint8 level = byte & (byte & FakeGpioChip::IsOutput ? FakeGpioChip::Driven : FakeGpioChip::Pulled);
-        return (level != 0) != m_isActiveLow ? 1 : 0;
+        return isHigh(m_byte.load()) != m_isActiveLow ? 1 : 0;
     }
 
     bool setValue(bool isOn) noexcept override
@@ -41,6 +40,19 @@ public:
     int takeEdges(GpioEdge *, int) noexcept override { return 0; }  // levels are sampled
 
 private:
+    static constexpr quint8 Outside = FakeGpioChip::Pulled | FakeGpioChip::IsTorn;
+
+    bool isHigh(quint8 byte) noexcept
+    {
+        if (byte & FakeGpioChip::IsOutput)
+            return byte & FakeGpioChip::Driven;
+        if (!(byte & FakeGpioChip::IsTorn))
+            return byte & FakeGpioChip::Pulled;
+        const bool hasPull = m_pull == GpioLineRequest::PullUp || m_pull == GpioLineRequest::PullDown;
+        m_noise = !m_noise;
+        return hasPull ? m_pull == GpioLineRequest::PullUp : m_noise;
+    }
+
     bool isThere() const noexcept
     {
         const bool is = m_memory.isThere();
@@ -50,16 +62,18 @@ private:
 
     void drive(bool isOn) noexcept
     {
-        const bool isHigh = isOn != m_isActiveLow;
-        const auto driven = quint8(FakeGpioChip::IsOutput | (isHigh ? FakeGpioChip::Driven : 0));
+        const bool isUp = isOn != m_isActiveLow;
+        const auto driven = quint8(FakeGpioChip::IsOutput | (isUp ? FakeGpioChip::Driven : 0));
         quint8 byte = m_byte.load();
-        while (!m_byte.compare_exchange_weak(byte, quint8((byte & FakeGpioChip::Pulled) | driven)))
+        while (!m_byte.compare_exchange_weak(byte, quint8((byte & Outside) | driven)))
             continue;
     }
 
     const FakeMemory &m_memory;
     std::atomic<quint8> &m_byte;
     const bool m_isActiveLow;
+    const GpioLineRequest::Pull m_pull;
+    bool m_noise = true;  // of a line that floats
 };
 
 }  // namespace

@@ -11,9 +11,10 @@ class FakeGpioChip : public GpioChip
 {
 public:
     enum Bit : quint8 {
-        Pulled = 1,   ///< level from outside; written by whoever plays the device
-        Driven = 2,   ///< level that the driver puts out
-        IsOutput = 4  ///< the driver drives the line
+        Pulled = 1,    ///< level from outside; written by whoever plays the device
+        Driven = 2,    ///< level that the driver puts out
+        IsOutput = 4,  ///< the driver drives the line
+        IsTorn = 8     ///< nothing outside is at the line: it has the level of its pull resistor, without one it floats
     };
 
     static std::unique_ptr<FakeGpioChip> open(const QString &device, QString *error);

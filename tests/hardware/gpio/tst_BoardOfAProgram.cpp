@@ -12,10 +12,10 @@ using qplc::FakeGpioChip;
 namespace {
 
 const QByteArray tableText = "[button]\ntype = Bool\nhold = 1000\n"
-                             "[brake]\ntype = Bool\nsafe = 1\ninitial = 0\nhold = 1000\n";
+                             "[brakeRelease]\ntype = Bool\nsafe = 0\nhold = 1000\n";
 const QByteArray wiring = "[node]\nname = Buttons\n[board]\ndriver = gpio\ndevice = fake:board\n"
-                          "input.button = 2, active-low\noutput.brake = 5\n"
-                          "[board.read]\nbutton = button\n[board.write]\nbrake = brake\n";
+                          "input.button = 2, pull-up\noutput.brakeRelease = 5\n"
+                          "[board.read]\nbutton = button\n[board.write]\nbrakeRelease = brakeRelease\n";
 
 /// A plant of a master and a board, in a phase.
 struct Plant
@@ -43,11 +43,11 @@ struct Plant
                       {file.fileName(), QStringLiteral("--watchdog"), QStringLiteral("2"), QStringLiteral("--master"),
                        QStringLiteral("udp://127.0.0.1:%1").arg(master->serverPort())});
         return QTest::qWaitFor([this] { return !master->nodes().isEmpty(); }, 20000) && master->startRealTime()
-            && master->waitForState(QPlcMasterNode::RealTime);
+            && master->waitForState(QPlcMasterNode::RealTime) && master->setSignalValue("brakeRelease", 1);
     }
     void pull(bool isHigh) { memory.at(2) = isHigh ? FakeGpioChip::Pulled : 0; }
     /// 0 or 1; -1: nobody drives it.
-    int brake() const
+    int brakeRelease() const
     {
         const quint8 byte = memory.at(5);
         return byte & FakeGpioChip::IsOutput ? (byte & FakeGpioChip::Driven ? 1 : 0) : -1;
@@ -77,45 +77,45 @@ void tst_BoardOfAProgram::linesAreSignals()
 {
     Plant plant;
     QVERIFY(plant.start());
-    QTRY_COMPARE(plant.master->signalValue("button").toInt(), 1);  // low
     plant.pull(true);
+    QTRY_COMPARE(plant.master->signalValue("button").toInt(), 1);
+    plant.pull(false);
     QTRY_COMPARE(plant.master->signalValue("button").toInt(), 0);
-    QTRY_COMPARE(plant.brake(), 0);
-    QVERIFY(plant.master->setSignalValue("brake", 1));
-    QTRY_COMPARE(plant.brake(), 1);
+    QTRY_COMPARE(plant.brakeRelease(), 1);
+    QVERIFY(plant.master->setSignalValue("brakeRelease", 0));
+    QTRY_COMPARE(plant.brakeRelease(), 0);
 }
 
 void tst_BoardOfAProgram::theBoardIsSafeWhenTheProgramIsTerminated()
 {
     Plant plant;
     QVERIFY(plant.start());
-    QTRY_COMPARE(plant.brake(), 0);
+    QTRY_COMPARE(plant.brakeRelease(), 1);
     plant.program.terminate();
     QVERIFY(plant.program.waitForFinished(20000));
-    QCOMPARE(plant.brake(), 1);
+    QCOMPARE(plant.brakeRelease(), 0);
 }
 
 void tst_BoardOfAProgram::theBoardIsSafeWhenTheMasterIsGone()
 {
     Plant plant;
     QVERIFY(plant.start());
-    QTRY_COMPARE(plant.brake(), 0);
+    QTRY_COMPARE(plant.brakeRelease(), 1);
     plant.master.reset();
-    QTRY_COMPARE(plant.brake(), 1);
+    QTRY_COMPARE(plant.brakeRelease(), 0);
 }
 
 void tst_BoardOfAProgram::aBoardThatIsUnpluggedComesBackInThePhase()
 {
     Plant plant;
     QVERIFY(plant.start());
-    QTRY_COMPARE(plant.brake(), 0);
+    QTRY_COMPARE(plant.brakeRelease(), 1);
     qplc::FakeMemory::remove("fake:board");
     QString error;
     QVERIFY2(plant.memory.create("fake:board", 8, &error), qPrintable(error));
-    plant.pull(true);
-    QTRY_COMPARE(plant.brake(), 0);
+    QTRY_COMPARE(plant.brakeRelease(), 1);
     QTRY_COMPARE(plant.master->signalValue("button").toInt(), 0);
-    plant.pull(false);
+    plant.pull(true);
     QTRY_COMPARE(plant.master->signalValue("button").toInt(), 1);
 }
 

@@ -50,6 +50,8 @@ private Q_SLOTS:
     void errorsOfAConfigurationHaveTheirLine();
     void anInputFollowsItsLine();
     void activeLowTurnsALineRound();
+    void aTornWireHasTheLevelOfItsPullResistor();
+    void aTornWireWithoutAResistorFloats();
     void aBounceIsNotSeen();
     void edgesAreCountedWithTheTimeOfTheLast();
     void onlyTheEdgesThatWereAskedForAreCounted();
@@ -160,6 +162,34 @@ void tst_GpioDriver::activeLowTurnsALineRound()
     QVERIFY(board.bench.exchange());
     QCOMPARE(board.bench.value("stop"), 0.0);
     QCOMPARE(board.driven(4), 1);
+}
+
+void tst_GpioDriver::aTornWireHasTheLevelOfItsPullResistor()
+{
+    Board board("input.up = 3, pull-up\ninput.down = 4, pull-down\n");
+    QCOMPARE(board.bench.wireRead("up") + board.bench.wireRead("down"), QString());
+    board.memory.at(4) = FakeGpioChip::Pulled;
+    QVERIFY2(board.bench.open(), qPrintable(board.bench.errorString()));
+    QVERIFY(board.bench.exchange());
+    QCOMPARE(board.bench.value("up"), 0.0);
+    QCOMPARE(board.bench.value("down"), 1.0);
+    board.memory.at(3) = FakeGpioChip::IsTorn;
+    board.memory.at(4) = FakeGpioChip::Pulled | FakeGpioChip::IsTorn;
+    QVERIFY(board.bench.exchange());
+    QCOMPARE(board.bench.value("up"), 1.0);
+    QCOMPARE(board.bench.value("down"), 0.0);
+}
+
+void tst_GpioDriver::aTornWireWithoutAResistorFloats()
+{
+    Board board("input.stop = 3, no-pull\n");
+    QCOMPARE(board.bench.wireRead("stop"), QString());
+    board.memory.at(3) = FakeGpioChip::IsTorn;
+    QVERIFY2(board.bench.open(), qPrintable(board.bench.errorString()));
+    QVERIFY(board.bench.exchange());
+    const double first = board.bench.value("stop");
+    QVERIFY(board.bench.exchange());
+    QCOMPARE(board.bench.value("stop"), 1.0 - first);
 }
 
 void tst_GpioDriver::aBounceIsNotSeen()

@@ -123,9 +123,9 @@ void tst_WinchFlight::setButton(bool pressed)
     QFile file(m_folder->filePath(QStringLiteral("buttons")));
     QVERIFY(file.open(QIODevice::ReadWrite));
     if (file.size() == 0)
-        file.write(QByteArray(32, '\1'));
+        file.write(QByteArray(32, '\0'));
     file.seek(stopButton);
-    file.write(QByteArray(1, pressed ? '\0' : '\1'));
+    file.write(QByteArray(1, pressed ? '\1' : '\0'));
 }
 
 bool tst_WinchFlight::listen(Witness &witness, Program &sil)
