@@ -30,6 +30,7 @@ public:
     QHostAddress address() const { return m_listener.address(); }
     quint16 port() const { return m_listener.port(); }
     QString errorString() const { return m_listener.errorString(); }
+    QAbstractSocket::SocketError error() const { return m_listener.error(); }
 
     /// Who has greeted is no stranger any more.
     void know(ConnectionGate::Ticket ticket);

@@ -109,7 +109,7 @@ void QPlcMasterNodePrivate::stopAfterOverrun(const CycleEvent &event)
         = QStringLiteral(
               "cycle %1 could begin only %2 ms after its time, and a period is %3 ms: the overrun policy "
               "'stop' ends the real-time phase; shorten what the cycle before computes or waits for, give the "
-              "cycle thread a real-time priority (setRealTimeOptions()), or set another overrun policy")
+              "cycle thread a real-time priority, or set another overrun policy")
               .arg(event.cycle)
               .arg(double(event.duration) * 1e-6, 0, 'f', 3)
               .arg(double(cycle->period()) * 1e-6, 0, 'f', 3);

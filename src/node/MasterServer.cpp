@@ -58,14 +58,25 @@ void MasterServer::count(QPlcMasterStatistics *statistics) const
 
 // ---- ports ----
 
+static QString remedyForListening(QAbstractSocket::SocketError error)
+{
+    switch (error) {
+    case QAbstractSocket::SocketAddressNotAvailableError:
+        return QStringLiteral("this computer has no such address, 'ip address' shows those that it has");
+    case QAbstractSocket::SocketAccessError:
+        return QStringLiteral("ports below 1024 are for root, choose a higher one");
+    default:
+        return QStringLiteral("choose another port, or end the program that uses it");
+    }
+}
+
 bool MasterServer::openPorts(const QHostAddress &address, quint16 port)
 {
     if (!m_door.listen(address, port)) {
-        m_errorString
-            = QStringLiteral("cannot listen on %1:%2: %3; choose another port, or end the program that uses it")
-                  .arg(address.toString())
-                  .arg(port)
-                  .arg(m_door.errorString());
+        m_errorString = QStringLiteral("cannot listen on %1:%2: %3; %4")
+                            .arg(address.toString())
+                            .arg(port)
+                            .arg(m_door.errorString(), remedyForListening(m_door.error()));
         return false;
     }
     if (m_hub.open(SocketAddress(m_door.address(), m_door.port()), &m_errorString) && m_hub.openLocal(&m_errorString))

@@ -26,6 +26,7 @@ public:
     QHostAddress address() const { return m_server.serverAddress(); }
     quint16 port() const { return m_server.serverPort(); }
     QString errorString() const { return m_server.errorString(); }
+    QAbstractSocket::SocketError error() const { return m_server.serverError(); }
 
     /// The next connection, non-blocking; the caller owns it. \return -1: nobody waits
     int take();

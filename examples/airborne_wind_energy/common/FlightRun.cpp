@@ -35,12 +35,17 @@ bool canShow(QPlcCoreApplication &application, const RunSettings &settings)
 
 // ---- options ----
 
-void addRunOptions(QPlcCoreApplication &application, const QString &defaultDuration)
+void addRunOptions(QPlcCoreApplication &application, const QString &defaultDuration, DefaultClock clock)
 {
-    application.addOption(QCommandLineOption(
-        QStringLiteral("lockstep"), QStringLiteral("As fast as possible, bit-identical each time (default).")));
+    const bool either = clock == DefaultClock::LockstepWithStartWith;
     application.addOption(
-        QCommandLineOption(QStringLiteral("real-time"), QStringLiteral("As fast as the real thing.")));
+        QCommandLineOption(QStringLiteral("lockstep"),
+                           QStringLiteral("As fast as possible, bit-identical each time; the default%1.")
+                               .arg(either ? QStringLiteral(" with --start-with") : QString())));
+    application.addOption(
+        QCommandLineOption(QStringLiteral("real-time"),
+                           QStringLiteral("As fast as the real thing%1.")
+                               .arg(either ? QStringLiteral("; the default without --start-with") : QString())));
     application.addOption(QCommandLineOption(
         QStringLiteral("scale"), QStringLiteral("F times as fast as the real thing."), QStringLiteral("F")));
     application.addOption(QCommandLineOption(

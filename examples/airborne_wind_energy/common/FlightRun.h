@@ -26,8 +26,15 @@ struct RunSettings
     bool stay = false;         // the program does not end with that flight: people stop and start as they like
 };
 
+/// The clock of a program that is started without --lockstep, --real-time, --scale and --watch; --help tells it.
+enum class DefaultClock {
+    Lockstep,
+    LockstepWithStartWith,  // real time without --start-with
+};
+
 /// --lockstep, --real-time, --scale, --overrun, --duration, --report, --watch: how a flight is run.
-void addRunOptions(QPlcCoreApplication &application, const QString &defaultDuration);
+void addRunOptions(QPlcCoreApplication &application, const QString &defaultDuration,
+                   DefaultClock clock = DefaultClock::Lockstep);
 /// \return false, with the message out, when an option cannot be meant
 bool readRunOptions(QPlcCoreApplication &application, RunSettings *settings);
 /// Those of the run options that were given, to be handed on to another program.

@@ -3,6 +3,9 @@
 #include "FlightReportText.h"
 #include "FlightRun.h"
 
+#include <QtNetwork/QNetworkInterface>
+
+#include <algorithm>
 #include <cstdio>
 
 namespace {
@@ -54,7 +57,7 @@ void addMasterOptions(QPlcCoreApplication &application)
     application.addOption(QCommandLineOption(
         QStringLiteral("stay"),
         QStringLiteral("With --start-with: does not end with the flight, but waits for qtplc start, stop.")));
-    awe::addRunOptions(application, QStringLiteral("0"));
+    awe::addRunOptions(application, QStringLiteral("0"), awe::DefaultClock::LockstepWithStartWith);
     awe::addPlantOptions(application);
     application.addOption(
         QCommandLineOption(QStringLiteral("mean-wind"),
@@ -64,12 +67,39 @@ void addMasterOptions(QPlcCoreApplication &application)
     application.addFaultOptions();
 }
 
-/// \return false, with the message out, when an address cannot be meant
+/// Whether a program can listen on \a address: on one of the interfaces, or on all of them.
+bool isAddressOfThisComputer(const QHostAddress &address)
+{
+    if (address.isLoopback() || address == QHostAddress::AnyIPv4 || address == QHostAddress::AnyIPv6)
+        return true;
+    const auto withoutInterface = [](QHostAddress one) {
+        one.setScopeId(QString());
+        return one;
+    };
+    const QList<QHostAddress> own = QNetworkInterface::allAddresses();
+    return std::any_of(own.begin(), own.end(),
+                       [&](const QHostAddress &one) { return withoutInterface(one) == withoutInterface(address); });
+}
+
+/// \return false, with the message out, if the options name an invalid address, or open the plant to the network without security
 bool readAddresses(QPlcCoreApplication &application, MasterSettings *settings)
 {
     const QString listen = application.value(QStringLiteral("listen"));
     if (!settings->address.setAddress(listen)) {
         application.usageError(QStringLiteral("--listen %1: use an IP address, for example 127.0.0.1").arg(listen));
+        return false;
+    }
+    if (!settings->address.isLoopback() && settings->security.isNone()
+        && !application.isSet(QStringLiteral("insecure-network"))) {
+        application.usageError(QStringLiteral("--listen %1: everybody in that network could command the plant; use "
+                                              "--security psk --keys FILE, or allow it by --insecure-network")
+                                   .arg(listen));
+        return false;
+    }
+    if (!isAddressOfThisComputer(settings->address)) {
+        application.usageError(
+            QStringLiteral("--listen %1: this computer has no such address; 'ip address' shows those that it has")
+                .arg(listen));
         return false;
     }
     if (!application.isSet(QStringLiteral("multicast")))

@@ -17,6 +17,7 @@ private Q_SLOTS:
     void versionIsOneLine();
     void badOptionsAreRefusedWithOneSentence_data();
     void badOptionsAreRefusedWithOneSentence();
+    void helpTellsTheClockThatRunsWithoutOptions();
     void brokenSignalTableShowsAllOfItsErrors_data() { everyProgram(); }
     void brokenSignalTableShowsAllOfItsErrors();
     void reportThatCannotBeWrittenIsRefusedBeforeTheFlight_data();
@@ -155,6 +156,13 @@ void tst_ProgramOptions::badOptionsAreRefusedWithOneSentence_data()
         row(program, "--watch", "--watch draws on a terminal");
     }
     row("awe_master", "--listen home", "--listen home: use an IP address");
+    for (const char *address : {"0.0.0.0", "192.0.2.1", "::"})
+        row("awe_master", qPrintable(QStringLiteral("--listen %1 --port 0").arg(QLatin1String(address))),
+            qPrintable(QStringLiteral("--listen %1: everybody in that network could command the plant; use --security "
+                                      "psk --keys FILE, or allow it by --insecure-network")
+                           .arg(QLatin1String(address))));
+    row("awe_master", "--listen 192.0.2.1 --insecure-network --port 0",
+        "--listen 192.0.2.1: this computer has no such address");
     for (const char *group : {"home", "127.0.0.1", "240.0.0.1", "ff02::1", "239.255.76.68:50000"})
         row("awe_master", qPrintable(QStringLiteral("--multicast %1").arg(QLatin1String(group))),
             qPrintable(QStringLiteral("--multicast '%1': use an IPv4 multicast address").arg(QLatin1String(group))));
@@ -182,6 +190,24 @@ void tst_ProgramOptions::badOptionsAreRefusedWithOneSentence()
     QVERIFY2(outcome.errors.startsWith(program + QStringLiteral(": ")), qPrintable(outcome.errors));
     QCOMPARE(outcome.errors.count(QLatin1Char('\n')), 1);
     QCOMPARE(outcome.output, QString());
+    const QRegularExpression function(QStringLiteral("\\w\\(|::[A-Za-z_]"));
+    QVERIFY2(!function.match(outcome.errors).hasMatch(),
+             qPrintable(QStringLiteral("names a C++ function: %1").arg(outcome.errors)));
+}
+
+void tst_ProgramOptions::helpTellsTheClockThatRunsWithoutOptions()
+{
+    const QString master
+        = runProgram(path(QStringLiteral("awe_master")), {QStringLiteral("--help")}).output.simplified();
+    QVERIFY2(
+        master.contains(QStringLiteral("As fast as possible, bit-identical each time; the default with --start-with.")),
+        qPrintable(master));
+    QVERIFY2(master.contains(QStringLiteral("As fast as the real thing; the default without --start-with.")),
+             qPrintable(master));
+    const QString sil = runProgram(path(QStringLiteral("awe_sil")), {QStringLiteral("--help")}).output.simplified();
+    QVERIFY2(sil.contains(QStringLiteral("As fast as possible, bit-identical each time; the default.")),
+             qPrintable(sil));
+    QVERIFY2(sil.contains(QStringLiteral("As fast as the real thing. ")), qPrintable(sil));
 }
 
 void tst_ProgramOptions::brokenSignalTableShowsAllOfItsErrors()
