@@ -49,9 +49,6 @@ if(NOT libraries STREQUAL "libQt5Core;libQt5Network")
     message(FATAL_ERROR "a node needs ${libraries}; it is to need libQt5Core and libQt5Network only")
 endif()
 
-build_project(tutorial ${SOURCE}/docs/tutorial/code)
-run(${WORK}/tutorial/tst_Winch)
-
 if(EXISTS ${prefix}/include/QtPlc/QPlcHardwareNode.h)
     build_project(howto ${SOURCE}/docs/howto/code)
     run(${WORK}/howto/weather_node --help)

@@ -3,7 +3,7 @@
 """Checks the documents: code blocks are what the files hold that they are said to show, links lead somewhere, and tests that are named
 (`tst_X::aSentence`) exist.
 
-A block that stands behind the line <!-- file: PATH --> (from the root of the repository) shows that file without its licence line.
+A block that stands behind the line <!-- file: PATH --> (from the root of the repository) shows that file without its licence line; with "begin of" or "end of" in the place of "file", lines at its begin or end.
 
 usage: documents.py [--write] SOURCE_FOLDER        --write copies the files into the documents
 """
@@ -11,7 +11,8 @@ import re
 import sys
 from pathlib import Path
 
-BLOCK = re.compile(r"<!-- file: (?P<path>\S+) -->\n```(?P<language>\w*)\n(?P<text>.*?)```\n", re.S)
+BLOCK = re.compile(r"<!-- (?P<kind>file|begin of|end of): (?P<path>\S+) -->\n```(?P<language>\w*)\n(?P<text>.*?)```\n", re.S)
+MARK = re.compile(r"<!-- (?:file|begin of|end of): ")
 TEST = re.compile(r"`(tst_\w+)::(\w+)`")
 LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)\s]*)?\)")
 
@@ -23,18 +24,25 @@ def shown(path):
     return "\n".join(lines).lstrip("\n")
 
 
+def part_of(text, block):
+    return block["text"].strip() and (text.startswith(block["text"]) if block["kind"] == "begin of" else text.endswith(block["text"]))
+
+
 def check_blocks(root, document, write, errors):
     text = document.read_text()
     for block in BLOCK.finditer(text):
         source = root / block["path"]
         if not source.is_file():
             errors.append(f"{document.relative_to(root)}: shows {block['path']}, which does not exist")
+        elif block["kind"] != "file":
+            if not part_of(shown(source), block):
+                errors.append(f"{document.relative_to(root)}: shows the {block['kind']} {block['path']} as it was; copy the lines")
         elif block["text"] != shown(source):
             if write:
                 document.write_text(document.read_text().replace(block[0], f"<!-- file: {block['path']} -->\n```{block['language']}\n{shown(source)}```\n"))
             else:
                 errors.append(f"{document.relative_to(root)}: shows {block['path']} as it was; remedy: tests/documents/documents.py --write .")
-    if text.count("<!-- file: ") != len(BLOCK.findall(text)):
+    if len(MARK.findall(text)) != len(BLOCK.findall(text)):
         errors.append(f"{document.relative_to(root)}: a line <!-- file: PATH --> is not followed by a code block")
 
 

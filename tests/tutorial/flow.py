@@ -1,102 +1,110 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Does what docs/tutorial tells its reader: a master, two nodes, start, look, stop, and one by hand without the second node."""
-import argparse
+"""Types docs/tutorial in order, from an installed package, in an empty folder: creates its files and runs its commands as written. A file that a later step introduces is not there yet.
+
+usage: flow.py SOURCE_FOLDER BUILD_FOLDER
+"""
+import re
 import subprocess
 import sys
 import tempfile
-import time
 from pathlib import Path
 
-LONGEST_WAIT = 20.0  # [s]
+sys.path.insert(0, str(Path(__file__).parent.parent / "typed"))
+from typed import ANY, Broken, Expectation, Reader, Terminal, await_that, in_own_network, require  # noqa: E402
+
+NOT_TYPED = {
+    "scripts/setup": "tests/scripts runs it with a slow apt-get",
+    "cmake --preset release && cmake --build --preset release --target programs": "builds QtPLC; what the test installs was built like that",
+}
 
 
-def require(condition, text):
-    if not condition:
-        sys.exit(f"the flow of the tutorial breaks: {text}")
+class Winch:
+    """The plant of the page, as the commands of the page show it."""
 
+    def __init__(self, terminal, program):
+        self.terminal, self.program = terminal, program
 
-class Plant:
-    """The programs of the tutorial; all that still run are ended at the end."""
-
-    def __init__(self, options):
-        self.options, self.programs, self.logs = options, [], tempfile.TemporaryDirectory()
-
-    def __enter__(self):
-        self.start("master", "--signals", self.options.signals, "--port", "0")
-        line = self.await_text("master", "out", "port ")
-        self.address = "localhost:" + line.split("port ")[1].split()[0]
-        return self
-
-    def __exit__(self, failure, *_):
-        for program in reversed(self.programs):
-            program.terminate()
-        codes = [program.wait(LONGEST_WAIT) for program in self.programs]
-        require(failure or codes == [0] * len(codes), f"exit codes {codes} after SIGTERM")
-
-    def start(self, name, *arguments):
-        out, err = (open(Path(self.logs.name) / f"{name}.{kind}", "w") for kind in ("out", "err"))
-        self.programs.append(subprocess.Popen([getattr(self.options, name), *arguments], stdout=out, stderr=err))
-        out.close(), err.close()
-        return self.programs[-1]
-
-    def start_node(self, name):
-        program = self.start(name, "--master", self.address)
-        self.await_text(name, "err", "registered at")
-        return program
-
-    def await_text(self, name, kind, text):
-        end = time.monotonic() + LONGEST_WAIT
-        while time.monotonic() < end:
-            seen = (Path(self.logs.name) / f"{name}.{kind}").read_text()
-            if text in seen and seen.endswith("\n"):
-                return seen
-            time.sleep(0.01)
-        sys.exit(f"the flow of the tutorial breaks: {name} never says '{text}', but: {seen}")
-
-    def qtplc(self, *arguments):
-        run = subprocess.run([self.options.qtplc, "--master", self.address, *arguments], capture_output=True, text=True, timeout=LONGEST_WAIT)
-        require(run.returncode == 0, f"qtplc {' '.join(arguments)} gives {run.returncode}: {run.stderr}")
+    def qtplc(self, command):
+        """Beside what the page types, so that its terminal shows only that."""
+        run = subprocess.run([self.program, *command.split()], env=self.terminal.environment, capture_output=True, text=True)
+        require(run.returncode == 0, f"qtplc {command} gives {run.returncode}: {run.stderr}")
         return run.stdout
 
     def value(self, signal):
-        row = next(line for line in self.qtplc("list").splitlines() if line.startswith(signal + " "))
-        return float(row.split()[3])
+        return float(self.qtplc(f"get {signal} --plain"))
+
+    def await_nodes(self, count):
+        """Each node of the shell says that it has registered."""
+        def registered():
+            self.terminal.take(0.1)
+            return self.terminal.shown.count("registered at") >= count
+        await_that(registered, f"{count} nodes never register: {self.terminal.shown[-2000:]}")
 
     def await_value(self, signal, condition, text):
-        end = time.monotonic() + LONGEST_WAIT
-        while not condition(self.value(signal)):
-            require(time.monotonic() < end, f"{signal} {text} never comes, it is {self.value(signal)}")
+        await_that(lambda: condition(self.value(signal)), f"{signal} {text} never comes, it is {self.value(signal)}")
+
+    def cycles_both_ways(self):
+        self.await_value("tetherLength", lambda length: length >= 309.0, ">= 309")
+        self.await_value("tetherSpeed", lambda speed: speed < 0.0, "< 0")
+
+    def safe_length(self):
+        self.await_value("tetherLength", lambda length: length == 310.0, "= 310, its safe value,")
+
+    def moves_again(self):
+        self.await_nodes(3)
+        self.await_value("tetherLength", lambda length: 300.0 < length < 309.9, "of the new winch")
+
+    def stands(self):
+        self.await_value("tetherSpeed", lambda speed: speed == 0.0, "= 0, its safe value,")
+
+    def reels_in(self):
+        before = self.value("tetherLength")
+        self.await_value("tetherLength", lambda length: length < before - 1.0, "by hand, one metre shorter,")
+
+
+def expected(winch):
+    return {
+        "qtplc state": Expectation(shows=r"(?s)(?=.*\bWinch\b)(?=.*\bOperator\b)", before=lambda: winch.await_nodes(2)),
+        "qtplc start": Expectation(after=winch.cycles_both_ways),
+        "qtplc list": Expectation(shows=r"(?s)tetherSpeed.*tetherLength"),
+        "qtplc echo tetherLength": Expectation(keys=(r"(?s)(.*tetherLength.*\n){3}|(.*\d\.\d.*\n){3}", b"\x03"), code=ANY),
+        "kill %2": Expectation(after=winch.safe_length),
+        "build/winch &": Expectation(),
+        "build/winch": Expectation(shows=r"(?i)winch.*(in use|already)", code=ANY, before=winch.moves_again),
+        "kill %3": Expectation(after=winch.stands),
+        "qtplc set tetherSpeed -1.5": Expectation(after=winch.reels_in),
+        "ctest --test-dir build --output-on-failure": Expectation(shows="100% tests passed"),
+    }
+
+
+def same_files(created, code):
+    """What the reader has at the end is what is in the repository."""
+    for path in sorted(code.glob("[!.]*")):
+        text = re.sub(r"\A.*SPDX.*\n+", "", path.read_text())
+        require((created / path.name).is_file() and (created / path.name).read_text() == text, f"the reader's {path.name} is not that of {code}")
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    for name in ("master", "winch", "operator", "qtplc", "signals"):
-        parser.add_argument("--" + name, required=True)
-    with Plant(parser.parse_args()) as plant:
-        plant.start_node("winch")
-        operator = plant.start_node("operator")
-        state = plant.qtplc("state")
-        require("Winch" in state and "Operator" in state, f"qtplc state does not name both nodes: {state}")
-        require("Operator" in next(line for line in plant.qtplc("list").splitlines() if line.startswith("tetherSpeed")), "tetherSpeed has no writer")
-
-        plant.qtplc("start")
-        plant.await_value("tetherLength", lambda length: length >= 309.0, ">= 309")
-        plant.await_value("tetherSpeed", lambda speed: speed < 0.0, "< 0")
-        echo = plant.qtplc("echo", "tetherLength", "--count", "3")
-        require(len(echo.strip().splitlines()) >= 3, f"qtplc echo shows no three lines: {echo}")
-        plant.qtplc("stop")
-
-        operator.terminate()
-        operator.wait(LONGEST_WAIT)
-        plant.programs.remove(operator)
-        require(operator.returncode == 0, f"the operator ends with {operator.returncode}")
-        plant.qtplc("start")
-        plant.qtplc("set", "tetherSpeed", "5")
-        plant.await_value("tetherLength", lambda length: length >= 305.0, ">= 305, by hand")
-        plant.qtplc("stop")
-    print("the flow of the tutorial works")
+    source, build = (Path(argument).resolve() for argument in sys.argv[1:])
+    in_own_network()
+    with tempfile.TemporaryDirectory() as home:
+        home = Path(home)
+        (home / "QtPLC" / "build").mkdir(parents=True)
+        (home / "QtPLC" / "build" / "release").symlink_to(build)
+        terminal = Terminal(home)
+        try:
+            terminal.type("cd QtPLC")
+            reader = Reader(source / "docs" / "tutorial" / "README.md", home / "winch", terminal, expected(Winch(terminal, home / "qtplc" / "bin" / "qtplc")), NOT_TYPED)
+            reader.follow()
+            same_files(home / "winch", source / "docs" / "tutorial" / "code")
+        finally:
+            terminal.close()
+    print("the tutorial works as written")
 
 
 if __name__ == "__main__":
-    main()
+    try:
+        main()
+    except Broken as broken:
+        sys.exit(f"the tutorial breaks: {broken}")
