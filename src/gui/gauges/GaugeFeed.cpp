@@ -3,9 +3,12 @@
 
 #include "QPlcSignalIndexTable.h"
 #include "gui/models/ValueFormat.h"
+#include "gui/panel/FigureFont.h"
 #include "gui/panel/WindowContext.h"
 #include "gui/plant/LimitOf.h"
 #include "gui/plot/Formula.h"
+
+#include <QtGui/QGuiApplication>
 
 #include <algorithm>
 #include <cmath>
@@ -265,7 +268,7 @@ void GaugeFeed::showSignal(GaugePicture *picture, bool hasNewTexts)
     const std::optional<TimeView::Time> time = m_context ? m_context->timeView()->displayTime() : std::nullopt;
     const QPlcValue value = time ? m_source.valueAt(*time) : m_context ? m_source.newestValue() : givenValue();
     const Plant::Quality quality = m_source.plant() ? m_source.plant()->quality() : Plant::Good;
-    const bool isNow = quality == Plant::Good || (quality == Plant::AtRest && !m_source.isFormula());
+    const bool isNow = quality == Plant::Good || quality == Plant::AtRest;
     const bool isUsable = !m_source.plant() || quality != Plant::Good || m_source.newestQuality().isUsable();
     picture->isTrusted = value.isValid() && (time || (isNow && isUsable));
     picture->isBoolean = isBoolean();
@@ -299,13 +302,16 @@ void GaugeFeed::showValue(GaugePicture *picture, const QPlcValue &value, bool ha
     picture->decimals = m_definition.type.isReal() ? picture->scale.decimals() : 0;
     picture->bands = bandsOf(limits(), picture->scale);
     picture->widest = m_widest;
+    const QFontMetricsF metrics(figureFont(QGuiApplication::font()));
     const auto widen = [&](const QString &text) {
-        if (text.size() > picture->widest.size())
+        if (metrics.horizontalAdvance(text) > metrics.horizontalAdvance(picture->widest))
             picture->widest = text;
     };
     for (const QPlcValueNames::Entry &entry : m_definition.valueNames)
         widen(entry.name);
-    if (isNumeric) {
+    if (isNumeric && hasOpenEnd()) {
+        picture->sizing = openEndText();
+    } else if (isNumeric) {
         widen(valueText(picture->scale.minimum));
         widen(valueText(picture->scale.maximum));
     }
@@ -318,6 +324,26 @@ void GaugeFeed::showValue(GaugePicture *picture, const QPlcValue &value, bool ha
                                 : qplc::valueText(value);
         widen(shown.text);
     }
+}
+
+/// Whether nothing says how large the number may become.
+bool GaugeFeed::hasOpenEnd() const
+{
+    const bool isOpenBelow = !m_settings.minimum && !limitOf(m_definition.minimum);
+    const bool isOpenAbove = !m_settings.maximum && !limitOf(m_definition.maximum);
+    return (isOpenBelow || isOpenAbove) && !isBoolean() && m_definition.valueNames.isEmpty();
+}
+
+/// As wide as a number of an open scale becomes before it gets an exponent: its letters keep their size while it grows.
+QString GaugeFeed::openEndText() const
+{
+    QString text = QStringLiteral("0000000");
+    const QPlcSignalType::Scalar scalar = m_definition.type.scalar();
+    const bool isUnsigned = scalar >= QPlcSignalType::UInt8 && scalar <= QPlcSignalType::UInt64;
+    const double least = m_settings.minimum ? *m_settings.minimum : limitOf(m_definition.minimum).value_or(-1.0);
+    if (least < 0.0 && !isUnsigned)
+        text.prepend(minusSign);
+    return text;
 }
 
 QString GaugeFeed::valueText(double number) const
@@ -347,8 +373,7 @@ QString GaugeFeed::statusText(const QPlcValue &value, std::optional<TimeView::Ti
     case Plant::Stale:
         return tr("stale, %1").arg(ageText(m_source.plant()->age()));
     case Plant::AtRest:
-        // What is calculated comes of cycles; a signal is what the master holds.
-        return m_source.isFormula() ? tr("at rest, last cycle") : tr("at rest");
+        return m_source.isOfLastCycle() ? tr("at rest, last cycle") : tr("at rest");
     case Plant::Good:
         break;
     }

@@ -64,6 +64,8 @@ private:
     QString missingText() const;
     static QString doubtText(QPlcQuality quality);
     QString statusText(const QPlcValue &value, std::optional<TimeView::Time> time) const;
+    bool hasOpenEnd() const;
+    QString openEndText() const;
     QString valueText(double number) const;
     QPlcValue givenValue() const;
     void extendExtremes();

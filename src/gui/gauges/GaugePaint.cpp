@@ -7,12 +7,6 @@
 
 namespace qplc {
 
-namespace {
-
-const QChar minusSign(0x2212);
-
-}  // namespace
-
 QColor levelColor(AlarmState::Level level, const Theme &theme)
 {
     return level == AlarmState::Alarm ? theme.alarm : level == AlarmState::Warning ? theme.warning : theme.accent;
@@ -52,17 +46,29 @@ QFont fittingFont(const QFont &font, const QString &text, const QSizeF &size, do
     return fitting;
 }
 
+namespace {
+
+/// Of two texts the wider one, as figures.
+QString wider(const QString &first, const QString &second, const QFont &font)
+{
+    const QFontMetricsF metrics(figureFont(font));
+    return metrics.horizontalAdvance(second) > metrics.horizontalAdvance(first) + 0.5 ? second : first;
+}
+
+}  // namespace
+
 double paintValue(QPainter *painter, const QRectF &place, const GaugePicture &picture, const QString &text,
                   const QColor &color, Qt::AlignmentFlag side)
 {
-    const QString widest = picture.widest.size() > text.size() ? picture.widest : text;
+    const QString widest = wider(picture.widest, text, painter->font());
+    const QString sizing = wider(widest, picture.sizing, painter->font());
     const QString unit = picture.unit.isEmpty() ? QString() : QStringLiteral(" ") + picture.unit;
     // The unit is half as large as the figures. A sign hangs at their left: what has none stands in the middle.
     const bool hasSign = widest.startsWith(minusSign);
     const QString digits = hasSign ? widest.mid(1) : widest;
-    const double unitShare = 0.5 * double(unit.size()) / std::max(1.0, double(widest.size()));
+    const double unitShare = 0.5 * double(unit.size()) / std::max(1.0, double(sizing.size()));
     const QSizeF room(place.width() / (1.0 + unitShare), place.height());
-    const QFont font = fittingFont(figureFont(painter->font()), widest, room);
+    const QFont font = fittingFont(figureFont(painter->font()), sizing, room);
     QFont unitFont = font;
     unitFont.setPixelSize(std::max(9, font.pixelSize() / 2));
     const QFontMetricsF metrics(font);

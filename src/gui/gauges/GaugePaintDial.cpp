@@ -121,10 +121,12 @@ void paintDial(QPainter *painter, const QRectF &place, const GaugePicture &pictu
     paintMarkers(painter, dial, picture, theme);
     paintPointer(painter, dial, picture, theme);
     painter->restore();
-    const double signless = picture.widest.startsWith(QChar(0x2212)) ? 1.0 : 0.87;  // a sign hangs at the left
+    const double signless = picture.widest.startsWith(minusSign) ? 1.0 : 0.87;  // a sign hangs at the left
     const double width = dial.radius * signless * (dial.radius > 62.0 ? 0.95 : 1.45);
     GaugePicture figures = picture;
     figures.unit.clear();
+    if (figures.sizing.isEmpty())
+        figures.sizing = QStringLiteral("000.00");  // dials side by side have figures of one size
     const QRectF middle(dial.center.x() - width / 2.0, dial.center.y() - dial.radius * 0.2, width, dial.radius * 0.6);
     paintValue(painter, middle, figures, picture.values.first().text, textColor(picture, theme));
     painter->save();

@@ -47,9 +47,9 @@ bool looksLike(const GaugePicture &a, const GaugePicture &b)
         = std::equal(a.bands.begin(), a.bands.end(), b.bands.begin(), b.bands.end(),
                      [](const GaugePicture::Band &one, const GaugePicture::Band &other) { return isSame(one, other); });
     return a.style == b.style && a.message == b.message && a.name == b.name && a.showsName == b.showsName
-        && a.unit == b.unit && a.status == b.status && a.widest == b.widest && a.scale == b.scale
-        && a.decimals == b.decimals && a.level == b.level && a.isTrusted == b.isTrusted && a.isBoolean == b.isBoolean
-        && haveSameBands && areSameValues(a, b);
+        && a.unit == b.unit && a.status == b.status && a.widest == b.widest && a.sizing == b.sizing
+        && a.scale == b.scale && a.decimals == b.decimals && a.level == b.level && a.isTrusted == b.isTrusted
+        && a.isBoolean == b.isBoolean && haveSameBands && areSameValues(a, b);
 }
 
 QString GaugePicture::spoken() const

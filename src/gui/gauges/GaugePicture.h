@@ -32,7 +32,8 @@ struct GaugePicture
     QString unit;
     QString status;  // "stale 3.2 s", "▲ High"; empty when all is well
     QVector<Value> values;
-    QString widest;  // the widest text of a value, for the size of letters
+    QString widest;  // the widest text of a value: figures end where it ends
+    QString sizing;  // sets the size of letters where it is wider than the widest text
     GaugeScale scale;
     int decimals = 0;
     QVector<Band> bands;
@@ -47,6 +48,8 @@ struct GaugePicture
 /// Whether nobody could tell them apart: pointers that differ by less than a pixel are the same, and numbers that are texts only do not count.
 bool looksLike(const GaugePicture &a, const GaugePicture &b);
 
+/// In front of a negative number.
+const QChar minusSign(0x2212);
 /// What stands where there is no value.
 inline QString noValueText()
 {

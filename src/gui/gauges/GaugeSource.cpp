@@ -2,6 +2,7 @@
 #include "GaugeSource.h"
 
 #include "gui/plant/PastValue.h"
+#include "gui/plot/DerivedSignal.h"
 #include "gui/plot/Formula.h"
 
 #include <algorithm>
@@ -42,12 +43,21 @@ QPlcValue GaugeSource::newestValue() const
 {
     if (!isFormula())
         return m_signal.value();
+    if (!isOfLastCycle() && m_plant->quality() != Plant::Good)
+        return m_plant->values().hasValues()
+            ? QPlcValue(m_formula.derived->resultOf(m_plant->values().newestChannels()))
+            : QPlcValue();
     const SignalStore &rows = *m_formula.store;
     const SignalStore *cycles = m_plant->store();
     // While the past is being calculated, its last row is not the newest one.
     const bool isNow = cycles && !rows.isEmpty() && !cycles->isEmpty()
         && rows.time(rows.endRow() - 1) == cycles->time(cycles->endRow() - 1);
     return isNow ? QPlcValue(double(rows.value(m_formula.channel, rows.endRow() - 1))) : QPlcValue();
+}
+
+bool GaugeSource::isOfLastCycle() const
+{
+    return isFormula() && m_formula.derived->hasPast();
 }
 
 QPlcQuality GaugeSource::newestQuality() const

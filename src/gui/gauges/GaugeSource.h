@@ -26,8 +26,10 @@ public:
     /// Of a shown element, 0, 1, ..., in store().
     int channel(int element) const;
 
-    /// Invalid before the first. For a formula that of the last cycle.
+    /// Invalid before the first. Where no cycles come, a formula is calculated of the newest values that the signals have; one with a past keeps the result of the last cycle.
     QPlcValue newestValue() const;
+    /// Whether newestValue() is that of the last cycle where no cycles run.
+    bool isOfLastCycle() const;
     /// Of the newest value; what is calculated is as good as the worst value that it is calculated of.
     QPlcQuality newestQuality() const;
     QPlcValue valueAt(SignalStore::Time time) const;

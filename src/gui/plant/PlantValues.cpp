@@ -145,6 +145,13 @@ QPlcValue PlantValues::value(QPlcSignalIndex signal) const
     return m_hasValues && signal < m_table.size() ? valueIn(m_newest.data(), signal) : QPlcValue();
 }
 
+std::vector<float> PlantValues::newestChannels() const
+{
+    std::vector<float> values(std::size_t(m_channels.channels()));
+    m_channels.toFloats(m_newest.data(), values.data());
+    return values;
+}
+
 QList<QPlcSignalList> PlantValues::batch(const QVector<QPlcSignalIndex> &signalIndices) const
 {
     QList<QPlcSignalList> batch;

@@ -54,6 +54,8 @@ public:
     QPlcValue value(QPlcSignalIndex signal) const;
     /// How far the newest value can be trusted; invalid before the first, or when there is no such signal.
     QPlcQuality quality(QPlcSignalIndex signal) const;
+    /// The newest values, one for each channel of the store, also those that came outside of a cycle.
+    std::vector<float> newestChannels() const;
     /// The values of \a signalIndices in each cycle of the last batch, oldest first.
     QList<QPlcSignalList> batch(const QVector<QPlcSignalIndex> &signalIndices) const;
     int batchSize() const { return m_batchSize; }

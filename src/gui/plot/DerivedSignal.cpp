@@ -23,6 +23,8 @@ float toFloat(double value)
 DerivedSignal::DerivedSignal(const Formula &formula, std::vector<std::vector<int>> channels, const SignalStore &source)
     : m_calculator(formula)
     , m_channels(std::move(channels))
+    , m_hasPast(std::any_of(formula.parts().begin(), formula.parts().end(),
+                            [](const Formula::Part &part) { return part.function != Formula::Plain; }))
     , m_operands(m_channels.size())
     , m_store(1, source.capacity())
 {
@@ -49,14 +51,27 @@ void DerivedSignal::catchUp(const SignalStore &source)
     m_calculator.interrupt();
 }
 
+/// \param valueOf  a channel
+template<typename ValueOf>
+void DerivedSignal::takeOperands(ValueOf valueOf)
+{
+    for (std::size_t i = 0; i < m_operands.size(); ++i) {
+        double sum = 0.0;
+        for (const int channel : m_channels[i]) {
+            const auto value = double(valueOf(channel));
+            sum += m_isNorm[i] ? value * value : value;
+        }
+        m_operands[i] = m_isNorm[i] ? std::sqrt(sum) : sum;
+    }
+}
+
 void DerivedSignal::takeRow(const SignalStore &source, Row row)
 {
     if (source.beginsAnew(row)) {
         m_store.interrupt();
         m_calculator.interrupt();
     }
-    for (std::size_t i = 0; i < m_operands.size(); ++i)
-        m_operands[i] = operand(source, i, row);
+    takeOperands([&](int channel) { return source.value(channel, row); });
     const float value = toFloat(m_calculator.next(source.time(row), m_operands.data()));
     if (!m_store.append(source.time(row), &value)) {
         m_store.clear();  // the clock of the source has begun again
@@ -77,17 +92,10 @@ SignalStore::Mark DerivedSignal::markOf(const SignalStore &source, Row row) cons
     return worst;
 }
 
-double DerivedSignal::operand(const SignalStore &source, std::size_t operand, Row row) const
+double DerivedSignal::resultOf(const std::vector<float> &channels)
 {
-    const std::vector<int> &channels = m_channels[operand];
-    if (!m_isNorm[operand])
-        return double(source.value(channels.front(), row));
-    double sum = 0.0;
-    for (const int channel : channels) {
-        const auto value = double(source.value(channel, row));
-        sum += value * value;
-    }
-    return std::sqrt(sum);
+    takeOperands([&](int channel) { return channels[std::size_t(channel)]; });
+    return m_calculator.next(0, m_operands.data());
 }
 
 }  // namespace qplc

@@ -21,16 +21,23 @@ public:
     /// Takes new rows of \a source, always the same store. \param most  rows
     /// \return whether all have been taken
     bool follow(const SignalStore &source, SignalStore::Row most);
+    /// Whether the result depends on rows before: it has a derivative(), integral(), mean() or lowpass().
+    bool hasPast() const { return m_hasPast; }
+    /// The result for values that are in no row, as of a plant at rest. \param channels  one value for each channel of the source
+    /// \pre !hasPast()
+    double resultOf(const std::vector<float> &channels);
 
 private:
     void catchUp(const SignalStore &source);
     void takeRow(const SignalStore &source, SignalStore::Row row);
     SignalStore::Mark markOf(const SignalStore &source, SignalStore::Row row) const;
-    double operand(const SignalStore &source, std::size_t operand, SignalStore::Row row) const;
+    template<typename ValueOf>
+    void takeOperands(ValueOf valueOf);
 
     FormulaCalculator m_calculator;
     std::vector<std::vector<int>> m_channels;
     std::vector<bool> m_isNorm;
+    bool m_hasPast;
     std::vector<double> m_operands;
     SignalStore m_store;
     SignalStore::Row m_next = 0;  // of the source

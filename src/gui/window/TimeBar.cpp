@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TimeBar.h"
 
+#include "gui/models/ValueFormat.h"
+
 #include <QtCore/QTimer>
 #include <QtWidgets/QHBoxLayout>
 #include <QtWidgets/QMenu>
@@ -40,6 +42,7 @@ TimeBar::TimeBar(WindowContext *context, QWidget *parent)
     row->setSpacing(2);
     row->addWidget(m_state);
     row->addWidget(m_span);
+    m_state->setTextAlignment(Qt::AlignLeft | Qt::AlignVCenter);
     m_span->setToolTip(tr("Span of time axes (Ctrl+[, Ctrl+])"));
     connect(m_state, &QAbstractButton::clicked, this, &TimeBar::toggle);
     connect(m_span, &QAbstractButton::clicked, this, &TimeBar::openSpanMenu);
@@ -54,25 +57,71 @@ TimeBar::TimeBar(WindowContext *context, QWidget *parent)
     follow();
 }
 
-void TimeBar::follow()
+TimeBar::State TimeBar::stateNow() const
 {
     const TimeView *view = m_context->timeView();
-    const Theme &theme = m_context->theme();
-    const QString state = view->isLive()
-        ? QStringLiteral("●  ") + tr("Live")
-        : QStringLiteral("❚❚  ") + tr("Frozen, %1 s behind").arg(double(view->behind()) * 1e-9, 0, 'f', 1);
-    const QString span = spanText(view->span());
-    if (state + span == m_shown)
+    if (view->isLive())
+        return liveState();
+    return {State::Frozen,
+            QStringLiteral("❚❚  ") + tr("Frozen, %1 s behind").arg(double(view->behind()) * 1e-9, 0, 'f', 1)};
+}
+
+/// Live is what has new values: the view follows them by itself, but a lost master has none.
+TimeBar::State TimeBar::liveState() const
+{
+    const PlantList &plants = *m_context->plants();
+    QStringList missing;
+    double age = 0.0;
+    bool isAnyLive = false;
+    bool isAnyAtRest = false;
+    for (int place = 0; place < plants.size(); ++place) {
+        const Plant *plant = plants.at(place);
+        const Plant::Quality quality = plant->quality();
+        isAnyLive = isAnyLive || quality == Plant::Good;
+        isAnyAtRest = isAnyAtRest || quality == Plant::AtRest;
+        if (quality != Plant::Stale)
+            continue;
+        missing << plant->name();
+        age = std::max(age, plant->age());
+    }
+    if (!missing.isEmpty() && (isAnyLive || isAnyAtRest))
+        return {State::Partly,
+                QStringLiteral("◐  ")
+                    + tr("No new values of %1 for %2").arg(missing.join(QStringLiteral(", ")), ageText(age))};
+    if (!missing.isEmpty())
+        return {State::Missing, QStringLiteral("○  ") + tr("No new values for %1").arg(ageText(age))};
+    if (isAnyLive)
+        return {State::Live, QStringLiteral("●  ") + tr("Live")};
+    return isAnyAtRest ? State{State::AtRest, QStringLiteral("○  ") + tr("At rest")}
+                       : State{State::Empty, QStringLiteral("○  ") + tr("No values")};
+}
+
+void TimeBar::follow()
+{
+    const State state = stateNow();
+    const QString span = spanText(m_context->timeView()->span());
+    if (state.text + span == m_shown)
         return;
-    m_shown = state + span;
-    m_state->setText(state);
-    m_state->setTextColor(view->isLive() ? theme.mutedText : theme.warning);
-    m_state->setDetail(view->isLive() ? QString() : tr("L: live"));
-    m_state->setToolTip(view->isLive() ? tr("Freezes all views; data go on (Ctrl+Shift+L)") : tr("Back to live (L)"));
-    m_state->setAccessibleName(state);
+    m_shown = state.text + span;
+    show(state);
     m_span->setText(tr("Span %1").arg(span));
-    m_state->updateGeometry();
     m_span->updateGeometry();
+}
+
+void TimeBar::show(const State &state)
+{
+    const Theme &theme = m_context->theme();
+    const bool isFrozen = state.kind == State::Frozen;
+    const bool isCalm = state.kind == State::Live || state.kind == State::AtRest || state.kind == State::Empty;
+    m_state->setText(state.text);
+    m_state->setTextColor(isCalm ? theme.mutedText : theme.warning);
+    m_state->setDetail(isFrozen ? tr("L: live") : QString());
+    m_state->setToolTip(isFrozen ? tr("Back to live (L)") : tr("Freezes all views; data go on (Ctrl+Shift+L)"));
+    m_state->setAccessibleName(state.text);
+    const int before = state.kind == m_kind ? m_state->minimumWidth() : 0;  // grows only: nothing beside it moves
+    m_state->setMinimumWidth(std::max(before, m_state->sizeHint().width()));
+    m_kind = state.kind;
+    m_state->updateGeometry();
 }
 
 void TimeBar::toggle()

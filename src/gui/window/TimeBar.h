@@ -5,7 +5,7 @@
 
 namespace qplc {
 
-/// The time that all panels show: live or frozen and how far behind, and the span of the plots.
+/// The time that all panels show, and the span of the plots: frozen and how far behind, or live, as long as there are new values.
 class TimeBar : public QWidget
 {
     Q_OBJECT
@@ -13,7 +13,7 @@ public:
     /// \param context  outlives the bar
     explicit TimeBar(WindowContext *context, QWidget *parent = nullptr);
 
-    /// "Live", or "Frozen, 12.3 s behind".
+    /// "Live", "No new values for 12 s", "At rest", "No values", or "Frozen, 12.3 s behind".
     QString stateText() const { return m_state->text(); }
     BarButton *stateButton() const { return m_state; }
     BarButton *spanButton() const { return m_span; }
@@ -24,6 +24,15 @@ public:
     void stepSpan(int by);
 
 private:
+    /// What is shown at the left. Texts of one kind differ in their numbers only, and have the same width.
+    struct State
+    {
+        enum Kind { Live, Partly, Missing, AtRest, Empty, Frozen } kind;
+        QString text;
+    };
+    State stateNow() const;
+    State liveState() const;
+    void show(const State &state);
     void follow();
     void openSpanMenu();
 
@@ -31,6 +40,7 @@ private:
     BarButton *m_state;
     BarButton *m_span;
     QString m_shown;
+    State::Kind m_kind = State::Empty;
 };
 
 /// "30 s", "5 min", "0.2 ms".

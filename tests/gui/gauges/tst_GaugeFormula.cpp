@@ -53,7 +53,8 @@ private Q_SLOTS:
     void aFormulaIsCalculatedOfSignals();
     void aFormulaComesToLifeWithItsPlant();
     void aFormulaShowsThePast();
-    void aFormulaAtRestSaysWhereItsValueIsFrom();
+    void valuesAtRestLookTheSameAsSignalAndAsFormula();
+    void aFormulaWithAPastSaysAtRestThatItsValueIsOfTheLastCycle();
     void aFormulaNeedsAWindow();
     void extremesOfAFormulaBeginWithIt();
 };
@@ -120,16 +121,43 @@ void tst_GaugeFormula::aFormulaShowsThePast()
     QTRY_COMPARE(bench.shown(), 5.0 * bench.count(row));
 }
 
-void tst_GaugeFormula::aFormulaAtRestSaysWhereItsValueIsFrom()
+void tst_GaugeFormula::valuesAtRestLookTheSameAsSignalAndAsFormula()
 {
-    FormulaBench bench(QStringLiteral("= 2*count"));
+    FormulaBench bench(QStringLiteral("= norm(vector)"));
+    GaugeFeed signal;
+    signal.setContext(&bench.context);
+    signal.setSettings(settingsOf({{"signal", "vector[0]"}}));
+    signal.setActive(true);
+    const auto looks = [](const GaugeFeed &feed, double number) {
+        const GaugePicture &picture = feed.picture();
+        return picture.isTrusted && picture.status == QLatin1String("at rest") && picture.values.size() == 1
+            && picture.values.first().number == number;
+    };
+    // Before the first start, with initial values.
+    QTRY_VERIFY(looks(signal, 0.0));
+    QTRY_VERIFY(looks(bench.feed, 0.0));
+    QVERIFY(bench.runs());
+    QVERIFY(bench.master.setSignalValue(QStringLiteral("vector"), QPlcValue(std::array<double, 3>{3.0, 4.0, 0.0})));
+    QTRY_COMPARE(bench.shown(), 5.0);
+    bench.plant->stop();
+    QTRY_VERIFY(looks(signal, 3.0));
+    QTRY_VERIFY(looks(bench.feed, 5.0));
+    // What the master holds changes at rest, too.
+    bench.plant->setValues({{QStringLiteral("vector"), QPlcValue(std::array<double, 3>{6.0, 8.0, 0.0})}});
+    QTRY_VERIFY(looks(signal, 6.0));
+    QTRY_VERIFY(looks(bench.feed, 10.0));
+}
+
+void tst_GaugeFormula::aFormulaWithAPastSaysAtRestThatItsValueIsOfTheLastCycle()
+{
+    FormulaBench bench(QStringLiteral("= 2*mean(count, 0.001)"));
     QTRY_COMPARE(bench.plant->quality(), Plant::AtRest);
     QTRY_COMPARE(bench.feed.picture().status, QStringLiteral("no value yet"));
     QVERIFY(!bench.feed.picture().isTrusted);
     QVERIFY(bench.runs());
     bench.plant->stop();
     QTRY_COMPARE(bench.feed.picture().status, QStringLiteral("at rest, last cycle"));
-    QVERIFY(!bench.feed.picture().isTrusted);
+    QVERIFY(bench.feed.picture().isTrusted);
     QCOMPARE(bench.shown(), 2.0 * bench.count(bench.plant->store()->endRow() - 1));
 }
 

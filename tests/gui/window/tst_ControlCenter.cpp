@@ -21,6 +21,8 @@ private Q_SLOTS:
     void barsCannotBeMovedHiddenOrCut_data();
     void barsCannotBeMovedHiddenOrCut();
     void freezingTellsHowFarBehindAndLComesBack();
+    void theBottomLineSaysLiveOnlyWhileThereAreNewValues();
+    void theBottomLineKeepsItsPlaceWhileNumbersCount();
     void theRateIsThatOfAllPlantsAndIsRemembered();
     void theWindowComesBackAsItWasClosed();
     void theTreeOfSignalsComesBackAsItWas();
@@ -176,7 +178,6 @@ void tst_ControlCenter::freezingTellsHowFarBehindAndLComesBack()
     TimeView *view = fixture.window.context()->timeView();
     auto *bar = fixture.part<TimeBar>();
     view->setNewest(100'000'000'000);
-    QTRY_VERIFY(bar->stateText().contains(QLatin1String("Live")));
     fixture.press(Qt::Key_L, Qt::ControlModifier | Qt::ShiftModifier);
     view->setNewest(112'300'000'000);
     QTRY_VERIFY2(bar->stateText().contains(QLatin1String("12.3 s behind")), qPrintable(bar->stateText()));
@@ -189,6 +190,43 @@ void tst_ControlCenter::freezingTellsHowFarBehindAndLComesBack()
     QCOMPARE(view->span(), TimeView::Time(20'000'000'000));
     QTest::mouseClick(bar->stateButton(), Qt::LeftButton);
     QVERIFY(!view->isLive());
+}
+
+void tst_ControlCenter::theBottomLineSaysLiveOnlyWhileThereAreNewValues()
+{
+    WindowFixture fixture;
+    auto *bar = fixture.part<TimeBar>();
+    const auto says = [&](const char *text) { return bar->stateText().endsWith(QLatin1String(text)); };
+    QTRY_VERIFY2(says("No values"), qPrintable(bar->stateText()));
+    auto master = std::make_unique<RunningMaster>();
+    auto other = std::make_unique<RunningMaster>();
+    fixture.window.connectToMaster(master->address(), QStringLiteral("north"));
+    QTRY_VERIFY_WITH_TIMEOUT(says("At rest"), patience);
+    QVERIFY(master->startRealTime());
+    QTRY_VERIFY_WITH_TIMEOUT(says("Live"), patience);
+    master.reset();
+    QTRY_VERIFY_WITH_TIMEOUT(bar->stateText().contains(QLatin1String("No new values for ")), patience);
+    QVERIFY(fixture.window.context()->timeView()->isLive());
+    fixture.window.connectToMaster(other->address(), QStringLiteral("south"));
+    QVERIFY(other->startRealTime());
+    QTRY_VERIFY_WITH_TIMEOUT(bar->stateText().contains(QLatin1String("No new values of north for ")), patience);
+    fixture.window.disconnectFromMaster(QStringLiteral("north"));
+    QTRY_VERIFY(says("Live"));
+}
+
+void tst_ControlCenter::theBottomLineKeepsItsPlaceWhileNumbersCount()
+{
+    WindowFixture fixture;
+    TimeView *view = fixture.window.context()->timeView();
+    auto *bar = fixture.part<TimeBar>();
+    view->setNewest(100'000'000'000);
+    view->freeze();
+    view->setNewest(200'300'000'000);
+    QTRY_VERIFY2(bar->stateText().contains(QLatin1String("100.3 s behind")), qPrintable(bar->stateText()));
+    const int place = fixture.part<EventLine>()->x();
+    view->setNewest(101'100'000'000);
+    QTRY_VERIFY2(bar->stateText().contains(QLatin1String("1.1 s behind")), qPrintable(bar->stateText()));
+    QTRY_COMPARE(fixture.part<EventLine>()->x(), place);
 }
 
 void tst_ControlCenter::theWindowComesBackAsItWasClosed()

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "ClosedLoopFlight.h"
 #include "ExampleOptions.h"
 
 #include <QtCore/QFile>
@@ -9,6 +10,9 @@
 #include <QtCore/QTemporaryDir>
 #include <QtPlcGui>
 #include <QtTest/QtTest>
+
+#include <algorithm>
+#include <functional>
 
 namespace {
 
@@ -35,6 +39,52 @@ QStringList signalTexts(const QJsonValue &value, const QString &key = QString())
     return all;
 }
 
+/// The settings of all gauges below \a value.
+QVector<QJsonObject> gaugesIn(const QJsonValue &value)
+{
+    QVector<QJsonObject> all;
+    for (const QJsonValue &each : value.toArray())
+        all += gaugesIn(each);
+    const QJsonObject object = value.toObject();
+    if (object.value(QStringLiteral("type")).toString() == QLatin1String("Gauge"))
+        all << object.value(QStringLiteral("settings")).toObject();
+    for (const QJsonValue &each : object)
+        all += gaugesIn(each);
+    return all;
+}
+
+/// A dial of the layout, and what the flight shows on it.
+struct Dial
+{
+    QString signal;
+    double minimum;
+    double maximum;
+    std::function<double(const awe::PlantOutputs &)> shown;
+    double least;
+    double greatest;
+};
+
+QVector<Dial> dialsOfTheLayout()
+{
+    const QHash<QString, std::function<double(const awe::PlantOutputs &)>> known{
+        {QStringLiteral("bodyPosition_earth[2]"), [](const awe::PlantOutputs &now) { return now.position.z(); }},
+        {QStringLiteral("= norm(bodyVelocity_earth)"),
+         [](const awe::PlantOutputs &now) { return now.velocity.norm(); }},
+        {QStringLiteral("tetherLength"), [](const awe::PlantOutputs &now) { return now.tetherLength; }},
+        {QStringLiteral("= norm(tetherForce_earth)"),
+         [](const awe::PlantOutputs &now) { return now.tetherForce.norm(); }},
+        {QStringLiteral("power"), [](const awe::PlantOutputs &now) { return now.power; }}};
+    QVector<Dial> dials;
+    for (const QJsonObject &gauge : gaugesIn(QJsonDocument::fromJson(layoutText()).object())) {
+        if (gauge.value(QStringLiteral("style")).toString() != QLatin1String("dial"))
+            continue;
+        const QString signal = gauge.value(QStringLiteral("signal")).toString();
+        dials.append({signal, gauge.value(QStringLiteral("minimum")).toDouble(),
+                      gauge.value(QStringLiteral("maximum")).toDouble(), known.value(signal), 1e9, -1e9});
+    }
+    return dials;
+}
+
 }  // namespace
 
 /// The layout that comes with awe_control_center.
@@ -46,6 +96,7 @@ private Q_SLOTS:
     void layoutIsTakenAndShown();
     void layoutIsWrittenAsItIsShown();
     void everySignalIsInTheTable();
+    void theDialsHoldTheFlightOfTheDemo();
 };
 
 void tst_BuiltInLayout::layoutIsTakenAndShown()
@@ -84,6 +135,34 @@ void tst_BuiltInLayout::everySignalIsInTheTable()
             const QString signal = names.next().captured();
             QVERIFY2(table.contains(signal), qPrintable(text));
         }
+    }
+}
+
+/// A quarter of an hour with the turbulence of the demo. A dial that is used to less than the half is no better than one that ends too early.
+void tst_BuiltInLayout::theDialsHoldTheFlightOfTheDemo()
+{
+    QVector<Dial> dials = dialsOfTheLayout();
+    QCOMPARE(dials.size(), 5);
+    awe::ClosedLoopParameters parameters;
+    parameters.wind.turbulenceIntensity = 0.1;
+    awe::ClosedLoopFlight flight(parameters);
+    for (int cycle = 0; cycle < 90000; ++cycle) {
+        flight.step();
+        for (Dial &dial : dials) {
+            const double value = dial.shown(flight.outputs());
+            dial.least = std::min(dial.least, value);
+            dial.greatest = std::max(dial.greatest, value);
+        }
+    }
+    for (const Dial &dial : qAsConst(dials)) {
+        const QString figures = QStringLiteral("%1: %2 ... %3 on a dial of %4 ... %5")
+                                    .arg(dial.signal)
+                                    .arg(dial.least)
+                                    .arg(dial.greatest)
+                                    .arg(dial.minimum)
+                                    .arg(dial.maximum);
+        QVERIFY2(dial.minimum <= dial.least && dial.greatest <= dial.maximum, qPrintable(figures));
+        QVERIFY2(dial.greatest >= 0.5 * dial.maximum, qPrintable(figures));
     }
 }
 
