@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ExampleOptions.h"
 
-#include <cmath>
 #include <limits>
 
 // Resources of a static library are found only by programs that ask for them, outside of any namespace.
@@ -14,6 +13,7 @@ namespace awe {
 
 namespace {
 
+const char *const plantOptions[] = {"plant"};
 const char *const modelOptions[] = {"wind", "turbulence", "seed"};
 const char *const autopilotOptions[] = {"gains", "force-limit", "dead-time"};
 
@@ -36,6 +36,16 @@ QStringList given(const QPlcCoreApplication &application, const char *const (&na
     return arguments;
 }
 
+bool accept(QPlcCoreApplication &application, const std::string &error)
+{
+    if (error.empty())
+        return true;
+    application.usageError(QString::fromStdString(error));
+    return false;
+}
+
+}  // namespace
+
 bool readVector(QPlcCoreApplication &application, const QString &option, Eigen::Vector3d *vector)
 {
     const QPlcValue read = QPlcValue::fromString(QPlcSignalType(QPlcSignalType::Real64, 3), application.value(option));
@@ -47,16 +57,6 @@ bool readVector(QPlcCoreApplication &application, const QString &option, Eigen::
     *vector = Eigen::Vector3d(read.toReal(0), read.toReal(1), read.toReal(2));
     return true;
 }
-
-bool accept(QPlcCoreApplication &application, const std::string &error)
-{
-    if (error.empty())
-        return true;
-    application.usageError(QString::fromStdString(error));
-    return false;
-}
-
-}  // namespace
 
 int linkDeadTime(bool sameCycle)
 {
@@ -76,31 +76,38 @@ QHostAddress defaultMulticastGroup()
 
 void addModelOptions(QPlcCoreApplication &application)
 {
-    add(application, "wind", QStringLiteral("Mean wind velocity, x east, y north, z up [m/s]."), "X,Y,Z", "5,3,0");
-    add(application, "turbulence", QStringLiteral("Turbulence intensity, 0 ... 1."), "TI", "0");
-    add(application, "seed", QStringLiteral("Chooses one course of the turbulence."), "N", "1");
+    add(application, "wind",
+        QStringLiteral("Mean wind velocity, x east, y north, z up [m/s]. Without it that of --plant: 5,3,0."), "X,Y,Z",
+        "");
+    add(application, "turbulence", QStringLiteral("Turbulence intensity, 0 ... 1. Without it that of --plant: 0."),
+        "TI", "");
+    add(application, "seed", QStringLiteral("Chooses one course of the turbulence. Without it that of --plant: 1."),
+        "N", "");
 }
 
-bool readModelOptions(QPlcCoreApplication &application, ModelSettings *settings)
+bool readModelOptions(QPlcCoreApplication &application, const KiteConfiguration &kite, ModelSettings *settings)
 {
-    qint64 seed = 0;
-    if (!readVector(application, QStringLiteral("wind"), &settings->wind.meanVelocity)
-        || !application.number(QStringLiteral("turbulence"), 0.0, 1.0, &settings->wind.turbulenceIntensity)
-        || !application.integer(QStringLiteral("seed"), 0, std::numeric_limits<qint64>::max(), &seed))
+    const QString wind = QStringLiteral("wind"), turbulence = QStringLiteral("turbulence"),
+                  seed = QStringLiteral("seed");
+    settings->wind = kite.wind;
+    qint64 course = 0;
+    if ((application.isSet(wind) && !readVector(application, wind, &settings->wind.meanVelocity))
+        || (application.isSet(turbulence)
+            && !application.number(turbulence, 0.0, 1.0, &settings->wind.turbulenceIntensity))
+        || (application.isSet(seed) && !application.integer(seed, 0, std::numeric_limits<qint64>::max(), &course)))
         return false;
-    settings->wind.seed = std::uint64_t(seed);
-    settings->plant.groundContact = GroundContact::Hold;
-    const double azimuth
-        = std::atan2(settings->wind.meanVelocity.y(), settings->wind.meanVelocity.x()) * 180.0 / 3.14159265358979323846;
-    settings->plant.initialState = PlantParameters::stateAtRest(30.0, azimuth, 100.0);
+    if (application.isSet(seed))
+        settings->wind.seed = std::uint64_t(course);
+    settings->plant = kite.plantIn(settings->wind);
+    settings->substeps = kite.substeps;
     return accept(application, settings->wind.validate()) && accept(application, settings->plant.validate());
 }
 
 void addPlantOptions(QPlcCoreApplication &application)
 {
     add(application, "plant",
-        QStringLiteral(
-            "File that says what of the plant is a model, and what is hardware. Without one all is a model."),
+        QStringLiteral("File that says what of the plant is hardware ([winch]), and the data of the model ([kite]): "
+                       "mass, area, tether, drag, wind, start. Without one all is a model, that of the thesis."),
         "FILE", "");
     add(application, "winch", QStringLiteral("ideal or drive: in place of the word in the file of --plant."), "KIND",
         "");
@@ -153,6 +160,11 @@ bool readAutopilotOptions(QPlcCoreApplication &application, AutopilotSettings *s
         return false;
     settings->extraDeadTime = int(deadTime) - least;
     return accept(application, settings->gains.validate());
+}
+
+QStringList givenPlantOptions(const QPlcCoreApplication &application)
+{
+    return given(application, plantOptions);
 }
 
 QStringList givenModelOptions(const QPlcCoreApplication &application)

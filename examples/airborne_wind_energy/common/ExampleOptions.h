@@ -3,18 +3,19 @@
 
 #include "AutopilotGains.h"
 #include "PlantConfiguration.h"
-#include "PlantParameters.h"
-#include "WindParameters.h"
 
 #include <QtPlcCore>
 
+#include <Eigen/Core>
+
 namespace awe {
 
-/// What can be said of the model on the command line.
+/// What the model computes: the kite of the plant, with what the command line says.
 struct ModelSettings
 {
     PlantParameters plant;
     WindParameters wind;
+    int substeps = 1;
 };
 
 /// What can be said of the autopilot on the command line.
@@ -33,10 +34,13 @@ QString builtInSignals();
 /// Administratively scoped: no router passes it on.
 QHostAddress defaultMulticastGroup();
 
+/// Reads "X,Y,Z". \return false, with the message out, when the option holds something else
+bool readVector(QPlcCoreApplication &application, const QString &option, Eigen::Vector3d *vector);
+
 void addModelOptions(QPlcCoreApplication &application);
-/// \return false, with the message out, when an option cannot be meant
-bool readModelOptions(QPlcCoreApplication &application, ModelSettings *settings);
-/// --plant and --winch: what of the plant is hardware.
+/// What the options say wins over \a kite. \return false, with the message out, when an option has no valid value
+bool readModelOptions(QPlcCoreApplication &application, const KiteConfiguration &kite, ModelSettings *settings);
+/// --plant and --winch: what of the plant is hardware, and the data of the model.
 void addPlantOptions(QPlcCoreApplication &application);
 /// \return false, with the message out, when the file or a word in it cannot be meant
 bool readPlantOptions(QPlcCoreApplication &application, PlantConfiguration *configuration);
@@ -44,7 +48,8 @@ void addAutopilotOptions(QPlcCoreApplication &application);
 /// \pre the application has an option --same-cycle
 bool readAutopilotOptions(QPlcCoreApplication &application, AutopilotSettings *settings);
 
-/// Those of the model and autopilot options that were given, to be handed on to another program.
+/// Those of the plant, model and autopilot options that were given, to be handed on to another program.
+QStringList givenPlantOptions(const QPlcCoreApplication &application);
 QStringList givenModelOptions(const QPlcCoreApplication &application);
 QStringList givenAutopilotOptions(const QPlcCoreApplication &application);
 

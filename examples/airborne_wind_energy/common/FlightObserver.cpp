@@ -5,20 +5,9 @@
 
 namespace awe {
 
-namespace {
-
-FlightStatisticsParameters withWindSpeed(double speed)
-{
-    FlightStatisticsParameters parameters;
-    parameters.nominalWindSpeed = speed;
-    return parameters;
-}
-
-}  // namespace
-
-FlightObserver::FlightObserver(double nominalWindSpeed, WinchKind winch)
+FlightObserver::FlightObserver(const FlightStatisticsParameters &parameters, WinchKind winch)
     : QPlcCompactSlaveNode(QStringLiteral("FlightObserver"), SilentZeroOrderHold)
-    , m_statistics(withWindSpeed(nominalWindSpeed))
+    , m_statistics(parameters)
     , m_tetherSpeed(this, winchSpeedSignal(winch))
 {
     setReceivesQuality(true);
@@ -26,8 +15,8 @@ FlightObserver::FlightObserver(double nominalWindSpeed, WinchKind winch)
 
 void FlightObserver::requireGoodValues() const
 {
-    for (const QPlcPort *state :
-         std::initializer_list<const QPlcPort *>{&m_position, &m_windVelocity, &m_tetherForce, &m_power, &m_energy}) {
+    for (const QPlcPort *state : std::initializer_list<const QPlcPort *>{&m_position, &m_velocity, &m_windVelocity,
+                                                                         &m_tetherForce, &m_power, &m_energy}) {
         if (state->quality().kind() == QPlcQuality::Safe)
             throw std::runtime_error(QStringLiteral("there is no good value of '%1'").arg(state->name()).toStdString());
     }
@@ -38,6 +27,7 @@ void FlightObserver::step(const QPlcCycle &)
     requireGoodValues();
     FlightSample sample;
     sample.position = m_position;
+    sample.velocity = m_velocity;
     sample.windVelocity = m_windVelocity;
     sample.tetherForce = m_tetherForce;
     sample.tetherSpeed = m_tetherSpeed;

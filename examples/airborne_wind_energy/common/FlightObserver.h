@@ -13,8 +13,7 @@ class FlightObserver : public QPlcCompactSlaveNode
 {
     Q_OBJECT
 public:
-    /// \param nominalWindSpeed  for eta [m/s]; 0: the mean of what is seen
-    explicit FlightObserver(double nominalWindSpeed, WinchKind winch = WinchKind::Ideal);
+    explicit FlightObserver(const FlightStatisticsParameters &parameters, WinchKind winch = WinchKind::Ideal);
 
     /// \pre no cycle runs
     FlightReport report() const { return m_statistics.report(); }
@@ -29,6 +28,7 @@ private:
     FlightStatistics m_statistics;
 
     QPlcInput<Vector> m_position{this, "bodyPosition_earth"};      // [m]
+    QPlcInput<Vector> m_velocity{this, "bodyVelocity_earth"};      // [m/s]
     QPlcInput<Vector> m_windVelocity{this, "windVelocity_earth"};  // [m/s]
     QPlcInput<Vector> m_tetherForce{this, "tetherForce_earth"};    // [N]
     QPlcInput<double> m_tetherSpeed;                               // [m/s]

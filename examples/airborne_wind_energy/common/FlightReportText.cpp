@@ -61,7 +61,8 @@ QString summary(const QJsonObject &report)
                        .arg(number(report, "wall_s"), 0, 'f', 2)
                        .arg(number(report, "real_time_factor"), 0, 'f', 1);
     if (report.value(QStringLiteral("crashed")).toBool())
-        text += QStringLiteral("  THE KITE CRASHED\n");
+        text += QStringLiteral("  THE KITE CRASHED after %1 s: it came down to the ground\n")
+                    .arg(number(report, "crashed_after_s"), 0, 'f', 1);
     text += row("energy", QStringLiteral("%1 kJ").arg(number(report, "energy_J") * 1e-3, 0, 'f', 1));
     text += row("mean power",
                 QStringLiteral("%1 W, eta %2 (%3 per mean cubed wind)")
@@ -72,6 +73,11 @@ QString summary(const QJsonObject &report)
                 QStringLiteral("%1 W, %2 W")
                     .arg(number(report, "reel_out_power_W"), 0, 'f', 0)
                     .arg(number(report, "reel_in_power_W"), 0, 'f', 0));
+    text += row("greatest power", QStringLiteral("%1 W").arg(number(report, "max_power_W"), 0, 'f', 0));
+    text += row("kite speed",
+                QStringLiteral("%1 m/s mean, %2 m/s at most")
+                    .arg(number(report, "mean_speed_m_s"), 0, 'f', 1)
+                    .arg(number(report, "max_speed_m_s"), 0, 'f', 1));
     text += row(
         "pumping cycles",
         QStringLiteral("%1, recoveries %2").arg(number(report, "pumping_cycles")).arg(number(report, "recoveries")));

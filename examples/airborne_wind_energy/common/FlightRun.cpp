@@ -31,6 +31,13 @@ bool canShow(QPlcCoreApplication &application, const RunSettings &settings)
     return error.isEmpty();
 }
 
+FlightStatisticsParameters statisticsParameters(const RunSettings &settings)
+{
+    FlightStatisticsParameters parameters = FlightStatisticsParameters::of(settings.plant.kite.plant);
+    parameters.nominalWindSpeed = settings.nominalWindSpeed;
+    return parameters;
+}
+
 }  // namespace
 
 // ---- options ----
@@ -116,7 +123,7 @@ QString winchNode()
 FlightRun::FlightRun(QPlcMasterNode &master, const RunSettings &settings)
     : m_master(master)
     , m_settings(settings)
-    , m_observer(settings.nominalWindSpeed, settings.plant.winch)
+    , m_observer(statisticsParameters(settings), settings.plant.winch)
     , m_display(master, settings.duration, settings.watch ? FlightDisplay::Picture : FlightDisplay::Line)
 {
     m_valid = master.setTimeSignal(QStringLiteral("masterTime"))
@@ -184,9 +191,22 @@ void FlightRun::startIfComplete()
     }
 }
 
+/// Without autopilot the master itself writes the controls. \return false when it refused one; it has said why
+bool FlightRun::setControls()
+{
+    if (!m_settings.controls)
+        return true;
+    const Eigen::Vector3d &controls = *m_settings.controls;
+    return m_master.setSignalValue(QStringLiteral("bodyControlPitchSpeed"), controls.x())
+        && m_master.setSignalValue(QStringLiteral("bodyControlYawSpeed"), controls.y())
+        && m_master.setSignalValue(QStringLiteral("tetherSpeed"), controls.z());
+}
+
 /// --start-with permits this one start, also where every start has to be permitted.
 void FlightRun::start()
 {
+    if (!setControls())
+        return;
     if (!m_master.isArmingRequired()) {
         m_master.startRealTime();
         return;
@@ -298,6 +318,9 @@ QJsonObject FlightRun::makeReport() const
                        {QStringLiteral("reel_out_power_W"), flight.reelOutPower},
                        {QStringLiteral("reel_in_power_W"), flight.reelInPower},
                        {QStringLiteral("mean_wind_speed_m_s"), flight.meanWindSpeed},
+                       {QStringLiteral("mean_speed_m_s"), flight.meanSpeed},
+                       {QStringLiteral("max_speed_m_s"), flight.maximumSpeed},
+                       {QStringLiteral("max_power_W"), flight.maximumPower},
                        {QStringLiteral("pumping_cycles"), flight.pumpingCycles},
                        {QStringLiteral("min_altitude_m"), flight.minimumAltitude},
                        {QStringLiteral("max_tether_force_N"), flight.maximumTetherForce},
@@ -311,6 +334,8 @@ QJsonObject FlightRun::makeReport() const
                        {QStringLiteral("lateness_p50_us"), double(statistics.latenessMedian) * 1e-3},
                        {QStringLiteral("lateness_p99_us"), double(statistics.lateness99) * 1e-3},
                        {QStringLiteral("image_digest"), QPlcMessage::fromHex64(statistics.imageDigest)}};
+    if (flight.crashed)
+        report.insert(QStringLiteral("crashed_after_s"), flight.crashTime);
     reportLinks(&report);
     if (m_winchObserver)
         report.insert(QStringLiteral("winch"), m_winchObserver->report());

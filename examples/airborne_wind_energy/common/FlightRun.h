@@ -9,7 +9,10 @@
 #include <QtCore/QJsonObject>
 #include <QtPlcCore>
 
+#include <Eigen/Core>
+
 #include <memory>
+#include <optional>
 
 namespace awe {
 
@@ -22,6 +25,8 @@ struct RunSettings
     double nominalWindSpeed = 0.0;  // [m/s]
     bool watch = false;             // a live picture instead of a progress line
     PlantConfiguration plant;
+    /// Without autopilot: pitch and yaw speed [deg/s] and tether speed [m/s], the same during the whole flight.
+    std::optional<Eigen::Vector3d> controls;
     QStringList awaitedNodes;  // the flight begins as soon as all of them have registered
     bool stay = false;         // the program does not end with that flight: people stop and start as they like
 };
@@ -71,6 +76,7 @@ private:
     void nodeIsLost(const QString &name, const QString &reason);
     void startIfComplete();
     void start();
+    bool setControls();
     void started();
     void stopped();
     /// Whether the program ends with the flight that has begun by itself.

@@ -13,17 +13,18 @@ int runModelProgram(int argc, char **argv, const QString &description)
     QPlcNodeApplication application(argc, argv);
     application.setDescription(description);
     application.setExamples(
-        {QStringLiteral("%1 --wind 8,0,0 --turbulence 0.15 --seed 3").arg(QCoreApplication::applicationName())});
+        {QStringLiteral("%1 --wind 8,0,0 --turbulence 0.15 --seed 3").arg(QCoreApplication::applicationName()),
+         QStringLiteral("%1 --plant plant.ini").arg(QCoreApplication::applicationName())});
     application.setDefaultSignals(builtInSignals());
     application.setWorkloadSignal(QStringLiteral("modelWorkload"));
     addModelOptions(application);
     addPlantOptions(application);
     ModelSettings settings;
     PlantConfiguration plant;
-    if (!application.parseNodeOptions() || !readModelOptions(application, &settings)
-        || !readPlantOptions(application, &plant))
+    if (!application.parseNodeOptions() || !readPlantOptions(application, &plant)
+        || !readModelOptions(application, plant.kite, &settings))
         return application.exitCode();
-    Node node(KiteSimulation(settings.plant, settings.wind), plant.winch);
+    Node node(KiteSimulation(settings.plant, settings.wind, settings.substeps), plant.winch);
     node.setTwoPhase(application.isSet(QStringLiteral("same-cycle")));  // else it would close an algebraic loop
     return application.run(node);
 }

@@ -4,7 +4,7 @@
 #include <QtCore/QDir>
 #include <QtCore/QFile>
 #include <QtCore/QFileInfo>
-#include <QtCore/QHash>
+#include <QtCore/QSet>
 
 // Resources of a static library are found only by programs that ask for them, outside of any namespace.
 static void loadHardware()
@@ -17,7 +17,7 @@ namespace awe {
 namespace {
 
 const QString winchSection = QStringLiteral("winch");
-const QStringList winchKeys{QStringLiteral("kind"), QStringLiteral("hardware"), QStringLiteral("simulated")};
+const QString kiteSection = QStringLiteral("kite");
 
 QString withoutComment(const QByteArray &line)
 {
@@ -27,31 +27,81 @@ QString withoutComment(const QByteArray &line)
     return text.section(QStringLiteral(" ;"), 0, 0).trimmed();
 }
 
-/// The keys of section [winch]. \return false, with line and remedy in \a error
-bool readWinchSection(QFile *file, QHash<QString, QString> *values, QString *error)
+/// \return empty, or what is wrong and the remedy
+QString setWinch(PlantConfiguration *configuration, const QString &folder, const QString &key, const QString &value)
 {
-    bool isInside = false;
-    for (int number = 1; !file->atEnd(); ++number) {
-        const QString line = withoutComment(file->readLine());
-        const QString key = line.section(QLatin1Char('='), 0, 0).trimmed();
-        if (line.isEmpty())
-            continue;
-        if (line == QStringLiteral("[%1]").arg(winchSection))
-            isInside = true;
-        else if (!isInside)
-            *error = QStringLiteral("'%1' is not known here; the only section is [%2]").arg(line, winchSection);
-        else if (!line.contains(QLatin1Char('=')) || !winchKeys.contains(key))
-            *error = QStringLiteral("'%1' is no key of [%2]; its keys are %3")
-                         .arg(key, winchSection, winchKeys.join(QStringLiteral(", ")));
-        else
-            values->insert(key, line.section(QLatin1Char('='), 1).trimmed());
-        if (!error->isEmpty()) {
-            *error = QStringLiteral("%1:%2: %3").arg(file->fileName()).arg(number).arg(*error);
-            return false;
-        }
-    }
-    return true;
+    if (key == QLatin1String("kind"))
+        return winchKindFromText(value, &configuration->winch)
+            ? QString()
+            : QStringLiteral("kind = %1: use ideal or drive").arg(value);
+    if (key == QLatin1String("hardware"))
+        configuration->winchHardware = value.isEmpty() ? QString() : QDir(folder).filePath(value);
+    else if (key == QLatin1String("simulated"))
+        configuration->simulatedWinch = value;
+    else
+        return QStringLiteral("'%1' is not a key of [winch]; use one of kind, hardware, simulated").arg(key);
+    return {};
 }
+
+/// Reads a file line by line into a configuration.
+class PlantReader
+{
+public:
+    PlantReader(const QString &folder, PlantConfiguration *configuration)
+        : m_folder(folder)
+        , m_configuration(configuration)
+    {
+    }
+
+    /// Takes one line without its comment. \return empty, or what is wrong and the remedy
+    QString take(const QString &line)
+    {
+        if (line.startsWith(QLatin1Char('[')))
+            return enter(line);
+        const QString key = line.section(QLatin1Char('='), 0, 0).trimmed();
+        if (m_section.isEmpty())
+            return QStringLiteral("'%1' is outside of a section; write [%2] or [%3] above it")
+                .arg(key, winchSection, kiteSection);
+        if (!line.contains(QLatin1Char('=')))
+            return QStringLiteral("'%1' has no value; write %1 = VALUE").arg(key);
+        const QString name = m_section + QLatin1Char('/') + key;
+        if (m_seen.contains(name))
+            return QStringLiteral("'%1' is there twice; give it once").arg(key);
+        m_seen.insert(name);
+        const QString value = line.section(QLatin1Char('='), 1).trimmed();
+        return m_section == kiteSection ? m_configuration->kite.set(key, value)
+                                        : setWinch(m_configuration, m_folder, key, value);
+    }
+
+private:
+    QString enter(const QString &line)
+    {
+        for (const QString &section : {winchSection, kiteSection}) {
+            if (line != QStringLiteral("[%1]").arg(section))
+                continue;
+            m_section = section;
+            if (section == winchSection && !m_hasWinch)  // a file that speaks of the winch says all of it
+                forgetWinch();
+            return {};
+        }
+        return QStringLiteral("'%1' is not a section of a plant; use [%2] or [%3]")
+            .arg(line, winchSection, kiteSection);
+    }
+
+    void forgetWinch()
+    {
+        m_hasWinch = true;
+        m_configuration->winch = WinchKind::Ideal;
+        m_configuration->winchHardware.clear();
+        m_configuration->simulatedWinch.clear();
+    }
+
+    QString m_folder;
+    PlantConfiguration *m_configuration;
+    QString m_section;
+    bool m_hasWinch = false;
+    QSet<QString> m_seen;
+};
 
 }  // namespace
 
@@ -68,17 +118,17 @@ bool PlantConfiguration::read(const QString &fileName, PlantConfiguration *confi
         *error = QStringLiteral("cannot read the plant %1: %2; choose another file").arg(fileName, file.errorString());
         return false;
     }
-    QHash<QString, QString> values;
-    if (!readWinchSection(&file, &values, error))
+    if (fileName != builtInFile() && !read(builtInFile(), configuration, error))  // for a section that is left out
         return false;
-    const QString kind = values.value(QStringLiteral("kind"), QStringLiteral("ideal"));
-    if (!winchKindFromText(kind, &configuration->winch)) {
-        *error = QStringLiteral("%1: kind = %2: use ideal or drive").arg(fileName, kind);
+    PlantReader reader(QFileInfo(fileName).path(), configuration);
+    for (int number = 1; !file.atEnd(); ++number) {
+        const QString line = withoutComment(file.readLine());
+        const QString wrong = line.isEmpty() ? QString() : reader.take(line);
+        if (wrong.isEmpty())
+            continue;
+        *error = QStringLiteral("%1:%2: %3").arg(fileName).arg(number).arg(wrong);
         return false;
     }
-    const QString hardware = values.value(QStringLiteral("hardware"));
-    configuration->winchHardware = hardware.isEmpty() ? QString() : QFileInfo(fileName).dir().filePath(hardware);
-    configuration->simulatedWinch = values.value(QStringLiteral("simulated"));
     return true;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "KiteConfiguration.h"
+
 #include <QtCore/QString>
 
 namespace awe {
@@ -10,19 +12,21 @@ enum class WinchKind {
     Drive   ///< hardware behind the node Winch, which tells what it really does
 };
 
-/// What of the plant is a model, and what is hardware: a file with a word for each part (hardware/plant.ini, which is also what holds without a file).
+/// What of the plant is a model, and what is hardware, and the data of the model. hardware/plant.ini lists all keys; it also holds without a file.
 struct PlantConfiguration
 {
     WinchKind winch = WinchKind::Ideal;
     QString winchHardware;   // configuration of the node Winch
     QString simulatedWinch;  // CAN bus of the simulated drive; empty: the drive is a real one
+    KiteConfiguration kite;
 
     bool hasDrive() const { return winch == WinchKind::Drive; }
 
     /// The one that is compiled into the programs.
     static QString builtInFile();
-    /// Reads the file \a fileName. Relative names in it begin at its folder.
-    /// \return false, with file, line and remedy in \a error
+    /// Reads the file \a fileName. Relative names in it begin at its folder. A section that it leaves out is that of the
+    /// built-in file.
+    /// \return false, with file, line, value and remedy in \a error
     static bool read(const QString &fileName, PlantConfiguration *configuration, QString *error);
 };
 

@@ -13,11 +13,8 @@ namespace {
 
 FlightStatisticsParameters statisticsParameters(const ClosedLoopParameters &parameters)
 {
-    FlightStatisticsParameters statistics;
+    FlightStatisticsParameters statistics = FlightStatisticsParameters::of(parameters.plant);
     statistics.step = parameters.plant.step;
-    statistics.airDensity = parameters.plant.airDensity;
-    statistics.area = parameters.plant.area;
-    statistics.aweCoefficient = Aerodynamics::bestAngleOfAttack().aweCoefficient;
     statistics.nominalWindSpeed = parameters.wind.meanVelocity.norm();
     return statistics;
 }
@@ -139,6 +136,7 @@ void ClosedLoopFlight::recordStatistics()
 {
     FlightSample sample;
     sample.position = m_outputs.position;
+    sample.velocity = m_outputs.velocity;
     sample.windVelocity = m_outputs.inputs.windVelocity;
     sample.tetherForce = m_outputs.tetherForce;
     sample.tetherSpeed = m_commands.tetherSpeed;

@@ -2,6 +2,7 @@
 #include "FlightStatistics.h"
 
 #include "FlightPhase.h"
+#include "PlantParameters.h"
 #include "RangeCheck.h"
 
 #include <algorithm>
@@ -36,6 +37,15 @@ std::string FlightStatisticsParameters::validate() const
     return check.message();
 }
 
+FlightStatisticsParameters FlightStatisticsParameters::of(const PlantParameters &plant)
+{
+    FlightStatisticsParameters parameters;
+    parameters.airDensity = plant.airDensity;
+    parameters.area = plant.area;
+    parameters.aweCoefficient = Aerodynamics::bestAngleOfAttack(plant.dragFactor).aweCoefficient;
+    return parameters;
+}
+
 FlightStatistics::FlightStatistics(const FlightStatisticsParameters &parameters)
     : m_parameters(parameters)
 {
@@ -50,6 +60,7 @@ void FlightStatistics::Sums::add(const FlightSample &sample, double windSpeedNow
 {
     ++count;
     power += sample.power;
+    speed += sample.velocity.norm();
     windSpeed += windSpeedNow;
     cubedWind += windSpeedNow * windSpeedNow * windSpeedNow;
     if (sample.tetherSpeed > 0.0) {
@@ -71,10 +82,15 @@ void FlightStatistics::step(const FlightSample &sample)
         m_afterWarmUp.add(sample, windSpeed);
     m_all.add(sample, windSpeed);
     followPhase(sample.flightPhase);
-    m_crashed = m_crashed || sample.position.z() <= 0.0;
+    if (sample.position.z() <= 0.0 && !m_crashed) {
+        m_crashed = true;
+        m_crashTime = static_cast<double>(m_all.count - 1) * m_parameters.step;
+    }
+    m_maximumSpeed = std::max(m_maximumSpeed, sample.velocity.norm());
+    m_maximumPower = std::max(m_maximumPower, sample.power);
     m_maximumTetherForce = std::max(m_maximumTetherForce, sample.tetherForce.norm());
-    if (m_launched)
-        m_minimumAltitude = std::min(m_minimumAltitude, sample.position.z());
+    double &altitude = m_launched ? m_minimumAltitude : m_launchAltitude;
+    altitude = std::min(altitude, sample.position.z());
 }
 
 void FlightStatistics::followPhase(std::int8_t phase)
@@ -109,9 +125,14 @@ FlightReport FlightStatistics::report() const
     report.etaPerMeanCubedWind = ratio(report.meanPower, bestPower(mean(window.cubedWind, window.count)));
     report.pumpingCycles = m_pumpingCycles;
     report.recoveries = m_recoveries;
-    report.minimumAltitude = std::isfinite(m_minimumAltitude) ? m_minimumAltitude : 0.0;
+    report.meanSpeed = mean(window.speed, window.count);
+    report.maximumSpeed = m_maximumSpeed;
+    report.maximumPower = m_maximumPower;
+    const double altitude = m_launched ? m_minimumAltitude : m_launchAltitude;
+    report.minimumAltitude = std::isfinite(altitude) ? altitude : 0.0;
     report.maximumTetherForce = m_maximumTetherForce;
     report.crashed = m_crashed;
+    report.crashTime = m_crashTime;
     return report;
 }
 

@@ -9,10 +9,13 @@
 
 namespace awe {
 
+struct PlantParameters;
+
 /// What FlightStatistics sees of one cycle: signals only, so it also works where the plant is another computer.
 struct FlightSample
 {
     Eigen::Vector3d position = Eigen::Vector3d::Zero();      // r [3] [m], z up
+    Eigen::Vector3d velocity = Eigen::Vector3d::Zero();      // v [3] [m/s]
     Eigen::Vector3d windVelocity = Eigen::Vector3d::Zero();  // w [3] [m/s]
     Eigen::Vector3d tetherForce = Eigen::Vector3d::Zero();   // F_t [3] [N]
     double tetherSpeed = 0.0;                                // v_t [m/s], > 0 reels out
@@ -31,6 +34,9 @@ struct FlightStatisticsParameters
     double warmUp = 60.0;               // left out of the figures ... [s]
     double shortestFlight = 120.0;      // ... when the flight is longer than this [s]
 
+    /// Density, area and coefficient of the wing of \a plant.
+    static FlightStatisticsParameters of(const PlantParameters &plant);
+
     /// \return empty when all is well, otherwise one sentence with the parameter, its value and the remedy
     std::string validate() const;
 };
@@ -48,11 +54,15 @@ struct FlightReport
     double reelOutPower = 0.0;         // mean power while v_t > 0, window [W]
     double reelInPower = 0.0;          // mean power while v_t < 0, window [W]; negative: the winch works
     double meanWindSpeed = 0.0;        // mean of |w|, window [m/s]
+    double meanSpeed = 0.0;            // mean of |v|, window [m/s]
+    double maximumSpeed = 0.0;         // largest |v|, all [m/s]
+    double maximumPower = 0.0;         // largest power, all [W]
     int pumpingCycles = 0;             // completed reel-ins (ReelIn left for Power), all
     int recoveries = 0;                // times the phase Recover began, all
-    double minimumAltitude = 0.0;      // [m], all but the first Launch
+    double minimumAltitude = 0.0;      // [m], all but the first Launch; all when there is nothing else
     double maximumTetherForce = 0.0;   // [N], all
     bool crashed = false;              // z <= 0 in any sample, all
+    double crashTime = 0.0;            // of the first such sample, since the begin [s]
 };
 
 /// Adds up a flight cycle by cycle. step() takes no memory. One thread at a time.
@@ -80,6 +90,7 @@ private:
         std::int64_t count = 0, outCount = 0, inCount = 0;
         double power = 0.0, outPower = 0.0, inPower = 0.0;  // [W]
         double windSpeed = 0.0, cubedWind = 0.0;            // [m/s], [m^3/s^3]
+        double speed = 0.0;                                 // [m/s]
 
         void add(const FlightSample &sample, double windSpeedNow);
     };
@@ -95,8 +106,12 @@ private:
     int m_pumpingCycles = 0;
     int m_recoveries = 0;
     double m_minimumAltitude = std::numeric_limits<double>::infinity();
+    double m_launchAltitude = std::numeric_limits<double>::infinity();  // the same in the first Launch
     double m_maximumTetherForce = 0.0;
+    double m_maximumSpeed = 0.0;
+    double m_maximumPower = 0.0;
     bool m_crashed = false;
+    double m_crashTime = 0.0;
 };
 
 }  // namespace awe

@@ -4,19 +4,24 @@
 #include "Plant.h"
 #include "Wind.h"
 
+#include <stdexcept>
+
 namespace awe {
 
 /// The plant in its wind: what the model nodes compute, one way for both of them.
 ///
 /// The outputs of a cycle belong to the state at its begin; then the state moves one step on. Power and, with damping, tether force also depend on the inputs
 /// (direct feed-through): step() shows them with the inputs that came in, outputs() and update() with those of the step before.
+/// A simulation that diverges throws: its node then has failed, and says why.
 class KiteSimulation
 {
 public:
-    /// \pre both parameter sets are valid and have the same step
-    KiteSimulation(const PlantParameters &plant, const WindParameters &wind)
-        : m_plant(plant)
+    /// \param substeps  Runge-Kutta steps in each cycle, for a light kite or a stiff tether
+    /// \pre both parameter sets are valid and have the same step: that of the cycle
+    KiteSimulation(const PlantParameters &plant, const WindParameters &wind, int substeps = 1)
+        : m_plant(divided(plant, substeps))
         , m_wind(wind)
+        , m_substeps(substeps)
     {
     }
 
@@ -52,14 +57,29 @@ public:
     }
 
 private:
+    static PlantParameters divided(PlantParameters plant, int substeps)
+    {
+        plant.step /= substeps;
+        return plant;
+    }
+
     void move()
     {
-        m_plant.step(m_inputs);
+        for (int i = 0; i < m_substeps; ++i)
+            m_plant.step(m_inputs);
         m_wind.step();
+        const PlantState &state = m_plant.state();
+        if (!(state.velocity.squaredNorm() < fastest * fastest))  // also when it is not a number
+            throw std::runtime_error(
+                "the simulation has diverged: the kite is faster than 1000 m/s; its mass is too small or its tether "
+                "too stiff for the step, so use more 'substeps' in [kite] of --plant");
     }
+
+    static constexpr double fastest = 1000.0;  // [m/s]
 
     Plant m_plant;
     Wind m_wind;
+    int m_substeps;
     PlantInputs m_inputs;  // of the last step
 };
 

@@ -62,10 +62,11 @@ Aerodynamics::Airflow Aerodynamics::airflow(const Eigen::Vector3d &relativeWind,
     return flow;
 }
 
-Aerodynamics::BestAngle Aerodynamics::bestAngleOfAttack()
+Aerodynamics::BestAngle Aerodynamics::bestAngleOfAttack(double dragFactor)
 {
-    const Aerodynamics plain;
-    const auto quality = [&plain](double angle) { return plain.coefficients(angle).awe; };
+    const Aerodynamics wing(dragFactor);
+    const auto quality
+        = [&wing](double angle) { return aweCoefficient(wing.dragCoefficient(angle), wing.liftCoefficient(angle)); };
     double best = -90.0;
     for (double angle = -89.0; angle <= 90.0; angle += 1.0) {
         if (quality(angle) > quality(best))

@@ -61,13 +61,13 @@ public:
     Airflow airflow(const Eigen::Vector3d &relativeWind, const Eigen::Vector3d &tailwards,
                     const Eigen::Vector3d &sideways, const Eigen::Vector3d &topwards, double dynamicArea) const;
 
-    /// Largest c_AWE of the plain wing for -90...90 deg and where it is.
+    /// Largest c_AWE of a wing for -90...90 deg and where it is, drag factor included.
     struct BestAngle
     {
         double angleOfAttack = 0.0;   // [deg]
         double aweCoefficient = 0.0;  // [-]
     };
-    static BestAngle bestAngleOfAttack();
+    static BestAngle bestAngleOfAttack(double dragFactor = 1.0);
 
     double dragFactor() const { return m_dragFactor; }
     AngleOfAttackRange range() const { return m_range; }

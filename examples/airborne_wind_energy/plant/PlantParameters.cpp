@@ -26,15 +26,10 @@ PlantState PlantParameters::stateAtRest(double elevation, double azimuth, double
 std::string PlantParameters::validate() const
 {
     RangeCheck check;
-    check.within("mass", mass, 1e-3, 1e6, "kg");
-    check.within("area", area, 1e-3, 1e6, "m^2");
-    check.within("airDensity", airDensity, 1e-3, 100.0, "kg/m^3");
-    check.within("tetherStiffness", tetherStiffness, 0.0, 1e9, "N/m");
-    check.within("tetherDamping", tetherDamping, 0.0, 1e9, "N s/m");
-    check.within("gravity", gravity, 0.0, 100.0, "m/s^2");
-    check.within("averagePowerTime", averagePowerTime, 1e-3, 1e9, "s");
+    visitConstants(*this, [&check](const char *name, double value, double smallest, double largest, const char *unit) {
+        check.within(name, value, smallest, largest, unit);
+    });
     check.within("step", step, 1e-6, 0.05, "s");
-    check.within("dragFactor", dragFactor, 1e-3, 1e3, "");
     for (int i = 0; i < 3; ++i) {
         check.within("initialState.position", initialState.position[i], -1e6, 1e6, "m");
         check.within("initialState.velocity", initialState.velocity[i], -1e3, 1e3, "m/s");

@@ -31,6 +31,20 @@ struct PlantParameters
     GroundContact groundContact = GroundContact::Ignore;
     PlantState initialState = defaultInitialState();
 
+    /// Calls visit(name, value, smallest, largest, unit) for each constant of \a parameters that a file may set.
+    template<typename Parameters, typename Visitor>
+    static void visitConstants(Parameters &parameters, Visitor visit)
+    {
+        visit("mass", parameters.mass, 1e-3, 1e6, "kg");
+        visit("area", parameters.area, 1e-3, 1e6, "m^2");
+        visit("airDensity", parameters.airDensity, 1e-3, 100.0, "kg/m^3");
+        visit("tetherStiffness", parameters.tetherStiffness, 0.0, 1e9, "N/m");
+        visit("tetherDamping", parameters.tetherDamping, 0.0, 1e9, "N s/m");
+        visit("dragFactor", parameters.dragFactor, 1e-3, 1e3, "");
+        visit("gravity", parameters.gravity, 0.0, 100.0, "m/s^2");
+        visit("averagePowerTime", parameters.averagePowerTime, 1e-3, 1e9, "s");
+    }
+
     static PlantState defaultInitialState();
 
     /// A state at rest on a taut, unstretched tether, nose to the zenith, beta_c = 9 deg.

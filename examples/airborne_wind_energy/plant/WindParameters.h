@@ -21,6 +21,17 @@ struct WindParameters
     double gustDuration = 6.0;                                         // [s]
     double step = 0.010;                                               // time between two values [s]
 
+    /// Calls visit(name, value, smallest, largest, unit) for each constant of \a parameters that a file may set.
+    template<typename Parameters, typename Visitor>
+    static void visitConstants(Parameters &parameters, Visitor visit)
+    {
+        visit("turbulenceIntensity", parameters.turbulenceIntensity, 0.0, 1.0, "");
+        visit("lengthScale", parameters.lengthScale, 0.1, 1e5, "m");
+        visit("gustAmplitude", parameters.gustAmplitude, -1.0, 10.0, "");
+        visit("gustStart", parameters.gustStart, 0.0, 1e9, "s");
+        visit("gustDuration", parameters.gustDuration, 1e-3, 1e6, "s");
+    }
+
     /// \return empty when all is well, otherwise one sentence with the parameter, its value and the remedy
     std::string validate() const;
 };

@@ -38,6 +38,11 @@ void addOptions(QPlcCoreApplication &application)
         QStringLiteral("same-cycle"),
         QStringLiteral(
             "Model and autopilot read each other in the same cycle: no dead time from sensor to actuator.")));
+    application.addOption(QCommandLineOption(
+        QStringLiteral("controls"),
+        QStringLiteral("Without autopilot, in one process: pitch and yaw speed [deg/s] and tether speed [m/s] stay as "
+                       "they are given here."),
+        QStringLiteral("PITCH,YAW,TETHER")));
     application.addOption(QCommandLineOption(QStringLiteral("processes"),
                                              QStringLiteral("Master, model and autopilot as processes of their own.")));
     application.addOption(
@@ -93,6 +98,30 @@ bool readPlant(QPlcCoreApplication &application, Settings *settings)
     return true;
 }
 
+/// A flight without autopilot. \return false, with the message out, when --controls does not fit
+bool readControls(QPlcCoreApplication &application, Settings *settings)
+{
+    const QString controls = QStringLiteral("controls");
+    if (!application.isSet(controls))
+        return true;
+    if (settings->processes) {
+        application.usageError(QStringLiteral(
+            "--controls flies without autopilot in one process: leave out --processes and --winch drive"));
+        return false;
+    }
+    for (const char *option : {"gains", "force-limit", "dead-time"}) {
+        if (!application.isSet(QLatin1String(option)))
+            continue;
+        application.usageError(QStringLiteral("--controls and --%1 exclude each other: without autopilot there is "
+                                              "nothing to set")
+                                   .arg(QLatin1String(option)));
+        return false;
+    }
+    settings->run.controls.emplace();
+    settings->run.awaitedNodes.removeAll(QStringLiteral("Autopilot"));
+    return awe::readVector(application, controls, &*settings->run.controls);
+}
+
 bool readOptions(QPlcCoreApplication &application, Settings *settings)
 {
     settings->processes = application.isSet(QStringLiteral("processes"));
@@ -105,12 +134,12 @@ bool readOptions(QPlcCoreApplication &application, Settings *settings)
                               : QStringLiteral("inprocess");
     if (!canTransport(application, *settings))
         return false;
-    if (!awe::readModelOptions(application, &settings->model)
+    if (!awe::readModelOptions(application, settings->run.plant.kite, &settings->model)
         || !awe::readAutopilotOptions(application, &settings->autopilot))
         return false;
     settings->run.nominalWindSpeed = settings->model.wind.meanVelocity.norm();
     settings->run.awaitedNodes = QStringList{QStringLiteral("Model"), QStringLiteral("Autopilot")};
-    return true;
+    return readControls(application, settings);
 }
 
 /// The end of a flight: prints the summary, writes the report.
@@ -150,7 +179,7 @@ int flyInProcesses(QPlcCoreApplication &application, const Settings &settings)
 {
     const QStringList table{QStringLiteral("--signals=%1").arg(application.value(QStringLiteral("signals")))};
     awe::ProcessArguments arguments;
-    arguments.master = table + awe::givenRunOptions(application)
+    arguments.master = table + awe::givenRunOptions(application) + awe::givenPlantOptions(application)
         + QStringList{QStringLiteral("--mean-wind=%1").arg(settings.run.nominalWindSpeed, 0, 'g', 17)};
     if (!application.isSet(QStringLiteral("duration")))
         arguments.master << QStringLiteral("--duration=%1").arg(settings.run.duration);
@@ -162,7 +191,8 @@ int flyInProcesses(QPlcCoreApplication &application, const Settings &settings)
     if (settings.transport == multicast)
         arguments.master << QStringLiteral("--multicast=%1").arg(awe::defaultMulticastGroup().toString());
     const QStringList order = settings.sameCycle ? QStringList{QStringLiteral("--same-cycle")} : QStringList();
-    arguments.model = table + processor + order + awe::givenModelOptions(application);
+    arguments.model
+        = table + processor + order + awe::givenPlantOptions(application) + awe::givenModelOptions(application);
     arguments.autopilot = table + processor + order + awe::givenAutopilotOptions(application);
     arguments.transport = settings.transport;
     if (settings.run.plant.hasDrive())
@@ -193,7 +223,8 @@ bool attach(QPlcMasterNode &master, QPlcSlaveNode &node, const QString &transpor
 
 int flyInOneProcess(QPlcCoreApplication &application, const Settings &settings)
 {
-    awe::CompactModelNode model(awe::KiteSimulation(settings.model.plant, settings.model.wind));
+    awe::CompactModelNode model(
+        awe::KiteSimulation(settings.model.plant, settings.model.wind, settings.model.substeps));
     awe::AutopilotNode autopilot(settings.autopilot.gains, settings.autopilot.extraDeadTime);
     autopilot.setSameCycle(settings.sameCycle);
     model.setSameCycle(settings.sameCycle);
@@ -205,7 +236,8 @@ int flyInOneProcess(QPlcCoreApplication &application, const Settings &settings)
     runSettings.reportFile.clear();  // written at the end, with the summary
     awe::FlightRun run(master, runSettings);
     if (!run.isValid() || !attach(master, model, settings.transport, QStringLiteral("modelWorkload"))
-        || !attach(master, autopilot, settings.transport, QStringLiteral("autopilotWorkload")))
+        || (!settings.run.controls
+            && !attach(master, autopilot, settings.transport, QStringLiteral("autopilotWorkload"))))
         return QPlcCoreApplication::UsageError;
     QObject::connect(&run, &awe::FlightRun::finished, &application,
                      [](int exitCode) { QCoreApplication::exit(exitCode); });
@@ -228,6 +260,8 @@ int main(int argc, char **argv)
                              QStringLiteral("awe_sil --scale 10 --turbulence 0.15 --seed 3"),
                              QStringLiteral("awe_sil --processes --transport udp --gains tuned"),
                              QStringLiteral("awe_sil --processes --transport udp-multicast"),
+                             QStringLiteral("awe_sil --plant drag-fifth.ini --duration 120"),
+                             QStringLiteral("awe_sil --plant reel-in.ini --controls 0,0,-4 --duration 25"),
                              QStringLiteral("awe_sil --winch drive --duration 120 --report flight.json")});
     addOptions(application);
     Settings settings;

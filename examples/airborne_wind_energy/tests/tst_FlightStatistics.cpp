@@ -3,6 +3,7 @@
 
 #include "FlightPhase.h"
 #include "Near.h"
+#include "PlantParameters.h"
 
 using namespace awe;
 
@@ -21,6 +22,10 @@ private Q_SLOTS:
     void pumpingCycleEndsWhenReelInBecomesPower();
     void recoveriesAreCountedOnce();
     void altitudeCountsAfterTheLaunchOnly();
+    void altitudeOfALaunchCountsWhenThereIsNothingElse();
+    void speedIsTheMeanAndTheLargest();
+    void crashIsTimed();
+    void figuresOfAPlantAreThoseOfItsWing();
     void forceIsTheLargestOfAll();
     void groundContactIsACrash();
     void unknownPhaseIsNoPhase();
@@ -160,6 +165,47 @@ void tst_FlightStatistics::altitudeCountsAfterTheLaunchOnly()
     m_sample.position.z() = 30.0;
     add(1);
     QCOMPARE(m_statistics.report().minimumAltitude, 30.0);
+}
+
+void tst_FlightStatistics::altitudeOfALaunchCountsWhenThereIsNothingElse()
+{
+    enter(FlightPhase::Launch);
+    m_sample.position.z() = 18.0;
+    add(10);
+    QCOMPARE(m_statistics.report().minimumAltitude, 18.0);
+}
+
+void tst_FlightStatistics::speedIsTheMeanAndTheLargest()
+{
+    m_sample.velocity = {3.0, 4.0, 0.0};
+    add(3);
+    m_sample.velocity = {0.0, 0.0, -9.0};
+    add(1);
+    COMPARE_NEAR(m_statistics.report().meanSpeed, 6.0, 1e-12);
+    QCOMPARE(m_statistics.report().maximumSpeed, 9.0);
+}
+
+void tst_FlightStatistics::crashIsTimed()
+{
+    add(250);
+    m_sample.position.z() = 0.0;
+    add(100);
+    QVERIFY(m_statistics.report().crashed);
+    COMPARE_NEAR(m_statistics.report().crashTime, 2.5, 1e-12);
+}
+
+void tst_FlightStatistics::figuresOfAPlantAreThoseOfItsWing()
+{
+    const FlightStatisticsParameters usual = FlightStatisticsParameters::of(PlantParameters());
+    COMPARE_NEAR(usual.aweCoefficient, FlightStatisticsParameters().aweCoefficient, 1e-4);
+    PlantParameters plant;
+    plant.area = 20.0;
+    plant.airDensity = 0.9;
+    plant.dragFactor = 0.2;
+    const FlightStatisticsParameters changed = FlightStatisticsParameters::of(plant);
+    QCOMPARE(changed.area, 20.0);
+    QCOMPARE(changed.airDensity, 0.9);
+    QVERIFY(changed.aweCoefficient > 20.0 * usual.aweCoefficient);  // lift cubed / drag squared
 }
 
 void tst_FlightStatistics::forceIsTheLargestOfAll()

@@ -3,6 +3,7 @@
 
 #include <QtCore/QFile>
 #include <QtCore/QFileInfo>
+#include <QtCore/QRegularExpression>
 #include <QtCore/QTemporaryDir>
 #include <QtTest/QtTest>
 
@@ -15,8 +16,13 @@ class tst_PlantConfiguration : public QObject
 private Q_SLOTS:
     void withoutAFileTheWinchIsIdeal();
     void oneWordMakesItADrive();
-    void whatCannotBeMeantIsNamed_data();
-    void whatCannotBeMeantIsNamed();
+    void kiteOfTheBuiltInFileIsThatOfTheThesis();
+    void everyKeyOfTheKiteTakesItsRangeAndNoMore();
+    void kiteStartsWhereTheFileSays();
+    void sectionThatIsLeftOutIsTheBuiltInOne();
+    void withoutAnAzimuthTheKiteStartsDownwind();
+    void badLineIsNamedWithItsRemedy_data();
+    void badLineIsNamedWithItsRemedy();
     void fileThatIsNotThereIsNamed();
 
 private:
@@ -55,19 +61,176 @@ void tst_PlantConfiguration::oneWordMakesItADrive()
     QCOMPARE(plant.winchHardware, m_folder.filePath(QStringLiteral("winch.ini")));
 }
 
-void tst_PlantConfiguration::whatCannotBeMeantIsNamed_data()
+/// One line of the built-in file that shows a key of [kite]: ";mass = 5    ; kg, from 0.001 to 1e+06".
+struct ShownKey
+{
+    QString name, value, text;
+};
+
+static QVector<ShownKey> shownKeys()
+{
+    QFile file(PlantConfiguration::builtInFile());
+    if (!file.open(QIODevice::ReadOnly))
+        return {};
+    QVector<ShownKey> keys;
+    static const QRegularExpression line(QStringLiteral("^;(\\w+) = (\\S+) +; (.*)$"),
+                                         QRegularExpression::MultilineOption);
+    for (auto found = line.globalMatch(QString::fromUtf8(file.readAll())); found.hasNext();) {
+        const QRegularExpressionMatch match = found.next();
+        keys.append({match.captured(1), match.captured(2), match.captured(3)});
+    }
+    return keys;
+}
+
+void tst_PlantConfiguration::kiteOfTheBuiltInFileIsThatOfTheThesis()
+{
+    QByteArray text("[kite]\n");
+    const QVector<ShownKey> keys = shownKeys();
+    QCOMPARE(keys.size(), 25);
+    for (const ShownKey &key : keys) {
+        if (key.name != QLatin1String("azimuth"))  // without it: downwind
+            text += QStringLiteral("%1 = %2\n").arg(key.name, key.value).toUtf8();
+    }
+    PlantConfiguration shown, silent;
+    QString error;
+    QVERIFY2(PlantConfiguration::read(write(text), &shown, &error), qPrintable(error));
+    QVERIFY2(PlantConfiguration::read(PlantConfiguration::builtInFile(), &silent, &error), qPrintable(error));
+    const WindParameters wind;
+    PlantParameters expected;
+    expected.groundContact = GroundContact::Hold;
+    for (const PlantConfiguration &configuration : {shown, silent}) {
+        const PlantParameters plant = configuration.kite.plantIn(configuration.kite.wind);
+        QVector<double> values, wanted;
+        const auto collect = [](QVector<double> *into) {
+            return [into](const char *, double value, double, double, const char *) { into->append(value); };
+        };
+        PlantParameters::visitConstants(plant, collect(&values));
+        PlantParameters::visitConstants(expected, collect(&wanted));
+        WindParameters::visitConstants(configuration.kite.wind, collect(&values));
+        WindParameters::visitConstants(wind, collect(&wanted));
+        QCOMPARE(values, wanted);
+        QVERIFY(configuration.kite.wind.meanVelocity == WindParameters().meanVelocity);
+        QCOMPARE(configuration.kite.wind.seed, WindParameters().seed);
+        QCOMPARE(configuration.kite.substeps, 1);
+        QCOMPARE(plant.groundContact, GroundContact::Hold);
+        QCOMPARE(plant.angleOfAttackRange, AngleOfAttackRange::Folded);
+        QVERIFY((plant.initialState.position - expected.initialState.position).norm() < 1e-9);
+        QVERIFY(plant.initialState.velocity == expected.initialState.velocity);
+        QCOMPARE(plant.initialState.pitchAngle, expected.initialState.pitchAngle);
+        QCOMPARE(plant.initialState.yawAngle, expected.initialState.yawAngle);
+        QCOMPARE(plant.initialState.tetherLength, expected.initialState.tetherLength);
+    }
+}
+
+/// The ranges and units that the built-in file tells are those that are kept.
+void tst_PlantConfiguration::everyKeyOfTheKiteTakesItsRangeAndNoMore()
+{
+    static const QRegularExpression range(QStringLiteral("^(?:([^,]+), )?(each )?from (\\S+?) to ([^\\s:]+)"));
+    int ranges = 0;
+    for (const ShownKey &key : shownKeys()) {
+        const QRegularExpressionMatch match = range.match(key.text);
+        if (!match.hasMatch())
+            continue;  // a choice of words
+        ++ranges;
+        const bool isVector = !match.captured(2).isEmpty();
+        const auto line = [&](const QString &value) {
+            return QStringLiteral("[kite]\n%1 = %2\n").arg(key.name, isVector ? value + QStringLiteral(",0,0") : value);
+        };
+        for (const int border : {3, 4}) {
+            const double limit = match.captured(border).toDouble();
+            const double beyond = border == 3 ? limit - 1.0 : limit * 1.1 + 1.0;
+            PlantConfiguration plant;
+            QString error;
+            QVERIFY2(PlantConfiguration::read(write(line(match.captured(border)).toUtf8()), &plant, &error),
+                     qPrintable(error));
+            QVERIFY2(!PlantConfiguration::read(write(line(QString::number(beyond, 'f', 0)).toUtf8()), &plant, &error),
+                     qPrintable(key.name));
+            const QString said = QStringLiteral("from %1 to %2").arg(match.captured(3), match.captured(4));
+            QVERIFY2(error.contains(QStringLiteral("plant.ini:2: %1 = ").arg(key.name)) && error.contains(said)
+                         && error.endsWith(match.captured(1)),
+                     qPrintable(error));
+        }
+    }
+    QCOMPARE(ranges, 23);
+}
+
+void tst_PlantConfiguration::kiteStartsWhereTheFileSays()
+{
+    PlantConfiguration plant;
+    QString error;
+    const QString name = write("[winch]\nkind = drive\n[kite]\nelevation = 90\ndistance = 50\ntetherLength = 51 ; m\n"
+                               "velocity = 1,2,3\npitchAngle = -90\nyawAngle = 80\nmass = 2.5\nwind = 8,0,0\n");
+    QVERIFY2(PlantConfiguration::read(name, &plant, &error), qPrintable(error));
+    QVERIFY(plant.hasDrive());
+    const PlantParameters parameters = plant.kite.plantIn(plant.kite.wind);
+    QVERIFY((parameters.initialState.position - Eigen::Vector3d(0.0, 0.0, 50.0)).norm() < 1e-9);
+    QVERIFY(parameters.initialState.velocity == Eigen::Vector3d(1.0, 2.0, 3.0));
+    QCOMPARE(parameters.initialState.tetherLength, 51.0);
+    QCOMPARE(parameters.initialState.pitchAngle, -90.0);
+    QCOMPARE(parameters.initialState.yawAngle, 80.0);
+    QCOMPARE(parameters.mass, 2.5);
+    QVERIFY(plant.kite.wind.meanVelocity == Eigen::Vector3d(8.0, 0.0, 0.0));
+}
+
+void tst_PlantConfiguration::sectionThatIsLeftOutIsTheBuiltInOne()
+{
+    PlantConfiguration builtIn, kite, winch;
+    QString error;
+    QVERIFY2(PlantConfiguration::read(PlantConfiguration::builtInFile(), &builtIn, &error), qPrintable(error));
+    QVERIFY2(PlantConfiguration::read(write("[kite]\nmass = 3\n"), &kite, &error), qPrintable(error));
+    QCOMPARE(kite.winchHardware, builtIn.winchHardware);
+    QCOMPARE(kite.simulatedWinch, builtIn.simulatedWinch);
+    QVERIFY2(PlantConfiguration::read(write("[winch]\nkind = drive\n"), &winch, &error), qPrintable(error));
+    QVERIFY2(winch.simulatedWinch.isEmpty(), "a drive that the file does not call simulated is a real one");
+    QCOMPARE(winch.kite.plant.mass, 5.0);
+}
+
+void tst_PlantConfiguration::withoutAnAzimuthTheKiteStartsDownwind()
+{
+    PlantConfiguration plant;
+    QString error;
+    QVERIFY2(PlantConfiguration::read(write("[kite]\nelevation = 0\ndistance = 10\n"), &plant, &error),
+             qPrintable(error));
+    WindParameters northwards;
+    northwards.meanVelocity = Eigen::Vector3d(0.0, 7.0, 0.0);
+    const PlantState start = plant.kite.plantIn(northwards).initialState;
+    QVERIFY((start.position - Eigen::Vector3d(0.0, 10.0, 0.0)).norm() < 1e-9);
+    QCOMPARE(start.tetherLength, 10.0);
+}
+
+void tst_PlantConfiguration::badLineIsNamedWithItsRemedy_data()
 {
     QTest::addColumn<QByteArray>("text");
     QTest::addColumn<QString>("expected");
-    QTest::newRow("kind") << QByteArray("[winch]\nkind = steam\n") << "kind = steam: use ideal or drive";
-    QTest::newRow("key") << QByteArray("[winch]\n; a comment\nkin = drive\n")
-                         << "plant.ini:3: 'kin' is no key of [winch]";
-    QTest::newRow("section") << QByteArray("[kite]\n") << "plant.ini:1: '[kite]' is not known here";
-    QTest::newRow("before the section") << QByteArray("\nkind = drive\n") << "plant.ini:2: ";
-    QTest::newRow("no value") << QByteArray("[winch]\nkind\n") << "plant.ini:2: 'kind' is no key";
+    const auto add = [](const char *name, const char *text, const char *expected) {
+        QTest::newRow(name) << QByteArray(text) << QString::fromLatin1(expected);
+    };
+    add("kind", "[winch]\nkind = steam\n", "plant.ini:2: kind = steam: use ideal or drive");
+    add("key of the winch", "[winch]\n; a comment\nkin = drive\n",
+        "plant.ini:3: 'kin' is not a key of [winch]; use one of kind, hardware, simulated");
+    add("section", "[kites]\n", "plant.ini:1: '[kites]' is not a section of a plant; use [winch] or [kite]");
+    add("before the section", "\nkind = drive\n", "plant.ini:2: 'kind' is outside of a section");
+    add("no value", "[winch]\nkind\n", "plant.ini:2: 'kind' has no value; write kind = VALUE");
+    add("close key of the kite", "[kite]\nmas = 3\n",
+        "plant.ini:2: 'mas' is not a key of [kite]; did you mean 'mass'?");
+    add("key of the kite", "[kite]\nqqqqqqqqqqqq = 3\n",
+        "'qqqqqqqqqqqq' is not a key of [kite]; use one of mass, area,");
+    add("negative mass", "[kite]\n\nmass = -3\n", "plant.ini:3: mass = -3: use a number from 0.001 to 1e+06 kg");
+    add("no number", "[kite]\narea = wide\n", "plant.ini:2: area = wide: use a number from 0.001 to 1e+06 m^2");
+    add("not a number", "[kite]\ndragFactor = nan\n", "dragFactor = nan: use a number from 0.001 to 1000");
+    add("infinite", "[kite]\nmass = inf\n", "mass = inf: use a number from 0.001");
+    add("empty", "[kite]\nmass =\n", "plant.ini:2: mass = : use a number from 0.001 to 1e+06 kg");
+    add("two numbers for a vector", "[kite]\nwind = 5,3\n",
+        "wind = 5,3: use three numbers X,Y,Z (east, north, up), each from -100 to 100 m/s");
+    add("storm", "[kite]\nwind = 5,300,0\n", "wind = 5,300,0: use three numbers");
+    add("NaN in a vector", "[kite]\nvelocity = nan,0,0\n", "velocity = nan,0,0: use three numbers");
+    add("half a step", "[kite]\nsubsteps = 1.5\n", "substeps = 1.5: use a whole number from 1 to 100");
+    add("choice", "[kite]\nground = soft\n", "ground = soft: use hold or ignore");
+    add("twice", "[kite]\nmass = 3\nmass = 4\n", "plant.ini:3: 'mass' is there twice; give it once");
+    add("twice, in two parts", "[kite]\nmass = 3\n[winch]\n[kite]\nmass = 4\n", "plant.ini:5: 'mass' is there twice");
 }
 
-void tst_PlantConfiguration::whatCannotBeMeantIsNamed()
+void tst_PlantConfiguration::badLineIsNamedWithItsRemedy()
 {
     QFETCH(QByteArray, text);
     QFETCH(QString, expected);

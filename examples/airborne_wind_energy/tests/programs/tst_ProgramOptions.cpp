@@ -57,7 +57,7 @@ void tst_ProgramOptions::helpNamesEveryOption_data()
                    "--priority --cpu "
                    "--lock-memory --enable-fault-injection --faults")
             + run);
-    row("awe_sil", QByteArray("--processes --transport --same-cycle") + run + model + autopilot);
+    row("awe_sil", QByteArray("--processes --transport --same-cycle --controls") + run + model + autopilot);
 }
 
 void tst_ProgramOptions::helpNamesEveryOption()
@@ -134,6 +134,14 @@ void tst_ProgramOptions::badOptionsAreRefusedWithOneSentence_data()
         row(program, "--seed -1", "--seed -1");
         row(program, "--seed 0.5", "--seed 0.5");
     }
+    const QString plant = m_folder.filePath(QStringLiteral("plant.ini"));
+    QFile file(plant);
+    file.open(QIODevice::WriteOnly);
+    file.write("[kite]\nmass = 0\n");
+    file.close();
+    for (const char *program : {"awe_master", "awe_model", "awe_compact_model", "awe_sil"})
+        row(program, qPrintable(QStringLiteral("--plant ") + plant),
+            qPrintable(plant + QStringLiteral(":2: mass = 0: use a number from 0.001 to 1e+06 kg")));
     for (const char *program : {"awe_autopilot", "awe_sil"}) {
         row(program, "--gains best", "--gains best: use default or tuned");
         row(program, "--force-limit 99", "--force-limit 99");
@@ -177,6 +185,12 @@ void tst_ProgramOptions::badOptionsAreRefusedWithOneSentence_data()
     row("awe_sil", "--same-cycle --transport udp-multicast", "asked one by one: use udp, tcp or local");
     row("awe_sil", "--processes --wind 1,2", "--wind 1,2");
     row("awe_sil", "--processes --watch", "--watch draws on a terminal");
+    row("awe_sil", "--controls 0,0", "--controls 0,0: use three numbers X,Y,Z");
+    row("awe_sil", "--controls 0,0,1 --processes", "leave out --processes and --winch drive");
+    row("awe_sil", "--controls 0,0,1 --winch drive", "leave out --processes and --winch drive");
+    row("awe_sil", "--controls 0,0,1 --gains tuned", "--controls and --gains exclude each other");
+    row("awe_sil", "--controls 0,0,100 --duration 1",
+        "100 is out of range for signal 'tetherSpeed'; use -10 ... 10 m/s");
 }
 
 void tst_ProgramOptions::badOptionsAreRefusedWithOneSentence()
