@@ -39,10 +39,10 @@ class Winch:
         def registered():
             self.terminal.take(0.1)
             return self.terminal.shown.count("registered at") >= count
-        await_that(registered, f"{count} nodes never register: {self.terminal.shown[-2000:]}")
+        await_that(registered, lambda: f"{count} nodes never register: {self.terminal.shown[-2000:]}")
 
     def await_value(self, signal, condition, text):
-        await_that(lambda: condition(self.value(signal)), f"{signal} {text} never comes, it is {self.value(signal)}")
+        await_that(lambda: condition(self.value(signal)), lambda: f"{signal} {text} never comes, it is {self.value(signal)}")
 
     def cycles_both_ways(self):
         self.await_value("tetherLength", lambda length: length >= 309.0, ">= 309")
@@ -65,6 +65,7 @@ class Winch:
 
 def expected(winch):
     return {
+        "build/winch_master &": Expectation(after=lambda: winch.terminal.await_text("port 50000")),
         "qtplc state": Expectation(shows=r"(?s)(?=.*\bWinch\b)(?=.*\bOperator\b)", before=lambda: winch.await_nodes(2)),
         "qtplc start": Expectation(after=winch.cycles_both_ways),
         "qtplc list": Expectation(shows=r"(?s)tetherSpeed.*tetherLength"),

@@ -39,9 +39,11 @@ def require(condition, text):
 
 
 def await_that(condition, text):
+    """text: a function that says at the end what is there in its place."""
     end = time.monotonic() + PATIENCE
     while not condition():
-        require(time.monotonic() < end, text)
+        if time.monotonic() > end:
+            raise Broken(text())
         time.sleep(0.05)
 
 
@@ -80,7 +82,7 @@ def in_own_network():
 
 
 class Terminal:
-    """A shell on a terminal, in \a folder, in which commands are typed."""
+    """A shell on a terminal, in a folder, in which commands are typed."""
 
     def __init__(self, folder, environment=None):
         self.shown, self.read = "", 0
@@ -105,7 +107,7 @@ class Terminal:
             raise Broken(f"the shell has ended:\n{self.shown[-2000:]}") from None
 
     def await_prompt(self, answer, command):
-        """What the command shows, and its exit code. \a answer: keys to send, and the pattern that is awaited before."""
+        """What the command shows, and its exit code. answer: keys to send, and the pattern that is awaited before."""
         end = time.monotonic() + 10 * PATIENCE
         while True:
             found = PROMPT.search(self.shown, self.read)
@@ -129,7 +131,7 @@ class Terminal:
         def seen():
             self.take(0.1)
             return text in self.shown
-        await_that(seen, f"'{text}' is never shown, but:\n{self.shown[-2000:]}")
+        await_that(seen, lambda: f"'{text}' is never shown, but:\n{self.shown[-2000:]}")
 
     def close(self):
         try:
@@ -150,7 +152,7 @@ class Expectation:
 
 
 class Reader:
-    """Follows a page in \a folder. \a expected: what is seen at some of its commands. \a not_typed: commands that are left out, and why."""
+    """Follows a page in a folder. expected: what is seen at some of its commands. not_typed: commands that are left out, and why."""
 
     def __init__(self, page, folder, terminal, expected=None, not_typed=None, part=None):
         self.page, self.folder, self.terminal = page, folder, terminal
