@@ -45,6 +45,8 @@ public:
     /// Closes the connection at once.
     void abort();
 
+    QHostAddress localAddress() const;
+    quint16 localPort() const;
     QHostAddress peerAddress() const;
     quint16 peerPort() const;
     QString peerName() const;  ///< "127.0.0.1:40312"

@@ -159,6 +159,16 @@ void QPlcAbstractSocket::abort()
     d->socket->abort();
 }
 
+QHostAddress QPlcAbstractSocket::localAddress() const
+{
+    return d->socket->localAddress();
+}
+
+quint16 QPlcAbstractSocket::localPort() const
+{
+    return d->socket->localPort();
+}
+
 QHostAddress QPlcAbstractSocket::peerAddress() const
 {
     return d->socket->peerAddress();

@@ -6,6 +6,7 @@
 #include "SealFields.h"
 #include "signals/Fnv1a.h"
 #include "transport/FaultLink.h"
+#include "transport/PeerUser.h"
 
 #include <QtCore/QJsonArray>
 #include <QtCore/QMetaEnum>
@@ -216,12 +217,18 @@ bool QPlcSlaveNodePrivate::joinGroup(const Message &registered)
 
 bool QPlcSlaveNodePrivate::openLocalLink(const Message &registered)
 {
-    QString text;
-    m_link = qplc::CyclicLink::local(registered.text(QStringLiteral("channel")),
-                                     registered.text(QStringLiteral("doorbell")),
-                                     registered.text(QStringLiteral("pipe")), &text);
+    QString text = QStringLiteral("cannot find out as which user the master at %1 runs, so none of its memory is "
+                                  "opened; use udp")
+                       .arg(master.toString());
+    const auto user = qplc::userOfPeer(qplc::SocketAddress(control->localAddress(), control->localPort()),
+                                       qplc::SocketAddress(control->peerAddress(), control->peerPort()));
+    if (user)
+        m_link = qplc::CyclicLink::local({registered.text(QStringLiteral("channel")),
+                                          registered.text(QStringLiteral("doorbell")),
+                                          registered.text(QStringLiteral("pipe"))},
+                                         *user, &text);
     if (!m_link)
-        giveUp(QPlcSlaveNode::ConnectionError, QStringLiteral("node '%1': %2").arg(name, text));
+        giveUp(QPlcSlaveNode::ConnectionError, QStringLiteral("node '%1': %2").arg(name, qplc::printable(text)));
     return m_link != nullptr;
 }
 

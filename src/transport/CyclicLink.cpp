@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "CyclicLink.h"
 
+#include "PeerFile.h"
 #include "SharedChannel.h"
 #include "StreamSender.h"
 
@@ -131,13 +132,14 @@ public:
         : CyclicLink(-1)
     {
     }
-    bool open(const QString &channel, const QString &doorbell, const QString &pipe, QString *error)
+    bool open(const LocalPaths &paths, uid_t owner, QString *error)
     {
-        if (!m_memory.open(channel, sizeof(SharedChannel), error) || !m_bell.open(doorbell, sizeof(Doorbell), error))
+        PeerFile pipe;
+        if (!m_memory.open(paths.channel, QStringLiteral("memory"), sizeof(SharedChannel), owner, error)
+            || !m_bell.open(paths.doorbell, QStringLiteral("doorbell"), sizeof(Doorbell), owner, error)
+            || !pipe.find(paths.pipe, QStringLiteral("pipe"), owner, error))
             return false;
-        m_descriptor = ::open(pipe.toLocal8Bit().constData(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
-        if (m_descriptor < 0)
-            *error = QStringLiteral("cannot open the pipe of the master, %1: %2").arg(pipe, systemErrorText());
+        m_descriptor = pipe.openPipe(error);
         return m_descriptor >= 0;
     }
     Status receive(const char **frame, std::size_t *size) noexcept override
@@ -178,11 +180,10 @@ bool CyclicLink::joinGroup(const SocketAddress &, QString *error)
     return false;
 }
 
-std::unique_ptr<CyclicLink> CyclicLink::local(const QString &channel, const QString &doorbell, const QString &pipe,
-                                              QString *error)
+std::unique_ptr<CyclicLink> CyclicLink::local(const LocalPaths &paths, uid_t owner, QString *error)
 {
     auto link = std::make_unique<LocalLink>();
-    return link->open(channel, doorbell, pipe, error) ? std::move(link) : nullptr;
+    return link->open(paths, owner, error) ? std::move(link) : nullptr;
 }
 
 std::unique_ptr<CyclicLink> CyclicLink::udp(const SocketAddress &master, quint16 *localPort, QString *error)

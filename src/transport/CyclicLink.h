@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <sys/types.h>
 
 namespace qplc {
 
@@ -40,9 +41,16 @@ public:
     /// To be called behind the last frame of an answer.
     virtual void flush() noexcept {}
 
-    /// The link to a master on this machine: a SharedChannel, and what wakes the master. Null, with the reason in \a error, when it cannot be opened.
-    static std::unique_ptr<CyclicLink> local(const QString &channel, const QString &doorbell, const QString &pipe,
-                                             QString *error);
+    /// What a master on this machine names for its link, each as "/proc/PID/fd/N".
+    struct LocalPaths
+    {
+        QString channel;   // memory of a SharedChannel
+        QString doorbell;  // memory of a Doorbell
+        QString pipe;      // what wakes the master
+    };
+    /// The link to a master on this machine. Opens only sealed memory and a pipe that belong to \a owner, the user of the master: see PeerFile.
+    /// Null, with the reason in \a error, when it cannot be opened.
+    static std::unique_ptr<CyclicLink> local(const LocalPaths &paths, uid_t owner, QString *error);
     /// A UDP socket that exchanges datagrams with \a master only. Null, with the reason in \a error, when there is none to be had.
     static std::unique_ptr<CyclicLink> udp(const SocketAddress &master, quint16 *localPort, QString *error);
     /// Takes over the connected TCP socket \a descriptor.

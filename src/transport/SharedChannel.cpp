@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SharedChannel.h"
 
+#include "PeerFile.h"
 #include "SocketAddress.h"
 #include "realtime/TimeSource.h"
 
@@ -11,7 +12,6 @@
 #include <fcntl.h>
 #include <linux/futex.h>
 #include <sys/mman.h>
-#include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
@@ -66,26 +66,14 @@ bool SharedMemory::create(std::size_t size, QString *error)
     return map(error);
 }
 
-bool SharedMemory::open(const QString &path, std::size_t size, QString *error)
+bool SharedMemory::open(const QString &path, const QString &what, std::size_t size, uid_t owner, QString *error)
 {
+    PeerFile file;
     m_size = size;
-    m_descriptor = ::open(path.toLocal8Bit().constData(), O_RDWR | O_CLOEXEC);
-    struct stat status = {};
-    if (m_descriptor < 0) {
-        *error = QStringLiteral("cannot open the memory of the master, %1: %2; run both as the same user on the same "
-                                "machine, or use udp")
-                     .arg(path, systemErrorText());
+    if (!file.find(path, what, owner, error))
         return false;
-    }
-    if (::fstat(m_descriptor, &status) < 0 || status.st_size != off_t(size)) {
-        *error = QStringLiteral(
-                     "the memory of the master, %1, has %2 bytes instead of %3; update the older of the two programs")
-                     .arg(path)
-                     .arg(status.st_size)
-                     .arg(size);
-        return false;
-    }
-    return map(error);
+    m_descriptor = file.openMemory(size, error);
+    return m_descriptor >= 0 && map(error);
 }
 
 QString SharedMemory::path() const

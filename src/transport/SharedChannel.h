@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <sys/types.h>
 
 namespace qplc {
 
@@ -20,8 +21,9 @@ public:
 
     /// New memory of \a size bytes, all 0. \return false, with the reason in \a error
     bool create(std::size_t size, QString *error);
-    /// The memory that another process has made and calls \a path. \return false, with the reason in \a error
-    bool open(const QString &path, std::size_t size, QString *error);
+    /// The memory that another process has made and calls \a path: only if it is sealed and belongs to \a owner, see PeerFile.
+    /// \param what  name of the memory in the reason \return false, with the reason in \a error
+    bool open(const QString &path, const QString &what, std::size_t size, uid_t owner, QString *error);
     /// What other processes of the same user find this memory under, while it exists here: "/proc/4711/fd/9".
     QString path() const;
     void *data() const { return m_data; }

@@ -8,6 +8,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <thread>
+#include <unistd.h>
 
 using qplc::CyclicHub;
 using qplc::CyclicLink;
@@ -53,7 +54,7 @@ struct LocalPlant
             auto memory = std::make_unique<SharedMemory>();
             ok = ok && memory->create(sizeof(SharedChannel), &error);
             const CyclicHub::LocalPaths paths = hub.localPaths();
-            links.push_back(CyclicLink::local(memory->path(), paths.doorbell, paths.pipe, &error));
+            links.push_back(CyclicLink::local({memory->path(), paths.doorbell, paths.pipe}, ::geteuid(), &error));
             ok = ok && links.back();
             peers.push_back(HubPeer::local(std::move(memory)));
             hub.attach(peers.back().get());
@@ -112,7 +113,7 @@ void tst_SharedChannel::memoryIsOneForAllWhoOpenIt()
     SharedMemory made;
     SharedMemory opened;
     QVERIFY2(made.create(100, &error), qPrintable(error));
-    QVERIFY2(opened.open(made.path(), 100, &error), qPrintable(error));
+    QVERIFY2(opened.open(made.path(), "memory", 100, ::geteuid(), &error), qPrintable(error));
     std::memcpy(made.data(), "hello", 5);
     QCOMPARE(QByteArray(static_cast<char *>(opened.data()), 6), QByteArray("hello\0", 6));
 }
@@ -123,10 +124,10 @@ void tst_SharedChannel::memoryOfAnotherSizeOrPlaceIsRefused()
     SharedMemory made;
     QVERIFY(made.create(100, &error));
     SharedMemory tooLong;
-    QVERIFY(!tooLong.open(made.path(), 200, &error));
+    QVERIFY(!tooLong.open(made.path(), "memory", 200, ::geteuid(), &error));
     QVERIFY2(error.contains("100 bytes instead of 200"), qPrintable(error));
     SharedMemory nowhere;
-    QVERIFY(!nowhere.open(QStringLiteral("/proc/1/fd/no"), 100, &error));
+    QVERIFY(!nowhere.open(QStringLiteral("/proc/1/fd/987654"), "memory", 100, ::geteuid(), &error));
     QVERIFY2(error.contains("use udp"), qPrintable(error));
 }
 
