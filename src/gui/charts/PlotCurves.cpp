@@ -47,6 +47,11 @@ double PlotCurve::value(std::optional<SignalStore::Time> time) const
     return settings.gain * double(source.store->value(source.channel, source.store->endRow() - 1)) + settings.offset;
 }
 
+QColor PlotCurve::swatchColor(double value) const
+{
+    return bands && !std::isnan(value) ? bands->colorOf(value) : color;
+}
+
 SignalStore::Mark PlotCurve::mark(std::optional<SignalStore::Time> time) const
 {
     if (isMissing() || source.store->isEmpty())

@@ -43,6 +43,8 @@ struct PlotCurve
     CursorStatistics::Scaling scaling() const { return {settings.gain, settings.offset, source.isStepped}; }
     /// At \a time, the newest one without; NaN: none.
     double value(std::optional<SignalStore::Time> time) const;
+    /// What legends and tables have beside its name: for bands, the colour of the state that has \a value.
+    QColor swatchColor(double value) const;
     /// Of the value at \a time, a QPlcQuality::Kind; without, the worst one of the last moments.
     SignalStore::Mark mark(std::optional<SignalStore::Time> time) const;
 };

@@ -103,7 +103,7 @@ void PlotLegend::show(const PlotCurves &curves, std::optional<SignalStore::Time>
         entry.value = valueOf(curve, time, m_isCompact ? fewDigits : legendDigits);
         entry.unit = curve.source.unit;
         entry.hint = hintOf(curve);
-        entry.color = curve.color;
+        entry.color = curve.swatchColor(curve.value(time));
         entry.penStyle = curve.isDrawnAsBands() ? Qt::SolidLine : curve.penStyle;
         entry.isVisible = curve.settings.isVisible;
         const bool isOld = curve.isStale() && !time;

@@ -21,8 +21,9 @@ constexpr double gap = 1.0;            // [px] between strips
 constexpr double leastText = 18.0;     // [px] with less there is no name
 constexpr double colorOfLight = 0.35;  // share of the colour of a state, so that names are read
 constexpr double colorOfDark = 0.45;
-constexpr double markedShare = 0.4;  // of that share, for values that are not like others
-constexpr int fewestLetters = 3;     // of a longer name, with the ellipsis
+constexpr double markedShare = 0.4;    // of that colour, where values cannot be trusted
+constexpr double markedHeight = 0.25;  // of the strip
+constexpr int fewestLetters = 3;       // of a longer name, with the ellipsis
 constexpr int bandDigits = 6;
 
 QColor mixed(const QColor &color, const QColor &ground, double share)
@@ -56,24 +57,31 @@ double StateBands::lineHeight() const
 QRectF StateBands::strip(const QRectF &canvas) const
 {
     if (m_room == AllHeight) {
-        const double height = canvas.height() / m_count;
-        return {canvas.left(), canvas.top() + m_place * height, canvas.width(), height - gap};
+        const auto topOf = [&](int place) { return std::round(canvas.top() + place * canvas.height() / m_count); };
+        const double end = m_place + 1 < m_count ? topOf(m_place + 1) - gap : canvas.bottom();
+        return {QPointF(canvas.left(), topOf(m_place)), QPointF(canvas.right(), end)};
     }
     const double height = std::min(lineHeight(), canvas.height() / m_count);
-    return {canvas.left(), canvas.bottom() - (m_place + 1) * height, canvas.width(), height - gap};
+    const double bottom = canvas.bottom() - m_place * height;
+    return {canvas.left(), bottom - height + gap, canvas.width(), height - gap};
 }
 
 /// States with names in the order of these; others by their value.
-QColor StateBands::colorOf(const StateRuns::Run &run) const
+QColor StateBands::colorOf(double value) const
 {
-    const auto number = qint64(std::llround(run.value));
+    return colorOf(value, 1.0);
+}
+
+/// \param share  of the colour of the state
+QColor StateBands::colorOf(double value, double share) const
+{
+    const auto number = qint64(std::llround(value));
     const auto found = std::find_if(m_names.begin(), m_names.end(),
                                     [number](const QPlcValueNames::Entry &entry) { return entry.value == number; });
     const qint64 place = found != m_names.end() ? qint64(found - m_names.begin()) : m_names.size() + std::abs(number);
     constexpr int colors = 8;
-    const double share = m_theme.isDark ? colorOfDark : colorOfLight;
     return mixed(m_theme.curve(int(place % colors)), m_theme.surface,
-                 run.mark == RowMarks::None ? share : markedShare * share);
+                 share * (m_theme.isDark ? colorOfDark : colorOfLight));
 }
 
 QString StateBands::textOf(float value) const
@@ -92,19 +100,32 @@ void StateBands::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScale
     m_shape.read(*m_store, m_channel, TimeColumns(timeAt(xMap.s1()), timeAt(xMap.s2()), columns));
     m_runs.read(m_shape);
     const QRectF place = strip(canvasRect);
-    const auto xOf = [&](int column) { return std::min(xMap.p1(), xMap.p2()) + column / scale; };
-    const QFontMetricsF metrics(m_font);
-    bool needsTitle = m_count > 1;
+    // What holds up to the last column of the scale reaches the edge, which is a pixel behind it.
+    const auto xOf = [&](int column) {
+        return column < columns ? std::min(xMap.p1(), xMap.p2()) + column / scale : place.right();
+    };
+    const auto pieceOf = [&](int begin, int end) {
+        const double left = std::max(xOf(begin), place.left());
+        return QRectF(left, place.top(), std::min(xOf(end), place.right()) - left, place.height());
+    };
     painter->save();
-    painter->setFont(m_font);
     painter->setRenderHint(QPainter::Antialiasing, false);
     for (const StateRuns::Run &run : m_runs.runs()) {
-        const double left = std::max(xOf(run.begin), place.left());
-        const double right = std::min(xOf(run.end), place.right());
-        if (right <= left)
-            continue;
-        const QRectF piece(left, place.top(), right - left, place.height());
-        painter->fillRect(piece, colorOf(run));
+        if (const QRectF piece = pieceOf(run.begin, run.end); piece.width() > 0.0)
+            painter->fillRect(piece, colorOf(run.value));
+    }
+    for (const StateRuns::MarkedPart &part : m_runs.markedParts()) {
+        const QRectF piece = pieceOf(part.begin, part.end);
+        const double height = std::ceil(markedHeight * piece.height());
+        if (piece.width() > 0.0)
+            painter->fillRect(piece.adjusted(0.0, piece.height() - height, 0.0, 0.0), colorOf(part.value, markedShare));
+    }
+    const QFontMetricsF metrics(m_font);
+    bool needsTitle = m_count > 1;
+    painter->setFont(m_font);
+    painter->setPen(m_theme.text);
+    for (const StateRuns::Run &run : m_runs.runs()) {
+        const QRectF piece = pieceOf(run.begin, run.end);
         if (piece.width() < leastText || piece.height() < metrics.ascent())
             continue;
         const QString text = needsTitle ? title().text() + QStringLiteral(": ") + textOf(run.value) : textOf(run.value);
@@ -112,7 +133,6 @@ void StateBands::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScale
         if (shown.size() < std::min(text.size(), fewestLetters))
             continue;
         needsTitle = false;
-        painter->setPen(m_theme.text);
         painter->drawText(piece.adjusted(textMargin, 0.0, 0.0, 0.0), Qt::AlignLeft | Qt::AlignVCenter, shown);
     }
     for (const int spike : m_runs.spikes()) {

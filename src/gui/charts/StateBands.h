@@ -13,7 +13,7 @@ namespace qplc {
 
 /// A channel of states as a strip of a plot: a coloured piece for each time in which a value held, with its name. Behind curves; on no y axis.
 ///
-/// Runs with a mark are paler. The x axis is in seconds after the origin, as that of StoreCurve. Values that held for less than a column of pixels are lines across the strip.
+/// Where values cannot be trusted, the lower edge is paler: the state goes on. The x axis is in seconds after the origin, as that of StoreCurve. Values that held for less than a column of pixels are lines across the strip.
 class StateBands : public QwtPlotItem
 {
 public:
@@ -31,6 +31,8 @@ public:
     /// \param place  0 ... count - 1; at the bottom from below, else from above. Of several, each one says its title
     void setPlace(int place, int count, Room room);
 
+    /// The colour of a state, here and in legends. \pre not NaN
+    QColor colorOf(double value) const;
     /// Of a strip at the bottom [px]
     double lineHeight() const;
 
@@ -40,7 +42,7 @@ public:
 
 private:
     QRectF strip(const QRectF &canvas) const;
-    QColor colorOf(const StateRuns::Run &run) const;
+    QColor colorOf(double value, double share) const;
     QString textOf(float value) const;
 
     const SignalStore *m_store;

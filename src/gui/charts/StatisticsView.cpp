@@ -168,7 +168,7 @@ void StatisticsView::showRow(int row, const PlotCurve &curve, CursorStatistics *
     const QString unit = curve.source.unit.isEmpty() ? QString() : QStringLiteral(" [%1]").arg(curve.source.unit);
     if (setText(row, Signal, curve.settings.text() + unit))
         fitWidth();
-    m_table->item(row, Signal)->setData(Qt::DecorationRole, curve.color);
+    m_table->item(row, Signal)->setData(Qt::DecorationRole, curve.swatchColor(atB));
     setText(row, ValueA, numberText(atA, statisticsDigits, curve.names()));
     setText(row, ValueB, numberText(atB, statisticsDigits, curve.names()));
     setText(row, Difference, numberText(atB - atA, statisticsDigits));
