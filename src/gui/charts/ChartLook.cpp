@@ -4,7 +4,6 @@
 #include <QtGui/QPen>
 
 #include <qwt_plot.h>
-#include <qwt_plot_canvas.h>
 #include <qwt_plot_grid.h>
 #include <qwt_plot_layout.h>
 #include <qwt_scale_draw.h>
@@ -56,8 +55,6 @@ void applyLook(QwtPlot *plot, QwtPlotGrid *grid, const Theme &theme)
     plot->setPalette(palette);
     plot->setAutoFillBackground(true);
     plot->setCanvasBackground(theme.surface);
-    if (auto *canvas = qobject_cast<QwtPlotCanvas *>(plot->canvas()))
-        canvas->setFrameStyle(QFrame::NoFrame);
     for (int axis = 0; axis < QwtPlot::axisCnt; ++axis)
         applyToAxis(plot, axis);
     grid->setMajorPen(theme.line, 1.0);

@@ -2,6 +2,7 @@
 #include "JitterCanvas.h"
 
 #include "ChartLook.h"
+#include "ChartSurface.h"
 #include "JitterCurve.h"
 
 #include <qwt_plot_grid.h>
@@ -39,6 +40,7 @@ JitterCanvas::JitterCanvas(QWidget *parent)
     : QwtPlot(parent)
     , m_grid(std::make_unique<QwtPlotGrid>())
 {
+    new ChartSurface(this);  // becomes the canvas, which the plot owns
     setMinimumSize(60, 40);
     setAxisScaleEngine(xBottom, new QwtLogScaleEngine);
     setAxisScaleEngine(yLeft, new QwtLogScaleEngine);

@@ -27,10 +27,9 @@ JitterCurve::JitterCurve(const JitterDistribution &distribution)
     setZ(20.0);
 }
 
-void JitterCurve::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap &yMap,
-                       const QRectF & /*canvas*/) const
+void JitterCurve::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap &yMap, const QRectF &canvas) const
 {
-    const double floor = yMap.p1();
+    const double floor = canvas.bottom();
     QPainterPath outline;
     double end = -1.0;
     for (const JitterDistribution::Bin &bin : m_distribution.bins) {

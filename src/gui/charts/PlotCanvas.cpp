@@ -2,13 +2,12 @@
 #include "PlotCanvas.h"
 
 #include "ChartLook.h"
+#include "ChartSurface.h"
 #include "PlotScales.h"
 
 #include <QtCore/QEvent>
 
-#include <qwt_plot_canvas.h>
 #include <qwt_plot_layout.h>
-#include <qwt_scale_engine.h>
 #include <qwt_scale_widget.h>
 
 #include <algorithm>
@@ -18,7 +17,6 @@ namespace qplc {
 
 namespace {
 
-constexpr double linesOfLabel = 2.2;    // heights of a label from one to the next on a y axis
 constexpr double widthsOfLabel = 1.35;  // widths of a label from one to the next on the time axis
 constexpr int fewestTicks = 2;
 constexpr int usualCharacters = 8;  // of labels of a y axis: -88888.8
@@ -30,13 +28,7 @@ PlotCanvas::PlotCanvas(QWidget *parent)
     : QwtPlot(parent)
 {
     setAutoDelete(false);
-    auto *background = new QwtPlotCanvas(this);
-    background->setFrameStyle(QFrame::NoFrame);
-    background->setPaintAttribute(QwtPlotCanvas::BackingStore, true);  // cursors move over a picture
-    background->setPaintAttribute(QwtPlotCanvas::Opaque, true);
-    background->setAutoFillBackground(true);
-    background->setFocusPolicy(Qt::NoFocus);
-    setCanvas(background);
+    new ChartSurface(this);  // becomes the canvas, which the plot owns
     setAutoFillBackground(true);
     setMinimumSize(1, 1);
     plotLayout()->setAlignCanvasToScales(true);
@@ -155,13 +147,7 @@ void PlotCanvas::setRange(Axis axis, double minimum, double maximum, Ticks ticks
     const QwtPlot::Axis place = qwtAxis(axis);
     const double line = QFontMetricsF(axisFont(place)).height();
     const double height = canvas()->height() - lane;
-    const int most = std::max(fewestTicks, int(height / (linesOfLabel * line)));
-    const QwtScaleEngine *engine = axisScaleEngine(place);
-    QwtScaleDiv scale = engine->divideScale(minimum, maximum, most, 5);
-    const QList<double> major = scale.ticks(QwtScaleDiv::MajorTick);
-    const bool isFiner = major.size() > 1 && major[1] - major[0] < 1.0;
-    if (ticks == WholeTicks && isFiner)
-        scale = engine->divideScale(minimum, maximum, most, 0, 1.0);
+    QwtScaleDiv scale = valueScale(minimum, maximum, height, line, ticks == WholeTicks ? 1.0 : 0.0);
     if (lane > 0.0 && height > lane)
         scale.setLowerBound(minimum - (maximum - minimum) * lane / height);
     setAxisScaleDiv(place, scale);

@@ -117,6 +117,9 @@ void QPlcTimePlot::Private::showRange(Axis axis)
     if (values.isHeld) {
         minimum = values.minimum;
         maximum = values.maximum;
+    } else if (curves.isWhole(axis) && !wanted.isFixed() && std::floor(maximum) - std::ceil(minimum) < 1.0) {
+        minimum = std::floor(minimum);  // a constant has its neighbours
+        maximum = std::ceil(maximum);
     }
     // What a person has chosen is that of the whole canvas.
     canvas->setRange(axis, minimum, maximum, curves.isWhole(axis) ? PlotCanvas::WholeTicks : PlotCanvas::AnyTicks,

@@ -11,7 +11,7 @@ namespace qplc {
 namespace {
 
 constexpr double largestPlain = 1e6;
-constexpr double smallestPlainStep = 1e-4;
+constexpr int mostPlainDecimals = 5;
 constexpr int lengthOfTick = 4;  // [px]
 
 void setTicksShort(QwtScaleDraw *draw)
@@ -27,7 +27,96 @@ double stepOf(const QList<double> &ticks)
     return ticks.size() > 1 ? std::abs(ticks[1] - ticks[0]) : 1.0;
 }
 
+/// Digits behind the point with which ticks are what they say.
+int decimalsOf(const QList<double> &ticks)
+{
+    constexpr int most = 12;
+    const double tolerance = 1e-3 * stepOf(ticks);
+    for (int decimals = 0; decimals < most; ++decimals) {
+        const double unit = std::pow(10.0, -decimals);
+        const auto isMultiple
+            = [=](double tick) { return std::abs(tick - unit * std::round(tick / unit)) < tolerance; };
+        if (std::all_of(ticks.begin(), ticks.end(), isMultiple))
+            return decimals;
+    }
+    return most;
+}
+
+/// As many digits as ticks need, without an exponent where that is possible.
+QString tickText(double value, const QwtScaleDiv &scale)
+{
+    const QList<double> ticks = scale.ticks(QwtScaleDiv::MajorTick);
+    const double step = stepOf(ticks);
+    if (std::abs(value) < 1e-6 * step)
+        return QStringLiteral("0");
+    const double largest = std::max(std::abs(scale.lowerBound()), std::abs(scale.upperBound()));
+    const int decimals = decimalsOf(ticks);
+    if (largest < largestPlain && decimals <= mostPlainDecimals)
+        return QString::number(value, 'f', decimals);
+    const int digits = int(std::floor(std::log10(std::abs(value)) + 1e-9) - std::floor(std::log10(step) + 1e-9));
+    return QString::number(value, 'e', std::clamp(digits, 0, 9));
+}
+
+constexpr double easyDistance = 2.2;      // labels from one to the next, in labels
+constexpr double closestDistance = 1.05;  // where few labels have room
+constexpr int enoughLabels = 3;
+constexpr int fewestLabels = 2;
+
+/// Multiples of a step.
+struct Multiples
+{
+    Multiples(double minimum, double maximum, double wantedStep)
+        : step(wantedStep)
+        , first(std::ceil(minimum / step - 1e-6))
+        , last(std::floor(maximum / step + 1e-6))
+    {
+    }
+    double count() const { return last - first + 1.0; }
+    double step;
+    double first;
+    double last;
+};
+
+/// The largest of 1, 2 and 5 times a power of ten that is below \a step.
+double finerStep(double step)
+{
+    const double decade = std::pow(10.0, std::floor(std::log10(step) + 1e-6));
+    const double lead = step / decade;
+    return lead > 4.9 ? 2.0 * decade : lead > 1.9 ? decade : 0.5 * decade;
+}
+
+QList<double> ticksOf(const Multiples &multiples)
+{
+    QList<double> ticks;
+    for (double i = multiples.first; i <= multiples.last; ++i)
+        ticks.append(i * multiples.step);
+    return ticks;
+}
+
 }  // namespace
+
+QwtScaleDiv valueScale(double minimum, double maximum, double room, double label, double step)
+{
+    const double range = maximum - minimum;
+    if (!(range > 0.0) || !std::isfinite(range))
+        return QwtScaleDiv(minimum, maximum);
+    const auto labelsApart = [&](double wanted) { return wanted / range * room / std::max(label, 1.0); };
+    Multiples found(minimum, maximum, finerStep(20.0 * std::pow(10.0, std::ceil(std::log10(range)))));
+    const auto isFinerAllowed = [&] { return step <= 0.0 || finerStep(found.step) > step * 0.999; };
+    const auto makeFiner = [&] { found = Multiples(minimum, maximum, finerStep(found.step)); };
+    while (isFinerAllowed() && labelsApart(finerStep(found.step)) >= easyDistance)
+        makeFiner();
+    while (found.count() < enoughLabels && isFinerAllowed() && labelsApart(finerStep(found.step)) >= closestDistance)
+        makeFiner();
+    while (found.count() < fewestLabels)  // also between whole numbers, when nobody sees two of them
+        makeFiner();
+    QList<double> major = ticksOf(found);
+    if (major.size() > fewestLabels && labelsApart(found.step) < closestDistance)
+        major = {major.first(), major.last()};
+    const Multiples minor(minimum, maximum, found.step / 5.0);
+    const bool hasMinor = step <= 0.0 && labelsApart(found.step) >= closestDistance;
+    return QwtScaleDiv(minimum, maximum, hasMinor ? ticksOf(minor) : QList<double>(), {}, major);
+}
 
 ValueScaleDraw::ValueScaleDraw(const QFont &font, int characters)
     : m_metrics(font)
@@ -45,17 +134,11 @@ void ValueScaleDraw::setNames(const QPlcValueNames &names)
 
 QwtText ValueScaleDraw::label(double value) const
 {
-    const QString name = m_names.isEmpty() ? QString() : m_names.nameOf(std::llround(value));
+    const bool isWhole = std::abs(value - std::round(value)) < 1e-6;
+    const QString name = m_names.isEmpty() || !isWhole ? QString() : m_names.nameOf(std::llround(value));
     if (!name.isEmpty())
         return QwtText(m_metrics.elidedText(name, Qt::ElideRight, m_room), QwtText::PlainText);
-    const double step = stepOf(scaleDiv().ticks(QwtScaleDiv::MajorTick));
-    if (std::abs(value) < 1e-6 * step)
-        return QStringLiteral("0");
-    const double largest = std::max(std::abs(scaleDiv().lowerBound()), std::abs(scaleDiv().upperBound()));
-    if (largest >= largestPlain || step < smallestPlainStep)
-        return QString::number(value, 'g', 4);
-    const int decimals = std::max(0, int(std::ceil(-std::log10(step) - 1e-6)));
-    return QString::number(value, 'f', decimals);
+    return tickText(value, scaleDiv());
 }
 
 TimeScaleDraw::TimeScaleDraw(const QFont &font, bool isCompact)

@@ -2,11 +2,11 @@
 #include "XyCanvas.h"
 
 #include "ChartLook.h"
+#include "ChartSurface.h"
 #include "PlotScales.h"
 
 #include <qwt_plot_grid.h>
 #include <qwt_plot_layout.h>
-#include <qwt_scale_engine.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +15,7 @@ namespace qplc {
 
 namespace {
 
+const QString usualLabel = QStringLiteral("-888.8");
 constexpr int usualCharacters = 5;  // of labels of the y axis: canvases do not jump with them
 
 }  // namespace
@@ -23,6 +24,7 @@ XyCanvas::XyCanvas(QWidget *parent)
     : QwtPlot(parent)
     , m_grid(std::make_unique<QwtPlotGrid>())
 {
+    new ChartSurface(this);  // becomes the canvas, which the plot owns
     setMinimumSize(60, 40);
     m_grid->attach(this);
     setAxisScaleDraw(xBottom, new ValueScaleDraw(scaleFont(font()), 0));
@@ -242,8 +244,10 @@ void XyCanvas::scaleAxes()
         Span y = m_y;
         if (m_aspect == Equal)
             makeUnitsEqual(&x, &y);
-        setAxisScale(xBottom, x.begin, x.end);
-        setAxisScale(yLeft, y.begin, y.end);
+        const QFontMetricsF metrics(axisFont(yLeft));
+        const QSizeF room = plotLayout()->canvasRect().size();
+        setAxisScaleDiv(xBottom, valueScale(x.begin, x.end, room.width(), metrics.horizontalAdvance(usualLabel)));
+        setAxisScaleDiv(yLeft, valueScale(y.begin, y.end, room.height(), metrics.height()));
         updateAxes();
         updateLayout();
     }
