@@ -41,6 +41,7 @@ configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/QtPlcConfig.cmake.in ${P
     INSTALL_DESTINATION ${package_directory})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/QtPlcConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/QtPlcConfig.cmake ${PROJECT_BINARY_DIR}/QtPlcConfigVersion.cmake ${CMAKE_CURRENT_LIST_DIR}/FindSodium.cmake
+    ${CMAKE_CURRENT_LIST_DIR}/QtPlcComponents.cmake
     DESTINATION ${package_directory} COMPONENT libqtplc-dev)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md
     DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT documentation)

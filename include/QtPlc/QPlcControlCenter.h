@@ -27,6 +27,8 @@ class WindowContext;
 /// controlCenter.show();
 /// ```
 ///
+/// CMake: `find_package(QtPlc REQUIRED COMPONENTS Gui)`, and `target_link_libraries(window PRIVATE QtPlc::Gui)`.
+///
 /// Panels (QPlcWidget) stand in tabs, splits and floating windows, which people arrange, undo, save and open. The bar above them shows the selected plant, its state and the next thing to do,
 /// and STOP, always. Plants come and go as they like: the window never waits for one, and connects again for ever.
 ///

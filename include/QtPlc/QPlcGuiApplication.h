@@ -19,6 +19,8 @@
 /// return application.exec();
 /// ```
 ///
+/// CMake: `find_package(QtPlc REQUIRED COMPONENTS Gui)`, and `target_link_libraries(window PRIVATE QtPlc::Gui)`.
+///
 /// Ctrl-C and SIGTERM close the windows and end the program, unless quitOnSignals() says something else. On Wayland the program runs by XWayland where there is one, because panels
 /// that float cannot be put back to their places otherwise; QT_QPA_PLATFORM decides where it is set.
 class QTPLC_GUI_EXPORT QPlcGuiApplication : public QApplication, public QPlcApplicationOptions
