@@ -95,6 +95,7 @@ def example_messages():
         (65, "GetEvents", dict(since=41)),
         (66, "Events", dict(more=False, events=[dict(sequence=42, time=hex64(1767225600123456789), severity="warning", kind="node", source="Winch",
                                                      text="node Winch has left: it closed the connection")])),
+        (23, "Stop", dict(whoever="Anna at desk 3", how="Esc Esc")),
         (25, "SafeStop", dict(reason="smoke at the winch")),
         (25, "SafeStop", {}),
         (26, "Reset", {}),

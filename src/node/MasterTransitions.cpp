@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The states of QPlcMasterNodePrivate: the table carried out, safe stop, arming and reset.
+#include "Logging.h"
+#include "MasterReplies.h"
 #include "QPlcMasterNodePrivate.h"
 #include "QPlcSlaveNodePrivate.h"
 #include "realtime/TimeSource.h"
 
+#include <QtCore/QJsonObject>
 #include <QtCore/QRandomGenerator>
 
 using Action = qplc::MasterAction;
@@ -47,6 +50,8 @@ void QPlcMasterNodePrivate::enter(QPlcMasterNode::State newState, const QString 
         || (state == State::WaitingForLateSlaves && newState == State::RealTime);
     state = newState;
     stateReason = state == State::SafeStop || state == State::Fault ? reason : QString();
+    if (state == State::RealTime && !isTransient)
+        askedStop = {};
     arming.disarm();
     const QString name = QString::fromLatin1(qplc::nameOf(state));
     journal.stateChanged(reason.isEmpty() ? name : QStringLiteral("%1: %2").arg(name, reason), isTransient);
@@ -109,6 +114,33 @@ void QPlcMasterNodePrivate::carryOut(Action action, const QString &reason)
 }
 
 // ---- safe stop ----
+
+void QPlcMasterNodePrivate::stopAsAsked(Connection *connection, const QPlcMessage &message)
+{
+    constexpr int longest = 64;  // [characters]
+    const auto text
+        = [&](const char *field) { return qplc::printable(message.text(QLatin1String(field))).left(longest); };
+    const QString called = text("whoever");
+    const QString who = qplc::shownName(connection->peer, called.isEmpty() ? connection->name : called);
+    const QString how = text("how");
+    if (isRunning() && state != QPlcMasterNode::SafeStop)
+        askedStop = {connection->socket, who, how, qplc::wallClockNow()};
+    stop(how.isEmpty() ? QStringLiteral("'%1' asked for it").arg(who)
+                       : QStringLiteral("'%1' asked for it (%2)").arg(who, how));
+    connection->send(QPlcMessage::Done);
+}
+
+QJsonObject QPlcMasterNodePrivate::stateFor(const Connection &connection) const
+{
+    QJsonObject fields = qplc::stateFields(*q, session);
+    if (!askedStop.whoever.isEmpty())
+        fields.insert(QStringLiteral("stopped"),
+                      QJsonObject{{QStringLiteral("whoever"), askedStop.whoever},
+                                  {QStringLiteral("how"), askedStop.how},
+                                  {QStringLiteral("time"), QPlcMessage::fromHex64(quint64(askedStop.time))},
+                                  {QStringLiteral("yours"), askedStop.asker == connection.socket}});
+    return fields;
+}
 
 void QPlcMasterNodePrivate::safeStop(const QString &reason)
 {

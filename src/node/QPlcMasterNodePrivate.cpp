@@ -302,8 +302,7 @@ void QPlcMasterNodePrivate::receiveCommand(Connection *connection, const Message
         startAsAsked(connection, message);
         break;
     case Message::Stop:
-        stop(QStringLiteral("'%1' asked for it").arg(connection->shownName()));
-        connection->send(Message::Done);
+        stopAsAsked(connection, message);
         break;
     case Message::Arm:
         armAsAsked(connection);
@@ -320,7 +319,7 @@ void QPlcMasterNodePrivate::receiveCommand(Connection *connection, const Message
         request(connection, reset());
         break;
     case Message::GetState:
-        connection->send(Message::State, qplc::stateFields(*q, session));
+        connection->send(Message::State, stateFor(*connection));
         break;
     case Message::GetSchedule:
         connection->send(Message::Schedule, qplc::scheduleFields(q->schedule()));

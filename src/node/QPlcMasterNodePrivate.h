@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Arming.h"
+#include "AskedStop.h"
 #include "GoneNodes.h"
 #include "Journal.h"
 #include "MasterBeacon.h"
@@ -93,7 +94,8 @@ public:
     std::optional<bool> armingWanted;  // else: with security
     qplc::Arming arming;
     QPlcMasterNode::State state = QPlcMasterNode::Off;
-    QString stateReason;  // of SafeStop and Fault
+    QString stateReason;        // of SafeStop and Fault
+    qplc::AskedStop askedStop;  // until the next phase
     QPlcMasterNode::Error error = QPlcMasterNode::NoError;
     QString errorString;
     QTimer stepTimer;
@@ -130,6 +132,8 @@ private:
     QString stateOf(const qplc::NodeSlot &slot) const;
     bool takesPart(const qplc::NodeSlot &slot) const;
     void armAsAsked(Connection *connection);
+    void stopAsAsked(Connection *connection, const QPlcMessage &message);
+    QJsonObject stateFor(const Connection &connection) const;
     void startAsAsked(Connection *connection, const QPlcMessage &message);
     void setSignals(Connection *connection, const QPlcMessage &message);
     void sendStatistics(Connection *connection, const QPlcMessage &message);

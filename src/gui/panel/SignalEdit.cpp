@@ -3,6 +3,7 @@
 
 #include "gui/plant/PlantList.h"
 
+#include <QtCore/QMetaMethod>
 #include <QtCore/QStringListModel>
 #include <QtGui/QKeyEvent>
 #include <QtWidgets/QAbstractItemView>
@@ -54,6 +55,8 @@ QStringList SignalEdit::names(const PlantList &plants, Offer offer)
 void SignalEdit::keyPressEvent(QKeyEvent *event)
 {
     if (event->key() == Qt::Key_Escape) {
+        // Without a listener the key is for others: it closes the settings around this line.
+        event->setAccepted(isSignalConnected(QMetaMethod::fromSignal(&SignalEdit::left)));
         Q_EMIT left();
         return;
     }

@@ -100,7 +100,8 @@ public:
     // -- commands; \return a number that commandDone() or commandFailed() will tell --
     int initialize();
     int start();
-    int stop();
+    /// \param how  what the person did, for people: "Esc Esc"
+    int stop(const QString &how = QString());
     int perform(Action action);
     /// Sets signals that no node writes, all or none. \param duration  0 for good; else the values from before come back after it
     int setValues(const QHash<QString, QPlcValue> &values,

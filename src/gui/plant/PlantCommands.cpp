@@ -71,9 +71,13 @@ int Plant::start()
     return command(Message(Message::StartRealTime, fields));
 }
 
-int Plant::stop()
+int Plant::stop(const QString &how)
 {
-    return command(Message(Message::Stop));
+    const bool isFedAndRuns = m_feed && m_status.isRunning();
+    if (isFedAndRuns)
+        m_status.stop = {PlantLeases::whoever(), how, QDateTime::currentDateTime(), true};
+    return command(
+        Message(Message::Stop, {{QStringLiteral("whoever"), PlantLeases::whoever()}, {QStringLiteral("how"), how}}));
 }
 
 int Plant::perform(Action action)

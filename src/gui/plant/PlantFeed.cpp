@@ -54,6 +54,8 @@ void PlantFeed::setState(const QString &state)
     if (state == before)
         return;
     m_plant->m_status.state = state;
+    if (m_plant->m_status.isRunning())
+        m_plant->m_status.stop = {};
     if (!before.isEmpty())
         m_plant->tell(PlantEvent::Information, QStringLiteral("%1 → %2").arg(before, state));
     Q_EMIT m_plant->statusChanged();

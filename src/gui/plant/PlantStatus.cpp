@@ -44,6 +44,19 @@ DurationStatus duration(const QJsonObject &fields, const char *name)
     return {figures(object(of, "sinceStart")), figures(object(of, "last10s"))};
 }
 
+PlantStop stopOf(const QJsonObject &fields)
+{
+    PlantStop stop;
+    if (fields.isEmpty())
+        return stop;
+    const QPlcMessage message(QPlcMessage::State, fields);
+    stop.whoever = text(fields, "whoever");
+    stop.how = text(fields, "how");
+    stop.time = QDateTime::fromMSecsSinceEpoch(qint64(message.hex64(QStringLiteral("time")) / 1'000'000));
+    stop.isMine = fields.value(QLatin1String("yours")).toBool();
+    return stop;
+}
+
 bool isLatchedState(const QString &state)
 {
     return state == QLatin1String("SafeStop") || state == QLatin1String("Fault");
@@ -88,6 +101,7 @@ void PlantStatus::takeState(const QJsonObject &fields)
     clock = text(fields, "clock");
     scale = number(fields, "scale");
     session = message.hex64(QStringLiteral("session"));
+    stop = stopOf(object(fields, "stopped"));
     faultPlan = text(fields, "faults");
     QVector<NodeStatus> now;
     const QJsonArray rows = fields.value(QLatin1String("nodes")).toArray();

@@ -3,6 +3,7 @@
 
 #include "QPlcSchedule.h"
 
+#include <QtCore/QDateTime>
 #include <QtCore/QJsonObject>
 #include <QtCore/QString>
 #include <QtCore/QVector>
@@ -51,6 +52,15 @@ struct NodeStatus
     bool isLatched() const;
 };
 
+/// Who stopped the phase that ran last, on request.
+struct PlantStop
+{
+    QString whoever;      // "anna@lab"
+    QString how;          // "Esc Esc"; empty: not told
+    QDateTime time;       // invalid: no person or program stopped it
+    bool isMine = false;  // this window did
+};
+
 /// A master and its nodes, put together of its answers State, Statistics and Schedule. A value type.
 struct PlantStatus
 {
@@ -64,6 +74,7 @@ struct PlantStatus
     QString clock;
     double scale = 1.0;
     quint64 session = 0;
+    PlantStop stop;          // until the next start
     QString faultPlan;       // that the master injects on purpose; empty: none
     bool isCounted = false;  // the master has told its counters: what they show more from now on is new
     quint64 overruns = 0;

@@ -2,6 +2,7 @@
 #include "QPlcEventLog.h"
 
 #include "PanelTable.h"
+#include "SearchLine.h"
 #include "gui/panel/PanelSettings.h"
 #include "gui/panel/WindowContext.h"
 
@@ -168,6 +169,7 @@ void QPlcEventLog::makeActions()
     d->writeNote = make(tr("Write a note into the log"), tr("Note"), QKeySequence(Qt::Key_N));
     QAction *find = make(tr("Search events"), tr("Search"), QKeySequence(QKeySequence::Find));
     connect(find, &QAction::triggered, d->search, [this] { d->search->setFocus(Qt::ShortcutFocusReason); });
+    leaveByEscape(d->search, d->table);
     const auto take = [this](const char *key, const QJsonValue &value, const QJsonValue &defaultValue) {
         if (!d->settings.set(key, value, defaultValue))
             return;

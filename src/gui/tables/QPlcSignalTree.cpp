@@ -3,6 +3,7 @@
 
 #include "ExpansionMemory.h"
 #include "PanelTable.h"
+#include "SearchLine.h"
 #include "TableTime.h"
 #include "TimeStrip.h"
 #include "gui/models/SignalFilterModel.h"
@@ -109,6 +110,7 @@ void QPlcSignalTree::makeActions()
     d->showSetter = d->shows.last();
     d->others << make(tr("Search signals"), {QKeySequence::Find}, [this] { startSearch(); });
     d->openMenu = make(tr("Menu of the signals"), {tr("Shift+F10")}, [this] { openMenuAtRow(); });
+    leaveByEscape(d->search, d->table);
     auto *toTree = new QAction(d->search);  // from the line into the rows
     toTree->setShortcut(QKeySequence(Qt::Key_Down));
     toTree->setShortcutContext(Qt::WidgetShortcut);

@@ -33,7 +33,7 @@ void QPlcControlCenter::Private::connectPlantActions()
     connect(actions->start, &QAction::triggered, q, [this] { perform(Plant::Start); });
     connect(actions->resetPlant, &QAction::triggered, q, [this] { perform(Plant::Reset); });
     connect(latchBanner, &LatchBanner::resetRequested, q, [](Plant *plant) { plant->perform(Plant::Reset); });
-    connect(actions->stop, &QAction::triggered, q, [this] { stop(); });
+    connect(actions->stop, &QAction::triggered, q, [this] { stop({}); });
     connect(actions->giveBack, &QAction::triggered, q, [this] { giveBackControl(*context.plants()); });
     connect(topBar->controlNotice(), &ControlNotice::factsChanged, actions->giveBack,
             [this] { actions->giveBack->setEnabled(topBar->controlNotice()->isToGiveBack()); });

@@ -80,6 +80,8 @@ void QPlcControlCenter::Private::makeCentre()
     column->addWidget(new FaultBanner(&context, centre));
     column->addWidget(connectStrip);
     column->addWidget(new InsecureNotice(&context, centre));
+    stopNotice = new StopNotice(&context, centre);
+    column->addWidget(stopNotice);
     column->addWidget(hint);
     column->addWidget(pages, 1);
     q->setCentralWidget(centre);
@@ -143,14 +145,14 @@ void QPlcControlCenter::Private::connectParts()
         if (selection.plant() && selection.plant()->nextAction() != Plant::NoAction)
             perform(selection.plant()->nextAction());
     });
-    connect(topBar, &TopBar::stopRequested, q, [this] { stop(); });
+    connect(topBar, &TopBar::stopRequested, q, [this] { stop(tr("STOP")); });
     new PanelKeysFirst(q);
     LongPress::watch();
     connect(DesktopTheme::instance(), &DesktopTheme::changed, q, [this] {
         if (theme == SystemTheme)
             applyTheme();
     });
-    connect(new DoubleEscape(q), &DoubleEscape::pressed, q, [this] { stop(); });
+    connect(new DoubleEscape(q), &DoubleEscape::pressed, q, [this] { stop(tr("Esc Esc")); });
     connect(&wiring, &PanelWiring::outputsChanged, q,
             [this] { Q_EMIT q->outputSignalIndicesChanged(q->outputSignalIndices()); });
     connect(&wiring, &PanelWiring::initialOutputsChanged, q,
@@ -267,9 +269,12 @@ void QPlcControlCenter::Private::perform(Plant::Action action)
         hint->showText(tr("There is no plant: connect to one first (Ctrl+O)."));
 }
 
-void QPlcControlCenter::Private::stop()
+void QPlcControlCenter::Private::stop(const QString &how)
 {
-    perform(Plant::StopAction);
+    if (Plant *plant = selection.plant())
+        plant->stop(how);
+    else
+        perform(Plant::StopAction);
 }
 
 Plant *QPlcControlCenter::Private::wiredPlant()

@@ -16,6 +16,7 @@
 #include "SignalDock.h"
 #include "SignalPlacer.h"
 #include "StartPage.h"
+#include "StopNotice.h"
 #include "TimeBar.h"
 #include "TopBar.h"
 
@@ -48,7 +49,8 @@ struct QPlcControlCenter::Private
     qplc::Plant *plantAt(const QString &address);
     void disconnectFrom();
     void perform(qplc::Plant::Action action);
-    void stop();
+    /// \param how  what the person did, for the line that tells of it
+    void stop(const QString &how);
     qplc::Plant *wiredPlant();
     qplc::Plant *takeWiredPlant();
 
@@ -97,6 +99,7 @@ struct QPlcControlCenter::Private
     qplc::TopBar *topBar = nullptr;
     qplc::LatchBanner *latchBanner = nullptr;
     qplc::HintLine *hint = nullptr;
+    qplc::StopNotice *stopNotice = nullptr;
     qplc::ConnectStrip *connectStrip = nullptr;
     QStackedWidget *pages = nullptr;
     qplc::StartPage *startPage = nullptr;

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "StopNotice.h"
+
+#include <QtWidgets/QLabel>
+
+namespace qplc {
+
+StopNotice::StopNotice(WindowContext *context, QWidget *parent)
+    : NoticeLine(context, parent)
+{
+    setObjectName(QStringLiteral("StopNotice"));
+    label()->setTextFormat(Qt::PlainText);
+    label()->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    connect(context->plants(), &PlantList::removed, this, &StopNotice::follow);
+    hide();
+    context->plants()->forEach(this, &StopNotice::listenTo);
+}
+
+void StopNotice::listenTo(Plant *plant)
+{
+    connect(plant, &Plant::stateChanged, this, &StopNotice::follow);
+    connect(plant, &Plant::statusChanged, this, &StopNotice::follow);
+    follow();
+}
+
+void StopNotice::follow()
+{
+    QStringList sentences;
+    const PlantList &plants = *context()->plants();
+    for (int place = 0; place < plants.size(); ++place) {
+        const Plant &plant = *plants.at(place);
+        if (plant.isConnected() && plant.status().stop.time.isValid() && !plant.status().isRunning())
+            sentences << sentenceOf(plant);
+    }
+    const QString all = sentences.join(QLatin1Char('\n'));
+    if (all != text())
+        say(all);
+}
+
+/// "Stopped by you (Esc Esc), 13:45:36. Start again: F5"
+QString StopNotice::sentenceOf(const Plant &plant) const
+{
+    const PlantStop &stop = plant.status().stop;
+    const QString who = stop.isMine ? tr("you") : stop.whoever;
+    const QString how = stop.how.isEmpty() ? QString() : tr(" (%1)").arg(stop.how);
+    const QString what = tr("Stopped by %1%2, %3.").arg(who, how, stop.time.toString(QStringLiteral("HH:mm:ss")));
+    const QString keys = plant.status().isArmingRequired ? tr("F4, F9, F5") : tr("F5");
+    const bool isOneOfSeveral = context()->plants()->size() > 1;
+    return isOneOfSeveral ? tr("%1: %2 Start again: choose %1, then %3").arg(plant.name(), what, keys)
+                          : tr("%1 Start again: %2").arg(what, keys);
+}
+
+}  // namespace qplc
