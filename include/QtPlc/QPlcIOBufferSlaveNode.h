@@ -30,6 +30,9 @@ public:
     /// As above, with the number of each cycle.
     QList<QPlcSignalList> takeInputSignals(QVector<quint64> *cycles);
 
+    /// takeInputSignals(), under the name that the thesis gives it.
+    QList<QPlcSignalList> returnAndClearInputSignalsBuffer() { return takeInputSignals(); }
+
     /// The inputs of one cycle as they came.
     struct Frame
     {

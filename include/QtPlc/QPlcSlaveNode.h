@@ -243,6 +243,9 @@ Q_SIGNALS:
     void hasInitialized(const QPlcSignalList &initialSignals);
     void realTimeHasStarted();
     void realTimeHasStopped();
+    /// A cycle of this node has been computed: there are new inputs. Emitted in the thread of the object, once for several
+    /// cycles when they come faster than this thread takes them, and only while something is connected to it.
+    void realTimedOut();
     /// No frame since the one of cycle \a cycle for longer than the watchdog time.
     void watchdogTimedOut(quint64 cycle);
     /// safeState() has been called.
@@ -251,6 +254,7 @@ Q_SIGNALS:
     void messageReceived(const QPlcMessage &message);
 
 protected:
+    void connectNotify(const QMetaMethod &signal) override;
     /// Signals that realTimeout() wants. Called at each registration.
     virtual QPlcSignalIndexList declareInputSignals() { return {}; }
     /// Signals that this node, and no other, writes. Called at each registration.

@@ -17,7 +17,7 @@ struct CycleEvent
 {
     enum Kind : std::uint8_t {
         LateAnswer,        // node, cycle: the answer was not there in time
-        WaitingForNode,    // node, cycle: time stands still
+        WaitingForNode,    // node, cycle: time stands still; node 0: for nodes whose policy is silent
         WaitingEnded,      // cycle
         NodeFaulted,       // node, cycle: the code of the node threw
         ForgedFrame,       // node, cycle: the first sealed frame of a phase that was not as it is sealed

@@ -38,6 +38,7 @@ void QPlcMasterNodePrivate::report(const CycleEvent &event)
         Q_EMIT q->realTimeViolated(nodeName(event.node), event.cycle);
         break;
     case CycleEvent::WaitingForNode:
+        m_isWaitTold = event.node != 0;
         apply(Event::WaitBegan);
         break;
     case CycleEvent::WaitingEnded:

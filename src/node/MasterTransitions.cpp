@@ -54,7 +54,8 @@ void QPlcMasterNodePrivate::enter(QPlcMasterNode::State newState, const QString 
         askedStop = {};
     arming.disarm();
     const QString name = QString::fromLatin1(qplc::nameOf(state));
-    journal.stateChanged(reason.isEmpty() ? name : QStringLiteral("%1: %2").arg(name, reason), isTransient);
+    if (!isTransient || m_isWaitTold)
+        journal.stateChanged(reason.isEmpty() ? name : QStringLiteral("%1: %2").arg(name, reason), isTransient);
     Q_EMIT q->stateChanged(newState);
 }
 

@@ -290,11 +290,21 @@ void NodeExchange::reportLateNodes() noexcept
     }
 }
 
+/// The first one of those that time stands still for whose policy is to report it; 0: all of them are silent.
+std::uint16_t NodeExchange::nodeToReport() const noexcept
+{
+    for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
+        if (isAwaited(*slot) && slot->waits() && slot->reports())
+            return slot->id;
+    }
+    return 0;
+}
+
 /// Time stands still until the nodes that must be waited for have answered (or are lost).
 void NodeExchange::waitForLateNodes(std::int64_t deadline) noexcept
 {
     if (!m_isLockstep)
-        m_reports.post({CycleEvent::WaitingForNode, 0, 0, m_cycle.number});
+        m_reports.post({CycleEvent::WaitingForNode, nodeToReport(), 0, m_cycle.number});
     const std::int64_t begin = m_time.now();
     std::int64_t resendAt = begin + ResendAfter;
     while (anyMissing(true) && !m_stop.load(std::memory_order_relaxed) && !m_guard.isTripped()

@@ -59,6 +59,7 @@ private:
     bool collectAnswers(std::size_t stage) noexcept;
     void waitForLateNodes(std::int64_t deadline) noexcept;
     void reportLateNodes() noexcept;
+    std::uint16_t nodeToReport() const noexcept;
     void receive(std::int64_t timeout, int alarm = -1) noexcept;
     bool waitForFrames(std::int64_t timeout, int alarm) noexcept;
     void takeAnswer(NodeSlot &slot, const char *frame, std::size_t size) noexcept;

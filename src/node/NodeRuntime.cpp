@@ -228,11 +228,22 @@ bool NodeRuntime::step(const QPlcCycle &cycle, const char *inputs) noexcept
         makeSafe(QPlcSlaveNode::CodeFailed);
         return false;
     }
+    if (WakeUp *wakeUp = m_stepWakeUp.load(std::memory_order_acquire))
+        wakeUp->notify();
     if (m_isSafe)
         return true;  // a listener that watches: what it writes stays safe
     writeWorkload(m_executionTime);
     m_outputs = m_scratch;
     return true;
+}
+
+WakeUp &NodeRuntime::stepWakeUp()
+{
+    if (!m_ownStepWakeUp) {
+        m_ownStepWakeUp = std::make_unique<WakeUp>();
+        m_stepWakeUp.store(m_ownStepWakeUp.get(), std::memory_order_release);
+    }
+    return *m_ownStepWakeUp;
 }
 
 void NodeRuntime::measure(std::int64_t begin) noexcept

@@ -5,10 +5,12 @@
 #include "QPlcSlaveNode.h"
 #include "SignalGuard.h"
 #include "realtime/TimeSource.h"
+#include "realtime/WakeUp.h"
 #include "signals/PayloadLayout.h"
 
 #include <array>
 #include <atomic>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -61,6 +63,8 @@ public:
     void leaveCodeAlone() { m_isCodeGone.store(true, std::memory_order_relaxed); }
     /// One cycle. \return false when the code of the node threw, now or before in this phase: it is in its safe state then
     bool step(const QPlcCycle &cycle, const char *inputs) noexcept;
+    /// Wakes up a reader in the thread of the node after each step, from the first call on. It is made then; call it there.
+    WakeUp &stepWakeUp();
     const char *outputs() const { return m_outputs.data(); }
     /// Duration of the last step, the code of the node alone [ns].
     std::int64_t executionTime() const { return m_executionTime; }
@@ -121,6 +125,8 @@ private:
     std::int64_t m_executionTime = 0;
     std::int64_t m_endOfStep = 0;
     std::array<char, 256> m_faultText{};
+    std::unique_ptr<WakeUp> m_ownStepWakeUp;
+    std::atomic<WakeUp *> m_stepWakeUp{nullptr};  // null: nobody wants it
 };
 
 }  // namespace qplc

@@ -189,6 +189,7 @@ private:
     Connection::Stage m_owed = Connection::Silent;  // stage that every participant reaches by its answer
     std::vector<Connection *> m_participants;
     Connection *m_joiner = nullptr;  // who LetJoin is about
+    bool m_isWaitTold = true;        // the wait at hand, by an event: not when all late nodes have a silent policy
     QString m_culprit;               // node that the latched fault is about; empty: none
     bool m_mustReturn = false;       // the culprit was lost: it has to be there again before a reset
     std::vector<bool> m_written;     // by index: signals that nodes have written since the phase began

@@ -6,6 +6,7 @@
 #include "transport/FaultPlan.h"
 
 #include <QtCore/QEventLoop>
+#include <QtCore/QMetaMethod>
 #include <QtCore/QTimer>
 
 #include <algorithm>
@@ -30,6 +31,12 @@ QPlcSlaveNode::~QPlcSlaveNode()
     d->cycle.reset();
     if (d->localMaster)
         d->localMaster->removeLocalNode(this);
+}
+
+void QPlcSlaveNode::connectNotify(const QMetaMethod &signal)
+{
+    if (signal == QMetaMethod::fromSignal(&QPlcSlaveNode::realTimedOut))
+        QMetaObject::invokeMethod(this, [this] { d->watchCycles(); });  // in the thread of the object
 }
 
 QString QPlcSlaveNode::name() const

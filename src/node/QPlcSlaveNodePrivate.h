@@ -29,6 +29,8 @@ public:
     /// The class of the user is being destroyed, and no part of ours yet: cycles that still run end here, with a warning, and call nothing of it any more.
     void endBeforeDestruction();
 
+    /// Emits realTimedOut() after cycles, from now on.
+    void watchCycles();
     /// Emits hasInitialized() with the inputs, when anybody listens.
     void tellInitialized();
 
@@ -109,6 +111,7 @@ private:
     bool m_outputsAwaited = false;             // by the master, which knows already that the cyclic connection is there
     std::unique_ptr<qplc::CyclicLink> m_link;  // until the cycle takes it
     std::unique_ptr<QSocketNotifier> m_reportNotifier;
+    QSocketNotifier *m_cycleNotifier = nullptr;  // child of the node: it goes with it into another thread
     QTimer m_retryTimer;  // children of the node: they go with it into another thread
     QTimer m_patience;    // with an attempt to connect again
     qplc::BackOff m_backOff;

@@ -134,3 +134,23 @@ void QPlcSlaveNodePrivate::tellSafe(QPlcSlaveNode::SafeStateReason reason)
     if (!std::exchange(m_isSafeTold, true))
         Q_EMIT q->safeStateEntered(reason);
 }
+
+// ---- each cycle ----
+
+void QPlcSlaveNodePrivate::watchCycles()
+{
+    if (m_cycleNotifier)
+        return;
+    qplc::WakeUp &wakeUp = runtime.stepWakeUp();
+    if (!wakeUp.isValid()) {
+        qCWarning(lcSlave).noquote() << "realTimedOut() is not emitted:" << wakeUp.errorString();
+        return;
+    }
+    m_cycleNotifier = new QSocketNotifier(wakeUp.descriptor(), QSocketNotifier::Read, q);
+    QObject::connect(m_cycleNotifier, &QSocketNotifier::activated, q, [this, &wakeUp] {
+        wakeUp.consume();
+        wakeUp.arm();  // before the reader looks: a cycle that comes meanwhile tells again
+        Q_EMIT q->realTimedOut();
+    });
+    wakeUp.arm();
+}

@@ -19,6 +19,8 @@ private Q_SLOTS:
     void aPhaseThatBeginsWithoutANodeEndsItsAlarm();
     void refusedNodeIsAWarning();
     void lateAnswersAreToldOnceASecond();
+    void silentPolicyLeavesNoEvent_data();
+    void silentPolicyLeavesNoEvent();
     void faultsAreErrorsOfTheirNode();
     void valuesThatAreSetSayWhoAndFromWhatToWhat();
     void manySettingsOfASliderAreToldTogether();
@@ -177,6 +179,40 @@ void tst_Events::lateAnswersAreToldOnceASecond()
     const QStringList texts = events("late");
     QVERIFY2(texts.at(0).startsWith("warning Scripted: node Scripted was late in cycle "), qPrintable(texts.at(0)));
     QVERIFY2(texts.at(1).endsWith("more since the last report)"), qPrintable(texts.at(1)));
+}
+
+void tst_Events::silentPolicyLeavesNoEvent_data()
+{
+    QTest::addColumn<QString>("policy");
+    QTest::addColumn<bool>("isSilent");
+    QTest::newRow("hold, silent") << "SilentZeroOrderHold" << true;
+    QTest::newRow("hold, error") << "ErrorZeroOrderHold" << false;
+    QTest::newRow("wait, silent") << "SilentWait" << true;
+    QTest::newRow("wait, error") << "ErrorWait" << false;
+}
+
+/// A late node of a silent policy is counted, and that is all: no event of any kind, and no signal.
+void tst_Events::silentPolicyLeavesNoEvent()
+{
+    QFETCH(QString, policy);
+    QFETCH(bool, isSilent);
+    ScriptedNode mute;
+    mute.policy = policy;
+    QVERIFY(m_master->setInterval(0.002));
+    QVERIFY(mute.registerAt(m_master->serverPort()));
+    QSignalSpy violated(m_master.data(), &QPlcMasterNode::realTimeViolated);
+    QVERIFY(start());
+    QTRY_VERIFY(m_master->statistics().lateAnswers >= (policy.endsWith("Hold") ? 20U : 1U));
+    QTest::qWait(50);
+    QStringList texts;
+    for (const QJsonValue event : m_tool->ask(QPlcMessage::GetEvents).fields().value("events").toArray())
+        texts << event["kind"].toString() + ": " + event["text"].toString();
+    const int begin = texts.indexOf("state: state RealTime");
+    QVERIFY(begin >= 0);
+    const QStringList after = texts.mid(begin + 1);
+    QVERIFY2(after.isEmpty() == isSilent, qPrintable(after.join('\n')));
+    QCOMPARE(violated.isEmpty(), isSilent);
+    m_master->stop();
 }
 
 void tst_Events::faultsAreErrorsOfTheirNode()

@@ -23,6 +23,9 @@ private Q_SLOTS:
     void inputsAreThoseOfOneCycleInAnyThread();
     void aNodeMayLiveInAThreadOfItsOwn_data();
     void aNodeMayLiveInAThreadOfItsOwn();
+    void realTimedOutTellsThatThereAreNewInputs_data();
+    void realTimedOutTellsThatThereAreNewInputs();
+    void realTimedOutIsEmittedInTheThreadOfTheNode();
     void aFullBufferInAnotherThreadSlowsNobody();
     void framesTellCyclePhaseAndPeriod();
 };
@@ -233,6 +236,65 @@ void tst_IONodes::aNodeMayLiveInAThreadOfItsOwn()
     QCOMPARE(viewer.node->lostCycles(), quint64(0));
     QCOMPARE(viewer.node->counters().cycles, quint64(cycles));
     QVERIFY(master.waitForState(QPlcMasterNode::Off));
+}
+
+void tst_IONodes::realTimedOutTellsThatThereAreNewInputs_data()
+{
+    QTest::addColumn<QString>("kind");
+    for (const char *kind : {"local", "udp", "tcp"})
+        QTest::newRow(kind) << kind;
+}
+
+/// As the thesis has it: the signal tells that the buffer holds something, and the buffer is emptied then.
+void tst_IONodes::realTimedOutTellsThatThereAreNewInputs()
+{
+    constexpr int cycles = 200;
+    QFETCH(QString, kind);
+    TestMaster master;
+    QVERIFY(master.listen());
+    CounterNode counter;
+    QVERIFY(master.addLocalNode(&counter));
+    QPlcIOBufferSlaveNode viewer("Viewer");
+    viewer.setListener(false);  // in lockstep it is waited for, so that it sees every cycle
+    viewer.setInputSignalIndices(indices({"count"}));
+    QVERIFY(master.admit(viewer, kind));
+    QVector<int> counts;
+    int told = 0;
+    const auto take = [&] {
+        ++told;
+        const QList<QPlcSignalList> batch = viewer.returnAndClearInputSignalsBuffer();
+        for (const QPlcSignalList &inputs : batch)
+            counts << inputs.value("count").toInt();
+    };
+    connect(&viewer, &QPlcSlaveNode::realTimedOut, this, take);
+    master.setCycleLimit(cycles);
+    QVERIFY(master.startRealTime());
+    QTRY_COMPARE_WITH_TIMEOUT(counts.size(), cycles, 20000);
+    for (int i = 0; i < cycles; ++i)
+        QCOMPARE(counts.at(i), i);
+    QVERIFY(told >= 1 && told <= cycles);
+    QVERIFY(master.waitForState(QPlcMasterNode::Off));
+    const int before = told;
+    QTest::qWait(20);
+    QCOMPARE(told, before);  // no cycles, no news
+    QVERIFY(viewer.returnAndClearInputSignalsBuffer().isEmpty());
+    viewer.disconnectFromMaster();
+}
+
+void tst_IONodes::realTimedOutIsEmittedInTheThreadOfTheNode()
+{
+    TestMaster master;
+    QVERIFY(master.listen());
+    ThreadedViewer viewer(1000);
+    std::atomic<int> inItsThread{0}, elsewhere{0};
+    connect(
+        viewer.node, &QPlcSlaveNode::realTimedOut, viewer.node,
+        [&] { ++(QThread::currentThread() == viewer.node->thread() ? inItsThread : elsewhere); }, Qt::DirectConnection);
+    QVERIFY(viewer.connectTo(master.protocol("udp")));
+    QVERIFY(master.startRealTime());
+    QTRY_VERIFY(inItsThread > 2);
+    QCOMPARE(elsewhere.load(), 0);
+    master.stop();
 }
 
 void tst_IONodes::aFullBufferInAnotherThreadSlowsNobody()
