@@ -107,7 +107,7 @@ class Terminal:
             raise Broken(f"the shell has ended:\n{self.shown[-2000:]}") from None
 
     def await_prompt(self, answer, command):
-        """What the command shows, and its exit code. answer: keys to send, and the pattern that is awaited before."""
+        """What the command shows, and its exit code. answer: the pattern that is awaited, None: until the command can be interrupted; and the keys that are pressed then."""
         end = time.monotonic() + 10 * PATIENCE
         while True:
             found = PROMPT.search(self.shown, self.read)
@@ -115,11 +115,20 @@ class Terminal:
                 text = self.shown[self.read:found.start()]
                 self.read = found.end()
                 return text, int(found[1])
-            if answer and re.search(answer[0], self.shown[self.read:]):
+            if answer and (self.is_interruptible() if answer[0] is None else re.search(answer[0], self.shown[self.read:])):
                 os.write(self.terminal, answer[1])
                 answer = None
             require(time.monotonic() < end, f"'{command}' does not end; it shows:\n{self.shown[self.read:][-2000:]}")
             self.take(0.1)
+
+    def is_interruptible(self):
+        """Whether the program in the foreground has a handler for Ctrl-C."""
+        try:
+            status = Path(f"/proc/{os.tcgetpgrp(self.terminal)}/status").read_text()
+        except OSError:
+            return False
+        handled = int(re.search(r"^SigCgt:\s*(\w+)$", status, re.M)[1], 16)
+        return "Name:\tbash" not in status and bool(handled & 1 << (signal.SIGINT - 1))
 
     def type(self, command, answer=None):
         self.take(0)
