@@ -9,7 +9,7 @@ namespace {
 
 constexpr int any = std::numeric_limits<int>::max();
 
-const Option verbose{"verbose", "", "Every column."};
+const Option verbose{"verbose", "", "Every column and counter."};
 const Option count{"count", "N", "Ends after so many lines."};
 const Option every{"every", "CYCLES", "Hears one of so many cycles only, for slow links."};
 
@@ -94,7 +94,8 @@ const QVector<Command> &commands()
         {"state",
          "",
          "Shows the master, its counters and its nodes.",
-         "With the state of each node, and why the master has stopped safely.",
+         "With the state of each node, and why the master has stopped safely.\n"
+         "Counters that are zero are shown with --verbose only; --json has all of them.",
          {verbose},
          {QStringLiteral("qtplc state"), QStringLiteral("qtplc state --json | jq -r .state")},
          Command::NoArguments,

@@ -61,19 +61,53 @@ QVector<Finding> examine()
     return findings;
 }
 
-void print(const QVector<Finding> &findings)
+Tone toneOf(Finding::Verdict verdict)
 {
+    return verdict == Finding::Ok ? Tone::Good : verdict == Finding::ToCure ? Tone::Bad : Tone::Caution;
+}
+
+QStringList subjectsWith(const QVector<Finding> &findings, Finding::Verdict verdict)
+{
+    QStringList subjects;
     for (const Finding &finding : findings) {
-        printLine(QStringLiteral("%1 %2 %3")
-                      .arg(QLatin1String(verdictText(finding.verdict)), -8)
-                      .arg(finding.subject, -14)
-                      .arg(printable(finding.found)));
+        if (finding.verdict == verdict)
+            subjects << finding.subject;
+    }
+    subjects.removeDuplicates();
+    return subjects;
+}
+
+/// "Not ready for real time: cure scheduling, memory."
+QString summaryOf(const QVector<Finding> &findings)
+{
+    const QStringList toCure = subjectsWith(findings, Finding::ToCure);
+    const QStringList unknown = subjectsWith(findings, Finding::Unknown);
+    QString text = toCure.isEmpty()
+        ? QStringLiteral("Ready for real time.")
+        : QStringLiteral("Not ready for real time: cure %1.").arg(toCure.join(QStringLiteral(", ")));
+    if (!unknown.isEmpty())
+        text += QStringLiteral(" Not known: %1.").arg(unknown.join(QStringLiteral(", ")));
+    return text;
+}
+
+void print(const QVector<Finding> &findings, bool isHealthy)
+{
+    constexpr int verdictWidth = 9;
+    int subjectWidth = 0;
+    for (const Finding &finding : findings)
+        subjectWidth = qMax(subjectWidth, displayWidth(finding.subject) + 1);
+    for (const Finding &finding : findings) {
+        const QString verdict = padded(QLatin1String(verdictText(finding.verdict)), verdictWidth);
+        printWrapped(toned(verdict, toneOf(finding.verdict)) + padded(finding.subject, subjectWidth),
+                     verdictWidth + subjectWidth, printable(finding.found));
         QString label = QStringLiteral("cure:");
         for (const QString &way : finding.remedy.split(QStringLiteral("; or "), Qt::SkipEmptyParts)) {
             printLine(QStringLiteral("         %1 %2").arg(label, -5).arg(printable(way)));
             label = QStringLiteral("  or:");
         }
     }
+    printLine(QString());
+    printLine(toned(printable(summaryOf(findings)), isHealthy ? Tone::Good : Tone::Bad));
 }
 
 void printAsJson(const QVector<Finding> &findings, bool isHealthy)
@@ -87,7 +121,9 @@ void printAsJson(const QVector<Finding> &findings, bool isHealthy)
             object.insert(QStringLiteral("cure"), finding.remedy);
         array.append(object);
     }
-    printJson(QJsonDocument(QJsonObject{{QStringLiteral("ok"), isHealthy}, {QStringLiteral("findings"), array}}));
+    printJson(QJsonDocument(QJsonObject{{QStringLiteral("ok"), isHealthy},
+                                        {QStringLiteral("summary"), summaryOf(findings)},
+                                        {QStringLiteral("findings"), array}}));
 }
 
 }  // namespace
@@ -97,7 +133,7 @@ int examineComputer(const CommandCall &call)
     const QVector<Finding> findings = examine();
     const bool isHealthy = std::none_of(findings.begin(), findings.end(),
                                         [](const Finding &finding) { return finding.verdict == Finding::ToCure; });
-    call.isJson() ? printAsJson(findings, isHealthy) : print(findings);
+    call.isJson() ? printAsJson(findings, isHealthy) : print(findings, isHealthy);
     return isHealthy ? QPlcCoreApplication::Success : QPlcCoreApplication::Failure;
 }
 

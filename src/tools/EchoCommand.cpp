@@ -28,9 +28,10 @@ public:
             titles << (definition.unit.isEmpty() ? definition.name
                                                  : QStringLiteral("%1 [%2]").arg(definition.name, definition.unit));
             const bool isNumber = definition.type.isReal() || definition.type.isInteger();
-            m_widths.append(std::max(titles.constLast().size(), isNumber ? 14 * definition.type.count() : 20));
+            m_widths.append(
+                std::max(displayWidth(printable(titles.constLast())), isNumber ? 14 * definition.type.count() : 20));
         }
-        printLine(bold(toLine(titles)));
+        printLine(toned(toLine(titles), Tone::Title));
     }
 
     void print(const QStringList &cells) const { printLine(toLine(cells)); }
@@ -41,7 +42,7 @@ private:
         QStringList columns;
         for (int i = 0; i < cells.size(); ++i) {
             const QString cell = printable(cells.at(i));
-            columns << (isTerminal() ? cell.rightJustified(m_widths.at(i)) : cell);
+            columns << (isTerminal() ? padded(cell, m_widths.at(i), Right) : cell);
         }
         return columns.join(isTerminal() ? QStringLiteral("  ") : QStringLiteral("\t"));
     }

@@ -22,6 +22,9 @@ public:
     void print(const QPlcMessage &message)
     {
         const QJsonArray events = message.fields().value(QStringLiteral("events")).toArray();
+        for (const QJsonValue &event : events)
+            m_sourceWidth = qBound(m_sourceWidth, displayWidth(printable(event[QStringLiteral("source")].toString())),
+                                   longestSource);
         for (const QJsonValue &event : events) {
             const double sequence = event[QStringLiteral("sequence")].toDouble();
             if (sequence <= m_newest)
@@ -30,24 +33,37 @@ public:
             if (m_isJson)
                 printJson(QJsonDocument(event.toObject()));
             else
-                printLine(lineOf(event.toObject()));
+                printLineOf(event.toObject());
         }
     }
     double newest() const { return m_newest; }
 
 private:
-    static QString lineOf(const QJsonObject &event)
+    void printLineOf(const QJsonObject &event) const
     {
         const auto text
             = [&event](const char *field) { return printable(event.value(QLatin1String(field)).toString()); };
         const quint64 time = text("time").toULongLong(nullptr, 16);
-        return QStringLiteral("%1  %2  %3  %4  %5")
-            .arg(QDateTime::fromMSecsSinceEpoch(qint64(time / 1'000'000))
-                     .toString(QStringLiteral("yyyy-MM-dd HH:mm:ss.zzz")),
-                 text("severity").leftJustified(7), text("kind").leftJustified(7), text("source"), text("text"));
+        const QString gap = QStringLiteral("  ");
+        const QString when = QDateTime::fromMSecsSinceEpoch(qint64(time / 1'000'000))
+                                 .toString(QStringLiteral("yyyy-MM-dd HH:mm:ss.zzz"))
+            + gap;
+        const QString severity = padded(text("severity"), 7);
+        const QString rest = gap + padded(text("kind"), 7) + gap + padded(text("source"), m_sourceWidth) + gap;
+        printWrapped(when + toned(severity, toneOf(text("severity"))) + rest, displayWidth(when + severity + rest),
+                     text("text"));
+    }
+    static Tone toneOf(const QString &severity)
+    {
+        return severity == QLatin1String("error")  ? Tone::Bad
+            : severity == QLatin1String("warning") ? Tone::Caution
+                                                   : Tone::Plain;
     }
 
+    static constexpr int longestSource = 12;  // that columns are made for
+
     const bool m_isJson;
+    int m_sourceWidth = 0;  // of the widest so far
     double m_newest = 0.0;
 };
 

@@ -66,7 +66,7 @@ void printWindow(const QVector<Distribution> &distributions, const Quantity &win
     table.addColumn(QString::fromLatin1(window.title));
     table.addColumn(QString());
     for (const char *title : {"count", "mean", "p50", "worst 1 %", "worst 0.1 %", "worst"})
-        table.addColumn(QString::fromLatin1(title), TextTable::Right);
+        table.addColumn(QString::fromLatin1(title), Right);
     for (const Distribution &distribution : distributions) {
         const QJsonObject numbers = distribution.windows.value(QLatin1String(window.field)).toObject();
         const double count = numbers.value(QStringLiteral("count")).toDouble();
@@ -86,7 +86,8 @@ void printCounters(const QJsonObject &statistics)
         for (auto it = counters.begin(); it != counters.end(); ++it)
             texts << QStringLiteral("%1 %2").arg(it.key()).arg(it.value().toDouble(), 0, 'f', 0);
         if (!texts.isEmpty())
-            printLine(printable(QStringLiteral("%1: %2").arg(who, texts.join(QStringLiteral(", ")))));
+            printWrapped(printable(who) + QStringLiteral(": "), displayWidth(printable(who)) + 2,
+                         printable(texts.join(QStringLiteral(", "))));
     };
     const QString field = QStringLiteral("counters");
     print(QStringLiteral("Master"), statistics.value(QStringLiteral("master"))[field].toObject());
@@ -100,9 +101,9 @@ void printWorstCycles(const QJsonArray &cycles)
     if (cycles.isEmpty())
         return;
     TextTable table;
-    table.addColumn(QStringLiteral("worst cycle"), TextTable::Right);
+    table.addColumn(QStringLiteral("worst cycle"), Right);
     for (const Quantity &quantity : quantities)
-        table.addColumn(QString::fromLatin1(quantity.title), TextTable::Right);
+        table.addColumn(QString::fromLatin1(quantity.title), Right);
     table.addColumn(QStringLiteral("stages"));
     for (const QJsonValue &cycle : cycles) {
         QStringList cells{QString::number(cycle[QStringLiteral("cycle")].toDouble(), 'f', 0)};
@@ -135,12 +136,13 @@ void printHistograms(const QJsonObject &statistics)
     const QVector<Distribution> distributions = distributionsOf(statistics);
     for (const Distribution &distribution : distributions) {
         const QJsonObject numbers = distribution.windows.value(QLatin1String(windows[0].field)).toObject();
-        printLine(bold(printable(QStringLiteral("%1 %2, %3: %4 values, p50 %5, p99 %6, max %7")
-                                     .arg(distribution.who, distribution.title, QLatin1String(windows[0].title))
-                                     .arg(numbers.value(QStringLiteral("count")).toDouble(), 0, 'f', 0)
-                                     .arg(durationText(numbers.value(QStringLiteral("p50")).toDouble()),
-                                          durationText(numbers.value(QStringLiteral("p99")).toDouble()),
-                                          durationText(numbers.value(QStringLiteral("maximum")).toDouble())))));
+        printLine(toned(printable(QStringLiteral("%1 %2, %3: %4 values, p50 %5, p99 %6, max %7")
+                                      .arg(distribution.who, distribution.title, QLatin1String(windows[0].title))
+                                      .arg(numbers.value(QStringLiteral("count")).toDouble(), 0, 'f', 0)
+                                      .arg(durationText(numbers.value(QStringLiteral("p50")).toDouble()),
+                                           durationText(numbers.value(QStringLiteral("p99")).toDouble()),
+                                           durationText(numbers.value(QStringLiteral("maximum")).toDouble()))),
+                        Tone::Title));
         const QStringList lines
             = histogramLines(numbers.value(QStringLiteral("bins")).toArray(), terminalSize().columns);
         for (const QString &line : lines)

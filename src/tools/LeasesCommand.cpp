@@ -23,11 +23,13 @@ int showLeases(const CommandCall &call)
     TextTable table;
     for (const char *title : {"signal", "holder", "lease"})
         table.addColumn(QString::fromLatin1(title));
-    table.addColumn(QStringLiteral("timeout [s]"), TextTable::Right);
-    for (const QJsonValue &lease : leases)
+    table.addColumn(QStringLiteral("timeout [s]"), Right);
+    for (const QJsonValue &lease : leases) {
         table.addRow({lease[QStringLiteral("signal")].toString(), lease[QStringLiteral("holder")].toString(),
                       lease[QStringLiteral("lease")].toString(),
                       QString::number(lease[QStringLiteral("timeout")].toDouble() * 1e-9)});
+        table.setTone(2, lease[QStringLiteral("lease")].toString() == QLatin1String("lost") ? Tone::Bad : Tone::Plain);
+    }
     table.print();
     return QPlcCoreApplication::Success;
 }

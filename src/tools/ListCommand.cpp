@@ -73,13 +73,13 @@ QString writerOf(const QJsonObject &row)
 
 void printTable(const QPlcSignalTable &signalTable, const QVector<QJsonObject> &rows, bool verbose)
 {
-    QStringList fields{QStringLiteral("name"),  QStringLiteral("type"),    QStringLiteral("unit"),
-                       QStringLiteral("value"), QStringLiteral("quality"), QStringLiteral("writer")};
+    QStringList fields{QStringLiteral("name"), QStringLiteral("type"),    QStringLiteral("value"),
+                       QStringLiteral("unit"), QStringLiteral("quality"), QStringLiteral("writer")};
     if (verbose)
         fields << QStringLiteral("description");
     TextTable table;
     for (const QString &field : qAsConst(fields))
-        table.addColumn(field);
+        table.addColumn(field, field == QLatin1String("value") ? Right : Left);
     for (const QJsonObject &row : rows) {
         QStringList cells;
         for (const QString &field : qAsConst(fields))
@@ -88,6 +88,7 @@ void printTable(const QPlcSignalTable &signalTable, const QVector<QJsonObject> &
                           : field == QLatin1String("writer")  ? writerOf(row)
                                                               : row.value(field).toString());
         table.addRow(cells);
+        table.setTone(fields.indexOf(QStringLiteral("quality")), toneOfQuality(qualityOf(row).toString()));
     }
     table.print();
 }
@@ -130,7 +131,9 @@ int getSignals(const CommandCall &call)
     for (const QJsonObject &row : qAsConst(rows)) {
         const QString value = printable(isPlain ? text(row, "value") : readableValue(table, row));
         const QPlcQuality quality = qualityOf(row);
-        const QString doubt = quality.isGood() ? QString() : QStringLiteral("  (%1)").arg(quality.toString());
+        const QString doubt = quality.isGood()
+            ? QString()
+            : toned(QStringLiteral("  (%1)").arg(quality.toString()), toneOfQuality(quality.toString()));
         if (call.isJson())
             values.insert(text(row, "name"), valueOf(table, row));
         else

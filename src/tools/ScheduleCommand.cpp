@@ -11,7 +11,7 @@ namespace {
 void printStages(const QJsonArray &stages)
 {
     TextTable table;
-    table.addColumn(QStringLiteral("stage"), TextTable::Right);
+    table.addColumn(QStringLiteral("stage"), Right);
     table.addColumn(QStringLiteral("node"));
     table.addColumn(QStringLiteral("phase"));
     for (int i = 0; i < stages.size(); ++i) {
@@ -28,7 +28,7 @@ void printLinks(const QJsonArray &links)
     TextTable table;
     for (const char *title : {"signal", "from", "to"})
         table.addColumn(QString::fromLatin1(title));
-    table.addColumn(QStringLiteral("age [cycles]"), TextTable::Right);
+    table.addColumn(QStringLiteral("age [cycles]"), Right);
     table.addColumn(QStringLiteral("same cycle"));
     for (const QJsonValue &link : links)
         table.addRow({link[QStringLiteral("signal")].toString(), link[QStringLiteral("from")].toString(),

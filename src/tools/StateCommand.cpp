@@ -4,32 +4,54 @@
 
 #include <QtCore/QJsonArray>
 
+#include <algorithm>
+
 namespace tools {
 
 namespace {
+
+constexpr int labelWidth = 10;
 
 struct NodeColumn
 {
     const char *title;
     const char *field;
-    TextTable::Alignment alignment;
-    bool isDetail;  // with --verbose only
+    Alignment alignment;
+    enum Shown { Always, UnlessZero, InDetail } shown;  // all of them with --verbose
 };
 
 const NodeColumn nodeColumns[] = {
-    {"node", "name", TextTable::Left, false},          {"transport", "transport", TextTable::Left, false},
-    {"address", "address", TextTable::Left, true},     {"number", "id", TextTable::Right, true},
-    {"state", "state", TextTable::Left, false},        {"critical", "critical", TextTable::Left, true},
-    {"policy", "policy", TextTable::Left, false},      {"listener", "listener", TextTable::Left, true},
-    {"every", "every", TextTable::Right, true},        {"in", "inputs", TextTable::Right, false},
-    {"out", "outputs", TextTable::Right, false},       {"late", "lateAnswers", TextTable::Right, false},
-    {"doubled", "duplicates", TextTable::Right, true}, {"rejected", "rejected", TextTable::Right, false},
-    {"forged", "forged", TextTable::Right, false},     {"resent", "resent", TextTable::Right, true},
+    {"node", "name", Left, NodeColumn::Always},
+    {"transport", "transport", Left, NodeColumn::Always},
+    {"address", "address", Left, NodeColumn::InDetail},
+    {"number", "id", Right, NodeColumn::InDetail},
+    {"state", "state", Left, NodeColumn::Always},
+    {"critical", "critical", Left, NodeColumn::InDetail},
+    {"policy", "policy", Left, NodeColumn::Always},
+    {"listener", "listener", Left, NodeColumn::InDetail},
+    {"every", "every", Right, NodeColumn::InDetail},
+    {"in", "inputs", Right, NodeColumn::Always},
+    {"out", "outputs", Right, NodeColumn::Always},
+    {"late", "lateAnswers", Right, NodeColumn::UnlessZero},
+    {"doubled", "duplicates", Right, NodeColumn::UnlessZero},
+    {"rejected", "rejected", Right, NodeColumn::UnlessZero},
+    {"forged", "forged", Right, NodeColumn::UnlessZero},
+    {"resent", "resent", Right, NodeColumn::UnlessZero},
 };
 
-void printField(const char *label, const QString &value)
+/// Whether a column has anything to say: a counter that is zero for all nodes has not.
+bool isShown(const NodeColumn &column, const QJsonArray &nodes, bool verbose)
 {
-    printLine(QStringLiteral("%1%2").arg(QString::fromLatin1(label), -10).arg(printable(value)));
+    if (verbose || column.shown != NodeColumn::UnlessZero)
+        return verbose || column.shown == NodeColumn::Always;
+    return std::any_of(nodes.begin(), nodes.end(), [&column](const QJsonValue &node) {
+        return node[QLatin1String(column.field)].toDouble() > 0.0;
+    });
+}
+
+void printField(const char *label, const QString &value, Tone tone = Tone::Plain)
+{
+    printWrapped(padded(QString::fromLatin1(label), labelWidth), labelWidth, toned(printable(value), tone));
 }
 
 /// "scaled 20 times", "lockstep"
@@ -41,12 +63,15 @@ QString clockText(const QJsonObject &state)
     return clock;
 }
 
-QString countersText(const QJsonObject &counters)
+/// "late 3, missed 1": those that are not zero.
+QString countersText(const QJsonObject &counters, bool verbose)
 {
     QStringList texts;
-    for (auto it = counters.begin(); it != counters.end(); ++it)
-        texts << QStringLiteral("%1 %2").arg(it.key(), it.value().toVariant().toString());
-    return texts.join(QStringLiteral(", "));
+    for (auto it = counters.begin(); it != counters.end(); ++it) {
+        if (verbose || it.value().toDouble() != 0.0)
+            texts << QStringLiteral("%1 %2").arg(it.key(), it.value().toVariant().toString());
+    }
+    return texts.isEmpty() ? QStringLiteral("all zero") : texts.join(QStringLiteral(", "));
 }
 
 /// Who injects what on purpose; empty: nobody.
@@ -64,21 +89,30 @@ QString faultsText(const QJsonObject &state)
     return texts.join(QStringLiteral(", "));
 }
 
+Tone toneOf(const NodeColumn &column, const QString &text)
+{
+    if (column.shown == NodeColumn::UnlessZero)
+        return text == QLatin1String("0") ? Tone::Plain : Tone::Caution;
+    return qstrcmp(column.field, "state") == 0 ? toneOfState(text) : Tone::Plain;
+}
+
 void printNodes(const QJsonArray &nodes, bool verbose)
 {
-    QStringList fields;
+    QVector<NodeColumn> columns;
     TextTable table;
     for (const NodeColumn &column : nodeColumns) {
-        if (column.isDetail && !verbose)
+        if (!isShown(column, nodes, verbose))
             continue;
         table.addColumn(QString::fromLatin1(column.title), column.alignment);
-        fields << QString::fromLatin1(column.field);
+        columns << column;
     }
     for (const QJsonValue &node : nodes) {
         QStringList cells;
-        for (const QString &field : qAsConst(fields))
-            cells << node.toObject().value(field).toVariant().toString();
+        for (const NodeColumn &column : qAsConst(columns))
+            cells << node[QLatin1String(column.field)].toVariant().toString();
         table.addRow(cells);
+        for (int i = 0; i < columns.size(); ++i)
+            table.setTone(i, toneOf(columns.at(i), cells.at(i)));
     }
     table.print();
 }
@@ -97,8 +131,10 @@ int showState(const CommandCall &call)
     }
     const double period = state.value(QStringLiteral("period")).toDouble() * 1e-9;
     const quint64 cycle = answer.hex64(QStringLiteral("cycle"));
+    const bool verbose = call.application.isSet(QStringLiteral("verbose"));
     const bool isArmed = state.value(QStringLiteral("armed")).toBool();
-    printField("state", answer.text(QStringLiteral("state")) + (isArmed ? QStringLiteral(", armed") : QString()));
+    printField("state", answer.text(QStringLiteral("state")) + (isArmed ? QStringLiteral(", armed") : QString()),
+               toneOfState(answer.text(QStringLiteral("state"))));
     if (!answer.text(QStringLiteral("reason")).isEmpty())
         printField("reason", answer.text(QStringLiteral("reason")));
     if (!answer.text(QStringLiteral("remains")).isEmpty())
@@ -106,13 +142,13 @@ int showState(const CommandCall &call)
     printField("cycle", QStringLiteral("%1 (%2 s)").arg(cycle).arg(double(cycle) * period, 0, 'f', 3));
     printField("period", QStringLiteral("%1 ms").arg(period * 1e3));
     printField("clock", clockText(state));
-    printField("counters", countersText(state.value(QStringLiteral("counters")).toObject()));
+    printField("counters", countersText(state.value(QStringLiteral("counters")).toObject(), verbose));
     printField("session", answer.text(QStringLiteral("session")));
     printField("digest", answer.text(QStringLiteral("digest")));
     if (const QString faults = faultsText(state); !faults.isEmpty())
-        printField("FAULTS", QStringLiteral("injected on purpose by %1").arg(faults));
+        printField("FAULTS", QStringLiteral("injected on purpose by %1").arg(faults), Tone::Caution);
     printLine(QString());
-    printNodes(state.value(QStringLiteral("nodes")).toArray(), call.application.isSet(QStringLiteral("verbose")));
+    printNodes(state.value(QStringLiteral("nodes")).toArray(), verbose);
     return QPlcCoreApplication::Success;
 }
 

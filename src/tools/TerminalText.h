@@ -11,10 +11,35 @@ namespace tools {
 QString printable(const QString &text);
 /// Whether the standard output is a terminal that a person looks at.
 bool isTerminal();
-/// \a text in bold on a terminal, as it is elsewhere (and where NO_COLOR is set).
-QString bold(const QString &text);
+/// Whether the standard output is a terminal that can move its cursor and take the whole screen: not with TERM=dumb.
+bool isScreen();
+
+/// What a text means. There is one colour for each meaning.
+enum class Tone { Plain, Title, Good, Caution, Bad };
+/// Whether tones are seen: on a terminal other than TERM=dumb, unless NO_COLOR is set and not empty.
+bool hasColors();
+/// \a text in the colour of \a tone where hasColors(), as it is elsewhere.
+QString toned(const QString &text, Tone tone);
+/// Of a state of a master or node, as docs/protocol.md names it.
+Tone toneOfState(const QString &state);
+/// Of a quality, as QPlcQuality::toString() names it: "held 3" is a caution.
+Tone toneOfQuality(const QString &quality);
+
+/// Columns that \a text takes on a terminal: two for a wide character, none for a combining one.
+int displayWidth(const QString &text);
+enum Alignment { Left, Right };
+/// \a text with blanks, \a width columns wide at least.
+QString padded(const QString &text, int width, Alignment alignment = Left);
+/// \a text in at most \a width columns; "…" stands for what was cut. What stands in brackets at the end is kept: "bodyPositio…[2]".
+QString cut(const QString &text, int width);
+/// \a text in lines of at most \a width columns, broken at blanks; a longer word stays whole.
+QStringList wrapped(const QString &text, int width);
+
 /// Prints a line, at once, to the standard output.
 void printLine(const QString &line);
+
+/// Prints \a head and \a text behind it. On a terminal the next lines of a long text begin below its first one. \a head may have colours and is \a headWidth columns wide.
+void printWrapped(const QString &head, int headWidth, const QString &text);
 
 /// Prints a text as it is, at once.
 void printText(const QString &text);
@@ -28,16 +53,18 @@ struct TerminalSize
 };
 TerminalSize terminalSize();
 
-/// Rows with aligned columns, two blanks apart; an empty cell is "-", so that every row has as many words.
+/// Rows with aligned columns, two blanks apart; an empty cell is "-", so that every row has as many words. On a terminal that is too narrow long cells get several lines.
 class TextTable
 {
 public:
-    enum Alignment { Left, Right };
-
     void addColumn(const QString &title, Alignment alignment = Left);
     /// \pre as many cells as columns
     void addRow(const QStringList &cells);
+    /// Shows a cell of the row that was added last in \a tone.
+    void setTone(int column, Tone tone);
     void print() const;
+    /// The lines of print() for \a width columns; 0: as many as they need.
+    QStringList lines(int width) const;
 
 private:
     struct Column
@@ -46,10 +73,17 @@ private:
         Alignment alignment;
         int width;
     };
-    QString toLine(const QStringList &cells) const;
+    struct Cell
+    {
+        QString text;
+        Tone tone;
+    };
+    QVector<int> widthsFor(int width) const;
+    QString toLine(const QVector<Cell> &cells, const QVector<int> &widths) const;
+    QStringList toLines(const QVector<Cell> &cells, const QVector<int> &widths) const;
 
     QVector<Column> m_columns;
-    QVector<QStringList> m_rows;
+    QVector<QVector<Cell>> m_rows;
 };
 
 }  // namespace tools

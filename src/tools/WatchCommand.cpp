@@ -94,12 +94,14 @@ private:
 
     QString head() const
     {
-        QString text = QStringLiteral("%1  %2").arg(m_master, printable(m_listener.state()));
+        QString text = QStringLiteral("%1  %2").arg(
+            m_master, toned(printable(m_listener.state()), toneOfState(m_listener.state())));
         if (m_listener.isRunning() && m_heardAt > 0.0)
             text += QStringLiteral("  cycle %1  %2 s").arg(m_cycle).arg(m_listener.timeOf(m_cycle), 0, 'f', 2);
         constexpr double silence = 1.0;  // [s]
         if (m_listener.isRunning() && m_heardAt > 0.0 && now() - m_heardAt > silence)
-            text += QStringLiteral("  nothing heard for %1 s").arg(now() - m_heardAt, 0, 'f', 0);
+            text += QLatin1String("  ")
+                + toned(QStringLiteral("nothing heard for %1 s").arg(now() - m_heardAt, 0, 'f', 0), Tone::Bad);
         return text;
     }
 
@@ -159,8 +161,8 @@ int watchSignals(const CommandCall &call)
     if (!call.readNumber("rate", 0.01, 100.0, &rate.rate) || !readEvery(call, &rate.every) || !call.connect(&table)
         || !selectSignalsOrAll(call.application, table, call.arguments, &names))
         return call.exitCode();
-    return isTerminal() && !call.isJson() ? watchOnTerminal(call, table, names, rate)
-                                          : printLines(call, table, names, rate);
+    return isScreen() && !call.isJson() ? watchOnTerminal(call, table, names, rate)
+                                        : printLines(call, table, names, rate);
 }
 
 }  // namespace tools

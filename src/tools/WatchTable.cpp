@@ -14,12 +14,6 @@ constexpr int ageWidth = 8;      // of an age, or a quality
 constexpr int gaps = 5 * 2;      // between six columns
 constexpr int titleLines = 1;
 
-/// At most \a width characters; "…" stands for what was cut.
-QString cut(const QString &text, int width)
-{
-    return text.size() <= width ? text : text.left(width - 1) + QChar(0x2026);
-}
-
 /// Six digits, fewer where an exponent needs the room.
 QString shortNumber(double number)
 {
@@ -105,9 +99,9 @@ WatchTable::Widths WatchTable::widths(int first, int count, int width) const
 {
     Widths widths{6, 13, 4};
     for (int i = first; i < first + count; ++i) {
-        widths.name = qMax(widths.name, m_rows.at(i).name.size());
-        widths.unit = qMax(widths.unit, m_rows.at(i).unit.size());
-        widths.value = qMax(widths.value, m_rows.at(i).value.size());
+        widths.name = qMax(widths.name, displayWidth(m_rows.at(i).name));
+        widths.unit = qMax(widths.unit, displayWidth(m_rows.at(i).unit));
+        widths.value = qMax(widths.value, displayWidth(m_rows.at(i).value));
     }
     const int room = width - 2 * numberWidth - ageWidth - gaps;
     widths.unit = qMin(widths.unit, 8);
@@ -123,21 +117,24 @@ QStringList WatchTable::lines(int first, int width, int height, double now) cons
     const auto line = [&](const QString &name, const QString &value, const QString &unit, const QString &minimum,
                           const QString &maximum, const QString &age) {
         const QString gap = QStringLiteral("  ");
-        return cut(name, columns.name).leftJustified(columns.name) + gap
-            + cut(value, columns.value).rightJustified(columns.value) + gap
-            + cut(unit, columns.unit).leftJustified(columns.unit) + gap + minimum.rightJustified(numberWidth) + gap
-            + maximum.rightJustified(numberWidth) + gap + age.rightJustified(ageWidth);
+        return padded(cut(name, columns.name), columns.name) + gap
+            + padded(cut(value, columns.value), columns.value, Right) + gap
+            + padded(cut(unit, columns.unit), columns.unit) + gap + padded(minimum, numberWidth, Right) + gap
+            + padded(maximum, numberWidth, Right) + gap + padded(age, ageWidth, Right);
     };
-    QStringList lines{bold(line(QStringLiteral("signal"), QStringLiteral("value"), QStringLiteral("unit"),
-                                QStringLiteral("min"), QStringLiteral("max"), QStringLiteral("age")))};
+    const QString titles = line(QStringLiteral("signal"), QStringLiteral("value"), QStringLiteral("unit"),
+                                QStringLiteral("min"), QStringLiteral("max"), QStringLiteral("age"));
+    QStringList lines{toned(titles, Tone::Title)};
     for (int i = first; i < first + count; ++i) {
         const Row &row = m_rows.at(i);
         const QString none = QStringLiteral("-");
-        lines << line(row.name, row.value, row.unit, row.hasExtremes ? shortNumber(row.minimum) : none,
-                      row.hasExtremes ? shortNumber(row.maximum) : none,
-                      row.value.isEmpty()        ? none
-                          : row.quality.isGood() ? ageText(now - row.changedAt)
-                                                 : row.quality.toString());
+        const QString quality = row.quality.isGood() ? QString() : row.quality.toString();
+        const QString text = line(row.name, row.value, row.unit, row.hasExtremes ? shortNumber(row.minimum) : none,
+                                  row.hasExtremes ? shortNumber(row.maximum) : none,
+                                  row.value.isEmpty()     ? none
+                                      : quality.isEmpty() ? ageText(now - row.changedAt)
+                                                          : quality);
+        lines << toned(text, row.value.isEmpty() ? Tone::Plain : toneOfQuality(quality));
     }
     return lines;
 }

@@ -21,6 +21,7 @@ private Q_SLOTS:
     void bashCompletes_data();
     void bashCompletes();
     void doctorExaminesThisComputer();
+    void doctorEndsWithAVerdictInOneLine();
     void findsMastersWithoutAnAddress();
     void findingNoneIsSaid();
 
@@ -163,6 +164,21 @@ void tst_qtplc_alone::bashCompletes()
 }
 
 // ---- doctor ----
+
+void tst_qtplc_alone::doctorEndsWithAVerdictInOneLine()
+{
+    const Outcome outcome = qtplc({"doctor"});
+    const QStringList lines = outcome.output.split('\n', Qt::SkipEmptyParts);
+    QVERIFY(lines.size() > 5);
+    const QString verdict = lines.constLast();
+    QVERIFY2(verdict.startsWith(outcome.exitCode == 0 ? "Ready for real time." : "Not ready for real time: cure "),
+             qPrintable(verdict));
+    for (const QString &line : lines) {
+        const QString subject = line.mid(9).section(QRegularExpression(" {1,}(?=\\S)"), 0, 0);
+        if (line.startsWith("to cure"))
+            QVERIFY2(verdict.contains(subject.trimmed()), qPrintable(verdict + " / " + line));
+    }
+}
 
 void tst_qtplc_alone::doctorExaminesThisComputer()
 {

@@ -123,6 +123,8 @@ private Q_SLOTS:
     void hzMeasuresTheCycle();
     void hzNeedsARunningPlant();
     void hzToldToStopTellsWhatItHas();
+    void coloursAreForTerminalsThatWantThem_data();
+    void coloursAreForTerminalsThatWantThem();
 
 private:
     QString value(const QString &signal) const
@@ -133,6 +135,36 @@ private:
 };
 
 // ---- get, list ----
+
+void tst_qtplc_values::coloursAreForTerminalsThatWantThem_data()
+{
+    QTest::addColumn<QByteArray>("term");
+    QTest::addColumn<QByteArray>("noColor");
+    QTest::addColumn<bool>("isColoured");
+    QTest::newRow("a terminal") << QByteArray("xterm") << QByteArray() << true;
+    QTest::newRow("NO_COLOR") << QByteArray("xterm") << QByteArray("1") << false;
+    QTest::newRow("a terminal without colours") << QByteArray("dumb") << QByteArray() << false;
+}
+
+void tst_qtplc_values::coloursAreForTerminalsThatWantThem()
+{
+    QFETCH(QByteArray, term);
+    QFETCH(QByteArray, noColor);
+    QFETCH(bool, isColoured);
+    const QByteArray before = qgetenv("TERM");
+    qputenv("TERM", term);
+    qputenv("NO_COLOR", noColor);
+    Terminal terminal;
+    TerminalProgram list(terminal, m_plant.withMaster("list tether*"));
+    qputenv("TERM", before);
+    qunsetenv("NO_COLOR");
+    QCOMPARE(list.waitForEnd(), 0);
+    const QByteArray screen = terminal.screen();
+    QVERIFY2(screen.contains("tetherSpeed"), screen.constData());
+    QCOMPARE(screen.contains('\033'), isColoured);
+    for (const QByteArray &line : screen.split('\n'))  // the terminal has 80 columns
+        QVERIFY2(isColoured || line.size() <= 81, line.constData());
+}
 
 void tst_qtplc_values::getPrintsNameValueAndUnit()
 {

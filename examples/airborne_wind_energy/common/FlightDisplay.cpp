@@ -87,14 +87,14 @@ Eigen::Vector3d vectorOf(const QPlcValue &value)
 
 bool FlightDisplay::hasTerminal()
 {
-    return ::isatty(STDERR_FILENO) != 0;
+    return ::isatty(STDERR_FILENO) != 0 && qgetenv("TERM") != "dumb";
 }
 
 FlightDisplay::FlightDisplay(QPlcMasterNode &master, double duration, Kind kind)
     : m_master(master)
     , m_duration(duration)
     , m_kind(kind)
-    , m_view(duration)
+    , m_view(duration, qEnvironmentVariableIsEmpty("NO_COLOR"))
     , m_listener(QStringLiteral("FlightView"))
 {
     if (!hasTerminal())

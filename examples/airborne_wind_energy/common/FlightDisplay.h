@@ -18,7 +18,7 @@ public:
         Picture  ///< FlightView on the whole screen, which is given back as it was
     };
 
-    /// Whether the standard error is a terminal.
+    /// Whether the standard error is a terminal that can be drawn on: not with TERM=dumb.
     static bool hasTerminal();
 
     /// \param master  outlives this object \param duration  planned [s], 0: open end

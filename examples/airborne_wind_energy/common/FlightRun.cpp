@@ -22,8 +22,8 @@ bool canShow(QPlcCoreApplication &application, const RunSettings &settings)
 {
     QString error;
     if (settings.watch && !FlightDisplay::hasTerminal())
-        error = QStringLiteral(
-            "--watch draws on a terminal, and the standard error is none; leave it out, or use --report");
+        error = QStringLiteral("--watch draws on a terminal, and the standard error is none (or TERM is dumb); leave "
+                               "it out, or use --report");
     else if (!settings.reportFile.isEmpty())
         canWriteReport(settings.reportFile, &error);
     if (!error.isEmpty())

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 namespace awe {
 
@@ -13,33 +12,24 @@ constexpr double pi = 3.14159265358979323846;
 constexpr double degreesPerRadian = 180.0 / pi;
 constexpr double windTimeConstant = 20.0;  // of the direction that the window looks to [s]
 constexpr int widest = 100;                // columns; more would only make the picture flat
-constexpr int tallest = 30;                // rows
+constexpr int tallest = 44;                // rows
 constexpr int axisWidth = 6;               // columns of " 90° ┤"
-constexpr int textRows = 7;                // everything but the window
+constexpr int textRows = 7;                // everything but the window and the plot
+constexpr int plotRows = 7;                // of the plot, with its label
+constexpr int fewestRows = 22;             // of a terminal that has room for the plot
+constexpr double longestGap = 0.5;         // between two points that a line connects [s]
 
-enum class Style { Plain, Axis, Title, TrailOld, TrailMiddle, TrailNew, Kite, Alarm };
+using Style = TerminalCanvas::Style;
 
-const char *colourCode(Style style)
+/// The smallest of 1, 2, 5, 10, 20 ... that is at least \a value.
+double niceLimit(double value)
 {
-    switch (style) {
-    case Style::Plain:
-        return "\033[0m";
-    case Style::Axis:
-        return "\033[0;38;5;244m";
-    case Style::Title:
-        return "\033[0;1m";
-    case Style::TrailOld:
-        return "\033[0;38;5;239m";
-    case Style::TrailMiddle:
-        return "\033[0;38;5;31m";
-    case Style::TrailNew:
-        return "\033[0;38;5;51m";
-    case Style::Kite:
-        return "\033[0;1;38;5;220m";
-    case Style::Alarm:
-        return "\033[0;1;31m";
+    const double decade = std::pow(10.0, std::floor(std::log10(value)));
+    for (const double step : {1.0, 2.0, 5.0}) {
+        if (value <= step * decade * (1.0 + 1e-9))
+            return step * decade;
     }
-    return "";
+    return 10.0 * decade;
 }
 
 double angleBetween(double angle, double reference)
@@ -60,63 +50,6 @@ QString phaseText(FlightPhase phase)
 
 }  // namespace
 
-/// Characters with a style each; what is put beyond the borders is not there.
-class FlightView::Canvas
-{
-public:
-    Canvas(int columns, int rows)
-        : m_columns(std::clamp(columns, 0, widest))
-        , m_rows(std::clamp(rows, 0, tallest))
-        , m_cells(std::size_t(m_columns) * std::size_t(m_rows))
-    {
-    }
-
-    int columns() const { return m_columns; }
-    int rows() const { return m_rows; }
-
-    void put(int column, int row, const QString &text, Style style = Style::Plain)
-    {
-        for (int i = 0; i < text.size(); ++i) {
-            const int place = column + i;
-            if (place >= 0 && place < m_columns && row >= 0 && row < m_rows)
-                m_cells[std::size_t(row * m_columns + place)] = {text.at(i), style};
-        }
-    }
-
-    QStringList lines() const
-    {
-        QStringList result;
-        for (int row = 0; row < m_rows; ++row)
-            result << line(row);
-        return result;
-    }
-
-private:
-    struct Cell
-    {
-        QChar character = QLatin1Char(' ');
-        Style style = Style::Plain;
-    };
-
-    QString line(int row) const
-    {
-        QString text;
-        Style style = Style::Plain;
-        for (int column = 0; column < m_columns; ++column) {
-            const Cell &cell = m_cells[std::size_t(row * m_columns + column)];
-            if (cell.style != style)
-                text += QLatin1String(colourCode(cell.style));
-            style = cell.style;
-            text += cell.character;
-        }
-        return style == Style::Plain ? text : text + QLatin1String(colourCode(Style::Plain));
-    }
-
-    int m_columns;
-    int m_rows;
-    std::vector<Cell> m_cells;
-};
-
 QString progressLine(const FlightMoment &moment, double duration)
 {
     return QStringLiteral("%1  %2 %3 m high  %4 m tether  %5 W  %6 kJ")
@@ -133,6 +66,7 @@ void FlightView::add(const FlightMoment &moment)
     const double direction = std::atan2(moment.windVelocity.y(), moment.windVelocity.x());
     if (m_trail.empty() || moment.time < m_moment.time) {
         m_trail.clear();
+        m_powers.clear();
         m_windDirection = direction;
     } else {
         const double share = 1.0 - std::exp(-(moment.time - m_moment.time) / windTimeConstant);
@@ -145,20 +79,26 @@ void FlightView::add(const FlightMoment &moment)
         {moment.time, angleBetween(azimuth, m_windDirection) * degreesPerRadian, elevation * degreesPerRadian});
     while (m_trail.front().time < moment.time - trailDuration)
         m_trail.pop_front();
+    m_powers.push_back({moment.time, moment.power});
+    while (m_powers.front().time < moment.time - plotDuration)
+        m_powers.pop_front();
 }
 
 QStringList FlightView::draw(int columns, int rows) const
 {
-    Canvas canvas(columns, rows);
-    const int windowRows = canvas.rows() - textRows;
+    TerminalCanvas canvas(std::min(columns, widest), std::min(rows, tallest));
+    const int plot = canvas.rows() >= fewestRows ? plotRows : 0;
+    const int window = canvas.rows() - textRows - plot;
     drawTitle(canvas);
-    if (windowRows >= 5)
-        drawWindow(canvas, 2, windowRows);
-    drawFigures(canvas, windowRows >= 5 ? windowRows + 4 : 1);
-    return canvas.lines();
+    if (window >= 5)
+        drawWindow(canvas, 2, window);
+    if (plot > 0)
+        drawPlot(canvas, window + 4, plot);
+    drawFigures(canvas, window >= 5 ? window + 4 + plot : 1);
+    return canvas.lines(m_hasColours);
 }
 
-void FlightView::drawTitle(Canvas &canvas) const
+void FlightView::drawTitle(TerminalCanvas &canvas) const
 {
     const QString text = QStringLiteral("%1   %2").arg(timeText(m_moment, m_duration), phaseText(m_moment.phase));
     canvas.put(0, 0, text, Style::Title);
@@ -167,7 +107,7 @@ void FlightView::drawTitle(Canvas &canvas) const
 }
 
 /// Elevation 0 ... 90 deg over `height` rows, azimuth -60 ... 60 deg from downwind over the rest of the width; beyond it the kite stands at the border.
-void FlightView::drawWindow(Canvas &canvas, int top, int height) const
+void FlightView::drawWindow(TerminalCanvas &canvas, int top, int height) const
 {
     const int width = canvas.columns() - axisWidth - 1;
     const auto column = [width](double azimuth) {
@@ -190,18 +130,67 @@ void FlightView::drawWindow(Canvas &canvas, int top, int height) const
         canvas.put(place, top + height + 1, label, Style::Axis);
     }
 
-    for (const TrailPoint &point : m_trail) {
-        const double age = (m_moment.time - point.time) / trailDuration;
-        const Style style = age > 0.6 ? Style::TrailOld : age > 0.25 ? Style::TrailMiddle : Style::TrailNew;
-        const QString mark = age > 0.6 ? QStringLiteral("·") : QStringLiteral("•");
-        canvas.put(column(point.azimuth), row(point.elevation), mark, style);
-    }
+    drawTrail(canvas, top, height);
     if (!m_trail.empty())
         canvas.put(column(m_trail.back().azimuth), row(m_trail.back().elevation), QStringLiteral("◆"),
                    m_moment.crashed ? Style::Alarm : Style::Kite);
 }
 
-void FlightView::drawFigures(Canvas &canvas, int top) const
+/// As drawWindow(), in dots.
+void FlightView::drawTrail(TerminalCanvas &canvas, int top, int height) const
+{
+    const int width = canvas.columns() - axisWidth - 1;
+    const auto x = [width](double azimuth) {
+        const double column = axisWidth + std::clamp(0.5 - azimuth / 120.0, 0.0, 1.0) * (width - 1);
+        return int(std::lround(TerminalCanvas::DotColumns * column + 0.5));
+    };
+    const auto y = [top, height](double elevation) {
+        const double row = top + std::clamp(1.0 - elevation / 90.0, 0.0, 1.0) * (height - 1);
+        return int(std::lround(TerminalCanvas::DotRows * row + 1.5));
+    };
+    for (std::size_t i = 0; i < m_trail.size(); ++i) {
+        const TrailPoint &point = m_trail[i];
+        const TrailPoint &before = m_trail[i > 0 && point.time - m_trail[i - 1].time <= longestGap ? i - 1 : i];
+        const double age = (m_moment.time - point.time) / trailDuration;
+        const Style style = age > 0.6 ? Style::TrailOld : age > 0.25 ? Style::TrailMiddle : Style::TrailNew;
+        canvas.stroke(x(before.azimuth), y(before.elevation), x(point.azimuth), y(point.elevation), style);
+    }
+}
+
+/// The power of the last minute, from the right to the left. \param height  rows, the last one is the label
+void FlightView::drawPlot(TerminalCanvas &canvas, int top, int height) const
+{
+    constexpr double kilowatt = 1e3;
+    const int width = canvas.columns() - axisWidth - 1;
+    const int rows = height - 1;
+    double lowest = 0.0, highest = 0.0;
+    for (const PowerPoint &point : m_powers) {
+        lowest = std::min(lowest, point.power);
+        highest = std::max(highest, point.power);
+    }
+    const double upper = niceLimit(std::max(highest, kilowatt));
+    const double lower = lowest < 0.0 ? -niceLimit(-lowest) : 0.0;
+    const auto row = [&](double power) { return top + (upper - power) / (upper - lower) * (rows - 1); };
+
+    for (int y = top; y < top + rows; ++y)
+        canvas.put(axisWidth - 1, y, QStringLiteral("│"), Style::Axis);
+    for (const double power : {upper, 0.0, lower})
+        canvas.put(0, int(std::lround(row(power))), QStringLiteral("%1 ┤").arg(power / kilowatt, 4), Style::Axis);
+    canvas.put(axisWidth, top + rows, QStringLiteral("power [kW], last %1 s").arg(plotDuration), Style::Axis);
+
+    const auto x = [&](double time) {
+        const double share = 1.0 - (m_moment.time - time) / plotDuration;
+        return int(std::lround(TerminalCanvas::DotColumns * (axisWidth + share * (width - 1)) + 0.5));
+    };
+    const auto y = [&](double power) { return int(std::lround(TerminalCanvas::DotRows * row(power) + 1.5)); };
+    for (std::size_t i = 0; i < m_powers.size(); ++i) {
+        const PowerPoint &point = m_powers[i];
+        const PowerPoint &before = m_powers[i > 0 && point.time - m_powers[i - 1].time <= longestGap ? i - 1 : i];
+        canvas.stroke(x(before.time), y(before.power), x(point.time), y(point.power), Style::TrailNew);
+    }
+}
+
+void FlightView::drawFigures(TerminalCanvas &canvas, int top) const
 {
     constexpr double shortest = 100.0, longest = 200.0;  // of the tether [m]
     constexpr int barWidth = 30;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "FlightPhase.h"
+#include "TerminalCanvas.h"
 
 #include <Eigen/Core>
 
@@ -28,16 +29,18 @@ struct FlightMoment
 /// One line that says where the flight stands. \param duration  planned [s], 0: open end
 QString progressLine(const FlightMoment &moment, double duration);
 
-/// The flight as a picture of characters: the wind window as seen from the winch, azimuth across and elevation up, with the kite and the trail behind
-/// it, and the figures below. Knows no terminal: it makes lines with ANSI colours.
+/// The flight as a picture of characters and Braille dots: the wind window as seen from the winch, azimuth across and elevation up, with the kite and the trail behind
+/// it, then a plot of the power, and the figures below. Knows no terminal: it makes lines, with ANSI colours if they are wanted.
 class FlightView
 {
 public:
     static constexpr double trailDuration = 20.0;  // [s]
+    static constexpr double plotDuration = 60.0;   // [s]
 
     /// \param duration  planned [s], 0: open end
-    explicit FlightView(double duration)
+    explicit FlightView(double duration, bool hasColours = true)
         : m_duration(duration)
+        , m_hasColours(hasColours)
     {
     }
 
@@ -54,16 +57,24 @@ private:
         double azimuth;    // from downwind, > 0 to the left of who looks downwind [deg]
         double elevation;  // [deg]
     };
-    class Canvas;
+    struct PowerPoint
+    {
+        double time;   // [s]
+        double power;  // [W]
+    };
 
-    void drawTitle(Canvas &canvas) const;
-    void drawWindow(Canvas &canvas, int top, int height) const;
-    void drawFigures(Canvas &canvas, int top) const;
+    void drawTitle(TerminalCanvas &canvas) const;
+    void drawWindow(TerminalCanvas &canvas, int top, int height) const;
+    void drawTrail(TerminalCanvas &canvas, int top, int height) const;
+    void drawPlot(TerminalCanvas &canvas, int top, int height) const;
+    void drawFigures(TerminalCanvas &canvas, int top) const;
 
     double m_duration;
+    bool m_hasColours;
     FlightMoment m_moment;
     double m_windDirection = 0.0;  // slowly following, from east to north [rad]
     std::deque<TrailPoint> m_trail;
+    std::deque<PowerPoint> m_powers;
 };
 
 }  // namespace awe

@@ -7,6 +7,7 @@
 #include <QtCore/QRegularExpression>
 #include <QtTest/QtTest>
 
+#include <algorithm>
 #include <cmath>
 
 using awe::FlightMoment;
@@ -48,6 +49,15 @@ QString trimmedEnd(QString line)
     return line;
 }
 
+/// Characters of Braille dots.
+int dotsOf(const QStringList &lines)
+{
+    const QString text = lines.join(QString());
+    return int(std::count_if(text.begin(), text.end(), [](QChar character) {
+        return character.unicode() > 0x2800 && character.unicode() <= 0x28ff;
+    }));
+}
+
 QPoint placeOf(const QStringList &lines, const QString &mark)
 {
     for (int row = 0; row < lines.size(); ++row) {
@@ -72,6 +82,9 @@ private Q_SLOTS:
     void downwindFollowsTheWindSlowly();
     void trailEndsAfterItsTime();
     void trailFades();
+    void pointsThatFollowEachOtherAreALine();
+    void plotShowsThePowerOfTheLastMinute();
+    void withoutColoursThereAreNoCodes();
     void earlierTimeIsAnotherFlight();
     void fitsEveryTerminal_data();
     void fitsEveryTerminal();
@@ -95,7 +108,7 @@ void tst_FlightView::pictureLooksLikeThis()
         "     │",
         " 60° ┤",
         "     │",
-        " 30° ┤             •            ◆",
+        " 30° ┤             ⢀            ◆",
         "     │",
         "     │",
         "  0° ┤",
@@ -116,7 +129,7 @@ void tst_FlightView::kiteStandsWhereItIsSeen_data()
     QTest::addColumn<double>("azimuth");
     QTest::addColumn<double>("elevation");
     QTest::addColumn<QPoint>("place");
-    // 100 columns, 6 for the axis: 93 columns for 120 deg; 30 rows, 23 of them for 90 deg
+    // 100 columns, 6 for the axis: 93 columns for 120 deg; 37 rows, 23 of them for 90 deg
     QTest::newRow("downwind on the ground") << 0.0 << 0.0 << QPoint(52, 24);
     QTest::newRow("zenith") << 0.0 << 90.0 << QPoint(52, 2);
     QTest::newRow("left") << 60.0 << 0.0 << QPoint(6, 24);
@@ -133,7 +146,7 @@ void tst_FlightView::kiteStandsWhereItIsSeen()
     QFETCH(QPoint, place);
     FlightView view(0.0);
     view.add(momentAt(0.0, azimuth, elevation));
-    QCOMPARE(placeOf(withoutCodes(view.draw(100, 30)), QStringLiteral("◆")), place);
+    QCOMPARE(placeOf(withoutCodes(view.draw(100, 37)), QStringLiteral("◆")), place);
 }
 
 void tst_FlightView::downwindFollowsTheWindSlowly()
@@ -141,15 +154,15 @@ void tst_FlightView::downwindFollowsTheWindSlowly()
     FlightView view(0.0);
     FlightMoment moment = momentAt(0.0, 0.0, 30.0);
     view.add(moment);
-    const int downwind = placeOf(withoutCodes(view.draw(100, 30)), QStringLiteral("◆")).x();
+    const int downwind = placeOf(withoutCodes(view.draw(100, 37)), QStringLiteral("◆")).x();
     moment.windVelocity = Eigen::Vector3d(6.0 * std::cos(0.5), 6.0 * std::sin(0.5),
                                           0.0);  // turns to the left: the kite is to its right
     moment.time = 0.01;
     view.add(moment);
-    QCOMPARE(placeOf(withoutCodes(view.draw(100, 30)), QStringLiteral("◆")).x(), downwind);
+    QCOMPARE(placeOf(withoutCodes(view.draw(100, 37)), QStringLiteral("◆")).x(), downwind);
     moment.time = 200.0;
     view.add(moment);
-    QVERIFY(placeOf(withoutCodes(view.draw(100, 30)), QStringLiteral("◆")).x() > downwind + 20);
+    QVERIFY(placeOf(withoutCodes(view.draw(100, 37)), QStringLiteral("◆")).x() > downwind + 20);
 }
 
 void tst_FlightView::trailEndsAfterItsTime()
@@ -157,9 +170,9 @@ void tst_FlightView::trailEndsAfterItsTime()
     FlightView view(0.0);
     view.add(momentAt(0.0, 30.0, 30.0));
     view.add(momentAt(20.0, 0.0, 30.0));
-    QVERIFY(withoutCodes(view.draw(80, 24)).join(QString()).contains(QStringLiteral("·")));
+    QCOMPARE(dotsOf(view.draw(80, 16)), 1);  // the kite hides its own
     view.add(momentAt(20.01, 0.0, 30.0));
-    QVERIFY(!withoutCodes(view.draw(80, 24)).join(QString()).contains(QStringLiteral("·")));
+    QCOMPARE(dotsOf(view.draw(80, 16)), 0);
 }
 
 void tst_FlightView::trailFades()
@@ -169,16 +182,60 @@ void tst_FlightView::trailFades()
     view.add(momentAt(10.0, 20.0, 30.0));
     view.add(momentAt(18.0, -20.0, 30.0));
     view.add(momentAt(19.0, -40.0, 30.0));
-    const QStringList lines = view.draw(80, 24);
+    const QStringList lines = view.draw(80, 16);
     const int row = placeOf(withoutCodes(lines), QStringLiteral("◆")).y();
     const QString line = lines.at(row);
     QStringList colours;
     QRegularExpressionMatchIterator matches
-        = QRegularExpression(QStringLiteral("\033\\[([0-9;]*)m([·•◆])")).globalMatch(line);
+        = QRegularExpression(QStringLiteral("\033\\[([0-9;]*)m([\u2801-\u28ff◆])")).globalMatch(line);
     while (matches.hasNext())
         colours << matches.next().captured(1);
     QCOMPARE(colours.size(), 4);
     QCOMPARE(colours.removeDuplicates(), 0);
+}
+
+void tst_FlightView::pointsThatFollowEachOtherAreALine()
+{
+    FlightView line(0.0);
+    FlightView points(0.0);
+    line.add(momentAt(0.0, 40.0, 30.0));
+    line.add(momentAt(0.5, -40.0, 30.0));
+    points.add(momentAt(0.0, 40.0, 30.0));
+    points.add(momentAt(0.6, -40.0, 30.0));  // nothing was heard in between: nothing is known
+    QVERIFY(dotsOf(line.draw(80, 16)) > 40);
+    QCOMPARE(dotsOf(points.draw(80, 16)), 1);
+}
+
+void tst_FlightView::plotShowsThePowerOfTheLastMinute()
+{
+    FlightView view(0.0);
+    for (int i = 0; i <= 700; ++i) {
+        FlightMoment moment = momentAt(0.1 * i, 0.0, 30.0);
+        moment.power = i < 400 ? -1500.0 : 3200.0;
+        view.add(moment);
+    }
+    const QStringList lines = withoutCodes(view.draw(80, 24));
+    const int label = placeOf(lines, QStringLiteral("power [kW], last 60 s")).y();
+    QVERIFY(label > 6);
+    QVERIFY(lines.at(label - 6).startsWith(QStringLiteral("   5 ┤")));
+    QVERIFY(lines.at(label - 1).startsWith(QStringLiteral("  -2 ┤")));
+    // Half of the minute it was below zero, then above: to the left below, to the right above.
+    const auto dotsIn
+        = [&lines](int row, int first, int last) { return dotsOf({lines.at(row).mid(first, last - first)}); };
+    QCOMPARE(dotsIn(label - 1, 6, 40) + dotsIn(label - 2, 6, 40), 34);
+    QCOMPARE(dotsIn(label - 1, 46, 80) + dotsIn(label - 2, 46, 80), 0);
+    QVERIFY(dotsIn(label - 5, 46, 80) >= 30);
+    QVERIFY(!withoutCodes(view.draw(80, 21)).join(QString()).contains(QStringLiteral("power [kW]")));  // no room
+}
+
+void tst_FlightView::withoutColoursThereAreNoCodes()
+{
+    FlightView view(60.0, false);
+    view.add(momentAt(1.0, -60.0, 30.0));
+    QVERIFY(!view.draw(80, 24).join(QString()).contains(QLatin1Char('\033')));
+    FlightView coloured(60.0);
+    coloured.add(momentAt(1.0, -60.0, 30.0));
+    QCOMPARE(withoutCodes(coloured.draw(80, 24)), view.draw(80, 24));
 }
 
 void tst_FlightView::earlierTimeIsAnotherFlight()
@@ -186,9 +243,9 @@ void tst_FlightView::earlierTimeIsAnotherFlight()
     FlightView view(0.0);
     view.add(momentAt(10.0, 30.0, 30.0));
     view.add(momentAt(0.0, 0.0, 30.0));
-    const QString text = withoutCodes(view.draw(80, 24)).join(QString());
-    QCOMPARE(text.count(QStringLiteral("•")) + text.count(QStringLiteral("·")), 0);
-    QCOMPARE(text.count(QStringLiteral("◆")), 1);
+    const QStringList lines = view.draw(80, 16);
+    QCOMPARE(dotsOf(lines), 0);
+    QCOMPARE(withoutCodes(lines).join(QString()).count(QStringLiteral("◆")), 1);
 }
 
 void tst_FlightView::fitsEveryTerminal_data()
