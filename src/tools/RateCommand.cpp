@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // hz: the rate of the cycle, and its evenness, as a listener hears it.
 #include "Commands.h"
+#include "HistogramText.h"
 #include "RateStatistics.h"
 #include "TerminalText.h"
 #include "realtime/SpscRing.h"
@@ -38,6 +39,7 @@ private:
 /// State of the master at one moment.
 struct MasterState
 {
+    QString name;  // as docs/protocol.md has it
     bool isRunning = false;
     double period = 0.0;  // [s]
     QString clock;
@@ -50,6 +52,7 @@ struct MasterState
             return false;
         const QString name = answer.text(QStringLiteral("state"));
         const QJsonObject counters = answer.fields().value(QStringLiteral("counters")).toObject();
+        state->name = name;
         state->isRunning = hasCycles(name);
         state->period = answer.fields().value(QStringLiteral("period")).toDouble() * 1e-9;
         state->clock = answer.text(QStringLiteral("clock"));
@@ -63,7 +66,6 @@ void print(const RateStatistics &rate, const MasterState &state, quint64 skipped
     const auto field = [](const char *label, const QString &value) {
         printLine(QStringLiteral("%1%2").arg(QString::fromLatin1(label), -10).arg(value));
     };
-    const auto milliseconds = [](double ns) { return QString::number(ns * 1e-6, 'f', 4); };
     field("cycles", QStringLiteral("%1 in %2 s").arg(rate.cycles()).arg(rate.duration(), 0, 'f', 3));
     field("rate",
           QStringLiteral("%1 Hz (%2, period %3 ms)")
@@ -71,9 +73,9 @@ void print(const RateStatistics &rate, const MasterState &state, quint64 skipped
               .arg(printable(state.clock))
               .arg(state.period * 1e3));
     field("interval",
-          QStringLiteral("mean %1  min %2  max %3  std %4 ms")
-              .arg(milliseconds(rate.mean()), milliseconds(rate.minimum()), milliseconds(rate.maximum()),
-                   milliseconds(rate.deviation())));
+          QStringLiteral("mean %1, min %2, max %3, standard deviation %4")
+              .arg(durationText(rate.mean()), durationText(rate.minimum()), durationText(rate.maximum()),
+                   durationText(rate.deviation())));
     field("lost",
           rate.lost() == 0 ? QStringLiteral("0")
                            : QStringLiteral("%1 (cycles %2), of them skipped by the master: %3")
@@ -132,7 +134,9 @@ int measureRate(const CommandCall &call)
     if (!call.readNumber("for", 0.01, 1e6, &seconds) || !call.connect() || !MasterState::read(call, &before))
         return call.exitCode();
     if (!before.isRunning) {
-        QPlcCoreApplication::printError(QStringLiteral("the master does not run; start it: qtplc start"));
+        QPlcCoreApplication::printError(
+            QStringLiteral("the master is in state %1 and has no cycles; start it: qtplc start")
+                .arg(printable(before.name)));
         return QPlcCoreApplication::Failure;
     }
     const auto endIsWanted = call.quitOnSignals();

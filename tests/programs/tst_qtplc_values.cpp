@@ -442,13 +442,17 @@ void tst_qtplc_values::hzMeasuresTheCycle()
     for (const char *line :
          {"cycles    ", "\nrate      ", " Hz (RealTime, period 10 ms)\n", "\ninterval  mean ", "\nlost      "})
         QVERIFY2(text.output.contains(line), qPrintable(text.output));
+    const QString number = "\\d[\\d.]* (s|ms|us|ns)";  // each with its unit
+    QVERIFY2(text.output.contains(QRegularExpression("interval  mean " + number + ", min " + number + ", max " + number
+                                                     + ", standard deviation " + number)),
+             qPrintable(text.output));
 }
 
 void tst_qtplc_values::hzNeedsARunningPlant()
 {
     const Outcome outcome = m_plant.qtplc("hz");
     QCOMPARE(outcome.exitCode, 1);
-    QCOMPARE(outcome.errors, QString("qtplc: the master does not run; start it: qtplc start\n"));
+    QCOMPARE(outcome.errors, QString("qtplc: the master is in state Off and has no cycles; start it: qtplc start\n"));
 }
 
 void tst_qtplc_values::hzToldToStopTellsWhatItHas()
