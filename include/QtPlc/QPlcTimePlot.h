@@ -6,7 +6,7 @@
 
 /// Signals over time, as a panel of a Control Center: live, zoomed, frozen, measured between two cursors, and exported.
 ///
-/// A curve is gain * signal + offset, on the left or the right axis. Integers and booleans are steps; NaN and interruptions are gaps. Signals that are not there are kept, and drawn as soon as they are.
+/// A curve is gain * signal + offset. Each unit has its own y axis: the first one at the left, others at the right, unless "axis" chooses the side. Integers and booleans are steps; NaN and interruptions are gaps. Signals that are not there are kept, and drawn as soon as they are.
 ///
 /// | | mouse | keys |
 /// |---|---|---|
@@ -20,6 +20,7 @@
 /// | statistics between A and B | fold by the arrow | `S` |
 /// | add a signal | drop | `Insert`; `+` while there is none |
 /// | choose, hide, remove a curve | click in the legend hides; context menu | `N`, `Shift+N`; `V`; `Delete` |
+/// | the other side for the axis of a curve | context menu of the curve | `Y` |
 /// | reference line, with its value; none | context menu | `R`; `Shift+R` |
 /// | trigger on and off | context menu | `T` |
 /// | export what is seen | context menu | `Ctrl+E` CSV, `Ctrl+C` table into the clipboard, `Ctrl+Shift+E` PNG, SVG or PDF, `Ctrl+Shift+C` picture into the clipboard |
@@ -33,7 +34,7 @@
 /// Settings, each with its default when it is not there, whatever it was before:
 /// ```json
 /// {"curves": [{"signal": "kite.elevation", "name": "Elevation", "gain": 1, "offset": 0, "color": "#d55e00", "axis": "right", "visible": false}],
-///  "left": {"minimum": 0, "maximum": 90, "lines": [60, 75]}, "right": {}, "time": "own", "span": 10, "labels": "seconds", "grid": false, "limits": true,
+///  "left": {"minimum": 0, "maximum": 90, "lines": [60, 75]}, "right": {}, "axes": {"N": {"minimum": 0}}, "time": "own", "span": 10, "labels": "seconds", "grid": false, "limits": true,
 ///  "legend": false, "statistics": false,
 ///  "trigger": {"on": true, "signal": "kite.elevation", "kind": "rising", "level": 30, "upperLevel": 1, "hysteresis": 0, "mode": "normal", "pre": 0.2, "holdOff": 0, "linked": false}}
 /// ```

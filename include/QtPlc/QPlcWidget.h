@@ -57,9 +57,12 @@ public:
     static QPlcWidgetFactory *factory(const QString &name);
     virtual QPlcWidgetFactory *factory() const { return factory(type()); }
 
-    /// What stands above the panel; empty: the name of the factory.
+    /// What stands above the panel: the title that a person gave it, else defaultTitle().
     QString title() const;
+    /// \param title  empty: defaultTitle()
     void setTitle(const QString &title);
+    /// What the panel shows in a few words: "power, tetherLength"; the name of the factory while setDefaultTitle() was not called.
+    QString defaultTitle() const;
 
     /// Everything that makes this widget what it is, but for what it shows at the moment. Keys that applySettings() did not know are part of it.
     virtual QJsonObject settings() const;
@@ -102,6 +105,8 @@ Q_SIGNALS:
 protected:
     /// There is a context() now.
     virtual void contextChanged() {}
+    /// \param title  empty: the name of the factory
+    void setDefaultTitle(const QString &title);
     void setInputSignalIndices(const QPlcSignalIndexList &indices);
     void setOutputSignalIndices(const QPlcSignalIndexList &indices);
     void setInitialOutputSignals(const QPlcSignalList &signalValues);

@@ -27,6 +27,7 @@ QPlcWidgetFactory *findFactory(Matches matches)
 struct QPlcWidget::Private
 {
     QString title;
+    QString defaultTitle;
     QJsonObject settings;
     QPlcSignalIndexList inputs;
     QPlcSignalIndexList outputs;
@@ -64,8 +65,24 @@ QString QPlcWidget::title() const
 {
     if (!d->title.isEmpty())
         return d->title;
+    return defaultTitle();
+}
+
+QString QPlcWidget::defaultTitle() const
+{
+    if (!d->defaultTitle.isEmpty())
+        return d->defaultTitle;
     const QPlcWidgetFactory *maker = factory();
     return maker ? maker->name() : QString();
+}
+
+void QPlcWidget::setDefaultTitle(const QString &title)
+{
+    if (title == d->defaultTitle)
+        return;
+    d->defaultTitle = title;
+    if (d->title.isEmpty())
+        Q_EMIT titleChanged();
 }
 
 void QPlcWidget::setTitle(const QString &title)

@@ -61,7 +61,7 @@ void ChartPicture::paintPlot(QPainter *painter) const
     QwtPlotRenderer renderer;
     renderer.setDiscardFlag(QwtPlotRenderer::DiscardBackground);
     renderer.setDiscardFlag(QwtPlotRenderer::DiscardCanvasBackground);
-    renderer.render(m_plot, painter, QRectF(QPointF(), m_plot->size()));
+    renderer.render(m_plot, painter, QRectF(m_plot->contentsRect()));
 }
 
 void ChartPicture::paint(QPainter *painter) const

@@ -1,18 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "PlotSettings.h"
+#include "FurtherAxis.h"
+#include "PlotAxes.h"
 #include "QPlcValueNames.h"
 #include "TimeTicks.h"
 #include "gui/panel/Theme.h"
 #include "gui/plot/TimeColumns.h"
 
+#include <QtCore/QHash>
+
 #include <qwt_plot.h>
 #include <qwt_plot_grid.h>
+
+#include <memory>
+#include <vector>
 
 namespace qplc {
 
 class TimeScaleDraw;
+class ValueScaleDraw;
 
 /// Axes and grid of a time plot. Knows times and pixels, but no signals.
 ///
@@ -22,15 +29,25 @@ class PlotCanvas : public QwtPlot
     Q_OBJECT
 public:
     using Time = TimeTicks::Time;
-    using Axis = PlotCurveSettings::Axis;
+    using Axis = int;  // of PlotAxes
 
     explicit PlotCanvas(QWidget *parent = nullptr);
+    ~PlotCanvas() override;
 
-    static QwtPlot::Axis qwtAxis(Axis axis) { return axis == Axis::Left ? yLeft : yRight; }
+    /// From now on there are these. Those that were there before are not made anew.
+    void setAxes(const PlotAxes &axes);
+    int axisCount() const { return int(m_axes.size()); }
+    /// The scale beside the curves.
+    QwtScaleWidget *scaleWidget(Axis axis) const;
+    /// -1: it is no y axis.
+    Axis axisOf(const QWidget *scale) const;
+    /// Attaches an item whose values are those of an axis.
+    void attach(QwtPlotItem *item, Axis axis);
 
     void setTheme(const Theme &theme);
     void setGridVisible(bool isVisible) { m_grid.setVisible(isVisible); }
-    void setUnit(Axis axis, const QString &unit);
+    /// \param colors  of the curves of the axis; empty: it is the only one, whose colour says nothing
+    void setUnit(Axis axis, const QString &unit, const QVector<QColor> &colors = {});
     /// Without numbers an axis keeps its room, so that canvases stay aligned.
     void setNumbersVisible(Axis axis, bool areVisible);
     /// What ticks are called; empty: numbers.
@@ -38,7 +55,9 @@ public:
     /// Small panels have little room at their sides: for short labels, and none for units.
     bool isCompact() const { return m_isCompact; }
     void setCompact(bool isCompact);
-    void setAxisVisible(Axis axis, bool isVisible) { enableAxis(qwtAxis(axis), isVisible); }
+    /// A further axis is seen where the curves keep room enough.
+    void setAxisVisible(Axis axis, bool isVisible);
+    bool isAxisVisible(Axis axis) const;
 
     /// Device pixels that the canvas is wide, >= 1.
     int deviceWidth() const;
@@ -56,27 +75,53 @@ public:
     /// \param x  [px] from the left edge of the canvas
     Time timeAt(double x) const;
     double xOf(Time time) const;
-    double valueAt(Axis axis, double y) const { return canvasMap(qwtAxis(axis)).invTransform(y); }
-    double yOf(Axis axis, double value) const { return canvasMap(qwtAxis(axis)).transform(value); }
+    double valueAt(Axis axis, double y) const { return mapOf(axis).invTransform(y); }
+    double yOf(Axis axis, double value) const { return mapOf(axis).transform(value); }
+
+    /// Draws the axes that QwtPlotRenderer does not know. \pre the origin is that of the plot
+    void paintFurtherAxes(QPainter *painter) const;
+
+    void updateLayout() override;
+    void drawItems(QPainter *painter, const QRectF &canvasRect, const QwtScaleMap maps[axisCnt]) const override;
 
 Q_SIGNALS:
     /// The canvas has another size.
     void resized();
+    /// There is one more scale that hears the mouse.
+    void scaleAdded(QWidget *scale);
 
 protected:
     void resizeEvent(QResizeEvent *event) override;
     void changeEvent(QEvent *event) override;
 
 private:
+    struct ValueAxis
+    {
+        QString unit;
+        QVector<QColor> colors;
+        QPlcValueNames names;
+        bool hasNumbers = true;
+        bool isVisible = true;
+        QwtScaleDiv scale;
+        std::unique_ptr<FurtherAxis> further;  // null: the plot has it
+    };
+
     void renewScales();
+    void renewScale(Axis axis);
     void applyNames(Axis axis);
-    void showUnits();
+    void showUnit(Axis axis);
+    void showColor(Axis axis);
+    ValueScaleDraw *scaleDraw(Axis axis) const;
+    QwtScaleMap mapOf(Axis axis) const;
+    QwtScaleMap mapOf(Axis axis, QwtScaleMap ofLeft) const;
+    void makeRoom();
+    void placeFurtherAxes();
 
     QwtPlotGrid m_grid;
     TimeScaleDraw *m_timeScale = nullptr;  // of the x axis, which owns it
-    QString m_units[2];                    // of the y axes
-    QPlcValueNames m_names[2];
-    bool m_hasNumbers[2] = {true, true};
+    std::vector<ValueAxis> m_axes;
+    QHash<const QwtPlotItem *, Axis> m_axisOfItem;  // of further axes
+    QColor m_mutedText;
     bool m_isCompact = false;
     Time m_origin = 0;
     Time m_begin = 0;

@@ -33,13 +33,13 @@ void QPlcTimePlot::Private::makeActions()
     };
     const auto panUp = [this](double share) {
         return [this, share] {
-            for (const Axis axis : {Axis::Left, Axis::Right})
+            for (Axis axis = 0; axis < curves.axes().count(); ++axis)
                 panValues(axis, share * canvas->canvas()->height());
         };
     };
     const auto zoomUp = [this](double factor) {
         return [this, factor] {
-            for (const Axis axis : {Axis::Left, Axis::Right})
+            for (Axis axis = 0; axis < curves.axes().count(); ++axis)
                 zoomValues(axis, factor, 0.5 * canvas->canvas()->height());
         };
     };
@@ -90,6 +90,9 @@ void QPlcTimePlot::Private::makeActions()
     bandsAction->setCheckable(true);
     limitsAction = make(QPlcTimePlot::tr("Limits"), {key(Qt::Key_M)}, "limits", [this] { toggleLimits(); });
     limitsAction->setCheckable(true);
+    rightAxisAction
+        = make(QPlcTimePlot::tr("Right axis"), {key(Qt::Key_Y)}, "rightAxis", [this] { toggleRightAxis(); });
+    rightAxisAction->setCheckable(true);
     triggerAction = make(QPlcTimePlot::tr("Trigger"), {key(Qt::Key_T)}, "trigger", [this] { toggleTrigger(); });
     triggerAction->setCheckable(true);
     makeExportActions();
@@ -152,6 +155,7 @@ QMenu *QPlcTimePlot::Private::createMenu(int curve, std::optional<QPoint> mouse)
         menu->addSection(curves.at(curve).settings.text());
         add("toggle");
         add("remove");
+        add("rightAxis");
         if (curves.at(curve).canBeBands())
             add("bands");
     }
@@ -264,53 +268,10 @@ void QPlcTimePlot::Private::zoomTime(double factor, Time about)
     view()->zoom(factor, staysLive ? view()->end() : about);
 }
 
-void QPlcTimePlot::Private::zoomValues(Axis axis, double factor, double about)
-{
-    if (!curves.hasAxis(axis))
-        return;
-    const auto [low, high] = valuesOf(axis);
-    const double fixed = high - about / std::max(1, canvas->canvas()->height()) * (high - low);
-    ValueAxis &values = axes[axis];
-    const double minimum = fixed + factor * (low - fixed);
-    const double maximum = fixed + factor * (high - fixed);
-    // Below, neighbours of 32-bit values are farther apart than pixels.
-    if (!(maximum - minimum > 1e-9 * std::max(std::abs(minimum), std::abs(maximum)))
-        || !std::isfinite(maximum - minimum))
-        return;
-    values.isHeld = true;
-    values.minimum = minimum;
-    values.maximum = maximum;
-    ++version;
-    schedule();
-}
-
-void QPlcTimePlot::Private::panValues(Axis axis, double by)
-{
-    if (!curves.hasAxis(axis))
-        return;
-    const auto [low, high] = valuesOf(axis);
-    const double shift = by / std::max(1, canvas->canvas()->height()) * (high - low);
-    ValueAxis &values = axes[axis];
-    values.minimum = low + shift;
-    values.maximum = high + shift;
-    values.isHeld = true;
-    ++version;
-    schedule();
-}
-
-/// Ends of a y axis, also of one that is not drawn yet: steps of a mouse come more often than pictures.
-std::pair<double, double> QPlcTimePlot::Private::valuesOf(Axis axis) const
-{
-    const ValueAxis &values = axes[axis];
-    if (values.isHeld)
-        return {values.minimum, values.maximum};
-    return {canvas->valueAt(axis, canvas->canvas()->height()), canvas->valueAt(axis, 0.0)};
-}
-
 void QPlcTimePlot::Private::showBox(const QRect &chosen)
 {
-    for (const Axis axis : {Axis::Left, Axis::Right}) {
-        ValueAxis &values = axes[axis];
+    for (Axis axis = 0; axis < curves.axes().count(); ++axis) {
+        ValueAxis &values = axes[std::size_t(axis)];
         values.minimum = canvas->valueAt(axis, chosen.bottom() + 1);
         values.maximum = canvas->valueAt(axis, chosen.top());
         values.isHeld = curves.hasAxis(axis) && values.minimum < values.maximum;
@@ -368,11 +329,6 @@ void QPlcTimePlot::Private::moveCursor(int pixels)
         placeCursor(lastCursor);
 }
 
-bool QPlcTimePlot::Private::hasLines() const
-{
-    return !settings.left.lines.isEmpty() || !settings.right.lines.isEmpty();
-}
-
 const PlotCurve *QPlcTimePlot::Private::chosenCurve() const
 {
     const int place = curves.selected() < 0 && curves.size() == 1 ? 0 : curves.selected();
@@ -396,38 +352,14 @@ void QPlcTimePlot::Private::showChecks()
     bandsAction->setEnabled(curve && curve->canBeBands());
     bandsAction->setChecked(curve && curve->isDrawnAsBands());
     limitsAction->setChecked(settings.showsLimits());
+    rightAxisAction->setEnabled(curve && !curve->isDrawnAsBands());
+    rightAxisAction->setChecked(curve && curves.axes().at(curve->axis).side == PlotCurveSettings::Right);
 }
 
 void QPlcTimePlot::Private::toggleLimits()
 {
     PlotSettings wanted = settings;
     wanted.limits = !settings.showsLimits();
-    edit(wanted);
-}
-
-/// At the mouse, or in the middle; a value with as many digits as pixels tell apart.
-void QPlcTimePlot::Private::addLine()
-{
-    if (curves.isEmpty())
-        return;
-    const Axis axis = curves.hasAxis(Axis::Left) ? Axis::Left : Axis::Right;
-    const double y = interaction->mouse() ? interaction->mouse()->y() : 0.5 * canvas->canvas()->height();
-    const double value = canvas->valueAt(axis, y);
-    const double pixel = std::abs(canvas->valueAt(axis, y + 1.0) - value);
-    const int digits = std::clamp(int(std::ceil(std::log10(std::abs(value) / pixel))), 1, 7);
-    PlotSettings wanted = settings;
-    QVector<double> &lines = (axis == Axis::Left ? wanted.left : wanted.right).lines;
-    lines.append(QString::number(value, 'g', digits).toDouble());
-    edit(wanted);
-}
-
-void QPlcTimePlot::Private::removeLines()
-{
-    if (!hasLines())
-        return;
-    PlotSettings wanted = settings;
-    wanted.left.lines.clear();
-    wanted.right.lines.clear();
     edit(wanted);
 }
 

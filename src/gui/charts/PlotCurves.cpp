@@ -2,8 +2,8 @@
 #include "PlotCurves.h"
 
 #include "ChartLook.h"
+#include "PlotCanvas.h"
 
-#include <qwt_plot.h>
 #include <qwt_plot_marker.h>
 
 #include <algorithm>
@@ -19,11 +19,6 @@ constexpr double limitOpacity = 0.6;                 // of the colour of the cur
 constexpr double laneMargin = 3.0;                   // [px] between bands and lines
 constexpr int digitsOfLine = 6;
 constexpr double limitDepth = 15.0;  // below the curves, above the grid
-
-QwtPlot::Axis qwtAxis(PlotCurveSettings::Axis axis)
-{
-    return axis == PlotCurveSettings::Left ? QwtPlot::yLeft : QwtPlot::yRight;
-}
 
 SignalStore::Range united(const SignalStore::Range &a, const SignalStore::Range &b)
 {
@@ -63,7 +58,7 @@ SignalStore::Mark PlotCurve::mark(std::optional<SignalStore::Time> time) const
     return store.greatestMark(source.channel, begin, end);
 }
 
-PlotCurves::PlotCurves(QwtPlot *plot)
+PlotCurves::PlotCurves(PlotCanvas *plot)
     : m_plot(plot)
 {
 }
@@ -76,40 +71,51 @@ void PlotCurves::bind(const PlotSettings &settings, const CurveSources *sources,
     m_curves.clear();
     m_stores.clear();
     m_selected = std::min(m_selected, settings.curves.size() - 1);
+    m_axes = PlotAxes();
     for (const PlotCurveSettings &wanted : settings.curves) {
         PlotCurve curve;
         curve.settings = wanted;
         curve.source = sources ? sources->find(wanted.signal) : CurveSource();
         curve.color = wanted.color.isValid() ? wanted.color : theme.curve(size());
         curve.penStyle = Theme::curveStyle(size());
+        if (curve.isMissing())
+            curve.axis = wanted.axis == PlotCurveSettings::Right ? 1 : 0;
+        else if (!curve.isDrawnAsBands())
+            curve.axis = m_axes.add(wanted.axis, curve.source.unit);
+        m_curves.push_back(std::move(curve));
+    }
+    m_plot->setAxes(m_axes);
+    for (PlotCurve &curve : m_curves) {
         if (curve.isSeen())
             show(&curve, settings.showsLimits(), theme);
-        m_curves.push_back(std::move(curve));
     }
     placeBands();
     select(m_selected, theme);
     m_lines.clear();
-    showLines(PlotCurveSettings::Left, settings.left.lines, theme);
-    showLines(PlotCurveSettings::Right, settings.right.lines, theme);
+    m_lineValues.assign(std::size_t(m_axes.count()), {});
+    for (int axis = 0; axis < m_axes.count(); ++axis)
+        showLines(axis, settings.range(axis, m_axes.at(axis).unit).lines, theme);
 }
 
-void PlotCurves::showLines(PlotCurveSettings::Axis axis, const QVector<double> &lines, const Theme &theme)
+void PlotCurves::showLines(int axis, const QVector<double> &lines, const Theme &theme)
 {
-    m_lineValues[axis] = hasAxis(axis) ? lines : QVector<double>();
-    for (const double line : qAsConst(m_lineValues[axis])) {
+    if (!hasAxis(axis))
+        return;
+    m_lineValues[std::size_t(axis)] = lines;
+    for (const double line : lines) {
         auto marker = std::make_unique<QwtPlotMarker>();
         marker->setLineStyle(QwtPlotMarker::HLine);
         marker->setLinePen(theme.text, 1.0, Qt::DashDotLine);
         marker->setYValue(line);
-        marker->setYAxis(qwtAxis(axis));
         marker->setZ(limitDepth);
         QwtText text(QString::number(line, 'g', digitsOfLine));
         text.setColor(theme.text);
         text.setFont(scaleFont(m_plot->font()));
         marker->setLabel(text);
-        marker->setLabelAlignment((axis == PlotCurveSettings::Left ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignTop);
+        marker->setLabelAlignment((m_axes.at(axis).side == PlotCurveSettings::Left ? Qt::AlignLeft : Qt::AlignRight)
+                                  | Qt::AlignTop);
         marker->setSpacing(1);
-        marker->attach(m_plot);
+        m_plot->attach(marker.get(), axis);
         m_lines.push_back(std::move(marker));
     }
 }
@@ -130,9 +136,8 @@ void PlotCurves::show(PlotCurve *curve, bool showsLimits, const Theme &theme)
     curve->item->setScaling(curve->settings.gain, curve->settings.offset);
     curve->item->setStyle(source.isStepped ? StoreCurve::Steps : StoreCurve::Line);
     curve->item->setOrigin(m_origin);
-    curve->item->setYAxis(qwtAxis(curve->settings.axis));
     curve->item->setRenderHint(QwtPlotItem::RenderAntialiased);
-    curve->item->attach(m_plot);
+    m_plot->attach(curve->item.get(), curve->axis);
     for (const std::optional<double> &limit : {source.minimum, source.maximum}) {
         if (showsLimits && limit)
             showLimit(curve, curve->settings.gain * *limit + curve->settings.offset);
@@ -171,9 +176,8 @@ void PlotCurves::showLimit(PlotCurve *curve, double limit)
     marker->setLineStyle(QwtPlotMarker::HLine);
     marker->setLinePen(color, 1.0, Qt::DashLine);
     marker->setYValue(limit);
-    marker->setYAxis(qwtAxis(curve->settings.axis));
     marker->setZ(limitDepth);
-    marker->attach(m_plot);
+    m_plot->attach(marker.get(), curve->axis);
     curve->limits.push_back(std::move(marker));
 }
 
@@ -202,11 +206,29 @@ void PlotCurves::setOrigin(SignalStore::Time origin)
     }
 }
 
-bool PlotCurves::hasAxis(PlotCurveSettings::Axis axis) const
+bool PlotCurves::hasAxis(int axis) const
 {
     return std::any_of(m_curves.begin(), m_curves.end(), [axis](const PlotCurve &each) {
-        return each.settings.axis == axis && each.settings.isVisible && !each.isDrawnAsBands();
+        return each.axis == axis && each.settings.isVisible && !each.isDrawnAsBands();
     });
+}
+
+int PlotCurves::seenAxes() const
+{
+    int seen = 0;
+    for (int axis = 0; axis < m_axes.count(); ++axis)
+        seen += hasAxis(axis) ? 1 : 0;
+    return seen;
+}
+
+QVector<QColor> PlotCurves::colors(int axis) const
+{
+    QVector<QColor> colors;
+    for (const PlotCurve &curve : m_curves) {
+        if (curve.axis == axis && curve.isLine() && !colors.contains(curve.color))
+            colors.append(curve.color);
+    }
+    return colors;
 }
 
 bool PlotCurves::hasBands() const
@@ -224,20 +246,20 @@ double PlotCurves::laneHeight() const
     return height > 0.0 ? height + laneMargin : 0.0;
 }
 
-bool PlotCurves::isWhole(PlotCurveSettings::Axis axis) const
+bool PlotCurves::isWhole(int axis) const
 {
     const auto isOther = [axis](const PlotCurve &each) {
-        const bool isOfAxis = each.settings.axis == axis && each.isLine();
+        const bool isOfAxis = each.axis == axis && each.isLine();
         return isOfAxis && !(each.source.isStepped && !each.settings.isScaled());
     };
     return hasAxis(axis) && std::none_of(m_curves.begin(), m_curves.end(), isOther);
 }
 
-QPlcValueNames PlotCurves::names(PlotCurveSettings::Axis axis) const
+QPlcValueNames PlotCurves::names(int axis) const
 {
     std::optional<QPlcValueNames> common;
     for (const PlotCurve &curve : m_curves) {
-        if (!curve.isLine() || curve.settings.axis != axis)
+        if (!curve.isLine() || curve.axis != axis)
             continue;
         if (common && *common != curve.names())
             return {};
@@ -246,27 +268,14 @@ QPlcValueNames PlotCurves::names(PlotCurveSettings::Axis axis) const
     return common.value_or(QPlcValueNames());
 }
 
-QString PlotCurves::unit(PlotCurveSettings::Axis axis) const
-{
-    std::optional<QString> common;
-    for (const PlotCurve &curve : m_curves) {
-        if (!curve.isLine() || curve.settings.axis != axis)
-            continue;
-        if (common && *common != curve.source.unit)
-            return {};
-        common = curve.source.unit;
-    }
-    return common.value_or(QString());
-}
-
-SignalStore::Range PlotCurves::range(PlotCurveSettings::Axis axis, double begin, double end) const
+SignalStore::Range PlotCurves::range(int axis, double begin, double end) const
 {
     SignalStore::Range all{NAN, NAN};
     for (const PlotCurve &curve : m_curves) {
-        if (curve.isLine() && curve.settings.axis == axis)
+        if (curve.isLine() && curve.axis == axis)
             all = united(all, curve.item->valueRange(begin, end));
     }
-    for (const double line : m_lineValues[axis])
+    for (const double line : m_lineValues[std::size_t(axis)])
         all = united(all, {float(line), float(line)});
     return all;
 }

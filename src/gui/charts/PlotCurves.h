@@ -2,7 +2,7 @@
 #pragma once
 
 #include "CursorStatistics.h"
-#include "PlotSettings.h"
+#include "PlotAxes.h"
 #include "StateBands.h"
 #include "gui/panel/Theme.h"
 #include "gui/plot/CurveSources.h"
@@ -11,10 +11,11 @@
 #include <memory>
 #include <vector>
 
-class QwtPlot;
 class QwtPlotMarker;
 
 namespace qplc {
+
+class PlotCanvas;
 
 /// A curve of a plot as it is at the moment: what is wanted, and where it comes from.
 struct PlotCurve
@@ -23,6 +24,7 @@ struct PlotCurve
     CurveSource source;  // held as long as the item draws its store
     QColor color;
     Qt::PenStyle penStyle = Qt::SolidLine;
+    int axis = 0;                       // of PlotAxes
     std::unique_ptr<StoreCurve> item;   // of a line
     std::unique_ptr<StateBands> bands;  // of what is drawn as bands
     std::vector<std::unique_ptr<QwtPlotMarker>> limits;
@@ -53,7 +55,7 @@ struct PlotCurve
 class PlotCurves
 {
 public:
-    explicit PlotCurves(QwtPlot *plot);
+    explicit PlotCurves(PlotCanvas *plot);
     ~PlotCurves();
 
     /// Finds all signals anew. \param sources  null: all are missing
@@ -71,18 +73,22 @@ public:
     void setOrigin(SignalStore::Time origin);
     /// Of the curves that are seen, each once.
     const std::vector<const SignalStore *> &stores() const { return m_stores; }
-    bool hasAxis(PlotCurveSettings::Axis axis) const;
+    const PlotAxes &axes() const { return m_axes; }
+    /// Whether curves that are not hidden have this axis.
+    bool hasAxis(int axis) const;
+    /// How many axes have curves that are not hidden.
+    int seenAxes() const;
+    /// Of the lines of an axis that are seen.
+    QVector<QColor> colors(int axis) const;
     bool hasBands() const;
     /// Of bands below lines, which leave it free [px]
     double laneHeight() const;
     /// Whether an axis has curves, and all of them are whole numbers.
-    bool isWhole(PlotCurveSettings::Axis axis) const;
+    bool isWhole(int axis) const;
     /// Of the values of all lines of an axis; empty when they differ.
-    QPlcValueNames names(PlotCurveSettings::Axis axis) const;
-    /// Of all seen curves of an axis; empty when they differ.
-    QString unit(PlotCurveSettings::Axis axis) const;
+    QPlcValueNames names(int axis) const;
     /// Smallest and largest value of all seen curves of an axis, and of its lines.
-    SignalStore::Range range(PlotCurveSettings::Axis axis, double begin, double end) const;
+    SignalStore::Range range(int axis, double begin, double end) const;
     /// Of the newest row of the plants whose signals are seen; 0: there is none. A derived signal may still lack it.
     SignalStore::Time newestTime() const;
     /// Times of the first and the last row; false: there are none.
@@ -93,13 +99,14 @@ private:
     void showBands(PlotCurve *curve, const Theme &theme);
     void placeBands();
     void showLimit(PlotCurve *curve, double limit);
-    void showLines(PlotCurveSettings::Axis axis, const QVector<double> &lines, const Theme &theme);
+    void showLines(int axis, const QVector<double> &lines, const Theme &theme);
 
-    QwtPlot *m_plot;
+    PlotCanvas *m_plot;
+    PlotAxes m_axes;
     std::vector<PlotCurve> m_curves;
     std::vector<const SignalStore *> m_stores;
     std::vector<std::unique_ptr<QwtPlotMarker>> m_lines;  // for reference
-    QVector<double> m_lineValues[2];                      // of the y axes
+    std::vector<QVector<double>> m_lineValues;            // of the y axes
     SignalStore::Time m_origin = 0;
     int m_selected = -1;
 };

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 using namespace qplc;
 
@@ -76,7 +77,7 @@ void QPlcTimePlot::Private::draw()
             reference = shown.beginOf(shown.end());
         canvas->setTime(shown, settings.labels, reference, drawnEvent);
         curves.setOrigin(canvas->origin());
-        for (const Axis axis : {Axis::Left, Axis::Right}) {
+        for (Axis axis = 0; axis < curves.axes().count(); ++axis) {
             fitRange(axis);
             showRange(axis);
         }
@@ -101,13 +102,13 @@ bool QPlcTimePlot::Private::fitRange(Axis axis)
     const double begin = double(canvas->begin() - canvas->origin()) * 1e-9;
     const double end = double(canvas->end() - canvas->origin()) * 1e-9;
     const SignalStore::Range seen = curves.range(axis, begin, end);
-    return axes[axis].automatic.fit(double(seen.minimum), double(seen.maximum), clock.elapsed());
+    return axes[std::size_t(axis)].automatic.fit(double(seen.minimum), double(seen.maximum), clock.elapsed());
 }
 
 void QPlcTimePlot::Private::showRange(Axis axis)
 {
-    const ValueAxis &values = axes[axis];
-    const PlotRangeSettings &wanted = settings.range(axis);
+    const ValueAxis &values = axes[std::size_t(axis)];
+    const PlotRangeSettings wanted = std::as_const(settings).range(axis, curves.axes().at(axis).unit);
     double minimum = wanted.minimum.value_or(values.automatic.minimum());
     double maximum = wanted.maximum.value_or(values.automatic.maximum());
     if (!(minimum < maximum)) {  // one end is given, and all that is seen is beyond it
@@ -150,7 +151,7 @@ void QPlcTimePlot::Private::showOverlay()
         for (const PlotCurve &curve : curves) {
             const double value = curve.isLine() ? curve.value(moment) : NAN;
             if (!std::isnan(value))
-                picture.dots.append({QPointF(*picture.pointer, canvas->yOf(curve.settings.axis, value)), curve.color});
+                picture.dots.append({QPointF(*picture.pointer, canvas->yOf(curve.axis, value)), curve.color});
         }
     }
     placeTrigger(&picture);
@@ -178,7 +179,7 @@ void QPlcTimePlot::Private::placeTrigger(PlotOverlay::Picture *picture)
         return;
     for (const double level : triggerBar->trigger().settings().levels()) {
         const double value = found->settings.gain * level + found->settings.offset;
-        picture->levels.append({QPointF(0.0, canvas->yOf(found->settings.axis, value)), found->color});
+        picture->levels.append({QPointF(0.0, canvas->yOf(found->axis, value)), found->color});
     }
 }
 
@@ -233,9 +234,8 @@ void QPlcTimePlot::Private::showNumbers()
     }
     if (hasCursors)
         statistics->show(curves, time->cursor(TimeView::A), time->cursor(TimeView::B));
-    const bool isLeftOther = fitRange(Axis::Left);
-    if (fitRange(Axis::Right) || isLeftOther)
-        ++version;
+    for (Axis axis = 0; axis < curves.axes().count(); ++axis)
+        version += fitRange(axis) ? 1 : 0;
     schedule();
 }
 

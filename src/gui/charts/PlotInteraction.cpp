@@ -21,6 +21,7 @@ PlotInteraction::PlotInteraction(PlotCanvas *canvas, QObject *parent)
     : ChartInteraction(canvas, {QwtPlot::yLeft, QwtPlot::yRight, QwtPlot::xBottom}, parent)
     , m_canvas(canvas)
 {
+    connect(canvas, &PlotCanvas::scaleAdded, this, [this](QWidget *scale) { scale->installEventFilter(this); });
     canvas->axisWidget(QwtPlot::yLeft)->setCursor(Qt::SizeVerCursor);
     canvas->axisWidget(QwtPlot::yRight)->setCursor(Qt::SizeVerCursor);
 }
@@ -29,15 +30,6 @@ void PlotInteraction::setCursors(std::optional<int> a, std::optional<int> b)
 {
     m_cursorA = a;
     m_cursorB = b;
-}
-
-std::optional<PlotInteraction::Axis> PlotInteraction::axisOf(const QWidget *watched) const
-{
-    if (watched == m_canvas->axisWidget(QwtPlot::yLeft))
-        return Axis::Left;
-    if (watched == m_canvas->axisWidget(QwtPlot::yRight))
-        return Axis::Right;
-    return std::nullopt;
 }
 
 PlotInteraction::Begin PlotInteraction::begin(const QWidget *watched, QPoint position, Qt::MouseButton button)
@@ -51,8 +43,8 @@ void PlotInteraction::drag(const QWidget *watched, QPoint position, QPoint by)
 {
     if (m_cursor != NoCursor) {
         Q_EMIT cursorDragged(m_cursor, position.x());
-    } else if (const std::optional<Axis> axis = axisOf(watched)) {
-        Q_EMIT panValues(*axis, by.y());
+    } else if (const Axis axis = m_canvas->axisOf(watched); axis >= 0) {
+        Q_EMIT panValues(axis, by.y());
     } else {
         m_canvas->canvas()->setCursor(Qt::ClosedHandCursor);
         if (by.x() != 0)
@@ -79,10 +71,10 @@ void PlotInteraction::wheel(const QWidget *watched, const QWheelEvent &event)
     const bool isTilted = std::abs(turn.x()) > std::abs(turn.y());
     const double steps = stepsOf(isTilted ? turn.x() : turn.y());
     const double factor = zoomOf(steps);
-    if (const std::optional<Axis> axis = axisOf(watched)) {
-        Q_EMIT zoomValues(*axis, factor, position.y());
+    if (const Axis axis = m_canvas->axisOf(watched); axis >= 0) {
+        Q_EMIT zoomValues(axis, factor, position.y());
     } else if (event.modifiers() & Qt::ControlModifier) {
-        for (const Axis each : {Axis::Left, Axis::Right})
+        for (Axis each = 0; each < m_canvas->axisCount(); ++each)
             Q_EMIT zoomValues(each, factor, position.y());
     } else if (isTilted || (event.modifiers() & Qt::ShiftModifier)) {
         Q_EMIT panTime(-qint64(std::llround(steps * panOfStep * double(m_canvas->end() - m_canvas->begin()))));

@@ -28,9 +28,9 @@ Q_SIGNALS:
     void zoomTime(double factor, qint64 about);
     void panTime(qint64 by);
     /// \param about  [px] from the top of the canvas
-    void zoomValues(qplc::PlotCurveSettings::Axis axis, double factor, double about);
+    void zoomValues(int axis, double factor, double about);
     /// \param by  [px], > 0: downwards
-    void panValues(qplc::PlotCurveSettings::Axis axis, double by);
+    void panValues(int axis, double by);
     /// Null: there is none, any more.
     void boxChanged(const QRect &box);
     void boxChosen(const QRect &box);
@@ -47,7 +47,6 @@ protected:
 
 private:
     Cursor cursorAt(int x) const;
-    std::optional<Axis> axisOf(const QWidget *watched) const;
     void pan(double x);
 
     PlotCanvas *m_canvas;

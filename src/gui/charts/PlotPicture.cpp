@@ -25,6 +25,7 @@ QSize PlotPicture::size() const
 void PlotPicture::paint(QPainter *painter) const
 {
     paintPlot(painter);
+    m_canvas->paintFurtherAxes(painter);
     painter->save();
     painter->translate(m_canvas->canvas()->pos());
     painter->setClipRect(m_canvas->canvas()->rect());

@@ -15,6 +15,7 @@ namespace {
 const QString curvesKey = QStringLiteral("curves");
 const QString leftKey = QStringLiteral("left");
 const QString rightKey = QStringLiteral("right");
+const QString axesKey = QStringLiteral("axes");
 const QString timeKey = QStringLiteral("time");
 const QString spanKey = QStringLiteral("span");
 const QString labelsKey = QStringLiteral("labels");
@@ -103,7 +104,9 @@ PlotCurveSettings PlotCurveSettings::fromJson(const QJsonObject &json)
     curve.gain = curve.others.take(gainKey).toDouble(1.0);
     curve.offset = curve.others.take(offsetKey).toDouble(0.0);
     curve.color = QColor(curve.others.take(colorKey).toString());
-    curve.axis = curve.others.take(axisKey).toString() == rightKey ? Right : Left;
+    const QString side = curve.others.take(axisKey).toString();
+    if (side == leftKey || side == rightKey)
+        curve.axis = side == leftKey ? Left : Right;
     curve.isVisible = curve.others.take(visibleKey).toBool(true);
     curve.isBands = curve.others.take(bandsKey).toBool(false);
     return curve;
@@ -118,11 +121,32 @@ QJsonObject PlotCurveSettings::toJson() const
     insertUnless(&json, offsetKey, offset, 0.0);
     if (color.isValid())
         json.insert(colorKey, color.name());
-    if (axis == Right)
-        json.insert(axisKey, rightKey);
+    if (axis)
+        json.insert(axisKey, *axis == Left ? leftKey : rightKey);
     insertUnless(&json, visibleKey, isVisible, true);
     insertUnless(&json, bandsKey, isBands, false);
     return json;
+}
+
+PlotRangeSettings PlotSettings::range(int axis, const QString &unit) const
+{
+    return axis == 0 ? left : axis == 1 ? right : axes.value(unit);
+}
+
+PlotRangeSettings &PlotSettings::range(int axis, const QString &unit)
+{
+    return axis == 0 ? left : axis == 1 ? right : axes[unit];
+}
+
+QString PlotSettings::contentText() const
+{
+    constexpr int mostNames = 4;  // that are read; the legend has all
+    QStringList names;
+    for (const PlotCurveSettings &curve : curves.mid(0, mostNames))
+        names << curve.text();
+    if (curves.size() > mostNames)
+        names << QStringLiteral("…");
+    return names.join(QStringLiteral(", "));
 }
 
 int PlotSettings::indexOf(const QString &signal) const
@@ -140,6 +164,9 @@ PlotSettings PlotSettings::fromJson(const QJsonObject &json)
         settings.curves.append(PlotCurveSettings::fromJson(curve.toObject()));
     settings.left = rangeIn(json.value(leftKey).toObject());
     settings.right = rangeIn(json.value(rightKey).toObject());
+    const QJsonObject axes = json.value(axesKey).toObject();
+    for (auto axis = axes.begin(); axis != axes.end(); ++axis)
+        settings.axes.insert(axis.key(), rangeIn(axis.value().toObject()));
     settings.hasOwnTime = json.value(timeKey).toString() == QLatin1String("own");
     settings.span = std::clamp(json.value(spanKey).toDouble(defaultSpan), shortestSpan, longestSpan);
     const bool isSeconds = json.value(labelsKey).toString() == QLatin1String("seconds");
@@ -180,6 +207,10 @@ QJsonObject PlotSettings::toJson() const
     insertUnless(&json, curvesKey, all, QJsonArray());
     insertRange(&json, leftKey, left);
     insertRange(&json, rightKey, right);
+    QJsonObject further;
+    for (auto axis = axes.begin(); axis != axes.end(); ++axis)
+        insertRange(&further, axis.key(), axis.value());
+    insertUnless(&json, axesKey, further, QJsonObject());
     if (hasOwnTime)
         json.insert(timeKey, QStringLiteral("own"));
     insertUnless(&json, spanKey, span, defaultSpan);
@@ -196,8 +227,8 @@ QJsonObject PlotSettings::toJson() const
 
 bool PlotSettings::isKnown(const QString &key)
 {
-    static const QStringList keys{curvesKey, leftKey,   rightKey,  timeKey,       spanKey,   labelsKey,
-                                  gridKey,   limitsKey, legendKey, statisticsKey, triggerKey};
+    static const QStringList keys{curvesKey, leftKey, rightKey,  axesKey,   timeKey,       spanKey,
+                                  labelsKey, gridKey, limitsKey, legendKey, statisticsKey, triggerKey};
     return keys.contains(key);
 }
 

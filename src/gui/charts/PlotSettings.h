@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QtCore/QJsonObject>
+#include <QtCore/QMap>
 #include <QtCore/QString>
 #include <QtCore/QVector>
 #include <QtGui/QColor>
@@ -19,8 +20,8 @@ struct PlotCurveSettings
     QString name;    // shown in place of text(); empty: none
     double gain = 1.0;
     double offset = 0.0;
-    QColor color;  // invalid: by place, from the theme
-    Axis axis = Left;
+    QColor color;              // invalid: by place, from the theme
+    std::optional<Axis> axis;  // side that a person has chosen; empty: by unit, see PlotAxes
     bool isVisible = true;
     bool isBands = false;  // states as coloured bands in place of a line
     QJsonObject others;    // keys that nobody knows
@@ -50,7 +51,7 @@ struct PlotRangeSettings
 ///
 /// ```json
 /// {"curves": [{"signal": "kite.elevation", "name": "Elevation", "gain": 2, "offset": -1, "color": "#d55e00", "axis": "right", "visible": false, "bands": true}],
-///  "left": {"minimum": 0, "maximum": 90, "lines": [60, 75]}, "right": {}, "time": "own", "span": 10, "labels": "seconds", "grid": false, "limits": true,
+///  "left": {"minimum": 0, "maximum": 90, "lines": [60, 75]}, "right": {}, "axes": {"N": {"minimum": 0}}, "time": "own", "span": 10, "labels": "seconds", "grid": false, "limits": true,
 ///  "legend": false, "statistics": false, "trigger": {"on": true, "signal": "kite.elevation", "level": 30, "mode": "normal"}}
 /// ```
 struct PlotSettings
@@ -62,6 +63,7 @@ struct PlotSettings
     QVector<PlotCurveSettings> curves;
     PlotRangeSettings left;
     PlotRangeSettings right;
+    QMap<QString, PlotRangeSettings> axes;  // further ones, by unit
     bool hasOwnTime = false;
     double span = defaultSpan;  // of an own time axis [s]
     Labels labels = Labels::Clock;
@@ -76,10 +78,11 @@ struct PlotSettings
     bool hasTrigger() const;
     void setTriggerOn(bool isOn);
 
-    const PlotRangeSettings &range(PlotCurveSettings::Axis axis) const
-    {
-        return axis == PlotCurveSettings::Left ? left : right;
-    }
+    /// Of axis 0, 1, or a further one that has \a unit.
+    PlotRangeSettings range(int axis, const QString &unit) const;
+    PlotRangeSettings &range(int axis, const QString &unit);
+    /// What it shows in a few words: "power, tetherLength"; empty without curves.
+    QString contentText() const;
     /// The place of a curve of this signal; -1: there is none.
     int indexOf(const QString &signal) const;
 

@@ -56,8 +56,8 @@ QLabel *heading(const QString &text, QWidget *parent)
 
 }  // namespace
 
-PlotSettingsEditor::PlotSettingsEditor(const PlotSettings &settings, const PlantList *plants, const Theme &theme,
-                                       QWidget *parent)
+PlotSettingsEditor::PlotSettingsEditor(const PlotSettings &settings, const QStringList &furtherUnits,
+                                       const PlantList *plants, const Theme &theme, QWidget *parent)
     : QWidget(parent)
     , m_settings(settings)
     , m_plants(plants)
@@ -79,7 +79,7 @@ PlotSettingsEditor::PlotSettingsEditor(const PlotSettings &settings, const Plant
     });
     column->addWidget(add);
     setFocusProxy(add);
-    column->addWidget(makeOptions());
+    column->addWidget(makeOptions(furtherUnits));
     makeCurves();
 }
 
@@ -117,11 +117,14 @@ void PlotSettingsEditor::addLine(int place)
 {
     const PlotCurveSettings &curve = m_settings.curves[place];
     auto *axis = new QComboBox(m_curves);
-    axis->addItems({tr("Left"), tr("Right")});
-    axis->setCurrentIndex(curve.axis == PlotCurveSettings::Left ? 0 : 1);
+    axis->addItems({tr("By unit"), tr("Left"), tr("Right")});
+    axis->setCurrentIndex(!curve.axis ? 0 : *curve.axis == PlotCurveSettings::Left ? 1 : 2);
     axis->setAccessibleName(tr("Axis of %1").arg(curve.signal));
     connect(axis, QOverload<int>::of(&QComboBox::activated), this, [this, place](int index) {
-        m_settings.curves[place].axis = index == 0 ? PlotCurveSettings::Left : PlotCurveSettings::Right;
+        std::optional<PlotCurveSettings::Axis> &side = m_settings.curves[place].axis;
+        side.reset();
+        if (index > 0)
+            side = index == 1 ? PlotCurveSettings::Left : PlotCurveSettings::Right;
         tell();
     });
     auto *seen = new QCheckBox(m_curves);
@@ -256,12 +259,12 @@ QToolButton *PlotSettingsEditor::makeColorButton(int place)
     return button;
 }
 
-QWidget *PlotSettingsEditor::makeOptions()
+QWidget *PlotSettingsEditor::makeOptions(const QStringList &furtherUnits)
 {
     auto *options = new QWidget(this);
     auto *form = new QFormLayout(options);
     form->setContentsMargins(0, 6, 0, 0);
-    const auto addRange = [&](const QString &title, PlotRangeSettings PlotSettings::*range) {
+    const auto addRange = [&](const QString &title, const Range &range) {
         auto *line = new QHBoxLayout;
         line->addWidget(makeEnd(tr("%1: smallest value").arg(title), range, &PlotRangeSettings::minimum));
         line->addWidget(new QLabel(QStringLiteral("…"), options));
@@ -270,8 +273,10 @@ QWidget *PlotSettingsEditor::makeOptions()
         line->addWidget(makeLines(tr("%1: reference lines").arg(title), range));
         form->addRow(title, line);
     };
-    addRange(tr("Left axis"), &PlotSettings::left);
-    addRange(tr("Right axis"), &PlotSettings::right);
+    addRange(tr("Left axis"), {0, {}});
+    addRange(tr("Right axis"), {1, {}});
+    for (const QString &unit : furtherUnits)
+        addRange(unit.isEmpty() ? tr("Axis without unit") : tr("Axis of %1").arg(unit), {2, unit});
     form->addRow(tr("Time axis"), makeTimeAxis());
     auto *checks = new QHBoxLayout;
     checks->addWidget(makeCheck(tr("Grid"), &PlotSettings::hasGrid));
@@ -283,11 +288,11 @@ QWidget *PlotSettingsEditor::makeOptions()
     return options;
 }
 
-QLineEdit *PlotSettingsEditor::makeEnd(const QString &name, PlotRangeSettings PlotSettings::*range,
+QLineEdit *PlotSettingsEditor::makeEnd(const QString &name, const Range &range,
                                        std::optional<double> PlotRangeSettings::*end)
 {
     auto *edit = new QLineEdit(this);
-    const std::optional<double> value = m_settings.*range.*end;
+    const std::optional<double> value = settingsOf(range).*end;
     edit->setText(value ? QString::number(*value, 'g', editedDigits) : QString());
     edit->setPlaceholderText(tr("automatic"));
     edit->setValidator(numberValidator(edit));
@@ -297,18 +302,18 @@ QLineEdit *PlotSettingsEditor::makeEnd(const QString &name, PlotRangeSettings Pl
         const double number = text.toDouble(&isNumber);
         if (!isNumber && !text.isEmpty())
             return;  // "-" is not finished
-        m_settings.*range.*end = isNumber ? std::optional<double>(number) : std::nullopt;
+        settingsOf(range).*end = isNumber ? std::optional<double>(number) : std::nullopt;
         tell();
     });
     return edit;
 }
 
 /// Values with spaces between them.
-QLineEdit *PlotSettingsEditor::makeLines(const QString &name, PlotRangeSettings PlotSettings::*range)
+QLineEdit *PlotSettingsEditor::makeLines(const QString &name, const Range &range)
 {
     auto *edit = new QLineEdit(this);
     QStringList texts;
-    for (const double line : qAsConst((m_settings.*range).lines))
+    for (const double line : qAsConst(settingsOf(range).lines))
         texts << QString::number(line, 'g', editedDigits);
     edit->setText(texts.join(QLatin1Char(' ')));
     edit->setPlaceholderText(tr("4000 4500"));
@@ -322,7 +327,7 @@ QLineEdit *PlotSettingsEditor::makeLines(const QString &name, PlotRangeSettings 
             if (!isNumber)
                 return;  // not finished
         }
-        (m_settings.*range).lines = lines;
+        settingsOf(range).lines = lines;
         tell();
     });
     return edit;

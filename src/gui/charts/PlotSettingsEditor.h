@@ -20,9 +20,9 @@ class PlotSettingsEditor : public QWidget
 {
     Q_OBJECT
 public:
-    /// \param plants  for the names of signals; null: without completion
-    PlotSettingsEditor(const PlotSettings &settings, const PlantList *plants, const Theme &theme,
-                       QWidget *parent = nullptr);
+    /// \param plants  for the names of signals; null: without completion \param furtherUnits  of axes besides the first one at the left and at the right
+    PlotSettingsEditor(const PlotSettings &settings, const QStringList &furtherUnits, const PlantList *plants,
+                       const Theme &theme, QWidget *parent = nullptr);
     ~PlotSettingsEditor() override;
 
     const PlotSettings &settings() const { return m_settings; }
@@ -38,10 +38,16 @@ private:
     QToolButton *makeColorButton(int place);
     void paintColor(QToolButton *button, int place) const;
     QLineEdit *makeNumber(double value, const QString &name, double PlotCurveSettings::*member, int place);
-    QWidget *makeOptions();
-    QLineEdit *makeEnd(const QString &name, PlotRangeSettings PlotSettings::*range,
-                       std::optional<double> PlotRangeSettings::*end);
-    QLineEdit *makeLines(const QString &name, PlotRangeSettings PlotSettings::*range);
+    /// An axis of the settings.
+    struct Range
+    {
+        int axis;
+        QString unit;
+    };
+    QWidget *makeOptions(const QStringList &furtherUnits);
+    QLineEdit *makeEnd(const QString &name, const Range &range, std::optional<double> PlotRangeSettings::*end);
+    QLineEdit *makeLines(const QString &name, const Range &range);
+    PlotRangeSettings &settingsOf(const Range &range) { return m_settings.range(range.axis, range.unit); }
     QCheckBox *makeCheck(const QString &text, bool PlotSettings::*member);
     QCheckBox *makeLimits();
     QWidget *makeTimeAxis();

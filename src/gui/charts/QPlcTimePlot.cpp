@@ -4,6 +4,7 @@
 #include "PlotPicture.h"
 #include "PlotSettingsEditor.h"
 #include "QPlcTimePlotPrivate.h"
+#include "gui/panel/SignalDropArea.h"
 
 #include <QtGui/QContextMenuEvent>
 #include <QtWidgets/QMenu>
@@ -67,6 +68,9 @@ QPlcTimePlot::Private::Private(QPlcTimePlot *plot)
         schedule();
     });
     makeActions();
+    new SignalDropArea(
+        QPlcTimePlot::tr("Right axis"), [this] { return rightAxisArea(); },
+        [this](const QStringList &references) { return addToRightAxis(references); }, plot);
     connectInteraction();
     connectEventFiles();
 }
@@ -105,7 +109,8 @@ void QPlcTimePlot::applySettings(const QJsonObject &settings)
 QWidget *QPlcTimePlot::createSettingsEditor()
 {
     const Theme theme = context() ? context()->theme() : Theme::byName(Theme::System);
-    auto *editor = new PlotSettingsEditor(d->settings, context() ? context()->plants() : nullptr, theme);
+    auto *editor
+        = new PlotSettingsEditor(d->settings, d->furtherUnits(), context() ? context()->plants() : nullptr, theme);
     connect(editor, &PlotSettingsEditor::edited, d.get(), &Private::edit);
     return editor;
 }
@@ -208,20 +213,45 @@ void QPlcTimePlot::Private::bind()
     redraw.assign(std::max<std::size_t>(1, curves.stores().size()), RedrawRule());
     canvas->setGridVisible(settings.hasGrid && !curves.isEmpty());
     canvas->enableAxis(QwtPlot::xBottom, !curves.isEmpty());
-    for (const Axis axis : {Axis::Left, Axis::Right}) {
-        const bool isDefault = axis == Axis::Left && !curves.hasAxis(Axis::Right);
+    keepRanges();
+    const int seenAxes = curves.seenAxes();
+    for (Axis axis = 0; axis < canvas->axisCount(); ++axis) {
+        const bool isDefault = axis == 0 && seenAxes == 0;
         canvas->setAxisVisible(axis, !curves.isEmpty() && (isDefault || curves.hasAxis(axis)));
-        canvas->setUnit(axis, curves.unit(axis));
+        canvas->setUnit(axis, curves.axes().at(axis).unit, seenAxes > 1 ? curves.colors(axis) : QVector<QColor>());
         canvas->setNames(axis, curves.names(axis));
         canvas->setNumbersVisible(axis, curves.hasAxis(axis) || !curves.hasBands());
     }
     legend->show(curves, std::nullopt);
+    q->setDefaultTitle(settings.contentText());
     removeAction->setEnabled(!curves.isEmpty());
     toggleAction->setEnabled(!curves.isEmpty());
     showChecks();
     ++version;
     arrange();
     schedule();
+}
+
+/// An axis that is another one than before has another range.
+void QPlcTimePlot::Private::keepRanges()
+{
+    axes.resize(std::size_t(curves.axes().count()));
+    for (Axis axis = 0; axis < curves.axes().count(); ++axis) {
+        ValueAxis &values = axes[std::size_t(axis)];
+        if (values.of == curves.axes().at(axis))
+            continue;
+        values = ValueAxis();
+        values.of = curves.axes().at(axis);
+    }
+}
+
+QStringList QPlcTimePlot::Private::furtherUnits() const
+{
+    QStringList units;
+    for (Axis axis = 2; axis < curves.axes().count(); ++axis)
+        units << curves.axes().at(axis).unit;
+    units.removeDuplicates();
+    return units;
 }
 
 void QPlcTimePlot::Private::applySettings(const PlotSettings &wanted)

@@ -20,8 +20,8 @@
 #include <QtCore/QTimer>
 #include <QtWidgets/QAction>
 
-#include <array>
 #include <functional>
+#include <vector>
 
 class QMenu;
 class QScrollArea;
@@ -36,13 +36,16 @@ class QPlcTimePlot::Private : public QObject
     Q_OBJECT
 public:
     using Time = qplc::TimeView::Time;
-    using Axis = qplc::PlotCurveSettings::Axis;
+    using Axis = qplc::PlotCanvas::Axis;
 
     explicit Private(QPlcTimePlot *plot);
 
     // -- QPlcTimePlot.cpp: settings, and what is bound to what --
     void followContext();
     void bind();
+    void keepRanges();
+    /// Of the axes that are neither the first one at the left nor at the right.
+    QStringList furtherUnits() const;
     void applySettings(const qplc::PlotSettings &settings);
     /// What a person has changed.
     void edit(const qplc::PlotSettings &settings);
@@ -107,6 +110,9 @@ public:
     const qplc::PlotCurve *chosenCurve() const;
     void showChecks();
     void toggleLimits();
+    void toggleRightAxis();
+    bool addToRightAxis(const QStringList &references);
+    QRect rightAxisArea() const;
     void toggleTrigger();
     void showTrigger();
     void takeTrigger();
@@ -122,6 +128,7 @@ public:
     /// A y axis: by settings, by what is seen, or as a person has zoomed it.
     struct ValueAxis
     {
+        qplc::PlotAxes::Axis of{qplc::PlotCurveSettings::Left, {}};
         qplc::StickyRange automatic;
         bool isHeld = false;
         double minimum = 0.0;  // when held
@@ -146,7 +153,7 @@ public:
     qplc::EventFiles *eventFiles;
     qplc::PlotCurves curves;
 
-    std::array<ValueAxis, 2> axes;
+    std::vector<ValueAxis> axes;
     std::vector<qplc::RedrawRule> redraw;  // for each store
     quint64 version = 0;                   // of all but data and time that is seen
     int drawnPictures = 0;
@@ -164,5 +171,6 @@ public:
     QAction *statisticsAction = nullptr;
     QAction *bandsAction = nullptr;
     QAction *limitsAction = nullptr;
+    QAction *rightAxisAction = nullptr;
     QAction *triggerAction = nullptr;
 };

@@ -75,9 +75,12 @@ void QPlcXyPlot::Private::bind()
     std::vector<QColor> colors;
     error.clear();
     const QJsonArray wanted = curves();
+    QStringList names;
     for (const QJsonValue &entry : wanted) {
         const QString x = entry[xKey].toString();
         const QString y = entry[yKey].toString();
+        if (!x.isEmpty() && !y.isEmpty())
+            names << tr("%1 over %2").arg(CurveSource::textOf(y), CurveSource::textOf(x));
         if (!q->context() || x.isEmpty() || y.isEmpty())
             continue;
         const CurveSource xSource = q->context()->curveSources()->find(x);
@@ -94,6 +97,7 @@ void QPlcXyPlot::Private::bind()
         }
     }
     canvas->setCurves(std::move(found), colors);
+    q->setDefaultTitle(names.join(QStringLiteral(", ")));
     showMessage();
     showLegend();
     schedule();

@@ -34,6 +34,7 @@ QRect dropZoneRect(const QRect &area, DropZone zone)
         return area.adjusted(0, halfHeight, 0, 0);
     case DropZone::Center:
     case DropZone::NewTab:
+    case DropZone::Area:
         break;
     }
     return area;
@@ -46,8 +47,10 @@ DropOverlay::DropOverlay()
     hide();
 }
 
-void DropOverlay::showOver(QWidget *widget, const QRect &rect)
+void DropOverlay::showOver(QWidget *widget, const QRect &rect, const QString &text)
 {
+    m_text = text;
+    update();
     if (parentWidget() != widget)
         setParent(widget);
     setGeometry(rect);
@@ -64,6 +67,8 @@ void DropOverlay::paintEvent(QPaintEvent * /*event*/)
     fill.setAlphaF(0.25);
     painter.setBrush(fill);
     painter.drawRoundedRect(QRectF(rect()).adjusted(2, 2, -2, -2), 3, 3);
+    painter.setPen(palette().color(QPalette::WindowText));
+    painter.drawText(rect(), Qt::AlignCenter | Qt::TextWordWrap, m_text);
 }
 
 }  // namespace qplc

@@ -5,8 +5,8 @@
 
 namespace qplc {
 
-/// Where in a panel something is dropped, or in no panel but a new tab.
-enum class DropZone { Left, Right, Above, Below, Center, NewTab };
+/// Where in a panel something is dropped, or in no panel but a new tab. Area: a SignalDropArea of the panel.
+enum class DropZone { Left, Right, Above, Below, Center, NewTab, Area };
 enum class DropCenter { IsAZone, BelongsToTheNearestEdge };
 
 /// The zone of \a area at \a position, which may be outside. The center has the middle half of width and height.
@@ -20,10 +20,14 @@ class DropOverlay : public QWidget
     Q_OBJECT
 public:
     DropOverlay();
-    void showOver(QWidget *widget, const QRect &rect);
+    /// \param text  in the middle of it
+    void showOver(QWidget *widget, const QRect &rect, const QString &text = QString());
 
 protected:
     void paintEvent(QPaintEvent *event) override;
+
+private:
+    QString m_text;
 };
 
 }  // namespace qplc

@@ -7,6 +7,7 @@
 #include "PanelTitleBar.h"
 #include "QPlcWidget.h"
 #include "QPlcWidgetFactory.h"
+#include "gui/panel/SignalDropArea.h"
 
 #include <QtGui/QContextMenuEvent>
 #include <QtGui/QDragEnterEvent>
@@ -107,7 +108,7 @@ void PanelFrame::connectActions()
     connect(m_rename, &QAction::triggered, m_titleBar, &PanelTitleBar::startRename);
     connect(m_titleBar, &PanelTitleBar::doubleClicked, this, &PanelFrame::toggleMaximized);
     connect(m_titleBar, &PanelTitleBar::renamed, this, [this](const QString &title) {
-        const bool isDefault = title.isEmpty() || title == m_type;
+        const bool isDefault = title.isEmpty() || title == m_type || (m_widget && title == m_widget->defaultTitle());
         m_editor->setPanelTitle(m_id, isDefault ? QString() : title);
     });
 }
@@ -233,8 +234,12 @@ void PanelFrame::dragMoveEvent(QDragMoveEvent *event)
 {
     if (!m_overlay)
         m_overlay = new DropOverlay;
-    const DropZone zone = dropZoneAt(rect(), event->pos(), DropCenter::IsAZone);
-    m_overlay->showOver(this, dropZoneRect(rect(), zone));
+    if (const SignalDropArea *area = dropAreaAt(event->pos())) {
+        m_overlay->showOver(this, area->area().translated(m_widget->pos()), area->text());
+    } else {
+        const DropZone zone = dropZoneAt(rect(), event->pos(), DropCenter::IsAZone);
+        m_overlay->showOver(this, dropZoneRect(rect(), zone));
+    }
     event->acceptProposedAction();
 }
 
@@ -250,7 +255,16 @@ void PanelFrame::dropEvent(QDropEvent *event)
     if (m_overlay)
         m_overlay->hide();
     event->acceptProposedAction();
-    Q_EMIT signalsDropped(dropZoneAt(rect(), event->pos(), DropCenter::IsAZone), event->mimeData());
+    const DropZone zone
+        = dropAreaAt(event->pos()) ? DropZone::Area : dropZoneAt(rect(), event->pos(), DropCenter::IsAZone);
+    Q_EMIT signalsDropped(zone, event->mimeData());
+}
+
+/// Null: there is none.
+const SignalDropArea *PanelFrame::dropAreaAt(QPoint position) const
+{
+    const auto *area = m_widget ? m_widget->findChild<SignalDropArea *>() : nullptr;
+    return area && area->area().contains(position - m_widget->pos()) ? area : nullptr;
 }
 
 }  // namespace qplc

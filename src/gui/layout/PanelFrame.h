@@ -15,6 +15,7 @@ class QPlcWidgetFactory;
 namespace qplc {
 
 class PanelTitleBar;
+class SignalDropArea;
 
 /// A panel on the screen: title bar, and below it the widget, or a placeholder where nobody can make it.
 ///
@@ -67,6 +68,7 @@ private:
     void takeSettings();
     void updateTitle();
     void openSettings();
+    const SignalDropArea *dropAreaAt(QPoint position) const;
     void openMenu(const QPoint &place);
     void toggleFloating();
     void toggleMaximized();

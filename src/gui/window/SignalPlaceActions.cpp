@@ -4,6 +4,7 @@
 #include "QPlcSignalTree.h"
 #include "SignalPlacer.h"
 #include "gui/layout/PanelFrame.h"
+#include "gui/panel/SignalDropArea.h"
 
 #include <QtWidgets/QAction>
 #include <QtWidgets/QApplication>
@@ -17,6 +18,7 @@ SignalPlaceActions::SignalPlaceActions(QPlcSignalTree *tree, LayoutView *view, S
     , m_placer(placer)
 {
     add(DropZone::Center, tr("Alt+Return; Alt+Enter"));
+    add(DropZone::Area, tr("Alt+Shift+Return; Alt+Shift+Enter"));
     add(DropZone::Left, tr("Alt+Left"));
     add(DropZone::Right, tr("Alt+Right"));
     add(DropZone::Above, tr("Alt+Up"));
@@ -70,12 +72,17 @@ void SignalPlaceActions::update()
 {
     const LayoutPanel *panel = m_view->editor()->layout().panel(currentPanel());
     const bool hasSignals = !m_tree->selectedReferences().isEmpty();
-    const QString name = panel ? QLatin1Char('\'') + panel->title() + QLatin1Char('\'') : tr("the panel");
+    const QPlcWidget *widget = panel ? m_view->widget(panel->id) : nullptr;
+    const auto *area = widget ? widget->findChild<SignalDropArea *>() : nullptr;
+    const QString title = widget ? widget->title() : panel ? panel->title() : QString();
+    const QString name = panel ? QLatin1Char('\'') + title + QLatin1Char('\'') : tr("the panel");
     const auto show = [this](DropZone zone, const QString &text, bool isPossible) {
         m_actions.value(zone)->setText(text);
         m_actions.value(zone)->setEnabled(isPossible);
     };
     show(DropZone::Center, panel ? tr("Into %1").arg(name) : tr("Into this tab"), hasSignals);
+    show(DropZone::Area, area ? tr("%1 of %2").arg(area->text(), name) : tr("Right axis"), hasSignals && area);
+    m_actions.value(DropZone::Area)->setVisible(area);
     show(DropZone::Left, tr("Left of %1").arg(name), hasSignals && panel);
     show(DropZone::Right, tr("Right of %1").arg(name), hasSignals && panel);
     show(DropZone::Above, tr("Above %1").arg(name), hasSignals && panel);

@@ -4,6 +4,7 @@
 #include "gui/layout/PanelFrame.h"
 #include "gui/layout/PanelTitleBar.h"
 #include "gui/models/ValueFormat.h"
+#include "gui/panel/SignalDropArea.h"
 
 #include <QtCore/QJsonArray>
 #include <QtWidgets/QApplication>
@@ -29,6 +30,7 @@ LayoutSide sideOf(DropZone zone)
     case DropZone::Right:
     case DropZone::Center:
     case DropZone::NewTab:
+    case DropZone::Area:
         break;
     }
     return LayoutSide::Right;
@@ -68,14 +70,15 @@ QJsonObject SignalPlacer::settingsFor(const QString &type, const QStringList &re
     return {{QStringLiteral("signals"), QJsonArray::fromStringList(references)}};
 }
 
-bool SignalPlacer::addTo(const QString &panelId, const QStringList &references)
+bool SignalPlacer::addTo(const QString &panelId, const QStringList &references, DropZone zone)
 {
     QPlcWidget *widget = m_view->widget(panelId);
+    const auto *area = widget && zone == DropZone::Area ? widget->findChild<SignalDropArea *>() : nullptr;
     if (!widget)
         return false;
     LayoutEditor *editor = m_view->editor();
     editor->separateSteps();
-    if (!widget->addSignals(references))
+    if (!(area ? area->add(references) : widget->addSignals(references)))
         return false;
     editor->setPanelSettings(panelId, widget->settings());  // of panels that did not tell by settingsEdited()
     editor->separateSteps();
@@ -84,7 +87,8 @@ bool SignalPlacer::addTo(const QString &panelId, const QStringList &references)
 
 void SignalPlacer::drop(const QString &panelId, DropZone zone, const QStringList &references)
 {
-    if (references.isEmpty() || (zone == DropZone::Center && addTo(panelId, references)))
+    if (references.isEmpty()
+        || ((zone == DropZone::Center || zone == DropZone::Area) && addTo(panelId, references, zone)))
         return;
     LayoutEditor *editor = m_view->editor();
     const LayoutTarget target = zone == DropZone::NewTab ? LayoutTarget::inNewTab()

@@ -23,7 +23,7 @@ public:
     static QJsonObject settingsFor(const QString &type, const QStringList &references);
 
 private:
-    bool addTo(const QString &panelId, const QStringList &references);
+    bool addTo(const QString &panelId, const QStringList &references, DropZone zone = DropZone::Center);
     QString panelOfType(const QString &type) const;
 
     LayoutView *m_view;

@@ -35,6 +35,7 @@ class tst_PlotEditing : public QObject
 {
     Q_OBJECT
 private Q_SLOTS:
+    void theTitleIsWhatThePlotShowsUnlessAPersonNamesIt();
     void settingsGiveBackWhatWasApplied();
     void whatIsNotGivenHasItsDefault();
     void signalsAreAddedOnce();
@@ -407,6 +408,26 @@ void tst_PlotEditing::staleValuesAreNotTrusted()
     QTRY_VERIFY2(legend->entries().first().doubt.contains(QLatin1Char('s')),
                  qPrintable(legend->entries().first().doubt));
     QCOMPARE(legend->heightForWidth(300), height);
+}
+
+void tst_PlotEditing::theTitleIsWhatThePlotShowsUnlessAPersonNamesIt()
+{
+    QPlcWidget::registerFactory(new QPlcTimePlotFactory);
+    QPlcTimePlot plot;
+    QCOMPARE(plot.title(), QStringLiteral("Time plot"));
+    QSignalSpy changed(&plot, &QPlcWidget::titleChanged);
+    plot.applySettings(
+        QJsonDocument::fromJson(R"({"curves":[{"signal":"power"},{"name":"Length","signal":"x"}]})").object());
+    QCOMPARE(plot.title(), QStringLiteral("power, Length"));
+    QCOMPARE(changed.size(), 1);
+    QVERIFY(!plot.settings().contains(QStringLiteral("title")));
+    plot.setTitle(QStringLiteral("Winch"));
+    plot.addSignals({QStringLiteral("speed")});
+    QCOMPARE(plot.title(), QStringLiteral("Winch"));
+    plot.setTitle({});
+    QCOMPARE(plot.title(), QStringLiteral("power, Length, speed"));
+    plot.addSignals({QStringLiteral("a"), QStringLiteral("b")});
+    QCOMPARE(plot.title(), QStringLiteral("power, Length, speed, a, …"));
 }
 
 QTEST_MAIN(tst_PlotEditing)

@@ -3,6 +3,7 @@
 #include "gui/SignalsMimeType.h"
 #include "gui/layout/DropZone.h"
 #include "gui/layout/EmptyPage.h"
+#include "gui/panel/SignalDropArea.h"
 
 #include <QtCore/QMimeData>
 #include <QtWidgets/QToolButton>
@@ -76,6 +77,7 @@ private Q_SLOTS:
     void panelThatGoesWhileItIsDraggedIsNoHarm();
     void droppedSignalsSayPanelAndZone_data();
     void droppedSignalsSayPanelAndZone();
+    void anAreaOfThePanelTakesWhatIsDroppedThere();
     void droppedSignalsOfAnEmptyTabSayNoPanel();
     void signalsAreDroppedOnTabs();
     void panelIsDroppedIntoANewTab();
@@ -306,6 +308,24 @@ void tst_PanelDrag::droppedSignalsSayPanelAndZone()
     QTEST(where, "zone");
     QCOMPARE(dropped, QByteArray("windSpeed"));
     QCOMPARE(window.editor.undoStack()->count(), 0);
+}
+
+void tst_PanelDrag::anAreaOfThePanelTakesWhatIsDroppedThere()
+{
+    ViewFixture window;
+    int where = -1;
+    connect(&window.view, &LayoutView::signalsDropped, this,
+            [&](const QString &, DropZone zone, const QMimeData *) { where = int(zone); });
+    PanelFrame *frame = window.frame("panel2");
+    const QRect place(frame->widget()->width() / 2, frame->widget()->height() / 2 - 10, 40, 20);
+    new SignalDropArea(
+        QStringLiteral("Right axis"), [place] { return place; }, [](const QStringList &) { return true; },
+        frame->widget());
+    const QPoint inside = frame->widget()->pos() + place.center();
+    QVERIFY(dropSignals(frame, inside, signalsMimeType()));
+    QCOMPARE(where, int(DropZone::Area));
+    QVERIFY(dropSignals(frame, inside - QPoint(50, 0), signalsMimeType()));
+    QVERIFY(where != int(DropZone::Area));
 }
 
 void tst_PanelDrag::droppedSignalsOfAnEmptyTabSayNoPanel()

@@ -128,9 +128,19 @@ void tst_SignalMenu::theMenuSaysAllThatCanBeDone()
         QVERIFY2(action->isEnabled(), qPrintable(action->text()));
     }
     const QStringList expected = {
-        "Show in a plot",    "Show in an XY plot", "Show as a gauge",     "Watch in a value table",
-        "Set by a setter",   "Into 'Time plot'",   "Left of 'Time plot'", "Right of 'Time plot'",
-        "Above 'Time plot'", "Below 'Time plot'",  "Into a new tab",      "Search signals",
+        "Show in a plot",
+        "Show in an XY plot",
+        "Show as a gauge",
+        "Watch in a value table",
+        "Set by a setter",
+        "Into 'Time plot'",
+        "Right axis of 'Time plot'",
+        "Left of 'Time plot'",
+        "Right of 'Time plot'",
+        "Above 'Time plot'",
+        "Below 'Time plot'",
+        "Into a new tab",
+        "Search signals",
         "Columns",
     };
     QCOMPARE(texts, expected);
@@ -153,6 +163,7 @@ void tst_SignalMenu::signalsGoWhereTheMenuSays_data()
     row("Show in an XY plot", "H[panel1 V[panel2 panel3] panel4]", "XY plot", "X");
     row("Set by a setter", "H[panel1 V[panel2 panel3] panel4]", "Setter", "S");
     row("Into 'Time plot'", "H[panel1 V[panel2 panel3]]", "", "Alt+Return");
+    row("Right axis of 'Time plot'", "H[panel1 V[panel2 panel3]]", "", "Alt+Shift+Return");
     row("Left of 'Time plot'", "H[panel4 panel1 V[panel2 panel3]]", "Time plot", "Alt+Left");
     row("Right of 'Time plot'", "H[panel1 panel4 V[panel2 panel3]]", "Time plot", "Alt+Right");
     row("Above 'Time plot'", "H[V[panel4 panel1] V[panel2 panel3]]", "Time plot", "Alt+Up");
