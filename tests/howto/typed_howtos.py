@@ -1,0 +1,115 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Types a page of docs/howto as written, from an installed package, after the tutorial: in ~/winch are its programs.
+
+usage: typed_howtos.py PAGE SOURCE_FOLDER BUILD_FOLDER        PAGE: wire-a-sensor or simulink-model
+"""
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parent.parent / "typed"))
+from typed import Broken, Expectation, Reader, Terminal, await_that, in_own_network, require  # noqa: E402
+
+NEEDS_ROOT = "needs root and a system with systemd"
+NOT_TYPED = {
+    "wire-a-sensor": {
+        "ls -l /dev/serial/by-id /dev/i2c-* /dev/spidev* /dev/gpiochip*": "needs a sensor",
+        'sudo adduser "$USER" dialout': NEEDS_ROOT,
+        "sudo cp wind.ini /etc/qtplc/wind.ini": NEEDS_ROOT,
+        "sudo systemctl enable --now qtplc-hardware@wind": NEEDS_ROOT,
+    },
+    "simulink-model": {},
+}
+
+
+class Plant:
+    def __init__(self, home, terminal):
+        self.home, self.terminal = home, terminal
+
+    def value(self, signal):
+        """None: not yet. Beside what the page types, so that its terminal shows only that."""
+        run = subprocess.run([self.home / "qtplc" / "bin" / "qtplc", "get", signal, "--plain"], env=self.terminal.environment, capture_output=True, text=True)
+        return float(run.stdout) if run.returncode == 0 else None
+
+    def await_value(self, signal, condition, text):
+        def comes():
+            value = self.value(signal)
+            return value is not None and condition(value)
+        await_that(comes, lambda: f"{signal} {text} never comes, it is {self.value(signal)}; the terminal shows {self.terminal.shown[-1500:]}")
+
+    def await_nodes(self, count):
+        def registered():
+            self.terminal.take(0.1)
+            return self.terminal.shown.count("registered at") >= count
+        await_that(registered, lambda: f"{count} nodes never register: {self.terminal.shown[-1500:]}")
+
+
+def wire_a_sensor(plant):
+    terminal, device = plant.terminal, plant.home / "winch" / "devices" / "wind"
+    return {
+        "python3 play_wind.py wind &": Expectation(after=lambda: await_that(device.exists, lambda: "the sensor that is played never comes")),
+        "qtplc_hardware wind.ini --check": Expectation(shows=r"relativeSpeed +-> windSpeed"),
+        "qtplc_hardware wind.ini --monitor": Expectation(shows=r"windSpeed +5\.1", keys=(r"windSpeed +5\.1", b"\x03")),
+        "build/winch_master &": Expectation(after=lambda: terminal.await_text("port 50000")),
+        "qtplc_hardware wind.ini --master localhost &": Expectation(after=lambda: plant.await_nodes(1)),
+        "qtplc get windSpeed windDirection": Expectation(shows=r"(?s)5\.1.*214\.8", before=lambda: plant.await_value("windSpeed", lambda speed: speed == 5.1, "= 5.1")),
+        "kill %1": Expectation(after=lambda: plant.await_value("windSpeed", lambda speed: speed == 0.0, "= 0, its safe value,")),
+        "qtplc watch 'wind*'": Expectation(before=lambda: plant.await_value("windSpeed", lambda speed: speed == 5.1, "= 5.1, again,"), keys=("windSpeed", b"q")),
+    }
+
+
+def simulink_model(plant):
+    def flies():
+        plant.await_value("tetherLength", lambda length: length >= 309.0, ">= 309")
+        plant.await_value("tetherSpeed", lambda speed: speed < 0.0, "< 0")
+        plant.await_value("tetherLength", lambda length: length <= 301.0, "<= 301")
+
+    return {
+        "~/winch/build/winch_master --signals ~/winch/winch.ini &": Expectation(after=lambda: plant.terminal.await_text("port 50000")),
+        "~/winch/build/winch_operator &": Expectation(after=lambda: plant.await_nodes(2)),
+        "qtplc start": Expectation(after=flies),
+        "qtplc list": Expectation(shows="tetherLength.*Winch"),
+    }
+
+
+def run(*command):
+    result = subprocess.run([str(word) for word in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    require(result.returncode == 0, f"{' '.join(map(str, command))} fails:\n{result.stdout[-4000:]}")
+
+
+def after_the_tutorial(home, source, build):
+    """What its reader has made."""
+    run("cmake", "--install", build, "--prefix", home / "qtplc")
+    winch = home / "winch"
+    winch.mkdir()
+    for path in (source / "docs" / "tutorial" / "code").glob("[!.]*"):
+        (winch / path.name).write_text(path.read_text())
+    run("cmake", "-S", winch, "-B", winch / "build", f"-DCMAKE_PREFIX_PATH={home / 'qtplc'}")
+    run("cmake", "--build", winch / "build", "--target", "winch_master", "winch_operator")
+
+
+def main():
+    page = sys.argv[1]
+    source, build = (Path(argument).resolve() for argument in sys.argv[2:])
+    in_own_network()
+    with tempfile.TemporaryDirectory() as home:
+        home = Path(home)
+        after_the_tutorial(home, source, build)
+        terminal = Terminal(home, {"PATH": f"{home}/qtplc/bin:/usr/local/bin:/usr/bin:/bin"})
+        plant = Plant(home, terminal)
+        try:
+            expected, folder = {"wire-a-sensor": (wire_a_sensor, "winch"), "simulink-model": (simulink_model, "winch_model")}[page]
+            terminal.type(f"cd ~/{folder}")
+            Reader(source / "docs" / "howto" / f"{page}.md", home / folder, terminal, expected(plant), NOT_TYPED[page]).follow()
+        finally:
+            terminal.close()
+    print(f"{page} works as written")
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except Broken as broken:
+        sys.exit(f"{sys.argv[1]} breaks: {broken}")
