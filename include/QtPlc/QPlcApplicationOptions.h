@@ -2,6 +2,7 @@
 #pragma once
 
 #include "QPlcGlobal.h"
+#include "QPlcProfile.h"
 #include "QPlcRealTimeOptions.h"
 #include "QPlcSecurity.h"
 
@@ -55,6 +56,11 @@ public:
     void addRealTimeOptions();
     /// \return false, with the message out, when one of them cannot be meant
     bool readRealTimeOptions(QPlcRealTimeOptions *options);
+
+    /// Adds --profile to a master: how strict the plant is (QPlcProfile).
+    void addProfileOption();
+    /// \return false, with a message on stderr, if the value is not valid
+    bool readProfile(QPlcProfile::Value *profile);
 
     /// Adds --enable-fault-injection and --faults, which are wanted together: a bad network, for a test.
     void addFaultOptions();

@@ -7,6 +7,7 @@
 #include "QPlcMasterStatistics.h"
 #include "QPlcNodeInfo.h"
 #include "QPlcOverrunPolicy.h"
+#include "QPlcProfile.h"
 #include "QPlcQuality.h"
 #include "QPlcRealTimeOptions.h"
 #include "QPlcSchedule.h"
@@ -113,15 +114,27 @@ public:
     QPlcOverrunPolicy overrunPolicy() const;
     /// Ends the real-time phase by itself after \a cycles periods (skipped ones count, so that the simulated time is exact); 0: never. Takes effect at the next start.
     void setCycleLimit(quint64 cycles);
-    /// Longest wait for each answer of a node during initialization and start; 2 s unless set.
+    /// Sets the longest wait for each answer of a node during initialization and start, in each profile.
+    /// \param time  1 ms or longer; 2 s unless set
     void setInitializationTimeout(std::chrono::milliseconds time);
+
+    /// Sets how strict the plant is where table, nodes and options say nothing: see QPlcProfile. Takes effect at the next
+    /// initialization or start.
+    /// \param profile  Automatic (unless set): the master chooses
+    void setProfile(QPlcProfile::Value profile);
+    /// Returns the profile of the phase at hand; between phases the one that the next phase would have. Never Automatic.
+    QPlcProfile::Value profile() const;
+    /// Returns why it is this profile, for people: "node 'Winch' drives real devices".
+    QString profileReason() const;
 
     // ---- safe stop (docs/design/states.md) ----
     // Besides these limits, safeStop(), a late node with the policy SafeStopWhenLate, and a critical node that is lost, fails or is late too often
     // (QPlcSlaveNode::setCritical()) lead to State::SafeStop. All limits take effect at the next start.
-    /// Longest stay in WaitingForLateSlaves, by the clock of the master; 5 s unless set, 0: for ever. Lockstep waits for ever.
+    /// Sets the longest stay in WaitingForLateSlaves, on the clock of the master; 0: for ever. Unless set, the profile decides.
+    /// Lockstep waits for ever.
     void setLongestWait(std::chrono::nanoseconds time);
-    /// Longest time by which a cycle may begin late (the program was stopped, the computer slept); 1 s unless set, 0: any. Lockstep has none.
+    /// Sets the longest time by which a cycle may begin late (the program was stopped, the computer slept); 0: any. Unless set,
+    /// the profile decides. Lockstep has no such limit.
     void setGapLimit(std::chrono::nanoseconds time);
     /// Overruns in a row that are too many; 0 (unless set): any number is borne, as on a computer that does other things, too.
     void setOverrunLimit(int overruns);

@@ -7,6 +7,8 @@
 
 #include <QtCore/QStringList>
 
+#include <optional>
+
 /// What the signal table says of one plc signal.
 struct QTPLC_EXPORT QPlcSignalDefinition
 {
@@ -15,18 +17,16 @@ struct QTPLC_EXPORT QPlcSignalDefinition
     QString typeName;  ///< as written in the table ("Bool", "RealTriple"): a hint for views
     QString unit;      ///< "m/s", "deg"; empty: none
     QString description;
-    QPlcValue minimum;          ///< smallest allowed value of each element; invalid: none. Type: that of one element
-    QPlcValue maximum;          ///< largest allowed value of each element; invalid: none
-    QPlcValue initial;          ///< value before the first writer; always valid, zero unless said
-    QPlcValue safe;             ///< value when there is no good one for longer than `hold`; invalid: see safeValue()
-    int hold = UsualHold;       ///< cycles for which the last good value is kept before the safe one, >= 0
+    QPlcValue minimum;  ///< smallest allowed value of each element; invalid: none. Type: that of one element
+    QPlcValue maximum;  ///< largest allowed value of each element; invalid: none
+    QPlcValue initial;  ///< value before the first writer; always valid, zero unless said
+    QPlcValue safe;     ///< value when there is no good one for longer than `hold`; invalid: see safeValue()
+    std::optional<int>
+        hold;  ///< cycles for which the last good value is kept before the safe one, >= 0; none: as the profile of the plant says (QPlcProfile)
     QStringList writers;        ///< names of the nodes that may write it, the preferred one first; empty: any one
     bool nanAllowed = false;    ///< NaN is a value like others: "no measurement". Real types only
     QPlcValueNames valueNames;  ///< of an integer or boolean signal, and of its elements; empty: none
     int line = 0;               ///< line of the section in the file, 0: not from a file
-
-    /// Cycles to hold unless the table says otherwise.
-    static constexpr int UsualHold = 3;
 
     /// The value that harms least: `safe`, else 0, else the limit that is nearest to 0. \pre the type is valid
     QPlcValue safeValue() const;

@@ -3,6 +3,7 @@
 
 #include "QPlcAbstractSocket.h"
 #include "QPlcCycle.h"
+#include "QPlcProfile.h"
 #include "QPlcRealTimeOptions.h"
 #include "QPlcSecurity.h"
 #include "QPlcSignalIndexList.h"
@@ -95,6 +96,13 @@ public:
     };
     Q_ENUM(SafeStateReason)
 
+    /// What a watchdog does that has timed out.
+    enum class WatchdogReaction : quint8 {
+        Report,    ///< watchdogTimedOut(), a line in the log, Counters::watchdog; the node goes on with the next frame
+        SafeState  ///< as Report, and safeState(); the node drops its connection and connects again
+    };
+    Q_ENUM(WatchdogReaction)
+
     /// When the node connects again by itself, after 0.1 s at first, and then at longer and longer intervals up to 5 s.
     enum ReconnectPolicy : quint8 {
         NeverReconnect,
@@ -177,13 +185,27 @@ public:
     /// Writes the workload [s] into the signal \a signalName (Real32 or Real64), which becomes an output of this node: the time from the frame at hand
     /// to the answer ready to be sent, in the same cycle; 0 in lockstep, where results must not depend on the machine.
     void activateWorkloadMeasurement(const QString &signalName);
-    /// When no frame has come for \a time (of the master's clock) during the real-time phase, the node goes to its safe state by itself: safeState(), watchdogTimedOut().
-    /// It drops its connection then, and connects again. A master that waits for a late node sends nothing to others: be longer than what it may wait
-    /// (QPlcMasterNode::setLongestWait()) where nodes have a Wait policy. 0: never, and that is so unless set: a node whose link is cut while the control connection stays then keeps its last
-    /// outputs for ever, which is right for one that only computes. Whatever moves something needs a watchdog; QPlcHardwareNode has one.
+    /// Sets the watchdog time: watchdogTimedOut() follows when no frame has come for \a time during the real-time phase.
+    /// Unless set, the profile of the plant decides (QPlcProfile). Takes effect at the next start.
+    ///
+    /// A master that waits for a late node sends nothing to the others: where nodes have a Wait policy, use a time that is
+    /// longer than QPlcMasterNode::setLongestWait(). Lockstep has no watchdog.
+    /// \param time  on the clock of the master; 0: no watchdog
     void activateWatchdog(std::chrono::nanoseconds time);
-    std::chrono::nanoseconds watchdog() const;
     void activateWatchdog(double seconds) { activateWatchdog(std::chrono::nanoseconds(qRound64(seconds * 1e9))); }
+    /// Returns the watchdog time of the phase at hand or the last one; before the first phase the one that was set. 0: none.
+    std::chrono::nanoseconds watchdog() const;
+    /// Sets what a watchdog does that has timed out. Unless set, the profile of the plant decides (QPlcProfile): Report in a
+    /// simulation, SafeState in a plant. Takes effect at the next start.
+    void setWatchdogReaction(WatchdogReaction reaction);
+
+    /// Tells the master that this node drives real devices: then the automatic profile is Plant (QPlcProfile), and a phase with
+    /// the profile Simulation refuses the node until the next start. QPlcHardwareNode does this by itself. \pre not connected
+    void setHardware(bool hardware);
+    bool isHardware() const;
+
+    /// Returns the profile of the phase at hand or the last one, as the master has told it; Automatic before the first phase.
+    QPlcProfile::Value profile() const;
 
     /// Lets the master stop safely with the next answer of this node, as if it were late or lost while critical: an emergency stop button was pressed, a limit of the machine
     /// was passed. From the cycles of the node or any thread; without effect outside of the real-time phase. \threadsafe yes
@@ -246,7 +268,7 @@ Q_SIGNALS:
     /// A cycle of this node has been computed: there are new inputs. Emitted in the thread of the object, once for several
     /// cycles when they come faster than this thread takes them, and only while something is connected to it.
     void realTimedOut();
-    /// No frame since the one of cycle \a cycle for longer than the watchdog time.
+    /// Emitted when no frame has come since the one of cycle \a cycle for the watchdog time. Once for each silence.
     void watchdogTimedOut(quint64 cycle);
     /// safeState() has been called.
     void safeStateEntered(QPlcSlaveNode::SafeStateReason reason);
@@ -277,7 +299,8 @@ protected:
     /// The real-time phase has ended.
     virtual void stopped() {}
 
-    /// The watchdog until activateWatchdog() says another one: \a time, or \a periods of the master where these are longer.
+    /// Sets the watchdog that is in force until activateWatchdog() sets another one: \a time, or \a periods of the master,
+    /// the longer one.
     void setDefaultWatchdog(std::chrono::nanoseconds time, int periods);
 
     /// The cycle that realTimeout() or updateStates() computes. \pre called from there

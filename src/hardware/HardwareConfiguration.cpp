@@ -2,6 +2,7 @@
 #include "HardwareConfiguration.h"
 
 #include "DriverSettingsData.h"
+#include "hardware/fake/FakeMemory.h"
 #include "signals/IniParser.h"
 #include "signals/MessageText.h"
 
@@ -256,6 +257,16 @@ void HardwareConfiguration::readSafeValue(Driver *driver, const ConfigurationEnt
 }
 
 // ---- settings ----
+
+bool HardwareConfiguration::hasRealDevices() const
+{
+    const auto isFake = [](const ConfigurationEntry &entry) {
+        return entry.key == QLatin1String("device") && FakeMemory::isFake(entry.value);
+    };
+    return std::any_of(m_drivers.begin(), m_drivers.end(), [&](const Driver &driver) {
+        return std::none_of(driver.keys.begin(), driver.keys.end(), isFake);
+    });
+}
 
 std::unique_ptr<QPlcDriverSettings> HardwareConfiguration::settings(const Driver &driver)
 {

@@ -74,6 +74,8 @@ public:
     /// Channels that stop the plant.
     const QVector<Watched> &safeStops() const { return m_safeStops; }
     const QVector<Driver> &drivers() const { return m_drivers; }
+    /// Whether a driver has another device than one that is played (`device = fake:NAME`).
+    bool hasRealDevices() const;
 
     /// The keys of \a driver, to be read by it; errors go to errors(). They outlive the result.
     std::unique_ptr<QPlcDriverSettings> settings(const Driver &driver);

@@ -213,6 +213,7 @@ QPlcHardwareNode::QPlcHardwareNode(const QString &name, QObject *parent)
 {
     setSendsQuality(true);
     setDefaultWatchdog(DefaultWatchdog, 4);
+    setWatchdogReaction(WatchdogReaction::SafeState);
 }
 
 QPlcHardwareNode::~QPlcHardwareNode()
@@ -242,6 +243,7 @@ bool QPlcHardwareNode::configure(const QByteArray &text, const QString &fileName
         m_hardware->clear();
         return false;
     }
+    setHardware(configuration.hasRealDevices());
     for (const std::unique_ptr<DriverRunner> &runner : m_hardware->runners)
         runner->prepare();
     m_hardware->setSafeValues(false);

@@ -34,6 +34,10 @@ public:
             = std::find_if(m_nodes.rbegin(), m_nodes.rend(), [id](const Node &node) { return node.id == id; });
         return found != m_nodes.rend() ? &*found : nullptr;
     }
+    bool hasName(const QString &name) const
+    {
+        return std::any_of(m_nodes.begin(), m_nodes.end(), [&](const Node &node) { return node.name == name; });
+    }
     void clear() { m_nodes.clear(); }
 
 private:

@@ -42,9 +42,10 @@ struct MasterConnection
     qint64 stageSince = 0;             // [ms] for time-outs
     bool wantsLeases = false;          // has offered the feature, and so the next ones
     bool wantsEvents = false;
-    bool hasFailed = false;  // has sent NodeFault since it was initialized last
-    bool leasesDue = false;  // they have changed and it was not told yet
-    quint64 eventsTold = 0;  // sequence number of the newest event that was sent
+    bool isHardware = false;  // has offered the feature
+    bool hasFailed = false;   // has sent NodeFault since it was initialized last
+    bool leasesDue = false;   // they have changed and it was not told yet
+    quint64 eventsTold = 0;   // sequence number of the newest event that was sent
 
     /// Whether it is TLS, and the peer proven: secrets may travel over it.
     bool isSecured() const { return peer.isSecured && socket->isSecured(); }

@@ -33,6 +33,7 @@ bool MasterCycle::start(const Phase &phase)
     stop();
     m_phase = phase;
     m_stop = false;
+    m_signalGuard.setUsualHold(phase.usualHold);
     clearStatistics();
     const double nanoseconds = double(phase.period.count());
     m_clock.emplace(m_time, phase.clock.isLockstep() ? 0 : std::int64_t(nanoseconds / phase.clock.scale()),
@@ -47,7 +48,7 @@ bool MasterCycle::start(const Phase &phase)
         slot->isSafe = false;
         slot->nextTurn = 0;
         if (slot->local)
-            slot->local->beginPhase(phase.clock.isLockstep(), m_time);
+            slot->local->beginPhase(phase.clock.isLockstep(), m_time, phase.usualHold);
     }
     const bool isTimed = !phase.clock.isLockstep();
     m_guard.start({isTimed ? phase.gapLimit.count() : 0,
@@ -93,8 +94,9 @@ void MasterCycle::takeInitialOutputs(NodeSlot &slot, const char *outputs, const 
     m_signalGuard.claim(frame, slot.written, slot.claims, outputs, cycle);
 }
 
-void MasterCycle::forgetOutputs()
+void MasterCycle::forgetOutputs(std::int64_t usualHold)
 {
+    m_signalGuard.setUsualHold(usualHold);
     m_signalGuard.forget();
 }
 

@@ -46,9 +46,10 @@ public:
         QPlcSignalIndex jitterSignal = QPlcInvalidSignalIndex;
         QPlcSignalIndex workloadSignal = QPlcInvalidSignalIndex;
         QPlcRealTimeOptions realTimeOptions;
-        std::chrono::nanoseconds gapLimit{0};     // but for lockstep; 0: none
-        std::chrono::nanoseconds longestWait{0};  // on the clock of the nodes, but for lockstep; 0: none
-        int overrunLimit = 0;                     // in a row; 0: none
+        std::chrono::nanoseconds gapLimit{0};             // but for lockstep; 0: none
+        std::chrono::nanoseconds longestWait{0};          // on the clock of the nodes, but for lockstep; 0: none
+        int overrunLimit = 0;                             // in a row; 0: none
+        std::int64_t usualHold = SignalGuard::UsualHold;  // [cycles] of signals without `hold`
     };
 
     /// \param time  instead of the clock of the machine; for tests
@@ -87,7 +88,8 @@ public:
     /// Where the quality of a signal lies in values() [byte].
     quint32 qualityOffset(QPlcSignalIndex signal) const { return m_image.qualityOffset(signal); }
     /// An initialization begins: what nodes have written before counts for nothing. \pre not running
-    void forgetOutputs();
+    /// \param usualHold  [cycles] of signals without `hold`
+    void forgetOutputs(std::int64_t usualHold);
     /// Takes the initial outputs of a node, which have been checked, but for the signals that are \a held. \pre not running
     void takeInitialOutputs(NodeSlot &slot, const char *outputs, const std::vector<bool> &held);
     /// The initial outputs of all nodes of \a roster have been taken: what has no value by now is Safe, or Invalid as ever. \pre not running

@@ -20,7 +20,10 @@ void QPlcMasterNodePrivate::join(Connection *connection)
 {
     connection->stage = Connection::GivingOutputs;
     connection->hasFailed = false;
-    connection->send(Message::SendYourInitialOutputStates);
+    QJsonObject fields;
+    if (isRunning() && !connection->slot->listener && defaults().keepsState)
+        fields.insert(QStringLiteral("phase"), Message::fromHex64(cycle->cycleZero()));
+    connection->send(Message::SendYourInitialOutputStates, fields);
 }
 
 void QPlcMasterNodePrivate::continueJoin(Connection *connection, const Message &message)
@@ -28,6 +31,7 @@ void QPlcMasterNodePrivate::continueJoin(Connection *connection, const Message &
     if (message.kind() == Message::ReceiveMyInitialOutputStates && connection->stage == Connection::GivingOutputs) {
         if (!storeOutputs(connection, message))
             return;
+        tellReturn(connection, message.fields().value(QStringLiteral("goesOn")).toBool());
         connection->stage = Connection::OutputsGiven;
     } else if (message.kind() == Message::Initialized && connection->stage == Connection::Initializing) {
         connection->stage = Connection::Initialized;
@@ -42,6 +46,19 @@ void QPlcMasterNodePrivate::continueJoin(Connection *connection, const Message &
         return;
     }
     goOn(connection);
+}
+
+/// A node that was in this phase before is there again: as the same process, or as one that was started anew.
+void QPlcMasterNodePrivate::tellReturn(const Connection *connection, bool goesOn)
+{
+    if (!isRunning() || connection->slot->listener || !m_gone.hasName(connection->name))
+        return;
+    if (goesOn)
+        journal.tell(qplc::JournalEvent::Info, qplc::JournalEvent::Node, connection->name,
+                     QStringLiteral("node %1 goes on where it was").arg(connection->name));
+    else
+        journal.tell(qplc::JournalEvent::Warning, qplc::JournalEvent::Node, connection->name,
+                     QStringLiteral("node %1 begins again at its initial state").arg(connection->name));
 }
 
 /// Tells the node what comes next, if the master has come so far.

@@ -40,7 +40,7 @@ QJsonArray commonFeatures(const Message &hello)
 {
     QJsonArray common;
     const QJsonArray offered = hello.fields().value(QStringLiteral("features")).toArray();
-    for (const char *known : {"sameCycle", "leases", "events", "quality", "outputQuality"}) {
+    for (const char *known : {"sameCycle", "leases", "events", "quality", "outputQuality", "hardware"}) {
         const QString feature = QString::fromLatin1(known);
         if (offered.contains(feature))
             common.append(feature);
@@ -76,6 +76,7 @@ void MasterServer::greet(MasterConnection *connection, const Message &message)
     m_door.know(connection->ticket);
     connection->wantsLeases = features.contains(QStringLiteral("leases"));
     connection->wantsEvents = features.contains(QStringLiteral("events"));
+    connection->isHardware = features.contains(QStringLiteral("hardware"));
     Q_EMIT greeted(connection);
     if (!connection->send(Message::Hello, hello))
         reject(connection, QStringLiteral("TooLong"),
@@ -104,7 +105,10 @@ void MasterServer::registerNode(MasterConnection *connection, const Message &mes
         refusal = channel;
     else {
         replace(connection, declaration.name);
-        connection->slot = m_registry.admit(declaration, &refusal);
+        declaration.hardware = connection->isHardware;
+        refusal = m_objection(declaration);
+        if (refusal.error.isEmpty())
+            connection->slot = m_registry.admit(declaration, &refusal);
     }
     if (!connection->slot) {
         connection->name = declaration.name.isEmpty() ? connection->name : nameOf(declaration.name);

@@ -106,6 +106,8 @@ QJsonObject stateFields(const QPlcMasterNode &master, quint64 session)
                        {QStringLiteral("period"), double(master.interval().count())},
                        {QStringLiteral("clock"), clockName(master.clock())},
                        {QStringLiteral("scale"), master.clock().scale()},
+                       {QStringLiteral("profile"), QPlcProfile::name(master.profile())},
+                       {QStringLiteral("profileReason"), master.profileReason()},
                        {QStringLiteral("session"), QPlcMessage::fromHex64(session)},
                        {QStringLiteral("nodes"), nodes},
                        {QStringLiteral("counters"), counterFields(statistics)},

@@ -13,6 +13,57 @@ using Message = QPlcMessage;
 using NodeEvent = qplc::SlaveEvent;
 using qplc::NodeSlot;
 
+// ---- profile ----
+
+/// Whether a phase has begun, with its initialization: its profile stays.
+bool QPlcMasterNodePrivate::hasFixedProfile() const
+{
+    return m_isRunning || m_step != Step::None;
+}
+
+qplc::ChosenProfile QPlcMasterNodePrivate::profile() const
+{
+    return hasFixedProfile() ? m_profile : profileForNow();
+}
+
+qplc::ChosenProfile QPlcMasterNodePrivate::profileForNow() const
+{
+    qplc::ProfileFacts facts;
+    facts.wanted = profileWanted;
+    facts.isLockstep = clock.isLockstep();
+    if (server && server->port() != 0 && !server->address().isLoopback())
+        facts.networkAddress = server->address().toString();
+    if (registry) {
+        const auto &nodes = registry->nodes();
+        const auto found = std::find_if(nodes.begin(), nodes.end(),
+                                        [](const std::shared_ptr<NodeSlot> &slot) { return slot->hardware; });
+        if (found != nodes.end())
+            facts.hardwareNode = (*found)->name;
+    }
+    return qplc::chooseProfile(facts);
+}
+
+void QPlcMasterNodePrivate::fixProfile()
+{
+    const qplc::ChosenProfile chosen = profileForNow();
+    const bool isNew = !(chosen == m_profile);
+    m_profile = chosen;
+    if (isNew)
+        journal.tell(qplc::JournalEvent::Info, qplc::JournalEvent::State, qplc::NodeRegistry::masterName(),
+                     QStringLiteral("profile %1: %2").arg(QPlcProfile::name(chosen.value), chosen.reason));
+}
+
+/// Real devices take no part in a phase that forgives what is late or lost.
+qplc::Refusal QPlcMasterNodePrivate::objectionTo(const qplc::NodeDeclaration &node) const
+{
+    if (!node.hardware || !hasFixedProfile() || m_profile.value != QPlcProfile::Simulation)
+        return {};
+    return {QStringLiteral("ProfileMismatch"),
+            QStringLiteral("node '%1' drives real devices, and the phase at hand has the profile Simulation (%2); stop "
+                           "it and start again with this node")
+                .arg(node.name, m_profile.reason)};
+}
+
 // ---- initialization ----
 
 bool QPlcMasterNodePrivate::initializeAllStates()
@@ -75,7 +126,8 @@ void QPlcMasterNodePrivate::collectOutputs()
 {
     error = QPlcMasterNode::NoError;
     errorString.clear();
-    cycle->forgetOutputs();
+    fixProfile();
+    cycle->forgetOutputs(defaults().hold);
     statisticSignals.reset(cycle.get());
     m_participants.clear();
     for (const std::unique_ptr<Connection> &connection : server->connections()) {
@@ -270,6 +322,7 @@ QJsonObject QPlcMasterNodePrivate::startFields(const NodeSlot &slot) const
         {QStringLiteral("period"), double(interval.count())},
         {QStringLiteral("clock"), qplc::clockName(clock)},
         {QStringLiteral("scale"), clock.scale()},
+        {QStringLiteral("profile"), QPlcProfile::name(m_profile.value)},
         {QStringLiteral("cycleZero"), Message::fromHex64(cycle->cycleZero())},
         {QStringLiteral("firstCycle"), Message::fromHex64(cycle->cycleZero() + (isRunning() ? cycle->cycle() : 0))}};
     if (slot.multicast)
@@ -285,6 +338,7 @@ void QPlcMasterNodePrivate::beginStart()
 {
     error = QPlcMasterNode::NoError;
     errorString.clear();
+    fixProfile();  // again: what it depends on may have been set since the initialization
     begin(Step::Start, Connection::Running);
     std::vector<Connection *> told = m_participants;
     for (Connection *listener : listeners()) {
@@ -316,8 +370,9 @@ void QPlcMasterNodePrivate::startCycles()
     phase.jitterSignal = jitterSignal;
     phase.workloadSignal = workloadSignal;
     phase.realTimeOptions = realTimeOptions;
-    phase.gapLimit = gapLimit;
-    phase.longestWait = longestWait;
+    phase.gapLimit = gapLimit.value_or(defaults().gapLimit);
+    phase.longestWait = longestWait.value_or(defaults().longestWait);
+    phase.usualHold = defaults().hold;
     phase.overrunLimit = overrunLimit;
     m_written.clear();
     giveRoster();

@@ -22,13 +22,15 @@ constexpr int LongestReason = 4000;             // [characters] of a refusal, wh
 }  // namespace
 
 MasterServer::MasterServer(NodeRegistry &registry, const ProcessImage &image, CyclicHub &hub, quint64 session,
-                           std::function<QJsonObject()> hello, QObject *parent)
+                           std::function<QJsonObject()> hello,
+                           std::function<Refusal(const NodeDeclaration &)> objection, QObject *parent)
     : QObject(parent)
     , m_registry(registry)
     , m_image(image)
     , m_hub(hub)
     , m_session(session)
     , m_hello(std::move(hello))
+    , m_objection(std::move(objection))
     , m_tableText(QString::fromUtf8(image.table().toIni()))
     , m_door(this)
 {
@@ -88,6 +90,7 @@ bool MasterServer::openPorts(const QHostAddress &address, quint16 port)
 bool MasterServer::listen(const QHostAddress &address, quint16 port, const QString &name, const QHostAddress &group)
 {
     close();
+    m_address = address;
     // A free TCP port may be taken on UDP: with port 0 another one will do.
     for (int attempts = port == 0 ? 16 : 1; attempts > 0; --attempts) {
         if (!openPorts(address, port))

@@ -21,8 +21,10 @@ class MasterServer : public QObject
     Q_OBJECT
 public:
     /// \param master  what greetings need to know of the master: fields of its Hello
+    /// \param objection  why the master does not take a node now that the registry would take; no error: it takes it
     MasterServer(NodeRegistry &registry, const ProcessImage &image, CyclicHub &hub, quint64 session,
-                 std::function<QJsonObject()> hello, QObject *parent);
+                 std::function<QJsonObject()> hello, std::function<Refusal(const NodeDeclaration &)> objection,
+                 QObject *parent);
     ~MasterServer() override;
 
     /// Takes effect with listen().
@@ -37,6 +39,8 @@ public:
     bool listen(const QHostAddress &address, quint16 port, const QString &name, const QHostAddress &group);
     void close();
     quint16 port() const;
+    /// Where it listens, or has listened last.
+    QHostAddress address() const { return m_address; }
     /// Where the datagrams for many nodes go. \pre listen() was given a group
     SocketAddress multicastGroup() const { return m_group; }
     QString errorString() const { return m_errorString; }
@@ -91,9 +95,11 @@ private:
     CyclicHub &m_hub;
     const quint64 m_session;
     std::function<QJsonObject()> m_hello;
+    std::function<Refusal(const NodeDeclaration &)> m_objection;
     const QString m_tableText;  // for who has another one
     MasterDoor m_door;
     LocalName m_name;
+    QHostAddress m_address;
     SocketAddress m_group;
     std::vector<std::unique_ptr<MasterConnection>> m_connections;
     QString m_errorString;

@@ -90,6 +90,7 @@ NodeDeclaration NodeDeclaration::fromRuntime(const NodeRuntime &runtime)
     declaration.twoPhase = runtime.node().isTwoPhase();
     declaration.quality = runtime.inputLayout().hasQualities();
     declaration.outputQuality = runtime.outputLayout().hasQualities();
+    declaration.hardware = runtime.node().isHardware();
     declaration.inputs = describe(runtime.table(), runtime.inputLayout());
     for (int i = 0; i < declaration.inputs.size(); ++i)
         declaration.inputs[i].sameCycle = runtime.sameCycle()[std::size_t(i)];
@@ -181,6 +182,7 @@ std::shared_ptr<NodeSlot> NodeRegistry::admit(const NodeDeclaration &declaration
     slot->policy = declaration.policy;
     slot->listener = declaration.listener;
     slot->critical = declaration.critical;
+    slot->hardware = declaration.hardware;
     slot->interval = declaration.interval;
     slot->twoPhase = declaration.twoPhase;
     for (const NodeDeclaration::Signal &input : declaration.inputs)

@@ -33,6 +33,7 @@ struct NodeDeclaration
     bool twoPhase = false;
     bool quality = false;        // wants the qualities of its inputs
     bool outputQuality = false;  // gives the qualities of its outputs
+    bool hardware = false;       // drives real devices
     QVector<Signal> inputs;
     QVector<Signal> outputs;
 
@@ -52,7 +53,7 @@ struct NodeDeclaration
 struct Refusal
 {
     QString
-        error;  ///< "UnknownSignal", "TypeMismatch", "UnitMismatch", "SignalHasWriter", "WriterNotNamed", "NameInUse", "TooManyNodes", "AlgebraicLoop", "LeaseHeld", "MalformedMessage", "WrongState"
+        error;  ///< "UnknownSignal", "TypeMismatch", "UnitMismatch", "SignalHasWriter", "WriterNotNamed", "NameInUse", "TooManyNodes", "AlgebraicLoop", "LeaseHeld", "ProfileMismatch", "MalformedMessage", "WrongState"
     QString text;  ///< a sentence with names and remedy
 };
 

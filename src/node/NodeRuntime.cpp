@@ -85,13 +85,15 @@ bool NodeRuntime::bind(const QPlcSignalTable &table, QString *error)
         return false;
     }
     bindInputs(inputs);
+    const quint64 former = m_outputLayout.hash();
     m_outputLayout = PayloadLayout(
         table, outputs, m_node.d->sendsQuality ? PayloadLayout::WithQualities : PayloadLayout::WithoutQualities);
     m_sameCycle.clear();
     for (QPlcSignalIndex input : qAsConst(inputs))
         m_sameCycle.push_back(m_node.isSameCycle() || sameCycle.contains(input));
     m_outputs.assign(m_outputLayout.size(), 0);
-    m_scratch.assign(m_outputLayout.size(), 0);
+    if (m_outputLayout.hash() != former)
+        m_scratch.assign(m_outputLayout.size(), 0);
     m_safeInputs = safeFrame(table, m_seenLayout);
     m_safeOutputs = safeFrame(table, m_outputLayout);
     m_workload = nullptr;
@@ -168,9 +170,14 @@ bool NodeRuntime::reset(QString *error)
 
 bool NodeRuntime::initialize(const char *inputs, QString *error)
 {
+    takeInputs(inputs);
+    return guarded("initialize()", error, [&] { m_node.initializeFrame(m_inputs.data()); });
+}
+
+void NodeRuntime::takeInputs(const char *inputs)
+{
     restartGuard();
-    const char *seen = guardedInputs(inputs, -1);
-    return guarded("initialize()", error, [&] { m_node.initializeFrame(seen); });
+    guardedInputs(inputs, -1);
 }
 
 void NodeRuntime::stopped()
@@ -182,9 +189,10 @@ void NodeRuntime::stopped()
         setFault(text.toLocal8Bit().constData());
 }
 
-void NodeRuntime::beginPhase(bool isLockstep, TimeSource &time)
+void NodeRuntime::beginPhase(bool isLockstep, TimeSource &time, std::int64_t usualHold)
 {
     m_time = isLockstep ? nullptr : &time;
+    m_guard->setUsualHold(usualHold);
     m_isSafe = m_hasFailed = false;
     m_wantsSafeStop.store(false, std::memory_order_relaxed);
 }

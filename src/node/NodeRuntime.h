@@ -43,6 +43,13 @@ public:
     /// Brings the node into its initial state: outputs() holds its initial outputs. \return false when its code threw
     bool reset(QString *error);
     bool initialize(const char *inputs, QString *error);
+    /// Instead of reset(): outputs() are those of the last step again, and the code of the node hears nothing of it.
+    /// \pre the node has taken part in a phase since bind(), or the same signals were bound before, and its code has not failed
+    void goOn() { m_outputs = m_scratch; }
+    /// Instead of initialize(): takes the inputs; the code of the node hears of them with its next step.
+    void takeInputs(const char *inputs);
+    /// Whether the code of the node has thrown in this phase.
+    bool hasFailed() const { return m_hasFailed; }
     /// The inputs of the node as it sees them: guarded, and with qualities behind them if it wants them.
     const char *inputs() const { return m_inputs.data(); }
     /// Values of inputs that were not taken since initialize(): not finite, or outside of the limits of the table. \threadsafe yes
@@ -51,7 +58,9 @@ public:
     void stopped();
 
     /// A real-time phase begins. In lockstep no clock is read and the workload is 0.
-    void beginPhase(bool isLockstep, TimeSource &time = TimeSource::monotonic());
+    /// \param usualHold  [cycles] of inputs without `hold`
+    void beginPhase(bool isLockstep, TimeSource &time = TimeSource::monotonic(),
+                    std::int64_t usualHold = SignalGuard::UsualHold);
     /// Brings the node into its safe state, once in a phase: outputs() have their safe values, safeState() is called, and step() computes nothing any more
     /// (but for a listener, which goes on watching). On the thread of step(), or that of the node while no cycle runs.
     void makeSafe(QPlcSlaveNode::SafeStateReason reason) noexcept;

@@ -27,6 +27,7 @@ struct NodeSlot
     QPlcSlaveNode::RealTimeViolationPolicy policy = QPlcSlaveNode::ErrorZeroOrderHold;
     bool listener = false;
     bool critical = false;          // the plant must not go on without it
+    bool hardware = false;          // drives real devices
     ListeningInterval interval;     // longer than a cycle for listeners alone
     bool wantsMulticast = false;    // listens to the multicast group of the master
     bool twoPhase = false;          // the answer to cycle k holds the outputs of cycle k + 1

@@ -256,6 +256,26 @@ bool QPlcApplicationOptions::readRealTimeOptions(QPlcRealTimeOptions *options)
     return true;
 }
 
+void QPlcApplicationOptions::addProfileOption()
+{
+    addOption(QCommandLineOption(
+        QStringLiteral("profile"),
+        QStringLiteral(
+            "How strict the plant is: simulation (what is late or lost ends nothing), plant (it leads to safe "
+            "values), or automatic: plant with real devices, or with a network and a clock that runs; else "
+            "simulation."),
+        QStringLiteral("PROFILE"), QStringLiteral("automatic")));
+}
+
+bool QPlcApplicationOptions::readProfile(QPlcProfile::Value *profile)
+{
+    const QString text = value(QStringLiteral("profile"));
+    if (QPlcProfile::fromName(text, profile))
+        return true;
+    usageError(QStringLiteral("--profile '%1': use simulation, plant or automatic").arg(text));
+    return false;
+}
+
 void QPlcApplicationOptions::addFaultOptions()
 {
     addOption(QCommandLineOption(QStringLiteral("enable-fault-injection"),

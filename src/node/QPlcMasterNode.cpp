@@ -134,6 +134,21 @@ void QPlcMasterNode::setInitializationTimeout(std::chrono::milliseconds time)
     d->stepTimer.setInterval(time);
 }
 
+void QPlcMasterNode::setProfile(QPlcProfile::Value profile)
+{
+    d->profileWanted = profile;
+}
+
+QPlcProfile::Value QPlcMasterNode::profile() const
+{
+    return d->profile().value;
+}
+
+QString QPlcMasterNode::profileReason() const
+{
+    return d->profile().reason;
+}
+
 void QPlcMasterNode::setLongestWait(std::chrono::nanoseconds time)
 {
     d->longestWait = time;

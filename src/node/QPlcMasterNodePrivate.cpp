@@ -115,7 +115,8 @@ bool QPlcMasterNodePrivate::prepare()
             fields.insert(QStringLiteral("faults"), faultPlan);
         return fields;
     };
-    server = std::make_unique<qplc::MasterServer>(*registry, cycle->image(), hub, session, hello, nullptr);
+    const auto objection = [this](const qplc::NodeDeclaration &node) { return objectionTo(node); };
+    server = std::make_unique<qplc::MasterServer>(*registry, cycle->image(), hub, session, hello, objection, nullptr);
     QObject::connect(server.get(), &qplc::MasterServer::attached, q, [this](Connection *connection) {
         settings->leaveToWriters();
         journal.tell(qplc::JournalEvent::Info, qplc::JournalEvent::Node, connection->name,

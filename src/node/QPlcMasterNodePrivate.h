@@ -12,6 +12,7 @@
 #include "MasterSettings.h"
 #include "MasterStates.h"
 #include "NodeRegistry.h"
+#include "ProfileDefaults.h"
 #include "QPlcMasterNode.h"
 #include "RefusedValues.h"
 #include "StatisticSignals.h"
@@ -54,6 +55,8 @@ public:
     bool isArmingRequired() const { return armingWanted.value_or(!security.isNone()); }
     bool isStartPermitted(quint64 token) const;
     bool reset();
+    /// Of the phase at hand, else of the next one.
+    qplc::ChosenProfile profile() const;
     /// Why the latched fault cannot be reset yet; empty: it can.
     QString remainingCause() const;
     bool setSignalValue(const QString &name, const QPlcValue &value);
@@ -88,8 +91,9 @@ public:
     QPlcSignalIndex timeSignal = QPlcInvalidSignalIndex;
     QPlcSignalIndex jitterSignal = QPlcInvalidSignalIndex;
     QPlcSignalIndex workloadSignal = QPlcInvalidSignalIndex;
-    std::chrono::nanoseconds longestWait{5'000'000'000};
-    std::chrono::nanoseconds gapLimit{1'000'000'000};
+    QPlcProfile::Value profileWanted = QPlcProfile::Automatic;
+    std::optional<std::chrono::nanoseconds> longestWait;  // else as the profile says
+    std::optional<std::chrono::nanoseconds> gapLimit;     // likewise
     int overrunLimit = 0;
     std::optional<bool> armingWanted;  // else: with security
     qplc::Arming arming;
@@ -148,6 +152,12 @@ private:
     QString cycleText() const;
 
     void begin(Step step, Connection::Stage owed);
+    bool hasFixedProfile() const;
+    qplc::ChosenProfile profileForNow() const;
+    void fixProfile();
+    const qplc::ProfileDefaults &defaults() const { return qplc::ProfileDefaults::of(m_profile.value); }
+    qplc::Refusal objectionTo(const qplc::NodeDeclaration &node) const;
+    void tellReturn(const Connection *connection, bool goesOn);
     void continueSequence(Connection *connection, const QPlcMessage &message);
     void advance();
     void collectOutputs();
@@ -193,6 +203,7 @@ private:
     QString m_culprit;               // node that the latched fault is about; empty: none
     bool m_mustReturn = false;       // the culprit was lost: it has to be there again before a reset
     std::vector<bool> m_written;     // by index: signals that nodes have written since the phase began
+    qplc::ChosenProfile m_profile;   // of the phase at hand or the last one
     bool m_isRunning = false;
     bool m_hasEnded = false;  // the cycles; and the nodes are still to be told
     bool m_startAfterwards = false;

@@ -25,9 +25,14 @@ QPlcNodeApplication::QPlcNodeApplication(int &argc, char **argv)
                      "FILE"));
     addOption(option("name", QStringLiteral("Name under which the node registers."), "NAME"));
     addOption(option("watchdog",
-                     QStringLiteral("Goes to its safe state when no frame has come for so long. 0: never. Unless said: "
-                                    "as the program sets it, 0.5 for nodes with devices (qtplc_hardware), else never."),
+                     QStringLiteral("Watchdog time: how long no frame of the master may come. 0: no watchdog. Without "
+                                    "this option the program decides, else the profile of the plant."),
                      "SECONDS"));
+    addOption(
+        option("watchdog-reaction",
+               QStringLiteral("What a watchdog does that has timed out: report, or safe-state. Without this option "
+                              "the program decides, else the profile of the plant."),
+               "REACTION"));
     addOption(QCommandLineOption(
         QStringLiteral("critical"),
         QStringLiteral("The plant stops safely when this node is lost, fails, or is late too often.")));
@@ -77,6 +82,15 @@ bool QPlcNodeApplication::configure(QPlcSlaveNode &node)
         || !readRealTimeOptions(&realTimeOptions) || !readSecurityOptions(QPlcSecurity::NodeSide, &security)
         || !readFaultPlan(&faultPlan))
         return false;
+    const QString reaction = value(QStringLiteral("watchdog-reaction"));
+    if (reaction == QLatin1String("report")) {
+        node.setWatchdogReaction(QPlcSlaveNode::WatchdogReaction::Report);
+    } else if (reaction == QLatin1String("safe-state")) {
+        node.setWatchdogReaction(QPlcSlaveNode::WatchdogReaction::SafeState);
+    } else if (isSet(QStringLiteral("watchdog-reaction"))) {
+        usageError(QStringLiteral("--watchdog-reaction '%1': use report or safe-state").arg(reaction));
+        return false;
+    }
     QPlcSecurity::setCurrent(security);
     if (hasWatchdog)
         node.activateWatchdog(watchdog);

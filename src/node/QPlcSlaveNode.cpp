@@ -203,7 +203,29 @@ void QPlcSlaveNode::setDefaultWatchdog(std::chrono::nanoseconds time, int period
 
 std::chrono::nanoseconds QPlcSlaveNode::watchdog() const
 {
-    return d->watchdog;
+    return d->phaseProfile == QPlcProfile::Automatic ? d->watchdog.value_or(std::chrono::nanoseconds(0))
+                                                     : d->watchdogOfPhase;
+}
+
+void QPlcSlaveNode::setWatchdogReaction(WatchdogReaction reaction)
+{
+    d->watchdogReaction = reaction;
+}
+
+void QPlcSlaveNode::setHardware(bool hardware)
+{
+    Q_ASSERT_X(!d->hasChannel, "QPlcSlaveNode::setHardware", "a registered node stays what it is");
+    d->hardware = hardware;
+}
+
+bool QPlcSlaveNode::isHardware() const
+{
+    return d->hardware;
+}
+
+QPlcProfile::Value QPlcSlaveNode::profile() const
+{
+    return d->phaseProfile;
 }
 
 QPlcSlaveNode::State QPlcSlaveNode::state() const

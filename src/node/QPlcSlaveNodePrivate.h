@@ -7,6 +7,7 @@
 #include "QPlcMasterNode.h"
 #include "QPlcMasterSocket.h"
 #include "QPlcSlaveNode.h"
+#include "ReportLimiter.h"
 #include "SlaveCycle.h"
 #include "SlaveStates.h"
 
@@ -58,10 +59,14 @@ public:
     QString faultPlan;
     QPlcSignalTable ownTable;
     QPlcRealTimeOptions realTimeOptions;
-    std::chrono::nanoseconds watchdog{0};
-    int watchdogPeriods = 0;                      // it is at least as long
-    std::chrono::nanoseconds watchdogOfPhase{0};  // that is how long it is
-    std::optional<QPlcSecurity> security;         // else that of the process
+    std::optional<std::chrono::nanoseconds> watchdog;  // else as the profile says
+    int watchdogPeriods = 0;                           // it is at least so many periods long
+    std::optional<QPlcSlaveNode::WatchdogReaction> watchdogReaction;
+    bool hardware = false;
+    QPlcProfile::Value phaseProfile
+        = QPlcProfile::Automatic;  // of the phase at hand or the last one; Automatic: there was none
+    std::chrono::nanoseconds watchdogOfPhase{0};
+    std::optional<QPlcSecurity> security;  // else that of the process
     qplc::NodeRuntime runtime;
     QPlcSlaveNode::State state = QPlcSlaveNode::Disconnected;
     QPlcSlaveNode::Error error = QPlcSlaveNode::NoError;
@@ -74,7 +79,7 @@ public:
 private:
     void enter(QPlcSlaveNode::State newState);
     bool prepareFor(qplc::SlaveAction action, qplc::SlaveEvent event, const QPlcMessage &message);
-    void carryOut(qplc::SlaveAction action);
+    void carryOut(qplc::SlaveAction action, const QPlcMessage &message);
     void openConnection();
     void closeConnection(QPlcSlaveNode::SafeStateReason reason);
     void closeAfterWatchdog();
@@ -98,7 +103,10 @@ private:
     void giveLink(std::unique_ptr<qplc::CyclicLink> link);
     void connectCyclicChannel();
     void tellRegistered();
-    void sendInitialOutputs();
+    void sendInitialOutputs(const QPlcMessage &request);
+    bool canGoOn(const QPlcMessage &request) const;
+    void applyProfile(qplc::SlaveCycle::Phase *phase);
+    void watchdogHasTimedOut(quint64 lastCycle);
     bool initializeWith(const QPlcMessage &message);
     bool startCycles(const QPlcMessage &message);
     bool refusePhase(QPlcSlaveNode::Error reason, const QString &text);
@@ -107,8 +115,20 @@ private:
     void takeReports();
     void report(const qplc::CycleEvent &event);
 
+    /// Tells one phase of one master from all others.
+    struct PhaseName
+    {
+        quint64 session;
+        quint64 cycleZero;
+        bool operator==(const PhaseName &other) const
+        {
+            return session == other.session && cycleZero == other.cycleZero;
+        }
+    };
+
     QPlcMasterSocket *m_cyclicSocket = nullptr;
-    bool m_outputsAwaited = false;             // by the master, which knows already that the cyclic connection is there
+    std::optional<QPlcMessage>
+        m_outputsAwaited;  // request of the master, which knows already that the cyclic connection is there
     std::unique_ptr<qplc::CyclicLink> m_link;  // until the cycle takes it
     std::unique_ptr<QSocketNotifier> m_reportNotifier;
     QSocketNotifier *m_cycleNotifier = nullptr;  // child of the node: it goes with it into another thread
@@ -118,7 +138,12 @@ private:
     bool m_wasRegistered = false;  // since connectToMaster()
     bool m_inPhase = false;        // from startCycles() to endPhase(); not for a node in the process of its master
     quint64 m_phase = 0;           // ordinal
-    bool m_isSafeTold = false;     // in this phase
+    std::optional<PhaseName>
+        m_lastPhase;                 // that the node has taken part in; none: it has failed since, or there was none
+    bool m_goesOn = false;           // in m_lastPhase, where it was: no initialization
+    bool m_isSafeByWatchdog = true;  // in this phase
+    qplc::ReportLimiter m_watchdogReports;
+    bool m_isSafeTold = false;  // in this phase
     QString m_uuid;
     quint64 m_session = 0;
     QString m_token;

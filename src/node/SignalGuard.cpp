@@ -47,9 +47,18 @@ void SignalGuard::add(const QPlcSignalDefinition &definition, quint32 offset)
     Signal signal;
     signal.offset = offset;
     signal.size = quint32(definition.type.size());
-    signal.hold = definition.hold;
+    signal.hold = definition.hold.value_or(int(UsualHold));
+    signal.hasOwnHold = definition.hold.has_value();
     m_signals.push_back(signal);
     definition.safeValue().toBytes(m_safe.data() + offset);
+}
+
+void SignalGuard::setUsualHold(std::int64_t cycles) noexcept
+{
+    for (Signal &signal : m_signals) {
+        if (!signal.hasOwnHold)
+            signal.hold = cycles;
+    }
 }
 
 SignalGuard::Frame SignalGuard::frameFor(const ProcessImage &image, const PayloadLayout &layout,

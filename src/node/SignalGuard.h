@@ -24,6 +24,9 @@ class SignalGuard
 public:
     using Place = quint32;
     static constexpr std::int64_t Never = std::numeric_limits<std::int64_t>::min() / 2;
+    /// Cycles for which a signal without `hold` is held, unless setUsualHold() says otherwise.
+    static constexpr std::int64_t UsualHold = 3;
+    static constexpr std::int64_t HoldForever = std::numeric_limits<std::int64_t>::max();
 
     /// Who wants to know; called by the thread that takes values.
     class Observer
@@ -114,6 +117,9 @@ public:
     SignalGuard(const QPlcSignalTable &table, const PayloadLayout &layout, char *values, char *qualities,
                 Observer *observer);
 
+    /// Signals without `hold` in the table are held for \a cycles. Between phases.
+    void setUsualHold(std::int64_t cycles) noexcept;
+
     /// The frame of a writer of the process image, but for the signals that are \a held (by index; those behind its end are not).
     static Frame frameFor(const ProcessImage &image, const PayloadLayout &layout, const std::vector<bool> &held = {});
     /// The frame of all values of a payload.
@@ -175,6 +181,7 @@ private:
         quint32 offset = 0;         // [byte] of its value, and of its safe one
         quint32 size = 0;           // [byte]
         std::int64_t hold = 0;      // [cycles]
+        bool hasOwnHold = false;    // of the table
         std::int64_t good = Never;  // cycle of its newest good value; only while it is growing old
         bool isGrowing = false;     // has no value of the cycle at hand
         bool isListed = false;      // in m_growing: growing, or until the next settle()

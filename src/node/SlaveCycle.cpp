@@ -71,7 +71,7 @@ bool SlaveCycle::start(const Phase &phase)
         : FrameDecoder(FrameKind::GroupInputs, {m_identity.session, 0, group.hash}, {0, group.size});
     m_decoder.restart(phase.firstCycle);
     m_endOfTime = phase.cycleZero + mostCycles(phase.period);
-    m_runtime.beginPhase(phase.clock.isLockstep());
+    m_runtime.beginPhase(phase.clock.isLockstep(), TimeSource::monotonic(), phase.usualHold);
     for (std::atomic<quint64> *counter :
          {&m_counters.cycles, &m_counters.missed, &m_counters.duplicated, &m_counters.outdated, &m_counters.rejected,
           &m_counters.forged, &m_counters.watchdog, &m_counters.finished})
@@ -320,7 +320,8 @@ void SlaveCycle::checkWatchdog() noexcept
     if (answer != Watchdog::Barks)
         return;
     count(m_counters.watchdog);
-    m_runtime.makeSafe(QPlcSlaveNode::WatchdogReason);
+    if (m_phase.isSafeByWatchdog)
+        m_runtime.makeSafe(QPlcSlaveNode::WatchdogReason);
     m_reports.post({CycleEvent::WatchdogTimedOut, m_identity.node, 0, m_lastCycle - m_phase.cycleZero});
 }
 

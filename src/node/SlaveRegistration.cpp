@@ -11,6 +11,8 @@
 #include <QtCore/QJsonArray>
 #include <QtCore/QMetaEnum>
 
+#include <utility>
+
 using Message = QPlcMessage;
 
 namespace {
@@ -18,6 +20,7 @@ namespace {
 const QString sameCycleFeature = QStringLiteral("sameCycle");
 const QString qualityFeature = QStringLiteral("quality");
 const QString outputQualityFeature = QStringLiteral("outputQuality");
+const QString hardwareFeature = QStringLiteral("hardware");
 
 QJsonArray describe(const QPlcSignalTable &table, const qplc::PayloadLayout &layout,
                     const std::vector<bool> &sameCycle = {})
@@ -48,7 +51,7 @@ bool QPlcSlaveNodePrivate::isOrdered() const
     }
 }
 
-/// Extensions that this node needs: one that needs none says what nodes always said.
+/// Extensions that this node uses. A master that does not know `hardware` is as strict as a plant anyway.
 QJsonArray QPlcSlaveNodePrivate::features() const
 {
     QJsonArray needed;
@@ -58,6 +61,8 @@ QJsonArray QPlcSlaveNodePrivate::features() const
         needed.append(qualityFeature);
     if (sendsQuality)
         needed.append(outputQualityFeature);
+    if (hardware)
+        needed.append(hardwareFeature);
     return needed;
 }
 
@@ -279,7 +284,6 @@ void QPlcSlaveNodePrivate::tellRegistered()
     m_patience.stop();
     hasChannel = true;
     Q_EMIT q->connectedToMaster();
-    if (m_outputsAwaited)
-        apply(qplc::SlaveEvent::OutputsWanted);
-    m_outputsAwaited = false;
+    if (const auto request = std::exchange(m_outputsAwaited, std::nullopt))
+        apply(qplc::SlaveEvent::OutputsWanted, *request);
 }

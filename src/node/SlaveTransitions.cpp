@@ -59,7 +59,7 @@ bool QPlcSlaveNodePrivate::apply(SlaveEvent event, const Message &message)
     if (hadChannel && !hasChannel)
         Q_EMIT q->disconnectedFromMaster();
     if (!localMaster && state == cell.next)
-        carryOut(cell.action);
+        carryOut(cell.action, message);
     if (cell.action == SlaveAction::Proceed)
         proceed(event, message);
     return true;
@@ -103,7 +103,7 @@ bool QPlcSlaveNodePrivate::prepareFor(SlaveAction action, SlaveEvent event, cons
 }
 
 /// What is done in the state that has been reached.
-void QPlcSlaveNodePrivate::carryOut(SlaveAction action)
+void QPlcSlaveNodePrivate::carryOut(SlaveAction action, const Message &message)
 {
     switch (action) {
     case SlaveAction::OpenConnection:
@@ -116,7 +116,7 @@ void QPlcSlaveNodePrivate::carryOut(SlaveAction action)
         tellRegistered();
         break;
     case SlaveAction::GiveOutputs:
-        sendInitialOutputs();
+        sendInitialOutputs(message);
         break;
     default:
         break;

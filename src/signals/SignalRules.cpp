@@ -241,9 +241,9 @@ QVector<Complaint> complaintsAbout(const QPlcSignalDefinition &signal)
     checkName(signal.name, &complaints);
     checkText(SignalKey::Unit, signal.unit, LineBreaks::Refused, &complaints);
     checkText(SignalKey::Description, signal.description, LineBreaks::Allowed, &complaints);
-    if (signal.hold < 0)
+    if (signal.hold && *signal.hold < 0)
         complaints.append({SignalKey::Hold,
-                           QStringLiteral("a value cannot be held for %1 cycles; give at least 0").arg(signal.hold)});
+                           QStringLiteral("a value cannot be held for %1 cycles; give at least 0").arg(*signal.hold)});
     checkWriters(signal, &complaints);
     const int before = complaints.size();
     if (!signal.type.isValid())
@@ -273,8 +273,8 @@ QString iniSection(const QPlcSignalDefinition &signal)
         lines.append(iniLine(SignalKey::Initial, listText(signal.initial)));
     if (signal.safe.isValid())
         lines.append(iniLine(SignalKey::Safe, listText(signal.safe)));
-    if (signal.hold != QPlcSignalDefinition::UsualHold)
-        lines.append(iniLine(SignalKey::Hold, QString::number(signal.hold)));
+    if (signal.hold)
+        lines.append(iniLine(SignalKey::Hold, QString::number(*signal.hold)));
     if (!signal.valueNames.isEmpty())
         lines.append(iniLine(SignalKey::Values, IniParser::valueText(signal.valueNames.toText())));
     if (!signal.writers.isEmpty())

@@ -153,9 +153,10 @@ void TableReader::readValues()
     readValue(SignalKey::Safe, m_signal.type, &m_signal.safe);
     m_signal.initial = QPlcValue(m_signal.type);
     readValue(SignalKey::Initial, m_signal.type, &m_signal.initial);
-    QPlcValue hold(m_signal.hold);
-    readValue(SignalKey::Hold, hold.type(), &hold);
-    m_signal.hold = hold.toInt();
+    QPlcValue hold;
+    readValue(SignalKey::Hold, QPlcValue(0).type(), &hold);
+    if (hold.isValid())
+        m_signal.hold = hold.toInt();
     readNames();
     readWriters();
     readNan();

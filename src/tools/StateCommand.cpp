@@ -142,6 +142,9 @@ int showState(const CommandCall &call)
     printField("cycle", QStringLiteral("%1 (%2 s)").arg(cycle).arg(double(cycle) * period, 0, 'f', 3));
     printField("period", QStringLiteral("%1 ms").arg(period * 1e3));
     printField("clock", clockText(state));
+    printField("profile",
+               QStringLiteral("%1: %2").arg(answer.text(QStringLiteral("profile")),
+                                            answer.text(QStringLiteral("profileReason"))));
     printField("counters", countersText(state.value(QStringLiteral("counters")).toObject(), verbose));
     printField("session", answer.text(QStringLiteral("session")));
     printField("digest", answer.text(QStringLiteral("digest")));

@@ -66,7 +66,7 @@ inline QPlcSignalList valueOf(const char *name, const QPlcValue &value)
     return list;
 }
 
-/// A master on a free loopback port with the table of the tests.
+/// A master on a free loopback port with the table of the tests, as strict as a plant; tst_Profiles has the other profile.
 class TestMaster : public QPlcMasterNode
 {
     Q_OBJECT
@@ -75,6 +75,7 @@ public:
     {
         setSignalTable(table);
         setClock(clock);
+        setProfile(QPlcProfile::Plant);
     }
     bool listen(const QHostAddress &address = QHostAddress::LocalHost)
     {

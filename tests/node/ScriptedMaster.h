@@ -115,8 +115,12 @@ public:
     }
     bool start(const QString &clock = QStringLiteral("RealTime"), qint64 period = 10'000'000)
     {
+        return startWith(startFields(clock, period));
+    }
+    bool startWith(const QJsonObject &fields)
+    {
         m_decoder.restart(first);
-        send(QPlcMessage::RealTimeStarted, startFields(clock, period));
+        send(QPlcMessage::RealTimeStarted, fields);
         return next().kind() == QPlcMessage::RealTimeReady;
     }
     /// Admits \a node over UDP, and starts it in lockstep.

@@ -33,7 +33,9 @@ struct Master
     NodeRegistry registry{table()};
     ProcessImage image{table()};
     CyclicHub hub;
-    MasterServer server{registry, image, hub, 5, [] { return QJsonObject(); }, nullptr};
+    MasterServer server{
+        registry, image, hub, 5, [] { return QJsonObject(); }, [](const NodeDeclaration &) { return Refusal(); },
+        nullptr};
     EventLog events;
     int pictures = 0;
     ViewerPushes pushes{server, events, [this] { return QJsonObject{{"leases", QJsonArray{++pictures}}}; }};

@@ -32,6 +32,7 @@ qint64 microseconds()
 int runMaster(QPlcCoreApplication &application, int port, int nodes)
 {
     QPlcMasterNode master;
+    master.setProfile(QPlcProfile::Plant);
     master.setInterval(0.010);
     QObject::connect(&master, &QPlcMasterNode::stateChanged, [&](QPlcMasterNode::State state) {
         tell(QStringLiteral("state %1 %2")

@@ -107,7 +107,7 @@ void tst_QPlcSignalTable::readsEveryKey()
     QCOMPARE(signal.maximum, QPlcValue(10.0));
     QCOMPARE(signal.initial, QPlcValue({0.0, 1.0, 2.0}));
     QCOMPARE(signal.safe, QPlcValue({1.0, 1.0, 1.0}));
-    QCOMPARE(signal.hold, 5);
+    QCOMPARE(signal.hold, std::optional<int>(5));
     QCOMPARE(signal.writers, QStringList{"Mast"});
     QVERIFY(signal.nanAllowed);
 }

@@ -72,6 +72,7 @@ public:
     ~Master() override { removeLocalNode(&m_recorder); }
     bool start(std::chrono::microseconds period, quint16 port)
     {
+        setProfile(QPlcProfile::Plant);
         setGapLimit(LongestGap);
         return setSignalTable(table(m_options.shape)) && setInterval(period) && addLocalNode(&m_recorder)
             && startServer(QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, port));

@@ -37,6 +37,7 @@ void tell(const QString &line)
 int runMaster(QPlcCoreApplication &application, int period)
 {
     QPlcMasterNode master;
+    master.setProfile(QPlcProfile::Plant);
     master.setInterval(period * 1e-3);
     QObject::connect(
         &master, &QPlcMasterNode::nodeRegistered, &master,

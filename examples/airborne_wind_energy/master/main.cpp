@@ -17,6 +17,8 @@ struct MasterSettings
     quint16 port = 0;
     QHostAddress multicastGroup;  // null: none
     QPlcRealTimeOptions realTime;
+    QPlcProfile::Value profile = QPlcProfile::Automatic;
+    double initializationTimeout = 2.0;  // [s]
     QString faultPlan;
     QPlcSecurity security;
 };
@@ -63,6 +65,11 @@ void addMasterOptions(QPlcCoreApplication &application)
         QCommandLineOption(QStringLiteral("mean-wind"),
                            QStringLiteral("Wind speed that eta is related to [m/s]. 0: what the signals show."),
                            QStringLiteral("SPEED"), QStringLiteral("0")));
+    application.addProfileOption();
+    application.addOption(QCommandLineOption(
+        QStringLiteral("initialization-timeout"),
+        QStringLiteral("Longest wait for each answer of a node while it is initialized or started [s]."),
+        QStringLiteral("SECONDS"), QStringLiteral("2")));
     application.addRealTimeOptions();
     application.addFaultOptions();
 }
@@ -119,7 +126,9 @@ bool readMasterOptions(QPlcCoreApplication &application, MasterSettings *setting
     if (!awe::readRunOptions(application, &settings->run) || !awe::readPlantOptions(application, &settings->run.plant)
         || !application.integer(QStringLiteral("port"), 0, 65535, &port)
         || !application.number(QStringLiteral("mean-wind"), 0.0, 100.0, &settings->run.nominalWindSpeed)
-        || !application.readRealTimeOptions(&settings->realTime)
+        || !application.number(QStringLiteral("initialization-timeout"), 0.001, 3600.0,
+                               &settings->initializationTimeout)
+        || !application.readProfile(&settings->profile) || !application.readRealTimeOptions(&settings->realTime)
         || !application.readSecurityOptions(QPlcSecurity::MasterSide, &settings->security)
         || !application.readFaultPlan(&settings->faultPlan))
         return false;
@@ -158,6 +167,8 @@ int main(int argc, char **argv)
 
     QPlcMasterNode master;
     master.setRealTimeOptions(settings.realTime);
+    master.setProfile(settings.profile);
+    master.setInitializationTimeout(std::chrono::milliseconds(qRound64(settings.initializationTimeout * 1e3)));
     master.setInsecureNetworkAllowed(application.isSet(QStringLiteral("insecure-network")));
     master.setSecurity(settings.security);
     if (application.isSet(QStringLiteral("no-arming")))

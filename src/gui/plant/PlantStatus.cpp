@@ -100,6 +100,8 @@ void PlantStatus::takeState(const QJsonObject &fields)
     period = qint64(number(fields, "period"));
     clock = text(fields, "clock");
     scale = number(fields, "scale");
+    profile = text(fields, "profile");
+    profileReason = text(fields, "profileReason");
     session = message.hex64(QStringLiteral("session"));
     stop = stopOf(object(fields, "stopped"));
     faultPlan = text(fields, "faults");

@@ -73,6 +73,8 @@ struct PlantStatus
     qint64 period = 0;  // [ns]
     QString clock;
     double scale = 1.0;
+    QString profile;        // "Simulation", "Plant"
+    QString profileReason;  // for people
     quint64 session = 0;
     PlantStop stop;          // until the next start
     QString faultPlan;       // that the master injects on purpose; empty: none

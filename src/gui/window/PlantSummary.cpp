@@ -22,6 +22,8 @@ QString figuresOf(const Plant &plant, const ViolationWatch &violations)
 {
     const PlantStatus &status = plant.status();
     QStringList parts;
+    if (!status.profile.isEmpty())
+        parts << status.profile;
     const double period = double(status.period > 0 ? status.period : plant.values().period());
     if (period > 1.0) {
         const double rate = 1e9 / period;
