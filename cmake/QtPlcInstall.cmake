@@ -43,7 +43,12 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/QtPlcConfigVersion.cmake 
 install(FILES ${PROJECT_BINARY_DIR}/QtPlcConfig.cmake ${PROJECT_BINARY_DIR}/QtPlcConfigVersion.cmake ${CMAKE_CURRENT_LIST_DIR}/FindSodium.cmake
     ${CMAKE_CURRENT_LIST_DIR}/QtPlcComponents.cmake
     DESTINATION ${package_directory} COMPONENT libqtplc-dev)
-install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md
-    DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT documentation)
+# The documents with all that they link to.
+install(FILES LICENSE README.md CHANGELOG.md CONTRIBUTING.md SECURITY.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT documentation)
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT documentation
+    PATTERN "build" EXCLUDE
+    PATTERN "__pycache__" EXCLUDE
+    PATTERN "Doxyfile.in" EXCLUDE
+    PATTERN ".clang-format" EXCLUDE)
 include(QtPlcServices)
 include(QtPlcPackages)

@@ -45,6 +45,8 @@ endfunction()
 file(REMOVE_RECURSE ${WORK})
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
 run(${prefix}/bin/qtplc --version)
+find_program(python python3 REQUIRED)
+run(${python} -B ${SOURCE}/tests/documents/documents.py --installed ${prefix}/share/doc/QtPlc)
 
 build_project(winch ${SOURCE}/tests/consumer/winch)
 run(${WORK}/winch/winch --help)

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Checks the documents: code blocks are what the files hold that they are said to show, links lead somewhere, and tests that are named
-(`tst_X::aSentence`) exist.
+"""Checks the documents: code blocks are what the files hold that they are said to show, links lead somewhere, tests that are named
+(`tst_X::aSentence`) exist, and indexes name all rooms and pages.
 
 A block that stands behind the line <!-- file: PATH --> (from the root of the repository) shows that file without its licence line; with "begin of" or "end of" in the place of "file", lines at its begin or end.
 
 usage: documents.py [--write] SOURCE_FOLDER        --write copies the files into the documents
+       documents.py --installed FOLDER             only the links of the documents of an installation
 """
 import re
 import sys
@@ -69,7 +70,42 @@ def check_tests(root, document, sources, errors):
             errors.append(f"{document.relative_to(root)}: names {program}::{name}, which {program}.cpp has not")
 
 
+def check_rooms(root, errors):
+    """CONTRIBUTING names every folder of the project in which sources are, and an index every page of its folder."""
+    text = (root / "CONTRIBUTING.md").read_text()
+    ignored = {"build"}
+    for folder in sorted(path for path in root.iterdir() if path.is_dir() and not path.name.startswith(".") and path.name not in ignored):
+        if not re.search(rf"\b{folder.name}\b", text):
+            errors.append(f"CONTRIBUTING.md: does not name the folder {folder.name}")
+    for parent in ("src", "src/gui", "src/hardware", "tests"):
+        for room in sorted(path for path in (root / parent).iterdir() if path.is_dir() and not path.name.startswith("__")):
+            if parent != "tests" and parent != "src":
+                line = re.search(rf"^{parent} .*$", text, re.M)
+                named = line is not None and re.search(rf"\b{room.name}\b", line[0])
+            else:
+                named = f"{parent}/{room.name}" in text or re.search(rf"^Tests have .*`{room.name}`", text, re.M)
+            if not named:
+                errors.append(f"CONTRIBUTING.md: does not name the room {parent}/{room.name}")
+    for index, folder in (("docs/design/README.md", "docs/design"), ("README.md", "docs/howto"), ("docs/hardware/README.md", "docs/hardware"), ("README.md", "docs")):
+        links = {(root / index).parent / link for link in LINK.findall((root / index).read_text())}
+        for page in sorted((root / folder).glob("*.md")):
+            if page not in links and page != root / index:
+                errors.append(f"{index}: does not lead to {page.relative_to(root)}")
+
+
+def check_installed(folder):
+    """The links of the documents of an installation."""
+    errors = []
+    documents = sorted(folder.rglob("*.md"))
+    for document in documents:
+        check_links(folder, document, errors)
+    print("\n".join(errors) or f"{len(documents)} installed documents lead somewhere")
+    return 1 if errors or not documents else 0
+
+
 def main():
+    if sys.argv[1] == "--installed":
+        return check_installed(Path(sys.argv[2]).resolve())
     arguments = [argument for argument in sys.argv[1:] if argument != "--write"]
     root = Path(arguments[0]).resolve()
     errors = []
@@ -79,6 +115,7 @@ def main():
         check_blocks(root, document, "--write" in sys.argv, errors)
         check_links(root, document, errors)
         check_tests(root, document, sources, errors)
+    check_rooms(root, errors)
     print("\n".join(errors) or f"{len(documents)} documents are in order")
     return 1 if errors or not documents else 0
 
