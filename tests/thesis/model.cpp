@@ -1,73 +1,124 @@
 // SPDX-License-Identifier: Apache-2.0
-// A model in the form of listing 4.14 of the thesis: lists of values. usage: model PORT
+// A model with the calls of listing 4.14 of the thesis: lists of values. usage: model [PORT]; without it 50000
 #include <QtPlc>
 
-#include "TankModel.h"
+#include "LaweModel.h"
 
 class ModelNode : public QPlcSlaveNode
 {
 private:
-    QPlcSignalIndex _speedIndex;
-    QPlcSignalIndex _valveIndex;
+    QPlcSignalIndex _bodyControlPitchSpeedIndex;
+    QPlcSignalIndex _bodyControlYawSpeedIndex;
+    QPlcSignalIndex _tetherSpeedIndex;
 
-    QPlcSignalIndex _levelIndex;
-    QPlcSignalIndex _flowIndex;
-    QPlcSignalIndex _volumeIndex;
-    QPlcSignalIndex _timeIndex;
+    QPlcSignalIndex _bodyPosition_earth_index;
+    QPlcSignalIndex _bodyVelocity_earth_index;
+    QPlcSignalIndex _windVelocity_earth_index;
+
+    QPlcSignalIndex _bodyControlOrientationIndex;
+    QPlcSignalIndex _bodyPositionOrientationIndex;
+
+    QPlcSignalIndex _angleOfAttackIndex;
+    QPlcSignalIndex _dragCoefficientIndex;
+    QPlcSignalIndex _liftCoefficientIndex;
+    QPlcSignalIndex _aweCoefficientIndex;
+
+    QPlcSignalIndex _aerodynamicForce_earth_index;
+    QPlcSignalIndex _tetherForce_earth_index;
+    QPlcSignalIndex _gravitationalForce_earth_index;
+
+    QPlcSignalIndex _tetherLengthIndex;
+    QPlcSignalIndex _powerIndex;
+    QPlcSignalIndex _averagePowerIndex;
+    QPlcSignalIndex _energyIndex;
 
 public:
     ModelNode()
         : QPlcSlaveNode("Model", ErrorZeroOrderHold)
     {
-        TankModel_initialize();
+        LaweModel_initialize();
     }
 
 protected:
     QPlcSignalIndexList declareInputSignals()
     {
         QPlcSignalIndexList list;
-        _speedIndex = list.insert("speed");
-        _valveIndex = list.insert("valve");
+        _bodyControlPitchSpeedIndex = list.insert("bodyControlPitchSpeed");
+        _bodyControlYawSpeedIndex = list.insert("bodyControlYawSpeed");
+        _tetherSpeedIndex = list.insert("tetherSpeed");
         return list;
     }
     QPlcSignalIndexList declareOutputSignals()
     {
         QPlcSignalIndexList list;
-        _levelIndex = list.insert("level");
-        _flowIndex = list.insert("flow");
-        _volumeIndex = list.insert("volume");
-        _timeIndex = list.insert("modelTime");
+        _bodyPosition_earth_index = list.insert("bodyPosition_earth");
+        _bodyVelocity_earth_index = list.insert("bodyVelocity_earth");
+        _windVelocity_earth_index = list.insert("windVelocity_earth");
+
+        _bodyControlOrientationIndex = list.insert("bodyControlOrientation");
+        _bodyPositionOrientationIndex = list.insert("bodyPositionOrientation");
+
+        _angleOfAttackIndex = list.insert("angleOfAttack");
+        _dragCoefficientIndex = list.insert("dragCoefficient");
+        _liftCoefficientIndex = list.insert("liftCoefficient");
+        _aweCoefficientIndex = list.insert("aweCoefficient");
+
+        _aerodynamicForce_earth_index = list.insert("aerodynamicForce_earth");
+        _tetherForce_earth_index = list.insert("tetherForce_earth");
+        _gravitationalForce_earth_index = list.insert("gravitationalForce_earth");
+
+        _tetherLengthIndex = list.insert("tetherLength");
+        _powerIndex = list.insert("power");
+        _averagePowerIndex = list.insert("averagePower");
+        _energyIndex = list.insert("energy");
         return list;
     }
 
 protected:
     QPlcSignalList initialOutputSignals()
     {
-        TankModel_initialize();
-        TankModel_step();  // sets the outputs
-        return modelOutputs();
+        LaweModel_initialize();
+        LaweModel_step();  // sets the outputs
+        return collectModelOutputs();
     }
-    void initialize(const QPlcSignalList &initialSignals) { setModelInputs(initialSignals); }
+    void initialize(const QPlcSignalList &initialSignals) { distributeModelInputs(initialSignals); }
     QPlcSignalList realTimeout(const QPlcSignalList &inputSignals)
     {
-        setModelInputs(inputSignals);
-        TankModel_step();
-        return modelOutputs();
+        distributeModelInputs(inputSignals);
+        LaweModel_step();
+        return collectModelOutputs();
     }
 
 private:
-    void setModelInputs(const QPlcSignalList &inputs)
+    void distributeModelInputs(const QPlcSignalList &inputSignals)
     {
-        TankModel_U.speed = inputs.value(_speedIndex).toReal();
-        TankModel_U.valve = inputs.value(_valveIndex).toReal();
+        LaweModel_U.bodyControlPitchSpeed = inputSignals.value(_bodyControlPitchSpeedIndex).toReal();
+        LaweModel_U.bodyControlYawSpeed = inputSignals.value(_bodyControlYawSpeedIndex).toReal();
+        LaweModel_U.tetherSpeed = inputSignals.value(_tetherSpeedIndex).toReal();
     }
-    QPlcSignalList modelOutputs()
+    QPlcSignalList collectModelOutputs()
     {
         QPlcSignalList outputs;
-        outputs.insert(_levelIndex, TankModel_Y.level);
-        outputs.insert(_flowIndex, TankModel_Y.flow);
-        outputs.insert(_volumeIndex, TankModel_Y.volume);
-        outputs.insert(_timeIndex, TankModel_Y.time);
+        outputs.insert(_bodyPosition_earth_index, LaweModel_Y.bodyPosition_earth);
+        outputs.insert(_bodyVelocity_earth_index, LaweModel_Y.bodyVelocity_earth);
+        outputs.insert(_windVelocity_earth_index, LaweModel_Y.windVelocity_earth);
+
+        outputs.insert(_bodyControlOrientationIndex, LaweModel_Y.bodyControlOrientation);
+        outputs.insert(_bodyPositionOrientationIndex, LaweModel_Y.bodyPositionOrientation);
+
+        outputs.insert(_angleOfAttackIndex, LaweModel_Y.angleOfAttack);
+        outputs.insert(_dragCoefficientIndex, LaweModel_Y.dragCoefficient);
+        outputs.insert(_liftCoefficientIndex, LaweModel_Y.liftCoefficient);
+        outputs.insert(_aweCoefficientIndex, LaweModel_Y.aweCoefficient);
+
+        outputs.insert(_aerodynamicForce_earth_index, LaweModel_Y.aerodynamicForce_earth);
+        outputs.insert(_tetherForce_earth_index, LaweModel_Y.tetherForce_earth);
+        outputs.insert(_gravitationalForce_earth_index, LaweModel_Y.gravitationalForce_earth);
+
+        outputs.insert(_tetherLengthIndex, LaweModel_Y.tetherLength);
+        outputs.insert(_powerIndex, LaweModel_Y.power);
+        outputs.insert(_averagePowerIndex, LaweModel_Y.averagePower);
+        outputs.insert(_energyIndex, LaweModel_Y.energy);
         return outputs;
     }
 };
@@ -75,16 +126,17 @@ private:
 int main(int argc, char **argv)
 {
     QPlcCoreApplication application(argc, argv);
+    const QString port = application.arguments().value(1, "50000");
 
     QPlcSignalIndexTable signalIndexTable;
-    signalIndexTable.initializeFromIniFile(application.applicationDirPath() + "/../signals/tank.ini");
+    signalIndexTable.initializeFromIniFile(application.applicationDirPath() + "/../../Signals/SignalIndexTable.ini");
 
     ModelNode modelNode;
     modelNode.activateWorkloadMeasurement("modelWorkload");
-    modelNode.activateWatchdog(0.150);
+    modelNode.activateWatchdog(0.015);
     if (!modelNode.connectToMasterAndWaitForConnected(
-            QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, application.arguments().value(1).toUShort())))
-        return 2;
+            QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, port.toUShort())))
+        return 2;  // the listing returns 0, but a program that has failed should say so
 
     return application.exec();
 }

@@ -1,29 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "LaweModel.h"
 #include "Program.h"
-#include "TankModel.h"
 
 #include <QtPlcCore>
 
 #include <QtCore/QJsonArray>
 #include <QtCore/QTemporaryDir>
+#include <QtCore/QThread>
 #include <QtCore/QUuid>
 #include <QtNetwork/QTcpServer>
 #include <QtNetwork/QTcpSocket>
 #include <QtTest/QtTest>
 
+#include <cmath>
 #include <csignal>
+#include <vector>
 
 namespace {
 
 using Values = QHash<QString, QPlcValue>;
 
-const char masterSilent[] = "no frame of the master for 150 ms";
-const double speed = 2.5;  // what the test sets [1/s]
-const double valve = 0.5;
+const char masterSilent[] = "no frame of the master for 15 ms";
+// What the test sets, as the signals of type Real have it.
+const double pitchSpeed = -0.5;                        // [deg/s]
+const double yawSpeed = 2.5;                           // [deg/s]
+const double tetherSpeed = double(1.9F);               // [m/s]
+const double tetherLengthOfStep = 0.01 * tetherSpeed;  // [m]
 
 QString path(const QString &variant, const QString &program)
 {
-    return QStringLiteral(THESIS_PROGRAMS "/%1/%2").arg(variant, program);
+    return QStringLiteral(THESIS_PROGRAMS "/%1/bin/%2").arg(variant, program);
 }
 
 void addModels()
@@ -36,26 +42,27 @@ void addModels()
 /// A copy of a program at a place where it does not find its signal table.
 QString copyWithoutTable(const QTemporaryDir &folder, const QString &program)
 {
-    const QString copy = folder.filePath(QStringLiteral("bin/") + program);
-    QDir(folder.path()).mkdir(QStringLiteral("bin"));
+    const QString copy = folder.filePath(QStringLiteral("plain/bin/") + program);
+    QDir(folder.path()).mkpath(QStringLiteral("plain/bin"));
     return QFile::copy(path(QStringLiteral("plain"), program), copy) ? copy : QString();
 }
 
 /// The outputs after as many steps as a node does: the first one with initial inputs.
-TankModel_Outputs tanksAfter(int steps)
+LaweModel_Outputs kiteAfter(int steps)
 {
-    TankModel_initialize();
+    LaweModel_initialize();
     for (int step = 0; step < steps; ++step) {
-        TankModel_U.speed = step > 0 ? speed : 0.0;
-        TankModel_U.valve = step > 0 ? valve : 0.0;
-        TankModel_step();
+        LaweModel_U.bodyControlPitchSpeed = step > 0 ? pitchSpeed : 0.0;
+        LaweModel_U.bodyControlYawSpeed = step > 0 ? yawSpeed : 0.0;
+        LaweModel_U.tetherSpeed = step > 0 ? tetherSpeed : 0.0;
+        LaweModel_step();
     }
-    return TankModel_Y;
+    return LaweModel_Y;
 }
 
 }  // namespace
 
-/// Programs in the form of the thesis's listings: a master (4.12) with a model (4.14) or a compact model (4.16), told by
+/// Programs with the calls of the thesis's listings: a master (4.12) with a model (4.14) or a compact model (4.16), told by
 /// a tool, ended by their ids.
 class tst_ThesisPrograms : public QObject
 {
@@ -67,6 +74,8 @@ private Q_SLOTS:
     void modelFollowsTheMaster();
     void silentPartnersAreReported_data();
     void silentPartnersAreReported();
+    void stopsOfFortyMillisecondsHarmNothing_data();
+    void stopsOfFortyMillisecondsHarmNothing();
     void masterWithoutItsTableEndsWithAMessage();
     void modelWithoutItsTableTakesThatOfTheMaster_data();
     void modelWithoutItsTableTakesThatOfTheMaster();
@@ -81,7 +90,10 @@ private:
     bool ask(QPlcMessage::Kind kind, const QJsonObject &fields = {}, QPlcMessage *answer = nullptr);
     QPlcMessage state();
     Values values();
-    bool showsTanksAfter(int steps);
+    bool showsKiteAfter(int steps);
+    double tetherLength() { return values().value(QStringLiteral("tetherLength")).toReal(); }
+    bool setControls();
+    bool isFlying(double *tetherLength);
 
     std::unique_ptr<Program> m_master, m_model;
     std::unique_ptr<QPlcMasterSocket> m_tool;
@@ -172,12 +184,27 @@ Values tst_ThesisPrograms::values()
 }
 
 /// Whether the master has, bit by bit, what the model gives after \a steps.
-bool tst_ThesisPrograms::showsTanksAfter(int steps)
+bool tst_ThesisPrograms::showsKiteAfter(int steps)
 {
     const Values shown = values();
-    const TankModel_Outputs expected = tanksAfter(steps);
-    const std::pair<const char *, QPlcValue> outputs[] = {
-        {"level", expected.level}, {"flow", expected.flow}, {"volume", expected.volume}, {"modelTime", expected.time}};
+    const LaweModel_Outputs expected = kiteAfter(steps);
+    const std::pair<const char *, QPlcValue> outputs[]
+        = {{"bodyPosition_earth", expected.bodyPosition_earth},
+           {"bodyVelocity_earth", expected.bodyVelocity_earth},
+           {"windVelocity_earth", expected.windVelocity_earth},
+           {"bodyControlOrientation", expected.bodyControlOrientation},
+           {"bodyPositionOrientation", expected.bodyPositionOrientation},
+           {"angleOfAttack", expected.angleOfAttack},
+           {"dragCoefficient", expected.dragCoefficient},
+           {"liftCoefficient", expected.liftCoefficient},
+           {"aweCoefficient", expected.aweCoefficient},
+           {"aerodynamicForce_earth", expected.aerodynamicForce_earth},
+           {"tetherForce_earth", expected.tetherForce_earth},
+           {"gravitationalForce_earth", expected.gravitationalForce_earth},
+           {"tetherLength", expected.tetherLength},
+           {"power", expected.power},
+           {"averagePower", expected.averagePower},
+           {"energy", expected.energy}};
     for (const auto &[name, value] : outputs) {
         const QPlcValue seen = shown.value(QString::fromLatin1(name));
         if (seen == value.convertedTo(seen.type()))
@@ -187,6 +214,14 @@ bool tst_ThesisPrograms::showsTanksAfter(int steps)
         return false;
     }
     return true;
+}
+
+bool tst_ThesisPrograms::setControls()
+{
+    const QJsonObject inputs{{QStringLiteral("bodyControlPitchSpeed"), QString::number(pitchSpeed)},
+                             {QStringLiteral("bodyControlYawSpeed"), QString::number(yawSpeed)},
+                             {QStringLiteral("tetherSpeed"), QStringLiteral("1.9")}};
+    return ask(QPlcMessage::SetSignals, {{QStringLiteral("values"), inputs}});
 }
 
 // ---- together ----
@@ -214,19 +249,17 @@ void tst_ThesisPrograms::modelFollowsTheMaster()
     QVERIFY2(m_model->errors().contains(QStringLiteral("node %1 registered").arg(node)), qPrintable(m_model->errors()));
 
     QVERIFY(ask(QPlcMessage::InitializeAllStates));
-    QVERIFY(showsTanksAfter(1));
-    const QJsonObject inputs{{QStringLiteral("speed"), QString::number(speed)},
-                             {QStringLiteral("valve"), QString::number(valve)}};
-    QVERIFY(ask(QPlcMessage::SetSignals, {{QStringLiteral("values"), inputs}}));
+    QVERIFY(showsKiteAfter(1));
+    QVERIFY(setControls());
 
     const QDateTime before = QDateTime::currentDateTimeUtc();
     QVERIFY(ask(QPlcMessage::StartRealTime));
     const QDateTime after = QDateTime::currentDateTimeUtc();
-    for (const char *measured : {"masterWorkload", "masterJitter", "modelWorkload", "modelTime"}) {
-        const QString name = QString::fromLatin1(measured);
-        const double floor = name == QLatin1String("modelTime") ? 0.1 : 0.0;
-        QVERIFY2(QTest::qWaitFor([&] { return values().value(name).toReal() > floor; }, Program::patience), measured);
+    for (const char *measured : {"masterWorkload", "masterJitter", "modelWorkload"}) {
+        const auto isMeasured = [&] { return values().value(QString::fromLatin1(measured)).toReal() > 0.0; };
+        QVERIFY2(QTest::qWaitFor(isMeasured, Program::patience), measured);
     }
+    QTRY_VERIFY_WITH_TIMEOUT(tetherLength() > 100.2, Program::patience);
     const qint64 early = values().value(QStringLiteral("masterTime")).toInt64();
     QTRY_VERIFY_WITH_TIMEOUT(values().value(QStringLiteral("masterTime")).toInt64() > early, Program::patience);
     QVERIFY(ask(QPlcMessage::Stop));
@@ -234,7 +267,9 @@ void tst_ThesisPrograms::modelFollowsTheMaster()
     QCOMPARE(off.text(QStringLiteral("state")), QStringLiteral("Off"));
 
     const Values stopped = values();
-    QVERIFY(showsTanksAfter(qRound(stopped.value(QStringLiteral("modelTime")).toReal() * 100.0)));
+    // Step 1 is that of the initialization; the tether of step 2 has its initial length still.
+    const double reeledOut = stopped.value(QStringLiteral("tetherLength")).toReal() - 100.0;
+    QVERIFY(showsKiteAfter(qRound(reeledOut / tetherLengthOfStep) + 2));
     // The time is that of the start and a period for each cycle.
     const qint64 late = stopped.value(QStringLiteral("masterTime")).toInt64();
     const qint64 period = 10000000;
@@ -257,33 +292,104 @@ void tst_ThesisPrograms::silentPartnersAreReported()
     QFETCH(QString, program);
     QVERIFY(startMaster(QStringLiteral("plain")));
     QVERIFY2(startModel(path(QStringLiteral("plain"), program)), qPrintable(m_model->errors()));
+    QVERIFY(setControls());
     QVERIFY(ask(QPlcMessage::StartRealTime));
-    const auto modelTime = [this] { return values().value(QStringLiteral("modelTime")).toReal(); };
     const auto lateAnswers
         = [this] { return state().fields().value(QStringLiteral("nodes"))[0][QStringLiteral("lateAnswers")].toInt(); };
-    QTRY_VERIFY_WITH_TIMEOUT(modelTime() > 0.02, Program::patience);
+    QTRY_VERIFY_WITH_TIMEOUT(tetherLength() > 100.0, Program::patience);
 
-    // The watchdog of the model.
+    // The watchdog of the model informs: the model goes on where it was.
+    const double before = tetherLength();
     m_master->sendSignal(SIGSTOP);
     const bool barked = m_model->waitForErrors(QString::fromLatin1(masterSilent));
     m_master->sendSignal(SIGCONT);
     QVERIFY2(barked, qPrintable(m_model->errors()));
-    QTRY_VERIFY_WITH_TIMEOUT(m_model->errors().count(QStringLiteral("registered")) > 1,
-                             Program::patience);  // it is back
-    QTRY_VERIFY_WITH_TIMEOUT(modelTime() > 0.02, Program::patience);
+    const double after = tetherLength();
+    QVERIFY2(after >= before, qPrintable(QStringLiteral("%1 m after %2 m").arg(after).arg(before)));
+    QTRY_VERIFY_WITH_TIMEOUT(tetherLength() > after, Program::patience);
+    QCOMPARE(m_model->errors().count(QStringLiteral("registered")), 1);
 
-    // ErrorZeroOrderHold: the master reports a late model and goes on with its last values.
+    // ErrorZeroOrderHold: the master reports a late model and goes on with its last values, however long.
     m_model->sendSignal(SIGSTOP);
     QVERIFY2(m_master->waitForErrors(QStringLiteral("was late in cycle")), qPrintable(m_master->errors()));
     int late = lateAnswers();
     QTRY_VERIFY_WITH_TIMEOUT(lateAnswers() > late + 1, Program::patience);  // nothing is on its way any more
-    const double held = modelTime();
+    const double held = tetherLength();
+    QVERIFY(held > 100.0);
     late = lateAnswers();
-    QTRY_VERIFY_WITH_TIMEOUT(lateAnswers() > late + 2, Program::patience);
-    QCOMPARE(modelTime(), held);
+    QTRY_VERIFY_WITH_TIMEOUT(lateAnswers() > late + 10, Program::patience);
+    QCOMPARE(tetherLength(), held);
     m_model->sendSignal(SIGCONT);
-    QTRY_VERIFY_WITH_TIMEOUT(modelTime() > held, Program::patience);
+    QTRY_VERIFY_WITH_TIMEOUT(tetherLength() > held, Program::patience);
+    QCOMPARE(m_model->errors().count(QStringLiteral("registered")), 1);
     QVERIFY(ask(QPlcMessage::Stop));
+}
+
+/// Stops a program as an ordinary kernel may do it.
+static void halt(Program &program)
+{
+    program.sendSignal(SIGSTOP);
+    QThread::msleep(40);
+    program.sendSignal(SIGCONT);
+}
+
+/// Whether no signal of the flight has fallen back since \a tetherLength, which becomes that of now.
+bool tst_ThesisPrograms::isFlying(double *tetherLength)
+{
+    const Values now = values();
+    const auto value = [&now](const char *name, int i = 0) { return now.value(QString::fromLatin1(name)).toReal(i); };
+    const bool isKept = value("tetherLength") >= *tetherLength && value("tetherSpeed") > 1.8
+        && value("windVelocity_earth", 0) == 5.0 && value("windVelocity_earth", 1) == 3.0
+        && value("gravitationalForce_earth", 2) < -49.0 && value("dragCoefficient") > 0.0
+        && std::hypot(value("bodyPosition_earth", 0), value("bodyPosition_earth", 1), value("bodyPosition_earth", 2))
+            > 90.0;
+    if (!isKept) {
+        for (auto signal = now.begin(); signal != now.end(); ++signal)
+            qWarning().noquote() << signal.key() << "=" << signal.value().toString();
+    }
+    *tetherLength = value("tetherLength");
+    return isKept;
+}
+
+void tst_ThesisPrograms::stopsOfFortyMillisecondsHarmNothing_data()
+{
+    addModels();
+}
+
+/// Every second the model and then the master stand still for 40 ms: the watchdog of 15 ms informs, and the flight goes on
+/// where it was. THESIS_SECONDS is the time [s], THESIS_LOAD the number of programs that only compute beside it.
+void tst_ThesisPrograms::stopsOfFortyMillisecondsHarmNothing()
+{
+    QFETCH(QString, program);
+    const int seconds = qMax(1, qEnvironmentVariable("THESIS_SECONDS", QStringLiteral("5")).toInt());
+    std::vector<std::unique_ptr<Program>> load;
+    for (int i = 0; i < qEnvironmentVariableIntValue("THESIS_LOAD"); ++i)
+        load.push_back(std::make_unique<Program>(
+            QStringLiteral("/bin/sh"), QStringList{QStringLiteral("-c"), QStringLiteral("while :; do :; done")}));
+    QVERIFY(startMaster(QStringLiteral("plain")));
+    QVERIFY2(startModel(path(QStringLiteral("plain"), program)), qPrintable(m_model->errors()));
+    QVERIFY(setControls());
+    QVERIFY(ask(QPlcMessage::StartRealTime));
+    QTRY_VERIFY_WITH_TIMEOUT(tetherLength() > 100.1, Program::patience);
+
+    double length = 100.0;
+    for (int second = 0; second < seconds; ++second) {
+        for (Program *halted : {m_model.get(), m_master.get()}) {
+            halt(*halted);
+            for (int look = 0; look < 5; ++look) {
+                QVERIFY2(isFlying(&length), qPrintable(m_model->errors() + m_master->errors()));
+                QTest::qWait(90);
+            }
+        }
+    }
+    QVERIFY(ask(QPlcMessage::Stop));
+    load.clear();
+    QVERIFY2(length > 100.0 + 0.3 * seconds * tetherSpeed, qPrintable(QString::number(length)));
+    QVERIFY2(m_model->errors().contains(QString::fromLatin1(masterSilent)), qPrintable(m_model->errors()));
+    QVERIFY2(m_master->errors().contains(QStringLiteral("was late in cycle")), qPrintable(m_master->errors()));
+    QCOMPARE(m_model->errors().count(QStringLiteral("registered")), 1);
+    // Bit by bit the flight that the model has computed without a break.
+    QVERIFY(showsKiteAfter(qRound((tetherLength() - 100.0) / tetherLengthOfStep) + 2));
 }
 
 // ---- what is missing ----
@@ -310,7 +416,7 @@ void tst_ThesisPrograms::modelWithoutItsTableTakesThatOfTheMaster()
     QVERIFY(startMaster(QStringLiteral("plain")));
     QVERIFY2(startModel(copyWithoutTable(folder, program)), qPrintable(m_model->errors()));
     QVERIFY(ask(QPlcMessage::InitializeAllStates));
-    QVERIFY(showsTanksAfter(1));
+    QVERIFY(showsKiteAfter(1));
 }
 
 void tst_ThesisPrograms::masterOnAPortInUseEndsWithAMessage()
