@@ -303,9 +303,45 @@ QStringList TextTable::toLines(const QVector<Cell> &cells, const QVector<int> &w
     return lines;
 }
 
+TextTable TextTable::part(const QVector<int> &columns) const
+{
+    TextTable table;
+    for (const int column : columns)
+        table.m_columns.append(m_columns.at(column));
+    for (const QVector<Cell> &row : m_rows) {
+        QVector<Cell> cells;
+        for (const int column : columns)
+            cells.append(row.at(column));
+        table.m_rows.append(cells);
+    }
+    return table;
+}
+
+/// Several tables, one below the other, that all begin with the first column.
+QStringList TextTable::linesOfParts(int width) const
+{
+    QVector<QVector<int>> parts{QVector<int>{0}};
+    int used = m_columns.constFirst().width;
+    for (int i = 1; i < m_columns.size(); ++i) {
+        if (parts.constLast().size() > 1 && used + gap + m_columns.at(i).width > width) {
+            parts.append(QVector<int>{0});
+            used = m_columns.constFirst().width;
+        }
+        parts.last().append(i);
+        used += gap + m_columns.at(i).width;
+    }
+    QStringList all;
+    for (const QVector<int> &columns : qAsConst(parts))
+        all << (all.isEmpty() ? QStringList() : QStringList{QString()}) << part(columns).lines(width);
+    return all;
+}
+
 QStringList TextTable::lines(int width) const
 {
     const QVector<int> widths = widthsFor(width);
+    const int total = std::accumulate(widths.begin(), widths.end(), gap * (int(widths.size()) - 1));
+    if (width > 0 && total > width && m_columns.size() > 2)
+        return linesOfParts(width);
     QVector<Cell> titles;
     for (const Column &column : m_columns)
         titles.append({column.title, Tone::Title});

@@ -53,7 +53,8 @@ struct TerminalSize
 };
 TerminalSize terminalSize();
 
-/// Rows with aligned columns, two blanks apart; an empty cell is "-", so that every row has as many words. On a terminal that is too narrow long cells get several lines.
+/// Rows with aligned columns, two blanks apart; an empty cell is "-", so that every row has as many words. On a terminal that is too narrow
+/// long cells get several lines; where that is not enough, the table becomes several ones, each with the first column.
 class TextTable
 {
 public:
@@ -80,6 +81,8 @@ private:
     };
     QVector<int> widthsFor(int width) const;
     QString toLine(const QVector<Cell> &cells, const QVector<int> &widths) const;
+    TextTable part(const QVector<int> &columns) const;
+    QStringList linesOfParts(int width) const;
     QStringList toLines(const QVector<Cell> &cells, const QVector<int> &widths) const;
 
     QVector<Column> m_columns;

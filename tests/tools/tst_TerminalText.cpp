@@ -54,6 +54,7 @@ private Q_SLOTS:
     void textsAreBrokenAtBlanks();
     void columnsAreAlignedAlsoWithWideCharacters();
     void longCellsGetSeveralLinesWhereTheTerminalIsNarrow();
+    void columnsThatDoNotFitBecomeAnotherTable();
     void aTableThatFitsIsNotBroken();
 };
 
@@ -205,6 +206,21 @@ void tst_TerminalText::longCellsGetSeveralLinesWhereTheTerminalIsNarrow()
     const int unit = lines.constFirst().indexOf("unit");
     QCOMPARE(lines.at(1).mid(unit), QString("N"));
     QCOMPARE(lines.at(4).mid(unit), QString("m/s"));
+}
+
+void tst_TerminalText::columnsThatDoNotFitBecomeAnotherTable()
+{
+    TextTable table;
+    for (const char *title : {"node", "transport", "state", "description"})
+        table.addColumn(title);
+    table.addRow({"Model", "udp", "Registered", "flies a kite"});
+    QCOMPARE(table.lines(30),
+             (QStringList{"node   transport  state", "Model  udp        Registered", "", "node   description",
+                          "Model  flies a kite"}));
+    // A screen that is narrower than any column: nothing is lost.
+    const QStringList narrow = table.lines(3);
+    for (const char *text : {"Model", "udp", "Registered", "flies"})
+        QVERIFY(narrow.join(QLatin1Char(' ')).contains(QLatin1String(text)));
 }
 
 void tst_TerminalText::aTableThatFitsIsNotBroken()
