@@ -64,14 +64,18 @@ function(qtplc_add_test name)
 endfunction()
 
 # qtplc_add_screen_test(name target [VARIABLE=VALUE ...]) runs a test program on the screen of a laptop, with OpenGL in software. Pictures that it makes are kept in the folder
-# "screenshots" of the build (QTPLC_SCREENSHOTS). Servers and drivers keep memory until the end, and take texts without an end: leaks of ours are looked for by the tests without a screen.
+# "screenshots" of the build (QTPLC_SCREENSHOTS). The variable QTPLC_SCREEN of the caller names another size of the screen: 1920x1080. Servers and drivers keep memory until the end, and take texts without an end: leaks of ours are looked for by the tests without a screen.
 find_program(XVFB_RUN xvfb-run)
 function(qtplc_add_screen_test name target)
     if(NOT XVFB_RUN)
         message(STATUS "${name} is not tested on a screen: xvfb-run is missing (Debian: xvfb, xauth)")
         return()
     endif()
-    add_test(NAME ${name} COMMAND ${XVFB_RUN} -a -s "-screen 0 1366x768x24" $<TARGET_FILE:${target}>)
+    set(screen 1366x768)
+    if(QTPLC_SCREEN)
+        set(screen ${QTPLC_SCREEN})
+    endif()
+    add_test(NAME ${name} COMMAND ${XVFB_RUN} -a -s "-screen 0 ${screen}x24" $<TARGET_FILE:${target}>)
     set_tests_properties(${name} PROPERTIES TIMEOUT 300
         ENVIRONMENT "QT_QPA_PLATFORM=xcb;QT_FONT_DPI=96;LIBGL_ALWAYS_SOFTWARE=1;ASAN_OPTIONS=detect_leaks=0;QTPLC_SCREENSHOTS=${CMAKE_BINARY_DIR}/screenshots;${ARGN}")
     file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/screenshots)

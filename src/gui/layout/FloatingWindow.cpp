@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "FloatingWindow.h"
 
+#include "OnScreen.h"
 #include "PageView.h"
 
 #include <QtGui/QCloseEvent>
@@ -8,23 +9,17 @@
 #include <QtGui/QScreen>
 #include <QtWidgets/QVBoxLayout>
 
-#include <algorithm>
-
 namespace qplc {
 
 namespace {
 
-/// The same, or moved and made smaller, so that a person sees all of it: a layout may come from a larger screen.
-QRect onScreen(const QRect &geometry)
+/// A layout may come from a larger screen.
+QRect onItsScreen(const QRect &geometry)
 {
     const QScreen *screen = QGuiApplication::screenAt(geometry.center());
     if (!screen)
         screen = QGuiApplication::primaryScreen();
-    const QRect room = screen->availableGeometry();
-    QRect moved(geometry.topLeft(), geometry.size().boundedTo(room.size()));
-    moved.moveLeft(std::clamp(moved.left(), room.left(), room.right() + 1 - moved.width()));
-    moved.moveTop(std::clamp(moved.top(), room.top(), room.bottom() + 1 - moved.height()));
-    return moved;
+    return onScreen(geometry, screen->availableGeometry());
 }
 
 }  // namespace
@@ -50,7 +45,7 @@ void FloatingWindow::showWindow(const LayoutWindow &window)
         titles.append(panel->title());
     setWindowTitle(titles.join(QStringLiteral(", ")));
     if (m_geometry != window.geometry && geometry() != window.geometry)
-        setGeometry(isVisible() ? window.geometry : onScreen(window.geometry));
+        setGeometry(isVisible() ? window.geometry : onItsScreen(window.geometry));
     m_geometry = window.geometry;
     show();
     m_isFollowing = false;

@@ -12,6 +12,7 @@
 #include <QtCore/QJsonArray>
 #include <QtCore/QJsonDocument>
 #include <QtCore/QSettings>
+#include <QtGui/QScreen>
 #include <QtWidgets/QAction>
 #include <QtWidgets/QApplication>
 #include <QtWidgets/QFileDialog>
@@ -20,6 +21,17 @@
 #include <algorithm>
 
 using namespace qplc;
+
+// ---- first size ----
+
+/// That of a laptop, and smaller where the screen, in its scale, has less room.
+void QPlcControlCenter::Private::resizeToScreen()
+{
+    constexpr QSize usual(1366, 740);
+    constexpr QSize frame(8, 36);  // what a window manager adds, as long as the window has no frame
+    const QSize room = QGuiApplication::primaryScreen()->availableSize() - frame;
+    q->resize(usual.boundedTo(room));
+}
 
 // ---- commands ----
 

@@ -14,7 +14,7 @@ QPlcControlCenter::QPlcControlCenter(QWidget *parent)
     : QMainWindow(parent)
     , d(std::make_unique<Private>(this))
 {
-    resize(1366, 740);
+    d->resizeToScreen();
 }
 
 QPlcControlCenter::~QPlcControlCenter() = default;

@@ -55,6 +55,7 @@ struct QPlcControlCenter::Private
     qplc::Plant *takeWiredPlant();
 
     // -- view --
+    void resizeToScreen();
     void showPages();
     void showDock(bool isStart);
     void applyTheme();

@@ -8,7 +8,8 @@ namespace qplc {
 namespace {
 
 constexpr StateStep::Step steps[] = {StateStep::Off, StateStep::Initialized, StateStep::RealTime};
-constexpr int stepWidth = 104;  // [px]
+constexpr int usualWidth = 104;    // [px] of a step
+constexpr int smallestWidth = 78;  // [px] "Initialized" in bold
 
 }  // namespace
 
@@ -16,7 +17,7 @@ StateStepper::StateStepper(WindowContext *context, QWidget *parent)
     : QWidget(parent)
     , m_context(context)
 {
-    setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Fixed);
+    setSizePolicy(QSizePolicy::Maximum, QSizePolicy::Fixed);
     connect(context, &WindowContext::themeChanged, this, QOverload<>::of(&QWidget::update));
     show(StateStep());
 }
@@ -37,7 +38,12 @@ QString StateStepper::textOf(StateStep::Step step) const
 
 QSize StateStepper::sizeHint() const
 {
-    return {3 * stepWidth, 44};
+    return {3 * usualWidth, 44};
+}
+
+QSize StateStepper::minimumSizeHint() const
+{
+    return {3 * smallestWidth, 44};
 }
 
 void StateStepper::paintEvent(QPaintEvent * /*event*/)
@@ -46,7 +52,8 @@ void StateStepper::paintEvent(QPaintEvent * /*event*/)
     QPainter painter(this);
     painter.setRenderHint(QPainter::Antialiasing);
     constexpr double dotY = 14.0;
-    const auto center = [](int place) { return (place + 0.5) * stepWidth; };
+    const double stepWidth = width() / 3.0;
+    const auto center = [stepWidth](int place) { return (place + 0.5) * stepWidth; };
     for (int place = 0; place < 3; ++place) {
         const bool isPresent = steps[place] == m_step.step;
         const bool isDone = steps[place] < m_step.step;
