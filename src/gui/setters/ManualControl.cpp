@@ -8,6 +8,7 @@ namespace qplc {
 ManualControl::ManualControl(QObject *parent)
     : QObject(parent)
 {
+    m_control.setBeginning(SignalControl::Neutral);  // a key that is not held means neutral
     connect(&m_control, &SignalControl::changed, this, &ManualControl::controlChanged);
     connect(&m_control, &SignalControl::signalsChanged, this, [this] {
         m_streams.clear();  // some of their plants may be gone

@@ -157,7 +157,7 @@ void NumberView::step(int steps)
     bool isNumber = false;
     double value = m_edit->text().toDouble(&isNumber);
     if (!isNumber)
-        value = target().neutral();
+        value = std::isnan(target().actualNumber()) ? target().neutral() : target().actualNumber();
     const double next = value + steps * target().smallStep(value);
     QString message;
     const double allowed = target().clamped(std::abs(next) < 1e-9 * target().smallStep(value) ? 0.0 : next, &message);

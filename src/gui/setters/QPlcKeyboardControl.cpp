@@ -131,7 +131,7 @@ QString QPlcKeyboardControl::Private::hint() const
     if (control.bindings().keys.isEmpty() && !hasGamepad())
         return gamepad->absence();
     if (!control.isFlying())
-        return tr("Take control to fly with these keys");
+        return tr("Take control: these keys begin at neutral (%1)").arg(control.control().neutralText());
     return q->hasFocus() ? tr("Hold a key to steer: let go, and it is neutral")
                          : tr("Click here to steer: the keyboard is elsewhere");
 }

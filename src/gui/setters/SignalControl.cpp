@@ -181,11 +181,26 @@ void SignalControl::take(Plant::TakeOver takeOver)
         return;
     const QHash<Plant *, QStringList> names = namesByPlant();
     for (auto of = names.begin(); of != names.end(); ++of) {
-        QHash<QString, QPlcValue> neutral;
-        for (const QString &name : of.value())
-            neutral.insert(name, of.key()->table().at(of.key()->table().indexOf(name)).safeValue());
-        m_commands.append({of.key(), of.key()->takeLease(of.value(), neutral, takeOver)});
+        // A signal without a value keeps the one that its writer gave it last.
+        QHash<QString, QPlcValue> values;
+        const QStringList set = m_beginning == Neutral ? of.value() : QStringList();
+        for (const QString &name : set)
+            values.insert(name, of.key()->table().at(of.key()->table().indexOf(name)).safeValue());
+        m_commands.append({of.key(), of.key()->takeLease(of.value(), values, takeOver)});
     }
+}
+
+QString SignalControl::neutralText() const
+{
+    QStringList texts;
+    for (const PlantList::Signal &signal : m_resolved) {
+        if (!signal)
+            continue;
+        const QPlcSignalDefinition &definition = signal.definition();
+        const QString unit = definition.unit == QLatin1String("1") ? QString() : definition.unit;
+        texts << QStringLiteral("%1 %2 %3").arg(definition.name, neutralValue(signal).toString(), unit).trimmed();
+    }
+    return texts.join(QStringLiteral(", "));
 }
 
 void SignalControl::giveBack()

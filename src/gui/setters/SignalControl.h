@@ -47,7 +47,16 @@ public:
     /// A sentence on who has control, or on what is missing.
     QString text() const;
 
-    /// Takes all of the signals, with their neutral values. From others only with \a takeOver.
+    /// The values with which control begins.
+    enum Beginning {
+        Present,  // those that are taken over: nothing jumps
+        Neutral
+    };
+    void setBeginning(Beginning beginning) { m_beginning = beginning; }
+    /// The neutral values of the signals, for people: "tetherSpeed 0 m/s"
+    QString neutralText() const;
+
+    /// Takes all of the signals. From others only with \a takeOver.
     void take(Plant::TakeOver takeOver = Plant::OnlyFree);
     void giveBack();
     /// failed() is to tell when this command is refused.
@@ -76,6 +85,7 @@ private:
     QVector<SignalReference> m_references;
     QVector<PlantList::Signal> m_resolved;
     State m_state = Missing;
+    Beginning m_beginning = Present;
     QStringList m_who;
     QString m_plantText;  // of one that is not connected
     bool m_couldTake = false;

@@ -39,6 +39,8 @@ private Q_SLOTS:
     void aButtonIsAValueWhileItIsHeld();
     void aHeldButtonIsNeutralWhenTheWindowIsLost();
     void aGeneratorKeepsNumbersOfAnySize();
+    void controlBeginsWithTheValueThatIsTakenOver_data();
+    void controlBeginsWithTheValueThatIsTakenOver();
     void aGeneratorRunsAndEndsInNeutral_data();
     void aGeneratorRunsAndEndsInNeutral();
     void whatANodeWritesIsTakenOverFirst();
@@ -307,6 +309,61 @@ void tst_QPlcSetter::aGeneratorKeepsNumbersOfAnySize()
     Q_EMIT shape->activated(0);
     waveform.insert("shape", "step");
     QCOMPARE(setter.settings(), settings());
+}
+
+void tst_QPlcSetter::controlBeginsWithTheValueThatIsTakenOver_data()
+{
+    QTest::addColumn<bool>("moves");  // whether a key moves it
+    QTest::newRow("slider") << true;
+    QTest::newRow("knob") << true;
+    QTest::newRow("number") << true;
+    QTest::newRow("toggle") << false;
+    QTest::newRow("momentary") << false;
+    QTest::newRow("generator") << false;
+}
+
+/// The writer counts up: a value that falls is a jump.
+void tst_QPlcSetter::controlBeginsWithTheValueThatIsTakenOver()
+{
+    QFETCH(bool, moves);
+    FlyingMaster master;
+    QVERIFY(master.startRealTime());
+    TestWindow window(master.address());
+    QPlcSetter setter;
+    QJsonObject settings = settingsOf(echo, QLatin1String(QTest::currentDataTag()));
+    settings.insert(QStringLiteral("minimum"), 0);
+    settings.insert(QStringLiteral("maximum"), 1000);
+    QVERIFY(showPanel(&setter, &window.context, settings));
+    QVERIFY(window.isReady());
+    QTRY_VERIFY(master.valueOf(echo) >= 100.0);
+    QTRY_VERIFY(actionOf(&setter, QStringLiteral("Take control"))->isVisible());
+    actionOf(&setter, QStringLiteral("Take control"))->trigger();
+    double newest = master.valueOf(echo);
+    const auto hasFallen = [&] {
+        const double before = std::exchange(newest, master.valueOf(echo));
+        return newest < before;
+    };
+    while (!window.isMine(echo)) {
+        QTest::qWait(1);
+        QVERIFY(!hasFallen());
+    }
+    QTest::qWait(50);
+    const double taken = master.valueOf(echo);
+    QVERIFY(taken >= newest);
+    QTest::qWait(300);
+    QCOMPARE(master.valueOf(echo), taken);
+    if (!moves)
+        return;
+    QWidget *field = setter.focusProxy();
+    while (field->focusProxy())
+        field = field->focusProxy();
+    QTRY_VERIFY(field->isEnabled());
+    QTest::keyClick(field, Qt::Key_Up);
+    QTest::keyClick(field, Qt::Key_Return);
+    QTRY_VERIFY(master.valueOf(echo) != taken);
+    const double step = 10.0;  // 1 % of the range; a slider rounds to 1, a knob to its steps
+    QVERIFY2(qAbs(master.valueOf(echo) - taken - step) <= 10.0,
+             qPrintable(QString::number(master.valueOf(echo) - taken)));
 }
 
 void tst_QPlcSetter::aGeneratorRunsAndEndsInNeutral_data()
