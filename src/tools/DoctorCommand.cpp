@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Commands.h"
 #include "TerminalText.h"
+#include "WaitLine.h"
 #include "realtime/SystemCheck.h"
 #include "transport/LoopbackProbe.h"
 
@@ -50,10 +51,15 @@ qplc::WakeUps tryRealTime()
 
 QVector<Finding> examine()
 {
+    WaitLine line;
     const qplc::SystemFacts facts = qplc::SystemFacts::read();
     QVector<Finding> findings{qplc::judgeVersions(facts)};
     findings += qplc::judgeFacts(facts);
-    findings += qplc::judgeEffects(facts, tryOrdinary(), tryRealTime());
+    line.show(QStringLiteral("measures 1 of 3: wakes up %1 times, 1 s").arg(wakeUps));
+    const qplc::WakeUps ordinary = tryOrdinary();
+    line.show(QStringLiteral("measures 2 of 3: wakes up %1 times with real-time priority, 1 s").arg(wakeUps));
+    findings += qplc::judgeEffects(facts, ordinary, tryRealTime());
+    line.show(QStringLiteral("measures 3 of 3: sends %1 datagrams to itself").arg(datagrams));
     qplc::Histogram roundTrips;
     qplc::probeLoopback(
         datagrams, [] { return qplc::monotonicNow(); }, [&roundTrips](std::int64_t time) { roundTrips.record(time); });

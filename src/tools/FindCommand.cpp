@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Commands.h"
 #include "TerminalText.h"
+#include "WaitLine.h"
 #include "node/MasterFinder.h"
 
 #include <QtCore/QJsonArray>
@@ -43,6 +44,21 @@ void printJson(const QVector<FoundMaster> &masters)
     tools::printJson(QJsonDocument(array));
 }
 
+/// Until the application quits. A person sees how long that takes.
+void waitForMasters(double seconds)
+{
+    constexpr double each = 0.5;  // [s]
+    WaitLine line;
+    double waited = 0.0;
+    QTimer timer;
+    QObject::connect(&timer, &QTimer::timeout, &timer, [&] {
+        waited += each;
+        line.show(QStringLiteral("listens for masters: %1 of %2 s").arg(waited).arg(seconds));
+    });
+    timer.start(std::chrono::milliseconds(std::llround(each * 1e3)));
+    QCoreApplication::exec();
+}
+
 }  // namespace
 
 int findMasters(const CommandCall &call)
@@ -56,7 +72,7 @@ int findMasters(const CommandCall &call)
     QTimer::singleShot(std::chrono::milliseconds(std::llround(seconds * 1e3)), Qt::PreciseTimer, &finder,
                        [] { QCoreApplication::quit(); });
     if (!*endIsWanted)
-        QCoreApplication::exec();
+        waitForMasters(seconds);
     finder.look();
     const QVector<FoundMaster> masters = finder.masters();
     if (call.isJson())

@@ -83,6 +83,13 @@ Eigen::Vector3d vectorOf(const QPlcValue &value)
     return Eigen::Vector3d(value.toReal(0), value.toReal(1), value.toReal(2));
 }
 
+/// Whether the lines of logLine() are wanted.
+bool isForScript(FlightDisplay::Kind kind, double duration)
+{
+    return kind == FlightDisplay::Line && duration >= 1.0 && !FlightDisplay::hasTerminal()
+        && qgetenv("QTPLC_PROGRESS") == "lines";
+}
+
 }  // namespace
 
 bool FlightDisplay::hasTerminal()
@@ -97,6 +104,10 @@ FlightDisplay::FlightDisplay(QPlcMasterNode &master, double duration, Kind kind)
     , m_view(duration, qEnvironmentVariableIsEmpty("NO_COLOR"))
     , m_listener(QStringLiteral("FlightView"))
 {
+    if (isForScript(kind, duration)) {
+        m_timer.setInterval(1000);
+        connect(&m_timer, &QTimer::timeout, this, &FlightDisplay::logLine);
+    }
     if (!hasTerminal())
         return;
     m_timer.setInterval(kind == Picture ? 100 : 200);
@@ -123,7 +134,7 @@ bool FlightDisplay::joinMaster()
 
 void FlightDisplay::begin()
 {
-    if (!hasTerminal() || m_timer.isActive())
+    if ((!hasTerminal() && !isForScript(m_kind, m_duration)) || m_timer.isActive())
         return;
     if (m_kind == Picture) {
         HeldMessages::instance().hold();
@@ -137,6 +148,8 @@ void FlightDisplay::end()
     if (!m_timer.isActive())
         return;
     m_timer.stop();
+    if (!hasTerminal())
+        return;
     write(m_kind == Picture ? giveScreenBack : "\r\033[K");
     if (m_kind == Picture)
         HeldMessages::instance().release();
@@ -166,6 +179,12 @@ void FlightDisplay::drawLine()
     const double period = std::chrono::duration<double>(m_master.interval()).count();
     const QString line = progressLine(momentOf(values, double(m_master.cycle()) * period), m_duration);
     write("\r" + line.left(terminalSize().columns - 1).toUtf8() + "\033[K");
+}
+
+void FlightDisplay::logLine()
+{
+    const double time = std::chrono::duration<double>(m_master.interval()).count() * double(m_master.cycle());
+    write(QStringLiteral("progress: %1 of %2\n").arg(qint64(time)).arg(qint64(m_duration)).toUtf8());
 }
 
 void FlightDisplay::drawPicture()

@@ -8,7 +8,8 @@
 
 namespace awe {
 
-/// Shows a flight of a master on the terminal behind the standard error: one line, or a picture. Shows nothing where there is no terminal.
+/// Shows a flight of a master on the terminal behind the standard error: one line, or a picture. Where there is no terminal it shows nothing, unless a script asks for it by QTPLC_PROGRESS=lines in the
+/// environment: then a line "progress: 210 of 1800" each second.
 class FlightDisplay : public QObject
 {
     Q_OBJECT
@@ -36,6 +37,7 @@ private:
     bool joinMaster();
     FlightMoment momentOf(const QPlcSignalList &values, double time) const;
     void drawLine();
+    void logLine();
     void drawPicture();
 
     QPlcMasterNode &m_master;
