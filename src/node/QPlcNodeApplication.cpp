@@ -26,7 +26,8 @@ QPlcNodeApplication::QPlcNodeApplication(int &argc, char **argv)
     addOption(option("name", QStringLiteral("Name under which the node registers."), "NAME"));
     addOption(option("watchdog",
                      QStringLiteral("Watchdog time: how long no frame of the master may come. 0: no watchdog. Without "
-                                    "this option the program decides, else the profile of the plant."),
+                                    "this option: 0.5 for nodes with devices (qtplc_hardware), else as the program or "
+                                    "the profile of the plant says."),
                      "SECONDS"));
     addOption(
         option("watchdog-reaction",
