@@ -27,6 +27,8 @@ struct QTPLC_EXPORT QPlcSignalDefinition
     bool nanAllowed = false;    ///< NaN is a value like others: "no measurement". Real types only
     QPlcValueNames valueNames;  ///< of an integer or boolean signal, and of its elements; empty: none
     int line = 0;               ///< line of the section in the file, 0: not from a file
+    double slope
+        = 0.0;  ///< most that a value from outside moves the signal in a second, in each element; 0: no limit. Real types only
 
     /// The value that harms least: `safe`, else 0, else the limit that is nearest to 0. \pre the type is valid
     QPlcValue safeValue() const;

@@ -34,6 +34,7 @@ class TableReader;
 /// | `writer`  | `A`: the node A alone may write the signal. `A > B > C`: these nodes may, and the first one that has a fresh value is the source |
 /// | `values`  | names of the values of an integer or boolean signal: `values = 0: Off, 1: ReelOut` (see QPlcValueNames)         |
 /// | `nan`     | `allowed`: NaN ("no measurement") is taken like a number                                                          |
+/// | `slope`   | `5 per second`: a value that a person or program sets moves each element by at most so much in a second, while cycles run. Real types only |
 ///
 /// Comments begin with `;` or `#` at the start of a line, or with ` ;` behind a value. Values of arrays are
 /// separated by commas ("0, 0, 1"); one number stands for all elements. UTF-8 with or without byte order mark, lines

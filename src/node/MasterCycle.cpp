@@ -11,6 +11,7 @@ MasterCycle::MasterCycle(const QPlcSignalTable &table, CyclicHub &hub, bool tapF
     : m_time(time ? *time : m_alarm)
     , m_image(table)
     , m_signalGuard(m_image, this)
+    , m_slopes(m_image)
     , m_hub(hub)
     , m_reports(tapFrames)
     , m_guard(m_reports)
@@ -68,6 +69,7 @@ void MasterCycle::stop()
     m_thread.join();
     m_cycleZero += m_number + 1;  // frames of this phase can never be taken for frames of the next
     takeCommands();
+    m_slopes.finish();
     freeRetired();
 }
 
@@ -238,6 +240,9 @@ void MasterCycle::runCycle(const CycleClock::Tick &tick) noexcept
     m_statistics.begin(tick, m_clock->period());
     m_guard.begin(tick, m_clock->period(), m_phase.clock.isLockstep() ? 0 : m_time.slept());
     takeCommands();
+    if (m_guard.isTripped())
+        m_slopes.leaveAll();
+    m_slopes.advance(double(m_phase.period.count()) * 1e-9);
     writeOwnSignals(tick);
     if (m_guard.isTripped())
         m_roster->safeImage.applyTo(m_image.data());
@@ -260,11 +265,30 @@ void MasterCycle::takeCommands() noexcept
     adoptPending();
     while (const SetCommand *command = m_setCommands.front()) {
         adoptPending();
-        std::memcpy(m_image.data() + m_image.offset(command->signal), command->bytes.data(),
-                    std::size_t(m_image.table().at(command->signal).type.size()));
-        m_signalGuard.set(command->signal, command->quality);
+        takeCommand(*command);
         m_setCommands.pop();
         m_setsTaken.store(m_setsTaken.load(std::memory_order_relaxed) + 1, std::memory_order_release);
+    }
+}
+
+void MasterCycle::takeCommand(const SetCommand &command) noexcept
+{
+    if (m_slopes.isLimited(command.signal) && !m_guard.isTripped())
+        m_slopes.aim(command.signal, command.bytes.data());
+    else
+        std::memcpy(m_image.data() + m_image.offset(command.signal), command.bytes.data(),
+                    std::size_t(m_image.table().at(command.signal).type.size()));
+    m_signalGuard.set(command.signal, command.quality);
+}
+
+/// What a node writes is its own from the next answer on.
+void MasterCycle::leaveSlopesToWriters() noexcept
+{
+    for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
+        for (const PayloadLayout::Field &field : slot->outputLayout.fields()) {
+            if (field.signal >= m_roster->held.size() || !m_roster->held[field.signal])
+                m_slopes.leave(field.signal);
+        }
     }
 }
 
@@ -296,6 +320,8 @@ void MasterCycle::adopt(Roster *roster, std::int64_t last) noexcept
     }
     Roster *retired = m_roster.release();
     m_roster.reset(roster);
+    if (m_slopes.isMoving())
+        leaveSlopesToWriters();
     if (!m_retiredRosters.push(retired))
         delete retired;  // 64 changes of the roster between two looks of the owner: better a slow cycle than a leak
 }

@@ -9,6 +9,7 @@
 #include "QPlcOverrunPolicy.h"
 #include "SafetyGuard.h"
 #include "SignalGuard.h"
+#include "SlopeLimits.h"
 #include "realtime/AlarmTime.h"
 #include "realtime/CycleClock.h"
 #include "realtime/CycleThread.h"
@@ -76,7 +77,7 @@ public:
 
     /// Gives the nodes of the cycles from the next one on; also while cycles run, but then the nodes of this process stay the same.
     void setRoster(const Roster &roster);
-    /// Sets signals between two cycles; also while cycles run. \return false, and none is set, when too many are under way
+    /// Sets signals between two cycles; also while cycles run: then signals with a slope move to these values, and safe ones have them at once. \return false, and none is set, when too many are under way
     bool setValues(const std::vector<SignalSetting> &settings);
     /// Whether setValues() would take so many now.
     bool hasRoomFor(std::size_t settings) const;
@@ -122,6 +123,8 @@ private:
     }
     void pause() noexcept;
     void takeCommands() noexcept;
+    void takeCommand(const SetCommand &command) noexcept;
+    void leaveSlopesToWriters() noexcept;
     void adoptPending() noexcept;
     void adopt(Roster *roster, std::int64_t last) noexcept;
     void leave(NodeSlot &slot) noexcept;
@@ -143,6 +146,7 @@ private:
     TimeSource &m_time;
     ProcessImage m_image;
     SignalGuard m_signalGuard;
+    SlopeLimits m_slopes;
     CyclicHub &m_hub;
     CycleThread m_thread;
     CycleReports m_reports;

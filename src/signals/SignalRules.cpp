@@ -14,6 +14,11 @@ namespace {
 constexpr int longestName = 63;
 constexpr int longestNodeName = 64;
 
+QString perSecond()
+{
+    return QStringLiteral(" per second");
+}
+
 using Complaints = QVector<Complaint>;
 
 bool isLetter(QChar character)
@@ -175,6 +180,18 @@ void checkWriters(const QPlcSignalDefinition &signal, Complaints *complaints)
     checkText(SignalKey::Writer, writersText(signal.writers), LineBreaks::Refused, complaints);
 }
 
+void checkSlope(const QPlcSignalDefinition &signal, Complaints *complaints)
+{
+    if (!std::isfinite(signal.slope) || signal.slope < 0.0)
+        complaints->append({SignalKey::Slope,
+                            QStringLiteral("the slope %1 is not a positive number; write 'slope = 5 per second'")
+                                .arg(QPlcValue(signal.slope).toString())});
+    else if (signal.slope > 0.0 && !signal.type.isReal())
+        complaints->append({SignalKey::Slope,
+                            QStringLiteral("%1 has no values between two others; remove 'slope =', or use a real type")
+                                .arg(signal.type.name())});
+}
+
 QString iniLine(SignalKey key, const QString &value)
 {
     return signalKeyNames().at(int(key)) + QStringLiteral(" = ") + value;
@@ -226,12 +243,26 @@ QString writersText(const QStringList &writers)
     return writers.join(QStringLiteral(" > "));
 }
 
+QString slopeText(double slope)
+{
+    return QPlcValue(slope).toString() + perSecond();
+}
+
+double slopeFromText(const QString &text)
+{
+    if (!text.endsWith(perSecond()))
+        return 0.0;
+    const QString number = text.left(text.size() - perSecond().size()).trimmed();
+    const QPlcValue value = QPlcValue::fromString(QPlcSignalType(QPlcSignalType::Real64), number);
+    return value.isValid() && value.isFinite() && value.toReal() > 0.0 ? value.toReal() : 0.0;
+}
+
 const QStringList &signalKeyNames()
 {
     static const QStringList names
         = {QStringLiteral("type"),   QStringLiteral("unit"),    QStringLiteral("description"), QStringLiteral("min"),
            QStringLiteral("max"),    QStringLiteral("initial"), QStringLiteral("safe"),        QStringLiteral("hold"),
-           QStringLiteral("values"), QStringLiteral("writer"),  QStringLiteral("nan")};
+           QStringLiteral("values"), QStringLiteral("writer"),  QStringLiteral("nan"),         QStringLiteral("slope")};
     return names;
 }
 
@@ -252,8 +283,10 @@ QVector<Complaint> complaintsAbout(const QPlcSignalDefinition &signal)
     checkType(SignalKey::Safe, signal.safe, signal.type, &complaints);
     if (complaints.size() == before)
         checkValues(signal, &complaints);
-    if (signal.type.isValid())
+    if (signal.type.isValid()) {
         checkNames(signal, &complaints);
+        checkSlope(signal, &complaints);
+    }
     checkLines(signal, &complaints);
     return complaints;
 }
@@ -281,6 +314,8 @@ QString iniSection(const QPlcSignalDefinition &signal)
         lines.append(iniLine(SignalKey::Writer, IniParser::valueText(writersText(signal.writers))));
     if (signal.nanAllowed)
         lines.append(iniLine(SignalKey::Nan, nanAllowedText()));
+    if (signal.slope > 0.0)
+        lines.append(iniLine(SignalKey::Slope, slopeText(signal.slope)));
     return lines.join(QLatin1Char('\n')) + QLatin1Char('\n');
 }
 

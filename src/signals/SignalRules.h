@@ -20,6 +20,7 @@ enum class SignalKey : quint8 {
     Values,
     Writer,
     Nan,
+    Slope,
     Name
 };
 constexpr int signalKeyCount = int(SignalKey::Name);
@@ -40,6 +41,11 @@ inline QString nanAllowedText()
 {
     return QStringLiteral("allowed");
 }
+
+/// "5 per second"
+QString slopeText(double slope);
+/// Reads what slopeText() writes. \return 0 when \a text is no slope
+double slopeFromText(const QString &text);
 
 struct Complaint
 {

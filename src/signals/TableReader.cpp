@@ -160,6 +160,7 @@ void TableReader::readValues()
     readNames();
     readWriters();
     readNan();
+    readSlope();
 }
 
 void TableReader::readNames()
@@ -196,6 +197,20 @@ void TableReader::readNan()
     m_errors.add(source.line, source.valueColumn,
                  QStringLiteral("%1 is nothing that 'nan' can be; write 'nan = %2', or remove the line")
                      .arg(quoted(source.value), nanAllowedText()));
+}
+
+void TableReader::readSlope()
+{
+    Entry &source = entry(SignalKey::Slope);
+    if (source.line == 0 || source.isWrong)
+        return;
+    m_signal.slope = slopeFromText(source.value);
+    if (m_signal.slope > 0.0)
+        return;
+    source.isWrong = true;
+    m_errors.add(source.line, source.valueColumn,
+                 QStringLiteral("%1 is not a slope; write a positive number, as in 'slope = 5 per second'")
+                     .arg(quoted(source.value)));
 }
 
 // Leaves `value` as it is when there is no such key or its text is no such value.

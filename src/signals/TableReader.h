@@ -63,6 +63,7 @@ private:
     void readNames();
     void readWriters();
     void readNan();
+    void readSlope();
     void complain(const Complaint &complaint);
     Entry &entry(SignalKey key) { return m_entries[std::size_t(key)]; }
 

@@ -70,6 +70,7 @@ void compareTables(const QPlcSignalTable &a, const QPlcSignalTable &b)
         QCOMPARE(x.hold, y.hold);
         QCOMPARE(x.writers, y.writers);
         QCOMPARE(x.nanAllowed, y.nanAllowed);
+        QCOMPARE(x.slope, y.slope);
     }
     QCOMPARE(a.hash(), b.hash());
 }
@@ -95,7 +96,7 @@ void tst_QPlcSignalTable::readsTheTableOfTheThesis()
 
 void tst_QPlcSignalTable::readsEveryKey()
 {
-    const QPlcSignalTable table = read("[wind.speed_2]\nhold = 5 ; cycles\nwriter = Mast\nnan = allowed\nsafe = "
+    const QPlcSignalTable table = read("[wind.speed_2]\nhold = 5 ; cycles\nslope = 2.5 per second\nwriter = Mast\nnan = allowed\nsafe = "
                                        "1\ninitial = 0, 1, 2\nmax = 10\nmin = -1e1\n"
                                        "description = at the \"mast\"\nunit = m/s\ntype = Real64Triple\n");
     QCOMPARE(table.size(), 1);
@@ -110,6 +111,7 @@ void tst_QPlcSignalTable::readsEveryKey()
     QCOMPARE(signal.hold, std::optional<int>(5));
     QCOMPARE(signal.writers, QStringList{"Mast"});
     QVERIFY(signal.nanAllowed);
+    QCOMPARE(signal.slope, 2.5);
 }
 
 void tst_QPlcSignalTable::initialIsZeroUnlessSaid()
@@ -327,6 +329,7 @@ void tst_QPlcSignalTable::appendRefusesWhatATableCannotHold_data()
     row("half a surrogate pair", [](Signal &s) { s.description = QString(QChar(0xDC00)); });
     row("its line in the table has 4112 bytes", [](Signal &s) { s.description = QString(4098, QLatin1Char('x')); });
     row("cannot be held for -1 cycles", [](Signal &s) { s.hold = -1; });
+    row("the slope -2 is not a positive number", [](Signal &s) { s.slope = -2.0; });
     row("min 2 is greater than max 1", [](Signal &s) { s.minimum = 2, s.maximum = 1; });
     row("the limit kite is String(64)", [](Signal &s) { s.minimum = "kite"; });
     row("nan limits nothing", [](Signal &s) { s.maximum = std::numeric_limits<double>::quiet_NaN(); });

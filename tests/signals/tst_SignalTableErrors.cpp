@@ -96,6 +96,13 @@ void tst_SignalTableErrors::badTextIsRefusedWithPlaceAndRemedy_data()
     row("long writer", real + "writer = " + QByteArray(65, 'x') + '\n', "t.ini:3:10: 'xxx");
     row("nan forbidden", real + "nan = no\n", "t.ini:3:7: 'no' is nothing that 'nan' can be; write 'nan = allowed'");
     row("nan of an integer", "[a]\ntype = Int\nnan = allowed\n", "t.ini:3:7: Int32 knows no NaN; remove 'nan ='");
+    row("slope without its unit", real + "slope = 5\n",
+        "t.ini:3:9: '5' is not a slope; write a positive number, as in 'slope = 5 per second'");
+    row("slope of zero", real + "slope = 0 per second\n", "t.ini:3:9: '0 per second' is not a slope");
+    row("negative slope", real + "slope = -1 per second\n", "t.ini:3:9: '-1 per second' is not a slope");
+    row("endless slope", real + "slope = inf per second\n", "t.ini:3:9: 'inf per second' is not a slope");
+    row("slope of an integer", "[a]\ntype = Int\nslope = 5 per second\n",
+        "t.ini:3:9: Int32 has no values between two others; remove 'slope ='");
     row("open quotation", real + "unit = \"m\n", "t.ini:3:8: the quotation has no end");
     row("behind quotation", real + "unit = \"m\" s\n", "t.ini:3:12: stray characters 's' behind the quotation");
     row("wrong escape", real + "unit = \"\\m\"\n", "t.ini:3:9: '\\' stands before none of");
