@@ -96,9 +96,10 @@ void tst_QPlcSignalTable::readsTheTableOfTheThesis()
 
 void tst_QPlcSignalTable::readsEveryKey()
 {
-    const QPlcSignalTable table = read("[wind.speed_2]\nhold = 5 ; cycles\nslope = 2.5 per second\nwriter = Mast\nnan = allowed\nsafe = "
-                                       "1\ninitial = 0, 1, 2\nmax = 10\nmin = -1e1\n"
-                                       "description = at the \"mast\"\nunit = m/s\ntype = Real64Triple\n");
+    const QPlcSignalTable table
+        = read("[wind.speed_2]\nhold = 5 ; cycles\nslope = 2.5 per second\nwriter = Mast\nnan = allowed\nsafe = "
+               "1\ninitial = 0, 1, 2\nmax = 10\nmin = -1e1\n"
+               "description = at the \"mast\"\nunit = m/s\ntype = Real64Triple\n");
     QCOMPARE(table.size(), 1);
     const QPlcSignalDefinition &signal = table.at(0);
     QCOMPARE(signal.name, QStringLiteral("wind.speed_2"));
@@ -181,11 +182,12 @@ void tst_QPlcSignalTable::iniIsReadBackAsAnEqualTable()
         "[d]\ntype = DateTime\ninitial = 2026-01-31T12:00:00.000000001Z\n"
         "[e]\ntype = Real[3]\nunit = \"; m\"\ndescription = \"a\\nb\"\ninitial = nan, inf, 1\nhold = 7\nnan = allowed\n"
         "[f]\ntype = UInt64[2]\nmax = 18446744073709551615\ninitial = 18446744073709551615\n"
-        "[g]\ntype = Real\nwriter = \"A ; 1 > B\"\nhold = 0\n");
+        "[g]\ntype = Real\nwriter = \"A ; 1 > B\"\nhold = 0\nslope = 0.1 per second\n");
     QCOMPARE(table.size(), 7);
     compareTables(read(table.toIni()), table);
     QCOMPARE(QPlcSignalTable().toIni(), QByteArray());
-    QCOMPARE(read("#x\n[a]\nhold=3\ntype=Bool\ninitial=false").toIni(), QByteArray("[a]\ntype = Bool\n"));
+    // A hold that was said stays: without it the profile of the plant decides.
+    QCOMPARE(read("#x\n[a]\nhold=3\ntype=Bool\ninitial=false").toIni(), QByteArray("[a]\ntype = Bool\nhold = 3\n"));
 }
 
 void tst_QPlcSignalTable::exampleTableHasTheSignalsOfTheThesisFirst()
