@@ -41,6 +41,7 @@ public:
     /// Settings that are missing have their defaults from here on.
     void applySettings(const QJsonObject &settings) override;
     QWidget *createSettingsEditor() override;
+    QStringList shownSignals() const override;
     /// Shows the first one instead of the present one.
     bool addSignals(const QStringList &references) override;
     QSize sizeHint() const override;

@@ -32,6 +32,7 @@ public:
     QJsonObject settings() const override;
     void applySettings(const QJsonObject &settings) override;
     QWidget *createSettingsEditor() override;
+    QStringList shownSignals() const override;
 
 protected:
     void contextChanged() override;

@@ -21,6 +21,7 @@ public:
     ~QPlcNodeTable() override;
 
     int type() const override { return staticType; }
+    bool showsAllPlants() const override { return true; }
     QJsonObject settings() const override;
     /// Settings that are missing have their defaults from here on.
     void applySettings(const QJsonObject &settings) override;

@@ -35,6 +35,7 @@ public:
     QJsonObject settings() const override;
     void applySettings(const QJsonObject &settings) override;
     QWidget *createSettingsEditor() override;
+    QStringList shownSignals() const override;
     /// Sets the first of \a references from now on.
     bool addSignals(const QStringList &references) override;
 

@@ -54,6 +54,7 @@ public:
     QJsonObject settings() const override;
     void applySettings(const QJsonObject &settings) override;
     QWidget *createSettingsEditor() override;
+    QStringList shownSignals() const override;
     /// A curve for each signal, for each element of an array of at most 16; those that have one already get none. \return false for texts, times, and nothing at all
     bool addSignals(const QStringList &references) override;
 

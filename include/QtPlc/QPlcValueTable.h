@@ -27,6 +27,7 @@ public:
     /// Settings that are missing have their defaults from here on.
     void applySettings(const QJsonObject &settings) override;
     QWidget *createSettingsEditor() override;
+    QStringList shownSignals() const override;
     bool addSignals(const QStringList &references) override;
     QSize sizeHint() const override;
 

@@ -64,6 +64,14 @@ public:
     /// What the panel shows in a few words: "power, tetherLength"; the name of the factory while setDefaultTitle() was not called.
     QString defaultTitle() const;
 
+    /// The plant that names of signals without a plant mean; empty: the one that is selected in the window. Part of settings(), with the key "plant".
+    QString pinnedPlant() const;
+    void setPinnedPlant(const QString &plant);
+    /// Signals and formulas that the widget shows or writes, as in addSignals(): the window says above the panel of which plants they are. Empty: those of the plant of the panel as a whole.
+    virtual QStringList shownSignals() const { return {}; }
+    /// Whether the widget shows all plants of the window at the same time, as an event log: it says itself what belongs to which.
+    virtual bool showsAllPlants() const { return false; }
+
     /// Everything that makes this widget what it is, but for what it shows at the moment. Keys that applySettings() did not know are part of it.
     virtual QJsonObject settings() const;
     /// Takes on what settings() gave, of this widget or another one. In a panel a key that is missing is a default, so that an undo step brings back what was.
@@ -95,6 +103,7 @@ Q_SIGNALS:
     /// A person wants to see signals in another panel. \param typeName  of its factory: "Time plot", "Gauge", "Value table"
     void showRequested(const QStringList &references, const QString &typeName);
     void titleChanged();
+    void pinnedPlantChanged();
     /// A person has changed the settings: worth an undo step.
     void settingsEdited();
     void inputSignalIndicesChanged();

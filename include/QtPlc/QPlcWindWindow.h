@@ -34,6 +34,7 @@ public:
     QJsonObject settings() const override;
     void applySettings(const QJsonObject &settings) override;
     QWidget *createSettingsEditor() override;
+    QStringList shownSignals() const override;
     /// The path takes its colours from the first one.
     bool addSignals(const QStringList &references) override;
 

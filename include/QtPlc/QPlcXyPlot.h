@@ -38,6 +38,7 @@ public:
     QJsonObject settings() const override;
     void applySettings(const QJsonObject &settings) override;
     QWidget *createSettingsEditor() override;
+    QStringList shownSignals() const override;
     /// Two signals are a curve, the first one its x. One that is left waits for the next.
     bool addSignals(const QStringList &references) override;
 

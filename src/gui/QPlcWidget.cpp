@@ -14,6 +14,8 @@ std::vector<std::unique_ptr<QPlcWidgetFactory>> &factories()
     return all;
 }
 
+const QString plantKey = QStringLiteral("plant");
+
 template<typename Matches>
 QPlcWidgetFactory *findFactory(Matches matches)
 {
@@ -28,6 +30,7 @@ struct QPlcWidget::Private
 {
     QString title;
     QString defaultTitle;
+    QString pinnedPlant;
     QJsonObject settings;
     QPlcSignalIndexList inputs;
     QPlcSignalIndexList outputs;
@@ -93,9 +96,24 @@ void QPlcWidget::setTitle(const QString &title)
     Q_EMIT titleChanged();
 }
 
+QString QPlcWidget::pinnedPlant() const
+{
+    return d->pinnedPlant;
+}
+
+void QPlcWidget::setPinnedPlant(const QString &plant)
+{
+    if (plant == d->pinnedPlant)
+        return;
+    d->pinnedPlant = plant;
+    Q_EMIT pinnedPlantChanged();
+}
+
 QJsonObject QPlcWidget::settings() const
 {
     QJsonObject all = d->settings;
+    if (!d->pinnedPlant.isEmpty())
+        all.insert(plantKey, d->pinnedPlant);
     if (!d->title.isEmpty())
         all.insert(QStringLiteral("title"), d->title);
     return all;
@@ -103,10 +121,11 @@ QJsonObject QPlcWidget::settings() const
 
 void QPlcWidget::applySettings(const QJsonObject &settings)
 {
+    setPinnedPlant(settings.value(plantKey).toString());
     for (auto entry = settings.begin(); entry != settings.end(); ++entry) {
         if (entry.key() == QLatin1String("title"))
             setTitle(entry.value().toString());
-        else
+        else if (entry.key() != plantKey)
             d->settings.insert(entry.key(), entry.value());
     }
 }

@@ -43,6 +43,7 @@ QPlcView3D::QPlcView3D(QWidget *parent)
 {
     setAccessibleName(tr("3D view: the kite in space"));
     setFocusPolicy(Qt::StrongFocus);
+    connect(this, &QPlcWidget::pinnedPlantChanged, this, [this] { d->kite.setPin(pinnedPlant()); });
     d->wheelEnd.setSingleShot(true);
     d->wheelEnd.setInterval(400);
     connect(&d->wheelEnd, &QTimer::timeout, this, &QPlcView3D::settingsEdited);
@@ -151,6 +152,11 @@ QSize QPlcView3D::minimumSizeHint() const
 QSize QPlcView3D::sizeHint() const
 {
     return {480, 360};
+}
+
+QStringList QPlcView3D::shownSignals() const
+{
+    return {d->settings.kite.position};
 }
 
 void QPlcView3D::contextChanged()

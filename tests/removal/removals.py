@@ -542,4 +542,13 @@ REMOVALS = [
     Removal("a cycle of a service hangs", "src/node/CycleWatch.h",
             "m_still = mark == 0 || mark != m_mark ? 0 : m_still + 1;", "m_still = 0;",
             "tst_ServiceNotifier", "aNodeWhoseStepHangsIsNotFed"),
+    Removal("command for one plant of a window that would go to another one", "src/gui/plant/PlantList.cpp",
+            "return name.isEmpty() ? m_selected : find(name);", "return name.isEmpty() ? m_plants.front().get() : find(name);",
+            "tst_SeveralPlants", "panelsFollowTheSelectedPlantAndNameIt"),
+    Removal("command for one plant of a window that would go to another one", "src/gui/setters/SignalControl.cpp",
+            "if (m_pin.isEmpty() && hasPlainReference())", "if (m_pin.isEmpty() && !hasPlainReference())",
+            "tst_SeveralPlants", "whatIsHeldEndsInItsOwnPlant"),
+    Removal("command for one plant of a window that would go to another one", "src/gui/window/PlantSelection.cpp",
+            "if (controlled.isEmpty() && plant())", "if (plant())",
+            "tst_SeveralPlants", "stopMeansThePlantThatAPersonControls"),
 ]

@@ -36,7 +36,7 @@ void JitterEditor::addPlants(const QStringList &plants, const QString &plant)
 {
     auto *choice = new QComboBox;
     choice->setAccessibleName(tr("Plant"));
-    choice->addItem(tr("The first one"), QString());
+    choice->addItem(tr("The selected one"), QString());
     for (const QString &name : plants)
         choice->addItem(name, name);
     if (choice->findData(plant) < 0)

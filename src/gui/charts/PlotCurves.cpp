@@ -65,7 +65,7 @@ PlotCurves::PlotCurves(PlotCanvas *plot)
 
 PlotCurves::~PlotCurves() = default;
 
-void PlotCurves::bind(const PlotSettings &settings, const CurveSources *sources, const Theme &theme)
+void PlotCurves::bind(const PlotSettings &settings, const CurveSources *sources, const QString &pin, const Theme &theme)
 {
     const std::vector<PlotCurve> before = std::move(m_curves);  // derived signals that go on are not made anew
     m_curves.clear();
@@ -75,7 +75,7 @@ void PlotCurves::bind(const PlotSettings &settings, const CurveSources *sources,
     for (const PlotCurveSettings &wanted : settings.curves) {
         PlotCurve curve;
         curve.settings = wanted;
-        curve.source = sources ? sources->find(wanted.signal) : CurveSource();
+        curve.source = sources ? sources->find(wanted.signal, pin) : CurveSource();
         curve.color = wanted.color.isValid() ? wanted.color : theme.curve(size());
         curve.penStyle = Theme::curveStyle(size());
         if (curve.isMissing())

@@ -59,7 +59,7 @@ public:
     ~PlotCurves();
 
     /// Finds all signals anew. \param sources  null: all are missing
-    void bind(const PlotSettings &settings, const CurveSources *sources, const Theme &theme);
+    void bind(const PlotSettings &settings, const CurveSources *sources, const QString &pin, const Theme &theme);
 
     int size() const { return int(m_curves.size()); }
     bool isEmpty() const { return m_curves.empty(); }

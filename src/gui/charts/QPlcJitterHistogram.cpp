@@ -29,7 +29,6 @@ namespace {
 constexpr int askPause = 1000;    // [ms]
 constexpr int staleAfter = 3000;  // [ms]
 
-constexpr const char *plantKey = "plant";
 constexpr const char *showKey = "show";
 constexpr const char *windowKey = "window";
 const QString sinceStart = QStringLiteral("sinceStart");
@@ -64,7 +63,7 @@ public:
     ChartExport *exporter;
     QAction *last = nullptr;
     QMap<QString, QAction *> masterActions;  // by key
-    PanelSettings settings{plantKey, showKey, windowKey};
+    PanelSettings settings{showKey, windowKey};
     QJsonObject statistics;
     QPointer<Plant> asked;  // the plant whose statistics these are
     QElapsedTimer sinceAnswer;
@@ -156,17 +155,15 @@ Plant *QPlcJitterHistogram::Private::plant() const
 {
     if (!q->context() || q->context()->plants()->size() == 0)
         return nullptr;
-    const QString name = settings.value(plantKey).toString();
-    return name.isEmpty() ? q->context()->plants()->at(0) : q->context()->plants()->find(name);
+    return q->context()->plants()->plantOf({}, q->pinnedPlant());
 }
 
 /// A person's choice.
 void QPlcJitterHistogram::Private::setPlant(const QString &name)
 {
-    if (!settings.set(plantKey, name, QString()))
+    if (name == q->pinnedPlant())
         return;
-    ask();
-    draw();
+    q->setPinnedPlant(name);
     Q_EMIT q->settingsEdited();
 }
 
@@ -206,7 +203,7 @@ QString QPlcJitterHistogram::Private::problem(const QVector<JitterDistribution> 
 {
     const Plant *of = plant();
     if (!of) {
-        const QString name = settings.value(plantKey).toString();
+        const QString name = q->pinnedPlant();
         return name.isEmpty() ? tr("There is no plant yet.") : tr("There is no plant %1 at the moment.").arg(name);
     }
     if (shownKeys().isEmpty())
@@ -289,6 +286,10 @@ QPlcJitterHistogram::QPlcJitterHistogram(QWidget *parent)
     : QPlcWidget(parent)
     , d(std::make_unique<Private>(this))
 {
+    connect(this, &QPlcWidget::pinnedPlantChanged, this, [this] {
+        d->ask();
+        d->draw();
+    });
     d->draw();
 }
 
@@ -320,9 +321,8 @@ QWidget *QPlcJitterHistogram::createSettingsEditor()
     QStringList plants;
     for (int place = 0; context() && place < context()->plants()->size(); ++place)
         plants << context()->plants()->at(place)->name();
-    const QString chosen = d->settings.value(plantKey).toString();
-    if (plants.size() > 1 || !chosen.isEmpty())
-        editor->addPlants(plants, chosen);
+    if (plants.size() > 1 || !pinnedPlant().isEmpty())
+        editor->addPlants(plants, pinnedPlant());
     connect(editor, &JitterEditor::plantChanged, this, [this](const QString &plant) { d->setPlant(plant); });
     connect(editor, &JitterEditor::shownChanged, this,
             [this](const QString &key, bool isShown) { d->setShown(key, isShown); });

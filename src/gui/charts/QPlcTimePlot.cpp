@@ -81,6 +81,10 @@ QPlcTimePlot::QPlcTimePlot(QWidget *parent)
 {
     setFocusPolicy(Qt::StrongFocus);
     setAccessibleName(tr("Time plot"));
+    connect(this, &QPlcWidget::pinnedPlantChanged, this, [this] {
+        d->triggerBar->setPin(pinnedPlant());
+        d->bind();
+    });
     d->showTheme();
 }
 
@@ -104,6 +108,14 @@ void QPlcTimePlot::applySettings(const QJsonObject &settings)
     }
     QPlcWidget::applySettings(others);
     d->applySettings(PlotSettings::fromJson(settings));
+}
+
+QStringList QPlcTimePlot::shownSignals() const
+{
+    QStringList names;
+    for (const PlotCurveSettings &curve : d->settings.curves)
+        names << curve.signal;
+    return names;
 }
 
 QWidget *QPlcTimePlot::createSettingsEditor()
@@ -206,7 +218,7 @@ void QPlcTimePlot::Private::followContext()
 void QPlcTimePlot::Private::bind()
 {
     WindowContext *context = q->context();
-    curves.bind(settings, context ? context->curveSources() : nullptr,
+    curves.bind(settings, context ? context->curveSources() : nullptr, q->pinnedPlant(),
                 context ? context->theme() : Theme::byName(Theme::System));
     curves.setOrigin(canvas->origin());
     statistics->reset();
@@ -278,7 +290,8 @@ QStringList QPlcTimePlot::Private::elementsOf(const QString &name) const
 {
     const SignalReference parsed = SignalReference::fromString(name);
     const bool isKnown = q->context() && parsed.isValid();
-    const PlantList::Signal signal = isKnown ? q->context()->plants()->resolve(parsed) : PlantList::Signal();
+    const PlantList::Signal signal
+        = isKnown ? q->context()->plants()->resolve(parsed, q->pinnedPlant()) : PlantList::Signal();
     if (!signal)
         return {name};
     const QPlcSignalType type = signal.definition().type;

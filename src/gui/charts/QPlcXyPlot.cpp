@@ -83,8 +83,8 @@ void QPlcXyPlot::Private::bind()
             names << tr("%1 over %2").arg(CurveSource::textOf(y), CurveSource::textOf(x));
         if (!q->context() || x.isEmpty() || y.isEmpty())
             continue;
-        const CurveSource xSource = q->context()->curveSources()->find(x);
-        const CurveSource ySource = q->context()->curveSources()->find(y);
+        const CurveSource xSource = q->context()->curveSources()->find(x, q->pinnedPlant());
+        const CurveSource ySource = q->context()->curveSources()->find(y, q->pinnedPlant());
         const bool isOfOne = xSource.plant == ySource.plant;
         if (xSource && ySource && isOfOne) {
             found.push_back(std::make_unique<XyCurve>(
@@ -252,6 +252,7 @@ QPlcXyPlot::QPlcXyPlot(QWidget *parent)
     : QPlcWidget(parent)
     , d(std::make_unique<Private>(this))
 {
+    connect(this, &QPlcWidget::pinnedPlantChanged, this, [this] { d->bind(); });
     d->bind();
 }
 
@@ -299,6 +300,15 @@ bool QPlcXyPlot::addSignals(const QStringList &references)
         return false;
     d->edit(curves);
     return true;
+}
+
+QStringList QPlcXyPlot::shownSignals() const
+{
+    QStringList names;
+    const QJsonArray shown = d->curves();
+    for (const QJsonValue &curve : shown)
+        names << curve[xKey].toString() << curve[yKey].toString();
+    return names;
 }
 
 QWidget *QPlcXyPlot::createSettingsEditor()

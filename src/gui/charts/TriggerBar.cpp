@@ -196,6 +196,12 @@ void TriggerBar::setContext(WindowContext *context)
     findSource();
 }
 
+void TriggerBar::setPin(const QString &plant)
+{
+    m_pin = plant;
+    findSource();
+}
+
 void TriggerBar::follow(Plant *plant)
 {
     connect(plant, &Plant::updated, this, [this, plant] { take(plant); });
@@ -334,7 +340,7 @@ void TriggerBar::begin()
 void TriggerBar::findSource()
 {
     const bool isWanted = m_context && !m_wanted.isEmpty() && !isHidden();
-    m_source = isWanted ? m_context->curveSources()->find(m_wanted) : CurveSource();
+    m_source = isWanted ? m_context->curveSources()->find(m_wanted, m_pin) : CurveSource();
     m_signal->setToolTip(m_source.error);
     const QString unit = m_source.unit.isEmpty() ? QString() : QLatin1Char(' ') + m_source.unit;
     for (NumberBox *box : {m_level, m_upperLevel, m_hysteresis})

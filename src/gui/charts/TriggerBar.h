@@ -56,6 +56,8 @@ public:
     bool showsEvent() const;
     void setVisible(bool isVisible) override;
     void setContext(WindowContext *context);
+    /// The plant that signals without a plant are of; empty: the selected one.
+    void setPin(const QString &plant);
     /// What can be chosen: expressions as CurveSources::find() takes them.
     void setSignals(const QStringList &expressions);
     /// Whether and where events are saved; who saves them tells it by showSaved().
@@ -115,6 +117,7 @@ private:
     CurveSource m_source;
     Trigger m_trigger;
     QString m_wanted;  // signal
+    QString m_pin;
     std::optional<Trigger::Time> m_seenEvent;
     struct Awaited
     {

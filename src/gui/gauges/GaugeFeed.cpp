@@ -67,6 +67,12 @@ void GaugeFeed::setSettings(const GaugeSettings &settings)
         resolve();
 }
 
+void GaugeFeed::setPin(const QString &plant)
+{
+    m_pin = plant;
+    resolve();
+}
+
 void GaugeFeed::setNameShown(bool isShown)
 {
     m_showsName = isShown;
@@ -92,7 +98,7 @@ void GaugeFeed::resolve()
         return;
     }
     const GaugeSource before = m_source;
-    m_source = GaugeSource(m_settings.signal, *m_context->plants(), *m_context->curveSources());
+    m_source = GaugeSource(m_settings.signal, *m_context->plants(), *m_context->curveSources(), m_pin);
     m_definition = m_source.definition();
     if (!m_source.isSame(before))
         begin();

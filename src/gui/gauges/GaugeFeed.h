@@ -25,6 +25,8 @@ public:
 
     void setContext(WindowContext *context);
     void setSettings(const GaugeSettings &settings);
+    /// The plant that signals without a plant are of; empty: the selected one.
+    void setPin(const QString &plant);
     /// Whether the name of the signal is part of the picture.
     void setNameShown(bool isShown);
     void setActive(bool isActive);
@@ -77,6 +79,7 @@ private:
 
     QPointer<WindowContext> m_context;
     GaugeSettings m_settings;
+    QString m_pin;
     SignalReference m_reference;  // of the settings; invalid for formulas
     QString m_referenceError;
     GaugeSource m_source;  // in a window

@@ -9,16 +9,16 @@
 
 namespace qplc {
 
-GaugeSource::GaugeSource(const QString &text, const PlantList &plants, const CurveSources &formulas)
+GaugeSource::GaugeSource(const QString &text, const PlantList &plants, const CurveSources &formulas, const QString &pin)
 {
     if (!Formula::isFormula(text)) {
-        m_signal = plants.resolve(SignalReference::fromString(text));
+        m_signal = plants.resolve(SignalReference::fromString(text), pin);
         m_plant = m_signal.plant;
         if (m_signal)
             m_definition = m_signal.definition();
         return;
     }
-    m_formula = formulas.find(text);
+    m_formula = formulas.find(text, pin);
     m_error = m_formula.error;
     if (!m_formula)
         return;

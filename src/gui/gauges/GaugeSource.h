@@ -13,7 +13,7 @@ class GaugeSource
 public:
     GaugeSource() = default;
     /// What \a text means at the moment; find again after CurveSources::changed().
-    GaugeSource(const QString &text, const PlantList &plants, const CurveSources &formulas);
+    GaugeSource(const QString &text, const PlantList &plants, const CurveSources &formulas, const QString &pin);
 
     /// Null: nothing is there, and error() may say why.
     Plant *plant() const { return m_plant; }

@@ -28,6 +28,7 @@ QPlcGauge::QPlcGauge(QWidget *parent)
     });
     connect(this, &QPlcWidget::titleChanged, this,
             [this] { d->feed.setNameShown(!QPlcWidget::settings().contains(QStringLiteral("title"))); });
+    connect(this, &QPlcWidget::pinnedPlantChanged, this, [this] { d->feed.setPin(pinnedPlant()); });
     auto *reset = new QAction(tr("Reset smallest and largest value"), this);
     reset->setShortcut(QKeySequence(int(Qt::CTRL) | int(Qt::Key_R)));
     reset->setShortcutContext(Qt::WidgetWithChildrenShortcut);
@@ -87,6 +88,12 @@ bool QPlcGauge::addSignals(const QStringList &references)
     if (d->settings.set("signal", references.first()))
         takeEdit();
     return true;
+}
+
+QStringList QPlcGauge::shownSignals() const
+{
+    const QString signal = d->settings.value("signal").toString();
+    return signal.isEmpty() ? QStringList() : QStringList(signal);
 }
 
 QWidget *QPlcGauge::createSettingsEditor()

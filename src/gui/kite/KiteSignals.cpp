@@ -31,6 +31,12 @@ void KiteSignals::setSettings(const KiteSettings &settings)
     bind();
 }
 
+void KiteSignals::setPin(const QString &plant)
+{
+    m_pin = plant;
+    bind();
+}
+
 void KiteSignals::bind()
 {
     disconnect(m_updates);
@@ -56,7 +62,7 @@ void KiteSignals::bind()
 PlantList::Signal KiteSignals::find(const QString &text) const
 {
     const SignalReference reference = SignalReference::fromString(text);
-    return m_context && reference.isValid() ? m_context->plants()->resolve(reference) : PlantList::Signal();
+    return m_context && reference.isValid() ? m_context->plants()->resolve(reference, m_pin) : PlantList::Signal();
 }
 
 QString KiteSignals::problem() const

@@ -41,6 +41,8 @@ public:
 
     void setContext(WindowContext *context);
     void setSettings(const KiteSettings &settings);
+    /// The plant that signals without a plant are of; empty: the selected one.
+    void setPin(const QString &plant);
     const KiteSettings &settings() const { return m_settings; }
 
     /// Why there is nothing to show, for people; empty: there is.
@@ -70,6 +72,7 @@ private:
 
     WindowContext *m_context = nullptr;
     KiteSettings m_settings;
+    QString m_pin;
     PlantList::Signal m_position;
     PlantList::Signal m_velocity;
     PlantList::Signal m_wind;

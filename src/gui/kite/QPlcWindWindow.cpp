@@ -40,6 +40,7 @@ QPlcWindWindow::QPlcWindWindow(QWidget *parent)
     setFocusPolicy(Qt::ClickFocus);
     d->frame.setSingleShot(true);
     d->frame.setInterval(Private::frameTime);
+    connect(this, &QPlcWidget::pinnedPlantChanged, this, [this] { d->kite.setPin(pinnedPlant()); });
     connect(&d->kite, &KiteSignals::changed, this, [this] {
         d->isDue = true;
         if (!d->frame.isActive() && isVisible())
@@ -98,6 +99,11 @@ QSize QPlcWindWindow::minimumSizeHint() const
 QSize QPlcWindWindow::sizeHint() const
 {
     return {420, 260};
+}
+
+QStringList QPlcWindWindow::shownSignals() const
+{
+    return {d->kite.settings().position};
 }
 
 void QPlcWindWindow::contextChanged()

@@ -106,6 +106,13 @@ void PanelFrame::connectActions()
     connect(m_maximize, &QAction::triggered, this, &PanelFrame::toggleMaximized);
     connect(m_close, &QAction::triggered, this, [this] { m_editor->closePanel(m_id); });
     connect(m_rename, &QAction::triggered, m_titleBar, &PanelTitleBar::startRename);
+    connect(m_titleBar, &PanelTitleBar::badgeClicked, this, [this] {
+        QMenu *menu = m_makePlantMenu ? m_makePlantMenu(this) : nullptr;
+        if (!menu)
+            return;
+        menu->setAttribute(Qt::WA_DeleteOnClose);
+        menu->popup(m_titleBar->mapToGlobal(m_titleBar->badgeRect().bottomLeft()));
+    });
     connect(m_titleBar, &PanelTitleBar::doubleClicked, this, &PanelFrame::toggleMaximized);
     connect(m_titleBar, &PanelTitleBar::renamed, this, [this](const QString &title) {
         const bool isDefault = title.isEmpty() || title == m_type || (m_widget && title == m_widget->defaultTitle());

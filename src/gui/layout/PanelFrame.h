@@ -7,6 +7,8 @@
 #include <QtCore/QMimeData>
 #include <QtWidgets/QFrame>
 
+#include <functional>
+
 class QAction;
 class QMenu;
 class QPlcWidget;
@@ -46,6 +48,9 @@ public:
     QAction *maximizeAction() const { return m_maximize; }
     QAction *closeAction() const { return m_close; }
     QAction *renameAction() const { return m_rename; }
+    /// Makes the menu that is in the menu of the panel and opens by a click on the badge of its title, as a child of the widget that it gets; null: there is none now.
+    using MakeMenu = std::function<QMenu *(QWidget *parent)>;
+    void setPlantMenu(const MakeMenu &make) { m_makePlantMenu = make; }
     /// All that can be done with the panel: what its widget can, then where it stands. The caller owns it.
     QMenu *createMenu();
 
@@ -94,6 +99,7 @@ private:
     QAction *m_close = nullptr;
     QAction *m_rename = nullptr;
     DropOverlay *m_overlay = nullptr;
+    MakeMenu m_makePlantMenu;
 };
 
 }  // namespace qplc

@@ -54,6 +54,8 @@ void PanelFrame::addPanelActions(QMenu *menu)
     });
     menu->addMenu(createMoveMenu(menu));
     menu->addMenu(createSizeMenu(menu));
+    if (QMenu *plants = m_makePlantMenu ? m_makePlantMenu(menu) : nullptr)
+        menu->addMenu(plants);
     menu->addSeparator();
     menu->addActions({m_rename, m_settings, m_float, m_maximize});
     menu->addSeparator();

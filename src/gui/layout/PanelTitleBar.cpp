@@ -10,10 +10,19 @@
 #include <QtWidgets/QApplication>
 #include <QtWidgets/QHBoxLayout>
 #include <QtWidgets/QStyleOption>
+#include <QtWidgets/QToolTip>
 
 #include <algorithm>
 
 namespace qplc {
+
+namespace {
+
+constexpr int badgeMargin = 6;  // [px]
+constexpr int pinWidth = 10;
+constexpr int leastBadge = 70;
+
+}  // namespace
 
 PanelTitleBar::PanelTitleBar(QWidget *parent)
     : QWidget(parent)
@@ -33,6 +42,15 @@ void PanelTitleBar::setTitle(const QString &title)
     m_title = title;
     setAccessibleName(tr("Title of %1").arg(title));
     setToolTip(title);
+    update();
+}
+
+void PanelTitleBar::setBadge(const Badge &badge)
+{
+    if (badge == m_badge)
+        return;
+    m_badge = badge;
+    setAccessibleDescription(badge.toolTip);
     update();
 }
 
@@ -88,9 +106,54 @@ QSize PanelTitleBar::minimumSizeHint() const
     return {m_buttons->sizeHint().width() + 24, sizeHint().height()};
 }
 
-QRect PanelTitleBar::titleRect() const
+QRect PanelTitleBar::lineRect() const
 {
     return rect().adjusted(8, 0, -(m_buttons->sizeHint().width() + 8), -1);
+}
+
+/// Of a narrow panel the badge has the larger part: a title can be guessed, a plant cannot.
+QRect PanelTitleBar::badgeRect() const
+{
+    if (m_badge.text.isEmpty())
+        return {};
+    const QRect line = lineRect();
+    const int wanted
+        = fontMetrics().horizontalAdvance(m_badge.text) + 2 * badgeMargin + (m_badge.isPinned ? pinWidth : 0);
+    const int width = std::min({wanted, std::max(line.width() * 6 / 10, leastBadge), line.width()});
+    const int height = fontMetrics().height() + 2;
+    return {line.right() - width, line.center().y() - height / 2, width, height};
+}
+
+QRect PanelTitleBar::titleRect() const
+{
+    QRect line = lineRect();
+    if (!m_badge.text.isEmpty())
+        line.setRight(badgeRect().left() - badgeMargin);
+    return line;
+}
+
+void PanelTitleBar::drawBadge(QPainter *painter) const
+{
+    if (m_badge.text.isEmpty())
+        return;
+    const QRect place = badgeRect();
+    painter->save();
+    painter->setRenderHint(QPainter::Antialiasing);
+    painter->setPen(Qt::NoPen);
+    painter->setBrush(m_badge.color);
+    painter->drawRoundedRect(place, 3, 3);
+    painter->setPen(m_badge.textColor);
+    QRect inner = place.adjusted(badgeMargin, 0, -badgeMargin, 0);
+    if (m_badge.isPinned) {
+        const QPointF head(inner.left() + 2.5, place.center().y() - 1.5);
+        painter->setBrush(m_badge.textColor);
+        painter->drawEllipse(head, 2.5, 2.5);
+        painter->drawLine(head, head + QPointF(0, 7));
+        inner.setLeft(inner.left() + pinWidth);
+    }
+    painter->drawText(inner, Qt::AlignCenter | Qt::TextSingleLine,
+                      fontMetrics().elidedText(m_badge.text, Qt::ElideRight, inner.width()));
+    painter->restore();
 }
 
 void PanelTitleBar::startRename()
@@ -115,12 +178,22 @@ void PanelTitleBar::paintEvent(QPaintEvent * /*event*/)
     painter.setPen(text);
     painter.drawText(titleRect(), Qt::AlignVCenter | Qt::AlignLeft | Qt::TextSingleLine,
                      fontMetrics().elidedText(m_title, Qt::ElideRight, titleRect().width()));
+    drawBadge(&painter);
     if (!hasFocus())
         return;
     QStyleOptionFocusRect option;
     option.initFrom(this);
     option.rect = rect().adjusted(2, 2, -(m_buttons->sizeHint().width() + 4), -3);
     style()->drawPrimitive(QStyle::PE_FrameFocusRect, &option, &painter, this);
+}
+
+bool PanelTitleBar::event(QEvent *event)
+{
+    const auto *help = event->type() == QEvent::ToolTip ? static_cast<QHelpEvent *>(event) : nullptr;
+    if (!help || !badgeRect().contains(help->pos()))
+        return QWidget::event(event);
+    QToolTip::showText(help->globalPos(), m_badge.toolTip, this, badgeRect());
+    return true;
 }
 
 void PanelTitleBar::mousePressEvent(QMouseEvent *event)
@@ -150,6 +223,8 @@ void PanelTitleBar::mouseReleaseEvent(QMouseEvent *event)
     endDrag();
     if (isDragged)
         Q_EMIT dragFinished(event->globalPos());
+    else if (badgeRect().contains(event->pos()) && badgeRect().contains(m_pressed))
+        Q_EMIT badgeClicked();
 }
 
 void PanelTitleBar::mouseDoubleClickEvent(QMouseEvent *event)

@@ -68,7 +68,7 @@ QVector<SignalReference> ValueTableModel::references() const
 
 ValueTableModel::Row ValueTableModel::makeRow(const SignalReference &reference) const
 {
-    Row row{reference, m_plants->resolve(reference), noNumber, noNumber, 0, {}};
+    Row row{reference, m_plants->resolve(reference, m_pin), noNumber, noNumber, 0, {}};
     forgetRange(&row);
     row.texts = textsOf(row);
     return row;
@@ -81,6 +81,12 @@ void ValueTableModel::setReferences(const QVector<SignalReference> &references)
     for (const SignalReference &reference : references)
         m_rows << makeRow(reference);
     endResetModel();
+}
+
+void ValueTableModel::setPin(const QString &plant)
+{
+    m_pin = plant;
+    resolve();
 }
 
 void ValueTableModel::add(const QVector<SignalReference> &references, int row)
@@ -115,7 +121,7 @@ void ValueTableModel::resolve()
 {
     for (Row &row : m_rows) {
         const PlantList::Signal before = row.signal;
-        row.signal = m_plants->resolve(row.reference);
+        row.signal = m_plants->resolve(row.reference, m_pin);
         if (row.signal.plant != before.plant || row.signal.index != before.index)
             forgetRange(&row);
     }

@@ -27,6 +27,8 @@ public:
 
     QVector<SignalReference> references() const;
     void setReferences(const QVector<SignalReference> &references);
+    /// The plant that references without a plant mean; empty: the selected one.
+    void setPin(const QString &plant);
     /// Inserts those that are not there yet before \a row; -1: behind all.
     void add(const QVector<SignalReference> &references, int row = -1);
     /// Forgets smallest and largest values.
@@ -71,6 +73,7 @@ private:
     QVariant sortValue(const Row &row, int column) const;
 
     PlantList *m_plants;
+    QString m_pin;
     QVector<Row> m_rows;
     std::optional<SignalStore::Time> m_displayTime;
     QTimer m_timer;

@@ -27,6 +27,8 @@ struct Theme
 
     /// The colour of curve \a index, 0 ...: eight that people with any colour vision tell apart, then again from the first one on.
     QColor curve(int index) const;
+    /// The colour that says which plant a panel or the bar shows, behind text of the colour of the window. \param number  Plant::number()
+    QColor plant(int number) const { return curve(number); }
     /// The line of curve \a index: solid for the first eight, then dashes, then dots, then solid again, so that 24 curves look different.
     static Qt::PenStyle curveStyle(int index);
     /// For QApplication::setPalette().

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "WindowContext.h"
 
+#include "gui/plot/Formula.h"
+
 #include <algorithm>
 
 namespace qplc {
@@ -23,6 +25,28 @@ void WindowContext::setTheme(const Theme &theme)
 {
     m_theme = theme;
     Q_EMIT themeChanged();
+}
+
+QStringList WindowContext::plantsOf(const QStringList &expressions, const QString &pin) const
+{
+    QStringList names;
+    const auto add = [&](const SignalReference &reference) {
+        const Plant *selected = m_plants.selected();
+        const QString &wanted = reference.plant.isEmpty() ? pin : reference.plant;
+        const QString name = !wanted.isEmpty() ? wanted : selected ? selected->name() : QString();
+        if (!name.isEmpty() && !names.contains(name))
+            names << name;
+    };
+    for (const QString &expression : expressions) {
+        if (!Formula::isFormula(expression)) {
+            add(SignalReference::fromString(expression));
+            continue;
+        }
+        const Formula formula = Formula::read(expression, m_plants.names());
+        for (const Formula::Operand &operand : formula.operands())
+            add(operand.reference);
+    }
+    return names;
 }
 
 void WindowContext::follow(Plant *plant)

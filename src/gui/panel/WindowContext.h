@@ -24,6 +24,8 @@ public:
     EventLogModel *events() { return &m_events; }
     CurveSources *curveSources() { return &m_curveSources; }
     TimeView *timeView() { return &m_timeView; }
+    /// Names of the plants of signals and formulas, each once. \param pin  the plant of those without one; empty: the selected one
+    QStringList plantsOf(const QStringList &expressions, const QString &pin) const;
     const Theme &theme() const { return m_theme; }
     void setTheme(const Theme &theme);
 

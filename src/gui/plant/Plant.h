@@ -40,6 +40,9 @@ public:
     ~Plant() override;
 
     QString name() const { return m_name; }
+    /// 0, 1, ...: by which its colour is chosen (Theme::plant()); of no other plant of the window, and the same as long as the plant is there.
+    int number() const { return m_number; }
+    void setNumber(int number) { m_number = number; }
     QString address() const { return m_connection.address(); }
     /// Connects, now and whenever the connection is lost.
     void open() { m_connection.open(); }
@@ -166,6 +169,7 @@ private:
     QStringList nodeNames() const;
 
     QString m_name;
+    int m_number = 0;
     PlantConnection m_connection;
     QString m_token;  // that permits a start
     PlantFeed *m_feed = nullptr;

@@ -40,11 +40,28 @@ QString PlantList::freeName(const QString &wanted) const
     return name;
 }
 
+/// The smallest that no plant has.
+int PlantList::freeNumber() const
+{
+    const auto isTaken = [this](int number) {
+        return std::any_of(m_plants.begin(), m_plants.end(),
+                           [number](const std::unique_ptr<Plant> &plant) { return plant->number() == number; });
+    };
+    int number = 0;
+    while (isTaken(number))
+        ++number;
+    return number;
+}
+
 Plant *PlantList::insert(const QString &address, const QString &name, const QString &nodeName)
 {
+    const int number = freeNumber();
     m_plants.push_back(std::make_unique<Plant>(address, freeName(name.isEmpty() ? address : name), nodeName));
     Plant *plant = m_plants.back().get();
+    plant->setNumber(number);
     plant->setRate(m_rate);
+    if (!m_selected)
+        m_selected = plant;
     connect(plant, &Plant::tableChanged, this, &PlantList::signalsChanged);
     connect(plant, &Plant::eventOccurred, this, &PlantList::eventOccurred);
     return plant;
@@ -71,10 +88,27 @@ void PlantList::remove(Plant *plant)
     const int place = indexOf(plant);
     if (place < 0)
         return;
+    const bool wasSelected = plant == m_selected;
+    if (wasSelected)
+        Q_EMIT aboutToSelect();
     const std::unique_ptr<Plant> last = std::move(m_plants[std::size_t(place)]);
     m_plants.erase(m_plants.begin() + place);
+    if (wasSelected)
+        m_selected = m_plants.empty() ? nullptr : m_plants.front().get();
     Q_EMIT removed(plant);
     Q_EMIT signalsChanged();
+    if (wasSelected)
+        Q_EMIT selectionChanged();
+}
+
+void PlantList::select(Plant *plant)
+{
+    if (plant == m_selected || indexOf(plant) < 0)
+        return;
+    Q_EMIT aboutToSelect();
+    m_selected = plant;
+    Q_EMIT signalsChanged();
+    Q_EMIT selectionChanged();
 }
 
 void PlantList::setRate(double timesPerSecond)
@@ -106,7 +140,7 @@ QStringList PlantList::names() const
     return names;
 }
 
-PlantList::Signal PlantList::find(Plant *plant, const SignalReference &reference) const
+PlantList::Signal PlantList::find(Plant *plant, const SignalReference &reference)
 {
     const QPlcSignalIndex index = plant->table().indexOf(reference.signal);
     if (index == QPlcInvalidSignalIndex)
@@ -117,15 +151,16 @@ PlantList::Signal PlantList::find(Plant *plant, const SignalReference &reference
     return isThere ? Signal{plant, index, reference.element} : Signal();
 }
 
-PlantList::Signal PlantList::resolve(const SignalReference &reference) const
+Plant *PlantList::plantOf(const SignalReference &reference, const QString &pin) const
 {
-    for (const std::unique_ptr<Plant> &plant : m_plants) {
-        if (!reference.plant.isEmpty() && reference.plant != plant->name())
-            continue;
-        if (const Signal signal = find(plant.get(), reference))
-            return signal;
-    }
-    return {};
+    const QString &name = reference.plant.isEmpty() ? pin : reference.plant;
+    return name.isEmpty() ? m_selected : find(name);
+}
+
+PlantList::Signal PlantList::resolve(const SignalReference &reference, const QString &pin) const
+{
+    Plant *plant = plantOf(reference, pin);
+    return plant ? find(plant, reference) : Signal();
 }
 
 SignalReference PlantList::reference(const Plant *plant, QPlcSignalIndex signal, int element) const

@@ -9,7 +9,7 @@
 
 namespace qplc {
 
-/// All plants of a window. None of them waits for another one.
+/// All plants of a window, one of which is selected: its bar and all names without a plant mean that one. None of them waits for another one.
 class PlantList : public QObject
 {
     Q_OBJECT
@@ -57,8 +57,15 @@ public:
     Plant *find(const QString &name) const;
     QStringList names() const;
 
-    /// Without a plant: in the first plant that has such a signal. False when there is no such signal or element now.
-    Signal resolve(const SignalReference &reference) const;
+    /// Null while there is no plant. The first one is selected by itself; the one that follows a selected plant that is removed is the first that is left.
+    Plant *selected() const { return m_selected; }
+    /// Does nothing for a plant of another list.
+    void select(Plant *plant);
+
+    /// The plant of \a reference; for a reference without one \a pin, or the selected plant. Null when there is none of this name.
+    Plant *plantOf(const SignalReference &reference, const QString &pin = QString()) const;
+    /// False when its plant has no such signal or element now. \param pin  as in plantOf()
+    Signal resolve(const SignalReference &reference, const QString &pin = QString()) const;
     /// How to write a signal: with its plant only when there are several.
     SignalReference reference(const Plant *plant, QPlcSignalIndex signal, int element = SignalReference::Whole) const;
 
@@ -66,6 +73,10 @@ Q_SIGNALS:
     void added(qplc::Plant *plant);
     /// The plant is no more in the list, and ends after this.
     void removed(qplc::Plant *plant);
+    /// References without a plant mean another plant in a moment: the last time to end what was begun in the present one.
+    void aboutToSelect();
+    /// Another plant is selected, after signalsChanged(), or none is left.
+    void selectionChanged();
     /// References may mean something else from here on.
     void signalsChanged();
     void eventOccurred(const qplc::PlantEvent &event);
@@ -73,9 +84,11 @@ Q_SIGNALS:
 private:
     Plant *insert(const QString &address, const QString &name, const QString &nodeName);
     QString freeName(const QString &wanted) const;
-    Signal find(Plant *plant, const SignalReference &reference) const;
+    int freeNumber() const;
+    static Signal find(Plant *plant, const SignalReference &reference);
 
     std::vector<std::unique_ptr<Plant>> m_plants;
+    Plant *m_selected = nullptr;
     double m_rate = 0.0;
 };
 

@@ -13,7 +13,7 @@ struct SignalReference
 {
     static constexpr int Whole = -1;  // all elements
 
-    QString plant;  // empty: the first plant that has such a signal
+    QString plant;  // empty: the one to which a panel is pinned, or the selected one of the window
     QString signal;
     int element = Whole;
 

@@ -24,16 +24,16 @@ QString CurveSource::textOf(const QString &expression)
     return Formula::isFormula(expression) ? expression.trimmed().mid(1).trimmed() : expression;
 }
 
-CurveSource CurveSources::find(const QString &expression) const
+CurveSource CurveSources::find(const QString &expression, const QString &pin) const
 {
     if (Formula::isFormula(expression))
-        return findFormula(expression);
+        return findFormula(expression, pin);
     CurveSource source;
     source.title = expression;
     const SignalReference reference = SignalReference::fromString(expression, &source.error);
     if (!reference.isValid())
         return source;
-    const PlantList::Signal signal = m_plants->resolve(reference);
+    const PlantList::Signal signal = m_plants->resolve(reference, pin);
     if (!signal || !signal.plant->store()) {
         source.error = tr("There is no signal %1 at the moment.").arg(expression);
         return source;
@@ -54,11 +54,11 @@ CurveSource CurveSources::find(const QString &expression) const
     return source;
 }
 
-CurveSource CurveSources::findFormula(const QString &expression) const
+CurveSource CurveSources::findFormula(const QString &expression, const QString &pin) const
 {
     CurveSource source;
     source.title = expression.trimmed();
-    const DerivedSignals::Result found = m_derived->find(source.title);
+    const DerivedSignals::Result found = m_derived->find(source.title, pin);
     source.error = found.error;
     if (!found.derived)
         return source;

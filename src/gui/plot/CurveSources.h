@@ -46,7 +46,8 @@ public:
     ~CurveSources() override;
 
     /// What is found is right until changed(), and must not be kept longer: stores come and go with tables.
-    CurveSource find(const QString &expression) const;
+    /// \param pin  the plant that signals without a plant are of; empty: the selected one
+    CurveSource find(const QString &expression, const QString &pin = QString()) const;
 
 Q_SIGNALS:
     /// Everything has to be found again.
@@ -55,7 +56,7 @@ Q_SIGNALS:
     void filled();
 
 private:
-    CurveSource findFormula(const QString &expression) const;
+    CurveSource findFormula(const QString &expression, const QString &pin) const;
     void follow(Plant *plant);
 
     PlantList *m_plants;

@@ -19,39 +19,40 @@ bool DerivedSignals::isTrue(const Entry &entry) const
         && entry.plant->table().hash() == entry.tableHash;
 }
 
-DerivedSignals::Result DerivedSignals::find(const QString &text)
+DerivedSignals::Result DerivedSignals::find(const QString &text, const QString &pin)
 {
     Result result;
     const Formula formula = Formula::read(text, m_plants->names(), &result.error);
     if (!formula.isValid())
         return result;
-    const Operands operands = resolve(formula);
+    const Operands operands = resolve(formula, pin);
     result.plant = operands.plant;
     result.error = operands.error;
     result.unit = formula.unit(operands.units);
     if (!result.error.isEmpty())
         return result;
-    const auto known = m_entries.constFind(text);
-    if (known != m_entries.constEnd() && isTrue(*known) && known->plant == operands.plant) {
+    const auto known = m_entries.constFind({operands.plant, text});
+    if (known != m_entries.constEnd() && isTrue(*known)) {
         result.derived = known->derived.lock();
         return result;
     }
     const SignalStore *source = operands.plant->store();
     result.derived = std::make_shared<DerivedSignal>(formula, operands.channels, *source);
     const bool isFilled = result.derived->follow(*source, sliceRows);
-    m_entries.insert(text, {result.derived, operands.plant, source, operands.plant->table().hash(), isFilled});
+    m_entries.insert({operands.plant, text},
+                     {result.derived, operands.plant, source, operands.plant->table().hash(), isFilled});
     if (!isFilled)
         m_filler.start();
     return result;
 }
 
-DerivedSignals::Operands DerivedSignals::resolve(const Formula &formula) const
+DerivedSignals::Operands DerivedSignals::resolve(const Formula &formula, const QString &pin) const
 {
     Operands found;
     if (formula.operands().isEmpty())
         found.error = formula.errorAt(0, tr("a formula needs a signal, for its times"));
     for (const Formula::Operand &operand : formula.operands()) {
-        const QString error = resolveOperand(formula, operand, &found);
+        const QString error = resolveOperand(formula, operand, pin, &found);
         if (!error.isEmpty()) {
             found.error = error;
             break;
@@ -61,10 +62,11 @@ DerivedSignals::Operands DerivedSignals::resolve(const Formula &formula) const
 }
 
 /// \return what is wrong
-QString DerivedSignals::resolveOperand(const Formula &formula, const Formula::Operand &operand, Operands *found) const
+QString DerivedSignals::resolveOperand(const Formula &formula, const Formula::Operand &operand, const QString &pin,
+                                       Operands *found) const
 {
     const QString name = operand.reference.toString();
-    const PlantList::Signal signal = m_plants->resolve(operand.reference);
+    const PlantList::Signal signal = m_plants->resolve(operand.reference, pin);
     if (!signal || !signal.plant->store())
         return formula.errorAt(operand.place, tr("there is no signal %1 at the moment").arg(name));
     if (found->plant && found->plant != signal.plant)

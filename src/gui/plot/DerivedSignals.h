@@ -30,8 +30,8 @@ public:
         QString unit;
         QString error;
     };
-    /// Finds or makes what \a text, a formula, means at the moment.
-    Result find(const QString &text);
+    /// Finds or makes what \a text, a formula, means at the moment. \param pin  the plant that signals without a plant are of; empty: the selected one
+    Result find(const QString &text, const QString &pin = QString());
     /// Stores or tables of plants are others: what is found next is made anew. What is held stays as it is.
     void forget(const Plant *plant);
     void forgetStale();
@@ -64,12 +64,13 @@ private:
     };
 
     bool isTrue(const Entry &entry) const;
-    Operands resolve(const Formula &formula) const;
-    QString resolveOperand(const Formula &formula, const Formula::Operand &operand, Operands *found) const;
+    Operands resolve(const Formula &formula, const QString &pin) const;
+    QString resolveOperand(const Formula &formula, const Formula::Operand &operand, const QString &pin,
+                           Operands *found) const;
     void fillSlice();
 
     PlantList *m_plants;
-    QHash<QString, Entry> m_entries;
+    QHash<QPair<Plant *, QString>, Entry> m_entries;  // by plant and text
     QTimer m_filler;
 };
 

@@ -168,7 +168,9 @@ void ControlBar::refresh()
     m_takeOver->setVisible(m_isAsking);
     m_leave->setVisible(m_isAsking);
     const QString question = tr("Held by %1: take over?").arg(m_control->who());
-    m_text->showText(m_isAsking ? question : m_sentence.isEmpty() ? m_control->text() : m_sentence);
+    const QString sentence = m_isAsking ? question : m_sentence.isEmpty() ? m_control->text() : m_sentence;
+    const QString plants = m_control->plantNames();
+    m_text->showText(plants.isEmpty() ? sentence : tr("%1: %2").arg(plants, sentence));
     if (m_headline)
         m_headline->showText(headline(*m_control));
     if (m_plain.isValid()) {

@@ -10,9 +10,15 @@ ManualControl::ManualControl(QObject *parent)
 {
     m_control.setBeginning(SignalControl::Neutral);  // a key that is not held means neutral
     connect(&m_control, &SignalControl::changed, this, &ManualControl::controlChanged);
+    connect(&m_control, &SignalControl::leaving, this, [this] {
+        letGo();
+        for (const auto &stream : m_streams)
+            stream.second->flush();  // neutral, for the plant that is left
+    });
     connect(&m_control, &SignalControl::signalsChanged, this, [this] {
         m_streams.clear();  // some of their plants may be gone
         letGo();
+        m_sent.clear();
     });
 }
 

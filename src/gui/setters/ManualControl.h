@@ -22,6 +22,7 @@ public:
     explicit ManualControl(QObject *parent = nullptr);
 
     void setPlants(PlantList *plants) { m_control.setPlants(plants); }
+    void setPin(const QString &plant) { m_control.setPin(plant); }
     void setBindings(const ManualBindings &bindings);
     const ManualBindings &bindings() const { return m_bindings; }
     SignalControl &control() { return m_control; }

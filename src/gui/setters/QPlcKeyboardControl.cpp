@@ -66,6 +66,7 @@ QPlcKeyboardControl::Private::Private(QPlcKeyboardControl *panel)
     connect(&control.control(), &SignalControl::changed, panel, [this] { showState(); });
     connect(&control.control(), &SignalControl::signalsChanged, panel, [this] { showState(); });
     connect(&control, &ManualControl::moved, panel, [this] { showState(); });
+    connect(panel, &QPlcWidget::pinnedPlantChanged, panel, [this] { control.setPin(q->pinnedPlant()); });
     connect(bar, &ControlBar::handled, panel, [this] { q->setFocus(Qt::OtherFocusReason); });
 }
 
@@ -212,6 +213,15 @@ QWidget *QPlcKeyboardControl::createSettingsEditor()
         Q_EMIT settingsEdited();
     });
     return editor;
+}
+
+QStringList QPlcKeyboardControl::shownSignals() const
+{
+    QStringList names;
+    const QVector<SignalReference> references = d->control.bindings().signalReferences();
+    for (const SignalReference &reference : references)
+        names << reference.toString();
+    return names;
 }
 
 void QPlcKeyboardControl::contextChanged()

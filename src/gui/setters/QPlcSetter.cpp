@@ -11,6 +11,7 @@
 #include <QtCore/QTimer>
 #include <QtGui/QPainter>
 #include <QtWidgets/QAction>
+#include <QtWidgets/QApplication>
 #include <QtWidgets/QVBoxLayout>
 
 using namespace qplc;
@@ -19,6 +20,7 @@ struct QPlcSetter::Private
 {
     explicit Private(QPlcSetter *setter);
     void makeView();
+    void renewView();
     void apply(const SetterSettings &wanted);
     void takeViewSettings();
     void showState();
@@ -72,6 +74,8 @@ QPlcSetter::Private::Private(QPlcSetter *setter)
             showActual();
     });
     connect(&target, &SetterTarget::changed, setter, [this] { showState(); });
+    connect(&target, &SetterTarget::leaving, setter, [this] { renewView(); });
+    connect(setter, &QPlcWidget::pinnedPlantChanged, setter, [this] { target.setPin(q->pinnedPlant()); });
     connect(&target, &SetterTarget::failed, setter, [this](const QString &sentence) { bar->say(sentence); });
 }
 
@@ -92,6 +96,16 @@ void QPlcSetter::Private::makeView()
     message->showText({});
     message->hide();
     view->show();
+}
+
+/// What was typed or dragged for one plant is not there for the next one.
+void QPlcSetter::Private::renewView()
+{
+    const bool hadFocus = q->isAncestorOf(QApplication::focusWidget());
+    makeView();
+    view->applySettings(settings.toJson());
+    if (hadFocus)
+        q->setFocus(Qt::OtherFocusReason);
 }
 
 /// What the view itself has for settings.
@@ -222,7 +236,8 @@ bool QPlcSetter::addSignals(const QStringList &references)
         SetterSettings wanted = d->settings;
         wanted.signal = reference;
         wanted.minimum = wanted.maximum = std::nullopt;  // they were those of another signal
-        const PlantList::Signal signal = context() ? context()->plants()->resolve(reference) : PlantList::Signal();
+        const PlantList::Signal signal
+            = context() ? context()->plants()->resolve(reference, pinnedPlant()) : PlantList::Signal();
         if (signal && !signal.definition().valueNames.isEmpty() && wanted.style == SetterView::styles().constFirst())
             wanted.style = QStringLiteral("list");
         d->apply(wanted);
@@ -230,6 +245,11 @@ bool QPlcSetter::addSignals(const QStringList &references)
         return true;
     }
     return false;
+}
+
+QStringList QPlcSetter::shownSignals() const
+{
+    return d->settings.signal.isValid() ? QStringList(d->settings.signal.toString()) : QStringList();
 }
 
 void QPlcSetter::contextChanged()

@@ -16,6 +16,7 @@ SetterTarget::SetterTarget(QObject *parent)
         m_stream.setPlant(signal().plant);
         Q_EMIT changed();
     });
+    connect(&m_control, &SignalControl::leaving, this, &SetterTarget::leave);
     connect(&m_control, &SignalControl::changed, this, &SetterTarget::check);
     connect(&m_control, &SignalControl::updated, this, &SetterTarget::updated);
     connect(&m_control, &SignalControl::failed, this, &SetterTarget::failed);
@@ -33,6 +34,17 @@ void SetterTarget::setLimits(std::optional<double> minimum, std::optional<double
     m_minimum = minimum;
     m_maximum = maximum;
     Q_EMIT changed();
+}
+
+/// What was done to one plant never goes on in another one.
+void SetterTarget::leave()
+{
+    m_stream.flush();
+    if (m_isActing) {
+        endAction();
+        Q_EMIT actionLost();
+    }
+    Q_EMIT leaving();
 }
 
 /// Who has control has changed: what acts must not go on for another one.

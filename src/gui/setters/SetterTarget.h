@@ -17,6 +17,7 @@ public:
     explicit SetterTarget(QObject *parent = nullptr);
 
     void setPlants(PlantList *plants) { m_control.setPlants(plants); }
+    void setPin(const QString &plant) { m_control.setPin(plant); }
     /// \param reference  invalid: none
     void setSignal(const SignalReference &reference);
     SignalReference reference() const { return m_control.references().value(0); }
@@ -61,10 +62,13 @@ Q_SIGNALS:
     void updated();
     /// This window cannot write any more, and acted.
     void actionLost();
+    /// The signal is that of another plant in a moment; what was begun has ended.
+    void leaving();
     void failed(const QString &sentence);
 
 private:
     void check();
+    void leave();
     QString name() const { return signal().definition().name; }
 
     SignalControl m_control;

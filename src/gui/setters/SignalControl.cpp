@@ -41,8 +41,39 @@ void SignalControl::setPlants(PlantList *plants)
     if (plants) {
         plants->forEach(this, &SignalControl::listenTo);
         connect(plants, &PlantList::signalsChanged, this, &SignalControl::resolve);
+        connect(plants, &PlantList::aboutToSelect, this, [this] {
+            if (m_pin.isEmpty() && hasPlainReference())
+                Q_EMIT leaving();
+        });
     }
     resolve();
+}
+
+/// Whether the plant of a signal is the one of the pin or of the window.
+bool SignalControl::hasPlainReference() const
+{
+    return std::any_of(m_references.begin(), m_references.end(),
+                       [](const SignalReference &reference) { return reference.plant.isEmpty(); });
+}
+
+void SignalControl::setPin(const QString &plant)
+{
+    if (plant == m_pin)
+        return;
+    if (hasPlainReference())
+        Q_EMIT leaving();
+    m_pin = plant;
+    resolve();
+}
+
+QString SignalControl::plantNames() const
+{
+    QStringList names;
+    for (const PlantList::Signal &signal : m_resolved) {
+        if (signal && !names.contains(signal.plant->name()))
+            names << signal.plant->name();
+    }
+    return m_plants && m_plants->size() > 1 ? names.join(QStringLiteral(", ")) : QString();
 }
 
 void SignalControl::listenTo(Plant *plant)
@@ -67,7 +98,7 @@ void SignalControl::resolve()
 {
     m_resolved.clear();
     for (const SignalReference &reference : qAsConst(m_references))
-        m_resolved.append(m_plants ? m_plants->resolve(reference) : PlantList::Signal());
+        m_resolved.append(m_plants ? m_plants->resolve(reference, m_pin) : PlantList::Signal());
     const bool isOther = assess();  // who hears of other signals sees what is true of them
     Q_EMIT signalsChanged();
     if (isOther)

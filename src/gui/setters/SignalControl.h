@@ -32,10 +32,15 @@ public:
 
     /// \param plants  null: none
     void setPlants(PlantList *plants);
+    /// The plant that references without one mean; empty: the selected one of the window.
+    void setPin(const QString &plant);
     void setSignals(const QVector<SignalReference> &references);
     const QVector<SignalReference> &references() const { return m_references; }
     /// What the references mean now, in their order; false for what is missing.
     const QVector<PlantList::Signal> &resolved() const { return m_resolved; }
+
+    /// Names of the plants of the signals, where the window has several; empty otherwise.
+    QString plantNames() const;
 
     State state() const { return m_state; }
     /// Whether values of this window are taken.
@@ -63,6 +68,8 @@ public:
     void follow(Plant *plant, int command) { m_commands.append({plant, command}); }
 
 Q_SIGNALS:
+    /// The signals are those of another plant in a moment: what was begun ends now, in the plant in which it was begun.
+    void leaving();
     /// The signals are other ones, or stand for something else.
     void signalsChanged();
     /// state(), who(), text() or mayTake().
@@ -74,6 +81,7 @@ Q_SIGNALS:
 
 private:
     void listenTo(Plant *plant);
+    bool hasPlainReference() const;
     void resolve();
     void judge();
     bool assess();
@@ -82,6 +90,7 @@ private:
     QHash<Plant *, QStringList> namesByPlant() const;
 
     QPointer<PlantList> m_plants;
+    QString m_pin;
     QVector<SignalReference> m_references;
     QVector<PlantList::Signal> m_resolved;
     State m_state = Missing;

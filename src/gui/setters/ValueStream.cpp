@@ -42,6 +42,12 @@ void ValueStream::send(const Values &values)
     sendWaiting();
 }
 
+void ValueStream::flush()
+{
+    m_underWay = 0;
+    sendWaiting();
+}
+
 void ValueStream::sendWaiting()
 {
     if (!m_plant || m_underWay != 0 || m_waiting.isEmpty())

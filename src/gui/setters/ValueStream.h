@@ -20,6 +20,8 @@ public:
     /// What was under way to another plant is forgotten.
     void setPlant(Plant *plant);
     void send(const Values &values);
+    /// Sends what waits at once, as the last before this stream goes to another plant.
+    void flush();
     /// Forgets what waits.
     void clear() { m_waiting.clear(); }
 

@@ -267,6 +267,15 @@ bool QPlcValueTable::addSignals(const QStringList &references)
     return true;
 }
 
+QStringList QPlcValueTable::shownSignals() const
+{
+    QStringList names;
+    const QJsonArray chosen = d->settings.value("signals").toArray();
+    for (const QJsonValue &name : chosen)
+        names << name.toString();
+    return names;
+}
+
 /// Rows came or went: by hand, unless settings are applied.
 void QPlcValueTable::takeSignals()
 {
@@ -284,6 +293,8 @@ void QPlcValueTable::takeSignals()
 void QPlcValueTable::contextChanged()
 {
     d->model = new ValueTableModel(context()->plants(), this);
+    d->model->setPin(pinnedPlant());
+    connect(this, &QPlcWidget::pinnedPlantChanged, d->model, [this] { d->model->setPin(pinnedPlant()); });
     d->sorted->setSourceModel(d->model);
     d->table->setContext(context());
     d->table->setColumns(valueColumns);

@@ -18,7 +18,6 @@ LatchBanner::LatchBanner(WindowContext *context, QWidget *parent)
     m_label->setWordWrap(true);
     m_label->setTextInteractionFlags(Qt::TextSelectableByMouse);
     m_reset->setText(Plant::actionText(Plant::Reset));
-    m_reset->setDetail(tr("F7"));
     connect(m_reset, &QAbstractButton::clicked, this, [this] {
         if (m_plant)
             Q_EMIT resetRequested(m_plant);
@@ -30,6 +29,7 @@ LatchBanner::LatchBanner(WindowContext *context, QWidget *parent)
     row->addWidget(m_reset, 0, Qt::AlignVCenter);
     PlantList *plants = context->plants();
     connect(plants, &PlantList::removed, this, &LatchBanner::follow);
+    connect(plants, &PlantList::selectionChanged, this, &LatchBanner::follow);
     connect(context, &WindowContext::themeChanged, this, &LatchBanner::colour);
     plants->forEach(this, &LatchBanner::listenTo);
     colour();
@@ -48,10 +48,15 @@ void LatchBanner::follow()
     PlantList *plants = m_context->plants();
     m_plant.clear();
     m_text.clear();
+    const auto isLatched
+        = [](const Plant *plant) { return plant && plant->isConnected() && plant->status().isLatched(); };
+    if (isLatched(plants->selected()))
+        m_plant = plants->selected();
     for (int place = 0; place < plants->size() && !m_plant; ++place) {
-        if (plants->at(place)->isConnected() && plants->at(place)->status().isLatched())
+        if (isLatched(plants->at(place)))
             m_plant = plants->at(place);
     }
+    m_reset->setDetail(m_plant == plants->selected() ? tr("F7") : QString());  // the key resets the selected plant
     if (m_plant) {
         const PlantStatus &status = m_plant->status();
         const QString what

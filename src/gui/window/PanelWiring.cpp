@@ -14,17 +14,18 @@ PanelWiring::PanelWiring(WindowContext *context, QObject *parent)
 {
     connect(context->plants(), &PlantList::added, this,
             [this](Plant *plant) { connect(plant, &Plant::updated, this, [this, plant] { deliver(plant); }); });
-    connect(context->plants(), &PlantList::signalsChanged, this, &PanelWiring::findPlant);
+    connect(context->plants(), &PlantList::signalsChanged, this, &PanelWiring::findPlants);
 }
 
 void PanelWiring::add(QPlcWidget *widget)
 {
     m_widgets.append(widget);
-    findPlant();
+    findPlants();
     widget->setContext(m_context);
     connect(widget, &QPlcWidget::outputSignalIndicesChanged, this, &PanelWiring::outputsChanged);
     connect(widget, &QPlcWidget::initialOutputSignalsChanged, this, &PanelWiring::initialOutputsChanged);
-    connect(widget, &QPlcWidget::sendNewOutputSignals, this, &PanelWiring::send);
+    connect(widget, &QPlcWidget::sendNewOutputSignals, this,
+            [this, widget](const QPlcSignalList &values) { send(*widget, values); });
     if (!widget->outputSignalIndices().isEmpty())
         Q_EMIT outputsChanged();
     if (!widget->initialOutputSignals().isEmpty())
@@ -58,40 +59,48 @@ QPlcSignalList PanelWiring::initialOutputs() const
     return all;
 }
 
-/// Indices of panels are those of the table of the process.
-void PanelWiring::findPlant()
+void PanelWiring::findPlants()
 {
     const QString table = QPlcSignalIndexTable::current().toIni();
-    m_plant = nullptr;
-    for (int place = 0; place < m_context->plants()->size() && !m_plant; ++place) {
+    m_plants.clear();
+    for (int place = 0; place < m_context->plants()->size(); ++place) {
         Plant *plant = m_context->plants()->at(place);
         if (plant->feed() || (!plant->table().isEmpty() && plant->table().toIni() == table))
-            m_plant = plant;
+            m_plants.insert(plant);
     }
+}
+
+/// Null when the plant of the panel has another table.
+Plant *PanelWiring::plantOf(const QPlcWidget &widget) const
+{
+    Plant *plant = m_context->plants()->plantOf({}, widget.pinnedPlant());
+    return m_plants.contains(plant) ? plant : nullptr;
 }
 
 void PanelWiring::deliver(Plant *plant)
 {
     const bool isWanted = std::any_of(m_widgets.begin(), m_widgets.end(),
                                       [](const QPlcWidget *widget) { return !widget->inputSignalIndices().isEmpty(); });
-    if (!isWanted || plant->values().batchSize() == 0 || plant != m_plant)
+    if (!isWanted || plant->values().batchSize() == 0)
         return;
     for (QPlcWidget *widget : qAsConst(m_widgets)) {
-        if (!widget->inputSignalIndices().isEmpty())
+        if (!widget->inputSignalIndices().isEmpty() && plantOf(*widget) == plant)
             widget->realTimeout(plant->values().batch(widget->inputSignalIndices().toVector()));
     }
 }
 
-void PanelWiring::send(const QPlcSignalList &values)
+void PanelWiring::send(const QPlcWidget &widget, const QPlcSignalList &values)
 {
-    if (m_plant && !m_plant->feed()) {
+    Plant *plant = plantOf(widget);
+    if (plant && !plant->feed()) {
         QHash<QString, QPlcValue> byName;
         for (const QPlcSignalList::Entry &entry : values)
-            byName.insert(m_plant->table().at(entry.index).name, entry.value);
-        m_plant->setValues(byName);
+            byName.insert(plant->table().at(entry.index).name, entry.value);
+        plant->setValues(byName);
         return;
     }
-    Q_EMIT outputsSent(values);
+    if (plant || m_context->plants()->size() == 0)  // without a plant the program may send as it likes
+        Q_EMIT outputsSent(values);
 }
 
 }  // namespace qplc

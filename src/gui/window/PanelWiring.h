@@ -4,11 +4,12 @@
 #include "QPlcWidget.h"
 #include "gui/panel/WindowContext.h"
 
+#include <QtCore/QSet>
 #include <QtCore/QVector>
 
 namespace qplc {
 
-/// Gives all panels of a window their context and, to those that want them, values of the plant that has the signal table of the process; and collects what they write.
+/// Gives all panels of a window their context and, to those that want them, values of their plant, if that has the signal table of the process; and collects what they write.
 class PanelWiring : public QObject
 {
     Q_OBJECT
@@ -29,12 +30,13 @@ Q_SIGNALS:
 
 private:
     void deliver(Plant *plant);
-    void send(const QPlcSignalList &values);
-    void findPlant();
+    void send(const QPlcWidget &widget, const QPlcSignalList &values);
+    void findPlants();
+    Plant *plantOf(const QPlcWidget &widget) const;
 
     WindowContext *m_context;
     QVector<QPlcWidget *> m_widgets;
-    Plant *m_plant = nullptr;  // the one with the table of the process; null: there is none
+    QSet<Plant *> m_plants;  // with the table of the process: indices of panels are those of that table
 };
 
 }  // namespace qplc

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "PlantSelection.h"
 
+#include <algorithm>
+
 namespace qplc {
 
 PlantSelection::PlantSelection(PlantList *plants, QObject *parent)
@@ -9,6 +11,7 @@ PlantSelection::PlantSelection(PlantList *plants, QObject *parent)
 {
     connect(plants, &PlantList::added, this, &PlantSelection::follow);
     connect(plants, &PlantList::removed, this, &PlantSelection::forget);
+    connect(plants, &PlantList::selectionChanged, this, &PlantSelection::changed);
 }
 
 void PlantSelection::follow(Plant *plant)
@@ -26,10 +29,9 @@ void PlantSelection::follow(Plant *plant)
         Q_EMIT changed();
     });
     connect(plant, &Plant::statusChanged, this, &PlantSelection::changed);
+    connect(plant, &Plant::leasesChanged, this, &PlantSelection::changed);
     connect(plant, &Plant::commandFailed, this,
             [this](int, const QString &sentence) { Q_EMIT commandFailed(sentence); });
-    if (!m_plant)
-        m_plant = plant;
     Q_EMIT changed();
 }
 
@@ -37,23 +39,27 @@ void PlantSelection::forget(Plant *plant)
 {
     plant->disconnect(this);
     m_initialized.remove(plant);
-    if (plant == m_plant)
-        m_plant = m_plants->size() > 0 ? m_plants->at(0) : nullptr;
-    Q_EMIT changed();
-}
-
-void PlantSelection::select(Plant *plant)
-{
-    if (plant == m_plant || m_plants->indexOf(plant) < 0)
-        return;
-    m_plant = plant;
     Q_EMIT changed();
 }
 
 void PlantSelection::selectNext()
 {
     if (m_plants->size() > 1)
-        select(m_plants->at((m_plants->indexOf(m_plant) + 1) % m_plants->size()));
+        select(m_plants->at((m_plants->indexOf(plant()) + 1) % m_plants->size()));
+}
+
+QVector<Plant *> PlantSelection::plantsToStop() const
+{
+    QVector<Plant *> controlled;
+    for (int place = 0; place < m_plants->size(); ++place) {
+        const QVector<LeaseStatus> &leases = m_plants->at(place)->leases();
+        if (m_plants->at(place)->isConnected()
+            && std::any_of(leases.begin(), leases.end(), [](const LeaseStatus &lease) { return lease.isMine; }))
+            controlled << m_plants->at(place);
+    }
+    if (controlled.isEmpty() && plant())
+        controlled << plant();
+    return controlled;
 }
 
 }  // namespace qplc

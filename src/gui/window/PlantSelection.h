@@ -7,7 +7,7 @@
 
 namespace qplc {
 
-/// The one plant of a window that its bar, its commands and STOP mean.
+/// What the bar of a window, its commands and STOP mean: the selected plant (PlantList::selected()), and whether it is initialized.
 class PlantSelection : public QObject
 {
     Q_OBJECT
@@ -17,14 +17,16 @@ public:
 
     PlantList *plants() const { return m_plants; }
     /// Null while there is none.
-    Plant *plant() const { return m_plant; }
-    void select(Plant *plant);
+    Plant *plant() const { return m_plants->selected(); }
+    void select(Plant *plant) { m_plants->select(plant); }
     void selectNext();
+    /// What STOP means: the plants of which this window has taken over signals; without any the selected plant. Empty: there is no plant.
+    QVector<Plant *> plantsToStop() const;
     /// Whether the master of the selected plant has initialized all nodes, and runs no cycles yet.
-    bool isInitialized() const { return m_initialized.contains(m_plant); }
+    bool isInitialized() const { return m_initialized.contains(plant()); }
 
 Q_SIGNALS:
-    /// Another plant, another number of plants, or anything of the state of the selected one.
+    /// Another plant, another number of plants, anything of the state of the selected one, or what STOP means.
     void changed();
     void commandFailed(const QString &sentence);
 
@@ -33,7 +35,6 @@ private:
     void forget(Plant *plant);
 
     PlantList *m_plants;
-    Plant *m_plant = nullptr;
     QSet<Plant *> m_initialized;
 };
 

@@ -6,6 +6,7 @@
 
 #include <QtCore/QTimer>
 #include <QtGui/QPainter>
+#include <QtGui/QPainterPath>
 #include <QtWidgets/QMenu>
 
 namespace qplc {
@@ -59,10 +60,13 @@ void PlantSelector::follow()
         summary = PlantSummary::of(*plant, m_watches.value(plant));
     }
     const QColor color = colorOf(m_context->theme(), summary.tone);
-    if (name == m_name && summary.condition == m_headline && summary.figures == m_figures
+    const QColor plantColor
+        = plant && m_selection->plants()->size() > 1 ? m_context->theme().plant(plant->number()) : QColor();
+    if (name == m_name && plantColor == m_plantColor && summary.condition == m_headline && summary.figures == m_figures
         && summary.violations == m_violations && color == m_color)
         return;
     m_name = name;
+    m_plantColor = plantColor;
     m_headline = summary.condition;
     m_figures = summary.figures;
     m_violations = summary.violations;
@@ -84,6 +88,9 @@ void PlantSelector::openMenu()
             = menu->addAction(QStringLiteral("%1   %2").arg(plant->name(), PlantSummary::of(*plant).condition));
         action->setCheckable(true);
         action->setChecked(plant == m_selection->plant());
+        QPixmap patch(16, 16);
+        patch.fill(m_context->theme().plant(plant->number()));
+        action->setIcon(patch);
         connect(action, &QAction::triggered, m_selection, [this, plant] { m_selection->select(plant); });
     }
     menu->addSeparator();
@@ -128,6 +135,14 @@ void PlantSelector::paintEvent(QPaintEvent * /*event*/)
     painter.setPen(QPen(theme.line, 1.0));
     painter.setBrush(underMouse() ? theme.window : theme.surface);
     painter.drawRoundedRect(QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5), 5, 5);
+    if (m_plantColor.isValid()) {  // the colour that panels of this plant have behind its name
+        QPainterPath frame;
+        frame.addRoundedRect(QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5), 5, 5);
+        painter.save();
+        painter.setClipPath(frame);
+        painter.fillRect(QRect(0, 0, 6, height()), m_plantColor);
+        painter.restore();
+    }
     painter.setPen(Qt::NoPen);
     painter.setBrush(m_color);
     painter.drawEllipse(QPointF(15, 15), 5, 5);

@@ -46,6 +46,7 @@ private:
     QHash<const Plant *, ViolationWatch> m_watches;
     QElapsedTimer m_clock;
     QColor m_color;
+    QColor m_plantColor;  // invalid while there is only one plant
 };
 
 }  // namespace qplc

@@ -78,6 +78,8 @@ void QPlcControlCenter::Private::makeCentre()
     latchBanner = new LatchBanner(&context, centre);
     column->addWidget(latchBanner);
     column->addWidget(new FaultBanner(&context, centre));
+    stopQuestion = new StopQuestion(&selection, &context, centre);
+    column->addWidget(stopQuestion);
     column->addWidget(connectStrip);
     column->addWidget(new InsecureNotice(&context, centre));
     stopNotice = new StopNotice(&context, centre);
@@ -85,8 +87,9 @@ void QPlcControlCenter::Private::makeCentre()
     column->addWidget(hint);
     column->addWidget(pages, 1);
     q->setCentralWidget(centre);
-    connect(view, &LayoutView::widgetAdded, &wiring, [this](const QString &, QPlcWidget *widget) {
+    connect(view, &LayoutView::widgetAdded, &wiring, [this](const QString &id, QPlcWidget *widget) {
         wiring.add(widget);
+        panelPlants.add(view->frame(id), widget);
         connect(widget, &QPlcWidget::showRequested, placer, &SignalPlacer::show);
         if (auto *tree = qobject_cast<QPlcSignalTree *>(widget))
             new SignalPlaceActions(tree, view, placer);
@@ -139,6 +142,9 @@ void QPlcControlCenter::Private::connectParts()
     connect(startPage, &StartPage::masterChosen, q, [this](const QString &address) { connectTo(address); });
     connect(dock->tree(), &QPlcWidget::showRequested, placer, &SignalPlacer::show);
     new SignalPlaceActions(dock->tree(), view, placer);
+    connect(&editor, &LayoutEditor::layoutChanged, &panelPlants, &PanelPlants::showAll);
+    connect(stopQuestion, &StopQuestion::answered, q,
+            [this](const QVector<Plant *> &plants) { stopPlants(plants, tr("STOP")); });
     connect(&editor, &LayoutEditor::refused, q, [this](const QString &sentence) { hint->showText(sentence); });
     connect(eventLine, &QAbstractButton::clicked, q, [this] { actions->eventLog->trigger(); });
     connect(topBar, &TopBar::nextRequested, q, [this] {
@@ -206,8 +212,8 @@ void QPlcControlCenter::Private::followSelection()
     actions->disconnectFrom->setEnabled(plant != nullptr);
     actions->disconnectFrom->setText(plant ? tr("&Disconnect from %1").arg(plant->name()) : tr("&Disconnect"));
     actions->nextPlant->setEnabled(context.plants()->size() > 1);
-    actions->stop->setText(context.plants()->size() > 1 && plant ? tr("S&top %1 (Esc Esc)").arg(plant->name())
-                                                                 : tr("S&top (Esc Esc)"));
+    const QString toStop = context.plants()->size() > 1 ? stopText(selection) : QString();
+    actions->stop->setText(toStop.isEmpty() ? tr("S&top (Esc Esc)") : tr("S&top %1 (Esc Esc)").arg(toStop));
 }
 
 void QPlcControlCenter::Private::connectTo(const QString &address)
@@ -271,10 +277,22 @@ void QPlcControlCenter::Private::perform(Plant::Action action)
 
 void QPlcControlCenter::Private::stop(const QString &how)
 {
-    if (Plant *plant = selection.plant())
-        plant->stop(how);
-    else
+    const QVector<Plant *> plants = selection.plantsToStop();
+    if (plants.size() > 1)
+        stopQuestion->ask();
+    else if (plants.isEmpty())
         perform(Plant::StopAction);
+    else
+        stopPlants(plants, how);
+}
+
+/// What was stopped is what the bar shows: the next command of the bar is for it, too.
+void QPlcControlCenter::Private::stopPlants(const QVector<Plant *> &plants, const QString &how)
+{
+    for (Plant *plant : plants)
+        plant->stop(how);
+    if (!plants.contains(selection.plant()))
+        selection.select(plants.first());
 }
 
 Plant *QPlcControlCenter::Private::wiredPlant()

@@ -10,6 +10,7 @@
 #include "LatchBanner.h"
 #include "LayoutShelf.h"
 #include "MasterSearch.h"
+#include "PanelPlants.h"
 #include "PanelWiring.h"
 #include "QPlcControlCenter.h"
 #include "RecentMasters.h"
@@ -17,6 +18,7 @@
 #include "SignalPlacer.h"
 #include "StartPage.h"
 #include "StopNotice.h"
+#include "StopQuestion.h"
 #include "TimeBar.h"
 #include "TopBar.h"
 
@@ -51,6 +53,7 @@ struct QPlcControlCenter::Private
     void perform(qplc::Plant::Action action);
     /// \param how  what the person did, for the line that tells of it
     void stop(const QString &how);
+    void stopPlants(const QVector<qplc::Plant *> &plants, const QString &how);
     qplc::Plant *wiredPlant();
     qplc::Plant *takeWiredPlant();
 
@@ -84,6 +87,7 @@ struct QPlcControlCenter::Private
     qplc::LayoutEditor editor;
     qplc::LayoutShelf shelf{&editor};
     qplc::PanelWiring wiring{&context};
+    qplc::PanelPlants panelPlants{&context};
     qplc::PlantSelection selection{context.plants()};
     qplc::RecentMasters recent;
     qplc::MasterSearch *search = nullptr;
@@ -101,6 +105,7 @@ struct QPlcControlCenter::Private
     qplc::LatchBanner *latchBanner = nullptr;
     qplc::HintLine *hint = nullptr;
     qplc::StopNotice *stopNotice = nullptr;
+    qplc::StopQuestion *stopQuestion = nullptr;
     qplc::ConnectStrip *connectStrip = nullptr;
     QStackedWidget *pages = nullptr;
     qplc::StartPage *startPage = nullptr;

@@ -23,6 +23,15 @@ QString keysOf(Plant::Action action)
 
 }  // namespace
 
+QString stopText(const PlantSelection &selection)
+{
+    const QVector<Plant *> plants = selection.plantsToStop();
+    QStringList names;
+    for (const Plant *plant : plants)
+        names << plant->name();
+    return names.size() > 1 ? TopBar::tr("%1?").arg(names.join(QStringLiteral(", "))) : names.join(QString());
+}
+
 TopBar::TopBar(PlantSelection *selection, WindowContext *context, QWidget *parent)
     : FlatToolBar(tr("Plant"), context, parent)
     , m_selection(selection)
@@ -73,8 +82,9 @@ void TopBar::follow()
         m_next->setDetail(keysOf(next));
         m_next->setToolTip(tr("%1 %2").arg(Plant::actionText(next), plant->name()));
     }
-    m_stop->setDetail(m_selection->plants()->size() > 1 && plant ? plant->name() : QString());
-    m_stop->setAccessibleName(plant ? tr("Stop %1").arg(plant->name()) : tr("Stop"));
+    const QString toStop = stopText(*m_selection);
+    m_stop->setDetail(m_selection->plants()->size() > 1 ? toStop : QString());
+    m_stop->setAccessibleName(toStop.isEmpty() ? tr("Stop") : tr("Stop %1").arg(toStop));
 }
 
 }  // namespace qplc

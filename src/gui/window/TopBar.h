@@ -38,4 +38,7 @@ private:
     BarButton *m_stop;
 };
 
+/// The plants that STOP means, by name; with a question mark where there are several and the window will ask.
+QString stopText(const PlantSelection &selection);
+
 }  // namespace qplc

@@ -214,7 +214,7 @@ void tst_QPlcJitterHistogram::amongSeveralPlantsOneIsChosenAndNamed()
     auto *choice = editor->findChild<QComboBox *>();
     QVERIFY(choice);
     QCOMPARE(choice->count(), 3);
-    QCOMPARE(choice->currentText(), QStringLiteral("The first one"));
+    QCOMPARE(choice->currentText(), QStringLiteral("The selected one"));
     QSignalSpy edited(&panel, &QPlcJitterHistogram::settingsEdited);
     choice->setFocus();
     QTest::keyClick(choice, Qt::Key_End);

@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "TwoPlants.h"
+
+using namespace qplc;
+
+namespace {
+
+const QString echo = QStringLiteral("echo");
+const QString setpoint = QStringLiteral("setpoint");
+const QString number = QStringLiteral("number");
+const QString momentary = QStringLiteral("momentary");
+
+void typeInto(QWidget *setter, const QString &text)
+{
+    auto *field = setter->findChild<QLineEdit *>();
+    QTRY_VERIFY_WITH_TIMEOUT(field->isEnabled(), patience);
+    field->setFocus();
+    field->selectAll();
+    QTest::keyClicks(field, text);
+}
+
+}  // namespace
+
+/// Which plant a window means, and says that it means, when it has several.
+class tst_SeveralPlants : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void init() { m_settings = std::make_unique<TestSettings>(); }
+    void withOnePlantNothingIsSaid();
+    void panelsFollowTheSelectedPlantAndNameIt();
+    void aQualifiedOrPinnedPanelStaysWithItsPlant();
+    void aPanelIsPinnedByItsMenuAndThatIsUndone();
+    void aPanelSaysWhichPlantItMissesInsteadOfShowingAnotherOne();
+    void whatIsTypedForOnePlantIsNotSentToTheNext();
+    void whatIsHeldEndsInItsOwnPlant();
+    void keysEndInTheirOwnPlant();
+    void controlIsTakenOfThePlantThatIsShown();
+    void stopMeansThePlantThatAPersonControls();
+    void escEscMeansThePlantThatAPersonControls();
+    void withSeveralControlledPlantsStopAsks();
+    void theKeyOfABannerIsThatOfTheSelectedPlant();
+    void histogramsFollowTheSelectedPlant();
+
+private:
+    std::unique_ptr<TestSettings> m_settings;
+};
+
+void tst_SeveralPlants::withOnePlantNothingIsSaid()
+{
+    TwoPlants fixture;
+    QPlcSetter *setter = fixture.addSetter(setpoint, number);
+    QVERIFY(fixture.isReady());
+    QVERIFY(!TwoPlants::badgeOf(setter).isEmpty());
+    QVERIFY(!fixture.topBar()->stopButton()->detail().isEmpty());
+    fixture.window.disconnectFromMaster(QStringLiteral("north"));
+    QCOMPARE(TwoPlants::badgeOf(setter), QString());
+    QCOMPARE(fixture.topBar()->stopButton()->detail(), QString());
+}
+
+void tst_SeveralPlants::panelsFollowTheSelectedPlantAndNameIt()
+{
+    TwoPlants fixture;
+    QPlcSetter *setter = fixture.addSetter(setpoint, number);
+    QPlcWidget *plot
+        = fixture.addPanel(QStringLiteral("Time plot"),
+                           {{QStringLiteral("curves"), QJsonArray{QJsonObject{{QStringLiteral("signal"), echo}}}}});
+    QVERIFY(fixture.isReady());
+    QCOMPARE(fixture.barPlant(), QStringLiteral("north"));
+    QCOMPARE(TwoPlants::badgeOf(setter), QStringLiteral("north"));
+    const PanelTitleBar *title = TwoPlants::frameOf(setter)->titleBar();
+    const QColor ofNorth = title->badge().color;
+    QVERIFY(title->badgeRect().width() > title->fontMetrics().horizontalAdvance(QStringLiteral("north")));
+    fixture.selectNext();
+    QCOMPARE(fixture.barPlant(), QStringLiteral("south"));
+    for (QWidget *panel : {static_cast<QWidget *>(setter), static_cast<QWidget *>(plot)})
+        QCOMPARE(TwoPlants::badgeOf(panel), QStringLiteral("south"));
+    QVERIFY(title->badge().color != ofNorth);
+    typeInto(setter, QStringLiteral("2.5\r"));
+    QTRY_COMPARE_WITH_TIMEOUT(fixture.south.valueOf(setpoint), 2.5, patience);
+    QVERIFY(fixture.settle());
+    QCOMPARE(fixture.northTap.commands().size(), 0);
+    QCOMPARE(fixture.southTap.count(QPlcMessage::SetSignals), 1);
+}
+
+void tst_SeveralPlants::aQualifiedOrPinnedPanelStaysWithItsPlant()
+{
+    TwoPlants fixture;
+    QPlcSetter *qualified = fixture.addSetter(QStringLiteral("north/setpoint"), number);
+    QPlcSetter *pinned = fixture.addSetter(setpoint, number, QStringLiteral("north"));
+    QVERIFY(fixture.isReady());
+    fixture.selectNext();
+    QCOMPARE(fixture.barPlant(), QStringLiteral("south"));
+    QCOMPARE(TwoPlants::badgeOf(qualified), QStringLiteral("north"));
+    QCOMPARE(TwoPlants::badgeOf(pinned), QStringLiteral("north"));
+    QVERIFY(TwoPlants::frameOf(pinned)->titleBar()->badge().isPinned);
+    QVERIFY(!TwoPlants::frameOf(qualified)->titleBar()->badge().isPinned);
+    typeInto(qualified, QStringLiteral("1\r"));
+    QTRY_COMPARE_WITH_TIMEOUT(fixture.north.valueOf(setpoint), 1.0, patience);
+    typeInto(pinned, QStringLiteral("2\r"));
+    QTRY_COMPARE_WITH_TIMEOUT(fixture.north.valueOf(setpoint), 2.0, patience);
+    QVERIFY(fixture.settle());
+    QCOMPARE(fixture.southTap.commands().size(), 0);
+}
+
+void tst_SeveralPlants::aPanelIsPinnedByItsMenuAndThatIsUndone()
+{
+    TwoPlants fixture;
+    QPlcSetter *setter = fixture.addSetter(setpoint, number);
+    QVERIFY(fixture.isReady());
+    PanelTitleBar *title = TwoPlants::frameOf(setter)->titleBar();
+    QTest::mouseClick(title, Qt::LeftButton, {}, title->badgeRect().center());
+    auto *menu = qobject_cast<QMenu *>(QApplication::activePopupWidget());
+    QVERIFY(menu);
+    TwoPlants::choose(menu, QStringLiteral("Pin to south"));
+    QCOMPARE(TwoPlants::badgeOf(setter), QStringLiteral("south"));
+    QCOMPARE(fixture.barPlant(), QStringLiteral("north"));
+    QVERIFY(fixture.window.layoutJson().contains("\"plant\""));
+    fixture.editor->undoStack()->undo();
+    QCOMPARE(TwoPlants::badgeOf(setter), QStringLiteral("north"));
+}
+
+void tst_SeveralPlants::aPanelSaysWhichPlantItMissesInsteadOfShowingAnotherOne()
+{
+    TwoPlants fixture;
+    QPlcSetter *setter = fixture.addSetter(setpoint, number, QStringLiteral("east"));
+    QVERIFY(fixture.isReady());
+    QCOMPARE(TwoPlants::badgeOf(setter), QStringLiteral("east"));
+    QVERIFY(!setter->findChild<QLineEdit *>()->isEnabled());
+}
+
+void tst_SeveralPlants::whatIsTypedForOnePlantIsNotSentToTheNext()
+{
+    TwoPlants fixture;
+    QPlcSetter *setter = fixture.addSetter(setpoint, number);
+    QVERIFY(fixture.isReady());
+    typeInto(setter, QStringLiteral("7.5"));
+    fixture.selectNext();
+    QVERIFY(setter->isAncestorOf(QApplication::focusWidget()));
+    fixture.press(Qt::Key_Return);
+    QVERIFY(fixture.settle());
+    QVERIFY(fixture.north.valueOf(setpoint) != 7.5);
+    QVERIFY(fixture.south.valueOf(setpoint) != 7.5);
+}
+
+void tst_SeveralPlants::whatIsHeldEndsInItsOwnPlant()
+{
+    TwoPlants fixture;
+    QPlcSetter *setter = fixture.addSetter(setpoint, momentary);
+    QVERIFY(fixture.isReady());
+    auto *button = qobject_cast<QAbstractButton *>(setter->focusProxy()->focusProxy());
+    QTRY_VERIFY_WITH_TIMEOUT(button->isEnabled(), patience);
+    QTest::mousePress(button, Qt::LeftButton);
+    QTRY_COMPARE_WITH_TIMEOUT(fixture.north.valueOf(setpoint), 10.0, patience);
+    fixture.selectNext();
+    QTRY_COMPARE_WITH_TIMEOUT(fixture.north.valueOf(setpoint), 0.0, patience);
+    QTRY_VERIFY_WITH_TIMEOUT(fixture.north.leases().isEmpty(), patience);
+    QTest::mouseRelease(setter, Qt::LeftButton);
+    QVERIFY(fixture.settle());
+    QCOMPARE(fixture.southTap.commands().size(), 0);
+}
+
+void tst_SeveralPlants::keysEndInTheirOwnPlant()
+{
+    TwoPlants fixture;
+    QPlcKeyboardControl *keyboard = fixture.addKeyboard();
+    QVERIFY(fixture.isReady());
+    QTRY_VERIFY_WITH_TIMEOUT(TwoPlants::take(keyboard), patience);
+    QTRY_VERIFY_WITH_TIMEOUT(fixture.plant(0)->lease(echo) && fixture.plant(0)->lease(echo)->isMine, patience);
+    keyboard->setFocus();
+    QTest::keyPress(keyboard, Qt::Key_W);
+    QTRY_COMPARE_WITH_TIMEOUT(fixture.north.valueOf(echo), 4.0, patience);
+    fixture.selectNext();
+    QTRY_COMPARE_WITH_TIMEOUT(fixture.north.valueOf(echo), 0.0, patience);
+    QTest::keyRelease(keyboard, Qt::Key_W);
+    QTest::keyPress(keyboard, Qt::Key_W);
+    QVERIFY(fixture.settle());
+    QCOMPARE(fixture.southTap.commands().size(), 0);
+    QVERIFY(labelsOf(keyboard).contains(QStringLiteral("south: ")));
+}
+
+void tst_SeveralPlants::controlIsTakenOfThePlantThatIsShown()
+{
+    TwoPlants fixture;
+    QPlcSetter *setter = fixture.addSetter(echo, number);
+    QVERIFY(fixture.isReady());
+    fixture.selectNext();
+    QTRY_VERIFY_WITH_TIMEOUT(TwoPlants::take(setter), patience);
+    QTRY_COMPARE_WITH_TIMEOUT(fixture.south.leases().size(), 1, patience);
+    QCOMPARE(fixture.northTap.commands().size(), 0);
+}
+
+void tst_SeveralPlants::stopMeansThePlantThatAPersonControls()
+{
+    TwoPlants fixture;
+    QPlcSetter *setter = fixture.addSetter(QStringLiteral("south/echo"), number);
+    QVERIFY(fixture.isReady());
+    QCOMPARE(fixture.stopPlants(), QStringList(QStringLiteral("north")));
+    QTRY_VERIFY_WITH_TIMEOUT(TwoPlants::take(setter), patience);
+    QTRY_COMPARE_WITH_TIMEOUT(fixture.stopPlants(), QStringList(QStringLiteral("south")), patience);
+    QCOMPARE(fixture.barPlant(), QStringLiteral("north"));
+    QVERIFY(fixture.action("Stop south (Esc Esc)"));
+    QTest::mouseClick(fixture.topBar()->stopButton(), Qt::LeftButton);
+    QTRY_COMPARE_WITH_TIMEOUT(fixture.south.state(), QPlcMasterNode::Off, patience);
+    QCOMPARE(fixture.barPlant(), QStringLiteral("south"));  // what comes next is for what was stopped
+    QVERIFY(fixture.settle());
+    QCOMPARE(fixture.north.state(), QPlcMasterNode::RealTime);
+    QCOMPARE(fixture.northTap.commands().size(), 0);
+}
+
+void tst_SeveralPlants::escEscMeansThePlantThatAPersonControls()
+{
+    TwoPlants fixture;
+    QPlcSetter *setter = fixture.addSetter(QStringLiteral("south/echo"), number);
+    QVERIFY(fixture.isReady());
+    QTRY_VERIFY_WITH_TIMEOUT(TwoPlants::take(setter), patience);
+    QTRY_COMPARE_WITH_TIMEOUT(fixture.stopPlants(), QStringList(QStringLiteral("south")), patience);
+    fixture.window.setFocus();
+    fixture.press(Qt::Key_Escape);
+    fixture.press(Qt::Key_Escape);
+    QTRY_COMPARE_WITH_TIMEOUT(fixture.south.state(), QPlcMasterNode::Off, patience);
+    QVERIFY(fixture.settle());
+    QCOMPARE(fixture.northTap.commands().size(), 0);
+}
+
+void tst_SeveralPlants::withSeveralControlledPlantsStopAsks()
+{
+    TwoPlants fixture;
+    QPlcSetter *ofNorth = fixture.addSetter(QStringLiteral("north/echo"), number);
+    QPlcSetter *ofSouth = fixture.addSetter(QStringLiteral("south/echo"), number);
+    QVERIFY(fixture.isReady());
+    QTRY_VERIFY_WITH_TIMEOUT(TwoPlants::take(ofNorth) && TwoPlants::take(ofSouth), patience);
+    QTRY_COMPARE_WITH_TIMEOUT(fixture.topBar()->stopButton()->detail(), QStringLiteral("north, south?"), patience);
+    auto *question = fixture.part<StopQuestion>();
+    const auto isStopped = [&](const CommandTap &tap) { return tap.count(QPlcMessage::Stop) > 0; };
+    QTest::mouseClick(fixture.topBar()->stopButton(), Qt::LeftButton);
+    QVERIFY(question->text().startsWith(QStringLiteral("You control north, south.")));
+    QVERIFY(fixture.settle());
+    QVERIFY(!isStopped(fixture.northTap) && !isStopped(fixture.southTap));
+    QTest::mouseClick(buttonOf(question, QStringLiteral("Stop south")), Qt::LeftButton);
+    QVERIFY(question->isHidden());
+    QTRY_COMPARE_WITH_TIMEOUT(fixture.south.state(), QPlcMasterNode::Off, patience);
+    QVERIFY(!isStopped(fixture.northTap));
+
+    QTest::mouseClick(fixture.topBar()->stopButton(), Qt::LeftButton);
+    QTest::mouseClick(buttonOf(question, QStringLiteral("Stop none")), Qt::LeftButton);
+    QVERIFY(question->isHidden());
+    QVERIFY(fixture.settle());
+    QVERIFY(!isStopped(fixture.northTap));
+    QTest::mouseClick(fixture.topBar()->stopButton(), Qt::LeftButton);
+    QTest::mouseClick(fixture.topBar()->stopButton(), Qt::LeftButton);  // once more is "all"
+    QTRY_COMPARE_WITH_TIMEOUT(fixture.north.state(), QPlcMasterNode::Off, patience);
+
+    QTest::mouseClick(fixture.topBar()->stopButton(), Qt::LeftButton);
+    QVERIFY(!question->isHidden());
+    fixture.press(Qt::Key_G, Qt::ControlModifier);  // nothing is controlled any more: nothing is asked
+    QTRY_VERIFY_WITH_TIMEOUT(question->isHidden(), patience);
+}
+
+void tst_SeveralPlants::theKeyOfABannerIsThatOfTheSelectedPlant()
+{
+    TwoPlants fixture;
+    QVERIFY(fixture.isReady());
+    fixture.south.safeStop(QStringLiteral("test"));
+    auto *banner = fixture.part<LatchBanner>();
+    QTRY_VERIFY_WITH_TIMEOUT(banner->isVisible(), patience);
+    QVERIFY(banner->accessibleName().startsWith(QStringLiteral("south ")));
+    auto *reset = banner->findChild<BarButton *>();
+    QCOMPARE(reset->detail(), QString());
+    fixture.selectNext();
+    QCOMPARE(reset->detail(), QStringLiteral("F7"));
+    fixture.north.safeStop(QStringLiteral("test"));
+    QTRY_VERIFY_WITH_TIMEOUT(fixture.plant(0)->status().isLatched(), patience);
+    QVERIFY(banner->accessibleName().startsWith(QStringLiteral("south ")));
+    fixture.selectNext();
+    QVERIFY(banner->accessibleName().startsWith(QStringLiteral("north ")));
+}
+
+void tst_SeveralPlants::histogramsFollowTheSelectedPlant()
+{
+    TwoPlants fixture;
+    QPlcWidget *histogram = fixture.addPanel(QStringLiteral("Jitter histogram"), {});
+    QVERIFY(fixture.isReady());
+    QTRY_VERIFY_WITH_TIMEOUT(labelsOf(histogram).contains(QStringLiteral("north: ")), patience);
+    fixture.selectNext();
+    QCOMPARE(TwoPlants::badgeOf(histogram), QStringLiteral("south"));
+    QTRY_VERIFY_WITH_TIMEOUT(labelsOf(histogram).contains(QStringLiteral("south: ")), patience);
+}
+
+QTEST_MAIN(tst_SeveralPlants)
+#include "tst_SeveralPlants.moc"
