@@ -69,6 +69,10 @@ void MasterServer::greet(MasterConnection *connection, const Message &message)
     QJsonObject hello = m_hello();
     const QJsonArray features = commonFeatures(message);
     hello.insert(QStringLiteral("features"), features);
+    if (connection->peer.isSecured) {
+        hello.insert(QStringLiteral("identity"), connection->peer.identity);
+        hello.insert(QStringLiteral("role"), roleName(connection->peer.role));
+    }
     if (message.hex64(QStringLiteral("tableHash")) != m_image.table().hash())
         hello.insert(QStringLiteral("table"), m_tableText);
     connection->stage = MasterConnection::Greeted;

@@ -21,7 +21,7 @@ void add(QPlcApplicationOptions &application, const char *name, const QString &d
 QString readMasters(const QStringList &values, ControlCenterSettings *settings)
 {
     for (const QString &value : values) {
-        const int sign = value.indexOf(QLatin1Char('='));
+        const int sign = value.section(QLatin1Char('?'), 0, 0).indexOf(QLatin1Char('='));  // '?keys=FILE' has one, too
         const ControlCenterSettings::Master master{value.left(qMax(sign, 0)), value.mid(sign + 1)};
         if (sign == 0 || master.address.isEmpty())
             return QStringLiteral("--master '%1': use HOST:PORT or NAME=HOST:PORT, for example kite=192.168.1.5:50000")

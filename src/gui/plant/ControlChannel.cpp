@@ -82,6 +82,8 @@ void ControlChannel::connectToMaster(const QPlcUnderlyingProtocol &master)
     m_begin = milliseconds();
     m_isRefused = false;
     m_socket = new QPlcMasterSocket(this);
+    if (m_security)
+        m_socket->setSecurity(*m_security);
     connect(m_socket, &QPlcAbstractSocket::connected, this, [this] {
         m_socket->sendMessage(
             Message(Message::Hello,

@@ -7,6 +7,7 @@
 #include <QtCore/QQueue>
 
 #include <functional>
+#include <optional>
 
 class QTimer;
 
@@ -32,6 +33,8 @@ public:
     /// The time for answers to questions [ms], AnswerTime unless set.
     void setAnswerTime(int milliseconds) { m_answerTime = milliseconds; }
 
+    /// How both ends know each other; none: as the process does (QPlcSecurity::current()). Takes effect with connectToMaster().
+    void setSecurity(const std::optional<QPlcSecurity> &security) { m_security = security; }
     /// Begins to connect; greeted() or lost() follows.
     void connectToMaster(const QPlcUnderlyingProtocol &master);
     /// Ends the connection without a word. Who waits for an answer gets Failed.
@@ -74,6 +77,7 @@ private:
     static bool isQuestion(Message::Kind kind);
 
     QPlcMasterSocket *m_socket = nullptr;
+    std::optional<QPlcSecurity> m_security;
     QTimer *m_timer;
     bool m_isGreeted = false;
     bool m_isRefused = false;

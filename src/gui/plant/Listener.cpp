@@ -89,9 +89,11 @@ void Listener::inThread(Task task)
 void Listener::connectToMaster(const QPlcUnderlyingProtocol &master, const QPlcSignalTable &table, qint64 period,
                                int every)
 {
-    inThread([node = listening(m_node), attempt = ++m_attempt, master, table, period, every] {
+    inThread([node = listening(m_node), attempt = ++m_attempt, security = m_security, master, table, period, every] {
         node->disconnectFromMaster();
         node->attempt = attempt;
+        if (security)
+            node->setSecurity(*security);
         node->setSignalTable(table);
         node->setBufferSize(bufferSize(table, period * every));
         node->setListeningInterval(every);

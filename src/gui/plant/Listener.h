@@ -6,6 +6,8 @@
 #include <QtCore/QObject>
 #include <QtCore/QThread>
 
+#include <optional>
+
 namespace qplc {
 
 /// Hears all signals of a master in each cycle: a listening node in a thread of its own ("plc"), so that nothing that happens in a window reaches the cycle. The face of it for the thread of
@@ -17,6 +19,8 @@ public:
     explicit Listener(const QString &name, QObject *parent = nullptr);
     ~Listener() override;
 
+    /// How both ends know each other; none: as the process does. Takes effect with connectToMaster().
+    void setSecurity(const std::optional<QPlcSecurity> &security) { m_security = security; }
     /// Begins to register for all signals of \a table; joined() or lost() follows.
     /// \param period  of a cycle [ns]: says how many frames are kept, 2 s of them within 256 ... 16384 and 32 MB
     /// \param every  cycles for each frame, see QPlcSlaveNode::setListeningInterval()
@@ -39,6 +43,7 @@ private:
 
     QThread m_thread;
     QPlcIOBufferSlaveNode *m_node;
+    std::optional<QPlcSecurity> m_security;
     int m_attempt = 0;  // Qt signals of former ones come late
 };
 

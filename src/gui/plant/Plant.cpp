@@ -154,6 +154,8 @@ void Plant::connected(const Message &hello, const QPlcSignalTable &newTable)
     m_status = {};
     m_status.state = printable(hello.text(QStringLiteral("state")));
     m_isInsecure = hello.text(QStringLiteral("security")) == QLatin1String("insecure");
+    m_identity = printable(hello.text(QStringLiteral("identity")));
+    m_role = printable(hello.text(QStringLiteral("role")));
     m_refusal.clear();
     m_polls = 0;
     m_frameTimer.start();

@@ -61,6 +61,9 @@ public:
     bool isConnected() const { return connectionState() == PlantConnection::Connected; }
     /// Whether the master listens to a network, and asks nobody who he is.
     bool isInsecure() const { return m_isInsecure; }
+    /// Who this window is for a master with security: the proven identity and its role. Empty without security.
+    QString identity() const { return m_identity; }
+    QString role() const { return m_role; }
     /// What the master tells of this window, which is a node that listens; null: nothing yet.
     const NodeStatus *ownNode() const { return m_status.node(m_connection.nodeName()); }
     /// One line for people: "RealTime", "Disconnected: Connection refused".
@@ -189,6 +192,8 @@ private:
     quint64 m_rowsAtRate = 0;
     double m_updateRate = 0.0;
     bool m_isInsecure = false;
+    QString m_identity;
+    QString m_role;
     int m_lastCommand = 0;
 };
 

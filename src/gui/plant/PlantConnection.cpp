@@ -36,6 +36,9 @@ PlantConnection::PlantConnection(const QString &address, const QString &nodeName
     , m_listener(m_nodeName)
     , m_reason(QStringLiteral("not connected yet"))
 {
+    m_parts = PlantAddress::fromString(address, &m_addressError);
+    m_control.setSecurity(m_parts.security);
+    m_listener.setSecurity(m_parts.security);
     m_retry.setSingleShot(true);
     m_listenerRetry.setSingleShot(true);
     connect(&m_retry, &QTimer::timeout, this, &PlantConnection::attempt);
@@ -98,7 +101,10 @@ void PlantConnection::close()
 void PlantConnection::attempt()
 {
     setState(Connecting, m_reason);
-    m_resolver.resolve(m_address);
+    if (m_addressError.isEmpty())
+        m_resolver.resolve(m_parts.master);
+    else
+        failed(m_addressError);
 }
 
 void PlantConnection::greeted(const QPlcMessage &hello)

@@ -4,6 +4,7 @@
 #include "AddressResolver.h"
 #include "ControlChannel.h"
 #include "Listener.h"
+#include "PlantAddress.h"
 
 #include <QtCore/QTimer>
 
@@ -17,7 +18,7 @@ public:
     enum State { Disconnected, Connecting, Connected };
     Q_ENUM(State)
 
-    /// \param address  as QPlcUnderlyingProtocol::fromString() reads it
+    /// \param address  as PlantAddress::fromString() reads it
     /// \param nodeName  under which the master knows the listener; empty: "ControlCenter-<pid>"
     PlantConnection(const QString &address, const QString &nodeName, QObject *parent = nullptr);
     ~PlantConnection() override;
@@ -70,6 +71,8 @@ private:
     void setListening(bool listening);
 
     QString m_address;
+    PlantAddress m_parts;
+    QString m_addressError;  // empty: it can be used
     QString m_nodeName;
     AddressResolver m_resolver;
     ControlChannel m_control;

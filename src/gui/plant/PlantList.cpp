@@ -56,7 +56,8 @@ int PlantList::freeNumber() const
 Plant *PlantList::insert(const QString &address, const QString &name, const QString &nodeName)
 {
     const int number = freeNumber();
-    m_plants.push_back(std::make_unique<Plant>(address, freeName(name.isEmpty() ? address : name), nodeName));
+    m_plants.push_back(std::make_unique<Plant>(
+        address, freeName(name.isEmpty() ? PlantAddress::withoutSecurity(address) : name), nodeName));
     Plant *plant = m_plants.back().get();
     plant->setNumber(number);
     plant->setRate(m_rate);

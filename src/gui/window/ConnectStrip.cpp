@@ -4,6 +4,7 @@
 #include "BarButton.h"
 #include "FoundMasters.h"
 #include "gui/plant/AddressResolver.h"
+#include "gui/plant/PlantAddress.h"
 
 #include <QtGui/QKeyEvent>
 #include <QtGui/QPainter>
@@ -129,11 +130,12 @@ QString ConnectStrip::errorOf(const QString &address)
 {
     if (address.trimmed().isEmpty())
         return tr("Give the address of a master, such as 127.0.0.1:%1.").arg(QPlcUnderlyingProtocol::DefaultPort);
-    // Names of hosts are looked up later, in the background.
-    if (!AddressResolver::hostToLookUp(address).isEmpty() || address.contains(QLatin1String("local://")))
-        return {};
     QString error;
-    QString plain = address;
+    QString plain = PlantAddress::fromString(address, &error).master;
+    // Names of hosts are looked up later, in the background.
+    if (!error.isEmpty() || !AddressResolver::hostToLookUp(plain).isEmpty()
+        || plain.contains(QLatin1String("local://")))
+        return error;
     if (plain.startsWith(QLatin1String("qtplc://")))
         plain.remove(0, 8);
     QPlcUnderlyingProtocol::fromString(plain, QPlcUnderlyingProtocol::Tcp, &error);

@@ -22,6 +22,8 @@ QString figuresOf(const Plant &plant, const ViolationWatch &violations)
 {
     const PlantStatus &status = plant.status();
     QStringList parts;
+    if (!plant.identity().isEmpty())
+        parts << WindowText::tr("%1 (%2)").arg(plant.identity(), plant.role());
     if (!status.profile.isEmpty())
         parts << status.profile;
     const double period = double(status.period > 0 ? status.period : plant.values().period());

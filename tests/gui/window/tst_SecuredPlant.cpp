@@ -17,6 +17,9 @@ private Q_SLOTS:
     void withoutArmingAnOperatorStarts();
     void anObserverSeesAndMayStopAndNothingElse();
     void whoIsNotKnownIsTold();
+    void aPlainAndASecuredPlantAreInOneWindow();
+    void anAddressThatCannotBeUsedIsTold_data();
+    void anAddressThatCannotBeUsedIsTold();
 
 private:
     /// Presses the one next thing to do when it is \a text.
@@ -98,6 +101,49 @@ void tst_SecuredPlant::whoIsNotKnownIsTold()
     QTRY_VERIFY_WITH_TIMEOUT(fixture.plant()->stateText().contains(QLatin1String("does not know identity 'mallory'")),
                              patience);
     QVERIFY(!fixture.window.isConnected(address()));
+}
+
+void tst_SecuredPlant::aPlainAndASecuredPlantAreInOneWindow()
+{
+    m_files.anna();
+    TestMaster plain;
+    QVERIFY(plain.listen());
+    WindowFixture fixture;
+    fixture.connectTo(QStringLiteral("127.0.0.1:%1").arg(plain.serverPort()));
+    QTRY_VERIFY_WITH_TIMEOUT(fixture.plant(0)->isConnected(), patience);
+    fixture.connectTo(address() + QStringLiteral("?keys=") + m_files.path(QStringLiteral("anna.ini")));
+    QTRY_COMPARE_WITH_TIMEOUT(fixture.window.plants().size(), 2, patience);
+    QTRY_VERIFY_WITH_TIMEOUT(fixture.plant(1)->isConnected(), patience);
+    QTRY_VERIFY_WITH_TIMEOUT(fixture.plant(1)->ownNode(), patience);  // its listener is known by the key, too
+    const PlantSelector *selector = fixture.topBar()->selector();
+    QCOMPARE(fixture.plant(1)->name(), address());
+    QTRY_VERIFY_WITH_TIMEOUT(selector->figures().startsWith(QStringLiteral("anna (Operator)")), patience);
+    fixture.press(Qt::Key_P, Qt::ControlModifier);
+    QTRY_VERIFY_WITH_TIMEOUT(!selector->figures().contains(QStringLiteral("anna")), patience);
+    QVERIFY(next(&fixture, "Start"));
+    QVERIFY(plain.waitForState(QPlcMasterNode::RealTime));
+    QCOMPARE(m_master->state(), QPlcMasterNode::Off);
+}
+
+void tst_SecuredPlant::anAddressThatCannotBeUsedIsTold_data()
+{
+    QTest::addColumn<QString>("query");
+    QTest::addColumn<QString>("sentence");
+    QTest::newRow("unknown option") << "?keyz=a.ini"
+                                    << "'keyz' in the address";
+    QTest::newRow("no way to connect") << "?identity=anna"
+                                       << "does not say how to connect";
+    QTest::newRow("no such file") << "?keys=/nowhere/anna.ini"
+                                  << "/nowhere/anna.ini";
+}
+
+void tst_SecuredPlant::anAddressThatCannotBeUsedIsTold()
+{
+    QFETCH(QString, query);
+    QFETCH(QString, sentence);
+    WindowFixture fixture;
+    fixture.window.connectToMaster(address() + query);
+    QTRY_VERIFY_WITH_TIMEOUT(fixture.plant()->stateText().contains(sentence), patience);
 }
 
 QTEST_MAIN(tst_SecuredPlant)
