@@ -125,6 +125,8 @@ public Q_SLOTS:
     /// The values of all cycles since the last call, oldest first.
     void realTimeout(const QList<QPlcSignalList> &signalValues);
     void connectedToMaster();
+    /// The node could not connect, or has lost its master: shows \a text, or what \a error means without one.
+    void errorWithMaster(QPlcAbstractSocket::Error error, const QString &text = QString());
     void disconnectedFromMaster();
     /// The values with which a phase begins.
     void initialize(const QPlcSignalList &signalValues);

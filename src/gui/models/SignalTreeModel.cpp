@@ -345,7 +345,10 @@ QVariant SignalTreeModel::text(const Item *item, int column) const
     if (item->kind == Item::PlantItem)
         return column == Name ? item->plant->name() : column == Value ? stateWord(*item->plant) : QString();
     if (item->kind == Item::Writer)
-        return column != Name ? QString() : item->writer.isEmpty() ? tr("Not written") : item->writer;
+        return column != Name         ? QString()
+            : !item->writer.isEmpty() ? item->writer
+            : item->plant->feed()     ? tr("Signals")  // who writes them is not told
+                                      : tr("Not written");
     return signalText(item, column);
 }
 

@@ -8,10 +8,18 @@
 
 namespace qplc {
 
+namespace {
+
+constexpr int watchPause = 250;  // [ms]
+
+}  // namespace
+
 PlantFeed::PlantFeed(Plant *plant)
     : QObject(plant)
     , m_plant(plant)
 {
+    m_watch.setInterval(watchPause);
+    connect(&m_watch, &QTimer::timeout, this, &PlantFeed::tellQuality);
 }
 
 void PlantFeed::connected(const QPlcSignalTable &table)
@@ -19,6 +27,7 @@ void PlantFeed::connected(const QPlcSignalTable &table)
     PlantValues &values = m_plant->m_values;
     const bool isNewTable = !values.store() || table.toIni() != values.table().toIni();
     m_isConnected = true;
+    m_watch.start();
     m_isInStep = false;
     if (isNewTable) {
         values.setTable(table, Time(m_period));
@@ -41,11 +50,26 @@ void PlantFeed::disconnected()
     if (!m_isConnected)
         return;
     m_isConnected = false;
+    m_watch.stop();
     m_plant->m_values.interrupt();
     m_plant->m_status = {};
     m_plant->tell(PlantEvent::Error, QStringLiteral("disconnected"));
     Q_EMIT m_plant->statusChanged();
     Q_EMIT m_plant->stateChanged();
+}
+
+void PlantFeed::failed(const QString &sentence)
+{
+    m_plant->tell(PlantEvent::Error, sentence);
+}
+
+/// A master would be asked twice a second; of a node only its values say whether cycles run.
+void PlantFeed::tellQuality()
+{
+    if (m_plant->quality() == m_quality)
+        return;
+    m_quality = m_plant->quality();
+    Q_EMIT m_plant->statusChanged();
 }
 
 void PlantFeed::setState(const QString &state)
@@ -82,6 +106,7 @@ void PlantFeed::started()
     m_plant->m_values.interrupt();
     m_plant->m_sinceRate.start();
     m_plant->m_rowsAtRate = m_plant->m_values.rows();
+    m_plant->m_sinceValues.start();  // those of before are not late
     setState(QStringLiteral("RealTime"));
 }
 
@@ -147,6 +172,7 @@ void PlantFeed::take(const QList<QPlcSignalList> &cycles, Time wallTime)
     }
     m_plant->m_sinceValues.start();
     m_plant->measureRate();
+    tellQuality();
     Q_EMIT m_plant->updated();
 }
 

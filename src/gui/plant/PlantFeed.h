@@ -6,6 +6,7 @@
 #include "QPlcSignalList.h"
 
 #include <QtCore/QObject>
+#include <QtCore/QTimer>
 
 namespace qplc {
 
@@ -26,6 +27,8 @@ public:
     bool isConnected() const { return m_isConnected; }
     void connected(const QPlcSignalTable &table);
     void disconnected();
+    /// The node that feeds cannot connect, or has lost its master. \param sentence  why
+    void failed(const QString &sentence);
     /// The values with which a phase begins.
     void initialize(const QPlcSignalList &values);
     void started();
@@ -41,11 +44,14 @@ private:
     using Time = PlantValues::Time;
 
     void setState(const QString &state);
+    void tellQuality();
     void put(const QPlcSignalList &values);
     void begin(int cycles, Time wallTime);
     double step(int cycles, Time wallTime);
 
     Plant *m_plant;
+    QTimer m_watch;     // of cycles that do not come
+    int m_quality = 0;  // Plant::Quality that was told
     std::vector<char> m_payload;
     bool m_isConnected = false;
     bool m_isInStep = false;  // rows follow the wall clock

@@ -177,7 +177,8 @@ QString SignalControl::text() const
     case Mine:
         return tr("You have control");
     case Free:
-        return tr("Nobody writes this");
+        return m_resolved.constFirst().plant->feed() ? tr("The program says whether this is taken")
+                                                     : tr("Nobody writes this");
     case Written:
         return mayTake() ? tr("%1 writes this").arg(who())
                          : tr("%1 writes this, and this master knows no leases: update it").arg(who());

@@ -4,6 +4,7 @@
 #include "gui/plant/PlantFeed.h"
 
 #include <QtCore/QDateTime>
+#include <QtCore/QMetaEnum>
 #include <QtGui/QCloseEvent>
 #include <QtWidgets/QAction>
 #include <QtWidgets/QMenu>
@@ -199,6 +200,21 @@ void QPlcControlCenter::realTimeout(const QList<QPlcSignalList> &signalValues)
 void QPlcControlCenter::connectedToMaster()
 {
     d->takeWiredPlant()->feed()->connected(QPlcSignalIndexTable::current());
+}
+
+void QPlcControlCenter::errorWithMaster(QPlcAbstractSocket::Error error, const QString &text)
+{
+    const QString name = QString::fromLatin1(QMetaEnum::fromType<QPlcAbstractSocket::Error>().valueToKey(error));
+    const QString sentence = text.isEmpty() ? tr("The connection to the master failed: %1.").arg(name) : text;
+    Plant *plant = d->wiredPlant();
+    if (plant)
+        plant->feed()->failed(sentence);
+    if (plant && plant->isConnected()) {
+        d->hint->showText(sentence);
+        return;
+    }
+    d->connectStrip->open();
+    d->connectStrip->showError(sentence);
 }
 
 void QPlcControlCenter::disconnectedFromMaster()

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "NodeFixtures.h"
+#include "gui/window/ConnectStrip.h"
+#include "gui/window/StateStepper.h"
 
 #include <QtCore/QSettings>
 #include <QtCore/QTemporaryDir>
 #include <QtPlc>
 #include <QtTest/QtTest>
+
+using namespace qplc;
 
 /// A panel of the program, as the keyboard controller of the thesis: it writes "setpoint" and looks at "count".
 class Operator : public QPlcWidget
@@ -78,6 +82,17 @@ public:
         delete plcThread;
     }
 
+    /// As a person does.
+    bool connectTo(quint16 port) const
+    {
+        controlCenter->activateWindow();
+        if (!QTest::qWaitForWindowActive(controlCenter))
+            return false;
+        QTest::keyClick(controlCenter, Qt::Key_O, Qt::ControlModifier);
+        QTest::keyClicks(QApplication::focusWidget(), QStringLiteral("127.0.0.1:%1").arg(port));
+        QTest::keyClick(QApplication::focusWidget(), Qt::Key_Return);
+        return true;
+    }
     Operator *panel() const { return controlCenter->findChild<Operator *>(); }
 
     QThread *plcThread = new QThread;
@@ -99,6 +114,8 @@ private:
         QObject::connect(controlCenter, SIGNAL(connectRequested(QPlcUnderlyingProtocol)), slaveNode,
                          SLOT(connectToMaster(QPlcUnderlyingProtocol)));
         QObject::connect(slaveNode, SIGNAL(connectedToMaster()), controlCenter, SLOT(connectedToMaster()));
+        QObject::connect(slaveNode, SIGNAL(errorWithMaster(QPlcAbstractSocket::Error, QString)), controlCenter,
+                         SLOT(errorWithMaster(QPlcAbstractSocket::Error, QString)));
         QObject::connect(controlCenter, SIGNAL(disconnectRequested()), slaveNode, SLOT(disconnectFromMaster()));
         QObject::connect(slaveNode, SIGNAL(disconnectedFromMaster()), controlCenter, SLOT(disconnectedFromMaster()));
         QObject::connect(controlCenter, SIGNAL(initialOutputSignalsChanged(QPlcSignalList)), slaveNode,
@@ -127,6 +144,7 @@ class tst_ThesisWiring : public QObject
 
 private Q_SLOTS:
     void theWiringOfTheThesisFlies();
+    void aRefusedConnectionIsSeenInTheWindow();
     void aWiredPlantHasTheNameThatItsProgramSays();
 };
 
@@ -150,11 +168,7 @@ void tst_ThesisWiring::theWiringOfTheThesisFlies()
     QVERIFY(program.controlCenter->isStartPageShown());
 
     // A person connects: the address goes to the node of the program.
-    program.controlCenter->activateWindow();
-    QVERIFY(QTest::qWaitForWindowActive(program.controlCenter));
-    QTest::keyClick(program.controlCenter, Qt::Key_O, Qt::ControlModifier);
-    QTest::keyClicks(QApplication::focusWidget(), QStringLiteral("127.0.0.1:%1").arg(master.serverPort()));
-    QTest::keyClick(QApplication::focusWidget(), Qt::Key_Return);
+    QVERIFY(program.connectTo(master.serverPort()));
     QTRY_COMPARE_WITH_TIMEOUT(program.controlCenter->plants().size(), 1, patience);
     const QString plant = program.controlCenter->plants().constFirst();
     QCOMPARE(plant, QStringLiteral("127.0.0.1:%1").arg(master.serverPort()));  // as it was entered
@@ -162,10 +176,21 @@ void tst_ThesisWiring::theWiringOfTheThesisFlies()
     QVERIFY(!program.controlCenter->isStartPageShown());
     QVERIFY(program.panel());
 
-    // ... and starts: the command goes the same way.
+    // Nobody tells the node who writes a signal: the window does not say that nobody does.
+    const auto *tree = program.controlCenter->findChild<QPlcSignalTree *>()->findChild<QTreeView *>();
+    QVERIFY(tree->model()->rowCount(tree->model()->index(0, 0)) > 0);
+    QVERIFY(
+        tree->model()
+            ->match(tree->model()->index(0, 0), Qt::DisplayRole, QStringLiteral("Not written"), 1, Qt::MatchRecursive)
+            .isEmpty());
+
+    // ... and starts: the command goes the same way. The values of before are old by now.
+    QTest::qWait(700);
     QTest::keyClick(program.controlCenter, Qt::Key_F5);
     QTRY_COMPARE_WITH_TIMEOUT(master.state(), QPlcMasterNode::RealTime, patience);
     QTRY_VERIFY_WITH_TIMEOUT(program.panel()->counts.size() > 50, patience);
+    const auto *stepper = program.controlCenter->findChild<StateStepper *>();
+    QTRY_COMPARE_WITH_TIMEOUT(stepper->accessibleName(), QStringLiteral("State of the master: Real time"), patience);
     const QVector<int> counts = program.panel()->counts;
     for (int i = 1; i < counts.size(); ++i)
         QVERIFY(counts[i] > counts[i - 1]);  // a busy machine misses cycles, and never tells one twice
@@ -179,6 +204,24 @@ void tst_ThesisWiring::theWiringOfTheThesisFlies()
     QTest::keyClick(program.controlCenter, Qt::Key_D, Qt::ControlModifier);
     QTRY_VERIFY_WITH_TIMEOUT(!program.controlCenter->isConnected(plant), patience);
     master.removeLocalNode(&counter);
+}
+
+void tst_ThesisWiring::aRefusedConnectionIsSeenInTheWindow()
+{
+    QPlcSignalIndexTable::setCurrent(testTable());
+    quint16 port = 0;
+    {
+        TestMaster master;
+        QVERIFY(master.listen());
+        port = master.serverPort();
+    }
+    ThesisProgram program;
+    QVERIFY(program.connectTo(port));
+    const auto *strip = program.controlCenter->findChild<ConnectStrip *>();
+    QTRY_VERIFY_WITH_TIMEOUT(strip->error().contains(QString::number(port)), patience);
+    QVERIFY(strip->isVisible());
+    program.controlCenter->errorWithMaster(QPlcAbstractSocket::TimeoutError);
+    QVERIFY2(strip->error().contains(QStringLiteral("TimeoutError")), qPrintable(strip->error()));
 }
 
 void tst_ThesisWiring::aWiredPlantHasTheNameThatItsProgramSays()
