@@ -67,7 +67,8 @@ void PlotCanvas::renewScales()
 void PlotCanvas::renewScale(Axis axis)
 {
     const QFont font = scaleFont(this->font());
-    scaleWidget(axis)->setScaleDraw(new ValueScaleDraw(font, m_isCompact ? fewCharacters : usualCharacters));
+    scaleWidget(axis)->setScaleDraw(
+        new ValueScaleDraw(font, m_isCompact || axis > 1 ? fewCharacters : usualCharacters));
     scaleWidget(axis)->setSpacing(1);
     scaleWidget(axis)->setMargin(0);
     scaleWidget(axis)->setFont(font);
@@ -152,8 +153,11 @@ void PlotCanvas::setTheme(const Theme &theme)
 
 void PlotCanvas::setUnit(Axis axis, const QString &unit, const QVector<QColor> &colors)
 {
-    m_axes[std::size_t(axis)].unit = unit;
-    m_axes[std::size_t(axis)].colors = colors;
+    ValueAxis &values = m_axes[std::size_t(axis)];
+    if (values.prefix.tableUnit() != unit)
+        values.prefix = SiPrefix::fitting(unit, largest(axis));
+    values.colors = colors;
+    showPrefix(axis);
     showUnit(axis);
     showColor(axis);
 }
@@ -174,6 +178,7 @@ void PlotCanvas::applyNames(Axis axis)
 {
     const ValueAxis &values = m_axes[std::size_t(axis)];
     scaleDraw(axis)->setNames(values.names);
+    showPrefix(axis);
     scaleDraw(axis)->enableComponent(QwtAbstractScaleDraw::Labels, values.hasNumbers);
     scaleDraw(axis)->enableComponent(QwtAbstractScaleDraw::Ticks, values.hasNumbers);
 }
@@ -185,9 +190,10 @@ void PlotCanvas::showUnit(Axis axis)
     QString squares;
     for (const QColor &color : values.colors)
         squares += QStringLiteral("<span style='color:%1'>&#9632;</span>").arg(color.name());
-    QwtText title(values.unit);
+    const QString unit = values.prefix.unit();
+    QwtText title(unit);
     if (values.colors.size() > 1)
-        title.setText(squares + QStringLiteral("&nbsp;") + values.unit.toHtmlEscaped(), QwtText::RichText);
+        title.setText(squares + QStringLiteral("&nbsp;") + unit.toHtmlEscaped(), QwtText::RichText);
     if (m_isCompact)
         title = QwtText(QString());
     title.setFont(scaleFont(font()));
@@ -252,11 +258,29 @@ void PlotCanvas::setRange(Axis axis, double minimum, double maximum, Ticks ticks
     QwtScaleDiv scale = valueScale(minimum, maximum, height, line, ticks == WholeTicks ? 1.0 : 0.0);
     if (lane > 0.0 && height > lane)
         scale.setLowerBound(minimum - (maximum - minimum) * lane / height);
-    m_axes[std::size_t(axis)].scale = scale;
+    ValueAxis &values = m_axes[std::size_t(axis)];
+    values.scale = scale;
+    const QString shownUnit = values.prefix.unit();
+    values.prefix = values.prefix.kept(largest(axis));
+    showPrefix(axis);
+    if (values.prefix.unit() != shownUnit)
+        showUnit(axis);
     if (axis < 2)
         setAxisScaleDiv(axis == 0 ? yLeft : yRight, scale);
     else
         scaleWidget(axis)->setScaleDiv(scale);
+}
+
+double PlotCanvas::largest(Axis axis) const
+{
+    const QwtScaleDiv &scale = m_axes[std::size_t(axis)].scale;
+    return std::max(std::abs(scale.lowerBound()), std::abs(scale.upperBound()));
+}
+
+/// Names are those of the values as they are.
+void PlotCanvas::showPrefix(Axis axis)
+{
+    scaleDraw(axis)->setFactor(m_axes[std::size_t(axis)].prefix.factor());
 }
 
 QwtScaleMap PlotCanvas::mapOf(Axis axis) const

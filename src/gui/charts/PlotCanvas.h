@@ -5,6 +5,7 @@
 #include "PlotAxes.h"
 #include "QPlcValueNames.h"
 #include "TimeTicks.h"
+#include "gui/models/SiPrefix.h"
 #include "gui/panel/Theme.h"
 #include "gui/plot/TimeColumns.h"
 
@@ -46,7 +47,7 @@ public:
 
     void setTheme(const Theme &theme);
     void setGridVisible(bool isVisible) { m_grid.setVisible(isVisible); }
-    /// \param colors  of the curves of the axis; empty: it is the only one, whose colour says nothing
+    /// As the signal table has it; the axis shows it with the prefix that fits its values. \param colors  of the curves of the axis; empty: it is the only one, whose colour says nothing
     void setUnit(Axis axis, const QString &unit, const QVector<QColor> &colors = {});
     /// Without numbers an axis keeps its room, so that canvases stay aligned.
     void setNumbersVisible(Axis axis, bool areVisible);
@@ -76,6 +77,8 @@ public:
     Time timeAt(double x) const;
     double xOf(Time time) const;
     double valueAt(Axis axis, double y) const { return mapOf(axis).invTransform(y); }
+    /// The largest value of an axis, without sign.
+    double largest(Axis axis) const;
     double yOf(Axis axis, double value) const { return mapOf(axis).transform(value); }
 
     /// Draws the axes that QwtPlotRenderer does not know. \pre the origin is that of the plot
@@ -97,7 +100,7 @@ protected:
 private:
     struct ValueAxis
     {
-        QString unit;
+        SiPrefix prefix;  // of the unit
         QVector<QColor> colors;
         QPlcValueNames names;
         bool hasNumbers = true;
@@ -109,6 +112,7 @@ private:
     void renewScales();
     void renewScale(Axis axis);
     void applyNames(Axis axis);
+    void showPrefix(Axis axis);
     void showUnit(Axis axis);
     void showColor(Axis axis);
     ValueScaleDraw *scaleDraw(Axis axis) const;

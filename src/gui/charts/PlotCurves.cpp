@@ -3,6 +3,7 @@
 
 #include "ChartLook.h"
 #include "PlotCanvas.h"
+#include "gui/models/ValueFormat.h"
 
 #include <qwt_plot_marker.h>
 
@@ -108,7 +109,8 @@ void PlotCurves::showLines(int axis, const QVector<double> &lines, const Theme &
         marker->setLinePen(theme.text, 1.0, Qt::DashDotLine);
         marker->setYValue(line);
         marker->setZ(limitDepth);
-        QwtText text(QString::number(line, 'g', digitsOfLine));
+        const SiPrefix prefix = SiPrefix::fitting(m_axes.at(axis).unit, line);
+        QwtText text((numberText(prefix.shown(line), digitsOfLine) + QLatin1Char(' ') + prefix.unit()).trimmed());
         text.setColor(theme.text);
         text.setFont(scaleFont(m_plot->font()));
         marker->setLabel(text);
@@ -211,6 +213,11 @@ bool PlotCurves::hasAxis(int axis) const
     return std::any_of(m_curves.begin(), m_curves.end(), [axis](const PlotCurve &each) {
         return each.axis == axis && each.settings.isVisible && !each.isDrawnAsBands();
     });
+}
+
+double PlotCurves::largest(int axis) const
+{
+    return m_plot->largest(axis);
 }
 
 int PlotCurves::seenAxes() const

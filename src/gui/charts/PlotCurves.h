@@ -76,6 +76,8 @@ public:
     const PlotAxes &axes() const { return m_axes; }
     /// Whether curves that are not hidden have this axis.
     bool hasAxis(int axis) const;
+    /// The largest value that an axis shows, without sign.
+    double largest(int axis) const;
     /// How many axes have curves that are not hidden.
     int seenAxes() const;
     /// Of the lines of an axis that are seen.

@@ -227,6 +227,7 @@ void QPlcTimePlot::Private::showNumbers()
     if (!moment && !view()->isLive())
         moment = std::clamp(newest(), view()->begin(), view()->end());  // around an event, the rest is still to come
     legend->show(curves, moment);
+    arrangeLegend();  // wider values leave room for fewer columns
     const bool hasCursors = time && (time->cursor(TimeView::A) || time->cursor(TimeView::B)) && !curves.isEmpty();
     if (hasCursors != !statistics->isHidden()) {
         statistics->setVisible(hasCursors);
@@ -269,8 +270,13 @@ void QPlcTimePlot::Private::arrange()
     legend->setCompact(canvas->isCompact());
     statistics->setUnfolded(settings.hasStatistics && q->height() >= leastStatisticsHeight);
     statistics->setRoom(int(statisticsShare * q->height()));
+    arrangeLegend();
+}
+
+void QPlcTimePlot::Private::arrangeLegend()
+{
     const bool hasTable = !statistics->isHidden() && statistics->isUnfolded();  // which names the curves, too
-    const double share = canvas->isCompact() ? 0.0 : hasTable ? legendShareBesideTable : legendShare;
+    const double share = hasTable ? legendShareBesideTable : legendShare;
     legendArea->setFixedHeight(legend->heightWithin(q->contentsRect().width(), int(share * q->height())));
 }
 

@@ -4,6 +4,7 @@
 #include "ChartLook.h"
 #include "QPlcQuality.h"
 #include "gui/models/ValueFormat.h"
+#include "gui/panel/FigureFont.h"
 
 #include <QtGui/QHelpEvent>
 #include <QtGui/QPainter>
@@ -22,16 +23,10 @@ constexpr int spacing = 6;    // [px] between parts of an entry
 constexpr int gap = 14;       // [px] between entries
 constexpr int margin = 4;     // [px] around all
 constexpr int lineRoom = 3;   // [px] above and below a text, together
-constexpr int legendDigits = 6;
-constexpr int fewDigits = 4;    // in small panels
-constexpr int leastWidth = 36;  // [px] of an entry
-
-QString valueOf(const PlotCurve &curve, std::optional<SignalStore::Time> time, int precision)
-{
-    if (curve.isMissing())
-        return PlotLegend::tr("missing");
-    return numberText(curve.value(time), precision, curve.names());
-}
+constexpr int legendDigits = 5;
+constexpr int fewDigits = 4;            // in small panels
+constexpr int leastName = 56;           // [px] of a name that is elided
+constexpr double smallestShare = 1e-4;  // of the axis: a smaller value has the prefix of this one
 
 /// Empty for values like others.
 QString markText(SignalStore::Mark mark)
@@ -96,12 +91,12 @@ void PlotLegend::setCompact(bool isCompact)
 void PlotLegend::show(const PlotCurves &curves, std::optional<SignalStore::Time> time)
 {
     QVector<Entry> entries;
+    m_prefixes.resize(curves.size());
     for (int place = 0; place < curves.size(); ++place) {
         const PlotCurve &curve = curves.at(place);
         Entry entry;
         entry.name = curve.settings.text();
-        entry.value = valueOf(curve, time, m_isCompact ? fewDigits : legendDigits);
-        entry.unit = curve.source.unit;
+        fillValue(curves, place, time, &entry);
         entry.hint = hintOf(curve);
         entry.color = curve.swatchColor(curve.value(time));
         entry.penStyle = curve.isDrawnAsBands() ? Qt::SolidLine : curve.penStyle;
@@ -119,6 +114,37 @@ void PlotLegend::show(const PlotCurves &curves, std::optional<SignalStore::Time>
     update();
 }
 
+/// Names of states as they are; whole numbers without decimals; others with a prefix that stays while it is good enough.
+void PlotLegend::fillValue(const PlotCurves &curves, int place, std::optional<SignalStore::Time> time, Entry *entry)
+{
+    const PlotCurve &curve = curves.at(place);
+    SiPrefix &prefix = m_prefixes[place];
+    if (prefix.tableUnit() != curve.source.unit)
+        prefix = SiPrefix(curve.source.unit);
+    if (curve.isMissing()) {
+        entry->value = PlotLegend::tr("missing");
+        return;
+    }
+    const double value = curve.value(time);
+    const int digits = m_isCompact ? fewDigits : legendDigits;
+    const bool isWhole = curve.source.isStepped && !curve.settings.isScaled();
+    if (isWhole || !curve.names().isEmpty()) {
+        entry->unit = prefix.unit();
+        entry->value = numberText(value, legendDigits + 2, curve.names());
+        return;
+    }
+    if (!std::isnan(value))
+        prefix = prefix.kept(std::max(std::abs(value), smallestShare * curves.largest(curve.axis)));
+    entry->unit = prefix.unit();
+    entry->value = steadyNumberText(prefix.shown(value), digits);
+}
+
+/// Digits of one width.
+QFont PlotLegend::valueFontOf(const Entry &entry) const
+{
+    return figureFont(fontOf(entry));
+}
+
 QFont PlotLegend::fontOf(const Entry &entry) const
 {
     QFont font = smallFont(this->font());
@@ -133,14 +159,16 @@ void PlotLegend::measure()
     const QFontMetrics metrics(fontOf(boldest));
     const int before = m_nameWidth + m_valueWidth + m_unitWidth;
     m_lineHeight = metrics.height() + lineRoom;
-    if (!m_isCompact)
-        m_valueWidth = metrics.horizontalAdvance(QStringLiteral("-8.88888e-08"));
-    m_nameWidth = m_unitWidth = 0;
+    const QFontMetrics figures(valueFontOf(boldest));
+    m_valueWidth = std::max(m_valueWidth, figures.horizontalAdvance(QStringLiteral("-88.88")));
+    m_nameWidth = 0;
+    if (m_entries.isEmpty())
+        m_unitWidth = 0;
     for (const Entry &entry : qAsConst(m_entries)) {
         m_nameWidth = std::max(m_nameWidth, metrics.horizontalAdvance(entry.name));
+        // These grow only, so that nothing trembles.
         m_unitWidth = std::max(m_unitWidth, metrics.horizontalAdvance(entry.unit));
-        if (m_isCompact)  // grows only, so that nothing trembles
-            m_valueWidth = std::max(m_valueWidth, metrics.horizontalAdvance(entry.value));
+        m_valueWidth = std::max(m_valueWidth, figures.horizontalAdvance(entry.value));
     }
     if (m_nameWidth + m_valueWidth + m_unitWidth != before || sizeHint().height() != height())
         updateGeometry();
@@ -152,6 +180,12 @@ int PlotLegend::wantedWidth() const
     return swatch + m_nameWidth + m_valueWidth + m_unitWidth + 3 * spacing;
 }
 
+/// Of an entry whose name is elided [px]
+int PlotLegend::leastWidth() const
+{
+    return wantedWidth() - m_nameWidth + std::min(m_nameWidth, leastName);
+}
+
 /// With the room before it [px]; 0: there is no doubt.
 int PlotLegend::doubtWidth(const Entry &entry) const
 {
@@ -161,7 +195,7 @@ int PlotLegend::doubtWidth(const Entry &entry) const
 int PlotLegend::columnsFor(int width) const
 {
     const int room = width - 2 * margin + gap;
-    const int wanted = m_isCompact ? leastWidth + gap : wantedWidth() + gap;
+    const int wanted = (m_isCompact ? leastWidth() : wantedWidth()) + gap;
     return std::clamp(room / std::max(wanted, 1), 1, std::max(1, m_entries.size()));
 }
 
@@ -238,6 +272,25 @@ void PlotLegend::paintSwatch(QPainter *painter, const QRect &box, const Entry &e
     }
 }
 
+/// Name, value and unit, left to right. A name can be elided, a value cannot: the name gets what is left.
+PlotLegend::Parts PlotLegend::partsOf(const QRect &rect) const
+{
+    const int room = std::max(0, rect.width() - swatch - 3 * spacing - m_unitWidth);
+    const int valueWidth = std::min(m_valueWidth, room);
+    Parts parts;
+    parts.name = QRect(rect.left() + swatch + spacing, rect.top(), room - valueWidth, rect.height());
+    parts.value = QRect(parts.name.right() + 1 + spacing, rect.top(), valueWidth, rect.height());
+    parts.unit = QRect(parts.value.right() + 1 + spacing, rect.top(), m_unitWidth, rect.height());
+    return parts;
+}
+
+QRect PlotLegend::valueRect(int place) const
+{
+    const QRect rect = entryRect(place);
+    const int doubt = doubtWidth(m_entries[place]);
+    return partsOf(rect.width() >= wantedWidth() + doubt ? rect.adjusted(0, 0, -doubt, 0) : rect).value;
+}
+
 void PlotLegend::paintEntry(QPainter *painter, const QRect &wholeRect, const Entry &entry) const
 {
     paintSwatch(painter, {wholeRect.left(), wholeRect.center().y() - swatch / 2 + 1, swatch, swatch}, entry);
@@ -248,29 +301,17 @@ void PlotLegend::paintEntry(QPainter *painter, const QRect &wholeRect, const Ent
     const bool isDoubtLast
         = doubt > 0 && wholeRect.width() >= wantedWidth() + doubt;  // else it takes of the name: nothing moves
     painter->setPen(m_theme.stale);
-    const QRect rect = isDoubtLast ? paintDoubt(painter, wholeRect, entry) : wholeRect;
-    const bool hasValues = !m_isCompact || m_entries.size() == 1 || rect.width() >= wantedWidth();
-    const int unitWidth = hasValues ? m_unitWidth : 0;
-    const int room = rect.width() - swatch - (hasValues ? 3 : 1) * spacing - unitWidth;
-    const int valueWidth = !hasValues ? 0
-        : m_isCompact                 ? std::min(m_valueWidth, room)
-                                      : std::min(m_valueWidth, room / 2);
-    const int nameWidth = room - valueWidth;
-    QRect part(rect.left() + swatch + spacing, rect.top(), nameWidth, rect.height());
+    Parts parts = partsOf(isDoubtLast ? paintDoubt(painter, wholeRect, entry) : wholeRect);
     painter->setPen(isQuiet ? m_theme.stale : m_theme.text);
     if (!isDoubtLast && doubt > 0)
-        part = paintDoubt(painter, part, entry);
-    painter->drawText(part, Qt::AlignVCenter | Qt::TextSingleLine,
-                      QFontMetrics(font).elidedText(entry.name, Qt::ElideMiddle, part.width()));
-    if (!hasValues)
-        return;
-    part.setLeft(rect.left() + swatch + spacing + nameWidth + spacing);
-    part.setWidth(valueWidth);
-    painter->drawText(part, Qt::AlignVCenter | Qt::AlignRight | Qt::TextSingleLine, entry.value);
-    part.setLeft(part.right() + 1 + spacing);
-    part.setWidth(unitWidth);
+        parts.name = paintDoubt(painter, parts.name, entry);
+    painter->drawText(parts.name, Qt::AlignVCenter | Qt::TextSingleLine,
+                      QFontMetrics(font).elidedText(entry.name, Qt::ElideMiddle, parts.name.width()));
+    painter->setFont(valueFontOf(entry));
+    painter->drawText(parts.value, Qt::AlignVCenter | Qt::AlignRight | Qt::TextSingleLine, entry.value);
+    painter->setFont(font);
     painter->setPen(isQuiet ? m_theme.stale : m_theme.mutedText);
-    painter->drawText(part, Qt::AlignVCenter | Qt::TextSingleLine, entry.unit);
+    painter->drawText(parts.unit, Qt::AlignVCenter | Qt::TextSingleLine, entry.unit);
 }
 
 /// What is at the right end of an entry. \return the room that is left

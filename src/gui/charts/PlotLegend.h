@@ -2,6 +2,7 @@
 #pragma once
 
 #include "PlotCurves.h"
+#include "gui/models/SiPrefix.h"
 
 #include <QtWidgets/QWidget>
 
@@ -9,7 +10,7 @@ namespace qplc {
 
 /// The curves of a plot in a small table: colour, name, value and unit, in as many columns as there is room for.
 ///
-/// In small panels it is one line, with the names of several curves only where there is no room for values.
+/// Where there is little room, names are elided and values stay. Values have so many digits always, and units the prefix that fits.
 ///
 /// A click hides a curve or shows it again, and makes it the selected one. Values that are not true any more are grey, with their age; what is missing says so.
 class PlotLegend : public QWidget
@@ -45,6 +46,8 @@ public:
     const QVector<Entry> &entries() const { return m_entries; }
     /// The place of an entry [px]; null: it is not seen.
     QRect entryRect(int place) const;
+    /// The place of its value [px]
+    QRect valueRect(int place) const;
     void paint(QPainter *painter, bool hasHover) const;
 
     bool hasHeightForWidth() const override { return true; }
@@ -68,6 +71,13 @@ protected:
     void changeEvent(QEvent *event) override;
 
 private:
+    struct Parts
+    {
+        QRect name;
+        QRect value;
+        QRect unit;
+    };
+    Parts partsOf(const QRect &rect) const;
     void measure();
     int columnsFor(int width) const;
     int entryAt(QPoint position) const;
@@ -76,10 +86,14 @@ private:
     void paintSwatch(QPainter *painter, const QRect &box, const Entry &entry) const;
     void paintEntry(QPainter *painter, const QRect &rect, const Entry &entry) const;
     int wantedWidth() const;
+    int leastWidth() const;
+    QFont valueFontOf(const Entry &entry) const;
+    void fillValue(const PlotCurves &curves, int place, std::optional<SignalStore::Time> time, Entry *entry);
     QFont fontOf(const Entry &entry) const;
 
     Theme m_theme;
     QVector<Entry> m_entries;
+    QVector<SiPrefix> m_prefixes;  // of the entries
     int m_hovered = -1;
     bool m_isCompact = false;
     int m_nameWidth = 0;  // [px], of the widest

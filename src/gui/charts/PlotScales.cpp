@@ -43,13 +43,16 @@ int decimalsOf(const QList<double> &ticks)
 }
 
 /// As many digits as ticks need, without an exponent where that is possible.
-QString tickText(double value, const QwtScaleDiv &scale)
+QString tickText(double value, double factor, const QwtScaleDiv &scale)
 {
-    const QList<double> ticks = scale.ticks(QwtScaleDiv::MajorTick);
+    QList<double> ticks = scale.ticks(QwtScaleDiv::MajorTick);
+    for (double &tick : ticks)
+        tick *= factor;
+    value *= factor;
     const double step = stepOf(ticks);
     if (std::abs(value) < 1e-6 * step)
         return QStringLiteral("0");
-    const double largest = std::max(std::abs(scale.lowerBound()), std::abs(scale.upperBound()));
+    const double largest = factor * std::max(std::abs(scale.lowerBound()), std::abs(scale.upperBound()));
     const int decimals = decimalsOf(ticks);
     if (largest < largestPlain && decimals <= mostPlainDecimals)
         return QString::number(value, 'f', decimals);
@@ -132,13 +135,21 @@ void ValueScaleDraw::setNames(const QPlcValueNames &names)
     invalidateCache();
 }
 
+void ValueScaleDraw::setFactor(double factor)
+{
+    if (factor == m_factor)
+        return;
+    m_factor = factor;
+    invalidateCache();
+}
+
 QwtText ValueScaleDraw::label(double value) const
 {
     const bool isWhole = std::abs(value - std::round(value)) < 1e-6;
     const QString name = m_names.isEmpty() || !isWhole ? QString() : m_names.nameOf(std::llround(value));
     if (!name.isEmpty())
         return QwtText(m_metrics.elidedText(name, Qt::ElideRight, m_room), QwtText::PlainText);
-    return tickText(value, scaleDiv());
+    return tickText(value, m_factor, scaleDiv());
 }
 
 TimeScaleDraw::TimeScaleDraw(const QFont &font, bool isCompact)

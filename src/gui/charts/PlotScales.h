@@ -22,11 +22,14 @@ public:
     ValueScaleDraw(const QFont &font, int characters);
     /// What ticks are called, shortened to the usual room; empty: numbers.
     void setNames(const QPlcValueNames &names);
+    /// Numbers are values times this: of a unit with a prefix.
+    void setFactor(double factor);
     QwtText label(double value) const override;
 
 private:
     QFontMetricsF m_metrics;
     double m_room;  // of a label [px]
+    double m_factor = 1.0;
     QPlcValueNames m_names;
 };
 

@@ -81,6 +81,7 @@ public:
     void showNumbers();
     void showLiveButton();
     void arrange();
+    void arrangeLegend();
     void showTheme();
 
     // -- PlotCommands.cpp: what a person can do --

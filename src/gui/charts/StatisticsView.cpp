@@ -3,7 +3,9 @@
 
 #include "ChartLook.h"
 #include "TimeTicks.h"
+#include "gui/models/SiPrefix.h"
 #include "gui/models/ValueFormat.h"
+#include "gui/panel/FigureFont.h"
 
 #include <QtWidgets/QBoxLayout>
 #include <QtWidgets/QHeaderView>
@@ -50,7 +52,7 @@ StatisticsView::StatisticsView(QWidget *parent)
     m_fold->setFocusPolicy(Qt::TabFocus);
     m_fold->setIconSize(QSize(12, 12));
     m_fold->setAccessibleName(tr("Statistics between the cursors"));
-    m_table->setFont(small);
+    m_table->setFont(figureFont(small));
     m_table->setAccessibleName(tr("Values between cursors A and B"));
     m_table->setHorizontalHeaderLabels({tr("Signal"), QStringLiteral("A"), QStringLiteral("B"), tr("B − A"), tr("min"),
                                         tr("max"), tr("mean"), tr("rms"), QStringLiteral("σ"), QStringLiteral("∫ dt")});
@@ -162,16 +164,22 @@ void StatisticsView::showRow(int row, const PlotCurve &curve, CursorStatistics *
     const CursorStatistics::Result result = statistics->result();
     const double atA = curve.value(a);
     const double atB = curve.value(b);
+    // One prefix for the line, but not for states and for the integral, whose unit is another one.
+    double largest = 0.0;
+    for (const double value : {atA, atB, result.minimum, result.maximum})
+        largest = std::isnan(value) ? largest : std::max(largest, std::abs(value));
+    const SiPrefix prefix = curve.names().isEmpty() ? SiPrefix::fitting(curve.source.unit, largest) : SiPrefix();
+    const auto shown = [&](double value) { return numberText(prefix.shown(value), statisticsDigits, curve.names()); };
     const auto between = [&](double value) {
-        return numberText(value, statisticsDigits) + (statistics->isComplete() ? QString() : QStringLiteral(" …"));
+        return numberText(prefix.shown(value), statisticsDigits)
+            + (statistics->isComplete() ? QString() : QStringLiteral(" …"));
     };
-    const QString unit = curve.source.unit.isEmpty() ? QString() : QStringLiteral(" [%1]").arg(curve.source.unit);
-    if (setText(row, Signal, curve.settings.text() + unit))
+    if (setText(row, Signal, withUnit(curve.settings.text(), prefix.unit())))
         fitWidth();
     m_table->item(row, Signal)->setData(Qt::DecorationRole, curve.swatchColor(atB));
-    setText(row, ValueA, numberText(atA, statisticsDigits, curve.names()));
-    setText(row, ValueB, numberText(atB, statisticsDigits, curve.names()));
-    setText(row, Difference, numberText(atB - atA, statisticsDigits));
+    setText(row, ValueA, shown(atA));
+    setText(row, ValueB, shown(atB));
+    setText(row, Difference, numberText(prefix.shown(atB - atA), statisticsDigits));
     setText(row, Minimum, between(result.minimum));
     setText(row, Maximum, between(result.maximum));
     setText(row, Mean, between(result.mean));

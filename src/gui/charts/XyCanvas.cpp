@@ -50,6 +50,9 @@ void XyCanvas::setCurves(std::vector<std::unique_ptr<XyCurve>> curves, const std
     if (!m_isHeld)
         m_x = m_y = Span();
     colorCurves();
+    m_xPrefix = m_yPrefix = SiPrefix();
+    fitPrefix(xBottom, m_x, &m_xPrefix);
+    fitPrefix(yLeft, m_y, &m_yPrefix);
     showTitles();
 }
 
@@ -101,8 +104,30 @@ QString XyCanvas::axisText(bool isOfX) const
                            [&](const auto &curve) { return isLikeFirst(sourceOf(curve)); });
     };
     const bool haveTitle = areAll([&](const CurveSource &source) { return source.title == first.title; });
-    const bool haveUnit = areAll([&](const CurveSource &source) { return source.unit == first.unit; });
-    return withUnit(haveTitle ? CurveSource::textOf(first.title) : QString(), haveUnit ? first.unit : QString());
+    return withUnit(haveTitle ? CurveSource::textOf(first.title) : QString(), (isOfX ? m_xPrefix : m_yPrefix).unit());
+}
+
+QString XyCanvas::commonUnit(bool isOfX) const
+{
+    std::optional<QString> common;
+    for (const std::unique_ptr<XyCurve> &curve : m_curves) {
+        const QString &unit = (isOfX ? curve->xSource() : curve->ySource()).unit;
+        if (common && *common != unit)
+            return {};
+        common = unit;
+    }
+    return common.value_or(QString());
+}
+
+/// \return whether the title is another one
+bool XyCanvas::fitPrefix(QwtPlot::Axis axis, const Span &shown, SiPrefix *prefix)
+{
+    const QString unit = commonUnit(axis == xBottom);
+    const QString before = prefix->unit();
+    const double largest = std::max(std::fabs(shown.begin), std::fabs(shown.end));
+    *prefix = unit == prefix->tableUnit() ? prefix->kept(largest) : SiPrefix::fitting(unit, largest);
+    static_cast<ValueScaleDraw *>(axisScaleDraw(axis))->setFactor(prefix->factor());
+    return prefix->unit() != before;
 }
 
 void XyCanvas::showTitles()
@@ -244,6 +269,9 @@ void XyCanvas::scaleAxes()
         Span y = m_y;
         if (m_aspect == Equal)
             makeUnitsEqual(&x, &y);
+        const bool isXOther = fitPrefix(xBottom, x, &m_xPrefix);
+        if (fitPrefix(yLeft, y, &m_yPrefix) || isXOther)
+            showTitles();
         const QFontMetricsF metrics(axisFont(yLeft));
         const QSizeF room = plotLayout()->canvasRect().size();
         setAxisScaleDiv(xBottom, valueScale(x.begin, x.end, room.width(), metrics.horizontalAdvance(usualLabel)));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "XyCurve.h"
+#include "gui/models/SiPrefix.h"
 #include "gui/panel/Theme.h"
 
 #include <qwt_plot.h>
@@ -78,6 +79,9 @@ private:
     void makeUnitsEqual(Span *x, Span *y) const;
     void showTitles();
     QString axisText(bool isOfX) const;
+    /// Empty when curves have different ones.
+    QString commonUnit(bool isOfX) const;
+    bool fitPrefix(QwtPlot::Axis axis, const Span &shown, SiPrefix *prefix);
     void colorCurves();
 
     std::vector<std::unique_ptr<XyCurve>> m_curves;
@@ -87,6 +91,8 @@ private:
     std::unique_ptr<QwtPlotGrid> m_grid;
     Span m_x;  // empty: not yet
     Span m_y;
+    SiPrefix m_xPrefix;
+    SiPrefix m_yPrefix;
     bool m_isHeld = false;
     Picture m_picture;
     quint64 m_looks = 1;

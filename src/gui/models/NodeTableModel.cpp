@@ -38,7 +38,7 @@ QString healthText(NodeTableModel::HealthLevel level)
 QString stateOf(const NodeStatus &node)
 {
     if (node.isLatched() || (!node.isListener && !node.state.isEmpty() && node.state != QLatin1String("RealTime")))
-        return node.state;
+        return stateText(node.state);
     if (node.isListener)
         return NodeTableModel::tr("listens");
     if (node.isLate)

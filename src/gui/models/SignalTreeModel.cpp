@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SignalTreeModel.h"
 
+#include "SiPrefix.h"
 #include "gui/plant/PastValue.h"
 
 #include <algorithm>
@@ -20,6 +21,7 @@ struct SignalTreeModel::Item
     int element = SignalReference::Whole;
     // What was shown last.
     QString value;
+    SiPrefix prefix;
     QString age;
     Plant::Quality quality = Plant::NoValue;
 
@@ -206,16 +208,34 @@ QPlcValue SignalTreeModel::shownValue(const Item *item) const
     return m_displayTime ? pastValue(signalOf(item), *m_displayTime) : signalOf(item).value();
 }
 
+namespace {
+
+/// A real number with the prefix that fits; all else as it is.
+QString prefixedText(const QPlcValue &value, const QPlcSignalDefinition &definition, SiPrefix *prefix)
+{
+    constexpr int digits = 4;
+    if (prefix->tableUnit() != definition.unit)
+        *prefix = SiPrefix(definition.unit);
+    const bool isNumber = value.isValid() && value.type().isReal() && !value.type().isArray();
+    if (isNumber)
+        *prefix = prefix->kept(value.toReal());
+    return !isNumber || prefix->factor() == 1.0 ? shortValueText(value, definition)
+                                                : steadyNumberText(prefix->shown(value.toReal()), digits);
+}
+
+}  // namespace
+
 /// Takes the present value. \return whether it looks different
 bool SignalTreeModel::renew(Item *item) const
 {
     const QPlcValue shown = shownValue(item);
-    const QString value = shortValueText(shown, definitionOf(item));
+    const QString shownUnit = item->prefix.unit();
+    const QString value = prefixedText(shown, definitionOf(item), &item->prefix);
     const QString age = m_displayTime ? QString() : ageText(item->plant->age());
     const Plant::Quality quality = !m_displayTime ? item->plant->quality()
         : shown.isValid()                         ? Plant::Good
                                                   : Plant::NoValue;
-    if (value == item->value && age == item->age && quality == item->quality)
+    if (value == item->value && age == item->age && quality == item->quality && item->prefix.unit() == shownUnit)
         return false;
     item->value = value;
     item->age = age;
@@ -328,7 +348,7 @@ QString SignalTreeModel::signalText(const Item *item, int column) const
     case Name:
         return item->kind == Item::Element ? QStringLiteral("[%1]").arg(item->element) : definition.name;
     case Unit:
-        return definition.unit;
+        return item->prefix.tableUnit() == definition.unit ? item->prefix.unit() : SiPrefix::unitText(definition.unit);
     case Value:
         return item->value;
     case Age:

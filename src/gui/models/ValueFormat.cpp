@@ -188,11 +188,23 @@ bool isTrusted(const PlantList::Signal &signal)
     return ofPlant == Plant::AtRest || (ofPlant == Plant::Good && signal.quality().isUsable());
 }
 
+QString stateText(const QString &state)
+{
+    if (state == QLatin1String("WaitingForLateSlaves"))
+        return QCoreApplication::translate("ValueFormat", "Waiting for late nodes");
+    QString words;
+    for (const QChar letter : state) {
+        const bool isNextWord = letter.isUpper() && !words.isEmpty();
+        words += isNextWord ? QLatin1Char(' ') + QString(letter.toLower()) : QString(letter);
+    }
+    return words;
+}
+
 QString stateWord(const Plant &plant)
 {
     switch (plant.connectionState()) {
     case PlantConnection::Connected:
-        return plant.status().state;
+        return stateText(plant.status().state);
     case PlantConnection::Connecting:
         return QCoreApplication::translate("ValueFormat", "connecting");
     case PlantConnection::Disconnected:

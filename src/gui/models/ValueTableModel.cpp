@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ValueTableModel.h"
 
+#include "SiPrefix.h"
 #include "gui/plant/PastValue.h"
 
 #include <algorithm>
@@ -205,11 +206,20 @@ QStringList ValueTableModel::textsOf(const Row &row) const
     const Plant &plant = *row.signal.plant;
     const bool isPast = m_displayTime.has_value();
     const bool hasRange = row.signal.channel() != ChannelMap::NoChannel;
+    const QPlcValue value = shownValue(row);
+    const QPlcSignalDefinition &definition = row.signal.definition();
+    // One prefix for the line: that of its largest number.
+    const bool isNumber = value.isValid() && value.type().isReal() && !value.type().isArray();
+    double largest = isNumber ? std::abs(value.toReal()) : 0.0;
+    if (isNumber && hasRange && !std::isnan(row.minimum))
+        largest = std::max({largest, std::abs(double(row.minimum)), std::abs(double(row.maximum))});
+    const SiPrefix prefix = SiPrefix::fitting(definition.unit, largest);
+    const auto rangeText = [&](float end) { return hasRange ? numberText(prefix.shown(double(end))) : QString(); };
     return {name,
-            valueText(shownValue(row), row.signal.definition()),
-            row.signal.definition().unit,
-            hasRange ? numberText(double(row.minimum)) : QString(),
-            hasRange ? numberText(double(row.maximum)) : QString(),
+            prefix.factor() == 1.0 ? valueText(value, definition) : numberText(prefix.shown(value.toReal())),
+            prefix.unit(),
+            rangeText(row.minimum),
+            rangeText(row.maximum),
             !isPast              ? qualityText(row.signal)
                 : isTrusted(row) ? tr("past")
                                  : tr("no value"),

@@ -23,7 +23,9 @@ void StateRuns::read(const CurveShape &shape)
     const CurveShape::Point *before = nullptr;
     for (const CurveShape::Point &point : shape.points()) {
         const float value = std::isnan(point.last) ? point.maximum : point.last;
-        const bool isJoined = before && point.isJoined && !m_runs.empty();
+        // A gap that is narrower than a column is not seen, and splits nothing.
+        const bool isGapSeen = !m_runs.empty() && point.x > m_runs.back().end + 1;
+        const bool isJoined = before && !m_runs.empty() && (point.isJoined || !isGapSeen);
         if (isJoined) {
             m_runs.back().end = std::max(m_runs.back().end, point.x);
             if (before->mark != RowMarks::None)  // a value holds until the next one, and so does what is wrong with it

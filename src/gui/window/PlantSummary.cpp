@@ -143,9 +143,9 @@ StateStep StateStep::of(const Plant *plant, bool isInitialized)
     if (state == QLatin1String("RealTime"))
         return {RealTime, Tone::Good, {}};
     if (state == QLatin1String("WaitingForLateSlaves"))
-        return {RealTime, Tone::Warning, WindowText::tr("Waiting for late nodes")};
+        return {RealTime, Tone::Warning, stateText(state)};
     if (state == QLatin1String("SafeStop"))
-        return {RealTime, Tone::Alarm, WindowText::tr("Safe stop")};
+        return {RealTime, Tone::Alarm, stateText(state)};
     if (state == QLatin1String("Fault"))
         return {Off, Tone::Alarm, WindowText::tr("Fault")};
     if (state == QLatin1String("Initializing"))

@@ -47,6 +47,7 @@ private Q_SLOTS:
     void aSignalIsDroppedOnTheRightAxis();
     void aRangeOfAFurtherAxisIsKept();
     void furtherAxesLeaveTheCurvesRoom();
+    void axesAndLegendHaveThePrefixThatFits();
 };
 
 void tst_PlotAxes::eachUnitHasAnAxis()
@@ -113,8 +114,6 @@ void tst_PlotAxes::aThirdUnitHasAThirdAxis()
     QVERIFY(third.left() > second.right() && third.right() <= canvas->rect().right());
     QVERIFY(std::abs(third.height() - second.height()) < 20);
     QVERIFY(topOf(window, 2) > 1e6 && canvas->valueAt(2, canvas->canvas()->height()) > 1e5);
-    QTRY_COMPARE(window.colorAt(0.995, (canvas->yOf(2, 1.008e6) + 1.0) / canvas->canvas()->height()),
-                 window.context.theme().curve(2));
     const QImage picture = canvas->grab().toImage();
     int colored = 0;
     for (int y = third.top(); y < third.bottom(); ++y) {
@@ -122,6 +121,19 @@ void tst_PlotAxes::aThirdUnitHasAThirdAxis()
             colored += picture.pixelColor(x, y) == window.context.theme().curve(2) ? 1 : 0;
     }
     QVERIFY(colored > 20);
+    // Its curve is where its scale says.
+    window.apply(R"({"curves":[{"signal":"speed","visible":false},{"signal":"force","visible":false},)"
+                 R"({"signal":"power"}],"grid":false})");
+    const auto isCurveAt = [&](double value) {
+        const double y = canvas->yOf(2, value);
+        for (int row = -5; row <= 5; ++row) {
+            if (window.colorAt(0.98, (y + row) / canvas->canvas()->height()) != window.context.theme().surface)
+                return true;
+        }
+        return false;
+    };
+    QTRY_VERIFY(isCurveAt(1.002e6));  // the newest values
+    QVERIFY(!isCurveAt(0.9e6));
     window.apply(R"({"curves":[{"signal":"speed"}]})");
     QCOMPARE(canvas->axisCount(), 2);
     QVERIFY(!canvas->isAxisVisible(1));
@@ -204,6 +216,19 @@ void tst_PlotAxes::furtherAxesLeaveTheCurvesRoom()
     }
     window.plot->resize(1200, 300);
     QTRY_VERIFY(window.canvas()->isAxisVisible(4));
+}
+
+void tst_PlotAxes::axesAndLegendHaveThePrefixThatFits()
+{
+    FedPlotWindow window(R"({"curves":[{"signal":"power"},{"signal":"angle"}]})");
+    QVERIFY(window.show());
+    QTRY_COMPARE(titleOf(window, 0), QStringLiteral("MW"));
+    QCOMPARE(window.canvas()->scaleWidget(0)->scaleDraw()->label(1e6).text().toDouble(), 1.0);
+    QCOMPARE(titleOf(window, 1), QStringLiteral("deg"));
+    QTRY_COMPARE(window.legend()->entries().at(0).unit, QStringLiteral("MW"));
+    QCOMPARE(window.legend()->entries().at(0).value, QStringLiteral("1.0080"));
+    QCOMPARE(window.legend()->entries().at(1).unit, QStringLiteral("deg"));
+    QCOMPARE(window.legend()->entries().at(1).value, QStringLiteral("74.750"));
 }
 
 QTEST_MAIN(tst_PlotAxes)

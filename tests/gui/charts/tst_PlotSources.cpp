@@ -29,7 +29,9 @@ private Q_SLOTS:
     void aFormulaIsShownWithoutTheEqualsSign();
     void aNameIsShownInsteadOfTheExpression();
     void aPlotDrawsAtMostFiftyPicturesASecond();
-    void smallPanelsHaveALegendOfOneLine();
+    void narrowLegendsKeepTheirValues();
+    void aLegendGetsALineMoreWhenItsValuesGetWider();
+    void valuesOfTheLegendDoNotMove();
 };
 
 void tst_PlotSources::aPlotHoldsItsDerivedSignalUntilItIsClosed()
@@ -113,21 +115,49 @@ void tst_PlotSources::aPlotDrawsAtMostFiftyPicturesASecond()
     QVERIFY2(drawn > 0 && drawn <= clock.elapsed() / 20 + 1, qPrintable(QString::number(drawn)));
 }
 
-void tst_PlotSources::smallPanelsHaveALegendOfOneLine()
+void tst_PlotSources::narrowLegendsKeepTheirValues()
 {
     PlotWindow window(R"({"curves":[{"signal":"count"},{"signal":"sum"},{"signal":"setpoint"}]})");
-    window.plot->resize(170, 180);
-    window.plot->show();
+    QVERIFY(window.run(0.1));
     const auto *legend = window.part<PlotLegend>();
-    QTRY_VERIFY(legend->isVisible() && legend->width() < 170);
-    for (int place = 0; place < 3; ++place) {
-        QCOMPARE(legend->entryRect(place).top(), legend->entryRect(0).top());
-        QVERIFY(legend->rect().contains(legend->entryRect(place)));
+    for (const QSize size : {QSize(170, 180), QSize(250, 200), QSize(330, 240), QSize(700, 300)}) {
+        window.plot->resize(size);
+        QTRY_VERIFY(legend->isVisible() && legend->width() <= size.width());
+        for (int place = 0; place < 3; ++place) {
+            const QRect value = legend->valueRect(place);
+            const int wanted = QFontMetrics(legend->font()).horizontalAdvance(QStringLiteral("88"));
+            QVERIFY2(value.width() >= wanted && legend->rect().contains(value), qPrintable(QString::number(place)));
+        }
+        QTRY_VERIFY2(window.canvas()->height() >= 0.6 * window.plot->height(),
+                     qPrintable(QString::number(window.canvas()->height())));
     }
-    QTRY_VERIFY2(window.canvas()->height() >= 0.75 * window.plot->height(),
-                 qPrintable(QString::number(window.canvas()->height())));
     window.plot->resize(240, 90);
     QTRY_VERIFY(!legend->isVisible());
+}
+
+void tst_PlotSources::aLegendGetsALineMoreWhenItsValuesGetWider()
+{
+    PlotWindow window(
+        R"({"curves":[{"signal":"count"},{"gain":1e7,"signal":"count"},{"gain":1e-7,"signal":"count"}]})");
+    window.plot->resize(280, 240);
+    QVERIFY(window.run(0.3));
+    const auto *legend = window.part<PlotLegend>();
+    QTRY_VERIFY(legend->entries().at(1).value.size() > 7);
+    QTRY_VERIFY(legend->entryRect(2).bottom() <= legend->parentWidget()->height());
+    QVERIFY(legend->entryRect(2).top() > legend->entryRect(0).top());
+}
+
+void tst_PlotSources::valuesOfTheLegendDoNotMove()
+{
+    PlotWindow window(R"({"curves":[{"gain":0.37,"signal":"count"}]})");
+    QVERIFY(window.run(0.1));
+    const auto *legend = window.part<PlotLegend>();
+    const auto decimals = [&] { return legend->entries().first().value.section(QLatin1Char('.'), 1).size(); };
+    QTRY_VERIFY(legend->entries().first().value.toDouble() > 0.0);
+    QTRY_COMPARE(decimals(), legend->entries().first().value.toDouble() < 10.0 ? 4 : 3);
+    const QRect before = legend->valueRect(0);
+    QTRY_VERIFY(legend->entries().first().value.toDouble() > 10.0);
+    QCOMPARE(legend->valueRect(0), before);
 }
 
 QTEST_MAIN(tst_PlotSources)

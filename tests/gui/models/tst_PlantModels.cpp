@@ -136,10 +136,10 @@ void tst_PlantModels::whatStandsStillUntilAResetIsAnError()
         return texts;
     };
     QVERIFY(master.startRealTime());
-    QTRY_COMPARE(cells(NodeTableModel::State), (QStringList{"RealTime", "good", "good", "listens"}));
+    QTRY_COMPARE(cells(NodeTableModel::State), (QStringList{"Real time", "good", "good", "listens"}));
     QTRY_COMPARE(cells(NodeTableModel::Health), (QStringList{"OK", "OK", "OK", "OK"}));
     master.safeStop(QStringLiteral("smoke at the winch"));
-    QTRY_COMPARE(cells(NodeTableModel::State), (QStringList{"SafeStop", "SafeStop", "SafeStop", "SafeStop"}));
+    QTRY_COMPARE(cells(NodeTableModel::State), (QStringList{"Safe stop", "Safe stop", "Safe stop", "Safe stop"}));
     QCOMPARE(cells(NodeTableModel::Health), (QStringList{"Error", "Error", "Error", "Error"}));
     QTRY_VERIFY(master.reset());
     QTRY_COMPARE(cells(NodeTableModel::State).first(), QStringLiteral("Off"));

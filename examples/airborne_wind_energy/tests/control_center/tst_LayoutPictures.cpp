@@ -134,7 +134,7 @@ void tst_LayoutPictures::everyPanelShowsTheFlight_data()
         "Tether speed, Tether length, Tether force, Power over tether length, Power, Mean, Energy, Tether speed, "
         "Pitch rate, Yaw rate",
         3);
-    row("Real time", "Node table, Jitter histogram, Master [µs], Nodes [µs], Event log", 2);
+    row("Real time", "Node table, Jitter histogram, Master, Nodes, Event log", 2);
 }
 
 void tst_LayoutPictures::everyPanelShowsTheFlight()
