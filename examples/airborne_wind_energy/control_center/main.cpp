@@ -33,9 +33,9 @@ bool hasScreen(int argc, char **argv)
     return false;
 }
 
-QByteArray builtInLayout()
+QByteArray builtInLayout(const QString &name)
 {
-    QFile file(QStringLiteral(":/layouts/airborne_wind_energy.json"));
+    QFile file(QStringLiteral(":/layouts/%1.json").arg(name));
     return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
 }
 
@@ -43,7 +43,10 @@ QByteArray builtInLayout()
 bool prepare(QPlcGuiApplication &application, QPlcControlCenter &window, const awe::ControlCenterSettings &settings)
 {
     QString error;
-    if (!window.addLayout(QStringLiteral("Airborne wind energy"), builtInLayout(), &error))
+    const auto add
+        = [&](const QString &name, const QString &file) { return window.addLayout(name, builtInLayout(file), &error); };
+    if (!add(QStringLiteral("Airborne wind energy"), QStringLiteral("airborne_wind_energy"))
+        || !add(QStringLiteral("Four views"), QStringLiteral("four_views")))
         return application.usageError(error), false;
     if (settings.screenshot.isEmpty())
         window.restoreView();

@@ -17,10 +17,11 @@
 namespace {
 
 const QString fileName = QStringLiteral(AWE_LAYOUTS "/airborne_wind_energy.json");
+const QString fourViews = QStringLiteral(AWE_LAYOUTS "/four_views.json");
 
-QByteArray layoutText()
+QByteArray layoutText(const QString &name = fileName)
 {
-    QFile file(fileName);
+    QFile file(name);
     return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
 }
 
@@ -95,8 +96,10 @@ class tst_BuiltInLayout : public QObject
 private Q_SLOTS:
     void layoutIsTakenAndShown();
     void layoutIsWrittenAsItIsShown();
+    void everySignalIsInTheTable_data();
     void everySignalIsInTheTable();
     void theDialsHoldTheFlightOfTheDemo();
+    void theFourViewsShowTheKiteAsItIsSaidInTheManual();
 };
 
 void tst_BuiltInLayout::layoutIsTakenAndShown()
@@ -121,12 +124,22 @@ void tst_BuiltInLayout::layoutIsWrittenAsItIsShown()
     QCOMPARE(QJsonDocument::fromJson(file.readAll()), QJsonDocument::fromJson(layoutText()));
 }
 
+void tst_BuiltInLayout::everySignalIsInTheTable_data()
+{
+    QTest::addColumn<QString>("file");
+    QTest::addColumn<int>("least");
+    QTest::newRow("Airborne wind energy") << fileName << 15;
+    QTest::newRow("Four views") << fourViews << 10;
+}
+
 void tst_BuiltInLayout::everySignalIsInTheTable()
 {
+    QFETCH(QString, file);
+    QFETCH(int, least);
     const QPlcSignalTable table = QPlcSignalTable::fromIniFile(awe::builtInSignals());
     QVERIFY(table.size() > 0);
-    const QStringList texts = signalTexts(QJsonDocument::fromJson(layoutText()).object());
-    QVERIFY(texts.size() > 15);
+    const QStringList texts = signalTexts(QJsonDocument::fromJson(layoutText(file)).object());
+    QVERIFY(texts.size() > least);
     static const QRegularExpression name(QStringLiteral("\\b[A-Za-z_]\\w*(?!\\w*\\()"));
     for (const QString &text : texts) {
         QRegularExpressionMatchIterator names = name.globalMatch(text);
@@ -164,6 +177,37 @@ void tst_BuiltInLayout::theDialsHoldTheFlightOfTheDemo()
         QVERIFY2(dial.minimum <= dial.least && dial.greatest <= dial.maximum, qPrintable(figures));
         QVERIFY2(dial.greatest >= 0.5 * dial.maximum, qPrintable(figures));
     }
+}
+
+/// One panel of keys, four gauges, two plots, and four views of the kite: two of them with the path of the last three minutes, the largest with that of the last 10 s.
+void tst_BuiltInLayout::theFourViewsShowTheKiteAsItIsSaidInTheManual()
+{
+    QPlcControlCenter window;
+    QString error;
+    QVERIFY2(window.addLayout(QStringLiteral("built in"), layoutText(), &error), qPrintable(error));
+    QVERIFY2(window.addLayout(QStringLiteral("Four views"), layoutText(fourViews), &error), qPrintable(error));
+    QVERIFY(window.showLayout(QStringLiteral("Four views")));
+    QHash<QString, int> types;
+    QVector<double> trails;
+    const std::function<void(const QJsonObject &)> walk = [&](const QJsonObject &node) {
+        if (node.contains(QStringLiteral("type")))
+            ++types[node[QStringLiteral("type")].toString()];
+        if (node[QStringLiteral("type")].toString() == QLatin1String("3D view"))
+            trails << node[QStringLiteral("settings")].toObject()[QStringLiteral("trail")].toDouble(30.0);
+        const QJsonArray children = node[QStringLiteral("children")].toArray();
+        for (const QJsonValue &child : children)
+            walk(child.toObject());
+    };
+    const QJsonArray tabs = QJsonDocument::fromJson(window.layoutJson()).object()[QStringLiteral("tabs")].toArray();
+    QCOMPARE(tabs.size(), 1);
+    walk(tabs.first().toObject()[QStringLiteral("tree")].toObject());
+    QCOMPARE(types,
+             (QHash<QString, int>{{QStringLiteral("Keyboard control"), 1},
+                                  {QStringLiteral("Gauge"), 4},
+                                  {QStringLiteral("Time plot"), 2},
+                                  {QStringLiteral("3D view"), 4}}));
+    QCOMPARE(trails.count(180.0), 2);
+    QCOMPARE(trails.count(10.0), 1);
 }
 
 QTEST_MAIN(tst_BuiltInLayout)
