@@ -264,11 +264,11 @@ void tst_ControlCenter::theRateIsThatOfAllPlantsAndIsRemembered()
         QVERIFY(fixture.action("Rate: every cycle")->isChecked());
         fixture.connectTo(master.address());
         const auto figures = [&] { return fixture.topBar()->selector()->toolTip(); };
-        QTRY_VERIFY_WITH_TIMEOUT(figures().startsWith(QStringLiteral("100 Hz ·")), patience);
+        QTRY_VERIFY_WITH_TIMEOUT(figures().contains(QStringLiteral("100 Hz ·")), patience);
         fixture.action("Rate: 10 per second")->trigger();
         QVERIFY(!fixture.action("Rate: every cycle")->isChecked());
         QTRY_COMPARE(fixture.plant()->every(), 10);
-        QTRY_VERIFY_WITH_TIMEOUT(figures().startsWith(QStringLiteral("100 Hz, 10 shown")), patience);
+        QTRY_VERIFY_WITH_TIMEOUT(figures().contains(QStringLiteral("100 Hz, 10 shown")), patience);
         fixture.window.close();
     }
     WindowFixture fixture;
