@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "FlightView.h"
 
+#include "AngleMath.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -8,8 +10,6 @@ namespace awe {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-constexpr double degreesPerRadian = 180.0 / pi;
 constexpr double windTimeConstant = 20.0;  // of the direction that the window looks to [s]
 constexpr int widest = 100;                // columns; more would only make the picture flat
 constexpr int tallest = 44;                // rows

@@ -65,8 +65,10 @@ void QPlcTimePlot::Private::toggleRightAxis()
         return;
     const bool isRight = curves.axes().at(curve->axis).side == PlotCurveSettings::Right;
     PlotSettings wanted = settings;
-    wanted.curves[wanted.indexOf(curve->settings.signal)].axis
-        = isRight ? PlotCurveSettings::Left : PlotCurveSettings::Right;
+    for (PlotCurveSettings &each : wanted.curves) {
+        if (each.signal == curve->settings.signal)
+            each.axis = isRight ? PlotCurveSettings::Left : PlotCurveSettings::Right;
+    }
     edit(wanted);
 }
 
@@ -83,7 +85,10 @@ bool QPlcTimePlot::Private::addToRightAxis(const QStringList &references)
             curve.signal = name;
             wanted.curves.append(curve);
         }
-        wanted.curves[wanted.indexOf(name)].axis = PlotCurveSettings::Right;
+    }
+    for (PlotCurveSettings &each : wanted.curves) {
+        if (names.contains(each.signal))
+            each.axis = PlotCurveSettings::Right;
     }
     if (names.isEmpty())
         return false;

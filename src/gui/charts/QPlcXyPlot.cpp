@@ -24,10 +24,10 @@ constexpr int longestPause = 1000;
 constexpr int costShare = 4;   // drawing takes at most so small a share of the time
 constexpr int agePause = 500;  // [ms]
 
-constexpr const char *curvesKey = "curves";
+constexpr const char *xyCurvesKey = "curves";
 const QString xKey = QStringLiteral("x");
 const QString yKey = QStringLiteral("y");
-const QString colorKey = QStringLiteral("color");
+const QString xyColorKey = QStringLiteral("color");
 constexpr const char *aspectKey = "equalAspect";
 
 }  // namespace
@@ -89,7 +89,7 @@ void QPlcXyPlot::Private::bind()
         if (xSource && ySource && isOfOne) {
             found.push_back(std::make_unique<XyCurve>(
                 xSource, ySource, tr("%1 over %2").arg(CurveSource::textOf(y), CurveSource::textOf(x))));
-            colors.emplace_back(entry[colorKey].toString());
+            colors.emplace_back(entry[xyColorKey].toString());
         } else if (error.isEmpty()) {
             error = !xSource ? xSource.error
                 : !ySource   ? ySource.error
@@ -229,7 +229,7 @@ QString QPlcXyPlot::Private::timeText() const
 
 QJsonArray QPlcXyPlot::Private::curves() const
 {
-    return settings.value(curvesKey).toArray();
+    return settings.value(xyCurvesKey).toArray();
 }
 
 void QPlcXyPlot::Private::showAspect()
@@ -242,7 +242,7 @@ void QPlcXyPlot::Private::showAspect()
 /// What a person has changed.
 void QPlcXyPlot::Private::edit(const QJsonArray &edited)
 {
-    settings.set(curvesKey, edited, QJsonArray());
+    settings.set(xyCurvesKey, edited, QJsonArray());
     canvas->release();  // what is added is to be seen
     bind();
     Q_EMIT q->settingsEdited();
