@@ -136,7 +136,8 @@ bool Layout::hasTarget(const LayoutTarget &target) const
     case LayoutTarget::Beside: {
         const LayoutPage *page = pageOf(target.span.first);
         const bool hasShare = !target.share || (*target.share > 0 && *target.share < LayoutNode::WholeShare);
-        return hasShare && page && page->tree->find(target.span);
+        const bool hasPart = target.part > 0 && target.part < LayoutNode::WholeShare;
+        return hasShare && hasPart && page && page->tree->find(target.span);
     }
     case LayoutTarget::Tab:
         return tab(target.tab) != nullptr;
@@ -162,7 +163,7 @@ void Layout::place(const LayoutPanel &panel, const LayoutTarget &target)
     }
     if (target.kind == LayoutTarget::Beside) {
         LayoutPage *page = findPage(target.span.first);
-        page->tree->insert(panel, target.span, target.side, target.share);
+        page->tree->insert(panel, target.span, target.side, target.share, target.part);
         page->maximized.clear();
         if (LayoutWindow *shared = findWindow(page->id))
             shared->home.reset();

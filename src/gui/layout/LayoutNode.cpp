@@ -132,7 +132,7 @@ std::vector<LayoutNode> mergedChildren(LayoutNode *split, QVector<double> *weigh
 }  // namespace
 
 bool LayoutNode::insert(const LayoutPanel &newPanel, const LayoutSpan &span, LayoutSide side,
-                        std::optional<int> wantedShare)
+                        std::optional<int> wantedShare, int part)
 {
     LayoutNode *neighbour = find(span);
     if (!neighbour)
@@ -146,8 +146,8 @@ bool LayoutNode::insert(const LayoutPanel &newPanel, const LayoutSpan &span, Lay
     const bool isBefore = side == LayoutSide::Left || side == LayoutSide::Above;
     split.children.push_back(isBefore ? std::move(added) : std::move(*neighbour));
     split.children.push_back(isBefore ? std::move(*neighbour) : std::move(added));
-    for (LayoutNode &child : split.children)
-        child.share = WholeShare / 2;
+    split.children.front().share = isBefore ? part : WholeShare - part;
+    split.children.back().share = WholeShare - split.children.front().share;
     *neighbour = std::move(split);
     normalize();
     if (wantedShare)

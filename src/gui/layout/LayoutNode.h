@@ -58,9 +58,10 @@ struct LayoutNode
     /// From left to right and from above to below.
     void appendPanels(std::vector<const LayoutPanel *> *panels) const;
 
-    /// Puts a panel beside the node \a span. \param wantedShare  of the split that then holds both; none: half of what the node had
+    /// Puts a panel beside the node \a span. \param wantedShare  of the split that then holds both; none: \a part of what the node had
     /// \return false when there is no such node; then nothing has changed
-    bool insert(const LayoutPanel &newPanel, const LayoutSpan &span, LayoutSide side, std::optional<int> wantedShare);
+    bool insert(const LayoutPanel &newPanel, const LayoutSpan &span, LayoutSide side, std::optional<int> wantedShare,
+                int part = WholeShare / 2);
     /// Makes the children have these shares, scaled to WholeShare. \pre one for each child, > 0
     void setShares(const QVector<int> &shares);
     QVector<int> shares() const;

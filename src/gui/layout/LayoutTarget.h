@@ -13,11 +13,12 @@ struct LayoutTarget
     enum Kind { Beside, Tab, NewTab, NewWindow };
 
     Kind kind = Tab;
-    LayoutSpan span;                      // Beside
-    LayoutSide side = LayoutSide::Right;  // Beside
-    std::optional<int> share;             // Beside; none: half of what the neighbour has
-    QString tab;                          // Tab: its id. NewTab: its name; empty: the next free "Tab 2"
-    QRect geometry;                       // NewWindow, in coordinates of the desktop
+    LayoutSpan span;                        // Beside
+    LayoutSide side = LayoutSide::Right;    // Beside
+    std::optional<int> share;               // Beside: of the split that then holds both; none: a part of the neighbour
+    int part = LayoutNode::WholeShare / 2;  // Beside, without share: of what the neighbour has
+    QString tab;                            // Tab: its id. NewTab: its name; empty: the next free "Tab 2"
+    QRect geometry;                         // NewWindow, in coordinates of the desktop
 
     static LayoutTarget beside(const QString &panelId, LayoutSide side) { return beside({panelId, panelId}, side); }
     static LayoutTarget beside(const LayoutSpan &span, LayoutSide side)

@@ -8,7 +8,9 @@
 #include "PageView.h"
 #include "PanelDrag.h"
 #include "PanelFrame.h"
+#include "PanelPlace.h"
 #include "PanelTitleBar.h"
+#include "QPlcWidget.h"
 #include "QPlcWidgetFactory.h"
 #include "TabDrop.h"
 
@@ -20,6 +22,7 @@
 #include <QtWidgets/QToolButton>
 
 #include <algorithm>
+#include <memory>
 
 namespace qplc {
 
@@ -211,14 +214,41 @@ void LayoutView::dropFrames(QHash<QString, PanelFrame *> gone)
     }
 }
 
+/// The size that a panel of a type wants, with its frame, as its widget says.
+QSize LayoutView::wantedSize(const QString &type)
+{
+    constexpr QSize smallest(160, 100);
+    constexpr QSize usual(400, 240);  // of a widget that does not say what it wants, as plots do not
+    constexpr QSize frame(2, 26);
+    if (!m_wantedSizes.contains(type)) {
+        const auto factory = std::find_if(m_factories.cbegin(), m_factories.cend(),
+                                          [&](const QPlcWidgetFactory *each) { return each->name() == type; });
+        const std::unique_ptr<QPlcWidget> sample(factory != m_factories.cend() ? (*factory)->createNew() : nullptr);
+        if (!sample)
+            return usual;
+        const QSize hint = sample->sizeHint();
+        const bool saysIt = hint.width() >= smallest.width() / 2 && hint.height() >= smallest.height() / 2;
+        m_wantedSizes.insert(type, (saysIt ? hint.expandedTo(smallest) : usual) + frame);
+    }
+    return m_wantedSizes.value(type);
+}
+
+QString LayoutView::addPanel(const QString &type, const QJsonObject &settings)
+{
+    const LayoutTab &tab = m_editor->layout().currentTab();
+    const LayoutTarget target = tab.tree
+        ? fittingPlace(*tab.tree, m_stack->size(), wantedSize(type),
+                       [this](const LayoutPanel &panel) { return wantedSize(panel.type); })
+        : LayoutTarget::inTab(tab.id);
+    return m_editor->addPanel(type, settings, target);
+}
+
 QMenu *LayoutView::createAddMenu()
 {
     auto *menu = new QMenu(this);
     for (const QPlcWidgetFactory *factory : qAsConst(m_factories)) {
         const QString type = factory->name();
-        menu->addAction(type, this, [this, type] {
-            m_editor->addPanel(type, {}, LayoutTarget::inTab(m_editor->layout().currentTab().id));
-        });
+        menu->addAction(type, this, [this, type] { addPanel(type); });
     }
     menu->addSeparator();
     menu->addAction(tr("New tab"), this, [this] { m_editor->addTab(); });

@@ -42,6 +42,8 @@ public:
     QPlcWidget *widget(const QString &panelId) const;
     LayoutTabBar *tabBar() const { return m_tabBar; }
     QList<FloatingWindow *> floatingWindows() const { return m_windows.values(); }
+    /// Adds a panel to the current tab, where it fits (fittingPlace()). \return its id; empty when the layout is full
+    QString addPanel(const QString &type, const QJsonObject &settings = {});
     /// A list of the available widgets, each of which adds a panel to the current tab, and of a new tab. The caller owns it.
     QMenu *createAddMenu();
     /// Below a widget, else below the button that adds panels.
@@ -66,12 +68,14 @@ private:
     PageView *newPage();
     void makeActions();
     void focusPanel(int step);
+    QSize wantedSize(const QString &type);
 
     LayoutEditor *m_editor;
     QList<QPlcWidgetFactory *> m_factories;
     LayoutTabBar *m_tabBar;
     QToolButton *m_add;
     QStackedWidget *m_stack;
+    QHash<QString, QSize> m_wantedSizes;  // by type
     QHash<QString, PanelFrame *> m_frames;
     QMap<QString, PageView *> m_pages;
     QMap<QString, FloatingWindow *> m_windows;

@@ -67,7 +67,6 @@ CommandPalette::CommandPalette(WindowContext *context, QWidget *parent)
 {
     setObjectName(QStringLiteral("CommandPalette"));
     setFrameShape(QFrame::StyledPanel);
-    m_line->setPlaceholderText(tr("What to do? Commands, panels, layouts, signals"));
     m_line->setAccessibleName(tr("Search commands"));
     m_line->installEventFilter(this);
     m_list->setFrameShape(QFrame::NoFrame);
@@ -84,9 +83,10 @@ CommandPalette::CommandPalette(WindowContext *context, QWidget *parent)
     connect(m_list, &QListWidget::itemClicked, this, &CommandPalette::runCurrent);
 }
 
-void CommandPalette::open(const QVector<PaletteItem> &items)
+void CommandPalette::open(const QVector<PaletteItem> &items, const QString &question)
 {
     m_items = items;
+    m_line->setPlaceholderText(question);
     m_line->clear();
     fill();
     const QSize room = parentWidget()->size();

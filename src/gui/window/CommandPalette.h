@@ -29,8 +29,8 @@ public:
     /// \param context  outlives the palette
     explicit CommandPalette(WindowContext *context, QWidget *parent);
 
-    /// Opens over the parent.
-    void open(const QVector<PaletteItem> &items);
+    /// Opens over the parent. \param question  stands in the empty line
+    void open(const QVector<PaletteItem> &items, const QString &question);
     QLineEdit *line() const { return m_line; }
     QListWidget *list() const { return m_list; }
 

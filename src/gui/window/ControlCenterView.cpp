@@ -98,7 +98,7 @@ void QPlcControlCenter::Private::connectLayoutActions()
     });
     connect(actions->reset, &QAction::triggered, q, [this] { q->resetLayout(); });
     connect(actions->newTab, &QAction::triggered, q, [this] { editor.addTab(); });
-    connect(actions->addPanel, &QAction::triggered, q, [this] { view->openAddMenu(); });
+    connect(actions->addPanel, &QAction::triggered, q, [this] { openPanelPalette(); });
 }
 
 void QPlcControlCenter::Private::askForLayoutFile(bool isToSave)
@@ -175,7 +175,20 @@ QList<QAction *> QPlcControlCenter::Private::actionsOf(const PanelFrame &frame)
 
 void QPlcControlCenter::Private::openPalette()
 {
-    palette->open(paletteItems());
+    palette->open(paletteItems(), tr("What to do? Commands, panels, layouts, signals"));
+}
+
+/// What can be added, found by typing a part of its name.
+void QPlcControlCenter::Private::openPanelPalette()
+{
+    QVector<PaletteItem> items;
+    for (const QPlcWidgetFactory *factory : qAsConst(factories)) {
+        const QString type = factory->name();
+        items.append({type, tr("Panel"), {}, [this, type] { view->addPanel(type); }});
+    }
+    items.append({tr("New tab"), tr("Tab"), QKeySequence(tr("Ctrl+T")).toString(QKeySequence::NativeText),
+                  [this] { editor.addTab(); }});
+    palette->open(items, tr("Which panel? Type a part of its name"));
 }
 
 void QPlcControlCenter::Private::appendActions(QVector<PaletteItem> *items, const QString &group,
@@ -198,9 +211,7 @@ void QPlcControlCenter::Private::appendPanels(QVector<PaletteItem> *items)
 {
     for (const QPlcWidgetFactory *factory : qAsConst(factories)) {
         const QString type = factory->name();
-        items->append({tr("Add panel: %1").arg(type), tr("Panel"), {}, [this, type] {
-                           editor.addPanel(type, {}, LayoutTarget::inTab(editor.layout().currentTab().id));
-                       }});
+        items->append({tr("Add panel: %1").arg(type), tr("Panel"), {}, [this, type] { view->addPanel(type); }});
     }
 }
 

@@ -64,6 +64,7 @@ struct QPlcControlCenter::Private
     void applyTheme();
     void setRate(double timesPerSecond);
     void openPalette();
+    void openPanelPalette();
     QVector<qplc::PaletteItem> paletteItems();
     void appendActions(QVector<qplc::PaletteItem> *items, const QString &group, const QList<QAction *> &actions) const;
     void appendPanels(QVector<qplc::PaletteItem> *items);

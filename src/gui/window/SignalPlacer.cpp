@@ -91,10 +91,12 @@ void SignalPlacer::drop(const QString &panelId, DropZone zone, const QStringList
         || ((zone == DropZone::Center || zone == DropZone::Area) && addTo(panelId, references, zone)))
         return;
     LayoutEditor *editor = m_view->editor();
-    const LayoutTarget target = zone == DropZone::NewTab ? LayoutTarget::inNewTab()
-        : panelId.isEmpty()                              ? LayoutTarget::inTab(editor->layout().currentTab().id)
-                                                         : LayoutTarget::beside(panelId, sideOf(zone));
-    editor->addPanel(timePlot, settingsFor(timePlot, references), target);
+    if (zone == DropZone::NewTab)
+        editor->addPanel(timePlot, settingsFor(timePlot, references), LayoutTarget::inNewTab());
+    else if (panelId.isEmpty())
+        m_view->addPanel(timePlot, settingsFor(timePlot, references));
+    else
+        editor->addPanel(timePlot, settingsFor(timePlot, references), LayoutTarget::beside(panelId, sideOf(zone)));
 }
 
 /// In the current tab: the one with the focus, else the first one; empty: there is none.
@@ -119,20 +121,16 @@ QString SignalPlacer::panelOfType(const QString &type) const
 
 void SignalPlacer::show(const QStringList &references, const QString &type)
 {
-    LayoutEditor *editor = m_view->editor();
     if (type == gauge || type == setter) {
         for (const QString &reference : references) {
-            if (editor
-                    ->addPanel(type, settingsFor(type, {reference}),
-                               LayoutTarget::inTab(editor->layout().currentTab().id))
-                    .isEmpty())
+            if (m_view->addPanel(type, settingsFor(type, {reference})).isEmpty())
                 return;
         }
         return;
     }
     const QString panel = panelOfType(type);
     if (panel.isEmpty() || !addTo(panel, references))
-        editor->addPanel(type, settingsFor(type, references), LayoutTarget::inTab(editor->layout().currentTab().id));
+        m_view->addPanel(type, settingsFor(type, references));
 }
 
 void SignalPlacer::showPanel(const QString &type)
@@ -144,7 +142,7 @@ void SignalPlacer::showPanel(const QString &type)
             id = panel->id;
     }
     if (id.isEmpty())
-        id = editor->addPanel(type, {}, LayoutTarget::inTab(editor->layout().currentTab().id));
+        id = m_view->addPanel(type);
     else if (const LayoutPage *page = editor->layout().pageOf(id); editor->layout().tab(page->id))
         editor->setCurrentTab(page->id);
     if (PanelFrame *frame = m_view->frame(id))  // none: the layout is full

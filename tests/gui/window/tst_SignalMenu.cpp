@@ -160,8 +160,8 @@ void tst_SignalMenu::signalsGoWhereTheMenuSays_data()
                             << (*type ? QStringList{QString::fromLatin1(type)} : QStringList())
                             << QKeySequence(QString::fromLatin1(keys));
     };
-    row("Show in an XY plot", "H[panel1 V[panel2 panel3] panel4]", "XY plot", "X");
-    row("Set by a setter", "H[panel1 V[panel2 panel3] panel4]", "Setter", "S");
+    row("Show in an XY plot", "H[V[panel1 panel4] V[panel2 panel3]]", "XY plot", "X");
+    row("Set by a setter", "H[V[panel1 panel4] V[panel2 panel3]]", "Setter", "S");
     row("Into 'Time plot'", "H[panel1 V[panel2 panel3]]", "", "Alt+Return");
     row("Right axis of 'Time plot'", "H[panel1 V[panel2 panel3]]", "", "Alt+Shift+Return");
     row("Left of 'Time plot'", "H[panel4 panel1 V[panel2 panel3]]", "Time plot", "Alt+Left");
