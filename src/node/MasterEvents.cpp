@@ -148,8 +148,9 @@ void QPlcMasterNodePrivate::fault(const QString &node, bool isCritical, const QS
 void QPlcMasterNodePrivate::nodeLost(Connection *connection, const QString &reason)
 {
     const bool isMissed = connection->stage > Connection::Attached && !connection->slot->listener;
-    if (isMissed)
-        journal.raise(QStringLiteral("node ") + connection->name, qplc::JournalEvent::Warning, qplc::JournalEvent::Node,
+    if (isMissed)  // while cycles run, what it wrote is missing from now on
+        journal.raise(QStringLiteral("node ") + connection->name,
+                      isRunning() ? qplc::JournalEvent::Error : qplc::JournalEvent::Warning, qplc::JournalEvent::Node,
                       connection->name,
                       QStringLiteral("node %1 is gone in the middle of its work: %2").arg(connection->name, reason));
     else

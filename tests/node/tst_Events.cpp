@@ -110,7 +110,7 @@ void tst_Events::nodesComeAndGoWithReasons()
     const QStringList texts = events("node");
     QCOMPARE(texts.size(), 2);
     QCOMPARE(texts.at(0), QString("info Scripted: node Scripted registered over udp"));
-    QVERIFY2(texts.at(1).startsWith("warning Scripted: node Scripted is gone in the middle of its work: "),
+    QVERIFY2(texts.at(1).startsWith("error Scripted: node Scripted is gone in the middle of its work: "),
              qPrintable(texts.at(1)));
     m_master->stop();
 }

@@ -174,6 +174,8 @@ QVariant EventLogModel::data(const QModelIndex &index, int role) const
         return isActive(entry);
     case FollowersRole:
         return entry.followers;
+    case TimeRole:
+        return event.time.toMSecsSinceEpoch();
     case Qt::ForegroundRole:
         return foregroundOf(!event.isAcknowledged);
     case Qt::ToolTipRole:
@@ -200,6 +202,17 @@ QVariant EventLogModel::data(const QModelIndex &index, int role) const
 }
 
 // ---- the filter ----
+
+EventFilterModel::EventFilterModel(QObject *parent)
+    : QSortFilterProxyModel(parent)
+{
+    sort(EventLogModel::Time);
+}
+
+bool EventFilterModel::lessThan(const QModelIndex &left, const QModelIndex &right) const
+{
+    return left.data(EventLogModel::TimeRole).toLongLong() < right.data(EventLogModel::TimeRole).toLongLong();
+}
 
 void EventFilterModel::setLeastSeverity(PlantEvent::Severity severity)
 {

@@ -19,7 +19,7 @@ class EventLogModel : public QAbstractTableModel
     Q_OBJECT
 public:
     enum Column { Time, Severity, State, Source, Text, ColumnCount };
-    enum Role { SeverityRole = Qt::UserRole, AcknowledgedRole, ActiveRole, FollowersRole };
+    enum Role { SeverityRole = Qt::UserRole, AcknowledgedRole, ActiveRole, FollowersRole, TimeRole };
 
     static constexpr int MostEvents = 10'000;
     static constexpr int BurstPause = 5000;  // [ms]
@@ -76,12 +76,12 @@ private:
     int m_unacknowledged = 0;
 };
 
-/// Of an EventLogModel what is severe enough, active or not acknowledged if wanted, and has all words of a search in source or text.
+/// Of an EventLogModel what is severe enough, active or not acknowledged if wanted, and has all words of a search in source or text; in the order of time, whenever it was told.
 class EventFilterModel : public QSortFilterProxyModel
 {
     Q_OBJECT
 public:
-    using QSortFilterProxyModel::QSortFilterProxyModel;
+    explicit EventFilterModel(QObject *parent = nullptr);
 
     void setLeastSeverity(qplc::PlantEvent::Severity severity);
     void setOnlyOpen(bool only);
@@ -89,6 +89,7 @@ public:
 
 protected:
     bool filterAcceptsRow(int row, const QModelIndex &parent) const override;
+    bool lessThan(const QModelIndex &left, const QModelIndex &right) const override;
 
 private:
     PlantEvent::Severity m_leastSeverity = PlantEvent::Information;

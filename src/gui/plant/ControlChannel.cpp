@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ControlChannel.h"
 
+#include "PlantLeases.h"
 #include "node/Logging.h"
 
 #include <QtCore/QElapsedTimer>
@@ -88,7 +89,7 @@ void ControlChannel::connectToMaster(const QPlcUnderlyingProtocol &master)
         m_socket->sendMessage(
             Message(Message::Hello,
                     {{QStringLiteral("protocol"), 1},
-                     {QStringLiteral("name"), QStringLiteral("ControlCenter")},
+                     {QStringLiteral("name"), PlantLeases::whoever()},
                      {QStringLiteral("uuid"), QUuid::createUuid().toString(QUuid::WithoutBraces)},
                      {QStringLiteral("role"), QStringLiteral("tool")},
                      {QStringLiteral("features"), QJsonArray{QStringLiteral("leases"), QStringLiteral("events")}}}));

@@ -118,6 +118,7 @@ void MasterJournal::tell(const QJsonObject &event)
     PlantEvent told{QDateTime::fromMSecsSinceEpoch(qint64(time / 1'000'000)), severityOf(text("severity")),
                     source == QLatin1String("Master") ? QString() : source, text("text"), false};
     told.alarm = text("alarm");
+    told.isStateChange = text("kind") == QLatin1String("state");
     if (!told.alarm.isEmpty())
         told.stage = event.value(QStringLiteral("active")).toBool() ? PlantEvent::Begins : PlantEvent::Ends;
     if (told.stage == PlantEvent::Begins)

@@ -107,10 +107,13 @@ void Plant::tell(const PlantEvent &event)
 }
 
 /// What has happened to the master, if it does not tell it itself.
-void Plant::tellOfMaster(PlantEvent::Severity severity, const QString &text, const QString &node)
+void Plant::tellOfMaster(PlantEvent::Severity severity, const QString &text, const QString &node, EventKind kind)
 {
-    if (!m_journal.hasFeature())
-        tell(severity, text, node);
+    if (m_journal.hasFeature())
+        return;
+    PlantEvent event{QDateTime::currentDateTime(), severity, sourceOf(node), text, false};
+    event.isStateChange = kind == IsStateChange;
+    tell(event);
 }
 
 void Plant::tellWaiting()
@@ -244,7 +247,7 @@ Plant::Action Plant::nextAction() const
         return StopAction;
     if (m_status.state == QLatin1String("Off"))
         return m_status.isArmingRequired ? Initialize : Start;
-    if (m_status.state == QLatin1String("Ready") || m_status.state == QLatin1String("Initialized"))
+    if (m_status.state == QLatin1String("Ready"))
         return m_status.isArmingRequired && !m_status.isArmed ? Arm : Start;
     return NoAction;
 }
@@ -393,7 +396,7 @@ void Plant::takeState(const Message &answer)
         m_connection.setPeriod(m_status.scale > 0.0 ? qint64(double(m_status.period) / m_status.scale)
                                                     : m_status.period);
     if (m_status.state != stateBefore) {
-        tellOfMaster(PlantEvent::Information, QStringLiteral("%1 → %2").arg(stateBefore, m_status.state));
+        tellOfMaster(PlantEvent::Information, QStringLiteral("state %1").arg(m_status.state), QString(), IsStateChange);
         Q_EMIT stateChanged();
     }
     if (nodeNames() != nodesBefore)

@@ -167,7 +167,9 @@ private:
     void takePushed(const QPlcMessage &message);
     void tell(PlantEvent::Severity severity, const QString &text, const QString &node = QString());
     void tell(const PlantEvent &event);
-    void tellOfMaster(PlantEvent::Severity severity, const QString &text, const QString &node = QString());
+    enum EventKind { IsOther, IsStateChange };
+    void tellOfMaster(PlantEvent::Severity severity, const QString &text, const QString &node = QString(),
+                      EventKind kind = IsOther);
     void tellWaiting();
     QStringList nodeNames() const;
 

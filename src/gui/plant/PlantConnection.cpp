@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "PlantConnection.h"
 
+#include "PlantLeases.h"
 #include "node/ListeningInterval.h"
 
 #include <QtCore/QCoreApplication>
@@ -12,9 +13,13 @@ namespace qplc {
 
 namespace {
 
+constexpr int longestName = 64;  // [characters] of the protocol
+
+/// The person, and which window: names of nodes are unique.
 QString defaultName()
 {
-    return QStringLiteral("ControlCenter-%1").arg(QCoreApplication::applicationPid());
+    const QString window = QStringLiteral("-%1").arg(QCoreApplication::applicationPid());
+    return PlantLeases::whoever().left(longestName - window.size()) + window;
 }
 
 /// \param rate  most frames a second, 0: every cycle \param period  [ns]

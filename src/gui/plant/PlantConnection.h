@@ -19,7 +19,7 @@ public:
     Q_ENUM(State)
 
     /// \param address  as PlantAddress::fromString() reads it
-    /// \param nodeName  under which the master knows the listener; empty: "ControlCenter-<pid>"
+    /// \param nodeName  under which the master knows the listener; empty: "<person>-<pid>", where the person is PlantLeases::whoever()
     PlantConnection(const QString &address, const QString &nodeName, QObject *parent = nullptr);
     ~PlantConnection() override;
 

@@ -21,6 +21,7 @@ struct PlantEvent
     enum Stage { Once, Begins, Ends };
     Stage stage = Once;
     QString alarm{};
+    bool isStateChange = false;  // the plant starts, stops, or changes its state otherwise
 };
 
 }  // namespace qplc

@@ -80,8 +80,12 @@ void PlantFeed::setState(const QString &state)
     m_plant->m_status.state = state;
     if (m_plant->m_status.isRunning())
         m_plant->m_status.stop = {};
-    if (!before.isEmpty())
-        m_plant->tell(PlantEvent::Information, QStringLiteral("%1 → %2").arg(before, state));
+    if (!before.isEmpty()) {
+        PlantEvent event{QDateTime::currentDateTime(), PlantEvent::Information, m_plant->name(),
+                         QStringLiteral("state %1").arg(state), false};
+        event.isStateChange = true;
+        m_plant->tell(event);
+    }
     Q_EMIT m_plant->statusChanged();
     Q_EMIT m_plant->stateChanged();
 }
@@ -90,7 +94,7 @@ void PlantFeed::initialize(const QPlcSignalList &values)
 {
     if (!m_isConnected)
         return;
-    setState(QStringLiteral("Initialized"));
+    setState(QStringLiteral("Ready"));
     put(values);
     for (const QPlcSignalList::Entry &entry : values)
         m_plant->m_values.takeValue(entry.index, entry.value);

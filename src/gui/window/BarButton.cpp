@@ -129,10 +129,18 @@ void BarButton::paintEvent(QPaintEvent * /*event*/)
                          textSize.elidedText(text(), Qt::ElideRight, width() - 12));
     } else {
         const int margin = m_kind == Primary ? 16 : 8;
-        painter.drawText(rect().adjusted(margin, 0, -margin, 0), Qt::AlignLeft | Qt::AlignVCenter, text());
+        // Where both do not fit, the detail has what the text leaves, at least the half.
+        const QFontMetrics detailSize(detailFont());
+        const int room = width() - 2 * margin - 8;
+        const int textWidth = textSize.horizontalAdvance(text());
+        const int detailWidth = std::min(detailSize.horizontalAdvance(m_detail), std::max(room / 2, room - textWidth));
+        painter.drawText(
+            rect().adjusted(margin, 0, -margin, 0), Qt::AlignLeft | Qt::AlignVCenter,
+            textWidth + detailWidth > room ? textSize.elidedText(text(), Qt::ElideRight, room - detailWidth) : text());
         painter.setFont(detailFont());
         painter.setPen(m_kind == Primary ? mixed(color, background(), 0.25) : m_context->theme().mutedText);
-        painter.drawText(rect().adjusted(margin, 0, -margin, 0), Qt::AlignRight | Qt::AlignVCenter, m_detail);
+        painter.drawText(rect().adjusted(margin, 0, -margin, 0), Qt::AlignRight | Qt::AlignVCenter,
+                         detailSize.elidedText(m_detail, Qt::ElideRight, detailWidth + 1));
     }
     if (hasFocus())
         drawFocusRing(&painter, rect(), m_context->theme());

@@ -270,7 +270,7 @@ void tst_PlantLeases::anOlderMasterIsWatchedAsBefore()
     QVERIFY(!plant.hasLeases());
     QCOMPARE(textsOf(events).filter(QStringLiteral("connected to")).size(), 1);  // nothing to wait for
     master.send(QPlcMessage::State, {{QStringLiteral("state"), QStringLiteral("RealTime")}});
-    QTRY_COMPARE(textsOf(events).filter(QStringLiteral("Off → RealTime")).size(), 1);
+    QTRY_COMPARE(textsOf(events).filter(QStringLiteral("state RealTime")).size(), 1);
     plant.takeLease({echo});
     const auto asked = [&](QPlcMessage::Kind kind) {
         return std::count_if(master.messages.begin(), master.messages.end(),
