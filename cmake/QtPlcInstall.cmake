@@ -50,5 +50,10 @@ install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT documentati
     PATTERN "__pycache__" EXCLUDE
     PATTERN "Doxyfile.in" EXCLUDE
     PATTERN ".clang-format" EXCLUDE)
+# The menu Help of windows shows the documents: the package with the windows has them, too.
+if(QTPLC_BUILD_GUI)
+    install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT libqtplc-gui EXCLUDE_FROM_ALL
+        FILES_MATCHING PATTERN "*.md" PATTERN "*.png" PATTERN "*.svg")
+endif()
 include(QtPlcServices)
 include(QtPlcPackages)

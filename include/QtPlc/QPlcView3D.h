@@ -12,7 +12,7 @@
 /// controlCenter.addAvailableWidget(QPlcWidget::registerFactory(new QPlcView3DFactory));
 /// ```
 ///
-/// Dragging turns the camera about what it looks at, with Shift it moves sideways, with Alt (or the wheel) it comes nearer; a double click or key 0 goes back to the preset. Keys 1 ... 5 are the presets:
+/// Dragging turns the camera about what it looks at, with Shift it moves sideways, with Ctrl (or Alt, or the wheel) it comes nearer; a double click or key 0 goes back to the preset. Keys 1 ... 5 are the presets:
 /// ground station, side, top, downwind, and chase, whose camera is fixed to the body and follows its course. Arrow keys turn, + and - zoom.
 ///
 /// Drawn with Qt 3D into pictures: when something has changed, at most 30 times a second, less where OpenGL is slow, and never while hidden. Where there is no OpenGL (or with the environment variable

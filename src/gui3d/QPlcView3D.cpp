@@ -198,7 +198,7 @@ void QPlcView3D::mouseMoveEvent(QMouseEvent *event)
     OrbitCamera camera = d->settings.camera;
     if (event->modifiers() & Qt::ShiftModifier || event->buttons() & Qt::MiddleButton)
         camera.dragSideways(way, height());
-    else if (event->modifiers() & Qt::AltModifier)
+    else if (event->modifiers() & (Qt::ControlModifier | Qt::AltModifier))  // window managers take Alt
         camera.zoomBy(std::pow(2.0, -way.y() / 100.0));
     else
         camera.drag(way, height());

@@ -38,8 +38,8 @@ private Q_SLOTS:
     void theSceneKeepsItsNodes();
     void aFrozenWindowNeedsNoPictures();
     void movingThePanelTwentyTimesKeepsThePicture();
-    void aMouseWithShiftAndAltMovesTheCamera_data();
-    void aMouseWithShiftAndAltMovesTheCamera();
+    void aMouseWithShiftCtrlAndAltMovesTheCamera_data();
+    void aMouseWithShiftCtrlAndAltMovesTheCamera();
     void anotherThemeHasAnotherBackground();
     void aModelThatCannotBeReadIsNamedAndTheKiteFlies();
     void severalViewsComeAndGo();
@@ -225,16 +225,17 @@ void tst_QPlcView3D::movingThePanelTwentyTimesKeepsThePicture()
     QVERIFY(view->openGlError().isEmpty());
 }
 
-void tst_QPlcView3D::aMouseWithShiftAndAltMovesTheCamera_data()
+void tst_QPlcView3D::aMouseWithShiftCtrlAndAltMovesTheCamera_data()
 {
     QTest::addColumn<Qt::KeyboardModifiers>("modifiers");
     QTest::addColumn<QString>("key");
     QTest::newRow("turns") << Qt::KeyboardModifiers(Qt::NoModifier) << QStringLiteral("yaw");
     QTest::newRow("Shift moves sideways") << Qt::KeyboardModifiers(Qt::ShiftModifier) << QStringLiteral("pan");
+    QTest::newRow("Ctrl zooms") << Qt::KeyboardModifiers(Qt::ControlModifier) << QStringLiteral("zoom");
     QTest::newRow("Alt zooms") << Qt::KeyboardModifiers(Qt::AltModifier) << QStringLiteral("zoom");
 }
 
-void tst_QPlcView3D::aMouseWithShiftAndAltMovesTheCamera()
+void tst_QPlcView3D::aMouseWithShiftCtrlAndAltMovesTheCamera()
 {
     QFETCH(Qt::KeyboardModifiers, modifiers);
     QFETCH(QString, key);

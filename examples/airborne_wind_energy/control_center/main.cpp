@@ -111,6 +111,8 @@ int main(int argc, char **argv)
     if (!hasScreen(argc, argv))
         return QPlcGuiApplication::UsageError;
     QPlcGuiApplication application(argc, argv);
+    QApplication::setOrganizationName(QStringLiteral("QtPLC"));  // the folder of its settings
+    QApplication::setApplicationName(QStringLiteral("awe_control_center"));
     QApplication::setApplicationDisplayName(QStringLiteral("Airborne Wind Energy"));
     addTexts(application);
     awe::ControlCenterSettings settings;

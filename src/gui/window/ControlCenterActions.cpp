@@ -22,6 +22,8 @@ ControlCenterActions::ControlCenterActions(QPlcControlCenter *window)
     makeViewMenu();
     makeLayoutMenu();
     keys = add(helpMenu, tr("&Keys"), tr("F1"));
+    documentation = add(helpMenu, tr("&Documentation"), tr("Shift+F1"));
+    about = add(helpMenu, tr("&Version and licences"));
 }
 
 QAction *ControlCenterActions::add(QMenu *menu, const QString &text, const QString &shortcut)

@@ -69,6 +69,8 @@ public:
     QAction *redo = nullptr;
     // Help
     QAction *keys = nullptr;
+    QAction *documentation = nullptr;
+    QAction *about = nullptr;
 
     /// The layouts of the program stand at the begin of their menu.
     void showLayouts(const QStringList &names, const std::function<void(const QString &)> &show);

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // QPlcControlCenter::Private: what its commands do to the view, and what the window remembers.
 #include "DesktopTheme.h"
+#include "Documentation.h"
 #include "QPlcControlCenterPrivate.h"
 #include "QPlcSignalTree.h"
 #include "QPlcWidgetFactory.h"
 #include "TouchStyle.h"
+#include "WindowSettings.h"
 #include "gui/layout/LayoutJson.h"
 #include "gui/layout/PanelFrame.h"
 
+#include <QtCore/QDir>
 #include <QtCore/QFileInfo>
 #include <QtCore/QJsonArray>
 #include <QtCore/QJsonDocument>
-#include <QtCore/QSettings>
 #include <QtGui/QScreen>
 #include <QtWidgets/QAction>
 #include <QtWidgets/QApplication>
@@ -77,6 +79,10 @@ void QPlcControlCenter::Private::connectViewActions()
     for (int each = 0; each < actions->themes.size(); ++each)
         connect(actions->themes.at(each), &QAction::triggered, q, [this, each] { q->setTheme(Theme(each)); });
     connect(actions->keys, &QAction::triggered, q, [this] { openKeys(); });
+    connect(actions->documentation, &QAction::triggered, q,
+            [this] { openDocument(QStringLiteral("control-center.md")); });
+    connect(actions->about, &QAction::triggered, about, &QWidget::show);
+    connect(about, &AboutWindow::licencesRequested, q, [this] { openDocument(QStringLiteral("design/licences.md")); });
 }
 
 void QPlcControlCenter::Private::connectLayoutActions()
@@ -123,7 +129,9 @@ void QPlcControlCenter::Private::askForLayoutFile(bool isToSave)
 void QPlcControlCenter::Private::saveLayoutTo(const QString &fileName)
 {
     QString error;
-    if (!q->saveLayout(fileName, &error))
+    if (q->saveLayout(fileName, &error))
+        eventLine->say(tr("Layout saved: %1").arg(QDir::toNativeSeparators(QFileInfo(fileName).absoluteFilePath())));
+    else
         hint->showText(error);
 }
 
@@ -145,6 +153,14 @@ void QPlcControlCenter::Private::setRate(double timesPerSecond)
     rate = timesPerSecond;
     context.plants()->setRate(rate);
     actions->showRate(rate);
+}
+
+void QPlcControlCenter::Private::openDocument(const QString &name)
+{
+    if (!help->showDocument(documentationFolder(documentationStarts()), name))
+        hint->showText(
+            tr("The documents are not installed with this program. Install them with QtPLC (cmake --install, "
+               "component 'documentation'), or read them where you have its sources, in docs/."));
 }
 
 void QPlcControlCenter::Private::openKeys()
@@ -266,7 +282,7 @@ void QPlcControlCenter::Private::save()
     const bool isStart = q->isStartPageShown();
     if (isStart)
         dock->setVisible(isDockWanted);
-    QSettings settings;
+    WindowSettings settings;
     settings.setValue(keyOf("geometry"), q->saveGeometry());
     settings.setValue(keyOf("state"), q->saveState());
     settings.setValue(keyOf("signalTree"), QJsonDocument(dock->tree()->settings()).toJson(QJsonDocument::Compact));
@@ -283,7 +299,7 @@ void QPlcControlCenter::Private::save()
 
 void QPlcControlCenter::Private::restore()
 {
-    const QSettings settings;
+    const WindowSettings settings;
     q->restoreGeometry(settings.value(keyOf("geometry")).toByteArray());
     if (q->restoreState(settings.value(keyOf("state")).toByteArray()) && q->isStartPageShown())
         showDock(true);

@@ -126,6 +126,8 @@ void QPlcControlCenter::Private::makeBars()
     q->addAction(dock->toggleViewAction());
     palette = new CommandPalette(&context, q);
     keys = new KeysWindow(q);
+    help = new HelpWindow(q);
+    about = new AboutWindow(q);
 }
 
 void QPlcControlCenter::Private::connectParts()

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "AboutWindow.h"
 #include "AlarmSound.h"
 #include "CommandPalette.h"
 #include "ConnectStrip.h"
 #include "ControlCenterActions.h"
 #include "EventLine.h"
+#include "HelpWindow.h"
 #include "HintLine.h"
 #include "LatchBanner.h"
 #include "LayoutShelf.h"
@@ -72,6 +74,7 @@ struct QPlcControlCenter::Private
     const qplc::PanelFrame *focusedFrame() const;
     static QList<QAction *> actionsOf(const qplc::PanelFrame &frame);
     void openKeys();
+    void openDocument(const QString &name);
     void showRecent();
     void askForLayoutFile(bool isToSave);
     void saveLayoutTo(const QString &fileName);
@@ -117,4 +120,6 @@ struct QPlcControlCenter::Private
     qplc::EventLine *eventLine = nullptr;
     qplc::CommandPalette *palette = nullptr;
     qplc::KeysWindow *keys = nullptr;
+    qplc::HelpWindow *help = nullptr;
+    qplc::AboutWindow *about = nullptr;
 };

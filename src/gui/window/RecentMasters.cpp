@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "RecentMasters.h"
 
-#include <QtCore/QSettings>
+#include "WindowSettings.h"
 
 namespace qplc {
 
@@ -18,7 +18,7 @@ QString key()
 
 QStringList RecentMasters::addresses() const
 {
-    return QSettings().value(key()).toStringList().mid(0, most);
+    return WindowSettings().value(key()).toStringList().mid(0, most);
 }
 
 void RecentMasters::add(const QString &address)
@@ -26,7 +26,7 @@ void RecentMasters::add(const QString &address)
     QStringList all = addresses();
     all.removeAll(address);
     all.prepend(address);
-    QSettings().setValue(key(), QStringList(all.mid(0, most)));
+    WindowSettings().setValue(key(), QStringList(all.mid(0, most)));
 }
 
 }  // namespace qplc

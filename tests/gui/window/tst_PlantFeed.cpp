@@ -58,7 +58,7 @@ void tst_PlantFeed::aFedPlantHasStateAndNextAction()
     QVERIFY(fed.plant->isConnected());
     QCOMPARE(fed.plant->nextAction(), Plant::Start);
     fed.feed().initialize(valueOf("count", QPlcValue(3)));
-    QCOMPARE(fed.plant->stateText(), QStringLiteral("Initialized"));
+    QCOMPARE(fed.plant->stateText(), QStringLiteral("Ready"));
     QCOMPARE(fed.plant->value(testTable().indexOf(QStringLiteral("count"))).toInt(), 3);
     QCOMPARE(fed.plant->quality(), Plant::AtRest);
     fed.feed().started();
