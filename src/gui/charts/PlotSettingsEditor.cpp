@@ -121,10 +121,11 @@ void PlotSettingsEditor::addLine(int place)
     axis->setCurrentIndex(!curve.axis ? 0 : *curve.axis == PlotCurveSettings::Left ? 1 : 2);
     axis->setAccessibleName(tr("Axis of %1").arg(curve.signal));
     connect(axis, QOverload<int>::of(&QComboBox::activated), this, [this, place](int index) {
-        std::optional<PlotCurveSettings::Axis> &side = m_settings.curves[place].axis;
-        side.reset();
+        PlotCurveSettings changed = m_settings.curves.at(place);
+        changed.axis.reset();
         if (index > 0)
-            side = index == 1 ? PlotCurveSettings::Left : PlotCurveSettings::Right;
+            changed.axis = index == 1 ? PlotCurveSettings::Left : PlotCurveSettings::Right;
+        m_settings.curves.replace(place, changed);
         tell();
     });
     auto *seen = new QCheckBox(m_curves);

@@ -13,13 +13,13 @@ namespace qplc {
 
 namespace {
 
-constexpr int longestName = 64;  // [characters] of the protocol
+constexpr int longestWindowName = 64;  // [characters] of the protocol
 
 /// The person, and which window: names of nodes are unique.
 QString defaultName()
 {
     const QString window = QStringLiteral("-%1").arg(QCoreApplication::applicationPid());
-    return PlantLeases::whoever().left(longestName - window.size()) + window;
+    return PlantLeases::whoever().left(longestWindowName - window.size()) + window;
 }
 
 /// \param rate  most frames a second, 0: every cycle \param period  [ns]

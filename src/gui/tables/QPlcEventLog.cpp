@@ -19,7 +19,7 @@ using namespace qplc;
 
 namespace {
 
-const QVector<PanelTable::Column> columns
+const QVector<PanelTable::Column> eventColumns
     = {{"time", 14, true}, {"severity", 13, true}, {"state", 16, true}, {"source", 16, true}, {"event", 40, true}};
 
 const QStringList severities = {QStringLiteral("information"), QStringLiteral("warning"), QStringLiteral("error")};
@@ -220,7 +220,7 @@ void QPlcEventLog::contextChanged()
     d->events = events;
     d->filter->setSourceModel(events);
     d->table->setContext(context());
-    d->table->setColumns(columns);
+    d->table->setColumns(eventColumns);
     d->table->setStretchedColumn(EventLogModel::Text, 30);
     d->table->applySettings(d->settings);
     connect(d->table, &PanelTable::settingsEdited, this, [this] {
