@@ -132,8 +132,8 @@ private:
     std::unique_ptr<qplc::CyclicLink> m_link;  // until the cycle takes it
     std::unique_ptr<QSocketNotifier> m_reportNotifier;
     QSocketNotifier *m_cycleNotifier = nullptr;  // child of the node: it goes with it into another thread
-    QTimer m_retryTimer;  // children of the node: they go with it into another thread
-    QTimer m_patience;    // with an attempt to connect again
+    QTimer m_retryTimer;                         // children of the node: they go with it into another thread
+    QTimer m_patience;                           // with an attempt to connect again
     qplc::BackOff m_backOff;
     bool m_wasRegistered = false;  // since connectToMaster()
     bool m_inPhase = false;        // from startCycles() to endPhase(); not for a node in the process of its master

@@ -6,12 +6,14 @@
 #include "rtwtypes.h"
 
 /* External inputs (root inport signals with default storage) */
-typedef struct {
+typedef struct
+{
     real_T tetherSpeed; /* '<Root>/tetherSpeed' */
 } ExtU_WinchModel_T;
 
 /* External outputs (root outports fed by signals with default storage) */
-typedef struct {
+typedef struct
+{
     real_T tetherLength; /* '<Root>/tetherLength' */
 } ExtY_WinchModel_T;
 
