@@ -303,7 +303,7 @@ void tst_WindowParts::theBarTellsHowAPlantIs()
     QVERIFY(master.startRealTime());
     QTRY_COMPARE_WITH_TIMEOUT(PlantSummary::of(*plant).condition, QStringLiteral("live"), patience);
     QTRY_COMPARE_WITH_TIMEOUT(StateStep::of(plant, false).step, StateStep::RealTime, patience);
-    QTRY_VERIFY2_WITH_TIMEOUT(QRegularExpression(QStringLiteral("^100 Hz · jitter .+ p99 · \\d+ violations?"))
+    QTRY_VERIFY2_WITH_TIMEOUT(QRegularExpression(QStringLiteral("^Plant · 100 Hz · jitter .+ p99 · \\d+ violations?"))
                                   .match(PlantSummary::of(*plant).figures)
                                   .hasMatch(),
                               qPrintable(PlantSummary::of(*plant).figures), patience);
