@@ -54,7 +54,7 @@ class Plant:
         self.options, self.folder, self.programs = options, folder, {}
         signals = folder / "signals.ini"
         signals.write_text(options.winch_signals.read_text() + (options.code / "weather_signals.ini").read_text())
-        self.start("master", "--signals", str(signals), "--port", "0")
+        self.start("master", "--signals", str(signals), "--port", "0", "--profile", "plant")
         self.address = "localhost:" + self.await_text("master", "out", "port ").split("port ")[1].split()[0]
 
     def start(self, name, *arguments):

@@ -9,8 +9,11 @@ int main(int argc, char **argv)
     application.setDescription("The master of the winch.");
     application.addOption({"signals", "Signal table.", "FILE", "winch.ini"});
     application.addOption({"port", "Port to listen on.", "PORT", "50000"});
+    application.addProfileOption();
     qint64 port = 0;
-    if (!application.parseOptions() || !application.integer("port", 0, 65535, &port))
+    QPlcProfile::Value profile = QPlcProfile::Automatic;
+    if (!application.parseOptions() || !application.integer("port", 0, 65535, &port)
+        || !application.readProfile(&profile))
         return application.exitCode();
 
     QPlcSignalIndexTable table;
@@ -19,6 +22,7 @@ int main(int argc, char **argv)
 
     QPlcMasterNode master;
     master.setInterval(std::chrono::milliseconds(10));
+    master.setProfile(profile);
     master.setTimeSignal("masterTime");
     if (!master.startServer(QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, quint16(port))))
         return application.usageError(master.errorString());
