@@ -43,6 +43,12 @@ PROGRAM = """#!/bin/sh
 [ -z "$QTPLC_PROGRESS" ] || { echo "progress: 900 of 1800"; sleep 2.5; }
 echo flown
 """
+GREETING = """#!/usr/bin/env bash
+. "$(dirname "$0")/lib/progress"
+log=mine start=mine text=mine output=mine status=mine mode=mine
+greet() { echo "$log $start $text $output $status $mode"; }
+step --show "Greet" greet
+"""
 
 LINE = re.compile(r"^(\[\d+/\d+\] [A-Z].*): (.+), (?:\d+ min )?\d+ s$")
 
@@ -138,6 +144,12 @@ class Progress(unittest.TestCase):
         self.assertIn("[3/4] Build: FAILED, ", shown.text)
         self.assertIn("winch.cpp:7: error: expected ';'", shown.text)
         self.assertIn("run: this failed: cmake --build --preset release --target programs", shown.text)
+
+    def test_a_function_that_is_a_step_sees_the_variables_of_its_script(self):
+        self.program("scripts/greet", GREETING)
+        shown = self.run_script("greet")
+        self.assertEqual(shown.code, 0, shown.text)
+        self.assertIn("mine mine mine mine mine mine", shown.text)
 
     def test_every_script_that_builds_or_installs_shows_its_progress(self):
         for script in sorted(self.scripts.iterdir()):
