@@ -397,6 +397,7 @@ void QPlcMasterNodePrivate::startCycles()
     for (const std::shared_ptr<NodeSlot> &slot : registry->nodes()) {
         if (!slot->local)
             continue;
+        slot->local->node().d->phaseProfile = m_profile.value;
         slot->local->node().d->apply(NodeEvent::PhaseStarted);
         Q_EMIT slot->local->node().realTimeHasStarted();
     }

@@ -447,6 +447,11 @@ void tst_Profiles::realDevicesInThisProcessMakeAPlant()
     winch.setHardware(true);
     QVERIFY(master.addLocalNode(&winch));
     QCOMPARE(master.profile(), Profile::Plant);
+    QVERIFY(master.startRealTime());
+    QVERIFY(master.waitForState(QPlcMasterNode::RealTime));
+    QCOMPARE(winch.profile(), Profile::Plant);
+    QCOMPARE(winch.watchdog(), std::chrono::nanoseconds(0));  // the master needs no frame to reach it
+    master.stop();
 }
 
 QTEST_GUILESS_MAIN(tst_Profiles)
