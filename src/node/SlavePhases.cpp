@@ -142,9 +142,9 @@ bool QPlcSlaveNodePrivate::startCycles(const Message &message)
     phase.group = groupOf(message, runtime.inputLayout());
     phase.interval = interval;
     phase.realTimeOptions = realTimeOptions;
-    // A master that tells no profile is as strict as masters were before there were profiles.
-    phaseProfile = QPlcProfile::Plant;
-    QPlcProfile::fromName(message.text(QStringLiteral("profile")), &phaseProfile);
+    // Whatever else a master tells, or does not tell, the strict one holds.
+    const bool isSimulation = message.text(QStringLiteral("profile")) == QPlcProfile::name(QPlcProfile::Simulation);
+    phaseProfile = isSimulation ? QPlcProfile::Simulation : QPlcProfile::Plant;
     applyProfile(&phase);
     if (!cycle->start(phase))
         return refusePhase(QPlcSlaveNode::OptionError, cycle->errorString());

@@ -52,6 +52,7 @@ private Q_SLOTS:
     void plantGoesToSafeValues();
     void aWatchdogReportsInASimulation();
     void aWatchdogMakesSafeInAPlantWithoutBeingAskedFor();
+    void whatIsNoProfileOfAPhaseIsTakenForAPlant();
     void settingsOfANodeWinOverTheProfile();
     void aListenerHasNoWatchdogByDefault();
     void aProcessThatStaysAliveKeepsItsState_data();
@@ -237,6 +238,20 @@ void tst_Profiles::aWatchdogMakesSafeInAPlantWithoutBeingAskedFor()
     QTRY_COMPARE(safe.size(), 1);
     QCOMPARE(safe.at(0).at(0).value<QPlcSlaveNode::SafeStateReason>(), QPlcSlaveNode::WatchdogReason);
     QCOMPARE(node.error(), QPlcSlaveNode::WatchdogError);
+}
+
+void tst_Profiles::whatIsNoProfileOfAPhaseIsTakenForAPlant()
+{
+    for (const char *told : {"Automatic", "simulated", ""}) {
+        ScriptedMaster master(profileTable());
+        CounterNode node;
+        node.setSignalTable(profileTable());
+        QVERIFY(master.admit(node, master.udp()));
+        QVERIFY(start(master, told));
+        QCOMPARE(node.profile(), Profile::Plant);
+        QCOMPARE(node.watchdog(), std::chrono::nanoseconds(500ms));
+        node.disconnectFromMaster();
+    }
 }
 
 void tst_Profiles::settingsOfANodeWinOverTheProfile()
