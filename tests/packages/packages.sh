@@ -34,7 +34,7 @@ inside() { chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root L
 apt() {
     local title=$1
     shift
-    step "$title" inside apt-get --quiet=2 -o APT::Status-Fd=1 -o Dpkg::Use-Pty=0 --yes --no-install-recommends "$@" || fail "apt-get $* failed"
+    step "$title" inside "${apt_get[@]}" --yes --no-install-recommends "$@" || fail "apt-get $* failed"
 }
 # All files of the system but what the kernel, apt, dpkg and adduser (copies of its last state) keep about themselves; and all users and groups.
 inventory() {

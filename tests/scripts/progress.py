@@ -28,10 +28,19 @@ esac
 BROKEN_CMAKE = """#!/bin/sh
 case "$*" in *--build*) echo "[1/4] Building CXX object 1"; echo "winch.cpp:7: error: expected ';'"; exit 3 ;; esac
 """
-SLOW_APT = """#!/bin/sh
+# Like the real one, it closes the descriptor of its status for the script of a package, which ends at an echo that fails.
+SLOW_APT = """#!/bin/bash
+[[ "$*" =~ APT::Status-Fd=([0-9]+) ]]
+status=${BASH_REMATCH[1]}
 case "$*" in
-    *" update"*) echo "dlstatus:1:50.0000:Retrieving file 1 of 2" ;;
-    *) echo "dlstatus:1:20.0000:Retrieving file 1 of 5"; sleep 2.5; echo "pmstatus:cmake:60.0000:Unpacking cmake"; sleep 2.5 ;;
+    *" update"*) echo "dlstatus:1:50.0000:Retrieving file 1 of 2" >&$status ;;
+    *)
+        echo "dlstatus:1:20.0000:Retrieving file 1 of 5" >&$status
+        sleep 2.5
+        echo "pmstatus:cmake:60.0000:Unpacking cmake" >&$status
+        sleep 2.5
+        (eval "exec $status>&-"; exec bash -c 'set -e; echo "Updating symlinks"') || exit 100
+        ;;
 esac
 """
 # Nothing is installed.
