@@ -11,8 +11,10 @@
 
 #include <QtGui/QContextMenuEvent>
 #include <QtGui/QDragEnterEvent>
+#include <QtGui/QPainter>
 #include <QtWidgets/QAction>
 #include <QtWidgets/QApplication>
+#include <QtWidgets/QFrame>
 #include <QtWidgets/QMenu>
 #include <QtWidgets/QToolTip>
 #include <QtWidgets/QVBoxLayout>
@@ -21,9 +23,15 @@
 
 namespace qplc {
 
+namespace {
+
+constexpr int lineWidth = 1;  // [px]
+
+}  // namespace
+
 PanelFrame::PanelFrame(LayoutEditor *editor, const LayoutPanel &panel, const QList<QPlcWidgetFactory *> &factories,
                        QWidget *parent)
-    : QFrame(parent)
+    : QWidget(parent)
     , m_editor(editor)
     , m_id(panel.id)
     , m_type(panel.type)
@@ -31,10 +39,9 @@ PanelFrame::PanelFrame(LayoutEditor *editor, const LayoutPanel &panel, const QLi
     , m_titleBar(new PanelTitleBar(this))
 {
     setObjectName(panel.id);
-    setFrameShape(QFrame::StyledPanel);
     setAcceptDrops(true);
     auto *column = new QVBoxLayout(this);
-    column->setContentsMargins(0, 0, 0, 0);
+    column->setContentsMargins(lineWidth, lineWidth, lineWidth, lineWidth);
     column->setSpacing(0);
     column->addWidget(m_titleBar);
     const auto factory = std::find_if(factories.begin(), factories.end(),
@@ -228,7 +235,7 @@ void PanelFrame::mousePressEvent(QMouseEvent *event)
 {
     // On a widget that takes no keys: those of the panel work from now on.
     m_titleBar->setFocus(Qt::MouseFocusReason);
-    QFrame::mousePressEvent(event);
+    QWidget::mousePressEvent(event);
 }
 
 void PanelFrame::dragEnterEvent(QDragEnterEvent *event)
@@ -252,7 +259,7 @@ void PanelFrame::dragMoveEvent(QDragMoveEvent *event)
 
 void PanelFrame::dragLeaveEvent(QDragLeaveEvent *event)
 {
-    QFrame::dragLeaveEvent(event);
+    QWidget::dragLeaveEvent(event);
     if (m_overlay)
         m_overlay->hide();
 }
@@ -265,6 +272,14 @@ void PanelFrame::dropEvent(QDropEvent *event)
     const DropZone zone
         = dropAreaAt(event->pos()) ? DropZone::Area : dropZoneAt(rect(), event->pos(), DropCenter::IsAZone);
     Q_EMIT signalsDropped(zone, event->mimeData());
+}
+
+/// The line is what the parts of the panel leave free. A line drawn with a pen would be cut by them where it does not meet the pixels of the screen.
+void PanelFrame::paintEvent(QPaintEvent * /*event*/)
+{
+    QPainter painter(this);
+    const QColor window = palette().color(QPalette::Window);
+    painter.fillRect(rect(), window.lightness() < 128 ? window.lighter(160) : window.darker(140));
 }
 
 /// Null: there is none.

@@ -5,7 +5,7 @@
 #include "LayoutEditor.h"
 
 #include <QtCore/QMimeData>
-#include <QtWidgets/QFrame>
+#include <QtWidgets/QWidget>
 
 #include <functional>
 
@@ -21,8 +21,8 @@ class SignalDropArea;
 
 /// A panel on the screen: title bar, and below it the widget, or a placeholder where nobody can make it.
 ///
-/// What a person does here becomes edits; what the layout says comes by showPanel().
-class PanelFrame : public QFrame
+/// What a person does here becomes edits; what the layout says comes by showPanel(). It draws its line itself: styles leave out the right and the lower one at scale factors between whole numbers.
+class PanelFrame : public QWidget
 {
     Q_OBJECT
 public:
@@ -64,6 +64,7 @@ protected:
     void dragMoveEvent(QDragMoveEvent *event) override;
     void dragLeaveEvent(QDragLeaveEvent *event) override;
     void dropEvent(QDropEvent *event) override;
+    void paintEvent(QPaintEvent *event) override;
 
 private:
     void makeActions();
