@@ -14,6 +14,7 @@ namespace awe {
 namespace {
 
 constexpr std::chrono::milliseconds period(10);
+constexpr std::chrono::milliseconds numbersPeriod(200);
 const char *const runOptions[] = {"scale", "overrun", "duration"};
 const char *const runFlags[] = {"lockstep", "real-time", "watch"};
 
@@ -140,6 +141,8 @@ FlightRun::FlightRun(QPlcMasterNode &master, const RunSettings &settings)
             fail(QPlcCoreApplication::UsageError, {});  // the master has said why
     });
     connect(&master, &QPlcMasterNode::nodeLost, this, &FlightRun::nodeIsLost);
+    m_numbersTimer.setInterval(numbersPeriod);
+    connect(&m_numbersTimer, &QTimer::timeout, this, &FlightRun::requireNumbers);
     connect(&master, &QPlcMasterNode::safelyStopped, this, [this](const QString &reason) {
         if (!m_begun || m_ending || !endsWithFlight())
             return;
@@ -162,6 +165,21 @@ void FlightRun::nodeIsLost(const QString &name, const QString &reason)
     const bool mayComeBack = m_settings.plant.hasDrive() && name == winchNode();
     if (m_begun && m_settings.awaitedNodes.contains(name) && !mayComeBack)
         fail(QPlcCoreApplication::Failure, QStringLiteral("node '%1' is gone (%2): the flight ends").arg(name, reason));
+}
+
+void FlightRun::requireNumbers()
+{
+    if (!m_begun || m_ending)
+        return;
+    const QVector<QPlcNodeStatistics> nodes = m_master.cycleStatistics().nodes;
+    for (const QPlcNodeStatistics &node : nodes) {
+        if (node.nonFinite == 0 || !m_settings.awaitedNodes.contains(node.name))
+            continue;
+        m_numbersTimer.stop();
+        fail(QPlcCoreApplication::UsageError,
+             QStringLiteral("node '%1' gives values that are not finite numbers: the flight ends").arg(node.name));
+        return;
+    }
 }
 
 FlightRun::~FlightRun()
@@ -226,13 +244,16 @@ void FlightRun::started()
 {
     m_schedule = m_master.schedule();
     m_wallClock.start();
+    m_numbersTimer.start();
     m_display.begin();
 }
 
 void FlightRun::stopped()
 {
     m_wallTime = m_wallClock.nsecsElapsed();
+    m_numbersTimer.stop();
     m_display.end();
+    requireNumbers();  // a flight may be shorter than the period of the timer
     m_report = makeReport();
     QString error;
     if (!m_settings.reportFile.isEmpty() && !writeReport(m_settings.reportFile, m_report, &error))

@@ -7,6 +7,7 @@
 
 #include <QtCore/QElapsedTimer>
 #include <QtCore/QJsonObject>
+#include <QtCore/QTimer>
 #include <QtPlcCore>
 
 #include <Eigen/Core>
@@ -74,6 +75,8 @@ Q_SIGNALS:
 private:
     bool addWinchObserver();
     void nodeIsLost(const QString &name, const QString &reason);
+    /// Ends the flight when one of its nodes gives NaN or infinity: a simulation holds the last number for ever.
+    void requireNumbers();
     void startIfComplete();
     void start();
     bool setControls();
@@ -91,6 +94,7 @@ private:
     FlightObserver m_observer;
     std::unique_ptr<WinchObserver> m_winchObserver;  // of a drive
     FlightDisplay m_display;
+    QTimer m_numbersTimer;
     QElapsedTimer m_wallClock;
     QPlcSchedule m_schedule;  // as the flight began
     QJsonObject m_report;

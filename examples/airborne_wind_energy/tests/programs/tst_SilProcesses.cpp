@@ -1,9 +1,55 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Program.h"
 
+#include <QtPlcCore>
 #include <QtTest/QtTest>
 
+#include <QtCore/QRegularExpression>
+
+#include <atomic>
 #include <csignal>
+
+namespace {
+
+/// A node that joins a flight, and looks at one value of the model and one of the autopilot. Threads: step() in that of the cycle, all else in that of the test.
+class ValueWitness : public QPlcCompactSlaveNode
+{
+    Q_OBJECT
+public:
+    ValueWitness()
+        : QPlcCompactSlaveNode(QStringLiteral("ValueWitness"))
+    {
+        setReceivesQuality(true);
+    }
+    ~ValueWitness() override { disconnectFromMaster(); }
+
+    int cycles() const { return m_cycles; }
+    double shortestTether() const { return m_shortest; }  // [m]
+    bool hasSeenSafeValues() const { return m_hasSeenSafe; }
+    bool seesGoodValues() const { return m_isGood; }
+
+private:
+    void step(const QPlcCycle &) override
+    {
+        m_shortest = std::min(m_shortest.load(), m_length.value());
+        bool isGood = true;
+        for (const QPlcPort *port : std::initializer_list<const QPlcPort *>{&m_length, &m_speed}) {
+            isGood = isGood && port->quality().kind() == QPlcQuality::Good;
+            m_hasSeenSafe = m_hasSeenSafe || port->quality().kind() == QPlcQuality::Safe;
+        }
+        m_isGood = isGood;
+        ++m_cycles;
+    }
+
+    std::atomic<int> m_cycles{0};
+    std::atomic<double> m_shortest{1e9};
+    std::atomic<bool> m_hasSeenSafe{false};
+    std::atomic<bool> m_isGood{false};
+    QPlcInput<double> m_length{this, "tetherLength"};
+    QPlcInput<double> m_speed{this, "tetherSpeed"};
+};
+
+}  // namespace
 
 /// awe_sil --processes: however it ends, none of its programs is left behind, and who started it learns what happened.
 class tst_SilProcesses : public QObject
@@ -14,6 +60,8 @@ private Q_SLOTS:
     void noneIsLeftBehind_data();
     void noneIsLeftBehind();
     void stoppedNodeDoesNotKeepTheFlightFromEnding();
+    void nodeThatStandsInADebuggerEndsNothing_data();
+    void nodeThatStandsInADebuggerEndsNothing();
 
 private:
     /// Waits until all three programs run. \return their process ids: master, model, autopilot; empty when they do not come
@@ -95,6 +143,51 @@ void tst_SilProcesses::stoppedNodeDoesNotKeepTheFlightFromEnding()
     program.sendSignal(SIGINT);
     QVERIFY(program.waitForEnd() >= 0);
     QCOMPARE(stillRunning(pids), QList<qint64>());
+}
+
+void tst_SilProcesses::nodeThatStandsInADebuggerEndsNothing_data()
+{
+    QTest::addColumn<int>("place");  // among the programs
+    QTest::newRow("model") << 1;
+    QTest::newRow("autopilot") << 2;
+}
+
+/// Two seconds at a breakpoint, in real time: all others see the last values, and the node goes on where it was.
+void tst_SilProcesses::nodeThatStandsInADebuggerEndsNothing()
+{
+    QFETCH(int, place);
+    Program program(QStringLiteral(AWE_PROGRAMS "/awe_sil"),
+                    {QStringLiteral("--processes"), QStringLiteral("--real-time"), QStringLiteral("--duration=0")});
+    const QList<qint64> pids = waitForPrograms(program);
+    QCOMPARE(pids.size(), 3);
+    QVERIFY(program.waitForErrors(QStringLiteral("node Model registered over"))
+            && program.waitForErrors(QStringLiteral("node Autopilot registered over")));
+    const QRegularExpressionMatch port
+        = QRegularExpression(QStringLiteral("listening on 127.0.0.1 port (\\d+)")).match(program.errors());
+    QVERIFY2(port.hasMatch(), qPrintable(program.errors()));
+    ValueWitness witness;
+    QVERIFY(witness.connectToMasterAndWaitForConnected(
+        QPlcUnderlyingProtocol::fromString(QStringLiteral("tcp://127.0.0.1:%1").arg(port.captured(1)))));
+    const auto seesCycles = [&witness](int count) {
+        const int wanted = witness.cycles() + count;
+        return QTest::qWaitFor([&] { return witness.cycles() >= wanted; }, Program::patience);
+    };
+    QVERIFY2(seesCycles(50), qPrintable(program.errors()));
+    ::kill(pid_t(pids.at(place)), SIGSTOP);
+    const bool goesOn = seesCycles(200);
+    const bool sawIt = !witness.seesGoodValues();
+    ::kill(pid_t(pids.at(place)), SIGCONT);
+    QVERIFY2(goesOn, qPrintable(program.errors()));
+    QVERIFY(sawIt);
+    QVERIFY2(seesCycles(50), qPrintable(program.errors()));
+    QTRY_VERIFY(witness.seesGoodValues());
+    QVERIFY(!witness.hasSeenSafeValues());
+    QVERIFY2(witness.shortestTether() > 99.0, qPrintable(QString::number(witness.shortestTether())));
+    QCOMPARE(program.errors().count(QStringLiteral("node Model registered over")), 1);
+    QCOMPARE(program.errors().count(QStringLiteral("node Autopilot registered over")), 1);
+    witness.disconnectFromMaster();
+    program.sendSignal(SIGINT);
+    QCOMPARE(program.waitForEnd(), 0);
 }
 
 QTEST_GUILESS_MAIN(tst_SilProcesses)
