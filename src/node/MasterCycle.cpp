@@ -154,10 +154,28 @@ bool MasterCycle::setValues(const std::vector<SignalSetting> &settings)
         SetCommand *command = m_setCommands.beginPush();
         command->signal = setting.signal;
         command->quality = setting.quality;
+        command->isEndOfWay = false;
         setting.value.toBytes(command->bytes.data());
         m_setCommands.commitPush();
     }
     m_setsGiven += settings.size();
+    return true;
+}
+
+/// Without cycles no signal is on its way.
+bool MasterCycle::endWays(const std::vector<QPlcSignalIndex> &indices)
+{
+    if (!isRunning())
+        return true;
+    if (!hasRoomFor(indices.size()))
+        return false;
+    for (const QPlcSignalIndex signal : indices) {
+        SetCommand *command = m_setCommands.beginPush();
+        command->signal = signal;
+        command->isEndOfWay = true;
+        m_setCommands.commitPush();
+    }
+    m_setsGiven += indices.size();
     return true;
 }
 
@@ -273,6 +291,10 @@ void MasterCycle::takeCommands() noexcept
 
 void MasterCycle::takeCommand(const SetCommand &command) noexcept
 {
+    if (command.isEndOfWay) {
+        m_slopes.leave(command.signal);
+        return;
+    }
     if (m_slopes.isLimited(command.signal) && !m_guard.isTripped())
         m_slopes.aim(command.signal, command.bytes.data());
     else

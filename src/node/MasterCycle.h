@@ -79,7 +79,11 @@ public:
     void setRoster(const Roster &roster);
     /// Sets signals between two cycles; also while cycles run: then signals with a slope move to these values, and safe ones have them at once. \return false, and none is set, when too many are under way
     bool setValues(const std::vector<SignalSetting> &settings);
-    /// Whether setValues() would take so many now.
+    /// Keeps each of \a indices where its slope has brought it by now. \return false, and all go on, when too many are under way
+    bool endWays(const std::vector<QPlcSignalIndex> &indices);
+    /// Whether a value that is set moves \a signal with a slope.
+    bool hasSlope(QPlcSignalIndex signal) const { return m_slopes.isLimited(signal); }
+    /// Whether setValues() and endWays() would take so many now.
     bool hasRoomFor(std::size_t settings) const;
     const QPlcSignalTable &table() const { return m_image.table(); }
     /// Where a signal lies in values() [byte].
@@ -112,6 +116,7 @@ private:
     {
         QPlcSignalIndex signal;
         QPlcQuality quality;
+        bool isEndOfWay;  // the signal stays where its slope has brought it; there is no value
         std::array<char, QPlcSignalType::MaximumSize> bytes;
     };
 

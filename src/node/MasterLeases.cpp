@@ -68,10 +68,11 @@ bool MasterLeases::take(const MasterConnection &asker, const QJsonObject &fields
     const bool takeOver = fields.value(QStringLiteral("takeOver")).toBool();
     if (!readWish(fields, &wish, refusal) || !mayTake(holder, wish.indices, takeOver, refusal))
         return false;
-    if (!m_cycle.hasRoomFor(wish.settings.size())) {
+    const Leases::Signals kept = keptSignals(holder, wish);
+    if (!m_cycle.hasRoomFor(wish.settings.size() + kept.size())) {
         *refusal = {QStringLiteral("WrongState"),
                     QStringLiteral("%1 values are too many between two cycles; take fewer signals at a time")
-                        .arg(wish.settings.size())};
+                        .arg(wish.settings.size() + kept.size())};
         return false;
     }
     wish.name = shownName(asker.peer, wish.name.isEmpty() ? asker.name : wish.name);
@@ -80,11 +81,24 @@ bool MasterLeases::take(const MasterConnection &asker, const QJsonObject &fields
     m_settings.keepPresent(wish.indices);
     listenToTheEndOf(holder);
     Q_EMIT heldSignalsChanged();
-    m_settings.setLeased(wish.settings, refusal);  // there is room
+    m_settings.setLeased(wish.settings, refusal);  // there is room, also for the next line
+    m_settings.endWays(kept);
     waitForNext();
     Q_EMIT changed(JournalEvent::Info,
                    QStringLiteral("'%1' has taken over %2%3").arg(wish.name, names(wish.indices), from));
     return true;
+}
+
+/// What \a holder takes as it is: taking moves nothing, and what somebody else has set before ends.
+Leases::Signals MasterLeases::keptSignals(const QObject *holder, const Wish &wish) const
+{
+    Leases::Signals kept;
+    for (const QPlcSignalIndex signal : wish.indices) {
+        const auto isOfSignal = [signal](const SignalSetting &setting) { return setting.signal == signal; };
+        if (!m_leases.isHeldBy(signal, holder) && std::none_of(wish.settings.begin(), wish.settings.end(), isOfSignal))
+            kept.push_back(signal);
+    }
+    return kept;
 }
 
 bool MasterLeases::readWish(const QJsonObject &fields, Wish *wish, Refusal *refusal) const

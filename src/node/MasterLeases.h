@@ -56,6 +56,7 @@ private:
     bool readWish(const QJsonObject &fields, Wish *wish, Refusal *refusal) const;
     bool readSignals(const QJsonValue &names, Leases::Signals *indices, Refusal *refusal) const;
     bool readValues(const QJsonValue &values, Wish *wish, Refusal *refusal) const;
+    Leases::Signals keptSignals(const QObject *holder, const Wish &wish) const;
     bool mayTake(const QObject *holder, const Leases::Signals &indices, bool takeOver, Refusal *refusal) const;
     void lose(const Leases::Signals &indices, const QString &why);
     void tellLost(const QString &name, const Leases::Signals &indices, const QString &why);

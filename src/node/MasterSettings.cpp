@@ -99,6 +99,19 @@ bool MasterSettings::setLeased(const std::vector<SignalSetting> &settings, Refus
     return give(settings, refusal);
 }
 
+void MasterSettings::endWays(const std::vector<QPlcSignalIndex> &indices)
+{
+    std::vector<QPlcSignalIndex> moving;
+    for (const QPlcSignalIndex signal : indices) {
+        m_debts.erase(signal);
+        if (!m_cycle.hasSlope(signal))
+            continue;
+        m_given.erase(signal);
+        moving.push_back(signal);
+    }
+    m_cycle.endWays(moving);
+}
+
 void MasterSettings::setSoon(const std::vector<SignalSetting> &settings)
 {
     for (const SignalSetting &setting : settings)

@@ -40,6 +40,8 @@ public:
     bool readValue(QPlcSignalIndex signal, const QString &text, SignalSetting *setting, Refusal *refusal) const;
     /// Sets values for good. \return false, and none is set, when the cycle has no room for them now
     bool setLeased(const std::vector<SignalSetting> &settings, Refusal *refusal);
+    /// What was set before moves \a indices no further. \pre the cycle has room for them
+    void endWays(const std::vector<QPlcSignalIndex> &indices);
     /// Sets values for good, as soon as the cycle has room.
     void setSoon(const std::vector<SignalSetting> &settings);
     /// The values that signals have now stay, also where they were set for a while only.

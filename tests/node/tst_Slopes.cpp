@@ -77,6 +77,8 @@ private Q_SLOTS:
     void eachElementOfAnArrayMovesOnItsOwn();
     void aNewValueTurnsTheSignalWhereItIs();
     void aLostLeaseMovesToTheNeutralValue();
+    void whoTakesOverALostSignalKeepsItWhereItIs();
+    void whoHoldsASignalAndTakesItAgainTurnsNothing();
     void aReleasedSignalIsItsWritersAtOnce();
     void aSafeStopDoesNotWait();
     void withoutCyclesAValueIsThereAtOnce();
@@ -194,6 +196,37 @@ void tst_Slopes::aLostLeaseMovesToTheNeutralValue()
     QCOMPARE(number("drive"), 2.0);  // what was taken over stays
     m_tool.reset();                  // and the connection is lost
     QVERIFY(largestChange("drive", -0.5) <= step * 1.001);
+    m_master->stop();
+}
+
+/// On its way to the neutral value.
+void tst_Slopes::whoTakesOverALostSignalKeepsItWhereItIs()
+{
+    QVERIFY(take("drive"));
+    QVERIFY(set("drive", "9"));
+    QTRY_VERIFY(number("drive") > 4.0);
+    m_tool.reset(new ScriptedTool("Bert"));  // Anna is lost
+    QVERIFY(m_tool->greetAt(m_master->serverPort()));
+    QTRY_VERIFY(number("drive") < 3.9);
+    QVERIFY(take("drive"));
+    QVERIFY(m_master->waitForCycles(m_master->statistics().cycles + 3));
+    const double kept = number("drive");
+    QVERIFY2(kept > -0.5, qPrintable(QString::number(kept)));
+    for (int look = 0; look < 30; ++look) {
+        QVERIFY(m_master->waitForCycles(m_master->statistics().cycles + 1));
+        QCOMPARE(number("drive"), kept);
+    }
+    QVERIFY(set("drive", "0.5"));  // and from there it goes where he wants it
+    QTRY_COMPARE(number("drive"), 0.5);
+    m_master->stop();
+}
+
+void tst_Slopes::whoHoldsASignalAndTakesItAgainTurnsNothing()
+{
+    QVERIFY(take("drive"));
+    QVERIFY(set("drive", "3"));
+    QVERIFY(take("drive"));
+    QTRY_COMPARE(number("drive"), 3.0);
     m_master->stop();
 }
 
