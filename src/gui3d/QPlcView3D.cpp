@@ -3,6 +3,7 @@
 
 #include "View3DEditor.h"
 #include "View3DPicture.h"
+#include "gui/panel/DragEscape.h"
 
 #include <QtCore/QTimer>
 #include <QtGui/QMouseEvent>
@@ -43,6 +44,7 @@ QPlcView3D::QPlcView3D(QWidget *parent)
 {
     setAccessibleName(tr("3D view: the kite in space"));
     setFocusPolicy(Qt::StrongFocus);
+    new DragEscape(this, this);
     connect(this, &QPlcWidget::pinnedPlantChanged, this, [this] { d->kite.setPin(pinnedPlant()); });
     d->wheelEnd.setSingleShot(true);
     d->wheelEnd.setInterval(400);

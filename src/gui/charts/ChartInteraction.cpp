@@ -2,6 +2,7 @@
 #include "ChartInteraction.h"
 
 #include "PinchZoom.h"
+#include "gui/panel/DragEscape.h"
 
 #include <QtGui/QMouseEvent>
 #include <QtGui/QWheelEvent>
@@ -31,6 +32,10 @@ ChartInteraction::ChartInteraction(QwtPlot *chart, std::initializer_list<QwtPlot
     for (const QwtPlot::Axis axis : axes)
         chart->axisWidget(axis)->installEventFilter(this);
     followPinches();
+    auto *escape = new DragEscape(chart->canvas(), this);
+    for (const QwtPlot::Axis axis : axes)
+        escape->watch(chart->axisWidget(axis));
+    connect(escape, &DragEscape::escaped, this, &ChartInteraction::endDrag);
 }
 
 void ChartInteraction::followPinches()
@@ -146,6 +151,16 @@ void ChartInteraction::release(const QWidget *watched, const QMouseEvent &event)
     }
     if (!m_hasMoved && m_button == Qt::RightButton)
         Q_EMIT menuWanted(position, event.globalPos());
+}
+
+/// As if it had been a slip: the chart stays where it is, and a box chooses nothing.
+void ChartInteraction::endDrag()
+{
+    if (m_action == Nothing)
+        return;
+    m_action = Nothing;
+    showBox(QRect());
+    hover(m_last);
 }
 
 QRect ChartInteraction::boxTo(QPoint position) const

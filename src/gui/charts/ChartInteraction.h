@@ -15,7 +15,7 @@ class QWheelEvent;
 
 namespace qplc {
 
-/// What a mouse and two fingers do over a chart, the same in all of them: dragging with Shift or the right button is a box, other dragging is up to the chart; a double click wants all, the right button alone a menu.
+/// What a mouse and two fingers do over a chart, the same in all of them: dragging with Shift or the right button is a box, other dragging is up to the chart; a double click wants all, the right button alone a menu. Escape ends what is dragged.
 /// All places are in pixels of the canvas.
 class ChartInteraction : public QObject
 {
@@ -63,6 +63,7 @@ private:
     void press(const QWidget *watched, const QMouseEvent &event);
     bool move(const QWidget *watched, const QMouseEvent &event);
     void release(const QWidget *watched, const QMouseEvent &event);
+    void endDrag();
     QRect boxTo(QPoint position) const;
     void followPinches();
     void setMouse(std::optional<QPoint> position);

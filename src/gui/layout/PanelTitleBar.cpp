@@ -13,6 +13,7 @@
 #include <QtWidgets/QToolTip>
 
 #include <algorithm>
+#include <cmath>
 
 namespace qplc {
 
@@ -117,8 +118,8 @@ QRect PanelTitleBar::badgeRect() const
     if (m_badge.text.isEmpty())
         return {};
     const QRect line = lineRect();
-    const int wanted
-        = fontMetrics().horizontalAdvance(m_badge.text) + 2 * badgeMargin + (m_badge.isPinned ? pinWidth : 0);
+    const int text = int(std::ceil(QFontMetricsF(font(), this).horizontalAdvance(m_badge.text)));  // or it is elided
+    const int wanted = text + 2 * badgeMargin + (m_badge.isPinned ? pinWidth : 0);
     const int width = std::min({wanted, std::max(line.width() * 6 / 10, leastBadge), line.width()});
     const int height = fontMetrics().height() + 2;
     return {line.right() - width, line.center().y() - height / 2, width, height};
@@ -240,10 +241,10 @@ bool PanelTitleBar::eventFilter(QObject *watched, QEvent *event)
     if (!isKey || static_cast<QKeyEvent *>(event)->key() != Qt::Key_Escape)
         return QWidget::eventFilter(watched, event);
     event->accept();
-    if (event->type() == QEvent::KeyPress) {
-        endDrag();
-        Q_EMIT dragCancelled();
-    }
+    if (event->type() == QEvent::ShortcutOverride)
+        return false;  // others hear that there was a press
+    endDrag();
+    Q_EMIT dragCancelled();
     return true;
 }
 

@@ -2,6 +2,7 @@
 #include "KnobView.h"
 
 #include "gui/models/ValueFormat.h"
+#include "gui/panel/DragEscape.h"
 
 #include <QtGui/QKeyEvent>
 #include <QtWidgets/QHBoxLayout>
@@ -54,6 +55,10 @@ KnobView::KnobView(SetterTarget *target, QWidget *parent)
     setFocusProxy(m_knob);
     connect(m_knob, &QwtKnob::valueChanged, this, &KnobView::turned);
     connect(m_knob, &QwtKnob::sliderReleased, this, &KnobView::apply);
+    connect(new DragEscape(m_knob, this), &DragEscape::escaped, this, [this] {
+        revert();  // before the release, which would send
+        sendRelease(m_knob);
+    });
     refresh();
 }
 

@@ -2,6 +2,7 @@
 #include "SliderView.h"
 
 #include "gui/models/ValueFormat.h"
+#include "gui/panel/DragEscape.h"
 
 #include <QtWidgets/QHBoxLayout>
 #include <QtWidgets/QLabel>
@@ -46,6 +47,7 @@ SliderView::SliderView(SetterTarget *target, QWidget *parent)
         if (m_slider->value() != m_sentPosition)
             send();
     });
+    connect(new DragEscape(m_slider, this), &DragEscape::escaped, this, [this] { sendRelease(m_slider); });
     refresh();
 }
 

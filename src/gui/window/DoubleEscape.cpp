@@ -73,6 +73,10 @@ bool DoubleEscape::eventFilter(QObject *watched, QEvent *event)
         break;
     case QEvent::MouseButtonPress:
         m_isArmed = false;
+        m_isDragging = true;
+        break;
+    case QEvent::MouseButtonRelease:
+        m_isDragging = false;
         break;
     case QEvent::Hide:
     case QEvent::Close:
@@ -135,6 +139,8 @@ void DoubleEscape::begin(qint64 time)
     m_isArmed = false;
     m_hasArrived = false;
     m_hasLeft = false;
+    m_isEndOfDrag = m_isDragging && QGuiApplication::mouseButtons() != Qt::NoButton;
+    m_isDragging = false;  // the next press is no end of it, also if the button stays down
 }
 
 /// The window itself may use the key still; the next turn of the event loop knows.
@@ -143,8 +149,7 @@ void DoubleEscape::arrive()
     QWidget *const focus = QApplication::focusWidget();
     const bool isEdit = m_typedInto && m_typedInto == focus;
     m_typedInto.clear();
-    const bool isDragged = QGuiApplication::mouseButtons() != Qt::NoButton;
-    if (isEdit || isDragged || QApplication::activePopupWidget())
+    if (isEdit || m_isEndOfDrag || QApplication::activePopupWidget())
         return;
     m_hasArrived = true;
     QCoreApplication::postEvent(this, new QEvent(judgement()), Qt::HighEventPriority);

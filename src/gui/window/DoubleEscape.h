@@ -16,7 +16,8 @@ namespace qplc {
 /// A press counts only if nothing uses it. It does not count, and is no first press either, if
 /// - a widget, a shortcut or a dialog accepts the key: it closes a menu, cancels an edit, ...;
 /// - it hides, closes or changes the state of a window or widget, or moves the focus;
-/// - a mouse button is held: the person drags something;
+/// - it is the first one since a mouse button went down that is still held: it ends what the person drags.
+///   A person who holds a slider in a fright and presses Escape again and again stops the plant;
 /// - the person was typing into a field and has not pressed Enter since: the press ends the edit.
 ///
 /// Several objects see one press. The time at which it was made tells presses apart. A press that a
@@ -45,6 +46,8 @@ private:
     bool m_isHeld = false;          // it was not released since
     bool m_isArmed = false;         // the first press counted
     bool m_isSecond = false;        // the press that is under way came soon enough after a first one
+    bool m_isDragging = false;      // a mouse button is down, and Escape has not come since
+    bool m_isEndOfDrag = false;     // the press that is under way ends a drag
     bool m_hasArrived = false;      // it has come to a window, so that no widget uses it
     bool m_hasLeft = false;         // something closed or lost the focus during the press
 };

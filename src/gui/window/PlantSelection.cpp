@@ -11,7 +11,10 @@ PlantSelection::PlantSelection(PlantList *plants, QObject *parent)
 {
     connect(plants, &PlantList::added, this, &PlantSelection::follow);
     connect(plants, &PlantList::removed, this, &PlantSelection::forget);
-    connect(plants, &PlantList::selectionChanged, this, &PlantSelection::changed);
+    connect(plants, &PlantList::selectionChanged, this, [this] {
+        forgetLost();
+        Q_EMIT changed();
+    });
 }
 
 void PlantSelection::follow(Plant *plant)
@@ -26,10 +29,14 @@ void PlantSelection::follow(Plant *plant)
         const bool isBack = plant->status().state == QLatin1String("Off") && m_initialized.contains(plant);
         if (!plant->isConnected() || plant->status().isRunning() || plant->status().isLatched() || isBack)
             m_initialized.remove(plant);
+        followControl(plant);
         Q_EMIT changed();
     });
     connect(plant, &Plant::statusChanged, this, &PlantSelection::changed);
-    connect(plant, &Plant::leasesChanged, this, &PlantSelection::changed);
+    connect(plant, &Plant::leasesChanged, this, [this, plant] {
+        followControl(plant);
+        Q_EMIT changed();
+    });
     connect(plant, &Plant::commandFailed, this,
             [this](int, const QString &sentence) { Q_EMIT commandFailed(sentence); });
     Q_EMIT changed();
@@ -39,7 +46,27 @@ void PlantSelection::forget(Plant *plant)
 {
     plant->disconnect(this);
     m_initialized.remove(plant);
+    m_controlled.remove(plant);
     Q_EMIT changed();
+}
+
+void PlantSelection::followControl(Plant *plant)
+{
+    if (!plant->isConnected())
+        return;  // it keeps what it was
+    const QVector<LeaseStatus> &leases = plant->leases();
+    if (std::any_of(leases.begin(), leases.end(), [](const LeaseStatus &lease) { return lease.isMine; }))
+        m_controlled.insert(plant);
+    else
+        m_controlled.remove(plant);
+}
+
+void PlantSelection::forgetLost()
+{
+    for (int place = 0; place < m_plants->size(); ++place) {
+        if (!m_plants->at(place)->isConnected())
+            m_controlled.remove(m_plants->at(place));
+    }
 }
 
 void PlantSelection::selectNext()
@@ -50,13 +77,14 @@ void PlantSelection::selectNext()
 
 QVector<Plant *> PlantSelection::plantsToStop() const
 {
-    QVector<Plant *> controlled;
+    QVector<Plant *> controlled, lost;
     for (int place = 0; place < m_plants->size(); ++place) {
-        const QVector<LeaseStatus> &leases = m_plants->at(place)->leases();
-        if (m_plants->at(place)->isConnected()
-            && std::any_of(leases.begin(), leases.end(), [](const LeaseStatus &lease) { return lease.isMine; }))
-            controlled << m_plants->at(place);
+        Plant *plant = m_plants->at(place);
+        if (m_controlled.contains(plant))
+            (plant->isConnected() ? controlled : lost) << plant;
     }
+    if (controlled.isEmpty())
+        controlled = lost;
     if (controlled.isEmpty() && plant())
         controlled << plant();
     return controlled;

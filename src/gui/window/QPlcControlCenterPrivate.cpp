@@ -146,7 +146,7 @@ void QPlcControlCenter::Private::connectParts()
     new SignalPlaceActions(dock->tree(), view, placer);
     connect(&editor, &LayoutEditor::layoutChanged, &panelPlants, &PanelPlants::showAll);
     connect(stopQuestion, &StopQuestion::answered, q,
-            [this](const QVector<Plant *> &plants) { stopPlants(plants, tr("STOP")); });
+            [this](const QVector<Plant *> &plants, const QString &how) { stopPlants(plants, how); });
     connect(&editor, &LayoutEditor::refused, q, [this](const QString &sentence) { hint->showText(sentence); });
     connect(eventLine, &QAbstractButton::clicked, q, [this] { actions->eventLog->trigger(); });
     connect(topBar, &TopBar::nextRequested, q, [this] {
@@ -281,7 +281,7 @@ void QPlcControlCenter::Private::stop(const QString &how)
 {
     const QVector<Plant *> plants = selection.plantsToStop();
     if (plants.size() > 1)
-        stopQuestion->ask();
+        stopQuestion->ask(how);
     else if (plants.isEmpty())
         perform(Plant::StopAction);
     else

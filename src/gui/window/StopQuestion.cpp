@@ -22,11 +22,11 @@ void StopQuestion::follow()
         answer({});
 }
 
-void StopQuestion::ask()
+void StopQuestion::ask(const QString &how)
 {
     const QVector<Plant *> plants = m_selection->plantsToStop();
     if (!m_asked.isEmpty() && m_asked == plants) {
-        answer(plants);
+        answer(plants, how);
         return;
     }
     m_asked = plants;
@@ -47,18 +47,18 @@ void StopQuestion::addChoice(const QString &text, const QVector<Plant *> &plants
 {
     auto *button = new BarButton(kind, context(), this);
     button->setText(text);
-    connect(button, &QAbstractButton::clicked, this, [this, plants] { answer(plants); });
+    connect(button, &QAbstractButton::clicked, this, [this, plants] { answer(plants, tr("STOP")); });
     row()->addWidget(button, 0, Qt::AlignVCenter);
     button->show();
     m_buttons << button;
 }
 
-void StopQuestion::answer(const QVector<Plant *> &plants)
+void StopQuestion::answer(const QVector<Plant *> &plants, const QString &how)
 {
     m_asked.clear();
     say({});
     if (!plants.isEmpty())
-        Q_EMIT answered(plants);
+        Q_EMIT answered(plants, how);
 }
 
 }  // namespace qplc

@@ -15,14 +15,15 @@ public:
     /// \param selection, context  outlive the line
     StopQuestion(PlantSelection *selection, WindowContext *context, QWidget *parent = nullptr);
 
-    void ask();
+    /// \param how  the person asked to stop, for those who are told of it
+    void ask(const QString &how);
 
 Q_SIGNALS:
-    void answered(const QVector<qplc::Plant *> &plants);
+    void answered(const QVector<qplc::Plant *> &plants, const QString &how);
 
 private:
     void follow();
-    void answer(const QVector<Plant *> &plants);
+    void answer(const QVector<Plant *> &plants, const QString &how = QString());
     void addChoice(const QString &text, const QVector<Plant *> &plants, BarButton::Kind kind);
 
     PlantSelection *m_selection;

@@ -74,6 +74,7 @@ private Q_SLOTS:
     void draggingPansByWhatTheMouseMoves();
     void twoFingersZoomTheTime();
     void aBoxIsZoomedInto();
+    void escapeEndsABoxAndADrag();
     void aDoubleClickShowsAll();
     void cursorsAreDragged();
     void theMousePointsInAllPlots();
@@ -256,6 +257,31 @@ void tst_TimePlot::aBoxIsZoomedInto()
         QVERIFY(std::abs(window.time()->span() - span / 2) < span / 50);
         QTRY_COMPARE(qRound(window.canvas()->valueAt(PlotCurveSettings::Left, 0.0)), 75);
         QCOMPARE(qRound(window.canvas()->valueAt(PlotCurveSettings::Left, canvas->height())), 25);
+    }
+}
+
+void tst_TimePlot::escapeEndsABoxAndADrag()
+{
+    PlotWindow window(R"({"curves":[{"signal":"count"}]})");
+    QVERIFY(window.run(0.2));
+    window.time()->freeze();
+    QVERIFY(window.isDrawn());
+    QWidget *canvas = window.canvas()->canvas();
+    for (const Qt::MouseButton button : {Qt::RightButton, Qt::LeftButton}) {
+        const QPoint center = canvas->rect().center();
+        QTest::mousePress(canvas, button, {}, center);
+        for (int step = 1; step < 4; ++step) {
+            QMouseEvent move(QEvent::MouseMove, center + 8 * step * QPoint(1, 1), Qt::NoButton, button, {});
+            QCoreApplication::sendEvent(canvas, &move);
+        }
+        const Time begin = window.time()->begin();
+        const Time span = window.time()->span();
+        QTest::keyClick(window.plot, Qt::Key_Escape);
+        QMouseEvent move(QEvent::MouseMove, center + QPoint(-40, 50), Qt::NoButton, button, {});
+        QCoreApplication::sendEvent(canvas, &move);
+        QTest::mouseRelease(canvas, button, {}, center + QPoint(-40, 50));
+        QCOMPARE(window.time()->begin(), begin);
+        QCOMPARE(window.time()->span(), span);
     }
 }
 

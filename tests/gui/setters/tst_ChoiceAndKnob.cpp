@@ -64,6 +64,7 @@ private Q_SLOTS:
     void aSignalWithNamesThatIsDroppedBecomesAList();
     void aNameCanBeTypedWhereNumbersAre();
     void theKnobSendsOnceWhenTheMouseLetsGo();
+    void escapeTakesBackAKnobThatIsDragged();
     void keysTurnTheKnobAndEnterSends();
     void escapeTakesTheTurningBackAndNothingIsOverwritten();
     void aKnobWithoutLimitsSaysWhatToDo();
@@ -187,6 +188,27 @@ void tst_ChoiceAndKnob::theKnobSendsOnceWhenTheMouseLetsGo()
     QTest::mouseClick(knob, Qt::LeftButton, {}, center + QPoint(17, -10));  // turns nothing
     QTest::qWait(50);
     QTRY_COMPARE(desk.window.done.size(), 1);
+}
+
+void tst_ChoiceAndKnob::escapeTakesBackAKnobThatIsDragged()
+{
+    Desk desk;
+    QVERIFY(desk.show(settingsOf("speed", "knob")));
+    auto *knob = desk.part<QwtKnob>();
+    QTRY_VERIFY(knob->isEnabled());
+    const double before = knob->value();
+    const QPoint center = knob->rect().center();
+    QTest::mousePress(knob, Qt::LeftButton, {}, center + QPoint(0, -20));
+    drag(knob, center + QPoint(10, -17));
+    drag(knob, center + QPoint(17, -10));
+    QVERIFY(knob->value() != before);
+    QTest::keyClick(knob, Qt::Key_Escape);
+    QTRY_COMPARE(knob->value(), before);
+    drag(knob, center + QPoint(10, 17));  // the button is still down
+    QTest::mouseRelease(knob, Qt::LeftButton, {}, center + QPoint(10, 17));
+    QTest::qWait(100);
+    QCOMPARE(knob->value(), before);
+    QCOMPARE(desk.window.done.size(), 0);
 }
 
 void tst_ChoiceAndKnob::keysTurnTheKnobAndEnterSends()

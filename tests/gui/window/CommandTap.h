@@ -34,6 +34,14 @@ public:
                                  [kind](const QPlcMessage &message) { return message.kind() == kind; }));
     }
     void clear() { m_commands.clear(); }
+    /// Cuts all connections, and takes no new ones.
+    void cut()
+    {
+        m_server.close();
+        const QList<QTcpSocket *> windows = m_server.findChildren<QTcpSocket *>(QString(), Qt::FindDirectChildrenOnly);
+        for (QTcpSocket *window : windows)
+            window->abort();
+    }
 
 private:
     /// What one connection has sent that is no whole message yet.

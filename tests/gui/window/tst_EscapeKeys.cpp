@@ -53,9 +53,12 @@ QWindow *keyboardWindow()
     return QApplication::activeWindow()->windowHandle();
 }
 
+int escapes = 0;  // presses so far
+
 /// A key as a keyboard sends it: to the window that has the focus, also through shortcuts.
 void pressKey(Qt::Key key)
 {
+    escapes += key == Qt::Key_Escape ? 1 : 0;
     QTest::qWait(2);  // presses of one millisecond would be one press
     QTest::keyPress(keyboardWindow(), key);
     QCoreApplication::processEvents();
@@ -151,14 +154,16 @@ struct FlyingWindow : WindowFixture
                 && (*field)->text().contains(QLatin1Char('2'));
         };
     }
-    /// A mouse button that goes down on \a target and moves.
+    /// A mouse button that goes down on \a target and moves. The first Escape ends what is dragged.
     void addDrag(const QString &name, const std::function<QWidget *()> &target)
     {
         const auto dragged = std::make_shared<QPointer<QWidget>>();
+        const auto begin = std::make_shared<int>(0);
         things.append({name,
-                       [dragged, target] {
+                       [dragged, begin, target] {
                            if (isPopupOpen() || *dragged)
                                return false;
+                           *begin = escapes;
                            *dragged = target();
                            const QPoint at = (*dragged)->rect().center();
                            QTest::mousePress(*dragged, Qt::LeftButton, Qt::NoModifier, at);
@@ -166,9 +171,13 @@ struct FlyingWindow : WindowFixture
                                QTest::mouseMove(*dragged, at + QPoint(8 * step, 3 * step));
                            return true;
                        },
-                       [dragged] { return *dragged && QGuiApplication::mouseButtons() != Qt::NoButton; },
+                       [dragged, begin] {
+                           return *dragged && escapes == *begin && QGuiApplication::mouseButtons() != Qt::NoButton;
+                       },
                        [dragged] {
-                           QTest::mouseRelease(*dragged, Qt::LeftButton, Qt::NoModifier, (*dragged)->rect().center());
+                           if (*dragged)
+                               QTest::mouseRelease(*dragged, Qt::LeftButton, Qt::NoModifier,
+                                                   (*dragged)->rect().center());
                            dragged->clear();
                        }});
     }
@@ -281,6 +290,7 @@ private Q_SLOTS:
     void theStopButtonAndOthersAreTold();
     void withAnythingOpenEscapeNeverStops();
     void aListWithTheFocusKeepsNoEscape();
+    void escapeEndsADragAndTwiceMoreStops();
 
 private:
     std::unique_ptr<TestSettings> m_settings;
@@ -367,7 +377,7 @@ void tst_EscapeKeys::withAnythingOpenEscapeNeverStops()
             QVERIFY2(fixture.stops.isEmpty(), told);
         }
         for (const Thing &thing : qAsConst(open)) {
-            if (thing.let && thing.isOpen())
+            if (thing.let)
                 thing.let();
         }
         for (const Thing &thing : qAsConst(open))
@@ -384,6 +394,31 @@ void tst_EscapeKeys::withAnythingOpenEscapeNeverStops()
     pressKey(Qt::Key_Escape);
     pressKey(Qt::Key_Escape);
     QTRY_COMPARE_WITH_TIMEOUT(fixture.master.state(), QPlcMasterNode::Off, patience);
+}
+
+/// A person who holds a slider in a fright and presses Escape again and again wants to stop.
+void tst_EscapeKeys::escapeEndsADragAndTwiceMoreStops()
+{
+    for (const char *what : {"drag of a slider", "drag of a plot", "drag of a panel"}) {
+        FlyingWindow fixture;
+        QVERIFY(fixture.isReady);
+        for (const Thing &thing : qAsConst(fixture.things)) {
+            if (thing.name == QLatin1String(what))
+                QVERIFY(thing.open());
+        }
+        QVERIFY(QGuiApplication::mouseButtons() != Qt::NoButton);
+        pressKey(Qt::Key_Escape);
+        QVERIFY(!fixture.slider->isSliderDown());
+        const int place = fixture.slider->sliderPosition();
+        QTest::mouseMove(fixture.slider, QPoint(2, fixture.slider->height() / 2));
+        QCOMPARE(fixture.slider->sliderPosition(), place);
+        pressKey(Qt::Key_Escape);
+        QVERIFY(fixture.stops.isEmpty());
+        QCOMPARE(fixture.master.state(), QPlcMasterNode::RealTime);
+        pressKey(Qt::Key_Escape);
+        QTRY_COMPARE_WITH_TIMEOUT(fixture.master.state(), QPlcMasterNode::Off, patience);
+        QTest::mouseRelease(fixture.slider, Qt::LeftButton);
+    }
 }
 
 /// Lists take every key for a search by letters.

@@ -39,7 +39,10 @@ private Q_SLOTS:
     void controlIsTakenOfThePlantThatIsShown();
     void stopMeansThePlantThatAPersonControls();
     void escEscMeansThePlantThatAPersonControls();
+    void stopNeverMovesToAnotherPlantWhenTheControlledOneIsLost();
     void withSeveralControlledPlantsStopAsks();
+    void theAnswerToAQuestionSaysHowItWasGiven();
+    void aBadgeThatHasRoomIsReadWhole();
     void theKeyOfABannerIsThatOfTheSelectedPlant();
     void histogramsFollowTheSelectedPlant();
 
@@ -222,6 +225,66 @@ void tst_SeveralPlants::escEscMeansThePlantThatAPersonControls()
     QTRY_COMPARE_WITH_TIMEOUT(fixture.south.state(), QPlcMasterNode::Off, patience);
     QVERIFY(fixture.settle());
     QCOMPARE(fixture.northTap.commands().size(), 0);
+}
+
+/// A person whose plant does not answer any more presses Escape again and again.
+void tst_SeveralPlants::stopNeverMovesToAnotherPlantWhenTheControlledOneIsLost()
+{
+    TwoPlants fixture;
+    QPlcSetter *setter = fixture.addSetter(QStringLiteral("south/echo"), number);
+    QVERIFY(fixture.isReady());
+    QTRY_VERIFY_WITH_TIMEOUT(TwoPlants::take(setter), patience);
+    QTRY_COMPARE_WITH_TIMEOUT(fixture.stopPlants(), QStringList(QStringLiteral("south")), patience);
+    fixture.southTap.cut();
+    QTRY_VERIFY_WITH_TIMEOUT(!fixture.plant(1)->isConnected(), patience);
+    QCOMPARE(fixture.stopPlants(), QStringList(QStringLiteral("south")));
+    fixture.window.setFocus();
+    fixture.press(Qt::Key_Escape);
+    fixture.press(Qt::Key_Escape);
+    QTRY_COMPARE_WITH_TIMEOUT(fixture.barPlant(), QStringLiteral("south"), patience);
+    QTest::mouseClick(fixture.topBar()->stopButton(), Qt::LeftButton);
+    QTest::qWait(100);
+    QCOMPARE(fixture.northTap.count(QPlcMessage::Stop), 0);
+    QCOMPARE(fixture.north.state(), QPlcMasterNode::RealTime);
+    fixture.selectNext();  // now north is what the person means
+    QCOMPARE(fixture.stopPlants(), QStringList(QStringLiteral("north")));
+    QTest::mouseClick(fixture.topBar()->stopButton(), Qt::LeftButton);
+    QTRY_COMPARE_WITH_TIMEOUT(fixture.north.state(), QPlcMasterNode::Off, patience);
+}
+
+void tst_SeveralPlants::theAnswerToAQuestionSaysHowItWasGiven()
+{
+    TwoPlants fixture;
+    QPlcSetter *ofNorth = fixture.addSetter(QStringLiteral("north/echo"), number);
+    QPlcSetter *ofSouth = fixture.addSetter(QStringLiteral("south/echo"), number);
+    QVERIFY(fixture.isReady());
+    QTRY_VERIFY_WITH_TIMEOUT(TwoPlants::take(ofNorth) && TwoPlants::take(ofSouth), patience);
+    QTRY_COMPARE_WITH_TIMEOUT(fixture.stopPlants().size(), 2, patience);
+    fixture.window.setFocus();
+    for (int press = 0; press < 4; ++press)
+        fixture.press(Qt::Key_Escape);
+    QTRY_VERIFY_WITH_TIMEOUT(fixture.plant(1)->status().stop.time.isValid(), patience);
+    QCOMPARE(fixture.plant(1)->status().stop.how, QStringLiteral("Esc Esc"));
+}
+
+/// Letters have widths that are no whole pixels.
+void tst_SeveralPlants::aBadgeThatHasRoomIsReadWhole()
+{
+    PanelTitleBar title;
+    title.resize(600, 24);
+    for (double size = 6.0; size < 20.0; size += 0.1) {
+        QFont font = title.font();
+        font.setPointSizeF(size);
+        font.setHintingPreference(QFont::PreferNoHinting);
+        title.setFont(font);
+        for (const char *name : {"north", "south", "winch1", "winch2"}) {
+            const QString text = QString::fromLatin1(name);
+            title.setBadge({text, Qt::blue, Qt::white, QString(), false});
+            const int room = title.badgeRect().width() - 12;
+            QVERIFY2(title.fontMetrics().elidedText(text, Qt::ElideRight, room) == text,
+                     qPrintable(QStringLiteral("%1 at %2").arg(text).arg(size)));
+        }
+    }
 }
 
 void tst_SeveralPlants::withSeveralControlledPlantsStopAsks()
