@@ -18,6 +18,20 @@ namespace {
 
 const QString winchSection = QStringLiteral("winch");
 const QString kiteSection = QStringLiteral("kite");
+constexpr int largestFile = 1 << 20;  // [byte]
+constexpr int longestLine = 1000;     // [characters] without its comment
+
+/// All of \a file, which may be a pipe: it tells neither its size nor its end beforehand. One byte more than the largest file at most.
+QByteArray contentOf(QFile &file)
+{
+    QByteArray content;
+    QByteArray part;
+    do {
+        part = file.read(largestFile + 1 - content.size());
+        content += part;
+    } while (!part.isEmpty() && content.size() <= largestFile);
+    return content;
+}
 
 QString withoutComment(const QByteArray &line)
 {
@@ -56,6 +70,8 @@ public:
     /// Takes one line without its comment. \return empty, or what is wrong and the remedy
     QString take(const QString &line)
     {
+        if (line.size() > longestLine)
+            return QStringLiteral("the line has %1 characters; write %2 at most").arg(line.size()).arg(longestLine);
         if (line.startsWith(QLatin1Char('[')))
             return enter(line);
         const QString key = line.section(QLatin1Char('='), 0, 0).trimmed();
@@ -120,9 +136,17 @@ bool PlantConfiguration::read(const QString &fileName, PlantConfiguration *confi
     }
     if (fileName != builtInFile() && !read(builtInFile(), configuration, error))  // for a section that is left out
         return false;
+    const QByteArray content = contentOf(file);
+    if (content.size() > largestFile) {
+        *error
+            = QStringLiteral("the plant %1 has more than %2 bytes; choose another file").arg(fileName).arg(largestFile);
+        return false;
+    }
     PlantReader reader(QFileInfo(fileName).path(), configuration);
-    for (int number = 1; !file.atEnd(); ++number) {
-        const QString line = withoutComment(file.readLine());
+    int number = 0;
+    for (const QByteArray &text : content.split('\n')) {
+        ++number;
+        const QString line = withoutComment(text);
         const QString wrong = line.isEmpty() ? QString() : reader.take(line);
         if (wrong.isEmpty())
             continue;

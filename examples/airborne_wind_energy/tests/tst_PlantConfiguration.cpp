@@ -7,6 +7,9 @@
 #include <QtCore/QTemporaryDir>
 #include <QtTest/QtTest>
 
+#include <fcntl.h>
+#include <unistd.h>
+
 using namespace awe;
 
 class tst_PlantConfiguration : public QObject
@@ -24,6 +27,9 @@ private Q_SLOTS:
     void badLineIsNamedWithItsRemedy_data();
     void badLineIsNamedWithItsRemedy();
     void fileThatIsNotThereIsNamed();
+    void aPipeIsReadToItsEnd();
+    void fileThatIsTooLargeIsRefused();
+    void longLineIsNotRepeated();
 
 private:
     QString write(const QByteArray &text);
@@ -246,6 +252,41 @@ void tst_PlantConfiguration::fileThatIsNotThereIsNamed()
     QString error;
     QVERIFY(!PlantConfiguration::read(QStringLiteral("/nowhere/plant.ini"), &plant, &error));
     QVERIFY2(error.contains(QLatin1String("/nowhere/plant.ini")), qPrintable(error));
+}
+
+/// As in --plant <(generate-a-kite).
+void tst_PlantConfiguration::aPipeIsReadToItsEnd()
+{
+    int ends[2] = {-1, -1};
+    QCOMPARE(::pipe2(ends, O_CLOEXEC), 0);
+    const QByteArray text = "[kite]\nmass = 20\n";
+    QCOMPARE(::write(ends[1], text.constData(), size_t(text.size())), text.size());
+    ::close(ends[1]);
+    PlantConfiguration plant;
+    QString error;
+    const bool isRead = PlantConfiguration::read(QStringLiteral("/proc/self/fd/%1").arg(ends[0]), &plant, &error);
+    ::close(ends[0]);
+    QVERIFY2(isRead, qPrintable(error));
+    QCOMPARE(plant.kite.plant.mass, 20.0);
+}
+
+void tst_PlantConfiguration::fileThatIsTooLargeIsRefused()
+{
+    PlantConfiguration plant;
+    QString error;
+    const QString name = write("[kite]\n" + QByteArray(10'000'000, ';'));
+    QVERIFY(!PlantConfiguration::read(name, &plant, &error));
+    QVERIFY2(error.contains(QLatin1String("has more than 1048576 bytes")), qPrintable(error));
+    QVERIFY(!PlantConfiguration::read(QStringLiteral("/dev/zero"), &plant, &error));
+    QVERIFY2(error.contains(QLatin1String("has more than 1048576 bytes")), qPrintable(error));
+}
+
+void tst_PlantConfiguration::longLineIsNotRepeated()
+{
+    PlantConfiguration plant;
+    QString error;
+    QVERIFY(!PlantConfiguration::read(write("[kite]\nmass = 5\n" + QByteArray(5000, 'a') + "\n"), &plant, &error));
+    QVERIFY2(error.endsWith(QLatin1String(":3: the line has 5000 characters; write 1000 at most")), qPrintable(error));
 }
 
 QTEST_APPLESS_MAIN(tst_PlantConfiguration)
