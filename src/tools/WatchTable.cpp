@@ -11,7 +11,8 @@ namespace {
 
 constexpr int numberWidth = 11;  // of extremes
 constexpr int ageWidth = 8;      // of an age, or a quality
-constexpr int gaps = 5 * 2;      // between six columns
+constexpr int columnGap = 2;     // between two columns
+constexpr int leastName = 16;    // of a name, or no extremes are shown
 constexpr int titleLines = 1;
 
 /// Six digits, fewer where an exponent needs the room.
@@ -94,17 +95,22 @@ void WatchTable::forgetExtremes()
         row.hasExtremes = false;
 }
 
-/// The name is given what it needs where the line is wide enough; a value may be cut, being a text then.
+/// The name is given what it needs where the line is wide enough; a value may be cut, being a text then. Where the line is
+/// too narrow for names that can be read, there are no extremes.
 WatchTable::Widths WatchTable::widths(int first, int count, int width) const
 {
-    Widths widths{6, 13, 4};
+    Widths widths{6, 13, 4, true};
     for (int i = first; i < first + count; ++i) {
         widths.name = qMax(widths.name, displayWidth(m_rows.at(i).name));
         widths.unit = qMax(widths.unit, displayWidth(m_rows.at(i).unit));
         widths.value = qMax(widths.value, displayWidth(m_rows.at(i).value));
     }
-    const int room = width - 2 * numberWidth - ageWidth - gaps;
     widths.unit = qMin(widths.unit, 8);
+    int room = width - ageWidth - 3 * columnGap;
+    const int withExtremes = room - 2 * (numberWidth + columnGap);
+    widths.hasExtremes = withExtremes - widths.unit - 13 >= qMin(widths.name, leastName);
+    if (widths.hasExtremes)
+        room = withExtremes;
     widths.value = qBound(13, widths.value, qMax(13, room - widths.unit - qMin(widths.name, 24)));
     widths.name = qBound(6, widths.name, qMax(6, room - widths.unit - widths.value));
     return widths;
@@ -116,11 +122,13 @@ QStringList WatchTable::lines(int first, int width, int height, double now) cons
     const Widths columns = widths(first, count, width);
     const auto line = [&](const QString &name, const QString &value, const QString &unit, const QString &minimum,
                           const QString &maximum, const QString &age) {
-        const QString gap = QStringLiteral("  ");
-        return padded(cut(name, columns.name), columns.name) + gap
-            + padded(cut(value, columns.value), columns.value, Right) + gap
-            + padded(cut(unit, columns.unit), columns.unit) + gap + padded(minimum, numberWidth, Right) + gap
-            + padded(maximum, numberWidth, Right) + gap + padded(age, ageWidth, Right);
+        QStringList cells{padded(cut(name, columns.name), columns.name),
+                          padded(cut(value, columns.value), columns.value, Right),
+                          padded(cut(unit, columns.unit), columns.unit)};
+        if (columns.hasExtremes)
+            cells << padded(minimum, numberWidth, Right) << padded(maximum, numberWidth, Right);
+        cells << padded(age, ageWidth, Right);
+        return cells.join(QString(columnGap, QLatin1Char(' ')));
     };
     const QString titles = line(QStringLiteral("signal"), QStringLiteral("value"), QStringLiteral("unit"),
                                 QStringLiteral("min"), QStringLiteral("max"), QStringLiteral("age"));

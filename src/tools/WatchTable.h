@@ -37,6 +37,7 @@ private:
     struct Widths
     {
         int name, value, unit;
+        bool hasExtremes;
     };
     static void update(Row *row, const QString &text, double number, double now);
     Widths widths(int first, int count, int width) const;

@@ -23,6 +23,7 @@ private Q_SLOTS:
     void rowsAreScrolledAndLimited();
     void linesFitTheTerminal_data();
     void linesFitTheTerminal();
+    void namesAreReadWhereTheTerminalIsNarrow();
     void controlCharactersAreHarmless();
 
 private:
@@ -148,7 +149,7 @@ void tst_WatchTable::rowsAreScrolledAndLimited()
 void tst_WatchTable::linesFitTheTerminal_data()
 {
     QTest::addColumn<int>("width");
-    for (const int width : {80, 100, 120, 200})
+    for (const int width : {44, 60, 80, 100, 120, 200})
         QTest::addRow("%d", width) << width;
 }
 
@@ -160,6 +161,20 @@ void tst_WatchTable::linesFitTheTerminal()
     table.update({-1.2345678901234567e-300, QPlcValue(QString(150, QLatin1Char('x')))}, 0.0);
     for (const QString &line : table.lines(0, width, 10, 1e7))
         QVERIFY2(line.size() <= width, qPrintable(line));
+}
+
+/// Smallest and largest values give way to names.
+void tst_WatchTable::namesAreReadWhereTheTerminalIsNarrow()
+{
+    WatchTable table(definitions("[bodyControlYawSpeed]\ntype = Real32\nunit = deg/s\n[bodyControlPitchSpeed]\n"
+                                 "type = Real32\nunit = deg/s\n[masterTime]\ntype = DateTime\n"));
+    table.update({1.5f, 2.5f, QPlcValue(QDateTime::fromMSecsSinceEpoch(0))}, 0.0);
+    const QString narrow = table.lines(0, 60, 10, 3.0).join(QLatin1Char('\n'));
+    QVERIFY2(narrow.contains(QStringLiteral("bodyControlYawSpeed ")), qPrintable(narrow));
+    QVERIFY2(narrow.contains(QStringLiteral("bodyControlPitchSpeed ")), qPrintable(narrow));
+    QVERIFY(!narrow.contains(QStringLiteral("min")));
+    QVERIFY(narrow.contains(QStringLiteral("3.0 s")));
+    QVERIFY(table.lines(0, 80, 10, 3.0).constFirst().contains(QStringLiteral("min")));
 }
 
 void tst_WatchTable::controlCharactersAreHarmless()

@@ -14,6 +14,7 @@ constexpr double windTimeConstant = 20.0;  // of the direction that the window l
 constexpr int widest = 100;                // columns; more would only make the picture flat
 constexpr int tallest = 44;                // rows
 constexpr int axisWidth = 6;               // columns of " 90° ┤"
+constexpr int narrowBelow = 76;            // columns: then figures stand closer
 constexpr int textRows = 7;                // everything but the window and the plot
 constexpr int plotRows = 7;                // of the plot, with its label
 constexpr int fewestRows = 22;             // of a terminal that has room for the plot
@@ -190,31 +191,38 @@ void FlightView::drawPlot(TerminalCanvas &canvas, int top, int height) const
     }
 }
 
+/// In three columns, closer to each other where the terminal is narrow.
 void FlightView::drawFigures(TerminalCanvas &canvas, int top) const
 {
     constexpr double shortest = 100.0, longest = 200.0;  // of the tether [m]
-    constexpr int barWidth = 30;
+    constexpr int longestBar = 30;
+    const bool isNarrow = canvas.columns() < narrowBelow;
+    const int pitch = isNarrow ? 20 : 24;
+    const int numberWidth = isNarrow ? 6 : 8;
+    const int frame = 1 + pitch + 4 + 6;  // columns beside the bar
+    const int barWidth = std::clamp(canvas.columns() - frame, 1, longestBar);
     const double share = std::clamp((m_moment.tetherLength - shortest) / (longest - shortest), 0.0, 1.0);
     const int filled = int(std::lround(share * barWidth));
     const double meanPower = m_moment.time > 0.0 ? m_moment.energy / m_moment.time : 0.0;
-    const auto figure = [](const char *label, double value, int precision, const char *unit) {
-        return QStringLiteral("%1 %2 %3")
-            .arg(QString::fromLatin1(label), -8)
-            .arg(value, 8, 'f', precision)
-            .arg(QString::fromLatin1(unit), -4);
+    const auto put = [&](int column, int row, const char *label, double value, int precision, const char *unit) {
+        canvas.put(1 + column * pitch, top + row,
+                   QStringLiteral("%1 %2 %3")
+                       .arg(QString::fromLatin1(label), -8)
+                       .arg(value, numberWidth, 'f', precision)
+                       .arg(QString::fromLatin1(unit)));
     };
-    canvas.put(1, top, figure("tether", m_moment.tetherLength, 1, "m"));
+    put(0, 0, "tether", m_moment.tetherLength, 1, "m");
     canvas.put(
-        25, top,
+        1 + pitch, top,
         QStringLiteral("100 %1%2 200 m").arg(QString(filled, QChar(0x2588)), QString(barWidth - filled, QChar(0x2591))),
         Style::Axis);
-    canvas.put(29, top, QString(filled, QChar(0x2588)), Style::TrailNew);
-    canvas.put(1, top + 1, figure("power", m_moment.power, 0, "W"));
-    canvas.put(25, top + 1, figure("mean", meanPower, 0, "W"));
-    canvas.put(49, top + 1, figure("energy", m_moment.energy * 1e-3, 1, "kJ"));
-    canvas.put(1, top + 2, figure("altitude", m_moment.position.z(), 1, "m"));
-    canvas.put(25, top + 2, figure("force", m_moment.tetherForce, 0, "N"));
-    canvas.put(49, top + 2, figure("wind", m_moment.windVelocity.norm(), 1, "m/s"));
+    canvas.put(1 + pitch + 4, top, QString(filled, QChar(0x2588)), Style::TrailNew);
+    put(0, 1, "power", m_moment.power, 0, "W");
+    put(1, 1, "mean", meanPower, 0, "W");
+    put(2, 1, "energy", m_moment.energy * 1e-3, 1, "kJ");
+    put(0, 2, "altitude", m_moment.position.z(), 1, "m");
+    put(1, 2, "force", m_moment.tetherForce, 0, "N");
+    put(2, 2, "wind", m_moment.windVelocity.norm(), 1, "m/s");
 }
 
 }  // namespace awe

@@ -86,6 +86,7 @@ private Q_SLOTS:
     void plotShowsThePowerOfTheLastMinute();
     void withoutColoursThereAreNoCodes();
     void earlierTimeIsAnotherFlight();
+    void noFigureLosesItsValueFrom60ColumnsOn();
     void fitsEveryTerminal_data();
     void fitsEveryTerminal();
     void everyColouredLineEndsPlain();
@@ -114,9 +115,9 @@ void tst_FlightView::pictureLooksLikeThis()
         "  0° ┤",
         "     └┴────────────┴────────────┴────────────┴────────────┴",
         "     60°          30°       downwind        30°          60°",
-        " tether      150.0 m     100 ███████████████░░░░░░░░░░░░░░░",
-        " power        2000 W     mean         2000 W     energy",
-        " altitude     75.0 m     force        1234 N     wind",
+        " tether    150.0 m   100 ███████████████░░░░░░░░░░░░░░ 200 m",
+        " power      2000 W   mean       2000 W   energy     30.0 kJ",
+        " altitude   75.0 m   force      1234 N   wind        6.0 m/s",
     };
     const QStringList lines = withoutCodes(view.draw(60, 16));
     QCOMPARE(lines.size(), int(std::size(golden)));
@@ -269,6 +270,18 @@ void tst_FlightView::fitsEveryTerminal()
     QVERIFY(lines.size() <= qMax(0, rows));
     for (const QString &line : lines)
         QVERIFY(line.size() <= columns);
+}
+
+void tst_FlightView::noFigureLosesItsValueFrom60ColumnsOn()
+{
+    FlightView view(60.0);
+    view.add(momentAt(15.0, 0.0, 30.0));
+    for (int columns = 60; columns <= 100; ++columns) {
+        const QString text = withoutCodes(view.draw(columns, 24)).join(QLatin1Char('\n')).simplified();
+        for (const char *figure : {"tether 150.0 m", "power 2000 W", "mean 2000 W", "energy 30.0 kJ", "altitude 75.0 m",
+                                   "force 1234 N", "wind 6.0 m/s", " 200 m"})
+            QVERIFY2(text.contains(QLatin1String(figure)), qPrintable(text));
+    }
 }
 
 void tst_FlightView::everyColouredLineEndsPlain()

@@ -131,8 +131,9 @@ QString QPlcKeyboardControl::Private::hint() const
         return tr("No keys yet: choose some in the settings");
     if (control.bindings().keys.isEmpty() && !hasGamepad())
         return gamepad->absence();
+    const QString neutral = control.control().neutralText();
     if (!control.isFlying())
-        return tr("Take control: these keys begin at neutral (%1)").arg(control.control().neutralText());
+        return neutral.isEmpty() ? QString() : tr("Take control: these keys begin at neutral (%1)").arg(neutral);
     return q->hasFocus() ? tr("Hold a key to steer: let go, and it is neutral")
                          : tr("Click here to steer: the keyboard is elsewhere");
 }

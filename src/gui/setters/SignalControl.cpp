@@ -225,14 +225,16 @@ void SignalControl::take(Plant::TakeOver takeOver)
 QString SignalControl::neutralText() const
 {
     QStringList texts;
+    bool isAllZero = true;
     for (const PlantList::Signal &signal : m_resolved) {
         if (!signal)
             continue;
+        isAllZero = isAllZero && neutralValue(signal).toReal() == 0.0;
         const QPlcSignalDefinition &definition = signal.definition();
         const QString unit = definition.unit == QLatin1String("1") ? QString() : definition.unit;
         texts << QStringLiteral("%1 %2 %3").arg(definition.name, neutralValue(signal).toString(), unit).trimmed();
     }
-    return texts.join(QStringLiteral(", "));
+    return isAllZero && texts.size() > 1 ? tr("all 0") : texts.join(QStringLiteral(", "));
 }
 
 void SignalControl::giveBack()

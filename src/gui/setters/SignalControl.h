@@ -58,7 +58,7 @@ public:
         Neutral
     };
     void setBeginning(Beginning beginning) { m_beginning = beginning; }
-    /// The neutral values of the signals, for people: "tetherSpeed 0 m/s"
+    /// The neutral values of the signals, for people: "tetherSpeed 1 m/s", "all 0"; empty where there are no signals
     QString neutralText() const;
 
     /// Takes all of the signals. From others only with \a takeOver.
