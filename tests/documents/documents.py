@@ -62,6 +62,12 @@ def sources_of_tests(root):
     return sources
 
 
+def check_headings(root, document, errors):
+    """A part of a page that stands there twice is one that was mended and one that was forgotten."""
+    headings = re.findall(r"^## .*$", re.sub(r"^```.*?^```$", "", document.read_text(), flags=re.S | re.M), re.M)
+    errors += [f"{document.relative_to(root)}: has the part '{heading}' twice" for heading in sorted(set(headings)) if headings.count(heading) > 1]
+
+
 def check_tests(root, document, sources, errors):
     for program, name in TEST.findall(document.read_text()):
         if program not in sources:
@@ -114,6 +120,7 @@ def main():
     for document in documents:
         check_blocks(root, document, "--write" in sys.argv, errors)
         check_links(root, document, errors)
+        check_headings(root, document, errors)
         check_tests(root, document, sources, errors)
     check_rooms(root, errors)
     print("\n".join(errors) or f"{len(documents)} documents are in order")
