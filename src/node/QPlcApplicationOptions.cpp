@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "QPlcApplicationOptions.h"
 
+#include "signals/MessageText.h"
 #include "transport/FaultPlan.h"
 
 #include <QtCore/QCommandLineParser>
@@ -68,11 +69,35 @@ QStringList revealed(const QStringList &arguments)
     return result;
 }
 
+QString withDashes(const QString &optionName)
+{
+    return (optionName.size() == 1 ? QStringLiteral("-") : QStringLiteral("--")) + optionName;
+}
+
+/// Why the command line cannot be read, in one sentence.
+QString wrongUse(const QCommandLineParser &parser, const QStringList &knownNames)
+{
+    const QString where = QStringLiteral(" (see --help)");
+    if (parser.unknownOptionNames().isEmpty()) {
+        QString text = parser.errorText();  // "Missing value after '--port'."
+        text.replace(0, 1, text.left(1).toLower());
+        text.chop(text.endsWith(QLatin1Char('.')) ? 1 : 0);
+        return text + where;
+    }
+    const QString name = parser.unknownOptionNames().constFirst();
+    QStringList known;
+    for (const QString &candidate : knownNames)
+        known << withDashes(candidate);
+    const QStringList close = name.size() == 1 ? QStringList() : qplc::closeNames(withDashes(name), known);
+    return QStringLiteral("unknown option %1").arg(qplc::quoted(withDashes(name))) + where + qplc::didYouMean(close);
+}
+
 }  // namespace
 
 struct QPlcApplicationOptions::Private
 {
     QCommandLineParser parser;
+    QStringList optionNames;
     QStringList examples;
     std::function<QString()> helpText;
     bool takesArguments = false;
@@ -88,9 +113,8 @@ QPlcApplicationOptions::QPlcApplicationOptions()
     std::setlocale(LC_NUMERIC, "C");
     if (!qEnvironmentVariableIsSet("QT_MESSAGE_PATTERN"))
         qSetMessagePattern(QStringLiteral("%{appname}: %{if-debug}%{category}: %{endif}%{message}"));
-    d->parser.addOption(
-        QCommandLineOption({QStringLiteral("h"), QStringLiteral("help")}, QStringLiteral("Shows this help.")));
-    d->parser.addOption(QCommandLineOption(QStringLiteral("version"), QStringLiteral("Shows the version.")));
+    addOption(QCommandLineOption({QStringLiteral("h"), QStringLiteral("help")}, QStringLiteral("Shows this help.")));
+    addOption(QCommandLineOption(QStringLiteral("version"), QStringLiteral("Shows the version.")));
 }
 
 QPlcApplicationOptions::~QPlcApplicationOptions()
@@ -123,6 +147,7 @@ void QPlcApplicationOptions::setHelpText(std::function<QString()> text)
 void QPlcApplicationOptions::addOption(const QCommandLineOption &option)
 {
     d->parser.addOption(option);
+    d->optionNames += option.names();
 }
 
 void QPlcApplicationOptions::addPositionalArgument(const QString &name, const QString &description,
@@ -135,7 +160,7 @@ void QPlcApplicationOptions::addPositionalArgument(const QString &name, const QS
 bool QPlcApplicationOptions::parseOptions()
 {
     if (!d->parser.parse(withNumbersHidden(QCoreApplication::arguments()))) {
-        d->exitCode = usageError(QStringLiteral("%1; see --help").arg(d->parser.errorText()));
+        d->exitCode = usageError(wrongUse(d->parser, d->optionNames));
         return false;
     }
     if (d->parser.isSet(QStringLiteral("help"))) {

@@ -18,8 +18,9 @@ QPlcNodeApplication::QPlcNodeApplication(int &argc, char **argv)
     : QPlcCoreApplication(argc, argv)
 {
     addOption(option("master",
-                     QStringLiteral("Where the master is: [tcp://|udp://]HOST[:PORT]. Cyclic frames travel over TCP "
-                                    "unless it begins with udp://."),
+                     QStringLiteral("Where the master is: [tcp://|udp://|udp-multicast://]HOST[:PORT], or "
+                                    "local://PORT for shared memory on one computer. Without a transport: TCP. "
+                                    "Without this option: 127.0.0.1:50000."),
                      "ADDRESS", QStringLiteral("127.0.0.1:%1").arg(QPlcUnderlyingProtocol::DefaultPort)));
     addOption(option("signals", QStringLiteral("Signal table of this node. Without one the master sends its table."),
                      "FILE"));

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Commands.h"
 
+#include "TerminalText.h"
+#include "signals/MessageText.h"
+
 #include <limits>
 
 namespace tools {
@@ -289,12 +292,16 @@ const Command *findCommand(const QString &name)
     return nullptr;
 }
 
-QString commandNames()
+QString unknownCommand(const QString &name)
 {
     QStringList names;
     for (const Command &command : commands())
         names << QString::fromLatin1(command.name);
-    return names.join(QStringLiteral(", "));
+    const QStringList close = qplc::closeNames(name, names);
+    const QString remedy = close.isEmpty() ? QStringLiteral("; use one of %1").arg(names.join(QStringLiteral(", ")))
+                                           : qplc::didYouMean(close);
+    return (name.isEmpty() ? QStringLiteral("no command") : QStringLiteral("unknown command '%1'").arg(printable(name)))
+        + remedy;
 }
 
 const QVector<Option> &commonOptions()

@@ -66,8 +66,8 @@ struct Command
 const QVector<Command> &commands();
 /// null: there is none of this name
 const Command *findCommand(const QString &name);
-/// "list, state, ..."
-QString commandNames();
+/// What is said of a command of this name, which there is not.
+QString unknownCommand(const QString &name);
 /// Options that every command has.
 const QVector<Option> &commonOptions();
 

@@ -56,8 +56,7 @@ int showHelp(const CommandCall &call)
 {
     const Command *command = call.arguments.isEmpty() ? nullptr : findCommand(call.arguments.constFirst());
     if (!command && !call.arguments.isEmpty())
-        return call.application.usageError(QStringLiteral("unknown command '%1'; use one of %2")
-                                               .arg(printable(call.arguments.constFirst()), commandNames()));
+        return call.application.usageError(unknownCommand(call.arguments.constFirst()));
     printText(command ? helpOf(*command) : generalHelp());
     return QPlcCoreApplication::Success;
 }

@@ -36,11 +36,7 @@ const Command *commandOf(QPlcCoreApplication &application)
     const QString name = application.positionalArguments().value(0);
     const Command *command = tools::findCommand(name);
     if (!command)
-        application.usageError(QStringLiteral("%1; use one of %2 (see --help)")
-                                   .arg(name.isEmpty()
-                                            ? QStringLiteral("no command")
-                                            : QStringLiteral("unknown command '%1'").arg(tools::printable(name)),
-                                        tools::commandNames()));
+        application.usageError(QStringLiteral("%1 (see --help)").arg(tools::unknownCommand(name)));
     return command;
 }
 

@@ -70,6 +70,12 @@ QPlcUnderlyingProtocol QPlcUnderlyingProtocol::fromString(const QString &text, K
             rest.remove(0, rest.startsWith(host) ? host.size() : 0);
         return local(rest, &reason);
     }
+    const int schemeEnd = rest.indexOf(QLatin1String("://"));
+    if (schemeEnd >= 0) {
+        reason = QStringLiteral("unknown transport '%1'; use tcp://, udp://, udp-multicast:// or local://")
+                     .arg(rest.left(schemeEnd + 3));
+        return {};
+    }
     QString host;
     QString portText;
     if (!split(rest, &host, &portText)) {

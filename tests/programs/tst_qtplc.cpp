@@ -112,7 +112,14 @@ void tst_qtplc::badUseIsRefusedWithOneSentence_data()
     row("echo", "lack of arguments for echo; use qtplc echo SIGNAL|PATTERN...");
     row("set", "lack of arguments for set");
     row("set tetherSpeed", "wrong number of arguments for set; use qtplc set SIGNAL VALUE ...");
-    row("list --fast", "Unknown option 'fast'");
+    row("strat", "unknown command 'strat'; did you mean 'start' or 'state'?");
+    row("help strat", "unknown command 'strat'; did you mean 'start' or 'state'?");
+    row("list --nonsense", "unknown option '--nonsense' (see --help)\n");
+    row("list -x", "unknown option '-x' (see --help)\n");
+    row("list --jsno", "unknown option '--jsno' (see --help); did you mean '--json'?\n");
+    row("list --timeout", "missing value after '--timeout' (see --help)\n");
+    row("list --json=yes", "unexpected value after '--json' (see --help)\n");
+    row("list --master http://127.0.0.1", "unknown transport 'http://'; use tcp://, udp://");
     row("list --cycles 3", "list has no option --cycles");
     row("stop --rate 3", "stop has no option --rate");
     row("list --timeout 0", "--timeout 0");
