@@ -125,11 +125,19 @@ void tst_ControlCenter::withoutADisplayItSaysWhatToDo()
     qunsetenv("QT_QPA_PLATFORM");
     const Outcome refused = runProgram(program(), {QStringLiteral("--demo")});
     const Outcome help = runProgram(program(), {QStringLiteral("--help")});
+    qputenv("DISPLAY", ":65000");  // of a session that has ended, say
+    const Outcome unreachable = runProgram(program(), {QStringLiteral("--demo")});
     qputenv("DISPLAY", display);
     qputenv("QT_QPA_PLATFORM", "xcb");
     QCOMPARE(refused.exitCode, 2);
     QVERIFY2(refused.errors.contains(QLatin1String("there is no display")), qPrintable(refused.errors));
     QCOMPARE(help.exitCode, 0);
+    QCOMPARE(unreachable.exitCode, 2);
+    QVERIFY2(
+        unreachable.errors.contains(QLatin1String("awe_control_center: cannot open a window on display ':65000'; ")),
+        qPrintable(unreachable.errors));
+    QVERIFY2(unreachable.errors.contains(QLatin1String("xvfb-run -a awe_control_center")),
+             qPrintable(unreachable.errors));
 }
 
 void tst_ControlCenter::demoMakesAPictureAndLeavesNothingBehind_data()
