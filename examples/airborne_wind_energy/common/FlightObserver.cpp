@@ -25,6 +25,9 @@ void FlightObserver::requireGoodValues() const
 void FlightObserver::step(const QPlcCycle &)
 {
     requireGoodValues();
+    m_sawKite = m_sawKite || m_position.quality().kind() != QPlcQuality::Invalid;
+    if (!m_sawKite)
+        return;  // no model has come yet
     FlightSample sample;
     sample.position = m_position;
     sample.velocity = m_velocity;

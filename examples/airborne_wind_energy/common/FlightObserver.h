@@ -17,15 +17,22 @@ public:
 
     /// \pre no cycle runs
     FlightReport report() const { return m_statistics.report(); }
+    /// Whether a node has written where the kite is. \pre no cycle runs
+    bool sawKite() const { return m_sawKite; }
 
 private:
     using Vector = Eigen::Vector3d;
 
-    void reset() override { m_statistics.reset(); }
+    void reset() override
+    {
+        m_statistics.reset();
+        m_sawKite = false;
+    }
     void step(const QPlcCycle &cycle) override;
     void requireGoodValues() const;
 
     FlightStatistics m_statistics;
+    bool m_sawKite = false;
 
     QPlcInput<Vector> m_position{this, "bodyPosition_earth"};      // [m]
     QPlcInput<Vector> m_velocity{this, "bodyVelocity_earth"};      // [m/s]

@@ -63,6 +63,8 @@ QString summary(const QJsonObject &report)
     if (report.value(QStringLiteral("crashed")).toBool())
         text += QStringLiteral("  THE KITE CRASHED after %1 s: it came down to the ground\n")
                     .arg(number(report, "crashed_after_s"), 0, 'f', 1);
+    if (report.value(QStringLiteral("no_kite")).toBool())
+        text += QStringLiteral("  There was no kite: no node wrote its position. Start awe_model before the flight.\n");
     text += row("energy", QStringLiteral("%1 kJ").arg(number(report, "energy_J") * 1e-3, 0, 'f', 1));
     text += row("mean power",
                 QStringLiteral("%1 W, eta %2 (%3 per mean cubed wind)")

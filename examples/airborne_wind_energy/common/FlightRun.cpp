@@ -357,6 +357,8 @@ QJsonObject FlightRun::makeReport() const
                        {QStringLiteral("image_digest"), QPlcMessage::fromHex64(statistics.imageDigest)}};
     if (flight.crashed)
         report.insert(QStringLiteral("crashed_after_s"), flight.crashTime);
+    if (!m_observer.sawKite())
+        report.insert(QStringLiteral("no_kite"), true);
     reportLinks(&report);
     if (m_winchObserver)
         report.insert(QStringLiteral("winch"), m_winchObserver->report());

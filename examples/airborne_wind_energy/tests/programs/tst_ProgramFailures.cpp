@@ -58,6 +58,7 @@ private Q_SLOTS:
     void bothModelsFlyTheSameFlight_data();
     void bothModelsFlyTheSameFlight();
     void masterByHandEndsOnSignalInTheMiddleOfAFlight();
+    void withoutAModelNoKiteCrashes();
 
 private:
     static QString path(const char *program) { return QStringLiteral(AWE_PROGRAMS "/") + QString::fromLatin1(program); }
@@ -324,6 +325,18 @@ void tst_ProgramFailures::masterByHandEndsOnSignalInTheMiddleOfAFlight()
     QVERIFY2(master.output().contains(QLatin1String("Flight of ")), qPrintable(master.output()));
     QVERIFY(QFile::exists(reportFile));
     operatorNode.disconnectFromMaster();
+}
+
+void tst_ProgramFailures::withoutAModelNoKiteCrashes()
+{
+    Program master(
+        path("awe_master"),
+        {QStringLiteral("--port=0"), QStringLiteral("--start-with=Autopilot"), QStringLiteral("--duration=1")});
+    Program autopilot(path("awe_autopilot"), {address(master)});
+    QCOMPARE(master.waitForEnd(), 0);
+    QVERIFY2(master.output().contains(QLatin1String("Flight of 1.0 s")), qPrintable(master.output()));
+    QVERIFY2(!master.output().contains(QLatin1String("CRASHED")), qPrintable(master.output()));
+    QVERIFY2(master.output().contains(QLatin1String("There was no kite")), qPrintable(master.output()));
 }
 
 QTEST_GUILESS_MAIN(tst_ProgramFailures)
