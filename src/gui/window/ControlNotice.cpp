@@ -10,6 +10,7 @@ namespace {
 
 constexpr int barWidth = 4;   // [px] of the coloured bar
 constexpr int textLeft = 12;  // [px]
+constexpr int textRight = 8;  // [px] between the text and the button
 
 }  // namespace
 
@@ -71,6 +72,12 @@ QStringList ControlNotice::lines() const
     return {first.sentence(), m_facts.at(1).sentence() + more};
 }
 
+QRect ControlNotice::textRect() const
+{
+    const int right = m_giveBack->isHidden() ? width() : m_giveBack->x() - textRight;
+    return {textLeft, 3, right - textLeft, 38};
+}
+
 QColor ControlNotice::colorOf(const ControlFact &fact) const
 {
     const Theme &theme = m_context->theme();
@@ -83,7 +90,6 @@ void ControlNotice::paintEvent(QPaintEvent * /*event*/)
         return;
     const Theme &theme = m_context->theme();
     const QStringList texts = lines();
-    const int right = m_giveBack->isHidden() ? width() : m_giveBack->x() - 8;
     const QColor color = colorOf(m_facts.first());
     QPainter painter(this);
     painter.setRenderHint(QPainter::Antialiasing);
@@ -95,7 +101,7 @@ void ControlNotice::paintEvent(QPaintEvent * /*event*/)
         used.setBold(isBold);
         painter.setFont(used);
         painter.setPen(ink);
-        const QRect place(textLeft, top, right - textLeft, 19);
+        const QRect place(textLeft, top, textRect().width(), 19);
         painter.drawText(place, Qt::AlignLeft | Qt::AlignVCenter,
                          QFontMetrics(used).elidedText(text, Qt::ElideRight, place.width()));
     };

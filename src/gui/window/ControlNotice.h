@@ -22,8 +22,11 @@ public:
     bool isToGiveBack() const;
     BarButton *giveBackButton() const { return m_giveBack; }
 
-    QSize sizeHint() const override { return {200, 44}; }
+    /// So that "You control" is read on small screens: bars take the same from all of their parts.
+    QSize sizeHint() const override { return {460, 44}; }
     QSize minimumSizeHint() const override { return {120, 44}; }
+    /// The place of lines().
+    QRect textRect() const;
 
 Q_SIGNALS:
     void factsChanged();

@@ -52,7 +52,7 @@ TopBar::TopBar(PlantSelection *selection, WindowContext *context, QWidget *paren
     row->addWidget(m_selector);
     row->addWidget(m_stepper);
     row->addWidget(m_next);
-    row->addWidget(m_control, 1);
+    row->addWidget(m_control);  // it expands; with a stretch it would be the only one that gives way
     row->addWidget(m_stop);
     addWidget(content);
     // Nothing in the bar moves when the next thing to do is another one, or none.

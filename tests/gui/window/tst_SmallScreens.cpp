@@ -26,6 +26,7 @@ private Q_SLOTS:
     void everythingIsReachedOnASmallScreen_data();
     void everythingIsReachedOnASmallScreen();
     void theBarHasRoomForLongNamesAndForControl();
+    void whoControlsIsReadOnASmallScreen();
 
 private:
     std::unique_ptr<TestSettings> m_settings;
@@ -96,6 +97,26 @@ void tst_SmallScreens::theBarHasRoomForLongNamesAndForControl()
                                    bar->stopButton()};
     for (int i = 0; i + 1 < parts.size(); ++i)
         QVERIFY2(placeOf(parts[i]).right() < placeOf(parts[i + 1]).left(), qPrintable(parts[i]->objectName()));
+}
+
+void tst_SmallScreens::whoControlsIsReadOnASmallScreen()
+{
+    FlyingMaster master;
+    WindowFixture fixture;
+    fixture.window.connectToMaster(master.address(), QStringLiteral("north"));
+    QTRY_VERIFY_WITH_TIMEOUT(fixture.plant()->hasLeases(), patience);
+    fixture.plant()->takeLease({QStringLiteral("echo")});
+    const ControlNotice *notice = fixture.topBar()->controlNotice();
+    QTRY_VERIFY_WITH_TIMEOUT(notice->giveBackButton()->isVisible(), patience);
+    QCOMPARE(notice->lines(), (QStringList{QStringLiteral("You control"), QStringLiteral("echo")}));
+    fixture.window.resize(smallest);
+    QTest::qWait(50);
+    QFont bold = notice->font();
+    bold.setBold(true);
+    const int room = notice->textRect().width();
+    QVERIFY2(QFontMetrics(bold).elidedText(notice->lines().constFirst(), Qt::ElideRight, room)
+                 == QLatin1String("You control"),
+             qPrintable(QString::number(room)));
 }
 
 QTEST_MAIN(tst_SmallScreens)
