@@ -248,7 +248,8 @@ void tst_Slopes::aSafeStopDoesNotWait()
 {
     QVERIFY(take("drive"));
     QVERIFY(set("drive", "9"));
-    QTRY_VERIFY(number("drive") > 2.3);
+    QVERIFY(set("speed", "9"));  // without a holder: no one lets go of it
+    QTRY_VERIFY(number("drive") > 2.3 && number("speed") > 0.3);
     m_master->safeStop();
     double before = number("drive");
     for (double now = before; now != -0.5; before = now) {
@@ -256,8 +257,15 @@ void tst_Slopes::aSafeStopDoesNotWait()
         QVERIFY2(now == -0.5 || now >= before, qPrintable(QString::number(now)));  // no way down, but one jump
     }
     QVERIFY(m_master->waitForCycles(m_master->statistics().cycles + 5));
-    QCOMPARE(number("drive"), -0.5);
+    const double halted = number("speed");  // it has no safe value
+    QVERIFY(halted < 9.0);
+    for (int look = 0; look < 30; ++look) {  // and nothing goes on with its way
+        QVERIFY(m_master->waitForCycles(m_master->statistics().cycles + 1));
+        QCOMPARE(number("drive"), -0.5);
+        QCOMPARE(number("speed"), halted);
+    }
     m_master->stop();
+    QCOMPARE(number("speed"), halted);
 }
 
 void tst_Slopes::withoutCyclesAValueIsThereAtOnce()
