@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "GaugeEditor.h"
 
+#include "gui/models/SiPrefix.h"
 #include "gui/panel/EndOfEditor.h"
 #include "gui/panel/SignalEdit.h"
 
@@ -66,13 +67,17 @@ void GaugeEditor::addNumbers(QFormLayout *form, const QPlcSignalDefinition &defi
     const auto ofTable = [](const QPlcValue &limit, const QString &otherwise) {
         return limit.isValid() ? tr("%1 (of the table)").arg(limit.toString()) : otherwise;
     };
-    addNumber(form, tr("Scale from"), "minimum", ofTable(definition.minimum, tr("automatic")));
-    addNumber(form, tr("Scale to"), "maximum", ofTable(definition.maximum, tr("automatic")));
-    addNumber(form, tr("Alarm below"), "alarmLow", ofTable(definition.minimum, tr("none")));
-    addNumber(form, tr("Warning below"), "warningLow", tr("none"));
-    addNumber(form, tr("Warning above"), "warningHigh", tr("none"));
-    addNumber(form, tr("Alarm above"), "alarmHigh", ofTable(definition.maximum, tr("none")));
-    addNumber(form, tr("Hysteresis"), "hysteresis", tr("1 % of the scale"));
+    // What a person types is in the unit of the table, and says so: a prefix would make 4 out of 4000 while it is typed.
+    const QString unit = SiPrefix::unitText(definition.unit);
+    const auto named
+        = [&unit](const QString &label) { return unit.isEmpty() ? label : QStringLiteral("%1 [%2]").arg(label, unit); };
+    addNumber(form, named(tr("Scale from")), "minimum", ofTable(definition.minimum, tr("automatic")));
+    addNumber(form, named(tr("Scale to")), "maximum", ofTable(definition.maximum, tr("automatic")));
+    addNumber(form, named(tr("Alarm below")), "alarmLow", ofTable(definition.minimum, tr("none")));
+    addNumber(form, named(tr("Warning below")), "warningLow", tr("none"));
+    addNumber(form, named(tr("Warning above")), "warningHigh", tr("none"));
+    addNumber(form, named(tr("Alarm above")), "alarmHigh", ofTable(definition.maximum, tr("none")));
+    addNumber(form, named(tr("Hysteresis")), "hysteresis", tr("1 % of the scale"));
 }
 
 void GaugeEditor::addNumber(QFormLayout *form, const QString &label, const char *key, const QString &whenEmpty)

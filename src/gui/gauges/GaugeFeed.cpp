@@ -124,6 +124,7 @@ void GaugeFeed::begin()
     m_alarms.clear();
     m_widest.clear();
     m_grownScale = GaugeScale();
+    m_prefix = SteadyPrefix();
     reset();
 }
 
@@ -278,7 +279,6 @@ void GaugeFeed::showSignal(GaugePicture *picture, bool hasNewTexts)
     const bool isUsable = !m_source.plant() || quality != Plant::Good || m_source.newestQuality().isUsable();
     picture->isTrusted = value.isValid() && (time || (isNow && isUsable));
     picture->isBoolean = isBoolean();
-    picture->unit = m_definition.unit;
     if (!m_definition.type.isNumeric() || elements() > 1)
         picture->style = GaugeStyle::Number;
     showValue(picture, value, hasNewTexts);
@@ -305,8 +305,38 @@ void GaugeFeed::showValue(GaugePicture *picture, const QPlcValue &value, bool ha
         picture->values << shown;
     }
     picture->scale = scale();
-    picture->decimals = m_definition.type.isReal() ? picture->scale.decimals() : 0;
     picture->bands = bandsOf(limits(), picture->scale);
+    choosePrefix(picture, hasNewTexts);
+    showTexts(picture, value, hasNewTexts);
+}
+
+/// Of a scale or a range the prefix is always that of its larger end. A number without one has the prefix of its size.
+void GaugeFeed::choosePrefix(GaugePicture *picture, bool hasNewTexts)
+{
+    picture->prefix = SiPrefix(m_definition.unit);
+    const bool isQuantity = m_definition.type.isNumeric() && m_definition.valueNames.isEmpty() && !isBoolean();
+    const bool hasScale = picture->style == GaugeStyle::Dial || picture->style == GaugeStyle::Bar;
+    const bool isOpen = hasOpenEnd() && !hasScale && SiPrefix::isTakenBy(m_definition.unit);
+    if (isQuantity && isOpen) {
+        double largest = 0.0;
+        for (const GaugePicture::Value &value : picture->values)
+            largest = std::fmax(largest, std::abs(value.number));  // NaN counts as nothing
+        picture->prefix = hasNewTexts || m_prefix.current().tableUnit() != m_definition.unit
+            ? m_prefix.next(m_definition.unit, largest)
+            : m_prefix.current();
+        picture->widestUnit = SiPrefix::fitting(m_definition.unit, 1e5).unit();
+    } else if (isQuantity) {
+        const double largest = std::max(std::abs(picture->scale.minimum), std::abs(picture->scale.maximum));
+        picture->prefix = SiPrefix::fitting(m_definition.unit, largest);
+    }
+    const bool hasDecimals = m_definition.type.isReal() || picture->prefix.factor() != 1.0;
+    picture->isSteady = isOpen && hasDecimals;
+    picture->decimals = hasDecimals ? GaugeScale{0.0, picture->prefix.shown(picture->scale.span())}.decimals() : 0;
+}
+
+void GaugeFeed::showTexts(GaugePicture *picture, const QPlcValue &value, bool hasNewTexts)
+{
+    const bool isNumeric = m_definition.type.isNumeric();
     picture->widest = m_widest;
     const QFontMetricsF metrics(figureFont(QGuiApplication::font()));
     const auto widen = [&](const QString &text) {
@@ -318,15 +348,16 @@ void GaugeFeed::showValue(GaugePicture *picture, const QPlcValue &value, bool ha
     if (isNumeric && hasOpenEnd()) {
         picture->sizing = openEndText();
     } else if (isNumeric) {
-        widen(valueText(picture->scale.minimum));
-        widen(valueText(picture->scale.maximum));
+        widen(valueText(*picture, picture->scale.minimum));
+        widen(valueText(*picture, picture->scale.maximum));
     }
-    const bool keepsTexts = !hasNewTexts && m_picture.values.size() == picture->values.size();
+    const bool keepsTexts = !hasNewTexts && m_picture.values.size() == picture->values.size()
+        && m_picture.prefix.unit() == picture->prefix.unit();
     for (int i = 0; i < picture->values.size(); ++i) {
         GaugePicture::Value &shown = picture->values[i];
         shown.text = keepsTexts ? m_picture.values.at(i).text
             : !value.isValid()  ? noValueText()
-            : isNumeric         ? valueText(shown.number)
+            : isNumeric         ? valueText(*picture, shown.number)
                                 : qplc::valueText(value);
         widen(shown.text);
     }
@@ -340,10 +371,10 @@ bool GaugeFeed::hasOpenEnd() const
     return (isOpenBelow || isOpenAbove) && !isBoolean() && m_definition.valueNames.isEmpty();
 }
 
-/// As wide as a number of an open scale becomes before it gets an exponent: its letters keep their size while it grows.
+/// As wide as a number of an open scale becomes before it gets an exponent, or another prefix: its letters keep their size while it grows.
 QString GaugeFeed::openEndText() const
 {
-    QString text = QStringLiteral("0000000");
+    QString text = SiPrefix::isTakenBy(m_definition.unit) ? QStringLiteral("000.00") : QStringLiteral("0000000");
     const QPlcSignalType::Scalar scalar = m_definition.type.scalar();
     const bool isUnsigned = scalar >= QPlcSignalType::UInt8 && scalar <= QPlcSignalType::UInt64;
     const double least = m_settings.minimum ? *m_settings.minimum : limitOf(m_definition.minimum).value_or(-1.0);
@@ -352,13 +383,13 @@ QString GaugeFeed::openEndText() const
     return text;
 }
 
-QString GaugeFeed::valueText(double number) const
+QString GaugeFeed::valueText(const GaugePicture &picture, double number) const
 {
     if (!m_definition.valueNames.isEmpty())
         return numberText(number, 6, m_definition.valueNames);
     if (isBoolean())
         return number != 0.0 ? tr("On") : tr("Off");
-    return gaugeNumber(number, m_definition.type.isReal() ? scale().decimals() : 0);
+    return picture.text(number);
 }
 
 /// \param time  of the value, when it is a past one

@@ -3,6 +3,7 @@
 
 #include "GaugePicture.h"
 #include "GaugeSource.h"
+#include "gui/models/SteadyPrefix.h"
 #include "gui/panel/TimeView.h"
 
 #include <QtCore/QElapsedTimer>
@@ -68,7 +69,9 @@ private:
     QString statusText(const QPlcValue &value, std::optional<TimeView::Time> time) const;
     bool hasOpenEnd() const;
     QString openEndText() const;
-    QString valueText(double number) const;
+    void choosePrefix(GaugePicture *picture, bool hasNewTexts);
+    void showTexts(GaugePicture *picture, const QPlcValue &value, bool hasNewTexts);
+    QString valueText(const GaugePicture &picture, double number) const;
     QPlcValue givenValue() const;
     void extendExtremes();
     void include(int element, double minimum, double maximum);
@@ -90,6 +93,7 @@ private:
     SignalStore::Row m_seen = 0;    // rows of the store before it are in the extremes
     SignalStore::Time m_since = 0;  // rows before it do not count
     GaugeScale m_grownScale;
+    SteadyPrefix m_prefix;  // where nothing says how large the number may become
     QString m_widest;
     GaugePicture m_picture;
     QTimer m_textTimer;

@@ -62,11 +62,12 @@ double paintValue(QPainter *painter, const QRectF &place, const GaugePicture &pi
 {
     const QString widest = wider(picture.widest, text, painter->font());
     const QString sizing = wider(widest, picture.sizing, painter->font());
-    const QString unit = picture.unit.isEmpty() ? QString() : QStringLiteral(" ") + picture.unit;
+    const QString unit = picture.prefix.unit().isEmpty() ? QString() : QStringLiteral(" ") + picture.prefix.unit();
     // The unit is half as large as the figures. A sign hangs at their left: what has none stands in the middle.
     const bool hasSign = widest.startsWith(minusSign);
     const QString digits = hasSign ? widest.mid(1) : widest;
-    const double unitShare = 0.5 * double(unit.size()) / std::max(1.0, double(sizing.size()));
+    const int unitSize = std::max(unit.size(), picture.widestUnit.isEmpty() ? 0 : picture.widestUnit.size() + 1);
+    const double unitShare = 0.5 * double(unitSize) / std::max(1.0, double(sizing.size()));
     const QSizeF room(place.width() / (1.0 + unitShare), place.height());
     const QFont font = fittingFont(figureFont(painter->font()), sizing, room);
     QFont unitFont = font;

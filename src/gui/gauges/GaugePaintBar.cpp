@@ -76,7 +76,6 @@ void paintScale(QPainter *painter, const Bar &bar, const GaugePicture &picture, 
     const QFontMetricsF metrics(painter->font());
     const double length = bar.isLying ? bar.track.width() : bar.track.height();
     const double room = bar.isLying ? metrics.horizontalAdvance(QLatin1Char('0')) * 7.0 : metrics.height() * 2.0;
-    const int decimals = GaugeScale{0.0, picture.scale.span() * 100.0}.decimals();
     const int most = int(length / room);
     const QVector<double> ends{picture.scale.minimum, picture.scale.maximum};
     const QVector<double> ticks = most < 4 ? ends : picture.scale.ticks(std::min(most, 11));
@@ -86,7 +85,7 @@ void paintScale(QPainter *painter, const Bar &bar, const GaugePicture &picture, 
         const double offset = bar.tickOffset(picture);
         const QRectF line = bar.strip(place, place, offset, 3.0);
         painter->drawLine(line.topLeft(), bar.isLying ? line.bottomLeft() : line.topRight());
-        const QString text = gaugeNumber(tick, decimals);
+        const QString text = picture.tickText(tick);
         const double width = metrics.horizontalAdvance(text);
         if (bar.isLying) {
             const double left = std::clamp(place - width / 2.0, bar.track.left(), bar.track.right() - width);

@@ -58,14 +58,13 @@ void paintTicks(QPainter *painter, const Dial &dial, const GaugePicture &picture
     font.setPixelSize(std::clamp(int(dial.radius * 0.14), 9, 14));
     painter->setFont(font);
     const QFontMetricsF metrics(font);
-    const int decimals = std::max(0, GaugeScale{0.0, picture.scale.span() * 100.0}.decimals());
     for (const double tick : ticks) {
         const double angle = angleOf(picture, tick);
         painter->setPen(QPen(theme.mutedText, 1.2));
         painter->drawLine(dial.at(angle, outside), dial.at(angle, outside - length));
         if (!hasLabels)
             continue;
-        const QString text = gaugeNumber(tick, decimals);
+        const QString text = picture.tickText(tick);
         const double width = metrics.horizontalAdvance(text);
         const QPointF center = dial.at(angle, outside - length - 2.0 - std::max(width * 0.5, metrics.height() * 0.5));
         painter->drawText(
@@ -124,7 +123,8 @@ void paintDial(QPainter *painter, const QRectF &place, const GaugePicture &pictu
     const double signless = picture.widest.startsWith(minusSign) ? 1.0 : 0.87;  // a sign hangs at the left
     const double width = dial.radius * signless * (dial.radius > 62.0 ? 0.95 : 1.45);
     GaugePicture figures = picture;
-    figures.unit.clear();
+    figures.prefix = SiPrefix();
+    figures.widestUnit.clear();
     if (figures.sizing.isEmpty())
         figures.sizing = QStringLiteral("000.00");  // dials side by side have figures of one size
     const QRectF middle(dial.center.x() - width / 2.0, dial.center.y() - dial.radius * 0.2, width, dial.radius * 0.6);
@@ -136,7 +136,7 @@ void paintDial(QPainter *painter, const QRectF &place, const GaugePicture &pictu
     painter->setPen(picture.isTrusted ? theme.mutedText : theme.stale);
     painter->drawText(
         QRectF(dial.center.x() - width, dial.center.y() + dial.radius * 0.36, 2.0 * width, dial.radius * 0.4),
-        Qt::AlignHCenter | Qt::AlignVCenter, picture.unit);
+        Qt::AlignHCenter | Qt::AlignVCenter, picture.prefix.unit());
     painter->restore();
 }
 

@@ -14,8 +14,7 @@ QString rangeText(const GaugePicture &picture, const GaugePicture::Value &value)
 {
     if (!value.minimum || !value.maximum)
         return {};
-    return QStringLiteral("%1 … %2").arg(gaugeNumber(*value.minimum, picture.decimals),
-                                         gaugeNumber(*value.maximum, picture.decimals));
+    return QStringLiteral("%1 … %2").arg(picture.text(*value.minimum), picture.text(*value.maximum));
 }
 
 }  // namespace

@@ -47,9 +47,24 @@ bool looksLike(const GaugePicture &a, const GaugePicture &b)
         = std::equal(a.bands.begin(), a.bands.end(), b.bands.begin(), b.bands.end(),
                      [](const GaugePicture::Band &one, const GaugePicture::Band &other) { return isSame(one, other); });
     return a.style == b.style && a.message == b.message && a.name == b.name && a.showsName == b.showsName
-        && a.unit == b.unit && a.status == b.status && a.widest == b.widest && a.sizing == b.sizing
-        && a.scale == b.scale && a.decimals == b.decimals && a.level == b.level && a.isTrusted == b.isTrusted
-        && a.isBoolean == b.isBoolean && haveSameBands && areSameValues(a, b);
+        && a.prefix.unit() == b.prefix.unit() && a.widestUnit == b.widestUnit && a.isSteady == b.isSteady
+        && a.status == b.status && a.widest == b.widest && a.sizing == b.sizing && a.scale == b.scale
+        && a.decimals == b.decimals && a.level == b.level && a.isTrusted == b.isTrusted && a.isBoolean == b.isBoolean
+        && haveSameBands && areSameValues(a, b);
+}
+
+QString GaugePicture::text(double number) const
+{
+    constexpr int steadyDigits = 4;
+    const double shown = prefix.shown(number);
+    if (!isSteady || !std::isfinite(shown))
+        return gaugeNumber(shown, decimals);
+    return steadyNumberText(shown, steadyDigits).replace(QLatin1Char('-'), minusSign);
+}
+
+QString GaugePicture::tickText(double tick) const
+{
+    return gaugeNumber(prefix.shown(tick), GaugeScale{0.0, prefix.shown(scale.span()) * 100.0}.decimals());
 }
 
 QString GaugePicture::spoken() const
@@ -59,7 +74,7 @@ QString GaugePicture::spoken() const
     QStringList words{name};
     for (const Value &value : values)
         words << value.text;
-    words << unit << status;
+    words << prefix.unit() << status;
     words.removeAll(QString());
     return words.join(QLatin1Char(' '));
 }

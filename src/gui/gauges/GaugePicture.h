@@ -3,6 +3,7 @@
 
 #include "GaugeScale.h"
 #include "GaugeSettings.h"
+#include "gui/models/SiPrefix.h"
 
 namespace qplc {
 
@@ -29,18 +30,23 @@ struct GaugePicture
     QString message;  // what is missing; then nothing else is shown
     QString name;
     bool showsName = true;  // false where a title says what it is
-    QString unit;
-    QString status;  // "stale 3.2 s", "▲ High"; empty when all is well
+    SiPrefix prefix;        // of the unit; numbers, scale and bands are in the unit of the table, texts have the prefix
+    QString widestUnit;     // sets the size of letters where it is longer than the unit
+    QString status;         // "stale 3.2 s", "▲ High"; empty when all is well
     QVector<Value> values;
     QString widest;  // the widest text of a value: figures end where it ends
     QString sizing;  // sets the size of letters where it is wider than the widest text
     GaugeScale scale;
-    int decimals = 0;
+    int decimals = 0;       // of texts
+    bool isSteady = false;  // texts have so many digits that count, whatever their size
     QVector<Band> bands;
     AlarmState::Level level = AlarmState::Normal;
     bool isTrusted = true;
     bool isBoolean = false;
 
+    /// With its prefix, without its unit.
+    QString text(double number) const;
+    QString tickText(double tick) const;
     /// One line for those who hear it.
     QString spoken() const;
 };

@@ -69,6 +69,11 @@ QString SiPrefix::unitText(const QString &unit)
     return isMicro ? QStringLiteral("µ") + unit.mid(1) : unit;
 }
 
+bool SiPrefix::isTakenBy(const QString &unit)
+{
+    return !Parts(unit).base.isEmpty();
+}
+
 SiPrefix SiPrefix::fitting(const QString &unit, double size)
 {
     SiPrefix plain(unit);

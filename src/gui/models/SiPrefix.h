@@ -33,6 +33,8 @@ public:
     /// As the signal table has it.
     const QString &tableUnit() const { return m_table; }
 
+    /// Whether values of a unit are ever written with a prefix.
+    static bool isTakenBy(const QString &unit);
     /// A unit as people read it: "us" is "µs", and the unit 1 is none.
     static QString unitText(const QString &unit);
 

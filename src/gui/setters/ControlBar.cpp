@@ -58,6 +58,7 @@ ControlBar::ControlBar(SignalControl *control, Size size, QWidget *parent)
         font.setBold(true);
         m_headline->setFont(font);
         column->addWidget(m_headline);
+        m_text->setMostLines(3);
     }
     column->addWidget(m_text);
     row->addLayout(column, 1);

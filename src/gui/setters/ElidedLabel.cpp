@@ -2,6 +2,9 @@
 #include "ElidedLabel.h"
 
 #include <QtGui/QPainter>
+#include <QtGui/QTextLayout>
+
+#include <algorithm>
 
 namespace qplc {
 
@@ -19,6 +22,15 @@ void ElidedLabel::showText(const QString &text)
     setText(text);
     setAccessibleName(text);
     updateToolTip();
+    if (m_mostLines > 1)
+        updateGeometry();
+}
+
+void ElidedLabel::setMostLines(int lines)
+{
+    m_mostLines = lines;
+    setSizePolicy(QSizePolicy::Expanding, lines > 1 ? QSizePolicy::Minimum : QSizePolicy::Fixed);
+    setWordWrap(lines > 1);  // then its height depends on its width
 }
 
 void ElidedLabel::setColor(const QColor &color)
@@ -35,10 +47,42 @@ QSize ElidedLabel::minimumSizeHint() const
     return {fontMetrics().averageCharWidth() * 4, fontMetrics().height()};
 }
 
+/// As they are drawn; what does not fit into the last one is elided.
+QStringList ElidedLabel::linesFor(int width) const
+{
+    QStringList lines;
+    QTextLayout layout(text(), font());
+    layout.beginLayout();
+    int begin = 0;
+    while (begin < text().size() && lines.size() + 1 < m_mostLines) {
+        QTextLine line = layout.createLine();
+        line.setLineWidth(width);
+        lines << text().mid(begin, line.textLength()).trimmed();
+        begin += line.textLength();
+    }
+    layout.endLayout();
+    if (begin < text().size())
+        lines << fontMetrics().elidedText(text().mid(begin), Qt::ElideRight, width);
+    return lines;
+}
+
+bool ElidedLabel::isElided() const
+{
+    const QStringList lines = linesFor(contentsRect().width());
+    return !lines.isEmpty() && !text().endsWith(lines.last());
+}
+
+int ElidedLabel::heightForWidth(int width) const
+{
+    if (m_mostLines == 1)
+        return -1;
+    const int lines = std::max(1, linesFor(width).size());
+    return fontMetrics().height() + (lines - 1) * fontMetrics().lineSpacing();
+}
+
 void ElidedLabel::updateToolTip()
 {
-    const bool isElided = fontMetrics().horizontalAdvance(text()) > contentsRect().width();
-    setToolTip(isElided ? text() : QString());
+    setToolTip(isElided() ? text() : QString());
 }
 
 void ElidedLabel::resizeEvent(QResizeEvent *event)
@@ -51,8 +95,7 @@ void ElidedLabel::paintEvent(QPaintEvent *)
 {
     QPainter painter(this);
     painter.setPen(palette().color(isEnabled() ? QPalette::Active : QPalette::Disabled, QPalette::WindowText));
-    painter.drawText(contentsRect(), int(alignment()) | Qt::TextSingleLine,
-                     fontMetrics().elidedText(text(), Qt::ElideRight, contentsRect().width()));
+    painter.drawText(contentsRect(), int(alignment()), linesFor(contentsRect().width()).join(QLatin1Char('\n')));
 }
 
 }  // namespace qplc

@@ -3,10 +3,12 @@
 
 #include "ManualControl.h"
 #include "gui/models/ValueFormat.h"
+#include "gui/plant/LimitOf.h"
 
 #include <QtGui/QPainter>
 
 #include <algorithm>
+#include <cmath>
 
 namespace qplc {
 
@@ -45,6 +47,9 @@ KeyMapView::KeyMapView(const ManualControl *control, QWidget *parent)
     , m_control(control)
 {
     setAccessibleName(tr("Keys"));
+    QSizePolicy policy = sizePolicy();
+    policy.setHeightForWidth(true);
+    setSizePolicy(policy);
 }
 
 void KeyMapView::setTheme(const Theme &theme)
@@ -79,9 +84,12 @@ QVector<KeyMapView::Row> KeyMapView::rows() const
     for (int i = 0; i < references.size(); ++i) {
         const SignalReference &reference = references.at(i);
         const PlantList::Signal signal = m_control->control().resolved().value(i);
-        Row row{reference.toString(), tr("not there"), true, capsOf(reference)};
+        const SiPrefix prefix = prefixOf(reference, signal);
+        Row row{reference.toString(), tr("not there"), true, capsOf(reference, prefix)};
         if (signal) {
-            row.actual = QStringLiteral("%1 %2").arg(numberText(signal.value().toReal(), 3), signal.definition().unit);
+            row.actual = QStringLiteral("%1 %2")
+                             .arg(numberText(prefix.shown(signal.value().toReal()), 3), prefix.unit())
+                             .trimmed();
             row.isStale = signal.plant->quality() == Plant::Stale || signal.plant->quality() == Plant::NoValue;
             if (row.isStale)
                 row.actual = tr("%1, %2 old").arg(row.actual, ageText(signal.plant->age()));
@@ -91,18 +99,36 @@ QVector<KeyMapView::Row> KeyMapView::rows() const
     return rows;
 }
 
-QVector<KeyMapView::Cap> KeyMapView::capsOf(const SignalReference &reference) const
+/// Of a row, so that its value and what its keys do are read alike: that of its limits, else that of the largest value of its keys and axes.
+SiPrefix KeyMapView::prefixOf(const SignalReference &reference, const PlantList::Signal &signal) const
+{
+    if (!signal)
+        return {};
+    const QPlcSignalDefinition &definition = signal.definition();
+    const std::optional<double> minimum = limitOf(definition.minimum);
+    const std::optional<double> maximum = limitOf(definition.maximum);
+    if (minimum && maximum)
+        return SiPrefix::fitting(definition.unit, std::max(std::abs(*minimum), std::abs(*maximum)));
+    double largest = 0.0;
+    for (const KeyBinding &key : m_control->bindings().keys)
+        largest = key.signal == reference ? std::max(largest, std::abs(key.value)) : largest;
+    for (const AxisBinding &axis : m_control->bindings().axes)
+        largest = axis.signal == reference ? std::max(largest, std::abs(axis.value)) : largest;
+    return SiPrefix::fitting(definition.unit, largest);
+}
+
+QVector<KeyMapView::Cap> KeyMapView::capsOf(const SignalReference &reference, const SiPrefix &prefix) const
 {
     QVector<Cap> caps;
     for (const KeyBinding &key : m_control->bindings().keys) {
         if (key.signal == reference)
-            caps.append({capText(key.key), signedText(key.value), m_control->isHeld(key.key)});
+            caps.append({capText(key.key), signedText(prefix.shown(key.value)), m_control->isHeld(key.key)});
     }
     for (const AxisBinding &axis : m_control->bindings().axes) {
         if (axis.signal != reference || !m_areAxesShown)
             continue;
         const bool isMoved = m_control->isArmed() && axis.shaped(m_control->deflection(axis.axis)) != 0.0;
-        caps.append({axis.axis, QStringLiteral("±%1").arg(numberText(std::abs(axis.value), 4)), isMoved});
+        caps.append({axis.axis, QStringLiteral("±%1").arg(numberText(std::abs(prefix.shown(axis.value)), 4)), isMoved});
     }
     return caps;
 }
@@ -119,9 +145,26 @@ int KeyMapView::capSize() const
     return fontMetrics().height() + 10;
 }
 
-int KeyMapView::rowHeight() const
+int KeyMapView::rowHeight(NamePlace place) const
 {
-    return capSize() + QFontMetrics(smallFont()).height() + gap;
+    return capSize() + QFontMetrics(smallFont()).height() + gap + (place == NameAbove ? fontMetrics().height() : 0);
+}
+
+int KeyMapView::capsWidth(const Row &row) const
+{
+    int width = 0;
+    for (const Cap &cap : row.caps)
+        width += widthOf(cap) + gap;
+    return width;
+}
+
+KeyMapView::NamePlace KeyMapView::namePlace(int width) const
+{
+    const QVector<Row> all = rows();
+    const bool haveAllRoom = std::all_of(all.begin(), all.end(), [&](const Row &row) {
+        return fontMetrics().horizontalAdvance(row.name) + gap + capsWidth(row) <= width;
+    });
+    return haveAllRoom ? NameBeside : NameAbove;
 }
 
 int KeyMapView::widthOf(const Cap &cap) const
@@ -130,17 +173,24 @@ int KeyMapView::widthOf(const Cap &cap) const
     return std::max({capSize(), text, QFontMetrics(smallFont()).horizontalAdvance(cap.effect) + 2});
 }
 
+/// With room for a value [px]
+int KeyMapView::leastWidth() const
+{
+    int caps = 0;
+    for (const Row &row : rows())
+        caps = std::max(caps, capsWidth(row));
+    return caps + fontMetrics().averageCharWidth() * 12;
+}
+
 QSize KeyMapView::sizeHint() const
 {
-    const QVector<Row> all = rows();
-    int caps = 0;
-    for (const Row &row : all) {
-        int width = 0;
-        for (const Cap &cap : row.caps)
-            width += widthOf(cap) + gap;
-        caps = std::max(caps, width);
-    }
-    return {caps + fontMetrics().averageCharWidth() * 12, rowHeight() * int(all.size())};
+    const int width = std::max(leastWidth(), this->width());
+    return {leastWidth(), heightForWidth(width)};
+}
+
+int KeyMapView::heightForWidth(int width) const
+{
+    return rowHeight(namePlace(width)) * rows().size();
 }
 
 void KeyMapView::paintEvent(QPaintEvent *)
@@ -149,30 +199,31 @@ void KeyMapView::paintEvent(QPaintEvent *)
     painter.setRenderHint(QPainter::Antialiasing);
     int top = 0;
     const QVector<Row> all = rows();
+    const NamePlace place = namePlace(width());
     for (const Row &row : all) {
-        paintRow(painter, row, top);
-        top += rowHeight();
+        paintRow(painter, row, top, place);
+        top += rowHeight(place);
     }
 }
 
-void KeyMapView::paintRow(QPainter &painter, const Row &row, int top) const
+void KeyMapView::paintRow(QPainter &painter, const Row &row, int top, NamePlace place) const
 {
-    double left = width();
-    for (const Cap &cap : row.caps)
-        left -= widthOf(cap) + gap;
+    const int line = fontMetrics().height();
+    double left = width() - capsWidth(row);
     const double texts = left - gap;
+    const double nameWidth = place == NameAbove ? width() : texts;
+    painter.setFont(font());
+    painter.setPen(m_theme.text);
+    painter.drawText(QRectF(0.0, top, nameWidth, line), Qt::AlignLeft | Qt::AlignVCenter,
+                     fontMetrics().elidedText(row.name, Qt::ElideMiddle, int(nameWidth)));
+    painter.setPen(row.isStale ? m_theme.stale : m_theme.mutedText);
+    painter.drawText(QRectF(0.0, top + line, texts, line), Qt::AlignLeft | Qt::AlignVCenter,
+                     fontMetrics().elidedText(row.actual, Qt::ElideRight, int(texts)));
+    top += place == NameAbove ? line : 0;
     for (const Cap &cap : row.caps) {
         paintCap(painter, cap, QRectF(left + 0.5, top + 0.5, widthOf(cap) - 1.0, capSize() - 1.0));
         left += widthOf(cap) + gap;
     }
-    const int line = fontMetrics().height();
-    painter.setFont(font());
-    painter.setPen(m_theme.text);
-    painter.drawText(QRectF(0.0, top, texts, line), Qt::AlignLeft | Qt::AlignVCenter,
-                     fontMetrics().elidedText(row.name, Qt::ElideMiddle, int(texts)));
-    painter.setPen(row.isStale ? m_theme.stale : m_theme.mutedText);
-    painter.drawText(QRectF(0.0, top + line, texts, line), Qt::AlignLeft | Qt::AlignVCenter,
-                     fontMetrics().elidedText(row.actual, Qt::ElideRight, int(texts)));
 }
 
 void KeyMapView::paintCap(QPainter &painter, const Cap &cap, const QRectF &place) const

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "gui/models/SiPrefix.h"
 #include "gui/panel/Theme.h"
-#include "gui/plant/SignalReference.h"
+#include "gui/plant/PlantList.h"
 
 #include <QtWidgets/QWidget>
 
@@ -23,7 +24,10 @@ public:
     /// Bindings, what is held, or actual values are other ones.
     void refresh();
     QSize sizeHint() const override;
-    QSize minimumSizeHint() const override { return sizeHint(); }
+    QSize minimumSizeHint() const override { return {leastWidth(), rowHeight(NameBeside)}; }
+    int heightForWidth(int width) const override;
+    /// What a row says of its signal.
+    QString valueText(int row) const { return rows().value(row).actual; }
 
 protected:
     void paintEvent(QPaintEvent *event) override;
@@ -43,12 +47,18 @@ private:
         QVector<Cap> caps;
     };
     QVector<Row> rows() const;
-    QVector<Cap> capsOf(const SignalReference &reference) const;
+    SiPrefix prefixOf(const SignalReference &reference, const PlantList::Signal &signal) const;
+    QVector<Cap> capsOf(const SignalReference &reference, const SiPrefix &prefix) const;
     QFont smallFont() const;
     int capSize() const;
-    int rowHeight() const;
+    enum NamePlace { NameBeside, NameAbove };
+    /// Names that have no room beside their keys are above them.
+    NamePlace namePlace(int width) const;
+    int rowHeight(NamePlace place) const;
+    int capsWidth(const Row &row) const;
+    int leastWidth() const;
     int widthOf(const Cap &cap) const;
-    void paintRow(QPainter &painter, const Row &row, int top) const;
+    void paintRow(QPainter &painter, const Row &row, int top, NamePlace place) const;
     void paintCap(QPainter &painter, const Cap &cap, const QRectF &place) const;
 
     const ManualControl *m_control;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "KnobView.h"
 
-#include "gui/models/ValueFormat.h"
 #include "gui/panel/DragEscape.h"
 
 #include <QtGui/QKeyEvent>
@@ -85,9 +84,8 @@ void KnobView::takeRange()
     const bool isReal = target().signal() && target().signal().definition().type.isReal();
     m_isShowing = true;
     m_knob->setScale(*target().minimum(), *target().maximum());
-    m_knob->setToolTip(QStringLiteral("%1 … %2 %3")
-                           .arg(numberText(*target().minimum()), numberText(*target().maximum()), target().unit())
-                           .trimmed());
+    m_knob->setToolTip(QStringLiteral("%1 … %2").arg(target().reading(*target().minimum(), digits),
+                                                     target().reading(*target().maximum(), digits)));
     m_knob->setTotalSteps(isReal || range > stepsOfRange ? stepsOfRange : uint(range));
     m_isShowing = false;
 }
@@ -106,8 +104,7 @@ void KnobView::showActual()
 void KnobView::showWanted()
 {
     const bool isWanted = hasRange() && (m_isEdited || m_hasSent);
-    const QPlcValueNames names = target().signal() ? target().signal().definition().valueNames : QPlcValueNames();
-    const QString text = isWanted ? numberText(m_knob->value(), digits, names) : QString();
+    const QString text = isWanted ? target().reading(m_knob->value(), digits) : QString();
     if (text != m_wanted->text())
         m_wanted->setText(text);
 }

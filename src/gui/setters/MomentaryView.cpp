@@ -42,7 +42,9 @@ double MomentaryView::pressedValue() const
 void MomentaryView::refresh()
 {
     m_button->setEnabled((target().control().mayWrite() && target().isNumber()) || m_button->isDown());
-    m_button->setText(tr("Hold: %1 %2").arg(numberText(pressedValue()), target().unit()).trimmed());
+    const QString unit = target().signal() ? target().signal().definition().unit : QString();
+    const SiPrefix prefix = SiPrefix::fitting(unit, pressedValue());
+    m_button->setText(tr("Hold: %1 %2").arg(numberText(prefix.shown(pressedValue())), prefix.unit()).trimmed());
 }
 
 void MomentaryView::press()

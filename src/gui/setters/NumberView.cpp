@@ -5,6 +5,7 @@
 
 #include <QtGui/QKeyEvent>
 #include <QtWidgets/QHBoxLayout>
+#include <QtWidgets/QLabel>
 #include <QtWidgets/QLineEdit>
 #include <QtWidgets/QToolButton>
 
@@ -15,6 +16,7 @@ namespace qplc {
 NumberView::NumberView(SetterTarget *target, QWidget *parent)
     : SetterView(target, parent)
     , m_edit(new QLineEdit(this))
+    , m_unit(new QLabel(this))
 {
     auto *row = new QHBoxLayout(this);
     row->setContentsMargins(0, 0, 0, 0);
@@ -45,6 +47,7 @@ void NumberView::makeButtons()
     makeStep(-10, QStringLiteral("−−"), tr("10 % less (Page down)"));
     makeStep(-1, QStringLiteral("−"), tr("1 % less (Down)"));
     layout()->addWidget(m_edit);
+    layout()->addWidget(m_unit);
     makeStep(1, QStringLiteral("+"), tr("1 % more (Up)"));
     makeStep(10, QStringLiteral("++"), tr("10 % more (Page up)"));
     m_apply = new QToolButton(this);
@@ -62,6 +65,8 @@ void NumberView::refresh()
         m_sent.clear();
         setEdited(false);
     }
+    m_unit->setText(target().unit());
+    m_unit->setVisible(!target().unit().isEmpty());
     m_edit->setReadOnly(!mayWrite);
     m_edit->setEnabled(mayWrite);
     for (QToolButton *button : qAsConst(m_steps)) {

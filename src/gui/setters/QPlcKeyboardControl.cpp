@@ -84,6 +84,7 @@ void QPlcKeyboardControl::Private::makeLayout()
     scroll->viewport()->setAutoFillBackground(false);
     keys->setAutoFillBackground(false);
     column->addWidget(scroll, 1);
+    hintLabel->setMostLines(3);
     auto *row = new QHBoxLayout;
     row->addWidget(hintLabel, 1);
     auto *armButton = new QToolButton(q);

@@ -16,6 +16,12 @@
 
 using namespace qplc;
 
+namespace {
+
+constexpr int digitsOfActual = 5;
+
+}  // namespace
+
 struct QPlcSetter::Private
 {
     explicit Private(QPlcSetter *setter);
@@ -147,10 +153,12 @@ QString QPlcSetter::Private::actualText() const
     if (!target.signal())
         return {};
     const double number = target.actualNumber();
-    const QString value = target.isNumber() ? numberText(number, 5, target.signal().definition().valueNames)
-                                            : valueText(target.actual(), target.signal().definition());
+    const auto whole = [this] {
+        const QString value = valueText(target.actual(), target.signal().definition());
+        return QStringLiteral("%1 %2").arg(value, target.unit()).trimmed();
+    };
     const Plant *plant = target.signal().plant;
-    const QString text = QStringLiteral("%1 %2").arg(value, target.unit()).trimmed();
+    const QString text = target.isNumber() ? target.reading(number, digitsOfActual) : whole();
     return plant->quality() == Plant::Stale ? tr("%1, %2 old").arg(text, ageText(plant->age())) : text;
 }
 
@@ -160,6 +168,7 @@ void QPlcSetter::Private::showActual()
     if (!q->isVisible())
         return;
     pause.start();
+    target.renewPrefix();
     actual->showText(actualText());
     if (q->context()) {
         const bool isStale = target.signal() && target.signal().plant->quality() == Plant::Stale;

@@ -70,8 +70,30 @@ bool SetterTarget::isNumber() const
 
 QString SetterTarget::unit() const
 {
-    const QString unit = signal() ? signal().definition().unit : QString();
-    return unit == QLatin1String("1") ? QString() : unit;
+    return signal() ? SiPrefix::unitText(signal().definition().unit) : QString();
+}
+
+QString SetterTarget::reading(double number, int digits) const
+{
+    if (!signal())
+        return numberText(number, digits);
+    const QPlcSignalDefinition &definition = signal().definition();
+    SiPrefix prefix(definition.unit);
+    if (minimum() && maximum())
+        prefix = SiPrefix::fitting(definition.unit, std::max(std::abs(*minimum()), std::abs(*maximum())));
+    else if (m_prefix.current().tableUnit() == definition.unit)
+        prefix = m_prefix.current();
+    constexpr int steadyDigits = 4;
+    const bool isPlain = prefix.factor() == 1.0 || !definition.valueNames.isEmpty();
+    if (isPlain)
+        return QStringLiteral("%1 %2").arg(numberText(number, digits, definition.valueNames), unit()).trimmed();
+    return QStringLiteral("%1 %2").arg(steadyNumberText(prefix.shown(number), steadyDigits), prefix.unit());
+}
+
+void SetterTarget::renewPrefix()
+{
+    if (signal())
+        m_prefix.next(signal().definition().unit, actualNumber());
 }
 
 std::optional<double> SetterTarget::minimum() const

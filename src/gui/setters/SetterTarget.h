@@ -3,6 +3,7 @@
 
 #include "SignalControl.h"
 #include "ValueStream.h"
+#include "gui/models/SteadyPrefix.h"
 
 #include <limits>
 #include <optional>
@@ -29,7 +30,12 @@ public:
     /// What is written; false: it is not there.
     PlantList::Signal signal() const { return m_control.resolved().value(0); }
     bool isNumber() const;
+    /// Of the table, as people read it: what is typed has it.
     QString unit() const;
+    /// A number to read, with its unit: "15.00 kN". The prefix is that of the range; without one, that of the actual values.
+    QString reading(double number, int digits) const;
+    /// Call it for each text of an actual value.
+    void renewPrefix();
     std::optional<double> minimum() const;
     std::optional<double> maximum() const;
     /// Of the range 1 %; without one of the size of \a value, at least of 1.
@@ -73,6 +79,7 @@ private:
 
     SignalControl m_control;
     ValueStream m_stream;
+    SteadyPrefix m_prefix;  // of actual values
     std::optional<double> m_minimum;
     std::optional<double> m_maximum;
     bool m_isActing = false;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SignalControl.h"
 
+#include "gui/models/SiPrefix.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -231,7 +233,7 @@ QString SignalControl::neutralText() const
             continue;
         isAllZero = isAllZero && neutralValue(signal).toReal() == 0.0;
         const QPlcSignalDefinition &definition = signal.definition();
-        const QString unit = definition.unit == QLatin1String("1") ? QString() : definition.unit;
+        const QString unit = SiPrefix::unitText(definition.unit);
         texts << QStringLiteral("%1 %2 %3").arg(definition.name, neutralValue(signal).toString(), unit).trimmed();
     }
     return isAllZero && texts.size() > 1 ? tr("all 0") : texts.join(QStringLiteral(", "));

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SliderView.h"
 
-#include "gui/models/ValueFormat.h"
 #include "gui/panel/DragEscape.h"
 
 #include <QtWidgets/QHBoxLayout>
@@ -16,6 +15,7 @@ namespace qplc {
 namespace {
 
 constexpr int positions = 1000;
+constexpr int digitsOfWanted = 4;
 
 }  // namespace
 
@@ -32,7 +32,6 @@ SliderView::SliderView(SetterTarget *target, QWidget *parent)
     m_slider->setPageStep(positions / 10);
     m_slider->setSingleStep(positions / 100);
     m_slider->setAccessibleName(tr("New value"));
-    m_wanted->setMinimumWidth(fontMetrics().horizontalAdvance(QStringLiteral("-00.000")));
     m_wanted->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
     setFocusProxy(m_slider);
     m_pause.setSingleShot(true);
@@ -57,6 +56,11 @@ double SliderView::valueAt(int position) const
     return *target().minimum() + range * double(position) / positions;
 }
 
+QString SliderView::readingAt(int position) const
+{
+    return target().reading(valueAt(position), digitsOfWanted);
+}
+
 int SliderView::positionOf(double value) const
 {
     const double range = *target().maximum() - *target().minimum();
@@ -74,6 +78,10 @@ void SliderView::refresh()
         m_sentPosition = -1;
     }
     m_slider->setEnabled(mayWrite && hasRange() && target().isNumber());
+    if (hasRange())  // so that the slider keeps its length
+        m_wanted->setMinimumWidth(std::max({fontMetrics().horizontalAdvance(QStringLiteral("-00.000")),
+                                            fontMetrics().horizontalAdvance(readingAt(0)),
+                                            fontMetrics().horizontalAdvance(readingAt(positions))}));
     if (target().signal() && !hasRange())
         Q_EMIT said(tr("'%1' has no limits in the table: give the slider some in its settings")
                         .arg(target().reference().toString()));
@@ -92,7 +100,7 @@ void SliderView::showActual()
 
 void SliderView::showWanted()
 {
-    const QString text = hasRange() && m_hasSent ? QString::number(valueAt(m_slider->value()), 'g', 4) : QString();
+    const QString text = hasRange() && m_hasSent ? readingAt(m_slider->value()) : QString();
     if (text != m_wanted->text())
         m_wanted->setText(text);
 }

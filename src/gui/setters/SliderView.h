@@ -24,6 +24,7 @@ public:
 private:
     bool hasRange() const { return target().minimum() && target().maximum(); }
     double valueAt(int position) const;
+    QString readingAt(int position) const;
     int positionOf(double value) const;
     void moved();
     void send();

@@ -51,6 +51,9 @@ min = -100
 max = 100
 [count]
 type = Int32
+[work]
+type = Real
+unit = J
 )"));
 }
 
@@ -71,6 +74,8 @@ void tst_GaugeNumbers::figuresKeepTheirHeightWhileTheirDigitsChange_data()
     // Round digits have the same height: 0, 8.
     QTest::addRow("open") << QByteArray("open") << QVector<double>{8, 80, 880, 8888, 88000, 880000, 8000000, 0, 88.8};
     QTest::addRow("limits") << QByteArray("closed") << QVector<double>{8, 80, 0, 88, 0.8, 8.88};
+    QTest::addRow("prefix") << QByteArray("work")
+                            << QVector<double>{8, 80, 880, 8888, 88000, 880000, 8e6, 8.8e7, 88, 0, 8e9};
     QTest::addRow("integer") << QByteArray("count") << QVector<double>{8, 80, 880, 8888, 88000, 880000, 0};
 }
 

@@ -145,7 +145,7 @@ void tst_QPlcGauge::aSignalThatIsNotThereComesToLifeWithItsPlant()
     RunningMaster master(gaugeTable());
     Plant *plant = context.plants()->add(master.address());
     QTRY_COMPARE(feed.picture().message, QString());
-    QCOMPARE(feed.picture().unit, QStringLiteral("m"));
+    QCOMPARE(feed.picture().prefix.unit(), QStringLiteral("m"));
     context.plants()->remove(plant);
     QVERIFY(feed.picture().message.contains(QStringLiteral("not there")));
 }

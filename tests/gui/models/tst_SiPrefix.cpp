@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "gui/models/SiPrefix.h"
+#include "gui/models/SteadyPrefix.h"
 
 #include <QtTest/QtTest>
 
@@ -24,6 +24,8 @@ private Q_SLOTS:
     void valuesHaveThePrefixThatFits_data();
     void valuesHaveThePrefixThatFits();
     void aPrefixIsKeptWhileItIsGoodEnough();
+    void aSteadyPrefixGrowsAtOnceAndShrinksLater();
+    void aSteadyPrefixDoesNotFlickerAtABorder();
     void numbersKeepTheirDigits_data();
     void numbersKeepTheirDigits();
 };
@@ -76,6 +78,38 @@ void tst_SiPrefix::aPrefixIsKeptWhileItIsGoodEnough()
     QCOMPARE(prefix.shown(12e-3), 12.0);
     QCOMPARE(prefix.kept(2.0).unit(), QStringLiteral("ms"));
     QCOMPARE(prefix.kept(20.0).unit(), QStringLiteral("s"));
+}
+
+void tst_SiPrefix::aSteadyPrefixGrowsAtOnceAndShrinksLater()
+{
+    const QString joule = QStringLiteral("J");
+    SteadyPrefix prefix;
+    QCOMPARE(prefix.next(joule, 0.0).unit(), QStringLiteral("J"));
+    QCOMPARE(prefix.next(joule, 2e-3).unit(), QStringLiteral("mJ"));  // the first value decides
+    QCOMPARE(prefix.next(joule, 12e3).unit(), QStringLiteral("kJ"));
+    for (int text = 1; text < SteadyPrefix::Patience; ++text)
+        QCOMPARE(prefix.next(joule, 50.0).unit(), QStringLiteral("kJ"));
+    QCOMPARE(prefix.next(joule, 500.0).unit(), QStringLiteral("kJ"));  // good again: the count begins anew
+    for (int text = 1; text < SteadyPrefix::Patience; ++text)
+        QCOMPARE(prefix.next(joule, -50.0).unit(), QStringLiteral("kJ"));
+    QCOMPARE(prefix.next(joule, 50.0).unit(), QStringLiteral("J"));
+    QCOMPARE(prefix.next(joule, std::numeric_limits<double>::quiet_NaN()).unit(), QStringLiteral("J"));
+    QCOMPARE(prefix.next(QStringLiteral("deg"), 1e6).unit(), QStringLiteral("deg"));
+}
+
+void tst_SiPrefix::aSteadyPrefixDoesNotFlickerAtABorder()
+{
+    SteadyPrefix prefix;
+    prefix.next(QStringLiteral("N"), 9990.0);
+    int changes = 0;
+    QString shown = prefix.current().unit();
+    for (int text = 0; text < 1000; ++text) {
+        const double size = text % 2 == 0 ? 9990.0 : 10010.0;
+        const QString unit = prefix.next(QStringLiteral("N"), size).unit();
+        changes += unit != shown ? 1 : 0;
+        shown = unit;
+    }
+    QCOMPARE(changes, 1);
 }
 
 void tst_SiPrefix::numbersKeepTheirDigits_data()

@@ -15,7 +15,9 @@ namespace {
 QPlcSignalTable statesTable()
 {
     return QPlcSignalTable::fromIni("[mode]\ntype = Int8\nmax = 2\nvalues = -5: Service, 0: Manual, 1: Automatic\n"
-                                    "[speed]\ntype = Real64\nunit = m/s\nmin = -10\nmax = 10\n");
+                                    "[speed]\ntype = Real64\nunit = m/s\nmin = -10\nmax = 10\n"
+                                    "[pull]\ntype = Real64\nunit = N\nmin = -20000\nmax = 20000\n"
+                                    "[work]\ntype = Real64\nunit = J\n");
 }
 
 QJsonObject settingsOf(const char *signal, const char *style)
@@ -68,6 +70,8 @@ private Q_SLOTS:
     void keysTurnTheKnobAndEnterSends();
     void escapeTakesTheTurningBackAndNothingIsOverwritten();
     void aKnobWithoutLimitsSaysWhatToDo();
+    void whatIsReadHasThePrefixOfTheRange();
+    void whatIsTypedHasTheUnitOfTheTable();
 };
 
 void tst_ChoiceAndKnob::theListHasTheNamesAndSendsTheNumberOnce()
@@ -257,6 +261,42 @@ void tst_ChoiceAndKnob::aKnobWithoutLimitsSaysWhatToDo()
     QVERIFY(desk.show(settingsOf("mode", "knob")));
     QTRY_VERIFY(labelsOf(&desk.setter).contains(QStringLiteral("'mode' has no limits in the table")));
     QVERIFY(!desk.part<QwtKnob>()->isEnabled());
+}
+
+void tst_ChoiceAndKnob::whatIsReadHasThePrefixOfTheRange()
+{
+    Desk desk;
+    QVERIFY(desk.show(settingsOf("pull", "knob")));
+    QVERIFY(desk.master.setSignalValue("pull", 15000.0));
+    QTRY_VERIFY(labelsOf(&desk.setter).contains(QStringLiteral("15.00 kN")));
+    QVERIFY(desk.master.setSignalValue("pull", 20.0));
+    QTRY_VERIFY(labelsOf(&desk.setter).contains(QStringLiteral("0.020 kN")));  // as near 0 as at the ends
+    QTRY_COMPARE(desk.part<QwtKnob>()->toolTip(), QStringLiteral("-20.00 kN … 20.00 kN"));
+    auto *knob = desk.part<QwtKnob>();
+    QTRY_VERIFY(knob->isEnabled());
+    knob->setFocus();
+    QTest::keyClick(knob, Qt::Key_Up);
+    QVERIFY(knob->value() > 100.0 && knob->value() < 1000.0);
+    const QString wanted = QString::number(knob->value() / 1000.0, 'f', 3) + QStringLiteral(" kN");
+    QVERIFY2(labelsOf(&desk.setter).contains(wanted), qPrintable(labelsOf(&desk.setter)));
+    desk.setter.applySettings(settingsOf("pull", "momentary"));
+    QVERIFY(buttonOf(&desk.setter, QStringLiteral("Hold: 20 kN")));
+}
+
+void tst_ChoiceAndKnob::whatIsTypedHasTheUnitOfTheTable()
+{
+    Desk desk;
+    QVERIFY(desk.show(settingsOf("work", "number")));
+    QVERIFY(desk.master.setSignalValue("work", 101108.0));
+    QTRY_VERIFY(labelsOf(&desk.setter).contains(QStringLiteral("101.1 kJ")));
+    QTRY_COMPARE(desk.part<QLineEdit>()->text(), QStringLiteral("101108"));
+    QVERIFY(labelsOf(&desk.setter).split(QLatin1Char('\n')).contains(QStringLiteral("J")));  // beside the field
+    auto *field = desk.part<QLineEdit>();
+    QTRY_VERIFY(field->isEnabled());
+    field->selectAll();
+    QTest::keyClicks(field, QStringLiteral("4"));
+    QTest::keyClick(field, Qt::Key_Return);
+    QTRY_COMPARE(desk.valueOf("work"), 4.0);
 }
 
 QTEST_MAIN(tst_ChoiceAndKnob)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "QPlcKeyboardControl.h"
 #include "SetterFixtures.h"
+#include "gui/setters/ElidedLabel.h"
 #include "gui/setters/Gamepad.h"
 #include "gui/setters/KeyButton.h"
 #include "gui/setters/KeyMapView.h"
@@ -52,6 +53,8 @@ class tst_QPlcKeyboardControl : public QObject
 private Q_SLOTS:
     void settingsComeBackAsTheyWere();
     void aPersonTakesControlFliesAndGivesBack();
+    void sentencesAndNamesHaveRoomInNarrowPanels();
+    void valuesAndKeysHaveOnePrefix();
     void whatEndsTheHandleIsNeutralAtOnce_data();
     void whatEndsTheHandleIsNeutralAtOnce();
     void aKeyThatMeansSomethingElseWhenItIsReleasedIsReleased();
@@ -107,6 +110,52 @@ void tst_QPlcKeyboardControl::aPersonTakesControlFliesAndGivesBack()
     QTest::qWait(50);
     QVERIFY(pilot.window.failed.isEmpty());
     QVERIFY(master.valueOf(echo) > 10.0);
+}
+
+void tst_QPlcKeyboardControl::sentencesAndNamesHaveRoomInNarrowPanels()
+{
+    FlyingMaster master;
+    QVERIFY(master.startRealTime());
+    TestWindow window(master.address());
+    QPlcKeyboardControl panel;
+    QVERIFY(showPanel(&panel, &window.context, keySettings()) && window.isReady());
+    QTRY_VERIFY(labelsOf(&panel).contains(QStringLiteral("begin at neutral (")));
+    for (const int width : {400, 300, 240}) {
+        panel.resize(width, 300);
+        QCoreApplication::processEvents();
+        for (const ElidedLabel *label : panel.findChildren<ElidedLabel *>())
+            QTRY_VERIFY2(!label->isElided() && label->height() >= label->heightForWidth(label->width()),
+                     qPrintable(QStringLiteral("%1 at %2: %3 of %4 px")
+                                    .arg(label->text())
+                                    .arg(width)
+                                    .arg(label->height())
+                                    .arg(label->heightForWidth(label->width()))));
+        const QAbstractButton *take = buttonOf(&panel, QStringLiteral("Take control"));
+        QVERIFY(take && take->width() >= take->sizeHint().width());
+    }
+    const auto *keys = panel.findChild<KeyMapView *>();
+    const int name = keys->fontMetrics().horizontalAdvance(QStringLiteral("setpoint"));
+    const int above = keys->heightForWidth(name) - keys->heightForWidth(10 * name);
+    QCOMPARE(above, 2 * keys->fontMetrics().height());  // each name has a line of its own
+}
+
+void tst_QPlcKeyboardControl::valuesAndKeysHaveOnePrefix()
+{
+    RunningMaster master(QPlcSignalTable::fromIni("[pull]\ntype = Real64\nunit = N\n"
+                                                  "[turns]\ntype = Real64\nunit = 1\n"));
+    TestWindow window(master.address());
+    QPlcKeyboardControl panel;
+    QVERIFY(showPanel(&panel, &window.context,
+                      {{"keys",
+                        QJsonArray{QJsonObject{{"key", "Left"}, {"signal", "pull"}, {"value", -20000.0}},
+                                   QJsonObject{{"key", "W"}, {"signal", "turns"}, {"value", 2.0}}}}}));
+    const auto *keys = panel.findChild<KeyMapView *>();
+    QTRY_VERIFY(window.plant->table().size() > 0);
+    QVERIFY(master.setSignalValue("pull", 1500.0));
+    QTRY_VERIFY2(keys->accessibleDescription().contains(QStringLiteral("pull −20")),
+                 qPrintable(keys->accessibleDescription()));
+    QTRY_COMPARE(keys->valueText(0), QStringLiteral("1.5 kN"));
+    QCOMPARE(keys->valueText(1), QStringLiteral("0"));
 }
 
 void tst_QPlcKeyboardControl::whatEndsTheHandleIsNeutralAtOnce_data()
