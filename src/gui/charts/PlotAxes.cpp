@@ -19,8 +19,9 @@ int PlotAxes::axisOf(Side side, const QString &unit) const
     return m_axes[first].isUsed ? -1 : first;
 }
 
-int PlotAxes::add(std::optional<Side> side, const QString &unit)
+int PlotAxes::add(std::optional<Side> side, const QString &unitOfTable)
 {
+    const QString unit = unitOfTable == QLatin1String("1") ? QString() : unitOfTable;
     const bool isAnotherUnit = m_axes[0].isUsed && m_axes[0].unit != unit;
     const Side chosen = side.value_or(isAnotherUnit ? PlotCurveSettings::Right : PlotCurveSettings::Left);
     int axis = axisOf(chosen, unit);

@@ -38,6 +38,7 @@ class tst_PlotAxes : public QObject
     Q_OBJECT
 private Q_SLOTS:
     void eachUnitHasAnAxis();
+    void curvesWithoutUnitShareAnAxis();
     void aPersonChoosesTheSide();
     void aCurveOfAnotherUnitHasAnAxisInItsColour();
     void anAxisOfSeveralCurvesHasTheirColours();
@@ -60,6 +61,23 @@ void tst_PlotAxes::eachUnitHasAnAxis()
     QCOMPARE(axes.add({}, QStringLiteral("W")), 2);
     QCOMPARE(axes.add({}, QString()), 3);
     QCOMPARE(axes.count(), 4);
+}
+
+void tst_PlotAxes::curvesWithoutUnitShareAnAxis()
+{
+    PlotAxes axes;
+    const QString one = QStringLiteral("1");  // as tables write that there is no unit
+    QCOMPARE(axes.add({}, QString()), 0);
+    QCOMPARE(axes.add({}, one), 0);
+    QCOMPARE(axes.add({}, QString()), 0);
+    QCOMPARE(axes.add({}, QStringLiteral("m")), 1);
+    QCOMPARE(axes.add({}, one), 0);
+    PlotAxes others;
+    QCOMPARE(others.add({}, QStringLiteral("m")), 0);
+    QCOMPARE(others.add({}, one), 1);
+    QCOMPARE(others.add({}, QString()), 1);
+    QCOMPARE(others.add(atRight, one), 1);
+    QCOMPARE(others.count(), 2);
 }
 
 void tst_PlotAxes::aPersonChoosesTheSide()
