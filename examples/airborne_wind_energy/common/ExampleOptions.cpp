@@ -74,6 +74,20 @@ QHostAddress defaultMulticastGroup()
     return QHostAddress(QStringLiteral("239.255.76.68"));
 }
 
+/// \return false, with the message out, when it cannot be the mean wind
+static bool readWind(QPlcCoreApplication &application, Eigen::Vector3d *wind)
+{
+    const QString name = QStringLiteral("wind");
+    if (!readVector(application, name, wind))
+        return false;
+    constexpr double strongest = 100.0;  // [m/s] east, north and up
+    if (!(wind->cwiseAbs().maxCoeff() > strongest))
+        return true;
+    application.usageError(
+        QStringLiteral("--%1 %2: use numbers from -%3 to %3 m/s").arg(name, application.value(name)).arg(strongest));
+    return false;
+}
+
 void addModelOptions(QPlcCoreApplication &application)
 {
     add(application, "wind",
@@ -91,7 +105,7 @@ bool readModelOptions(QPlcCoreApplication &application, const KiteConfiguration 
                   seed = QStringLiteral("seed");
     settings->wind = kite.wind;
     qint64 course = 0;
-    if ((application.isSet(wind) && !readVector(application, wind, &settings->wind.meanVelocity))
+    if ((application.isSet(wind) && !readWind(application, &settings->wind.meanVelocity))
         || (application.isSet(turbulence)
             && !application.number(turbulence, 0.0, 1.0, &settings->wind.turbulenceIntensity))
         || (application.isSet(seed) && !application.integer(seed, 0, std::numeric_limits<qint64>::max(), &course)))

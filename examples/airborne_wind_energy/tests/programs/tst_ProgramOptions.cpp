@@ -95,10 +95,10 @@ void tst_ProgramOptions::badOptionsAreRefusedWithOneSentence_data()
             << QString::fromLatin1(message);
     };
     for (const char *program : {"awe_master", "awe_model", "awe_compact_model", "awe_autopilot", "awe_sil"}) {
-        row(program, "--fly", "Unknown option 'fly'");
+        row(program, "--fly", "unknown option '--fly'");
         row(program, "fly", "unexpected argument 'fly'");
         row(program, "-5", "unexpected argument '-5'");
-        row(program, "--signals", "Missing value after '--signals'");
+        row(program, "--signals", "missing value after '--signals'");
         row(program, "--signals /nowhere/signals.ini", "/nowhere/signals.ini");
         row(program, "--help=yes", "--help");
     }
@@ -127,7 +127,7 @@ void tst_ProgramOptions::badOptionsAreRefusedWithOneSentence_data()
         row(program, "--wind 8", "--wind 8: use three numbers X,Y,Z");
         row(program, "--wind west", "--wind west");
         row(program, "--wind 1,2,inf", "--wind 1,2,inf");
-        row(program, "--wind 1000,0,0", "1000");
+        row(program, "--wind 1000,0,0", "--wind 1000,0,0: use numbers from -100 to 100 m/s");
         row(program, "--turbulence -0.1", "--turbulence -0.1: use a number of 0 ... 1");
         row(program, "--turbulence 1.1", "--turbulence 1.1");
         row(program, "--turbulence much", "--turbulence much");
@@ -156,7 +156,7 @@ void tst_ProgramOptions::badOptionsAreRefusedWithOneSentence_data()
         row(program, "--scale 0", "--scale 0");
         row(program, "--scale 1001", "--scale 1001");
         row(program, "--scale fast", "--scale fast");
-        row(program, "--overrun", "Missing value after '--overrun'");
+        row(program, "--overrun", "missing value after '--overrun'");
         row(program, "--overrun panic", "--overrun: overrun policy 'panic': use skip, catch-up:N, shift or stop");
         row(program, "--overrun catch-up:0", "use catch-up:N with N = 1 ... 1000000");
         row(program, "--duration -1", "--duration -1");
