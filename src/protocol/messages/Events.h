@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "Field.h"
+#include "QPlcMessage.h"
+
+/// What has happened in the master: docs/protocol.md, section 5.8.
+namespace qplc::messages {
+
+struct EventEntry
+{
+    quint64 sequence = 0;
+    Hex64 time;  // [ns] since 1970
+    QString severity;
+    QString kind;
+    QString source;
+    QString text;
+    QString alarm;  // name of a condition that lasts; empty: none
+    std::optional<bool> active;
+
+    static constexpr auto fields = std::make_tuple(
+        field("sequence", &EventEntry::sequence, Presence::Required), field("time", &EventEntry::time),
+        field("severity", &EventEntry::severity), field("kind", &EventEntry::kind),
+        field("source", &EventEntry::source), field("text", &EventEntry::text),
+        field("alarm", &EventEntry::alarm, Presence::WhenSet), field("active", &EventEntry::active, Presence::WhenSet));
+};
+
+struct Events
+{
+    static constexpr QPlcMessage::Kind kind = QPlcMessage::Events;
+    std::vector<EventEntry> events;
+    std::optional<bool> more;  // there are newer ones; absent in what comes unasked
+
+    static constexpr auto fields
+        = std::make_tuple(field("events", &Events::events), field("more", &Events::more, Presence::WhenSet));
+};
+
+struct GetEvents
+{
+    static constexpr QPlcMessage::Kind kind = QPlcMessage::GetEvents;
+    using Answer = Events;
+    std::optional<quint64> since;  // those after this sequence number
+
+    static constexpr auto fields = std::make_tuple(field("since", &GetEvents::since, Presence::Checked));
+};
+
+}  // namespace qplc::messages

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "Wire.h"
+
+#include <limits>
+#include <tuple>
+
+namespace qplc::messages {
+
+/// Whether a field has to be there.
+enum class Presence : quint8 {
+    Required,   ///< the message cannot be carried out without it
+    Defaulted,  ///< always sent; a receiver that misses it takes the value of the struct
+    WhenSet,    ///< sent where it differs from the value of the struct
+    Checked     ///< as WhenSet; what is there and cannot be used is an error
+};
+
+/// Smallest and largest number that a field may have.
+struct Range
+{
+    double minimum = std::numeric_limits<double>::lowest();
+    double maximum = std::numeric_limits<double>::max();
+};
+
+/// One field of a message: its name on the wire, and the member of the struct that holds its value.
+template<typename Owner, typename Value>
+struct Field
+{
+    const char *name;
+    Value Owner::*member;
+    Presence presence;
+    Range range;
+};
+
+/// Describes a field. Its type on the wire is that of the member: see Wire.
+template<typename Owner, typename Value>
+constexpr Field<Owner, Value> field(const char *name, Value Owner::*member, Presence presence = Presence::Defaulted,
+                                    Range range = {})
+{
+    return {name, member, presence, range};
+}
+
+/// Members of one struct that are an object of their own on the wire.
+template<typename... Fields>
+struct Group
+{
+    const char *name;
+    std::tuple<Fields...> fields;
+};
+
+template<typename... Fields>
+constexpr Group<Fields...> group(const char *name, Fields... fields)
+{
+    return {name, std::make_tuple(fields...)};
+}
+
+/// The fields of \a Struct: its own `fields`, unless this is specialised for a struct that knows nothing of messages.
+template<typename Struct>
+struct Description
+{
+    static constexpr auto &fields = Struct::fields;
+};
+
+// ---- to the wire ----
+
+template<typename Value, typename = void>
+struct IsContainer : std::false_type
+{
+};
+template<typename Value>
+struct IsContainer<Value, std::void_t<decltype(std::declval<Value>().empty())>> : std::true_type
+{
+};
+
+template<typename Value, typename = void>
+struct IsComparable : std::false_type
+{
+};
+template<typename Value>
+struct IsComparable<Value, std::void_t<decltype(std::declval<Value>() == std::declval<Value>())>> : std::true_type
+{
+};
+
+template<typename Value>
+bool differs(const Value &value, const Value &unset)
+{
+    if constexpr (IsContainer<Value>::value && !std::is_same_v<Value, QString>)
+        return value.empty() != unset.empty();
+    else if constexpr (IsComparable<Value>::value)
+        return !(value == unset);
+    else
+        return true;
+}
+
+template<typename Struct, typename Owner, typename Value>
+void write(const Struct &value, const Field<Owner, Value> &field, QJsonObject *object)
+{
+    static const Struct unset;
+    const Value &member = value.*field.member;
+    const bool isAlwaysSent = field.presence == Presence::Required || field.presence == Presence::Defaulted;
+    if (isAlwaysSent || differs(member, unset.*field.member))
+        object->insert(QLatin1String(field.name), Wire<Value>::toJson(member));
+}
+
+template<typename Struct, typename... Fields>
+void write(const Struct &value, const std::tuple<Fields...> &fields, QJsonObject *object)
+{
+    std::apply([&](const auto &...each) { (write(value, each, object), ...); }, fields);
+}
+
+template<typename Struct, typename... Fields>
+void write(const Struct &value, const Group<Fields...> &group, QJsonObject *object)
+{
+    QJsonObject inner;
+    write(value, group.fields, &inner);
+    object->insert(QLatin1String(group.name), inner);
+}
+
+template<typename Struct>
+QJsonObject toObject(const Struct &value)
+{
+    QJsonObject object;
+    write(value, Description<Struct>::fields, &object);
+    return object;
+}
+
+// ---- from the wire ----
+
+/// "field 'every' is 0; it has to be 1 ... 1000000"
+QString outOfRangeText(const char *name, double number, Range range);
+/// "field 'values' is missing or no base64"
+QString unusableText(const char *name, const char *type);
+
+template<typename Struct, typename Owner, typename Value>
+bool read(const QJsonObject &object, const Field<Owner, Value> &field, Struct *value, QString *error)
+{
+    Value member{};
+    const QJsonValue json = object.value(QLatin1String(field.name));
+    if (!Wire<Value>::fromJson(json, &member)) {
+        // What is not needed and cannot be used is as if it were not there: a Stop with a bad field stops.
+        const bool isNeeded
+            = field.presence == Presence::Required || (field.presence == Presence::Checked && !json.isUndefined());
+        if (isNeeded)
+            *error = unusableText(field.name, Wire<Value>::name);
+        return !isNeeded;
+    }
+    if constexpr (Wire<Value>::isNumber) {
+        const double number = Wire<Value>::toNumber(member);
+        if (number < field.range.minimum || number > field.range.maximum) {
+            *error = outOfRangeText(field.name, number, field.range);
+            return false;
+        }
+    }
+    value->*field.member = std::move(member);
+    return true;
+}
+
+template<typename Struct, typename... Fields>
+bool read(const QJsonObject &object, const std::tuple<Fields...> &fields, Struct *value, QString *error)
+{
+    return std::apply([&](const auto &...each) { return (read(object, each, value, error) && ...); }, fields);
+}
+
+template<typename Struct, typename... Fields>
+bool read(const QJsonObject &object, const Group<Fields...> &group, Struct *value, QString *error)
+{
+    return read(object.value(QLatin1String(group.name)).toObject(), group.fields, value, error);
+}
+
+/// Reads all fields of \a Struct. Fields that it does not know are ignored.
+/// \return false when a field that is needed cannot be used: \a error says which one, and \a value is not to be used
+template<typename Struct>
+bool fromObject(const QJsonObject &object, Struct *value, QString *error)
+{
+    return read(object, Description<Struct>::fields, value, error);
+}
+
+// ---- structs in structs ----
+
+template<typename Struct>
+struct WireOfStruct
+{
+    static constexpr const char *name = "object";
+    static constexpr bool isNumber = false;
+    static QJsonValue toJson(const Struct &value) { return toObject(value); }
+    static bool fromJson(const QJsonValue &json, Struct *value)
+    {
+        QString error;
+        return json.isObject() && fromObject(json.toObject(), value, &error);
+    }
+};
+
+}  // namespace qplc::messages

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "Events.h"
+#include "Greeting.h"
+#include "Kinds.h"
+#include "Leases.h"
+#include "Phases.h"
+#include "Registration.h"
+#include "SignalValues.h"
+#include "State.h"
+#include "Statistics.h"
+
+/// All control messages: a kind without a struct does not compile.
+namespace qplc::messages {
+
+template<typename... Messages>
+struct List
+{
+    static constexpr bool contains(QPlcMessage::Kind kind) { return ((Messages::kind == kind) || ...); }
+};
+
+/// What a node or tool sends to its master.
+using FromClient
+    = List<ClientHello, Register, AttachCyclicChannel, InitializeAllStates, ReceiveMyInitialOutputStates, Initialized,
+           StartRealTime, RealTimeReady, Stop, SafeStop, Reset, Arm, GetState, GetSignals, SetSignals, NodeFault,
+           GetStatistics, GetSchedule, TakeLease, ReleaseLease, GetLeases, GetEvents>;
+/// What a master sends to a node or tool.
+using FromMaster
+    = List<MasterHello, Registered, Rejected, CyclicChannelAttached, MasterEnds, SendYourInitialOutputStates,
+           InitializeWithValues, StatesInitialized, RealTimeStarted, RealTimeStopped, Armed, State, Signals, Done,
+           Failed, Statistics, Schedule, Leases, LeasesChanged, Events>;
+
+static_assert(isEveryKind([](QPlcMessage::Kind kind) {
+                  return FromClient::contains(kind) || FromMaster::contains(kind);
+              }),
+              "a kind of QPlcMessage has no struct in FromClient or FromMaster");
+
+template<typename Message>
+QPlcMessage toMessage(const Message &message)
+{
+    return {Message::kind, toObject(message)};
+}
+
+/// What became of a message.
+enum class Dispatch : quint8 {
+    Delivered,
+    Malformed,  ///< a field that is needed cannot be used
+    Unknown     ///< no message of the list has this kind
+};
+
+/// Reads \a message as the struct of \a Messages that has its kind, and gives it to \a handler.
+///
+/// The handler has an overload for each of them: one that is forgotten does not compile.
+/// \param error  of Malformed: a sentence that names the field
+template<typename Handler, typename... Messages>
+Dispatch dispatch(List<Messages...>, const QPlcMessage &message, Handler &&handler, QString *error)
+{
+    Dispatch result = Dispatch::Unknown;
+    const auto tryOne = [&](auto read) {
+        if (decltype(read)::kind != message.kind() || result != Dispatch::Unknown)
+            return;
+        result = Dispatch::Malformed;
+        if (fromObject(message.fields(), &read, error)) {
+            result = Dispatch::Delivered;
+            handler(read);
+        }
+    };
+    (tryOne(Messages()), ...);
+    return result;
+}
+
+}  // namespace qplc::messages

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "Field.h"
+#include "QPlcMessage.h"
+#include "Vocabulary.h"
+
+/// Initialization, start and stop: docs/protocol.md, sections 4, 5.3 and 9.
+namespace qplc::messages {
+
+struct InitializeAllStates
+{
+    static constexpr QPlcMessage::Kind kind = QPlcMessage::InitializeAllStates;
+    static constexpr auto fields = std::make_tuple();
+};
+
+struct SendYourInitialOutputStates
+{
+    static constexpr QPlcMessage::Kind kind = QPlcMessage::SendYourInitialOutputStates;
+    std::optional<Hex64> phase;  // cycleZero of the phase that the node joins
+
+    static constexpr auto fields
+        = std::make_tuple(field("phase", &SendYourInitialOutputStates::phase, Presence::WhenSet));
+};
+
+struct ReceiveMyInitialOutputStates
+{
+    static constexpr QPlcMessage::Kind kind = QPlcMessage::ReceiveMyInitialOutputStates;
+    QByteArray values;    // packed output payload
+    bool goesOn = false;  // the node has kept its state
+
+    static constexpr auto fields
+        = std::make_tuple(field("values", &ReceiveMyInitialOutputStates::values, Presence::Required),
+                          field("goesOn", &ReceiveMyInitialOutputStates::goesOn, Presence::WhenSet));
+};
+
+struct InitializeWithValues
+{
+    static constexpr QPlcMessage::Kind kind = QPlcMessage::InitializeWithValues;
+    QByteArray values;  // packed input payload
+
+    static constexpr auto fields = std::make_tuple(field("values", &InitializeWithValues::values, Presence::Required));
+};
+
+struct Initialized
+{
+    static constexpr QPlcMessage::Kind kind = QPlcMessage::Initialized;
+    static constexpr auto fields = std::make_tuple();
+};
+
+struct StatesInitialized
+{
+    static constexpr QPlcMessage::Kind kind = QPlcMessage::StatesInitialized;
+    bool ok = false;
+    QString text;  // why not
+
+    static constexpr auto fields
+        = std::make_tuple(field("ok", &StatesInitialized::ok), field("text", &StatesInitialized::text));
+};
+
+struct StartRealTime
+{
+    static constexpr QPlcMessage::Kind kind = QPlcMessage::StartRealTime;
+    std::optional<quint64> cycles;  // the master stops by itself after so many
+    std::optional<Hex64> token;     // of Armed
+
+    static constexpr auto fields = std::make_tuple(field("cycles", &StartRealTime::cycles, Presence::Checked),
+                                                   field("token", &StartRealTime::token, Presence::WhenSet));
+};
+
+/// Where the inputs of a node lie in the datagrams of a group.
+struct GroupPlace
+{
+    int part = 0;
+    int offset = 0;  // [byte]
+    int size = 0;    // [byte]
+    Hex64 hash;
+
+    static constexpr auto fields = std::make_tuple(
+        field("part", &GroupPlace::part, Presence::Required), field("offset", &GroupPlace::offset, Presence::Required),
+        field("size", &GroupPlace::size, Presence::Required), field("hash", &GroupPlace::hash, Presence::Required));
+    friend bool operator==(const GroupPlace &a, const GroupPlace &b)
+    {
+        return a.part == b.part && a.offset == b.offset && a.size == b.size && a.hash == b.hash;
+    }
+};
+
+struct RealTimeStarted
+{
+    static constexpr QPlcMessage::Kind kind = QPlcMessage::RealTimeStarted;
+    std::chrono::nanoseconds period{0};
+    ClockKind clock = ClockKind::RealTime;
+    double scale = 1.0;
+    QString profile;  // "Simulation"; everything else is a plant
+    Hex64 firstCycle;
+    Hex64 cycleZero;
+    std::optional<GroupPlace> group;
+
+    static constexpr auto fields = std::make_tuple(
+        field("period", &RealTimeStarted::period), field("clock", &RealTimeStarted::clock, Presence::Required),
+        field("scale", &RealTimeStarted::scale), field("profile", &RealTimeStarted::profile, Presence::WhenSet),
+        field("firstCycle", &RealTimeStarted::firstCycle), field("cycleZero", &RealTimeStarted::cycleZero),
+        field("group", &RealTimeStarted::group, Presence::Checked));
+};
+
+struct RealTimeReady
+{
+    static constexpr QPlcMessage::Kind kind = QPlcMessage::RealTimeReady;
+    static constexpr auto fields = std::make_tuple();
+};
+
+struct Stop
+{
+    static constexpr QPlcMessage::Kind kind = QPlcMessage::Stop;
+    QString whoever;  // the person
+    QString how;      // "Esc Esc"
+
+    static constexpr auto fields = std::make_tuple(field("whoever", &Stop::whoever, Presence::WhenSet),
+                                                   field("how", &Stop::how, Presence::WhenSet));
+};
+
+struct RealTimeStopped
+{
+    static constexpr QPlcMessage::Kind kind = QPlcMessage::RealTimeStopped;
+    QString reason;
+
+    static constexpr auto fields = std::make_tuple(field("reason", &RealTimeStopped::reason));
+};
+
+struct SafeStop
+{
+    static constexpr QPlcMessage::Kind kind = QPlcMessage::SafeStop;
+    QString reason;
+
+    static constexpr auto fields = std::make_tuple(field("reason", &SafeStop::reason, Presence::WhenSet));
+};
+
+struct Reset
+{
+    static constexpr QPlcMessage::Kind kind = QPlcMessage::Reset;
+    static constexpr auto fields = std::make_tuple();
+};
+
+struct Armed
+{
+    static constexpr QPlcMessage::Kind kind = QPlcMessage::Armed;
+    Hex64 token;
+    std::chrono::nanoseconds validFor{0};
+
+    static constexpr auto fields
+        = std::make_tuple(field("token", &Armed::token, Presence::Required), field("validFor", &Armed::validFor));
+};
+
+struct Arm
+{
+    static constexpr QPlcMessage::Kind kind = QPlcMessage::Arm;
+    using Answer = Armed;
+    static constexpr auto fields = std::make_tuple();
+};
+
+}  // namespace qplc::messages

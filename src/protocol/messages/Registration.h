@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "Field.h"
+#include "QPlcMessage.h"
+#include "Vocabulary.h"
+
+/// How a node joins its master: docs/protocol.md, section 5.2.
+namespace qplc::messages {
+
+/// A signal that a node reads or writes.
+struct DeclaredSignal
+{
+    QString name;
+    QString type;  // canonical
+    QString unit;
+    bool sameCycle = false;  // inputs only
+
+    static constexpr auto fields = std::make_tuple(field("name", &DeclaredSignal::name, Presence::Required),
+                                                   field("type", &DeclaredSignal::type, Presence::Required),
+                                                   field("unit", &DeclaredSignal::unit),
+                                                   field("sameCycle", &DeclaredSignal::sameCycle, Presence::WhenSet));
+};
+
+struct Register
+{
+    static constexpr QPlcMessage::Kind kind = QPlcMessage::Register;
+    static constexpr int longestInterval = 1'000'000;  // [cycles]
+    QString name;
+    QString uuid;
+    QString policy;
+    bool listener = false;
+    bool critical = false;
+    int every = 1;  // [cycles] for each frame of a listener
+    std::vector<DeclaredSignal> inputs;
+    std::vector<DeclaredSignal> outputs;
+    bool twoPhase = false;
+    bool quality = false;
+    bool outputQuality = false;
+    Carrier cyclic = Carrier::Udp;
+    quint16 udpPort = 0;
+    QString faults;
+
+    static constexpr auto fields = std::make_tuple(
+        field("name", &Register::name, Presence::Required), field("uuid", &Register::uuid),
+        field("policy", &Register::policy, Presence::Required), field("listener", &Register::listener),
+        field("critical", &Register::critical, Presence::WhenSet),
+        field("every", &Register::every, Presence::Checked, Range{1, longestInterval}),
+        field("inputs", &Register::inputs, Presence::Required),
+        field("outputs", &Register::outputs, Presence::Required),
+        field("twoPhase", &Register::twoPhase, Presence::WhenSet),
+        field("quality", &Register::quality, Presence::WhenSet),
+        field("outputQuality", &Register::outputQuality, Presence::WhenSet),
+        field("cyclic", &Register::cyclic, Presence::Required), field("udpPort", &Register::udpPort, Presence::WhenSet),
+        field("faults", &Register::faults, Presence::WhenSet));
+};
+
+/// Keys of one registration, a direction each.
+struct Seal
+{
+    QByteArray inputs;
+    QByteArray outputs;
+
+    static constexpr auto fields = std::make_tuple(field("inputs", &Seal::inputs, Presence::Required),
+                                                   field("outputs", &Seal::outputs, Presence::Required));
+    friend bool operator==(const Seal &a, const Seal &b) { return a.inputs == b.inputs && a.outputs == b.outputs; }
+};
+
+struct Registered
+{
+    static constexpr QPlcMessage::Kind kind = QPlcMessage::Registered;
+    quint16 node = 0;
+    Hex64 inputsHash;
+    Hex64 outputsHash;
+    MasterState state = MasterState::Unknown;
+    Hex64 token;  // of the cyclic connection
+    std::optional<Seal> seal;
+    QString group;  // with udp-multicast
+    quint16 groupPort = 0;
+    QString channel;  // with local
+    QString doorbell;
+    QString pipe;
+
+    static constexpr auto fields = std::make_tuple(
+        field("node", &Registered::node, Presence::Required, Range{1, 65535}),
+        field("inputsHash", &Registered::inputsHash, Presence::Required),
+        field("outputsHash", &Registered::outputsHash, Presence::Required), field("state", &Registered::state),
+        field("token", &Registered::token), field("seal", &Registered::seal, Presence::Checked),
+        field("group", &Registered::group, Presence::WhenSet),
+        field("groupPort", &Registered::groupPort, Presence::WhenSet),
+        field("channel", &Registered::channel, Presence::WhenSet),
+        field("doorbell", &Registered::doorbell, Presence::WhenSet),
+        field("pipe", &Registered::pipe, Presence::WhenSet));
+};
+
+/// The first message of a cyclic TCP connection.
+struct AttachCyclicChannel
+{
+    static constexpr QPlcMessage::Kind kind = QPlcMessage::AttachCyclicChannel;
+    quint16 node = 0;
+    Hex64 token;
+
+    static constexpr auto fields = std::make_tuple(field("node", &AttachCyclicChannel::node, Presence::Required),
+                                                   field("token", &AttachCyclicChannel::token, Presence::Required));
+};
+
+struct CyclicChannelAttached
+{
+    static constexpr QPlcMessage::Kind kind = QPlcMessage::CyclicChannelAttached;
+    static constexpr auto fields = std::make_tuple();
+};
+
+/// The node cannot go on.
+struct NodeFault
+{
+    static constexpr QPlcMessage::Kind kind = QPlcMessage::NodeFault;
+    QString text;
+
+    static constexpr auto fields = std::make_tuple(field("text", &NodeFault::text));
+};
+
+}  // namespace qplc::messages

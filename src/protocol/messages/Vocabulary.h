@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "Wire.h"
+
+#include <utility>
+
+/// Words that messages share: docs/protocol.md lists them.
+namespace qplc::messages {
+
+/// What a master does. docs/design/states.md has all events of each state.
+enum class MasterState : quint8 {
+    Unknown,  ///< a word of a newer master
+    Off,
+    Initializing,
+    Ready,
+    RealTime,
+    WaitingForLateSlaves,
+    SafeStop,
+    Fault
+};
+
+template<>
+struct Names<MasterState>
+{
+    static constexpr std::pair<MasterState, const char *> all[]
+        = {{MasterState::Off, "Off"},
+           {MasterState::Initializing, "Initializing"},
+           {MasterState::Ready, "Ready"},
+           {MasterState::RealTime, "RealTime"},
+           {MasterState::WaitingForLateSlaves, "WaitingForLateSlaves"},
+           {MasterState::SafeStop, "SafeStop"},
+           {MasterState::Fault, "Fault"}};
+};
+
+/// Whether cycles run, or stand still for a moment; safe ones, too.
+constexpr bool hasCycles(MasterState state)
+{
+    return state == MasterState::RealTime || state == MasterState::WaitingForLateSlaves
+        || state == MasterState::SafeStop;
+}
+
+/// Whether nothing moves until the master is reset.
+constexpr bool isLatched(MasterState state)
+{
+    return state == MasterState::SafeStop || state == MasterState::Fault;
+}
+
+/// Who is at the other end of a control connection.
+enum class Part : quint8 { Tool, Node };
+
+template<>
+struct Names<Part>
+{
+    static constexpr std::pair<Part, const char *> all[] = {{Part::Tool, "tool"}, {Part::Node, "node"}};
+};
+
+/// What time is.
+enum class ClockKind : quint8 { RealTime, Scaled, Lockstep };
+
+template<>
+struct Names<ClockKind>
+{
+    static constexpr std::pair<ClockKind, const char *> all[]
+        = {{ClockKind::RealTime, "RealTime"}, {ClockKind::Scaled, "Scaled"}, {ClockKind::Lockstep, "Lockstep"}};
+};
+
+/// What carries the cyclic frames of a node.
+enum class Carrier : quint8 { Udp, Tcp, UdpMulticast, Local };
+
+template<>
+struct Names<Carrier>
+{
+    static constexpr std::pair<Carrier, const char *> all[] = {{Carrier::Udp, "udp"},
+                                                               {Carrier::Tcp, "tcp"},
+                                                               {Carrier::UdpMulticast, "udp-multicast"},
+                                                               {Carrier::Local, "local"}};
+};
+
+}  // namespace qplc::messages
