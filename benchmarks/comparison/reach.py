@@ -84,7 +84,7 @@ class Reach:
         self.expect("system calls per cycle: slave", "<=", 2, round(sum(slave.values()), 1), 1)
 
     def drift(self, minutes, drift_us):
-        self.expect(f"drift of t_k - t0 - k * period in {minutes:g} min at 1 kHz [us]", "<=", 100, abs(drift_us), 0)
+        self.expect(f"drift of t_k - t0 - k * period in {minutes:g} min at 1 kHz [µs]", "<=", 100, abs(drift_us), 0)
 
 
 def whole_bytes(per_cycle, slaves):

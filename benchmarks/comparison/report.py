@@ -17,7 +17,7 @@ def reach_table(rows):
 
 
 def program_table(results, mode, slaves, paced):
-    head = ["program", "p50 us, best (median)", "p99", "CPU us, best", f"p50, x {REFERENCE}", f"p50, x {SECOND}", "CPU, x " + SECOND, "bytes per slave"]
+    head = ["program", "p50 µs, best (median)", "p99", "CPU µs, best", f"p50, x {REFERENCE}", f"p50, x {SECOND}", "CPU, x " + SECOND, "bytes per slave"]
     head += ["late p50", "late p99", "missed %"] if paced else []
     head += ["rounds (noisy)"]
     names = sorted(results.names(mode, slaves), key=lambda name: results.best(mode, slaves, name, "rtt_p50_us"))
@@ -44,7 +44,7 @@ def wake_up_table(wake_ups):
     for wake_up in wake_ups:
         for name, figures in wake_up["figures"].items():
             rows.append([f"{wake_up['period_us'] / 1000:g} ms, SCHED_{wake_up['policy'].upper()}", name, *(show(figure) for figure in figures)])
-    return table(["period", "program", "p50 us, best", "p99, best", "p50, median", "p99, median"], rows)
+    return table(["period", "program", "p50 µs, best", "p99, best", "p50, median", "p99, median"], rows)
 
 
 def calls_line(who, calls):

@@ -163,7 +163,7 @@ ObjMesh ObjMesh::fromFile(const QString &path, QString *error)
     if (!file.open(QIODevice::ReadOnly))
         reason = file.errorString();
     else if (file.size() > largestFile)
-        reason = WindowText::tr("it is larger than %1 MB").arg(largestFile / (1024 * 1024));
+        reason = WindowText::tr("it is larger than %1 MiB").arg(largestFile / (1024 * 1024));
     else
         mesh = fromText(file.readAll(), &reason);
     if (!reason.isEmpty())

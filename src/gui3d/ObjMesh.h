@@ -30,7 +30,7 @@ struct ObjMesh
 
     /// \return an empty mesh, and in \a error line and reason, when the text is no such file
     static ObjMesh fromText(const QByteArray &text, QString *error);
-    /// The same for a file of at most 64 MB; the error names the file too.
+    /// The same for a file of at most 64 MiB; the error names the file too.
     static ObjMesh fromFile(const QString &path, QString *error);
     bool isEmpty() const { return triangles.empty() && lines.empty(); }
     /// Largest distance of a vertex from the origin [m].

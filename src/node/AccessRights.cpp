@@ -111,7 +111,7 @@ QString refusalOf(const Peer &peer, const QPlcMessage &message)
         return {};
     const Roles roles = whoMaySend(message.kind());
     if (!roles.isEmpty() && !roles.contains(peer.role))
-        return QStringLiteral("Denied: role %1 may not %2").arg(roleName(peer.role), message.kindName());
+        return QStringLiteral("Denied: role %1 may not send %2").arg(roleName(peer.role), message.kindName());
     if (message.kind() == QPlcMessage::Register) {
         const QString refusal = registrationRefusal(peer, message);
         if (!refusal.isEmpty())

@@ -133,7 +133,7 @@ QString shownName(const Peer &peer, const QString &called);
 QStringList signalsWrittenBy(const QPlcMessage &message);
 /// Whether \a peer may write \a signal.
 bool mayWrite(const Peer &peer, const QString &signal);
-/// Why \a peer may not send \a message: "Denied: role Observer may not StartRealTime"; empty: it may. Looks at the kind, and at the signals that the message writes.
+/// Why \a peer may not send \a message: "Denied: role Observer may not send StartRealTime"; empty: it may. Looks at the kind, and at the signals that the message writes.
 /// What only masters send is nobody's right and is left to those who answer that it makes no sense.
 QString refusalOf(const Peer &peer, const QPlcMessage &message);
 

@@ -4,6 +4,7 @@
 #include "MasterReplies.h"
 #include "QPlcMasterNodePrivate.h"
 #include "QPlcSlaveNodePrivate.h"
+#include "StateText.h"
 #include "realtime/TimeSource.h"
 
 #include <QtCore/QJsonObject>
@@ -38,7 +39,8 @@ void QPlcMasterNodePrivate::tellRefusal(Event event, const char *text)
         sentence.replace(QStringLiteral("%2"), remainingCause());
     setError(QPlcMasterNode::StateError,
              QStringLiteral("%1 is not possible in state %2: %3")
-                 .arg(QLatin1String(qplc::requestName(event)), QLatin1String(qplc::nameOf(state)), sentence));
+                 .arg(QLatin1String(qplc::requestName(event)), qplc::stateText(QLatin1String(qplc::nameOf(state))),
+                      sentence));
 }
 
 void QPlcMasterNodePrivate::enter(QPlcMasterNode::State newState, const QString &reason)
@@ -53,9 +55,9 @@ void QPlcMasterNodePrivate::enter(QPlcMasterNode::State newState, const QString 
     if (state == State::RealTime && !isTransient)
         askedStop = {};
     arming.disarm();
-    const QString name = QString::fromLatin1(qplc::nameOf(state));
+    const QString words = qplc::stateText(QLatin1String(qplc::nameOf(state)));
     if (!isTransient || m_isWaitTold)
-        journal.stateChanged(reason.isEmpty() ? name : QStringLiteral("%1: %2").arg(name, reason), isTransient);
+        journal.stateChanged(reason.isEmpty() ? words : QStringLiteral("%1: %2").arg(words, reason), isTransient);
     Q_EMIT q->stateChanged(newState);
 }
 

@@ -243,11 +243,11 @@ void QPlcApplicationOptions::addRealTimeOptions()
                                  QStringLiteral("NUMBER")));
     addOption(QCommandLineOption(QStringLiteral("spin-us"),
                                  QStringLiteral("Time that the cycle looks for frames again before it sleeps, 0 ... "
-                                                "10000 [us]; for a processor of its own."),
+                                                "10000 [µs]; for a processor of its own."),
                                  QStringLiteral("TIME")));
     addOption(QCommandLineOption(QStringLiteral("idle-latency-us"),
                                  QStringLiteral("Keeps processors from sleeping deeper than they wake from in this "
-                                                "time [us] while cycles run; 0: they do not sleep."),
+                                                "time [µs] while cycles run; 0: they do not sleep."),
                                  QStringLiteral("TIME")));
     addOption(
         QCommandLineOption(QStringLiteral("lock-memory"), QStringLiteral("Keeps all memory of the program in RAM.")));

@@ -5,6 +5,7 @@
 #include "Logging.h"
 #include "QPlcMasterNode.h"
 #include "QPlcSlaveNodePrivate.h"
+#include "StateText.h"
 #include "transport/NotifySocket.h"
 
 #include <QtCore/QMetaEnum>
@@ -31,7 +32,7 @@ std::chrono::microseconds watchdogTimeOfEnvironment()
 template<typename State>
 QString stateName(State state)
 {
-    return QString::fromLatin1(QMetaEnum::fromType<State>().valueToKey(int(state)));
+    return qplc::stateText(QLatin1String(QMetaEnum::fromType<State>().valueToKey(int(state))));
 }
 
 QString statusOf(const QPlcSlaveNode &node)

@@ -15,7 +15,7 @@ QString outOfRange(const char *name, qint64 value, qint64 least, qint64 most, co
 {
     return QStringLiteral("%1 %2: use %3 ... %4%5")
         .arg(QLatin1String(name), QString::number(value), QString::number(least), QString::number(most),
-             QLatin1String(unit));
+             QString::fromUtf8(unit));
 }
 
 QString schedulingError(QPlcRealTimeOptions::Policy policy, int priority)
@@ -52,7 +52,7 @@ QString QPlcRealTimeOptions::errorString() const
     if (timerSlack && (*timerSlack < 1 || *timerSlack > MaximumTimerSlack))
         return outOfRange("timerSlack", *timerSlack, 1, MaximumTimerSlack, " ns");
     if (idleLatency && (*idleLatency < 0 || *idleLatency > MaximumIdleLatency))
-        return outOfRange("idleLatency", *idleLatency, 0, MaximumIdleLatency, " us");
+        return outOfRange("idleLatency", *idleLatency, 0, MaximumIdleLatency, " µs");
     if (spin < 0 || spin > MaximumSpin)
         return outOfRange("spin", spin, 0, MaximumSpin, " ns");
     return {};

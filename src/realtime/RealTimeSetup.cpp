@@ -99,7 +99,7 @@ QPlcRealTimeSetting applyCpu(int cpu)
     return result;
 }
 
-/// [kB] VmLck of this process; 0 when nothing is locked or nobody tells.
+/// [KiB] VmLck of this process; 0 when nothing is locked or nobody tells.
 qint64 lockedMemory()
 {
     std::ifstream status("/proc/self/status");
@@ -120,7 +120,8 @@ QPlcRealTimeSetting applyMemoryLock()
     const int error = mlockall(MCL_CURRENT | MCL_FUTURE) == 0 ? 0 : errno;
     const qint64 locked = lockedMemory();
     result.granted = error == 0 && locked > 0;
-    result.obtained = result.granted ? QStringLiteral("all (%1 kB)").arg(locked) : QStringLiteral("%1 kB").arg(locked);
+    result.obtained
+        = result.granted ? QStringLiteral("all (%1 KiB)").arg(locked) : QStringLiteral("%1 KiB").arg(locked);
     if (!result.granted)
         result.remedy = memoryLockRemedy(error);
     return result;

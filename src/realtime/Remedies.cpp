@@ -78,21 +78,21 @@ QString memoryLockRemedy(int error, const QString &program)
 {
     if (error == 0)
         return QStringLiteral("build without sanitizers: mlockall() claimed success and locked nothing");
-    const QString limit = QStringLiteral("-l is %1 kB").arg(softLimit(RLIMIT_MEMLOCK, 1024));
+    const QString limit = QStringLiteral("-l is %1 KiB").arg(softLimit(RLIMIT_MEMLOCK, 1024));
     return grantRight(program, QStringLiteral("cap_ipc_lock"), limit, QStringLiteral("memlock unlimited"));
 }
 
 QString heapRemedy()
 {
     return QStringLiteral(
-               "set a smaller heapReserve (0: none), or allow a larger heap: ulimit [kB] -d is %1, -v is %2; "
+               "set a smaller heapReserve (0: none), or allow a larger heap: ulimit [KiB] -d is %1, -v is %2; "
                "only the C library of GNU without sanitizers has a reserve")
         .arg(softLimit(RLIMIT_DATA, 1024), softLimit(RLIMIT_AS, 1024));
 }
 
 QString stackRemedy()
 {
-    return QStringLiteral("set a smaller prefaultStack, or allow a larger stack: ulimit -s (%1 kB now)")
+    return QStringLiteral("set a smaller prefaultStack, or allow a larger stack: ulimit -s (%1 KiB now)")
         .arg(softLimit(RLIMIT_STACK, 1024));
 }
 

@@ -32,11 +32,11 @@ Finding unknown(const char *subject, const QString &why)
     return finding(subject, Finding::Unknown, why);
 }
 
-/// "p50 12 us, p99 80 us, max 130 us of 1000"
+/// "p50 12 µs, p99 80 µs, max 130 µs of 1000"
 QString distributionText(const Histogram &values)
 {
     const auto us = [](std::int64_t ns) { return QString::number((ns + 500) / 1000); };
-    return QStringLiteral("p50 %1 us, p99 %2 us, max %3 us of %4")
+    return QStringLiteral("p50 %1 µs, p99 %2 µs, max %3 µs of %4")
         .arg(us(values.quantile(0.5)), us(values.quantile(0.99)), us(values.maximum()))
         .arg(values.count());
 }
@@ -89,16 +89,16 @@ Finding judgeIdleStates(const SystemFacts &facts)
     if (!deepest)
         return finding("idle states", Finding::Ok, QStringLiteral("all disabled"));
     return finding("idle states", deepest->exitLatency <= longestIdleExit,
-                   QStringLiteral("deepest %1, %2 us to wake up").arg(deepest->name).arg(deepest->exitLatency),
+                   QStringLiteral("deepest %1, %2 µs to wake up").arg(deepest->name).arg(deepest->exitLatency),
                    idleStateRemedy(longestIdleExit));
 }
 
-/// "unlimited", "8192 kB"
+/// "unlimited", "8192 KiB"
 QString memoryLimitText(const QString &limit)
 {
     bool isNumber = false;
     const qulonglong bytes = limit.toULongLong(&isNumber);
-    return isNumber ? QStringLiteral("%1 kB").arg(bytes / 1024) : limit;
+    return isNumber ? QStringLiteral("%1 KiB").arg(bytes / 1024) : limit;
 }
 
 QString withLimit(const QString &text, const char *name, const QString &limit)
@@ -120,7 +120,7 @@ Finding judgeSwap(const SystemFacts &facts, bool canLock)
         return unknown("swap", QStringLiteral("/proc/swaps cannot be read"));
     if (*facts.swapSpace == 0)
         return finding("swap", Finding::Ok, QStringLiteral("none"));
-    const QString size = QStringLiteral("%1 MB").arg(*facts.swapSpace / 1024);
+    const QString size = QStringLiteral("%1 MiB").arg(*facts.swapSpace / 1024);
     return finding("swap", canLock,
                    canLock ? size + QStringLiteral(", harmless to locked memory (--lock-memory)") : size, swapRemedy());
 }

@@ -27,7 +27,7 @@ struct SystemFacts
     QStringList governors;            // of all processors, each once
     QString clockSource;              // "tsc"
     QStringList clockSources;         // that could be chosen
-    std::optional<int> swapSpace;     // [kB]; 0: none in use
+    std::optional<int> swapSpace;     // [KiB]; 0: none in use
     QVector<IdleState> idleStates;    // of the first processor
     QString priorityLimit;            // soft limit as `ulimit -r` shows it: "0", "99", "unlimited"
     QString memoryLimit;              // that of locked memory: "8388608" [byte], "unlimited"

@@ -97,7 +97,7 @@ const QVector<Command> &commands()
         {"state",
          "",
          "Shows the master, its counters and its nodes.",
-         "With the state of each node, and why the master is in SafeStop or Fault.\n"
+         "With the state of each node, and why the master is in Safe stop or Fault.\n"
          "Counters that are zero are shown with --verbose only; --json has all of them.",
          {verbose},
          {QStringLiteral("qtplc state"), QStringLiteral("qtplc state --json | jq -r .state")},
@@ -117,7 +117,7 @@ const QVector<Command> &commands()
          &initializeStates},
         {"start",
          "",
-         "Starts the real-time phase: state RealTime.",
+         "Starts the real-time phase: state Real time.",
          "Where the master wants starts to be armed, it is initialized and armed before,\n"
          "unless a token is given.",
          {{"cycles", "N", "Ends by itself after so many."}, {"token", "TOKEN", "That of qtplc arm."}},
@@ -149,7 +149,7 @@ const QVector<Command> &commands()
          &stopRealTime},
         {"safestop",
          "[REASON...]",
-         "Stops safely (SafeStop): nothing moves until a reset.",
+         "Stops safely: nothing moves until a reset.",
          "Cycles go on and tell all nodes their safe values. May be said in every state.",
          {},
          {QStringLiteral("qtplc safestop"), QStringLiteral("qtplc safestop smoke at the winch")},
@@ -159,7 +159,7 @@ const QVector<Command> &commands()
          &stopSafely},
         {"reset",
          "",
-         "Leaves SafeStop or Fault when the cause is gone.",
+         "Leaves the safe stop or fault when the cause is gone.",
          "The state is Off then. Nothing moves by it: init and start follow.",
          {},
          {QStringLiteral("qtplc reset")},

@@ -75,14 +75,14 @@ QString durationText(double nanoseconds)
         double size;
         const char *name;
     };
-    constexpr Unit units[] = {{1e9, "s"}, {1e6, "ms"}, {1e3, "us"}, {1.0, "ns"}};
+    constexpr Unit units[] = {{1e9, "s"}, {1e6, "ms"}, {1e3, "µs"}, {1.0, "ns"}};
     const double magnitude = std::abs(nanoseconds);
     for (const Unit &unit : units) {
         if (magnitude < unit.size * 0.9995 && unit.size > 1.0)
             continue;
         const double number = nanoseconds / unit.size;
         const int digits = unit.size == 1.0 || std::abs(number) >= 99.95 ? 0 : std::abs(number) >= 9.995 ? 1 : 2;
-        return QStringLiteral("%1 %2").arg(number, 0, 'f', digits).arg(QLatin1String(unit.name));
+        return QStringLiteral("%1 %2").arg(number, 0, 'f', digits).arg(QString::fromUtf8(unit.name));
     }
     return {};
 }

@@ -6,7 +6,7 @@
 
 namespace tools {
 
-/// A duration in the unit that suits it, with three digits: "850 ns", "12.3 us", "1.50 ms", "2.00 s".
+/// A duration in the unit that suits it, with three digits: "850 ns", "12.3 µs", "1.50 ms", "2.00 s".
 QString durationText(double nanoseconds);
 
 /// A histogram as lines of text: logarithmic bins, a bar of Unicode blocks for each, its count and its share.

@@ -4,6 +4,7 @@
 #include "HistogramText.h"
 #include "RateStatistics.h"
 #include "TerminalText.h"
+#include "node/StateText.h"
 #include "realtime/SpscRing.h"
 #include "realtime/TimeSource.h"
 
@@ -70,7 +71,7 @@ void print(const RateStatistics &rate, const MasterState &state, quint64 skipped
     field("rate",
           QStringLiteral("%1 Hz (%2, period %3 ms)")
               .arg(rate.rate(), 0, 'f', 3)
-              .arg(printable(state.clock))
+              .arg(printable(qplc::stateText(state.clock)))
               .arg(state.period * 1e3));
     field("interval",
           QStringLiteral("mean %1, min %2, max %3, standard deviation %4")
@@ -136,7 +137,7 @@ int measureRate(const CommandCall &call)
     if (!before.isRunning) {
         QPlcCoreApplication::printError(
             QStringLiteral("the master is in state %1 and has no cycles; start it: qtplc start")
-                .arg(printable(before.name)));
+                .arg(printable(qplc::stateText(before.name))));
         return QPlcCoreApplication::Failure;
     }
     const auto endIsWanted = call.quitOnSignals();

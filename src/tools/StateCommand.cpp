@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Commands.h"
 #include "TerminalText.h"
+#include "node/StateText.h"
 
 #include <QtCore/QJsonArray>
 
@@ -54,13 +55,13 @@ void printField(const char *label, const QString &value, Tone tone = Tone::Plain
     printWrapped(padded(QString::fromLatin1(label), labelWidth), labelWidth, toned(printable(value), tone));
 }
 
-/// "scaled 20 times", "lockstep"
+/// "Real time", "Scaled 20 times", "Lockstep"
 QString clockText(const QJsonObject &state)
 {
     const QString clock = state.value(QStringLiteral("clock")).toString();
     if (clock == QLatin1String("Scaled"))
-        return QStringLiteral("Scaled %1").arg(state.value(QStringLiteral("scale")).toDouble());
-    return clock;
+        return QStringLiteral("Scaled %1 times").arg(state.value(QStringLiteral("scale")).toDouble());
+    return qplc::stateText(clock);
 }
 
 /// "late 3, missed 1": those that are not zero.
@@ -89,11 +90,21 @@ QString faultsText(const QJsonObject &state)
     return texts.join(QStringLiteral(", "));
 }
 
-Tone toneOf(const NodeColumn &column, const QString &text)
+bool isState(const NodeColumn &column)
+{
+    return qstrcmp(column.field, "state") == 0;
+}
+
+QString textOf(const NodeColumn &column, const QString &value)
+{
+    return isState(column) ? qplc::stateText(value) : value;
+}
+
+Tone toneOf(const NodeColumn &column, const QString &value)
 {
     if (column.shown == NodeColumn::UnlessZero)
-        return text == QLatin1String("0") ? Tone::Plain : Tone::Caution;
-    return qstrcmp(column.field, "state") == 0 ? toneOfState(text) : Tone::Plain;
+        return value == QLatin1String("0") ? Tone::Plain : Tone::Caution;
+    return isState(column) ? toneOfState(value) : Tone::Plain;
 }
 
 void printNodes(const QJsonArray &nodes, bool verbose)
@@ -107,12 +118,14 @@ void printNodes(const QJsonArray &nodes, bool verbose)
         columns << column;
     }
     for (const QJsonValue &node : nodes) {
-        QStringList cells;
-        for (const NodeColumn &column : qAsConst(columns))
-            cells << node[QLatin1String(column.field)].toVariant().toString();
+        QStringList values, cells;
+        for (const NodeColumn &column : qAsConst(columns)) {
+            values << node[QLatin1String(column.field)].toVariant().toString();
+            cells << textOf(column, values.constLast());
+        }
         table.addRow(cells);
         for (int i = 0; i < columns.size(); ++i)
-            table.setTone(i, toneOf(columns.at(i), cells.at(i)));
+            table.setTone(i, toneOf(columns.at(i), values.at(i)));
     }
     table.print();
 }
@@ -133,7 +146,9 @@ int showState(const CommandCall &call)
     const quint64 cycle = answer.hex64(QStringLiteral("cycle"));
     const bool verbose = call.application.isSet(QStringLiteral("verbose"));
     const bool isArmed = state.value(QStringLiteral("armed")).toBool();
-    printField("state", answer.text(QStringLiteral("state")) + (isArmed ? QStringLiteral(", armed") : QString()),
+    printField("state",
+               qplc::stateText(answer.text(QStringLiteral("state")))
+                   + (isArmed ? QStringLiteral(", armed") : QString()),
                toneOfState(answer.text(QStringLiteral("state"))));
     if (!answer.text(QStringLiteral("reason")).isEmpty())
         printField("reason", answer.text(QStringLiteral("reason")));

@@ -5,6 +5,7 @@
 #include "SignalSelection.h"
 #include "TerminalText.h"
 #include "WatchTable.h"
+#include "node/StateText.h"
 #include "realtime/TimeSource.h"
 
 #include <cmath>
@@ -95,7 +96,7 @@ private:
     QString head() const
     {
         QString text = QStringLiteral("%1  %2").arg(
-            m_master, toned(printable(m_listener.state()), toneOfState(m_listener.state())));
+            m_master, toned(printable(qplc::stateText(m_listener.state())), toneOfState(m_listener.state())));
         if (m_listener.isRunning() && m_heardAt > 0.0)
             text += QStringLiteral("  cycle %1  %2 s").arg(m_cycle).arg(m_listener.timeOf(m_cycle), 0, 'f', 2);
         constexpr double silence = 1.0;  // [s]

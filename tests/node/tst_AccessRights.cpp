@@ -140,7 +140,7 @@ void tst_AccessRights::aMasterKeepsToTheTable()
     const QPlcMessage answer = tool.ask(QPlcMessage::Kind(kind));
     QCOMPARE(answer.kind(), QPlcMessage::Failed);
     QCOMPARE(answer.text("error"), QString("Denied"));
-    QCOMPARE(answer.text("text"), QString("Denied: role %1 may not %2").arg(qplc::roleName(Role(role)), name));
+    QCOMPARE(answer.text("text"), QString("Denied: role %1 may not send %2").arg(qplc::roleName(Role(role)), name));
     QCOMPARE(master.statistics().deniedMessages, quint64(1));
     QCOMPARE(master.state(), QPlcMasterNode::Off);
     QVERIFY(!log.matching("qtplc.audit: " + answer.text("text")).isEmpty());

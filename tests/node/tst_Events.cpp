@@ -85,7 +85,7 @@ void tst_Events::statesAreEventsWithReasons()
     QCOMPARE(m_tool->ask(QPlcMessage::Stop).kind(), QPlcMessage::Done);
     QCOMPARE(events("state"),
              (QStringList{"info Master: state Initializing", "info Master: profile Plant: set at the master",
-                          "info Master: state RealTime", "info Master: state Off: 'Anna' asked for it"}));
+                          "info Master: state Real time", "info Master: state Off: 'Anna' asked for it"}));
     const QJsonArray all = m_tool->ask(QPlcMessage::GetEvents).fields().value("events").toArray();
     for (int i = 0; i < all.size(); ++i) {
         QCOMPARE(all.at(i)["sequence"].toInt(), i + 1);
@@ -219,7 +219,7 @@ void tst_Events::silentPolicyLeavesNoEvent()
     QStringList texts;
     for (const QJsonValue event : m_tool->ask(QPlcMessage::GetEvents).fields().value("events").toArray())
         texts << event["kind"].toString() + ": " + event["text"].toString();
-    const int begin = texts.indexOf("state: state RealTime");
+    const int begin = texts.indexOf("state: state Real time");
     QVERIFY(begin >= 0);
     const QStringList after = texts.mid(begin + 1);
     QVERIFY2(after.isEmpty() == isSilent, qPrintable(after.join('\n')));

@@ -123,7 +123,7 @@ void tst_Logging::statesAreLogged()
     QVERIFY(master.waitForState(QPlcMasterNode::RealTime));
     counter.disconnectFromMaster();
     master.stop();
-    QVERIFY(!log.matching("qtplc.master").filter("RealTime").isEmpty());
+    QVERIFY(!log.matching("qtplc.master").filter("Real time").isEmpty());
     QVERIFY(!log.matching("qtplc.slave").filter("Counter").filter("RealTime").isEmpty());
 }
 

@@ -168,7 +168,7 @@ void tst_ServiceNotifier::aNodeIsFedWhileItsCyclesGoOn()
     }
     m_listener->take();
     service.look();
-    QCOMPARE(m_listener->take(), QStringList({"WATCHDOG=1", "STATUS=RealTime, 3 cycles"}));
+    QCOMPARE(m_listener->take(), QStringList({"WATCHDOG=1", "STATUS=Real time, 3 cycles"}));
     node.disconnectFromMaster();
 }
 

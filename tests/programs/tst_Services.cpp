@@ -83,7 +83,7 @@ void tst_Services::aPlantThatRunsIsFed()
     QCOMPARE(runProgram(QTPLC_PROGRAMS "/qtplc", {"--master", address, "start"}).exitCode, 0);
     for (Service *service : {&master, &model, &autopilot}) {
         QVERIFY(
-            QTest::qWaitFor([&] { return service->listener.take().join('\n').contains("STATUS=RealTime"); }, 10000));
+            QTest::qWaitFor([&] { return service->listener.take().join('\n').contains("STATUS=Real time"); }, 10000));
         QVERIFY(service->listener.waitFor("WATCHDOG=1"));
         QVERIFY(service->listener.waitFor("WATCHDOG=1"));
     }

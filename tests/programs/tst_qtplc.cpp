@@ -223,7 +223,7 @@ void tst_qtplc::stateNamesTheNodes()
     const Outcome outcome = qtplc(QStringLiteral("state"));
     QCOMPARE(outcome.exitCode, 0);
     QCOMPARE(outcome.errors, QString());
-    for (const char *line : {"state     Off\n", "cycle     0 (0.000 s)\n", "period    10 ms\n", "clock     RealTime\n",
+    for (const char *line : {"state     Off\n", "cycle     0 (0.000 s)\n", "period    10 ms\n", "clock     Real time\n",
                              "counters  all zero\n", "session   ", "digest    "})
         QVERIFY2(outcome.output.contains(QLatin1String(line)), qPrintable(outcome.output));
     const QRegularExpression model(QStringLiteral("\nModel +tcp +Registered +ErrorZeroOrderHold +3 +18\n"));
@@ -263,7 +263,7 @@ void tst_qtplc::flightByHand()
     QCOMPARE(initialized.exitCode, 0);
     QCOMPARE(initialized.output, QStringLiteral("initialized\n"));
     QCOMPARE(qtplc(QStringLiteral("start")).output, QStringLiteral("started\n"));
-    QVERIFY(qtplc(QStringLiteral("state")).output.startsWith(QLatin1String("state     RealTime\n")));
+    QVERIFY(qtplc(QStringLiteral("state")).output.startsWith(QLatin1String("state     Real time\n")));
     const Outcome echo = qtplc(QStringLiteral("echo tetherLength --count 2"));
     QCOMPARE(echo.exitCode, 0);
     QCOMPARE(linesOf(echo).size(), 3);
@@ -304,7 +304,7 @@ void tst_qtplc::refusedCommandsKeepTheMasterAsItIs()
     }
     QVERIFY(qtplc(QStringLiteral("set tetherSpeed 1"))
                 .errors.contains(QLatin1String("'tetherSpeed' is written by 'Autopilot'")));
-    QVERIFY(qtplc(QStringLiteral("state")).output.startsWith(QLatin1String("state     RealTime\n")));
+    QVERIFY(qtplc(QStringLiteral("state")).output.startsWith(QLatin1String("state     Real time\n")));
 }
 
 void tst_qtplc::setChangesWhatNobodyWrites()
@@ -440,7 +440,7 @@ void tst_qtplc::echoEndsWellOnSignal()
     QCOMPARE(echo.waitForEnd(), 0);
     QCOMPARE(echo.errors(), QString());
     QVERIFY(echo.output().endsWith(QLatin1Char('\n')));  // whole lines only
-    QVERIFY(qtplc(QStringLiteral("state")).output.startsWith(QLatin1String("state     RealTime\n")));
+    QVERIFY(qtplc(QStringLiteral("state")).output.startsWith(QLatin1String("state     Real time\n")));
 }
 
 void tst_qtplc::echoEndsWithTheMaster_data()
@@ -487,10 +487,10 @@ void tst_qtplc::eventsAreFollowedUntilCtrlC()
     Program events(path("qtplc"), withMaster(QStringLiteral("events --follow")));
     QVERIFY(events.waitForOutput(QStringLiteral("registered over")));  // the backlog
     QCOMPARE(qtplc(QStringLiteral("start")).exitCode, 0);
-    QVERIFY(events.waitForOutput(QStringLiteral("state RealTime\n")));
+    QVERIFY(events.waitForOutput(QStringLiteral("state Real time\n")));
     QCOMPARE(qtplc(QStringLiteral("stop")).exitCode, 0);
     QVERIFY(events.waitForOutput(QStringLiteral("state Off: 'qtplc' asked for it\n")));
-    QCOMPARE(events.output().count(QStringLiteral("state RealTime\n")), 1);
+    QCOMPARE(events.output().count(QStringLiteral("state Real time\n")), 1);
     events.sendSignal(SIGINT);
     QCOMPARE(events.waitForEnd(), 0);
     QCOMPARE(events.errors(), QString());

@@ -137,7 +137,8 @@ void tst_qtplc_keys::programsFlyWithKeys()
     };
     const Outcome denied = qtplc("bert", {"start"});
     QCOMPARE(denied.exitCode, 1);
-    QVERIFY2(denied.errors.contains("Denied: role Observer may not InitializeAllStates"), qPrintable(denied.errors));
+    QVERIFY2(denied.errors.contains("Denied: role Observer may not send InitializeAllStates"),
+             qPrintable(denied.errors));
     QCOMPARE(qtplc("bert", {"get", "power", "--plain"}).exitCode, 0);
     QCOMPARE(qtplc("anna", {"start", "--cycles", "10"}).exitCode, 0);
     QCOMPARE(qtplc("bert", {"echo", "power", "--count", "1"}).exitCode, 0);

@@ -440,9 +440,9 @@ void tst_qtplc_values::hzMeasuresTheCycle()
     QVERIFY(qAbs(rate.value("duration").toDouble() - (cycles - 1 + lost) * 0.010) < 0.1);
     const Outcome text = m_plant.qtplc("hz --for 0.2");
     for (const char *line :
-         {"cycles    ", "\nrate      ", " Hz (RealTime, period 10 ms)\n", "\ninterval  mean ", "\nlost      "})
+         {"cycles    ", "\nrate      ", " Hz (Real time, period 10 ms)\n", "\ninterval  mean ", "\nlost      "})
         QVERIFY2(text.output.contains(line), qPrintable(text.output));
-    const QString number = "\\d[\\d.]* (s|ms|us|ns)";  // each with its unit
+    const QString number = "\\d[\\d.]* (s|ms|µs|ns)";  // each with its unit
     QVERIFY2(text.output.contains(QRegularExpression("interval  mean " + number + ", min " + number + ", max " + number
                                                      + ", standard deviation " + number)),
              qPrintable(text.output));

@@ -340,7 +340,7 @@ void tst_CycleThread::processorsStayAwakeWhileTheThreadRuns()
     options.idleLatency = 3;
     std::optional<qint32> meanwhile;
     const auto idle = setting(runThread(options, [&] { meanwhile = wantedIdleLatency(); }), "idle latency");
-    QCOMPARE(idle.wanted, QStringLiteral("at most 3 us"));
+    QCOMPARE(idle.wanted, QStringLiteral("at most 3 µs"));
     if (!before) {
         QVERIFY(!idle.granted);
         QVERIFY2(idle.remedy.contains(QLatin1String("/dev/cpu_dma_latency")), qPrintable(idle.remedy));
@@ -348,7 +348,7 @@ void tst_CycleThread::processorsStayAwakeWhileTheThreadRuns()
     }
     QVERIFY2(idle.granted, qPrintable(idle.toString()));
     QVERIFY(meanwhile && *meanwhile <= 3);
-    QCOMPARE(idle.obtained, QStringLiteral("%1 us").arg(*meanwhile));
+    QCOMPARE(idle.obtained, QStringLiteral("%1 µs").arg(*meanwhile));
     QVERIFY(*before <= 3 || wantedIdleLatency() > 3);  // another program may wish for as much
     QCOMPARE(setting(runThread({}, [] {}), "idle latency").name, QString());
 }
@@ -425,7 +425,7 @@ void tst_CycleThread::refusalsNameTheirRemedies()
         QStringLiteral("'* - rtprio 49' to /etc/security/limits.d"),
         QStringLiteral("(ulimit -r is 0 now)"),
         QStringLiteral("sudo chrt -f 49 '%1'").arg(QStringLiteral(QTPLC_PROBE)),
-        QStringLiteral("refused locked memory: wanted all, obtained 0 kB; cure: "),
+        QStringLiteral("refused locked memory: wanted all, obtained 0 KiB; cure: "),
         QStringLiteral("seen SCHED_OTHER 0")};
     for (const QString &text : expected)
         QVERIFY2(outcome.output.contains(text),

@@ -39,7 +39,7 @@ void tst_QPlcRealTimeOptions::nonsenseIsNamedWithItsRange_data()
     QTest::addColumn<O>("wanted");
     QTest::addColumn<QString>("error");
     const auto row = [](const char *name, auto change, const char *error) {
-        QTest::newRow(name) << options(change) << QString::fromLatin1(error);
+        QTest::newRow(name) << options(change) << QString::fromUtf8(error);
     };
     row(
         "default", [](O &) {}, "");
@@ -84,7 +84,7 @@ void tst_QPlcRealTimeOptions::nonsenseIsNamedWithItsRange_data()
         "reserve too large", [](O &o) { o.heapReserve = 1073741825; },
         "heapReserve 1073741825: use 0 ... 1073741824 byte");
     row(
-        "negative idle latency", [](O &o) { o.idleLatency = -1; }, "idleLatency -1: use 0 ... 1000000 us");
+        "negative idle latency", [](O &o) { o.idleLatency = -1; }, "idleLatency -1: use 0 ... 1000000 µs");
     row(
         "negative spin", [](O &o) { o.spin = -1; }, "spin -1: use 0 ... 10000000 ns");
     row(

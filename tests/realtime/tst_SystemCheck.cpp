@@ -52,7 +52,7 @@ private:
     {
         WakeUps wakeUps;
         wakeUps.settings = {{"scheduling", "SCHED_FIFO 49", "SCHED_FIFO 49", true, {}},
-                            {"locked memory", "all", "all (1234 kB)", true, {}}};
+                            {"locked memory", "all", "all (1234 KiB)", true, {}}};
         wakeUps.lateness = std::make_unique<Histogram>();
         for (int i = 0; i < 98; ++i)
             wakeUps.lateness->record(lateness);
@@ -64,7 +64,7 @@ private:
     {
         WakeUps wakeUps;
         wakeUps.settings = {{"scheduling", "SCHED_FIFO 49", "SCHED_OTHER 0", false, "some cure"},
-                            {"locked memory", "all", "0 kB", false, "some cure"}};
+                            {"locked memory", "all", "0 KiB", false, "some cure"}};
         return wakeUps;
     }
     static Finding find(const QVector<Finding> &findings, const QString &subject)
@@ -136,7 +136,7 @@ void tst_SystemCheck::findingsNameWhatThereIs_data()
     QTest::newRow("idle state") << with([](SystemFacts &facts) {
         facts.idleStates.append({"C6", 133, true});
     }) << "idle states"
-                                << "C6, 133 us"
+                                << "C6, 133 µs"
                                 << "sudo cpupower idle-set";
 }
 
@@ -181,7 +181,7 @@ void tst_SystemCheck::refusedMemoryLockIsToCure()
     facts.memoryLimit = "8388608";
     const Finding memory = find(qplc::judgeEffects(facts, wakeUps(1), refused()), "locked memory");
     QCOMPARE(memory.verdict, Finding::ToCure);
-    QCOMPARE(memory.found, QString("wanted all, obtained 0 kB (limit memlock: 8192 kB)"));
+    QCOMPARE(memory.found, QString("wanted all, obtained 0 KiB (limit memlock: 8192 KiB)"));
     QVERIFY2(memory.remedy.contains("memlock unlimited"), qPrintable(memory.remedy));
 }
 
@@ -192,7 +192,7 @@ void tst_SystemCheck::swapMattersWhereMemoryCannotBeLocked()
     QCOMPARE(find(qplc::judgeEffects(facts, wakeUps(1), wakeUps(1)), "swap").verdict, Finding::Ok);
     const Finding swap = find(qplc::judgeEffects(facts, wakeUps(1), refused()), "swap");
     QCOMPARE(swap.verdict, Finding::ToCure);
-    QCOMPARE(swap.found, QString("2048 MB"));
+    QCOMPARE(swap.found, QString("2048 MiB"));
     QVERIFY(swap.remedy.contains("swapoff"));
     facts.swapSpace.reset();
     QCOMPARE(find(qplc::judgeEffects(facts, wakeUps(1), refused()), "swap").verdict, Finding::Unknown);
@@ -219,7 +219,7 @@ void tst_SystemCheck::wakeUpsAreJudgedByTheirNinetyNinePercent()
     const QVector<Finding> findings = qplc::judgeEffects(fitFacts(), wakeUps(1000, ordinary), wakeUps(1000, realTime));
     QCOMPARE(find(findings, "wake-up").verdict == Finding::Ok, ordinaryIsOk);
     QCOMPARE(find(findings, "wake-up FIFO").verdict == Finding::Ok, realTimeIsOk);
-    QVERIFY(find(findings, "wake-up").found.contains("p50 1 us"));
+    QVERIFY(find(findings, "wake-up").found.contains("p50 1 µs"));
 }
 
 void tst_SystemCheck::loopbackIsJudgedByWhatCameBack()

@@ -13,7 +13,7 @@ namespace {
 constexpr double windTimeConstant = 20.0;  // of the direction that the window looks to [s]
 constexpr int widest = 100;                // columns; more would only make the picture flat
 constexpr int tallest = 44;                // rows
-constexpr int axisWidth = 6;               // columns of " 90° ┤"
+constexpr int axisWidth = 6;               // columns of "  90 ┤"
 constexpr int narrowBelow = 76;            // columns: then figures stand closer
 constexpr int textRows = 7;                // everything but the window and the plot
 constexpr int plotRows = 7;                // of the plot, with its label
@@ -122,10 +122,12 @@ void FlightView::drawWindow(TerminalCanvas &canvas, int top, int height) const
         canvas.put(axisWidth - 1, y, QStringLiteral("│"), Style::Axis);
     canvas.put(axisWidth - 1, top + height, QStringLiteral("└") + QString(width, QChar(0x2500)),
                Style::Axis);  // a row below 0: the kite may be on the ground
+    canvas.put(0, top - 1, QStringLiteral("[deg]"), Style::Axis);
     for (const int elevation : {90, 60, 30, 0})
-        canvas.put(0, row(elevation), QStringLiteral("%1° ┤").arg(elevation, 3), Style::Axis);
+        canvas.put(0, row(elevation), QStringLiteral("%1 ┤").arg(elevation, 4), Style::Axis);
     for (const int azimuth : {60, 30, 0, -30, -60}) {
-        const QString label = azimuth == 0 ? QStringLiteral("downwind") : QStringLiteral("%1°").arg(std::abs(azimuth));
+        const QString label
+            = azimuth == 0 ? QStringLiteral("downwind") : QStringLiteral("%1 deg").arg(std::abs(azimuth));
         const int place = std::min(column(azimuth) - label.size() / 2, canvas.columns() - label.size());
         canvas.put(column(azimuth), top + height, QStringLiteral("┴"), Style::Axis);
         canvas.put(place, top + height + 1, label, Style::Axis);

@@ -23,7 +23,7 @@ struct KiteKey
 
 QString withUnit(const QString &text, const char *unit)
 {
-    return *unit == '\0' ? text : text + QLatin1Char(' ') + QString::fromLatin1(unit);
+    return *unit == '\0' ? text : text + QLatin1Char(' ') + QString::fromUtf8(unit);
 }
 
 QString rangeOf(double smallest, double largest, const char *unit)

@@ -40,14 +40,14 @@ void checkCourse(const AutopilotGains &g, RangeCheck &check)
 
 void checkCycle(const AutopilotGains &g, RangeCheck &check)
 {
-    check.within("forceCoefficient", g.forceCoefficient, 1e-3, 1e9, "N s^2/m^2");
+    check.within("forceCoefficient", g.forceCoefficient, 1e-3, 1e9, "N s²/m²");
     check.within("reelOutFactor", g.reelOutFactor, 0.0, 2.0, "");
     check.within("reelOutPitch", g.reelOutPitch, -45.0, 45.0, "deg");
     check.within("shortestTether", g.shortestTether, 1.0, g.longestTether, "m");
     check.within("longestTether", g.longestTether, 1.0, 1e5, "m");
     check.within("fastestReelOut", g.fastestReelOut, 0.0, 100.0, "m/s");
     check.within("fastestReelIn", g.fastestReelIn, 0.0, 100.0, "m/s");
-    check.within("winchAcceleration", g.winchAcceleration, 0.01, 1000.0, "m/s^2");
+    check.within("winchAcceleration", g.winchAcceleration, 0.01, 1000.0, "m/s²");
     check.within("launchSpeed", g.launchSpeed, 0.0, 100.0, "m/s");
     check.within("launchTime", g.launchTime, 0.0, 1000.0, "s");
     check.within("powerTime", g.powerTime, 0.0, 1000.0, "s");

@@ -28,8 +28,8 @@ std::string FlightStatisticsParameters::validate() const
 {
     RangeCheck check;
     check.within("step", step, 1e-6, 1.0, "s");
-    check.within("airDensity", airDensity, 1e-3, 100.0, "kg/m^3");
-    check.within("area", area, 1e-3, 1e6, "m^2");
+    check.within("airDensity", airDensity, 1e-3, 100.0, "kg/m³");
+    check.within("area", area, 1e-3, 1e6, "m²");
     check.within("aweCoefficient", aweCoefficient, 1e-3, 1e6, "");
     check.within("nominalWindSpeed", nominalWindSpeed, 0.0, 100.0, "m/s");
     check.within("warmUp", warmUp, 0.0, 1e6, "s");

@@ -36,12 +36,12 @@ struct PlantParameters
     static void visitConstants(Parameters &parameters, Visitor visit)
     {
         visit("mass", parameters.mass, 1e-3, 1e6, "kg");
-        visit("area", parameters.area, 1e-3, 1e6, "m^2");
-        visit("airDensity", parameters.airDensity, 1e-3, 100.0, "kg/m^3");
+        visit("area", parameters.area, 1e-3, 1e6, "m²");
+        visit("airDensity", parameters.airDensity, 1e-3, 100.0, "kg/m³");
         visit("tetherStiffness", parameters.tetherStiffness, 0.0, 1e9, "N/m");
         visit("tetherDamping", parameters.tetherDamping, 0.0, 1e9, "N s/m");
         visit("dragFactor", parameters.dragFactor, 1e-3, 1e3, "");
-        visit("gravity", parameters.gravity, 0.0, 100.0, "m/s^2");
+        visit("gravity", parameters.gravity, 0.0, 100.0, "m/s²");
         visit("averagePowerTime", parameters.averagePowerTime, 1e-3, 1e9, "s");
     }
 

@@ -48,7 +48,7 @@ void tst_AutopilotGains::badGainIsNamedWithItsRemedy_data()
     QTest::addColumn<Change>("change");
     QTest::addColumn<QString>("message");
     const auto row = [](const char *name, const Change &change, const char *message) {
-        QTest::newRow(name) << change << QString::fromLatin1(message);
+        QTest::newRow(name) << change << QString::fromUtf8(message);
     };
     row(
         "orientation", [](AutopilotGains &g) { g.yawGain = -1.0; }, "yawGain is -1 1/s; choose a value from 0 to 100");
@@ -62,7 +62,7 @@ void tst_AutopilotGains::badGainIsNamedWithItsRemedy_data()
     row(
         "tether crossed", [](AutopilotGains &g) { g.shortestTether = 300.0; }, "shortestTether is 300 m");
     row(
-        "no winch", [](AutopilotGains &g) { g.winchAcceleration = 0.0; }, "winchAcceleration is 0 m/s^2");
+        "no winch", [](AutopilotGains &g) { g.winchAcceleration = 0.0; }, "winchAcceleration is 0 m/s²");
     row(
         "recovery", [](AutopilotGains &g) { g.recoverTargetHeight = 20.0; }, "recoverTargetHeight is 20 m");
     row(

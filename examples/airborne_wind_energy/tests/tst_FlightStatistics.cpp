@@ -250,7 +250,7 @@ void tst_FlightStatistics::badParameterIsNamed()
     VERIFY_CONTAINS(parameters.validate(), "shortestFlight is 120 s; choose a value from 500");
     parameters = FlightStatisticsParameters();
     parameters.area = 0.0;
-    VERIFY_CONTAINS(parameters.validate(), "area is 0 m^2");
+    VERIFY_CONTAINS(parameters.validate(), "area is 0 m²");
 }
 
 QTEST_APPLESS_MAIN(tst_FlightStatistics)

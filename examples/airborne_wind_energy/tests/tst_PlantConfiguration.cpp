@@ -209,7 +209,7 @@ void tst_PlantConfiguration::badLineIsNamedWithItsRemedy_data()
     QTest::addColumn<QByteArray>("text");
     QTest::addColumn<QString>("expected");
     const auto add = [](const char *name, const char *text, const char *expected) {
-        QTest::newRow(name) << QByteArray(text) << QString::fromLatin1(expected);
+        QTest::newRow(name) << QByteArray(text) << QString::fromUtf8(expected);
     };
     add("kind", "[winch]\nkind = steam\n", "plant.ini:2: kind = steam: use ideal or drive");
     add("key of the winch", "[winch]\n; a comment\nkin = drive\n",
@@ -222,7 +222,7 @@ void tst_PlantConfiguration::badLineIsNamedWithItsRemedy_data()
     add("key of the kite", "[kite]\nqqqqqqqqqqqq = 3\n",
         "'qqqqqqqqqqqq' is not a key of [kite]; use one of mass, area,");
     add("negative mass", "[kite]\n\nmass = -3\n", "plant.ini:3: mass = -3: use a number from 0.001 to 1e+06 kg");
-    add("no number", "[kite]\narea = wide\n", "plant.ini:2: area = wide: use a number from 0.001 to 1e+06 m^2");
+    add("no number", "[kite]\narea = wide\n", "plant.ini:2: area = wide: use a number from 0.001 to 1e+06 m²");
     add("not a number", "[kite]\ndragFactor = nan\n", "dragFactor = nan: use a number from 0.001 to 1000");
     add("infinite", "[kite]\nmass = inf\n", "mass = inf: use a number from 0.001");
     add("empty", "[kite]\nmass =\n", "plant.ini:2: mass = : use a number from 0.001 to 1e+06 kg");

@@ -49,7 +49,7 @@ void tst_PlantParameters::badValueIsNamedWithItsRemedy_data()
     QTest::addColumn<Change>("change");
     QTest::addColumn<QString>("name");
     QTest::newRow("no mass") << Change([](PlantParameters &p) { p.mass = 0.0; }) << "mass is 0 kg";
-    QTest::newRow("negative area") << Change([](PlantParameters &p) { p.area = -10.0; }) << "area is -10 m^2";
+    QTest::newRow("negative area") << Change([](PlantParameters &p) { p.area = -10.0; }) << "area is -10 m²";
     QTest::newRow("vacuum") << Change([](PlantParameters &p) { p.airDensity = 0.0; }) << "airDensity";
     QTest::newRow("NaN stiffness") << Change([=](PlantParameters &p) { p.tetherStiffness = nan; })
                                    << "tetherStiffness is nan";

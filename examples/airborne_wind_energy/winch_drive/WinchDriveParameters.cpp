@@ -10,8 +10,8 @@ std::string WinchDriveParameters::validate() const
     RangeCheck check;
     check.within("drumRadius", drumRadius, 1e-3, 100.0, "m");
     check.within("gearRatio", gearRatio, 1e-2, 1e4, "");
-    check.within("drumInertia", drumInertia, 0.0, 1e6, "kg m^2");
-    check.within("rotorInertia", rotorInertia, 1e-6, 1e6, "kg m^2");
+    check.within("drumInertia", drumInertia, 0.0, 1e6, "kg m²");
+    check.within("rotorInertia", rotorInertia, 1e-6, 1e6, "kg m²");
     check.within("dryFriction", dryFriction, 0.0, 1e6, "N m");
     check.within("viscousFriction", viscousFriction, 0.0, 1e6, "N m s/rad");
     check.within("brakeTorque", brakeTorque, 0.0, 1e6, "N m");
@@ -22,8 +22,8 @@ std::string WinchDriveParameters::validate() const
     check.within("converterLoss", converterLoss, 0.0, 1e6, "W");
     check.within("speedBandwidth", speedBandwidth, 1e-2, 1e4, "rad/s");
     check.within("speedIntegralTime", speedIntegralTime, 1e-4, 1e3, "s");
-    check.within("acceleration", acceleration, 1e-3, 1e6, "rad/s^2");
-    check.within("stopDeceleration", stopDeceleration, 1e-3, 1e6, "rad/s^2");
+    check.within("acceleration", acceleration, 1e-3, 1e6, "rad/s²");
+    check.within("stopDeceleration", stopDeceleration, 1e-3, 1e6, "rad/s²");
     check.within("longestStop", longestStop, 1e-3, 1e3, "s");
     check.within("standstill", standstill, 1e-3, 1e3, "rad/s");
     check.within("largestSpeed", largestSpeed, standstill, 1e5, "rad/s");

@@ -60,8 +60,8 @@ void drawReadout(QPainter *painter, const QRectF &area, const KiteState &state, 
     const SkyPosition sky = skyPosition(*state.position);
     const double azimuth = std::round(wrappedAngle(double(sky.azimuth - state.downwind()))) + 0.0;  // no -0
     const QString lines[] = {
-        WindowText::tr("azimuth %1°").arg(azimuth, 0, 'f', 0),
-        WindowText::tr("elevation %1°").arg(double(sky.elevation), 0, 'f', 0),
+        WindowText::tr("azimuth %1 deg").arg(azimuth, 0, 'f', 0),
+        WindowText::tr("elevation %1 deg").arg(double(sky.elevation), 0, 'f', 0),
         WindowText::tr("distance %1 m").arg(double(sky.distance), 0, 'f', 0),
     };
     painter->setPen(state.quality == Plant::Stale && !state.pastTime ? theme.stale : theme.mutedText);

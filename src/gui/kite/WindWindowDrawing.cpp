@@ -114,7 +114,7 @@ void WindWindowDrawing::drawLabels()
 {
     m_painter->setPen(m_theme.mutedText);
     const QFontMetricsF metrics(m_painter->font());
-    const double room = m_frame.scale() / metrics.horizontalAdvance(QStringLiteral("-75°  "));  // [labels/deg]
+    const double room = m_frame.scale() / metrics.horizontalAdvance(QStringLiteral("-75 deg  "));  // [labels/deg]
     const int step = 15 * room > 1.0 ? 15 : 30;
     // The wind has its name in the middle.
     const double half = 0.5 * metrics.horizontalAdvance(windText(99.9)) + 0.5 / room * m_frame.scale();
@@ -122,11 +122,11 @@ void WindWindowDrawing::drawLabels()
         const QPointF place = m_frame.toPixels(windWindowPoint(float(azimuth), 0, 0));
         const QRectF box(place.x() - 30, place.y() + 0.5 * belowHorizon * m_frame.scale(), 60, metrics.height());
         if (std::abs(place.x() - m_frame.origin().x()) > half)
-            m_painter->drawText(box, Qt::AlignHCenter | Qt::AlignTop, WindowText::tr("%1°").arg(azimuth));
+            m_painter->drawText(box, Qt::AlignHCenter | Qt::AlignTop, WindowText::tr("%1 deg").arg(azimuth));
     }
     for (int elevation = step; elevation < 90; elevation += step) {
         const QPointF place = m_frame.toPixels(windWindowPoint(0, float(elevation), 0));
-        m_painter->drawText(place + QPointF(3, -2), WindowText::tr("%1°").arg(elevation));
+        m_painter->drawText(place + QPointF(3, -2), WindowText::tr("%1 deg").arg(elevation));
     }
 }
 

@@ -2,6 +2,7 @@
 #include "NodeTableModel.h"
 
 #include "ValueFormat.h"
+#include "node/StateText.h"
 
 #include <algorithm>
 

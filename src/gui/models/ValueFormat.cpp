@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ValueFormat.h"
 
+#include "node/StateText.h"
+
 #include <QtCore/QCoreApplication>
 #include <QtCore/QJsonArray>
 #include <QtCore/QJsonDocument>
@@ -186,18 +188,6 @@ bool isTrusted(const PlantList::Signal &signal)
 {
     const Plant::Quality ofPlant = signal.plant->quality();
     return ofPlant == Plant::AtRest || (ofPlant == Plant::Good && signal.quality().isUsable());
-}
-
-QString stateText(const QString &state)
-{
-    if (state == QLatin1String("WaitingForLateSlaves"))
-        return QCoreApplication::translate("ValueFormat", "Waiting for late nodes");
-    QString words;
-    for (const QChar letter : state) {
-        const bool isNextWord = letter.isUpper() && !words.isEmpty();
-        words += isNextWord ? QLatin1Char(' ') + QString(letter.toLower()) : QString(letter);
-    }
-    return words;
 }
 
 QString stateWord(const Plant &plant)

@@ -36,9 +36,7 @@ QString qualityText(Plant::Quality quality);
 QString qualityText(const PlantList::Signal &signal);
 /// Whether the newest value of a signal is of now, or of the plant at rest, and usable.
 bool isTrusted(const PlantList::Signal &signal);
-/// A state of the protocol in words: "RealTime" is "Real time", "SafeStop" "Safe stop", "WaitingForLateSlaves" "Waiting for late nodes". Everywhere in the window the same.
-QString stateText(const QString &state);
-/// The state of a plant in a word or two: that of its master, or "lost", "connecting", "not there"; Plant::stateText() says why.
+/// The state of a plant in a word or two: that of its master, see stateText(), or "lost", "connecting", "not there"; Plant::stateText() says why.
 QString stateWord(const Plant &plant);
 /// What Qt::ForegroundRole gives: grey for what is not to be trusted, else nothing.
 QVariant foregroundOf(bool isTrusted);

@@ -4,6 +4,7 @@
 #include "PlantFeed.h"
 
 #include "node/Logging.h"
+#include "node/StateText.h"
 
 #include <QtCore/QJsonArray>
 
@@ -228,7 +229,7 @@ QString Plant::stateText() const
 {
     switch (connectionState()) {
     case PlantConnection::Connected:
-        return m_status.state;
+        return qplc::stateText(m_status.state);
     case PlantConnection::Connecting:
         return tr("Connecting to %1").arg(address());
     case PlantConnection::Disconnected:
@@ -396,7 +397,8 @@ void Plant::takeState(const Message &answer)
         m_connection.setPeriod(m_status.scale > 0.0 ? qint64(double(m_status.period) / m_status.scale)
                                                     : m_status.period);
     if (m_status.state != stateBefore) {
-        tellOfMaster(PlantEvent::Information, QStringLiteral("state %1").arg(m_status.state), QString(), IsStateChange);
+        tellOfMaster(PlantEvent::Information, QStringLiteral("state %1").arg(qplc::stateText(m_status.state)),
+                     QString(), IsStateChange);
         Q_EMIT stateChanged();
     }
     if (nodeNames() != nodesBefore)

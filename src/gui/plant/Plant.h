@@ -66,7 +66,7 @@ public:
     QString role() const { return m_role; }
     /// What the master tells of this window, which is a node that listens; null: nothing yet.
     const NodeStatus *ownNode() const { return m_status.node(m_connection.nodeName()); }
-    /// One line for people: "RealTime", "Disconnected: Connection refused".
+    /// One line for people: "Real time", "Disconnected: Connection refused".
     QString stateText() const;
     /// The one thing that comes next: Start when the master is off (Initialize, Arm and Start, where it wants starts to be armed), Stop while it runs, Reset when a fault is latched.
     Action nextAction() const;

@@ -2,6 +2,7 @@
 #include "PlantFeed.h"
 
 #include "Plant.h"
+#include "node/StateText.h"
 
 #include <algorithm>
 #include <cmath>
@@ -82,7 +83,7 @@ void PlantFeed::setState(const QString &state)
         m_plant->m_status.stop = {};
     if (!before.isEmpty()) {
         PlantEvent event{QDateTime::currentDateTime(), PlantEvent::Information, m_plant->name(),
-                         QStringLiteral("state %1").arg(state), false};
+                         QStringLiteral("state %1").arg(stateText(state)), false};
         event.isStateChange = true;
         m_plant->tell(event);
     }

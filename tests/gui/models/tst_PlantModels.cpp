@@ -372,7 +372,7 @@ void tst_PlantModels::whatHappensToAPlantIsInTheLog()
             all << log.at(row).text;
         return all.join(QLatin1Char('\n'));
     };
-    QTRY_VERIFY(texts().contains(QStringLiteral("state RealTime")));
+    QTRY_VERIFY(texts().contains(QStringLiteral("state Real time")));
     QCOMPARE(log.unacknowledged(), 0);
     master.reset();
     QTRY_VERIFY(texts().contains(QStringLiteral("lost the master")));

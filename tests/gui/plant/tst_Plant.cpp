@@ -67,7 +67,7 @@ void tst_Plant::aPlantShowsWhatItsMasterHas()
     QVERIFY(plant.age() < 0.0);
     plant.open();
     QTRY_VERIFY(plant.values().rows() > 10);
-    QTRY_COMPARE(plant.stateText(), QStringLiteral("RealTime"));
+    QTRY_COMPARE(plant.stateText(), QStringLiteral("Real time"));
     QCOMPARE(plant.nextAction(), Plant::StopAction);
     QCOMPARE(plant.quality(), Plant::Good);
     QVERIFY(plant.age() < plant.staleAfter());

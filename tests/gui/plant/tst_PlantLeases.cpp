@@ -208,7 +208,7 @@ void tst_PlantLeases::eventsOfBeforeComeFirstAndOnce()
     QTRY_VERIFY(textsOf(events).contains(QStringLiteral("connected to the master at %1").arg(master.address())));
     const int before = textsOf(events).indexOf(QStringLiteral("connected to the master at %1").arg(master.address()));
     QVERIFY(before >= 500);
-    QCOMPARE(textsOf(events).filter(QStringLiteral("state RealTime")).size(), 250);
+    QCOMPARE(textsOf(events).filter(QStringLiteral("state Real time")).size(), 250);
     for (int i = 1; i < before; ++i)
         QVERIFY(eventsOf(events).at(i - 1).time <= eventsOf(events).at(i).time);
     QCOMPARE(eventsOf(events).first().source, QStringLiteral("kite"));
@@ -224,13 +224,13 @@ void tst_PlantLeases::whatTheMasterTellsIsNotToldAgain()
     QTRY_VERIFY(!events.isEmpty());
     plant.start();
     QTRY_VERIFY(plant.status().isRunning());
-    QTRY_COMPARE(textsOf(events).filter(QStringLiteral("RealTime")).size(), 1);
+    QTRY_COMPARE(textsOf(events).filter(QStringLiteral("Real time")).size(), 1);
     plant.takeLease({echo});
     QTRY_COMPARE(textsOf(events).filter(QStringLiteral("has taken over")).size(), 1);
     plant.stop();
     QTRY_VERIFY(!plant.status().isRunning());
     QTest::qWait(1200);  // polls that could tell it again
-    QCOMPARE(textsOf(events).filter(QStringLiteral("RealTime")).size(), 1);
+    QCOMPARE(textsOf(events).filter(QStringLiteral("Real time")).size(), 1);
     const PlantEvent taken = eventsOf(events).at(
         textsOf(events).indexOf(textsOf(events).filter(QStringLiteral("has taken over")).first()));
     QCOMPARE(taken.source, QStringLiteral("kite"));
@@ -249,7 +249,7 @@ void tst_PlantLeases::eventsOfAnOldConnectionAreNotRepeated()
     master.stop();
     plant.open();
     QTRY_COMPARE(textsOf(events).filter(QStringLiteral("connected to")).size(), 2);
-    QCOMPARE(textsOf(events).filter(QStringLiteral("state RealTime")).size(), 1);
+    QCOMPARE(textsOf(events).filter(QStringLiteral("state Real time")).size(), 1);
     QCOMPARE(textsOf(events).filter(QStringLiteral("state Off")).size(), 1);  // while it was away
 }
 
@@ -270,7 +270,7 @@ void tst_PlantLeases::anOlderMasterIsWatchedAsBefore()
     QVERIFY(!plant.hasLeases());
     QCOMPARE(textsOf(events).filter(QStringLiteral("connected to")).size(), 1);  // nothing to wait for
     master.send(QPlcMessage::State, {{QStringLiteral("state"), QStringLiteral("RealTime")}});
-    QTRY_COMPARE(textsOf(events).filter(QStringLiteral("state RealTime")).size(), 1);
+    QTRY_COMPARE(textsOf(events).filter(QStringLiteral("state Real time")).size(), 1);
     plant.takeLease({echo});
     const auto asked = [&](QPlcMessage::Kind kind) {
         return std::count_if(master.messages.begin(), master.messages.end(),

@@ -86,12 +86,12 @@ void tst_WindowEvents::startsAndStopsAreOnTheBottomLine()
     QTRY_VERIFY_WITH_TIMEOUT(fixture.plant()->isConnected(), patience);
     auto *line = fixture.part<EventLine>();
     fixture.press(Qt::Key_F5);
-    QTRY_VERIFY_WITH_TIMEOUT(line->detail().endsWith(QLatin1String("kite: state RealTime")), patience);
+    QTRY_VERIFY_WITH_TIMEOUT(line->detail().endsWith(QLatin1String("kite: state Real time")), patience);
     // A warning does not hide it.
     fixture.window.context()->events()->append(
         {QDateTime::currentDateTime(), PlantEvent::Warning, QStringLiteral("kite"), QStringLiteral("late"), false});
     QVERIFY(line->text().contains(QLatin1String("late")));
-    QVERIFY(line->detail().endsWith(QLatin1String("kite: state RealTime")));
+    QVERIFY(line->detail().endsWith(QLatin1String("kite: state Real time")));
     fixture.plant()->stop();
     QTRY_VERIFY_WITH_TIMEOUT(line->detail().contains(QLatin1String("kite: state Off")), patience);
     QVERIFY2(line->detail().contains(PlantLeases::whoever()), qPrintable(line->detail()));

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "StateText.h"
+
+namespace qplc {
+
+QString stateText(const QString &name)
+{
+    if (name == QLatin1String("WaitingForLateSlaves"))
+        return QStringLiteral("Waiting for late nodes");
+    QString words;
+    for (const QChar letter : name) {
+        const bool isNextWord = letter.isUpper() && !words.isEmpty();
+        words += isNextWord ? QLatin1Char(' ') + QString(letter.toLower()) : QString(letter);
+    }
+    return words;
+}
+
+}  // namespace qplc
