@@ -90,7 +90,7 @@ QString clockName(QPlcClock clock)
     return {};
 }
 
-QJsonObject stateFields(const QPlcMasterNode &master, quint64 session)
+QJsonObject stateFields(const QPlcMasterNode &master, const ChosenProfile &profile, quint64 session)
 {
     QJsonArray nodes;
     const QVector<QPlcNodeInfo> infos = master.nodes();
@@ -106,8 +106,8 @@ QJsonObject stateFields(const QPlcMasterNode &master, quint64 session)
                        {QStringLiteral("period"), double(master.interval().count())},
                        {QStringLiteral("clock"), clockName(master.clock())},
                        {QStringLiteral("scale"), master.clock().scale()},
-                       {QStringLiteral("profile"), QPlcProfile::name(master.profile())},
-                       {QStringLiteral("profileReason"), master.profileReason()},
+                       {QStringLiteral("profile"), QPlcProfile::name(profile.value)},
+                       {QStringLiteral("profileReason"), profile.reason},
                        {QStringLiteral("session"), QPlcMessage::fromHex64(session)},
                        {QStringLiteral("nodes"), nodes},
                        {QStringLiteral("counters"), counterFields(statistics)},

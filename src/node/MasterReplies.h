@@ -5,6 +5,7 @@
 #include "Leases.h"
 #include "MasterCycle.h"
 #include "NodeRegistry.h"
+#include "ProfileDefaults.h"
 #include "QPlcMasterNode.h"
 
 #include <QtCore/QJsonObject>
@@ -14,7 +15,7 @@ namespace qplc {
 /// What a master answers to those who ask: reading only.
 
 /// Fields of the message State.
-QJsonObject stateFields(const QPlcMasterNode &master, quint64 session);
+QJsonObject stateFields(const QPlcMasterNode &master, const ChosenProfile &profile, quint64 session);
 /// Fields of the message Signals, for \a names or, when empty, all; the values are those of one cycle.
 /// \return false with the first name that is unknown, or comes twice, in \a refusal
 bool signalFields(const MasterCycle &cycle, const NodeRegistry &registry, const Leases &leases,

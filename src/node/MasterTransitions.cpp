@@ -135,7 +135,7 @@ void QPlcMasterNodePrivate::stopAsAsked(Connection *connection, const QPlcMessag
 
 QJsonObject QPlcMasterNodePrivate::stateFor(const Connection &connection) const
 {
-    QJsonObject fields = qplc::stateFields(*q, session);
+    QJsonObject fields = qplc::stateFields(*q, profile(), session);
     if (!askedStop.whoever.isEmpty())
         fields.insert(QStringLiteral("stopped"),
                       QJsonObject{{QStringLiteral("whoever"), askedStop.whoever},

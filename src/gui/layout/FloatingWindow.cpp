@@ -35,15 +35,23 @@ FloatingWindow::FloatingWindow(LayoutEditor *editor, const QString &windowId, QW
     column->addWidget(m_page);
 }
 
+void FloatingWindow::followTitles()
+{
+    const LayoutWindow *window = m_editor->layout().window(m_id);
+    if (!window)
+        return;
+    std::vector<const LayoutPanel *> panels;
+    window->tree->appendPanels(&panels);
+    QStringList titles;
+    for (const LayoutPanel *panel : panels)
+        titles.append(m_editor->titleOf(panel->id));
+    setWindowTitle(titles.join(QStringLiteral(", ")));
+}
+
 void FloatingWindow::showWindow(const LayoutWindow &window)
 {
     m_isFollowing = true;
-    std::vector<const LayoutPanel *> panels;
-    window.tree->appendPanels(&panels);
-    QStringList titles;
-    for (const LayoutPanel *panel : panels)
-        titles.append(panel->title());
-    setWindowTitle(titles.join(QStringLiteral(", ")));
+    followTitles();
     if (m_geometry != window.geometry && geometry() != window.geometry)
         setGeometry(isVisible() ? window.geometry : onItsScreen(window.geometry));
     m_geometry = window.geometry;

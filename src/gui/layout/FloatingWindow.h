@@ -20,6 +20,8 @@ public:
     const QString &windowId() const { return m_id; }
     PageView *page() const { return m_page; }
     void showWindow(const LayoutWindow &window);
+    /// Shows the titles of its panels.
+    void followTitles();
 
 protected:
     bool event(QEvent *event) override;

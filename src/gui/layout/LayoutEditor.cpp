@@ -18,7 +18,13 @@ public:
 
     int id() const override { return m_kind; }
     void undo() override { m_editor->show(m_after, m_before); }
-    void redo() override { m_editor->show(m_before, m_after); }
+    void redo() override
+    {
+        m_editor->show(m_before, m_after);
+        if (!m_newPanelId.isEmpty())  // what it shows is known now
+            setText(LayoutEditor::tr("new panel '%1'").arg(m_editor->titleOf(m_newPanelId)));
+    }
+    void setNewPanel(const QString &panelId) { m_newPanelId = panelId; }
 
     bool mergeWith(const QUndoCommand *other) override
     {
@@ -36,6 +42,7 @@ private:
     Layout m_after;
     MergeKind m_kind;
     QString m_mergeKey;
+    QString m_newPanelId;
 };
 
 LayoutEditor::LayoutEditor(QObject *parent)
@@ -92,8 +99,11 @@ bool LayoutEditor::edit(const std::function<bool(Layout *)> &change, const QStri
     return change(&after) && push(after, text, kind, mergeKey);
 }
 
-QString LayoutEditor::quoted(const QString &panelId) const
+QString LayoutEditor::titleOf(const QString &panelId) const
 {
+    const QString title = m_titles ? m_titles(panelId) : QString();
+    if (!title.isEmpty())
+        return title;
     const LayoutPanel *panel = m_layout.panel(panelId);
     return panel ? panel->title() : panelId;
 }
@@ -118,8 +128,11 @@ QString LayoutEditor::addPanel(const QString &type, const QJsonObject &settings,
         return {};
     Layout after = m_layout;
     const QString id = after.addPanel(type, settings, target);
-    if (!id.isEmpty())
-        push(after, tr("new panel '%1'").arg(after.panel(id)->title()));
+    if (!id.isEmpty()) {
+        auto *step = new Step(this, after, NoMerge, {});
+        step->setNewPanel(id);
+        m_stack.push(step);
+    }
     return id;
 }
 
@@ -130,48 +143,48 @@ QString LayoutEditor::duplicatePanel(const QString &panelId, LayoutSide side)
     Layout after = m_layout;
     const QString id = after.duplicatePanel(panelId, side);
     if (!id.isEmpty())
-        push(after, tr("copy of '%1'").arg(quoted(panelId)));
+        push(after, tr("copy of '%1'").arg(titleOf(panelId)));
     return id;
 }
 
 bool LayoutEditor::closePanel(const QString &panelId)
 {
-    return edit([&](Layout *layout) { return layout->closePanel(panelId); }, tr("close of '%1'").arg(quoted(panelId)));
+    return edit([&](Layout *layout) { return layout->closePanel(panelId); }, tr("close of '%1'").arg(titleOf(panelId)));
 }
 
 bool LayoutEditor::movePanel(const QString &panelId, const LayoutTarget &target)
 {
     return edit([&](Layout *layout) { return layout->movePanel(panelId, target); },
-                tr("move of '%1'").arg(quoted(panelId)));
+                tr("move of '%1'").arg(titleOf(panelId)));
 }
 
 bool LayoutEditor::floatPanel(const QString &panelId, const QRect &geometry)
 {
     return edit([&](Layout *layout) { return layout->floatPanel(panelId, geometry); },
-                tr("float of '%1'").arg(quoted(panelId)));
+                tr("float of '%1'").arg(titleOf(panelId)));
 }
 
 bool LayoutEditor::dockPanel(const QString &panelId)
 {
-    return edit([&](Layout *layout) { return layout->dockPanel(panelId); }, tr("dock of '%1'").arg(quoted(panelId)));
+    return edit([&](Layout *layout) { return layout->dockPanel(panelId); }, tr("dock of '%1'").arg(titleOf(panelId)));
 }
 
 bool LayoutEditor::setMaximized(const QString &panelId, bool isMaximized)
 {
     return edit([&](Layout *layout) { return layout->setMaximized(panelId, isMaximized); },
-                (isMaximized ? tr("maximize of '%1'") : tr("restore of '%1'")).arg(quoted(panelId)));
+                (isMaximized ? tr("maximize of '%1'") : tr("restore of '%1'")).arg(titleOf(panelId)));
 }
 
 bool LayoutEditor::setPanelSettings(const QString &panelId, const QJsonObject &settings)
 {
     return edit([&](Layout *layout) { return layout->setPanelSettings(panelId, settings); },
-                tr("settings of '%1'").arg(quoted(panelId)), Settings, panelId);
+                tr("settings of '%1'").arg(titleOf(panelId)), Settings, panelId);
 }
 
 bool LayoutEditor::setPanelTitle(const QString &panelId, const QString &title)
 {
     return edit([&](Layout *layout) { return layout->setPanelTitle(panelId, title); },
-                tr("rename of '%1'").arg(quoted(panelId)));
+                tr("rename of '%1'").arg(titleOf(panelId)));
 }
 
 bool LayoutEditor::setShares(const LayoutSpan &split, const QVector<int> &shares)
@@ -183,7 +196,7 @@ bool LayoutEditor::setShares(const LayoutSpan &split, const QVector<int> &shares
 bool LayoutEditor::growPanel(const QString &panelId, Qt::Orientation orientation, int change)
 {
     return edit([&](Layout *layout) { return layout->growPanel(panelId, orientation, change); },
-                tr("resize of '%1'").arg(quoted(panelId)), Resizes,
+                tr("resize of '%1'").arg(titleOf(panelId)), Resizes,
                 panelId + (orientation == Qt::Horizontal ? QStringLiteral("\nwidth") : QStringLiteral("\nheight")));
 }
 
@@ -215,7 +228,7 @@ bool LayoutEditor::moveTab(const QString &tabId, int index)
 bool LayoutEditor::closeWindow(const QString &windowId)
 {
     const LayoutWindow *window = m_layout.window(windowId);
-    const QString first = window ? quoted(window->tree->span().first) : windowId;
+    const QString first = window ? titleOf(window->tree->span().first) : windowId;
     return edit([&](Layout *layout) { return layout->closeWindow(windowId); }, tr("close of window '%1'").arg(first));
 }
 

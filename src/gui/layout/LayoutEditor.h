@@ -31,6 +31,10 @@ public:
     /// What was done and what comes are never one step.
     void separateSteps() { ++m_series; }
     QUndoStack *undoStack() { return &m_stack; }
+    /// What people call a panel, on its title bar, on the window that it floats in, and where steps are undone: what \a titles says, else LayoutPanel::title().
+    QString titleOf(const QString &panelId) const;
+    /// Says what is in a panel; empty: it does not know.
+    void setTitles(const std::function<QString(const QString &panelId)> &titles) { m_titles = titles; }
 
     QString addPanel(const QString &type, const QJsonObject &settings, const LayoutTarget &target);
     QString duplicatePanel(const QString &panelId, LayoutSide side);
@@ -67,10 +71,10 @@ private:
               const QString &mergeKey = {});
     bool hasRoom();
     void show(const Layout &from, const Layout &to);
-    QString quoted(const QString &panelId) const;
     QString quotedTab(const QString &tabId) const;
 
     Layout m_layout;
+    std::function<QString(const QString &)> m_titles;
     int m_series = 0;
     QUndoStack m_stack;
 };

@@ -16,7 +16,6 @@
 
 #include <QtWidgets/QAction>
 #include <QtWidgets/QHBoxLayout>
-#include <QtWidgets/QMenu>
 #include <QtWidgets/QPushButton>
 #include <QtWidgets/QStackedWidget>
 #include <QtWidgets/QToolButton>
@@ -42,7 +41,7 @@ LayoutView::LayoutView(LayoutEditor *editor, QWidget *parent)
     m_add->setToolTip(m_add->text());
     m_add->setAccessibleName(m_add->text());
     m_add->setFocusPolicy(Qt::TabFocus);
-    connect(m_add, &QToolButton::clicked, this, [this] { openAddMenu(m_add); });
+    connect(m_add, &QToolButton::clicked, this, &LayoutView::addRequested);
     connect(new TabDrop(m_tabBar, m_add, editor), &TabDrop::signalsDropped, this,
             [this](DropZone zone, const QMimeData *dropped) { Q_EMIT signalsDropped({}, zone, dropped); });
     auto *bar = new QHBoxLayout;
@@ -56,6 +55,7 @@ LayoutView::LayoutView(LayoutEditor *editor, QWidget *parent)
     column->addLayout(bar);
     column->addWidget(m_stack, 1);
     makeActions();
+    editor->setTitles([this](const QString &id) { return widget(id) ? widget(id)->title() : QString(); });
     connect(editor, &LayoutEditor::layoutChanged, this, &LayoutView::follow);
     follow();
 }
@@ -64,6 +64,7 @@ LayoutView::~LayoutView()
 {
     // Nothing that happens while windows go is an edit.
     disconnect(m_editor, nullptr, this, nullptr);
+    m_editor->setTitles({});
     qDeleteAll(m_windows);
 }
 
@@ -160,8 +161,13 @@ void LayoutView::makeFrame(const LayoutPanel &panel)
     connect(frame->titleBar(), &PanelTitleBar::dragFinished, m_drag,
             [this, id](const QPoint &at) { m_drag->finish(id, at); });
     connect(frame->titleBar(), &PanelTitleBar::dragCancelled, m_drag, &PanelDrag::cancel);
-    if (frame->widget())
-        Q_EMIT widgetAdded(id, frame->widget());
+    if (!frame->widget())
+        return;
+    connect(frame->widget(), &QPlcWidget::titleChanged, this, [this] {
+        for (FloatingWindow *window : qAsConst(m_windows))
+            window->followTitles();
+    });
+    Q_EMIT widgetAdded(id, frame->widget());
 }
 
 PageView *LayoutView::newPage()
@@ -170,8 +176,7 @@ PageView *LayoutView::newPage()
     m_stack->addWidget(page);
     connect(page->emptyPage(), &EmptyPage::signalsDropped, this,
             [this](const QMimeData *dropped) { Q_EMIT signalsDropped(QString(), DropZone::Center, dropped); });
-    connect(page->emptyPage()->addButton(), &QPushButton::clicked, this,
-            [this, page] { openAddMenu(page->emptyPage()->addButton()); });
+    connect(page->emptyPage()->addButton(), &QPushButton::clicked, this, &LayoutView::addRequested);
     return page;
 }
 
@@ -241,27 +246,6 @@ QString LayoutView::addPanel(const QString &type, const QJsonObject &settings)
                        [this](const LayoutPanel &panel) { return wantedSize(panel.type); })
         : LayoutTarget::inTab(tab.id);
     return m_editor->addPanel(type, settings, target);
-}
-
-QMenu *LayoutView::createAddMenu()
-{
-    auto *menu = new QMenu(this);
-    for (const QPlcWidgetFactory *factory : qAsConst(m_factories)) {
-        const QString type = factory->name();
-        menu->addAction(type, this, [this, type] { addPanel(type); });
-    }
-    menu->addSeparator();
-    menu->addAction(tr("New tab"), this, [this] { m_editor->addTab(); });
-    return menu;
-}
-
-void LayoutView::openAddMenu(QWidget *below)
-{
-    if (!below)
-        below = m_add;
-    QMenu *menu = createAddMenu();
-    menu->setAttribute(Qt::WA_DeleteOnClose);
-    menu->popup(below->mapToGlobal(QPoint(0, below->height())));
 }
 
 void LayoutView::focusPanel(int step)

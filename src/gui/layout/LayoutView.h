@@ -44,12 +44,10 @@ public:
     QList<FloatingWindow *> floatingWindows() const { return m_windows.values(); }
     /// Adds a panel to the current tab, where it fits (fittingPlace()). \return its id; empty when the layout is full
     QString addPanel(const QString &type, const QJsonObject &settings = {});
-    /// A list of the available widgets, each of which adds a panel to the current tab, and of a new tab. The caller owns it.
-    QMenu *createAddMenu();
-    /// Below a widget, else below the button that adds panels.
-    void openAddMenu(QWidget *below = nullptr);
 
 Q_SIGNALS:
+    /// A person wants to add something: the button beside the tabs, or that of an empty tab, was clicked.
+    void addRequested();
     /// A widget has been made for a panel.
     void widgetAdded(const QString &panelId, QPlcWidget *widget);
     /// The widget is deleted when control returns to the event loop.

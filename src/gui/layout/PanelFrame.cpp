@@ -172,10 +172,7 @@ void PanelFrame::takeSettings()
 
 void PanelFrame::updateTitle()
 {
-    const LayoutPanel *panel = m_editor->layout().panel(m_id);
-    QString title = m_widget ? m_widget->title() : QString();
-    if (title.isEmpty())
-        title = panel ? panel->title() : m_type;
+    const QString title = m_editor->titleOf(m_id);
     m_titleBar->setTitle(title);
     setAccessibleName(title);
     for (QToolButton *button : m_titleBar->findChildren<QToolButton *>())

@@ -105,6 +105,7 @@ void QPlcControlCenter::Private::connectLayoutActions()
     connect(actions->reset, &QAction::triggered, q, [this] { q->resetLayout(); });
     connect(actions->newTab, &QAction::triggered, q, [this] { editor.addTab(); });
     connect(actions->addPanel, &QAction::triggered, q, [this] { openPanelPalette(); });
+    connect(view, &LayoutView::addRequested, q, [this] { openPanelPalette(); });
 }
 
 void QPlcControlCenter::Private::askForLayoutFile(bool isToSave)

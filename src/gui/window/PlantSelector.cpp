@@ -16,6 +16,14 @@ namespace {
 constexpr int refreshPause = 250;  // [ms] of ages and of what is left until the next attempt
 constexpr int textLeft = 28;       // [px]
 
+/// "Profile Simulation: no real devices, and the master listens on this computer only"; empty before the master has told it.
+QString profileText(const Plant *plant)
+{
+    if (!plant || !plant->isConnected() || plant->status().profile.isEmpty())
+        return {};
+    return PlantSelector::tr("Profile %1: %2").arg(plant->status().profile, plant->status().profileReason);
+}
+
 }  // namespace
 
 PlantSelector::PlantSelector(PlantSelection *selection, WindowContext *context, QWidget *parent)
@@ -62,18 +70,21 @@ void PlantSelector::follow()
     const QColor color = colorOf(m_context->theme(), summary.tone);
     const QColor plantColor
         = plant && m_selection->plants()->size() > 1 ? m_context->theme().plant(plant->number()) : QColor();
-    if (name == m_name && plantColor == m_plantColor && summary.condition == m_headline && summary.figures == m_figures
-        && summary.violations == m_violations && color == m_color)
+    const QString profile = profileText(plant);
+    if (profile == m_profile && name == m_name && plantColor == m_plantColor && summary.condition == m_headline
+        && summary.figures == m_figures && summary.violations == m_violations && color == m_color)
         return;
     m_name = name;
     m_plantColor = plantColor;
     m_headline = summary.condition;
     m_figures = summary.figures;
     m_violations = summary.violations;
+    m_profile = profile;
     m_color = color;
     setText(QStringLiteral("%1: %2").arg(m_name, m_headline));
     setAccessibleName(tr("Plant %1: %2. %3").arg(m_name, m_headline, m_figures));
-    setToolTip(m_figures);
+    setAccessibleDescription(m_profile);
+    setToolTip(m_profile.isEmpty() ? m_figures : m_figures + QLatin1Char('\n') + m_profile);
     update();
 }
 

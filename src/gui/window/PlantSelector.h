@@ -43,6 +43,7 @@ private:
     QString m_headline;
     QString m_figures;
     QString m_violations;
+    QString m_profile;
     QHash<const Plant *, ViolationWatch> m_watches;
     QElapsedTimer m_clock;
     QColor m_color;

@@ -11,7 +11,7 @@
 #include <memory>
 #include <vector>
 
-/// A panel that draws a curve and has one setting, "waves".
+/// A panel that draws a curve and has a setting, "waves"; "content" is what it says that it shows.
 class DummyPanel : public QPlcWidget
 {
     Q_OBJECT
@@ -43,6 +43,7 @@ public:
     {
         QPlcWidget::applySettings(settings);
         m_waves = settings.value(QStringLiteral("waves")).toInt(m_waves);
+        setDefaultTitle(settings.value(QStringLiteral("content")).toString());
         update();
     }
     QWidget *createSettingsEditor() override

@@ -33,7 +33,7 @@ private Q_SLOTS:
     void titleIsRenamedInPlace();
     void renameThatIsOpenWhileThePanelMovesIsForgotten();
     void unknownTypeIsAPlaceholderUntilItsFactoryComes();
-    void emptyTabOffersTheWidgets();
+    void buttonsThatAddAskTheWindow();
     void panelWithTheKeyboardGoesQuietly();
     void keysReachEverything();
     void everythingHasAnAccessibleName();
@@ -90,6 +90,7 @@ void tst_LayoutView::floatButtonMakesAWindowAndBringsItBack()
     QVERIFY(window.frame("panel2")->window() == window.view.floatingWindows().first());
     QVERIFY(widget->isVisible());
     QCOMPARE(window.frame("panel2")->window()->windowTitle(), QStringLiteral("Gauge"));
+    QCOMPARE(window.editor.undoStack()->undoText(), QStringLiteral("float of 'Gauge'"));
     QCOMPARE(window.frame("panel2")->floatAction()->text(), QStringLiteral("Dock back"));
     window.undoAndRedo();
     QCOMPARE(window.onScreen("panel1"), QStringLiteral("H[panel1 V[panel2 panel3]]"));
@@ -377,16 +378,17 @@ void tst_LayoutView::unknownTypeIsAPlaceholderUntilItsFactoryComes()
     QCOMPARE(layoutToJson(window.editor.layout()), window.before);
 }
 
-void tst_LayoutView::emptyTabOffersTheWidgets()
+void tst_LayoutView::buttonsThatAddAskTheWindow()
 {
     ViewFixture window{Layout()};
+    QSignalSpy asked(&window.view, &LayoutView::addRequested);
     auto *page = window.view.findChild<EmptyPage *>();
     QVERIFY(page && page->isVisible());
     QTest::mouseClick(page->addButton(), Qt::LeftButton);
-    auto *menu = qobject_cast<QMenu *>(QApplication::activePopupWidget());
-    QVERIFY(menu);
-    entry(menu, "Gauge")->trigger();
-    menu->close();
+    QCOMPARE(asked.size(), 1);
+    QTest::mouseClick(window.view.findChild<QToolButton *>(QStringLiteral("addPanel")), Qt::LeftButton);
+    QCOMPARE(asked.size(), 2);
+    window.view.addPanel(QStringLiteral("Gauge"));
     QCOMPARE(window.shown(), QStringLiteral("panel1"));
     QVERIFY(!page->isVisible());
     window.undoAndRedo();

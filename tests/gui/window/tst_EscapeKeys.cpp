@@ -203,7 +203,7 @@ void FlyingWindow::makeThings()
                     [this, menu] { menu->popup(window.mapToGlobal(QPoint(100, 60))); });
     }
     addMenu(QStringLiteral("palette"), [this] { action("Commands...")->trigger(); });
-    addMenu(QStringLiteral("new panel"), [this] { part<LayoutView>()->openAddMenu(); });
+    addMenu(QStringLiteral("new panel"), [this] { Q_EMIT part<LayoutView>()->addRequested(); });
     addMenu(QStringLiteral("list of severities"), [this] { events->findChild<QComboBox *>()->showPopup(); });
     addMenu(QStringLiteral("menu of a panel"), [this] {
         QContextMenuEvent event(QContextMenuEvent::Mouse, {}, window.mapToGlobal(QPoint(300, 200)));

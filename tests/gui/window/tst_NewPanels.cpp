@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "WindowFixtures.h"
+#include "gui/layout/EmptyPage.h"
 #include "gui/layout/PanelFrame.h"
 #include "gui/window/CommandPalette.h"
 
@@ -15,6 +16,7 @@ class tst_NewPanels : public QObject
 private Q_SLOTS:
     void init() { m_settings = std::make_unique<TestSettings>(); }
     void ctrlNFindsAPanelByTypingAPartOfItsName();
+    void everyButtonThatAddsOpensTheMenuThatTakesTyping();
     void everyNewPanelCanBeReadAtOnce_data();
     void everyNewPanelCanBeReadAtOnce();
 
@@ -45,6 +47,34 @@ void tst_NewPanels::ctrlNFindsAPanelByTypingAPartOfItsName()
     fixture.type(QStringLiteral("table"));
     fixture.press(Qt::Key_Escape);
     QCOMPARE(fixture.part<LayoutView>()->findChildren<QPlcWidget *>().size(), before + 1);
+}
+
+void tst_NewPanels::everyButtonThatAddsOpensTheMenuThatTakesTyping()
+{
+    RunningMaster master;
+    WindowFixture fixture;
+    fixture.window.connectToMaster(master.address());
+    auto *palette = fixture.part<CommandPalette>();
+    const auto offered = [&] {
+        QStringList texts;
+        for (int row = 0; palette->isVisible() && row < palette->list()->count(); ++row)
+            texts << palette->list()->item(row)->text();
+        fixture.press(Qt::Key_Escape);
+        return texts;
+    };
+    fixture.press(Qt::Key_N, Qt::ControlModifier);
+    const QStringList byKey = offered();
+    QVERIFY(byKey.size() > 10);
+    auto *view = fixture.part<LayoutView>();
+    QTest::mouseClick(view->findChild<QToolButton *>(QStringLiteral("addPanel")), Qt::LeftButton);
+    QCOMPARE(offered(), byKey);
+    fixture.press(Qt::Key_T, Qt::ControlModifier);  // a tab without panels
+    const QList<EmptyPage *> pages = view->findChildren<EmptyPage *>();
+    const auto shown
+        = std::find_if(pages.begin(), pages.end(), [](const EmptyPage *page) { return page->isVisible(); });
+    QVERIFY(shown != pages.end());
+    QTest::mouseClick((*shown)->addButton(), Qt::LeftButton);
+    QCOMPARE(offered(), byKey);
 }
 
 void tst_NewPanels::everyNewPanelCanBeReadAtOnce_data()

@@ -118,6 +118,9 @@ void tst_SecuredPlant::aPlainAndASecuredPlantAreInOneWindow()
     const PlantSelector *selector = fixture.topBar()->selector();
     QCOMPARE(fixture.plant(1)->name(), address());
     QTRY_VERIFY_WITH_TIMEOUT(selector->figures().startsWith(QStringLiteral("anna (Operator)")), patience);
+    const QString profile = QStringLiteral("Profile Plant: set at the master");
+    QTRY_COMPARE_WITH_TIMEOUT(selector->accessibleDescription(), profile, patience);
+    QVERIFY2(selector->toolTip().endsWith(profile), qPrintable(selector->toolTip()));
     fixture.press(Qt::Key_P, Qt::ControlModifier);
     QTRY_VERIFY_WITH_TIMEOUT(!selector->figures().contains(QStringLiteral("anna")), patience);
     QVERIFY(next(&fixture, "Start"));
