@@ -88,7 +88,8 @@ QString wrongUse(const QCommandLineParser &parser, const QStringList &knownNames
     QStringList known;
     for (const QString &candidate : knownNames)
         known << withDashes(candidate);
-    const QStringList close = name.size() == 1 ? QStringList() : qplc::closeNames(withDashes(name), known);
+    constexpr int shortest = 4;  // a shorter one is like too many
+    const QStringList close = name.size() < shortest ? QStringList() : qplc::closeNames(withDashes(name), known);
     return QStringLiteral("unknown option %1").arg(qplc::quoted(withDashes(name))) + where + qplc::didYouMean(close);
 }
 

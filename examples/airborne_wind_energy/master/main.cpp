@@ -28,11 +28,14 @@ void addMasterOptions(QPlcCoreApplication &application)
     application.addOption(QCommandLineOption(QStringLiteral("signals"),
                                              QStringLiteral("Signal table. Without one that of the example."),
                                              QStringLiteral("FILE"), awe::builtInSignals()));
-    application.addOption(QCommandLineOption(QStringLiteral("listen"), QStringLiteral("Address to listen on."),
-                                             QStringLiteral("ADDRESS"), QStringLiteral("127.0.0.1")));
-    application.addOption(
-        QCommandLineOption(QStringLiteral("port"), QStringLiteral("Port to listen on. 0: a free one."),
-                           QStringLiteral("PORT"), QString::number(QPlcUnderlyingProtocol::DefaultPort)));
+    application.addOption(QCommandLineOption(
+        QStringLiteral("listen"),
+        QStringLiteral("Address to listen on. Without it 127.0.0.1: only this computer reaches the master."),
+        QStringLiteral("ADDRESS"), QStringLiteral("127.0.0.1")));
+    application.addOption(QCommandLineOption(
+        QStringLiteral("port"),
+        QStringLiteral("Port to listen on. 0: a free one. Without it %1.").arg(QPlcUnderlyingProtocol::DefaultPort),
+        QStringLiteral("PORT"), QString::number(QPlcUnderlyingProtocol::DefaultPort)));
     application.addOption(
         QCommandLineOption(QStringLiteral("multicast"),
                            QStringLiteral("Multicast group for nodes at udp-multicast://..., for example %1: one "

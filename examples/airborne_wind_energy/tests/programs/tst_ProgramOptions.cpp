@@ -18,6 +18,7 @@ private Q_SLOTS:
     void badOptionsAreRefusedWithOneSentence_data();
     void badOptionsAreRefusedWithOneSentence();
     void helpTellsTheClockThatRunsWithoutOptions();
+    void helpTellsWhereTheMasterListensWithoutOptions();
     void brokenSignalTableShowsAllOfItsErrors_data() { everyProgram(); }
     void brokenSignalTableShowsAllOfItsErrors();
     void reportThatCannotBeWrittenIsRefusedBeforeTheFlight_data();
@@ -95,7 +96,7 @@ void tst_ProgramOptions::badOptionsAreRefusedWithOneSentence_data()
             << QString::fromLatin1(message);
     };
     for (const char *program : {"awe_master", "awe_model", "awe_compact_model", "awe_autopilot", "awe_sil"}) {
-        row(program, "--fly", "unknown option '--fly'");
+        row(program, "--fly", "unknown option '--fly' (see --help)\n");
         row(program, "fly", "unexpected argument 'fly'");
         row(program, "-5", "unexpected argument '-5'");
         row(program, "--signals", "missing value after '--signals'");
@@ -222,6 +223,15 @@ void tst_ProgramOptions::helpTellsTheClockThatRunsWithoutOptions()
     QVERIFY2(sil.contains(QStringLiteral("As fast as possible, bit-identical each time; the default.")),
              qPrintable(sil));
     QVERIFY2(sil.contains(QStringLiteral("As fast as the real thing. ")), qPrintable(sil));
+}
+
+void tst_ProgramOptions::helpTellsWhereTheMasterListensWithoutOptions()
+{
+    const QString master
+        = runProgram(path(QStringLiteral("awe_master")), {QStringLiteral("--help")}).output.simplified();
+    QVERIFY2(master.contains(QStringLiteral("Without it 127.0.0.1: only this computer reaches the master.")),
+             qPrintable(master));
+    QVERIFY2(master.contains(QStringLiteral("Without it 50000.")), qPrintable(master));
 }
 
 void tst_ProgramOptions::brokenSignalTableShowsAllOfItsErrors()
