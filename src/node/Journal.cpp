@@ -114,7 +114,7 @@ void Journal::valueSet(const QString &who, const QString &signal, const QString 
 
 void Journal::becameSafe(const QStringList &values)
 {
-    tellLimited(QStringLiteral("safe ") + values.first(), QStringLiteral("no good values for too long; safe ones: "),
+    tellLimited(QStringLiteral("safe ") + values.first(), QStringLiteral("hold time is over; safe values: "),
                 {JournalEvent::Warning, JournalEvent::Quality, NodeRegistry::masterName(), firstOf(values)});
 }
 
@@ -126,7 +126,7 @@ void Journal::sourceChanged(const QString &signal, const QString &from, const QS
 
 void Journal::valueCameBack(const QString &signal, const QString &value)
 {
-    tellLimited(QStringLiteral("back ") + signal, QStringLiteral("the former value has come back: "),
+    tellLimited(QStringLiteral("back ") + signal, QStringLiteral("former value restored: "),
                 {JournalEvent::Info, JournalEvent::Set, NodeRegistry::masterName(),
                  QStringLiteral("%1 = %2").arg(signal, value)});
 }

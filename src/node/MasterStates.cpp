@@ -66,11 +66,11 @@ constexpr R::Rule rules[] = {
 
     R::on(E::Listen, calm | R::in(S::Fault), R::stay()),
     R::on(E::Listen, R::in(S::Initializing, S::SafeStop) | cycling,
-          R::refuse("the server can only be started while the master is off")),
+          R::refuse("stop the plant first, or reset it after a safe stop")),
     R::on(E::AddNode, R::in(S::Off), R::stay()),
     R::on(E::AddNode, R::in(S::Ready), R::go(S::Off, A::ForgetInitialization)),
     R::on(E::AddNode, R::in(S::Initializing) | cycling | latched,
-          R::refuse("nodes of this process can only be added while the master is off")),
+          R::refuse("stop the plant first, or reset it after a safe stop or a fault")),
     R::on(E::End, R::in(S::Off, S::Fault), R::stay()),
     R::on(E::End, R::in(S::Ready), R::go(S::Off, A::ForgetInitialization)),
     R::on(E::End, R::in(S::Initializing), R::go(S::Off, A::EndSequence)),

@@ -13,8 +13,8 @@ namespace {
 constexpr int any = std::numeric_limits<int>::max();
 
 const Option verbose{"verbose", "", "Every column and counter."};
-const Option count{"count", "N", "Ends after so many lines."};
-const Option every{"every", "CYCLES", "Hears one of so many cycles only, for slow links."};
+const Option count{"count", "N", "Ends after N lines."};
+const Option every{"every", "CYCLES", "Hears one cycle of CYCLES only, for slow links."};
 
 }  // namespace
 
@@ -62,7 +62,7 @@ const QVector<Command> &commands()
          "Prints values as they come, until Ctrl-C.",
          "Aligned columns on a terminal, separated by tabs elsewhere. While no cycle runs,\n"
          "the present values are printed once. --json prints an object for each line.",
-         {{"rate", "HZ", "Most lines per second, 10 unless said."}, every, count},
+         {{"rate", "HZ", "Most lines per second, default 10."}, every, count},
          {QStringLiteral("qtplc echo tetherLength power --rate 2"),
           QStringLiteral("qtplc echo power --json --rate 1000 > power.jsonl")},
          Command::Signals,
@@ -76,7 +76,7 @@ const QVector<Command> &commands()
          "array. Every cycle that is heard counts for the extremes, with --every not all.\n"
          "Age is the time since the value changed. Keys: q ends, arrows and page keys\n"
          "scroll, r forgets the extremes. Where the output is no terminal, watch is echo.",
-         {{"rate", "HZ", "Pictures (or lines) per second, 10 unless said."}, every},
+         {{"rate", "HZ", "Pictures (or lines) per second, default 10."}, every},
          {QStringLiteral("qtplc watch 'tether*' power"), QStringLiteral("qtplc watch")},
          Command::Signals,
          0,
@@ -88,7 +88,7 @@ const QVector<Command> &commands()
          "Cycles heard, rate, the intervals between them and their scatter, and which\n"
          "cycles were lost (of those, how many the master itself skipped). The exit code\n"
          "is 1 when cycles were lost.",
-         {{"for", "SECONDS", "Measures for this time, 3 unless said."}},
+         {{"for", "SECONDS", "Measures for this time, default 3."}},
          {QStringLiteral("qtplc hz"), QStringLiteral("qtplc hz --for 60 --json")},
          Command::NoArguments,
          0,
@@ -120,7 +120,7 @@ const QVector<Command> &commands()
          "Starts the real-time phase: state Real time.",
          "Where the master wants starts to be armed, it is initialized and armed before,\n"
          "unless a token is given.",
-         {{"cycles", "N", "Ends by itself after so many."}, {"token", "TOKEN", "That of qtplc arm."}},
+         {{"cycles", "N", "Ends by itself after N cycles."}, {"token", "TOKEN", "The token that qtplc arm printed."}},
          {QStringLiteral("qtplc start"), QStringLiteral("qtplc start --cycles 1000")},
          Command::NoArguments,
          0,
@@ -140,7 +140,7 @@ const QVector<Command> &commands()
         {"stop",
          "",
          "Ends the real-time phase: state Off.",
-         "May be said twice.",
+         "A stop of a master at rest changes nothing.",
          {},
          {QStringLiteral("qtplc stop")},
          Command::NoArguments,
@@ -150,7 +150,7 @@ const QVector<Command> &commands()
         {"safestop",
          "[REASON...]",
          "Stops safely: nothing moves until a reset.",
-         "Cycles go on and tell all nodes their safe values. May be said in every state.",
+         "Cycles go on and tell all nodes their safe values. Possible in every state.",
          {},
          {QStringLiteral("qtplc safestop"), QStringLiteral("qtplc safestop smoke at the winch")},
          Command::NoArguments,
@@ -220,7 +220,7 @@ const QVector<Command> &commands()
          "Those of this computer and user, and those of the network that send beacons\n"
          "(--beacon). Anybody on a network can send one: compare address and table before\n"
          "you command what was found. The exit code is 1 when nothing was found.",
-         {{"seconds", "SECONDS", "Looks for this time, 2.5 unless said."}},
+         {{"seconds", "SECONDS", "Looks for this time, default 2.5."}},
          {QStringLiteral("qtplc find"), QStringLiteral("qtplc find --seconds 6 --json | jq -r '.[].address'")},
          Command::NoArguments,
          0,
@@ -234,8 +234,8 @@ const QVector<Command> &commands()
          "Node (unless said) or Engineer. --copy writes the key alone into another file,\n"
          "for the computer of IDENTITY. new replaces a key with --replace only. list shows\n"
          "identities and roles, never keys. A running master reads the file again for\n"
-         "each connection: who is revoked does not come in again.",
-         {{"role", "ROLE", "What the identity may do; Node unless said."},
+         "each connection: a revoked identity cannot connect again.",
+         {{"role", "ROLE", "What the identity may do, default Node."},
           {"copy", "FILE", "Writes the new key alone into FILE, too."},
           {"replace", "", "Replaces the key of an identity that has one."}},
          {QStringLiteral("qtplc keys new Winch --keys keys.ini --copy winch.ini"),
@@ -307,12 +307,12 @@ QString unknownCommand(const QString &name)
 const QVector<Option> &commonOptions()
 {
     static const QVector<Option> options{
-        {"master", "HOST:PORT", "Where the master is, 127.0.0.1:50000 unless said."},
-        {"timeout", "SECONDS", "Longest wait for an answer, 5 unless said."},
+        {"master", "HOST:PORT", "Where the master is, default 127.0.0.1:50000."},
+        {"timeout", "SECONDS", "Longest wait for an answer, default 5."},
         {"json", "", "Prints JSON (echo, watch, events: an object a line)."},
         {"security", "psk|cert", "TLS with pre-shared keys, or with certificates."},
         {"keys", "FILE", "For psk: keys of identities."},
-        {"identity", "NAME", "For psk: who you are; the only one in FILE unless said."},
+        {"identity", "NAME", "For psk: who you are, default the only one in FILE."},
         {"certificate", "FILE", "For cert: your certificate (PEM)."},
         {"key", "FILE", "For cert: its private key (PEM)."},
         {"authority", "FILE", "For cert: certificate of the authority (PEM)."},

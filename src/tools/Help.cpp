@@ -7,7 +7,7 @@ namespace tools {
 
 namespace {
 
-const char exitCodes[] = "Exit codes: 0 good, 1 the thing failed, 2 could not begin (bad call, no master).";
+const char exitCodes[] = "Exit codes: 0 success, 1 failure, 2 could not begin (bad call, no master).";
 
 QString optionText(const Option &option)
 {

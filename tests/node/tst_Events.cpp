@@ -271,7 +271,7 @@ void tst_Events::valueThatComesBackIsTold()
 {
     m_tool->ask(QPlcMessage::SetSignals, {{"values", QJsonObject{{"setpoint", "4"}}}, {"duration", 20e6}});
     QTRY_COMPARE(events("set").size(), 2);
-    QCOMPARE(events("set").last(), QString("info Master: the former value has come back: setpoint = 0"));
+    QCOMPARE(events("set").last(), QString("info Master: former value restored: setpoint = 0"));
 }
 
 void tst_Events::leasesAreTold()
