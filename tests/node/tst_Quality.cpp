@@ -373,7 +373,7 @@ void tst_Quality::refusedValuesAreCountedAndAnAlarm()
                           "the last one: 112.5 is above its maximum 100, after ")
                  .size(),
              1);
-    QCOMPARE(log.matching("safe ones: echo = -5").size(), 1);
+    QCOMPARE(log.matching("safe values: echo = -5").size(), 1);
     QCOMPARE(log.matching("echo").size(), 3);
 }
 
