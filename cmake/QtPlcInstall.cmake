@@ -43,17 +43,12 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/QtPlcConfigVersion.cmake 
 install(FILES ${PROJECT_BINARY_DIR}/QtPlcConfig.cmake ${PROJECT_BINARY_DIR}/QtPlcConfigVersion.cmake ${CMAKE_CURRENT_LIST_DIR}/FindSodium.cmake
     ${CMAKE_CURRENT_LIST_DIR}/QtPlcComponents.cmake
     DESTINATION ${package_directory} COMPONENT libqtplc-dev)
-# The documents with all that they link to.
-install(FILES LICENSE README.md CHANGELOG.md CONTRIBUTING.md SECURITY.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT documentation)
-install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT documentation
+# The documents with all that they link to; the menu Help of windows shows them.
+install(FILES LICENSE README.md CHANGELOG.md CONTRIBUTING.md SECURITY.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT qtplc-doc)
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT qtplc-doc
     PATTERN "build" EXCLUDE
     PATTERN "__pycache__" EXCLUDE
     PATTERN "Doxyfile.in" EXCLUDE
     PATTERN ".clang-format" EXCLUDE)
-# The menu Help of windows shows the documents: the package with the windows has them, too.
-if(QTPLC_BUILD_GUI)
-    install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT libqtplc-gui EXCLUDE_FROM_ALL
-        FILES_MATCHING PATTERN "*.md" PATTERN "*.png" PATTERN "*.svg")
-endif()
 include(QtPlcServices)
 include(QtPlcPackages)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Debian packages: scripts/package makes them of the preset package. A component of the installation is a package.
-set(packages libqtplc libqtplc-dev qtplc-tools)
+set(packages libqtplc libqtplc-dev qtplc-tools qtplc-doc)
 if(QTPLC_BUILD_EXAMPLES)
     list(APPEND packages qtplc-awe)
 endif()
@@ -31,14 +31,18 @@ if(CMAKE_CROSSCOMPILING)
     execute_process(COMMAND dpkg-architecture -t ${CMAKE_LIBRARY_ARCHITECTURE} -q DEB_HOST_ARCH OUTPUT_VARIABLE CPACK_DEBIAN_PACKAGE_ARCHITECTURE OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
 endif()
 
-# qtplc_package(NAME SECTION section SUMMARY line DESCRIPTION text [LIBRARIES] [DEPENDS package ...] [RECOMMENDS package ...]): a Debian package. SUMMARY does not repeat the name.
+# qtplc_package(NAME SECTION section SUMMARY line DESCRIPTION text [LIBRARIES] [ALL_ARCHITECTURES] [DEPENDS package ...] [RECOMMENDS package ...]): a Debian package. SUMMARY does not repeat the name.
 macro(qtplc_package name)
-    cmake_parse_arguments(arg "LIBRARIES" "SECTION;SUMMARY;DESCRIPTION" "DEPENDS;RECOMMENDS" ${ARGN})
+    cmake_parse_arguments(arg "LIBRARIES;ALL_ARCHITECTURES" "SECTION;SUMMARY;DESCRIPTION" "DEPENDS;RECOMMENDS" ${ARGN})
     string(TOUPPER ${name} key)
     set(CPACK_COMPONENT_${key}_DESCRIPTION "${arg_SUMMARY}\n${arg_DESCRIPTION}")
     set(CPACK_DEBIAN_${key}_PACKAGE_NAME ${name})
     set(CPACK_DEBIAN_${key}_PACKAGE_SECTION ${arg_SECTION})
-    set(CPACK_DEBIAN_${key}_PACKAGE_SHLIBDEPS ON)
+    if(arg_ALL_ARCHITECTURES)
+        set(CPACK_DEBIAN_${key}_PACKAGE_ARCHITECTURE all)
+    else()
+        set(CPACK_DEBIAN_${key}_PACKAGE_SHLIBDEPS ON)
+    endif()
     set(depends)
     foreach(package ${arg_DEPENDS})
         if(package IN_LIST packages)
@@ -66,11 +70,14 @@ qtplc_package(libqtplc SECTION libs LIBRARIES
 qtplc_package(libqtplc-dev SECTION libdevel
     SUMMARY "distributed real-time controllers, for building nodes"
     DESCRIPTION "Headers of QtPLC, and what find_package(QtPlc) finds."
-    DEPENDS libqtplc qtbase5-dev)
+    DEPENDS libqtplc qtbase5-dev RECOMMENDS qtplc-doc)
 qtplc_package(qtplc-tools SECTION utils
     SUMMARY "distributed real-time controllers, tools"
     DESCRIPTION "The command qtplc looks into a running QtPLC plant and steers it, and tells\nwhether a computer is fit for real time. The service qtplc-hardware@ ties\nsignals to devices."
-    DEPENDS libqtplc adduser)
+    DEPENDS libqtplc adduser RECOMMENDS qtplc-doc)
+qtplc_package(qtplc-doc SECTION doc ALL_ARCHITECTURES
+    SUMMARY "distributed real-time controllers, documents"
+    DESCRIPTION "Tutorial, how-tos and reference of QtPLC in /usr/share/doc/QtPlc. The menu Help\nof its windows shows them.")
 qtplc_package(qtplc-awe SECTION science
     SUMMARY "distributed real-time controllers, airborne wind energy"
     DESCRIPTION "A kite that generates power on its tether, simulated in real time: master,\nmodel and autopilot as programs and as services. Nothing starts by itself."
@@ -86,6 +93,6 @@ qtplc_package(libqtplc-gui-dev SECTION libdevel
 qtplc_package(qtplc-control-center SECTION science
     SUMMARY "distributed real-time controllers, Control Center"
     DESCRIPTION "The window in which people see, steer and understand a running QtPLC plant."
-    DEPENDS libqtplc-gui RECOMMENDS qtplc-awe qtplc-tools)
+    DEPENDS libqtplc-gui RECOMMENDS qtplc-awe qtplc-doc qtplc-tools)
 
 include(CPack)

@@ -66,6 +66,24 @@ if inside test -x /usr/bin/awe_control_center; then
     inside env QT_QPA_PLATFORM=offscreen awe_control_center --version
 fi
 
+# Each package alone: what its documents link to is in it.
+documented=0
+for package in "$packages"/*.deb; do
+    alone=$(mktemp --directory)
+    dpkg-deb --extract "$package" "$alone"
+    if [ -n "$(find "$alone" -name '*.md')" ]; then
+        documented=$((documented + 1))
+        python3 -B "$source/tests/documents/documents.py" --installed "$alone" || fail "links in ${package##*/} lead nowhere"
+    fi
+    rm -rf "$alone"
+done
+[ "$documented" -gt 0 ] || fail "no package has the documents"
+for unit in "$root"/lib/systemd/system/qtplc-* "$root"/usr/lib/systemd/system/qtplc-*; do
+    [ ! -e "$unit" ] || sed -n 's/^Documentation=file://p' "$unit" | while read -r page; do
+        [ -e "$root$page" ] || fail "${unit##*/} names $page, which no package brings"
+    done
+done
+
 mkdir "$root/tmp/winch"
 cp -r "$source"/tests/consumer/winch "$root/tmp"
 step "Configure a program that uses the packages" inside cmake -S /tmp/winch -B /tmp/winch/build || fail "find_package(QtPlc) fails"

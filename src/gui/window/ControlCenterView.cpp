@@ -160,8 +160,8 @@ void QPlcControlCenter::Private::openDocument(const QString &name)
 {
     if (!help->showDocument(documentationFolder(documentationStarts()), name))
         hint->showText(
-            tr("The documents are not installed with this program. Install them with QtPLC (cmake --install, "
-               "component 'documentation'), or read them where you have its sources, in docs/."));
+            tr("The documents are not installed. Install the package qtplc-doc, or read them in the folder docs "
+               "of the sources."));
 }
 
 void QPlcControlCenter::Private::openKeys()
