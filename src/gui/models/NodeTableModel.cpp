@@ -35,16 +35,15 @@ QString healthText(NodeTableModel::HealthLevel level)
     return NodeTableModel::tr("Unavailable");
 }
 
-/// In a phase whether it keeps up, else its state.
+/// The state, and whether the node keeps up.
 QString stateOf(const NodeStatus &node)
 {
-    if (node.isLatched() || (!node.isListener && !node.state.isEmpty() && node.state != QLatin1String("RealTime")))
-        return stateText(node.state);
-    if (node.isListener)
-        return NodeTableModel::tr("listens");
+    if (node.isListener && !node.isLatched())
+        return NodeTableModel::tr("Listens");
+    const QString state = stateText(node.state);
     if (node.isLate)
-        return NodeTableModel::tr("late");
-    return node.late == 0 ? NodeTableModel::tr("good") : NodeTableModel::tr("good, was late");
+        return NodeTableModel::tr("%1, late").arg(state);
+    return node.late == 0 ? state : NodeTableModel::tr("%1, was late").arg(state);
 }
 
 }  // namespace

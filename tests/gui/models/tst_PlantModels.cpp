@@ -79,7 +79,7 @@ void tst_PlantModels::nodesComeAndGoInTheTable()
     QTRY_COMPARE(namesOf(table).indexOf(QStringLiteral("north/Echo")), 3);
     QCOMPARE(table.index(3, NodeTableModel::Transport).data().toString(), QStringLiteral("udp"));
     QCOMPARE(table.index(3, NodeTableModel::Policy).data().toString(), QStringLiteral("ErrorZeroOrderHold"));
-    QCOMPARE(table.index(2, NodeTableModel::State).data().toString(), QStringLiteral("listens"));
+    QCOMPARE(table.index(2, NodeTableModel::State).data().toString(), QStringLiteral("Listens"));
     QCOMPARE(table.index(3, NodeTableModel::Late).data().toString(), QStringLiteral("0"));
     plants.remove(first);
     QCOMPARE(namesOf(table), (QStringList{"Master", "Counter", "Window"}));  // one plant needs no name
@@ -136,7 +136,7 @@ void tst_PlantModels::whatStandsStillUntilAResetIsAnError()
         return texts;
     };
     QVERIFY(master.startRealTime());
-    QTRY_COMPARE(cells(NodeTableModel::State), (QStringList{"Real time", "good", "good", "listens"}));
+    QTRY_COMPARE(cells(NodeTableModel::State), (QStringList{"Real time", "Real time", "Real time", "Listens"}));
     QTRY_COMPARE(cells(NodeTableModel::Health), (QStringList{"OK", "OK", "OK", "OK"}));
     master.safeStop(QStringLiteral("smoke at the winch"));
     QTRY_COMPARE(cells(NodeTableModel::State), (QStringList{"Safe stop", "Safe stop", "Safe stop", "Safe stop"}));
