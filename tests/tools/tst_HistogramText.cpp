@@ -34,15 +34,15 @@ void tst_HistogramText::durationHasThreeDigits_data()
     QTest::addColumn<QString>("text");
     QTest::newRow("zero") << 0.0 << "0 ns";
     QTest::newRow("ns") << 850.0 << "850 ns";
-    QTest::newRow("rounded up to the next unit") << 999.9 << "1.00 us";
-    QTest::newRow("us") << 1234.0 << "1.23 us";
-    QTest::newRow("tens") << 12340.0 << "12.3 us";
-    QTest::newRow("hundreds") << 123400.0 << "123 us";
-    QTest::newRow("just below ten") << 9996.0 << "10.0 us";
+    QTest::newRow("rounded up to the next unit") << 999.9 << "1.00 µs";
+    QTest::newRow("us") << 1234.0 << "1.23 µs";
+    QTest::newRow("tens") << 12340.0 << "12.3 µs";
+    QTest::newRow("hundreds") << 123400.0 << "123 µs";
+    QTest::newRow("just below ten") << 9996.0 << "10.0 µs";
     QTest::newRow("ms") << 1.5e6 << "1.50 ms";
     QTest::newRow("s") << 2e9 << "2.00 s";
     QTest::newRow("an hour") << 3.6e12 << "3600 s";
-    QTest::newRow("negative") << -12000.0 << "-12.0 us";
+    QTest::newRow("negative") << -12000.0 << "-12.0 µs";
 }
 
 void tst_HistogramText::durationHasThreeDigits()
@@ -62,7 +62,7 @@ void tst_HistogramText::oneBinIsOneFullBar()
 {
     const QStringList lines = histogramLines(QJsonArray{QJsonValue(bin(1000, 5))}, 80);
     QCOMPARE(lines.size(), 1);
-    QCOMPARE(lines.constFirst().section(QChar(0x2588), 0, 0).simplified(), QStringLiteral("<= 1.00 us 5 100.000 %"));
+    QCOMPARE(lines.constFirst().section(QChar(0x2588), 0, 0).simplified(), QStringLiteral("<= 1.00 µs 5 100.000 %"));
     QCOMPARE(lines.constFirst().size(), 80);
 }
 
@@ -85,13 +85,13 @@ void tst_HistogramText::rowHoldsWhatIsNotAboveItsBorder()
     const QStringList lines = histogramLines({bin(1000, 1), bin(2000, 2), bin(2001, 4), bin(50000, 8)}, 80);
     const auto countOf = [&lines](const char *border) {
         const QStringList found
-            = lines.filter(QRegularExpression(QStringLiteral("^<= +%1 ").arg(QLatin1String(border))));
+            = lines.filter(QRegularExpression(QStringLiteral("^<= +%1 ").arg(QString::fromUtf8(border))));
         return found.value(0).simplified().section(QLatin1Char(' '), 3, 3);
     };
-    QCOMPARE(countOf("1.00 us"), QStringLiteral("1"));
-    QCOMPARE(countOf("2.00 us"), QStringLiteral("2"));
-    QCOMPARE(countOf("5.00 us"), QStringLiteral("4"));
-    QCOMPARE(countOf("50.0 us"), QStringLiteral("8"));
+    QCOMPARE(countOf("1.00 µs"), QStringLiteral("1"));
+    QCOMPARE(countOf("2.00 µs"), QStringLiteral("2"));
+    QCOMPARE(countOf("5.00 µs"), QStringLiteral("4"));
+    QCOMPARE(countOf("50.0 µs"), QStringLiteral("8"));
 }
 
 void tst_HistogramText::rareValuesAreSeen()

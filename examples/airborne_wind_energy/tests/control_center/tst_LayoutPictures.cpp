@@ -12,9 +12,9 @@
 #include <QtGui/QImage>
 #include <QtTest/QtTest>
 #include <QtWidgets/QAbstractButton>
-#include <QtWidgets/QFrame>
 #include <QtWidgets/QLabel>
 #include <QtWidgets/QToolButton>
+#include <QtWidgets/QWidget>
 
 namespace {
 
@@ -23,12 +23,12 @@ const QColor firstCurve(0x00, 0x72, 0xb2);
 const QColor secondCurve(0xd5, 0x5e, 0x00);
 
 /// The panels that a person sees, from above to below.
-QList<QFrame *> visiblePanels(const QWidget &window)
+QList<QWidget *> visiblePanels(const QWidget &window)
 {
-    QList<QFrame *> panels;
-    for (QFrame *frame : window.findChildren<QFrame *>()) {
-        if (frame->inherits("qplc::PanelFrame") && frame->isVisible())
-            panels.append(frame);
+    QList<QWidget *> panels;
+    for (QWidget *panel : window.findChildren<QWidget *>()) {
+        if (panel->inherits("qplc::PanelFrame") && panel->isVisible())
+            panels.append(panel);
     }
     return panels;
 }
@@ -39,13 +39,13 @@ QRect placeIn(const QWidget &window, const QWidget &part)
 }
 
 /// Panels that are not wholly within the window, too small to be read, or on one another: none is expected.
-QStringList misplaced(const QWidget &window, const QList<QFrame *> &panels)
+QStringList misplaced(const QWidget &window, const QList<QWidget *> &panels)
 {
     QStringList names;
-    for (const QFrame *panel : panels) {
+    for (const QWidget *panel : panels) {
         const QRect place = placeIn(window, *panel);
         const bool isSmall = place.width() < smallestPanel.width() || place.height() < smallestPanel.height();
-        const bool isCovered = std::any_of(panels.begin(), panels.end(), [&](const QFrame *other) {
+        const bool isCovered = std::any_of(panels.begin(), panels.end(), [&](const QWidget *other) {
             return other != panel && placeIn(window, *other).intersects(place);
         });
         if (isSmall || isCovered || !window.rect().contains(place))
@@ -162,9 +162,9 @@ void tst_LayoutPictures::everyPanelShowsTheFlight()
     QVERIFY(flying.wait(Program::patience));
     QTest::qWait(4000);  // of flight in the curves
 
-    const QList<QFrame *> shown = visiblePanels(window);
+    const QList<QWidget *> shown = visiblePanels(window);
     QStringList titles;
-    for (const QFrame *panel : shown)
+    for (const QWidget *panel : shown)
         titles << panel->accessibleName();
     titles.sort();
     panels.sort();
@@ -190,7 +190,7 @@ void tst_LayoutPictures::everyPanelShowsTheFlight()
                 QStringLiteral("%1 columns of a curve in %2 of %3 pixels").arg(columns).arg(tab).arg(place.width())));
     }
     QCOMPARE(plots, curves);
-    for (const QFrame *panel : shown)
+    for (const QWidget *panel : shown)
         QVERIFY2(coloursOf(image, placeIn(window, *panel)) > 20, qPrintable(panel->accessibleName()));
     for (const QLabel *label : window.findChildren<QLabel *>())
         QVERIFY2(!label->isVisible() || !label->text().contains(QLatin1String("There is no signal")),
