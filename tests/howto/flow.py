@@ -119,7 +119,7 @@ def fly(plant, vane, folder, code):
     plant.await_model()
     plant.start_node("weather", str(configuration))
     plant.await_vane(91.0)
-    require("RealTime" in plant.qtplc("state"), "the plant has stopped")
+    require("Real time" in plant.qtplc("state"), "the plant has stopped")
     plant.qtplc("stop")
 
 
