@@ -57,12 +57,13 @@ QPlcSetter::Private::Private(QPlcSetter *setter)
     bold.setBold(true);
     name->setFont(bold);
     actual->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
+    actual->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);  // the name has the rest
     auto *column = new QVBoxLayout(setter);
     column->setContentsMargins(8, 5, 8, 5);
     column->setSpacing(3);
     auto *header = new QHBoxLayout;
     header->addWidget(name, 1);
-    header->addWidget(actual, 1);
+    header->addWidget(actual);
     column->addLayout(header);
     column->addWidget(message);
     column->addWidget(bar);
