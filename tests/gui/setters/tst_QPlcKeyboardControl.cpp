@@ -125,11 +125,11 @@ void tst_QPlcKeyboardControl::sentencesAndNamesHaveRoomInNarrowPanels()
         QCoreApplication::processEvents();
         for (const ElidedLabel *label : panel.findChildren<ElidedLabel *>())
             QTRY_VERIFY2(!label->isElided() && label->height() >= label->heightForWidth(label->width()),
-                     qPrintable(QStringLiteral("%1 at %2: %3 of %4 px")
-                                    .arg(label->text())
-                                    .arg(width)
-                                    .arg(label->height())
-                                    .arg(label->heightForWidth(label->width()))));
+                         qPrintable(QStringLiteral("%1 at %2: %3 of %4 px")
+                                        .arg(label->text())
+                                        .arg(width)
+                                        .arg(label->height())
+                                        .arg(label->heightForWidth(label->width()))));
         const QAbstractButton *take = buttonOf(&panel, QStringLiteral("Take control"));
         QVERIFY(take && take->width() >= take->sizeHint().width());
     }
