@@ -134,6 +134,7 @@ void tst_SafeStop::allNodesGetTheSafeValuesOfTheTable()
     for (const ScriptedNode::Request &request : qAsConst(reader.requests))
         QCOMPARE(int(request.flags), 0);
     master.safeStop();
+    QTRY_COMPARE(int(reader.requests.last().flags), int(SafeStopFlag));  // requests from before may still wait
     const quint64 cycle = reader.requests.last().cycle;
     QTRY_VERIFY(reader.requests.last().cycle >= cycle + 5);
     const ScriptedNode::Request last = reader.requests.last();
