@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "QPlcSetter.h"
 #include "SetterFixtures.h"
-#include "gui/setters/ElidedLabel.h"
 
 #include <QtWidgets/QComboBox>
 #include <QtWidgets/QDoubleSpinBox>
@@ -48,7 +47,6 @@ private Q_SLOTS:
     void aRefusalIsShown();
     void aDroppedSignalReplacesTheOneBefore();
     void withoutPlantOrSignalThePanelIsCalm();
-    void theNameHasTheRoomThatTheValueLeaves();
 };
 
 void tst_QPlcSetter::settingsComeBackAsTheyWere()
@@ -495,23 +493,6 @@ void tst_QPlcSetter::withoutPlantOrSignalThePanelIsCalm()
         QTest::keyClick(setter.focusProxy(), Qt::Key_Space);
         QTest::keyClick(setter.focusProxy(), Qt::Key_Return);
     }
-}
-
-void tst_QPlcSetter::theNameHasTheRoomThatTheValueLeaves()
-{
-    QPlcSetter setter;
-    setter.applySettings({{"signal", "bodyControlPitchSpeed"}, {"style", "slider"}});
-    ElidedLabel *name = nullptr;
-    for (ElidedLabel *label : setter.findChildren<ElidedLabel *>()) {
-        if (label->text() == QLatin1String("bodyControlPitchSpeed"))
-            name = label;
-    }
-    QVERIFY(name);
-    constexpr int besides = 100;  // [px] margins, and the few characters of a value
-    setter.resize(name->fontMetrics().horizontalAdvance(name->text()) + besides, 120);
-    setter.show();
-    QVERIFY(QTest::qWaitForWindowExposed(&setter));
-    QVERIFY2(!name->isElided(), qPrintable(QString::number(name->width())));
 }
 
 QTEST_MAIN(tst_QPlcSetter)
