@@ -164,7 +164,7 @@ REMOVALS = [
             "watchdog.value_or(std::chrono::nanoseconds(0))",
             "tst_Profiles", "aWatchdogMakesSafeInAPlantWithoutBeingAskedFor"),
     Removal("a process that stays alive keeps its state", "src/node/SlavePhases.cpp",
-            "    m_goesOn = canGoOn(request);\n", "    m_goesOn = false;\n",
+            "    m_goesOn = canGoOn(request);\n", "    m_goesOn = canGoOn(request) && m_goesOn;\n",
             "tst_Profiles", "aProcessThatStaysAliveKeepsItsState"),
     Removal("real devices in a simulation", "src/node/MasterSequences.cpp",
             "if (!node.hardware || !hasFixedProfile()", "if (!node.hardware || hasFixedProfile()",
