@@ -29,6 +29,9 @@ private Q_SLOTS:
     void anObserverListensOnly();
     void nobodyHasTheNameOfAnother_data();
     void nobodyHasTheNameOfAnother();
+    void aConnectionForFramesMayOnlyAttach_data();
+    void aConnectionForFramesMayOnlyAttach();
+    void aNodeIsReplacedByItsOwnIdentityOnly();
     void oneIdentityHasThirtyTwoConnections();
     void signalsAreWrittenByThoseWhoMay();
     void commandsAreWrittenDown();
@@ -291,6 +294,54 @@ void tst_AccessRights::nobodyHasTheNameOfAnother()
 }
 
 /// So that nobody who is known keeps all others out.
+void tst_AccessRights::aConnectionForFramesMayOnlyAttach_data()
+{
+    QTest::addColumn<int>("kind");
+    const QMetaEnum kinds = QMetaEnum::fromType<QPlcMessage::Kind>();
+    for (int i = 0; i < kinds.keyCount(); ++i)
+        QTest::newRow(kinds.key(i)) << kinds.value(i);
+}
+
+void tst_AccessRights::aConnectionForFramesMayOnlyAttach()
+{
+    QFETCH(int, kind);
+    const QPlcMessage message{QPlcMessage::Kind(kind)};
+    Peer peer;
+    peer.isCyclicOnly = true;
+    const QString refusal = qplc::refusalOf(peer, message);
+    if (message.kind() == QPlcMessage::AttachCyclicChannel)
+        QCOMPARE(refusal, QString());
+    else
+        QCOMPARE(refusal, QString("Denied: %1 on a connection without TLS").arg(message.kindName()));
+}
+
+void tst_AccessRights::aNodeIsReplacedByItsOwnIdentityOnly()
+{
+    LogCapture log;
+    TestMaster master;
+    master.setSecurity(QPlcSecurity::preSharedKeys(m_files.masterKeys()));
+    QVERIFY(master.listen());
+    const auto display = [](ScriptedNode &node, const QPlcSecurity &security, const QString &uuid) {
+        node.control.setSecurity(security);
+        node.uuid = uuid;
+        node.listener = true;
+        node.outputs.clear();
+    };
+    ScriptedNode ofAnna("Display");
+    display(ofAnna, m_files.anna(), ofAnna.uuid);
+    QVERIFY(ofAnna.registerAt(master.serverPort()));
+    ScriptedNode ofBert("Display");
+    display(ofBert, m_files.bert(), ofAnna.uuid);  // as others see it, it is the same node
+    QVERIFY(!ofBert.registerAt(master.serverPort()));
+    QCOMPARE(ofBert.registered.text("error"), QString("NameInUse"));
+    QVERIFY(ofAnna.control.isConnected());
+    ScriptedNode again("Display");
+    display(again, m_files.anna(), ofAnna.uuid);
+    QVERIFY(again.registerAt(master.serverPort()));
+    QTRY_VERIFY(!ofAnna.control.isConnected());
+    QCOMPARE(master.nodes().size(), 1);
+}
+
 void tst_AccessRights::oneIdentityHasThirtyTwoConnections()
 {
     LogCapture log;

@@ -5,6 +5,8 @@
 #include <QtNetwork/QTcpServer>
 #include <QtTest/QtTest>
 
+#include <unistd.h>
+
 // Nodes and tools at a master with pre-shared keys, over TLS on loopback.
 class tst_PreSharedKeys : public QObject
 {
@@ -23,6 +25,7 @@ private Q_SLOTS:
     void aRevokedKeyDoesNotComeInAgain();
     void aKeyIsReplacedWithoutARestart();
     void aKeysFileThatOthersMayReadIsRefused();
+    void aKeysFileOfAnotherUserIsRefused();
     void aKeysFileThatBecomesUnreadableLetsNobodyIn();
     void anUncertainIdentityIsAsked();
     void aMasterThatSaysNothingIsGivenUp();
@@ -195,6 +198,22 @@ void tst_PreSharedKeys::aKeysFileThatOthersMayReadIsRefused()
     QVERIFY(!node.connectToMasterAndWaitForConnected(
         QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, m_master->serverPort())));
     QVERIFY2(node.errorString().contains("has the mode 0640"), qPrintable(node.errorString()));
+}
+
+void tst_PreSharedKeys::aKeysFileOfAnotherUserIsRefused()
+{
+    if (::geteuid() != 0)
+        QSKIP("only root can give a file to another user and still read it");
+    LogCapture log;
+    constexpr uid_t nobody = 65534;
+    const QString keys = m_files.masterKeys();
+    QCOMPARE(::chown(QFile::encodeName(keys).constData(), nobody, gid_t(-1)), 0);
+    TestMaster master;
+    master.setSecurity(QPlcSecurity::preSharedKeys(keys));
+    QVERIFY(!master.listen());
+    QVERIFY2(master.errorString().contains(keys + " belongs to another user"), qPrintable(master.errorString()));
+    QCOMPARE(::chown(QFile::encodeName(keys).constData(), 0, gid_t(-1)), 0);
+    QVERIFY2(master.listen(), qPrintable(master.errorString()));
 }
 
 void tst_PreSharedKeys::aKeysFileThatBecomesUnreadableLetsNobodyIn()

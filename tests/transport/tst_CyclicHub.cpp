@@ -3,10 +3,30 @@
 
 #include <QtTest/QtTest>
 
+#include <cerrno>
+#include <sys/syscall.h>
+
 using qplc::CyclicHub;
 using qplc::HubPeer;
 using qplc::SharedChannel;
 using qplc::SocketAddress;
+
+namespace {
+
+int interruptions = 0;  // so many calls of sendmmsg() end with EINTR
+
+}  // namespace
+
+/// In the place of the one of the C library: a signal that comes at the right time cannot be sent from a test.
+extern "C" int sendmmsg(int descriptor, mmsghdr *messages, unsigned count, int flags)
+{
+    if (interruptions > 0) {
+        --interruptions;
+        errno = EINTR;
+        return -1;
+    }
+    return int(::syscall(SYS_sendmmsg, descriptor, messages, count, flags));
+}
 
 class tst_CyclicHub : public QObject
 {
@@ -29,6 +49,7 @@ private Q_SLOTS:
     void waitEndsInTime();
     void anAlarmEndsTheWaitAndIsNoFrame();
     void aRefusedDatagramIsCountedAndTheOthersGo();
+    void anInterruptedCallIsMadeAgain();
     void aPortInUseIsSaid();
 
 private:
@@ -412,6 +433,21 @@ void tst_CyclicHub::aRefusedDatagramIsCountedAndTheOthersGo()
     QCOMPARE(socket.receive(), QByteArray("y"));
     QCOMPARE(impossible->sendFailures(), std::uint64_t(1));
     QCOMPARE(good->sendFailures(), std::uint64_t(0));
+}
+
+void tst_CyclicHub::anInterruptedCallIsMadeAgain()
+{
+    CyclicHub hub;
+    open(hub);
+    UdpSocket socket;
+    const auto peer = HubPeer::udp(socket.self);
+    hub.attach(peer.get());
+    hub.send(peer.get(), "x", 1);
+    interruptions = 2;
+    hub.flush();
+    QCOMPARE(interruptions, 0);
+    QCOMPARE(socket.receive(), QByteArray("x"));
+    QCOMPARE(peer->sendFailures(), std::uint64_t(0));
 }
 
 void tst_CyclicHub::aPortInUseIsSaid()
