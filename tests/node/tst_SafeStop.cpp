@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SafeNode.h"
-#include "ScriptedNode.h"
+#include "SameCycleFixtures.h"
 
 #include <QtTest/QtTest>
 
@@ -17,6 +17,23 @@ QPlcSignalTable safeTable()
         "[sum]\ntype = Real64\n");
 }
 
+/// Two phases: what it says in a cycle was known before it began.
+class EarlyNode : public QPlcCompactSlaveNode
+{
+public:
+    EarlyNode()
+        : QPlcCompactSlaveNode(QStringLiteral("Early"))
+    {
+        setTwoPhase(true);
+    }
+
+protected:
+    void outputs() override { m_echo = 9.0; }
+
+private:
+    QPlcOutput<double> m_echo{this, "echo"};
+};
+
 }  // namespace
 
 // The safe stop of a master: what it tells its nodes, how it is left, and what arming has to do with it.
@@ -29,6 +46,8 @@ private Q_SLOTS:
     void nodesAreToldAndComputeNothingUntilTheNextPhase();
     void nothingButAResetLeavesIt();
     void allNodesGetTheSafeValuesOfTheTable();
+    void answersInASafeStopCountForNothing();
+    void valuesThatWereComputedBeforeCountForNothing();
     void valuesThatAreTakenOverAreSafeToo();
     void nodesOfEveryTransportAreSafe_data();
     void nodesOfEveryTransportAreSafe();
@@ -157,6 +176,59 @@ void tst_SafeStop::allNodesGetTheSafeValuesOfTheTable()
         QCOMPARE(request.flags == SafeStopFlag, real(request.payload.mid(0, 8)) == 0.25);
     QVERIFY(master.reset());
     QVERIFY(reader.waitForMessage(QPlcMessage::RealTimeStopped));
+}
+
+void tst_SafeStop::answersInASafeStopCountForNothing()
+{
+    TestMaster master(QPlcClock::realTime(), safeTable());
+    master.setInterval(0.05);
+    QVERIFY(master.listen());
+    ScriptedNode writer("Writer");
+    writer.table = safeTable();
+    writer.inputs.clear();
+    writer.initialValues = QPlcValue(9.0).toBytes();
+    writer.answerAll();
+    QVERIFY(writer.registerAt(master.serverPort()));
+    QVERIFY(master.startRealTime());
+    QTRY_COMPARE(master.signalValue("echo").toReal(), 9.0);
+    master.safeStop();
+    QTRY_COMPARE(master.signalValue("echo").toReal(), 0.25);
+    const quint64 cycles = master.statistics().cycles;
+    int others = 0;
+    QVERIFY(QTest::qWaitFor(
+        [&] {
+            others += master.signalValue("echo").toReal() == 0.25 ? 0 : 1;
+            return master.statistics().cycles >= cycles + 10;
+        },
+        10000));
+    QCOMPARE(others, 0);
+    QVERIFY(master.reset());
+}
+
+void tst_SafeStop::valuesThatWereComputedBeforeCountForNothing()
+{
+    TestMaster master(QPlcClock::realTime(), safeTable());
+    master.setInterval(0.005);
+    QVERIFY(master.listen());
+    EarlyNode node;
+    QVERIFY(master.addLocalNode(&node));
+    ScriptedNode reader("Reader");
+    reader.table = safeTable();
+    reader.inputs = QStringList{"echo"};
+    reader.outputs.clear();
+    reader.initialValues.clear();
+    reader.answerAll();
+    QVERIFY(registerOrdered(reader, master.serverPort(), false, true));  // it reads values of the same cycle
+    QVERIFY(master.startRealTime());
+    QTRY_COMPARE(master.signalValue("echo").toReal(), 9.0);
+    QVERIFY(reader.waitForRequests(3));
+    master.safeStop();
+    QTRY_COMPARE(int(reader.requests.last().flags), int(SafeStopFlag));
+    for (const ScriptedNode::Request &request : qAsConst(reader.requests)) {
+        if (request.flags == SafeStopFlag)
+            QCOMPARE(request.payload.left(8), QPlcValue(0.25).toBytes());
+    }
+    QVERIFY(master.reset());
 }
 
 void tst_SafeStop::valuesThatAreTakenOverAreSafeToo()
