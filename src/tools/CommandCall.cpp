@@ -3,12 +3,16 @@
 
 namespace tools {
 
+bool CommandCall::tell(bool succeeded) const
+{
+    if (!succeeded)
+        QPlcCoreApplication::printError(client.errorString());
+    return succeeded;
+}
+
 bool CommandCall::connect() const
 {
-    if (client.connectToMaster(master))
-        return true;
-    QPlcCoreApplication::printError(client.errorString());
-    return false;
+    return tell(client.connectToMaster(master));
 }
 
 bool CommandCall::connect(QPlcSignalTable *table) const
@@ -23,30 +27,24 @@ bool CommandCall::connect(QPlcSignalTable *table) const
 
 bool CommandCall::ask(const QPlcMessage &request, QPlcMessage *answer) const
 {
-    if (client.ask(request, answer))
-        return true;
-    QPlcCoreApplication::printError(client.errorString());
-    return false;
+    return tell(client.ask(request, answer));
 }
 
 bool CommandCall::askFor(QPlcMessage::Kind request, QPlcMessage::Kind expected, const QJsonObject &fields,
                          QPlcMessage *answer) const
 {
-    if (client.askFor(request, expected, fields, answer))
-        return true;
-    QPlcCoreApplication::printError(client.errorString());
-    return false;
+    return tell(client.askFor(request, expected, fields, answer));
 }
 
 int CommandCall::exitCode() const
 {
     switch (client.error()) {
-    case ControlClient::NoError:
+    case BlockingClient::NoError:
         return application.exitCode();
-    case ControlClient::Unreachable:
+    case BlockingClient::Unreachable:
         return QPlcCoreApplication::UsageError;
-    case ControlClient::Refused:
-    case ControlClient::Lost:
+    case BlockingClient::Refused:
+    case BlockingClient::Lost:
         break;
     }
     return QPlcCoreApplication::Failure;

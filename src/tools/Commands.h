@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "ControlClient.h"
+#include "BlockingClient.h"
 
 #include <QtPlcCore>
 
@@ -13,7 +13,7 @@ namespace tools {
 struct CommandCall
 {
     QPlcCoreApplication &application;
-    ControlClient &client;
+    BlockingClient &client;
     QPlcUnderlyingProtocol master;
     QStringList arguments;  // without the name of the command
 
@@ -27,6 +27,18 @@ struct CommandCall
     /// As ask(), for something that an older master may not know: its refusal becomes a sentence that says so, and so does an answer of another kind.
     bool askFor(QPlcMessage::Kind request, QPlcMessage::Kind expected, const QJsonObject &fields,
                 QPlcMessage *answer) const;
+    template<typename Request>
+    bool ask(const Request &request, typename qplc::AnswerTo<Request>::Type *answer) const
+    {
+        return tell(client.ask(request, answer));
+    }
+    template<typename Request>
+    bool askFor(const Request &request, typename Request::Answer *answer) const
+    {
+        return tell(client.askFor(request, answer));
+    }
+    /// Puts the message of the client out where \a succeeded is false. \return \a succeeded
+    bool tell(bool succeeded) const;
     /// The exit code for what went wrong: a bad call, or the master.
     int exitCode() const;
     /// From now on SIGINT and SIGTERM end the event loop in an orderly way.

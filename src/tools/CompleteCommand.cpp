@@ -77,7 +77,7 @@ QStringList namesOfCommands()
 QStringList signalNames(const QString &address, bool onlyFree)
 {
     const QPlcUnderlyingProtocol master = QPlcUnderlyingProtocol::fromString(address, QPlcUnderlyingProtocol::Tcp);
-    ControlClient client(patience);
+    BlockingClient client(patience);
     if (!master.isValid() || !client.connectToMaster(master))
         return {};
     QPlcMessage answer;

@@ -4,9 +4,10 @@
 #include "TerminalText.h"
 
 #include <QtCore/QDateTime>
-#include <QtCore/QJsonArray>
 
 namespace tools {
+
+namespace messages = qplc::messages;
 
 namespace {
 
@@ -19,39 +20,34 @@ public:
     {
     }
     /// Prints those that were not printed yet: what is pushed and what is asked for may overlap.
-    void print(const QPlcMessage &message)
+    void print(const std::vector<messages::EventEntry> &events)
     {
-        const QJsonArray events = message.fields().value(QStringLiteral("events")).toArray();
-        for (const QJsonValue &event : events)
-            m_sourceWidth = qBound(m_sourceWidth, displayWidth(printable(event[QStringLiteral("source")].toString())),
-                                   longestSource);
-        for (const QJsonValue &event : events) {
-            const double sequence = event[QStringLiteral("sequence")].toDouble();
-            if (sequence <= m_newest)
+        for (const messages::EventEntry &event : events)
+            m_sourceWidth = qBound(m_sourceWidth, displayWidth(printable(event.source)), longestSource);
+        for (const messages::EventEntry &event : events) {
+            if (event.sequence <= m_newest)
                 continue;
-            m_newest = sequence;
+            m_newest = event.sequence;
             if (m_isJson)
-                printJson(QJsonDocument(event.toObject()));
+                printJson(QJsonDocument(messages::toObject(event)));
             else
-                printLineOf(event.toObject());
+                printLineOf(event);
         }
     }
-    double newest() const { return m_newest; }
+    quint64 newest() const { return m_newest; }
 
 private:
-    void printLineOf(const QJsonObject &event) const
+    void printLineOf(const messages::EventEntry &event) const
     {
-        const auto text
-            = [&event](const char *field) { return printable(event.value(QLatin1String(field)).toString()); };
-        const quint64 time = text("time").toULongLong(nullptr, 16);
         const QString gap = QStringLiteral("  ");
-        const QString when = QDateTime::fromMSecsSinceEpoch(qint64(time / 1'000'000))
+        const QString when = QDateTime::fromMSecsSinceEpoch(qint64(event.time / 1'000'000))
                                  .toString(QStringLiteral("yyyy-MM-dd HH:mm:ss.zzz"))
             + gap;
-        const QString severity = padded(text("severity"), 7);
-        const QString rest = gap + padded(text("kind"), 7) + gap + padded(text("source"), m_sourceWidth) + gap;
-        printWrapped(when + toned(severity, toneOf(text("severity"))) + rest, displayWidth(when + severity + rest),
-                     text("text"));
+        const QString severity = padded(printable(event.severity), 7);
+        const QString rest
+            = gap + padded(printable(event.kind), 7) + gap + padded(printable(event.source), m_sourceWidth) + gap;
+        printWrapped(when + toned(severity, toneOf(event.severity)) + rest, displayWidth(when + severity + rest),
+                     printable(event.text));
     }
     static Tone toneOf(const QString &severity)
     {
@@ -64,26 +60,26 @@ private:
 
     const bool m_isJson;
     int m_sourceWidth = 0;  // of the widest so far
-    double m_newest = 0.0;
+    quint64 m_newest = 0;
 };
 
 /// Prints the events that the master still has. \return false, with the message out, when the master does not answer
 bool printBacklog(const CommandCall &call, EventPrinter *printer)
 {
     for (bool more = true; more;) {
-        QPlcMessage answer;
-        const double since = printer->newest();
-        if (!call.askFor(QPlcMessage::GetEvents, QPlcMessage::Events, {{QStringLiteral("since"), since}}, &answer))
+        messages::Events answer;
+        const quint64 since = printer->newest();
+        if (!call.askFor(messages::GetEvents{since}, &answer))
             return false;
-        printer->print(answer);
-        more = answer.fields().value(QStringLiteral("more")).toBool() && printer->newest() > since;
+        printer->print(answer.events);
+        more = answer.more.value_or(false) && printer->newest() > since;
     }
     return true;
 }
 
 int follow(const CommandCall &call)
 {
-    QObject::connect(&call.client, &ControlClient::lost, &call.application,
+    QObject::connect(&call.client, &BlockingClient::lost, &call.application,
                      [] { QPlcCoreApplication::exit(QPlcCoreApplication::Failure); });
     const int exitCode = QPlcCoreApplication::exec();
     if (exitCode != QPlcCoreApplication::Success)
@@ -98,9 +94,9 @@ int showEvents(const CommandCall &call)
     const bool isFollowing = call.application.isSet(QStringLiteral("follow"));
     EventPrinter printer(call.isJson());
     if (isFollowing) {
-        call.client.offer(QStringLiteral("events"));
-        QObject::connect(&call.client, &ControlClient::pushed, &call.application,
-                         [&printer](const QPlcMessage &message) { printer.print(message); });
+        call.client.control().offer(QStringLiteral("events"));
+        QObject::connect(&call.client.control(), &qplc::ControlClient::eventsHappened, &call.application,
+                         [&printer](const messages::Events &events) { printer.print(events.events); });
     }
     if (!call.connect() || !printBacklog(call, &printer))
         return call.exitCode();

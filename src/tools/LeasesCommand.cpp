@@ -2,21 +2,20 @@
 #include "Commands.h"
 #include "TerminalText.h"
 
-#include <QtCore/QJsonArray>
-
 namespace tools {
+
+namespace messages = qplc::messages;
 
 int showLeases(const CommandCall &call)
 {
-    QPlcMessage answer;
-    if (!call.connect() || !call.askFor(QPlcMessage::GetLeases, QPlcMessage::Leases, {}, &answer))
+    messages::Leases answer;
+    if (!call.connect() || !call.askFor(messages::GetLeases(), &answer))
         return call.exitCode();
     if (call.isJson()) {
-        printJson(QJsonDocument(answer.fields()));
+        printJson(QJsonDocument(messages::toObject(answer)));
         return QPlcCoreApplication::Success;
     }
-    const QJsonArray leases = answer.fields().value(QStringLiteral("leases")).toArray();
-    if (leases.isEmpty()) {
+    if (answer.leases.empty()) {
         printLine(QStringLiteral("no leases"));
         return QPlcCoreApplication::Success;
     }
@@ -24,11 +23,9 @@ int showLeases(const CommandCall &call)
     for (const char *title : {"signal", "holder", "lease"})
         table.addColumn(QString::fromLatin1(title));
     table.addColumn(QStringLiteral("timeout [s]"), Right);
-    for (const QJsonValue &lease : leases) {
-        table.addRow({lease[QStringLiteral("signal")].toString(), lease[QStringLiteral("holder")].toString(),
-                      lease[QStringLiteral("lease")].toString(),
-                      QString::number(lease[QStringLiteral("timeout")].toDouble() * 1e-9)});
-        table.setTone(2, lease[QStringLiteral("lease")].toString() == QLatin1String("lost") ? Tone::Bad : Tone::Plain);
+    for (const messages::LeaseEntry &lease : answer.leases) {
+        table.addRow({lease.signal, lease.holder, lease.lease, QString::number(double(lease.timeout.count()) * 1e-9)});
+        table.setTone(2, lease.lease == QLatin1String("lost") ? Tone::Bad : Tone::Plain);
     }
     table.print();
     return QPlcCoreApplication::Success;

@@ -5,16 +5,19 @@
 
 namespace tools {
 
+namespace messages = qplc::messages;
+
 namespace {
 
 /// Asks for something that is done or not.
-int command(const CommandCall &call, const QPlcMessage &request, const QString &done)
+template<typename Request>
+int command(const CommandCall &call, const Request &request, const QString &done)
 {
-    if (!call.connect() || !call.ask(request))
+    if (!call.connect() || !call.ask(messages::toMessage(request)))
         return call.exitCode();
     if (call.isJson()) {
-        QJsonObject document = request.fields();
-        document.insert(QStringLiteral("done"), request.kindName());
+        QJsonObject document = messages::toObject(request);
+        document.insert(QStringLiteral("done"), QPlcMessage::kindName(Request::kind));
         printJson(QJsonDocument(document));
     } else {
         printLine(done);
@@ -26,33 +29,31 @@ int command(const CommandCall &call, const QPlcMessage &request, const QString &
 
 int initializeStates(const CommandCall &call)
 {
-    return command(call, QPlcMessage(QPlcMessage::InitializeAllStates), QStringLiteral("initialized"));
+    return command(call, messages::InitializeAllStates(), QStringLiteral("initialized"));
 }
 
 int armMaster(const CommandCall &call)
 {
-    QPlcMessage armed;
-    if (!call.connect() || !call.askFor(QPlcMessage::Arm, QPlcMessage::Armed, {}, &armed))
+    messages::Armed armed;
+    if (!call.connect() || !call.askFor(messages::Arm(), &armed))
         return call.exitCode();
     if (call.isJson())
-        printJson(QJsonDocument(armed.fields()));
+        printJson(QJsonDocument(messages::toObject(armed)));
     else
         printLine(QStringLiteral("armed for %1 s; token %2")
-                      .arg(armed.fields().value(QStringLiteral("validFor")).toDouble() * 1e-9)
-                      .arg(armed.text(QStringLiteral("token"))));
+                      .arg(double(armed.validFor.count()) * 1e-9)
+                      .arg(QPlcMessage::fromHex64(armed.token)));
     return QPlcCoreApplication::Success;
 }
 
 int resetMaster(const CommandCall &call)
 {
-    return command(call, QPlcMessage(QPlcMessage::Reset), QStringLiteral("reset"));
+    return command(call, messages::Reset(), QStringLiteral("reset"));
 }
 
 int stopSafely(const CommandCall &call)
 {
-    const QString reason = call.arguments.join(QLatin1Char(' '));
-    const QJsonObject fields = reason.isEmpty() ? QJsonObject() : QJsonObject{{QStringLiteral("reason"), reason}};
-    return command(call, QPlcMessage(QPlcMessage::SafeStop, fields), QStringLiteral("stopped safely"));
+    return command(call, messages::SafeStop{call.arguments.join(QLatin1Char(' '))}, QStringLiteral("stopped safely"));
 }
 
 namespace {
@@ -60,18 +61,17 @@ namespace {
 /// The token of a start, where the master requires one. \return false, with the message out
 bool armIfRequired(const CommandCall &call, QString *token)
 {
-    QPlcMessage state;
-    QPlcMessage armed;
-    if (!call.connect() || !call.ask(QPlcMessage(QPlcMessage::GetState), &state))
+    messages::State state;
+    messages::Armed armed;
+    if (!call.connect() || !call.ask(messages::GetState(), &state))
         return false;
-    if (!state.fields().value(QStringLiteral("armingRequired")).toBool())
+    if (!state.armingRequired)
         return true;
-    if (state.text(QStringLiteral("state")) == QLatin1String("Off")
-        && !call.ask(QPlcMessage(QPlcMessage::InitializeAllStates)))
+    if (state.state == messages::MasterState::Off && !call.ask(QPlcMessage(QPlcMessage::InitializeAllStates)))
         return false;  // a start would have done it, but permits are given in Ready
-    if (!call.askFor(QPlcMessage::Arm, QPlcMessage::Armed, {}, &armed))
+    if (!call.askFor(messages::Arm(), &armed))
         return false;
-    *token = armed.text(QStringLiteral("token"));
+    *token = QPlcMessage::fromHex64(armed.token);
     return true;
 }
 
@@ -109,7 +109,7 @@ int startRealTime(const CommandCall &call)
 
 int stopRealTime(const CommandCall &call)
 {
-    return command(call, QPlcMessage(QPlcMessage::Stop), QStringLiteral("stopped"));
+    return command(call, messages::Stop(), QStringLiteral("stopped"));
 }
 
 }  // namespace tools

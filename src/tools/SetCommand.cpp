@@ -75,7 +75,7 @@ void print(const CommandCall &call, const Settings &settings)
 /// Keeps the connection for as long as the values are to stay: its end would end them.
 int waitForTheEnd(const CommandCall &call, double duration)
 {
-    QObject::connect(&call.client, &ControlClient::lost, &call.application,
+    QObject::connect(&call.client, &BlockingClient::lost, &call.application,
                      [] { QPlcCoreApplication::exit(QPlcCoreApplication::Failure); });
     QTimer::singleShot(std::chrono::milliseconds(qint64(std::ceil(duration * 1e3)) + 1), Qt::PreciseTimer,
                        &call.application, [] { QPlcCoreApplication::quit(); });

@@ -100,7 +100,7 @@ int run(QPlcCoreApplication &application)
             return application.exitCode();
         QPlcSecurity::setCurrent(security);
     }
-    tools::ControlClient client(std::chrono::milliseconds(qRound64(timeout * 1e3)));
+    tools::BlockingClient client(std::chrono::milliseconds(qRound64(timeout * 1e3)));
     return command->run({application, client, master, application.positionalArguments().mid(1)});
 }
 

@@ -88,8 +88,8 @@ bool Operator::waitForNodes(int count, int patience)
 
 bool Operator::ask(const Message &request, Message *answer)
 {
-    if (!m_client || m_client->error() != tools::ControlClient::NoError) {
-        m_client = std::make_unique<tools::ControlClient>(std::chrono::seconds(3));
+    if (!m_client || m_client->error() != tools::BlockingClient::NoError) {
+        m_client = std::make_unique<tools::BlockingClient>(std::chrono::seconds(3));
         m_client->connectToMaster(QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, m_port));
     }
     if (m_client->ask(request, answer))

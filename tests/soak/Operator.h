@@ -2,7 +2,7 @@
 #pragma once
 
 #include "History.h"
-#include "tools/ControlClient.h"
+#include "tools/BlockingClient.h"
 
 #include <QtCore/QJsonArray>
 
@@ -47,7 +47,7 @@ private:
     quint16 m_port = 0;
     int m_formerNode = -1;
     int m_formerId = 0;  // of this node, which its next registration will not have; 0: none
-    std::unique_ptr<tools::ControlClient> m_client;
+    std::unique_ptr<tools::BlockingClient> m_client;
     QString m_errorString;
 };
 

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ControlClient.h"
+
+#include <QtCore/QUuid>
+
+#include <algorithm>
+
+namespace qplc {
+
+ControlClient::ControlClient(const Caller &caller, QObject *parent)
+    : QObject(parent)
+    , m_caller(caller)
+{
+    m_timer.setSingleShot(true);
+    connect(&m_timer, &QTimer::timeout, this, &ControlClient::checkDeadlines);
+}
+
+ControlClient::~ControlClient()
+{
+    if (m_socket)
+        m_socket->disconnect(this);
+}
+
+void ControlClient::setAnswerTimes(std::chrono::milliseconds questions, std::chrono::milliseconds commands)
+{
+    m_questionTime = questions;
+    m_commandTime = commands;
+}
+
+// ---- the connection ----
+
+void ControlClient::connectToMaster(const QPlcUnderlyingProtocol &master)
+{
+    close();
+    m_master = {};
+    m_rejection = {};
+    m_socket = new QPlcMasterSocket(this);
+    if (m_security)
+        m_socket->setSecurity(*m_security);
+    connect(m_socket, &QPlcAbstractSocket::connected, this, &ControlClient::greet);
+    connect(m_socket, &QPlcAbstractSocket::messageReceived, this, &ControlClient::receive);
+    connect(m_socket, &QPlcAbstractSocket::errorOccurred, this, [this] { end(Loss::Gone, m_socket->errorString()); });
+    connect(m_socket, &QPlcAbstractSocket::disconnected, this,
+            [this] { end(Loss::Gone, QStringLiteral("the connection was closed")); });
+    m_greetingDeadline = QDeadlineTimer(m_questionTime);
+    watchDeadlines();
+    m_socket->connectToMaster(master);
+}
+
+void ControlClient::greet()
+{
+    messages::ClientHello hello;
+    hello.protocol = messages::protocolVersion;
+    hello.name = m_caller.name;
+    hello.uuid = QUuid::createUuid().toString(QUuid::WithoutBraces);
+    hello.role = m_caller.role;
+    hello.features = m_caller.features;
+    m_socket->sendMessage(messages::toMessage(hello));
+}
+
+void ControlClient::close()
+{
+    m_isGreeted = false;
+    m_greetingDeadline = QDeadlineTimer(QDeadlineTimer::Forever);
+    m_timer.stop();
+    if (m_socket) {
+        m_socket->disconnect(this);
+        m_socket->abort();
+        m_socket->deleteLater();
+        m_socket = nullptr;
+    }
+    const QList<Pending> unanswered = m_sent + m_waiting;
+    m_sent.clear();
+    m_waiting.clear();
+    for (const Pending &pending : unanswered)
+        pending.handler(QPlcMessage());
+}
+
+void ControlClient::end(Loss loss, const QString &reason)
+{
+    if (!m_socket)
+        return;  // an error and its end
+    close();
+    Q_EMIT lost(loss, reason);
+}
+
+// ---- from the master ----
+
+void ControlClient::receive(const QPlcMessage &message)
+{
+    QString error;
+    if (message.kind() == QPlcMessage::MasterEnds) {
+        end(Loss::Gone, QStringLiteral("the master has ended"));
+    } else if (message.kind() == QPlcMessage::Rejected) {
+        receiveRejection(message);
+    } else if (!m_isGreeted) {
+        receiveGreeting(message);
+    } else if (message.kind() == QPlcMessage::Events) {
+        receiveEvents(message);
+    } else if (message.kind() == QPlcMessage::LeasesChanged) {
+        messages::LeasesChanged leases;
+        if (messages::fromObject(message.fields(), &leases, &error))
+            Q_EMIT leasesChanged(leases);
+    } else if (message.kind() == QPlcMessage::StatesInitialized) {
+        messages::StatesInitialized outcome;
+        if (messages::fromObject(message.fields(), &outcome, &error))
+            Q_EMIT statesInitialized(outcome);
+    } else {
+        answer(message);
+    }
+}
+
+void ControlClient::receiveGreeting(const QPlcMessage &message)
+{
+    QString error;
+    if (message.kind() != QPlcMessage::Hello) {
+        end(Loss::NoGreeting, message.kindName());
+    } else if (!messages::fromObject(message.fields(), &m_master, &error)
+               || m_master.protocol != messages::protocolVersion) {
+        end(Loss::OtherVersion, QString::number(m_master.protocol));
+    } else {
+        m_isGreeted = true;
+        m_greetingDeadline = QDeadlineTimer(QDeadlineTimer::Forever);
+        watchDeadlines();
+        Q_EMIT greeted();
+    }
+}
+
+/// The master closes the connection after it: the request that it refuses is told so first.
+void ControlClient::receiveRejection(const QPlcMessage &message)
+{
+    QString error;
+    messages::fromObject(message.fields(), &m_rejection, &error);
+    if (m_isGreeted && !m_sent.isEmpty())
+        answer(message);
+    end(Loss::Rejected, m_rejection.text);
+}
+
+void ControlClient::receiveEvents(const QPlcMessage &message)
+{
+    QString error;
+    messages::Events events;
+    const bool isReadable = messages::fromObject(message.fields(), &events, &error);
+    if (!isReadable || events.more)
+        answer(message);
+    else
+        Q_EMIT eventsHappened(events);
+}
+
+/// The request that this kind answers. While a command waits for nodes the master answers questions at once, so the
+/// order alone does not tell. The oldest request gets an answer that fits none.
+int ControlClient::pendingFor(QPlcMessage::Kind answer) const
+{
+    const bool isRefusal = answer == QPlcMessage::Failed || answer == QPlcMessage::Rejected;
+    const auto fits = [&](const Pending &pending) {
+        return isRefusal ? pending.message.kind() != QPlcMessage::GetState  // which is never refused
+                         : pending.answer == answer;
+    };
+    const auto found = std::find_if(m_sent.begin(), m_sent.end(), fits);
+    return found == m_sent.end() ? 0 : int(found - m_sent.begin());
+}
+
+void ControlClient::answer(const QPlcMessage &message)
+{
+    if (m_sent.isEmpty())
+        return;  // unasked: nobody waits for it
+    const RawHandler handler = m_sent.takeAt(pendingFor(message.kind())).handler;
+    sendNextCommand();
+    watchDeadlines();
+    handler(message);
+}
+
+messages::Failed ControlClient::failureOf(const QPlcMessage &message, const QString &error)
+{
+    messages::Failed failed;
+    QString unused;
+    if (message.kind() == QPlcMessage::Invalid)
+        return {QStringLiteral("Lost"), QStringLiteral("the master was lost before it answered")};
+    if (message.kind() == QPlcMessage::Failed || message.kind() == QPlcMessage::Rejected)
+        messages::fromObject(message.fields(), &failed, &unused);
+    else
+        failed = {QStringLiteral("MalformedMessage"),
+                  error.isEmpty() ? QStringLiteral("the master answers with %1").arg(message.kindName()) : error};
+    return failed;
+}
+
+// ---- to the master ----
+
+bool ControlClient::isBusy() const
+{
+    return std::any_of(m_sent.begin(), m_sent.end(), [](const Pending &pending) { return pending.isCommand(); });
+}
+
+void ControlClient::send(const QPlcMessage &message, QPlcMessage::Kind answer, const RawHandler &handler)
+{
+    Pending pending{message, answer, handler, {}};
+    if (!m_isGreeted)
+        handler(QPlcMessage());
+    else if (pending.isCommand() && !pending.isUrgent() && isBusy())
+        m_waiting.append(pending);
+    else
+        sendNow(pending);
+}
+
+void ControlClient::sendNow(Pending pending)
+{
+    if (!m_socket->sendMessage(pending.message)) {
+        const messages::Failed tooLong{QStringLiteral("MalformedMessage"),
+                                       QStringLiteral("the message is too long to be sent")};
+        pending.handler(messages::toMessage(tooLong));
+        return;
+    }
+    pending.deadline = QDeadlineTimer(pending.isCommand() ? m_commandTime : m_questionTime);
+    m_sent.append(pending);
+    watchDeadlines();
+}
+
+void ControlClient::sendNextCommand()
+{
+    if (!m_waiting.isEmpty() && !isBusy())
+        sendNow(m_waiting.takeFirst());
+}
+
+// ---- time ----
+
+void ControlClient::watchDeadlines()
+{
+    QDeadlineTimer next = m_greetingDeadline;
+    for (const Pending &pending : qAsConst(m_sent))
+        next = std::min(next, pending.deadline);
+    if (next.isForever())
+        m_timer.stop();
+    else
+        m_timer.start(int(next.remainingTime()) + 1);
+}
+
+void ControlClient::checkDeadlines()
+{
+    const auto isLate = [](const Pending &pending) { return pending.deadline.hasExpired(); };
+    if (m_greetingDeadline.hasExpired() || std::any_of(m_sent.begin(), m_sent.end(), isLate))
+        end(Loss::Gone, QStringLiteral("no answer within %1 s").arg(double(m_questionTime.count()) * 1e-3));
+    else
+        watchDeadlines();
+}
+
+}  // namespace qplc

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ScriptedMaster.h"
+#include "node/ControlClient.h"
+
+#include <QtTest/QtTest>
+
+using qplc::ControlClient;
+namespace messages = qplc::messages;
+
+// The client side of the control channel, at a master that says what the test tells it.
+class tst_ControlClient : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void init();
+    void greetsAndKnowsTheMaster();
+    void anAnswerComesAsAStruct();
+    void aRefusalComesInItsPlace();
+    void aQuestionIsAnsweredWhileACommandWaits();
+    void commandsWaitForEachOtherAndStopForNone();
+    void anAnswerOfAnotherKindFails();
+    void unaskedMessagesComeAsStructs();
+    void anotherVersionIsLost();
+    void aRejectedGreetingIsLostWithItsWords();
+    void anotherFirstMessageIsNoGreeting();
+    void aMasterThatEndsIsLostAndItsRequestsFail();
+    void aMasterThatDoesNotAnswerIsLost();
+    void closeFailsRequestsAndTellsNoLoss();
+    void aRequestWithoutAConnectionFails();
+
+private:
+    bool greet()
+    {
+        m_client->connectToMaster(m_master->tcp());
+        if (m_master->next().kind() != QPlcMessage::Hello)
+            return false;
+        m_master->send(QPlcMessage::Hello, m_master->helloFields());
+        return QTest::qWaitFor([&] { return m_client->isGreeted(); }, 5000);
+    }
+    bool isLost()
+    {
+        return QTest::qWaitFor([&] { return m_losses.size() > 0; }, 5000);
+    }
+    /// Writes down the kind of the answer, or the error of the refusal.
+    template<typename Request>
+    void note(const Request &request)
+    {
+        m_client->request(request, [this](const ControlClient::Reply<Request> &reply) {
+            const auto *failed = std::get_if<messages::Failed>(&reply);
+            m_notes << (failed ? failed->error : QPlcMessage::kindName(qplc::AnswerTo<Request>::Type::kind));
+        });
+    }
+
+    QScopedPointer<ScriptedMaster> m_master;
+    QScopedPointer<ControlClient> m_client;
+    QStringList m_notes;
+    QVector<QPair<ControlClient::Loss, QString>> m_losses;
+};
+
+void tst_ControlClient::init()
+{
+    m_client.reset();
+    m_master.reset(new ScriptedMaster);
+    m_client.reset(new ControlClient({"anna@lab", messages::Part::Tool, {"events"}}));
+    m_notes.clear();
+    m_losses.clear();
+    connect(m_client.data(), &ControlClient::lost, this, [this](ControlClient::Loss loss, const QString &reason) {
+        m_losses.append({loss, reason});
+    });
+}
+
+void tst_ControlClient::greetsAndKnowsTheMaster()
+{
+    m_client->offer("leases");
+    m_client->connectToMaster(m_master->tcp());
+    const QPlcMessage hello = m_master->next();
+    QCOMPARE(hello.kind(), QPlcMessage::Hello);
+    QCOMPARE(hello.fields().value("protocol").toInt(), 1);
+    QCOMPARE(hello.text("name"), QString("anna@lab"));
+    QCOMPARE(hello.text("role"), QString("tool"));
+    QCOMPARE(hello.fields().value("features").toArray(), (QJsonArray{"events", "leases"}));
+    QVERIFY(!QUuid(hello.text("uuid")).isNull());
+    QVERIFY(!m_client->isGreeted());
+    QJsonObject fields = m_master->helloFields();
+    fields["identity"] = "anna";
+    fields["state"] = "SafeStop";
+    m_master->send(QPlcMessage::Hello, fields);
+    QTRY_VERIFY(m_client->isGreeted());
+    QCOMPARE(quint64(m_client->master().session), ScriptedMaster::Session);
+    QCOMPARE(m_client->master().identity, QString("anna"));
+    QCOMPARE(m_client->master().state, messages::MasterState::SafeStop);
+    QCOMPARE(m_client->master().table.toUtf8(), m_master->table.toIni());
+}
+
+void tst_ControlClient::anAnswerComesAsAStruct()
+{
+    QVERIFY(greet());
+    messages::State state;
+    m_client->request(messages::GetState(), [&](const ControlClient::Reply<messages::GetState> &reply) {
+        state = std::get<messages::State>(reply);
+    });
+    QCOMPARE(m_master->next().kind(), QPlcMessage::GetState);
+    m_master->send(QPlcMessage::State, {{"state", "RealTime"}, {"period", 2e6}, {"new field", 1}});
+    QTRY_COMPARE(state.state, messages::MasterState::RealTime);
+    QCOMPARE(state.period, std::chrono::nanoseconds(2'000'000));
+}
+
+void tst_ControlClient::aRefusalComesInItsPlace()
+{
+    QVERIFY(greet());
+    messages::Failed failed;
+    m_client->request(messages::Reset(), [&](const ControlClient::Reply<messages::Reset> &reply) {
+        failed = std::get<messages::Failed>(reply);
+    });
+    QCOMPARE(m_master->next().kind(), QPlcMessage::Reset);
+    m_master->send(QPlcMessage::Failed, {{"error", "NotReady"}, {"text", "not now"}});
+    QTRY_COMPARE(failed.error, QString("NotReady"));
+    QCOMPARE(failed.text, QString("not now"));
+    QVERIFY(m_client->isGreeted());
+}
+
+void tst_ControlClient::aQuestionIsAnsweredWhileACommandWaits()
+{
+    QVERIFY(greet());
+    note(messages::InitializeAllStates());
+    note(messages::GetState());
+    QVERIFY(m_client->isBusy());
+    QCOMPARE(m_master->next().kind(), QPlcMessage::InitializeAllStates);
+    QCOMPARE(m_master->next().kind(), QPlcMessage::GetState);
+    m_master->send(QPlcMessage::State);
+    QTRY_COMPARE(m_notes, QStringList{"State"});
+    QVERIFY(m_client->isBusy());
+    m_master->send(QPlcMessage::Done);
+    QTRY_COMPARE(m_notes, (QStringList{"State", "Done"}));
+    QVERIFY(!m_client->isBusy());
+}
+
+void tst_ControlClient::commandsWaitForEachOtherAndStopForNone()
+{
+    QVERIFY(greet());
+    note(messages::InitializeAllStates());
+    note(messages::StartRealTime());
+    note(messages::Stop());
+    QCOMPARE(m_master->next().kind(), QPlcMessage::InitializeAllStates);
+    QCOMPARE(m_master->next().kind(), QPlcMessage::Stop);
+    m_master->send(QPlcMessage::Failed, {{"error", "first"}});
+    m_master->send(QPlcMessage::Done);
+    QTRY_COMPARE(m_notes, (QStringList{"first", "Done"}));
+    QCOMPARE(m_master->next().kind(), QPlcMessage::StartRealTime);
+    m_master->send(QPlcMessage::Done);
+    QTRY_COMPARE(m_notes, (QStringList{"first", "Done", "Done"}));
+}
+
+void tst_ControlClient::anAnswerOfAnotherKindFails()
+{
+    QVERIFY(greet());
+    note(messages::GetLeases());
+    QCOMPARE(m_master->next().kind(), QPlcMessage::GetLeases);
+    m_master->send(QPlcMessage::Done);
+    QTRY_COMPARE(m_notes, QStringList{"MalformedMessage"});
+}
+
+void tst_ControlClient::unaskedMessagesComeAsStructs()
+{
+    QVERIFY(greet());
+    QStringList told;
+    connect(m_client.data(), &ControlClient::leasesChanged, this,
+            [&](const messages::LeasesChanged &leases) { told << leases.leases.at(0).signal; });
+    connect(m_client.data(), &ControlClient::eventsHappened, this,
+            [&](const messages::Events &events) { told << events.events.at(0).text; });
+    connect(m_client.data(), &ControlClient::statesInitialized, this,
+            [&](const messages::StatesInitialized &outcome) { told << outcome.text; });
+    note(messages::GetEvents{7});
+    QCOMPARE(m_master->next().fields(), (QJsonObject{{"since", 7}}));
+    m_master->send(QPlcMessage::LeasesChanged, {{"leases", QJsonArray{QJsonObject{{"signal", "sum"}}}}});
+    const QJsonArray events{QJsonObject{{"sequence", 8}, {"text", "hot"}}};
+    m_master->send(QPlcMessage::Events, {{"events", events}});
+    m_master->send(QPlcMessage::StatesInitialized, {{"ok", false}, {"text", "too late"}});
+    QTRY_COMPARE(told, (QStringList{"sum", "hot", "too late"}));
+    QVERIFY(m_notes.isEmpty());
+    m_master->send(QPlcMessage::Events, {{"events", events}, {"more", false}});
+    QTRY_COMPARE(m_notes, QStringList{"Events"});
+    QCOMPARE(told.size(), 3);
+}
+
+void tst_ControlClient::anotherVersionIsLost()
+{
+    m_client->connectToMaster(m_master->tcp());
+    QCOMPARE(m_master->next().kind(), QPlcMessage::Hello);
+    m_master->send(QPlcMessage::Hello, {{"protocol", 2}});
+    QVERIFY(isLost());
+    QCOMPARE(m_losses.at(0), qMakePair(ControlClient::Loss::OtherVersion, QString("2")));
+    QVERIFY(!m_client->isGreeted());
+}
+
+void tst_ControlClient::aRejectedGreetingIsLostWithItsWords()
+{
+    m_client->connectToMaster(m_master->tcp());
+    QCOMPARE(m_master->next().kind(), QPlcMessage::Hello);
+    m_master->send(QPlcMessage::Rejected, {{"error", "VersionMismatch"}, {"text", "too old"}});
+    QVERIFY(isLost());
+    QCOMPARE(m_losses.at(0), qMakePair(ControlClient::Loss::Rejected, QString("too old")));
+    QCOMPARE(m_client->rejection().error, QString("VersionMismatch"));
+}
+
+void tst_ControlClient::anotherFirstMessageIsNoGreeting()
+{
+    m_client->connectToMaster(m_master->tcp());
+    QCOMPARE(m_master->next().kind(), QPlcMessage::Hello);
+    m_master->send(QPlcMessage::Done);
+    QVERIFY(isLost());
+    QCOMPARE(m_losses.at(0), qMakePair(ControlClient::Loss::NoGreeting, QString("Done")));
+}
+
+void tst_ControlClient::aMasterThatEndsIsLostAndItsRequestsFail()
+{
+    QVERIFY(greet());
+    note(messages::Reset());
+    note(messages::Reset());
+    QCOMPARE(m_master->next().kind(), QPlcMessage::Reset);
+    m_master->send(QPlcMessage::MasterEnds);
+    QVERIFY(isLost());
+    QCOMPARE(m_losses.at(0), qMakePair(ControlClient::Loss::Gone, QString("the master has ended")));
+    QCOMPARE(m_notes, (QStringList{"Lost", "Lost"}));
+}
+
+void tst_ControlClient::aMasterThatDoesNotAnswerIsLost()
+{
+    QVERIFY(greet());
+    m_client->setAnswerTimes(std::chrono::milliseconds(50), std::chrono::hours(1));
+    note(messages::GetState());
+    QVERIFY(isLost());
+    QCOMPARE(m_losses.at(0), qMakePair(ControlClient::Loss::Gone, QString("no answer within 0.05 s")));
+    QCOMPARE(m_notes, QStringList{"Lost"});
+    m_client->connectToMaster(m_master->tcp());  // which does not greet
+    QTRY_COMPARE(m_losses.size(), 2);
+}
+
+void tst_ControlClient::closeFailsRequestsAndTellsNoLoss()
+{
+    QVERIFY(greet());
+    note(messages::GetState());
+    m_client->close();
+    QCOMPARE(m_notes, QStringList{"Lost"});
+    QVERIFY(!m_client->isGreeted());
+    QCOMPARE(m_losses.size(), 0);
+}
+
+void tst_ControlClient::aRequestWithoutAConnectionFails()
+{
+    note(messages::GetState());
+    QCOMPARE(m_notes, QStringList{"Lost"});
+}
+
+QTEST_GUILESS_MAIN(tst_ControlClient)
+#include "tst_ControlClient.moc"
