@@ -31,7 +31,6 @@ private Q_SLOTS:
     void nobodyHasTheNameOfAnother();
     void aConnectionForFramesMayOnlyAttach_data();
     void aConnectionForFramesMayOnlyAttach();
-    void aNodeIsReplacedByItsOwnIdentityOnly();
     void oneIdentityHasThirtyTwoConnections();
     void signalsAreWrittenByThoseWhoMay();
     void commandsAreWrittenDown();
@@ -313,33 +312,6 @@ void tst_AccessRights::aConnectionForFramesMayOnlyAttach()
         QCOMPARE(refusal, QString());
     else
         QCOMPARE(refusal, QString("Denied: %1 on a connection without TLS").arg(message.kindName()));
-}
-
-void tst_AccessRights::aNodeIsReplacedByItsOwnIdentityOnly()
-{
-    LogCapture log;
-    TestMaster master;
-    master.setSecurity(QPlcSecurity::preSharedKeys(m_files.masterKeys()));
-    QVERIFY(master.listen());
-    const auto display = [](ScriptedNode &node, const QPlcSecurity &security, const QString &uuid) {
-        node.control.setSecurity(security);
-        node.uuid = uuid;
-        node.listener = true;
-        node.outputs.clear();
-    };
-    ScriptedNode ofAnna("Display");
-    display(ofAnna, m_files.anna(), ofAnna.uuid);
-    QVERIFY(ofAnna.registerAt(master.serverPort()));
-    ScriptedNode ofBert("Display");
-    display(ofBert, m_files.bert(), ofAnna.uuid);  // as others see it, it is the same node
-    QVERIFY(!ofBert.registerAt(master.serverPort()));
-    QCOMPARE(ofBert.registered.text("error"), QString("NameInUse"));
-    QVERIFY(ofAnna.control.isConnected());
-    ScriptedNode again("Display");
-    display(again, m_files.anna(), ofAnna.uuid);
-    QVERIFY(again.registerAt(master.serverPort()));
-    QTRY_VERIFY(!ofAnna.control.isConnected());
-    QCOMPARE(master.nodes().size(), 1);
 }
 
 void tst_AccessRights::oneIdentityHasThirtyTwoConnections()

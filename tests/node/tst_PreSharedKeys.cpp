@@ -27,6 +27,7 @@ private Q_SLOTS:
     void aKeysFileThatOthersMayReadIsRefused();
     void aKeysFileOfAnotherUserIsRefused();
     void aKeysFileThatBecomesUnreadableLetsNobodyIn();
+    void aNodeIsReplacedByItsOwnIdentityOnly();
     void anUncertainIdentityIsAsked();
     void aMasterThatSaysNothingIsGivenUp();
     void theOtherNodeIsNoMaster();
@@ -225,6 +226,33 @@ void tst_PreSharedKeys::aKeysFileThatBecomesUnreadableLetsNobodyIn()
     QVERIFY(!m_master->admit(node, "udp"));
     QVERIFY2(node.errorString().contains("the master cannot read its keys"), qPrintable(node.errorString()));
     QTRY_VERIFY(!log.matching("'Counter' needs key = 64 hexadecimal digits").isEmpty());
+}
+
+void tst_PreSharedKeys::aNodeIsReplacedByItsOwnIdentityOnly()
+{
+    LogCapture log;
+    TestMaster master;
+    master.setSecurity(QPlcSecurity::preSharedKeys(m_files.masterKeys()));
+    QVERIFY(master.listen());
+    const auto display = [](ScriptedNode &node, const QPlcSecurity &security, const QString &uuid) {
+        node.control.setSecurity(security);
+        node.uuid = uuid;
+        node.listener = true;
+        node.outputs.clear();
+    };
+    ScriptedNode ofAnna("Display");
+    display(ofAnna, m_files.anna(), ofAnna.uuid);
+    QVERIFY(ofAnna.registerAt(master.serverPort()));
+    ScriptedNode ofBert("Display");
+    display(ofBert, m_files.bert(), ofAnna.uuid);  // as others see it, it is the same node
+    QVERIFY(!ofBert.registerAt(master.serverPort()));
+    QCOMPARE(ofBert.registered.text("error"), QString("NameInUse"));
+    QVERIFY(ofAnna.control.isConnected());
+    ScriptedNode again("Display");
+    display(again, m_files.anna(), ofAnna.uuid);
+    QVERIFY(again.registerAt(master.serverPort()));
+    QTRY_VERIFY(!ofAnna.control.isConnected());
+    QCOMPARE(master.nodes().size(), 1);
 }
 
 void tst_PreSharedKeys::anUncertainIdentityIsAsked()
