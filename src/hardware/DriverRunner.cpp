@@ -2,7 +2,7 @@
 #include "DriverRunner.h"
 
 #include "QPlcDriverSettings.h"
-#include "node/BackOff.h"
+#include "node/session/BackOff.h"
 #include "realtime/TimeSource.h"
 #include "signals/MessageText.h"
 

@@ -3,7 +3,7 @@
 
 #include "QPlcMessage.h"
 #include "QPlcSignalTable.h"
-#include "node/ControlClient.h"
+#include "node/session/ControlClient.h"
 
 #include <QtCore/QObject>
 

@@ -4,7 +4,7 @@
 #include "SignalListener.h"
 #include "SignalSelection.h"
 #include "TerminalText.h"
-#include "node/ListeningInterval.h"
+#include "node/cycle/ListeningInterval.h"
 
 #include <QtCore/QDeadlineTimer>
 #include <QtCore/QJsonArray>

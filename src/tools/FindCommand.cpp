@@ -2,7 +2,7 @@
 #include "Commands.h"
 #include "TerminalText.h"
 #include "WaitLine.h"
-#include "node/MasterFinder.h"
+#include "node/session/MasterFinder.h"
 
 #include <QtCore/QJsonArray>
 #include <QtCore/QTimer>

@@ -2,8 +2,8 @@
 // keys: makes, shows and revokes pre-shared keys. Needs no master. Keys themselves are never printed.
 #include "Commands.h"
 #include "TerminalText.h"
-#include "node/Keyring.h"
-#include "node/SecretFile.h"
+#include "node/security/Keyring.h"
+#include "node/security/SecretFile.h"
 
 #include <QtCore/QFile>
 #include <QtCore/QJsonArray>

@@ -4,7 +4,7 @@
 #include "HistogramText.h"
 #include "RateStatistics.h"
 #include "TerminalText.h"
-#include "node/StateText.h"
+#include "node/state/StateText.h"
 #include "realtime/SpscRing.h"
 #include "realtime/TimeSource.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Commands.h"
 #include "TerminalText.h"
-#include "node/StateText.h"
+#include "node/state/StateText.h"
 
 #include <QtCore/QJsonArray>
 

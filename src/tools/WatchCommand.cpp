@@ -5,7 +5,7 @@
 #include "SignalSelection.h"
 #include "TerminalText.h"
 #include "WatchTable.h"
-#include "node/StateText.h"
+#include "node/state/StateText.h"
 #include "realtime/TimeSource.h"
 
 #include <cmath>

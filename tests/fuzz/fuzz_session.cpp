@@ -2,7 +2,7 @@
 #include "FuzzInput.h"
 #include "MemorySocket.h"
 #include "QPlcMasterNode.h"
-#include "node/QPlcMasterNodePrivate.h"
+#include "node/api/QPlcMasterNodePrivate.h"
 #include "protocol/ControlFrame.h"
 #include "protocol/LittleEndian.h"
 

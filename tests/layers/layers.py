@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Checks who includes whom, what each room may know, and the size of files: docs/design/layers.md says why.
+"""Checks who includes whom, what each room may know, and the length of functions: docs/design/layers.md says why.
 
 usage: layers.py SOURCE_FOLDER
 """
@@ -8,17 +8,25 @@ import re
 import sys
 from pathlib import Path
 
-# Room: the rooms whose headers it may include.
+BELOW_NODE = {"signals", "realtime", "transport", "protocol"}
+# Room: the rooms whose headers it may include. The public headers of all rooms of the node belong to "node".
 ARROWS = {
     "signals": {"signals"},
     "realtime": {"realtime"},
     "transport": {"realtime", "transport"},
     "protocol": {"signals", "protocol"},
-    "node": {"signals", "realtime", "transport", "protocol", "node"},
-    "hardware": {"signals", "realtime", "node", "hardware"},
-    "gui": {"signals", "node", "gui"},
+    "node": BELOW_NODE | {"node"},
+    "node/state": {"node", "node/state"},
+    "node/security": BELOW_NODE | {"node", "node/security"},
+    # Only NodeRuntime.cpp knows node/api: it calls the functions of a node program.
+    "node/cycle": BELOW_NODE | {"node", "node/cycle", "node/api"},
+    "node/statistics": BELOW_NODE | {"node", "node/cycle", "node/statistics"},
+    "node/session": BELOW_NODE | {"node", "node/state", "node/security", "node/cycle", "node/statistics", "node/session"},
+    "node/api": BELOW_NODE | {"node", "node/state", "node/security", "node/cycle", "node/statistics", "node/session", "node/api"},
+    "hardware": {"signals", "realtime", "node", "node/session", "hardware"},
+    "gui": {"signals", "node", "node/state", "node/cycle", "node/session", "gui"},
     "gui3d": {"signals", "node", "gui", "gui3d"},
-    "tools": {"signals", "realtime", "protocol", "transport", "node", "tools"},
+    "tools": BELOW_NODE | {"node", "node/state", "node/security", "node/cycle", "node/session", "tools"},
 }
 # Room with a library of its own: folder of its list of headers, and its umbrella header. All others belong to QtPlc::Core.
 LIBRARIES = {"hardware": ("src/hardware", "QtPlcHardware"), "gui": ("src/gui", "QtPlcGui"), "gui3d": ("src/gui3d", "QtPlcGui3D")}
@@ -46,7 +54,10 @@ FORBIDDEN = {
     "examples/airborne_wind_energy/plant": [(QT, "Qt")],
     "examples/airborne_wind_energy/flight_control": [(QT, "Qt")],
 }
-MOST_LINES = 500
+# Lines of a function, from its name to its last brace: at most, and for 99 of 100.
+MOST_LINES, USUAL_LINES = 80, 40
+# A table of data may be longer: rows of a test, or one constant that is returned.
+TABLE = r"_data\(\)$|^\s*static const\b"
 
 
 def files(folder):
@@ -69,9 +80,15 @@ class Check:
 
     def room(self, path):
         if path.parent != self.public:
-            return path.relative_to(self.source).parts[0] if self.source in path.parents else None
+            return self.room_of_source(path) if self.source in path.parents else None
         homes = [p.relative_to(self.source).parts[0] for p in self.source.glob(f"*/**/{path.stem}.cpp")]
         return homes[0] if homes else HEADER_ONLY.get(path.stem)
+
+    def room_of_source(self, path):
+        """The folder, with its room where the folder has rooms with arrows of their own."""
+        folder, *rest = path.relative_to(self.source).parts
+        room = f"{folder}/{rest[0]}"
+        return room if room in ARROWS else folder
 
     def arrows(self):
         for path in files(self.source) + [p for p in files(self.public) if p.suffix == ".h"]:
@@ -119,14 +136,36 @@ class Check:
             if path.suffix == ".h" and path.name not in re.findall(r'#include "(\w+\.h)"', (self.public / umbrella).read_text()):
                 self.error(path, 1, f"is missing in the umbrella header {umbrella}")
 
-    def sizes_and_licences(self):
+    def functions(self, path):
+        """The functions of a file: line of the name, number of lines, whether it is a table. The format of the code is relied on."""
+        lines = path.read_text().split("\n")
+        for brace, line in enumerate(lines):
+            if line.strip() != "{":
+                continue
+            margin, first = line[:-1], brace - 1
+            while first > 0 and lines[first].startswith(margin) and re.match(r"[ :,]", lines[first][len(margin):]):
+                first -= 1
+            head = " ".join(part.strip() for part in lines[first:brace])
+            if "(" not in head or re.match(r"(template<.*> )?(class|struct|union|enum|namespace|extern|if|for|while|switch|do|//)\b", head):
+                continue
+            last = next((at for at in range(brace, len(lines)) if lines[at].startswith(margin + "}")), len(lines))
+            yield first + 1, last - first + 1, bool(re.search(TABLE, head) or re.search(TABLE, lines[brace + 1]))
+
+    def lengths_and_licences(self):
+        lengths = []
         for folder in ("include", "src", "examples", "tests", "benchmarks", "docs"):
             for path in files(self.root / folder):
-                lines = path.read_text().split("\n")
-                if len(lines) > MOST_LINES + 1:
-                    self.error(path, MOST_LINES, f"has {len(lines) - 1} lines, more than {MOST_LINES}: split it")
-                if "SPDX-License-Identifier: Apache-2.0" not in lines[0]:
+                if "SPDX-License-Identifier: Apache-2.0" not in path.read_text().split("\n")[0]:
                     self.error(path, 1, "does not begin with // SPDX-License-Identifier: Apache-2.0")
+                for line, length, is_table in self.functions(path):
+                    if length > MOST_LINES and not is_table:
+                        self.error(path, line, f"a function of {length} lines, more than {MOST_LINES}: split it")
+                    if folder in ("include", "src"):
+                        lengths.append((length, path, line))
+        lengths.sort(key=lambda entry: -entry[0])
+        usual, path, line = lengths[len(lengths) // 100]
+        if usual > USUAL_LINES:
+            self.error(path, line, f"one function of a hundred has {usual} lines or more, more than {USUAL_LINES}: split the longest")
 
 
 def main():
@@ -134,7 +173,7 @@ def main():
     check.arrows()
     check.words()
     check.public_headers()
-    check.sizes_and_licences()
+    check.lengths_and_licences()
     print("\n".join(check.errors) or "the layers are in order")
     return 1 if check.errors else 0
 

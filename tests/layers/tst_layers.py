@@ -36,7 +36,7 @@ class Faults(unittest.TestCase):
             self.assertIn(word, run.stdout)
 
     def test_protocol_may_not_include_node(self):
-        self.plant("src/protocol/ControlFrame.h", '#include "node/MasterCycle.h"\n')
+        self.plant("src/protocol/ControlFrame.h", '#include "node/cycle/MasterCycle.h"\n')
         self.assert_named("src/protocol/ControlFrame.h:", "which belongs to node")
 
     def test_transport_may_not_include_signals(self):
@@ -60,11 +60,11 @@ class Faults(unittest.TestCase):
         self.assert_named("src/signals/Fnv1a.h:", "a socket")
 
     def test_only_realtime_reads_clocks(self):
-        self.plant("src/node/NodeSlot.h", "inline auto now() { return std::chrono::steady_clock::now(); }\n")
-        self.assert_named("src/node/NodeSlot.h:", "a clock")
+        self.plant("src/node/cycle/NodeSlot.h", "inline auto now() { return std::chrono::steady_clock::now(); }\n")
+        self.assert_named("src/node/cycle/NodeSlot.h:", "a clock")
 
     def test_a_word_in_a_comment_is_no_fault(self):
-        self.plant("src/node/NodeSlot.h", "// not steady_clock\n")
+        self.plant("src/node/cycle/NodeSlot.h", "// not steady_clock\n")
         run = subprocess.run([sys.executable, "-B", LAYERS, self.root], capture_output=True, text=True)
         self.assertEqual(run.returncode, 0, run.stdout)
 
@@ -81,9 +81,22 @@ class Faults(unittest.TestCase):
         header.write_text("\n".join(line for line in header.read_text().split("\n") if not line.startswith("///")))
         self.assert_named("QPlcCycle has no comment")
 
-    def test_a_file_has_at_most_500_lines(self):
-        self.plant("src/node/NodeSlot.h", "\n" * 500)
-        self.assert_named("src/node/NodeSlot.h:500:", "split it")
+    def test_a_function_has_at_most_80_lines(self):
+        self.plant("src/node/cycle/NodeSlot.cpp", "\nvoid tooLong()\n{\n" + "    step();\n" * 78 + "}\n")
+        self.assert_named("src/node/cycle/NodeSlot.cpp:", "a function of 81 lines")
+
+    def test_a_table_may_be_longer(self):
+        self.plant("src/node/cycle/NodeSlot.cpp", "\nint table()\n{\n    static const int rows[] = {\n" + "        1,\n" * 90 + "    };\n}\n")
+        run = subprocess.run([sys.executable, "-B", LAYERS, self.root], capture_output=True, text=True)
+        self.assertEqual(run.returncode, 0, run.stdout)
+
+    def test_one_function_of_a_hundred_may_have_40_lines(self):
+        self.plant("src/node/cycle/NodeSlot.cpp", ("\nvoid long_()\n{\n" + "    step();\n" * 47 + "}\n") * 60)
+        self.assert_named("src/node/cycle/NodeSlot.cpp:", "one function of a hundred has")
+
+    def test_a_room_of_the_node_has_its_own_arrows(self):
+        self.plant("src/node/state/StateText.cpp", '#include "node/session/Leases.h"\n')
+        self.assert_named("src/node/state/StateText.cpp:", "node/state may not include node/session/Leases.h, which belongs to node/session")
 
     def test_a_file_begins_with_its_licence(self):
         self.plant("src/node/News.h", "#pragma once\n")

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "NodeFixtures.h"
-#include "node/Handshake.h"
+#include "node/security/Handshake.h"
 #include "protocol/CyclicFrame.h"
 #include "signals/PayloadLayout.h"
 

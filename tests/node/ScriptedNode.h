@@ -2,7 +2,7 @@
 #pragma once
 
 #include "NodeFixtures.h"
-#include "node/SealFields.h"
+#include "node/security/SealFields.h"
 #include "protocol/ControlFrame.h"
 #include "protocol/CyclicFrame.h"
 #include "signals/PayloadLayout.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SecurityFixtures.h"
-#include "node/AccessRights.h"
-#include "node/Keyring.h"
+#include "node/security/AccessRights.h"
+#include "node/security/Keyring.h"
 
 #include <QtCore/QMetaEnum>
 #include <QtTest/QtTest>

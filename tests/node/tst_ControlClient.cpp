@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ScriptedMaster.h"
-#include "node/ControlClient.h"
+#include "node/session/ControlClient.h"
 
 #include <QtTest/QtTest>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "../realtime/FakeTime.h"
 #include "NodeFixtures.h"
-#include "node/MasterCycle.h"
+#include "node/cycle/MasterCycle.h"
 
 #include <QtTest/QtTest>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "node/EventLog.h"
-#include "node/ReportLimiter.h"
+#include "node/statistics/EventLog.h"
+#include "node/statistics/ReportLimiter.h"
 
 #include <QtTest/QtTest>
 

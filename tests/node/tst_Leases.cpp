@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "node/Leases.h"
+#include "node/session/Leases.h"
 
 #include <QtTest/QtTest>
 

@@ -2,7 +2,7 @@
 #include "../realtime/FakeTime.h"
 #include "ScriptedMaster.h"
 #include "ScriptedNode.h"
-#include "node/MasterCycle.h"
+#include "node/cycle/MasterCycle.h"
 
 #include <QtTest/QtTest>
 

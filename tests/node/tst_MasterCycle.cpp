@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "node/MasterCycle.h"
+#include "node/cycle/MasterCycle.h"
 #include "protocol/CyclicFrame.h"
 
 #include <QtTest/QtTest>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "../common/RuntimeFolder.h"
 #include "NodeFixtures.h"
-#include "node/MasterBeacon.h"
-#include "node/MasterFinder.h"
+#include "node/session/MasterBeacon.h"
+#include "node/session/MasterFinder.h"
 
 #include <QtNetwork/QNetworkInterface>
 #include <QtNetwork/QUdpSocket>

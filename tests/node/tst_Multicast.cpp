@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "NodeFixtures.h"
-#include "node/SlaveCycle.h"
+#include "node/cycle/SlaveCycle.h"
 
 #include <QtCore/QElapsedTimer>
 #include <QtTest/QtTest>

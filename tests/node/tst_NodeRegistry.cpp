@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "NodeFixtures.h"
-#include "node/GoneNodes.h"
-#include "node/NodeRegistry.h"
+#include "node/cycle/NodeRegistry.h"
+#include "node/session/GoneNodes.h"
 
 #include <QtTest/QtTest>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "node/NodeStatistics.h"
-#include "node/SlaveStatistics.h"
+#include "node/cycle/NodeStatistics.h"
+#include "node/cycle/SlaveStatistics.h"
 
 #include <QtTest/QtTest>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "NodeFixtures.h"
-#include "node/NodeRuntime.h"
+#include "node/cycle/NodeRuntime.h"
 #include "realtime/TimeSource.h"
 
 #include <QtTest/QtTest>

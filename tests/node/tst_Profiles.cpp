@@ -3,7 +3,7 @@
 #include "NodeFixtures.h"
 #include "ScriptedMaster.h"
 #include "ScriptedNode.h"
-#include "node/ProfileDefaults.h"
+#include "node/cycle/ProfileDefaults.h"
 
 #include <QtTest/QtTest>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ScriptedMaster.h"
-#include "node/QPlcSlaveNodePrivate.h"
+#include "node/api/QPlcSlaveNodePrivate.h"
 
 #include <QtTest/QtTest>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "node/Schedule.h"
+#include "node/cycle/Schedule.h"
 
 #include <QtTest/QtTest>
 

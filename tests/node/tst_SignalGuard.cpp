@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "node/SignalGuard.h"
+#include "node/cycle/SignalGuard.h"
 
 #include <QtTest/QtTest>
 

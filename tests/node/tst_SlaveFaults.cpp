@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ScriptedMaster.h"
 #include "ScriptedNode.h"
-#include "node/SlaveCycle.h"
+#include "node/cycle/SlaveCycle.h"
 #include "realtime/TimeSource.h"
 
 #include <QtCore/QSemaphore>

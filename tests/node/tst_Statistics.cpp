@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ScriptedNode.h"
-#include "node/StatisticSignals.h"
+#include "node/statistics/StatisticSignals.h"
 
 #include <QtTest/QtTest>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "node/TemporaryValues.h"
+#include "node/cycle/TemporaryValues.h"
 
 #include <QtTest/QtTest>
 

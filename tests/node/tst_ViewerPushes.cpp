@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "node/ViewerPushes.h"
+#include "node/session/ViewerPushes.h"
 #include "protocol/ControlFrame.h"
 
 #include <QtTest/QtTest>

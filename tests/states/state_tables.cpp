@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compares the tables in docs/design/states.md with those of the code, or writes them there.
-#include "node/MasterStates.h"
-#include "node/SlaveStates.h"
+#include "node/state/MasterStates.h"
+#include "node/state/SlaveStates.h"
 
 #include <QtCore/QFile>
 #include <QtCore/QStringList>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "node/Arming.h"
-#include "node/BackOff.h"
+#include "node/session/Arming.h"
+#include "node/session/BackOff.h"
 
 #include <QtTest/QtTest>
 

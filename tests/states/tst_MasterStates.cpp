@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "node/MasterStates.h"
+#include "node/state/MasterStates.h"
 
 #include <QtTest/QtTest>
 

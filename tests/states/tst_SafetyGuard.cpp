@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "node/SafetyGuard.h"
+#include "node/cycle/SafetyGuard.h"
 
 #include <QtTest/QtTest>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "node/SlaveStates.h"
+#include "node/state/SlaveStates.h"
 
 #include <QtTest/QtTest>
 

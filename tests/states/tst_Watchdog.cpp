@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "node/Watchdog.h"
+#include "node/cycle/Watchdog.h"
 
 #include <QtTest/QtTest>
 

@@ -2,7 +2,7 @@
 #include "NodeTableModel.h"
 
 #include "ValueFormat.h"
-#include "node/StateText.h"
+#include "node/state/StateText.h"
 
 #include <algorithm>
 

@@ -4,7 +4,7 @@
 #include "PlantFeed.h"
 
 #include "node/Logging.h"
-#include "node/StateText.h"
+#include "node/state/StateText.h"
 
 #include <QtCore/QJsonArray>
 

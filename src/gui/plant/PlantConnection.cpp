@@ -2,7 +2,7 @@
 #include "PlantConnection.h"
 
 #include "PlantLeases.h"
-#include "node/ListeningInterval.h"
+#include "node/cycle/ListeningInterval.h"
 
 #include <QtCore/QCoreApplication>
 

@@ -2,7 +2,7 @@
 #include "PlantFeed.h"
 
 #include "Plant.h"
-#include "node/StateText.h"
+#include "node/state/StateText.h"
 
 #include <algorithm>
 #include <cmath>

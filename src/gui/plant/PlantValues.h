@@ -5,7 +5,7 @@
 #include "QPlcIOBufferSlaveNode.h"
 #include "QPlcQuality.h"
 #include "gui/store/SignalStore.h"
-#include "node/ListeningInterval.h"
+#include "node/cycle/ListeningInterval.h"
 
 #include <QtCore/QByteArray>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "gui/panel/WindowContext.h"
-#include "node/MasterFinder.h"
+#include "node/session/MasterFinder.h"
 
 #include <QtWidgets/QBoxLayout>
 #include <QtWidgets/QWidget>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "node/MasterFinder.h"
+#include "node/session/MasterFinder.h"
 
 #include <QtCore/QSet>
 

@@ -3,7 +3,7 @@
 
 #include "gui/WindowText.h"
 #include "gui/models/ValueFormat.h"
-#include "node/StateText.h"
+#include "node/state/StateText.h"
 
 #include <QtCore/QStringList>
 

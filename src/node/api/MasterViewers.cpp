@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// Leases and events: who has taken over what, what has happened, and who is told.
+#include "QPlcMasterNodePrivate.h"
+#include "node/session/MasterReplies.h"
+
+#include <cmath>
+
+using Message = QPlcMessage;
+using qplc::JournalEvent;
+
+namespace {
+
+constexpr std::size_t mostEvents = 200;  // in one answer
+
+}  // namespace
+
+void QPlcMasterNodePrivate::prepareViewers()
+{
+    leases = std::make_unique<qplc::MasterLeases>(leaseBooks, *registry, *cycle, *settings);
+    pushes = std::make_unique<qplc::ViewerPushes>(*server, journal.events(), [this] { return leases->fields(); });
+    QObject::connect(server.get(), &qplc::MasterServer::greeted, q,
+                     [this](Connection *connection) { connection->eventsTold = journal.events().newest(); });
+    QObject::connect(&journal, &qplc::Journal::appended, pushes.get(), [this] { pushes->eventsHappened(); });
+    QObject::connect(leases.get(), &qplc::MasterLeases::heldSignalsChanged, q, [this] {
+        if (isRunning())
+            giveRoster();
+    });
+    QObject::connect(leases.get(), &qplc::MasterLeases::changed, q,
+                     [this](JournalEvent::Severity severity, const QString &text) {
+                         journal.tell(severity, JournalEvent::Lease, qplc::NodeRegistry::masterName(), text);
+                         pushes->leasesChanged();
+                         Q_EMIT q->leaseChanged();
+                     });
+    QObject::connect(
+        settings.get(), &qplc::MasterSettings::valueSet, q,
+        [this](const QObject *owner, QPlcSignalIndex signal, const QPlcValue &former, const QPlcValue &value) {
+            const QPlcSignalDefinition &definition = table.at(signal);
+            journal.valueSet(nameOf(owner), definition.name, definition.textOf(former), definition.textOf(value));
+        });
+    QObject::connect(settings.get(), &qplc::MasterSettings::valueCameBack, q,
+                     [this](QPlcSignalIndex signal, const QPlcValue &value) {
+                         journal.valueCameBack(table.at(signal).name, table.at(signal).textOf(value));
+                     });
+}
+
+/// Who is at the other end of a connection; without one: the master.
+QString QPlcMasterNodePrivate::nameOf(const QObject *socket) const
+{
+    for (const std::unique_ptr<Connection> &connection : server->connections()) {
+        if (connection->socket == socket)
+            return connection->shownName();
+    }
+    return qplc::NodeRegistry::masterName();
+}
+
+void QPlcMasterNodePrivate::changeLease(Connection *connection, const Message &message)
+{
+    qplc::Refusal refusal;
+    const bool isDone = message.kind() == Message::TakeLease ? leases->take(*connection, message.fields(), &refusal)
+                                                             : leases->release(*connection, message.fields(), &refusal);
+    if (isDone)
+        connection->send(Message::Done);
+    else
+        connection->fail(refusal.error, refusal.text);
+}
+
+void QPlcMasterNodePrivate::sendLeases(Connection *connection)
+{
+    if (!connection->send(Message::Leases, leases->fields()))
+        connection->fail(QStringLiteral("TooLong"), QStringLiteral("too many leases for one answer"));
+}
+
+void QPlcMasterNodePrivate::sendEvents(Connection *connection, const Message &message)
+{
+    const QJsonValue field = message.fields().value(QStringLiteral("since"));
+    const double since = field.isUndefined() ? 0.0 : field.toDouble(-1.0);
+    if (!(since >= 0.0 && since <= 9007199254740992.0) || since != std::floor(since)) {
+        connection->fail(QStringLiteral("MalformedMessage"),
+                         QStringLiteral("'since' is the sequence number of an event; leave it out for all events"));
+        return;
+    }
+    const std::vector<JournalEvent> events = journal.events().after(quint64(since), mostEvents);
+    QJsonObject fields = qplc::eventFields(events);
+    fields.insert(QStringLiteral("more"), !events.empty() && events.back().sequence < journal.events().newest());
+    connection->send(Message::Events, fields);
+}

@@ -1,0 +1,441 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "QPlcMasterNodePrivate.h"
+
+#include "QPlcSignalIndexTable.h"
+#include "QPlcSlaveNodePrivate.h"
+#include "node/Logging.h"
+#include "node/session/MasterReplies.h"
+
+#include <QtCore/QCoreApplication>
+#include <QtCore/QJsonArray>
+#include <QtCore/QMetaEnum>
+#include <QtCore/QRandomGenerator>
+#include <QtCore/QUuid>
+
+#include <cmath>
+
+#include <algorithm>
+
+using Message = QPlcMessage;
+using Event = qplc::MasterEvent;
+using qplc::NodeSlot;
+
+namespace {
+
+quint64 newSession()
+{
+    return QRandomGenerator::system()->generate64() | 1;  // never 0
+}
+
+/// What an error is about, unless who tells it knows better.
+qplc::JournalEvent::Kind kindOf(QPlcMasterNode::Error error)
+{
+    switch (error) {
+    case QPlcMasterNode::SignalError:
+        return qplc::JournalEvent::Set;
+    case QPlcMasterNode::NodeError:
+        return qplc::JournalEvent::Node;
+    case QPlcMasterNode::InitializationError:
+        return qplc::JournalEvent::Fault;
+    default:
+        return qplc::JournalEvent::State;
+    }
+}
+
+}  // namespace
+
+QPlcMasterNodePrivate::QPlcMasterNodePrivate(QPlcMasterNode *master)
+    : q(master)
+    , refusedValues(journal,
+                    [this](QPlcSignalIndex signal) {
+                        const qplc::SignalGuard &guard = cycle->signalGuard();
+                        return guard.nonFinite(signal) + guard.outOfRange(signal);
+                    })
+    , session(newSession())
+    , uuid(QUuid::createUuid().toString(QUuid::WithoutBraces))
+{
+    stepTimer.setSingleShot(true);
+    stepTimer.setInterval(2000);
+    QObject::connect(&stepTimer, &QTimer::timeout, q, [this] { stepTimedOut(); });
+}
+
+QPlcMasterNodePrivate::~QPlcMasterNodePrivate() = default;
+
+bool QPlcMasterNodePrivate::setError(QPlcMasterNode::Error newError, const QString &text)
+{
+    return setError(newError, text, qplc::NodeRegistry::masterName(), kindOf(newError));
+}
+
+bool QPlcMasterNodePrivate::setError(QPlcMasterNode::Error newError, const QString &text, const QString &source,
+                                     qplc::JournalEvent::Kind kind)
+{
+    using qplc::JournalEvent;
+    error = newError;
+    errorString = text;
+    const auto severity = newError == QPlcMasterNode::StateError ? JournalEvent::Warning : JournalEvent::Error;
+    if (kind == JournalEvent::Fault)
+        journal.raise(QStringLiteral("fault of ") + source, severity, kind, source, text);
+    else
+        journal.tell(severity, kind, source, text);
+    Q_EMIT q->errorOccurred(newError);
+    return false;
+}
+
+// ---- set-up ----
+
+bool QPlcMasterNodePrivate::prepare()
+{
+    if (registry)
+        return true;
+    if (table.isEmpty())
+        table = QPlcSignalIndexTable::current();
+    if (table.isEmpty())
+        return setError(
+            QPlcMasterNode::SignalError,
+            QStringLiteral(
+                "the master has no signals; read a table with QPlcSignalIndexTable::initializeFromIniFile() %1")
+                .arg(QPlcSignalIndexTable::lastErrorString())
+                .trimmed());
+    registry = std::make_unique<qplc::NodeRegistry>(table);
+    cycle = std::make_unique<qplc::MasterCycle>(table, hub, lcCyclic().isDebugEnabled());
+    settings = std::make_unique<qplc::MasterSettings>(*registry, *cycle, leaseBooks);
+    m_reportNotifier = std::make_unique<QSocketNotifier>(cycle->reports().descriptor(), QSocketNotifier::Read);
+    QObject::connect(m_reportNotifier.get(), &QSocketNotifier::activated, q, [this] { takeReports(); });
+    const auto hello = [this] {
+        QJsonObject fields{{QStringLiteral("protocol"), 1},
+                           {QStringLiteral("name"), qplc::NodeRegistry::masterName()},
+                           {QStringLiteral("uuid"), uuid},
+                           {QStringLiteral("session"), Message::fromHex64(session)},
+                           {QStringLiteral("tableHash"), Message::fromHex64(table.hash())},
+                           {QStringLiteral("state"), QLatin1String(qplc::nameOf(state))},
+                           {QStringLiteral("period"), double(interval.count())},
+                           {QStringLiteral("security"), networkSecurity},
+                           {QStringLiteral("features"), QJsonArray()}};
+        if (!faultPlan.isEmpty())
+            fields.insert(QStringLiteral("faults"), faultPlan);
+        return fields;
+    };
+    const auto objection = [this](const qplc::NodeDeclaration &node) { return objectionTo(node); };
+    server = std::make_unique<qplc::MasterServer>(*registry, cycle->image(), hub, session, hello, objection, nullptr);
+    QObject::connect(server.get(), &qplc::MasterServer::attached, q, [this](Connection *connection) {
+        settings->leaveToWriters();
+        journal.tell(qplc::JournalEvent::Info, qplc::JournalEvent::Node, connection->name,
+                     QStringLiteral("node %1 registered over %2").arg(connection->name, connection->cyclicKind));
+        journal.clear(QStringLiteral("node ") + connection->name,
+                      QStringLiteral("node %1 is back").arg(connection->name));
+        if (!connection->slot->faultPlan.isEmpty())
+            journal.tell(qplc::JournalEvent::Warning, qplc::JournalEvent::Node, connection->name,
+                         QStringLiteral("node %1 injects faults on purpose: %2")
+                             .arg(connection->name, connection->slot->faultPlan));
+        Q_EMIT q->nodeRegistered(connection->name);
+        m_joiner = connection;
+        apply(connection->slot->listener ? Event::ListenerJoined : Event::NodeJoined,
+              QStringLiteral("node %1 has joined").arg(connection->name));
+        m_joiner = nullptr;
+    });
+    QObject::connect(server.get(), &qplc::MasterServer::lost, q,
+                     [this](Connection *connection, const QString &reason) { nodeLost(connection, reason); });
+    watchSecurity();
+    QObject::connect(server.get(), &qplc::MasterServer::received, q,
+                     [this](Connection *connection, const Message &message) { receive(connection, message); });
+    prepareViewers();
+    return true;
+}
+
+bool QPlcMasterNodePrivate::claimSignal(const QString &name, QPlcSignalIndex *place, bool (*accepts)(QPlcSignalType),
+                                        const QString &wantedType)
+{
+    if (!prepare())
+        return false;
+    const QPlcSignalIndex index = table.indexOf(name);
+    if (index == QPlcInvalidSignalIndex)
+        return setError(QPlcMasterNode::SignalError, QStringLiteral("master: %1").arg(table.unknownSignalText(name)));
+    if (!accepts(table.at(index).type))
+        return setError(QPlcMasterNode::SignalError,
+                        QStringLiteral("master: signal '%1' is %2; give it the type %3")
+                            .arg(name, table.at(index).type.name(), wantedType));
+    if (const qplc::Leases::Lease *lease = leaseBooks.find(index))
+        return setError(QPlcMasterNode::SignalError,
+                        QStringLiteral("master: %1").arg(qplc::leaseRefusal(name, *lease).text));
+    if (*place != QPlcInvalidSignalIndex)
+        registry->release(*place);
+    if (!registry->claim(index))
+        return setError(
+            QPlcMasterNode::SignalError,
+            QStringLiteral("master: signal '%1' is written by '%2' already").arg(name, registry->writer(index)));
+    *place = index;
+    settings->leaveToWriters();
+    return true;
+}
+
+bool QPlcMasterNodePrivate::startServer(const QPlcUnderlyingProtocol &protocol)
+{
+    if (!prepare())
+        return false;
+    if (!apply(Event::Listen))
+        return false;
+    QHostAddress address = protocol.address();
+    if (!checkSecurity()) {
+        apply(Event::ServerFailed, errorString);
+        return false;
+    }
+    chooseAddress(&address);
+    server->setSecurity(security);
+    injectFaults();
+    server->setMaximumConnections(maximumConnections);
+    if (!server->listen(address, protocol.port(), localName, multicastGroup)) {
+        apply(Event::ServerFailed, server->errorString());
+        return setError(QPlcMasterNode::ServerError, server->errorString());
+    }
+    apply(Event::ServerListens);
+    beacon.begin(address,
+                 {server->port(), !security.isNone(), table.hash(),
+                  localName.isEmpty() ? QCoreApplication::applicationName() : localName},
+                 hasBeacon);
+    qCInfo(lcMaster).noquote() << "listening on" << address.toString() << "port" << server->port() << "security"
+                               << security.modeName();
+    return true;
+}
+
+void QPlcMasterNodePrivate::injectFaults()
+{
+    QString text;
+    const std::optional<qplc::FaultPlan> plan = qplc::FaultPlan::fromText(faultPlan, &text);
+    server->close();  // the frames of its nodes follow the last plan
+    hub.setFaults(faultPlan.isEmpty() ? std::nullopt : plan);
+    if (faultPlan.isEmpty())
+        return;
+    journal.tell(qplc::JournalEvent::Warning, qplc::JournalEvent::State, qplc::NodeRegistry::masterName(),
+                 QStringLiteral("the master injects faults on purpose: %1").arg(faultPlan));
+}
+
+bool QPlcMasterNodePrivate::addLocalNode(QPlcSlaveNode *node)
+{
+    if (!prepare())
+        return false;
+    if (!apply(Event::AddNode, QStringLiteral("node '%1' is added").arg(node->name())))
+        return false;
+    if (QPlcSignalIndexTable::current().isEmpty())
+        QPlcSignalIndexTable::setCurrent(table);  // what the node's lists of signals look their names up in
+    QString text;
+    qplc::NodeRuntime &runtime = node->d->runtime;
+    if (!runtime.bind(table, &text))
+        return setError(QPlcMasterNode::SignalError, text);
+    qplc::Refusal refusal;
+    const std::shared_ptr<NodeSlot> slot = registry->admit(qplc::NodeDeclaration::fromRuntime(runtime), &refusal);
+    if (!slot)
+        return setError(QPlcMasterNode::NodeError, refusal.text);
+    slot->local = &runtime;
+    slot->prepare(cycle->image(), session);
+    settings->leaveToWriters();
+    node->d->localMaster = q;
+    node->d->hasChannel = true;
+    node->d->apply(qplc::SlaveEvent::AddedLocally);
+    Q_EMIT q->nodeRegistered(slot->name);
+    return true;
+}
+
+void QPlcMasterNodePrivate::removeLocalNode(QPlcSlaveNode *node)
+{
+    if (!registry)
+        return;
+    end(QStringLiteral("node '%1' is removed").arg(node->name()));
+    for (const std::shared_ptr<NodeSlot> &slot : registry->nodes()) {
+        if (slot->local == &node->d->runtime) {
+            registry->remove(std::shared_ptr<NodeSlot>(slot));
+            node->d->localMaster.clear();
+            node->d->hasChannel = false;
+            node->d->apply(qplc::SlaveEvent::Leave);
+            break;
+        }
+    }
+    giveRoster();
+}
+
+// ---- messages ----
+
+void QPlcMasterNodePrivate::receive(Connection *connection, const Message &message)
+{
+    leases->renew(connection->socket);
+    switch (message.kind()) {
+    case Message::ReceiveMyInitialOutputStates:
+    case Message::Initialized:
+    case Message::RealTimeReady:
+        if (!connection->isNode())
+            connection->fail(QStringLiteral("MalformedMessage"),
+                             QStringLiteral("%1 is for registered nodes only").arg(message.kindName()));
+        else if (isRunning() || connection->slot->listener)
+            continueJoin(connection, message);
+        else
+            continueSequence(connection, message);
+        break;
+    case Message::NodeFault:
+        if (!connection->isNode())
+            connection->fail(QStringLiteral("MalformedMessage"),
+                             QStringLiteral("NodeFault is for registered nodes only"));
+        else if (connection->slot->listener || (isRunning() && connection->stage != Connection::Running))
+            server->drop(connection,
+                         qplc::printable(message.text(QStringLiteral(
+                             "text"))));  // a listener, or it failed to join: no reason to stop the others
+        else {
+            connection->hasFailed = true;
+            fault(connection->name, connection->slot->critical,
+                  QStringLiteral("node '%1': %2")
+                      .arg(connection->name, qplc::printable(message.text(QStringLiteral("text")))));
+        }
+        break;
+    default:
+        receiveCommand(connection, message);
+        break;
+    }
+}
+
+void QPlcMasterNodePrivate::receiveCommand(Connection *connection, const Message &message)
+{
+    const QJsonObject fields = message.fields();
+    QJsonObject reply;
+    qplc::Refusal refusal;
+    switch (message.kind()) {
+    case Message::InitializeAllStates:
+        request(connection, initializeAllStates());
+        break;
+    case Message::StartRealTime:
+        startAsAsked(connection, message);
+        break;
+    case Message::Stop:
+        stopAsAsked(connection, message);
+        break;
+    case Message::Arm:
+        armAsAsked(connection);
+        break;
+    case Message::SafeStop:
+        safeStop(QStringLiteral("'%1' asked for it%2")
+                     .arg(connection->shownName(),
+                          message.text(QStringLiteral("reason")).isEmpty()
+                              ? QString()
+                              : QStringLiteral(": ") + qplc::printable(message.text(QStringLiteral("reason")))));
+        connection->send(Message::Done);
+        break;
+    case Message::Reset:
+        request(connection, reset());
+        break;
+    case Message::GetState:
+        connection->send(Message::State, stateFor(*connection));
+        break;
+    case Message::GetSchedule:
+        connection->send(Message::Schedule, qplc::scheduleFields(q->schedule()));
+        break;
+    case Message::GetSignals:
+        if (!qplc::signalFields(*cycle, *registry, leaseBooks,
+                                fields.value(QStringLiteral("names")).toVariant().toStringList(), &reply, &refusal))
+            connection->fail(refusal.error, refusal.text);
+        else if (!connection->send(Message::Signals, reply))
+            connection->fail(QStringLiteral("TooLong"),
+                             QStringLiteral("too many signals for one answer; ask for some of them by name"));
+        break;
+    case Message::GetStatistics:
+        sendStatistics(connection, message);
+        break;
+    case Message::SetSignals:
+        setSignals(connection, message);
+        break;
+    case Message::TakeLease:
+    case Message::ReleaseLease:
+        changeLease(connection, message);
+        break;
+    case Message::GetLeases:
+        sendLeases(connection);
+        break;
+    case Message::GetEvents:
+        sendEvents(connection, message);
+        break;
+    default:
+        connection->fail(QStringLiteral("MalformedMessage"),
+                         QStringLiteral("a master has no use for %1").arg(message.kindName()));
+    }
+}
+
+/// Answers a request that was refused now, or remembers who waits for its end.
+void QPlcMasterNodePrivate::request(Connection *connection, bool accepted)
+{
+    if (!accepted)
+        connection->fail(QStringLiteral("WrongState"), errorString);
+    else if (m_step == Step::None)
+        connection->send(Message::Done);
+    else
+        m_requester = connection->socket;
+}
+
+void QPlcMasterNodePrivate::answerRequester(bool done, const QString &text)
+{
+    if (m_requester)
+        m_requester->sendMessage(
+            done ? Message(Message::Done)
+                 : Message(Message::Failed,
+                           {{QStringLiteral("error"), QStringLiteral("NodeError")}, {QStringLiteral("text"), text}}));
+    m_requester.clear();
+}
+
+void QPlcMasterNodePrivate::startAsAsked(Connection *connection, const Message &message)
+{
+    constexpr double largestInteger = 9007199254740992.0;  // that a JSON number holds exactly
+    const QJsonValue cycles = message.fields().value(QStringLiteral("cycles"));
+    const double wanted = cycles.toDouble(-1.0);
+    if (!cycles.isUndefined() && (wanted < 0.0 || wanted > largestInteger || wanted != std::floor(wanted)))
+        connection->fail(QStringLiteral("MalformedMessage"),
+                         QStringLiteral("'cycles' is a whole number of cycles; leave it out to run until Stop"));
+    else
+        request(connection,
+                startRealTime(cycles.isUndefined() ? 0 : quint64(wanted),
+                              isStartPermitted(message.hex64(QStringLiteral("token")))));
+}
+
+// ---- values from outside ----
+
+void QPlcMasterNodePrivate::setSignals(Connection *connection, const Message &message)
+{
+    qplc::Refusal refusal;
+    if (settings->setSignals(connection->socket, message.fields(), &refusal))
+        connection->send(Message::Done);
+    else
+        connection->fail(refusal.error, refusal.text);
+}
+
+bool QPlcMasterNodePrivate::setSignalValue(const QString &name, const QPlcValue &value)
+{
+    if (!prepare())
+        return false;
+    qplc::Refusal refusal;
+    if (!settings->setSignal(name, value, &refusal))
+        return setError(refusal.error == QLatin1String("WrongState") ? QPlcMasterNode::StateError
+                                                                     : QPlcMasterNode::SignalError,
+                        refusal.text);
+    return true;
+}
+
+QPlcNodeInfo QPlcMasterNodePrivate::info(const NodeSlot &slot) const
+{
+    QPlcNodeInfo node;
+    node.name = slot.name;
+    node.id = slot.id;
+    node.policy
+        = QString::fromLatin1(QMetaEnum::fromType<QPlcSlaveNode::RealTimeViolationPolicy>().valueToKey(slot.policy));
+    node.listener = slot.listener;
+    node.critical = slot.critical;
+    node.state = stateOf(slot);
+    node.every = slot.interval.cycles();
+    node.inputs = int(slot.inputLayout.fields().size());
+    node.outputs = int(slot.outputLayout.fields().size());
+    node.lateAnswers = slot.statistics.late;
+    node.duplicates = slot.statistics.duplicated + slot.statistics.reordered;
+    node.rejected = slot.statistics.rejected;
+    node.forged = slot.statistics.forged;
+    node.resent = slot.statistics.resent;
+    node.faultPlan = slot.faultPlan;
+    node.transport = QStringLiteral("inprocess");
+    if (const Connection *connection = slot.local ? nullptr : server->connectionOf(&slot)) {
+        node.transport = connection->cyclicKind;
+        node.address = connection->socket->peerName();
+    }
+    return node;
+}

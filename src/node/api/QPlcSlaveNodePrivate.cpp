@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "QPlcSlaveNodePrivate.h"
+
+#include "node/Logging.h"
+
+#include <QtCore/QCoreApplication>
+#include <QtCore/QRandomGenerator>
+#include <QtCore/QUuid>
+
+#include <optional>
+#include <utility>
+
+using Message = QPlcMessage;
+using qplc::SlaveEvent;
+
+namespace {
+
+bool hasCycles(QPlcMasterNode::State state)
+{
+    return state == QPlcMasterNode::RealTime || state == QPlcMasterNode::WaitingForLateSlaves
+        || state == QPlcMasterNode::SafeStop;
+}
+
+/// What a message of the master means to the node; none: nothing to its state.
+std::optional<SlaveEvent> eventOf(const Message &message)
+{
+    switch (message.kind()) {
+    case Message::Hello:
+        return SlaveEvent::HelloCame;
+    case Message::Registered:
+        return SlaveEvent::Accepted;
+    case Message::CyclicChannelAttached:
+        return SlaveEvent::ChannelAttached;
+    case Message::Rejected:
+        return SlaveEvent::Refused;
+    case Message::MasterEnds:
+        return SlaveEvent::MasterEnded;
+    case Message::SendYourInitialOutputStates:
+        return SlaveEvent::OutputsWanted;
+    case Message::InitializeWithValues:
+        return SlaveEvent::ValuesCame;
+    case Message::RealTimeStarted:
+        return SlaveEvent::PhaseStarted;
+    case Message::RealTimeStopped:
+        return SlaveEvent::PhaseStopped;
+    default:
+        return {};
+    }
+}
+
+}  // namespace
+
+QPlcSlaveNodePrivate::QPlcSlaveNodePrivate(QPlcSlaveNode *node, const QString &nodeName,
+                                           QPlcSlaveNode::RealTimeViolationPolicy violationPolicy)
+    : q(node)
+    , name(nodeName)
+    , policy(violationPolicy)
+    , runtime(*node)
+    , m_retryTimer(q)
+    , m_patience(q)
+    , m_uuid(QUuid::createUuid().toString(QUuid::WithoutBraces))
+{
+    m_retryTimer.setSingleShot(true);
+    QObject::connect(&m_retryTimer, &QTimer::timeout, q, [this] { apply(SlaveEvent::Retry); });
+    m_patience.setSingleShot(true);
+    QObject::connect(&m_patience, &QTimer::timeout, q, [this] {
+        masterLost(QPlcAbstractSocket::NoError,
+                   QStringLiteral("no answer within %1 s").arg(m_patience.interval() / 1000));
+    });
+    // A program that ends says goodbye in time: its node reaches its safe state before its destructor runs.
+    if (QCoreApplication *application = QCoreApplication::instance())
+        QObject::connect(application, &QCoreApplication::aboutToQuit, q, [this] {
+            if (!localMaster)  // else its master ends, too
+                disconnectFromMaster();
+        });
+}
+
+void QPlcSlaveNodePrivate::setError(QPlcSlaveNode::Error newError, const QString &text)
+{
+    error = newError;
+    errorString = text;
+    qCWarning(lcSlave).noquote() << text;
+    Q_EMIT q->errorOccurred(newError);
+}
+
+// ---- connection ----
+
+void QPlcSlaveNodePrivate::connectToMaster(const QPlcUnderlyingProtocol &newMaster)
+{
+    disconnectFromMaster();
+    error = QPlcSlaveNode::NoError;
+    errorString.clear();
+    master = newMaster;
+    m_wasRegistered = false;
+    m_backOff.reset();
+    if (!master.isValid()) {
+        setError(QPlcSlaveNode::OptionError,
+                 QStringLiteral("node '%1': no master given; use QPlcUnderlyingProtocol::tcp(), udp() or local()")
+                     .arg(name));
+        return;
+    }
+    apply(SlaveEvent::Connect);
+}
+
+void QPlcSlaveNodePrivate::openConnection()
+{
+    m_session = 0;
+    if (m_wasRegistered || reconnectPolicy == QPlcSlaveNode::ReconnectAlways)
+        m_patience.start(m_backOff.patience());
+    control = new QPlcMasterSocket(q);
+    if (security)
+        control->setSecurity(*security);
+    QObject::connect(control, &QPlcAbstractSocket::connected, q, [this] { apply(SlaveEvent::Connected); });
+    QObject::connect(control, &QPlcAbstractSocket::messageReceived, q,
+                     [this](const Message &message) { receive(message); });
+    // Not at once: a message that cannot be sent ends the connection, and who sends has more to do.
+    const auto controlLost = [this, socket = control](QPlcAbstractSocket::Error socketError) {
+        if (socket == control)  // else given up meanwhile
+            masterLost(socketError,
+                       socketError == QPlcAbstractSocket::NoError ? QStringLiteral("the connection was closed")
+                                                                  : socket->errorString());
+    };
+    QObject::connect(control, &QPlcAbstractSocket::errorOccurred, q, controlLost, Qt::QueuedConnection);
+    QObject::connect(
+        control, &QPlcAbstractSocket::disconnected, q, [controlLost] { controlLost(QPlcAbstractSocket::NoError); },
+        Qt::QueuedConnection);
+    control->connectToMaster(master);
+}
+
+void QPlcSlaveNodePrivate::disconnectFromMaster()
+{
+    if (localMaster)
+        localMaster->removeLocalNode(q);
+    else
+        apply(SlaveEvent::Leave);
+}
+
+void QPlcSlaveNodePrivate::endBeforeDestruction()
+{
+    const bool cyclesRun = localMaster ? hasCycles(localMaster->state()) : m_inPhase;
+    if (!cyclesRun)
+        return;
+    qCWarning(lcSlave).noquote() << "node" << name
+                                 << "is destroyed while its cycles run: they end here, without its safeState(); call "
+                                    "disconnectFromMaster() first, in the destructor of its class at the latest";
+    runtime.leaveCodeAlone();
+    if (localMaster) {
+        localMaster->removeLocalNode(q);
+        return;
+    }
+    cycle->stop();
+    m_inPhase = false;
+}
+
+void QPlcSlaveNodePrivate::closeConnection(QPlcSlaveNode::SafeStateReason reason)
+{
+    endPhase(reason);
+    for (QPlcMasterSocket **socket : {&control, &m_cyclicSocket}) {
+        if (!*socket)
+            continue;
+        (*socket)->disconnect(q);
+        (*socket)->close();
+        (*socket)->deleteLater();
+        *socket = nullptr;
+    }
+    m_patience.stop();
+    m_link.reset();
+    m_reportNotifier.reset();
+    m_outputsAwaited.reset();
+    hasChannel = false;
+    cycle.reset();
+}
+
+/// The reports of the cycle, which tell of the watchdog, are being read: the cycle ends behind them.
+void QPlcSlaveNodePrivate::closeAfterWatchdog()
+{
+    const auto close = [this, phase = m_phase] {
+        if (phase != m_phase || !m_inPhase)
+            return;  // ended meanwhile
+        const bool hadChannel = hasChannel;
+        haltCycles();
+        closeConnection(QPlcSlaveNode::WatchdogReason);
+        retryLater(SlaveEvent::WatchdogTimedOut);
+        Q_EMIT q->realTimeHasStopped();
+        if (hadChannel)
+            Q_EMIT q->disconnectedFromMaster();
+    };
+    QMetaObject::invokeMethod(q, close, Qt::QueuedConnection);
+}
+
+void QPlcSlaveNodePrivate::retryLater(SlaveEvent event)
+{
+    const bool isWanted = reconnectPolicy == QPlcSlaveNode::ReconnectAlways
+        || (reconnectPolicy == QPlcSlaveNode::ReconnectWhenLost && m_wasRegistered && event != SlaveEvent::MasterEnded);
+    if (!isWanted || QCoreApplication::closingDown())
+        return;
+    const double chance = QRandomGenerator::global()->generateDouble();
+    m_retryTimer.start(event == SlaveEvent::Refused ? m_backOff.afterRefusal(chance) : m_backOff.next(chance));
+}
+
+void QPlcSlaveNodePrivate::masterLost(QPlcAbstractSocket::Error socketError, const QString &text)
+{
+    const bool wasConnecting = state == QPlcSlaveNode::Connecting || state == QPlcSlaveNode::Registering;
+    const QString sentence = socketError == QPlcAbstractSocket::SecurityError
+        ? QStringLiteral("node '%1' is not accepted at %2: %3")
+        : wasConnecting
+        ? QStringLiteral("node '%1' cannot reach a master at %2: %3; start the master, or check address and port")
+        : QStringLiteral("node '%1' has lost the master at %2: %3");
+    const QString full = sentence.arg(name, master.toString(), text);
+    const QPlcAbstractSocket::Error reason
+        = socketError == QPlcAbstractSocket::NoError ? QPlcAbstractSocket::ConnectionLostError : socketError;
+    apply(socketError == QPlcAbstractSocket::SecurityError ? SlaveEvent::Refused : SlaveEvent::ConnectionLost);
+    setError(reason == QPlcAbstractSocket::ProtocolError ? QPlcSlaveNode::ProtocolError
+                                                         : QPlcSlaveNode::ConnectionError,
+             full);
+    Q_EMIT q->errorWithMaster(reason, full);
+}
+
+/// What master and node say of each other cannot be: it does not pass by itself.
+void QPlcSlaveNodePrivate::giveUp(QPlcSlaveNode::Error newError, const QString &text)
+{
+    apply(SlaveEvent::Refused);
+    setError(newError, text);
+}
+
+// ---- messages ----
+
+/// Whether a master may send \a message now. Anything else would call the code of the node before it is bound, or on two threads at a time.
+bool QPlcSlaveNodePrivate::isExpected(const Message &message) const
+{
+    const std::optional<SlaveEvent> event = eventOf(message);
+    if (event && qplc::slaveStates().at(state, *event).verdict == qplc::Verdict::Refused)
+        return false;
+    switch (message.kind()) {  // steps of the registration
+    case Message::Hello:
+        return m_session == 0;
+    case Message::Registered:
+        return m_session != 0 && !cycle;
+    case Message::CyclicChannelAttached:
+        return cycle && master.kind() != QPlcUnderlyingProtocol::Tcp;
+    default:
+        return true;
+    }
+}
+
+void QPlcSlaveNodePrivate::receive(const Message &message)
+{
+    if (state == QPlcSlaveNode::Registering && m_cyclicSocket
+        && message.kind() == Message::SendYourInitialOutputStates) {
+        m_outputsAwaited = message;  // it overtook CyclicChannelAttached, which comes on the other connection
+        return;
+    }
+    if (!isExpected(message)) {
+        qCWarning(lcSlave).noquote() << "node" << name << "ignores" << message.kindName()
+                                     << "of the master: not possible now";
+        return;
+    }
+    switch (message.kind()) {
+    case Message::Rejected:
+        giveUp(QPlcSlaveNode::RegistrationError,
+               QStringLiteral("the master at %1 refuses node '%2': %3")
+                   .arg(master.toString(), name, qplc::printable(message.text(QStringLiteral("text")))));
+        return;
+    case Message::MasterEnds:
+        qCInfo(lcSlave).noquote() << "node" << name << "- the master has ended";
+        break;
+    case Message::RealTimeStopped:
+        m_outputsAwaited.reset();
+        break;
+    case Message::StatesInitialized:
+        if (!message.fields().value(QStringLiteral("ok")).toBool()) {
+            m_outputsAwaited.reset();  // the master has given up what it began
+            apply(SlaveEvent::InitializationFailed);
+        }
+        break;
+    case Message::Failed:
+        qCWarning(lcSlave).noquote() << "node" << name
+                                     << "asked in vain:" << qplc::printable(message.text(QStringLiteral("text")));
+        break;
+    default:
+        break;
+    }
+    if (const std::optional<SlaveEvent> event = eventOf(message))
+        apply(*event, message);
+    else
+        Q_EMIT q->messageReceived(message);
+}
+
+void QPlcSlaveNodePrivate::proceed(SlaveEvent event, const Message &message)
+{
+    if (event == SlaveEvent::HelloCame)
+        receiveHello(message);
+    else
+        receiveRegistered(message);
+}

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "QPlcMasterNode.h"
+#include "QPlcMasterSocket.h"
+#include "QPlcSlaveNode.h"
+#include "node/cycle/ListeningInterval.h"
+#include "node/cycle/NodeRuntime.h"
+#include "node/cycle/SlaveCycle.h"
+#include "node/session/BackOff.h"
+#include "node/state/SlaveStates.h"
+#include "node/statistics/ReportLimiter.h"
+
+#include <QtCore/QJsonArray>
+#include <QtCore/QPointer>
+#include <QtCore/QSocketNotifier>
+#include <QtCore/QTimer>
+
+#include <memory>
+#include <optional>
+
+/// The control side of a slave: registration, and the phases that the master announces.
+class QPlcSlaveNodePrivate
+{
+public:
+    QPlcSlaveNodePrivate(QPlcSlaveNode *node, const QString &name, QPlcSlaveNode::RealTimeViolationPolicy policy);
+
+    void connectToMaster(const QPlcUnderlyingProtocol &master);
+    void disconnectFromMaster();
+    /// The class of the user is being destroyed, and no part of ours yet: cycles that still run end here, with a warning, and call nothing of it any more.
+    void endBeforeDestruction();
+
+    /// Emits realTimedOut() after cycles, from now on.
+    void watchCycles();
+    /// Emits hasInitialized() with the inputs, when anybody listens.
+    void tellInitialized();
+
+    /// Something has happened: the node goes to the next state as qplc::slaveStates() says, and does what belongs to it.
+    /// \return whether the present state accepts \a event
+    bool apply(qplc::SlaveEvent event, const QPlcMessage &message = QPlcMessage());
+    /// The safe state, in the thread of the node, while no cycle runs.
+    void makeSafe(QPlcSlaveNode::SafeStateReason reason);
+    /// Emits safeStateEntered(), once in a phase.
+    void tellSafe(QPlcSlaveNode::SafeStateReason reason);
+    void setError(QPlcSlaveNode::Error newError, const QString &text);
+
+    QPlcSlaveNode *const q;
+    QString name;
+    QPlcSlaveNode::RealTimeViolationPolicy policy;
+    bool listener = false;
+    bool critical = false;
+    bool hasChannel = false;  // registered, with the cyclic channel; or in the process of the master
+    QPlcSlaveNode::ReconnectPolicy reconnectPolicy = QPlcSlaveNode::ReconnectWhenLost;
+    qplc::ListeningInterval interval;
+    bool sameCycle = false;  // all inputs
+    bool twoPhase = false;
+    bool receivesQuality = false;
+    bool sendsQuality = false;
+    QString faultPlan;
+    QPlcSignalTable ownTable;
+    QPlcRealTimeOptions realTimeOptions;
+    std::optional<std::chrono::nanoseconds> watchdog;  // else as the profile says
+    int watchdogPeriods = 0;                           // it is at least so many periods long
+    std::optional<QPlcSlaveNode::WatchdogReaction> watchdogReaction;
+    bool hardware = false;
+    QPlcProfile::Value phaseProfile
+        = QPlcProfile::Automatic;  // of the phase at hand or the last one; Automatic: there was none
+    std::chrono::nanoseconds watchdogOfPhase{0};
+    std::optional<QPlcSecurity> security;  // else that of the process
+    qplc::NodeRuntime runtime;
+    QPlcSlaveNode::State state = QPlcSlaveNode::Disconnected;
+    QPlcSlaveNode::Error error = QPlcSlaveNode::NoError;
+    QString errorString;
+    std::unique_ptr<qplc::SlaveCycle> cycle;
+    QPlcUnderlyingProtocol master;
+    QPointer<QPlcMasterNode> localMaster;  // in whose process the node runs
+    QPlcMasterSocket *control = nullptr;
+
+private:
+    void enter(QPlcSlaveNode::State newState);
+    bool prepareFor(qplc::SlaveAction action, qplc::SlaveEvent event, const QPlcMessage &message);
+    void carryOut(qplc::SlaveAction action, const QPlcMessage &message);
+    void openConnection();
+    void closeConnection(QPlcSlaveNode::SafeStateReason reason);
+    void closeAfterWatchdog();
+    void retryLater(qplc::SlaveEvent event);
+    void haltCycles();
+    void endPhase(QPlcSlaveNode::SafeStateReason reason);
+    void codeFailed(const QString &text);
+    bool isExpected(const QPlcMessage &message) const;
+    void receive(const QPlcMessage &message);
+    bool isOrdered() const;
+    QJsonArray features() const;
+    void greet();
+    void proceed(qplc::SlaveEvent event, const QPlcMessage &message);
+    void receiveHello(const QPlcMessage &message);
+    bool chooseTable(const QPlcMessage &hello, QPlcSignalTable *table);
+    void registerAtMaster();
+    void receiveRegistered(const QPlcMessage &message);
+    bool makeUdpLink(quint16 *port);
+    bool openLocalLink(const QPlcMessage &registered);
+    bool joinGroup(const QPlcMessage &registered);
+    void giveLink(std::unique_ptr<qplc::CyclicLink> link);
+    void connectCyclicChannel();
+    void tellRegistered();
+    void sendInitialOutputs(const QPlcMessage &request);
+    bool canGoOn(const QPlcMessage &request) const;
+    void applyProfile(qplc::SlaveCycle::Phase *phase);
+    void watchdogHasTimedOut(quint64 lastCycle);
+    bool initializeWith(const QPlcMessage &message);
+    bool startCycles(const QPlcMessage &message);
+    bool refusePhase(QPlcSlaveNode::Error reason, const QString &text);
+    void masterLost(QPlcAbstractSocket::Error socketError, const QString &text);
+    void giveUp(QPlcSlaveNode::Error newError, const QString &text);
+    void takeReports();
+    void report(const qplc::CycleEvent &event);
+
+    /// Tells one phase of one master from all others.
+    struct PhaseName
+    {
+        quint64 session;
+        quint64 cycleZero;
+        bool operator==(const PhaseName &other) const
+        {
+            return session == other.session && cycleZero == other.cycleZero;
+        }
+    };
+
+    QPlcMasterSocket *m_cyclicSocket = nullptr;
+    std::optional<QPlcMessage>
+        m_outputsAwaited;  // request of the master, which knows already that the cyclic connection is there
+    std::unique_ptr<qplc::CyclicLink> m_link;  // until the cycle takes it
+    std::unique_ptr<QSocketNotifier> m_reportNotifier;
+    QSocketNotifier *m_cycleNotifier = nullptr;  // child of the node: it goes with it into another thread
+    QTimer m_retryTimer;                         // children of the node: they go with it into another thread
+    QTimer m_patience;                           // with an attempt to connect again
+    qplc::BackOff m_backOff;
+    bool m_wasRegistered = false;  // since connectToMaster()
+    bool m_inPhase = false;        // from startCycles() to endPhase(); not for a node in the process of its master
+    quint64 m_phase = 0;           // ordinal
+    std::optional<PhaseName>
+        m_lastPhase;                 // that the node has taken part in; none: it has failed since, or there was none
+    bool m_goesOn = false;           // in m_lastPhase, where it was: no initialization
+    bool m_isSafeByWatchdog = true;  // in this phase
+    qplc::ReportLimiter m_watchdogReports;
+    bool m_isSafeTold = false;  // in this phase
+    QString m_uuid;
+    quint64 m_session = 0;
+    QString m_token;
+    int m_id = 0;
+};

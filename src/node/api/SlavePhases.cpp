@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: Apache-2.0
+// The phases of QPlcSlaveNodePrivate: initialization, cycles and their reports, and what the profile of the plant says about them.
+#include "QPlcSlaveNodePrivate.h"
+#include "node/Logging.h"
+#include "node/cycle/FrameLog.h"
+#include "node/cycle/PeriodRange.h"
+#include "node/cycle/ProfileDefaults.h"
+#include "realtime/TimeSource.h"
+
+#include <QtCore/QMetaMethod>
+
+#include <algorithm>
+
+using Message = QPlcMessage;
+using qplc::SlaveEvent;
+
+namespace {
+
+QPlcClock clockOf(const Message &message)
+{
+    const QString kind = message.text(QStringLiteral("clock"));
+    if (kind == QLatin1String("Lockstep"))
+        return QPlcClock::lockstep();
+    if (kind == QLatin1String("Scaled"))
+        return QPlcClock::scaled(message.fields().value(QStringLiteral("scale")).toDouble(1.0));
+    return QPlcClock::realTime();
+}
+
+/// What a node cannot compute with of a phase that its master begins; empty: nothing.
+QString phaseError(const Message &message)
+{
+    const double period = message.fields().value(QStringLiteral("period")).toDouble();  // [ns]
+    if (!(period >= double(qplc::ShortestPeriod.count()) && period <= double(qplc::LongestPeriod.count())))
+        return QStringLiteral("a period of %1 s is out of range; use 0.00001 ... 10 s").arg(period * 1e-9);
+    const QPlcClock clock = clockOf(message);
+    if (!clock.isValid())
+        return QStringLiteral("a clock of %1 times real time is out of range; use 0.001 ... 1000, or lockstep")
+            .arg(clock.scale());
+    const quint64 first = message.hex64(QStringLiteral("firstCycle")) - message.hex64(QStringLiteral("cycleZero"));
+    if (first >= qplc::mostCycles(std::chrono::nanoseconds(qint64(period))))
+        return QStringLiteral("it begins with cycle %1, which has no time").arg(qint64(first));
+    return {};
+}
+
+/// Where the inputs lie in datagrams for many nodes; what is out of place is refused by its size of 0, and no frame will fit.
+qplc::SlaveCycle::Group groupOf(const Message &message, const qplc::PayloadLayout &inputs)
+{
+    const QJsonObject fields = message.fields().value(QStringLiteral("group")).toObject();
+    const double offset = fields.value(QStringLiteral("offset")).toDouble();
+    const double size = fields.value(QStringLiteral("size")).toDouble();
+    if (fields.isEmpty() || offset < 2 || size > double(qplc::MaximumCyclicPayload)
+        || offset + double(inputs.size()) > size)
+        return {};
+    return {std::uint16_t(fields.value(QStringLiteral("part")).toInt()), std::uint32_t(offset), std::uint32_t(size),
+            QPlcMessage(Message::RealTimeStarted, fields).hex64(QStringLiteral("hash"))};
+}
+
+}  // namespace
+
+/// The code of the derived class threw: the master is told, and the node waits in its safe state for the next initialization.
+void QPlcSlaveNodePrivate::codeFailed(const QString &text)
+{
+    if (control)
+        control->sendMessage(Message(Message::NodeFault, {{QStringLiteral("text"), text}}));
+    makeSafe(QPlcSlaveNode::CodeFailed);
+    apply(SlaveEvent::CodeFailed);
+    setError(QPlcSlaveNode::UserCodeError, QStringLiteral("node '%1': %2").arg(name, text));
+}
+
+/// Whether the node has been in the phase that \a request names, and has lost nothing but the connection.
+bool QPlcSlaveNodePrivate::canGoOn(const Message &request) const
+{
+    const PhaseName phase{m_session, request.hex64(QStringLiteral("phase"))};
+    return request.fields().contains(QStringLiteral("phase")) && m_lastPhase == phase;
+}
+
+void QPlcSlaveNodePrivate::sendInitialOutputs(const Message &request)
+{
+    QString text;
+    m_goesOn = canGoOn(request);
+    if (m_goesOn) {
+        runtime.goOn();
+    } else if (!runtime.reset(&text)) {
+        codeFailed(text);
+        return;
+    }
+    const QByteArray values(runtime.outputs(), int(runtime.outputLayout().size()));
+    QJsonObject fields{{QStringLiteral("values"), Message::fromBytes(values)}};
+    if (m_goesOn)
+        fields.insert(QStringLiteral("goesOn"), true);
+    control->sendMessage(Message(Message::ReceiveMyInitialOutputStates, fields));
+}
+
+bool QPlcSlaveNodePrivate::initializeWith(const Message &message)
+{
+    const QByteArray values = message.bytes(QStringLiteral("values"));
+    if (values.size() != int(runtime.inputLayout().size())) {
+        giveUp(QPlcSlaveNode::ProtocolError,
+               QStringLiteral("node '%1': initial values of %2 bytes instead of %3")
+                   .arg(name)
+                   .arg(values.size())
+                   .arg(runtime.inputLayout().size()));
+        return false;
+    }
+    QString text;
+    if (m_goesOn) {
+        runtime.takeInputs(values.constData());
+    } else if (!runtime.initialize(values.constData(), &text)) {
+        codeFailed(text);
+        return false;
+    }
+    control->sendMessage(Message(Message::Initialized));
+    if (!m_goesOn)
+        tellInitialized();
+    return true;
+}
+
+void QPlcSlaveNodePrivate::tellInitialized()
+{
+    if (q->isSignalConnected(QMetaMethod::fromSignal(&QPlcSlaveNode::hasInitialized)))
+        Q_EMIT q->hasInitialized(qplc::NodeRuntime::toList(runtime.inputLayout(), runtime.inputs()));
+}
+
+bool QPlcSlaveNodePrivate::refusePhase(QPlcSlaveNode::Error reason, const QString &text)
+{
+    control->sendMessage(Message(Message::NodeFault, {{QStringLiteral("text"), text}}));
+    setError(reason, QStringLiteral("node '%1': %2").arg(name, text));
+    return false;
+}
+
+bool QPlcSlaveNodePrivate::startCycles(const Message &message)
+{
+    const QString wrong = phaseError(message);
+    if (!wrong.isEmpty())
+        return refusePhase(QPlcSlaveNode::ProtocolError,
+                           QStringLiteral("the phase that the master begins is refused: %1").arg(wrong));
+    qplc::SlaveCycle::Phase phase;
+    phase.period = std::chrono::nanoseconds(qint64(message.fields().value(QStringLiteral("period")).toDouble()));
+    phase.clock = clockOf(message);
+    phase.cycleZero = message.hex64(QStringLiteral("cycleZero"));
+    phase.firstCycle = message.hex64(QStringLiteral("firstCycle"));
+    phase.group = groupOf(message, runtime.inputLayout());
+    phase.interval = interval;
+    phase.realTimeOptions = realTimeOptions;
+    // Whatever else a master tells, or does not tell, the strict one holds.
+    const bool isSimulation = message.text(QStringLiteral("profile")) == QPlcProfile::name(QPlcProfile::Simulation);
+    phaseProfile = isSimulation ? QPlcProfile::Simulation : QPlcProfile::Plant;
+    applyProfile(&phase);
+    if (!cycle->start(phase))
+        return refusePhase(QPlcSlaveNode::OptionError, cycle->errorString());
+    for (const QPlcRealTimeSetting &setting : cycle->realTimeSettings()) {
+        if (!setting.granted)
+            qCWarning(lcSlave).noquote() << "node" << name << setting.toString();
+    }
+    m_inPhase = true;
+    m_goesOn = false;
+    m_lastPhase = PhaseName{m_session, phase.cycleZero};
+    ++m_phase;
+    return true;
+}
+
+/// Sets what the profile of the plant says, unless the node says otherwise.
+void QPlcSlaveNodePrivate::applyProfile(qplc::SlaveCycle::Phase *phase)
+{
+    using Reaction = QPlcSlaveNode::WatchdogReaction;
+    const qplc::ProfileDefaults &defaults = qplc::ProfileDefaults::of(phaseProfile);
+    const auto time = watchdog.value_or(listener ? std::chrono::nanoseconds(0) : defaults.watchdog);
+    const int periods = watchdog ? watchdogPeriods : defaults.watchdogPeriods;
+    watchdogOfPhase
+        = time.count() > 0 ? std::max(time, periods * interval.cycles() * phase->period) : std::chrono::nanoseconds(0);
+    phase->watchdog = watchdogOfPhase;
+    phase->isSafeByWatchdog = m_isSafeByWatchdog = watchdogReaction.value_or(defaults.reaction) == Reaction::SafeState;
+    phase->usualHold = defaults.hold;
+}
+
+void QPlcSlaveNodePrivate::haltCycles()
+{
+    if (!m_inPhase)
+        return;
+    cycle->stop();
+    takeReports();
+}
+
+/// \pre haltCycles()
+void QPlcSlaveNodePrivate::endPhase(QPlcSlaveNode::SafeStateReason reason)
+{
+    if (!m_inPhase)
+        return;
+    m_inPhase = false;
+    if (const auto untold = m_watchdogReports.take(name))
+        qCWarning(lcSlave).noquote() << untold->text;
+    if (runtime.hasFailed())
+        m_lastPhase.reset();
+    makeSafe(reason);
+    runtime.stopped();
+}
+
+void QPlcSlaveNodePrivate::takeReports()
+{
+    if (!cycle)
+        return;
+    cycle->reports().take([this](const qplc::CycleEvent &event) { report(event); },
+                          [this](const qplc::TappedFrame &frame) { qplc::logFrame(name, frame); });
+}
+
+void QPlcSlaveNodePrivate::watchdogHasTimedOut(quint64 lastCycle)
+{
+    const QString text = QStringLiteral("node '%1': no frame of the master for %2 ms since cycle %3")
+                             .arg(name)
+                             .arg(double(watchdogOfPhase.count()) * 1e-6)
+                             .arg(lastCycle);
+    if (m_isSafeByWatchdog) {
+        tellSafe(QPlcSlaveNode::WatchdogReason);
+        apply(SlaveEvent::WatchdogTimedOut);
+        setError(QPlcSlaveNode::WatchdogError, text + QStringLiteral(": safe state"));
+    } else if (const auto told = m_watchdogReports.report(name, text, {}, qplc::monotonicNow())) {
+        qCWarning(lcSlave).noquote() << told->text;
+    }
+    Q_EMIT q->watchdogTimedOut(lastCycle);
+}
+
+void QPlcSlaveNodePrivate::report(const qplc::CycleEvent &event)
+{
+    switch (event.kind) {
+    case qplc::CycleEvent::ToldSafeStop:
+        qCWarning(lcSlave).noquote() << "node" << name << "- the master stops safely, in cycle" << event.cycle;
+        tellSafe(QPlcSlaveNode::MasterStopsSafely);
+        apply(SlaveEvent::ToldSafeStop);
+        break;
+    case qplc::CycleEvent::WatchdogTimedOut:
+        watchdogHasTimedOut(event.cycle);
+        break;
+    case qplc::CycleEvent::NodeFaulted:
+        codeFailed(QStringLiteral("the code of the node threw in cycle %1: %2")
+                       .arg(event.cycle)
+                       .arg(QString::fromLocal8Bit(runtime.faultText())));
+        break;
+    case qplc::CycleEvent::ForgedFrame:
+        qCWarning(lcSlave).noquote() << "node" << name
+                                     << "drops frames that are not as its master seals them, since cycle" << event.cycle
+                                     << "- somebody else sends them, or they are changed on the way";
+        break;
+    case qplc::CycleEvent::LinkClosed:
+        qCDebug(lcSlave).noquote()
+            << "node" << name << "has lost its cyclic connection";  // the control connection follows, with the reason
+        break;
+    default:
+        break;
+    }
+}

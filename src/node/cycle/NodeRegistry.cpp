@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "NodeRegistry.h"
+
+#include "Roster.h"
+#include "node/Logging.h"
+
+#include <QtCore/QJsonArray>
+#include <QtCore/QMetaEnum>
+#include <QtCore/QSet>
+
+#include <algorithm>
+
+namespace qplc {
+
+namespace {
+
+bool readSignals(const QJsonValue &json, QVector<NodeDeclaration::Signal> *declared)
+{
+    if (!json.isArray())
+        return false;
+    const QJsonArray array = json.toArray();
+    for (const QJsonValue &element : array) {
+        const QJsonObject object = element.toObject();
+        const NodeDeclaration::Signal read{
+            object.value(QStringLiteral("name")).toString(), object.value(QStringLiteral("type")).toString(),
+            object.value(QStringLiteral("unit")).toString(), object.value(QStringLiteral("sameCycle")).toBool()};
+        if (read.name.isEmpty() || read.type.isEmpty())
+            return false;
+        declared->append(read);
+    }
+    return true;
+}
+
+/// \return false when it is no number of cycles
+bool readInterval(const QJsonValue &json, ListeningInterval *interval)
+{
+    const int cycles = json.isUndefined() ? 1 : json.toInt(0);
+    if (cycles < 1 || cycles > ListeningInterval::Longest)
+        return false;
+    *interval = ListeningInterval(cycles);
+    return true;
+}
+
+QVector<NodeDeclaration::Signal> describe(const QPlcSignalTable &table, const PayloadLayout &layout)
+{
+    QVector<NodeDeclaration::Signal> declared;
+    for (const PayloadLayout::Field &field : layout.fields())
+        declared.append({table.at(field.signal).name, field.type.name(), table.at(field.signal).unit, false});
+    return declared;
+}
+
+}  // namespace
+
+bool NodeDeclaration::fromMessage(const QPlcMessage &message, NodeDeclaration *declaration, QString *error)
+{
+    const QJsonObject fields = message.fields();
+    bool knownPolicy = false;
+    const QByteArray policyName = message.text(QStringLiteral("policy")).toLatin1();
+    const int policy = QMetaEnum::fromType<QPlcSlaveNode::RealTimeViolationPolicy>().keyToValue(policyName.constData(),
+                                                                                                &knownPolicy);
+    declaration->name = message.text(QStringLiteral("name"));
+    declaration->listener = fields.value(QStringLiteral("listener")).toBool();
+    declaration->critical = fields.value(QStringLiteral("critical")).toBool() && !declaration->listener;
+    declaration->twoPhase = fields.value(QStringLiteral("twoPhase")).toBool();
+    declaration->quality = fields.value(QStringLiteral("quality")).toBool();
+    declaration->outputQuality = fields.value(QStringLiteral("outputQuality")).toBool();
+    if (declaration->name.isEmpty() || declaration->name.size() > LongestName)
+        *error = QStringLiteral("a node needs a name of 1 ... %1 characters").arg(LongestName);
+    else if (declaration->name != printable(declaration->name))
+        *error = QStringLiteral("the name '%1' has characters that cannot be shown").arg(printable(declaration->name));
+    else if (!knownPolicy)
+        *error = QStringLiteral("unknown policy '%1'").arg(QString::fromLatin1(policyName));
+    else if (!readSignals(fields.value(QStringLiteral("inputs")), &declaration->inputs)
+             || !readSignals(fields.value(QStringLiteral("outputs")), &declaration->outputs))
+        *error = QStringLiteral("'inputs' and 'outputs' are lists of {name, type, unit}");
+    else if (!readInterval(fields.value(QStringLiteral("every")), &declaration->interval))
+        *error = QStringLiteral("'every' is a number of cycles, 1 ... %1").arg(ListeningInterval::Longest);
+    declaration->policy = QPlcSlaveNode::RealTimeViolationPolicy(policy);
+    return error->isEmpty();
+}
+
+NodeDeclaration NodeDeclaration::fromRuntime(const NodeRuntime &runtime)
+{
+    NodeDeclaration declaration;
+    declaration.name = runtime.node().name();
+    declaration.policy = runtime.node().realTimeViolationPolicy();
+    declaration.listener = runtime.node().isListener();
+    declaration.critical = runtime.node().isCritical() && !declaration.listener;
+    declaration.interval = ListeningInterval(runtime.node().listeningInterval());
+    declaration.twoPhase = runtime.node().isTwoPhase();
+    declaration.quality = runtime.inputLayout().hasQualities();
+    declaration.outputQuality = runtime.outputLayout().hasQualities();
+    declaration.hardware = runtime.node().isHardware();
+    declaration.inputs = describe(runtime.table(), runtime.inputLayout());
+    for (int i = 0; i < declaration.inputs.size(); ++i)
+        declaration.inputs[i].sameCycle = runtime.sameCycle()[std::size_t(i)];
+    declaration.outputs = describe(runtime.table(), runtime.outputLayout());
+    return declaration;
+}
+
+NodeRegistry::NodeRegistry(const QPlcSignalTable &table)
+    : m_table(table)
+    , m_writers(table.size())
+{
+}
+
+bool NodeRegistry::resolve(const QString &node, const QVector<NodeDeclaration::Signal> &declared,
+                           QVector<QPlcSignalIndex> *indices, Refusal *refusal) const
+{
+    QSet<QPlcSignalIndex> seen;
+    for (const NodeDeclaration::Signal &signal : declared) {
+        const QPlcSignalIndex index = m_table.indexOf(signal.name);
+        if (index == QPlcInvalidSignalIndex) {
+            *refusal = {QStringLiteral("UnknownSignal"),
+                        QStringLiteral("node '%1': %2").arg(node, m_table.unknownSignalText(signal.name))};
+            return false;
+        }
+        const QPlcSignalDefinition &definition = m_table.at(index);
+        if (definition.type.name() != signal.type) {
+            *refusal = {QStringLiteral("TypeMismatch"),
+                        QStringLiteral(
+                            "signal '%1' is %2 in the table of the master, %3 in that of node '%4'; use the same table")
+                            .arg(signal.name, definition.type.name(), signal.type, node)};
+            return false;
+        }
+        if (definition.unit != signal.unit) {
+            *refusal = {QStringLiteral("UnitMismatch"),
+                        QStringLiteral("signal '%1' is in '%2' in the table of the master, in '%3' in that of node "
+                                       "'%4'; use the same table")
+                            .arg(signal.name, definition.unit, signal.unit, node)};
+            return false;
+        }
+        if (seen.contains(index)) {
+            *refusal = {QStringLiteral("MalformedMessage"),
+                        QStringLiteral("node '%1' declares signal '%2' twice; declare it once").arg(node, signal.name)};
+            return false;
+        }
+        seen.insert(index);
+        indices->append(index);
+    }
+    return true;
+}
+
+std::shared_ptr<NodeSlot> NodeRegistry::admit(const NodeDeclaration &declaration, Refusal *refusal)
+{
+    const auto sameName = [&](const std::shared_ptr<NodeSlot> &slot) { return slot->name == declaration.name; };
+    if (declaration.name == masterName() || std::any_of(m_nodes.begin(), m_nodes.end(), sameName)) {
+        *refusal = {QStringLiteral("NameInUse"),
+                    QStringLiteral("there is a node '%1' already; give this one another name, or stop the other one")
+                        .arg(declaration.name)};
+        return nullptr;
+    }
+    if (m_nodes.size() >= MaximumNodes) {
+        *refusal = {QStringLiteral("TooManyNodes"),
+                    QStringLiteral("node '%1' would be number %2; a master serves at most %3")
+                        .arg(declaration.name)
+                        .arg(m_nodes.size() + 1)
+                        .arg(MaximumNodes)};
+        return nullptr;
+    }
+    if (!declaration.interval.isEveryCycle() && !(declaration.listener && declaration.outputs.isEmpty())) {
+        *refusal
+            = {QStringLiteral("MalformedMessage"),
+               QStringLiteral("node '%1' wants one of %2 cycles: that is for listeners without outputs; let it take "
+                              "every cycle, or declare it a listener and its outputs elsewhere")
+                   .arg(declaration.name)
+                   .arg(declaration.interval.cycles())};
+        return nullptr;
+    }
+    QVector<QPlcSignalIndex> inputs;
+    QVector<QPlcSignalIndex> outputs;
+    if (!resolve(declaration.name, declaration.inputs, &inputs, refusal)
+        || !resolve(declaration.name, declaration.outputs, &outputs, refusal))
+        return nullptr;
+    for (QPlcSignalIndex output : outputs) {
+        if (!mayWrite(declaration.name, output, refusal))
+            return nullptr;
+    }
+    auto slot = std::make_shared<NodeSlot>();
+    slot->name = declaration.name;
+    slot->id = freeId();
+    slot->policy = declaration.policy;
+    slot->listener = declaration.listener;
+    slot->critical = declaration.critical;
+    slot->hardware = declaration.hardware;
+    slot->interval = declaration.interval;
+    slot->twoPhase = declaration.twoPhase;
+    for (const NodeDeclaration::Signal &input : declaration.inputs)
+        slot->sameCycle.push_back(input.sameCycle);
+    const auto with
+        = [](bool qualities) { return qualities ? PayloadLayout::WithQualities : PayloadLayout::WithoutQualities; };
+    slot->inputLayout = PayloadLayout(m_table, inputs, with(declaration.quality));
+    slot->outputLayout = PayloadLayout(m_table, outputs, with(declaration.outputQuality));
+    if (closesLoop(slot, refusal))
+        return nullptr;
+    for (QPlcSignalIndex output : outputs)
+        addWriter(declaration.name, output);
+    m_nodes.push_back(slot);
+    return slot;
+}
+
+bool NodeRegistry::mayWrite(const QString &name, QPlcSignalIndex signal, Refusal *refusal) const
+{
+    const QPlcSignalDefinition &definition = m_table.at(signal);
+    const QStringList &present = m_writers.at(signal);
+    if (!definition.writers.isEmpty() && !definition.writers.contains(name))
+        *refusal
+            = {QStringLiteral("WriterNotNamed"),
+               QStringLiteral("signal '%1' cannot be written by node '%2': the table of the master has 'writer = %3'; "
+                              "name the node there, or give it one of these names")
+                   .arg(definition.name, name, definition.writers.join(QStringLiteral(" > ")))};
+    else if (!present.isEmpty() && (definition.writers.size() < 2 || present.contains(masterName())))
+        *refusal = {QStringLiteral("SignalHasWriter"),
+                    QStringLiteral("signal '%1' cannot be written by node '%2': node '%3' writes it; a signal has one "
+                                   "writer, unless 'writer =' of the table names several")
+                        .arg(definition.name, name, present.first())};
+    return refusal->error.isEmpty();
+}
+
+void NodeRegistry::addWriter(const QString &name, QPlcSignalIndex signal)
+{
+    QStringList &present = m_writers[signal];
+    const QStringList &order = m_table.at(signal).writers;
+    const auto isBehind = [&](const QString &other) { return order.indexOf(other) > order.indexOf(name); };
+    present.insert(std::find_if(present.begin(), present.end(), isBehind), name);
+}
+
+bool NodeRegistry::closesLoop(const std::shared_ptr<NodeSlot> &slot, Refusal *refusal) const
+{
+    std::vector<std::shared_ptr<NodeSlot>> nodes = m_nodes;
+    nodes.push_back(slot);
+    const Schedule schedule = scheduleOf(nodes);
+    if (schedule.isValid())
+        return false;
+    const QString loop = loopText(schedule, nodes, m_table);
+    *refusal
+        = {QStringLiteral("AlgebraicLoop"),
+           QStringLiteral("node '%1' closes an algebraic loop: %2; make one of these inputs not same-cycle, or one "
+                          "of these nodes two-phase")
+               .arg(slot->name, loop)};
+    return true;
+}
+
+quint16 NodeRegistry::freeId() const
+{
+    do {
+        ++m_lastId;
+    } while (m_lastId == 0 || find(m_lastId));
+    return m_lastId;
+}
+
+std::shared_ptr<NodeSlot> NodeRegistry::find(quint16 id) const
+{
+    const auto found = std::find_if(m_nodes.begin(), m_nodes.end(),
+                                    [id](const std::shared_ptr<NodeSlot> &slot) { return slot->id == id; });
+    return found == m_nodes.end() ? nullptr : *found;
+}
+
+void NodeRegistry::remove(const std::shared_ptr<NodeSlot> &slot)
+{
+    for (const PayloadLayout::Field &field : slot->outputLayout.fields())
+        m_writers[field.signal].removeAll(slot->name);
+    m_nodes.erase(std::remove(m_nodes.begin(), m_nodes.end(), slot), m_nodes.end());
+}
+
+bool NodeRegistry::claim(QPlcSignalIndex signal)
+{
+    if (!m_writers.at(signal).isEmpty())
+        return false;
+    m_writers[signal] = QStringList{masterName()};
+    return true;
+}
+
+void NodeRegistry::release(QPlcSignalIndex signal)
+{
+    m_writers[signal].removeAll(masterName());
+}
+
+}  // namespace qplc

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "QPlcSlaveSocket.h"
+#include "node/cycle/NodeRegistry.h"
+#include "node/security/AccessRights.h"
+#include "transport/ConnectionGate.h"
+
+#include <QtCore/QObject>
+
+#include <memory>
+
+namespace qplc {
+
+/// Somebody on the control channel of a master: a node, a tool, or a connection that has not said yet what it is.
+struct MasterConnection
+{
+    /// How far a node has come; each step is an answer that the master waits for.
+    enum Stage : quint8 {
+        Silent,  // has not greeted
+        Greeted,
+        Attaching,      // registered; its cyclic TCP connection is not there yet
+        Attached,       // ready to be initialized
+        GivingOutputs,  // SendYourInitialOutputStates is under way
+        OutputsGiven,
+        Initializing,  // InitializeWithValues is under way
+        Initialized,
+        Starting,  // RealTimeStarted is under way
+        Running    // answers cycles
+    };
+
+    QPlcSlaveSocket *socket = nullptr;
+    Stage stage = Silent;
+    Peer peer;                          // who it is, as far as it was proven
+    ConnectionGate::Ticket ticket = 0;  // of the door
+    QString name;                       // as greeted
+    QString uuid;
+    QString cyclicKind;                // "udp", "tcp"
+    TokenBucket messages{1000, 4000};  // that nobody has asked it for
+    quint64 token = 0;                 // names this node on its cyclic TCP connection
+    std::shared_ptr<NodeSlot> slot;    // null: no node
+    qint64 stageSince = 0;             // [ms] for time-outs
+    bool wantsLeases = false;          // has offered the feature, and so the next ones
+    bool wantsEvents = false;
+    bool isHardware = false;  // has offered the feature
+    bool hasFailed = false;   // has sent NodeFault since it was initialized last
+    bool leasesDue = false;   // they have changed and it was not told yet
+    quint64 eventsTold = 0;   // sequence number of the newest event that was sent
+
+    /// Whether it is TLS, and the peer proven: secrets may travel over it.
+    bool isSecured() const { return peer.isSecured && socket->isSecured(); }
+    QString shownName() const { return qplc::shownName(peer, name); }
+    bool isNode() const { return slot != nullptr; }
+    bool isAttached() const { return slot && stage >= Attached; }
+    /// Whether a message of \a kind is the answer that the master waits for: there are as many of them as the master wants.
+    bool owes(QPlcMessage::Kind kind) const
+    {
+        return (stage == GivingOutputs && kind == QPlcMessage::ReceiveMyInitialOutputStates)
+            || (stage == Initializing && kind == QPlcMessage::Initialized)
+            || (stage == Starting && kind == QPlcMessage::RealTimeReady);
+    }
+    bool send(QPlcMessage::Kind kind, const QJsonObject &fields = QJsonObject()) const
+    {
+        return socket->sendMessage(QPlcMessage(kind, fields));
+    }
+    /// Refuses a request; the connection stays.
+    void fail(const QString &error, const QString &text) const
+    {
+        send(QPlcMessage::Failed, {{QStringLiteral("error"), error}, {QStringLiteral("text"), text}});
+    }
+};
+
+}  // namespace qplc

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "QPlcSlaveSocket.h"
+#include "node/security/Handshake.h"
+#include "transport/ConnectionGate.h"
+#include "transport/ControlListener.h"
+
+#include <QtCore/QTimer>
+
+#include <map>
+
+namespace qplc {
+
+/// The entrance of a master: takes connections in as far as there is room, finds out who comes, and shows out who takes too long. What comes through is ready for messages.
+class MasterDoor : public QObject
+{
+    Q_OBJECT
+public:
+    explicit MasterDoor(QObject *parent = nullptr);
+    ~MasterDoor() override;
+
+    void setSecurity(const QPlcSecurity &security) { m_security = security; }
+    const QPlcSecurity &security() const { return m_security; }
+    void setLimits(const ConnectionGate::Limits &limits) { m_gate.setLimits(limits); }
+    ConnectionGate::Limits limits() const { return m_gate.limits(); }
+
+    bool listen(const QHostAddress &address, quint16 port);
+    void close();
+    QHostAddress address() const { return m_listener.address(); }
+    quint16 port() const { return m_listener.port(); }
+    QString errorString() const { return m_listener.errorString(); }
+    QAbstractSocket::SocketError error() const { return m_listener.error(); }
+
+    /// Who has greeted is no stranger any more.
+    void know(ConnectionGate::Ticket ticket);
+    void leave(ConnectionGate::Ticket ticket);
+    /// Connections that were closed because there was no room, at the time, for them or for their identity.
+    quint64 turnedAway() const { return m_turnedAway + m_listener.withoutDescriptor(); }
+    /// Connections whose handshake has failed, or took too long.
+    quint64 failedHandshakes() const { return m_failedHandshakes; }
+
+Q_SIGNALS:
+    /// Somebody is in. \param socket  owned by the receiver
+    void entered(QPlcSlaveSocket *socket, const qplc::Peer &peer, qplc::ConnectionGate::Ticket ticket);
+    /// \param identity  as claimed; empty: none
+    void refused(const QString &identity, const QString &address, const QString &reason);
+    /// Somebody who is in has not greeted in time.
+    void tooSlow(qplc::ConnectionGate::Ticket ticket);
+
+private:
+    void acceptAll();
+    void accept(int descriptor);
+    void handshakeEnded(ConnectionGate::Ticket ticket);
+    void turnAway(ConnectionGate::Ticket ticket, Handshake *handshake);
+    void forget(ConnectionGate::Ticket ticket);
+    void sweep();
+    void goOn();
+
+    ControlListener m_listener;
+    ConnectionGate m_gate;
+    QPlcSecurity m_security;
+    std::map<ConnectionGate::Ticket, Handshake *> m_handshakes;
+    QTimer m_sweeper;
+    quint64 m_turnedAway = 0;
+    quint64 m_failedHandshakes = 0;
+};
+
+}  // namespace qplc

@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "MasterLeases.h"
+
+#include "node/Logging.h"
+#include "realtime/TimeSource.h"
+
+#include <QtCore/QJsonArray>
+
+#include <algorithm>
+#include <cmath>
+
+namespace qplc {
+
+namespace {
+
+constexpr double shortestTimeout = 1e7;    // [ns] a master is not always quicker
+constexpr double longestTimeout = 3.6e12;  // [ns] an hour: whoever is silent for longer holds nothing
+constexpr double usualTimeout = 1e9;       // [ns]
+constexpr int longestName = 64;            // [characters] as of nodes
+
+Refusal malformed(const QString &text)
+{
+    return {QStringLiteral("MalformedMessage"), text};
+}
+
+bool readTimeout(const QJsonValue &field, std::int64_t *timeout, Refusal *refusal)
+{
+    const double wanted = field.isUndefined() ? usualTimeout : field.toDouble(-1.0);
+    if (!(wanted >= shortestTimeout && wanted <= longestTimeout) || wanted != std::floor(wanted)) {
+        *refusal = malformed(QStringLiteral("'timeout' is a whole number of nanoseconds, 10^7 ... 3.6 * 10^12; leave "
+                                            "it out for one second"));
+        return false;
+    }
+    *timeout = std::int64_t(wanted);
+    return true;
+}
+
+bool readName(const QJsonValue &field, QString *name, Refusal *refusal)
+{
+    *name = printable(field.toString());
+    if ((field.isString() || field.isUndefined()) && name->size() <= longestName)
+        return true;
+    *refusal = malformed(QStringLiteral("'whoever' is a text of at most %1 characters").arg(longestName));
+    return false;
+}
+
+}  // namespace
+
+MasterLeases::MasterLeases(Leases &leases, NodeRegistry &registry, MasterCycle &cycle, MasterSettings &settings)
+    : m_leases(leases)
+    , m_registry(registry)
+    , m_cycle(cycle)
+    , m_settings(settings)
+    , m_table(cycle.table())
+{
+    m_timer.setSingleShot(true);
+    m_timer.setTimerType(Qt::PreciseTimer);
+    connect(&m_timer, &QTimer::timeout, this,
+            [this] { lose(m_leases.loseSilent(monotonicNow()), QStringLiteral("has been silent for too long")); });
+}
+
+// ---- taking ----
+
+bool MasterLeases::take(const MasterConnection &asker, const QJsonObject &fields, Refusal *refusal)
+{
+    Wish wish;
+    const QObject *holder = asker.socket;
+    const bool takeOver = fields.value(QStringLiteral("takeOver")).toBool();
+    if (!readWish(fields, &wish, refusal) || !mayTake(holder, wish.indices, takeOver, refusal))
+        return false;
+    const Leases::Signals kept = keptSignals(holder, wish);
+    if (!m_cycle.hasRoomFor(wish.settings.size() + kept.size())) {
+        *refusal = {QStringLiteral("WrongState"),
+                    QStringLiteral("%1 values are too many between two cycles; take fewer signals at a time")
+                        .arg(wish.settings.size() + kept.size())};
+        return false;
+    }
+    wish.name = shownName(asker.peer, wish.name.isEmpty() ? asker.name : wish.name);
+    const QString from = othersText(holder, wish.indices);
+    m_leases.take(wish.indices, holder, wish.name, wish.timeout, monotonicNow());
+    m_settings.keepPresent(wish.indices);
+    listenToTheEndOf(holder);
+    Q_EMIT heldSignalsChanged();
+    m_settings.setLeased(wish.settings, refusal);  // there is room, also for the next line
+    m_settings.endWays(kept);
+    waitForNext();
+    Q_EMIT changed(JournalEvent::Info,
+                   QStringLiteral("'%1' has taken over %2%3").arg(wish.name, names(wish.indices), from));
+    return true;
+}
+
+/// What \a holder takes as it is: taking moves nothing, and what somebody else has set before ends.
+Leases::Signals MasterLeases::keptSignals(const QObject *holder, const Wish &wish) const
+{
+    Leases::Signals kept;
+    for (const QPlcSignalIndex signal : wish.indices) {
+        const auto isOfSignal = [signal](const SignalSetting &setting) { return setting.signal == signal; };
+        if (!m_leases.isHeldBy(signal, holder) && std::none_of(wish.settings.begin(), wish.settings.end(), isOfSignal))
+            kept.push_back(signal);
+    }
+    return kept;
+}
+
+bool MasterLeases::readWish(const QJsonObject &fields, Wish *wish, Refusal *refusal) const
+{
+    return readSignals(fields.value(QStringLiteral("signals")), &wish->indices, refusal)
+        && readValues(fields.value(QStringLiteral("values")), wish, refusal)
+        && readTimeout(fields.value(QStringLiteral("timeout")), &wish->timeout, refusal)
+        && readName(fields.value(QStringLiteral("whoever")), &wish->name, refusal);
+}
+
+bool MasterLeases::readSignals(const QJsonValue &names, Leases::Signals *indices, Refusal *refusal) const
+{
+    const QJsonArray array = names.toArray();
+    if (array.isEmpty())
+        *refusal = malformed(QStringLiteral("'signals' is a list of one or more names of signals"));
+    for (const QJsonValue &name : array) {
+        const QPlcSignalIndex index = m_table.indexOf(name.toString());
+        if (index == QPlcInvalidSignalIndex) {
+            *refusal = {QStringLiteral("UnknownSignal"), m_table.unknownSignalText(printable(name.toString()))};
+            return false;
+        }
+        if (std::find(indices->begin(), indices->end(), index) == indices->end())
+            indices->push_back(index);
+    }
+    return refusal->error.isEmpty();
+}
+
+bool MasterLeases::readValues(const QJsonValue &values, Wish *wish, Refusal *refusal) const
+{
+    const QJsonObject texts = values.toObject();
+    if (!values.isObject() && !values.isUndefined())
+        *refusal = malformed(QStringLiteral("'values' is an object of signal names and texts"));
+    for (auto it = texts.begin(); it != texts.end() && refusal->error.isEmpty(); ++it) {
+        const QPlcSignalIndex index = m_table.indexOf(it.key());
+        SignalSetting setting;
+        if (std::find(wish->indices.begin(), wish->indices.end(), index) == wish->indices.end())
+            *refusal = malformed(
+                QStringLiteral("'%1' has a value and is not one of 'signals'; name it there").arg(printable(it.key())));
+        else if (m_settings.readValue(index, it.value().toString(), &setting, refusal))
+            wish->settings.push_back(setting);
+    }
+    return refusal->error.isEmpty();
+}
+
+bool MasterLeases::mayTake(const QObject *holder, const Leases::Signals &indices, bool takeOver, Refusal *refusal) const
+{
+    std::size_t count = m_leases.all().size();
+    for (const QPlcSignalIndex signal : indices) {
+        const QString &name = m_table.at(signal).name;
+        count += m_leases.find(signal) ? 0 : 1;
+        if (m_registry.writer(signal) == NodeRegistry::masterName())
+            *refusal
+                = {QStringLiteral("SignalHasWriter"),
+                   QStringLiteral("signal '%1' is written by the master itself and cannot be taken over").arg(name)};
+        else if (!takeOver && m_leases.isHeldByOther(signal, holder))
+            *refusal = leaseRefusal(name, *m_leases.find(signal));
+        else if (count > MaximumLeases)
+            *refusal = {
+                QStringLiteral("WrongState"),
+                QStringLiteral("more than %1 signals cannot be taken over at a time; release some").arg(MaximumLeases)};
+    }
+    return refusal->error.isEmpty();
+}
+
+/// " from 'Anna', 'Bert'"; empty when nobody loses anything.
+QString MasterLeases::othersText(const QObject *holder, const Leases::Signals &indices) const
+{
+    QStringList others;
+    for (const QPlcSignalIndex signal : indices) {
+        if (m_leases.isHeldByOther(signal, holder))
+            others << QStringLiteral("'%1'").arg(m_leases.find(signal)->name);
+    }
+    others.removeDuplicates();
+    return others.isEmpty() ? QString() : QStringLiteral(" from %1").arg(others.join(QStringLiteral(", ")));
+}
+
+// ---- ending ----
+
+bool MasterLeases::release(const MasterConnection &asker, const QJsonObject &fields, Refusal *refusal)
+{
+    Leases::Signals indices;
+    const QJsonValue wanted = fields.value(QStringLiteral("signals"));
+    if (wanted.isUndefined())
+        indices = m_leases.signalsOf(asker.socket);
+    else if (!readSignals(wanted, &indices, refusal))
+        return false;
+    for (const QPlcSignalIndex signal : indices) {
+        if (m_leases.isHeldByOther(signal, asker.socket)) {
+            *refusal = leaseRefusal(m_table.at(signal).name, *m_leases.find(signal));
+            return false;
+        }
+    }
+    const auto isFree = [this](QPlcSignalIndex signal) { return m_leases.find(signal) == nullptr; };
+    indices.erase(std::remove_if(indices.begin(), indices.end(), isFree), indices.end());
+    if (indices.empty())
+        return true;
+    m_leases.release(indices);
+    m_settings.keepPresent(indices);
+    m_settings.leaveToWriters();
+    Q_EMIT heldSignalsChanged();
+    waitForNext();
+    Q_EMIT changed(JournalEvent::Info, QStringLiteral("'%1' has released %2").arg(asker.shownName(), names(indices)));
+    return true;
+}
+
+void MasterLeases::renew(const QObject *holder)
+{
+    if (m_holders.count(holder))
+        m_leases.renew(holder, monotonicNow());  // the timer finds out by itself that it is early
+}
+
+void MasterLeases::listenToTheEndOf(const QObject *holder)
+{
+    if (!m_holders.insert(holder).second)
+        return;
+    connect(holder, &QObject::destroyed, this, [this, holder] {
+        m_holders.erase(holder);
+        lose(m_leases.loseAllOf(holder), QStringLiteral("has lost the connection"));
+    });
+}
+
+void MasterLeases::lose(const Leases::Signals &indices, const QString &why)
+{
+    std::vector<SignalSetting> neutral;
+    std::map<QString, Leases::Signals> byHolder;
+    for (const QPlcSignalIndex signal : indices) {
+        neutral.push_back({signal, m_table.at(signal).safeValue(), QPlcQuality::Safe});
+        byHolder[m_leases.find(signal)->name].push_back(signal);
+    }
+    m_settings.keepPresent(indices);
+    m_settings.setSoon(neutral);
+    waitForNext();
+    for (const auto &[name, lost] : byHolder)
+        tellLost(name, lost, why);
+}
+
+void MasterLeases::tellLost(const QString &name, const Leases::Signals &indices, const QString &why)
+{
+    QStringList texts;
+    for (const QPlcSignalIndex signal : indices)
+        texts << QStringLiteral("%1 = %2").arg(m_table.at(signal).name, m_table.at(signal).safeValue().toString());
+    Q_EMIT changed(JournalEvent::Warning,
+                   QStringLiteral("'%1' %2: %3, until somebody takes or releases the lease")
+                       .arg(name, why, texts.join(QStringLiteral(", "))));
+}
+
+void MasterLeases::waitForNext()
+{
+    const std::optional<std::int64_t> next = m_leases.nextDeadline();
+    if (next)
+        m_timer.start(int(std::max<std::int64_t>(*next - monotonicNow(), 0) / 1'000'000 + 1));
+    else
+        m_timer.stop();
+}
+
+// ---- showing ----
+
+QString MasterLeases::names(const Leases::Signals &indices) const
+{
+    QStringList names;
+    for (const QPlcSignalIndex signal : indices)
+        names << m_table.at(signal).name;
+    return names.join(QStringLiteral(", "));
+}
+
+QVector<QPlcLease> MasterLeases::list() const
+{
+    QVector<QPlcLease> list;
+    for (const auto &[signal, lease] : m_leases.all())
+        list.append({m_table.at(signal).name, lease.name, lease.isLost(), std::chrono::nanoseconds(lease.timeout)});
+    return list;
+}
+
+QJsonObject MasterLeases::fields() const
+{
+    QJsonArray array;
+    for (const auto &[signal, lease] : m_leases.all())
+        array.append(QJsonObject{{QStringLiteral("signal"), m_table.at(signal).name},
+                                 {QStringLiteral("holder"), lease.name},
+                                 {QStringLiteral("lease"), lease.stateName()},
+                                 {QStringLiteral("timeout"), double(lease.timeout)}});
+    return {{QStringLiteral("leases"), array}};
+}
+
+}  // namespace qplc

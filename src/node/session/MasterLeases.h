@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "Leases.h"
+#include "MasterConnection.h"
+#include "MasterSettings.h"
+#include "QPlcLease.h"
+#include "node/statistics/EventLog.h"
+
+#include <QtCore/QJsonObject>
+#include <QtCore/QObject>
+#include <QtCore/QTimer>
+#include <QtCore/QVector>
+
+#include <set>
+
+namespace qplc {
+
+/// The leases of a master: carries out TakeLease and ReleaseLease, and brings the signals of a lost holder to their neutral values.
+///
+/// Holders are known by the object of their connection. Threads: that of the master.
+class MasterLeases : public QObject
+{
+    Q_OBJECT
+public:
+    /// Most leases at a time: a list of all of them fits into one message.
+    static constexpr std::size_t MaximumLeases = 1000;
+    /// \param leases  the books, which others read
+    MasterLeases(Leases &leases, NodeRegistry &registry, MasterCycle &cycle, MasterSettings &settings);
+
+    /// Carries out TakeLease: takes all signals of \a fields or none. \return false, with the reason in \a refusal
+    bool take(const MasterConnection &asker, const QJsonObject &fields, Refusal *refusal);
+    /// Carries out ReleaseLease.
+    bool release(const MasterConnection &asker, const QJsonObject &fields, Refusal *refusal);
+    /// A message of \a holder came.
+    void renew(const QObject *holder);
+
+    QVector<QPlcLease> list() const;
+    /// Fields of the messages Leases and LeasesChanged.
+    QJsonObject fields() const;
+
+Q_SIGNALS:
+    /// From the next cycle on, other signals than before are to keep the values that they are given. Comes before those values.
+    void heldSignalsChanged();
+    /// Who holds what has changed. \param text  what happened, for people
+    void changed(qplc::JournalEvent::Severity severity, const QString &text);
+
+private:
+    struct Wish
+    {
+        Leases::Signals indices;
+        std::vector<SignalSetting> settings;
+        QString name;
+        std::int64_t timeout = 0;
+    };
+    bool readWish(const QJsonObject &fields, Wish *wish, Refusal *refusal) const;
+    bool readSignals(const QJsonValue &names, Leases::Signals *indices, Refusal *refusal) const;
+    bool readValues(const QJsonValue &values, Wish *wish, Refusal *refusal) const;
+    Leases::Signals keptSignals(const QObject *holder, const Wish &wish) const;
+    bool mayTake(const QObject *holder, const Leases::Signals &indices, bool takeOver, Refusal *refusal) const;
+    void lose(const Leases::Signals &indices, const QString &why);
+    void tellLost(const QString &name, const Leases::Signals &indices, const QString &why);
+    QString othersText(const QObject *holder, const Leases::Signals &indices) const;
+    void listenToTheEndOf(const QObject *holder);
+    void waitForNext();
+    QString names(const Leases::Signals &indices) const;
+
+    Leases &m_leases;
+    NodeRegistry &m_registry;
+    MasterCycle &m_cycle;
+    MasterSettings &m_settings;
+    const QPlcSignalTable &m_table;
+    std::set<const QObject *> m_holders;  // whose end is listened to
+    QTimer m_timer;
+};
+
+}  // namespace qplc

@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "MasterServer.h"
+
+#include "node/Logging.h"
+#include "protocol/ControlFrame.h"
+#include "realtime/TimeSource.h"
+
+#include <QtCore/QPointer>
+#include <QtNetwork/QUdpSocket>
+
+#include <algorithm>
+
+namespace qplc {
+
+using Message = QPlcMessage;
+
+namespace {
+
+constexpr quint32 LongestGreeting = 64 * 1024;  // [byte]
+constexpr int LongestReason = 4000;             // [characters] of a refusal, which may quote what was sent
+
+}  // namespace
+
+MasterServer::MasterServer(NodeRegistry &registry, const ProcessImage &image, CyclicHub &hub, quint64 session,
+                           std::function<QJsonObject()> hello,
+                           std::function<Refusal(const NodeDeclaration &)> objection, QObject *parent)
+    : QObject(parent)
+    , m_registry(registry)
+    , m_image(image)
+    , m_hub(hub)
+    , m_session(session)
+    , m_hello(std::move(hello))
+    , m_objection(std::move(objection))
+    , m_tableText(QString::fromUtf8(image.table().toIni()))
+    , m_door(this)
+{
+    connect(&m_door, &MasterDoor::entered, this, &MasterServer::enter);
+    connect(&m_door, &MasterDoor::refused, this, &MasterServer::strangerRefused);
+    connect(&m_door, &MasterDoor::tooSlow, this, &MasterServer::dropSlow);
+}
+
+MasterServer::~MasterServer()
+{
+    close();
+}
+
+void MasterServer::setMaximumConnections(int connections)
+{
+    ConnectionGate::Limits limits = m_door.limits();
+    limits.connections = connections;
+    m_door.setLimits(limits);
+}
+
+void MasterServer::count(QPlcMasterStatistics *statistics) const
+{
+    statistics->refusedConnections = m_door.turnedAway();
+    statistics->failedHandshakes = m_door.failedHandshakes();
+    statistics->deniedMessages = m_deniedMessages;
+}
+
+// ---- ports ----
+
+static QString remedyForListening(QAbstractSocket::SocketError error)
+{
+    switch (error) {
+    case QAbstractSocket::SocketAddressNotAvailableError:
+        return QStringLiteral("this computer has no such address, 'ip address' shows those that it has");
+    case QAbstractSocket::SocketAccessError:
+        return QStringLiteral("ports below 1024 are for root, choose a higher one");
+    default:
+        return QStringLiteral("choose another port, or end the program that uses it");
+    }
+}
+
+bool MasterServer::openPorts(const QHostAddress &address, quint16 port)
+{
+    if (!m_door.listen(address, port)) {
+        m_errorString = QStringLiteral("cannot listen on %1:%2: %3; %4")
+                            .arg(address.toString())
+                            .arg(port)
+                            .arg(m_door.errorString(), remedyForListening(m_door.error()));
+        return false;
+    }
+    if (m_hub.open(SocketAddress(m_door.address(), m_door.port()), &m_errorString) && m_hub.openLocal(&m_errorString))
+        return true;
+    m_door.close();
+    return false;
+}
+
+bool MasterServer::listen(const QHostAddress &address, quint16 port, const QString &name, const QHostAddress &group)
+{
+    close();
+    m_address = address;
+    // A free TCP port may be taken on UDP: with port 0 another one will do.
+    for (int attempts = port == 0 ? 16 : 1; attempts > 0; --attempts) {
+        if (!openPorts(address, port))
+            continue;
+        if ((name.isEmpty() || m_name.hold(name, this->port(), &m_errorString)) && openMulticast(address, group))
+            return true;
+        close();
+        return false;
+    }
+    return false;
+}
+
+bool MasterServer::openMulticast(const QHostAddress &address, const QHostAddress &group)
+{
+    m_group = SocketAddress();
+    if (group.isNull())
+        return true;
+    if (!group.isMulticast() || group.protocol() != QAbstractSocket::IPv4Protocol) {
+        m_errorString = QStringLiteral("%1 is no multicast group of IPv4; use one of 239.0.0.0 ... 239.255.255.255")
+                            .arg(group.toString());
+        return false;
+    }
+    QUdpSocket finder;  // a port of its own: nodes of this machine share it with each other, not with the server
+    finder.bind(QHostAddress::AnyIPv4, 0);
+    m_group = SocketAddress(group, finder.localPort());
+    return m_hub.openMulticast(address, &m_errorString);
+}
+
+void MasterServer::close()
+{
+    m_name.release();
+    m_door.close();
+    for (const std::unique_ptr<MasterConnection> &connection : m_connections)
+        connection->send(Message::MasterEnds);
+    while (!m_connections.empty())
+        drop(m_connections.back().get(), QStringLiteral("the master closes its server"));
+    m_hub.close();
+}
+
+quint16 MasterServer::port() const
+{
+    return m_door.port();
+}
+
+// ---- connections ----
+
+void MasterServer::enter(QPlcSlaveSocket *socket, const Peer &peer, ConnectionGate::Ticket ticket)
+{
+    m_connections.push_back(std::make_unique<MasterConnection>());
+    MasterConnection *connection = m_connections.back().get();
+    connection->socket = socket;
+    connection->peer = peer;
+    connection->ticket = ticket;
+    socket->setParent(this);
+    socket->setMessageLimit(LongestGreeting);
+    connect(socket, &QPlcAbstractSocket::messageReceived, this,
+            [this, connection](const Message &message) { receive(connection, message); });
+    connect(socket, &QPlcAbstractSocket::errorOccurred, this, [this, connection](QPlcAbstractSocket::Error error) {
+        if (error == QPlcAbstractSocket::ProtocolError)
+            receiveGarbage(connection);
+    });
+    // Not at once: a message that cannot be sent ends the connection, and who sends to many of them walks over m_connections.
+    const QPointer<QPlcSlaveSocket> guarded(socket);
+    connect(
+        socket, &QPlcAbstractSocket::disconnected, this, [this, guarded] { dropClosed(guarded); },
+        Qt::QueuedConnection);
+    if (peer.isSecured)
+        Q_EMIT authenticated(connection);
+}
+
+void MasterServer::dropSlow(ConnectionGate::Ticket ticket)
+{
+    const auto isIt
+        = [ticket](const std::unique_ptr<MasterConnection> &connection) { return connection->ticket == ticket; };
+    const auto found = std::find_if(m_connections.begin(), m_connections.end(), isIt);
+    if (found != m_connections.end())
+        reject(found->get(), QStringLiteral("TimedOut"), QStringLiteral("it has not greeted in time"));
+}
+
+MasterConnection *MasterServer::connectionOf(const QPlcSlaveSocket *socket) const
+{
+    const auto isIt
+        = [socket](const std::unique_ptr<MasterConnection> &connection) { return connection->socket == socket; };
+    const auto found = std::find_if(m_connections.begin(), m_connections.end(), isIt);
+    return found == m_connections.end() ? nullptr : found->get();  // dropped meanwhile
+}
+
+void MasterServer::dropClosed(const QPlcSlaveSocket *socket)
+{
+    MasterConnection *connection = connectionOf(socket);
+    if (!connection)
+        return;
+    const QString error = socket->errorString();
+    drop(connection, error.isEmpty() ? QStringLiteral("it closed the connection") : error);
+}
+
+MasterConnection *MasterServer::connectionOf(const NodeSlot *slot) const
+{
+    for (const std::unique_ptr<MasterConnection> &connection : m_connections) {
+        if (connection->slot.get() == slot)
+            return connection.get();
+    }
+    return nullptr;
+}
+
+void MasterServer::drop(MasterConnection *connection, const QString &reason)
+{
+    connection->socket->disconnect(this);
+    connection->socket->close();
+    if (connection->slot) {
+        connection->slot->lost = true;
+        m_registry.remove(connection->slot);
+        Q_EMIT lost(connection, reason);
+    }
+    forget(connection);
+}
+
+void MasterServer::forget(MasterConnection *connection)
+{
+    m_door.leave(connection->ticket);
+    connection->socket->disconnect(this);
+    connection->socket->deleteLater();
+    const auto isIt
+        = [connection](const std::unique_ptr<MasterConnection> &other) { return other.get() == connection; };
+    m_connections.erase(std::remove_if(m_connections.begin(), m_connections.end(), isIt), m_connections.end());
+}
+
+void MasterServer::reject(MasterConnection *connection, const QString &error, const QString &reason)
+{
+    const QString text = printable(reason.left(LongestReason));
+    connection->send(Message::Rejected, {{QStringLiteral("error"), error}, {QStringLiteral("text"), text}});
+    Q_EMIT refused(connection->shownName(), connection->socket->peerName(), text);
+    drop(connection, text);
+}
+
+/// A request is refused, and the connection stays; not so before the greeting, and of a node that is none.
+void MasterServer::deny(MasterConnection *connection, const QString &reason, bool isRegistration)
+{
+    ++m_deniedMessages;
+    Q_EMIT denied(connection, reason);
+    if (connection->stage == MasterConnection::Silent || connection->peer.isCyclicOnly || isRegistration)
+        reject(connection, QStringLiteral("Denied"), reason);
+    else
+        connection->fail(QStringLiteral("Denied"), reason);
+}
+
+/// Whether somebody asks faster than is good for the others; then the connection has ended. Who does not read the answers is not listened to by the socket.
+bool MasterServer::isTooMuch(MasterConnection *connection, const Message &message)
+{
+    if (connection->owes(message.kind()) || connection->messages.take(monotonicNow()))
+        return false;
+    ++m_deniedMessages;
+    reject(connection, QStringLiteral("TooMuch"),
+           QStringLiteral("'%1' sends too many messages; send at most 1000 in a second").arg(connection->shownName()));
+    return true;
+}
+
+/// The one place where control messages come in.
+void MasterServer::receive(MasterConnection *connection, const Message &message)
+{
+    if (isTooMuch(connection, message))
+        return;
+    const QString refusal = refusalOf(connection->peer, message);
+    if (!refusal.isEmpty()) {
+        deny(connection, refusal, message.kind() == Message::Register);
+        return;
+    }
+    if (connection->peer.isSecured && isCommand(message.kind()))
+        Q_EMIT commanded(connection, message);
+    switch (message.kind()) {
+    case Message::Hello:
+        greet(connection, message);
+        return;
+    case Message::AttachCyclicChannel:
+        attachCyclicChannel(connection, message);
+        return;
+    default:
+        break;
+    }
+    if (connection->stage == MasterConnection::Silent) {
+        reject(connection, QStringLiteral("WrongState"),
+               QStringLiteral("%1 before Hello; greet first").arg(message.kindName()));
+        return;
+    }
+    if (message.kind() == Message::Register)
+        registerNode(connection, message);
+    else
+        Q_EMIT received(connection, message);
+}
+
+void MasterServer::receiveGarbage(MasterConnection *connection)
+{
+    reject(connection, QStringLiteral("MalformedMessage"), connection->socket->errorString());
+}
+
+}  // namespace qplc

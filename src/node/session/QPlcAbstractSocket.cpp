@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "QPlcAbstractSocket.h"
+
+#include "node/Logging.h"
+#include "protocol/ControlFrame.h"
+#include "transport/LossWatch.h"
+
+#include <QtCore/QPointer>
+#include <QtNetwork/QSslSocket>
+
+#include <fcntl.h>
+
+struct QPlcAbstractSocket::Private
+{
+    QTcpSocket *socket = nullptr;
+    QSslSocket *tls = nullptr;  // the same, when it is or will be encrypted, or comes from a master with security
+    qplc::ControlFrameReader reader;
+    bool isSending = false;
+    bool isPaused = false;  // the other end takes nothing in
+    Error error = NoError;
+    QString errorString;
+};
+
+namespace {
+
+constexpr qint64 MostUnread
+    = 1 << 20;  // [byte] that the other end has not taken in; then its requests wait, most of them with it
+constexpr qint64 MostBuffered = 1 << 16;  // [byte] of them that wait here
+
+QPlcAbstractSocket::Error errorOf(QAbstractSocket::SocketError error)
+{
+    switch (error) {
+    case QAbstractSocket::HostNotFoundError:
+        return QPlcAbstractSocket::HostNotFoundError;
+    case QAbstractSocket::ConnectionRefusedError:
+        return QPlcAbstractSocket::ConnectionRefusedError;
+    case QAbstractSocket::SocketTimeoutError:
+        return QPlcAbstractSocket::TimeoutError;
+    case QAbstractSocket::RemoteHostClosedError:
+        return QPlcAbstractSocket::ConnectionLostError;
+    default:
+        return QPlcAbstractSocket::NetworkError;
+    }
+}
+
+/// What a control connection needs of its socket. Before it is connected there is nothing to set.
+void setControlOptions(QTcpSocket *socket)
+{
+    socket->setSocketOption(QAbstractSocket::LowDelayOption, 1);
+    qplc::LossWatch::begin(int(socket->socketDescriptor()));
+}
+
+/// For the debug log. What is encrypted for the wire may hold keys: it stays secret here, too.
+QString shown(const QByteArray &frame, bool isSecured)
+{
+    return isSecured ? QStringLiteral("%1 bytes").arg(frame.size()) : QString::fromLatin1(frame.toHex(' '));
+}
+
+}  // namespace
+
+QPlcAbstractSocket::QPlcAbstractSocket(QTcpSocket *socket, QObject *parent)
+    : QObject(parent)
+    , d(std::make_unique<Private>())
+{
+    qRegisterMetaType<QPlcAbstractSocket::Error>("QPlcAbstractSocket::Error");
+    qRegisterMetaType<QPlcMessage>("QPlcMessage");
+    setSocket(socket);
+    if (socket->bytesAvailable() > 0)  // of a connection that was accepted by others
+        QMetaObject::invokeMethod(this, &QPlcAbstractSocket::readMessages, Qt::QueuedConnection);
+}
+
+void QPlcAbstractSocket::setSocket(QTcpSocket *socket)
+{
+    if (d->socket) {
+        d->socket->disconnect(this);
+        d->socket->deleteLater();
+    }
+    d->socket = socket;
+    d->tls = qobject_cast<QSslSocket *>(socket);
+    d->reader = qplc::ControlFrameReader();
+    socket->setParent(this);
+    setControlOptions(socket);
+    const auto nowConnected = [this] {
+        setControlOptions(d->socket);
+        Q_EMIT connected();
+    };
+    if (d->tls)
+        connect(d->tls, &QSslSocket::encrypted, this, nowConnected);
+    else
+        connect(socket, &QTcpSocket::connected, this, nowConnected);
+    connect(socket, &QTcpSocket::disconnected, this, &QPlcAbstractSocket::disconnected);
+    connect(socket, &QTcpSocket::readyRead, this, &QPlcAbstractSocket::readMessages);
+    connect(socket, &QTcpSocket::bytesWritten, this, [this] {
+        if (d->isPaused && bytesToSend() <= MostUnread)  // not at once: who sends may be in the middle of a message
+            QMetaObject::invokeMethod(this, &QPlcAbstractSocket::readMessages, Qt::QueuedConnection);
+    });
+    socket->setReadBufferSize(MostBuffered);
+    connect(socket, &QTcpSocket::errorOccurred, this, &QPlcAbstractSocket::readError);
+}
+
+QPlcAbstractSocket::~QPlcAbstractSocket()
+{
+    d->socket->disconnect(this);
+}
+
+QTcpSocket *QPlcAbstractSocket::socket() const
+{
+    return d->socket;
+}
+
+bool QPlcAbstractSocket::isConnected() const
+{
+    const bool isHandshaking = d->tls && d->tls->mode() != QSslSocket::UnencryptedMode && !d->tls->isEncrypted();
+    return d->socket->state() == QAbstractSocket::ConnectedState && !isHandshaking;
+}
+
+bool QPlcAbstractSocket::isSecured() const
+{
+    return isConnected() && d->tls && d->tls->isEncrypted();
+}
+
+void QPlcAbstractSocket::setMessageLimit(quint32 bytes)
+{
+    d->reader.setLimit(bytes);
+}
+
+bool QPlcAbstractSocket::sendMessage(const QPlcMessage &message)
+{
+    if (!isConnected())
+        return false;
+    const QByteArray frame = qplc::encodeControlFrame(message);
+    if (frame.isEmpty()) {
+        qCWarning(lcControl).noquote() << message.kindName() << "for" << peerName()
+                                       << "is too long or too deep to be sent";
+        return false;
+    }
+    qCDebug(lcControl).noquote() << "to" << peerName() << message.kindName() << shown(frame, isSecured());
+    const QPointer<QPlcAbstractSocket> self(this);  // who hears of an error may delete us
+    d->isSending = true;
+    const bool sent = d->socket->write(frame) == frame.size();
+    d->socket->flush();
+    if (self)
+        d->isSending = false;
+    return sent;
+}
+
+qint64 QPlcAbstractSocket::bytesToSend() const
+{
+    return d->socket->bytesToWrite() + (d->tls ? d->tls->encryptedBytesToWrite() : 0);
+}
+
+void QPlcAbstractSocket::close()
+{
+    d->socket->disconnectFromHost();
+}
+
+void QPlcAbstractSocket::abort()
+{
+    d->socket->abort();
+}
+
+QHostAddress QPlcAbstractSocket::localAddress() const
+{
+    return d->socket->localAddress();
+}
+
+quint16 QPlcAbstractSocket::localPort() const
+{
+    return d->socket->localPort();
+}
+
+QHostAddress QPlcAbstractSocket::peerAddress() const
+{
+    return d->socket->peerAddress();
+}
+
+quint16 QPlcAbstractSocket::peerPort() const
+{
+    return d->socket->peerPort();
+}
+
+QString QPlcAbstractSocket::peerName() const
+{
+    return QStringLiteral("%1:%2").arg(peerAddress().toString()).arg(peerPort());
+}
+
+QPlcAbstractSocket::Error QPlcAbstractSocket::error() const
+{
+    return d->error;
+}
+
+QString QPlcAbstractSocket::errorString() const
+{
+    return d->errorString;
+}
+
+int QPlcAbstractSocket::takeDescriptor()
+{
+    if (!isConnected())
+        return -1;
+    const int descriptor = ::fcntl(int(d->socket->socketDescriptor()), F_DUPFD_CLOEXEC, 0);
+    qplc::LossWatch::end(descriptor);  // a node that is stopped takes no frames: it is late, and not lost
+    d->socket->disconnect(this);
+    d->socket->abort();  // closes the other descriptor; the connection lives on in the duplicate
+    return descriptor;
+}
+
+void QPlcAbstractSocket::setError(Error error, const QString &text)
+{
+    d->error = error;
+    d->errorString = text;
+    Q_EMIT errorOccurred(error);
+}
+
+void QPlcAbstractSocket::readError()
+{
+    const QString text = securityErrorText();
+    if (text.isEmpty())
+        setError(errorOf(d->socket->error()), d->socket->errorString());
+    else
+        setError(SecurityError, text);
+}
+
+void QPlcAbstractSocket::readMessages()
+{
+    if (d->isSending) {
+        // TLS reads when it writes. Messages that came between two sends of somebody who walks over connections would surprise him, and answers to answers would fill the stack.
+        QMetaObject::invokeMethod(this, &QPlcAbstractSocket::readMessages, Qt::QueuedConnection);
+        return;
+    }
+    const QPointer<QPlcAbstractSocket> self(this);  // who receives a message may delete us
+    QPlcMessage message;
+    d->isPaused = bytesToSend() > MostUnread;
+    if (d->isPaused)
+        return;
+    d->reader.append(d->socket->readAll());
+    while (self && !d->isPaused && d->reader.next(&message)) {
+        qCDebug(lcControl).noquote() << "from" << peerName() << message.kindName()
+                                     << shown(d->reader.lastFrame(), isSecured());
+        Q_EMIT messageReceived(message);
+        if (self)
+            d->isPaused = bytesToSend() > MostUnread;
+    }
+    if (!self || d->reader.error() == qplc::ControlFrameReader::NoError)
+        return;
+    setError(ProtocolError, QStringLiteral("%1 sent no QtPLC message: %2").arg(peerName(), d->reader.errorString()));
+    if (self)
+        abort();
+}

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "QPlcMasterSocket.h"
+
+#include "node/security/TlsSettings.h"
+
+#include <QtCore/QTimer>
+#include <QtNetwork/QSslCipher>
+#include <QtNetwork/QSslPreSharedKeyAuthenticator>
+
+#include <optional>
+
+namespace {
+
+constexpr int longestHandshake = 5000;  // [ms] from the begin to connected()
+
+}  // namespace
+
+struct QPlcMasterSocket::Private
+{
+    std::optional<QPlcSecurity> ownSecurity;
+    QPlcSecurity security;  // of the present connection
+    qplc::TlsSettings settings;
+    QSslSocket *tls = nullptr;  // of the present connection; null without security
+    bool hasBeenEncrypted = false;
+    QTimer timer;
+};
+
+QPlcMasterSocket::QPlcMasterSocket(QObject *parent)
+    : QPlcAbstractSocket(new QTcpSocket, parent)
+    , d(std::make_unique<Private>())
+{
+    d->timer.setSingleShot(true);
+    d->timer.setInterval(longestHandshake);
+    connect(&d->timer, &QTimer::timeout, this, [this] {
+        setError(
+            TimeoutError,
+            QStringLiteral("no TLS handshake within %1 s; is it a secured QtPLC master?").arg(longestHandshake / 1000));
+        abort();
+    });
+    connect(this, &QPlcAbstractSocket::disconnected, &d->timer, &QTimer::stop);
+    connect(this, &QPlcAbstractSocket::errorOccurred, &d->timer, &QTimer::stop);
+}
+
+QPlcMasterSocket::~QPlcMasterSocket() = default;
+
+void QPlcMasterSocket::setSecurity(const QPlcSecurity &security)
+{
+    d->ownSecurity = security;
+}
+
+void QPlcMasterSocket::connectToMaster(const QPlcUnderlyingProtocol &master)
+{
+    d->security = d->ownSecurity.value_or(QPlcSecurity::current());
+    d->hasBeenEncrypted = false;
+    if (!d->security.isNone()) {
+        connectSecurely(master);
+        return;
+    }
+    if (d->tls)
+        setSocket(new QTcpSocket);
+    d->tls = nullptr;
+    socket()->connectToHost(master.address(), master.port());
+}
+
+void QPlcMasterSocket::connectSecurely(const QPlcUnderlyingProtocol &master)
+{
+    QString error;
+    if (!qplc::TlsSettings::read(d->security, QPlcSecurity::NodeSide, &d->settings, &error)) {
+        QMetaObject::invokeMethod(
+            this, [this, error] { setError(SecurityError, error); }, Qt::QueuedConnection);
+        return;
+    }
+    d->tls = new QSslSocket;
+    d->tls->setSslConfiguration(d->settings.configuration);
+    // Before the base class tells that the connection is there.
+    connect(d->tls, &QSslSocket::encrypted, this, [this] {
+        d->timer.stop();
+        d->hasBeenEncrypted = true;
+        if (!qplc::TlsSettings::isAcceptable(d->tls->sessionCipher(), d->security.mode()))
+            abort();  // cannot be: no other suite was offered
+    });
+    connect(d->tls, &QSslSocket::preSharedKeyAuthenticationRequired, this,
+            [this](QSslPreSharedKeyAuthenticator *authenticator) {
+                authenticator->setIdentity(d->settings.identity.toUtf8());
+                authenticator->setPreSharedKey(d->settings.keys.find(d->settings.identity)->key);
+            });
+    setSocket(d->tls);
+    d->timer.start();
+    d->tls->connectToHostEncrypted(master.address().toString(), master.port(), d->security.masterIdentity());
+}
+
+QString QPlcMasterSocket::securityErrorText() const
+{
+    const bool isOfTls = d->tls
+        && (d->tls->error() == QAbstractSocket::SslHandshakeFailedError
+            || d->tls->error() == QAbstractSocket::SslInternalError
+            || (!d->hasBeenEncrypted && d->tls->error() == QAbstractSocket::RemoteHostClosedError));
+    return isOfTls ? qplc::nodeHandshakeError(*d->tls, d->security, d->settings.identity) : QString();
+}
