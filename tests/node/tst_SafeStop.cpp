@@ -190,8 +190,10 @@ void tst_SafeStop::answersInASafeStopCountForNothing()
     writer.answerAll();
     QVERIFY(writer.registerAt(master.serverPort()));
     QVERIFY(master.startRealTime());
+    QVERIFY(master.waitForCycles(2));  // the initial values are there before the first cycle
     QTRY_COMPARE(master.signalValue("echo").toReal(), 9.0);
     master.safeStop();
+    QCOMPARE(master.state(), QPlcMasterNode::SafeStop);
     QTRY_COMPARE(master.signalValue("echo").toReal(), 0.25);
     const quint64 cycles = master.statistics().cycles;
     int others = 0;
