@@ -33,12 +33,19 @@ struct Master
     NodeRegistry registry{table()};
     ProcessImage image{table()};
     CyclicHub hub;
-    MasterServer server{
-        registry, image, hub, 5, [] { return QJsonObject(); }, [](const NodeDeclaration &) { return Refusal(); },
-        nullptr};
+    MasterServer server{registry,
+                        image,
+                        hub,
+                        5,
+                        [] { return messages::MasterHello(); },
+                        [](const NodeDeclaration &) { return Refusal(); },
+                        nullptr};
     EventLog events;
     int pictures = 0;
-    ViewerPushes pushes{server, events, [this] { return QJsonObject{{"leases", QJsonArray{++pictures}}}; }};
+    ViewerPushes pushes{server, events, [this] {
+                            ++pictures;
+                            return messages::LeasesChanged();
+                        }};
 
     void happens(const QString &text)
     {

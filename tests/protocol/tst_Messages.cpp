@@ -204,6 +204,7 @@ void tst_Messages::aFieldWithoutAValueIsNotSent()
     QCOMPARE(toObject(Stop()), QJsonObject());
     QCOMPARE(toObject(GetSignals()), QJsonObject());
     QCOMPARE(toObject(StartRealTime()), QJsonObject());
+    QCOMPARE(toObject(StatesInitialized{true, {}}), (QJsonObject{{QStringLiteral("ok"), true}}));
     QCOMPARE(toMessage(Reset()), QPlcMessage(QPlcMessage::Reset));
 }
 

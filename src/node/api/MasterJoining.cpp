@@ -20,10 +20,10 @@ void QPlcMasterNodePrivate::join(Connection *connection)
 {
     connection->stage = Connection::GivingOutputs;
     connection->hasFailed = false;
-    QJsonObject fields;
+    qplc::messages::SendYourInitialOutputStates request;
     if (isRunning() && !connection->slot->listener && defaults().keepsState)
-        fields.insert(QStringLiteral("phase"), Message::fromHex64(cycle->cycleZero()));
-    connection->send(Message::SendYourInitialOutputStates, fields);
+        request.phase = cycle->cycleZero();
+    connection->send(request);
 }
 
 void QPlcMasterNodePrivate::continueJoin(Connection *connection, const Message &message)
@@ -73,7 +73,7 @@ void QPlcMasterNodePrivate::goOn(Connection *connection)
             m_multicastParts.add(*connection->slot);  // a part of its own: the others know theirs
             m_multicastParts.finish();
         }
-        connection->send(Message::RealTimeStarted, startFields(*connection->slot));
+        connection->send(startOf(*connection->slot));
     } else if (connection->stage == Connection::Running && isRunning()) {
         giveRoster();
     }

@@ -138,7 +138,7 @@ void QPlcMasterNodePrivate::collectOutputs()
     for (Connection *listener : listeners())
         join(listener);
     for (Connection *connection : m_participants)
-        connection->send(Message::SendYourInitialOutputStates);
+        connection->send(qplc::messages::SendYourInitialOutputStates());
     for (const std::shared_ptr<NodeSlot> &slot : registry->nodes()) {
         if (!slot->local)
             continue;
@@ -207,7 +207,7 @@ bool QPlcMasterNodePrivate::storeOutputs(Connection *connection, const Message &
 void QPlcMasterNodePrivate::sendInitialInputs(const Connection *connection)
 {
     const QByteArray values = cycle->gather(connection->slot->inputRuns, connection->slot->inputLayout.size());
-    connection->send(Message::InitializeWithValues, {{QStringLiteral("values"), Message::fromBytes(values)}});
+    connection->send(qplc::messages::InitializeWithValues{values});
 }
 
 void QPlcMasterNodePrivate::distributeInputs()
@@ -245,7 +245,7 @@ void QPlcMasterNodePrivate::initializationEnded()
     m_step = Step::None;
     for (const std::unique_ptr<Connection> &connection : server->connections()) {
         if (connection->stage >= Connection::Greeted)
-            connection->send(Message::StatesInitialized, {{QStringLiteral("ok"), true}});
+            connection->send(qplc::messages::StatesInitialized{true, {}});
     }
     Q_EMIT q->statesInitialized();
     if (m_startAfterwards) {
@@ -282,13 +282,11 @@ void QPlcMasterNodePrivate::endSequence(const QString &reason)
     stepTimer.stop();
     const bool wasStarting = m_step == Step::Start;
     m_step = Step::None;
-    const Message initializationFailed(Message::StatesInitialized,
-                                       {{QStringLiteral("ok"), false}, {QStringLiteral("text"), reason}});
     for (const std::unique_ptr<Connection> &connection : server->connections()) {
         if (wasStarting && connection->stage > Connection::Attached)
-            connection->send(Message::RealTimeStopped, {{QStringLiteral("reason"), reason}});
+            connection->send(qplc::messages::RealTimeStopped{reason});
         else if (!wasStarting && connection->stage >= Connection::Greeted)
-            connection->socket->sendMessage(initializationFailed);
+            connection->send(qplc::messages::StatesInitialized{false, reason});
         connection->stage = std::min(connection->stage, Connection::Attached);
     }
     for (const std::shared_ptr<NodeSlot> &slot : registry->nodes()) {
@@ -316,22 +314,19 @@ bool QPlcMasterNodePrivate::startRealTime(quint64 cycles, bool isPermitted)
     return false;
 }
 
-QJsonObject QPlcMasterNodePrivate::startFields(const NodeSlot &slot) const
+qplc::messages::RealTimeStarted QPlcMasterNodePrivate::startOf(const NodeSlot &slot) const
 {
-    QJsonObject fields{
-        {QStringLiteral("period"), double(interval.count())},
-        {QStringLiteral("clock"), qplc::clockName(clock)},
-        {QStringLiteral("scale"), clock.scale()},
-        {QStringLiteral("profile"), QPlcProfile::name(m_profile.value)},
-        {QStringLiteral("cycleZero"), Message::fromHex64(cycle->cycleZero())},
-        {QStringLiteral("firstCycle"), Message::fromHex64(cycle->cycleZero() + (isRunning() ? cycle->cycle() : 0))}};
+    qplc::messages::RealTimeStarted message;
+    message.period = interval;
+    message.clock = qplc::clockKindOf(clock);
+    message.scale = clock.scale();
+    message.profile = QPlcProfile::name(m_profile.value);
+    message.cycleZero = cycle->cycleZero();
+    message.firstCycle = cycle->cycleZero() + (isRunning() ? cycle->cycle() : 0);
     if (slot.multicast)
-        fields.insert(QStringLiteral("group"),
-                      QJsonObject{{QStringLiteral("part"), slot.multicast->number},
-                                  {QStringLiteral("offset"), double(slot.multicastOffset)},
-                                  {QStringLiteral("size"), double(slot.multicast->payloadSize)},
-                                  {QStringLiteral("hash"), Message::fromHex64(slot.multicast->hash)}});
-    return fields;
+        message.group = qplc::messages::GroupPlace{int(slot.multicast->number), int(slot.multicastOffset),
+                                                   int(slot.multicast->payloadSize), slot.multicast->hash};
+    return message;
 }
 
 void QPlcMasterNodePrivate::beginStart()
@@ -354,7 +349,7 @@ void QPlcMasterNodePrivate::beginStart()
     }
     m_multicastParts.finish();
     for (const Connection *connection : told)
-        connection->send(Message::RealTimeStarted, startFields(*connection->slot));
+        connection->send(startOf(*connection->slot));
     advance();
 }
 
@@ -477,7 +472,7 @@ void QPlcMasterNodePrivate::tellStopped(const QString &reason)
     for (const std::unique_ptr<Connection> &connection : server->connections()) {
         if (connection->stage <= Connection::Attached)
             continue;
-        connection->send(Message::RealTimeStopped, {{QStringLiteral("reason"), reason}});
+        connection->send(qplc::messages::RealTimeStopped{reason});
         connection->stage = Connection::Attached;
     }
     cycle->setRoster({});

@@ -60,7 +60,7 @@ void QPlcMasterNodePrivate::sendStatistics(Connection *connection, const QPlcMes
     const bool bins = message.fields().value(QStringLiteral("histograms")).toBool();
     const QPlcCycleStatistics statistics
         = cycleStatistics(bins ? QPlcDistribution::WithBins : QPlcDistribution::FiguresOnly);
-    if (!connection->send(QPlcMessage::Statistics, qplc::statisticsFields(statistics)))
+    if (!connection->send(qplc::statisticsReply(statistics)))
         connection->fail(QStringLiteral("TooLong"),
                          bins ? QStringLiteral("too many nodes for one answer; ask without histograms")
                               : QStringLiteral("too many nodes for one answer"));

@@ -7,12 +7,10 @@
 #include "node/state/StateText.h"
 #include "realtime/TimeSource.h"
 
-#include <QtCore/QJsonObject>
 #include <QtCore/QRandomGenerator>
 
 using Action = qplc::MasterAction;
 using Event = qplc::MasterEvent;
-using Message = QPlcMessage;
 using qplc::NodeSlot;
 
 bool QPlcMasterNodePrivate::apply(Event event, const QString &reason)
@@ -130,19 +128,16 @@ void QPlcMasterNodePrivate::stopAsAsked(Connection *connection, const QPlcMessag
         askedStop = {connection->socket, who, how, qplc::wallClockNow()};
     stop(how.isEmpty() ? QStringLiteral("'%1' asked for it").arg(who)
                        : QStringLiteral("'%1' asked for it (%2)").arg(who, how));
-    connection->send(QPlcMessage::Done);
+    connection->send(qplc::messages::Done());
 }
 
-QJsonObject QPlcMasterNodePrivate::stateFor(const Connection &connection) const
+qplc::messages::State QPlcMasterNodePrivate::stateFor(const Connection &connection) const
 {
-    QJsonObject fields = qplc::stateFields(*q, profile(), session);
+    qplc::messages::State reply = qplc::stateReply(*q, profile(), session);
     if (!askedStop.whoever.isEmpty())
-        fields.insert(QStringLiteral("stopped"),
-                      QJsonObject{{QStringLiteral("whoever"), askedStop.whoever},
-                                  {QStringLiteral("how"), askedStop.how},
-                                  {QStringLiteral("time"), QPlcMessage::fromHex64(quint64(askedStop.time))},
-                                  {QStringLiteral("yours"), askedStop.asker == connection.socket}});
-    return fields;
+        reply.stopped = qplc::messages::StopEntry{askedStop.whoever, askedStop.how, quint64(askedStop.time),
+                                                  askedStop.asker == connection.socket};
+    return reply;
 }
 
 void QPlcMasterNodePrivate::safeStop(const QString &reason)
@@ -259,9 +254,7 @@ bool QPlcMasterNodePrivate::isStartPermitted(quint64 token) const
 void QPlcMasterNodePrivate::armAsAsked(Connection *connection)
 {
     if (arm())
-        connection->send(Message::Armed,
-                         {{QStringLiteral("token"), Message::fromHex64(arming.token())},
-                          {QStringLiteral("validFor"), double(qplc::Arming::ValidFor)}});
+        connection->send(qplc::messages::Armed{arming.token(), std::chrono::nanoseconds(qplc::Arming::ValidFor)});
     else
         connection->fail(QStringLiteral("WrongState"), errorString);
 }

@@ -17,7 +17,8 @@ constexpr std::size_t mostEvents = 200;  // in one answer
 void QPlcMasterNodePrivate::prepareViewers()
 {
     leases = std::make_unique<qplc::MasterLeases>(leaseBooks, *registry, *cycle, *settings);
-    pushes = std::make_unique<qplc::ViewerPushes>(*server, journal.events(), [this] { return leases->fields(); });
+    pushes = std::make_unique<qplc::ViewerPushes>(*server, journal.events(),
+                                                  [this] { return qplc::messages::LeasesChanged{leases->entries()}; });
     QObject::connect(server.get(), &qplc::MasterServer::greeted, q,
                      [this](Connection *connection) { connection->eventsTold = journal.events().newest(); });
     QObject::connect(&journal, &qplc::Journal::appended, pushes.get(), [this] { pushes->eventsHappened(); });
@@ -59,14 +60,14 @@ void QPlcMasterNodePrivate::changeLease(Connection *connection, const Message &m
     const bool isDone = message.kind() == Message::TakeLease ? leases->take(*connection, message.fields(), &refusal)
                                                              : leases->release(*connection, message.fields(), &refusal);
     if (isDone)
-        connection->send(Message::Done);
+        connection->send(qplc::messages::Done());
     else
         connection->fail(refusal.error, refusal.text);
 }
 
 void QPlcMasterNodePrivate::sendLeases(Connection *connection)
 {
-    if (!connection->send(Message::Leases, leases->fields()))
+    if (!connection->send(qplc::messages::Leases{leases->entries()}))
         connection->fail(QStringLiteral("TooLong"), QStringLiteral("too many leases for one answer"));
 }
 
@@ -80,7 +81,7 @@ void QPlcMasterNodePrivate::sendEvents(Connection *connection, const Message &me
         return;
     }
     const std::vector<JournalEvent> events = journal.events().after(quint64(since), mostEvents);
-    QJsonObject fields = qplc::eventFields(events);
-    fields.insert(QStringLiteral("more"), !events.empty() && events.back().sequence < journal.events().newest());
-    connection->send(Message::Events, fields);
+    qplc::messages::Events reply = qplc::eventReply(events);
+    reply.more = !events.empty() && events.back().sequence < journal.events().newest();
+    connection->send(reply);
 }

@@ -102,18 +102,17 @@ bool QPlcMasterNodePrivate::prepare()
     m_reportNotifier = std::make_unique<QSocketNotifier>(cycle->reports().descriptor(), QSocketNotifier::Read);
     QObject::connect(m_reportNotifier.get(), &QSocketNotifier::activated, q, [this] { takeReports(); });
     const auto hello = [this] {
-        QJsonObject fields{{QStringLiteral("protocol"), 1},
-                           {QStringLiteral("name"), qplc::NodeRegistry::masterName()},
-                           {QStringLiteral("uuid"), uuid},
-                           {QStringLiteral("session"), Message::fromHex64(session)},
-                           {QStringLiteral("tableHash"), Message::fromHex64(table.hash())},
-                           {QStringLiteral("state"), QLatin1String(qplc::nameOf(state))},
-                           {QStringLiteral("period"), double(interval.count())},
-                           {QStringLiteral("security"), networkSecurity},
-                           {QStringLiteral("features"), QJsonArray()}};
-        if (!faultPlan.isEmpty())
-            fields.insert(QStringLiteral("faults"), faultPlan);
-        return fields;
+        qplc::messages::MasterHello message;
+        message.protocol = qplc::messages::protocolVersion;
+        message.name = qplc::NodeRegistry::masterName();
+        message.uuid = uuid;
+        message.session = session;
+        message.tableHash = table.hash();
+        message.state = qplc::messageStateOf(state);
+        message.period = interval;
+        message.security = networkSecurity;
+        message.faults = faultPlan;
+        return message;
     };
     const auto objection = [this](const qplc::NodeDeclaration &node) { return objectionTo(node); };
     server = std::make_unique<qplc::MasterServer>(*registry, cycle->image(), hub, session, hello, objection, nullptr);
@@ -293,7 +292,7 @@ void QPlcMasterNodePrivate::receive(Connection *connection, const Message &messa
 void QPlcMasterNodePrivate::receiveCommand(Connection *connection, const Message &message)
 {
     const QJsonObject fields = message.fields();
-    QJsonObject reply;
+    qplc::messages::Signals reply;
     qplc::Refusal refusal;
     switch (message.kind()) {
     case Message::InitializeAllStates:
@@ -314,22 +313,22 @@ void QPlcMasterNodePrivate::receiveCommand(Connection *connection, const Message
                           message.text(QStringLiteral("reason")).isEmpty()
                               ? QString()
                               : QStringLiteral(": ") + qplc::printable(message.text(QStringLiteral("reason")))));
-        connection->send(Message::Done);
+        connection->send(qplc::messages::Done());
         break;
     case Message::Reset:
         request(connection, reset());
         break;
     case Message::GetState:
-        connection->send(Message::State, stateFor(*connection));
+        connection->send(stateFor(*connection));
         break;
     case Message::GetSchedule:
-        connection->send(Message::Schedule, qplc::scheduleFields(q->schedule()));
+        connection->send(qplc::scheduleReply(q->schedule()));
         break;
     case Message::GetSignals:
-        if (!qplc::signalFields(*cycle, *registry, leaseBooks,
-                                fields.value(QStringLiteral("names")).toVariant().toStringList(), &reply, &refusal))
+        if (!qplc::signalReply(*cycle, *registry, leaseBooks,
+                               fields.value(QStringLiteral("names")).toVariant().toStringList(), &reply, &refusal))
             connection->fail(refusal.error, refusal.text);
-        else if (!connection->send(Message::Signals, reply))
+        else if (!connection->send(reply))
             connection->fail(QStringLiteral("TooLong"),
                              QStringLiteral("too many signals for one answer; ask for some of them by name"));
         break;
@@ -361,7 +360,7 @@ void QPlcMasterNodePrivate::request(Connection *connection, bool accepted)
     if (!accepted)
         connection->fail(QStringLiteral("WrongState"), errorString);
     else if (m_step == Step::None)
-        connection->send(Message::Done);
+        connection->send(qplc::messages::Done());
     else
         m_requester = connection->socket;
 }
@@ -370,9 +369,8 @@ void QPlcMasterNodePrivate::answerRequester(bool done, const QString &text)
 {
     if (m_requester)
         m_requester->sendMessage(
-            done ? Message(Message::Done)
-                 : Message(Message::Failed,
-                           {{QStringLiteral("error"), QStringLiteral("NodeError")}, {QStringLiteral("text"), text}}));
+            done ? qplc::messages::toMessage(qplc::messages::Done())
+                 : qplc::messages::toMessage(qplc::messages::Failed{QStringLiteral("NodeError"), text}));
     m_requester.clear();
 }
 
@@ -396,7 +394,7 @@ void QPlcMasterNodePrivate::setSignals(Connection *connection, const Message &me
 {
     qplc::Refusal refusal;
     if (settings->setSignals(connection->socket, message.fields(), &refusal))
-        connection->send(Message::Done);
+        connection->send(qplc::messages::Done());
     else
         connection->fail(refusal.error, refusal.text);
 }

@@ -137,7 +137,7 @@ private:
     bool takesPart(const qplc::NodeSlot &slot) const;
     void armAsAsked(Connection *connection);
     void stopAsAsked(Connection *connection, const QPlcMessage &message);
-    QJsonObject stateFor(const Connection &connection) const;
+    qplc::messages::State stateFor(const Connection &connection) const;
     void startAsAsked(Connection *connection, const QPlcMessage &message);
     void setSignals(Connection *connection, const QPlcMessage &message);
     void sendStatistics(Connection *connection, const QPlcMessage &message);
@@ -180,7 +180,7 @@ private:
     void goOn(Connection *connection);
     void sendInitialInputs(const Connection *connection);
     bool storeOutputs(Connection *connection, const QPlcMessage &message);
-    QJsonObject startFields(const qplc::NodeSlot &slot) const;
+    qplc::messages::RealTimeStarted startOf(const qplc::NodeSlot &slot) const;
     void giveRoster();
     std::vector<bool> safeSignals(const qplc::Roster &roster);
 

@@ -7,16 +7,16 @@ namespace qplc {
 
 namespace {
 
-QString textOf(const SealKey &key)
+QByteArray bytesOf(const SealKey &key)
 {
-    return QPlcMessage::fromBytes(QByteArray::fromRawData(key.data(), int(SealKey::Size)));
+    return {key.data(), int(SealKey::Size)};
 }
 
 }  // namespace
 
-QJsonObject sealFields(const SealKeys &keys)
+messages::Seal sealOf(const SealKeys &keys)
 {
-    return {{QStringLiteral("inputs"), textOf(keys.inputs)}, {QStringLiteral("outputs"), textOf(keys.outputs)}};
+    return {bytesOf(keys.inputs), bytesOf(keys.outputs)};
 }
 
 std::optional<SealKeys> sealKeys(const QJsonObject &fields)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "protocol/FrameSeal.h"
+#include "protocol/messages/Registration.h"
 
 #include <QtCore/QJsonObject>
 
@@ -10,7 +11,7 @@
 namespace qplc {
 
 /// What a master tells its node to seal frames with: field `seal` of Registered. Only for a secured connection.
-QJsonObject sealFields(const SealKeys &keys);
+messages::Seal sealOf(const SealKeys &keys);
 /// Nothing unless both keys are there and whole.
 std::optional<SealKeys> sealKeys(const QJsonObject &fields);
 

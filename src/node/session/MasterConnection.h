@@ -4,6 +4,7 @@
 #include "QPlcSlaveSocket.h"
 #include "node/cycle/NodeRegistry.h"
 #include "node/security/AccessRights.h"
+#include "protocol/messages/MessageTable.h"
 #include "transport/ConnectionGate.h"
 
 #include <QtCore/QObject>
@@ -59,15 +60,14 @@ struct MasterConnection
             || (stage == Initializing && kind == QPlcMessage::Initialized)
             || (stage == Starting && kind == QPlcMessage::RealTimeReady);
     }
-    bool send(QPlcMessage::Kind kind, const QJsonObject &fields = QJsonObject()) const
+    /// Sends a struct of protocol/messages. \return false when it is too long
+    template<typename Message>
+    bool send(const Message &message) const
     {
-        return socket->sendMessage(QPlcMessage(kind, fields));
+        return socket->sendMessage(messages::toMessage(message));
     }
     /// Refuses a request; the connection stays.
-    void fail(const QString &error, const QString &text) const
-    {
-        send(QPlcMessage::Failed, {{QStringLiteral("error"), error}, {QStringLiteral("text"), text}});
-    }
+    void fail(const QString &error, const QString &text) const { send(messages::Failed{error, text}); }
 };
 
 }  // namespace qplc

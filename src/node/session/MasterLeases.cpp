@@ -272,15 +272,13 @@ QVector<QPlcLease> MasterLeases::list() const
     return list;
 }
 
-QJsonObject MasterLeases::fields() const
+std::vector<messages::LeaseEntry> MasterLeases::entries() const
 {
-    QJsonArray array;
+    std::vector<messages::LeaseEntry> entries;
     for (const auto &[signal, lease] : m_leases.all())
-        array.append(QJsonObject{{QStringLiteral("signal"), m_table.at(signal).name},
-                                 {QStringLiteral("holder"), lease.name},
-                                 {QStringLiteral("lease"), lease.stateName()},
-                                 {QStringLiteral("timeout"), double(lease.timeout)}});
-    return {{QStringLiteral("leases"), array}};
+        entries.push_back(
+            {m_table.at(signal).name, lease.name, lease.stateName(), std::chrono::nanoseconds(lease.timeout)});
+    return entries;
 }
 
 }  // namespace qplc

@@ -36,8 +36,8 @@ public:
     void renew(const QObject *holder);
 
     QVector<QPlcLease> list() const;
-    /// Fields of the messages Leases and LeasesChanged.
-    QJsonObject fields() const;
+    /// For the messages Leases and LeasesChanged.
+    std::vector<messages::LeaseEntry> entries() const;
 
 Q_SIGNALS:
     /// From the next cycle on, other signals than before are to keep the values that they are given. Comes before those values.

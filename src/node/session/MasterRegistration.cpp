@@ -36,9 +36,9 @@ std::optional<SealKeys> newSealKeys(const MasterConnection &connection)
 }
 
 /// Extensions that are in use: those that the other side names in its Hello, and that are known here.
-QJsonArray commonFeatures(const Message &hello)
+QStringList commonFeatures(const Message &hello)
 {
-    QJsonArray common;
+    QStringList common;
     const QJsonArray offered = hello.fields().value(QStringLiteral("features")).toArray();
     for (const char *known : {"sameCycle", "leases", "events", "quality", "outputQuality", "hardware"}) {
         const QString feature = QString::fromLatin1(known);
@@ -66,23 +66,22 @@ void MasterServer::greet(MasterConnection *connection, const Message &message)
                    .arg(connection->name));
         return;
     }
-    QJsonObject hello = m_hello();
-    const QJsonArray features = commonFeatures(message);
-    hello.insert(QStringLiteral("features"), features);
+    messages::MasterHello hello = m_hello();
+    hello.features = commonFeatures(message);
     if (connection->peer.isSecured) {
-        hello.insert(QStringLiteral("identity"), connection->peer.identity);
-        hello.insert(QStringLiteral("role"), roleName(connection->peer.role));
+        hello.identity = connection->peer.identity;
+        hello.role = roleName(connection->peer.role);
     }
     if (message.hex64(QStringLiteral("tableHash")) != m_image.table().hash())
-        hello.insert(QStringLiteral("table"), m_tableText);
+        hello.table = m_tableText;
     connection->stage = MasterConnection::Greeted;
     connection->socket->setMessageLimit(MaximumControlFrame);
     m_door.know(connection->ticket);
-    connection->wantsLeases = features.contains(QStringLiteral("leases"));
-    connection->wantsEvents = features.contains(QStringLiteral("events"));
-    connection->isHardware = features.contains(QStringLiteral("hardware"));
+    connection->wantsLeases = hello.features.contains(QStringLiteral("leases"));
+    connection->wantsEvents = hello.features.contains(QStringLiteral("events"));
+    connection->isHardware = hello.features.contains(QStringLiteral("hardware"));
     Q_EMIT greeted(connection);
-    if (!connection->send(Message::Hello, hello))
+    if (!connection->send(hello))
         reject(connection, QStringLiteral("TooLong"),
                QStringLiteral("the signal table is too long to be sent; give '%1' the same table as the master")
                    .arg(connection->name));
@@ -134,28 +133,29 @@ void MasterServer::registerNode(MasterConnection *connection, const Message &mes
     connection->slot->prepare(m_image, m_session, keys ? &*keys : nullptr);
     connection->token = QRandomGenerator::system()->generate64();
     connection->stage = MasterConnection::Attaching;
-    QJsonObject fields{{QStringLiteral("node"), connection->slot->id},
-                       {QStringLiteral("inputsHash"), Message::fromHex64(connection->slot->inputLayout.hash())},
-                       {QStringLiteral("outputsHash"), Message::fromHex64(connection->slot->outputLayout.hash())},
-                       {QStringLiteral("state"), m_hello().value(QStringLiteral("state"))},
-                       {QStringLiteral("token"), Message::fromHex64(connection->token)}};
+    messages::Registered registered;
+    registered.node = connection->slot->id;
+    registered.inputsHash = connection->slot->inputLayout.hash();
+    registered.outputsHash = connection->slot->outputLayout.hash();
+    registered.state = m_hello().state;
+    registered.token = connection->token;
     if (keys)
-        fields.insert(QStringLiteral("seal"), sealFields(*keys));
-    if (isLocal && !makeLocalPeer(connection, &fields))
+        registered.seal = sealOf(*keys);
+    if (isLocal && !makeLocalPeer(connection, &registered))
         return;
     if (isUdp)
         connection->slot->peer = HubPeer::udp(SocketAddress(connection->socket->peerAddress(), quint16(udpPort)));
     connection->slot->wantsMulticast = isMulticast;
     if (isMulticast) {
-        fields.insert(QStringLiteral("group"), QHostAddress(m_group.data()).toString());
-        fields.insert(QStringLiteral("groupPort"), m_group.port());
+        registered.group = QHostAddress(m_group.data()).toString();
+        registered.groupPort = m_group.port();
     }
-    connection->send(Message::Registered, fields);
+    connection->send(registered);
     if (!isUdp && !isLocal) {
         dropUnattached(connection);
         return;
     }
-    connection->send(Message::CyclicChannelAttached);
+    connection->send(messages::CyclicChannelAttached());
     nodeAttached(connection);
 }
 
@@ -193,7 +193,7 @@ Refusal MasterServer::channelRefusal(const MasterConnection &connection, const N
 }
 
 /// \return false when there is no shared memory: the node has been refused
-bool MasterServer::makeLocalPeer(MasterConnection *connection, QJsonObject *fields)
+bool MasterServer::makeLocalPeer(MasterConnection *connection, messages::Registered *registered)
 {
     QString error;
     auto memory = std::make_unique<SharedMemory>();
@@ -202,9 +202,9 @@ bool MasterServer::makeLocalPeer(MasterConnection *connection, QJsonObject *fiel
         return false;
     }
     const CyclicHub::LocalPaths paths = m_hub.localPaths();
-    fields->insert(QStringLiteral("channel"), memory->path());
-    fields->insert(QStringLiteral("doorbell"), paths.doorbell);
-    fields->insert(QStringLiteral("pipe"), paths.pipe);
+    registered->channel = memory->path();
+    registered->doorbell = paths.doorbell;
+    registered->pipe = paths.pipe;
     connection->slot->peer = HubPeer::local(std::move(memory));
     return true;
 }
@@ -246,7 +246,7 @@ void MasterServer::attachCyclicChannel(MasterConnection *connection, const Messa
         return;
     }
     MasterConnection *node = found->get();
-    connection->send(Message::CyclicChannelAttached);
+    connection->send(messages::CyclicChannelAttached());
     const int descriptor = connection->socket->takeDescriptor();
     forget(connection);
     if (descriptor < 0)

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "MasterReplies.h"
 
-#include "QPlcMessage.h"
 #include "node/state/MasterStates.h"
-
-#include <QtCore/QJsonArray>
 
 #include <numeric>
 
@@ -12,40 +9,41 @@ namespace qplc {
 
 namespace {
 
-QJsonObject nodeFields(const QPlcNodeInfo &node)
+messages::NodeEntry entryOf(const QPlcNodeInfo &node)
 {
-    QJsonObject fields{{QStringLiteral("name"), node.name},
-                       {QStringLiteral("id"), node.id},
-                       {QStringLiteral("inputs"), node.inputs},
-                       {QStringLiteral("outputs"), node.outputs},
-                       {QStringLiteral("listener"), node.listener},
-                       {QStringLiteral("critical"), node.critical},
-                       {QStringLiteral("state"), node.state},
-                       {QStringLiteral("every"), node.every},
-                       {QStringLiteral("policy"), node.policy},
-                       {QStringLiteral("transport"), node.transport},
-                       {QStringLiteral("address"), node.address},
-                       {QStringLiteral("lateAnswers"), double(node.lateAnswers)},
-                       {QStringLiteral("duplicates"), double(node.duplicates)},
-                       {QStringLiteral("rejected"), double(node.rejected)},
-                       {QStringLiteral("forged"), double(node.forged)},
-                       {QStringLiteral("resent"), double(node.resent)}};
-    if (!node.faultPlan.isEmpty())
-        fields.insert(QStringLiteral("faults"), node.faultPlan);
-    return fields;
+    messages::NodeEntry entry;
+    entry.name = node.name;
+    entry.id = quint16(node.id);
+    entry.inputs = node.inputs;
+    entry.outputs = node.outputs;
+    entry.listener = node.listener;
+    entry.critical = node.critical;
+    entry.state = node.state;
+    entry.every = node.every;
+    entry.policy = node.policy;
+    entry.transport = node.transport;
+    entry.address = node.address;
+    entry.lateAnswers = node.lateAnswers;
+    entry.duplicates = node.duplicates;
+    entry.rejected = node.rejected;
+    entry.forged = node.forged;
+    entry.resent = node.resent;
+    entry.faults = node.faultPlan;
+    return entry;
 }
 
-QJsonObject counterFields(const QPlcMasterStatistics &statistics)
+/// Counters go by their names: another version may have more of them.
+QMap<QString, quint64> countersOf(const QPlcMasterStatistics &statistics)
 {
-    return {{QStringLiteral("cycles"), double(statistics.cycles)},
-            {QStringLiteral("overruns"), double(statistics.overruns)},
-            {QStringLiteral("skippedCycles"), double(statistics.skippedCycles)},
-            {QStringLiteral("lateAnswers"), double(statistics.lateAnswers)},
-            {QStringLiteral("strangers"), double(statistics.strangers)},
-            {QStringLiteral("floods"), double(statistics.floods)},
-            {QStringLiteral("refusedConnections"), double(statistics.refusedConnections)},
-            {QStringLiteral("failedHandshakes"), double(statistics.failedHandshakes)},
-            {QStringLiteral("deniedMessages"), double(statistics.deniedMessages)}};
+    return {{QStringLiteral("cycles"), statistics.cycles},
+            {QStringLiteral("overruns"), statistics.overruns},
+            {QStringLiteral("skippedCycles"), statistics.skippedCycles},
+            {QStringLiteral("lateAnswers"), statistics.lateAnswers},
+            {QStringLiteral("strangers"), statistics.strangers},
+            {QStringLiteral("floods"), statistics.floods},
+            {QStringLiteral("refusedConnections"), statistics.refusedConnections},
+            {QStringLiteral("failedHandshakes"), statistics.failedHandshakes},
+            {QStringLiteral("deniedMessages"), statistics.deniedMessages}};
 }
 
 /// All of \a names are looked at before an answer is made: a short question that names one signal again and again would have an endless one.
@@ -77,87 +75,85 @@ bool readNames(const QPlcSignalTable &table, const QStringList &names, std::vect
 
 }  // namespace
 
-QString clockName(QPlcClock clock)
+messages::MasterState messageStateOf(QPlcMasterNode::State state)
+{
+    const QString name = QLatin1String(nameOf(state));
+    return messages::valueNamed<messages::MasterState>(name).value_or(messages::MasterState::Unknown);
+}
+
+messages::ClockKind clockKindOf(QPlcClock clock)
 {
     switch (clock.kind()) {
     case QPlcClock::RealTime:
-        return QStringLiteral("RealTime");
+        return messages::ClockKind::RealTime;
     case QPlcClock::Scaled:
-        return QStringLiteral("Scaled");
+        return messages::ClockKind::Scaled;
     case QPlcClock::Lockstep:
-        return QStringLiteral("Lockstep");
+        return messages::ClockKind::Lockstep;
     }
-    return {};
+    return messages::ClockKind::RealTime;
 }
 
-QJsonObject stateFields(const QPlcMasterNode &master, const ChosenProfile &profile, quint64 session)
+messages::State stateReply(const QPlcMasterNode &master, const ChosenProfile &profile, quint64 session)
 {
-    QJsonArray nodes;
-    const QVector<QPlcNodeInfo> infos = master.nodes();
-    for (const QPlcNodeInfo &node : infos)
-        nodes.append(nodeFields(node));
     const QPlcMasterStatistics statistics = master.statistics();
-    QJsonObject fields{{QStringLiteral("state"), QLatin1String(nameOf(master.state()))},
-                       {QStringLiteral("reason"), master.stateReason()},
-                       {QStringLiteral("remains"), master.causeThatRemains()},
-                       {QStringLiteral("armed"), master.isArmed()},
-                       {QStringLiteral("armingRequired"), master.isArmingRequired()},
-                       {QStringLiteral("cycle"), QPlcMessage::fromHex64(master.cycle())},
-                       {QStringLiteral("period"), double(master.interval().count())},
-                       {QStringLiteral("clock"), clockName(master.clock())},
-                       {QStringLiteral("scale"), master.clock().scale()},
-                       {QStringLiteral("profile"), QPlcProfile::name(profile.value)},
-                       {QStringLiteral("profileReason"), profile.reason},
-                       {QStringLiteral("session"), QPlcMessage::fromHex64(session)},
-                       {QStringLiteral("nodes"), nodes},
-                       {QStringLiteral("counters"), counterFields(statistics)},
-                       {QStringLiteral("digest"), QPlcMessage::fromHex64(statistics.imageDigest)}};
-    if (!master.faultPlan().isEmpty())
-        fields.insert(QStringLiteral("faults"), master.faultPlan());
-    return fields;
+    messages::State reply;
+    reply.state = messageStateOf(master.state());
+    reply.reason = master.stateReason();
+    reply.remains = master.causeThatRemains();
+    reply.armed = master.isArmed();
+    reply.armingRequired = master.isArmingRequired();
+    reply.cycle = master.cycle();
+    reply.period = master.interval();
+    reply.clock = clockKindOf(master.clock());
+    reply.scale = master.clock().scale();
+    reply.profile = QPlcProfile::name(profile.value);
+    reply.profileReason = profile.reason;
+    reply.session = session;
+    const QVector<QPlcNodeInfo> nodes = master.nodes();
+    for (const QPlcNodeInfo &node : nodes)
+        reply.nodes.push_back(entryOf(node));
+    reply.counters = countersOf(statistics);
+    reply.digest = statistics.imageDigest;
+    reply.faults = master.faultPlan();
+    return reply;
 }
 
-QJsonObject scheduleFields(const QPlcSchedule &schedule)
+messages::Schedule scheduleReply(const QPlcSchedule &schedule)
 {
-    QJsonArray stages;
+    messages::Schedule reply;
     for (const QVector<QPlcSchedule::Turn> &stage : schedule.stages) {
-        QJsonArray turns;
+        std::vector<messages::TurnEntry> turns;
         for (const QPlcSchedule::Turn &turn : stage)
-            turns.append(QJsonObject{{QStringLiteral("node"), turn.node},
-                                     {QStringLiteral("phase"), QPlcSchedule::phaseName(turn.phase)}});
-        stages.append(turns);
+            turns.push_back({turn.node, QPlcSchedule::phaseName(turn.phase)});
+        reply.stages.push_back(turns);
     }
-    QJsonArray links;
     for (const QPlcSchedule::Link &link : schedule.links)
-        links.append(QJsonObject{{QStringLiteral("signal"), link.signal},
-                                 {QStringLiteral("from"), link.from},
-                                 {QStringLiteral("to"), link.to},
-                                 {QStringLiteral("age"), link.age},
-                                 {QStringLiteral("sameCycle"), link.sameCycle}});
-    return {{QStringLiteral("stages"), stages}, {QStringLiteral("links"), links}};
+        reply.links.push_back({link.signal, link.from, link.to, link.age, link.sameCycle});
+    return reply;
 }
 
-QJsonObject eventFields(const std::vector<JournalEvent> &events)
+messages::Events eventReply(const std::vector<JournalEvent> &events)
 {
-    QJsonArray array;
+    messages::Events reply;
     for (const JournalEvent &event : events) {
-        QJsonObject fields{{QStringLiteral("sequence"), double(event.sequence)},
-                           {QStringLiteral("time"), QPlcMessage::fromHex64(quint64(event.time))},
-                           {QStringLiteral("severity"), severityName(event.severity)},
-                           {QStringLiteral("kind"), kindName(event.kind)},
-                           {QStringLiteral("source"), event.source},
-                           {QStringLiteral("text"), event.text}};
-        if (!event.alarm.isEmpty()) {
-            fields.insert(QStringLiteral("alarm"), event.alarm);
-            fields.insert(QStringLiteral("active"), event.isActive);
-        }
-        array.append(fields);
+        messages::EventEntry entry;
+        entry.sequence = event.sequence;
+        entry.time = quint64(event.time);
+        entry.severity = severityName(event.severity);
+        entry.kind = kindName(event.kind);
+        entry.source = event.source;
+        entry.text = event.text;
+        entry.alarm = event.alarm;
+        if (!event.alarm.isEmpty())
+            entry.active = event.isActive;
+        reply.events.push_back(entry);
     }
-    return {{QStringLiteral("events"), array}};
+    return reply;
 }
 
-bool signalFields(const MasterCycle &cycle, const NodeRegistry &registry, const Leases &leases,
-                  const QStringList &names, QJsonObject *fields, Refusal *refusal)
+bool signalReply(const MasterCycle &cycle, const NodeRegistry &registry, const Leases &leases, const QStringList &names,
+                 messages::Signals *reply, Refusal *refusal)
 {
     const QPlcSignalTable &table = cycle.table();
     std::vector<QPlcSignalIndex> wanted;
@@ -168,28 +164,26 @@ bool signalFields(const MasterCycle &cycle, const NodeRegistry &registry, const 
         std::iota(wanted.begin(), wanted.end(), QPlcSignalIndex(0));
     }
     const std::vector<char> values = cycle.values();
-    QJsonArray signalArray;
     for (const QPlcSignalIndex index : wanted) {
         const QPlcSignalDefinition &definition = table.at(index);
-        QJsonObject signal{{QStringLiteral("name"), definition.name},
-                           {QStringLiteral("type"), definition.type.name()},
-                           {QStringLiteral("unit"), definition.unit},
-                           {QStringLiteral("description"), definition.description},
-                           {QStringLiteral("value"),
-                            QPlcValue::fromBytes(definition.type, values.data() + cycle.offset(index)).toString()},
-                           {QStringLiteral("writer"), registry.writer(index)},
-                           {QStringLiteral("quality"), quint8(values[cycle.qualityOffset(index)])}};
+        messages::SignalEntry entry;
+        entry.name = definition.name;
+        entry.type = definition.type.name();
+        entry.unit = definition.unit;
+        entry.description = definition.description;
+        entry.value = QPlcValue::fromBytes(definition.type, values.data() + cycle.offset(index)).toString();
+        entry.writer = registry.writer(index);
+        entry.quality = quint8(values[cycle.qualityOffset(index)]);
         if (definition.writers.size() > 1) {
             const std::shared_ptr<NodeSlot> source = registry.find(cycle.signalGuard().source(index));
-            signal.insert(QStringLiteral("source"), source ? source->name : QString());
+            entry.source = source ? source->name : QString();
         }
         if (const Leases::Lease *lease = leases.find(index)) {
-            signal.insert(QStringLiteral("holder"), lease->name);
-            signal.insert(QStringLiteral("lease"), lease->stateName());
+            entry.holder = lease->name;
+            entry.lease = lease->stateName();
         }
-        signalArray.append(signal);
+        reply->signals.push_back(entry);
     }
-    fields->insert(QStringLiteral("signals"), signalArray);
     return true;
 }
 

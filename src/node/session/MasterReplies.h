@@ -7,23 +7,20 @@
 #include "node/cycle/NodeRegistry.h"
 #include "node/cycle/ProfileDefaults.h"
 #include "node/statistics/EventLog.h"
-
-#include <QtCore/QJsonObject>
+#include "protocol/messages/MessageTable.h"
 
 namespace qplc {
 
 /// What a master answers to those who ask: reading only.
 
-/// Fields of the message State.
-QJsonObject stateFields(const QPlcMasterNode &master, const ChosenProfile &profile, quint64 session);
-/// Fields of the message Signals, for \a names or, when empty, all; the values are those of one cycle.
+messages::MasterState messageStateOf(QPlcMasterNode::State state);
+messages::ClockKind clockKindOf(QPlcClock clock);
+messages::State stateReply(const QPlcMasterNode &master, const ChosenProfile &profile, quint64 session);
+/// For \a names or, when empty, all signals; the values are those of one cycle.
 /// \return false with the first name that is unknown, or comes twice, in \a refusal
-bool signalFields(const MasterCycle &cycle, const NodeRegistry &registry, const Leases &leases,
-                  const QStringList &names, QJsonObject *fields, Refusal *refusal);
-/// Fields of the message Events.
-QJsonObject eventFields(const std::vector<JournalEvent> &events);
-/// Fields of the message Schedule.
-QJsonObject scheduleFields(const QPlcSchedule &schedule);
-QString clockName(QPlcClock clock);
+bool signalReply(const MasterCycle &cycle, const NodeRegistry &registry, const Leases &leases, const QStringList &names,
+                 messages::Signals *reply, Refusal *refusal);
+messages::Events eventReply(const std::vector<JournalEvent> &events);
+messages::Schedule scheduleReply(const QPlcSchedule &schedule);
 
 }  // namespace qplc

@@ -22,7 +22,7 @@ constexpr int LongestReason = 4000;             // [characters] of a refusal, wh
 }  // namespace
 
 MasterServer::MasterServer(NodeRegistry &registry, const ProcessImage &image, CyclicHub &hub, quint64 session,
-                           std::function<QJsonObject()> hello,
+                           std::function<messages::MasterHello()> hello,
                            std::function<Refusal(const NodeDeclaration &)> objection, QObject *parent)
     : QObject(parent)
     , m_registry(registry)
@@ -124,7 +124,7 @@ void MasterServer::close()
     m_name.release();
     m_door.close();
     for (const std::unique_ptr<MasterConnection> &connection : m_connections)
-        connection->send(Message::MasterEnds);
+        connection->send(messages::MasterEnds());
     while (!m_connections.empty())
         drop(m_connections.back().get(), QStringLiteral("the master closes its server"));
     m_hub.close();
@@ -221,7 +221,7 @@ void MasterServer::forget(MasterConnection *connection)
 void MasterServer::reject(MasterConnection *connection, const QString &error, const QString &reason)
 {
     const QString text = printable(reason.left(LongestReason));
-    connection->send(Message::Rejected, {{QStringLiteral("error"), error}, {QStringLiteral("text"), text}});
+    connection->send(messages::Rejected{error, text});
     Q_EMIT refused(connection->shownName(), connection->socket->peerName(), text);
     drop(connection, text);
 }

@@ -20,11 +20,11 @@ class MasterServer : public QObject
 {
     Q_OBJECT
 public:
-    /// \param master  what greetings need to know of the master: fields of its Hello
+    /// \param master  what greetings need to know of the master: its Hello without what depends on the client
     /// \param objection  why the master does not take a node now that the registry would take; no error: it takes it
     MasterServer(NodeRegistry &registry, const ProcessImage &image, CyclicHub &hub, quint64 session,
-                 std::function<QJsonObject()> hello, std::function<Refusal(const NodeDeclaration &)> objection,
-                 QObject *parent);
+                 std::function<messages::MasterHello()> hello,
+                 std::function<Refusal(const NodeDeclaration &)> objection, QObject *parent);
     ~MasterServer() override;
 
     /// Takes effect with listen().
@@ -80,7 +80,7 @@ private:
     void receiveGarbage(MasterConnection *connection);
     void greet(MasterConnection *connection, const QPlcMessage &message);
     void registerNode(MasterConnection *connection, const QPlcMessage &message);
-    bool makeLocalPeer(MasterConnection *connection, QJsonObject *fields);
+    bool makeLocalPeer(MasterConnection *connection, messages::Registered *registered);
     void replace(const MasterConnection *newcomer, const QString &name);
     void attachCyclicChannel(MasterConnection *connection, const QPlcMessage &message);
     void nodeAttached(MasterConnection *connection);
@@ -94,7 +94,7 @@ private:
     const ProcessImage &m_image;
     CyclicHub &m_hub;
     const quint64 m_session;
-    std::function<QJsonObject()> m_hello;
+    std::function<messages::MasterHello()> m_hello;
     std::function<Refusal(const NodeDeclaration &)> m_objection;
     const QString m_tableText;  // for who has another one
     MasterDoor m_door;

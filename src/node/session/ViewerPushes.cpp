@@ -16,7 +16,8 @@ constexpr std::size_t mostEvents = 100;    // in one message
 
 }  // namespace
 
-ViewerPushes::ViewerPushes(const MasterServer &server, const EventLog &events, std::function<QJsonObject()> leases)
+ViewerPushes::ViewerPushes(const MasterServer &server, const EventLog &events,
+                           std::function<messages::LeasesChanged()> leases)
     : m_server(server)
     , m_events(events)
     , m_leases(std::move(leases))
@@ -62,13 +63,13 @@ int ViewerPushes::pushTo(MasterConnection *connection)
     if (connection->socket->bytesToSend() > mostWaiting)
         return slowPause;
     if (connection->leasesDue)
-        connection->send(QPlcMessage::LeasesChanged, m_leases());
+        connection->send(m_leases());
     connection->leasesDue = false;
     if (!eventsDue)
         return 0;
     const std::vector<JournalEvent> events = m_events.after(connection->eventsTold, mostEvents);
     connection->eventsTold = events.back().sequence;
-    connection->send(QPlcMessage::Events, eventFields(events));
+    connection->send(eventReply(events));
     return connection->eventsTold < m_events.newest() ? gatherPause : 0;
 }
 

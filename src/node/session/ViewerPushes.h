@@ -4,7 +4,6 @@
 #include "MasterServer.h"
 #include "node/statistics/EventLog.h"
 
-#include <QtCore/QJsonObject>
 #include <QtCore/QObject>
 #include <QtCore/QTimer>
 
@@ -17,8 +16,8 @@ namespace qplc {
 class ViewerPushes : public QObject
 {
 public:
-    /// All of them outlive this object. \param leases  makes the fields of LeasesChanged
-    ViewerPushes(const MasterServer &server, const EventLog &events, std::function<QJsonObject()> leases);
+    /// All of them outlive this object. \param leases  makes LeasesChanged
+    ViewerPushes(const MasterServer &server, const EventLog &events, std::function<messages::LeasesChanged()> leases);
 
     void leasesChanged();
     void eventsHappened();
@@ -31,7 +30,7 @@ private:
 
     const MasterServer &m_server;
     const EventLog &m_events;
-    std::function<QJsonObject()> m_leases;
+    std::function<messages::LeasesChanged()> m_leases;
     QTimer m_timer;
 };
 

@@ -2,12 +2,11 @@
 #pragma once
 
 #include "QPlcCycleStatistics.h"
-
-#include <QtCore/QJsonObject>
+#include "protocol/messages/Statistics.h"
 
 namespace qplc {
 
-/// Fields of the message Statistics; docs/protocol.md lists them.
-QJsonObject statisticsFields(const QPlcCycleStatistics &statistics);
+/// What a master answers to GetStatistics.
+messages::Statistics statisticsReply(const QPlcCycleStatistics &statistics);
 
 }  // namespace qplc

@@ -54,8 +54,8 @@ struct StatesInitialized
     bool ok = false;
     QString text;  // why not
 
-    static constexpr auto fields
-        = std::make_tuple(field("ok", &StatesInitialized::ok), field("text", &StatesInitialized::text));
+    static constexpr auto fields = std::make_tuple(field("ok", &StatesInitialized::ok),
+                                                   field("text", &StatesInitialized::text, Presence::WhenSet));
 };
 
 struct StartRealTime
