@@ -55,6 +55,14 @@ class Faults(unittest.TestCase):
         self.plant("src/realtime/CycleThread.h", "class Worker : public QObject {};\n")
         self.assert_named("src/realtime/CycleThread.h:", "event loop")
 
+    def test_a_field_of_a_message_has_its_name_in_one_place(self):
+        self.plant("src/node/session/ViewerPushes.cpp", 'const QString who = message.text(QStringLiteral("whoever"));\n')
+        self.assert_named("src/node/session/ViewerPushes.cpp:", "fields have their names in src/protocol/messages")
+
+    def test_a_file_that_reads_no_field_any_more_leaves_the_list(self):
+        (self.root / "src/node/session/MasterSettings.h").write_text("// SPDX-License-Identifier: Apache-2.0\n")
+        self.assert_named("src/node/session/MasterSettings.h:", "take it out of KNOWS_FIELDS")
+
     def test_signals_know_no_socket(self):
         self.plant("src/signals/Fnv1a.h", "#include <sys/socket.h>\n")
         self.assert_named("src/signals/Fnv1a.h:", "a socket")
