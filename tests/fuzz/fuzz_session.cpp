@@ -41,7 +41,9 @@ public:
         m_master.setSignalTable(table);
         m_master.setInterval(std::chrono::seconds(1));
         QString error;
-        fuzz::check(m_inside.prepare() && m_inside.hub.openLocal(&error), "a master can be made");
+        fuzz::check(m_inside.prepare()
+                        && m_inside.hub.open(qplc::SocketAddress(QHostAddress(QHostAddress::LocalHost), 0), &error),
+                    "a master can be made");
     }
 
     ~Session()

@@ -3,6 +3,7 @@
 #include "ScriptedMaster.h"
 #include "ScriptedNode.h"
 #include "node/cycle/MasterCycle.h"
+#include "transport/StreamTransport.h"
 
 #include <QtTest/QtTest>
 
@@ -72,7 +73,7 @@ public:
         m_slot->interval = qplc::ListeningInterval(interval);
         m_slot->inputLayout = qplc::PayloadLayout(testTable(), {testTable().indexOf("count")});
         m_slot->prepare(m_cycle.image(), session);
-        m_slot->peer = qplc::HubPeer::tcp(m_ends[0], m_slot->outputCutter(), qplc::MaximumCyclicFrame);
+        m_slot->peer = qplc::StreamTransport::peer(m_ends[0], m_slot->outputCutter(), qplc::MaximumCyclicFrame);
         m_slot->peer->owner = m_slot.get();
         m_slot->peer->isListener = true;
         m_cycle.setRoster({{m_slot}});

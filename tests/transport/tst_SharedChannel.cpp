@@ -2,6 +2,7 @@
 #include "TransportFixtures.h"
 #include "realtime/InterruptibleWaits.h"
 #include "transport/LocalName.h"
+#include "transport/StreamTransport.h"
 
 #include <QtTest/QtTest>
 
@@ -13,11 +14,16 @@
 using qplc::CyclicHub;
 using qplc::CyclicLink;
 using qplc::Doorbell;
+using qplc::HubFrame;
 using qplc::HubPeer;
+using qplc::HubTransport;
 using qplc::LocalName;
+using qplc::LocalTransport;
 using qplc::SharedChannel;
 using qplc::SharedMemory;
 using qplc::SharedRing;
+using qplc::StreamTransport;
+using qplc::UdpTransport;
 
 class tst_SharedChannel : public QObject
 {
@@ -49,14 +55,14 @@ struct LocalPlant
     explicit LocalPlant(int count)
     {
         QString error;
-        ok = hub.openLocal(&error);
+        ok = hub.open(qplc::SocketAddress(QHostAddress(QHostAddress::LocalHost), 0), &error);
         for (int i = 0; i < count; ++i) {
             auto memory = std::make_unique<SharedMemory>();
             ok = ok && memory->create(sizeof(SharedChannel), &error);
-            const CyclicHub::LocalPaths paths = hub.localPaths();
+            const LocalTransport::Paths paths = hub.localPaths();
             links.push_back(CyclicLink::local({memory->path(), paths.doorbell, paths.pipe}, ::geteuid(), &error));
             ok = ok && links.back();
-            peers.push_back(HubPeer::local(std::move(memory)));
+            peers.push_back(LocalTransport::peer(std::move(memory)));
             hub.attach(peers.back().get());
         }
     }
@@ -74,10 +80,10 @@ struct LocalPlant
     QVector<QByteArray> take(std::int64_t timeout)
     {
         QVector<QByteArray> frames;
-        CyclicHub::Incoming incoming;
+        HubFrame incoming;
         if (hub.wait(timeout)) {
             while (hub.next(&incoming))
-                frames << QByteArray(incoming.frame, int(incoming.size));
+                frames << QByteArray(incoming.bytes, int(incoming.size));
         }
         return frames;
     }
@@ -294,7 +300,7 @@ void tst_SharedChannel::localAndOtherPeersAreServedTogether()
 {
     LocalPlant plant(1);
     StreamPair pair;
-    const auto stream = HubPeer::tcp(pair.take(0), toyCutter, LargestToyFrame);
+    const auto stream = StreamTransport::peer(pair.take(0), toyCutter, LargestToyFrame);
     plant.hub.attach(stream.get());
     plant.ask("question");
     pair.write(toyFrame(5));
@@ -321,7 +327,7 @@ void tst_SharedChannel::aNodeThatSleepsForEverBlocksNobody()
         QCOMPARE(plant.take(1'000'000), QVector<QByteArray>{"a"});
     }
     QVERIFY(refused > 100);
-    QCOMPARE(plant.peers[0]->sendFailures(), std::uint64_t(refused));
+    QCOMPARE(plant.peers[0]->sendFailures, std::uint64_t(refused));
     QCOMPARE(receive(*plant.links[0]), question);  // what had room waits for it
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TransportFixtures.h"
 #include "realtime/InterruptibleWaits.h"
+#include "transport/StreamTransport.h"
 
 #include <QtCore/QElapsedTimer>
 #include <QtTest/QtTest>
@@ -9,9 +10,14 @@
 
 using qplc::CyclicHub;
 using qplc::CyclicLink;
+using qplc::HubFrame;
 using qplc::HubPeer;
+using qplc::HubTransport;
 using qplc::InterruptibleWaits;
+using qplc::LocalTransport;
 using qplc::SocketAddress;
+using qplc::StreamTransport;
+using qplc::UdpTransport;
 
 // What the tables of the hub hold and what happens beyond; peers that come, go and come again.
 class tst_TransportLimits : public QObject
@@ -44,7 +50,7 @@ struct Hub : CyclicHub
         isOpen = open(SocketAddress(host, 0), &error);
         self.length = sizeof self.storage;
         const UdpSocket socket;
-        const auto peer = HubPeer::udp(socket.self);
+        const auto peer = UdpTransport::peer(socket.self);
         sendNow(*peer, "who are you?");
         char bytes[16];
         pollfd polled{socket.descriptor, POLLIN, 0};
@@ -62,9 +68,9 @@ struct Hub : CyclicHub
         QVector<QByteArray> frames;
         const std::uint64_t before = strangers();
         while (frames.size() + int(strangers() - before) < count && wait(5'000'000'000)) {
-            Incoming incoming;
+            HubFrame incoming;
             while (next(&incoming))
-                frames << QByteArray(incoming.frame, int(incoming.size));
+                frames << QByteArray(incoming.bytes, int(incoming.size));
         }
         return frames;
     }
@@ -79,7 +85,7 @@ void tst_TransportLimits::datagramsBeyondABatchComeInOrder()
 {
     Hub hub;
     const UdpSocket socket;
-    const auto peer = HubPeer::udp(socket.self);
+    const auto peer = UdpTransport::peer(socket.self);
     hub.attach(peer.get());
     for (int count : {1, 31, 32, 33, 64, 100}) {
         QVector<QByteArray> sent;
@@ -96,13 +102,13 @@ void tst_TransportLimits::requestsBeyondTheTableGoOutAtOnce()
 {
     Hub hub;
     const UdpSocket socket;
-    const auto peer = HubPeer::udp(socket.self);
+    const auto peer = UdpTransport::peer(socket.self);
     for (std::size_t i = 0; i < CyclicHub::MaximumPeers; ++i)
         hub.send(peer.get(), "waits for flush()", 5);
     QCOMPARE(socket.receive(MSG_DONTWAIT), QByteArray("nothing"));
     hub.send(peer.get(), "one more", 8);
     QCOMPARE(socket.receive(), QByteArray("waits"));
-    QCOMPARE(peer->sendFailures(), std::uint64_t(0));
+    QCOMPARE(peer->sendFailures, std::uint64_t(0));
 }
 
 void tst_TransportLimits::peersBeyondTheTableAreStrangers()
@@ -110,11 +116,11 @@ void tst_TransportLimits::peersBeyondTheTableAreStrangers()
     Hub hub;
     std::vector<std::unique_ptr<HubPeer>> peers;
     for (std::size_t i = 0; i < CyclicHub::MaximumPeers; ++i) {
-        peers.push_back(HubPeer::udp(SocketAddress(QHostAddress("192.0.2.1"), quint16(1 + i))));
+        peers.push_back(UdpTransport::peer(SocketAddress(QHostAddress("192.0.2.1"), quint16(1 + i))));
         hub.attach(peers.back().get());
     }
     const UdpSocket socket;
-    const auto oneTooMany = HubPeer::udp(socket.self);
+    const auto oneTooMany = UdpTransport::peer(socket.self);
     hub.attach(oneTooMany.get());
     QVERIFY(socket.send("mine", hub.self));
     QCOMPARE(hub.take(1), QVector<QByteArray>());
@@ -129,7 +135,7 @@ void tst_TransportLimits::aDatagramThatIsTooLongIsCut()
 {
     Hub hub;
     const UdpSocket socket;
-    const auto peer = HubPeer::udp(socket.self);
+    const auto peer = UdpTransport::peer(socket.self);
     hub.attach(peer.get());
     QVERIFY(socket.send(QByteArray(60000, 'z'), hub.self));
     QVERIFY(socket.send("next", hub.self));
@@ -143,8 +149,8 @@ void tst_TransportLimits::peersComeGoAndComeAgain()
 {
     Hub hub;
     const UdpSocket sockets[3];
-    const std::unique_ptr<HubPeer> peers[3]
-        = {HubPeer::udp(sockets[0].self), HubPeer::udp(sockets[1].self), HubPeer::udp(sockets[2].self)};
+    const std::unique_ptr<HubPeer> peers[3] = {UdpTransport::peer(sockets[0].self), UdpTransport::peer(sockets[1].self),
+                                               UdpTransport::peer(sockets[2].self)};
     const auto heard = [&] {
         for (int i = 0; i < 3; ++i) {
             if (!sockets[i].send(QByteArray::number(i), hub.self))
@@ -170,12 +176,12 @@ void tst_TransportLimits::aClosedPeerStaysAsleepWhenOthersComeAndGo()
     Hub hub;
     StreamPair gone;
     StreamPair other;
-    const auto gonePeer = HubPeer::tcp(gone.take(0), toyCutter, LargestToyFrame);
-    const auto otherPeer = HubPeer::tcp(other.take(0), toyCutter, LargestToyFrame);
+    const auto gonePeer = StreamTransport::peer(gone.take(0), toyCutter, LargestToyFrame);
+    const auto otherPeer = StreamTransport::peer(other.take(0), toyCutter, LargestToyFrame);
     hub.attach(gonePeer.get());
     gone.closeEnd(1);
     QVERIFY(hub.wait(5'000'000'000));
-    CyclicHub::Incoming incoming;
+    HubFrame incoming;
     QVERIFY(!hub.next(&incoming));
     QVERIFY(gonePeer->isClosed());
     QVERIFY(!hub.wait(1'000'000));  // else a cycle thread would spin
@@ -191,14 +197,14 @@ void tst_TransportLimits::aClosedHubSendsNothingAndMayOpenAgain()
 {
     Hub hub;
     const UdpSocket socket;
-    const auto peer = HubPeer::udp(socket.self);
+    const auto peer = UdpTransport::peer(socket.self);
     hub.attach(peer.get());
     hub.send(peer.get(), "never", 5);
     hub.close();
     hub.flush();
     QVERIFY(!hub.wait(0));
     hub.sendNow(*peer, "nor this");
-    QCOMPARE(peer->sendFailures(), std::uint64_t(1));
+    QCOMPARE(peer->sendFailures, std::uint64_t(1));
     QString error;
     QVERIFY(hub.open(SocketAddress(QHostAddress(QHostAddress::LocalHost), 0), &error));
     hub.sendNow(*peer, "again");
@@ -219,7 +225,7 @@ void tst_TransportLimits::ipv4PeersAreKnownOnADualStackSocket()
     if (!hub.isOpen || !hub.knowsItself)
         QSKIP("this machine has no IPv6, or keeps it apart from IPv4", "");
     const UdpSocket socket;
-    const auto peer = HubPeer::udp(socket.self);
+    const auto peer = UdpTransport::peer(socket.self);
     hub.attach(peer.get());
     QVERIFY(socket.send("from ::ffff:127.0.0.1", hub.self));
     QCOMPARE(hub.take(1), QVector<QByteArray>{"from ::ffff:127.0.0.1"});
@@ -232,7 +238,7 @@ void tst_TransportLimits::aUdpLinkFindsItsMasterAgain()
     Hub first;
     const auto link = CyclicLink::udp(first.self, &port, &error);
     QVERIFY2(link, qPrintable(error));
-    const auto peer = HubPeer::udp(SocketAddress(QHostAddress(QHostAddress::LocalHost), port));
+    const auto peer = UdpTransport::peer(SocketAddress(QHostAddress(QHostAddress::LocalHost), port));
     const char *frame = nullptr;
     std::size_t size = 0;
     first.sendNow(*peer, "one");

@@ -51,7 +51,7 @@ void MulticastParts::finish()
     storeLittle(m_open->number, m_open->payload());
     for (NodeSlot *slot : m_nodes)
         slot->inputs = m_open->payload() + slot->multicastOffset;
-    m_open->group = HubPeer::udp(m_group);
+    m_open->group = UdpTransport::peer(m_group);
     m_open.reset();
     m_nodes.clear();
 }

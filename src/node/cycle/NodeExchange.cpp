@@ -193,7 +193,7 @@ bool NodeExchange::continueRequests() noexcept
 void NodeExchange::resendRequests() noexcept
 {
     for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
-        if (!isAwaited(*slot) || !mustBeWaitedFor(*slot) || !slot->peer->isUdp())
+        if (!isAwaited(*slot) || !mustBeWaitedFor(*slot) || !slot->peer->losesFrames())
             continue;
         slot->statistics.resent.add();
         sendRequest(*slot, ResentFlag);
@@ -337,9 +337,9 @@ void NodeExchange::receive(std::int64_t timeout, int alarm) noexcept
     m_hasReceived = true;
     if (!arrived)
         return;
-    CyclicHub::Incoming incoming;
+    HubFrame incoming;
     while (m_hub.next(&incoming))
-        takeAnswer(*static_cast<NodeSlot *>(incoming.peer->owner), incoming.frame, incoming.size);
+        takeAnswer(*static_cast<NodeSlot *>(incoming.peer->owner), incoming.bytes, incoming.size);
     m_statistics.setArrivals(m_hub.strangers(), m_hub.floods());
     for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
         if (slot->peer && slot->peer->isClosed() && !slot->lost.exchange(true))

@@ -9,6 +9,7 @@
 #include "protocol/CyclicFrame.h"
 #include "signals/ProcessImage.h"
 #include "transport/CyclicHub.h"
+#include "transport/FrameCutter.h"
 
 #include <atomic>
 #include <memory>

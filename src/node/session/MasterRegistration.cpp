@@ -5,6 +5,7 @@
 #include "node/security/SealFields.h"
 #include "protocol/ControlFrame.h"
 #include "signals/Fnv1a.h"
+#include "transport/StreamTransport.h"
 
 #include <QtCore/QJsonArray>
 #include <QtCore/QRandomGenerator>
@@ -144,7 +145,7 @@ void MasterServer::registerNode(MasterConnection *connection, const Message &mes
     if (isLocal && !makeLocalPeer(connection, &registered))
         return;
     if (isUdp)
-        connection->slot->peer = HubPeer::udp(SocketAddress(connection->socket->peerAddress(), quint16(udpPort)));
+        connection->slot->peer = UdpTransport::peer(SocketAddress(connection->socket->peerAddress(), quint16(udpPort)));
     connection->slot->wantsMulticast = isMulticast;
     if (isMulticast) {
         registered.group = QHostAddress(m_group.data()).toString();
@@ -201,11 +202,11 @@ bool MasterServer::makeLocalPeer(MasterConnection *connection, messages::Registe
         reject(connection, QStringLiteral("NodeError"), error);
         return false;
     }
-    const CyclicHub::LocalPaths paths = m_hub.localPaths();
+    const LocalTransport::Paths paths = m_hub.localPaths();
     registered->channel = memory->path();
     registered->doorbell = paths.doorbell;
     registered->pipe = paths.pipe;
-    connection->slot->peer = HubPeer::local(std::move(memory));
+    connection->slot->peer = LocalTransport::peer(std::move(memory));
     return true;
 }
 
@@ -251,7 +252,7 @@ void MasterServer::attachCyclicChannel(MasterConnection *connection, const Messa
     forget(connection);
     if (descriptor < 0)
         return;
-    node->slot->peer = HubPeer::tcp(descriptor, node->slot->outputCutter(), MaximumCyclicFrame);
+    node->slot->peer = StreamTransport::peer(descriptor, node->slot->outputCutter(), MaximumCyclicFrame);
     nodeAttached(node);
 }
 

@@ -81,7 +81,7 @@ bool MasterServer::openPorts(const QHostAddress &address, quint16 port)
                             .arg(m_door.errorString(), remedyForListening(m_door.error()));
         return false;
     }
-    if (m_hub.open(SocketAddress(m_door.address(), m_door.port()), &m_errorString) && m_hub.openLocal(&m_errorString))
+    if (m_hub.open(SocketAddress(m_door.address(), m_door.port()), &m_errorString))
         return true;
     m_door.close();
     return false;

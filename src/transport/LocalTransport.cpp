@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "LocalTransport.h"
+
+#include <algorithm>
+#include <fcntl.h>
+#include <unistd.h>
+#include <utility>
+
+namespace qplc {
+
+class LocalTransport::Peer final : public HubPeer
+{
+public:
+    explicit Peer(std::unique_ptr<SharedMemory> shared)
+        : memory(std::move(shared))
+    {
+    }
+    SharedChannel *channel() const { return static_cast<SharedChannel *>(memory->data()); }
+
+    const std::unique_ptr<SharedMemory> memory;
+    bool isToBeWoken = false;
+};
+
+LocalTransport::LocalTransport()
+{
+    m_peers.reserve(MaximumPeers);
+}
+
+LocalTransport::~LocalTransport()
+{
+    for (const int descriptor : m_pipe) {
+        if (descriptor >= 0)
+            ::close(descriptor);
+    }
+}
+
+std::unique_ptr<HubPeer> LocalTransport::peer(std::unique_ptr<SharedMemory> memory)
+{
+    return std::make_unique<Peer>(std::move(memory));
+}
+
+bool LocalTransport::open(const SocketAddress & /*address*/, QString *error)
+{
+    if (m_pipe[0] >= 0)
+        return true;
+    if (!m_doorbell.data() && !m_doorbell.create(sizeof(Doorbell), error))
+        return false;
+    if (::pipe2(m_pipe, O_NONBLOCK | O_CLOEXEC) == 0)
+        return true;
+    *error = QStringLiteral("no pipe for local nodes: %1").arg(systemErrorText());
+    return false;
+}
+
+LocalTransport::Paths LocalTransport::paths() const
+{
+    return {m_doorbell.path(), QStringLiteral("/proc/%1/fd/%2").arg(::getpid()).arg(m_pipe[1])};
+}
+
+bool LocalTransport::owns(const HubPeer &peer) const noexcept
+{
+    return dynamic_cast<const Peer *>(&peer) != nullptr;
+}
+
+void LocalTransport::attach(HubPeer *peer) noexcept
+{
+    auto *own = static_cast<Peer *>(peer);
+    m_peers.push_back(own);
+    m_next = m_peers.size();
+}
+
+void LocalTransport::detach(HubPeer *peer) noexcept
+{
+    m_peers.erase(std::remove(m_peers.begin(), m_peers.end(), peer), m_peers.end());
+    m_next = m_peers.size();
+}
+
+void LocalTransport::addDescriptors(std::vector<pollfd> *descriptors) const
+{
+    descriptors->push_back({m_pipe[0], POLLIN, 0});
+}
+
+bool LocalTransport::send(HubPeer *peer, const char *frame, std::size_t size) noexcept
+{
+    auto *to = static_cast<Peer *>(peer);
+    to->isToBeWoken = to->channel()->inputs.push(frame, size);
+    m_areSomeToWake = m_areSomeToWake || to->isToBeWoken;
+    to->sendFailures += to->isToBeWoken ? 0 : 1;
+    return to->isToBeWoken;
+}
+
+void LocalTransport::flush() noexcept
+{
+    if (!std::exchange(m_areSomeToWake, false))
+        return;
+    const auto isAwaited = [](const Peer *peer) { return peer->isToBeWoken && !peer->isListener; };
+    const auto awaited = std::count_if(m_peers.begin(), m_peers.end(), isAwaited);
+    doorbell()->want(m_rung + std::uint32_t(std::max<std::ptrdiff_t>(awaited, 1)));  // before the first can answer
+    for (Peer *peer : m_peers) {
+        if (peer->isToBeWoken)
+            peer->channel()->inputs.wake();
+        peer->isToBeWoken = false;
+    }
+}
+
+bool LocalTransport::waitAlone(std::int64_t timeout, bool *arrived) noexcept
+{
+    if (m_peers.empty())
+        return false;
+    if (timeout > 0 && !m_isFlooded)
+        doorbell()->sleep(timeout);
+    *arrived = look();
+    return true;
+}
+
+bool LocalTransport::beginWait(bool isToSleep) noexcept
+{
+    if (m_peers.empty())
+        return true;
+    return !m_isFlooded && (!isToSleep || doorbell()->beginPoll());
+}
+
+bool LocalTransport::endWait(pollfd *polled) noexcept
+{
+    if (polled->revents != 0) {
+        char rings[64];
+        while (::read(m_pipe[0], rings, sizeof rings) == ssize_t(sizeof rings)) {}
+    }
+    return !m_peers.empty() && look();
+}
+
+/// Begins a turn of looking at all peers. \return whether there may be frames
+bool LocalTransport::look() noexcept
+{
+    doorbell()->endPoll();
+    const std::uint32_t rung = doorbell()->count();
+    const bool wasFlooded = std::exchange(m_isFlooded, false);
+    const bool arrived = rung != m_rung || wasFlooded;
+    m_rung = rung;
+    doorbell()->want(rung + 1);
+    m_next = m_read = 0;
+    return arrived;
+}
+
+bool LocalTransport::next(HubFrame *frame) noexcept
+{
+    for (; m_next < m_peers.size(); ++m_next, m_read = 0) {
+        if (m_read >= FramesPerWait) {
+            m_isFlooded = true;
+            ++m_floods;
+            continue;
+        }
+        const std::size_t size = m_peers[m_next]->channel()->outputs.pop(m_frame.data(), m_frame.size());
+        if (size > 0) {
+            ++m_read;
+            *frame = {m_peers[m_next], m_frame.data(), size};
+            return true;
+        }
+    }
+    return false;
+}
+
+}  // namespace qplc

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "HubTransport.h"
+
+#include <array>
+
+namespace qplc {
+
+/// Datagrams over one UDP socket: many peers with few system calls.
+class UdpTransport final : public HubTransport
+{
+public:
+    UdpTransport();
+    ~UdpTransport() override;
+
+    /// A node that is reached at \a address.
+    static std::unique_ptr<HubPeer> peer(const SocketAddress &address);
+
+    /// Binds the socket. One that is bound to :: also exchanges datagrams with IPv4 addresses.
+    bool open(const SocketAddress &address, QString *error) override;
+    void close() override;
+    /// Lets datagrams to multicast groups leave by the interface of \a address, for one hop.
+    /// \return false, with the reason in \a error
+    bool openMulticast(const QHostAddress &address, QString *error);
+    bool owns(const HubPeer &peer) const noexcept override;
+    void attach(HubPeer *peer) noexcept override;
+    void detach(HubPeer *peer) noexcept override;
+    std::size_t peerCount() const noexcept override { return m_peers.size(); }
+    void addDescriptors(std::vector<pollfd> *descriptors) const override;
+
+    bool send(HubPeer *peer, const char *frame, std::size_t size) noexcept override;
+    void flush() noexcept override;
+    bool waitAlone(std::int64_t timeout, bool *arrived) noexcept override;
+    bool endWait(pollfd *polled) noexcept override;
+    bool next(HubFrame *frame) noexcept override;
+
+    /// Datagrams whose sender is no peer.
+    std::uint64_t strangers() const { return m_strangers; }
+    /// Datagrams since open() that the kernel had no room for, as nobody read those before them in time.
+    std::uint64_t unread() const;
+
+private:
+    class Peer;
+    struct Messages;
+    static constexpr std::size_t Batch = 32;
+    static constexpr std::size_t LargestDatagram = 2048;
+    static constexpr std::size_t TableSize = 4 * MaximumPeers;
+
+    static std::size_t placeOf(std::uint64_t key) noexcept;
+    Peer *find(const SocketAddress &address) noexcept;
+    void rebuild() noexcept;
+    bool readMore() noexcept;
+    int receive(int flags) noexcept;
+
+    int m_socket = -1;
+    bool m_isIpv6 = false;
+    std::vector<Peer *> m_peers;
+    std::array<Peer *, TableSize> m_table{};  // by address
+    std::unique_ptr<Messages> m_messages;
+    std::size_t m_outgoing = 0;  // datagrams waiting for flush()
+    std::size_t m_arrived = 0;   // datagrams of the last recvmmsg()
+    std::size_t m_taken = 0;     // of them handed out
+    std::size_t m_read = 0;      // since the last wait
+    bool m_hasMore = false;      // in the kernel
+    std::uint64_t m_strangers = 0;
+};
+
+}  // namespace qplc
