@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Checks the documents: code blocks are what the files hold that they are said to show, links lead somewhere, tests that are named
-(`tst_X::aSentence`) exist, and indexes name all rooms and pages.
+(`tst_X::aSentence`) exist, functions that docs/design/architecture.md names (`Class::function`) too, and indexes name all rooms and pages.
 
 A block that stands behind the line <!-- file: PATH --> (from the root of the repository) shows that file without its licence line; with "begin of" or "end of" in the place of "file", lines at its begin or end.
 
@@ -76,6 +76,16 @@ def check_tests(root, document, sources, errors):
             errors.append(f"{document.relative_to(root)}: names {program}::{name}, which {program}.cpp has not")
 
 
+def check_functions(root, errors):
+    """The stops of the values that the first page follows."""
+    page = root / "docs/design/architecture.md"
+    sources = "\n".join(path.read_text() for folder in ("src", "include") for path in (root / folder).rglob("*") if path.suffix in (".h", ".cpp"))
+    for owner, name in re.findall(r"`(\w+)::(\w+)`", page.read_text()):
+        body = re.search(rf"^(?:class|struct) [\w ]*\b{owner}\b[^;\n]*\n\{{\n.*?^\}};", sources, re.M | re.S)
+        if not re.search(rf"\b{owner}::{name}\(", sources) and not (body and re.search(rf"\b{name}\(", body[0])):
+            errors.append(f"{page.relative_to(root)}: names {owner}::{name}, which the sources do not have")
+
+
 def check_rooms(root, errors):
     """CONTRIBUTING names every folder of the project in which sources are, and an index every page of its folder."""
     text = (root / "CONTRIBUTING.md").read_text()
@@ -123,6 +133,7 @@ def main():
         check_headings(root, document, errors)
         check_tests(root, document, sources, errors)
     check_rooms(root, errors)
+    check_functions(root, errors)
     print("\n".join(errors) or f"{len(documents)} documents are in order")
     return 1 if errors or not documents else 0
 

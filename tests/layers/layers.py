@@ -24,8 +24,22 @@ ARROWS = {
     "node/session": BELOW_NODE | {"node", "node/state", "node/security", "node/cycle", "node/statistics", "node/session"},
     "node/api": BELOW_NODE | {"node", "node/state", "node/security", "node/cycle", "node/statistics", "node/session", "node/api"},
     "hardware": {"signals", "realtime", "node", "node/session", "hardware"},
-    "gui": {"signals", "node", "node/state", "node/cycle", "node/session", "gui"},
-    "gui3d": {"signals", "node", "gui", "gui3d"},
+    "gui": {"signals", "node", "gui"},
+    "gui/store": {"signals", "gui/store"},
+    "gui/plant": {"signals", "node", "node/state", "node/cycle", "node/session", "gui", "gui/store", "gui/plant"},
+    "gui/plot": {"signals", "node", "gui", "gui/store", "gui/plant", "gui/plot"},
+    "gui/models": {"signals", "node", "node/state", "gui", "gui/plant", "gui/models"},
+    "gui/panel": {"signals", "node", "gui", "gui/plant", "gui/plot", "gui/models", "gui/panel"},
+    # Panels do not know each other.
+    "gui/charts": {"signals", "node", "gui", "gui/store", "gui/plot", "gui/models", "gui/panel", "gui/charts"},
+    "gui/gauges": {"signals", "node", "gui", "gui/plant", "gui/plot", "gui/models", "gui/panel", "gui/gauges"},
+    "gui/setters": {"signals", "node", "gui", "gui/plant", "gui/models", "gui/panel", "gui/setters"},
+    "gui/tables": {"signals", "node", "gui", "gui/models", "gui/panel", "gui/tables"},
+    "gui/kite": {"signals", "node", "gui", "gui/store", "gui/models", "gui/panel", "gui/kite"},
+    "gui/layout": {"signals", "node", "gui", "gui/panel", "gui/layout"},
+    # It makes panels by their names (QPlcWidgetFactory).
+    "gui/window": {"signals", "node", "node/state", "node/session", "gui", "gui/plant", "gui/models", "gui/panel", "gui/layout", "gui/window"},
+    "gui3d": {"signals", "node", "gui", "gui/panel", "gui/kite", "gui3d"},
     "tools": BELOW_NODE | {"node", "node/state", "node/security", "node/cycle", "node/session", "tools"},
 }
 # Room with a library of its own: folder of its list of headers, and its umbrella header. All others belong to QtPlc::Core.
