@@ -47,6 +47,7 @@ endfunction()
 
 function(qtplc_add_test name)
     cmake_parse_arguments(PARSE_ARGV 1 arg "" "TIMEOUT" "SOURCES;LIBRARIES;LABELS")
+    qtplc_sort_tests_later()
     add_executable(${name} ${arg_SOURCES})
     target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/src ${CMAKE_CURRENT_SOURCE_DIR})
     target_link_libraries(${name} PRIVATE QtPlc::Core Qt5::Test ${arg_LIBRARIES})
