@@ -6,13 +6,14 @@
 #include "QPlcSignalIndexList.h"
 #include "QPlcSignalIndexTable.h"
 #include "QPlcSignalList.h"
+#include "QPlcWidget.h"
+#include "QPlcWidgetFactoryOf.h"
 
 #include <QtWidgets/QMainWindow>
 
 #include <memory>
 
 class QAction;
-class QPlcWidgetFactory;
 
 namespace qplc {
 class WindowContext;
@@ -69,6 +70,14 @@ public:
 
     /// Makes panels of another type available, for layouts and people. \param factory  owned by others, outlives the window; QPlcWidget::registerFactory() keeps it
     void addAvailableWidget(QPlcWidgetFactory *factory);
+    /// Makes panels of a class available, for layouts and people: `addPanel<Compass>()`. Panels of this kind
+    /// that a layout has already appear. \param title  what people read; empty: `Panel::typeName()`
+    template<typename Panel>
+    void addPanel(const QString &title = QString())
+    {
+        QPlcWidgetFactory *known = QPlcWidget::factory(Panel::typeName());
+        addAvailableWidget(known ? known : QPlcWidget::registerFactory(new QPlcWidgetFactoryOf<Panel>(title)));
+    }
     /// A layout that comes with the program (JSON as of a file); the first one is the default of resetLayout(), and is shown when nothing else was yet.
     /// \return false: \a error says where it is wrong
     bool addLayout(const QString &name, const QByteArray &json, QString *error = nullptr);

@@ -18,13 +18,12 @@ class QTPLC_GUI_EXPORT QPlcEventLog : public QPlcWidget
 {
     Q_OBJECT
 public:
-    static constexpr int staticType = EventLog;
     static QString typeName() { return QStringLiteral("Event log"); }
 
     explicit QPlcEventLog(QWidget *parent = nullptr);
     ~QPlcEventLog() override;
 
-    int type() const override { return staticType; }
+    QString kind() const override { return typeName(); }
     bool showsAllPlants() const override { return true; }
     QJsonObject settings() const override;
     /// Settings that are missing have their defaults from here on.

@@ -30,13 +30,12 @@ class QTPLC_GUI_EXPORT QPlcGauge : public QPlcWidget
 {
     Q_OBJECT
 public:
-    static constexpr int staticType = Gauge;
     static QString typeName() { return QStringLiteral("Gauge"); }
 
     explicit QPlcGauge(QWidget *parent = nullptr);
     ~QPlcGauge() override;
 
-    int type() const override { return staticType; }
+    QString kind() const override { return typeName(); }
     QJsonObject settings() const override;
     /// Settings that are missing have their defaults from here on.
     void applySettings(const QJsonObject &settings) override;

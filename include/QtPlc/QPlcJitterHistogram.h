@@ -20,12 +20,11 @@ class QTPLC_GUI_EXPORT QPlcJitterHistogram : public QPlcWidget
 {
     Q_OBJECT
 public:
-    static constexpr int staticType = JitterHistogram;
     static QString typeName() { return QStringLiteral("Jitter histogram"); }
 
     explicit QPlcJitterHistogram(QWidget *parent = nullptr);
     ~QPlcJitterHistogram() override;
-    int type() const override { return staticType; }
+    QString kind() const override { return typeName(); }
 
     QJsonObject settings() const override;
     void applySettings(const QJsonObject &settings) override;

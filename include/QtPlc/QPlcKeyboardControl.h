@@ -22,13 +22,12 @@ class QTPLC_GUI_EXPORT QPlcKeyboardControl : public QPlcWidget
 {
     Q_OBJECT
 public:
-    static constexpr int staticType = KeyboardControl;
     static QString typeName() { return QStringLiteral("Keyboard control"); }
 
     explicit QPlcKeyboardControl(QWidget *parent = nullptr);
     ~QPlcKeyboardControl() override;
 
-    int type() const override { return staticType; }
+    QString kind() const override { return typeName(); }
     QJsonObject settings() const override;
     void applySettings(const QJsonObject &settings) override;
     QWidget *createSettingsEditor() override;

@@ -14,13 +14,12 @@ class QTPLC_GUI_EXPORT QPlcNodeTable : public QPlcWidget
 {
     Q_OBJECT
 public:
-    static constexpr int staticType = NodeTable;
     static QString typeName() { return QStringLiteral("Node table"); }
 
     explicit QPlcNodeTable(QWidget *parent = nullptr);
     ~QPlcNodeTable() override;
 
-    int type() const override { return staticType; }
+    QString kind() const override { return typeName(); }
     bool showsAllPlants() const override { return true; }
     QJsonObject settings() const override;
     /// Settings that are missing have their defaults from here on.

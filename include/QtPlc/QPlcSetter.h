@@ -25,13 +25,12 @@ class QTPLC_GUI_EXPORT QPlcSetter : public QPlcWidget
 {
     Q_OBJECT
 public:
-    static constexpr int staticType = Setter;
     static QString typeName() { return QStringLiteral("Setter"); }
 
     explicit QPlcSetter(QWidget *parent = nullptr);
     ~QPlcSetter() override;
 
-    int type() const override { return staticType; }
+    QString kind() const override { return typeName(); }
     QJsonObject settings() const override;
     void applySettings(const QJsonObject &settings) override;
     QWidget *createSettingsEditor() override;

@@ -17,13 +17,12 @@ class QTPLC_GUI_EXPORT QPlcSignalTree : public QPlcWidget
 {
     Q_OBJECT
 public:
-    static constexpr int staticType = SignalTree;
     static QString typeName() { return QStringLiteral("Signal tree"); }
 
     explicit QPlcSignalTree(QWidget *parent = nullptr);
     ~QPlcSignalTree() override;
 
-    int type() const override { return staticType; }
+    QString kind() const override { return typeName(); }
     bool showsAllPlants() const override { return true; }
     QJsonObject settings() const override;
     /// Settings that are missing have their defaults from here on.

@@ -44,13 +44,12 @@ class QTPLC_GUI_EXPORT QPlcTimePlot : public QPlcWidget
 {
     Q_OBJECT
 public:
-    static constexpr int staticType = TimePlot;
     static QString typeName() { return QStringLiteral("Time plot"); }
 
     explicit QPlcTimePlot(QWidget *parent = nullptr);
     ~QPlcTimePlot() override;
 
-    int type() const override { return staticType; }
+    QString kind() const override { return typeName(); }
     QJsonObject settings() const override;
     void applySettings(const QJsonObject &settings) override;
     QWidget *createSettingsEditor() override;

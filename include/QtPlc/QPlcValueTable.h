@@ -16,13 +16,12 @@ class QTPLC_GUI_EXPORT QPlcValueTable : public QPlcWidget
 {
     Q_OBJECT
 public:
-    static constexpr int staticType = ValueTable;
     static QString typeName() { return QStringLiteral("Value table"); }
 
     explicit QPlcValueTable(QWidget *parent = nullptr);
     ~QPlcValueTable() override;
 
-    int type() const override { return staticType; }
+    QString kind() const override { return typeName(); }
     QJsonObject settings() const override;
     /// Settings that are missing have their defaults from here on.
     void applySettings(const QJsonObject &settings) override;

@@ -35,13 +35,12 @@ class QTPLC_GUI3D_EXPORT QPlcView3D : public QPlcWidget
 {
     Q_OBJECT
 public:
-    static constexpr int staticType = View3D;
     static QString typeName() { return QStringLiteral("3D view"); }
 
     explicit QPlcView3D(QWidget *parent = nullptr);
     ~QPlcView3D() override;
 
-    int type() const override { return staticType; }
+    QString kind() const override { return typeName(); }
     QJsonObject settings() const override;
     void applySettings(const QJsonObject &settings) override;
     QWidget *createSettingsEditor() override;

@@ -11,6 +11,7 @@
 
 #include <memory>
 
+class QPlcPanelContext;
 class QPlcWidgetFactory;
 
 namespace qplc {
@@ -19,43 +20,55 @@ class WindowContext;
 
 /// A view of a plant that a Control Center shows in a panel: what QPlcSlaveNode is for a node, for a window.
 ///
-/// A subclass says which signals it reads and writes, gets their values in realTimeout(), and gives its settings as JSON, so that layouts can be saved, restored, and edited with undo.
-/// Its actions() are found by people in the menu of the panel and among the commands of the window.
+/// ```cpp
+/// class Compass : public QPlcWidget
+/// {
+/// public:
+///     static QString typeName() { return QStringLiteral("Compass"); }
+///     using QPlcWidget::QPlcWidget;
+///     QString kind() const override { return typeName(); }
+///
+/// protected:
+///     void contextChanged() override
+///     {
+///         connect(context(), &QPlcPanelContext::changed, this, QOverload<>::of(&QWidget::update));
+///     }
+///     void paintEvent(QPaintEvent *event) override;  // context()->shown("heading"), context()->theme()
+/// };
+///
+/// controlCenter.addPanel<Compass>();
+/// ```
+///
+/// A subclass draws what context() gives it. Its settings are JSON, so that people can save and open layouts
+/// and undo what they did. People find its actions() in the menu of the panel and among the commands of the
+/// window. A node that the program wires by hand brings values by realTimeout() instead. `docs/howto/write-a-panel.md`
+/// is the whole way.
 ///
 /// Threads: the thread of the window.
 class QTPLC_GUI_EXPORT QPlcWidget : public QWidget
 {
     Q_OBJECT
 public:
-    enum Type {
-        Gauge,
-        TimePlot,
-        XyPlot,
-        Setter,
-        ValueTable,
-        NodeTable,
-        EventLog,
-        JitterHistogram,
-        WindWindow,
-        View3D,
-        SignalTree,
-        KeyboardControl,
-        UserType = 1000
-    };
+    /// The first number that type() may return.
+    static constexpr int UserType = 1000;
 
     explicit QPlcWidget(QWidget *parent = nullptr);
     ~QPlcWidget() override;
 
-    /// A value of Type, or UserType and above.
-    virtual int type() const = 0;
+    /// Returns what layouts call this panel: the name of its factory, "Time plot". Override it.
+    virtual QString kind() const { return {}; }
+    /// Returns UserType or above in programs that count their kinds of panels, as the thesis does.
+    /// 0: kind() says it.
+    virtual int type() const { return 0; }
 
     /// Makes a factory known to the program, which owns it from now on. \return \a factory
     static QPlcWidgetFactory *registerFactory(QPlcWidgetFactory *factory);
-    /// The factory of a type; null when there is none.
+    /// Returns the factory of a type; null when there is none.
     static QPlcWidgetFactory *factory(int type);
-    /// The factory with this name; null when there is none.
-    static QPlcWidgetFactory *factory(const QString &name);
-    virtual QPlcWidgetFactory *factory() const { return factory(type()); }
+    /// Returns the factory of a kind; null when there is none.
+    static QPlcWidgetFactory *factory(const QString &kind);
+    /// Returns the factory of kind(), or of type(); null when there is none.
+    virtual QPlcWidgetFactory *factory() const;
 
     /// What stands above the panel: the title that a person gave it, else defaultTitle().
     QString title() const;
@@ -83,8 +96,11 @@ public:
     /// \return false: it has no use for any of them
     virtual bool addSignals(const QStringList &references);
 
-    /// What the panels of the window share; null outside of one. For the panels of QtPLC itself.
-    qplc::WindowContext *context() const;
+    /// Returns the window as this panel sees it: signals, their past, time, theme. Never null. Outside of
+    /// a window it knows no plant.
+    QPlcPanelContext *context() const;
+    /// What all panels of a window share. For panels of QtPLC that do not keep to context() yet.
+    qplc::WindowContext *windowContext() const;
     /// Called once by the window, before or after applySettings().
     void setContext(qplc::WindowContext *context);
 
@@ -112,8 +128,13 @@ Q_SIGNALS:
     void sendNewOutputSignals(const QPlcSignalList &signalValues);
 
 protected:
-    /// There is a context() now.
+    /// Called when the panel has come into a window: from now on context() knows plants.
     virtual void contextChanged() {}
+    /// Returns a setting of the panel, as its layout has it; \a defaultValue where the layout has none.
+    QJsonValue setting(const QString &key, const QJsonValue &defaultValue = QJsonValue()) const;
+    /// Sets a setting because a person wants it: an undo step, and saved in the layout.
+    /// \param defaultValue  this value leaves the layout, as null does
+    void setSetting(const QString &key, const QJsonValue &value, const QJsonValue &defaultValue = QJsonValue());
     /// \param title  empty: the name of the factory
     void setDefaultTitle(const QString &title);
     void setInputSignalIndices(const QPlcSignalIndexList &indices);

@@ -8,14 +8,19 @@
 class QPlcWidget;
 class QWidget;
 
-/// Makes widgets of one type for a Control Center, which knows no types itself; mostly it is a QPlcWidgetFactoryOf.
+/// Makes panels of one kind for a Control Center, which knows no kinds itself. QPlcControlCenter::addPanel()
+/// makes one for a class.
 class QTPLC_GUI_EXPORT QPlcWidgetFactory
 {
 public:
     virtual ~QPlcWidgetFactory();
-    /// As QPlcWidget::type() of what it makes; unique in a program.
-    virtual int type() const = 0;
-    /// What people call it, and layouts on disk: "Time plot". Unique in a program, and never translated.
+    /// Returns QPlcWidget::type() of what it makes, unique in a program; 0: its kind has no number.
+    virtual int type() const { return 0; }
+    /// Returns the kind of what it makes, as layouts name it: "Time plot". Unique in a program, and never
+    /// translated.
     virtual QString name() const = 0;
+    /// Returns what people read in menus, and above a panel without a title of its own; name() unless
+    /// overridden.
+    virtual QString title() const { return name(); }
     virtual QPlcWidget *createNew(QWidget *parent = nullptr) const = 0;
 };

@@ -3,26 +3,27 @@
 
 #include "QPlcWidgetFactory.h"
 
-/// The factory of a class with `staticType`, `typeName()` and a constructor that takes the parent.
+/// The factory of a panel class that has `typeName()` and a constructor with the parent.
 ///
 /// ```cpp
-/// class Compass : public QPlcWidget
-/// {
-/// public:
-///     static constexpr int staticType = UserType + 1;
-///     static QString typeName() { return QStringLiteral("Compass"); }
-///     explicit Compass(QWidget *parent = nullptr);
-///     int type() const override { return staticType; }
-/// };
-/// using CompassFactory = QPlcWidgetFactoryOf<Compass>;
-///
-/// controlCenter.addAvailableWidget(QPlcWidget::registerFactory(new CompassFactory));
+/// controlCenter.addPanel<Compass>();  // the short form of
+/// controlCenter.addAvailableWidget(QPlcWidget::registerFactory(new QPlcWidgetFactoryOf<Compass>));
 /// ```
+/// QPlcWidget shows such a class.
 template<typename Widget>
 class QPlcWidgetFactoryOf : public QPlcWidgetFactory
 {
 public:
-    int type() const override { return Widget::staticType; }
+    /// \param title  what people read; empty: the name
+    explicit QPlcWidgetFactoryOf(const QString &title = QString())
+        : m_title(title)
+    {
+    }
+
     QString name() const override { return Widget::typeName(); }
+    QString title() const override { return m_title.isEmpty() ? name() : m_title; }
     QPlcWidget *createNew(QWidget *parent = nullptr) const override { return new Widget(parent); }
+
+private:
+    QString m_title;
 };

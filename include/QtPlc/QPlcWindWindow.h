@@ -24,13 +24,12 @@ class QTPLC_GUI_EXPORT QPlcWindWindow : public QPlcWidget
 {
     Q_OBJECT
 public:
-    static constexpr int staticType = WindWindow;
     static QString typeName() { return QStringLiteral("Wind window"); }
 
     explicit QPlcWindWindow(QWidget *parent = nullptr);
     ~QPlcWindWindow() override;
 
-    int type() const override { return staticType; }
+    QString kind() const override { return typeName(); }
     QJsonObject settings() const override;
     void applySettings(const QJsonObject &settings) override;
     QWidget *createSettingsEditor() override;

@@ -28,12 +28,11 @@ class QTPLC_GUI_EXPORT QPlcXyPlot : public QPlcWidget
 {
     Q_OBJECT
 public:
-    static constexpr int staticType = XyPlot;
     static QString typeName() { return QStringLiteral("XY plot"); }
 
     explicit QPlcXyPlot(QWidget *parent = nullptr);
     ~QPlcXyPlot() override;
-    int type() const override { return staticType; }
+    QString kind() const override { return typeName(); }
 
     QJsonObject settings() const override;
     void applySettings(const QJsonObject &settings) override;

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "QPlcWidget.h"
 
+#include "QPlcPanelContext.h"
 #include "QPlcWidgetFactory.h"
+
+#include <QtCore/QSet>
 
 #include <algorithm>
 #include <vector>
@@ -35,13 +38,16 @@ struct QPlcWidget::Private
     QPlcSignalIndexList inputs;
     QPlcSignalIndexList outputs;
     QPlcSignalList initialOutputs;
-    qplc::WindowContext *context = nullptr;
+    qplc::WindowContext *window = nullptr;
+    std::unique_ptr<QPlcPanelContext> context;
+    QSet<QString> ownKeys;  // of setting() and setSetting()
 };
 
 QPlcWidget::QPlcWidget(QWidget *parent)
     : QWidget(parent)
     , d(std::make_unique<Private>())
 {
+    d->context.reset(new QPlcPanelContext(this));
 }
 
 QPlcWidget::~QPlcWidget() = default;
@@ -56,12 +62,17 @@ QPlcWidgetFactory *QPlcWidget::registerFactory(QPlcWidgetFactory *factory)
 
 QPlcWidgetFactory *QPlcWidget::factory(int type)
 {
-    return findFactory([type](const QPlcWidgetFactory &each) { return each.type() == type; });
+    return findFactory([type](const QPlcWidgetFactory &each) { return type != 0 && each.type() == type; });
 }
 
-QPlcWidgetFactory *QPlcWidget::factory(const QString &name)
+QPlcWidgetFactory *QPlcWidget::factory(const QString &kind)
 {
-    return findFactory([&name](const QPlcWidgetFactory &each) { return each.name() == name; });
+    return findFactory([&kind](const QPlcWidgetFactory &each) { return each.name() == kind; });
+}
+
+QPlcWidgetFactory *QPlcWidget::factory() const
+{
+    return kind().isEmpty() ? factory(type()) : factory(kind());
 }
 
 QString QPlcWidget::title() const
@@ -76,7 +87,7 @@ QString QPlcWidget::defaultTitle() const
     if (!d->defaultTitle.isEmpty())
         return d->defaultTitle;
     const QPlcWidgetFactory *maker = factory();
-    return maker ? maker->name() : QString();
+    return maker ? maker->title() : kind();
 }
 
 void QPlcWidget::setDefaultTitle(const QString &title)
@@ -122,12 +133,36 @@ QJsonObject QPlcWidget::settings() const
 void QPlcWidget::applySettings(const QJsonObject &settings)
 {
     setPinnedPlant(settings.value(plantKey).toString());
+    for (const QString &key : qAsConst(d->ownKeys))
+        d->settings.remove(key);
     for (auto entry = settings.begin(); entry != settings.end(); ++entry) {
         if (entry.key() == QLatin1String("title"))
             setTitle(entry.value().toString());
         else if (entry.key() != plantKey)
             d->settings.insert(entry.key(), entry.value());
     }
+    update();
+}
+
+QJsonValue QPlcWidget::setting(const QString &key, const QJsonValue &defaultValue) const
+{
+    d->ownKeys.insert(key);
+    const QJsonValue value = d->settings.value(key);
+    return value.isUndefined() ? defaultValue : value;
+}
+
+void QPlcWidget::setSetting(const QString &key, const QJsonValue &value, const QJsonValue &defaultValue)
+{
+    d->ownKeys.insert(key);
+    const QJsonObject before = d->settings;
+    if (value.isNull() || value.isUndefined() || value == defaultValue)
+        d->settings.remove(key);
+    else
+        d->settings.insert(key, value);
+    if (d->settings == before)
+        return;
+    update();
+    Q_EMIT settingsEdited();
 }
 
 bool QPlcWidget::addSignals(const QStringList & /*references*/)
@@ -135,14 +170,20 @@ bool QPlcWidget::addSignals(const QStringList & /*references*/)
     return false;
 }
 
-qplc::WindowContext *QPlcWidget::context() const
+QPlcPanelContext *QPlcWidget::context() const
 {
-    return d->context;
+    return d->context.get();
+}
+
+qplc::WindowContext *QPlcWidget::windowContext() const
+{
+    return d->window;
 }
 
 void QPlcWidget::setContext(qplc::WindowContext *context)
 {
-    d->context = context;
+    d->window = context;
+    d->context->setWindow(context);
     contextChanged();
 }
 

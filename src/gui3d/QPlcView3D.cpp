@@ -163,8 +163,8 @@ QStringList QPlcView3D::shownSignals() const
 
 void QPlcView3D::contextChanged()
 {
-    d->kite.setContext(context());
-    d->picture->setContext(context());
+    d->kite.setContext(windowContext());
+    d->picture->setContext(windowContext());
 }
 
 void QPlcView3D::paintEvent(QPaintEvent * /*event*/)

@@ -69,6 +69,18 @@ if(EXISTS ${prefix}/include/QtPlc/QPlcControlCenter.h)
     run(${CMAKE_COMMAND} -S ${window} -B ${WORK}/window_of_core -DCMAKE_PREFIX_PATH=${prefix} -DCOMPONENTS= -DLIBRARY=QtPlc::Core ${compiler})
     run_failing(${CMAKE_COMMAND} --build ${WORK}/window_of_core)
     expect("find_package\\(QtPlc REQUIRED COMPONENTS Gui\\)")
+
+    # A panel of a user, as in docs/howto/write-a-panel.md, seen in a window with a plant.
+    build_project(panel ${SOURCE}/tests/consumer/panel)
+    file(MAKE_DIRECTORY ${WORK}/pictures)
+    set(check ${WORK}/panel/check_panel ${WORK}/pictures)
+    find_program(xvfb_run xvfb-run)
+    if(xvfb_run)
+        run(${CMAKE_COMMAND} -E env QT_QPA_PLATFORM=xcb ${xvfb_run} -a -s "-screen 0 1366x768x24" ${check})
+    else()
+        run(${CMAKE_COMMAND} -E env QT_QPA_PLATFORM=offscreen ${check})
+    endif()
+    build_project(panel_page ${SOURCE}/docs/howto/code/panel)
 endif()
 
 if(EXISTS ${prefix}/include/QtPlc/QPlcHardwareNode.h)

@@ -43,7 +43,7 @@ void tst_NoOpenGl::initTestCase()
     if (!qEnvironmentVariableIsSet("QTPLC_EXPECTED_REASON"))
         qputenv("QTPLC_OPENGL", "off");
     QPlcWidget::registerFactory(new QPlcView3DFactory);
-    QCOMPARE(QPlcWidget::factory(QStringLiteral("3D view"))->type(), int(QPlcWidget::View3D));
+    QVERIFY(QPlcWidget::factory(QStringLiteral("3D view")));
 }
 
 void tst_NoOpenGl::theReasonIsTold()

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Types a page of docs/howto as written, from an installed package, after the tutorial: in ~/winch are its programs.
 
-usage: typed_howtos.py PAGE SOURCE_FOLDER BUILD_FOLDER        PAGE: wire-a-sensor or simulink-model
+usage: typed_howtos.py PAGE SOURCE_FOLDER BUILD_FOLDER        PAGE: wire-a-sensor, simulink-model or write-a-panel
 """
 import subprocess
 import sys
@@ -21,6 +21,7 @@ NOT_TYPED = {
         "sudo systemctl enable --now qtplc-hardware@wind": NEEDS_ROOT,
     },
     "simulink-model": {},
+    "write-a-panel": {},
 }
 
 
@@ -74,6 +75,14 @@ def simulink_model(plant):
     }
 
 
+def write_a_panel(plant):
+    return {
+        "~/winch/build/winch_master --signals ~/winch/winch.ini &": Expectation(after=lambda: plant.terminal.await_text("port 50000")),
+        "~/winch/build/winch_operator &": Expectation(after=lambda: plant.await_nodes(1)),
+        "build/my_window &": Expectation(after=lambda: plant.await_nodes(2)),
+    }
+
+
 def run(*command):
     result = subprocess.run([str(word) for word in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     require(result.returncode == 0, f"{' '.join(map(str, command))} fails:\n{result.stdout[-4000:]}")
@@ -100,7 +109,7 @@ def main():
         terminal = Terminal(home, {"PATH": f"{home}/qtplc/bin:/usr/local/bin:/usr/bin:/bin"})
         plant = Plant(home, terminal)
         try:
-            expected, folder = {"wire-a-sensor": (wire_a_sensor, "winch"), "simulink-model": (simulink_model, "winch_model")}[page]
+            expected, folder = {"wire-a-sensor": (wire_a_sensor, "winch"), "simulink-model": (simulink_model, "winch_model"), "write-a-panel": (write_a_panel, "my_window")}[page]
             terminal.type(f"cd ~/{folder}")
             Reader(source / "docs" / "howto" / f"{page}.md", home / folder, terminal, expected(plant), NOT_TYPED[page]).follow()
         finally:

@@ -81,6 +81,21 @@ KNOWS_FIELDS = {
     "session/MasterLeases.cpp", "session/MasterLeases.h", "session/MasterRegistration.cpp",
     "session/MasterSettings.cpp", "session/MasterSettings.h",
 }
+# Panels know the window by QPlcPanelContext alone. Files of panels that still know what is private to the window: a list
+# that only shrinks.
+WINDOW = re.compile(r'WindowContext\b|"gui/(?:window|layout)/')
+PANEL_ROOMS = ("charts", "gauges", "kite", "setters", "tables")
+KNOWS_WINDOW = {
+    "gui/charts/QPlcJitterHistogram.cpp", "gui/charts/QPlcTimePlot.cpp", "gui/charts/QPlcTimePlotPrivate.h",
+    "gui/charts/QPlcXyPlot.cpp", "gui/charts/QPlcXyPlotPrivate.h", "gui/charts/TriggerBar.cpp",
+    "gui/charts/TriggerBar.h", "gui/gauges/GaugeFeed.cpp", "gui/gauges/GaugeFeed.h", "gui/gauges/QPlcGauge.cpp",
+    "gui/kite/KiteSignals.cpp", "gui/kite/KiteSignals.h", "gui/kite/QPlcWindWindow.cpp",
+    "gui/setters/QPlcKeyboardControl.cpp", "gui/setters/QPlcSetter.cpp", "gui/setters/QPlcSignalControl.cpp",
+    "gui/tables/PanelTable.cpp", "gui/tables/PanelTable.h", "gui/tables/QPlcEventLog.cpp",
+    "gui/tables/QPlcNodeTable.cpp", "gui/tables/QPlcSignalTree.cpp", "gui/tables/QPlcValueTable.cpp",
+    "gui/tables/TableDelegate.cpp", "gui/tables/TableDelegate.h", "gui/tables/TableTime.h",
+    "gui/tables/TimeStrip.cpp", "gui/tables/TimeStrip.h", "gui3d/View3DPicture.cpp", "gui3d/View3DPicture.h",
+}
 TABLE = r"_data\(\)$|^\s*static const\b"
 
 
@@ -151,6 +166,22 @@ class Check:
                 number, line = found[0]
                 self.error(path, number, f"fields have their names in src/protocol/messages: {line.strip()}")
 
+    def panels(self):
+        folders = [self.source / "gui" / room for room in PANEL_ROOMS] + [self.source / "gui3d"]
+        for path in [path for folder in folders for path in files(folder)]:
+            name = str(path.relative_to(self.source))
+            found = [(number, line) for number, line in code(path) if WINDOW.search(line)]
+            if not found and name in KNOWS_WINDOW:
+                self.error(path, 1, "knows nothing private of the window any more: take it out of KNOWS_WINDOW")
+            elif found and name not in KNOWS_WINDOW:
+                number, line = found[0]
+                self.error(path, number, f"a panel knows the window by QPlcPanelContext alone: {line.strip()}")
+        for path in files(self.root / "examples"):
+            for number, line in code(path):
+                match = re.match(r'\s*#\s*include\s+"((?:gui|gui3d|node|signals|protocol)/[^"]+)"', line)
+                if match:
+                    self.error(path, number, f"an example knows the public headers alone, not {match[1]}")
+
     def public_headers(self):
         for path in sorted(self.public.rglob("*")):
             if path.parent != self.public:
@@ -207,6 +238,7 @@ def main():
     check.arrows()
     check.words()
     check.fields()
+    check.panels()
     check.public_headers()
     check.lengths_and_licences()
     print("\n".join(check.errors) or "the layers are in order")

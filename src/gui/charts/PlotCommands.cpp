@@ -201,7 +201,7 @@ void QPlcTimePlot::Private::openAddBar()
         addBar->setFocus();
         return;
     }
-    auto *edit = new SignalEdit(q->context() ? q->context()->plants() : nullptr, SignalEdit::Curves, q);
+    auto *edit = new SignalEdit(q->windowContext() ? q->windowContext()->plants() : nullptr, SignalEdit::Curves, q);
     addBar = edit;
     qobject_cast<QBoxLayout *>(q->layout())->insertWidget(0, edit);
     const auto close = [this] {

@@ -282,7 +282,7 @@ void QPlcTimePlot::Private::arrangeLegend()
 
 void QPlcTimePlot::Private::showTheme()
 {
-    const Theme theme = q->context() ? q->context()->theme() : Theme::byName(Theme::System);
+    const Theme theme = q->windowContext() ? q->windowContext()->theme() : Theme::byName(Theme::System);
     QPalette palette = theme.palette();
     palette.setColor(QPalette::Window, theme.surface);
     q->setPalette(palette);

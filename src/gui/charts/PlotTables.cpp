@@ -62,8 +62,8 @@ void QPlcTimePlot::Private::connectEventFiles()
     });
     connect(eventFiles, &EventFiles::savedChanged, this, [this] { triggerBar->showSaved(eventFiles->saved()); });
     connect(eventFiles, &EventFiles::failed, this, [this](const QString &sentence) {
-        if (q->context())
-            q->context()->events()->append(
+        if (q->windowContext())
+            q->windowContext()->events()->append(
                 {QDateTime::currentDateTime(), PlantEvent::Warning, QPlcTimePlot::tr("Trigger"), sentence, false});
     });
 }

@@ -153,9 +153,9 @@ void QPlcJitterHistogram::Private::setShown(const QString &key, bool isShown)
 
 Plant *QPlcJitterHistogram::Private::plant() const
 {
-    if (!q->context() || q->context()->plants()->size() == 0)
+    if (!q->windowContext() || q->windowContext()->plants()->size() == 0)
         return nullptr;
-    return q->context()->plants()->plantOf({}, q->pinnedPlant());
+    return q->windowContext()->plants()->plantOf({}, q->pinnedPlant());
 }
 
 /// A person's choice.
@@ -253,7 +253,7 @@ QString QPlcJitterHistogram::Private::captionText(const QVector<JitterDistributi
         parts << tr("%1 values").arg(shown.first().count, 0, 'f', 0);
     parts << (settings.value(windowKey).toString() == last10s ? tr("last 10 s") : tr("since start"));
     QStringList what;
-    if (q->context()->plants()->size() > 1)
+    if (q->windowContext()->plants()->size() > 1)
         what << plant()->name();
     if (shown.size() == 1)
         what << shown.first().title();
@@ -272,7 +272,7 @@ QString QPlcJitterHistogram::Private::captionText(const QVector<JitterDistributi
 
 void QPlcJitterHistogram::Private::applyTheme()
 {
-    const Theme &theme = q->context()->theme();
+    const Theme &theme = q->windowContext()->theme();
     QPalette palette = theme.palette();
     palette.setColor(QPalette::Window, theme.surface);
     palette.setColor(QPalette::WindowText, theme.mutedText);
@@ -319,8 +319,8 @@ QWidget *QPlcJitterHistogram::createSettingsEditor()
     }
     auto *editor = new JitterEditor(keys, d->shownKeys(), d->last->isChecked());
     QStringList plants;
-    for (int place = 0; context() && place < context()->plants()->size(); ++place)
-        plants << context()->plants()->at(place)->name();
+    for (int place = 0; windowContext() && place < windowContext()->plants()->size(); ++place)
+        plants << windowContext()->plants()->at(place)->name();
     if (plants.size() > 1 || !pinnedPlant().isEmpty())
         editor->addPlants(plants, pinnedPlant());
     connect(editor, &JitterEditor::plantChanged, this, [this](const QString &plant) { d->setPlant(plant); });
@@ -335,10 +335,10 @@ QWidget *QPlcJitterHistogram::createSettingsEditor()
 
 void QPlcJitterHistogram::contextChanged()
 {
-    if (!context())
+    if (!windowContext())
         return;
-    connect(context(), &WindowContext::themeChanged, this, [this] { d->applyTheme(); });
-    connect(context()->plants(), &PlantList::signalsChanged, this, [this] { d->ask(); });
+    connect(windowContext(), &WindowContext::themeChanged, this, [this] { d->applyTheme(); });
+    connect(windowContext()->plants(), &PlantList::signalsChanged, this, [this] { d->ask(); });
     d->applyTheme();
     d->ask();
     d->draw();

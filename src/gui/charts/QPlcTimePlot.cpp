@@ -120,9 +120,9 @@ QStringList QPlcTimePlot::shownSignals() const
 
 QWidget *QPlcTimePlot::createSettingsEditor()
 {
-    const Theme theme = context() ? context()->theme() : Theme::byName(Theme::System);
-    auto *editor
-        = new PlotSettingsEditor(d->settings, d->furtherUnits(), context() ? context()->plants() : nullptr, theme);
+    const Theme theme = windowContext() ? windowContext()->theme() : Theme::byName(Theme::System);
+    auto *editor = new PlotSettingsEditor(d->settings, d->furtherUnits(),
+                                          windowContext() ? windowContext()->plants() : nullptr, theme);
     connect(editor, &PlotSettingsEditor::edited, d.get(), &Private::edit);
     return editor;
 }
@@ -184,13 +184,13 @@ void QPlcTimePlot::changeEvent(QEvent *event)
 {
     QPlcWidget::changeEvent(event);
     const bool isOther = event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange;
-    if (isOther && d && !context())
+    if (isOther && d && !windowContext())
         d->showTheme();
 }
 
 void QPlcTimePlot::Private::followContext()
 {
-    WindowContext *context = q->context();
+    WindowContext *context = q->windowContext();
     if (!context)
         return;
     TimeView *time = context->timeView();
@@ -217,7 +217,7 @@ void QPlcTimePlot::Private::followContext()
 
 void QPlcTimePlot::Private::bind()
 {
-    WindowContext *context = q->context();
+    WindowContext *context = q->windowContext();
     curves.bind(settings, context ? context->curveSources() : nullptr, q->pinnedPlant(),
                 context ? context->theme() : Theme::byName(Theme::System));
     curves.setOrigin(canvas->origin());
@@ -289,9 +289,9 @@ void QPlcTimePlot::Private::edit(const PlotSettings &wanted)
 QStringList QPlcTimePlot::Private::elementsOf(const QString &name) const
 {
     const SignalReference parsed = SignalReference::fromString(name);
-    const bool isKnown = q->context() && parsed.isValid();
+    const bool isKnown = q->windowContext() && parsed.isValid();
     const PlantList::Signal signal
-        = isKnown ? q->context()->plants()->resolve(parsed, q->pinnedPlant()) : PlantList::Signal();
+        = isKnown ? q->windowContext()->plants()->resolve(parsed, q->pinnedPlant()) : PlantList::Signal();
     if (!signal)
         return {name};
     const QPlcSignalType type = signal.definition().type;
@@ -351,7 +351,7 @@ void QPlcTimePlot::Private::toggleCurve(int place)
 
 void QPlcTimePlot::Private::select(int place)
 {
-    curves.select(place, q->context() ? q->context()->theme() : Theme::byName(Theme::System));
+    curves.select(place, q->windowContext() ? q->windowContext()->theme() : Theme::byName(Theme::System));
     ++version;
     showChecks();
     schedule();

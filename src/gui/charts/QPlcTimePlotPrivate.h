@@ -56,7 +56,7 @@ public:
     void select(int place);
 
     // -- PlotDrawing.cpp: pictures and numbers --
-    qplc::TimeView *shared() const { return q->context() ? q->context()->timeView() : nullptr; }
+    qplc::TimeView *shared() const { return q->windowContext() ? q->windowContext()->timeView() : nullptr; }
     /// The time axis: that of the window, or the own one, which a plot with a trigger also has.
     qplc::TimeView *view()
     {

@@ -81,10 +81,10 @@ void QPlcXyPlot::Private::bind()
         const QString y = entry[yKey].toString();
         if (!x.isEmpty() && !y.isEmpty())
             names << tr("%1 over %2").arg(CurveSource::textOf(y), CurveSource::textOf(x));
-        if (!q->context() || x.isEmpty() || y.isEmpty())
+        if (!q->windowContext() || x.isEmpty() || y.isEmpty())
             continue;
-        const CurveSource xSource = q->context()->curveSources()->find(x, q->pinnedPlant());
-        const CurveSource ySource = q->context()->curveSources()->find(y, q->pinnedPlant());
+        const CurveSource xSource = q->windowContext()->curveSources()->find(x, q->pinnedPlant());
+        const CurveSource ySource = q->windowContext()->curveSources()->find(y, q->pinnedPlant());
         const bool isOfOne = xSource.plant == ySource.plant;
         if (xSource && ySource && isOfOne) {
             found.push_back(std::make_unique<XyCurve>(
@@ -105,7 +105,7 @@ void QPlcXyPlot::Private::bind()
 
 QString QPlcXyPlot::Private::messageText(const QString &problem) const
 {
-    if (!q->context())
+    if (!q->windowContext())
         return tr("No window shares its plants with this plot.");
     const QJsonArray wanted = curves();
     if (wanted.isEmpty())
@@ -152,7 +152,7 @@ void QPlcXyPlot::Private::follow(WindowContext *context)
 
 void QPlcXyPlot::Private::applyTheme()
 {
-    const Theme &theme = q->context()->theme();
+    const Theme &theme = q->windowContext()->theme();
     canvas->setTheme(theme);
     exporter->setTheme(theme);
     showLegend();
@@ -166,7 +166,7 @@ void QPlcXyPlot::Private::applyTheme()
 
 void QPlcXyPlot::Private::schedule()
 {
-    if (q->isVisible() && q->context() && !redraw.isActive())
+    if (q->isVisible() && q->windowContext() && !redraw.isActive())
         redraw.start(pause);
 }
 
@@ -184,7 +184,7 @@ const Plant *QPlcXyPlot::Private::stalePlant() const
 /// The end of the time that is seen: live, that of the newest values of the plants that are drawn, as each has a clock of its own.
 SignalStore::Time QPlcXyPlot::Private::seenEnd() const
 {
-    const TimeView *time = q->context()->timeView();
+    const TimeView *time = q->windowContext()->timeView();
     SignalStore::Time newest = 0;
     for (const std::unique_ptr<XyCurve> &curve : canvas->curves())
         newest = std::max(newest, curve->xSource().plant->newestTime());
@@ -193,13 +193,13 @@ SignalStore::Time QPlcXyPlot::Private::seenEnd() const
 
 void QPlcXyPlot::Private::draw()
 {
-    if (!q->isVisible() || !q->context())
+    if (!q->isVisible() || !q->windowContext())
         return;
-    const auto displayed = q->context()->timeView()->displayTime();
+    const auto displayed = q->windowContext()->timeView()->displayTime();
     QElapsedTimer cost;
     cost.start();
     const bool isStale = !displayed && stalePlant();
-    canvas->show({seenEnd() - q->context()->timeView()->span(), seenEnd(), displayed, isStale});
+    canvas->show({seenEnd() - q->windowContext()->timeView()->span(), seenEnd(), displayed, isStale});
     legend->setVisible(!legend->text().isEmpty() && q->height() >= leastHeightOfTexts);
     pause = std::clamp(int(cost.elapsed()) * costShare, shortestPause, longestPause);
     showMoment();
@@ -208,7 +208,7 @@ void QPlcXyPlot::Private::draw()
 /// Where the mouse is, or else when the dot was.
 void QPlcXyPlot::Private::showMoment()
 {
-    if (!q->context())
+    if (!q->windowContext())
         return;
     const QString text = interaction->mouse() ? pointerText() : timeText();
     moment->setVisible(!text.isEmpty() && !canvas->curves().empty());
@@ -219,7 +219,7 @@ void QPlcXyPlot::Private::showMoment()
 /// Empty: the dot is where the plant is.
 QString QPlcXyPlot::Private::timeText() const
 {
-    const auto displayed = q->context()->timeView()->displayTime();
+    const auto displayed = q->windowContext()->timeView()->displayTime();
     if (displayed)
         return tr("dot at %1")
             .arg(QDateTime::fromMSecsSinceEpoch(*displayed / 1'000'000).toString(QStringLiteral("hh:mm:ss.zzz")));
@@ -345,9 +345,9 @@ QWidget *QPlcXyPlot::createSettingsEditor()
 
 void QPlcXyPlot::contextChanged()
 {
-    if (!context())
+    if (!windowContext())
         return;
-    d->follow(context());
+    d->follow(windowContext());
     d->applyTheme();
     d->bind();
 }

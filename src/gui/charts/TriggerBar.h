@@ -30,7 +30,7 @@ class WindowContext;
 /// ```cpp
 /// m_triggerBar = new TriggerBar(this);            // above the canvas; hidden: the trigger rests
 /// m_triggerBar->setOwnTime(&m_ownTime);           // without: always the time of the window
-/// m_triggerBar->setContext(context());            // in contextChanged()
+/// m_triggerBar->setContext(windowContext());            // in contextChanged()
 /// m_triggerBar->setSignals(names of the curves);  // whenever they change; what is chosen stays
 /// m_triggerBar->applySettings(settings.value("trigger").toObject());
 /// connect(m_triggerBar, &TriggerBar::settingsEdited, this, &QPlcTimePlot::settingsEdited);

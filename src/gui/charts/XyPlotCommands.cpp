@@ -98,8 +98,8 @@ QString QPlcXyPlot::Private::pointerText() const
 /// The rows of the time that is seen at the moment of the wish; what several curves have in common is one column.
 ChartExport::Table QPlcXyPlot::Private::table() const
 {
-    const SignalStore::Time end = q->context() ? seenEnd() : 0;
-    const SignalStore::Time begin = q->context() ? end - q->context()->timeView()->span() : 0;
+    const SignalStore::Time end = q->windowContext() ? seenEnd() : 0;
+    const SignalStore::Time begin = q->windowContext() ? end - q->windowContext()->timeView()->span() : 0;
     return [this, begin, end](TableExport::Format format) {
         std::vector<TableExport::Column> columns;
         const auto add = [&](const CurveSource &source) {

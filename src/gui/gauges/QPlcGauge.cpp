@@ -67,7 +67,7 @@ void QPlcGauge::showSettings()
 {
     const GaugeSettings settings = GaugeSettings::from(d->settings);
     d->feed.setSettings(settings);
-    if (context())
+    if (windowContext())
         return;
     QPlcSignalIndexList inputs;
     if (d->feed.definition().name.size() > 0)
@@ -99,7 +99,8 @@ QStringList QPlcGauge::shownSignals() const
 QWidget *QPlcGauge::createSettingsEditor()
 {
     const QString title = QPlcWidget::settings().value(QStringLiteral("title")).toString();
-    auto *editor = new GaugeEditor(d->settings, title, d->feed.definition(), context() ? context()->plants() : nullptr);
+    auto *editor = new GaugeEditor(d->settings, title, d->feed.definition(),
+                                   windowContext() ? windowContext()->plants() : nullptr);
     connect(editor, &GaugeEditor::edited, this, [this](const PanelSettings &settings) {
         d->settings = settings;
         takeEdit();
@@ -115,13 +116,13 @@ QWidget *QPlcGauge::createSettingsEditor()
 
 void QPlcGauge::contextChanged()
 {
-    d->feed.setContext(context());
-    connect(context(), &WindowContext::themeChanged, this, [this] { update(); });
+    d->feed.setContext(windowContext());
+    connect(windowContext(), &WindowContext::themeChanged, this, [this] { update(); });
 }
 
 void QPlcGauge::realTimeout(const QList<QPlcSignalList> &signalValues)
 {
-    if (!context() && !inputSignalIndices().isEmpty())
+    if (!windowContext() && !inputSignalIndices().isEmpty())
         d->feed.take(signalValues, inputSignalIndices().at(0));
 }
 
@@ -144,7 +145,7 @@ void QPlcGauge::hideEvent(QHideEvent *event)
 
 void QPlcGauge::paintEvent(QPaintEvent * /*event*/)
 {
-    const Theme theme = context() ? context()->theme() : Theme::byName(Theme::System);
+    const Theme theme = windowContext() ? windowContext()->theme() : Theme::byName(Theme::System);
     QPainter painter(this);
     painter.fillRect(rect(), theme.surface);
     paintGauge(&painter, rect(), d->feed.picture(), theme);

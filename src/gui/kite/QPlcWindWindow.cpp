@@ -108,9 +108,9 @@ QStringList QPlcWindWindow::shownSignals() const
 
 void QPlcWindWindow::contextChanged()
 {
-    d->kite.setContext(context());
-    if (context())
-        connect(context(), &WindowContext::themeChanged, this, QOverload<>::of(&QWidget::update));
+    d->kite.setContext(windowContext());
+    if (windowContext())
+        connect(windowContext(), &WindowContext::themeChanged, this, QOverload<>::of(&QWidget::update));
 }
 
 void QPlcWindWindow::showEvent(QShowEvent *event)
@@ -123,7 +123,7 @@ void QPlcWindWindow::paintEvent(QPaintEvent * /*event*/)
 {
     QPainter painter(this);
     painter.setFont(labelFont(font()));
-    const Theme theme = context() ? context()->theme() : Theme::byName(Theme::System);
+    const Theme theme = windowContext() ? windowContext()->theme() : Theme::byName(Theme::System);
     const QString problem = d->kite.problem();
     if (problem.isEmpty()) {
         d->draw(&painter, size(), theme);

@@ -69,7 +69,7 @@ QMenu *PanelFrame::createSplitMenu(LayoutSide side, const QString &text, QWidget
     menu->addSeparator();
     for (const QPlcWidgetFactory *factory : qAsConst(m_factories)) {
         const QString type = factory->name();
-        menu->addAction(type, this,
+        menu->addAction(factory->title(), this,
                         [this, type, side] { m_editor->addPanel(type, {}, LayoutTarget::beside(m_id, side)); });
     }
     return menu;

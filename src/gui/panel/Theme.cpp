@@ -9,14 +9,6 @@ namespace qplc {
 
 namespace {
 
-using Curves = std::array<QRgb, 8>;
-
-// Hues after Okabe and Ito, "Color Universal Design", 2008; lighter or darker as the background asks for contrast.
-constexpr Curves curvesOnWhite
-    = {0xff0072b2, 0xffd55e00, 0xff007a5a, 0xffb5548f, 0xff9a6b00, 0xff3a8fc4, 0xff5c5c5c, 0xff8c1c13};
-constexpr Curves curvesOnBlack
-    = {0xff56b4e9, 0xffe69f00, 0xff2fc49a, 0xffde8fc0, 0xfff0e442, 0xff7f9cff, 0xffc0c0c0, 0xffff7a59};
-
 Theme light()
 {
     Theme theme;
@@ -107,18 +99,6 @@ Theme::Name Theme::nameOf(const QString &text)
             return Name(each);
     }
     return System;
-}
-
-QColor Theme::curve(int index) const
-{
-    const Curves &curves = isDark ? curvesOnBlack : curvesOnWhite;
-    return QColor::fromRgb(curves[std::size_t(index) % curves.size()]);
-}
-
-Qt::PenStyle Theme::curveStyle(int index)
-{
-    constexpr std::array<Qt::PenStyle, 3> rounds = {Qt::SolidLine, Qt::DashLine, Qt::DotLine};
-    return rounds[std::size_t(index) / curvesOnWhite.size() % rounds.size()];
 }
 
 QPalette Theme::palette() const

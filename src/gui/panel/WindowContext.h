@@ -10,7 +10,7 @@
 
 namespace qplc {
 
-/// What all panels of a window share: plants, events, time, and colours. QPlcWidget::context() gives it to a panel.
+/// What all panels of a window share: plants, events, time, and colours. QPlcWidget::windowContext() gives it to a panel of QtPLC.
 ///
 /// Threads: that of the window.
 class WindowContext : public QObject

@@ -145,8 +145,8 @@ void QPlcKeyboardControl::Private::showState()
     arm->setVisible(hasGamepad());
     arm->setEnabled(control.isFlying() && hasGamepad());
     arm->setChecked(control.isArmed());
-    if (q->context()) {
-        const Theme &theme = q->context()->theme();
+    if (q->windowContext()) {
+        const Theme &theme = q->windowContext()->theme();
         hintLabel->setColor(control.isFlying() && !q->hasFocus() ? theme.warning : theme.mutedText);
     }
     keys->setAxesShown(hasGamepad());
@@ -164,7 +164,7 @@ void QPlcKeyboardControl::Private::showValues()
 
 void QPlcKeyboardControl::Private::showTheme()
 {
-    const Theme &theme = q->context()->theme();
+    const Theme &theme = q->windowContext()->theme();
     bar->setTheme(theme);
     keys->setTheme(theme);
     showState();
@@ -209,7 +209,7 @@ void QPlcKeyboardControl::applySettings(const QJsonObject &settings)
 
 QWidget *QPlcKeyboardControl::createSettingsEditor()
 {
-    auto *editor = new KeyMapEditor(d->control.bindings(), context() ? context()->plants() : nullptr);
+    auto *editor = new KeyMapEditor(d->control.bindings(), windowContext() ? windowContext()->plants() : nullptr);
     connect(editor, &KeyMapEditor::edited, this, [this](const ManualBindings &bindings) {
         d->apply(bindings);
         Q_EMIT settingsEdited();
@@ -228,9 +228,9 @@ QStringList QPlcKeyboardControl::shownSignals() const
 
 void QPlcKeyboardControl::contextChanged()
 {
-    connect(context(), &WindowContext::themeChanged, this, [this] { d->showTheme(); });
+    connect(windowContext(), &WindowContext::themeChanged, this, [this] { d->showTheme(); });
     d->showTheme();
-    d->control.setPlants(context()->plants());
+    d->control.setPlants(windowContext()->plants());
 }
 
 namespace {
@@ -302,10 +302,10 @@ void QPlcKeyboardControl::hideEvent(QHideEvent *event)
 
 void QPlcKeyboardControl::paintEvent(QPaintEvent *)
 {
-    if (!context())
+    if (!windowContext())
         return;
     QPainter painter(this);
-    const Theme &theme = context()->theme();
+    const Theme &theme = windowContext()->theme();
     painter.fillRect(rect(), theme.surface);
     const SignalControl::State state = d->control.control().state();
     const bool isHeld = state == SignalControl::Mine || state == SignalControl::Other;

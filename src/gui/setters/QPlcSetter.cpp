@@ -171,9 +171,9 @@ void QPlcSetter::Private::showActual()
     pause.start();
     target.renewPrefix();
     actual->showText(actualText());
-    if (q->context()) {
+    if (q->windowContext()) {
         const bool isStale = target.signal() && target.signal().plant->quality() == Plant::Stale;
-        const Theme &theme = q->context()->theme();
+        const Theme &theme = q->windowContext()->theme();
         actual->setColor(isStale ? theme.stale : theme.text);
     }
     view->showActual();
@@ -181,7 +181,7 @@ void QPlcSetter::Private::showActual()
 
 void QPlcSetter::Private::showTheme()
 {
-    const Theme &theme = q->context()->theme();
+    const Theme &theme = q->windowContext()->theme();
     name->setColor(theme.text);
     message->setColor(theme.warning);
     bar->setTheme(theme);
@@ -229,7 +229,7 @@ void QPlcSetter::applySettings(const QJsonObject &settings)
 
 QWidget *QPlcSetter::createSettingsEditor()
 {
-    auto *editor = new SetterEditor(d->settings, context() ? context()->plants() : nullptr);
+    auto *editor = new SetterEditor(d->settings, windowContext() ? windowContext()->plants() : nullptr);
     connect(editor, &SetterEditor::edited, this, [this](const SetterSettings &settings) {
         d->apply(settings);
         Q_EMIT settingsEdited();
@@ -247,7 +247,7 @@ bool QPlcSetter::addSignals(const QStringList &references)
         wanted.signal = reference;
         wanted.minimum = wanted.maximum = std::nullopt;  // they were those of another signal
         const PlantList::Signal signal
-            = context() ? context()->plants()->resolve(reference, pinnedPlant()) : PlantList::Signal();
+            = windowContext() ? windowContext()->plants()->resolve(reference, pinnedPlant()) : PlantList::Signal();
         if (signal && !signal.definition().valueNames.isEmpty() && wanted.style == SetterView::styles().constFirst())
             wanted.style = QStringLiteral("list");
         d->apply(wanted);
@@ -264,9 +264,9 @@ QStringList QPlcSetter::shownSignals() const
 
 void QPlcSetter::contextChanged()
 {
-    connect(context(), &WindowContext::themeChanged, this, [this] { d->showTheme(); });
+    connect(windowContext(), &WindowContext::themeChanged, this, [this] { d->showTheme(); });
     d->showTheme();
-    d->target.setPlants(context()->plants());
+    d->target.setPlants(windowContext()->plants());
 }
 
 void QPlcSetter::showEvent(QShowEvent *event)
@@ -280,9 +280,9 @@ void QPlcSetter::paintEvent(QPaintEvent *)
     QPainter painter(this);
     const SignalControl::State state = d->target.control().state();
     const bool isHeld = state == SignalControl::Mine || state == SignalControl::Other || state == SignalControl::Lost;
-    if (!context())
+    if (!windowContext())
         return;
-    const Theme &theme = context()->theme();
+    const Theme &theme = windowContext()->theme();
     painter.fillRect(rect(), theme.surface);
     if (!isHeld)
         return;

@@ -196,7 +196,7 @@ void QPlcEventLog::applySettings(const QJsonObject &settings)
 {
     QPlcWidget::applySettings(d->settings.take(settings));
     filter();
-    if (context())
+    if (windowContext())
         d->table->applySettings(d->settings);
 }
 
@@ -216,10 +216,10 @@ void QPlcEventLog::filter()
 
 void QPlcEventLog::contextChanged()
 {
-    EventLogModel *events = context()->events();
+    EventLogModel *events = windowContext()->events();
     d->events = events;
     d->filter->setSourceModel(events);
-    d->table->setContext(context());
+    d->table->setContext(windowContext());
     d->table->setColumns(eventColumns);
     d->table->setStretchedColumn(EventLogModel::Text, 30);
     d->table->applySettings(d->settings);
@@ -230,8 +230,8 @@ void QPlcEventLog::contextChanged()
     connect(d->table, &QAbstractItemView::activated, this, [this, events](const QModelIndex &index) {
         const PlantEvent &event = events->at(d->filter->mapToSource(index).row());
         const TimeView::Time time = event.time.toMSecsSinceEpoch() * 1'000'000;
-        context()->timeView()->jumpTo(time);
-        context()->timeView()->setPointer(time);  // so that gauges and tables show this time too
+        windowContext()->timeView()->jumpTo(time);
+        windowContext()->timeView()->setPointer(time);  // so that gauges and tables show this time too
     });
     connect(d->acknowledge, &QAction::triggered, this, [this, events] {
         QList<QPersistentModelIndex> chosen;  // acknowledging may filter rows away

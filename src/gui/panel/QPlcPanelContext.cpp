@@ -1,0 +1,437 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "QPlcPanelContext.h"
+
+#include "FigureFont.h"
+#include "QPlcWidget.h"
+#include "SignalEdit.h"
+#include "WindowContext.h"
+#include "gui/models/SiPrefix.h"
+#include "gui/models/ValueFormat.h"
+#include "gui/plant/PastValue.h"
+#include "gui/plot/Formula.h"
+
+#include <QtCore/QEvent>
+#include <QtCore/QPointer>
+#include <QtCore/QTimer>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+using namespace qplc;
+
+namespace {
+
+using Row = SignalStore::Row;
+
+/// Rows of a step: a power of two, so that steps stay where they are while time goes on.
+Row rowsOfStep(Row rows, int most)
+{
+    Row step = 1;
+    while (rows > Row(most) && rows / step + 2 > Row(most))
+        step *= 2;
+    return step;
+}
+
+/// \return whether there is a number in the rows
+bool readStep(const SignalStore &store, int channel, Row begin, Row end, QPlcPanelContext::Sample *sample)
+{
+    while (begin < end && std::isnan(store.value(channel, begin)))
+        ++begin;
+    if (begin == end)
+        return false;
+    const SignalStore::Range range = store.range(channel, begin, end);
+    sample->time = store.time(begin);
+    sample->value = double(store.value(channel, begin));
+    sample->minimum = double(range.minimum);
+    sample->maximum = double(range.maximum);
+    sample->quality = QPlcQuality::Kind(store.greatestMark(channel, begin, end));
+    return true;
+}
+
+QPlcQuality qualityOf(QPlcQuality::Kind kind)
+{
+    return kind == QPlcQuality::Held ? QPlcQuality::held(1) : QPlcQuality(kind);
+}
+
+}  // namespace
+
+struct QPlcPanelContext::Private : public QObject
+{
+    Private(QPlcPanelContext *context, QPlcWidget *widget)
+        : q(context)
+        , panel(widget)
+    {
+        constexpr int frameTime = 33;  // [ms]
+        frame.setSingleShot(true);
+        frame.setInterval(frameTime);
+        connect(&frame, &QTimer::timeout, this, &Private::tell);
+        panel->installEventFilter(this);
+    }
+
+    bool eventFilter(QObject *watched, QEvent *event) override
+    {
+        if (watched == panel && event->type() == QEvent::Show)
+            tell();
+        return QObject::eventFilter(watched, event);
+    }
+
+    void touch()
+    {
+        isDue = true;
+        if (!frame.isActive())
+            tell();
+    }
+
+    void tell()
+    {
+        if (!isDue || !panel->isVisible())
+            return;
+        isDue = false;
+        frame.start();
+        Q_EMIT q->changed();
+    }
+
+    void forget()
+    {
+        formulas.clear();
+        Q_EMIT q->signalsChanged();
+        touch();
+    }
+
+    void follow(qplc::Plant *plant)
+    {
+        connect(plant, &qplc::Plant::stateChanged, this, [this, plant] {
+            Q_EMIT q->plantStateChanged(plant->name());
+            touch();
+        });
+    }
+
+    QString pin() const { return panel->pinnedPlant(); }
+    qplc::Plant *plant(const QString &name) const
+    {
+        SignalReference reference;
+        reference.plant = name;
+        return window ? window->plants()->plantOf(reference, pin()) : nullptr;
+    }
+    /// A formula is calculated as long as somebody has it.
+    CurveSource source(const QString &expression)
+    {
+        if (!Formula::isFormula(expression))
+            return window->curveSources()->find(expression, pin());
+        if (!formulas.contains(expression))
+            formulas.insert(expression, window->curveSources()->find(expression, pin()));
+        return formulas.value(expression);
+    }
+    Signal formula(const QString &expression, std::optional<Time> time);
+    Signal signal(const QString &expression, std::optional<Time> time);
+
+    QPlcPanelContext *q;
+    QPlcWidget *panel;
+    QPointer<WindowContext> window;
+    QHash<QString, CurveSource> formulas;
+    QTimer frame;  // runs while the panel was told so recently that it has to wait
+    bool isDue = false;
+};
+
+QPlcPanelContext::Signal QPlcPanelContext::Private::formula(const QString &expression, std::optional<Time> time)
+{
+    Signal signal;
+    const CurveSource found = source(expression);
+    signal.problem = found.error;
+    if (!found)
+        return signal;
+    signal.plant = found.plant->name();
+    signal.definition.name = CurveSource::textOf(expression);
+    signal.definition.type = QPlcSignalType(QPlcSignalType::Real64);
+    signal.definition.unit = found.unit;
+    const std::optional<Row> row = time ? found.store->rowHoldingAt(*time) : found.store->newestRow();
+    if (!row)
+        return signal;
+    signal.value = QPlcValue(double(found.store->value(found.channel, *row)));
+    signal.quality = qualityOf(QPlcQuality::Kind(found.store->greatestMark(found.channel, *row, *row + 1)));
+    signal.isCurrent = signal.quality.isUsable() && (time || found.plant->quality() != qplc::Plant::Stale);
+    return signal;
+}
+
+QPlcPanelContext::Signal QPlcPanelContext::Private::signal(const QString &expression, std::optional<Time> time)
+{
+    Signal signal;
+    if (!window || window->plants()->size() == 0) {
+        signal.problem = tr("No plant is connected.");
+        return signal;
+    }
+    if (Formula::isFormula(expression))
+        return formula(expression, time);
+    const SignalReference reference = SignalReference::fromString(expression, &signal.problem);
+    if (!reference.isValid())
+        return signal;
+    const PlantList::Signal found = window->plants()->resolve(reference, pin());
+    if (!found) {
+        signal.problem = tr("There is no signal %1 at the moment.").arg(expression);
+        return signal;
+    }
+    signal.plant = found.plant->name();
+    signal.definition = found.definition();
+    signal.element = found.element;
+    signal.writer = found.plant->writer(found.index);
+    if (!time) {
+        signal.value = found.value();
+        signal.quality = found.quality();
+        signal.isCurrent = isTrusted(found);
+        return signal;
+    }
+    signal.value = pastValue(found, *time);
+    const int channel = found.plant->values().channels().channel(found.index, std::max(found.element, 0));
+    const SignalStore *store = found.plant->store();
+    const std::optional<Row> row = store ? store->rowHoldingAt(*time) : std::nullopt;
+    if (row && channel != ChannelMap::NoChannel)
+        signal.quality = qualityOf(QPlcQuality::Kind(store->greatestMark(channel, *row, *row + 1)));
+    signal.isCurrent = signal.value.isValid() && signal.quality.isUsable();
+    return signal;
+}
+
+double QPlcPanelContext::Signal::number(int index) const
+{
+    bool isNumber = false;
+    const double number = value.isValid() ? value.toReal(index, &isNumber) : 0.0;
+    return isNumber ? number : std::numeric_limits<double>::quiet_NaN();
+}
+
+QPlcPanelContext::QPlcPanelContext(QPlcWidget *panel)
+    : d(std::make_unique<Private>(this, panel))
+{
+    connect(panel, &QPlcWidget::pinnedPlantChanged, d.get(), &Private::forget);
+}
+
+QPlcPanelContext::~QPlcPanelContext() = default;
+
+WindowContext *QPlcPanelContext::window() const
+{
+    return d->window;
+}
+
+QString QPlcPanelContext::pin() const
+{
+    return d->pin();
+}
+
+void QPlcPanelContext::setWindow(WindowContext *window)
+{
+    if (d->window) {
+        d->window->disconnect(d.get());
+        d->window->plants()->disconnect(d.get());
+        d->window->timeView()->disconnect(d.get());
+        d->window->curveSources()->disconnect(d.get());
+    }
+    d->window = window;
+    if (!window)
+        return;
+    Private *own = d.get();
+    window->plants()->forEach(own, &Private::follow);
+    connect(window->curveSources(), &CurveSources::changed, own, &Private::forget);
+    connect(window->curveSources(), &CurveSources::filled, own, &Private::touch);
+    connect(window, &WindowContext::valuesChanged, own, [this, own] {
+        Q_EMIT valuesChanged();
+        own->touch();
+    });
+    connect(window, &WindowContext::themeChanged, own, [this, own] {
+        Q_EMIT themeChanged();
+        own->touch();
+    });
+    const auto tellTime = [this, own] {
+        Q_EMIT timeChanged();
+        own->touch();
+    };
+    const TimeView *time = window->timeView();
+    connect(time, &TimeView::viewChanged, own, tellTime);
+    connect(time, &TimeView::cursorsChanged, own, tellTime);
+    connect(time, &TimeView::pointerChanged, own, tellTime);
+    connect(time, &TimeView::displayTimeChanged, own, tellTime);
+    own->forget();
+}
+
+QPlcPanelContext::Signal QPlcPanelContext::signal(const QString &expression) const
+{
+    return d->signal(expression, std::nullopt);
+}
+
+QPlcPanelContext::Signal QPlcPanelContext::signal(const QString &expression, Time time) const
+{
+    return d->signal(expression, time);
+}
+
+QPlcPanelContext::Signal QPlcPanelContext::shown(const QString &expression) const
+{
+    return d->signal(expression, shownTime());
+}
+
+QVector<QPlcPanelContext::Sample> QPlcPanelContext::history(const QString &expression, Time begin, Time end,
+                                                            int most) const
+{
+    const CurveSource source = d->window ? d->source(expression) : CurveSource();
+    if (!source || source.store->isEmpty() || end < begin)
+        return {};
+    const SignalStore &store = *source.store;
+    const Row first = store.rowAt(begin);
+    const Row behind = store.rowAt(end + 1);
+    if (first >= behind)
+        return {};
+    const Row step = rowsOfStep(behind - first, std::max(most, 4));
+    QVector<Sample> samples;
+    samples.reserve(int((behind - first) / step) + 2);
+    Row before = first;
+    bool isInterrupted = true;
+    for (Row row = first; row < behind;) {
+        const Row next = std::min((row / step + 1) * step, behind);
+        Sample sample;
+        isInterrupted = isInterrupted || store.nextBeginAnew(before + 1, row + 1) <= row;
+        before = row;
+        if (readStep(store, source.channel, row, next, &sample)) {
+            sample.isJoined = !isInterrupted;
+            samples.append(sample);
+        }
+        isInterrupted = samples.isEmpty() || std::isnan(store.value(source.channel, row));
+        row = next;
+    }
+    // The end of a step that is not complete is what people look at.
+    Sample newest;
+    if (!samples.isEmpty() && (behind - 1) % step != 0 && readStep(store, source.channel, behind - 1, behind, &newest)
+        && newest.time > samples.constLast().time) {
+        newest.isJoined = store.nextBeginAnew(before + 1, behind) == behind;
+        samples.append(newest);
+    }
+    return samples;
+}
+
+QStringList QPlcPanelContext::numberNames() const
+{
+    return d->window ? SignalEdit::names(*d->window->plants(), SignalEdit::Curves) : QStringList();
+}
+
+bool QPlcPanelContext::isLive() const
+{
+    return !d->window || d->window->timeView()->isLive();
+}
+
+QPlcPanelContext::Time QPlcPanelContext::begin() const
+{
+    return d->window ? end() - d->window->timeView()->span() : 0;
+}
+
+QPlcPanelContext::Time QPlcPanelContext::end() const
+{
+    if (!d->window)
+        return 0;
+    if (!isLive())
+        return d->window->timeView()->end();
+    Time newest = 0;
+    for (const QString &name : d->window->plantsOf(d->panel->shownSignals(), d->pin())) {
+        if (const qplc::Plant *plant = d->window->plants()->find(name))
+            newest = std::max<Time>(newest, plant->newestTime());
+    }
+    return newest > 0 ? newest : d->window->timeView()->end();
+}
+
+std::optional<QPlcPanelContext::Time> QPlcPanelContext::shownTime() const
+{
+    return d->window ? std::optional<Time>(d->window->timeView()->displayTime()) : std::nullopt;
+}
+
+void QPlcPanelContext::showRange(Time begin, Time end)
+{
+    if (d->window)
+        d->window->timeView()->show(begin, end);
+}
+
+void QPlcPanelContext::goLive()
+{
+    if (d->window)
+        d->window->timeView()->goLive();
+}
+
+std::optional<QPlcPanelContext::Time> QPlcPanelContext::cursor(Cursor which) const
+{
+    return d->window ? std::optional<Time>(d->window->timeView()->cursor(TimeView::Cursor(which))) : std::nullopt;
+}
+
+void QPlcPanelContext::setCursor(Cursor which, std::optional<Time> time)
+{
+    if (d->window)
+        d->window->timeView()->setCursor(TimeView::Cursor(which), time);
+}
+
+std::optional<QPlcPanelContext::Time> QPlcPanelContext::pointer() const
+{
+    return d->window ? std::optional<Time>(d->window->timeView()->pointer()) : std::nullopt;
+}
+
+void QPlcPanelContext::setPointer(std::optional<Time> time)
+{
+    if (d->window)
+        d->window->timeView()->setPointer(time);
+}
+
+QStringList QPlcPanelContext::plants() const
+{
+    return d->window ? d->window->plants()->names() : QStringList();
+}
+
+QPlcPanelContext::Plant QPlcPanelContext::plant(const QString &name) const
+{
+    Plant plant;
+    const qplc::Plant *found = d->plant(name);
+    if (!found)
+        return plant;
+    plant.name = found->name();
+    plant.color = d->window->theme().plant(found->number());
+    plant.isConnected = found->isConnected();
+    plant.isLive = found->quality() == qplc::Plant::Good;
+    plant.isStale = found->quality() == qplc::Plant::Stale;
+    plant.state = stateWord(*found);
+    plant.stateText = found->stateText();
+    plant.age = found->age();
+    return plant;
+}
+
+void QPlcPanelContext::stop(const QString &name)
+{
+    if (qplc::Plant *found = d->plant(name))
+        found->stop(d->panel->title());
+}
+
+QPlcTheme QPlcPanelContext::theme() const
+{
+    QPlcTheme theme = d->window ? d->window->theme() : Theme::byName(Theme::System);
+    theme.font = d->panel->font();
+    theme.labelFont = theme.font;
+    constexpr double labelSize = 0.85;
+    if (theme.font.pointSizeF() > 0)
+        theme.labelFont.setPointSizeF(std::max(7.0, theme.font.pointSizeF() * labelSize));
+    else
+        theme.labelFont.setPixelSize(std::max(9, int(theme.font.pixelSize() * labelSize)));
+    theme.figureFont = figureFont(theme.font);
+    return theme;
+}
+
+QString QPlcPanelContext::text(const Signal &signal, int digits)
+{
+    const QPlcSignalDefinition &definition = signal.definition;
+    const bool isArray = definition.type.isArray() && signal.element < 0;
+    if (!signal.value.isValid() || (definition.type.isNumeric() && definition.valueNames.isEmpty() && !isArray))
+        return text(signal.number(), definition.unit, digits);
+    const QString value = valueText(signal.value, definition);
+    return QStringLiteral("%1 %2").arg(value, SiPrefix::unitText(definition.unit)).trimmed();
+}
+
+QString QPlcPanelContext::text(double number, const QString &unit, int digits)
+{
+    const Prefix shown = prefix(unit, std::abs(number));
+    return QStringLiteral("%1 %2").arg(steadyNumberText(number * shown.factor, digits), shown.unit).trimmed();
+}
+
+QPlcPanelContext::Prefix QPlcPanelContext::prefix(const QString &unit, double size)
+{
+    const SiPrefix fitting = SiPrefix::fitting(unit, size);
+    return {fitting.factor(), fitting.unit()};
+}
