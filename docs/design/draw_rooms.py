@@ -51,7 +51,12 @@ PALETTE = {"gui": ("#f4f8f1", "#7d9c67"), "node": ("#eef3f8", "#5b7fa6"), "": ("
 
 def room_of(check, path):
     """The room of a source file; public headers belong to their folder."""
-    return check.room(path) if path.parent != check.public else None
+    return placed(check.room(path)) if path.parent != check.public else None
+
+
+def placed(room):
+    """The room that the picture shows: a small one belongs to its folder."""
+    return room.split("/")[0] if room and room not in PLACES and room.split("/")[0] in PLACES else room
 
 
 def arrows():
@@ -63,7 +68,7 @@ def arrows():
         for _, line in layers.code(path):
             match = re.match(r'\s*#\s*include\s+"([^"]+)"', line)
             target = match and next((f for f in (d / match[1] for d in (path.parent, check.source, check.public)) if f.is_file()), None)
-            other = check.room(target.resolve()) if target else None
+            other = placed(check.room(target.resolve())) if target else None
             if not other or other == "all" or group(other) == group(room) and target.parent == check.public:
                 continue
             found.setdefault(room, set()).add(other)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "CyclicHub.h"
 
-#include "StreamTransport.h"
+#include "TransportRegistry.h"
 #include "realtime/TimeSource.h"
 
 #include <algorithm>
@@ -12,14 +12,11 @@ namespace qplc {
 
 CyclicHub::CyclicHub()
 {
-    auto udp = std::make_unique<UdpTransport>();
-    auto local = std::make_unique<LocalTransport>();
-    m_udp = udp.get();
-    m_local = local.get();
     m_peers.reserve(MaximumPeers);
-    add(std::move(udp));
-    add(std::make_unique<StreamTransport>());
-    add(std::move(local));
+    for (const auto &kind : TransportRegistry::instance().kinds()) {
+        if (auto transport = kind->makeHubTransport())
+            add(std::move(transport));
+    }
 }
 
 CyclicHub::~CyclicHub() = default;
@@ -105,6 +102,22 @@ std::uint64_t CyclicHub::floods() const noexcept
     std::uint64_t sum = 0;
     for (const auto &transport : m_transports)
         sum += transport->floods();
+    return sum;
+}
+
+std::uint64_t CyclicHub::strangers() const noexcept
+{
+    std::uint64_t sum = 0;
+    for (const auto &transport : m_transports)
+        sum += transport->strangers();
+    return sum;
+}
+
+std::uint64_t CyclicHub::unread() const
+{
+    std::uint64_t sum = 0;
+    for (const auto &transport : m_transports)
+        sum += transport->unread();
     return sum;
 }
 

@@ -2,8 +2,7 @@
 #pragma once
 
 #include "HubFaults.h"
-#include "LocalTransport.h"
-#include "UdpTransport.h"
+#include "HubTransport.h"
 
 #include <QtCore/QString>
 
@@ -22,6 +21,7 @@ class CyclicHub
 public:
     static constexpr std::size_t MaximumPeers = HubTransport::MaximumPeers;
 
+    /// With a transport of each kind that is registered.
     CyclicHub();
     ~CyclicHub();
     CyclicHub(const CyclicHub &) = delete;
@@ -30,10 +30,17 @@ public:
     /// Opens all transports for a master that listens at \a address. \return false, with the reason in \a error
     bool open(const SocketAddress &address, QString *error);
     void close();
-    bool openMulticast(const QHostAddress &address, QString *error) { return m_udp->openMulticast(address, error); }
-    LocalTransport::Paths localPaths() const { return m_local->paths(); }
     /// Adds a way on which frames travel. By the owner, before open().
     void add(std::unique_ptr<HubTransport> transport);
+    /// The transport of this class. \pre there is one
+    template<typename Transport>
+    Transport *find() const
+    {
+        Transport *found = nullptr;
+        for (const auto &transport : m_transports)
+            found = found ? found : dynamic_cast<Transport *>(transport.get());
+        return found;
+    }
 
     /// From now on frames of peers are treated like those on a bad network, or no longer. By the owner, while there are no peers.
     /// \param time  instead of the clock of the machine; for tests
@@ -58,12 +65,13 @@ public:
     /// The next frame of those that are there; it stays valid until the next call. \return false when there is none any more
     bool next(HubFrame *frame) noexcept;
 
-    /// Datagrams whose sender is no peer.
-    std::uint64_t strangers() const { return m_udp->strangers(); }
+    /// Frames whose sender is no peer.
+    std::uint64_t strangers() const noexcept;
     /// How often frames were left to the next wait(), as there were more than HubTransport::FramesPerWait.
     std::uint64_t floods() const noexcept;
-    /// Datagrams since open() that the kernel had no room for, as nobody read those before them in time. Thread of the owner.
-    std::uint64_t unread() const { return m_udp->unread(); }
+    /// Frames since open() that the kernel had no room for, as nobody read those before them in time.
+    /// Thread of the owner.
+    std::uint64_t unread() const;
 
 private:
     HubTransport &transportOf(HubPeer &peer) const noexcept;
@@ -75,8 +83,6 @@ private:
     void rebuild() noexcept;
 
     std::vector<std::unique_ptr<HubTransport>> m_transports;
-    UdpTransport *m_udp;      // one of them
-    LocalTransport *m_local;  // likewise
     std::vector<HubPeer *> m_peers;
     std::vector<pollfd> m_polled;         // those of the transports in order, and the alarm as the last one
     std::unique_ptr<HubFaults> m_faults;  // null: none are wanted

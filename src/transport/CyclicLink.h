@@ -1,14 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "FrameCutter.h"
-#include "SocketAddress.h"
-
-#include <QtCore/QString>
-
-#include <cstdint>
-#include <memory>
-#include <sys/types.h>
+#include <cstddef>
 
 namespace qplc {
 
@@ -35,32 +28,17 @@ public:
     /// \return false when the frame could not be handed to the kernel (it is lost, as on any network)
     virtual bool send(const char *frame, std::size_t size) noexcept = 0;
 
-    /// UDP only: from now on frames come from the multicast group, and from the master alone. \return false, with the reason in \a error
-    virtual bool joinGroup(const SocketAddress &group, QString *error);
-
     /// To be called behind the last frame of an answer.
     virtual void flush() noexcept {}
-
-    /// What a master on this machine names for its link, each as "/proc/PID/fd/N".
-    struct LocalPaths
-    {
-        QString channel;   // memory of a SharedChannel
-        QString doorbell;  // memory of a Doorbell
-        QString pipe;      // what wakes the master
-    };
-    /// The link to a master on this machine. Opens only sealed memory and a pipe that belong to \a owner, the user of the master: see PeerFile.
-    /// Null, with the reason in \a error, when it cannot be opened.
-    static std::unique_ptr<CyclicLink> local(const LocalPaths &paths, uid_t owner, QString *error);
-    /// A UDP socket that exchanges datagrams with \a master only. Null, with the reason in \a error, when there is none to be had.
-    static std::unique_ptr<CyclicLink> udp(const SocketAddress &master, quint16 *localPort, QString *error);
-    /// Takes over the connected TCP socket \a descriptor.
-    static std::unique_ptr<CyclicLink> tcp(int descriptor, const FrameCutter &cutter, std::size_t largestFrame);
 
 protected:
     explicit CyclicLink(int descriptor)
         : m_descriptor(descriptor)
     {
     }
+    /// Whether \a error of a system call says: nothing now, maybe later.
+    static bool isTransient(int error);
+
     int m_descriptor;
 };
 

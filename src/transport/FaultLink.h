@@ -5,6 +5,8 @@
 #include "FaultStream.h"
 #include "realtime/TimeSource.h"
 
+#include <memory>
+
 namespace qplc {
 
 /// A link that treats frames like a bad network, as a FaultPlan says. A node without a plan has none of it: its link is the bare one.
@@ -23,7 +25,6 @@ public:
     Status poll(const char **frame, std::size_t *size) noexcept override;
     bool send(const char *frame, std::size_t size) noexcept override;
     void flush() noexcept override { m_link->flush(); }
-    bool joinGroup(const SocketAddress &group, QString *error) override { return m_link->joinGroup(group, error); }
 
     const FaultInjector &sent() const { return m_sent.injector(); }
     const FaultInjector &received() const { return m_received.injector(); }

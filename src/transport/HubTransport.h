@@ -106,9 +106,14 @@ public:
 
     /// How often frames were left to the next wait, as there were more than FramesPerWait.
     std::uint64_t floods() const { return m_floods; }
+    /// Frames whose sender is no peer.
+    std::uint64_t strangers() const { return m_strangers; }
+    /// Frames since open() that the kernel had no room for, as nobody read those before them in time.
+    virtual std::uint64_t unread() const { return 0; }
 
 protected:
     std::uint64_t m_floods = 0;
+    std::uint64_t m_strangers = 0;
 };
 
 }  // namespace qplc

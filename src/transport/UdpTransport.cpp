@@ -2,6 +2,7 @@
 #include "UdpTransport.h"
 
 #include <QtCore/qendian.h>
+#include <QtNetwork/QUdpSocket>
 
 #include <algorithm>
 #include <cerrno>
@@ -95,8 +96,19 @@ void UdpTransport::close()
     m_hasMore = false;
 }
 
-bool UdpTransport::openMulticast(const QHostAddress &address, QString *error)
+bool UdpTransport::openGroup(const QHostAddress &address, const QHostAddress &group, QString *error)
 {
+    m_group = SocketAddress();
+    if (group.isNull())
+        return true;
+    if (!group.isMulticast() || group.protocol() != QAbstractSocket::IPv4Protocol) {
+        *error = QStringLiteral("%1 is no multicast group of IPv4; use one of 239.0.0.0 ... 239.255.255.255")
+                     .arg(group.toString());
+        return false;
+    }
+    QUdpSocket finder;  // a port of its own: nodes of this machine share it with each other, not with the server
+    finder.bind(QHostAddress::AnyIPv4, 0);
+    m_group = SocketAddress(group, finder.localPort());
     const in_addr interface {
         qToBigEndian(address.toIPv4Address())
     };

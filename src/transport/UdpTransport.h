@@ -20,9 +20,12 @@ public:
     /// Binds the socket. One that is bound to :: also exchanges datagrams with IPv4 addresses.
     bool open(const SocketAddress &address, QString *error) override;
     void close() override;
-    /// Lets datagrams to multicast groups leave by the interface of \a address, for one hop.
+    /// Datagrams to the multicast group \a group leave by the interface of \a address, for one hop.
+    /// Without a group there is none.
     /// \return false, with the reason in \a error
-    bool openMulticast(const QHostAddress &address, QString *error);
+    bool openGroup(const QHostAddress &address, const QHostAddress &group, QString *error);
+    /// Where datagrams for many nodes go; of length 0 when there is no group.
+    SocketAddress group() const { return m_group; }
     bool owns(const HubPeer &peer) const noexcept override;
     void attach(HubPeer *peer) noexcept override;
     void detach(HubPeer *peer) noexcept override;
@@ -35,10 +38,7 @@ public:
     bool endWait(pollfd *polled) noexcept override;
     bool next(HubFrame *frame) noexcept override;
 
-    /// Datagrams whose sender is no peer.
-    std::uint64_t strangers() const { return m_strangers; }
-    /// Datagrams since open() that the kernel had no room for, as nobody read those before them in time.
-    std::uint64_t unread() const;
+    std::uint64_t unread() const override;
 
 private:
     class Peer;
@@ -55,6 +55,7 @@ private:
 
     int m_socket = -1;
     bool m_isIpv6 = false;
+    SocketAddress m_group;
     std::vector<Peer *> m_peers;
     std::array<Peer *, TableSize> m_table{};  // by address
     std::unique_ptr<Messages> m_messages;
@@ -63,7 +64,6 @@ private:
     std::size_t m_taken = 0;     // of them handed out
     std::size_t m_read = 0;      // since the last wait
     bool m_hasMore = false;      // in the kernel
-    std::uint64_t m_strangers = 0;
 };
 
 }  // namespace qplc

@@ -8,13 +8,15 @@ import re
 import sys
 from pathlib import Path
 
-BELOW_NODE = {"signals", "realtime", "transport", "protocol"}
+BELOW_NODE = {"signals", "realtime", "transport", "protocol", "protocol/messages"}
 # Room: the rooms whose headers it may include. The public headers of all rooms of the node belong to "node".
 ARROWS = {
     "signals": {"signals"},
     "realtime": {"realtime"},
-    "transport": {"realtime", "transport"},
+    # Transports say what they need of each other with fields of their own.
+    "transport": {"realtime", "transport", "protocol/messages"},
     "protocol": {"signals", "protocol"},
+    "protocol/messages": {"signals", "protocol", "protocol/messages"},
     "node": BELOW_NODE | {"node"},
     "node/state": {"node", "node/state"},
     "node/security": BELOW_NODE | {"node", "node/security"},

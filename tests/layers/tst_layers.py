@@ -35,6 +35,10 @@ class Faults(unittest.TestCase):
         for word in words:
             self.assertIn(word, run.stdout)
 
+    def test_transports_may_describe_fields_and_know_no_frame(self):
+        self.plant("src/transport/UdpLink.h", '#include "protocol/CyclicFrame.h"\n')
+        self.assert_named("src/transport/UdpLink.h:", "which belongs to protocol")
+
     def test_protocol_may_not_include_node(self):
         self.plant("src/protocol/ControlFrame.h", '#include "node/cycle/MasterCycle.h"\n')
         self.assert_named("src/protocol/ControlFrame.h:", "which belongs to node")

@@ -3,6 +3,8 @@
 
 #include "transport/CyclicHub.h"
 #include "transport/CyclicLink.h"
+#include "transport/FrameCutter.h"
+#include "transport/SocketAddress.h"
 
 #include <QtCore/QByteArray>
 #include <QtTest/QTest>

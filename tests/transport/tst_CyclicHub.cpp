@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TransportFixtures.h"
+#include "transport/LocalTransport.h"
 #include "transport/StreamTransport.h"
+#include "transport/UdpTransport.h"
 
 #include <QtTest/QtTest>
 

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TransportFixtures.h"
 #include "realtime/InterruptibleWaits.h"
+#include "transport/StreamLink.h"
+#include "transport/UdpLink.h"
 
 #include <QtTest/QtTest>
 
 using qplc::CyclicLink;
 using qplc::InterruptibleWaits;
 using qplc::SocketAddress;
+using qplc::StreamLink;
+using qplc::UdpLink;
 
 class tst_CyclicLink : public QObject
 {
@@ -46,7 +50,7 @@ void tst_CyclicLink::aUdpLinkTalksToItsMasterOnly()
     UdpSocket stranger;
     quint16 port = 0;
     QString error;
-    const auto link = CyclicLink::udp(master.self, &port, &error);
+    const auto link = UdpLink::open(master.self, &port, &error);
     QVERIFY2(link, qPrintable(error));
     const SocketAddress self(QHostAddress(QHostAddress::LocalHost), port);
     QVERIFY(stranger.send("stranger", self));
@@ -68,7 +72,7 @@ void tst_CyclicLink::aMasterThatIsGoneDoesNotEndAUdpLink()
     }
     quint16 port = 0;
     QString error;
-    const auto link = CyclicLink::udp(gone, &port, &error);
+    const auto link = UdpLink::open(gone, &port, &error);
     QVERIFY(link);
     const InterruptibleWaits interrupt(1'000'000);
     for (int i = 0; i < 5; ++i) {
@@ -80,7 +84,7 @@ void tst_CyclicLink::aMasterThatIsGoneDoesNotEndAUdpLink()
 void tst_CyclicLink::aTcpLinkGivesWholeFrames()
 {
     StreamPair pair;
-    const auto link = CyclicLink::tcp(pair.take(0), toyCutter, LargestToyFrame);
+    const auto link = StreamLink::make(pair.take(0), toyCutter, LargestToyFrame);
     const InterruptibleWaits interrupt(20'000'000);
     pair.write(toyFrame(9).left(4));
     QCOMPARE(receive(*link).status, CyclicLink::Nothing);
@@ -96,7 +100,7 @@ void tst_CyclicLink::aTcpLinkGivesWholeFrames()
 void tst_CyclicLink::garbageEndsATcpLink()
 {
     StreamPair pair;
-    const auto link = CyclicLink::tcp(pair.take(0), toyCutter, LargestToyFrame);
+    const auto link = StreamLink::make(pair.take(0), toyCutter, LargestToyFrame);
     pair.write(toyFrame(5) + "garbage");
     QCOMPARE(receive(*link).status, CyclicLink::Received);
     QCOMPARE(receive(*link).status, CyclicLink::Closed);
@@ -106,7 +110,7 @@ void tst_CyclicLink::garbageEndsATcpLink()
 void tst_CyclicLink::theEndOfTheMasterEndsATcpLink()
 {
     StreamPair pair;
-    const auto link = CyclicLink::tcp(pair.take(0), toyCutter, LargestToyFrame);
+    const auto link = StreamLink::make(pair.take(0), toyCutter, LargestToyFrame);
     pair.write(toyFrame(5));
     pair.closeEnd(1);
     QCOMPARE(receive(*link).status, CyclicLink::Received);
@@ -117,7 +121,7 @@ void tst_CyclicLink::theEndOfTheMasterEndsATcpLink()
 void tst_CyclicLink::aTcpLinkToADeafMasterComesBackInTime()
 {
     StreamPair pair;
-    const auto link = CyclicLink::tcp(pair.take(0), toyCutter, LargestToyFrame);
+    const auto link = StreamLink::make(pair.take(0), toyCutter, LargestToyFrame);
     int accepted = 0;
     while (link->send(toyFrame(255).constData(), 255))  // nothing interrupts it: it comes back by itself
         ++accepted;
@@ -134,13 +138,13 @@ void tst_CyclicLink::waitsEndInTime()
     UdpSocket master;
     quint16 port = 0;
     QString error;
-    const auto link = CyclicLink::udp(master.self, &port, &error);
+    const auto link = UdpLink::open(master.self, &port, &error);
     QVERIFY(link);
     for (qint64 period : {100'000, 1'000'000}) {
         const InterruptibleWaits interrupt(period);
         QCOMPARE(receive(*link).status, CyclicLink::Nothing);
     }
-    QVERIFY(!CyclicLink::udp(SocketAddress(), &port, &error));
+    QVERIFY(!UdpLink::open(SocketAddress(), &port, &error));
     QVERIFY(!error.isEmpty());
 }
 

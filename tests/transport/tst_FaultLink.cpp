@@ -2,6 +2,7 @@
 #include "../realtime/FakeTime.h"
 #include "TransportFixtures.h"
 #include "transport/FaultLink.h"
+#include "transport/UdpTransport.h"
 
 #include <QtTest/QtTest>
 

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TransportFixtures.h"
 #include "realtime/InterruptibleWaits.h"
+#include "transport/LocalLink.h"
 #include "transport/LocalName.h"
+#include "transport/LocalTransport.h"
 #include "transport/StreamTransport.h"
+#include "transport/UdpTransport.h"
 
 #include <QtTest/QtTest>
 
@@ -17,6 +20,7 @@ using qplc::Doorbell;
 using qplc::HubFrame;
 using qplc::HubPeer;
 using qplc::HubTransport;
+using qplc::LocalLink;
 using qplc::LocalName;
 using qplc::LocalTransport;
 using qplc::SharedChannel;
@@ -59,8 +63,8 @@ struct LocalPlant
         for (int i = 0; i < count; ++i) {
             auto memory = std::make_unique<SharedMemory>();
             ok = ok && memory->create(sizeof(SharedChannel), &error);
-            const LocalTransport::Paths paths = hub.localPaths();
-            links.push_back(CyclicLink::local({memory->path(), paths.doorbell, paths.pipe}, ::geteuid(), &error));
+            const LocalTransport::Paths paths = hub.find<LocalTransport>()->paths();
+            links.push_back(LocalLink::open({memory->path(), paths.doorbell, paths.pipe}, ::geteuid(), &error));
             ok = ok && links.back();
             peers.push_back(LocalTransport::peer(std::move(memory)));
             hub.attach(peers.back().get());

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TransportFixtures.h"
 #include "realtime/InterruptibleWaits.h"
+#include "transport/LocalTransport.h"
+#include "transport/StreamLink.h"
 #include "transport/StreamTransport.h"
+#include "transport/UdpLink.h"
+#include "transport/UdpTransport.h"
 
 #include <QtCore/QElapsedTimer>
 #include <QtTest/QtTest>
@@ -16,7 +20,9 @@ using qplc::HubTransport;
 using qplc::InterruptibleWaits;
 using qplc::LocalTransport;
 using qplc::SocketAddress;
+using qplc::StreamLink;
 using qplc::StreamTransport;
+using qplc::UdpLink;
 using qplc::UdpTransport;
 
 // What the tables of the hub hold and what happens beyond; peers that come, go and come again.
@@ -236,7 +242,7 @@ void tst_TransportLimits::aUdpLinkFindsItsMasterAgain()
     QString error;
     quint16 port = 0;
     Hub first;
-    const auto link = CyclicLink::udp(first.self, &port, &error);
+    const auto link = UdpLink::open(first.self, &port, &error);
     QVERIFY2(link, qPrintable(error));
     const auto peer = UdpTransport::peer(SocketAddress(QHostAddress(QHostAddress::LocalHost), port));
     const char *frame = nullptr;
@@ -266,7 +272,7 @@ void tst_TransportLimits::waitsLastAsLongAsTheyShould()
     QString error;
     quint16 port = 0;
     const std::unique_ptr<CyclicLink> links[]
-        = {CyclicLink::udp(hub.self, &port, &error), CyclicLink::tcp(pair.take(0), toyCutter, LargestToyFrame)};
+        = {UdpLink::open(hub.self, &port, &error), StreamLink::make(pair.take(0), toyCutter, LargestToyFrame)};
     QElapsedTimer timer;
     timer.start();
     QVERIFY(!hub.wait(time));
@@ -288,7 +294,7 @@ void tst_TransportLimits::pollNeverWaits()
     QString error;
     quint16 port = 0;
     const std::unique_ptr<CyclicLink> links[]
-        = {CyclicLink::udp(hub.self, &port, &error), CyclicLink::tcp(pair.take(0), toyCutter, LargestToyFrame)};
+        = {UdpLink::open(hub.self, &port, &error), StreamLink::make(pair.take(0), toyCutter, LargestToyFrame)};
     for (const auto &link : links) {
         const char *frame = nullptr;
         std::size_t size = 0;

@@ -69,7 +69,7 @@ void QPlcMasterNodePrivate::goOn(Connection *connection)
         sendInitialInputs(connection);
     } else if (connection->stage == Connection::Initialized && (isRunning() || m_step == Step::Start)) {
         connection->stage = Connection::Starting;
-        if (connection->slot->wantsMulticast) {
+        if (connection->slot->isInGroup()) {
             m_multicastParts.add(*connection->slot);  // a part of its own: the others know theirs
             m_multicastParts.finish();
         }

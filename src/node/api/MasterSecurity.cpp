@@ -21,15 +21,7 @@ QString signalsText(const QPlcMessage &command)
 bool QPlcMasterNodePrivate::checkSecurity()
 {
     const QString wrong = security.errorString(QPlcSecurity::MasterSide);
-    if (!wrong.isEmpty())
-        return setError(QPlcMasterNode::ServerError, wrong);
-    if (!security.isNone() && !multicastGroup.isNull())
-        return setError(
-            QPlcMasterNode::ServerError,
-            QStringLiteral("a secured master has no multicast group: with a key for all nodes each of them could "
-                           "speak for the master; leave out the group %1, and connect nodes by udp://")
-                .arg(multicastGroup.toString()));
-    return true;
+    return wrong.isEmpty() || setError(QPlcMasterNode::ServerError, wrong);
 }
 
 /// Nobody who was not asked for opens the plant to a network.

@@ -342,9 +342,9 @@ void QPlcMasterNodePrivate::beginStart()
         listener->stage = Connection::Starting;
         told.push_back(listener);
     }
-    m_multicastParts.restart(session, server->multicastGroup());
+    m_multicastParts.restart(session, hub);
     for (Connection *connection : told) {
-        if (connection->slot->wantsMulticast)
+        if (connection->slot->isInGroup())
             m_multicastParts.add(*connection->slot);
     }
     m_multicastParts.finish();

@@ -2,6 +2,7 @@
 #include "QPlcSlaveNodePrivate.h"
 
 #include "node/Logging.h"
+#include "transport/TransportRegistry.h"
 
 #include <QtCore/QCoreApplication>
 #include <QtCore/QRandomGenerator>
@@ -93,7 +94,8 @@ void QPlcSlaveNodePrivate::connectToMaster(const QPlcUnderlyingProtocol &newMast
     master = newMaster;
     m_wasRegistered = false;
     m_backOff.reset();
-    if (!master.isValid()) {
+    m_transport = qplc::TransportRegistry::instance().named(master.kindName());
+    if (!m_transport) {
         setError(QPlcSlaveNode::OptionError,
                  QStringLiteral("node '%1': no master given; use QPlcUnderlyingProtocol::tcp(), udp() or local()")
                      .arg(name));
@@ -237,7 +239,7 @@ bool QPlcSlaveNodePrivate::isExpected(const Message &message) const
     case Message::Registered:
         return m_session != 0 && !cycle;
     case Message::CyclicChannelAttached:
-        return cycle && master.kind() != QPlcUnderlyingProtocol::Tcp;
+        return cycle && !m_transport->hasStreams();
     default:
         return true;
     }

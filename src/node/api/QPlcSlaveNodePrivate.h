@@ -10,6 +10,7 @@
 #include "node/session/BackOff.h"
 #include "node/state/SlaveStates.h"
 #include "node/statistics/ReportLimiter.h"
+#include "transport/TransportKind.h"
 
 #include <QtCore/QJsonArray>
 #include <QtCore/QPointer>
@@ -97,9 +98,9 @@ private:
     bool chooseTable(const QPlcMessage &hello, QPlcSignalTable *table);
     void registerAtMaster();
     void receiveRegistered(const QPlcMessage &message);
-    bool makeUdpLink(quint16 *port);
-    bool openLocalLink(const QPlcMessage &registered);
-    bool joinGroup(const QPlcMessage &registered);
+    qplc::ControlEnds controlEnds() const;
+    bool beginLink(QJsonObject *request);
+    bool finishLink(const QPlcMessage &registered);
     void giveLink(std::unique_ptr<qplc::CyclicLink> link);
     void connectCyclicChannel();
     void tellRegistered();
@@ -129,7 +130,8 @@ private:
     QPlcMasterSocket *m_cyclicSocket = nullptr;
     std::optional<QPlcMessage>
         m_outputsAwaited;  // request of the master, which knows already that the cyclic connection is there
-    std::unique_ptr<qplc::CyclicLink> m_link;  // until the cycle takes it
+    const qplc::TransportKind *m_transport = nullptr;  // that of the address of the master
+    std::unique_ptr<qplc::CyclicLink> m_link;          // until the cycle takes it
     std::unique_ptr<QSocketNotifier> m_reportNotifier;
     QSocketNotifier *m_cycleNotifier = nullptr;  // child of the node: it goes with it into another thread
     QTimer m_retryTimer;                         // children of the node: they go with it into another thread

@@ -6,7 +6,7 @@
 #include "node/security/SealFields.h"
 #include "signals/Fnv1a.h"
 #include "transport/FaultLink.h"
-#include "transport/PeerUser.h"
+#include "transport/TransportRegistry.h"
 
 #include <QtCore/QJsonArray>
 #include <QtCore/QMetaEnum>
@@ -134,13 +134,19 @@ void QPlcSlaveNodePrivate::receiveHello(const Message &message)
     registerAtMaster();
 }
 
-bool QPlcSlaveNodePrivate::makeUdpLink(quint16 *port)
+qplc::ControlEnds QPlcSlaveNodePrivate::controlEnds() const
+{
+    return {qplc::SocketAddress(control->localAddress(), control->localPort()),
+            qplc::SocketAddress(control->peerAddress(), control->peerPort()), master.toString()};
+}
+
+bool QPlcSlaveNodePrivate::beginLink(QJsonObject *request)
 {
     QString text;
-    m_link = qplc::CyclicLink::udp(qplc::SocketAddress(control->peerAddress(), master.port()), port, &text);
-    if (!m_link)
+    const bool hasBegun = m_transport->beginLink(controlEnds(), request, &m_link, &text);
+    if (!hasBegun)
         giveUp(QPlcSlaveNode::ConnectionError, QStringLiteral("node '%1': %2").arg(name, text));
-    return m_link != nullptr;
+    return hasBegun;
 }
 
 void QPlcSlaveNodePrivate::registerAtMaster()
@@ -166,12 +172,8 @@ void QPlcSlaveNodePrivate::registerAtMaster()
         fields.insert(QStringLiteral("outputQuality"), true);
     if (!faultPlan.isEmpty())
         fields.insert(QStringLiteral("faults"), faultPlan);
-    if (master.kind() == QPlcUnderlyingProtocol::Udp || master.kind() == QPlcUnderlyingProtocol::UdpMulticast) {
-        quint16 port = 0;
-        if (!makeUdpLink(&port))
-            return;
-        fields.insert(QStringLiteral("udpPort"), port);
-    }
+    if (!beginLink(&fields))
+        return;
     control->sendMessage(Message(Message::Register, fields));
 }
 
@@ -186,7 +188,7 @@ void QPlcSlaveNodePrivate::receiveRegistered(const Message &message)
         return;
     }
     std::optional<qplc::SealKeys> keys;
-    if (control->isSecured() && master.kind() != QPlcUnderlyingProtocol::Local) {
+    if (control->isSecured() && m_transport->isSealed()) {
         keys = qplc::sealKeys(message.fields().value(QStringLiteral("seal")).toObject());
         if (!keys) {
             giveUp(QPlcSlaveNode::ProtocolError,
@@ -199,42 +201,19 @@ void QPlcSlaveNodePrivate::receiveRegistered(const Message &message)
                                                lcCyclic().isDebugEnabled());
     m_reportNotifier = std::make_unique<QSocketNotifier>(cycle->reports().descriptor(), QSocketNotifier::Read);
     QObject::connect(m_reportNotifier.get(), &QSocketNotifier::activated, q, [this] { takeReports(); });
-    if (master.kind() == QPlcUnderlyingProtocol::Local && !openLocalLink(message))
-        return;
-    if (master.kind() == QPlcUnderlyingProtocol::UdpMulticast && !joinGroup(message))
-        return;
-    if (m_link)
-        giveLink(std::move(m_link));
-    else
+    if (m_transport->hasStreams())
         connectCyclicChannel();
+    else if (finishLink(message))
+        giveLink(std::move(m_link));
 }
 
-bool QPlcSlaveNodePrivate::joinGroup(const Message &registered)
+bool QPlcSlaveNodePrivate::finishLink(const Message &registered)
 {
-    const QHostAddress group(registered.text(QStringLiteral("group")));
-    const int port = registered.fields().value(QStringLiteral("groupPort")).toInt();
     QString text;
-    if (m_link->joinGroup(qplc::SocketAddress(group, quint16(port)), &text))
-        return true;
-    giveUp(QPlcSlaveNode::ConnectionError, QStringLiteral("node '%1': %2").arg(name, text));
-    return false;
-}
-
-bool QPlcSlaveNodePrivate::openLocalLink(const Message &registered)
-{
-    QString text = QStringLiteral("cannot find out as which user the master at %1 runs, so none of its memory is "
-                                  "opened; use udp")
-                       .arg(master.toString());
-    const auto user = qplc::userOfPeer(qplc::SocketAddress(control->localAddress(), control->localPort()),
-                                       qplc::SocketAddress(control->peerAddress(), control->peerPort()));
-    if (user)
-        m_link = qplc::CyclicLink::local({registered.text(QStringLiteral("channel")),
-                                          registered.text(QStringLiteral("doorbell")),
-                                          registered.text(QStringLiteral("pipe"))},
-                                         *user, &text);
-    if (!m_link)
+    const bool isReady = m_transport->finishLink(controlEnds(), registered.fields(), &m_link, &text);
+    if (!isReady)
         giveUp(QPlcSlaveNode::ConnectionError, QStringLiteral("node '%1': %2").arg(name, qplc::printable(text)));
-    return m_link != nullptr;
+    return isReady;
 }
 
 /// Gives the cycle its link, with the faults that are wanted in between.
@@ -268,7 +247,7 @@ void QPlcSlaveNodePrivate::connectCyclicChannel()
         const int descriptor = m_cyclicSocket->takeDescriptor();
         m_cyclicSocket->deleteLater();
         m_cyclicSocket = nullptr;
-        giveLink(qplc::CyclicLink::tcp(descriptor, cycle->inputCutter(), qplc::MaximumCyclicFrame));
+        giveLink(m_transport->makeStreamLink(descriptor, cycle->inputCutter(), qplc::MaximumCyclicFrame));
         apply(qplc::SlaveEvent::ChannelAttached);
     });
     m_cyclicSocket->connectToMaster(master);

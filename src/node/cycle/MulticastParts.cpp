@@ -14,10 +14,10 @@ void MulticastPart::send(CyclicHub &hub, const FrameHeader &header) noexcept
     toBeSent = false;
 }
 
-void MulticastParts::restart(std::uint64_t session, const SocketAddress &group)
+void MulticastParts::restart(std::uint64_t session, const CyclicHub &hub)
 {
     m_session = session;
-    m_group = group;
+    m_hub = &hub;
     m_next = 0;
     m_open.reset();
     m_nodes.clear();
@@ -25,7 +25,8 @@ void MulticastParts::restart(std::uint64_t session, const SocketAddress &group)
 
 void MulticastParts::add(NodeSlot &slot)
 {
-    if (m_open && m_open->payloadSize + slot.inputLayout.size() > MaximumCyclicPayload)
+    const bool isOfAnotherKind = m_open && m_nodes.front()->transport != slot.transport;
+    if (isOfAnotherKind || (m_open && m_open->payloadSize + slot.inputLayout.size() > MaximumCyclicPayload))
         finish();
     if (!m_open) {
         m_open = std::make_shared<MulticastPart>();
@@ -51,7 +52,7 @@ void MulticastParts::finish()
     storeLittle(m_open->number, m_open->payload());
     for (NodeSlot *slot : m_nodes)
         slot->inputs = m_open->payload() + slot->multicastOffset;
-    m_open->group = UdpTransport::peer(m_group);
+    m_open->group = m_nodes.front()->transport->makeGroupPeer(*m_hub);
     m_open.reset();
     m_nodes.clear();
 }

@@ -11,7 +11,7 @@ namespace qplc {
 
 struct NodeSlot;
 
-/// One datagram that carries the inputs of several nodes: u16 number of the part, then the input payload of each of them.
+/// One frame that carries the inputs of several nodes: u16 number of the part, then the input payload of each of them.
 ///
 /// Made by the thread of the master before its nodes are asked for the first time; from then on the cycle thread's.
 struct MulticastPart
@@ -29,7 +29,7 @@ struct MulticastPart
     void send(CyclicHub &hub, const FrameHeader &header) noexcept;
 };
 
-/// Puts the nodes that listen to the multicast group into parts. A part never changes once its nodes know it: who joins while others run gets a part of its own, who leaves
+/// Puts the nodes of transports with groups into parts. A part never changes once its nodes know it: who joins while others run gets a part of its own, who leaves
 /// leaves a gap.
 class MulticastParts
 {
@@ -38,7 +38,7 @@ public:
     static constexpr std::size_t MaximumInputs = MaximumCyclicPayload - sizeof(std::uint16_t);
 
     /// Forgets all parts: a new phase begins.
-    void restart(std::uint64_t session, const SocketAddress &group);
+    void restart(std::uint64_t session, const CyclicHub &hub);
     /// Gives \a slot its place. \pre its inputs have at most MaximumInputs bytes
     void add(NodeSlot &slot);
     /// Makes the parts that have been begun ready.
@@ -46,7 +46,7 @@ public:
 
 private:
     std::uint64_t m_session = 0;
-    SocketAddress m_group;
+    const CyclicHub *m_hub = nullptr;
     std::uint16_t m_next = 0;
     std::shared_ptr<MulticastPart> m_open;
     std::vector<NodeSlot *> m_nodes;  // of m_open

@@ -10,6 +10,7 @@
 #include "signals/ProcessImage.h"
 #include "transport/CyclicHub.h"
 #include "transport/FrameCutter.h"
+#include "transport/TransportKind.h"
 
 #include <atomic>
 #include <memory>
@@ -27,15 +28,15 @@ struct NodeSlot
     quint16 id = 0;
     QPlcSlaveNode::RealTimeViolationPolicy policy = QPlcSlaveNode::ErrorZeroOrderHold;
     bool listener = false;
-    bool critical = false;          // the plant must not go on without it
-    bool hardware = false;          // drives real devices
-    ListeningInterval interval;     // longer than a cycle for listeners alone
-    bool wantsMulticast = false;    // listens to the multicast group of the master
-    bool twoPhase = false;          // the answer to cycle k holds the outputs of cycle k + 1
-    QString faultPlan;              // that the node injects; empty: none
-    std::vector<bool> sameCycle;    // for each field of inputLayout
-    NodeRuntime *local = nullptr;   // a node of this process; else over the network
-    std::unique_ptr<HubPeer> peer;  // null for a local node
+    bool critical = false;                     // the plant must not go on without it
+    bool hardware = false;                     // drives real devices
+    ListeningInterval interval;                // longer than a cycle for listeners alone
+    const TransportKind *transport = nullptr;  // null for a local node
+    bool twoPhase = false;                     // the answer to cycle k holds the outputs of cycle k + 1
+    QString faultPlan;                         // that the node injects; empty: none
+    std::vector<bool> sameCycle;               // for each field of inputLayout
+    NodeRuntime *local = nullptr;              // a node of this process; else over the network
+    std::unique_ptr<HubPeer> peer;             // null for a local node
     PayloadLayout inputLayout;
     PayloadLayout outputLayout;
     std::vector<CopyRun> inputRuns;      // image -> inputs
@@ -77,6 +78,8 @@ struct NodeSlot
     NodeStatistics statistics;
 
     bool isRequestSent() const { return multicast || (partsSent == encoder.partCount() && !peer->hasRest()); }
+    /// Whether its inputs travel together with those of other nodes.
+    bool isInGroup() const { return transport && transport->hasGroup(); }
     bool waits() const { return policy == QPlcSlaveNode::SilentWait || policy == QPlcSlaveNode::ErrorWait; }
     bool reports() const
     {

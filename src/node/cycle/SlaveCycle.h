@@ -11,6 +11,7 @@
 #include "realtime/CycleThread.h"
 #include "realtime/InterruptibleWaits.h"
 #include "transport/CyclicLink.h"
+#include "transport/FrameCutter.h"
 
 #include <atomic>
 #include <memory>

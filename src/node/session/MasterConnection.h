@@ -36,12 +36,13 @@ struct MasterConnection
     ConnectionGate::Ticket ticket = 0;  // of the door
     QString name;                       // as greeted
     QString uuid;
-    QString cyclicKind;                // "udp", "tcp"
-    TokenBucket messages{1000, 4000};  // that nobody has asked it for
-    quint64 token = 0;                 // names this node on its cyclic TCP connection
-    std::shared_ptr<NodeSlot> slot;    // null: no node
-    qint64 stageSince = 0;             // [ms] for time-outs
-    bool wantsLeases = false;          // has offered the feature, and so the next ones
+    QString cyclicKind;                        // "udp", "tcp"
+    const TransportKind *transport = nullptr;  // of this name; null: there is none
+    TokenBucket messages{1000, 4000};          // that nobody has asked it for
+    quint64 token = 0;                         // names this node on its cyclic TCP connection
+    std::shared_ptr<NodeSlot> slot;            // null: no node
+    qint64 stageSince = 0;                     // [ms] for time-outs
+    bool wantsLeases = false;                  // has offered the feature, and so the next ones
     bool wantsEvents = false;
     bool isHardware = false;  // has offered the feature
     bool hasFailed = false;   // has sent NodeFault since it was initialized last

@@ -5,7 +5,7 @@
 #include "node/security/SealFields.h"
 #include "protocol/ControlFrame.h"
 #include "signals/Fnv1a.h"
-#include "transport/StreamTransport.h"
+#include "transport/TransportRegistry.h"
 
 #include <QtCore/QJsonArray>
 #include <QtCore/QRandomGenerator>
@@ -28,10 +28,10 @@ QString nameOf(const QString &given)
     return printable(given.left(NodeDeclaration::LongestName));
 }
 
-/// For one registration. Memory that node and master share needs none: who may open it may look into both programs anyway.
+/// For one registration.
 std::optional<SealKeys> newSealKeys(const MasterConnection &connection)
 {
-    if (!connection.isSecured() || connection.cyclicKind == QLatin1String("local"))
+    if (!connection.isSecured() || !connection.transport->isSealed())
         return std::nullopt;
     return SealKeys::random();
 }
@@ -99,13 +99,10 @@ void MasterServer::registerNode(MasterConnection *connection, const Message &mes
     Refusal refusal;
     QString error;
     connection->cyclicKind = message.text(QStringLiteral("cyclic"));
-    const int udpPort = message.fields().value(QStringLiteral("udpPort")).toInt();
-    const bool isMulticast = connection->cyclicKind == QLatin1String("udp-multicast");
-    const bool isUdp = isMulticast || connection->cyclicKind == QLatin1String("udp");
-    const bool isLocal = connection->cyclicKind == QLatin1String("local");
+    connection->transport = TransportRegistry::instance().named(connection->cyclicKind);
     if (!NodeDeclaration::fromMessage(message, &declaration, &error))
         refusal = {QStringLiteral("MalformedMessage"), error};
-    else if (Refusal channel = channelRefusal(*connection, declaration, udpPort); !channel.error.isEmpty())
+    else if (Refusal channel = channelRefusal(*connection, declaration, message); !channel.error.isEmpty())
         refusal = channel;
     else {
         replace(connection, declaration.name);
@@ -120,7 +117,7 @@ void MasterServer::registerNode(MasterConnection *connection, const Message &mes
         return;
     }
     connection->name = declaration.name;
-    if (isMulticast && connection->slot->inputLayout.size() > MulticastParts::MaximumInputs) {
+    if (connection->transport->hasGroup() && connection->slot->inputLayout.size() > MulticastParts::MaximumInputs) {
         reject(
             connection, QStringLiteral("TooLong"),
             QStringLiteral("node '%1' has %2 bytes of inputs, more than the %3 of a datagram for many nodes; use udp")
@@ -129,6 +126,7 @@ void MasterServer::registerNode(MasterConnection *connection, const Message &mes
                 .arg(MulticastParts::MaximumInputs));
         return;
     }
+    connection->slot->transport = connection->transport;
     connection->slot->faultPlan = printable(message.text(QStringLiteral("faults"))).left(200);
     const std::optional<SealKeys> keys = newSealKeys(*connection);
     connection->slot->prepare(m_image, m_session, keys ? &*keys : nullptr);
@@ -142,17 +140,17 @@ void MasterServer::registerNode(MasterConnection *connection, const Message &mes
     registered.token = connection->token;
     if (keys)
         registered.seal = sealOf(*keys);
-    if (isLocal && !makeLocalPeer(connection, &registered))
-        return;
-    if (isUdp)
-        connection->slot->peer = UdpTransport::peer(SocketAddress(connection->socket->peerAddress(), quint16(udpPort)));
-    connection->slot->wantsMulticast = isMulticast;
-    if (isMulticast) {
-        registered.group = QHostAddress(m_group.data()).toString();
-        registered.groupPort = m_group.port();
+    if (!connection->transport->hasStreams()) {
+        ChannelError error;
+        connection->slot->peer = connection->transport->makePeer(m_hub, newcomer(*connection, declaration, message),
+                                                                 &registered.transport, &error);
+        if (!connection->slot->peer) {
+            reject(connection, error.word, error.text);
+            return;
+        }
     }
     connection->send(registered);
-    if (!isUdp && !isLocal) {
+    if (connection->transport->hasStreams()) {
         dropUnattached(connection);
         return;
     }
@@ -160,54 +158,25 @@ void MasterServer::registerNode(MasterConnection *connection, const Message &mes
     nodeAttached(connection);
 }
 
-/// Why there can be no cyclic channel as the node wants it; no error: there can.
-Refusal MasterServer::channelRefusal(const MasterConnection &connection, const NodeDeclaration &declaration,
-                                     int udpPort) const
+Newcomer MasterServer::newcomer(const MasterConnection &connection, const NodeDeclaration &declaration,
+                                const Message &message) const
 {
-    const QString &kind = connection.cyclicKind;
-    const bool isMulticast = kind == QLatin1String("udp-multicast");
-    const bool isUdp = isMulticast || kind == QLatin1String("udp");
-    if (kind == QLatin1String("local") && !connection.socket->peerAddress().isLoopback())
-        return {QStringLiteral("MalformedMessage"),
-                QStringLiteral("a local node runs on the machine of its master; use udp")};
-    if (!isUdp && kind != QLatin1String("local") && kind != QLatin1String("tcp"))
-        return {QStringLiteral("MalformedMessage"),
-                QStringLiteral("unknown cyclic channel '%1'; use tcp, udp, udp-multicast or local").arg(kind)};
-    if (isUdp && (udpPort < 1 || udpPort > 65535))
-        return {QStringLiteral("MalformedMessage"), QStringLiteral("UDP port %1 is out of 1 ... 65535").arg(udpPort)};
-    if (isMulticast && connection.isSecured())
-        return {QStringLiteral("WrongState"),
-                QStringLiteral("a secured master sends no datagrams for many nodes; use udp")};
-    if (isMulticast && m_group.length == 0)
-        return {QStringLiteral("WrongState"),
-                QStringLiteral("this master has no multicast group; give it one, or use udp")};
-    if (isMulticast && declaration.isOrdered())
-        return {QStringLiteral("WrongState"),
-                QStringLiteral("node '%1' has same-cycle inputs or two phases: it is asked alone; use udp")
-                    .arg(declaration.name)};
-    if (isMulticast && !declaration.interval.isEveryCycle())
-        return {QStringLiteral("WrongState"),
-                QStringLiteral("node '%1' wants one of %2 cycles: it is asked alone; use udp")
-                    .arg(declaration.name)
-                    .arg(declaration.interval.cycles())};
-    return {};
+    return {declaration.name,        connection.socket->peerAddress(), connection.isSecured(),
+            declaration.isOrdered(), declaration.interval.cycles(),    message.fields()};
 }
 
-/// \return false when there is no shared memory: the node has been refused
-bool MasterServer::makeLocalPeer(MasterConnection *connection, messages::Registered *registered)
+/// Why there can be no cyclic channel as the node wants it; no error: there can.
+Refusal MasterServer::channelRefusal(const MasterConnection &connection, const NodeDeclaration &declaration,
+                                     const Message &message) const
 {
-    QString error;
-    auto memory = std::make_unique<SharedMemory>();
-    if (!memory->create(sizeof(SharedChannel), &error)) {
-        reject(connection, QStringLiteral("NodeError"), error);
-        return false;
-    }
-    const LocalTransport::Paths paths = m_hub.localPaths();
-    registered->channel = memory->path();
-    registered->doorbell = paths.doorbell;
-    registered->pipe = paths.pipe;
-    connection->slot->peer = LocalTransport::peer(std::move(memory));
-    return true;
+    if (!connection.transport)
+        return {QStringLiteral("MalformedMessage"),
+                QStringLiteral("unknown cyclic channel '%1'; use %2")
+                    .arg(connection.cyclicKind, TransportRegistry::instance().namesText())};
+    ChannelError error;
+    if (connection.transport->admits(m_hub, newcomer(connection, declaration, message), &error))
+        return {};
+    return {error.word, error.text};
 }
 
 /// Who registers and does not attach keeps a name and signals from others: not for ever.
@@ -252,7 +221,7 @@ void MasterServer::attachCyclicChannel(MasterConnection *connection, const Messa
     forget(connection);
     if (descriptor < 0)
         return;
-    node->slot->peer = StreamTransport::peer(descriptor, node->slot->outputCutter(), MaximumCyclicFrame);
+    node->slot->peer = node->transport->makeStreamPeer(descriptor, node->slot->outputCutter(), MaximumCyclicFrame);
     nodeAttached(node);
 }
 

@@ -4,9 +4,9 @@
 #include "node/Logging.h"
 #include "protocol/ControlFrame.h"
 #include "realtime/TimeSource.h"
+#include "transport/TransportRegistry.h"
 
 #include <QtCore/QPointer>
-#include <QtNetwork/QUdpSocket>
 
 #include <algorithm>
 
@@ -42,6 +42,12 @@ MasterServer::MasterServer(NodeRegistry &registry, const ProcessImage &image, Cy
 MasterServer::~MasterServer()
 {
     close();
+}
+
+void MasterServer::setSecurity(const QPlcSecurity &security)
+{
+    m_isSecured = !security.isNone();
+    m_door.setSecurity(security);
 }
 
 void MasterServer::setMaximumConnections(int connections)
@@ -95,7 +101,8 @@ bool MasterServer::listen(const QHostAddress &address, quint16 port, const QStri
     for (int attempts = port == 0 ? 16 : 1; attempts > 0; --attempts) {
         if (!openPorts(address, port))
             continue;
-        if ((name.isEmpty() || m_name.hold(name, this->port(), &m_errorString)) && openMulticast(address, group))
+        if ((name.isEmpty() || m_name.hold(name, this->port(), &m_errorString))
+            && openTransports({address, group, m_isSecured}))
             return true;
         close();
         return false;
@@ -103,20 +110,11 @@ bool MasterServer::listen(const QHostAddress &address, quint16 port, const QStri
     return false;
 }
 
-bool MasterServer::openMulticast(const QHostAddress &address, const QHostAddress &group)
+bool MasterServer::openTransports(const MasterPlace &place)
 {
-    m_group = SocketAddress();
-    if (group.isNull())
-        return true;
-    if (!group.isMulticast() || group.protocol() != QAbstractSocket::IPv4Protocol) {
-        m_errorString = QStringLiteral("%1 is no multicast group of IPv4; use one of 239.0.0.0 ... 239.255.255.255")
-                            .arg(group.toString());
-        return false;
-    }
-    QUdpSocket finder;  // a port of its own: nodes of this machine share it with each other, not with the server
-    finder.bind(QHostAddress::AnyIPv4, 0);
-    m_group = SocketAddress(group, finder.localPort());
-    return m_hub.openMulticast(address, &m_errorString);
+    const auto opens = [&](const auto &kind) { return kind->open(m_hub, place, &m_errorString); };
+    const auto &kinds = TransportRegistry::instance().kinds();
+    return std::all_of(kinds.begin(), kinds.end(), opens);
 }
 
 void MasterServer::close()

@@ -28,21 +28,19 @@ public:
     ~MasterServer() override;
 
     /// Takes effect with listen().
-    void setSecurity(const QPlcSecurity &security) { m_door.setSecurity(security); }
+    void setSecurity(const QPlcSecurity &security);
     void setMaximumConnections(int connections);
     /// Adds who was not let in, and what was not carried out.
     void count(QPlcMasterStatistics *statistics) const;
 
     /// \param name  under which local nodes find the port; empty: none
-    /// \param group  multicast group for nodes that want one; null: none
+    /// \param group  for frames to many nodes; null: none
     /// \return false, with the reason in errorString()
     bool listen(const QHostAddress &address, quint16 port, const QString &name, const QHostAddress &group);
     void close();
     quint16 port() const;
     /// Where it listens, or has listened last.
     QHostAddress address() const { return m_address; }
-    /// Where the datagrams for many nodes go. \pre listen() was given a group
-    SocketAddress multicastGroup() const { return m_group; }
     QString errorString() const { return m_errorString; }
 
     const std::vector<std::unique_ptr<MasterConnection>> &connections() const { return m_connections; }
@@ -80,15 +78,17 @@ private:
     void receiveGarbage(MasterConnection *connection);
     void greet(MasterConnection *connection, const QPlcMessage &message);
     void registerNode(MasterConnection *connection, const QPlcMessage &message);
-    bool makeLocalPeer(MasterConnection *connection, messages::Registered *registered);
     void replace(const MasterConnection *newcomer, const QString &name);
     void attachCyclicChannel(MasterConnection *connection, const QPlcMessage &message);
     void nodeAttached(MasterConnection *connection);
     void reject(MasterConnection *connection, const QString &error, const QString &reason);
     void forget(MasterConnection *connection);
     bool openPorts(const QHostAddress &address, quint16 port);
-    bool openMulticast(const QHostAddress &address, const QHostAddress &group);
-    Refusal channelRefusal(const MasterConnection &connection, const NodeDeclaration &declaration, int udpPort) const;
+    bool openTransports(const MasterPlace &place);
+    Newcomer newcomer(const MasterConnection &connection, const NodeDeclaration &declaration,
+                      const QPlcMessage &message) const;
+    Refusal channelRefusal(const MasterConnection &connection, const NodeDeclaration &declaration,
+                           const QPlcMessage &message) const;
 
     NodeRegistry &m_registry;
     const ProcessImage &m_image;
@@ -100,7 +100,7 @@ private:
     MasterDoor m_door;
     LocalName m_name;
     QHostAddress m_address;
-    SocketAddress m_group;
+    bool m_isSecured = false;
     std::vector<std::unique_ptr<MasterConnection>> m_connections;
     QString m_errorString;
     quint64 m_deniedMessages = 0;

@@ -176,6 +176,58 @@ bool fromObject(const QJsonObject &object, Struct *value, QString *error)
     return read(object, Description<Struct>::fields, value, error);
 }
 
+// ---- fields of somebody else ----
+
+/// All fields of a message, for somebody who knows those that the struct itself does not name.
+///
+/// Reading takes a copy of all; writing adds those that no other description has written.
+template<typename Owner>
+struct Rest
+{
+    QJsonObject Owner::*member;
+};
+
+template<typename Owner>
+constexpr Rest<Owner> rest(QJsonObject Owner::*member)
+{
+    return {member};
+}
+
+template<typename Struct, typename Owner>
+void write(const Struct &value, const Rest<Owner> &rest, QJsonObject *object)
+{
+    const QJsonObject &fields = value.*rest.member;
+    for (auto each = fields.begin(); each != fields.end(); ++each) {
+        if (!object->contains(each.key()))
+            object->insert(each.key(), each.value());
+    }
+}
+
+template<typename Struct, typename Owner>
+bool read(const QJsonObject &object, const Rest<Owner> &rest, Struct *value, QString *)
+{
+    value->*rest.member = object;
+    return true;
+}
+
+/// The fields of \a Struct among those of \a object. What is missing or cannot be used is as in a
+/// new struct.
+template<typename Struct>
+Struct fieldsOf(const QJsonObject &object)
+{
+    Struct value;
+    QString ignored;
+    fromObject(object, &value, &ignored);
+    return value;
+}
+
+/// Adds the fields of \a value to \a object.
+template<typename Struct>
+void addFields(const Struct &value, QJsonObject *object)
+{
+    write(value, Description<Struct>::fields, object);
+}
+
 // ---- structs in structs ----
 
 template<typename Struct>

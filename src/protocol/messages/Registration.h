@@ -37,9 +37,9 @@ struct Register
     bool twoPhase = false;
     bool quality = false;
     bool outputQuality = false;
-    Carrier cyclic = Carrier::Udp;
-    quint16 udpPort = 0;
+    QString cyclic;  // name of the transport
     QString faults;
+    QJsonObject transport;  // with the fields that the transport adds
 
     static constexpr auto fields = std::make_tuple(
         field("name", &Register::name, Presence::Required), field("uuid", &Register::uuid),
@@ -51,8 +51,8 @@ struct Register
         field("twoPhase", &Register::twoPhase, Presence::WhenSet),
         field("quality", &Register::quality, Presence::WhenSet),
         field("outputQuality", &Register::outputQuality, Presence::WhenSet),
-        field("cyclic", &Register::cyclic, Presence::Required), field("udpPort", &Register::udpPort, Presence::WhenSet),
-        field("faults", &Register::faults, Presence::WhenSet));
+        field("cyclic", &Register::cyclic, Presence::Required), field("faults", &Register::faults, Presence::WhenSet),
+        rest(&Register::transport));
 };
 
 /// Keys of one registration, a direction each.
@@ -75,22 +75,14 @@ struct Registered
     MasterState state = MasterState::Unknown;
     Hex64 token;  // of the cyclic connection
     std::optional<Seal> seal;
-    QString group;  // with udp-multicast
-    quint16 groupPort = 0;
-    QString channel;  // with local
-    QString doorbell;
-    QString pipe;
+    QJsonObject transport;  // with the fields that the transport adds
 
-    static constexpr auto fields = std::make_tuple(
-        field("node", &Registered::node, Presence::Required, Range{1, 65535}),
-        field("inputsHash", &Registered::inputsHash, Presence::Required),
-        field("outputsHash", &Registered::outputsHash, Presence::Required), field("state", &Registered::state),
-        field("token", &Registered::token), field("seal", &Registered::seal, Presence::Checked),
-        field("group", &Registered::group, Presence::WhenSet),
-        field("groupPort", &Registered::groupPort, Presence::WhenSet),
-        field("channel", &Registered::channel, Presence::WhenSet),
-        field("doorbell", &Registered::doorbell, Presence::WhenSet),
-        field("pipe", &Registered::pipe, Presence::WhenSet));
+    static constexpr auto fields
+        = std::make_tuple(field("node", &Registered::node, Presence::Required, Range{1, 65535}),
+                          field("inputsHash", &Registered::inputsHash, Presence::Required),
+                          field("outputsHash", &Registered::outputsHash, Presence::Required),
+                          field("state", &Registered::state), field("token", &Registered::token),
+                          field("seal", &Registered::seal, Presence::Checked), rest(&Registered::transport));
 };
 
 /// The first message of a cyclic TCP connection.

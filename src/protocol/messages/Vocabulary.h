@@ -65,16 +65,4 @@ struct Names<ClockKind>
         = {{ClockKind::RealTime, "RealTime"}, {ClockKind::Scaled, "Scaled"}, {ClockKind::Lockstep, "Lockstep"}};
 };
 
-/// What carries the cyclic frames of a node.
-enum class Carrier : quint8 { Udp, Tcp, UdpMulticast, Local };
-
-template<>
-struct Names<Carrier>
-{
-    static constexpr std::pair<Carrier, const char *> all[] = {{Carrier::Udp, "udp"},
-                                                               {Carrier::Tcp, "tcp"},
-                                                               {Carrier::UdpMulticast, "udp-multicast"},
-                                                               {Carrier::Local, "local"}};
-};
-
 }  // namespace qplc::messages
