@@ -25,7 +25,6 @@ PLACES = {
     "gui/gauges": (2, 2.7, "instruments"),
     "gui/setters": (3, 2.7, "sliders, keys"),
     "gui/tables": (4, 2.7, "trees, lists"),
-    "gui/kite": (5, 2.7, "wind window"),
     "gui/panel": (2.5, 4.1, "shared by panels"),
     "gui/models": (2, 5.3, "rows for views"),
     "gui/plot": (3, 5.3, "curves, formulas"),

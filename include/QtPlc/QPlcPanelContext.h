@@ -84,6 +84,7 @@ public:
         QString state;             ///< "Real time", "lost"
         QString stateText;         ///< the same with the reason: "Disconnected: Connection refused"
         double age = -1.0;         ///< time since its values were true [s]; -1: it has none
+        Time newest = 0;           ///< time of its newest value [ns]; 0: it has none
     };
     /// How numbers of a unit are written.
     struct Prefix
@@ -146,6 +147,8 @@ public:
     static QString text(const Signal &signal, int digits = 4);
     /// Returns a number with its unit: "1.008 MJ". \param unit  as in the signal table
     static QString text(double number, const QString &unit, int digits = 4);
+    /// Returns an age, or another span of time, in few letters: "12 ms", "3.4 s", "5 min".
+    static QString ageText(double seconds);
     /// Returns one prefix for many numbers, as an axis needs it. \param size  of the largest one
     static Prefix prefix(const QString &unit, double size);
 

@@ -16,11 +16,15 @@
 /// ground station, side, top, downwind, and chase, whose camera is fixed to the body and follows its course. Arrow keys turn, + and - zoom.
 ///
 /// Drawn with Qt 3D into pictures: when something has changed, at most 30 times a second, less where OpenGL is slow, and never while hidden. Where there is no OpenGL (or with the environment variable
-/// QTPLC_OPENGL=off) it says so in a line and shows a QPlcWindWindow. A body that is too small to be seen is drawn larger than it is; a note says how much.
+/// QTPLC_OPENGL=off) it says so in a line and shows the wind window. A body that is too small to be seen is drawn larger than it is; a note says how much.
 ///
-/// Settings: those of QPlcWindWindow, and what follows; what is missing has its default, as shown here but for `model`:
+/// Settings; what is missing has its default, as shown here but for `model`, `minimum`, `maximum` and `entities`:
 /// ```json
-/// {"camera": "ground station", "view": {"yaw": 0, "pitch": 0, "zoom": 1, "pan": [0, 0, 0]}, "model": "/home/me/kite.obj", "bodyScale": 0,
+/// {"position": "bodyPosition_earth", "velocity": "bodyVelocity_earth", "wind": "windVelocity_earth",
+///  "controlOrientation": "bodyControlOrientation", "positionOrientation": "bodyPositionOrientation",
+///  "force": "aerodynamicForce_earth", "tetherLength": "tetherLength",
+///  "color": "power", "minimum": 0, "maximum": 4000, "trail": 30,
+///  "camera": "ground station", "view": {"yaw": 0, "pitch": 0, "zoom": 1, "pan": [0, 0, 0]}, "model": "/home/me/kite.obj", "bodyScale": 0,
 ///  "ground": true, "smallEarth": true, "axes": true, "vectors": true, "tether": true,
 ///  "entities": [{"at": [0, 0, 5], "name": "mast"}, {"at": "buoyPosition", "to": [0, 0, 0], "color": "#009e73"},
 ///               {"vector": "tetherForce_earth", "scale": 0.02, "color": "#d55e00", "name": "tether"}]}

@@ -45,7 +45,6 @@ QPlcView3D::QPlcView3D(QWidget *parent)
     setAccessibleName(tr("3D view: the kite in space"));
     setFocusPolicy(Qt::StrongFocus);
     new DragEscape(this, this);
-    connect(this, &QPlcWidget::pinnedPlantChanged, this, [this] { d->kite.setPin(pinnedPlant()); });
     d->wheelEnd.setSingleShot(true);
     d->wheelEnd.setInterval(400);
     connect(&d->wheelEnd, &QTimer::timeout, this, &QPlcView3D::settingsEdited);
@@ -163,8 +162,7 @@ QStringList QPlcView3D::shownSignals() const
 
 void QPlcView3D::contextChanged()
 {
-    d->kite.setContext(windowContext());
-    d->picture->setContext(windowContext());
+    d->kite.setContext(context());
 }
 
 void QPlcView3D::paintEvent(QPaintEvent * /*event*/)

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SceneDrawing.h"
 
-#include "gui/WindowText.h"
-#include "gui/kite/KiteOverlay.h"
+#include "Kite.h"
 
 #include <algorithm>
 #include <array>
@@ -21,7 +20,7 @@ QColor faded(QColor color, double opacity)
     return color;
 }
 
-std::array<QColor, 3> axisColors(const Theme &theme)
+std::array<QColor, 3> axisColors(const QPlcTheme &theme)
 {
     if (theme.isDark)
         return {QColor(0xe8, 0x83, 0x7a), QColor(0x7f, 0xc9, 0x8b), QColor(0x86, 0xb4, 0xf0)};
@@ -235,7 +234,7 @@ void drawTrail(LineBatch *lines, const FlightTrail &trail, const ColorScale &sca
 namespace {
 
 /// Thin letters need more contrast than arrows.
-QColor textColor(const QColor &arrow, const Theme &theme)
+QColor textColor(const QColor &arrow, const QPlcTheme &theme)
 {
     return theme.isDark ? arrow.lighter(135) : arrow.darker(115);
 }
@@ -249,12 +248,12 @@ std::vector<SceneLabel> sceneLabels(const SceneInput &input, float forceUnit)
     if (input.show.axes) {
         const float length = 0.13f * input.size;
         const QVector3D begin;
-        labels.push_back({{length, 0, 0}, WindowText::tr("east"), colors[0], begin});
-        labels.push_back({{0, length, 0}, WindowText::tr("north"), colors[1], begin});
-        labels.push_back({{0, 0, length}, WindowText::tr("up"), colors[2], begin});
+        labels.push_back({{length, 0, 0}, KiteText::tr("east"), colors[0], begin});
+        labels.push_back({{0, length, 0}, KiteText::tr("north"), colors[1], begin});
+        labels.push_back({{0, 0, length}, KiteText::tr("up"), colors[2], begin});
         if (input.state.wind)
             labels.push_back({positionOf({input.downwind, 0, 0.31f * input.size}),
-                              WindowText::tr("wind %1 m/s").arg(double(input.state.wind->length()), 0, 'f', 1),
+                              KiteText::tr("wind %1 m/s").arg(double(input.state.wind->length()), 0, 'f', 1),
                               input.theme.accent});
     }
     for (const SceneEntity &entity : input.entities) {
@@ -266,10 +265,10 @@ std::vector<SceneLabel> sceneLabels(const SceneInput &input, float forceUnit)
     const auto place = [&input](const QVector3D &vector) { return *input.state.position + 1.12f * vector; };
     if (const auto wind = windVector(input))
         labels.push_back({place(*wind),
-                          WindowText::tr("%1 m/s").arg(double(input.state.relativeWind()->length()), 0, 'f', 0),
+                          KiteText::tr("%1 m/s").arg(double(input.state.relativeWind()->length()), 0, 'f', 0),
                           textColor(windColor, input.theme)});
     if (const auto force = forceVector(input, forceUnit))
-        labels.push_back({place(*force), WindowText::tr("%1 N").arg(double(input.state.force->length()), 0, 'f', 0),
+        labels.push_back({place(*force), KiteText::tr("%1 N").arg(double(input.state.force->length()), 0, 'f', 0),
                           textColor(forceColor, input.theme)});
     return labels;
 }

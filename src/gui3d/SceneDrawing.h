@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "Kite.h"
 #include "LineBatch.h"
 #include "ObjMesh.h"
 #include "OrbitCamera.h"
 #include "SceneEntity.h"
 #include "View3DSettings.h"
-#include "gui/kite/KiteSignals.h"
 
 namespace qplc {
 
@@ -24,7 +24,7 @@ struct SceneInput
 {
     KiteState state;
     View3DShow show;
-    Theme theme;
+    QPlcTheme theme;
     float size = 100;       // [m]
     float downwind = 0;     // [deg]
     float bodyScale = 1;    // how much larger than it is the body is drawn

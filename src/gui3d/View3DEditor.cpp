@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "View3DEditor.h"
-#include "gui/panel/EndOfEditor.h"
 
 #include <QtWidgets/QAction>
 #include <QtWidgets/QCheckBox>
@@ -54,7 +53,8 @@ View3DEditor::View3DEditor(const View3DSettings &settings, QWidget *parent)
 
 View3DEditor::~View3DEditor()
 {
-    disconnectLines(this);
+    for (QLineEdit *line : findChildren<QLineEdit *>())  // one that loses the focus now must write nothing
+        line->disconnect(this);
 }
 
 void View3DEditor::addCamera(QFormLayout *form)

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "Kite.h"
 #include "View3DSettings.h"
-#include "gui/kite/KiteSettingsEditor.h"
+#include "kite/KiteSettingsEditor.h"
 
 #include <QtWidgets/QWidget>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "View3DOverlay.h"
 
-#include "gui/WindowText.h"
+#include "Kite.h"
 
 #include <QtCore/QLineF>
 #include <QtCore/QtMath>
@@ -87,7 +87,7 @@ std::vector<QRectF> labelBoxes(const std::vector<SceneLabel> &labels, const Came
 }
 
 void drawLabels(QPainter *painter, const std::vector<SceneLabel> &labels, const CameraPose &pose, const QSizeF &size,
-                const Theme &theme)
+                const QPlcTheme &theme)
 {
     const QFontMetricsF metrics(painter->font());
     const std::vector<QRectF> boxes = labelBoxes(labels, pose, size, [&metrics](const QString &text) {
@@ -104,7 +104,8 @@ void drawLabels(QPainter *painter, const std::vector<SceneLabel> &labels, const 
     }
 }
 
-void drawScale(QPainter *painter, const QRectF &area, const CameraPose &pose, const QString &camera, const Theme &theme)
+void drawScale(QPainter *painter, const QRectF &area, const CameraPose &pose, const QString &camera,
+               const QPlcTheme &theme)
 {
     const double perPixel = double(pose.heightAtTarget()) / std::max(1.0, area.height());
     const double length = roundLength(0.22 * area.width() * perPixel);
@@ -116,11 +117,11 @@ void drawScale(QPainter *painter, const QRectF &area, const CameraPose &pose, co
     painter->drawLine(left + QPointF(0, -3), left + QPointF(0, 3));
     painter->drawLine(left + QPointF(pixels, -3), left + QPointF(pixels, 3));
     painter->drawText(QRectF(left.x(), left.y() - line - 3, area.width(), line),
-                      WindowText::tr("%1 m · %2").arg(length).arg(camera));
+                      KiteText::tr("%1 m · %2").arg(length).arg(camera));
 }
 
 void drawCompass(QPainter *painter, const QPointF &center, const CameraPose &pose, std::optional<float> downwind,
-                 const Theme &theme)
+                 const QPlcTheme &theme)
 {
     const float top = lookAzimuth(pose);
     painter->setBrush(Qt::NoBrush);
@@ -131,7 +132,7 @@ void drawCompass(QPainter *painter, const QPointF &center, const CameraPose &pos
     painter->drawLine(center + 0.55 * roseRadius * north, center + roseRadius * north);
     QRectF letter(0, 0, 14, 14);
     letter.moveCenter(center + (roseRadius + 7) * north);
-    painter->drawText(letter, Qt::AlignCenter, WindowText::tr("N"));
+    painter->drawText(letter, Qt::AlignCenter, KiteText::tr("N"));
     if (!downwind)
         return;
     const QPointF along = onRose(*downwind, top);

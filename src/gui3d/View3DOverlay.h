@@ -17,12 +17,12 @@ std::vector<QRectF> labelBoxes(const std::vector<SceneLabel> &labels, const Came
                                const std::function<QSizeF(const QString &)> &sizeOf);
 /// Names of axes and vectors at their places in the picture.
 void drawLabels(QPainter *painter, const std::vector<SceneLabel> &labels, const CameraPose &pose, const QSizeF &size,
-                const Theme &theme);
+                const QPlcTheme &theme);
 /// A bar with its length at the distance of what the camera looks at, the name of the camera above.
 void drawScale(QPainter *painter, const QRectF &area, const CameraPose &pose, const QString &camera,
-               const Theme &theme);
+               const QPlcTheme &theme);
 /// A small rose: north and the wind as seen from above, with what the camera looks at on top.
 void drawCompass(QPainter *painter, const QPointF &center, const CameraPose &pose, std::optional<float> downwind,
-                 const Theme &theme);
+                 const QPlcTheme &theme);
 
 }  // namespace qplc

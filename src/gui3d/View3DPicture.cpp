@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "View3DPicture.h"
 
+#include "Kite.h"
 #include "OpenGlProbe.h"
-#include "QPlcWindWindow.h"
+#include "QPlcWidget.h"
 #include "View3DEditor.h"
 #include "View3DOverlay.h"
-#include "gui/kite/KiteOverlay.h"
+#include "kite/WindWindowView.h"
 
 #include <QtWidgets/QLabel>
 
@@ -21,15 +22,21 @@ const QVector3D kiteBridle(0.1f, 0, -4.6f);  // where the lines of our model mee
 
 }  // namespace
 
-View3DPicture::View3DPicture(KiteSignals *kite, QWidget *widget)
+View3DPicture::View3DPicture(KiteSignals *kite, QPlcWidget *widget)
     : QObject(widget)
     , m_kite(kite)
     , m_widget(widget)
+    , m_context(widget->context())
 {
     m_frame.setSingleShot(true);
     m_frame.setTimerType(Qt::PreciseTimer);
     m_watchdog.setSingleShot(true);
     connect(kite, &KiteSignals::changed, this, &View3DPicture::want);
+    connect(m_context, &QPlcPanelContext::themeChanged, this, [this] {
+        m_isGroundDue = true;
+        m_widget->update();
+        want();
+    });
     connect(&m_frame, &QTimer::timeout, this, [this] {
         if (m_isDue)
             draw();
@@ -40,22 +47,6 @@ View3DPicture::View3DPicture(KiteSignals *kite, QWidget *widget)
 
 View3DPicture::~View3DPicture() = default;
 
-void View3DPicture::setContext(WindowContext *context)
-{
-    m_context = context;
-    if (context) {
-        connect(context, &WindowContext::themeChanged, this, [this] {
-            m_isGroundDue = true;
-            m_widget->update();
-            want();
-        });
-    }
-    if (m_windWindow)
-        m_windWindow->setContext(context);
-    m_isGroundDue = true;
-    want();
-}
-
 void View3DPicture::setSettings(const View3DSettings &settings)
 {
     m_settings = settings;
@@ -63,7 +54,7 @@ void View3DPicture::setSettings(const View3DSettings &settings)
     if (m_loadedModel != settings.model)
         loadModel();
     if (m_windWindow)
-        m_windWindow->applySettings(settings.kite.toJson());
+        m_windWindow->update();
     want();
 }
 
@@ -103,12 +94,11 @@ void View3DPicture::showWindWindow(const QString &reason)
     m_openGlError = reason;
     m_watchdog.stop();
     m_renderer.reset();
-    m_windWindow = new QPlcWindWindow(m_widget);
-    m_windWindow->setContext(m_context);
-    m_windWindow->applySettings(m_settings.kite.toJson());
+    m_windWindow = new WindWindowView(m_kite, m_context, m_widget);
+    m_windWindow->setObjectName(QStringLiteral("windWindow"));
     m_reason = new QLabel(tr("%1 This is the wind window instead.").arg(reason), m_widget);
     m_reason->setObjectName(QStringLiteral("openGlError"));
-    m_reason->setFont(labelFont(m_widget->font()));
+    m_reason->setFont(theme().labelFont);
     m_reason->setToolTip(m_reason->text());
     placeWindWindow();
     m_windWindow->show();
@@ -129,9 +119,9 @@ void View3DPicture::resized()
     want();
 }
 
-Theme View3DPicture::theme() const
+QPlcTheme View3DPicture::theme() const
 {
-    return m_context ? m_context->theme() : Theme::byName(Theme::System);
+    return m_context->theme();
 }
 
 QSize View3DPicture::deviceSize() const
@@ -249,12 +239,12 @@ QString View3DPicture::note() const
 
 void View3DPicture::paint()
 {
-    if (m_windWindow)
-        return;
     QPainter painter(m_widget);
+    if (m_windWindow)
+        return painter.fillRect(m_widget->rect(), theme().surface);  // below the line that says why
     painter.setRenderHints(QPainter::Antialiasing | QPainter::SmoothPixmapTransform);
     const QRectF area = m_widget->rect();
-    const Theme colors = theme();
+    const QPlcTheme colors = theme();
     painter.fillRect(area, colors.surface);
     const QString problem = m_kite->problem();
     if (!problem.isEmpty())
@@ -262,12 +252,12 @@ void View3DPicture::paint()
     if (m_picture.isNull())
         return drawHint(&painter, area, tr("The first picture is being drawn ..."), colors);
     painter.drawImage(area, m_picture);
-    if (m_shownInput.state.quality == Plant::Stale && !m_shownInput.state.pastTime) {
+    if (m_shownInput.state.isStale && !m_shownInput.state.pastTime) {
         QColor veil = colors.surface;
         veil.setAlpha(140);
         painter.fillRect(area, veil);
     }
-    painter.setFont(labelFont(m_widget->font()));
+    painter.setFont(theme().labelFont);
     if (isRoomy())
         drawLabels(&painter, sceneLabels(m_shownInput, m_forceUnit), m_shownPose, area.size(), colors);
     paintCorners(&painter);
@@ -277,7 +267,7 @@ void View3DPicture::paintCorners(QPainter *painter)
 {
     const QRectF all = m_widget->rect();
     const QRectF area = all.adjusted(margin, 0.5 * margin, -margin, -0.5 * margin);
-    const Theme colors = theme();
+    const QPlcTheme colors = theme();
     if (!m_kite->colorTitle().isEmpty())
         drawColorBar(painter, area.topLeft(), m_scale, m_kite->colorTitle(), colors);
     if (isRoomy())
@@ -291,7 +281,7 @@ void View3DPicture::paintCorners(QPainter *painter)
             = m_shownInput.state.wind ? std::optional<float>(m_shownInput.state.downwind()) : std::nullopt;
         drawCompass(painter, area.bottomRight() + QPointF(-24, -line - 26), m_shownPose, wind, colors);
     }
-    const bool isWarning = !m_modelError.isEmpty() || m_shownInput.state.quality == Plant::Stale;
+    const bool isWarning = !m_modelError.isEmpty() || m_shownInput.state.isStale;
     painter->setPen(isWarning ? colors.warning : m_shownInput.state.pastTime ? colors.accent : colors.mutedText);
     painter->drawText(QRectF(area.left(), area.bottom() - line, area.width(), line), Qt::AlignRight, note());
     if (m_widget->hasFocus()) {

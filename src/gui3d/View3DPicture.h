@@ -8,7 +8,7 @@
 #include <QtWidgets/QWidget>
 
 class QLabel;
-class QPlcWindWindow;
+class QPlcWidget;
 
 namespace qplc {
 
@@ -19,10 +19,9 @@ class View3DPicture : public QObject
 public:
     /// \param kite    outlives this
     /// \param widget  on which it paints, and its parent
-    View3DPicture(KiteSignals *kite, QWidget *widget);
+    View3DPicture(KiteSignals *kite, QPlcWidget *widget);
     ~View3DPicture() override;
 
-    void setContext(WindowContext *context);
     void setSettings(const View3DSettings &settings);
     void shown();
     void resized();
@@ -49,18 +48,18 @@ private:
     bool isRoomy() const;
     QString note() const;
     QSize deviceSize() const;
-    Theme theme() const;
+    QPlcTheme theme() const;
 
     KiteSignals *m_kite;
-    QWidget *m_widget;
-    WindowContext *m_context = nullptr;
+    QPlcWidget *m_widget;
+    QPlcPanelContext *m_context;
     View3DSettings m_settings;
     ObjMesh m_model;
     QString m_modelError;
     QString m_loadedModel;
     QString m_openGlError;
     std::unique_ptr<SceneRenderer, SceneRenderer::GiveBack> m_renderer;
-    QPlcWindWindow *m_windWindow = nullptr;
+    QWidget *m_windWindow = nullptr;
     QLabel *m_reason = nullptr;
 
     // What the next picture is made of, and what the one that is shown was.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "Kite.h"
 #include "OrbitCamera.h"
-#include "gui/kite/KiteSettings.h"
 
 #include <QtCore/QJsonArray>
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "QPlcView3D.h"
-#include "QPlcWindWindow.h"
 #include "gui3d/OpenGlProbe.h"
 
 #include <QtTest/QtTest>
@@ -29,7 +28,6 @@ private Q_SLOTS:
     void initTestCase();
     void theReasonIsTold();
     void theWindWindowIsShownWithTheReason();
-    void theWindWindowTakesTheSettings();
     void theReasonStaysInThePanel();
     void settingsComeBackByteByByte();
     void keysChooseCameras();
@@ -56,27 +54,16 @@ void tst_NoOpenGl::theWindWindowIsShownWithTheReason()
 {
     QPlcView3D view;
     view.resize(400, 300);
-    QVERIFY(!view.findChild<QPlcWindWindow *>());
+    QVERIFY(!view.findChild<QWidget *>(QStringLiteral("windWindow")));
     view.show();
     QVERIFY(QTest::qWaitForWindowExposed(&view));
-    auto *instead = view.findChild<QPlcWindWindow *>();
+    auto *instead = view.findChild<QWidget *>(QStringLiteral("windWindow"));
     QVERIFY(instead && instead->isVisible());
     QVERIFY(!view.openGlError().isEmpty());
     auto *reason = view.findChild<QLabel *>(QStringLiteral("openGlError"));
     QVERIFY(reason && reason->isVisible() && reason->text().contains(view.openGlError()));
     QVERIFY(!reason->text().contains(QLatin1Char('\n')));
     QVERIFY(!instead->geometry().intersects(reason->geometry()));
-}
-
-void tst_NoOpenGl::theWindWindowTakesTheSettings()
-{
-    QPlcView3D view;
-    view.applySettings({{"trail", 90}, {"camera", "chase"}});
-    view.show();
-    auto *instead = view.findChild<QPlcWindWindow *>();
-    QCOMPARE(instead->settings(), QJsonObject({{"trail", 90}}));
-    view.applySettings({{"color", "tetherLength"}});
-    QCOMPARE(instead->settings(), QJsonObject({{"color", "tetherLength"}}));
 }
 
 void tst_NoOpenGl::theReasonStaysInThePanel()

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "gui/panel/Theme.h"
 #include "gui3d/FramePacer.h"
 #include "gui3d/LineBatch.h"
 #include "gui3d/ObjMesh.h"
@@ -230,15 +231,11 @@ void tst_SceneGeometry::anArrowWithoutLengthIsNothing()
 
 void tst_SceneGeometry::aPathBecomesItsJoinedLines()
 {
-    SignalStore store(4, 16);
-    const float values[] = {1, 2, 3, 4};
-    for (int i = 0; i < 4; ++i) {
-        if (i == 2)
-            store.interrupt();
-        QVERIFY(store.append(i, values));
-    }
+    FlightTrail::Samples past;
+    for (int i = 0; i < 4; ++i)
+        past.append({i, 1.0, 1.0, 1.0, QPlcQuality::Good, i != 0 && i != 2});
     FlightTrail trail;
-    trail.read(store, 0, 3, 0, 10);
+    trail.read(past, past, past, past);
     LineBatch batch;
     drawTrail(&batch, trail, ColorScale(), 2);
     QCOMPARE(batch.lines(), 2);

@@ -37,11 +37,10 @@ ARROWS = {
     "gui/gauges": {"signals", "node", "gui", "gui/plant", "gui/plot", "gui/models", "gui/panel", "gui/gauges"},
     "gui/setters": {"signals", "node", "gui", "gui/plant", "gui/models", "gui/panel", "gui/setters"},
     "gui/tables": {"signals", "node", "gui", "gui/models", "gui/panel", "gui/tables"},
-    "gui/kite": {"signals", "node", "gui", "gui/store", "gui/models", "gui/panel", "gui/kite"},
     "gui/layout": {"signals", "node", "gui", "gui/panel", "gui/layout"},
     # It makes panels by their names (QPlcWidgetFactory).
     "gui/window": {"signals", "node", "node/state", "node/session", "gui", "gui/plant", "gui/models", "gui/panel", "gui/layout", "gui/window"},
-    "gui3d": {"signals", "node", "gui", "gui/panel", "gui/kite", "gui3d"},
+    "gui3d": {"signals", "node", "gui", "gui/panel", "gui3d"},
     "tools": BELOW_NODE | {"node", "node/state", "node/security", "node/cycle", "node/session", "tools"},
 }
 # Room with a library of its own: folder of its list of headers, and its umbrella header. All others belong to QtPlc::Core.
@@ -86,17 +85,16 @@ KNOWS_FIELDS = {
 # Panels know the window by QPlcPanelContext alone. Files of panels that still know what is private to the window: a list
 # that only shrinks.
 WINDOW = re.compile(r'WindowContext\b|"gui/(?:window|layout)/')
-PANEL_ROOMS = ("charts", "gauges", "kite", "setters", "tables")
+PANEL_ROOMS = ("charts", "gauges", "setters", "tables")
 KNOWS_WINDOW = {
     "gui/charts/QPlcJitterHistogram.cpp", "gui/charts/QPlcTimePlot.cpp", "gui/charts/QPlcTimePlotPrivate.h",
     "gui/charts/QPlcXyPlot.cpp", "gui/charts/QPlcXyPlotPrivate.h", "gui/charts/TriggerBar.cpp",
     "gui/charts/TriggerBar.h", "gui/gauges/GaugeFeed.cpp", "gui/gauges/GaugeFeed.h", "gui/gauges/QPlcGauge.cpp",
-    "gui/kite/KiteSignals.cpp", "gui/kite/KiteSignals.h", "gui/kite/QPlcWindWindow.cpp",
     "gui/setters/QPlcKeyboardControl.cpp", "gui/setters/QPlcSetter.cpp", "gui/setters/QPlcSignalControl.cpp",
     "gui/tables/PanelTable.cpp", "gui/tables/PanelTable.h", "gui/tables/QPlcEventLog.cpp",
     "gui/tables/QPlcNodeTable.cpp", "gui/tables/QPlcSignalTree.cpp", "gui/tables/QPlcValueTable.cpp",
     "gui/tables/TableDelegate.cpp", "gui/tables/TableDelegate.h", "gui/tables/TableTime.h",
-    "gui/tables/TimeStrip.cpp", "gui/tables/TimeStrip.h", "gui3d/View3DPicture.cpp", "gui3d/View3DPicture.h",
+    "gui/tables/TimeStrip.cpp", "gui/tables/TimeStrip.h",
 }
 TABLE = r"_data\(\)$|^\s*static const\b"
 

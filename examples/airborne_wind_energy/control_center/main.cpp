@@ -2,6 +2,7 @@
 #include "DemoFlight.h"
 #include "ScreenshotTask.h"
 #include "Settings.h"
+#include "kite/WindWindow.h"
 
 #ifdef QTPLC_HAS_GUI3D
 #include "QPlcView3D.h"
@@ -120,8 +121,9 @@ int main(int argc, char **argv)
         return application.exitCode();
 
     QPlcControlCenter window;
+    window.addPanel<awe::WindWindow>();
 #ifdef QTPLC_HAS_GUI3D
-    window.addAvailableWidget(QPlcWidget::registerFactory(new QPlcView3DFactory));
+    window.addPanel<QPlcView3D>();
 #endif
     awe::DemoFlight demo(&window);
     if (!prepare(application, window, settings))

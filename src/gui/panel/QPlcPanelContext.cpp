@@ -391,6 +391,7 @@ QPlcPanelContext::Plant QPlcPanelContext::plant(const QString &name) const
     plant.state = stateWord(*found);
     plant.stateText = found->stateText();
     plant.age = found->age();
+    plant.newest = found->newestTime();
     return plant;
 }
 
@@ -428,6 +429,11 @@ QString QPlcPanelContext::text(double number, const QString &unit, int digits)
 {
     const Prefix shown = prefix(unit, std::abs(number));
     return QStringLiteral("%1 %2").arg(steadyNumberText(number * shown.factor, digits), shown.unit).trimmed();
+}
+
+QString QPlcPanelContext::ageText(double seconds)
+{
+    return qplc::ageText(seconds);
 }
 
 QPlcPanelContext::Prefix QPlcPanelContext::prefix(const QString &unit, double size)

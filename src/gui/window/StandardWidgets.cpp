@@ -11,7 +11,6 @@
 #include "QPlcTimePlot.h"
 #include "QPlcValueTable.h"
 #include "QPlcWidget.h"
-#include "QPlcWindWindow.h"
 #include "QPlcXyPlot.h"
 
 namespace qplc {
@@ -31,8 +30,8 @@ QList<QPlcWidgetFactory *> standardWidgets()
     // In the order of menus.
     static const QList<QPlcWidgetFactory *> all
         = registered<QPlcTimePlotFactory, QPlcXyPlotFactory, QPlcGaugeFactory, QPlcSetterFactory,
-                     QPlcKeyboardControlFactory, QPlcWindWindowFactory, QPlcValueTableFactory, QPlcSignalTreeFactory,
-                     QPlcNodeTableFactory, QPlcJitterHistogramFactory, QPlcEventLogFactory>();
+                     QPlcKeyboardControlFactory, QPlcValueTableFactory, QPlcSignalTreeFactory, QPlcNodeTableFactory,
+                     QPlcJitterHistogramFactory, QPlcEventLogFactory>();
     return all;
 }
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "NodeFixtures.h"
-#include "gui/kite/KiteGeometry.h"
 #include "gui/panel/WindowContext.h"
+#include "kite/KiteGeometry.h"
 
 #include <QtTest/QtTest>
 
@@ -41,7 +41,7 @@ protected:
     void reset() override { m_angle = 0.0; }
     void step(const QPlcCycle &cycle) override
     {
-        using namespace qplc;
+        using namespace awe;
         m_angle = isStanding ? 0.0 : m_angle + cycle.dt() * 1.57;
         const float radius = isStanding ? 0.0f : 15.0f;
         const auto azimuth = float(radius * std::cos(m_angle));

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "gui/kite/ColorScale.h"
-#include "gui/kite/KiteGeometry.h"
-#include "gui/kite/KiteSettings.h"
-#include "gui/kite/WindWindowDrawing.h"
+#include "kite/ColorScale.h"
+#include "kite/KiteGeometry.h"
+#include "kite/KiteSettings.h"
+#include "kite/WindWindowDrawing.h"
 
 #include <QtTest/QtTest>
 
 #include <cmath>
 
-using namespace qplc;
+using namespace awe;
 
 namespace {
 

@@ -2,6 +2,7 @@
 #include "DemoFlight.h"
 #include "Program.h"
 #include "Screenshot.h"
+#include "kite/WindWindow.h"
 
 #ifdef QTPLC_HAS_GUI3D
 #include "QPlcView3D.h"
@@ -143,8 +144,9 @@ void tst_LayoutPictures::everyPanelShowsTheFlight()
     QFETCH(QStringList, panels);
     QFETCH(int, curves);
     QPlcControlCenter window;
+    window.addPanel<awe::WindWindow>();
 #ifdef QTPLC_HAS_GUI3D
-    window.addAvailableWidget(QPlcWidget::registerFactory(new QPlcView3DFactory));
+    window.addPanel<QPlcView3D>();
 #endif
     QFile layout(QStringLiteral(AWE_LAYOUTS "/airborne_wind_energy.json"));
     QVERIFY(layout.open(QIODevice::ReadOnly) && window.addLayout(QStringLiteral("Kite"), layout.readAll()));

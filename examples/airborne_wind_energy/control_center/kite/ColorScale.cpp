@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-namespace qplc {
+namespace awe {
 
 namespace {
 
@@ -52,4 +52,4 @@ ColorScale ColorScale::around(double minimum, double maximum)
     return {std::floor(minimum / step) * step, std::ceil(maximum / step) * step};
 }
 
-}  // namespace qplc
+}  // namespace awe

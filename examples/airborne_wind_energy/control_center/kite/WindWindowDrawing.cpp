@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "WindWindowDrawing.h"
 
-#include "gui/WindowText.h"
+#include "KiteText.h"
 
 #include <QtCore/QtMath>
 
 #include <algorithm>
 #include <cmath>
 
-namespace qplc {
+namespace awe {
 
 namespace {
 
@@ -17,7 +17,7 @@ constexpr double margin = 8.0;        // [px]
 
 QString windText(double speed)
 {
-    return WindowText::tr("wind %1 m/s").arg(speed, 0, 'f', 1);
+    return KiteText::tr("wind %1 m/s").arg(speed, 0, 'f', 1);
 }
 
 }  // namespace
@@ -54,7 +54,7 @@ QPainterPath kiteSymbol()
     return path;
 }
 
-WindWindowDrawing::WindWindowDrawing(QPainter *painter, const QSizeF &size, const Theme &theme)
+WindWindowDrawing::WindWindowDrawing(QPainter *painter, const QSizeF &size, const QPlcTheme &theme)
     : m_painter(painter)
     , m_size(size)
     , m_theme(theme)
@@ -122,11 +122,11 @@ void WindWindowDrawing::drawLabels()
         const QPointF place = m_frame.toPixels(windWindowPoint(float(azimuth), 0, 0));
         const QRectF box(place.x() - 30, place.y() + 0.5 * belowHorizon * m_frame.scale(), 60, metrics.height());
         if (std::abs(place.x() - m_frame.origin().x()) > half)
-            m_painter->drawText(box, Qt::AlignHCenter | Qt::AlignTop, WindowText::tr("%1 deg").arg(azimuth));
+            m_painter->drawText(box, Qt::AlignHCenter | Qt::AlignTop, KiteText::tr("%1 deg").arg(azimuth));
     }
     for (int elevation = step; elevation < 90; elevation += step) {
         const QPointF place = m_frame.toPixels(windWindowPoint(0, float(elevation), 0));
-        m_painter->drawText(place + QPointF(3, -2), WindowText::tr("%1 deg").arg(elevation));
+        m_painter->drawText(place + QPointF(3, -2), KiteText::tr("%1 deg").arg(elevation));
     }
 }
 
@@ -175,7 +175,7 @@ void WindWindowDrawing::drawKite(const KiteState &state)
     if (state.course)
         nose = windWindowDirection(*state.position, state.course->rotatedVector({-1, 0, 0}), downwind);
     const double size = std::clamp(6.0 * m_frame.scale(), 10.0, 20.0);
-    const bool isStale = state.quality == Plant::Stale && !state.pastTime;
+    const bool isStale = state.isStale && !state.pastTime;
     m_painter->save();
     m_painter->translate(place);
     m_painter->rotate(qRadiansToDegrees(std::atan2(nose.x(), nose.y())));
@@ -198,10 +198,32 @@ void WindWindowDrawing::drawCorners(const KiteState &state, const ColorScale &sc
     if (text.isEmpty())
         return;
     const double height = QFontMetricsF(m_painter->font()).height();
-    m_painter->setPen(state.pastTime                      ? m_theme.accent
-                          : state.quality == Plant::Stale ? m_theme.warning
-                                                          : m_theme.mutedText);
+    m_painter->setPen(state.pastTime ? m_theme.accent : state.isStale ? m_theme.warning : m_theme.mutedText);
     m_painter->drawText(QRectF(margin, m_size.height() - height - 2, m_size.width(), height), text);
 }
 
-}  // namespace qplc
+void drawWindWindow(QPainter *painter, const QSizeF &size, const KiteSignals &kite, const QPlcTheme &theme)
+{
+    painter->setFont(theme.labelFont);
+    WindWindowDrawing drawing(painter, size, theme);
+    drawing.drawSky();
+    const QString problem = kite.problem();
+    if (!problem.isEmpty()) {
+        QColor veil = theme.surface;
+        veil.setAlpha(190);
+        painter->fillRect(QRectF(QPointF(), size), veil);
+        painter->setFont(theme.font);
+        drawHint(painter, QRectF(QPointF(), size), problem, theme);
+        return;
+    }
+    const KiteState state = kite.state();
+    FlightTrail trail;
+    kite.readTrail(&trail);
+    const ColorScale scale = kite.colorScale(trail);
+    drawing.drawWind(state);
+    drawing.drawTrail(trail, scale, state.downwind());
+    drawing.drawKite(state);
+    drawing.drawCorners(state, scale, kite.colorTitle());
+}
+
+}  // namespace awe

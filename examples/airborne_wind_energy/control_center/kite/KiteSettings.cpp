@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace qplc {
+namespace awe {
 
 namespace {
 
@@ -70,4 +70,4 @@ QJsonObject KiteSettings::toJson() const
     return json;
 }
 
-}  // namespace qplc
+}  // namespace awe

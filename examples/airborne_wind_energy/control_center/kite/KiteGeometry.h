@@ -5,7 +5,7 @@
 #include <QtGui/QQuaternion>
 #include <QtGui/QVector3D>
 
-namespace qplc {
+namespace awe {
 
 // Where a kite is and how it stands, for the eye: single precision is enough. Frames as in the example's plant: the earth's is x east, y north, z up with the ground station in its origin; the body's is
 // x_b to the tail, y_b along the span, z_b out of the top side. Angles are in degrees. An azimuth grows from x to y: seen from the ground station, to the left.
@@ -46,4 +46,4 @@ QPointF windWindowDirection(const QVector3D &position, const QVector3D &directio
 /// \param index, count  the point, 0 (ground station) ... count - 1 (kite), count >= 2
 QVector3D tetherPoint(const QVector3D &kite, float length, int index, int count);
 
-}  // namespace qplc
+}  // namespace awe

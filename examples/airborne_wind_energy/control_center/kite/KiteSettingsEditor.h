@@ -9,7 +9,7 @@
 class QDoubleSpinBox;
 class QLineEdit;
 
-namespace qplc {
+namespace awe {
 
 /// The form behind the toothed wheel of a view of a kite. Changes hold at once.
 class KiteSettingsEditor : public QWidget
@@ -35,4 +35,4 @@ private:
     QFormLayout *m_form;
 };
 
-}  // namespace qplc
+}  // namespace awe

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "KiteFixtures.h"
-#include "QPlcWindWindow.h"
-#include "gui/kite/WindWindowDrawing.h"
+#include "QPlcWidgetFactoryOf.h"
+#include "kite/WindWindow.h"
+#include "kite/WindWindowDrawing.h"
 
 #include <QtWidgets/QDoubleSpinBox>
 
-using namespace qplc;
+using namespace awe;
+using qplc::SignalStore;
+using qplc::Theme;
+using qplc::WindowContext;
 
-class tst_QPlcWindWindow : public QObject
+class tst_WindWindow : public QObject
 {
     Q_OBJECT
 private Q_SLOTS:
@@ -25,25 +29,25 @@ private Q_SLOTS:
     void droppedSignalsColorThePath();
 
 private:
-    QImage picture(QPlcWindWindow *view, const QSize &size);
+    QImage picture(WindWindow *view, const QSize &size);
     Theme m_theme = Theme::byName(Theme::Light);
 };
 
-void tst_QPlcWindWindow::initTestCase()
+void tst_WindWindow::initTestCase()
 {
-    QPlcWidget::registerFactory(new QPlcWindWindowFactory);
+    QPlcWidget::registerFactory(new QPlcWidgetFactoryOf<WindWindow>);
     QVERIFY(QPlcWidget::factory(QStringLiteral("Wind window")));
 }
 
-QImage tst_QPlcWindWindow::picture(QPlcWindWindow *view, const QSize &size)
+QImage tst_WindWindow::picture(WindWindow *view, const QSize &size)
 {
     view->resize(size);
     return view->grab().toImage();
 }
 
-void tst_QPlcWindWindow::withoutAContextItSaysCalmlyWhatIsMissing()
+void tst_WindWindow::withoutAContextItSaysCalmlyWhatIsMissing()
 {
-    QPlcWindWindow view;
+    WindWindow view;
     QVERIFY(!picture(&view, {240, 160}).isNull());
     WindowContext context;
     view.setContext(&context);
@@ -52,12 +56,14 @@ void tst_QPlcWindWindow::withoutAContextItSaysCalmlyWhatIsMissing()
     QCOMPARE(view.settings(), QJsonObject());
 }
 
-void tst_QPlcWindWindow::aMissingSignalIsNamed()
+void tst_WindWindow::aMissingSignalIsNamed()
 {
     FlyingPlant plant;
     QVERIFY(plant.fly());
+    QPlcWidget panel;
+    panel.setContext(&plant.context);
     KiteSignals kite;
-    kite.setContext(&plant.context);
+    kite.setContext(panel.context());
     QCOMPARE(kite.problem(), QString());
     KiteSettings settings;
     settings.position = QStringLiteral("nowhere");
@@ -71,12 +77,14 @@ void tst_QPlcWindWindow::aMissingSignalIsNamed()
     QVERIFY(!kite.readTrail(&trail));
 }
 
-void tst_QPlcWindWindow::aKiteWhoseNodeIsLostIsNowhere()
+void tst_WindWindow::aKiteWhoseNodeIsLostIsNowhere()
 {
     FlyingPlant plant(false, QStringLiteral("tcp"));
     QVERIFY(plant.fly());
+    QPlcWidget panel;
+    panel.setContext(&plant.context);
     KiteSignals kite;
-    kite.setContext(&plant.context);
+    kite.setContext(panel.context());
     QVERIFY(kite.state().position);
     plant.kite.disconnectFromMaster();
     QTRY_VERIFY(!kite.state().position);
@@ -88,25 +96,25 @@ void tst_QPlcWindWindow::aKiteWhoseNodeIsLostIsNowhere()
         QVERIFY(!point.position.isNull());
 }
 
-void tst_QPlcWindWindow::theKiteIsWhereItFlies_data()
+void tst_WindWindow::theKiteIsWhereItFlies_data()
 {
     QTest::addColumn<QSize>("size");
     for (const QSize &size : {QSize(240, 160), QSize(640, 400)})
         QTest::addRow("%d x %d", size.width(), size.height()) << size;
 }
 
-void tst_QPlcWindWindow::theKiteIsWhereItFlies()
+void tst_WindWindow::theKiteIsWhereItFlies()
 {
     QFETCH(QSize, size);
     FlyingPlant plant(true);
     plant.context.setTheme(m_theme);
     QVERIFY(plant.fly());
-    QPlcWindWindow view;
+    WindWindow view;
     view.applySettings({{"trail", 0}});
     view.setContext(&plant.context);
     const QImage image = picture(&view, size);
 
-    const WindWindowFrame frame(size, QFontMetricsF(labelFont(view.font())).height());
+    const WindWindowFrame frame(size, QFontMetricsF(view.context()->theme().labelFont).height());
     const QPoint place = frame.toPixels(QPointF(0, 35)).toPoint();
     const auto isKite = [this](const QColor &color) { return color.lightness() < m_theme.text.lightness() + 50; };
     QVERIFY(countPixels(image, QRect(place - QPoint(20, 20), place + QPoint(20, 20)), isKite) > 20);
@@ -114,16 +122,16 @@ void tst_QPlcWindWindow::theKiteIsWhereItFlies()
     QCOMPARE(countPixels(image, aside, isKite), 0);
 }
 
-void tst_QPlcWindWindow::aFlownPathIsColored()
+void tst_WindWindow::aFlownPathIsColored()
 {
     FlyingPlant plant;
     plant.context.setTheme(m_theme);
     QVERIFY(plant.fly());
     QTRY_VERIFY_WITH_TIMEOUT(plant.context.plants()->at(0)->store()->endRow() > 150, 10'000);
-    QPlcWindWindow view;
+    WindWindow view;
     view.setContext(&plant.context);
     const auto isColored = [](const QColor &color) { return color.hsvSaturation() > 90; };
-    const WindWindowFrame frame({420, 260}, QFontMetricsF(labelFont(view.font())).height());
+    const WindWindowFrame frame({420, 260}, QFontMetricsF(view.context()->theme().labelFont).height());
     const QPoint middle = frame.toPixels(QPointF(0, 35)).toPoint();
     const int reach = int(20 * frame.scale());
     const QRect about(middle - QPoint(reach, reach), middle + QPoint(reach, reach));
@@ -133,9 +141,9 @@ void tst_QPlcWindWindow::aFlownPathIsColored()
     QVERIFY(countPixels(picture(&view, {420, 260}), about, isColored) < 10);
 }
 
-void tst_QPlcWindWindow::nothingIsDrawnWhileHidden()
+void tst_WindWindow::nothingIsDrawnWhileHidden()
 {
-    class Counter : public QPlcWindWindow
+    class Counter : public WindWindow
     {
     public:
         int paints = 0;
@@ -144,7 +152,7 @@ void tst_QPlcWindWindow::nothingIsDrawnWhileHidden()
         void paintEvent(QPaintEvent *event) override
         {
             ++paints;
-            QPlcWindWindow::paintEvent(event);
+            WindWindow::paintEvent(event);
         }
     };
     FlyingPlant plant;
@@ -162,14 +170,16 @@ void tst_QPlcWindWindow::nothingIsDrawnWhileHidden()
     QCOMPARE(view.paints, before);
 }
 
-void tst_QPlcWindWindow::thePastIsShownWhenTheWindowShowsThePast()
+void tst_WindWindow::thePastIsShownWhenTheWindowShowsThePast()
 {
     FlyingPlant plant;
     QVERIFY(plant.fly());
     const SignalStore *store = plant.context.plants()->at(0)->store();
     QTRY_VERIFY_WITH_TIMEOUT(store->endRow() > 150, 10'000);
+    QPlcWidget panel;
+    panel.setContext(&plant.context);
     KiteSignals kite;
-    kite.setContext(&plant.context);
+    kite.setContext(panel.context());
     const SignalStore::Row row = store->firstRow() + 50;
     plant.context.timeView()->setNewest(store->time(store->endRow() - 1));
     plant.context.timeView()->show(store->time(row) - 1'000'000'000, store->time(row));
@@ -185,9 +195,9 @@ void tst_QPlcWindWindow::thePastIsShownWhenTheWindowShowsThePast()
     QVERIFY(!kite.state().position);
 }
 
-void tst_QPlcWindWindow::settingsComeBackByteByByte()
+void tst_WindWindow::settingsComeBackByteByByte()
 {
-    QPlcWindWindow view;
+    WindWindow view;
     const QJsonObject json{{"color", "tetherLength"}, {"minimum", 0}, {"maximum", 200}, {"trail", 60},
                            {"title", "Sky"},          {"later", 3}};
     view.applySettings(json);
@@ -196,9 +206,9 @@ void tst_QPlcWindWindow::settingsComeBackByteByByte()
     QVERIFY(!view.settings().contains(QStringLiteral("trail")));
 }
 
-void tst_QPlcWindWindow::theEditorChangesAtOnceAndIsAnUndoStep()
+void tst_WindWindow::theEditorChangesAtOnceAndIsAnUndoStep()
 {
-    QPlcWindWindow view;
+    WindWindow view;
     QSignalSpy edits(&view, &QPlcWidget::settingsEdited);
     const std::unique_ptr<QWidget> editor(view.createSettingsEditor());
     auto *trail = editor->findChild<QDoubleSpinBox *>();
@@ -208,13 +218,13 @@ void tst_QPlcWindWindow::theEditorChangesAtOnceAndIsAnUndoStep()
     QCOMPARE(view.settings().value(QStringLiteral("trail")).toDouble(), 120.0);
 }
 
-void tst_QPlcWindWindow::droppedSignalsColorThePath()
+void tst_WindWindow::droppedSignalsColorThePath()
 {
-    QPlcWindWindow view;
+    WindWindow view;
     QVERIFY(!view.addSignals({}));
     QVERIFY(view.addSignals({QStringLiteral("tetherLength")}));
     QCOMPARE(view.settings().value(QStringLiteral("color")).toString(), QStringLiteral("tetherLength"));
 }
 
-QTEST_MAIN(tst_QPlcWindWindow)
-#include "tst_QPlcWindWindow.moc"
+QTEST_MAIN(tst_WindWindow)
+#include "tst_WindWindow.moc"

@@ -6,7 +6,7 @@
 
 #include <optional>
 
-namespace qplc {
+namespace awe {
 
 /// Which signals are a kite, and how its path is drawn. A value type; the defaults are those of the example's signal table.
 struct KiteSettings
@@ -31,4 +31,4 @@ struct KiteSettings
     static constexpr double longestTrail = 600.0;  // [s]
 };
 
-}  // namespace qplc
+}  // namespace awe

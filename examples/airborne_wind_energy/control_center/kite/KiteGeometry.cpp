@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace qplc {
+namespace awe {
 
 namespace {
 
@@ -101,4 +101,4 @@ QVector3D tetherPoint(const QVector3D &kite, float length, int index, int count)
     return s * kite - QVector3D(0, 0, 4.0f * sag * s * (1.0f - s));
 }
 
-}  // namespace qplc
+}  // namespace awe

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "KiteSettingsEditor.h"
-#include "gui/panel/EndOfEditor.h"
 
 #include <QtWidgets/QDoubleSpinBox>
 #include <QtWidgets/QLineEdit>
 
-namespace qplc {
+namespace awe {
 
 KiteSettingsEditor::KiteSettingsEditor(const KiteSettings &settings, QWidget *parent)
     : QWidget(parent)
@@ -27,7 +26,9 @@ KiteSettingsEditor::KiteSettingsEditor(const KiteSettings &settings, QWidget *pa
 
 KiteSettingsEditor::~KiteSettingsEditor()
 {
-    disconnectLines(this);
+    // A line that has the focus loses it only when the settings are no more: it must not write them then.
+    for (QLineEdit *line : findChildren<QLineEdit *>())
+        line->disconnect(this);
 }
 
 void KiteSettingsEditor::addSignal(const QString &label, QString KiteSettings::*member)
@@ -82,4 +83,4 @@ void KiteSettingsEditor::addLimit(const QString &label, std::optional<double> Ki
     });
 }
 
-}  // namespace qplc
+}  // namespace awe

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "QPlcWidget.h"
-#include "QPlcWidgetFactoryOf.h"
+#include "KiteSignals.h"
+#include <QPlcWidget.h>
+
+namespace awe {
 
 /// The sky downwind of a ground station, with the kite, its course, and the path of the last seconds coloured by a signal.
 ///
@@ -20,14 +22,13 @@
 /// missing), `trail` the length of the path in seconds (0 ... 600). Without an orientation the nose looks to the zenith.
 ///
 /// Threads: the thread of the window.
-class QTPLC_GUI_EXPORT QPlcWindWindow : public QPlcWidget
+class WindWindow : public QPlcWidget
 {
     Q_OBJECT
 public:
     static QString typeName() { return QStringLiteral("Wind window"); }
 
-    explicit QPlcWindWindow(QWidget *parent = nullptr);
-    ~QPlcWindWindow() override;
+    explicit WindWindow(QWidget *parent = nullptr);
 
     QString kind() const override { return typeName(); }
     QJsonObject settings() const override;
@@ -43,11 +44,9 @@ public:
 protected:
     void contextChanged() override;
     void paintEvent(QPaintEvent *event) override;
-    void showEvent(QShowEvent *event) override;
 
 private:
-    struct Private;
-    std::unique_ptr<Private> d;
+    KiteSignals m_kite;
 };
 
-using QPlcWindWindowFactory = QPlcWidgetFactoryOf<QPlcWindWindow>;
+}  // namespace awe

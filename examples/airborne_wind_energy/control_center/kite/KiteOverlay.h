@@ -5,21 +5,19 @@
 
 #include <QtGui/QPainter>
 
-namespace qplc {
+namespace awe {
 
 // What stands beside the picture of a kite: small, in the corners.
 
-/// A font for labels: a little smaller than that of the window.
-QFont labelFont(const QFont &font);
 /// A bar of colours with its ends below and what it shows above. \param topLeft  where it begins [px]
 void drawColorBar(QPainter *painter, const QPointF &topLeft, const ColorScale &scale, const QString &title,
-                  const Theme &theme);
+                  const QPlcTheme &theme);
 /// Lines at the right edge, below each other: azimuth, elevation, distance.
-void drawReadout(QPainter *painter, const QRectF &area, const KiteState &state, const Theme &theme);
+void drawReadout(QPainter *painter, const QRectF &area, const KiteState &state, const QPlcTheme &theme);
 /// "stale, 3 s", "at 12:03:04.5"; empty for what is true now.
 QString stateText(const KiteState &state);
 /// A calm sentence in the middle.
-void drawHint(QPainter *painter, const QRectF &area, const QString &text, const Theme &theme);
+void drawHint(QPainter *painter, const QRectF &area, const QString &text, const QPlcTheme &theme);
 QColor mixedColor(const QColor &a, const QColor &b, double share);
 
-}  // namespace qplc
+}  // namespace awe

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "KiteOverlay.h"
 
-#include "gui/WindowText.h"
-#include "gui/models/ValueFormat.h"
+#include "KiteText.h"
 
 #include <QtCore/QDateTime>
 
 #include <algorithm>
 #include <cmath>
 
-namespace qplc {
+namespace awe {
 
 namespace {
 
@@ -26,18 +25,8 @@ QLinearGradient gradient(const ColorScale &scale, const QPointF &from, const QPo
 
 }  // namespace
 
-QFont labelFont(const QFont &font)
-{
-    QFont small = font;
-    if (font.pointSizeF() > 0)
-        small.setPointSizeF(std::max(7.0, font.pointSizeF() * 0.85));
-    else
-        small.setPixelSize(std::max(9, int(font.pixelSize() * 0.85)));
-    return small;
-}
-
 void drawColorBar(QPainter *painter, const QPointF &topLeft, const ColorScale &scale, const QString &title,
-                  const Theme &theme)
+                  const QPlcTheme &theme)
 {
     const QFontMetricsF metrics(painter->font());
     const double line = metrics.height();
@@ -53,18 +42,18 @@ void drawColorBar(QPainter *painter, const QPointF &topLeft, const ColorScale &s
     painter->drawText(ends, Qt::AlignRight | Qt::AlignTop, maximum);
 }
 
-void drawReadout(QPainter *painter, const QRectF &area, const KiteState &state, const Theme &theme)
+void drawReadout(QPainter *painter, const QRectF &area, const KiteState &state, const QPlcTheme &theme)
 {
     if (!state.position)
         return;
     const SkyPosition sky = skyPosition(*state.position);
     const double azimuth = std::round(wrappedAngle(double(sky.azimuth - state.downwind()))) + 0.0;  // no -0
     const QString lines[] = {
-        WindowText::tr("azimuth %1 deg").arg(azimuth, 0, 'f', 0),
-        WindowText::tr("elevation %1 deg").arg(double(sky.elevation), 0, 'f', 0),
-        WindowText::tr("distance %1 m").arg(double(sky.distance), 0, 'f', 0),
+        KiteText::tr("azimuth %1 deg").arg(azimuth, 0, 'f', 0),
+        KiteText::tr("elevation %1 deg").arg(double(sky.elevation), 0, 'f', 0),
+        KiteText::tr("distance %1 m").arg(double(sky.distance), 0, 'f', 0),
     };
-    painter->setPen(state.quality == Plant::Stale && !state.pastTime ? theme.stale : theme.mutedText);
+    painter->setPen(state.isStale && !state.pastTime ? theme.stale : theme.mutedText);
     const double height = QFontMetricsF(painter->font()).height();
     QRectF line(area.left(), area.top(), area.width(), height);
     for (const QString &text : lines) {
@@ -77,16 +66,16 @@ QString stateText(const KiteState &state)
 {
     if (state.pastTime) {
         const QDateTime time = QDateTime::fromMSecsSinceEpoch(*state.pastTime / 1'000'000);
-        return WindowText::tr("at %1").arg(time.toString(QStringLiteral("HH:mm:ss.zzz")).chopped(2));
+        return KiteText::tr("at %1").arg(time.toString(QStringLiteral("HH:mm:ss.zzz")).chopped(2));
     }
-    if (state.quality == Plant::Stale)
-        return WindowText::tr("stale, %1").arg(ageText(state.age));
+    if (state.isStale)
+        return KiteText::tr("stale, %1").arg(QPlcPanelContext::ageText(state.age));
     if (!state.position)
-        return WindowText::tr("no position");
+        return KiteText::tr("no position");
     return {};
 }
 
-void drawHint(QPainter *painter, const QRectF &area, const QString &text, const Theme &theme)
+void drawHint(QPainter *painter, const QRectF &area, const QString &text, const QPlcTheme &theme)
 {
     painter->setPen(theme.mutedText);
     painter->drawText(area.adjusted(12, 12, -12, -12), Qt::AlignCenter | Qt::TextWordWrap, text);
@@ -98,4 +87,4 @@ QColor mixedColor(const QColor &a, const QColor &b, double share)
     return QColor::fromRgbF(mix(a.redF(), b.redF()), mix(a.greenF(), b.greenF()), mix(a.blueF(), b.blueF()));
 }
 
-}  // namespace qplc
+}  // namespace awe

@@ -6,7 +6,7 @@
 #include <QtGui/QPainter>
 #include <QtGui/QPainterPath>
 
-namespace qplc {
+namespace awe {
 
 /// Where the half circle of the wind window lies in a rectangle, and how degrees become pixels. A value type.
 class WindWindowFrame
@@ -32,7 +32,7 @@ private:
 class WindWindowDrawing
 {
 public:
-    WindWindowDrawing(QPainter *painter, const QSizeF &size, const Theme &theme);
+    WindWindowDrawing(QPainter *painter, const QSizeF &size, const QPlcTheme &theme);
 
     void drawSky();
     void drawWind(const KiteState &state);
@@ -47,11 +47,14 @@ private:
 
     QPainter *m_painter;
     QSizeF m_size;
-    Theme m_theme;
+    QPlcTheme m_theme;
     WindWindowFrame m_frame;
 };
+
+/// The whole picture: the kite, or why there is none.
+void drawWindWindow(QPainter *painter, const QSizeF &size, const KiteSignals &kite, const QPlcTheme &theme);
 
 /// The outline of a kite seen from below, 2 wide, its nose upwards (y < 0), about (0, 0).
 QPainterPath kiteSymbol();
 
-}  // namespace qplc
+}  // namespace awe

@@ -3,7 +3,7 @@
 
 #include <QtGui/QColor>
 
-namespace qplc {
+namespace awe {
 
 /// Values as colours, from violet over green to orange: all as bright as each other, so that they are seen on white and on black. A value type.
 struct ColorScale
@@ -17,4 +17,4 @@ struct ColorScale
     static ColorScale around(double minimum, double maximum);
 };
 
-}  // namespace qplc
+}  // namespace awe
