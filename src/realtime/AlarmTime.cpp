@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "AlarmTime.h"
 
+#include "Host.h"
+
 #include <algorithm>
 #include <sys/timerfd.h>
 #include <unistd.h>
@@ -8,7 +10,7 @@
 namespace qplc {
 
 AlarmTime::AlarmTime()
-    : m_timer(::timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC))
+    : m_timer(Host::current().hasKernelTimers() ? ::timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC) : -1)
 {
 }
 

@@ -91,6 +91,12 @@ bool CycleThread::start(const QString &name, const QPlcRealTimeOptions &options,
     if (!reason.isEmpty())
         return setError(reason);
 
+    m_strand = Host::current().makeStrand();
+    if (m_strand) {
+        m_running = true;
+        m_strand->start(m_name, m_body);
+        return true;
+    }
     m_settings = applyHeapOptions(m_options);  // of this thread: the new one allocates nothing while it runs
     m_applied = false;
     m_inherited = std::make_unique<Scheduling>(Scheduling::current());
@@ -152,17 +158,28 @@ void CycleThread::waitUntilApplied()
 
 void CycleThread::interrupt()
 {
-    if (m_running)
+    if (m_strand)
+        m_strand->interrupt();
+    else if (m_running)
         InterruptibleWaits::interrupt(m_thread);
+}
+
+void CycleThread::joinThread()
+{
+    Q_ASSERT_X(pthread_equal(m_thread, pthread_self()) == 0, "CycleThread::join",
+               "a thread cannot wait for its own end");
+    pthread_join(m_thread, nullptr);
 }
 
 void CycleThread::join()
 {
     if (!m_running)
         return;
-    Q_ASSERT_X(pthread_equal(m_thread, pthread_self()) == 0, "CycleThread::join",
-               "a thread cannot wait for its own end");
-    pthread_join(m_thread, nullptr);
+    if (m_strand)
+        m_strand->join();
+    else
+        joinThread();
+    m_strand.reset();
     m_running = false;
     m_idleLatency.release();
     m_body = nullptr;  // what it holds is released on the owner's thread

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "Host.h"
 #include "IdleLatency.h"
 #include "QPlcRealTimeOptions.h"
 
@@ -56,7 +57,9 @@ private:
     bool setError(const QString &reason);
     void applyOptions();
     void waitUntilApplied();
+    void joinThread();
 
+    std::unique_ptr<Strand> m_strand;  // in place of the thread; null: there is a thread
     pthread_t m_thread{};
     bool m_running = false;
     QPlcRealTimeOptions m_options;

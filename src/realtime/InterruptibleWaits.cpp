@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "InterruptibleWaits.h"
 
+#include "Host.h"
 #include "TimeSource.h"
 
 #include <algorithm>
@@ -38,21 +39,26 @@ void unblock()
 }  // namespace
 
 InterruptibleWaits::InterruptibleWaits(std::int64_t period)
+    : m_strand(Host::current().runningStrand())
 {
-    static std::once_flag once;
-    std::call_once(once, &installHandler);
-    unblock();
-    sigevent event{};
-    event.sigev_notify = SIGEV_THREAD_ID;
-    event.sigev_signo = SIGURG;
-    event._sigev_un._tid = pid_t(::syscall(SYS_gettid));
-    m_exists = ::timer_create(CLOCK_MONOTONIC, &event, &m_timer) == 0;
+    if (!m_strand) {
+        static std::once_flag once;
+        std::call_once(once, &installHandler);
+        unblock();
+        sigevent event{};
+        event.sigev_notify = SIGEV_THREAD_ID;
+        event.sigev_signo = SIGURG;
+        event._sigev_un._tid = pid_t(::syscall(SYS_gettid));
+        m_exists = ::timer_create(CLOCK_MONOTONIC, &event, &m_timer) == 0;
+    }
     if (period > 0)
         interruptAt(monotonicNow() + period, period);
 }
 
 void InterruptibleWaits::interruptAt(std::int64_t instant, std::int64_t period) noexcept
 {
+    if (m_strand)
+        m_strand->interruptAt(instant, period);
     const itimerspec times{timeSpec(period), timeSpec(std::max<std::int64_t>(instant, 1))};  // 0 would stop it
     if (m_exists)
         ::timer_settime(m_timer, TIMER_ABSTIME, &times, nullptr);

@@ -7,6 +7,8 @@
 
 namespace qplc {
 
+class Strand;
+
 /// While it lives, another thread can end a system call in which the calling thread waits, with EINTR; on wish such waits end by themselves at an instant or in each period, too.
 /// So a thread that waits for a frame can look at a flag or a watchdog.
 ///
@@ -27,6 +29,7 @@ public:
     InterruptibleWaits &operator=(const InterruptibleWaits &) = delete;
 
 private:
+    Strand *m_strand;  // null: a thread
     timer_t m_timer{};
     bool m_exists = false;
 };

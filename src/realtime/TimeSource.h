@@ -6,7 +6,7 @@
 
 namespace qplc {
 
-/// The only place where the library looks at a clock. Tests give a fake one.
+/// A clock that the library looks at. Tests give a fake one.
 class TimeSource
 {
 public:
@@ -21,7 +21,7 @@ public:
     /// \return -1 when this clock has none
     virtual int alarm(std::int64_t /*deadline*/) noexcept { return -1; }
 
-    /// CLOCK_MONOTONIC.
+    /// The clock of Host::current() that never steps: CLOCK_MONOTONIC on the machine.
     static TimeSource &monotonic();
 };
 
@@ -36,7 +36,7 @@ inline std::int64_t monotonicNow() noexcept
 /// \a time [ns], >= 0, as the kernel takes it.
 timespec timeSpec(std::int64_t time) noexcept;
 
-/// The wall clock, for stamps only, never for control [ns since 1970-01-01 UTC].
+/// The wall clock of Host::current(), for stamps only, never for control [ns since 1970-01-01 UTC].
 std::int64_t wallClockNow() noexcept;
 
 }  // namespace qplc

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "Host.h"
+
 #include <QtCore/QString>
 
 #include <atomic>
@@ -46,10 +48,11 @@ public:
     bool consume() noexcept;
 
 private:
-    void wake() noexcept;
+    void wake() noexcept { m_host.wake(m_descriptor); }
 
-    int m_descriptor = -1;
+    Host &m_host;
     int m_error = 0;
+    int m_descriptor = -1;
     std::atomic<bool> m_armed{false};
 };
 

@@ -8,12 +8,6 @@
 
 namespace qplc {
 
-namespace {
-
-constexpr int Queue = 512;  // of who has not been taken yet: all nodes of a plant may come back at once
-
-}  // namespace
-
 ControlListener::ControlListener(QObject *parent)
     : QObject(parent)
 {
@@ -27,11 +21,10 @@ ControlListener::~ControlListener()
 bool ControlListener::listen(const QHostAddress &address, quint16 port)
 {
     close();
-    if (!m_server.listen(address, port))
+    m_port = ControlNetwork::current().listen(address, port, &m_error, &m_errorString);
+    if (!m_port)
         return false;
-    ::listen(int(m_server.socketDescriptor()), Queue);  // Qt asks for 50
-    m_server.pauseAccepting();                          // its notifier is off: this one takes its place
-    m_notifier = std::make_unique<QSocketNotifier>(m_server.socketDescriptor(), QSocketNotifier::Read);
+    m_notifier = std::make_unique<QSocketNotifier>(m_port->descriptor(), QSocketNotifier::Read);
     connect(m_notifier.get(), &QSocketNotifier::activated, this, &ControlListener::arrived);
     reserve();
     return true;
@@ -40,7 +33,7 @@ bool ControlListener::listen(const QHostAddress &address, quint16 port)
 void ControlListener::close()
 {
     m_notifier.reset();
-    m_server.close();
+    m_port.reset();
     if (m_reserve >= 0)
         ::close(m_reserve);
     m_reserve = -1;
@@ -54,8 +47,7 @@ void ControlListener::reserve()
 int ControlListener::take()
 {
     while (m_notifier) {
-        const int descriptor
-            = ::accept4(int(m_server.socketDescriptor()), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC);
+        const int descriptor = m_port->accept();
         if (descriptor >= 0)
             return descriptor;
         if (errno == EMFILE || errno == ENFILE) {
@@ -72,7 +64,7 @@ void ControlListener::closeOneForWantOfDescriptors()
 {
     if (m_reserve >= 0)
         ::close(m_reserve);
-    const int descriptor = ::accept4(int(m_server.socketDescriptor()), nullptr, nullptr, SOCK_CLOEXEC);
+    const int descriptor = m_port->accept();
     if (descriptor >= 0) {
         ++m_withoutDescriptor;
         ::close(descriptor);

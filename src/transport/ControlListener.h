@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "ControlNetwork.h"
+
 #include <QtCore/QObject>
 #include <QtCore/QSocketNotifier>
-#include <QtNetwork/QTcpServer>
 
 #include <memory>
 
@@ -11,8 +12,7 @@ namespace qplc {
 
 /// Listens for connections and takes them out of the queue of the system when asked to.
 ///
-/// QTcpServer itself would take every connection, and would spin when the process has no descriptor left. Here one is kept in reserve: with it a connection that there is no descriptor for
-/// is closed.
+/// A descriptor is kept in reserve: with it a connection that there is no descriptor for is closed.
 class ControlListener : public QObject
 {
     Q_OBJECT
@@ -23,10 +23,10 @@ public:
     /// \return false, with the reason in errorString()
     bool listen(const QHostAddress &address, quint16 port);
     void close();
-    QHostAddress address() const { return m_server.serverAddress(); }
-    quint16 port() const { return m_server.serverPort(); }
-    QString errorString() const { return m_server.errorString(); }
-    QAbstractSocket::SocketError error() const { return m_server.serverError(); }
+    QHostAddress address() const { return m_port ? m_port->address() : QHostAddress(); }
+    quint16 port() const { return m_port ? m_port->number() : quint16(0); }
+    QString errorString() const { return m_errorString; }
+    QAbstractSocket::SocketError error() const { return m_error; }
 
     /// The next connection, non-blocking; the caller owns it. \return -1: nobody waits
     int take();
@@ -45,7 +45,9 @@ private:
     void closeOneForWantOfDescriptors();
     void reserve();
 
-    QTcpServer m_server;
+    std::unique_ptr<ControlPort> m_port;  // null: nothing listens
+    QAbstractSocket::SocketError m_error = QAbstractSocket::UnknownSocketError;
+    QString m_errorString;
     std::unique_ptr<QSocketNotifier> m_notifier;
     int m_reserve = -1;
     quint64 m_withoutDescriptor = 0;

@@ -96,6 +96,21 @@ KNOWS_WINDOW = {
     "gui/tables/TableDelegate.cpp", "gui/tables/TableDelegate.h", "gui/tables/TableTime.h",
     "gui/tables/TimeStrip.cpp", "gui/tables/TimeStrip.h",
 }
+# Clocks, random numbers, wake-ups, threads and sockets come from the Host (docs/design/simulation.md), so that a
+# simulator can give others. QTimer and QSocketNotifier belong to the event dispatcher, which a simulator has, too.
+OF_KERNEL = (r"\b(clock_gettime|clock_nanosleep|timerfd_\w+|timer_create|pthread_\w+|QRandomGenerator|createUuid|"
+             r"QDeadlineTimer|QElapsedTimer|QThread|sleep_for|sleep_until|std::thread|QUdpSocket|QTcpServer)\b|\beventfd\([^)]|(?<!\w)::p?poll\(|new Q(Tcp|Ssl)Socket")
+HOSTED = ("signals", "realtime", "protocol", "transport", "node")
+# The machine as a Host, what measures or sets up the machine itself, and transports of the kernel. The last ones belong
+# to a Host one day: the beacon, names of a machine, TLS. A list that only shrinks.
+OF_MACHINE = {
+    "realtime/Machine.cpp", "realtime/CycleThread.cpp", "realtime/CycleThread.h", "realtime/AlarmTime.cpp",
+    "realtime/InterruptibleWaits.cpp", "realtime/InterruptibleWaits.h", "realtime/RealTimeSetup.cpp",
+    "realtime/StackPrefault.cpp", "realtime/WakeUpProbe.cpp", "transport/ControlNetwork.cpp", "transport/CyclicHub.cpp",
+    "transport/LoopbackProbe.cpp", "transport/UdpTransport.cpp", "node/security/Handshake.cpp",
+    "node/session/MasterBeacon.cpp", "node/session/MasterFinder.cpp", "node/session/MasterFinder.h",
+    "node/session/QPlcMasterSocket.cpp",
+}
 TABLE = r"_data\(\)$|^\s*static const\b"
 
 
@@ -182,6 +197,17 @@ class Check:
                 if match:
                     self.error(path, number, f"an example knows the public headers alone, not {match[1]}")
 
+    def kernel(self):
+        for path in (p for room in HOSTED for p in files(self.source / room)):
+            name = str(path.relative_to(self.source))
+            found = [(number, line) for number, line in code(path)
+                     if re.search(OF_KERNEL, line) and not re.match(r"\s*#\s*include", line)]
+            if not found and name in OF_MACHINE:
+                self.error(path, 1, "asks nothing of the machine any more: take it out of OF_MACHINE")
+            elif found and name not in OF_MACHINE:
+                number, line = found[0]
+                self.error(path, number, f"ask Host::current() for it: {line.strip()}")
+
     def public_headers(self):
         for path in sorted(self.public.rglob("*")):
             if path.parent != self.public:
@@ -239,6 +265,7 @@ def main():
     check.words()
     check.fields()
     check.panels()
+    check.kernel()
     check.public_headers()
     check.lengths_and_licences()
     print("\n".join(check.errors) or "the layers are in order")

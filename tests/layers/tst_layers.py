@@ -59,6 +59,14 @@ class Faults(unittest.TestCase):
         self.plant("src/realtime/CycleThread.h", "class Worker : public QObject {};\n")
         self.assert_named("src/realtime/CycleThread.h:", "event loop")
 
+    def test_random_numbers_come_from_the_host(self):
+        self.plant("src/node/session/ViewerPushes.cpp", "const auto any = QRandomGenerator::global()->generate();\n")
+        self.assert_named("src/node/session/ViewerPushes.cpp:", "ask Host::current() for it")
+
+    def test_a_file_that_asks_nothing_of_the_machine_leaves_the_list(self):
+        (self.root / "src/realtime/WakeUpProbe.cpp").write_text("// SPDX-License-Identifier: Apache-2.0\n")
+        self.assert_named("src/realtime/WakeUpProbe.cpp:", "take it out of OF_MACHINE")
+
     def test_a_field_of_a_message_has_its_name_in_one_place(self):
         self.plant("src/node/session/ViewerPushes.cpp", 'const QString who = message.text(QStringLiteral("whoever"));\n')
         self.assert_named("src/node/session/ViewerPushes.cpp:", "fields have their names in src/protocol/messages")

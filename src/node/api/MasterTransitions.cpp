@@ -5,9 +5,8 @@
 #include "node/Logging.h"
 #include "node/session/MasterReplies.h"
 #include "node/state/StateText.h"
+#include "realtime/Host.h"
 #include "realtime/TimeSource.h"
-
-#include <QtCore/QRandomGenerator>
 
 using Action = qplc::MasterAction;
 using Event = qplc::MasterEvent;
@@ -89,7 +88,7 @@ void QPlcMasterNodePrivate::carryOut(Action action, const QString &reason)
         beginStart();
         break;
     case Action::IssueToken:
-        arming.arm(QRandomGenerator::system()->generate64() | 1, qplc::monotonicNow());
+        arming.arm(qplc::Host::current().random() | 1, qplc::monotonicNow());
         journal.tell(qplc::JournalEvent::Warning, qplc::JournalEvent::State, qplc::NodeRegistry::masterName(),
                      QStringLiteral("armed: one start is permitted within 5 s"));
         break;

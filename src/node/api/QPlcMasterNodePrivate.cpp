@@ -5,12 +5,11 @@
 #include "QPlcSlaveNodePrivate.h"
 #include "node/Logging.h"
 #include "node/session/MasterReplies.h"
+#include "realtime/Host.h"
 
 #include <QtCore/QCoreApplication>
 #include <QtCore/QJsonArray>
 #include <QtCore/QMetaEnum>
-#include <QtCore/QRandomGenerator>
-#include <QtCore/QUuid>
 
 #include <cmath>
 
@@ -24,7 +23,7 @@ namespace {
 
 quint64 newSession()
 {
-    return QRandomGenerator::system()->generate64() | 1;  // never 0
+    return qplc::Host::current().random() | 1;  // never 0
 }
 
 /// What an error is about, unless who tells it knows better.
@@ -52,7 +51,7 @@ QPlcMasterNodePrivate::QPlcMasterNodePrivate(QPlcMasterNode *master)
                         return guard.nonFinite(signal) + guard.outOfRange(signal);
                     })
     , session(newSession())
-    , uuid(QUuid::createUuid().toString(QUuid::WithoutBraces))
+    , uuid(qplc::newUuid())
 {
     stepTimer.setSingleShot(true);
     stepTimer.setInterval(2000);

@@ -2,11 +2,10 @@
 #include "QPlcSlaveNodePrivate.h"
 
 #include "node/Logging.h"
+#include "realtime/Host.h"
 #include "transport/TransportRegistry.h"
 
 #include <QtCore/QCoreApplication>
-#include <QtCore/QRandomGenerator>
-#include <QtCore/QUuid>
 
 #include <optional>
 #include <utility>
@@ -59,7 +58,7 @@ QPlcSlaveNodePrivate::QPlcSlaveNodePrivate(QPlcSlaveNode *node, const QString &n
     , runtime(*node)
     , m_retryTimer(q)
     , m_patience(q)
-    , m_uuid(QUuid::createUuid().toString(QUuid::WithoutBraces))
+    , m_uuid(qplc::newUuid())
 {
     m_retryTimer.setSingleShot(true);
     QObject::connect(&m_retryTimer, &QTimer::timeout, q, [this] { apply(SlaveEvent::Retry); });
@@ -196,7 +195,7 @@ void QPlcSlaveNodePrivate::retryLater(SlaveEvent event)
         || (reconnectPolicy == QPlcSlaveNode::ReconnectWhenLost && m_wasRegistered && event != SlaveEvent::MasterEnded);
     if (!isWanted || QCoreApplication::closingDown())
         return;
-    const double chance = QRandomGenerator::global()->generateDouble();
+    const double chance = qplc::randomFraction();
     m_retryTimer.start(event == SlaveEvent::Refused ? m_backOff.afterRefusal(chance) : m_backOff.next(chance));
 }
 

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <thread>
 
 namespace qplc {
 
@@ -92,7 +91,7 @@ void SlaveCycle::stop()
     m_stop = true;
     while (!m_ended) {  // an interruption just before a wait ends none
         m_thread.interrupt();
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        TimeSource::monotonic().sleepUntil(monotonicNow() + 1'000'000);  // [ns]
     }
     m_thread.join();
 }

@@ -3,6 +3,7 @@
 
 #include "node/Logging.h"
 #include "protocol/ControlFrame.h"
+#include "transport/ControlNetwork.h"
 
 #include <QtNetwork/QHostAddress>
 #include <QtNetwork/QSslCertificate>
@@ -44,7 +45,7 @@ Handshake::Handshake(int descriptor, const QPlcSecurity &security, QObject *pare
     , m_security(security)
 {
     if (security.isNone())
-        m_socket = new QTcpSocket(this);
+        m_socket = ControlNetwork::current().makeSocket(this);
     else
         m_socket = m_tls = new QSslSocket(this);
     m_socket->setReadBufferSize(64 * 1024);

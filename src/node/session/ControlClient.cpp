@@ -1,11 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ControlClient.h"
 
-#include <QtCore/QUuid>
+#include "realtime/Host.h"
+#include "realtime/TimeSource.h"
 
 #include <algorithm>
 
 namespace qplc {
+
+namespace {
+
+/// On the clock of monotonicNow() [ns].
+std::int64_t after(std::chrono::milliseconds duration)
+{
+    return monotonicNow() + std::chrono::nanoseconds(duration).count();
+}
+
+}  // namespace
 
 ControlClient::ControlClient(const Caller &caller, QObject *parent)
     : QObject(parent)
@@ -42,7 +53,7 @@ void ControlClient::connectToMaster(const QPlcUnderlyingProtocol &master)
     connect(m_socket, &QPlcAbstractSocket::errorOccurred, this, [this] { end(Loss::Gone, m_socket->errorString()); });
     connect(m_socket, &QPlcAbstractSocket::disconnected, this,
             [this] { end(Loss::Gone, QStringLiteral("the connection was closed")); });
-    m_greetingDeadline = QDeadlineTimer(m_questionTime);
+    m_greetingDeadline = after(m_questionTime);
     watchDeadlines();
     m_socket->connectToMaster(master);
 }
@@ -52,7 +63,7 @@ void ControlClient::greet()
     messages::ClientHello hello;
     hello.protocol = messages::protocolVersion;
     hello.name = m_caller.name;
-    hello.uuid = QUuid::createUuid().toString(QUuid::WithoutBraces);
+    hello.uuid = newUuid();
     hello.role = m_caller.role;
     hello.features = m_caller.features;
     m_socket->sendMessage(messages::toMessage(hello));
@@ -61,7 +72,7 @@ void ControlClient::greet()
 void ControlClient::close()
 {
     m_isGreeted = false;
-    m_greetingDeadline = QDeadlineTimer(QDeadlineTimer::Forever);
+    m_greetingDeadline = Never;
     m_timer.stop();
     if (m_socket) {
         m_socket->disconnect(this);
@@ -120,7 +131,7 @@ void ControlClient::receiveGreeting(const QPlcMessage &message)
         end(Loss::OtherVersion, QString::number(m_master.protocol));
     } else {
         m_isGreeted = true;
-        m_greetingDeadline = QDeadlineTimer(QDeadlineTimer::Forever);
+        m_greetingDeadline = Never;
         watchDeadlines();
         Q_EMIT greeted();
     }
@@ -210,7 +221,7 @@ void ControlClient::sendNow(Pending pending)
         pending.handler(messages::toMessage(tooLong));
         return;
     }
-    pending.deadline = QDeadlineTimer(pending.isCommand() ? m_commandTime : m_questionTime);
+    pending.deadline = after(pending.isCommand() ? m_commandTime : m_questionTime);
     m_sent.append(pending);
     watchDeadlines();
 }
@@ -225,19 +236,19 @@ void ControlClient::sendNextCommand()
 
 void ControlClient::watchDeadlines()
 {
-    QDeadlineTimer next = m_greetingDeadline;
+    std::int64_t next = m_greetingDeadline;
     for (const Pending &pending : qAsConst(m_sent))
         next = std::min(next, pending.deadline);
-    if (next.isForever())
+    if (next == Never)
         m_timer.stop();
     else
-        m_timer.start(int(next.remainingTime()) + 1);
+        m_timer.start(int(std::max<std::int64_t>(next - monotonicNow(), 0) / 1'000'000) + 1);
 }
 
 void ControlClient::checkDeadlines()
 {
-    const auto isLate = [](const Pending &pending) { return pending.deadline.hasExpired(); };
-    if (m_greetingDeadline.hasExpired() || std::any_of(m_sent.begin(), m_sent.end(), isLate))
+    const auto isLate = [](const Pending &pending) { return pending.deadline <= monotonicNow(); };
+    if (m_greetingDeadline <= monotonicNow() || std::any_of(m_sent.begin(), m_sent.end(), isLate))
         end(Loss::Gone, QStringLiteral("no answer within %1 s").arg(double(m_questionTime.count()) * 1e-3));
     else
         watchDeadlines();

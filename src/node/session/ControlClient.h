@@ -4,12 +4,12 @@
 #include "QPlcMasterSocket.h"
 #include "protocol/messages/MessageTable.h"
 
-#include <QtCore/QDeadlineTimer>
 #include <QtCore/QList>
 #include <QtCore/QObject>
 #include <QtCore/QTimer>
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <variant>
 
@@ -119,12 +119,14 @@ Q_SIGNALS:
     void statesInitialized(const qplc::messages::StatesInitialized &outcome);
 
 private:
+    static constexpr std::int64_t Never = INT64_MAX;
+
     struct Pending
     {
         QPlcMessage message;
         QPlcMessage::Kind answer = QPlcMessage::Invalid;
         RawHandler handler;
-        QDeadlineTimer deadline;
+        std::int64_t deadline = Never;  // [ns] of monotonicNow()
 
         bool isCommand() const { return answer == QPlcMessage::Done; }
         bool isUrgent() const { return message.kind() == QPlcMessage::Stop || message.kind() == QPlcMessage::SafeStop; }
@@ -160,7 +162,7 @@ private:
     std::chrono::milliseconds m_questionTime{5000};
     std::chrono::milliseconds m_commandTime{60'000};
     QTimer m_timer;
-    QDeadlineTimer m_greetingDeadline{QDeadlineTimer::Forever};
+    std::int64_t m_greetingDeadline = Never;  // [ns] of monotonicNow()
     bool m_isGreeted = false;
     messages::MasterHello m_master;
     messages::Rejected m_rejection;

@@ -2,25 +2,13 @@
 #include "MasterDoor.h"
 
 #include "realtime/TimeSource.h"
-#include "transport/SocketAddress.h"
-
-#include <sys/socket.h>
-#include <unistd.h>
+#include "transport/ControlNetwork.h"
 
 namespace qplc {
 
 namespace {
 
 constexpr int sweepInterval = 100;  // [ms]
-
-QHostAddress peerOf(int descriptor)
-{
-    SocketAddress address;
-    address.length = sizeof address.storage;
-    if (::getpeername(descriptor, address.data(), &address.length) < 0)
-        return {};
-    return QHostAddress(address.data());
-}
 
 }  // namespace
 
@@ -84,11 +72,11 @@ void MasterDoor::acceptAll()
 
 void MasterDoor::accept(int descriptor)
 {
-    const QHostAddress address = peerOf(descriptor);
+    const QHostAddress address = ControlNetwork::current().peerOf(descriptor);
     ConnectionGate::Refusal refusal = ConnectionGate::Admitted;
     const std::optional<ConnectionGate::Ticket> ticket = m_gate.admit(address, monotonicNow(), &refusal);
     if (!ticket) {
-        ::close(descriptor);
+        ControlNetwork::current().close(descriptor);
         ++m_turnedAway;
         Q_EMIT refused(QString(), address.toString(), QString::fromLatin1(ConnectionGate::textOf(refusal)));
         return;

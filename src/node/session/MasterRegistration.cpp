@@ -4,11 +4,11 @@
 #include "node/Logging.h"
 #include "node/security/SealFields.h"
 #include "protocol/ControlFrame.h"
+#include "realtime/Host.h"
 #include "signals/Fnv1a.h"
 #include "transport/TransportRegistry.h"
 
 #include <QtCore/QJsonArray>
-#include <QtCore/QRandomGenerator>
 #include <QtCore/QTimer>
 
 #include <algorithm>
@@ -130,7 +130,7 @@ void MasterServer::registerNode(MasterConnection *connection, const Message &mes
     connection->slot->faultPlan = printable(message.text(QStringLiteral("faults"))).left(200);
     const std::optional<SealKeys> keys = newSealKeys(*connection);
     connection->slot->prepare(m_image, m_session, keys ? &*keys : nullptr);
-    connection->token = QRandomGenerator::system()->generate64();
+    connection->token = Host::current().random();
     connection->stage = MasterConnection::Attaching;
     messages::Registered registered;
     registered.node = connection->slot->id;

@@ -2,6 +2,7 @@
 #include "QPlcMasterSocket.h"
 
 #include "node/security/TlsSettings.h"
+#include "transport/ControlNetwork.h"
 
 #include <QtCore/QTimer>
 #include <QtNetwork/QSslCipher>
@@ -26,7 +27,7 @@ struct QPlcMasterSocket::Private
 };
 
 QPlcMasterSocket::QPlcMasterSocket(QObject *parent)
-    : QPlcAbstractSocket(new QTcpSocket, parent)
+    : QPlcAbstractSocket(qplc::ControlNetwork::current().makeSocket(nullptr), parent)
     , d(std::make_unique<Private>())
 {
     d->timer.setSingleShot(true);
@@ -57,7 +58,7 @@ void QPlcMasterSocket::connectToMaster(const QPlcUnderlyingProtocol &master)
         return;
     }
     if (d->tls)
-        setSocket(new QTcpSocket);
+        setSocket(qplc::ControlNetwork::current().makeSocket(nullptr));
     d->tls = nullptr;
     socket()->connectToHost(master.address(), master.port());
 }
