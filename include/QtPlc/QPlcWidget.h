@@ -130,6 +130,8 @@ Q_SIGNALS:
 protected:
     /// Called when the panel has come into a window: from now on context() knows plants.
     virtual void contextChanged() {}
+    /// Returns what QPlcWidget saves, and \a own: for a subclass that overrides settings().
+    QJsonObject settingsWith(const QJsonObject &own) const;
     /// Returns a setting of the panel, as its layout has it; \a defaultValue where the layout has none.
     QJsonValue setting(const QString &key, const QJsonValue &defaultValue = QJsonValue()) const;
     /// Sets a setting because a person wants it: an undo step, and saved in the layout.

@@ -144,6 +144,14 @@ void QPlcWidget::applySettings(const QJsonObject &settings)
     update();
 }
 
+QJsonObject QPlcWidget::settingsWith(const QJsonObject &own) const
+{
+    QJsonObject all = QPlcWidget::settings();
+    for (auto entry = own.begin(); entry != own.end(); ++entry)
+        all.insert(entry.key(), entry.value());
+    return all;
+}
+
 QJsonValue QPlcWidget::setting(const QString &key, const QJsonValue &defaultValue) const
 {
     d->ownKeys.insert(key);

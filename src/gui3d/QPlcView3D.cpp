@@ -101,11 +101,7 @@ void QPlcView3D::Private::choosePreset(OrbitCamera::Preset preset)
 
 QJsonObject QPlcView3D::settings() const
 {
-    QJsonObject all = QPlcWidget::settings();
-    const QJsonObject own = d->settings.toJson();
-    for (auto entry = own.begin(); entry != own.end(); ++entry)
-        all.insert(entry.key(), entry.value());
-    return all;
+    return settingsWith(d->settings.toJson());
 }
 
 void QPlcView3D::applySettings(const QJsonObject &settings)

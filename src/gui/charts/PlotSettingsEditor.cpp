@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "PlotSettingsEditor.h"
-#include "gui/panel/EndOfEditor.h"
 #include "gui/panel/SignalEdit.h"
 
 #include <QtGui/QDoubleValidator>
@@ -58,7 +57,7 @@ QLabel *heading(const QString &text, QWidget *parent)
 
 PlotSettingsEditor::PlotSettingsEditor(const PlotSettings &settings, const QStringList &furtherUnits,
                                        const PlantList *plants, const Theme &theme, QWidget *parent)
-    : QWidget(parent)
+    : SettingsEditor(parent)
     , m_settings(settings)
     , m_plants(plants)
     , m_theme(theme)
@@ -81,11 +80,6 @@ PlotSettingsEditor::PlotSettingsEditor(const PlotSettings &settings, const QStri
     setFocusProxy(add);
     column->addWidget(makeOptions(furtherUnits));
     makeCurves();
-}
-
-PlotSettingsEditor::~PlotSettingsEditor()
-{
-    disconnectLines(this);
 }
 
 void PlotSettingsEditor::makeCurves()

@@ -2,9 +2,8 @@
 #pragma once
 
 #include "PlotSettings.h"
+#include "gui/panel/SettingsEditor.h"
 #include "gui/panel/Theme.h"
-
-#include <QtWidgets/QWidget>
 
 class QCheckBox;
 class QGridLayout;
@@ -16,14 +15,13 @@ namespace qplc {
 class PlantList;
 
 /// The settings of a time plot, to be changed by a person. Each change is told at once.
-class PlotSettingsEditor : public QWidget
+class PlotSettingsEditor : public SettingsEditor
 {
     Q_OBJECT
 public:
     /// \param plants  for the names of signals; null: without completion \param furtherUnits  of axes besides the first one at the left and at the right
     PlotSettingsEditor(const PlotSettings &settings, const QStringList &furtherUnits, const PlantList *plants,
                        const Theme &theme, QWidget *parent = nullptr);
-    ~PlotSettingsEditor() override;
 
     const PlotSettings &settings() const { return m_settings; }
 

@@ -297,7 +297,7 @@ QPlcJitterHistogram::~QPlcJitterHistogram() = default;
 
 QJsonObject QPlcJitterHistogram::settings() const
 {
-    return d->settings.addedTo(QPlcWidget::settings());
+    return settingsWith(d->settings.toJson());
 }
 
 void QPlcJitterHistogram::applySettings(const QJsonObject &settings)

@@ -92,11 +92,7 @@ QPlcTimePlot::~QPlcTimePlot() = default;
 
 QJsonObject QPlcTimePlot::settings() const
 {
-    QJsonObject all = QPlcWidget::settings();
-    const QJsonObject own = d->settings.toJson();
-    for (auto entry = own.begin(); entry != own.end(); ++entry)
-        all.insert(entry.key(), entry.value());
-    return all;
+    return settingsWith(d->settings.toJson());
 }
 
 void QPlcTimePlot::applySettings(const QJsonObject &settings)

@@ -260,7 +260,7 @@ QPlcXyPlot::~QPlcXyPlot() = default;
 
 QJsonObject QPlcXyPlot::settings() const
 {
-    return d->settings.addedTo(QPlcWidget::settings());
+    return settingsWith(d->settings.toJson());
 }
 
 void QPlcXyPlot::applySettings(const QJsonObject &settings)

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "XyPlotEditor.h"
-#include "gui/panel/EndOfEditor.h"
 
 #include <QtWidgets/QCheckBox>
 #include <QtWidgets/QHBoxLayout>
@@ -26,7 +25,7 @@ QLineEdit *addField(QHBoxLayout *row, const QString &name, const QString &text)
 }  // namespace
 
 XyPlotEditor::XyPlotEditor(const QVector<Expressions> &curves, bool isEqual, QWidget *parent)
-    : QWidget(parent)
+    : SettingsEditor(parent)
     , m_rows(new QVBoxLayout)
 {
     auto *all = new QVBoxLayout(this);
@@ -45,11 +44,6 @@ XyPlotEditor::XyPlotEditor(const QVector<Expressions> &curves, bool isEqual, QWi
     connect(equal, &QCheckBox::toggled, this, &XyPlotEditor::equalAspectChanged);
     all->addWidget(equal);
     all->addStretch(1);
-}
-
-XyPlotEditor::~XyPlotEditor()
-{
-    disconnectLines(this);
 }
 
 void XyPlotEditor::addRow(const Expressions &expressions)

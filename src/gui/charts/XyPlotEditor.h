@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "gui/panel/SettingsEditor.h"
+
 #include <QtCore/QVector>
-#include <QtWidgets/QWidget>
 
 class QCheckBox;
 class QVBoxLayout;
@@ -10,7 +11,7 @@ class QVBoxLayout;
 namespace qplc {
 
 /// The settings of an XY plot, as the toothed wheel shows them: a line with x and y for each curve, and what the axes do. What is changed is told at once.
-class XyPlotEditor : public QWidget
+class XyPlotEditor : public SettingsEditor
 {
     Q_OBJECT
 public:
@@ -21,7 +22,6 @@ public:
     };
 
     XyPlotEditor(const QVector<Expressions> &curves, bool isEqual, QWidget *parent = nullptr);
-    ~XyPlotEditor() override;
 
 Q_SIGNALS:
     void expressionChanged(int curve, const QString &x, const QString &y);

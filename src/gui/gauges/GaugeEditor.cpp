@@ -2,10 +2,8 @@
 #include "GaugeEditor.h"
 
 #include "gui/models/SiPrefix.h"
-#include "gui/panel/EndOfEditor.h"
 #include "gui/panel/SignalEdit.h"
 
-#include <QtGui/QDoubleValidator>
 #include <QtWidgets/QCheckBox>
 #include <QtWidgets/QComboBox>
 #include <QtWidgets/QFormLayout>
@@ -14,7 +12,7 @@ namespace qplc {
 
 GaugeEditor::GaugeEditor(const PanelSettings &settings, const QString &title, const QPlcSignalDefinition &definition,
                          PlantList *plants, QWidget *parent)
-    : QWidget(parent)
+    : SettingsEditor(parent)
     , m_settings(settings)
 {
     auto *form = new QFormLayout(this);
@@ -29,11 +27,6 @@ GaugeEditor::GaugeEditor(const PanelSettings &settings, const QString &title, co
     extremes->setChecked(m_settings.value("extremes").toBool());
     form->addRow(extremes);
     connect(extremes, &QCheckBox::toggled, this, [this](bool isOn) { set("extremes", isOn, false); });
-}
-
-GaugeEditor::~GaugeEditor()
-{
-    disconnectLines(this);
 }
 
 void GaugeEditor::addSignal(QFormLayout *form, PlantList *plants)
@@ -71,37 +64,23 @@ void GaugeEditor::addNumbers(QFormLayout *form, const QPlcSignalDefinition &defi
     const QString unit = SiPrefix::unitText(definition.unit);
     const auto named
         = [&unit](const QString &label) { return unit.isEmpty() ? label : QStringLiteral("%1 [%2]").arg(label, unit); };
-    addNumber(form, named(tr("Scale from")), "minimum", ofTable(definition.minimum, tr("automatic")));
-    addNumber(form, named(tr("Scale to")), "maximum", ofTable(definition.maximum, tr("automatic")));
-    addNumber(form, named(tr("Alarm below")), "alarmLow", ofTable(definition.minimum, tr("none")));
-    addNumber(form, named(tr("Warning below")), "warningLow", tr("none"));
-    addNumber(form, named(tr("Warning above")), "warningHigh", tr("none"));
-    addNumber(form, named(tr("Alarm above")), "alarmHigh", ofTable(definition.maximum, tr("none")));
-    addNumber(form, named(tr("Hysteresis")), "hysteresis", tr("1 % of the scale"));
+    addLimit(form, named(tr("Scale from")), "minimum", ofTable(definition.minimum, tr("automatic")));
+    addLimit(form, named(tr("Scale to")), "maximum", ofTable(definition.maximum, tr("automatic")));
+    addLimit(form, named(tr("Alarm below")), "alarmLow", ofTable(definition.minimum, tr("none")));
+    addLimit(form, named(tr("Warning below")), "warningLow", tr("none"));
+    addLimit(form, named(tr("Warning above")), "warningHigh", tr("none"));
+    addLimit(form, named(tr("Alarm above")), "alarmHigh", ofTable(definition.maximum, tr("none")));
+    addLimit(form, named(tr("Hysteresis")), "hysteresis", tr("1 % of the scale"));
 }
 
-void GaugeEditor::addNumber(QFormLayout *form, const QString &label, const char *key, const QString &whenEmpty)
+void GaugeEditor::addLimit(QFormLayout *form, const QString &label, const char *key, const QString &whenEmpty)
 {
     const QJsonValue value = m_settings.value(key);
-    auto *edit = new QLineEdit(value.isDouble() ? QLocale::c().toString(value.toDouble(), 'g', 10) : QString(), this);
-    auto *validator = new QDoubleValidator(edit);
-    validator->setLocale(QLocale::c());
-    edit->setValidator(validator);
-    edit->setPlaceholderText(whenEmpty);
-    edit->setObjectName(QLatin1String(key));
-    form->addRow(label, edit);
-    const auto take = [this, edit, key] {
-        const QString text = edit->text();
-        if (text.isEmpty())
-            set(key, QJsonValue());
-        else if (edit->hasAcceptableInput())
-            set(key, QLocale::c().toDouble(text));
-    };
-    connect(edit, &QLineEdit::editingFinished, this, take);
-    connect(edit, &QLineEdit::textEdited, this, [take](const QString &text) {
-        if (text.isEmpty())  // an empty line is no number, but finished
-            take();
+    const std::optional<double> number = value.isDouble() ? std::optional<double>(value.toDouble()) : std::nullopt;
+    QLineEdit *line = addNumber(form, label, number, whenEmpty, [this, key](std::optional<double> wanted) {
+        set(key, wanted ? QJsonValue(*wanted) : QJsonValue());
     });
+    line->setObjectName(QLatin1String(key));
 }
 
 void GaugeEditor::set(const char *key, const QJsonValue &value, const QJsonValue &defaultValue)

@@ -3,8 +3,7 @@
 
 #include "GaugeSettings.h"
 #include "QPlcSignalDefinition.h"
-
-#include <QtWidgets/QWidget>
+#include "gui/panel/SettingsEditor.h"
 
 class QFormLayout;
 class QLineEdit;
@@ -14,14 +13,13 @@ namespace qplc {
 class PlantList;
 
 /// The settings of a gauge as a form; every change counts at once.
-class GaugeEditor : public QWidget
+class GaugeEditor : public SettingsEditor
 {
     Q_OBJECT
 public:
     /// \param definition  of the present signal, for what an empty field means
     GaugeEditor(const PanelSettings &settings, const QString &title, const QPlcSignalDefinition &definition,
                 PlantList *plants, QWidget *parent = nullptr);
-    ~GaugeEditor() override;
 
 Q_SIGNALS:
     void edited(const qplc::PanelSettings &settings);
@@ -31,7 +29,7 @@ private:
     void addSignal(QFormLayout *form, PlantList *plants);
     void addStyles(QFormLayout *form);
     void addNumbers(QFormLayout *form, const QPlcSignalDefinition &definition);
-    void addNumber(QFormLayout *form, const QString &label, const char *key, const QString &whenEmpty);
+    void addLimit(QFormLayout *form, const QString &label, const char *key, const QString &whenEmpty);
     void set(const char *key, const QJsonValue &value, const QJsonValue &defaultValue = QJsonValue());
 
     PanelSettings m_settings;

@@ -54,7 +54,7 @@ void QPlcGauge::addStyleAction(const QString &text, const QString &style)
 
 QJsonObject QPlcGauge::settings() const
 {
-    return d->settings.addedTo(QPlcWidget::settings());
+    return settingsWith(d->settings.toJson());
 }
 
 void QPlcGauge::applySettings(const QJsonObject &settings)

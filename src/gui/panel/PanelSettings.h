@@ -44,13 +44,8 @@ public:
         return m_values != before;
     }
 
-    /// \a others with all values.
-    QJsonObject addedTo(QJsonObject others) const
-    {
-        for (auto entry = m_values.begin(); entry != m_values.end(); ++entry)
-            others.insert(entry.key(), entry.value());
-        return others;
-    }
+    /// All values that are no defaults.
+    const QJsonObject &toJson() const { return m_values; }
 
 private:
     QStringList m_keys;

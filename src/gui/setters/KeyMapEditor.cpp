@@ -4,7 +4,6 @@
 
 #include "Gamepad.h"
 #include "KeyButton.h"
-#include "gui/panel/EndOfEditor.h"
 #include "gui/panel/NumberBox.h"
 
 #include <QtWidgets/QComboBox>
@@ -23,18 +22,13 @@ constexpr double largestValue = 1e9;
 }  // namespace
 
 KeyMapEditor::KeyMapEditor(const ManualBindings &bindings, const PlantList *plants, QWidget *parent)
-    : QWidget(parent)
+    : SettingsEditor(parent)
     , m_bindings(bindings)
     , m_plants(plants)
     , m_column(new QVBoxLayout(this))
 {
     m_column->setContentsMargins(0, 0, 0, 0);
     rebuild();
-}
-
-KeyMapEditor::~KeyMapEditor()
-{
-    disconnectLines(this);
 }
 
 void KeyMapEditor::rebuild()

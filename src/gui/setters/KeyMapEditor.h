@@ -2,8 +2,7 @@
 #pragma once
 
 #include "ManualBindings.h"
-
-#include <QtWidgets/QWidget>
+#include "gui/panel/SettingsEditor.h"
 
 #include <functional>
 
@@ -15,13 +14,12 @@ namespace qplc {
 class PlantList;
 
 /// What keys and axes do, row by row; each change applies at once.
-class KeyMapEditor : public QWidget
+class KeyMapEditor : public SettingsEditor
 {
     Q_OBJECT
 public:
     /// \param plants  whose signals are offered; null: none
     KeyMapEditor(const ManualBindings &bindings, const PlantList *plants, QWidget *parent = nullptr);
-    ~KeyMapEditor() override;
 
 Q_SIGNALS:
     void edited(const qplc::ManualBindings &bindings);

@@ -191,11 +191,7 @@ QPlcKeyboardControl::~QPlcKeyboardControl()
 
 QJsonObject QPlcKeyboardControl::settings() const
 {
-    QJsonObject all = QPlcWidget::settings();
-    const QJsonObject own = d->control.bindings().toJson();
-    for (auto entry = own.begin(); entry != own.end(); ++entry)
-        all.insert(entry.key(), entry.value());
-    return all;
+    return settingsWith(d->control.bindings().toJson());
 }
 
 void QPlcKeyboardControl::applySettings(const QJsonObject &settings)

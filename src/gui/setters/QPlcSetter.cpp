@@ -214,11 +214,7 @@ QPlcSetter::~QPlcSetter()
 
 QJsonObject QPlcSetter::settings() const
 {
-    QJsonObject all = QPlcWidget::settings();
-    const QJsonObject own = d->settings.toJson();
-    for (auto entry = own.begin(); entry != own.end(); ++entry)
-        all.insert(entry.key(), entry.value());
-    return all;
+    return settingsWith(d->settings.toJson());
 }
 
 void QPlcSetter::applySettings(const QJsonObject &settings)

@@ -3,9 +3,7 @@
 #include "gui/panel/SignalEdit.h"
 
 #include "SetterView.h"
-#include "gui/panel/EndOfEditor.h"
 
-#include <QtGui/QDoubleValidator>
 #include <QtWidgets/QComboBox>
 #include <QtWidgets/QFormLayout>
 #include <QtWidgets/QLineEdit>
@@ -13,7 +11,7 @@
 namespace qplc {
 
 SetterEditor::SetterEditor(const SetterSettings &settings, const PlantList *plants, QWidget *parent)
-    : QWidget(parent)
+    : SettingsEditor(parent)
     , m_settings(settings)
 {
     auto *form = new QFormLayout(this);
@@ -38,32 +36,15 @@ SetterEditor::SetterEditor(const SetterSettings &settings, const PlantList *plan
         m_settings.style = text;
         Q_EMIT edited(m_settings);
     });
-    addNumber(form, tr("Minimum"), &SetterSettings::minimum);
-    addNumber(form, tr("Maximum"), &SetterSettings::maximum);
-    addNumber(form, tr("Toggle: on"), &SetterSettings::on);
-    addNumber(form, tr("Momentary: held"), &SetterSettings::pressed);
+    addLimit(form, tr("Minimum"), &SetterSettings::minimum);
+    addLimit(form, tr("Maximum"), &SetterSettings::maximum);
+    addLimit(form, tr("Toggle: on"), &SetterSettings::on);
+    addLimit(form, tr("Momentary: held"), &SetterSettings::pressed);
 }
 
-SetterEditor::~SetterEditor()
+void SetterEditor::addLimit(QFormLayout *form, const QString &label, std::optional<double> SetterSettings::*number)
 {
-    disconnectLines(this);
-}
-
-void SetterEditor::addNumber(QFormLayout *form, const QString &label, std::optional<double> SetterSettings::*number)
-{
-    auto *field = new QLineEdit(this);
-    auto *validator = new QDoubleValidator(field);
-    validator->setLocale(QLocale::c());
-    field->setValidator(validator);
-    field->setPlaceholderText(tr("as in the table"));
-    field->setAccessibleName(label);
-    if (m_settings.*number)
-        field->setText(QString::number(*(m_settings.*number), 'g', 10));
-    form->addRow(label, field);
-    connect(field, &QLineEdit::editingFinished, this, [this, field, number] {
-        bool isNumber = false;
-        const double value = field->text().toDouble(&isNumber);
-        const std::optional<double> wanted = isNumber ? std::make_optional(value) : std::nullopt;
+    addNumber(form, label, m_settings.*number, tr("as in the table"), [this, number](std::optional<double> wanted) {
         if (wanted == m_settings.*number)
             return;
         m_settings.*number = wanted;

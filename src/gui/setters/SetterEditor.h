@@ -2,8 +2,7 @@
 #pragma once
 
 #include "SetterSettings.h"
-
-#include <QtWidgets/QWidget>
+#include "gui/panel/SettingsEditor.h"
 
 class QFormLayout;
 
@@ -12,18 +11,17 @@ namespace qplc {
 class PlantList;
 
 /// The settings of a setter; each change applies at once.
-class SetterEditor : public QWidget
+class SetterEditor : public SettingsEditor
 {
     Q_OBJECT
 public:
     SetterEditor(const SetterSettings &settings, const PlantList *plants, QWidget *parent = nullptr);
-    ~SetterEditor() override;
 
 Q_SIGNALS:
     void edited(const qplc::SetterSettings &settings);
 
 private:
-    void addNumber(QFormLayout *form, const QString &label, std::optional<double> SetterSettings::*number);
+    void addLimit(QFormLayout *form, const QString &label, std::optional<double> SetterSettings::*number);
 
     SetterSettings m_settings;
 };

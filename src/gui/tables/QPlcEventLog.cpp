@@ -189,7 +189,7 @@ void QPlcEventLog::makeActions()
 
 QJsonObject QPlcEventLog::settings() const
 {
-    return d->settings.addedTo(QPlcWidget::settings());
+    return settingsWith(d->settings.toJson());
 }
 
 void QPlcEventLog::applySettings(const QJsonObject &settings)

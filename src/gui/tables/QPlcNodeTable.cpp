@@ -100,7 +100,7 @@ QPlcNodeTable::~QPlcNodeTable() = default;
 
 QJsonObject QPlcNodeTable::settings() const
 {
-    return d->settings.addedTo(QPlcWidget::settings());
+    return settingsWith(d->settings.toJson());
 }
 
 void QPlcNodeTable::applySettings(const QJsonObject &settings)

@@ -226,7 +226,7 @@ void QPlcSignalTree::search(const QString &text)
 
 QJsonObject QPlcSignalTree::settings() const
 {
-    return d->settings.addedTo(QPlcWidget::settings());
+    return settingsWith(d->settings.toJson());
 }
 
 void QPlcSignalTree::applySettings(const QJsonObject &settings)

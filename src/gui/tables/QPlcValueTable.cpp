@@ -236,7 +236,7 @@ QWidget *QPlcValueTable::createSettingsEditor()
 
 QJsonObject QPlcValueTable::settings() const
 {
-    return d->settings.addedTo(QPlcWidget::settings());
+    return settingsWith(d->settings.toJson());
 }
 
 void QPlcValueTable::applySettings(const QJsonObject &settings)

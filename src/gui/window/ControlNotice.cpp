@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ControlNotice.h"
 
+#include "WatchPlants.h"
+
 #include <QtGui/QPainter>
 #include <QtWidgets/QHBoxLayout>
 
@@ -28,16 +30,8 @@ ControlNotice::ControlNotice(WindowContext *context, QWidget *parent)
     row->addWidget(m_giveBack);
     PlantList *plants = context->plants();
     connect(m_giveBack, &QAbstractButton::clicked, this, [plants] { giveBackControl(*plants); });
-    connect(plants, &PlantList::removed, this, &ControlNotice::follow);
     connect(context, &WindowContext::themeChanged, this, QOverload<>::of(&QWidget::update));
-    plants->forEach(this, &ControlNotice::listenTo);
-    follow();
-}
-
-void ControlNotice::listenTo(Plant *plant)
-{
-    connect(plant, &Plant::leasesChanged, this, &ControlNotice::follow);
-    follow();
+    watchPlants(plants, this, &ControlNotice::follow, &Plant::leasesChanged);
 }
 
 void ControlNotice::follow()

@@ -35,7 +35,6 @@ protected:
     void paintEvent(QPaintEvent *event) override;
 
 private:
-    void listenTo(Plant *plant);
     void follow();
     QColor colorOf(const ControlFact &fact) const;
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "FaultBanner.h"
 
+#include "WatchPlants.h"
+
 #include <QtGui/QPainter>
 
 namespace qplc {
@@ -28,17 +30,8 @@ FaultBanner::FaultBanner(WindowContext *context, QWidget *parent)
 {
     setObjectName(QStringLiteral("FaultBanner"));
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
-    PlantList *plants = context->plants();
-    connect(plants, &PlantList::removed, this, &FaultBanner::follow);
     connect(context, &WindowContext::themeChanged, this, QOverload<>::of(&QWidget::update));
-    plants->forEach(this, &FaultBanner::listenTo);
-    follow();
-}
-
-void FaultBanner::listenTo(Plant *plant)
-{
-    connect(plant, &Plant::statusChanged, this, &FaultBanner::follow);
-    follow();
+    watchPlants(context->plants(), this, &FaultBanner::follow, &Plant::statusChanged);
 }
 
 void FaultBanner::follow()

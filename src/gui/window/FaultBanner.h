@@ -24,7 +24,6 @@ protected:
     void paintEvent(QPaintEvent *event) override;
 
 private:
-    void listenTo(Plant *plant);
     void follow();
 
     WindowContext *m_context;

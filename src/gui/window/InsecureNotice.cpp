@@ -1,22 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "InsecureNotice.h"
 
+#include "WatchPlants.h"
+
 namespace qplc {
 
 InsecureNotice::InsecureNotice(WindowContext *context, QWidget *parent)
     : NoticeLine(context, parent)
 {
     setObjectName(QStringLiteral("InsecureNotice"));
-    PlantList *plants = context->plants();
-    connect(plants, &PlantList::removed, this, &InsecureNotice::follow);
-    plants->forEach(this, &InsecureNotice::listenTo);
-    follow();
-}
-
-void InsecureNotice::listenTo(Plant *plant)
-{
-    connect(plant, &Plant::stateChanged, this, &InsecureNotice::follow);
-    follow();
+    watchPlants(context->plants(), this, &InsecureNotice::follow, &Plant::stateChanged);
 }
 
 void InsecureNotice::follow()

@@ -14,7 +14,6 @@ public:
     explicit InsecureNotice(WindowContext *context, QWidget *parent = nullptr);
 
 private:
-    void listenTo(Plant *plant);
     void follow();
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "LatchBanner.h"
 
+#include "WatchPlants.h"
+
 #include <QtGui/QPainter>
 #include <QtWidgets/QHBoxLayout>
 #include <QtWidgets/QLabel>
@@ -28,19 +30,10 @@ LatchBanner::LatchBanner(WindowContext *context, QWidget *parent)
     row->addWidget(m_label, 1);
     row->addWidget(m_reset, 0, Qt::AlignVCenter);
     PlantList *plants = context->plants();
-    connect(plants, &PlantList::removed, this, &LatchBanner::follow);
     connect(plants, &PlantList::selectionChanged, this, &LatchBanner::follow);
     connect(context, &WindowContext::themeChanged, this, &LatchBanner::colour);
-    plants->forEach(this, &LatchBanner::listenTo);
     colour();
-    follow();
-}
-
-void LatchBanner::listenTo(Plant *plant)
-{
-    connect(plant, &Plant::stateChanged, this, &LatchBanner::follow);
-    connect(plant, &Plant::statusChanged, this, &LatchBanner::follow);
-    follow();
+    watchPlants(plants, this, &LatchBanner::follow, &Plant::stateChanged, &Plant::statusChanged);
 }
 
 void LatchBanner::follow()

@@ -32,7 +32,6 @@ protected:
     void paintEvent(QPaintEvent *event) override;
 
 private:
-    void listenTo(Plant *plant);
     void follow();
     void colour();
 

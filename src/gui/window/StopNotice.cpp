@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "StopNotice.h"
 
+#include "WatchPlants.h"
+
 #include <QtWidgets/QLabel>
 
 namespace qplc {
@@ -11,16 +13,8 @@ StopNotice::StopNotice(WindowContext *context, QWidget *parent)
     setObjectName(QStringLiteral("StopNotice"));
     label()->setTextFormat(Qt::PlainText);
     label()->setTextInteractionFlags(Qt::TextSelectableByMouse);
-    connect(context->plants(), &PlantList::removed, this, &StopNotice::follow);
     hide();
-    context->plants()->forEach(this, &StopNotice::listenTo);
-}
-
-void StopNotice::listenTo(Plant *plant)
-{
-    connect(plant, &Plant::stateChanged, this, &StopNotice::follow);
-    connect(plant, &Plant::statusChanged, this, &StopNotice::follow);
-    follow();
+    watchPlants(context->plants(), this, &StopNotice::follow, &Plant::stateChanged, &Plant::statusChanged);
 }
 
 void StopNotice::follow()

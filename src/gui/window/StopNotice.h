@@ -15,7 +15,6 @@ public:
     explicit StopNotice(WindowContext *context, QWidget *parent = nullptr);
 
 private:
-    void listenTo(Plant *plant);
     void follow();
     QString sentenceOf(const Plant &plant) const;
 };

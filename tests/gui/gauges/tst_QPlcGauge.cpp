@@ -119,7 +119,7 @@ void tst_QPlcGauge::settingsComeBackByteForByte()
     QPlcGauge gauge;
     gauge.applySettings(QJsonDocument::fromJson(json).object());
     QCOMPARE(QJsonDocument(gauge.settings()).toJson(QJsonDocument::Compact), json);
-    QCOMPARE(gauge.type(), int(QPlcWidget::Gauge));
+    QCOMPARE(gauge.kind(), QStringLiteral("Gauge"));
 }
 
 void tst_QPlcGauge::missingSettingsAreDefaults()

@@ -16,11 +16,7 @@ WindWindow::WindWindow(QWidget *parent)
 
 QJsonObject WindWindow::settings() const
 {
-    QJsonObject all = QPlcWidget::settings();
-    const QJsonObject own = m_kite.settings().toJson();
-    for (auto entry = own.begin(); entry != own.end(); ++entry)
-        all.insert(entry.key(), entry.value());
-    return all;
+    return settingsWith(m_kite.settings().toJson());
 }
 
 void WindWindow::applySettings(const QJsonObject &settings)
