@@ -277,6 +277,8 @@ void PanelFrame::paintEvent(QPaintEvent * /*event*/)
     QPainter painter(this);
     const QColor window = palette().color(QPalette::Window);
     painter.fillRect(rect(), window.lightness() < 128 ? window.lighter(160) : window.darker(140));
+    if (m_widget)
+        painter.fillRect(m_widget->geometry(), palette().color(QPalette::Base));  // a panel need not paint all of it
 }
 
 /// Null: there is none.

@@ -78,6 +78,7 @@ private Q_SLOTS:
     void aFileWithAnErrorIsToldInTheWindow();
     void layoutsKeepUnknownKeysAndTypes();
     void aLayoutFromBeforeThePanelApiOpens();
+    void aPanelThatPaintsNothingStandsOnTheColourOfPanels();
     void valuesReachPanelsThatWantThem();
     void keysAreListed();
     void focusMovesByKeys();
@@ -291,6 +292,24 @@ void tst_ControlCenterPanels::aLayoutFromBeforeThePanelApiOpens()
             missing << panel->type;
     }
     QCOMPARE(missing, QStringList({QStringLiteral("3D view"), QStringLiteral("Wind window")}));
+}
+
+void tst_ControlCenterPanels::aPanelThatPaintsNothingStandsOnTheColourOfPanels()
+{
+    QPlcWidgetFactoryOf<Listening> factory;
+    WindowFixture fixture;
+    fixture.window.addAvailableWidget(&factory);
+    fixture.window.connectToMaster(QStringLiteral("127.0.0.1:%1").arg(freePort()));
+    auto *view = fixture.part<LayoutView>();
+    const QString id = view->editor()->addPanel(Listening::typeName(), {},
+                                                LayoutTarget::inTab(view->editor()->layout().currentTab().id));
+    QPlcWidget *panel = view->widget(id);
+    QVERIFY(QTest::qWaitFor([panel] { return panel->isVisible(); }));
+    for (const QPlcControlCenter::Theme theme : {QPlcControlCenter::DarkTheme, QPlcControlCenter::LightTheme}) {
+        fixture.window.setTheme(theme);
+        const QImage picture = panel->parentWidget()->grab().toImage();
+        QCOMPARE(picture.pixelColor(panel->geometry().center()), panel->context()->theme().surface);
+    }
 }
 
 void tst_ControlCenterPanels::valuesReachPanelsThatWantThem()
