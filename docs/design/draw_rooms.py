@@ -32,6 +32,7 @@ PLACES = {
     "gui/store": (2.5, 7.7, "past of values"),
     "tools": (6.8, 0, "qtplc"),
     "hardware": (9.0, 0, "drivers, wires"),
+    "test_support": (10.2, 5.3, "simulator"),
     "node/api": (7.9, 1.4, "master, node, ports"),
     "node/session": (7.9, 2.7, "control channel"),
     "node/security": (6.8, 4.1, "keys, rights"),

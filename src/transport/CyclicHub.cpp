@@ -14,7 +14,8 @@ CyclicHub::CyclicHub()
 {
     m_peers.reserve(MaximumPeers);
     for (const auto &kind : TransportRegistry::instance().kinds()) {
-        if (auto transport = kind->makeHubTransport())
+        auto transport = kind->isAtHand() ? kind->makeHubTransport() : nullptr;
+        if (transport)
             add(std::move(transport));
     }
 }

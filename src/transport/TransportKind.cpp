@@ -2,6 +2,7 @@
 #include "TransportKind.h"
 
 #include "QPlcUnderlyingProtocol.h"
+#include "realtime/Host.h"
 
 #include <QtNetwork/QHostInfo>
 
@@ -43,6 +44,11 @@ bool split(const QString &text, QString *host, QString *port)
 }  // namespace
 
 TransportKind::~TransportKind() = default;
+
+bool TransportKind::isAtHand() const
+{
+    return isOfMachine() == (&Host::current() == &Host::machine());
+}
 
 bool TransportKind::readPlace(const QString &place, const QString &text, QHostAddress *address, quint16 *port,
                               QString *error) const

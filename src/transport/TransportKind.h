@@ -71,6 +71,11 @@ public:
     /// Whether the inputs of many nodes travel in one frame.
     virtual bool hasGroup() const { return false; }
 
+    /// Whether its frames travel on the machine; else between hosts of a simulator (Host::current()).
+    virtual bool isOfMachine() const { return true; }
+    /// Whether Host::current() has it.
+    bool isAtHand() const;
+
     // ---- addresses ----
 
     /// Reads what follows "NAME://" in \a text: \a place. Here HOST:PORT; names of hosts are looked

@@ -41,6 +41,7 @@ ARROWS = {
     # It makes panels by their names (QPlcWidgetFactory).
     "gui/window": {"signals", "node", "node/state", "node/session", "gui", "gui/plant", "gui/models", "gui/panel", "gui/layout", "gui/window"},
     "gui3d": {"signals", "node", "gui", "gui/panel", "gui3d"},
+    "test_support": BELOW_NODE | {"node", "test_support"},
     "tools": BELOW_NODE | {"node", "node/state", "node/security", "node/cycle", "node/session", "tools"},
 }
 # Room with a library of its own: folder of its list of headers, and its umbrella header. All others belong to QtPlc::Core.

@@ -2,6 +2,7 @@
 #include "MasterBeacon.h"
 
 #include "node/Logging.h"
+#include "realtime/Host.h"
 
 #include <QtNetwork/QNetworkInterface>
 #include <QtNetwork/QUdpSocket>
@@ -56,6 +57,8 @@ QString MasterBeacon::localAddress(const QHostAddress &address, quint16 port)
 void MasterBeacon::begin(const QHostAddress &address, const Beacon &beacon, bool isForNetwork)
 {
     end();
+    if (&Host::current() != &Host::machine())
+        return;  // programs of the machine cannot reach it
     m_address = address;
     m_datagram = beacon.encoded();
     m_notice.post(localAddress(address, beacon.port).toLatin1() + '\n' + m_datagram);

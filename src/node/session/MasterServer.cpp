@@ -112,7 +112,7 @@ bool MasterServer::listen(const QHostAddress &address, quint16 port, const QStri
 
 bool MasterServer::openTransports(const MasterPlace &place)
 {
-    const auto opens = [&](const auto &kind) { return kind->open(m_hub, place, &m_errorString); };
+    const auto opens = [&](const auto &kind) { return !kind->isAtHand() || kind->open(m_hub, place, &m_errorString); };
     const auto &kinds = TransportRegistry::instance().kinds();
     return std::all_of(kinds.begin(), kinds.end(), opens);
 }

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "Simulator.h"
+#include "transport/SocketAddress.h"
+
+#include <cstddef>
+#include <deque>
+#include <unordered_map>
+#include <vector>
+
+namespace qplc {
+
+class Fiber;
+class FrameEnd;
+
+/// A frame on its way.
+struct SimulatedFrame
+{
+    quint64 from = 0;  // SocketAddress::key()
+    std::vector<char> bytes;
+};
+
+/// Carries cyclic frames between the hosts of a simulator, each on its own, as UDP does.
+class FrameWire
+{
+public:
+    explicit FrameWire(Simulator &simulator);
+
+    void send(const FrameEnd &from, quint64 to, const char *bytes, std::size_t size);
+    SimulatedFrame &frame(std::size_t number) { return *m_frames[number]; }
+    void release(std::size_t number) { m_free.push_back(number); }
+
+private:
+    friend class FrameEnd;
+    void sendOnce(const FrameEnd &from, const FrameEnd &to, const char *bytes, std::size_t size);
+
+    Simulator &m_simulator;
+    std::unordered_map<quint64, FrameEnd *> m_ends;
+    std::vector<std::unique_ptr<SimulatedFrame>> m_frames;
+    std::vector<std::size_t> m_free;
+};
+
+/// A port of a host for frames, with the memory that its kernel has for those that nobody has read yet.
+class FrameEnd final : public SimulatedTarget
+{
+public:
+    static constexpr std::size_t MostUnread = 256;  // frames
+
+    FrameEnd(SimulatedHost &host, quint16 port);
+    ~FrameEnd() override;
+
+    quint64 key() const noexcept { return m_key; }
+    SimulatedHost &host() const noexcept { return *m_host; }
+    bool isEmpty() const noexcept { return m_unread.empty(); }
+    /// The next frame, valid until the next call. Null: there is none.
+    const SimulatedFrame *take();
+    /// Waits for a frame, at most until \a deadline [ns] of the host. On a fiber; elsewhere it does not wait.
+    void wait(std::int64_t deadline) noexcept;
+    void send(quint64 to, const char *bytes, std::size_t size) { m_wire.send(*this, to, bytes, size); }
+    /// Frames for which there was no memory.
+    std::uint64_t unread() const noexcept { return m_dropped; }
+
+    void happen(std::uint32_t what, std::uint64_t data) override;
+    bool isOfProgram(std::uint32_t) const override { return false; }
+
+private:
+    static constexpr std::size_t None = SIZE_MAX;
+
+    FrameWire &m_wire;
+    const quint64 m_key;
+    std::deque<std::size_t> m_unread;
+    std::size_t m_taken = None;
+    Fiber *m_waiting = nullptr;
+    std::uint64_t m_dropped = 0;
+};
+
+}  // namespace qplc

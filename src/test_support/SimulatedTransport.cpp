@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "SimulatedTransport.h"
+
+#include "Fiber.h"
+#include "FrameWire.h"
+#include "transport/TransportRegistry.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace qplc {
+
+namespace {
+
+const QString portField = QStringLiteral("simPort");
+
+/// \pre the thread is on a host of a simulator
+SimulatedHost &ownHost()
+{
+    return static_cast<SimulatedHost &>(Host::current());
+}
+
+class Peer final : public HubPeer
+{
+public:
+    explicit Peer(quint64 there)
+        : key(there)
+    {
+    }
+    bool losesFrames() const override { return true; }
+
+    const quint64 key;  // of its FrameEnd
+};
+
+class Hub final : public HubTransport
+{
+public:
+    Hub() { m_peers.reserve(MaximumPeers); }
+
+    bool open(const SocketAddress &address, QString *) override
+    {
+        m_end = std::make_unique<FrameEnd>(m_host, address.port());
+        return true;
+    }
+    void close() override { m_end.reset(); }
+    bool owns(const HubPeer &peer) const noexcept override { return dynamic_cast<const Peer *>(&peer) != nullptr; }
+    void attach(HubPeer *peer) noexcept override { m_peers.push_back(static_cast<Peer *>(peer)); }
+    void detach(HubPeer *peer) noexcept override
+    {
+        m_peers.erase(std::remove(m_peers.begin(), m_peers.end(), peer), m_peers.end());
+    }
+    std::size_t peerCount() const noexcept override { return m_peers.size(); }
+    void addDescriptors(std::vector<pollfd> *) const override {}
+    std::size_t descriptorCount() const noexcept override { return 0; }
+
+    bool send(HubPeer *peer, const char *frame, std::size_t size) noexcept override
+    {
+        m_end->send(static_cast<Peer *>(peer)->key, frame, size);
+        return true;
+    }
+    bool waitAlone(std::int64_t timeout, bool *arrived) noexcept override
+    {
+        m_read = 0;
+        if (m_end && timeout > 0)
+            m_end->wait(m_host.now() + timeout);
+        else if (timeout > 0)
+            m_host.sleepUntil(m_host.now() + timeout);
+        *arrived = m_end && !m_end->isEmpty();
+        return true;
+    }
+    bool endWait(pollfd *) noexcept override
+    {
+        m_read = 0;
+        return m_end && !m_end->isEmpty();
+    }
+    bool next(HubFrame *frame) noexcept override
+    {
+        while (m_end && m_read < FramesPerWait) {
+            const SimulatedFrame *arrived = m_end->take();
+            if (!arrived)
+                return false;
+            ++m_read;
+            const auto sends = [arrived](const Peer *peer) { return peer->key == arrived->from; };
+            const auto peer = std::find_if(m_peers.begin(), m_peers.end(), sends);
+            if (peer != m_peers.end()) {
+                *frame = {*peer, arrived->bytes.data(), arrived->bytes.size()};
+                return true;
+            }
+            ++m_strangers;
+        }
+        return false;
+    }
+    std::uint64_t unread() const override { return m_end ? m_end->unread() : 0; }
+
+private:
+    SimulatedHost &m_host = ownHost();
+    std::unique_ptr<FrameEnd> m_end;  // null: closed
+    std::vector<Peer *> m_peers;
+    std::size_t m_read = 0;  // frames since the last wait
+};
+
+class Link final : public CyclicLink
+{
+public:
+    Link(quint16 port, quint64 master)
+        : CyclicLink(-1)
+        , m_end(ownHost(), port)
+        , m_master(master)
+    {
+    }
+    Status receive(const char **frame, std::size_t *size) noexcept override
+    {
+        m_end.wait(Fiber::Never);
+        return poll(frame, size);
+    }
+    Status poll(const char **frame, std::size_t *size) noexcept override
+    {
+        const SimulatedFrame *arrived = m_end.take();
+        while (arrived && arrived->from != m_master)
+            arrived = m_end.take();
+        if (!arrived)
+            return Nothing;
+        *frame = arrived->bytes.data();
+        *size = arrived->bytes.size();
+        return Received;
+    }
+    bool send(const char *frame, std::size_t size) noexcept override
+    {
+        m_end.send(m_master, frame, size);
+        return true;
+    }
+
+private:
+    FrameEnd m_end;
+    const quint64 m_master;
+};
+
+}  // namespace
+
+void SimulatedTransport::install()
+{
+    QString error;
+    if (!TransportRegistry::instance().named(QStringLiteral("sim")))
+        TransportRegistry::instance().add(std::make_unique<SimulatedTransport>(), &error);
+}
+
+std::unique_ptr<HubTransport> SimulatedTransport::makeHubTransport() const
+{
+    return std::make_unique<Hub>();
+}
+
+bool SimulatedTransport::admits(const CyclicHub &, const Newcomer &node, ChannelError *error) const
+{
+    const int port = node.request.value(portField).toInt();
+    if (port >= 1 && port <= 65535)
+        return true;
+    *error = {QStringLiteral("MalformedMessage"), QStringLiteral("simulated port %1 is out of 1 ... 65535").arg(port)};
+    return false;
+}
+
+std::unique_ptr<HubPeer> SimulatedTransport::makePeer(const CyclicHub &, const Newcomer &node, QJsonObject *,
+                                                      ChannelError *) const
+{
+    const auto port = quint16(node.request.value(portField).toInt());
+    return std::make_unique<Peer>(SocketAddress(node.address, port).key());
+}
+
+bool SimulatedTransport::beginLink(const ControlEnds &ends, QJsonObject *request, std::unique_ptr<CyclicLink> *link,
+                                   QString *) const
+{
+    const quint16 port = ownHost().newPort();
+    request->insert(portField, int(port));
+    *link = std::make_unique<Link>(port, ends.master.key());
+    return true;
+}
+
+}  // namespace qplc
