@@ -75,6 +75,18 @@ class Faults(unittest.TestCase):
         (self.root / "src/node/session/MasterSettings.h").write_text("// SPDX-License-Identifier: Apache-2.0\n")
         self.assert_named("src/node/session/MasterSettings.h:", "take it out of KNOWS_FIELDS")
 
+    def test_a_panel_knows_the_window_by_its_context_alone(self):
+        self.plant("src/gui3d/View3DEditor.cpp", '#include "gui/panel/WindowContext.h"\n')
+        self.assert_named("src/gui3d/View3DEditor.cpp:", "a panel knows the window by QPlcPanelContext alone")
+
+    def test_a_panel_that_knows_the_window_no_more_leaves_the_list(self):
+        (self.root / "src/gui/gauges/GaugeFeed.h").write_text("// SPDX-License-Identifier: Apache-2.0\n")
+        self.assert_named("src/gui/gauges/GaugeFeed.h:", "take it out of KNOWS_WINDOW")
+
+    def test_an_example_knows_public_headers_alone(self):
+        self.plant("examples/airborne_wind_energy/plant/Wind.h", '#include "gui/plant/Plant.h"\n')
+        self.assert_named("examples/airborne_wind_energy/plant/Wind.h:", "an example knows the public headers alone")
+
     def test_signals_know_no_socket(self):
         self.plant("src/signals/Fnv1a.h", "#include <sys/socket.h>\n")
         self.assert_named("src/signals/Fnv1a.h:", "a socket")
