@@ -48,7 +48,7 @@ public:
     enum Cursor { CursorA, CursorB };
 
     /// What a reference means, and its value.
-    struct Signal
+    struct QTPLC_GUI_EXPORT Signal
     {
         QString plant;                    ///< name of its plant; empty: there is no such signal now
         QPlcSignalDefinition definition;  ///< name, type, unit, limits, names of values
