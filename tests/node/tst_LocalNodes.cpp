@@ -21,6 +21,8 @@ private Q_SLOTS:
     void masterMeasuresJitterAndWorkload();
     void aNodeMayBeAddedAgain();
     void destroyingARunningMasterStopsIt();
+    void aNodeMayBeRemovedByWhatItHears_data();
+    void aNodeMayBeRemovedByWhatItHears();
     void aNodeThatEndsBeforeItsMasterLeavesIt_data();
     void aNodeThatEndsBeforeItsMasterLeavesIt();
 };
@@ -207,6 +209,40 @@ void tst_LocalNodes::destroyingARunningMasterStopsIt()
         QVERIFY(master.waitForCycles(3));
     }
     QCOMPARE(counter.stops, 1);
+}
+
+void tst_LocalNodes::aNodeMayBeRemovedByWhatItHears_data()
+{
+    QTest::addColumn<QPlcSlaveNode::State>("state");
+    QTest::newRow("outputs are wanted") << QPlcSlaveNode::Initializing;
+    QTest::newRow("inputs have come") << QPlcSlaveNode::Ready;
+    QTest::newRow("the phase has begun") << QPlcSlaveNode::RealTime;
+}
+
+void tst_LocalNodes::aNodeMayBeRemovedByWhatItHears()
+{
+    QFETCH(QPlcSlaveNode::State, state);
+    TestMaster master;
+    EchoNode echo;
+    CounterNode counter;
+    QVERIFY(master.addLocalNode(&echo) && master.addLocalNode(&counter));
+    bool isRemoved = false;
+    connect(&echo, &QPlcSlaveNode::stateChanged, &master, [&] {
+        if (!isRemoved && echo.state() == state) {
+            isRemoved = true;
+            master.removeLocalNode(&echo);
+        }
+    });
+    master.startRealTime();
+    QVERIFY(isRemoved);
+    QVERIFY(master.waitForState(QPlcMasterNode::Off));
+    QCOMPARE(echo.state(), QPlcSlaveNode::Disconnected);
+    QCOMPARE(counter.state(), QPlcSlaveNode::Registered);
+    QCOMPARE(master.nodes().size(), 1);
+    QVERIFY(master.startRealTime());
+    QVERIFY(master.waitForCycles(3));
+    QCOMPARE(counter.state(), QPlcSlaveNode::RealTime);
+    master.stop();
 }
 
 void tst_LocalNodes::aNodeThatEndsBeforeItsMasterLeavesIt_data()

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the cycle thread of a master reports, and what becomes of it.
 #include "QPlcMasterNodePrivate.h"
-#include "QPlcSlaveNodePrivate.h"
 #include "node/Logging.h"
 #include "node/cycle/FrameLog.h"
 
@@ -57,10 +56,8 @@ void QPlcMasterNodePrivate::report(const CycleEvent &event)
         break;
     case CycleEvent::NodeFaulted: {
         const std::shared_ptr<NodeSlot> slot = registry->find(event.node);
-        const QString what = slot && slot->local ? QString::fromLocal8Bit(slot->local->faultText())
-                                                 : QStringLiteral("its code failed");
-        if (slot && slot->local)
-            slot->local->node().d->apply(qplc::SlaveEvent::CodeFailed);
+        const std::shared_ptr<qplc::LocalNode> local = localNode(slot.get());
+        const QString what = local ? local->codeFailed() : QStringLiteral("its code failed");
         if (!dropFaulty(event.node, what))
             fault(nodeName(event.node), isCritical(event.node),
                   QStringLiteral("node '%1' in cycle %2: %3").arg(nodeName(event.node)).arg(event.cycle).arg(what));

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The sequences of QPlcMasterNodePrivate: initialization, start, stop, and the node that joins while others run.
 #include "QPlcMasterNodePrivate.h"
-#include "QPlcSlaveNodePrivate.h"
 #include "node/Logging.h"
 #include "node/session/MasterReplies.h"
 
@@ -10,8 +9,8 @@
 
 using Event = qplc::MasterEvent;
 using Message = QPlcMessage;
-using NodeEvent = qplc::SlaveEvent;
 using qplc::NodeSlot;
+using LocalNodes = std::vector<std::shared_ptr<qplc::LocalNode>>;
 
 // ---- profile ----
 
@@ -72,7 +71,8 @@ bool QPlcMasterNodePrivate::initializeAllStates()
 }
 
 /// Every node that is waited for now owes the answer that brings it to stage \a owed.
-void QPlcMasterNodePrivate::begin(Step step, Connection::Stage owed)
+/// \return the number of the step, for isStill()
+quint64 QPlcMasterNodePrivate::begin(Step step, Connection::Stage owed)
 {
     m_step = step;
     m_owed = owed;
@@ -81,6 +81,7 @@ void QPlcMasterNodePrivate::begin(Step step, Connection::Stage owed)
         connection->hasFailed = connection->hasFailed && step != Step::CollectOutputs;
     }
     stepTimer.start();
+    return ++m_stepNumber;
 }
 
 /// Goes on to the next step when nobody owes an answer any more.
@@ -134,22 +135,21 @@ void QPlcMasterNodePrivate::collectOutputs()
         if (connection->isAttached() && !connection->slot->listener)
             m_participants.push_back(connection.get());
     }
-    begin(Step::CollectOutputs, Connection::OutputsGiven);
+    const quint64 step = begin(Step::CollectOutputs, Connection::OutputsGiven);
     for (Connection *listener : listeners())
         join(listener);
     for (Connection *connection : m_participants)
         connection->send(qplc::messages::SendYourInitialOutputStates());
-    for (const std::shared_ptr<NodeSlot> &slot : registry->nodes()) {
-        if (!slot->local)
-            continue;
+    for (const auto &node : LocalNodes(m_localNodes)) {
         QString text;
-        slot->local->node().d->apply(NodeEvent::OutputsWanted);
-        if (!slot->local->reset(&text)) {
-            slot->local->node().d->apply(NodeEvent::CodeFailed);
-            sequenceFailed(QStringLiteral("node '%1': %2").arg(slot->name, text));
+        const bool isThere = node->askOutputs(&text);
+        if (!isStill(step))
+            return;  // who heard of it has ended the sequence
+        if (!isThere) {
+            sequenceFailed(QStringLiteral("node '%1': %2").arg(node->slot()->name, text));
             return;
         }
-        if (!takeOutputs(*slot, slot->local->outputs()))
+        if (!takeOutputs(*node->slot(), node->runtime().outputs()))
             return;
     }
     advance();
@@ -219,23 +219,21 @@ void QPlcMasterNodePrivate::distributeInputs()
     }
     roster.held = leaseBooks.mask();
     cycle->initialOutputsTaken(roster);
-    begin(Step::DistributeInputs, Connection::Initialized);
+    const quint64 step = begin(Step::DistributeInputs, Connection::Initialized);
     for (const Connection *connection : m_participants)
         sendInitialInputs(connection);
     for (Connection *listener : listeners())
         goOn(listener);
-    for (const std::shared_ptr<NodeSlot> &slot : registry->nodes()) {
-        if (!slot->local)
-            continue;
+    for (const auto &node : LocalNodes(m_localNodes)) {
         QString text;
-        const QByteArray values = cycle->gather(slot->inputRuns, slot->inputLayout.size());
-        if (!slot->local->initialize(values.constData(), &text)) {
-            slot->local->node().d->apply(NodeEvent::CodeFailed);
-            sequenceFailed(QStringLiteral("node '%1': %2").arg(slot->name, text));
+        const NodeSlot &slot = *node->slot();
+        const bool hasTaken = node->giveInputs(cycle->gather(slot.inputRuns, slot.inputLayout.size()), &text);
+        if (!isStill(step))
+            return;  // who heard of it has ended the sequence
+        if (!hasTaken) {
+            sequenceFailed(QStringLiteral("node '%1': %2").arg(slot.name, text));
             return;
         }
-        slot->local->node().d->apply(NodeEvent::ValuesCame);
-        slot->local->node().d->tellInitialized();
     }
     advance();
 }
@@ -289,10 +287,8 @@ void QPlcMasterNodePrivate::endSequence(const QString &reason)
             connection->send(qplc::messages::StatesInitialized{false, reason});
         connection->stage = std::min(connection->stage, Connection::Attached);
     }
-    for (const std::shared_ptr<NodeSlot> &slot : registry->nodes()) {
-        if (slot->local)
-            slot->local->node().d->apply(NodeEvent::InitializationFailed);
-    }
+    for (const auto &node : LocalNodes(m_localNodes))
+        node->initializationFailed();
     m_participants.clear();
     setError(QPlcMasterNode::InitializationError, reason);
     answerRequester(false, reason);
@@ -389,12 +385,14 @@ void QPlcMasterNodePrivate::startCycles()
     journal.watchOverruns(&cycle->cycleStatistics());
     journal.clearAll(QStringLiteral("over, a real-time phase has begun"));
     apply(Event::CyclesStarted);
-    for (const std::shared_ptr<NodeSlot> &slot : registry->nodes()) {
-        if (!slot->local)
-            continue;
-        slot->local->node().d->phaseProfile = m_profile.value;
-        slot->local->node().d->apply(NodeEvent::PhaseStarted);
-        Q_EMIT slot->local->node().realTimeHasStarted();
+    for (const auto &node : LocalNodes(m_localNodes)) {
+        node->start(m_profile.value);
+        if (!m_isRunning)
+            break;  // who heard of it has ended the phase
+    }
+    if (!m_isRunning) {
+        answerRequester(true, {});
+        return;
     }
     Q_EMIT q->realTimeHasStarted();
     answerRequester(true, {});
@@ -476,14 +474,8 @@ void QPlcMasterNodePrivate::tellStopped(const QString &reason)
         connection->stage = Connection::Attached;
     }
     cycle->setRoster({});
-    for (const std::shared_ptr<NodeSlot> &slot : registry->nodes()) {
-        if (!slot->local)
-            continue;
-        slot->local->node().d->makeSafe(QPlcSlaveNode::PhaseEnded);
-        slot->local->stopped();
-        slot->local->node().d->apply(NodeEvent::PhaseStopped);
-        Q_EMIT slot->local->node().realTimeHasStopped();
-    }
+    for (const auto &node : LocalNodes(m_localNodes))
+        node->stop();
     takeReports();
     refusedValues.end();
     Q_EMIT q->realTimeHasStopped();

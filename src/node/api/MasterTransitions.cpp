@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The states of QPlcMasterNodePrivate: the table carried out, safe stop, arming and reset.
 #include "QPlcMasterNodePrivate.h"
-#include "QPlcSlaveNodePrivate.h"
 #include "node/Logging.h"
 #include "node/session/MasterReplies.h"
+#include "node/state/SlaveStates.h"
 #include "node/state/StateText.h"
 #include "realtime/Host.h"
 #include "realtime/TimeSource.h"
@@ -157,12 +157,8 @@ void QPlcMasterNodePrivate::blame(const QString &node, bool mustReturn)
 
 void QPlcMasterNodePrivate::tellSafeStop()
 {
-    for (const std::shared_ptr<NodeSlot> &slot : registry->nodes()) {
-        if (!slot->local)
-            continue;
-        slot->local->node().d->apply(qplc::SlaveEvent::ToldSafeStop);
-        slot->local->node().d->tellSafe(QPlcSlaveNode::MasterStopsSafely);
-    }
+    for (const auto &node : std::vector<std::shared_ptr<qplc::LocalNode>>(m_localNodes))
+        node->tellSafeStop();
     Q_EMIT q->safelyStopped(stateReason);
 }
 

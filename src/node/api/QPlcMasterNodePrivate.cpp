@@ -216,19 +216,18 @@ bool QPlcMasterNodePrivate::addLocalNode(QPlcSlaveNode *node)
     if (QPlcSignalIndexTable::current().isEmpty())
         QPlcSignalIndexTable::setCurrent(table);  // what the node's lists of signals look their names up in
     QString text;
-    qplc::NodeRuntime &runtime = node->d->runtime;
-    if (!runtime.bind(table, &text))
+    const auto local = std::make_shared<qplc::LocalNode>(*node->d);
+    if (!local->bind(table, &text))
         return setError(QPlcMasterNode::SignalError, text);
     qplc::Refusal refusal;
-    const std::shared_ptr<NodeSlot> slot = registry->admit(qplc::NodeDeclaration::fromRuntime(runtime), &refusal);
+    const std::shared_ptr<NodeSlot> slot
+        = registry->admit(qplc::NodeDeclaration::fromRuntime(local->runtime()), &refusal);
     if (!slot)
         return setError(QPlcMasterNode::NodeError, refusal.text);
-    slot->local = &runtime;
     slot->prepare(cycle->image(), session);
     settings->leaveToWriters();
-    node->d->localMaster = q;
-    node->d->hasChannel = true;
-    node->d->apply(qplc::SlaveEvent::AddedLocally);
+    m_localNodes.push_back(local);
+    local->join(q, slot);
     Q_EMIT q->nodeRegistered(slot->name);
     return true;
 }
@@ -238,16 +237,23 @@ void QPlcMasterNodePrivate::removeLocalNode(QPlcSlaveNode *node)
     if (!registry)
         return;
     end(QStringLiteral("node '%1' is removed").arg(node->name()));
-    for (const std::shared_ptr<NodeSlot> &slot : registry->nodes()) {
-        if (slot->local == &node->d->runtime) {
-            registry->remove(std::shared_ptr<NodeSlot>(slot));
-            node->d->localMaster.clear();
-            node->d->hasChannel = false;
-            node->d->apply(qplc::SlaveEvent::Leave);
-            break;
-        }
+    const auto isOfNode = [node](const auto &local) { return &local->runtime() == &node->d->runtime; };
+    const auto found = std::find_if(m_localNodes.begin(), m_localNodes.end(), isOfNode);
+    if (found != m_localNodes.end()) {
+        const std::shared_ptr<qplc::LocalNode> local = *found;
+        m_localNodes.erase(found);
+        registry->remove(local->slot());
+        local->leave();
     }
     giveRoster();
+}
+
+/// Null: \a slot is none of a node in this process.
+std::shared_ptr<qplc::LocalNode> QPlcMasterNodePrivate::localNode(const NodeSlot *slot) const
+{
+    const auto hasSlot = [slot](const auto &local) { return local->slot().get() == slot; };
+    const auto found = std::find_if(m_localNodes.begin(), m_localNodes.end(), hasSlot);
+    return found == m_localNodes.end() ? nullptr : *found;
 }
 
 // ---- messages ----

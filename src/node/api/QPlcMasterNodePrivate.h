@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "LocalNode.h"
 #include "QPlcMasterNode.h"
 #include "node/cycle/MasterCycle.h"
 #include "node/cycle/NodeRegistry.h"
@@ -151,7 +152,9 @@ private:
     void watchSecurity();
     QString cycleText() const;
 
-    void begin(Step step, Connection::Stage owed);
+    quint64 begin(Step step, Connection::Stage owed);
+    bool isStill(quint64 step) const { return m_step != Step::None && m_stepNumber == step; }
+    std::shared_ptr<qplc::LocalNode> localNode(const qplc::NodeSlot *slot) const;
     bool hasFixedProfile() const;
     qplc::ChosenProfile profileForNow() const;
     void fixProfile();
@@ -196,7 +199,9 @@ private:
     QString nodeName(quint16 id) const;
 
     Step m_step = Step::None;
-    Connection::Stage m_owed = Connection::Silent;  // stage that every participant reaches by its answer
+    quint64 m_stepNumber = 0;                                    // of those that have begun
+    std::vector<std::shared_ptr<qplc::LocalNode>> m_localNodes;  // loops walk over a copy: nodes may leave
+    Connection::Stage m_owed = Connection::Silent;               // stage that every participant reaches by its answer
     std::vector<Connection *> m_participants;
     Connection *m_joiner = nullptr;  // who LetJoin is about
     bool m_isWaitTold = true;        // the wait at hand, by an event: not when all late nodes have a silent policy
