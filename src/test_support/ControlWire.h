@@ -9,6 +9,7 @@
 #include <deque>
 #include <map>
 #include <memory>
+#include <utility>
 
 namespace qplc {
 
@@ -35,6 +36,8 @@ public:
     void write(const char *bytes, qint64 size);
     qint64 read(char *bytes, qint64 most);
     qint64 readable() const { return m_inbox.size(); }
+    /// What has arrived; nobody else reads it.
+    QByteArray takeUnread() { return std::exchange(m_inbox, {}); }
     qint64 unsent() const { return m_outbox.size(); }
     /// Sends what is left, then the end.
     void close();

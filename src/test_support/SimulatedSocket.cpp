@@ -5,6 +5,8 @@
 
 #include <QtCore/QPointer>
 
+#include <algorithm>
+#include <cstring>
 #include <utility>
 
 namespace qplc {
@@ -25,6 +27,7 @@ SimulatedSocket::~SimulatedSocket()
 void SimulatedSocket::connectToHost(const QHostAddress &address, quint16 port, OpenMode)
 {
     leave();
+    m_rest.clear();
     m_end = std::make_shared<ControlEnd>(m_host);
     m_end->setSocket(this);
     setSocketState(ConnectingState);
@@ -130,8 +133,10 @@ void SimulatedSocket::close()
 void SimulatedSocket::endConnection()
 {
     const bool wasConnected = state() == ConnectedState;
+    m_rest = m_end->takeUnread();
     leave();
-    QIODevice::close();
+    if (m_rest.isEmpty())
+        QIODevice::close();
     setSocketState(UnconnectedState);
     const QPointer<SimulatedSocket> self(this);
     Q_EMIT stateChanged(UnconnectedState);
@@ -149,7 +154,7 @@ void SimulatedSocket::leave()
 
 qint64 SimulatedSocket::bytesAvailable() const
 {
-    return QIODevice::bytesAvailable() + (m_end ? m_end->readable() : 0);
+    return QIODevice::bytesAvailable() + (m_end ? m_end->readable() : m_rest.size());
 }
 
 qint64 SimulatedSocket::bytesToWrite() const
@@ -159,7 +164,12 @@ qint64 SimulatedSocket::bytesToWrite() const
 
 qint64 SimulatedSocket::readData(char *bytes, qint64 most)
 {
-    return m_end ? m_end->read(bytes, most) : -1;
+    if (m_end)
+        return m_end->read(bytes, most);
+    const auto size = int(std::min<qint64>(most, m_rest.size()));
+    std::memcpy(bytes, m_rest.constData(), std::size_t(size));
+    m_rest.remove(0, size);
+    return size;
 }
 
 qint64 SimulatedSocket::writeData(const char *bytes, qint64 size)

@@ -44,6 +44,7 @@ private:
 
     SimulatedHost &m_host;
     std::shared_ptr<ControlEnd> m_end;  // null: not connected
+    QByteArray m_rest;                  // that came before the end of the connection and has not been read
 };
 
 }  // namespace qplc
