@@ -279,7 +279,8 @@ bool ControlEnd::hasRoad() const
         && !network.road(*m_there, host()).isCut;
 }
 
-/// As the kernel does with the options of LossWatch: what is stuck is sent again, and a silent end is given up.
+/// As the kernel does with the options of LossWatch: what is stuck is sent again, and a silent end
+/// is given up.
 void ControlEnd::watch()
 {
     const std::int64_t now = m_simulator.now();

@@ -16,7 +16,8 @@ namespace qplc {
 class SimulatedPort;
 class SimulatedSocket;
 
-/// One end of a control connection, as the kernel of its host has it: bytes arrive whole and in order, later or never.
+/// One end of a control connection, as the kernel of its host has it: bytes arrive whole and in
+/// order, later or never.
 class ControlEnd final : public SimulatedTarget, public std::enable_shared_from_this<ControlEnd>
 {
 public:

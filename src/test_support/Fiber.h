@@ -7,8 +7,8 @@
 
 namespace qplc {
 
-/// A strand of cycles with a stack of its own, in the thread of the simulator. Where the thread of a cycle would wait, it
-/// goes back to the simulator, which comes back when something has happened.
+/// A strand of cycles with a stack of its own, in the thread of the simulator. Where the thread of
+/// a cycle would wait, it goes back to the simulator, which comes back when something has happened.
 class Fiber final : public Strand, public SimulatedTarget
 {
 public:

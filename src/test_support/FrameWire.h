@@ -41,7 +41,8 @@ private:
     std::vector<std::size_t> m_free;
 };
 
-/// A port of a host for frames, with the memory that its kernel has for those that nobody has read yet.
+/// A port of a host for frames, with the memory that its kernel has for those that nobody has read
+/// yet.
 class FrameEnd final : public SimulatedTarget
 {
 public:
@@ -55,7 +56,8 @@ public:
     bool isEmpty() const noexcept { return m_unread.empty(); }
     /// The next frame, valid until the next call. Null: there is none.
     const SimulatedFrame *take();
-    /// Waits for a frame, at most until \a deadline [ns] of the host. On a fiber; elsewhere it does not wait.
+    /// Waits for a frame, at most until \a deadline [ns] of the host. On a fiber; elsewhere it does
+    /// not wait.
     void wait(std::int64_t deadline) noexcept;
     void send(quint64 to, const char *bytes, std::size_t size) { m_wire.send(*this, to, bytes, size); }
     /// Frames for which there was no memory.

@@ -7,7 +7,8 @@
 
 namespace qplc {
 
-/// A QTcpSocket whose bytes travel on the ControlWire. What needs a kernel (descriptors, options, waits) it does not do.
+/// A QTcpSocket whose bytes travel on the ControlWire. What needs a kernel (descriptors, options,
+/// waits) it does not do.
 class SimulatedSocket final : public QTcpSocket
 {
 public:

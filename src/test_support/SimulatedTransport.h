@@ -5,7 +5,8 @@
 
 namespace qplc {
 
-/// The transport "sim": cyclic frames on the FrameWire of the simulator that runs the calling thread.
+/// The transport "sim": cyclic frames on the FrameWire of the simulator that runs the calling
+/// thread.
 class SimulatedTransport final : public TransportKind
 {
 public:

@@ -53,7 +53,8 @@ public:
     SimulatedTarget &operator=(const SimulatedTarget &) = delete;
 
     virtual void happen(std::uint32_t what, std::uint64_t data) = 0;
-    /// Whether \a what happens to a program, which may have been stopped, and not to the kernel or the network.
+    /// Whether \a what happens to a program, which may have been stopped, and not to the kernel or
+    /// the network.
     virtual bool isOfProgram(std::uint32_t /*what*/) const { return true; }
 
 protected:
@@ -75,10 +76,11 @@ struct SimulatedEvent
     std::uint32_t what = 0;
 };
 
-/// Virtual time, and all that happens in it, one event after the other, in one thread. With the same seed the same happens.
+/// Virtual time, and all that happens in it, one event after the other, in one thread. With the
+/// same seed the same happens.
 ///
-/// It is the event dispatcher of its thread: timers, posted events and socket notifiers of Qt live in virtual time, too.
-/// run() makes such a thread. See docs/design/simulation.md.
+/// It is the event dispatcher of its thread: timers, posted events and socket notifiers of Qt live
+/// in virtual time, too. run() makes such a thread. See docs/design/simulation.md.
 class Simulator final : public QAbstractEventDispatcher
 {
     Q_OBJECT
@@ -98,7 +100,8 @@ public:
 
     /// Lets \a duration [ns] pass.
     void runFor(std::int64_t duration);
-    /// Until \a isReached, which is asked each millisecond. \return false when \a longest [ns] have passed before
+    /// Until \a isReached, which is asked each millisecond. \return false when \a longest [ns] have
+    /// passed before
     bool runUntil(const std::function<bool()> &isReached, std::int64_t longest);
 
     SimulatedNetwork &network() noexcept { return m_network; }
@@ -112,7 +115,8 @@ public:
     void schedule(const SimulatedTarget &target, std::int64_t time, std::uint32_t what, std::uint64_t data = 0);
     /// \a event, which did not happen when it was due, happens now.
     void repeat(SimulatedEvent event);
-    /// Calls \a code as Qt calls what receives an event: objects that it deletes later end after it.
+    /// Calls \a code as Qt calls what receives an event: objects that it deletes later end after
+    /// it.
     void deliver(const std::function<void()> &code);
     /// Adds to the digest.
     void trace(std::uint64_t what) noexcept

@@ -42,9 +42,11 @@ struct PlantVerdict
     QString violation;  // empty: all gates hold
     std::uint64_t digest = 0;
 };
-/// Runs a master and three nodes with \a plan. The gates: as soon as the master is there again, the nodes come back and
-/// the plant can be started within 60 s; at the end each node has as many cycles as there were periods.
+/// Runs a master and three nodes with \a plan. The gates: as soon as the master is there again, the
+/// nodes come back and the plant can be started within 60 s; at the end each node has as many
+/// cycles as there were periods.
 PlantVerdict runPlan(std::uint64_t seed, const FaultPlanOfPlant &plan);
 
-/// The shortest plan that still fails of those that leave faults of \a plan out one after the other.
+/// The shortest plan that still fails of those that leave faults of \a plan out one after the
+/// other.
 FaultPlanOfPlant shrunk(FaultPlanOfPlant plan, const std::function<bool(const FaultPlanOfPlant &)> &fails);
