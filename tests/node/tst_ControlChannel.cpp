@@ -13,6 +13,7 @@ private Q_SLOTS:
     void getStateTellsEverything();
     void getSignalsTellsAllOrSome();
     void getSignalsTakesEachNameOnce();
+    void getSignalsTakesNothingButNames();
     void setSignalsReadsWhatGetSignalsWrites();
     void setSignalsSetsAllOrNone_data();
     void setSignalsSetsAllOrNone();
@@ -119,6 +120,16 @@ void tst_ControlChannel::getSignalsTakesEachNameOnce()
     QCOMPARE(m_tool->ask(QPlcMessage::GetSignals, {{"names", names}}).text("error"), QString("UnknownSignal"));
 }
 
+/// What cannot be read is no wish for all signals.
+void tst_ControlChannel::getSignalsTakesNothingButNames()
+{
+    for (const QJsonValue &names : {QJsonValue(3), QJsonValue("sum"), QJsonValue(QJsonArray{"sum", 3})}) {
+        const QPlcMessage failed = m_tool->ask(QPlcMessage::GetSignals, {{"names", names}});
+        QCOMPARE(failed.text("error"), QString("MalformedMessage"));
+        QCOMPARE(failed.text("text"), QString("field 'names' is missing or no array"));
+    }
+}
+
 void tst_ControlChannel::setSignalsReadsWhatGetSignalsWrites()
 {
     for (bool running : {false, true}) {
@@ -154,8 +165,8 @@ void tst_ControlChannel::setSignalsSetsAllOrNone_data()
                                << "'setpoint'";
     QTest::newRow("not a number") << with("setpoint", "nan") << "InvalidValue"
                                   << "'setpoint'";
-    QTest::newRow("a number instead of a text") << with("setpoint", 1.0) << "InvalidValue"
-                                                << "'setpoint'";
+    QTest::newRow("a number instead of a text") << with("setpoint", 1.0) << "MalformedMessage"
+                                                << "'values'";
     QTest::newRow("too many elements") << with("vector", "1, 2, 3, 4") << "InvalidValue"
                                        << "'vector'";
     QTest::newRow("no object") << QJsonValue("free") << "MalformedMessage"

@@ -18,6 +18,7 @@ private Q_SLOTS:
     void aSilentNodeEndsTheInitialization();
     void aNodeThatLeavesEndsTheInitialization();
     void outputsOfAWrongSizeEndTheInitialization();
+    void outputsThatCannotBeReadEndTheInitialization();
     void initialOutputsThatAreNotFiniteEndTheInitialization_data();
     void initialOutputsThatAreNotFiniteEndTheInitialization();
     void codeThatThrowsEndsTheInitialization_data();
@@ -188,6 +189,22 @@ void tst_InitializationSequence::aNodeThatLeavesEndsTheInitialization()
     QCOMPARE(master.error(), QPlcMasterNode::InitializationError);
     QVERIFY2(master.errorString().contains("'Leaver'"), qPrintable(master.errorString()));
     QCOMPARE(master.state(), QPlcMasterNode::Off);
+}
+
+/// Nobody waits for the answer of a node that has sent one that cannot be read.
+void tst_InitializationSequence::outputsThatCannotBeReadEndTheInitialization()
+{
+    TestMaster master;
+    QVERIFY(master.listen());
+    ScriptedNode node;
+    node.playsAlong = false;
+    QVERIFY(node.registerAt(master.serverPort()));
+    QVERIFY(master.initializeAllStates());
+    QCOMPARE(node.next().kind(), QPlcMessage::SendYourInitialOutputStates);
+    node.send(QPlcMessage::ReceiveMyInitialOutputStates, {{"values", 8}});
+    QTRY_COMPARE(master.error(), QPlcMasterNode::InitializationError);
+    QVERIFY2(master.errorString().contains("field 'values'"), qPrintable(master.errorString()));
+    QTRY_VERIFY(!node.control.isConnected());
 }
 
 void tst_InitializationSequence::outputsOfAWrongSizeEndTheInitialization()

@@ -300,7 +300,7 @@ void tst_TakeOver::badRequestsTakeNothing_data()
     QTest::newRow("no signals") << QJsonObject() << "MalformedMessage";
     QTest::newRow("an empty list") << with("signals", QJsonArray()) << "MalformedMessage";
     QTest::newRow("a text") << with("signals", "setpoint") << "MalformedMessage";
-    QTest::newRow("numbers") << with("signals", QJsonArray{1, 2}) << "UnknownSignal";
+    QTest::newRow("numbers") << with("signals", QJsonArray{1, 2}) << "MalformedMessage";
     QTest::newRow("an unknown one") << with("signals", QJsonArray{"free", "setpiont"}) << "UnknownSignal";
     QTest::newRow("beyond its maximum") << with("values", QJsonObject{{"setpoint", "10.5"}}) << "InvalidValue";
     QTest::newRow("below its minimum") << with("values", QJsonObject{{"setpoint", "-11"}}) << "InvalidValue";

@@ -26,23 +26,25 @@ void QPlcMasterNodePrivate::join(Connection *connection)
     connection->send(request);
 }
 
-void QPlcMasterNodePrivate::continueJoin(Connection *connection, const Message &message)
+void QPlcMasterNodePrivate::continueJoin(Connection *connection, Message::Kind answer, const QByteArray &outputs,
+                                         bool goesOn)
 {
-    if (message.kind() == Message::ReceiveMyInitialOutputStates && connection->stage == Connection::GivingOutputs) {
-        if (!storeOutputs(connection, message))
+    if (answer == Message::ReceiveMyInitialOutputStates && connection->stage == Connection::GivingOutputs) {
+        if (!storeOutputs(connection, outputs))
             return;
-        tellReturn(connection, message.fields().value(QStringLiteral("goesOn")).toBool());
+        tellReturn(connection, goesOn);
         connection->stage = Connection::OutputsGiven;
-    } else if (message.kind() == Message::Initialized && connection->stage == Connection::Initializing) {
+    } else if (answer == Message::Initialized && connection->stage == Connection::Initializing) {
         connection->stage = Connection::Initialized;
-    } else if (message.kind() == Message::RealTimeReady && connection->stage == Connection::Starting) {
+    } else if (answer == Message::RealTimeReady && connection->stage == Connection::Starting) {
         connection->stage = Connection::Running;
     } else if (connection->slot->listener) {
-        qCDebug(lcMaster).noquote() << "node" << connection->name << "gives the answer" << message.kindName()
+        qCDebug(lcMaster).noquote() << "node" << connection->name << "gives the answer" << Message(answer).kindName()
                                     << "to a sequence that has ended";
         return;
     } else {
-        connection->fail(QStringLiteral("WrongState"), QStringLiteral("%1 was not asked for").arg(message.kindName()));
+        connection->fail(QStringLiteral("WrongState"),
+                         QStringLiteral("%1 was not asked for").arg(Message(answer).kindName()));
         return;
     }
     goOn(connection);

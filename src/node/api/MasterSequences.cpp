@@ -107,17 +107,18 @@ void QPlcMasterNodePrivate::advance()
 }
 
 /// A node answers the step at hand; anything else from it comes at the wrong time.
-void QPlcMasterNodePrivate::continueSequence(Connection *connection, const Message &message)
+void QPlcMasterNodePrivate::continueSequence(Connection *connection, Message::Kind answer, const QByteArray &outputs)
 {
     const Message::Kind expected = m_step == Step::CollectOutputs ? Message::ReceiveMyInitialOutputStates
         : m_step == Step::DistributeInputs                        ? Message::Initialized
         : m_step == Step::Start                                   ? Message::RealTimeReady
                                                                   : Message::Invalid;
-    if (message.kind() != expected || connection->stage + 1 != m_owed) {
-        connection->fail(QStringLiteral("WrongState"), QStringLiteral("%1 was not asked for").arg(message.kindName()));
+    if (answer != expected || connection->stage + 1 != m_owed) {
+        connection->fail(QStringLiteral("WrongState"),
+                         QStringLiteral("%1 was not asked for").arg(Message(answer).kindName()));
         return;
     }
-    if (m_step == Step::CollectOutputs && !storeOutputs(connection, message))
+    if (m_step == Step::CollectOutputs && !storeOutputs(connection, outputs))
         return;
     connection->stage = m_owed;
     advance();
@@ -180,9 +181,8 @@ bool QPlcMasterNodePrivate::takeOutputs(NodeSlot &slot, const char *outputs)
 }
 
 /// Takes the initial outputs of a node. \return false when the message has the wrong size
-bool QPlcMasterNodePrivate::storeOutputs(Connection *connection, const Message &message)
+bool QPlcMasterNodePrivate::storeOutputs(Connection *connection, const QByteArray &values)
 {
-    const QByteArray values = message.bytes(QStringLiteral("values"));
     if (values.size() != int(connection->slot->outputLayout.size())) {
         server->drop(connection,
                      QStringLiteral("it sent %1 bytes of initial outputs instead of %2")

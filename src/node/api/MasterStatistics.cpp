@@ -54,14 +54,3 @@ bool QPlcMasterNodePrivate::activateStatisticSignal(QPlcStatisticFigure figure, 
         statisticSignals.add(figure, signal, nodeName);
     return claimed;
 }
-
-void QPlcMasterNodePrivate::sendStatistics(Connection *connection, const QPlcMessage &message)
-{
-    const bool bins = message.fields().value(QStringLiteral("histograms")).toBool();
-    const QPlcCycleStatistics statistics
-        = cycleStatistics(bins ? QPlcDistribution::WithBins : QPlcDistribution::FiguresOnly);
-    if (!connection->send(qplc::statisticsReply(statistics)))
-        connection->fail(QStringLiteral("TooLong"),
-                         bins ? QStringLiteral("too many nodes for one answer; ask without histograms")
-                              : QStringLiteral("too many nodes for one answer"));
-}

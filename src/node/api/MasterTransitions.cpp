@@ -115,30 +115,6 @@ void QPlcMasterNodePrivate::carryOut(Action action, const QString &reason)
 
 // ---- safe stop ----
 
-void QPlcMasterNodePrivate::stopAsAsked(Connection *connection, const QPlcMessage &message)
-{
-    constexpr int longest = 64;  // [characters]
-    const auto text
-        = [&](const char *field) { return qplc::printable(message.text(QLatin1String(field))).left(longest); };
-    const QString called = text("whoever");
-    const QString who = qplc::shownName(connection->peer, called.isEmpty() ? connection->name : called);
-    const QString how = text("how");
-    if (isRunning() && state != QPlcMasterNode::SafeStop)
-        askedStop = {connection->socket, who, how, qplc::wallClockNow()};
-    stop(how.isEmpty() ? QStringLiteral("'%1' asked for it").arg(who)
-                       : QStringLiteral("'%1' asked for it (%2)").arg(who, how));
-    connection->send(qplc::messages::Done());
-}
-
-qplc::messages::State QPlcMasterNodePrivate::stateFor(const Connection &connection) const
-{
-    qplc::messages::State reply = qplc::stateReply(*q, profile(), session);
-    if (!askedStop.whoever.isEmpty())
-        reply.stopped = qplc::messages::StopEntry{askedStop.whoever, askedStop.how, quint64(askedStop.time),
-                                                  askedStop.asker == connection.socket};
-    return reply;
-}
-
 void QPlcMasterNodePrivate::safeStop(const QString &reason)
 {
     blame({}, false);
@@ -244,14 +220,6 @@ bool QPlcMasterNodePrivate::isStartPermitted(quint64 token) const
 {
     const bool isPermitted = arming.permits(token, qplc::monotonicNow());
     return isPermitted || (!isArmingRequired() && token == 0);
-}
-
-void QPlcMasterNodePrivate::armAsAsked(Connection *connection)
-{
-    if (arm())
-        connection->send(qplc::messages::Armed{arming.token(), std::chrono::nanoseconds(qplc::Arming::ValidFor)});
-    else
-        connection->fail(QStringLiteral("WrongState"), errorString);
 }
 
 /// What the master knows of the state of a node.

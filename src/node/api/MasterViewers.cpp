@@ -3,16 +3,7 @@
 #include "QPlcMasterNodePrivate.h"
 #include "node/session/MasterReplies.h"
 
-#include <cmath>
-
-using Message = QPlcMessage;
 using qplc::JournalEvent;
-
-namespace {
-
-constexpr std::size_t mostEvents = 200;  // in one answer
-
-}  // namespace
 
 void QPlcMasterNodePrivate::prepareViewers()
 {
@@ -52,36 +43,4 @@ QString QPlcMasterNodePrivate::nameOf(const QObject *socket) const
             return connection->shownName();
     }
     return qplc::NodeRegistry::masterName();
-}
-
-void QPlcMasterNodePrivate::changeLease(Connection *connection, const Message &message)
-{
-    qplc::Refusal refusal;
-    const bool isDone = message.kind() == Message::TakeLease ? leases->take(*connection, message.fields(), &refusal)
-                                                             : leases->release(*connection, message.fields(), &refusal);
-    if (isDone)
-        connection->send(qplc::messages::Done());
-    else
-        connection->fail(refusal.error, refusal.text);
-}
-
-void QPlcMasterNodePrivate::sendLeases(Connection *connection)
-{
-    if (!connection->send(qplc::messages::Leases{leases->entries()}))
-        connection->fail(QStringLiteral("TooLong"), QStringLiteral("too many leases for one answer"));
-}
-
-void QPlcMasterNodePrivate::sendEvents(Connection *connection, const Message &message)
-{
-    const QJsonValue field = message.fields().value(QStringLiteral("since"));
-    const double since = field.isUndefined() ? 0.0 : field.toDouble(-1.0);
-    if (!(since >= 0.0 && since <= 9007199254740992.0) || since != std::floor(since)) {
-        connection->fail(QStringLiteral("MalformedMessage"),
-                         QStringLiteral("'since' is the sequence number of an event; leave it out for all events"));
-        return;
-    }
-    const std::vector<JournalEvent> events = journal.events().after(quint64(since), mostEvents);
-    qplc::messages::Events reply = qplc::eventReply(events);
-    reply.more = !events.empty() && events.back().sequence < journal.events().newest();
-    connection->send(reply);
 }

@@ -8,7 +8,6 @@
 #include "realtime/Host.h"
 
 #include <QtCore/QCoreApplication>
-#include <QtCore/QJsonArray>
 #include <QtCore/QMetaEnum>
 
 #include <cmath>
@@ -258,107 +257,6 @@ std::shared_ptr<qplc::LocalNode> QPlcMasterNodePrivate::localNode(const NodeSlot
 
 // ---- messages ----
 
-void QPlcMasterNodePrivate::receive(Connection *connection, const Message &message)
-{
-    leases->renew(connection->socket);
-    switch (message.kind()) {
-    case Message::ReceiveMyInitialOutputStates:
-    case Message::Initialized:
-    case Message::RealTimeReady:
-        if (!connection->isNode())
-            connection->fail(QStringLiteral("MalformedMessage"),
-                             QStringLiteral("%1 is for registered nodes only").arg(message.kindName()));
-        else if (isRunning() || connection->slot->listener)
-            continueJoin(connection, message);
-        else
-            continueSequence(connection, message);
-        break;
-    case Message::NodeFault:
-        if (!connection->isNode())
-            connection->fail(QStringLiteral("MalformedMessage"),
-                             QStringLiteral("NodeFault is for registered nodes only"));
-        else if (connection->slot->listener || (isRunning() && connection->stage != Connection::Running))
-            server->drop(connection,
-                         qplc::printable(message.text(QStringLiteral(
-                             "text"))));  // a listener, or it failed to join: no reason to stop the others
-        else {
-            connection->hasFailed = true;
-            fault(connection->name, connection->slot->critical,
-                  QStringLiteral("node '%1': %2")
-                      .arg(connection->name, qplc::printable(message.text(QStringLiteral("text")))));
-        }
-        break;
-    default:
-        receiveCommand(connection, message);
-        break;
-    }
-}
-
-void QPlcMasterNodePrivate::receiveCommand(Connection *connection, const Message &message)
-{
-    const QJsonObject fields = message.fields();
-    qplc::messages::Signals reply;
-    qplc::Refusal refusal;
-    switch (message.kind()) {
-    case Message::InitializeAllStates:
-        request(connection, initializeAllStates());
-        break;
-    case Message::StartRealTime:
-        startAsAsked(connection, message);
-        break;
-    case Message::Stop:
-        stopAsAsked(connection, message);
-        break;
-    case Message::Arm:
-        armAsAsked(connection);
-        break;
-    case Message::SafeStop:
-        safeStop(QStringLiteral("'%1' asked for it%2")
-                     .arg(connection->shownName(),
-                          message.text(QStringLiteral("reason")).isEmpty()
-                              ? QString()
-                              : QStringLiteral(": ") + qplc::printable(message.text(QStringLiteral("reason")))));
-        connection->send(qplc::messages::Done());
-        break;
-    case Message::Reset:
-        request(connection, reset());
-        break;
-    case Message::GetState:
-        connection->send(stateFor(*connection));
-        break;
-    case Message::GetSchedule:
-        connection->send(qplc::scheduleReply(q->schedule()));
-        break;
-    case Message::GetSignals:
-        if (!qplc::signalReply(*cycle, *registry, leaseBooks,
-                               fields.value(QStringLiteral("names")).toVariant().toStringList(), &reply, &refusal))
-            connection->fail(refusal.error, refusal.text);
-        else if (!connection->send(reply))
-            connection->fail(QStringLiteral("TooLong"),
-                             QStringLiteral("too many signals for one answer; ask for some of them by name"));
-        break;
-    case Message::GetStatistics:
-        sendStatistics(connection, message);
-        break;
-    case Message::SetSignals:
-        setSignals(connection, message);
-        break;
-    case Message::TakeLease:
-    case Message::ReleaseLease:
-        changeLease(connection, message);
-        break;
-    case Message::GetLeases:
-        sendLeases(connection);
-        break;
-    case Message::GetEvents:
-        sendEvents(connection, message);
-        break;
-    default:
-        connection->fail(QStringLiteral("MalformedMessage"),
-                         QStringLiteral("a master has no use for %1").arg(message.kindName()));
-    }
-}
-
 /// Answers a request that was refused now, or remembers who waits for its end.
 void QPlcMasterNodePrivate::request(Connection *connection, bool accepted)
 {
@@ -379,30 +277,7 @@ void QPlcMasterNodePrivate::answerRequester(bool done, const QString &text)
     m_requester.clear();
 }
 
-void QPlcMasterNodePrivate::startAsAsked(Connection *connection, const Message &message)
-{
-    constexpr double largestInteger = 9007199254740992.0;  // that a JSON number holds exactly
-    const QJsonValue cycles = message.fields().value(QStringLiteral("cycles"));
-    const double wanted = cycles.toDouble(-1.0);
-    if (!cycles.isUndefined() && (wanted < 0.0 || wanted > largestInteger || wanted != std::floor(wanted)))
-        connection->fail(QStringLiteral("MalformedMessage"),
-                         QStringLiteral("'cycles' is a whole number of cycles; leave it out to run until Stop"));
-    else
-        request(connection,
-                startRealTime(cycles.isUndefined() ? 0 : quint64(wanted),
-                              isStartPermitted(message.hex64(QStringLiteral("token")))));
-}
-
 // ---- values from outside ----
-
-void QPlcMasterNodePrivate::setSignals(Connection *connection, const Message &message)
-{
-    qplc::Refusal refusal;
-    if (settings->setSignals(connection->socket, message.fields(), &refusal))
-        connection->send(qplc::messages::Done());
-    else
-        connection->fail(refusal.error, refusal.text);
-}
 
 bool QPlcMasterNodePrivate::setSignalValue(const QString &name, const QPlcValue &value)
 {

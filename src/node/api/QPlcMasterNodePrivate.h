@@ -121,12 +121,12 @@ public:
 
 private:
     using Connection = qplc::MasterConnection;
+    class Requests;
     enum class Step : quint8 { None, CollectOutputs, DistributeInputs, Start };
 
     /// Whether cycles run, safe ones or others.
     bool isRunning() const { return m_isRunning; }
     void receive(Connection *connection, const QPlcMessage &message);
-    void receiveCommand(Connection *connection, const QPlcMessage &message);
     void request(Connection *connection, bool accepted);
     void enter(QPlcMasterNode::State newState, const QString &reason);
     void prepareFor(qplc::MasterAction action);
@@ -136,16 +136,7 @@ private:
     void tellSafeStop();
     QString stateOf(const qplc::NodeSlot &slot) const;
     bool takesPart(const qplc::NodeSlot &slot) const;
-    void armAsAsked(Connection *connection);
-    void stopAsAsked(Connection *connection, const QPlcMessage &message);
-    qplc::messages::State stateFor(const Connection &connection) const;
-    void startAsAsked(Connection *connection, const QPlcMessage &message);
-    void setSignals(Connection *connection, const QPlcMessage &message);
-    void sendStatistics(Connection *connection, const QPlcMessage &message);
     void prepareViewers();
-    void changeLease(Connection *connection, const QPlcMessage &message);
-    void sendLeases(Connection *connection);
-    void sendEvents(Connection *connection, const QPlcMessage &message);
     QString nameOf(const QObject *socket) const;
     bool checkSecurity();
     void chooseAddress(QHostAddress *address);
@@ -161,7 +152,7 @@ private:
     const qplc::ProfileDefaults &defaults() const { return qplc::ProfileDefaults::of(m_profile.value); }
     qplc::Refusal objectionTo(const qplc::NodeDeclaration &node) const;
     void tellReturn(const Connection *connection, bool goesOn);
-    void continueSequence(Connection *connection, const QPlcMessage &message);
+    void continueSequence(Connection *connection, QPlcMessage::Kind answer, const QByteArray &outputs);
     void advance();
     void collectOutputs();
     QString faultOfOutputs(const qplc::NodeSlot &slot, const char *outputs) const;
@@ -179,10 +170,10 @@ private:
 
     std::vector<Connection *> listeners() const;
     void join(Connection *connection);
-    void continueJoin(Connection *connection, const QPlcMessage &message);
+    void continueJoin(Connection *connection, QPlcMessage::Kind answer, const QByteArray &outputs, bool goesOn);
     void goOn(Connection *connection);
     void sendInitialInputs(const Connection *connection);
-    bool storeOutputs(Connection *connection, const QPlcMessage &message);
+    bool storeOutputs(Connection *connection, const QByteArray &values);
     qplc::messages::RealTimeStarted startOf(const qplc::NodeSlot &slot) const;
     void giveRoster();
     std::vector<bool> safeSignals(const qplc::Roster &roster);

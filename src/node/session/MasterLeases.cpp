@@ -4,41 +4,23 @@
 #include "node/Logging.h"
 #include "realtime/TimeSource.h"
 
-#include <QtCore/QJsonArray>
-
 #include <algorithm>
-#include <cmath>
 
 namespace qplc {
 
 namespace {
 
-constexpr double shortestTimeout = 1e7;    // [ns] a master is not always quicker
-constexpr double longestTimeout = 3.6e12;  // [ns] an hour: whoever is silent for longer holds nothing
-constexpr double usualTimeout = 1e9;       // [ns]
-constexpr int longestName = 64;            // [characters] as of nodes
+constexpr int longestName = 64;  // [characters] as of nodes
 
 Refusal malformed(const QString &text)
 {
     return {QStringLiteral("MalformedMessage"), text};
 }
 
-bool readTimeout(const QJsonValue &field, std::int64_t *timeout, Refusal *refusal)
+bool readName(const QString &given, QString *name, Refusal *refusal)
 {
-    const double wanted = field.isUndefined() ? usualTimeout : field.toDouble(-1.0);
-    if (!(wanted >= shortestTimeout && wanted <= longestTimeout) || wanted != std::floor(wanted)) {
-        *refusal = malformed(QStringLiteral("'timeout' is a whole number of nanoseconds, 10^7 ... 3.6 * 10^12; leave "
-                                            "it out for one second"));
-        return false;
-    }
-    *timeout = std::int64_t(wanted);
-    return true;
-}
-
-bool readName(const QJsonValue &field, QString *name, Refusal *refusal)
-{
-    *name = printable(field.toString());
-    if ((field.isString() || field.isUndefined()) && name->size() <= longestName)
+    *name = printable(given);
+    if (name->size() <= longestName)
         return true;
     *refusal = malformed(QStringLiteral("'whoever' is a text of at most %1 characters").arg(longestName));
     return false;
@@ -61,12 +43,11 @@ MasterLeases::MasterLeases(Leases &leases, NodeRegistry &registry, MasterCycle &
 
 // ---- taking ----
 
-bool MasterLeases::take(const MasterConnection &asker, const QJsonObject &fields, Refusal *refusal)
+bool MasterLeases::take(const MasterConnection &asker, const messages::TakeLease &request, Refusal *refusal)
 {
     Wish wish;
     const QObject *holder = asker.socket;
-    const bool takeOver = fields.value(QStringLiteral("takeOver")).toBool();
-    if (!readWish(fields, &wish, refusal) || !mayTake(holder, wish.indices, takeOver, refusal))
+    if (!readWish(request, &wish, refusal) || !mayTake(holder, wish.indices, request.takeOver, refusal))
         return false;
     const Leases::Signals kept = keptSignals(holder, wish);
     if (!m_cycle.hasRoomFor(wish.settings.size() + kept.size())) {
@@ -101,23 +82,21 @@ Leases::Signals MasterLeases::keptSignals(const QObject *holder, const Wish &wis
     return kept;
 }
 
-bool MasterLeases::readWish(const QJsonObject &fields, Wish *wish, Refusal *refusal) const
+bool MasterLeases::readWish(const messages::TakeLease &request, Wish *wish, Refusal *refusal) const
 {
-    return readSignals(fields.value(QStringLiteral("signals")), &wish->indices, refusal)
-        && readValues(fields.value(QStringLiteral("values")), wish, refusal)
-        && readTimeout(fields.value(QStringLiteral("timeout")), &wish->timeout, refusal)
-        && readName(fields.value(QStringLiteral("whoever")), &wish->name, refusal);
+    wish->timeout = request.timeout.count();
+    return readSignals(request.signals, &wish->indices, refusal) && readValues(request.values, wish, refusal)
+        && readName(request.whoever, &wish->name, refusal);
 }
 
-bool MasterLeases::readSignals(const QJsonValue &names, Leases::Signals *indices, Refusal *refusal) const
+bool MasterLeases::readSignals(const QStringList &names, Leases::Signals *indices, Refusal *refusal) const
 {
-    const QJsonArray array = names.toArray();
-    if (array.isEmpty())
+    if (names.isEmpty())
         *refusal = malformed(QStringLiteral("'signals' is a list of one or more names of signals"));
-    for (const QJsonValue &name : array) {
-        const QPlcSignalIndex index = m_table.indexOf(name.toString());
+    for (const QString &name : names) {
+        const QPlcSignalIndex index = m_table.indexOf(name);
         if (index == QPlcInvalidSignalIndex) {
-            *refusal = {QStringLiteral("UnknownSignal"), m_table.unknownSignalText(printable(name.toString()))};
+            *refusal = {QStringLiteral("UnknownSignal"), m_table.unknownSignalText(printable(name))};
             return false;
         }
         if (std::find(indices->begin(), indices->end(), index) == indices->end())
@@ -126,18 +105,15 @@ bool MasterLeases::readSignals(const QJsonValue &names, Leases::Signals *indices
     return refusal->error.isEmpty();
 }
 
-bool MasterLeases::readValues(const QJsonValue &values, Wish *wish, Refusal *refusal) const
+bool MasterLeases::readValues(const QMap<QString, QString> &texts, Wish *wish, Refusal *refusal) const
 {
-    const QJsonObject texts = values.toObject();
-    if (!values.isObject() && !values.isUndefined())
-        *refusal = malformed(QStringLiteral("'values' is an object of signal names and texts"));
     for (auto it = texts.begin(); it != texts.end() && refusal->error.isEmpty(); ++it) {
         const QPlcSignalIndex index = m_table.indexOf(it.key());
         SignalSetting setting;
         if (std::find(wish->indices.begin(), wish->indices.end(), index) == wish->indices.end())
             *refusal = malformed(
                 QStringLiteral("'%1' has a value and is not one of 'signals'; name it there").arg(printable(it.key())));
-        else if (m_settings.readValue(index, it.value().toString(), &setting, refusal))
+        else if (m_settings.readValue(index, it.value(), &setting, refusal))
             wish->settings.push_back(setting);
     }
     return refusal->error.isEmpty();
@@ -177,13 +153,12 @@ QString MasterLeases::othersText(const QObject *holder, const Leases::Signals &i
 
 // ---- ending ----
 
-bool MasterLeases::release(const MasterConnection &asker, const QJsonObject &fields, Refusal *refusal)
+bool MasterLeases::release(const MasterConnection &asker, const messages::ReleaseLease &request, Refusal *refusal)
 {
     Leases::Signals indices;
-    const QJsonValue wanted = fields.value(QStringLiteral("signals"));
-    if (wanted.isUndefined())
+    if (!request.signals)
         indices = m_leases.signalsOf(asker.socket);
-    else if (!readSignals(wanted, &indices, refusal))
+    else if (!readSignals(*request.signals, &indices, refusal))
         return false;
     for (const QPlcSignalIndex signal : indices) {
         if (m_leases.isHeldByOther(signal, asker.socket)) {

@@ -7,7 +7,6 @@
 #include "QPlcLease.h"
 #include "node/statistics/EventLog.h"
 
-#include <QtCore/QJsonObject>
 #include <QtCore/QObject>
 #include <QtCore/QTimer>
 #include <QtCore/QVector>
@@ -28,10 +27,10 @@ public:
     /// \param leases  the books, which others read
     MasterLeases(Leases &leases, NodeRegistry &registry, MasterCycle &cycle, MasterSettings &settings);
 
-    /// Carries out TakeLease: takes all signals of \a fields or none. \return false, with the reason in \a refusal
-    bool take(const MasterConnection &asker, const QJsonObject &fields, Refusal *refusal);
+    /// Carries out TakeLease: takes all signals of \a request or none. \return false, with the reason in \a refusal
+    bool take(const MasterConnection &asker, const messages::TakeLease &request, Refusal *refusal);
     /// Carries out ReleaseLease.
-    bool release(const MasterConnection &asker, const QJsonObject &fields, Refusal *refusal);
+    bool release(const MasterConnection &asker, const messages::ReleaseLease &request, Refusal *refusal);
     /// A message of \a holder came.
     void renew(const QObject *holder);
 
@@ -53,9 +52,9 @@ private:
         QString name;
         std::int64_t timeout = 0;
     };
-    bool readWish(const QJsonObject &fields, Wish *wish, Refusal *refusal) const;
-    bool readSignals(const QJsonValue &names, Leases::Signals *indices, Refusal *refusal) const;
-    bool readValues(const QJsonValue &values, Wish *wish, Refusal *refusal) const;
+    bool readWish(const messages::TakeLease &request, Wish *wish, Refusal *refusal) const;
+    bool readSignals(const QStringList &names, Leases::Signals *indices, Refusal *refusal) const;
+    bool readValues(const QMap<QString, QString> &texts, Wish *wish, Refusal *refusal) const;
     Leases::Signals keptSignals(const QObject *holder, const Wish &wish) const;
     bool mayTake(const QObject *holder, const Leases::Signals &indices, bool takeOver, Refusal *refusal) const;
     void lose(const Leases::Signals &indices, const QString &why);

@@ -4,31 +4,12 @@
 #include "realtime/TimeSource.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace qplc {
 
 namespace {
 
-constexpr double longestDuration = 1e15;  // [ns], eleven days: what a QTimer can wait for
-constexpr int retryPause = 5;             // [ms] when the cycle had no room
-
-/// \return false when the field is there and makes no sense; 0: for good
-bool readDuration(const QJsonValue &field, std::int64_t *duration, Refusal *refusal)
-{
-    *duration = 0;
-    if (field.isUndefined())
-        return true;
-    const double wanted = field.toDouble(-1.0);
-    if (!(wanted >= 1.0 && wanted <= longestDuration) || wanted != std::floor(wanted)) {
-        *refusal = {QStringLiteral("MalformedMessage"),
-                    QStringLiteral("'duration' is a whole number of nanoseconds, 1 ... 10^15; leave it out to set the "
-                                   "values for good")};
-        return false;
-    }
-    *duration = std::int64_t(wanted);
-    return true;
-}
+constexpr int retryPause = 5;  // [ms] when the cycle had no room
 
 }  // namespace
 
@@ -56,20 +37,18 @@ MasterSettings::MasterSettings(NodeRegistry &registry, MasterCycle &cycle, const
     });
 }
 
-bool MasterSettings::setSignals(const QObject *owner, const QJsonObject &fields, Refusal *refusal)
+bool MasterSettings::setSignals(const QObject *owner, const messages::SetSignals &wish, Refusal *refusal)
 {
     std::vector<SignalSetting> settings;
-    std::int64_t duration = 0;
-    if (!readDuration(fields.value(QStringLiteral("duration")), &duration, refusal)
-        || !readValues(owner, fields.value(QStringLiteral("values")), &settings, refusal))
+    if (!readValues(owner, wish.values, &settings, refusal))
         return false;
     std::vector<QPlcValue> former;
     for (const SignalSetting &setting : settings)
         former.push_back(presentValue(setting.signal));
     if (!give(settings, refusal))
         return false;
-    if (duration > 0) {
-        keepFor(owner, settings, former, monotonicNow() + duration);
+    if (wish.duration) {
+        keepFor(owner, settings, former, monotonicNow() + wish.duration->count());
     } else {
         for (const SignalSetting &setting : settings)
             m_temporary.forget(setting.signal);
@@ -185,17 +164,13 @@ bool MasterSettings::checkValue(QPlcSignalIndex signal, const QPlcValue &value, 
     return true;
 }
 
-bool MasterSettings::readValues(const QObject *owner, const QJsonValue &values, std::vector<SignalSetting> *settings,
-                                Refusal *refusal) const
+bool MasterSettings::readValues(const QObject *owner, const QMap<QString, QString> &texts,
+                                std::vector<SignalSetting> *settings, Refusal *refusal) const
 {
-    if (!values.isObject())
-        *refusal
-            = {QStringLiteral("MalformedMessage"), QStringLiteral("'values' is an object of signal names and texts")};
-    const QJsonObject texts = values.toObject();
     for (auto it = texts.begin(); it != texts.end() && refusal->error.isEmpty(); ++it) {
         QPlcSignalIndex index = QPlcInvalidSignalIndex;
         SignalSetting setting;
-        if (isSettable(owner, it.key(), &index, refusal) && readValue(index, it.value().toString(), &setting, refusal))
+        if (isSettable(owner, it.key(), &index, refusal) && readValue(index, it.value(), &setting, refusal))
             settings->push_back(setting);
     }
     return refusal->error.isEmpty();

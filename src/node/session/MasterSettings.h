@@ -5,7 +5,6 @@
 #include "node/cycle/NodeRegistry.h"
 #include "node/cycle/TemporaryValues.h"
 
-#include <QtCore/QJsonObject>
 #include <QtCore/QObject>
 #include <QtCore/QTimer>
 
@@ -26,10 +25,10 @@ class MasterSettings : public QObject
 public:
     MasterSettings(NodeRegistry &registry, MasterCycle &cycle, const Leases &leases);
 
-    /// Carries out SetSignals: sets all signals of \a fields or none.
+    /// Carries out SetSignals: sets all signals of \a wish or none.
     /// \param owner  who asked; what it has set with a duration ends with it
     /// \return false, with the reason in \a refusal
-    bool setSignals(const QObject *owner, const QJsonObject &fields, Refusal *refusal);
+    bool setSignals(const QObject *owner, const messages::SetSignals &wish, Refusal *refusal);
     /// Sets one signal. \return false, with the reason in \a refusal
     bool setSignal(const QString &name, const QPlcValue &value, Refusal *refusal);
     /// To be called when a node has registered, or a lease was released: what a node writes is its own, nothing comes back over it.
@@ -56,7 +55,7 @@ Q_SIGNALS:
 private:
     bool isSettable(const QObject *owner, const QString &name, QPlcSignalIndex *signal, Refusal *refusal) const;
     bool checkValue(QPlcSignalIndex signal, const QPlcValue &value, SignalSetting *setting, Refusal *refusal) const;
-    bool readValues(const QObject *owner, const QJsonValue &values, std::vector<SignalSetting> *settings,
+    bool readValues(const QObject *owner, const QMap<QString, QString> &texts, std::vector<SignalSetting> *settings,
                     Refusal *refusal) const;
     bool give(const std::vector<SignalSetting> &settings, Refusal *refusal);
     void keepFor(const QObject *owner, const std::vector<SignalSetting> &settings, const std::vector<QPlcValue> &former,

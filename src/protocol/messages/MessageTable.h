@@ -20,11 +20,23 @@ struct List
     static constexpr bool contains(QPlcMessage::Kind kind) { return ((Messages::kind == kind) || ...); }
 };
 
+/// The messages of two lists.
+template<typename First, typename Second>
+struct JoinedLists;
+template<typename... First, typename... Second>
+struct JoinedLists<List<First...>, List<Second...>>
+{
+    using Type = List<First..., Second...>;
+};
+
+/// By what somebody becomes known to a master, and a node of it.
+using Openings = List<ClientHello, Register, AttachCyclicChannel>;
+/// What a master answers, or carries out, for those that it knows.
+using Requests = List<InitializeAllStates, ReceiveMyInitialOutputStates, Initialized, StartRealTime, RealTimeReady,
+                      Stop, SafeStop, Reset, Arm, GetState, GetSignals, SetSignals, NodeFault, GetStatistics,
+                      GetSchedule, TakeLease, ReleaseLease, GetLeases, GetEvents>;
 /// What a node or tool sends to its master.
-using FromClient
-    = List<ClientHello, Register, AttachCyclicChannel, InitializeAllStates, ReceiveMyInitialOutputStates, Initialized,
-           StartRealTime, RealTimeReady, Stop, SafeStop, Reset, Arm, GetState, GetSignals, SetSignals, NodeFault,
-           GetStatistics, GetSchedule, TakeLease, ReleaseLease, GetLeases, GetEvents>;
+using FromClient = JoinedLists<Openings, Requests>::Type;
 /// What a master sends to a node or tool.
 using FromMaster
     = List<MasterHello, Registered, Rejected, CyclicChannelAttached, MasterEnds, SendYourInitialOutputStates,

@@ -43,7 +43,7 @@ struct GetSignals
     using Answer = Signals;
     QStringList names;  // empty: all
 
-    static constexpr auto fields = std::make_tuple(field("names", &GetSignals::names, Presence::WhenSet));
+    static constexpr auto fields = std::make_tuple(field("names", &GetSignals::names, Presence::Checked));
 };
 
 struct SetSignals

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+// What nodes and tools ask of a master: one function for each message.
+#include "QPlcMasterNodePrivate.h"
+#include "node/Logging.h"
+#include "node/session/MasterReplies.h"
+#include "node/statistics/StatisticsReply.h"
+#include "protocol/messages/MessageTable.h"
+#include "realtime/TimeSource.h"
+
+using Message = QPlcMessage;
+namespace messages = qplc::messages;
+
+namespace {
+
+constexpr std::size_t mostEvents = 200;  // in one answer
+constexpr int longestText = 64;          // [characters] of who stops, and how
+
+QString wordOf(const QString &given)
+{
+    return qplc::printable(given).left(longestText);
+}
+
+}  // namespace
+
+/// Carries out one message of a connection. A kind of messages::Requests without a function here does
+/// not compile.
+class QPlcMasterNodePrivate::Requests
+{
+public:
+    Requests(QPlcMasterNodePrivate &master, Connection *connection)
+        : d(master)
+        , m_connection(connection)
+    {
+    }
+
+    // ---- of nodes ----
+    void operator()(const messages::ReceiveMyInitialOutputStates &answer) const
+    {
+        takeAnswer(answer.kind, answer.values, answer.goesOn);
+    }
+    void operator()(const messages::Initialized &answer) const { takeAnswer(answer.kind); }
+    void operator()(const messages::RealTimeReady &answer) const { takeAnswer(answer.kind); }
+    void operator()(const messages::NodeFault &fault) const
+    {
+        if (!isOfNode(fault.kind))
+            return;
+        const QString text = qplc::printable(fault.text);
+        const bool hasFailedToJoin = d.isRunning() && m_connection->stage != Connection::Running;
+        if (m_connection->slot->listener || hasFailedToJoin) {
+            d.server->drop(m_connection, text);  // no reason to stop the others
+            return;
+        }
+        m_connection->hasFailed = true;
+        d.fault(m_connection->name, m_connection->slot->critical,
+                QStringLiteral("node '%1': %2").arg(m_connection->name, text));
+    }
+
+    // ---- states ----
+    void operator()(const messages::InitializeAllStates &) const { d.request(m_connection, d.initializeAllStates()); }
+    void operator()(const messages::StartRealTime &start) const
+    {
+        const quint64 token = start.token.value_or(messages::Hex64());
+        d.request(m_connection, d.startRealTime(start.cycles.value_or(0), d.isStartPermitted(token)));
+    }
+    void operator()(const messages::Stop &stop) const
+    {
+        const QString called = wordOf(stop.whoever);
+        const QString who = qplc::shownName(m_connection->peer, called.isEmpty() ? m_connection->name : called);
+        const QString how = wordOf(stop.how);
+        if (d.isRunning() && d.state != QPlcMasterNode::SafeStop)
+            d.askedStop = {m_connection->socket, who, how, qplc::wallClockNow()};
+        d.stop(how.isEmpty() ? QStringLiteral("'%1' asked for it").arg(who)
+                             : QStringLiteral("'%1' asked for it (%2)").arg(who, how));
+        m_connection->send(messages::Done());
+    }
+    void operator()(const messages::SafeStop &stop) const
+    {
+        const QString reason = stop.reason.isEmpty() ? QString() : QStringLiteral(": ") + qplc::printable(stop.reason);
+        d.safeStop(QStringLiteral("'%1' asked for it%2").arg(m_connection->shownName(), reason));
+        m_connection->send(messages::Done());
+    }
+    void operator()(const messages::Reset &) const { d.request(m_connection, d.reset()); }
+    void operator()(const messages::Arm &) const
+    {
+        if (d.arm())
+            m_connection->send(messages::Armed{d.arming.token(), std::chrono::nanoseconds(qplc::Arming::ValidFor)});
+        else
+            m_connection->fail(QStringLiteral("WrongState"), d.errorString);
+    }
+
+    // ---- values from outside ----
+    void operator()(const messages::SetSignals &wish) const
+    {
+        qplc::Refusal refusal;
+        finish(d.settings->setSignals(m_connection->socket, wish, &refusal), refusal);
+    }
+    void operator()(const messages::TakeLease &wish) const
+    {
+        qplc::Refusal refusal;
+        finish(d.leases->take(*m_connection, wish, &refusal), refusal);
+    }
+    void operator()(const messages::ReleaseLease &wish) const
+    {
+        qplc::Refusal refusal;
+        finish(d.leases->release(*m_connection, wish, &refusal), refusal);
+    }
+
+    // ---- questions ----
+    void operator()(const messages::GetState &) const
+    {
+        messages::State reply = qplc::stateReply(*d.q, d.profile(), d.session);
+        const qplc::AskedStop &stop = d.askedStop;
+        if (!stop.whoever.isEmpty())
+            reply.stopped
+                = messages::StopEntry{stop.whoever, stop.how, quint64(stop.time), stop.asker == m_connection->socket};
+        m_connection->send(reply);
+    }
+    void operator()(const messages::GetSchedule &) const { m_connection->send(qplc::scheduleReply(d.q->schedule())); }
+    void operator()(const messages::GetSignals &question) const
+    {
+        messages::Signals reply;
+        qplc::Refusal refusal;
+        if (qplc::signalReply(*d.cycle, *d.registry, d.leaseBooks, question.names, &reply, &refusal))
+            answer(reply, QStringLiteral("too many signals for one answer; ask for some of them by name"));
+        else
+            m_connection->fail(refusal.error, refusal.text);
+    }
+    void operator()(const messages::GetStatistics &question) const
+    {
+        const auto detail = question.histograms ? QPlcDistribution::WithBins : QPlcDistribution::FiguresOnly;
+        answer(qplc::statisticsReply(d.cycleStatistics(detail)),
+               question.histograms ? QStringLiteral("too many nodes for one answer; ask without histograms")
+                                   : QStringLiteral("too many nodes for one answer"));
+    }
+    void operator()(const messages::GetLeases &) const
+    {
+        answer(messages::Leases{d.leases->entries()}, QStringLiteral("too many leases for one answer"));
+    }
+    void operator()(const messages::GetEvents &question) const
+    {
+        const std::vector<qplc::JournalEvent> events = d.journal.events().after(question.since.value_or(0), mostEvents);
+        messages::Events reply = qplc::eventReply(events);
+        reply.more = !events.empty() && events.back().sequence < d.journal.events().newest();
+        m_connection->send(reply);
+    }
+
+private:
+    bool isOfNode(Message::Kind kind) const
+    {
+        if (!m_connection->isNode())
+            m_connection->fail(QStringLiteral("MalformedMessage"),
+                               QStringLiteral("%1 is for registered nodes only").arg(Message(kind).kindName()));
+        return m_connection->isNode();
+    }
+    void takeAnswer(Message::Kind kind, const QByteArray &outputs = {}, bool goesOn = false) const
+    {
+        if (!isOfNode(kind))
+            return;
+        if (d.isRunning() || m_connection->slot->listener)
+            d.continueJoin(m_connection, kind, outputs, goesOn);
+        else
+            d.continueSequence(m_connection, kind, outputs);
+    }
+    void finish(bool isDone, const qplc::Refusal &refusal) const
+    {
+        if (isDone)
+            m_connection->send(messages::Done());
+        else
+            m_connection->fail(refusal.error, refusal.text);
+    }
+    template<typename Answer>
+    void answer(const Answer &answer, const QString &tooLong) const
+    {
+        if (!m_connection->send(answer))
+            m_connection->fail(QStringLiteral("TooLong"), tooLong);
+    }
+
+    QPlcMasterNodePrivate &d;
+    Connection *const m_connection;
+};
+
+void QPlcMasterNodePrivate::receive(Connection *connection, const Message &message)
+{
+    leases->renew(connection->socket);
+    QString error;
+    switch (messages::dispatch(messages::Requests(), message, Requests(*this, connection), &error)) {
+    case messages::Dispatch::Delivered:
+        break;
+    case messages::Dispatch::Malformed:
+        if (connection->owes(message.kind()))
+            server->drop(connection, error);  // nobody waits for an answer that will not come
+        else
+            connection->fail(QStringLiteral("MalformedMessage"), error);
+        break;
+    case messages::Dispatch::Unknown:
+        connection->fail(QStringLiteral("MalformedMessage"),
+                         QStringLiteral("a master has no use for %1").arg(message.kindName()));
+        break;
+    }
+}
