@@ -54,7 +54,7 @@ bool CanPartner::step(bool isSending)
     do {
         count = m_bus->receive(frames.data(), int(frames.size()));
         for (int i = 0; i < count; ++i)
-            take(frames[std::size_t(i)]);
+            receive(frames[std::size_t(i)]);
     } while (count == int(frames.size()));
     if (!isSending || m_lastId == 0)
         return count >= 0;
@@ -67,7 +67,7 @@ bool CanPartner::step(bool isSending)
     return count >= 0 && isSent;
 }
 
-void CanPartner::take(const qplc::CanFrame &frame)
+void CanPartner::receive(const qplc::CanFrame &frame)
 {
     const quint32 message = frame.id - CanStamp::ToPartner;
     if (message >= m_next.size())

@@ -47,7 +47,7 @@ public:
 
 private:
     bool step(bool isSending);
-    void take(const qplc::CanFrame &frame);
+    void receive(const qplc::CanFrame &frame);
 
     QString m_device;
     qint64 m_period;

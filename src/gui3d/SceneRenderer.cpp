@@ -80,7 +80,7 @@ void SceneRenderer::finishAll()
     resting().clear();
 }
 
-SceneRenderer *SceneRenderer::take()
+SceneRenderer *SceneRenderer::acquire()
 {
     std::vector<SceneRenderer *> &free = resting();
     const auto idle = std::find_if(free.begin(), free.end(), [](SceneRenderer *each) { return !each->isBusy(); });

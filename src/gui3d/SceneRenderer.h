@@ -36,7 +36,7 @@ class SceneRenderer : public QObject
 public:
     /// One that nobody has, or a new one. Ends with giveBack(), never with delete: the textures of Qt 3D 5.15 may end in the thread of the window while their context belongs to that of Qt 3D,
     /// which ends the program. Renderers are used again, and rest without any cost.
-    static SceneRenderer *take();
+    static SceneRenderer *acquire();
     /// Nothing of it is connected any more, and what was on its way comes to nobody.
     static void giveBack(SceneRenderer *renderer);
     struct GiveBack

@@ -84,7 +84,7 @@ void View3DPicture::start()
     const OpenGlProbe &probe = OpenGlProbe::instance();
     if (!probe.error.isEmpty())
         return showWindWindow(probe.error);
-    m_renderer.reset(SceneRenderer::take());
+    m_renderer.reset(SceneRenderer::acquire());
     m_renderer->mesh()->setMesh(m_model);
     connect(m_renderer.get(), &SceneRenderer::pictureReady, this, &View3DPicture::takePicture);
 }

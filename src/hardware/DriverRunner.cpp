@@ -144,7 +144,7 @@ void DriverRunner::read(qint64 now) noexcept
 {
     if (m_state.load(std::memory_order_acquire) == InCycle) {
         if (readDevice(now)) {
-            take(&m_readings);
+            copyChannels(&m_readings);
             return;
         }
         lose();
@@ -286,7 +286,7 @@ void DriverRunner::give(const std::vector<Order> &orders) noexcept
     }
 }
 
-void DriverRunner::take(std::vector<Reading> *readings) const noexcept
+void DriverRunner::copyChannels(std::vector<Reading> *readings) const noexcept
 {
     for (std::size_t i = 0; i < readings->size(); ++i) {
         if (const QPlcReadChannel *channel = m_readChannels[i].channel)
@@ -309,7 +309,7 @@ void DriverRunner::takeOrders()
 /// What the thread of the driver has read.
 void DriverRunner::publish()
 {
-    take(&m_newReadings);
+    copyChannels(&m_newReadings);
     m_fromDevice->publish(m_newReadings.data(), quint64(m_driver->m_now));
 }
 

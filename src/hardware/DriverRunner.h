@@ -111,7 +111,7 @@ private:
     bool takeForCycle() noexcept;
     bool exchange();
     void give(const std::vector<Order> &orders) noexcept;
-    void take(std::vector<Reading> *readings) const noexcept;
+    void copyChannels(std::vector<Reading> *readings) const noexcept;
     static void forget(std::vector<Reading> *readings) noexcept;
     void takeOrders();
     void publish();

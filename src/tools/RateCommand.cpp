@@ -28,7 +28,7 @@ public:
     }
     ~CycleEar() override { disconnectFromMaster(); }
 
-    bool take(Arrival *arrival) { return m_arrivals.pop(arrival); }
+    bool pop(Arrival *arrival) { return m_arrivals.pop(arrival); }
 
 protected:
     void step(const QPlcCycle &cycle) override { m_arrivals.push({cycle.number(), qplc::monotonicNow()}); }
@@ -109,8 +109,8 @@ bool listen(CycleEar &ear, double seconds, RateStatistics *rate)
     constexpr int drainPause = 20;  // [ms], the ring holds far more
     QTimer drain;
     const auto takeAll = [&ear, rate] {
-        for (Arrival arrival; ear.take(&arrival);)
-            rate->take(arrival);
+        for (Arrival arrival; ear.pop(&arrival);)
+            rate->add(arrival);
     };
     QObject::connect(&drain, &QTimer::timeout, takeAll);
     // Queued: the node says goodbye when the event loop ends, too, and who ends a loop that has ended ends all later ones.

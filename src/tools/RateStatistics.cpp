@@ -5,7 +5,7 @@
 
 namespace tools {
 
-void RateStatistics::take(const Arrival &arrival)
+void RateStatistics::add(const Arrival &arrival)
 {
     if (m_cycles > 0 && arrival.cycle <= m_last.cycle)
         *this = RateStatistics();

@@ -18,7 +18,7 @@ class RateStatistics
 {
 public:
     /// A cycle that is not newer than the last one begins everything anew: the plant was started again.
-    void take(const Arrival &arrival);
+    void add(const Arrival &arrival);
 
     quint64 cycles() const { return m_cycles; }
     quint64 lost() const { return m_lost; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "Plant.h"
+#include "ProcessPlant.h"
 
 #include <QtNetwork/QTcpSocket>
 #include <QtNetwork/QUdpSocket>
@@ -14,7 +14,7 @@ class tst_PlantFaults : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
-    void init() { m_plant = std::make_unique<Plant>(); }
+    void init() { m_plant = std::make_unique<ProcessPlant>(); }
     void cleanup() { m_plant.reset(); }
     void aStoppedNodeIsLateAndGoesOn_data();
     void aStoppedNodeIsLateAndGoesOn();
@@ -57,7 +57,7 @@ private:
     }
     QString events() const { return m_plant->qtplc(QStringLiteral("events")).output; }
 
-    std::unique_ptr<Plant> m_plant;
+    std::unique_ptr<ProcessPlant> m_plant;
 };
 
 void tst_PlantFaults::aStoppedNodeIsLateAndGoesOn_data()

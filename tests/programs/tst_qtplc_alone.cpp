@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "../common/RuntimeFolder.h"
-#include "Plant.h"
+#include "ProcessPlant.h"
 
 #include <QtTest/QtTest>
 
@@ -115,7 +115,7 @@ void tst_qtplc_alone::completesSignalsOfTheLiveMaster()
 {
     QFETCH(QString, words);
     QFETCH(QStringList, candidates);
-    Plant plant;
+    ProcessPlant plant;
     QVERIFY(plant.start());
     Program model(programPath("awe_model"), {plant.address()});  // no autopilot: tetherSpeed is free
     QVERIFY(model.waitForErrors("registered"));
@@ -152,7 +152,7 @@ void tst_qtplc_alone::bashCompletes()
 {
     QFETCH(QString, line);
     QFETCH(QString, candidates);
-    Plant plant;
+    ProcessPlant plant;
     QVERIFY(plant.start());
     const QString script
         = QStringLiteral("set -eu; PATH=%1:$PATH; source %2; complete -p qtplc > /dev/null; "
@@ -208,7 +208,7 @@ void tst_qtplc_alone::doctorExaminesThisComputer()
 void tst_qtplc_alone::findsMastersWithoutAnAddress()
 {
     const RuntimeFolder folder;
-    Plant here;
+    ProcessPlant here;
     QVERIFY(here.start());
     const QString address = "127.0.0.1:" + here.port;
     const Outcome text = qtplc({"find", "--seconds", "0.5"});

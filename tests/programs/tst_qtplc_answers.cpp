@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "Plant.h"
+#include "ProcessPlant.h"
 
 #include <QtPlcCore>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "Plant.h"
+#include "ProcessPlant.h"
 
 #include <QtTest/QtTest>
 
@@ -131,7 +131,7 @@ private:
     {
         return m_plant.qtplc(QStringLiteral("get --plain ") + signal).output.trimmed();
     }
-    Plant m_plant;
+    ProcessPlant m_plant;
 };
 
 // ---- get, list ----

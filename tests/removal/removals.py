@@ -442,7 +442,7 @@ REMOVALS = [
             "if (!m_hardware->errors.isEmpty())", "if (m_hardware->runners.empty())",
             "tst_HardwareConfiguration", "aNodeThatWasRefusedHasNoWires"),
     Removal("a device that is lost has no values", "src/hardware/DriverRunner.cpp",
-            "        forget(&m_readings);  //", "        take(&m_readings);  //",
+            "        forget(&m_readings);  //", "        copyChannels(&m_readings);  //",
             "tst_DriverRunner", "aDeviceThatFailsHasNoValues"),
     Removal("a device that can be opened but does not answer", "src/hardware/DriverRunner.cpp",
             "if (!writeDevice(monotonicNow()) || !readDevice(monotonicNow()))", "if (!writeDevice(monotonicNow()))",

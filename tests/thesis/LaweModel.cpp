@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "LaweModel.h"
 
-#include "Plant.h"
+#include "KitePlant.h"
 
 #include <algorithm>
 
@@ -13,9 +13,9 @@ LaweModel_States LaweModel_DW;
 
 namespace {
 
-awe::Plant &plant()
+awe::KitePlant &plant()
 {
-    static awe::Plant kite;
+    static awe::KitePlant kite;
     return kite;
 }
 

@@ -37,7 +37,7 @@ void tst_RateStatistics::nothingHasNoRate()
 void tst_RateStatistics::oneCycleHasNoRate()
 {
     RateStatistics rate;
-    rate.take({7, 5 * ms});
+    rate.add({7, 5 * ms});
     QCOMPARE(rate.cycles(), quint64(1));
     QCOMPARE(rate.rate(), 0.0);
     QCOMPARE(rate.intervals(), quint64(0));
@@ -47,7 +47,7 @@ void tst_RateStatistics::evenRowHasItsRateAndNoScatter()
 {
     RateStatistics rate;
     for (int i = 0; i < 101; ++i)
-        rate.take({quint64(i), i * 10 * ms});
+        rate.add({quint64(i), i * 10 * ms});
     QCOMPARE(rate.cycles(), quint64(101));
     QCOMPARE(rate.duration(), 1.0);
     QCOMPARE(rate.rate(), 100.0);
@@ -63,9 +63,9 @@ void tst_RateStatistics::scatterIsThatOfASample()
     RateStatistics rate;
     qint64 time = 0;
     quint64 cycle = 0;
-    rate.take({cycle, time});
+    rate.add({cycle, time});
     for (const qint64 interval : {2, 4, 4, 4, 5, 5, 7, 9})
-        rate.take({++cycle, time += interval});
+        rate.add({++cycle, time += interval});
     QCOMPARE(rate.mean(), 5.0);
     QCOMPARE(rate.minimum(), 2.0);
     QCOMPARE(rate.maximum(), 9.0);
@@ -77,7 +77,7 @@ void tst_RateStatistics::scatterOfSmallDeviationsAtLargeTimesKeepsItsDigits()
     RateStatistics rate;
     qint64 time = 4'000'000'000'000'000'000;  // 127 years
     for (int i = 0; i < 100001; ++i)
-        rate.take({quint64(i), time += 1'000'000'000 + (i % 2 == 0 ? 1 : -1)});
+        rate.add({quint64(i), time += 1'000'000'000 + (i % 2 == 0 ? 1 : -1)});
     QVERIFY2(qAbs(rate.deviation() - 1.0) < 1e-4, qPrintable(QString::number(rate.deviation(), 'g', 17)));
 }
 
@@ -85,7 +85,7 @@ void tst_RateStatistics::lostCyclesAreNamedAndMakeNoInterval()
 {
     RateStatistics rate;
     for (const int cycle : {10, 11, 13, 14, 20, 21})
-        rate.take({quint64(cycle), cycle * ms});
+        rate.add({quint64(cycle), cycle * ms});
     QCOMPARE(rate.lost(), quint64(6));
     QCOMPARE(rate.gapsText(), QStringLiteral("12, 15-19"));
     QCOMPARE(rate.gaps(), (QJsonArray{QJsonArray{12, 12}, QJsonArray{15, 19}}));
@@ -109,7 +109,7 @@ void tst_RateStatistics::gapsAreNamedUpToALimit()
     QFETCH(bool, hasMore);
     RateStatistics rate;
     for (int i = 0; i <= gaps; ++i)
-        rate.take({quint64(2 * i), 2 * i * ms});
+        rate.add({quint64(2 * i), 2 * i * ms});
     QCOMPARE(rate.lost(), quint64(gaps));
     QCOMPARE(rate.gapsText().endsWith(QLatin1String(", ...")), hasMore);
     QCOMPARE(rate.gaps().size(), qMin(gaps, RateStatistics::mostGaps));
@@ -119,9 +119,9 @@ void tst_RateStatistics::newPhaseBeginsAnew()
 {
     RateStatistics rate;
     for (const int cycle : {100, 105})
-        rate.take({quint64(cycle), cycle * ms});
+        rate.add({quint64(cycle), cycle * ms});
     for (int cycle = 0; cycle < 11; ++cycle)
-        rate.take({quint64(cycle), (500 + cycle) * ms});
+        rate.add({quint64(cycle), (500 + cycle) * ms});
     QCOMPARE(rate.lost(), quint64(0));
     QCOMPARE(rate.cycles(), quint64(11));
     QCOMPARE(rate.duration(), 0.010);

@@ -3,7 +3,7 @@
 
 #include "Autopilot.h"
 #include "FlightStatistics.h"
-#include "Plant.h"
+#include "KitePlant.h"
 #include "Wind.h"
 
 #include <array>
@@ -59,7 +59,7 @@ public:
     FlightReport report() const { return m_statistics.report(); }
     const PlantOutputs &outputs() const { return m_outputs; }                // of the last cycle
     const AutopilotOutputs &autopilotOutputs() const { return m_commands; }  // of the last cycle
-    const Plant &plant() const { return m_plant; }
+    const KitePlant &plant() const { return m_plant; }
     Autopilot &autopilot() { return m_autopilot; }
 
     /// The measurements a set of plant outputs stands for.
@@ -72,7 +72,7 @@ private:
     void askAutopilot();
 
     ClosedLoopParameters m_parameters;
-    Plant m_plant;
+    KitePlant m_plant;
     Wind m_wind;
     Autopilot m_autopilot;
     FlightStatistics m_statistics;

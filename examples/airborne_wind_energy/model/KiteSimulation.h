@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "Plant.h"
+#include "KitePlant.h"
 #include "Wind.h"
 
 #include <stdexcept>
@@ -77,7 +77,7 @@ private:
 
     static constexpr double fastest = 1000.0;  // [m/s]
 
-    Plant m_plant;
+    KitePlant m_plant;
     Wind m_wind;
     int m_substeps;
     PlantInputs m_inputs;  // of the last step

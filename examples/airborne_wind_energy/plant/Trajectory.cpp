@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Trajectory.h"
 
-#include "Plant.h"
+#include "KitePlant.h"
 #include "TrajectoryReader.h"
 
 #include <charconv>
@@ -174,7 +174,7 @@ Trajectory Trajectory::replayed() const
     PlantParameters parameters;
     parameters.initialState = m_initialState;
     parameters.step = m_step;
-    Plant plant(parameters);
+    KitePlant plant(parameters);
     Trajectory result = *this;
     for (Row &row : result.m_rows) {
         const PlantInputs inputs = row.outputs.inputs;

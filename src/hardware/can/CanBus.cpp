@@ -90,7 +90,7 @@ bool CanBus::open(const Options &options)
 
 int CanBus::receive(CanFrame *frames, int capacity) noexcept
 {
-    const int count = take(frames, capacity);
+    const int count = readFrames(frames, capacity);
     for (int i = 0; i < count; ++i) {
         if (frames[i].has(CanFrame::Error))
             noteError(frames[i]);
@@ -102,7 +102,7 @@ int CanBus::receive(CanFrame *frames, int capacity) noexcept
 
 int CanBus::send(const CanFrame *frames, int count) noexcept
 {
-    const int sent = count > 0 ? give(frames, count) : 0;
+    const int sent = count > 0 ? writeFrames(frames, count) : 0;
     m_counters.sent += quint64(std::max(sent, 0));
     m_counters.unsent += quint64(count - std::max(sent, 0));
     return sent;

@@ -77,8 +77,8 @@ public:
 
 protected:
     virtual bool join(const Options &options) = 0;
-    virtual int take(CanFrame *frames, int capacity) noexcept = 0;
-    virtual int give(const CanFrame *frames, int count) noexcept = 0;
+    virtual int readFrames(CanFrame *frames, int capacity) noexcept = 0;
+    virtual int writeFrames(const CanFrame *frames, int count) noexcept = 0;
 
     /// \return false
     bool fail(const QString &error);

@@ -211,7 +211,7 @@ bool CanDriver::read()
             return fail(m_receiveText.constData(), m_bus->errorNumber());
         log(m_incoming.data(), count);
         for (int i = 0; i < count; ++i)
-            take(m_incoming[std::size_t(i)]);
+            deliver(m_incoming[std::size_t(i)]);
         if (count < BatchSize)
             break;
     }
@@ -219,7 +219,7 @@ bool CanDriver::read()
     return checkBusOff();
 }
 
-void CanDriver::take(const CanFrame &frame) noexcept
+void CanDriver::deliver(const CanFrame &frame) noexcept
 {
     if (frame.has(CanFrame::Error))
         return;
@@ -231,7 +231,7 @@ void CanDriver::take(const CanFrame &frame) noexcept
     if (frame.has(CanFrame::Remote))
         m_senders[found->index]->request();
     else
-        m_receivers[found->index]->take(frame);
+        m_receivers[found->index]->decode(frame);
 }
 
 void CanDriver::refresh() noexcept

@@ -77,7 +77,7 @@ private:
     QPlcChannel *ownChannel(const QString &name);
     CanBus::Options busOptions() const;
     void prepare();
-    void take(const CanFrame &frame) noexcept;
+    void deliver(const CanFrame &frame) noexcept;
     void refresh() noexcept;
     bool checkBusOff() noexcept;
     void repeatFailed() noexcept;

@@ -45,7 +45,7 @@ QPlcReadChannel *CanReceiver::makeOwn(std::unique_ptr<QPlcReadChannel> *channel,
     return channel->get();
 }
 
-void CanReceiver::take(const CanFrame &frame) noexcept
+void CanReceiver::decode(const CanFrame &frame) noexcept
 {
     if (frame.size < m_message.description.size) {
         ++m_tooShort;

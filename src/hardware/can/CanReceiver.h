@@ -23,7 +23,7 @@ public:
     QPlcReadChannel *channel(const QString &name);
 
     /// A frame of the message has come in; one that is too short is counted and left alone.
-    void take(const CanFrame &frame) noexcept;
+    void decode(const CanFrame &frame) noexcept;
     /// Sets @age and @count. \param now  [ns]
     void refresh(qint64 now) noexcept;
     /// The bus was opened: what came in before is no more.

@@ -41,7 +41,7 @@ DbcLexer::DbcLexer(const QString &text)
     advance();
 }
 
-DbcToken DbcLexer::take()
+DbcToken DbcLexer::next()
 {
     const DbcToken token = m_next;
     if (token.kind != DbcToken::End)

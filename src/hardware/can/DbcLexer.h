@@ -36,7 +36,7 @@ public:
 
     /// The next word, without taking it.
     const DbcToken &peek() const { return m_next; }
-    DbcToken take();
+    DbcToken next();
 
 private:
     void advance();

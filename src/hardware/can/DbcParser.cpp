@@ -83,7 +83,7 @@ bool DbcParser::isKeyword(const QString &word)
 QVector<DbcMessage> DbcParser::parse()
 {
     while (!m_reader.atEnd() && m_reader.errors().size() < DbcFile::MaximumErrors) {
-        const DbcToken token = m_reader.take();
+        const DbcToken token = m_reader.next();
         const Statement statement = token.kind == DbcToken::Word ? statementOf(token.text) : nullptr;
         const int before = m_reader.errors().size();
         if (statement)
@@ -113,7 +113,7 @@ void DbcParser::newSymbols()
     m_reader.takes(':');
     while (m_reader.peek().kind == DbcToken::Word && !m_reader.peek().isWord("BS_") && !m_reader.peek().isWord("BU_")
            && !m_reader.peek().isWord("BO_"))
-        m_reader.take();
+        m_reader.next();
 }
 
 bool DbcParser::readId(DbcMessage *message)
@@ -308,7 +308,7 @@ void DbcParser::attribute()
     const bool isOfMessage = m_reader.peek().isWord("BO_");
     const bool isOfSignal = m_reader.peek().isWord("SG_");
     if (isOfMessage || isOfSignal) {
-        m_reader.take();
+        m_reader.next();
         DbcMessage *message = expectMessage();
         DbcSignal *signal = isOfSignal ? expectSignal(message) : nullptr;
         if (signal && name == QLatin1String("GenSigStartValue") && m_reader.peek().kind == DbcToken::Number)

@@ -28,7 +28,7 @@ bool DbcReader::takes(char sign)
 {
     if (m_isBroken || !peek().isSign(sign))
         return false;
-    take();
+    next();
     return true;
 }
 
@@ -43,7 +43,7 @@ bool DbcReader::expectWord(QString *word, const char *what)
         return false;
     if (peek().kind != DbcToken::Word)
         return expected(what);
-    *word = take().text;
+    *word = next().text;
     return true;
 }
 
@@ -53,7 +53,7 @@ bool DbcReader::expectText(QString *text, const char *what)
         return false;
     if (peek().kind != DbcToken::Text)
         return expected(what);
-    *text = take().text;
+    *text = next().text;
     return true;
 }
 
@@ -67,7 +67,7 @@ bool DbcReader::expectNumber(double *number, const char *what)
     *number = peek().text.toDouble(&isNumber);
     if (!isNumber || !std::isfinite(*number))
         return expected(what);
-    take();
+    next();
     return true;
 }
 
@@ -85,7 +85,7 @@ bool DbcReader::expectInteger(qint64 *number, qint64 minimum, qint64 maximum, co
                         .arg(QLatin1String(what), peek().text)
                         .arg(minimum)
                         .arg(maximum));
-    take();
+    next();
     return true;
 }
 
@@ -97,7 +97,7 @@ bool DbcReader::expectUnsigned(quint64 *number, const char *what)
     *number = peek().kind == DbcToken::Number ? peek().text.toULongLong(&isNumber) : 0;
     if (!isNumber)
         return expected(what);
-    take();
+    next();
     return true;
 }
 
@@ -107,7 +107,7 @@ bool DbcReader::expectRole(DbcSignal *signal, bool *isExtended)
         return false;
     if (peek().kind != DbcToken::Word)
         return true;
-    const DbcToken token = take();
+    const DbcToken token = next();
     if (token.text == QLatin1String("M")) {
         signal->role = DbcSignal::Multiplexor;
         return true;
@@ -147,7 +147,7 @@ bool DbcReader::expectByteOrder(DbcSignal *signal)
     if (takes('-'))
         signal->kind = DbcSignal::Signed;
     else if (peek().isWord("f")) {
-        take();
+        next();
         signal->kind = signal->length == 64 ? DbcSignal::Float64 : DbcSignal::Float32;
     } else
         return expectSign('+', "'+' (without sign) or '-' (with sign) behind the byte order");
@@ -169,16 +169,16 @@ bool DbcReader::expectScale(DbcSignal *signal)
             || !expectNumber(&signal->maximum, "the maximum") || !expectSign(']', "']' behind the maximum")))
         return false;
     if (!m_isBroken && peek().kind == DbcToken::Text)
-        signal->unit = take().text;
+        signal->unit = next().text;
     return !m_isBroken;
 }
 
 void DbcReader::skipStatement()
 {
     while (!atEnd() && !peek().isSign(';') && peek().kind != DbcToken::Broken)
-        take();
+        next();
     if (peek().isSign(';'))
-        take();
+        next();
     else if (!m_isBroken)
         expected("';' at the end of the statement");
 }
@@ -186,7 +186,7 @@ void DbcReader::skipStatement()
 void DbcReader::skipToLine(bool (*isKeyword)(const QString &word))
 {
     while (!atEnd() && !(peek().kind == DbcToken::Word && peek().isFirst && isKeyword(peek().text)))
-        take();
+        next();
 }
 
 }  // namespace qplc

@@ -17,7 +17,7 @@ public:
     DbcReader(const QString &text, const QString &fileName);
 
     const DbcToken &peek() const { return m_lexer.peek(); }
-    DbcToken take() { return m_lexer.take(); }
+    DbcToken next() { return m_lexer.next(); }
     bool atEnd() const { return peek().kind == DbcToken::End; }
     /// Takes \a sign if it is next.
     bool takes(char sign);

@@ -202,7 +202,7 @@ void FakeCanBus::preparePeers()
     }
 }
 
-int FakeCanBus::take(CanFrame *frames, int capacity) noexcept
+int FakeCanBus::readFrames(CanFrame *frames, int capacity) noexcept
 {
     if (isUnplugged())
         return lose(ENODEV);
@@ -239,7 +239,7 @@ void FakeCanBus::noteLost() noexcept
     m_lost = lost;
 }
 
-int FakeCanBus::give(const CanFrame *frames, int count) noexcept
+int FakeCanBus::writeFrames(const CanFrame *frames, int count) noexcept
 {
     if (isUnplugged())
         return lose(ENODEV);

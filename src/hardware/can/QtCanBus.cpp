@@ -331,7 +331,7 @@ void QtCanBus::noteError(const QCanBusDevice *device, int error)
     m_endedBy = EIO;
 }
 
-int QtCanBus::take(CanFrame *frames, int capacity) noexcept
+int QtCanBus::readFrames(CanFrame *frames, int capacity) noexcept
 {
     const quint32 lost = m_lost.load(std::memory_order_relaxed);
     countLost(quint32(lost - m_lostSeen));
@@ -348,7 +348,7 @@ int QtCanBus::take(CanFrame *frames, int capacity) noexcept
     return count == 0 && endedBy != 0 ? lose(endedBy) : count;
 }
 
-int QtCanBus::give(const CanFrame *frames, int count) noexcept
+int QtCanBus::writeFrames(const CanFrame *frames, int count) noexcept
 {
     const int endedBy = m_endedBy.load(std::memory_order_relaxed);
     if (endedBy != 0)

@@ -31,8 +31,8 @@ public:
 
 protected:
     bool join(const Options &options) override;
-    int take(CanFrame *frames, int capacity) noexcept override;
-    int give(const CanFrame *frames, int count) noexcept override;
+    int readFrames(CanFrame *frames, int capacity) noexcept override;
+    int writeFrames(const CanFrame *frames, int count) noexcept override;
 
 private:
     /// Told once by the thread: connected (no error), or why not.

@@ -227,7 +227,7 @@ void SocketCanBus::lookAtClocks() noexcept
     m_clock.look(now, wall);
 }
 
-int SocketCanBus::take(CanFrame *frames, int capacity) noexcept
+int SocketCanBus::readFrames(CanFrame *frames, int capacity) noexcept
 {
     const qint64 begin = monotonicNow();
     int count = 0;
@@ -290,7 +290,7 @@ qint64 SocketCanBus::readControl(msghdr *message) noexcept
     return m_clock.toMonotonic(time);
 }
 
-int SocketCanBus::give(const CanFrame *frames, int count) noexcept
+int SocketCanBus::writeFrames(const CanFrame *frames, int count) noexcept
 {
     int sent = 0;
     while (sent < count) {

@@ -130,7 +130,7 @@ public:
         if (!isFree(request.line, error))
             return nullptr;
         const auto offset = unsigned(find(request.line, error));
-        auto line = std::make_unique<KernelGpioLine>(take(request, offset), offset);
+        auto line = std::make_unique<KernelGpioLine>(requestLine(request, offset), offset);
         if (m_error == 0 && (!request.wantsEdges || line->useEdges()))
             return line;
         *error = refused(m_device, request, m_error ? m_error : errno);
@@ -138,7 +138,7 @@ public:
     }
 
 private:
-    RequestPointer take(const GpioLineRequest &request, unsigned offset)
+    RequestPointer requestLine(const GpioLineRequest &request, unsigned offset)
     {
         const SettingsPointer settings = settingsOf(request);
         const LineConfigPointer lines(gpiod_line_config_new());

@@ -90,7 +90,7 @@ bool NmeaWindDriver::readLine()
             if (m_bytesWithoutSentence++ == 0)
                 m_firstWithout = now();
             if (m_stream.feed(bytes[i]))
-                take(m_stream.sentence());
+                apply(m_stream.sentence());
         }
     }
     if (taken > 0)
@@ -98,7 +98,7 @@ bool NmeaWindDriver::readLine()
     return true;
 }
 
-void NmeaWindDriver::take(const NmeaSentence &sentence)
+void NmeaWindDriver::apply(const NmeaSentence &sentence)
 {
     m_lastSentence = now();
     m_bytesWithoutSentence = 0;

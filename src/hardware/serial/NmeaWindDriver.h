@@ -36,7 +36,7 @@ private:
 
     void configureTimeout(QPlcDriverSettings &settings);
     bool readLine();
-    void take(const NmeaSentence &sentence);
+    void apply(const NmeaSentence &sentence);
     void publish(const NmeaWind &wind, const NmeaSentence &sentence);
     bool judge();
 

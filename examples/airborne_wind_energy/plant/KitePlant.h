@@ -32,16 +32,16 @@ namespace awe {
 ///
 /// Integrated with the classical Runge-Kutta method of order 4 and a fixed step, inputs held.
 ///
-///     Plant plant(parameters);                     // parameters.validate() was empty
+///     KitePlant plant(parameters);                     // parameters.validate() was empty
 ///     const PlantOutputs y = plant.outputs(u);     // y(k) from x(k) and u(k)
 ///     plant.step(u);                               // x(k) -> x(k+1)
 ///
 /// outputs() and step() take no memory and never fail. One thread at a time.
-class Plant
+class KitePlant
 {
 public:
     /// \pre parameters.validate() is empty
-    explicit Plant(const PlantParameters &parameters = PlantParameters());
+    explicit KitePlant(const PlantParameters &parameters = PlantParameters());
 
     /// Goes back to the initial state, exactly; also forgets a crash.
     void reset();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "Plant.h"
+#include "KitePlant.h"
 
 #include <algorithm>
 #include <cmath>
@@ -40,14 +40,14 @@ struct Sphere  // where the wing is, seen from the ground station
 
 }  // namespace
 
-Plant::Plant(const PlantParameters &parameters)
+KitePlant::KitePlant(const PlantParameters &parameters)
     : m_parameters(parameters)
     , m_aerodynamics(parameters.dragFactor, parameters.angleOfAttackRange)
 {
     reset();
 }
 
-void Plant::reset()
+void KitePlant::reset()
 {
     m_state = m_parameters.initialState;
     m_attitude = attitude(m_state.pitchAngle, m_state.yawAngle);
@@ -55,13 +55,13 @@ void Plant::reset()
     noticeGround();
 }
 
-Plant::Attitude Plant::attitude(double pitchAngle, double yawAngle)
+KitePlant::Attitude KitePlant::attitude(double pitchAngle, double yawAngle)
 {
     const double pitch = pitchAngle * radiansPerDegree, yaw = yawAngle * radiansPerDegree;
     return {std::sin(pitch), std::cos(pitch), std::sin(yaw), std::cos(yaw)};
 }
 
-double Plant::tetherTension(const PlantState &state, double distance, double tetherSpeed) const
+double KitePlant::tetherTension(const PlantState &state, double distance, double tetherSpeed) const
 {
     const double stretch = distance - state.tetherLength;
     if (!(stretch > 0.0))
@@ -73,7 +73,7 @@ double Plant::tetherTension(const PlantState &state, double distance, double tet
     return std::max(0.0, tension + m_parameters.tetherDamping * stretchSpeed);
 }
 
-Plant::Forces Plant::forces(const PlantState &state, const Attitude &attitude, const PlantInputs &inputs) const
+KitePlant::Forces KitePlant::forces(const PlantState &state, const Attitude &attitude, const PlantInputs &inputs) const
 {
     const Sphere sphere(state.position);
     const Eigen::Vector3d outwards = sphere.outwards();
@@ -93,7 +93,7 @@ Plant::Forces Plant::forces(const PlantState &state, const Attitude &attitude, c
     return forces;
 }
 
-Plant::Rates Plant::rates(const PlantState &state, const Attitude &attitude, const PlantInputs &inputs) const
+KitePlant::Rates KitePlant::rates(const PlantState &state, const Attitude &attitude, const PlantInputs &inputs) const
 {
     const Forces acting = forces(state, attitude, inputs);
     Rates rates;
@@ -105,7 +105,7 @@ Plant::Rates Plant::rates(const PlantState &state, const Attitude &attitude, con
     return rates;
 }
 
-PlantState Plant::moved(const Rates &rates, double time, const PlantInputs &inputs) const
+PlantState KitePlant::moved(const Rates &rates, double time, const PlantInputs &inputs) const
 {
     PlantState state;
     state.position = m_state.position + time * rates.velocity;
@@ -118,7 +118,7 @@ PlantState Plant::moved(const Rates &rates, double time, const PlantInputs &inpu
     return state;
 }
 
-void Plant::step(const PlantInputs &inputs)
+void KitePlant::step(const PlantInputs &inputs)
 {
     if (isHeld())
         return;
@@ -142,7 +142,7 @@ void Plant::step(const PlantInputs &inputs)
     noticeGround();
 }
 
-void Plant::noticeGround()
+void KitePlant::noticeGround()
 {
     if (m_state.position.z() > 0.0 || m_crashed)
         return;
@@ -151,7 +151,7 @@ void Plant::noticeGround()
         m_state.velocity.setZero();
 }
 
-PlantOutputs Plant::outputs(const PlantInputs &inputs) const
+PlantOutputs KitePlant::outputs(const PlantInputs &inputs) const
 {
     const Sphere sphere(m_state.position);
     const Forces acting = forces(m_state, m_attitude, inputs);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "Plant.h"
+#include "KitePlant.h"
 
 #include "Near.h"
 
@@ -8,7 +8,7 @@
 using namespace awe;
 using Eigen::Vector3d;
 
-class tst_Plant : public QObject
+class tst_KitePlant : public QObject
 {
     Q_OBJECT
 
@@ -39,7 +39,7 @@ private:
     static PlantInputs thesisInputs(double tetherSpeed = 0.0);
 };
 
-PlantInputs tst_Plant::thesisInputs(double tetherSpeed)
+PlantInputs tst_KitePlant::thesisInputs(double tetherSpeed)
 {
     PlantInputs inputs;
     inputs.tetherSpeed = tetherSpeed;
@@ -47,9 +47,9 @@ PlantInputs tst_Plant::thesisInputs(double tetherSpeed)
     return inputs;
 }
 
-void tst_Plant::outputsBelongToStateAndInputsAndChangeNothing()
+void tst_KitePlant::outputsBelongToStateAndInputsAndChangeNothing()
 {
-    Plant plant;
+    KitePlant plant;
     for (int i = 0; i < 100; ++i)
         plant.step(thesisInputs());
     const PlantState before = plant.state();
@@ -64,71 +64,72 @@ void tst_Plant::outputsBelongToStateAndInputsAndChangeNothing()
                  90.0 - std::asin(before.position.z() / before.position.norm()) * 180.0 / M_PI, 1e-12);
 }
 
-void tst_Plant::slackTetherPullsNothingAndGivesNoPower()
+void tst_KitePlant::slackTetherPullsNothingAndGivesNoPower()
 {
     PlantParameters parameters;
     parameters.initialState.tetherLength = 100.5;
-    const PlantOutputs y = Plant(parameters).outputs(thesisInputs(-3.0));
+    const PlantOutputs y = KitePlant(parameters).outputs(thesisInputs(-3.0));
     QCOMPARE(y.tetherForce.norm(), 0.0);
     QCOMPARE(y.power, 0.0);
 }
 
-void tst_Plant::tautTetherPullsTowardsTheGroundStation()
+void tst_KitePlant::tautTetherPullsTowardsTheGroundStation()
 {
     PlantParameters parameters;
     parameters.initialState.tetherLength = 99.0;
-    const PlantOutputs y = Plant(parameters).outputs(thesisInputs(2.0));
+    const PlantOutputs y = KitePlant(parameters).outputs(thesisInputs(2.0));
     COMPARE_NEAR((y.tetherForce + 1000.0 * y.position / 100.0).norm(), 0.0, 1e-9);
     COMPARE_NEAR(y.power, 2000.0, 1e-9);
 }
 
-void tst_Plant::dampingActsOnlyWhileTaut()
+void tst_KitePlant::dampingActsOnlyWhileTaut()
 {
     PlantParameters parameters;
     parameters.tetherDamping = 50.0;
     parameters.initialState.velocity = 3.0 * parameters.initialState.position / 100.0;  // outwards at 3 m/s
     parameters.initialState.tetherLength = 99.0;
-    COMPARE_NEAR(Plant(parameters).outputs(thesisInputs(1.0)).tetherForce.norm(), 1000.0 + 50.0 * (3.0 - 1.0), 1e-9);
+    COMPARE_NEAR(KitePlant(parameters).outputs(thesisInputs(1.0)).tetherForce.norm(), 1000.0 + 50.0 * (3.0 - 1.0),
+                 1e-9);
     parameters.initialState.tetherLength = 101.0;
-    QCOMPARE(Plant(parameters).outputs(thesisInputs(1.0)).tetherForce.norm(), 0.0);
+    QCOMPARE(KitePlant(parameters).outputs(thesisInputs(1.0)).tetherForce.norm(), 0.0);
 }
 
-void tst_Plant::forceOfTheTetherIsNeverNegative()
+void tst_KitePlant::forceOfTheTetherIsNeverNegative()
 {
     PlantParameters parameters;
     parameters.tetherDamping = 500.0;
     parameters.initialState.tetherLength = 99.9;
     parameters.initialState.velocity = -3.0 * parameters.initialState.position / 100.0;  // inwards: damping would push
-    QCOMPARE(Plant(parameters).outputs(thesisInputs()).tetherForce.norm(), 0.0);
+    QCOMPARE(KitePlant(parameters).outputs(thesisInputs()).tetherForce.norm(), 0.0);
 }
 
-void tst_Plant::noRelativeWindGivesGravityOnly()
+void tst_KitePlant::noRelativeWindGivesGravityOnly()
 {
     PlantParameters parameters;
     parameters.initialState.velocity = {5.0, 3.0, 0.0};
-    const PlantOutputs y = Plant(parameters).outputs(thesisInputs());
+    const PlantOutputs y = KitePlant(parameters).outputs(thesisInputs());
     QCOMPARE(y.aerodynamicForce, Vector3d(Vector3d::Zero()));
     QCOMPARE(y.angleOfAttack, 0.0);
     QCOMPARE(y.gravitationalForce, Vector3d(0.0, 0.0, -5.0 * 9.81));
     QVERIFY(y.aerodynamicForce.allFinite());
 }
 
-void tst_Plant::freeFallIsExact()
+void tst_KitePlant::freeFallIsExact()
 {
     PlantParameters parameters;
     parameters.airDensity = 1e-3;  // as good as none: what is left is below the tolerance
     parameters.area = 1e-3;
     parameters.initialState.tetherLength = 1000.0;
-    Plant plant(parameters);
+    KitePlant plant(parameters);
     for (int i = 0; i < 100; ++i)
         plant.step(PlantInputs());
     COMPARE_NEAR(plant.state().position.z(), 50.0 - 0.5 * 9.81, 1e-4);
     COMPARE_NEAR(plant.state().velocity.z(), -9.81, 1e-4);
 }
 
-void tst_Plant::controlAnglesAndTetherLengthAreRamps()
+void tst_KitePlant::controlAnglesAndTetherLengthAreRamps()
 {
-    Plant plant;
+    KitePlant plant;
     PlantInputs inputs = thesisInputs(-1.5);
     inputs.pitchSpeed = 20.0;
     inputs.yawSpeed = -30.0;
@@ -139,9 +140,9 @@ void tst_Plant::controlAnglesAndTetherLengthAreRamps()
     COMPARE_NEAR(plant.state().tetherLength, 98.5, 1e-12);
 }
 
-void tst_Plant::energyIsTheIntegralOfPower()
+void tst_KitePlant::energyIsTheIntegralOfPower()
 {
-    Plant plant;
+    KitePlant plant;
     double sum = 0.0, last = plant.outputs(thesisInputs(1.9)).power;
     for (int i = 0; i < 1000; ++i) {
         plant.step(thesisInputs(1.9));
@@ -153,25 +154,25 @@ void tst_Plant::energyIsTheIntegralOfPower()
     QVERIFY(sum > 0.0);
 }
 
-void tst_Plant::averagePowerSettlesWithItsTimeConstant()
+void tst_KitePlant::averagePowerSettlesWithItsTimeConstant()
 {
     PlantParameters parameters;
     parameters.initialState.averagePower = 1000.0;
     parameters.initialState.tetherLength = 1000.0;  // slack: no power
     parameters.averagePowerTime = 2.0;
-    Plant plant(parameters);
+    KitePlant plant(parameters);
     for (int i = 0; i < 200; ++i)
         plant.step(PlantInputs());
     COMPARE_NEAR(plant.state().averagePower, 1000.0 * std::exp(-1.0), 1e-8);
 }
 
-void tst_Plant::mirroredFlightMirrorsTheTrajectory()
+void tst_KitePlant::mirroredFlightMirrorsTheTrajectory()
 {
     const auto mirror = [](Vector3d vector) { return Vector3d(vector.x(), -vector.y(), vector.z()); };
     PlantParameters left, right;
     left.initialState = PlantParameters::stateAtRest(35.0, 20.0, 100.0);
     right.initialState = PlantParameters::stateAtRest(35.0, -20.0, 100.0);
-    Plant a(left), b(right);
+    KitePlant a(left), b(right);
     PlantInputs u = thesisInputs(1.0), m = thesisInputs(1.0);
     m.windVelocity = mirror(u.windVelocity);
     for (int i = 0; i < 500; ++i) {
@@ -185,13 +186,13 @@ void tst_Plant::mirroredFlightMirrorsTheTrajectory()
     COMPARE_NEAR(a.state().energy, b.state().energy, 1e-8);
 }
 
-void tst_Plant::turnedWorldTurnsTheTrajectory()
+void tst_KitePlant::turnedWorldTurnsTheTrajectory()
 {
     Eigen::Matrix3d turn;  // 90 deg about z
     turn << 0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0;
     PlantParameters turned;
     turned.initialState.position = turn * turned.initialState.position;
-    Plant a, b(turned);
+    KitePlant a, b(turned);
     PlantInputs u = thesisInputs(1.0), v = u;
     v.windVelocity = turn * u.windVelocity;
     u.yawSpeed = v.yawSpeed = 25.0;
@@ -202,17 +203,17 @@ void tst_Plant::turnedWorldTurnsTheTrajectory()
     COMPARE_NEAR((turn * a.state().position - b.state().position).norm(), 0.0, 1e-10);
 }
 
-void tst_Plant::runge_KuttaIsOfOrderFourWhereSmooth()
+void tst_KitePlant::runge_KuttaIsOfOrderFourWhereSmooth()
 {
     // Steady flight first, so that no spline knot and no slack tether spoils the order.
-    Plant settled;
+    KitePlant settled;
     for (int i = 0; i < 300; ++i)
         settled.step(thesisInputs(1.0));
     const auto fly = [&](double step) {
         PlantParameters parameters;
         parameters.step = step;
         parameters.initialState = settled.state();
-        Plant plant(parameters);
+        KitePlant plant(parameters);
         PlantInputs inputs = thesisInputs(1.0);
         inputs.yawSpeed = 20.0;
         const int steps = static_cast<int>(std::lround(0.8 / step));
@@ -226,7 +227,7 @@ void tst_Plant::runge_KuttaIsOfOrderFourWhereSmooth()
     QVERIFY2(order > 3.8 && order < 4.3, qPrintable(QString::number(order)));
 }
 
-void tst_Plant::quasiSteadyFlightGivesThePublishedPower()
+void tst_KitePlant::quasiSteadyFlightGivesThePublishedPower()
 {
     // No gravity, wind along x, flying level through the axis of the wind: F and P of Loyd's quasi-steady solution.
     PlantParameters parameters;
@@ -234,7 +235,7 @@ void tst_Plant::quasiSteadyFlightGivesThePublishedPower()
     parameters.initialState = PlantParameters::stateAtRest(0.0, 0.0, 1e6);  // so far out that the sphere is a plane
     parameters.initialState.pitchAngle = 8.5;
     parameters.initialState.yawAngle = 90.0;
-    Plant plant(parameters);
+    KitePlant plant(parameters);
     PlantInputs inputs;
     inputs.windVelocity = {Vector3d(5.0, 3.0, 0.0).norm(), 0.0, 0.0};
     inputs.tetherSpeed = 1.94;
@@ -246,7 +247,7 @@ void tst_Plant::quasiSteadyFlightGivesThePublishedPower()
     COMPARE_NEAR(std::hypot(y.velocity.y(), y.velocity.z()), 16.26, 0.01);
 }
 
-void tst_Plant::fifthOfTheDragFliesFiveTimesAsFast()
+void tst_KitePlant::fifthOfTheDragFliesFiveTimesAsFast()
 {
     // The same angle of attack needs another pitch: beta_c = alpha - atan(c_d / c_l).
     const auto speed = [](double dragFactor) {
@@ -258,7 +259,7 @@ void tst_Plant::fifthOfTheDragFliesFiveTimesAsFast()
         parameters.initialState = PlantParameters::stateAtRest(0.0, 0.0, 1e6);
         parameters.initialState.pitchAngle = 22.3 - std::atan2(c.drag, c.lift) * 180.0 / M_PI;
         parameters.initialState.yawAngle = 90.0;
-        Plant plant(parameters);
+        KitePlant plant(parameters);
         PlantInputs inputs;
         inputs.windVelocity = {Vector3d(5.0, 3.0, 0.0).norm(), 0.0, 0.0};
         for (int i = 0; i < 3000; ++i)
@@ -270,7 +271,7 @@ void tst_Plant::fifthOfTheDragFliesFiveTimesAsFast()
     COMPARE_NEAR(speed(0.2) / speed(1.0), 5.0, 0.01);
 }
 
-void tst_Plant::dynamicMaximumPowerIsNearTheQuasiSteadyOne()
+void tst_KitePlant::dynamicMaximumPowerIsNearTheQuasiSteadyOne()
 {
     const double windAzimuth = 30.963756532073521;
     PlantParameters parameters;
@@ -280,7 +281,7 @@ void tst_Plant::dynamicMaximumPowerIsNearTheQuasiSteadyOne()
     parameters.initialState.velocity = 16.0 * Vector3d(r.y(), -r.x(), 0.0).normalized();
     parameters.initialState.pitchAngle = 8.5;
     parameters.initialState.yawAngle = 82.24;  // flies level: the lift carries the weight
-    Plant plant(parameters);
+    KitePlant plant(parameters);
     double atWindAzimuth = 0.0;
     while (plant.outputs(thesisInputs()).bodyPositionOrientation.z() > windAzimuth) {
         plant.step(thesisInputs(1.9437));
@@ -290,11 +291,11 @@ void tst_Plant::dynamicMaximumPowerIsNearTheQuasiSteadyOne()
     COMPARE_NEAR(plant.state().position.z(), 0.0, 3.0);
 }
 
-void tst_Plant::wingAboveTheStationHasAnAttitude()
+void tst_KitePlant::wingAboveTheStationHasAnAttitude()
 {
     PlantParameters parameters;
     parameters.initialState.position = {0.0, 0.0, 100.0};
-    Plant plant(parameters);
+    KitePlant plant(parameters);
     const PlantOutputs y = plant.outputs(thesisInputs());
     QVERIFY(y.aerodynamicForce.allFinite());
     QCOMPARE(y.bodyPositionOrientation, Vector3d(Vector3d::Zero()));
@@ -302,11 +303,11 @@ void tst_Plant::wingAboveTheStationHasAnAttitude()
     QVERIFY(plant.state().position.allFinite());
 }
 
-void tst_Plant::referenceModeFliesThroughTheGround()
+void tst_KitePlant::referenceModeFliesThroughTheGround()
 {
     PlantParameters parameters;
     parameters.initialState.position = {99.0, 0.0, 1.0};
-    Plant plant(parameters);
+    KitePlant plant(parameters);
     QVERIFY(!plant.hasCrashed());
     for (int i = 0; i < 200; ++i)
         plant.step(PlantInputs());
@@ -314,12 +315,12 @@ void tst_Plant::referenceModeFliesThroughTheGround()
     QVERIFY(plant.outputs(PlantInputs()).crashed);
 }
 
-void tst_Plant::crashedWingIsHeld()
+void tst_KitePlant::crashedWingIsHeld()
 {
     PlantParameters parameters;
     parameters.groundContact = GroundContact::Hold;
     parameters.initialState.position = {99.0, 0.0, 1.0};
-    Plant plant(parameters);
+    KitePlant plant(parameters);
     while (!plant.hasCrashed())
         plant.step(PlantInputs());
     const PlantState crashed = plant.state();
@@ -336,9 +337,9 @@ void tst_Plant::crashedWingIsHeld()
     QCOMPARE(plant.state().position.z(), 1.0);
 }
 
-void tst_Plant::resetRepeatsTheFlightBitForBit()
+void tst_KitePlant::resetRepeatsTheFlightBitForBit()
 {
-    Plant plant;
+    KitePlant plant;
     const auto fly = [&plant] {
         plant.reset();
         PlantInputs inputs = thesisInputs(1.0);
@@ -354,18 +355,18 @@ void tst_Plant::resetRepeatsTheFlightBitForBit()
     QVERIFY(first.energy == second.energy && first.averagePower == second.averagePower);
 }
 
-void tst_Plant::fullAngleRangeChangesOnlyBackwardFlow()
+void tst_KitePlant::fullAngleRangeChangesOnlyBackwardFlow()
 {
     PlantParameters folded, full;
     full.angleOfAttackRange = AngleOfAttackRange::Full;
     PlantInputs inputs = thesisInputs();
     inputs.windVelocity = {0.0, 0.0, -8.0};  // onto the nose, from the zenith: ordinary flow
-    const double ahead = Plant(folded).outputs(inputs).angleOfAttack;
-    COMPARE_NEAR(Plant(full).outputs(inputs).angleOfAttack, ahead, 1e-12);
+    const double ahead = KitePlant(folded).outputs(inputs).angleOfAttack;
+    COMPARE_NEAR(KitePlant(full).outputs(inputs).angleOfAttack, ahead, 1e-12);
     inputs.windVelocity = {0.0, 0.0, 8.0};  // from behind
-    const double folding = Plant(folded).outputs(inputs).angleOfAttack;
-    COMPARE_NEAR(Plant(full).outputs(inputs).angleOfAttack, 180.0 - folding, 1e-12);
+    const double folding = KitePlant(folded).outputs(inputs).angleOfAttack;
+    COMPARE_NEAR(KitePlant(full).outputs(inputs).angleOfAttack, 180.0 - folding, 1e-12);
 }
 
-QTEST_APPLESS_MAIN(tst_Plant)
-#include "tst_Plant.moc"
+QTEST_APPLESS_MAIN(tst_KitePlant)
+#include "tst_KitePlant.moc"

@@ -17,7 +17,7 @@ inline QString programPath(const char *program)
 }
 
 /// The master of the kite on a free port; model and autopilot when they are wanted.
-class Plant
+class ProcessPlant
 {
 public:
     /// \return false when the master does not listen
