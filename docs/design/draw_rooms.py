@@ -18,31 +18,31 @@ import layers  # noqa: E402
 
 # Room: column, row, and what lives there. A group is drawn around the rooms of its folder.
 PLACES = {
-    "gui3d": (2.5, 0, "3D view"),
-    "gui/window": (2.5, 1.4, "Control Center"),
+    "gui3d": (2, 0, "3D view"),
+    "gui/window": (2, 1.4, "Control Center"),
     "gui/layout": (0, 2.7, "pages, docking"),
     "gui/charts": (1, 2.7, "plots, export"),
     "gui/gauges": (2, 2.7, "instruments"),
     "gui/setters": (3, 2.7, "sliders, keys"),
     "gui/tables": (4, 2.7, "trees, lists"),
-    "gui/panel": (2.5, 4.1, "shared by panels"),
-    "gui/models": (2, 5.3, "rows for views"),
-    "gui/plot": (3, 5.3, "curves, formulas"),
-    "gui/plant": (2.5, 6.5, "a master, seen"),
-    "gui/store": (2.5, 7.7, "past of values"),
-    "tools": (6.8, 0, "qtplc"),
-    "hardware": (9.0, 0, "drivers, wires"),
-    "test_support": (10.2, 5.3, "simulator"),
-    "node/api": (7.9, 1.4, "master, node, ports"),
-    "node/session": (7.9, 2.7, "control channel"),
-    "node/security": (6.8, 4.1, "keys, rights"),
-    "node/statistics": (9.0, 4.1, "journal, figures"),
-    "node/state": (7.9, 4.1, "tables of states"),
-    "node/cycle": (9.0, 5.3, "what a cycle does"),
-    "protocol": (6.8, 6.7, "frames, messages"),
-    "transport": (9.0, 6.7, "udp, tcp, memory"),
-    "signals": (6.8, 7.7, "values, tables"),
-    "realtime": (9.0, 7.7, "clock, thread"),
+    "gui/panel": (2, 4.1, "shared by panels"),
+    "gui/models": (1.5, 5.3, "rows for views"),
+    "gui/plot": (2.5, 5.3, "curves, formulas"),
+    "gui/plant": (2, 6.5, "a master, seen"),
+    "gui/store": (2, 7.7, "past of values"),
+    "tools": (6.0, 0, "qtplc"),
+    "hardware": (8.2, 0, "drivers, wires"),
+    "test_support": (9.4, 5.3, "simulator"),
+    "node/api": (7.1, 1.4, "master, node, ports"),
+    "node/session": (7.1, 2.7, "control channel"),
+    "node/security": (6.0, 4.1, "keys, rights"),
+    "node/statistics": (8.2, 4.1, "journal, figures"),
+    "node/state": (7.1, 4.1, "tables of states"),
+    "node/cycle": (8.2, 5.3, "what a cycle does"),
+    "protocol": (6.0, 6.7, "frames, messages"),
+    "transport": (8.2, 6.7, "udp, tcp, memory"),
+    "signals": (6.0, 7.7, "values, tables"),
+    "realtime": (8.2, 7.7, "clock, thread"),
 }
 GROUPS = ("gui", "node")
 COLUMN, ROW, WIDTH, HEIGHT, LEFT, TOP = 118, 72, 110, 44, 32, 20
@@ -157,10 +157,10 @@ def rectangle(name):
     fill, edge = PALETTE.get(group(name), PALETTE[""])
     if name in GROUPS:
         return [f'<rect x="{x:g}" y="{y:g}" width="{right - x:g}" height="{bottom - y:g}" rx="8" fill="{fill}" stroke="{edge}"/>',
-                f'<text x="{x + 12:g}" y="{y + 18:g}" font-weight="bold" fill="#24435f">src/{name}</text>']
+                f'<text x="{x + 12:g}" y="{y + 18:g}" font-weight="bold" fill="#24435f">{name}</text>']
     middle = (x + right) / 2
     fill = "#ffffff" if group(name) in GROUPS else fill
-    title = name.split("/")[-1] if group(name) in GROUPS else f"src/{name}"
+    title = name.split("/")[-1]
     return [f'<rect x="{x:g}" y="{y:g}" width="{WIDTH}" height="{HEIGHT}" rx="5" fill="{fill}" stroke="{edge}"/>',
             f'<text x="{middle:g}" y="{y + 19:g}" text-anchor="middle" font-weight="bold" fill="#24435f">{title}</text>',
             f'<text x="{middle:g}" y="{y + 36:g}" text-anchor="middle" font-size="12" fill="#3c4a57">{PLACES[name][2]}</text>']
