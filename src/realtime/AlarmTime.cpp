@@ -10,7 +10,8 @@
 namespace qplc {
 
 AlarmTime::AlarmTime()
-    : m_timer(Host::current().hasKernelTimers() ? ::timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC) : -1)
+    : m_host(Host::current())
+    , m_timer(m_host.hasKernelTimers() ? ::timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC) : -1)
 {
 }
 
@@ -28,7 +29,7 @@ void AlarmTime::setPeriod(std::int64_t period) noexcept
 
 std::int64_t AlarmTime::now() noexcept
 {
-    return monotonic().now();
+    return m_host.now();
 }
 
 int AlarmTime::alarm(std::int64_t deadline) noexcept
@@ -41,11 +42,16 @@ int AlarmTime::alarm(std::int64_t deadline) noexcept
     return m_next == instant ? m_timer : -1;
 }
 
+std::int64_t AlarmTime::slept() noexcept
+{
+    return m_host.slept();
+}
+
 bool AlarmTime::sleepUntil(std::int64_t deadline) noexcept
 {
     const int timer = alarm(deadline);
     if (timer < 0)
-        return monotonic().sleepUntil(deadline);
+        return m_host.sleepUntil(deadline);
     std::uint64_t rung = 0;
     if (::read(timer, &rung, sizeof rung) != sizeof rung)
         return false;

@@ -52,6 +52,7 @@ public:
     std::size_t peerCount() const noexcept override { return m_peers.size(); }
     void addDescriptors(std::vector<pollfd> *) const override {}
     std::size_t descriptorCount() const noexcept override { return 0; }
+    bool isIdle() const noexcept override { return false; }  // it is what lets a fiber wait
 
     bool send(HubPeer *peer, const char *frame, std::size_t size) noexcept override
     {
@@ -86,7 +87,7 @@ public:
                 *frame = {*peer, arrived->bytes.data(), arrived->bytes.size()};
                 return true;
             }
-            ++m_strangers;
+            ++arrivals().strangers;
         }
         return false;
     }

@@ -24,7 +24,9 @@ CyclicHub::~CyclicHub() = default;
 
 void CyclicHub::add(std::unique_ptr<HubTransport> transport)
 {
+    transport->m_arrivals = &m_arrivals;
     m_transports.push_back(std::move(transport));
+    m_busy.reserve(m_transports.size());
     rebuild();
     m_polled.reserve(m_polled.size() + MaximumPeers);
 }
@@ -93,25 +95,14 @@ void CyclicHub::detach(HubPeer *peer) noexcept
 void CyclicHub::rebuild() noexcept
 {
     m_polled.clear();
-    for (const auto &transport : m_transports)
+    m_busy.clear();
+    for (const auto &transport : m_transports) {
+        if (transport->isIdle())
+            continue;
+        m_busy.push_back(transport.get());
         transport->addDescriptors(&m_polled);
+    }
     m_polled.push_back({-1, POLLIN, 0});
-}
-
-std::uint64_t CyclicHub::floods() const noexcept
-{
-    std::uint64_t sum = 0;
-    for (const auto &transport : m_transports)
-        sum += transport->floods();
-    return sum;
-}
-
-std::uint64_t CyclicHub::strangers() const noexcept
-{
-    std::uint64_t sum = 0;
-    for (const auto &transport : m_transports)
-        sum += transport->strangers();
-    return sum;
 }
 
 std::uint64_t CyclicHub::unread() const
@@ -151,7 +142,7 @@ void CyclicHub::sendDelayed() noexcept
 
 void CyclicHub::flushNow() noexcept
 {
-    for (const auto &transport : m_transports)
+    for (HubTransport *transport : m_busy)
         transport->flush();
 }
 
@@ -170,14 +161,14 @@ bool CyclicHub::wait(std::int64_t timeout, int alarm) noexcept
 
 bool CyclicHub::waitForArrivals(std::int64_t timeout, int alarm) noexcept
 {
-    for (const auto &transport : m_transports) {
+    for (HubTransport *transport : m_busy) {
         bool arrived = false;
         const bool isAlone = alarm < 0 && transport->peerCount() == m_peers.size();
         if (isAlone && transport->waitAlone(timeout, &arrived))
             return arrived;
     }
     bool isToSleep = timeout > 0;
-    for (const auto &transport : m_transports)
+    for (HubTransport *transport : m_busy)
         isToSleep = transport->beginWait(isToSleep) && isToSleep;
     return isToSleep ? pollDescriptors(timeout, alarm) : pollDescriptors(0, -1);
 }
@@ -189,7 +180,7 @@ bool CyclicHub::pollDescriptors(std::int64_t timeout, int alarm) noexcept
     ::ppoll(m_polled.data(), m_polled.size(), alarm < 0 ? &limit : nullptr, nullptr);
     bool arrived = false;
     pollfd *polled = m_polled.data();
-    for (const auto &transport : m_transports) {
+    for (HubTransport *transport : m_busy) {
         arrived = transport->endWait(polled) || arrived;
         polled += transport->descriptorCount();
     }
@@ -214,8 +205,11 @@ bool CyclicHub::next(HubFrame *frame) noexcept
 
 bool CyclicHub::nextArrived(HubFrame *frame) noexcept
 {
-    const auto hasNext = [frame](const auto &transport) { return transport->next(frame); };
-    return std::any_of(m_transports.begin(), m_transports.end(), hasNext);
+    for (HubTransport *transport : m_busy) {
+        if (transport->next(frame))
+            return true;
+    }
+    return false;
 }
 
 }  // namespace qplc

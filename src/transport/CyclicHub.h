@@ -66,9 +66,9 @@ public:
     bool next(HubFrame *frame) noexcept;
 
     /// Frames whose sender is no peer.
-    std::uint64_t strangers() const noexcept;
+    std::uint64_t strangers() const noexcept { return m_arrivals.strangers; }
     /// How often frames were left to the next wait(), as there were more than HubTransport::FramesPerWait.
-    std::uint64_t floods() const noexcept;
+    std::uint64_t floods() const noexcept { return m_arrivals.floods; }
     /// Frames since open() that the kernel had no room for, as nobody read those before them in time.
     /// Thread of the owner.
     std::uint64_t unread() const;
@@ -84,7 +84,9 @@ private:
 
     std::vector<std::unique_ptr<HubTransport>> m_transports;
     std::vector<HubPeer *> m_peers;
-    std::vector<pollfd> m_polled;         // those of the transports in order, and the alarm as the last one
+    std::vector<HubTransport *> m_busy;  // those that are not idle
+    std::vector<pollfd> m_polled;        // those of m_busy in order, and the alarm as the last one
+    HubArrivals m_arrivals;
     std::unique_ptr<HubFaults> m_faults;  // null: none are wanted
 };
 

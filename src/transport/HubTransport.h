@@ -55,6 +55,13 @@ struct HubFrame
     std::size_t size = 0;
 };
 
+/// What has arrived at a hub, and was not handed out as it came.
+struct HubArrivals
+{
+    std::uint64_t floods = 0;     // how often frames were left to the next wait: there were more than FramesPerWait
+    std::uint64_t strangers = 0;  // frames whose sender is no peer
+};
+
 /// One way on which frames travel between a master and its nodes. A CyclicHub has one object of each registered class.
 ///
 /// open() ... detach() are called by the owner of the hub, the others by its cycle thread: these allocate nothing. A wait goes
@@ -83,6 +90,8 @@ public:
     virtual void attach(HubPeer *peer) noexcept = 0;
     virtual void detach(HubPeer *peer) noexcept = 0;
     virtual std::size_t peerCount() const noexcept = 0;
+    /// Whether nothing can arrive or leave now: the hub passes it over.
+    virtual bool isIdle() const noexcept { return peerCount() == 0; }
     /// Appends the descriptors to poll, descriptorCount() of them.
     virtual void addDescriptors(std::vector<pollfd> *descriptors) const = 0;
     virtual std::size_t descriptorCount() const noexcept { return 1; }
@@ -104,16 +113,15 @@ public:
     /// Hands out the next frame that is there; it stays valid until the next call. \return false when there is none
     virtual bool next(HubFrame *frame) noexcept = 0;
 
-    /// How often frames were left to the next wait, as there were more than FramesPerWait.
-    std::uint64_t floods() const { return m_floods; }
-    /// Frames whose sender is no peer.
-    std::uint64_t strangers() const { return m_strangers; }
     /// Frames since open() that the kernel had no room for, as nobody read those before them in time.
     virtual std::uint64_t unread() const { return 0; }
 
 protected:
-    std::uint64_t m_floods = 0;
-    std::uint64_t m_strangers = 0;
+    HubArrivals &arrivals() noexcept { return *m_arrivals; }
+
+private:
+    friend class CyclicHub;
+    HubArrivals *m_arrivals = nullptr;  // of the hub
 };
 
 }  // namespace qplc

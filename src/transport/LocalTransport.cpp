@@ -146,7 +146,7 @@ bool LocalTransport::next(HubFrame *frame) noexcept
     for (; m_next < m_peers.size(); ++m_next, m_read = 0) {
         if (m_read >= FramesPerWait) {
             m_isFlooded = true;
-            ++m_floods;
+            ++arrivals().floods;
             continue;
         }
         const std::size_t size = m_peers[m_next]->channel()->outputs.pop(m_frame.data(), m_frame.size());

@@ -255,7 +255,7 @@ bool UdpTransport::readMore() noexcept
         return false;
     if (m_read >= FramesPerWait) {
         m_hasMore = false;
-        ++m_floods;
+        ++arrivals().floods;
         return false;
     }
     m_hasMore = receive(MSG_DONTWAIT) == int(Batch);
@@ -270,7 +270,7 @@ bool UdpTransport::next(HubFrame *frame) noexcept
             *frame = {peer, m_messages->datagrams[i].data(), m_messages->incoming[i].msg_len};
             return true;
         }
-        ++m_strangers;
+        ++arrivals().strangers;
     }
     return false;
 }

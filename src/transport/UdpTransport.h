@@ -30,6 +30,7 @@ public:
     void attach(HubPeer *peer) noexcept override;
     void detach(HubPeer *peer) noexcept override;
     std::size_t peerCount() const noexcept override { return m_peers.size(); }
+    bool isIdle() const noexcept override { return m_socket < 0 && m_peers.empty(); }  // strangers send to it, too
     void addDescriptors(std::vector<pollfd> *descriptors) const override;
 
     bool send(HubPeer *peer, const char *frame, std::size_t size) noexcept override;

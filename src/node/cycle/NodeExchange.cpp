@@ -240,10 +240,11 @@ void NodeExchange::awaitEveryone() noexcept
 
 bool NodeExchange::anyMissing(bool onlyWaiting) const noexcept
 {
-    return std::any_of(m_roster->nodes.begin(), m_roster->nodes.end(),
-                       [this, onlyWaiting](const std::shared_ptr<NodeSlot> &slot) {
-                           return isAwaited(*slot) && (!onlyWaiting || mustBeWaitedFor(*slot));
-                       });
+    for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
+        if (isAwaited(*slot) && (!onlyWaiting || mustBeWaitedFor(*slot)))
+            return true;
+    }
+    return false;
 }
 
 /// Waits for the answers that later stages read, after the last stage for all. \return false when stop was asked for meanwhile
