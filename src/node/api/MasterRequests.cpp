@@ -182,15 +182,15 @@ private:
 void QPlcMasterNodePrivate::receive(Connection *connection, const Message &message)
 {
     leases->renew(connection->socket);
-    QString error;
-    switch (messages::dispatch(messages::Requests(), message, Requests(*this, connection), &error)) {
+    QString fault;
+    switch (messages::dispatch(messages::Requests(), message, Requests(*this, connection), &fault)) {
     case messages::Dispatch::Delivered:
         break;
     case messages::Dispatch::Malformed:
         if (connection->owes(message.kind()))
-            server->drop(connection, error);  // nobody waits for an answer that will not come
+            server->drop(connection, fault);  // nobody waits for an answer that will not come
         else
-            connection->fail(QStringLiteral("MalformedMessage"), error);
+            connection->fail(QStringLiteral("MalformedMessage"), fault);
         break;
     case messages::Dispatch::Unknown:
         connection->fail(QStringLiteral("MalformedMessage"),
