@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Checks the documents: code blocks are what the files hold that they are said to show, links lead somewhere, tests that are named
-(`tst_X::aSentence`) exist, functions that docs/design/architecture.md names (`Class::function`) too, and indexes name all rooms and pages.
+(`tst_X::aSentence`) exist, functions that docs/design/architecture.md names (`Class::function`) too, prose
+wraps at 100 columns, and indexes name all rooms and pages.
 
 A block that stands behind the line <!-- file: PATH --> (from the root of the repository) shows that file without its licence line; with "begin of" or "end of" in the place of "file", lines at its begin or end.
 
@@ -16,6 +17,7 @@ BLOCK = re.compile(r"<!-- (?P<kind>file|begin of|end of): (?P<path>\S+) -->\n```
 MARK = re.compile(r"<!-- (?:file|begin of|end of): ")
 TEST = re.compile(r"`(tst_\w+)::(\w+)`")
 LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)\s]*)?\)")
+WIDTH = 100
 
 
 def shown(path):
@@ -68,6 +70,14 @@ def check_headings(root, document, errors):
     errors += [f"{document.relative_to(root)}: has the part '{heading}' twice" for heading in sorted(set(headings)) if headings.count(heading) > 1]
 
 
+def check_width(root, document, errors):
+    """Prose wraps at WIDTH columns. Code, rows of tables and single long words are as long as they are."""
+    text = re.sub(r"^ *```.*?^ *```$", lambda block: "\n" * block[0].count("\n"), document.read_text(), flags=re.S | re.M)
+    for number, line in enumerate(text.split("\n"), 1):
+        if len(line) > WIDTH and not re.match(r" *\||#", line) and " " in re.sub(r"`[^`]*`|\[[^]]*\]\([^)]*\)", "", line).strip()[:WIDTH]:
+            errors.append(f"{document.relative_to(root)}:{number}: {len(line)} columns; wrap prose at {WIDTH}")
+
+
 def check_tests(root, document, sources, errors):
     for program, name in TEST.findall(document.read_text()):
         if program not in sources:
@@ -99,7 +109,7 @@ def check_rooms(root, errors):
                 line = re.search(rf"^{parent} .*$", text, re.M)
                 named = line is not None and re.search(rf"\b{room.name}\b", line[0])
             else:
-                named = f"{parent}/{room.name}" in text or re.search(rf"^Tests have .*`{room.name}`", text, re.M)
+                named = f"{parent}/{room.name}" in text or re.search(rf"^Tests have (?:.|\n(?!\n))*`{room.name}`", text, re.M)
             if not named:
                 errors.append(f"CONTRIBUTING.md: does not name the room {parent}/{room.name}")
     for index, folder in (("docs/design/README.md", "docs/design"), ("README.md", "docs/howto"), ("docs/hardware/README.md", "docs/hardware"), ("README.md", "docs")):
@@ -131,6 +141,7 @@ def main():
         check_blocks(root, document, "--write" in sys.argv, errors)
         check_links(root, document, errors)
         check_headings(root, document, errors)
+        check_width(root, document, errors)
         check_tests(root, document, sources, errors)
     check_rooms(root, errors)
     check_functions(root, errors)
