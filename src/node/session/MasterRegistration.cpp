@@ -141,11 +141,11 @@ void MasterServer::registerNode(MasterConnection *connection, const Message &mes
     if (keys)
         registered.seal = sealOf(*keys);
     if (!connection->transport->hasStreams()) {
-        ChannelError error;
+        ChannelError fault;
         connection->slot->peer = connection->transport->makePeer(m_hub, newcomer(*connection, declaration, message),
-                                                                 &registered.transport, &error);
+                                                                 &registered.transport, &fault);
         if (!connection->slot->peer) {
-            reject(connection, error.word, error.text);
+            reject(connection, fault.word, fault.text);
             return;
         }
     }

@@ -4,6 +4,7 @@
 #include "Leases.h"
 #include "node/cycle/NodeRegistry.h"
 #include "node/cycle/TemporaryValues.h"
+#include "protocol/messages/SignalValues.h"
 
 #include <QtCore/QObject>
 #include <QtCore/QTimer>
