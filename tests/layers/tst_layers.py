@@ -71,10 +71,6 @@ class Faults(unittest.TestCase):
         self.plant("src/node/session/ViewerPushes.cpp", 'const QString who = message.text(QStringLiteral("whoever"));\n')
         self.assert_named("src/node/session/ViewerPushes.cpp:", "fields have their names in src/protocol/messages")
 
-    def test_a_file_that_reads_no_field_any_more_leaves_the_list(self):
-        (self.root / "src/node/api/SlavePhases.cpp").write_text("// SPDX-License-Identifier: Apache-2.0\n")
-        self.assert_named("src/node/api/SlavePhases.cpp:", "take it out of KNOWS_FIELDS")
-
     def test_a_panel_knows_the_window_by_its_context_alone(self):
         self.plant("src/gui3d/View3DEditor.cpp", '#include "gui/panel/WindowContext.h"\n')
         self.assert_named("src/gui3d/View3DEditor.cpp:", "a panel knows the window by QPlcPanelContext alone")

@@ -5,6 +5,7 @@
 #include "node/security/SealFields.h"
 #include "protocol/ControlFrame.h"
 #include "protocol/CyclicFrame.h"
+#include "protocol/messages/MessageTable.h"
 #include "signals/PayloadLayout.h"
 
 #include <QtCore/QJsonArray>
@@ -154,7 +155,8 @@ public:
         const auto node = quint16(message.fields().value(QStringLiteral("node")).toInt());
         const qplc::PayloadLayout in(table, indicesOf(table, inputs));
         const qplc::PayloadLayout out(table, indicesOf(table, outputs));
-        const auto keys = qplc::sealKeys(message.fields().value(QStringLiteral("seal")).toObject());
+        const auto read = qplc::messages::readAs<qplc::messages::Registered>(message);
+        const auto keys = read && read->seal ? qplc::sealKeys(*read->seal) : std::nullopt;
         const quint32 longest = qplc::maximumPayload(keys.has_value());
         m_decoder = qplc::FrameDecoder(qplc::FrameKind::Inputs, {session, node, in.hash()}, in.partBorders(longest),
                                        keys ? &keys->inputs : nullptr);

@@ -244,11 +244,14 @@ void tst_AccessRights::anObserverListensOnly()
     node.outputs.clear();
     node.initialValues.clear();
     QVERIFY(node.registerAt(master.serverPort()));
-    QCOMPARE(qplc::refusalOf(peerOf(Role::Observer), QPlcMessage(QPlcMessage::Register, {{"name", "x"}})).isEmpty(),
-             false);
-    const QJsonObject fields{{"name", "x"}, {"listener", true}, {"outputs", QJsonArray{QJsonObject{{"name", "sum"}}}}};
-    QVERIFY(qplc::refusalOf(peerOf(Role::Observer), QPlcMessage(QPlcMessage::Register, fields))
-                .contains("may not write signal 'sum'"));
+    qplc::messages::Register registration;
+    registration.name = "x";
+    registration.outputs = {{"sum", "Real64", {}, false}};
+    const auto refusal
+        = [&] { return qplc::refusalOf(peerOf(Role::Observer), qplc::messages::toMessage(registration)); };
+    QVERIFY(refusal().contains("may only listen"));
+    registration.listener = true;
+    QVERIFY(refusal().contains("may not write signal 'sum'"));
 }
 
 void tst_AccessRights::nobodyHasTheNameOfAnother_data()

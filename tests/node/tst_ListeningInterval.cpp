@@ -283,8 +283,8 @@ void tst_ListeningInterval::whatCannotHaveAnIntervalIsRefused_data()
     QTest::newRow("none") << QJsonObject{{"every", 0}} << "1 ... 1000000";
     QTest::newRow("negative") << QJsonObject{{"every", -3}} << "1 ... 1000000";
     QTest::newRow("too long") << QJsonObject{{"every", 1000001}} << "1 ... 1000000";
-    QTest::newRow("half a cycle") << QJsonObject{{"every", 2.5}} << "1 ... 1000000";
-    QTest::newRow("a text") << QJsonObject{{"every", "10"}} << "1 ... 1000000";
+    QTest::newRow("half a cycle") << QJsonObject{{"every", 2.5}} << "field 'every'";
+    QTest::newRow("a text") << QJsonObject{{"every", "10"}} << "field 'every'";
     QTest::newRow("no listener") << QJsonObject{{"listener", false}} << "listeners without outputs";
     QTest::newRow("outputs")
         << QJsonObject{{"outputs", QJsonArray{QJsonObject{{"name", "echo"}, {"type", "Real64"}, {"unit", ""}}}}}

@@ -208,20 +208,24 @@ static QJsonObject greetSecured(ScriptedMaster &master, const SecurityFiles &fil
 void tst_SealedCycles::aSecuredNodeTakesNoFramesWithoutKeys_data()
 {
     QTest::addColumn<QJsonValue>("seal");
+    QTest::addColumn<QString>("words");
+    const QString none = "gives node 'Mirror' no keys for its frames";
+    const QString unusable = "field 'seal'";
     const QString key = QPlcMessage::fromBytes(QByteArray(32, 'k'));
     const QString shorter = QPlcMessage::fromBytes(QByteArray(31, 'k'));
-    QTest::newRow("no field") << QJsonValue(QJsonValue::Undefined);
-    QTest::newRow("false") << QJsonValue(false);
-    QTest::newRow("null") << QJsonValue(QJsonValue::Null);
-    QTest::newRow("empty") << QJsonValue(QJsonObject());
-    QTest::newRow("one direction") << QJsonValue(QJsonObject{{"inputs", key}});
-    QTest::newRow("too short") << QJsonValue(QJsonObject{{"inputs", key}, {"outputs", shorter}});
-    QTest::newRow("no text") << QJsonValue(QJsonObject{{"inputs", key}, {"outputs", 7}});
+    QTest::newRow("no field") << QJsonValue(QJsonValue::Undefined) << none;
+    QTest::newRow("false") << QJsonValue(false) << unusable;
+    QTest::newRow("null") << QJsonValue(QJsonValue::Null) << unusable;
+    QTest::newRow("empty") << QJsonValue(QJsonObject()) << unusable;
+    QTest::newRow("one direction") << QJsonValue(QJsonObject{{"inputs", key}}) << unusable;
+    QTest::newRow("too short") << QJsonValue(QJsonObject{{"inputs", key}, {"outputs", shorter}}) << none;
+    QTest::newRow("no text") << QJsonValue(QJsonObject{{"inputs", key}, {"outputs", 7}}) << unusable;
 }
 
 void tst_SealedCycles::aSecuredNodeTakesNoFramesWithoutKeys()
 {
     QFETCH(QJsonValue, seal);
+    QFETCH(QString, words);
     ScriptedMaster master;
     Mirror mirror("Mirror");
     QJsonObject fields = greetSecured(master, m_files, mirror);
@@ -231,8 +235,7 @@ void tst_SealedCycles::aSecuredNodeTakesNoFramesWithoutKeys()
     master.send(QPlcMessage::CyclicChannelAttached);
     QTRY_COMPARE(mirror.error(), QPlcSlaveNode::ProtocolError);
     QCOMPARE(mirror.state(), QPlcSlaveNode::Rejected);
-    QVERIFY2(mirror.errorString().contains("gives node 'Mirror' no keys for its frames"),
-             qPrintable(mirror.errorString()));
+    QVERIFY2(mirror.errorString().contains(words), qPrintable(mirror.errorString()));
 }
 
 void tst_SealedCycles::aSecuredNodeComputesNoFrameThatIsNotSealed()
@@ -470,7 +473,7 @@ void tst_SealedCycles::keysAreNotLogged()
         playLossy(&node, m_files);
         QVERIFY(node.registerAt(master.serverPort()));
         const QJsonObject seal = node.registered.fields().value("seal").toObject();
-        QVERIFY(qplc::sealKeys(seal));
+        QCOMPARE(seal.size(), 2);
         QVERIFY(!log.matching("Registered").isEmpty());
         for (const QString &direction : seal.keys()) {
             const QByteArray base64 = seal.value(direction).toString().toLatin1();

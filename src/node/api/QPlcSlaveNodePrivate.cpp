@@ -12,6 +12,7 @@
 
 using Message = QPlcMessage;
 using qplc::SlaveEvent;
+namespace messages = qplc::messages;
 
 namespace {
 
@@ -244,6 +245,56 @@ bool QPlcSlaveNodePrivate::isExpected(const Message &message) const
     }
 }
 
+/// What each message of a master does. A kind of messages::ToNode without a function here does not
+/// compile.
+class QPlcSlaveNodePrivate::FromMaster
+{
+public:
+    explicit FromMaster(QPlcSlaveNodePrivate &node)
+        : d(node)
+    {
+    }
+
+    // ---- registration ----
+    void operator()(const messages::MasterHello &hello) const { d.apply(SlaveEvent::HelloCame, hello); }
+    void operator()(const messages::Registered &registered) const { d.apply(SlaveEvent::Accepted, registered); }
+    void operator()(const messages::CyclicChannelAttached &) const { d.apply(SlaveEvent::ChannelAttached); }
+    void operator()(const messages::Rejected &rejected) const
+    {
+        d.giveUp(QPlcSlaveNode::RegistrationError,
+                 QStringLiteral("the master at %1 refuses node '%2': %3")
+                     .arg(d.master.toString(), d.name, qplc::printable(rejected.text)));
+    }
+    void operator()(const messages::MasterEnds &) const
+    {
+        qCInfo(lcSlave).noquote() << "node" << d.name << "- the master has ended";
+        d.apply(SlaveEvent::MasterEnded);
+    }
+
+    // ---- phases ----
+    void operator()(const messages::SendYourInitialOutputStates &request) const
+    {
+        d.apply(SlaveEvent::OutputsWanted, request);
+    }
+    void operator()(const messages::InitializeWithValues &initial) const { d.apply(SlaveEvent::ValuesCame, initial); }
+    void operator()(const messages::StatesInitialized &outcome) const
+    {
+        if (outcome.ok)
+            return;
+        d.m_outputsAwaited.reset();  // the master has given up what it began
+        d.apply(SlaveEvent::InitializationFailed);
+    }
+    void operator()(const messages::RealTimeStarted &start) const { d.apply(SlaveEvent::PhaseStarted, start); }
+    void operator()(const messages::RealTimeStopped &) const
+    {
+        d.m_outputsAwaited.reset();
+        d.apply(SlaveEvent::PhaseStopped);
+    }
+
+private:
+    QPlcSlaveNodePrivate &d;
+};
+
 void QPlcSlaveNodePrivate::receive(const Message &message)
 {
     if (state == QPlcSlaveNode::Registering && m_cyclicSocket
@@ -256,41 +307,23 @@ void QPlcSlaveNodePrivate::receive(const Message &message)
                                      << "of the master: not possible now";
         return;
     }
-    switch (message.kind()) {
-    case Message::Rejected:
-        giveUp(QPlcSlaveNode::RegistrationError,
-               QStringLiteral("the master at %1 refuses node '%2': %3")
-                   .arg(master.toString(), name, qplc::printable(message.text(QStringLiteral("text")))));
-        return;
-    case Message::MasterEnds:
-        qCInfo(lcSlave).noquote() << "node" << name << "- the master has ended";
-        break;
-    case Message::RealTimeStopped:
-        m_outputsAwaited.reset();
-        break;
-    case Message::StatesInitialized:
-        if (!message.fields().value(QStringLiteral("ok")).toBool()) {
-            m_outputsAwaited.reset();  // the master has given up what it began
-            apply(SlaveEvent::InitializationFailed);
-        }
-        break;
-    case Message::Failed:
-        qCWarning(lcSlave).noquote() << "node" << name
-                                     << "asked in vain:" << qplc::printable(message.text(QStringLiteral("text")));
-        break;
-    default:
-        break;
-    }
-    if (const std::optional<SlaveEvent> event = eventOf(message))
-        apply(*event, message);
-    else
+    QString fault;
+    if (messages::dispatch(messages::ToNode(), message, FromMaster(*this), &fault) == messages::Dispatch::Malformed)
+        refuseUnreadable(message, fault);
+    if (const auto failed = messages::readAs<messages::Failed>(message))
+        qCWarning(lcSlave).noquote() << "node" << name << "asked in vain:" << qplc::printable(failed->text);
+    if (!eventOf(message))
         Q_EMIT q->messageReceived(message);
 }
 
-void QPlcSlaveNodePrivate::proceed(SlaveEvent event, const Message &message)
+/// A master that cannot be understood is none. Of a phase it is told why its node takes no part.
+void QPlcSlaveNodePrivate::refuseUnreadable(const Message &message, const QString &reason)
 {
-    if (event == SlaveEvent::HelloCame)
-        receiveHello(message);
+    if (message.kind() == Message::RealTimeStarted)
+        refusePhase(QPlcSlaveNode::ProtocolError,
+                    QStringLiteral("the phase that the master begins is refused: %1").arg(reason));
     else
-        receiveRegistered(message);
+        giveUp(QPlcSlaveNode::ProtocolError,
+               QStringLiteral("node '%1' cannot use %2 of the master at %3: %4")
+                   .arg(name, message.kindName(), master.toString(), reason));
 }

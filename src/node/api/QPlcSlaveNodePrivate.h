@@ -10,15 +10,16 @@
 #include "node/session/BackOff.h"
 #include "node/state/SlaveStates.h"
 #include "node/statistics/ReportLimiter.h"
+#include "protocol/messages/MessageTable.h"
 #include "transport/TransportKind.h"
 
-#include <QtCore/QJsonArray>
 #include <QtCore/QPointer>
 #include <QtCore/QSocketNotifier>
 #include <QtCore/QTimer>
 
 #include <memory>
 #include <optional>
+#include <variant>
 
 /// The control side of a slave: registration, and the phases that the master announces.
 class QPlcSlaveNodePrivate
@@ -36,9 +37,13 @@ public:
     /// Emits hasInitialized() with the inputs, when anybody listens.
     void tellInitialized();
 
+    /// What a master tells with an event, for the function that belongs to it.
+    using Told = std::variant<std::monostate, qplc::messages::MasterHello, qplc::messages::Registered,
+                              qplc::messages::SendYourInitialOutputStates, qplc::messages::InitializeWithValues,
+                              qplc::messages::RealTimeStarted>;
     /// Something has happened: the node goes to the next state as qplc::slaveStates() says, and does what belongs to it.
     /// \return whether the present state accepts \a event
-    bool apply(qplc::SlaveEvent event, const QPlcMessage &message = QPlcMessage());
+    bool apply(qplc::SlaveEvent event, const Told &told = {});
     /// The safe state, in the thread of the node, while no cycle runs.
     void makeSafe(QPlcSlaveNode::SafeStateReason reason);
     /// Emits safeStateEntered(), once in a phase.
@@ -79,8 +84,8 @@ public:
 
 private:
     void enter(QPlcSlaveNode::State newState);
-    bool prepareFor(qplc::SlaveAction action, qplc::SlaveEvent event, const QPlcMessage &message);
-    void carryOut(qplc::SlaveAction action, const QPlcMessage &message);
+    bool prepareFor(qplc::SlaveAction action, qplc::SlaveEvent event, const Told &told);
+    void carryOut(qplc::SlaveAction action, const Told &told);
     void openConnection();
     void closeConnection(QPlcSlaveNode::SafeStateReason reason);
     void closeAfterWatchdog();
@@ -88,28 +93,34 @@ private:
     void haltCycles();
     void endPhase(QPlcSlaveNode::SafeStateReason reason);
     void codeFailed(const QString &text);
+    class FromMaster;
     bool isExpected(const QPlcMessage &message) const;
     void receive(const QPlcMessage &message);
+    void refuseUnreadable(const QPlcMessage &message, const QString &reason);
+    template<typename Message>
+    void send(const Message &message)
+    {
+        control->sendMessage(qplc::messages::toMessage(message));
+    }
     bool isOrdered() const;
-    QJsonArray features() const;
+    QStringList features() const;
     void greet();
-    void proceed(qplc::SlaveEvent event, const QPlcMessage &message);
-    void receiveHello(const QPlcMessage &message);
-    bool chooseTable(const QPlcMessage &hello, QPlcSignalTable *table);
+    void receiveHello(const qplc::messages::MasterHello &hello);
+    bool chooseTable(const qplc::messages::MasterHello &hello, QPlcSignalTable *table);
     void registerAtMaster();
-    void receiveRegistered(const QPlcMessage &message);
+    void receiveRegistered(const qplc::messages::Registered &registered);
     qplc::ControlEnds controlEnds() const;
-    bool beginLink(QJsonObject *request);
-    bool finishLink(const QPlcMessage &registered);
+    bool beginLink(qplc::messages::Register *request);
+    bool finishLink(const qplc::messages::Registered &registered);
     void giveLink(std::unique_ptr<qplc::CyclicLink> link);
-    void connectCyclicChannel();
+    void connectCyclicChannel(const qplc::messages::AttachCyclicChannel &wish);
     void tellRegistered();
-    void sendInitialOutputs(const QPlcMessage &request);
-    bool canGoOn(const QPlcMessage &request) const;
+    void sendInitialOutputs(const qplc::messages::SendYourInitialOutputStates &request);
+    bool canGoOn(const qplc::messages::SendYourInitialOutputStates &request) const;
     void applyProfile(qplc::SlaveCycle::Phase *phase);
     void watchdogHasTimedOut(quint64 lastCycle);
-    bool initializeWith(const QPlcMessage &message);
-    bool startCycles(const QPlcMessage &message);
+    bool initializeWith(const qplc::messages::InitializeWithValues &initial);
+    bool startCycles(const qplc::messages::RealTimeStarted &start);
     bool refusePhase(QPlcSlaveNode::Error reason, const QString &text);
     void masterLost(QPlcAbstractSocket::Error socketError, const QString &text);
     void giveUp(QPlcSlaveNode::Error newError, const QString &text);
@@ -128,8 +139,7 @@ private:
     };
 
     QPlcMasterSocket *m_cyclicSocket = nullptr;
-    std::optional<QPlcMessage>
-        m_outputsAwaited;  // request of the master, which knows already that the cyclic connection is there
+    std::optional<QPlcMessage> m_outputsAwaited;       // request of a master that has its cyclic connection already
     const qplc::TransportKind *m_transport = nullptr;  // that of the address of the master
     std::unique_ptr<qplc::CyclicLink> m_link;          // until the cycle takes it
     std::unique_ptr<QSocketNotifier> m_reportNotifier;
@@ -148,6 +158,4 @@ private:
     bool m_isSafeTold = false;  // in this phase
     QString m_uuid;
     quint64 m_session = 0;
-    QString m_token;
-    int m_id = 0;
 };

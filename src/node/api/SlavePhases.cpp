@@ -11,48 +11,47 @@
 
 #include <algorithm>
 
-using Message = QPlcMessage;
 using qplc::SlaveEvent;
+namespace messages = qplc::messages;
 
 namespace {
 
-QPlcClock clockOf(const Message &message)
+QPlcClock clockOf(const messages::RealTimeStarted &start)
 {
-    const QString kind = message.text(QStringLiteral("clock"));
-    if (kind == QLatin1String("Lockstep"))
+    switch (start.clock) {
+    case messages::ClockKind::Lockstep:
         return QPlcClock::lockstep();
-    if (kind == QLatin1String("Scaled"))
-        return QPlcClock::scaled(message.fields().value(QStringLiteral("scale")).toDouble(1.0));
+    case messages::ClockKind::Scaled:
+        return QPlcClock::scaled(start.scale);
+    case messages::ClockKind::RealTime:
+        break;
+    }
     return QPlcClock::realTime();
 }
 
 /// What a node cannot compute with of a phase that its master begins; empty: nothing.
-QString phaseError(const Message &message)
+QString phaseError(const messages::RealTimeStarted &start)
 {
-    const double period = message.fields().value(QStringLiteral("period")).toDouble();  // [ns]
-    if (!(period >= double(qplc::ShortestPeriod.count()) && period <= double(qplc::LongestPeriod.count())))
-        return QStringLiteral("a period of %1 s is out of range; use 0.00001 ... 10 s").arg(period * 1e-9);
-    const QPlcClock clock = clockOf(message);
+    if (start.period < qplc::ShortestPeriod || start.period > qplc::LongestPeriod)
+        return QStringLiteral("a period of %1 s is out of range; use 0.00001 ... 10 s")
+            .arg(double(start.period.count()) * 1e-9);
+    const QPlcClock clock = clockOf(start);
     if (!clock.isValid())
         return QStringLiteral("a clock of %1 times real time is out of range; use 0.001 ... 1000, or lockstep")
             .arg(clock.scale());
-    const quint64 first = message.hex64(QStringLiteral("firstCycle")) - message.hex64(QStringLiteral("cycleZero"));
-    if (first >= qplc::mostCycles(std::chrono::nanoseconds(qint64(period))))
+    const quint64 first = start.firstCycle - start.cycleZero;
+    if (first >= qplc::mostCycles(start.period))
         return QStringLiteral("it begins with cycle %1, which has no time").arg(qint64(first));
     return {};
 }
 
 /// Where the inputs lie in datagrams for many nodes; what is out of place is refused by its size of 0, and no frame will fit.
-qplc::SlaveCycle::Group groupOf(const Message &message, const qplc::PayloadLayout &inputs)
+qplc::SlaveCycle::Group groupOf(const std::optional<messages::GroupPlace> &place, const qplc::PayloadLayout &inputs)
 {
-    const QJsonObject fields = message.fields().value(QStringLiteral("group")).toObject();
-    const double offset = fields.value(QStringLiteral("offset")).toDouble();
-    const double size = fields.value(QStringLiteral("size")).toDouble();
-    if (fields.isEmpty() || offset < 2 || size > double(qplc::MaximumCyclicPayload)
-        || offset + double(inputs.size()) > size)
+    if (!place || place->offset < 2 || place->size > int(qplc::MaximumCyclicPayload)
+        || qint64(place->offset) + qint64(inputs.size()) > place->size)
         return {};
-    return {std::uint16_t(fields.value(QStringLiteral("part")).toInt()), std::uint32_t(offset), std::uint32_t(size),
-            QPlcMessage(Message::RealTimeStarted, fields).hex64(QStringLiteral("hash"))};
+    return {std::uint16_t(place->part), std::uint32_t(place->offset), std::uint32_t(place->size), place->hash};
 }
 
 }  // namespace
@@ -61,20 +60,19 @@ qplc::SlaveCycle::Group groupOf(const Message &message, const qplc::PayloadLayou
 void QPlcSlaveNodePrivate::codeFailed(const QString &text)
 {
     if (control)
-        control->sendMessage(Message(Message::NodeFault, {{QStringLiteral("text"), text}}));
+        send(messages::NodeFault{text});
     makeSafe(QPlcSlaveNode::CodeFailed);
     apply(SlaveEvent::CodeFailed);
     setError(QPlcSlaveNode::UserCodeError, QStringLiteral("node '%1': %2").arg(name, text));
 }
 
 /// Whether the node has been in the phase that \a request names, and has lost nothing but the connection.
-bool QPlcSlaveNodePrivate::canGoOn(const Message &request) const
+bool QPlcSlaveNodePrivate::canGoOn(const messages::SendYourInitialOutputStates &request) const
 {
-    const PhaseName phase{m_session, request.hex64(QStringLiteral("phase"))};
-    return request.fields().contains(QStringLiteral("phase")) && m_lastPhase == phase;
+    return request.phase && m_lastPhase == PhaseName{m_session, *request.phase};
 }
 
-void QPlcSlaveNodePrivate::sendInitialOutputs(const Message &request)
+void QPlcSlaveNodePrivate::sendInitialOutputs(const messages::SendYourInitialOutputStates &request)
 {
     QString text;
     m_goesOn = canGoOn(request);
@@ -85,15 +83,12 @@ void QPlcSlaveNodePrivate::sendInitialOutputs(const Message &request)
         return;
     }
     const QByteArray values(runtime.outputs(), int(runtime.outputLayout().size()));
-    QJsonObject fields{{QStringLiteral("values"), Message::fromBytes(values)}};
-    if (m_goesOn)
-        fields.insert(QStringLiteral("goesOn"), true);
-    control->sendMessage(Message(Message::ReceiveMyInitialOutputStates, fields));
+    send(messages::ReceiveMyInitialOutputStates{values, m_goesOn});
 }
 
-bool QPlcSlaveNodePrivate::initializeWith(const Message &message)
+bool QPlcSlaveNodePrivate::initializeWith(const messages::InitializeWithValues &initial)
 {
-    const QByteArray values = message.bytes(QStringLiteral("values"));
+    const QByteArray &values = initial.values;
     if (values.size() != int(runtime.inputLayout().size())) {
         giveUp(QPlcSlaveNode::ProtocolError,
                QStringLiteral("node '%1': initial values of %2 bytes instead of %3")
@@ -109,7 +104,7 @@ bool QPlcSlaveNodePrivate::initializeWith(const Message &message)
         codeFailed(text);
         return false;
     }
-    control->sendMessage(Message(Message::Initialized));
+    send(messages::Initialized());
     if (!m_goesOn)
         tellInitialized();
     return true;
@@ -123,27 +118,27 @@ void QPlcSlaveNodePrivate::tellInitialized()
 
 bool QPlcSlaveNodePrivate::refusePhase(QPlcSlaveNode::Error reason, const QString &text)
 {
-    control->sendMessage(Message(Message::NodeFault, {{QStringLiteral("text"), text}}));
+    send(messages::NodeFault{text});
     setError(reason, QStringLiteral("node '%1': %2").arg(name, text));
     return false;
 }
 
-bool QPlcSlaveNodePrivate::startCycles(const Message &message)
+bool QPlcSlaveNodePrivate::startCycles(const messages::RealTimeStarted &start)
 {
-    const QString wrong = phaseError(message);
+    const QString wrong = phaseError(start);
     if (!wrong.isEmpty())
         return refusePhase(QPlcSlaveNode::ProtocolError,
                            QStringLiteral("the phase that the master begins is refused: %1").arg(wrong));
     qplc::SlaveCycle::Phase phase;
-    phase.period = std::chrono::nanoseconds(qint64(message.fields().value(QStringLiteral("period")).toDouble()));
-    phase.clock = clockOf(message);
-    phase.cycleZero = message.hex64(QStringLiteral("cycleZero"));
-    phase.firstCycle = message.hex64(QStringLiteral("firstCycle"));
-    phase.group = groupOf(message, runtime.inputLayout());
+    phase.period = start.period;
+    phase.clock = clockOf(start);
+    phase.cycleZero = start.cycleZero;
+    phase.firstCycle = start.firstCycle;
+    phase.group = groupOf(start.group, runtime.inputLayout());
     phase.interval = interval;
     phase.realTimeOptions = realTimeOptions;
     // Whatever else a master tells, or does not tell, the strict one holds.
-    const bool isSimulation = message.text(QStringLiteral("profile")) == QPlcProfile::name(QPlcProfile::Simulation);
+    const bool isSimulation = start.profile == QPlcProfile::name(QPlcProfile::Simulation);
     phaseProfile = isSimulation ? QPlcProfile::Simulation : QPlcProfile::Plant;
     applyProfile(&phase);
     if (!cycle->start(phase))

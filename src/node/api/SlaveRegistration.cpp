@@ -3,43 +3,16 @@
 #include "QPlcSignalIndexTable.h"
 #include "QPlcSlaveNodePrivate.h"
 #include "node/Logging.h"
+#include "node/cycle/NodeRegistry.h"
 #include "node/security/SealFields.h"
 #include "signals/Fnv1a.h"
 #include "transport/FaultLink.h"
 #include "transport/TransportRegistry.h"
 
-#include <QtCore/QJsonArray>
-#include <QtCore/QMetaEnum>
-
 #include <utility>
 
-using Message = QPlcMessage;
-
-namespace {
-
-const QString sameCycleFeature = QStringLiteral("sameCycle");
-const QString qualityFeature = QStringLiteral("quality");
-const QString outputQualityFeature = QStringLiteral("outputQuality");
-const QString hardwareFeature = QStringLiteral("hardware");
-
-QJsonArray describe(const QPlcSignalTable &table, const qplc::PayloadLayout &layout,
-                    const std::vector<bool> &sameCycle = {})
-{
-    QJsonArray signalArray;
-    for (const qplc::PayloadLayout::Field &field : layout.fields()) {
-        const QPlcSignalDefinition &definition = table.at(field.signal);
-        QJsonObject signal{{QStringLiteral("name"), definition.name},
-                           {QStringLiteral("type"), definition.type.name()},
-                           {QStringLiteral("unit"), definition.unit}};
-        const auto place = std::size_t(signalArray.size());
-        if (place < sameCycle.size() && sameCycle[place])
-            signal.insert(QStringLiteral("sameCycle"), true);
-        signalArray.append(signal);
-    }
-    return signalArray;
-}
-
-}  // namespace
+namespace messages = qplc::messages;
+namespace feature = messages::feature;
 
 /// Whether cycles have an order because of this node. Before the table is known.
 bool QPlcSlaveNodePrivate::isOrdered() const
@@ -52,40 +25,36 @@ bool QPlcSlaveNodePrivate::isOrdered() const
 }
 
 /// Extensions that this node uses. A master that does not know `hardware` is as strict as a plant anyway.
-QJsonArray QPlcSlaveNodePrivate::features() const
+QStringList QPlcSlaveNodePrivate::features() const
 {
-    QJsonArray needed;
+    QStringList needed;
     if (isOrdered())
-        needed.append(sameCycleFeature);
+        needed.append(feature::sameCycle);
     if (receivesQuality)
-        needed.append(qualityFeature);
+        needed.append(feature::quality);
     if (sendsQuality)
-        needed.append(outputQualityFeature);
+        needed.append(feature::outputQuality);
     if (hardware)
-        needed.append(hardwareFeature);
+        needed.append(feature::hardware);
     return needed;
 }
 
 void QPlcSlaveNodePrivate::greet()
 {
-    QJsonObject fields{{QStringLiteral("protocol"), 1},
-                       {QStringLiteral("name"), name},
-                       {QStringLiteral("uuid"), m_uuid},
-                       {QStringLiteral("role"), QStringLiteral("node")},
-                       {QStringLiteral("features"), features()}};
+    messages::ClientHello hello{messages::protocolVersion, name, m_uuid, messages::Part::Node, {}, features()};
     const QPlcSignalTable table = q->signalTable();
     if (!table.isEmpty())
-        fields.insert(QStringLiteral("tableHash"), Message::fromHex64(table.hash()));
-    control->sendMessage(Message(Message::Hello, fields));
+        hello.tableHash = table.hash();
+    send(hello);
 }
 
-bool QPlcSlaveNodePrivate::chooseTable(const Message &hello, QPlcSignalTable *table)
+bool QPlcSlaveNodePrivate::chooseTable(const messages::MasterHello &hello, QPlcSignalTable *table)
 {
     *table = q->signalTable();
     if (!table->isEmpty())
         return true;
     QVector<QPlcParseError> errors;
-    *table = QPlcSignalTable::fromMaster(hello.text(QStringLiteral("table")).toUtf8(), &errors);
+    *table = QPlcSignalTable::fromMaster(hello.table.toUtf8(), &errors);
     if (table->isEmpty()) {
         giveUp(QPlcSlaveNode::ProtocolError, QPlcParseError::toString(errors));
         return false;
@@ -94,24 +63,23 @@ bool QPlcSlaveNodePrivate::chooseTable(const Message &hello, QPlcSignalTable *ta
     return true;
 }
 
-void QPlcSlaveNodePrivate::receiveHello(const Message &message)
+void QPlcSlaveNodePrivate::receiveHello(const messages::MasterHello &hello)
 {
-    const int protocol = message.fields().value(QStringLiteral("protocol")).toInt();
-    if (protocol != 1) {
+    if (hello.protocol != messages::protocolVersion) {
         giveUp(QPlcSlaveNode::ProtocolError,
-               QStringLiteral("the master at %1 speaks protocol version %2, node '%3' version 1; update the older one")
+               QStringLiteral("the master at %1 speaks protocol version %2, node '%3' version %4; update the older one")
                    .arg(master.toString())
-                   .arg(protocol)
-                   .arg(name));
+                   .arg(hello.protocol)
+                   .arg(name)
+                   .arg(messages::protocolVersion));
         return;
     }
-    m_session = message.hex64(QStringLiteral("session"));
-    if (const QString faults = message.text(QStringLiteral("faults")); !faults.isEmpty())
+    m_session = hello.session;
+    if (!hello.faults.isEmpty())
         qCWarning(lcSlave).noquote() << "the master at" << master.toString()
-                                     << "injects faults on purpose:" << qplc::printable(faults);
-    const QJsonArray offered = message.fields().value(QStringLiteral("features")).toArray();
-    const auto lacks = [&](bool needed, const QString &feature, const QString &what) {
-        if (!needed || offered.contains(feature))
+                                     << "injects faults on purpose:" << qplc::printable(hello.faults);
+    const auto lacks = [&](bool needed, QLatin1String extension, const QString &what) {
+        if (!needed || hello.features.contains(extension))
             return false;
         giveUp(QPlcSlaveNode::RegistrationError,
                QStringLiteral("the master at %1 knows no %2, which node '%3' needs; update the master, or do without "
@@ -119,13 +87,13 @@ void QPlcSlaveNodePrivate::receiveHello(const Message &message)
                    .arg(master.toString(), what, name));
         return true;
     };
-    if (lacks(isOrdered(), sameCycleFeature, QStringLiteral("same-cycle inputs and two-phase nodes"))
-        || lacks(sendsQuality, outputQualityFeature, QStringLiteral("qualities of outputs")))
+    if (lacks(isOrdered(), feature::sameCycle, QStringLiteral("same-cycle inputs and two-phase nodes"))
+        || lacks(sendsQuality, feature::outputQuality, QStringLiteral("qualities of outputs")))
         return;
-    runtime.setQualityOffered(offered.contains(qualityFeature));
+    runtime.setQualityOffered(hello.features.contains(feature::quality));
     QPlcSignalTable table;
     QString text;
-    if (!chooseTable(message, &table))
+    if (!chooseTable(hello, &table))
         return;
     if (!runtime.bind(table, &text)) {
         giveUp(QPlcSlaveNode::SignalError, text);
@@ -140,10 +108,10 @@ qplc::ControlEnds QPlcSlaveNodePrivate::controlEnds() const
             qplc::SocketAddress(control->peerAddress(), control->peerPort()), master.toString()};
 }
 
-bool QPlcSlaveNodePrivate::beginLink(QJsonObject *request)
+bool QPlcSlaveNodePrivate::beginLink(messages::Register *request)
 {
     QString text;
-    const bool hasBegun = m_transport->beginLink(controlEnds(), request, &m_link, &text);
+    const bool hasBegun = m_transport->beginLink(controlEnds(), &request->transport, &m_link, &text);
     if (!hasBegun)
         giveUp(QPlcSlaveNode::ConnectionError, QStringLiteral("node '%1': %2").arg(name, text));
     return hasBegun;
@@ -151,45 +119,25 @@ bool QPlcSlaveNodePrivate::beginLink(QJsonObject *request)
 
 void QPlcSlaveNodePrivate::registerAtMaster()
 {
-    QJsonObject fields{
-        {QStringLiteral("name"), name},
-        {QStringLiteral("uuid"), m_uuid},
-        {QStringLiteral("policy"),
-         QLatin1String(QMetaEnum::fromType<QPlcSlaveNode::RealTimeViolationPolicy>().valueToKey(policy))},
-        {QStringLiteral("listener"), listener},
-        {QStringLiteral("inputs"), describe(runtime.table(), runtime.inputLayout(), runtime.sameCycle())},
-        {QStringLiteral("outputs"), describe(runtime.table(), runtime.outputLayout())},
-        {QStringLiteral("cyclic"), master.kindName()}};
-    if (critical)
-        fields.insert(QStringLiteral("critical"), true);
-    if (!interval.isEveryCycle())
-        fields.insert(QStringLiteral("every"), interval.cycles());
-    if (twoPhase)
-        fields.insert(QStringLiteral("twoPhase"), true);
-    if (runtime.inputLayout().hasQualities())
-        fields.insert(QStringLiteral("quality"), true);
-    if (runtime.outputLayout().hasQualities())
-        fields.insert(QStringLiteral("outputQuality"), true);
-    if (!faultPlan.isEmpty())
-        fields.insert(QStringLiteral("faults"), faultPlan);
-    if (!beginLink(&fields))
-        return;
-    control->sendMessage(Message(Message::Register, fields));
+    messages::Register request = qplc::NodeDeclaration::fromRuntime(runtime).toMessage();
+    request.uuid = m_uuid;
+    request.cyclic = master.kindName();
+    request.faults = faultPlan;
+    if (beginLink(&request))
+        send(request);
 }
 
-void QPlcSlaveNodePrivate::receiveRegistered(const Message &message)
+void QPlcSlaveNodePrivate::receiveRegistered(const messages::Registered &registered)
 {
-    m_id = message.fields().value(QStringLiteral("node")).toInt();
-    m_token = message.text(QStringLiteral("token"));
-    if (message.hex64(QStringLiteral("inputsHash")) != runtime.inputLayout().hash()
-        || message.hex64(QStringLiteral("outputsHash")) != runtime.outputLayout().hash()) {
+    if (registered.inputsHash != runtime.inputLayout().hash()
+        || registered.outputsHash != runtime.outputLayout().hash()) {
         giveUp(QPlcSlaveNode::ProtocolError,
                QStringLiteral("master and node '%1' disagree on the layout of the frames").arg(name));
         return;
     }
     std::optional<qplc::SealKeys> keys;
     if (control->isSecured() && m_transport->isSealed()) {
-        keys = qplc::sealKeys(message.fields().value(QStringLiteral("seal")).toObject());
+        keys = registered.seal ? qplc::sealKeys(*registered.seal) : std::nullopt;
         if (!keys) {
             giveUp(QPlcSlaveNode::ProtocolError,
                    QStringLiteral("the master at %1 gives node '%2' no keys for its frames; update the master")
@@ -197,20 +145,20 @@ void QPlcSlaveNodePrivate::receiveRegistered(const Message &message)
             return;
         }
     }
-    cycle = std::make_unique<qplc::SlaveCycle>(runtime, qplc::SlaveCycle::Identity{m_session, quint16(m_id), keys},
-                                               lcCyclic().isDebugEnabled());
+    const qplc::SlaveCycle::Identity identity{m_session, registered.node, keys};
+    cycle = std::make_unique<qplc::SlaveCycle>(runtime, identity, lcCyclic().isDebugEnabled());
     m_reportNotifier = std::make_unique<QSocketNotifier>(cycle->reports().descriptor(), QSocketNotifier::Read);
     QObject::connect(m_reportNotifier.get(), &QSocketNotifier::activated, q, [this] { takeReports(); });
     if (m_transport->hasStreams())
-        connectCyclicChannel();
-    else if (finishLink(message))
+        connectCyclicChannel({registered.node, registered.token});
+    else if (finishLink(registered))
         giveLink(std::move(m_link));
 }
 
-bool QPlcSlaveNodePrivate::finishLink(const Message &registered)
+bool QPlcSlaveNodePrivate::finishLink(const messages::Registered &registered)
 {
     QString text;
-    const bool isReady = m_transport->finishLink(controlEnds(), registered.fields(), &m_link, &text);
+    const bool isReady = m_transport->finishLink(controlEnds(), registered.transport, &m_link, &text);
     if (!isReady)
         giveUp(QPlcSlaveNode::ConnectionError, QStringLiteral("node '%1': %2").arg(name, qplc::printable(text)));
     return isReady;
@@ -227,21 +175,20 @@ void QPlcSlaveNodePrivate::giveLink(std::unique_ptr<qplc::CyclicLink> link)
     cycle->setLink(std::move(link));
 }
 
-void QPlcSlaveNodePrivate::connectCyclicChannel()
+void QPlcSlaveNodePrivate::connectCyclicChannel(const messages::AttachCyclicChannel &wish)
 {
     m_cyclicSocket = new QPlcMasterSocket(q);
     m_cyclicSocket->setSecurity(QPlcSecurity());  // frames are no TLS; the token came over the control connection
-    QObject::connect(m_cyclicSocket, &QPlcAbstractSocket::connected, q, [this] {
-        m_cyclicSocket->sendMessage(Message(Message::AttachCyclicChannel,
-                                            {{QStringLiteral("node"), m_id}, {QStringLiteral("token"), m_token}}));
-    });
+    QObject::connect(m_cyclicSocket, &QPlcAbstractSocket::connected, q,
+                     [this, wish] { m_cyclicSocket->sendMessage(messages::toMessage(wish)); });
     QObject::connect(m_cyclicSocket, &QPlcAbstractSocket::errorOccurred, q,
                      [this](QPlcAbstractSocket::Error e) { masterLost(e, m_cyclicSocket->errorString()); });
-    QObject::connect(m_cyclicSocket, &QPlcAbstractSocket::messageReceived, q, [this](const Message &message) {
-        if (message.kind() != Message::CyclicChannelAttached) {
+    QObject::connect(m_cyclicSocket, &QPlcAbstractSocket::messageReceived, q, [this](const QPlcMessage &message) {
+        if (!messages::readAs<messages::CyclicChannelAttached>(message)) {
+            const auto rejected = messages::readAs<messages::Rejected>(message);
             giveUp(QPlcSlaveNode::RegistrationError,
                    QStringLiteral("the master refuses the cyclic connection: %1")
-                       .arg(qplc::printable(message.text(QStringLiteral("text")))));
+                       .arg(rejected ? qplc::printable(rejected->text) : message.kindName()));
             return;
         }
         const int descriptor = m_cyclicSocket->takeDescriptor();
@@ -264,5 +211,5 @@ void QPlcSlaveNodePrivate::tellRegistered()
     hasChannel = true;
     Q_EMIT q->connectedToMaster();
     if (const auto request = std::exchange(m_outputsAwaited, std::nullopt))
-        apply(qplc::SlaveEvent::OutputsWanted, *request);
+        receive(*request);
 }

@@ -5,9 +5,9 @@
 
 #include <utility>
 
-using Message = QPlcMessage;
 using qplc::SlaveAction;
 using qplc::SlaveEvent;
+namespace messages = qplc::messages;
 
 namespace {
 
@@ -36,7 +36,7 @@ bool endsPhase(SlaveEvent event)
 
 }  // namespace
 
-bool QPlcSlaveNodePrivate::apply(SlaveEvent event, const Message &message)
+bool QPlcSlaveNodePrivate::apply(SlaveEvent event, const Told &told)
 {
     if (endsPhase(event))
         haltCycles();
@@ -47,21 +47,19 @@ bool QPlcSlaveNodePrivate::apply(SlaveEvent event, const Message &message)
     const bool hadChannel = hasChannel;
     if (event == SlaveEvent::PhaseStarted)
         m_isSafeTold = false;
-    if (!localMaster && !prepareFor(cell.action, event, message))
+    if (!localMaster && !prepareFor(cell.action, event, told))
         return true;
     enter(cell.next);
     if (wasInPhase && !m_inPhase)
         Q_EMIT q->realTimeHasStopped();
     if (!wasInPhase && m_inPhase) {
-        control->sendMessage(Message(Message::RealTimeReady));
+        send(messages::RealTimeReady());
         Q_EMIT q->realTimeHasStarted();
     }
     if (hadChannel && !hasChannel)
         Q_EMIT q->disconnectedFromMaster();
     if (!localMaster && state == cell.next)
-        carryOut(cell.action, message);
-    if (cell.action == SlaveAction::Proceed)
-        proceed(event, message);
+        carryOut(cell.action, told);
     return true;
 }
 
@@ -75,7 +73,7 @@ void QPlcSlaveNodePrivate::enter(QPlcSlaveNode::State newState)
 }
 
 /// What has to be done before the next state is there. \return false when it failed and has led to another state
-bool QPlcSlaveNodePrivate::prepareFor(SlaveAction action, SlaveEvent event, const Message &message)
+bool QPlcSlaveNodePrivate::prepareFor(SlaveAction action, SlaveEvent event, const Told &told)
 {
     switch (action) {
     case SlaveAction::CloseConnection:
@@ -94,16 +92,16 @@ bool QPlcSlaveNodePrivate::prepareFor(SlaveAction action, SlaveEvent event, cons
         endPhase(reasonOf(event));
         return true;
     case SlaveAction::TakeValues:
-        return initializeWith(message);
+        return initializeWith(std::get<messages::InitializeWithValues>(told));
     case SlaveAction::StartCycles:
-        return startCycles(message);
+        return startCycles(std::get<messages::RealTimeStarted>(told));
     default:
         return true;
     }
 }
 
 /// What is done in the state that has been reached.
-void QPlcSlaveNodePrivate::carryOut(SlaveAction action, const Message &message)
+void QPlcSlaveNodePrivate::carryOut(SlaveAction action, const Told &told)
 {
     switch (action) {
     case SlaveAction::OpenConnection:
@@ -112,11 +110,17 @@ void QPlcSlaveNodePrivate::carryOut(SlaveAction action, const Message &message)
     case SlaveAction::Greet:
         greet();
         break;
+    case SlaveAction::Proceed:
+        if (const auto *hello = std::get_if<messages::MasterHello>(&told))
+            receiveHello(*hello);
+        else
+            receiveRegistered(std::get<messages::Registered>(told));
+        break;
     case SlaveAction::TellRegistered:
         tellRegistered();
         break;
     case SlaveAction::GiveOutputs:
-        sendInitialOutputs(message);
+        sendInitialOutputs(std::get<messages::SendYourInitialOutputStates>(told));
         break;
     default:
         break;

@@ -4,7 +4,6 @@
 #include "Roster.h"
 #include "node/Logging.h"
 
-#include <QtCore/QJsonArray>
 #include <QtCore/QMetaEnum>
 #include <QtCore/QSet>
 
@@ -14,69 +13,58 @@ namespace qplc {
 
 namespace {
 
-bool readSignals(const QJsonValue &json, QVector<NodeDeclaration::Signal> *declared)
+QMetaEnum policies()
 {
-    if (!json.isArray())
-        return false;
-    const QJsonArray array = json.toArray();
-    for (const QJsonValue &element : array) {
-        const QJsonObject object = element.toObject();
-        const NodeDeclaration::Signal read{
-            object.value(QStringLiteral("name")).toString(), object.value(QStringLiteral("type")).toString(),
-            object.value(QStringLiteral("unit")).toString(), object.value(QStringLiteral("sameCycle")).toBool()};
-        if (read.name.isEmpty() || read.type.isEmpty())
-            return false;
-        declared->append(read);
-    }
-    return true;
+    return QMetaEnum::fromType<QPlcSlaveNode::RealTimeViolationPolicy>();
 }
 
-/// \return false when it is no number of cycles
-bool readInterval(const QJsonValue &json, ListeningInterval *interval)
+std::vector<messages::DeclaredSignal> describe(const QPlcSignalTable &table, const PayloadLayout &layout)
 {
-    const int cycles = json.isUndefined() ? 1 : json.toInt(0);
-    if (cycles < 1 || cycles > ListeningInterval::Longest)
-        return false;
-    *interval = ListeningInterval(cycles);
-    return true;
-}
-
-QVector<NodeDeclaration::Signal> describe(const QPlcSignalTable &table, const PayloadLayout &layout)
-{
-    QVector<NodeDeclaration::Signal> declared;
+    std::vector<messages::DeclaredSignal> declared;
     for (const PayloadLayout::Field &field : layout.fields())
-        declared.append({table.at(field.signal).name, field.type.name(), table.at(field.signal).unit, false});
+        declared.push_back({table.at(field.signal).name, field.type.name(), table.at(field.signal).unit, false});
     return declared;
 }
 
 }  // namespace
 
-bool NodeDeclaration::fromMessage(const QPlcMessage &message, NodeDeclaration *declaration, QString *error)
+bool NodeDeclaration::fromMessage(const messages::Register &message, NodeDeclaration *declaration, QString *error)
 {
-    const QJsonObject fields = message.fields();
     bool knownPolicy = false;
-    const QByteArray policyName = message.text(QStringLiteral("policy")).toLatin1();
-    const int policy = QMetaEnum::fromType<QPlcSlaveNode::RealTimeViolationPolicy>().keyToValue(policyName.constData(),
-                                                                                                &knownPolicy);
-    declaration->name = message.text(QStringLiteral("name"));
-    declaration->listener = fields.value(QStringLiteral("listener")).toBool();
-    declaration->critical = fields.value(QStringLiteral("critical")).toBool() && !declaration->listener;
-    declaration->twoPhase = fields.value(QStringLiteral("twoPhase")).toBool();
-    declaration->quality = fields.value(QStringLiteral("quality")).toBool();
-    declaration->outputQuality = fields.value(QStringLiteral("outputQuality")).toBool();
+    const int policy = policies().keyToValue(message.policy.toLatin1().constData(), &knownPolicy);
+    declaration->name = message.name;
+    declaration->listener = message.listener;
+    declaration->critical = message.critical && !message.listener;
+    declaration->interval = ListeningInterval(message.every);
+    declaration->twoPhase = message.twoPhase;
+    declaration->quality = message.quality;
+    declaration->outputQuality = message.outputQuality;
+    declaration->inputs = message.inputs;
+    declaration->outputs = message.outputs;
     if (declaration->name.isEmpty() || declaration->name.size() > LongestName)
         *error = QStringLiteral("a node needs a name of 1 ... %1 characters").arg(LongestName);
     else if (declaration->name != printable(declaration->name))
         *error = QStringLiteral("the name '%1' has characters that cannot be shown").arg(printable(declaration->name));
     else if (!knownPolicy)
-        *error = QStringLiteral("unknown policy '%1'").arg(QString::fromLatin1(policyName));
-    else if (!readSignals(fields.value(QStringLiteral("inputs")), &declaration->inputs)
-             || !readSignals(fields.value(QStringLiteral("outputs")), &declaration->outputs))
-        *error = QStringLiteral("'inputs' and 'outputs' are lists of {name, type, unit}");
-    else if (!readInterval(fields.value(QStringLiteral("every")), &declaration->interval))
-        *error = QStringLiteral("'every' is a number of cycles, 1 ... %1").arg(ListeningInterval::Longest);
+        *error = QStringLiteral("unknown policy '%1'").arg(message.policy);
     declaration->policy = QPlcSlaveNode::RealTimeViolationPolicy(policy);
     return error->isEmpty();
+}
+
+messages::Register NodeDeclaration::toMessage() const
+{
+    messages::Register message;
+    message.name = name;
+    message.policy = QLatin1String(policies().valueToKey(policy));
+    message.listener = listener;
+    message.critical = critical;
+    message.every = interval.cycles();
+    message.inputs = inputs;
+    message.outputs = outputs;
+    message.twoPhase = twoPhase;
+    message.quality = quality;
+    message.outputQuality = outputQuality;
+    return message;
 }
 
 NodeDeclaration NodeDeclaration::fromRuntime(const NodeRuntime &runtime)
@@ -92,8 +80,8 @@ NodeDeclaration NodeDeclaration::fromRuntime(const NodeRuntime &runtime)
     declaration.outputQuality = runtime.outputLayout().hasQualities();
     declaration.hardware = runtime.node().isHardware();
     declaration.inputs = describe(runtime.table(), runtime.inputLayout());
-    for (int i = 0; i < declaration.inputs.size(); ++i)
-        declaration.inputs[i].sameCycle = runtime.sameCycle()[std::size_t(i)];
+    for (std::size_t i = 0; i < declaration.inputs.size(); ++i)
+        declaration.inputs[i].sameCycle = runtime.sameCycle()[i];
     declaration.outputs = describe(runtime.table(), runtime.outputLayout());
     return declaration;
 }
@@ -104,11 +92,11 @@ NodeRegistry::NodeRegistry(const QPlcSignalTable &table)
 {
 }
 
-bool NodeRegistry::resolve(const QString &node, const QVector<NodeDeclaration::Signal> &declared,
+bool NodeRegistry::resolve(const QString &node, const std::vector<messages::DeclaredSignal> &declared,
                            QVector<QPlcSignalIndex> *indices, Refusal *refusal) const
 {
     QSet<QPlcSignalIndex> seen;
-    for (const NodeDeclaration::Signal &signal : declared) {
+    for (const messages::DeclaredSignal &signal : declared) {
         const QPlcSignalIndex index = m_table.indexOf(signal.name);
         if (index == QPlcInvalidSignalIndex) {
             *refusal = {QStringLiteral("UnknownSignal"),
@@ -158,7 +146,7 @@ std::shared_ptr<NodeSlot> NodeRegistry::admit(const NodeDeclaration &declaration
                         .arg(MaximumNodes)};
         return nullptr;
     }
-    if (!declaration.interval.isEveryCycle() && !(declaration.listener && declaration.outputs.isEmpty())) {
+    if (!declaration.interval.isEveryCycle() && !(declaration.listener && declaration.outputs.empty())) {
         *refusal
             = {QStringLiteral("MalformedMessage"),
                QStringLiteral("node '%1' wants one of %2 cycles: that is for listeners without outputs; let it take "
@@ -185,7 +173,7 @@ std::shared_ptr<NodeSlot> NodeRegistry::admit(const NodeDeclaration &declaration
     slot->hardware = declaration.hardware;
     slot->interval = declaration.interval;
     slot->twoPhase = declaration.twoPhase;
-    for (const NodeDeclaration::Signal &input : declaration.inputs)
+    for (const messages::DeclaredSignal &input : declaration.inputs)
         slot->sameCycle.push_back(input.sameCycle);
     const auto with
         = [](bool qualities) { return qualities ? PayloadLayout::WithQualities : PayloadLayout::WithoutQualities; };

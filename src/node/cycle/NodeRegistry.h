@@ -2,8 +2,8 @@
 #pragma once
 
 #include "NodeSlot.h"
-#include "QPlcMessage.h"
 #include "QPlcSignalTable.h"
+#include "protocol/messages/Registration.h"
 
 #include <QtCore/QStringList>
 #include <QtCore/QVector>
@@ -18,13 +18,6 @@ struct NodeDeclaration
 {
     static constexpr int LongestName = 64;  // [characters]
 
-    struct Signal
-    {
-        QString name;
-        QString type;
-        QString unit;
-        bool sameCycle = false;  // inputs only
-    };
     QString name;
     QPlcSlaveNode::RealTimeViolationPolicy policy = QPlcSlaveNode::ErrorZeroOrderHold;
     bool listener = false;
@@ -34,18 +27,21 @@ struct NodeDeclaration
     bool quality = false;        // wants the qualities of its inputs
     bool outputQuality = false;  // gives the qualities of its outputs
     bool hardware = false;       // drives real devices
-    QVector<Signal> inputs;
-    QVector<Signal> outputs;
+    std::vector<messages::DeclaredSignal> inputs;
+    std::vector<messages::DeclaredSignal> outputs;
 
     /// Whether the cycle has an order because of this node.
     bool isOrdered() const
     {
-        return twoPhase
-            || std::any_of(inputs.begin(), inputs.end(), [](const Signal &input) { return input.sameCycle; });
+        return twoPhase || std::any_of(inputs.begin(), inputs.end(), [](const messages::DeclaredSignal &input) {
+                   return input.sameCycle;
+               });
     }
-    /// Reads a Register message. \return false, with the reason in \a error, when a field is missing or malformed
-    static bool fromMessage(const QPlcMessage &message, NodeDeclaration *declaration, QString *error);
-    /// What a local node says.
+    /// \return false, with the reason in \a error, when \a message names nothing that there is
+    static bool fromMessage(const messages::Register &message, NodeDeclaration *declaration, QString *error);
+    /// The contrary, without what belongs to one connection: uuid, cyclic, faults.
+    messages::Register toMessage() const;
+    /// What the node of \a runtime says. \pre it is bound
     static NodeDeclaration fromRuntime(const NodeRuntime &runtime);
 };
 
@@ -81,7 +77,7 @@ public:
 
 private:
     /// Indices of the declared signals. \return false with the refusal of the first that does not fit
-    bool resolve(const QString &node, const QVector<NodeDeclaration::Signal> &declared,
+    bool resolve(const QString &node, const std::vector<messages::DeclaredSignal> &declared,
                  QVector<QPlcSignalIndex> *indices, Refusal *refusal) const;
     /// Whether \a slot would close a loop of same-cycle inputs, with the path in \a refusal.
     bool closesLoop(const std::shared_ptr<NodeSlot> &slot, Refusal *refusal) const;

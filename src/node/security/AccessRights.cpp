@@ -2,8 +2,8 @@
 #include "AccessRights.h"
 
 #include "node/Logging.h"
+#include "protocol/messages/MessageTable.h"
 
-#include <QtCore/QJsonArray>
 #include <QtCore/QRegularExpression>
 
 #include <algorithm>
@@ -12,13 +12,23 @@ namespace qplc {
 
 namespace {
 
-QStringList namesOf(const QJsonArray &array)
+/// Messages that write signals, and collects the names of these.
+using WritingMessages
+    = messages::List<messages::Register, messages::SetSignals, messages::TakeLease, messages::ReleaseLease>;
+
+struct WrittenSignals
 {
     QStringList names;
-    for (const QJsonValue &value : array)
-        names << (value.isObject() ? value.toObject().value(QStringLiteral("name")) : value).toString();
-    return names;
-}
+
+    void operator()(const messages::Register &registration)
+    {
+        for (const messages::DeclaredSignal &output : registration.outputs)
+            names << output.name;
+    }
+    void operator()(const messages::SetSignals &wish) { names = wish.values.keys(); }
+    void operator()(const messages::TakeLease &wish) { names = wish.signals; }
+    void operator()(const messages::ReleaseLease &wish) { names = wish.signals.value_or(QStringList()); }
+};
 
 bool matches(const QString &pattern, const QString &signal)
 {
@@ -26,10 +36,10 @@ bool matches(const QString &pattern, const QString &signal)
         || QRegularExpression(QRegularExpression::wildcardToRegularExpression(pattern)).match(signal).hasMatch();
 }
 
-QString registrationRefusal(const Peer &peer, const QPlcMessage &message)
+QString registrationRefusal(const Peer &peer, const messages::Register &registration)
 {
-    const QString name = message.text(QStringLiteral("name"));
-    if (peer.role == Role::Observer && !message.fields().value(QStringLiteral("listener")).toBool())
+    const QString &name = registration.name;
+    if (peer.role == Role::Observer && !registration.listener)
         return QStringLiteral("Denied: role Observer may only listen: node '%1' is to be a listener without outputs, "
                               "or identity '%2' needs the role Node")
             .arg(printable(name), peer.identity);
@@ -80,18 +90,10 @@ QString shownName(const Peer &peer, const QString &called)
 
 QStringList signalsWrittenBy(const QPlcMessage &message)
 {
-    const QJsonObject fields = message.fields();
-    switch (message.kind()) {
-    case QPlcMessage::Register:
-        return namesOf(fields.value(QStringLiteral("outputs")).toArray());
-    case QPlcMessage::SetSignals:
-        return fields.value(QStringLiteral("values")).toObject().keys();
-    case QPlcMessage::TakeLease:
-    case QPlcMessage::ReleaseLease:
-        return namesOf(fields.value(QStringLiteral("signals")).toArray());
-    default:
-        return {};
-    }
+    WrittenSignals written;
+    QString ignored;
+    messages::dispatch(WritingMessages(), message, written, &ignored);
+    return written.names;
 }
 
 bool mayWrite(const Peer &peer, const QString &signal)
@@ -112,8 +114,8 @@ QString refusalOf(const Peer &peer, const QPlcMessage &message)
     const Roles roles = whoMaySend(message.kind());
     if (!roles.isEmpty() && !roles.contains(peer.role))
         return QStringLiteral("Denied: role %1 may not send %2").arg(roleName(peer.role), message.kindName());
-    if (message.kind() == QPlcMessage::Register) {
-        const QString refusal = registrationRefusal(peer, message);
+    if (const auto registration = messages::readAs<messages::Register>(message)) {
+        const QString refusal = registrationRefusal(peer, *registration);
         if (!refusal.isEmpty())
             return refusal;
     }

@@ -129,12 +129,12 @@ struct Peer
 /// How somebody is shown to people: as what was proven, with what it calls itself behind it; without security nothing else is known.
 QString shownName(const Peer &peer, const QString &called);
 
-/// Signals that \a message would write, as it names them.
+/// Signals that \a message would write, as it names them; none of a message that cannot be read.
 QStringList signalsWrittenBy(const QPlcMessage &message);
 /// Whether \a peer may write \a signal.
 bool mayWrite(const Peer &peer, const QString &signal);
 /// Why \a peer may not send \a message: "Denied: role Observer may not send StartRealTime"; empty: it may. Looks at the kind, and at the signals that the message writes.
-/// What only masters send is nobody's right and is left to those who answer that it makes no sense.
+/// What only masters send, and what cannot be read, is left to those who answer that it makes no sense.
 QString refusalOf(const Peer &peer, const QPlcMessage &message);
 
 }  // namespace qplc

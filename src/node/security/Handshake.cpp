@@ -3,6 +3,7 @@
 
 #include "node/Logging.h"
 #include "protocol/ControlFrame.h"
+#include "protocol/messages/MessageTable.h"
 #include "transport/ControlNetwork.h"
 
 #include <QtNetwork/QHostAddress>
@@ -18,6 +19,11 @@ namespace {
 
 constexpr int enoughToTell = 6;  // bytes of a ClientHello up to the first that no control message has there
 constexpr int kindOffset = 4;    // of a control frame
+
+QByteArray rejection(const QString &error, const QString &text)
+{
+    return encodeControlFrame(messages::toMessage(messages::Rejected{error, text}));
+}
 
 enum class Language : quint8 { NotYetKnown, Tls, Plain };
 
@@ -113,9 +119,7 @@ void Handshake::refusePlain()
     m_socket->readAll();
     const QString text
         = QStringLiteral("this master is secured; connect with --security %1").arg(m_security.modeName());
-    m_socket->write(encodeControlFrame(
-        QPlcMessage(QPlcMessage::Rejected,
-                    {{QStringLiteral("error"), QStringLiteral("SecurityNeeded")}, {QStringLiteral("text"), text}})));
+    m_socket->write(rejection(QStringLiteral("SecurityNeeded"), text));
     fail(QStringLiteral("it speaks no TLS, and this master is secured"));
 }
 
@@ -204,18 +208,14 @@ void Handshake::encrypted()
         Q_EMIT succeeded();
         return;
     }
-    m_tls->write(encodeControlFrame(
-        QPlcMessage(QPlcMessage::Rejected,
-                    {{QStringLiteral("error"), QStringLiteral("Denied")}, {QStringLiteral("text"), reason}})));
+    m_tls->write(rejection(QStringLiteral("Denied"), reason));
     fail(reason);
 }
 
 void Handshake::turnAway(const QString &reason)
 {
     m_socket->disconnect(this);
-    m_tls->write(encodeControlFrame(
-        QPlcMessage(QPlcMessage::Rejected,
-                    {{QStringLiteral("error"), QStringLiteral("TooMuch")}, {QStringLiteral("text"), reason}})));
+    m_tls->write(rejection(QStringLiteral("TooMuch"), reason));
     m_tls->flush();
     m_tls->disconnectFromHost();
 }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SealFields.h"
 
-#include "QPlcMessage.h"
-
 namespace qplc {
 
 namespace {
@@ -19,14 +17,11 @@ messages::Seal sealOf(const SealKeys &keys)
     return {bytesOf(keys.inputs), bytesOf(keys.outputs)};
 }
 
-std::optional<SealKeys> sealKeys(const QJsonObject &fields)
+std::optional<SealKeys> sealKeys(const messages::Seal &seal)
 {
-    const QPlcMessage message(QPlcMessage::Registered, fields);
-    const QByteArray inputs = message.bytes(QStringLiteral("inputs"));
-    const QByteArray outputs = message.bytes(QStringLiteral("outputs"));
-    if (inputs.size() != int(SealKey::Size) || outputs.size() != int(SealKey::Size))
+    if (seal.inputs.size() != int(SealKey::Size) || seal.outputs.size() != int(SealKey::Size))
         return std::nullopt;
-    return SealKeys{SealKey(inputs.constData()), SealKey(outputs.constData())};
+    return SealKeys{SealKey(seal.inputs.constData()), SealKey(seal.outputs.constData())};
 }
 
 }  // namespace qplc

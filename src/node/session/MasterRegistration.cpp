@@ -8,14 +8,11 @@
 #include "signals/Fnv1a.h"
 #include "transport/TransportRegistry.h"
 
-#include <QtCore/QJsonArray>
 #include <QtCore/QTimer>
 
 #include <algorithm>
 
 namespace qplc {
-
-using Message = QPlcMessage;
 
 namespace {
 
@@ -37,50 +34,48 @@ std::optional<SealKeys> newSealKeys(const MasterConnection &connection)
 }
 
 /// Extensions that are in use: those that the other side names in its Hello, and that are known here.
-QStringList commonFeatures(const Message &hello)
+QStringList commonFeatures(const messages::ClientHello &greeting)
 {
     QStringList common;
-    const QJsonArray offered = hello.fields().value(QStringLiteral("features")).toArray();
-    for (const char *known : {"sameCycle", "leases", "events", "quality", "outputQuality", "hardware"}) {
-        const QString feature = QString::fromLatin1(known);
-        if (offered.contains(feature))
-            common.append(feature);
+    for (QLatin1String known : messages::feature::all) {
+        if (greeting.features.contains(known))
+            common.append(known);
     }
     return common;
 }
 
 }  // namespace
 
-void MasterServer::greet(MasterConnection *connection, const Message &message)
+void MasterServer::open(MasterConnection *connection, const messages::ClientHello &greeting)
 {
     if (connection->stage != MasterConnection::Silent) {
         reject(connection, QStringLiteral("WrongState"), QStringLiteral("'%1' greets twice").arg(connection->name));
         return;
     }
-    const int protocol = message.fields().value(QStringLiteral("protocol")).toInt();
-    connection->name = nameOf(message.text(QStringLiteral("name")));
-    connection->uuid = message.text(QStringLiteral("uuid")).left(LongestUuid);
-    if (protocol != 1) {
+    connection->name = nameOf(greeting.name);
+    connection->uuid = greeting.uuid.left(LongestUuid);
+    if (greeting.protocol != messages::protocolVersion) {
         reject(connection, QStringLiteral("VersionMismatch"),
-               QStringLiteral("protocol version %1 of '%2' is not spoken here; this master speaks version 1")
-                   .arg(protocol)
-                   .arg(connection->name));
+               QStringLiteral("protocol version %1 of '%2' is not spoken here; this master speaks version %3")
+                   .arg(greeting.protocol)
+                   .arg(connection->name)
+                   .arg(messages::protocolVersion));
         return;
     }
     messages::MasterHello hello = m_hello();
-    hello.features = commonFeatures(message);
+    hello.features = commonFeatures(greeting);
     if (connection->peer.isSecured) {
         hello.identity = connection->peer.identity;
         hello.role = roleName(connection->peer.role);
     }
-    if (message.hex64(QStringLiteral("tableHash")) != m_image.table().hash())
+    if (greeting.tableHash.value_or(messages::Hex64()) != m_image.table().hash())
         hello.table = m_tableText;
     connection->stage = MasterConnection::Greeted;
     connection->socket->setMessageLimit(MaximumControlFrame);
     m_door.know(connection->ticket);
-    connection->wantsLeases = hello.features.contains(QStringLiteral("leases"));
-    connection->wantsEvents = hello.features.contains(QStringLiteral("events"));
-    connection->isHardware = hello.features.contains(QStringLiteral("hardware"));
+    connection->wantsLeases = hello.features.contains(messages::feature::leases);
+    connection->wantsEvents = hello.features.contains(messages::feature::events);
+    connection->isHardware = hello.features.contains(messages::feature::hardware);
     Q_EMIT greeted(connection);
     if (!connection->send(hello))
         reject(connection, QStringLiteral("TooLong"),
@@ -88,7 +83,7 @@ void MasterServer::greet(MasterConnection *connection, const Message &message)
                    .arg(connection->name));
 }
 
-void MasterServer::registerNode(MasterConnection *connection, const Message &message)
+void MasterServer::open(MasterConnection *connection, const messages::Register &registration)
 {
     if (connection->isNode()) {
         reject(connection, QStringLiteral("WrongState"),
@@ -98,11 +93,12 @@ void MasterServer::registerNode(MasterConnection *connection, const Message &mes
     NodeDeclaration declaration;
     Refusal refusal;
     QString error;
-    connection->cyclicKind = message.text(QStringLiteral("cyclic"));
+    connection->cyclicKind = registration.cyclic;
     connection->transport = TransportRegistry::instance().named(connection->cyclicKind);
-    if (!NodeDeclaration::fromMessage(message, &declaration, &error))
+    if (!NodeDeclaration::fromMessage(registration, &declaration, &error))
         refusal = {QStringLiteral("MalformedMessage"), error};
-    else if (Refusal channel = channelRefusal(*connection, declaration, message); !channel.error.isEmpty())
+    else if (Refusal channel = channelRefusal(*connection, newcomer(*connection, declaration, registration));
+             !channel.error.isEmpty())
         refusal = channel;
     else {
         replace(connection, declaration.name);
@@ -127,7 +123,7 @@ void MasterServer::registerNode(MasterConnection *connection, const Message &mes
         return;
     }
     connection->slot->transport = connection->transport;
-    connection->slot->faultPlan = printable(message.text(QStringLiteral("faults"))).left(200);
+    connection->slot->faultPlan = printable(registration.faults).left(200);
     const std::optional<SealKeys> keys = newSealKeys(*connection);
     connection->slot->prepare(m_image, m_session, keys ? &*keys : nullptr);
     connection->token = Host::current().random();
@@ -142,8 +138,8 @@ void MasterServer::registerNode(MasterConnection *connection, const Message &mes
         registered.seal = sealOf(*keys);
     if (!connection->transport->hasStreams()) {
         ChannelError fault;
-        connection->slot->peer = connection->transport->makePeer(m_hub, newcomer(*connection, declaration, message),
-                                                                 &registered.transport, &fault);
+        connection->slot->peer = connection->transport->makePeer(
+            m_hub, newcomer(*connection, declaration, registration), &registered.transport, &fault);
         if (!connection->slot->peer) {
             reject(connection, fault.word, fault.text);
             return;
@@ -159,22 +155,21 @@ void MasterServer::registerNode(MasterConnection *connection, const Message &mes
 }
 
 Newcomer MasterServer::newcomer(const MasterConnection &connection, const NodeDeclaration &declaration,
-                                const Message &message) const
+                                const messages::Register &registration) const
 {
     return {declaration.name,        connection.socket->peerAddress(), connection.isSecured(),
-            declaration.isOrdered(), declaration.interval.cycles(),    message.fields()};
+            declaration.isOrdered(), declaration.interval.cycles(),    registration.transport};
 }
 
 /// Why there can be no cyclic channel as the node wants it; no error: there can.
-Refusal MasterServer::channelRefusal(const MasterConnection &connection, const NodeDeclaration &declaration,
-                                     const Message &message) const
+Refusal MasterServer::channelRefusal(const MasterConnection &connection, const Newcomer &newcomer) const
 {
     if (!connection.transport)
         return {QStringLiteral("MalformedMessage"),
                 QStringLiteral("unknown cyclic channel '%1'; use %2")
                     .arg(connection.cyclicKind, TransportRegistry::instance().namesText())};
     ChannelError error;
-    if (connection.transport->admits(m_hub, newcomer(connection, declaration, message), &error))
+    if (connection.transport->admits(m_hub, newcomer, &error))
         return {};
     return {error.word, error.text};
 }
@@ -202,17 +197,16 @@ void MasterServer::replace(const MasterConnection *newcomer, const QString &name
         drop(found->get(), QStringLiteral("it registers again"));
 }
 
-void MasterServer::attachCyclicChannel(MasterConnection *connection, const Message &message)
+void MasterServer::open(MasterConnection *connection, const messages::AttachCyclicChannel &wish)
 {
-    const quint64 token = message.hex64(QStringLiteral("token"));
-    const int id = message.fields().value(QStringLiteral("node")).toInt();
     const auto isNode = [&](const std::unique_ptr<MasterConnection> &other) {
-        return other->stage == MasterConnection::Attaching && other->slot->id == id && other->token == token;
+        return other->stage == MasterConnection::Attaching && other->slot->id == wish.node
+            && other->token == wish.token;
     };
     const auto found = std::find_if(m_connections.begin(), m_connections.end(), isNode);
     if (connection->stage != MasterConnection::Silent || found == m_connections.end()) {
         reject(connection, QStringLiteral("WrongState"),
-               QStringLiteral("no node %1 with this token waits for its cyclic connection").arg(id));
+               QStringLiteral("no node %1 with this token waits for its cyclic connection").arg(wish.node));
         return;
     }
     MasterConnection *node = found->get();

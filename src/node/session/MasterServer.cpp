@@ -258,25 +258,24 @@ void MasterServer::receive(MasterConnection *connection, const Message &message)
     }
     if (connection->peer.isSecured && isCommand(message.kind()))
         Q_EMIT commanded(connection, message);
-    switch (message.kind()) {
-    case Message::Hello:
-        greet(connection, message);
-        return;
-    case Message::AttachCyclicChannel:
-        attachCyclicChannel(connection, message);
-        return;
-    default:
-        break;
-    }
-    if (connection->stage == MasterConnection::Silent) {
+    const bool begins = message.kind() == Message::Hello || message.kind() == Message::AttachCyclicChannel;
+    if (connection->stage == MasterConnection::Silent && !begins) {
         reject(connection, QStringLiteral("WrongState"),
                QStringLiteral("%1 before Hello; greet first").arg(message.kindName()));
         return;
     }
-    if (message.kind() == Message::Register)
-        registerNode(connection, message);
-    else
+    QString fault;
+    const auto openFor = [&](const auto &opening) { open(connection, opening); };
+    switch (messages::dispatch(messages::Openings(), message, openFor, &fault)) {
+    case messages::Dispatch::Delivered:
+        break;
+    case messages::Dispatch::Malformed:
+        reject(connection, QStringLiteral("MalformedMessage"), fault);
+        break;
+    case messages::Dispatch::Unknown:
         Q_EMIT received(connection, message);
+        break;
+    }
 }
 
 void MasterServer::receiveGarbage(MasterConnection *connection)

@@ -76,19 +76,18 @@ private:
     void receive(MasterConnection *connection, const QPlcMessage &message);
     void dropClosed(const QPlcSlaveSocket *socket);
     void receiveGarbage(MasterConnection *connection);
-    void greet(MasterConnection *connection, const QPlcMessage &message);
-    void registerNode(MasterConnection *connection, const QPlcMessage &message);
+    void open(MasterConnection *connection, const messages::ClientHello &greeting);
+    void open(MasterConnection *connection, const messages::Register &registration);
+    void open(MasterConnection *connection, const messages::AttachCyclicChannel &wish);
     void replace(const MasterConnection *newcomer, const QString &name);
-    void attachCyclicChannel(MasterConnection *connection, const QPlcMessage &message);
     void nodeAttached(MasterConnection *connection);
     void reject(MasterConnection *connection, const QString &error, const QString &reason);
     void forget(MasterConnection *connection);
     bool openPorts(const QHostAddress &address, quint16 port);
     bool openTransports(const MasterPlace &place);
     Newcomer newcomer(const MasterConnection &connection, const NodeDeclaration &declaration,
-                      const QPlcMessage &message) const;
-    Refusal channelRefusal(const MasterConnection &connection, const NodeDeclaration &declaration,
-                           const QPlcMessage &message) const;
+                      const messages::Register &registration) const;
+    Refusal channelRefusal(const MasterConnection &connection, const Newcomer &newcomer) const;
 
     NodeRegistry &m_registry;
     const ProcessImage &m_image;

@@ -10,6 +10,17 @@ namespace qplc::messages {
 
 constexpr int protocolVersion = 1;
 
+/// Extensions, by which both sides of a connection say what they know: docs/protocol.md, section 11.
+namespace feature {
+constexpr QLatin1String sameCycle("sameCycle");
+constexpr QLatin1String leases("leases");
+constexpr QLatin1String events("events");
+constexpr QLatin1String quality("quality");
+constexpr QLatin1String outputQuality("outputQuality");
+constexpr QLatin1String hardware("hardware");
+constexpr QLatin1String all[] = {sameCycle, leases, events, quality, outputQuality, hardware};
+}  // namespace feature
+
 /// A client greets.
 struct ClientHello
 {

@@ -37,11 +37,13 @@ using Requests = List<InitializeAllStates, ReceiveMyInitialOutputStates, Initial
                       GetSchedule, TakeLease, ReleaseLease, GetLeases, GetEvents>;
 /// What a node or tool sends to its master.
 using FromClient = JoinedLists<Openings, Requests>::Type;
+/// By what a master leads a node through its registration and its phases.
+using ToNode = List<MasterHello, Registered, Rejected, CyclicChannelAttached, MasterEnds, SendYourInitialOutputStates,
+                    InitializeWithValues, RealTimeStarted, RealTimeStopped, StatesInitialized>;
+/// What a master answers, and tells who wants to know.
+using Replies = List<Armed, State, Signals, Done, Failed, Statistics, Schedule, Leases, LeasesChanged, Events>;
 /// What a master sends to a node or tool.
-using FromMaster
-    = List<MasterHello, Registered, Rejected, CyclicChannelAttached, MasterEnds, SendYourInitialOutputStates,
-           InitializeWithValues, StatesInitialized, RealTimeStarted, RealTimeStopped, Armed, State, Signals, Done,
-           Failed, Statistics, Schedule, Leases, LeasesChanged, Events>;
+using FromMaster = JoinedLists<ToNode, Replies>::Type;
 
 static_assert(isEveryKind([](QPlcMessage::Kind kind) {
                   return FromClient::contains(kind) || FromMaster::contains(kind);
@@ -52,6 +54,17 @@ template<typename Message>
 QPlcMessage toMessage(const Message &message)
 {
     return {Message::kind, toObject(message)};
+}
+
+/// Reads \a message. Nothing where it is of another kind, or a field that is needed cannot be used.
+template<typename Message>
+std::optional<Message> readAs(const QPlcMessage &message)
+{
+    Message read;
+    QString ignored;
+    if (message.kind() != Message::kind || !fromObject(message.fields(), &read, &ignored))
+        return std::nullopt;
+    return read;
 }
 
 /// What became of a message.

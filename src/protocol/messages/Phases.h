@@ -97,8 +97,9 @@ struct RealTimeStarted
     std::optional<GroupPlace> group;
 
     static constexpr auto fields = std::make_tuple(
-        field("period", &RealTimeStarted::period), field("clock", &RealTimeStarted::clock, Presence::Required),
-        field("scale", &RealTimeStarted::scale), field("profile", &RealTimeStarted::profile, Presence::WhenSet),
+        field("period", &RealTimeStarted::period, Presence::Checked),
+        field("clock", &RealTimeStarted::clock, Presence::Required), field("scale", &RealTimeStarted::scale),
+        field("profile", &RealTimeStarted::profile, Presence::WhenSet),
         field("firstCycle", &RealTimeStarted::firstCycle), field("cycleZero", &RealTimeStarted::cycleZero),
         field("group", &RealTimeStarted::group, Presence::Checked));
 };
