@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ObjMesh.h"
 
-#include "Kite.h"
+#include "QPlcView3D.h"
 
 #include <QtCore/QFile>
 
@@ -24,12 +24,12 @@ public:
         for (const QByteArray &line : text.split('\n')) {
             ++number;
             if (!readLine(line.simplified())) {
-                *error = KiteText::tr("line %1: %2").arg(number).arg(m_error);
+                *error = QPlcView3D::tr("line %1: %2").arg(number).arg(m_error);
                 return {};
             }
         }
         if (m_mesh.isEmpty())
-            *error = KiteText::tr("there is no face and no line in it");
+            *error = QPlcView3D::tr("there is no face and no line in it");
         return m_mesh;
     }
 
@@ -68,7 +68,7 @@ private:
             bool isNumber = false;
             (*vector)[i] = words.value(first + i).toFloat(&isNumber);
             if (!isNumber || !std::isfinite((*vector)[i]))
-                return fail(KiteText::tr("'%1' is no number").arg(QString::fromLatin1(words.value(first + i))));
+                return fail(QPlcView3D::tr("'%1' is no number").arg(QString::fromLatin1(words.value(first + i))));
         }
         return true;
     }
@@ -87,7 +87,7 @@ private:
         const qint64 number = word.toLongLong(&isNumber);
         const qint64 place = number < 0 ? qint64(count) + number : number - 1;
         if (!isNumber || number == 0 || place < 0 || place >= qint64(count))
-            return fail(KiteText::tr("there is no vertex '%1'").arg(QString::fromLatin1(word)));
+            return fail(QPlcView3D::tr("there is no vertex '%1'").arg(QString::fromLatin1(word)));
         *index = std::size_t(place);
         return true;
     }
@@ -105,13 +105,13 @@ private:
     {
         std::vector<Corner> corners(std::size_t(words.size() - 1));
         if (corners.size() < 3)
-            return fail(KiteText::tr("a face has at least three corners"));
+            return fail(QPlcView3D::tr("a face has at least three corners"));
         for (std::size_t i = 0; i < corners.size(); ++i) {
             if (!readCorner(words.at(int(i) + 1), &corners[i]))
                 return false;
         }
         if (m_mesh.triangles.size() / 3 + corners.size() - 2 > std::size_t(ObjMesh::mostTriangles))
-            return fail(KiteText::tr("more than %1 triangles").arg(ObjMesh::mostTriangles));
+            return fail(QPlcView3D::tr("more than %1 triangles").arg(ObjMesh::mostTriangles));
         for (std::size_t i = 2; i < corners.size(); ++i)
             addTriangle(corners[0], corners[i - 1], corners[i]);
         return true;
@@ -163,11 +163,11 @@ ObjMesh ObjMesh::fromFile(const QString &path, QString *error)
     if (!file.open(QIODevice::ReadOnly))
         reason = file.errorString();
     else if (file.size() > largestFile)
-        reason = KiteText::tr("it is larger than %1 MiB").arg(largestFile / (1024 * 1024));
+        reason = QPlcView3D::tr("it is larger than %1 MiB").arg(largestFile / (1024 * 1024));
     else
         mesh = fromText(file.readAll(), &reason);
     if (!reason.isEmpty())
-        *error = KiteText::tr("The model %1 cannot be read: %2").arg(path, reason);
+        *error = QPlcView3D::tr("The model %1 cannot be read: %2").arg(path, reason);
     return mesh;
 }
 

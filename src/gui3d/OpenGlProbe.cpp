@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "OpenGlProbe.h"
 
-#include "Kite.h"
+#include "QPlcView3D.h"
 
 #include <QtGui/QOffscreenSurface>
 #include <QtGui/QOpenGLContext>
@@ -18,22 +18,22 @@ const OpenGlProbe &OpenGlProbe::instance()
 OpenGlProbe OpenGlProbe::probe()
 {
     if (qgetenv("QTPLC_OPENGL") == "off")
-        return {KiteText::tr("OpenGL is switched off by QTPLC_OPENGL."), {}};
+        return {QPlcView3D::tr("OpenGL is switched off by QTPLC_OPENGL."), {}};
     QOpenGLContext context;
     if (!context.create())
-        return {KiteText::tr("There is no OpenGL on this screen."), {}};
+        return {QPlcView3D::tr("There is no OpenGL on this screen."), {}};
     QOffscreenSurface surface;
     surface.setFormat(context.format());
     surface.create();
     if (!surface.isValid() || !context.makeCurrent(&surface))
-        return {KiteText::tr("OpenGL does not start on this screen."), {}};
+        return {QPlcView3D::tr("OpenGL does not start on this screen."), {}};
     const auto *name = reinterpret_cast<const char *>(context.functions()->glGetString(GL_RENDERER));
     const QString renderer = QString::fromLatin1(name);
     const bool hasFramebuffers = context.functions()->hasOpenGLFeature(QOpenGLFunctions::Framebuffers);
     const bool hasShaders = context.format().majorVersion() >= 2;  // without them, Qt 3D ends the program
     context.doneCurrent();
     if (!hasFramebuffers || !hasShaders)
-        return {KiteText::tr("The OpenGL of %1 is too old.").arg(renderer), renderer};
+        return {QPlcView3D::tr("The OpenGL of %1 is too old.").arg(renderer), renderer};
     return {{}, renderer};
 }
 

@@ -11,7 +11,7 @@ namespace qplc {
 
 namespace {
 
-/// Of a scene that is 1 m large, the wind blowing to x.
+/// Of a scene that is 1 m large, with the heading 0.
 struct PresetPose
 {
     const char *text;
@@ -117,9 +117,9 @@ CameraPose OrbitCamera::pose(const Scene &scene) const
 {
     const PresetPose &base = presetPoses[std::size_t(preset)];
     const float size = isBodyFixed() ? scene.bodySize : scene.size;
-    // The camera's own frame: x downwind, or along the course with z away from the ground station.
+    // The camera's own frame: x along the heading, or along the course with z outwards.
     const QQuaternion frame = isBodyFixed() ? scene.course * QQuaternion::fromAxisAndAngle(0, 0, 1, 180)
-                                            : QQuaternion::fromAxisAndAngle(0, 0, 1, scene.downwind);
+                                            : QQuaternion::fromAxisAndAngle(0, 0, 1, scene.heading);
     const QVector3D origin = isBodyFixed() ? scene.body : QVector3D();
     const QVector3D target = size * (base.target + pan);
     const QVector3D back = direction(base.yaw + yaw, base.pitch + pitch);

@@ -33,7 +33,8 @@ QMatrix4x4 projectionMatrix(const CameraPose &pose, const QSizeF &size, float sc
 
 /// A camera that a person turns about a point: one of the presets, and what was changed of it by hand. A value type.
 ///
-/// The four earth-fixed presets stand about the wind window and grow with the tether; the chase camera is fixed to the body and follows its course.
+/// The four earth-fixed presets stand about the origin and grow with the scene; the chase camera is fixed to the
+/// body and follows its course.
 struct OrbitCamera
 {
     enum Preset { GroundStation, Side, Top, Downwind, Chase };
@@ -60,8 +61,8 @@ struct OrbitCamera
     /// What the pose depends on.
     struct Scene
     {
-        float size = 100;       // length of the tether, in round steps [m]
-        float downwind = 0;     // azimuth to which the wind blows [deg]
+        float size = 100;       // in round steps [m]
+        float heading = 0;      // azimuth along which the presets look [deg]
         QVector3D body;         // position [m], earth
         QQuaternion course;     // of the body, without pitch
         float bodySize = 4.6f;  // radius of the model [m]

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "QPlcView3D.h"
 
+#include "QPlcPanelContext.h"
+#include "QPlcScene3D.h"
 #include "View3DEditor.h"
 #include "View3DPicture.h"
 #include "gui/panel/DragEscape.h"
@@ -18,7 +20,7 @@ struct QPlcView3D::Private
 {
     explicit Private(QPlcView3D *widget)
         : q(widget)
-        , picture(new View3DPicture(&kite, widget))
+        , picture(new View3DPicture(widget))
     {
     }
 
@@ -26,9 +28,10 @@ struct QPlcView3D::Private
     void addAction(const QString &text, const QKeySequence &key, const std::function<void()> &perform);
     void moveCamera(const OrbitCamera &camera);
     void choosePreset(OrbitCamera::Preset preset);
+    void takeEdit(const View3DSettings &wanted);
 
     QPlcView3D *q;
-    KiteSignals kite;
+    QVector<View3DPart> parts;
     View3DPicture *picture;
     View3DSettings settings;
     QPointF lastMouse;
@@ -42,7 +45,8 @@ QPlcView3D::QPlcView3D(QWidget *parent)
     : QPlcWidget(parent)
     , d(std::make_unique<Private>(this))
 {
-    setAccessibleName(tr("3D view: the kite in space"));
+    d->parts = {{QStringLiteral("ground"), tr("Ground")}, {QStringLiteral("axes"), tr("Axes")}};
+    setAccessibleName(tr("3D view"));
     setFocusPolicy(Qt::StrongFocus);
     new DragEscape(this, this);
     d->wheelEnd.setSingleShot(true);
@@ -99,6 +103,13 @@ void QPlcView3D::Private::choosePreset(OrbitCamera::Preset preset)
     Q_EMIT q->settingsEdited();
 }
 
+void QPlcView3D::Private::takeEdit(const View3DSettings &wanted)
+{
+    settings = wanted;
+    picture->setSettings(settings);
+    Q_EMIT q->settingsEdited();
+}
+
 QJsonObject QPlcView3D::settings() const
 {
     return settingsWith(d->settings.toJson());
@@ -107,21 +118,15 @@ QJsonObject QPlcView3D::settings() const
 void QPlcView3D::applySettings(const QJsonObject &settings)
 {
     QJsonObject others;
-    d->settings = View3DSettings::fromJson(settings, &others);
+    d->settings = View3DSettings::fromJson(settings, d->parts, &others);
     QPlcWidget::applySettings(others);
-    d->kite.setSettings(d->settings.kite);
     d->picture->setSettings(d->settings);
 }
 
 QWidget *QPlcView3D::createSettingsEditor()
 {
-    auto *editor = new View3DEditor(d->settings);
-    connect(editor, &View3DEditor::edited, this, [this, editor] {
-        d->settings = editor->settings();
-        d->kite.setSettings(d->settings.kite);
-        d->picture->setSettings(d->settings);
-        Q_EMIT settingsEdited();
-    });
+    auto *editor = new View3DEditor(d->settings, d->parts, createBodyEditor());
+    connect(editor, &View3DEditor::edited, this, [this, editor] { d->takeEdit(editor->settings()); });
     return editor;
 }
 
@@ -129,12 +134,97 @@ bool QPlcView3D::addSignals(const QStringList &references)
 {
     if (references.isEmpty())
         return false;
-    d->settings.kite.color = references.first();
-    d->kite.setSettings(d->settings.kite);
-    d->picture->setSettings(d->settings);
-    Q_EMIT settingsEdited();
+    View3DSettings wanted = d->settings;
+    wanted.position = references.first();
+    d->takeEdit(wanted);
     return true;
 }
+
+void QPlcView3D::addPart(const QString &key, const QString &title)
+{
+    d->parts.append({key, title});
+}
+
+bool QPlcView3D::isPartShown(const QString &key) const
+{
+    return d->settings.isShown(key);
+}
+
+void QPlcView3D::setDefaultModel(const QString &file)
+{
+    d->picture->setDefaultModel(file);
+}
+
+bool QPlcView3D::showsDefaultModel() const
+{
+    return d->picture->showsDefaultModel();
+}
+
+void QPlcView3D::redraw()
+{
+    d->picture->want();
+    update();
+}
+
+std::optional<QVector3D> QPlcView3D::vectorOf(const QString &reference) const
+{
+    const QPlcPanelContext::Signal signal = context()->shown(reference);
+    if (!signal || signal.element >= 0 || signal.definition.type.count() < 3 || !signal.quality.isUsable())
+        return std::nullopt;
+    const QVector3D vector(float(signal.number(0)), float(signal.number(1)), float(signal.number(2)));
+    const bool isNumber = std::isfinite(vector.x()) && std::isfinite(vector.y()) && std::isfinite(vector.z());
+    return isNumber ? std::optional<QVector3D>(vector) : std::nullopt;
+}
+
+namespace {
+
+/// Roll, pitch and yaw [deg], or a quaternion.
+std::optional<QQuaternion> orientationOf(const QPlcPanelContext::Signal &signal)
+{
+    const int count = signal ? signal.definition.type.count() : 0;
+    const auto at = [&signal](int element) { return float(signal.number(element)); };
+    if ((count != 3 && count != 4) || signal.element >= 0 || !signal.quality.isUsable() || std::isnan(at(0)))
+        return std::nullopt;
+    if (count == 4)
+        return QQuaternion(at(0), at(1), at(2), at(3)).normalized();
+    return QQuaternion::fromAxisAndAngle(0, 0, 1, at(2)) * QQuaternion::fromAxisAndAngle(0, 1, 0, at(1))
+        * QQuaternion::fromAxisAndAngle(1, 0, 0, at(0));
+}
+
+}  // namespace
+
+QString QPlcView3D::problem() const
+{
+    if (context()->plants().isEmpty())
+        return tr("No plant is connected.");
+    const QPlcPanelContext::Signal position = context()->signal(d->settings.position);
+    if (d->settings.position.isEmpty() || (position && position.definition.type.count() >= 3))
+        return {};
+    return position ? tr("%1 is no position: a signal with three elements is needed.").arg(d->settings.position)
+                    : position.problem;
+}
+
+void QPlcView3D::prepareScene(QPlcScene3D *scene)
+{
+    if (d->settings.position.isEmpty())
+        return;
+    scene->position = vectorOf(d->settings.position);
+    if (scene->position && d->settings.orientation.isEmpty())
+        scene->orientation = QQuaternion();
+    else if (scene->position)
+        scene->orientation = orientationOf(context()->shown(d->settings.orientation));
+    scene->course = scene->orientation.value_or(QQuaternion());
+    const QPlcPanelContext::Plant plant = context()->plant(context()->signal(d->settings.position).plant);
+    scene->isStale = plant.isStale && !context()->shownTime();
+    if (scene->isStale)
+        scene->note = tr("stale, %1").arg(QPlcPanelContext::ageText(plant.age));
+    else if (!scene->position)
+        scene->note = tr("no position");
+}
+
+void QPlcView3D::drawScene(QPlcScene3D * /*scene*/) {}
+
+void QPlcView3D::paintOver(QPainter * /*painter*/, const QRectF & /*area*/, const QPlcScene3D & /*scene*/) {}
 
 QString QPlcView3D::openGlError() const
 {
@@ -153,12 +243,12 @@ QSize QPlcView3D::sizeHint() const
 
 QStringList QPlcView3D::shownSignals() const
 {
-    return {d->settings.kite.position};
+    return d->settings.position.isEmpty() ? QStringList() : QStringList(d->settings.position);
 }
 
 void QPlcView3D::contextChanged()
 {
-    d->kite.setContext(context());
+    redraw();
 }
 
 void QPlcView3D::paintEvent(QPaintEvent * /*event*/)

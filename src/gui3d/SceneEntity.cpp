@@ -89,19 +89,21 @@ std::vector<SceneEntity> SceneEntity::read(const QJsonArray &entities, const QVe
     return all;
 }
 
-void drawEntities(LineBatch *lines, const std::vector<SceneEntity> &entities, const QColor &otherwise, float size)
+void drawEntities(QPlcScene3D *scene, const std::vector<SceneEntity> &entities)
 {
     for (const SceneEntity &entity : entities) {
-        const QColor color = entity.color.isValid() ? entity.color : otherwise;
+        const QColor color = entity.color.isValid() ? entity.color : scene->theme.text;
         if (entity.kind == SceneEntity::Arrow)
-            lines->addArrow(entity.from, entity.to, color, width, headSize * size);
+            scene->addArrow(entity.from, entity.to, color, width, headSize * scene->size);
         if (entity.kind == SceneEntity::Line)
-            lines->addLine(entity.from, entity.to, color, width);
+            scene->addLine(entity.from, entity.to, color, width);
         for (int axis = 0; entity.kind == SceneEntity::Mark && axis < 3; ++axis) {
             QVector3D arm;
-            arm[axis] = markSize * size;
-            lines->addLine(entity.from - arm, entity.from + arm, color, width);
+            arm[axis] = markSize * scene->size;
+            scene->addLine(entity.from - arm, entity.from + arm, color, width);
         }
+        if (!entity.name.isEmpty())
+            scene->addName(entity.to, entity.name, color);
     }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "LineBatch.h"
+#include "QPlcScene3D.h"
 
 #include <QtCore/QJsonArray>
 #include <QtCore/QString>
@@ -9,6 +9,7 @@
 
 #include <functional>
 #include <optional>
+#include <vector>
 
 namespace qplc {
 
@@ -32,7 +33,7 @@ struct SceneEntity
                                          QStringList *missing);
 };
 
-/// \param size  of the scene [m]: marks and heads have a share of it
-void drawEntities(LineBatch *lines, const std::vector<SceneEntity> &entities, const QColor &otherwise, float size);
+/// Draws them with their names.
+void drawEntities(QPlcScene3D *scene, const std::vector<SceneEntity> &entities);
 
 }  // namespace qplc

@@ -6,6 +6,7 @@
 #include <QtWidgets/QComboBox>
 #include <QtWidgets/QDoubleSpinBox>
 #include <QtWidgets/QFileDialog>
+#include <QtWidgets/QFormLayout>
 #include <QtWidgets/QGridLayout>
 #include <QtWidgets/QLineEdit>
 #include <QtWidgets/QStyle>
@@ -30,25 +31,24 @@ QString cameraTitle(OrbitCamera::Preset preset)
     return {};
 }
 
-View3DEditor::View3DEditor(const View3DSettings &settings, QWidget *parent)
-    : QWidget(parent)
-    , m_settings(settings)
-    , m_kite(new KiteSettingsEditor(settings.kite))
+View3DEditor::View3DEditor(const View3DSettings &settings, const QVector<View3DPart> &parts, QWidget *body)
+    : m_settings(settings)
 {
     auto *layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     auto *form = new QFormLayout;
-    form->setContentsMargins(9, 9, 9, 0);
+    form->setContentsMargins(9, 9, 9, body ? 0 : 9);
     addCamera(form);
-    form->addRow(tr("Show"), makeShow());
+    form->addRow(tr("Show"), makeShow(parts));
     addScale(form);
     addModel(form);
     layout->addLayout(form);
-    layout->addWidget(m_kite);
-    connect(m_kite, &KiteSettingsEditor::edited, this, [this] {
-        m_settings.kite = m_kite->settings();
-        Q_EMIT edited();
-    });
+    if (body) {
+        layout->addWidget(body);
+        return;
+    }
+    addSignal(form, tr("Position"), &View3DSettings::position);
+    addSignal(form, tr("Orientation"), &View3DSettings::orientation);
 }
 
 View3DEditor::~View3DEditor()
@@ -72,28 +72,37 @@ void View3DEditor::addCamera(QFormLayout *form)
     });
 }
 
-QWidget *View3DEditor::makeShow()
+QWidget *View3DEditor::makeShow(const QVector<View3DPart> &parts)
 {
     auto *all = new QWidget;
     auto *grid = new QGridLayout(all);
     grid->setContentsMargins(0, 0, 0, 0);
-    const std::pair<QString, bool View3DShow::*> parts[] = {
-        {tr("Ground"), &View3DShow::ground}, {tr("Small earth"), &View3DShow::smallEarth},
-        {tr("Axes"), &View3DShow::axes},     {tr("Wind and force"), &View3DShow::vectors},
-        {tr("Tether"), &View3DShow::tether},
-    };
     int place = 0;
-    for (const auto &part : parts) {
-        auto *box = new QCheckBox(part.first);
-        box->setChecked(m_settings.show.*part.second);
+    for (const View3DPart &part : parts) {
+        auto *box = new QCheckBox(part.title);
+        box->setChecked(m_settings.isShown(part.key));
         grid->addWidget(box, place / 2, place % 2);
         ++place;
-        connect(box, &QCheckBox::toggled, this, [this, member = part.second](bool isOn) {
-            m_settings.show.*member = isOn;
+        connect(box, &QCheckBox::toggled, this, [this, key = part.key](bool isOn) {
+            m_settings.setShown(key, isOn);
             Q_EMIT edited();
         });
     }
     return all;
+}
+
+void View3DEditor::addSignal(QFormLayout *form, const QString &label, QString View3DSettings::*member)
+{
+    auto *edit = new QLineEdit(m_settings.*member);
+    edit->setPlaceholderText(tr("no signal"));
+    edit->setAccessibleName(label);
+    form->addRow(label, edit);
+    connect(edit, &QLineEdit::editingFinished, this, [this, edit, member] {
+        if (m_settings.*member == edit->text().trimmed())
+            return;
+        m_settings.*member = edit->text().trimmed();
+        Q_EMIT edited();
+    });
 }
 
 void View3DEditor::addScale(QFormLayout *form)
@@ -116,7 +125,7 @@ void View3DEditor::addScale(QFormLayout *form)
 void View3DEditor::addModel(QFormLayout *form)
 {
     auto *edit = new QLineEdit(m_settings.model);
-    edit->setPlaceholderText(tr("kite"));
+    edit->setPlaceholderText(tr("that of the view"));
     edit->setAccessibleName(tr("Model file"));
     form->addRow(tr("Model (OBJ file)"), edit);
     const auto take = [this, edit] {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "Kite.h"
 #include "View3DSettings.h"
-#include "kite/KiteSettingsEditor.h"
 
 #include <QtWidgets/QWidget>
+
+class QFormLayout;
 
 namespace qplc {
 
@@ -14,7 +14,8 @@ class View3DEditor : public QWidget
 {
     Q_OBJECT
 public:
-    explicit View3DEditor(const View3DSettings &settings, QWidget *parent = nullptr);
+    /// \param body  what stands in place of the lines for position and orientation, or null; belongs to this
+    View3DEditor(const View3DSettings &settings, const QVector<View3DPart> &parts, QWidget *body);
     ~View3DEditor() override;
 
     const View3DSettings &settings() const { return m_settings; }
@@ -27,10 +28,10 @@ private:
     void addCamera(QFormLayout *form);
     void addModel(QFormLayout *form);
     void addScale(QFormLayout *form);
-    QWidget *makeShow();
+    QWidget *makeShow(const QVector<View3DPart> &parts);
+    void addSignal(QFormLayout *form, const QString &label, QString View3DSettings::*member);
 
     View3DSettings m_settings;
-    KiteSettingsEditor *m_kite;
 };
 
 /// What a camera is called: "Ground station".

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "View3DOverlay.h"
 
-#include "Kite.h"
+#include "QPlcView3D.h"
 
 #include <QtCore/QLineF>
 #include <QtCore/QtMath>
@@ -21,7 +21,7 @@ float lookAzimuth(const CameraPose &pose)
     QVector3D look = (pose.target - pose.eye).normalized();
     if (std::hypot(look.x(), look.y()) < 0.05f)
         look = pose.up;
-    return skyPosition(look).azimuth;
+    return qRadiansToDegrees(std::atan2(look.y(), look.x()));
 }
 
 /// Where an azimuth points to on a rose whose top is another azimuth.
@@ -117,10 +117,10 @@ void drawScale(QPainter *painter, const QRectF &area, const CameraPose &pose, co
     painter->drawLine(left + QPointF(0, -3), left + QPointF(0, 3));
     painter->drawLine(left + QPointF(pixels, -3), left + QPointF(pixels, 3));
     painter->drawText(QRectF(left.x(), left.y() - line - 3, area.width(), line),
-                      KiteText::tr("%1 m · %2").arg(length).arg(camera));
+                      QPlcView3D::tr("%1 m · %2").arg(length).arg(camera));
 }
 
-void drawCompass(QPainter *painter, const QPointF &center, const CameraPose &pose, std::optional<float> downwind,
+void drawCompass(QPainter *painter, const QPointF &center, const CameraPose &pose, std::optional<float> arrow,
                  const QPlcTheme &theme)
 {
     const float top = lookAzimuth(pose);
@@ -132,16 +132,22 @@ void drawCompass(QPainter *painter, const QPointF &center, const CameraPose &pos
     painter->drawLine(center + 0.55 * roseRadius * north, center + roseRadius * north);
     QRectF letter(0, 0, 14, 14);
     letter.moveCenter(center + (roseRadius + 7) * north);
-    painter->drawText(letter, Qt::AlignCenter, KiteText::tr("N"));
-    if (!downwind)
+    painter->drawText(letter, Qt::AlignCenter, QPlcView3D::tr("N"));
+    if (!arrow)
         return;
-    const QPointF along = onRose(*downwind, top);
+    const QPointF along = onRose(*arrow, top);
     const QPointF across(-along.y(), along.x());
     const QPointF tip = center + 0.8 * roseRadius * along;
     painter->setPen(QPen(theme.accent, 1.6));
     painter->drawLine(center - 0.8 * roseRadius * along, tip);
     painter->drawLine(tip, tip - 4 * along + 3 * across);
     painter->drawLine(tip, tip - 4 * along - 3 * across);
+}
+
+void drawHint(QPainter *painter, const QRectF &area, const QString &text, const QPlcTheme &theme)
+{
+    painter->setPen(theme.mutedText);
+    painter->drawText(area.adjusted(12, 12, -12, -12), Qt::AlignCenter | Qt::TextWordWrap, text);
 }
 
 }  // namespace qplc

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "SceneDrawing.h"
+#include "OrbitCamera.h"
+#include "QPlcTheme.h"
+#include "SceneContent.h"
 
 #include <QtGui/QPainter>
 
 #include <functional>
+#include <optional>
+#include <vector>
 
 namespace qplc {
 
@@ -21,8 +25,12 @@ void drawLabels(QPainter *painter, const std::vector<SceneLabel> &labels, const 
 /// A bar with its length at the distance of what the camera looks at, the name of the camera above.
 void drawScale(QPainter *painter, const QRectF &area, const CameraPose &pose, const QString &camera,
                const QPlcTheme &theme);
-/// A small rose: north and the wind as seen from above, with what the camera looks at on top.
-void drawCompass(QPainter *painter, const QPointF &center, const CameraPose &pose, std::optional<float> downwind,
+/// A small rose: north and an arrow as seen from above, with what the camera looks at on top.
+/// \param arrow  azimuth [deg]; none: no arrow
+void drawCompass(QPainter *painter, const QPointF &center, const CameraPose &pose, std::optional<float> arrow,
                  const QPlcTheme &theme);
+
+/// A calm sentence in the middle.
+void drawHint(QPainter *painter, const QRectF &area, const QString &text, const QPlcTheme &theme);
 
 }  // namespace qplc

@@ -2,30 +2,38 @@
 #pragma once
 
 #include "FramePacer.h"
-#include "SceneDrawing.h"
+#include "ObjMesh.h"
+#include "OrbitCamera.h"
+#include "QPlcScene3D.h"
+#include "SceneEntity.h"
 #include "SceneRenderer.h"
+#include "View3DSettings.h"
 
 #include <QtWidgets/QWidget>
 
 class QLabel;
-class QPlcWidget;
+class QPlcView3D;
 
 namespace qplc {
 
-/// What a 3D view shows: pictures of a scene with labels above, drawn when something has changed; or the wind window.
+/// What a 3D view shows: pictures of a scene with names above, drawn when something has changed; or, without OpenGL,
+/// why there are none.
 class View3DPicture : public QObject
 {
     Q_OBJECT
 public:
-    /// \param kite    outlives this
-    /// \param widget  on which it paints, and its parent
-    View3DPicture(KiteSignals *kite, QPlcWidget *widget);
+    /// \param view  on which it paints, and its parent
+    explicit View3DPicture(QPlcView3D *view);
     ~View3DPicture() override;
 
     void setSettings(const View3DSettings &settings);
+    void setDefaultModel(const QString &file);
+    bool showsDefaultModel() const { return m_showsDefaultModel; }
     void shown();
     void resized();
     void paint();
+    /// A new picture is wanted.
+    void want();
     QString openGlError() const { return m_openGlError; }
     /// Null before the first picture was wanted.
     SceneRenderer *renderer() { return m_renderer.get(); }
@@ -35,46 +43,43 @@ Q_SIGNALS:
 
 private:
     void start();
-    void showWindWindow(const QString &reason);
-    void placeWindWindow();
+    void endWithout(const QString &reason);
+    void placeFallback();
     void loadModel();
-    void want();
     void draw();
-    void updateInput();
+    void prepare();
+    void turn();
     void drawScene();
     void takePicture(const QImage &picture, double windowTime, double pictureTime);
     void paintCorners(QPainter *painter);
-    /// Large enough for labels.
+    /// Large enough for names.
     bool isRoomy() const;
     QString note() const;
     QSize deviceSize() const;
-    QPlcTheme theme() const;
 
-    KiteSignals *m_kite;
-    QPlcWidget *m_widget;
-    QPlcPanelContext *m_context;
+    QPlcView3D *m_view;
     View3DSettings m_settings;
     ObjMesh m_model;
+    QString m_defaultModel;  // file; empty: none
+    bool m_showsDefaultModel = false;
     QString m_modelError;
     QString m_loadedModel;
     QString m_openGlError;
     std::unique_ptr<SceneRenderer, SceneRenderer::GiveBack> m_renderer;
-    QWidget *m_windWindow = nullptr;
+    QWidget *m_fallback = nullptr;
     QLabel *m_reason = nullptr;
 
     // What the next picture is made of, and what the one that is shown was.
     QStringList m_missing;  // signals of entities
-    SceneInput m_input;
-    float m_forceUnit = 500;  // [N] that is a vector of length 1
-    FlightTrail m_trail;
-    ColorScale m_scale;
-    LineBatch m_lines;
+    std::shared_ptr<QPlcScene3D> m_scene;
+    std::vector<SceneEntity> m_entities;
     CameraPose m_pose;
+    float m_size = 100.0f;
+    std::optional<float> m_heading;
     bool m_isGroundDue = true;
-    bool m_hasWind = false;
     QImage m_picture;
     CameraPose m_shownPose;
-    SceneInput m_shownInput;
+    std::shared_ptr<QPlcScene3D> m_shownScene;
 
     FramePacer m_pacer;
     QTimer m_frame;     // runs while the next picture has to wait

@@ -8,17 +8,6 @@ namespace qplc {
 
 namespace {
 
-struct ShowKey
-{
-    const char *key;
-    bool View3DShow::*member;
-};
-
-constexpr ShowKey showKeys[] = {
-    {"ground", &View3DShow::ground},   {"smallEarth", &View3DShow::smallEarth}, {"axes", &View3DShow::axes},
-    {"vectors", &View3DShow::vectors}, {"tether", &View3DShow::tether},
-};
-
 float number(const QJsonObject &json, const char *key, float otherwise, float smallest, float largest)
 {
     return std::clamp(float(json.value(QLatin1String(key)).toDouble(double(otherwise))), smallest, largest);
@@ -60,39 +49,49 @@ QJsonObject viewJson(const OrbitCamera &camera)
 
 }  // namespace
 
-View3DSettings View3DSettings::fromJson(const QJsonObject &json, QJsonObject *rest)
+void View3DSettings::setShown(const QString &part, bool isShown)
+{
+    hidden.removeAll(part);
+    if (!isShown)
+        hidden << part;
+}
+
+View3DSettings View3DSettings::fromJson(const QJsonObject &json, const QVector<View3DPart> &parts, QJsonObject *rest)
 {
     View3DSettings settings;
-    settings.kite = KiteSettings::fromJson(json, rest);
+    *rest = json;
+    settings.position = rest->take(QStringLiteral("position")).toString();
+    settings.orientation = rest->take(QStringLiteral("orientation")).toString();
     const QString preset = rest->take(QStringLiteral("camera")).toString();
     settings.camera = cameraFrom(preset, rest->take(QStringLiteral("view")).toObject());
     settings.model = rest->take(QStringLiteral("model")).toString();
     settings.entities = rest->take(QStringLiteral("entities")).toArray();
-    const double scale = rest->take(QStringLiteral("bodyScale")).toDouble();
-    settings.bodyScale = std::clamp(scale, 0.0, largestBodyScale);
-    for (const ShowKey &each : showKeys)
-        settings.show.*each.member = rest->take(QLatin1String(each.key)).toBool(true);
+    settings.bodyScale = std::clamp(rest->take(QStringLiteral("bodyScale")).toDouble(), 0.0, largestBodyScale);
+    for (const View3DPart &part : parts)
+        settings.setShown(part.key, rest->take(part.key).toBool(true));
     return settings;
 }
 
 QJsonObject View3DSettings::toJson() const
 {
-    QJsonObject json = kite.toJson();
+    QJsonObject json;
+    const std::pair<const char *, QString> texts[]
+        = {{"position", position}, {"orientation", orientation}, {"model", model}};
+    for (const auto &text : texts) {
+        if (!text.second.isEmpty())
+            json.insert(QLatin1String(text.first), text.second);
+    }
     if (camera.preset != OrbitCamera::GroundStation)
         json.insert(QStringLiteral("camera"), OrbitCamera::presetText(camera.preset));
     const QJsonObject view = viewJson(camera);
     if (!view.isEmpty())
         json.insert(QStringLiteral("view"), view);
-    if (!model.isEmpty())
-        json.insert(QStringLiteral("model"), model);
     if (!entities.isEmpty())
         json.insert(QStringLiteral("entities"), entities);
     if (bodyScale > 0)
         json.insert(QStringLiteral("bodyScale"), bodyScale);
-    for (const ShowKey &each : showKeys) {
-        if (!(show.*each.member))
-            json.insert(QLatin1String(each.key), false);
-    }
+    for (const QString &part : hidden)
+        json.insert(part, false);
     return json;
 }
 

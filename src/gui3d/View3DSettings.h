@@ -1,37 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "Kite.h"
 #include "OrbitCamera.h"
 
 #include <QtCore/QJsonArray>
+#include <QtCore/QJsonObject>
+#include <QtCore/QStringList>
+#include <QtCore/QVector>
 
 namespace qplc {
 
-/// What of the scene is seen. A value type.
-struct View3DShow
+/// A part of the picture that people may switch off.
+struct View3DPart
 {
-    bool ground = true;
-    bool smallEarth = true;
-    bool axes = true;
-    bool vectors = true;
-    bool tether = true;
+    QString key;  // in settings
+    QString title;
 };
 
 /// What makes a 3D view what it is, and its JSON. A value type; what has its default is not written.
 struct View3DSettings
 {
-    KiteSettings kite;
+    QString position;     // signal; empty: there is no body
+    QString orientation;  // signal; empty: as the model is
     OrbitCamera camera;
-    View3DShow show;
-    QString model;         // OBJ file; empty: the kite
+    QStringList hidden;    // keys of parts
+    QString model;         // OBJ file; empty: that of the view
     QJsonArray entities;   // of the user's own: see SceneEntity
     double bodyScale = 0;  // how much larger than it is the body is drawn; 0: large enough to be seen
 
     static constexpr double largestBodyScale = 100.0;
 
+    bool isShown(const QString &part) const { return !hidden.contains(part); }
+    void setShown(const QString &part, bool isShown);
+
     /// What is missing, or of another kind, has its default. \param rest  takes what was no key of this
-    static View3DSettings fromJson(const QJsonObject &json, QJsonObject *rest);
+    static View3DSettings fromJson(const QJsonObject &json, const QVector<View3DPart> &parts, QJsonObject *rest);
     QJsonObject toJson() const;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "QPlcView3D.h"
 #include "gui3d/OpenGlProbe.h"
+#include "kite/KiteView.h"
 
 #include <QtTest/QtTest>
 #include <QtWidgets/QAction>
@@ -8,6 +8,7 @@
 #include <QtWidgets/QComboBox>
 #include <QtWidgets/QLabel>
 
+using namespace awe;
 using namespace qplc;
 
 namespace {
@@ -40,7 +41,7 @@ void tst_NoOpenGl::initTestCase()
 {
     if (!qEnvironmentVariableIsSet("QTPLC_EXPECTED_REASON"))
         qputenv("QTPLC_OPENGL", "off");
-    QPlcWidget::registerFactory(new QPlcView3DFactory);
+    QPlcWidget::registerFactory(new QPlcWidgetFactoryOf<KiteView>);
     QVERIFY(QPlcWidget::factory(QStringLiteral("3D view")));
 }
 
@@ -52,7 +53,7 @@ void tst_NoOpenGl::theReasonIsTold()
 
 void tst_NoOpenGl::theWindWindowIsShownWithTheReason()
 {
-    QPlcView3D view;
+    KiteView view;
     view.resize(400, 300);
     QVERIFY(!view.findChild<QWidget *>(QStringLiteral("windWindow")));
     view.show();
@@ -68,7 +69,7 @@ void tst_NoOpenGl::theWindWindowIsShownWithTheReason()
 
 void tst_NoOpenGl::theReasonStaysInThePanel()
 {
-    QPlcView3D view;
+    KiteView view;
     view.show();
     for (const QSize &size : {QSize(240, 120), QSize(900, 700)}) {
         view.resize(size);
@@ -80,7 +81,7 @@ void tst_NoOpenGl::theReasonStaysInThePanel()
 
 void tst_NoOpenGl::settingsComeBackByteByByte()
 {
-    QPlcView3D view;
+    KiteView view;
     QCOMPARE(view.settings(), QJsonObject());
     const QJsonObject json{{"camera", "top"}, {"vectors", false}, {"trail", 10}, {"title", "Kite"}, {"later", 3}};
     view.applySettings(json);
@@ -89,7 +90,7 @@ void tst_NoOpenGl::settingsComeBackByteByByte()
 
 void tst_NoOpenGl::keysChooseCameras()
 {
-    QPlcView3D view;
+    KiteView view;
     QSignalSpy edits(&view, &QPlcWidget::settingsEdited);
     view.show();
     view.activateWindow();
@@ -110,7 +111,7 @@ void tst_NoOpenGl::keysChooseCameras()
 
 void tst_NoOpenGl::aWheelIsOneStepForUndo()
 {
-    QPlcView3D view;
+    KiteView view;
     QSignalSpy edits(&view, &QPlcWidget::settingsEdited);
     for (int i = 0; i < 5; ++i) {
         QWheelEvent event({10, 10}, {10, 10}, {}, {0, 120}, Qt::NoButton, Qt::NoModifier, Qt::NoScrollPhase, false);
@@ -126,7 +127,7 @@ void tst_NoOpenGl::aWheelIsOneStepForUndo()
 
 void tst_NoOpenGl::theEditorChangesAtOnce()
 {
-    QPlcView3D view;
+    KiteView view;
     QSignalSpy edits(&view, &QPlcWidget::settingsEdited);
     const std::unique_ptr<QWidget> editor(view.createSettingsEditor());
     const QList<QCheckBox *> boxes = editor->findChildren<QCheckBox *>();
@@ -142,7 +143,7 @@ void tst_NoOpenGl::theEditorChangesAtOnce()
 
 void tst_NoOpenGl::everyActionHasAKeyAndAText()
 {
-    QPlcView3D view;
+    KiteView view;
     QCOMPARE(view.actions().size(), 8);
     for (const QAction *action : view.actions()) {
         QVERIFY(!action->text().isEmpty());

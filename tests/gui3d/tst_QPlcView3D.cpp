@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "KiteFixtures.h"
-#include "QPlcView3D.h"
 #include "gui/layout/LayoutView.h"
 #include "gui3d/OpenGlProbe.h"
 #include "gui3d/View3DPicture.h"
+#include "kite/KiteView.h"
 
 #include <QtCore/QJsonArray>
 #include <QtTest/QtTest>
 
 #include <ctime>
 
+using namespace awe;
 using namespace qplc;
 
 namespace {
@@ -34,6 +35,7 @@ private Q_SLOTS:
     void theKiteIsSeenWhereItFlies_data();
     void theKiteIsSeenWhereItFlies();
     void picturesComeWhileItIsSeenAndNotMoreThanThirtyASecond();
+    void aBodyIsSeenWhereItsSignalsSay();
     void entitiesOfAUserAreSeen();
     void theSceneKeepsItsNodes();
     void aFrozenWindowNeedsNoPictures();
@@ -73,13 +75,13 @@ struct ShownView
     }
 
     FlyingPlant plant;
-    QPlcView3D view;
+    KiteView view;
     QSignalSpy drawn;
 };
 
 void tst_QPlcView3D::initTestCase()
 {
-    QPlcWidget::registerFactory(new QPlcView3DFactory);
+    QPlcWidget::registerFactory(new QPlcWidgetFactoryOf<KiteView>);
     QVERIFY2(OpenGlProbe::instance().error.isEmpty(), qPrintable(OpenGlProbe::instance().error));
 }
 
@@ -141,6 +143,51 @@ void tst_QPlcView3D::picturesComeWhileItIsSeenAndNotMoreThanThirtyASecond()
     QCOMPARE(shown.drawn.count(), hidden);
     shown.view.show();
     QVERIFY(shown.waitForPictures(2));
+}
+
+/// The panel of the library, which knows no kite: a magenta plate, flat at first, then on its edge.
+void tst_QPlcView3D::aBodyIsSeenWhereItsSignalsSay()
+{
+    QTemporaryDir folder;
+    QFile model(folder.filePath(QStringLiteral("plate.obj")));
+    QVERIFY(model.open(QIODevice::WriteOnly));
+    model.write("v -5 -5 0 1 0 1\nv 5 -5 0 1 0 1\nv 5 5 0 1 0 1\nv -5 5 0 1 0 1\nf 1 2 3 4\nf 4 3 2 1\n");
+    model.close();
+    FlyingPlant plant(true);
+    QPlcView3D view;
+    view.applySettings({{"position", "bodyPosition_earth"},
+                        {"model", model.fileName()},
+                        {"camera", "top"},
+                        {"axes", false},
+                        {"ground", false}});
+    view.setContext(&plant.context);
+    view.resize(640, 480);
+    QVERIFY(plant.fly());
+    view.show();
+    QSignalSpy drawn(&view, &QPlcView3D::pictureDrawn);
+    QTRY_VERIFY_WITH_TIMEOUT(drawn.count() >= 3, patience);
+    const auto isMagenta
+        = [](const QColor &color) { return color.red() > color.green() + 60 && color.blue() > color.green() + 60; };
+    const QImage image = view.grab().toImage();
+    keep(image, "plate");
+    OrbitCamera camera;
+    camera.preset = OrbitCamera::Top;
+    const QVector3D body = positionOf({0, 35, 100});
+    OrbitCamera::Scene scene;
+    scene.body = body;
+    const QPoint place = projected(camera.pose(scene), body, view.size())->toPoint();
+    const int flat = countPixels(image, QRect(place - QPoint(60, 60), place + QPoint(60, 60)), isMagenta);
+    QVERIFY2(flat > 200, qPrintable(QString::number(flat)));
+    QCOMPARE(countPixels(image, image.rect(), isMagenta), flat);
+    // It turns by 55 deg about y. The eye sees the place 15.5 deg from above: cos(55 + 15.5) / cos(15.5) = 0.35 is left.
+    QJsonObject turned = view.settings();
+    turned.insert(QStringLiteral("orientation"), QStringLiteral("bodyPositionOrientation"));
+    view.applySettings(turned);
+    const int before = drawn.count();
+    QTRY_VERIFY_WITH_TIMEOUT(drawn.count() >= before + 3, patience);
+    const int tilted = countPixels(view.grab().toImage(), view.rect(), isMagenta);
+    QVERIFY2(tilted < 0.42 * flat && tilted > 0.28 * flat,
+             qPrintable(QStringLiteral("%1 of %2").arg(tilted).arg(flat)));
 }
 
 void tst_QPlcView3D::entitiesOfAUserAreSeen()
@@ -288,10 +335,10 @@ void tst_QPlcView3D::severalViewsComeAndGo()
     FlyingPlant plant;
     QVERIFY(plant.fly());
     for (int round = 0; round < 3; ++round) {
-        std::vector<std::unique_ptr<QPlcView3D>> views;
+        std::vector<std::unique_ptr<KiteView>> views;
         std::vector<std::unique_ptr<QSignalSpy>> drawn;
         for (int i = 0; i < 3; ++i) {
-            views.push_back(std::make_unique<QPlcView3D>());
+            views.push_back(std::make_unique<KiteView>());
             drawn.push_back(std::make_unique<QSignalSpy>(views.back().get(), &QPlcView3D::pictureDrawn));
             views.back()->setContext(&plant.context);
             views.back()->resize(300, 200);
@@ -306,7 +353,7 @@ void tst_QPlcView3D::severalViewsComeAndGo()
 void tst_QPlcView3D::aPanelWithoutAPlantSaysSo()
 {
     WindowContext context;
-    QPlcView3D view;
+    KiteView view;
     view.setContext(&context);
     view.resize(300, 200);
     view.show();

@@ -5,8 +5,10 @@
 #include "gui3d/ObjMesh.h"
 #include "gui3d/OrbitCamera.h"
 #include "gui3d/SceneDrawing.h"
+#include "gui3d/SceneEntity.h"
 #include "gui3d/View3DOverlay.h"
 #include "gui3d/View3DSettings.h"
+#include "kite/KiteGeometry.h"
 
 #include <QtCore/QJsonArray>
 #include <QtTest/QtTest>
@@ -14,11 +16,13 @@
 #include <cmath>
 #include <set>
 
+using namespace awe;
 using namespace qplc;
 
 namespace {
 
 const QSizeF screen(640, 480);
+const QVector<View3DPart> parts{{QStringLiteral("ground"), {}}, {QStringLiteral("axes"), {}}};
 
 OrbitCamera camera(OrbitCamera::Preset preset)
 {
@@ -31,7 +35,7 @@ OrbitCamera::Scene sceneWithKite()
 {
     OrbitCamera::Scene scene;
     scene.size = 100;
-    scene.downwind = 30;
+    scene.heading = 30;
     scene.body = positionOf({30, 30, 90});
     scene.course = courseOrientation(positionOrientation(scene.body), 90);
     return scene;
@@ -57,11 +61,8 @@ private Q_SLOTS:
     void aLineIsFourVerticesWithItsSides();
     void indicesMakeTwoTrianglesOfEachLine();
     void anArrowWithoutLengthIsNothing();
-    void aPathBecomesItsJoinedLines();
-    void anUnknownKiteDrawsNothingOfIt();
+    void withoutABodyThereIsOnlyTheGround();
     void aSmallKiteIsDrawnLargerAndANearOneIsNot();
-    void forcesKeepTheirScaleUntilALargerOneComes();
-    void theKiteOfTheLibraryIsReadWhole();
     void aModelIsReadWithItsColorsNormalsAndLines();
     void aBrokenModelIsRefusedWithLineAndReason_data();
     void aBrokenModelIsRefusedWithLineAndReason();
@@ -229,33 +230,28 @@ void tst_SceneGeometry::anArrowWithoutLengthIsNothing()
         QVERIFY(std::isfinite(vertex.position[0]) && vertex.position[2] <= 5.0f);
 }
 
-void tst_SceneGeometry::aPathBecomesItsJoinedLines()
+void tst_SceneGeometry::withoutABodyThereIsOnlyTheGround()
 {
-    FlightTrail::Samples past;
-    for (int i = 0; i < 4; ++i)
-        past.append({i, 1.0, 1.0, 1.0, QPlcQuality::Good, i != 0 && i != 2});
-    FlightTrail trail;
-    trail.read(past, past, past, past);
-    LineBatch batch;
-    drawTrail(&batch, trail, ColorScale(), 2);
-    QCOMPARE(batch.lines(), 2);
-}
-
-void tst_SceneGeometry::anUnknownKiteDrawsNothingOfIt()
-{
-    SceneInput input;
-    input.theme = Theme::byName(Theme::Light);
-    LineBatch batch;
-    drawKiteScene(&batch, input, {}, 500);
-    QCOMPARE(batch.lines(), 0);
-    drawGround(&batch, input);
-    QVERIFY(batch.lines() > 100);
-    batch.clear();
-    input.show = {false, false, false, false, false};
-    input.state.position = QVector3D(50, 0, 50);
-    drawGround(&batch, input);
-    drawKiteScene(&batch, input, {}, 500);
-    QCOMPARE(batch.lines(), 0);
+    QPlcScene3D scene;
+    scene.theme = Theme::byName(Theme::Light);
+    View3DSettings settings;
+    const auto drawn = [&] {
+        drawBody(&scene, settings, {});
+        return scene.content().lines.lines();
+    };
+    QCOMPARE(drawn(), 0);
+    LineBatch ground;
+    drawGround(&ground, scene, settings);
+    QVERIFY(ground.lines() > 100);
+    scene.position = QVector3D(50, 0, 50);
+    scene.orientation = QQuaternion();
+    settings.hidden = QStringList{QStringLiteral("ground"), QStringLiteral("axes")};
+    ground.clear();
+    drawGround(&ground, scene, settings);
+    QCOMPARE(ground.lines(), 0);
+    QCOMPARE(drawn(), 0);
+    settings.hidden.clear();
+    QVERIFY(drawn() > 10);
 }
 
 void tst_SceneGeometry::aSmallKiteIsDrawnLargerAndANearOneIsNot()
@@ -264,29 +260,6 @@ void tst_SceneGeometry::aSmallKiteIsDrawnLargerAndANearOneIsNot()
     QVERIFY(visibleBodyScale(camera(OrbitCamera::Side).pose(scene), scene.body, 1.0f) > 2.0f);
     QCOMPARE(visibleBodyScale(camera(OrbitCamera::Chase).pose(scene), scene.body, scene.bodySize), 1.0f);
     QCOMPARE(visibleBodyScale(OrbitCamera().pose(scene), scene.body, 0.0f), 1.0f);
-}
-
-void tst_SceneGeometry::forcesKeepTheirScaleUntilALargerOneComes()
-{
-    QCOMPARE(forceReference(400, 500), 500.0f);
-    QVERIFY(forceReference(1700, 500) >= 1700.0f);
-    QCOMPARE(forceReference(NAN, 500), 500.0f);
-}
-
-void tst_SceneGeometry::theKiteOfTheLibraryIsReadWhole()
-{
-    QString error;
-    const ObjMesh kite = ObjMesh::fromFile(QStringLiteral(":/qtplc/gui3d/kite.obj"), &error);
-    QCOMPARE(error, QString());
-    QVERIFY(kite.triangles.size() / 3 > 500 && kite.triangles.size() / 3 < 5000);
-    QVERIFY(kite.lines.size() >= 12);
-    QVERIFY(kite.radius() > 3 && kite.radius() < 7);
-    int outwards = 0;
-    for (const ObjMesh::Vertex &vertex : kite.triangles) {
-        QVERIFY(std::abs(vertex.normal.length() - 1) < 1e-3f);
-        outwards += vertex.normal.z() > 0.3f ? 1 : 0;
-    }
-    QVERIFY(outwards > int(kite.triangles.size()) / 4);
 }
 
 void tst_SceneGeometry::aModelIsReadWithItsColorsNormalsAndLines()
@@ -364,15 +337,12 @@ void tst_SceneGeometry::entitiesAreMarksLinesAndArrowsAtSignals()
     QCOMPARE(all[3].to, QVector3D(5, 6, 15));
     LineBatch arrow;
     arrow.addArrow({}, {0, 0, 8}, Qt::red, 2, 3);
-    LineBatch lines;
-    drawEntities(&lines, all, Qt::black, 100);
-    QCOMPARE(lines.lines(), 3 + 1 + 2 * arrow.lines());
-    SceneInput input;
-    input.entities = all;
-    int names = 0;
-    for (const SceneLabel &label : sceneLabels(input, 1))
-        names += label.text == QLatin1String("mast") && label.place == QVector3D(1, 2, 3) ? 1 : 0;
-    QCOMPARE(names, 1);
+    QPlcScene3D scene;
+    drawEntities(&scene, all);
+    QCOMPARE(scene.content().lines.lines(), 3 + 1 + 2 * arrow.lines());
+    QCOMPARE(int(scene.content().labels.size()), 1);
+    QCOMPARE(scene.content().labels[0].text, QStringLiteral("mast"));
+    QCOMPARE(scene.content().labels[0].place, QVector3D(1, 2, 3));
 }
 
 void tst_SceneGeometry::entitiesThatAreNonsenseAreLeftOutAndMissingSignalsNamed()
@@ -392,7 +362,8 @@ void tst_SceneGeometry::entitiesThatAreNonsenseAreLeftOutAndMissingSignalsNamed(
     QCOMPARE(missing, (QStringList{QStringLiteral("gone"), QStringLiteral("lost")}));
     const QJsonObject settings{{"entities", json}};
     QJsonObject rest = settings;
-    QCOMPARE(View3DSettings::fromJson(settings, &rest).toJson(), settings);  // kept, also what nobody understands
+    QCOMPARE(View3DSettings::fromJson(settings, parts, &rest).toJson(),
+             settings);  // kept, also what nobody understands
 }
 
 void tst_SceneGeometry::settingsComeBackWithoutWhatIsDefault()
@@ -401,24 +372,24 @@ void tst_SceneGeometry::settingsComeBackWithoutWhatIsDefault()
     const QJsonObject json{
         {"camera", "chase"}, {"view", QJsonObject{{"yaw", 12.5}, {"zoom", 2}, {"pan", QJsonArray{0.1, 0, -0.2}}}},
         {"model", "a.obj"},  {"bodyScale", 3},
-        {"axes", false},     {"trail", 60}};
+        {"axes", false},     {"position", "buoy"}};
     QJsonObject rest;
-    const View3DSettings settings = View3DSettings::fromJson(json, &rest);
+    const View3DSettings settings = View3DSettings::fromJson(json, parts, &rest);
     QCOMPARE(QJsonDocument(settings.toJson()).toJson(), QJsonDocument(json).toJson());
     QVERIFY(rest.isEmpty());
     QCOMPARE(settings.camera.preset, OrbitCamera::Chase);
-    QVERIFY(settings.show.ground);
+    QVERIFY(settings.isShown(QStringLiteral("ground")));
 }
 
 void tst_SceneGeometry::settingsThatAreNonsenseAreDefaults()
 {
     QJsonObject rest;
     const QJsonObject json{{"camera", 7}, {"view", "far"}, {"bodyScale", 1e9}, {"ground", "yes"}, {"new", 1}};
-    const View3DSettings settings = View3DSettings::fromJson(json, &rest);
+    const View3DSettings settings = View3DSettings::fromJson(json, parts, &rest);
     QVERIFY(!settings.camera.isMoved());
     QCOMPARE(settings.camera.preset, OrbitCamera::GroundStation);
     QCOMPARE(settings.bodyScale, View3DSettings::largestBodyScale);
-    QVERIFY(settings.show.ground);
+    QVERIFY(settings.isShown(QStringLiteral("ground")));
     QCOMPARE(rest, QJsonObject({{"new", 1}}));
 }
 

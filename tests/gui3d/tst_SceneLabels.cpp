@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gui3d/OrbitCamera.h"
+#include "gui3d/SceneDrawing.h"
 #include "gui3d/View3DOverlay.h"
 
 #include <QtTest/QtTest>
@@ -44,10 +45,11 @@ void tst_SceneLabels::theNameOfAnAxisThatPointsAtTheViewerIsNotSeen()
     QFETCH(QVector3D, eye);
     QFETCH(QVector3D, up);
     QFETCH(QString, hidden);
-    SceneInput input;
-    input.size = 300;
-    input.state.wind = QVector3D(8, 0, 0);
-    const std::vector<SceneLabel> labels = sceneLabels(input, 1);
+    QPlcScene3D scene;
+    scene.size = 300;
+    drawBody(&scene, {}, {});
+    scene.addName({93, 0, 0}, QStringLiteral("wind"), Qt::black);
+    const std::vector<SceneLabel> &labels = scene.content().labels;
     QCOMPARE(int(labels.size()), 4);
     const std::vector<QRectF> boxes = boxesOf(labels, {eye, {}, up});
     for (std::size_t i = 0; i < labels.size(); ++i)

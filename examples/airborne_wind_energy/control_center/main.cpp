@@ -5,7 +5,7 @@
 #include "kite/WindWindow.h"
 
 #ifdef QTPLC_HAS_GUI3D
-#include "QPlcView3D.h"
+#include "kite/KiteView.h"
 #endif
 
 #include <QtCore/QFile>
@@ -123,7 +123,7 @@ int main(int argc, char **argv)
     QPlcControlCenter window;
     window.addPanel<awe::WindWindow>();
 #ifdef QTPLC_HAS_GUI3D
-    window.addPanel<QPlcView3D>();
+    window.addPanel<awe::KiteView>();
 #endif
     awe::DemoFlight demo(&window);
     if (!prepare(application, window, settings))

@@ -5,7 +5,7 @@
 #include "kite/WindWindow.h"
 
 #ifdef QTPLC_HAS_GUI3D
-#include "QPlcView3D.h"
+#include "kite/KiteView.h"
 #endif
 
 #include <QtCore/QFile>
@@ -146,7 +146,7 @@ void tst_LayoutPictures::everyPanelShowsTheFlight()
     QPlcControlCenter window;
     window.addPanel<awe::WindWindow>();
 #ifdef QTPLC_HAS_GUI3D
-    window.addPanel<QPlcView3D>();
+    window.addPanel<awe::KiteView>();
 #endif
     QFile layout(QStringLiteral(AWE_LAYOUTS "/airborne_wind_energy.json"));
     QVERIFY(layout.open(QIODevice::ReadOnly) && window.addLayout(QStringLiteral("Kite"), layout.readAll()));
