@@ -18,7 +18,7 @@ QString DeviceFiles::permissionRemedy(const QString &group, int errorNumber)
         ? QStringLiteral("a service may open only kinds of devices that the kernel knew when it was started: 'sudo "
                          "systemctl restart qtplc-hardware@NAME'; if that does not help, DeviceAllow= of its unit "
                          "lacks them")
-        : QStringLiteral("let the user into the group of the device: 'sudo usermod -aG %1 USER', and log in again")
+        : QStringLiteral("add the user to the group of the device: 'sudo usermod -aG %1 USER', and log in again")
               .arg(group);
 }
 

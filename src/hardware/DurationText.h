@@ -6,7 +6,7 @@
 namespace qplc {
 
 /// "10 ms", "250us", "1e-3 s", "2 h": a number and its unit. \param nanoseconds  may have a fraction, and any sign
-/// \return false when \a text is no duration
+/// \return false when \a text is not a duration
 bool durationFromText(const QString &text, double *nanoseconds);
 
 }  // namespace qplc

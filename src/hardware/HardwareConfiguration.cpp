@@ -40,9 +40,10 @@ bool ConfigurationTerm::fromText(const QString &text, ConfigurationTerm *term, Q
         && (match.captured(3).isEmpty() || toFiniteNumber(match.captured(3), &term->factor))
         && (sign.isEmpty() || toFiniteNumber(match.captured(5), &term->offset));
     if (!isGood) {
-        *error = QStringLiteral("%1 is no name with a factor and an offset; write for example 'speed', 'speed * 0.1' "
-                                "or 'position[2] * 0.001 - 5'")
-                     .arg(quoted(text));
+        *error
+            = QStringLiteral("%1 is not a name with a factor and an offset; write for example 'speed', 'speed * 0.1' "
+                             "or 'position[2] * 0.001 - 5'")
+                  .arg(quoted(text));
         return false;
     }
     term->name = match.captured(1);
@@ -88,7 +89,7 @@ void HardwareConfiguration::readJson(const QByteArray &text)
     if (error.error != QJsonParseError::NoError) {
         const QByteArray before = text.left(error.offset);
         addError(before.count('\n') + 1, error.offset - before.lastIndexOf('\n') - 1,
-                 QStringLiteral("this is no JSON: %1").arg(error.errorString()));
+                 QStringLiteral("this is not JSON: %1").arg(error.errorString()));
         return;
     }
     const QJsonObject sections = document.object();
@@ -97,7 +98,7 @@ void HardwareConfiguration::readJson(const QByteArray &text)
             readJsonSection(section.key(), section->toObject(), false);
         else
             addError(0, 0,
-                     QStringLiteral("%1 is no object; write \"%2\": {\"driver\": ...}")
+                     QStringLiteral("%1 is not an object; write \"%2\": {\"driver\": ...}")
                          .arg(quoted(section.key()), section.key()));
     }
 }
@@ -113,7 +114,7 @@ void HardwareConfiguration::readJsonSection(const QString &name, const QJsonObje
             m_sections[own].entries.append({entry.key(), entry->toVariant().toString(), 0, 0});
         else
             addError(0, 0,
-                     QStringLiteral("%1 of section %2 is no text, number or truth value")
+                     QStringLiteral("%1 of section %2 is not a text, number or truth value")
                          .arg(quoted(entry.key()), quoted(name)));
     }
 }
@@ -170,16 +171,17 @@ void HardwareConfiguration::readNode(const Section &section)
                 const QString name = text.trimmed();
                 const int dot = name.indexOf(QLatin1Char('.'));
                 if (dot <= 0 || dot + 1 == name.size())
-                    addError(entry,
-                             QStringLiteral("%1 is no channel of a device; write for example 'buttons.emergencyStop'")
-                                 .arg(quoted(name)));
+                    addError(
+                        entry,
+                        QStringLiteral("%1 is not a channel of a device; write for example 'buttons.emergencyStop'")
+                            .arg(quoted(name)));
                 else
                     m_safeStops.append({name.left(dot), name.mid(dot + 1), entry});
             }
         } else {
             addError(
                 entry,
-                QStringLiteral("%1 is no key of [node]; its keys are 'name' and 'safeStop'").arg(quoted(entry.key)));
+                QStringLiteral("%1 is not a key of [node]; its keys are 'name' and 'safeStop'").arg(quoted(entry.key)));
         }
     }
 }
@@ -199,8 +201,7 @@ void HardwareConfiguration::readDriver(const Section &section)
     }
     if (driver.kind.isEmpty())
         addError(driver.entry,
-                 QStringLiteral("section %1 does not say what drives it; add for example 'driver = can'")
-                     .arg(quoted(section.name)));
+                 QStringLiteral("section %1 has no driver; add for example 'driver = can'").arg(quoted(section.name)));
     m_drivers.append(driver);
 }
 
@@ -252,7 +253,7 @@ void HardwareConfiguration::readSafeValue(Driver *driver, const ConfigurationEnt
         driver->safeValues.append(safe);
     else
         addError(entry,
-                 QStringLiteral("%1 is no number; write the safe value of %2 in the unit of the device")
+                 QStringLiteral("%1 is not a number; write the safe value of %2 in the unit of the device")
                      .arg(quoted(entry.value), quoted(entry.key)));
 }
 
@@ -285,7 +286,7 @@ void HardwareConfiguration::checkUse(const QPlcDriverSettings &settings)
     for (const ConfigurationEntry &entry : data.entries) {
         if (!data.used.contains(entry.key))
             addError(entry,
-                     QStringLiteral("%1 is no key of this driver%2")
+                     QStringLiteral("%1 is not a key of this driver%2")
                          .arg(quoted(entry.key), didYouMean(closeNames(entry.key, data.asked))));
     }
 }

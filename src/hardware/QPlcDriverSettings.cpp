@@ -85,9 +85,11 @@ double QPlcDriverSettings::number(const QString &key, double defaultValue, doubl
     const double value = entry->value.toDouble(&isNumber);
     if (isNumber && value >= minimum && value <= maximum)
         return value;
-    d->addError(
-        *entry,
-        QStringLiteral("%1 = %2 is no number from %3 to %4").arg(key, quoted(entry->value)).arg(minimum).arg(maximum));
+    d->addError(*entry,
+                QStringLiteral("%1 = %2 is not a number from %3 to %4")
+                    .arg(key, quoted(entry->value))
+                    .arg(minimum)
+                    .arg(maximum));
     return defaultValue;
 }
 
@@ -102,7 +104,7 @@ qint64 QPlcDriverSettings::integer(const QString &key, qint64 defaultValue, qint
     if (isNumber && value >= minimum && value <= maximum)
         return value;
     d->addError(*entry,
-                QStringLiteral("%1 = %2 is no whole number from %3 to %4")
+                QStringLiteral("%1 = %2 is not a whole number from %3 to %4")
                     .arg(key, quoted(entry->value))
                     .arg(minimum)
                     .arg(maximum));
@@ -119,7 +121,8 @@ bool QPlcDriverSettings::truth(const QString &key, bool defaultValue)
     if (!entry)
         return defaultValue;
     if (!yes.contains(entry->value) && !no.contains(entry->value))
-        d->addError(*entry, QStringLiteral("%1 = %2 is neither 'yes' nor 'no'").arg(key, quoted(entry->value)));
+        d->addError(*entry,
+                    QStringLiteral("%1 = %2 is not a truth value; write 'yes' or 'no'").arg(key, quoted(entry->value)));
     return yes.contains(entry->value) || (defaultValue && !no.contains(entry->value));
 }
 
@@ -133,7 +136,7 @@ std::chrono::nanoseconds QPlcDriverSettings::duration(const QString &key, std::c
     double value = 0.0;
     if (!qplc::durationFromText(entry->value, &value))
         d->addError(*entry,
-                    QStringLiteral("%1 = %2 is no duration; write a number and its unit: '10 ms', '250 us', '2 s'")
+                    QStringLiteral("%1 = %2 is not a duration; write a number and its unit: '10 ms', '250 us', '2 s'")
                         .arg(key, quoted(entry->value)));
     else if (value < double(minimum.count()) || value > double(maximum.count()))
         d->addError(*entry,
@@ -152,9 +155,9 @@ int QPlcDriverSettings::choice(const QString &key, const QStringList &words, int
     const int index = words.indexOf(entry->value);
     if (index >= 0)
         return index;
-    d->addError(
-        *entry,
-        QStringLiteral("%1 = %2 is none of '%3'").arg(key, quoted(entry->value), words.join(QStringLiteral("', '"))));
+    d->addError(*entry,
+                QStringLiteral("%1 = %2 is not one of '%3'")
+                    .arg(key, quoted(entry->value), words.join(QStringLiteral("', '"))));
     return defaultValue;
 }
 

@@ -149,7 +149,7 @@ void QPlcHardwareNode::Private::addConstant(HardwareConfiguration *configuration
         constants.push_back(constant);
     else
         configuration->addError(entry,
-                                QStringLiteral("%1 has no signal that knows its safe value; add '%2 = ...' to the "
+                                QStringLiteral("no signal gives %1 a safe value; add '%2 = ...' to the "
                                                "section 'safe' of the device")
                                     .arg(qplc::quoted(entry.key), entry.key));
 }

@@ -140,7 +140,7 @@ void tst_DriverRunner::theTimeoutIsThreeIntervalsUnlessGiven()
              std::chrono::nanoseconds(60ms));
     QCOMPARE(Bench(QPlcDriver::EveryCycle).runner().driver().timeout(), std::chrono::nanoseconds(100ms));
     QCOMPARE(Bench(QPlcDriver::EveryCycle, "device = b\ninterval = 20 ms\n").errors(),
-             QString("bench.ini:4:12: 'interval' is no key of this driver"));
+             QString("bench.ini:4:12: 'interval' is not a key of this driver"));
 }
 
 void tst_DriverRunner::withoutASafeValueTheDeviceIsLeftAlone()

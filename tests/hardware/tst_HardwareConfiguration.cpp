@@ -147,14 +147,13 @@ void tst_HardwareConfiguration::whatIsWrongIsNamedWithItsPlace_data()
         << "winch.ini: there is no device; begin a section for each of them: [drive], driver = can, ...";
     add("no section", "driver = bench\n",
         "1:1: 'driver' stands before the first section; begin with [node] or the name of a device in brackets");
-    add("no kind", "[drive]\ndevice = b\n",
-        "1: section 'drive' does not say what drives it; add for example 'driver = can'");
+    add("no kind", "[drive]\ndevice = b\n", "1: section 'drive' has no driver; add for example 'driver = can'");
     add("unknown kind", "[drive]\ndriver = bensh\n",
         "2:10: there is no driver 'bensh'; did you mean 'bench'?; known are: " + kinds.join(", "));
-    add("unknown key", drive + "gian = 3\n", "4:8: 'gian' is no key of this driver; did you mean 'gain'?");
+    add("unknown key", drive + "gian = 3\n", "4:8: 'gian' is not a key of this driver; did you mean 'gain'?");
     add("missing key", "[drive]\ndriver = bench\n",
         "2:10: section 'drive' needs the key 'device', for example 'device = bench0'");
-    add("bad number", drive + "gain = 101\n", "4:8: gain = '101' is no number from 0 to 100");
+    add("bad number", drive + "gain = 101\n", "4:8: gain = '101' is not a number from 0 to 100");
     add("unknown part", drive + "[drive.reed]\n",
         "4:2: section 'drive.reed' belongs to no device, or is not one of its parts read, write and safe; did you mean "
         "'drive.read'?");
@@ -164,7 +163,7 @@ void tst_HardwareConfiguration::whatIsWrongIsNamedWithItsPlace_data()
     add("unknown channel", drive + "[drive.read]\nspeed = sped\n",
         "5:9: driver 'bench' has no channel 'sped' to read; did you mean 'speed'?");
     add("bad term", drive + "[drive.read]\nspeed = speed *\n",
-        "5:9: 'speed *' is no name with a factor and an offset; write for example 'speed', 'speed * 0.1' or "
+        "5:9: 'speed *' is not a name with a factor and an offset; write for example 'speed', 'speed * 0.1' or "
         "'position[2] * 0.001 - 5'");
     add("factor on the left", drive + "[drive.read]\nspeed * 2 = speed\n",
         "5:13: factor and offset of 'speed * 2' belong to the right side of '='");
@@ -175,18 +174,18 @@ void tst_HardwareConfiguration::whatIsWrongIsNamedWithItsPlace_data()
     add("with and without brackets", drive + "[drive.read]\na[0] = speed\na = speed\n",
         "6:5: 'a' is wired twice, or with brackets and without; wire each element once");
     add("constant without a safe value", drive + "[drive.write]\nbrake = 1\n",
-        "5:9: 'brake' has no signal that knows its safe value; add 'brake = ...' to the section 'safe' of the device");
+        "5:9: no signal gives 'brake' a safe value; add 'brake = ...' to the section 'safe' of the device");
     add("key twice", drive + "device = c\n", "4:1: 'device' is there twice, first in line 3; leave one of them out");
     add("section twice", drive + "[drive]\ndriver = bench\ndevice = c\n",
         "4:2: section 'drive' is there twice; put its lines together");
     add("bad safe value", drive + "[drive.safe]\nbrake = closed\n",
-        "5:9: 'closed' is no number; write the safe value of 'brake' in the unit of the device");
+        "5:9: 'closed' is not a number; write the safe value of 'brake' in the unit of the device");
     add("unknown safe channel", drive + "[drive.safe]\nbrak = 1\n",
         "5:8: driver 'bench' has no channel 'brak' to write; did you mean 'brake'?");
     add("unknown key of the node", "[node]\nnmae = x\n" + drive,
-        "2:8: 'nmae' is no key of [node]; its keys are 'name' and 'safeStop'");
+        "2:8: 'nmae' is not a key of [node]; its keys are 'name' and 'safeStop'");
     add("no channel", "[node]\nsafeStop = button\n" + drive,
-        "2:12: 'button' is no channel of a device; write for example 'buttons.emergencyStop'");
+        "2:12: 'button' is not a channel of a device; write for example 'buttons.emergencyStop'");
     add("unknown device", "[node]\nsafeStop = drvie.speed\n" + drive,
         "2:12: there is no device 'drvie'; did you mean 'drive'?");
     QTest::newRow("hole in an array")
@@ -208,11 +207,12 @@ void tst_HardwareConfiguration::aMissingFileIsNamed()
     QCOMPARE(QPlcParseError::toString(node.configurationErrors()),
              QString("/nowhere/winch.ini: cannot be read: No such file or directory"));
     QCOMPARE(errorsOf("{\"drive\": 3,\n \"x\" }", "a.json"),
-             QString("a.json:2:6: this is no JSON: missing name separator"));
-    QCOMPARE(errorsOf("{\"drive\": 3}", "a.json"),
-             QString("a.json: 'drive' is no object; write \"drive\": {\"driver\": ...}\na.json: there is no device; "
-                     "begin a section for each of them: [drive], driver = can, ...")
-                 .section('\n', 0, 0));
+             QString("a.json:2:6: this is not JSON: missing name separator"));
+    QCOMPARE(
+        errorsOf("{\"drive\": 3}", "a.json"),
+        QString("a.json: 'drive' is not an object; write \"drive\": {\"driver\": ...}\na.json: there is no device; "
+                "begin a section for each of them: [drive], driver = can, ...")
+            .section('\n', 0, 0));
 }
 
 void tst_HardwareConfiguration::aNodeThatWasRefusedHasNoWires()
@@ -256,14 +256,15 @@ void tst_HardwareConfiguration::settingsNameWhatCannotBeMeant_data()
 {
     QTest::addColumn<QByteArray>("line");
     QTest::addColumn<QString>("error");
-    QTest::newRow("real") << QByteArray("real = x") << "real = 'x' is no number from -5 to 5";
-    QTest::newRow("nan") << QByteArray("real = nan") << "real = 'nan' is no number from -5 to 5";
-    QTest::newRow("whole") << QByteArray("whole = 2.5") << "whole = '2.5' is no whole number from -5 to 5";
-    QTest::newRow("truth") << QByteArray("truth = maybe") << "truth = 'maybe' is neither 'yes' nor 'no'";
+    QTest::newRow("real") << QByteArray("real = x") << "real = 'x' is not a number from -5 to 5";
+    QTest::newRow("nan") << QByteArray("real = nan") << "real = 'nan' is not a number from -5 to 5";
+    QTest::newRow("whole") << QByteArray("whole = 2.5") << "whole = '2.5' is not a whole number from -5 to 5";
+    QTest::newRow("truth") << QByteArray("truth = maybe")
+                           << "truth = 'maybe' is not a truth value; write 'yes' or 'no'";
     QTest::newRow("no unit") << QByteArray("time = 10")
-                             << "time = '10' is no duration; write a number and its unit: '10 ms', '250 us', '2 s'";
+                             << "time = '10' is not a duration; write a number and its unit: '10 ms', '250 us', '2 s'";
     QTest::newRow("long") << QByteArray("time = 2 h") << "time = '2 h' is not in the range of 1 ms to 3600 s";
-    QTest::newRow("word") << QByteArray("word = c") << "word = 'c' is none of 'a', 'b'";
+    QTest::newRow("word") << QByteArray("word = c") << "word = 'c' is not one of 'a', 'b'";
 }
 
 void tst_HardwareConfiguration::settingsNameWhatCannotBeMeant()

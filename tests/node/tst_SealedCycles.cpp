@@ -457,7 +457,7 @@ void tst_SealedCycles::aForgedFrameIsToldOnce()
     }
     QTRY_COMPARE(master.infoOf("Mirror").forged, quint64(10));
     QTRY_COMPARE(mirror.counters().forged, quint64(10));
-    QTRY_COMPARE(log.matching("frames under the address of node Mirror are not as it seals them").size(), 1);
+    QTRY_COMPARE(log.matching("frames from the address of node Mirror have a wrong seal").size(), 1);
     QTRY_COMPARE(log.matching("drops frames that are not as its master seals them").size(), 1);
     master.stop();
 }

@@ -37,7 +37,7 @@ private:
         termios mode = {};
         if (::tcgetattr(m_line, &mode) < 0) {
             close();
-            return fail(QStringLiteral("%1 is no serial line; name one, for example /dev/ttyUSB0").arg(m_device));
+            return fail(QStringLiteral("%1 is not a serial line; name one, for example /dev/ttyUSB0").arg(m_device));
         }
         ::cfmakeraw(&mode);
         ::cfsetspeed(&mode, B9600);

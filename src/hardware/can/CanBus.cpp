@@ -43,7 +43,7 @@ std::unique_ptr<CanBus> makeQtCanBus(const QString &device, QString *error)
     const QString interface = device.section(QLatin1Char(':'), 1);
     if (!plugin.isEmpty() && !interface.isEmpty())
         return std::make_unique<QtCanBus>(plugin, interface);
-    *error = QStringLiteral("'qtcan:%1' names no plugin and interface; write qtcan:PLUGIN:INTERFACE, "
+    *error = QStringLiteral("'qtcan:%1' does not name a plugin and an interface; write qtcan:PLUGIN:INTERFACE, "
                             "qtcan:peakcan:usb0 for example")
                  .arg(device);
 #else
@@ -63,13 +63,15 @@ std::unique_ptr<CanBus> CanBus::make(const QString &device, QString *error)
     if (device.startsWith(QLatin1String("fake:"))) {
         if (FakeCanBus::isName(rest))
             return std::make_unique<FakeCanBus>(rest);
-        *error = QStringLiteral("'%1' names no fake bus; write fake:NAME, with 1 ... 32 letters, digits, '-' and '_'")
+        *error = QStringLiteral(
+                     "'%1' does not name a fake bus; write fake:NAME, with 1 ... 32 letters, digits, '-' and '_'")
                      .arg(device);
         return nullptr;
     }
     if (SocketCanBus::isName(device))
         return std::make_unique<SocketCanBus>(device);
-    *error = QStringLiteral("'%1' names no CAN bus; write an interface like can0, qtcan:PLUGIN:INTERFACE, or fake:NAME")
+    *error = QStringLiteral(
+                 "'%1' does not name a CAN bus; write an interface like can0, qtcan:PLUGIN:INTERFACE, or fake:NAME")
                  .arg(device);
     return nullptr;
 }

@@ -152,9 +152,10 @@ bool CanConfiguration::addFrame(const QString &name, const QStringList &words, Q
     CanMessage one;
     DbcMessage &message = one.description;
     message.name = name;
-    *error = QStringLiteral("'%1' is no frame; write frame.%2 = 0x123, 8 bytes, and, if need be, extended, fd, no bit "
-                            "rate switch, every 10 ms")
-                 .arg(words.join(QStringLiteral(", ")), name);
+    *error
+        = QStringLiteral("'%1' is not a frame; write frame.%2 = 0x123, 8 bytes, and, if need be, extended, fd, no bit "
+                         "rate switch, every 10 ms")
+              .arg(words.join(QStringLiteral(", ")), name);
     if (words.size() < 2 || !allowed.match(name).hasMatch() || !readCanId(words.at(0), &message)
         || !readCanSize(words.at(1), &message.size))
         return false;
@@ -205,7 +206,7 @@ bool CanConfiguration::addSignal(const QString &name, const QString &text, QStri
     DbcSignal signal;
     signal.name = name.section(QLatin1Char('.'), 1);
     if (!DbcFile::readSignal(text, &signal, error)) {
-        *error = QStringLiteral("'%1' is no place of a signal: %2; write signal.%3 = start|length@order sign "
+        *error = QStringLiteral("'%1' is not the place of a signal: %2; write signal.%3 = start|length@order sign "
                                 "(factor,offset), 0|16@1- (0.1,0) for example")
                      .arg(text, *error, name);
         return false;

@@ -194,7 +194,7 @@ QString CanDriver::remedy(int errorNumber) const
         return QStringLiteral("the adapter is gone; plug it in again");
     case EIO:
         return QStringLiteral(
-            "the adapter told errors only for a second, the last of which is in the log; check wires, "
+            "for a second the adapter reported only errors, and the log has the last one; check wires, "
             "terminators and bit rate, and plug it in again");
     default:
         return QPlcDriver::remedy(errorNumber);

@@ -46,14 +46,15 @@ DbcFile DbcFile::fromText(const QByteArray &text, const QString &fileName, QVect
     errors->clear();
     if (text.size() > MaximumSize) {
         *errors = dbcError(fileName,
-                           QStringLiteral("the file has %1 bytes; remove the messages that nobody needs, at most %2 "
+                           QStringLiteral("the file has %1 bytes; remove the messages that you do not need, at most %2 "
                                           "bytes are read")
                                .arg(text.size())
                                .arg(MaximumSize));
         return file;
     }
     if (text.contains('\0')) {
-        *errors = dbcError(fileName, QStringLiteral("byte 0x00: this is no text; give a DBC file in UTF-8 or Latin-1"));
+        *errors
+            = dbcError(fileName, QStringLiteral("byte 0x00: this is not a text; give a DBC file in UTF-8 or Latin-1"));
         return file;
     }
     DbcParser parser(textOfDbc(text), fileName);

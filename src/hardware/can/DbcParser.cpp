@@ -89,9 +89,10 @@ QVector<DbcMessage> DbcParser::parse()
         if (statement)
             (this->*statement)();
         else
-            m_reader.fail(token,
-                          QStringLiteral("%1 begins no statement of a DBC file; the file is damaged, or is none")
-                              .arg(token.shown()));
+            m_reader.fail(
+                token,
+                QStringLiteral("%1 does not begin a statement of a DBC file; the file is damaged, or not a DBC file")
+                    .arg(token.shown()));
         if (m_reader.errors().size() != before)
             m_reader.skipToLine(isKeyword);
         m_reader.resume();
@@ -127,10 +128,11 @@ bool DbcParser::readId(DbcMessage *message)
     message->id = quint32(id & ~extendedIdBit);
     if (m_isSkipped || id <= 0x7FF || (message->isExtended && id - extendedIdBit <= 0x1FFFFFFF))
         return true;
-    return m_reader.fail(at,
-                         QStringLiteral("the id %1 is none of a CAN bus; use 0 ... 2047, or 2147483648 + an extended "
-                                        "id of 0 ... 536870911")
-                             .arg(at.text));
+    return m_reader.fail(
+        at,
+        QStringLiteral("the id %1 is not valid on a CAN bus; use 0 ... 2047, or 2147483648 + an extended "
+                       "id of 0 ... 536870911")
+            .arg(at.text));
 }
 
 bool DbcParser::readSize(DbcMessage *message)
@@ -167,7 +169,7 @@ bool DbcParser::addMessage(const DbcToken &at, const DbcMessage &message)
                              QStringLiteral("there are two messages '%1'; give each its own name").arg(message.name));
     if (m_messages.size() == DbcFile::MaximumMessages)
         return m_reader.fail(at,
-                             QStringLiteral("there are more than %1 messages; remove those that nobody needs")
+                             QStringLiteral("there are more than %1 messages; remove those that you do not need")
                                  .arg(DbcFile::MaximumMessages));
     m_current = m_messages.size();
     m_indexOfId.insert(key, m_current);
@@ -199,7 +201,7 @@ bool DbcParser::addSignal(const DbcToken &at, const DbcSignal &signal, bool isEx
     DbcMessage &message = m_messages[m_current];
     if (++m_signalCount > DbcFile::MaximumSignals)
         return m_reader.fail(at,
-                             QStringLiteral("there are more than %1 signals; remove the messages that nobody needs")
+                             QStringLiteral("there are more than %1 signals; remove the messages that you do not need")
                                  .arg(DbcFile::MaximumSignals));
     const QString problem = DbcFile::problemOf(message, signal);
     if (!problem.isEmpty())
@@ -339,7 +341,7 @@ void DbcParser::setAttribute(DbcMessage *message, const Attribute &attribute)
         const double time = value.text.toDouble(&isNumber);  // [ms]
         if (!isNumber || !(time >= 0.0 && time <= 1e9))
             m_reader.fail(value,
-                          QStringLiteral("the cycle time %1 of message '%2' is no number of milliseconds")
+                          QStringLiteral("the cycle time %1 of message '%2' is not a number of milliseconds")
                               .arg(value.shown(), message->name));
         else
             message->cycleTime = std::chrono::nanoseconds(static_cast<qint64>(time * 1e6));

@@ -162,7 +162,7 @@ bool DbcReader::expectScale(DbcSignal *signal)
             || !expectNumber(&signal->offset, "the offset") || !expectSign(')', "')' behind the offset"))
             return false;
         if (signal->factor == 0.0)
-            return fail(token, QStringLiteral("the factor is 0; no value could be told from another"));
+            return fail(token, QStringLiteral("the factor is 0; all values would be the same"));
     }
     if (takes('[')
         && (!expectNumber(&signal->minimum, "the minimum") || !expectSign('|', "'|' between minimum and maximum")

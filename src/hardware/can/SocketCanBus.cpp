@@ -135,7 +135,7 @@ bool SocketCanBus::makeSocket()
 {
     m_socket = socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW);
     return m_socket >= 0
-        || failWith(QStringLiteral("the kernel has no CAN"),
+        || failWith(QStringLiteral("the kernel does not support CAN"),
                     QStringLiteral("load its modules as root: modprobe can_raw, and that of the adapter"));
 }
 
@@ -147,7 +147,7 @@ bool SocketCanBus::findInterface(bool needsFd)
                         QStringLiteral("plug in the adapter and load its module; 'ip link' lists what there is"));
     m_index = request.ifr_ifindex;
     if (ioctl(m_socket, SIOCGIFHWADDR, &request) < 0 || request.ifr_hwaddr.sa_family != ARPHRD_CAN)
-        return fail(QStringLiteral("%1 is no CAN interface; give one of those that 'ip link show type can' lists")
+        return fail(QStringLiteral("%1 is not a CAN interface; give one of those that 'ip link show type can' lists")
                         .arg(m_interface));
     m_isFd = ioctl(m_socket, SIOCGIFMTU, &request) == 0 && request.ifr_mtu >= int(CANFD_MTU);
     if (needsFd && !m_isFd)

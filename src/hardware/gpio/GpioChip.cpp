@@ -14,7 +14,7 @@ namespace {
 
 QString permissionRemedy()
 {
-    return QStringLiteral("let the user into the group of the device: 'sudo usermod -aG gpio USER', and log in again; "
+    return QStringLiteral("add the user to the group of the device: 'sudo usermod -aG gpio USER', and log in again; "
                           "where there is no group gpio, a udev rule makes one: SUBSYSTEM==\"gpio\", GROUP=\"gpio\", "
                           "MODE=\"0660\"");
 }

@@ -87,9 +87,8 @@ QString GpioLineWords::read(const QStringList &words, bool isOutput, GpioLineWor
             result->request.isActiveLow = true;
         else if (!(isOutput ? readOutputWord(word, result) : readInputWord(word, result)))
             return isOutput
-                ? QStringLiteral("%1 is nothing that an output can be; it may be active-low, open-drain, keep")
-                      .arg(quoted(text))
-                : QStringLiteral("%1 is nothing that an input can be; it may be active-low, pull-up, pull-down, "
+                ? QStringLiteral("%1 is not an option of an output; use active-low, open-drain, keep").arg(quoted(text))
+                : QStringLiteral("%1 is not an option of an input; use active-low, pull-up, pull-down, "
                                  "no-pull, debounce 5 ms (at most 1 s), edges rising, edges falling, edges both")
                       .arg(quoted(text));
     }

@@ -79,12 +79,12 @@ QString I2cRegister::read(const QStringList &words, I2cRegister *result)
     bool isNumber = false;
     const uint first = words.value(0).trimmed().toUInt(&isNumber, 0);
     if (!isNumber || first > LastRegister)
-        return QStringLiteral("%1 is no register; its number comes first, 0 ... 255 or 0x00 ... 0xff")
+        return QStringLiteral("%1 is not a register; its number comes first, 0 ... 255 or 0x00 ... 0xff")
             .arg(quoted(words.value(0)));
     result->first = quint8(first);
     for (const QString &text : words.mid(1)) {
         if (!readWord(text.simplified().toLower(), result))
-            return QStringLiteral("%1 is nothing that a register can be; it may be a type (int8, uint8, int16, uint16, "
+            return QStringLiteral("%1 is not an option of a register; use a type (int8, uint8, int16, uint16, "
                                   "int24, uint24, int32, uint32, real32, and behind that big-endian or little-endian), "
                                   "factor X, offset X, read, write")
                 .arg(quoted(text));

@@ -54,7 +54,7 @@ QString I2cRegistersDriver::readBytes(const QStringList &words, std::vector<Byte
         const uint reg = parts.value(0).toUInt(&isRegister, 0);
         const uint value = parts.value(1).toUInt(&isValue, 0);
         if (parts.size() != 2 || !isRegister || !isValue || reg > 0xff || value > 0xff)
-            return QStringLiteral("%1 is no register with its value; write '0x6b 0x00', with commas between several")
+            return QStringLiteral("%1 is not a register with its value; write '0x6b 0x00', with commas between several")
                 .arg(quoted(word));
         result->push_back({quint8(reg), quint8(value)});
     }
@@ -81,7 +81,7 @@ bool I2cRegistersDriver::open()
             return failAt(wanted.reg, QStringLiteral("read"));
         if (found != wanted.value)
             return fail(
-                QStringLiteral("register %1 of the device at %2 of %3 is %4, and not %5 as 'identity' wants it; "
+                QStringLiteral("register %1 of the device at %2 of %3 is %4, and not %5 as 'identity' requires; "
                                "this is another device: look at 'address' and 'identity'")
                     .arg(i2cAddressText(wanted.reg), i2cAddressText(m_address), m_device, i2cAddressText(found),
                          i2cAddressText(wanted.value)));

@@ -110,7 +110,7 @@ bool Mpu6050Driver::checkIdentity()
     m_isMpu6500 = identity != 0x68;
     return isKnownIdentity(identity)
         || fail(QStringLiteral(
-                    "the device at %1 of %2 is no MPU-6050: its register WHO_AM_I (0x75) is %3, and not 0x68; "
+                    "the device at %1 of %2 is not an MPU-6050: its register WHO_AM_I (0x75) is %3, and not 0x68; "
                     "the sensor answers at 0x68, or at 0x69 when its pin AD0 is high: look at 'address'")
                     .arg(i2cAddressText(m_address), m_device, i2cAddressText(identity)));
 }
@@ -151,7 +151,7 @@ bool Mpu6050Driver::read()
     if (!(bytes[0] & DataReady)) {
         const bool isLate = now() - m_lastSample > std::chrono::nanoseconds(1s + timeout()).count();
         return !isLate
-            || fail(QStringLiteral("the MPU-6050 at %1 of %2 takes no samples any more: it has lost its settings, "
+            || fail(QStringLiteral("the MPU-6050 at %1 of %2 gives no samples any more: it has lost its settings, "
                                    "probably its power; look at its supply")
                         .arg(i2cAddressText(m_address), m_device));
     }

@@ -146,7 +146,7 @@ QString LibModbusLink::remedy(int errorNumber) const
         return QStringLiteral("this user may not open it: \"sudo usermod -aG dialout USER\", then log in again");
     case EHOSTUNREACH:
     case ENETUNREACH:
-        return QStringLiteral("there is no way to this host; look at cable, address and netmask");
+        return QStringLiteral("this host cannot be reached; look at cable, address and netmask");
     default:
         return QStringLiteral("look whether the key device is right");
     }

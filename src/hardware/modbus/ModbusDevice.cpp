@@ -75,10 +75,11 @@ std::unique_ptr<ModbusLink> makeTcpLink(QPlcDriverSettings &settings, const QStr
     quint16 port = 0;
     if (splitHost(place, &host, &port))
         return makeRealLink(settings, host, port, timeout);
-    return refuseDevice(settings,
-                        QStringLiteral("%1 is no host and port; tcp:192.168.1.20, tcp:drive.local:1502 or "
-                                       "tcp:[fe80::1%eth0]:502 would be right")
-                            .arg(quoted(place)));
+    return refuseDevice(
+        settings,
+        QStringLiteral(
+            "%1 is not a host and port; write tcp:192.168.1.20, tcp:drive.local:1502 or tcp:[fe80::1%eth0]:502")
+            .arg(quoted(place)));
 }
 
 std::unique_ptr<ModbusLink> makeSerialLink(QPlcDriverSettings &settings, const QString &place,
@@ -89,7 +90,8 @@ std::unique_ptr<ModbusLink> makeSerialLink(QPlcDriverSettings &settings, const Q
     if (place.startsWith(QLatin1Char('/')))
         return makeRealLink(settings, line, timeout);
     return refuseDevice(
-        settings, QStringLiteral("%1 is no path of a serial line; rtu:/dev/ttyUSB0 would be right").arg(quoted(place)));
+        settings,
+        QStringLiteral("%1 is not the path of a serial line; write for example rtu:/dev/ttyUSB0").arg(quoted(place)));
 }
 
 }  // namespace
@@ -110,10 +112,10 @@ std::unique_ptr<ModbusLink> makeModbusLink(QPlcDriverSettings &settings)
         readSerialLine(settings);  // a fake device stands for one of each kind
         return std::make_unique<FakeModbusLink>(place);
     }
-    return refuseDevice(settings,
-                        QStringLiteral("%1 is no Modbus device; tcp:HOST, tcp:HOST:PORT, rtu:/dev/ttyUSB0 or fake:NAME "
-                                       "would be right")
-                            .arg(quoted(device)));
+    return refuseDevice(
+        settings,
+        QStringLiteral("%1 is not a Modbus device; write tcp:HOST, tcp:HOST:PORT, rtu:/dev/ttyUSB0 or fake:NAME")
+            .arg(quoted(device)));
 }
 
 }  // namespace qplc

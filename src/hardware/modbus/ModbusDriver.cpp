@@ -28,8 +28,9 @@ QString exceptionText(ModbusException exception)
         return QStringLiteral("it does not know this function (exception 1); its manual tells which of coils, discrete "
                               "inputs, input and holding registers it has, and write-single = no may help");
     case ModbusException::UnknownAddress:
-        return QStringLiteral("it has not all of these addresses (exception 2); they count from 0 here, what a manual "
-                              "calls 40101 is \"holding 100\"");
+        return QStringLiteral(
+            "it does not have all of these addresses (exception 2); they count from 0 here, what a manual "
+            "calls 40101 is \"holding 100\"");
     case ModbusException::RefusedValue:
         return QStringLiteral("it refuses the value (exception 3); look at type, factor and word-order");
     case ModbusException::DeviceFailure:

@@ -102,7 +102,7 @@ private:
         const int space = spaceWords().indexOf(words.first());
         qint64 address = 0;
         if (space < 0 || words.size() != 2 || !toWhole(words[1], 0, 0xffff, &address)) {
-            return fail(QStringLiteral("%1 is no place in a device: one of %2 and an address of 0 ... 65535 belong "
+            return fail(QStringLiteral("%1 is not a place in a device: one of %2 and an address of 0 ... 65535 belong "
                                        "here, \"holding 100\" for example")
                             .arg(quoted(part), spaceWords().join(QStringLiteral(", "))));
         }
@@ -139,7 +139,7 @@ private:
 
     bool refuse(const QString &part, const char *right)
     {
-        return fail(QStringLiteral("%1 cannot be meant: %2 belongs behind the first word")
+        return fail(QStringLiteral("%1 is not valid: %2 belongs behind the first word")
                         .arg(quoted(part), QLatin1String(right)));
     }
 

@@ -68,20 +68,20 @@ int monitor(QPlcNodeApplication &application, QPlcHardwareNode &node)
 int main(int argc, char **argv)
 {
     QPlcNodeApplication application(argc, argv);
-    application.setDescription(
-        QStringLiteral("A node that ties plc signals to devices: CAN, switches, sensors, drives, as a file says."));
+    application.setDescription(QStringLiteral("A node that connects signals with devices (CAN, switches, sensors, "
+                                              "drives), as a configuration file describes it."));
     application.setExamples({QStringLiteral("qtplc_hardware winch.ini --master 192.168.1.5 --stay"),
                              QStringLiteral("qtplc_hardware winch.ini --monitor"),
                              QStringLiteral("qtplc_hardware --drivers")});
     application.addPositionalArgument(
         QStringLiteral("configuration"),
-        QStringLiteral("File that says which devices there are, and what their channels are tied to."),
+        QStringLiteral("Configuration file: the devices, and the signals of their channels."),
         QStringLiteral("CONFIGURATION"));
     application.addOption(
         {QStringLiteral("check"), QStringLiteral("Reads the configuration, shows the wires, and ends.")});
     application.addOption({QStringLiteral("monitor"),
                            QStringLiteral("Opens the devices and shows their values each second, without a master. "
-                                          "Nothing but safe values is written to them.")});
+                                          "Writes only safe values to them.")});
     application.addOption({QStringLiteral("drivers"), QStringLiteral("Lists the kinds of drivers.")});
     if (!application.parseNodeOptions())
         return application.exitCode();

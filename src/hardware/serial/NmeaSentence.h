@@ -17,7 +17,7 @@ public:
         Good,
         TooLong,
         NoSentence,     ///< it does not begin with '$' or '!' and letters, or has bytes that are no text
-        WrongChecksum,  ///< or one that is no number, or something behind it
+        WrongChecksum,  ///< or one that is not a number, or something behind it
     };
 
     /// \param line  without its end \param sentence  undefined unless the result is Good

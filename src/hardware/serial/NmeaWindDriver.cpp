@@ -36,13 +36,13 @@ void NmeaWindDriver::configure(QPlcDriverSettings &settings)
     m_settings.baud = int(settings.integer(QStringLiteral("baud"), 4800, 1, 10000000));
     if (!SerialLine::isKnownRate(m_settings.baud))
         settings.addError(QStringLiteral("baud"),
-                          QStringLiteral("%1 is no rate of a serial line; there are %2")
+                          QStringLiteral("%1 is not a rate of a serial line; there are %2")
                               .arg(m_settings.baud)
                               .arg(SerialLine::knownRates()));
     const QString format = settings.text(QStringLiteral("format"), QStringLiteral("8N1"));
     if (!m_settings.setFormat(format))
         settings.addError(QStringLiteral("format"),
-                          QStringLiteral("'%1' is no format of a serial line; it is data bits, "
+                          QStringLiteral("'%1' is not a format of a serial line; it is data bits, "
                                          "parity (N, E, O) and stop bits: '8N1', '7E1'")
                               .arg(format));
     m_stream.setChecksumRequired(
@@ -136,20 +136,19 @@ bool NmeaWindDriver::judge()
 {
     if (m_bytesWithoutSentence >= LeastGarbage && now() - m_firstWithout > LongestGarbage)
         return fail(
-            QStringLiteral("what comes from '%1' at %2 is no NMEA 0183: not one sentence in a second; look for the "
+            QStringLiteral("what comes from '%1' at %2 is not NMEA 0183: not one sentence in a second; look for the "
                            "sensor's rate and format, and set 'baud' (usual are 4800, 9600, 38400) and 'format'; "
                            "when it sends no checksums, 'checksum = optional'")
                 .arg(m_device, m_settings.toString()));
     if (now() - m_lastByte > LongestSilence)
         return fail(
             QStringLiteral("nothing comes from '%1'; look at the sensor's power, at its wires (its TX is our RX), "
-                           "and whether it has to be told to talk")
+                           "and whether it has to be switched to sending")
                 .arg(m_device));
     if (!m_otherType.isEmpty() && now() - m_lastWind > LongestSilence)
-        return fail(
-            QStringLiteral("'%1' speaks NMEA 0183, %2 for example, but not of wind; set the sensor up to send MWV "
-                           "(or VWR, VWT, MDA, XDR), or take another 'device'")
-                .arg(m_device, QString::fromLatin1(m_otherType)));
+        return fail(QStringLiteral("'%1' sends NMEA 0183, for example %2, but no wind; set the sensor up to send MWV "
+                                   "(or VWR, VWT, MDA, XDR), or take another 'device'")
+                        .arg(m_device, QString::fromLatin1(m_otherType)));
     return true;
 }
 

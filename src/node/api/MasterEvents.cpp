@@ -64,12 +64,13 @@ void QPlcMasterNodePrivate::report(const CycleEvent &event)
         break;
     }
     case CycleEvent::ForgedFrame:
-        journal.tell(qplc::JournalEvent::Warning, qplc::JournalEvent::Security, nodeName(event.node),
-                     QStringLiteral(
-                         "frames under the address of node %1 are not as it seals them, since cycle %2: somebody else "
-                         "sends them, or they are changed on the way")
-                         .arg(nodeName(event.node))
-                         .arg(event.cycle));
+        journal.tell(
+            qplc::JournalEvent::Warning, qplc::JournalEvent::Security, nodeName(event.node),
+            QStringLiteral(
+                "frames from the address of node %1 have a wrong seal since cycle %2: another sender uses this "
+                "address, or the frames are changed on the way")
+                .arg(nodeName(event.node))
+                .arg(event.cycle));
         break;
     case CycleEvent::LinkClosed:
         if (const std::shared_ptr<NodeSlot> slot = registry->find(event.node)) {

@@ -236,20 +236,20 @@ bool QPlcApplicationOptions::integer(const QString &option, qint64 minimum, qint
 
 void QPlcApplicationOptions::addRealTimeOptions()
 {
-    addOption(QCommandLineOption(
-        QStringLiteral("priority"),
-        QStringLiteral("Runs the cycle under SCHED_FIFO with this priority, 1 ... 99. Else as chrt says."),
-        QStringLiteral("PRIORITY")));
+    addOption(QCommandLineOption(QStringLiteral("priority"),
+                                 QStringLiteral("Runs the cycle under SCHED_FIFO with this priority, 1 ... 99. "
+                                                "Default: the scheduling of the program (chrt)."),
+                                 QStringLiteral("PRIORITY")));
     addOption(QCommandLineOption(QStringLiteral("cpu"), QStringLiteral("The only processor that the cycle may use."),
                                  QStringLiteral("NUMBER")));
     addOption(QCommandLineOption(QStringLiteral("spin-us"),
-                                 QStringLiteral("Time that the cycle looks for frames again before it sleeps, 0 ... "
-                                                "10000 [µs]; for a processor of its own."),
+                                 QStringLiteral("Time for which the cycle polls for frames before it sleeps, 0 ... "
+                                                "10000 [µs]; for a processor that it has to itself."),
                                  QStringLiteral("TIME")));
-    addOption(QCommandLineOption(QStringLiteral("idle-latency-us"),
-                                 QStringLiteral("Keeps processors from sleeping deeper than they wake from in this "
-                                                "time [µs] while cycles run; 0: they do not sleep."),
-                                 QStringLiteral("TIME")));
+    addOption(QCommandLineOption(
+        QStringLiteral("idle-latency-us"),
+        QStringLiteral("Maximum wake-up latency of the processors while cycles run [µs]; 0: they do not sleep."),
+        QStringLiteral("TIME")));
     addOption(
         QCommandLineOption(QStringLiteral("lock-memory"), QStringLiteral("Keeps all memory of the program in RAM.")));
 }
@@ -287,8 +287,8 @@ void QPlcApplicationOptions::addProfileOption()
     addOption(QCommandLineOption(
         QStringLiteral("profile"),
         QStringLiteral(
-            "How strict the plant is: simulation (what is late or lost ends nothing), plant (it leads to safe "
-            "values), or automatic: plant with real devices, or with a network and a clock that runs; else "
+            "How strict the plant is: simulation (late or lost nodes end nothing), plant (they lead to safe "
+            "values), or automatic (default): plant with real devices, or with a network and a real-time clock; else "
             "simulation."),
         QStringLiteral("PROFILE"), QStringLiteral("automatic")));
 }
@@ -304,8 +304,8 @@ bool QPlcApplicationOptions::readProfile(QPlcProfile::Value *profile)
 
 void QPlcApplicationOptions::addFaultOptions()
 {
-    addOption(QCommandLineOption(QStringLiteral("enable-fault-injection"),
-                                 QStringLiteral("Allows --faults: this is a test, and no plant depends on it.")));
+    addOption(
+        QCommandLineOption(QStringLiteral("enable-fault-injection"), QStringLiteral("Allows --faults, for a test.")));
     addOption(QCommandLineOption(QStringLiteral("faults"),
                                  QStringLiteral("Treats cyclic frames like a bad network, for example "
                                                 "loss=5%,delay=2ms,seed=7: loss, duplicate, reorder, corrupt, delay, "
@@ -320,10 +320,9 @@ bool QPlcApplicationOptions::readFaultPlan(QString *plan)
     if (!isSet(QStringLiteral("faults")) && !isSet(QStringLiteral("enable-fault-injection")))
         return true;
     if (!isSet(QStringLiteral("faults")))
-        usageError(QStringLiteral("--enable-fault-injection alone does nothing: name the faults by --faults PLAN"));
+        usageError(QStringLiteral("--enable-fault-injection alone does nothing; name the faults with --faults PLAN"));
     else if (!isSet(QStringLiteral("enable-fault-injection")))
-        usageError(
-            QStringLiteral("--faults disturbs the plant on purpose: only together with --enable-fault-injection"));
+        usageError(QStringLiteral("--faults disturbs the plant on purpose; give --enable-fault-injection, too"));
     else if (!qplc::FaultPlan::fromText(*plan, &error))
         usageError(QStringLiteral("--faults %1").arg(error));
     else

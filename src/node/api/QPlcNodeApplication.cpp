@@ -25,24 +25,24 @@ QPlcNodeApplication::QPlcNodeApplication(int &argc, char **argv)
     addOption(option("signals", QStringLiteral("Signal table of this node. Without one the master sends its table."),
                      "FILE"));
     addOption(option("name", QStringLiteral("Name under which the node registers."), "NAME"));
-    addOption(option("watchdog",
-                     QStringLiteral("Watchdog time: how long no frame of the master may come. 0: no watchdog. Without "
-                                    "this option: 0.5 for nodes with devices (qtplc_hardware), else as the program or "
-                                    "the profile of the plant says."),
-                     "SECONDS"));
     addOption(
-        option("watchdog-reaction",
-               QStringLiteral("What a watchdog does that has timed out: report, or safe-state. Without this option "
-                              "the program decides, else the profile of the plant."),
-               "REACTION"));
+        option("watchdog",
+               QStringLiteral(
+                   "Watchdog time: longest time without a frame of the master. 0: no watchdog. Default: 0.5 for nodes "
+                   "with devices (qtplc_hardware), else the setting of the program or of the profile of the plant."),
+               "SECONDS"));
+    addOption(option("watchdog-reaction",
+                     QStringLiteral("Reaction of the watchdog to its time-out: report, or safe-state. Default: the "
+                                    "setting of the program or of the profile of the plant."),
+                     "REACTION"));
     addOption(QCommandLineOption(
         QStringLiteral("critical"),
         QStringLiteral("The plant stops safely when this node is lost, fails, or is late too often.")));
     addOption(QCommandLineOption(
         QStringLiteral("stay"),
         QStringLiteral(
-            "Waits for its master, also for the next one when it ends. Without it the node ends when there is "
-            "no master at first, or when it ends as wanted; one that is lost is waited for in any case.")));
+            "Waits for the master when it is not there yet, and when it has ended. Without this option the node ends "
+            "in both cases. It always waits for a master that was lost.")));
     addOption(QCommandLineOption(
         QStringLiteral("same-cycle"),
         QStringLiteral("Reads all inputs in the cycle in which they are written, without the dead time of a cycle.")));

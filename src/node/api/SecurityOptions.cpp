@@ -18,8 +18,8 @@ constexpr SecurityOption options[] = {
     {"key", "FILE", "Private key of the certificate (PEM), which only its owner may read."},
     {"authority", "FILE", "Certificate of the authority that made all certificates (PEM)."},
 };
-constexpr SecurityOption nodeOption{
-    "identity", "NAME", "Who this program is, for --security psk. Without it: the only identity in the file."};
+constexpr SecurityOption nodeOption{"identity", "NAME",
+                                    "Identity of this program, for --security psk. Default: the only one in the file."};
 constexpr SecurityOption masterOption{"access", "FILE", "Roles of identities, and the signals that they may write."};
 
 QString nameOf(const SecurityOption &option)

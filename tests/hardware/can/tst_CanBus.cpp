@@ -135,12 +135,12 @@ void tst_CanBus::textThatNamesNoBusIsRefused_data()
 {
     QTest::addColumn<QString>("error");
     const auto row = [](const char *device, const char *error) { QTest::newRow(device) << QString::fromLatin1(error); };
-    row("", "'' names no CAN bus; write an interface like can0");
-    row("an interface", "'an interface' names no CAN bus");
-    row("interface0123456", "'interface0123456' names no CAN bus");
-    row("/dev/can0", "'/dev/can0' names no CAN bus");
-    row("fake:", "'fake:' names no fake bus; write fake:NAME");
-    row("fake:../x", "'fake:../x' names no fake bus");
+    row("", "'' does not name a CAN bus; write an interface like can0");
+    row("an interface", "'an interface' does not name a CAN bus");
+    row("interface0123456", "'interface0123456' does not name a CAN bus");
+    row("/dev/can0", "'/dev/can0' does not name a CAN bus");
+    row("fake:", "'fake:' does not name a fake bus; write fake:NAME");
+    row("fake:../x", "'fake:../x' does not name a fake bus");
     row("qtcan:peakcan", "'qtcan:peakcan");
 }
 
@@ -158,7 +158,7 @@ void tst_CanBus::missingInterfaceIsNamed()
     const auto bus = CanBus::make(QStringLiteral("nocan7"), &error);
     QVERIFY(bus);
     QVERIFY(!bus->open(everything()));
-    QVERIFY2(bus->errorString().startsWith(QLatin1String("nocan7: the kernel has no CAN"))
+    QVERIFY2(bus->errorString().startsWith(QLatin1String("nocan7: the kernel does not support CAN"))
                  || bus->errorString().startsWith(QLatin1String("nocan7: there is no such interface")),
              qPrintable(bus->errorString()));
 }

@@ -50,17 +50,18 @@ void tst_CanConfiguration::badKeysAreNamed_data()
     const auto row = [](const char *keys, const char *error) {
         QTest::newRow(QByteArray(keys).replace("\n", " / ")) << QByteArray(keys) + '\n' << QString::fromLatin1(error);
     };
-    row("frame.A = 0x123", "'0x123' is no frame; write frame.A = 0x123, 8 bytes");
-    row("frame.A = 0x20000000, 8 bytes", "is no frame");
-    row("frame.A = x, 8 bytes", "is no frame");
-    row("frame.A = 1, eight bytes", "is no frame");
-    row("frame.A = 1, 8 bytes, soon", "is no frame");
-    row("frame.a b = 1, 8 bytes", "is no frame");
+    row("frame.A = 0x123", "'0x123' is not a frame; write frame.A = 0x123, 8 bytes");
+    row("frame.A = 0x20000000, 8 bytes", "is not a frame");
+    row("frame.A = x, 8 bytes", "is not a frame");
+    row("frame.A = 1, eight bytes", "is not a frame");
+    row("frame.A = 1, 8 bytes, soon", "is not a frame");
+    row("frame.a b = 1, 8 bytes", "is not a frame");
     row("frame.A = 1, 9 bytes", "no frame has 9 bytes");
     row("frame.A = 1, 65 bytes", "no frame has 65 bytes");
     row("frame.A = 1, 8 bytes\nframe.B = 1, 4 bytes", "frame 'B' has the id of message 'A'");
     row("signal.A.S = 0|8@1+", "there is no frame 'A'; write a line frame.A");
-    row("frame.A = 1, 8 bytes\nsignal.A.S = 0|8", "'0|8' is no place of a signal: the end of the file instead of '@'");
+    row("frame.A = 1, 8 bytes\nsignal.A.S = 0|8",
+        "'0|8' is not the place of a signal: the end of the file instead of '@'");
     row("frame.A = 1, 1 byte\nsignal.A.S = 0|16@1+", "ends in byte 1, but message 'A' has only 1 bytes");
     row("frame.A = 1, 8 bytes\nsignal.A.S = 0|16@1f", "signal 'S' has 16 bits; a float has 32 or 64");
     row("frame.A = 1, 8 bytes\nsignal.A.S = M 0|8@1+\nsignal.A.T = M 8|8@1+", "frame 'A' has two multiplexors");
@@ -70,7 +71,7 @@ void tst_CanConfiguration::badKeysAreNamed_data()
     row("frame.A = 1, 8 bytes\nsend.A = every 0 ms", "'every 0 ms' does not say when to send");
     row("frame.A = 1, 64 bytes\nsend.A = on request", "is one of CAN FD, which has no requests");
     row("timeout.A = 10 ms", "there is no message 'A'");
-    row("frame.A = 1, 8 bytes\ntimeout.A = soon", "'soon' is no duration");
+    row("frame.A = 1, 8 bytes\ntimeout.A = soon", "'soon' is not a duration");
     row("dbc = nowhere.dbc", "nowhere.dbc: cannot read the DBC file");
     row("bitrate = 500000", "'fake:bench' has no bit rate; remove the key bitrate");
 }
@@ -89,7 +90,7 @@ void tst_CanConfiguration::deviceIsNeeded()
     const DriverBench bench("can", "frame.A = 1, 8 bytes\n");
     QVERIFY2(bench.errors().contains(QLatin1String("device")), qPrintable(bench.errors()));
     const DriverBench other("can", "device = fake:\n");
-    QVERIFY2(other.errors().contains(QLatin1String("'fake:' names no fake bus")), qPrintable(other.errors()));
+    QVERIFY2(other.errors().contains(QLatin1String("'fake:' does not name a fake bus")), qPrintable(other.errors()));
 }
 
 void tst_CanConfiguration::bitRateIsThatOfAPlugin_data()
@@ -101,10 +102,10 @@ void tst_CanConfiguration::bitRateIsThatOfAPlugin_data()
     };
     row("device = qtcan:peakcan:usb0\nbitrate = 250000", "");
     row("device = qtcan:peakcan:usb0\nbitrate = 1000000\ndata-bitrate = 8000000", "");
-    row("device = qtcan:peakcan:usb0\nbitrate = 4999", "bitrate = '4999' is no whole number from 5000 to 1000000");
-    row("device = qtcan:peakcan:usb0\nbitrate = 1000001", "is no whole number from 5000 to 1000000");
-    row("device = qtcan:peakcan:usb0\nbitrate = 500k", "bitrate = '500k' is no whole number from 5000 to 1000000");
-    row("device = qtcan:peakcan:usb0\ndata-bitrate = 20000000", "is no whole number from 5000 to 12000000");
+    row("device = qtcan:peakcan:usb0\nbitrate = 4999", "bitrate = '4999' is not a whole number from 5000 to 1000000");
+    row("device = qtcan:peakcan:usb0\nbitrate = 1000001", "is not a whole number from 5000 to 1000000");
+    row("device = qtcan:peakcan:usb0\nbitrate = 500k", "bitrate = '500k' is not a whole number from 5000 to 1000000");
+    row("device = qtcan:peakcan:usb0\ndata-bitrate = 20000000", "is not a whole number from 5000 to 12000000");
     row("device = can0\nbitrate = 250000",
         "root sets the bit rate of 'can0' for all its programs (ip link set can0 up type can bitrate 500000 restart-ms "
         "100); remove the key bitrate");

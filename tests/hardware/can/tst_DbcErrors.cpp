@@ -29,12 +29,12 @@ void tst_DbcErrors::errorNamesPlaceAndRemedy_data()
     const QByteArray head = "BO_ 1 A: 8 X\n";
     row("empty", "", ": there is no message (BO_)");
     row("only comments", "VERSION \"\"\nBS_:\nBU_: X\n", ": there is no message (BO_)");
-    row("zero byte", QByteArray("BO_\0", 4), ": byte 0x00: this is no text");
-    row("another format", "<?xml version=\"1.0\"?>\n", ":1:1: '<' begins no statement of a DBC file");
-    row("unknown word", "BO 1 A: 8 X\n", ":1:1: 'BO' begins no statement");
+    row("zero byte", QByteArray("BO_\0", 4), ": byte 0x00: this is not a text");
+    row("another format", "<?xml version=\"1.0\"?>\n", ":1:1: '<' does not begin a statement of a DBC file");
+    row("unknown word", "BO 1 A: 8 X\n", ":1:1: 'BO' does not begin a statement");
     row("no id", "BO_ A: 8 X\n", ":1:5: 'A' instead of the id of the message");
-    row("id of 12 bits", "BO_ 2048 A: 8 X\n", ":1:5: the id 2048 is none of a CAN bus; use 0 ... 2047");
-    row("id of 30 bits", "BO_ 2684354560 A: 8 X\n", ":1:5: the id 2684354560 is none of a CAN bus");
+    row("id of 12 bits", "BO_ 2048 A: 8 X\n", ":1:5: the id 2048 is not valid on a CAN bus; use 0 ... 2047");
+    row("id of 30 bits", "BO_ 2684354560 A: 8 X\n", ":1:5: the id 2684354560 is not valid on a CAN bus");
     row("negative id", "BO_ -1 A: 8 X\n", ":1:5: '-1' instead of the id");
     row("no name", "BO_ 1 : 8 X\n", ":1:7: ':' instead of the name of the message");
     row("no colon", "BO_ 1 A 8 X\n", ":1:9: '8' instead of ':' behind the name of the message");

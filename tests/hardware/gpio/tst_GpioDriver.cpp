@@ -105,9 +105,9 @@ void tst_GpioDriver::wrongWordsAreNamed_data()
     QTest::addColumn<QStringList>("words");
     QTest::addColumn<QString>("part");
     QTest::newRow("nothing") << false << QStringList{} << "the line is missing";
-    QTest::newRow("misspelt") << false << QStringList{"1", "pullup"} << "'pullup' is nothing that an input can be";
-    QTest::newRow("an output's") << false << QStringList{"1", "keep"} << "'keep' is nothing that an input can be";
-    QTest::newRow("an input's") << true << QStringList{"1", "pull-up"} << "'pull-up' is nothing that an output can be";
+    QTest::newRow("misspelt") << false << QStringList{"1", "pullup"} << "'pullup' is not an option of an input";
+    QTest::newRow("an output's") << false << QStringList{"1", "keep"} << "'keep' is not an option of an input";
+    QTest::newRow("an input's") << true << QStringList{"1", "pull-up"} << "'pull-up' is not an option of an output";
     QTest::newRow("no unit") << false << QStringList{"1", "debounce 5"} << "'debounce 5'";
     QTest::newRow("too long") << false << QStringList{"1", "debounce 2 s"} << "at most 1 s";
     QTest::newRow("negative") << false << QStringList{"1", "debounce -1 ms"} << "'debounce -1 ms'";

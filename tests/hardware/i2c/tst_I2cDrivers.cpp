@@ -152,16 +152,16 @@ void tst_I2cDrivers::wrongWordsAreNamed_data()
     QTest::newRow("reserved address") << QByteArray("address = 3\nregister.a = 1\n") << "from 8 to 119";
     QTest::newRow("no register") << QByteArray("address = 0x68\n") << "register.NAME";
     QTest::newRow("a register that is none")
-        << QByteArray("address = 0x68\nregister.a = int16\n") << "'int16' is no register";
-    QTest::newRow("too high") << QByteArray("address = 0x68\nregister.a = 256\n") << "'256' is no register";
+        << QByteArray("address = 0x68\nregister.a = int16\n") << "'int16' is not a register";
+    QTest::newRow("too high") << QByteArray("address = 0x68\nregister.a = 256\n") << "'256' is not a register";
     QTest::newRow("ends too high") << QByteArray("address = 0x68\nregister.a = 0xff, int16\n") << "in register 256";
     QTest::newRow("a type that is none") << QByteArray("address = 0x68\nregister.a = 1, short\n")
-                                         << "'short' is nothing";
+                                         << "'short' is not an option of a register";
     QTest::newRow("an order that is none")
         << QByteArray("address = 0x68\nregister.a = 1, int16 middle\n") << "'int16 middle'";
     QTest::newRow("factor zero") << QByteArray("address = 0x68\nregister.a = 1, factor 0\n") << "'factor 0'";
     QTest::newRow("set up without value")
-        << QByteArray("address = 0x68\nregister.a = 1\nsetup = 0x6b\n") << "'0x6b' is no register with its value";
+        << QByteArray("address = 0x68\nregister.a = 1\nsetup = 0x6b\n") << "'0x6b' is not a register with its value";
 }
 
 void tst_I2cDrivers::wrongWordsAreNamed()
@@ -330,7 +330,7 @@ void tst_I2cDrivers::anImuThatForgotItsSettingsIsOpenedAnew()
     QVERIFY(imu.bench.exchange());
     imu.bench.advance(1ms);
     QVERIFY(!imu.bench.exchange());
-    QVERIFY2(imu.bench.errorString().contains("takes no samples any more")
+    QVERIFY2(imu.bench.errorString().contains("gives no samples any more")
                  && imu.bench.errorString().contains("supply"),
              qPrintable(imu.bench.errorString()));
     imu.set(0x6b, "\x40");  // asleep, as after switching on
@@ -343,7 +343,7 @@ void tst_I2cDrivers::anotherChipIsNoImu()
 {
     Imu imu({}, 0x58);
     QVERIFY(!imu.bench.open());
-    QVERIFY2(imu.bench.errorString().contains("at 0x68 of fake:bus is no MPU-6050")
+    QVERIFY2(imu.bench.errorString().contains("at 0x68 of fake:bus is not an MPU-6050")
                  && imu.bench.errorString().contains("is 0x58") && imu.bench.errorString().contains("AD0"),
              qPrintable(imu.bench.errorString()));
 }
@@ -353,7 +353,7 @@ void tst_I2cDrivers::whoMayNotOpenABusIsToldWhatHelps()
 {
     const DeviceFiles files{QStringLiteral("the I2C bus"), QStringLiteral("i2c-*"), QStringLiteral("i2c"), {}};
     QCOMPARE(files.errorText(QStringLiteral("i2c-1"), EACCES),
-             QStringLiteral("cannot open the I2C bus 'i2c-1': Permission denied; let the user into the group of the "
+             QStringLiteral("cannot open the I2C bus 'i2c-1': Permission denied; add the user to the group of the "
                             "device: 'sudo usermod -aG i2c USER', and log in again"));
     QCOMPARE(files.errorText(QStringLiteral("i2c-1"), EPERM),
              QStringLiteral("cannot open the I2C bus 'i2c-1': Operation not permitted; a service may open only kinds "

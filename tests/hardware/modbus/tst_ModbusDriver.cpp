@@ -197,7 +197,7 @@ void tst_ModbusDriver::anExceptionNamesTheRegistersInWords_data()
     QTest::addColumn<int>("exception");
     QTest::addColumn<QString>("words");
     QTest::newRow("1") << 1 << "does not know this function (exception 1)";
-    QTest::newRow("2") << 2 << "has not all of these addresses (exception 2); they count from 0 here";
+    QTest::newRow("2") << 2 << "does not have all of these addresses (exception 2); they count from 0 here";
     QTest::newRow("3") << 3 << "refuses the value (exception 3)";
     QTest::newRow("4") << 4 << "it has failed (exception 4)";
     QTest::newRow("8") << 8 << "answers with exception 8";
@@ -298,13 +298,14 @@ void tst_ModbusDriver::keysThatCannotBeMeantAreErrors_data()
     QTest::addColumn<QString>("error");
     const QByteArray a = "register.a = holding 1\n";
     QTest::newRow("no device") << a << "device";
-    QTest::newRow("unknown way") << "device = udp:host\n" + a << "'udp:host' is no Modbus device; tcp:HOST";
+    QTest::newRow("unknown way") << "device = udp:host\n" + a << "'udp:host' is not a Modbus device; write tcp:HOST";
     QTest::newRow("no registers") << QByteArray("device = fake:x\n") << "no register is named";
-    QTest::newRow("register") << QByteArray("device = fake:x\nregister.a = holding\n") << "4:14: 'holding' is no place";
+    QTest::newRow("register") << QByteArray("device = fake:x\nregister.a = holding\n")
+                              << "4:14: 'holding' is not a place";
     QTest::newRow("misspelt") << "device = fake:x\nbuad = 9600\n" + a << "buad";
     QTest::newRow("gap") << "device = fake:x\ngap = -1\n" + a << "gap";
     QTest::newRow("write") << "device = fake:x\nwrite = never\n" + a << "never";
-    QTest::newRow("fake without a name") << "device = fake:\n" + a << "is no Modbus device";
+    QTest::newRow("fake without a name") << "device = fake:\n" + a << "is not a Modbus device";
 }
 
 void tst_ModbusDriver::keysThatCannotBeMeantAreErrors()

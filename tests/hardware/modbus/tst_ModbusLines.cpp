@@ -142,8 +142,8 @@ void tst_ModbusLines::anAddressThatTheDeviceDoesNotHaveIsSaid()
     DriverBench bench("modbus", keys("register.speed = holding 199, int32\n"));
     bench.wireRead("speed");
     QVERIFY(!bench.open());
-    QVERIFY2(bench.errorString().contains("cannot read holding registers 199 ... 200 (speed) of unit 1: it has not all "
-                                          "of these addresses (exception 2)"),
+    QVERIFY2(bench.errorString().contains("cannot read holding registers 199 ... 200 (speed) of unit 1: it does not "
+                                          "have all of these addresses (exception 2)"),
              qPrintable(bench.errorString()));
 }
 
@@ -255,11 +255,11 @@ void tst_ModbusLines::devicesThatCannotBeMeantAreErrors_data()
 {
     QTest::addColumn<QByteArray>("text");
     QTest::addColumn<QString>("error");
-    QTest::newRow("no host") << QByteArray("device = tcp:") << "is no host and port";
-    QTest::newRow("port") << QByteArray("device = tcp:host:0") << "'host:0' is no host and port";
-    QTest::newRow("large port") << QByteArray("device = tcp:host:65536") << "is no host and port";
-    QTest::newRow("bracket") << QByteArray("device = tcp:[::1") << "is no host and port";
-    QTest::newRow("path") << QByteArray("device = rtu:ttyUSB0") << "rtu:/dev/ttyUSB0 would be right";
+    QTest::newRow("no host") << QByteArray("device = tcp:") << "is not a host and port";
+    QTest::newRow("port") << QByteArray("device = tcp:host:0") << "'host:0' is not a host and port";
+    QTest::newRow("large port") << QByteArray("device = tcp:host:65536") << "is not a host and port";
+    QTest::newRow("bracket") << QByteArray("device = tcp:[::1") << "is not a host and port";
+    QTest::newRow("path") << QByteArray("device = rtu:ttyUSB0") << "write for example rtu:/dev/ttyUSB0";
     QTest::newRow("baud") << QByteArray("device = rtu:/dev/x\nbaud = 9601") << "9601";
     QTest::newRow("parity") << QByteArray("device = rtu:/dev/x\nparity = mark") << "mark";
     QTest::newRow("stop bits") << QByteArray("device = rtu:/dev/x\nstop-bits = 3") << "3";

@@ -89,13 +89,13 @@ void tst_ModbusRegister::saysWhatCannotBeMeant_data()
     QTest::addColumn<QString>("text");
     QTest::addColumn<QString>("error");
     QTest::newRow("nothing") << ""
-                             << "'' is no place in a device";
+                             << "'' is not a place in a device";
     QTest::newRow("space") << "register 5"
-                           << "'register 5' is no place in a device: one of coil, discrete, input, holding";
+                           << "'register 5' is not a place in a device: one of coil, discrete, input, holding";
     QTest::newRow("no address") << "holding"
-                                << "'holding' is no place";
+                                << "'holding' is not a place";
     QTest::newRow("negative address") << "holding -1"
-                                      << "'holding -1' is no place";
+                                      << "'holding -1' is not a place";
     QTest::newRow("address of a manual") << "holding 400101"
                                          << "an address of 0 ... 65535";
     QTest::newRow("behind the last") << "holding 65535, int32"
@@ -107,13 +107,13 @@ void tst_ModbusRegister::saysWhatCannotBeMeant_data()
     QTest::newRow("bit of a coil") << "coil 5, bit 1"
                                    << "is a bit itself";
     QTest::newRow("bit 16") << "holding 5, bit 16"
-                            << "'bit 16' cannot be meant: a number of 0 ... 15";
+                            << "'bit 16' is not valid: a number of 0 ... 15";
     QTest::newRow("factor 0") << "holding 5, factor 0"
-                              << "'factor 0' cannot be meant: a number, not 0";
+                              << "'factor 0' is not valid: a number, not 0";
     QTest::newRow("factor nan") << "holding 5, factor nan"
-                                << "'factor nan' cannot be meant";
+                                << "'factor nan' is not valid";
     QTest::newRow("offset") << "holding 5, offset x"
-                            << "'offset x' cannot be meant: a number";
+                            << "'offset x' is not valid: a number";
     QTest::newRow("unit") << "holding 5, unit 256"
                           << "a number of 0 ... 255";
     QTest::newRow("word order") << "holding 5, word-order middle"

@@ -120,7 +120,7 @@ void tst_NmeaWindDriver::aWrongRateIsNamed()
     sensor.bench.advance(1ms);
     QVERIFY(!sensor.say(garbage));
     const QString error = sensor.bench.errorString();
-    QVERIFY2(error.contains("'fake:wind' at 4800 8N1 is no NMEA 0183") && error.contains("set 'baud'")
+    QVERIFY2(error.contains("'fake:wind' at 4800 8N1 is not NMEA 0183") && error.contains("set 'baud'")
                  && error.contains("checksum = optional"),
              qPrintable(error));
     // It is tried again, and the sensor may be set right meanwhile.
@@ -153,7 +153,7 @@ void tst_NmeaWindDriver::anotherInstrumentIsNamed()
     }
     sensor.bench.advance(1ms);
     QVERIFY(!sensor.bench.exchange());
-    QVERIFY2(sensor.bench.errorString().contains("GPGGA for example, but not of wind"),
+    QVERIFY2(sensor.bench.errorString().contains("for example GPGGA, but no wind"),
              qPrintable(sensor.bench.errorString()));
 }
 
@@ -179,8 +179,8 @@ void tst_NmeaWindDriver::keysThatCannotBeMeantAreRefused()
 {
     const Sensor sensor("baud = 4801\nformat = 8X1\nchecksum = maybe\n");
     const QString errors = sensor.bench.errors();
-    QVERIFY2(errors.contains("4801 is no rate of a serial line; there are 1200")
-                 && errors.contains("'8X1' is no format") && errors.contains("'maybe'"),
+    QVERIFY2(errors.contains("4801 is not a rate of a serial line; there are 1200")
+                 && errors.contains("'8X1' is not a format") && errors.contains("'maybe'"),
              qPrintable(errors));
 }
 

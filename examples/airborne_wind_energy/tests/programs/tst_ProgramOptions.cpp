@@ -104,8 +104,8 @@ void tst_ProgramOptions::badOptionsAreRefusedWithOneSentence_data()
         row(program, "--help=yes", "--help");
     }
     for (const char *program : {"awe_master", "awe_model", "awe_compact_model", "awe_autopilot"}) {
-        row(program, "--faults loss=5%", "only together with --enable-fault-injection");
-        row(program, "--enable-fault-injection", "name the faults by --faults PLAN");
+        row(program, "--faults loss=5%", "give --enable-fault-injection, too");
+        row(program, "--enable-fault-injection", "name the faults with --faults PLAN");
         row(program, "--enable-fault-injection --faults loss=5%,lose=1%", "--faults 'lose=1%': use loss, duplicate,");
     }
     for (const char *node : {"awe_model", "awe_compact_model", "awe_autopilot"}) {
