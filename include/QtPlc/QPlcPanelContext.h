@@ -2,6 +2,7 @@
 #pragma once
 
 #include "QPlcGuiGlobal.h"
+#include "QPlcPast.h"
 #include "QPlcQuality.h"
 #include "QPlcSignalDefinition.h"
 #include "QPlcTheme.h"
@@ -9,9 +10,12 @@
 #include <QtCore/QObject>
 #include <QtCore/QVector>
 
+#include <functional>
 #include <memory>
 #include <optional>
 
+class QPlcMessage;
+class QPlcTimeAxis;
 class QPlcWidget;
 
 namespace qplc {
@@ -83,9 +87,12 @@ public:
         bool isStale = false;      ///< its values are old, because it is lost or its cycles stay away
         QString state;             ///< "Real time", "lost"
         QString stateText;         ///< the same with the reason: "Disconnected: Connection refused"
+        QString clock;             ///< of its master: "RealTime", "Scaled(2)", "Lockstep"; empty: not known
         double age = -1.0;         ///< time since its values were true [s]; -1: it has none
         Time newest = 0;           ///< time of its newest value [ns]; 0: it has none
     };
+    /// How urgent an entry of the event log is.
+    enum Severity { Information, Warning, Error };
     /// How numbers of a unit are written.
     struct Prefix
     {
@@ -107,11 +114,19 @@ public:
     /// \param most  steps at most, 4 or above. A step is one cycle, or 2, 4, 8, ... cycles of a longer past
     /// \return as long as the window remembers (10 minutes by default). Empty without such a number
     QVector<Sample> history(const QString &expression, Time begin, Time end, int most = 2000) const;
+    /// Returns the past row by row and without a copy, for charts that draw much of it. What it says holds until
+    /// signalsChanged(); then ask again.
+    QPlcPast past(const QString &expression) const;
     /// Returns all numbers of the plants, as references: for a field in which people choose one.
     QStringList numberNames() const;
+    /// Returns all signals of the plants, and the elements of arrays, as references.
+    QStringList signalNames() const;
 
     // -- time --
 
+    /// Returns the time axis that the panels of the window share: to zoom, to pan, and to follow it. Outside of a
+    /// window the panel has one of its own. Never null; another one only when QPlcWidget::contextChanged() is called.
+    QPlcTimeAxis *timeAxis() const;
     /// Whether the window follows the newest values.
     bool isLive() const;
     /// Returns the left end of the time axis.
@@ -139,6 +154,15 @@ public:
     Plant plant(const QString &name = QString()) const;
     /// Stops a plant, as the button STOP does. \param name  as for plant()
     void stop(const QString &name = QString());
+    /// Asks a master for what no signal says, such as QPlcMessage::GetStatistics.
+    /// \param answered  gets the answer, in the event loop; not called after \a receiver has gone
+    /// \param name  as for plant()
+    /// \return false: nothing was asked, since there is no connection, or an answer is still to come
+    bool ask(const QPlcMessage &question, QObject *receiver, const std::function<void(const QPlcMessage &)> &answered,
+             const QString &name = QString());
+    /// Writes a line into the event log of the window.
+    /// \param source  where it happened: "east", "Trigger"
+    void report(Severity severity, const QString &source, const QString &text);
 
     // -- look --
 
@@ -158,12 +182,15 @@ Q_SIGNALS:
     void changed();
     /// There are new values.
     void valuesChanged();
+    /// The past of a formula has more old values: worth drawing also where time stands still.
+    void pastChanged();
     /// Time axis, shown time, cursors or pointer.
     void timeChanged();
     /// References may mean something else: plants, tables of signals, or the pin of the panel.
     void signalsChanged();
     /// A plant was lost, came back, started or stopped.
     void plantStateChanged(const QString &plant);
+    /// Colours or fonts of the window; or the panel has come into another window.
     void themeChanged();
 
 private:

@@ -5,6 +5,7 @@
 
 #include <QtGui/QColor>
 #include <QtGui/QFont>
+#include <QtGui/QPalette>
 
 /// Colours and fonts of a window, for what panels draw: QPlcPanelContext::theme().
 ///
@@ -22,6 +23,8 @@ struct QTPLC_GUI_EXPORT QPlcTheme
     /// Returns the line of curve \a index: solid for the first eight, then dashes, then dots, then solid
     /// again, so that 24 curves look different.
     static Qt::PenStyle curveStyle(int index);
+    /// Returns the colours of widgets, such as buttons and fields, for QWidget::setPalette().
+    QPalette palette() const;
 
     bool isDark = false;      ///< texts are light on dark
     QColor window;            ///< behind panels

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "EventFiles.h"
+#include "gui/panel/TimeView.h"
 #include "gui/plot/CurveSources.h"
 #include "gui/plot/Trigger.h"
 
@@ -20,7 +21,7 @@ namespace qplc {
 
 class EventFileEditor;
 class NumberBox;
-class TimeView;
+
 class WindowContext;
 
 /// The strip above a plot in which a person chooses signal, kind, level and mode of a trigger, and sees whether it is armed, how often it was met, and has it armed again.

@@ -2,6 +2,7 @@
 #include "QPlcPanelContext.h"
 
 #include "FigureFont.h"
+#include "QPlcTimeAxis.h"
 #include "QPlcWidget.h"
 #include "SignalEdit.h"
 #include "WindowContext.h"
@@ -9,7 +10,9 @@
 #include "gui/models/ValueFormat.h"
 #include "gui/plant/PastValue.h"
 #include "gui/plot/Formula.h"
+#include "gui/plot/PastRows.h"
 
+#include <QtCore/QDateTime>
 #include <QtCore/QEvent>
 #include <QtCore/QPointer>
 #include <QtCore/QTimer>
@@ -99,6 +102,16 @@ struct QPlcPanelContext::Private : public QObject
         touch();
     }
 
+    void followTime(const QPlcTimeAxis *time)
+    {
+        for (const auto changed : {&QPlcTimeAxis::viewChanged, &QPlcTimeAxis::cursorsChanged,
+                                   &QPlcTimeAxis::pointerChanged, &QPlcTimeAxis::displayTimeChanged})
+            connect(time, changed, this, [this] {
+                Q_EMIT q->timeChanged();
+                touch();
+            });
+    }
+
     void follow(qplc::Plant *plant)
     {
         connect(plant, &qplc::Plant::stateChanged, this, [this, plant] {
@@ -129,6 +142,7 @@ struct QPlcPanelContext::Private : public QObject
     QPlcPanelContext *q;
     QPlcWidget *panel;
     QPointer<WindowContext> window;
+    QPlcTimeAxis ownTime;  // outside of a window
     QHash<QString, CurveSource> formulas;
     QTimer frame;  // runs while the panel was told so recently that it has to wait
     bool isDue = false;
@@ -202,6 +216,7 @@ QPlcPanelContext::QPlcPanelContext(QPlcWidget *panel)
     : d(std::make_unique<Private>(this, panel))
 {
     connect(panel, &QPlcWidget::pinnedPlantChanged, d.get(), &Private::forget);
+    d->followTime(&d->ownTime);
 }
 
 QPlcPanelContext::~QPlcPanelContext() = default;
@@ -230,7 +245,10 @@ void QPlcPanelContext::setWindow(WindowContext *window)
     Private *own = d.get();
     window->plants()->forEach(own, &Private::follow);
     connect(window->curveSources(), &CurveSources::changed, own, &Private::forget);
-    connect(window->curveSources(), &CurveSources::filled, own, &Private::touch);
+    connect(window->curveSources(), &CurveSources::filled, own, [this, own] {
+        Q_EMIT pastChanged();
+        own->touch();
+    });
     connect(window, &WindowContext::valuesChanged, own, [this, own] {
         Q_EMIT valuesChanged();
         own->touch();
@@ -239,15 +257,8 @@ void QPlcPanelContext::setWindow(WindowContext *window)
         Q_EMIT themeChanged();
         own->touch();
     });
-    const auto tellTime = [this, own] {
-        Q_EMIT timeChanged();
-        own->touch();
-    };
-    const TimeView *time = window->timeView();
-    connect(time, &TimeView::viewChanged, own, tellTime);
-    connect(time, &TimeView::cursorsChanged, own, tellTime);
-    connect(time, &TimeView::pointerChanged, own, tellTime);
-    connect(time, &TimeView::displayTimeChanged, own, tellTime);
+    own->followTime(window->timeView());
+    Q_EMIT themeChanged();
     own->forget();
 }
 
@@ -304,19 +315,39 @@ QVector<QPlcPanelContext::Sample> QPlcPanelContext::history(const QString &expre
     return samples;
 }
 
+QPlcPast QPlcPanelContext::past(const QString &expression) const
+{
+    if (d->window)
+        return PastRows::past(d->window->curveSources()->find(expression, d->pin()));
+    QPlcPast past;
+    past.expression = expression;
+    past.problem = tr("No plant is connected.");
+    return past;
+}
+
 QStringList QPlcPanelContext::numberNames() const
 {
     return d->window ? SignalEdit::names(*d->window->plants(), SignalEdit::Curves) : QStringList();
 }
 
+QStringList QPlcPanelContext::signalNames() const
+{
+    return d->window ? SignalEdit::names(*d->window->plants(), SignalEdit::AllSignals) : QStringList();
+}
+
+QPlcTimeAxis *QPlcPanelContext::timeAxis() const
+{
+    return d->window ? d->window->timeView() : &d->ownTime;
+}
+
 bool QPlcPanelContext::isLive() const
 {
-    return !d->window || d->window->timeView()->isLive();
+    return timeAxis()->isLive();
 }
 
 QPlcPanelContext::Time QPlcPanelContext::begin() const
 {
-    return d->window ? end() - d->window->timeView()->span() : 0;
+    return d->window ? end() - timeAxis()->span() : 0;
 }
 
 QPlcPanelContext::Time QPlcPanelContext::end() const
@@ -324,52 +355,48 @@ QPlcPanelContext::Time QPlcPanelContext::end() const
     if (!d->window)
         return 0;
     if (!isLive())
-        return d->window->timeView()->end();
+        return timeAxis()->end();
     Time newest = 0;
     for (const QString &name : d->window->plantsOf(d->panel->shownSignals(), d->pin())) {
         if (const qplc::Plant *plant = d->window->plants()->find(name))
             newest = std::max<Time>(newest, plant->newestTime());
     }
-    return newest > 0 ? newest : d->window->timeView()->end();
+    return newest > 0 ? newest : timeAxis()->end();
 }
 
 std::optional<QPlcPanelContext::Time> QPlcPanelContext::shownTime() const
 {
-    return d->window ? std::optional<Time>(d->window->timeView()->displayTime()) : std::nullopt;
+    return timeAxis()->displayTime();
 }
 
 void QPlcPanelContext::showRange(Time begin, Time end)
 {
-    if (d->window)
-        d->window->timeView()->show(begin, end);
+    timeAxis()->show(begin, end);
 }
 
 void QPlcPanelContext::goLive()
 {
-    if (d->window)
-        d->window->timeView()->goLive();
+    timeAxis()->goLive();
 }
 
 std::optional<QPlcPanelContext::Time> QPlcPanelContext::cursor(Cursor which) const
 {
-    return d->window ? std::optional<Time>(d->window->timeView()->cursor(TimeView::Cursor(which))) : std::nullopt;
+    return timeAxis()->cursor(QPlcTimeAxis::Cursor(which));
 }
 
 void QPlcPanelContext::setCursor(Cursor which, std::optional<Time> time)
 {
-    if (d->window)
-        d->window->timeView()->setCursor(TimeView::Cursor(which), time);
+    timeAxis()->setCursor(QPlcTimeAxis::Cursor(which), time);
 }
 
 std::optional<QPlcPanelContext::Time> QPlcPanelContext::pointer() const
 {
-    return d->window ? std::optional<Time>(d->window->timeView()->pointer()) : std::nullopt;
+    return timeAxis()->pointer();
 }
 
 void QPlcPanelContext::setPointer(std::optional<Time> time)
 {
-    if (d->window)
-        d->window->timeView()->setPointer(time);
+    timeAxis()->setPointer(time);
 }
 
 QStringList QPlcPanelContext::plants() const
@@ -390,6 +417,7 @@ QPlcPanelContext::Plant QPlcPanelContext::plant(const QString &name) const
     plant.isStale = found->quality() == qplc::Plant::Stale;
     plant.state = stateWord(*found);
     plant.stateText = found->stateText();
+    plant.clock = found->status().clock;
     plant.age = found->age();
     plant.newest = found->newestTime();
     return plant;
@@ -399,6 +427,23 @@ void QPlcPanelContext::stop(const QString &name)
 {
     if (qplc::Plant *found = d->plant(name))
         found->stop(d->panel->title());
+}
+
+bool QPlcPanelContext::ask(const QPlcMessage &question, QObject *receiver,
+                           const std::function<void(const QPlcMessage &)> &answered, const QString &name)
+{
+    qplc::Plant *found = d->plant(name);
+    return found && found->ask(question, [guard = QPointer<QObject>(receiver), answered](const QPlcMessage &answer) {
+        if (guard)
+            answered(answer);
+    });
+}
+
+void QPlcPanelContext::report(Severity severity, const QString &source, const QString &text)
+{
+    if (d->window)
+        d->window->events()->append(
+            {QDateTime::currentDateTime(), PlantEvent::Severity(severity), source, text, false});
 }
 
 QPlcTheme QPlcPanelContext::theme() const

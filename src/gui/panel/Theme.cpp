@@ -101,29 +101,4 @@ Theme::Name Theme::nameOf(const QString &text)
     return System;
 }
 
-QPalette Theme::palette() const
-{
-    QPalette palette(surface, window);
-    palette.setColor(QPalette::Window, window);
-    palette.setColor(QPalette::WindowText, text);
-    palette.setColor(QPalette::Base, surface);
-    palette.setColor(QPalette::AlternateBase, isDark ? surface.lighter(112) : surface.darker(103));
-    palette.setColor(QPalette::Text, text);
-    palette.setColor(QPalette::Button, isDark ? surface.lighter(125) : surface.darker(104));
-    palette.setColor(QPalette::ButtonText, text);
-    palette.setColor(QPalette::BrightText, alarm);
-    palette.setColor(QPalette::ToolTipBase, surface);
-    palette.setColor(QPalette::ToolTipText, text);
-    palette.setColor(QPalette::PlaceholderText, mutedText);
-    palette.setColor(QPalette::Highlight, accent);
-    palette.setColor(QPalette::HighlightedText, isDark ? window : QColor(Qt::white));
-    palette.setColor(QPalette::Link, accent);
-    palette.setColor(QPalette::Mid, line);
-    palette.setColor(QPalette::Dark, isDark ? window.darker(130) : line.darker(120));
-    palette.setColor(QPalette::Light, isDark ? line : QColor(Qt::white));
-    for (const QPalette::ColorRole role : {QPalette::WindowText, QPalette::Text, QPalette::ButtonText})
-        palette.setColor(QPalette::Disabled, role, stale);
-    return palette;
-}
-
 }  // namespace qplc

@@ -4,7 +4,6 @@
 #include "QPlcTheme.h"
 
 #include <QtCore/QString>
-#include <QtGui/QPalette>
 
 namespace qplc {
 
@@ -28,8 +27,6 @@ struct Theme : QPlcTheme
 
     /// The colour that says which plant a panel or the bar shows, behind text of the colour of the window. \param number  Plant::number()
     QColor plant(int number) const { return curve(number); }
-    /// For QApplication::setPalette().
-    QPalette palette() const;
 };
 
 }  // namespace qplc

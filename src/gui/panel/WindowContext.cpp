@@ -60,7 +60,7 @@ void WindowContext::renewNewest()
 {
     TimeView::Time newest = 0;
     for (int place = 0; place < m_plants.size(); ++place)
-        newest = std::max(newest, m_plants.at(place)->newestTime());
+        newest = std::max<TimeView::Time>(newest, m_plants.at(place)->newestTime());
     m_timeView.setNewest(newest);
     Q_EMIT valuesChanged();
 }

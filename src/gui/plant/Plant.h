@@ -78,6 +78,8 @@ public:
     const PlantValues &values() const { return m_values; }
     /// Null before the first connection. storeChanged() tells of another one.
     SignalStore *store() const { return m_values.store(); }
+    /// The same, for who keeps it when the plant has another one or is gone.
+    std::shared_ptr<const SignalStore> sharedStore() const { return m_values.sharedStore(); }
     /// Of the newest row of the store, on the clock of this plant [ns]; 0: there is none.
     SignalStore::Time newestTime() const { return store() ? store()->newestTime() : 0; }
     QPlcValue value(QPlcSignalIndex signal) const { return m_values.value(signal); }

@@ -41,7 +41,7 @@ int PlantValues::wantedRows() const
 
 void PlantValues::makeStore()
 {
-    m_store = std::make_unique<SignalStore>(m_channels.channels(), wantedRows());
+    m_store = std::make_shared<SignalStore>(m_channels.channels(), wantedRows());
 }
 
 void PlantValues::beginBatch()

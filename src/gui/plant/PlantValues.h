@@ -36,6 +36,7 @@ public:
     const ChannelMap &channels() const { return m_channels; }
     /// Null before the first table. Another one from setTable() on, and from a frame on whose period is much shorter.
     SignalStore *store() const { return m_store.get(); }
+    std::shared_ptr<const SignalStore> sharedStore() const { return m_store; }
 
     /// Forgets the last batch.
     void beginBatch();
@@ -82,7 +83,7 @@ private:
     Budget m_budget;
     QPlcSignalTable m_table;
     ChannelMap m_channels;
-    std::unique_ptr<SignalStore> m_store;
+    std::shared_ptr<SignalStore> m_store;
     std::vector<float> m_row;
     std::vector<Doubt> m_doubts;  // of m_row: values that are not good
     std::vector<char> m_newest;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "NodeFixtures.h"
 #include "QPlcPanelContext.h"
+#include "QPlcTimeAxis.h"
 #include "QPlcWidget.h"
 #include "gui/panel/WindowContext.h"
 #include "gui/plant/PlantFeed.h"
@@ -85,6 +86,11 @@ private Q_SLOTS:
     void theHistoryHasEachCycle();
     void aLongHistoryHasFewStepsWithTheirExtremes();
     void theHistoryIsInterruptedWhereThePlantWas();
+    void thePastIsReadRowByRow();
+    void thePastOfAFormulaFollowsItsPlant();
+    void aPastOutlivesItsPlant();
+    void aPanelMovesTheTimeAxisOfItsWindow();
+    void aPanelWritesIntoTheEventLog();
     void theWindowShowsThePast();
     void aLivePanelEndsWithItsOwnPlant();
     void cursorsAreThoseOfTheWindow();
@@ -120,6 +126,8 @@ void tst_QPlcPanelContext::aSignalHasItsMetadataAndItsNewestValue()
     QVERIFY(signal.isCurrent);
     QVERIFY(signal.quality.isGood());
     QVERIFY(fed.context().numberNames().contains(QStringLiteral("vector[2]")));
+    QVERIFY(!fed.context().numberNames().contains(QStringLiteral("vector")));
+    QVERIFY(fed.context().signalNames().contains(QStringLiteral("vector")));
 }
 
 void tst_QPlcPanelContext::anElementOfAnArrayIsANumber()
@@ -213,6 +221,88 @@ void tst_QPlcPanelContext::theHistoryIsInterruptedWhereThePlantWas()
     for (const Context::Sample &sample : fed.all(QStringLiteral("count")))
         begins += sample.isJoined ? 0 : 1;
     QCOMPARE(begins, 2);
+}
+
+void tst_QPlcPanelContext::thePastIsReadRowByRow()
+{
+    FedPanel fed;
+    const QPlcPast past = fed.context().past(QStringLiteral("count"));
+    QVERIFY(past);
+    QCOMPARE(past.plant, QStringLiteral("kite"));
+    QVERIFY(past.isStepped);
+    QVERIFY(past.isCurrent());
+    QCOMPARE(past.endRow() - past.firstRow(), QPlcPast::Row(100));
+    QCOMPARE(past.newestTime(), fed.now);
+    const QPlcPast::Row tenth = past.rowAt(start + 11 * period);
+    QCOMPARE(past.time(tenth), start + 11 * period);
+    QCOMPARE(past.value(tenth), 10.0);
+    QCOMPARE(past.value(*past.rowHoldingAt(start + 11 * period + 1)), 10.0);
+    QVERIFY(!past.rowHoldingAt(start));
+    QCOMPARE(past.range(tenth, tenth + 20).minimum, 10.0);
+    QCOMPARE(past.range(tenth, tenth + 20).maximum, 29.0);
+    QVERIFY(past.range(tenth, tenth).isEmpty());
+    QCOMPARE(past.quality(past.firstRow(), past.endRow()), QPlcQuality::Good);
+    fed.take(fed.kite, 1);  // no copy: new rows are there
+    QCOMPARE(past.value(past.endRow() - 1), 100.0);
+    const QPlcPast other = fed.context().past(QStringLiteral("setpoint"));
+    QVERIFY(past.sharesRows(other));
+    QCOMPARE(other.unit, QStringLiteral("m/s"));
+    QCOMPARE(other.maximum.value_or(0.0), 10.0);
+    const QPlcPast missing = fed.context().past(QStringLiteral("nothing"));
+    QVERIFY(!missing);
+    QCOMPARE(missing.problem, QStringLiteral("There is no signal nothing at the moment."));
+}
+
+void tst_QPlcPanelContext::thePastOfAFormulaFollowsItsPlant()
+{
+    FedPanel fed;
+    fed.take(fed.kite, 20'900);  // more than is calculated at once
+    const QSignalSpy filled(&fed.context(), &Context::pastChanged);
+    const QPlcPast past = fed.context().past(QStringLiteral("= 2 * count"));
+    QCOMPARE(past.text(), QStringLiteral("2 * count"));
+    QTRY_VERIFY(filled.count() > 0);
+    fed.take(fed.kite, 1);
+    QCOMPARE(past.value(past.endRow() - 1), 42'000.0);
+    QVERIFY(!past.sharesRows(fed.context().past(QStringLiteral("count"))));
+    QVERIFY(past.sharesRows(fed.context().past(QStringLiteral("= 2 * count"))));
+}
+
+void tst_QPlcPanelContext::aPastOutlivesItsPlant()
+{
+    FedPanel fed;
+    const QPlcPast raw = fed.context().past(QStringLiteral("count"));
+    const QPlcPast derived = fed.context().past(QStringLiteral("= 2 * count"));
+    QTRY_COMPARE(derived.endRow() - derived.firstRow(), QPlcPast::Row(100));
+    const QSignalSpy signalsChanged(&fed.context(), &Context::signalsChanged);
+    fed.window.plants()->remove(fed.kite);
+    QVERIFY(signalsChanged.count() > 0);
+    QVERIFY(!raw.isCurrent());
+    QCOMPARE(raw.age(), -1.0);
+    QCOMPARE(raw.value(raw.endRow() - 1), 99.0);
+    QCOMPARE(derived.value(derived.endRow() - 1), 198.0);
+    QVERIFY(!fed.context().past(QStringLiteral("count")));
+}
+
+void tst_QPlcPanelContext::aPanelMovesTheTimeAxisOfItsWindow()
+{
+    FedPanel fed;
+    QCOMPARE(fed.context().timeAxis(), fed.window.timeView());
+    fed.context().timeAxis()->pan(-20 * period);
+    QVERIFY(!fed.context().isLive());
+    QCOMPARE(fed.context().end(), fed.now - 20 * period);
+    Panel alone;
+    alone.context()->showRange(start, start + 10);
+    QCOMPARE(alone.context()->timeAxis()->begin(), start + 10 - QPlcTimeAxis::shortestSpan);
+}
+
+void tst_QPlcPanelContext::aPanelWritesIntoTheEventLog()
+{
+    FedPanel fed;
+    const int before = fed.window.events()->rowCount();
+    fed.context().report(Context::Warning, QStringLiteral("Trigger"), QStringLiteral("The disk is full."));
+    QCOMPARE(fed.window.events()->rowCount(), before + 1);
+    QCOMPARE(fed.window.events()->at(before).text, QStringLiteral("The disk is full."));
+    QCOMPARE(fed.window.events()->at(before).severity, qplc::PlantEvent::Warning);
 }
 
 void tst_QPlcPanelContext::theWindowShowsThePast()

@@ -1,21 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "TimeView.h"
+#include "QPlcTimeAxis.h"
 
 #include <cmath>
 
-namespace qplc {
-
-void TimeView::setSpan(Time span)
+void QPlcTimeAxis::setSpan(Time span)
 {
     change(m_isLive, end(), span);
 }
 
-void TimeView::show(Time begin, Time end)
+void QPlcTimeAxis::show(Time begin, Time end)
 {
     change(false, end, end - begin);
 }
 
-void TimeView::zoom(double factor, Time about)
+void QPlcTimeAxis::zoom(double factor, Time about)
 {
     const double wanted = std::fmin(double(m_span) * factor, double(longestSpan));
     const Time span = std::max(Time(wanted), shortestSpan);
@@ -23,27 +21,27 @@ void TimeView::zoom(double factor, Time about)
     change(m_isLive && about >= end(), about + Time(std::llround(share * double(span))), span);
 }
 
-void TimeView::pan(Time by)
+void QPlcTimeAxis::pan(Time by)
 {
     change(false, end() + by, m_span);
 }
 
-void TimeView::freeze()
+void QPlcTimeAxis::freeze()
 {
     change(false, end(), m_span);
 }
 
-void TimeView::goLive()
+void QPlcTimeAxis::goLive()
 {
     change(true, m_newest, m_span);
 }
 
-void TimeView::jumpTo(Time time)
+void QPlcTimeAxis::jumpTo(Time time)
 {
     change(false, time + m_span / 2, m_span);
 }
 
-void TimeView::setCursor(Cursor which, std::optional<Time> time)
+void QPlcTimeAxis::setCursor(Cursor which, std::optional<Time> time)
 {
     if (time == m_cursors[which])
         return;
@@ -51,7 +49,7 @@ void TimeView::setCursor(Cursor which, std::optional<Time> time)
     Q_EMIT cursorsChanged();
 }
 
-void TimeView::setPointer(std::optional<Time> time)
+void QPlcTimeAxis::setPointer(std::optional<Time> time)
 {
     if (time == m_pointer)
         return;
@@ -61,7 +59,7 @@ void TimeView::setPointer(std::optional<Time> time)
         Q_EMIT displayTimeChanged();
 }
 
-std::optional<TimeView::Time> TimeView::displayTime() const
+std::optional<QPlcTimeAxis::Time> QPlcTimeAxis::displayTime() const
 {
     if (m_isLive)
         return std::nullopt;
@@ -70,7 +68,7 @@ std::optional<TimeView::Time> TimeView::displayTime() const
     return hasValues ? std::min(wanted, m_newest) : wanted;
 }
 
-void TimeView::setNewest(Time time)
+void QPlcTimeAxis::setNewest(Time time)
 {
     const std::optional<Time> before = displayTime();
     m_newest = time;
@@ -78,7 +76,7 @@ void TimeView::setNewest(Time time)
         Q_EMIT displayTimeChanged();
 }
 
-void TimeView::change(bool isLive, Time end, Time span)
+void QPlcTimeAxis::change(bool isLive, Time end, Time span)
 {
     const Time allowedSpan = std::clamp(span, shortestSpan, longestSpan);
     if (isLive == m_isLive && allowedSpan == m_span && (isLive || end == m_end))
@@ -94,5 +92,3 @@ void TimeView::change(bool isLive, Time end, Time span)
     if (displayTime() != before)
         Q_EMIT displayTimeChanged();
 }
-
-}  // namespace qplc
