@@ -30,13 +30,6 @@ public:
     void applySettings(const QJsonObject &settings) override;
     QWidget *createSettingsEditor() override;
 
-protected:
-    void contextChanged() override;
-    void showEvent(QShowEvent *event) override;
-    void hideEvent(QHideEvent *event) override;
-    void keyPressEvent(QKeyEvent *event) override;
-    void resizeEvent(QResizeEvent *event) override;
-
 private:
     class Private;
     std::unique_ptr<Private> d;

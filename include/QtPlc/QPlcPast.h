@@ -67,7 +67,9 @@ public:
     bool isStepped = false;         ///< an integer or a boolean: a value holds until the next one
 
     /// Returns what people read of it: formulas without `=`.
-    QString text() const;
+    QString text() const { return textOf(expression); }
+    /// Returns what people read of an expression: "power", "mean(power, 5)".
+    static QString textOf(const QString &expression);
     /// Whether the newest values are those of now: the plant is connected, and its cycles arrive.
     bool isCurrent() const;
     /// Returns the time since the newest values were true [s]; -1: there are none, or the plant has gone.

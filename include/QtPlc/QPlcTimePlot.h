@@ -60,15 +60,6 @@ public:
     /// Pictures that have been drawn so far: for tests and measurements.
     int drawnPictures() const;
 
-protected:
-    void contextChanged() override;
-    void showEvent(QShowEvent *event) override;
-    void hideEvent(QHideEvent *event) override;
-    void resizeEvent(QResizeEvent *event) override;
-    void contextMenuEvent(QContextMenuEvent *event) override;
-    void keyPressEvent(QKeyEvent *event) override;
-    void changeEvent(QEvent *event) override;
-
 private:
     class Private;
     std::unique_ptr<Private> d;

@@ -45,13 +45,6 @@ public:
     bool isAspectEqual() const;
     void setAspectEqual(bool isEqual);
 
-protected:
-    void contextChanged() override;
-    void showEvent(QShowEvent *event) override;
-    void hideEvent(QHideEvent *event) override;
-    void contextMenuEvent(QContextMenuEvent *event) override;
-    void keyPressEvent(QKeyEvent *event) override;
-
 private:
     class Private;
     std::unique_ptr<Private> d;

@@ -33,7 +33,7 @@ ARROWS = {
     "gui/models": {"signals", "node", "node/state", "gui", "gui/plant", "gui/models"},
     "gui/panel": {"signals", "node", "gui", "gui/plant", "gui/plot", "gui/models", "gui/panel"},
     # Panels do not know each other.
-    "gui/charts": {"signals", "node", "gui", "gui/store", "gui/plot", "gui/models", "gui/panel", "gui/charts"},
+    "gui/charts": {"signals", "protocol", "node", "gui", "gui/plot", "gui/models", "gui/panel", "gui/charts"},
     "gui/gauges": {"signals", "node", "gui", "gui/plant", "gui/plot", "gui/models", "gui/panel", "gui/gauges"},
     "gui/setters": {"signals", "node", "gui", "gui/plant", "gui/models", "gui/panel", "gui/setters"},
     "gui/tables": {"signals", "node", "gui", "gui/models", "gui/panel", "gui/tables"},
@@ -81,10 +81,7 @@ FIELD = (r'\bQJson\w+|\.(?:hex64|text|bytes)\((?:QStringLiteral|QLatin1String)\(
 WINDOW = re.compile(r'[wW]indowContext\b|"gui/(?:window|layout)/')
 PANEL_ROOMS = ("charts", "gauges", "setters", "tables")
 KNOWS_WINDOW = {
-    "gui/charts/PlotCommands.cpp", "gui/charts/PlotDrawing.cpp", "gui/charts/PlotTables.cpp",
-    "gui/charts/QPlcJitterHistogram.cpp", "gui/charts/QPlcTimePlot.cpp", "gui/charts/QPlcTimePlotPrivate.h",
-    "gui/charts/QPlcXyPlot.cpp", "gui/charts/QPlcXyPlotPrivate.h", "gui/charts/TriggerBar.cpp",
-    "gui/charts/TriggerBar.h", "gui/charts/XyPlotCommands.cpp", "gui/gauges/GaugeFeed.cpp",
+    "gui/gauges/GaugeFeed.cpp",
     "gui/gauges/GaugeFeed.h", "gui/gauges/QPlcGauge.cpp", "gui/setters/QPlcKeyboardControl.cpp",
     "gui/setters/QPlcSetter.cpp", "gui/setters/QPlcSignalControl.cpp", "gui/tables/PanelTable.cpp",
     "gui/tables/PanelTable.h", "gui/tables/QPlcEventLog.cpp", "gui/tables/QPlcNodeTable.cpp",

@@ -33,7 +33,6 @@ ChartExport::ChartExport(QWidget *panel, Picture picture)
     : QObject(panel)
     , m_panel(panel)
     , m_picture(std::move(picture))
-    , m_theme(Theme::byName(Theme::System))
     , m_export(this)
     , m_notice(new QLabel(panel))
 {

@@ -3,7 +3,7 @@
 
 #include "ChartPicture.h"
 #include "PlotExport.h"
-#include "gui/panel/Theme.h"
+#include "QPlcTheme.h"
 
 #include <QtCore/QTimer>
 
@@ -30,7 +30,7 @@ public:
     /// The same for the picture, "savePicture" and "copyPicture".
     void addPictureActions();
 
-    void setTheme(const Theme &theme) { m_theme = theme; }
+    void setTheme(const QPlcTheme &theme) { m_theme = theme; }
     /// \param table  makes it when the name has been chosen
     void saveTable(const Table &table);
     void copyTable(const Table &table);
@@ -50,7 +50,7 @@ private:
 
     QWidget *m_panel;
     Picture m_picture;
-    Theme m_theme;
+    QPlcTheme m_theme;
     PlotExport m_export;
     QLabel *m_notice;
     QTimer m_timer;

@@ -46,7 +46,7 @@ QFont smallFont(const QFont &font)
     return small;
 }
 
-void applyLook(QwtPlot *plot, QwtPlotGrid *grid, const Theme &theme)
+void applyLook(QwtPlot *plot, QwtPlotGrid *grid, const QPlcTheme &theme)
 {
     QPalette palette = theme.palette();
     palette.setColor(QPalette::Window, theme.surface);
@@ -71,7 +71,7 @@ void fitAxes(QwtPlot *plot)
     plot->setAxisMaxMajor(QwtPlot::yLeft, std::clamp(high, least, most));
 }
 
-void setAxisText(QwtPlot *plot, int axis, const QString &text, const Theme &theme)
+void setAxisText(QwtPlot *plot, int axis, const QString &text, const QPlcTheme &theme)
 {
     QwtText title(plot->height() < leastHeightOfTexts ? QString() : text);
     title.setColor(theme.mutedText);

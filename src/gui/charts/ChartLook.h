@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "gui/panel/Theme.h"
+#include "QPlcTheme.h"
 
 #include <QtCore/QVector>
 #include <QtGui/QFont>
@@ -15,7 +15,7 @@ namespace qplc {
 constexpr int leastHeightOfTexts = 150;
 
 /// Gives a plot the look of the panels: no frames, a quiet grid, small muted numbers. \param grid  of the plot
-void applyLook(QwtPlot *plot, QwtPlotGrid *grid, const Theme &theme);
+void applyLook(QwtPlot *plot, QwtPlotGrid *grid, const QPlcTheme &theme);
 /// Of the numbers and titles of axes: smaller than that of the window.
 QFont scaleFont(const QFont &font);
 /// Of the other texts in plots and beside them: a little smaller than that of the window.
@@ -23,7 +23,7 @@ QFont smallFont(const QFont &font);
 /// As many numbers at the axes as have room. To be called when the plot has another size.
 void fitAxes(QwtPlot *plot);
 /// The title of an axis in the colours of the panels; empty: none, nor in a plot that is too small for titles.
-void setAxisText(QwtPlot *plot, int axis, const QString &text, const Theme &theme);
+void setAxisText(QwtPlot *plot, int axis, const QString &text, const QPlcTheme &theme);
 struct LegendEntry
 {
     QString title;

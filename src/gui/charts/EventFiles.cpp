@@ -70,7 +70,7 @@ void EventFiles::begin(const EventFileSettings &settings)
 }
 
 /// What no file system minds.
-QString EventFiles::fileName(SignalStore::Time event, const QString &signal)
+QString EventFiles::fileName(QPlcPast::Time event, const QString &signal)
 {
     QString name;
     for (const QChar character : signal.left(longestSignal)) {
@@ -82,7 +82,7 @@ QString EventFiles::fileName(SignalStore::Time event, const QString &signal)
     return begins + time.toString(QStringLiteral("yyyy-MM-dd_HH-mm-ss.zzz_")) + name + QStringLiteral(".csv");
 }
 
-void EventFiles::save(SignalStore::Time event, const QString &signal, const TableExport &table)
+void EventFiles::save(QPlcPast::Time event, const QString &signal, const TableExport &table)
 {
     if (m_waiting.size() == MostWaiting) {
         fail(tr("An event is not saved: events come faster than they can be written. Give the trigger a hold-off."));

@@ -44,14 +44,14 @@ public:
     /// From here on events are saved so; what went wrong before is told again.
     void begin(const EventFileSettings &settings);
     /// Writes \a table, whose stores have to live until it is done: else cancel() first. \param event  time of it [ns since 1970] \param signal  that the event is of
-    void save(SignalStore::Time event, const QString &signal, const TableExport &table);
+    void save(QPlcPast::Time event, const QString &signal, const TableExport &table);
     /// Gives up what is not written yet.
     void cancel(const QString &reason);
     /// Files since begin().
     int saved() const { return m_saved; }
 
     /// The name of the file of an event, in the local time.
-    static QString fileName(SignalStore::Time event, const QString &signal);
+    static QString fileName(QPlcPast::Time event, const QString &signal);
 
 Q_SIGNALS:
     void savedChanged();

@@ -57,7 +57,7 @@ JitterCanvas::~JitterCanvas()
     detachItems(QwtPlotItem::Rtti_PlotItem, false);  // they are ours
 }
 
-void JitterCanvas::setTheme(const Theme &theme)
+void JitterCanvas::setTheme(const QPlcTheme &theme)
 {
     m_theme = theme;
     applyLook(this, m_grid.get(), theme);

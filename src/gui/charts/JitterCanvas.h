@@ -2,7 +2,7 @@
 #pragma once
 
 #include "JitterDistributions.h"
-#include "gui/panel/Theme.h"
+#include "QPlcTheme.h"
 
 #include <qwt_plot.h>
 
@@ -24,7 +24,7 @@ public:
     explicit JitterCanvas(QWidget *parent = nullptr);
     ~JitterCanvas() override;
 
-    void setTheme(const Theme &theme);
+    void setTheme(const QPlcTheme &theme);
     /// Draws these instead. \param isStale  they are not those of now
     void show(const QVector<JitterDistribution> &distributions, bool isStale);
     /// Titles and colours as rich text; empty for less than two.
@@ -38,7 +38,7 @@ private:
     void scaleAxes(const QVector<JitterDistribution> &distributions);
     void colorCurves();
 
-    Theme m_theme;
+    QPlcTheme m_theme;
     bool m_isStale = false;
     std::unique_ptr<QwtPlotGrid> m_grid;
     std::vector<std::unique_ptr<JitterCurve>> m_curves;

@@ -136,7 +136,7 @@ bool PlotCanvas::isAxisVisible(Axis axis) const
     return !scaleWidget(axis)->isHidden();
 }
 
-void PlotCanvas::setTheme(const Theme &theme)
+void PlotCanvas::setTheme(const QPlcTheme &theme)
 {
     QPalette palette = theme.palette();
     palette.setColor(QPalette::Window, theme.surface);

@@ -3,10 +3,10 @@
 
 #include "FurtherAxis.h"
 #include "PlotAxes.h"
+#include "QPlcTheme.h"
 #include "QPlcValueNames.h"
 #include "TimeTicks.h"
 #include "gui/models/SiPrefix.h"
-#include "gui/panel/Theme.h"
 #include "gui/plot/TimeColumns.h"
 
 #include <QtCore/QHash>
@@ -45,7 +45,7 @@ public:
     /// Attaches an item whose values are those of an axis.
     void attach(QwtPlotItem *item, Axis axis);
 
-    void setTheme(const Theme &theme);
+    void setTheme(const QPlcTheme &theme);
     void setGridVisible(bool isVisible) { m_grid.setVisible(isVisible); }
     /// As the signal table has it; the axis shows it with the prefix that fits its values. \param colors  of the curves of the axis; empty: it is the only one, whose colour says nothing
     void setUnit(Axis axis, const QString &unit, const QVector<QColor> &colors = {});

@@ -71,8 +71,8 @@ void QPlcTimePlot::Private::makeActions()
     make(QPlcTimePlot::tr("Later"), {key(Qt::Key_Right)}, "later", pan(panOfKey));
     make(QPlcTimePlot::tr("Larger values"), {key(Qt::Key_Up)}, "larger", panUp(panOfKey));
     make(QPlcTimePlot::tr("Smaller values"), {key(Qt::Key_Down)}, "smaller", panUp(-panOfKey));
-    make(QPlcTimePlot::tr("Cursor A"), {key(Qt::Key_1)}, "cursorA", [this] { placeCursor(TimeView::A); });
-    make(QPlcTimePlot::tr("Cursor B"), {key(Qt::Key_2)}, "cursorB", [this] { placeCursor(TimeView::B); });
+    make(QPlcTimePlot::tr("Cursor A"), {key(Qt::Key_1)}, "cursorA", [this] { placeCursor(QPlcTimeAxis::A); });
+    make(QPlcTimePlot::tr("Cursor B"), {key(Qt::Key_2)}, "cursorB", [this] { placeCursor(QPlcTimeAxis::B); });
     make(QPlcTimePlot::tr("Remove cursors"), {key(Qt::Key_0)}, "removeCursors", [this] { removeCursors(); });
     make(QPlcTimePlot::tr("Cursor to the left"), {key(int(Qt::CTRL) | Qt::Key_Left)}, "cursorLeft",
          [this] { moveCursor(-1); });
@@ -119,16 +119,14 @@ void QPlcTimePlot::Private::connectInteraction()
     connect(interaction, &PlotInteraction::boxChosen, this, &Private::showBox);
     connect(interaction, &PlotInteraction::allWanted, this, &Private::showAll);
     connect(interaction, &PlotInteraction::cursorDragged, this, [this](PlotInteraction::Cursor cursor, double x) {
-        placeCursor(cursor == PlotInteraction::CursorA ? TimeView::A : TimeView::B, canvas->timeAt(x));
+        placeCursor(cursor == PlotInteraction::CursorA ? QPlcTimeAxis::A : QPlcTimeAxis::B, canvas->timeAt(x));
     });
     connect(interaction, &PlotInteraction::mouseMoved, this, [this] {
-        if (!shared())
-            return;
         const std::optional<QPoint> mouse = interaction->mouse();
         shared()->setPointer(mouse ? std::optional<Time>(canvas->timeAt(mouse->x())) : std::nullopt);
     });
     connect(interaction, &PlotInteraction::menuWanted, this, [this](const QPoint &position, const QPoint &global) {
-        createMenu(curves.selected(), position)->popup(global);
+        menuOf(curves.selected(), position)->popup(global);
     });
     connect(legend, &PlotLegend::clicked, this, [this](int place) {
         q->setFocus(Qt::MouseFocusReason);
@@ -136,61 +134,47 @@ void QPlcTimePlot::Private::connectInteraction()
     });
     connect(legend, &PlotLegend::menuWanted, this, [this](int place, const QPoint &global) {
         select(place);
-        createMenu(place, std::nullopt)->popup(global);
+        menuOf(place, std::nullopt)->popup(global);
     });
     connect(statistics, &StatisticsView::unfoldedChanged, this, [this] { statisticsAction->trigger(); });
 }
 
 /// \param mouse  over the canvas [px]
-QMenu *QPlcTimePlot::Private::createMenu(int curve, std::optional<QPoint> mouse)
+QMenu *QPlcTimePlot::Private::menuOf(int curve, std::optional<QPoint> mouse)
 {
-    auto *menu = new QMenu(q);
-    menu->setAttribute(Qt::WA_DeleteOnClose);
-    const auto add = [&](const char *name) {
-        if (auto *action = q->findChild<QAction *>(QLatin1String(name), Qt::FindDirectChildrenOnly))
-            menu->addAction(action);
-    };
-    add("add");
+    QMenu *menu = makeMenu({});
+    addTo(menu, {"add"});
     if (curve >= 0 && curve < curves.size()) {
         menu->addSection(curves.at(curve).settings.text());
-        add("toggle");
-        add("remove");
-        add("rightAxis");
+        addTo(menu, {"toggle", "remove", "rightAxis"});
         if (curves.at(curve).canBeBands())
-            add("bands");
+            addTo(menu, {"bands"});
     }
     menu->addSeparator();
     if (mouse) {
         const Time time = canvas->timeAt(mouse->x());
-        const auto here = [&](const QString &text, TimeView::Cursor which, const QString &keys) {
+        const auto here = [&](const QString &text, QPlcTimeAxis::Cursor which, const QString &keys) {
             QAction *action = menu->addAction(text, this, [this, which, time] { placeCursor(which, time); });
             action->setShortcut(keys);
         };
-        here(QPlcTimePlot::tr("Cursor A here"), TimeView::A, QStringLiteral("1"));
-        here(QPlcTimePlot::tr("Cursor B here"), TimeView::B, QStringLiteral("2"));
+        here(QPlcTimePlot::tr("Cursor A here"), QPlcTimeAxis::A, QStringLiteral("1"));
+        here(QPlcTimePlot::tr("Cursor B here"), QPlcTimeAxis::B, QStringLiteral("2"));
     } else {
-        add("cursorA");
-        add("cursorB");
+        addTo(menu, {"cursorA", "cursorB"});
     }
-    add("removeCursors");
-    add("statistics");
+    addTo(menu, {"removeCursors", "statistics"});
     menu->addSeparator();
-    add("limits");
-    add("addLine");
+    addTo(menu, {"limits", "addLine"});
     if (hasLines())
-        add("removeLines");
+        addTo(menu, {"removeLines"});
     menu->addSeparator();
-    for (const char *name : {"all", "zoomIn", "zoomOut", "freeze", "live", "trigger"})
-        add(name);
+    addTo(menu, {"all", "zoomIn", "zoomOut", "freeze", "live", "trigger"});
     menu->addSeparator();
-    for (const char *name : {"saveTable", "copyTable", "savePicture", "copyPicture"})
-        add(name);
-    if (hasBothCursors()) {
-        add("saveBetween");
-        add("copyBetween");
-    }
+    addTo(menu, {"saveTable", "copyTable", "savePicture", "copyPicture"});
+    if (hasBothCursors())
+        addTo(menu, {"saveBetween", "copyBetween"});
     menu->addSeparator();
-    add("panelMenu");  // of the frame around
+    addTo(menu, {"panelMenu"});  // of the frame around
     return menu;
 }
 
@@ -201,7 +185,7 @@ void QPlcTimePlot::Private::openAddBar()
         addBar->setFocus();
         return;
     }
-    auto *edit = new SignalEdit(q->windowContext() ? q->windowContext()->plants() : nullptr, SignalEdit::Curves, q);
+    auto *edit = new SignalEdit(context(), SignalEdit::Curves, q);
     addBar = edit;
     qobject_cast<QBoxLayout *>(q->layout())->insertWidget(0, edit);
     const auto close = [this] {
@@ -255,7 +239,7 @@ void QPlcTimePlot::Private::panTime(Time by)
 void QPlcTimePlot::Private::zoomTime(double factor)
 {
     const std::optional<QPoint> mouse = interaction->mouse();
-    const TimeView *time = view();
+    const QPlcTimeAxis *time = view();
     const Time middle = time->isLive() ? newest() : time->begin() + time->span() / 2;
     zoomTime(factor, mouse ? canvas->timeAt(mouse->x()) : middle);
 }
@@ -281,12 +265,12 @@ void QPlcTimePlot::Private::showBox(const QRect &chosen)
     schedule();
 }
 
-void QPlcTimePlot::Private::placeCursor(TimeView::Cursor which, std::optional<Time> time)
+void QPlcTimePlot::Private::placeCursor(QPlcTimeAxis::Cursor which, std::optional<Time> time)
 {
-    if (!shared() || curves.isEmpty())
+    if (curves.isEmpty())
         return;
     const std::optional<QPoint> mouse = interaction->mouse();
-    const double place = (which == TimeView::A ? firstCursor : secondCursor) * canvas->canvas()->width();
+    const double place = (which == QPlcTimeAxis::A ? firstCursor : secondCursor) * canvas->canvas()->width();
     lastCursor = which;
     shared()->setCursor(which, nearestRow(time ? *time : canvas->timeAt(mouse ? mouse->x() : place)));
 }
@@ -296,13 +280,12 @@ QPlcTimePlot::Private::Time QPlcTimePlot::Private::nearestRow(Time time) const
 {
     Time nearest = time;
     Time distance = canvas->timeAt(reachOfRow) - canvas->timeAt(0.0);
-    for (const SignalStore *store : curves.stores()) {
-        const SignalStore::Row next = store->rowAt(time);
-        for (SignalStore::Row row = next > store->firstRow() ? next - 1 : next; row < store->endRow() && row <= next;
-             ++row) {
-            if (std::abs(store->time(row) - time) > distance)
+    for (const QPlcPast &past : curves.pasts()) {
+        const QPlcPast::Row next = past.rowAt(time);
+        for (QPlcPast::Row row = next > past.firstRow() ? next - 1 : next; row < past.endRow() && row <= next; ++row) {
+            if (std::abs(past.time(row) - time) > distance)
                 continue;
-            nearest = store->time(row);
+            nearest = past.time(row);
             distance = std::abs(nearest - time);
         }
     }
@@ -311,16 +294,12 @@ QPlcTimePlot::Private::Time QPlcTimePlot::Private::nearestRow(Time time) const
 
 void QPlcTimePlot::Private::removeCursors()
 {
-    if (!shared())
-        return;
-    shared()->setCursor(TimeView::A, std::nullopt);
-    shared()->setCursor(TimeView::B, std::nullopt);
+    shared()->setCursor(QPlcTimeAxis::A, std::nullopt);
+    shared()->setCursor(QPlcTimeAxis::B, std::nullopt);
 }
 
 void QPlcTimePlot::Private::moveCursor(int pixels)
 {
-    if (!shared())
-        return;
     const std::optional<Time> time = shared()->cursor(lastCursor);
     const Time pixel = canvas->timeAt(1.0) - canvas->timeAt(0.0);
     if (time)

@@ -3,7 +3,9 @@
 
 #include "ChartLook.h"
 #include "PlotCanvas.h"
+#include "QPlcPanelContext.h"
 #include "gui/models/ValueFormat.h"
+#include "gui/plot/PastRows.h"
 
 #include <qwt_plot_marker.h>
 
@@ -14,19 +16,12 @@ namespace qplc {
 
 namespace {
 
-constexpr SignalStore::Time calmTime = 200'000'000;  // [ns] for which the legend says what has been wrong
-constexpr double boldness = 1.0;                     // [px] that the selected curve is thicker
-constexpr double limitOpacity = 0.6;                 // of the colour of the curve
-constexpr double laneMargin = 3.0;                   // [px] between bands and lines
+constexpr QPlcPast::Time calmTime = 200'000'000;  // [ns] for which the legend says what has been wrong
+constexpr double boldness = 1.0;                  // [px] that the selected curve is thicker
+constexpr double limitOpacity = 0.6;              // of the colour of the curve
+constexpr double laneMargin = 3.0;                // [px] between bands and lines
 constexpr int digitsOfLine = 6;
 constexpr double limitDepth = 15.0;  // below the curves, above the grid
-
-SignalStore::Range united(const SignalStore::Range &a, const SignalStore::Range &b)
-{
-    return a.isEmpty() ? b
-        : b.isEmpty()  ? a
-                       : SignalStore::Range{std::min(a.minimum, b.minimum), std::max(a.maximum, b.maximum)};
-}
 
 }  // namespace
 
@@ -34,13 +29,13 @@ PlotCurve::PlotCurve() = default;
 PlotCurve::PlotCurve(PlotCurve &&) noexcept = default;
 PlotCurve::~PlotCurve() = default;
 
-double PlotCurve::value(std::optional<SignalStore::Time> time) const
+double PlotCurve::value(std::optional<QPlcPast::Time> time) const
 {
-    if (isMissing() || source.store->isEmpty())
+    if (isMissing() || source.isEmpty())
         return NAN;
-    if (time)
-        return CursorStatistics::valueAt(*source.store, source.channel, scaling(), *time);
-    return settings.gain * double(source.store->value(source.channel, source.store->endRow() - 1)) + settings.offset;
+    const PastRows rows = PastRows::of(source);
+    return time ? CursorStatistics::valueAt(*rows.store, rows.channel, scaling(), *time)
+                : settings.gain * source.value(source.endRow() - 1) + settings.offset;
 }
 
 QColor PlotCurve::swatchColor(double value) const
@@ -48,15 +43,13 @@ QColor PlotCurve::swatchColor(double value) const
     return bands && !std::isnan(value) ? bands->colorOf(value) : color;
 }
 
-SignalStore::Mark PlotCurve::mark(std::optional<SignalStore::Time> time) const
+QPlcQuality::Kind PlotCurve::mark(std::optional<QPlcPast::Time> time) const
 {
-    if (isMissing() || source.store->isEmpty())
-        return RowMarks::None;
-    const SignalStore &store = *source.store;
-    const SignalStore::Row end = time ? store.rowAt(*time + 1) : store.endRow();
-    const SignalStore::Row newest = std::max(end, store.firstRow() + 1) - 1;
-    const SignalStore::Row begin = time ? newest : store.rowAt(store.time(newest) - calmTime, newest);
-    return store.greatestMark(source.channel, begin, end);
+    if (isMissing() || source.isEmpty())
+        return QPlcQuality::Good;
+    const QPlcPast::Row end = time ? source.rowAt(*time + 1) : source.endRow();
+    const QPlcPast::Row newest = std::max(end, source.firstRow() + 1) - 1;
+    return source.quality(time ? newest : source.rowAt(source.time(newest) - calmTime), end);
 }
 
 PlotCurves::PlotCurves(PlotCanvas *plot)
@@ -66,19 +59,20 @@ PlotCurves::PlotCurves(PlotCanvas *plot)
 
 PlotCurves::~PlotCurves() = default;
 
-void PlotCurves::bind(const PlotSettings &settings, const CurveSources *sources, const QString &pin, const Theme &theme)
+void PlotCurves::bind(const PlotSettings &settings, const QPlcPanelContext &context)
 {
+    const QPlcTheme theme = context.theme();
     const std::vector<PlotCurve> before = std::move(m_curves);  // derived signals that go on are not made anew
     m_curves.clear();
-    m_stores.clear();
+    m_pasts.clear();
     m_selected = std::min(m_selected, settings.curves.size() - 1);
     m_axes = PlotAxes();
     for (const PlotCurveSettings &wanted : settings.curves) {
         PlotCurve curve;
         curve.settings = wanted;
-        curve.source = sources ? sources->find(wanted.signal, pin) : CurveSource();
+        curve.source = context.past(wanted.signal);
         curve.color = wanted.color.isValid() ? wanted.color : theme.curve(size());
-        curve.penStyle = Theme::curveStyle(size());
+        curve.penStyle = QPlcTheme::curveStyle(size());
         if (curve.isMissing())
             curve.axis = wanted.axis == PlotCurveSettings::Right ? 1 : 0;
         else if (!curve.isDrawnAsBands())
@@ -98,7 +92,7 @@ void PlotCurves::bind(const PlotSettings &settings, const CurveSources *sources,
         showLines(axis, settings.range(axis, m_axes.at(axis).unit).lines, theme);
 }
 
-void PlotCurves::showLines(int axis, const QVector<double> &lines, const Theme &theme)
+void PlotCurves::showLines(int axis, const QVector<double> &lines, const QPlcTheme &theme)
 {
     if (!hasAxis(axis))
         return;
@@ -122,16 +116,17 @@ void PlotCurves::showLines(int axis, const QVector<double> &lines, const Theme &
     }
 }
 
-void PlotCurves::show(PlotCurve *curve, bool showsLimits, const Theme &theme)
+void PlotCurves::show(PlotCurve *curve, bool showsLimits, const QPlcTheme &theme)
 {
-    const CurveSource &source = curve->source;
-    if (std::find(m_stores.begin(), m_stores.end(), source.store) == m_stores.end())
-        m_stores.push_back(source.store);
+    const QPlcPast &source = curve->source;
+    if (std::none_of(m_pasts.begin(), m_pasts.end(), [&](const QPlcPast &each) { return each.sharesRows(source); }))
+        m_pasts.push_back(source);
     if (curve->isDrawnAsBands()) {
         showBands(curve, theme);
         return;
     }
-    curve->item = std::make_unique<StoreCurve>(source.store, source.channel, curve->settings.text());
+    const PastRows rows = PastRows::of(source);
+    curve->item = std::make_unique<StoreCurve>(rows.store, rows.channel, curve->settings.text());
     curve->item->setColor(curve->color);
     curve->item->setPenStyle(curve->penStyle);
     curve->item->setLineWidth(theme.curveWidth);
@@ -146,9 +141,9 @@ void PlotCurves::show(PlotCurve *curve, bool showsLimits, const Theme &theme)
     }
 }
 
-void PlotCurves::showBands(PlotCurve *curve, const Theme &theme)
+void PlotCurves::showBands(PlotCurve *curve, const QPlcTheme &theme)
 {
-    curve->bands = std::make_unique<StateBands>(curve->source.store, curve->source.channel, curve->source.names, theme);
+    curve->bands = std::make_unique<StateBands>(PastRows::of(curve->source), curve->source.names, theme);
     curve->bands->setTitle(curve->settings.text());
     curve->bands->setFont(scaleFont(m_plot->font()));
     curve->bands->setOrigin(m_origin);
@@ -183,7 +178,7 @@ void PlotCurves::showLimit(PlotCurve *curve, double limit)
     curve->limits.push_back(std::move(marker));
 }
 
-void PlotCurves::select(int place, const Theme &theme)
+void PlotCurves::select(int place, const QPlcTheme &theme)
 {
     m_selected = place;
     for (int i = 0; i < size(); ++i) {
@@ -195,7 +190,7 @@ void PlotCurves::select(int place, const Theme &theme)
     }
 }
 
-void PlotCurves::setOrigin(SignalStore::Time origin)
+void PlotCurves::setOrigin(QPlcPast::Time origin)
 {
     if (origin == m_origin)
         return;
@@ -275,34 +270,36 @@ QPlcValueNames PlotCurves::names(int axis) const
     return common.value_or(QPlcValueNames());
 }
 
-SignalStore::Range PlotCurves::range(int axis, double begin, double end) const
+QPlcPast::Range PlotCurves::range(int axis, double begin, double end) const
 {
-    SignalStore::Range all{NAN, NAN};
+    QPlcPast::Range all = QPlcPast::Range::empty();
     for (const PlotCurve &curve : m_curves) {
-        if (curve.isLine() && curve.axis == axis)
-            all = united(all, curve.item->valueRange(begin, end));
+        if (!curve.isLine() || curve.axis != axis)
+            continue;
+        const auto [minimum, maximum] = curve.item->valueRange(begin, end);
+        all = all.united({double(minimum), double(maximum)});
     }
     for (const double line : m_lineValues[std::size_t(axis)])
-        all = united(all, {float(line), float(line)});
+        all = all.united({line, line});
     return all;
 }
 
-SignalStore::Time PlotCurves::newestTime() const
+QPlcPast::Time PlotCurves::newestTime() const
 {
-    SignalStore::Time newest = 0;
+    QPlcPast::Time newest = 0;
     for (const PlotCurve &curve : m_curves)
-        newest = std::max(newest, curve.isSeen() ? curve.source.plant->newestTime() : 0);
+        newest = std::max(newest, curve.isSeen() ? curve.source.newestTime() : 0);
     return newest;
 }
 
-bool PlotCurves::timeRange(SignalStore::Time *begin, SignalStore::Time *end) const
+bool PlotCurves::timeRange(QPlcPast::Time *begin, QPlcPast::Time *end) const
 {
     bool isFound = false;
-    for (const SignalStore *store : m_stores) {
-        if (store->isEmpty())
+    for (const QPlcPast &past : m_pasts) {
+        if (past.isEmpty())
             continue;
-        const SignalStore::Time first = store->time(store->firstRow());
-        const SignalStore::Time last = store->time(store->endRow() - 1);
+        const QPlcPast::Time first = past.time(past.firstRow());
+        const QPlcPast::Time last = past.time(past.endRow() - 1);
         *begin = isFound ? std::min(*begin, first) : first;
         *end = isFound ? std::max(*end, last) : last;
         isFound = true;

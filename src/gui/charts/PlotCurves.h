@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "CursorStatistics.h"
 #include "PlotAxes.h"
+#include "QPlcPast.h"
+#include "QPlcTheme.h"
 #include "StateBands.h"
-#include "gui/panel/Theme.h"
-#include "gui/plot/CurveSources.h"
+#include "gui/plot/CursorStatistics.h"
 #include "gui/plot/StoreCurve.h"
 
 #include <memory>
 #include <vector>
 
+class QPlcPanelContext;
 class QwtPlotMarker;
 
 namespace qplc {
@@ -21,7 +22,7 @@ class PlotCanvas;
 struct PlotCurve
 {
     PlotCurveSettings settings;
-    CurveSource source;  // held as long as the item draws its store
+    QPlcPast source;  // held as long as the item draws it
     QColor color;
     Qt::PenStyle penStyle = Qt::SolidLine;
     int axis = 0;                       // of PlotAxes
@@ -41,14 +42,14 @@ struct PlotCurve
     bool isDrawnAsBands() const { return settings.isBands && canBeBands(); }
     /// Of the values that are drawn; empty: none.
     QPlcValueNames names() const { return settings.isScaled() ? QPlcValueNames() : source.names; }
-    bool isStale() const { return source.plant && source.plant->quality() == Plant::Stale; }
+    bool isStale() const { return source && !source.isCurrent(); }
     CursorStatistics::Scaling scaling() const { return {settings.gain, settings.offset, source.isStepped}; }
     /// At \a time, the newest one without; NaN: none.
-    double value(std::optional<SignalStore::Time> time) const;
+    double value(std::optional<QPlcPast::Time> time) const;
     /// What legends and tables have beside its name: for bands, the colour of the state that has \a value.
     QColor swatchColor(double value) const;
-    /// Of the value at \a time, a QPlcQuality::Kind; without, the worst one of the last moments.
-    SignalStore::Mark mark(std::optional<SignalStore::Time> time) const;
+    /// Of the value at \a time; without, the worst one of the last moments.
+    QPlcQuality::Kind mark(std::optional<QPlcPast::Time> time) const;
 };
 
 /// The curves of a plot, which draws them.
@@ -58,8 +59,8 @@ public:
     explicit PlotCurves(PlotCanvas *plot);
     ~PlotCurves();
 
-    /// Finds all signals anew. \param sources  null: all are missing
-    void bind(const PlotSettings &settings, const CurveSources *sources, const QString &pin, const Theme &theme);
+    /// Finds all signals anew.
+    void bind(const PlotSettings &settings, const QPlcPanelContext &context);
 
     int size() const { return int(m_curves.size()); }
     bool isEmpty() const { return m_curves.empty(); }
@@ -69,10 +70,10 @@ public:
 
     /// The bold one; -1: none.
     int selected() const { return m_selected; }
-    void select(int place, const Theme &theme);
-    void setOrigin(SignalStore::Time origin);
-    /// Of the curves that are seen, each once.
-    const std::vector<const SignalStore *> &stores() const { return m_stores; }
+    void select(int place, const QPlcTheme &theme);
+    void setOrigin(QPlcPast::Time origin);
+    /// Of the curves that are seen: one for each that have the same rows.
+    const std::vector<QPlcPast> &pasts() const { return m_pasts; }
     const PlotAxes &axes() const { return m_axes; }
     /// Whether curves that are not hidden have this axis.
     bool hasAxis(int axis) const;
@@ -90,26 +91,26 @@ public:
     /// Of the values of all lines of an axis; empty when they differ.
     QPlcValueNames names(int axis) const;
     /// Smallest and largest value of all seen curves of an axis, and of its lines.
-    SignalStore::Range range(int axis, double begin, double end) const;
+    QPlcPast::Range range(int axis, double begin, double end) const;
     /// Of the newest row of the plants whose signals are seen; 0: there is none. A derived signal may still lack it.
-    SignalStore::Time newestTime() const;
+    QPlcPast::Time newestTime() const;
     /// Times of the first and the last row; false: there are none.
-    bool timeRange(SignalStore::Time *begin, SignalStore::Time *end) const;
+    bool timeRange(QPlcPast::Time *begin, QPlcPast::Time *end) const;
 
 private:
-    void show(PlotCurve *curve, bool showsLimits, const Theme &theme);
-    void showBands(PlotCurve *curve, const Theme &theme);
+    void show(PlotCurve *curve, bool showsLimits, const QPlcTheme &theme);
+    void showBands(PlotCurve *curve, const QPlcTheme &theme);
     void placeBands();
     void showLimit(PlotCurve *curve, double limit);
-    void showLines(int axis, const QVector<double> &lines, const Theme &theme);
+    void showLines(int axis, const QVector<double> &lines, const QPlcTheme &theme);
 
     PlotCanvas *m_plot;
     PlotAxes m_axes;
     std::vector<PlotCurve> m_curves;
-    std::vector<const SignalStore *> m_stores;
+    std::vector<QPlcPast> m_pasts;
     std::vector<std::unique_ptr<QwtPlotMarker>> m_lines;  // for reference
     std::vector<QVector<double>> m_lineValues;            // of the y axes
-    SignalStore::Time m_origin = 0;
+    QPlcPast::Time m_origin = 0;
     int m_selected = -1;
 };
 

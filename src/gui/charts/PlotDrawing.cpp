@@ -14,7 +14,6 @@ using namespace qplc;
 
 namespace {
 
-constexpr int framePeriod = 20;     // [ms]
 constexpr int compactHeight = 160;  // [px] of the panel
 constexpr int compactWidth = 300;
 constexpr int leastLegendHeight = 100;      // [px] of the panel: below there are curves only
@@ -22,28 +21,20 @@ constexpr int leastStatisticsHeight = 220;  // [px] of the panel: below there is
 constexpr double legendShare = 0.3;         // of the height of the panel, at most
 constexpr double legendShareBesideTable = 0.15;
 constexpr double statisticsShare = 0.3;
-constexpr int buttonMargin = 4;  // [px]
+constexpr int buttonMargin = 4;           // [px]
+constexpr qint64 second = 1'000'000'000;  // [ns]
 
 }  // namespace
-
-/// At most 50 pictures a second, the first one at once.
-void QPlcTimePlot::Private::schedule()
-{
-    if (!q->isVisible() || drawTimer.isActive())
-        return;
-    const qint64 passed = sinceDrawing.isValid() ? sinceDrawing.elapsed() : framePeriod;
-    drawTimer.start(int(std::max<qint64>(0, framePeriod - passed)));
-}
 
 QPlcTimePlot::Private::Time QPlcTimePlot::Private::newest()
 {
     const Time own = curves.newestTime();
-    return own == 0 && shared() ? shared()->newest() : own;
+    return own == 0 ? shared()->newest() : own;
 }
 
 TimeColumns QPlcTimePlot::Private::columns()
 {
-    const TimeView *time = view();
+    const QPlcTimeAxis *time = view();
     const int width = canvas->deviceWidth();
     return time->isLive() ? TimeColumns::upTo(newest(), time->span(), width)
                           : TimeColumns(time->begin(), time->end(), width);
@@ -54,8 +45,8 @@ bool QPlcTimePlot::Private::isPictureDue(const TimeColumns &columns)
     bool isDue = false;
     for (std::size_t i = 0; i < redraw.size(); ++i) {
         RedrawRule::Picture picture;
-        if (i < curves.stores().size())
-            picture = RedrawRule::Picture::of(*curves.stores()[i], columns);
+        if (i < curves.pasts().size())
+            picture = RedrawRule::Picture::of(*PastRows::of(curves.pasts()[i]).store, columns);
         picture.columns = columns;
         picture.settings = version;
         isDue = redraw[i].isDue(picture) || isDue;
@@ -65,9 +56,6 @@ bool QPlcTimePlot::Private::isPictureDue(const TimeColumns &columns)
 
 void QPlcTimePlot::Private::draw()
 {
-    if (!q->isVisible())
-        return;
-    sinceDrawing.restart();
     const TimeColumns shown = columns();
     if (shownEvent() != drawnEvent)
         ++version;
@@ -93,7 +81,7 @@ void QPlcTimePlot::Private::draw()
 /// A mouse that rests points at another time when the view moves below it.
 void QPlcTimePlot::Private::pointAtMouse()
 {
-    if (shared() && interaction->mouse())
+    if (interaction->mouse())
         shared()->setPointer(canvas->timeAt(interaction->mouse()->x()));
 }
 
@@ -101,8 +89,8 @@ bool QPlcTimePlot::Private::fitRange(Axis axis)
 {
     const double begin = double(canvas->begin() - canvas->origin()) * 1e-9;
     const double end = double(canvas->end() - canvas->origin()) * 1e-9;
-    const SignalStore::Range seen = curves.range(axis, begin, end);
-    return axes[std::size_t(axis)].automatic.fit(double(seen.minimum), double(seen.maximum), clock.elapsed());
+    const QPlcPast::Range seen = curves.range(axis, begin, end);
+    return axes[std::size_t(axis)].automatic.fit(seen.minimum, seen.maximum, clock.elapsed());
 }
 
 void QPlcTimePlot::Private::showRange(Axis axis)
@@ -132,15 +120,15 @@ void QPlcTimePlot::Private::showOverlay()
     PlotOverlay::Picture picture;
     picture.box = box;
     picture.hint = hint();
-    const TimeView *time = shared();
+    const QPlcTimeAxis *time = shared();
     const auto place = [&](std::optional<Time> moment) -> std::optional<int> {
         if (!moment || *moment < canvas->begin() || *moment > canvas->end())
             return std::nullopt;
         return int(std::lround(canvas->xOf(*moment)));
     };
-    if (time && !curves.isEmpty()) {
-        picture.cursorA = place(time->cursor(TimeView::A));
-        picture.cursorB = place(time->cursor(TimeView::B));
+    if (!curves.isEmpty()) {
+        picture.cursorA = place(time->cursor(QPlcTimeAxis::A));
+        picture.cursorB = place(time->cursor(QPlcTimeAxis::B));
         picture.pointer = place(time->pointer());
     }
     if (picture.pointer) {
@@ -208,7 +196,7 @@ QString QPlcTimePlot::Private::hintOfTime() const
     Time last = 0;
     if (!curves.timeRange(&first, &last) || (canvas->begin() <= last && first <= canvas->end()))
         return {};
-    const auto text = [](Time time) { return TimeTicks::clockText(time, SignalStore::Second); };
+    const auto text = [](Time time) { return TimeTicks::clockText(time, second); };
     return QPlcTimePlot::tr("No values at this time: they are from %1 to %2.\nA shows them all, L the newest.")
         .arg(text(first), text(last));
 }
@@ -217,10 +205,10 @@ void QPlcTimePlot::Private::showNumbers()
 {
     if (!q->isVisible())
         return;
-    const TimeView *time = shared();
+    const QPlcTimeAxis *time = shared();
     if (view()->isLive())
         pointAtMouse();
-    std::optional<Time> moment = time ? time->pointer() : std::nullopt;
+    std::optional<Time> moment = time->pointer();
     const bool isElsewhere = moment && (*moment < canvas->begin() || *moment > canvas->end());
     if (isElsewhere && view()->isLive())
         moment.reset();  // of a plot whose time is another one
@@ -228,13 +216,13 @@ void QPlcTimePlot::Private::showNumbers()
         moment = std::clamp(newest(), view()->begin(), view()->end());  // around an event, the rest is still to come
     legend->show(curves, moment);
     arrangeLegend();  // wider values leave room for fewer columns
-    const bool hasCursors = time && (time->cursor(TimeView::A) || time->cursor(TimeView::B)) && !curves.isEmpty();
+    const bool hasCursors = (time->cursor(QPlcTimeAxis::A) || time->cursor(QPlcTimeAxis::B)) && !curves.isEmpty();
     if (hasCursors != !statistics->isHidden()) {
         statistics->setVisible(hasCursors);
         arrange();
     }
     if (hasCursors)
-        statistics->show(curves, time->cursor(TimeView::A), time->cursor(TimeView::B));
+        statistics->show(curves, time->cursor(QPlcTimeAxis::A), time->cursor(QPlcTimeAxis::B));
     for (Axis axis = 0; axis < curves.axes().count(); ++axis)
         version += fitRange(axis) ? 1 : 0;
     schedule();
@@ -280,21 +268,14 @@ void QPlcTimePlot::Private::arrangeLegend()
     legendArea->setFixedHeight(legend->heightWithin(q->contentsRect().width(), int(share * q->height())));
 }
 
-void QPlcTimePlot::Private::showTheme()
+void QPlcTimePlot::Private::showTheme(const QPlcTheme &theme)
 {
-    const Theme theme = q->windowContext() ? q->windowContext()->theme() : Theme::byName(Theme::System);
-    QPalette palette = theme.palette();
-    palette.setColor(QPalette::Window, theme.surface);
-    q->setPalette(palette);
-    q->setAutoFillBackground(true);
     canvas->setTheme(theme);
     overlay->setTheme(theme);
     legend->setTheme(theme);
-    exporter->setTheme(theme);
-    QPalette button = palette;
+    QPalette button = q->palette();
     button.setColor(QPalette::Button, theme.accent);
     button.setColor(QPalette::ButtonText, theme.surface);
     liveButton->setPalette(button);
     liveButton->setFont(overlay->font());
-    bind();
 }

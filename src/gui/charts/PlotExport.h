@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "TableExport.h"
+#include "gui/plot/TableExport.h"
 
 #include <QtCore/QBuffer>
 #include <QtCore/QObject>

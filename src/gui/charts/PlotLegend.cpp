@@ -29,7 +29,7 @@ constexpr int leastName = 56;           // [px] of a name that is elided
 constexpr double smallestShare = 1e-4;  // of the axis: a smaller value has the prefix of this one
 
 /// Empty for values like others.
-QString markText(SignalStore::Mark mark)
+QString markText(QPlcQuality::Kind mark)
 {
     switch (mark) {
     case QPlcQuality::Held:
@@ -46,7 +46,7 @@ QString markText(SignalStore::Mark mark)
 QString hintOf(const PlotCurve &curve)
 {
     if (curve.isMissing())
-        return curve.source.error;
+        return curve.source.problem;
     QString hint = curve.settings.text();
     if (hint != curve.settings.signal)
         hint += QLatin1Char('\n') + curve.settings.signal;
@@ -55,7 +55,7 @@ QString hintOf(const PlotCurve &curve)
             += PlotLegend::tr("\nlimits %1 ... %2")
                    .arg(numberText(curve.source.minimum.value_or(NAN)), numberText(curve.source.maximum.value_or(NAN)));
     if (curve.isStale())
-        hint += PlotLegend::tr("\nlast value %1 ago").arg(ageText(curve.source.plant->age()));
+        hint += PlotLegend::tr("\nlast value %1 ago").arg(ageText(curve.source.age()));
     return hint;
 }
 
@@ -72,7 +72,7 @@ PlotLegend::PlotLegend(QWidget *parent)
     measure();
 }
 
-void PlotLegend::setTheme(const Theme &theme)
+void PlotLegend::setTheme(const QPlcTheme &theme)
 {
     m_theme = theme;
     update();
@@ -88,7 +88,7 @@ void PlotLegend::setCompact(bool isCompact)
     update();
 }
 
-void PlotLegend::show(const PlotCurves &curves, std::optional<SignalStore::Time> time)
+void PlotLegend::show(const PlotCurves &curves, std::optional<QPlcPast::Time> time)
 {
     QVector<Entry> entries;
     m_prefixes.resize(curves.size());
@@ -102,7 +102,7 @@ void PlotLegend::show(const PlotCurves &curves, std::optional<SignalStore::Time>
         entry.penStyle = curve.isDrawnAsBands() ? Qt::SolidLine : curve.penStyle;
         entry.isVisible = curve.settings.isVisible;
         const bool isOld = curve.isStale() && !time;
-        entry.doubt = isOld ? ageText(curve.source.plant->age()) : markText(curve.mark(time));
+        entry.doubt = isOld ? ageText(curve.source.age()) : markText(curve.mark(time));
         entry.isTrusted = !curve.isMissing() && !isOld && entry.doubt.isEmpty();
         entry.isSelected = place == curves.selected();
         entries.append(entry);
@@ -115,7 +115,7 @@ void PlotLegend::show(const PlotCurves &curves, std::optional<SignalStore::Time>
 }
 
 /// Names of states as they are; whole numbers without decimals; others with a prefix that stays while it is good enough.
-void PlotLegend::fillValue(const PlotCurves &curves, int place, std::optional<SignalStore::Time> time, Entry *entry)
+void PlotLegend::fillValue(const PlotCurves &curves, int place, std::optional<QPlcPast::Time> time, Entry *entry)
 {
     const PlotCurve &curve = curves.at(place);
     SiPrefix &prefix = m_prefixes[place];

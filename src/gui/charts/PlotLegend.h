@@ -39,10 +39,10 @@ public:
 
     explicit PlotLegend(QWidget *parent = nullptr);
 
-    void setTheme(const Theme &theme);
+    void setTheme(const QPlcTheme &theme);
     void setCompact(bool isCompact);
     /// Shows the values of a time, the newest ones without.
-    void show(const PlotCurves &curves, std::optional<SignalStore::Time> time);
+    void show(const PlotCurves &curves, std::optional<QPlcPast::Time> time);
     const QVector<Entry> &entries() const { return m_entries; }
     /// The place of an entry [px]; null: it is not seen.
     QRect entryRect(int place) const;
@@ -88,10 +88,10 @@ private:
     int wantedWidth() const;
     int leastWidth() const;
     QFont valueFontOf(const Entry &entry) const;
-    void fillValue(const PlotCurves &curves, int place, std::optional<SignalStore::Time> time, Entry *entry);
+    void fillValue(const PlotCurves &curves, int place, std::optional<QPlcPast::Time> time, Entry *entry);
     QFont fontOf(const Entry &entry) const;
 
-    Theme m_theme;
+    QPlcTheme m_theme;
     QVector<Entry> m_entries;
     QVector<SiPrefix> m_prefixes;  // of the entries
     int m_hovered = -1;

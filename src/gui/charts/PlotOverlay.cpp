@@ -44,7 +44,7 @@ PlotOverlay::PlotOverlay(QWidget *canvas)
     resize(canvas->size());
 }
 
-void PlotOverlay::setTheme(const Theme &theme)
+void PlotOverlay::setTheme(const QPlcTheme &theme)
 {
     m_theme = theme;
     update();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "gui/panel/Theme.h"
+#include "QPlcTheme.h"
 
 #include <QtCore/QVector>
 #include <QtWidgets/QWidget>
@@ -36,7 +36,7 @@ public:
 
     explicit PlotOverlay(QWidget *canvas);
 
-    void setTheme(const Theme &theme);
+    void setTheme(const QPlcTheme &theme);
     const Picture &picture() const { return m_picture; }
     /// Drawn when it is another one.
     void show(const Picture &picture);
@@ -55,7 +55,7 @@ private:
     void paintTrigger(QPainter *painter) const;
     void paintBetween(QPainter *painter) const;
 
-    Theme m_theme;
+    QPlcTheme m_theme;
     Picture m_picture;
 };
 

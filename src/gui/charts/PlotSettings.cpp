@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "PlotSettings.h"
 
-#include "gui/plot/CurveSources.h"
+#include "QPlcPast.h"
 
 #include <QtCore/QJsonArray>
 
@@ -37,7 +37,7 @@ const QString minimumKey = QStringLiteral("minimum");
 const QString maximumKey = QStringLiteral("maximum");
 const QString linesKey = QStringLiteral("lines");
 
-constexpr double shortestSpan = 1e-4;  // [s], as TimeView
+constexpr double shortestSpan = 1e-4;  // [s], as QPlcTimeAxis
 constexpr double longestSpan = 86400.0;
 
 template<typename T>
@@ -86,7 +86,7 @@ QString PlotCurveSettings::text() const
 {
     if (!name.isEmpty())
         return name;
-    QString text = CurveSource::textOf(signal);
+    QString text = QPlcPast::textOf(signal);
     const bool isFormula = text != signal;
     if (gain != 1.0)
         text = QString::number(gain, 'g', 10) + (isFormula ? QStringLiteral("*(%1)") : QStringLiteral("*%1")).arg(text);

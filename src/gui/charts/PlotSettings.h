@@ -16,7 +16,7 @@ struct PlotCurveSettings
 {
     enum Axis { Left, Right };
 
-    QString signal;  // a reference, or what else CurveSources understands
+    QString signal;  // a reference, or a formula
     QString name;    // shown in place of text(); empty: none
     double gain = 1.0;
     double offset = 0.0;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "PlotSettingsEditor.h"
+
+#include "QPlcPanelContext.h"
 #include "gui/panel/SignalEdit.h"
 
 #include <QtGui/QDoubleValidator>
@@ -56,16 +58,15 @@ QLabel *heading(const QString &text, QWidget *parent)
 }  // namespace
 
 PlotSettingsEditor::PlotSettingsEditor(const PlotSettings &settings, const QStringList &furtherUnits,
-                                       const PlantList *plants, const Theme &theme, QWidget *parent)
+                                       QPlcPanelContext *context, QWidget *parent)
     : SettingsEditor(parent)
     , m_settings(settings)
-    , m_plants(plants)
-    , m_theme(theme)
+    , m_theme(context->theme())
 {
     auto *column = new QVBoxLayout(this);
     m_curves = new QWidget(this);
     column->addWidget(m_curves);
-    auto *add = new SignalEdit(plants, SignalEdit::Curves, this);
+    auto *add = new SignalEdit(context, SignalEdit::Curves, this);
     add->setPlaceholderText(tr("Add a signal, or = formula, and press Enter"));
     add->setObjectName(QStringLiteral("add"));
     connect(add, &SignalEdit::chosen, this, [this, add](const QString &name) {

@@ -2,26 +2,25 @@
 #pragma once
 
 #include "PlotSettings.h"
+#include "QPlcTheme.h"
 #include "gui/panel/SettingsEditor.h"
-#include "gui/panel/Theme.h"
 
 class QCheckBox;
 class QGridLayout;
 class QLineEdit;
+class QPlcPanelContext;
 class QToolButton;
 
 namespace qplc {
-
-class PlantList;
 
 /// The settings of a time plot, to be changed by a person. Each change is told at once.
 class PlotSettingsEditor : public SettingsEditor
 {
     Q_OBJECT
 public:
-    /// \param plants  for the names of signals; null: without completion \param furtherUnits  of axes besides the first one at the left and at the right
-    PlotSettingsEditor(const PlotSettings &settings, const QStringList &furtherUnits, const PlantList *plants,
-                       const Theme &theme, QWidget *parent = nullptr);
+    /// \param context  of the panel, which outlives the editor \param furtherUnits  of axes besides the first one at the left and at the right
+    PlotSettingsEditor(const PlotSettings &settings, const QStringList &furtherUnits, QPlcPanelContext *context,
+                       QWidget *parent = nullptr);
 
     const PlotSettings &settings() const { return m_settings; }
 
@@ -53,8 +52,7 @@ private:
     void tell();
 
     PlotSettings m_settings;
-    const PlantList *m_plants;
-    Theme m_theme;
+    QPlcTheme m_theme;
     QWidget *m_curves = nullptr;
     QCheckBox *m_limits = nullptr;
     QGridLayout *m_grid = nullptr;

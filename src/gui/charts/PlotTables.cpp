@@ -3,20 +3,18 @@
 #include "ChartAction.h"
 #include "QPlcTimePlotPrivate.h"
 
-#include <QtCore/QDateTime>
-
 #include <algorithm>
 
 using namespace qplc;
 
 void QPlcTimePlot::Private::makeExportActions()
 {
-    exporter->addTableActions([this] { return shownTable(); });
+    exporter()->addTableActions([this] { return shownTable(); });
     addChartAction(q, QPlcTimePlot::tr("Export A ... B as CSV..."), {QKeySequence(Qt::CTRL | Qt::ALT | Qt::Key_E)},
-                   "saveBetween", [this] { exporter->saveTable(tableBetweenCursors()); });
+                   "saveBetween", [this] { exporter()->saveTable(tableBetweenCursors()); });
     addChartAction(q, QPlcTimePlot::tr("Copy A ... B as table"), {QKeySequence(Qt::CTRL | Qt::ALT | Qt::Key_C)},
-                   "copyBetween", [this] { exporter->copyTable(tableBetweenCursors()); });
-    exporter->addPictureActions();
+                   "copyBetween", [this] { exporter()->copyTable(tableBetweenCursors()); });
+    exporter()->addPictureActions();
 }
 
 ChartExport::Table QPlcTimePlot::Private::table(Time begin, Time end) const
@@ -25,8 +23,8 @@ ChartExport::Table QPlcTimePlot::Private::table(Time begin, Time end) const
         std::vector<TableExport::Column> columns;
         for (const PlotCurve &curve : curves) {
             if (curve.isSeen())
-                columns.push_back({curve.source.store, curve.source.channel, curve.settings.gain, curve.settings.offset,
-                                   curve.settings.text(), curve.source.unit, curve.source.derived});
+                columns.push_back(TableExport::Column::of(curve.source, curve.settings.text(), curve.settings.gain,
+                                                          curve.settings.offset));
         }
         return TableExport(format, std::move(columns), begin, end);
     };
@@ -40,15 +38,15 @@ ChartExport::Table QPlcTimePlot::Private::shownTable() const
 
 bool QPlcTimePlot::Private::hasBothCursors() const
 {
-    return shared() && shared()->cursor(TimeView::A) && shared()->cursor(TimeView::B);
+    return shared()->cursor(QPlcTimeAxis::A) && shared()->cursor(QPlcTimeAxis::B);
 }
 
 ChartExport::Table QPlcTimePlot::Private::tableBetweenCursors() const
 {
     if (!hasBothCursors())
         return shownTable();
-    const Time a = *shared()->cursor(TimeView::A);
-    const Time b = *shared()->cursor(TimeView::B);
+    const Time a = *shared()->cursor(QPlcTimeAxis::A);
+    const Time b = *shared()->cursor(QPlcTimeAxis::B);
     return table(std::min(a, b), std::max(a, b));
 }
 
@@ -62,8 +60,8 @@ void QPlcTimePlot::Private::connectEventFiles()
     });
     connect(eventFiles, &EventFiles::savedChanged, this, [this] { triggerBar->showSaved(eventFiles->saved()); });
     connect(eventFiles, &EventFiles::failed, this, [this](const QString &sentence) {
-        if (q->windowContext())
-            q->windowContext()->events()->append(
-                {QDateTime::currentDateTime(), PlantEvent::Warning, QPlcTimePlot::tr("Trigger"), sentence, false});
+        context()->report(QPlcPanelContext::Warning, QPlcTimePlot::tr("Trigger"), sentence);
     });
+    connect(context(), &QPlcPanelContext::signalsChanged, this,
+            [this] { eventFiles->cancel(QPlcTimePlot::tr("The signals have changed while an event was saved.")); });
 }

@@ -2,20 +2,17 @@
 #include "QPlcJitterHistogram.h"
 
 #include "ChartAction.h"
-#include "ChartExport.h"
 #include "ChartLook.h"
+#include "ChartPanel.h"
 #include "JitterCanvas.h"
 #include "JitterEditor.h"
+#include "QPlcMessage.h"
 #include "gui/models/ValueFormat.h"
 #include "gui/panel/PanelSettings.h"
-#include "gui/panel/WindowContext.h"
 
 #include <QtCore/QElapsedTimer>
 #include <QtCore/QJsonArray>
 #include <QtCore/QMap>
-#include <QtCore/QPointer>
-#include <QtCore/QTimer>
-#include <QtGui/QKeyEvent>
 #include <QtWidgets/QAction>
 #include <QtWidgets/QLabel>
 #include <QtWidgets/QVBoxLayout>
@@ -37,45 +34,46 @@ const QString masterLateness = QStringLiteral("Master.lateness");
 
 }  // namespace
 
-class QPlcJitterHistogram::Private
+class QPlcJitterHistogram::Private : public ChartPanel
 {
 public:
     explicit Private(QPlcJitterHistogram *histogram);
 
     void makeActions();
-    Plant *plant() const;
+    void bind() override { tick(); }
+    void tick() override;
+    void takeValues() override {}
+    void takeTime() override {}
+    void resized() override { draw(); }
     void setPlant(const QString &name);
     void ask();
     void take(const QPlcMessage &answer);
-    void draw();
+    void draw() override;
     QString problem(const QVector<JitterDistribution> &shown) const;
     QString captionText(const QVector<JitterDistribution> &shown, bool isStale) const;
     QStringList shownKeys() const;
     void setShown(const QString &key, bool isShown);
     void showActions();
-    void applyTheme();
-    void forget();
+    void showTheme(const QPlcTheme &theme) override { canvas->setTheme(theme); }
 
     QPlcJitterHistogram *q;
     JitterCanvas *canvas;
     QLabel *message;
     QLabel *caption;
-    ChartExport *exporter;
     QAction *last = nullptr;
     QMap<QString, QAction *> masterActions;  // by key
     PanelSettings settings{showKey, windowKey};
     QJsonObject statistics;
-    QPointer<Plant> asked;  // the plant whose statistics these are
+    QString asked;  // the plant whose statistics these are
     QElapsedTimer sinceAnswer;
-    QTimer timer;
 };
 
 QPlcJitterHistogram::Private::Private(QPlcJitterHistogram *histogram)
-    : q(histogram)
+    : ChartPanel(histogram, [this] { return std::make_unique<ChartPicture>(canvas, caption->text()); })
+    , q(histogram)
     , canvas(new JitterCanvas)
     , message(new QLabel)
     , caption(new QLabel)
-    , exporter(new ChartExport(q, [this] { return std::make_unique<ChartPicture>(canvas, caption->text()); }))
 {
     auto *all = new QVBoxLayout(q);
     all->setContentsMargins(2, 2, 2, 2);
@@ -94,9 +92,9 @@ QPlcJitterHistogram::Private::Private(QPlcJitterHistogram *histogram)
     caption->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     caption->setFont(scaleFont(caption->font()));
     canvas->setAccessibleName(tr("Histogram of durations"));
-    q->setFocusPolicy(Qt::StrongFocus);
+    setTickPeriod(askPause);
+    setQuietTexts();
     makeActions();
-    QObject::connect(&timer, &QTimer::timeout, q, [this] { ask(); });
 }
 
 void QPlcJitterHistogram::Private::makeActions()
@@ -116,7 +114,7 @@ void QPlcJitterHistogram::Private::makeActions()
         action->setCheckable(true);
         masterActions.insert(key, action);
     }
-    exporter->addPictureActions();
+    exporter()->addPictureActions();
     showActions();
 }
 
@@ -151,13 +149,6 @@ void QPlcJitterHistogram::Private::setShown(const QString &key, bool isShown)
     Q_EMIT q->settingsEdited();
 }
 
-Plant *QPlcJitterHistogram::Private::plant() const
-{
-    if (!q->windowContext() || q->windowContext()->plants()->size() == 0)
-        return nullptr;
-    return q->windowContext()->plants()->plantOf({}, q->pinnedPlant());
-}
-
 /// A person's choice.
 void QPlcJitterHistogram::Private::setPlant(const QString &name)
 {
@@ -167,26 +158,27 @@ void QPlcJitterHistogram::Private::setPlant(const QString &name)
     Q_EMIT q->settingsEdited();
 }
 
-void QPlcJitterHistogram::Private::forget()
+void QPlcJitterHistogram::Private::tick()
 {
-    statistics = {};
-    sinceAnswer.invalidate();
+    ask();
+    draw();
 }
 
 void QPlcJitterHistogram::Private::ask()
 {
     if (!q->isVisible())
         return;
-    if (asked != plant())
-        forget();
-    asked = plant();
-    if (asked)
-        asked->ask(QPlcMessage(QPlcMessage::GetStatistics, {{QStringLiteral("histograms"), true}}),
-                   [this, panel = QPointer<QPlcJitterHistogram>(q), of = asked](const QPlcMessage &answer) {
-                       if (panel && of == asked)
+    const QString name = context()->plant().name;
+    if (asked != name) {
+        statistics = {};
+        sinceAnswer.invalidate();
+    }
+    asked = name;
+    context()->ask(QPlcMessage(QPlcMessage::GetStatistics, {{QStringLiteral("histograms"), true}}), receiver(),
+                   [this, name](const QPlcMessage &answer) {
+                       if (name == asked)
                            take(answer);
                    });
-    draw();
 }
 
 void QPlcJitterHistogram::Private::take(const QPlcMessage &answer)
@@ -201,8 +193,8 @@ void QPlcJitterHistogram::Private::take(const QPlcMessage &answer)
 /// What keeps the histogram from being drawn; empty: nothing.
 QString QPlcJitterHistogram::Private::problem(const QVector<JitterDistribution> &shown) const
 {
-    const Plant *of = plant();
-    if (!of) {
+    const QPlcPanelContext::Plant of = context()->plant();
+    if (of.name.isEmpty()) {
         const QString name = q->pinnedPlant();
         return name.isEmpty() ? tr("There is no plant yet.") : tr("There is no plant %1 at the moment.").arg(name);
     }
@@ -211,9 +203,9 @@ QString QPlcJitterHistogram::Private::problem(const QVector<JitterDistribution> 
     const bool hasValues = std::any_of(shown.begin(), shown.end(), [](const auto &each) { return each.count > 0.0; });
     if (hasValues)
         return {};
-    if (!of->isConnected())
-        return of->stateText();
-    if (of->status().clock.startsWith(QLatin1String("Lockstep"), Qt::CaseInsensitive))
+    if (!of.isConnected)
+        return of.stateText;
+    if (of.clock.startsWith(QLatin1String("Lockstep"), Qt::CaseInsensitive))
         return tr("In lockstep no clock is read: there is nothing to measure.");
     if (!statistics.isEmpty() && shown.size() < shownKeys().size() && !shown.isEmpty())
         return tr("No values yet.");
@@ -253,8 +245,8 @@ QString QPlcJitterHistogram::Private::captionText(const QVector<JitterDistributi
         parts << tr("%1 values").arg(shown.first().count, 0, 'f', 0);
     parts << (settings.value(windowKey).toString() == last10s ? tr("last 10 s") : tr("since start"));
     QStringList what;
-    if (q->windowContext()->plants()->size() > 1)
-        what << plant()->name();
+    if (context()->plants().size() > 1)
+        what << context()->plant().name;
     if (shown.size() == 1)
         what << shown.first().title();
     if (!what.isEmpty())
@@ -270,27 +262,11 @@ QString QPlcJitterHistogram::Private::captionText(const QVector<JitterDistributi
     return legend.isEmpty() ? text().toHtmlEscaped() : text().toHtmlEscaped() + QStringLiteral(" &nbsp; ") + legend;
 }
 
-void QPlcJitterHistogram::Private::applyTheme()
-{
-    const Theme &theme = q->windowContext()->theme();
-    QPalette palette = theme.palette();
-    palette.setColor(QPalette::Window, theme.surface);
-    palette.setColor(QPalette::WindowText, theme.mutedText);
-    q->setPalette(palette);
-    q->setAutoFillBackground(true);
-    canvas->setTheme(theme);
-    exporter->setTheme(theme);
-}
-
 QPlcJitterHistogram::QPlcJitterHistogram(QWidget *parent)
     : QPlcWidget(parent)
     , d(std::make_unique<Private>(this))
 {
-    connect(this, &QPlcWidget::pinnedPlantChanged, this, [this] {
-        d->ask();
-        d->draw();
-    });
-    d->draw();
+    d->showLook();
 }
 
 QPlcJitterHistogram::~QPlcJitterHistogram() = default;
@@ -304,8 +280,7 @@ void QPlcJitterHistogram::applySettings(const QJsonObject &settings)
 {
     QPlcWidget::applySettings(d->settings.take(settings));
     d->showActions();
-    d->ask();
-    d->draw();
+    d->tick();
 }
 
 QWidget *QPlcJitterHistogram::createSettingsEditor()
@@ -318,9 +293,7 @@ QWidget *QPlcJitterHistogram::createSettingsEditor()
             keys << key;
     }
     auto *editor = new JitterEditor(keys, d->shownKeys(), d->last->isChecked());
-    QStringList plants;
-    for (int place = 0; windowContext() && place < windowContext()->plants()->size(); ++place)
-        plants << windowContext()->plants()->at(place)->name();
+    const QStringList plants = context()->plants();
     if (plants.size() > 1 || !pinnedPlant().isEmpty())
         editor->addPlants(plants, pinnedPlant());
     connect(editor, &JitterEditor::plantChanged, this, [this](const QString &plant) { d->setPlant(plant); });
@@ -331,40 +304,4 @@ QWidget *QPlcJitterHistogram::createSettingsEditor()
             d->last->trigger();
     });
     return editor;
-}
-
-void QPlcJitterHistogram::contextChanged()
-{
-    if (!windowContext())
-        return;
-    connect(windowContext(), &WindowContext::themeChanged, this, [this] { d->applyTheme(); });
-    connect(windowContext()->plants(), &PlantList::signalsChanged, this, [this] { d->ask(); });
-    d->applyTheme();
-    d->ask();
-    d->draw();
-}
-
-void QPlcJitterHistogram::showEvent(QShowEvent *event)
-{
-    QPlcWidget::showEvent(event);
-    d->timer.start(askPause);
-    d->ask();
-}
-
-void QPlcJitterHistogram::keyPressEvent(QKeyEvent *event)
-{
-    if (event->key() != Qt::Key_Escape || !d->exporter->dismiss())
-        QPlcWidget::keyPressEvent(event);
-}
-
-void QPlcJitterHistogram::resizeEvent(QResizeEvent *event)
-{
-    QPlcWidget::resizeEvent(event);
-    d->draw();
-}
-
-void QPlcJitterHistogram::hideEvent(QHideEvent *event)
-{
-    QPlcWidget::hideEvent(event);
-    d->timer.stop();
 }

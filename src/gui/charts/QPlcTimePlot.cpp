@@ -6,8 +6,6 @@
 #include "QPlcTimePlotPrivate.h"
 #include "gui/panel/SignalDropArea.h"
 
-#include <QtGui/QContextMenuEvent>
-#include <QtWidgets/QMenu>
 #include <QtWidgets/QScrollArea>
 #include <QtWidgets/QToolButton>
 #include <QtWidgets/QVBoxLayout>
@@ -22,8 +20,9 @@ constexpr int numberPeriod = 100;  // [ms]
 }  // namespace
 
 QPlcTimePlot::Private::Private(QPlcTimePlot *plot)
-    : q(plot)
-    , triggerBar(new TriggerBar(plot))
+    : ChartPanel(plot, [this] { return std::make_unique<PlotPicture>(canvas, overlay, legend); })
+    , q(plot)
+    , triggerBar(new TriggerBar(context(), plot))
     , canvas(new PlotCanvas(plot))
     , overlay(new PlotOverlay(canvas->canvas()))
     , interaction(new PlotInteraction(canvas, this))
@@ -31,7 +30,6 @@ QPlcTimePlot::Private::Private(QPlcTimePlot *plot)
     , legendArea(new QScrollArea(plot))
     , legend(new PlotLegend)
     , statistics(new StatisticsView(plot))
-    , exporter(new ChartExport(plot, [this] { return std::make_unique<PlotPicture>(canvas, overlay, legend); }))
     , eventFiles(new EventFiles(this))
     , curves(canvas)
 {
@@ -51,14 +49,10 @@ QPlcTimePlot::Private::Private(QPlcTimePlot *plot)
     column->addWidget(legendArea);
     column->addWidget(statistics);
     canvas->setAccessibleName(QPlcTimePlot::tr("Curves over time"));
-    drawTimer.setSingleShot(true);
-    drawTimer.setTimerType(Qt::PreciseTimer);  // others come up to 5 % early
-    numberTimer.setInterval(numberPeriod);
+    setTickPeriod(numberPeriod);
     clock.start();
-    connect(&drawTimer, &QTimer::timeout, this, &Private::draw);
-    connect(&numberTimer, &QTimer::timeout, this, &Private::showNumbers);
-    connect(&ownTime, &TimeView::viewChanged, this, &Private::schedule);
-    connect(triggerBar, &TriggerBar::triggered, this, &Private::schedule);
+    connect(&ownTime, &QPlcTimeAxis::viewChanged, this, [this] { schedule(); });
+    connect(triggerBar, &TriggerBar::triggered, this, [this] { schedule(); });
     connect(triggerBar, &TriggerBar::settingsEdited, this, [this] {
         takeTrigger();
         Q_EMIT q->settingsEdited();
@@ -79,13 +73,8 @@ QPlcTimePlot::QPlcTimePlot(QWidget *parent)
     : QPlcWidget(parent)
     , d(std::make_unique<Private>(this))
 {
-    setFocusPolicy(Qt::StrongFocus);
     setAccessibleName(tr("Time plot"));
-    connect(this, &QPlcWidget::pinnedPlantChanged, this, [this] {
-        d->triggerBar->setPin(pinnedPlant());
-        d->bind();
-    });
-    d->showTheme();
+    d->showLook();
 }
 
 QPlcTimePlot::~QPlcTimePlot() = default;
@@ -116,9 +105,7 @@ QStringList QPlcTimePlot::shownSignals() const
 
 QWidget *QPlcTimePlot::createSettingsEditor()
 {
-    const Theme theme = windowContext() ? windowContext()->theme() : Theme::byName(Theme::System);
-    auto *editor = new PlotSettingsEditor(d->settings, d->furtherUnits(),
-                                          windowContext() ? windowContext()->plants() : nullptr, theme);
+    auto *editor = new PlotSettingsEditor(d->settings, d->furtherUnits(), context());
     connect(editor, &PlotSettingsEditor::edited, d.get(), &Private::edit);
     return editor;
 }
@@ -136,89 +123,24 @@ int QPlcTimePlot::drawnPictures() const
     return d->drawnPictures;
 }
 
-void QPlcTimePlot::contextChanged()
+void QPlcTimePlot::Private::takeValues()
 {
-    d->followContext();
-}
-
-void QPlcTimePlot::showEvent(QShowEvent *event)
-{
-    QPlcWidget::showEvent(event);
-    d->numberTimer.start();
-    d->arrange();
-    d->showNumbers();
-    d->schedule();
-}
-
-void QPlcTimePlot::hideEvent(QHideEvent *event)
-{
-    QPlcWidget::hideEvent(event);
-    d->numberTimer.stop();
-    d->drawTimer.stop();
-}
-
-void QPlcTimePlot::resizeEvent(QResizeEvent *event)
-{
-    QPlcWidget::resizeEvent(event);
-    d->arrange();
-}
-
-void QPlcTimePlot::contextMenuEvent(QContextMenuEvent *event)
-{
-    QMenu *menu = d->createMenu(d->curves.selected(), std::nullopt);
-    menu->popup(event->globalPos());
-    event->accept();
-}
-
-void QPlcTimePlot::keyPressEvent(QKeyEvent *event)
-{
-    if (event->key() != Qt::Key_Escape || !d->exporter->dismiss())
-        QPlcWidget::keyPressEvent(event);
-}
-
-void QPlcTimePlot::changeEvent(QEvent *event)
-{
-    QPlcWidget::changeEvent(event);
-    const bool isOther = event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange;
-    if (isOther && d && !windowContext())
-        d->showTheme();
-}
-
-void QPlcTimePlot::Private::followContext()
-{
-    WindowContext *context = q->windowContext();
-    if (!context)
-        return;
-    TimeView *time = context->timeView();
-    connect(context, &WindowContext::valuesChanged, this, [this] {
-        ownTime.setNewest(newest());
-        schedule();
-    });
-    for (const auto changed : {&TimeView::viewChanged, &TimeView::cursorsChanged, &TimeView::pointerChanged})
-        connect(time, changed, this, &Private::schedule);
-    connect(context->curveSources(), &CurveSources::changed, this, [this] {
-        exporter->cancel(QPlcTimePlot::tr("The signals have changed while they were exported. Export them again."));
-        eventFiles->cancel(QPlcTimePlot::tr("The signals have changed while an event was saved."));
-        bind();
-    });
-    connect(context->curveSources(), &CurveSources::filled, this, [this] {
-        ++version;
-        schedule();
-    });
-    connect(context, &WindowContext::themeChanged, this, &Private::showTheme);
     ownTime.setNewest(newest());
-    triggerBar->setContext(context);
-    showTheme();
+    schedule();
+}
+
+void QPlcTimePlot::Private::takePast()
+{
+    ++version;
+    schedule();
 }
 
 void QPlcTimePlot::Private::bind()
 {
-    WindowContext *context = q->windowContext();
-    curves.bind(settings, context ? context->curveSources() : nullptr, q->pinnedPlant(),
-                context ? context->theme() : Theme::byName(Theme::System));
+    curves.bind(settings, *context());
     curves.setOrigin(canvas->origin());
     statistics->reset();
-    redraw.assign(std::max<std::size_t>(1, curves.stores().size()), RedrawRule());
+    redraw.assign(std::max<std::size_t>(1, curves.pasts().size()), RedrawRule());
     canvas->setGridVisible(settings.hasGrid && !curves.isEmpty());
     canvas->enableAxis(QwtPlot::xBottom, !curves.isEmpty());
     keepRanges();
@@ -284,16 +206,13 @@ void QPlcTimePlot::Private::edit(const PlotSettings &wanted)
 /// The signal itself; of an array all elements; of what cannot be drawn nothing. What is not there now may be something later.
 QStringList QPlcTimePlot::Private::elementsOf(const QString &name) const
 {
-    const SignalReference parsed = SignalReference::fromString(name);
-    const bool isKnown = q->windowContext() && parsed.isValid();
-    const PlantList::Signal signal
-        = isKnown ? q->windowContext()->plants()->resolve(parsed, q->pinnedPlant()) : PlantList::Signal();
+    const QPlcPanelContext::Signal signal = context()->signal(name);
+    const QPlcSignalType type = signal.definition.type;
     if (!signal)
         return {name};
-    const QPlcSignalType type = signal.definition().type;
     if (!type.isNumeric())
         return {};
-    if (!type.isArray() || parsed.element != SignalReference::Whole)
+    if (!type.isArray() || signal.element >= 0)
         return {name};
     QStringList elements;
     for (int i = 0; i < std::min(type.count(), mostElements); ++i)
@@ -347,7 +266,7 @@ void QPlcTimePlot::Private::toggleCurve(int place)
 
 void QPlcTimePlot::Private::select(int place)
 {
-    curves.select(place, q->windowContext() ? q->windowContext()->theme() : Theme::byName(Theme::System));
+    curves.select(place, context()->theme());
     ++version;
     showChecks();
     schedule();

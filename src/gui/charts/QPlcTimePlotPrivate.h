@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "ChartExport.h"
+#include "ChartPanel.h"
 #include "EventFiles.h"
 #include "PlotCanvas.h"
 #include "PlotCurves.h"
@@ -9,15 +9,14 @@
 #include "PlotLegend.h"
 #include "PlotOverlay.h"
 #include "PlotSettings.h"
+#include "QPlcTimeAxis.h"
 #include "QPlcTimePlot.h"
 #include "StatisticsView.h"
 #include "StickyRange.h"
 #include "TriggerBar.h"
-#include "gui/panel/WindowContext.h"
 #include "gui/plot/RedrawRule.h"
 
 #include <QtCore/QElapsedTimer>
-#include <QtCore/QTimer>
 #include <QtWidgets/QAction>
 
 #include <functional>
@@ -31,18 +30,17 @@ namespace qplc {
 class SignalEdit;
 }
 
-class QPlcTimePlot::Private : public QObject
+class QPlcTimePlot::Private : public QObject, public qplc::ChartPanel
 {
     Q_OBJECT
 public:
-    using Time = qplc::TimeView::Time;
+    using Time = QPlcTimeAxis::Time;
     using Axis = qplc::PlotCanvas::Axis;
 
     explicit Private(QPlcTimePlot *plot);
 
     // -- QPlcTimePlot.cpp: settings, and what is bound to what --
-    void followContext();
-    void bind();
+    void bind() override;
     void keepRanges();
     /// Of the axes that are neither the first one at the left nor at the right.
     QStringList furtherUnits() const;
@@ -56,17 +54,16 @@ public:
     void select(int place);
 
     // -- PlotDrawing.cpp: pictures and numbers --
-    qplc::TimeView *shared() const { return q->windowContext() ? q->windowContext()->timeView() : nullptr; }
+    QPlcTimeAxis *shared() const { return context()->timeAxis(); }
     /// The time axis: that of the window, or the own one, which a plot with a trigger also has.
-    qplc::TimeView *view()
+    QPlcTimeAxis *view()
     {
         const bool hasOwn = settings.hasTrigger() ? !triggerBar->isLinked() : settings.hasOwnTime;
-        return hasOwn || !shared() ? &ownTime : shared();
+        return hasOwn ? &ownTime : shared();
     }
     /// Where it ends when it is live: with the newest values of the plants that it shows, as each has a clock of its own.
     Time newest();
-    void schedule();
-    void draw();
+    void draw() override;
     qplc::TimeColumns columns();
     bool isPictureDue(const qplc::TimeColumns &columns);
     /// The event of the trigger that is seen, or was before somebody moved the view.
@@ -78,16 +75,21 @@ public:
     void showOverlay();
     QString hint() const;
     QString hintOfTime() const;
+    void takeValues() override;
+    void takePast() override;
+    void tick() override { showNumbers(); }
+    void resized() override { arrange(); }
     void showNumbers();
     void showLiveButton();
     void arrange();
     void arrangeLegend();
-    void showTheme();
+    void showTheme(const QPlcTheme &theme) override;
 
     // -- PlotCommands.cpp: what a person can do --
     void makeActions();
     void connectInteraction();
-    QMenu *createMenu(int curve, std::optional<QPoint> mouse);
+    QMenu *createMenu() override { return menuOf(curves.selected(), std::nullopt); }
+    QMenu *menuOf(int curve, std::optional<QPoint> mouse);
     void openAddBar();
     void showAll();
     void freezeHere();
@@ -98,7 +100,7 @@ public:
     void panValues(Axis axis, double by);
     std::pair<double, double> valuesOf(Axis axis) const;
     void showBox(const QRect &box);
-    void placeCursor(qplc::TimeView::Cursor which, std::optional<Time> time = std::nullopt);
+    void placeCursor(QPlcTimeAxis::Cursor which, std::optional<Time> time = std::nullopt);
     Time nearestRow(Time time) const;
     void removeCursors();
     void moveCursor(int pixels);
@@ -138,8 +140,8 @@ public:
 
     QPlcTimePlot *q;
     qplc::PlotSettings settings;
-    qplc::TimeView ownTime;
-    qplc::TimeView::Cursor lastCursor = qplc::TimeView::A;
+    QPlcTimeAxis ownTime;
+    QPlcTimeAxis::Cursor lastCursor = QPlcTimeAxis::A;
 
     qplc::SignalEdit *addBar = nullptr;
     qplc::TriggerBar *triggerBar;
@@ -150,7 +152,6 @@ public:
     QScrollArea *legendArea;
     qplc::PlotLegend *legend;
     qplc::StatisticsView *statistics;
-    qplc::ChartExport *exporter;
     qplc::EventFiles *eventFiles;
     qplc::PlotCurves curves;
 
@@ -162,9 +163,6 @@ public:
     std::optional<Time> drawnEvent;  // of the trigger
     QJsonObject shownTrigger;        // settings that its bar has
     QRect box;
-    QTimer drawTimer;
-    QTimer numberTimer;
-    QElapsedTimer sinceDrawing;
     QElapsedTimer clock;
     QAction *addAction = nullptr;
     QAction *removeAction = nullptr;

@@ -2,6 +2,7 @@
 #include "QPlcXyPlot.h"
 
 #include "ChartLook.h"
+#include "QPlcTimeAxis.h"
 #include "QPlcXyPlotPrivate.h"
 #include "XyPlotEditor.h"
 #include "gui/models/ValueFormat.h"
@@ -9,9 +10,7 @@
 #include <QtCore/QDateTime>
 #include <QtCore/QElapsedTimer>
 #include <QtCore/QJsonArray>
-#include <QtGui/QContextMenuEvent>
 #include <QtWidgets/QLabel>
-#include <QtWidgets/QMenu>
 #include <QtWidgets/QVBoxLayout>
 
 #include <algorithm>
@@ -33,13 +32,13 @@ constexpr const char *aspectKey = "equalAspect";
 }  // namespace
 
 QPlcXyPlot::Private::Private(QPlcXyPlot *plot)
-    : q(plot)
+    : ChartPanel(plot, [this] { return std::make_unique<ChartPicture>(canvas, legend->text()); })
+    , q(plot)
     , canvas(new XyCanvas)
     , message(new QLabel)
     , legend(new QLabel)
     , moment(new QLabel)
     , interaction(new XyInteraction(canvas, plot))
-    , exporter(new ChartExport(plot, [this] { return std::make_unique<ChartPicture>(canvas, legend->text()); }))
 {
     auto *all = new QVBoxLayout(plot);
     all->setContentsMargins(2, 2, 2, 2);
@@ -60,10 +59,9 @@ QPlcXyPlot::Private::Private(QPlcXyPlot *plot)
     moment->setFont(scaleFont(moment->font()));
     moment->setAlignment(Qt::AlignRight);
     canvas->setAccessibleName(tr("XY plot"));
-    plot->setFocusPolicy(Qt::StrongFocus);
-    redraw.setSingleShot(true);
-    connect(&redraw, &QTimer::timeout, plot, [this] { draw(); });
-    connect(&age, &QTimer::timeout, plot, [this] { schedule(); });
+    setPause(shortestPause);
+    setTickPeriod(agePause);
+    setQuietTexts();
     makeActions();
     connectInteraction();
 }
@@ -80,20 +78,18 @@ void QPlcXyPlot::Private::bind()
         const QString x = entry[xKey].toString();
         const QString y = entry[yKey].toString();
         if (!x.isEmpty() && !y.isEmpty())
-            names << tr("%1 over %2").arg(CurveSource::textOf(y), CurveSource::textOf(x));
-        if (!q->windowContext() || x.isEmpty() || y.isEmpty())
+            names << tr("%1 over %2").arg(QPlcPast::textOf(y), QPlcPast::textOf(x));
+        if (x.isEmpty() || y.isEmpty())
             continue;
-        const CurveSource xSource = q->windowContext()->curveSources()->find(x, q->pinnedPlant());
-        const CurveSource ySource = q->windowContext()->curveSources()->find(y, q->pinnedPlant());
-        const bool isOfOne = xSource.plant == ySource.plant;
-        if (xSource && ySource && isOfOne) {
-            found.push_back(std::make_unique<XyCurve>(
-                xSource, ySource, tr("%1 over %2").arg(CurveSource::textOf(y), CurveSource::textOf(x))));
+        const QPlcPast xPast = context()->past(x);
+        const QPlcPast yPast = context()->past(y);
+        if (xPast && yPast && xPast.plant == yPast.plant) {
+            found.push_back(std::make_unique<XyCurve>(xPast, yPast, tr("%1 over %2").arg(yPast.text(), xPast.text())));
             colors.emplace_back(entry[xyColorKey].toString());
         } else if (error.isEmpty()) {
-            error = !xSource ? xSource.error
-                : !ySource   ? ySource.error
-                             : tr("%1 and %2 are of two plants. Remedy: choose signals of one.").arg(x, y);
+            error = !xPast ? xPast.problem
+                : !yPast   ? yPast.problem
+                           : tr("%1 and %2 are of two plants. Remedy: choose signals of one.").arg(x, y);
         }
     }
     canvas->setCurves(std::move(found), colors);
@@ -103,15 +99,13 @@ void QPlcXyPlot::Private::bind()
     schedule();
 }
 
-QString QPlcXyPlot::Private::messageText(const QString &problem) const
+QString QPlcXyPlot::Private::messageText() const
 {
-    if (!q->windowContext())
-        return tr("No window shares its plants with this plot.");
     const QJsonArray wanted = curves();
     if (wanted.isEmpty())
         return tr("Drop two signals here: the second one is drawn over the first.");
-    if (!problem.isEmpty())
-        return problem;
+    if (!error.isEmpty())
+        return error;
     const QJsonValue last = wanted.last();
     if (last[yKey].toString().isEmpty() && !last[xKey].toString().isEmpty())
         return tr("Drop a second signal here: it is drawn over %1.").arg(last[xKey].toString());
@@ -120,7 +114,7 @@ QString QPlcXyPlot::Private::messageText(const QString &problem) const
 
 void QPlcXyPlot::Private::showMessage()
 {
-    const QString text = messageText(error);
+    const QString text = messageText();
     message->setText(text);
     message->setVisible(!text.isEmpty());
     const bool hasCurves = !canvas->curves().empty();
@@ -135,81 +129,42 @@ void QPlcXyPlot::Private::showLegend()
     legend->setVisible(!legend->text().isEmpty() && q->height() >= leastHeightOfTexts);
 }
 
-void QPlcXyPlot::Private::follow(WindowContext *context)
+void QPlcXyPlot::Private::showTheme(const QPlcTheme &theme)
 {
-    const TimeView *time = context->timeView();
-    const auto scheduled = [this] { schedule(); };
-    connect(time, &TimeView::viewChanged, q, scheduled);
-    connect(context, &WindowContext::valuesChanged, q, scheduled);
-    connect(time, &TimeView::displayTimeChanged, q, scheduled);
-    connect(context->curveSources(), &CurveSources::filled, q, scheduled);
-    connect(context->curveSources(), &CurveSources::changed, q, [this] {
-        exporter->cancel(tr("The signals have changed while they were exported. Export them again."));
-        bind();
-    });
-    connect(context, &WindowContext::themeChanged, q, [this] { applyTheme(); });
-}
-
-void QPlcXyPlot::Private::applyTheme()
-{
-    const Theme &theme = q->windowContext()->theme();
     canvas->setTheme(theme);
-    exporter->setTheme(theme);
-    showLegend();
-    QPalette palette = theme.palette();
-    palette.setColor(QPalette::Window, theme.surface);
-    palette.setColor(QPalette::WindowText, theme.mutedText);
-    q->setPalette(palette);
-    q->setAutoFillBackground(true);
-    schedule();
 }
 
-void QPlcXyPlot::Private::schedule()
+const QPlcPast *QPlcXyPlot::Private::stale() const
 {
-    if (q->isVisible() && q->windowContext() && !redraw.isActive())
-        redraw.start(pause);
-}
-
-/// The first plant whose newest values are no longer true.
-const Plant *QPlcXyPlot::Private::stalePlant() const
-{
-    for (const std::unique_ptr<XyCurve> &curve : canvas->curves()) {
-        const Plant *plant = curve->xSource().plant;
-        if (plant->quality() == Plant::Stale)
-            return plant;
-    }
-    return nullptr;
+    const auto found = std::find_if(canvas->curves().begin(), canvas->curves().end(),
+                                    [](const std::unique_ptr<XyCurve> &curve) { return !curve->x().isCurrent(); });
+    return found != canvas->curves().end() ? &(*found)->x() : nullptr;
 }
 
 /// The end of the time that is seen: live, that of the newest values of the plants that are drawn, as each has a clock of its own.
-SignalStore::Time QPlcXyPlot::Private::seenEnd() const
+QPlcPast::Time QPlcXyPlot::Private::seenEnd() const
 {
-    const TimeView *time = q->windowContext()->timeView();
-    SignalStore::Time newest = 0;
+    QPlcPast::Time newest = 0;
     for (const std::unique_ptr<XyCurve> &curve : canvas->curves())
-        newest = std::max(newest, curve->xSource().plant->newestTime());
-    return time->isLive() && newest > 0 ? newest : time->end();
+        newest = std::max(newest, curve->x().newestTime());
+    return context()->isLive() && newest > 0 ? newest : context()->timeAxis()->end();
 }
 
 void QPlcXyPlot::Private::draw()
 {
-    if (!q->isVisible() || !q->windowContext())
-        return;
-    const auto displayed = q->windowContext()->timeView()->displayTime();
+    const auto displayed = context()->shownTime();
     QElapsedTimer cost;
     cost.start();
-    const bool isStale = !displayed && stalePlant();
-    canvas->show({seenEnd() - q->windowContext()->timeView()->span(), seenEnd(), displayed, isStale});
+    const bool isStale = !displayed && stale();
+    canvas->show({seenEnd() - context()->timeAxis()->span(), seenEnd(), displayed, isStale});
     legend->setVisible(!legend->text().isEmpty() && q->height() >= leastHeightOfTexts);
-    pause = std::clamp(int(cost.elapsed()) * costShare, shortestPause, longestPause);
+    setPause(std::clamp(int(cost.elapsed()) * costShare, shortestPause, longestPause));
     showMoment();
 }
 
 /// Where the mouse is, or else when the dot was.
 void QPlcXyPlot::Private::showMoment()
 {
-    if (!q->windowContext())
-        return;
     const QString text = interaction->mouse() ? pointerText() : timeText();
     moment->setVisible(!text.isEmpty() && !canvas->curves().empty());
     if (text != moment->text())
@@ -219,12 +174,11 @@ void QPlcXyPlot::Private::showMoment()
 /// Empty: the dot is where the plant is.
 QString QPlcXyPlot::Private::timeText() const
 {
-    const auto displayed = q->windowContext()->timeView()->displayTime();
+    const auto displayed = context()->shownTime();
     if (displayed)
         return tr("dot at %1")
             .arg(QDateTime::fromMSecsSinceEpoch(*displayed / 1'000'000).toString(QStringLiteral("hh:mm:ss.zzz")));
-    const Plant *plant = stalePlant();
-    return plant ? tr("stale, %1").arg(ageText(plant->age())) : QString();
+    return stale() ? tr("stale, %1").arg(ageText(stale()->age())) : QString();
 }
 
 QJsonArray QPlcXyPlot::Private::curves() const
@@ -252,8 +206,7 @@ QPlcXyPlot::QPlcXyPlot(QWidget *parent)
     : QPlcWidget(parent)
     , d(std::make_unique<Private>(this))
 {
-    connect(this, &QPlcWidget::pinnedPlantChanged, this, [this] { d->bind(); });
-    d->bind();
+    d->showLook();
 }
 
 QPlcXyPlot::~QPlcXyPlot() = default;
@@ -341,39 +294,4 @@ QWidget *QPlcXyPlot::createSettingsEditor()
             d->equal->trigger();
     });
     return editor;
-}
-
-void QPlcXyPlot::contextChanged()
-{
-    if (!windowContext())
-        return;
-    d->follow(windowContext());
-    d->applyTheme();
-    d->bind();
-}
-
-void QPlcXyPlot::showEvent(QShowEvent *event)
-{
-    QPlcWidget::showEvent(event);
-    d->age.start(agePause);
-    d->schedule();
-}
-
-void QPlcXyPlot::hideEvent(QHideEvent *event)
-{
-    QPlcWidget::hideEvent(event);
-    d->age.stop();
-    d->redraw.stop();
-}
-
-void QPlcXyPlot::contextMenuEvent(QContextMenuEvent *event)
-{
-    d->createMenu()->popup(event->globalPos());
-    event->accept();
-}
-
-void QPlcXyPlot::keyPressEvent(QKeyEvent *event)
-{
-    if (event->key() != Qt::Key_Escape || !d->exporter->dismiss())
-        QPlcWidget::keyPressEvent(event);
 }

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "ChartExport.h"
+#include "ChartPanel.h"
 #include "QPlcXyPlot.h"
 #include "XyCanvas.h"
 #include "XyInteraction.h"
 #include "gui/panel/PanelSettings.h"
-#include "gui/panel/WindowContext.h"
 
 #include <QtCore/QJsonArray>
-#include <QtCore/QTimer>
 #include <QtWidgets/QAction>
 
 #include <functional>
@@ -17,7 +15,7 @@
 class QLabel;
 class QMenu;
 
-class QPlcXyPlot::Private
+class QPlcXyPlot::Private : public qplc::ChartPanel
 {
 public:
     static constexpr int shortestPause = 40;  // [ms] between pictures
@@ -26,25 +24,24 @@ public:
 
     // -- QPlcXyPlot.cpp: settings, and what is seen --
     QJsonArray curves() const;
-    void bind();
-    void follow(qplc::WindowContext *context);
-    void schedule();
-    void draw();
+    void bind() override;
+    void draw() override;
     void edit(const QJsonArray &curves);
     void showAspect();
     void showMessage();
     void showLegend();
     void showMoment();
-    void applyTheme();
-    QString messageText(const QString &error) const;
+    void showTheme(const QPlcTheme &theme) override;
+    QString messageText() const;
     QString timeText() const;
-    const qplc::Plant *stalePlant() const;
-    qplc::SignalStore::Time seenEnd() const;
+    /// Of the first curve whose newest values are no longer true; null: all are.
+    const QPlcPast *stale() const;
+    QPlcPast::Time seenEnd() const;
 
     // -- XyPlotCommands.cpp: what a person can do --
     void makeActions();
     void connectInteraction();
-    QMenu *createMenu();
+    QMenu *createMenu() override;
     void zoom(double factor);
     QString pointerText() const;
     qplc::ChartExport::Table table() const;
@@ -55,11 +52,7 @@ public:
     QLabel *legend;
     QLabel *moment;  // when the dot was
     qplc::XyInteraction *interaction;
-    qplc::ChartExport *exporter;
     QAction *equal = nullptr;
     qplc::PanelSettings settings{"curves", "equalAspect"};
     QString error;  // of the first curve that cannot be drawn
-    QTimer redraw;
-    QTimer age;
-    int pause = shortestPause;
 };

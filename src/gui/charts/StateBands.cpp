@@ -34,9 +34,8 @@ QColor mixed(const QColor &color, const QColor &ground, double share)
 
 }  // namespace
 
-StateBands::StateBands(const SignalStore *store, int channel, const QPlcValueNames &names, const Theme &theme)
-    : m_store(store)
-    , m_channel(channel)
+StateBands::StateBands(const PastRows &rows, const QPlcValueNames &names, const QPlcTheme &theme)
+    : m_rows(rows)
     , m_names(names)
     , m_theme(theme)
 {
@@ -92,12 +91,12 @@ QString StateBands::textOf(float value) const
 void StateBands::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap & /*yMap*/,
                       const QRectF &canvasRect) const
 {
-    if (!m_store || m_store->isEmpty())
+    if (!m_rows.store || m_rows.store->isEmpty())
         return;
     const double scale = std::max(1.0, painter->deviceTransform().m11());  // device pixels of a pixel
     const auto timeAt = [this](double x) { return m_origin + std::llround(x * 1e9); };
     const int columns = std::max(1, int(std::lround(xMap.pDist() * scale)));
-    m_shape.read(*m_store, m_channel, TimeColumns(timeAt(xMap.s1()), timeAt(xMap.s2()), columns));
+    m_shape.read(*m_rows.store, m_rows.channel, TimeColumns(timeAt(xMap.s1()), timeAt(xMap.s2()), columns));
     m_runs.read(m_shape);
     const QRectF place = strip(canvasRect);
     // What holds up to the last column of the scale reaches the edge, which is a pixel behind it.

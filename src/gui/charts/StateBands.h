@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "QPlcTheme.h"
 #include "QPlcValueNames.h"
-#include "gui/panel/Theme.h"
+#include "gui/plot/PastRows.h"
 #include "gui/plot/StateRuns.h"
 
 #include <QtGui/QFont>
@@ -22,12 +23,12 @@ public:
         AllHeight     // of the canvas, shared
     };
 
-    /// \param store  has to live as long as it is drawn \param names  of the values; without, numbers are shown
-    StateBands(const SignalStore *store, int channel, const QPlcValueNames &names, const Theme &theme);
+    /// \param rows  have to live as long as they are drawn \param names  of the values; without, numbers are shown
+    StateBands(const PastRows &rows, const QPlcValueNames &names, const QPlcTheme &theme);
 
     void setFont(const QFont &font) { m_font = font; }
     /// The time that is 0 on the x axis [ns].
-    void setOrigin(SignalStore::Time origin) { m_origin = origin; }
+    void setOrigin(QPlcPast::Time origin) { m_origin = origin; }
     /// \param place  0 ... count - 1; at the bottom from below, else from above. Of several, each one says its title
     void setPlace(int place, int count, Room room);
 
@@ -45,12 +46,11 @@ private:
     QColor colorOf(double value, double share) const;
     QString textOf(float value) const;
 
-    const SignalStore *m_store;
-    int m_channel;
+    PastRows m_rows;
     QPlcValueNames m_names;
-    Theme m_theme;
+    QPlcTheme m_theme;
     QFont m_font;
-    SignalStore::Time m_origin = 0;
+    QPlcPast::Time m_origin = 0;
     int m_place = 0;
     int m_count = 1;
     Room m_room = AtTheBottom;

@@ -6,6 +6,7 @@
 #include "gui/models/SiPrefix.h"
 #include "gui/models/ValueFormat.h"
 #include "gui/panel/FigureFont.h"
+#include "gui/plot/PastRows.h"
 
 #include <QtWidgets/QBoxLayout>
 #include <QtWidgets/QHeaderView>
@@ -20,7 +21,7 @@ namespace qplc {
 
 namespace {
 
-using Time = SignalStore::Time;
+using Time = QPlcPast::Time;
 
 constexpr int mostRowsOfUpdate = 200'000;  // of all curves together: some milliseconds
 constexpr int statisticsDigits = 4;
@@ -153,7 +154,8 @@ void StatisticsView::showCurves(const PlotCurves &curves, Time a, Time b)
     for (int row = 0; row < int(seen.size()); ++row) {
         CursorStatistics &statistics = m_statistics[std::size_t(row)];
         const PlotCurve &curve = *seen[std::size_t(row)];
-        statistics.set(curve.source.store, curve.source.channel, curve.scaling(), a, b);
+        const PastRows rows = PastRows::of(curve.source);
+        statistics.set(rows.store, rows.channel, curve.scaling(), a, b);
         statistics.advance(mostRowsOfUpdate / int(seen.size()));
         showRow(row, curve, &statistics, a, b);
     }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "CursorStatistics.h"
 #include "PlotCurves.h"
+#include "gui/plot/CursorStatistics.h"
 
 #include <QtWidgets/QWidget>
 
@@ -25,7 +25,7 @@ public:
     explicit StatisticsView(QWidget *parent = nullptr);
 
     /// Shows the curves that are seen, and looks at some more rows.
-    void show(const PlotCurves &curves, std::optional<SignalStore::Time> a, std::optional<SignalStore::Time> b);
+    void show(const PlotCurves &curves, std::optional<QPlcPast::Time> a, std::optional<QPlcPast::Time> b);
     /// Stores are others now.
     void reset() { m_statistics.clear(); }
     bool isUnfolded() const;
@@ -43,10 +43,9 @@ protected:
     void resizeEvent(QResizeEvent *event) override;
 
 private:
-    void showTimes(std::optional<SignalStore::Time> a, std::optional<SignalStore::Time> b);
-    void showCurves(const PlotCurves &curves, SignalStore::Time a, SignalStore::Time b);
-    void showRow(int row, const PlotCurve &curve, CursorStatistics *statistics, SignalStore::Time a,
-                 SignalStore::Time b);
+    void showTimes(std::optional<QPlcPast::Time> a, std::optional<QPlcPast::Time> b);
+    void showCurves(const PlotCurves &curves, QPlcPast::Time a, QPlcPast::Time b);
+    void showRow(int row, const PlotCurve &curve, CursorStatistics *statistics, QPlcPast::Time a, QPlcPast::Time b);
     /// \return whether it is another one
     bool setText(int row, int column, const QString &text);
     int leastNumberWidth() const;

@@ -2,8 +2,10 @@
 #include "TriggerBar.h"
 
 #include "EventFileEditor.h"
+#include "QPlcPanelContext.h"
+#include "QPlcTimeAxis.h"
 #include "gui/panel/NumberBox.h"
-#include "gui/panel/WindowContext.h"
+#include "gui/plot/PastRows.h"
 
 #include <QtCore/QSignalBlocker>
 #include <QtGui/QResizeEvent>
@@ -42,18 +44,22 @@ QString stateText(Trigger::State state)
     return {};
 }
 
-QColor stateColor(Trigger::State state, const Theme &theme)
+QColor stateColor(Trigger::State state, const QPlcTheme &theme)
 {
     return state == Trigger::Triggered ? theme.good : state == Trigger::Armed ? theme.warning : theme.mutedText;
 }
 
 }  // namespace
 
-TriggerBar::TriggerBar(QWidget *parent)
+TriggerBar::TriggerBar(QPlcPanelContext *context, QWidget *parent)
     : QWidget(parent)
+    , m_context(context)
 {
     makeControls();
     arrange();
+    connect(context, &QPlcPanelContext::signalsChanged, this, &TriggerBar::findSource);
+    connect(context, &QPlcPanelContext::themeChanged, this, &TriggerBar::showState);
+    connect(context, &QPlcPanelContext::valuesChanged, this, &TriggerBar::takeValues);
     showSettings();
     showState();
 }
@@ -183,30 +189,6 @@ void TriggerBar::resizeEvent(QResizeEvent *event)
         placeControls(isWide);
 }
 
-void TriggerBar::setContext(WindowContext *context)
-{
-    m_context = context;
-    if (!context)
-        return;
-    connect(context->curveSources(), &CurveSources::changed, this, &TriggerBar::findSource);
-    connect(context, &WindowContext::themeChanged, this, &TriggerBar::showState);
-    connect(context->plants(), &PlantList::added, this, &TriggerBar::follow);
-    for (int place = 0; place < context->plants()->size(); ++place)
-        follow(context->plants()->at(place));
-    findSource();
-}
-
-void TriggerBar::setPin(const QString &plant)
-{
-    m_pin = plant;
-    findSource();
-}
-
-void TriggerBar::follow(Plant *plant)
-{
-    connect(plant, &Plant::updated, this, [this, plant] { take(plant); });
-}
-
 void TriggerBar::setSignals(const QStringList &expressions)
 {
     const QSignalBlocker blocker(m_signal);
@@ -240,9 +222,9 @@ QStringList TriggerBar::keys()
     return Trigger::Settings::keys() + QStringList{signalKey, linkedKey, saveKey};
 }
 
-TimeView *TriggerBar::time() const
+QPlcTimeAxis *TriggerBar::time() const
 {
-    return m_ownTime && !m_isLinked ? m_ownTime : m_context->timeView();
+    return m_ownTime && !m_isLinked ? m_ownTime : m_context->timeAxis();
 }
 
 void TriggerBar::link(bool isLinked)
@@ -255,7 +237,7 @@ void TriggerBar::link(bool isLinked)
 /// What it has frozen, nobody else would bring back.
 void TriggerBar::release()
 {
-    if (m_hasFrozen && m_context)
+    if (m_hasFrozen)
         time()->goLive();
     m_hasFrozen = false;
 }
@@ -263,7 +245,7 @@ void TriggerBar::release()
 bool TriggerBar::showsEvent() const
 {
     const auto view = m_trigger.view();
-    return !isHidden() && m_context && view && !time()->isLive() && time()->begin() == view->begin;
+    return !isHidden() && view && !time()->isLive() && time()->begin() == view->begin;
 }
 
 void TriggerBar::applySettings(const QJsonObject &settings)
@@ -339,9 +321,9 @@ void TriggerBar::begin()
 
 void TriggerBar::findSource()
 {
-    const bool isWanted = m_context && !m_wanted.isEmpty() && !isHidden();
-    m_source = isWanted ? m_context->curveSources()->find(m_wanted, m_pin) : CurveSource();
-    m_signal->setToolTip(m_source.error);
+    const bool isWanted = !m_wanted.isEmpty() && !isHidden();
+    m_source = isWanted ? m_context->past(m_wanted) : QPlcPast();
+    m_signal->setToolTip(m_source.problem);
     const QString unit = m_source.unit.isEmpty() ? QString() : QLatin1Char(' ') + m_source.unit;
     for (NumberBox *box : {m_level, m_upperLevel, m_hysteresis})
         box->setSuffix(unit);
@@ -354,20 +336,21 @@ void TriggerBar::arm()
     m_seenEvent.reset();
     m_awaited.clear();
     Q_EMIT savingBegins();
-    if (m_source)
-        m_trigger.take(*m_source.store, m_source.channel);
+    if (const PastRows rows = PastRows::of(m_source); rows.store)
+        m_trigger.take(*rows.store, rows.channel);
     showState();
     Q_EMIT triggered();
 }
 
-void TriggerBar::take(Plant *plant)
+void TriggerBar::takeValues()
 {
-    if (isHidden() || !m_source || m_source.plant != plant)
+    if (isHidden() || !m_source)
         return;
     m_trigger.setSpan(time()->span());
     tellCompleteEvents();
     const Trigger::State before = m_trigger.state();
-    if (!m_trigger.take(*m_source.store, m_source.channel))
+    const PastRows rows = PastRows::of(m_source);
+    if (!m_trigger.take(*rows.store, rows.channel))
         return;
     if (m_trigger.state() == Trigger::FreeRunning && before != Trigger::FreeRunning)
         time()->goLive();
@@ -391,8 +374,8 @@ void TriggerBar::showEventView()
 
 void TriggerBar::tellCompleteEvents()
 {
-    while (!m_awaited.empty() && !m_source.store->isEmpty()
-           && m_source.store->time(m_source.store->endRow() - 1) >= m_awaited.front().view.end) {
+    while (!m_awaited.empty() && !m_source.isEmpty()
+           && m_source.time(m_source.endRow() - 1) >= m_awaited.front().view.end) {
         const Awaited complete = m_awaited.front();
         m_awaited.pop_front();
         Q_EMIT eventCame(complete.event, complete.view.begin, complete.view.end);
@@ -413,9 +396,9 @@ void TriggerBar::showSaved(int files)
 void TriggerBar::showState()
 {
     const QString text = m_source ? stateText(m_trigger.state()) : tr("No signal");
-    const QColor color = m_context ? stateColor(m_trigger.state(), m_context->theme()) : QColor(Qt::gray);
+    const QColor color = stateColor(m_trigger.state(), m_context->theme());
     m_state->setText(QStringLiteral("<span style='color:%1'>●</span> %2").arg(color.name(), text.toHtmlEscaped()));
-    m_state->setToolTip(m_source.error);
+    m_state->setToolTip(m_source.problem);
     const QString events = tr("events: %1").arg(m_trigger.count());
     m_count->setText(fileSettings().isOn ? tr("%1, saved: %2").arg(events).arg(m_saved) : events);
 }

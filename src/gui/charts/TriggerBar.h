@@ -2,8 +2,7 @@
 #pragma once
 
 #include "EventFiles.h"
-#include "gui/panel/TimeView.h"
-#include "gui/plot/CurveSources.h"
+#include "QPlcPast.h"
 #include "gui/plot/Trigger.h"
 
 #include <QtWidgets/QWidget>
@@ -16,50 +15,47 @@ class QFormLayout;
 class QHBoxLayout;
 class QLabel;
 class QToolButton;
+class QPlcPanelContext;
+class QPlcTimeAxis;
 
 namespace qplc {
 
 class EventFileEditor;
 class NumberBox;
 
-class WindowContext;
-
 /// The strip above a plot in which a person chooses signal, kind, level and mode of a trigger, and sees whether it is armed, how often it was met, and has it armed again.
 ///
 /// It has the trigger, feeds it with what comes, and moves a time axis: that of the plot, or, when a person wants that, that of the window. A plot shows it when a person wants a trigger, and keeps its settings:
 ///
 /// ```cpp
-/// m_triggerBar = new TriggerBar(this);            // above the canvas; hidden: the trigger rests
+/// m_triggerBar = new TriggerBar(context(), this); // above the canvas; hidden: the trigger rests
 /// m_triggerBar->setOwnTime(&m_ownTime);           // without: always the time of the window
-/// m_triggerBar->setContext(windowContext());            // in contextChanged()
 /// m_triggerBar->setSignals(names of the curves);  // whenever they change; what is chosen stays
 /// m_triggerBar->applySettings(settings.value("trigger").toObject());
 /// connect(m_triggerBar, &TriggerBar::settingsEdited, this, &QPlcTimePlot::settingsEdited);
 /// connect(m_triggerBar, &TriggerBar::triggered, this, ...);  // to draw a mark at bar->trigger().shownEvent() and a line at its level
 /// ```
 ///
-/// It works while it is shown, also on a tab that is not seen: what a single event has brought is still there when somebody comes back. While it is not FreeRunning, TimeView::show() is called for each new event with [event - pre, event + post], post being what the span of the view leaves; Auto goes back to
+/// It works while it is shown, also on a tab that is not seen: what a single event has brought is still there when somebody comes back. While it is not FreeRunning, QPlcTimeAxis::show() is called for each new event with [event - pre, event + post], post being what the span of the view leaves; Auto goes back to
 /// live when no event comes. A person who pans meanwhile keeps what he sees until the next event.
 class TriggerBar : public QWidget
 {
     Q_OBJECT
 public:
-    explicit TriggerBar(QWidget *parent = nullptr);
+    /// \param context  of the panel; outlives the bar
+    explicit TriggerBar(QPlcPanelContext *context, QWidget *parent = nullptr);
     ~TriggerBar() override;
 
     /// What settings() may have.
     static QStringList keys();
     /// The time axis that is moved unless isLinked(); outlives the bar.
-    void setOwnTime(TimeView *time) { m_ownTime = time; }
+    void setOwnTime(QPlcTimeAxis *time) { m_ownTime = time; }
     /// Whether events are shown in all plots of the window.
     bool isLinked() const { return m_isLinked; }
     /// Whether it shows an event, and nobody has moved the view meanwhile.
     bool showsEvent() const;
     void setVisible(bool isVisible) override;
-    void setContext(WindowContext *context);
-    /// The plant that signals without a plant are of; empty: the selected one.
-    void setPin(const QString &plant);
-    /// What can be chosen: expressions as CurveSources::find() takes them.
+    /// What can be chosen: expressions as QPlcPanelContext::past() takes them.
     void setSignals(const QStringList &expressions);
     /// Whether and where events are saved; who saves them tells it by showSaved().
     const EventFileSettings &fileSettings() const;
@@ -94,7 +90,7 @@ private:
     void link(bool isLinked);
     void release();
     void showUpperLevel();
-    TimeView *time() const;
+    QPlcTimeAxis *time() const;
     NumberBox *addNumber(const QString &name, double minimum, double Trigger::Settings::*number, double shown = 1.0);
     void findSource();
     template<typename Number>
@@ -103,22 +99,20 @@ private:
     void chooseLink(bool isLinked);
     void begin();
     void showSettings();
-    void take(Plant *plant);
-    void follow(Plant *plant);
+    void takeValues();
     void showEventView();
     void tellCompleteEvents();
     void showState();
     bool hasWindow() const;
 
-    WindowContext *m_context = nullptr;
-    TimeView *m_ownTime = nullptr;
+    QPlcPanelContext *m_context;
+    QPlcTimeAxis *m_ownTime = nullptr;
     bool m_isLinked = false;
     bool m_hasFrozen = false;  // the time axis, for an event
     bool m_isWide = true;      // all controls are in the row
-    CurveSource m_source;
+    QPlcPast m_source;
     Trigger m_trigger;
     QString m_wanted;  // signal
-    QString m_pin;
     std::optional<Trigger::Time> m_seenEvent;
     struct Awaited
     {

@@ -56,7 +56,7 @@ void XyCanvas::setCurves(std::vector<std::unique_ptr<XyCurve>> curves, const std
     showTitles();
 }
 
-void XyCanvas::setTheme(const Theme &theme)
+void XyCanvas::setTheme(const QPlcTheme &theme)
 {
     m_theme = theme;
     applyLook(this, m_grid.get(), theme);
@@ -93,25 +93,25 @@ QString XyCanvas::legend() const
 /// The signal where all curves have the same, else only the unit they have in common.
 QString XyCanvas::axisText(bool isOfX) const
 {
-    const auto sourceOf = [isOfX](const std::unique_ptr<XyCurve> &curve) -> const CurveSource & {
-        return isOfX ? curve->xSource() : curve->ySource();
+    const auto sourceOf = [isOfX](const std::unique_ptr<XyCurve> &curve) -> const QPlcPast & {
+        return isOfX ? curve->x() : curve->y();
     };
     if (m_curves.empty())
         return {};
-    const CurveSource &first = sourceOf(m_curves.front());
+    const QPlcPast &first = sourceOf(m_curves.front());
     const auto areAll = [&](auto isLikeFirst) {
         return std::all_of(m_curves.begin(), m_curves.end(),
                            [&](const auto &curve) { return isLikeFirst(sourceOf(curve)); });
     };
-    const bool haveTitle = areAll([&](const CurveSource &source) { return source.title == first.title; });
-    return withUnit(haveTitle ? CurveSource::textOf(first.title) : QString(), (isOfX ? m_xPrefix : m_yPrefix).unit());
+    const bool haveTitle = areAll([&](const QPlcPast &source) { return source.expression == first.expression; });
+    return withUnit(haveTitle ? first.text() : QString(), (isOfX ? m_xPrefix : m_yPrefix).unit());
 }
 
 QString XyCanvas::commonUnit(bool isOfX) const
 {
     std::optional<QString> common;
     for (const std::unique_ptr<XyCurve> &curve : m_curves) {
-        const QString &unit = (isOfX ? curve->xSource() : curve->ySource()).unit;
+        const QString &unit = (isOfX ? curve->x() : curve->y()).unit;
         if (common && *common != unit)
             return {};
         common = unit;
@@ -149,8 +149,8 @@ XyCanvas::Picture XyCanvas::pictureOf(const Moment &moment) const
 {
     Picture picture{moment, {}, m_looks};
     for (const std::unique_ptr<XyCurve> &curve : m_curves) {
-        picture.newest.push_back(curve->xSource().store->rowAt(moment.end + 1));
-        picture.newest.push_back(curve->ySource().store->rowAt(moment.end + 1));
+        picture.newest.push_back(curve->x().rowAt(moment.end + 1));
+        picture.newest.push_back(curve->y().rowAt(moment.end + 1));
     }
     return picture;
 }
@@ -174,7 +174,7 @@ XyCanvas::Span XyCanvas::dataSpan(bool isOfX) const
 {
     Span span{INFINITY, -INFINITY};
     for (const std::unique_ptr<XyCurve> &curve : m_curves) {
-        const SignalStore::Range range = isOfX ? curve->xRange() : curve->yRange();
+        const QPlcPast::Range range = isOfX ? curve->xRange() : curve->yRange();
         if (range.isEmpty())
             continue;
         span.begin = std::min(span.begin, double(range.minimum));

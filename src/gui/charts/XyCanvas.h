@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "XyCurve.h"
+#include "QPlcTheme.h"
 #include "gui/models/SiPrefix.h"
-#include "gui/panel/Theme.h"
+#include "gui/plot/XyCurve.h"
 
 #include <qwt_plot.h>
 
@@ -16,7 +16,7 @@ class XyCanvas : public QwtPlot
 {
     Q_OBJECT
 public:
-    using Time = SignalStore::Time;
+    using Time = QPlcPast::Time;
     enum Aspect { Free, Equal };
 
     /// What a picture depends on besides curves and looks.
@@ -34,7 +34,7 @@ public:
     /// Shows these instead. Colours not given are those of the theme. The caller owns nothing of them any more.
     void setCurves(std::vector<std::unique_ptr<XyCurve>> curves, const std::vector<QColor> &colors);
     const std::vector<std::unique_ptr<XyCurve>> &curves() const { return m_curves; }
-    void setTheme(const Theme &theme);
+    void setTheme(const QPlcTheme &theme);
     void setAspect(Aspect aspect);
     /// Titles and colours of the curves as rich text; empty for less than two.
     QString legend() const;
@@ -65,7 +65,7 @@ private:
     struct Picture
     {
         Moment moment;
-        std::vector<SignalStore::Row> newest;  // of the curves, in the view
+        std::vector<QPlcPast::Row> newest;  // of the curves, in the view
         quint64 looks = 0;
         bool operator==(const Picture &other) const;
     };
@@ -86,7 +86,7 @@ private:
 
     std::vector<std::unique_ptr<XyCurve>> m_curves;
     std::vector<QColor> m_colors;
-    Theme m_theme;
+    QPlcTheme m_theme;
     Aspect m_aspect = Free;
     std::unique_ptr<QwtPlotGrid> m_grid;
     Span m_x;  // empty: not yet

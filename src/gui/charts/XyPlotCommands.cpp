@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a person can do with an XY plot, by mouse, keys and menu.
 #include "ChartAction.h"
+#include "QPlcTimeAxis.h"
 #include "QPlcXyPlotPrivate.h"
 #include "gui/models/ValueFormat.h"
 
 #include <QtWidgets/QLabel>
 #include <QtWidgets/QMenu>
-
-#include <algorithm>
 
 using namespace qplc;
 
@@ -17,7 +16,7 @@ constexpr double zoomOfKey = 0.7;  // what a key leaves
 constexpr double panOfKey = 0.15;  // of the canvas
 constexpr int xyDigits = 5;
 
-QString textOf(const CurveSource &source, double value)
+QString textOf(const QPlcPast &source, double value)
 {
     const QString unit = source.unit.isEmpty() ? QString() : QLatin1Char(' ') + source.unit;
     return QStringLiteral("%1%2").arg(numberText(value, xyDigits), unit);
@@ -48,8 +47,8 @@ void QPlcXyPlot::Private::makeActions()
     make(tr("Move right"), {key(Qt::Key_Right)}, "right", pan(-1.0, 0.0));
     make(tr("Move up"), {key(Qt::Key_Up)}, "up", pan(0.0, 1.0));
     make(tr("Move down"), {key(Qt::Key_Down)}, "down", pan(0.0, -1.0));
-    exporter->addTableActions([this] { return table(); });
-    exporter->addPictureActions();
+    exporter()->addTableActions([this] { return table(); });
+    exporter()->addPictureActions();
 }
 
 void QPlcXyPlot::Private::connectInteraction()
@@ -63,19 +62,9 @@ void QPlcXyPlot::Private::connectInteraction()
 
 QMenu *QPlcXyPlot::Private::createMenu()
 {
-    auto *menu = new QMenu(q);
-    menu->setAttribute(Qt::WA_DeleteOnClose);
-    const auto add = [&](std::initializer_list<const char *> names) {
-        for (const char *name : names) {
-            if (auto *action = q->findChild<QAction *>(QLatin1String(name), Qt::FindDirectChildrenOnly))
-                menu->addAction(action);
-        }
-        menu->addSeparator();
-    };
-    add({"all", "zoomIn", "zoomOut", "equal"});
-    add({"saveTable", "copyTable", "savePicture", "copyPicture"});
-    add({"panelMenu"});  // of the frame around
-    return menu;
+    return makeMenu({{"all", "zoomIn", "zoomOut", "equal"},
+                     {"saveTable", "copyTable", "savePicture", "copyPicture"},
+                     {"panelMenu"}});  // of the frame around
 }
 
 /// About the mouse, or the middle.
@@ -92,27 +81,23 @@ QString QPlcXyPlot::Private::pointerText() const
         return {};
     const QPointF at = canvas->valueAt(*interaction->mouse());
     const XyCurve &first = *canvas->curves().front();
-    return tr("x %1   y %2").arg(textOf(first.xSource(), at.x()), textOf(first.ySource(), at.y()));
+    return tr("x %1   y %2").arg(textOf(first.x(), at.x()), textOf(first.y(), at.y()));
 }
 
 /// The rows of the time that is seen at the moment of the wish; what several curves have in common is one column.
 ChartExport::Table QPlcXyPlot::Private::table() const
 {
-    const SignalStore::Time end = q->windowContext() ? seenEnd() : 0;
-    const SignalStore::Time begin = q->windowContext() ? end - q->windowContext()->timeView()->span() : 0;
+    const QPlcPast::Time end = seenEnd();
+    const QPlcPast::Time begin = end - context()->timeAxis()->span();
     return [this, begin, end](TableExport::Format format) {
         std::vector<TableExport::Column> columns;
-        const auto add = [&](const CurveSource &source) {
-            const bool isThere = std::any_of(columns.begin(), columns.end(), [&](const TableExport::Column &each) {
-                return each.store == source.store && each.channel == source.channel;
-            });
-            if (!isThere)
-                columns.push_back({source.store, source.channel, 1.0, 0.0, CurveSource::textOf(source.title),
-                                   source.unit, source.derived});
-        };
+        QStringList added;
         for (const std::unique_ptr<XyCurve> &curve : canvas->curves()) {
-            add(curve->xSource());
-            add(curve->ySource());
+            for (const QPlcPast &past : {curve->x(), curve->y()}) {
+                if (!added.contains(past.expression))
+                    columns.push_back(TableExport::Column::of(past, past.text()));
+                added << past.expression;
+            }
         }
         return TableExport(format, std::move(columns), begin, end);
     };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SignalEdit.h"
 
+#include "QPlcPanelContext.h"
 #include "gui/plant/PlantList.h"
 
 #include <QtCore/QMetaMethod>
@@ -11,6 +12,14 @@
 
 namespace qplc {
 
+SignalEdit::SignalEdit(QPlcPanelContext *context, Offer offer, QWidget *parent)
+    : SignalEdit(static_cast<const PlantList *>(nullptr), offer, parent)
+{
+    const auto namesOf = [context, offer] { return offer == Curves ? context->numberNames() : context->signalNames(); };
+    connect(context, &QPlcPanelContext::signalsChanged, this,
+            [namesOf, offered = offerNames(namesOf())] { offered->setStringList(namesOf()); });
+}
+
 SignalEdit::SignalEdit(const PlantList *plants, Offer offer, QWidget *parent)
     : QLineEdit(parent)
     , m_offer(offer)
@@ -20,7 +29,14 @@ SignalEdit::SignalEdit(const PlantList *plants, Offer offer, QWidget *parent)
     setClearButtonEnabled(true);
     if (!plants)
         return;
-    auto *offered = new QStringListModel(names(*plants, offer), this);
+    QStringListModel *offered = offerNames(names(*plants, offer));
+    connect(plants, &PlantList::signalsChanged, this,
+            [this, plants, offered] { offered->setStringList(names(*plants, m_offer)); });
+}
+
+QStringListModel *SignalEdit::offerNames(const QStringList &names)
+{
+    auto *offered = new QStringListModel(names, this);
     auto *completer = new QCompleter(offered, this);
     completer->setFilterMode(Qt::MatchContains);
     completer->setCaseSensitivity(Qt::CaseInsensitive);
@@ -30,8 +46,7 @@ SignalEdit::SignalEdit(const PlantList *plants, Offer offer, QWidget *parent)
     connect(
         completer, QOverload<const QString &>::of(&QCompleter::activated), this,
         [this](const QString &text) { choose(text); }, Qt::QueuedConnection);
-    connect(plants, &PlantList::signalsChanged, this,
-            [this, plants, offered] { offered->setStringList(names(*plants, m_offer)); });
+    return offered;
 }
 
 QStringList SignalEdit::names(const PlantList &plants, Offer offer)

@@ -3,6 +3,9 @@
 
 #include <QtWidgets/QLineEdit>
 
+class QPlcPanelContext;
+class QStringListModel;
+
 namespace qplc {
 
 class PlantList;
@@ -17,6 +20,8 @@ public:
         Curves       // what a curve can show: numbers, arrays by element; formulas are taken too
     };
 
+    /// \param context  of the panel in which it is, and which outlives it
+    SignalEdit(QPlcPanelContext *context, Offer offer, QWidget *parent = nullptr);
     /// \param plants  null: nothing is offered
     explicit SignalEdit(const PlantList *plants, Offer offer = AllSignals, QWidget *parent = nullptr);
 
@@ -32,6 +37,7 @@ protected:
     void keyPressEvent(QKeyEvent *event) override;
 
 private:
+    QStringListModel *offerNames(const QStringList &names);
     QString meant() const;
     void choose(const QString &name);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "QPlcPast.h"
 
+#include "CurveSources.h"
 #include "DerivedSignal.h"
 #include "PastRows.h"
 
@@ -22,6 +23,13 @@ struct QPlcPast::Private
 PastRows PastRows::of(const QPlcPast &past)
 {
     return past ? PastRows{past.d->store.get(), past.d->channel} : PastRows();
+}
+
+QPlcPast PastRows::past(std::shared_ptr<const SignalStore> store, int channel)
+{
+    QPlcPast past;
+    past.d = std::make_shared<const QPlcPast::Private>(QPlcPast::Private{store, channel, store, nullptr});
+    return past;
 }
 
 QPlcPast PastRows::past(const CurveSource &source)
@@ -62,7 +70,7 @@ QPlcPast::~QPlcPast() = default;
 QPlcPast::QPlcPast(const QPlcPast &other) = default;
 QPlcPast &QPlcPast::operator=(const QPlcPast &other) = default;
 
-QString QPlcPast::text() const
+QString QPlcPast::textOf(const QString &expression)
 {
     return CurveSource::textOf(expression);
 }

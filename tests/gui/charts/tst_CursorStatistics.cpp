@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "gui/charts/CursorStatistics.h"
+#include "gui/plot/CursorStatistics.h"
 
 #include <QtTest/QtTest>
 

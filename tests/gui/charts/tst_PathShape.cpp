@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "gui/charts/PathShape.h"
+#include "gui/plot/PathShape.h"
 
 #include <QtTest/QtTest>
 

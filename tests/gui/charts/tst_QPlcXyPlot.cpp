@@ -6,6 +6,7 @@
 #include "gui/charts/XyCanvas.h"
 #include "gui/charts/XyInteraction.h"
 #include "gui/panel/WindowContext.h"
+#include "gui/plot/PastRows.h"
 
 #include <QtCore/QJsonArray>
 #include <QtCore/QJsonDocument>
@@ -26,14 +27,12 @@ using namespace qplc;
 
 namespace {
 
-CurveSource sourceOf(SignalStore *store, int channel)
+QPlcPast pastOf(const std::shared_ptr<SignalStore> &store, int channel)
 {
-    CurveSource source;
-    source.store = store;
-    source.channel = channel;
-    source.title = QString::number(channel);
-    source.unit = QStringLiteral("m");
-    return source;
+    QPlcPast past = PastRows::past(store, channel);
+    past.expression = QString::number(channel);
+    past.unit = QStringLiteral("m");
+    return past;
 }
 
 void wheel(QWidget *widget, QPoint at, int steps, Qt::KeyboardModifiers modifiers = Qt::NoModifier)
@@ -91,7 +90,7 @@ private:
     void fill();
     std::unique_ptr<XyCanvas> canvasOf(int x, int y);
 
-    std::unique_ptr<SignalStore> m_store;
+    std::shared_ptr<SignalStore> m_store;
 };
 
 void tst_QPlcXyPlot::settingsComeBackAsTheyWere_data()
@@ -119,7 +118,7 @@ void tst_QPlcXyPlot::withoutAWindowItSaysSo()
     QPlcXyPlot plot;
     plot.applySettings(objectOf(R"({"curves":[{"x":"a","y":"b"}]})"));
     plot.show();
-    QVERIFY(showsText(plot, "No window"));
+    QVERIFY(showsText(plot, "No plant is connected."));
     QVERIFY(plot.addSignals({"a"}));
 }
 
@@ -216,7 +215,7 @@ void tst_QPlcXyPlot::theSettingsAreEdited()
 /// A circle of 60 s with radius 2, a row each 10 ms.
 void tst_QPlcXyPlot::fill()
 {
-    m_store = std::make_unique<SignalStore>(3, 10'000);
+    m_store = std::make_shared<SignalStore>(3, 10'000);
     for (int i = 0; i < 6000; ++i) {
         const double angle = i * 2.0 * M_PI / 6000.0;
         const float values[] = {float(2.0 * std::cos(angle)), float(2.0 * std::sin(angle)), float(i)};
@@ -229,7 +228,7 @@ std::unique_ptr<XyCanvas> tst_QPlcXyPlot::canvasOf(int x, int y)
     fill();
     auto canvas = std::make_unique<XyCanvas>();
     std::vector<std::unique_ptr<XyCurve>> curves;
-    curves.push_back(std::make_unique<XyCurve>(sourceOf(m_store.get(), x), sourceOf(m_store.get(), y), "y over x"));
+    curves.push_back(std::make_unique<XyCurve>(pastOf(m_store, x), pastOf(m_store, y), "y over x"));
     canvas->setTheme(Theme::byName(Theme::Light));
     canvas->setCurves(std::move(curves), {});
     canvas->resize(500, 250);
@@ -289,18 +288,18 @@ void tst_QPlcXyPlot::theDotIsAtTheDisplayedTime()
 
 void tst_QPlcXyPlot::pairsAreRowsOfTheSameTime()
 {
-    SignalStore x(1, 100);
-    SignalStore y(1, 100);
+    const auto x = std::make_shared<SignalStore>(1, 100);
+    const auto y = std::make_shared<SignalStore>(1, 100);
     for (int i = 1; i <= 50; ++i) {
         const auto value = float(i % 2 == 0 ? 10 : 20);
-        x.append(i, &value);
+        x->append(i, &value);
         if (i % 2 == 0)
-            y.append(i, &value);
+            y->append(i, &value);
     }
     XyCanvas canvas;
     canvas.setTheme(Theme::byName(Theme::Light));
     std::vector<std::unique_ptr<XyCurve>> curves;
-    curves.push_back(std::make_unique<XyCurve>(sourceOf(&x, 0), sourceOf(&y, 0), "y over x"));
+    curves.push_back(std::make_unique<XyCurve>(pastOf(x, 0), pastOf(y, 0), "y over x"));
     canvas.setCurves(std::move(curves), {});
     static_cast<QWidget &>(canvas).show();
     canvas.resize(300, 200);

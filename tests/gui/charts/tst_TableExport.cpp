@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gui/charts/PlotExport.h"
-#include "gui/charts/TableExport.h"
+#include "gui/plot/TableExport.h"
 
 #include <QtCore/QTemporaryDir>
 #include <QtGui/QClipboard>

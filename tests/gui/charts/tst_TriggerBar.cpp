@@ -3,6 +3,7 @@
 
 #include "PanelFixtures.h"
 #include "PlantFixtures.h"
+#include "QPlcWidget.h"
 #include "gui/panel/WindowContext.h"
 
 #include <QtCore/QJsonDocument>
@@ -13,6 +14,13 @@
 using namespace qplc;
 
 namespace {
+
+/// A panel in a window.
+class PanelOf : public QPlcWidget
+{
+public:
+    explicit PanelOf(WindowContext *window) { setContext(window); }
+};
 
 template<typename Widget>
 Widget *control(const QWidget &bar, const QString &accessibleName)
@@ -42,7 +50,8 @@ private Q_SLOTS:
 
 void tst_TriggerBar::settingsComeBackAsTheyWere()
 {
-    TriggerBar bar;
+    const QPlcWidget panel;
+    TriggerBar bar(panel.context());
     const QJsonObject all
         = objectOf(R"({"signal":"power","kind":"leaves","level":2,"upperLevel":5,"mode":"single","pre":0.5})");
     bar.applySettings(all);
@@ -53,7 +62,8 @@ void tst_TriggerBar::settingsComeBackAsTheyWere()
 
 void tst_TriggerBar::theFirstSignalIsChosenUntilAPersonDoes()
 {
-    TriggerBar bar;
+    const QPlcWidget panel;
+    TriggerBar bar(panel.context());
     bar.setSignals({"a", "b"});
     QCOMPARE(bar.settings(), objectOf(R"({"signal":"a"})"));
     bar.applySettings(objectOf(R"({"signal":"gone"})"));
@@ -63,7 +73,8 @@ void tst_TriggerBar::theFirstSignalIsChosenUntilAPersonDoes()
 
 void tst_TriggerBar::aPersonsChoiceIsTold()
 {
-    TriggerBar bar;
+    const QPlcWidget panel;
+    TriggerBar bar(panel.context());
     bar.setSignals({"a", "b"});
     QSignalSpy edited(&bar, &TriggerBar::settingsEdited);
     auto *mode = control<QComboBox>(bar, "Mode of the trigger");
@@ -76,7 +87,8 @@ void tst_TriggerBar::aPersonsChoiceIsTold()
 
 void tst_TriggerBar::numbersOfAnySizeStayAsTheyAre()
 {
-    TriggerBar bar;
+    const QPlcWidget panel;
+    TriggerBar bar(panel.context());
     QJsonObject all = objectOf(R"({"signal":"a","level":0.0003,"upperLevel":0.00031234567890123,"hysteresis":1e-9,)"
                                R"("pre":0.123,"holdOff":0.0004})");
     bar.applySettings(all);
@@ -90,7 +102,8 @@ void tst_TriggerBar::numbersOfAnySizeStayAsTheyAre()
 
 void tst_TriggerBar::aSmallLevelIsWritten()
 {
-    TriggerBar bar;
+    const QPlcWidget panel;
+    TriggerBar bar(panel.context());
     bar.setSignals({"a"});
     auto *level = control<QDoubleSpinBox>(bar, "Level");
     level->selectAll();
@@ -104,7 +117,8 @@ void tst_TriggerBar::aSmallLevelIsWritten()
 
 void tst_TriggerBar::windowsHaveTwoLevels()
 {
-    TriggerBar bar;
+    const QPlcWidget panel;
+    TriggerBar bar(panel.context());
     const auto *upper = control<QDoubleSpinBox>(bar, "Upper level");
     QVERIFY(!upper->isVisibleTo(&bar));
     bar.applySettings(objectOf(R"({"kind":"enters"})"));
@@ -117,8 +131,8 @@ void tst_TriggerBar::anEventMovesTheViewOfTheWindow()
     QVERIFY(master.startRealTime());
     WindowContext context;
     context.timeView()->setSpan(1'000'000'000);
-    TriggerBar bar;
-    bar.setContext(&context);
+    PanelOf panel(&context);
+    TriggerBar bar(panel.context());
     bar.setSignals({"= count % 2", "count"});
     bar.applySettings(objectOf(R"json({"signal":"= sin(count/5)","mode":"normal","pre":0.25})json"));
     bar.show();
@@ -136,8 +150,8 @@ void tst_TriggerBar::aHiddenBarRests()
     RunningMaster master;
     QVERIFY(master.startRealTime());
     WindowContext context;
-    TriggerBar bar;
-    bar.setContext(&context);
+    PanelOf panel(&context);
+    TriggerBar bar(panel.context());
     bar.applySettings(objectOf(R"json({"signal":"= sin(count)","mode":"normal"})json"));
     Plant *plant = context.plants()->add(master.address());
     QTRY_VERIFY(plant->values().rows() > 50);
@@ -152,8 +166,8 @@ void tst_TriggerBar::aHiddenBarRests()
 void tst_TriggerBar::withoutASignalItSaysSo()
 {
     WindowContext context;
-    TriggerBar bar;
-    bar.setContext(&context);
+    PanelOf panel(&context);
+    TriggerBar bar(panel.context());
     bar.applySettings(objectOf(R"({"signal":"nobody"})"));
     const QList<QLabel *> labels = bar.findChildren<QLabel *>();
     QVERIFY(std::any_of(labels.begin(), labels.end(),

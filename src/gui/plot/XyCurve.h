@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "PastRows.h"
 #include "PathShape.h"
-#include "gui/plot/CurveSources.h"
+#include "gui/store/SignalStore.h"
 
 #include <QtGui/QColor>
 
@@ -18,12 +19,12 @@ namespace qplc {
 class XyCurve : public QwtPlotItem
 {
 public:
-    using Time = SignalStore::Time;
+    using Time = QPlcPast::Time;
 
-    XyCurve(const CurveSource &x, const CurveSource &y, const QString &title);
+    XyCurve(const QPlcPast &x, const QPlcPast &y, const QString &title);
 
-    const CurveSource &xSource() const { return m_x; }
-    const CurveSource &ySource() const { return m_y; }
+    const QPlcPast &x() const { return m_x; }
+    const QPlcPast &y() const { return m_y; }
     void setColor(const QColor &color) { m_color = color; }
     QColor color() const { return m_color; }
     void setLineWidth(double width) { m_lineWidth = width; }
@@ -32,8 +33,8 @@ public:
     /// The dot is at the values of \a time, without one at the newest. \param color  of the dot
     void setDot(std::optional<Time> time, const QColor &color);
 
-    SignalStore::Range xRange() const { return rangeOf(m_x); }
-    SignalStore::Range yRange() const { return rangeOf(m_y); }
+    QPlcPast::Range xRange() const { return rangeOf(m_x); }
+    QPlcPast::Range yRange() const { return rangeOf(m_y); }
     /// x and y at the dot; NaN where there is none.
     QPointF dot() const;
     /// Points of the path that was drawn last.
@@ -43,11 +44,11 @@ public:
     void draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap &yMap, const QRectF &canvas) const override;
 
 private:
-    SignalStore::Range rangeOf(const CurveSource &source) const;
+    QPlcPast::Range rangeOf(const QPlcPast &past) const;
     void readPath(const QwtScaleMap &xMap, const QwtScaleMap &yMap) const;
 
-    CurveSource m_x;
-    CurveSource m_y;
+    QPlcPast m_x;
+    QPlcPast m_y;
     QColor m_color = Qt::black;
     QColor m_dotColor = Qt::black;
     double m_lineWidth = 1.5;  // [px]

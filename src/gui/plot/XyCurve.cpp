@@ -26,29 +26,29 @@ QPointF pixelOf(const QwtScaleMap &xMap, const QwtScaleMap &yMap, double x, doub
 class Follower
 {
 public:
-    explicit Follower(const CurveSource &source)
-        : m_source(source)
-        , m_row(source.store->firstRow())
+    explicit Follower(const QPlcPast &past)
+        : m_rows(PastRows::of(past))
+        , m_row(m_rows.store->firstRow())
     {
     }
     /// NaN where there is no row of just this time, or no value that its writer gave.
     float at(SignalStore::Time time)
     {
-        const SignalStore &store = *m_source.store;
+        const SignalStore &store = *m_rows.store;
         if (m_row >= store.endRow() || store.time(m_row) != time)
             m_row = store.rowAt(time, m_row);
         const bool isThere = m_row < store.endRow() && store.time(m_row) == time;
-        return isThere ? store.writtenValue(m_source.channel, m_row++) : NAN;
+        return isThere ? store.writtenValue(m_rows.channel, m_row++) : NAN;
     }
 
 private:
-    const CurveSource &m_source;
+    PastRows m_rows;
     Row m_row;
 };
 
 }  // namespace
 
-XyCurve::XyCurve(const CurveSource &x, const CurveSource &y, const QString &title)
+XyCurve::XyCurve(const QPlcPast &x, const QPlcPast &y, const QString &title)
     : QwtPlotItem(QwtText(title))
     , m_x(x)
     , m_y(y)
@@ -68,29 +68,30 @@ void XyCurve::setDot(std::optional<Time> time, const QColor &color)
     m_dotColor = color;
 }
 
-SignalStore::Range XyCurve::rangeOf(const CurveSource &source) const
+QPlcPast::Range XyCurve::rangeOf(const QPlcPast &past) const
 {
-    const SignalStore &store = *source.store;
-    return store.range(source.channel, store.rowAt(m_begin), store.rowAt(m_end + 1));
+    return past.range(past.rowAt(m_begin), past.rowAt(m_end + 1));
 }
 
 QPointF XyCurve::dot() const
 {
-    const SignalStore &store = *m_x.store;
+    const auto [rows, channel] = PastRows::of(m_x);
+    const SignalStore &store = *rows;
     const std::optional<Row> row = m_dotTime ? store.rowHoldingAt(*m_dotTime) : store.newestRow();
     if (!row)
         return {NAN, NAN};
-    return {double(store.writtenValue(m_x.channel, *row)), double(Follower(m_y).at(store.time(*row)))};
+    return {double(store.writtenValue(channel, *row)), double(Follower(m_y).at(store.time(*row)))};
 }
 
 void XyCurve::readPath(const QwtScaleMap &xMap, const QwtScaleMap &yMap) const
 {
     m_shape.clear();
-    const SignalStore &store = *m_x.store;
+    const auto [rows, channel] = PastRows::of(m_x);
+    const SignalStore &store = *rows;
     Follower follower(m_y);
     const Row end = store.rowAt(m_end + 1);
     for (Row row = store.rowAt(m_begin); row < end; ++row) {
-        const auto x = double(store.writtenValue(m_x.channel, row));
+        const auto x = double(store.writtenValue(channel, row));
         const auto y = double(follower.at(store.time(row)));
         const bool isPair = !std::isnan(x) && !std::isnan(y);
         if (!isPair || store.beginsAnew(row))

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "PastRows.h"
 #include "gui/store/SignalStore.h"
 
 #include <QtCore/QByteArray>
 #include <QtCore/QString>
 
-#include <memory>
 #include <vector>
 
 namespace qplc {
@@ -29,7 +29,9 @@ public:
         double offset;
         QString name;
         QString unit;
-        std::shared_ptr<const void> owner{};  // is held by it, until the table goes
+        QPlcPast owner{};  // of the store, until the table goes
+
+        static Column of(const QPlcPast &past, const QString &name, double gain = 1.0, double offset = 0.0);
     };
 
     /// Rows from \a begin up to and with \a end.

@@ -42,6 +42,12 @@ void appendNumber(float value, QByteArray *text)
 
 }  // namespace
 
+TableExport::Column TableExport::Column::of(const QPlcPast &past, const QString &name, double gain, double offset)
+{
+    const auto [store, channel] = PastRows::of(past);
+    return {store, channel, gain, offset, name, past.unit, past};
+}
+
 TableExport::TableExport(Format format, std::vector<Column> columns, Time begin, Time end)
     : m_format(format)
     , m_columns(std::move(columns))
