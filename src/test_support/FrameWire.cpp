@@ -4,6 +4,8 @@
 #include "Fiber.h"
 #include "SimulatedHost.h"
 
+#include <algorithm>
+
 namespace qplc {
 
 FrameWire::FrameWire(Simulator &simulator)
@@ -11,7 +13,7 @@ FrameWire::FrameWire(Simulator &simulator)
 {
 }
 
-void FrameWire::send(const FrameEnd &from, quint64 to, const char *bytes, std::size_t size)
+void FrameWire::send(FrameEnd &from, quint64 to, const char *bytes, std::size_t size)
 {
     const auto end = m_ends.find(to);
     if (end == m_ends.end() || from.host().isMute())
@@ -24,7 +26,7 @@ void FrameWire::send(const FrameEnd &from, quint64 to, const char *bytes, std::s
         sendOnce(from, *end->second, bytes, size);
 }
 
-void FrameWire::sendOnce(const FrameEnd &from, const FrameEnd &to, const char *bytes, std::size_t size)
+void FrameWire::sendOnce(FrameEnd &from, const FrameEnd &to, const char *bytes, std::size_t size)
 {
     if (m_free.empty()) {
         m_free.push_back(m_frames.size());
@@ -35,8 +37,23 @@ void FrameWire::sendOnce(const FrameEnd &from, const FrameEnd &to, const char *b
     m_frames[number]->from = from.key();
     m_frames[number]->bytes.assign(bytes, bytes + size);
     const SimulatedRoad &road = m_simulator.network().road(from.host(), to.host());
-    const std::int64_t delay = road.delay + std::int64_t(m_simulator.fate().below(std::uint64_t(road.jitter)));
-    m_simulator.schedule(to, m_simulator.now() + delay, 0, number);
+    std::int64_t arrival
+        = m_simulator.now() + road.delay + std::int64_t(m_simulator.fate().below(std::uint64_t(road.jitter)));
+    std::int64_t &last = from.m_arrivals[to.key()];
+    if (road.reordering > 0 && m_simulator.fate().fraction() < road.reordering)
+        arrival += std::int64_t(m_simulator.fate().below(std::uint64_t(road.lateness)));
+    else
+        last = arrival = std::max(arrival, last);
+    m_simulator.schedule(to, arrival, 0, number);
+}
+
+std::vector<const FrameEnd *> FrameWire::ends() const
+{
+    std::vector<const FrameEnd *> all;
+    for (const auto &[key, end] : m_ends)
+        all.push_back(end);
+    std::sort(all.begin(), all.end(), [](const FrameEnd *a, const FrameEnd *b) { return a->key() < b->key(); });
+    return all;
 }
 
 FrameEnd::FrameEnd(SimulatedHost &host, quint16 port)

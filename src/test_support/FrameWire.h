@@ -27,13 +27,15 @@ class FrameWire
 public:
     explicit FrameWire(Simulator &simulator);
 
-    void send(const FrameEnd &from, quint64 to, const char *bytes, std::size_t size);
+    void send(FrameEnd &from, quint64 to, const char *bytes, std::size_t size);
+    /// All ports that are open, in the order of their keys.
+    std::vector<const FrameEnd *> ends() const;
     SimulatedFrame &frame(std::size_t number) { return *m_frames[number]; }
     void release(std::size_t number) { m_free.push_back(number); }
 
 private:
     friend class FrameEnd;
-    void sendOnce(const FrameEnd &from, const FrameEnd &to, const char *bytes, std::size_t size);
+    void sendOnce(FrameEnd &from, const FrameEnd &to, const char *bytes, std::size_t size);
 
     Simulator &m_simulator;
     std::unordered_map<quint64, FrameEnd *> m_ends;
@@ -45,6 +47,8 @@ private:
 /// yet.
 class FrameEnd final : public SimulatedTarget
 {
+    friend class FrameWire;
+
 public:
     static constexpr std::size_t MostUnread = 256;  // frames
 
@@ -72,6 +76,7 @@ private:
     FrameWire &m_wire;
     const quint64 m_key;
     std::deque<std::size_t> m_unread;
+    std::unordered_map<quint64, std::int64_t> m_arrivals;  // of the last frame to each other end [ns]
     std::size_t m_taken = None;
     Fiber *m_waiting = nullptr;
     std::uint64_t m_dropped = 0;

@@ -5,6 +5,8 @@
 #include "Fiber.h"
 #include "signals/Fnv1a.h"
 
+#include <QtCore/QCoreApplication>
+
 #include <utility>
 
 namespace qplc {
@@ -63,6 +65,7 @@ void SimulatedHost::kill(End end)
     setStopped(false);
     const Visit visit(this);
     m_program.reset();
+    QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);  // what was to end later ends with it
     m_kept.clear();
 }
 

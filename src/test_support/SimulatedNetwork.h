@@ -16,6 +16,8 @@ struct SimulatedRoad
     std::int64_t jitter = 100'000;  // [ns] more at most
     double loss = 0;                // of frames, 0 ... 1; a control connection repeats what was lost
     double duplication = 0;         // of frames, 0 ... 1
+    double reordering = 0;          // of frames, 0 ... 1, that are late by up to \a lateness: others overtake them
+    std::int64_t lateness = 0;      // [ns]
     bool isCut = false;             // nothing arrives, and nobody hears of it
 };
 

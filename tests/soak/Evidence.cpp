@@ -98,6 +98,7 @@ void Evidence::complete()
             fault.node = record.subject == Record::Nobody ? -1 : record.subject;
             fault.begin = fault.effect = record.time;
             fault.seed = record.numbers[2];
+            fault.isAlone = record.numbers[3] == 0;
             fault.end = fault.recovered = std::numeric_limits<qint64>::max();
             faults.push_back(fault);
             break;
@@ -114,8 +115,11 @@ void Evidence::complete()
             }
             break;
         case Record::Recovered:
-            if (!faults.empty())
-                faults.back().recovered = std::min(faults.back().recovered, record.time);
+            for (auto fault = faults.rbegin(); fault != faults.rend() && fault->recovered > record.time; ++fault) {
+                fault->recovered = record.time;
+                if (!fault->isAlone)  // its cause may have ended after the begin of the next one
+                    fault->end = record.time;
+            }
             break;
         default:
             break;
@@ -143,7 +147,8 @@ const History *Evidence::lifeOf(int node, quint32 life) const
 bool Evidence::isExplained(qint64 time, int node) const
 {
     return std::any_of(faults.begin(), faults.end(), [&](const DoneFault &fault) {
-        return fault.begin <= time && time <= fault.recovered && (fault.isOfMaster() || fault.node == node || node < 0);
+        return fault.begin <= time && time <= fault.recovered
+            && (concernsAll(fault.kind) || fault.node == node || node < 0);
     });
 }
 

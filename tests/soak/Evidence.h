@@ -39,8 +39,9 @@ struct DoneFault
     qint64 recovered = 0;  // the whole plant runs again; when it never did: the end of the run
     qint64 amount = 0;     // what was really done
     quint64 seed = 0;
+    bool isAlone = true;  // the plant had recovered before it, and recovered after it: what it did can be told apart
 
-    bool isOfMaster() const { return kind == FaultKind::KillMaster || kind == FaultKind::StopMaster; }
+    bool isOfMaster() const { return soak::isOfMaster(kind); }
 };
 
 /// All that is known of a run: what its processes have written down, and nothing else.

@@ -93,13 +93,21 @@ Record makeRecord(Record::Kind kind, int subject, std::initializer_list<quint64>
     return record;
 }
 
-HistoryWriter::~HistoryWriter()
+HistoryWriter::~HistoryWriter() = default;
+
+void HistoryWriter::append(Record::Kind kind, int subject, std::initializer_list<quint64> numbers,
+                           quint64 cycle) noexcept
+{
+    append(makeRecord(kind, subject, numbers, cycle));
+}
+
+HistoryFile::~HistoryFile()
 {
     if (m_file >= 0)
         ::close(m_file);
 }
 
-bool HistoryWriter::open(const QString &fileName, QString *error)
+bool HistoryFile::open(const QString &fileName, QString *error)
 {
     m_file = ::open(QFile::encodeName(fileName).constData(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0644);
     if (m_file < 0)
@@ -107,7 +115,7 @@ bool HistoryWriter::open(const QString &fileName, QString *error)
     return m_file >= 0;
 }
 
-void HistoryWriter::append(Record record) noexcept
+void HistoryFile::append(Record record) noexcept
 {
     thread_local const ThreadWaits waits;
     if (record.time == 0)
@@ -117,12 +125,6 @@ void HistoryWriter::append(Record record) noexcept
     record.check = checkOf(record);
     const ssize_t written = ::write(m_file, &record, sizeof record);
     Q_UNUSED(written)  // a history with a hole does not read
-}
-
-void HistoryWriter::append(Record::Kind kind, int subject, std::initializer_list<quint64> numbers,
-                           quint64 cycle) noexcept
-{
-    append(makeRecord(kind, subject, numbers, cycle));
 }
 
 bool History::read(const QString &fileName, History *history, QString *error)

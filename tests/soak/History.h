@@ -102,20 +102,31 @@ public:
     static bool read(const QString &fileName, History *history, QString *error);
 };
 
-/// Appends to a history. A record is one write(): threads of a process may share the writer, and who is killed leaves whole records.
+/// Appends to a history. Threads of a process may share the writer.
 class HistoryWriter
 {
 public:
     HistoryWriter() = default;
-    ~HistoryWriter();
+    virtual ~HistoryWriter();
     HistoryWriter(const HistoryWriter &) = delete;
     HistoryWriter &operator=(const HistoryWriter &) = delete;
 
-    bool open(const QString &fileName, QString *error);
-    /// Adds time, thread and check to \a record. \threadsafe yes; allocates nothing after the first call of a thread
-    void append(Record record) noexcept;
+    /// Adds time, thread and check to \a record. \threadsafe yes
+    virtual void append(Record record) noexcept = 0;
     void append(Record::Kind kind, int subject, std::initializer_list<quint64> numbers = {},
                 quint64 cycle = 0) noexcept;
+};
+
+/// A history in a file. A record is one write(): who is killed leaves whole records.
+class HistoryFile final : public HistoryWriter
+{
+public:
+    ~HistoryFile() override;
+
+    bool open(const QString &fileName, QString *error);
+    using HistoryWriter::append;
+    /// Allocates nothing after the first call of a thread.
+    void append(Record record) noexcept override;
 
 private:
     int m_file = -1;

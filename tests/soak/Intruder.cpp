@@ -4,8 +4,6 @@
 #include "Operator.h"
 #include "PlantKeys.h"
 
-#include <QtCore/QElapsedTimer>
-
 using Message = QPlcMessage;
 
 namespace soak {
@@ -50,9 +48,9 @@ Intruder::Intruder(quint16 port, int attempts, quint64 seed, const QString &fold
     if (m_attempts == 0)
         return;
     enterAsObserver();
-    QElapsedTimer timer;  // the runner has other work afterwards, and a handshake has to end in time
-    timer.start();
-    while (!m_isObserverIn && timer.elapsed() < LongestSettling)
+    const qint64 end
+        = Operator::now() + LongestSettling;  // the runner has other work, and a handshake has to end in time
+    while (!m_isObserverIn && Operator::now() < end)
         Operator::wait(Interval);
     m_timer.start(Interval);
 }
@@ -62,9 +60,8 @@ Intruder::~Intruder() = default;
 void Intruder::end()
 {
     m_timer.stop();
-    QElapsedTimer timer;
-    timer.start();
-    while (!isSettled() && timer.elapsed() < LongestSettling) {
+    const qint64 end = Operator::now() + LongestSettling;
+    while (!isSettled() && Operator::now() < end) {
         Operator::wait(Interval);
         m_ended += quint64(m_strangers.leaveEnded());
     }

@@ -121,7 +121,7 @@ Gate linkFaultsAreCounted(const Evidence &evidence)
     gate.isAsked = false;
     for (const DoneFault &fault : evidence.faults) {
         for (const Counted &what : counters) {
-            if (fault.kind != what.fault)
+            if (fault.kind != what.fault || !fault.isAlone)
                 continue;
             gate.isAsked = true;
             lookAt(evidence, fault, what, &gate);

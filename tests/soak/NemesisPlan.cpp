@@ -9,7 +9,8 @@ namespace soak {
 namespace {
 
 // Order of FaultKind.
-constexpr std::array<int, FaultKinds> AllKinds{14, 6, 2, 2, 6, 5, 3, 3, 2, 4, 3, 3, 3, 4};
+constexpr std::array<int, FaultKinds> AllKinds{14, 6, 2, 2, 6, 5, 3,
+                                               3,  2, 4, 3, 3, 3, 4};  // none of those of simulated plants
 
 int amountOf(FaultKind kind)
 {
@@ -30,6 +31,14 @@ int amountOf(FaultKind kind)
     case FaultKind::ReorderFrames:
     case FaultKind::CorruptFrames:
     case FaultKind::CutLink:
+    case FaultKind::PowerNode:
+    case FaultKind::PowerMaster:
+    case FaultKind::CutRoad:
+    case FaultKind::CutRoadToNode:
+    case FaultKind::DelayOnRoad:
+    case FaultKind::LoseOnRoads:
+    case FaultKind::DisorderOnRoads:
+    case FaultKind::SlowListener:
         return 700;
     default:
         return 1;
@@ -96,6 +105,15 @@ QString linkFaultsOf(FaultKind kind, quint64 seed)
     default:
         return QStringLiteral("cut=300ms+200ms") + end;
     }
+}
+
+QString Fault::toString() const
+{
+    QString text = QString::fromLatin1(FaultNames[std::size_t(kind)]);
+    if (node >= 0)
+        text += QStringLiteral(" (%1)").arg(nodeName(node));
+    text += QStringLiteral(", %1").arg(amount);
+    return pause < 0 ? text : text + QStringLiteral("; the next one %1 ms later").arg(pause);
 }
 
 QStringList Profile::names()

@@ -25,22 +25,63 @@ enum class FaultKind : quint8 {
     DuplicateFrames,
     ReorderFrames,
     CorruptFrames,
-    CutLink
+    CutLink,
+    PowerNode,    ///< from here on in simulated plants only: a node without power for a while; its kernel tells nobody
+    PowerMaster,  ///< likewise
+    CutRoad,      ///< nothing arrives from the node at the master, frames and control connections alike, nor back
+    CutRoadToNode,    ///< in one direction
+    DelayOnRoad,      ///< to the node and back
+    LoseOnRoads,      ///< of all nodes
+    DisorderOnRoads,  ///< frames are doubled, and overtake each other
+    StepWallClock,    ///< of a node, an hour back
+    StepMasterClock,
+    SlowListener  ///< a tool that asks for much, and reads a little at a time
 };
-constexpr int FaultKinds = int(FaultKind::CutLink) + 1;
-constexpr std::array<const char *, FaultKinds> FaultNames{
-    "kill a node",      "stop a node",      "kill the master", "stop the master", "garbage datagrams",
-    "garbage control",  "garbage to nodes", "stopped reader",  "connect flood",   "lose frames",
-    "duplicate frames", "reorder frames",   "corrupt frames",  "cut a link"};
+constexpr int FaultKinds = int(FaultKind::SlowListener) + 1;
+constexpr std::array<const char *, FaultKinds> FaultNames{"kill a node",
+                                                          "stop a node",
+                                                          "kill the master",
+                                                          "stop the master",
+                                                          "garbage datagrams",
+                                                          "garbage control",
+                                                          "garbage to nodes",
+                                                          "stopped reader",
+                                                          "connect flood",
+                                                          "lose frames",
+                                                          "duplicate frames",
+                                                          "reorder frames",
+                                                          "corrupt frames",
+                                                          "cut a link",
+                                                          "node without power",
+                                                          "master without power",
+                                                          "cut a road",
+                                                          "cut a road to a node",
+                                                          "delay on a road",
+                                                          "lose on all roads",
+                                                          "disorder on all roads",
+                                                          "step a clock",
+                                                          "step the clock of the master",
+                                                          "slow listener"};
 
 constexpr bool isLinkFault(FaultKind kind)
 {
-    return kind >= FaultKind::LoseFrames;
+    return kind >= FaultKind::LoseFrames && kind <= FaultKind::CutLink;
 }
 /// Whether a fault of this kind is one of a single node.
 constexpr bool hasNode(FaultKind kind)
 {
-    return kind == FaultKind::KillNode || kind == FaultKind::StopNode || isLinkFault(kind);
+    return kind == FaultKind::KillNode || kind == FaultKind::StopNode || isLinkFault(kind)
+        || kind == FaultKind::PowerNode || kind == FaultKind::CutRoad || kind == FaultKind::CutRoadToNode
+        || kind == FaultKind::DelayOnRoad || kind == FaultKind::StepWallClock;
+}
+constexpr bool isOfMaster(FaultKind kind)
+{
+    return kind == FaultKind::KillMaster || kind == FaultKind::StopMaster || kind == FaultKind::PowerMaster;
+}
+/// Whether it may happen to every node.
+constexpr bool concernsAll(FaultKind kind)
+{
+    return isOfMaster(kind) || kind == FaultKind::LoseOnRoads || kind == FaultKind::DisorderOnRoads;
 }
 
 struct Fault
@@ -49,6 +90,10 @@ struct Fault
     int node = -1;     // -1: not of a node
     int amount = 0;    // datagrams, connections, requests; [ms] of a stop, cut or faulty link
     quint64 seed = 0;  // for all that is drawn while it happens
+    int pause = -1;    // [ms] until the next one, which does not wait for the plant to recover; -1: it waits
+
+    /// "stop a node (Node3), 300".
+    QString toString() const;
 };
 
 /// What a node is told of the faults of its link: docs/faults.md. What is counted is done to the frames that it sends.
@@ -68,6 +113,7 @@ struct Profile
     int priority = 0;           // of the cycle threads, SCHED_FIFO; 0: they are ordinary
     double restless = 1.0;      // share of the nodes that have faults
     int attemptsPerSecond = 0;  // of strangers to get in; the plant is secured then
+    bool hasProcesses = true;   // whose resources are judged; a simulated plant has none
     std::array<int, FaultKinds> weights{};
 
     /// Whether control connections are TLS with a key for each node, and frames are sealed.

@@ -33,7 +33,7 @@ void addNodeOptions(QPlcCoreApplication &application)
     application.addOption(option("node", "Number of this node.", "N", "0"));
 }
 
-bool readShapeOptions(QPlcCoreApplication &application, NodeOptions *options, HistoryWriter *history)
+bool readShapeOptions(QPlcCoreApplication &application, NodeOptions *options, HistoryFile *history)
 {
     qint64 nodes = 0, signalCount = 0, hold = 0, life = 0;
     if (!readInteger(application, "nodes", 2, 254, &nodes)
@@ -49,7 +49,7 @@ bool readShapeOptions(QPlcCoreApplication &application, NodeOptions *options, Hi
     return false;
 }
 
-bool readNodeOptions(QPlcCoreApplication &application, NodeOptions *options, HistoryWriter *history)
+bool readNodeOptions(QPlcCoreApplication &application, NodeOptions *options, HistoryFile *history)
 {
     qint64 node = 0;
     if (!readInteger(application, "node", 0, 253, &node) || !readShapeOptions(application, options, history))

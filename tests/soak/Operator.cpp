@@ -2,8 +2,8 @@
 #include "Operator.h"
 
 #include "SoakPlant.h"
+#include "realtime/TimeSource.h"
 
-#include <QtCore/QElapsedTimer>
 #include <QtCore/QEventLoop>
 #include <QtCore/QTimer>
 
@@ -26,9 +26,9 @@ Operator::Operator(HistoryWriter &history, int nodes)
 {
 }
 
-void Operator::useMaster(quint16 port)
+void Operator::useMaster(const QPlcUnderlyingProtocol &master)
 {
-    m_port = port;
+    m_master = master;
     m_formerId = 0;
     m_client.reset();
 }
@@ -58,6 +58,11 @@ void Operator::wait(int milliseconds)
     loop.exec();
 }
 
+qint64 Operator::now()
+{
+    return qplc::monotonicNow() / 1'000'000;
+}
+
 void Operator::start(const Message &state)
 {
     QJsonObject fields;
@@ -74,10 +79,9 @@ void Operator::start(const Message &state)
 
 bool Operator::waitForNodes(int count, int patience)
 {
-    QElapsedTimer timer;
-    timer.start();
+    const qint64 end = now() + patience;
     Message state;
-    while (timer.elapsed() < patience) {
+    while (now() < end) {
         if (ask(Message::GetState, &state) && registeredIn(state) >= count)
             return true;
         wait(10 + m_nodes / 4);
@@ -90,7 +94,7 @@ bool Operator::ask(const Message &request, Message *answer)
 {
     if (!m_client || m_client->error() != tools::BlockingClient::NoError) {
         m_client = std::make_unique<tools::BlockingClient>(std::chrono::seconds(3));
-        m_client->connectToMaster(QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, m_port));
+        m_client->connectToMaster(m_master);
     }
     if (m_client->ask(request, answer))
         return true;
@@ -133,9 +137,8 @@ bool Operator::goOn()
 
 bool Operator::bringToRealTime(int patience)
 {
-    QElapsedTimer timer;
-    timer.start();
-    while (timer.elapsed() < patience) {
+    const qint64 end = now() + patience;
+    while (now() < end) {
         if (goOn())
             return true;
         wait(10 + m_nodes / 4);  // the answer has a part for each node: it is work for the master

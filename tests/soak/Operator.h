@@ -17,7 +17,7 @@ public:
     Operator(HistoryWriter &history, int nodes);
 
     /// From now on the master is here; an earlier one is gone.
-    void useMaster(quint16 port);
+    void useMaster(const QPlcUnderlyingProtocol &master);
     /// Does what there is to do until the whole plant runs. \return false when it does not within \a patience [ms]: errorString() says what is missing
     bool bringToRealTime(int patience);
     /// Whether the whole plant runs. Does nothing about it.
@@ -32,6 +32,8 @@ public:
     QString errorString() const { return m_errorString; }
 
     static void wait(int milliseconds);
+    /// [ms] on the clock of the host
+    static qint64 now();
 
 private:
     bool ask(const QPlcMessage &request, QPlcMessage *answer);
@@ -44,7 +46,7 @@ private:
 
     HistoryWriter &m_history;
     const int m_nodes;
-    quint16 m_port = 0;
+    QPlcUnderlyingProtocol m_master;
     int m_formerNode = -1;
     int m_formerId = 0;  // of this node, which its next registration will not have; 0: none
     std::unique_ptr<tools::BlockingClient> m_client;

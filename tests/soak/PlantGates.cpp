@@ -11,7 +11,9 @@ namespace soak {
 namespace {
 
 constexpr qint64 LongestRecovery = 2'000'000'000;  // [ns]
-constexpr qint64 Settled = 250'000'000;            // [ns] after a fault, what it did has been counted
+constexpr qint64 LongestSilence
+    = 11'000'000'000;  // [ns] more: until connections are given up of which no kernel tells, and the longest pause before the next attempt
+constexpr qint64 Settled = 250'000'000;  // [ns] after a fault, what it did has been counted
 
 QString nameOf(const DoneFault &fault)
 {
@@ -122,6 +124,20 @@ Record::Kind eventOf(FaultKind kind)
     }
 }
 
+/// [ns] from the end of the cause until all works again.
+qint64 longestRecoveryOf(const DoneFault &fault)
+{
+    switch (fault.kind) {
+    case FaultKind::PowerNode:
+    case FaultKind::PowerMaster:
+    case FaultKind::CutRoad:
+    case FaultKind::CutRoadToNode:
+        return LongestRecovery + LongestSilence;
+    default:
+        return fault.isAlone ? LongestRecovery : LongestRecovery + LongestSilence;
+    }
+}
+
 bool isToldByAnEvent(FaultKind kind)
 {
     return kind == FaultKind::KillNode || kind == FaultKind::StopNode || kind == FaultKind::CutLink
@@ -207,7 +223,7 @@ qint64 recoveryOf(const Evidence &evidence, const DoneFault &fault)
         if (history.node != fault.node)
             continue;
         const std::vector<const Record *> steps
-            = recordsOf(history, Record::Step, fault.node, fault.end, fault.recovered + LongestRecovery);
+            = recordsOf(history, Record::Step, fault.node, fault.end, fault.recovered + longestRecoveryOf(fault));
         if (!steps.empty())
             return steps.front()->time;
     }
@@ -232,7 +248,7 @@ Gate faultsAreSeen(const Evidence &evidence)
     Gate gate("faults are seen");
     gate.isAsked = false;
     for (const DoneFault &fault : evidence.faults) {
-        if (!isToldByAnEvent(fault.kind))
+        if (!isToldByAnEvent(fault.kind) || !fault.isAlone)
             continue;
         gate.isAsked = true;
         lookAtEvent(evidence, fault, &gate);
@@ -256,9 +272,10 @@ Gate plantRecovers(const Evidence &evidence)
             continue;
         }
         gate.largest(QStringLiteral("longest [ms]"), double(took) * 1e-6);
-        if (took <= LongestRecovery)
+        const qint64 longest = longestRecoveryOf(fault);
+        if (took <= longest)
             continue;
-        if (took <= LongestRecovery + evidence.stalls.within(fault.end, end))
+        if (took <= longest + evidence.stalls.within(fault.end, end))
             ++gate.excused;
         else
             gate.fail(QStringLiteral("%1: took %2 ms").arg(nameOf(fault)).arg(double(took) * 1e-6));
@@ -337,7 +354,7 @@ Gate faultsAreCounted(const Evidence &evidence)
     Gate gate("faults are counted");
     gate.isAsked = false;
     for (const DoneFault &fault : evidence.faults) {
-        if (!isCounted(fault.kind))
+        if (!isCounted(fault.kind) || !fault.isAlone)
             continue;
         gate.isAsked = true;
         ++gate.looked;

@@ -2,12 +2,15 @@
 #include "PlantProcesses.h"
 
 #include "NodeOptions.h"
+#include "Operator.h"
 #include "PlantKeys.h"
+#include "Strangers.h"
 
 #include <QtCore/QCoreApplication>
 #include <QtCore/QDir>
 #include <QtCore/QElapsedTimer>
 #include <QtCore/QFile>
+#include <QtCore/QStandardPaths>
 
 #include <csignal>
 #include <sys/prctl.h>
@@ -80,8 +83,9 @@ bool PlantProcess::end()
     return false;
 }
 
-PlantProcesses::PlantProcesses(const Profile &profile, const QString &folder, HistoryWriter &history)
+PlantProcesses::PlantProcesses(const Profile &profile, quint64 seed, const QString &folder, HistoryWriter &history)
     : m_profile(profile)
+    , m_seed(seed)
     , m_folder(folder)
     , m_history(history)
     , m_nodes(std::size_t(profile.shape.nodes))
@@ -89,6 +93,79 @@ PlantProcesses::PlantProcesses(const Profile &profile, const QString &folder, Hi
 }
 
 PlantProcesses::~PlantProcesses() = default;
+
+/// Makes keys, and takes those of the operator.
+bool PlantProcesses::prepare(QString *error)
+{
+    m_reference
+        = std::make_unique<ReferenceClock>(m_history, std::max<qint64>(1'000'000, m_profile.periodUs * 1000 / 4));
+    if (!m_profile.isSecured())
+        return true;
+    QPlcSecurity::setCurrent(PlantKeys::ofOperator(m_folder));
+    return PlantKeys::write(m_folder, m_profile.shape.nodes, error);
+}
+
+/// Programs beside the plant that take processors, memory and disk, and intruders.
+bool PlantProcesses::beginBeside(QString *error)
+{
+    m_intruder = std::make_unique<Intruder>(m_port, m_profile.attemptsPerSecond, m_seed, m_folder, m_history);
+    if (!m_profile.isLoaded)
+        return true;
+    const QString program = QStandardPaths::findExecutable(QStringLiteral("stress-ng"));
+    if (program.isEmpty()) {
+        *error = QStringLiteral("no stress-ng; scripts/setup --tests installs it");
+        return false;
+    }
+    const QStringList arguments{QStringLiteral("--cpu"),       QStringLiteral("2"),
+                                QStringLiteral("--vm"),        QStringLiteral("1"),
+                                QStringLiteral("--vm-bytes"),  QStringLiteral("64M"),
+                                QStringLiteral("--hdd"),       QStringLiteral("1"),
+                                QStringLiteral("--temp-path"), m_folder};
+    m_load = std::make_unique<PlantProcess>(program, arguments, file(QStringLiteral("Load.log")));
+    return true;
+}
+
+void PlantProcesses::endBeside()
+{
+    m_intruder->end();
+}
+
+void PlantProcesses::setStopped(int node, bool stopped)
+{
+    PlantProcess &process = node == TheMaster ? *m_master : *m_nodes[std::size_t(node)].process;
+    process.sendSignal(stopped ? SIGSTOP : SIGCONT);
+}
+
+int PlantProcesses::inject(const Fault &fault, Operator &person)
+{
+    Strangers strangers(fault.seed);
+    int done = 0;
+    switch (fault.kind) {
+    case FaultKind::GarbageDatagrams:
+        return strangers.sendDatagrams(m_port, fault.amount);
+    case FaultKind::GarbageControl:
+        done = strangers.sendGarbage(m_port, fault.amount);
+        Operator::wait(50);
+        return done;
+    case FaultKind::GarbageToNodes: {
+        const QStringList addresses = person.datagramAddresses();
+        for (const QString &address : addresses)
+            done += strangers.sendDatagrams(quint16(address.section(QLatin1Char(':'), 1).toUInt()),
+                                            fault.amount / addresses.size());
+        return done;
+    }
+    case FaultKind::StoppedReader:
+        done = strangers.askWithoutReading(m_port, fault.amount);
+        Operator::wait(200);
+        return done;
+    case FaultKind::ConnectFlood:
+        done = strangers.connectOnly(m_port, fault.amount);
+        Operator::wait(100);
+        return done;
+    default:
+        return 0;
+    }
+}
 
 QString PlantProcesses::file(const QString &name) const
 {
@@ -136,7 +213,7 @@ bool PlantProcesses::startMaster(QString *error)
     return m_port != 0;
 }
 
-void PlantProcesses::startNode(int node, const QStringList &extraArguments)
+void PlantProcesses::startNode(int node, const QString &linkFaults)
 {
     Node &slot = m_nodes[std::size_t(node)];
     if (slot.process) {
@@ -153,10 +230,13 @@ void PlantProcesses::startNode(int node, const QStringList &extraArguments)
                       QStringLiteral("--stay"),
                       QStringLiteral("--master"),
                       QStringLiteral("%1://127.0.0.1:%2").arg(QString::fromLatin1(transportOf(node))).arg(m_port)};
+    const QStringList faults = linkFaults.isEmpty()
+        ? QStringList()
+        : QStringList{QStringLiteral("--enable-fault-injection"), QStringLiteral("--faults"), linkFaults};
     const QStringList critical = isCritical(node) ? QStringList{QStringLiteral("--critical")} : QStringList();
     slot.process = std::make_unique<PlantProcess>(QStringLiteral("soak_node"),
                                                   arguments + critical + priorityArguments()
-                                                      + securityArguments(nodeName(node)) + extraArguments,
+                                                      + securityArguments(nodeName(node)) + faults,
                                                   file(name + QStringLiteral(".log")));
     m_history.append(Record::Started, node, {quint64(slot.process->processId()), slot.life});
 }

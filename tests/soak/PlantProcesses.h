@@ -2,15 +2,15 @@
 #pragma once
 
 #include "History.h"
-#include "NemesisPlan.h"
+#include "Intruder.h"
+#include "Plant.h"
+#include "ReferenceClock.h"
 
 #include <QtCore/QProcess>
 
 #include <memory>
 
 namespace soak {
-
-inline constexpr int Patience = 20'000;  // [ms] with what is to come at once: far more than a loaded machine needs
 
 /// A process of the plant. It dies with the runner, and its words go to a file.
 class PlantProcess : public QProcess
@@ -29,25 +29,28 @@ protected:
     void setupChildProcess() override;
 };
 
-/// The processes of a plant: one master, and the nodes of the profile, each in its newest life.
-class PlantProcesses
+/// A plant of processes.
+class PlantProcesses final : public Plant
 {
 public:
-    PlantProcesses(const Profile &profile, const QString &folder, HistoryWriter &history);
-    ~PlantProcesses();
+    /// \param folder  empty; all processes of the plant write there
+    PlantProcesses(const Profile &profile, quint64 seed, const QString &folder, HistoryWriter &history);
+    ~PlantProcesses() override;
 
-    /// Starts a master, again on the port of the one before. \return false when it does not listen
-    bool startMaster(QString *error);
-    /// \param extraArguments  for this life of the node
-    void startNode(int node, const QStringList &extraArguments = {});
-    PlantProcess &master() { return *m_master; }
-    PlantProcess &node(int node) { return *m_nodes[std::size_t(node)].process; }
-    quint16 port() const { return m_port; }
-    quint32 masterLife() const { return m_masterLife; }
-    /// Writes down what all processes use. \param compare  the whole plant runs: numbers are to be the same each time
-    void recordUsage(bool compare);
-    /// Ends all nodes, then the master, in an orderly way. \return those that did not
-    QStringList end();
+    bool prepare(QString *error) override;
+    bool startMaster(QString *error) override;
+    void killMaster() override { m_master->destroy(); }
+    QPlcUnderlyingProtocol master() const override
+    {
+        return QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, m_port);
+    }
+    void startNode(int node, const QString &linkFaults) override;
+    void setStopped(int node, bool stopped) override;
+    int inject(const Fault &fault, Operator &person) override;
+    bool beginBeside(QString *error) override;
+    void endBeside() override;
+    void recordUsage(bool compare) override;
+    QStringList end() override;
 
 private:
     struct Node
@@ -60,12 +63,16 @@ private:
     QStringList securityArguments(const QString &identity) const;
 
     const Profile &m_profile;
+    const quint64 m_seed;
     const QString m_folder;
     HistoryWriter &m_history;
     std::unique_ptr<PlantProcess> m_master;
     quint32 m_masterLife = 0;
     quint16 m_port = 0;
     std::vector<Node> m_nodes;
+    std::unique_ptr<ReferenceClock> m_reference;
+    std::unique_ptr<PlantProcess> m_load;
+    std::unique_ptr<Intruder> m_intruder;
 };
 
 }  // namespace soak

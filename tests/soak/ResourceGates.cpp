@@ -169,6 +169,13 @@ Gate memoryStays(const Evidence &evidence, const Profile &profile)
     return gate;
 }
 
+/// A gate of processes, which a simulated plant does not have.
+static Gate ofProcesses(Gate gate, const Profile &profile)
+{
+    gate.isAsked = gate.isAsked && profile.hasProcesses;
+    return gate;
+}
+
 /// A gate that a machine which stands still can make fail.
 static Gate ofTime(Gate gate)
 {
@@ -194,8 +201,8 @@ std::vector<Gate> judge(const Evidence &evidence, const Profile &profile)
             ofTime(linkFaultsAreCounted(evidence)),
             attemptsAreRefused(evidence),
             commandsAreDenied(evidence),
-            nothingLeaks(evidence),
-            ofTime(memoryStays(evidence, profile))};
+            ofProcesses(nothingLeaks(evidence), profile),
+            ofProcesses(ofTime(memoryStays(evidence, profile)), profile)};
 }
 
 }  // namespace soak

@@ -241,7 +241,9 @@ Gate noFalseAlarms(const Evidence &evidence)
         if (evidence.stalls.within(record.time - 100'000'000, record.time) >= evidence.period)
             ++gate.excused;
         else
-            gate.fail(QStringLiteral("%1: %2 without a cause").arg(history.name, QString::fromLatin1(what)));
+            gate.fail(QStringLiteral("%1: %2 without a cause at %3 ms")
+                          .arg(history.name, QString::fromLatin1(what))
+                          .arg(milliseconds(record.time)));
     };
     for (const History &history : evidence.nodes) {
         for (const Record &record : history.records) {

@@ -2,16 +2,16 @@
 #pragma once
 
 #include "Operator.h"
-#include "PlantProcesses.h"
+#include "Plant.h"
 
 namespace soak {
 
-/// Runs a plant, and does to it what the plan of the profile says. What happened is in the histories of the folder.
+/// Runs a plant, and does to it what a plan says. What happened is in the histories.
 class SoakRun
 {
 public:
-    /// \param folder  empty; all processes of the plant write there
-    SoakRun(const Profile &profile, int seconds, quint64 seed, const QString &folder);
+    /// \param seconds  of a run without faults
+    SoakRun(const Profile &profile, int seconds, const std::vector<Fault> &plan, Plant &plant, HistoryWriter &history);
     ~SoakRun();
 
     /// \return false when the plant did not come to motion, again or at all: errorString() says why
@@ -19,24 +19,24 @@ public:
     QString errorString() const { return m_errorString; }
 
 private:
-    bool secure();
     bool start();
-    bool startLoad(std::unique_ptr<PlantProcess> *load);
     bool recover();
     bool suffer(const Fault &fault);
+    bool comeBack(FaultKind last);
+    bool sufferAll();
     void rest(int seconds);
     int inject(const Fault &fault);
-    void stopFor(PlantProcess &process, int milliseconds);
+    void stopFor(int node, int milliseconds);
     bool setError(const QString &text);
 
     const Profile &m_profile;
     const int m_seconds;
-    const quint64 m_seed;
-    const QString m_folder;
-    HistoryWriter m_history;
-    PlantProcesses m_plant;
+    const std::vector<Fault> &m_plan;
+    Plant &m_plant;
+    HistoryWriter &m_history;
     Operator m_operator;
     QString m_errorString;
+    bool m_isCrowded = false;  // the plant has not recovered from the last fault
 };
 
 }  // namespace soak

@@ -27,7 +27,9 @@ sockaddr_in loopback(quint16 port)
     return address;
 }
 
-QPlcMessage greeting()
+}  // namespace
+
+QPlcMessage StrangerWords::greeting()
 {
     return QPlcMessage(QPlcMessage::Hello,
                        {{QStringLiteral("protocol"), 1},
@@ -37,10 +39,28 @@ QPlcMessage greeting()
                         {QStringLiteral("features"), QJsonArray{QStringLiteral("events")}}});
 }
 
-}  // namespace
+QByteArray StrangerWords::randomBytes(int size)
+{
+    QByteArray bytes(size, '\0');
+    for (char &byte : bytes)
+        byte = char(m_random());
+    return bytes;
+}
+
+QByteArray StrangerWords::garbageMessage()
+{
+    switch (m_random() % 3) {
+    case 0:  // longer than a frame may be
+        return QByteArray::fromHex("ffffffff") + randomBytes(64);
+    case 1:  // of no length
+        return QByteArray::fromHex("00000000") + randomBytes(64);
+    default:  // a body that is no JSON
+        return QByteArray::fromHex("2100000001") + QByteArray(32, '}');
+    }
+}
 
 Strangers::Strangers(quint64 seed)
-    : m_random(seed)
+    : m_words(seed)
 {
 }
 
@@ -56,34 +76,13 @@ void Strangers::leave()
     m_connections.clear();
 }
 
-QByteArray Strangers::randomBytes(int size)
-{
-    QByteArray bytes(size, '\0');
-    for (char &byte : bytes)
-        byte = char(m_random());
-    return bytes;
-}
-
-/// What a receiver knows to be no message as soon as it has all of it.
-QByteArray Strangers::garbageMessage()
-{
-    switch (m_random() % 3) {
-    case 0:  // longer than a frame may be
-        return QByteArray::fromHex("ffffffff") + randomBytes(64);
-    case 1:  // of no length
-        return QByteArray::fromHex("00000000") + randomBytes(64);
-    default:  // a body that is no JSON
-        return QByteArray::fromHex("2100000001") + QByteArray(32, '}');
-    }
-}
-
 int Strangers::sendDatagrams(quint16 port, int count)
 {
     const int socket = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
     const sockaddr_in address = loopback(port);
     int sent = 0;
     for (int i = 0; i < count; ++i) {
-        const QByteArray bytes = randomBytes(int(m_random() % 600));
+        const QByteArray bytes = m_words.randomBytes(int(m_words.number() % 600));
         sent += ::sendto(socket, bytes.constData(), std::size_t(bytes.size()), 0,
                          reinterpret_cast<const sockaddr *>(&address), sizeof address)
                 == bytes.size()
@@ -130,7 +129,7 @@ int Strangers::sendGarbage(quint16 port, int count)
 {
     int made = 0;
     for (int i = 0; i < count; ++i)
-        made += connectAndSend(port, garbageMessage()) ? 1 : 0;
+        made += connectAndSend(port, m_words.garbageMessage()) ? 1 : 0;
     return made;
 }
 
@@ -141,9 +140,10 @@ int Strangers::sendCommands(quint16 port, int count)
            QPlcMessage::Arm,           QPlcMessage::SetSignals, QPlcMessage::Reset};
     int made = 0;
     for (int i = 0; i < count; ++i)
-        made += connectAndSend(port,
-                               qplc::encodeControlFrame(greeting())
-                                   + qplc::encodeControlFrame(QPlcMessage(commands[m_random() % std::size(commands)])))
+        made += connectAndSend(
+                    port,
+                    qplc::encodeControlFrame(StrangerWords::greeting())
+                        + qplc::encodeControlFrame(QPlcMessage(commands[m_words.number() % std::size(commands)])))
             ? 1
             : 0;
     return made;
@@ -185,7 +185,7 @@ int Strangers::askWithoutReading(quint16 port, int count)
         const QByteArray frame = qplc::encodeControlFrame(message);
         return ::send(socket, frame.constData(), std::size_t(frame.size()), MSG_NOSIGNAL) == frame.size();
     };
-    send(greeting());
+    send(StrangerWords::greeting());
     int asked = 0;
     while (asked < count && send(QPlcMessage(QPlcMessage::GetSignals)))
         ++asked;

@@ -1,12 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <QtPlcCore>
+
 #include <QtCore/QByteArray>
 
 #include <random>
 #include <vector>
 
 namespace soak {
+
+/// What strangers say.
+class StrangerWords
+{
+public:
+    explicit StrangerWords(quint64 seed)
+        : m_random(seed)
+    {
+    }
+    quint64 number() { return m_random(); }
+    QByteArray randomBytes(int size);
+    /// What a receiver knows to be no message as soon as it has all of it.
+    QByteArray garbageMessage();
+    static QPlcMessage greeting();
+
+private:
+    std::mt19937_64 m_random;
+};
 
 /// Who has no business with the plant, and sends all the same. All of it goes to this machine.
 class Strangers
@@ -33,12 +53,10 @@ public:
     void leave();
 
 private:
-    QByteArray randomBytes(int size);
-    QByteArray garbageMessage();
     int connection(quint16 port, int receiveBuffer = 0);
     bool connectAndSend(quint16 port, const QByteArray &bytes);
 
-    std::mt19937_64 m_random;
+    StrangerWords m_words;
     std::vector<int> m_connections;
 };
 

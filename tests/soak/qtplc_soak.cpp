@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // qtplc_soak: treats a plant of real processes badly, judges it by what its processes have written down, and reports.
+#include "PlantProcesses.h"
 #include "SoakReport.h"
 #include "SoakRun.h"
 
+#include <QtCore/QDir>
 #include <QtCore/QFile>
 #include <QtCore/QJsonDocument>
 #include <QtCore/QLoggingCategory>
@@ -87,6 +89,23 @@ bool readOptions(QPlcCoreApplication &application, Options *options)
     return true;
 }
 
+/// \return why the run ended early; empty: it did not
+QString runIn(const QString &folder, const Options &options)
+{
+    QString error;
+    soak::HistoryFile history;
+    if (!history.open(QDir(folder).filePath(QStringLiteral("Runner.history")), &error))
+        return error;
+    const soak::Profile &profile = options.profile;
+    const int count = profile.faultCount > 0 ? profile.faultCount * options.seconds / profile.seconds
+        : profile.faultEvery > 0             ? options.seconds * 1000 / profile.faultEvery
+                                             : 0;
+    const std::vector<soak::Fault> plan = planOf(profile, count, options.seed);
+    soak::PlantProcesses plant(profile, options.seed, folder, history);
+    soak::SoakRun run(profile, options.seconds, plan, plant, history);
+    return run.run() ? QString() : run.errorString();
+}
+
 bool writeJson(const QString &fileName, const QJsonObject &report)
 {
     QFile file(fileName);
@@ -115,11 +134,7 @@ int main(int argc, char **argv)
     report.profile = options.profile.name;
     report.seed = options.seed;
     report.seconds = options.seconds;
-    {
-        soak::SoakRun run(options.profile, options.seconds, options.seed, folder.path());
-        if (!run.run())
-            report.error = run.errorString();
-    }
+    report.error = runIn(folder.path(), options);
     QString unreadable;
     if (soak::Evidence::read(folder.path(), options.profile, &report.evidence, &unreadable))
         report.gates = soak::judge(report.evidence, options.profile);

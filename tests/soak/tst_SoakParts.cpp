@@ -61,7 +61,7 @@ QString historyFile(const QTemporaryDir &folder)
 {
     const QString name = folder.filePath("Node3-life2.history");
     QString error;
-    soak::HistoryWriter writer;
+    soak::HistoryFile writer;
     if (!writer.open(name, &error))
         return error;
     for (quint64 cycle = 0; cycle < 3; ++cycle)
@@ -129,7 +129,7 @@ void tst_SoakParts::aHistoryIsNeverWrittenOver()
 {
     QTemporaryDir folder;
     const QString name = historyFile(folder);
-    soak::HistoryWriter writer;
+    soak::HistoryFile writer;
     QString error;
     QVERIFY(!writer.open(name, &error));
     QVERIFY2(error.contains(name), qPrintable(error));

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// qtplc_simulate: the soak in virtual time. Treats a simulated plant as a seed says, and judges it by the gates of
+// the soak.
+#include "Scenario.h"
+
+#include <QtCore/QCommandLineParser>
+#include <QtCore/QCoreApplication>
+#include <QtCore/QLoggingCategory>
+
+#include <cstdio>
+
+namespace {
+
+struct Options
+{
+    const soak::Scenario *scenario = nullptr;
+    int seconds = 60;
+    bool isVerbose = false;
+};
+
+/// \return whether all gates hold
+bool simulate(quint64 seed, const Options &options)
+{
+    const std::vector<soak::Fault> plan = planOf(*options.scenario, options.seconds, seed);
+    const soak::SimulatedRun result = run(*options.scenario, options.seconds, seed, plan);
+    if (options.isVerbose) {
+        std::fputs(qPrintable(result.report.toText()), stdout);
+        for (const soak::DoneFault &fault : result.report.evidence.faults)
+            std::printf("%9.3f ... %.3f s, all well at %.3f s: %s (%d)\n", double(fault.begin) * 1e-9,
+                        double(fault.end) * 1e-9, double(fault.recovered) * 1e-9,
+                        soak::FaultNames[std::size_t(fault.kind)], fault.node);
+        std::printf("digest %016llx\n", qulonglong(result.digest));
+    }
+    if (result.violation().isEmpty())
+        return true;
+    std::printf("seed %llu: %s\n", qulonglong(seed), qPrintable(result.violation()));
+    std::fflush(stdout);
+    const QString gate = result.violation().section(QLatin1Char(':'), 0, 0);
+    const auto fails = [&](const std::vector<soak::Fault> &shorter) {
+        return run(*options.scenario, options.seconds, seed, shorter).violation().startsWith(gate);
+    };
+    const std::vector<soak::Fault> shortest = soak::shrunk(plan, fails);
+    std::printf("%zu of %zu faults are enough: %s\n", shortest.size(), plan.size(),
+                qPrintable(run(*options.scenario, options.seconds, seed, shortest).violation()));
+    for (const soak::Fault &fault : shortest)
+        std::printf("  %s\n", qPrintable(fault.toString()));
+    std::printf("again: qtplc_simulate --scenario %s --seed %llu --seconds %d --report\n",
+                qPrintable(options.scenario->profile.name), qulonglong(seed), options.seconds);
+    std::fflush(stdout);
+    return false;
+}
+
+QStringList names()
+{
+    QStringList all;
+    for (const soak::Scenario &scenario : soak::Scenario::all())
+        all << scenario.profile.name;
+    return all;
+}
+
+QCommandLineOption option(const char *name, const QString &description, const char *valueName, const QString &value)
+{
+    return QCommandLineOption(QString::fromLatin1(name), description, QString::fromLatin1(valueName), value);
+}
+
+}  // namespace
+
+int main(int argc, char **argv)
+{
+    const QCoreApplication application(argc, argv);
+    QCommandLineParser parser;
+    parser.setApplicationDescription(
+        QStringLiteral("Runs a simulated plant with random faults. Exit code 1: a gate does not hold."));
+    parser.addHelpOption();
+    parser.addOptions(
+        {option("seed", QStringLiteral("First seed (1)."), "N", QStringLiteral("1")),
+         option("seeds", QStringLiteral("How many seeds (1)."), "COUNT", QStringLiteral("1")),
+         option("seconds", QStringLiteral("Virtual time with faults (60)."), "S", QStringLiteral("60")),
+         option("scenario", names().join(QStringLiteral(", ")) + QStringLiteral(" (all)."), "NAME",
+                QStringLiteral("all")),
+         {QStringLiteral("list"), QStringLiteral("Lists the scenarios.")},
+         {QStringLiteral("report"), QStringLiteral("Prints the report of each run and the digest of its traffic.")},
+         {QStringLiteral("log"), QStringLiteral("Shows the log of the plant.")}});
+    parser.process(application);
+    if (parser.isSet(QStringLiteral("list"))) {
+        for (const soak::Scenario &scenario : soak::Scenario::all())
+            std::printf("%-10s %s\n", qPrintable(scenario.profile.name), qPrintable(scenario.description));
+        return 0;
+    }
+    if (!parser.isSet(QStringLiteral("log")))
+        QLoggingCategory::setFilterRules(QStringLiteral("*=false"));
+    Options options;
+    options.seconds = parser.value(QStringLiteral("seconds")).toInt();
+    options.isVerbose = parser.isSet(QStringLiteral("report"));
+    options.scenario = soak::Scenario::named(parser.value(QStringLiteral("scenario")));
+    if (!options.scenario || options.seconds < 1) {
+        std::fprintf(stderr, "use --scenario %s, and --seconds 1 or more\n",
+                     qPrintable(names().join(QStringLiteral("|"))));
+        return 2;
+    }
+    const quint64 first = parser.value(QStringLiteral("seed")).toULongLong();
+    const quint64 count = parser.value(QStringLiteral("seeds")).toULongLong();
+    quint64 failed = 0;
+    for (quint64 seed = first; seed < first + count; ++seed)
+        failed += simulate(seed, options) ? 0 : 1;
+    std::printf("%llu of %llu seeds fail\n", qulonglong(failed), qulonglong(count));
+    return failed == 0 ? 0 : 1;
+}

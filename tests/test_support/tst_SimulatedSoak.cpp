@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Scenario.h"
+
+#include <QtCore/QLoggingCategory>
+#include <QtCore/QProcess>
+#include <QtTest/QTest>
+
+using namespace soak;
+
+namespace {
+
+constexpr int Seconds = 10;
+
+const Scenario &scenarioNamed(const char *name)
+{
+    return *Scenario::named(QString::fromLatin1(name));
+}
+
+SimulatedRun runOf(const char *scenario, quint64 seed)
+{
+    return run(scenarioNamed(scenario), Seconds, seed, planOf(scenarioNamed(scenario), Seconds, seed));
+}
+
+}  // namespace
+
+class tst_SimulatedSoak : public QObject
+{
+    Q_OBJECT
+private Q_SLOTS:
+    void initTestCase() { QLoggingCategory::setFilterRules(QStringLiteral("qtplc.*=false")); }  // faults are to happen
+    void allGatesHold_data();
+    void allGatesHold();
+    void sameSeedGivesSameTrafficInOtherProcess();
+    void otherSeedGivesOtherPlan();
+    void everyKindOfFaultHappensInSomeScenario();
+    void gatesSeeWhatThePlantDidTooLate();
+    void gatesOfProcessesAreNotAsked();
+    void shrinkingKeepsTheFaultsThatMatter();
+};
+
+void tst_SimulatedSoak::allGatesHold_data()
+{
+    QTest::addColumn<QString>("name");
+    for (const Scenario &scenario : Scenario::all())
+        QTest::newRow(qPrintable(scenario.profile.name)) << scenario.profile.name;
+}
+
+void tst_SimulatedSoak::allGatesHold()
+{
+    QFETCH(QString, name);
+    const SimulatedRun result = runOf(qPrintable(name), 3);
+    QVERIFY2(result.violation().isEmpty(), qPrintable(result.report.toText()));
+    QVERIFY(result.report.evidence.faults.size() >= 5);
+}
+
+void tst_SimulatedSoak::sameSeedGivesSameTrafficInOtherProcess()
+{
+    const QString program = QCoreApplication::applicationDirPath() + QStringLiteral("/qtplc_simulate");
+    QSet<QByteArray> digests;
+    for (const char *hashSeed : {"4711", "815"}) {
+        QProcess other;
+        QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
+        environment.insert(QStringLiteral("QT_HASH_SEED"), QString::fromLatin1(hashSeed));
+        environment.insert(QStringLiteral("MALLOC_MMAP_THRESHOLD_"), QString::fromLatin1(hashSeed));  // other addresses
+        other.setProcessEnvironment(environment);
+        other.start(program,
+                    {QStringLiteral("--scenario"), QStringLiteral("storm"), QStringLiteral("--seed"),
+                     QStringLiteral("7"), QStringLiteral("--seconds"), QStringLiteral("20"),
+                     QStringLiteral("--report")});
+        QVERIFY(other.waitForFinished(120'000));
+        const QByteArray output = other.readAllStandardOutput();
+        const int place = output.indexOf("digest ");
+        QVERIFY2(place >= 0, output.constData());
+        digests.insert(output.mid(place, 23));
+    }
+    QCOMPARE(digests.size(), 1);
+}
+
+void tst_SimulatedSoak::otherSeedGivesOtherPlan()
+{
+    const auto textOf = [](quint64 seed) {
+        QStringList lines;
+        for (const Fault &fault : planOf(scenarioNamed("all"), Seconds, seed))
+            lines << fault.toString();
+        return lines;
+    };
+    QCOMPARE(textOf(1), textOf(1));
+    QVERIFY(textOf(1) != textOf(2));
+}
+
+void tst_SimulatedSoak::everyKindOfFaultHappensInSomeScenario()
+{
+    std::array<bool, FaultKinds> happens{};
+    for (const Scenario &scenario : Scenario::all()) {
+        for (const Fault &fault : planOf(scenario, 600, 1))
+            happens[std::size_t(fault.kind)] = true;
+    }
+    for (std::size_t kind = 0; kind < happens.size(); ++kind)
+        QVERIFY2(happens[kind], FaultNames[kind]);
+}
+
+/// The same histories, judged as those of a plant that may hold a value for one cycle only.
+void tst_SimulatedSoak::gatesSeeWhatThePlantDidTooLate()
+{
+    SimulatedRun result = runOf("programs", 3);
+    result.report.evidence.shape.hold = 1;
+    QVERIFY(silentWritersBecomeSafe(result.report.evidence).failed > 0);
+    QVERIFY(nodesAloneBecomeSafe(result.report.evidence).failed > 0);
+}
+
+void tst_SimulatedSoak::gatesOfProcessesAreNotAsked()
+{
+    const SimulatedRun result = runOf("soak", 3);
+    int found = 0;
+    for (const Gate &gate : result.report.gates) {
+        const bool isOfProcesses
+            = gate.name == QLatin1String("nothing leaks") || gate.name == QLatin1String("memory stays");
+        found += isOfProcesses && !gate.isAsked ? 1 : 0;
+    }
+    QCOMPARE(found, 2);
+}
+
+void tst_SimulatedSoak::shrinkingKeepsTheFaultsThatMatter()
+{
+    std::vector<Fault> plan = planOf(scenarioNamed("all"), Seconds, 1);
+    plan.front().amount = plan.back().amount = -1;
+    const std::vector<Fault> shortest = shrunk(plan, [](const std::vector<Fault> &shorter) {
+        return std::count_if(shorter.begin(), shorter.end(), [](const Fault &fault) { return fault.amount < 0; }) == 2;
+    });
+    QCOMPARE(shortest.size(), std::size_t(2));
+}
+
+QTEST_GUILESS_MAIN(tst_SimulatedSoak)
+#include "tst_SimulatedSoak.moc"
