@@ -68,47 +68,9 @@ protected:
 
 private:
     friend class QPlcPort;
-    QPlcSignalList realTimeout(const QPlcSignalList &inputSignals) final;
-    QPlcSignalIndexList declareInputSignals() final;
-    QPlcSignalIndexList declareOutputSignals() final;
-    bool bindPorts(const QPlcSignalTable &table, QVector<QPlcSignalIndex> *inputs, QVector<QPlcSignalIndex> *outputs,
-                   QVector<QPlcSignalIndex> *sameCycle, QString *error) override;
-    bool declaresSameCycle() override;
-    void updateStates(const QPlcSignalList &inputSignals) final;
-    QPlcSignalList outputSignals() final;
-    void attachPorts(const qplc::PayloadLayout &inputs, const qplc::PayloadLayout &outputs) override;
-    void resetFrame(char *outputs) override;
-    void initializeFrame(const char *inputs) override;
-    void stepFrame(const QPlcCycle &cycle, const char *inputs, char *outputs) override;
-    void safeFrame(SafeStateReason reason, const char *safeInputs) override;
+    class PortCode;
+    void add(QPlcPort *port);
     void remove(const QPlcPort *port);
-    void load(const char *inputs);
-    void store(char *outputs) const;
 
-    /// What is done with the ports of one direction in each cycle: bytes that are copied as they are, and values that are converted.
-    struct Plan
-    {
-        struct Copy
-        {
-            char *variable;
-            quint32 offset;  // in the frame
-            quint32 size;
-        };
-        struct Conversion
-        {
-            QPlcPort *port;
-            quint32 offset;
-        };
-        std::vector<Copy> copies;
-        std::vector<Conversion> conversions;
-
-        void add(QPlcPort *port, quint32 offset, quint32 size);
-    };
-    std::vector<QPlcPort *> m_ports;
-    Plan m_inputs;
-    Plan m_outputs;
-    quint32 m_inputValues = 0;                   // [byte]
-    std::vector<char> m_qualities;               // of the inputs, when they are received
-    quint32 m_outputValues = 0;                  // [byte]
-    std::vector<const QPlcPort *> m_qualifying;  // outputs, when their qualities are sent
+    PortCode *const m_code;  // owned by the base class
 };

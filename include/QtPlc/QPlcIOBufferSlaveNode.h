@@ -52,9 +52,6 @@ public:
     quint64 lostCycles() const;
 
 private:
-    void attachPorts(const qplc::PayloadLayout &inputs, const qplc::PayloadLayout &outputs) override;
-    void stepFrame(const QPlcCycle &cycle, const char *inputs, char *outputs) override;
-
-    struct Buffer;
-    std::unique_ptr<Buffer> m_buffer;
+    class BufferCode;
+    BufferCode *const m_buffer;  // owned by the base class
 };

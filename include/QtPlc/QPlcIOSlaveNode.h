@@ -43,20 +43,16 @@ public Q_SLOTS:
     void setOutputSignals(const QPlcSignalList &signalList);
 
 protected:
-    QPlcSignalIndexList declareInputSignals() final;
-    QPlcSignalIndexList declareOutputSignals() final;
-    QPlcSignalList realTimeout(const QPlcSignalList &inputSignals) final;
-    QPlcSignalList initialOutputSignals() final;
+    /// Makes all signals of the table of the node inputs, whatever the table of the process is;
+    /// setInputSignalIndices() has no effect then, and there are no outputs. \pre not connected
+    void readAllSignals();
+
+    class Code;
+    /// For nodes of this library that do more with the frames.
+    QPlcIOSlaveNode(const QString &name, RealTimeViolationPolicy policy, std::unique_ptr<Code> code, QObject *parent);
 
 private:
-    friend class QPlcIOBufferSlaveNode;
-    void attachPorts(const qplc::PayloadLayout &inputs, const qplc::PayloadLayout &outputs) override;
-    void resetFrame(char *outputs) override;
-    void initializeFrame(const char *inputs) override;
-    void stepFrame(const QPlcCycle &cycle, const char *inputs, char *outputs) override;
     void registerAgain();
-    void passOutputs();
 
-    struct Private;
-    std::unique_ptr<Private> d;
+    Code *const m_code;  // owned by the base class
 };

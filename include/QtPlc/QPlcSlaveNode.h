@@ -18,7 +18,7 @@
 #include <memory>
 
 namespace qplc {
-class NodeRuntime;
+class NodeCode;
 class PayloadLayout;
 }  // namespace qplc
 class QPlcSlaveNodePrivate;
@@ -306,24 +306,13 @@ protected:
     /// The cycle that realTimeout() or updateStates() computes. \pre called from there
     const QPlcCycle &cycle() const;
 
+    /// For kinds of nodes of this library that do not work with lists: \a code takes the place of the functions above.
+    QPlcSlaveNode(const QString &name, RealTimeViolationPolicy policy, std::unique_ptr<qplc::NodeCode> code,
+                  QObject *parent);
+
 private:
-    friend class qplc::NodeRuntime;
     friend class QPlcSlaveNodePrivate;
-    friend class QPlcMasterNodePrivate;
-    friend class QPlcCompactSlaveNode;
-    friend class QPlcIOSlaveNode;
-    friend class QPlcServiceNotifier;
-
-    // The same functions one level below: on the bytes of the frames, without lists.
-    virtual bool bindPorts(const QPlcSignalTable &table, QVector<QPlcSignalIndex> *inputs,
-                           QVector<QPlcSignalIndex> *outputs, QVector<QPlcSignalIndex> *sameCycle, QString *error);
-    virtual bool declaresSameCycle();
-    virtual void attachPorts(const qplc::PayloadLayout &inputs, const qplc::PayloadLayout &outputs);
-    virtual void resetFrame(char *outputs);
-    virtual void initializeFrame(const char *inputs);
-    virtual void stepFrame(const QPlcCycle &cycle, const char *inputs, char *outputs);
-    virtual void safeFrame(SafeStateReason reason, const char *safeInputs);
-
+    class ListCode;
     std::unique_ptr<QPlcSlaveNodePrivate> d;
 };
 

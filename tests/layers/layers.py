@@ -20,8 +20,7 @@ ARROWS = {
     "node": BELOW_NODE | {"node"},
     "node/state": {"node", "node/state"},
     "node/security": BELOW_NODE | {"node", "node/security"},
-    # Only NodeRuntime.cpp knows node/api: it calls the functions of a node program.
-    "node/cycle": BELOW_NODE | {"node", "node/cycle", "node/api"},
+    "node/cycle": BELOW_NODE | {"node", "node/cycle"},
     "node/statistics": BELOW_NODE | {"node", "node/cycle", "node/statistics"},
     "node/session": BELOW_NODE | {"node", "node/state", "node/security", "node/cycle", "node/statistics", "node/session"},
     "node/api": BELOW_NODE | {"node", "node/state", "node/security", "node/cycle", "node/statistics", "node/session", "node/api"},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "../realtime/FakeTime.h"
 #include "NodeFixtures.h"
+#include "node/api/QPlcSlaveNodePrivate.h"
 #include "node/cycle/MasterCycle.h"
 
 #include <QtTest/QtTest>
@@ -85,7 +86,7 @@ private:
     }
 
     std::function<std::int64_t()> m_nextDuration;
-    NodeRuntime m_runtime{*this};
+    NodeRuntime &m_runtime = QPlcSlaveNodePrivate::of(*this).runtime;
     std::int64_t m_origin = 0;
 };
 

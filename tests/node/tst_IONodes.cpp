@@ -28,6 +28,7 @@ private Q_SLOTS:
     void realTimedOutIsEmittedInTheThreadOfTheNode();
     void aFullBufferInAnotherThreadSlowsNobody();
     void framesTellCyclePhaseAndPeriod();
+    void aNodeMayReadAllSignalsOfAnyTable();
 };
 
 namespace {
@@ -348,6 +349,26 @@ void tst_IONodes::framesTellCyclePhaseAndPeriod()
         lastPhase = *phases.begin();
     }
     QCOMPARE(viewer.node->takeFrames([](const QPlcIOBufferSlaveNode::Frame &) { QFAIL("nothing is left"); }), 0);
+}
+
+void tst_IONodes::aNodeMayReadAllSignalsOfAnyTable()
+{
+    struct Recorder : QPlcIOBufferSlaveNode
+    {
+        Recorder()
+            : QPlcIOBufferSlaveNode("Recorder")
+        {
+            readAllSignals();
+        }
+    } recorder;
+    TestMaster master;
+    QVERIFY(master.listen());
+    recorder.setSignalTable(testTable());
+    QPlcSignalIndexTable::setCurrent(QPlcSignalTable::fromIni("[other]\ntype = Real64\n"));
+    QVERIFY(recorder.connectToMasterAndWaitForConnected(master.protocol("udp")));
+    QCOMPARE(master.nodes().size(), 1);
+    QCOMPARE(master.nodes().first().inputs, testTable().size());
+    QCOMPARE(master.nodes().first().outputs, 0);
 }
 
 QTEST_GUILESS_MAIN(tst_IONodes)

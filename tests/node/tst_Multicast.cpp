@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "NodeFixtures.h"
+#include "node/api/QPlcSlaveNodePrivate.h"
 #include "node/cycle/SlaveCycle.h"
 
 #include <QtCore/QElapsedTimer>
@@ -223,7 +224,7 @@ private:
 void tst_Multicast::datagramsForOthersDoNotCalmTheWatchdog()
 {
     Summer node(0);
-    qplc::NodeRuntime runtime(node);
+    qplc::NodeRuntime &runtime = QPlcSlaveNodePrivate::of(node).runtime;
     QString error;
     QVERIFY2(runtime.bind(manySignals(1), &error), qPrintable(error));
     qplc::SlaveCycle cycle(runtime, {1, 1}, false);

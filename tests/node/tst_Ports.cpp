@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "NodeFixtures.h"
+#include "node/api/QPlcSlaveNodePrivate.h"
 #include "node/cycle/NodeRuntime.h"
 #include "realtime/TimeSource.h"
 
@@ -36,7 +37,7 @@ QPlcValue through(const QByteArray &type, const QPlcValue &value)
 {
     const QPlcSignalTable table = tableOf(type);
     Through<T> node;
-    NodeRuntime runtime(node);
+    NodeRuntime &runtime = QPlcSlaveNodePrivate::of(node).runtime;
     QString error;
     if (!runtime.bind(table, &error))
         return QPlcValue(error);
@@ -57,7 +58,7 @@ QString refusal(const QByteArray &type)
         }
         Port m_port{this, "in"};
     } node;
-    NodeRuntime runtime(node);
+    NodeRuntime &runtime = QPlcSlaveNodePrivate::of(node).runtime;
     QString error;
     runtime.bind(tableOf(type), &error);
     return error;
@@ -165,7 +166,7 @@ void tst_Ports::realsMixAndIntegersWiden()
         QPlcOutput<qint8> m_out{this, "out"};
         void step(const QPlcCycle &) override { m_out = qint8(m_in / 1000); }
     } node;
-    NodeRuntime runtime(node);
+    NodeRuntime &runtime = QPlcSlaveNodePrivate::of(node).runtime;
     QString error;
     QVERIFY(runtime.bind(tableOf("Int32"), &error));
     QVERIFY(runtime.step(QPlcCycle(), QPlcValue(-100000).toBytes().constData()));
@@ -236,7 +237,7 @@ void tst_Ports::aSignalIsDeclaredOnce()
         QPlcInput<double> m_a{this, "in"};
         QPlcInput<double> m_b{this, "in"};
     } node;
-    NodeRuntime runtime(node);
+    NodeRuntime &runtime = QPlcSlaveNodePrivate::of(node).runtime;
     QString error;
     QVERIFY(!runtime.bind(tableOf("Real64"), &error));
     QVERIFY2(error.contains("'in' is declared twice"), qPrintable(error));
@@ -294,7 +295,7 @@ void tst_Ports::boundPortsUseVariablesThatExist()
     } node(&u.level, &u.matrix, &y.level, &y.position);
     const QPlcSignalTable table = QPlcSignalTable::fromIni(
         "[echo]\ntype=Real64\n[floats]\ntype=RealTriple\n[sum]\ntype=Real32\n[vector]\ntype=Real64Triple\n");
-    NodeRuntime runtime(node);
+    NodeRuntime &runtime = QPlcSlaveNodePrivate::of(node).runtime;
     QString error;
     QVERIFY2(runtime.bind(table, &error), qPrintable(error));
     y.level = 2.5;
@@ -323,7 +324,7 @@ void tst_Ports::outputsStayUntilAssigned()
                 m_out = 3.0;
         }
     } node;
-    NodeRuntime runtime(node);
+    NodeRuntime &runtime = QPlcSlaveNodePrivate::of(node).runtime;
     QString error;
     QVERIFY(runtime.bind(tableOf("Real64"), &error));
     QVERIFY(runtime.reset(&error));
@@ -356,7 +357,7 @@ void tst_Ports::compactSignalsTakeTheTypeOfTheSignal()
             _out = doubled;
         }
     } node;
-    NodeRuntime runtime(node);
+    NodeRuntime &runtime = QPlcSlaveNodePrivate::of(node).runtime;
     QString error;
     QVERIFY(runtime.bind(tableOf("RealTriple"), &error));
     QCOMPARE(node._out.value().type().name(), QString("Real32[3]"));  // zero before the first cycle
@@ -384,7 +385,7 @@ void tst_Ports::compactSignalsThatDoNotFitAreFaults()
         void compactInitializeOutputSignals() override { _out = QPlcValue(0.0); }
         void compactRealTimeout() override { _out = next; }
     } node;
-    NodeRuntime runtime(node);
+    NodeRuntime &runtime = QPlcSlaveNodePrivate::of(node).runtime;
     QString error;
     QVERIFY(runtime.bind(tableOf("Int8"), &error));
     for (const QPlcValue &wrong : {QPlcValue("text"), QPlcValue(1000), QPlcValue(std::array<int, 3>{1, 2, 3})}) {
@@ -416,7 +417,7 @@ void tst_Ports::theFirstFaultOfAPhaseIsKept()
             throw std::runtime_error("cycle " + std::to_string(cycle.number()));
         }
     } node;
-    NodeRuntime runtime(node);
+    NodeRuntime &runtime = QPlcSlaveNodePrivate::of(node).runtime;
     QString error;
     QVERIFY(runtime.bind(tableOf("Real64"), &error));
     for (quint64 first : {3, 8}) {
@@ -447,7 +448,7 @@ void tst_Ports::workloadBecomesAnOutput()
 {
     for (const char *type : {"Real32", "Real64"}) {
         Through<double> node;
-        NodeRuntime runtime(node);
+        NodeRuntime &runtime = QPlcSlaveNodePrivate::of(node).runtime;
         runtime.setWorkloadSignal("load");
         QString error;
         const QPlcSignalTable table = QPlcSignalTable::fromIni(
@@ -461,7 +462,7 @@ void tst_Ports::workloadBecomesAnOutput()
         QCOMPARE(QPlcValue::fromBytes(table.at(2).type, runtime.outputs() + 8).toReal(), 0.0);
     }
     Through<double> node;
-    NodeRuntime runtime(node);
+    NodeRuntime &runtime = QPlcSlaveNodePrivate::of(node).runtime;
     QString error;
     runtime.setWorkloadSignal("laod");
     QVERIFY(!runtime.bind(tableOf("Real64"), &error));
@@ -475,7 +476,7 @@ void tst_Ports::workloadBecomesAnOutput()
 void tst_Ports::bindingAgainFollowsTheNewTable()
 {
     Through<double> node;
-    NodeRuntime runtime(node);
+    NodeRuntime &runtime = QPlcSlaveNodePrivate::of(node).runtime;
     QString error;
     QVERIFY(runtime.bind(tableOf("Real64"), &error));
     QVERIFY(runtime.bind(tableOf("Real32"), &error));

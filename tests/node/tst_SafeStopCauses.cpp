@@ -2,6 +2,7 @@
 #include "../realtime/FakeTime.h"
 #include "SafeNode.h"
 #include "ScriptedNode.h"
+#include "node/api/QPlcSlaveNodePrivate.h"
 #include "node/cycle/MasterCycle.h"
 
 #include <QtTest/QtTest>
@@ -260,7 +261,7 @@ void tst_SafeStopCauses::aMasterThatStoodStillStopsSafely()
     };
     FakeTime time;
     Sleeper node(time);
-    qplc::NodeRuntime runtime(node);
+    qplc::NodeRuntime &runtime = QPlcSlaveNodePrivate::of(node).runtime;
     QString error;
     QVERIFY(runtime.bind(testTable(), &error) && runtime.reset(&error));
     qplc::CyclicHub hub;

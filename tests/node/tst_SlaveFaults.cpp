@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ScriptedMaster.h"
 #include "ScriptedNode.h"
+#include "node/api/QPlcSlaveNodePrivate.h"
 #include "node/cycle/SlaveCycle.h"
 #include "realtime/TimeSource.h"
 
@@ -223,7 +224,7 @@ QVector<QByteArray> requestsFor(const qplc::NodeRuntime &runtime, int cycles)
 void tst_SlaveFaults::aFloodAfterAPauseHoldsNobody()
 {
     CounterNode node;
-    qplc::NodeRuntime runtime(node);
+    qplc::NodeRuntime &runtime = QPlcSlaveNodePrivate::of(node).runtime;
     QString error;
     QVERIFY2(runtime.bind(testTable(), &error) && runtime.reset(&error), qPrintable(error));
     std::atomic<bool> ends{false};
@@ -247,7 +248,7 @@ void tst_SlaveFaults::requestsOfManyPartsAreNoFlood()
         = QPlcSignalTable::fromIni("[a]\ntype = Real64[150]\n[b]\ntype = Real64[150]\n[c]\ntype = Real64[150]\n");
     QPlcSignalIndexTable::setCurrent(table);
     WideNode node;
-    qplc::NodeRuntime runtime(node);
+    qplc::NodeRuntime &runtime = QPlcSlaveNodePrivate::of(node).runtime;
     QString error;
     QVERIFY2(runtime.bind(table, &error) && runtime.reset(&error), qPrintable(error));
     const QVector<QByteArray> requests = requestsFor(runtime, cycles);

@@ -14,17 +14,13 @@ namespace {
 class ListeningNode : public QPlcIOBufferSlaveNode
 {
 public:
-    using QPlcIOBufferSlaveNode::QPlcIOBufferSlaveNode;
-    int attempt = 0;
-
-private:
-    bool bindPorts(const QPlcSignalTable &table, QVector<QPlcSignalIndex> *inputs, QVector<QPlcSignalIndex> *,
-                   QVector<QPlcSignalIndex> *, QString *) override
+    explicit ListeningNode(const QString &name)
+        : QPlcIOBufferSlaveNode(name)
     {
-        inputs->resize(table.size());
-        std::iota(inputs->begin(), inputs->end(), QPlcSignalIndex(0));
-        return true;
+        readAllSignals();
     }
+
+    int attempt = 0;
 };
 
 ListeningNode *listening(QPlcIOBufferSlaveNode *node)

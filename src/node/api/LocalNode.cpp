@@ -20,6 +20,11 @@ const NodeRuntime &LocalNode::runtime() const
     return m_node.runtime;
 }
 
+QPlcSlaveNode::State LocalNode::state() const
+{
+    return m_node.state;
+}
+
 void LocalNode::join(QPlcMasterNode *master, const std::shared_ptr<NodeSlot> &slot)
 {
     m_slot = slot;

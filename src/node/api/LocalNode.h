@@ -27,6 +27,7 @@ public:
     /// Compares the signals of the node with \a table. \return false, with the reason in \a error
     bool bind(const QPlcSignalTable &table, QString *error);
     const NodeRuntime &runtime() const;
+    QPlcSlaveNode::State state() const;
     /// It belongs to \a master from now on, and its cycles use \a slot.
     void join(QPlcMasterNode *master, const std::shared_ptr<NodeSlot> &slot);
     void leave();

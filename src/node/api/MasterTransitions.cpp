@@ -225,8 +225,8 @@ bool QPlcMasterNodePrivate::isStartPermitted(quint64 token) const
 /// What the master knows of the state of a node.
 QString QPlcMasterNodePrivate::stateOf(const NodeSlot &slot) const
 {
-    if (slot.local)
-        return QString::fromLatin1(qplc::nameOf(slot.local->node().state()));
+    if (const auto local = localNode(&slot))
+        return QString::fromLatin1(qplc::nameOf(local->state()));
     const Connection *connection = server->connectionOf(&slot);
     if (!connection)
         return {};

@@ -23,41 +23,121 @@ inline void copyBytes(char *to, const char *from, quint32 size)
 
 }  // namespace
 
+/// The code of a node with ports: copies between them and the frames.
+class QPlcCompactSlaveNode::PortCode : public qplc::NodeCode
+{
+public:
+    explicit PortCode(QPlcCompactSlaveNode &node)
+        : m_node(node)
+    {
+    }
+
+    void add(QPlcPort *port) { m_ports.push_back(port); }
+    void remove(const QPlcPort *port);
+    /// They live longer than their node.
+    void leavePorts();
+
+    bool declaresSameCycle() override;
+    bool declare(const QPlcSignalTable &table, Declaration *declaration, QString *error) override;
+    void bind(const QPlcSignalTable &table, const qplc::PayloadLayout &inputs,
+              const qplc::PayloadLayout &outputs) override;
+    void reset(char *outputs) override;
+    void initialize(const char *inputs) override;
+    void step(const QPlcCycle &cycle, const char *inputs, char *outputs) override;
+    void makeSafe(SafeStateReason reason, const char *safeInputs) override;
+    void stopped() override { m_node.stopped(); }
+
+private:
+    /// What is done with the ports of one direction in each cycle: bytes that are copied as they are, and values that
+    /// are converted.
+    struct Plan
+    {
+        struct Copy
+        {
+            char *variable;
+            quint32 offset;  // in the frame
+            quint32 size;
+        };
+        struct Conversion
+        {
+            QPlcPort *port;
+            quint32 offset;
+        };
+        std::vector<Copy> copies;
+        std::vector<Conversion> conversions;
+
+        void add(QPlcPort *port, quint32 offset, quint32 size);
+    };
+    void load(const char *inputs);
+    void store(char *outputs) const;
+
+    QPlcCompactSlaveNode &m_node;
+    std::vector<QPlcPort *> m_ports;
+    Plan m_inputs;
+    Plan m_outputs;
+    quint32 m_inputValues = 0;                   // [byte]
+    std::vector<char> m_qualities;               // of the inputs, when they are received
+    quint32 m_outputValues = 0;                  // [byte]
+    std::vector<const QPlcPort *> m_qualifying;  // outputs, when their qualities are sent
+};
+
 QPlcCompactSlaveNode::QPlcCompactSlaveNode(const QString &name, RealTimeViolationPolicy policy, QObject *parent)
-    : QPlcSlaveNode(name, policy, parent)
+    : QPlcSlaveNode(name, policy, std::make_unique<PortCode>(*this), parent)
+    , m_code(static_cast<PortCode *>(QPlcSlaveNodePrivate::of(*this).code.get()))
 {
 }
 
 QPlcCompactSlaveNode::~QPlcCompactSlaveNode()
 {
-    d->endBeforeDestruction();
-    for (QPlcPort *port : m_ports)
-        port->m_node = nullptr;  // it lives longer
+    QPlcSlaveNodePrivate::of(*this).endBeforeDestruction();
+    m_code->leavePorts();
 }
 
 void QPlcCompactSlaveNode::setSendsQuality(bool sends)
 {
-    Q_ASSERT_X(!d->hasChannel, "QPlcCompactSlaveNode::setSendsQuality", "a registered node stays what it is");
-    d->sendsQuality = sends;
+    QPlcSlaveNodePrivate &own = QPlcSlaveNodePrivate::of(*this);
+    Q_ASSERT_X(!own.hasChannel, "QPlcCompactSlaveNode::setSendsQuality", "a registered node stays what it is");
+    own.outputQuality = sends;
 }
 
 bool QPlcCompactSlaveNode::sendsQuality() const
 {
-    return d->sendsQuality;
+    return QPlcSlaveNodePrivate::of(*this).outputQuality;
+}
+
+void QPlcCompactSlaveNode::add(QPlcPort *port)
+{
+    m_code->add(port);
 }
 
 /// Its variable is in use as long as cycles run.
 void QPlcCompactSlaveNode::remove(const QPlcPort *port)
 {
-    d->endBeforeDestruction();
+    QPlcSlaveNodePrivate::of(*this).endBeforeDestruction();
+    m_code->remove(port);
+}
+
+// ---- frames ----
+
+void QPlcCompactSlaveNode::PortCode::remove(const QPlcPort *port)
+{
     const auto found = std::find(m_ports.rbegin(), m_ports.rend(), port);  // most often the last one
     if (found != m_ports.rend())
         m_ports.erase(std::next(found).base());
 }
 
-bool QPlcCompactSlaveNode::bindPorts(const QPlcSignalTable &table, QVector<QPlcSignalIndex> *inputs,
-                                     QVector<QPlcSignalIndex> *outputs, QVector<QPlcSignalIndex> *sameCycle,
-                                     QString *error)
+void QPlcCompactSlaveNode::PortCode::leavePorts()
+{
+    for (QPlcPort *port : m_ports)
+        port->m_node = nullptr;
+}
+
+bool QPlcCompactSlaveNode::PortCode::declaresSameCycle()
+{
+    return std::any_of(m_ports.begin(), m_ports.end(), [](const QPlcPort *port) { return port->isSameCycle(); });
+}
+
+bool QPlcCompactSlaveNode::PortCode::declare(const QPlcSignalTable &table, Declaration *declaration, QString *error)
 {
     QStringList errors;
     for (const QPlcPort *port : m_ports) {
@@ -70,15 +150,15 @@ bool QPlcCompactSlaveNode::bindPorts(const QPlcSignalTable &table, QVector<QPlcS
                                port->isInput() ? QStringLiteral("reads") : QStringLiteral("writes"),
                                port->variableType());
         else
-            (port->isInput() ? inputs : outputs)->append(index);
+            (port->isInput() ? declaration->inputs : declaration->outputs).append(index);
         if (port->isSameCycle())
-            sameCycle->append(index);
+            declaration->sameCycle.append(index);
     }
     *error = errors.join(QStringLiteral("; "));
     return errors.isEmpty();
 }
 
-void QPlcCompactSlaveNode::Plan::add(QPlcPort *port, quint32 offset, quint32 size)
+void QPlcCompactSlaveNode::PortCode::Plan::add(QPlcPort *port, quint32 offset, quint32 size)
 {
     char *variable = port->plainBytes();
     if (!variable) {
@@ -95,7 +175,8 @@ void QPlcCompactSlaveNode::Plan::add(QPlcPort *port, quint32 offset, quint32 siz
     copies.push_back({variable, offset, size});
 }
 
-void QPlcCompactSlaveNode::attachPorts(const qplc::PayloadLayout &inputs, const qplc::PayloadLayout &outputs)
+void QPlcCompactSlaveNode::PortCode::bind(const QPlcSignalTable &, const qplc::PayloadLayout &inputs,
+                                          const qplc::PayloadLayout &outputs)
 {
     m_inputs = m_outputs = Plan();
     m_inputValues = inputs.valueSize();
@@ -103,7 +184,7 @@ void QPlcCompactSlaveNode::attachPorts(const qplc::PayloadLayout &inputs, const 
     m_outputValues = outputs.valueSize();
     m_qualifying.clear();
     std::size_t number = 0;  // of the input
-    // The layouts follow the order in which bindPorts() named the ports.
+    // The layouts follow the order in which declare() named the ports.
     auto input = inputs.fields().begin();
     auto output = outputs.fields().begin();
     for (QPlcPort *port : m_ports) {
@@ -117,7 +198,7 @@ void QPlcCompactSlaveNode::attachPorts(const qplc::PayloadLayout &inputs, const 
     }
 }
 
-void QPlcCompactSlaveNode::load(const char *inputs)
+void QPlcCompactSlaveNode::PortCode::load(const char *inputs)
 {
     for (const Plan::Copy &copy : m_inputs.copies)
         copyBytes(copy.variable, inputs + copy.offset, copy.size);
@@ -127,7 +208,7 @@ void QPlcCompactSlaveNode::load(const char *inputs)
         std::memcpy(m_qualities.data(), inputs + m_inputValues, m_qualities.size());
 }
 
-void QPlcCompactSlaveNode::store(char *outputs) const
+void QPlcCompactSlaveNode::PortCode::store(char *outputs) const
 {
     for (const Plan::Copy &copy : m_outputs.copies)
         copyBytes(outputs + copy.offset, copy.variable, copy.size);
@@ -138,62 +219,34 @@ void QPlcCompactSlaveNode::store(char *outputs) const
         *quality++ = port->m_given;
 }
 
-void QPlcCompactSlaveNode::resetFrame(char *outputs)
+void QPlcCompactSlaveNode::PortCode::reset(char *outputs)
 {
-    reset();
-    if (isTwoPhase())
-        this->outputs();
+    m_node.reset();
+    if (m_node.isTwoPhase())
+        m_node.outputs();
     store(outputs);
 }
 
-void QPlcCompactSlaveNode::initializeFrame(const char *inputs)
+void QPlcCompactSlaveNode::PortCode::initialize(const char *inputs)
 {
     load(inputs);
-    initialized();
+    m_node.initialized();
 }
 
-void QPlcCompactSlaveNode::stepFrame(const QPlcCycle &cycle, const char *inputs, char *outputs)
+void QPlcCompactSlaveNode::PortCode::step(const QPlcCycle &cycle, const char *inputs, char *outputs)
 {
     load(inputs);
-    if (isTwoPhase()) {
-        update(cycle);
-        this->outputs();
+    if (m_node.isTwoPhase()) {
+        m_node.update(cycle);
+        m_node.outputs();
     } else {
-        step(cycle);
+        m_node.step(cycle);
     }
     store(outputs);
 }
 
-void QPlcCompactSlaveNode::safeFrame(SafeStateReason reason, const char *safeInputs)
+void QPlcCompactSlaveNode::PortCode::makeSafe(SafeStateReason reason, const char *safeInputs)
 {
     load(safeInputs);
-    safeState(reason);
-}
-
-bool QPlcCompactSlaveNode::declaresSameCycle()
-{
-    return std::any_of(m_ports.begin(), m_ports.end(), [](const QPlcPort *port) { return port->isSameCycle(); });
-}
-
-// Ports take the place of lists: these are never called.
-QPlcSignalList QPlcCompactSlaveNode::realTimeout(const QPlcSignalList &)
-{
-    return {};
-}
-
-QPlcSignalList QPlcCompactSlaveNode::outputSignals()
-{
-    return {};
-}
-
-void QPlcCompactSlaveNode::updateStates(const QPlcSignalList &) {}
-
-QPlcSignalIndexList QPlcCompactSlaveNode::declareInputSignals()
-{
-    return {};
-}
-
-QPlcSignalIndexList QPlcCompactSlaveNode::declareOutputSignals()
-{
-    return {};
+    m_node.safeState(reason);
 }

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "QPlcIOBufferSlaveNode.h"
 
-#include "node/cycle/NodeRuntime.h"
-#include "realtime/ByteRing.h"
-#include "signals/PayloadLayout.h"
+#include "IOCode.h"
+#include "QPlcSlaveNodePrivate.h"
 
 #include <atomic>
 #include <cstring>
@@ -20,8 +19,19 @@ struct Head
 
 }  // namespace
 
-struct QPlcIOBufferSlaveNode::Buffer
+/// Keeps the inputs of each cycle for a reader besides.
+class QPlcIOBufferSlaveNode::BufferCode : public QPlcIOSlaveNode::Code
 {
+public:
+    explicit BufferCode(QPlcIOBufferSlaveNode &bufferNode)
+        : Code(bufferNode)
+    {
+    }
+
+    void bind(const QPlcSignalTable &table, const qplc::PayloadLayout &inputs,
+              const qplc::PayloadLayout &outputs) override;
+    void step(const QPlcCycle &cycle, const char *inputs, char *outputs) override;
+
     int size = 1000;
     std::mutex mutex;  // reader against registration; not for the cycle thread
     qplc::PayloadLayout layout;
@@ -32,8 +42,8 @@ struct QPlcIOBufferSlaveNode::Buffer
 };
 
 QPlcIOBufferSlaveNode::QPlcIOBufferSlaveNode(const QString &name, RealTimeViolationPolicy policy, QObject *parent)
-    : QPlcIOSlaveNode(name, policy, parent)
-    , m_buffer(std::make_unique<Buffer>())
+    : QPlcIOSlaveNode(name, policy, std::make_unique<BufferCode>(*this), parent)
+    , m_buffer(static_cast<BufferCode *>(QPlcSlaveNodePrivate::of(*this).code.get()))
 {
     setListener(true);
     connect(this, &QPlcSlaveNode::stateChanged, this, [this](State state) {
@@ -96,24 +106,27 @@ quint64 QPlcIOBufferSlaveNode::lostCycles() const
     return m_buffer->lost.load(std::memory_order_relaxed);
 }
 
-void QPlcIOBufferSlaveNode::attachPorts(const qplc::PayloadLayout &inputs, const qplc::PayloadLayout &outputs)
+// ---- frames ----
+
+void QPlcIOBufferSlaveNode::BufferCode::bind(const QPlcSignalTable &table, const qplc::PayloadLayout &inputs,
+                                             const qplc::PayloadLayout &outputs)
 {
-    const std::lock_guard<std::mutex> lock(m_buffer->mutex);
-    m_buffer->layout = inputs;
-    m_buffer->every = listeningInterval();
-    m_buffer->ring = std::make_unique<qplc::ByteRing>(sizeof(Head) + inputs.size(), std::size_t(m_buffer->size));
-    QPlcIOSlaveNode::attachPorts(inputs, outputs);
+    const std::lock_guard<std::mutex> lock(mutex);
+    layout = inputs;
+    every = node.listeningInterval();
+    ring = std::make_unique<qplc::ByteRing>(sizeof(Head) + inputs.size(), std::size_t(size));
+    Code::bind(table, inputs, outputs);
 }
 
-void QPlcIOBufferSlaveNode::stepFrame(const QPlcCycle &cycle, const char *inputs, char *outputs)
+void QPlcIOBufferSlaveNode::BufferCode::step(const QPlcCycle &cycle, const char *inputs, char *outputs)
 {
-    if (char *item = m_buffer->ring->beginPush()) {
-        const Head head{cycle.number(), m_buffer->phase.load(std::memory_order_relaxed), cycle.period()};
+    if (char *item = ring->beginPush()) {
+        const Head head{cycle.number(), phase.load(std::memory_order_relaxed), cycle.period()};
         std::memcpy(item, &head, sizeof head);
-        std::memcpy(item + sizeof head, inputs, m_buffer->ring->itemSize() - sizeof head);
-        m_buffer->ring->commitPush();
+        std::memcpy(item + sizeof head, inputs, ring->itemSize() - sizeof head);
+        ring->commitPush();
     } else {
-        m_buffer->lost.fetch_add(1, std::memory_order_relaxed);
+        lost.fetch_add(1, std::memory_order_relaxed);
     }
-    QPlcIOSlaveNode::stepFrame(cycle, inputs, outputs);
+    Code::step(cycle, inputs, outputs);
 }

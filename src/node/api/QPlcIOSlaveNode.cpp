@@ -1,36 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "QPlcIOSlaveNode.h"
 
+#include "IOCode.h"
 #include "QPlcSlaveNodePrivate.h"
 #include "node/Logging.h"
-#include "realtime/ByteRing.h"
-#include "realtime/SnapshotBuffer.h"
-#include "signals/PayloadLayout.h"
 
 #include <QtCore/QTimer>
 
 #include <algorithm>
-#include <mutex>
-
-struct QPlcIOSlaveNode::Private
-{
-    QPlcSignalIndexList inputIndices;
-    QPlcSignalIndexList outputIndices;
-    QPlcSignalList wanted;  // newest value of every output that was ever set
-
-    // made at registration
-    mutable std::mutex layoutMutex;  // not for the cycle thread: layouts change only while no cycle runs
-    qplc::PayloadLayout inputLayout;
-    qplc::PayloadLayout outputLayout;
-    std::vector<char> outputs;                        // payload of `wanted`
-    std::unique_ptr<qplc::ByteRing> newOutputs;       // owner -> cycle thread
-    std::unique_ptr<qplc::SnapshotBuffer> newInputs;  // cycle thread -> anyone
-    bool mustPass = false;                            // `outputs` found the ring full
-};
+#include <numeric>
 
 QPlcIOSlaveNode::QPlcIOSlaveNode(const QString &name, RealTimeViolationPolicy policy, QObject *parent)
-    : QPlcSlaveNode(name, policy, parent)
-    , d(std::make_unique<Private>())
+    : QPlcIOSlaveNode(name, policy, std::make_unique<Code>(*this), parent)
+{
+}
+
+QPlcIOSlaveNode::QPlcIOSlaveNode(const QString &name, RealTimeViolationPolicy policy, std::unique_ptr<Code> code,
+                                 QObject *parent)
+    : QPlcSlaveNode(name, policy, std::move(code), parent)
+    , m_code(static_cast<Code *>(QPlcSlaveNodePrivate::of(*this).code.get()))
 {
     setReceivesQuality(true);
 }
@@ -42,50 +30,55 @@ QPlcIOSlaveNode::~QPlcIOSlaveNode()
 
 QPlcSignalIndexList QPlcIOSlaveNode::inputSignalIndices() const
 {
-    return d->inputIndices;
+    return m_code->inputIndices;
 }
 
 QPlcSignalIndexList QPlcIOSlaveNode::outputSignalIndices() const
 {
-    return d->outputIndices;
+    return m_code->outputIndices;
 }
 
 QPlcSignalList QPlcIOSlaveNode::inputSignals() const
 {
-    const std::lock_guard<std::mutex> lock(d->layoutMutex);
-    if (!d->newInputs)
+    const std::lock_guard<std::mutex> lock(m_code->layoutMutex);
+    if (!m_code->newInputs)
         return {};
-    std::vector<char> bytes(d->inputLayout.size());
+    std::vector<char> bytes(m_code->inputLayout.size());
     std::uint64_t cycle = 0;
-    if (!d->newInputs->read(bytes.data(), &cycle))
+    if (!m_code->newInputs->read(bytes.data(), &cycle))
         return {};
-    return qplc::NodeRuntime::toList(d->inputLayout, bytes.data());
+    return qplc::NodeRuntime::toList(m_code->inputLayout, bytes.data());
 }
 
 QPlcQuality QPlcIOSlaveNode::inputQuality(QPlcSignalIndex signal) const
 {
-    const std::lock_guard<std::mutex> lock(d->layoutMutex);
-    std::vector<char> bytes(d->inputLayout.size());
+    const std::lock_guard<std::mutex> lock(m_code->layoutMutex);
+    std::vector<char> bytes(m_code->inputLayout.size());
     std::uint64_t cycle = 0;
-    const std::vector<qplc::PayloadLayout::Field> &fields = d->inputLayout.fields();
+    const std::vector<qplc::PayloadLayout::Field> &fields = m_code->inputLayout.fields();
     const auto found = std::find_if(fields.begin(), fields.end(), [signal](const qplc::PayloadLayout::Field &field) {
         return field.signal == signal;
     });
-    if (found == fields.end() || !d->inputLayout.hasQualities() || !d->newInputs->read(bytes.data(), &cycle))
+    if (found == fields.end() || !m_code->inputLayout.hasQualities() || !m_code->newInputs->read(bytes.data(), &cycle))
         return {};
-    return QPlcQuality::fromByte(quint8(bytes[d->inputLayout.valueSize() + std::size_t(found - fields.begin())]));
+    return QPlcQuality::fromByte(quint8(bytes[m_code->inputLayout.valueSize() + std::size_t(found - fields.begin())]));
 }
 
 void QPlcIOSlaveNode::setInputSignalIndices(const QPlcSignalIndexList &indices)
 {
-    d->inputIndices = indices;
+    m_code->inputIndices = indices;
     registerAgain();
 }
 
 void QPlcIOSlaveNode::setOutputSignalIndices(const QPlcSignalIndexList &indices)
 {
-    d->outputIndices = indices;
+    m_code->outputIndices = indices;
     registerAgain();
+}
+
+void QPlcIOSlaveNode::readAllSignals()
+{
+    m_code->readsAll = true;
 }
 
 void QPlcIOSlaveNode::registerAgain()
@@ -108,93 +101,84 @@ void QPlcIOSlaveNode::setInitialOutputSignals(const QPlcSignalList &signalList)
 void QPlcIOSlaveNode::setOutputSignals(const QPlcSignalList &signalList)
 {
     for (const QPlcSignalList::Entry &entry : signalList) {
-        if (d->outputIndices.contains(entry.index))
-            d->wanted.insert(entry.index, entry.value);
+        if (m_code->outputIndices.contains(entry.index))
+            m_code->wanted.insert(entry.index, entry.value);
         else
             qCWarning(lcSlave) << "node" << name() << "does not write the signal with the index" << entry.index
                                << "- declare it by setOutputSignalIndices()";
     }
-    for (const qplc::PayloadLayout::Field &field : d->outputLayout.fields()) {
-        const QPlcValue wanted = d->wanted.value(field.signal);
-        const QPlcValue value = wanted.convertedTo(field.type);
+    m_code->writeOutputs();
+}
+
+// ---- frames ----
+
+bool QPlcIOSlaveNode::Code::declare(const QPlcSignalTable &table, Declaration *declaration, QString *error)
+{
+    if (!readsAll)
+        return IndexListCode::declare(table, declaration, error);
+    declaration->inputs.resize(table.size());
+    std::iota(declaration->inputs.begin(), declaration->inputs.end(), QPlcSignalIndex(0));
+    return true;
+}
+
+void QPlcIOSlaveNode::Code::writeOutputs()
+{
+    for (const qplc::PayloadLayout::Field &field : outputLayout.fields()) {
+        const QPlcValue given = wanted.value(field.signal);
+        const QPlcValue value = given.convertedTo(field.type);
         if (value.isValid())
-            value.toBytes(d->outputs.data() + field.offset);
-        else if (wanted.isValid())
-            qCWarning(lcSlave).noquote() << "node" << name() << "- the value" << wanted.toString()
+            value.toBytes(payload.data() + field.offset);
+        else if (given.isValid())
+            qCWarning(lcSlave).noquote() << "node" << node.name() << "- the value" << given.toString()
                                          << "does not fit its signal of type" << field.type.name() << "and is not set";
     }
     passOutputs();
 }
 
 /// Gives the outputs to the cycle thread; tries again when it has not taken the last ones yet.
-void QPlcIOSlaveNode::passOutputs()
+void QPlcIOSlaveNode::Code::passOutputs()
 {
-    if (!d->newOutputs || d->outputs.empty())
+    if (!newOutputs || payload.empty())
         return;
-    char *place = d->newOutputs->beginPush();
+    char *place = newOutputs->beginPush();
     if (place) {
-        std::memcpy(place, d->outputs.data(), d->outputs.size());
-        d->newOutputs->commitPush();
-    } else if (!d->mustPass) {
-        d->mustPass = true;
-        QTimer::singleShot(1, this, [this] {
-            d->mustPass = false;
+        std::memcpy(place, payload.data(), payload.size());
+        newOutputs->commitPush();
+    } else if (!mustPass) {
+        mustPass = true;
+        QTimer::singleShot(1, &node, [this] {
+            mustPass = false;
             passOutputs();
         });
     }
 }
 
-QPlcSignalIndexList QPlcIOSlaveNode::declareInputSignals()
+void QPlcIOSlaveNode::Code::bind(const QPlcSignalTable &table, const qplc::PayloadLayout &newInputLayout,
+                                 const qplc::PayloadLayout &newOutputLayout)
 {
-    return d->inputIndices;
+    const std::lock_guard<std::mutex> lock(layoutMutex);
+    inputLayout = newInputLayout;
+    outputLayout = newOutputLayout;
+    payload.assign(outputLayout.size(), 0);
+    for (const qplc::PayloadLayout::Field &field : outputLayout.fields())
+        table.at(field.signal).initial.toBytes(payload.data() + field.offset);
+    newOutputs = std::make_unique<qplc::ByteRing>(std::max<std::size_t>(1, payload.size()), 64);
+    newInputs = std::make_unique<qplc::SnapshotBuffer>(inputLayout.size());
+    writeOutputs();
 }
 
-QPlcSignalIndexList QPlcIOSlaveNode::declareOutputSignals()
+void QPlcIOSlaveNode::Code::reset(char *frame)
 {
-    return d->outputIndices;
+    while (newOutputs->front())
+        newOutputs->pop();
+    std::copy(payload.begin(), payload.end(), frame);  // may be none at all
 }
 
-// Frames take the place of lists: these are never called.
-QPlcSignalList QPlcIOSlaveNode::realTimeout(const QPlcSignalList &)
+void QPlcIOSlaveNode::Code::step(const QPlcCycle &cycle, const char *inputs, char *frame)
 {
-    return {};
-}
-
-QPlcSignalList QPlcIOSlaveNode::initialOutputSignals()
-{
-    return {};
-}
-
-void QPlcIOSlaveNode::attachPorts(const qplc::PayloadLayout &inputs, const qplc::PayloadLayout &outputs)
-{
-    const std::lock_guard<std::mutex> lock(d->layoutMutex);
-    d->inputLayout = inputs;
-    d->outputLayout = outputs;
-    d->outputs.assign(outputs.size(), 0);
-    for (const qplc::PayloadLayout::Field &field : outputs.fields())
-        QPlcSlaveNode::d->runtime.table().at(field.signal).initial.toBytes(d->outputs.data() + field.offset);
-    d->newOutputs = std::make_unique<qplc::ByteRing>(std::max<std::size_t>(1, outputs.size()), 64);
-    d->newInputs = std::make_unique<qplc::SnapshotBuffer>(inputs.size());
-    setOutputSignals({});
-}
-
-void QPlcIOSlaveNode::resetFrame(char *outputs)
-{
-    while (d->newOutputs->front())
-        d->newOutputs->pop();
-    std::copy(d->outputs.begin(), d->outputs.end(), outputs);  // may be none at all
-}
-
-void QPlcIOSlaveNode::initializeFrame(const char *inputs)
-{
-    d->newInputs->publish(inputs, 0);
-}
-
-void QPlcIOSlaveNode::stepFrame(const QPlcCycle &cycle, const char *inputs, char *outputs)
-{
-    d->newInputs->publish(inputs, cycle.number());
-    while (const char *newest = d->newOutputs->front()) {
-        std::memcpy(outputs, newest, d->outputs.size());
-        d->newOutputs->pop();
+    newInputs->publish(inputs, cycle.number());
+    while (const char *newest = newOutputs->front()) {
+        std::memcpy(frame, newest, payload.size());
+        newOutputs->pop();
     }
 }

@@ -215,7 +215,7 @@ bool QPlcMasterNodePrivate::addLocalNode(QPlcSlaveNode *node)
     if (QPlcSignalIndexTable::current().isEmpty())
         QPlcSignalIndexTable::setCurrent(table);  // what the node's lists of signals look their names up in
     QString text;
-    const auto local = std::make_shared<qplc::LocalNode>(*node->d);
+    const auto local = std::make_shared<qplc::LocalNode>(QPlcSlaveNodePrivate::of(*node));
     if (!local->bind(table, &text))
         return setError(QPlcMasterNode::SignalError, text);
     qplc::Refusal refusal;
@@ -236,7 +236,8 @@ void QPlcMasterNodePrivate::removeLocalNode(QPlcSlaveNode *node)
     if (!registry)
         return;
     end(QStringLiteral("node '%1' is removed").arg(node->name()));
-    const auto isOfNode = [node](const auto &local) { return &local->runtime() == &node->d->runtime; };
+    const auto isOfNode
+        = [node](const auto &local) { return &local->runtime() == &QPlcSlaveNodePrivate::of(*node).runtime; };
     const auto found = std::find_if(m_localNodes.begin(), m_localNodes.end(), isOfNode);
     if (found != m_localNodes.end()) {
         const std::shared_ptr<qplc::LocalNode> local = *found;

@@ -13,7 +13,7 @@ QPlcPort::QPlcPort(QPlcCompactSlaveNode *node, const char *name, Direction direc
 {
     if (direction == Output)
         m_quality = &m_given;
-    m_node->m_ports.push_back(this);
+    m_node->add(this);
 }
 
 QPlcPort::~QPlcPort()

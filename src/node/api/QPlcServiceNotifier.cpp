@@ -107,10 +107,10 @@ void QPlcServiceNotifier::Private::tell(const QByteArray &line)
 }
 
 QPlcServiceNotifier::QPlcServiceNotifier(QPlcSlaveNode &node, QObject *parent)
-    : QPlcServiceNotifier(std::make_unique<Private>(Private::Questions{
-                              [&node] { return statusOf(node); },
-                              [&node] { return node.d->cycle ? node.d->cycle->cycleInProgress() : 0; },
-                              [](std::chrono::microseconds) { return qint64(0); }}),
+    : QPlcServiceNotifier(std::make_unique<Private>(
+                              Private::Questions{[&node] { return statusOf(node); },
+                                                 [&node] { return QPlcSlaveNodePrivate::of(node).cycleInProgress(); },
+                                                 [](std::chrono::microseconds) { return qint64(0); }}),
                           parent)
 {
     connect(&node, &QPlcSlaveNode::stateChanged, this, [this] { d->tell({}); });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "QPlcSlaveNode.h"
 
+#include "IndexListCode.h"
 #include "QPlcSignalIndexTable.h"
 #include "QPlcSlaveNodePrivate.h"
 #include "transport/FaultPlan.h"
@@ -9,13 +10,59 @@
 #include <QtCore/QMetaMethod>
 #include <QtCore/QTimer>
 
-#include <algorithm>
-#include <iterator>
 #include <stdexcept>
 
+/// The code of a node whose program works with lists of values.
+class QPlcSlaveNode::ListCode : public qplc::IndexListCode
+{
+public:
+    explicit ListCode(QPlcSlaveNode &node)
+        : m_node(node)
+    {
+    }
+
+    QPlcSignalIndexList inputList() override { return m_node.declareInputSignals(); }
+    QPlcSignalIndexList outputList() override { return m_node.declareOutputSignals(); }
+    void bind(const QPlcSignalTable &table, const qplc::PayloadLayout &inputs,
+              const qplc::PayloadLayout &outputs) override
+    {
+        m_table = table;
+        m_inputs = inputs;
+        m_outputs = outputs;
+    }
+    void reset(char *outputs) override { write(m_node.initialOutputSignals(), outputs); }
+    void initialize(const char *inputs) override { m_node.initialize(qplc::NodeRuntime::toList(m_inputs, inputs)); }
+    void step(const QPlcCycle &, const char *inputs, char *outputs) override
+    {
+        const QPlcSignalList inputValues = qplc::NodeRuntime::toList(m_inputs, inputs);
+        if (m_node.isTwoPhase())
+            m_node.updateStates(inputValues);
+        write(m_node.isTwoPhase() ? m_node.outputSignals() : m_node.realTimeout(inputValues), outputs);
+    }
+    void makeSafe(SafeStateReason reason, const char *) override { m_node.safeState(reason); }
+    void stopped() override { m_node.stopped(); }
+
+private:
+    void write(const QPlcSignalList &values, char *outputs) const
+    {
+        qplc::NodeRuntime::fromList(values, m_table, m_outputs, outputs);
+    }
+
+    QPlcSlaveNode &m_node;
+    QPlcSignalTable m_table;
+    qplc::PayloadLayout m_inputs;
+    qplc::PayloadLayout m_outputs;
+};
+
 QPlcSlaveNode::QPlcSlaveNode(const QString &name, RealTimeViolationPolicy policy, QObject *parent)
+    : QPlcSlaveNode(name, policy, std::make_unique<ListCode>(*this), parent)
+{
+}
+
+QPlcSlaveNode::QPlcSlaveNode(const QString &name, RealTimeViolationPolicy policy, std::unique_ptr<qplc::NodeCode> code,
+                             QObject *parent)
     : QObject(parent)
-    , d(std::make_unique<QPlcSlaveNodePrivate>(this, name, policy))
+    , d(std::make_unique<QPlcSlaveNodePrivate>(this, name, policy, std::move(code)))
 {
     qRegisterMetaType<QPlcSlaveNode::Error>("QPlcSlaveNode::Error");
     qRegisterMetaType<QPlcSlaveNode::State>("QPlcSlaveNode::State");
@@ -125,12 +172,12 @@ bool QPlcSlaveNode::isTwoPhase() const
 void QPlcSlaveNode::setReceivesQuality(bool wanted)
 {
     Q_ASSERT_X(!d->hasChannel, "QPlcSlaveNode::setReceivesQuality", "a registered node stays what it is");
-    d->receivesQuality = wanted;
+    d->quality = wanted;
 }
 
 bool QPlcSlaveNode::receivesQuality() const
 {
-    return d->receivesQuality;
+    return d->quality;
 }
 
 void QPlcSlaveNode::requestSafeStop()
@@ -306,67 +353,8 @@ void QPlcSlaveNode::sendMessageToMaster(const QPlcMessage &message)
         d->control->sendMessage(message);
 }
 
-// ---- lists on top of frames ----
-
 QPlcSignalList QPlcSlaveNode::realTimeout(const QPlcSignalList &)
 {
     throw std::logic_error("there is no realTimeout() to call: override it, or use setTwoPhase(true); and disconnect "
                            "the node before it is destroyed");
-}
-
-bool QPlcSlaveNode::bindPorts(const QPlcSignalTable &table, QVector<QPlcSignalIndex> *inputs,
-                              QVector<QPlcSignalIndex> *outputs, QVector<QPlcSignalIndex> *sameCycle, QString *error)
-{
-    const QPlcSignalIndexList inputList = declareInputSignals();
-    const QPlcSignalIndexList outputList = declareOutputSignals();
-    QStringList errors;
-    for (const QString &unknown : inputList.unknownNames() + outputList.unknownNames())
-        errors << table.unknownSignalText(unknown);
-    for (QPlcSignalIndex index : inputList.toVector() + outputList.toVector()) {
-        if (index >= table.size())
-            errors << QStringLiteral("signal index %1 is not in the table of %2 signals; declare signals by name")
-                          .arg(index)
-                          .arg(table.size());
-        else if (QPlcSignalIndexTable::name(index) != table.at(index).name)
-            errors << QStringLiteral("signal '%1' has the index of signal '%2' in the table of the process; give node "
-                                     "and process the same table")
-                          .arg(table.at(index).name, QPlcSignalIndexTable::name(index));
-    }
-    *inputs = inputList.toVector();
-    std::copy_if(inputs->cbegin(), inputs->cend(), std::back_inserter(*sameCycle),
-                 [&](QPlcSignalIndex index) { return inputList.isSameCycle(index); });
-    *outputs = outputList.toVector();
-    *error = errors.join(QStringLiteral("; "));
-    return errors.isEmpty();
-}
-
-/// Asked before the table is known: names only.
-bool QPlcSlaveNode::declaresSameCycle()
-{
-    return declareInputSignals().hasSameCycle();
-}
-
-void QPlcSlaveNode::attachPorts(const qplc::PayloadLayout &, const qplc::PayloadLayout &) {}
-
-void QPlcSlaveNode::resetFrame(char *outputs)
-{
-    d->runtime.fromList(initialOutputSignals(), d->runtime.outputLayout(), outputs);
-}
-
-void QPlcSlaveNode::initializeFrame(const char *inputs)
-{
-    initialize(qplc::NodeRuntime::toList(d->runtime.inputLayout(), inputs));
-}
-
-void QPlcSlaveNode::safeFrame(SafeStateReason reason, const char *)
-{
-    safeState(reason);
-}
-
-void QPlcSlaveNode::stepFrame(const QPlcCycle &, const char *inputs, char *outputs)
-{
-    const QPlcSignalList inputList = qplc::NodeRuntime::toList(d->runtime.inputLayout(), inputs);
-    if (d->twoPhase)
-        updateStates(inputList);
-    d->runtime.fromList(d->twoPhase ? outputSignals() : realTimeout(inputList), d->runtime.outputLayout(), outputs);
 }

@@ -52,15 +52,17 @@ std::optional<SlaveEvent> eventOf(const Message &message)
 }  // namespace
 
 QPlcSlaveNodePrivate::QPlcSlaveNodePrivate(QPlcSlaveNode *node, const QString &nodeName,
-                                           QPlcSlaveNode::RealTimeViolationPolicy violationPolicy)
+                                           QPlcSlaveNode::RealTimeViolationPolicy violationPolicy,
+                                           std::unique_ptr<qplc::NodeCode> nodeCode)
     : q(node)
-    , name(nodeName)
-    , policy(violationPolicy)
-    , runtime(*node)
+    , code(std::move(nodeCode))
+    , runtime(*code, *this)
     , m_retryTimer(q)
     , m_patience(q)
     , m_uuid(qplc::newUuid())
 {
+    name = nodeName;
+    policy = violationPolicy;
     m_retryTimer.setSingleShot(true);
     QObject::connect(&m_retryTimer, &QTimer::timeout, q, [this] { apply(SlaveEvent::Retry); });
     m_patience.setSingleShot(true);

@@ -4,7 +4,6 @@
 #include "QPlcMasterNode.h"
 #include "QPlcMasterSocket.h"
 #include "QPlcSlaveNode.h"
-#include "node/cycle/ListeningInterval.h"
 #include "node/cycle/NodeRuntime.h"
 #include "node/cycle/SlaveCycle.h"
 #include "node/session/BackOff.h"
@@ -22,16 +21,20 @@
 #include <variant>
 
 /// The control side of a slave: registration, and the phases that the master announces.
-class QPlcSlaveNodePrivate
+class QPlcSlaveNodePrivate : public qplc::NodeTraits
 {
 public:
-    QPlcSlaveNodePrivate(QPlcSlaveNode *node, const QString &name, QPlcSlaveNode::RealTimeViolationPolicy policy);
+    QPlcSlaveNodePrivate(QPlcSlaveNode *node, const QString &name, QPlcSlaveNode::RealTimeViolationPolicy policy,
+                         std::unique_ptr<qplc::NodeCode> code);
+    static QPlcSlaveNodePrivate &of(const QPlcSlaveNode &node) { return *node.d; }
 
     void connectToMaster(const QPlcUnderlyingProtocol &master);
     void disconnectFromMaster();
     /// The class of the user is being destroyed, and no part of ours yet: cycles that still run end here, with a warning, and call nothing of it any more.
     void endBeforeDestruction();
 
+    /// As SlaveCycle::cycleInProgress(). \threadsafe yes, while it is registered
+    quint64 cycleInProgress() const { return cycle ? cycle->cycleInProgress() : 0; }
     /// Emits realTimedOut() after cycles, from now on.
     void watchCycles();
     /// Emits hasInitialized() with the inputs, when anybody listens.
@@ -51,28 +54,19 @@ public:
     void setError(QPlcSlaveNode::Error newError, const QString &text);
 
     QPlcSlaveNode *const q;
-    QString name;
-    QPlcSlaveNode::RealTimeViolationPolicy policy;
-    bool listener = false;
-    bool critical = false;
     bool hasChannel = false;  // registered, with the cyclic channel; or in the process of the master
     QPlcSlaveNode::ReconnectPolicy reconnectPolicy = QPlcSlaveNode::ReconnectWhenLost;
-    qplc::ListeningInterval interval;
-    bool sameCycle = false;  // all inputs
-    bool twoPhase = false;
-    bool receivesQuality = false;
-    bool sendsQuality = false;
     QString faultPlan;
     QPlcSignalTable ownTable;
     QPlcRealTimeOptions realTimeOptions;
     std::optional<std::chrono::nanoseconds> watchdog;  // else as the profile says
     int watchdogPeriods = 0;                           // it is at least so many periods long
     std::optional<QPlcSlaveNode::WatchdogReaction> watchdogReaction;
-    bool hardware = false;
     QPlcProfile::Value phaseProfile
         = QPlcProfile::Automatic;  // of the phase at hand or the last one; Automatic: there was none
     std::chrono::nanoseconds watchdogOfPhase{0};
     std::optional<QPlcSecurity> security;  // else that of the process
+    const std::unique_ptr<qplc::NodeCode> code;
     qplc::NodeRuntime runtime;
     QPlcSlaveNode::State state = QPlcSlaveNode::Disconnected;
     QPlcSlaveNode::Error error = QPlcSlaveNode::NoError;

@@ -18,7 +18,7 @@ namespace feature = messages::feature;
 bool QPlcSlaveNodePrivate::isOrdered() const
 {
     try {
-        return sameCycle || twoPhase || q->declaresSameCycle();
+        return sameCycle || twoPhase || code->declaresSameCycle();
     } catch (...) {
         return false;  // its code throws again when the node is bound, and is reported then
     }
@@ -30,9 +30,9 @@ QStringList QPlcSlaveNodePrivate::features() const
     QStringList needed;
     if (isOrdered())
         needed.append(feature::sameCycle);
-    if (receivesQuality)
+    if (quality)
         needed.append(feature::quality);
-    if (sendsQuality)
+    if (outputQuality)
         needed.append(feature::outputQuality);
     if (hardware)
         needed.append(feature::hardware);
@@ -88,7 +88,7 @@ void QPlcSlaveNodePrivate::receiveHello(const messages::MasterHello &hello)
         return true;
     };
     if (lacks(isOrdered(), feature::sameCycle, QStringLiteral("same-cycle inputs and two-phase nodes"))
-        || lacks(sendsQuality, feature::outputQuality, QStringLiteral("qualities of outputs")))
+        || lacks(outputQuality, feature::outputQuality, QStringLiteral("qualities of outputs")))
         return;
     runtime.setQualityOffered(hello.features.contains(feature::quality));
     QPlcSignalTable table;

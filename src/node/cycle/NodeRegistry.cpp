@@ -70,15 +70,9 @@ messages::Register NodeDeclaration::toMessage() const
 NodeDeclaration NodeDeclaration::fromRuntime(const NodeRuntime &runtime)
 {
     NodeDeclaration declaration;
-    declaration.name = runtime.node().name();
-    declaration.policy = runtime.node().realTimeViolationPolicy();
-    declaration.listener = runtime.node().isListener();
-    declaration.critical = runtime.node().isCritical() && !declaration.listener;
-    declaration.interval = ListeningInterval(runtime.node().listeningInterval());
-    declaration.twoPhase = runtime.node().isTwoPhase();
+    static_cast<NodeTraits &>(declaration) = runtime.traits();
+    declaration.critical = declaration.critical && !declaration.listener;
     declaration.quality = runtime.inputLayout().hasQualities();
-    declaration.outputQuality = runtime.outputLayout().hasQualities();
-    declaration.hardware = runtime.node().isHardware();
     declaration.inputs = describe(runtime.table(), runtime.inputLayout());
     for (std::size_t i = 0; i < declaration.inputs.size(); ++i)
         declaration.inputs[i].sameCycle = runtime.sameCycle()[i];

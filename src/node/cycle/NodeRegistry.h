@@ -14,19 +14,8 @@
 namespace qplc {
 
 /// What a node says of itself when it registers.
-struct NodeDeclaration
+struct NodeDeclaration : NodeTraits
 {
-    static constexpr int LongestName = 64;  // [characters]
-
-    QString name;
-    QPlcSlaveNode::RealTimeViolationPolicy policy = QPlcSlaveNode::ErrorZeroOrderHold;
-    bool listener = false;
-    bool critical = false;
-    ListeningInterval interval;
-    bool twoPhase = false;
-    bool quality = false;        // wants the qualities of its inputs
-    bool outputQuality = false;  // gives the qualities of its outputs
-    bool hardware = false;       // drives real devices
     std::vector<messages::DeclaredSignal> inputs;
     std::vector<messages::DeclaredSignal> outputs;
 

@@ -3,7 +3,6 @@
 
 #include "QSplitPrimitive.h"
 #include "SafeValues.h"
-#include "node/api/QPlcSlaveNodePrivate.h"
 
 #include <QtCore/QSet>
 
@@ -57,40 +56,39 @@ QStringList repeatedNames(const QPlcSignalTable &table, const QVector<QPlcSignal
 
 }  // namespace
 
-NodeRuntime::NodeRuntime(QPlcSlaveNode &node)
-    : m_node(node)
+NodeRuntime::NodeRuntime(NodeCode &code, const NodeTraits &traits)
+    : m_code(code)
+    , m_traits(traits)
 {
 }
 
 bool NodeRuntime::bind(const QPlcSignalTable &table, QString *error)
 {
-    QVector<QPlcSignalIndex> inputs;
-    QVector<QPlcSignalIndex> outputs;
-    QVector<QPlcSignalIndex> sameCycle;
+    NodeCode::Declaration declared;
     QStringList errors;
     QString text;
     m_table = table;
     bool bound = false;
     m_isCodeGone = false;
-    if (!guarded("the declaration of signals", &text,
-                 [&] { bound = m_node.bindPorts(table, &inputs, &outputs, &sameCycle, &text); })
+    if (!guarded("the declaration of signals", &text, [&] { bound = m_code.declare(table, &declared, &text); })
         || !bound)
         errors << text;
     else
-        bindWorkloadSignal(&outputs, &errors);
-    for (const QString &name : repeatedNames(table, inputs) + repeatedNames(table, outputs))
+        bindWorkloadSignal(&declared.outputs, &errors);
+    for (const QString &name : repeatedNames(table, declared.inputs) + repeatedNames(table, declared.outputs))
         errors << QStringLiteral("signal '%1' is declared twice; declare it once").arg(name);
     if (!errors.isEmpty()) {
-        *error = QStringLiteral("node '%1': %2").arg(m_node.name(), errors.join(QStringLiteral("; ")));
+        *error = QStringLiteral("node '%1': %2").arg(m_traits.name, errors.join(QStringLiteral("; ")));
         return false;
     }
-    bindInputs(inputs);
+    bindInputs(declared.inputs);
     const quint64 former = m_outputLayout.hash();
-    m_outputLayout = PayloadLayout(
-        table, outputs, m_node.d->sendsQuality ? PayloadLayout::WithQualities : PayloadLayout::WithoutQualities);
+    m_outputLayout
+        = PayloadLayout(table, declared.outputs,
+                        m_traits.outputQuality ? PayloadLayout::WithQualities : PayloadLayout::WithoutQualities);
     m_sameCycle.clear();
-    for (QPlcSignalIndex input : qAsConst(inputs))
-        m_sameCycle.push_back(m_node.isSameCycle() || sameCycle.contains(input));
+    for (QPlcSignalIndex input : qAsConst(declared.inputs))
+        m_sameCycle.push_back(m_traits.sameCycle || declared.sameCycle.contains(input));
     m_outputs.assign(m_outputLayout.size(), 0);
     if (m_outputLayout.hash() != former)
         m_scratch.assign(m_outputLayout.size(), 0);
@@ -101,13 +99,13 @@ bool NodeRuntime::bind(const QPlcSignalTable &table, QString *error)
         if (!m_workloadSignal.isEmpty() && table.at(field.signal).name == m_workloadSignal)
             m_workload = &field;
     }
-    m_node.attachPorts(m_seenLayout, m_outputLayout);
+    m_code.bind(table, m_seenLayout, m_outputLayout);
     return true;
 }
 
 void NodeRuntime::bindInputs(const QVector<QPlcSignalIndex> &inputs)
 {
-    const auto wanted = m_node.receivesQuality() ? PayloadLayout::WithQualities : PayloadLayout::WithoutQualities;
+    const auto wanted = m_traits.quality ? PayloadLayout::WithQualities : PayloadLayout::WithoutQualities;
     m_seenLayout = PayloadLayout(m_table, inputs, wanted);
     m_inputLayout = m_qualityOffered ? m_seenLayout : PayloadLayout(m_table, inputs);
     m_inputFrame = SignalGuard::frameFor(m_table, m_inputLayout);
@@ -161,7 +159,7 @@ bool NodeRuntime::reset(QString *error)
     m_faultText[0] = '\0';
     for (const PayloadLayout::Field &field : m_outputLayout.fields())
         m_table.at(field.signal).initial.toBytes(m_scratch.data() + field.offset);
-    if (!guarded("the initialization", error, [this] { m_node.resetFrame(m_scratch.data()); }))
+    if (!guarded("the initialization", error, [this] { m_code.reset(m_scratch.data()); }))
         return false;
     writeWorkload(0);
     m_outputs = m_scratch;
@@ -171,7 +169,7 @@ bool NodeRuntime::reset(QString *error)
 bool NodeRuntime::initialize(const char *inputs, QString *error)
 {
     takeInputs(inputs);
-    return guarded("initialize()", error, [&] { m_node.initializeFrame(m_inputs.data()); });
+    return guarded("initialize()", error, [&] { m_code.initialize(m_inputs.data()); });
 }
 
 void NodeRuntime::takeInputs(const char *inputs)
@@ -185,7 +183,7 @@ void NodeRuntime::stopped()
     if (m_isCodeGone.load(std::memory_order_relaxed))
         return;
     QString text;
-    if (!guarded("stopped()", &text, [this] { m_node.stopped(); }))
+    if (!guarded("stopped()", &text, [this] { m_code.stopped(); }))
         setFault(text.toLocal8Bit().constData());
 }
 
@@ -204,7 +202,7 @@ void NodeRuntime::makeSafe(QPlcSlaveNode::SafeStateReason reason) noexcept
     m_isSafe = true;
     m_outputs = m_safeOutputs;
     if (!m_isCodeGone.load(std::memory_order_relaxed))
-        attempt([&] { m_node.safeFrame(reason, m_safeInputs.data()); });
+        attempt([&] { m_code.makeSafe(reason, m_safeInputs.data()); });
 }
 
 /// Calls code of the user in a cycle. \return false when it threw
@@ -224,12 +222,12 @@ bool NodeRuntime::attempt(Code code) noexcept
 
 bool NodeRuntime::step(const QPlcCycle &cycle, const char *inputs) noexcept
 {
-    if (m_hasFailed || (m_isSafe && !m_node.isListener()))
+    if (m_hasFailed || (m_isSafe && !m_traits.listener))
         return !m_hasFailed;
     const std::int64_t begin = now();
     m_cycle = cycle;
     const char *seen = guardedInputs(inputs, std::int64_t(cycle.number()));
-    const bool isComputed = attempt([&] { m_node.stepFrame(cycle, seen, m_scratch.data()); });
+    const bool isComputed = attempt([&] { m_code.step(cycle, seen, m_scratch.data()); });
     measure(begin);
     if (!isComputed) {
         m_hasFailed = true;
@@ -287,7 +285,8 @@ QPlcSignalList NodeRuntime::toList(const PayloadLayout &layout, const char *fram
     return list;
 }
 
-void NodeRuntime::fromList(const QPlcSignalList &list, const PayloadLayout &layout, char *frame) const
+void NodeRuntime::fromList(const QPlcSignalList &list, const QPlcSignalTable &table, const PayloadLayout &layout,
+                           char *frame)
 {
     int used = 0;
     for (const PayloadLayout::Field &field : layout.fields()) {
@@ -298,7 +297,7 @@ void NodeRuntime::fromList(const QPlcSignalList &list, const PayloadLayout &layo
         if (!converted.isValid()) {
             const QString text
                 = QStringLiteral("the value %1 (%2) does not fit signal '%3' of type %4")
-                      .arg(value.toString(), value.type().name(), m_table.at(field.signal).name, field.type.name());
+                      .arg(value.toString(), value.type().name(), table.at(field.signal).name, field.type.name());
             throw std::runtime_error(text.toStdString());
         }
         converted.toBytes(frame + field.offset);
@@ -310,7 +309,7 @@ void NodeRuntime::fromList(const QPlcSignalList &list, const PayloadLayout &layo
         if (std::none_of(layout.fields().begin(), layout.fields().end(),
                          [&](const PayloadLayout::Field &field) { return field.signal == entry.index; }))
             throw std::runtime_error(QStringLiteral("signal '%1' is not declared as an output")
-                                         .arg(m_table.at(entry.index).name)
+                                         .arg(table.at(entry.index).name)
                                          .toStdString());
     }
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "NodeCode.h"
 #include "QPlcCycle.h"
-#include "QPlcSlaveNode.h"
 #include "SignalGuard.h"
 #include "realtime/TimeSource.h"
 #include "realtime/WakeUp.h"
@@ -23,9 +23,10 @@ namespace qplc {
 class NodeRuntime : private SignalGuard::Observer
 {
 public:
-    explicit NodeRuntime(QPlcSlaveNode &node);
+    /// \param traits  may change as long as the node is not registered
+    NodeRuntime(NodeCode &code, const NodeTraits &traits);
 
-    QPlcSlaveNode &node() const { return m_node; }
+    const NodeTraits &traits() const { return m_traits; }
     void setWorkloadSignal(const QString &name) { m_workloadSignal = name; }
 
     /// Whether the master sends qualities to who asks for them. Takes effect with bind().
@@ -86,7 +87,8 @@ public:
     /// The values of \a frame as a list, under the indices of the table of the node.
     static QPlcSignalList toList(const PayloadLayout &layout, const char *frame);
     /// Writes the values of \a list into \a frame. \throws std::runtime_error when one of them does not fit
-    void fromList(const QPlcSignalList &list, const PayloadLayout &layout, char *frame) const;
+    static void fromList(const QPlcSignalList &list, const QPlcSignalTable &table, const PayloadLayout &layout,
+                         char *frame);
 
 private:
     void bindInputs(const QVector<QPlcSignalIndex> &inputs);
@@ -106,7 +108,8 @@ private:
     void writeWorkload(std::int64_t duration);
     void setFault(const char *text) noexcept;
 
-    QPlcSlaveNode &m_node;
+    NodeCode &m_code;
+    const NodeTraits &m_traits;
     QPlcSignalTable m_table;
     bool m_qualityOffered = true;
     PayloadLayout m_inputLayout;

@@ -80,7 +80,7 @@ bool SlaveCycle::start(const Phase &phase)
     m_lastCycle = phase.firstCycle;
     m_watchdog.start(phase.clock.isLockstep() ? 0 : lasting(phase.watchdog), monotonicNow());
     m_stop = m_ended = false;
-    if (m_thread.start(m_runtime.node().name(), phase.realTimeOptions, [this] { run(); }))
+    if (m_thread.start(m_runtime.traits().name, phase.realTimeOptions, [this] { run(); }))
         return true;
     m_ended = true;
     return false;
