@@ -11,6 +11,10 @@ if(QTPLC_BUILD_GUI)
     endif()
 endif()
 
+if(TARGET QtPlcTest)
+    list(APPEND packages libqtplc-test-dev)
+endif()
+
 set(CPACK_GENERATOR DEB)
 set(CPACK_COMPONENTS_ALL ${packages})
 set(CPACK_DEB_COMPONENT_INSTALL ON)
@@ -71,6 +75,10 @@ qtplc_package(libqtplc-dev SECTION libdevel
     SUMMARY "distributed real-time controllers, for building nodes"
     DESCRIPTION "Headers of QtPLC, and what find_package(QtPlc) finds."
     DEPENDS libqtplc qtbase5-dev RECOMMENDS qtplc-doc)
+qtplc_package(libqtplc-test-dev SECTION libdevel
+    SUMMARY "distributed real-time controllers, for testing nodes"
+    DESCRIPTION "What find_package(QtPlc COMPONENTS Test) finds: whole plants in one thread and in\nvirtual time, for tests of nodes."
+    DEPENDS libqtplc-dev libboost-context-dev RECOMMENDS qtplc-doc)
 qtplc_package(qtplc-tools SECTION utils
     SUMMARY "distributed real-time controllers, tools"
     DESCRIPTION "The command qtplc looks into a running QtPLC plant and steers it, and tells\nwhether a computer is fit for real time. The service qtplc-hardware@ ties\nsignals to devices."

@@ -27,11 +27,16 @@ Fiber::~Fiber()
 void Fiber::start(const QString &, std::function<void()> body)
 {
     m_body = std::move(body);
-    m_inside = boost::context::fiber(std::allocator_arg, boost::context::protected_fixedsize_stack(StackSize),
-                                     [this](boost::context::fiber &&outside) {
+    boost::context::protected_fixedsize_stack allocator(StackSize);
+    const boost::context::stack_context stack = allocator.allocate();
+    m_switch.create(static_cast<char *>(stack.sp) - stack.size, stack.size);
+    m_inside = boost::context::fiber(std::allocator_arg, boost::context::preallocated(stack.sp, stack.size, stack),
+                                     std::move(allocator), [this](boost::context::fiber &&outside) {
+                                         m_switch.hasEntered();
                                          m_outside = std::move(outside);
                                          m_body();
                                          m_hasEnded = true;
+                                         m_switch.leave(true);
                                          return std::move(m_outside);
                                      });
     m_simulator.schedule(*this, m_simulator.now(), Begin);
@@ -45,7 +50,9 @@ void Fiber::resume(Reason reason)
     m_reason = reason;
     ++m_wait;  // what was to end this wait comes too late
     m_own.setRunningFiber(this);
+    m_switch.enter();
     m_inside = std::move(m_inside).resume();
+    m_switch.hasLeft();
     m_own.setRunningFiber(nullptr);
 }
 
@@ -54,7 +61,9 @@ Fiber::Reason Fiber::wait(std::int64_t deadline) noexcept
     if (deadline != Never)
         m_simulator.schedule(*this, m_own.whenIs(deadline), Deadline, m_wait);
     m_isWaiting = true;
+    m_switch.leave();
     m_outside = std::move(m_outside).resume();
+    m_switch.hasEntered();
     return m_reason;
 }
 

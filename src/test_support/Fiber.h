@@ -2,6 +2,7 @@
 #pragma once
 
 #include "SimulatedHost.h"
+#include "StackSwitch.h"
 
 #include <boost/context/fiber.hpp>
 
@@ -43,6 +44,7 @@ private:
     std::function<void()> m_body;
     boost::context::fiber m_inside;
     boost::context::fiber m_outside;
+    StackSwitch m_switch;
     Reason m_reason = Due;
     std::uint64_t m_wait = 0;   // number of the wait
     std::uint64_t m_alarm = 0;  // number of the alarm

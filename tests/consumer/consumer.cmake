@@ -83,6 +83,12 @@ if(EXISTS ${prefix}/include/QtPlc/QPlcControlCenter.h)
     build_project(panel_page ${SOURCE}/docs/howto/code/panel)
 endif()
 
+# A test of a user's node in a simulated plant, as in docs/howto/test-a-plant.md.
+if(EXISTS ${prefix}/include/QtPlc/QPlcSimulator.h)
+    build_project(plant_test ${SOURCE}/docs/howto/code/plant_test)
+    run(${WORK}/plant_test/tst_Winch)
+endif()
+
 if(EXISTS ${prefix}/include/QtPlc/QPlcHardwareNode.h)
     build_project(howto ${SOURCE}/docs/howto/code)
     run(${WORK}/howto/weather_node --help)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Types a page of docs/howto as written, from an installed package, after the tutorial: in ~/winch are its programs.
 
-usage: typed_howtos.py PAGE SOURCE_FOLDER BUILD_FOLDER        PAGE: wire-a-sensor, simulink-model or write-a-panel
+usage: typed_howtos.py PAGE SOURCE_FOLDER BUILD_FOLDER        PAGE: wire-a-sensor, simulink-model, write-a-panel or test-a-plant
 """
 import subprocess
 import sys
@@ -22,6 +22,7 @@ NOT_TYPED = {
     },
     "simulink-model": {},
     "write-a-panel": {},
+    "test-a-plant": {},
 }
 
 
@@ -83,6 +84,10 @@ def write_a_panel(plant):
     }
 
 
+def test_a_plant(_plant):
+    return {"build/tst_Winch -silent": Expectation(shows=r"Totals: 4 passed, 0 failed")}
+
+
 def run(*command):
     result = subprocess.run([str(word) for word in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     require(result.returncode == 0, f"{' '.join(map(str, command))} fails:\n{result.stdout[-4000:]}")
@@ -109,7 +114,7 @@ def main():
         terminal = Terminal(home, {"PATH": f"{home}/qtplc/bin:/usr/local/bin:/usr/bin:/bin"})
         plant = Plant(home, terminal)
         try:
-            expected, folder = {"wire-a-sensor": (wire_a_sensor, "winch"), "simulink-model": (simulink_model, "winch_model"), "write-a-panel": (write_a_panel, "my_window")}[page]
+            expected, folder = {"wire-a-sensor": (wire_a_sensor, "winch"), "simulink-model": (simulink_model, "winch_model"), "write-a-panel": (write_a_panel, "my_window"), "test-a-plant": (test_a_plant, "winch_tests")}[page]
             terminal.type(f"cd ~/{folder}")
             Reader(source / "docs" / "howto" / f"{page}.md", home / folder, terminal, expected(plant), NOT_TYPED[page]).follow()
         finally:

@@ -44,13 +44,13 @@ ARROWS = {
     "tools": BELOW_NODE | {"node", "node/state", "node/security", "node/cycle", "node/session", "tools"},
 }
 # Room with a library of its own: folder of its list of headers, and its umbrella header. All others belong to QtPlc::Core.
-LIBRARIES = {"hardware": ("src/hardware", "QtPlcHardware"), "gui": ("src/gui", "QtPlcGui"), "gui3d": ("src/gui3d", "QtPlcGui3D")}
+LIBRARIES = {"hardware": ("src/hardware", "QtPlcHardware"), "gui": ("src/gui", "QtPlcGui"), "gui3d": ("src/gui3d", "QtPlcGui3D"), "test_support": ("src/test_support", "QtPlcTest"), "test": ("src/test_support", "QtPlcTest")}
 # Public headers without a source file of their own; "all": a plain value that every room may use.
 HEADER_ONLY = {
     "QPlcBoundInput": "node", "QPlcBoundOutput": "node", "QPlcClock": "all", "QPlcCycle": "all",
     "QPlcCycleStatistics": "node", "QPlcDistribution": "all", "QPlcDurationStatistics": "all", "QPlcGlobal": "all",
     "QPlcGuiGlobal": "gui", "QPlcGui3DGlobal": "gui3d", "QPlcHardwareGlobal": "hardware", "QPlcReadChannel": "hardware", "QPlcWriteChannel": "hardware", "QPlcInput": "node", "QPlcInputTiming": "all", "QPlcLease": "node", "QPlcMasterStatistics": "node", "QPlcNodeInfo": "node", "QPlcNodeStatistics": "node", "QPlcOutput": "node",
-    "QPlcRealTimeSetting": "realtime", "QPlcSignalDefinition": "signals", "QPlcSlaveStatistics": "node", "QPlcStatisticFigure": "node", "QPlcWidgetFactoryOf": "gui", "QPlcWorstCycle": "all",
+    "QPlcRealTimeSetting": "realtime", "QPlcSignalDefinition": "signals", "QPlcSimulatedRoad": "test_support", "QPlcSlaveStatistics": "node", "QPlcStatisticFigure": "node", "QPlcWidgetFactoryOf": "gui", "QPlcWorstCycle": "all",
     "QSplitPrimitive": "signals",
 }
 SOCKETS = r"<QtNetwork/|<sys/socket\.h>|<netinet/|<arpa/inet\.h>|Q(Tcp|Udp|Abstract)Socket\b"

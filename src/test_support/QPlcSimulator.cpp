@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "QPlcSimulator.h"
+
+#include "QPlcSimulatedHost.h"
+#include "SimulatedHost.h"
+#include "SimulatedTransport.h"
+
+namespace {
+
+qplc::SimulatedRoad inside(const QPlcSimulatedRoad &road)
+{
+    qplc::SimulatedRoad made;
+    made.delay = road.delay.count();
+    made.jitter = road.jitter.count();
+    made.loss = road.loss;
+    made.duplication = road.duplication;
+    made.reordering = road.reordering;
+    made.lateness = road.lateness.count();
+    made.isCut = road.isCut;
+    return made;
+}
+
+}  // namespace
+
+QPlcSimulator::QPlcSimulator(qplc::Simulator &simulator)
+    : m_simulator(simulator)
+{
+}
+
+void QPlcSimulator::run(quint64 seed, const std::function<void(QPlcSimulator &)> &scenario)
+{
+    qplc::SimulatedTransport::install();
+    qplc::Simulator::run(seed, [&](qplc::Simulator &simulator) {
+        QPlcSimulator own(simulator);
+        scenario(own);
+    });
+}
+
+quint64 QPlcSimulator::seed() const
+{
+    return m_simulator.seed();
+}
+
+std::chrono::nanoseconds QPlcSimulator::now() const
+{
+    return std::chrono::nanoseconds(m_simulator.now());
+}
+
+quint64 QPlcSimulator::digest() const
+{
+    return m_simulator.digest();
+}
+
+void QPlcSimulator::runFor(std::chrono::nanoseconds duration)
+{
+    m_simulator.runFor(duration.count());
+}
+
+bool QPlcSimulator::runUntil(const std::function<bool()> &isReached, std::chrono::nanoseconds longest)
+{
+    return m_simulator.runUntil(isReached, longest.count());
+}
+
+void QPlcSimulator::setRoads(const QPlcSimulatedRoad &road)
+{
+    m_simulator.network().usual = inside(road);
+}
+
+void QPlcSimulator::setRoad(const QPlcSimulatedHost &from, const QPlcSimulatedHost &to, const QPlcSimulatedRoad &road)
+{
+    m_simulator.network().setRoad(*from.m_host, *to.m_host, inside(road));
+}
+
+void QPlcSimulator::resetRoads()
+{
+    m_simulator.network().resetRoads();
+}
