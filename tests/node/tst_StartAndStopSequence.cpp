@@ -269,6 +269,8 @@ void tst_StartAndStopSequence::aPhaseThatCannotBeMeantIsRefused_data()
     QTest::newRow("scale below 0") << "scale" << QJsonValue(-1) << "a clock of -1 times";
     QTest::newRow("scale too small") << "scale" << QJsonValue(1e-300) << "a clock of 1e-300 times";
     QTest::newRow("scale too large") << "scale" << QJsonValue(1001) << "a clock of 1001 times";
+    QTest::newRow("unknown clock") << "clock" << QJsonValue("Sundial") << "field 'clock'";
+    QTest::newRow("group that is none") << "group" << QJsonValue(5) << "field 'group'";
     QTest::newRow("first cycle before cycle 0")
         << "cycleZero" << QJsonValue(QPlcMessage::fromHex64(101)) << "begins with cycle -1";
     QTest::newRow("first cycle after the end of time")
