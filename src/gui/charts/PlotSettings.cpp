@@ -225,11 +225,10 @@ QJsonObject PlotSettings::toJson() const
     return json;
 }
 
-bool PlotSettings::isKnown(const QString &key)
+PanelSettings PlotSettings::emptyJson()
 {
-    static const QStringList keys{curvesKey, leftKey, rightKey,  axesKey,   timeKey,       spanKey,
-                                  labelsKey, gridKey, limitsKey, legendKey, statisticsKey, triggerKey};
-    return keys.contains(key);
+    return {"curves", "left", "right",  "axes",   "time",       "span",
+            "labels", "grid", "limits", "legend", "statistics", "trigger"};
 }
 
 }  // namespace qplc

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <QtCore/QJsonObject>
+#include "gui/panel/PanelSettings.h"
+
 #include <QtCore/QMap>
 #include <QtCore/QString>
 #include <QtCore/QVector>
@@ -88,8 +89,8 @@ struct PlotSettings
 
     static PlotSettings fromJson(const QJsonObject &json);
     QJsonObject toJson() const;
-    /// Whether a key of the JSON is one of those above.
-    static bool isKnown(const QString &key);
+    /// With the keys above.
+    static PanelSettings emptyJson();
 };
 
 }  // namespace qplc

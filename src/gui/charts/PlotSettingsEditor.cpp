@@ -4,7 +4,6 @@
 #include "QPlcPanelContext.h"
 #include "gui/panel/SignalEdit.h"
 
-#include <QtGui/QDoubleValidator>
 #include <QtGui/QPainter>
 #include <QtGui/QRegularExpressionValidator>
 #include <QtWidgets/QCheckBox>
@@ -34,13 +33,6 @@ QIcon colorIcon(const QColor &color, double scale)
     pixmap.setDevicePixelRatio(scale);
     pixmap.fill(color);
     return pixmap;
-}
-
-QDoubleValidator *numberValidator(QObject *parent)
-{
-    auto *validator = new QDoubleValidator(parent);
-    validator->setLocale(QLocale::c());
-    return validator;
 }
 
 int widthOf(const QWidget *widget, int characters)
@@ -111,6 +103,20 @@ void PlotSettingsEditor::makeCurves()
 void PlotSettingsEditor::addLine(int place)
 {
     const PlotCurveSettings &curve = m_settings.curves[place];
+    QLineEdit *signal
+        = makeText(tr("Signal of curve %1").arg(place + 1), curve.signal, [this, place](const QString &text) {
+              if (text.isEmpty())
+                  return;
+              m_settings.curves[place].signal = text;
+              tell();
+          });
+    signal->setMinimumWidth(widthOf(signal, leastSignalChars));
+    QLineEdit *name = makeText(tr("Name of curve %1").arg(place + 1), curve.name, [this, place](const QString &text) {
+        m_settings.curves[place].name = text;
+        tell();
+    });
+    name->setMinimumWidth(widthOf(name, leastNameChars));
+    name->setPlaceholderText(tr("as it is"));  // the signal is shown
     auto *axis = new QComboBox(m_curves);
     axis->addItems({tr("By unit"), tr("Left"), tr("Right")});
     axis->setCurrentIndex(!curve.axis ? 0 : *curve.axis == PlotCurveSettings::Left ? 1 : 2);
@@ -138,47 +144,13 @@ void PlotSettingsEditor::addLine(int place)
     connect(remove, &QToolButton::clicked, this, [this, place] { removeCurve(place); });
     const int row = place + 1;
     m_grid->addWidget(makeColorButton(place), row, 0);
-    m_grid->addWidget(makeSignal(place), row, 1);
-    m_grid->addWidget(makeName(place), row, 2);
-    m_grid->addWidget(makeNumber(curve.gain, tr("Gain of %1").arg(curve.signal), &PlotCurveSettings::gain, place), row,
-                      3);
-    m_grid->addWidget(makeNumber(curve.offset, tr("Offset of %1").arg(curve.signal), &PlotCurveSettings::offset, place),
-                      row, 4);
+    m_grid->addWidget(signal, row, 1);
+    m_grid->addWidget(name, row, 2);
+    m_grid->addWidget(makeScale(tr("Gain of %1").arg(curve.signal), &PlotCurveSettings::gain, place), row, 3);
+    m_grid->addWidget(makeScale(tr("Offset of %1").arg(curve.signal), &PlotCurveSettings::offset, place), row, 4);
     m_grid->addWidget(axis, row, 5);
     m_grid->addWidget(seen, row, 6, Qt::AlignCenter);
     m_grid->addWidget(remove, row, 7);
-}
-
-QLineEdit *PlotSettingsEditor::makeSignal(int place)
-{
-    auto *edit = new QLineEdit(m_settings.curves[place].signal, m_curves);
-    edit->setMinimumWidth(widthOf(edit, leastSignalChars));
-    edit->setAccessibleName(tr("Signal of curve %1").arg(place + 1));
-    connect(edit, &QLineEdit::editingFinished, this, [this, edit, place] {
-        const QString text = edit->text().trimmed();
-        if (text.isEmpty() || text == m_settings.curves[place].signal)
-            return;
-        m_settings.curves[place].signal = text;
-        tell();
-    });
-    return edit;
-}
-
-/// What is shown in place of the signal; empty: the signal.
-QLineEdit *PlotSettingsEditor::makeName(int place)
-{
-    auto *edit = new QLineEdit(m_settings.curves[place].name, m_curves);
-    edit->setMinimumWidth(widthOf(edit, leastNameChars));
-    edit->setPlaceholderText(tr("as it is"));
-    edit->setAccessibleName(tr("Name of curve %1").arg(place + 1));
-    connect(edit, &QLineEdit::editingFinished, this, [this, edit, place] {
-        const QString text = edit->text().trimmed();
-        if (text == m_settings.curves[place].name)
-            return;
-        m_settings.curves[place].name = text;
-        tell();
-    });
-    return edit;
 }
 
 void PlotSettingsEditor::tell()
@@ -194,21 +166,14 @@ void PlotSettingsEditor::removeCurve(int place)
     tell();
 }
 
-QLineEdit *PlotSettingsEditor::makeNumber(double value, const QString &name, double PlotCurveSettings::*member,
-                                          int place)
+QLineEdit *PlotSettingsEditor::makeScale(const QString &name, double PlotCurveSettings::*member, int place)
 {
-    auto *edit = new QLineEdit(QString::number(value, 'g', editedDigits), m_curves);
-    edit->setValidator(numberValidator(edit));
+    QLineEdit *edit
+        = makeNumber(name, m_settings.curves[place].*member, {}, [this, member, place](std::optional<double> number) {
+              m_settings.curves[place].*member = *number;
+              tell();
+          });
     edit->setMaximumWidth(widthOf(edit, numberChars) + 12);
-    edit->setAccessibleName(name);
-    connect(edit, &QLineEdit::textEdited, this, [this, member, place](const QString &text) {
-        bool isNumber = false;
-        const double number = text.toDouble(&isNumber);
-        if (!isNumber || number == m_settings.curves[place].*member)
-            return;  // "-" is not finished
-        m_settings.curves[place].*member = number;
-        tell();
-    });
     return edit;
 }
 
@@ -287,21 +252,10 @@ QWidget *PlotSettingsEditor::makeOptions(const QStringList &furtherUnits)
 QLineEdit *PlotSettingsEditor::makeEnd(const QString &name, const Range &range,
                                        std::optional<double> PlotRangeSettings::*end)
 {
-    auto *edit = new QLineEdit(this);
-    const std::optional<double> value = settingsOf(range).*end;
-    edit->setText(value ? QString::number(*value, 'g', editedDigits) : QString());
-    edit->setPlaceholderText(tr("automatic"));
-    edit->setValidator(numberValidator(edit));
-    edit->setAccessibleName(name);
-    connect(edit, &QLineEdit::textEdited, this, [this, range, end](const QString &text) {
-        bool isNumber = false;
-        const double number = text.toDouble(&isNumber);
-        if (!isNumber && !text.isEmpty())
-            return;  // "-" is not finished
-        settingsOf(range).*end = isNumber ? std::optional<double>(number) : std::nullopt;
+    return makeNumber(name, settingsOf(range).*end, tr("automatic"), [this, range, end](std::optional<double> number) {
+        settingsOf(range).*end = number;
         tell();
     });
-    return edit;
 }
 
 /// Values with spaces between them.
@@ -361,11 +315,15 @@ QWidget *PlotSettingsEditor::makeTimeAxis()
     own->addItems({tr("That of the window"), tr("Its own")});
     own->setCurrentIndex(m_settings.hasOwnTime ? 1 : 0);
     own->setAccessibleName(tr("Time axis"));
-    auto *span = new QLineEdit(QString::number(m_settings.span, 'g', editedDigits), options);
-    span->setValidator(numberValidator(span));
+    QLineEdit *span
+        = makeNumber(tr("Seconds of an own time axis"), m_settings.span, {}, [this](std::optional<double> seconds) {
+              if (*seconds <= 0.0)
+                  return;
+              m_settings.span = *seconds;
+              tell();
+          });
     span->setMaximumWidth(widthOf(span, numberChars));
     span->setEnabled(m_settings.hasOwnTime);
-    span->setAccessibleName(tr("Seconds of an own time axis"));
     auto *labels = new QComboBox(options);
     labels->addItems({tr("Time of day"), tr("Seconds")});
     labels->setCurrentIndex(m_settings.labels == PlotSettings::Labels::Clock ? 0 : 1);
@@ -373,12 +331,6 @@ QWidget *PlotSettingsEditor::makeTimeAxis()
     connect(own, QOverload<int>::of(&QComboBox::activated), this, [this, span](int index) {
         m_settings.hasOwnTime = index == 1;
         span->setEnabled(m_settings.hasOwnTime);
-        tell();
-    });
-    connect(span, &QLineEdit::textEdited, this, [this](const QString &text) {
-        if (text.toDouble() == m_settings.span || text.toDouble() <= 0.0)
-            return;
-        m_settings.span = text.toDouble();
         tell();
     });
     connect(labels, QOverload<int>::of(&QComboBox::activated), this, [this](int index) {

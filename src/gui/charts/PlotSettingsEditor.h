@@ -30,11 +30,9 @@ Q_SIGNALS:
 private:
     void makeCurves();
     void addLine(int place);
-    QLineEdit *makeSignal(int place);
-    QLineEdit *makeName(int place);
     QToolButton *makeColorButton(int place);
     void paintColor(QToolButton *button, int place) const;
-    QLineEdit *makeNumber(double value, const QString &name, double PlotCurveSettings::*member, int place);
+    QLineEdit *makeScale(const QString &name, double PlotCurveSettings::*member, int place);
     /// An axis of the settings.
     struct Range
     {

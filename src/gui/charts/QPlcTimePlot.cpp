@@ -86,13 +86,9 @@ QJsonObject QPlcTimePlot::settings() const
 
 void QPlcTimePlot::applySettings(const QJsonObject &settings)
 {
-    QJsonObject others;
-    for (auto entry = settings.begin(); entry != settings.end(); ++entry) {
-        if (!PlotSettings::isKnown(entry.key()))
-            others.insert(entry.key(), entry.value());
-    }
-    QPlcWidget::applySettings(others);
-    d->applySettings(PlotSettings::fromJson(settings));
+    PanelSettings own = PlotSettings::emptyJson();
+    QPlcWidget::applySettings(own.take(settings));
+    d->applySettings(PlotSettings::fromJson(own.toJson()));
 }
 
 QStringList QPlcTimePlot::shownSignals() const

@@ -14,8 +14,19 @@ SettingsEditor::~SettingsEditor()
         line->disconnect(this);
 }
 
-QLineEdit *SettingsEditor::addNumber(QFormLayout *form, const QString &label, std::optional<double> number,
-                                     const QString &whenEmpty, const std::function<void(std::optional<double>)> &write)
+QLineEdit *SettingsEditor::makeText(const QString &name, const QString &text,
+                                    const std::function<void(const QString &)> &write)
+{
+    auto *line = new QLineEdit(text, this);
+    line->setAccessibleName(name);
+    connect(line, &QLineEdit::editingFinished, this, [line, write, last = text]() mutable {
+        if (line->text().trimmed() != last)
+            write(last = line->text().trimmed());
+    });
+    return line;
+}
+
+QLineEdit *SettingsEditor::makeNumberLine(const QString &name, std::optional<double> number, const QString &whenEmpty)
 {
     constexpr int digits = 10;
     auto *line = new QLineEdit(number ? QLocale::c().toString(*number, 'g', digits) : QString(), this);
@@ -23,7 +34,30 @@ QLineEdit *SettingsEditor::addNumber(QFormLayout *form, const QString &label, st
     validator->setLocale(QLocale::c());
     line->setValidator(validator);
     line->setPlaceholderText(whenEmpty);
-    line->setAccessibleName(label);
+    line->setAccessibleName(name);
+    return line;
+}
+
+QLineEdit *SettingsEditor::makeNumber(const QString &name, std::optional<double> number, const QString &whenEmpty,
+                                      const std::function<void(std::optional<double>)> &write)
+{
+    QLineEdit *line = makeNumberLine(name, number, whenEmpty);
+    const bool canBeEmpty = !whenEmpty.isEmpty();
+    connect(line, &QLineEdit::textEdited, this, [write, canBeEmpty, last = number](const QString &text) mutable {
+        bool isNumber = false;
+        const double typed = text.toDouble(&isNumber);
+        const std::optional<double> wanted = isNumber ? std::optional<double>(typed) : std::nullopt;
+        const bool isFinished = isNumber || (canBeEmpty && text.isEmpty());  // "-" is not
+        if (isFinished && wanted != last)
+            write(last = wanted);
+    });
+    return line;
+}
+
+QLineEdit *SettingsEditor::addNumber(QFormLayout *form, const QString &label, std::optional<double> number,
+                                     const QString &whenEmpty, const std::function<void(std::optional<double>)> &write)
+{
+    QLineEdit *line = makeNumberLine(label, number, whenEmpty);
     form->addRow(label, line);
     connect(line, &QLineEdit::editingFinished, this, [line, write] {
         if (line->text().isEmpty())

@@ -23,10 +23,19 @@ public:
     ~SettingsEditor() override;
 
 protected:
+    /// A line for a text, without spaces at its ends. \param write  gets what a person has completed, if it is another text
+    QLineEdit *makeText(const QString &name, const QString &text, const std::function<void(const QString &)> &write);
+    /// A line for a number. \param whenEmpty  as in addNumber(); empty: there has to be a number
+    /// \param write  gets each other number while it is typed
+    QLineEdit *makeNumber(const QString &name, std::optional<double> number, const QString &whenEmpty,
+                          const std::function<void(std::optional<double>)> &write);
     /// Adds a line for a number. \param whenEmpty  what an empty line means, for people
     /// \param write  gets what a person has completed, at once when the line is emptied; may be the same number again
     QLineEdit *addNumber(QFormLayout *form, const QString &label, std::optional<double> number,
                          const QString &whenEmpty, const std::function<void(std::optional<double>)> &write);
+
+private:
+    QLineEdit *makeNumberLine(const QString &name, std::optional<double> number, const QString &whenEmpty);
 };
 
 }  // namespace qplc

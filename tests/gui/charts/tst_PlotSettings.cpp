@@ -52,8 +52,7 @@ void tst_PlotSettings::whatIsWrittenIsReadAsTheSame()
     QFETCH(QByteArray, text);
     const QJsonObject json = parsed(text);
     QCOMPARE(PlotSettings::fromJson(json).toJson(), json);
-    for (auto entry = json.begin(); entry != json.end(); ++entry)
-        QVERIFY2(PlotSettings::isKnown(entry.key()), qPrintable(entry.key()));
+    QCOMPARE(PlotSettings::emptyJson().take(json), QJsonObject());  // each key is known
 }
 
 void tst_PlotSettings::defaultsAreNotWritten()
