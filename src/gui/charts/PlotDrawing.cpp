@@ -21,8 +21,8 @@ constexpr int leastStatisticsHeight = 220;  // [px] of the panel: below there is
 constexpr double legendShare = 0.3;         // of the height of the panel, at most
 constexpr double legendShareBesideTable = 0.15;
 constexpr double statisticsShare = 0.3;
-constexpr int buttonMargin = 4;           // [px]
-constexpr qint64 second = 1'000'000'000;  // [ns]
+constexpr int buttonMargin = 4;                 // [px]
+constexpr qint64 wholeSeconds = 1'000'000'000;  // [ns]
 
 }  // namespace
 
@@ -196,7 +196,7 @@ QString QPlcTimePlot::Private::hintOfTime() const
     Time last = 0;
     if (!curves.timeRange(&first, &last) || (canvas->begin() <= last && first <= canvas->end()))
         return {};
-    const auto text = [](Time time) { return TimeTicks::clockText(time, second); };
+    const auto text = [](Time time) { return TimeTicks::clockText(time, wholeSeconds); };
     return QPlcTimePlot::tr("No values at this time: they are from %1 to %2.\nA shows them all, L the newest.")
         .arg(text(first), text(last));
 }

@@ -21,7 +21,7 @@ namespace qplc {
 
 namespace {
 
-using Time = QPlcPast::Time;
+using Time = CursorStatistics::Time;
 
 constexpr int mostRowsOfUpdate = 200'000;  // of all curves together: some milliseconds
 constexpr int statisticsDigits = 4;

@@ -25,7 +25,8 @@ public:
     explicit StatisticsView(QWidget *parent = nullptr);
 
     /// Shows the curves that are seen, and looks at some more rows.
-    void show(const PlotCurves &curves, std::optional<QPlcPast::Time> a, std::optional<QPlcPast::Time> b);
+    void show(const PlotCurves &curves, std::optional<CursorStatistics::Time> a,
+              std::optional<CursorStatistics::Time> b);
     /// Stores are others now.
     void reset() { m_statistics.clear(); }
     bool isUnfolded() const;
@@ -43,9 +44,10 @@ protected:
     void resizeEvent(QResizeEvent *event) override;
 
 private:
-    void showTimes(std::optional<QPlcPast::Time> a, std::optional<QPlcPast::Time> b);
-    void showCurves(const PlotCurves &curves, QPlcPast::Time a, QPlcPast::Time b);
-    void showRow(int row, const PlotCurve &curve, CursorStatistics *statistics, QPlcPast::Time a, QPlcPast::Time b);
+    void showTimes(std::optional<CursorStatistics::Time> a, std::optional<CursorStatistics::Time> b);
+    void showCurves(const PlotCurves &curves, CursorStatistics::Time a, CursorStatistics::Time b);
+    void showRow(int row, const PlotCurve &curve, CursorStatistics *statistics, CursorStatistics::Time a,
+                 CursorStatistics::Time b);
     /// \return whether it is another one
     bool setText(int row, int column, const QString &text);
     int leastNumberWidth() const;
