@@ -78,7 +78,7 @@ qtplc_package(libqtplc-dev SECTION libdevel
 qtplc_package(libqtplc-test-dev SECTION libdevel
     SUMMARY "distributed real-time controllers, for testing nodes"
     DESCRIPTION "What find_package(QtPlc COMPONENTS Test) finds: whole plants in one thread and in\nvirtual time, for tests of nodes."
-    DEPENDS libqtplc-dev libboost-context-dev RECOMMENDS qtplc-doc)
+    DEPENDS libqtplc-dev libboost-context-dev libsodium-dev RECOMMENDS qtplc-doc)
 qtplc_package(qtplc-tools SECTION utils
     SUMMARY "distributed real-time controllers, tools"
     DESCRIPTION "The command qtplc looks into a running QtPLC plant and steers it, and tells\nwhether a computer is fit for real time. The service qtplc-hardware@ ties\nsignals to devices."
