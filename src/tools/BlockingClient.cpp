@@ -7,15 +7,7 @@
 
 namespace tools {
 
-using Message = QPlcMessage;
 using qplc::ControlClient;
-
-bool hasCycles(const QString &state)
-{
-    namespace messages = qplc::messages;
-    return messages::hasCycles(
-        messages::valueNamed<messages::MasterState>(state).value_or(messages::MasterState::Unknown));
-}
 
 BlockingClient::BlockingClient(std::chrono::milliseconds timeout)
     : m_control({QStringLiteral("qtplc"), qplc::messages::Part::Tool, {}})
@@ -69,46 +61,41 @@ bool BlockingClient::setError(Error error, const QString &text)
     return false;
 }
 
-bool BlockingClient::ask(const Message &request, Message *answer)
+bool BlockingClient::exchange(const QPlcMessage &request)
 {
     if (m_error != NoError || !m_control.isGreeted())
         return false;
     QEventLoop loop;
-    Message received;
+    bool isAnswered = false;
     connect(this, &BlockingClient::lost, &loop, &QEventLoop::quit);
-    m_control.send(request, Message::Invalid, [&](const Message &message) {
-        received = message;
-        if (message.kind() == Message::Invalid)
+    m_control.send(request, [&](const QPlcMessage &message) {
+        if (message.kind() == QPlcMessage::Invalid)
             return;  // lost() follows
-        m_refusal = message.text(QStringLiteral("error"));
-        if (message.kind() == Message::Failed || message.kind() == Message::Rejected)
-            setError(Refused,
-                     QStringLiteral("the master refuses: %1").arg(printable(message.text(QStringLiteral("text")))));
+        isAnswered = true;
+        m_answer = message;
+        if (message.kind() == QPlcMessage::Failed || message.kind() == QPlcMessage::Rejected) {
+            const qplc::messages::Failed refusal = ControlClient::failureOf(message);
+            m_refusal = refusal.error;
+            setError(Refused, QStringLiteral("the master refuses: %1").arg(printable(refusal.text)));
+        }
         loop.quit();
     });
-    if (received.kind() == Message::Invalid && m_error == NoError)
+    if (!isAnswered && m_error == NoError)
         loop.exec();
-    if (m_error != NoError)
-        return false;
-    if (answer)
-        *answer = received;
-    return true;
+    return m_error == NoError;
 }
 
-bool BlockingClient::askFor(Message::Kind request, Message::Kind expected, const QJsonObject &fields, Message *answer)
+/// An older master says so of a kind that it does not know.
+bool BlockingClient::isUnknownKind() const
 {
-    const bool isAnswered = ask(Message(request, fields), answer);
-    const bool isUnknown = m_error == Refused && m_refusal == QLatin1String("MalformedMessage");
-    if (isUnknown || (isAnswered && answer->kind() != expected))
-        return setUnknown(request);
-    return isAnswered;
+    return m_error == Refused && m_refusal == QLatin1String("MalformedMessage");
 }
 
-bool BlockingClient::setUnknown(Message::Kind request)
+bool BlockingClient::setUnknown(QPlcMessage::Kind request)
 {
     return setError(Refused,
                     QStringLiteral("the master at %1 does not know %2; it is older than this tool: update it")
-                        .arg(m_address, Message::kindName(request)));
+                        .arg(m_address, QPlcMessage::kindName(request)));
 }
 
 QPlcSignalTable BlockingClient::table()

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "QPlcMessage.h"
 #include "QPlcSignalTable.h"
 #include "node/session/ControlClient.h"
 
@@ -11,9 +10,6 @@
 #include <optional>
 
 namespace tools {
-
-/// Whether cycles run in this state of a master.
-bool hasCycles(const QString &state);
 
 /// A tool at the control channel of a master that waits for each answer. Takes no part in the cycle.
 class BlockingClient : public QObject
@@ -36,24 +32,25 @@ public:
     bool connectToMaster(const QPlcUnderlyingProtocol &master);
     /// Sends \a request and waits for its answer.
     /// \return false when the master refused or was lost; \a answer is untouched then
-    bool ask(const QPlcMessage &request, QPlcMessage *answer = nullptr);
-    /// As ask(), for a kind that an older master may not know: then errorString() says so.
-    bool askFor(QPlcMessage::Kind request, QPlcMessage::Kind expected, const QJsonObject &fields, QPlcMessage *answer);
-
     template<typename Request>
-    bool ask(const Request &request, typename qplc::AnswerTo<Request>::Type *answer)
+    bool ask(const Request &request, typename qplc::AnswerTo<Request>::Type *answer = nullptr)
     {
-        QPlcMessage message;
-        return ask(qplc::messages::toMessage(request), &message) && read(Request::kind, message, answer);
+        using Answer = typename qplc::AnswerTo<Request>::Type;
+        if (!exchange(qplc::messages::toMessage(request)))
+            return false;
+        const std::optional<Answer> received = qplc::messages::readAs<Answer>(m_answer);
+        if (received && answer)
+            *answer = *received;
+        return received || setUnknown(Request::kind);
     }
+    /// As ask(), for a kind that an older master may not know: then errorString() says so.
     template<typename Request>
     bool askFor(const Request &request, typename Request::Answer *answer)
     {
-        QPlcMessage message;
-        const QPlcMessage sent = qplc::messages::toMessage(request);
-        return askFor(sent.kind(), Request::Answer::kind, sent.fields(), &message)
-            && read(Request::kind, message, answer);
+        return ask(request, answer) || (isUnknownKind() && setUnknown(Request::kind));
     }
+    /// The last answer as it came: also what this version does not know of it.
+    QJsonDocument lastAnswer() const { return qplc::messages::jsonOf(m_answer); }
 
     /// The signal table of the master; empty when it cannot be read, errorString() says why then.
     QPlcSignalTable table();
@@ -66,16 +63,8 @@ Q_SIGNALS:
     void lost();
 
 private:
-    template<typename Answer>
-    bool read(QPlcMessage::Kind request, const QPlcMessage &message, Answer *answer)
-    {
-        QString error;
-        Answer received;
-        if (message.kind() != Answer::kind || !qplc::messages::fromObject(message.fields(), &received, &error))
-            return setUnknown(request);
-        *answer = received;
-        return true;
-    }
+    bool exchange(const QPlcMessage &request);
+    bool isUnknownKind() const;
     void end(qplc::ControlClient::Loss loss, const QString &reason);
     bool setUnknown(QPlcMessage::Kind request);
     bool setError(Error error, const QString &text);
@@ -87,6 +76,7 @@ private:
     Error m_error = NoError;
     QString m_errorString;
     QString m_refusal;  // code of the newest one
+    QPlcMessage m_answer;
 };
 
 }  // namespace tools

@@ -25,17 +25,6 @@ bool CommandCall::connect(QPlcSignalTable *table) const
     return !table->isEmpty();
 }
 
-bool CommandCall::ask(const QPlcMessage &request, QPlcMessage *answer) const
-{
-    return tell(client.ask(request, answer));
-}
-
-bool CommandCall::askFor(QPlcMessage::Kind request, QPlcMessage::Kind expected, const QJsonObject &fields,
-                         QPlcMessage *answer) const
-{
-    return tell(client.askFor(request, expected, fields, answer));
-}
-
 int CommandCall::exitCode() const
 {
     switch (client.error()) {

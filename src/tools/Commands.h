@@ -23,15 +23,13 @@ struct CommandCall
     /// As connect(), and reads the signal table of the master.
     bool connect(QPlcSignalTable *table) const;
     /// Asks the master. \return false, with the message out; exitCode() then
-    bool ask(const QPlcMessage &request, QPlcMessage *answer = nullptr) const;
-    /// As ask(), for something that an older master may not know: its refusal becomes a sentence that says so, and so does an answer of another kind.
-    bool askFor(QPlcMessage::Kind request, QPlcMessage::Kind expected, const QJsonObject &fields,
-                QPlcMessage *answer) const;
     template<typename Request>
-    bool ask(const Request &request, typename qplc::AnswerTo<Request>::Type *answer) const
+    bool ask(const Request &request, typename qplc::AnswerTo<Request>::Type *answer = nullptr) const
     {
         return tell(client.ask(request, answer));
     }
+    /// As ask(), for something that an older master may not know: its refusal becomes a sentence that says so, and so
+    /// does an answer of another kind.
     template<typename Request>
     bool askFor(const Request &request, typename Request::Answer *answer) const
     {

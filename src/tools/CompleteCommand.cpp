@@ -3,8 +3,6 @@
 #include "Commands.h"
 #include "TerminalText.h"
 
-#include <QtCore/QJsonArray>
-
 namespace tools {
 
 namespace {
@@ -80,15 +78,14 @@ QStringList signalNames(const QString &address, bool onlyFree)
     BlockingClient client(patience);
     if (!master.isValid() || !client.connectToMaster(master))
         return {};
-    QPlcMessage answer;
-    if (onlyFree && !client.ask(QPlcMessage(QPlcMessage::GetSignals), &answer))
+    qplc::messages::Signals answer;
+    if (onlyFree && !client.ask(qplc::messages::GetSignals(), &answer))
         onlyFree = false;  // too many for one answer
     QStringList names;
     if (onlyFree) {
-        const QJsonArray rows = answer.fields().value(QStringLiteral("signals")).toArray();
-        for (const QJsonValue &row : rows) {
-            if (row[QStringLiteral("writer")].toString().isEmpty())
-                names << row[QStringLiteral("name")].toString();
+        for (const qplc::messages::SignalEntry &signal : answer.signals) {
+            if (signal.writer.isEmpty())
+                names << signal.name;
         }
     } else {
         const QPlcSignalTable table = client.table();

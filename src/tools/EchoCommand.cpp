@@ -7,7 +7,6 @@
 #include "node/cycle/ListeningInterval.h"
 
 #include <QtCore/QDeadlineTimer>
-#include <QtCore/QJsonArray>
 
 #include <algorithm>
 #include <cmath>
@@ -134,21 +133,20 @@ bool readEvery(const CommandCall &call, qint64 *every)
 int printLines(const CommandCall &call, const QPlcSignalTable &table, const QStringList &names, const LineRate &rate)
 {
     // Twice as often as lines come, and often enough for the buffer.
-    SignalListener listener(QStringLiteral("echo"), table, names, std::clamp(int(500.0 / rate.rate), 1, 50));
+    SignalListener listener(call, QStringLiteral("echo"), table, names, std::clamp(int(500.0 / rate.rate), 1, 50));
     listener.setInterval(int(rate.every));
     Echo echo(listener, call.isJson(), rate.rate, rate.count);
     QObject::connect(&listener, &SignalListener::valuesAtRest, &echo, &Echo::printAtRest);
-    QPlcMessage state;
-    QPlcMessage values;
-    const QPlcMessage wanted(QPlcMessage::GetSignals, {{QStringLiteral("names"), QJsonArray::fromStringList(names)}});
-    if (!call.ask(QPlcMessage(QPlcMessage::GetState), &state) || !call.ask(wanted, &values))
+    qplc::messages::State state;
+    qplc::messages::Signals values;
+    if (!call.ask(qplc::messages::GetState(), &state) || !call.ask(listener.question(), &values))
         return call.exitCode();
     const auto endIsWanted = call.quitOnSignals();
-    listener.take(state);
-    listener.take(values);
+    listener.takeState(state);
+    listener.takeValues(values);
     if (echo.isComplete())
         return QPlcCoreApplication::Success;
-    const bool hasJoined = listener.join(call);
+    const bool hasJoined = listener.join();
     if (*endIsWanted)
         return QPlcCoreApplication::Success;
     return hasJoined ? QCoreApplication::exec() : QPlcCoreApplication::Failure;

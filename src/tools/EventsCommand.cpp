@@ -51,8 +51,9 @@ private:
     }
     static Tone toneOf(const QString &severity)
     {
-        return severity == QLatin1String("error")  ? Tone::Bad
-            : severity == QLatin1String("warning") ? Tone::Caution
+        const auto known = messages::valueNamed<messages::Severity>(severity);
+        return known == messages::Severity::Error  ? Tone::Bad
+            : known == messages::Severity::Warning ? Tone::Caution
                                                    : Tone::Plain;
     }
 
@@ -94,7 +95,7 @@ int showEvents(const CommandCall &call)
     const bool isFollowing = call.application.isSet(QStringLiteral("follow"));
     EventPrinter printer(call.isJson());
     if (isFollowing) {
-        call.client.control().offer(QStringLiteral("events"));
+        call.client.control().offer(messages::feature::events);
         QObject::connect(&call.client.control(), &qplc::ControlClient::eventsHappened, &call.application,
                          [&printer](const messages::Events &events) { printer.print(events.events); });
     }

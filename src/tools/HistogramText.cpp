@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "HistogramText.h"
 
-#include <QtCore/QVector>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -17,13 +15,12 @@ struct Bin
     double count;
 };
 
-QVector<Bin> readBins(const QJsonArray &array)
+QVector<Bin> usedBins(const QVector<QPlcDistribution::Bin> &all)
 {
     QVector<Bin> bins;
-    for (const QJsonValue &item : array) {
-        const Bin bin{std::max(item[0].toDouble(), 1.0), item[1].toDouble()};
-        if (bin.count > 0.0)
-            bins.append(bin);
+    for (const QPlcDistribution::Bin &bin : all) {
+        if (bin.count > 0)
+            bins.append({std::max(double(bin.upperBorder), 1.0), double(bin.count)});
     }
     return bins;
 }
@@ -87,12 +84,14 @@ QString durationText(double nanoseconds)
     return {};
 }
 
-QStringList histogramLines(const QJsonArray &array, int width)
+QStringList histogramLines(const QVector<QPlcDistribution::Bin> &all, int width)
 {
-    const QVector<Bin> bins = readBins(array);
+    const QVector<Bin> bins = usedBins(all);
     if (bins.isEmpty())
         return {QStringLiteral("nothing recorded")};
-    const QVector<double> borders = rowBorders(bins.constFirst().border, bins.constLast().border);
+    const auto [lowest, highest]
+        = std::minmax_element(bins.begin(), bins.end(), [](const Bin &a, const Bin &b) { return a.border < b.border; });
+    const QVector<double> borders = rowBorders(lowest->border, highest->border);
     const QVector<double> counts = rowCounts(bins, borders);
     const double total = std::accumulate(counts.begin(), counts.end(), 0.0);
     const double most = *std::max_element(counts.begin(), counts.end());

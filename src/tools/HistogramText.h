@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <QtCore/QJsonArray>
+#include "QPlcDistribution.h"
+
 #include <QtCore/QStringList>
 
 namespace tools {
@@ -12,8 +13,7 @@ QString durationText(double nanoseconds);
 /// A histogram as lines of text: logarithmic bins, a bar of Unicode blocks for each, its count and its share.
 ///
 /// Rows go by 1, 2, 5, 10; where less than a decade is in use, by ten steps a decade. A row begins above the upper border of the one before.
-/// \param bins  [upper border in ns, count] each, in rising order, without empty ones
 /// \param width  of the lines [characters], at least 40
-QStringList histogramLines(const QJsonArray &bins, int width);
+QStringList histogramLines(const QVector<QPlcDistribution::Bin> &bins, int width);
 
 }  // namespace tools

@@ -4,147 +4,133 @@
 #include "HistogramText.h"
 #include "TerminalText.h"
 
-#include <QtCore/QJsonArray>
+#include <array>
 
 namespace tools {
 
+namespace messages = qplc::messages;
+
 namespace {
 
-struct Quantity
+using Window = QPlcDistribution QPlcDurationStatistics::*;
+
+QString titleOf(Window window)
 {
-    const char *field;
-    const char *title;
-};
-
-const Quantity quantities[]
-    = {{"lateness", "lateness"}, {"roundTrip", "round trip"}, {"execution", "execution"}, {"slack", "slack"}};
-
-const Quantity windows[] = {{"sinceStart", "since start"}, {"last10s", "last 10 s"}};
+    return window == &QPlcDurationStatistics::sinceStart ? QStringLiteral("since start") : QStringLiteral("last 10 s");
+}
 
 /// A distribution of one of the master or a node: what the tables and the histograms have rows for.
 struct Distribution
 {
     QString who;
     QString title;
-    QJsonObject windows;
+    QPlcDurationStatistics duration;
+    bool isSlack = false;
 };
 
-QVector<Distribution> distributionsOf(const QString &who, const QJsonObject &fields)
+QVector<Distribution> distributionsOf(const messages::Statistics &statistics)
 {
-    QVector<Distribution> found;
-    for (const Quantity &quantity : quantities) {
-        const QJsonValue value = fields.value(QLatin1String(quantity.field));
-        if (value.isObject())
-            found.append({who, QString::fromLatin1(quantity.title), value.toObject()});
+    QVector<Distribution> all;
+    QString who = QStringLiteral("Master");
+    const auto add
+        = [&](const char *title, const std::optional<QPlcDurationStatistics> &duration, bool isSlack = false) {
+              if (duration)
+                  all.append({who, QString::fromLatin1(title), *duration, isSlack});
+          };
+    add("lateness", statistics.master.lateness);
+    const auto addMore = [&](const auto &measures) {
+        add("round trip", measures.roundTrip);
+        add("execution", measures.execution);
+        add("slack", measures.slack, true);
+    };
+    addMore(statistics.master);
+    for (const messages::NodeMeasures &node : statistics.nodes) {
+        who = node.name;
+        addMore(node);
     }
-    return found;
-}
-
-QVector<Distribution> distributionsOf(const QJsonObject &statistics)
-{
-    QVector<Distribution> all
-        = distributionsOf(QStringLiteral("Master"), statistics.value(QStringLiteral("master")).toObject());
-    const QJsonArray nodes = statistics.value(QStringLiteral("nodes")).toArray();
-    for (const QJsonValue &node : nodes)
-        all += distributionsOf(node[QStringLiteral("name")].toString(), node.toObject());
     return all;
 }
 
 /// What the columns show: of slack the little that was left is of interest, of all else the most that it took.
-QStringList tailFields(const Distribution &distribution)
+std::array<double, 5> figuresOf(const QPlcDistribution &of, bool isSlack)
 {
-    const bool isSlack = distribution.title == QLatin1String("slack");
-    return isSlack ? QStringList{QStringLiteral("mean"), QStringLiteral("p50"), QStringLiteral("p01"),
-                                 QStringLiteral("p001"), QStringLiteral("minimum")}
-                   : QStringList{QStringLiteral("mean"), QStringLiteral("p50"), QStringLiteral("p99"),
-                                 QStringLiteral("p999"), QStringLiteral("maximum")};
+    if (isSlack)
+        return {of.mean, double(of.p50), double(of.p01), double(of.p001), double(of.minimum)};
+    return {of.mean, double(of.p50), double(of.p99), double(of.p999), double(of.maximum)};
 }
 
-void printWindow(const QVector<Distribution> &distributions, const Quantity &window)
+void printWindow(const QVector<Distribution> &distributions, Window window)
 {
     TextTable table;
-    table.addColumn(QString::fromLatin1(window.title));
+    table.addColumn(titleOf(window));
     table.addColumn(QString());
     for (const char *title : {"count", "mean", "p50", "worst 1 %", "worst 0.1 %", "worst"})
         table.addColumn(QString::fromLatin1(title), Right);
     for (const Distribution &distribution : distributions) {
-        const QJsonObject numbers = distribution.windows.value(QLatin1String(window.field)).toObject();
-        const double count = numbers.value(QStringLiteral("count")).toDouble();
-        QStringList cells{distribution.who, distribution.title, QString::number(count, 'f', 0)};
-        const QStringList fields = tailFields(distribution);
-        for (const QString &field : fields)
-            cells << (count > 0.0 ? durationText(numbers.value(field).toDouble()) : QString());
+        const QPlcDistribution &numbers = distribution.duration.*window;
+        QStringList cells{distribution.who, distribution.title, QString::number(numbers.count)};
+        for (double figure : figuresOf(numbers, distribution.isSlack))
+            cells << (numbers.count > 0 ? durationText(figure) : QString());
         table.addRow(cells);
     }
     table.print();
 }
 
-void printCounters(const QJsonObject &statistics)
+void printCounters(const QString &who, const QMap<QString, double> &counters)
 {
-    const auto print = [](const QString &who, const QJsonObject &counters) {
-        QStringList texts;
-        for (auto it = counters.begin(); it != counters.end(); ++it)
-            texts << QStringLiteral("%1 %2").arg(it.key()).arg(it.value().toDouble(), 0, 'f', 0);
-        if (!texts.isEmpty())
-            printWrapped(printable(who) + QStringLiteral(": "), displayWidth(printable(who)) + 2,
-                         printable(texts.join(QStringLiteral(", "))));
-    };
-    const QString field = QStringLiteral("counters");
-    print(QStringLiteral("Master"), statistics.value(QStringLiteral("master"))[field].toObject());
-    const QJsonArray nodes = statistics.value(QStringLiteral("nodes")).toArray();
-    for (const QJsonValue &node : nodes)
-        print(node[QStringLiteral("name")].toString(), node[field].toObject());
+    QStringList texts;
+    for (auto it = counters.begin(); it != counters.end(); ++it)
+        texts << QStringLiteral("%1 %2").arg(it.key()).arg(it.value(), 0, 'f', 0);
+    if (!texts.isEmpty())
+        printWrapped(printable(who) + QStringLiteral(": "), displayWidth(printable(who)) + 2,
+                     printable(texts.join(QStringLiteral(", "))));
 }
 
-void printWorstCycles(const QJsonArray &cycles)
+void printWorstCycles(const std::vector<QPlcWorstCycle> &cycles)
 {
-    if (cycles.isEmpty())
+    if (cycles.empty())
         return;
     TextTable table;
-    table.addColumn(QStringLiteral("worst cycle"), Right);
-    for (const Quantity &quantity : quantities)
-        table.addColumn(QString::fromLatin1(quantity.title), Right);
+    for (const char *title : {"worst cycle", "lateness", "round trip", "execution", "slack"})
+        table.addColumn(QString::fromLatin1(title), Right);
     table.addColumn(QStringLiteral("stages"));
-    for (const QJsonValue &cycle : cycles) {
-        QStringList cells{QString::number(cycle[QStringLiteral("cycle")].toDouble(), 'f', 0)};
-        for (const Quantity &quantity : quantities)
-            cells << durationText(cycle[QLatin1String(quantity.field)].toDouble());
+    for (const QPlcWorstCycle &cycle : cycles) {
         QStringList stages;
-        const QJsonArray parts = cycle[QStringLiteral("stages")].toArray();
-        for (const QJsonValue &part : parts)
-            stages << QStringLiteral("%1 %2").arg(part[QStringLiteral("name")].toString(),
-                                                  durationText(part[QStringLiteral("duration")].toDouble()));
-        table.addRow(cells << stages.join(QStringLiteral(", ")));
+        for (const QPlcWorstCycle::Stage &stage : cycle.stages)
+            stages << QStringLiteral("%1 %2").arg(stage.name, durationText(double(stage.duration)));
+        table.addRow({QString::number(cycle.cycle), durationText(double(cycle.lateness)),
+                      durationText(double(cycle.roundTrip)), durationText(double(cycle.execution)),
+                      durationText(double(cycle.slack)), stages.join(QStringLiteral(", "))});
     }
     printLine(QString());
     table.print();
 }
 
-void printTables(const QJsonObject &statistics)
+void printTables(const messages::Statistics &statistics)
 {
     const QVector<Distribution> distributions = distributionsOf(statistics);
-    for (const Quantity &window : windows) {
+    for (Window window : {&QPlcDurationStatistics::sinceStart, &QPlcDurationStatistics::last10s}) {
         printWindow(distributions, window);
         printLine(QString());
     }
-    printCounters(statistics);
-    printWorstCycles(statistics.value(QStringLiteral("worst")).toArray());
+    printCounters(QStringLiteral("Master"), statistics.master.counters);
+    for (const messages::NodeMeasures &node : statistics.nodes)
+        printCounters(node.name, node.counters);
+    printWorstCycles(statistics.worst);
 }
 
-void printHistograms(const QJsonObject &statistics)
+void printHistograms(const messages::Statistics &statistics)
 {
     const QVector<Distribution> distributions = distributionsOf(statistics);
     for (const Distribution &distribution : distributions) {
-        const QJsonObject numbers = distribution.windows.value(QLatin1String(windows[0].field)).toObject();
-        printLine(toned(printable(QStringLiteral("%1 %2, %3: %4 values, p50 %5, p99 %6, max %7")
-                                      .arg(distribution.who, distribution.title, QLatin1String(windows[0].title))
-                                      .arg(numbers.value(QStringLiteral("count")).toDouble(), 0, 'f', 0)
-                                      .arg(durationText(numbers.value(QStringLiteral("p50")).toDouble()),
-                                           durationText(numbers.value(QStringLiteral("p99")).toDouble()),
-                                           durationText(numbers.value(QStringLiteral("maximum")).toDouble()))),
+        const QPlcDistribution &numbers = distribution.duration.sinceStart;
+        printLine(toned(printable(QStringLiteral("%1 %2, since start: %3 values, p50 %4, p99 %5, max %6")
+                                      .arg(distribution.who, distribution.title)
+                                      .arg(numbers.count)
+                                      .arg(durationText(double(numbers.p50)), durationText(double(numbers.p99)),
+                                           durationText(double(numbers.maximum)))),
                         Tone::Title));
-        const QStringList lines
-            = histogramLines(numbers.value(QStringLiteral("bins")).toArray(), terminalSize().columns);
+        const QStringList lines = histogramLines(numbers.bins, terminalSize().columns);
         for (const QString &line : lines)
             printLine(line);
         printLine(QString());
@@ -156,14 +142,11 @@ void printHistograms(const QJsonObject &statistics)
 int showJitter(const CommandCall &call)
 {
     const bool wantsHistograms = call.application.isSet(QStringLiteral("hist"));
-    QPlcMessage answer;
-    if (!call.connect()
-        || !call.askFor(QPlcMessage::GetStatistics, QPlcMessage::Statistics,
-                        {{QStringLiteral("histograms"), wantsHistograms}}, &answer))
+    messages::Statistics statistics;
+    if (!call.connect() || !call.askFor(messages::GetStatistics{wantsHistograms}, &statistics))
         return call.exitCode();
-    const QJsonObject statistics = answer.fields();
     if (call.isJson())
-        printJson(QJsonDocument(statistics));
+        printJson(call.client.lastAnswer());
     else if (distributionsOf(statistics).isEmpty())
         printLine(QStringLiteral("no statistics yet; start the plant: qtplc start"));
     else

@@ -12,7 +12,7 @@ int showLeases(const CommandCall &call)
     if (!call.connect() || !call.askFor(messages::GetLeases(), &answer))
         return call.exitCode();
     if (call.isJson()) {
-        printJson(QJsonDocument(messages::toObject(answer)));
+        printJson(call.client.lastAnswer());
         return QPlcCoreApplication::Success;
     }
     if (answer.leases.empty()) {
@@ -24,8 +24,9 @@ int showLeases(const CommandCall &call)
         table.addColumn(QString::fromLatin1(title));
     table.addColumn(QStringLiteral("timeout [s]"), Right);
     for (const messages::LeaseEntry &lease : answer.leases) {
-        table.addRow({lease.signal, lease.holder, lease.lease, QString::number(double(lease.timeout.count()) * 1e-9)});
-        table.setTone(2, lease.lease == QLatin1String("lost") ? Tone::Bad : Tone::Plain);
+        table.addRow({lease.signal, lease.holder, QString::fromLatin1(messages::nameOf(lease.lease)),
+                      QString::number(double(lease.timeout.count()) * 1e-9)});
+        table.setTone(2, lease.lease == messages::LeaseState::Lost ? Tone::Bad : Tone::Plain);
     }
     table.print();
     return QPlcCoreApplication::Success;

@@ -8,54 +8,48 @@
 
 namespace tools {
 
+namespace messages = qplc::messages;
+
 namespace {
 
 constexpr int signalsPerAnswer = 500;  // an answer has at most 1 MiB
 
+using Row = messages::SignalEntry;
+
 /// The wanted signals as the master describes them. \return false, with the message out
-bool askForSignals(const CommandCall &call, QPlcSignalTable *table, QVector<QJsonObject> *rows)
+bool askForSignals(const CommandCall &call, QPlcSignalTable *table, std::vector<Row> *rows)
 {
     QStringList names;
     if (!call.connect(table) || !selectSignalsOrAll(call.application, *table, call.arguments, &names))
         return false;
     for (int first = 0; first < names.size(); first += signalsPerAnswer) {
-        QPlcMessage answer;
-        const QJsonArray wanted = QJsonArray::fromStringList(names.mid(first, signalsPerAnswer));
-        if (!call.ask(QPlcMessage(QPlcMessage::GetSignals, {{QStringLiteral("names"), wanted}}), &answer))
+        messages::Signals answer;
+        if (!call.ask(messages::GetSignals{names.mid(first, signalsPerAnswer)}, &answer))
             return false;
-        const QJsonArray part = answer.fields().value(QStringLiteral("signals")).toArray();
-        for (const QJsonValue &row : part)
-            rows->append(row.toObject());
+        rows->insert(rows->end(), answer.signals.begin(), answer.signals.end());
     }
     return true;
 }
 
-QString text(const QJsonObject &row, const char *field)
+QJsonValue valueOf(const QPlcSignalTable &table, const Row &row)
 {
-    return row.value(QLatin1String(field)).toString();
-}
-
-QJsonValue valueOf(const QPlcSignalTable &table, const QJsonObject &row)
-{
-    const QPlcSignalIndex index = table.indexOf(text(row, "name"));
-    return index == QPlcInvalidSignalIndex ? QJsonValue(text(row, "value"))
-                                           : toJson(table.at(index), text(row, "value"));
+    const QPlcSignalIndex index = table.indexOf(row.name);
+    return index == QPlcInvalidSignalIndex ? QJsonValue(row.value) : toJson(table.at(index), row.value);
 }
 
 /// What people read: names of values where the table has some.
-QString readableValue(const QPlcSignalTable &table, const QJsonObject &row)
+QString readableValue(const QPlcSignalTable &table, const Row &row)
 {
-    const QString value = text(row, "value");
-    const QPlcSignalIndex index = table.indexOf(text(row, "name"));
+    const QPlcSignalIndex index = table.indexOf(row.name);
     if (index == QPlcInvalidSignalIndex || table.at(index).valueNames.isEmpty())
-        return value;
-    return table.at(index).textOf(QPlcValue::fromString(table.at(index).type, value));
+        return row.value;
+    return table.at(index).textOf(QPlcValue::fromString(table.at(index).type, row.value));
 }
 
-QJsonObject namesOf(const QPlcSignalTable &table, const QJsonObject &row)
+QJsonObject namesOf(const QPlcSignalTable &table, const Row &row)
 {
     QJsonObject names;
-    const QPlcSignalIndex index = table.indexOf(text(row, "name"));
+    const QPlcSignalIndex index = table.indexOf(row.name);
     if (index != QPlcInvalidSignalIndex) {
         for (const QPlcValueNames::Entry &entry : table.at(index).valueNames)
             names.insert(QString::number(entry.value), entry.name);
@@ -63,32 +57,35 @@ QJsonObject namesOf(const QPlcSignalTable &table, const QJsonObject &row)
     return names;
 }
 
-/// "B of A > B": of several writers the one whose values the signal has.
-QString writerOf(const QJsonObject &row)
+QString qualityOf(const Row &row)
 {
-    const QString source = text(row, "source");
-    const QString writer = text(row, "writer");
-    return source.isEmpty() || source == writer ? writer : QStringLiteral("%1 of %2").arg(source, writer);
+    return QPlcQuality::fromByte(row.quality).toString();
 }
 
-void printTable(const QPlcSignalTable &signalTable, const QVector<QJsonObject> &rows, bool verbose)
+/// "B of A > B": of several writers the one whose values the signal has.
+QString writerOf(const Row &row)
 {
-    QStringList fields{QStringLiteral("name"), QStringLiteral("type"),    QStringLiteral("value"),
-                       QStringLiteral("unit"), QStringLiteral("quality"), QStringLiteral("writer")};
-    if (verbose)
-        fields << QStringLiteral("description");
+    const QString source = row.source.value_or(QString());
+    return source.isEmpty() || source == row.writer ? row.writer : QStringLiteral("%1 of %2").arg(source, row.writer);
+}
+
+void printTable(const QPlcSignalTable &signalTable, const std::vector<Row> &rows, bool verbose)
+{
+    constexpr int qualityColumn = 4;
     TextTable table;
-    for (const QString &field : qAsConst(fields))
-        table.addColumn(field, field == QLatin1String("value") ? Right : Left);
-    for (const QJsonObject &row : rows) {
-        QStringList cells;
-        for (const QString &field : qAsConst(fields))
-            cells << (field == QLatin1String("value")         ? readableValue(signalTable, row)
-                          : field == QLatin1String("quality") ? qualityOf(row).toString()
-                          : field == QLatin1String("writer")  ? writerOf(row)
-                                                              : row.value(field).toString());
+    table.addColumn(QStringLiteral("name"));
+    table.addColumn(QStringLiteral("type"));
+    table.addColumn(QStringLiteral("value"), Right);
+    for (const char *title : {"unit", "quality", "writer"})
+        table.addColumn(QString::fromLatin1(title));
+    if (verbose)
+        table.addColumn(QStringLiteral("description"));
+    for (const Row &row : rows) {
+        QStringList cells{row.name, row.type, readableValue(signalTable, row), row.unit, qualityOf(row), writerOf(row)};
+        if (verbose)
+            cells << row.description;
         table.addRow(cells);
-        table.setTone(fields.indexOf(QStringLiteral("quality")), toneOfQuality(qualityOf(row).toString()));
+        table.setTone(qualityColumn, toneOfQuality(qualityOf(row)));
     }
     table.print();
 }
@@ -98,7 +95,7 @@ void printTable(const QPlcSignalTable &signalTable, const QVector<QJsonObject> &
 int listSignals(const CommandCall &call)
 {
     QPlcSignalTable table;
-    QVector<QJsonObject> rows;
+    std::vector<Row> rows;
     if (!askForSignals(call, &table, &rows))
         return call.exitCode();
     if (!call.isJson()) {
@@ -106,13 +103,14 @@ int listSignals(const CommandCall &call)
         return QPlcCoreApplication::Success;
     }
     QJsonArray array;
-    for (QJsonObject &row : rows) {
-        row.insert(QStringLiteral("value"), valueOf(table, row));
+    for (const Row &row : rows) {
+        QJsonObject object = messages::toObject(row);
+        object.insert(QStringLiteral("value"), valueOf(table, row));
         const QJsonObject names = namesOf(table, row);
         if (!names.isEmpty())
-            row.insert(QStringLiteral("names"), names);
-        row.insert(QStringLiteral("quality"), qualityOf(row).toString());
-        array.append(row);
+            object.insert(QStringLiteral("names"), names);
+        object.insert(QStringLiteral("quality"), qualityOf(row));
+        array.append(object);
     }
     printJson(QJsonDocument(array));
     return QPlcCoreApplication::Success;
@@ -124,22 +122,20 @@ int getSignals(const CommandCall &call)
     if (isPlain && call.isJson())
         return call.application.usageError(QStringLiteral("--plain and --json exclude each other; use one of them"));
     QPlcSignalTable table;
-    QVector<QJsonObject> rows;
+    std::vector<Row> rows;
     if (!askForSignals(call, &table, &rows))
         return call.exitCode();
     QJsonObject values;
-    for (const QJsonObject &row : qAsConst(rows)) {
-        const QString value = printable(isPlain ? text(row, "value") : readableValue(table, row));
-        const QPlcQuality quality = qualityOf(row);
-        const QString doubt = quality.isGood()
+    for (const Row &row : rows) {
+        const QString value = printable(isPlain ? row.value : readableValue(table, row));
+        const QString doubt = QPlcQuality::fromByte(row.quality).isGood()
             ? QString()
-            : toned(QStringLiteral("  (%1)").arg(quality.toString()), toneOfQuality(quality.toString()));
+            : toned(QStringLiteral("  (%1)").arg(qualityOf(row)), toneOfQuality(qualityOf(row)));
         if (call.isJson())
-            values.insert(text(row, "name"), valueOf(table, row));
+            values.insert(row.name, valueOf(table, row));
         else
             printLine(isPlain ? value
-                              : QStringLiteral("%1 = %2%3")
-                                    .arg(text(row, "name"), withUnit(value, printable(text(row, "unit"))), doubt));
+                              : QStringLiteral("%1 = %2%3").arg(row.name, withUnit(value, printable(row.unit)), doubt));
     }
     if (call.isJson())
         printJson(QJsonDocument(values));

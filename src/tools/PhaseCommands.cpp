@@ -9,12 +9,10 @@ namespace messages = qplc::messages;
 
 namespace {
 
-/// Asks for something that is done or not.
+/// Tells that \a request was carried out.
 template<typename Request>
-int command(const CommandCall &call, const Request &request, const QString &done)
+int tellDone(const CommandCall &call, const Request &request, const QString &done)
 {
-    if (!call.connect() || !call.ask(messages::toMessage(request)))
-        return call.exitCode();
     if (call.isJson()) {
         QJsonObject document = messages::toObject(request);
         document.insert(QStringLiteral("done"), QPlcMessage::kindName(Request::kind));
@@ -23,6 +21,13 @@ int command(const CommandCall &call, const Request &request, const QString &done
         printLine(done);
     }
     return QPlcCoreApplication::Success;
+}
+
+/// Asks for something that is done or not.
+template<typename Request>
+int command(const CommandCall &call, const Request &request, const QString &done)
+{
+    return call.connect() && call.ask(request) ? tellDone(call, request, done) : call.exitCode();
 }
 
 }  // namespace
@@ -38,7 +43,7 @@ int armMaster(const CommandCall &call)
     if (!call.connect() || !call.askFor(messages::Arm(), &armed))
         return call.exitCode();
     if (call.isJson())
-        printJson(QJsonDocument(messages::toObject(armed)));
+        printJson(call.client.lastAnswer());
     else
         printLine(QStringLiteral("armed for %1 s; token %2")
                       .arg(double(armed.validFor.count()) * 1e-9)
@@ -58,8 +63,19 @@ int stopSafely(const CommandCall &call)
 
 namespace {
 
+/// The option --token. \return false, with the message out, when its value is no token
+bool readToken(const CommandCall &call, std::optional<messages::Hex64> *token)
+{
+    const QString text = call.application.value(QStringLiteral("token"));
+    if (text.isEmpty() || messages::Wire<std::optional<messages::Hex64>>::fromJson(text, token))
+        return true;
+    call.application.usageError(
+        QStringLiteral("'%1' is not a token; use the one that qtplc arm prints: 16 hexadecimal digits").arg(text));
+    return false;
+}
+
 /// The token of a start, where the master requires one. \return false, with the message out
-bool armIfRequired(const CommandCall &call, QString *token)
+bool armIfRequired(const CommandCall &call, std::optional<messages::Hex64> *token)
 {
     messages::State state;
     messages::Armed armed;
@@ -67,11 +83,11 @@ bool armIfRequired(const CommandCall &call, QString *token)
         return false;
     if (!state.armingRequired)
         return true;
-    if (state.state == messages::MasterState::Off && !call.ask(QPlcMessage(QPlcMessage::InitializeAllStates)))
+    if (state.state == messages::MasterState::Off && !call.ask(messages::InitializeAllStates()))
         return false;  // a start would have done it, but permits are given in Ready
     if (!call.askFor(messages::Arm(), &armed))
         return false;
-    *token = QPlcMessage::fromHex64(armed.token);
+    *token = armed.token;
     return true;
 }
 
@@ -81,30 +97,20 @@ int startRealTime(const CommandCall &call)
 {
     constexpr qint64 mostCycles = 1'000'000'000'000;
     qint64 cycles = 0;
-    QString token = call.application.value(QStringLiteral("token"));
-    if (!call.readInteger("cycles", 1, mostCycles, &cycles))
+    messages::StartRealTime start;
+    if (!readToken(call, &start.token) || !call.readInteger("cycles", 1, mostCycles, &cycles))
         return call.exitCode();
-    if (token.isEmpty() ? !armIfRequired(call, &token) : !call.connect())
+    if (start.token ? !call.connect() : !armIfRequired(call, &start.token))
         return call.exitCode();
-    QJsonObject fields;
-    QJsonObject document{{QStringLiteral("done"), QStringLiteral("StartRealTime")}};
-    if (!token.isEmpty())
-        fields.insert(QStringLiteral("token"), token);
-    if (cycles > 0) {
-        fields.insert(QStringLiteral("cycles"), cycles);
-        document.insert(QStringLiteral("cycles"), cycles);
-    }
-    if (!call.ask(QPlcMessage(QPlcMessage::StartRealTime, fields)))
+    if (cycles > 0)
+        start.cycles = quint64(cycles);
+    if (!call.ask(start))
         return call.exitCode();
-    if (call.isJson())
-        printJson(QJsonDocument(document));
-    else if (cycles == 0)
-        printLine(QStringLiteral("started"));
-    else
-        printLine(QStringLiteral("started for %1 %2")
-                      .arg(cycles)
-                      .arg(cycles == 1 ? QStringLiteral("cycle") : QStringLiteral("cycles")));
-    return QPlcCoreApplication::Success;
+    start.token.reset();  // it is used up
+    return tellDone(call, start,
+                    cycles == 0       ? QStringLiteral("started")
+                        : cycles == 1 ? QStringLiteral("started for 1 cycle")
+                                      : QStringLiteral("started for %1 cycles").arg(cycles));
 }
 
 int stopRealTime(const CommandCall &call)

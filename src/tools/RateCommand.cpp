@@ -14,6 +14,8 @@
 
 namespace tools {
 
+namespace messages = qplc::messages;
+
 namespace {
 
 /// A listener without signals: notes when each cycle comes.
@@ -37,32 +39,19 @@ private:
     qplc::SpscRing<Arrival> m_arrivals{65536};
 };
 
-/// State of the master at one moment.
-struct MasterState
+quint64 skippedCycles(const messages::State &state)
 {
-    QString name;  // as docs/protocol.md has it
-    bool isRunning = false;
-    double period = 0.0;  // [s]
-    QString clock;
-    quint64 skipped = 0;
+    QPlcMasterStatistics counters;
+    messages::setCounters(state.counters, &counters);
+    return counters.skippedCycles;
+}
 
-    static bool read(const CommandCall &call, MasterState *state)
-    {
-        QPlcMessage answer;
-        if (!call.ask(QPlcMessage(QPlcMessage::GetState), &answer))
-            return false;
-        const QString name = answer.text(QStringLiteral("state"));
-        const QJsonObject counters = answer.fields().value(QStringLiteral("counters")).toObject();
-        state->name = name;
-        state->isRunning = hasCycles(name);
-        state->period = answer.fields().value(QStringLiteral("period")).toDouble() * 1e-9;
-        state->clock = answer.text(QStringLiteral("clock"));
-        state->skipped = quint64(counters.value(QStringLiteral("skippedCycles")).toDouble());
-        return true;
-    }
-};
+double periodOf(const messages::State &state)  // [s]
+{
+    return double(state.period.count()) * 1e-9;
+}
 
-void print(const RateStatistics &rate, const MasterState &state, quint64 skipped)
+void print(const RateStatistics &rate, const messages::State &state, quint64 skipped)
 {
     const auto field = [](const char *label, const QString &value) {
         printLine(QStringLiteral("%1%2").arg(QString::fromLatin1(label), -10).arg(value));
@@ -71,8 +60,8 @@ void print(const RateStatistics &rate, const MasterState &state, quint64 skipped
     field("rate",
           QStringLiteral("%1 Hz (%2, period %3 ms)")
               .arg(rate.rate(), 0, 'f', 3)
-              .arg(printable(qplc::stateText(state.clock)))
-              .arg(state.period * 1e3));
+              .arg(qplc::stateText(state.clock))
+              .arg(periodOf(state) * 1e3));
     field("interval",
           QStringLiteral("mean %1, min %2, max %3, standard deviation %4")
               .arg(durationText(rate.mean()), durationText(rate.minimum()), durationText(rate.maximum()),
@@ -85,7 +74,7 @@ void print(const RateStatistics &rate, const MasterState &state, quint64 skipped
                                  .arg(skipped));
 }
 
-void printAsJson(const RateStatistics &rate, const MasterState &state, quint64 skipped)
+void printAsJson(const RateStatistics &rate, const messages::State &state, quint64 skipped)
 {
     const QJsonObject interval{{QStringLiteral("count"), double(rate.intervals())},
                                {QStringLiteral("mean"), rate.mean()},
@@ -95,8 +84,8 @@ void printAsJson(const RateStatistics &rate, const MasterState &state, quint64 s
     printJson(QJsonDocument(QJsonObject{{QStringLiteral("cycles"), double(rate.cycles())},
                                         {QStringLiteral("duration"), rate.duration()},
                                         {QStringLiteral("rate"), rate.rate()},
-                                        {QStringLiteral("clock"), state.clock},
-                                        {QStringLiteral("period"), state.period},
+                                        {QStringLiteral("clock"), QLatin1String(messages::nameOf(state.clock))},
+                                        {QStringLiteral("period"), periodOf(state)},
                                         {QStringLiteral("interval"), interval},
                                         {QStringLiteral("lost"), double(rate.lost())},
                                         {QStringLiteral("lostCycles"), rate.gaps()},
@@ -130,14 +119,14 @@ bool listen(CycleEar &ear, double seconds, RateStatistics *rate)
 int measureRate(const CommandCall &call)
 {
     double seconds = 3.0;
-    MasterState before;
-    MasterState after;
-    if (!call.readNumber("for", 0.01, 1e6, &seconds) || !call.connect() || !MasterState::read(call, &before))
+    messages::State before;
+    messages::State after;
+    if (!call.readNumber("for", 0.01, 1e6, &seconds) || !call.connect() || !call.ask(messages::GetState(), &before))
         return call.exitCode();
-    if (!before.isRunning) {
+    if (!messages::hasCycles(before.state)) {
         QPlcCoreApplication::printError(
             QStringLiteral("the master is in state %1 and has no cycles; start it: qtplc start")
-                .arg(printable(qplc::stateText(before.name))));
+                .arg(qplc::stateText(before.state)));
         return QPlcCoreApplication::Failure;
     }
     const auto endIsWanted = call.quitOnSignals();
@@ -150,14 +139,16 @@ int measureRate(const CommandCall &call)
         QPlcCoreApplication::printError(QStringLiteral("the master has ended during the measurement"));
         return QPlcCoreApplication::Failure;
     }
-    if (!MasterState::read(call, &after))
+    if (!call.ask(messages::GetState(), &after))
         return call.exitCode();
     if (rate.cycles() < 2) {
         QPlcCoreApplication::printError(
             QStringLiteral("%1 cycles came in %2 s; measure longer with --for").arg(rate.cycles()).arg(seconds));
         return QPlcCoreApplication::Failure;
     }
-    const quint64 skipped = after.skipped >= before.skipped ? after.skipped - before.skipped : after.skipped;
+    const quint64 skippedBefore = skippedCycles(before);
+    const quint64 skippedSoFar = skippedCycles(after);
+    const quint64 skipped = skippedSoFar - (skippedSoFar >= skippedBefore ? skippedBefore : 0);  // 0: a new phase
     call.isJson() ? printAsJson(rate, after, skipped) : print(rate, after, skipped);
     return rate.lost() > 0 ? QPlcCoreApplication::Failure : QPlcCoreApplication::Success;
 }

@@ -2,38 +2,33 @@
 #include "Commands.h"
 #include "TerminalText.h"
 
-#include <QtCore/QJsonArray>
-
 namespace tools {
 
 namespace {
 
-void printStages(const QJsonArray &stages)
+void printStages(const QPlcSchedule &schedule)
 {
     TextTable table;
     table.addColumn(QStringLiteral("stage"), Right);
     table.addColumn(QStringLiteral("node"));
     table.addColumn(QStringLiteral("phase"));
-    for (int i = 0; i < stages.size(); ++i) {
-        const QJsonArray steps = stages.at(i).toArray();
-        for (const QJsonValue &step : steps)
-            table.addRow({QString::number(i + 1), step[QStringLiteral("node")].toString(),
-                          step[QStringLiteral("phase")].toString()});
+    for (int i = 0; i < schedule.stages.size(); ++i) {
+        for (const QPlcSchedule::Turn &turn : schedule.stages.at(i))
+            table.addRow({QString::number(i + 1), turn.node, QPlcSchedule::phaseName(turn.phase)});
     }
     table.print();
 }
 
-void printLinks(const QJsonArray &links)
+void printLinks(const QPlcSchedule &schedule)
 {
     TextTable table;
     for (const char *title : {"signal", "from", "to"})
         table.addColumn(QString::fromLatin1(title));
     table.addColumn(QStringLiteral("age [cycles]"), Right);
     table.addColumn(QStringLiteral("same cycle"));
-    for (const QJsonValue &link : links)
-        table.addRow({link[QStringLiteral("signal")].toString(), link[QStringLiteral("from")].toString(),
-                      link[QStringLiteral("to")].toString(), QString::number(link[QStringLiteral("age")].toInt()),
-                      link[QStringLiteral("sameCycle")].toBool() ? QStringLiteral("yes") : QString()});
+    for (const QPlcSchedule::Link &link : schedule.links)
+        table.addRow({link.signal, link.from, link.to, QString::number(link.age),
+                      link.sameCycle ? QStringLiteral("yes") : QString()});
     table.print();
 }
 
@@ -41,22 +36,20 @@ void printLinks(const QJsonArray &links)
 
 int showSchedule(const CommandCall &call)
 {
-    QPlcMessage answer;
-    if (!call.connect() || !call.askFor(QPlcMessage::GetSchedule, QPlcMessage::Schedule, {}, &answer))
+    qplc::messages::Schedule schedule;
+    if (!call.connect() || !call.askFor(qplc::messages::GetSchedule(), &schedule))
         return call.exitCode();
     if (call.isJson()) {
-        printJson(QJsonDocument(answer.fields()));
+        printJson(call.client.lastAnswer());
         return QPlcCoreApplication::Success;
     }
-    const QJsonArray stages = answer.fields().value(QStringLiteral("stages")).toArray();
-    const QJsonArray links = answer.fields().value(QStringLiteral("links")).toArray();
-    if (stages.isEmpty() && links.isEmpty()) {
+    if (schedule.stages.isEmpty() && schedule.links.isEmpty()) {
         printLine(QStringLiteral("no nodes"));
         return QPlcCoreApplication::Success;
     }
-    printStages(stages);
+    printStages(schedule);
     printLine(QString());
-    printLinks(links);
+    printLinks(schedule);
     return QPlcCoreApplication::Success;
 }
 

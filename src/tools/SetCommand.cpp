@@ -10,6 +10,8 @@
 
 namespace tools {
 
+namespace messages = qplc::messages;
+
 namespace {
 
 constexpr double longestDuration = 1e6;  // [s]
@@ -18,16 +20,7 @@ constexpr double longestDuration = 1e6;  // [s]
 struct Settings
 {
     QVector<QPlcSignalDefinition> definitions;
-    QJsonObject values;     // texts, as SetSignals has them
-    double duration = 0.0;  // [s]; 0: for good
-
-    QJsonObject message() const
-    {
-        QJsonObject fields{{QStringLiteral("values"), values}};
-        if (duration > 0.0)
-            fields.insert(QStringLiteral("duration"), std::round(duration * 1e9));
-        return fields;
-    }
+    messages::SetSignals message;
 };
 
 /// Reads "SIGNAL VALUE SIGNAL VALUE ...". \return false, with the message out, when a value cannot be meant
@@ -42,23 +35,23 @@ bool readValues(const CommandCall &call, const QPlcSignalTable &table, Settings 
         const QPlcValue value = definition.valueFromText(call.arguments.at(i + 1), &error);
         if (!value.isValid())
             error = QStringLiteral("signal '%1': %2").arg(definition.name, error);
-        else if (settings->values.contains(definition.name))
+        else if (settings->message.values.contains(definition.name))
             error = QStringLiteral("signal '%1' is there twice; give it one value").arg(definition.name);
         if (!error.isEmpty()) {
             call.application.usageError(error);
             return false;
         }
-        settings->values.insert(definition.name, value.toString());
+        settings->message.values.insert(definition.name, value.toString());
         settings->definitions << definition;
     }
     return true;
 }
 
-void print(const CommandCall &call, const Settings &settings)
+void print(const CommandCall &call, const Settings &settings, double duration)
 {
     QJsonObject values;
     for (const QPlcSignalDefinition &definition : settings.definitions) {
-        const QString text = settings.values.value(definition.name).toString();
+        const QString text = settings.message.values.value(definition.name);
         values.insert(definition.name, toJson(definition, text));
         if (!call.isJson())
             printLine(QStringLiteral("%1 = %2").arg(
@@ -66,8 +59,8 @@ void print(const CommandCall &call, const Settings &settings)
                 withUnit(definition.textOf(QPlcValue::fromString(definition.type, text)), definition.unit)));
     }
     QJsonObject document{{QStringLiteral("values"), values}};
-    if (settings.duration > 0.0)
-        document.insert(QStringLiteral("duration"), settings.duration);
+    if (duration > 0.0)
+        document.insert(QStringLiteral("duration"), duration);
     if (call.isJson())
         printJson(QJsonDocument(document));
 }
@@ -89,8 +82,9 @@ int waitForTheEnd(const CommandCall &call, double duration)
 
 int setSignals(const CommandCall &call)
 {
+    double duration = 0.0;  // [s]; 0: for good
     Settings settings;
-    if (!call.readNumber("for", 0.001, longestDuration, &settings.duration))
+    if (!call.readNumber("for", 0.001, longestDuration, &duration))
         return call.exitCode();
     if (call.arguments.size() % 2 != 0)
         return call.application.usageError(
@@ -101,13 +95,14 @@ int setSignals(const CommandCall &call)
                 QStringLiteral("'%1' is a pattern; set takes names only").arg(call.arguments.at(i)));
     }
     QPlcSignalTable table;
-    if (!call.connect(&table) || !readValues(call, table, &settings)
-        || !call.ask(QPlcMessage(QPlcMessage::SetSignals, settings.message())))
+    if (duration > 0.0)
+        settings.message.duration = std::chrono::nanoseconds(std::llround(duration * 1e9));
+    if (!call.connect(&table) || !readValues(call, table, &settings) || !call.ask(settings.message))
         return call.exitCode();
-    if (settings.duration > 0.0)
+    if (duration > 0.0)
         call.application.quitOnSignals();
-    print(call, settings);
-    return settings.duration > 0.0 ? waitForTheEnd(call, settings.duration) : QPlcCoreApplication::Success;
+    print(call, settings, duration);
+    return duration > 0.0 ? waitForTheEnd(call, duration) : QPlcCoreApplication::Success;
 }
 
 }  // namespace tools

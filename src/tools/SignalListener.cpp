@@ -4,13 +4,16 @@
 #include "SignalSelection.h"
 #include "signals/PayloadLayout.h"
 
-#include <QtCore/QJsonArray>
+#include <QtCore/QPointer>
 
 namespace tools {
 
-SignalListener::SignalListener(const QString &purpose, const QPlcSignalTable &table, const QStringList &names,
-                               int pause)
-    : m_names(names)
+namespace messages = qplc::messages;
+
+SignalListener::SignalListener(const CommandCall &call, const QString &purpose, const QPlcSignalTable &table,
+                               const QStringList &names, int pause)
+    : m_call(call)
+    , m_names(names)
     , m_node(QStringLiteral("qtplc-%1-%2").arg(purpose).arg(QCoreApplication::applicationPid()))
 {
     QPlcSignalIndexTable::setCurrent(table);
@@ -39,7 +42,6 @@ SignalListener::SignalListener(const QString &purpose, const QPlcSignalTable &ta
         m_isRunning = false;
         askForState();
     });
-    connect(&m_node, &QPlcSlaveNode::messageReceived, this, &SignalListener::take);
     connect(&m_node, &QPlcSlaveNode::disconnectedFromMaster, this, [this] {
         // When the master was lost, and did not just end, the error follows.
         QMetaObject::invokeMethod(this, &SignalListener::masterEnded, Qt::QueuedConnection);
@@ -59,46 +61,58 @@ QJsonObject SignalListener::toJson(const QVector<QPlcValue> &values) const
     return object;
 }
 
-void SignalListener::take(const QPlcMessage &answer)
+void SignalListener::takeState(const messages::State &state)
 {
-    if (answer.kind() == QPlcMessage::State) {
-        m_period = answer.fields().value(QStringLiteral("period")).toDouble() * 1e-9;
-        m_state = answer.text(QStringLiteral("state"));
-        m_isRunning = hasCycles(m_state);
-        if (!m_isRunning && m_node.state() != QPlcSlaveNode::Disconnected)
-            askForValues();
-    } else if (answer.kind() == QPlcMessage::Signals) {
-        const QJsonArray rows = answer.fields().value(QStringLiteral("signals")).toArray();
-        QVector<QPlcValue> values;
-        QVector<QPlcQuality> qualities;
-        for (int i = 0; i < rows.size() && i < m_definitions.size(); ++i) {
-            const QJsonObject row = rows.at(i).toObject();
-            values << QPlcValue::fromString(m_definitions.at(i).type, row.value(QStringLiteral("value")).toString());
-            qualities << qualityOf(row);
-        }
-        if (!m_isRunning && values.size() == m_definitions.size())
-            Q_EMIT valuesAtRest(values, qualities);
-    }
+    m_period = double(state.period.count()) * 1e-9;
+    m_state = state.state;
+    m_isRunning = messages::hasCycles(m_state);
+    if (!m_isRunning && m_node.state() != QPlcSlaveNode::Disconnected)
+        askForValues();
 }
 
-bool SignalListener::join(const CommandCall &call)
+void SignalListener::takeValues(const messages::Signals &answer)
+{
+    if (m_isRunning || int(answer.signals.size()) < m_definitions.size())
+        return;
+    QVector<QPlcValue> values;
+    QVector<QPlcQuality> qualities;
+    for (int i = 0; i < m_definitions.size(); ++i) {
+        const messages::SignalEntry &entry = answer.signals[std::size_t(i)];
+        values << QPlcValue::fromString(m_definitions.at(i).type, entry.value);
+        qualities << QPlcQuality::fromByte(entry.quality);
+    }
+    Q_EMIT valuesAtRest(values, qualities);
+}
+
+bool SignalListener::join()
 {
     m_timer.start();
-    if (!m_node.connectToMasterAndWaitForConnected(call.master, call.client.timeout()))  // says why not
+    if (!m_node.connectToMasterAndWaitForConnected(m_call.master, m_call.client.timeout()))  // says why not
         return false;
     askForState();  // a phase may have ended meanwhile
     return true;
 }
 
+/// A refusal, and a master that is lost, are left to the node.
+template<typename Request, typename Answer>
+void SignalListener::ask(const Request &request, void (SignalListener::*take)(const Answer &))
+{
+    const auto pass = [listener = QPointer(this), take](const qplc::ControlClient::Reply<Request> &reply) {
+        const auto *answer = std::get_if<Answer>(&reply);
+        if (answer && listener)
+            (listener->*take)(*answer);
+    };
+    m_call.client.control().request(request, pass);
+}
+
 void SignalListener::askForState()
 {
-    m_node.sendMessageToMaster(QPlcMessage(QPlcMessage::GetState));
+    ask(messages::GetState(), &SignalListener::takeState);
 }
 
 void SignalListener::askForValues()
 {
-    m_node.sendMessageToMaster(
-        QPlcMessage(QPlcMessage::GetSignals, {{QStringLiteral("names"), QJsonArray::fromStringList(m_names)}}));
+    ask(question(), &SignalListener::takeValues);
 }
 
 void SignalListener::takeCycles()

@@ -7,7 +7,8 @@
 
 namespace tools {
 
-/// Joins the plant as a listener: hears the signals of every cycle, and asks the master now and then for what a cycle does not tell.
+/// Joins the plant as a listener: hears the signals of every cycle, and asks the master now and then for what a cycle
+/// does not tell.
 class SignalListener : public QObject
 {
     Q_OBJECT
@@ -19,9 +20,11 @@ public:
         QVector<QPlcQuality> qualities;
     };
 
+    /// \param call  its client, which is connected, asks the master
     /// \param purpose  becomes part of the name under which the master knows this listener
     /// \param pause  time between two heard() [ms]
-    SignalListener(const QString &purpose, const QPlcSignalTable &table, const QStringList &names, int pause);
+    SignalListener(const CommandCall &call, const QString &purpose, const QPlcSignalTable &table,
+                   const QStringList &names, int pause);
     ~SignalListener() override;
 
     /// Hears one of so many cycles only. Before join().
@@ -29,16 +32,17 @@ public:
     const QVector<QPlcSignalDefinition> &definitions() const { return m_definitions; }
     /// Names and values of one sample, as JSON.
     QJsonObject toJson(const QVector<QPlcValue> &values) const;
-    /// Reads period, state and values from an answer of the master (State, Signals).
-    void take(const QPlcMessage &answer);
+    void takeState(const qplc::messages::State &state);
+    void takeValues(const qplc::messages::Signals &answer);
+    /// The question that takeValues() has the answer of.
+    qplc::messages::GetSignals question() const { return {m_names}; }
     /// Registers and listens from now on. \return false, with the message out
-    bool join(const CommandCall &call);
+    bool join();
     /// Asks for the state, and while no cycle runs for the values, which come as valuesAtRest().
     void askForState();
 
     bool isRunning() const { return m_isRunning; }
-    /// As the master names it.
-    QString state() const { return m_state; }
+    qplc::messages::MasterState state() const { return m_state; }
     /// Nominal time of a cycle since the start [s].
     double timeOf(quint64 cycle) const { return double(cycle) * m_period; }
     /// Whether the master has ended as wanted, or is still there.
@@ -54,7 +58,10 @@ Q_SIGNALS:
 private:
     void takeCycles();
     void askForValues();
+    template<typename Request, typename Answer>
+    void ask(const Request &request, void (SignalListener::*take)(const Answer &));
 
+    const CommandCall &m_call;
     QStringList m_names;
     QVector<QPlcSignalDefinition> m_definitions;
     QVector<int> m_places;   // of names() among the inputs of the node
@@ -62,7 +69,7 @@ private:
     QPlcIOBufferSlaveNode m_node;
     QTimer m_timer;
     double m_period = 0.0;  // [s]
-    QString m_state;
+    qplc::messages::MasterState m_state = qplc::messages::MasterState::Unknown;
     bool m_isRunning = false;
 };
 

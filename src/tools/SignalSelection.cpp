@@ -95,9 +95,4 @@ QString withUnit(const QString &value, const QString &unit)
     return unit.isEmpty() ? value : QStringLiteral("%1 %2").arg(value, unit);
 }
 
-QPlcQuality qualityOf(const QJsonObject &row)
-{
-    return QPlcQuality::fromByte(quint8(row.value(QStringLiteral("quality")).toInt(0)));
-}
-
 }  // namespace tools

@@ -22,8 +22,6 @@ bool selectSignalsOrAll(QPlcCoreApplication &application, const QPlcSignalTable 
 QJsonValue toJson(const QPlcValue &value);
 /// As above, from the text that the master sends.
 QJsonValue toJson(const QPlcSignalDefinition &definition, const QString &text);
-/// The quality in a row of Signals; good when the master tells none.
-QPlcQuality qualityOf(const QJsonObject &row);
 /// "1.5 m/s"
 QString withUnit(const QString &value, const QString &unit);
 

@@ -3,11 +3,11 @@
 #include "TerminalText.h"
 #include "node/state/StateText.h"
 
-#include <QtCore/QJsonArray>
-
 #include <algorithm>
 
 namespace tools {
+
+namespace messages = qplc::messages;
 
 namespace {
 
@@ -16,38 +16,53 @@ constexpr int labelWidth = 10;
 struct NodeColumn
 {
     const char *title;
-    const char *field;
     Alignment alignment;
-    enum Shown { Always, UnlessZero, InDetail } shown;  // all of them with --verbose
+    enum Shown { Always, IsState, UnlessZero, InDetail } shown;  // all of them with --verbose
+    QString (*text)(const QPlcNodeInfo &node);
 };
+
+QString yesNo(bool is)
+{
+    return is ? QStringLiteral("true") : QStringLiteral("false");
+}
+
+template<auto member>
+QString numberOf(const QPlcNodeInfo &node)
+{
+    return QString::number(node.*member);
+}
 
 const NodeColumn nodeColumns[] = {
-    {"node", "name", Left, NodeColumn::Always},
-    {"transport", "transport", Left, NodeColumn::Always},
-    {"address", "address", Left, NodeColumn::InDetail},
-    {"number", "id", Right, NodeColumn::InDetail},
-    {"state", "state", Left, NodeColumn::Always},
-    {"critical", "critical", Left, NodeColumn::InDetail},
-    {"policy", "policy", Left, NodeColumn::Always},
-    {"listener", "listener", Left, NodeColumn::InDetail},
-    {"every", "every", Right, NodeColumn::InDetail},
-    {"in", "inputs", Right, NodeColumn::Always},
-    {"out", "outputs", Right, NodeColumn::Always},
-    {"late", "lateAnswers", Right, NodeColumn::UnlessZero},
-    {"doubled", "duplicates", Right, NodeColumn::UnlessZero},
-    {"rejected", "rejected", Right, NodeColumn::UnlessZero},
-    {"forged", "forged", Right, NodeColumn::UnlessZero},
-    {"resent", "resent", Right, NodeColumn::UnlessZero},
+    {"node", Left, NodeColumn::Always, [](const QPlcNodeInfo &node) { return node.name; }},
+    {"transport", Left, NodeColumn::Always, [](const QPlcNodeInfo &node) { return node.transport; }},
+    {"address", Left, NodeColumn::InDetail, [](const QPlcNodeInfo &node) { return node.address; }},
+    {"number", Right, NodeColumn::InDetail, &numberOf<&QPlcNodeInfo::id>},
+    {"state", Left, NodeColumn::IsState, [](const QPlcNodeInfo &node) { return qplc::stateText(node.state); }},
+    {"critical", Left, NodeColumn::InDetail, [](const QPlcNodeInfo &node) { return yesNo(node.critical); }},
+    {"policy", Left, NodeColumn::Always, [](const QPlcNodeInfo &node) { return node.policy; }},
+    {"listener", Left, NodeColumn::InDetail, [](const QPlcNodeInfo &node) { return yesNo(node.listener); }},
+    {"every", Right, NodeColumn::InDetail, &numberOf<&QPlcNodeInfo::every>},
+    {"in", Right, NodeColumn::Always, &numberOf<&QPlcNodeInfo::inputs>},
+    {"out", Right, NodeColumn::Always, &numberOf<&QPlcNodeInfo::outputs>},
+    {"late", Right, NodeColumn::UnlessZero, &numberOf<&QPlcNodeInfo::lateAnswers>},
+    {"doubled", Right, NodeColumn::UnlessZero, &numberOf<&QPlcNodeInfo::duplicates>},
+    {"rejected", Right, NodeColumn::UnlessZero, &numberOf<&QPlcNodeInfo::rejected>},
+    {"forged", Right, NodeColumn::UnlessZero, &numberOf<&QPlcNodeInfo::forged>},
+    {"resent", Right, NodeColumn::UnlessZero, &numberOf<&QPlcNodeInfo::resent>},
 };
 
+bool isZero(const QString &text)
+{
+    return text == QLatin1String("0");
+}
+
 /// Whether a column has anything to say: a counter that is zero for all nodes has not.
-bool isShown(const NodeColumn &column, const QJsonArray &nodes, bool verbose)
+bool isShown(const NodeColumn &column, const QVector<QPlcNodeInfo> &nodes, bool verbose)
 {
     if (verbose || column.shown != NodeColumn::UnlessZero)
-        return verbose || column.shown == NodeColumn::Always;
-    return std::any_of(nodes.begin(), nodes.end(), [&column](const QJsonValue &node) {
-        return node[QLatin1String(column.field)].toDouble() > 0.0;
-    });
+        return verbose || column.shown != NodeColumn::InDetail;
+    return std::any_of(nodes.begin(), nodes.end(),
+                       [&column](const QPlcNodeInfo &node) { return !isZero(column.text(node)); });
 }
 
 void printField(const char *label, const QString &value, Tone tone = Tone::Plain)
@@ -56,76 +71,61 @@ void printField(const char *label, const QString &value, Tone tone = Tone::Plain
 }
 
 /// "Real time", "Scaled 20 times", "Lockstep"
-QString clockText(const QJsonObject &state)
+QString clockText(const messages::State &state)
 {
-    const QString clock = state.value(QStringLiteral("clock")).toString();
-    if (clock == QLatin1String("Scaled"))
-        return QStringLiteral("Scaled %1 times").arg(state.value(QStringLiteral("scale")).toDouble());
-    return qplc::stateText(clock);
+    return state.clock == messages::ClockKind::Scaled ? QStringLiteral("Scaled %1 times").arg(state.scale)
+                                                      : qplc::stateText(state.clock);
 }
 
 /// "late 3, missed 1": those that are not zero.
-QString countersText(const QJsonObject &counters, bool verbose)
+QString countersText(const QMap<QString, double> &counters, bool verbose)
 {
     QStringList texts;
     for (auto it = counters.begin(); it != counters.end(); ++it) {
-        if (verbose || it.value().toDouble() != 0.0)
-            texts << QStringLiteral("%1 %2").arg(it.key(), it.value().toVariant().toString());
+        if (verbose || it.value() != 0.0)
+            texts << QStringLiteral("%1 %2").arg(it.key()).arg(it.value(), 0, 'f', 0);
     }
     return texts.isEmpty() ? QStringLiteral("all zero") : texts.join(QStringLiteral(", "));
 }
 
 /// Who injects what on purpose; empty: nobody.
-QString faultsText(const QJsonObject &state)
+QString faultsText(const messages::State &state)
 {
     QStringList texts;
-    const auto add = [&texts](const QString &name, const QJsonObject &of) {
-        if (of.contains(QStringLiteral("faults")))
-            texts << QStringLiteral("%1 (%2)").arg(name, of.value(QStringLiteral("faults")).toString());
+    const auto add = [&texts](const QString &name, const QString &faults) {
+        if (!faults.isEmpty())
+            texts << QStringLiteral("%1 (%2)").arg(name, faults);
     };
-    add(QStringLiteral("Master"), state);
-    const QJsonArray nodes = state.value(QStringLiteral("nodes")).toArray();
-    for (const QJsonValue &node : nodes)
-        add(node.toObject().value(QStringLiteral("name")).toString(), node.toObject());
+    add(QStringLiteral("Master"), state.faults);
+    for (const QPlcNodeInfo &node : state.nodes)
+        add(node.name, node.faultPlan);
     return texts.join(QStringLiteral(", "));
 }
 
-bool isState(const NodeColumn &column)
-{
-    return qstrcmp(column.field, "state") == 0;
-}
-
-QString textOf(const NodeColumn &column, const QString &value)
-{
-    return isState(column) ? qplc::stateText(value) : value;
-}
-
-Tone toneOf(const NodeColumn &column, const QString &value)
+Tone toneOf(const NodeColumn &column, const QPlcNodeInfo &node)
 {
     if (column.shown == NodeColumn::UnlessZero)
-        return value == QLatin1String("0") ? Tone::Plain : Tone::Caution;
-    return isState(column) ? toneOfState(value) : Tone::Plain;
+        return isZero(column.text(node)) ? Tone::Plain : Tone::Caution;
+    return column.shown == NodeColumn::IsState ? toneOfState(messages::stateNamed(node.state)) : Tone::Plain;
 }
 
-void printNodes(const QJsonArray &nodes, bool verbose)
+void printNodes(const QVector<QPlcNodeInfo> &nodes, bool verbose)
 {
-    QVector<NodeColumn> columns;
+    QVector<const NodeColumn *> columns;
     TextTable table;
     for (const NodeColumn &column : nodeColumns) {
         if (!isShown(column, nodes, verbose))
             continue;
         table.addColumn(QString::fromLatin1(column.title), column.alignment);
-        columns << column;
+        columns << &column;
     }
-    for (const QJsonValue &node : nodes) {
-        QStringList values, cells;
-        for (const NodeColumn &column : qAsConst(columns)) {
-            values << node[QLatin1String(column.field)].toVariant().toString();
-            cells << textOf(column, values.constLast());
-        }
+    for (const QPlcNodeInfo &node : nodes) {
+        QStringList cells;
+        for (const NodeColumn *column : qAsConst(columns))
+            cells << column->text(node);
         table.addRow(cells);
         for (int i = 0; i < columns.size(); ++i)
-            table.setTone(i, toneOf(columns.at(i), values.at(i)));
+            table.setTone(i, toneOf(*columns.at(i), node));
     }
     table.print();
 }
@@ -134,39 +134,33 @@ void printNodes(const QJsonArray &nodes, bool verbose)
 
 int showState(const CommandCall &call)
 {
-    QPlcMessage answer;
-    if (!call.connect() || !call.ask(QPlcMessage(QPlcMessage::GetState), &answer))
+    messages::State state;
+    if (!call.connect() || !call.ask(messages::GetState(), &state))
         return call.exitCode();
-    const QJsonObject state = answer.fields();
     if (call.isJson()) {
-        printJson(QJsonDocument(state));
+        printJson(call.client.lastAnswer());
         return QPlcCoreApplication::Success;
     }
-    const double period = state.value(QStringLiteral("period")).toDouble() * 1e-9;
-    const quint64 cycle = answer.hex64(QStringLiteral("cycle"));
+    const double period = double(state.period.count()) * 1e-9;
     const bool verbose = call.application.isSet(QStringLiteral("verbose"));
-    const bool isArmed = state.value(QStringLiteral("armed")).toBool();
-    printField("state",
-               qplc::stateText(answer.text(QStringLiteral("state")))
-                   + (isArmed ? QStringLiteral(", armed") : QString()),
-               toneOfState(answer.text(QStringLiteral("state"))));
-    if (!answer.text(QStringLiteral("reason")).isEmpty())
-        printField("reason", answer.text(QStringLiteral("reason")));
-    if (!answer.text(QStringLiteral("remains")).isEmpty())
-        printField("remains", answer.text(QStringLiteral("remains")));
-    printField("cycle", QStringLiteral("%1 (%2 s)").arg(cycle).arg(double(cycle) * period, 0, 'f', 3));
+    printField("state", qplc::stateText(state.state) + (state.armed ? QStringLiteral(", armed") : QString()),
+               toneOfState(state.state));
+    if (!state.reason.isEmpty())
+        printField("reason", state.reason);
+    if (!state.remains.isEmpty())
+        printField("remains", state.remains);
+    printField("cycle",
+               QStringLiteral("%1 (%2 s)").arg(state.cycle.number).arg(double(state.cycle.number) * period, 0, 'f', 3));
     printField("period", QStringLiteral("%1 ms").arg(period * 1e3));
     printField("clock", clockText(state));
-    printField("profile",
-               QStringLiteral("%1: %2").arg(answer.text(QStringLiteral("profile")),
-                                            answer.text(QStringLiteral("profileReason"))));
-    printField("counters", countersText(state.value(QStringLiteral("counters")).toObject(), verbose));
-    printField("session", answer.text(QStringLiteral("session")));
-    printField("digest", answer.text(QStringLiteral("digest")));
+    printField("profile", QStringLiteral("%1: %2").arg(state.profile, state.profileReason));
+    printField("counters", countersText(state.counters, verbose));
+    printField("session", QPlcMessage::fromHex64(state.session));
+    printField("digest", QPlcMessage::fromHex64(state.digest));
     if (const QString faults = faultsText(state); !faults.isEmpty())
         printField("FAULTS", QStringLiteral("injected on purpose by %1").arg(faults), Tone::Caution);
     printLine(QString());
-    printNodes(state.value(QStringLiteral("nodes")).toArray(), verbose);
+    printNodes(state.nodes, verbose);
     return QPlcCoreApplication::Success;
 }
 

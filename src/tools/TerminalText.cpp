@@ -105,13 +105,12 @@ QString toned(const QString &text, Tone tone)
     return QStringLiteral("\033[%1m%2\033[0m").arg(QLatin1String(codeOf(tone)), text);
 }
 
-Tone toneOfState(const QString &state)
+Tone toneOfState(qplc::messages::MasterState state)
 {
-    if (state == QLatin1String("RealTime"))
-        return Tone::Good;
-    if (state == QLatin1String("SafeStop") || state == QLatin1String("Fault") || state == QLatin1String("Rejected"))
+    using State = qplc::messages::MasterState;
+    if (qplc::messages::isLatched(state))
         return Tone::Bad;
-    return state == QLatin1String("WaitingForLateSlaves") ? Tone::Caution : Tone::Plain;
+    return state == State::RealTime ? Tone::Good : state == State::WaitingForLateSlaves ? Tone::Caution : Tone::Plain;
 }
 
 Tone toneOfQuality(const QString &quality)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "protocol/messages/Vocabulary.h"
+
 #include <QtCore/QJsonDocument>
 #include <QtCore/QStringList>
 #include <QtCore/QVector>
@@ -20,8 +22,7 @@ enum class Tone { Plain, Title, Good, Caution, Bad };
 bool hasColors();
 /// \a text in the colour of \a tone where hasColors(), as it is elsewhere.
 QString toned(const QString &text, Tone tone);
-/// Of a state of a master or node, as docs/protocol.md names it.
-Tone toneOfState(const QString &state);
+Tone toneOfState(qplc::messages::MasterState state);
 /// Of a quality, as QPlcQuality::toString() names it: "held 3" is a caution.
 Tone toneOfQuality(const QString &quality);
 

@@ -96,7 +96,7 @@ private:
     QString head() const
     {
         QString text = QStringLiteral("%1  %2").arg(
-            m_master, toned(printable(qplc::stateText(m_listener.state())), toneOfState(m_listener.state())));
+            m_master, toned(qplc::stateText(m_listener.state()), toneOfState(m_listener.state())));
         if (m_listener.isRunning() && m_heardAt > 0.0)
             text += QStringLiteral("  cycle %1  %2 s").arg(m_cycle).arg(m_listener.timeOf(m_cycle), 0, 'f', 2);
         constexpr double silence = 1.0;  // [s]
@@ -142,10 +142,10 @@ int watchOnTerminal(const CommandCall &call, const QPlcSignalTable &table, const
                     const LineRate &rate)
 {
     constexpr int listenPause = 20;  // [ms]
-    SignalListener listener(QStringLiteral("watch"), table, names, listenPause);
+    SignalListener listener(call, QStringLiteral("watch"), table, names, listenPause);
     listener.setInterval(int(rate.every));
     const auto endIsWanted = call.quitOnSignals();
-    const bool hasJoined = listener.join(call);
+    const bool hasJoined = listener.join();
     if (*endIsWanted || !hasJoined)
         return *endIsWanted ? QPlcCoreApplication::Success : QPlcCoreApplication::Failure;
     Watch watch(listener, call.master.toString().section(QStringLiteral("://"), 1), rate.rate);

@@ -18,7 +18,7 @@ ARROWS = {
     "protocol": {"signals", "protocol"},
     "protocol/messages": {"signals", "protocol", "protocol/messages"},
     "node": BELOW_NODE | {"node"},
-    "node/state": {"node", "node/state"},
+    "node/state": {"protocol/messages", "node", "node/state"},
     "node/security": BELOW_NODE | {"node", "node/security"},
     "node/cycle": BELOW_NODE | {"node", "node/cycle"},
     "node/statistics": BELOW_NODE | {"node", "node/cycle", "node/statistics"},
@@ -27,7 +27,7 @@ ARROWS = {
     "hardware": {"signals", "realtime", "node", "node/session", "hardware"},
     "gui": {"signals", "node", "gui"},
     "gui/store": {"signals", "gui/store"},
-    "gui/plant": {"signals", "node", "node/state", "node/cycle", "node/session", "gui", "gui/store", "gui/plant"},
+    "gui/plant": {"signals", "protocol", "protocol/messages", "node", "node/state", "node/cycle", "node/session", "gui", "gui/store", "gui/plant"},
     "gui/plot": {"signals", "node", "gui", "gui/store", "gui/plant", "gui/plot"},
     "gui/models": {"signals", "node", "node/state", "gui", "gui/plant", "gui/models"},
     "gui/panel": {"signals", "node", "gui", "gui/plant", "gui/plot", "gui/models", "gui/panel"},
@@ -48,8 +48,8 @@ LIBRARIES = {"hardware": ("src/hardware", "QtPlcHardware"), "gui": ("src/gui", "
 # Public headers without a source file of their own; "all": a plain value that every room may use.
 HEADER_ONLY = {
     "QPlcBoundInput": "node", "QPlcBoundOutput": "node", "QPlcClock": "all", "QPlcCycle": "all",
-    "QPlcCycleStatistics": "node", "QPlcDistribution": "all", "QPlcDurationStatistics": "all", "QPlcGlobal": "all",
-    "QPlcGuiGlobal": "gui", "QPlcGui3DGlobal": "gui3d", "QPlcHardwareGlobal": "hardware", "QPlcReadChannel": "hardware", "QPlcWriteChannel": "hardware", "QPlcInput": "node", "QPlcInputTiming": "all", "QPlcLease": "node", "QPlcMasterStatistics": "node", "QPlcNodeInfo": "node", "QPlcNodeStatistics": "node", "QPlcOutput": "node",
+    "QPlcCycleStatistics": "all", "QPlcDistribution": "all", "QPlcDurationStatistics": "all", "QPlcGlobal": "all",
+    "QPlcGuiGlobal": "gui", "QPlcGui3DGlobal": "gui3d", "QPlcHardwareGlobal": "hardware", "QPlcReadChannel": "hardware", "QPlcWriteChannel": "hardware", "QPlcInput": "node", "QPlcInputTiming": "all", "QPlcLease": "node", "QPlcMasterStatistics": "all", "QPlcNodeInfo": "all", "QPlcNodeStatistics": "all", "QPlcOutput": "node",
     "QPlcRealTimeSetting": "realtime", "QPlcSignalDefinition": "signals", "QPlcSimulatedRoad": "test_support", "QPlcSlaveStatistics": "node", "QPlcStatisticFigure": "node", "QPlcWidgetFactoryOf": "gui", "QPlcWorstCycle": "all",
     "QSplitPrimitive": "signals",
 }

@@ -19,7 +19,11 @@ private Q_SLOTS:
     void aRefusalComesInItsPlace();
     void aQuestionIsAnsweredWhileACommandWaits();
     void commandsWaitForEachOtherAndStopForNone();
+    void aPermitIsACommandToo();
+    void aCommandThatIsTooLongHoldsNoOther();
     void anAnswerOfAnotherKindFails();
+    void whatAnswersNothingIsIgnored_data();
+    void whatAnswersNothingIsIgnored();
     void unaskedMessagesComeAsStructs();
     void anotherVersionIsLost();
     void aRejectedGreetingIsLostWithItsWords();
@@ -150,6 +154,56 @@ void tst_ControlClient::commandsWaitForEachOtherAndStopForNone()
     QCOMPARE(m_master->next().kind(), QPlcMessage::StartRealTime);
     m_master->send(QPlcMessage::Done);
     QTRY_COMPARE(m_notes, (QStringList{"first", "Done", "Done"}));
+}
+
+void tst_ControlClient::aPermitIsACommandToo()
+{
+    QVERIFY(greet());
+    note(messages::InitializeAllStates());
+    note(messages::Arm());
+    QCOMPARE(m_master->next().kind(), QPlcMessage::InitializeAllStates);
+    m_master->send(QPlcMessage::Failed, {{"error", "first"}});
+    QCOMPARE(m_master->next().kind(), QPlcMessage::Arm);
+    QVERIFY(m_client->isBusy());
+    m_master->send(QPlcMessage::Armed, {{"token", "0000000000000001"}});
+    QTRY_COMPARE(m_notes, (QStringList{"first", "Armed"}));
+}
+
+void tst_ControlClient::aCommandThatIsTooLongHoldsNoOther()
+{
+    QVERIFY(greet());
+    note(messages::InitializeAllStates());
+    note(messages::SafeStop{QString(2 * 1024 * 1024, 'x')});
+    messages::SetSignals tooLong;
+    tooLong.values.insert("sum", QString(2 * 1024 * 1024, '1'));
+    note(tooLong);
+    note(messages::Reset());
+    QCOMPARE(m_master->next().kind(), QPlcMessage::InitializeAllStates);
+    m_master->send(QPlcMessage::Done);
+    QCOMPARE(m_master->next().kind(), QPlcMessage::Reset);
+    m_master->send(QPlcMessage::Done);
+    QTRY_COMPARE(m_notes, (QStringList{"MalformedMessage", "MalformedMessage", "Done", "Done"}));
+}
+
+void tst_ControlClient::whatAnswersNothingIsIgnored_data()
+{
+    QTest::addColumn<int>("kind");
+    QTest::newRow("a kind of a newer master") << 200;
+    QTest::newRow("a second greeting") << int(QPlcMessage::Hello);
+    QTest::newRow("of nodes") << int(QPlcMessage::RealTimeStopped);
+    QTest::newRow("a question") << int(QPlcMessage::GetState);
+}
+
+void tst_ControlClient::whatAnswersNothingIsIgnored()
+{
+    QFETCH(int, kind);
+    QVERIFY(greet());
+    note(messages::Reset());
+    QCOMPARE(m_master->next().kind(), QPlcMessage::Reset);
+    m_master->send(QPlcMessage::Kind(kind));
+    m_master->send(QPlcMessage::Done);
+    QTRY_COMPARE(m_notes, QStringList{"Done"});
+    QVERIFY(m_losses.isEmpty());
 }
 
 void tst_ControlClient::anAnswerOfAnotherKindFails()

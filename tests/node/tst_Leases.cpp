@@ -52,7 +52,7 @@ void tst_Leases::holderHasItsSignalsOnly()
     QVERIFY(m_leases.signalsOf(anna()) == (Leases::Signals{1, 4}));
     QVERIFY(m_leases.mask() == (std::vector<bool>{false, true, true, false, true}));
     QCOMPARE(m_leases.find(1)->name, QString("Anna"));
-    QCOMPARE(m_leases.find(1)->stateName(), QString("held"));
+    QCOMPARE(m_leases.find(1)->state(), qplc::messages::LeaseState::Held);
 }
 
 void tst_Leases::takingAgainReplacesTheHolder()
@@ -114,7 +114,7 @@ void tst_Leases::lostLeaseIsHeldByNobodyAndStaysInTheMask()
     QVERIFY(!m_leases.isHeldByOther(1, bert()));
     QVERIFY(m_leases.signalsOf(nullptr).empty());
     QVERIFY(m_leases.mask() == (std::vector<bool>{false, true}));
-    QCOMPARE(m_leases.find(1)->stateName(), QString("lost"));
+    QCOMPARE(m_leases.find(1)->state(), qplc::messages::LeaseState::Lost);
     QCOMPARE(m_leases.find(1)->name, QString("Anna"));
 }
 

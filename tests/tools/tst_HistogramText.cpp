@@ -23,9 +23,10 @@ private Q_SLOTS:
     void linesAreAsWideAsWanted_data();
     void linesAreAsWideAsWanted();
     void nonsenseIsNoReasonToCrash();
+    void binsInAnyOrderHaveTheirRows();
 
 private:
-    static QJsonArray bin(double border, double count) { return {border, count}; }
+    static QPlcDistribution::Bin bin(qint64 border, quint64 count) { return {border, count}; }
 };
 
 void tst_HistogramText::durationHasThreeDigits_data()
@@ -55,12 +56,12 @@ void tst_HistogramText::durationHasThreeDigits()
 void tst_HistogramText::emptyHistogramSaysSo()
 {
     QCOMPARE(histogramLines({}, 80), QStringList{QStringLiteral("nothing recorded")});
-    QCOMPARE(histogramLines(QJsonArray{QJsonValue(bin(100, 0))}, 80), QStringList{QStringLiteral("nothing recorded")});
+    QCOMPARE(histogramLines({bin(100, 0)}, 80), QStringList{QStringLiteral("nothing recorded")});
 }
 
 void tst_HistogramText::oneBinIsOneFullBar()
 {
-    const QStringList lines = histogramLines(QJsonArray{QJsonValue(bin(1000, 5))}, 80);
+    const QStringList lines = histogramLines({bin(1000, 5)}, 80);
     QCOMPARE(lines.size(), 1);
     QCOMPARE(lines.constFirst().section(QChar(0x2588), 0, 0).simplified(), QStringLiteral("<= 1.00 µs 5 100.000 %"));
     QCOMPARE(lines.constFirst().size(), 80);
@@ -68,10 +69,10 @@ void tst_HistogramText::oneBinIsOneFullBar()
 
 void tst_HistogramText::everyValueIsInOneRow()
 {
-    QJsonArray bins;
+    QVector<QPlcDistribution::Bin> bins;
     double total = 0;
     for (int i = 1; i < 40; ++i) {
-        bins.append(bin(std::floor(std::pow(1.7, i)) + i, i));
+        bins.append(bin(qint64(std::pow(1.7, i)) + i, quint64(i)));
         total += i;
     }
     double shown = 0;
@@ -96,7 +97,7 @@ void tst_HistogramText::rowHoldsWhatIsNotAboveItsBorder()
 
 void tst_HistogramText::rareValuesAreSeen()
 {
-    const QStringList lines = histogramLines({bin(1000, 1e9), bin(1'000'000, 1)}, 80);
+    const QStringList lines = histogramLines({bin(1000, 1'000'000'000), bin(1'000'000, 1)}, 80);
     QVERIFY2(lines.constLast().contains(QChar(0x258f)), qPrintable(lines.constLast()));  // the thinnest block
 }
 
@@ -134,8 +135,14 @@ void tst_HistogramText::linesAreAsWideAsWanted()
 
 void tst_HistogramText::nonsenseIsNoReasonToCrash()
 {
-    histogramLines({QJsonValue(1), QJsonValue(QStringLiteral("x")), QJsonArray(), bin(-5, 3), bin(0, 1)}, 80);
-    histogramLines({bin(1, 1), bin(9e18, 1)}, 10);
+    histogramLines({bin(-5, 3), bin(0, 1)}, 80);
+    histogramLines({bin(1, 1), bin(9'000'000'000'000'000'000, 1)}, 10);
+}
+
+void tst_HistogramText::binsInAnyOrderHaveTheirRows()
+{
+    const QStringList rising = histogramLines({bin(10, 1), bin(1000, 2), bin(1'000'000'000, 3)}, 80);
+    QCOMPARE(histogramLines({bin(1000, 2), bin(1'000'000'000, 3), bin(10, 1)}, 80), rising);
 }
 
 QTEST_APPLESS_MAIN(tst_HistogramText)

@@ -105,11 +105,12 @@ void tst_TerminalText::aPipeHasNoColours()
 
 void tst_TerminalText::statesAndQualitiesHaveTheirTones()
 {
-    QCOMPARE(int(toneOfState("RealTime")), int(Tone::Good));
-    QCOMPARE(int(toneOfState("WaitingForLateSlaves")), int(Tone::Caution));
-    for (const char *state : {"SafeStop", "Fault", "Rejected"})
+    using State = qplc::messages::MasterState;
+    QCOMPARE(int(toneOfState(State::RealTime)), int(Tone::Good));
+    QCOMPARE(int(toneOfState(State::WaitingForLateSlaves)), int(Tone::Caution));
+    for (const State state : {State::SafeStop, State::Fault})
         QCOMPARE(int(toneOfState(state)), int(Tone::Bad));
-    for (const char *state : {"Off", "Initializing", "Ready", "Registered", ""})
+    for (const State state : {State::Off, State::Initializing, State::Ready, State::Unknown})
         QCOMPARE(int(toneOfState(state)), int(Tone::Plain));
     QCOMPARE(int(toneOfQuality("good")), int(Tone::Plain));
     QCOMPARE(int(toneOfQuality("held 3")), int(Tone::Caution));

@@ -115,7 +115,7 @@ public:
                 = messages::StopEntry{stop.whoever, stop.how, quint64(stop.time), stop.asker == m_connection->socket};
         m_connection->send(reply);
     }
-    void operator()(const messages::GetSchedule &) const { m_connection->send(qplc::scheduleReply(d.q->schedule())); }
+    void operator()(const messages::GetSchedule &) const { m_connection->send(messages::Schedule{d.q->schedule()}); }
     void operator()(const messages::GetSignals &question) const
     {
         messages::Signals reply;

@@ -31,7 +31,7 @@ void QPlcMasterNodePrivate::chooseAddress(QHostAddress *address)
     if (address->isLoopback() || !security.isNone())
         return;
     if (insecureNetworkAllowed) {
-        networkSecurity = QStringLiteral("insecure");
+        networkSecurity = qplc::messages::insecure;
         qCWarning(lcMaster).noquote() << "listening on" << address->toString()
                                       << "WITHOUT SECURITY: anybody on the network can read and command the plant";
         return;

@@ -16,6 +16,21 @@ std::int64_t after(std::chrono::milliseconds duration)
     return monotonicNow() + std::chrono::nanoseconds(duration).count();
 }
 
+template<typename... Requests>
+bool answersOneOf(messages::List<Requests...>, QPlcMessage::Kind kind)
+{
+    return ((AnswerTo<Requests>::Type::kind == kind) || ...);
+}
+
+/// The kind that answers a request of \a kind; Invalid: it is none.
+template<typename... Requests>
+QPlcMessage::Kind answerTo(messages::List<Requests...>, QPlcMessage::Kind kind)
+{
+    QPlcMessage::Kind answer = QPlcMessage::Invalid;
+    ((Requests::kind == kind ? void(answer = AnswerTo<Requests>::Type::kind) : void()), ...);
+    return answer;
+}
+
 }  // namespace
 
 ControlClient::ControlClient(const Caller &caller, QObject *parent)
@@ -99,7 +114,6 @@ void ControlClient::end(Loss loss, const QString &reason)
 
 void ControlClient::receive(const QPlcMessage &message)
 {
-    QString error;
     if (message.kind() == QPlcMessage::MasterEnds) {
         end(Loss::Gone, QStringLiteral("the master has ended"));
     } else if (message.kind() == QPlcMessage::Rejected) {
@@ -109,27 +123,25 @@ void ControlClient::receive(const QPlcMessage &message)
     } else if (message.kind() == QPlcMessage::Events) {
         receiveEvents(message);
     } else if (message.kind() == QPlcMessage::LeasesChanged) {
-        messages::LeasesChanged leases;
-        if (messages::fromObject(message.fields(), &leases, &error))
-            Q_EMIT leasesChanged(leases);
+        if (const auto leases = messages::readAs<messages::LeasesChanged>(message))
+            Q_EMIT leasesChanged(*leases);
     } else if (message.kind() == QPlcMessage::StatesInitialized) {
-        messages::StatesInitialized outcome;
-        if (messages::fromObject(message.fields(), &outcome, &error))
-            Q_EMIT statesInitialized(outcome);
-    } else {
+        if (const auto outcome = messages::readAs<messages::StatesInitialized>(message))
+            Q_EMIT statesInitialized(*outcome);
+    } else if (isAnswer(message.kind())) {
         answer(message);
     }
 }
 
 void ControlClient::receiveGreeting(const QPlcMessage &message)
 {
-    QString error;
-    if (message.kind() != QPlcMessage::Hello) {
+    const auto hello = messages::readAs<messages::MasterHello>(message);
+    if (!hello) {
         end(Loss::NoGreeting, message.kindName());
-    } else if (!messages::fromObject(message.fields(), &m_master, &error)
-               || m_master.protocol != messages::protocolVersion) {
-        end(Loss::OtherVersion, QString::number(m_master.protocol));
+    } else if (hello->protocol != messages::protocolVersion) {
+        end(Loss::OtherVersion, QString::number(hello->protocol));
     } else {
+        m_master = *hello;
         m_isGreeted = true;
         m_greetingDeadline = Never;
         watchDeadlines();
@@ -140,8 +152,7 @@ void ControlClient::receiveGreeting(const QPlcMessage &message)
 /// The master closes the connection after it: the request that it refuses is told so first.
 void ControlClient::receiveRejection(const QPlcMessage &message)
 {
-    QString error;
-    messages::fromObject(message.fields(), &m_rejection, &error);
+    m_rejection = messages::readAs<messages::Rejected>(message).value_or(messages::Rejected());
     if (m_isGreeted && !m_sent.isEmpty())
         answer(message);
     end(Loss::Rejected, m_rejection.text);
@@ -149,13 +160,17 @@ void ControlClient::receiveRejection(const QPlcMessage &message)
 
 void ControlClient::receiveEvents(const QPlcMessage &message)
 {
-    QString error;
-    messages::Events events;
-    const bool isReadable = messages::fromObject(message.fields(), &events, &error);
-    if (!isReadable || events.more)
+    const auto events = messages::readAs<messages::Events>(message);
+    if (!events || events->more)
         answer(message);
     else
-        Q_EMIT eventsHappened(events);
+        Q_EMIT eventsHappened(*events);
+}
+
+/// Whether some request is answered with this kind. Others come unasked, or of a newer master.
+bool ControlClient::isAnswer(QPlcMessage::Kind kind)
+{
+    return kind == QPlcMessage::Failed || answersOneOf(messages::Requests(), kind);
 }
 
 /// The request that this kind answers. While a command waits for nodes the master answers questions at once, so the
@@ -176,23 +191,21 @@ void ControlClient::answer(const QPlcMessage &message)
     if (m_sent.isEmpty())
         return;  // unasked: nobody waits for it
     const RawHandler handler = m_sent.takeAt(pendingFor(message.kind())).handler;
-    sendNextCommand();
+    sendNextCommands();
     watchDeadlines();
     handler(message);
 }
 
 messages::Failed ControlClient::failureOf(const QPlcMessage &message, const QString &error)
 {
-    messages::Failed failed;
-    QString unused;
     if (message.kind() == QPlcMessage::Invalid)
         return {QStringLiteral("Lost"), QStringLiteral("the master was lost before it answered")};
-    if (message.kind() == QPlcMessage::Failed || message.kind() == QPlcMessage::Rejected)
-        messages::fromObject(message.fields(), &failed, &unused);
-    else
-        failed = {QStringLiteral("MalformedMessage"),
-                  error.isEmpty() ? QStringLiteral("the master answers with %1").arg(message.kindName()) : error};
-    return failed;
+    if (const auto failed = messages::readAs<messages::Failed>(message))
+        return *failed;
+    if (const auto rejected = messages::readAs<messages::Rejected>(message))
+        return {rejected->error, rejected->text};
+    return {QStringLiteral("MalformedMessage"),
+            error.isEmpty() ? QStringLiteral("the master answers with %1").arg(message.kindName()) : error};
 }
 
 // ---- to the master ----
@@ -202,9 +215,9 @@ bool ControlClient::isBusy() const
     return std::any_of(m_sent.begin(), m_sent.end(), [](const Pending &pending) { return pending.isCommand(); });
 }
 
-void ControlClient::send(const QPlcMessage &message, QPlcMessage::Kind answer, const RawHandler &handler)
+void ControlClient::send(const QPlcMessage &message, const RawHandler &handler)
 {
-    Pending pending{message, answer, handler, {}};
+    Pending pending{message, answerTo(messages::Requests(), message.kind()), handler, {}};
     if (!m_isGreeted)
         handler(QPlcMessage());
     else if (pending.isCommand() && !pending.isUrgent() && isBusy())
@@ -226,9 +239,9 @@ void ControlClient::sendNow(Pending pending)
     watchDeadlines();
 }
 
-void ControlClient::sendNextCommand()
+void ControlClient::sendNextCommands()
 {
-    if (!m_waiting.isEmpty() && !isBusy())
+    while (!m_waiting.isEmpty() && !isBusy())
         sendNow(m_waiting.takeFirst());
 }
 

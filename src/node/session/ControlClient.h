@@ -97,13 +97,14 @@ public:
     template<typename Request, typename Handler>
     void request(const Request &request, Handler &&handler)
     {
-        send(messages::toMessage(request), AnswerTo<Request>::Type::kind,
-             [handler = std::forward<Handler>(handler)](const QPlcMessage &answer) {
-                 handler(replyOf<typename AnswerTo<Request>::Type>(answer));
-             });
+        send(messages::toMessage(request), [handler = std::forward<Handler>(handler)](const QPlcMessage &answer) {
+            handler(replyOf<typename AnswerTo<Request>::Type>(answer));
+        });
     }
     /// As request(), for a message that is passed on as it is.
-    void send(const QPlcMessage &message, QPlcMessage::Kind answer, const RawHandler &handler);
+    void send(const QPlcMessage &message, const RawHandler &handler);
+    /// Why \a message is not the answer that was wanted. \param error  what could not be read of it
+    static messages::Failed failureOf(const QPlcMessage &message, const QString &error = QString());
 
 Q_SIGNALS:
     void greeted();
@@ -128,20 +129,18 @@ private:
         RawHandler handler;
         std::int64_t deadline = Never;  // [ns] of monotonicNow()
 
-        bool isCommand() const { return answer == QPlcMessage::Done; }
+        bool isCommand() const { return answer == QPlcMessage::Done || message.kind() == QPlcMessage::Arm; }
         bool isUrgent() const { return message.kind() == QPlcMessage::Stop || message.kind() == QPlcMessage::SafeStop; }
     };
 
     template<typename Answer>
     static std::variant<Answer, messages::Failed> replyOf(const QPlcMessage &message)
     {
-        Answer answer;
         QString error;
-        if (message.kind() == Answer::kind && messages::fromObject(message.fields(), &answer, &error))
-            return answer;
+        if (auto answer = messages::readAs<Answer>(message, &error))
+            return *answer;
         return failureOf(message, error);
     }
-    static messages::Failed failureOf(const QPlcMessage &message, const QString &error);
 
     void greet();
     void receive(const QPlcMessage &message);
@@ -149,9 +148,10 @@ private:
     void receiveRejection(const QPlcMessage &message);
     void receiveEvents(const QPlcMessage &message);
     void answer(const QPlcMessage &message);
+    static bool isAnswer(QPlcMessage::Kind kind);
     int pendingFor(QPlcMessage::Kind answer) const;
     void sendNow(Pending pending);
-    void sendNextCommand();
+    void sendNextCommands();
     void watchDeadlines();
     void checkDeadlines();
     void end(Loss loss, const QString &reason);

@@ -3,11 +3,6 @@
 
 namespace qplc {
 
-QString Leases::Lease::stateName() const
-{
-    return isLost() ? QStringLiteral("lost") : QStringLiteral("held");
-}
-
 void Leases::take(const Signals &signals, Holder holder, const QString &name, std::int64_t timeout, std::int64_t now)
 {
     for (const QPlcSignalIndex signal : signals)

@@ -3,6 +3,7 @@
 
 #include "QPlcSignalDefinition.h"
 #include "QPlcSignalTable.h"
+#include "protocol/messages/Leases.h"
 
 #include <cstdint>
 #include <map>
@@ -26,8 +27,10 @@ public:
         std::int64_t timeout = 0;   // longest silence of the holder
         std::int64_t deadline = 0;  // when it is lost without a word of the holder
         bool isLost() const { return holder == nullptr; }
-        /// "held", "lost"
-        QString stateName() const;
+        messages::LeaseState state() const
+        {
+            return isLost() ? messages::LeaseState::Lost : messages::LeaseState::Held;
+        }
     };
 
     /// Gives \a signals to \a holder, whoever had them.

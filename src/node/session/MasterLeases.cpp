@@ -252,7 +252,7 @@ std::vector<messages::LeaseEntry> MasterLeases::entries() const
     std::vector<messages::LeaseEntry> entries;
     for (const auto &[signal, lease] : m_leases.all())
         entries.push_back(
-            {m_table.at(signal).name, lease.name, lease.stateName(), std::chrono::nanoseconds(lease.timeout)});
+            {m_table.at(signal).name, lease.name, lease.state(), std::chrono::nanoseconds(lease.timeout)});
     return entries;
 }
 

@@ -9,43 +9,6 @@ namespace qplc {
 
 namespace {
 
-messages::NodeEntry entryOf(const QPlcNodeInfo &node)
-{
-    messages::NodeEntry entry;
-    entry.name = node.name;
-    entry.id = quint16(node.id);
-    entry.inputs = node.inputs;
-    entry.outputs = node.outputs;
-    entry.listener = node.listener;
-    entry.critical = node.critical;
-    entry.state = node.state;
-    entry.every = node.every;
-    entry.policy = node.policy;
-    entry.transport = node.transport;
-    entry.address = node.address;
-    entry.lateAnswers = node.lateAnswers;
-    entry.duplicates = node.duplicates;
-    entry.rejected = node.rejected;
-    entry.forged = node.forged;
-    entry.resent = node.resent;
-    entry.faults = node.faultPlan;
-    return entry;
-}
-
-/// Counters go by their names: another version may have more of them.
-QMap<QString, quint64> countersOf(const QPlcMasterStatistics &statistics)
-{
-    return {{QStringLiteral("cycles"), statistics.cycles},
-            {QStringLiteral("overruns"), statistics.overruns},
-            {QStringLiteral("skippedCycles"), statistics.skippedCycles},
-            {QStringLiteral("lateAnswers"), statistics.lateAnswers},
-            {QStringLiteral("strangers"), statistics.strangers},
-            {QStringLiteral("floods"), statistics.floods},
-            {QStringLiteral("refusedConnections"), statistics.refusedConnections},
-            {QStringLiteral("failedHandshakes"), statistics.failedHandshakes},
-            {QStringLiteral("deniedMessages"), statistics.deniedMessages}};
-}
-
 /// All of \a names are looked at before an answer is made: a short question that names one signal again and again would have an endless one.
 bool readNames(const QPlcSignalTable &table, const QStringList &names, std::vector<QPlcSignalIndex> *wanted,
                Refusal *refusal)
@@ -110,26 +73,10 @@ messages::State stateReply(const QPlcMasterNode &master, const ChosenProfile &pr
     reply.profile = QPlcProfile::name(profile.value);
     reply.profileReason = profile.reason;
     reply.session = session;
-    const QVector<QPlcNodeInfo> nodes = master.nodes();
-    for (const QPlcNodeInfo &node : nodes)
-        reply.nodes.push_back(entryOf(node));
-    reply.counters = countersOf(statistics);
+    reply.nodes = master.nodes();
+    reply.counters = messages::countersOf(statistics);
     reply.digest = statistics.imageDigest;
     reply.faults = master.faultPlan();
-    return reply;
-}
-
-messages::Schedule scheduleReply(const QPlcSchedule &schedule)
-{
-    messages::Schedule reply;
-    for (const QVector<QPlcSchedule::Turn> &stage : schedule.stages) {
-        std::vector<messages::TurnEntry> turns;
-        for (const QPlcSchedule::Turn &turn : stage)
-            turns.push_back({turn.node, QPlcSchedule::phaseName(turn.phase)});
-        reply.stages.push_back(turns);
-    }
-    for (const QPlcSchedule::Link &link : schedule.links)
-        reply.links.push_back({link.signal, link.from, link.to, link.age, link.sameCycle});
     return reply;
 }
 
@@ -180,7 +127,7 @@ bool signalReply(const MasterCycle &cycle, const NodeRegistry &registry, const L
         }
         if (const Leases::Lease *lease = leases.find(index)) {
             entry.holder = lease->name;
-            entry.lease = lease->stateName();
+            entry.lease = lease->state();
         }
         reply->signals.push_back(entry);
     }

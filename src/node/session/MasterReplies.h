@@ -21,6 +21,5 @@ messages::State stateReply(const QPlcMasterNode &master, const ChosenProfile &pr
 bool signalReply(const MasterCycle &cycle, const NodeRegistry &registry, const Leases &leases, const QStringList &names,
                  messages::Signals *reply, Refusal *refusal);
 messages::Events eventReply(const std::vector<JournalEvent> &events);
-messages::Schedule scheduleReply(const QPlcSchedule &schedule);
 
 }  // namespace qplc

@@ -15,4 +15,15 @@ QString stateText(const QString &name)
     return words;
 }
 
+QString stateText(messages::MasterState state)
+{
+    return state == messages::MasterState::Unknown ? QStringLiteral("Unknown")
+                                                   : stateText(QString::fromLatin1(messages::nameOf(state)));
+}
+
+QString stateText(messages::ClockKind clock)
+{
+    return stateText(QString::fromLatin1(messages::nameOf(clock)));
+}
+
 }  // namespace qplc

@@ -1,28 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "EventLog.h"
 
+#include "protocol/messages/Events.h"
+
 #include <algorithm>
 
 namespace qplc {
 
 QString severityName(JournalEvent::Severity severity)
 {
-    switch (severity) {
-    case JournalEvent::Info:
-        return QStringLiteral("info");
-    case JournalEvent::Warning:
-        return QStringLiteral("warning");
-    case JournalEvent::Error:
-        return QStringLiteral("error");
-    }
-    return {};
+    return QLatin1String(messages::nameOf(messages::Severity(severity)));
 }
 
 QString kindName(JournalEvent::Kind kind)
 {
     switch (kind) {
     case JournalEvent::State:
-        return QStringLiteral("state");
+        return messages::stateEvent;
     case JournalEvent::Node:
         return QStringLiteral("node");
     case JournalEvent::Late:

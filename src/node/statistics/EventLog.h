@@ -12,7 +12,7 @@ namespace qplc {
 /// What happened at a master, as people want to know it.
 struct JournalEvent
 {
-    enum Severity : std::uint8_t { Info, Warning, Error };
+    enum Severity : std::uint8_t { Info, Warning, Error };  // as messages::Severity
     enum Kind : std::uint8_t { State, Node, Late, Fault, Set, Lease, Overrun, Security, Quality };
 
     Severity severity = Info;

@@ -7,13 +7,25 @@
 /// What has happened in the master: docs/protocol.md, section 5.8.
 namespace qplc::messages {
 
+enum class Severity : quint8 { Info, Warning, Error };
+
+template<>
+struct Names<Severity>
+{
+    static constexpr std::pair<Severity, const char *> all[]
+        = {{Severity::Info, "info"}, {Severity::Warning, "warning"}, {Severity::Error, "error"}};
+};
+
+/// The kind of an event that tells the state of the master.
+constexpr QLatin1String stateEvent("state");
+
 struct EventEntry
 {
     quint64 sequence = 0;
-    Hex64 time;  // [ns] since 1970
-    QString severity;
-    QString kind;
-    QString source;
+    Hex64 time;        // [ns] since 1970
+    QString severity;  // name of a Severity, or a word of a newer master
+    QString kind;      // "state", ...: likewise
+    QString source;    // name of a node; of the master: masterName
     QString text;
     QString alarm;  // name of a condition that lasts; empty: none
     std::optional<bool> active;

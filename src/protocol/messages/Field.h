@@ -73,6 +73,15 @@ struct IsContainer<Value, std::void_t<decltype(std::declval<Value>().empty())>> 
 {
 };
 
+template<typename Value>
+struct IsOptional : std::false_type
+{
+};
+template<typename Value>
+struct IsOptional<std::optional<Value>> : std::true_type
+{
+};
+
 template<typename Value, typename = void>
 struct IsComparable : std::false_type
 {
@@ -87,6 +96,8 @@ bool differs(const Value &value, const Value &unset)
 {
     if constexpr (IsContainer<Value>::value && !std::is_same_v<Value, QString>)
         return value.empty() != unset.empty();
+    else if constexpr (IsOptional<Value>::value)
+        return value.has_value();
     else if constexpr (IsComparable<Value>::value)
         return !(value == unset);
     else

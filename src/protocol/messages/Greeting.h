@@ -38,6 +38,9 @@ struct ClientHello
         field("features", &ClientHello::features));
 };
 
+/// The security of a master that listens to a network, and asks nobody who he is.
+constexpr QLatin1String insecure("insecure");
+
 /// The master greets back.
 struct MasterHello
 {

@@ -7,11 +7,23 @@
 /// One writer at a time by permission of the master: docs/protocol.md, section 5.7.
 namespace qplc::messages {
 
+enum class LeaseState : quint8 {
+    Held,
+    Lost  ///< the holder is gone
+};
+
+template<>
+struct Names<LeaseState>
+{
+    static constexpr std::pair<LeaseState, const char *> all[]
+        = {{LeaseState::Held, "held"}, {LeaseState::Lost, "lost"}};
+};
+
 struct LeaseEntry
 {
     QString signal;
     QString holder;  // of a lost lease: who held it last
-    QString lease;   // "held", "lost"
+    LeaseState lease = LeaseState::Held;
     std::chrono::nanoseconds timeout{0};
 
     static constexpr auto fields = std::make_tuple(

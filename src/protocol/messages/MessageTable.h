@@ -3,7 +3,6 @@
 
 #include "Events.h"
 #include "Greeting.h"
-#include "Kinds.h"
 #include "Leases.h"
 #include "Phases.h"
 #include "Registration.h"
@@ -11,8 +10,79 @@
 #include "State.h"
 #include "Statistics.h"
 
+#include <QtCore/QJsonDocument>
+
+#include <limits>
+
 /// All control messages: a kind without a struct does not compile.
 namespace qplc::messages {
+
+/// Whether \a number is a kind of this version. An enumerator without a row does not compile.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic error "-Wswitch"
+constexpr bool isKind(quint8 number)
+{
+    using Kind = QPlcMessage;
+    switch (QPlcMessage::Kind(number)) {
+    case Kind::Invalid:
+        return false;
+    case Kind::Hello:
+    case Kind::Register:
+    case Kind::Registered:
+    case Kind::Rejected:
+    case Kind::AttachCyclicChannel:
+    case Kind::CyclicChannelAttached:
+    case Kind::MasterEnds:
+    case Kind::InitializeAllStates:
+    case Kind::SendYourInitialOutputStates:
+    case Kind::ReceiveMyInitialOutputStates:
+    case Kind::InitializeWithValues:
+    case Kind::Initialized:
+    case Kind::StatesInitialized:
+    case Kind::StartRealTime:
+    case Kind::RealTimeStarted:
+    case Kind::RealTimeReady:
+    case Kind::Stop:
+    case Kind::RealTimeStopped:
+    case Kind::SafeStop:
+    case Kind::Reset:
+    case Kind::Arm:
+    case Kind::Armed:
+    case Kind::GetState:
+    case Kind::State:
+    case Kind::GetSignals:
+    case Kind::Signals:
+    case Kind::SetSignals:
+    case Kind::Done:
+    case Kind::Failed:
+    case Kind::NodeFault:
+    case Kind::GetStatistics:
+    case Kind::Statistics:
+    case Kind::GetSchedule:
+    case Kind::Schedule:
+    case Kind::TakeLease:
+    case Kind::ReleaseLease:
+    case Kind::GetLeases:
+    case Kind::Leases:
+    case Kind::LeasesChanged:
+    case Kind::GetEvents:
+    case Kind::Events:
+        return true;
+    }
+    return false;
+}
+#pragma GCC diagnostic pop
+
+/// Whether \a isListed is true for every kind, and for nothing else.
+template<typename IsListed>
+constexpr bool isEveryKind(IsListed isListed)
+{
+    for (int number = 0; number <= std::numeric_limits<quint8>::max(); ++number) {
+        if (isKind(quint8(number)) != isListed(QPlcMessage::Kind(number)))
+            return false;
+    }
+    return true;
+}
 
 template<typename... Messages>
 struct List
@@ -57,14 +127,23 @@ QPlcMessage toMessage(const Message &message)
 }
 
 /// Reads \a message. Nothing where it is of another kind, or a field that is needed cannot be used.
+/// \param error  names that field
 template<typename Message>
-std::optional<Message> readAs(const QPlcMessage &message)
+std::optional<Message> readAs(const QPlcMessage &message, QString *error = nullptr)
 {
     Message read;
-    QString ignored;
-    if (message.kind() != Message::kind || !fromObject(message.fields(), &read, &ignored))
-        return std::nullopt;
-    return read;
+    QString text;
+    if (message.kind() == Message::kind && fromObject(message.fields(), &read, &text))
+        return read;
+    if (error)
+        *error = text;
+    return std::nullopt;
+}
+
+/// The fields of a message as they came, for those who pass them on.
+inline QJsonDocument jsonOf(const QPlcMessage &message)
+{
+    return QJsonDocument(message.fields());
 }
 
 /// What became of a message.

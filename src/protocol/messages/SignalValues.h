@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "Field.h"
-#include "QPlcMessage.h"
+#include "Leases.h"
 
 /// Values by name, outside of the cycle: docs/protocol.md, section 5.4.
 namespace qplc::messages {
@@ -18,7 +17,7 @@ struct SignalEntry
     quint8 quality = 0;             // byte of section 6.4
     std::optional<QString> source;  // of several writers, the one whose value it has
     QString holder;                 // of a lease
-    QString lease;                  // "held", "lost"
+    std::optional<LeaseState> lease;
 
     static constexpr auto fields = std::make_tuple(
         field("name", &SignalEntry::name, Presence::Required), field("type", &SignalEntry::type),

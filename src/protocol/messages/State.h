@@ -2,42 +2,28 @@
 #pragma once
 
 #include "Field.h"
+#include "QPlcMasterStatistics.h"
 #include "QPlcMessage.h"
+#include "QPlcNodeInfo.h"
+#include "QPlcSchedule.h"
+#include "Statistics.h"
 #include "Vocabulary.h"
 
 /// What a master and its nodes do: docs/protocol.md, section 5.4.
 namespace qplc::messages {
 
 /// A registered node, as its master sees it.
-struct NodeEntry
+template<>
+struct Description<QPlcNodeInfo>
 {
-    QString name;
-    quint16 id = 0;
-    int inputs = 0;  // number of signals
-    int outputs = 0;
-    bool listener = false;
-    bool critical = false;
-    QString state;
-    int every = 1;  // [cycles] for each frame of a listener
-    QString policy;
-    QString transport;
-    QString address;
-    quint64 lateAnswers = 0;
-    quint64 duplicates = 0;
-    quint64 rejected = 0;
-    quint64 forged = 0;
-    quint64 resent = 0;
-    QString faults;
-
+    using N = QPlcNodeInfo;
     static constexpr auto fields = std::make_tuple(
-        field("name", &NodeEntry::name, Presence::Required), field("id", &NodeEntry::id),
-        field("inputs", &NodeEntry::inputs), field("outputs", &NodeEntry::outputs),
-        field("listener", &NodeEntry::listener), field("critical", &NodeEntry::critical),
-        field("state", &NodeEntry::state), field("every", &NodeEntry::every), field("policy", &NodeEntry::policy),
-        field("transport", &NodeEntry::transport), field("address", &NodeEntry::address),
-        field("lateAnswers", &NodeEntry::lateAnswers), field("duplicates", &NodeEntry::duplicates),
-        field("rejected", &NodeEntry::rejected), field("forged", &NodeEntry::forged),
-        field("resent", &NodeEntry::resent), field("faults", &NodeEntry::faults, Presence::WhenSet));
+        field("name", &N::name, Presence::Required), field("id", &N::id), field("inputs", &N::inputs),
+        field("outputs", &N::outputs), field("listener", &N::listener), field("critical", &N::critical),
+        field("state", &N::state), field("every", &N::every), field("policy", &N::policy),
+        field("transport", &N::transport), field("address", &N::address), field("lateAnswers", &N::lateAnswers),
+        field("duplicates", &N::duplicates), field("rejected", &N::rejected), field("forged", &N::forged),
+        field("resent", &N::resent), field("faults", &N::faultPlan, Presence::WhenSet));
 };
 
 /// A Stop that ended the phase that ran last.
@@ -50,10 +36,18 @@ struct StopEntry
 
     static constexpr auto fields = std::make_tuple(field("whoever", &StopEntry::whoever), field("how", &StopEntry::how),
                                                    field("time", &StopEntry::time), field("yours", &StopEntry::yours));
-    friend bool operator==(const StopEntry &a, const StopEntry &b)
-    {
-        return a.whoever == b.whoever && a.how == b.how && a.time == b.time && a.yours == b.yours;
-    }
+};
+
+/// What a master has counted. They go by their names: another version may have more of them.
+template<>
+struct Counters<QPlcMasterStatistics>
+{
+    using M = QPlcMasterStatistics;
+    static constexpr auto fields = std::make_tuple(
+        field("cycles", &M::cycles), field("overruns", &M::overruns), field("skippedCycles", &M::skippedCycles),
+        field("lateAnswers", &M::lateAnswers), field("strangers", &M::strangers), field("floods", &M::floods),
+        field("refusedConnections", &M::refusedConnections), field("failedHandshakes", &M::failedHandshakes),
+        field("deniedMessages", &M::deniedMessages));
 };
 
 struct State
@@ -71,8 +65,8 @@ struct State
     QString profile;
     QString profileReason;
     Hex64 session;
-    std::vector<NodeEntry> nodes;
-    QMap<QString, quint64> counters;
+    QVector<QPlcNodeInfo> nodes;
+    QMap<QString, double> counters;  // by the names of Counters<QPlcMasterStatistics>
     Hex64 digest;
     std::optional<StopEntry> stopped;
     QString faults;
@@ -94,34 +88,33 @@ struct GetState
     static constexpr auto fields = std::make_tuple();
 };
 
-struct TurnEntry
+template<>
+struct Names<QPlcSchedule::Phase>
 {
-    QString node;
-    QString phase;  // "step", "outputs", "update"
+    static constexpr std::pair<QPlcSchedule::Phase, const char *> all[]
+        = {{QPlcSchedule::Step, "step"}, {QPlcSchedule::Outputs, "outputs"}, {QPlcSchedule::Update, "update"}};
+};
 
+template<>
+struct Description<QPlcSchedule::Turn>
+{
+    using T = QPlcSchedule::Turn;
     static constexpr auto fields
-        = std::make_tuple(field("node", &TurnEntry::node, Presence::Required), field("phase", &TurnEntry::phase));
+        = std::make_tuple(field("node", &T::node, Presence::Required), field("phase", &T::phase));
 };
 
-struct LinkEntry
+template<>
+struct Description<QPlcSchedule::Link>
 {
-    QString signal;
-    QString from;  // "Master"; empty: no node
-    QString to;
-    int age = 0;  // [cycles]
-    bool sameCycle = false;
-
-    static constexpr auto fields = std::make_tuple(
-        field("signal", &LinkEntry::signal, Presence::Required), field("from", &LinkEntry::from),
-        field("to", &LinkEntry::to), field("age", &LinkEntry::age), field("sameCycle", &LinkEntry::sameCycle));
+    using L = QPlcSchedule::Link;
+    static constexpr auto fields
+        = std::make_tuple(field("signal", &L::signal, Presence::Required), field("from", &L::from), field("to", &L::to),
+                          field("age", &L::age), field("sameCycle", &L::sameCycle));
 };
 
-struct Schedule
+struct Schedule : QPlcSchedule
 {
     static constexpr QPlcMessage::Kind kind = QPlcMessage::Schedule;
-    std::vector<std::vector<TurnEntry>> stages;
-    std::vector<LinkEntry> links;
-
     static constexpr auto fields
         = std::make_tuple(field("stages", &Schedule::stages), field("links", &Schedule::links));
 };

@@ -2,10 +2,8 @@
 #pragma once
 
 #include "Field.h"
-#include "QPlcDistribution.h"
-#include "QPlcDurationStatistics.h"
+#include "QPlcCycleStatistics.h"
 #include "QPlcMessage.h"
-#include "QPlcWorstCycle.h"
 
 /// What a master has measured since the start of the phase: docs/protocol.md, section 5.6.
 namespace qplc::messages {
@@ -62,34 +60,107 @@ struct Description<QPlcWorstCycle>
                           field("slack", &W::slack), field("stages", &W::stages));
 };
 
-/// Durations and counters of the master or of a node; counters that a version does not know are kept.
+/// The names of the counters of \a Statistics. They go by their names: another version may have more of them.
+template<typename Statistics>
+struct Counters;
+
+template<>
+struct Counters<QPlcNodeStatistics>
+{
+    using N = QPlcNodeStatistics;
+    static constexpr auto fields
+        = std::make_tuple(field("answers", &N::answers), field("late", &N::late), field("lost", &N::lost),
+                          field("duplicated", &N::duplicated), field("reordered", &N::reordered),
+                          field("rejected", &N::rejected), field("forged", &N::forged), field("resent", &N::resent),
+                          field("nonFinite", &N::nonFinite), field("outOfRange", &N::outOfRange));
+};
+
+template<>
+struct Counters<QPlcCycleStatistics>
+{
+    using C = QPlcCycleStatistics;
+    static constexpr auto fields = std::make_tuple(
+        field("cycles", &C::cycles), field("overruns", &C::overruns), field("skippedCycles", &C::skippedCycles),
+        field("caughtUpCycles", &C::caughtUpCycles), field("shiftedTime", &C::shiftedTime),
+        field("lateAnswers", &C::lateAnswers), field("incompleteCycles", &C::incompleteCycles),
+        field("strangers", &C::strangers), field("floods", &C::floods));
+};
+
+template<typename Statistics>
+QMap<QString, double> countersOf(const Statistics &statistics)
+{
+    QMap<QString, double> counters;
+    const auto add
+        = [&](const auto &field) { counters.insert(QLatin1String(field.name), double(statistics.*field.member)); };
+    std::apply([&](const auto &...each) { (add(each), ...); }, Counters<Statistics>::fields);
+    return counters;
+}
+
+/// Counters that are missing or that do not fit are 0.
+template<typename Statistics>
+void setCounters(const QMap<QString, double> &counters, Statistics *statistics)
+{
+    const auto set = [&](const auto &field) {
+        using Value = std::decay_t<decltype(statistics->*field.member)>;
+        Value value = 0;
+        Wire<Value>::fromJson(counters.value(QLatin1String(field.name)), &value);
+        statistics->*field.member = value;
+    };
+    std::apply([&](const auto &...each) { (set(each), ...); }, Counters<Statistics>::fields);
+}
+
+/// Durations and counters of the master or of a node. Absent durations: that one has none.
 struct MasterMeasures
 {
-    QPlcDurationStatistics lateness;
-    QPlcDurationStatistics execution;
-    QPlcDurationStatistics roundTrip;
-    QPlcDurationStatistics slack;
+    std::optional<QPlcDurationStatistics> lateness;
+    std::optional<QPlcDurationStatistics> execution;
+    std::optional<QPlcDurationStatistics> roundTrip;
+    std::optional<QPlcDurationStatistics> slack;
     QMap<QString, double> counters;
 
-    static constexpr auto fields
-        = std::make_tuple(field("lateness", &MasterMeasures::lateness), field("execution", &MasterMeasures::execution),
-                          field("roundTrip", &MasterMeasures::roundTrip), field("slack", &MasterMeasures::slack),
-                          field("counters", &MasterMeasures::counters));
+    static constexpr auto fields = std::make_tuple(field("lateness", &MasterMeasures::lateness, Presence::WhenSet),
+                                                   field("execution", &MasterMeasures::execution, Presence::WhenSet),
+                                                   field("roundTrip", &MasterMeasures::roundTrip, Presence::WhenSet),
+                                                   field("slack", &MasterMeasures::slack, Presence::WhenSet),
+                                                   field("counters", &MasterMeasures::counters));
 };
 
 struct NodeMeasures
 {
     QString name;
-    QPlcDurationStatistics execution;
-    QPlcDurationStatistics roundTrip;
-    QPlcDurationStatistics slack;
+    std::optional<QPlcDurationStatistics> execution;
+    std::optional<QPlcDurationStatistics> roundTrip;
+    std::optional<QPlcDurationStatistics> slack;
     QMap<QString, double> counters;
 
-    static constexpr auto fields
-        = std::make_tuple(field("name", &NodeMeasures::name, Presence::Required),
-                          field("execution", &NodeMeasures::execution), field("roundTrip", &NodeMeasures::roundTrip),
-                          field("slack", &NodeMeasures::slack), field("counters", &NodeMeasures::counters));
+    static constexpr auto fields = std::make_tuple(field("name", &NodeMeasures::name, Presence::Required),
+                                                   field("execution", &NodeMeasures::execution, Presence::WhenSet),
+                                                   field("roundTrip", &NodeMeasures::roundTrip, Presence::WhenSet),
+                                                   field("slack", &NodeMeasures::slack, Presence::WhenSet),
+                                                   field("counters", &NodeMeasures::counters));
 };
+
+inline QPlcCycleStatistics statisticsOf(const MasterMeasures &measures)
+{
+    QPlcCycleStatistics statistics;
+    statistics.lateness = measures.lateness.value_or(QPlcDurationStatistics());
+    statistics.execution = measures.execution.value_or(QPlcDurationStatistics());
+    statistics.roundTrip = measures.roundTrip.value_or(QPlcDurationStatistics());
+    statistics.slack = measures.slack.value_or(QPlcDurationStatistics());
+    setCounters(measures.counters, &statistics);
+    return statistics;
+}
+
+inline QPlcNodeStatistics statisticsOf(const NodeMeasures &measures)
+{
+    QPlcNodeStatistics statistics;
+    statistics.name = measures.name;
+    statistics.execution = measures.execution.value_or(QPlcDurationStatistics());
+    statistics.roundTrip = measures.roundTrip.value_or(QPlcDurationStatistics());
+    statistics.slack = measures.slack.value_or(QPlcDurationStatistics());
+    setCounters(measures.counters, &statistics);
+    return statistics;
+}
 
 struct Statistics
 {

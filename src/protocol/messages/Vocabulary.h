@@ -8,6 +8,9 @@
 /// Words that messages share: docs/protocol.md lists them.
 namespace qplc::messages {
 
+/// How a master calls itself where nodes go by their names.
+constexpr QLatin1String masterName("Master");
+
 /// What a master does. docs/design/states.md has all events of each state.
 enum class MasterState : quint8 {
     Unknown,  ///< a word of a newer master
@@ -32,6 +35,12 @@ struct Names<MasterState>
            {MasterState::SafeStop, "SafeStop"},
            {MasterState::Fault, "Fault"}};
 };
+
+/// The state of this name. Those of nodes have the names of those of masters, where both have one.
+inline MasterState stateNamed(const QString &name)
+{
+    return valueNamed<MasterState>(name).value_or(MasterState::Unknown);
+}
 
 /// Whether cycles run, or stand still for a moment; safe ones, too.
 constexpr bool hasCycles(MasterState state)
