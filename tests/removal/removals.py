@@ -88,7 +88,7 @@ REMOVALS = [
             "R::on(E::Stop, R::in(S::Initializing), R::go(S::Off, A::EndSequence)),", "R::on(E::Stop, R::in(S::Initializing), R::refuse(underWay)),",
             "tst_MasterStates", "stoppingIsNeverRefused"),
     Removal("stop by everybody who is known", "src/node/security/AccessRights.h",
-            "case Kind::Stop:                         return everybody;", "case Kind::Stop:                         return operators;",
+            "if (messages::OperatorsMaySend::contains(kind))", "if (messages::OperatorsMaySend::contains(kind) || kind == QPlcMessage::Stop)",
             "tst_AccessRights", "everybodyWhoIsKnownMayStop"),
     Removal("node that is not ready to start in time", "src/node/api/MasterSequences.cpp",
             "    stepTimer.start();\n", "    if (step != Step::Start)\n        stepTimer.start();\n",

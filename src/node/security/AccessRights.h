@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "QPlcMessage.h"
+#include "protocol/messages/MessageTable.h"
 
 #include <QtCore/QStringList>
 
@@ -44,66 +44,17 @@ private:
     quint8 m_bits = 0;
 };
 
-/// Who may send a message of \a kind to a master: the one table of rights. Nobody: a master sends it, or this version does not know it.
+/// Who may send a message of \a kind to a master. Nobody: a master sends it, or this version does not know it.
 ///
-/// A kind without a row does not compile. What a message writes is checked signal by signal besides: see refusalOf().
-#pragma GCC diagnostic push
-#pragma GCC diagnostic error "-Wswitch"
+/// What a message writes is checked signal by signal besides: see refusalOf().
 constexpr Roles whoMaySend(QPlcMessage::Kind kind)
 {
-    constexpr Roles nobody;
-    constexpr Roles everybody = Role::Observer | Roles(Role::Operator) | Role::Node | Role::Engineer;
-    constexpr Roles operators = Role::Operator | Roles(Role::Engineer);
-    using Kind = QPlcMessage;
-    // clang-format off
-    switch (kind) {
-    case Kind::Invalid:                      return nobody;
-    case Kind::Hello:                        return everybody;
-    case Kind::Register:                     return everybody;  // an Observer as a listener without outputs
-    case Kind::Registered:                   return nobody;
-    case Kind::Rejected:                     return nobody;
-    case Kind::AttachCyclicChannel:          return everybody;
-    case Kind::CyclicChannelAttached:        return nobody;
-    case Kind::MasterEnds:                   return nobody;
-    case Kind::InitializeAllStates:          return operators;
-    case Kind::SendYourInitialOutputStates:  return nobody;
-    case Kind::ReceiveMyInitialOutputStates: return everybody;
-    case Kind::InitializeWithValues:         return nobody;
-    case Kind::Initialized:                  return everybody;
-    case Kind::StatesInitialized:            return nobody;
-    case Kind::StartRealTime:                return operators;
-    case Kind::RealTimeStarted:              return nobody;
-    case Kind::RealTimeReady:                return everybody;
-    case Kind::Stop:                         return everybody;
-    case Kind::RealTimeStopped:              return nobody;
-    case Kind::SafeStop:                     return everybody;
-    case Kind::Reset:                        return operators;
-    case Kind::Arm:                          return operators;
-    case Kind::Armed:                        return nobody;
-    case Kind::GetState:                     return everybody;
-    case Kind::State:                        return nobody;
-    case Kind::GetSignals:                   return everybody;
-    case Kind::Signals:                      return nobody;
-    case Kind::SetSignals:                   return operators;
-    case Kind::Done:                         return nobody;
-    case Kind::Failed:                       return nobody;
-    case Kind::NodeFault:                    return everybody;
-    case Kind::GetStatistics:                return everybody;
-    case Kind::Statistics:                   return nobody;
-    case Kind::GetSchedule:                  return everybody;
-    case Kind::Schedule:                     return nobody;
-    case Kind::TakeLease:                    return operators;
-    case Kind::ReleaseLease:                 return operators;
-    case Kind::GetLeases:                    return everybody;
-    case Kind::Leases:                       return nobody;
-    case Kind::LeasesChanged:                return nobody;
-    case Kind::GetEvents:                    return everybody;
-    case Kind::Events:                       return nobody;
-    }
-    // clang-format on
-    return nobody;
+    if (messages::OperatorsMaySend::contains(kind))
+        return Role::Operator | Roles(Role::Engineer);
+    if (messages::EverybodyMaySend::contains(kind))
+        return Role::Observer | Roles(Role::Operator) | Role::Node | Role::Engineer;
+    return {};
 }
-#pragma GCC diagnostic pop
 
 /// Whether a message of \a kind does something to the plant, and is written down: what not everybody may do, Stop and SafeStop.
 constexpr bool isCommand(QPlcMessage::Kind kind)

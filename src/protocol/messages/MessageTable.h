@@ -120,6 +120,19 @@ static_assert(isEveryKind([](QPlcMessage::Kind kind) {
               }),
               "a kind of QPlcMessage has no struct in FromClient or FromMaster");
 
+/// What every role may send to a master; an Observer registers as a listener without outputs.
+using EverybodyMaySend
+    = List<ClientHello, Register, AttachCyclicChannel, ReceiveMyInitialOutputStates, Initialized, RealTimeReady, Stop,
+           SafeStop, GetState, GetSignals, NodeFault, GetStatistics, GetSchedule, GetLeases, GetEvents>;
+/// What Operators and Engineers may send.
+using OperatorsMaySend = List<InitializeAllStates, StartRealTime, Reset, Arm, SetSignals, TakeLease, ReleaseLease>;
+
+static_assert(isEveryKind([](QPlcMessage::Kind kind) {
+                  const bool hasRight = EverybodyMaySend::contains(kind) != OperatorsMaySend::contains(kind);
+                  return hasRight ? FromClient::contains(kind) : FromMaster::contains(kind);
+              }),
+              "a message of FromClient is in neither of EverybodyMaySend and OperatorsMaySend, or in both");
+
 template<typename Message>
 QPlcMessage toMessage(const Message &message)
 {
