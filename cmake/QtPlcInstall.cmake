@@ -52,6 +52,7 @@ install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT qtplc-doc
     PATTERN "build" EXCLUDE
     PATTERN "__pycache__" EXCLUDE
     PATTERN "Doxyfile.in" EXCLUDE
+    PATTERN "reference.dox" EXCLUDE
     PATTERN ".clang-format" EXCLUDE)
 include(QtPlcServices)
 include(QtPlcPackages)

@@ -5,35 +5,57 @@
 
 #include <QtCore/QMetaType>
 
-/// How the cycles of a master follow each other.
+/// How the cycles of a master follow each other: in real time, scaled, or as fast as possible.
 ///
-/// Whatever the clock, cycle k happens at the nominal time k x period since the start of the real-time phase, and nodes take time from there alone.
-/// A value type.
+/// \code
+/// QPlcMasterNode master;
+/// master.setClock(QPlcClock::scaled(0.1));  // ten times slower
+/// \endcode
+///
+/// With each clock, cycle k has the nominal time k * period since the start of the real-time phase,
+/// and nodes use this time only.
+///
+/// \threadsafe a value type: each thread may use its own copy
+///
+/// \ingroup time
 class QPlcClock
 {
 public:
+    /// The kinds of clocks.
     enum Kind : quint8 {
-        RealTime,  ///< one cycle each period of CLOCK_MONOTONIC
-        Scaled,    ///< `scale` times as fast (0.1: slow motion)
-        Lockstep   ///< the next cycle as soon as all nodes that are not listeners have answered; bit-identical results
+        RealTime,  ///< one cycle per period of CLOCK_MONOTONIC
+        Scaled,    ///< `scale` times as fast; 0.1 is slow motion
+        /// The next cycle begins when all nodes but listeners have answered; bit-identical results.
+        Lockstep
     };
 
+    /// Returns the clock of real time: one simulated second per second.
     static constexpr QPlcClock realTime() { return QPlcClock(RealTime, 1.0); }
-    /// \param scale  simulated seconds per second, 0.001 ... 1000
+    /// Returns a clock that is faster or slower than real time.
+    /// \param scale  simulated seconds per second, 0.001 to 1000; outside of that the clock is not
+    ///     valid
     static constexpr QPlcClock scaled(double scale) { return QPlcClock(Scaled, scale); }
+    /// Returns the clock that waits for nodes instead of time.
     static constexpr QPlcClock lockstep() { return QPlcClock(Lockstep, 0.0); }
 
+    /// Makes the clock of real time.
     constexpr QPlcClock() = default;
+    /// Returns the kind.
     constexpr Kind kind() const { return m_kind; }
-    /// Simulated seconds per second; 1 for RealTime, 0 (as fast as possible) for Lockstep.
+    /// Returns the simulated seconds per second: 1 for RealTime, 0 for Lockstep (as fast as
+    /// possible).
     constexpr double scale() const { return m_scale; }
+    /// Returns true for Lockstep.
     constexpr bool isLockstep() const { return m_kind == Lockstep; }
+    /// Returns false for a scale outside of 0.001 to 1000.
     constexpr bool isValid() const { return m_kind != Scaled || (m_scale >= 0.001 && m_scale <= 1000.0); }
 
+    /// Returns true if kind and scale are the same.
     friend constexpr bool operator==(QPlcClock a, QPlcClock b)
     {
         return a.m_kind == b.m_kind && a.m_scale == b.m_scale;
     }
+    /// Returns true if kind or scale differ.
     friend constexpr bool operator!=(QPlcClock a, QPlcClock b) { return !(a == b); }
 
 private:

@@ -8,62 +8,100 @@
 #include "QPlcOutput.h"
 #include "QPlcSlaveNode.h"
 
-/// A node whose inputs and outputs are variables: ports that are set before step() and sent after it.
+/// A node whose inputs and outputs are variables (ports). The inputs are set before each step, and
+/// the outputs are sent after it.
 ///
-/// ```cpp
+/// \code
 /// class Winch : public QPlcCompactSlaveNode
 /// {
 /// public:
-///     Winch() : QPlcCompactSlaveNode(QStringLiteral("Winch")) {}
+///     Winch() : QPlcCompactSlaveNode("Winch") {}
+///
 /// private:
-///     QPlcInput<double>  m_tetherSpeed {this, "tetherSpeed"};   // [m/s], > 0 reels out
+///     QPlcInput<double> m_tetherSpeed{this, "tetherSpeed"};     // [m/s], > 0 reels out
 ///     QPlcOutput<double> m_tetherLength{this, "tetherLength"};  // [m]
 ///     void reset() override { m_tetherLength = 300.0; }
-///     void step(const QPlcCycle &cycle) override { m_tetherLength = m_tetherLength + m_tetherSpeed * cycle.dt(); }
+///     void step(const QPlcCycle &cycle) override
+///     {
+///         m_tetherLength = m_tetherLength + m_tetherSpeed * cycle.dt();
+///     }
 /// };
-/// ```
+/// \endcode
 ///
-/// With setTwoPhase(true) outputs() and update() take the place of step():
+/// With setTwoPhase(true), outputs() and update() take the place of step():
 ///
-/// ```cpp
-/// void outputs() override { m_level = m_volume / area; }                                      // [m]
-/// void update(const QPlcCycle &cycle) override { m_volume += m_inflow * cycle.dt(); }         // [m^3]
-/// ```
+/// \code
+/// class Tank : public QPlcCompactSlaveNode
+/// {
+/// public:
+///     Tank() : QPlcCompactSlaveNode("Tank") { setTwoPhase(true); }
 ///
-/// A cycle of such a node allocates nothing, whatever the ports, unless step() does.
-/// Threads: step() on the cycle thread; everything else in the thread of the object, while no cycle runs.
+/// private:
+///     QPlcInput<double> m_inflow{this, "inflow", QPlcInputTiming::SameCycle};  // [m^3/s]
+///     QPlcOutput<double> m_level{this, "level"};                               // [m]
+///     double m_volume = 0.0;                                                   // [m^3]
+///     void outputs() override { m_level = m_volume / 2.0; }                    // area of 2 m^2
+///     void update(const QPlcCycle &cycle) override { m_volume += m_inflow * cycle.dt(); }
+/// };
+/// \endcode
+///
+/// A cycle of such a node allocates no memory, unless step() does.
+///
+/// \threadsafe no: step(), outputs(), update() and safeState() run on the cycle thread (outputs()
+///     and safeState() also in the thread of the object, while no cycle runs). Call everything else
+///     in the thread of the object, while no cycle runs
+///
+/// \ingroup nodes
 class QTPLC_EXPORT QPlcCompactSlaveNode : public QPlcSlaveNode
 {
     Q_OBJECT
 public:
+    /// Makes a node that is not connected.
+    /// \param name  under which the node registers; unique at its master
+    /// \param policy  what the master does when an answer is late
+    /// \param parent  owns the node, if given
     explicit QPlcCompactSlaveNode(const QString &name, RealTimeViolationPolicy policy = ErrorZeroOrderHold,
                                   QObject *parent = nullptr);
+    /// Ends the cycles of the node with a warning if they still run; safeState() is not called
+    /// then. Call disconnectFromMaster() before.
     ~QPlcCompactSlaveNode() override;
 
-    /// Lets the node say how far each of its outputs can be trusted (QPlcOutput::setQuality()), at the price of a byte for each: for what measures, and may have nothing to
-    /// tell. A master that does not know of this is refused. \pre not connected
+    /// Sets whether the node sends the quality of each output (QPlcOutput::setQuality()) with its
+    /// value, which costs a byte per output and cycle. Use it for sensors that may have no value.
+    /// Default off. The registration fails at a master that does not support it.
+    /// \pre the node is not registered
     void setSendsQuality(bool sends);
+    /// Returns true if the node sends the quality of each output.
     bool sendsQuality() const;
 
 protected:
-    /// Brings the node into its initial state and sets its outputs. Called before every real-time phase, and at a join.
+    /// Brings the node into its initial state and sets its outputs. Called in the thread of the
+    /// object at each initialization, and when the node joins cycles that run. The default calls
+    /// compactInitializeOutputSignals().
     virtual void reset() { compactInitializeOutputSignals(); }
-    /// The inputs have their initial values now.
+    /// Called in the thread of the object when the inputs have their initial values, after reset()
+    /// of all nodes.
     virtual void initialized() {}
-    /// One cycle: inputs are set; set the outputs.
+    /// Computes one cycle: reads the inputs, sets the outputs. Called on the cycle thread. It has
+    /// to end within the period; it must not wait and should not allocate. An exception is a fault
+    /// of the node. The default calls compactRealTimeout().
     virtual void step(const QPlcCycle &cycle)
     {
         Q_UNUSED(cycle)
         compactRealTimeout();
     }
 
-    /// Two-phase node (setTwoPhase()): sets the outputs out of the state alone; called after reset() and after each update().
+    /// Two-phase node: sets the outputs from the state alone, without reading inputs. Called after
+    /// reset() and after each update().
     virtual void outputs() {}
-    /// Two-phase node: inputs are set; moves the state on. step() is not called.
+    /// Two-phase node: moves the state on by one cycle with the inputs of that cycle. Called
+    /// instead of step().
     virtual void update(const QPlcCycle &cycle) { Q_UNUSED(cycle) }
 
-    // The same under the names of the first QtPLC; reset() and step() call them unless overridden.
+    // The names of the thesis; reset() and step() call them unless overridden.
+    /// Does what reset() does; the name of the thesis. Not called if reset() is overridden.
     virtual void compactInitializeOutputSignals() {}
+    /// Does what step() does; the name of the thesis. Not called if step() is overridden.
     virtual void compactRealTimeout() {}
 
 private:

@@ -19,137 +19,198 @@ namespace qplc {
 class WindowContext;
 }
 
-/// The window in which people see, steer and understand running plants.
+/// The window in which people see, operate and understand running plants.
 ///
-/// ```cpp
-/// QPlcControlCenter controlCenter;
-/// controlCenter.restoreView();
-/// controlCenter.connectToMaster("kite:50000");
-/// controlCenter.show();
-/// ```
+/// \code
+/// int main(int argc, char **argv)
+/// {
+///     QPlcGuiApplication application(argc, argv);
+///     QPlcControlCenter controlCenter;
+///     controlCenter.restoreView();
+///     controlCenter.connectToMaster("kite:50000");
+///     controlCenter.show();
+///     return application.exec();
+/// }
+/// \endcode
 ///
-/// CMake: `find_package(QtPlc REQUIRED COMPONENTS Gui)`, and `target_link_libraries(window PRIVATE QtPlc::Gui)`.
+/// CMake: `find_package(QtPlc REQUIRED COMPONENTS Gui)`, and `target_link_libraries(window PRIVATE
+/// QtPlc::Gui)`.
 ///
-/// Panels (QPlcWidget) stand in tabs, splits and floating windows, which people arrange, undo, save and open. The bar above them shows the selected plant, its state and the next thing to do,
-/// and STOP, always. Plants come and go as they like: the window never waits for one, and connects again for ever.
+/// Panels (QPlcWidget) stand in tabs, splits and floating windows. People arrange, undo, save and
+/// open them. The bar above the panels shows the selected plant, its state, the next possible
+/// action, and always STOP. Plants may come and go: the window never waits for one, and connects
+/// again and again.
 ///
-/// A program may also wire a node of its own to the window, as the thesis does in listing 4.18: the last part of the class is for that. Such a plant is one among the others.
+/// A program may also wire a node of its own to the window, as the thesis does in listing 4.18: the
+/// last functions of the class are for that. Such a plant is one among the others.
 ///
-/// Threads: that of the application.
+/// \threadsafe no: use it in the main thread
+///
+/// \ingroup controlcenter
 class QTPLC_GUI_EXPORT QPlcControlCenter : public QMainWindow
 {
     Q_OBJECT
 public:
+    /// Colours of the window.
     enum Theme {
-        SystemTheme,  ///< light or dark, as the desktop is, also when it changes
-        LightTheme,
-        DarkTheme,
-        SunlightTheme  ///< black on white, thick lines, for outdoors
+        SystemTheme,   ///< light or dark like the desktop, also when that changes
+        LightTheme,    ///< dark texts on a light background
+        DarkTheme,     ///< light texts on a dark background
+        SunlightTheme  ///< black on white with thick lines, for outdoors
     };
     Q_ENUM(Theme)
 
-    /// All standard panels of QtPlc::Gui are available from the begin.
+    /// Makes a window without plants. All standard panels of QtPlc::Gui are available.
+    /// \param parent  owns the window, if given
     explicit QPlcControlCenter(QWidget *parent = nullptr);
+    /// Disconnects from all plants, which keep running. Signals that this window holds get their
+    /// neutral value.
     ~QPlcControlCenter() override;
 
     // -- plants --
 
-    /// Connects, for ever, to a master: "host:port", "[::1]:port", "qtplc://host:port", or anything that QPlcUnderlyingProtocol::fromString() reads. Any number of plants.
-    /// \param name  for people and references to signals; the address unless given, with a number where it is taken
-    /// \return the name of the plant. An address that is none, or where nobody answers, is told in the window.
+    /// Connects to a master, and connects again whenever the connection is lost. Any number of
+    /// plants is possible. The window reports invalid addresses and masters that do not answer.
+    /// \param address  "host:port", "[::1]:port", "qtplc://host:port", or a text for
+    ///     QPlcUnderlyingProtocol::fromString()
+    /// \param name  for people and for references to signals; empty: the address. A number is added
+    ///     if the name exists already
+    /// \return the name of the plant
     QString connectToMaster(const QString &address, const QString &name = QString());
-    /// Lets go of a plant, which goes on. Nothing happens when there is none of this name.
+    /// Disconnects from a plant, which keeps running, and removes it from the window. Does nothing
+    /// for an unknown name.
     void disconnectFromMaster(const QString &plant);
-    /// Names, in the order of connectToMaster().
+    /// Returns the names of the plants, in the order of connectToMaster().
     QStringList plants() const;
+    /// Returns true if the master of the plant answers; false for an unknown name.
     bool isConnected(const QString &plant) const;
-    /// Whether its cycles arrive: the values that the window shows are of now.
+    /// Returns true if cycles of the plant arrive, so that the window shows present values; false
+    /// for an unknown name.
     bool isLive(const QString &plant) const;
 
     // -- panels and layouts --
 
-    /// Makes panels of another type available, for layouts and people. \param factory  owned by others, outlives the window; QPlcWidget::registerFactory() keeps it
+    /// Makes another kind of panel available, for layouts and people.
+    /// \param factory  not owned, outlives the window; QPlcWidget::registerFactory() can own it
     void addAvailableWidget(QPlcWidgetFactory *factory);
-    /// Makes panels of a class available, for layouts and people: `addPanel<Compass>()`. Panels of this kind
-    /// that a layout has already appear. \param title  what people read; empty: `Panel::typeName()`
+    /// Makes a class of panels available, for layouts and people. Panels of this kind that a layout
+    /// already contains appear.
+    /// \param title  what people read; empty: `Panel::typeName()`
     template<typename Panel>
     void addPanel(const QString &title = QString())
     {
         QPlcWidgetFactory *known = QPlcWidget::factory(Panel::typeName());
         addAvailableWidget(known ? known : QPlcWidget::registerFactory(new QPlcWidgetFactoryOf<Panel>(title)));
     }
-    /// A layout that comes with the program (JSON as of a file); the first one is the default of resetLayout(), and is shown when nothing else was yet.
-    /// \return false: \a error says where it is wrong
+    /// Adds a layout that comes with the program. The first one is the default of resetLayout(),
+    /// and the window shows it if it has shown no layout yet.
+    /// \param name  what people read in the menu
+    /// \param json  contents of a layout file
+    /// \param error  if given: file position and reason of a failure
+    /// \return false if \a json is not a layout; nothing has changed then
     bool addLayout(const QString &name, const QByteArray &json, QString *error = nullptr);
-    /// Shows a layout of addLayout(), as a step that can be undone. \return false when there is none of this name
+    /// Shows a layout of addLayout(); people can undo it.
+    /// \return false for an unknown name
     bool showLayout(const QString &name);
-    /// Shows the default layout, as a step that can be undone.
+    /// Shows the default layout; people can undo it.
     void resetLayout();
-    /// Brings a tab to the front. \return false when the layout has none of this name
+    /// Brings a tab of the layout to the front.
+    /// \return false if there is no tab of this name
     bool showTab(const QString &name);
-    /// Takes the layout of a file, as a step that can be undone. \return false: \a error says file, line, column and what is wrong, and nothing has changed
+    /// Shows the layout of a file; people can undo it.
+    /// \param error  if given: file, line, column and reason of a failure
+    /// \return false if the file cannot be read or is not a layout; nothing has changed then
     bool openLayout(const QString &fileName, QString *error = nullptr);
-    /// Writes the layout to a file as a whole, or leaves the file as it was.
+    /// Writes the layout to a file. On a failure the former contents of the file stay.
+    /// \param error  if given: reason of a failure
     bool saveLayout(const QString &fileName, QString *error = nullptr);
-    /// As saveLayout() writes it.
+    /// Returns the layout as saveLayout() writes it.
     QByteArray layoutJson() const;
-    /// Window, layout, theme and plants as they were when the window was closed last (QSettings of the application); the default layout the first time. Saved when the window is closed,
-    /// if this was called.
+    /// Restores window, layout, theme and plants from the last time (QSettings of the application);
+    /// the first time it shows the default layout. After this call the window saves them when it
+    /// closes.
     void restoreView();
 
     // -- start page: shown while there is no plant --
 
-    /// A big button of the start page, and a command of the window: text, icon, and toolTip, a sentence below the text. \param action  owned by others
+    /// Adds a large button to the start page, which is shown while there is no plant, and a command
+    /// to the window. The button shows text, icon and tool tip (a sentence below the text).
+    /// \param action  not owned, outlives the window
     void addStartAction(QAction *action);
-    /// A command at the end of the menu 'Help'. \param action  owned by others
+    /// Adds a command at the end of the menu 'Help'.
+    /// \param action  not owned
     void addHelpAction(QAction *action);
+    /// Shows the start page.
     void showStartPage();
+    /// Returns true if the start page is shown.
     bool isStartPageShown() const;
-    /// A line over the panels until it is closed, or another one comes: "Not real time: ..." An empty text closes it.
+    /// Shows a line above the panels until a person closes it or another one replaces it: "Not real
+    /// time: ..."
+    /// \param text  empty: closes the line
     void showHint(const QString &text);
-    /// The same with a button for what can be done about it. \param remedy  owned by others, may go before the line does
+    /// Shows the same with a button for what people can do about it.
+    /// \param remedy  not owned; may be deleted while the line is shown
     void showHint(const QString &text, QAction *remedy);
 
+    /// Returns the colours that were chosen.
     Theme theme() const;
+    /// Sets the colours of the window.
     void setTheme(Theme theme);
-    /// What all panels of the window share; for the panels of QtPLC itself.
+    /// Returns what all panels of the window share. Only for panels of QtPLC.
     qplc::WindowContext *context() const;
 
     // -- for a node that the program wires by hand (thesis, listing 4.18) --
-    //
-    // The plant appears with connectedToMaster(). Whoever connects connectRequested() gets what people enter at 'Connect...' in place of the window.
 
-    /// The name of the plant, for people and references to signals; said before connectedToMaster(). Without one it is the address that was entered at 'Connect...', or else "plant"; with a number
-    /// where the name is taken.
+    /// Sets the name of the plant of the wired node, for people and for references to signals. Call
+    /// it before connectedToMaster(). Without it the name is the address that a person has entered
+    /// at 'Connect...', or "plant". A number is added if the name exists already.
     void setPlantName(const QString &name);
-    /// The table of the process, when it was read after the window had been made. Without it, the window takes what QPlcSignalIndexTable::current() says when the plant appears.
+    /// Tells the window that the table of the process has changed. Call it when the table was read
+    /// after the window was made. The window takes QPlcSignalIndexTable::current().
     void setSignalIndexTable(const QPlcSignalIndexTable &table);
-    /// All signals of the table: the inputs of the node.
+    /// Returns all signals of the table of the process: the inputs of the wired node.
     QPlcSignalIndexList inputSignalIndices() const;
-    /// What the panels write: the outputs of the node.
+    /// Returns the signals that panels write: the outputs of the wired node.
     QPlcSignalIndexList outputSignalIndices() const;
+    /// Returns the values of the outputs at the begin of a phase.
     QPlcSignalList initialOutputSignals() const;
 
 public Q_SLOTS:
-    /// The values of all cycles since the last call, oldest first.
+    /// Takes values of the wired node.
+    /// \param signalValues  values of all cycles since the last call, oldest first
     void realTimeout(const QList<QPlcSignalList> &signalValues);
+    /// Tells the window that the wired node is connected: its plant appears.
     void connectedToMaster();
-    /// The node could not connect, or has lost its master: shows \a text, or what \a error means without one.
+    /// Tells the window that the wired node could not connect, or has lost its master. The window
+    /// shows it.
+    /// \param error  kind of the failure
+    /// \param text  sentence for people; empty: a sentence about \a error
     void errorWithMaster(QPlcAbstractSocket::Error error, const QString &text = QString());
+    /// Tells the window that the wired node is not connected any more.
     void disconnectedFromMaster();
-    /// The values with which a phase begins.
+    /// Tells the window the values with which a phase begins.
     void initialize(const QPlcSignalList &signalValues);
+    /// Tells the window that the real-time phase has begun.
     void started();
+    /// Tells the window that the real-time phase has ended.
     void stopped();
 
 Q_SIGNALS:
+    /// Emitted when a person enters an address at 'Connect...'. If it is connected to a receiver,
+    /// the receiver connects the wired node; otherwise the window connects by itself.
     void connectRequested(const QPlcUnderlyingProtocol &protocol);
+    /// Emitted when a person wants to disconnect the wired node.
     void disconnectRequested();
+    /// Emitted when inputSignalIndices() has changed.
     void inputSignalIndicesChanged(const QPlcSignalIndexList &indices);
+    /// Emitted when outputSignalIndices() has changed.
     void outputSignalIndicesChanged(const QPlcSignalIndexList &indices);
+    /// Emitted when initialOutputSignals() has changed.
     void initialOutputSignalsChanged(const QPlcSignalList &values);
+    /// Emitted when a panel writes signals of the wired node.
+    /// \param values  only those that are new
     void sendNewOutputSignals(const QPlcSignalList &values);
-    /// A command for the master of the wired node.
+    /// Emitted when a person gives a command to the master of the wired node.
     void sendMessage(const QPlcMessage &message);
 
 protected:

@@ -16,85 +16,130 @@ namespace qplc {
 class DriverRunner;
 }
 
-/// What knows one kind of device or bus: opens it, reads values from it and writes values to it. A QPlcHardwareNode runs it.
+/// Base of drivers. A driver opens one kind of device or bus, reads values from it and writes
+/// values to it. A QPlcHardwareNode runs it.
 ///
-/// ```cpp
+/// \code
 /// class WindVane : public QPlcDriver
 /// {
 /// public:
 ///     WindVane() : QPlcDriver(OwnPace) {}
+///
 /// private:
 ///     QPlcReadChannel m_angle{this, "angle"};  // [rad]
-///     void configure(QPlcDriverSettings &settings) override { m_device = settings.requiredText("device", "/dev/vane0"); }
-///     bool open() override { return m_vane.open(m_device) || fail(m_vane.errorString()); }
-///     void close() override { m_vane.close(); }
+///     QFile m_file;
+///     void configure(QPlcDriverSettings &settings) override
+///     {
+///         m_file.setFileName(settings.requiredText("device", "/dev/vane0"));
+///     }
+///     bool open() override
+///     {
+///         return m_file.open(QIODevice::ReadOnly) || fail(m_file.errorString());
+///     }
+///     void close() override { m_file.close(); }
 ///     bool read() override
 ///     {
-///         double angle = 0.0;
-///         if (!m_vane.read(&angle))
-///             return fail(m_vane.errorString());
+///         bool ok = false;
+///         const double angle = m_file.readLine().trimmed().toDouble(&ok);
+///         if (!ok)
+///             return fail("the vane sent no number; look at its cable");
 ///         m_angle.set(angle);
 ///         return true;
 ///     }
-///     ...
 /// };
-/// ```
+/// \endcode
 ///
-/// The node calls configure(), then channel() for each name in its configuration, open(), write() and read() until all three succeed (with growing pauses of 0.1 ... 5 s), then write() and
-/// read() in turn, and close() when one of them has failed or the node ends. No two functions run at the same time. A function of these four that throws has failed: what() is its error.
+/// The node calls configure(), then channel() for each name in its configuration. After that it
+/// calls open(), write() and read() until all three succeed, with growing pauses of 0.1 s to 5 s.
+/// Then it calls write() and read() in turn, and close() when one of them has failed or the node
+/// ends. No two functions run at the same time. An exception from open(), close(), read() or
+/// write() is a failure, and its what() is the error. docs/howto/write-a-driver.md shows a driver
+/// step by step.
 ///
-/// Threads: configure() and channel() in that of the node; open() and close() in a thread of the driver, where they may take their time; read() and write() in that one, too (OwnPace, and
-/// EveryCycle while no cycles run), or in the cycle thread (EveryCycle, from the first cycle of a phase to its safe state).
+/// \threadsafe no: the node calls configure() and channel() in its own thread. It calls open() and
+///     close() in a thread of the driver, where they may take their time. read() and write() are
+///     called in that thread, too, or with EveryCycle in the cycle thread, from the first cycle of
+///     a phase to its safe state
+///
+/// \ingroup hardware
 class QTPLC_HARDWARE_EXPORT QPlcDriver
 {
 public:
+    /// When read() and write() are called.
     enum Pace : quint8 {
-        EveryCycle,  ///< read() and write() are part of each cycle: short, without waiting, without taking memory; every interval() while no cycles run
-        OwnPace  ///< they are called every interval() and may wait for the device; the cycle takes the newest values and never waits
+        /// In each cycle: they have to be short and must neither wait nor allocate. While no cycles
+        /// run, they are called every interval().
+        EveryCycle,
+        /// Every interval(), in a thread of the driver: they may wait for the device. A cycle uses
+        /// the newest values and never waits.
+        OwnPace
     };
 
+    /// Makes a driver that calls read() and write() at \a pace.
     explicit QPlcDriver(Pace pace);
+    /// Destroys the driver; the node has called close() before.
     virtual ~QPlcDriver();
     QPlcDriver(const QPlcDriver &) = delete;
     QPlcDriver &operator=(const QPlcDriver &) = delete;
 
+    /// Returns when read() and write() are called.
     Pace pace() const { return m_pace; }
-    /// Name of its section in the configuration.
+    /// Returns the name of its section in the configuration; empty before configure().
     QString name() const { return m_name; }
-    /// Time between two calls of read() by the thread of the driver: 10 ms; OwnPace: key `interval`.
+    /// Returns the time between two calls of read() by the thread of the driver: 10 ms; for OwnPace
+    /// the key `interval`, 100 us to 24 h.
     std::chrono::nanoseconds interval() const { return m_interval; }
-    /// How long what is read is fresh: key `timeout`; unless given it is three intervals, and 100 ms for EveryCycle.
+    /// Returns for how long a value is fresh: the key `timeout`, 1 ms to 24 h. Default three
+    /// intervals for OwnPace, 100 ms for EveryCycle.
     std::chrono::nanoseconds timeout() const { return m_timeout; }
 
-    /// What went wrong last: device, value, remedy.
+    /// Returns the last error: device, value, remedy.
     QString errorString() const;
 
 protected:
-    /// Takes the keys of the driver out of its section; `driver`, `interval` and `timeout` are read before. What is wrong is told to \a settings.
+    /// Reads the keys of the driver from its section. Wrong values are reported to \a settings, not
+    /// here. The keys `driver`, `interval` and `timeout` belong to the node.
     virtual void configure(QPlcDriverSettings &settings) = 0;
-    /// The channel that the configuration calls \a name. The default looks among those that exist; a driver whose channels depend on its settings may make one.
-    /// \return null when there is none; \a error may say why, else close names are shown
+    /// Returns the channel with a name of the configuration. The default looks among the channels
+    /// that exist. A driver whose channels depend on its settings may make one here.
+    /// \param error  gets the reason for a null result; empty: the node lists close names
+    /// \return null if there is no such channel. The driver owns its channels
     virtual QPlcChannel *channel(const QString &name, QPlcChannel::Direction direction, QString *error);
-    /// Names of all channels that there could be, for messages and lists.
+    /// Returns the names of all channels that are possible, for messages and lists. The default
+    /// returns those that exist.
     virtual QStringList channelNames(QPlcChannel::Direction direction) const;
 
-    /// Takes the device. Returns within a few seconds. \return false after fail()
+    /// Opens the device. It has to return within a few seconds.
+    /// \return false after fail(): the node tries again
     virtual bool open() = 0;
-    /// Lets the device go. Called after each open() that succeeded.
+    /// Closes the device. Called after each open() that has succeeded.
     virtual void close() = 0;
-    /// Takes new values from the device and sets the read channels that it has values for. \return false after fail(): the device is lost, and opened anew
+    /// Reads new values from the device and sets the read channels that have one. The default does
+    /// nothing.
+    /// \return false after fail(): the device counts as lost, and the node opens it again
     virtual bool read() { return true; }
-    /// Gives the values of the write channels to the device. The last call before close() has the safe values. \return false after fail()
+    /// Writes the values of the write channels to the device. In the last call before close() they
+    /// are the safe values. The default does nothing.
+    /// \return false after fail(): the device counts as lost, and the node opens it again
     virtual bool write() { return true; }
 
-    /// What is to be done about an error of the operating system; the default knows the usual ones: no such device, no permission, busy, gone.
+    /// Returns what to do about an error of the operating system, for errorString(). The default
+    /// knows the usual ones: no such device, no permission, busy, no answer. Empty: nothing is
+    /// known.
+    /// \param errorNumber  errno
     virtual QString remedy(int errorNumber) const;
-    /// Sets errorString(). Not on the cycle thread. \return false
+    /// Sets errorString(). It allocates: do not call it on the cycle thread.
+    /// \param text  device, value, and what to do
+    /// \return false, for `return fail(...)`
     bool fail(const QString &text);
-    /// As above, allowed in a cycle. \param operation  text that stays, "send to can0" for example \param errorNumber  errno
+    /// Sets errorString() without allocating: also for the cycle thread.
+    /// \param operation  a text that stays, for example "send to can0"
+    /// \param errorNumber  errno
+    /// \return false, for `return fail(...)`
     bool fail(const char *operation, int errorNumber) noexcept;
 
-    /// Monotonic time [ns]. EveryCycle: when read() or write() was called.
+    /// Returns the monotonic time at which the current call of open(), read() or write() began
+    /// [ns].
     qint64 now() const { return m_now; }
 
 private:

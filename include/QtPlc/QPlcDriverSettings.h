@@ -14,44 +14,84 @@ namespace qplc {
 class HardwareConfiguration;
 }
 
-/// The keys of one driver in the configuration of a node: `bitrate = 500000`. See QPlcDriver::configure().
+/// The keys of one driver in the configuration of a node, for example `bitrate = 500000`.
+/// QPlcDriver::configure() reads them.
 ///
-/// Each function reads one key. A key that is missing has its default value. One that cannot be meant gets an error with file, line, the offending text and what would be right;
-/// the default is returned then, and the configuration is refused as a whole in the end. Keys that nobody has read are errors, too: they are misspelt.
-/// Threads: that of the node.
+/// \code
+/// class CanLamp : public QPlcDriver
+/// {
+/// public:
+///     CanLamp() : QPlcDriver(EveryCycle) {}
+///
+/// private:
+///     QString m_device;
+///     qint64 m_bitrate = 0;  // [bit/s]
+///     void configure(QPlcDriverSettings &settings) override
+///     {
+///         m_device = settings.requiredText("device", "can0");
+///         m_bitrate = settings.integer("bitrate", 500000, 10000, 1000000);
+///     }
+///     bool open() override { return true; }
+///     void close() override {}
+/// };
+/// \endcode
+///
+/// Each function reads one key. A missing key has its default value. A wrong value gives an error
+/// with file, line, offending text and remedy; the function then returns the default, and the whole
+/// configuration is refused in the end. A key that no function has read is an error, too: it is
+/// misspelt.
+///
+/// \threadsafe no: use it in the thread of the node, inside of configure()
+///
+/// \ingroup hardware
 class QTPLC_HARDWARE_EXPORT QPlcDriverSettings
 {
 public:
+    /// Destroys the settings; the configuration keeps the errors.
     ~QPlcDriverSettings();
     Q_DISABLE_COPY(QPlcDriverSettings)
 
-    /// Name of the section.
+    /// Returns the name of the section.
     QString name() const;
+    /// Returns true if the section has the key. The key does not count as read.
     bool has(const QString &key) const;
 
+    /// Returns a text as it stands in the file.
     QString text(const QString &key, const QString &defaultValue = QString());
-    /// As text(); a missing or empty one is an error. \param example  is shown there
+    /// Returns a text; a missing or empty one is an error.
+    /// \param example  a value for the error message
     QString requiredText(const QString &key, const QString &example);
+    /// Returns a number with a decimal point.
+    /// \param minimum,  maximum allowed range, both included
     double number(const QString &key, double defaultValue, double minimum, double maximum);
-    /// Decimal, or hexadecimal with 0x.
+    /// Returns a whole number, decimal or with 0x hexadecimal.
+    /// \param minimum,  maximum allowed range, both included
     qint64 integer(const QString &key, qint64 defaultValue, qint64 minimum, qint64 maximum);
-    /// yes, no, true, false, on, off, 1, 0
+    /// Returns a truth value: yes, no, true, false, on, off, 1 or 0.
     bool truth(const QString &key, bool defaultValue);
-    /// With its unit: "10 ms", "250us", "2 s".
+    /// Returns a duration, which has a unit: "10 ms", "250us", "2 s". Units are ns, us, ms, s, min
+    /// and h.
+    /// \param minimum,  maximum allowed range, both included
     std::chrono::nanoseconds duration(const QString &key, std::chrono::nanoseconds defaultValue,
                                       std::chrono::nanoseconds minimum, std::chrono::nanoseconds maximum);
-    /// One of a few words. \return the index of the word in \a words
+    /// Returns which word of \a words the value is.
+    /// \param defaultValue  index of a word
+    /// \return index in \a words
     int choice(const QString &key, const QStringList &words, int defaultValue = 0);
-    /// Words with commas between them.
+    /// Returns words that are separated by commas; an empty list for a missing key.
     QStringList list(const QString &key);
-    /// A file; a relative name begins at the folder of the configuration. Empty: the key is missing.
+    /// Returns the name of a file; a relative one begins at the folder of the configuration. Empty
+    /// if the key is missing.
     QString fileName(const QString &key);
-    /// Keys of the section that begin with \a prefix, without it, in the order of the file: for keys with names in them, like `line.brake = 4`.
+    /// Returns the keys of the section that begin with \a prefix, without it, in the order of the
+    /// file: for keys that contain a name, such as `line.brake = 4`. They do not count as read.
     QStringList namesBehind(const QString &prefix) const;
 
-    /// What the driver itself finds wrong with the value of \a key; empty: with the section as a whole.
+    /// Adds an error that the driver finds in the value of a key.
+    /// \param key  empty: the section as a whole
+    /// \param message  what is wrong, and what to do
     void addError(const QString &key, const QString &message);
-    /// Errors of a file that the configuration names, a DBC file for example.
+    /// Adds errors of another file that the configuration names, for example a DBC file.
     void addErrors(const QVector<QPlcParseError> &errors);
 
 private:

@@ -4,29 +4,40 @@
 #include "QPlcWidget.h"
 #include "QPlcWidgetFactoryOf.h"
 
-/// What happened, newest last: filtered by severity and words, and acknowledged. A double click, or Enter, shows the time of the event in all plots of the window.
+/// A panel with the events of all plants, newest last: filtered by severity and words, and
+/// acknowledged.
 ///
-/// N writes a note of a person into the log.
+/// A double click, or Enter, shows the time of the event in all plots of the window. N writes a
+/// note into the log. The panel follows the newest event unless a person has scrolled up.
 ///
-/// It follows the newest event unless somebody has scrolled up; who scrolls down again follows again.
+/// \code
+/// QPlcEventLog log;
+/// log.applySettings({{"severity", "warning"}, {"unacknowledged", true}});
+/// \endcode
 ///
-/// Settings: `severity` ("information", default; "warning", "error": at least so severe), `unacknowledged` (true: only what asks to be acknowledged), `search`, and `columns` (keys of those that are
-/// shown: time, severity, source, event).
+/// Settings:
+/// - `severity`: "information" (default), "warning" or "error": at least this severity.
+/// - `unacknowledged`: true shows only events that have to be acknowledged. Default false.
+/// - `search`: words that have to occur.
+/// - `columns`: keys of the columns: time, severity, source, event.
 ///
-/// Threads: the thread of the window.
+/// \threadsafe no: use it in the thread of the window
+///
+/// \ingroup panels
 class QTPLC_GUI_EXPORT QPlcEventLog : public QPlcWidget
 {
     Q_OBJECT
 public:
+    /// Returns "Event log", the name of this kind of panel in layouts.
     static QString typeName() { return QStringLiteral("Event log"); }
 
+    /// Makes a panel; it has no events outside of a window.
     explicit QPlcEventLog(QWidget *parent = nullptr);
     ~QPlcEventLog() override;
 
     QString kind() const override { return typeName(); }
     bool showsAllPlants() const override { return true; }
     QJsonObject settings() const override;
-    /// Settings that are missing have their defaults from here on.
     void applySettings(const QJsonObject &settings) override;
     QSize sizeHint() const override;
 
@@ -40,4 +51,7 @@ private:
     struct Private;
     std::unique_ptr<Private> d;
 };
+/// The factory of this panel.
+///
+/// \ingroup panels
 using QPlcEventLogFactory = QPlcWidgetFactoryOf<QPlcEventLog>;

@@ -8,30 +8,40 @@
 #include <QtCore/QPointer>
 #include <QtCore/QTimer>
 
-/// Hands the inputs of a QPlcIOBufferSlaveNode to a window, in batches, as often as the window wants.
+/// Hands the inputs of a QPlcIOBufferSlaveNode to a window, in batches, at a fixed rate.
 ///
-/// ```cpp
-/// QPlcFrameRateLimiter limiter(slaveNode);
-/// limiter.setFrameRateLimit(50);
-/// connect(&limiter, &QPlcFrameRateLimiter::realTimeout, plot, &Plot::append);
-/// ```
+/// \code
+/// auto *node = new QPlcIOBufferSlaveNode("Plot");
+/// auto *limiter = new QPlcFrameRateLimiter(node, node);
+/// limiter->setFrameRateLimit(50);
+/// QObject::connect(
+///     limiter, &QPlcFrameRateLimiter::realTimeout, node,
+///     [](const QList<QPlcSignalList> &cycles) { qInfo("%d new cycles", cycles.size()); });
+/// \endcode
 ///
-/// Threads: lives in the thread of the receiver.
+/// \threadsafe no: it lives in the thread of the receiver. Its node may live in another thread
+///
+/// \ingroup nodes
 class QTPLC_EXPORT QPlcFrameRateLimiter : public QObject
 {
     Q_OBJECT
 public:
-    /// \param node  outlives this object, or takes it out of service by its end
+    /// Begins to take batches from \a node, 50 times a second.
+    /// \param node  not owned; when it is destroyed, no batch comes any more
+    /// \param parent  owns this object, if given
     explicit QPlcFrameRateLimiter(QPlcIOBufferSlaveNode *node, QObject *parent = nullptr);
 
-    /// Batches per second, 1 ... 1000; 50 unless set. Values beyond are taken as the nearest.
+    /// Sets the number of batches per second; default 50. The interval is rounded to 1 ms.
+    /// \param framesPerSecond  1 to 1000; a value outside becomes the nearest limit
     void setFrameRateLimit(double framesPerSecond);
+    /// Returns the number of batches per second.
     double frameRateLimit() const;
 
 Q_SIGNALS:
-    /// The inputs of all cycles since the last batch, oldest first; never empty.
+    /// Emitted at the set rate when there are new cycles.
+    /// \param inputSignals  inputs of all cycles since the last batch, oldest first; never empty
     void realTimeout(const QList<QPlcSignalList> &inputSignals);
-    /// The same, under the name that the thesis gives it.
+    /// Emitted after realTimeout() with the same values; the name of the thesis.
     void timedOut(const QList<QPlcSignalList> &inputSignals);
 
 private:

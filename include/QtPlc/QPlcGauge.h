@@ -4,44 +4,53 @@
 #include "QPlcWidget.h"
 #include "QPlcWidgetFactoryOf.h"
 
-/// One signal, or something calculated of signals, as an instrument: a dial, a bar, a large number, or an LED.
+/// A panel with one signal, or a formula of signals, as an instrument: a dial, a bar, a large
+/// number, or an LED.
 ///
-/// ```cpp
-/// auto *gauge = new QPlcGauge;
-/// gauge->applySettings({{"signal", "tetherForce"}, {"style", "bar"}, {"warningHigh", 4000}, {"alarmHigh", 4500}});
-/// ```
+/// \code
+/// QPlcGauge gauge;
+/// gauge.applySettings({{"signal", "tetherForce"}, {"style", "bar"}, {"alarmHigh", 4500}});
+/// \endcode
 ///
-/// | setting                              | meaning                                                                                                   |
-/// |--------------------------------------|-----------------------------------------------------------------------------------------------------------|
-/// | `signal`                             | "tetherForce", "bodyPosition_earth[2]", "plant/tetherForce"; a triple is shown as three numbers. Behind "=" something calculated of signals, in a window: "= norm(bodyVelocity_earth)" |
-/// | `style`                              | "dial" (default), "bar" (lies or stands, as there is space), "number", "led"                                |
-/// | `minimum`, `maximum`                 | ends of the scale, in the unit of the signal. Default: limits of the table; without those the scale grows with the values |
-/// | `alarmLow`, `warningLow`, `warningHigh`, `alarmHigh` | from where on a value is worth a look, or wrong; said by colour, sign and words. Default: none  |
-/// | `hysteresis`                         | how far a value has to come back before a warning or alarm ends. Default: 1 % of the scale                  |
-/// | `extremes`                           | true: marks of the smallest and largest value since reset. Default: false                                   |
+/// Settings:
+/// - `signal`: "tetherForce", "bodyPosition_earth[2]", "plant/tetherForce", or in a window a
+///   formula: "= norm(bodyVelocity_earth)". A signal with three elements is shown as three numbers.
+/// - `style`: "dial" (default), "bar" (horizontal or vertical, as space permits), "number", "led".
+/// - `minimum`, `maximum`: ends of the scale [unit of the signal]. Default: limits of the signal
+///   table; without those the scale grows with the values.
+/// - `alarmLow`, `warningLow`, `warningHigh`, `alarmHigh`: limits at which a value is a warning or
+///   an alarm, shown by colour, sign and words. Default: none.
+/// - `hysteresis`: how far a value has to come back before a warning or alarm ends. Default: 1 % of
+///   the scale.
+/// - `extremes`: true shows the smallest and largest value since reset. Default: false.
 ///
-/// What is beyond the limits of the table is an alarm without further settings. Values that are not renewed are grey, with their age. In a window whose plots are frozen it shows
-/// the value of the time that is looked at. A signal that does not exist (yet) is a grey line that says so, and comes to life with it.
+/// A value outside of the limits of the signal table is an alarm without further settings. Stale
+/// values are grey, with their age. If a person looks at the past, the gauge shows the value of
+/// that time. A signal that does not exist is a grey line that says so, until it does.
 ///
-/// Without a window, values come by realTimeout(), and the signal is looked up in the table of the process (QPlcSignalIndexTable); it is inputSignalIndices().
+/// Outside of a window realTimeout() brings the values; the signal comes from the table of the
+/// process (QPlcSignalIndexTable), and inputSignalIndices() has it.
 ///
-/// Threads: the thread of the window.
+/// \threadsafe no: use it in the thread of the window
+///
+/// \ingroup panels
 class QTPLC_GUI_EXPORT QPlcGauge : public QPlcWidget
 {
     Q_OBJECT
 public:
+    /// Returns "Gauge", the name of this kind of panel in layouts.
     static QString typeName() { return QStringLiteral("Gauge"); }
 
+    /// Makes a gauge without a signal.
     explicit QPlcGauge(QWidget *parent = nullptr);
     ~QPlcGauge() override;
 
     QString kind() const override { return typeName(); }
     QJsonObject settings() const override;
-    /// Settings that are missing have their defaults from here on.
     void applySettings(const QJsonObject &settings) override;
     QWidget *createSettingsEditor() override;
     QStringList shownSignals() const override;
-    /// Shows the first one instead of the present one.
+    /// Shows the first signal of \a references instead of the present one.
     bool addSignals(const QStringList &references) override;
     QSize sizeHint() const override;
 
@@ -62,4 +71,7 @@ private:
     struct Private;
     std::unique_ptr<Private> d;
 };
+/// The factory of this panel.
+///
+/// \ingroup panels
 using QPlcGaugeFactory = QPlcWidgetFactoryOf<QPlcGauge>;

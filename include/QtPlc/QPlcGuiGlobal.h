@@ -4,6 +4,8 @@
 #include "QPlcGlobal.h"
 
 #if defined(QTPLC_STATIC)
+/// Exports a class or function of QtPlc::Gui from the shared library, and imports it in programs.
+/// Empty with QTPLC_STATIC, which QtPlc::Core defines for users of a static library.
 #define QTPLC_GUI_EXPORT
 #elif defined(QTPLC_BUILD_GUI_LIBRARY)
 #define QTPLC_GUI_EXPORT Q_DECL_EXPORT

@@ -9,98 +9,148 @@
 #include <functional>
 #include <memory>
 
-/// A node whose inputs and outputs are wired to devices: buses, switches, sensors, drives. Which of them, is said by a file; no code is needed for the usual case, and the program
-/// qtplc_hardware runs it:
+/// A node whose inputs and outputs are wired to devices: buses, switches, sensors, drives. A
+/// configuration file selects them. The usual case needs no code: the program qtplc_hardware runs
+/// such a file.
 ///
-/// ```ini
+/// \code{.ini}
 /// [node]
 /// name = Winch
-/// safeStop = buttons.emergencyStop      ; this channel stops the plant while it is not 0, or has no value
+/// ; this channel stops the plant while it is not 0, or has no value
+/// safeStop = buttons.emergencyStop
 ///
-/// [drive]                               ; a section for each device, under a name of your choice
+/// ; a section for each device, under a name of your choice
+/// [drive]
 /// driver = can
 /// device = can0
 /// dbc = winch_drive.dbc
-/// [drive.read]                          ; signal = channel, what comes from the device
+/// ; signal = channel: what comes from the device
+/// [drive.read]
 /// winchSpeed = DriveStatus.Speed * 0.0314 + 0
-/// [drive.write]                         ; channel = signal, what goes to it
+/// ; channel = signal: what goes to the device
+/// [drive.write]
 /// DriveCommand.SpeedSetpoint = tetherSpeed * 31.8
-/// [drive.safe]                          ; channel = value, in the unit of the device; else it is the safe value of the signal
+/// ; channel = value in the unit of the device; without it the safe value of the signal
+/// [drive.safe]
 /// DriveCommand.SpeedSetpoint = 0
 ///
 /// [buttons]
 /// driver = gpio
 /// device = gpiochip0
-/// input.emergencyStop = 17, pull-up, debounce 5 ms   ; normally closed contact to ground: a torn wire is 1, too
-/// ```
+/// ; normally closed contact to ground: a broken wire reads 1, too
+/// input.emergencyStop = 17, pull-up, debounce 5 ms
+/// \endcode
 ///
-/// A signal may go to several channels; a number in its place is a constant while the node computes, and needs a line in `safe`. An element of an array is `acceleration[0]`. Each driver also has the read channels `@online` (1 while the device is open), `@age` [s] (of the oldest value that is wired) and
-/// `@failures` (how often the device was lost). The same as JSON: an object of sections, whose `read`, `write` and `safe` are objects of texts.
+/// \code
+/// QPlcHardwareNode node("Winch");
+/// if (!node.configureFromFile("winch.ini"))
+///     qFatal("%s", qPrintable(QPlcParseError::toString(node.configurationErrors())));
+/// node.connectToMaster(QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost));
+/// \endcode
 ///
-/// In each cycle the node gives its inputs to the devices, and takes its outputs from them. An output without a fresh value is told to have none (QPlcQuality). A device that
-/// is missing or lost is opened again and again, and says so; the other devices and nodes go on. In the safe state of the node all devices get their safe values, at once, and again and again until
-/// the next phase. So they do when no frame of the master has come for DefaultWatchdog.
-/// Threads: that of the object.
+/// A signal may go to several channels. A number in its place is a constant while the node
+/// computes, and needs a line in `safe`. An element of an array is `acceleration[0]`. Each driver
+/// also has the read channels `@online` (1 while the device is open), `@age` (age of the oldest
+/// wired value [s]) and `@failures` (how often the device was lost). A JSON configuration has the
+/// same contents: an object of sections, in which `read`, `write` and `safe` are objects of texts.
+///
+/// In each cycle the node writes its inputs to the devices and takes its outputs from them. An
+/// output without a fresh value has the quality Invalid (QPlcQuality). The node opens a missing or
+/// lost device again and again, and reports it; other devices and nodes go on. In the safe state of
+/// the node all devices get their safe values at once, and again and again until the next phase.
+/// The watchdog brings the node into its safe state when the master is silent for DefaultWatchdog.
+///
+/// \threadsafe no: use it in the thread of the object
+///
+/// \ingroup hardware
 class QTPLC_HARDWARE_EXPORT QPlcHardwareNode : public QPlcCompactSlaveNode
 {
     Q_OBJECT
 public:
-    /// The watchdog of a hardware node, unless activateWatchdog() or --watchdog says another one, or 0 for none: what moves something does not go on when its link is cut.
-    /// At a master whose four periods are longer, it is these.
+    /// Watchdog time of a hardware node: 500 ms or four periods of the master, whichever is longer.
+    /// activateWatchdog() or --watchdog sets another one, or none (0).
     static constexpr std::chrono::milliseconds DefaultWatchdog{500};
 
+    /// Makes a node without devices. It sends the quality of its outputs, and its watchdog leads to
+    /// the safe state.
+    /// \param name  under which the node registers; the configuration may set another one
+    /// \param parent  owns the node, if given
     explicit QPlcHardwareNode(const QString &name = QString(), QObject *parent = nullptr);
+    /// Disconnects from the master, writes the safe values to all devices, and closes them.
     ~QPlcHardwareNode() override;
 
-    /// Reads the configuration; a name that ends with ".json" is JSON, else INI. Once in the life of a node, before it connects.
-    /// \return false, with all that is wrong in configurationErrors(), and nothing is wired
+    /// Reads the configuration: JSON if the name ends with ".json", else INI. Call it once, before
+    /// the node connects.
+    /// \return false on any error: see configurationErrors(); nothing is wired then
     bool configureFromFile(const QString &fileName);
-    /// As above. \param fileName  for messages and relative names of files
+    /// Reads the configuration from a text, as above.
+    /// \param fileName  for messages, for the format, and for relative file names in the text
     bool configure(const QByteArray &text, const QString &fileName);
+    /// Returns all errors of the last configuration, in the order in which they were found.
     QVector<QPlcParseError> configurationErrors() const;
 
-    /// Lets configurations use a driver of your own: `driver = KIND`. Before the first node is configured; a kind that exists is replaced.
-    /// \param description  a line for lists
+    /// Makes a driver of your own available to configurations (`driver = KIND`). A kind with this
+    /// name is replaced. Call it before the first node is configured.
+    /// \param kind  name in the configuration
+    /// \param description  one line, for lists
+    /// \param make  makes a driver; the node owns it
     static void addDriverKind(const QString &kind, const QString &description,
                               std::function<std::unique_ptr<QPlcDriver>()> make);
-    /// Kinds and their descriptions, sorted.
+    /// Returns the names and descriptions of all kinds of drivers, sorted by name.
     static QVector<QPair<QString, QString>> driverKinds();
 
+    /// What the node knows about one of its devices.
     struct DriverState
     {
-        QString name;  ///< of the section
-        QString kind;
-        bool isOnline = false;
-        quint64 failures = 0;  ///< how often the device was lost
-        QString error;         ///< why it is not online; empty: it is being opened, or it is online
+        QString name;           ///< name of its section
+        QString kind;           ///< kind of its driver
+        bool isOnline = false;  ///< the device is open
+        quint64 failures = 0;   ///< how often the device was lost
+        /// Why it is not online; empty: it is being opened, or it is online.
+        QString error;
     };
+    /// Returns the state of all devices, in the order of the configuration.
     QVector<DriverState> drivers() const;
 
-    /// A wire between a channel and a signal, with the newest value: for commissioning without a master.
+    /// A wire between a channel and a signal, with its newest value: for commissioning without a
+    /// master.
     struct Wire
     {
+        /// Name of the section of the device.
         QString driver;
-        QString channel;
+        QString channel;  ///< name of the channel
+        /// Whether the value comes from the device.
         QPlcChannel::Direction direction = QPlcChannel::Read;
-        QString signal;  ///< "acceleration[0]"
+        /// "acceleration[0]"; of a constant its value.
+        QString signal;
+        /// There is a value, and it is not too old.
         bool isFresh = false;
-        double value = 0.0;  ///< of the channel
-        double age = 0.0;    ///< [s]
+        /// Value of the channel, in the unit of the device.
+        double value = 0.0;
+        /// Age of a read value [s]; infinite: it was never read.
+        double age = 0.0;
     };
+    /// Returns all wires with their newest values.
     QVector<Wire> wires() const;
-    /// Takes new values from devices that are open. \pre no real-time phase runs, where the cycles do that
+    /// Takes new values from the devices that are open.
+    /// \pre no real-time phase runs: there the cycles do it
     void readDevices();
 
 public Q_SLOTS:
-    /// Begins to open the devices. Called at the first initialization at the latest.
+    /// Begins to open the devices: deviceOpened() or deviceFailed() follows for each. The first
+    /// initialization calls it, too.
     void openDevices();
-    /// Gives all devices their safe values and lets them go. \pre no real-time phase runs: nothing but a warning happens then
+    /// Writes the safe values to all devices and closes them. While cycles run it only warns.
     void closeDevices();
 
 Q_SIGNALS:
-    /// A device was opened, for the first time or again.
+    /// Emitted when a device was opened, for the first time or again.
+    /// \param driver  name of the section
     void deviceOpened(const QString &driver);
-    /// A device could not be opened, or was lost; the node goes on trying. Told when the text is another one than before.
+    /// Emitted when a device could not be opened or was lost, if the text differs from the last
+    /// one. The node keeps trying.
+    /// \param driver  name of the section
+    /// \param text  what is wrong, and what to do
     void deviceFailed(const QString &driver, const QString &text);
 
 protected:

@@ -3,14 +3,34 @@
 
 #include "QPlcGlobal.h"
 
-/// Which value of a signal a node reads: `QPlcInput<double> m_speed{this, "tetherSpeed", QPlcInputTiming::SameCycle};`
+/// Which value of a signal a node reads: that of the last cycle, or that of the same cycle.
 ///
-/// A same-cycle input has direct feed-through to all outputs of its node: the node is asked after the writer of the signal has answered. Nodes that read
-/// each other in the same cycle would be an algebraic loop, which the master refuses; a two-phase node (QPlcSlaveNode::setTwoPhase()) closes such a loop.
+/// \code
+/// class Controller : public QPlcCompactSlaveNode
+/// {
+/// public:
+///     Controller() : QPlcCompactSlaveNode("Controller") {}
+///
+/// private:
+///     QPlcInput<double> m_speed{this, "tetherSpeed", QPlcInputTiming::SameCycle};  // [m/s]
+/// };
+/// \endcode
+///
+/// A same-cycle input has direct feedthrough to all outputs of its node: the master asks this node
+/// after the writer of the signal has answered. Nodes that read each other in the same cycle form
+/// an algebraic loop, which the master refuses. A two-phase node (QPlcSlaveNode::setTwoPhase())
+/// breaks such a loop.
+///
+/// \threadsafe it holds an enumeration only
+///
+/// \ingroup nodes
 struct QPlcInputTiming
 {
+    /// The two timings.
     enum Value : quint8 {
-        LastCycle,  ///< of the cycle before: one cycle of dead time, and all nodes compute at once (default)
-        SameCycle   ///< of the cycle at hand: no dead time, and nodes compute one after the other
+        /// Value of the cycle before: one cycle of dead time; all nodes compute at once (default).
+        LastCycle,
+        /// Value of this cycle: no dead time; the node computes after the writer of the signal.
+        SameCycle
     };
 };

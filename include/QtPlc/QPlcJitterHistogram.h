@@ -5,23 +5,39 @@
 #include "QPlcWidget.h"
 #include "QPlcWidgetFactoryOf.h"
 
-/// A panel that shows how punctual a plant is: histograms of lateness, execution and round trip of the master, and of execution and round trip of its nodes.
+/// A panel that shows how punctual a plant is: histograms of lateness, execution and round trip of
+/// the master, and of execution and round trip of its nodes.
 ///
-/// Counts and durations are logarithmic; lines tell the median (p50), the 99th percentile and the largest value. It asks the master once a second, and only while it is seen. `qtplc jitter --hist` says
-/// the same on a terminal.
+/// \code
+/// QPlcJitterHistogram histogram;
+/// const QJsonArray shown{"Master.lateness", "Kite.roundTrip"};
+/// histogram.applySettings({{"show", shown}, {"window", "last10s"}});
+/// \endcode
 ///
-/// Keys: `T` the last 10 s, `L`, `X` and `R` lateness, execution and round trip of the master, `Ctrl+Shift+E` and `Ctrl+Shift+C` a picture (PNG, SVG, PDF) into a file or the clipboard.
+/// Counts and durations have logarithmic axes; lines mark the median (p50), the 99th percentile and
+/// the largest value. The panel asks the master once a second, only while it is visible. `qtplc
+/// jitter --hist` shows the same on a terminal.
 ///
-/// Settings: `{"plant": "tower", "show": ["Master.lateness", "Kite.roundTrip"], "window": "last10s"}`. Without plant: the first one (with several, the caption says whose figures these are); without show: the lateness of the master; window is "sinceStart"
-/// or "last10s", since the start if it is missing.
+/// Keys: `T` the last 10 s; `L`, `X` and `R` lateness, execution and round trip of the master;
+/// `Ctrl+Shift+E` and `Ctrl+Shift+C` a picture (PNG, SVG, PDF) to a file or to the clipboard.
 ///
-/// Threads: the thread of the window.
+/// Settings:
+/// - `plant`: name of a plant; default the first one. With several plants the caption names it.
+/// - `show`: list of "Master.lateness", "Kite.roundTrip" and the like; default the lateness of the
+///   master.
+/// - `window`: "sinceStart" (default) or "last10s".
+///
+/// \threadsafe no: use it in the thread of the window
+///
+/// \ingroup panels
 class QTPLC_GUI_EXPORT QPlcJitterHistogram : public QPlcWidget
 {
     Q_OBJECT
 public:
+    /// Returns "Jitter histogram", the name of this kind of panel in layouts.
     static QString typeName() { return QStringLiteral("Jitter histogram"); }
 
+    /// Makes a panel; it has no figures outside of a window.
     explicit QPlcJitterHistogram(QWidget *parent = nullptr);
     ~QPlcJitterHistogram() override;
     QString kind() const override { return typeName(); }
@@ -35,4 +51,7 @@ private:
     std::unique_ptr<Private> d;
 };
 
+/// The factory of this panel.
+///
+/// \ingroup panels
 using QPlcJitterHistogramFactory = QPlcWidgetFactoryOf<QPlcJitterHistogram>;

@@ -8,14 +8,29 @@
 
 #include <chrono>
 
-/// A signal that a person or program has taken over: while the lease lasts, the signal has the values of the holder, whatever its writer answers. A value type.
+/// A lease: the permission of the master to set a signal that a node writes. While the lease lasts,
+/// the signal has the values of the holder, whatever its writer sends.
+///
+/// \code
+/// QPlcMasterNode master;
+/// for (const QPlcLease &lease : master.leases())
+///     qInfo("%s is held by %s", qPrintable(lease.signal), qPrintable(lease.holder));
+/// \endcode
+///
+/// QPlcSignalControl takes and releases leases for a panel.
+///
+/// \threadsafe a value type: each thread may use its own copy
+///
+/// \ingroup master
 struct QPlcLease
 {
-    QString signal;
-    QString holder;  ///< as shown to people; of a lost lease: who held it last
-    bool isLost
-        = false;  ///< the holder is gone: the signal stays at its neutral value until somebody takes or releases it
-    std::chrono::nanoseconds timeout{0};  ///< longest silence of the holder
+    QString signal;  ///< name of the signal
+    QString holder;  ///< person or program, as windows show it; of a lost lease the last holder
+    /// The holder is gone: the signal stays at its neutral value until another person takes or
+    /// releases the lease.
+    bool isLost = false;
+    /// Longest silence of the holder before the lease is lost.
+    std::chrono::nanoseconds timeout{0};
 };
 
 Q_DECLARE_METATYPE(QPlcLease)

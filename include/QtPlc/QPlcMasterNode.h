@@ -26,224 +26,355 @@
 
 class QPlcMasterNodePrivate;
 
-/// The owner of the cycle clock and of the values of all signals.
+/// The master of a plant: it owns the cycle clock and the values of all signals.
 ///
-/// ```cpp
-/// QPlcCoreApplication application(argc, argv);
-/// QPlcSignalIndexTable table;
-/// if (!table.initializeFromIniFile("signals.ini"))
-///     return 2;
-/// QPlcMasterNode master;
-/// master.setTimeSignal("masterTime");
-/// master.setInterval(std::chrono::milliseconds(10));
-/// if (!master.startServer(QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, 50000)))
-///     return 2;
-/// return application.exec();
-/// ```
+/// \code
+/// int main(int argc, char **argv)
+/// {
+///     QPlcCoreApplication application(argc, argv);
+///     QPlcSignalIndexTable table;
+///     if (!table.initializeFromIniFile("signals.ini"))
+///         return application.usageError(table.errorString());
+///     QPlcMasterNode master;
+///     master.setTimeSignal("masterTime");
+///     master.setInterval(std::chrono::milliseconds(10));
+///     if (!master.startServer(QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, 50000)))
+///         return application.usageError(master.errorString());
+///     return application.exec();
+/// }
+/// \endcode
 ///
-/// In each cycle every node gets its inputs of the cycle before and answers with its outputs; nodes with same-cycle inputs (QPlcInputTiming) are asked when
-/// the nodes have answered whose outputs they read. A node that would close an algebraic loop of such inputs is refused. Nodes come over the network (startServer()) or live in this
-/// process (addLocalNode()).
+/// In each cycle every node gets its inputs of the cycle before and answers with its outputs. Nodes
+/// with same-cycle inputs (QPlcInputTiming) are asked after the nodes whose outputs they read. A
+/// node that would close an algebraic loop of such inputs is refused. Nodes connect over the
+/// network (startServer()) or live in the process of the master (addLocalNode()).
 ///
-/// Threads: the object lives in the thread that made it and needs its event loop; cycles run on a thread of their own, which nothing here ever waits for
-/// and which never waits for anything here.
+/// The plant stops safely (State::SafeStop) when safeStop() is called, when a limit of
+/// setLongestWait(), setGapLimit() or setOverrunLimit() is exceeded, when a node with the policy
+/// SafeStopWhenLate is late, and when a critical node (QPlcSlaveNode::setCritical()) is lost,
+/// fails, or is late too often. docs/design/states.md has all states.
+///
+/// Errors: a function that fails returns false and changes nothing; error() and errorString() have
+/// the reason, and errorOccurred() is emitted.
+///
+/// \threadsafe no: the object lives in the thread that made it and needs its event loop. Cycles run
+///     on a thread of their own; neither thread waits for the other
+///
+/// \ingroup master
 class QTPLC_EXPORT QPlcMasterNode : public QObject
 {
     Q_OBJECT
 public:
+    /// What the plant does.
     enum State : quint8 {
-        Off,
-        Initializing,  ///< an initialization, or a start, is under way
-        Ready,         ///< all nodes are initialized: can be armed and started
-        RealTime,
+        Off,                   ///< no cycles, and no initialization
+        Initializing,          ///< an initialization or a start is under way
+        Ready,                 ///< all nodes are initialized: it can be armed and started
+        RealTime,              ///< cycles run
         WaitingForLateSlaves,  ///< a node with a Wait policy has not answered: time stands still
-        SafeStop,  ///< latched: cycles go on, all nodes are told their safe values and compute nothing, until reset()
-        Fault      ///< it cannot run: no port, or no cycle thread; until reset() or a startServer() that succeeds
+        /// Latched: cycles go on, but all nodes have safe values and compute nothing, until
+        /// reset().
+        SafeStop,
+        /// It cannot run: no port or no cycle thread; until reset() or a startServer() that
+        /// succeeds.
+        Fault
     };
     Q_ENUM(State)
 
+    /// Kinds of errors.
     enum Error {
-        NoError,
-        SignalError,          ///< a signal that does not exist, has the wrong type or another writer
-        IntervalError,        ///< period or clock out of range
-        ServerError,          ///< the port cannot be used
-        NodeError,            ///< a node was refused, got lost or failed
-        InitializationError,  ///< a node did not give its initial outputs in time
-        StateError,           ///< not possible in the present state
-        RealTimeError         ///< the cycle thread could not be made, or an overrun with QPlcOverrunPolicy::Stop
+        NoError,  ///< nothing has failed since the last initialization or start
+        /// A signal does not exist, has the wrong type, or has another writer.
+        SignalError,
+        IntervalError,  ///< period, clock or overrun policy out of range
+        /// The port cannot be used, or a file of the security settings is wrong.
+        ServerError,
+        NodeError,  ///< a node was refused, was lost, or has failed
+        /// A node did not give its initial outputs in time, or they are out of range.
+        InitializationError,
+        StateError,  ///< not possible in the current state
+        /// The cycle thread could not be made, or the master was too late: overrun, gap.
+        RealTimeError
     };
     Q_ENUM(Error)
 
+    /// Makes a master in the state Off, without signals and nodes.
+    /// \param parent  owns the master, if given
     explicit QPlcMasterNode(QObject *parent = nullptr);
+    /// Ends the cycles, tells all nodes that the master ends, and closes the server. Emits no
+    /// signals.
     ~QPlcMasterNode() override;
 
-    /// The signals of this controller. Unless set: those of the process (QPlcSignalIndexTable) at the first use.
-    /// \return false when nodes are registered already
+    /// Sets the signals of this plant. By default it takes the table of the process
+    /// (QPlcSignalIndexTable) at the first use.
+    /// \return false when signals, nodes or a server use the table already
     bool setSignalTable(const QPlcSignalTable &table);
+    /// Returns the table of this plant; empty before it was set or first used.
     QPlcSignalTable signalTable() const;
 
     // ---- signals that the master writes itself ----
-    /// Time of the cycle: wall clock at the start of the real-time phase + nominal time of the cycle (1970-01-01 + nominal time in lockstep). Type DateTime.
+    /// Lets the master write the time of the cycle into a signal: the wall clock at the start of
+    /// the real-time phase plus the nominal time of the cycle. In lockstep it is 1970-01-01 plus
+    /// the nominal time.
+    /// \param signalName  of type DateTime, without another writer
     bool setTimeSignal(const QString &signalName);
-    /// Jitter [s]: wake-up of this cycle - its nominal time; 0 in lockstep. Type Real32 or Real64.
+    /// Lets the master write its jitter [s] into a signal: the wake-up of this cycle minus its
+    /// nominal time; 0 in lockstep.
+    /// \param signalName  of type Real32 or Real64, without another writer
     bool activateJitterMeasurement(const QString &signalName);
-    /// Workload [s]: time that the master itself spent on the cycle before, without waiting for answers; 0 in lockstep. Type Real32 or Real64.
+    /// Lets the master write its workload [s] into a signal: the time that it has spent itself on
+    /// the cycle before, without waiting for answers; 0 in lockstep.
+    /// \param signalName  of type Real32 or Real64, without another writer
     bool activateWorkloadMeasurement(const QString &signalName);
-    /// Writes one figure of the statistics into a signal: durations in s (Real32 or Real64), counters as numbers (also integers; they stay at the largest
-    /// number of their type). Updated twice a second and at the end of the phase; 0 before the first update, and always 0 in lockstep, where results must not
-    /// depend on the machine.
-    /// \param nodeName  of the node to which the figure belongs; it may register later. Empty: the master
-    /// \return false when the signal does not exist, has another type or another writer, or the figure belongs to the other kind (master, node)
+    /// Lets the master write a figure of the statistics into a signal: durations in s, counters as
+    /// numbers. An integer signal stays at the largest number of its type. The value is updated
+    /// twice a second and at the end of the phase. It is 0 before the first update, and always in
+    /// lockstep, where results must not depend on the machine.
+    /// \param figure  what is measured
+    /// \param signalName  Real32 or Real64 for a duration, any single number for a counter; without
+    ///     another writer
+    /// \param nodeName  node that the figure belongs to; it may register later. Empty: the master
+    /// \return false when the signal does not exist, has another type or another writer, or when
+    ///     the figure does not fit: one of a node without a name, one of the master with a name
     bool activateStatisticSignal(QPlcStatisticFigure figure, const QString &signalName,
                                  const QString &nodeName = QString());
 
     // ---- cycle ----
     /// Sets the period. Takes effect at the next start.
-    /// \param period  10 us ... 10 s; below some 200 us only few computers keep it, which the statistics tell
-    /// \return false when out of range: nothing has changed
+    /// \param period  10 us to 10 s; default 10 ms. Few computers keep a period below 200 us: the
+    ///     statistics show it
+    /// \return false when the period is out of range (IntervalError)
     bool setInterval(std::chrono::nanoseconds period);
+    /// Sets the period in seconds, as above.
     bool setInterval(double seconds) { return setInterval(std::chrono::nanoseconds(qRound64(seconds * 1e9))); }
+    /// Returns the period.
     std::chrono::nanoseconds interval() const;
-    /// Takes effect at the next start. \return false when the clock is not valid
+    /// Sets how the cycles follow each other; default QPlcClock::realTime(). Takes effect at the
+    /// next start.
+    /// \return false when the clock is not valid (IntervalError)
     bool setClock(QPlcClock clock);
+    /// Returns how the cycles follow each other.
     QPlcClock clock() const;
+    /// Sets what the cycle thread asks of the operating system. Takes effect at the next start.
+    /// Options that are out of range let that start fail (RealTimeError); realTimeSettings() shows
+    /// what the system has granted.
     void setRealTimeOptions(const QPlcRealTimeOptions &options);
-    /// What becomes of cycles whose period is over before they could begin; SkipToGrid unless set. Takes effect at the next start; lockstep ignores it.
-    /// \return false when \a policy is not valid: error() is then IntervalError and nothing has changed
+    /// Sets what happens to cycles whose period is over before they could begin; default
+    /// QPlcOverrunPolicy::skipToGrid(). Takes effect at the next start; lockstep ignores it.
+    /// \return false when the policy is not valid (IntervalError)
     bool setOverrunPolicy(QPlcOverrunPolicy policy);
+    /// Returns what happens to cycles whose period is over before they could begin.
     QPlcOverrunPolicy overrunPolicy() const;
-    /// Ends the real-time phase by itself after \a cycles periods (skipped ones count, so that the simulated time is exact); 0: never. Takes effect at the next start.
+    /// Ends the real-time phase by itself after a number of periods. Skipped cycles count, so the
+    /// simulated time is exact. Takes effect at the next start.
+    /// \param cycles  0: no limit (default)
     void setCycleLimit(quint64 cycles);
-    /// Sets the longest wait for each answer of a node during initialization and start, in each profile.
-    /// \param time  1 ms or longer; 2 s unless set
+    /// Sets the longest wait for each answer of a node during initialization and start, in each
+    /// profile.
+    /// \param time  1 ms or longer; default 2 s
     void setInitializationTimeout(std::chrono::milliseconds time);
 
-    /// Sets how strict the plant is where table, nodes and options say nothing: see QPlcProfile. Takes effect at the next
-    /// initialization or start.
-    /// \param profile  Automatic (unless set): the master chooses
+    /// Sets how strict the plant is where table, nodes and options do not say anything: see
+    /// QPlcProfile. Takes effect at the next initialization or start.
+    /// \param profile  default Automatic: the master chooses
     void setProfile(QPlcProfile::Value profile);
-    /// Returns the profile of the phase at hand; between phases the one that the next phase would have. Never Automatic.
+    /// Returns the profile of this phase; between phases the one that the next phase would have.
+    /// Never Automatic.
     QPlcProfile::Value profile() const;
-    /// Returns why it is this profile, for people: "node 'Winch' drives real devices".
+    /// Returns why the plant has this profile, for people: "node 'Winch' drives real devices".
     QString profileReason() const;
 
     // ---- safe stop (docs/design/states.md) ----
-    // Besides these limits, safeStop(), a late node with the policy SafeStopWhenLate, and a critical node that is lost, fails or is late too often
-    // (QPlcSlaveNode::setCritical()) lead to State::SafeStop. All limits take effect at the next start.
-    /// Sets the longest stay in WaitingForLateSlaves, on the clock of the master; 0: for ever. Unless set, the profile decides.
-    /// Lockstep waits for ever.
+    /// Sets the longest time in the state WaitingForLateSlaves before the plant stops safely. By
+    /// default the profile decides: forever or 5 s. Takes effect at the next start. Lockstep waits
+    /// forever.
+    /// \param time  on the clock of the master; 0: forever
     void setLongestWait(std::chrono::nanoseconds time);
-    /// Sets the longest time by which a cycle may begin late (the program was stopped, the computer slept); 0: any. Unless set,
-    /// the profile decides. Lockstep has no such limit.
+    /// Sets by how much a cycle may begin late before the plant stops safely, for example because
+    /// the computer slept. By default the profile decides: any time or 1 s. Takes effect at the
+    /// next start. Lockstep has no such limit.
+    /// \param time  on the clock of the master; 0: any
     void setGapLimit(std::chrono::nanoseconds time);
-    /// Overruns in a row that are too many; 0 (unless set): any number is borne, as on a computer that does other things, too.
+    /// Sets the number of successive overruns that is allowed: one more, and the plant stops
+    /// safely. Takes effect at the next start.
+    /// \param overruns  0: any number (default)
     void setOverrunLimit(int overruns);
-    /// Whether a start, by whomever, is two steps: arm() in state Ready, then the start within 5 s. Unless set, with security (setSecurity()) it is, and without it is not.
+    /// Sets whether a start takes two steps: arm() in the state Ready, then the start within 5 s.
+    /// This holds for all persons and programs. By default it is required with security
+    /// (setSecurity()).
     void setArmingRequired(bool required);
+    /// Returns true if a start takes two steps.
     bool isArmingRequired() const;
 
     // ---- nodes ----
-    /// Accepts nodes at the address and port of \a protocol: control over TCP, cyclic frames over TCP and UDP, as each node likes. Port 0 takes a free one.
-    /// An address that is not loopback is bound only after setInsecureNetworkAllowed(true); else the server listens on loopback, and says so.
+    /// Accepts nodes and tools at an address: control messages over TCP, cyclic frames over TCP,
+    /// UDP or shared memory, as each node chooses. An address other than loopback needs
+    /// setSecurity() or setInsecureNetworkAllowed(true); without them the server listens on
+    /// loopback and warns.
+    /// \param protocol  address and port; port 0 takes a free one, see serverPort(). The kind does
+    ///     not matter
+    /// \return false when the port cannot be used or a file of the security settings is wrong
+    ///     (ServerError; the state is then Fault), or while cycles run (StateError)
     bool startServer(const QPlcUnderlyingProtocol &protocol);
-    /// A name under which nodes of this machine and user find this master (QPlcUnderlyingProtocol::local()): letters, digits, '.', '-', '_'; empty: the port
-    /// number only. Takes effect with startServer().
+    /// Sets a name by which nodes of this machine and user find this master
+    /// (QPlcUnderlyingProtocol::local()). Takes effect with startServer().
+    /// \param name  letters, digits, '.', '-', '_'; empty: only the port number (default)
     void setLocalName(const QString &name);
-    /// A group (an IPv4 multicast address, say 239.255.76.68) for nodes that connect by QPlcUnderlyingProtocol::udpMulticast(); a null address: none.
-    /// The datagrams do not leave the network of the address that the server listens on. Takes effect with startServer().
+    /// Sets the group for nodes that connect with QPlcUnderlyingProtocol::udpMulticast(). Datagrams
+    /// do not leave the network of the address on which the server listens. Takes effect with
+    /// startServer().
+    /// \param group  an IPv4 multicast address, for example 239.255.76.68; a null address: no group
+    ///     (default)
     void setMulticastGroup(const QHostAddress &group);
-    /// Lets people find this master on the network without knowing its address: sends a datagram every 2 s to the multicast group 239.255.81.80:50081 of the networks
-    /// of the address that the server listens on (of none beyond this machine for a loopback). It tells address, port, the local name or the name of the
-    /// program, and the hash of the signal table to everybody there. Off unless set. Takes effect with startServer().
+    /// Sets whether programs can find this master on the network without its address; default
+    /// false. Then it sends a datagram every 2 s to the multicast group 239.255.81.80, port 50081,
+    /// of the networks of the address on which the server listens. The datagram has address, port,
+    /// local name (or the name of the program) and hash of the signal table; everybody on the
+    /// network can read it. Takes effect with startServer().
     void setBeacon(bool on);
+    /// Ends the cycles, tells all nodes that the master ends, and stops listening. Does nothing
+    /// without a server.
     void stopServer();
-    /// 0 when not listening.
+    /// Returns the port of the server; 0 when it does not listen.
     quint16 serverPort() const;
-    /// Lets startServer() listen to the network, where everybody can read and command the plant.
+    /// Sets whether startServer() may listen on the network without security, where everybody can
+    /// read and command the plant; default false.
     void setInsecureNetworkAllowed(bool allowed);
-    /// Lets the cyclic frames of all nodes meet the faults of a bad network, for a test: docs/faults.md has the words, for example "loss=5%,delay=2ms,seed=7"; empty: none.
-    /// Whoever connects is told, and sees it. Takes effect with startServer(); multicast groups have no faults.
-    /// \return false when \a plan cannot be meant, or the server runs: error() is then StateError and nothing has changed
+    /// Sets faults of a bad network for the cyclic frames of all nodes, for a test. docs/faults.md
+    /// lists the words. All programs that connect are told and show it. Multicast groups have no
+    /// faults. Takes effect with startServer().
+    /// \param plan  for example "loss=5%,delay=2ms,seed=7"; empty: no faults (default)
+    /// \return false when \a plan is not valid, or the server runs (StateError)
     bool setFaultPlan(const QString &plan);
+    /// Returns the fault plan; empty: no faults.
     QString faultPlan() const;
-    /// Who may connect, and what each identity may do; nobody is asked unless set. With it every address may be listened on. Files are read again for each connection:
-    /// who was revoked does not come in again, and who was added does. Takes effect with startServer().
+    /// Sets who may connect, and what each identity may do; default: everybody may do everything.
+    /// With security the server may listen on any address. Its files are read for each connection:
+    /// a revoked key does not connect again, and a new key does, without a restart. Takes effect
+    /// with startServer().
     void setSecurity(const QPlcSecurity &security);
+    /// Returns who may connect.
     QPlcSecurity security() const;
-    /// How many nodes and tools may be connected at a time; 320 unless set, which is for 254 nodes. Further ones are closed at once. Takes effect with startServer().
+    /// Sets how many control and cyclic connections may exist at a time; further ones are closed at
+    /// once. Takes effect with startServer().
+    /// \param connections  default 320, which is enough for 254 nodes
     void setMaximumConnections(int connections);
-    /// Registers \a node, which then lives in this process and is called on the cycle thread. The caller keeps owning it. A node that ends leaves
-    /// the master; while cycles run it must not end before removeLocalNode(). \return false when it is refused, or when the state is not Off
+    /// Registers a node of this process. The cycle thread of the master calls it.
+    /// \param node  owned by the caller, not null. A node that is destroyed leaves the master;
+    ///     while cycles run, call removeLocalNode() before
+    /// \return false when its signals or its name are refused (SignalError, NodeError), or when
+    ///     cycles run or a safe stop or fault is latched (StateError). In the state Ready the
+    ///     initialization is forgotten
     bool addLocalNode(QPlcSlaveNode *node);
+    /// Removes a node that addLocalNode() has added. Cycles that run end before. Does nothing for
+    /// any other node.
     void removeLocalNode(QPlcSlaveNode *node);
-    /// All registered nodes, in the order of their registration.
+    /// Returns all registered nodes, in the order of their registration.
     QVector<QPlcNodeInfo> nodes() const;
-    /// The order in which the nodes() are asked in a cycle, and how old the values are that they read.
+    /// Returns the order in which the nodes are asked in a cycle, and the age of the values that
+    /// they read.
     QPlcSchedule schedule() const;
-    /// Name of the node that writes \a signalName; empty: none.
+    /// Returns the name of the node that writes a signal ("Master": the master itself); empty: no
+    /// node does, or there is no such signal.
     QString writer(const QString &signalName) const;
-    /// Signals that somebody has taken over by a lease, also where the holder is lost, in the order of the table.
+    /// Returns the leases of signals, also those whose holder is lost, in the order of the signal
+    /// table.
     QVector<QPlcLease> leases() const;
 
     // ---- state ----
+    /// Returns what the plant does.
     State state() const;
-    /// Why the state is SafeStop or Fault, with names; else empty.
+    /// Returns why the state is SafeStop or Fault, with names; empty in all other states.
     QString stateReason() const;
-    /// What still keeps reset() from leaving SafeStop, with names; empty: nothing.
+    /// Returns what keeps reset() from leaving SafeStop, with names; empty: nothing does.
     QString causeThatRemains() const;
-    /// Whether arm() was called, and the start is still to come.
+    /// Returns true if arm() was called less than 5 s ago and no start has followed.
     bool isArmed() const;
+    /// Returns the kind of the last error.
     Error error() const;
-    /// What went wrong last, with the remedy; empty: nothing.
+    /// Returns the last error as a sentence with the remedy; empty: there was none.
     QString errorString() const;
-    /// Counters and the most important durations, quick to read.
+    /// Returns counters and the most important durations of this phase or the last one; quick.
     QPlcMasterStatistics statistics() const;
-    /// All durations, counters, nodes and the worst cycles since the start of the last real-time phase. Takes some 10 us for the master and for each node; the cycle is
-    /// never disturbed. Durations are at most 0.1 s old while cycles run, counters are those of now.
+    /// Returns all durations, counters, nodes and the worst cycles since the start of this phase or
+    /// the last one. Takes about 10 us for the master and for each node, and never disturbs the
+    /// cycle. While cycles run, durations are at most 0.1 s old; counters are current.
+    /// \param detail  whether histograms are wanted, which take time and memory
     QPlcCycleStatistics cycleStatistics(QPlcDistribution::Detail detail = QPlcDistribution::FiguresOnly) const;
-    /// What became of the real-time options at the last start.
+    /// Returns what the operating system has granted of the real-time options at the last start.
     QVector<QPlcRealTimeSetting> realTimeSettings() const;
-    /// Number of the newest complete cycle of the real-time phase.
+    /// Returns the number of the newest complete cycle of the real-time phase.
     quint64 cycle() const;
-    /// Newest value of a signal; invalid when there is no such signal.
+    /// Returns the newest value of a signal; an invalid value if there is no such signal.
     QPlcValue signalValue(const QString &signalName) const;
-    /// How far the newest value of a signal can be trusted; Invalid when there is no such signal.
+    /// Returns the quality of the newest value of a signal; Invalid if there is no such signal.
     QPlcQuality signalQuality(const QString &signalName) const;
-    /// Sets a signal that no node writes, between two cycles.
-    /// \return false when it has a writer, is taken over by a lease, does not exist, or \a value does not fit
+    /// Sets a signal that no node writes; the value counts from the next cycle on.
+    /// \param value  converted to the type of the signal
+    /// \return false when the signal does not exist, has a writer, or is under a lease, when \a
+    ///     value does not fit or is out of range (SignalError), or when too many changes wait for
+    ///     one cycle (StateError)
     bool setSignalValue(const QString &signalName, const QPlcValue &value);
 
 public Q_SLOTS:
-    /// Asks all nodes for their initial outputs and gives all of them their initial inputs; statesInitialized() or errorOccurred() follows.
+    /// Asks all nodes for their initial outputs, and gives all of them their initial inputs.
+    /// statesInitialized() or errorOccurred() follows. Possible in Off and Ready.
+    /// \return false when it cannot begin, or has failed at once
     bool initializeAllStates();
-    /// Permits one start within the next 5 s: the first of two steps, so that nothing moves by a single mistake. \return false unless the state is Ready
+    /// Permits one start within the next 5 s: the first of two steps, so that a single mistake
+    /// moves nothing.
+    /// \return false unless the state is Ready
     bool arm();
-    /// Begins the real-time phase, after an initialization if there was none since the last phase; stateChanged(RealTime) or errorOccurred() follows.
-    /// \return false when arming is required and arm() was not called in the last 5 s, or when the state does not permit it
+    /// Begins the real-time phase. In the state Off an initialization comes first.
+    /// stateChanged(RealTime) or errorOccurred() follows.
+    /// \return false when arming is required and arm() was not called in the last 5 s, or when the
+    ///     state or the real-time options do not permit it
     bool startRealTime();
-    /// Ends the real-time phase: nodes go to their safe state, signals keep their values here. SafeStop stays what it is.
+    /// Ends the real-time phase: nodes go to their safe state, and the signals keep their values
+    /// here. In SafeStop and Fault it does nothing.
     void stop();
-    /// Stops safely, and latches: from the next cycle on all nodes are told their safe values and compute nothing. When no cycle runs, what was begun or armed
+    /// Stops safely, and latches: from the next cycle on all nodes have their safe values and
+    /// compute nothing, until reset(). When no cycle runs, an initialization, a start or an arming
     /// ends, and the state is Off.
+    /// \param reason  for stateReason(); empty: a sentence about this call
     void safeStop(const QString &reason = QString());
-    /// Leaves SafeStop or Fault for Off. \return false when the cause is still there: errorString() tells which, and what to do
+    /// Leaves SafeStop or Fault for Off. Does nothing in Off.
+    /// \return false when the cause still exists: errorString() says which and what to do; or when
+    ///     nothing is latched
     bool reset();
 
 Q_SIGNALS:
+    /// Emitted when the state has changed. stateReason() is set already.
     void stateChanged(QPlcMasterNode::State state);
+    /// Emitted when a node is registered and its cyclic channel works.
     void nodeRegistered(const QString &name);
+    /// Emitted when a node or tool was refused.
+    /// \param name  as it has introduced itself
+    /// \param reason  for people
     void nodeRefused(const QString &name, const QString &reason);
+    /// Emitted when a registered node has left, in order or not.
+    /// \param name  of the node
+    /// \param reason  for people
     void nodeLost(const QString &name, const QString &reason);
+    /// Emitted when all nodes are initialized. In a start that includes an initialization it comes
+    /// before the cycles begin.
     void statesInitialized();
+    /// Emitted when the cycles run and the local nodes are started; stateChanged(RealTime) came
+    /// before.
     void realTimeHasStarted();
-    /// The phase has ended: by stop(), at the cycle limit, or because of an error (then errorOccurred() came before).
+    /// Emitted when the phase has ended: by stop(), at the cycle limit, or because of an error
+    /// (errorOccurred() came before).
     void realTimeHasStopped();
-    /// A node with an Error policy had not answered in cycle \a cycle when its time was over.
+    /// Emitted when a node with an Error policy had not answered at the end of a cycle.
+    /// \param name  of the node
+    /// \param cycle  number of the cycle
     void realTimeViolated(const QString &name, quint64 cycle);
-    /// From stateChanged(SafeStop) on; \a reason is that of stateReason().
+    /// Emitted after stateChanged(SafeStop).
+    /// \param reason  the same as stateReason()
     void safelyStopped(const QString &reason);
-    /// Somebody has taken, released or lost a lease: leases() has changed.
+    /// Emitted when leases() has changed: a lease was taken, released or lost.
     void leaseChanged();
+    /// Emitted for each error; errorString() has the reason.
     void errorOccurred(QPlcMasterNode::Error error);
 
 private:

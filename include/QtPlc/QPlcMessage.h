@@ -8,85 +8,122 @@
 #include <QtCore/QMetaType>
 #include <QtCore/QString>
 
-/// A message on the control channel between master and node: a kind and fields by name.
+/// A message on the control channel between master and node or tool: a kind, and fields by name.
 ///
-/// On the wire: `u32 length (LE) | u8 kind | UTF-8 JSON object`, where length counts kind and JSON. docs/protocol.md lists the fields of each kind.
-/// A value type.
+/// \code
+/// const QPlcMessage request(QPlcMessage::GetSignals, {{"names", QJsonArray{"tetherSpeed"}}});
+/// QPlcIOSlaveNode node("Operator");
+/// node.sendMessageToMaster(request);
+/// \endcode
+///
+/// On the wire it is `u32 length (LE) | u8 kind | UTF-8 JSON object`; the length counts kind and
+/// JSON. docs/protocol.md lists the fields of each kind.
+///
+/// \threadsafe a value type: several threads may read one object
+///
+/// \ingroup network
 class QTPLC_EXPORT QPlcMessage
 {
     Q_GADGET
 public:
+    /// Kinds of messages. *Any* stands for a node or a tool.
     enum Kind : quint8 {
-        Invalid = 0,
-        Hello = 1,                  ///< both ways, first: protocol version, who, table
-        Register = 2,               ///< node -> master: name, policy, inputs, outputs, cyclic channel
-        Registered = 3,             ///< master -> node: node id, session
-        Rejected = 4,               ///< master -> node: why the last message was refused; the connection is closed
-        AttachCyclicChannel = 5,    ///< node -> master, first on a cyclic TCP connection: which node it belongs to
-        CyclicChannelAttached = 6,  ///< master -> node: the cyclic TCP connection (or UDP address) is in use
-        MasterEnds = 7,             ///< master -> node or tool: it ends as wanted, the connection closes
-        InitializeAllStates = 10,   ///< anyone -> master
-        SendYourInitialOutputStates = 11,   ///< master -> node
-        ReceiveMyInitialOutputStates = 12,  ///< node -> master: values
-        InitializeWithValues = 13,          ///< master -> node: values
+        Invalid = 0,  ///< no message
+        Hello = 1,    ///< both ways, first: protocol version, role, signal table
+        /// Node -> master: name, policy, inputs, outputs, cyclic channel.
+        Register = 2,
+        Registered = 3,  ///< master -> node: number of the node, session
+        /// Master -> node: why the last message was refused; the connection is closed.
+        Rejected = 4,
+        /// Node -> master, first on a cyclic TCP connection: token of the node.
+        AttachCyclicChannel = 5,
+        CyclicChannelAttached = 6,  ///< master -> node: the cyclic channel is in use
+        /// Master -> node or tool: the master ends in order; the connection closes.
+        MasterEnds = 7,
+        InitializeAllStates = 10,           ///< any -> master: initialize all nodes
+        SendYourInitialOutputStates = 11,   ///< master -> node: send your initial outputs
+        ReceiveMyInitialOutputStates = 12,  ///< node -> master: values of the outputs
+        InitializeWithValues = 13,          ///< master -> node: values of the inputs
         Initialized = 14,                   ///< node -> master: initialize() has returned
-        StatesInitialized = 15,             ///< master -> all: the initialization has ended
-        StartRealTime = 20,                 ///< anyone -> master
-        RealTimeStarted = 21,               ///< master -> node: period, clock, first cycle
-        RealTimeReady = 22,                 ///< node -> master: waiting for the first cyclic frame
-        Stop = 23,                          ///< anyone -> master
-        RealTimeStopped = 24,               ///< master -> node
-        SafeStop = 25,                      ///< anyone -> master: stops safely, until Reset
-        Reset = 26,                         ///< anyone -> master: leaves SafeStop or Fault
-        Arm = 27,                           ///< anyone -> master: permits one StartRealTime
-        Armed = 28,                         ///< master -> asker: token, and how long it is valid
-        GetState = 30,                      ///< anyone -> master
-        State = 31,                         ///< master -> asker
-        GetSignals = 32,                    ///< anyone -> master: names, or none for all
-        Signals = 33,                       ///< master -> asker: definitions and values
-        SetSignals = 34,                    ///< anyone -> master: values of signals that no node writes
-        Done = 35,                          ///< master -> asker: the request was carried out
-        Failed = 36,                        ///< master -> asker: the request was refused, and why; the connection stays
-        NodeFault = 40,                     ///< node -> master: the node cannot go on (exception in user code)
-        GetStatistics = 50,                 ///< anyone -> master: with histograms, or without
-        Statistics = 51,                    ///< master -> asker: durations, counters and worst cycles
-        GetSchedule = 52,                   ///< anyone -> master
-        Schedule = 53,                      ///< master -> asker: stages of a cycle, and the age of every link
-        TakeLease = 60,      ///< anyone -> master: takes signals over, also from the nodes that write them
-        ReleaseLease = 61,   ///< anyone -> master: gives signals back
-        GetLeases = 62,      ///< anyone -> master
-        Leases = 63,         ///< master -> asker: who has taken over which signal
-        LeasesChanged = 64,  ///< master -> who offers feature "leases": all of them, after each change
-        GetEvents = 65,      ///< anyone -> master: what has happened since
-        Events = 66          ///< master -> asker, and -> who offers feature "events": what has happened
+        /// Master -> all: the initialization has ended, and how.
+        StatesInitialized = 15,
+        StartRealTime = 20,    ///< any -> master: start the real-time phase
+        RealTimeStarted = 21,  ///< master -> node: period, clock, first cycle
+        RealTimeReady = 22,    ///< node -> master: it waits for the first cyclic frame
+        Stop = 23,             ///< any -> master: stop the real-time phase
+        RealTimeStopped = 24,  ///< master -> node: the phase has ended
+        SafeStop = 25,         ///< any -> master: stop safely, until Reset
+        Reset = 26,            ///< any -> master: leave SafeStop or Fault
+        Arm = 27,              ///< any -> master: permit one StartRealTime
+        Armed = 28,            ///< master -> asker: token, and how long it is valid
+        GetState = 30,         ///< any -> master: ask for the state
+        State = 31,            ///< master -> asker: state, nodes, period, and more
+        GetSignals = 32,       ///< any -> master: names of signals; none: all
+        Signals = 33,          ///< master -> asker: definitions and values
+        /// Any -> master: values of signals that no node writes.
+        SetSignals = 34,
+        Done = 35,  ///< master -> asker: the request was carried out
+        /// Master -> asker: the request was refused, and why; the connection stays.
+        Failed = 36,
+        /// Node -> master: the node cannot go on (exception in its code).
+        NodeFault = 40,
+        /// Any -> master: ask for statistics, with or without histograms.
+        GetStatistics = 50,
+        /// Master -> asker: durations, counters and worst cycles.
+        Statistics = 51,
+        GetSchedule = 52,  ///< any -> master: ask for the order of the nodes
+        /// Master -> asker: stages of a cycle, and the age of each value.
+        Schedule = 53,
+        /// Any -> master: take leases of signals, also if nodes write them.
+        TakeLease = 60,
+        ReleaseLease = 61,  ///< any -> master: release leases of signals
+        GetLeases = 62,     ///< any -> master: ask for all leases
+        Leases = 63,        ///< master -> asker: all leases and their holders
+        /// Master -> all with the feature "leases": all leases, after each change.
+        LeasesChanged = 64,
+        GetEvents = 65,  ///< any -> master: ask for the events since a number
+        /// Master -> asker, and -> all with the feature "events": events.
+        Events = 66
     };
     Q_ENUM(Kind)
 
+    /// Makes an invalid message.
     QPlcMessage() = default;
+    /// Makes a message. The fields are not checked.
     QPlcMessage(Kind kind, const QJsonObject &fields = QJsonObject())
         : m_kind(kind)
         , m_fields(fields)
     {
     }
 
+    /// Returns the kind.
     Kind kind() const { return m_kind; }
-    /// "Register"; "unknown kind 77" for one that this version does not know.
+    /// Returns the name of the kind: "Register"; "unknown kind 77" for a kind that this version
+    /// does not know.
     QString kindName() const;
+    /// Returns the name of a kind, as above.
     static QString kindName(Kind kind);
+    /// Returns all fields.
     QJsonObject fields() const { return m_fields; }
 
+    /// Returns a text field; empty if it is missing or not a text.
     QString text(const QString &field) const { return m_fields.value(field).toString(); }
-    /// A 64-bit number, which travels as a text of 16 hexadecimal digits since JSON numbers are doubles; 0 when missing or malformed.
+    /// Returns a 64-bit number. Such numbers travel as texts of 16 hexadecimal digits, because JSON
+    /// numbers are doubles. 0 if the field is missing or malformed.
     quint64 hex64(const QString &field) const;
+    /// Returns the text of a 64-bit number for a field: 16 digits, lower case.
     static QString fromHex64(quint64 number);
-    /// Bytes, which travel as base64; empty when missing or malformed.
+    /// Returns bytes, which travel as base64; empty if the field is missing or malformed.
     QByteArray bytes(const QString &field) const;
+    /// Returns the base64 text of bytes for a field.
     static QString fromBytes(const QByteArray &bytes);
 
+    /// Returns true if kind and fields are the same.
     friend bool operator==(const QPlcMessage &a, const QPlcMessage &b)
     {
         return a.m_kind == b.m_kind && a.m_fields == b.m_fields;
     }
+    /// Returns true if kind or fields differ.
     friend bool operator!=(const QPlcMessage &a, const QPlcMessage &b) { return !(a == b); }
 
 private:

@@ -22,175 +22,233 @@ namespace qplc {
 class WindowContext;
 }
 
-/// The window as one panel sees it: signals with their past, the time that is shown, theme, numbers for people.
+/// The window as one panel sees it: signals and their history, the time that is shown, theme, and
+/// texts of numbers.
 ///
-/// ```cpp
-/// void Compass::contextChanged()
+/// \code
+/// class Compass : public QPlcWidget
 /// {
-///     connect(context(), &QPlcPanelContext::changed, this, QOverload<>::of(&QWidget::update));
-/// }
-/// void Compass::paintEvent(QPaintEvent *)
-/// {
-///     const QPlcPanelContext::Signal heading = context()->shown(QStringLiteral("heading"));
-///     drawNeedle(heading.number(), context()->theme());
-/// }
-/// ```
-/// QPlcWidget::context() gives it to each panel. A reference names a signal or one of its elements: `power`,
-/// `position[2]`. A plant may stand in front: `east/power`. Without one it means the plant to which the panel
-/// is pinned, or else the selected plant of the window. An expression is a reference or, behind `=`, a
-/// formula: `= mean(power, 5)`.
+/// protected:
+///     void contextChanged() override
+///     {
+///         connect(context(), &QPlcPanelContext::changed, this, QOverload<>::of(&QWidget::update));
+///     }
+///     void paintEvent(QPaintEvent *) override
+///     {
+///         const QPlcPanelContext::Signal heading = context()->shown("heading");
+///         QPainter painter(this);
+///         painter.setPen(heading.isCurrent ? context()->theme().text : context()->theme().stale);
+///         painter.drawText(rect(), heading ? QPlcPanelContext::text(heading) : heading.problem);
+///     }
+/// };
+/// \endcode
 ///
-/// Times are in nanoseconds since 1970, on the clock of the plant. All plots, gauges and tables of a window
-/// share one time axis, two cursors and one pointer. QPlcSignalControl writes signals.
+/// QPlcWidget::context() returns it. A reference names a signal or one of its elements: `power`,
+/// `position[2]`. A plant may come first: `east/power`. Without it the reference belongs to the
+/// plant to which the panel is pinned, or else to the selected plant of the window. An expression
+/// is a reference or, behind `=`, a formula: `= mean(power, 5)`.
 ///
-/// Threads: the thread of the window.
+/// Times are in nanoseconds since 1970, on the clock of the plant. All plots, gauges and tables of
+/// a window share a time axis, two cursors and a pointer. To write signals use QPlcSignalControl.
+///
+/// Outside of a window there are no plants: functions return empty results and setters do nothing.
+///
+/// \threadsafe no: use it in the thread of the window
+///
+/// \ingroup panels
 class QTPLC_GUI_EXPORT QPlcPanelContext : public QObject
 {
     Q_OBJECT
 public:
-    using Time = qint64;  ///< [ns] since 1970
-    enum Cursor { CursorA, CursorB };
+    using Time = qint64;  ///< time [ns] since 1970-01-01 UTC
+    /// The two cursors of a window.
+    enum Cursor {
+        CursorA,  ///< first cursor
+        CursorB   ///< second cursor
+    };
 
-    /// What a reference means, and its value.
+    /// The meaning of an expression, and its value.
     struct QTPLC_GUI_EXPORT Signal
     {
         QString plant;                    ///< name of its plant; empty: there is no such signal now
         QPlcSignalDefinition definition;  ///< name, type, unit, limits, names of values
-        int element = -1;                 ///< of an array; -1: the whole signal
-        QPlcValue value;                  ///< of the signal or its element; invalid: there is none
-        QPlcQuality quality;              ///< what the master says of the value
-        QString writer;                   ///< name of the node that writes it; empty: no node does
-        bool isCurrent = false;           ///< the value is usable, and of now or of the time that was asked for
-        QString problem;                  ///< why there is nothing, for people; empty: there is a signal
+        int element = -1;                 ///< element of an array, from 0; -1: the whole signal
+        /// Value of the signal or its element; invalid: there is none.
+        QPlcValue value;
+        QPlcQuality quality;  ///< quality of the value
+        QString writer;       ///< node that writes the signal; empty: no node does
+        /// The value is usable, and it is the newest one or the one of the wanted time.
+        bool isCurrent = false;
+        QString problem;  ///< why there is no signal, for people; empty: there is one
 
+        /// Returns true if there is such a signal, even if it has no value yet.
         explicit operator bool() const { return problem.isEmpty(); }
-        /// Returns the value as a number, of an array that of \a index; NaN when there is none.
+        /// Returns the value as a number; NaN if there is none.
+        /// \param index  element of an array, from 0
         double number(int index = 0) const;
     };
-    /// One step of the past of a number.
+    /// One step of the history of a number.
     struct Sample
     {
-        Time time = 0;                                  ///< of the first value of the step [ns]
-        double value = 0.0;                             ///< the first value of the step
+        /// Time of the first value of the step [ns].
+        Time time = 0;
+        double value = 0.0;                             ///< first value of the step
         double minimum = 0.0;                           ///< smallest value of the step
         double maximum = 0.0;                           ///< largest value of the step
-        QPlcQuality::Kind quality = QPlcQuality::Good;  ///< the least good one of the step
-        bool isJoined = false;                          ///< a line leads here from the sample before
+        QPlcQuality::Kind quality = QPlcQuality::Good;  ///< worst quality in the step
+        /// Draw a line from the sample before to this one.
+        bool isJoined = false;
     };
     /// One plant of the window.
     struct Plant
     {
-        QString name;              ///< empty: there is no such plant
-        QColor color;              ///< by which people know it in this window
-        bool isConnected = false;  ///< its master answers; false from the moment that it is lost
-        bool isLive = false;       ///< its cycles arrive
-        bool isStale = false;      ///< its values are old, because it is lost or its cycles stay away
-        QString state;             ///< "Real time", "lost"
-        QString stateText;         ///< the same with the reason: "Disconnected: Connection refused"
-        QString clock;             ///< of its master: "RealTime", "Scaled(2)", "Lockstep"; empty: not known
-        double age = -1.0;         ///< time since its values were true [s]; -1: it has none
-        Time newest = 0;           ///< time of its newest value [ns]; 0: it has none
+        QString name;  ///< empty: there is no such plant
+        QColor color;  ///< colour that marks it in this window
+        /// Its master answers; false at once when the connection is lost.
+        bool isConnected = false;
+        bool isLive = false;  ///< its cycles arrive
+        /// Its values are stale, because it is lost or its cycles do not arrive.
+        bool isStale = false;
+        QString state;      ///< "Real time", "lost"
+        QString stateText;  ///< the same with the reason: "Disconnected: Connection refused"
+        /// Clock of its master: "RealTime", "Scaled(2)", "Lockstep"; empty: not known.
+        QString clock;
+        double age = -1.0;  ///< age of its values [s]; -1: it has none
+        Time newest = 0;    ///< time of its newest value [ns]; 0: it has none
     };
-    /// How urgent an entry of the event log is.
-    enum Severity { Information, Warning, Error };
+    /// Severity of an entry of the event log.
+    enum Severity {
+        Information,  ///< for people who look at the log
+        Warning,      ///< needs attention
+        Error         ///< needs action
+    };
     /// How numbers of a unit are written.
     struct Prefix
     {
-        double factor = 1.0;  ///< multiply numbers by it
-        QString unit;         ///< "kW"
+        double factor = 1.0;  ///< multiply numbers by it before you write them
+        QString unit;         ///< unit with its prefix: "kW"
     };
 
+    /// Destroys the context; only its panel does this.
     ~QPlcPanelContext() override;
 
     // -- signals and their past --
 
-    /// Returns what a reference or formula means now, with its newest value.
+    /// Returns the present meaning of an expression, with the newest value.
     Signal signal(const QString &expression) const;
-    /// Returns the same with the value of a time. Numbers of the past have 32-bit precision; texts have no past.
+    /// Returns the same with the value at a time. Values of the past have 32-bit precision; texts
+    /// have no past.
     Signal signal(const QString &expression, Time time) const;
-    /// Returns the signal with the value that the window shows: of shownTime(), or else of now.
+    /// Returns the signal with the value that the window shows: that of shownTime(), else the
+    /// newest one.
     Signal shown(const QString &expression) const;
-    /// Returns the past of a number, oldest first: the steps of begin <= time <= end. NaN is left out.
-    /// \param most  steps at most, 4 or above. A step is one cycle, or 2, 4, 8, ... cycles of a longer past
-    /// \return as long as the window remembers (10 minutes by default). Empty without such a number
+    /// Returns the history of a number in begin <= time <= end, oldest first. NaN is left out.
+    /// \param most  number of steps at most, 4 or more. A step is one cycle, or 2, 4, 8, ... cycles
+    ///     of a longer history
+    /// \return as much as the window remembers (10 minutes by default); empty if there is no such
+    ///     number
     QVector<Sample> history(const QString &expression, Time begin, Time end, int most = 2000) const;
-    /// Returns the past row by row and without a copy, for charts that draw much of it. What it says holds until
-    /// signalsChanged(); then ask again.
+    /// Returns the history of a number row by row and without a copy, for charts that draw much of
+    /// it. It is valid until signalsChanged(); then ask again.
     QPlcPast past(const QString &expression) const;
-    /// Returns all numbers of the plants, as references: for a field in which people choose one.
+    /// Returns references of all numbers of all plants, for a field in which people choose one.
     QStringList numberNames() const;
-    /// Returns all signals of the plants, and the elements of arrays, as references.
+    /// Returns references of all signals of all plants, and of the elements of arrays.
     QStringList signalNames() const;
 
     // -- time --
 
-    /// Returns the time axis that the panels of the window share: to zoom, to pan, and to follow it. Outside of a
-    /// window the panel has one of its own. Never null; another one only when QPlcWidget::contextChanged() is called.
+    /// Returns the time axis that the panels of the window share: to zoom, to pan, and to follow
+    /// it. The window owns it. Outside of a window the panel has one of its own. Never null. It is
+    /// another one only after QPlcWidget::contextChanged().
     QPlcTimeAxis *timeAxis() const;
-    /// Whether the window follows the newest values.
+    /// Returns true if the window follows the newest values.
     bool isLive() const;
     /// Returns the left end of the time axis.
     Time begin() const;
-    /// Returns the right end of the time axis: of a live window the newest value of the plants of
-    /// QPlcWidget::shownSignals(). 0: there are no values.
+    /// Returns the right end of the time axis. In a live window it is the newest value of the
+    /// plants of QPlcWidget::shownSignals(). 0: there are no values.
     Time end() const;
-    /// Returns the time whose values gauges and tables show, because a person looks at the past; none: now.
+    /// Returns the time whose values gauges and tables show, because a person looks at the past;
+    /// not set: the newest values.
     std::optional<Time> shownTime() const;
-    /// Shows a range, and stops following. \pre begin < end
+    /// Shows a range of time, and stops following new values.
+    /// \pre begin < end
     void showRange(Time begin, Time end);
     /// Follows the newest values again.
     void goLive();
+    /// Returns the time of a cursor; not set: the cursor is not shown.
     std::optional<Time> cursor(Cursor which) const;
+    /// Moves a cursor in all plots of the window.
+    /// \param time  not set: hides the cursor
     void setCursor(Cursor which, std::optional<Time> time);
-    /// Returns the time under the mouse, in any plot of the window.
+    /// Returns the time under the mouse, in any plot of the window; not set: there is none.
     std::optional<Time> pointer() const;
+    /// Moves the pointer in all plots of the window.
+    /// \param time  not set: hides the pointer
     void setPointer(std::optional<Time> time);
 
     // -- plants --
 
     /// Returns the names of all plants of the window.
     QStringList plants() const;
-    /// Returns a plant. \param name  empty: the one that references without a plant mean
+    /// Returns a plant.
+    /// \param name  empty: the plant of references without a plant
     Plant plant(const QString &name = QString()) const;
-    /// Stops a plant, as the button STOP does. \param name  as for plant()
+    /// Stops a plant, as the button STOP does. Does nothing if there is no such plant.
+    /// \param name  empty: the plant of references without a plant
     void stop(const QString &name = QString());
-    /// Asks a master for what no signal says, such as QPlcMessage::GetStatistics.
-    /// \param answered  gets the answer, in the event loop; not called after \a receiver has gone
-    /// \param name  as for plant()
-    /// \return false: nothing was asked, since there is no connection, or an answer is still to come
+    /// Asks a master for what is not a signal, for example with QPlcMessage::GetStatistics.
+    /// \param receiver  while it exists, \a answered may be called
+    /// \param answered  gets the answer, in the event loop
+    /// \param name  plant; empty: the plant of references without a plant
+    /// \return false if nothing was asked, because there is no connection or an earlier answer has
+    ///     not come yet
     bool ask(const QPlcMessage &question, QObject *receiver, const std::function<void(const QPlcMessage &)> &answered,
              const QString &name = QString());
     /// Writes a line into the event log of the window.
     /// \param source  where it happened: "east", "Trigger"
+    /// \param text  one sentence for people
     void report(Severity severity, const QString &source, const QString &text);
 
     // -- look --
 
+    /// Returns colours and fonts of the window. They change with themeChanged().
     QPlcTheme theme() const;
-    /// Returns a value with its unit, as the window writes it: "13.90 µs", "ReelIn"; "–" without a value.
+    /// Returns a value with its unit, as the window writes it: "13.90 µs", "ReelIn"; "–" without a
+    /// value.
+    /// \param digits  significant digits of a number
     static QString text(const Signal &signal, int digits = 4);
-    /// Returns a number with its unit: "1.008 MJ". \param unit  as in the signal table
+    /// Returns a number with its unit: "1.008 MJ".
+    /// \param unit  as in the signal table
+    /// \param digits  significant digits
     static QString text(double number, const QString &unit, int digits = 4);
-    /// Returns an age, or another span of time, in few letters: "12 ms", "3.4 s", "5 min".
+    /// Returns an age or another span of time in a few characters: "12 ms", "3.4 s", "5 min".
+    /// \param seconds  0 or more
     static QString ageText(double seconds);
-    /// Returns one prefix for many numbers, as an axis needs it. \param size  of the largest one
+    /// Returns one prefix for many numbers, as an axis needs it.
+    /// \param unit  as in the signal table
+    /// \param size  absolute value of the largest number
     static Prefix prefix(const QString &unit, double size);
 
 Q_SIGNALS:
-    /// The panel should be drawn again: any of what follows, at most 30 times a second, and not while the
-    /// panel is hidden.
+    /// Emitted when the panel should be drawn again, for any of the reasons below: at most 30 times
+    /// a second, and not while the panel is hidden.
     void changed();
-    /// There are new values.
+    /// Emitted when there are new values.
     void valuesChanged();
-    /// The past of a formula has more old values: worth drawing also where time stands still.
+    /// Emitted when the history of a formula has got more old values, which is worth drawing also
+    /// while time stands still.
     void pastChanged();
-    /// Time axis, shown time, cursors or pointer.
+    /// Emitted when the time axis, the shown time, a cursor or the pointer has changed.
     void timeChanged();
-    /// References may mean something else: plants, tables of signals, or the pin of the panel.
+    /// Emitted when references may mean something else: plants, signal tables, or the pin of the
+    /// panel have changed.
     void signalsChanged();
-    /// A plant was lost, came back, started or stopped.
+    /// Emitted when a plant was lost, came back, started or stopped.
+    /// \param plant  its name
     void plantStateChanged(const QString &plant);
-    /// Colours or fonts of the window; or the panel has come into another window.
+    /// Emitted when theme() has changed, or the panel was put into another window.
     void themeChanged();
 
 private:

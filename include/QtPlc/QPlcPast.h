@@ -14,89 +14,116 @@ namespace qplc {
 struct PastRows;
 }
 
-/// The past of one number, row by row and without a copy: for charts that draw much of it many times a second.
+/// The history of one number, row by row and without a copy: for charts that draw much of it many
+/// times a second. Most panels need only QPlcPanelContext::history(), which gives copied steps.
 ///
-/// ```cpp
-/// const QPlcPast past = context()->past(QStringLiteral("power"));
-/// QPlcPast::Range range = past.range(past.rowAt(begin), past.rowAt(end));  // some steps, for a million rows
-/// for (QPlcPast::Row row = past.rowAt(begin); row < past.rowAt(end); ++row)
-///     addPoint(past.time(row), past.value(row), past.beginsAnew(row));
-/// ```
-/// A row is one cycle of the plant. Rows have numbers that never change. The window keeps those from firstRow()
-/// up to endRow(), 10 minutes by default: in each turn of the event loop new ones may come, and old ones go.
-/// Values have 32-bit precision; NaN: there is none. QPlcPanelContext::history() gives copied steps instead,
-/// and is all that most panels need.
+/// \code
+/// class Chart : public QPlcWidget
+/// {
+/// protected:
+///     void paintEvent(QPaintEvent *) override
+///     {
+///         const QPlcPast past = context()->past("power");
+///         if (!past)
+///             return;
+///         const QPlcPast::Row end = past.endRow();
+///         const QPlcPast::Range range = past.range(past.firstRow(), end);  // quick
+///         QPolygonF line;
+///         for (QPlcPast::Row row = past.firstRow(); row < end; ++row)
+///             line.append({double(line.size()), past.value(row) - range.minimum});
+///         QPainter(this).drawPolyline(line);
+///     }
+/// };
+/// \endcode
 ///
-/// A past may be kept as long as you like, also when its plant goes. It ends with
-/// QPlcPanelContext::signalsChanged(): from then on nothing is added to it, and past() gives the one that goes
-/// on. The past of a formula is calculated as long as somebody keeps it.
+/// A row is one cycle of the plant. Its number never changes. The window keeps the rows from
+/// firstRow() to endRow(), 10 minutes by default. In each turn of the event loop new rows may come
+/// and old ones go. Values have 32-bit precision; NaN means that there is no value.
 ///
-/// A value type that shares its data. Threads: the thread of the window.
+/// You can keep an object as long as you like, also when its plant is removed. After
+/// QPlcPanelContext::signalsChanged() it gets no new rows: ask QPlcPanelContext::past() again. The
+/// history of a formula is calculated as long as an object of it exists.
+///
+/// \threadsafe a value type that shares its data: use it in the thread of the window
+///
+/// \ingroup panels
 class QTPLC_GUI_EXPORT QPlcPast
 {
 public:
-    using Time = qint64;  ///< [ns] since 1970, on the clock of the plant
+    using Time = qint64;  ///< time [ns] since 1970-01-01 UTC, on the clock of the plant
     using Row = quint64;  ///< number of a row
-    /// Smallest and largest value of rows.
+    /// Smallest and largest value of some rows.
     struct QTPLC_GUI_EXPORT Range
     {
-        double minimum;  ///< NaN: there is no value
-        double maximum;  ///< NaN: there is no value
-        /// Returns a range that contains nothing.
+        double minimum;  ///< smallest value; NaN: there is no value
+        double maximum;  ///< largest value; NaN: there is no value
+        /// Returns a range without values.
         static Range empty();
+        /// Returns true if the range has no values.
         bool isEmpty() const { return !(minimum <= maximum); }
         /// Returns the smallest range that contains both.
         Range united(const Range &other) const;
     };
 
+    /// Makes an object without a number.
     QPlcPast();
+    /// Releases its share of the data.
     ~QPlcPast();
+    /// Makes an object that shares the data of \a other.
     QPlcPast(const QPlcPast &other);
+    /// Shares the data of \a other from now on.
     QPlcPast &operator=(const QPlcPast &other);
 
-    /// Whether there is such a number. Else nothing but expression and problem may be read.
+    /// Returns true if there is such a number. If not, read only expression, problem, text() and
+    /// textOf().
     explicit operator bool() const { return d != nullptr; }
 
-    QString expression;             ///< what it was asked for: a reference, or a formula behind `=`
-    QString problem;                ///< why there is nothing, for people; empty: there is a past
-    QString plant;                  ///< name of its plant
-    QString unit;                   ///< as in the signal table; of a formula, what follows from its signals
-    std::optional<double> minimum;  ///< limit of the signal table
-    std::optional<double> maximum;  ///< limit of the signal table
+    QString expression;  ///< what was asked for: a reference, or a formula behind `=`
+    QString problem;     ///< why there is no history, for people; empty: there is one
+    QString plant;       ///< name of its plant
+    /// Unit of the signal table; of a formula, what follows from its signals.
+    QString unit;
+    std::optional<double> minimum;  ///< lower limit of the signal table [unit]; not set: no limit
+    std::optional<double> maximum;  ///< upper limit of the signal table [unit]; not set: no limit
     QPlcValueNames names;           ///< names of its values; empty: numbers
-    bool isStepped = false;         ///< an integer or a boolean: a value holds until the next one
+    bool isStepped = false;         ///< an integer or boolean: a value is valid until the next one
 
-    /// Returns what people read of it: formulas without `=`.
+    /// Returns the expression for people: a formula without `=`.
     QString text() const { return textOf(expression); }
-    /// Returns what people read of an expression: "power", "mean(power, 5)".
+    /// Returns an expression for people: "power", "mean(power, 5)".
     static QString textOf(const QString &expression);
-    /// Whether the newest values are those of now: the plant is connected, and its cycles arrive.
+    /// Returns true if the newest values are current: the plant is connected, and its cycles
+    /// arrive.
     bool isCurrent() const;
-    /// Returns the time since the newest values were true [s]; -1: there are none, or the plant has gone.
+    /// Returns the age of the newest values [s]; -1: there are none, or the plant was removed.
     double age() const;
-    /// Returns the time of the newest row of the plant, which the past of a formula may not have yet; 0: there is none.
+    /// Returns the time of the newest row of the plant; the history of a formula may not have it
+    /// yet. 0: there is none.
     Time newestTime() const;
-    /// Whether its rows are those of \a other: the same numbers have the same times.
+    /// Returns true if both histories have the same rows: equal numbers have equal times.
     bool sharesRows(const QPlcPast &other) const;
 
-    /// Returns the first row that is kept.
+    /// Returns the number of the oldest row that is kept.
     Row firstRow() const;
-    /// Returns the row behind the last one.
+    /// Returns the number behind the newest row.
     Row endRow() const;
+    /// Returns true if no rows are kept.
     bool isEmpty() const { return firstRow() == endRow(); }
     /// Returns the first row at or after a time; endRow(): there is none.
     Row rowAt(Time time) const;
-    /// Returns the row whose values held at a time. None before the first row, and where the plant was interrupted.
+    /// Returns the row whose values were valid at a time; not set before the first row, and where
+    /// the plant was interrupted.
     std::optional<Row> rowHoldingAt(Time time) const;
-    /// Returns the time of a row. \pre firstRow() <= row < endRow(), as for all that follows
+    /// Returns the time of a row.
+    /// \pre firstRow() <= row < endRow(), as for all functions below
     Time time(Row row) const;
     /// Returns the value of a row; NaN: there is none.
     double value(Row row) const;
-    /// Whether a row begins after an interruption: no line leads to it.
+    /// Returns true if a row follows an interruption: no line leads to it.
     bool beginsAnew(Row row) const;
-    /// Returns the least good quality of rows \a begin up to \a end, without \a end.
+    /// Returns the worst quality of rows from \a begin to before \a end.
     QPlcQuality::Kind quality(Row begin, Row end) const;
-    /// Returns smallest and largest value of rows \a begin up to \a end, without \a end. Takes some steps for any
+    /// Returns the smallest and largest value of rows from \a begin to before \a end. Quick for any
     /// number of rows.
     Range range(Row begin, Row end) const;
 

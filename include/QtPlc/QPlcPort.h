@@ -12,47 +12,86 @@
 
 class QPlcCompactSlaveNode;
 
-/// A variable of a node that is tied to a signal by name. See QPlcInput, QPlcOutput, QPlcBoundInput, QPlcBoundOutput, QPlcCompactSignal.
+/// Base of all ports. A port is a variable of a node that belongs to a signal: QPlcInput,
+/// QPlcOutput, QPlcBoundInput, QPlcBoundOutput, QPlcCompactSignal.
 ///
-/// A port registers itself at its node when it is made; it is neither copied nor moved. Used by the cycle thread of the node while cycles run; destroying it ends them.
+/// \code
+/// class Winch : public QPlcCompactSlaveNode
+/// {
+/// public:
+///     Winch() : QPlcCompactSlaveNode("Winch") {}
+///
+/// private:
+///     QPlcInput<double> m_speed{this, "tetherSpeed"};                                   // [m/s]
+///     QPlcInput<double> m_wind{this, "windSpeed", QPlcInputTiming::SameCycle};          // [m/s]
+///     QPlcOutput<double> m_length{this, "tetherLength"};                                // [m]
+/// };
+/// \endcode
+///
+/// A port registers itself at its node in its constructor. You can neither copy nor move it. The
+/// node does not own its ports. The registration at the master fails if the signal does not exist
+/// or its type does not fit; one message lists all such ports.
+///
+/// \threadsafe no: the cycle thread uses ports while cycles run; at other times use them in the
+///     thread of the node. Destroying a port ends the cycles of its node
+///
+/// \ingroup nodes
 class QTPLC_EXPORT QPlcPort
 {
 public:
-    enum Direction : quint8 { Input, Output };
+    /// Direction of the value, as the node sees it.
+    enum Direction : quint8 {
+        Input,  ///< the node reads the signal
+        Output  ///< the node writes the signal
+    };
 
     QPlcPort(const QPlcPort &) = delete;
     QPlcPort &operator=(const QPlcPort &) = delete;
 
+    /// Returns the name of the signal.
     QString name() const { return m_name; }
+    /// Returns whether the node reads or writes the signal.
     Direction direction() const { return m_direction; }
+    /// Returns true if the node reads the signal.
     bool isInput() const { return m_direction == Input; }
-    /// How far the value can be trusted. Of an input: Invalid as long as the node has not asked for qualities (QPlcSlaveNode::setReceivesQuality()). Of an output: as it
-    /// was set.
+    /// Returns the quality of the value. Of an input it is Invalid unless the node receives
+    /// qualities (QPlcSlaveNode::setReceivesQuality()). Of an output it is the quality that the
+    /// node has set.
     QPlcQuality quality() const { return m_quality ? QPlcQuality::fromByte(quint8(*m_quality)) : QPlcQuality(); }
-    /// An input that was declared with QPlcInputTiming::SameCycle.
+    /// Returns true for an input that was declared with QPlcInputTiming::SameCycle.
     bool isSameCycle() const { return isInput() && m_timing == QPlcInputTiming::SameCycle; }
 
 protected:
-    /// \pre \a node is not registered yet
+    /// Registers the port at its node.
+    /// \param node  outlives the port; not null, and not registered at a master yet
+    /// \param name  of the signal, UTF-8; copied
+    /// \param direction  Input or Output
+    /// \param timing  of an input; an output ignores it
     QPlcPort(QPlcCompactSlaveNode *node, const char *name, Direction direction,
              QPlcInputTiming::Value timing = QPlcInputTiming::LastCycle);
+    /// Calls leaveNode().
     virtual ~QPlcPort();
-    /// Ends the cycles of the node, which use this port no more. The first thing that the destructor of a port does, while the port is still whole.
+    /// Ends the cycles of the node and removes the port from it. The destructor of a derived port
+    /// calls this first, while its variable still exists. Does nothing the second time.
     void leaveNode();
-    /// Of an output.
+    /// Sets the quality of an output.
     void giveQuality(QPlcQuality quality) { m_given = char(quality.toByte()); }
 
 private:
     friend class QPlcCompactSlaveNode;
     /// Type of the variable in words, for messages: "double[3]".
     virtual QString variableType() const = 0;
-    /// Whether the variable can hold every value of \a type (input) or the signal every value of the variable up to rounding (output).
+    /// Whether the variable can hold every value of \a type (input), or the signal every value of
+    /// the variable up to rounding (output).
     virtual bool accepts(QPlcSignalType type) const = 0;
-    /// From now on load() and store() meet values of \a type. \pre accepts(type)
+    /// From now on load() and store() use values of \a type.
+    /// \pre accepts(type)
     virtual void attach(QPlcSignalType type) = 0;
     virtual void load(const char *bytes) = 0;
     virtual void store(char *bytes) const = 0;
-    /// Where the variable lies, when its bytes are those of the frame as they are and copying them replaces load() and store(); else null. \pre attached
+    /// Returns the place of the variable if its bytes are those of the frame, so that a copy
+    /// replaces load() and store(); else null.
+    /// \pre attached
     virtual char *plainBytes() const { return nullptr; }
 
     QPlcCompactSlaveNode *m_node = nullptr;
@@ -65,7 +104,7 @@ private:
 
 namespace QPlcPortDetail {
 
-// Shape of a variable: its element, and how many of them lie one behind the other.
+// Shape of a variable: its element type, and the number of elements.
 template<typename T, typename = void>
 struct Shape;
 
@@ -93,7 +132,7 @@ struct Shape<std::array<T, N>, std::enable_if_t<std::is_arithmetic_v<T>>>
     static Element *data(std::array<T, N> &value) { return value.data(); }
 };
 
-// Vectors of fixed size of Eigen, without including Eigen.
+// Fixed-size vectors of Eigen, without including Eigen.
 template<typename T>
 struct Shape<T, std::enable_if_t<(T::SizeAtCompileTime > 0) && std::is_arithmetic_v<typename T::Scalar>>>
 {
@@ -121,14 +160,16 @@ constexpr QPlcSignalType::Scalar scalarOf()
                                     : QPlcSignalType::UInt64;
 }
 
-/// Copies \a count packed little-endian numbers of the kind \a scalar to or from numbers of this machine.
+/// Copies \a count packed little-endian numbers of the kind \a scalar to or from numbers of this
+/// machine.
 template<typename Element>
 QTPLC_EXPORT void loadElements(QPlcSignalType::Scalar scalar, const char *bytes, Element *elements, int count);
 template<typename Element>
 QTPLC_EXPORT void storeElements(QPlcSignalType::Scalar scalar, char *bytes, const Element *elements, int count);
 
-/// Whether a variable with elements of the kind \a variable can be an input or output of a signal with elements of the kind \a wire: reals mix, integers
-/// may become wider in the direction of the value, truth values go with Int8 and UInt8, times with Int64.
+/// Whether a variable with elements of the kind \a variable can be an input or output of a signal
+/// with elements of the kind \a wire: reals mix, integers may become wider in the direction of the
+/// value, truth values fit Int8 and UInt8, times fit Int64.
 QTPLC_EXPORT bool fits(QPlcSignalType::Scalar variable, bool isBool, QPlcSignalType::Scalar wire,
                        QPlcPort::Direction direction);
 QTPLC_EXPORT QString describe(QPlcSignalType::Scalar scalar, bool isBool, int count);

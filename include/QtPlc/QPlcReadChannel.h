@@ -6,35 +6,68 @@
 #include <chrono>
 #include <limits>
 
-/// A value that comes from a device: `QPlcReadChannel m_angle{this, "angle"};  // [rad]`
+/// A value that comes from a device.
 ///
-/// It is a number in the unit of the device; the configuration converts it to that of its signal. A value is fresh for its timeout, counted from the time at which it was
-/// measured; then, and before the first one, the signal is told to have none (QPlcQuality::Invalid), so that its readers keep the last good value for `hold` cycles and then
-/// get the safe one.
+/// \code
+/// class Scale : public QPlcDriver
+/// {
+/// public:
+///     Scale() : QPlcDriver(OwnPace) {}
+///
+/// private:
+///     QPlcReadChannel m_force{this, "force"};  // [N]
+///     void configure(QPlcDriverSettings &) override {}
+///     bool open() override { return true; }
+///     void close() override {}
+///     bool read() override
+///     {
+///         m_force.set(12.5);
+///         return true;
+///     }
+/// };
+/// \endcode
+///
+/// It is a number in the unit of the device; the configuration converts it to that of its signal. A
+/// value is fresh for its timeout, counted from the time at which it was measured. Before the first
+/// value and after the timeout the output of the node has the quality Invalid. Readers of the
+/// signal then keep the last good value for `hold` cycles and get the safe value after that.
+///
+/// \threadsafe no: see QPlcChannel
+///
+/// \ingroup hardware
 class QTPLC_HARDWARE_EXPORT QPlcReadChannel final : public QPlcChannel
 {
 public:
-    /// The time of a value that there is not.
+    /// The time() of a channel that has no value.
     static constexpr qint64 Never = std::numeric_limits<qint64>::min();
 
+    /// Registers the channel at its driver, without a value.
+    /// \param driver  outlives the channel
+    /// \param name  for the configuration
     QPlcReadChannel(QPlcDriver *driver, const QString &name);
 
-    /// A new value, measured now.
+    /// Sets a value that was measured now: at QPlcDriver::now().
+    /// \param value  in the unit of the device
     void set(double value);
-    /// A new value. \param time  when it was measured, on the clock of QPlcDriver::now() [ns]
+    /// Sets a value that was measured at another time.
+    /// \param value  in the unit of the device
+    /// \param time  on the clock of QPlcDriver::now() [ns]
     void set(double value, qint64 time)
     {
         m_value = value;
         m_time = time;
     }
-    /// There is no value any more: the wire is broken, the device says so itself, ...
+    /// Removes the value, for example because a wire is broken or the device reports an error.
     void invalidate() { m_time = Never; }
 
-    /// How long a value is fresh; 0: for ever. Unless set it is that of the driver (QPlcDriver::timeout()).
+    /// Sets for how long a value is fresh; by default it is QPlcDriver::timeout(). Call it before
+    /// the device is opened.
+    /// \param timeout  0: forever
     void setTimeout(std::chrono::nanoseconds timeout) { m_timeout = timeout.count(); }
 
+    /// Returns the last value, in the unit of the device, also if it is not fresh.
     double value() const { return m_value; }
-    /// When the value was measured [ns], or Never.
+    /// Returns when the value was measured [ns], or Never.
     qint64 time() const { return m_time; }
 
 private:

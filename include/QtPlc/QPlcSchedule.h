@@ -7,36 +7,55 @@
 #include <QtCore/QString>
 #include <QtCore/QVector>
 
-/// The order in which a master asks its nodes within a cycle, and how old the values are that they read. A value type.
+/// The order in which a master asks its nodes within a cycle, and the age of the values that they
+/// read.
 ///
-/// All nodes of a stage compute at once; a stage begins when those have answered whose outputs later stages read. Without same-cycle inputs and two-phase
-/// nodes there is one stage. See QPlcMasterNode::schedule().
+/// \code
+/// QPlcMasterNode master;
+/// const QPlcSchedule schedule = master.schedule();
+/// for (const QPlcSchedule::Link &link : schedule.links)
+///     qInfo("%s reads a value of %d cycles ago", qPrintable(link.to), link.age);
+/// \endcode
+///
+/// All nodes of a stage compute at the same time. A stage begins when all nodes have answered whose
+/// outputs later stages read. There is a single stage unless a node has same-cycle inputs or two
+/// phases. QPlcMasterNode::schedule() returns it.
+///
+/// \threadsafe a value type: each thread may use its own copy
+///
+/// \ingroup master
 struct QPlcSchedule
 {
     /// What a node does in a stage.
     enum Phase : quint8 {
-        Step,     ///< computes its outputs out of its inputs
-        Outputs,  ///< two-phase: its outputs are there, without being asked for: they were computed in the cycle before
-        Update  ///< two-phase: moves its state on with the inputs of this cycle, and computes the outputs of the next one
+        Step,     ///< it computes its outputs from its inputs
+        Outputs,  ///< two-phase node: its outputs exist already, since the end of the cycle before
+        /// Two-phase node: it moves its state on with the inputs of this cycle, and computes new
+        /// outputs.
+        Update
     };
+    /// A node and what it does in a stage.
     struct Turn
     {
-        QString node;
-        Phase phase = Step;
+        QString node;        ///< name of the node
+        Phase phase = Step;  ///< what it does
     };
+    /// A signal and one of its readers.
     struct Link
     {
-        QString signal;
-        QString from;            ///< node that writes the signal; "Master": the master itself; empty: nobody
+        QString signal;          ///< name of the signal
+        QString from;            ///< node that writes it; "Master": the master; empty: no node
         QString to;              ///< node that reads it
-        int age = 0;             ///< of the value that is read [cycles]; 0: of the cycle at hand
-        bool sameCycle = false;  ///< as the reader wants it
+        int age = 0;             ///< age of the value that is read [cycles]; 0: of the same cycle
+        bool sameCycle = false;  ///< the reader has declared it as a same-cycle input
     };
 
-    QVector<QVector<Turn>> stages;  ///< in the order of a cycle; nodes of a stage in the order of their registration
-    QVector<Link> links;            ///< for each input of each node
+    /// Stages in the order of a cycle. The nodes of a stage stand in the order of their
+    /// registration.
+    QVector<QVector<Turn>> stages;
+    QVector<Link> links;  ///< one for each input of each node
 
-    /// "outputs", "update", "step".
+    /// Returns "outputs", "update" or "step".
     QTPLC_EXPORT static QString phaseName(Phase phase);
 };
 

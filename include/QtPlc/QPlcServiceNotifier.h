@@ -11,46 +11,61 @@
 class QPlcMasterNode;
 class QPlcSlaveNode;
 
-/// Tells the service manager that started this program (systemd, with Type=notify) that the program is up, and what it does; and feeds its watchdog (WatchdogSec=) from the cycle.
+/// Reports to systemd (Type=notify) that the program is ready and what it does, and feeds its
+/// watchdog (WatchdogSec=) while cycles go on.
 ///
-/// ```cpp
+/// \code
 /// QPlcMasterNode master;
 /// QPlcServiceNotifier service(master);
-/// if (!master.startServer(protocol))
+/// if (!master.startServer(QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost)))
 ///     return 2;
 /// service.setReady();
-/// ```
+/// \endcode
 ///
-/// QPlcNodeApplication does so for its node. Without a service manager nothing happens.
+/// QPlcNodeApplication does this for its node. Without a service manager nothing happens.
 ///
-/// The watchdog is fed four times in its time, as long as the event loop of this object lives, and no cycle hangs:
-/// - the code of a node over the network that computes one and the same cycle at two looks hangs. Frames that do not come are no hang: that is the business of QPlcSlaveNode::activateWatchdog();
-/// - cycles of a master that do not follow each other for longer than three periods hang, in RealTime and SafeStop. In lockstep, and while the master waits for a late node, time may stand still.
+/// The watchdog is fed four times in its time, as long as the event loop of this object runs and no
+/// cycle hangs:
+/// - The code of a node over the network hangs when it computes the same cycle at two looks.
+///   Missing frames are not a hang: QPlcSlaveNode::activateWatchdog() handles those.
+/// - A master hangs when its cycles stop for longer than three periods in RealTime or SafeStop. In
+///   lockstep, and while the master waits for a late node, time may stand still.
 ///
-/// A service manager whose watchdog is not fed kills the program and, if it is told so, starts it anew. The safe state of a node is not called then: its outputs are held and safe at all other
-/// nodes (QPlcQuality), but what it drives itself has to become safe by itself.
+/// A service manager whose watchdog is not fed kills the program and starts it again if it is set
+/// up to do so. safeState() of the node is not called then. Other nodes hold its outputs and then
+/// use the safe values (QPlcQuality), but the devices of the killed node have to become safe by
+/// themselves.
 ///
-/// Threads: that of the node, whose event loop it needs.
+/// \threadsafe no: it belongs to the thread of the node, whose event loop it needs
+///
+/// \ingroup programs
 class QTPLC_EXPORT QPlcServiceNotifier : public QObject
 {
     Q_OBJECT
 public:
+    /// Reports about a node.
     /// \param node  outlives this object
+    /// \param parent  owns this object, if given
     explicit QPlcServiceNotifier(QPlcSlaveNode &node, QObject *parent = nullptr);
+    /// Reports about a master.
     /// \param master  outlives this object
+    /// \param parent  owns this object, if given
     explicit QPlcServiceNotifier(QPlcMasterNode &master, QObject *parent = nullptr);
-    /// Tells that the program ends as wanted.
+    /// Reports that the program ends as wanted (STOPPING=1).
     ~QPlcServiceNotifier() override;
 
-    /// Whether a service manager has started this program, and wants to be told.
+    /// Returns true if a service manager has started this program and wants reports
+    /// ($NOTIFY_SOCKET).
     bool isWanted() const;
-    /// Time of the watchdog; 0: there is none.
+    /// Returns the time of the watchdog ($WATCHDOG_USEC); 0: there is none for this process.
     std::chrono::microseconds watchdogTime() const;
 
 public Q_SLOTS:
-    /// The program is up: those that are ordered after it may start. Only the first call counts.
+    /// Reports that the program is ready: units that are ordered after it may start. Further calls
+    /// do nothing.
     void setReady();
-    /// Looks whether cycles go on, feeds the watchdog if they do, and tells how far they are. Called by itself; two calls are further apart than a cycle takes.
+    /// Checks whether cycles go on, feeds the watchdog if they do, and reports the state. A timer
+    /// calls this; calls must be further apart than a cycle takes.
     void look();
 
 private:

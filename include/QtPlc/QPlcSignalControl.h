@@ -11,76 +11,112 @@
 
 class QPlcPanelContext;
 
-/// Control of some signals by a panel: who writes them, how the panel gets control, and the values that it sets.
+/// Control of some signals by a panel: who writes them, how the panel gets control, and the values
+/// that it sets.
 ///
-/// ```cpp
+/// \code
 /// class Throttle : public QPlcWidget
 /// {
-///     QPlcSignalControl m_control{context()};  // setSignals({"engine.speed"})
-///     void mouseMoveEvent(QMouseEvent *event) override { m_control.set("engine.speed", speedAt(event->pos())); }
-/// };
-/// ```
-/// The rules of the window hold. A signal that no node writes can be set as it is. A signal that a node writes
-/// has to be taken first: the master grants a lease, which every window shows. Taking keeps the values that
-/// are there, so nothing jumps. A signal that another person holds is taken only with AlsoFromOthers: ask
-/// before. The lease ends with giveBack(), with this object, and when the window is lost: then the signal goes
-/// to its neutral value. Nothing is set again by itself when the plant comes back.
+/// public:
+///     explicit Throttle(QWidget *parent = nullptr) : QPlcWidget(parent)
+///     {
+///         m_control.setSignals({"engine.speed"});
+///     }
 ///
-/// Threads: the thread of the window.
+/// protected:
+///     void mouseMoveEvent(QMouseEvent *event) override
+///     {
+///         m_control.set("engine.speed", event->x() / 10.0);
+///     }
+///
+/// private:
+///     QPlcSignalControl m_control{context()};
+/// };
+/// \endcode
+///
+/// A signal that no node writes can be set at any time. For a signal that a node writes call take()
+/// first: the master grants a lease, which every window shows. take() keeps the present values, so
+/// nothing jumps. A signal that another person holds is taken only with AlsoFromOthers: ask that
+/// person before. The lease ends with giveBack(), with this object, and when the window is lost;
+/// the signal then goes to its neutral value. Nothing is set again by itself when the plant comes
+/// back.
+///
+/// \threadsafe no: use it in the thread of the window
+///
+/// \ingroup panels
 class QTPLC_GUI_EXPORT QPlcSignalControl : public QObject
 {
     Q_OBJECT
 public:
-    /// Of several signals the last one of this list counts.
+    /// Who controls the signals. If they differ, the last state of this list counts.
     enum State {
-        Mine,        ///< this window holds them
-        Free,        ///< no node writes them: set() sets them
-        Written,     ///< a node writes them: take() first
-        Lost,        ///< their holder is gone; neutral until a person takes them or gives them back
+        Mine,     ///< this window holds them
+        Free,     ///< no node writes them: set() sets them
+        Written,  ///< a node writes them: call take() first
+        /// Their holder is gone: they are neutral until a person takes or releases them.
+        Lost,
         Other,       ///< another person holds them
-        Unwritable,  ///< the master itself measures them
+        Unwritable,  ///< the master itself writes them
         Offline,     ///< their plant is not connected
         Missing      ///< there is no such signal, or setSignals() was not called
     };
     Q_ENUM(State)
-    enum TakeOver { OnlyFree, AlsoFromOthers };
+    /// From whom take() takes signals.
+    enum TakeOver {
+        OnlyFree,       ///< only signals that no other person holds
+        AlsoFromOthers  ///< also signals that other persons hold: they lose control
+    };
     Q_ENUM(TakeOver)
 
-    /// \param context  of the panel, which outlives this object
+    /// Makes an object that controls no signals yet.
+    /// \param context  of the panel; outlives this object
+    /// \param parent  owns this object, if given
     explicit QPlcSignalControl(QPlcPanelContext *context, QObject *parent = nullptr);
-    /// Gives back what it holds.
+    /// Sends the last value, and releases what this object holds.
     ~QPlcSignalControl() override;
 
-    /// Sets the signals, as references (QPlcPanelContext). Gives back what it held.
+    /// Sets the signals, as references (QPlcPanelContext). The former ones are released.
     void setSignals(const QStringList &references);
+    /// Returns the references of setSignals().
     QStringList signalNames() const;
 
+    /// Returns who controls the signals.
     State state() const;
-    /// Returns whether set() has an effect.
+    /// Returns true if set() has an effect.
     bool mayWrite() const;
+    /// Returns true if take() is possible.
     bool mayTake() const;
+    /// Returns true if giveBack() is possible.
     bool mayGiveBack() const;
-    /// Returns the nodes that write the signals, or the people who hold them: "Autopilot", "anna@lab".
+    /// Returns the nodes that write the signals, or the persons who hold them: "Autopilot",
+    /// "anna@lab".
     QString who() const;
-    /// Returns a sentence on who has control, or on what is missing.
+    /// Returns a sentence that says who has control, or what is missing.
     QString text() const;
-    /// Returns the value to which a signal goes when it has no writer; NaN when it is no number.
+    /// Returns the value that a signal gets when it has no writer; NaN if it is not a number or not
+    /// one of setSignals().
     double neutral(const QString &reference) const;
 
-    /// Takes all of the signals. \param takeOver  others lose them only with AlsoFromOthers
+    /// Asks the master for leases of all signals. changed() or failed() follows.
+    /// \param takeOver  with AlsoFromOthers other persons lose them
     void take(TakeOver takeOver = OnlyFree);
+    /// Sends the last value, and releases all signals.
     void giveBack();
-    /// Sets one of the signals, as near to \a value as the limits of the table allow. Call it as often as you
-    /// like: values that come faster than the master takes them are left out, the last one never is.
-    /// \return false: nothing was set, because mayWrite() is false or \a reference is no number of setSignals()
+    /// Sets one of the signals. A value outside of the limits of the signal table becomes the
+    /// limit; an integer signal gets the nearest integer. Call it as often as you like: values that
+    /// come faster than the master takes them are skipped, but never the last one.
+    /// \return false if nothing was set: mayWrite() is false, or \a reference is not a number of
+    ///     setSignals()
     bool set(const QString &reference, double value);
 
 Q_SIGNALS:
-    /// State, who, text, or what may be done.
+    /// Emitted when state(), who(), text(), or what is possible has changed.
     void changed();
-    /// The signals are those of another plant in a moment: end what a person does in this one.
+    /// Emitted before the signals become those of another plant: end what the person does in this
+    /// one.
     void leaving();
-    /// The master has refused something. \param sentence  why, and what to do
+    /// Emitted when the master has refused something.
+    /// \param sentence  why, and what to do
     void failed(const QString &sentence);
 
 private:

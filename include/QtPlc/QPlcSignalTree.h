@@ -4,37 +4,53 @@
 #include "QPlcWidget.h"
 #include "QPlcWidgetFactoryOf.h"
 
-/// All signals of all plants of a window, below the nodes that write them, with their present values and a search that is always there.
+/// A panel with all signals of all plants of a window, below the nodes that write them, with
+/// present values and a search.
 ///
-/// Enter or a double click asks for a plot of the selected signals (showRequested()), X for an XY plot, G for a gauge, W for a value table, S for a setter; they are dragged to panels too.
-/// The context menu has all of these, and whatever else is among the actions().
+/// \code
+/// QPlcSignalTree tree;
+/// QObject::connect(&tree, &QPlcSignalTree::selectionChanged, [&tree] {
+///     qInfo("%s", qPrintable(tree.selectedReferences().join(", ")));
+/// });
+/// \endcode
 ///
-/// Settings: `search`, `columns` (keys of those that are shown: name, value, unit, age, description), `collapsed` and `expanded` (what is unlike the default: plants and nodes
-/// are unfolded, triples are not).
+/// Enter or a double click asks for a plot of the selected signals (showRequested()), X for an XY
+/// plot, G for a gauge, W for a value table, S for a setter. People also drag signals to panels.
+/// The context menu has these commands and all other actions().
 ///
-/// Threads: the thread of the window.
+/// Settings:
+/// - `search`: words of the search.
+/// - `columns`: keys of the columns: name, value, unit, age, description.
+/// - `collapsed` and `expanded`: rows that differ from the default. By default plants and nodes are
+///   expanded, and arrays are not.
+///
+/// \threadsafe no: use it in the thread of the window
+///
+/// \ingroup panels
 class QTPLC_GUI_EXPORT QPlcSignalTree : public QPlcWidget
 {
     Q_OBJECT
 public:
+    /// Returns "Signal tree", the name of this kind of panel in layouts.
     static QString typeName() { return QStringLiteral("Signal tree"); }
 
+    /// Makes a panel; it has no signals outside of a window.
     explicit QPlcSignalTree(QWidget *parent = nullptr);
     ~QPlcSignalTree() override;
 
     QString kind() const override { return typeName(); }
     bool showsAllPlants() const override { return true; }
     QJsonObject settings() const override;
-    /// Settings that are missing have their defaults from here on.
     void applySettings(const QJsonObject &settings) override;
     QSize sizeHint() const override;
-    /// What is selected; plants and nodes stand for all of their signals. When nothing is selected and something searched for: the first that was found.
+    /// Returns references of the selected signals. A plant or node stands for all of its signals.
+    /// Without a selection it is the first signal that the search has found.
     QStringList selectedReferences() const;
-    /// Gives the search the focus.
+    /// Moves the keyboard focus to the search.
     void startSearch();
 
 Q_SIGNALS:
-    /// selectedReferences() may be other ones.
+    /// Emitted when selectedReferences() may have changed.
     void selectionChanged();
 
 protected:
@@ -52,4 +68,7 @@ private:
     struct Private;
     std::unique_ptr<Private> d;
 };
+/// The factory of this panel.
+///
+/// \ingroup panels
 using QPlcSignalTreeFactory = QPlcWidgetFactoryOf<QPlcSignalTree>;

@@ -15,43 +15,60 @@ class SimulatedHost;
 
 /// A computer in a QPlcSimulator with one program on it: a master, a node or a tool.
 ///
-/// All calls of the objects of a program belong into call(): there the thread is on this host, with
-/// its clocks, its network and its random numbers. Functions that only return a value may be called
-/// from outside.
-///
 /// \code
-/// QPlcSimulatedHost winchHost(simulator, "winch");
-/// Winch *winch = winchHost.start<Winch>();
-/// winchHost.call([&] { winch->connectToMaster(masterHost.place()); });
-/// simulator.runFor(std::chrono::seconds(10));
-/// winchHost.kill();          // as with kill -9
-/// winchHost.start<Winch>();  // the next life of the program
+/// class Winch : public QPlcCompactSlaveNode
+/// {
+/// public:
+///     Winch() : QPlcCompactSlaveNode("Winch") {}
+/// };
+/// QPlcSimulator::run(1, [](QPlcSimulator &simulator) {
+///     QPlcSimulatedHost masterHost(simulator, "master");
+///     auto *master = masterHost.start<QPlcMasterNode>();
+///     masterHost.call([&] { master->startServer(masterHost.place()); });
+///     QPlcSimulatedHost winchHost(simulator, "winch");
+///     auto *winch = winchHost.start<Winch>();
+///     winchHost.call([&] { winch->connectToMaster(masterHost.place()); });
+///     simulator.runFor(std::chrono::seconds(10));
+///     winchHost.kill();          // like kill -9
+///     winchHost.start<Winch>();  // the program starts again
+/// });
 /// \endcode
 ///
-/// \threadsafe no: as QPlcSimulator
+/// Call all functions of the objects of a program inside of call(): there the thread is on this
+/// host, with its clocks, its network and its random numbers. Functions that only return a value
+/// may be called from outside.
+///
+/// \threadsafe no: call all functions in the thread in which QPlcSimulator::run() calls the
+///     scenario
+///
+/// \ingroup test
 class QPlcSimulatedHost
 {
 public:
-    /// What becomes of the connections of a program that is killed.
+    /// What happens to the connections of a program that is killed.
     enum End {
-        Program,  ///< the kernel of the host lives on and tells the other ends
+        Program,  ///< the kernel of the host keeps running and tells the other ends
         Power     ///< the other ends hear nothing
     };
 
+    /// Makes a host without a program.
+    /// \param simulator  outlives the host
     /// \param name  of the host; its random numbers follow from the seed and the name
-    /// \pre fewer than 200 hosts
+    /// \pre the simulator has fewer than 200 hosts
     QPlcSimulatedHost(QPlcSimulator &simulator, const QString &name);
-    /// Kills the program, as without power.
+    /// Kills the program, as if power were lost.
     ~QPlcSimulatedHost();
     QPlcSimulatedHost(const QPlcSimulatedHost &) = delete;
     QPlcSimulatedHost &operator=(const QPlcSimulatedHost &) = delete;
 
+    /// Returns the name of the host.
     QString name() const;
-    /// Returns where a master on this host listens, and where nodes find it: "sim://127.0.1.1:50000".
+    /// Returns the address for a master on this host and for nodes that connect to it:
+    /// "sim://127.0.1.1:50000".
     QPlcUnderlyingProtocol place() const;
 
-    /// Makes a \a Type(arguments ...) on this host, and kills what was there. The host owns it until
-    /// kill().
+    /// Kills the program that runs, and makes a \a Type(arguments ...) on this host.
+    /// \return the object; the host owns it until kill()
     template<typename Type, typename... Arguments>
     Type *start(Arguments &&...arguments)
     {
@@ -59,24 +76,28 @@ public:
         startProgram([&] { return program = makeProgram<Type>(std::forward<Arguments>(arguments)...); });
         return program.get();
     }
-    /// Returns what start() has made. \pre it was a \a Type; null: nothing runs
+    /// Returns what start() has made; null: no program runs.
+    /// \pre start() has made a \a Type
     template<typename Type>
     Type *program() const
     {
         return static_cast<Type *>(m_program);
     }
+    /// Returns true if start() has made a program that was not killed.
     bool isRunning() const { return m_program; }
     /// Runs \a code on this host.
     void call(const std::function<void()> &code);
 
-    /// Ends the program; nothing that its objects do as they end reaches the network.
+    /// Ends the program. What its objects do while they are destroyed does not reach the network.
+    /// \param end  what happens to its connections
     void kill(End end = Program);
-    /// Lets the program stand still, as after SIGSTOP, while frames come in; or lets it go on.
+    /// Stops the program, as SIGSTOP does, while frames arrive; or lets it run again.
     void setStopped(bool stopped);
-    /// Sets the monotonic clock: \a offset from QPlcSimulator::now(), and by how many millionths it
-    /// is fast (> 0) or slow. Call this before start().
+    /// Sets the monotonic clock. Call this before start().
+    /// \param offset  difference to QPlcSimulator::now()
+    /// \param drift  by how many millionths the clock is fast (more than 0) or slow
     void setClock(std::chrono::nanoseconds offset, double drift);
-    /// Steps the wall clock by \a step; the monotonic clock does not notice.
+    /// Steps the wall clock by \a step; the monotonic clock does not change.
     void stepWallClock(std::chrono::nanoseconds step);
 
 private:

@@ -3,24 +3,32 @@
 
 #include <chrono>
 
-/// How frames and control connections travel between two hosts of a QPlcSimulator, in one direction.
-///
-/// Frames of one sender keep their order, unless \a reordering disorders them. A control connection
-/// loses nothing and keeps its order, as TCP does: what is lost there is sent again and comes later.
+/// How frames and control connections travel between two hosts of a QPlcSimulator, in one
+/// direction.
 ///
 /// \code
-/// QPlcSimulatedRoad radio;
-/// radio.delay = std::chrono::milliseconds(2);
-/// radio.loss = 0.01;  // one frame of a hundred
-/// simulator.setRoads(radio);
+/// QPlcSimulator::run(1, [](QPlcSimulator &simulator) {
+///     QPlcSimulatedRoad radio;
+///     radio.delay = std::chrono::milliseconds(2);
+///     radio.loss = 0.01;  // one frame of a hundred
+///     simulator.setRoads(radio);
+/// });
 /// \endcode
+///
+/// Frames of one sender keep their order, unless \a reordering changes it. A control connection
+/// loses nothing and keeps its order, like TCP: lost data are sent again and arrive later.
+///
+/// \threadsafe a value type: use it in the thread of the simulator
+///
+/// \ingroup test
 struct QPlcSimulatedRoad
 {
     std::chrono::nanoseconds delay{50'000};    ///< shortest time from end to end
-    std::chrono::nanoseconds jitter{100'000};  ///< at most this is added, by chance
-    double loss = 0.0;                         ///< share of the frames that are lost, 0 ... 1
-    double duplication = 0.0;                  ///< share of the frames that arrive twice, 0 ... 1
-    double reordering = 0.0;                   ///< share of the frames that others may overtake, 0 ... 1
-    std::chrono::nanoseconds lateness{0};      ///< by how much those are late at most
-    bool isCut = false;                        ///< nothing arrives, and no end is told
+    std::chrono::nanoseconds jitter{100'000};  ///< largest random addition to the delay
+    double loss = 0.0;                         ///< share of the frames that are lost, 0 to 1
+    double duplication = 0.0;                  ///< share of the frames that arrive twice, 0 to 1
+    /// Share of the frames that others may overtake, 0 to 1.
+    double reordering = 0.0;
+    std::chrono::nanoseconds lateness{0};  ///< largest delay of those frames
+    bool isCut = false;                    ///< nothing arrives, and no end is told
 };

@@ -14,13 +14,7 @@ class Simulator;
 
 class QPlcSimulatedHost;
 
-/// Runs a whole plant, master, nodes and tools, in one thread and in virtual time.
-///
-/// The code of masters and nodes is that of the field: clocks, timers, random numbers, threads of
-/// cycles and the network are simulated. Delays and faults follow from the seed, and the same seed
-/// gives the same run. A minute takes milliseconds. Timers of Qt that your nodes use live in virtual
-/// time, too. Your code itself takes no virtual time: nodes that compute for too long are not found
-/// here. docs/howto/test-a-plant.md shows a whole test.
+/// Runs a whole plant (master, nodes and tools) in one thread and in virtual time.
 ///
 /// \code
 /// QPlcSimulator::run(1, [](QPlcSimulator &simulator) {
@@ -31,28 +25,40 @@ class QPlcSimulatedHost;
 /// });
 /// \endcode
 ///
-/// \threadsafe no: call all functions from the thread in which run() calls the scenario
+/// The code of masters and nodes is that of the field. Clocks, timers, random numbers, cycle
+/// threads and the network are simulated. Delays and faults follow from the seed: the same seed
+/// gives the same run. A minute takes milliseconds. Timers of Qt that your nodes use live in
+/// virtual time, too. Your code takes no virtual time: the simulator does not find nodes that
+/// compute for too long. docs/howto/test-a-plant.md shows a whole test.
+///
+/// \threadsafe no: call all functions in the thread in which run() calls the scenario
+///
+/// \ingroup test
 class QPlcSimulator
 {
 public:
-    /// Calls \a scenario in a thread of its own with a new simulator, and returns when it has
-    /// returned. Objects of the scenario, hosts first of all, have to end before it returns.
-    /// \pre there is a QCoreApplication
+    /// Calls \a scenario in a thread of its own with a new simulator, and returns when the scenario
+    /// has returned. Objects of the scenario, hosts first, have to be destroyed before it returns.
+    /// \param seed  start of all random numbers
+    /// \pre a QCoreApplication exists
     static void run(quint64 seed, const std::function<void(QPlcSimulator &)> &scenario);
 
     QPlcSimulator(const QPlcSimulator &) = delete;
     QPlcSimulator &operator=(const QPlcSimulator &) = delete;
 
+    /// Returns the seed of run().
     quint64 seed() const;
     /// Returns the virtual time since the begin. Clocks of hosts may differ from it.
     std::chrono::nanoseconds now() const;
-    /// Returns a number that follows from all that has travelled on the network so far, and when. Two
-    /// runs with the same digest were the same.
+    /// Returns a number that follows from all that has travelled on the network so far, and when.
+    /// Two runs with the same digest were the same.
     quint64 digest() const;
 
     /// Lets \a duration of virtual time pass.
     void runFor(std::chrono::nanoseconds duration);
-    /// Lets time pass until \a isReached returns true; asks it each virtual millisecond.
+    /// Lets virtual time pass until \a isReached returns true. It is called each virtual
+    /// millisecond.
+    /// \param longest  longest virtual time to wait
     /// \return false when \a longest has passed before
     bool runUntil(const std::function<bool()> &isReached, std::chrono::nanoseconds longest);
 
@@ -60,7 +66,7 @@ public:
     void setRoads(const QPlcSimulatedRoad &road);
     /// Sets the road of what \a from sends to \a to. The way back is another road.
     void setRoad(const QPlcSimulatedHost &from, const QPlcSimulatedHost &to, const QPlcSimulatedRoad &road);
-    /// Takes away all roads that setRoad() has set.
+    /// Removes all roads that setRoad() has set.
     void resetRoads();
 
 private:

@@ -3,21 +3,35 @@
 
 #include "QPlcDurationStatistics.h"
 
-/// What a node over the network has measured of its own cycles since the start of the real-time phase. All durations in ns. A value type.
+/// What a node over the network has measured of its own cycles since the start of the real-time
+/// phase. All durations are in ns.
 ///
-/// How late a frame is cannot be said here: the clock of the node knows nothing of the clock of the master. All figures are differences of one clock. In lockstep no
-/// clock is read: they have no values. QPlcSlaveNode::counters() has the counters.
+/// \code
+/// QPlcIOSlaveNode node("Operator");
+/// const QPlcSlaveStatistics statistics = node.statistics();
+/// qInfo("99 %% of the steps took at most %lld ns", statistics.execution.sinceStart.p99);
+/// \endcode
+///
+/// All figures are differences of one clock, that of the node. A node cannot measure the lateness
+/// of a frame, because the clock of the master is another one. In lockstep no clock is read, and no
+/// figure has values. QPlcSlaveNode::counters() has the counters.
+///
+/// \threadsafe a value type: each thread may use its own copy
+///
+/// \ingroup statistics
 struct QPlcSlaveStatistics
 {
-    /// From the inputs at hand to the outputs ready: step() or realTimeout().
+    /// From the inputs at hand to the outputs ready: the time of step() or realTimeout().
     QPlcDurationStatistics execution;
-    /// From the moment at which the cycle thread has a whole frame to the moment at which the answer is given to the operating system.
+    /// From the moment at which the cycle thread has a whole frame to the moment at which it has
+    /// given the answer to the operating system.
     QPlcDurationStatistics response;
-    /// Between the arrivals of two successive frames that were computed; with cycles missed it is several periods long.
-    /// Its spread is the lateness of the master and the spread of the network together.
+    /// Time between the arrivals of two successive frames that were computed. It is several periods
+    /// long when cycles were missed. Its spread contains the lateness of the master and the jitter
+    /// of the network.
     QPlcDurationStatistics interval;
-    /// One period (as long as it takes on the clock of the machine) - the response; 0 when that is longer. What is left of a cycle that begins with the
-    /// arrival of its frame; the time on the network is not in it.
+    /// One period on the clock of the machine minus the response; 0 when the response is longer.
+    /// The time on the network is not part of it.
     QPlcDurationStatistics slack;
 };
 

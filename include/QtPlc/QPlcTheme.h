@@ -9,37 +9,54 @@
 
 /// Colours and fonts of a window, for what panels draw: QPlcPanelContext::theme().
 ///
-/// ```cpp
-/// painter.fillRect(rect(), theme.surface);
-/// painter.setPen(QPen(theme.curve(0), theme.curveWidth));
-/// ```
-/// What is normal is grey. Colour is for curves and for what is not normal, and it is never the only sign.
-/// A value type.
+/// \code
+/// class Swatch : public QPlcWidget
+/// {
+/// protected:
+///     void paintEvent(QPaintEvent *) override
+///     {
+///         const QPlcTheme theme = context()->theme();
+///         QPainter painter(this);
+///         painter.fillRect(rect(), theme.surface);
+///         painter.setPen(QPen(theme.curve(0), theme.curveWidth));
+///         painter.drawLine(0, height(), width(), 0);
+///     }
+/// };
+/// \endcode
+///
+/// Normal values are grey. Colour is for curves and for what is not normal, and it is never the
+/// only sign.
+///
+/// \threadsafe a value type: use it in the thread of the window
+///
+/// \ingroup panels
 struct QTPLC_GUI_EXPORT QPlcTheme
 {
-    /// Returns the colour of curve \a index, 0 or above. People with any colour vision tell the first
-    /// eight apart; then they begin again.
+    /// Returns the colour of a curve. People with any colour vision can tell the first eight apart;
+    /// then the colours repeat.
+    /// \param index  number of the curve, 0 or more
     QColor curve(int index) const;
-    /// Returns the line of curve \a index: solid for the first eight, then dashes, then dots, then solid
-    /// again, so that 24 curves look different.
+    /// Returns the line style of a curve: solid for the first eight, then dashes, then dots, then
+    /// solid again, so that 24 curves look different.
+    /// \param index  number of the curve, 0 or more
     static Qt::PenStyle curveStyle(int index);
-    /// Returns the colours of widgets, such as buttons and fields, for QWidget::setPalette().
+    /// Returns the colours of widgets such as buttons and fields, for QWidget::setPalette().
     QPalette palette() const;
 
-    bool isDark = false;      ///< texts are light on dark
-    QColor window;            ///< behind panels
+    bool isDark = false;      ///< texts are light on a dark background
+    QColor window;            ///< background behind panels
     QColor surface;           ///< background of a panel, plot or table
-    QColor text;              ///< texts and values
+    QColor text;              ///< texts and values on window or surface
     QColor mutedText;         ///< units, labels, hints
     QColor line;              ///< grids, frames, separators
-    QColor accent;            ///< what people can act upon, focus, selection
-    QColor good;              ///< in order, where that has to be said
+    QColor accent;            ///< focus, selection, and what people can click
+    QColor good;              ///< in order, where that has to be shown
     QColor warning;           ///< needs attention
     QColor alarm;             ///< needs action
-    QColor stale;             ///< values that are no longer true
-    QColor held;              ///< signals that a person has taken over
-    double curveWidth = 1.5;  ///< width of a curve [px]
-    QFont font;               ///< texts
-    QFont labelFont;          ///< labels of axes and corners: a little smaller
-    QFont figureFont;         ///< values that change: all digits have one width
+    QColor stale;             ///< stale values
+    QColor held;              ///< frame of signals that a person holds by a lease
+    double curveWidth = 1.5;  ///< width of a curve [px]: larger in the theme for sunlight
+    QFont font;               ///< font of the panel, for its texts
+    QFont labelFont;          ///< font for labels of axes and corners: a little smaller
+    QFont figureFont;         ///< font for values that change: all digits have the same width
 };

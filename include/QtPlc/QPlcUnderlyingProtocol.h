@@ -7,56 +7,98 @@
 #include <QtCore/QString>
 #include <QtNetwork/QHostAddress>
 
-/// How and where master and slaves meet.
+/// The address of a master, and the way of the cyclic frames: TCP, UDP, UDP multicast, or shared
+/// memory.
 ///
-/// Control messages always travel over TCP. The kind says how the cyclic frames travel: over a TCP connection of their own, over UDP on the same
-/// port number, or through memory that master and slave share on one machine. A master serves all of them; each slave chooses for itself.
-/// A value type.
+/// \code
+/// QString error;
+/// const QPlcUnderlyingProtocol master = QPlcUnderlyingProtocol::fromString(
+///     "udp://winch:50000", QPlcUnderlyingProtocol::Tcp, &error);
+/// if (!master.isValid())
+///     qWarning("%s", qPrintable(error));
+/// QPlcIOSlaveNode node("Operator");
+/// node.connectToMaster(master);
+/// \endcode
+///
+/// Control messages always use TCP. The kind says how the cyclic frames travel: over a TCP
+/// connection of their own, over UDP on the same port number, or through memory that master and
+/// node share on one machine. A master serves all kinds; each node chooses for itself.
+///
+/// \threadsafe a value type: each thread may use its own copy
+///
+/// \ingroup network
 class QTPLC_EXPORT QPlcUnderlyingProtocol
 {
 public:
-    enum Kind : quint8 { Invalid, Tcp, Udp, UdpMulticast, Local };
+    /// Ways of the cyclic frames.
+    enum Kind : quint8 {
+        Invalid,  ///< no address
+        Tcp,      ///< a TCP connection of their own
+        Udp,      ///< datagrams between master and node
+        /// Inputs in datagrams to a multicast group, outputs in datagrams to the master.
+        UdpMulticast,
+        Local  ///< shared memory of one machine
+    };
 
+    /// Port number of a master, unless another one is given.
     static constexpr quint16 DefaultPort = 50000;
 
+    /// Makes an invalid address.
     QPlcUnderlyingProtocol() = default;
+    /// Returns the address of a master, with cyclic frames over TCP. Use it for servers, too.
     static QPlcUnderlyingProtocol tcp(const QHostAddress &address, quint16 port = DefaultPort)
     {
         return {Tcp, address, port};
     }
+    /// Returns the address of a master, with cyclic frames over UDP: less delay after a loss than
+    /// TCP.
     static QPlcUnderlyingProtocol udp(const QHostAddress &address, quint16 port = DefaultPort)
     {
         return {Udp, address, port};
     }
 
-    /// UDP, where the master sends the inputs of all nodes at once to its multicast group (QPlcMasterNode::setMulticastGroup()): one datagram instead of one per
-    /// node. For nodes without same-cycle inputs, over IPv4.
+    /// Returns the address of a master that sends the inputs of all nodes in one datagram to its
+    /// multicast group (QPlcMasterNode::setMulticastGroup()). For nodes without same-cycle inputs,
+    /// over IPv4.
     static QPlcUnderlyingProtocol udpMulticast(const QHostAddress &address, quint16 port = DefaultPort)
     {
         return {UdpMulticast, address, port};
     }
-    /// A master on this machine, run by the same user. \param name  its name (QPlcMasterNode::setLocalName()), or its port number
-    /// \return an invalid protocol, with the reason in \a error, when no master of this name is running
+    /// Returns the address of a master on this machine, run by the same user, with cyclic frames
+    /// through shared memory.
+    /// \param name  its name (QPlcMasterNode::setLocalName()) or its port number
+    /// \param error  if given: the reason for an invalid result
+    /// \return an invalid address when no master of this name is running
     static QPlcUnderlyingProtocol local(const QString &name = QString::number(DefaultPort), QString *error = nullptr);
 
-    /// Reads "local://NAME", "local://PORT", "HOST:PORT", "HOST", "[IPV6]:PORT", optionally behind "tcp://", "udp://" or "udp-multicast://". Host names other than "localhost" are looked up, which may block.
-    /// \param kind  when the text names none
-    /// \return an invalid protocol, with the reason in \a error, when the text is none
+    /// Reads "local://NAME", "local://PORT", "HOST:PORT", "HOST" or "[IPV6]:PORT"; "tcp://",
+    /// "udp://" or "udp-multicast://" may come first. Host names other than "localhost" are looked
+    /// up, which may block for seconds.
+    /// \param kind  if the text has none
+    /// \param error  if given: the reason for an invalid result
+    /// \return an invalid address when \a text is wrong or the host is unknown
     static QPlcUnderlyingProtocol fromString(const QString &text, Kind kind = Tcp, QString *error = nullptr);
 
+    /// Returns false for an address that was not given or could not be read.
     bool isValid() const { return m_kind != Invalid; }
+    /// Returns the way of the cyclic frames.
     Kind kind() const { return m_kind; }
+    /// Returns the IP address of the master.
     QHostAddress address() const { return m_address; }
+    /// Returns the port of the master.
     quint16 port() const { return m_port; }
-    /// "udp://127.0.0.1:50000", "local://50000"
+    /// Returns a text that fromString() reads back: "udp://127.0.0.1:50000", "local://50000";
+    /// "invalid" for an invalid address.
     QString toString() const;
-    /// "tcp", "udp", "udp-multicast", "local"
+    /// Returns "tcp", "udp", "udp-multicast" or "local"; "invalid" for an invalid address.
     QString kindName() const;
 
+    /// Returns true if kind, IP address and port are the same.
     friend bool operator==(const QPlcUnderlyingProtocol &a, const QPlcUnderlyingProtocol &b)
     {
         return a.m_kind == b.m_kind && a.m_address == b.m_address && a.m_port == b.m_port;
     }
+    /// Returns true if kind, IP address or port differ.
     friend bool operator!=(const QPlcUnderlyingProtocol &a, const QPlcUnderlyingProtocol &b) { return !(a == b); }
 
 private:

@@ -4,26 +4,41 @@
 #include "QPlcWidget.h"
 #include "QPlcWidgetFactoryOf.h"
 
-/// Chosen signals with value, smallest and largest value since reset, unit, quality, age and rate. Signals are added (dropped on the panel, or by name after Insert), dragged out, sorted, and copied as text with tabs.
+/// A panel with chosen signals: value, smallest and largest value since reset, unit, quality, age
+/// and rate.
 ///
-/// Settings: `signals` (references, in order), `columns` (keys of those that are shown: signal, value, unit, minimum, maximum, quality, age, rate), `sort` (key of a column), `descending`, and
-/// `search`: words, all of which have to occur in name, unit, description, node or plant of the rows that are shown; Ctrl+F opens a line for them, Escape closes it.
+/// \code
+/// QPlcValueTable table;
+/// table.applySettings({{"signals", QJsonArray{"power", "position[2]"}}, {"search", "tether"}});
+/// \endcode
 ///
-/// A signal that does not exist (yet) stays as a grey row. In a window whose plots are frozen it shows the values of the time that is looked at.
+/// People add signals (drop them, or type a name after Insert), drag them out, sort them, and copy
+/// them as text with tabs. A signal that does not exist stays as a grey row until it does. If a
+/// person looks at the past, the table shows the values of that time.
 ///
-/// Threads: the thread of the window.
+/// Settings:
+/// - `signals`: references in their order.
+/// - `columns`: keys of the columns: signal, value, unit, minimum, maximum, quality, age, rate.
+/// - `sort`: key of the column by which rows are sorted; `descending`: true or false.
+/// - `search`: words that have to occur in name, unit, description, node or plant of a row. Ctrl+F
+///   opens a line for them, Escape closes it.
+///
+/// \threadsafe no: use it in the thread of the window
+///
+/// \ingroup panels
 class QTPLC_GUI_EXPORT QPlcValueTable : public QPlcWidget
 {
     Q_OBJECT
 public:
+    /// Returns "Value table", the name of this kind of panel in layouts.
     static QString typeName() { return QStringLiteral("Value table"); }
 
+    /// Makes an empty panel.
     explicit QPlcValueTable(QWidget *parent = nullptr);
     ~QPlcValueTable() override;
 
     QString kind() const override { return typeName(); }
     QJsonObject settings() const override;
-    /// Settings that are missing have their defaults from here on.
     void applySettings(const QJsonObject &settings) override;
     QWidget *createSettingsEditor() override;
     QStringList shownSignals() const override;
@@ -45,4 +60,7 @@ private:
     struct Private;
     std::unique_ptr<Private> d;
 };
+/// The factory of this panel.
+///
+/// \ingroup panels
 using QPlcValueTableFactory = QPlcWidgetFactoryOf<QPlcValueTable>;

@@ -5,16 +5,28 @@
 
 /// The factory of a panel class that has `typeName()` and a constructor with the parent.
 ///
-/// ```cpp
-/// controlCenter.addPanel<Compass>();  // the short form of
+/// \code
+/// class Compass : public QPlcWidget
+/// {
+/// public:
+///     static QString typeName() { return "Compass"; }
+///     using QPlcWidget::QPlcWidget;
+///     QString kind() const override { return typeName(); }
+/// };
+/// QPlcControlCenter controlCenter;
+/// controlCenter.addPanel<Compass>();  // the short form of:
 /// controlCenter.addAvailableWidget(QPlcWidget::registerFactory(new QPlcWidgetFactoryOf<Compass>));
-/// ```
-/// QPlcWidget shows such a class.
+/// \endcode
+///
+/// \threadsafe no: use it in the thread of the window
+///
+/// \ingroup panels
 template<typename Widget>
 class QPlcWidgetFactoryOf : public QPlcWidgetFactory
 {
 public:
-    /// \param title  what people read; empty: the name
+    /// Makes the factory.
+    /// \param title  what people read in menus; empty: `Widget::typeName()`
     explicit QPlcWidgetFactoryOf(const QString &title = QString())
         : m_title(title)
     {

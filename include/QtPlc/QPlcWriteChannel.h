@@ -3,21 +3,53 @@
 
 #include "QPlcChannel.h"
 
-/// A value that goes to a device: `QPlcWriteChannel m_torque{this, "torque"};  // [N m]`
+/// A value that goes to a device.
 ///
-/// It is a number in the unit of the device. Its value is that of its signal while the node computes, and the safe value (of the configuration, else of the signal table)
-/// before, after, and whenever something is wrong. Until one of these is known it has no value, and the device is left alone.
+/// \code
+/// class Lamp : public QPlcDriver
+/// {
+/// public:
+///     Lamp() : QPlcDriver(EveryCycle) {}
+///
+/// private:
+///     QPlcWriteChannel m_lamp{this, "lamp"};
+///     void configure(QPlcDriverSettings &) override {}
+///     bool open() override { return true; }
+///     void close() override {}
+///     bool write() override
+///     {
+///         if (m_lamp.hasValue())
+///             switchLamp(m_lamp.isOn());
+///         return true;
+///     }
+///     static void switchLamp(bool) {}
+/// };
+/// \endcode
+///
+/// It is a number in the unit of the device. While the node computes, its value comes from its
+/// signal. Before, after, and in the safe state it is the safe value (of the configuration, else of
+/// the signal table). It has no value until one of these is known: leave the device alone then.
+///
+/// \threadsafe no: see QPlcChannel
+///
+/// \ingroup hardware
 class QTPLC_HARDWARE_EXPORT QPlcWriteChannel final : public QPlcChannel
 {
 public:
+    /// Registers the channel at its driver, without a value.
+    /// \param driver  outlives the channel
+    /// \param name  for the configuration
     QPlcWriteChannel(QPlcDriver *driver, const QString &name);
 
+    /// Returns true if there is a value to write.
     bool hasValue() const { return m_hasValue; }
+    /// Returns the value, in the unit of the device.
     /// \pre hasValue()
     double value() const { return m_value; }
-    /// value() >= 0.5: for switches.
+    /// Returns true if value() is at least 0.5: for switches.
     bool isOn() const { return m_value >= 0.5; }
-    /// Whether the value is the safe one because the node is in its safe state or does not run.
+    /// Returns true if the value is the safe one, because the node does not compute or is in its
+    /// safe state.
     bool isSafe() const { return m_isSafe; }
 
 private:

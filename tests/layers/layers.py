@@ -103,6 +103,8 @@ OF_MACHINE = {
     "node/session/QPlcMasterSocket.cpp",
 }
 TABLE = r"_data\(\)$|^\s*static const\b"
+# Columns of a public header. A text behind #error cannot be wrapped.
+CODE_COLUMNS, COMMENT_COLUMNS = 120, 100
 
 
 def files(folder):
@@ -214,6 +216,13 @@ class Check:
             if path.suffix == ".h" and path.name not in re.findall(r'#include "(\w+\.h)"', (self.public / umbrella).read_text()):
                 self.error(path, 1, f"is missing in the umbrella header {umbrella}")
 
+    def columns(self):
+        for path in files(self.public):
+            for number, line in enumerate(path.read_text().split("\n"), 1):
+                most = COMMENT_COLUMNS if "//" in line else CODE_COLUMNS
+                if len(line) > most and not line.startswith("#error"):
+                    self.error(path, number, f"{len(line)} columns: wrap comments at {COMMENT_COLUMNS} and code at {CODE_COLUMNS}")
+
     def functions(self, path):
         """The functions of a file: line of the name, number of lines, whether it is a table. The format of the code is relied on."""
         lines = path.read_text().split("\n")
@@ -254,6 +263,7 @@ def main():
     check.panels()
     check.kernel()
     check.public_headers()
+    check.columns()
     check.lengths_and_licences()
     print("\n".join(check.errors) or "the layers are in order")
     return 1 if check.errors else 0
