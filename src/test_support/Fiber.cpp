@@ -79,8 +79,12 @@ void Fiber::wake()
 
 void Fiber::interrupt()
 {
-    if (m_isWaiting && !m_own.runningFiber())
+    if (m_own.runningFiber())
+        return;
+    if (m_isWaiting)
         resume(Interrupted);
+    else if (m_body && !m_hasBegun)  // who stops it may wait for its end without letting time pass
+        resume(Due);
 }
 
 void Fiber::join()

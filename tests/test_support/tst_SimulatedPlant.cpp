@@ -181,6 +181,7 @@ private Q_SLOTS:
     void lostAndDoubledFramesAreBorne();
     void cutRoadHeals();
     void driftingClockIsBorne();
+    void cyclesThatAreStoppedAtOnceHaveRun();
 };
 
 void tst_SimulatedPlant::nodesRegisterAtTheirMaster()
@@ -372,6 +373,21 @@ void tst_SimulatedPlant::driftingClockIsBorne()
     });
     QVERIFY(ahead >= 12'000'000 && ahead < 13'000'000);
     QVERIFY2(cycles >= 5999 && cycles <= 6002, qPrintable(QString::number(cycles)));
+}
+
+/// As SlaveCycle::stop(), which interrupts until the body has ended.
+void tst_SimulatedPlant::cyclesThatAreStoppedAtOnceHaveRun()
+{
+    bool hasRun = false;
+    Simulator::run(1, [&](Simulator &simulator) {
+        SimulatedHost host(simulator, QStringLiteral("winch"), address(1));
+        const std::unique_ptr<Strand> strand = host.makeStrand();
+        strand->start(QStringLiteral("cycles"), [&] { hasRun = true; });
+        strand->interrupt();
+        QVERIFY(hasRun);
+        strand->join();
+    });
+    QVERIFY(hasRun);
 }
 
 QTEST_GUILESS_MAIN(tst_SimulatedPlant)
