@@ -67,7 +67,9 @@ private:
 /// Prints the events that the master still has. \return false, with the message out, when the master does not answer
 bool printBacklog(const CommandCall &call, EventPrinter *printer)
 {
-    for (bool more = true; more;) {
+    constexpr int mostAnswers = 100;  // a master keeps 1000 events, and sends 200 in an answer
+    bool more = true;
+    for (int i = 0; more && i < mostAnswers; ++i) {
         messages::Events answer;
         const quint64 since = printer->newest();
         if (!call.askFor(messages::GetEvents{since}, &answer))

@@ -32,7 +32,7 @@ ARROWS = {
     "gui/models": {"signals", "node", "node/state", "gui", "gui/plant", "gui/models"},
     "gui/panel": {"signals", "node", "gui", "gui/plant", "gui/plot", "gui/models", "gui/panel"},
     # Panels do not know each other.
-    "gui/charts": {"signals", "protocol", "node", "gui", "gui/plot", "gui/models", "gui/panel", "gui/charts"},
+    "gui/charts": {"signals", "protocol", "protocol/messages", "node", "gui", "gui/plot", "gui/models", "gui/panel", "gui/charts"},
     "gui/gauges": {"signals", "node", "gui", "gui/plant", "gui/plot", "gui/models", "gui/panel", "gui/gauges"},
     "gui/setters": {"signals", "node", "gui", "gui/plant", "gui/models", "gui/panel", "gui/setters"},
     "gui/tables": {"signals", "node", "gui", "gui/models", "gui/panel", "gui/tables"},
@@ -72,9 +72,22 @@ FORBIDDEN = {
 # Lines of a function, from its name to its last brace: at most, and for 99 of 100.
 MOST_LINES, USUAL_LINES = 80, 40
 # A table of data may be longer: rows of a test, or one constant that is returned.
-# Fields of control messages have their names in src/protocol/messages alone.
-FIELD = (r'\bQJson\w+|\.(?:hex64|text|bytes)\((?:QStringLiteral|QLatin1String)\('
-         r'|\{\{QStringLiteral\("(?:error|text|name)"\)')
+# Fields of control messages have their names in src/protocol/messages alone. Elsewhere nobody reads a QPlcMessage by
+# names, or makes one with fields: messages come and go as structs.
+NAME = r"(?:QStringLiteral|QLatin1String)\("
+BY_NAME = re.compile(rf"(?<!settings)(?<!reader)\.(?:hex64|text|bytes)\({NAME}"
+                     r"|(?:[mM]essage|answer|hello|reply|request|question|rejected)\.fields\(\)"
+                     rf"|\.fields\(\)(?:\.(?:value|contains|find|take|keys)\(|\[{NAME})"
+                     r"|\b(?:QPlc)?Message(?:\s+\w+)?\s*[({]\s*(?:QPlc)?Message::\w+\s*,"
+                     r"|\{\{QStringLiteral\(\"(?:error|text|name)\"\)")
+# JSON that is no message: settings and layouts of windows, configurations of devices, what transports add to a
+# registration. The tool writes documents for --json, and reads none. All other rooms know no JSON.
+HAS_JSON = {
+    "transport", "hardware", "test_support", "gui3d", "gui", "gui/charts", "gui/gauges", "gui/layout", "gui/panel",
+    "gui/plot", "gui/setters", "gui/tables", "gui/window", "gui/models",
+}
+JSON = re.compile(r"\bQJson\w+")
+READS_JSON = re.compile(r"\.to(?:Object|Array)\(\)|QJsonDocument::fromJson\(")
 # Panels know the window by QPlcPanelContext alone. Files of panels that still know what is private to the window: a list
 # that only shrinks.
 WINDOW = re.compile(r'[wW]indowContext\b|"gui/(?:window|layout)/')
@@ -165,10 +178,17 @@ class Check:
                             self.error(path, number, f"{folder} may not know {what}: {line.strip()}")
 
     def fields(self):
-        for path in files(self.source / "node"):
-            for number, line in code(path):
-                if re.search(FIELD, line):
-                    self.error(path, number, f"fields have their names in src/protocol/messages: {line.strip()}")
+        for path in files(self.source):
+            room = self.room(path)
+            if str(room).startswith("protocol"):
+                continue
+            text = "\n".join(line for _, line in code(path))
+            foreign = READS_JSON if room == "tools" else None if room in HAS_JSON else JSON
+            found = BY_NAME.search(text) or (foreign and foreign.search(text))
+            if found:
+                number = text.count("\n", 0, found.start())
+                line = text.split("\n")[number].strip()
+                self.error(path, number + 1, f"fields have their names in src/protocol/messages: {line}")
 
     def panels(self):
         folders = [self.source / "gui" / room for room in PANEL_ROOMS] + [self.source / "gui3d"]

@@ -79,6 +79,26 @@ class Faults(unittest.TestCase):
         self.plant("src/node/session/ViewerPushes.cpp", 'const QString who = message.text(QStringLiteral("whoever"));\n')
         self.assert_named("src/node/session/ViewerPushes.cpp:", "fields have their names in src/protocol/messages")
 
+    def test_a_window_reads_no_message_by_names(self):
+        self.plant("src/gui/window/NewNotice.cpp", 'const bool ok = message.fields().value(QLatin1String("ok")).toBool();\n')
+        self.assert_named("src/gui/window/NewNotice.cpp:1:", "fields have their names in src/protocol/messages")
+
+    def test_a_new_command_makes_no_message_by_names(self):
+        self.plant("src/tools/NewCommand.cpp", 'call.ask(QPlcMessage(\n    QPlcMessage::Stop, {{QStringLiteral("how"), how}}));\n')
+        self.assert_named("src/tools/NewCommand.cpp:1:", "fields have their names in src/protocol/messages")
+
+    def test_the_tool_writes_json_and_reads_none(self):
+        self.plant("src/tools/NewCommand.cpp", 'const QJsonObject rows = document[QStringLiteral("signals")].toObject();\n')
+        self.assert_named("src/tools/NewCommand.cpp:1:", "fields have their names in src/protocol/messages")
+
+    def test_the_plant_of_a_window_knows_no_json(self):
+        self.plant("src/gui/plant/NewStatus.h", "void take(const QJsonObject &fields);\n")
+        self.assert_named("src/gui/plant/NewStatus.h:1:", "fields have their names in src/protocol/messages")
+
+    def test_devices_read_no_message_by_names(self):
+        self.plant("src/hardware/NewDriver.cpp", 'const quint64 token = message.hex64(QStringLiteral("token"));\n')
+        self.assert_named("src/hardware/NewDriver.cpp:1:", "fields have their names in src/protocol/messages")
+
     def test_a_panel_knows_the_window_by_its_context_alone(self):
         self.plant("src/gui3d/View3DEditor.cpp", '#include "gui/panel/WindowContext.h"\n')
         self.assert_named("src/gui3d/View3DEditor.cpp:", "a panel knows the window by QPlcPanelContext alone")

@@ -37,6 +37,7 @@ public:
 
     QMap<int, QPlcMessage> answers;  // by kind of the request; others are answered as a master that does not know them
     QVector<QPlcMessage> requests;
+    std::function<void(const QPlcMessage &request)> prepare = [](const QPlcMessage &) {};
 
 private:
     void answer(QPlcSlaveSocket *socket, const QPlcMessage &message)
@@ -47,6 +48,7 @@ private:
             return;
         }
         requests << message;
+        prepare(message);
         const QPlcMessage unknown(QPlcMessage::Failed,
                                   {{"error", "MalformedMessage"}, {"text", "a master has no use for it"}});
         socket->sendMessage(answers.value(message.kind(), unknown));
@@ -129,6 +131,7 @@ private Q_SLOTS:
     void leasesOfNobodySaySo();
     void eventsArePrintedInTheirOrder();
     void eventsAreAskedForUntilThereAreNoMore();
+    void anEndlessListOfEventsEnds();
     void eventsAsJsonAreALineEach();
     void jsonIsWhatTheMasterSaid_data();
     void jsonIsWhatTheMasterSaid();
@@ -272,6 +275,18 @@ void tst_qtplc_answers::eventsAreAskedForUntilThereAreNoMore()
     QCOMPARE(m_master->requests.size(), 2);
     QCOMPARE(m_master->requests.at(0).fields().value("since").toInt(-1), 0);
     QCOMPARE(m_master->requests.at(1).fields().value("since").toInt(-1), 3);
+}
+
+void tst_qtplc_answers::anEndlessListOfEventsEnds()
+{
+    m_master->prepare = [this](const QPlcMessage &request) {
+        const int next = request.fields().value("since").toInt() + 1;
+        m_master->answers.insert(QPlcMessage::GetEvents, events(next, next, true));
+    };
+    const Outcome outcome = m_master->qtplc("events");
+    QCOMPARE(outcome.exitCode, 0);
+    QCOMPARE(outcome.output.count('\n'), m_master->requests.size());
+    QVERIFY(m_master->requests.size() > 5);  // more than a real master has
 }
 
 void tst_qtplc_answers::eventsAsJsonAreALineEach()

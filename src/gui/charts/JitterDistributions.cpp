@@ -2,9 +2,9 @@
 #include "JitterDistributions.h"
 
 #include "node/Logging.h"
+#include "protocol/messages/Vocabulary.h"
 
 #include <QtCore/QCoreApplication>
-#include <QtCore/QJsonArray>
 
 #include <algorithm>
 #include <cmath>
@@ -27,37 +27,23 @@ Bin binOf(double value)
     return {low, low + width, 0.0};
 }
 
-QVector<Bin> binsOf(const QJsonArray &array)
+QVector<Bin> binsOf(const QVector<QPlcDistribution::Bin> &all)
 {
     QVector<Bin> bins;
-    for (const QJsonValue &item : array) {
-        const double border = item[0].toDouble();
-        const double count = item[1].toDouble();
-        if (!(border >= 0.0) || !(count > 0.0))
+    for (const QPlcDistribution::Bin &each : all) {
+        if (each.upperBorder < 0 || each.count == 0)
             continue;
-        const Bin bin = binOf(border);
+        const Bin bin = binOf(double(each.upperBorder));
         if (bins.isEmpty() || bin.low > bins.last().low)
             bins.append(bin);
-        bins.last().count += count;
+        bins.last().count += double(each.count);
     }
     return bins;
 }
 
-double number(const QJsonObject &fields, const char *name)
+double atLeastZero(qint64 duration)
 {
-    return std::max(fields.value(QLatin1String(name)).toDouble(), 0.0);
-}
-
-void append(QVector<JitterDistribution> *all, const QString &who, const QJsonObject &fields, const QString &window)
-{
-    for (const char *quantity : {"lateness", "execution", "roundTrip"}) {
-        const QJsonValue duration = fields.value(QLatin1String(quantity));
-        if (!duration.isObject())
-            continue;
-        const QJsonObject of = duration[window].toObject();
-        all->append({who, QString::fromLatin1(quantity), number(of, "count"), number(of, "p50"), number(of, "p99"),
-                     number(of, "maximum"), binsOf(of.value(QLatin1String("bins")).toArray())});
-    }
+    return double(std::max<qint64>(duration, 0));
 }
 
 QString quantityText(const QString &quantity)
@@ -76,13 +62,25 @@ QString JitterDistribution::titleOf(const QString &key)
     return QStringLiteral("%1 %2").arg(key.left(point), quantityText(key.mid(point + 1)));
 }
 
-QVector<JitterDistribution> jitterDistributions(const QJsonObject &statistics, const QString &window)
+QVector<JitterDistribution> jitterDistributions(const messages::Statistics &statistics,
+                                                QPlcDistribution QPlcDurationStatistics::*window)
 {
     QVector<JitterDistribution> all;
-    append(&all, QStringLiteral("Master"), statistics.value(QLatin1String("master")).toObject(), window);
-    const QJsonArray nodes = statistics.value(QLatin1String("nodes")).toArray();
-    for (const QJsonValue &node : nodes)
-        append(&all, printable(node[QLatin1String("name")].toString()), node.toObject(), window);
+    const auto append
+        = [&](const QString &who, const char *quantity, const std::optional<QPlcDurationStatistics> &duration) {
+              if (!duration)
+                  return;
+              const QPlcDistribution &of = (*duration).*window;
+              all.append({printable(who), QString::fromLatin1(quantity), double(of.count), atLeastZero(of.p50),
+                          atLeastZero(of.p99), atLeastZero(of.maximum), binsOf(of.bins)});
+          };
+    append(messages::masterName, "lateness", statistics.master.lateness);
+    append(messages::masterName, "execution", statistics.master.execution);
+    append(messages::masterName, "roundTrip", statistics.master.roundTrip);
+    for (const messages::NodeMeasures &node : statistics.nodes) {
+        append(node.name, "execution", node.execution);
+        append(node.name, "roundTrip", node.roundTrip);
+    }
     return all;
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <QtCore/QJsonObject>
+#include "protocol/messages/Statistics.h"
+
 #include <QtCore/QString>
 #include <QtCore/QVector>
 
@@ -33,7 +34,9 @@ struct JitterDistribution
     static QString titleOf(const QString &key);
 };
 
-/// All distributions of an answer Statistics that was asked for with histograms. \param window  "sinceStart" or "last10s"
-QVector<JitterDistribution> jitterDistributions(const QJsonObject &statistics, const QString &window);
+/// All distributions of an answer that was asked for with histograms.
+/// \param window  &QPlcDurationStatistics::sinceStart or &QPlcDurationStatistics::last10s
+QVector<JitterDistribution> jitterDistributions(const messages::Statistics &statistics,
+                                                QPlcDistribution QPlcDurationStatistics::*window);
 
 }  // namespace qplc

@@ -9,6 +9,7 @@
 #include "QPlcMessage.h"
 #include "gui/models/ValueFormat.h"
 #include "gui/panel/PanelSettings.h"
+#include "protocol/messages/MessageTable.h"
 
 #include <QtCore/QElapsedTimer>
 #include <QtCore/QJsonArray>
@@ -48,6 +49,10 @@ public:
     void setPlant(const QString &name);
     void ask();
     void take(const QPlcMessage &answer);
+    QVector<JitterDistribution> distributions(QPlcDistribution QPlcDurationStatistics::*window) const
+    {
+        return statistics ? jitterDistributions(*statistics, window) : QVector<JitterDistribution>();
+    }
     void draw() override;
     QString problem(const QVector<JitterDistribution> &shown) const;
     QString captionText(const QVector<JitterDistribution> &shown, bool isStale) const;
@@ -63,7 +68,7 @@ public:
     QAction *last = nullptr;
     QMap<QString, QAction *> masterActions;  // by key
     PanelSettings settings{showKey, windowKey};
-    QJsonObject statistics;
+    std::optional<messages::Statistics> statistics;
     QString asked;  // the plant whose statistics these are
     QElapsedTimer sinceAnswer;
 };
@@ -170,11 +175,11 @@ void QPlcJitterHistogram::Private::ask()
         return;
     const QString name = context()->plant().name;
     if (asked != name) {
-        statistics = {};
+        statistics.reset();
         sinceAnswer.invalidate();
     }
     asked = name;
-    context()->ask(QPlcMessage(QPlcMessage::GetStatistics, {{QStringLiteral("histograms"), true}}), receiver(),
+    context()->ask(messages::toMessage(messages::GetStatistics{true}), receiver(),
                    [this, name](const QPlcMessage &answer) {
                        if (name == asked)
                            take(answer);
@@ -183,9 +188,10 @@ void QPlcJitterHistogram::Private::ask()
 
 void QPlcJitterHistogram::Private::take(const QPlcMessage &answer)
 {
-    if (answer.kind() != QPlcMessage::Statistics)
+    const auto received = messages::readAs<messages::Statistics>(answer);
+    if (!received)
         return;
-    statistics = answer.fields();
+    statistics = received;
     sinceAnswer.start();
     draw();
 }
@@ -207,9 +213,9 @@ QString QPlcJitterHistogram::Private::problem(const QVector<JitterDistribution> 
         return of.stateText;
     if (of.clock.startsWith(QLatin1String("Lockstep"), Qt::CaseInsensitive))
         return tr("In lockstep no clock is read: there is nothing to measure.");
-    if (!statistics.isEmpty() && shown.size() < shownKeys().size() && !shown.isEmpty())
+    if (statistics && shown.size() < shownKeys().size() && !shown.isEmpty())
         return tr("No values yet.");
-    return statistics.isEmpty() || !shown.isEmpty()
+    return !statistics || !shown.isEmpty()
         ? tr("No cycles yet. Start the plant to measure its punctuality.")
         : tr("There are no figures of %1 at the moment.").arg(shownKeys().join(QStringLiteral(", ")));
 }
@@ -217,7 +223,8 @@ QString QPlcJitterHistogram::Private::problem(const QVector<JitterDistribution> 
 void QPlcJitterHistogram::Private::draw()
 {
     const bool isLast = settings.value(windowKey).toString() == last10s;
-    const QVector<JitterDistribution> all = jitterDistributions(statistics, isLast ? last10s : sinceStart);
+    const QVector<JitterDistribution> all
+        = distributions(isLast ? &QPlcDurationStatistics::last10s : &QPlcDurationStatistics::sinceStart);
     QVector<JitterDistribution> shown;
     const QStringList keys = shownKeys();
     for (const QString &key : keys) {
@@ -286,7 +293,7 @@ void QPlcJitterHistogram::applySettings(const QJsonObject &settings)
 QWidget *QPlcJitterHistogram::createSettingsEditor()
 {
     QStringList keys;
-    for (const JitterDistribution &distribution : jitterDistributions(d->statistics, sinceStart))
+    for (const JitterDistribution &distribution : d->distributions(&QPlcDurationStatistics::sinceStart))
         keys << distribution.key();
     for (const QString &key : d->masterActions.keys() + d->shownKeys()) {
         if (!keys.contains(key))

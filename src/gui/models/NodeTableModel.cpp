@@ -15,9 +15,9 @@ bool isDuration(int column)
     return column >= NodeTableModel::LatenessP99 && column <= NodeTableModel::RoundTripMaximum;
 }
 
-QVariant figure(const DurationFigures &figures, double value)
+QVariant figure(const QPlcDistribution &figures, qint64 value)
 {
-    return figures.count > 0 ? QVariant(value) : QVariant();
+    return figures.count > 0 ? QVariant(double(value)) : QVariant();
 }
 
 QString healthText(NodeTableModel::HealthLevel level)
@@ -38,12 +38,12 @@ QString healthText(NodeTableModel::HealthLevel level)
 /// The state, and whether the node keeps up.
 QString stateOf(const NodeStatus &node)
 {
-    if (node.isListener && !node.isLatched())
+    if (node.info.listener && !node.isLatched())
         return NodeTableModel::tr("Listens");
-    const QString state = stateText(node.state);
+    const QString state = stateText(node.info.state);
     if (node.isLate)
         return NodeTableModel::tr("%1, late").arg(state);
-    return node.late == 0 ? state : NodeTableModel::tr("%1, was late").arg(state);
+    return node.statistics.late == 0 ? state : NodeTableModel::tr("%1, was late").arg(state);
 }
 
 }  // namespace
@@ -87,7 +87,7 @@ void NodeTableModel::tellNames()
 
 QString NodeTableModel::nameOf(const Row &row) const
 {
-    return m_plants->size() > 1 ? row.plant->name() + QLatin1Char('/') + row.node.name : row.node.name;
+    return m_plants->size() > 1 ? row.plant->name() + QLatin1Char('/') + row.node.info.name : row.node.info.name;
 }
 
 /// Whoever is missed keeps his row: nodes of a master that is lost, and nodes that have left in the middle of the work.
@@ -95,16 +95,16 @@ void NodeTableModel::appendLost(Plant *plant, QVector<Row> *rows) const
 {
     NodeStatus lost;
     for (const QString &name : plant->status().gone) {
-        lost.name = name;
+        lost.info.name = name;
         rows->append({plant, false, lost, tr("gone"), {}, false});
     }
-    const bool isAnswered = plant->isConnected() && plant->status().period > 0;
+    const bool isAnswered = plant->isConnected() && plant->status().master.period.count() > 0;
     if (isAnswered)
         return;
     for (const Row &row : m_rows) {
-        if (row.plant != plant || row.isMaster || row.node.isListener)
+        if (row.plant != plant || row.isMaster || row.node.info.listener)
             continue;
-        lost.name = row.node.name;
+        lost.info.name = row.node.info.name;
         rows->append({plant, false, lost, tr("not known"), {}, false});
     }
 }
@@ -113,11 +113,11 @@ QVector<NodeTableModel::Row> NodeTableModel::rowsOf(Plant *plant) const
 {
     const PlantStatus &status = plant->status();
     NodeStatus master;
-    master.name = tr("Master");
-    master.address = plant->address();
-    master.execution = status.execution;
-    master.roundTrip = status.roundTrip;
-    QVector<Row> rows{{plant, true, master, stateWord(*plant), status.lateness, true}};
+    master.info.name = tr("Master");
+    master.info.address = plant->address();
+    master.statistics.execution = status.statistics.execution;
+    master.statistics.roundTrip = status.statistics.roundTrip;
+    QVector<Row> rows{{plant, true, master, stateWord(*plant), status.statistics.lateness, true}};
     for (const NodeStatus &node : status.nodes)
         rows.append({plant, false, node, stateOf(node), {}, true});
     appendLost(plant, &rows);
@@ -127,10 +127,10 @@ QVector<NodeTableModel::Row> NodeTableModel::rowsOf(Plant *plant) const
 /// Late now is a warning, answers as cycles; when time stands still because of it, or nothing moves until somebody resets it, an error.
 NodeTableModel::HealthLevel NodeTableModel::healthOf(const Row &row)
 {
-    if (!row.isThere || !row.plant->isConnected() || row.plant->status().state.isEmpty())
+    if (!row.isThere || !row.plant->isConnected() || row.plant->status().master.state == messages::MasterState::Unknown)
         return Unavailable;
     const PlantStatus &status = row.plant->status();
-    const bool isWaiting = status.state == QLatin1String("WaitingForLateSlaves");
+    const bool isWaiting = status.master.state == messages::MasterState::WaitingForLateSlaves;
     if (row.isMaster)
         return isWaiting || status.isLatched() ? Error : status.isOverrunning ? Warning : Good;
     if (row.node.isLatched())
@@ -154,8 +154,8 @@ void NodeTableModel::update(Plant *plant)
         ++before;
     // Rows stay with their names: a node that leaves takes its row along, a new one comes behind.
     for (int row = before - 1; row > 0; --row) {
-        const QString name = m_rows.at(first + row).node.name;
-        if (std::any_of(now.begin() + 1, now.end(), [&](const Row &other) { return other.node.name == name; }))
+        const QString name = m_rows.at(first + row).node.info.name;
+        if (std::any_of(now.begin() + 1, now.end(), [&](const Row &other) { return other.node.info.name == name; }))
             continue;
         beginRemoveRows({}, first + row, first + row);
         m_rows.remove(first + row);
@@ -165,7 +165,7 @@ void NodeTableModel::update(Plant *plant)
     for (const Row &row : now) {
         const auto end = m_rows.begin() + first + before;
         const auto place = std::find_if(m_rows.begin() + first, end, [&](const Row &other) {
-            return other.isMaster == row.isMaster && other.node.name == row.node.name;
+            return other.isMaster == row.isMaster && other.node.info.name == row.node.info.name;
         });
         const int at = int(place - m_rows.begin());
         if (place != end) {
@@ -214,7 +214,7 @@ QVariant NodeTableModel::headerData(int section, Qt::Orientation orientation, in
 
 QVariant NodeTableModel::number(const Row &row, int column)
 {
-    const NodeStatus &node = row.node;
+    const QPlcNodeStatistics &node = row.node.statistics;
     const bool isCounted = row.isThere && !row.isMaster;
     switch (column) {
     case LatenessP99:
@@ -256,11 +256,11 @@ QString NodeTableModel::text(const Row &row, int column) const
     case Health:
         return healthText(healthOf(row));
     case Transport:
-        return row.node.transport;
+        return row.node.info.transport;
     case Address:
-        return row.node.address;
+        return row.node.info.address;
     case Policy:
-        return row.node.policy;
+        return row.node.info.policy;
     case State:
         return row.state;
     default:

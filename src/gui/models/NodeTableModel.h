@@ -55,7 +55,7 @@ private:
         bool isMaster;
         NodeStatus node;
         QString state;
-        DurationStatus lateness;
+        QPlcDurationStatistics lateness;
         bool isThere;  // its master tells of it
     };
 

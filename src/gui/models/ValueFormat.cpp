@@ -194,7 +194,7 @@ QString stateWord(const Plant &plant)
 {
     switch (plant.connectionState()) {
     case PlantConnection::Connected:
-        return stateText(plant.status().state);
+        return stateText(plant.status().master.state);
     case PlantConnection::Connecting:
         return QCoreApplication::translate("ValueFormat", "connecting");
     case PlantConnection::Disconnected:

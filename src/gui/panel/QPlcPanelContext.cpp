@@ -417,7 +417,7 @@ QPlcPanelContext::Plant QPlcPanelContext::plant(const QString &name) const
     plant.isStale = found->quality() == qplc::Plant::Stale;
     plant.state = stateWord(*found);
     plant.stateText = found->stateText();
-    plant.clock = found->status().clock;
+    plant.clock = QLatin1String(messages::nameOf(found->status().master.clock));
     plant.age = found->age();
     plant.newest = found->newestTime();
     return plant;

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <QtCore/QString>
+#include "protocol/messages/Leases.h"
 
 namespace qplc {
 
 /// A signal that a person or program has taken over, as a window sees it. A value type.
 struct LeaseStatus
 {
-    enum State {
-        Held,
-        Lost  // the holder is gone: the signal stays at its neutral value until somebody takes or releases it
-    };
+    using State = messages::LeaseState;
+    static constexpr State Held = State::Held;
+    static constexpr State Lost
+        = State::Lost;  // the signal stays at its neutral value until somebody takes or releases it
 
     QString signal;
     QString holder;  // "anna@lab"; of a lost lease: who held it last

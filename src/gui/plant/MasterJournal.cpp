@@ -2,33 +2,34 @@
 #include "MasterJournal.h"
 
 #include "node/Logging.h"
+#include "protocol/messages/Texts.h"
 
-#include <QtCore/QJsonArray>
+#include <utility>
 
 namespace qplc {
 
 namespace {
 
-QJsonArray eventsOf(const QPlcMessage &message)
-{
-    return message.fields().value(QStringLiteral("events")).toArray();
-}
-
-double sequenceOf(const QJsonValue &event)
-{
-    return event[QStringLiteral("sequence")].toDouble();
-}
+/// A master keeps 1000 events and sends 200 in an answer: one that says again and again that there are more is not
+/// listened to for ever, since other events wait for the end.
+constexpr int mostAnswers = 100;
 
 PlantEvent::Severity severityOf(const QString &name)
 {
-    return name == QLatin1String("error")  ? PlantEvent::Error
-        : name == QLatin1String("warning") ? PlantEvent::Warning
-                                           : PlantEvent::Information;
+    switch (messages::valueNamed<messages::Severity>(name).value_or(messages::Severity::Info)) {
+    case messages::Severity::Error:
+        return PlantEvent::Error;
+    case messages::Severity::Warning:
+        return PlantEvent::Warning;
+    case messages::Severity::Info:
+        break;
+    }
+    return PlantEvent::Information;
 }
 
 }  // namespace
 
-MasterJournal::MasterJournal(ControlChannel &control, QObject *parent)
+MasterJournal::MasterJournal(ControlClient &control, QObject *parent)
     : QObject(parent)
     , m_control(control)
 {
@@ -37,7 +38,7 @@ MasterJournal::MasterJournal(ControlChannel &control, QObject *parent)
 void MasterJournal::begin(quint64 session, bool hasFeature)
 {
     if (session != m_session) {
-        m_newest = 0.0;
+        m_newest = 0;
         endAlarms();
     }
     m_session = session;
@@ -56,18 +57,19 @@ void MasterJournal::end()
 void MasterJournal::fetch()
 {
     m_isFetching = true;
-    m_control.ask(QPlcMessage(QPlcMessage::GetEvents, {{QStringLiteral("since"), m_newest}}),
-                  [this](const QPlcMessage &answer) { takeFetched(answer); });
+    m_control.request(messages::GetEvents{m_newest},
+                      [this](const ControlClient::Reply<messages::GetEvents> &reply) { takeFetched(reply); });
 }
 
-void MasterJournal::takeFetched(const QPlcMessage &answer)
+void MasterJournal::takeFetched(const ControlClient::Reply<messages::GetEvents> &reply)
 {
     if (!m_isFetching)
         return;  // of a connection that is gone
-    const double before = m_newest;
-    if (answer.kind() == QPlcMessage::Events)
-        tellNew(answer);
-    if (answer.fields().value(QStringLiteral("more")).toBool() && m_newest > before)
+    const quint64 before = m_newest;
+    const auto *events = std::get_if<messages::Events>(&reply);
+    if (events)
+        tellNew(*events);
+    if (events && events->more.value_or(false) && m_newest > before && ++m_answers < mostAnswers)
         fetch();
     else
         endFetching();
@@ -78,49 +80,45 @@ void MasterJournal::endFetching()
     if (!m_isFetching)
         return;
     m_isFetching = false;
-    const QVector<QPlcMessage> pushed = m_pushed;
-    m_pushed.clear();
-    for (const QPlcMessage &message : pushed)
-        tellNew(message);
+    m_answers = 0;
+    const std::vector<messages::Events> pushed = std::exchange(m_pushed, {});
+    for (const messages::Events &events : pushed)
+        tellNew(events);
     Q_EMIT fetched();
 }
 
-void MasterJournal::take(const QPlcMessage &message)
+void MasterJournal::take(const messages::Events &pushed)
 {
     if (!m_hasFeature)
         return;
-    const QJsonArray events = eventsOf(message);
-    const bool isBehind = !events.isEmpty() && sequenceOf(events.first()) > m_newest + 1.0;
+    const bool isBehind = !pushed.events.empty() && pushed.events.front().sequence > m_newest + 1;
     if (m_isFetching || isBehind)
-        m_pushed.append(message);
+        m_pushed.push_back(pushed);
     if (!m_isFetching && isBehind)
         fetch();  // this window took nothing in for a while: what it missed comes first
     else if (!m_isFetching)
-        tellNew(message);
+        tellNew(pushed);
 }
 
-void MasterJournal::tellNew(const QPlcMessage &message)
+void MasterJournal::tellNew(const messages::Events &events)
 {
-    const QJsonArray events = eventsOf(message);
-    for (const QJsonValue &event : events) {
-        if (sequenceOf(event) <= m_newest)
+    for (const messages::EventEntry &event : events.events) {
+        if (event.sequence <= m_newest)
             continue;
-        m_newest = sequenceOf(event);
-        tell(event.toObject());
+        m_newest = event.sequence;
+        tell(event);
     }
 }
 
-void MasterJournal::tell(const QJsonObject &event)
+void MasterJournal::tell(messages::EventEntry event)
 {
-    const auto text = [&](const char *field) { return printable(event.value(QLatin1String(field)).toString()); };
-    const quint64 time = text("time").toULongLong(nullptr, 16);  // [ns since 1970]
-    const QString source = text("source");
-    PlantEvent told{QDateTime::fromMSecsSinceEpoch(qint64(time / 1'000'000)), severityOf(text("severity")),
-                    source == QLatin1String("Master") ? QString() : source, text("text"), false};
-    told.alarm = text("alarm");
-    told.isStateChange = text("kind") == QLatin1String("state");
+    messages::changeTexts(&event, [](QString *text) { *text = printable(*text); });
+    PlantEvent told{QDateTime::fromMSecsSinceEpoch(qint64(event.time / 1'000'000)), severityOf(event.severity),
+                    event.source == messages::masterName ? QString() : event.source, event.text, false};
+    told.alarm = event.alarm;
+    told.isStateChange = event.kind == messages::stateEvent;
     if (!told.alarm.isEmpty())
-        told.stage = event.value(QStringLiteral("active")).toBool() ? PlantEvent::Begins : PlantEvent::Ends;
+        told.stage = event.active.value_or(false) ? PlantEvent::Begins : PlantEvent::Ends;
     if (told.stage == PlantEvent::Begins)
         m_alarms.insert(told.alarm, told);
     else

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "ControlChannel.h"
 #include "PlantEvent.h"
+#include "node/session/ControlClient.h"
 
 #include <QtCore/QMap>
 #include <QtCore/QVector>
@@ -15,7 +15,7 @@ class MasterJournal : public QObject
 {
     Q_OBJECT
 public:
-    explicit MasterJournal(ControlChannel &control, QObject *parent = nullptr);
+    explicit MasterJournal(ControlClient &control, QObject *parent = nullptr);
 
     /// A connection begins. \param session  of the master  \param hasFeature  whether it tells events
     void begin(quint64 session, bool hasFeature);
@@ -25,8 +25,8 @@ public:
     /// Whether events of before are still on their way.
     bool isFetching() const { return m_isFetching; }
 
-    /// Looks at Events that came by themselves.
-    void take(const QPlcMessage &message);
+    /// Events that came by themselves.
+    void take(const messages::Events &pushed);
 
 Q_SIGNALS:
     /// Its source is the name of a node, empty for the master itself.
@@ -36,19 +36,20 @@ Q_SIGNALS:
 
 private:
     void fetch();
-    void takeFetched(const QPlcMessage &answer);
+    void takeFetched(const ControlClient::Reply<messages::GetEvents> &reply);
     void endFetching();
-    void tellNew(const QPlcMessage &message);
-    void tell(const QJsonObject &event);
+    void tellNew(const messages::Events &events);
+    void tell(messages::EventEntry event);
     void endAlarms();
 
-    ControlChannel &m_control;
+    ControlClient &m_control;
     bool m_hasFeature = false;
     bool m_isFetching = false;
+    int m_answers = 0;  // while fetching
     quint64 m_session = 0;
-    QMap<QString, PlantEvent> m_alarms;  // that last
-    double m_newest = 0.0;               // sequence number of the last event that was told
-    QVector<QPlcMessage> m_pushed;       // while fetching
+    QMap<QString, PlantEvent> m_alarms;      // that last
+    quint64 m_newest = 0;                    // sequence number of the last event that was told
+    std::vector<messages::Events> m_pushed;  // while fetching
 };
 
 }  // namespace qplc

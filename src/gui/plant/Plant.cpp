@@ -6,15 +6,11 @@
 #include "node/Logging.h"
 #include "node/state/StateText.h"
 
-#include <QtCore/QJsonArray>
-
 #include <algorithm>
 
 namespace qplc {
 
 namespace {
-
-using Message = QPlcMessage;
 
 constexpr int framePause = 20;             // [ms]
 constexpr int pollPause = 500;             // [ms]
@@ -70,7 +66,7 @@ Plant::Plant(const QString &address, const QString &name, const QString &nodeNam
     connect(&m_connection, &PlantConnection::stateChanged, this, &Plant::stateChanged);
     connect(&m_connection, &PlantConnection::listenerFailed, this,
             [this](const QString &sentence) { tell(PlantEvent::Error, sentence); });
-    connect(&m_connection.control(), &ControlChannel::pushed, this, &Plant::takePushed);
+    listenToMaster();
     connect(&m_leases, &PlantLeases::changed, this, &Plant::leasesChanged);
     connect(&m_journal, &MasterJournal::fetched, this, &Plant::tellWaiting);
     connect(&m_journal, &MasterJournal::happened, this, [this](PlantEvent event) {
@@ -125,41 +121,40 @@ void Plant::tellWaiting()
         Q_EMIT eventOccurred(event);
 }
 
-void Plant::takePushed(const Message &message)
+/// To what the master says without being asked.
+void Plant::listenToMaster()
 {
-    switch (message.kind()) {
-    case Message::StatesInitialized:
+    const ControlClient *control = &m_connection.control();
+    connect(control, &ControlClient::statesInitialized, this, [this](const messages::StatesInitialized &outcome) {
         refresh();
-        break;
-    case Message::LeasesChanged:
-        m_leases.take(message);
-        break;
-    case Message::Events:
-        m_journal.take(message);
+        if (outcome.ok)
+            Q_EMIT initialized();
+    });
+    connect(control, &ControlClient::leasesChanged, this,
+            [this](const messages::LeasesChanged &leases) { m_leases.take(leases.leases); });
+    connect(control, &ControlClient::eventsHappened, this, [this](const messages::Events &events) {
+        m_journal.take(events);
         refresh();  // what has happened may have changed the state
-        break;
-    default:
-        break;
-    }
-    Q_EMIT messagePushed(message);
+    });
 }
 
 // ---- connection ----
 
-void Plant::connected(const Message &hello, const QPlcSignalTable &newTable)
+void Plant::connected(const QPlcSignalTable &newTable)
 {
+    const messages::MasterHello &hello = m_connection.control().master();
     const bool isNewTable = newTable.toIni() != table().toIni();
     if (isNewTable) {
-        m_values.setTable(newTable, qint64(hello.fields().value(QStringLiteral("period")).toDouble()));
+        m_values.setTable(newTable, hello.period.count());
         m_writers.fill(QString(), newTable.size());
     } else {
         m_values.interrupt();
     }
     m_status = {};
-    m_status.state = printable(hello.text(QStringLiteral("state")));
-    m_isInsecure = hello.text(QStringLiteral("security")) == QLatin1String("insecure");
-    m_identity = printable(hello.text(QStringLiteral("identity")));
-    m_role = printable(hello.text(QStringLiteral("role")));
+    m_status.master.state = hello.state;
+    m_isInsecure = hello.security == messages::insecure;
+    m_identity = printable(hello.identity);
+    m_role = printable(hello.role);
     m_refusal.clear();
     m_polls = 0;
     m_frameTimer.start();
@@ -170,9 +165,8 @@ void Plant::connected(const Message &hello, const QPlcSignalTable &newTable)
         Q_EMIT tableChanged();
         Q_EMIT storeChanged();
     }
-    const QJsonArray features = hello.fields().value(QStringLiteral("features")).toArray();
-    m_leases.begin(features.contains(QStringLiteral("leases")));
-    m_journal.begin(hello.hex64(QStringLiteral("session")), features.contains(QStringLiteral("events")));
+    m_leases.begin(hello.features.contains(messages::feature::leases));
+    m_journal.begin(hello.session, hello.features.contains(messages::feature::events));
     tell({QDateTime::currentDateTime(), PlantEvent::Information, sourceOf({}),
           QStringLiteral("connected to the master at %1").arg(address()), false, PlantEvent::Ends, lostMaster()});
     Q_EMIT stateChanged();
@@ -229,7 +223,7 @@ QString Plant::stateText() const
 {
     switch (connectionState()) {
     case PlantConnection::Connected:
-        return qplc::stateText(m_status.state);
+        return qplc::stateText(m_status.master.state);
     case PlantConnection::Connecting:
         return tr("Connecting to %1").arg(address());
     case PlantConnection::Disconnected:
@@ -246,10 +240,11 @@ Plant::Action Plant::nextAction() const
         return Reset;
     if (m_status.isRunning())
         return StopAction;
-    if (m_status.state == QLatin1String("Off"))
-        return m_status.isArmingRequired ? Initialize : Start;
-    if (m_status.state == QLatin1String("Ready"))
-        return m_status.isArmingRequired && !m_status.isArmed ? Arm : Start;
+    const messages::State &master = m_status.master;
+    if (master.state == messages::MasterState::Off)
+        return master.armingRequired ? Initialize : Start;
+    if (master.state == messages::MasterState::Ready)
+        return master.armingRequired && !master.armed ? Arm : Start;
     return NoAction;
 }
 
@@ -336,12 +331,26 @@ void Plant::refresh()
         askState();
 }
 
-bool Plant::ask(const Message &question, const ControlChannel::Handler &handler)
+bool Plant::ask(const QPlcMessage &question, const ControlClient::RawHandler &handler)
 {
-    if (!isConnected() || m_connection.control().isBusy())
-        return false;
-    m_connection.control().ask(question, handler);
-    return true;
+    const bool isPossible = isConnected() && !m_connection.control().isBusy();
+    if (isPossible)
+        m_connection.control().send(question, [handler](const QPlcMessage &answer) {
+            const bool isLost = answer.kind() == QPlcMessage::Invalid;
+            handler(isLost ? messages::toMessage(ControlClient::failureOf(answer)) : answer);
+        });
+    return isPossible;
+}
+
+/// A question to which a refusal is no answer: the next poll asks again.
+template<typename Question, typename Answer>
+void Plant::askFor(const Question &question, void (Plant::*take)(const Answer &))
+{
+    const auto pass = [this, take](const ControlClient::Reply<Question> &reply) {
+        if (const auto *answer = std::get_if<Answer>(&reply))
+            (this->*take)(*answer);
+    };
+    m_connection.control().request(question, pass);
 }
 
 void Plant::poll()
@@ -350,8 +359,7 @@ void Plant::poll()
     if (m_connection.control().isBusy())
         return;
     if (m_polls % statisticsEvery == 0)
-        m_connection.control().ask(Message(Message::GetStatistics),
-                                   [this](const Message &answer) { takeStatistics(answer); });
+        askFor(messages::GetStatistics(), &Plant::takeStatistics);
     if (!m_status.isRunning() && m_polls > 0)
         askSignals();
     ++m_polls;
@@ -359,7 +367,7 @@ void Plant::poll()
 
 void Plant::askState()
 {
-    m_connection.control().ask(Message(Message::GetState), [this](const Message &answer) { takeState(answer); });
+    askFor(messages::GetState(), &Plant::takeState);
 }
 
 void Plant::askSignals()
@@ -368,37 +376,34 @@ void Plant::askSignals()
         return;  // the next poll asks again
     const QVector<QStringList> groups = groupsOfNames(table());
     for (const QStringList &names : groups)
-        m_connection.control().ask(
-            Message(Message::GetSignals, {{QStringLiteral("names"), QJsonArray::fromStringList(names)}}),
-            [this](const Message &answer) { takeSignals(answer); });
+        askFor(messages::GetSignals{names}, &Plant::takeSignals);
 }
 
 QStringList Plant::nodeNames() const
 {
     QStringList names;
     for (const NodeStatus &node : m_status.nodes)
-        names << node.name;
+        names << node.info.name;
     return names;
 }
 
-void Plant::takeState(const Message &answer)
+void Plant::takeState(const messages::State &answer)
 {
-    if (answer.kind() != Message::State)
-        return;
-    const QString stateBefore = m_status.state;
-    const bool wasArmed = m_status.isArmed;
+    const messages::MasterState stateBefore = m_status.master.state;
+    const bool wasArmed = m_status.master.armed;
     const QStringList nodesBefore = nodeNames();
-    m_status.takeState(answer.fields());
-    if (!m_status.isArmed && wasArmed)
-        m_token.clear();
-    if (m_status.isArmed != wasArmed)
+    m_status.takeState(answer);
+    const messages::State &master = m_status.master;
+    if (!master.armed && wasArmed)
+        m_token.reset();
+    if (master.armed != wasArmed)
         Q_EMIT stateChanged();
-    if (m_status.period > 0)
-        m_connection.setPeriod(m_status.scale > 0.0 ? qint64(double(m_status.period) / m_status.scale)
-                                                    : m_status.period);
-    if (m_status.state != stateBefore) {
-        tellOfMaster(PlantEvent::Information, QStringLiteral("state %1").arg(qplc::stateText(m_status.state)),
-                     QString(), IsStateChange);
+    if (master.period.count() > 0)
+        m_connection.setPeriod(master.scale > 0.0 ? qint64(double(master.period.count()) / master.scale)
+                                                  : master.period.count());
+    if (master.state != stateBefore) {
+        tellOfMaster(PlantEvent::Information, QStringLiteral("state %1").arg(qplc::stateText(master.state)), QString(),
+                     IsStateChange);
         Q_EMIT stateChanged();
     }
     if (nodeNames() != nodesBefore)
@@ -418,53 +423,50 @@ void Plant::nodesChanged(const QStringList &before, const QStringList &now)
     }
     askSignals();
     if (!m_connection.control().isBusy())
-        m_connection.control().ask(Message(Message::GetSchedule), [this](const Message &answer) {
-            if (answer.kind() == Message::Schedule)
-                m_status.takeSchedule(answer.fields());
-        });
+        askFor(messages::GetSchedule(), &Plant::takeSchedule);
 }
 
-void Plant::takeStatistics(const Message &answer)
+void Plant::takeSchedule(const messages::Schedule &answer)
 {
-    if (answer.kind() != Message::Statistics)
-        return;
+    m_status.takeSchedule(answer);
+}
+
+void Plant::takeStatistics(const messages::Statistics &answer)
+{
     const PlantStatus before = m_status;
-    m_status.takeStatistics(answer.fields());
-    if (before.isCounted && m_status.overruns > before.overruns)
+    m_status.takeStatistics(answer);
+    const quint64 overruns = m_status.statistics.overruns;
+    if (before.isCounted && overruns > before.statistics.overruns)
         tellOfMaster(PlantEvent::Warning,
                      QStringLiteral("%1 new overruns of the cycle, %2 since the start")
-                         .arg(m_status.overruns - before.overruns)
-                         .arg(m_status.overruns));
+                         .arg(overruns - before.statistics.overruns)
+                         .arg(overruns));
     for (const NodeStatus &node : qAsConst(m_status.nodes)) {
-        const NodeStatus *was = before.node(node.name);
+        const QString &name = node.info.name;
+        const NodeStatus *was = before.node(name);
         if (node.isLate && was)
             tellOfMaster(PlantEvent::Warning,
                          QStringLiteral("%1 new late answers of node %2, %3 since the start")
-                             .arg(node.late - was->late)
-                             .arg(node.name)
-                             .arg(node.late),
-                         node.name);
+                             .arg(node.statistics.late - was->statistics.late)
+                             .arg(name)
+                             .arg(node.statistics.late),
+                         name);
     }
     Q_EMIT statusChanged();
 }
 
-void Plant::takeSignals(const Message &answer)
+void Plant::takeSignals(const messages::Signals &answer)
 {
-    if (answer.kind() != Message::Signals)
-        return;
     const QVector<QString> writersBefore = m_writers;
     const bool isAtRest = !m_status.isRunning();
-    const QJsonArray rows = answer.fields().value(QStringLiteral("signals")).toArray();
-    for (const QJsonValue &row : rows) {
-        const QJsonObject of = row.toObject();
-        const QPlcSignalIndex signal = table().indexOf(of.value(QStringLiteral("name")).toString());
+    for (const messages::SignalEntry &entry : answer.signals) {
+        const QPlcSignalIndex signal = table().indexOf(entry.name);
         if (signal == QPlcInvalidSignalIndex)
             continue;
-        m_writers[signal] = printable(of.value(QStringLiteral("writer")).toString());
+        m_writers[signal] = printable(entry.writer);
         if (isAtRest)
-            m_values.takeValue(
-                signal, QPlcValue::fromString(table().at(signal).type, of.value(QStringLiteral("value")).toString()),
-                QPlcQuality::fromByte(quint8(of.value(QStringLiteral("quality")).toInt(0))));
+            m_values.takeValue(signal, QPlcValue::fromString(table().at(signal).type, entry.value),
+                               QPlcQuality::fromByte(entry.quality));
     }
     if (isAtRest) {
         m_sinceValues.start();

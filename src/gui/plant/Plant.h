@@ -121,12 +121,20 @@ public:
                   TakeOver takeOver = OnlyFree);
     /// Gives signals back to the nodes that write them; also those of a lost holder.
     int releaseLease(const QStringList &signalNames);
-    /// Sends anything that is answered with Done or Failed.
-    int command(const QPlcMessage &message);
 
-    /// Asks for more than the plant does by itself: GetStatistics with histograms, GetSchedule, ... \a handler gets the answer, or Failed, if the connection lasts so long.
+    /// Asks for more than the plant does by itself: GetStatistics with histograms, ... \a handler gets a
+    /// ControlClient::Reply, if the connection lasts so long.
     /// \return false: nothing was asked, as there is no connection, or a command waits for its answer
-    bool ask(const QPlcMessage &question, const ControlChannel::Handler &handler);
+    template<typename Question, typename Handler, typename = typename Question::Answer>
+    bool ask(const Question &question, const Handler &handler)
+    {
+        const bool isPossible = isConnected() && !m_connection.control().isBusy();
+        if (isPossible)
+            m_connection.control().request(question, handler);
+        return isPossible;
+    }
+    /// As above, for a message that is passed on as it is.
+    bool ask(const QPlcMessage &question, const ControlClient::RawHandler &handler);
     /// Asks the master for its state now; the plant does so twice a second anyway.
     void refresh();
 
@@ -147,13 +155,13 @@ Q_SIGNALS:
     void commandDone(int command);
     void commandFailed(int command, const QString &sentence);
     void eventOccurred(const qplc::PlantEvent &event);
-    /// What the master said without being asked.
-    void messagePushed(const QPlcMessage &message);
+    /// All nodes have their initial values.
+    void initialized();
 
 private:
     friend class PlantFeed;
 
-    void connected(const QPlcMessage &hello, const QPlcSignalTable &table);
+    void connected(const QPlcSignalTable &table);
     void disconnected(const QString &reason);
     void refused(const QString &reason);
     void takeFrames();
@@ -161,12 +169,20 @@ private:
     void poll();
     void askState();
     void askSignals();
-    void takeState(const QPlcMessage &answer);
-    void takeStatistics(const QPlcMessage &answer);
-    void takeSignals(const QPlcMessage &answer);
+    void takeState(const messages::State &answer);
+    void takeStatistics(const messages::Statistics &answer);
+    void takeSignals(const messages::Signals &answer);
+    void takeSchedule(const messages::Schedule &answer);
+    template<typename Question, typename Answer>
+    void askFor(const Question &question, void (Plant::*take)(const Answer &));
+    template<typename Request>
+    int command(const Request &request);
+    void tellOutcome(int number, QPlcMessage::Kind command, const messages::Failed *failed);
+    template<typename Task>
+    void callLater(Task task);
     void nodesChanged(const QStringList &before, const QStringList &now);
     QString sourceOf(const QString &node) const;
-    void takePushed(const QPlcMessage &message);
+    void listenToMaster();
     void tell(PlantEvent::Severity severity, const QString &text, const QString &node = QString());
     void tell(const PlantEvent &event);
     enum EventKind { IsOther, IsStateChange };
@@ -178,7 +194,7 @@ private:
     QString m_name;
     int m_number = 0;
     PlantConnection m_connection;
-    QString m_token;  // that permits a start
+    std::optional<messages::Hex64> m_token;  // that permits a start
     PlantFeed *m_feed = nullptr;
     PlantValues m_values;
     PlantStatus m_status;

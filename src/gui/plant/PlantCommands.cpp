@@ -4,17 +4,16 @@
 #include "PlantFeed.h"
 #include "node/Logging.h"
 
-#include <QtCore/QJsonArray>
+#include <type_traits>
+#include <utility>
 
 namespace qplc {
 
 namespace {
 
-using Message = QPlcMessage;
-
-QJsonObject textsOf(const QHash<QString, QPlcValue> &values)
+QMap<QString, QString> textsOf(const QHash<QString, QPlcValue> &values)
 {
-    QJsonObject texts;
+    QMap<QString, QString> texts;
     for (auto value = values.begin(); value != values.end(); ++value)
         texts.insert(value.key(), value.value().toString());
     return texts;
@@ -22,62 +21,68 @@ QJsonObject textsOf(const QHash<QString, QPlcValue> &values)
 
 }  // namespace
 
-int Plant::command(const Message &message)
+/// The caller of a command has to know its number before he is told what became of it.
+template<typename Task>
+void Plant::callLater(Task task)
 {
+    QMetaObject::invokeMethod(this, task, Qt::QueuedConnection);
+}
+
+template<typename Request>
+int Plant::command(const Request &request)
+{
+    using Reply = ControlClient::Reply<Request>;
     const int number = ++m_lastCommand;
-    const auto tellOutcome = [this, number, name = message.kindName()](const Message &answer) {
-        if (answer.kind() == Message::Armed)
-            m_token = answer.text(QStringLiteral("token"));
-        if (answer.kind() == Message::Done || answer.kind() == Message::Armed) {
-            Q_EMIT commandDone(number);
-        } else {
-            const QString sentence = printable(answer.text(QStringLiteral("text")));
-            tell(PlantEvent::Error, QStringLiteral("%1 failed: %2").arg(name, sentence));
-            Q_EMIT commandFailed(number, sentence);
+    const auto finish = [this, number](const Reply &reply) {
+        if constexpr (std::is_same_v<Request, messages::Arm>) {
+            if (const auto *armed = std::get_if<messages::Armed>(&reply))
+                m_token = armed->token;
         }
-        refresh();
+        tellOutcome(number, Request::kind, std::get_if<messages::Failed>(&reply));
     };
-    // Never before the caller knows the number.
     if (m_feed && isConnected()) {
-        Q_EMIT m_feed->commanded(message);
-        QMetaObject::invokeMethod(
-            this, [this, number] { Q_EMIT commandDone(number); }, Qt::QueuedConnection);
+        Q_EMIT m_feed->commanded(messages::toMessage(request));
+        callLater([this, number] { Q_EMIT commandDone(number); });
     } else if (isConnected()) {
-        m_connection.control().command(message, tellOutcome);
+        m_connection.control().request(request, finish);
     } else {
-        QMetaObject::invokeMethod(
-            this,
-            [this, tellOutcome] {
-                tellOutcome(Message(Message::Failed,
-                                    {{QStringLiteral("text"),
-                                      QStringLiteral("there is no connection to the master at %1").arg(address())}}));
-            },
-            Qt::QueuedConnection);
+        callLater([this, finish] {
+            finish(messages::Failed{{}, QStringLiteral("there is no connection to the master at %1").arg(address())});
+        });
     }
     return number;
 }
 
+/// \param failed  null: it was carried out
+void Plant::tellOutcome(int number, QPlcMessage::Kind command, const messages::Failed *failed)
+{
+    if (!failed) {
+        Q_EMIT commandDone(number);
+    } else {
+        const QString sentence = printable(failed->text);
+        tell(PlantEvent::Error, QStringLiteral("%1 failed: %2").arg(QPlcMessage::kindName(command), sentence));
+        Q_EMIT commandFailed(number, sentence);
+    }
+    refresh();
+}
+
 int Plant::initialize()
 {
-    return command(Message(Message::InitializeAllStates));
+    return command(messages::InitializeAllStates());
 }
 
 int Plant::start()
 {
-    QJsonObject fields;
-    if (!m_token.isEmpty())
-        fields.insert(QStringLiteral("token"), m_token);
-    m_token.clear();
-    return command(Message(Message::StartRealTime, fields));
+    return command(messages::StartRealTime{{}, std::exchange(m_token, std::nullopt)});
 }
 
 int Plant::stop(const QString &how)
 {
     const bool isFedAndRuns = m_feed && m_status.isRunning();
     if (isFedAndRuns)
-        m_status.stop = {PlantLeases::whoever(), how, QDateTime::currentDateTime(), true};
-    return command(
-        Message(Message::Stop, {{QStringLiteral("whoever"), PlantLeases::whoever()}, {QStringLiteral("how"), how}}));
+        m_status.master.stopped = messages::StopEntry{PlantLeases::whoever(), how,
+                                                      quint64(QDateTime::currentMSecsSinceEpoch()) * 1'000'000, true};
+    return command(messages::Stop{PlantLeases::whoever(), how});
 }
 
 int Plant::perform(Action action)
@@ -87,11 +92,11 @@ int Plant::perform(Action action)
     case Initialize:
         return initialize();
     case Arm:
-        return command(Message(Message::Arm));
+        return command(messages::Arm());
     case Start:
         return start();
     case Reset:
-        return command(Message(Message::Reset));
+        return command(messages::Reset());
     case StopAction:
     case NoAction:
         break;
@@ -101,25 +106,23 @@ int Plant::perform(Action action)
 
 int Plant::setValues(const QHash<QString, QPlcValue> &values, std::chrono::nanoseconds duration)
 {
-    QJsonObject fields{{QStringLiteral("values"), textsOf(values)}};
+    messages::SetSignals wish{textsOf(values), std::nullopt};
     if (duration.count() > 0)
-        fields.insert(QStringLiteral("duration"), double(duration.count()));
-    return command(Message(Message::SetSignals, fields));
+        wish.duration = duration;
+    return command(wish);
 }
 
 int Plant::takeLease(const QStringList &signalNames, const QHash<QString, QPlcValue> &values, TakeOver takeOver)
 {
-    QJsonObject fields = m_leases.identity();
-    fields.insert(QStringLiteral("signals"), QJsonArray::fromStringList(signalNames));
-    fields.insert(QStringLiteral("values"), textsOf(values));
-    fields.insert(QStringLiteral("takeOver"), takeOver == AlsoFromOthers);
-    return command(Message(Message::TakeLease, fields));
+    messages::TakeLease wish = m_leases.wish(signalNames);
+    wish.values = textsOf(values);
+    wish.takeOver = takeOver == AlsoFromOthers;
+    return command(wish);
 }
 
 int Plant::releaseLease(const QStringList &signalNames)
 {
-    return command(
-        Message(Message::ReleaseLease, {{QStringLiteral("signals"), QJsonArray::fromStringList(signalNames)}}));
+    return command(messages::ReleaseLease{signalNames});
 }
 
 }  // namespace qplc

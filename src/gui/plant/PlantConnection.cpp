@@ -2,6 +2,7 @@
 #include "PlantConnection.h"
 
 #include "PlantLeases.h"
+#include "node/Logging.h"
 #include "node/cycle/ListeningInterval.h"
 
 #include <QtCore/QCoreApplication>
@@ -22,6 +23,34 @@ QString defaultName()
     return PlantLeases::whoever().left(longestWindowName - window.size()) + window;
 }
 
+/// A window at the control channel.
+ControlClient::Caller caller()
+{
+    return {PlantLeases::whoever(), messages::Part::Tool, {messages::feature::leases, messages::feature::events}};
+}
+
+/// Why there is no connection, as half a sentence.
+QString sentenceOf(ControlClient::Loss loss, const QString &reason, const messages::Rejected &rejection)
+{
+    const QString shown = printable(reason);
+    switch (loss) {
+    case ControlClient::Loss::Gone:
+        break;
+    case ControlClient::Loss::NoGreeting:
+        return QStringLiteral("it answers with %1 instead of a greeting; is it a QtPLC master?").arg(shown);
+    case ControlClient::Loss::Rejected:
+        return (rejection.error == QLatin1String("VersionMismatch")
+                    ? QStringLiteral("versions differ: %1; update the older one")
+                    : QStringLiteral("the master refuses: %1"))
+            .arg(shown);
+    case ControlClient::Loss::OtherVersion:
+        return QStringLiteral("versions differ: the master speaks protocol version %1, this window version 1; update "
+                              "the older one")
+            .arg(shown);
+    }
+    return reason;
+}
+
 /// \param rate  most frames a second, 0: every cycle \param period  [ns]
 int cyclesForEach(double rate, qint64 period)
 {
@@ -38,11 +67,13 @@ PlantConnection::PlantConnection(const QString &address, const QString &nodeName
     : QObject(parent)
     , m_address(address)
     , m_nodeName(nodeName.isEmpty() ? defaultName() : nodeName)
+    , m_control(caller())
     , m_listener(m_nodeName)
     , m_reason(QStringLiteral("not connected yet"))
 {
     m_parts = PlantAddress::fromString(address, &m_addressError);
-    m_control.setSecurity(m_parts.security);
+    if (m_parts.security)
+        m_control.setSecurity(*m_parts.security);
     m_listener.setSecurity(m_parts.security);
     m_retry.setSingleShot(true);
     m_listenerRetry.setSingleShot(true);
@@ -52,13 +83,13 @@ PlantConnection::PlantConnection(const QString &address, const QString &nodeName
             m_listenerReason);  // not before: when the master is gone, the control channel says so meanwhile
         listen();
     });
-    connect(&m_resolver, &AddressResolver::failed, this, &PlantConnection::failed);
+    connect(&m_resolver, &AddressResolver::failed, this, [this](const QString &reason) { failed(reason); });
     connect(&m_resolver, &AddressResolver::resolved, this, [this](const QPlcUnderlyingProtocol &master) {
         m_master = master;
         m_control.connectToMaster(master);
     });
-    connect(&m_control, &ControlChannel::greeted, this, &PlantConnection::greeted);
-    connect(&m_control, &ControlChannel::lost, this, &PlantConnection::failed);
+    connect(&m_control, &ControlClient::greeted, this, &PlantConnection::greeted);
+    connect(&m_control, &ControlClient::lost, this, &PlantConnection::lost);
     connect(&m_listener, &Listener::joined, this, [this] {
         m_listenerFailures = 0;
         setListening(true);
@@ -112,10 +143,11 @@ void PlantConnection::attempt()
         failed(m_addressError);
 }
 
-void PlantConnection::greeted(const QPlcMessage &hello)
+void PlantConnection::greeted()
 {
+    const messages::MasterHello &hello = m_control.master();
     QVector<QPlcParseError> errors;
-    const QPlcSignalTable table = QPlcSignalTable::fromMaster(hello.text(QStringLiteral("table")).toUtf8(), &errors);
+    const QPlcSignalTable table = QPlcSignalTable::fromMaster(hello.table.toUtf8(), &errors);
     if (table.isEmpty()) {
         m_control.close();
         failed(QPlcParseError::toString(errors));
@@ -124,14 +156,20 @@ void PlantConnection::greeted(const QPlcMessage &hello)
     m_failures = 0;
     m_listenerFailures = 0;
     m_table = table;
-    m_period = qint64(hello.fields().value(QStringLiteral("period")).toDouble());
+    m_period = hello.period.count();
     m_every = cyclesForEach(m_rate, m_period);
     listen();
     setState(Connected, {});
-    Q_EMIT connected(hello, table);
+    Q_EMIT connected(table);
 }
 
-void PlantConnection::failed(const QString &reason)
+void PlantConnection::lost(ControlClient::Loss loss, const QString &reason)
+{
+    const bool isMaster = loss == ControlClient::Loss::Rejected || loss == ControlClient::Loss::OtherVersion;
+    failed(sentenceOf(loss, reason, m_control.rejection()), isMaster ? CannotWork : NotThere);
+}
+
+void PlantConnection::failed(const QString &reason, Failure failure)
 {
     if (!m_isOpen)
         return;
@@ -143,7 +181,7 @@ void PlantConnection::failed(const QString &reason)
     setState(Disconnected, reason);
     if (wasConnected)
         Q_EMIT disconnected(reason);
-    else if (m_control.isRefused())
+    else if (failure == CannotWork)
         Q_EMIT refused(reason);
 }
 

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "AddressResolver.h"
-#include "ControlChannel.h"
 #include "Listener.h"
 #include "PlantAddress.h"
+#include "node/session/ControlClient.h"
 
 #include <QtCore/QTimer>
 
@@ -44,7 +44,7 @@ public:
     double nextAttempt() const { return m_retry.isActive() ? m_retry.remainingTime() * 1e-3 : -1.0; }
     /// Whether values come, or would if cycles ran.
     bool isListening() const { return m_isListening; }
-    ControlChannel &control() { return m_control; }
+    ControlClient &control() { return m_control; }
     Listener &listener() { return m_listener; }
 
     /// Pause before an attempt after so many in vain: 250 ms, doubled each time, at most 5 s.
@@ -52,7 +52,8 @@ public:
 
 Q_SIGNALS:
     void stateChanged();
-    void connected(const QPlcMessage &hello, const QPlcSignalTable &table);
+    /// control().master() has what the master says of itself.
+    void connected(const QPlcSignalTable &table);
     void disconnected(const QString &reason);
     /// A master is there, but this window cannot work with it. Attempts go on.
     void refused(const QString &reason);
@@ -62,8 +63,10 @@ Q_SIGNALS:
 
 private:
     void attempt();
-    void greeted(const QPlcMessage &hello);
-    void failed(const QString &reason);
+    void greeted();
+    void lost(ControlClient::Loss loss, const QString &reason);
+    enum Failure { NotThere, CannotWork };
+    void failed(const QString &reason, Failure failure = NotThere);
     void listen();
     void chooseInterval();
     void listenerLost(const QString &sentence);
@@ -75,7 +78,7 @@ private:
     QString m_addressError;  // empty: it can be used
     QString m_nodeName;
     AddressResolver m_resolver;
-    ControlChannel m_control;
+    ControlClient m_control;
     Listener m_listener;
     QTimer m_retry;
     QTimer m_listenerRetry;

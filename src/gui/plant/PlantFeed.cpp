@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace qplc {
 
@@ -42,7 +43,7 @@ void PlantFeed::connected(const QPlcSignalTable &table)
         values.interrupt();
     }
     m_plant->tell(PlantEvent::Information, QStringLiteral("connected"));
-    setState(QStringLiteral("Off"));
+    setState(messages::MasterState::Off);
     Q_EMIT m_plant->stateChanged();
 }
 
@@ -73,15 +74,15 @@ void PlantFeed::tellQuality()
     Q_EMIT m_plant->statusChanged();
 }
 
-void PlantFeed::setState(const QString &state)
+void PlantFeed::setState(messages::MasterState state)
 {
-    const QString before = m_plant->m_status.state;
+    messages::State &master = m_plant->m_status.master;
+    const messages::MasterState before = std::exchange(master.state, state);
     if (state == before)
         return;
-    m_plant->m_status.state = state;
     if (m_plant->m_status.isRunning())
-        m_plant->m_status.stop = {};
-    if (!before.isEmpty()) {
+        master.stopped.reset();
+    if (before != messages::MasterState::Unknown) {
         PlantEvent event{QDateTime::currentDateTime(), PlantEvent::Information, m_plant->name(),
                          QStringLiteral("state %1").arg(stateText(state)), false};
         event.isStateChange = true;
@@ -95,7 +96,7 @@ void PlantFeed::initialize(const QPlcSignalList &values)
 {
     if (!m_isConnected)
         return;
-    setState(QStringLiteral("Ready"));
+    setState(messages::MasterState::Ready);
     put(values);
     for (const QPlcSignalList::Entry &entry : values)
         m_plant->m_values.takeValue(entry.index, entry.value);
@@ -112,13 +113,13 @@ void PlantFeed::started()
     m_plant->m_sinceRate.start();
     m_plant->m_rowsAtRate = m_plant->m_values.rows();
     m_plant->m_sinceValues.start();  // those of before are not late
-    setState(QStringLiteral("RealTime"));
+    setState(messages::MasterState::RealTime);
 }
 
 void PlantFeed::stopped()
 {
     if (m_isConnected)
-        setState(QStringLiteral("Off"));
+        setState(messages::MasterState::Off);
 }
 
 void PlantFeed::put(const QPlcSignalList &values)
@@ -167,7 +168,7 @@ void PlantFeed::take(const QList<QPlcSignalList> &cycles, Time wallTime)
     if (!m_isConnected || !values.store() || cycles.isEmpty())
         return;
     if (!m_plant->m_status.isRunning())
-        setState(QStringLiteral("RealTime"));  // cycles say so themselves
+        setState(messages::MasterState::RealTime);  // cycles say so themselves
     values.beginBatch();
     const Time between = Time(step(cycles.size(), wallTime));
     for (const QPlcSignalList &cycle : cycles) {

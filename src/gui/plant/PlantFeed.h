@@ -4,6 +4,7 @@
 #include "PlantValues.h"
 #include "QPlcMasterSocket.h"
 #include "QPlcSignalList.h"
+#include "protocol/messages/Vocabulary.h"
 
 #include <QtCore/QObject>
 #include <QtCore/QTimer>
@@ -43,7 +44,7 @@ Q_SIGNALS:
 private:
     using Time = PlantValues::Time;
 
-    void setState(const QString &state);
+    void setState(messages::MasterState state);
     void tellQuality();
     void put(const QPlcSignalList &values);
     void begin(int cycles, Time wallTime);

@@ -3,7 +3,6 @@
 
 #include "node/Logging.h"
 
-#include <QtCore/QJsonArray>
 #include <QtCore/QRandomGenerator>
 #include <QtCore/QSysInfo>
 
@@ -27,13 +26,13 @@ QString PlantLeases::whoever()
     return QStringLiteral("%1@%2").arg(user, QSysInfo::machineHostName()).left(longestName);
 }
 
-PlantLeases::PlantLeases(ControlChannel &control, QObject *parent)
+PlantLeases::PlantLeases(ControlClient &control, QObject *parent)
     : QObject(parent)
     , m_control(control)
 {
     m_heartbeat.setInterval(HeartbeatPeriod);
     connect(&m_heartbeat, &QTimer::timeout, this,
-            [this] { m_control.ask(QPlcMessage(QPlcMessage::GetState), [](const QPlcMessage &) {}); });
+            [this] { m_control.request(messages::GetState(), [](const auto &) {}); });
 }
 
 void PlantLeases::begin(bool hasFeature)
@@ -41,11 +40,12 @@ void PlantLeases::begin(bool hasFeature)
     m_hasFeature = hasFeature;
     // Lists tell names, and a person may have two windows, or a connection that the master has not missed yet. So each connection has a timeout of its own: it differs by
     // less than a millisecond.
-    m_timeout = qint64(Timeout) * 1'000'000 + QRandomGenerator::global()->bounded(1'000'000);
+    m_timeout
+        = std::chrono::milliseconds(Timeout) + std::chrono::nanoseconds(QRandomGenerator::global()->bounded(1'000'000));
     if (hasFeature)
-        m_control.ask(QPlcMessage(QPlcMessage::GetLeases), [this](const QPlcMessage &answer) {
-            if (answer.kind() == QPlcMessage::Leases)
-                take(answer);
+        m_control.request(messages::GetLeases(), [this](const ControlClient::Reply<messages::GetLeases> &reply) {
+            if (const auto *leases = std::get_if<messages::Leases>(&reply))
+                take(leases->leases);
         });
 }
 
@@ -55,9 +55,13 @@ void PlantLeases::end()
     setLeases({});
 }
 
-QJsonObject PlantLeases::identity() const
+messages::TakeLease PlantLeases::wish(const QStringList &signalNames) const
 {
-    return {{QStringLiteral("whoever"), whoever()}, {QStringLiteral("timeout"), double(m_timeout)}};
+    messages::TakeLease wish;
+    wish.signals = signalNames;
+    wish.whoever = whoever();
+    wish.timeout = m_timeout;
+    return wish;
 }
 
 std::optional<LeaseStatus> PlantLeases::find(const QString &signal) const
@@ -67,16 +71,12 @@ std::optional<LeaseStatus> PlantLeases::find(const QString &signal) const
     return found == m_leases.end() ? std::nullopt : std::make_optional(*found);
 }
 
-void PlantLeases::take(const QPlcMessage &message)
+void PlantLeases::take(const std::vector<messages::LeaseEntry> &entries)
 {
     QVector<LeaseStatus> leases;
-    const QJsonArray rows = message.fields().value(QStringLiteral("leases")).toArray();
-    for (const QJsonValue &row : rows) {
-        const bool isLost = row[QStringLiteral("lease")].toString() == QLatin1String("lost");
-        const bool isMine = !isLost && qint64(row[QStringLiteral("timeout")].toDouble()) == m_timeout;
-        leases.append({printable(row[QStringLiteral("signal")].toString()),
-                       printable(row[QStringLiteral("holder")].toString()),
-                       isLost ? LeaseStatus::Lost : LeaseStatus::Held, isMine});
+    for (const messages::LeaseEntry &entry : entries) {
+        const bool isMine = entry.lease == messages::LeaseState::Held && entry.timeout == m_timeout;
+        leases.append({printable(entry.signal), printable(entry.holder), entry.lease, isMine});
     }
     setLeases(leases);
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "ControlChannel.h"
 #include "LeaseStatus.h"
+#include "node/session/ControlClient.h"
 
 #include <QtCore/QTimer>
 #include <QtCore/QVector>
@@ -24,7 +24,7 @@ public:
     /// "anna@lab", for people.
     static QString whoever();
 
-    explicit PlantLeases(ControlChannel &control, QObject *parent = nullptr);
+    explicit PlantLeases(ControlClient &control, QObject *parent = nullptr);
 
     /// A connection begins. \param hasFeature  whether this master knows leases
     void begin(bool hasFeature);
@@ -35,10 +35,10 @@ public:
     const QVector<LeaseStatus> &all() const { return m_leases; }
     std::optional<LeaseStatus> find(const QString &signal) const;
 
-    /// What a message TakeLease needs beside signals and values, so that the lease is known to be of this window.
-    QJsonObject identity() const;
-    /// Looks at LeasesChanged.
-    void take(const QPlcMessage &message);
+    /// A request for signals, by which the lease is known to be of this window.
+    messages::TakeLease wish(const QStringList &signalNames) const;
+    /// All leases, as the master tells them.
+    void take(const std::vector<messages::LeaseEntry> &entries);
 
 Q_SIGNALS:
     void changed();
@@ -46,11 +46,11 @@ Q_SIGNALS:
 private:
     void setLeases(const QVector<LeaseStatus> &leases);
 
-    ControlChannel &m_control;
+    ControlClient &m_control;
     QTimer m_heartbeat;
     QVector<LeaseStatus> m_leases;
     bool m_hasFeature = false;
-    qint64 m_timeout = 0;  // [ns] of leases of this connection, and of no other one
+    std::chrono::nanoseconds m_timeout{0};  // of leases of this connection, and of no other one
 };
 
 }  // namespace qplc

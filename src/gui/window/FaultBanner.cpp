@@ -13,11 +13,11 @@ namespace {
 QStringList injectors(const Plant &plant)
 {
     QStringList all;
-    if (!plant.status().faultPlan.isEmpty())
-        all << FaultBanner::tr("the master (%1)").arg(plant.status().faultPlan);
+    if (!plant.status().master.faults.isEmpty())
+        all << FaultBanner::tr("the master (%1)").arg(plant.status().master.faults);
     for (const NodeStatus &node : plant.status().nodes) {
-        if (!node.faultPlan.isEmpty())
-            all << QStringLiteral("%1 (%2)").arg(node.name, node.faultPlan);
+        if (!node.info.faultPlan.isEmpty())
+            all << QStringLiteral("%1 (%2)").arg(node.info.name, node.info.faultPlan);
     }
     return all;
 }

@@ -51,15 +51,15 @@ void LatchBanner::follow()
     }
     m_reset->setDetail(m_plant == plants->selected() ? tr("F7") : QString());  // the key resets the selected plant
     if (m_plant) {
-        const PlantStatus &status = m_plant->status();
+        const messages::State &master = m_plant->status().master;
         const QString what
-            = status.state == QLatin1String("SafeStop") ? tr("%1 has stopped safely") : tr("%1 cannot run");
+            = master.state == messages::MasterState::SafeStop ? tr("%1 has stopped safely") : tr("%1 cannot run");
         m_text = what.arg(m_plant->name());
-        if (!status.reason.isEmpty())
-            m_text += tr(": %1").arg(status.reason);
-        m_text += status.remains.isEmpty() ? tr(". Reset it, then initialize and start.")
-                                           : tr(". Before a reset: %1.").arg(status.remains);
-        m_reset->setEnabled(status.remains.isEmpty());
+        if (!master.reason.isEmpty())
+            m_text += tr(": %1").arg(master.reason);
+        m_text += master.remains.isEmpty() ? tr(". Reset it, then initialize and start.")
+                                           : tr(". Before a reset: %1.").arg(master.remains);
+        m_reset->setEnabled(master.remains.isEmpty());
         m_reset->setAccessibleName(tr("Reset %1").arg(m_plant->name()));
     }
     m_label->setText(m_text);

@@ -19,14 +19,12 @@ PlantSelection::PlantSelection(PlantList *plants, QObject *parent)
 
 void PlantSelection::follow(Plant *plant)
 {
-    connect(plant, &Plant::messagePushed, this, [this, plant](const QPlcMessage &message) {
-        if (message.kind() != QPlcMessage::StatesInitialized || !message.fields().value(QStringLiteral("ok")).toBool())
-            return;
+    connect(plant, &Plant::initialized, this, [this, plant] {
         m_initialized.insert(plant);
         Q_EMIT changed();
     });
     connect(plant, &Plant::stateChanged, this, [this, plant] {
-        const bool isBack = plant->status().state == QLatin1String("Off") && m_initialized.contains(plant);
+        const bool isBack = plant->status().master.state == messages::MasterState::Off && m_initialized.contains(plant);
         if (!plant->isConnected() || plant->status().isRunning() || plant->status().isLatched() || isBack)
             m_initialized.remove(plant);
         followControl(plant);

@@ -19,9 +19,10 @@ constexpr int textLeft = 28;       // [px]
 /// "Profile Simulation: no real devices, and the master listens on this computer only"; empty before the master has told it.
 QString profileText(const Plant *plant)
 {
-    if (!plant || !plant->isConnected() || plant->status().profile.isEmpty())
+    if (!plant || !plant->isConnected() || plant->status().master.profile.isEmpty())
         return {};
-    return PlantSelector::tr("Profile %1: %2").arg(plant->status().profile, plant->status().profileReason);
+    const messages::State &master = plant->status().master;
+    return PlantSelector::tr("Profile %1: %2").arg(master.profile, master.profileReason);
 }
 
 }  // namespace

@@ -25,21 +25,24 @@ QString figuresOf(const Plant &plant, const ViolationWatch &violations)
     QStringList parts;
     if (!plant.identity().isEmpty())
         parts << WindowText::tr("%1 (%2)").arg(plant.identity(), plant.role());
-    if (!status.profile.isEmpty())
-        parts << status.profile;
-    const double period = double(status.period > 0 ? status.period : plant.values().period());
+    if (!status.master.profile.isEmpty())
+        parts << status.master.profile;
+    const qint64 ofMaster = status.master.period.count();
+    const double period = double(ofMaster > 0 ? ofMaster : plant.values().period());
     if (period > 1.0) {
         const double rate = 1e9 / period;
         const QString text = WindowText::tr("%1 Hz").arg(rate, 0, 'g', 4);
         parts << (plant.every() == 1 ? text
                                      : WindowText::tr("%1, %2 shown").arg(text).arg(rate / plant.every(), 0, 'g', 4));
     }
-    if (status.lateness.last10s.count > 0)
-        parts << WindowText::tr("jitter %1 p99").arg(durationText(status.lateness.last10s.p99));
+    const QPlcDistribution &lateness = status.statistics.lateness.last10s;
+    if (lateness.count > 0)
+        parts << WindowText::tr("jitter %1 p99").arg(durationText(double(lateness.p99)));
     if (status.isRunning() && !plant.feed())
         parts << violations.text();
-    if (status.roundTrip.last10s.count > 0)
-        parts << linkText(status.roundTrip.last10s.p50, plant.ownNode() ? plant.ownNode()->lost : 0);
+    const QPlcDistribution &roundTrip = status.statistics.roundTrip.last10s;
+    if (roundTrip.count > 0)
+        parts << linkText(double(roundTrip.p50), plant.ownNode() ? plant.ownNode()->statistics.lost : 0);
     return parts.join(QStringLiteral(" · "));
 }
 
@@ -84,8 +87,8 @@ PlantSummary conditionOf(const Plant &plant)
 {
     if (plant.status().isLatched())
         return {Tone::Alarm,
-                plant.status().state == QLatin1String("Fault") ? WindowText::tr("fault")
-                                                               : WindowText::tr("stopped safely"),
+                plant.status().master.state == messages::MasterState::Fault ? WindowText::tr("fault")
+                                                                            : WindowText::tr("stopped safely"),
                 {},
                 {}};
     switch (plant.quality()) {
@@ -138,24 +141,30 @@ StateStep StateStep::of(const Plant *plant, bool isInitialized)
 {
     if (!plant || !plant->isConnected())
         return {};
-    const QString &state = plant->status().state;
+    using State = messages::MasterState;
+    const State state = plant->status().master.state;
     if (plant->status().isRunning() && plant->quality() == Plant::Stale)
         return {RealTime, Tone::Warning, WindowText::tr("No cycles")};
-    if (state == QLatin1String("RealTime"))
+    switch (state) {
+    case State::RealTime:
         return {RealTime, Tone::Good, {}};
-    if (state == QLatin1String("WaitingForLateSlaves"))
+    case State::WaitingForLateSlaves:
         return {RealTime, Tone::Warning, stateText(state)};
-    if (state == QLatin1String("SafeStop"))
+    case State::SafeStop:
         return {RealTime, Tone::Alarm, stateText(state)};
-    if (state == QLatin1String("Fault"))
+    case State::Fault:
         return {Off, Tone::Alarm, WindowText::tr("Fault")};
-    if (state == QLatin1String("Initializing"))
+    case State::Initializing:
         return {Initialized, Tone::Calm, WindowText::tr("Initializing …")};
-    if (state == QLatin1String("Ready") && plant->status().isArmed)
-        return {Initialized, Tone::Warning, WindowText::tr("Armed")};
-    if (state == QLatin1String("Ready"))
+    case State::Ready:
+        if (plant->status().master.armed)
+            return {Initialized, Tone::Warning, WindowText::tr("Armed")};
         return {Initialized, Tone::Calm, WindowText::tr("Ready")};
-    if (isInitialized || state == QLatin1String("Initialized"))
+    case State::Off:
+    case State::Unknown:
+        break;
+    }
+    if (isInitialized)
         return {Initialized, Tone::Calm, {}};
     return {Off, Tone::Calm, {}};
 }

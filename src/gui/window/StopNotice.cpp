@@ -23,7 +23,7 @@ void StopNotice::follow()
     const PlantList &plants = *context()->plants();
     for (int place = 0; place < plants.size(); ++place) {
         const Plant &plant = *plants.at(place);
-        if (plant.isConnected() && plant.status().stop.time.isValid() && !plant.status().isRunning())
+        if (plant.isConnected() && plant.status().master.stopped && !plant.status().isRunning())
             sentences << sentenceOf(plant);
     }
     const QString all = sentences.join(QLatin1Char('\n'));
@@ -34,11 +34,12 @@ void StopNotice::follow()
 /// "Stopped by you (Esc Esc), 13:45:36. Start again: F5"
 QString StopNotice::sentenceOf(const Plant &plant) const
 {
-    const PlantStop &stop = plant.status().stop;
-    const QString who = stop.isMine ? tr("you") : stop.whoever;
+    const messages::StopEntry &stop = *plant.status().master.stopped;
+    const QDateTime time = QDateTime::fromMSecsSinceEpoch(qint64(stop.time / 1'000'000));
+    const QString who = stop.yours ? tr("you") : stop.whoever;
     const QString how = stop.how.isEmpty() ? QString() : tr(" (%1)").arg(stop.how);
-    const QString what = tr("Stopped by %1%2, %3.").arg(who, how, stop.time.toString(QStringLiteral("HH:mm:ss")));
-    const QString keys = plant.status().isArmingRequired ? tr("F4, F9, F5") : tr("F5");
+    const QString what = tr("Stopped by %1%2, %3.").arg(who, how, time.toString(QStringLiteral("HH:mm:ss")));
+    const QString keys = plant.status().master.armingRequired ? tr("F4, F9, F5") : tr("F5");
     const bool isOneOfSeveral = context()->plants()->size() > 1;
     return isOneOfSeveral ? tr("%1: %2 Start again: choose %1, then %3").arg(plant.name(), what, keys)
                           : tr("%1 Start again: %2").arg(what, keys);

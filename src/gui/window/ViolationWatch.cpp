@@ -16,9 +16,9 @@ QString counted(quint64 count)
 
 quint64 ViolationWatch::totalOf(const PlantStatus &status)
 {
-    quint64 total = status.overruns;
+    quint64 total = status.statistics.overruns;
     for (const NodeStatus &node : status.nodes)
-        total += node.late;
+        total += node.statistics.late;
     return total;
 }
 

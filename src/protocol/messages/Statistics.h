@@ -21,8 +21,12 @@ struct Wire<QPlcDistribution::Bin>
     static bool fromJson(const QJsonValue &json, QPlcDistribution::Bin *bin)
     {
         const QJsonArray pair = json.toArray();
-        return pair.size() == 2 && Wire<qint64>::fromJson(pair.at(0), &bin->upperBorder)
-            && Wire<quint64>::fromJson(pair.at(1), &bin->count);
+        constexpr double limit = 0x1p63;  // the last bin of a histogram ends with the largest number there is
+        const std::optional<double> border = wholeNumber(pair.at(0), -limit, limit);
+        if (pair.size() != 2 || !border || !Wire<quint64>::fromJson(pair.at(1), &bin->count))
+            return false;
+        bin->upperBorder = *border < limit ? qint64(*border) : std::numeric_limits<qint64>::max();
+        return true;
     }
 };
 

@@ -10,9 +10,12 @@ using namespace qplc;
 
 namespace {
 
-QVector<JitterDistribution> distributionsOf(const char *json, const char *window = "sinceStart")
+QVector<JitterDistribution> distributionsOf(const char *json,
+                                            QPlcDistribution QPlcDurationStatistics::*window
+                                            = &QPlcDurationStatistics::sinceStart)
 {
-    return jitterDistributions(QJsonDocument::fromJson(json).object(), QString::fromLatin1(window));
+    const QJsonObject fields = QJsonDocument::fromJson(json).object();
+    return jitterDistributions(messages::fieldsOf<messages::Statistics>(fields), window);
 }
 
 /// Those of the lateness of a master with these bins.
@@ -58,7 +61,7 @@ void tst_JitterDistributions::masterAndNodesAreFound()
     QCOMPARE(all.first().p50, 100.0);
     QCOMPARE(all.first().p99, 200.0);
     QCOMPARE(all.first().maximum, 300.0);
-    QCOMPARE(distributionsOf(json, "last10s").first().count, 2.0);
+    QCOMPARE(distributionsOf(json, &QPlcDurationStatistics::last10s).first().count, 2.0);
 }
 
 void tst_JitterDistributions::binsOfBothKindsAreThoseOfAnEighthOfAnOctave()

@@ -149,23 +149,28 @@ void tst_PlantModels::whatStandsStillUntilAResetIsAnError()
 
 void tst_PlantModels::aPhaseThatBeginsMissesNobody()
 {
-    const auto state = [](const char *name, const QStringList &nodes) {
-        QJsonArray rows;
-        for (const QString &node : nodes)
-            rows.append(QJsonObject{{QStringLiteral("name"), node},
-                                    {QStringLiteral("listener"), node.startsWith(QLatin1String("Window"))}});
-        return QJsonObject{{QStringLiteral("state"), QString::fromLatin1(name)}, {QStringLiteral("nodes"), rows}};
+    const auto state = [](messages::MasterState of, const QStringList &nodes) {
+        messages::State answer;
+        answer.state = of;
+        for (const QString &name : nodes) {
+            QPlcNodeInfo node;
+            node.name = name;
+            node.listener = name.startsWith(QLatin1String("Window"));
+            answer.nodes.append(node);
+        }
+        return answer;
     };
+    using messages::MasterState;
     PlantStatus status;
-    status.takeState(state("RealTime", {"Model", "Autopilot", "Window1"}));
+    status.takeState(state(MasterState::RealTime, {"Model", "Autopilot", "Window1"}));
     QCOMPARE(status.gone, QStringList());
-    status.takeState(state("RealTime", {"Autopilot"}));
+    status.takeState(state(MasterState::RealTime, {"Autopilot"}));
     QCOMPARE(status.gone, QStringList{"Model"});
-    status.takeState(state("Off", {}));
+    status.takeState(state(MasterState::Off, {}));
     QCOMPARE(status.gone, (QStringList{"Model", "Autopilot"}));
-    status.takeState(state("Off", {"Model"}));
+    status.takeState(state(MasterState::Off, {"Model"}));
     QCOMPARE(status.gone, QStringList{"Autopilot"});
-    status.takeState(state("RealTime", {"Model"}));
+    status.takeState(state(MasterState::RealTime, {"Model"}));
     QCOMPARE(status.gone, QStringList());
 }
 

@@ -81,8 +81,8 @@ void tst_Plant::aPlantShowsWhatItsMasterHas()
     QCOMPARE(qint64(store.time(last) - store.time(last - 1)), qint64(10'000'000));
     QTRY_COMPARE(plant.writer(count), QStringLiteral("Counter"));
     QTRY_VERIFY(plant.status().node(QStringLiteral("Window")));
-    QVERIFY(plant.status().node(QStringLiteral("Window"))->isListener);
-    QTRY_VERIFY(plant.status().node(QStringLiteral("Counter"))->execution.sinceStart.count > 0);
+    QVERIFY(plant.status().node(QStringLiteral("Window"))->info.listener);
+    QTRY_VERIFY(plant.status().node(QStringLiteral("Counter"))->statistics.execution.sinceStart.count > 0);
     QTRY_VERIFY(!plant.status().schedule.stages.isEmpty());
     QTRY_VERIFY(plant.updateRate() > 50.0);
 }
@@ -283,13 +283,13 @@ void tst_Plant::aPortThatSaysNothingIsGivenUpAndTriedAgain()
 {
     QTcpServer silent;
     QVERIFY(silent.listen(QHostAddress::LocalHost));
-    ControlChannel channel;
-    channel.setAnswerTime(300);
-    QSignalSpy lost(&channel, &ControlChannel::lost);
+    ControlClient channel({QStringLiteral("window"), messages::Part::Tool, {}});
+    channel.setAnswerTimes(std::chrono::milliseconds(300), std::chrono::minutes(1));
+    QSignalSpy lost(&channel, &ControlClient::lost);
     for (int attempt = 1; attempt <= 2; ++attempt) {
         channel.connectToMaster(QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, silent.serverPort()));
         QTRY_COMPARE(lost.size(), attempt);
-        QCOMPARE(lost.last().at(0).toString(), QStringLiteral("no answer within 0.3 s"));
+        QCOMPARE(lost.last().at(1).toString(), QStringLiteral("no answer within 0.3 s"));
     }
     // A peer that speaks something else is no master.
     connect(&silent, &QTcpServer::newConnection, this, [&] {
@@ -298,7 +298,7 @@ void tst_Plant::aPortThatSaysNothingIsGivenUpAndTriedAgain()
     });
     channel.connectToMaster(QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, silent.serverPort()));
     QTRY_COMPARE(lost.size(), 3);
-    QVERIFY(lost.last().at(0).toString().contains(QStringLiteral("no QtPLC message")));
+    QVERIFY(lost.last().at(1).toString().contains(QStringLiteral("no QtPLC message")));
 }
 
 void tst_Plant::aNodeNameInUseIsAnEventAndNoEnd()

@@ -2,6 +2,7 @@
 #include "gui/plant/PlantStatus.h"
 #include "gui/plant/PlantValues.h"
 #include "gui/plant/SignalReference.h"
+#include "node/Logging.h"
 
 #include <QtCore/QJsonArray>
 #include <QtTest/QtTest>
@@ -11,6 +12,13 @@
 using namespace qplc;
 
 namespace {
+
+/// What a window reads when a master answers with \a fields.
+template<typename Answer>
+Answer answerOf(const QJsonObject &fields)
+{
+    return messages::fieldsOf<Answer>(fields);
+}
 
 constexpr qint64 ms = 1'000'000;  // [ns]
 constexpr qint64 wall = 1'800'000'000'000 * ms;
@@ -67,6 +75,7 @@ private Q_SLOTS:
     void overrunsAreNewUntilTheNextStatistics();
     void aStatusKeepsTheFiguresOfItsNodes();
     void nonsenseOfAMasterIsAnEmptyStatus();
+    void whatPeopleReadCommandsNoTerminal();
 };
 
 void tst_PlantValues::everyElementOfANumberHasAChannel()
@@ -370,8 +379,10 @@ void tst_PlantValues::nonsenseIsNoReference()
 
 void tst_PlantValues::overrunsAreNewUntilTheNextStatistics()
 {
-    const auto statistics = [](int overruns) {
-        return QJsonObject{{"master", QJsonObject{{"counters", QJsonObject{{"overruns", overruns}}}}}};
+    const auto statistics = [](double overruns) {
+        messages::Statistics answer;
+        answer.master.counters.insert("overruns", overruns);
+        return answer;
     };
     PlantStatus status;
     status.takeStatistics(statistics(3));
@@ -387,52 +398,82 @@ void tst_PlantValues::overrunsAreNewUntilTheNextStatistics()
 void tst_PlantValues::aStatusKeepsTheFiguresOfItsNodes()
 {
     const QJsonObject winch{{"name", "Winch"}, {"transport", "udp"}, {"policy", "SilentWait"}, {"listener", true}};
-    const QJsonObject state{
-        {"state", "RealTime"}, {"period", 1e7}, {"cycle", "00000000000000ff"}, {"nodes", QJsonArray{winch}}};
+    const auto state = answerOf<messages::State>(
+        {{"state", "RealTime"}, {"period", 1e7}, {"cycle", "00000000000000ff"}, {"nodes", QJsonArray{winch}}});
     const auto statistics = [](int late) {
         const QJsonObject figures{{"count", 3}, {"p50", 1000}, {"p99", 2000}, {"maximum", 3000}};
-        return QJsonObject{{"master", QJsonObject{{"lateness", QJsonObject{{"last10s", figures}}}}},
-                           {"nodes",
-                            QJsonArray{QJsonObject{{"name", "Winch"},
-                                                   {"execution", QJsonObject{{"sinceStart", figures}}},
-                                                   {"counters", QJsonObject{{"late", late}}}},
-                                       QJsonObject{{"name", "Stranger"}}}}};
+        return answerOf<messages::Statistics>(
+            {{"master", QJsonObject{{"lateness", QJsonObject{{"last10s", figures}}}}},
+             {"nodes",
+              QJsonArray{QJsonObject{{"name", "Winch"},
+                                     {"execution", QJsonObject{{"sinceStart", figures}}},
+                                     {"counters", QJsonObject{{"late", late}}}},
+                         QJsonObject{{"name", "Stranger"}}}}});
     };
     PlantStatus status;
     status.takeState(state);
     QVERIFY(status.isRunning());
-    QCOMPARE(status.cycle, quint64(255));
+    QCOMPARE(quint64(status.master.cycle), quint64(255));
     status.takeStatistics(statistics(3));
-    QCOMPARE(status.lateness.last10s.p99, 2000.0);
+    QCOMPARE(status.statistics.lateness.last10s.p99, qint64(2000));
     QCOMPARE(status.nodes.size(), 1);
     QVERIFY(status.isCounted);
     QVERIFY(!status.node("Winch")->isLate);  // it was late before anybody looked
     status.takeState(state);
-    QCOMPARE(status.node("Winch")->execution.sinceStart.maximum, 3000.0);
-    QCOMPARE(status.node("Winch")->late, quint64(3));
+    QCOMPARE(status.node("Winch")->statistics.execution.sinceStart.maximum, qint64(3000));
+    QCOMPARE(status.node("Winch")->statistics.late, quint64(3));
     status.takeStatistics(statistics(4));
     QVERIFY(status.node("Winch")->isLate);
     status.takeStatistics(statistics(4));
     QVERIFY(!status.node("Winch")->isLate);
     status.takeStatistics(statistics(0));  // a new phase
     QVERIFY(!status.node("Winch")->isLate);
-    status.takeState({{"state", "Off"}});
+    status.takeState(messages::State());
     QVERIFY(status.nodes.isEmpty() && !status.node("Winch"));
 }
 
 void tst_PlantValues::nonsenseOfAMasterIsAnEmptyStatus()
 {
     PlantStatus status;
-    status.takeState({{"state", 7}, {"nodes", "many"}, {"period", "long"}});
-    status.takeState({{"nodes", QJsonArray{1, "x", QJsonObject{{"name", QJsonArray()}}}}});
-    status.takeStatistics(
-        {{"nodes", QJsonArray{QJsonObject{{"counters", QJsonObject{{"late", -1e300}}}}}}, {"master", 1}});
-    status.takeSchedule({{"stages", QJsonArray{1, QJsonArray{2}}}, {"links", QJsonArray{3}}});
-    QCOMPARE(status.nodes.size(), 3);
-    QCOMPARE(status.nodes.at(0).late, quint64(0));
+    status.takeState(answerOf<messages::State>({{"state", 7}, {"nodes", "many"}, {"period", "long"}}));
+    status.takeState(answerOf<messages::State>(
+        {{"state", "a\x1b[31m"}, {"nodes", QJsonArray{1, "x", QJsonObject{{"name", QJsonArray()}}}}}));
+    QVERIFY(status.nodes.isEmpty());
     QVERIFY(!status.isRunning());
-    status.takeState({{"state", "a\x1b[31m"}});
-    QVERIFY(!status.state.contains(QLatin1Char('\x1b')));
+    QCOMPARE(status.master.state, messages::MasterState::Unknown);
+    status.takeState(answerOf<messages::State>({{"nodes", QJsonArray{QJsonObject{{"name", "Winch"}}}}}));
+    status.takeStatistics(answerOf<messages::Statistics>(
+        {{"nodes", QJsonArray{QJsonObject{{"name", "Winch"}, {"counters", QJsonObject{{"late", -1e300}}}}}},
+         {"master", 1}}));
+    QCOMPARE(status.node("Winch")->statistics.late, quint64(0));
+    status.takeSchedule(
+        answerOf<messages::Schedule>({{"stages", QJsonArray{1, QJsonArray{2}}}, {"links", QJsonArray{3}}}));
+    QVERIFY(status.schedule.stages.isEmpty() && status.schedule.links.isEmpty());
+}
+
+void tst_PlantValues::whatPeopleReadCommandsNoTerminal()
+{
+    const QString escape = QStringLiteral("a\x1b[31m");
+    const QString shown = printable(escape);
+    messages::State state;
+    state.reason = escape;
+    state.stopped = messages::StopEntry{escape, escape, 0, false};
+    state.nodes.append(QPlcNodeInfo());
+    state.nodes.first().name = escape;
+    state.nodes.first().faultPlan = escape;
+    PlantStatus status;
+    status.takeState(state);
+    QCOMPARE(status.master.reason, shown);
+    QCOMPARE(status.master.stopped->whoever, shown);
+    QCOMPARE(status.nodes.at(0).info.faultPlan, shown);
+    messages::Statistics statistics;
+    statistics.nodes.push_back({escape, {}, {}, {}, {{"late", 7.0}}});
+    status.takeStatistics(statistics);
+    QCOMPARE(status.node(shown)->statistics.late, quint64(7));
+    messages::Schedule schedule;
+    schedule.stages = {{{escape, QPlcSchedule::Update}}};
+    status.takeSchedule(schedule);
+    QCOMPARE(status.schedule.stages.at(0).at(0).node, shown);
 }
 
 QTEST_GUILESS_MAIN(tst_PlantValues)

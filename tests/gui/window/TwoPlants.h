@@ -45,8 +45,7 @@ struct TwoPlants : WindowFixture
             auto answers = std::make_shared<int>(0);
             for (int place = 0; place < 2; ++place) {
                 const auto ask = [this, place, answers] {
-                    return plant(place)->ask(QPlcMessage(QPlcMessage::GetState),
-                                             [answers](const QPlcMessage &) { ++*answers; });
+                    return plant(place)->ask(qplc::messages::GetState(), [answers](const auto &) { ++*answers; });
                 };
                 if (!QTest::qWaitFor(ask, patience))
                     return false;

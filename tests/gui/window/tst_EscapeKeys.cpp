@@ -338,7 +338,7 @@ void tst_EscapeKeys::theStopButtonAndOthersAreTold()
     other.stop(QStringLiteral("STOP"));
     const QString expected = QStringLiteral("Stopped by %1 (STOP), ").arg(PlantLeases::whoever());
     QTRY_VERIFY_WITH_TIMEOUT(notice->text().startsWith(expected), patience);
-    QTRY_VERIFY_WITH_TIMEOUT(other.status().stop.isMine, patience);
+    QTRY_VERIFY_WITH_TIMEOUT(other.status().master.stopped && other.status().master.stopped->yours, patience);
 
     QVERIFY(fixture.master.startRealTime());
     QTRY_VERIFY_WITH_TIMEOUT(!notice->isVisible(), patience);

@@ -26,7 +26,7 @@ void tst_FaultBanner::thereIsNoneWhereNobodyInjectsFaults()
     const auto *banner = fixture.part<FaultBanner>();
     QVERIFY(!banner->isVisible());
     fixture.window.connectToMaster(master.address());
-    QTRY_VERIFY_WITH_TIMEOUT(!fixture.plant()->status().state.isEmpty(), patience);
+    QTRY_VERIFY_WITH_TIMEOUT(fixture.plant()->status().master.state != messages::MasterState::Unknown, patience);
     QVERIFY(!banner->isVisible());
     QVERIFY(banner->text().isEmpty());
 }

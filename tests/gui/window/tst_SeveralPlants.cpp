@@ -263,8 +263,8 @@ void tst_SeveralPlants::theAnswerToAQuestionSaysHowItWasGiven()
     fixture.window.setFocus();
     for (int press = 0; press < 4; ++press)
         fixture.press(Qt::Key_Escape);
-    QTRY_VERIFY_WITH_TIMEOUT(fixture.plant(1)->status().stop.time.isValid(), patience);
-    QCOMPARE(fixture.plant(1)->status().stop.how, QStringLiteral("Esc Esc"));
+    QTRY_VERIFY_WITH_TIMEOUT(fixture.plant(1)->status().master.stopped, patience);
+    QCOMPARE(fixture.plant(1)->status().master.stopped->how, QStringLiteral("Esc Esc"));
 }
 
 /// Letters have widths that are no whole pixels.
