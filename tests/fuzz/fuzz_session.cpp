@@ -102,7 +102,7 @@ private:
         if (m_sockets.size() >= 16)
             return;
         m_sockets.emplace_back(new MemorySocket);
-        Q_EMIT doorOf(*m_inside.server).entered(new QPlcSlaveSocket(m_sockets.back()), m_peer, 0);
+        Q_EMIT doorOf(m_inside.parts->server).entered(new QPlcSlaveSocket(m_sockets.back()), m_peer, 0);
     }
 
     /// Who comes next: anybody without security (at first), or somebody known with a role.
@@ -141,7 +141,7 @@ private:
     /// A cyclic frame of a node: flags, cycle, info, payload as far as it is given. Outside of the real-time phase, where the cycle thread takes them.
     void answer(std::size_t who, const QByteArray &bytes)
     {
-        const auto &nodes = m_inside.registry->nodes();
+        const auto &nodes = m_inside.parts->registry.nodes();
         const bool isRunning
             = m_master.state() == QPlcMasterNode::RealTime || m_master.state() == QPlcMasterNode::WaitingForLateSlaves;
         if (nodes.empty() || isRunning)
@@ -161,13 +161,13 @@ private:
         encoder.encode(0, header, payload.constData(), frame.data());
         const qplc::FrameStatus status = slot.decoder.decode(frame.data(), frame.size());
         if (status == qplc::FrameStatus::Complete && slot.outputs.rules.allow(slot.decoder.payload()))
-            qplc::copyRuns(slot.outputs.runs, slot.decoder.payload(), m_inside.cycle->image().data());
+            qplc::copyRuns(slot.outputs.runs, slot.decoder.payload(), m_inside.parts->cycle.image().data());
     }
 
     /// The cyclic TCP connection of a node that waits for it, with the token that no chance would find.
     void attach()
     {
-        for (const std::unique_ptr<qplc::MasterConnection> &connection : m_inside.server->connections()) {
+        for (const std::unique_ptr<qplc::MasterConnection> &connection : m_inside.parts->server.connections()) {
             if (connection->stage != qplc::MasterConnection::Attaching)
                 continue;
             const QJsonObject fields{{QStringLiteral("node"), connection->slot->id},
@@ -183,8 +183,7 @@ private:
     {
         if (!m_inside.stepTimer.isActive())
             return;
-        m_inside.stepTimer.stop();
-        QMetaObject::invokeMethod(&m_inside.stepTimer, "timeout");
+        m_inside.stepTimer.elapse();
     }
 
     static void settle()
@@ -195,11 +194,11 @@ private:
 
     void checkNodes() const
     {
-        const auto &nodes = m_inside.registry->nodes();
+        const auto &nodes = m_inside.parts->registry.nodes();
         for (const std::shared_ptr<qplc::NodeSlot> &slot : nodes) {
-            fuzz::check(m_inside.server->connectionOf(slot.get()), "every registered node is connected");
+            fuzz::check(m_inside.parts->server.connectionOf(slot.get()), "every registered node is connected");
             for (const qplc::PayloadLayout::Field &field : slot->outputLayout.fields())
-                fuzz::check(m_inside.registry->writer(field.signal) == slot->name, "a node writes its outputs");
+                fuzz::check(m_inside.parts->registry.writer(field.signal) == slot->name, "a node writes its outputs");
         }
         for (const QPlcNodeInfo &info : m_master.nodes())
             fuzz::check(!info.name.isEmpty() && info.id != 0, "every node has a name and a number");

@@ -23,6 +23,8 @@ private Q_SLOTS:
     void destroyingARunningMasterStopsIt();
     void aNodeMayBeRemovedByWhatItHears_data();
     void aNodeMayBeRemovedByWhatItHears();
+    void theProgramMayStopAStartByWhatItHears_data();
+    void theProgramMayStopAStartByWhatItHears();
     void aNodeThatEndsBeforeItsMasterLeavesIt_data();
     void aNodeThatEndsBeforeItsMasterLeavesIt();
 };
@@ -243,6 +245,33 @@ void tst_LocalNodes::aNodeMayBeRemovedByWhatItHears()
     QVERIFY(master.waitForCycles(3));
     QCOMPARE(counter.state(), QPlcSlaveNode::RealTime);
     master.stop();
+}
+
+void tst_LocalNodes::theProgramMayStopAStartByWhatItHears_data()
+{
+    QTest::addColumn<bool>("isInitialization");
+    QTest::newRow("states are initialized") << true;
+    QTest::newRow("cycles run") << false;
+}
+
+void tst_LocalNodes::theProgramMayStopAStartByWhatItHears()
+{
+    QFETCH(bool, isInitialization);
+    TestMaster master;
+    CounterNode counter;
+    QVERIFY(master.addLocalNode(&counter));
+    if (isInitialization)
+        connect(&master, &QPlcMasterNode::statesInitialized, &master, [&] { master.stop(); });
+    else
+        connect(&master, &QPlcMasterNode::stateChanged, &master, [&] {
+            if (master.state() == QPlcMasterNode::RealTime)
+                master.stop();
+        });
+    QSignalSpy started(&master, &QPlcMasterNode::realTimeHasStarted);
+    master.startRealTime();
+    QCOMPARE(master.state(), QPlcMasterNode::Off);
+    QCOMPARE(counter.state(), QPlcSlaveNode::Registered);
+    QCOMPARE(started.size(), 0);
 }
 
 void tst_LocalNodes::aNodeThatEndsBeforeItsMasterLeavesIt_data()

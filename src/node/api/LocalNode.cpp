@@ -5,30 +5,25 @@
 
 namespace qplc {
 
-LocalNode::LocalNode(QPlcSlaveNodePrivate &node)
-    : m_node(node)
+bool LocalNode::bind(QPlcSlaveNodePrivate &node, const QPlcSignalTable &table, QString *error)
 {
+    return node.runtime.bind(table, error);
 }
 
-bool LocalNode::bind(const QPlcSignalTable &table, QString *error)
+NodeDeclaration LocalNode::declarationOf(const QPlcSlaveNodePrivate &node)
 {
-    return m_node.runtime.bind(table, error);
+    return NodeDeclaration::fromRuntime(node.runtime);
 }
 
-const NodeRuntime &LocalNode::runtime() const
+LocalNode::LocalNode(QPlcSlaveNodePrivate &node, std::shared_ptr<NodeSlot> slot)
+    : NodeSession(std::move(slot), Answers::AtOnce)
+    , m_node(node)
 {
-    return m_node.runtime;
+    this->slot()->local = &m_node.runtime;
 }
 
-QPlcSlaveNode::State LocalNode::state() const
+void LocalNode::join(QPlcMasterNode *master)
 {
-    return m_node.state;
-}
-
-void LocalNode::join(QPlcMasterNode *master, const std::shared_ptr<NodeSlot> &slot)
-{
-    m_slot = slot;
-    m_slot->local = &m_node.runtime;
     m_node.localMaster = master;
     m_node.hasChannel = true;
     m_node.apply(SlaveEvent::AddedLocally);
@@ -42,38 +37,37 @@ void LocalNode::leave()
     m_node.apply(SlaveEvent::Leave);
 }
 
-bool LocalNode::askOutputs(QString *error)
+std::optional<NodeSession::Answer> LocalNode::askOutputs(std::optional<quint64>)
 {
+    QString fault;
     m_node.apply(SlaveEvent::OutputsWanted);
-    if (m_hasLeft) {
-        *error = QStringLiteral("it has left");
-        return false;
-    }
-    if (m_node.runtime.reset(error))
-        return true;
+    if (m_hasLeft)
+        return Answer{QStringLiteral("it has left")};
+    if (m_node.runtime.reset(&fault))
+        return Answer{QString(), QByteArray(m_node.runtime.outputs(), int(slot()->outputLayout.size()))};
     m_node.apply(SlaveEvent::CodeFailed);
-    return false;
+    return Answer{fault};
 }
 
-bool LocalNode::giveInputs(const QByteArray &values, QString *error)
+std::optional<NodeSession::Answer> LocalNode::giveInputs(const QByteArray &values)
 {
-    if (!m_node.runtime.initialize(values.constData(), error)) {
+    QString fault;
+    if (!m_node.runtime.initialize(values.constData(), &fault)) {
         m_node.apply(SlaveEvent::CodeFailed);
-        return false;
+        return Answer{fault};
     }
     m_node.apply(SlaveEvent::ValuesCame);
     if (!m_hasLeft)
         m_node.tellInitialized();
-    return true;
+    return Answer{};
 }
 
-void LocalNode::initializationFailed()
+std::optional<NodeSession::Answer> LocalNode::start(const messages::RealTimeStarted &)
 {
-    if (!m_hasLeft)
-        m_node.apply(SlaveEvent::InitializationFailed);
+    return Answer{};
 }
 
-void LocalNode::start(QPlcProfile::Value profile)
+void LocalNode::cyclesStarted(QPlcProfile::Value profile)
 {
     m_node.phaseProfile = profile;
     m_node.apply(SlaveEvent::PhaseStarted);
@@ -81,8 +75,16 @@ void LocalNode::start(QPlcProfile::Value profile)
         Q_EMIT m_node.q->realTimeHasStarted();
 }
 
-void LocalNode::stop()
+void LocalNode::cancel(const QString &, bool)
 {
+    setStage(Idle);
+    if (!m_hasLeft)
+        m_node.apply(SlaveEvent::InitializationFailed);
+}
+
+void LocalNode::stop(const QString &)
+{
+    setStage(Idle);
     if (m_hasLeft)
         return;
     m_node.makeSafe(QPlcSlaveNode::PhaseEnded);
@@ -94,13 +96,23 @@ void LocalNode::stop()
         Q_EMIT m_node.q->realTimeHasStopped();
 }
 
-void LocalNode::tellSafeStop()
+void LocalNode::tellSafe()
 {
     if (m_hasLeft)
         return;
     m_node.apply(SlaveEvent::ToldSafeStop);
     if (!m_hasLeft)
         m_node.tellSafe(QPlcSlaveNode::MasterStopsSafely);
+}
+
+const QPlcSlaveNode *LocalNode::object() const
+{
+    return m_node.q;
+}
+
+QPlcSlaveNode::State LocalNode::state() const
+{
+    return m_node.state;
 }
 
 QString LocalNode::codeFailed()

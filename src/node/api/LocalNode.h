@@ -1,55 +1,48 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "QPlcProfile.h"
-#include "node/cycle/NodeSlot.h"
-
-#include <QtCore/QByteArray>
-#include <QtCore/QString>
-
-#include <memory>
+#include "node/cycle/NodeRegistry.h"
+#include "node/session/NodeSession.h"
 
 class QPlcMasterNode;
 class QPlcSlaveNodePrivate;
 
 namespace qplc {
 
-/// A node in the process of its master, as the sequences of the master see it: a session without
-/// messages and frames, in which each call is answered at once. Its slot is what the cycles see.
+/// A node in the process of its master: without messages and frames, so each request is answered at once.
 ///
-/// Thread of the master. The program may remove the node whenever it hears of a new state; the node is
-/// left alone from then on.
-class LocalNode
+/// The program may remove the node whenever it hears of a new state; the node is left alone from then on.
+class LocalNode final : public NodeSession
 {
 public:
-    explicit LocalNode(QPlcSlaveNodePrivate &node);
+    /// Compares the signals of \a node with \a table. \return false, with the reason in \a error
+    static bool bind(QPlcSlaveNodePrivate &node, const QPlcSignalTable &table, QString *error);
+    /// What \a node says of itself. \pre it is bound
+    static NodeDeclaration declarationOf(const QPlcSlaveNodePrivate &node);
 
-    /// Compares the signals of the node with \a table. \return false, with the reason in \a error
-    bool bind(const QPlcSignalTable &table, QString *error);
-    const NodeRuntime &runtime() const;
-    QPlcSlaveNode::State state() const;
-    /// It belongs to \a master from now on, and its cycles use \a slot.
-    void join(QPlcMasterNode *master, const std::shared_ptr<NodeSlot> &slot);
-    void leave();
-    bool hasLeft() const { return m_hasLeft; }
-    const std::shared_ptr<NodeSlot> &slot() const { return m_slot; }
+    /// From now on the cycles that use \a slot call \a node.
+    LocalNode(QPlcSlaveNodePrivate &node, std::shared_ptr<NodeSlot> slot);
+    /// It belongs to \a master from now on.
+    void join(QPlcMasterNode *master);
 
-    /// Brings it into its initial state: the outputs of its runtime are the initial ones.
-    /// \return false, with the reason in \a error, when its code threw
-    bool askOutputs(QString *error);
-    /// \return false, with the reason in \a error, when its code threw
-    bool giveInputs(const QByteArray &values, QString *error);
-    void initializationFailed();
-    /// A real-time phase begins, and ends.
-    void start(QPlcProfile::Value profile);
-    void stop();
-    void tellSafeStop();
-    /// Its code threw in a cycle. \return what
-    QString codeFailed();
+    std::optional<Answer> askOutputs(std::optional<quint64> phase) override;
+    std::optional<Answer> giveInputs(const QByteArray &values) override;
+    std::optional<Answer> start(const messages::RealTimeStarted &start) override;
+    void cyclesStarted(QPlcProfile::Value profile) override;
+    void cancel(const QString &reason, bool isStarting) override;
+    void stop(const QString &reason) override;
+    void tellSafe() override;
+    void drop(const QString &) override {}
+    void leave() override;
+
+    const QPlcSlaveNode *object() const override;
+    QPlcSlaveNode::State state() const override;
+    QString codeFailed() override;
+    QString transportName() const override { return QStringLiteral("inprocess"); }
+    QString address() const override { return {}; }
 
 private:
     QPlcSlaveNodePrivate &m_node;
-    std::shared_ptr<NodeSlot> m_slot;
     bool m_hasLeft = false;
 };
 

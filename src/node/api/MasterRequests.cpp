@@ -45,29 +45,31 @@ public:
         if (!isOfNode(fault.kind))
             return;
         const QString text = qplc::printable(fault.text);
-        const bool hasFailedToJoin = d.isRunning() && m_connection->stage != Connection::Running;
+        const std::shared_ptr<qplc::NodeSession> node = m_connection->session;
+        const bool isRunning = node && node->stage() == qplc::NodeSession::Running;
+        const bool hasFailedToJoin = d.parts->phase.isRunning() && !isRunning;
         if (m_connection->slot->listener || hasFailedToJoin) {
-            d.server->drop(m_connection, text);  // no reason to stop the others
+            d.parts->server.drop(m_connection, text);  // no reason to stop the others
             return;
         }
-        m_connection->hasFailed = true;
-        d.fault(m_connection->name, m_connection->slot->critical,
-                QStringLiteral("node '%1': %2").arg(m_connection->name, text));
+        if (node)
+            node->setFailed(true);
+        d.parts->faults.nodeFailed(m_connection->name, m_connection->slot->critical,
+                                   QStringLiteral("node '%1': %2").arg(m_connection->name, text));
     }
 
     // ---- states ----
-    void operator()(const messages::InitializeAllStates &) const { d.request(m_connection, d.initializeAllStates()); }
+    void operator()(const messages::InitializeAllStates &) const { finish(d.initializeAllStates()); }
     void operator()(const messages::StartRealTime &start) const
     {
-        const quint64 token = start.token.value_or(messages::Hex64());
-        d.request(m_connection, d.startRealTime(start.cycles.value_or(0), d.isStartPermitted(token)));
+        finish(d.startRealTime(start.cycles.value_or(0), start.token.value_or(messages::Hex64())));
     }
     void operator()(const messages::Stop &stop) const
     {
         const QString called = wordOf(stop.whoever);
         const QString who = qplc::shownName(m_connection->peer, called.isEmpty() ? m_connection->name : called);
         const QString how = wordOf(stop.how);
-        if (d.isRunning() && d.state != QPlcMasterNode::SafeStop)
+        if (d.parts->phase.isRunning() && d.state() != QPlcMasterNode::SafeStop)
             d.askedStop = {m_connection->socket, who, how, qplc::wallClockNow()};
         d.stop(how.isEmpty() ? QStringLiteral("'%1' asked for it").arg(who)
                              : QStringLiteral("'%1' asked for it (%2)").arg(who, how));
@@ -76,10 +78,10 @@ public:
     void operator()(const messages::SafeStop &stop) const
     {
         const QString reason = stop.reason.isEmpty() ? QString() : QStringLiteral(": ") + qplc::printable(stop.reason);
-        d.safeStop(QStringLiteral("'%1' asked for it%2").arg(m_connection->shownName(), reason));
+        d.parts->faults.safeStop(QStringLiteral("'%1' asked for it%2").arg(m_connection->shownName(), reason));
         m_connection->send(messages::Done());
     }
-    void operator()(const messages::Reset &) const { d.request(m_connection, d.reset()); }
+    void operator()(const messages::Reset &) const { finish(d.reset()); }
     void operator()(const messages::Arm &) const
     {
         if (d.arm())
@@ -92,17 +94,17 @@ public:
     void operator()(const messages::SetSignals &wish) const
     {
         qplc::Refusal refusal;
-        finish(d.settings->setSignals(m_connection->socket, wish, &refusal), refusal);
+        finish(d.parts->settings.setSignals(m_connection->socket, wish, &refusal), refusal);
     }
     void operator()(const messages::TakeLease &wish) const
     {
         qplc::Refusal refusal;
-        finish(d.leases->take(*m_connection, wish, &refusal), refusal);
+        finish(d.parts->leases.take(*m_connection, wish, &refusal), refusal);
     }
     void operator()(const messages::ReleaseLease &wish) const
     {
         qplc::Refusal refusal;
-        finish(d.leases->release(*m_connection, wish, &refusal), refusal);
+        finish(d.parts->leases.release(*m_connection, wish, &refusal), refusal);
     }
 
     // ---- questions ----
@@ -120,7 +122,7 @@ public:
     {
         messages::Signals reply;
         qplc::Refusal refusal;
-        if (qplc::signalReply(*d.cycle, *d.registry, d.leaseBooks, question.names, &reply, &refusal))
+        if (qplc::signalReply(d.parts->cycle, d.parts->registry, d.leaseBooks, question.names, &reply, &refusal))
             answer(reply, QStringLiteral("too many signals for one answer; ask for some of them by name"));
         else
             m_connection->fail(refusal.error, refusal.text);
@@ -128,13 +130,13 @@ public:
     void operator()(const messages::GetStatistics &question) const
     {
         const auto detail = question.histograms ? QPlcDistribution::WithBins : QPlcDistribution::FiguresOnly;
-        answer(qplc::statisticsReply(d.cycleStatistics(detail)),
+        answer(qplc::statisticsReply(qplc::statisticsOf(d.parts->cycle, d.parts->registry, detail)),
                question.histograms ? QStringLiteral("too many nodes for one answer; ask without histograms")
                                    : QStringLiteral("too many nodes for one answer"));
     }
     void operator()(const messages::GetLeases &) const
     {
-        answer(messages::Leases{d.leases->entries()}, QStringLiteral("too many leases for one answer"));
+        answer(messages::Leases{d.parts->leases.entries()}, QStringLiteral("too many leases for one answer"));
     }
     void operator()(const messages::GetEvents &question) const
     {
@@ -156,10 +158,34 @@ private:
     {
         if (!isOfNode(kind))
             return;
-        if (d.isRunning() || m_connection->slot->listener)
-            d.continueJoin(m_connection, kind, outputs, goesOn);
+        if (m_connection->owes(kind))
+            takeOwed(outputs, goesOn);
+        else if (m_connection->slot->listener)
+            qCDebug(lcMaster).noquote() << "node" << m_connection->name << "gives the answer"
+                                        << Message(kind).kindName() << "to a sequence that has ended";
         else
-            d.continueSequence(m_connection, kind, outputs);
+            m_connection->fail(QStringLiteral("WrongState"),
+                               QStringLiteral("%1 was not asked for").arg(Message(kind).kindName()));
+    }
+    void takeOwed(const QByteArray &outputs, bool goesOn) const
+    {
+        const std::shared_ptr<qplc::NodeSession> node = m_connection->session;  // it may be dropped for its answer
+        if (d.parts->phase.isRunning() || !node->isAwaited())
+            d.parts->joining.takeAnswer(*node, outputs, goesOn);
+        else if (node->stage() == qplc::NodeSession::Starting)
+            d.parts->starting.takeAnswer(*node);
+        else
+            d.parts->initialization.takeAnswer(*node, outputs);
+    }
+    /// Answers what was refused or is done; else the asker waits for the end of the sequence.
+    void finish(bool isAccepted) const
+    {
+        if (!isAccepted)
+            m_connection->fail(QStringLiteral("WrongState"), d.errorString);
+        else if (d.parts->step.isUnderWay())
+            d.m_requester = m_connection->socket;
+        else
+            m_connection->send(messages::Done());
     }
     void finish(bool isDone, const qplc::Refusal &refusal) const
     {
@@ -181,14 +207,14 @@ private:
 
 void QPlcMasterNodePrivate::receive(Connection *connection, const Message &message)
 {
-    leases->renew(connection->socket);
+    parts->leases.renew(connection->socket);
     QString fault;
     switch (messages::dispatch(messages::Requests(), message, Requests(*this, connection), &fault)) {
     case messages::Dispatch::Delivered:
         break;
     case messages::Dispatch::Malformed:
         if (connection->owes(message.kind()))
-            server->drop(connection, fault);  // nobody waits for an answer that will not come
+            parts->server.drop(connection, fault);  // nobody waits for an answer that will not come
         else
             connection->fail(QStringLiteral("MalformedMessage"), fault);
         break;

@@ -4,20 +4,18 @@
 #include "QPlcMasterNodePrivate.h"
 #include "QPlcSignalIndexTable.h"
 #include "node/cycle/PeriodRange.h"
+#include "node/session/MasterReplies.h"
+#include "node/statistics/StatisticsReply.h"
 #include "realtime/TimeSource.h"
 
 using namespace std::chrono_literals;
 
 namespace {
 
-bool isSingleReal(QPlcSignalType type)
+/// \param fault  why a signal could not be claimed; empty: it was
+bool isClaimed(QPlcMasterNodePrivate &master, const QString &fault)
 {
-    return type.isReal() && !type.isArray();
-}
-
-bool isDateTime(QPlcSignalType type)
-{
-    return type.isDateTime();
+    return fault.isEmpty() || master.setError(QPlcMasterNode::SignalError, fault);
 }
 
 }  // namespace
@@ -33,13 +31,13 @@ QPlcMasterNode::QPlcMasterNode(QObject *parent)
 QPlcMasterNode::~QPlcMasterNode()
 {
     const QSignalBlocker silence(this);  // nobody wants to hear from a master that is half gone
-    d->end(QStringLiteral("the master ends"));
+    d->apply(qplc::MasterEvent::End, QStringLiteral("the master ends"));
     stopServer();
 }
 
 bool QPlcMasterNode::setSignalTable(const QPlcSignalTable &table)
 {
-    if (d->registry)
+    if (d->parts)
         return d->setError(StateError,
                            QStringLiteral("the signal table can only be set before signals, nodes and servers"));
     d->table = table;
@@ -53,23 +51,26 @@ QPlcSignalTable QPlcMasterNode::signalTable() const
 
 bool QPlcMasterNode::setTimeSignal(const QString &signalName)
 {
-    return d->claimSignal(signalName, &d->timeSignal, &isDateTime, QStringLiteral("DateTime"));
+    return d->prepare() && isClaimed(*d, d->parts->ownSignals.claim(qplc::OwnSignals::Time, signalName));
 }
 
 bool QPlcMasterNode::activateJitterMeasurement(const QString &signalName)
 {
-    return d->claimSignal(signalName, &d->jitterSignal, &isSingleReal, QStringLiteral("Real"));
+    return d->prepare() && isClaimed(*d, d->parts->ownSignals.claim(qplc::OwnSignals::Jitter, signalName));
 }
 
 bool QPlcMasterNode::activateWorkloadMeasurement(const QString &signalName)
 {
-    return d->claimSignal(signalName, &d->workloadSignal, &isSingleReal, QStringLiteral("Real"));
+    return d->prepare() && isClaimed(*d, d->parts->ownSignals.claim(qplc::OwnSignals::Workload, signalName));
 }
 
 bool QPlcMasterNode::activateStatisticSignal(QPlcStatisticFigure figure, const QString &signalName,
                                              const QString &nodeName)
 {
-    return d->activateStatisticSignal(figure, signalName, nodeName);
+    const QString fault = qplc::OwnSignals::faultOf(figure, signalName, nodeName);
+    if (!fault.isEmpty())
+        return d->setError(SignalError, fault);
+    return d->prepare() && isClaimed(*d, d->parts->ownSignals.add(figure, signalName, nodeName));
 }
 
 bool QPlcMasterNode::setInterval(std::chrono::nanoseconds period)
@@ -78,13 +79,13 @@ bool QPlcMasterNode::setInterval(std::chrono::nanoseconds period)
         return d->setError(IntervalError,
                            QStringLiteral("a period of %1 s is out of range; use 0.00001 ... 10 s")
                                .arg(double(period.count()) * 1e-9));
-    d->interval = period;
+    d->phaseSettings.interval = period;
     return true;
 }
 
 std::chrono::nanoseconds QPlcMasterNode::interval() const
 {
-    return d->interval;
+    return d->phaseSettings.interval;
 }
 
 bool QPlcMasterNode::setClock(QPlcClock clock)
@@ -94,18 +95,18 @@ bool QPlcMasterNode::setClock(QPlcClock clock)
             IntervalError,
             QStringLiteral("a clock of %1 times real time is out of range; use 0.001 ... 1000, or lockstep")
                 .arg(clock.scale()));
-    d->clock = clock;
+    d->phaseSettings.clock = clock;
     return true;
 }
 
 QPlcClock QPlcMasterNode::clock() const
 {
-    return d->clock;
+    return d->phaseSettings.clock;
 }
 
 void QPlcMasterNode::setRealTimeOptions(const QPlcRealTimeOptions &options)
 {
-    d->realTimeOptions = options;
+    d->phaseSettings.realTimeOptions = options;
 }
 
 bool QPlcMasterNode::setOverrunPolicy(QPlcOverrunPolicy policy)
@@ -115,28 +116,28 @@ bool QPlcMasterNode::setOverrunPolicy(QPlcOverrunPolicy policy)
                            QStringLiteral("catching up %1 cycles is out of range; use 1 ... %2")
                                .arg(policy.catchUpCycles())
                                .arg(QPlcOverrunPolicy::MaximumCatchUp));
-    d->overrunPolicy = policy;
+    d->phaseSettings.overrunPolicy = policy;
     return true;
 }
 
 QPlcOverrunPolicy QPlcMasterNode::overrunPolicy() const
 {
-    return d->overrunPolicy;
+    return d->phaseSettings.overrunPolicy;
 }
 
 void QPlcMasterNode::setCycleLimit(quint64 cycles)
 {
-    d->cycleLimit = cycles;
+    d->phaseSettings.cycleLimit = cycles;
 }
 
 void QPlcMasterNode::setInitializationTimeout(std::chrono::milliseconds time)
 {
-    d->stepTimer.setInterval(time);
+    d->stepTimer.setLength(time);
 }
 
 void QPlcMasterNode::setProfile(QPlcProfile::Value profile)
 {
-    d->profileWanted = profile;
+    d->phaseSettings.profile = profile;
 }
 
 QPlcProfile::Value QPlcMasterNode::profile() const
@@ -151,27 +152,27 @@ QString QPlcMasterNode::profileReason() const
 
 void QPlcMasterNode::setLongestWait(std::chrono::nanoseconds time)
 {
-    d->longestWait = time;
+    d->phaseSettings.longestWait = time;
 }
 
 void QPlcMasterNode::setGapLimit(std::chrono::nanoseconds time)
 {
-    d->gapLimit = time;
+    d->phaseSettings.gapLimit = time;
 }
 
 void QPlcMasterNode::setOverrunLimit(int overruns)
 {
-    d->overrunLimit = overruns;
+    d->phaseSettings.overrunLimit = overruns;
 }
 
 void QPlcMasterNode::setArmingRequired(bool required)
 {
-    d->armingWanted = required;
+    d->serverSettings.armingWanted = required;
 }
 
 bool QPlcMasterNode::isArmingRequired() const
 {
-    return d->isArmingRequired();
+    return d->serverSettings.isArmingRequired();
 }
 
 bool QPlcMasterNode::startServer(const QPlcUnderlyingProtocol &protocol)
@@ -181,36 +182,36 @@ bool QPlcMasterNode::startServer(const QPlcUnderlyingProtocol &protocol)
 
 void QPlcMasterNode::setLocalName(const QString &name)
 {
-    d->localName = name;
+    d->serverSettings.localName = name;
 }
 
 void QPlcMasterNode::setMulticastGroup(const QHostAddress &group)
 {
-    d->multicastGroup = group;
+    d->serverSettings.multicastGroup = group;
 }
 
 void QPlcMasterNode::setBeacon(bool on)
 {
-    d->hasBeacon = on;
+    d->serverSettings.hasBeacon = on;
 }
 
 void QPlcMasterNode::stopServer()
 {
-    if (!d->server)
+    if (!d->parts)
         return;
-    d->end(QStringLiteral("the server of the master ends"));
+    d->apply(qplc::MasterEvent::End, QStringLiteral("the server of the master ends"));
     d->beacon.end();
-    d->server->close();
+    d->parts->server.close();
 }
 
 quint16 QPlcMasterNode::serverPort() const
 {
-    return d->server ? d->server->port() : 0;
+    return d->parts ? d->parts->server.port() : 0;
 }
 
 void QPlcMasterNode::setInsecureNetworkAllowed(bool allowed)
 {
-    d->insecureNetworkAllowed = allowed;
+    d->serverSettings.insecureNetworkAllowed = allowed;
 }
 
 bool QPlcMasterNode::setFaultPlan(const QString &plan)
@@ -220,28 +221,28 @@ bool QPlcMasterNode::setFaultPlan(const QString &plan)
         return d->setError(StateError, QStringLiteral("fault plan: %1").arg(text));
     if (serverPort() != 0)
         return d->setError(StateError, QStringLiteral("a fault plan is set before the server starts: stop it first"));
-    d->faultPlan = plan;
+    d->serverSettings.faultPlan = plan;
     return true;
 }
 
 QString QPlcMasterNode::faultPlan() const
 {
-    return d->faultPlan;
+    return d->serverSettings.faultPlan;
 }
 
 void QPlcMasterNode::setSecurity(const QPlcSecurity &security)
 {
-    d->security = security;
+    d->serverSettings.security = security;
 }
 
 QPlcSecurity QPlcMasterNode::security() const
 {
-    return d->security;
+    return d->serverSettings.security;
 }
 
 void QPlcMasterNode::setMaximumConnections(int connections)
 {
-    d->maximumConnections = connections;
+    d->serverSettings.maximumConnections = connections;
 }
 
 bool QPlcMasterNode::addLocalNode(QPlcSlaveNode *node)
@@ -258,29 +259,29 @@ void QPlcMasterNode::removeLocalNode(QPlcSlaveNode *node)
 QVector<QPlcNodeInfo> QPlcMasterNode::nodes() const
 {
     QVector<QPlcNodeInfo> infos;
-    if (!d->registry)
+    if (!d->parts)
         return infos;
-    for (const std::shared_ptr<qplc::NodeSlot> &slot : d->registry->nodes()) {
-        if (slot->local || slot->peer)  // else its cyclic channel is not there yet
-            infos.append(d->info(*slot));
+    for (const std::shared_ptr<qplc::NodeSlot> &slot : d->parts->registry.nodes()) {
+        if (const auto node = d->parts->nodes.of(slot.get()))  // else its cyclic channel is not there yet
+            infos.append(qplc::infoOf(*node));
     }
     return infos;
 }
 
 QPlcSchedule QPlcMasterNode::schedule() const
 {
-    return d->registry ? qplc::describeSchedule(*d->registry, d->table) : QPlcSchedule();
+    return d->parts ? qplc::describeSchedule(d->parts->registry, d->table) : QPlcSchedule();
 }
 
 QString QPlcMasterNode::writer(const QString &signalName) const
 {
     const QPlcSignalIndex index = d->table.indexOf(signalName);
-    return d->registry && index != QPlcInvalidSignalIndex ? d->registry->writer(index) : QString();
+    return d->parts && index != QPlcInvalidSignalIndex ? d->parts->registry.writer(index) : QString();
 }
 
 QPlcMasterNode::State QPlcMasterNode::state() const
 {
-    return d->state;
+    return d->state();
 }
 
 QString QPlcMasterNode::stateReason() const
@@ -290,7 +291,7 @@ QString QPlcMasterNode::stateReason() const
 
 QString QPlcMasterNode::causeThatRemains() const
 {
-    return d->remainingCause();
+    return d->parts ? d->parts->faults.remainingCause() : QString();
 }
 
 bool QPlcMasterNode::isArmed() const
@@ -310,49 +311,55 @@ QString QPlcMasterNode::errorString() const
 
 QPlcMasterStatistics QPlcMasterNode::statistics() const
 {
-    QPlcMasterStatistics statistics = d->cycle ? d->cycle->statistics() : QPlcMasterStatistics();
-    if (d->server)
-        d->server->count(&statistics);
+    if (!d->parts)
+        return {};
+    QPlcMasterStatistics statistics = d->parts->cycle.statistics();
+    d->parts->server.count(&statistics);
     return statistics;
 }
 
 QPlcCycleStatistics QPlcMasterNode::cycleStatistics(QPlcDistribution::Detail detail) const
 {
-    return d->cycleStatistics(detail);
+    return d->parts ? qplc::statisticsOf(d->parts->cycle, d->parts->registry, detail) : QPlcCycleStatistics();
 }
 
 QVector<QPlcRealTimeSetting> QPlcMasterNode::realTimeSettings() const
 {
-    return d->cycle ? d->cycle->realTimeSettings() : QVector<QPlcRealTimeSetting>();
+    return d->parts ? d->parts->cycle.realTimeSettings() : QVector<QPlcRealTimeSetting>();
 }
 
 QVector<QPlcLease> QPlcMasterNode::leases() const
 {
-    return d->leases ? d->leases->list() : QVector<QPlcLease>();
+    return d->parts ? d->parts->leases.list() : QVector<QPlcLease>();
 }
 
 quint64 QPlcMasterNode::cycle() const
 {
-    return d->cycle ? d->cycle->cycle() : 0;
+    return d->parts ? d->parts->cycle.cycle() : 0;
 }
 
 QPlcValue QPlcMasterNode::signalValue(const QString &signalName) const
 {
     const QPlcSignalIndex index = d->table.indexOf(signalName);
-    return d->cycle && index != QPlcInvalidSignalIndex ? d->cycle->value(index) : QPlcValue();
+    return d->parts && index != QPlcInvalidSignalIndex ? d->parts->cycle.value(index) : QPlcValue();
 }
 
 QPlcQuality QPlcMasterNode::signalQuality(const QString &signalName) const
 {
     const QPlcSignalIndex index = d->table.indexOf(signalName);
-    if (!d->cycle || index == QPlcInvalidSignalIndex)
+    if (!d->parts || index == QPlcInvalidSignalIndex)
         return {};
-    return QPlcQuality::fromByte(quint8(d->cycle->values()[d->cycle->qualityOffset(index)]));
+    return QPlcQuality::fromByte(quint8(d->parts->cycle.values()[d->parts->cycle.qualityOffset(index)]));
 }
 
 bool QPlcMasterNode::setSignalValue(const QString &signalName, const QPlcValue &value)
 {
-    return d->setSignalValue(signalName, value);
+    if (!d->prepare())
+        return false;
+    qplc::Refusal refusal;
+    if (d->parts->settings.setSignal(signalName, value, &refusal))
+        return true;
+    return d->setError(refusal.error == QLatin1String("WrongState") ? StateError : SignalError, refusal.text);
 }
 
 bool QPlcMasterNode::initializeAllStates()
@@ -362,12 +369,13 @@ bool QPlcMasterNode::initializeAllStates()
 
 bool QPlcMasterNode::startRealTime()
 {
-    return d->startRealTime(0, d->isStartPermitted(isArmed() ? d->arming.token() : 0));
+    return d->startRealTime(0, isArmed() ? d->arming.token() : 0);
 }
 
 void QPlcMasterNode::safeStop(const QString &reason)
 {
-    d->safeStop(reason.isEmpty() ? QStringLiteral("the master was told to") : reason);
+    if (d->parts)
+        d->parts->faults.safeStop(reason.isEmpty() ? QStringLiteral("the master was told to") : reason);
 }
 
 bool QPlcMasterNode::arm()

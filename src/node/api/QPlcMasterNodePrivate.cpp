@@ -1,21 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "QPlcMasterNodePrivate.h"
 
+#include "LocalNode.h"
 #include "QPlcSignalIndexTable.h"
 #include "QPlcSlaveNodePrivate.h"
 #include "node/Logging.h"
 #include "node/session/MasterReplies.h"
+#include "node/session/RemoteNode.h"
+#include "node/state/StateText.h"
 #include "realtime/Host.h"
+#include "realtime/TimeSource.h"
 
 #include <QtCore/QCoreApplication>
-#include <QtCore/QMetaEnum>
-
-#include <cmath>
 
 #include <algorithm>
+#include <utility>
 
-using Message = QPlcMessage;
+using Action = qplc::MasterAction;
 using Event = qplc::MasterEvent;
+using qplc::JournalEvent;
+using qplc::NodeRegistry;
 using qplc::NodeSlot;
 
 namespace {
@@ -26,48 +30,131 @@ quint64 newSession()
 }
 
 /// What an error is about, unless who tells it knows better.
-qplc::JournalEvent::Kind kindOf(QPlcMasterNode::Error error)
+JournalEvent::Kind kindOf(QPlcMasterNode::Error error)
 {
     switch (error) {
     case QPlcMasterNode::SignalError:
-        return qplc::JournalEvent::Set;
+        return JournalEvent::Set;
     case QPlcMasterNode::NodeError:
-        return qplc::JournalEvent::Node;
+        return JournalEvent::Node;
     case QPlcMasterNode::InitializationError:
-        return qplc::JournalEvent::Fault;
+        return JournalEvent::Fault;
     default:
-        return qplc::JournalEvent::State;
+        return JournalEvent::State;
     }
+}
+
+qplc::messages::MasterHello helloOf(const QPlcMasterNodePrivate &master)
+{
+    qplc::messages::MasterHello message;
+    message.protocol = qplc::messages::protocolVersion;
+    message.name = NodeRegistry::masterName();
+    message.uuid = master.uuid;
+    message.session = master.session;
+    message.tableHash = master.table.hash();
+    message.state = qplc::messageStateOf(master.state());
+    message.period = master.phaseSettings.interval;
+    message.security = master.networkSecurity;
+    message.faults = master.serverSettings.faultPlan;
+    return message;
+}
+
+/// What the profile of a phase would depend on now.
+qplc::ProfileFacts factsOf(const QPlcMasterNodePrivate &master)
+{
+    qplc::ProfileFacts facts;
+    facts.wanted = master.phaseSettings.profile;
+    facts.isLockstep = master.phaseSettings.clock.isLockstep();
+    if (!master.parts)
+        return facts;
+    const qplc::MasterServer &server = master.parts->server;
+    if (server.port() != 0 && !server.address().isLoopback())
+        facts.networkAddress = server.address().toString();
+    const auto &nodes = master.parts->registry.nodes();
+    const auto found = std::find_if(nodes.begin(), nodes.end(),
+                                    [](const std::shared_ptr<NodeSlot> &slot) { return slot->hardware; });
+    if (found != nodes.end())
+        facts.hardwareNode = (*found)->name;
+    return facts;
 }
 
 }  // namespace
 
 QPlcMasterNodePrivate::QPlcMasterNodePrivate(QPlcMasterNode *master)
     : q(master)
-    , refusedValues(journal,
-                    [this](QPlcSignalIndex signal) {
-                        const qplc::SignalGuard &guard = cycle->signalGuard();
-                        return guard.nonFinite(signal) + guard.outOfRange(signal);
-                    })
+    , phaseProfile(journal, [this] { return factsOf(*this); })
     , session(newSession())
     , uuid(qplc::newUuid())
 {
-    stepTimer.setSingleShot(true);
-    stepTimer.setInterval(2000);
-    QObject::connect(&stepTimer, &QTimer::timeout, q, [this] { stepTimedOut(); });
 }
 
-QPlcMasterNodePrivate::~QPlcMasterNodePrivate() = default;
+QPlcMasterNodePrivate::Parts::Parts(QPlcMasterNodePrivate &master)
+    : registry(master.table)
+    , cycle(master.table, master.hub, lcCyclic().isDebugEnabled())
+    , settings(registry, cycle, master.leaseBooks)
+    , leases(master.leaseBooks, registry, cycle, settings)
+    , ownSignals(registry, master.table, master.leaseBooks, settings)
+    , rosters(master.table, registry, nodes, master.leaseBooks)
+    , phase(cycle, registry, rosters, ownSignals, master.phaseSettings, master.phaseProfile, master.journal)
+    , server(
+          registry, cycle.image(), master.hub, master.session, [&master] { return helloOf(master); },
+          [this, &master](const qplc::NodeDeclaration &node) {
+              return isPhaseUnderWay() ? master.phaseProfile.objectionTo(node) : qplc::Refusal();
+          },
+          nullptr)
+    , faults(master, nodes, phase)
+    , reports(master, cycle, registry, nodes, phase, faults, master.phaseSettings, master.journal)
+    , audit(server, master.journal, phase)
+    , viewers(server, master.journal, settings, leases, phase, master.table)
+    , values(cycle, registry, master.leaseBooks, ownSignals.statistics())
+    , starts(master.phaseSettings, master.phaseProfile, phase, master.hub, master.session)
+    , step(master.stepTimer)
+    , joining(step, values, starts, phase, master.phaseProfile, master.journal)
+    , initialization(master, step, nodes, values, master.phaseProfile, joining)
+    , starting(master, step, nodes, starts, master.phaseProfile, phase, joining)
+    , stopping(master, step, nodes)
+{
+}
+
+/// What the parts tell the master, and the program.
+void QPlcMasterNodePrivate::connectParts()
+{
+    using qplc::MasterServer;
+    const MasterServer &server = parts->server;
+    QObject::connect(&server, &MasterServer::attached, q, [this](Connection *newcomer) { nodeAttached(newcomer); });
+    QObject::connect(&server, &MasterServer::lost, q,
+                     [this](Connection *gone, const QString &reason) { nodeLost(gone, reason); });
+    QObject::connect(&server, &MasterServer::received, q,
+                     [this](Connection *asker, const QPlcMessage &message) { receive(asker, message); });
+    QObject::connect(
+        &server, &MasterServer::refused, q,
+        [this](const QString &name, const QString &, const QString &reason) { Q_EMIT q->nodeRefused(name, reason); });
+    QObject::connect(&parts->leases, &qplc::MasterLeases::changed, q, &QPlcMasterNode::leaseChanged);
+    QObject::connect(&parts->reports, &qplc::MasterReports::realTimeViolated, q, &QPlcMasterNode::realTimeViolated);
+    const qplc::InitializeSequence &initialization = parts->initialization;
+    QObject::connect(&initialization, &qplc::InitializeSequence::statesInitialized, q,
+                     &QPlcMasterNode::statesInitialized);
+    QObject::connect(&initialization, &qplc::InitializeSequence::done, q, [this] {
+        if (m_startAfterwards) {
+            carryOut(Action::StartNodes, {});
+            return;
+        }
+        apply(Event::StatesInitialized);
+        answerRequester(true, {});
+    });
+    const qplc::StartSequence &starting = parts->starting;
+    QObject::connect(&starting, &qplc::StartSequence::realTimeHasStarted, q, &QPlcMasterNode::realTimeHasStarted);
+    QObject::connect(&starting, &qplc::StartSequence::done, q, [this] { answerRequester(true, {}); });
+}
 
 bool QPlcMasterNodePrivate::setError(QPlcMasterNode::Error newError, const QString &text)
 {
-    return setError(newError, text, qplc::NodeRegistry::masterName(), kindOf(newError));
+    return setError(newError, text, NodeRegistry::masterName(), kindOf(newError));
 }
 
 bool QPlcMasterNodePrivate::setError(QPlcMasterNode::Error newError, const QString &text, const QString &source,
-                                     qplc::JournalEvent::Kind kind)
+                                     JournalEvent::Kind kind)
 {
-    using qplc::JournalEvent;
     error = newError;
     errorString = text;
     const auto severity = newError == QPlcMasterNode::StateError ? JournalEvent::Warning : JournalEvent::Error;
@@ -83,7 +170,7 @@ bool QPlcMasterNodePrivate::setError(QPlcMasterNode::Error newError, const QStri
 
 bool QPlcMasterNodePrivate::prepare()
 {
-    if (registry)
+    if (parts)
         return true;
     if (table.isEmpty())
         table = QPlcSignalIndexTable::current();
@@ -94,179 +181,137 @@ bool QPlcMasterNodePrivate::prepare()
                 "the master has no signals; read a table with QPlcSignalIndexTable::initializeFromIniFile() %1")
                 .arg(QPlcSignalIndexTable::lastErrorString())
                 .trimmed());
-    registry = std::make_unique<qplc::NodeRegistry>(table);
-    cycle = std::make_unique<qplc::MasterCycle>(table, hub, lcCyclic().isDebugEnabled());
-    settings = std::make_unique<qplc::MasterSettings>(*registry, *cycle, leaseBooks);
-    m_reportNotifier = std::make_unique<QSocketNotifier>(cycle->reports().descriptor(), QSocketNotifier::Read);
-    QObject::connect(m_reportNotifier.get(), &QSocketNotifier::activated, q, [this] { takeReports(); });
-    const auto hello = [this] {
-        qplc::messages::MasterHello message;
-        message.protocol = qplc::messages::protocolVersion;
-        message.name = qplc::NodeRegistry::masterName();
-        message.uuid = uuid;
-        message.session = session;
-        message.tableHash = table.hash();
-        message.state = qplc::messageStateOf(state);
-        message.period = interval;
-        message.security = networkSecurity;
-        message.faults = faultPlan;
-        return message;
-    };
-    const auto objection = [this](const qplc::NodeDeclaration &node) { return objectionTo(node); };
-    server = std::make_unique<qplc::MasterServer>(*registry, cycle->image(), hub, session, hello, objection, nullptr);
-    QObject::connect(server.get(), &qplc::MasterServer::attached, q, [this](Connection *connection) {
-        settings->leaveToWriters();
-        journal.tell(qplc::JournalEvent::Info, qplc::JournalEvent::Node, connection->name,
-                     QStringLiteral("node %1 registered over %2").arg(connection->name, connection->cyclicKind));
-        journal.clear(QStringLiteral("node ") + connection->name,
-                      QStringLiteral("node %1 is back").arg(connection->name));
-        if (!connection->slot->faultPlan.isEmpty())
-            journal.tell(qplc::JournalEvent::Warning, qplc::JournalEvent::Node, connection->name,
-                         QStringLiteral("node %1 injects faults on purpose: %2")
-                             .arg(connection->name, connection->slot->faultPlan));
-        Q_EMIT q->nodeRegistered(connection->name);
-        m_joiner = connection;
-        apply(connection->slot->listener ? Event::ListenerJoined : Event::NodeJoined,
-              QStringLiteral("node %1 has joined").arg(connection->name));
-        m_joiner = nullptr;
-    });
-    QObject::connect(server.get(), &qplc::MasterServer::lost, q,
-                     [this](Connection *connection, const QString &reason) { nodeLost(connection, reason); });
-    watchSecurity();
-    QObject::connect(server.get(), &qplc::MasterServer::received, q,
-                     [this](Connection *connection, const Message &message) { receive(connection, message); });
-    prepareViewers();
-    return true;
-}
-
-bool QPlcMasterNodePrivate::claimSignal(const QString &name, QPlcSignalIndex *place, bool (*accepts)(QPlcSignalType),
-                                        const QString &wantedType)
-{
-    if (!prepare())
-        return false;
-    const QPlcSignalIndex index = table.indexOf(name);
-    if (index == QPlcInvalidSignalIndex)
-        return setError(QPlcMasterNode::SignalError, QStringLiteral("master: %1").arg(table.unknownSignalText(name)));
-    if (!accepts(table.at(index).type))
-        return setError(QPlcMasterNode::SignalError,
-                        QStringLiteral("master: signal '%1' is %2; give it the type %3")
-                            .arg(name, table.at(index).type.name(), wantedType));
-    if (const qplc::Leases::Lease *lease = leaseBooks.find(index))
-        return setError(QPlcMasterNode::SignalError,
-                        QStringLiteral("master: %1").arg(qplc::leaseRefusal(name, *lease).text));
-    if (*place != QPlcInvalidSignalIndex)
-        registry->release(*place);
-    if (!registry->claim(index))
-        return setError(
-            QPlcMasterNode::SignalError,
-            QStringLiteral("master: signal '%1' is written by '%2' already").arg(name, registry->writer(index)));
-    *place = index;
-    settings->leaveToWriters();
+    parts = std::make_unique<Parts>(*this);
+    connectParts();
     return true;
 }
 
 bool QPlcMasterNodePrivate::startServer(const QPlcUnderlyingProtocol &protocol)
 {
-    if (!prepare())
+    if (!prepare() || !apply(Event::Listen))
         return false;
-    if (!apply(Event::Listen))
-        return false;
-    QHostAddress address = protocol.address();
-    if (!checkSecurity()) {
+    const QString fault = serverSettings.security.errorString(QPlcSecurity::MasterSide);
+    if (!fault.isEmpty()) {
+        setError(QPlcMasterNode::ServerError, fault);
         apply(Event::ServerFailed, errorString);
         return false;
     }
-    chooseAddress(&address);
-    server->setSecurity(security);
-    injectFaults();
-    server->setMaximumConnections(maximumConnections);
-    if (!server->listen(address, protocol.port(), localName, multicastGroup)) {
-        apply(Event::ServerFailed, server->errorString());
-        return setError(QPlcMasterNode::ServerError, server->errorString());
+    const QHostAddress address = serverSettings.allowedAddress(protocol.address());
+    networkSecurity = serverSettings.securityName(address);
+    qplc::MasterServer &server = parts->server;
+    server.setSecurity(serverSettings.security);
+    server.close();  // the frames of its nodes follow the last fault plan
+    QString text;
+    hub.setFaults(serverSettings.faultPlan.isEmpty() ? std::nullopt
+                                                     : qplc::FaultPlan::fromText(serverSettings.faultPlan, &text));
+    if (!serverSettings.faultPlan.isEmpty())
+        journal.tell(JournalEvent::Warning, JournalEvent::State, NodeRegistry::masterName(),
+                     QStringLiteral("the master injects faults on purpose: %1").arg(serverSettings.faultPlan));
+    server.setMaximumConnections(serverSettings.maximumConnections);
+    const QString &name = serverSettings.localName;
+    if (!server.listen(address, protocol.port(), name, serverSettings.multicastGroup)) {
+        apply(Event::ServerFailed, server.errorString());
+        return setError(QPlcMasterNode::ServerError, server.errorString());
     }
     apply(Event::ServerListens);
     beacon.begin(address,
-                 {server->port(), !security.isNone(), table.hash(),
-                  localName.isEmpty() ? QCoreApplication::applicationName() : localName},
-                 hasBeacon);
-    qCInfo(lcMaster).noquote() << "listening on" << address.toString() << "port" << server->port() << "security"
-                               << security.modeName();
+                 {server.port(), !serverSettings.security.isNone(), table.hash(),
+                  name.isEmpty() ? QCoreApplication::applicationName() : name},
+                 serverSettings.hasBeacon);
+    qCInfo(lcMaster).noquote() << "listening on" << address.toString() << "port" << server.port() << "security"
+                               << serverSettings.security.modeName();
     return true;
 }
 
-void QPlcMasterNodePrivate::injectFaults()
-{
-    QString text;
-    const std::optional<qplc::FaultPlan> plan = qplc::FaultPlan::fromText(faultPlan, &text);
-    server->close();  // the frames of its nodes follow the last plan
-    hub.setFaults(faultPlan.isEmpty() ? std::nullopt : plan);
-    if (faultPlan.isEmpty())
-        return;
-    journal.tell(qplc::JournalEvent::Warning, qplc::JournalEvent::State, qplc::NodeRegistry::masterName(),
-                 QStringLiteral("the master injects faults on purpose: %1").arg(faultPlan));
-}
+// ---- nodes ----
 
 bool QPlcMasterNodePrivate::addLocalNode(QPlcSlaveNode *node)
 {
-    if (!prepare())
-        return false;
-    if (!apply(Event::AddNode, QStringLiteral("node '%1' is added").arg(node->name())))
+    if (!prepare() || !apply(Event::AddNode, QStringLiteral("node '%1' is added").arg(node->name())))
         return false;
     if (QPlcSignalIndexTable::current().isEmpty())
         QPlcSignalIndexTable::setCurrent(table);  // what the node's lists of signals look their names up in
+    QPlcSlaveNodePrivate &program = QPlcSlaveNodePrivate::of(*node);
     QString text;
-    const auto local = std::make_shared<qplc::LocalNode>(QPlcSlaveNodePrivate::of(*node));
-    if (!local->bind(table, &text))
+    if (!qplc::LocalNode::bind(program, table, &text))
         return setError(QPlcMasterNode::SignalError, text);
     qplc::Refusal refusal;
-    const std::shared_ptr<NodeSlot> slot
-        = registry->admit(qplc::NodeDeclaration::fromRuntime(local->runtime()), &refusal);
+    const std::shared_ptr<NodeSlot> slot = parts->registry.admit(qplc::LocalNode::declarationOf(program), &refusal);
     if (!slot)
         return setError(QPlcMasterNode::NodeError, refusal.text);
-    slot->prepare(cycle->image(), session);
-    settings->leaveToWriters();
-    m_localNodes.push_back(local);
-    local->join(q, slot);
+    slot->prepare(parts->cycle.image(), session);
+    parts->settings.leaveToWriters();
+    const auto local = std::make_shared<qplc::LocalNode>(program, slot);
+    parts->nodes.add(local);
+    local->join(q);
     Q_EMIT q->nodeRegistered(slot->name);
     return true;
 }
 
 void QPlcMasterNodePrivate::removeLocalNode(QPlcSlaveNode *node)
 {
-    if (!registry)
+    if (!parts)
         return;
-    end(QStringLiteral("node '%1' is removed").arg(node->name()));
-    const auto isOfNode
-        = [node](const auto &local) { return &local->runtime() == &QPlcSlaveNodePrivate::of(*node).runtime; };
-    const auto found = std::find_if(m_localNodes.begin(), m_localNodes.end(), isOfNode);
-    if (found != m_localNodes.end()) {
-        const std::shared_ptr<qplc::LocalNode> local = *found;
-        m_localNodes.erase(found);
-        registry->remove(local->slot());
-        local->leave();
-    }
-    giveRoster();
+    apply(Event::End, QStringLiteral("node '%1' is removed").arg(node->name()));
+    const std::shared_ptr<qplc::NodeSession> local = parts->nodes.of(node);
+    if (!local)
+        return;
+    parts->nodes.remove(*local);
+    parts->registry.remove(local->slot());
+    local->leave();
 }
 
-/// Null: \a slot is none of a node in this process.
-std::shared_ptr<qplc::LocalNode> QPlcMasterNodePrivate::localNode(const NodeSlot *slot) const
+void QPlcMasterNodePrivate::nodeAttached(Connection *connection)
 {
-    const auto hasSlot = [slot](const auto &local) { return local->slot().get() == slot; };
-    const auto found = std::find_if(m_localNodes.begin(), m_localNodes.end(), hasSlot);
-    return found == m_localNodes.end() ? nullptr : *found;
+    const QString name = connection->name;
+    const auto node = std::make_shared<qplc::RemoteNode>(parts->server, *connection);
+    connection->session = node;
+    parts->nodes.add(node);
+    parts->settings.leaveToWriters();
+    journal.tell(JournalEvent::Info, JournalEvent::Node, name,
+                 QStringLiteral("node %1 registered over %2").arg(name, connection->cyclicKind));
+    journal.clear(QStringLiteral("node ") + name, QStringLiteral("node %1 is back").arg(name));
+    if (!connection->slot->faultPlan.isEmpty())
+        journal.tell(JournalEvent::Warning, JournalEvent::Node, name,
+                     QStringLiteral("node %1 injects faults on purpose: %2").arg(name, connection->slot->faultPlan));
+    Q_EMIT q->nodeRegistered(name);
+    m_joiner = node;
+    apply(node->isListener() ? Event::ListenerJoined : Event::NodeJoined,
+          QStringLiteral("node %1 has joined").arg(node->name()));
+    m_joiner.reset();
 }
 
-// ---- messages ----
-
-/// Answers a request that was refused now, or remembers who waits for its end.
-void QPlcMasterNodePrivate::request(Connection *connection, bool accepted)
+void QPlcMasterNodePrivate::nodeLost(Connection *connection, const QString &reason)
 {
-    if (!accepted)
-        connection->fail(QStringLiteral("WrongState"), errorString);
-    else if (m_step == Step::None)
-        connection->send(qplc::messages::Done());
+    const std::shared_ptr<qplc::NodeSession> node = connection->session;
+    const std::shared_ptr<NodeSlot> slot = connection->slot;
+    const qplc::NodeSession::Stage stage = node ? node->stage() : qplc::NodeSession::Idle;
+    // While cycles run, what it wrote is missing from now on.
+    const auto severity = parts->phase.isRunning() ? JournalEvent::Error : JournalEvent::Warning;
+    if (stage != qplc::NodeSession::Idle && !slot->listener)
+        journal.raise(QStringLiteral("node ") + slot->name, severity, JournalEvent::Node, slot->name,
+                      QStringLiteral("node %1 is gone in the middle of its work: %2").arg(slot->name, reason));
     else
-        m_requester = connection->socket;
+        journal.tell(JournalEvent::Info, JournalEvent::Node, slot->name,
+                     QStringLiteral("node %1 has left: %2").arg(slot->name, reason));
+    const bool wasAwaited = node && parts->step.leave(*node);
+    if (node) {
+        parts->nodes.remove(*node);
+        node->leave();
+    }
+    parts->phase.nodeLeft(node.get(), *slot);
+    Q_EMIT q->nodeLost(slot->name, reason);
+    if (node)
+        parts->faults.nodeLeft(*slot, stage, wasAwaited,
+                               QStringLiteral("node '%1' has left: %2").arg(slot->name, reason));
+}
+
+void QPlcMasterNodePrivate::announce(const qplc::messages::StatesInitialized &news)
+{
+    for (const std::unique_ptr<Connection> &connection : parts->server.connections()) {
+        if (connection->stage >= Connection::Greeted)
+            connection->send(news);
+    }
 }
 
 void QPlcMasterNodePrivate::answerRequester(bool done, const QString &text)
@@ -278,43 +323,152 @@ void QPlcMasterNodePrivate::answerRequester(bool done, const QString &text)
     m_requester.clear();
 }
 
-// ---- values from outside ----
+// ---- what people and programs ask for ----
 
-bool QPlcMasterNodePrivate::setSignalValue(const QString &name, const QPlcValue &value)
+bool QPlcMasterNodePrivate::initializeAllStates()
+{
+    return prepare() && apply(Event::Initialize) && error == QPlcMasterNode::NoError;
+}
+
+bool QPlcMasterNodePrivate::startRealTime(quint64 cycles, quint64 token)
 {
     if (!prepare())
         return false;
-    qplc::Refusal refusal;
-    if (!settings->setSignal(name, value, &refusal))
-        return setError(refusal.error == QLatin1String("WrongState") ? QPlcMasterNode::StateError
-                                                                     : QPlcMasterNode::SignalError,
-                        refusal.text);
+    const QString optionError = phaseSettings.realTimeOptions.errorString();
+    if (!optionError.isEmpty())
+        return setError(QPlcMasterNode::RealTimeError, optionError);
+    const quint64 cyclesOfThisPhase = std::exchange(phaseSettings.cyclesWanted, cycles);
+    if (apply(arming.permitsStart(token, qplc::monotonicNow(), serverSettings.isArmingRequired())
+                  ? Event::Start
+                  : Event::StartUnarmed))
+        return error == QPlcMasterNode::NoError;
+    phaseSettings.cyclesWanted = cyclesOfThisPhase;
+    return false;
+}
+
+bool QPlcMasterNodePrivate::arm()
+{
+    return prepare() && apply(Event::Arm);
+}
+
+bool QPlcMasterNodePrivate::reset()
+{
+    const bool isTooEarly = parts && !parts->faults.remainingCause().isEmpty();
+    return apply(isTooEarly ? Event::ResetTooEarly : Event::Reset, QStringLiteral("reset"));
+}
+
+void QPlcMasterNodePrivate::stop(const QString &reason)
+{
+    apply(Event::Stop, m_state == QPlcMasterNode::Initializing ? QStringLiteral("stopped: %1").arg(reason) : reason);
+}
+
+qplc::ChosenProfile QPlcMasterNodePrivate::profile() const
+{
+    return parts && parts->isPhaseUnderWay() ? phaseProfile.fixed() : phaseProfile.choice();
+}
+
+// ---- states ----
+
+bool QPlcMasterNodePrivate::apply(Event event, const QString &reason)
+{
+    const auto &cell = qplc::masterStates().at(m_state, event);
+    if (cell.verdict == qplc::Verdict::Ignored)
+        return true;
+    if (cell.verdict == qplc::Verdict::Refused) {
+        tellRefusal(event, cell.text);
+        return false;
+    }
+    prepareFor(cell.action);
+    enter(cell.next, reason);
+    if (m_state == cell.next)  // else who heard of it has done something
+        carryOut(cell.action, reason);
     return true;
 }
 
-QPlcNodeInfo QPlcMasterNodePrivate::info(const NodeSlot &slot) const
+void QPlcMasterNodePrivate::tellRefusal(Event event, const char *text)
 {
-    QPlcNodeInfo node;
-    node.name = slot.name;
-    node.id = slot.id;
-    node.policy
-        = QString::fromLatin1(QMetaEnum::fromType<QPlcSlaveNode::RealTimeViolationPolicy>().valueToKey(slot.policy));
-    node.listener = slot.listener;
-    node.critical = slot.critical;
-    node.state = stateOf(slot);
-    node.every = slot.interval.cycles();
-    node.inputs = int(slot.inputLayout.fields().size());
-    node.outputs = int(slot.outputLayout.fields().size());
-    node.lateAnswers = slot.statistics.late;
-    node.duplicates = slot.statistics.duplicated + slot.statistics.reordered;
-    node.rejected = slot.statistics.rejected;
-    node.forged = slot.statistics.forged;
-    node.resent = slot.statistics.resent;
-    node.faultPlan = slot.faultPlan;
-    node.transport = QStringLiteral("inprocess");
-    if (const Connection *connection = slot.local ? nullptr : server->connectionOf(&slot)) {
-        node.transport = connection->cyclicKind;
-        node.address = connection->socket->peerName();
+    QString sentence = QString::fromLatin1(text);
+    sentence.replace(QStringLiteral("%1"), stateReason);
+    if (event == Event::ResetTooEarly)
+        sentence.replace(QStringLiteral("%2"), parts->faults.remainingCause());
+    setError(QPlcMasterNode::StateError,
+             QStringLiteral("%1 is not possible in state %2: %3")
+                 .arg(QLatin1String(qplc::requestName(event)), qplc::stateText(QLatin1String(qplc::nameOf(m_state))),
+                      sentence));
+}
+
+void QPlcMasterNodePrivate::enter(QPlcMasterNode::State newState, const QString &reason)
+{
+    if (m_state == newState)
+        return;
+    using State = QPlcMasterNode::State;
+    const bool isTransient = newState == State::WaitingForLateSlaves
+        || (m_state == State::WaitingForLateSlaves && newState == State::RealTime);
+    m_state = newState;
+    stateReason = m_state == State::SafeStop || m_state == State::Fault ? reason : QString();
+    if (m_state == State::RealTime && !isTransient)
+        askedStop = {};
+    arming.disarm();
+    const QString words = qplc::stateText(QLatin1String(qplc::nameOf(m_state)));
+    if (!isTransient || parts->reports.isWaitTold())
+        journal.stateChanged(reason.isEmpty() ? words : QStringLiteral("%1: %2").arg(words, reason), isTransient);
+    Q_EMIT q->stateChanged(newState);
+}
+
+/// What has to be done before the next state is there.
+void QPlcMasterNodePrivate::prepareFor(Action action)
+{
+    if (action == Action::EndCycles || action == Action::Unlatch)
+        parts->phase.end();
+    else if (action == Action::MakeCyclesSafe)
+        parts->phase.makeSafe();
+}
+
+/// What is done in the state that has been reached.
+void QPlcMasterNodePrivate::carryOut(Action action, const QString &reason)
+{
+    switch (action) {
+    case Action::CollectOutputs:
+    case Action::CollectThenStart:
+        m_startAfterwards = action == Action::CollectThenStart;
+        error = QPlcMasterNode::NoError;
+        errorString.clear();
+        parts->initialization.begin();
+        break;
+    case Action::StartNodes:
+        error = QPlcMasterNode::NoError;
+        errorString.clear();
+        parts->starting.begin();
+        break;
+    case Action::IssueToken:
+        arming.arm(qplc::Host::current().random() | 1, qplc::monotonicNow());
+        journal.tell(JournalEvent::Warning, JournalEvent::State, NodeRegistry::masterName(),
+                     QStringLiteral("armed: one start is permitted within 5 s"));
+        break;
+    case Action::EndSequence:
+        parts->stopping.cancel(reason);
+        setError(QPlcMasterNode::InitializationError, reason);
+        answerRequester(false, reason);
+        break;
+    case Action::EndCycles:
+    case Action::Unlatch:
+        if (!parts->phase.takeEnd())
+            break;
+        parts->stopping.stop(reason);
+        parts->reports.takeLast();
+        Q_EMIT q->realTimeHasStopped();
+        break;
+    case Action::MakeCyclesSafe:
+    case Action::LatchReason:
+        parts->stopping.makeSafe();
+        Q_EMIT q->safelyStopped(stateReason);
+        break;
+    case Action::LetJoin:
+        if (m_joiner)
+            parts->joining.begin(*m_joiner);
+        break;
+    case Action::ForgetInitialization:
+    case Action::None:
+        break;
     }
-    return node;
 }

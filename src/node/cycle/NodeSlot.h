@@ -77,6 +77,8 @@ struct NodeSlot
     std::atomic<bool> isSafe{false};  // says that it is in its safe state
     NodeStatistics statistics;
 
+    /// Whether it can take part in cycles: its cyclic channel is there, or it needs none.
+    bool isThere() const { return local || peer; }
     bool isRequestSent() const { return multicast || (partsSent == encoder.partCount() && !peer->hasRest()); }
     /// Whether its inputs travel together with those of other nodes.
     bool isInGroup() const { return transport && transport->hasGroup(); }

@@ -104,7 +104,7 @@ QPlcSchedule describeSchedule(const NodeRegistry &registry, const QPlcSignalTabl
 {
     std::vector<std::shared_ptr<NodeSlot>> nodes;
     std::copy_if(registry.nodes().begin(), registry.nodes().end(), std::back_inserter(nodes),
-                 [](const std::shared_ptr<NodeSlot> &slot) { return slot->local || slot->peer; });
+                 [](const std::shared_ptr<NodeSlot> &slot) { return slot->isThere(); });
     const Schedule schedule = scheduleOf(nodes);
     QPlcSchedule described;
     QVector<QPlcSchedule::Turn> known;

@@ -21,6 +21,11 @@ public:
     bool isArmed(std::int64_t now) const { return m_token != 0 && now < m_deadline; }
     /// Whether \a token permits a start now.
     bool permits(std::uint64_t token, std::int64_t now) const { return isArmed(now) && token == m_token; }
+    /// Whether a program or person who shows \a token may start now. \param isRequired  else 0 is good enough
+    bool permitsStart(std::uint64_t token, std::int64_t now, bool isRequired) const
+    {
+        return permits(token, now) || (!isRequired && token == 0);
+    }
     /// Of the permission that is there.
     std::uint64_t token() const { return m_token; }
 

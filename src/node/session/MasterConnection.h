@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "NodeSession.h"
 #include "QPlcSlaveSocket.h"
 #include "node/cycle/NodeRegistry.h"
 #include "node/security/AccessRights.h"
@@ -16,18 +17,12 @@ namespace qplc {
 /// Somebody on the control channel of a master: a node, a tool, or a connection that has not said yet what it is.
 struct MasterConnection
 {
-    /// How far a node has come; each step is an answer that the master waits for.
+    /// How far somebody has come.
     enum Stage : quint8 {
         Silent,  // has not greeted
         Greeted,
-        Attaching,      // registered; its cyclic TCP connection is not there yet
-        Attached,       // ready to be initialized
-        GivingOutputs,  // SendYourInitialOutputStates is under way
-        OutputsGiven,
-        Initializing,  // InitializeWithValues is under way
-        Initialized,
-        Starting,  // RealTimeStarted is under way
-        Running    // answers cycles
+        Attaching,  // registered; its cyclic TCP connection is not there yet
+        Attached    // a node that can be initialized: its session says how far that has come
     };
 
     QPlcSlaveSocket *socket = nullptr;
@@ -41,11 +36,11 @@ struct MasterConnection
     TokenBucket messages{1000, 4000};          // that nobody has asked it for
     quint64 token = 0;                         // names this node on its cyclic TCP connection
     std::shared_ptr<NodeSlot> slot;            // null: no node
+    std::shared_ptr<NodeSession> session;      // null: no node that is attached
     qint64 stageSince = 0;                     // [ms] for time-outs
     bool wantsLeases = false;                  // has offered the feature, and so the next ones
     bool wantsEvents = false;
     bool isHardware = false;  // has offered the feature
-    bool hasFailed = false;   // has sent NodeFault since it was initialized last
     bool leasesDue = false;   // they have changed and it was not told yet
     quint64 eventsTold = 0;   // sequence number of the newest event that was sent
 
@@ -53,14 +48,8 @@ struct MasterConnection
     bool isSecured() const { return peer.isSecured && socket->isSecured(); }
     QString shownName() const { return qplc::shownName(peer, name); }
     bool isNode() const { return slot != nullptr; }
-    bool isAttached() const { return slot && stage >= Attached; }
     /// Whether a message of \a kind is the answer that the master waits for: there are as many of them as the master wants.
-    bool owes(QPlcMessage::Kind kind) const
-    {
-        return (stage == GivingOutputs && kind == QPlcMessage::ReceiveMyInitialOutputStates)
-            || (stage == Initializing && kind == QPlcMessage::Initialized)
-            || (stage == Starting && kind == QPlcMessage::RealTimeReady);
-    }
+    bool owes(QPlcMessage::Kind kind) const { return session && session->owes(kind); }
     /// Sends a struct of protocol/messages. \return false when it is too long
     template<typename Message>
     bool send(const Message &message) const

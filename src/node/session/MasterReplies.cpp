@@ -2,6 +2,9 @@
 #include "MasterReplies.h"
 
 #include "node/state/MasterStates.h"
+#include "node/state/SlaveStates.h"
+
+#include <QtCore/QMetaEnum>
 
 #include <numeric>
 
@@ -37,6 +40,31 @@ bool readNames(const QPlcSignalTable &table, const QStringList &names, std::vect
 }
 
 }  // namespace
+
+QPlcNodeInfo infoOf(const NodeSession &node)
+{
+    const NodeSlot &slot = *node.slot();
+    QPlcNodeInfo info;
+    info.name = slot.name;
+    info.id = slot.id;
+    info.policy
+        = QString::fromLatin1(QMetaEnum::fromType<QPlcSlaveNode::RealTimeViolationPolicy>().valueToKey(slot.policy));
+    info.listener = slot.listener;
+    info.critical = slot.critical;
+    info.state = QString::fromLatin1(nameOf(node.state()));
+    info.every = slot.interval.cycles();
+    info.inputs = int(slot.inputLayout.fields().size());
+    info.outputs = int(slot.outputLayout.fields().size());
+    info.lateAnswers = slot.statistics.late;
+    info.duplicates = slot.statistics.duplicated + slot.statistics.reordered;
+    info.rejected = slot.statistics.rejected;
+    info.forged = slot.statistics.forged;
+    info.resent = slot.statistics.resent;
+    info.faultPlan = slot.faultPlan;
+    info.transport = node.transportName();
+    info.address = node.address();
+    return info;
+}
 
 messages::MasterState messageStateOf(QPlcMasterNode::State state)
 {

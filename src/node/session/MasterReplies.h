@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Leases.h"
+#include "NodeSession.h"
 #include "QPlcMasterNode.h"
 #include "node/cycle/MasterCycle.h"
 #include "node/cycle/NodeRegistry.h"
@@ -13,6 +14,7 @@ namespace qplc {
 
 /// What a master answers to those who ask: reading only.
 
+QPlcNodeInfo infoOf(const NodeSession &node);
 messages::MasterState messageStateOf(QPlcMasterNode::State state);
 messages::ClockKind clockKindOf(QPlcClock clock);
 messages::State stateReply(const QPlcMasterNode &master, const ChosenProfile &profile, quint64 session);

@@ -2,10 +2,15 @@
 #pragma once
 
 #include "QPlcCycleStatistics.h"
+#include "node/cycle/MasterCycle.h"
+#include "node/cycle/NodeRegistry.h"
 #include "protocol/messages/Statistics.h"
 
 namespace qplc {
 
+/// The statistics of a master and of all nodes whose cyclic channel is there; also while cycles run.
+QPlcCycleStatistics statisticsOf(const MasterCycle &cycle, const NodeRegistry &registry,
+                                 QPlcDistribution::Detail detail);
 /// What a master answers to GetStatistics.
 messages::Statistics statisticsReply(const QPlcCycleStatistics &statistics);
 

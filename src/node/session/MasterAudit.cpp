@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "MasterAudit.h"
+
+#include "signals/MessageText.h"
+
+namespace qplc {
+
+namespace {
+
+constexpr int longestNameTold = 48;  // [characters] of a signal in a line; eight of them fit into an event
+
+/// " of setpoint, free"; empty for a command that is about no signals.
+QString signalsText(const QPlcMessage &command)
+{
+    QStringList names = signalsWrittenBy(command);
+    for (QString &name : names)
+        name = printable(name.left(longestNameTold));
+    return names.isEmpty() ? QString() : QStringLiteral(" of ") + firstOf(names);
+}
+
+}  // namespace
+
+MasterAudit::MasterAudit(const MasterServer &server, Journal &journal, const RealTimePhase &phase)
+{
+    connect(&server, &MasterServer::authenticated, this, [&](const MasterConnection *connection) {
+        journal.tell(JournalEvent::Info, JournalEvent::Security, connection->peer.identity,
+                     QStringLiteral("accepted identity '%1' with role %2 from %3%4")
+                         .arg(printable(connection->peer.identity), roleName(connection->peer.role),
+                              connection->socket->peerName(), phase.cycleText()));
+    });
+    connect(&server, &MasterServer::denied, this, [&](const MasterConnection *connection, const QString &reason) {
+        journal.denied(connection->peer.identity,
+                       QStringLiteral("%1 from %2").arg(reason, connection->socket->peerName()) + phase.cycleText());
+    });
+    connect(&server, &MasterServer::strangerRefused, this,
+            [&](const QString &, const QString &address, const QString &reason) {
+                journal.strangerRefused(address, reason + phase.cycleText());
+            });
+    connect(&server, &MasterServer::commanded, this,
+            [&](const MasterConnection *connection, const QPlcMessage &message) {
+                journal.commanded(connection->peer.identity, message.kindName(),
+                                  QStringLiteral("%1 from %2%3")
+                                      .arg(signalsText(message), connection->socket->peerName(), phase.cycleText()));
+            });
+    connect(&server, &MasterServer::refused, this,
+            [&](const QString &name, const QString &address, const QString &reason) {
+                journal.refused(name, address, reason);
+            });
+}
+
+}  // namespace qplc

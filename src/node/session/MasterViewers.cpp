@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "MasterViewers.h"
+
+namespace qplc {
+
+MasterViewers::MasterViewers(const MasterServer &server, Journal &journal, const MasterSettings &settings,
+                             const MasterLeases &leases, RealTimePhase &phase, const QPlcSignalTable &table)
+    : m_server(server)
+    , m_pushes(server, journal.events(), [&leases] { return messages::LeasesChanged{leases.entries()}; })
+{
+    connect(&server, &MasterServer::greeted, this,
+            [&journal](MasterConnection *connection) { connection->eventsTold = journal.events().newest(); });
+    connect(&journal, &Journal::appended, this, [this] { m_pushes.eventsHappened(); });
+    connect(&leases, &MasterLeases::heldSignalsChanged, this, [&phase] {
+        if (phase.isRunning())
+            phase.renewRoster();
+    });
+    connect(&leases, &MasterLeases::changed, this, [&](JournalEvent::Severity severity, const QString &text) {
+        journal.tell(severity, JournalEvent::Lease, NodeRegistry::masterName(), text);
+        m_pushes.leasesChanged();
+    });
+    connect(&settings, &MasterSettings::valueSet, this,
+            [&](const QObject *owner, QPlcSignalIndex signal, const QPlcValue &former, const QPlcValue &value) {
+                const QPlcSignalDefinition &definition = table.at(signal);
+                journal.valueSet(nameOf(owner), definition.name, definition.textOf(former), definition.textOf(value));
+            });
+    connect(&settings, &MasterSettings::valueCameBack, this, [&](QPlcSignalIndex signal, const QPlcValue &value) {
+        journal.valueCameBack(table.at(signal).name, table.at(signal).textOf(value));
+    });
+}
+
+/// Who is at the other end of a connection; without one: the master.
+QString MasterViewers::nameOf(const QObject *socket) const
+{
+    for (const std::unique_ptr<MasterConnection> &connection : m_server.connections()) {
+        if (connection->socket == socket)
+            return connection->shownName();
+    }
+    return NodeRegistry::masterName();
+}
+
+}  // namespace qplc

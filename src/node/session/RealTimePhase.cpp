@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "RealTimePhase.h"
+
+#include <utility>
+
+namespace qplc {
+
+RealTimePhase::RealTimePhase(MasterCycle &cycle, const NodeRegistry &registry, RosterMaker &rosters,
+                             OwnSignals &ownSignals, const PhaseSettings &settings, const PhaseProfile &profile,
+                             Journal &journal)
+    : m_cycle(cycle)
+    , m_registry(registry)
+    , m_rosters(rosters)
+    , m_ownSignals(ownSignals)
+    , m_settings(settings)
+    , m_profile(profile)
+    , m_journal(journal)
+{
+}
+
+MasterCycle::Phase RealTimePhase::settingsOfCycles() const
+{
+    const ProfileDefaults &defaults = m_profile.defaults();
+    MasterCycle::Phase phase;
+    phase.period = m_settings.interval;
+    phase.clock = m_settings.clock;
+    phase.overrunPolicy = m_settings.overrunPolicy;
+    phase.cycleLimit = m_settings.cyclesWanted > 0 ? m_settings.cyclesWanted : m_settings.cycleLimit;
+    phase.timeSignal = m_ownSignals.index(OwnSignals::Time);
+    phase.jitterSignal = m_ownSignals.index(OwnSignals::Jitter);
+    phase.workloadSignal = m_ownSignals.index(OwnSignals::Workload);
+    phase.realTimeOptions = m_settings.realTimeOptions;
+    phase.gapLimit = m_settings.gapLimit.value_or(defaults.gapLimit);
+    phase.longestWait = m_settings.longestWait.value_or(defaults.longestWait);
+    phase.usualHold = defaults.hold;
+    phase.overrunLimit = m_settings.overrunLimit;
+    return phase;
+}
+
+bool RealTimePhase::start(QString *error)
+{
+    m_rosters.forgetWritten();
+    renewRoster();
+    if (!m_cycle.start(settingsOfCycles())) {
+        *error = m_cycle.errorString();
+        return false;
+    }
+    m_isRunning = true;
+    for (const QPlcRealTimeSetting &setting : m_cycle.realTimeSettings()) {
+        if (!setting.granted)
+            m_journal.tell(JournalEvent::Warning, JournalEvent::State, NodeRegistry::masterName(), setting.toString());
+    }
+    m_gone.clear();
+    m_rosters.forgetAbandoned();
+    m_ownSignals.statistics().start(&m_cycle, &m_registry, m_settings.clock.isLockstep());
+    m_journal.watchOverruns(&m_cycle.cycleStatistics());
+    m_journal.clearAll(QStringLiteral("over, a real-time phase has begun"));
+    return true;
+}
+
+void RealTimePhase::renewRoster()
+{
+    m_cycle.setRoster(m_rosters.make());
+}
+
+void RealTimePhase::end()
+{
+    if (!m_isRunning)
+        return;
+    m_isRunning = false;
+    m_cycle.stop();
+    m_ownSignals.statistics().stop();
+    m_journal.watchOverruns(nullptr);
+    m_hasEnded = true;
+}
+
+bool RealTimePhase::takeEnd()
+{
+    if (m_hasEnded)
+        m_cycle.setRoster({});
+    return std::exchange(m_hasEnded, false);
+}
+
+/// \param node  null: its cyclic channel was not there yet
+void RealTimePhase::nodeLeft(const NodeSession *node, const NodeSlot &slot)
+{
+    m_gone.add({slot.id, slot.name, slot.listener});
+    const bool wasRunning = node && node->stage() == NodeSession::Running;
+    const bool wasJoining = m_isRunning && node && node->stage() >= NodeSession::OutputsGiven;
+    if (!wasRunning && wasJoining)
+        m_rosters.abandon(slot);
+    if (wasRunning || wasJoining)
+        renewRoster();
+}
+
+QString RealTimePhase::nodeName(quint16 id) const
+{
+    const std::shared_ptr<NodeSlot> slot = m_registry.find(id);
+    if (slot)
+        return slot->name;
+    const GoneNodes::Node *gone = m_gone.find(id);
+    return gone ? gone->name : QStringLiteral("number %1").arg(id);
+}
+
+bool RealTimePhase::wasListener(quint16 id) const
+{
+    const GoneNodes::Node *gone = m_gone.find(id);
+    return gone && gone->isListener;
+}
+
+QString RealTimePhase::cycleText() const
+{
+    return m_isRunning ? QStringLiteral(" in cycle %1").arg(m_cycle.cycle()) : QString();
+}
+
+}  // namespace qplc

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "GoneNodes.h"
+#include "OwnSignals.h"
+#include "PhaseCycles.h"
+#include "PhaseProfile.h"
+#include "PhaseSettings.h"
+#include "RosterMaker.h"
+
+namespace qplc {
+
+/// The cycles of a real-time phase from their start to their end, and what a master does meanwhile: rosters, statistics
+/// as signals, overruns in the journal.
+class RealTimePhase final : public PhaseCycles
+{
+public:
+    RealTimePhase(MasterCycle &cycle, const NodeRegistry &registry, RosterMaker &rosters, OwnSignals &ownSignals,
+                  const PhaseSettings &settings, const PhaseProfile &profile, Journal &journal);
+
+    bool start(QString *error) override;
+    bool isRunning() const override { return m_isRunning; }
+    quint64 cycle() const override { return m_cycle.cycle(); }
+    quint64 cycleZero() const override { return m_cycle.cycleZero(); }
+    void renewRoster() override;
+    bool hasLeft(const QString &name) const override { return m_gone.hasName(name); }
+
+    void makeSafe() { m_cycle.makeSafe(); }
+    /// Waits until the cycle in progress has ended, if cycles run.
+    void end();
+    /// Whether cycles have ended since the last call; then no node is in them any more.
+    bool takeEnd();
+
+    void nodeLeft(const NodeSession *node, const NodeSlot &slot);
+    /// Of a node that is there, or was in this phase: what the cycle reports names it by its number.
+    QString nodeName(quint16 id) const;
+    bool wasListener(quint16 id) const;
+    /// " in cycle 12"; empty: no cycle runs.
+    QString cycleText() const;
+
+private:
+    MasterCycle::Phase settingsOfCycles() const;
+
+    MasterCycle &m_cycle;
+    const NodeRegistry &m_registry;
+    RosterMaker &m_rosters;
+    OwnSignals &m_ownSignals;
+    const PhaseSettings &m_settings;
+    const PhaseProfile &m_profile;
+    Journal &m_journal;
+    GoneNodes m_gone;  // of this phase
+    bool m_isRunning = false;
+    bool m_hasEnded = false;
+};
+
+}  // namespace qplc

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "RemoteNode.h"
+
+#include "MasterServer.h"
+
+namespace qplc {
+
+RemoteNode::RemoteNode(MasterServer &server, MasterConnection &connection)
+    : NodeSession(connection.slot, Answers::Later)
+    , m_server(server)
+    , m_connection(&connection)
+{
+}
+
+std::optional<NodeSession::Answer> RemoteNode::askOutputs(std::optional<quint64> phase)
+{
+    messages::SendYourInitialOutputStates request;
+    if (phase)
+        request.phase = *phase;
+    if (m_connection)
+        m_connection->send(request);
+    return std::nullopt;
+}
+
+std::optional<NodeSession::Answer> RemoteNode::giveInputs(const QByteArray &values)
+{
+    if (m_connection)
+        m_connection->send(messages::InitializeWithValues{values});
+    return std::nullopt;
+}
+
+std::optional<NodeSession::Answer> RemoteNode::start(const messages::RealTimeStarted &start)
+{
+    if (m_connection)
+        m_connection->send(start);
+    return std::nullopt;
+}
+
+/// A client is told of an initialization that has ended whether it is a node or not: MasterControl::announce().
+void RemoteNode::cancel(const QString &reason, bool isStarting)
+{
+    if (isStarting)
+        stop(reason);
+    setStage(Idle);
+}
+
+void RemoteNode::stop(const QString &reason)
+{
+    if (m_connection && stage() != Idle)
+        m_connection->send(messages::RealTimeStopped{reason});
+    setStage(Idle);
+}
+
+void RemoteNode::drop(const QString &reason)
+{
+    if (m_connection)
+        m_server.drop(m_connection, reason);
+}
+
+QPlcSlaveNode::State RemoteNode::state() const
+{
+    if (hasFailed())
+        return QPlcSlaveNode::Fault;
+    if (stage() == Running)
+        return slot()->isSafe ? QPlcSlaveNode::SafeStop : QPlcSlaveNode::RealTime;
+    if (stage() >= Initialized)
+        return QPlcSlaveNode::Ready;
+    return stage() != Idle ? QPlcSlaveNode::Initializing : QPlcSlaveNode::Registered;
+}
+
+QString RemoteNode::transportName() const
+{
+    return m_connection ? m_connection->cyclicKind : QString();
+}
+
+QString RemoteNode::address() const
+{
+    return m_connection ? m_connection->socket->peerName() : QString();
+}
+
+}  // namespace qplc

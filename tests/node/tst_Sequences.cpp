@@ -1,0 +1,422 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "SequenceFixtures.h"
+
+using qplc::MasterEvent;
+using qplc::NodeSession;
+using Answers = NodeSession::Answers;
+
+// The sequences of a master with scripted sessions: who is asked what, in which order, and how each of them can end.
+class tst_Sequences : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    // initialize
+    void nodesGetTheirInputsWhenAllHaveGivenTheirOutputs();
+    void nodesThatAnswerAtOnceAreAskedLast();
+    void aNodeWithoutAnAnswerIsNamed();
+    void outputsOfTheWrongSizeDropTheirNode();
+    void outputsThatAreNotFiniteEndTheInitialization();
+    void aFaultOfANodeEndsTheInitialization_data();
+    void aFaultOfANodeEndsTheInitialization();
+    void aNodeMayEndTheInitializationByWhatItHears();
+    void nobodyGoesOnWhenTheProgramEndsTheInitialization();
+    void aNodeThatLeavesIsNotWaitedFor();
+    // start
+    void cyclesStartWhenAllNodesAreReady();
+    void withoutAThreadTheStartEnds();
+    void nobodyHearsOfCyclesThatHaveEnded();
+    void aNodeThatCameDuringTheStartJoinsAfterwards();
+    void nobodyJoinsAPhaseThatHasEnded();
+    // join
+    void aListenerWaitsForNobodyAndNobodyForIt();
+    void aListenerIsStartedWithTheOthers();
+    void aNodeJoinsAtItsOwnPace();
+    void aNodeThatComesBackMayGoOnInASimulation_data();
+    void aNodeThatComesBackMayGoOnInASimulation();
+    void wrongOutputsOfAJoinerDropIt();
+    // stop
+    void theEndOfASequenceIsTold_data();
+    void theEndOfASequenceIsTold();
+    void theEndOfAPhaseIsToldToAll();
+    void nodesMayLeaveWhileTheEndIsTold();
+};
+
+void tst_Sequences::nodesGetTheirInputsWhenAllHaveGivenTheirOutputs()
+{
+    SequenceBench bench;
+    const auto winch = bench.add("Winch", Answers::Later, "sum", "echo");
+    const auto kite = bench.add("Kite", Answers::Later, "echo", "sum");
+    QSignalSpy told(&bench.initialization, &qplc::InitializeSequence::statesInitialized);
+    QSignalSpy done(&bench.initialization, &qplc::InitializeSequence::done);
+    bench.initialization.begin();
+    QCOMPARE(bench.takeLog(), QStringList({"Winch askOutputs", "Kite askOutputs"}));
+    bench.initialization.takeAnswer(*winch, bench.bytes("sum", 3.0));
+    QCOMPARE(bench.takeLog(), QStringList());
+    bench.initialization.takeAnswer(*kite, bench.bytes("echo", 4.0));
+    QCOMPARE(bench.takeLog(), QStringList({"Winch giveInputs", "Kite giveInputs"}));
+    QCOMPARE(winch->lastInputs, bench.bytes("echo", 4.0));
+    QCOMPARE(kite->lastInputs, bench.bytes("sum", 3.0));
+    bench.initialization.takeAnswer(*kite, {});
+    QVERIFY(bench.timer.isRunning());
+    QCOMPARE(done.size(), 0);
+    bench.initialization.takeAnswer(*winch, {});
+    QCOMPARE(bench.takeLog(), QStringList("all: initialized"));
+    QCOMPARE(told.size(), 1);
+    QCOMPARE(done.size(), 1);
+    QVERIFY(!bench.step.isUnderWay() && !bench.timer.isRunning());
+    QCOMPARE(winch->stage(), NodeSession::Initialized);
+}
+
+void tst_Sequences::nodesThatAnswerAtOnceAreAskedLast()
+{
+    SequenceBench bench;
+    bench.add("Local", Answers::AtOnce, "sum");
+    const auto remote = bench.add("Remote", Answers::Later, "echo");
+    bench.initialization.begin();
+    QCOMPARE(bench.takeLog(), QStringList({"Remote askOutputs", "Local askOutputs"}));
+    bench.initialization.takeAnswer(*remote, remote->outputs);
+    QCOMPARE(bench.takeLog(), QStringList({"Remote giveInputs", "Local giveInputs"}));
+    bench.initialization.takeAnswer(*remote, {});
+    QCOMPARE(bench.takeLog(), QStringList("all: initialized"));
+}
+
+void tst_Sequences::aNodeWithoutAnAnswerIsNamed()
+{
+    SequenceBench bench;
+    const auto winch = bench.add("Winch", Answers::Later, "sum");
+    bench.add("Kite", Answers::Later, "echo");
+    bench.add("Tower", Answers::Later, "setpoint");
+    bench.initialization.begin();
+    bench.initialization.takeAnswer(*winch, winch->outputs);
+    bench.takeLog();
+    bench.timer.elapse();
+    QCOMPARE(bench.takeLog(),
+             QStringList("master SequenceFailed: no answer to SendYourInitialOutputStates within 2000 ms from node "
+                         "'Kite', 'Tower'; is it busy, or stopped?"));
+}
+
+void tst_Sequences::outputsOfTheWrongSizeDropTheirNode()
+{
+    SequenceBench bench;
+    const auto winch = bench.add("Winch", Answers::Later, "sum");
+    bench.initialization.begin();
+    bench.takeLog();
+    bench.initialization.takeAnswer(*winch, QByteArray(3, 0));
+    QCOMPARE(bench.takeLog(), QStringList("Winch drop: it sent 3 bytes of initial outputs instead of 8"));
+    QVERIFY(bench.step.isUnderWay());
+}
+
+void tst_Sequences::outputsThatAreNotFiniteEndTheInitialization()
+{
+    SequenceBench bench;
+    const auto winch = bench.add("Winch", Answers::Later, "sum");
+    bench.initialization.begin();
+    bench.takeLog();
+    bench.initialization.takeAnswer(*winch, bench.bytes("sum", qQNaN()));
+    QCOMPARE(bench.log.size(), 1);
+    QVERIFY2(bench.log.first().startsWith("master SequenceFailed: node 'Winch': the initial value of signal 'sum': "),
+             qPrintable(bench.log.first()));
+}
+
+void tst_Sequences::aFaultOfANodeEndsTheInitialization_data()
+{
+    QTest::addColumn<QString>("request");
+    QTest::newRow("its initial state") << "askOutputs";
+    QTest::newRow("its inputs") << "giveInputs";
+}
+
+void tst_Sequences::aFaultOfANodeEndsTheInitialization()
+{
+    QFETCH(QString, request);
+    SequenceBench bench;
+    const auto winch = bench.add("Winch", Answers::AtOnce, "sum");
+    bench.add("Kite", Answers::AtOnce, "echo");
+    winch->heard = [&](const QString &what) {
+        if (what == request)
+            winch->fault = QStringLiteral("no paper in the printer");
+    };
+    bench.initialization.begin();
+    const QStringList log = bench.takeLog();
+    QCOMPARE(log.last(), QString("master SequenceFailed: node 'Winch': no paper in the printer"));
+    QVERIFY(!log.contains("all: initialized"));
+}
+
+void tst_Sequences::aNodeMayEndTheInitializationByWhatItHears()
+{
+    SequenceBench bench;
+    const auto winch = bench.add("Winch", Answers::AtOnce, "sum");
+    bench.add("Kite", Answers::AtOnce, "echo");
+    winch->heard = [&](const QString &what) {
+        if (what == "askOutputs")
+            bench.stopping.cancel("the program has removed it");
+    };
+    bench.initialization.begin();
+    QCOMPARE(bench.takeLog(),
+             QStringList({"Winch askOutputs", "all: the program has removed it",
+                          "Winch cancel initialization: the program has removed it",
+                          "Kite cancel initialization: the program has removed it"}));
+    QVERIFY(!bench.step.isUnderWay());
+}
+
+void tst_Sequences::nobodyGoesOnWhenTheProgramEndsTheInitialization()
+{
+    SequenceBench bench;
+    bench.add("Winch", Answers::AtOnce, "sum");
+    QSignalSpy done(&bench.initialization, &qplc::InitializeSequence::done);
+    connect(&bench.initialization, &qplc::InitializeSequence::statesInitialized, &bench.initialization,
+            [&] { bench.stopping.cancel("enough"); });
+    bench.initialization.begin();
+    QVERIFY(bench.log.contains("Winch cancel initialization: enough"));
+    QCOMPARE(done.size(), 0);
+}
+
+void tst_Sequences::aNodeThatLeavesIsNotWaitedFor()
+{
+    SequenceBench bench;
+    const auto winch = bench.add("Winch", Answers::Later, "sum");
+    const auto tool = bench.add("Viewer", Answers::Later, "", "sum", true);
+    bench.initialization.begin();
+    QVERIFY(!bench.step.leave(*tool));
+    QVERIFY(bench.step.leave(*winch));
+    QVERIFY(!bench.step.leave(*winch));
+    QVERIFY(bench.step.complete());
+}
+
+void tst_Sequences::cyclesStartWhenAllNodesAreReady()
+{
+    SequenceBench bench;
+    bench.settings.interval = std::chrono::milliseconds(20);
+    const auto remote = bench.add("Remote", Answers::Later, "echo");
+    const auto local = bench.add("Local", Answers::AtOnce, "sum");
+    remote->setStage(NodeSession::Initialized);
+    local->setStage(NodeSession::Initialized);
+    QSignalSpy started(&bench.starting, &qplc::StartSequence::realTimeHasStarted);
+    bench.starting.begin();
+    QCOMPARE(bench.takeLog(), QStringList({"Remote start", "Local start"}));
+    QCOMPARE(remote->lastStart.period.count(), 20'000'000);
+    QCOMPARE(quint64(remote->lastStart.cycleZero), quint64(1000));
+    QCOMPARE(quint64(remote->lastStart.firstCycle), quint64(1000));
+    QVERIFY(!bench.cycles.running);
+    bench.starting.takeAnswer(*remote);
+    QCOMPARE(
+        bench.takeLog(),
+        QStringList({"master CyclesStarted", "Remote cyclesStarted Simulation", "Local cyclesStarted Simulation"}));
+    QVERIFY(bench.cycles.running && !bench.step.isUnderWay() && !bench.timer.isRunning());
+    QCOMPARE(started.size(), 1);
+    QCOMPARE(remote->stage(), NodeSession::Running);
+}
+
+void tst_Sequences::withoutAThreadTheStartEnds()
+{
+    SequenceBench bench;
+    bench.cycles.threadError = QStringLiteral("no thread left");
+    bench.add("Local", Answers::AtOnce, "sum")->setStage(NodeSession::Initialized);
+    bench.master.heard = [&](MasterEvent) { bench.stopping.cancel("no thread left"); };
+    QSignalSpy done(&bench.starting, &qplc::StartSequence::done);
+    bench.starting.begin();
+    QCOMPARE(bench.takeLog(),
+             QStringList({"Local start", "master ThreadFailed: no thread left", "Local cancel start: no thread left"}));
+    QCOMPARE(done.size(), 0);
+}
+
+void tst_Sequences::nobodyHearsOfCyclesThatHaveEnded()
+{
+    SequenceBench bench;
+    const auto winch = bench.add("Winch", Answers::AtOnce, "sum");
+    const auto kite = bench.add("Kite", Answers::AtOnce, "echo");
+    winch->setStage(NodeSession::Initialized);
+    kite->setStage(NodeSession::Initialized);
+    winch->heard = [&](const QString &what) {
+        if (what.startsWith("cyclesStarted"))
+            bench.cycles.running = false;
+    };
+    QSignalSpy started(&bench.starting, &qplc::StartSequence::realTimeHasStarted);
+    bench.starting.begin();
+    QCOMPARE(bench.takeLog(),
+             QStringList({"Winch start", "Kite start", "master CyclesStarted", "Winch cyclesStarted Simulation"}));
+    QCOMPARE(started.size(), 0);
+}
+
+void tst_Sequences::aNodeThatCameDuringTheStartJoinsAfterwards()
+{
+    SequenceBench bench;
+    const auto remote = bench.add("Remote", Answers::Later, "echo");
+    remote->setStage(NodeSession::Initialized);
+    bench.starting.begin();
+    const auto late = bench.add("Late", Answers::Later, "sum");
+    bench.takeLog();
+    bench.starting.takeAnswer(*remote);
+    QCOMPARE(bench.takeLog(),
+             QStringList({"master CyclesStarted", "Remote cyclesStarted Simulation", "Late askOutputs"}));
+    QCOMPARE(late->stage(), NodeSession::GivingOutputs);
+}
+
+void tst_Sequences::nobodyJoinsAPhaseThatHasEnded()
+{
+    SequenceBench bench;
+    const auto remote = bench.add("Remote", Answers::Later, "echo");
+    remote->setStage(NodeSession::Initialized);
+    connect(&bench.starting, &qplc::StartSequence::realTimeHasStarted, &bench.starting, [&] {
+        bench.cycles.running = false;
+        bench.stopping.stop("enough");
+    });
+    bench.starting.begin();
+    bench.starting.takeAnswer(*remote);
+    QCOMPARE(bench.takeLog().last(), QString("Remote stop: enough"));
+    QCOMPARE(remote->stage(), NodeSession::Idle);
+}
+
+void tst_Sequences::aListenerWaitsForNobodyAndNobodyForIt()
+{
+    SequenceBench bench;
+    const auto winch = bench.add("Winch", Answers::Later, "sum");
+    const auto viewer = bench.add("Viewer", Answers::Later, "", "sum", true);
+    bench.initialization.begin();
+    QCOMPARE(bench.takeLog(), QStringList({"Viewer askOutputs", "Winch askOutputs"}));
+    bench.joining.takeAnswer(*viewer, {}, false);
+    QCOMPARE(bench.takeLog(), QStringList());  // its inputs are not there yet
+    bench.initialization.takeAnswer(*winch, bench.bytes("sum", 5.0));
+    QCOMPARE(bench.takeLog(), QStringList({"Viewer giveInputs", "Winch giveInputs"}));
+    QCOMPARE(viewer->lastInputs, bench.bytes("sum", 5.0));
+    bench.initialization.takeAnswer(*winch, {});
+    QCOMPARE(bench.takeLog(), QStringList("all: initialized"));
+    bench.joining.takeAnswer(*viewer, {}, false);
+    QCOMPARE(bench.takeLog(), QStringList());  // there is no start yet
+    QCOMPARE(viewer->stage(), NodeSession::Initialized);
+}
+
+void tst_Sequences::aListenerIsStartedWithTheOthers()
+{
+    SequenceBench bench;
+    const auto winch = bench.add("Winch", Answers::Later, "sum");
+    const auto viewer = bench.add("Viewer", Answers::Later, "", "sum", true);
+    const auto slow = bench.add("Slow", Answers::Later, "", "sum", true);
+    winch->setStage(NodeSession::Initialized);
+    viewer->setStage(NodeSession::Initialized);
+    slow->setStage(NodeSession::Initializing);
+    bench.starting.begin();
+    QCOMPARE(bench.takeLog(), QStringList({"Winch start", "Viewer start"}));
+    bench.joining.takeAnswer(*slow, {}, false);
+    QCOMPARE(bench.takeLog(), QStringList("Slow start"));
+    bench.starting.takeAnswer(*winch);
+    QVERIFY(bench.cycles.running);
+    QCOMPARE(bench.cycles.rosters, 0);
+    bench.joining.takeAnswer(*viewer, {}, false);
+    QCOMPARE(bench.cycles.rosters, 1);
+    QCOMPARE(viewer->stage(), NodeSession::Running);
+}
+
+void tst_Sequences::aNodeJoinsAtItsOwnPace()
+{
+    SequenceBench bench;
+    bench.cycles.running = true;
+    bench.cycles.newest = 50;
+    const auto winch = bench.add("Winch", Answers::Later, "sum", "echo");
+    bench.joining.begin(*winch);
+    bench.joining.takeAnswer(*winch, bench.bytes("sum", 2.0), false);
+    bench.joining.takeAnswer(*winch, {}, false);
+    QCOMPARE(bench.takeLog(), QStringList({"Winch askOutputs", "Winch giveInputs", "Winch start"}));
+    QCOMPARE(quint64(winch->lastStart.firstCycle), quint64(1050));
+    QCOMPARE(winch->slot()->initialOutputs.size(), std::size_t(8));
+    QCOMPARE(bench.cycles.rosters, 0);
+    bench.joining.takeAnswer(*winch, {}, false);
+    QCOMPARE(bench.cycles.rosters, 1);
+}
+
+void tst_Sequences::aNodeThatComesBackMayGoOnInASimulation_data()
+{
+    QTest::addColumn<QPlcProfile::Value>("profile");
+    QTest::addColumn<bool>("isAsked");
+    QTest::newRow("simulation") << QPlcProfile::Simulation << true;
+    QTest::newRow("plant") << QPlcProfile::Plant << false;
+}
+
+void tst_Sequences::aNodeThatComesBackMayGoOnInASimulation()
+{
+    QFETCH(QPlcProfile::Value, profile);
+    QFETCH(bool, isAsked);
+    SequenceBench bench;
+    bench.facts.wanted = profile;
+    bench.profile.fix();
+    bench.cycles.running = true;
+    bench.cycles.gone = QStringList{"Winch", "Kite"};
+    const auto winch = bench.add("Winch", Answers::Later, "sum");
+    const auto kite = bench.add("Kite", Answers::Later, "echo");
+    bench.joining.begin(*winch);
+    bench.joining.begin(*kite);
+    QCOMPARE(winch->lastPhase.has_value(), isAsked);
+    QCOMPARE(winch->lastPhase.value_or(0), isAsked ? quint64(1000) : quint64(0));
+    bench.joining.takeAnswer(*winch, winch->outputs, true);
+    bench.joining.takeAnswer(*kite, kite->outputs, false);
+    QVERIFY(bench.hasEvent("node Winch goes on where it was"));
+    QVERIFY(bench.hasEvent("node Kite begins again at its initial state"));
+}
+
+void tst_Sequences::wrongOutputsOfAJoinerDropIt()
+{
+    SequenceBench bench;
+    bench.cycles.running = true;
+    const auto winch = bench.add("Winch", Answers::Later, "sum");
+    bench.joining.begin(*winch);
+    bench.joining.takeAnswer(*winch, bench.bytes("sum", qInf()), false);
+    QVERIFY2(bench.log.last().startsWith("Winch drop: the initial value of signal 'sum': "),
+             qPrintable(bench.log.last()));
+    QCOMPARE(winch->stage(), NodeSession::GivingOutputs);
+}
+
+void tst_Sequences::theEndOfASequenceIsTold_data()
+{
+    QTest::addColumn<bool>("isStart");
+    QTest::newRow("initialization") << false;
+    QTest::newRow("start") << true;
+}
+
+void tst_Sequences::theEndOfASequenceIsTold()
+{
+    QFETCH(bool, isStart);
+    SequenceBench bench;
+    const auto winch = bench.add("Winch", Answers::Later, "sum");
+    if (isStart) {
+        winch->setStage(NodeSession::Initialized);
+        bench.starting.begin();
+    } else {
+        bench.initialization.begin();
+    }
+    bench.takeLog();
+    bench.stopping.cancel("enough");
+    QCOMPARE(bench.takeLog(),
+             isStart ? QStringList("Winch cancel start: enough")
+                     : QStringList({"all: enough", "Winch cancel initialization: enough"}));
+    QVERIFY(!bench.step.isUnderWay() && !bench.timer.isRunning());
+    QVERIFY(!winch->owes(QPlcMessage::ReceiveMyInitialOutputStates) && !winch->owes(QPlcMessage::RealTimeReady));
+}
+
+void tst_Sequences::theEndOfAPhaseIsToldToAll()
+{
+    SequenceBench bench;
+    bench.add("Winch", Answers::Later, "sum")->setStage(NodeSession::Running);
+    bench.add("Joiner", Answers::Later, "echo")->setStage(NodeSession::Initializing);
+    bench.add("Local", Answers::AtOnce, "setpoint")->setStage(NodeSession::Running);
+    bench.stopping.makeSafe();
+    QCOMPARE(bench.takeLog(), QStringList({"Winch tellSafe", "Joiner tellSafe", "Local tellSafe"}));
+    bench.stopping.stop("enough");
+    QCOMPARE(bench.takeLog(), QStringList({"Winch stop: enough", "Joiner stop: enough", "Local stop: enough"}));
+}
+
+void tst_Sequences::nodesMayLeaveWhileTheEndIsTold()
+{
+    SequenceBench bench;
+    auto winch = bench.add("Winch", Answers::AtOnce, "sum");
+    auto kite = bench.add("Kite", Answers::AtOnce, "echo");
+    winch->heard = [&](const QString &) {
+        bench.nodes.remove(*kite);
+        kite.reset();
+    };
+    bench.stopping.stop("enough");
+    QCOMPARE(bench.takeLog(), QStringList({"Winch stop: enough", "Kite stop: enough"}));
+    QCOMPARE(bench.nodes.all().size(), std::size_t(1));
+}
+
+QTEST_GUILESS_MAIN(tst_Sequences)
+#include "tst_Sequences.moc"
