@@ -14,13 +14,15 @@
 #include <memory>
 #include <optional>
 
+class QAbstractItemModel;
 class QPlcMessage;
 class QPlcTimeAxis;
 class QPlcWidget;
 
 namespace qplc {
+class SignalControl;
 class WindowContext;
-}
+}  // namespace qplc
 
 /// The window as one panel sees it: signals and their history, the time that is shown, theme, and
 /// texts of numbers.
@@ -79,6 +81,9 @@ public:
         QString writer;       ///< node that writes the signal; empty: no node does
         /// The value is usable, and it is the newest one or the one of the wanted time.
         bool isCurrent = false;
+        /// What is special about the value, for people: "stale, 3 s", "at rest", "held 2 cycles",
+        /// "at 12:03:04.500"; empty: it is a usable value of now.
+        QString note;
         QString problem;  ///< why there is no signal, for people; empty: there is one
 
         /// Returns true if there is such a signal, even if it has no value yet.
@@ -211,6 +216,42 @@ public:
     /// \param text  one sentence for people
     void report(Severity severity, const QString &source, const QString &text);
 
+    // -- tables: models for the views of Qt, with titles, texts, colours and tool tips --
+
+    /// Data of a row of createSignalModel(), besides those of Qt.
+    enum SignalRole {
+        ReferenceRole = Qt::UserRole  ///< QString: the signal or element; empty: a plant or a node
+    };
+    /// Data of createNodeModel(), besides those of Qt.
+    enum NodeRole {
+        SortRole = Qt::UserRole,  ///< of a cell: numbers as numbers, durations in ns
+        HealthRole                ///< of a row: 0 good, 1 warning, 2 error, 3 not known
+    };
+    /// Data of a row of eventModel(), besides those of Qt.
+    enum EventRole {
+        SeverityRole = Qt::UserRole,  ///< Severity
+        AcknowledgedRole,             ///< bool: nobody has to acknowledge it any more
+        ActiveRole,                   ///< bool: what it tells of still lasts
+        FollowersRole,                ///< int: alarms that came with it, and may come from it
+        EventTimeRole                 ///< qint64: [ms] since 1970
+    };
+    /// Returns a tree of all plants, their nodes, the signals that these write, and elements of
+    /// arrays. Values are those of shownTime(). They are renewed at most 10 times a second, where a
+    /// view shows them. People can drag rows onto other panels.
+    /// \param parent  owns it \return null outside of a window
+    QAbstractItemModel *createSignalModel(QObject *parent) const;
+    /// Returns a table of masters and nodes of all plants with their state, durations and counters.
+    /// Durations are those of the last 10 s, the largest ones those since the start.
+    /// \param parent  owns it \return null outside of a window
+    QAbstractItemModel *createNodeModel(QObject *parent) const;
+    /// Returns the event log of the window, the newest event last; it keeps 10 000 events. Set
+    /// AcknowledgedRole of a row to acknowledge it. Null outside of a window.
+    QAbstractItemModel *eventModel() const;
+    /// Returns the number of warnings and errors that nobody has acknowledged.
+    int unacknowledgedEvents() const;
+    /// Acknowledges all events.
+    void acknowledgeEvents();
+
     // -- look --
 
     /// Returns colours and fonts of the window. They change with themeChanged().
@@ -248,12 +289,14 @@ Q_SIGNALS:
     /// Emitted when a plant was lost, came back, started or stopped.
     /// \param plant  its name
     void plantStateChanged(const QString &plant);
+    /// Emitted when unacknowledgedEvents() changes.
+    void unacknowledgedEventsChanged();
     /// Emitted when theme() has changed, or the panel was put into another window.
     void themeChanged();
 
 private:
     friend class QPlcWidget;
-    friend class QPlcSignalControl;
+    friend class qplc::SignalControl;
 
     explicit QPlcPanelContext(QPlcWidget *panel);
     void setWindow(qplc::WindowContext *window);

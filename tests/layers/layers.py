@@ -92,14 +92,7 @@ READS_JSON = re.compile(r"\.to(?:Object|Array)\(\)|QJsonDocument::fromJson\(")
 # that only shrinks.
 WINDOW = re.compile(r'[wW]indowContext\b|"gui/(?:window|layout)/')
 PANEL_ROOMS = ("charts", "gauges", "setters", "tables")
-KNOWS_WINDOW = {
-    "gui/gauges/GaugeFeed.cpp",
-    "gui/gauges/GaugeFeed.h", "gui/gauges/QPlcGauge.cpp", "gui/setters/QPlcKeyboardControl.cpp",
-    "gui/setters/QPlcSetter.cpp", "gui/setters/QPlcSignalControl.cpp", "gui/tables/PanelTable.cpp",
-    "gui/tables/PanelTable.h", "gui/tables/QPlcEventLog.cpp", "gui/tables/QPlcNodeTable.cpp",
-    "gui/tables/QPlcSignalTree.cpp", "gui/tables/QPlcValueTable.cpp", "gui/tables/TableDelegate.cpp",
-    "gui/tables/TableDelegate.h", "gui/tables/TableTime.h", "gui/tables/TimeStrip.cpp", "gui/tables/TimeStrip.h",
-}
+KNOWS_WINDOW = {"gui/tables/QPlcValueTable.cpp"}
 # Clocks, random numbers, wake-ups, threads and sockets come from the Host (docs/design/simulation.md), so that a
 # simulator can give others. QTimer and QSocketNotifier belong to the event dispatcher, which a simulator has, too.
 OF_KERNEL = (r"\b(clock_gettime|clock_nanosleep|timerfd_\w+|timer_create|pthread_\w+|QRandomGenerator|createUuid|"

@@ -563,7 +563,7 @@ REMOVALS = [
     Removal("command for one plant of a window that would go to another one", "src/gui/plant/PlantList.cpp",
             "return name.isEmpty() ? m_selected : find(name);", "return name.isEmpty() ? m_plants.front().get() : find(name);",
             "tst_SeveralPlants", "panelsFollowTheSelectedPlantAndNameIt"),
-    Removal("command for one plant of a window that would go to another one", "src/gui/setters/SignalControl.cpp",
+    Removal("command for one plant of a window that would go to another one", "src/gui/panel/SignalControl.cpp",
             "if (m_pin.isEmpty() && hasPlainReference())", "if (m_pin.isEmpty() && !hasPlainReference())",
             "tst_SeveralPlants", "whatIsHeldEndsInItsOwnPlant"),
     Removal("command for one plant of a window that would go to another one", "src/gui/window/PlantSelection.cpp",

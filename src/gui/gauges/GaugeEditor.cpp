@@ -11,12 +11,12 @@
 namespace qplc {
 
 GaugeEditor::GaugeEditor(const PanelSettings &settings, const QString &title, const QPlcSignalDefinition &definition,
-                         PlantList *plants, QWidget *parent)
+                         QPlcPanelContext *context, QWidget *parent)
     : SettingsEditor(parent)
     , m_settings(settings)
 {
     auto *form = new QFormLayout(this);
-    addSignal(form, plants);
+    addSignal(form, context);
     addStyles(form);
     auto *titleEdit = new QLineEdit(title, this);
     titleEdit->setPlaceholderText(tr("Gauge"));
@@ -29,9 +29,9 @@ GaugeEditor::GaugeEditor(const PanelSettings &settings, const QString &title, co
     connect(extremes, &QCheckBox::toggled, this, [this](bool isOn) { set("extremes", isOn, false); });
 }
 
-void GaugeEditor::addSignal(QFormLayout *form, PlantList *plants)
+void GaugeEditor::addSignal(QFormLayout *form, QPlcPanelContext *context)
 {
-    auto *edit = new SignalEdit(plants, SignalEdit::AllSignals, this);
+    auto *edit = new SignalEdit(context, SignalEdit::AllSignals, this);
     edit->setPlaceholderText(tr("Signal, or = formula"));
     edit->setText(m_settings.value("signal").toString());
     edit->setMinimumWidth(edit->fontMetrics().averageCharWidth() * 34);

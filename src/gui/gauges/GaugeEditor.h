@@ -8,9 +8,9 @@
 class QFormLayout;
 class QLineEdit;
 
-namespace qplc {
+class QPlcPanelContext;
 
-class PlantList;
+namespace qplc {
 
 /// The settings of a gauge as a form; every change counts at once.
 class GaugeEditor : public SettingsEditor
@@ -19,14 +19,14 @@ class GaugeEditor : public SettingsEditor
 public:
     /// \param definition  of the present signal, for what an empty field means
     GaugeEditor(const PanelSettings &settings, const QString &title, const QPlcSignalDefinition &definition,
-                PlantList *plants, QWidget *parent = nullptr);
+                QPlcPanelContext *context, QWidget *parent = nullptr);
 
 Q_SIGNALS:
     void edited(const qplc::PanelSettings &settings);
     void titleEdited(const QString &title);
 
 private:
-    void addSignal(QFormLayout *form, PlantList *plants);
+    void addSignal(QFormLayout *form, QPlcPanelContext *context);
     void addStyles(QFormLayout *form);
     void addNumbers(QFormLayout *form, const QPlcSignalDefinition &definition);
     void addLimit(QFormLayout *form, const QString &label, const char *key, const QString &whenEmpty);

@@ -4,7 +4,6 @@
 #include "QPlcSignalIndexTable.h"
 #include "gui/models/ValueFormat.h"
 #include "gui/panel/FigureFont.h"
-#include "gui/panel/WindowContext.h"
 #include "gui/plant/LimitOf.h"
 #include "gui/plot/Formula.h"
 
@@ -31,27 +30,14 @@ GaugeFeed::GaugeFeed(QObject *parent)
 
 // ---- the signal ----
 
-void GaugeFeed::setContext(WindowContext *context)
+void GaugeFeed::setContext(QPlcPanelContext *context)
 {
     m_context = context;
-    PlantList *plants = context->plants();
-    connect(context->curveSources(), &CurveSources::changed, this, &GaugeFeed::resolve);
-    connect(context->curveSources(), &CurveSources::filled, this, [this] { refresh(Texts::WhenDue); });
-    plants->forEach(this, &GaugeFeed::follow);
-    connect(context->timeView(), &TimeView::displayTimeChanged, this, [this] { refresh(Texts::WhenDue); });
+    connect(context, &QPlcPanelContext::signalsChanged, this, &GaugeFeed::resolve);
+    for (const auto change :
+         {&QPlcPanelContext::pastChanged, &QPlcPanelContext::timeChanged, &QPlcPanelContext::valuesChanged})
+        connect(context, change, this, [this] { refresh(Texts::WhenDue); });
     resolve();
-}
-
-void GaugeFeed::follow(Plant *plant)
-{
-    connect(plant, &Plant::updated, this, [this, plant] {
-        if (m_source.plant() == plant)
-            refresh(Texts::WhenDue);
-    });
-    connect(plant, &Plant::storeChanged, this, [this, plant] {  // rows of another store are numbered anew
-        if (m_source.plant() == plant)
-            m_seen = 0;
-    });
 }
 
 void GaugeFeed::setSettings(const GaugeSettings &settings)
@@ -65,12 +51,6 @@ void GaugeFeed::setSettings(const GaugeSettings &settings)
         refresh(Texts::Renew);
     else
         resolve();
-}
-
-void GaugeFeed::setPin(const QString &plant)
-{
-    m_pin = plant;
-    resolve();
 }
 
 void GaugeFeed::setNameShown(bool isShown)
@@ -97,12 +77,24 @@ void GaugeFeed::resolve()
         lookUp();
         return;
     }
-    const GaugeSource before = m_source;
-    m_source = GaugeSource(m_settings.signal, *m_context->plants(), *m_context->curveSources(), m_pin);
-    m_definition = m_source.definition();
-    if (!m_source.isSame(before))
+    const QPlcPanelContext::Signal before = m_signal;
+    const QPlcPast pastBefore = m_pasts.value(0);
+    m_signal = m_context->signal(m_settings.signal);
+    m_definition = m_signal ? m_signal.definition : QPlcSignalDefinition();
+    const bool isFormula = Formula::isFormula(m_settings.signal);
+    if (m_signal && isFormula)
+        m_definition.name = m_settings.signal;
+    m_pasts.clear();
+    const bool isArray = m_definition.type.isArray() && m_signal.element < 0;
+    for (int i = 0; i < qBound(1, elements(), MostElements); ++i)
+        m_pasts << m_context->past(isArray ? QStringLiteral("%1[%2]").arg(m_settings.signal).arg(i)
+                                           : m_settings.signal);
+    const QPlcPast &past = m_pasts.constFirst();
+    const bool isSame = m_signal.plant == before.plant && m_signal.element == before.element
+        && m_signal.definition.name == before.definition.name;
+    if (!isSame)
         begin();
-    else if (m_source.store() != before.store())
+    else if (!past || !pastBefore || !past.sharesRows(pastBefore))
         m_seen = 0;
     refresh(Texts::Renew);
 }
@@ -131,11 +123,10 @@ void GaugeFeed::begin()
 void GaugeFeed::reset()
 {
     m_extremes.fill({noNumber, noNumber}, elements());
-    // What is seen at the moment counts. The store of a formula may get its past only now.
-    const SignalStore *store = m_source.store();
-    m_seen = store && !store->isEmpty() ? store->endRow() - 1 : 0;
-    const SignalStore *cycles = m_source.isFormula() ? m_source.plant()->store() : nullptr;
-    m_since = cycles && !cycles->isEmpty() ? cycles->time(cycles->endRow() - 1) : 0;
+    // What is seen at the moment counts. A formula may get its past only now.
+    const QPlcPast past = m_pasts.value(0);
+    m_seen = past && !past.isEmpty() ? past.endRow() - 1 : 0;
+    m_since = past && Formula::isFormula(m_settings.signal) ? past.newestTime() : 0;
     refresh(Texts::Renew);
 }
 
@@ -212,17 +203,17 @@ void GaugeFeed::include(int element, double minimum, double maximum)
 
 void GaugeFeed::extendExtremes()
 {
-    const SignalStore *store = m_source.store();
-    if (!store || !m_definition.type.isNumeric())
+    if (!m_pasts.value(0) || !m_definition.type.isNumeric())
         return;
-    const SignalStore::Row first = m_since > 0 ? store->rowAt(m_since) : store->firstRow();
-    const SignalStore::Row begin = std::max(m_seen, first);
-    for (int i = 0; i < elements(); ++i) {
-        const SignalStore::Range range = store->range(m_source.channel(i), begin, std::max(store->endRow(), begin));
+    const QPlcPast &rows = m_pasts.constFirst();
+    const QPlcPast::Row begin = std::max(m_seen, m_since > 0 ? rows.rowAt(m_since) : rows.firstRow());
+    const QPlcPast::Row end = std::max(rows.endRow(), begin);
+    for (int i = 0; i < m_pasts.size(); ++i) {
+        const QPlcPast::Range range = m_pasts.at(i) ? m_pasts.at(i).range(begin, end) : QPlcPast::Range::empty();
         if (!range.isEmpty())
-            include(i, double(range.minimum), double(range.maximum));
+            include(i, range.minimum, range.maximum);
     }
-    m_seen = std::max(store->endRow(), m_seen);
+    m_seen = std::max(rows.endRow(), m_seen);
 }
 
 // ---- the picture ----
@@ -257,8 +248,8 @@ QString GaugeFeed::missingText() const
     if (m_settings.signal.isEmpty())
         return tr("No signal yet.\nDrop one here, or choose one in the settings.");
     const bool isFormula = Formula::isFormula(m_settings.signal);
-    if (isFormula && !m_source.isFormula())
-        return m_context ? m_source.error() : tr("What is calculated of signals is shown in a window only.");
+    if (isFormula && (!m_context || !m_signal))
+        return m_context ? m_pasts.value(0).problem : tr("What is calculated of signals is shown in a window only.");
     if (!isFormula && !m_reference.isValid())
         return m_referenceError;
     if (m_definition.name.isEmpty())
@@ -272,19 +263,18 @@ void GaugeFeed::showSignal(GaugePicture *picture, bool hasNewTexts)
 {
     if (m_context)
         extendExtremes();
-    const std::optional<TimeView::Time> time = m_context ? m_context->timeView()->displayTime() : std::nullopt;
-    const QPlcValue value = time ? m_source.valueAt(*time) : m_context ? m_source.newestValue() : givenValue();
-    const Plant::Quality quality = m_source.plant() ? m_source.plant()->quality() : Plant::Good;
-    const bool isNow = quality == Plant::Good || quality == Plant::AtRest;
-    const bool isUsable = !m_source.plant() || quality != Plant::Good || m_source.newestQuality().isUsable();
-    picture->isTrusted = value.isValid() && (time || (isNow && isUsable));
+    const bool isPast = m_context && m_context->shownTime();
+    if (m_context)
+        m_signal = m_context->shown(m_settings.signal);
+    const QPlcValue value = m_context ? m_signal.value : givenValue();
+    picture->isTrusted = value.isValid() && (!m_context || isPast || m_signal.isCurrent);
     picture->isBoolean = isBoolean();
     if (!m_definition.type.isNumeric() || elements() > 1)
         picture->style = GaugeStyle::Number;
     showValue(picture, value, hasNewTexts);
-    picture->status = statusText(value, time);
+    picture->status = m_context ? m_signal.note : value.isValid() ? QString() : tr("no value yet");
     if (value.isValid() && value.type().isNumeric())
-        judge(picture, time.has_value());
+        judge(picture, isPast);
     m_widest = picture->widest;
 }
 
@@ -390,47 +380,6 @@ QString GaugeFeed::valueText(const GaugePicture &picture, double number) const
     if (isBoolean())
         return number != 0.0 ? tr("On") : tr("Off");
     return picture.text(number);
-}
-
-/// \param time  of the value, when it is a past one
-QString GaugeFeed::statusText(const QPlcValue &value, std::optional<TimeView::Time> time) const
-{
-    if (!m_context)
-        return m_value.isValid() ? QString() : tr("no value yet");
-    if (time) {
-        const QDateTime shown = QDateTime::fromMSecsSinceEpoch(*time / 1'000'000);
-        const QString clock = shown.toString(QStringLiteral("HH:mm:ss.zzz"));
-        return value.isValid() ? tr("at %1").arg(clock) : tr("no value at %1").arg(clock);
-    }
-    if (m_source.isFormula() && !value.isValid())
-        return tr("no value yet");
-    switch (m_source.plant()->quality()) {
-    case Plant::NoValue:
-        return tr("no value yet");
-    case Plant::Stale:
-        return tr("stale, %1").arg(ageText(m_source.plant()->age()));
-    case Plant::AtRest:
-        return m_source.isOfLastCycle() ? tr("at rest, last cycle") : tr("at rest");
-    case Plant::Good:
-        break;
-    }
-    return doubtText(m_source.newestQuality());
-}
-
-/// Why a value of now is not what its writer says now; empty: it is.
-QString GaugeFeed::doubtText(QPlcQuality quality)
-{
-    switch (quality.kind()) {
-    case QPlcQuality::Held:
-        return tr("held %1 cycles").arg(quality.heldCycles());
-    case QPlcQuality::Safe:
-        return tr("safe value");
-    case QPlcQuality::Invalid:
-        return tr("nobody has written it");
-    case QPlcQuality::Good:
-        break;
-    }
-    return {};
 }
 
 /// Says what is not normal, in a colour and in words.

@@ -2,18 +2,18 @@
 #pragma once
 
 #include "GaugePicture.h"
-#include "GaugeSource.h"
+#include "QPlcPanelContext.h"
+#include "QPlcSignalList.h"
 #include "gui/models/SteadyPrefix.h"
-#include "gui/panel/TimeView.h"
+#include "gui/plant/SignalReference.h"
 
 #include <QtCore/QElapsedTimer>
 #include <QtCore/QPointer>
+#include <QtCore/QTimer>
 
 #include <optional>
 
 namespace qplc {
-
-class WindowContext;
 
 /// Makes the picture of a gauge out of a signal, or of something calculated of signals: of a plant of the window, at the time that the window shows, or of the values that a program gives.
 ///
@@ -24,10 +24,8 @@ class GaugeFeed : public QObject
 public:
     explicit GaugeFeed(QObject *parent = nullptr);
 
-    void setContext(WindowContext *context);
+    void setContext(QPlcPanelContext *context);
     void setSettings(const GaugeSettings &settings);
-    /// The plant that signals without a plant are of; empty: the selected one.
-    void setPin(const QString &plant);
     /// Whether the name of the signal is part of the picture.
     void setNameShown(bool isShown);
     void setActive(bool isActive);
@@ -58,15 +56,12 @@ private:
     void resolve();
     void lookUp();
     void begin();
-    void follow(Plant *plant);
     void refresh(Texts texts);
     void show(const GaugePicture &picture);
     void showSignal(GaugePicture *picture, bool hasNewTexts);
     void showValue(GaugePicture *picture, const QPlcValue &value, bool hasNewTexts);
     void judge(GaugePicture *picture, bool isPast);
     QString missingText() const;
-    static QString doubtText(QPlcQuality quality);
-    QString statusText(const QPlcValue &value, std::optional<TimeView::Time> time) const;
     bool hasOpenEnd() const;
     QString openEndText() const;
     void choosePrefix(GaugePicture *picture, bool hasNewTexts);
@@ -80,18 +75,18 @@ private:
     AlarmLimits limits() const;
     bool isBoolean() const;
 
-    QPointer<WindowContext> m_context;
+    QPointer<QPlcPanelContext> m_context;
     GaugeSettings m_settings;
-    QString m_pin;
     SignalReference m_reference;  // of the settings; invalid for formulas
     QString m_referenceError;
-    GaugeSource m_source;  // in a window
+    QPlcPanelContext::Signal m_signal;  // in a window; its value may be old
+    QVector<QPlcPast> m_pasts;          // of its elements
     QPlcSignalDefinition m_definition;
     QPlcValue m_value;  // what a program gave
     QVector<AlarmState> m_alarms;
     QVector<Extremes> m_extremes;
-    SignalStore::Row m_seen = 0;    // rows of the store before it are in the extremes
-    SignalStore::Time m_since = 0;  // rows before it do not count
+    QPlcPast::Row m_seen = 0;    // rows before it are in the extremes
+    QPlcPast::Time m_since = 0;  // rows before it do not count
     GaugeScale m_grownScale;
     SteadyPrefix m_prefix;  // where nothing says how large the number may become
     QString m_widest;

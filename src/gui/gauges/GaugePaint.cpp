@@ -7,12 +7,12 @@
 
 namespace qplc {
 
-QColor levelColor(AlarmState::Level level, const Theme &theme)
+QColor levelColor(AlarmState::Level level, const QPlcTheme &theme)
 {
     return level == AlarmState::Alarm ? theme.alarm : level == AlarmState::Warning ? theme.warning : theme.accent;
 }
 
-QColor trackColor(const Theme &theme)
+QColor trackColor(const QPlcTheme &theme)
 {
     constexpr int mostContrast = 60;
     const int contrast = std::abs(theme.surface.lightness() - theme.line.lightness());
@@ -22,12 +22,12 @@ QColor trackColor(const Theme &theme)
             mix(theme.surface.blue(), theme.line.blue())};
 }
 
-QColor pointerColor(const GaugePicture &picture, const Theme &theme)
+QColor pointerColor(const GaugePicture &picture, const QPlcTheme &theme)
 {
     return picture.isTrusted ? levelColor(picture.level, theme) : theme.stale;
 }
 
-QColor textColor(const GaugePicture &picture, const Theme &theme)
+QColor textColor(const GaugePicture &picture, const QPlcTheme &theme)
 {
     if (!picture.isTrusted)
         return theme.stale;
@@ -88,7 +88,7 @@ double paintValue(QPainter *painter, const QRectF &place, const GaugePicture &pi
     return hasSign ? left - metrics.horizontalAdvance(minusSign) : left;
 }
 
-void paintStatus(QPainter *painter, const QRectF &place, const GaugePicture &picture, const Theme &theme, int side)
+void paintStatus(QPainter *painter, const QRectF &place, const GaugePicture &picture, const QPlcTheme &theme, int side)
 {
     painter->setPen(textColor(picture, theme));
     const QString status = QFontMetricsF(painter->font()).elidedText(picture.status, Qt::ElideRight, place.width());
@@ -106,13 +106,13 @@ bool hasLine(const QRectF &place, const GaugePicture &picture)
     return !isLyingBar(place, picture) && (!picture.status.isEmpty() || place.height() > roomy);
 }
 
-void paintMessage(QPainter *painter, const QRectF &place, const GaugePicture &picture, const Theme &theme)
+void paintMessage(QPainter *painter, const QRectF &place, const GaugePicture &picture, const QPlcTheme &theme)
 {
     painter->setPen(theme.mutedText);
     painter->drawText(place.adjusted(8, 4, -8, -4), Qt::AlignCenter | Qt::TextWordWrap, picture.message);
 }
 
-void paintName(QPainter *painter, const QRectF &place, const GaugePicture &picture, const Theme &theme, int side)
+void paintName(QPainter *painter, const QRectF &place, const GaugePicture &picture, const QPlcTheme &theme, int side)
 {
     painter->setPen(theme.mutedText);
     const QString name = QFontMetricsF(painter->font()).elidedText(picture.name, Qt::ElideMiddle, place.width());
@@ -120,7 +120,7 @@ void paintName(QPainter *painter, const QRectF &place, const GaugePicture &pictu
 }
 
 /// One line below: name at the left, what is not normal at the right. \return what is left for the gauge
-QRectF paintLine(QPainter *painter, const QRectF &place, const GaugePicture &picture, const Theme &theme)
+QRectF paintLine(QPainter *painter, const QRectF &place, const GaugePicture &picture, const QPlcTheme &theme)
 {
     const QFontMetricsF metrics(painter->font());
     const QRectF line(place.left(), place.bottom() - metrics.height(), place.width(), metrics.height());
@@ -139,7 +139,7 @@ QRectF paintLine(QPainter *painter, const QRectF &place, const GaugePicture &pic
 }
 
 /// Where one line is too short for both: the name above, and below what is not normal. The space for it is always there, so that nothing jumps.
-QRectF paintTwoLines(QPainter *painter, const QRectF &place, const GaugePicture &picture, const Theme &theme)
+QRectF paintTwoLines(QPainter *painter, const QRectF &place, const GaugePicture &picture, const QPlcTheme &theme)
 {
     const double height = QFontMetricsF(painter->font()).height();
     paintName(painter, QRectF(place.left(), place.top() - 2.0, place.width(), height), picture, theme,
@@ -151,7 +151,7 @@ QRectF paintTwoLines(QPainter *painter, const QRectF &place, const GaugePicture 
 
 }  // namespace
 
-void paintGauge(QPainter *painter, const QRectF &place, const GaugePicture &picture, const Theme &theme)
+void paintGauge(QPainter *painter, const QRectF &place, const GaugePicture &picture, const QPlcTheme &theme)
 {
     painter->setRenderHint(QPainter::Antialiasing);
     if (!picture.message.isEmpty()) {

@@ -39,7 +39,7 @@ struct Bar
     }
 };
 
-void paintTrack(QPainter *painter, const Bar &bar, const GaugePicture &picture, const Theme &theme)
+void paintTrack(QPainter *painter, const Bar &bar, const GaugePicture &picture, const QPlcTheme &theme)
 {
     painter->setPen(Qt::NoPen);
     QPainterPath round;
@@ -67,7 +67,7 @@ void paintTrack(QPainter *painter, const Bar &bar, const GaugePicture &picture, 
     painter->fillRect(bar.isLying ? head.adjusted(0, -2, 0, 2) : head.adjusted(-2, 0, 2, 0), filled);
 }
 
-void paintScale(QPainter *painter, const Bar &bar, const GaugePicture &picture, const Theme &theme)
+void paintScale(QPainter *painter, const Bar &bar, const GaugePicture &picture, const QPlcTheme &theme)
 {
     for (const GaugePicture::Band &band : picture.bands)
         painter->fillRect(
@@ -113,7 +113,7 @@ Bar standingBar(const QRectF &place, double scale, double value)
 }
 
 /// The number is what is read first: as large as there is space, at the right end of a bar that lies.
-void paintBarValue(QPainter *painter, const QRectF &place, const GaugePicture &picture, const Theme &theme,
+void paintBarValue(QPainter *painter, const QRectF &place, const GaugePicture &picture, const QPlcTheme &theme,
                    bool isLying)
 {
     constexpr double tallest = 40.0;  // [px]
@@ -140,7 +140,7 @@ bool isLyingBar(const QRectF &place, const GaugePicture &picture)
     return picture.style == GaugeStyle::Bar && place.width() > place.height();
 }
 
-void paintBar(QPainter *painter, const QRectF &place, const GaugePicture &picture, const Theme &theme)
+void paintBar(QPainter *painter, const QRectF &place, const GaugePicture &picture, const QPlcTheme &theme)
 {
     painter->save();
     QFont font = painter->font();

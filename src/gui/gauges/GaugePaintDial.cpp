@@ -48,7 +48,7 @@ Dial dialIn(const QRectF &place)
     return {{place.center().x(), place.top() + (place.height() - 1.75 * outer) / 2.0 + outer}, outer - track, track};
 }
 
-void paintTicks(QPainter *painter, const Dial &dial, const GaugePicture &picture, const Theme &theme)
+void paintTicks(QPainter *painter, const Dial &dial, const GaugePicture &picture, const QPlcTheme &theme)
 {
     const bool hasLabels = dial.radius > 62.0;
     const QVector<double> ticks = picture.scale.ticks(hasLabels ? 7 : 5);
@@ -73,7 +73,7 @@ void paintTicks(QPainter *painter, const Dial &dial, const GaugePicture &picture
     }
 }
 
-void paintMarkers(QPainter *painter, const Dial &dial, const GaugePicture &picture, const Theme &theme)
+void paintMarkers(QPainter *painter, const Dial &dial, const GaugePicture &picture, const QPlcTheme &theme)
 {
     const GaugePicture::Value &value = picture.values.first();
     for (const std::optional<double> &extreme : {value.minimum, value.maximum}) {
@@ -87,7 +87,7 @@ void paintMarkers(QPainter *painter, const Dial &dial, const GaugePicture &pictu
 }
 
 /// From 0, or from the end that is nearest to it.
-void paintPointer(QPainter *painter, const Dial &dial, const GaugePicture &picture, const Theme &theme)
+void paintPointer(QPainter *painter, const Dial &dial, const GaugePicture &picture, const QPlcTheme &theme)
 {
     const double number = picture.values.first().number;
     if (std::isnan(number))
@@ -107,7 +107,7 @@ void paintPointer(QPainter *painter, const Dial &dial, const GaugePicture &pictu
 
 }  // namespace
 
-void paintDial(QPainter *painter, const QRectF &place, const GaugePicture &picture, const Theme &theme)
+void paintDial(QPainter *painter, const QRectF &place, const GaugePicture &picture, const QPlcTheme &theme)
 {
     const Dial dial = dialIn(place);
     painter->save();

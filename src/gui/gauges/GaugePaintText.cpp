@@ -19,7 +19,7 @@ QString rangeText(const GaugePicture &picture, const GaugePicture::Value &value)
 
 }  // namespace
 
-void paintNumbers(QPainter *painter, const QRectF &place, const GaugePicture &picture, const Theme &theme)
+void paintNumbers(QPainter *painter, const QRectF &place, const GaugePicture &picture, const QPlcTheme &theme)
 {
     const QFontMetricsF metrics(painter->font());
     const int count = picture.values.size();
@@ -40,7 +40,7 @@ void paintNumbers(QPainter *painter, const QRectF &place, const GaugePicture &pi
     }
 }
 
-void paintLed(QPainter *painter, const QRectF &place, const GaugePicture &picture, const Theme &theme)
+void paintLed(QPainter *painter, const QRectF &place, const GaugePicture &picture, const QPlcTheme &theme)
 {
     const GaugePicture::Value &value = picture.values.first();
     const bool isOn = value.number != 0.0;

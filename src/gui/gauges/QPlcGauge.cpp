@@ -4,7 +4,7 @@
 #include "GaugeEditor.h"
 #include "GaugeFeed.h"
 #include "GaugePaint.h"
-#include "gui/panel/WindowContext.h"
+#include "QPlcPanelContext.h"
 
 #include <QtWidgets/QAction>
 
@@ -14,6 +14,7 @@ struct QPlcGauge::Private
 {
     GaugeFeed feed;
     PanelSettings settings = GaugeSettings::emptyJson();
+    bool isInWindow = false;  // else a program gives the values
 };
 
 QPlcGauge::QPlcGauge(QWidget *parent)
@@ -28,7 +29,6 @@ QPlcGauge::QPlcGauge(QWidget *parent)
     });
     connect(this, &QPlcWidget::titleChanged, this,
             [this] { d->feed.setNameShown(!QPlcWidget::settings().contains(QStringLiteral("title"))); });
-    connect(this, &QPlcWidget::pinnedPlantChanged, this, [this] { d->feed.setPin(pinnedPlant()); });
     auto *reset = new QAction(tr("Reset smallest and largest value"), this);
     reset->setShortcut(QKeySequence(int(Qt::CTRL) | int(Qt::Key_R)));
     reset->setShortcutContext(Qt::WidgetWithChildrenShortcut);
@@ -67,7 +67,7 @@ void QPlcGauge::showSettings()
 {
     const GaugeSettings settings = GaugeSettings::from(d->settings);
     d->feed.setSettings(settings);
-    if (windowContext())
+    if (d->isInWindow)
         return;
     QPlcSignalIndexList inputs;
     if (d->feed.definition().name.size() > 0)
@@ -99,8 +99,7 @@ QStringList QPlcGauge::shownSignals() const
 QWidget *QPlcGauge::createSettingsEditor()
 {
     const QString title = QPlcWidget::settings().value(QStringLiteral("title")).toString();
-    auto *editor = new GaugeEditor(d->settings, title, d->feed.definition(),
-                                   windowContext() ? windowContext()->plants() : nullptr);
+    auto *editor = new GaugeEditor(d->settings, title, d->feed.definition(), context());
     connect(editor, &GaugeEditor::edited, this, [this](const PanelSettings &settings) {
         d->settings = settings;
         takeEdit();
@@ -116,13 +115,14 @@ QWidget *QPlcGauge::createSettingsEditor()
 
 void QPlcGauge::contextChanged()
 {
-    d->feed.setContext(windowContext());
-    connect(windowContext(), &WindowContext::themeChanged, this, [this] { update(); });
+    d->isInWindow = true;
+    d->feed.setContext(context());
+    connect(context(), &QPlcPanelContext::themeChanged, this, QOverload<>::of(&QWidget::update));
 }
 
 void QPlcGauge::realTimeout(const QList<QPlcSignalList> &signalValues)
 {
-    if (!windowContext() && !inputSignalIndices().isEmpty())
+    if (!d->isInWindow && !inputSignalIndices().isEmpty())
         d->feed.take(signalValues, inputSignalIndices().at(0));
 }
 
@@ -145,7 +145,7 @@ void QPlcGauge::hideEvent(QHideEvent *event)
 
 void QPlcGauge::paintEvent(QPaintEvent * /*event*/)
 {
-    const Theme theme = windowContext() ? windowContext()->theme() : Theme::byName(Theme::System);
+    const QPlcTheme theme = context()->theme();
     QPainter painter(this);
     painter.fillRect(rect(), theme.surface);
     paintGauge(&painter, rect(), d->feed.picture(), theme);

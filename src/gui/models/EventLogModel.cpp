@@ -117,6 +117,14 @@ void EventLogModel::acknowledge(const QModelIndex &index)
     count(-1);
 }
 
+bool EventLogModel::setData(const QModelIndex &index, const QVariant &value, int role)
+{
+    if (!index.isValid() || role != AcknowledgedRole || !value.toBool())
+        return false;
+    acknowledge(index);
+    return true;
+}
+
 void EventLogModel::acknowledgeAll()
 {
     if (m_unacknowledged == 0)

@@ -40,6 +40,8 @@ public:
     int columnCount(const QModelIndex &parent = QModelIndex()) const override;
     QVariant data(const QModelIndex &index, int role = Qt::DisplayRole) const override;
     QVariant headerData(int section, Qt::Orientation orientation, int role = Qt::DisplayRole) const override;
+    /// Takes AcknowledgedRole alone, which does not become false again.
+    bool setData(const QModelIndex &index, const QVariant &value, int role) override;
 
     static QString severityText(PlantEvent::Severity severity);
 

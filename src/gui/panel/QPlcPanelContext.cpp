@@ -6,9 +6,12 @@
 #include "QPlcWidget.h"
 #include "SignalEdit.h"
 #include "WindowContext.h"
+#include "gui/models/NodeTableModel.h"
 #include "gui/models/SiPrefix.h"
+#include "gui/models/SignalTreeModel.h"
 #include "gui/models/ValueFormat.h"
 #include "gui/plant/PastValue.h"
+#include "gui/plot/DerivedSignal.h"
 #include "gui/plot/Formula.h"
 #include "gui/plot/PastRows.h"
 
@@ -57,7 +60,67 @@ QPlcQuality qualityOf(QPlcQuality::Kind kind)
     return kind == QPlcQuality::Held ? QPlcQuality::held(1) : QPlcQuality(kind);
 }
 
+/// Where no cycles come, a formula is calculated of the newest values that the signals have; one with a past keeps the
+/// result of the last cycle.
+QPlcValue newestValue(const CurveSource &formula)
+{
+    const qplc::Plant &plant = *formula.plant;
+    const bool hasPast = formula.derived && formula.derived->hasPast();
+    if (formula.derived && !hasPast && plant.quality() != qplc::Plant::Good)
+        return plant.values().hasValues() ? QPlcValue(formula.derived->resultOf(plant.values().newestChannels()))
+                                          : QPlcValue();
+    const SignalStore &rows = *formula.store;
+    const SignalStore *cycles = plant.store();
+    // While the past is being calculated, its last row is not the newest one.
+    const bool isNow = cycles && !rows.isEmpty() && !cycles->isEmpty()
+        && rows.time(rows.endRow() - 1) == cycles->time(cycles->endRow() - 1);
+    return isNow ? QPlcValue(double(rows.value(formula.channel, rows.endRow() - 1))) : QPlcValue();
+}
+
+QString timeText(const QPlcValue &value, QPlcPanelContext::Time time)
+{
+    const QString clock = QDateTime::fromMSecsSinceEpoch(time / 1'000'000).toString(QStringLiteral("HH:mm:ss.zzz"));
+    return value.isValid() ? QPlcPanelContext::tr("at %1").arg(clock)
+                           : QPlcPanelContext::tr("no value at %1").arg(clock);
+}
+
+/// Why a value of now is not what its writer says now; empty: it is.
+QString doubtText(QPlcQuality quality)
+{
+    switch (quality.kind()) {
+    case QPlcQuality::Held:
+        return QPlcPanelContext::tr("held %1 cycles").arg(quality.heldCycles());
+    case QPlcQuality::Safe:
+        return QPlcPanelContext::tr("safe value");
+    case QPlcQuality::Invalid:
+        return QPlcPanelContext::tr("nobody has written it");
+    case QPlcQuality::Good:
+        break;
+    }
+    return {};
+}
+
+QString noteOf(const qplc::Plant &plant, QPlcQuality quality, bool isOfLastCycle)
+{
+    switch (plant.quality()) {
+    case qplc::Plant::NoValue:
+        return QPlcPanelContext::tr("no value yet");
+    case qplc::Plant::Stale:
+        return QPlcPanelContext::tr("stale, %1").arg(qplc::ageText(plant.age()));
+    case qplc::Plant::AtRest:
+        return isOfLastCycle ? QPlcPanelContext::tr("at rest, last cycle") : QPlcPanelContext::tr("at rest");
+    case qplc::Plant::Good:
+        break;
+    }
+    return doubtText(quality);
+}
+
 }  // namespace
+
+static_assert(int(QPlcPanelContext::ReferenceRole) == int(SignalTreeModel::ReferenceRole)
+              && int(QPlcPanelContext::SortRole) == int(NodeTableModel::SortRole)
+              && int(QPlcPanelContext::HealthRole) == int(NodeTableModel::HealthRole)
+              && int(QPlcPanelContext::EventTimeRole) == int(EventLogModel::TimeRole));
 
 struct QPlcPanelContext::Private : public QObject
 {
@@ -159,12 +222,17 @@ QPlcPanelContext::Signal QPlcPanelContext::Private::formula(const QString &expre
     signal.definition.name = CurveSource::textOf(expression);
     signal.definition.type = QPlcSignalType(QPlcSignalType::Real64);
     signal.definition.unit = found.unit;
+    signal.value = time ? pastValue(*found.store, found.channel, *time) : newestValue(found);
     const std::optional<Row> row = time ? found.store->rowHoldingAt(*time) : found.store->newestRow();
-    if (!row)
-        return signal;
-    signal.value = QPlcValue(double(found.store->value(found.channel, *row)));
-    signal.quality = qualityOf(QPlcQuality::Kind(found.store->greatestMark(found.channel, *row, *row + 1)));
-    signal.isCurrent = signal.quality.isUsable() && (time || found.plant->quality() != qplc::Plant::Stale);
+    if (row)
+        signal.quality = qualityOf(QPlcQuality::Kind(found.store->greatestMark(found.channel, *row, *row + 1)));
+    const bool isAtRest = !time && found.plant->quality() == qplc::Plant::AtRest;
+    signal.isCurrent = signal.value.isValid() && (isAtRest || signal.quality.isUsable())
+        && (time || found.plant->quality() != qplc::Plant::Stale);
+    const bool isOfLastCycle = found.derived && found.derived->hasPast();
+    signal.note = time            ? timeText(signal.value, *time)
+        : !signal.value.isValid() ? tr("no value yet")
+                                  : noteOf(*found.plant, signal.quality, isOfLastCycle);
     return signal;
 }
 
@@ -193,6 +261,7 @@ QPlcPanelContext::Signal QPlcPanelContext::Private::signal(const QString &expres
         signal.value = found.value();
         signal.quality = found.quality();
         signal.isCurrent = isTrusted(found);
+        signal.note = noteOf(*found.plant, signal.quality, false);
         return signal;
     }
     signal.value = pastValue(found, *time);
@@ -202,6 +271,7 @@ QPlcPanelContext::Signal QPlcPanelContext::Private::signal(const QString &expres
     if (row && channel != ChannelMap::NoChannel)
         signal.quality = qualityOf(QPlcQuality::Kind(store->greatestMark(channel, *row, *row + 1)));
     signal.isCurrent = signal.value.isValid() && signal.quality.isUsable();
+    signal.note = timeText(signal.value, *time);
     return signal;
 }
 
@@ -238,6 +308,7 @@ void QPlcPanelContext::setWindow(WindowContext *window)
         d->window->plants()->disconnect(d.get());
         d->window->timeView()->disconnect(d.get());
         d->window->curveSources()->disconnect(d.get());
+        d->window->events()->disconnect(d.get());
     }
     d->window = window;
     if (!window)
@@ -258,6 +329,8 @@ void QPlcPanelContext::setWindow(WindowContext *window)
         own->touch();
     });
     own->followTime(window->timeView());
+    connect(window->events(), &EventLogModel::unacknowledgedChanged, own,
+            [this] { Q_EMIT unacknowledgedEventsChanged(); });
     Q_EMIT themeChanged();
     own->forget();
 }
@@ -444,6 +517,38 @@ void QPlcPanelContext::report(Severity severity, const QString &source, const QS
     if (d->window)
         d->window->events()->append(
             {QDateTime::currentDateTime(), PlantEvent::Severity(severity), source, text, false});
+}
+
+QAbstractItemModel *QPlcPanelContext::createSignalModel(QObject *parent) const
+{
+    if (!d->window)
+        return nullptr;
+    auto *model = new SignalTreeModel(d->window->plants(), parent);
+    const auto show = [this, model] { model->setDisplayTime(shownTime()); };
+    connect(timeAxis(), &QPlcTimeAxis::displayTimeChanged, model, show);
+    show();
+    return model;
+}
+
+QAbstractItemModel *QPlcPanelContext::createNodeModel(QObject *parent) const
+{
+    return d->window ? new NodeTableModel(d->window->plants(), parent) : nullptr;
+}
+
+QAbstractItemModel *QPlcPanelContext::eventModel() const
+{
+    return d->window ? d->window->events() : nullptr;
+}
+
+int QPlcPanelContext::unacknowledgedEvents() const
+{
+    return d->window ? d->window->events()->unacknowledged() : 0;
+}
+
+void QPlcPanelContext::acknowledgeEvents()
+{
+    if (d->window)
+        d->window->events()->acknowledgeAll();
 }
 
 QPlcTheme QPlcPanelContext::theme() const

@@ -13,30 +13,13 @@
 namespace qplc {
 
 SignalEdit::SignalEdit(QPlcPanelContext *context, Offer offer, QWidget *parent)
-    : SignalEdit(static_cast<const PlantList *>(nullptr), offer, parent)
-{
-    const auto namesOf = [context, offer] { return offer == Curves ? context->numberNames() : context->signalNames(); };
-    connect(context, &QPlcPanelContext::signalsChanged, this,
-            [namesOf, offered = offerNames(namesOf())] { offered->setStringList(namesOf()); });
-}
-
-SignalEdit::SignalEdit(const PlantList *plants, Offer offer, QWidget *parent)
     : QLineEdit(parent)
-    , m_offer(offer)
 {
     setPlaceholderText(offer == Curves ? tr("Signal, or = formula") : tr("Name of a signal"));
     setAccessibleName(tr("Name of a signal"));
     setClearButtonEnabled(true);
-    if (!plants)
-        return;
-    QStringListModel *offered = offerNames(names(*plants, offer));
-    connect(plants, &PlantList::signalsChanged, this,
-            [this, plants, offered] { offered->setStringList(names(*plants, m_offer)); });
-}
-
-QStringListModel *SignalEdit::offerNames(const QStringList &names)
-{
-    auto *offered = new QStringListModel(names, this);
+    const auto names = [context, offer] { return offer == Curves ? context->numberNames() : context->signalNames(); };
+    auto *offered = new QStringListModel(names(), this);
     auto *completer = new QCompleter(offered, this);
     completer->setFilterMode(Qt::MatchContains);
     completer->setCaseSensitivity(Qt::CaseInsensitive);
@@ -46,7 +29,7 @@ QStringListModel *SignalEdit::offerNames(const QStringList &names)
     connect(
         completer, QOverload<const QString &>::of(&QCompleter::activated), this,
         [this](const QString &text) { choose(text); }, Qt::QueuedConnection);
-    return offered;
+    connect(context, &QPlcPanelContext::signalsChanged, this, [offered, names] { offered->setStringList(names()); });
 }
 
 QStringList SignalEdit::names(const PlantList &plants, Offer offer)

@@ -4,7 +4,6 @@
 #include <QtWidgets/QLineEdit>
 
 class QPlcPanelContext;
-class QStringListModel;
 
 namespace qplc {
 
@@ -21,9 +20,7 @@ public:
     };
 
     /// \param context  of the panel in which it is, and which outlives it
-    SignalEdit(QPlcPanelContext *context, Offer offer, QWidget *parent = nullptr);
-    /// \param plants  null: nothing is offered
-    explicit SignalEdit(const PlantList *plants, Offer offer = AllSignals, QWidget *parent = nullptr);
+    explicit SignalEdit(QPlcPanelContext *context, Offer offer = AllSignals, QWidget *parent = nullptr);
 
     static QStringList names(const PlantList &plants, Offer offer);
 
@@ -37,11 +34,8 @@ protected:
     void keyPressEvent(QKeyEvent *event) override;
 
 private:
-    QStringListModel *offerNames(const QStringList &names);
     QString meant() const;
     void choose(const QString &name);
-
-    Offer m_offer;
 };
 
 }  // namespace qplc

@@ -2,7 +2,7 @@
 #include "ControlBar.h"
 
 #include "ElidedLabel.h"
-#include "gui/panel/Theme.h"
+#include "QPlcTheme.h"
 
 #include <QtCore/QTimer>
 #include <QtWidgets/QAction>
@@ -139,7 +139,7 @@ void ControlBar::say(const QString &sentence)
         });
 }
 
-void ControlBar::setTheme(const Theme &theme)
+void ControlBar::setTheme(const QPlcTheme &theme)
 {
     m_plain = theme.text;
     m_held = theme.held;

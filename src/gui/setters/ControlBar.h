@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "SignalControl.h"
+#include "gui/panel/SignalControl.h"
 
 #include <QtWidgets/QWidget>
 
 class QAction;
 class QToolButton;
 
+struct QPlcTheme;
+
 namespace qplc {
 
 class ElidedLabel;
-struct Theme;
 
 /// Who has control of some signals, in a line, with the buttons to take it and to give it back. To take it from another person is asked here, in the line itself.
 class ControlBar : public QWidget
@@ -25,7 +26,7 @@ public:
 
     QAction *takeAction() const { return m_take; }
     QAction *giveBackAction() const { return m_giveBack; }
-    void setTheme(const Theme &theme);
+    void setTheme(const QPlcTheme &theme);
     /// A hint beside it all, of what was done last; empty: who has control.
     void say(const QString &sentence);
 

@@ -21,10 +21,10 @@ constexpr double largestValue = 1e9;
 
 }  // namespace
 
-KeyMapEditor::KeyMapEditor(const ManualBindings &bindings, const PlantList *plants, QWidget *parent)
+KeyMapEditor::KeyMapEditor(const ManualBindings &bindings, QPlcPanelContext *context, QWidget *parent)
     : SettingsEditor(parent)
     , m_bindings(bindings)
-    , m_plants(plants)
+    , m_context(context)
     , m_column(new QVBoxLayout(this))
 {
     m_column->setContentsMargins(0, 0, 0, 0);
@@ -106,7 +106,7 @@ void KeyMapEditor::addAxisRow(QGridLayout *grid, int place)
 void KeyMapEditor::addSignalField(QGridLayout *grid, int row, int column,
                                   const std::function<SignalReference &()> &signal)
 {
-    auto *field = new SignalEdit(m_plants, SignalEdit::AllSignals, m_content);
+    auto *field = new SignalEdit(m_context, SignalEdit::AllSignals, m_content);
     field->setText(signal().toString());
     field->setMinimumWidth(170);
     connect(field, &QLineEdit::editingFinished, this, [this, field, signal] {

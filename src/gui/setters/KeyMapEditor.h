@@ -9,9 +9,9 @@
 class QGridLayout;
 class QVBoxLayout;
 
-namespace qplc {
+class QPlcPanelContext;
 
-class PlantList;
+namespace qplc {
 
 /// What keys and axes do, row by row; each change applies at once.
 class KeyMapEditor : public SettingsEditor
@@ -19,7 +19,7 @@ class KeyMapEditor : public SettingsEditor
     Q_OBJECT
 public:
     /// \param plants  whose signals are offered; null: none
-    KeyMapEditor(const ManualBindings &bindings, const PlantList *plants, QWidget *parent = nullptr);
+    KeyMapEditor(const ManualBindings &bindings, QPlcPanelContext *context, QWidget *parent = nullptr);
 
 Q_SIGNALS:
     void edited(const qplc::ManualBindings &bindings);
@@ -38,7 +38,7 @@ private:
     void changed() { Q_EMIT edited(m_bindings); }
 
     ManualBindings m_bindings;
-    const PlantList *m_plants;
+    QPlcPanelContext *m_context;
     QVBoxLayout *m_column;
     QWidget *m_content = nullptr;
 };

@@ -52,7 +52,7 @@ KeyMapView::KeyMapView(const ManualControl *control, QWidget *parent)
     setSizePolicy(policy);
 }
 
-void KeyMapView::setTheme(const Theme &theme)
+void KeyMapView::setTheme(const QPlcTheme &theme)
 {
     m_theme = theme;
     update();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "QPlcTheme.h"
 #include "gui/models/SiPrefix.h"
-#include "gui/panel/Theme.h"
 #include "gui/plant/PlantList.h"
 
 #include <QtWidgets/QWidget>
@@ -18,7 +18,7 @@ class KeyMapView : public QWidget
 public:
     /// \param control  outlives the view
     KeyMapView(const ManualControl *control, QWidget *parent);
-    void setTheme(const Theme &theme);
+    void setTheme(const QPlcTheme &theme);
     /// Axes are shown where there is something to move them with.
     void setAxesShown(bool shown);
     /// Bindings, what is held, or actual values are other ones.
@@ -63,7 +63,7 @@ private:
 
     const ManualControl *m_control;
     bool m_areAxesShown = false;
-    Theme m_theme = Theme::byName(Theme::System);
+    QPlcTheme m_theme;
 };
 
 }  // namespace qplc

@@ -3,8 +3,8 @@
 
 #include "HeldKeys.h"
 #include "ManualBindings.h"
-#include "SignalControl.h"
-#include "ValueStream.h"
+#include "gui/panel/SignalControl.h"
+#include "gui/panel/ValueStream.h"
 
 #include <map>
 #include <memory>
@@ -21,8 +21,8 @@ class ManualControl : public QObject
 public:
     explicit ManualControl(QObject *parent = nullptr);
 
+    void setContext(QPlcPanelContext *context) { m_control.setContext(context); }
     void setPlants(PlantList *plants) { m_control.setPlants(plants); }
-    void setPin(const QString &plant) { m_control.setPin(plant); }
     void setBindings(const ManualBindings &bindings);
     const ManualBindings &bindings() const { return m_bindings; }
     SignalControl &control() { return m_control; }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "QPlcKeyboardControl.h"
+#include "QPlcPanelContext.h"
 
 #include "ControlBar.h"
 #include "ElidedLabel.h"
@@ -7,7 +8,6 @@
 #include "KeyMapEditor.h"
 #include "KeyMapView.h"
 #include "ManualControl.h"
-#include "gui/panel/WindowContext.h"
 
 #include <QtCore/QTimer>
 #include <QtGui/QKeyEvent>
@@ -40,6 +40,7 @@ struct QPlcKeyboardControl::Private
     QAction *arm;
     QTimer pause;  // between two looks at the values
     bool isOutdated = false;
+    bool isInWindow = false;
 };
 
 QPlcKeyboardControl::Private::Private(QPlcKeyboardControl *panel)
@@ -66,7 +67,6 @@ QPlcKeyboardControl::Private::Private(QPlcKeyboardControl *panel)
     connect(&control.control(), &SignalControl::changed, panel, [this] { showState(); });
     connect(&control.control(), &SignalControl::signalsChanged, panel, [this] { showState(); });
     connect(&control, &ManualControl::moved, panel, [this] { showState(); });
-    connect(panel, &QPlcWidget::pinnedPlantChanged, panel, [this] { control.setPin(q->pinnedPlant()); });
     connect(bar, &ControlBar::handled, panel, [this] { q->setFocus(Qt::OtherFocusReason); });
 }
 
@@ -145,8 +145,8 @@ void QPlcKeyboardControl::Private::showState()
     arm->setVisible(hasGamepad());
     arm->setEnabled(control.isFlying() && hasGamepad());
     arm->setChecked(control.isArmed());
-    if (q->windowContext()) {
-        const Theme &theme = q->windowContext()->theme();
+    if (isInWindow) {
+        const QPlcTheme theme = q->context()->theme();
         hintLabel->setColor(control.isFlying() && !q->hasFocus() ? theme.warning : theme.mutedText);
     }
     keys->setAxesShown(hasGamepad());
@@ -164,7 +164,7 @@ void QPlcKeyboardControl::Private::showValues()
 
 void QPlcKeyboardControl::Private::showTheme()
 {
-    const Theme &theme = q->windowContext()->theme();
+    const QPlcTheme theme = q->context()->theme();
     bar->setTheme(theme);
     keys->setTheme(theme);
     showState();
@@ -205,7 +205,7 @@ void QPlcKeyboardControl::applySettings(const QJsonObject &settings)
 
 QWidget *QPlcKeyboardControl::createSettingsEditor()
 {
-    auto *editor = new KeyMapEditor(d->control.bindings(), windowContext() ? windowContext()->plants() : nullptr);
+    auto *editor = new KeyMapEditor(d->control.bindings(), context());
     connect(editor, &KeyMapEditor::edited, this, [this](const ManualBindings &bindings) {
         d->apply(bindings);
         Q_EMIT settingsEdited();
@@ -224,9 +224,10 @@ QStringList QPlcKeyboardControl::shownSignals() const
 
 void QPlcKeyboardControl::contextChanged()
 {
-    connect(windowContext(), &WindowContext::themeChanged, this, [this] { d->showTheme(); });
+    d->isInWindow = true;
+    connect(context(), &QPlcPanelContext::themeChanged, this, [this] { d->showTheme(); });
     d->showTheme();
-    d->control.setPlants(windowContext()->plants());
+    d->control.setContext(context());
 }
 
 namespace {
@@ -298,10 +299,10 @@ void QPlcKeyboardControl::hideEvent(QHideEvent *event)
 
 void QPlcKeyboardControl::paintEvent(QPaintEvent *)
 {
-    if (!windowContext())
+    if (!d->isInWindow)
         return;
     QPainter painter(this);
-    const Theme &theme = windowContext()->theme();
+    const QPlcTheme theme = context()->theme();
     painter.fillRect(rect(), theme.surface);
     const SignalControl::State state = d->control.control().state();
     const bool isHeld = state == SignalControl::Mine || state == SignalControl::Other;

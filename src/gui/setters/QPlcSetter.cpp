@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "QPlcSetter.h"
+#include "QPlcPanelContext.h"
 
 #include "ControlBar.h"
 #include "ElidedLabel.h"
 #include "SetterEditor.h"
 #include "SetterView.h"
 #include "gui/models/ValueFormat.h"
-#include "gui/panel/WindowContext.h"
 
 #include <QtCore/QTimer>
 #include <QtGui/QPainter>
@@ -44,6 +44,7 @@ struct QPlcSetter::Private
     ControlBar *bar;
     QTimer pause;  // between two looks at the actual value
     bool isOutdated = false;
+    bool isInWindow = false;
 };
 
 QPlcSetter::Private::Private(QPlcSetter *setter)
@@ -82,7 +83,6 @@ QPlcSetter::Private::Private(QPlcSetter *setter)
     });
     connect(&target, &SetterTarget::changed, setter, [this] { showState(); });
     connect(&target, &SetterTarget::leaving, setter, [this] { renewView(); });
-    connect(setter, &QPlcWidget::pinnedPlantChanged, setter, [this] { target.setPin(q->pinnedPlant()); });
     connect(&target, &SetterTarget::failed, setter, [this](const QString &sentence) { bar->say(sentence); });
 }
 
@@ -171,9 +171,9 @@ void QPlcSetter::Private::showActual()
     pause.start();
     target.renewPrefix();
     actual->showText(actualText());
-    if (q->windowContext()) {
+    if (isInWindow) {
         const bool isStale = target.signal() && target.signal().plant->quality() == Plant::Stale;
-        const Theme &theme = q->windowContext()->theme();
+        const QPlcTheme theme = q->context()->theme();
         actual->setColor(isStale ? theme.stale : theme.text);
     }
     view->showActual();
@@ -181,7 +181,7 @@ void QPlcSetter::Private::showActual()
 
 void QPlcSetter::Private::showTheme()
 {
-    const Theme &theme = q->windowContext()->theme();
+    const QPlcTheme theme = q->context()->theme();
     name->setColor(theme.text);
     message->setColor(theme.warning);
     bar->setTheme(theme);
@@ -225,7 +225,7 @@ void QPlcSetter::applySettings(const QJsonObject &settings)
 
 QWidget *QPlcSetter::createSettingsEditor()
 {
-    auto *editor = new SetterEditor(d->settings, windowContext() ? windowContext()->plants() : nullptr);
+    auto *editor = new SetterEditor(d->settings, context());
     connect(editor, &SetterEditor::edited, this, [this](const SetterSettings &settings) {
         d->apply(settings);
         Q_EMIT settingsEdited();
@@ -242,9 +242,8 @@ bool QPlcSetter::addSignals(const QStringList &references)
         SetterSettings wanted = d->settings;
         wanted.signal = reference;
         wanted.minimum = wanted.maximum = std::nullopt;  // they were those of another signal
-        const PlantList::Signal signal
-            = windowContext() ? windowContext()->plants()->resolve(reference, pinnedPlant()) : PlantList::Signal();
-        if (signal && !signal.definition().valueNames.isEmpty() && wanted.style == SetterView::styles().constFirst())
+        const QPlcPanelContext::Signal signal = context()->signal(text);
+        if (signal && !signal.definition.valueNames.isEmpty() && wanted.style == SetterView::styles().constFirst())
             wanted.style = QStringLiteral("list");
         d->apply(wanted);
         Q_EMIT settingsEdited();
@@ -260,9 +259,10 @@ QStringList QPlcSetter::shownSignals() const
 
 void QPlcSetter::contextChanged()
 {
-    connect(windowContext(), &WindowContext::themeChanged, this, [this] { d->showTheme(); });
+    d->isInWindow = true;
+    connect(context(), &QPlcPanelContext::themeChanged, this, [this] { d->showTheme(); });
     d->showTheme();
-    d->target.setPlants(windowContext()->plants());
+    d->target.setContext(context());
 }
 
 void QPlcSetter::showEvent(QShowEvent *event)
@@ -276,9 +276,9 @@ void QPlcSetter::paintEvent(QPaintEvent *)
     QPainter painter(this);
     const SignalControl::State state = d->target.control().state();
     const bool isHeld = state == SignalControl::Mine || state == SignalControl::Other || state == SignalControl::Lost;
-    if (!windowContext())
+    if (!d->isInWindow)
         return;
-    const Theme &theme = windowContext()->theme();
+    const QPlcTheme theme = context()->theme();
     painter.fillRect(rect(), theme.surface);
     if (!isHeld)
         return;

@@ -10,12 +10,12 @@
 
 namespace qplc {
 
-SetterEditor::SetterEditor(const SetterSettings &settings, const PlantList *plants, QWidget *parent)
+SetterEditor::SetterEditor(const SetterSettings &settings, QPlcPanelContext *context, QWidget *parent)
     : SettingsEditor(parent)
     , m_settings(settings)
 {
     auto *form = new QFormLayout(this);
-    auto *signal = new SignalEdit(plants, SignalEdit::AllSignals, this);
+    auto *signal = new SignalEdit(context, SignalEdit::AllSignals, this);
     signal->setText(settings.signal.toString());
     signal->setMinimumWidth(180);
     form->addRow(tr("Signal"), signal);

@@ -6,16 +6,16 @@
 
 class QFormLayout;
 
-namespace qplc {
+class QPlcPanelContext;
 
-class PlantList;
+namespace qplc {
 
 /// The settings of a setter; each change applies at once.
 class SetterEditor : public SettingsEditor
 {
     Q_OBJECT
 public:
-    SetterEditor(const SetterSettings &settings, const PlantList *plants, QWidget *parent = nullptr);
+    SetterEditor(const SetterSettings &settings, QPlcPanelContext *context, QWidget *parent = nullptr);
 
 Q_SIGNALS:
     void edited(const qplc::SetterSettings &settings);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "SignalControl.h"
-#include "ValueStream.h"
 #include "gui/models/SteadyPrefix.h"
+#include "gui/panel/SignalControl.h"
+#include "gui/panel/ValueStream.h"
 
 #include <limits>
 #include <optional>
@@ -17,8 +17,8 @@ class SetterTarget : public QObject
 public:
     explicit SetterTarget(QObject *parent = nullptr);
 
+    void setContext(QPlcPanelContext *context) { m_control.setContext(context); }
     void setPlants(PlantList *plants) { m_control.setPlants(plants); }
-    void setPin(const QString &plant) { m_control.setPin(plant); }
     /// \param reference  invalid: none
     void setSignal(const SignalReference &reference);
     SignalReference reference() const { return m_control.references().value(0); }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "PanelTable.h"
 
+#include "QPlcPanelContext.h"
 #include "gui/panel/FigureFont.h"
 #include "gui/panel/PanelSettings.h"
-#include "gui/panel/WindowContext.h"
 
 #include <QtWidgets/QHeaderView>
 #include <QtWidgets/QMenu>
@@ -40,10 +40,10 @@ PanelTable::PanelTable(TableDelegate::SignOf signOf, Sorting sorting, QWidget *p
         connect(header(), &QHeaderView::sectionClicked, this, &PanelTable::sortBy);
 }
 
-void PanelTable::setContext(WindowContext *context)
+void PanelTable::setContext(QPlcPanelContext *context)
 {
     m_delegate->setContext(context);
-    connect(context, &WindowContext::themeChanged, viewport(), QOverload<>::of(&QWidget::update));
+    connect(context, &QPlcPanelContext::themeChanged, viewport(), QOverload<>::of(&QWidget::update));
 }
 
 void PanelTable::setColumns(const QVector<Column> &columns)

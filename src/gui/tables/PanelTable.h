@@ -31,7 +31,7 @@ public:
 
     PanelTable(TableDelegate::SignOf signOf, Sorting sorting, QWidget *parent);
 
-    void setContext(WindowContext *context);
+    void setContext(QPlcPanelContext *context);
     /// \param columns  one for each column of the model, which is set before
     void setColumns(const QVector<Column> &columns);
     /// This column takes the space that the others leave, and is always there. \param characters  at least so much

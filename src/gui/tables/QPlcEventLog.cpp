@@ -2,9 +2,11 @@
 #include "QPlcEventLog.h"
 
 #include "PanelTable.h"
+#include "QPlcPanelContext.h"
+#include "QPlcTimeAxis.h"
 #include "SearchLine.h"
+#include "gui/models/EventLogModel.h"
 #include "gui/panel/PanelSettings.h"
-#include "gui/panel/WindowContext.h"
 
 #include <QtWidgets/QAction>
 #include <QtWidgets/QComboBox>
@@ -44,7 +46,7 @@ struct QPlcEventLog::Private
 {
     PanelTable *table = nullptr;
     EventFilterModel *filter = nullptr;
-    EventLogModel *events = nullptr;  // from contextChanged() on
+    QPlcPanelContext *context = nullptr;  // from contextChanged() on
     QComboBox *severity = nullptr;
     QLineEdit *search = nullptr;
     QLineEdit *note = nullptr;
@@ -98,9 +100,8 @@ struct QPlcEventLog::Private
         QObject::connect(forget, &QAction::triggered, note, close);
         QObject::connect(note, &QLineEdit::returnPressed, note, [this, close] {
             const QString text = note->text().simplified();
-            if (!text.isEmpty() && events)
-                events->append(
-                    {QDateTime::currentDateTime(), PlantEvent::Information, QPlcEventLog::tr("Note"), text, false});
+            if (!text.isEmpty() && context)
+                context->report(QPlcPanelContext::Information, QPlcEventLog::tr("Note"), text);
             close();
         });
     }
@@ -196,7 +197,7 @@ void QPlcEventLog::applySettings(const QJsonObject &settings)
 {
     QPlcWidget::applySettings(d->settings.take(settings));
     filter();
-    if (windowContext())
+    if (d->context)
         d->table->applySettings(d->settings);
 }
 
@@ -216,10 +217,9 @@ void QPlcEventLog::filter()
 
 void QPlcEventLog::contextChanged()
 {
-    EventLogModel *events = windowContext()->events();
-    d->events = events;
-    d->filter->setSourceModel(events);
-    d->table->setContext(windowContext());
+    d->context = context();
+    d->filter->setSourceModel(context()->eventModel());
+    d->table->setContext(context());
     d->table->setColumns(eventColumns);
     d->table->setStretchedColumn(EventLogModel::Text, 30);
     d->table->applySettings(d->settings);
@@ -227,24 +227,23 @@ void QPlcEventLog::contextChanged()
         d->table->writeSettings(&d->settings);
         Q_EMIT settingsEdited();
     });
-    connect(d->table, &QAbstractItemView::activated, this, [this, events](const QModelIndex &index) {
-        const PlantEvent &event = events->at(d->filter->mapToSource(index).row());
-        const TimeView::Time time = event.time.toMSecsSinceEpoch() * 1'000'000;
-        windowContext()->timeView()->jumpTo(time);
-        windowContext()->timeView()->setPointer(time);  // so that gauges and tables show this time too
+    connect(d->table, &QAbstractItemView::activated, this, [this](const QModelIndex &index) {
+        const QPlcTimeAxis::Time time = index.data(QPlcPanelContext::EventTimeRole).toLongLong() * 1'000'000;
+        context()->timeAxis()->jumpTo(time);
+        context()->timeAxis()->setPointer(time);  // so that gauges and tables show this time too
     });
-    connect(d->acknowledge, &QAction::triggered, this, [this, events] {
+    connect(d->acknowledge, &QAction::triggered, this, [this] {
         QList<QPersistentModelIndex> chosen;  // acknowledging may filter rows away
         const QModelIndexList selected = d->table->selectionModel()->selectedRows();
         for (const QModelIndex &index : selected)
             chosen << d->filter->mapToSource(index);
         for (const QPersistentModelIndex &index : qAsConst(chosen))
-            events->acknowledge(index);
+            context()->eventModel()->setData(index, true, QPlcPanelContext::AcknowledgedRole);
     });
-    connect(d->acknowledgeAll, &QAction::triggered, events, &EventLogModel::acknowledgeAll);
-    const auto count = [this](int open) { d->acknowledgeAll->setEnabled(open > 0); };
-    connect(events, &EventLogModel::unacknowledgedChanged, this, count);
-    count(events->unacknowledged());
+    connect(d->acknowledgeAll, &QAction::triggered, context(), &QPlcPanelContext::acknowledgeEvents);
+    const auto count = [this] { d->acknowledgeAll->setEnabled(context()->unacknowledgedEvents() > 0); };
+    connect(context(), &QPlcPanelContext::unacknowledgedEventsChanged, this, count);
+    count();
     addAction(d->table->createColumnMenu(this)->menuAction());
 }
 

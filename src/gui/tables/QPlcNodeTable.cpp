@@ -2,9 +2,9 @@
 #include "QPlcNodeTable.h"
 
 #include "PanelTable.h"
+#include "QPlcPanelContext.h"
 #include "gui/models/NodeTableModel.h"
 #include "gui/panel/PanelSettings.h"
-#include "gui/panel/WindowContext.h"
 
 #include <QtCore/QSortFilterProxyModel>
 #include <QtGui/QClipboard>
@@ -106,14 +106,14 @@ QJsonObject QPlcNodeTable::settings() const
 void QPlcNodeTable::applySettings(const QJsonObject &settings)
 {
     QPlcWidget::applySettings(d->settings.take(settings));
-    if (windowContext())
+    if (d->sorted->sourceModel())
         d->table->applySettings(d->settings);
 }
 
 void QPlcNodeTable::contextChanged()
 {
-    d->sorted->setSourceModel(new NodeTableModel(windowContext()->plants(), this));
-    d->table->setContext(windowContext());
+    d->sorted->setSourceModel(context()->createNodeModel(this));
+    d->table->setContext(context());
     d->table->setColumns(nodeColumns);
     d->table->setNameColumn(NodeTableModel::Name);
     d->table->setStretchedColumn(NodeTableModel::Name, 12);

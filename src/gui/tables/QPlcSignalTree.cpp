@@ -3,15 +3,13 @@
 
 #include "ExpansionMemory.h"
 #include "PanelTable.h"
+#include "QPlcPanelContext.h"
 #include "SearchLine.h"
-#include "TableTime.h"
 #include "TimeStrip.h"
 #include "gui/models/SignalFilterModel.h"
 #include "gui/models/SignalTreeModel.h"
 #include "gui/panel/PanelSettings.h"
-#include "gui/panel/WindowContext.h"
 
-#include <QtCore/QSet>
 #include <QtCore/QTimer>
 #include <QtGui/QContextMenuEvent>
 #include <QtWidgets/QAction>
@@ -36,7 +34,7 @@ struct QPlcSignalTree::Private
     PanelTable *table = nullptr;
     TimeStrip *strip = nullptr;
     SignalFilterModel *filter = nullptr;
-    SignalTreeModel *model = nullptr;      // from contextChanged() on
+    QAbstractItemModel *model = nullptr;   // from contextChanged() on
     ExpansionMemory *expansion = nullptr;  // too
     QList<QAction *> shows;                // in another panel
     QAction *showSetter = nullptr;
@@ -127,12 +125,12 @@ void QPlcSignalTree::updateActions()
     const QStringList references = selectedReferences();
     for (QAction *action : qAsConst(d->shows))
         action->setEnabled(!references.isEmpty());
-    if (!windowContext())
+    if (!d->model)
         return;
     // What the master measures is nobody else's to set.
     const auto maySet = [this](const QString &text) {
-        const PlantList::Signal signal = windowContext()->plants()->resolve(SignalReference::fromString(text));
-        return signal && signal.plant->writer(signal.index) != QLatin1String("Master");
+        const QPlcPanelContext::Signal signal = context()->signal(text);
+        return signal && signal.writer != QLatin1String("Master");
     };
     d->showSetter->setEnabled(!references.isEmpty() && std::all_of(references.begin(), references.end(), maySet));
     Q_EMIT selectionChanged();
@@ -189,6 +187,21 @@ void QPlcSignalTree::request(const QString &typeName)
         Q_EMIT showRequested(references, typeName);
 }
 
+namespace {
+
+/// The signal of a row, or all signals of a plant or a node.
+void addReferences(const QModelIndex &row, QStringList *references)
+{
+    const QString reference = row.siblingAtColumn(0).data(QPlcPanelContext::ReferenceRole).toString();
+    if (!reference.isEmpty())
+        *references << reference;
+    const int below = reference.isEmpty() && row.isValid() ? row.model()->rowCount(row) : 0;
+    for (int i = 0; i < below; ++i)
+        addReferences(row.model()->index(i, 0, row), references);
+}
+
+}  // namespace
+
 QStringList QPlcSignalTree::selectedReferences() const
 {
     if (!d->model)
@@ -201,16 +214,9 @@ QStringList QPlcSignalTree::selectedReferences() const
         chosen << first;
     }
     QStringList references;
-    QSet<QString> known;
-    for (const QModelIndex &index : qAsConst(chosen)) {
-        const QVector<SignalReference> below = d->model->references(d->filter->mapToSource(index));
-        for (const SignalReference &reference : below) {
-            const QString text = reference.toString();
-            if (!known.contains(text))
-                references << text;
-            known << text;
-        }
-    }
+    for (const QModelIndex &index : qAsConst(chosen))
+        addReferences(d->filter->mapToSource(index), &references);
+    references.removeDuplicates();
     return references;
 }
 
@@ -243,9 +249,9 @@ void QPlcSignalTree::applySettings(const QJsonObject &settings)
 
 void QPlcSignalTree::contextChanged()
 {
-    d->model = new SignalTreeModel(windowContext()->plants(), this);
+    d->model = context()->createSignalModel(this);
     d->filter->setSourceModel(d->model);
-    d->table->setContext(windowContext());
+    d->table->setContext(context());
     d->table->setColumns(columns);
     d->table->setNameColumn(SignalTreeModel::Name);
     d->table->setStretchedColumn(SignalTreeModel::Name, 18);
@@ -260,8 +266,7 @@ void QPlcSignalTree::contextChanged()
     };
     connect(d->table, &PanelTable::settingsEdited, this, take);
     connect(d->expansion, &ExpansionMemory::edited, this, take);
-    d->strip->setContext(windowContext());
-    followDisplayTime(d->model, windowContext());
+    d->strip->setContext(context());
     d->others << d->table->createColumnMenu(this)->menuAction();
     addAction(d->others.last());
 }

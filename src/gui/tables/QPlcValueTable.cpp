@@ -2,7 +2,8 @@
 #include "QPlcValueTable.h"
 
 #include "PanelTable.h"
-#include "TableTime.h"
+#include "QPlcPanelContext.h"
+#include "QPlcTimeAxis.h"
 #include "TimeStrip.h"
 #include "gui/models/SignalFilterModel.h"
 #include "gui/models/ValueTableModel.h"
@@ -201,7 +202,7 @@ void QPlcValueTable::search(const QString &text)
 /// A line above the rows, until Escape.
 void QPlcValueTable::openAdding()
 {
-    if (!windowContext())
+    if (!d->model)
         return;
     if (auto *open = findChild<SignalEdit *>()) {
         open->setFocus();
@@ -222,9 +223,9 @@ void QPlcValueTable::openAdding()
 
 QWidget *QPlcValueTable::createSettingsEditor()
 {
-    if (!windowContext())
+    if (!d->model)
         return nullptr;
-    auto *edit = new SignalEdit(windowContext()->plants());
+    auto *edit = new SignalEdit(context(), SignalEdit::AllSignals);
     edit->setPlaceholderText(tr("Name of a signal to add"));
     edit->setMinimumWidth(180);
     connect(edit, &SignalEdit::chosen, this, [this, edit](const QString &reference) {
@@ -296,7 +297,7 @@ void QPlcValueTable::contextChanged()
     d->model->setPin(pinnedPlant());
     connect(this, &QPlcWidget::pinnedPlantChanged, d->model, [this] { d->model->setPin(pinnedPlant()); });
     d->sorted->setSourceModel(d->model);
-    d->table->setContext(windowContext());
+    d->table->setContext(context());
     d->table->setColumns(valueColumns);
     d->table->setNameColumn(ValueTableModel::Name);
     d->table->setStretchedColumn(ValueTableModel::Name, 16);
@@ -304,12 +305,18 @@ void QPlcValueTable::contextChanged()
     d->table->applySettings(d->settings);
     connect(d->model, &QAbstractItemModel::rowsInserted, this, &QPlcValueTable::takeSignals);
     connect(d->model, &QAbstractItemModel::rowsRemoved, this, &QPlcValueTable::takeSignals);
-    connect(windowContext()->plants(), &PlantList::signalsChanged, this, [this] {
-        d->sorted->searchAgain();
-        d->showHint();
-    });
-    d->strip->setContext(windowContext());
-    followDisplayTime(d->model, windowContext());
+    // After the model has found its signals again.
+    connect(
+        context(), &QPlcPanelContext::signalsChanged, this,
+        [this] {
+            d->sorted->searchAgain();
+            d->showHint();
+        },
+        Qt::QueuedConnection);
+    d->strip->setContext(context());
+    const auto showTime = [this] { d->model->setDisplayTime(context()->shownTime()); };
+    connect(context()->timeAxis(), &QPlcTimeAxis::displayTimeChanged, d->model, showTime);
+    showTime();
     addAction(d->table->createColumnMenu(this)->menuAction());
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TableDelegate.h"
 
+#include "QPlcPanelContext.h"
 #include "gui/panel/FigureFont.h"
-#include "gui/panel/WindowContext.h"
 
 #include <QtGui/QPainter>
 #include <QtWidgets/QApplication>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr int signWidth = 16;  // [px]
 
-void paintSign(QPainter *painter, const QRectF &place, TableDelegate::Sign sign, const Theme &theme)
+void paintSign(QPainter *painter, const QRectF &place, TableDelegate::Sign sign, const QPlcTheme &theme)
 {
     const QPointF center = place.center();
     const double r = 4.5;
@@ -79,7 +79,7 @@ void TableDelegate::paint(QPainter *painter, const QStyleOptionViewItem &option,
     painter->save();
     const QRect place = option.rect.adjusted(4, 0, 0, 0);
     paintSign(painter, QRectF(place.left(), place.top(), signWidth - 4, place.height()), sign,
-              m_context ? m_context->theme() : Theme::byName(Theme::System));
+              m_context ? m_context->theme() : QPlcTheme());
     const bool isSelected = option.state & QStyle::State_Selected;
     painter->setPen(whole.palette.color(isSelected ? QPalette::HighlightedText : QPalette::Text));
     const QRect room = place.adjusted(signWidth, 0, -4, 0);

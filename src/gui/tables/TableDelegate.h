@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "QPlcPanelContext.h"
+
 #include <QtCore/QPointer>
 #include <QtWidgets/QStyledItemDelegate>
 
 namespace qplc {
-
-class WindowContext;
-struct Theme;
 
 /// Draws cells of tables: figures of one width where they stand at the right, and before some words a sign whose form and colour say how things are.
 class TableDelegate : public QStyledItemDelegate
@@ -20,7 +19,7 @@ public:
 
     /// \param signOf  the sign of a cell; null: none has one
     explicit TableDelegate(SignOf signOf, QObject *parent = nullptr);
-    void setContext(WindowContext *context) { m_context = context; }
+    void setContext(QPlcPanelContext *context) { m_context = context; }
     /// Where names differ at their ends: the middle of them is left out. \param column  -1: none
     void setNameColumn(int column) { m_nameColumn = column; }
 
@@ -33,7 +32,7 @@ protected:
 private:
     SignOf m_signOf;
     int m_nameColumn = -1;
-    QPointer<WindowContext> m_context;
+    QPointer<QPlcPanelContext> m_context;
 };
 
 }  // namespace qplc

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TimeStrip.h"
 
-#include "gui/models/ValueFormat.h"
-#include "gui/panel/WindowContext.h"
+#include "QPlcPanelContext.h"
 
 #include <QtCore/QDateTime>
 
@@ -25,11 +24,11 @@ TimeStrip::TimeStrip(QWidget *parent)
     connect(&m_timer, &QTimer::timeout, this, &TimeStrip::renew);
 }
 
-void TimeStrip::setContext(WindowContext *context)
+void TimeStrip::setContext(QPlcPanelContext *context)
 {
     m_context = context;
-    connect(context->timeView(), &TimeView::displayTimeChanged, this, &TimeStrip::renew);
-    connect(context, &WindowContext::themeChanged, this, &TimeStrip::renew);
+    connect(context, &QPlcPanelContext::timeChanged, this, &TimeStrip::renew);
+    connect(context, &QPlcPanelContext::themeChanged, this, &TimeStrip::renew);
     m_timer.start(pause);
     renew();
 }
@@ -38,7 +37,7 @@ void TimeStrip::renew()
 {
     if (!m_context)
         return;
-    if (const std::optional<TimeView::Time> time = m_context->timeView()->displayTime()) {
+    if (const std::optional<QPlcPanelContext::Time> time = m_context->shownTime()) {
         const QDateTime shown = QDateTime::fromMSecsSinceEpoch(*time / 1'000'000);
         say(tr("Values at %1").arg(shown.toString(QStringLiteral("HH:mm:ss.zzz"))), m_context->theme().accent);
     } else {
@@ -49,10 +48,10 @@ void TimeStrip::renew()
 QString TimeStrip::staleText() const
 {
     QStringList texts;
-    for (int i = 0; i < m_context->plants()->size(); ++i) {
-        const Plant &plant = *m_context->plants()->at(i);
-        if (plant.quality() == Plant::Stale && plant.age() > shortestAge)
-            texts << tr("%1: values are %2 old").arg(plant.name(), ageText(plant.age()));
+    for (const QString &name : m_context->plants()) {
+        const QPlcPanelContext::Plant plant = m_context->plant(name);
+        if (plant.isStale && plant.age > shortestAge)
+            texts << tr("%1: values are %2 old").arg(plant.name, QPlcPanelContext::ageText(plant.age));
     }
     return texts.join(QStringLiteral(" · "));
 }

@@ -5,9 +5,9 @@
 #include <QtCore/QTimer>
 #include <QtWidgets/QLabel>
 
-namespace qplc {
+class QPlcPanelContext;
 
-class WindowContext;
+namespace qplc {
 
 /// A line that is there while values are not those of now, and says why: the window shows another time, or a plant gives none any more.
 class TimeStrip : public QLabel
@@ -15,14 +15,14 @@ class TimeStrip : public QLabel
     Q_OBJECT
 public:
     explicit TimeStrip(QWidget *parent = nullptr);
-    void setContext(WindowContext *context);
+    void setContext(QPlcPanelContext *context);
 
 private:
     void renew();
     QString staleText() const;
     void say(const QString &text, const QColor &color);
 
-    QPointer<WindowContext> m_context;
+    QPointer<QPlcPanelContext> m_context;
     QTimer m_timer;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "PlantFixtures.h"
 #include "QPlcGauge.h"
+#include "QPlcPanelContext.h"
 #include "gui/gauges/GaugeFeed.h"
 #include "gui/panel/WindowContext.h"
 
@@ -22,7 +23,8 @@ public:
     explicit FormulaBench(const QString &formula, const QJsonObject &more = {})
     {
         plant = context.plants()->add(master.address());
-        feed.setContext(&context);
+        panel.setContext(&context);
+        feed.setContext(panel.context());
         QJsonObject json = more;
         json.insert(QStringLiteral("signal"), formula);
         feed.setSettings(settingsOf(json));
@@ -40,6 +42,7 @@ public:
     RunningMaster master;
     WindowContext context;
     Plant *plant;
+    QPlcWidget panel;
     GaugeFeed feed;
 };
 
@@ -85,8 +88,10 @@ void tst_GaugeFormula::aFormulaIsCalculatedOfSignals()
 void tst_GaugeFormula::aFormulaComesToLifeWithItsPlant()
 {
     WindowContext context;
+    QPlcWidget panel;
+    panel.setContext(&context);
     GaugeFeed feed;
-    feed.setContext(&context);
+    feed.setContext(panel.context());
     feed.setActive(true);
     feed.setSettings(settingsOf({{"signal", "= 2*count"}}));
     QVERIFY(feed.picture().message.contains(QStringLiteral("count")));
@@ -125,7 +130,7 @@ void tst_GaugeFormula::valuesAtRestLookTheSameAsSignalAndAsFormula()
 {
     FormulaBench bench(QStringLiteral("= norm(vector)"));
     GaugeFeed signal;
-    signal.setContext(&bench.context);
+    signal.setContext(bench.panel.context());
     signal.setSettings(settingsOf({{"signal", "vector[0]"}}));
     signal.setActive(true);
     const auto looks = [](const GaugeFeed &feed, double number) {

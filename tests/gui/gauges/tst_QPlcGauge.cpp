@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "PlantFixtures.h"
 #include "QPlcGauge.h"
+#include "QPlcPanelContext.h"
 #include "gui/gauges/GaugeFeed.h"
 #include "gui/panel/WindowContext.h"
 
@@ -49,7 +50,8 @@ public:
         : master(gaugeTable())
     {
         plant = context.plants()->add(master.address(), QStringLiteral("kite"));
-        feed.setContext(&context);
+        panel.setContext(&context);
+        feed.setContext(panel.context());
         feed.setSettings(settingsOf(settings));
         feed.setActive(true);
     }
@@ -71,6 +73,7 @@ public:
     RunningMaster master;
     WindowContext context;
     Plant *plant;
+    QPlcWidget panel;
     GaugeFeed feed;
 };
 
@@ -133,8 +136,10 @@ void tst_QPlcGauge::missingSettingsAreDefaults()
 void tst_QPlcGauge::aSignalThatIsNotThereComesToLifeWithItsPlant()
 {
     WindowContext context;
+    QPlcWidget panel;
+    panel.setContext(&context);
     GaugeFeed feed;
-    feed.setContext(&context);
+    feed.setContext(panel.context());
     feed.setActive(true);
     QVERIFY(feed.picture().message.contains(QStringLiteral("Drop one here")));
     feed.setSettings(settingsOf({{"signal", "level"}}));
@@ -249,8 +254,10 @@ void tst_QPlcGauge::thePastIsShownWithItsTime()
     RunningMaster master;
     WindowContext context;
     Plant *plant = context.plants()->add(master.address());
+    QPlcWidget panel;
+    panel.setContext(&context);
     GaugeFeed feed;
-    feed.setContext(&context);
+    feed.setContext(panel.context());
     feed.setSettings(settingsOf({{"signal", "count"}}));
     feed.setActive(true);
     QVERIFY(master.startRealTime());

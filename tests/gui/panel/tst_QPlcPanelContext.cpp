@@ -91,6 +91,9 @@ private Q_SLOTS:
     void aPastOutlivesItsPlant();
     void aPanelMovesTheTimeAxisOfItsWindow();
     void aPanelWritesIntoTheEventLog();
+    void aPanelAcknowledgesEvents();
+    void tablesOfAPanelAreModels();
+    void aNoteSaysWhyAValueIsNotOfNow();
     void theWindowShowsThePast();
     void aLivePanelEndsWithItsOwnPlant();
     void cursorsAreThoseOfTheWindow();
@@ -303,6 +306,58 @@ void tst_QPlcPanelContext::aPanelWritesIntoTheEventLog()
     QCOMPARE(fed.window.events()->rowCount(), before + 1);
     QCOMPARE(fed.window.events()->at(before).text, QStringLiteral("The disk is full."));
     QCOMPARE(fed.window.events()->at(before).severity, qplc::PlantEvent::Warning);
+}
+
+void tst_QPlcPanelContext::aPanelAcknowledgesEvents()
+{
+    FedPanel fed;
+    Context &context = fed.context();
+    context.acknowledgeEvents();
+    QCOMPARE(context.unacknowledgedEvents(), 0);
+    QSignalSpy counts(&context, &Context::unacknowledgedEventsChanged);
+    context.report(Context::Warning, QStringLiteral("Trigger"), QStringLiteral("first"));
+    context.report(Context::Error, QStringLiteral("Trigger"), QStringLiteral("second"));
+    QCOMPARE(context.unacknowledgedEvents(), 2);
+    QCOMPARE(counts.count(), 2);
+    QAbstractItemModel *events = context.eventModel();
+    const QModelIndex last = events->index(events->rowCount() - 1, 0);
+    QCOMPARE(last.data(Context::SeverityRole).toInt(), int(Context::Error));
+    QVERIFY(!last.data(Context::AcknowledgedRole).toBool());
+    QVERIFY(!events->setData(last, false, Context::AcknowledgedRole));
+    QVERIFY(events->setData(last, true, Context::AcknowledgedRole));
+    QVERIFY(last.data(Context::AcknowledgedRole).toBool());
+    QCOMPARE(context.unacknowledgedEvents(), 1);
+}
+
+void tst_QPlcPanelContext::tablesOfAPanelAreModels()
+{
+    Panel alone;
+    QVERIFY(!alone.context()->createSignalModel(&alone) && !alone.context()->createNodeModel(&alone));
+    QVERIFY(!alone.context()->eventModel());
+    FedPanel fed;
+    const QAbstractItemModel *model = fed.context().createSignalModel(&fed.panel);
+    const QAbstractItemModel *nodes = fed.context().createNodeModel(&fed.panel);
+    QCOMPARE(model->parent(), &fed.panel);
+    QVERIFY(nodes->rowCount() > 0);
+    const QModelIndexList found = model->match(model->index(0, 0), Context::ReferenceRole, QStringLiteral("count"), 1,
+                                               Qt::MatchExactly | Qt::MatchRecursive);
+    QCOMPARE(found.size(), 1);
+    const QModelIndex value = found.first().siblingAtColumn(1);
+    QTRY_COMPARE(value.data().toString(), QStringLiteral("99"));
+    fed.context().timeAxis()->show(start, start + 11 * period);
+    QTRY_COMPARE(value.data().toString(), QStringLiteral("10"));
+}
+
+void tst_QPlcPanelContext::aNoteSaysWhyAValueIsNotOfNow()
+{
+    FedPanel fed;
+    QCOMPARE(fed.context().signal(QStringLiteral("count")).note, QString());
+    QCOMPARE(fed.context().signal(QStringLiteral("setpoint"), start + 5 * period).note.left(3), QStringLiteral("at "));
+    QCOMPARE(fed.context().signal(QStringLiteral("count"), start - period).note.left(12),
+             QStringLiteral("no value at "));
+    fed.kite->feed()->disconnected();
+    QCOMPARE(fed.context().signal(QStringLiteral("count")).note.left(7), QStringLiteral("stale, "));
+    QCOMPARE(fed.context().signal(QStringLiteral("= 2*count")).note.left(7), QStringLiteral("stale, "));
 }
 
 void tst_QPlcPanelContext::theWindowShowsThePast()

@@ -4,10 +4,7 @@
 #include "QPlcPanelContext.h"
 #include "SignalControl.h"
 #include "ValueStream.h"
-#include "gui/panel/WindowContext.h"
 #include "gui/plant/LimitOf.h"
-
-#include <QtCore/QPointer>
 
 #include <algorithm>
 #include <limits>
@@ -44,8 +41,6 @@ struct QPlcSignalControl::Private
         return control.resolved().value(names.indexOf(reference));
     }
 
-    QPointer<QPlcPanelContext> context;
-    QPointer<WindowContext> window;
     QStringList names;
     SignalControl control;
     std::map<Plant *, std::unique_ptr<ValueStream>> streams;
@@ -55,14 +50,6 @@ QPlcSignalControl::QPlcSignalControl(QPlcPanelContext *context, QObject *parent)
     : QObject(parent)
     , d(std::make_unique<Private>())
 {
-    d->context = context;
-    const auto follow = [this] {
-        d->control.setPin(d->context->pin());
-        if (d->window == d->context->window())
-            return;
-        d->window = d->context->window();
-        d->control.setPlants(d->window ? d->window->plants() : nullptr);
-    };
     connect(&d->control, &SignalControl::leaving, this, [this] {
         d->leave();
         Q_EMIT leaving();
@@ -73,14 +60,13 @@ QPlcSignalControl::QPlcSignalControl(QPlcPanelContext *context, QObject *parent)
     });
     connect(&d->control, &SignalControl::changed, this, &QPlcSignalControl::changed);
     connect(&d->control, &SignalControl::failed, this, &QPlcSignalControl::failed);
-    connect(context, &QPlcPanelContext::signalsChanged, this, follow);
-    follow();
+    d->control.setContext(context);
 }
 
 QPlcSignalControl::~QPlcSignalControl()
 {
     d->control.disconnect(this);
-    if (!d->window)
+    if (!d->control.hasPlants())
         return;
     d->leave();
     if (state() == Mine)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SignalControl.h"
 
+#include "QPlcPanelContext.h"
+#include "WindowContext.h"
 #include "gui/models/SiPrefix.h"
 
 #include <algorithm>
@@ -33,6 +35,18 @@ QPlcValue wholeValue(const PlantList::Signal &signal, double number, const QPlcV
     QByteArray bytes = others.toBytes();
     bytes.replace(signal.element * type.elementSize(), type.elementSize(), element.toBytes());
     return QPlcValue::fromBytes(type, bytes);
+}
+
+void SignalControl::setContext(QPlcPanelContext *context)
+{
+    const auto renew = [this, context] {
+        setPin(context->pin());
+        PlantList *plants = context->window() ? context->window()->plants() : nullptr;
+        if (plants != m_plants)
+            setPlants(plants);
+    };
+    connect(context, &QPlcPanelContext::signalsChanged, this, renew);
+    renew();
 }
 
 void SignalControl::setPlants(PlantList *plants)

@@ -6,6 +6,8 @@
 #include <QtCore/QPointer>
 #include <QtCore/QVector>
 
+class QPlcPanelContext;
+
 namespace qplc {
 
 /// Who writes some signals, and how this window gets and gives back control of them: all at once, by leases.
@@ -30,11 +32,14 @@ public:
 
     using QObject::QObject;
 
+    /// Knows the plants of a panel, and the one to which it is pinned. \param context  outlives this
+    void setContext(QPlcPanelContext *context);
     /// \param plants  null: none
     void setPlants(PlantList *plants);
     /// The plant that references without one mean; empty: the selected one of the window.
     void setPin(const QString &plant);
     void setSignals(const QVector<SignalReference> &references);
+    bool hasPlants() const { return m_plants; }
     const QVector<SignalReference> &references() const { return m_references; }
     /// What the references mean now, in their order; false for what is missing.
     const QVector<PlantList::Signal> &resolved() const { return m_resolved; }
