@@ -122,6 +122,6 @@ private:
     void readMessages();
     void readError();
 
-    struct Private;
+    struct Q_DECL_HIDDEN Private;
     std::unique_ptr<Private> d;
 };

@@ -143,6 +143,6 @@ public:
     void quitOnSignals(std::function<void()> onSignal = {});
 
 private:
-    struct Private;
+    struct Q_DECL_HIDDEN Private;
     std::unique_ptr<Private> d;
 };

@@ -106,7 +106,7 @@ protected:
 
 private:
     friend class QPlcPort;
-    class PortCode;
+    class Q_DECL_HIDDEN PortCode;
     void add(QPlcPort *port);
     void remove(const QPlcPort *port);
 

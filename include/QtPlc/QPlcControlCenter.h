@@ -218,6 +218,6 @@ protected:
     QMenu *createPopupMenu() override;
 
 private:
-    struct Private;
+    struct Q_DECL_HIDDEN Private;
     std::unique_ptr<Private> d;
 };

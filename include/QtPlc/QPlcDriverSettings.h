@@ -96,7 +96,7 @@ public:
 
 private:
     friend class qplc::HardwareConfiguration;
-    struct Private;
-    explicit QPlcDriverSettings(std::unique_ptr<Private> data);
+    struct Q_DECL_HIDDEN Private;
+    Q_DECL_HIDDEN explicit QPlcDriverSettings(std::unique_ptr<Private> data);
     std::unique_ptr<Private> d;
 };

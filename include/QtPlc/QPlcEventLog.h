@@ -48,7 +48,7 @@ private:
     void makeActions();
     void filter();
 
-    struct Private;
+    struct Q_DECL_HIDDEN Private;
     std::unique_ptr<Private> d;
 };
 /// The factory of this panel.

@@ -68,7 +68,7 @@ private:
     void showSettings();
     void takeEdit();
 
-    struct Private;
+    struct Q_DECL_HIDDEN Private;
     std::unique_ptr<Private> d;
 };
 /// The factory of this panel.

@@ -3,15 +3,9 @@
 
 #include <QtCore/qglobal.h>
 
-#if defined(QTPLC_STATIC)
-/// Exports a class or function of QtPlc::Core from the shared library, and imports it in programs.
-/// Empty with QTPLC_STATIC, which QtPlc::Core defines for users of a static library.
-#define QTPLC_EXPORT
-#elif defined(QTPLC_BUILD_CORE)
+/// Marks the public API of QtPlc::Core: the library exports it and hides the rest. It means the
+/// same where the library is built and where it is used, and for shared and static libraries.
 #define QTPLC_EXPORT Q_DECL_EXPORT
-#else
-#define QTPLC_EXPORT Q_DECL_IMPORT
-#endif
 
 /// Position of a signal in its table, in the order of the file: 0 to 65533. See
 /// QPlcSignalTable::indexOf().

@@ -3,12 +3,6 @@
 
 #include "QPlcGlobal.h"
 
-#if defined(QTPLC_STATIC)
-/// Exports a class or function of QtPlc::Hardware from the shared library, and imports it in
-/// programs. Empty with QTPLC_STATIC, which QtPlc::Core defines for users of a static library.
-#define QTPLC_HARDWARE_EXPORT
-#elif defined(QTPLC_BUILD_HARDWARE_LIBRARY)
+/// Marks the public API of QtPlc::Hardware: the library exports it and hides the rest. It means the
+/// same where the library is built and where it is used, and for shared and static libraries.
 #define QTPLC_HARDWARE_EXPORT Q_DECL_EXPORT
-#else
-#define QTPLC_HARDWARE_EXPORT Q_DECL_IMPORT
-#endif

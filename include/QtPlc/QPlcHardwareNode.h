@@ -161,6 +161,6 @@ protected:
 private:
     void deviceChanged(const QString &driver, const QString &error);
 
-    struct Private;
+    struct Q_DECL_HIDDEN Private;
     std::unique_ptr<Private> m_hardware;
 };

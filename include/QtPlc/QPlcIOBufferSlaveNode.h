@@ -90,6 +90,6 @@ public:
     quint64 lostCycles() const;
 
 private:
-    class BufferCode;
+    class Q_DECL_HIDDEN BufferCode;
     BufferCode *const m_buffer;  // owned by the base class
 };

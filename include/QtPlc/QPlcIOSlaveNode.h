@@ -75,7 +75,7 @@ protected:
     /// \pre the node is not registered
     void readAllSignals();
 
-    class Code;
+    class Q_DECL_HIDDEN Code;
     /// Makes a node with other code for its frames. Only for kinds of nodes of this library.
     QPlcIOSlaveNode(const QString &name, RealTimeViolationPolicy policy, std::unique_ptr<Code> code, QObject *parent);
 

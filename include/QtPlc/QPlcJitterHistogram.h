@@ -47,7 +47,7 @@ public:
     QWidget *createSettingsEditor() override;
 
 private:
-    class Private;
+    class Q_DECL_HIDDEN Private;
     std::unique_ptr<Private> d;
 };
 

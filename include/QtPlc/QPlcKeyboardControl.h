@@ -70,7 +70,7 @@ protected:
     void paintEvent(QPaintEvent *event) override;
 
 private:
-    struct Private;
+    struct Q_DECL_HIDDEN Private;
     std::unique_ptr<Private> d;
 };
 

@@ -44,6 +44,6 @@ protected:
 private:
     void connectSecurely(const QPlcUnderlyingProtocol &master);
 
-    struct Private;
+    struct Q_DECL_HIDDEN Private;
     std::unique_ptr<Private> d;
 };

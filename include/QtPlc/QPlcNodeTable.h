@@ -44,7 +44,7 @@ protected:
     void contextChanged() override;
 
 private:
-    struct Private;
+    struct Q_DECL_HIDDEN Private;
     std::unique_ptr<Private> d;
 };
 /// The factory of this panel.

@@ -303,6 +303,6 @@ private:
     qplc::WindowContext *window() const;
     QString pin() const;
 
-    struct Private;
+    struct Q_DECL_HIDDEN Private;
     std::unique_ptr<Private> d;
 };

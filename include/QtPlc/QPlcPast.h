@@ -130,6 +130,6 @@ public:
 private:
     friend struct qplc::PastRows;
 
-    struct Private;
+    struct Q_DECL_HIDDEN Private;
     std::shared_ptr<const Private> d;
 };

@@ -69,7 +69,7 @@ public Q_SLOTS:
     void look();
 
 private:
-    struct Private;
-    explicit QPlcServiceNotifier(std::unique_ptr<Private> data, QObject *parent);
+    struct Q_DECL_HIDDEN Private;
+    Q_DECL_HIDDEN explicit QPlcServiceNotifier(std::unique_ptr<Private> data, QObject *parent);
     std::unique_ptr<Private> d;
 };

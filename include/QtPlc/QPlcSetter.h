@@ -62,7 +62,7 @@ protected:
     void showEvent(QShowEvent *event) override;
 
 private:
-    struct Private;
+    struct Q_DECL_HIDDEN Private;
     std::unique_ptr<Private> d;
 };
 

@@ -120,6 +120,6 @@ Q_SIGNALS:
     void failed(const QString &sentence);
 
 private:
-    struct Private;
+    struct Q_DECL_HIDDEN Private;
     std::unique_ptr<Private> d;
 };

@@ -65,7 +65,7 @@ private:
     void search(const QString &text);
     void request(const QString &typeName);
 
-    struct Private;
+    struct Q_DECL_HIDDEN Private;
     std::unique_ptr<Private> d;
 };
 /// The factory of this panel.

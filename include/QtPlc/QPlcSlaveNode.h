@@ -453,7 +453,7 @@ protected:
 
 private:
     friend class QPlcSlaveNodePrivate;
-    class ListCode;
+    class Q_DECL_HIDDEN ListCode;
     std::unique_ptr<QPlcSlaveNodePrivate> d;
 };
 

@@ -95,7 +95,7 @@ public:
     int drawnPictures() const;
 
 private:
-    class Private;
+    class Q_DECL_HIDDEN Private;
     std::unique_ptr<Private> d;
 };
 /// The factory of this panel.

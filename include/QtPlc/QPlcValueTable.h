@@ -57,7 +57,7 @@ private:
     void search(const QString &text);
     void takeSignals();
 
-    struct Private;
+    struct Q_DECL_HIDDEN Private;
     std::unique_ptr<Private> d;
 };
 /// The factory of this panel.

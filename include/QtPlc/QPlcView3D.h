@@ -150,7 +150,7 @@ protected:
 private:
     friend class qplc::View3DPicture;
 
-    struct Private;
+    struct Q_DECL_HIDDEN Private;
     std::unique_ptr<Private> d;
 };
 

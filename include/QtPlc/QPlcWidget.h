@@ -191,6 +191,6 @@ protected:
     void setInitialOutputSignals(const QPlcSignalList &signalValues);
 
 private:
-    struct Private;
+    struct Q_DECL_HIDDEN Private;
     std::unique_ptr<Private> d;
 };

@@ -69,7 +69,7 @@ public:
     void setAspectEqual(bool isEqual);
 
 private:
-    class Private;
+    class Q_DECL_HIDDEN Private;
     std::unique_ptr<Private> d;
 };
 
