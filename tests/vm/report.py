@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes docs/vm.md of what the virtual machine has said.
+"""Writes docs/vm.md from the results of the virtual machine.
 
-usage: report.py FOLDER SECONDS   FOLDER  build/vm; SECONDS  how long all of it took
+usage: report.py FOLDER SECONDS   FOLDER  build/vm; SECONDS  duration of the whole run
 """
 import datetime
 import json
@@ -26,11 +26,11 @@ def main():
     verdict = "passed" if "FAILED" not in results else f"FAILED: {results.count('FAILED')} of {len(results)} steps"
     print(f"""# The virtual machine
 
-`scripts/test-vm` boots Debian's kernel with PREEMPT_RT in QEMU, on processors that are emulated, with the devices that the kernel has for tests: CAN (`vcan`), GPIO (`gpio-sim`), I2C (`i2c-stub`), SPI (`spidev` on a bus without wires,
-`tests/vm/spi_loop`). The hardware library, and a master with nodes under `SCHED_FIFO`, are tested with them. It needs root and Debian 12 on x86-64, no rights to virtualisation and no CAN, GPIO or I2C of the computer. It is a job of its own: how long it takes depends on the computer that emulates, three minutes to more than fifteen.
-`scripts/test-vm --run COMMAND` runs a command of yours there.
+`scripts/test-vm` boots the kernel of Debian with PREEMPT_RT in QEMU, on emulated processors, with the test devices of the kernel: CAN (`vcan`), GPIO (`gpio-sim`), I2C (`i2c-stub`), SPI (`spidev` on a bus without wires, `tests/vm/spi_loop`).
+It tests the hardware library with these devices, and a master with nodes under `SCHED_FIFO`. It needs root and Debian 12 on x86-64, but no rights for virtualisation and no CAN, GPIO or I2C of the computer. It is a separate job: it takes three minutes to more than fifteen, depending on the computer that emulates.
+`scripts/test-vm --run COMMAND` runs your command there.
 
-Times are for function only: a program emulates these processors. This page is written by the script.
+The times do not show performance, because the processors are emulated. The script writes this page.
 
 | last run | |
 |---|---|
@@ -41,7 +41,7 @@ Times are for function only: a program emulates these processors. This page is w
 
 ## In the machine
 
-It was up {report['booted']:.0f} s after its start.
+It was ready {report['booted']:.0f} s after its start.
 
 | | s | | |
 |---|---|---|---|
@@ -49,7 +49,7 @@ It was up {report['booted']:.0f} s after its start.
 
 ## Before that
 
-What is there already takes no time: packages, downloads and builds are kept.
+Packages, downloads and builds are kept, so a repeated run needs little time for them.
 
 | s | |
 |---|---|
