@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SoakRun.h"
 
+#include <utility>
+
 namespace soak {
 
 namespace {
@@ -94,7 +96,7 @@ bool SoakRun::sufferAll()
         if (!suffer(fault))
             return false;
     }
-    return !m_isCrowded || comeBack(m_plan.back().kind);
+    return !m_isCrowded || comeBack(m_plan.back().kind, true);
 }
 
 /// Lets the plant run, and looks at what it uses.
@@ -113,16 +115,18 @@ bool SoakRun::suffer(const Fault &fault)
         return false;
     const qint64 begin = Operator::now();
     const bool isFollowed = fault.pause >= 0;
+    const bool wasCrowded = m_isCrowded;
     m_history.append(Record::FaultBegins, fault.node,
                      {quint64(fault.kind), quint64(fault.amount), fault.seed, m_isCrowded || isFollowed ? 1U : 0U});
     const int amount = inject(fault);
     m_history.append(Record::FaultEnds, fault.node, {quint64(fault.kind), quint64(amount)});
     m_isCrowded = isFollowed;
+    m_isMasterNew = m_isMasterNew || isOfMaster(fault.kind);
     if (isFollowed) {
         Operator::wait(fault.pause);
         return true;
     }
-    if (!comeBack(fault.kind))
+    if (!comeBack(fault.kind, wasCrowded))
         return false;
     const int settling = fault.kind == FaultKind::KillNode ? 100 : Settling;
     Operator::wait(std::max(settling, m_profile.faultEvery - int(Operator::now() - begin)));
@@ -130,14 +134,14 @@ bool SoakRun::suffer(const Fault &fault)
     return true;
 }
 
-/// After a fault, or several at once.
-bool SoakRun::comeBack(FaultKind last)
+/// After a fault, or several at once, of which each may be the one that shows last.
+bool SoakRun::comeBack(FaultKind last, bool wereSeveral)
 {
     m_isCrowded = false;
     m_plant.waitForCauses();
-    if (isOfMaster(last))
+    if (std::exchange(m_isMasterNew, false))
         m_operator.useMaster(m_plant.master());
-    Operator::wait(consequencesOf(last));
+    Operator::wait(consequencesOf(wereSeveral ? FaultKind::CutRoad : last));
     return recover();
 }
 

@@ -22,7 +22,7 @@ private:
     bool start();
     bool recover();
     bool suffer(const Fault &fault);
-    bool comeBack(FaultKind last);
+    bool comeBack(FaultKind last, bool wereSeveral);
     bool sufferAll();
     void rest(int seconds);
     int inject(const Fault &fault);
@@ -36,7 +36,8 @@ private:
     HistoryWriter &m_history;
     Operator m_operator;
     QString m_errorString;
-    bool m_isCrowded = false;  // the plant has not recovered from the last fault
+    bool m_isCrowded = false;    // the plant has not recovered from the last fault
+    bool m_isMasterNew = false;  // since the last recovery: it gives other numbers to its nodes
 };
 
 }  // namespace soak
