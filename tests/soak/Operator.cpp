@@ -7,15 +7,16 @@
 #include <QtCore/QEventLoop>
 #include <QtCore/QTimer>
 
-using Message = QPlcMessage;
+namespace messages = qplc::messages;
+using messages::MasterState;
 
 namespace soak {
 
 namespace {
 
-int registeredIn(const Message &state)
+int registeredIn(const messages::State &state)
 {
-    return state.fields().value(QStringLiteral("nodes")).toArray().size() - 1;  // the recorder is one
+    return state.nodes.size() - 1;  // the recorder is one
 }
 
 }  // namespace
@@ -33,22 +34,20 @@ void Operator::useMaster(const QPlcUnderlyingProtocol &master)
     m_client.reset();
 }
 
-int Operator::idOf(const Message &state, int node)
+int Operator::idOf(const messages::State &state, int node)
 {
-    const QJsonArray nodes = state.fields().value(QStringLiteral("nodes")).toArray();
-    for (const QJsonValue &value : nodes) {
-        const QJsonObject fields = value.toObject();
-        if (fields.value(QStringLiteral("name")).toString() == nodeName(node))
-            return fields.value(QStringLiteral("id")).toInt();
+    for (const QPlcNodeInfo &info : state.nodes) {
+        if (info.name == nodeName(node))
+            return info.id;
     }
     return 0;
 }
 
 void Operator::expectAnother(int node)
 {
-    Message state;
+    messages::State state;
     m_formerNode = node;
-    m_formerId = ask(Message::GetState, &state) ? idOf(state, node) : 0;
+    m_formerId = ask(messages::GetState(), &state) ? idOf(state, node) : 0;
 }
 
 void Operator::wait(int milliseconds)
@@ -63,26 +62,24 @@ qint64 Operator::now()
     return qplc::monotonicNow() / 1'000'000;
 }
 
-void Operator::start(const Message &state)
+void Operator::start(const messages::State &state)
 {
-    QJsonObject fields;
-    Message answer;
-    if (state.fields().value(QStringLiteral("armingRequired")).toBool()) {  // permits are given in Ready
-        if (state.text(QStringLiteral("state")) == QLatin1String("Off") && !ask(Message::InitializeAllStates, &answer))
+    messages::StartRealTime wish;
+    if (state.armingRequired) {  // permits are given in Ready
+        messages::Armed armed;
+        if ((state.state == MasterState::Off && !ask(messages::InitializeAllStates())) || !ask(messages::Arm(), &armed))
             return;
-        if (!ask(Message::Arm, &answer))
-            return;
-        fields.insert(QStringLiteral("token"), answer.text(QStringLiteral("token")));
+        wish.token = armed.token;
     }
-    ask(Message(Message::StartRealTime, fields), &answer);
+    ask(wish);
 }
 
 bool Operator::waitForNodes(int count, int patience)
 {
     const qint64 end = now() + patience;
-    Message state;
+    messages::State state;
     while (now() < end) {
-        if (ask(Message::GetState, &state) && registeredIn(state) >= count)
+        if (ask(messages::GetState(), &state) && registeredIn(state) >= count)
             return true;
         wait(10 + m_nodes / 4);
     }
@@ -90,49 +87,44 @@ bool Operator::waitForNodes(int count, int patience)
     return false;
 }
 
-bool Operator::ask(const Message &request, Message *answer)
+tools::BlockingClient &Operator::client()
 {
     if (!m_client || m_client->error() != tools::BlockingClient::NoError) {
         m_client = std::make_unique<tools::BlockingClient>(std::chrono::seconds(3));
         m_client->connectToMaster(m_master);
     }
-    if (m_client->ask(request, answer))
-        return true;
-    m_errorString = QStringLiteral("%1: %2").arg(request.kindName(), m_client->errorString());
-    return false;
+    return *m_client;
 }
 
-bool Operator::areAllThere(const Message &state) const
+bool Operator::areAllThere(const messages::State &state) const
 {
     return registeredIn(state) >= m_nodes && (m_formerId == 0 || idOf(state, m_formerNode) != m_formerId);
 }
 
 bool Operator::isRunning()
 {
-    Message state;
-    return ask(Message::GetState, &state) && areAllThere(state)
-        && state.text(QStringLiteral("state")) == QLatin1String("RealTime");
+    messages::State state;
+    return ask(messages::GetState(), &state) && areAllThere(state) && state.state == MasterState::RealTime;
 }
 
 bool Operator::goOn()
 {
-    Message state;
-    if (!ask(Message::GetState, &state))
+    messages::State state;
+    if (!ask(messages::GetState(), &state))
         return false;
-    const QString name = state.text(QStringLiteral("state"));
     m_errorString = QStringLiteral("the master is in %1; %2 of %3 nodes are there")
-                        .arg(name)
+                        .arg(messages::nameOf(state.state))
                         .arg(registeredIn(state))
                         .arg(m_nodes);
     if (!areAllThere(state))
         return false;
-    if (name == QLatin1String("SafeStop") || name == QLatin1String("Fault"))
-        ask(Message::Reset, &state);
-    if (name == QLatin1String("Off") || name == QLatin1String("Ready")) {
+    if (state.state == MasterState::SafeStop || state.state == MasterState::Fault)
+        ask(messages::Reset());
+    if (state.state == MasterState::Off || state.state == MasterState::Ready) {
         m_history.append(Record::Command, -1);
         start(state);
     }
-    return name == QLatin1String("RealTime");
+    return state.state == MasterState::RealTime;
 }
 
 bool Operator::bringToRealTime(int patience)
@@ -148,21 +140,18 @@ bool Operator::bringToRealTime(int patience)
 
 bool Operator::stop()
 {
-    Message done;
-    return ask(Message::Stop, &done);
+    return ask(messages::Stop());
 }
 
 QStringList Operator::datagramAddresses()
 {
-    Message state;
+    messages::State state;
     QStringList addresses;
-    if (!ask(Message::GetState, &state))
+    if (!ask(messages::GetState(), &state))
         return addresses;
-    const QJsonArray nodes = state.fields().value(QStringLiteral("nodes")).toArray();
-    for (const QJsonValue &node : nodes) {
-        const QJsonObject fields = node.toObject();
-        if (fields.value(QStringLiteral("transport")).toString() == QLatin1String("udp"))
-            addresses << fields.value(QStringLiteral("address")).toString();
+    for (const QPlcNodeInfo &info : state.nodes) {
+        if (info.transport == QLatin1String("udp"))
+            addresses << info.address;
     }
     return addresses;
 }

@@ -4,8 +4,6 @@
 #include "History.h"
 #include "tools/BlockingClient.h"
 
-#include <QtCore/QJsonArray>
-
 #include <memory>
 
 namespace soak {
@@ -36,11 +34,19 @@ public:
     static qint64 now();
 
 private:
-    bool ask(const QPlcMessage &request, QPlcMessage *answer);
-    bool areAllThere(const QPlcMessage &state) const;
+    template<typename Request>
+    bool ask(const Request &request, typename qplc::AnswerTo<Request>::Type *answer = nullptr)
+    {
+        if (client().ask(request, answer))
+            return true;
+        m_errorString = QStringLiteral("%1: %2").arg(QPlcMessage::kindName(Request::kind), m_client->errorString());
+        return false;
+    }
+    tools::BlockingClient &client();
+    bool areAllThere(const qplc::messages::State &state) const;
     /// Arms where the master wants it, and starts.
-    void start(const QPlcMessage &state);
-    static int idOf(const QPlcMessage &state, int node);
+    void start(const qplc::messages::State &state);
+    static int idOf(const qplc::messages::State &state, int node);
     /// Does the next thing. \return whether the whole plant runs
     bool goOn();
 
