@@ -34,7 +34,7 @@ class CanCycle(unittest.TestCase):
     def test_a_bus_that_is_none_is_named(self):
         result = run("--device", "fake:")
         self.assertEqual(result.returncode, 1)
-        self.assertIn("'fake:' names no fake bus", result.stderr)
+        self.assertIn("'fake:' does not name a fake bus", result.stderr)
 
 
 if __name__ == "__main__":
