@@ -30,8 +30,7 @@ void changeTexts(Value *value, const Change &change)
         if (value->has_value())
             changeTexts(&**value, change);
     } else if constexpr (std::is_base_of_v<WireOfStruct<Value>, Wire<Value>>) {
-        std::apply([&](const auto &...each) { (changeTextsOf(value, each, change), ...); },
-                   Description<Value>::fields);
+        std::apply([&](const auto &...each) { (changeTextsOf(value, each, change), ...); }, Description<Value>::fields);
     } else if constexpr (IsContainer<Value>::value) {
         for (auto &each : *value)
             changeTexts(&each, change);

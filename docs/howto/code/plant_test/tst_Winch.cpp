@@ -7,7 +7,11 @@ using namespace std::chrono_literals;
 class Winch : public QPlcCompactSlaveNode
 {
 public:
-    Winch() : QPlcCompactSlaveNode(QStringLiteral("Winch")) { activateWatchdog(50ms); }
+    Winch()
+        : QPlcCompactSlaveNode(QStringLiteral("Winch"))
+    {
+        activateWatchdog(50ms);
+    }
     double speed = 0.0;  // [m/s] of the drive
 private:
     QPlcOutput<double> m_length{this, "tetherLength"};  // [m]
