@@ -15,11 +15,17 @@ SoakNode::SoakNode(const NodeOptions &options, HistoryWriter &history)
         setSignalTable(table(options.shape));
         setReceivesQuality(true);
     }
-    connect(this, &QPlcSlaveNode::realTimeHasStarted, this,
-            [this] { m_history.append(Record::Phase, m_options.node); });
+    connect(this, &QPlcSlaveNode::realTimeHasStarted, this, &SoakNode::recordPhase);
     connect(this, &QPlcSlaveNode::disconnectedFromMaster, this,
             [this] { m_history.append(Record::MasterLost, m_options.node); });
     connect(this, &QPlcSlaveNode::errorWithMaster, this, [this] { m_history.append(Record::KeptOut, m_options.node); });
+}
+
+// The first step may come before the news that the phase has begun: they are of two threads.
+void SoakNode::recordPhase()
+{
+    if (!m_isPhaseRecorded.exchange(true))
+        m_history.append(Record::Phase, m_options.node);
 }
 
 void SoakNode::reset()
@@ -30,6 +36,7 @@ void SoakNode::reset()
 
 void SoakNode::step(const QPlcCycle &cycle)
 {
+    recordPhase();
     const Stamp seen = m_seen.stamp();
     write(m_written, m_options.life, ++m_counter);
     m_history.append(Record::Step, m_options.node,
@@ -42,6 +49,7 @@ void SoakNode::step(const QPlcCycle &cycle)
 void SoakNode::stopped()
 {
     m_history.append(Record::PhaseEnded, m_options.node);
+    m_isPhaseRecorded = false;
 }
 
 void SoakNode::safeState(SafeStateReason reason)

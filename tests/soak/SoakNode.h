@@ -5,6 +5,8 @@
 #include "NodeOptions.h"
 #include "SoakPlant.h"
 
+#include <atomic>
+
 namespace soak {
 
 /// A node of the soak's plant. It writes its group, moves a drive as its neighbour says, and keeps a
@@ -20,12 +22,14 @@ private:
     void step(const QPlcCycle &cycle) override;
     void stopped() override;
     void safeState(SafeStateReason reason) override;
+    void recordPhase();
 
     const NodeOptions m_options;
     HistoryWriter &m_history;
     Group<QPlcOutput> m_written;
     Group<QPlcInput> m_seen;
     quint32 m_counter = 0;
+    std::atomic<bool> m_isPhaseRecorded{false};
 };
 
 }  // namespace soak
