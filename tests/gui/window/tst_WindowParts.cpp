@@ -283,8 +283,8 @@ void tst_WindowParts::theBarTellsOfLossOnTheLink()
     Plant *plant = plants.add(master.address(), QStringLiteral("kite"), QStringLiteral("Window"));
     QVERIFY(!plant->ownNode());
     QTRY_VERIFY_WITH_TIMEOUT(plant->ownNode(), patience);
-    QVERIFY(plant->ownNode()->isListener);
-    QCOMPARE(plant->ownNode()->name, QStringLiteral("Window"));
+    QVERIFY(plant->ownNode()->info.listener);
+    QCOMPARE(plant->ownNode()->info.name, QStringLiteral("Window"));
 }
 
 void tst_WindowParts::theBarTellsHowAPlantIs()
