@@ -3,6 +3,7 @@
 
 #include "Field.h"
 #include "QPlcMessage.h"
+#include "Vocabulary.h"
 
 /// What has happened in the master: docs/protocol.md, section 5.8.
 namespace qplc::messages {
@@ -17,7 +18,7 @@ struct Names<Severity>
 };
 
 /// The kind of an event that tells the state of the master.
-constexpr QLatin1String stateEvent("state");
+constexpr QLatin1String stateEvent = word("state");
 
 struct EventEntry
 {

@@ -12,12 +12,12 @@ constexpr int protocolVersion = 1;
 
 /// Extensions, by which both sides of a connection say what they know: docs/protocol.md, section 11.
 namespace feature {
-constexpr QLatin1String sameCycle("sameCycle");
-constexpr QLatin1String leases("leases");
-constexpr QLatin1String events("events");
-constexpr QLatin1String quality("quality");
-constexpr QLatin1String outputQuality("outputQuality");
-constexpr QLatin1String hardware("hardware");
+constexpr QLatin1String sameCycle = word("sameCycle");
+constexpr QLatin1String leases = word("leases");
+constexpr QLatin1String events = word("events");
+constexpr QLatin1String quality = word("quality");
+constexpr QLatin1String outputQuality = word("outputQuality");
+constexpr QLatin1String hardware = word("hardware");
 constexpr QLatin1String all[] = {sameCycle, leases, events, quality, outputQuality, hardware};
 }  // namespace feature
 
@@ -39,7 +39,7 @@ struct ClientHello
 };
 
 /// The security of a master that listens to a network, and asks nobody who he is.
-constexpr QLatin1String insecure("insecure");
+constexpr QLatin1String insecure = word("insecure");
 
 /// The master greets back.
 struct MasterHello

@@ -8,8 +8,15 @@
 /// Words that messages share: docs/protocol.md lists them.
 namespace qplc::messages {
 
+/// Returns \a text as a constant. QLatin1String counts its characters at run time with clang.
+template<int Size>
+constexpr QLatin1String word(const char (&text)[Size])
+{
+    return QLatin1String(text, Size - 1);
+}
+
 /// How a master calls itself where nodes go by their names.
-constexpr QLatin1String masterName("Master");
+constexpr QLatin1String masterName = word("Master");
 
 /// What a master does. docs/design/states.md has all events of each state.
 enum class MasterState : quint8 {
