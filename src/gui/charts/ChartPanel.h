@@ -13,9 +13,11 @@ class QPlcWidget;
 
 namespace qplc {
 
-/// What all charts are as panels: they follow their window, draw only while they are seen and not too often, look like the window, and have a menu and an export.
+/// What all charts are as panels: they follow their window, draw only while they are seen and not
+/// too often, look like the window, and have a menu and an export.
 ///
-/// Each chart derives its private part from it, and says what it draws. A panel begins with showLook(), which binds.
+/// Each chart derives its private part from it, and says what it draws. A panel begins with
+/// showLook(), which binds.
 class ChartPanel
 {
 public:
@@ -55,7 +57,8 @@ protected:
     void setTickPeriod(int period) { m_ticks.setInterval(period); }
     /// Texts are as quiet as the numbers of axes.
     void setQuietTexts() { m_hasQuietTexts = true; }
-    /// A menu that ends when it closes, with the actions of the panel of these names: groups, and what the frame around adds.
+    /// A menu that ends when it closes, with the actions of the panel of these names: groups, and
+    /// what the frame around adds.
     QMenu *makeMenu(std::initializer_list<std::initializer_list<const char *>> groups) const;
     void addTo(QMenu *menu, std::initializer_list<const char *> names) const;
     /// The receiver of what a chart connects: it ends first.

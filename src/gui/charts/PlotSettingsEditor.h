@@ -18,7 +18,8 @@ class PlotSettingsEditor : public SettingsEditor
 {
     Q_OBJECT
 public:
-    /// \param context  of the panel, which outlives the editor \param furtherUnits  of axes besides the first one at the left and at the right
+    /// \param context of the panel, which outlives the editor \param furtherUnits of axes besides
+    ///         the first one at the left and at the right
     PlotSettingsEditor(const PlotSettings &settings, const QStringList &furtherUnits, QPlcPanelContext *context,
                        QWidget *parent = nullptr);
 

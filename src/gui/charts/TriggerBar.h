@@ -23,9 +23,12 @@ namespace qplc {
 class EventFileEditor;
 class NumberBox;
 
-/// The strip above a plot in which a person chooses signal, kind, level and mode of a trigger, and sees whether it is armed, how often it was met, and has it armed again.
+/// The strip above a plot in which a person chooses signal, kind, level and mode of a trigger, and
+/// sees whether it is armed, how often it was met, and has it armed again.
 ///
-/// It has the trigger, feeds it with what comes, and moves a time axis: that of the plot, or, when a person wants that, that of the window. A plot shows it when a person wants a trigger, and keeps its settings:
+/// It has the trigger, feeds it with what comes, and moves a time axis: that of the plot, or, when
+/// a person wants that, that of the window. A plot shows it when a person wants a trigger, and
+/// keeps its settings:
 ///
 /// ```cpp
 /// m_triggerBar = new TriggerBar(context(), this); // above the canvas; hidden: the trigger rests
@@ -36,8 +39,11 @@ class NumberBox;
 /// connect(m_triggerBar, &TriggerBar::triggered, this, ...);  // to draw a mark at bar->trigger().shownEvent() and a line at its level
 /// ```
 ///
-/// It works while it is shown, also on a tab that is not seen: what a single event has brought is still there when somebody comes back. While it is not FreeRunning, QPlcTimeAxis::show() is called for each new event with [event - pre, event + post], post being what the span of the view leaves; Auto goes back to
-/// live when no event comes. A person who pans meanwhile keeps what he sees until the next event.
+/// It works while it is shown, also on a tab that is not seen: what a single event has brought is
+/// still there when somebody comes back. While it is not FreeRunning, QPlcTimeAxis::show() is
+/// called for each new event with [event - pre, event + post], post being what the span of the view
+/// leaves; Auto goes back to live when no event comes. A person who pans meanwhile keeps what he
+/// sees until the next event.
 class TriggerBar : public QWidget
 {
     Q_OBJECT
@@ -60,7 +66,8 @@ public:
     /// Whether and where events are saved; who saves them tells it by showSaved().
     const EventFileSettings &fileSettings() const;
     void showSaved(int files);
-    /// "signal", "linked", "save", and what Trigger::Settings::toJson() gives; defaults are left out.
+    /// "signal", "linked", "save", and what Trigger::Settings::toJson() gives; defaults are left
+    /// out.
     QJsonObject settings() const;
     void applySettings(const QJsonObject &settings);
     const Trigger &trigger() const { return m_trigger; }
@@ -74,7 +81,8 @@ Q_SIGNALS:
     void settingsEdited();
     /// State, count or shown event are others.
     void triggered();
-    /// All that is shown around an event has come, while events are to be saved. \param begin, end  of what is shown [ns]
+    /// All that is shown around an event has come, while events are to be saved. \param begin, end
+    /// of what is shown [ns]
     void eventCame(qint64 event, qint64 begin, qint64 end);
     /// What is saved begins anew: armed, or other settings.
     void savingBegins();

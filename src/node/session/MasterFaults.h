@@ -7,16 +7,19 @@
 
 namespace qplc {
 
-/// What is wrong in a plant: turns the loss and the failure of nodes, and limits that cycles have passed, into errors and
-/// events of the master, and knows which of them stands in the way of a reset.
+/// What is wrong in a plant: turns the loss and the failure of nodes, and limits that cycles have
+/// passed, into errors and events of the master, and knows which of them stands in the way of a
+/// reset.
 class MasterFaults
 {
 public:
     MasterFaults(MasterControl &master, const NodeSessions &nodes, const RealTimePhase &phase);
 
-    /// The code of a node has failed: the plant stops. What follows from the first fault is its echo and says nothing new.
+    /// The code of a node has failed: the plant stops. What follows from the first fault is its
+    /// echo and says nothing new.
     void nodeFailed(const QString &node, bool isCritical, const QString &text);
-    /// A node whose session was at \a stage has left. \param wasAwaited  the sequence at hand waited for it
+    /// A node whose session was at \a stage has left. \param wasAwaited the sequence at hand waited
+    /// for it
     void nodeLeft(const NodeSlot &slot, NodeSession::Stage stage, bool wasAwaited, const QString &text);
     /// Cycles have found a limit passed, and are safe already. \param overrunLimit  that they have
     void tripped(const CycleEvent &event, int overrunLimit);

@@ -7,7 +7,8 @@
 
 namespace qplc {
 
-/// Leases, set values and events of a master: who has done what goes into the journal, and to all who want to hear of it.
+/// Leases, set values and events of a master: who has done what goes into the journal, and to all
+/// who want to hear of it.
 class MasterViewers : public QObject
 {
 public:

@@ -9,7 +9,8 @@ namespace qplc {
 class PhaseCycles
 {
 public:
-    /// Starts them with the nodes that are ready. \return false, with the reason in \a error, when there is no thread for them
+    /// Starts them with the nodes that are ready. \return false, with the reason in \a error, when
+    /// there is no thread for them
     virtual bool start(QString *error) = 0;
     /// Whether they run, safe ones or others.
     virtual bool isRunning() const = 0;
