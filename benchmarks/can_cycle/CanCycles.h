@@ -13,7 +13,8 @@ class CanCycles
 public:
     CanCycles(const QString &device, int frames, qint64 period);
 
-    /// \param withCan  the driver exchanges its frames in each cycle \return false with errorString()
+    /// \param withCan the driver exchanges its frames in each cycle \return false with
+    ///         errorString()
     bool begin(bool withCan);
     /// Stops the cycles of begin().
     void end();

@@ -20,7 +20,8 @@ struct CanStamp
 
     quint32 count = 0;  // of its message
     quint32 time = 0;   // when it was made, CLOCK_MONOTONIC [us]
-    /// From the making of the frame before to the end of its sending [us]; the longest: that or longer.
+    /// From the making of the frame before to the end of its sending [us]; the longest: that or
+    /// longer.
     quint32 took = 0;
 
     quint64 packed() const
@@ -33,7 +34,8 @@ struct CanStamp
     }
 };
 
-/// The device at the other end: sends frames in each period as soon as the driver has sent the first one, and looks whether those of the driver are complete and in order.
+/// The device at the other end: sends frames in each period as soon as the driver has sent the
+/// first one, and looks whether those of the driver are complete and in order.
 class CanPartner
 {
 public:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// qtplc_can_cycle: a CAN driver in a cycle and a partner process exchange frames; prints one line of JSON. Rounds with and without CAN take turns.
+// qtplc_can_cycle: a CAN driver in a cycle and a partner process exchange frames; prints one line
+// of JSON. Rounds with and without CAN take turns.
 #include "CanCycles.h"
 #include "CanPartner.h"
 #include "QPlcCoreApplication.h"

@@ -17,7 +17,8 @@ public:
     /// \return false when it cannot be measured: errorString() says why
     bool run();
     QString errorString() const { return m_errorString; }
-    /// One object with the figures of the run; the names are those that other programs of this kind use.
+    /// One object with the figures of the run; the names are those that other programs of this kind
+    /// use.
     QJsonObject result() const;
 
 private:

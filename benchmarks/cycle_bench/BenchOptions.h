@@ -24,9 +24,11 @@ struct BenchOptions
     bool isBackToBack() const { return periodUs == 0; }
     bool isInProcess() const { return transport == QLatin1String("inprocess"); }
     bool isSlave() const { return slaveIndex >= 0; }
-    /// Command line of slave \a index of a master at \a address. \param keysFile  empty: no security
+    /// Command line of slave \a index of a master at \a address.
+    /// \param keysFile empty: no security
     QStringList slaveArguments(int index, const QString &address, const QString &keysFile) const;
 };
 
-/// Declares the options at \a application and reads them. \return false when the program is to end now, with its exitCode()
+/// Declares the options at \a application and reads them. \return false when the program is to end
+/// now, with its exitCode()
 bool readBenchOptions(QPlcCoreApplication &application, BenchOptions *options);

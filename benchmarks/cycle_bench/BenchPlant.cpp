@@ -111,8 +111,8 @@ qint64 BenchProbe::drift() const
     return median({m_offsets.end() - tenth, m_offsets.end()}) - median({m_offsets.begin(), m_offsets.begin() + tenth});
 }
 
-/// What comes back was written two cycles ago: one to reach the slave, one to come back. With a period an answer may be late, and then of an older cycle, but
-/// never a mixture of two cycles.
+/// What comes back was written two cycles ago: one to reach the slave, one to come back. With a
+/// period an answer may be late, and then of an older cycle, but never a mixture of two cycles.
 void BenchProbe::check(quint64 cycle)
 {
     const int last = m_options.outputs - 1;

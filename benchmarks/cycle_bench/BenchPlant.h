@@ -24,7 +24,8 @@ private:
     std::deque<QPlcOutput<float>> m_out;
 };
 
-/// Lives in the process of the master: writes the inputs of all slaves, new ones in each cycle, checks their answers, and takes the time.
+/// Lives in the process of the master: writes the inputs of all slaves, new ones in each cycle,
+/// checks their answers, and takes the time.
 class BenchProbe : public QPlcCompactSlaveNode
 {
 public:
@@ -36,8 +37,9 @@ public:
     void end() { m_measuring = false; }
     /// Back to back: time from cycle to cycle [ns], of all that counted.
     const std::vector<qint64> &intervals() const { return m_intervals; }
-    /// With a period: what t_k - k * period grows by from the first to the last tenth of the cycles that counted, by the medians [ns]. Measured by the clock of the
-    /// machine and not by what the master says. 0 for less than 20 cycles.
+    /// With a period: what t_k - k * period grows by from the first to the last tenth of the cycles
+    /// that counted, by the medians [ns]. Measured by the clock of the machine and not by what the
+    /// master says. 0 for less than 20 cycles.
     qint64 drift() const;
     /// Answers that were not what they should be.
     quint64 errors() const { return m_errors; }

@@ -41,7 +41,8 @@ bool SlaveProcesses::allAlive() const
 
 SlaveProcesses::~SlaveProcesses()
 {
-    // The kernel may spin for a child that shares the core of a real-time process: leave real time first.
+    // The kernel may spin for a child that shares the core of a real-time process: leave real time
+    // first.
     const sched_param ordinary{};
     ::sched_setscheduler(0, SCHED_OTHER, &ordinary);
     for (const qint64 process : qAsConst(m_ids))

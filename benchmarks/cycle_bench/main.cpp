@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// qtplc_cycle_bench: measures the cycle of one master process with N slave processes, and prints one line of JSON.
+// qtplc_cycle_bench: measures the cycle of one master process with N slave processes, and prints
+// one line of JSON.
 #include "BenchMaster.h"
 
 #include <QtCore/QJsonDocument>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Processor time of a window that hears all signals of a plant, keeps them, and shows some of them in a tree. The plant is a process of its own.
+// Processor time of a window that hears all signals of a plant, keeps them, and shows some of them
+// in a tree. The plant is a process of its own.
 #include "gui/models/SignalTreeModel.h"
 
 #include <QtPlcCore>

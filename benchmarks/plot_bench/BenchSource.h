@@ -5,7 +5,8 @@
 
 #include <vector>
 
-/// A plant that fills a store at 1 kHz: sines of different periods with noise, and now and then a spike of one sample.
+/// A plant that fills a store at 1 kHz: sines of different periods with noise, and now and then a
+/// spike of one sample.
 class BenchSource
 {
 public:

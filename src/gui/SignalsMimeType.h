@@ -5,7 +5,8 @@
 
 namespace qplc {
 
-/// What is dragged from trees and tables to panels: signals, as a JSON array of references (plant/SignalReference.h).
+/// What is dragged from trees and tables to panels: signals, as a JSON array of references
+/// (plant/SignalReference.h).
 inline QString signalsMimeType()
 {
     return QStringLiteral("application/x-qtplc-signals");

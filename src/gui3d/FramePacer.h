@@ -5,7 +5,8 @@
 
 namespace qplc {
 
-/// How long to wait between two pictures: at most 30 a second, and so few that drawing takes a fixed share of the time, however slow the driver. A value type.
+/// How long to wait between two pictures: at most 30 a second, and so few that drawing takes a
+/// fixed share of the time, however slow the driver. A value type.
 class FramePacer
 {
 public:

@@ -9,7 +9,8 @@
 
 namespace qplc {
 
-/// Many lines that are drawn at once, each with colours and a width in pixels. A line is four vertices, which the shader moves apart.
+/// Many lines that are drawn at once, each with colours and a width in pixels. A line is four
+/// vertices, which the shader moves apart.
 class LineBatch
 {
 public:
@@ -28,7 +29,8 @@ public:
         addLine(a, b, color, color, width);
     }
     void addLine(const QVector3D &a, const QVector3D &b, const QColor &colorA, const QColor &colorB, float width);
-    /// A line with a head. Nothing becomes of one without a length. \param head  length of the head [m]
+    /// A line with a head. Nothing becomes of one without a length. \param head length of the head
+    /// [m]
     void addArrow(const QVector3D &from, const QVector3D &to, const QColor &color, float width, float head);
 
     int lines() const { return int(m_vertices.size() / 4); }

@@ -12,7 +12,8 @@ namespace qplc {
 
 /// A model of triangles and lines from a Wavefront OBJ file. A value type.
 ///
-/// Elements v (with a colour behind the coordinates, where there is one), vn, f and l are read; others (materials, textures, groups) are skipped. Polygons are taken as convex. Vertices without
+/// Elements v (with a colour behind the coordinates, where there is one), vn, f and l are read;
+/// others (materials, textures, groups) are skipped. Polygons are taken as convex. Vertices without
 /// normals get those of their faces.
 struct ObjMesh
 {

@@ -99,7 +99,8 @@ void OrbitCamera::drag(const QPointF &pixels, double height)
 
 void OrbitCamera::dragSideways(const QPointF &pixels, double height)
 {
-    // In the camera's own frame: a course of half a turn makes that of the chase camera the earth's.
+    // In the camera's own frame: a course of half a turn makes that of the chase camera the
+    // earth's.
     const CameraPose unit = pose({1.0f, 0, {}, QQuaternion::fromAxisAndAngle(0, 0, 1, 180), 1.0f});
     const QVector3D right = QVector3D::crossProduct(unit.target - unit.eye, unit.up).normalized();
     const float perPixel = unit.heightAtTarget() / float(std::max(1.0, height));

@@ -31,10 +31,11 @@ std::optional<QPointF> projected(const CameraPose &pose, const QVector3D &point,
 /// Near and far planes do not cut what is seen of a scene of this size [m].
 QMatrix4x4 projectionMatrix(const CameraPose &pose, const QSizeF &size, float sceneSize);
 
-/// A camera that a person turns about a point: one of the presets, and what was changed of it by hand. A value type.
+/// A camera that a person turns about a point: one of the presets, and what was changed of it by
+/// hand. A value type.
 ///
-/// The four earth-fixed presets stand about the origin and grow with the scene; the chase camera is fixed to the
-/// body and follows its course.
+/// The four earth-fixed presets stand about the origin and grow with the scene; the chase camera is
+/// fixed to the body and follows its course.
 struct OrbitCamera
 {
     enum Preset { GroundStation, Side, Top, Downwind, Chase };
@@ -70,7 +71,8 @@ struct OrbitCamera
     CameraPose pose(const Scene &scene) const;
 };
 
-/// The smallest of 20, 50, 100, 150, 200, 300, 400, ... that holds \a length; \a before is kept while it fits well.
+/// The smallest of 20, 50, 100, 150, 200, 300, 400, ... that holds \a length; \a before is kept
+/// while it fits well.
 float roundSceneSize(float length, float before);
 
 }  // namespace qplc

@@ -62,7 +62,8 @@ void main()
 }
 )";
 
-// Both sides of a thin skin are lit, by a lamp above the left shoulder of whoever looks; the edge is a little darker.
+// Both sides of a thin skin are lit, by a lamp above the left shoulder of whoever looks; the edge
+// is a little darker.
 const char solidFragment[] = R"(
 IN vec3 normal;
 IN vec3 color;
@@ -79,7 +80,8 @@ void main()
 }
 )";
 
-// A line becomes a strip of width + 1 pixels across its direction on the screen; ends behind the eye are moved to the front.
+// A line becomes a strip of width + 1 pixels across its direction on the screen; ends behind the
+// eye are moved to the front.
 const char lineVertex[] = R"(
 IN vec3 vertexPosition;
 IN vec3 otherEnd;

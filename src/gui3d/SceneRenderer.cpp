@@ -71,7 +71,8 @@ std::vector<SceneRenderer *> &SceneRenderer::all()
     return *all;
 }
 
-/// At the end of the program: OpenGL goes with the connection to the screen, and must not be in use then.
+/// At the end of the program: OpenGL goes with the connection to the screen, and must not be in use
+/// then.
 void SceneRenderer::finishAll()
 {
     for (SceneRenderer *renderer : all())

@@ -28,13 +28,16 @@ namespace qplc {
 
 /// Draws a scene with Qt 3D into pictures, which a widget paints as any other picture.
 ///
-/// No window of its own: a native window inside of a window hides what should be above it, is no part of pictures of the window, and breaks when its parent becomes another one. Pictures come when
-/// they are wanted and not otherwise. They are drawn by a thread of Qt 3D; the thread of the window puts the scene together.
+/// No window of its own: a native window inside of a window hides what should be above it, is no
+/// part of pictures of the window, and breaks when its parent becomes another one. Pictures come
+/// when they are wanted and not otherwise. They are drawn by a thread of Qt 3D; the thread of the
+/// window puts the scene together.
 class SceneRenderer : public QObject
 {
     Q_OBJECT
 public:
-    /// One that nobody has, or a new one. Ends with giveBack(), never with delete: the textures of Qt 3D 5.15 may end in the thread of the window while their context belongs to that of Qt 3D,
+    /// One that nobody has, or a new one. Ends with giveBack(), never with delete: the textures of
+    /// Qt 3D 5.15 may end in the thread of the window while their context belongs to that of Qt 3D,
     /// which ends the program. Renderers are used again, and rest without any cost.
     static SceneRenderer *acquire();
     /// Nothing of it is connected any more, and what was on its way comes to nobody.

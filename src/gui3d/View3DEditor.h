@@ -14,7 +14,8 @@ class View3DEditor : public QWidget
 {
     Q_OBJECT
 public:
-    /// \param body  what stands in place of the lines for position and orientation, or null; belongs to this
+    /// \param body what stands in place of the lines for position and orientation, or null; belongs
+    ///         to this
     View3DEditor(const View3DSettings &settings, const QVector<View3DPart> &parts, QWidget *body);
     ~View3DEditor() override;
 

@@ -15,7 +15,8 @@ namespace {
 
 constexpr double roseRadius = 15.0;  // [px]
 
-/// Azimuth of the line of sight; of what is up in the picture when the camera looks straight down [deg].
+/// Azimuth of the line of sight; of what is up in the picture when the camera looks straight down
+/// [deg].
 float lookAzimuth(const CameraPose &pose)
 {
     QVector3D look = (pose.target - pose.eye).normalized();

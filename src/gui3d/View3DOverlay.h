@@ -15,7 +15,8 @@ namespace qplc {
 
 /// A length in metres with one digit (1, 2 or 5 times a power of ten) that is at most \a longest.
 double roundLength(double longest);
-/// Where labels are drawn in the picture: none on another one, none of an arrow that points at the viewer. Null: not seen.
+/// Where labels are drawn in the picture: none on another one, none of an arrow that points at the
+/// viewer. Null: not seen.
 /// \param sizeOf  what a text takes [px]
 std::vector<QRectF> labelBoxes(const std::vector<SceneLabel> &labels, const CameraPose &pose, const QSizeF &size,
                                const std::function<QSizeF(const QString &)> &sizeOf);

@@ -16,8 +16,8 @@ class QPlcView3D;
 
 namespace qplc {
 
-/// What a 3D view shows: pictures of a scene with names above, drawn when something has changed; or, without OpenGL,
-/// why there are none.
+/// What a 3D view shows: pictures of a scene with names above, drawn when something has changed;
+/// or, without OpenGL, why there are none.
 class View3DPicture : public QObject
 {
     Q_OBJECT

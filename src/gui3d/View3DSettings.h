@@ -17,7 +17,8 @@ struct View3DPart
     QString title;
 };
 
-/// What makes a 3D view what it is, and its JSON. A value type; what has its default is not written.
+/// What makes a 3D view what it is, and its JSON. A value type; what has its default is not
+/// written.
 struct View3DSettings
 {
     QString position;     // signal; empty: there is no body
@@ -33,7 +34,8 @@ struct View3DSettings
     bool isShown(const QString &part) const { return !hidden.contains(part); }
     void setShown(const QString &part, bool isShown);
 
-    /// What is missing, or of another kind, has its default. \param rest  takes what was no key of this
+    /// What is missing, or of another kind, has its default. \param rest takes what was no key of
+    /// this
     static View3DSettings fromJson(const QJsonObject &json, const QVector<View3DPart> &parts, QJsonObject *rest);
     QJsonObject toJson() const;
 };

@@ -6,7 +6,8 @@
 
 namespace qplc {
 
-/// A signal of a hardware node: a port whose elements are channels of devices, each converted by a factor and an offset.
+/// A signal of a hardware node: a port whose elements are channels of devices, each converted by a
+/// factor and an offset.
 class ChannelPort final : public QPlcPort
 {
 public:
@@ -23,9 +24,11 @@ public:
     ChannelPort(QPlcCompactSlaveNode *node, const QString &signal, Direction direction);
     ~ChannelPort() override;
 
-    /// Ties an element to a channel. What is written may go to several of them, what is read comes from one.
+    /// Ties an element to a channel. What is written may go to several of them, what is read comes
+    /// from one.
     /// \param index  of an array; -1: the signal is none
-    /// \return false when the signal has a value for this element already, or is used with and without brackets
+    /// \return false when the signal has a value for this element already, or is used with and
+    ///         without brackets
     bool add(int index, Wire wire);
     const std::vector<Wire> &wires() const { return m_wires; }
     /// "acceleration[2]", or the name alone
@@ -35,7 +38,8 @@ public:
 
     /// Takes the newest values of the channels, and how far they can be trusted.
     void refresh(qint64 now) noexcept;
-    /// Gives the value of each element of \a value, which is the safe one of the signal, to its channel.
+    /// Gives the value of each element of \a value, which is the safe one of the signal, to its
+    /// channel.
     void setSafe(const QPlcValue &value) noexcept;
     /// Gives the values that were set last to the channels.
     void pass(bool isSafe) noexcept;

@@ -15,7 +15,8 @@ struct DeviceFiles
 
     /// "/dev/i2c-1" of "i2c-1".
     static QString path(const QString &device);
-    /// What helps against EACCES (the user may not open it) and EPERM (systemd does not let a service open it).
+    /// What helps against EACCES (the user may not open it) and EPERM (systemd does not let a
+    /// service open it).
     static QString permissionRemedy(const QString &group, int errorNumber);
     /// Why \a device was not opened, and what helps. \param errorNumber  errno
     QString errorText(const QString &device, int errorNumber) const;

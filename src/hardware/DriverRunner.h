@@ -15,14 +15,18 @@
 
 namespace qplc {
 
-/// Runs one driver: opens its device again and again until that works, and lets values flow between the cycle and the device, at the pace of the driver.
+/// Runs one driver: opens its device again and again until that works, and lets values flow between
+/// the cycle and the device, at the pace of the driver.
 ///
-/// Every driver has a thread, which opens its device, writes and reads at its interval, and closes it; a cycle meets copies of the newest values. With EveryCycle the cycle takes an open device
-/// for itself with its first write() and calls the driver from then on; leave() gives it back to the thread.
+/// Every driver has a thread, which opens its device, writes and reads at its interval, and closes
+/// it; a cycle meets copies of the newest values. With EveryCycle the cycle takes an open device
+/// for itself with its first write() and calls the driver from then on; leave() gives it back to
+/// the thread.
 class DriverRunner
 {
 public:
-    /// A device was opened and has answered (\a error is empty), or it cannot be used. Called in the thread of the driver.
+    /// A device was opened and has answered (\a error is empty), or it cannot be used. Called in
+    /// the thread of the driver.
     using Report = std::function<void(const QString &error)>;
     /// What the cycle sees of a read channel.
     struct Sample
@@ -41,7 +45,8 @@ public:
 
     // ---- before start(), in the thread of the node ----
     void configure(QPlcDriverSettings &settings);
-    /// Wires a channel. \return its number among those of its direction; -1, with the reason in \a error, when there is none of this name
+    /// Wires a channel. \return its number among those of its direction; -1, with the reason in \a
+    /// error, when there is none of this name
     int wire(const QString &channel, QPlcChannel::Direction direction, QString *error);
 
     /// The wires are known: values can be set. start() and openNow() do it, too.
@@ -53,11 +58,13 @@ public:
     bool isOnline() const { return m_state.load(std::memory_order_acquire) >= Open; }
     quint64 failures() const { return m_failures.load(std::memory_order_relaxed); }
 
-    // ---- in the cycle (or, while none runs, in the thread of the node): neither waits nor takes memory ----
+    // ---- in the cycle ----
+    // (Or, while none runs, in the thread of the node.) Neither waits nor takes memory.
     void setValue(int writeChannel, double value, bool isSafe) noexcept;
     /// Gives the values that were set to the device.
     void write(qint64 now) noexcept;
-    /// As write(), for the last time until the next write(): the thread of the driver goes on with these values, at once.
+    /// As write(), for the last time until the next write(): the thread of the driver goes on with
+    /// these values, at once.
     void leave(qint64 now) noexcept;
     void read(qint64 now) noexcept;
     Sample sample(int readChannel, qint64 now) const noexcept;
@@ -72,7 +79,8 @@ public:
     bool writeNow(qint64 now);
 
 private:
-    /// Closed and Failed: the device belongs to the thread of the driver. Open: to nobody, and who wants it takes it. The others: to the one they name.
+    /// Closed and Failed: the device belongs to the thread of the driver. Open: to nobody, and who
+    /// wants it takes it. The others: to the one they name.
     enum State : int { Closed, Failed, Open, InThread, InCycle };
     /// Channels that every driver has.
     enum class Own : quint8 { No, Online, Age, Failures };

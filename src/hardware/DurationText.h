@@ -5,7 +5,8 @@
 
 namespace qplc {
 
-/// "10 ms", "250us", "1e-3 s", "2 h": a number and its unit. \param nanoseconds  may have a fraction, and any sign
+/// "10 ms", "250us", "1e-3 s", "2 h": a number and its unit. \param nanoseconds may have a
+/// fraction, and any sign
 /// \return false when \a text is not a duration
 bool durationFromText(const QString &text, double *nanoseconds);
 

@@ -33,7 +33,8 @@ struct ConfigurationTerm
     static bool fromText(const QString &text, ConfigurationTerm *term, QString *error);
 };
 
-/// What the file of a hardware node says, before anybody knows what it means: the node, and a section for each driver with its wires.
+/// What the file of a hardware node says, before anybody knows what it means: the node, and a
+/// section for each driver with its wires.
 class HardwareConfiguration
 {
 public:

@@ -369,7 +369,8 @@ void QPlcHardwareNode::Private::writeAll() noexcept
         runner->write(now);
 }
 
-/// Likewise, at once; then the devices belong to the threads of their drivers until the next writeAll().
+/// Likewise, at once; then the devices belong to the threads of their drivers until the next
+/// writeAll().
 void QPlcHardwareNode::Private::leaveAll() noexcept
 {
     const qint64 now = qplc::monotonicNow();
@@ -377,7 +378,8 @@ void QPlcHardwareNode::Private::leaveAll() noexcept
         runner->leave(now);
 }
 
-/// A device that has just been asked for, or has nothing to say yet, would be an emergency stop in the first cycle.
+/// A device that has just been asked for, or has nothing to say yet, would be an emergency stop in
+/// the first cycle.
 void QPlcHardwareNode::Private::awaitSafeStops()
 {
     constexpr qint64 patience = 500'000'000;  // [ns]
@@ -391,7 +393,8 @@ void QPlcHardwareNode::Private::awaitSafeStops()
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
-/// What the configuration says wins over the signal table. \param knowTable  that the ports are bound to
+/// What the configuration says wins over the signal table. \param knowTable that the ports are
+/// bound to
 void QPlcHardwareNode::Private::setSafeValues(bool knowTable)
 {
     const QPlcSignalTable table = knowTable ? q->signalTable() : QPlcSignalTable();

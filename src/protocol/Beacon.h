@@ -8,7 +8,8 @@
 
 namespace qplc {
 
-/// What a master tells of itself to whoever looks for one: docs/protocol.md, section 13. Nothing in it is secret, and nothing in it is proven.
+/// What a master tells of itself to whoever looks for one: docs/protocol.md, section 13. Nothing in
+/// it is secret, and nothing in it is proven.
 struct Beacon
 {
     static constexpr int MaximumName = 64;  // [byte]
@@ -21,7 +22,8 @@ struct Beacon
     quint64 tableHash = 0;
     QString name;
 
-    /// A name that is too long is cut between two characters, and an empty one becomes "master". \pre port is not 0
+    /// A name that is too long is cut between two characters, and an empty one becomes "master".
+    /// \pre port is not 0
     QByteArray encoded() const;
     /// Nothing unless each byte is as it must be.
     static std::optional<Beacon> decode(const char *bytes, int size);

@@ -15,8 +15,8 @@ namespace {
 constexpr int LengthSize = sizeof(quint32);
 constexpr int KindSize = 1;
 
-// Deepest nesting of arrays and objects in a JSON text. Counts right up to the first error of the text, which is as far
-// as a parser gets.
+// Deepest nesting of arrays and objects in a JSON text. Counts right up to the first error of the
+// text, which is as far as a parser gets.
 int nestingDepth(const QByteArray &json)
 {
     int depth = 0;

@@ -12,13 +12,15 @@ constexpr quint32 MaximumControlFrame = 1024 * 1024;
 /// Deepest nesting of arrays and objects in the JSON of a control frame.
 constexpr int MaximumControlDepth = 16;
 
-/// The bytes of \a message on the wire; empty when it is longer than MaximumControlFrame or nested deeper than MaximumControlDepth,
-/// which no receiver would take.
+/// The bytes of \a message on the wire; empty when it is longer than MaximumControlFrame or nested
+/// deeper than MaximumControlDepth, which no receiver would take.
 QByteArray encodeControlFrame(const QPlcMessage &message);
 
-/// Cuts a byte stream into control messages. Nothing is allocated for a frame before its length has been checked.
+/// Cuts a byte stream into control messages. Nothing is allocated for a frame before its length has
+/// been checked.
 ///
-/// After an error the stream is lost: the reader stays in the error state and the connection has to be closed.
+/// After an error the stream is lost: the reader stays in the error state and the connection has to
+/// be closed.
 class ControlFrameReader
 {
 public:
@@ -30,7 +32,8 @@ public:
         InvalidJson  ///< not UTF-8, not JSON, not an object, or a name stands twice in one
     };
 
-    /// Frames behind those that were taken already may have so many bytes behind their length field; MaximumControlFrame unless set.
+    /// Frames behind those that were taken already may have so many bytes behind their length
+    /// field; MaximumControlFrame unless set.
     void setLimit(quint32 bytes) { m_limit = bytes; }
     /// Takes bytes of the stream. To be followed by next() until it has no more messages.
     void append(const QByteArray &bytes);
@@ -38,7 +41,8 @@ public:
     bool next(QPlcMessage *message);
     /// Exact bytes of the message that next() returned last, for the debug log.
     QByteArray lastFrame() const { return m_lastFrame; }
-    /// Bytes of the stream that no message has used: what follows the control messages on a cyclic TCP connection.
+    /// Bytes of the stream that no message has used: what follows the control messages on a cyclic
+    /// TCP connection.
     QByteArray takeRest();
 
     Error error() const { return m_error; }

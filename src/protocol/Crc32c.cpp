@@ -83,7 +83,8 @@ bool hasInstruction() noexcept
     return has;
 }
 
-// Assembler rather than intrinsics: compilers spell the attribute that would allow those in different ways.
+// Assembler rather than intrinsics: compilers spell the attribute that would allow those in
+// different ways.
 std::uint32_t byInstruction(std::uint32_t state, const char *bytes, std::size_t size) noexcept
 {
     for (; size >= Word; size -= Word, bytes += Word)

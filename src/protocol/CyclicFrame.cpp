@@ -34,7 +34,8 @@ std::uint32_t crcOfSeed(const FrameSeed &seed) noexcept
     return crc32c(0, bytes, sizeof bytes);
 }
 
-// An empty payload has no bytes, and perhaps no address; another one may be where it belongs already.
+// An empty payload has no bytes, and perhaps no address; another one may be where it belongs
+// already.
 void copyBytes(const char *from, std::size_t size, char *to) noexcept
 {
     if (size > 0 && from != to)
@@ -177,7 +178,8 @@ bool FrameDecoder::isOfThisKind(const char *header) const noexcept
     return header[0] == versionAndKind(m_kind);
 }
 
-// Serial arithmetic on the 32 bits of the wire: up to 2^31 - 1 cycles ahead is newer, all else is not.
+// Serial arithmetic on the 32 bits of the wire: up to 2^31 - 1 cycles ahead is newer, all else is
+// not.
 FrameStatus FrameDecoder::accept(const FrameHeader &header, const char *payload, std::uint64_t end) noexcept
 {
     const auto ahead = std::int64_t(header.cycle - m_newest);

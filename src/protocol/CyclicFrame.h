@@ -13,8 +13,9 @@ namespace qplc {
 
 /// The frames that carry values in every cycle: little-endian,
 ///   u8 version << 4 | kind, u8 flags, u16 session, u32 cycle, u32 info, payload, u32 CRC-32C
-/// = 16 bytes + payload. The CRC is seeded with session id, node id and layout hash. A sealed frame has a sealed payload, and a tag of 16 bytes in the place of the CRC:
-/// 28 bytes + payload. See docs/protocol.md.
+/// = 16 bytes + payload. The CRC is seeded with session id, node id and layout hash. A sealed frame
+/// has a sealed payload, and a tag of 16 bytes in the place of the CRC: 28 bytes + payload. See
+/// docs/protocol.md.
 constexpr std::uint8_t CyclicVersion = 1;
 constexpr std::size_t CyclicHeaderSize = 12;
 constexpr std::size_t CyclicOverhead = 16;
@@ -49,7 +50,9 @@ struct FrameHeader
     std::uint8_t flags = 0;
     std::uint64_t cycle = 0;  ///< the wire carries its low 32 bits
     std::uint32_t info
-        = 0;  ///< inputs: lateness of the cycle [ns]; outputs: execution time [ns]; saturated. Parts > 0: number of the part
+        /// inputs: lateness of the cycle [ns]; outputs: execution time [ns]; saturated. Parts > 0:
+        /// number of the part
+        = 0;
 };
 
 /// What binds a frame to one session, one node and one layout; mixed into the CRC, never sent.
@@ -69,8 +72,10 @@ enum class FrameStatus : std::uint8_t {
     WrongVersion,  ///< of the protocol, or the kind of the other direction
     WrongSession,  ///< low 16 bits differ
     WrongChecksum,  ///< corrupted, or of another session, node or table
-    Forged,  ///< not sealed with this key as it is: made or changed by a stranger, corrupted, or of another session, node or direction
-    Early    ///< good, but of a cycle that is not due yet
+    /// not sealed with this key as it is: made or changed by a stranger, corrupted, or of another
+    /// session, node or direction
+    Forged,
+    Early  ///< good, but of a cycle that is not due yet
 };
 
 /// The 64-bit number of the cycle whose low 32 bits are \a wire, nearest to \a reference.
@@ -79,12 +84,14 @@ constexpr std::uint64_t extendCycle(std::uint32_t wire, std::uint64_t reference)
     return reference + std::uint64_t(std::int64_t(std::int32_t(wire - std::uint32_t(reference))));
 }
 
-/// Writes the frames of one direction of one node. Allocation-free after construction; encode() is thread-safe unless it seals.
+/// Writes the frames of one direction of one node. Allocation-free after construction; encode() is
+/// thread-safe unless it seals.
 class FrameEncoder
 {
 public:
     FrameEncoder() = default;
-    /// \param partBorders  PayloadLayout::partBorders(MaximumCyclicPayload or MaximumSealedPayload): n parts have n + 1 borders, from 0, never falling
+    /// \param partBorders PayloadLayout::partBorders(MaximumCyclicPayload or MaximumSealedPayload):
+    ///         n parts have n + 1 borders, from 0, never falling
     /// \param key  to seal the frames with; for one encoder alone. Null: they are not sealed
     FrameEncoder(FrameKind kind, const FrameSeed &seed, std::vector<std::uint32_t> partBorders,
                  const SealKey *key = nullptr);
@@ -93,9 +100,12 @@ public:
     std::size_t partSize(std::size_t part) const { return overhead() + m_borders[part + 1] - m_borders[part]; }
     /// Bytes of all parts together.
     std::size_t totalSize() const { return overhead() * partCount() + m_borders.back(); }
-    /// Writes part \a part to \a target (partSize(part) bytes). \a header.kind, PartFlag and, in parts > 0, \a header.info are set here.
-    /// \param payload  begin of the whole payload, also for parts > 0; may be \a target + CyclicHeaderSize, then nothing is copied
-    /// \return false when this frame or a later one has been sealed already: what was sent is sent again as it is, see FrameSeal. Nothing is written
+    /// Writes part \a part to \a target (partSize(part) bytes). \a header.kind, PartFlag and, in
+    /// parts > 0, \a header.info are set here.
+    /// \param payload begin of the whole payload, also for parts > 0; may be \a target +
+    ///         CyclicHeaderSize, then nothing is copied
+    /// \return false when this frame or a later one has been sealed already: what was sent is sent
+    ///         again as it is, see FrameSeal. Nothing is written
     bool encode(std::size_t part, FrameHeader header, const char *payload, char *target) const noexcept;
 
 private:
@@ -108,10 +118,12 @@ private:
     std::unique_ptr<FrameSeal> m_seal;
 };
 
-/// Checks the frames of one direction of one node and puts their parts together. Allocation-free after construction.
+/// Checks the frames of one direction of one node and puts their parts together. Allocation-free
+/// after construction.
 ///
-/// The newest complete payload stays whole and visible while parts of the next cycle arrive: they are put together in a second buffer. A frame that is
-/// refused (WrongLength, WrongVersion, WrongSession, WrongChecksum, Forged, Early) changes nothing at all.
+/// The newest complete payload stays whole and visible while parts of the next cycle arrive: they
+/// are put together in a second buffer. A frame that is refused (WrongLength, WrongVersion,
+/// WrongSession, WrongChecksum, Forged, Early) changes nothing at all.
 class FrameDecoder
 {
 public:
@@ -121,23 +133,28 @@ public:
     FrameDecoder(FrameKind kind, const FrameSeed &seed, std::vector<std::uint32_t> partBorders,
                  const SealKey *key = nullptr);
 
-    /// Takes one datagram. With Complete, payload() holds the values, header() the header of part 0 and cycle() the cycle.
+    /// Takes one datagram. With Complete, payload() holds the values, header() the header of part 0
+    /// and cycle() the cycle.
     /// \param end  cycles from this one on are not due yet: their frames are Early
     FrameStatus decode(const char *bytes, std::size_t size,
                        std::uint64_t end = std::numeric_limits<std::uint64_t>::max()) noexcept;
-    /// Payload of the newest complete frame (zeros before the first); valid until the next decode().
+    /// Payload of the newest complete frame (zeros before the first); valid until the next
+    /// decode().
     const char *payload() const { return m_payload.get(); }
     /// Header of part 0 of the newest complete frame.
     const FrameHeader &header() const { return m_header; }
     /// Cycle of the newest complete frame.
     std::uint64_t cycle() const { return m_cycle; }
-    /// Header of the last frame that was not refused, whatever became of it. A node answers from its cache
-    /// when decode() gave Duplicate and this has ResentFlag, no PartFlag, and the number of cycle().
+    /// Header of the last frame that was not refused, whatever became of it. A node answers from
+    /// its cache when decode() gave Duplicate and this has ResentFlag, no PartFlag, and the number
+    /// of cycle().
     const FrameHeader &received() const { return m_received; }
-    /// On a byte stream: total size of the frame that begins with the \a CyclicHeaderSize bytes at \a header, 0 when it is no frame of this decoder.
+    /// On a byte stream: total size of the frame that begins with the \a CyclicHeaderSize bytes at
+    /// \a header, 0 when it is no frame of this decoder.
     std::size_t frameSize(const char *header) const noexcept;
 
-    /// Forgets all cycles: the next frame may have any number from \a firstCycle on (but below firstCycle + 2^31: the wire carries 32 bits).
+    /// Forgets all cycles: the next frame may have any number from \a firstCycle on (but below
+    /// firstCycle + 2^31: the wire carries 32 bits).
     void restart(std::uint64_t firstCycle) noexcept;
 
 private:

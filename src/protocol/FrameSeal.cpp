@@ -88,7 +88,8 @@ bool FrameSeal::open(std::uint64_t cycle, std::uint16_t part, const char *frame,
         == 0;
 }
 
-/// Session and node are the same in all nonces of a key, so each of them belongs to one cycle, part, direction and set of flags.
+/// Session and node are the same in all nonces of a key, so each of them belongs to one cycle,
+/// part, direction and set of flags.
 FrameSeal::Nonce FrameSeal::nonce(std::uint64_t cycle, std::uint16_t part, const char *header) const noexcept
 {
     Nonce nonce;

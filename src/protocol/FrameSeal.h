@@ -36,11 +36,13 @@ struct SealKeys
     static SealKeys random() { return {SealKey::random(), SealKey::random()}; }
 };
 
-/// Seals the frames of one direction of one node, or opens them: ChaCha20-Poly1305 (RFC 8439) over header and payload, with a nonce of session, node, direction, 64-bit
-/// cycle, part and flags. See docs/protocol.md, section 7.8.
+/// Seals the frames of one direction of one node, or opens them: ChaCha20-Poly1305 (RFC 8439) over
+/// header and payload, with a nonce of session, node, direction, 64-bit cycle, part and flags. See
+/// docs/protocol.md, section 7.8.
 ///
-/// Two different frames under one nonce would give the key away, so a seal cannot be copied, and seals each place in the order of frames once: by cycle, then whether the frame is
-/// sent again, then part. Who sends the same frame twice keeps its bytes. Allocation-free.
+/// Two different frames under one nonce would give the key away, so a seal cannot be copied, and
+/// seals each place in the order of frames once: by cycle, then whether the frame is sent again,
+/// then part. Who sends the same frame twice keeps its bytes. Allocation-free.
 class FrameSeal
 {
 public:
@@ -50,11 +52,13 @@ public:
     FrameSeal(const FrameSeal &) = delete;
     FrameSeal &operator=(const FrameSeal &) = delete;
 
-    /// Writes \a header, the sealed payload and the tag to \a frame. \param payload  may be where the sealed one goes
+    /// Writes \a header, the sealed payload and the tag to \a frame. \param payload may be where
+    /// the sealed one goes
     /// \return false when a frame of this place or a later one has been sealed: nothing is written
     bool seal(std::uint64_t cycle, std::uint16_t part, const char *header, const char *payload, std::size_t size,
               char *frame) noexcept;
-    /// Writes what is sealed in \a frame to \a payload, \a size bytes. \return false when the frame is not as it was sealed: \a payload is then void
+    /// Writes what is sealed in \a frame to \a payload, \a size bytes. \return false when the frame
+    /// is not as it was sealed: \a payload is then void
     bool open(std::uint64_t cycle, std::uint16_t part, const char *frame, std::size_t size,
               char *payload) const noexcept;
 

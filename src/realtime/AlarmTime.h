@@ -7,12 +7,16 @@ namespace qplc {
 
 class Host;
 
-/// CLOCK_MONOTONIC with one timer of the kernel for everything that a cycle waits for: the sleep until its begin, and the end of the time for answers.
+/// CLOCK_MONOTONIC with one timer of the kernel for everything that a cycle waits for: the sleep
+/// until its begin, and the end of the time for answers.
 ///
-/// A wait with a time limit of its own starts a timer and stops it again. That is a write to the timer of the processor each time, which a virtual machine hands to its
-/// host: 20 us were seen, in each cycle. This timer runs on from alarm to alarm by itself, as long as they are a period apart.
+/// A wait with a time limit of its own starts a timer and stops it again. That is a write to the
+/// timer of the processor each time, which a virtual machine hands to its host: 20 us were seen, in
+/// each cycle. This timer runs on from alarm to alarm by itself, as long as they are a period
+/// apart.
 ///
-/// Used by one thread. Where no timer can be had, sleeps are those of its host, and there is no alarm.
+/// Used by one thread. Where no timer can be had, sleeps are those of its host, and there is no
+/// alarm.
 class AlarmTime final : public TimeSource
 {
 public:

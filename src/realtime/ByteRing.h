@@ -7,8 +7,8 @@
 
 namespace qplc {
 
-/// As SpscRing, for items whose size is known only at run time: a bounded queue of blocks of bytes from one thread to
-/// one other.
+/// As SpscRing, for items whose size is known only at run time: a bounded queue of blocks of bytes
+/// from one thread to one other.
 class ByteRing
 {
 public:
@@ -26,8 +26,8 @@ public:
     std::size_t itemSize() const { return m_itemSize; }
     std::size_t capacity() const { return m_mask + 1; }
 
-    /// The place of the next item, to be filled and then given by commitPush(); null when the ring is full.
-    /// Producer only.
+    /// The place of the next item, to be filled and then given by commitPush(); null when the ring
+    /// is full. Producer only.
     char *beginPush() noexcept
     {
         const std::size_t head = m_head.load(std::memory_order_relaxed);

@@ -30,7 +30,8 @@ CycleClock::Tick CycleClock::arrive() noexcept
             followPolicy(std::uint64_t(tick.lateness / m_period), &tick);
         else
             m_caughtUp = 0;
-        // Nobody can answer in a period that is over: a cycle that is caught up has a period of its own.
+        // Nobody can answer in a period that is over: a cycle that is caught up has a period of its
+        // own.
         tick.deadline = tick.caughtUp ? tick.woken + m_period : nominal(tick.cycle + 1);
     }
     if (!tick.stopped)
@@ -66,7 +67,8 @@ void CycleClock::skip(std::uint64_t cycles, Tick *tick) const noexcept
     tick->lateness -= std::int64_t(cycles) * m_period;
 }
 
-/// The newest of the missed cycles run, as many as are left of those allowed in a row; then the grid goes on.
+/// The newest of the missed cycles run, as many as are left of those allowed in a row; then the
+/// grid goes on.
 void CycleClock::catchUp(std::uint64_t missed, Tick *tick) noexcept
 {
     const std::uint64_t allowed = std::uint64_t(m_policy.catchUpCycles()) - m_caughtUp;

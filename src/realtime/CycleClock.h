@@ -8,11 +8,12 @@
 
 namespace qplc {
 
-/// The grid t_k = t0 + k * period and where the cycle stands on it. Pure arithmetic on a TimeSource; allocation-free.
+/// The grid t_k = t0 + k * period and where the cycle stands on it. Pure arithmetic on a
+/// TimeSource; allocation-free.
 ///
-/// When the next cycle can begin only a period or more after its nominal time (an overrun), the QPlcOverrunPolicy
-/// says which cycle comes next and whether the grid moves. Else the grid never moves by itself, so that the number
-/// of a cycle tells its nominal time.
+/// When the next cycle can begin only a period or more after its nominal time (an overrun), the
+/// QPlcOverrunPolicy says which cycle comes next and whether the grid moves. Else the grid never
+/// moves by itself, so that the number of a cycle tells its nominal time.
 class CycleClock
 {
 public:
@@ -30,15 +31,18 @@ public:
         bool interrupted = false;   ///< woken before its time because stop was asked for; consumes no cycle
     };
 
-    /// \param period  [ns] between two cycles on the clock of \a time; 0: lockstep, no waiting and no look at the clock
+    /// \param period [ns] between two cycles on the clock of \a time; 0: lockstep, no waiting and
+    ///         no look at the clock
     /// \param policy  valid
     CycleClock(TimeSource &time, std::int64_t period, QPlcOverrunPolicy policy = {});
 
     /// Cycle 0 becomes due now.
     void start() noexcept;
-    /// Waits for the next cycle. An interrupted wait consumes no cycle: the next call waits for the same one.
-    /// When the cycle is due already (overload, lockstep), nobody is asked: the caller also looks between two cycles.
-    /// \param shouldStop  asked before the sleep, after every interruption of it, and at least each 50 ms
+    /// Waits for the next cycle. An interrupted wait consumes no cycle: the next call waits for the
+    /// same one. When the cycle is due already (overload, lockstep), nobody is asked: the caller
+    /// also looks between two cycles.
+    /// \param shouldStop asked before the sleep, after every interruption of it, and at least each
+    ///         50 ms
     template<typename ShouldStop>
     Tick next(ShouldStop shouldStop) noexcept;
     /// Shifts the grid by \a duration [ns]: time stood still (Wait policies).

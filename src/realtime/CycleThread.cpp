@@ -11,12 +11,12 @@ namespace qplc {
 
 namespace {
 
-// [byte] beside the stack that is touched beforehand; glibc also takes the thread-local variables of all libraries from
-// it
+// [byte] beside the stack that is touched beforehand; glibc also takes the thread-local variables
+// of all libraries from it
 constexpr std::size_t StackReserve = std::size_t(1024) * 1024;
 
-/// The attributes of the new thread. It inherits the scheduling and applies the options itself, because a refused
-/// scheduling shall not keep it from running.
+/// The attributes of the new thread. It inherits the scheduling and applies the options itself,
+/// because a refused scheduling shall not keep it from running.
 class Attributes
 {
 public:
@@ -38,7 +38,8 @@ private:
     pthread_attr_t m_attributes{};
 };
 
-/// Blocks the signals on the calling thread while it lives: a thread made meanwhile starts with them blocked.
+/// Blocks the signals on the calling thread while it lives: a thread made meanwhile starts with
+/// them blocked.
 class BlockedSignals
 {
 public:

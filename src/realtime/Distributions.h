@@ -29,7 +29,8 @@ struct ExactFigures
     }
 };
 
-/// Smallest border of \a bins that at least the fraction \a q (0 ... 1) of all values, and at least one, do not exceed; never above \a maximum.
+/// Smallest border of \a bins that at least the fraction \a q (0 ... 1) of all values, and at least
+/// one, do not exceed; never above \a maximum.
 std::int64_t quantileOf(const QVector<QPlcDistribution::Bin> &bins, double q, std::int64_t maximum);
 /// The distribution of the values in \a bins (rising, none empty), which it keeps.
 QPlcDistribution distributionOf(const QVector<QPlcDistribution::Bin> &bins, const ExactFigures &exact);

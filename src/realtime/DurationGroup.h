@@ -9,10 +9,13 @@
 
 namespace qplc {
 
-/// The statistics of several durations that are measured together, again and again. One thread records, folds and clears, others read at any time.
+/// The statistics of several durations that are measured together, again and again. One thread
+/// records, folds and clears, others read at any time.
 ///
-/// Histograms are spread over the memory, and a cycle that runs once in a millisecond finds none of it in the caches. So values wait in one place, side by side, until
-/// fold() takes them into the histograms in a row; record() does so itself when there is no room left, or when the oldest has waited for LongestWait.
+/// Histograms are spread over the memory, and a cycle that runs once in a millisecond finds none of
+/// it in the caches. So values wait in one place, side by side, until fold() takes them into the
+/// histograms in a row; record() does so itself when there is no room left, or when the oldest has
+/// waited for LongestWait.
 template<std::size_t Durations>
 class DurationGroup
 {

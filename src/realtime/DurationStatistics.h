@@ -7,7 +7,8 @@
 
 namespace qplc {
 
-/// The statistics of one duration since the start and over the last 10 s. One thread records (and clears), others read at any time. 26 KiB.
+/// The statistics of one duration since the start and over the last 10 s. One thread records (and
+/// clears), others read at any time. 26 KiB.
 class DurationStatistics
 {
 public:

@@ -28,7 +28,8 @@ namespace {
 bool keepWhatIsFreed() noexcept
 {
 #ifdef QTPLC_HEAP_OF_GLIBC
-    // No free end of the heap is large enough to be given back, and no block large enough for a mapping of its own.
+    // No free end of the heap is large enough to be given back, and no block large enough for a
+    // mapping of its own.
     return mallopt(M_TRIM_THRESHOLD, -1) == 1 && mallopt(M_MMAP_MAX, 0) == 1;
 #else
     return false;

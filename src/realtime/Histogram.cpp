@@ -7,7 +7,8 @@ namespace qplc {
 
 namespace {
 
-// Only one thread writes: a load and a store are enough, and several times faster than a locked increment.
+// Only one thread writes: a load and a store are enough, and several times faster than a locked
+// increment.
 template<typename T>
 void raise(std::atomic<T> &counter, std::memory_order order) noexcept
 {

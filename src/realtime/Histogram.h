@@ -10,25 +10,26 @@
 
 namespace qplc {
 
-/// Distribution of durations in constant memory: log-linear bins, 32 for each power of two, so that a
-/// quantile is at most 1/32 above the true value; minimum, maximum, count and sum are exact.
+/// Distribution of durations in constant memory: log-linear bins, 32 for each power of two, so that
+/// a quantile is at most 1/32 above the true value; minimum, maximum, count and sum are exact.
 ///
-/// One thread records (and clears); others may read at any time and see a state that is at most one value old.
-/// Recording is allocation-free; 15 KiB.
+/// One thread records (and clears); others may read at any time and see a state that is at most one
+/// value old. Recording is allocation-free; 15 KiB.
 class Histogram
 {
 public:
     /// \param value  [ns]; negative values count as 0
     void record(std::int64_t value) noexcept;
-    /// Forgets everything. Recording thread only; a reader may see a part of the old values meanwhile.
+    /// Forgets everything. Recording thread only; a reader may see a part of the old values
+    /// meanwhile.
     void clear() noexcept;
 
     std::uint64_t count() const noexcept { return m_count.load(std::memory_order_acquire); }
     std::int64_t minimum() const noexcept;  ///< 0 when empty
     std::int64_t maximum() const noexcept { return m_maximum.load(std::memory_order_relaxed); }
     double mean() const noexcept;  ///< 0 when empty
-    /// Smallest bin border that at least the fraction \a q (0 ... 1) of all values, and at least one, do not exceed;
-    /// never above maximum(). 0 when empty.
+    /// Smallest bin border that at least the fraction \a q (0 ... 1) of all values, and at least
+    /// one, do not exceed; never above maximum(). 0 when empty.
     std::int64_t quantile(double q) const;
     /// All figures, of one moment, with bins.
     QPlcDistribution distribution() const;

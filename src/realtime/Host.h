@@ -11,7 +11,8 @@ namespace qplc {
 
 class ControlNetwork;
 
-/// What runs the cycles of a master or node on a host without threads. See CycleThread for the meaning of its functions.
+/// What runs the cycles of a master or node on a host without threads. See CycleThread for the
+/// meaning of its functions.
 class Strand
 {
 public:
@@ -24,11 +25,12 @@ public:
     virtual void interruptAt(std::int64_t instant, std::int64_t period) noexcept = 0;
 };
 
-/// The computer on which a master, a node or a tool runs: its clocks, random numbers, wake-ups and threads.
+/// The computer on which a master, a node or a tool runs: its clocks, random numbers, wake-ups and
+/// threads.
 ///
-/// There is one real computer, machine(). A simulator has hosts of its own, as many as it likes in one thread, and enters
-/// one of them before it runs code that belongs to it. So the code of masters and nodes is the same in both.
-/// See docs/design/simulation.md.
+/// There is one real computer, machine(). A simulator has hosts of its own, as many as it likes in
+/// one thread, and enters one of them before it runs code that belongs to it. So the code of
+/// masters and nodes is the same in both. See docs/design/simulation.md.
 class Host
 {
 public:
@@ -57,7 +59,8 @@ public:
 
     // ---- wake-ups: see WakeUp ----
 
-    /// A descriptor for QSocketNotifier. \return -1, with the errno value in \a error, when there is none
+    /// A descriptor for QSocketNotifier. \return -1, with the errno value in \a error, when there
+    /// is none
     virtual int openWakeUp(int *error) noexcept = 0;
     virtual void closeWakeUp(int descriptor) noexcept = 0;
     /// From now on \a descriptor is readable.

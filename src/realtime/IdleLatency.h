@@ -5,7 +5,8 @@
 
 namespace qplc {
 
-/// Keeps the processors from sleeping so deep that waking takes longer than wanted, for as long as this object lives (/dev/cpu_dma_latency).
+/// Keeps the processors from sleeping so deep that waking takes longer than wanted, for as long as
+/// this object lives (/dev/cpu_dma_latency).
 class IdleLatency
 {
 public:

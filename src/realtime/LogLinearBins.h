@@ -5,9 +5,9 @@
 
 namespace qplc {
 
-/// Numbers the bins of a log-linear histogram: values below 2^SubBits have a bin each; above, each power of two has 2^SubBits
-/// bins, so that the upper border of a bin is at most 1/2^SubBits above each value in it. The last bin also holds
-/// everything from 2^TopBits on.
+/// Numbers the bins of a log-linear histogram: values below 2^SubBits have a bin each; above, each
+/// power of two has 2^SubBits bins, so that the upper border of a bin is at most 1/2^SubBits above
+/// each value in it. The last bin also holds everything from 2^TopBits on.
 template<int SubBits, int TopBits>
 struct LogLinearBins
 {

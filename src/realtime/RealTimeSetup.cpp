@@ -203,8 +203,9 @@ QVector<QPlcRealTimeSetting> applyHeapOptions(const QPlcRealTimeOptions &options
     return {result};
 }
 
-// The memory is locked before the stack is touched: what is touched then stays. Scheduling comes last but one, so that
-// the slow steps do not run with real-time priority, and before the timer slack, which depends on it.
+// The memory is locked before the stack is touched: what is touched then stays. Scheduling comes
+// last but one, so that the slow steps do not run with real-time priority, and before the timer
+// slack, which depends on it.
 QVector<QPlcRealTimeSetting> applyRealTimeOptions(const QPlcRealTimeOptions &options, Scheduling inherited)
 {
     Q_ASSERT_X(options.errorString().isEmpty(), "applyRealTimeOptions", "check errorString() of the options first");

@@ -9,7 +9,8 @@ namespace qplc {
 /// [byte]
 std::size_t pageSize() noexcept;
 
-/// [byte] of the \a size bytes from \a begin on whose pages are in memory. Pages that are not mapped are not.
+/// [byte] of the \a size bytes from \a begin on whose pages are in memory. Pages that are not
+/// mapped are not.
 std::size_t residentBytes(std::uintptr_t begin, std::size_t size) noexcept;
 
 }  // namespace qplc

@@ -10,10 +10,12 @@
 
 namespace qplc {
 
-/// Distribution of the durations of the last 10 s in constant memory: a ring of ten histograms of one second each.
+/// Distribution of the durations of the last 10 s in constant memory: a ring of ten histograms of
+/// one second each.
 ///
-/// A quantile is at most 1/8 above the true value; minimum, maximum, count and mean are exact. One thread records (and clears); others read at any time and
-/// never hold it up: a reader that meets the begin of a new second reads again. Recording is allocation-free; 11 KiB.
+/// A quantile is at most 1/8 above the true value; minimum, maximum, count and mean are exact. One
+/// thread records (and clears); others read at any time and never hold it up: a reader that meets
+/// the begin of a new second reads again. Recording is allocation-free; 11 KiB.
 class SlidingHistogram
 {
 public:
@@ -24,7 +26,8 @@ public:
     void record(std::int64_t value, std::int64_t now) noexcept;
     /// Forgets everything. Recording thread only.
     void clear() noexcept;
-    /// The values recorded in the second in which \a now [ns] lies, and in the nine seconds before it; with bins.
+    /// The values recorded in the second in which \a now [ns] lies, and in the nine seconds before
+    /// it; with bins.
     QPlcDistribution distribution(std::int64_t now) const;
 
 private:

@@ -33,7 +33,8 @@ SnapshotBuffer::SnapshotBuffer(std::size_t size)
 void SnapshotBuffer::publish(const void *bytes, std::uint64_t stamp) noexcept
 {
     const std::uint64_t publication = m_published.load(std::memory_order_relaxed);
-    // A reader that sees a word of this publication shall also see that the one before it was completed.
+    // A reader that sees a word of this publication shall also see that the one before it was
+    // completed.
     std::atomic_thread_fence(std::memory_order_release);
 
     Word *word = slot(publication);

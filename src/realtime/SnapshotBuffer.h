@@ -8,11 +8,13 @@
 
 namespace qplc {
 
-/// The newest state of something: one thread publishes a fixed number of bytes, any other may take a consistent copy.
+/// The newest state of something: one thread publishes a fixed number of bytes, any other may take
+/// a consistent copy.
 ///
-/// A sequence lock over two slots. The writer never waits, whatever the readers do. It fills the slot that is not the
-/// published one, so a writer that is preempted in the middle of it does not hold up a reader either: a copy
-/// is repeated only when a whole publication has been completed meanwhile. Allocation-free after construction.
+/// A sequence lock over two slots. The writer never waits, whatever the readers do. It fills the
+/// slot that is not the published one, so a writer that is preempted in the middle of it does not
+/// hold up a reader either: a copy is repeated only when a whole publication has been completed
+/// meanwhile. Allocation-free after construction.
 class SnapshotBuffer
 {
 public:
@@ -25,7 +27,8 @@ public:
     /// \param stamp  what tells the snapshots apart: cycle number, time, ...
     void publish(const void *bytes, std::uint64_t stamp) noexcept;
 
-    /// Copies the newest snapshot to \a bytes, which has room for size() bytes, and its stamp. Any thread.
+    /// Copies the newest snapshot to \a bytes, which has room for size() bytes, and its stamp. Any
+    /// thread.
     /// \param stamp  may be null
     /// \return false before the first publication; nothing is written then
     bool read(void *bytes, std::uint64_t *stamp) const noexcept;

@@ -8,8 +8,9 @@
 
 namespace qplc {
 
-/// A bounded queue from one thread to one other, without locks, waits or allocations after construction.
-/// A full ring refuses; nothing is overwritten. T is copied as a whole and must be trivially copyable.
+/// A bounded queue from one thread to one other, without locks, waits or allocations after
+/// construction. A full ring refuses; nothing is overwritten. T is copied as a whole and must be
+/// trivially copyable.
 template<typename T>
 class SpscRing
 {
@@ -28,8 +29,10 @@ public:
 
     std::size_t capacity() const { return m_mask + 1; }
 
-    /// The place of the next value, to be filled and then given by commitPush(); null when the ring is full. Producer only.
-    /// \param reserve  places that stay free for others: with so few left the ring is full. Less than capacity()
+    /// The place of the next value, to be filled and then given by commitPush(); null when the ring
+    /// is full. Producer only.
+    /// \param reserve places that stay free for others: with so few left the ring is full. Less
+    ///         than capacity()
     T *beginPush(std::size_t reserve = 0) noexcept
     {
         const std::size_t head = m_head.load(std::memory_order_relaxed);

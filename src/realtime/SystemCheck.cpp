@@ -11,7 +11,8 @@ namespace qplc {
 
 namespace {
 
-// A cycle of a kilohertz has 1 ms: a tenth of it may go to a wake-up under SCHED_FIFO, all of it is lost to an ordinary one.
+// A cycle of a kilohertz has 1 ms: a tenth of it may go to a wake-up under SCHED_FIFO, all of it is
+// lost to an ordinary one.
 constexpr std::int64_t latestRealTimeWakeUp = 100'000;    // [ns], of 99 %
 constexpr std::int64_t latestOrdinaryWakeUp = 1'000'000;  // [ns], of 99 %
 constexpr std::int64_t longestRoundTrip = 1'000'000;      // [ns], of 99 %

@@ -17,12 +17,15 @@ struct Finding
     QString remedy;  ///< command that cures it; empty unless ToCure
 };
 
-// Judgements on whether a computer is fit for cycles of a kilohertz: the facts that can be read, and the effects that were tried and measured.
+// Judgements on whether a computer is fit for cycles of a kilohertz: the facts that can be read,
+// and the effects that were tried and measured.
 
 /// Kernel, processors, clock source, governor, idle states.
 QVector<Finding> judgeFacts(const SystemFacts &facts);
-/// Ordinary and real-time scheduling by the wake-ups of their threads, locked memory, and swap, which matters where memory cannot be locked.
-/// \param ordinary  of a thread under SCHED_OTHER \param realTime  of one that asked for SCHED_FIFO and locked memory
+/// Ordinary and real-time scheduling by the wake-ups of their threads, locked memory, and swap,
+/// which matters where memory cannot be locked.
+/// \param ordinary of a thread under SCHED_OTHER \param realTime of one that asked for SCHED_FIFO
+///         and locked memory
 QVector<Finding> judgeEffects(const SystemFacts &facts, const WakeUps &ordinary, const WakeUps &realTime);
 /// \param roundTrips  of datagrams over loopback [ns]; empty: none came back
 Finding judgeLoopback(const Histogram &roundTrips);

@@ -9,7 +9,8 @@
 
 namespace qplc {
 
-/// What /proc and /sys say of a computer, as far as it matters to real time. Empty, or none: they do not say.
+/// What /proc and /sys say of a computer, as far as it matters to real time. Empty, or none: they
+/// do not say.
 struct SystemFacts
 {
     /// A sleep of a processor that has nothing to do.

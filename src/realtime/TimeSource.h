@@ -17,7 +17,8 @@ public:
     virtual std::int64_t slept() noexcept { return 0; }
     /// Sleeps until now() >= \a deadline. \return false when it was interrupted before
     virtual bool sleepUntil(std::int64_t deadline) noexcept = 0;
-    /// A descriptor that is readable from \a deadline on, until the next call of alarm() or sleepUntil(); for a poll() that waits for other things, too.
+    /// A descriptor that is readable from \a deadline on, until the next call of alarm() or
+    /// sleepUntil(); for a poll() that waits for other things, too.
     /// \return -1 when this clock has none
     virtual int alarm(std::int64_t /*deadline*/) noexcept { return -1; }
 

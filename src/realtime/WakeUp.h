@@ -9,16 +9,20 @@
 
 namespace qplc {
 
-/// How a cycle thread tells another thread that there is something in a ring. It costs a system call only when the
-/// reader sleeps, and one atomic exchange otherwise.
+/// How a cycle thread tells another thread that there is something in a ring. It costs a system
+/// call only when the reader sleeps, and one atomic exchange otherwise.
 ///
 /// \code
-/// // cycle thread         // reader: once at its start, and whenever descriptor() is readable (QSocketNotifier)
-/// ring.push(event);       wakeUp.consume();
-/// wakeUp.notify();        do { takeAll(ring); wakeUp.arm(); } while (ring.front());
+/// // The cycle thread.
+/// ring.push(event);
+/// wakeUp.notify();
+/// // The reader: once at its start, and whenever descriptor() is readable (QSocketNotifier).
+/// wakeUp.consume();
+/// do { takeAll(ring); wakeUp.arm(); } while (ring.front());
 /// \endcode
-/// The look into the ring after arm() is what makes it safe: a value that was pushed before gives no wake-up.
-/// A value that was pushed after arm() gives one, also when the reader has found it by that look.
+/// The look into the ring after arm() is what makes it safe: a value that was pushed before gives
+/// no wake-up. A value that was pushed after arm() gives one, also when the reader has found it by
+/// that look.
 class WakeUp
 {
 public:
@@ -27,7 +31,8 @@ public:
     WakeUp(const WakeUp &) = delete;
     WakeUp &operator=(const WakeUp &) = delete;
 
-    /// Becomes readable when the reader is to wake up; for QSocketNotifier or poll(). -1 when the system had none left.
+    /// Becomes readable when the reader is to wake up; for QSocketNotifier or poll(). -1 when the
+    /// system had none left.
     int descriptor() const noexcept { return m_descriptor; }
     bool isValid() const noexcept { return m_descriptor >= 0; }
     /// Why isValid() is false; empty otherwise.
@@ -36,14 +41,15 @@ public:
     /// Wakes the reader up if it has armed, once. \threadsafe yes, real-time
     void notify() noexcept
     {
-        // An exchange, not a load: together with the exchange of arm() either this one sees the reader armed, or the
-        // reader sees what was pushed before.
+        // An exchange, not a load: together with the exchange of arm() either this one sees the
+        // reader armed, or the reader sees what was pushed before.
         if (m_armed.exchange(false, std::memory_order_acq_rel))
             wake();
     }
     /// From now on the next notify() wakes the reader up. Reader only.
     void arm() noexcept { m_armed.exchange(true, std::memory_order_acq_rel); }
-    /// Takes the wake-up back, so that descriptor() is not readable until the next one. Reader only.
+    /// Takes the wake-up back, so that descriptor() is not readable until the next one. Reader
+    /// only.
     /// \return true when there was one
     bool consume() noexcept;
 

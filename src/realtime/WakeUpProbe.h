@@ -17,11 +17,13 @@ struct WakeUps
     std::unique_ptr<Histogram>
         lateness;  ///< [ns] after the deadline; null: not measured, since the scheduling was refused
 
-    /// The setting of this name ("scheduling", "locked memory"); none granted where it was not wished for.
+    /// The setting of this name ("scheduling", "locked memory"); none granted where it was not
+    /// wished for.
     QPlcRealTimeSetting setting(const QString &name) const;
 };
 
-/// Sleeps \a count times until a deadline on a grid of \a period and records how long after it each sleep ended. Never computes: harmless under SCHED_FIFO, too.
+/// Sleeps \a count times until a deadline on a grid of \a period and records how long after it each
+/// sleep ended. Never computes: harmless under SCHED_FIFO, too.
 void recordWakeUps(TimeSource &time, std::chrono::nanoseconds period, int count, Histogram *lateness) noexcept;
 
 /// Does so on a thread of its own with \a options. Locked memory is unlocked afterwards.

@@ -30,8 +30,9 @@ struct CycleRecord
     std::array<std::int64_t, CycleStageCount> stages{};  // [ns]
 };
 
-/// The cycles with the largest cost, in constant memory: a cycle replaces the cheapest one that is kept when it costs more; of two that cost the same
-/// the first one stays. One thread offers (and clears), others read at any time.
+/// The cycles with the largest cost, in constant memory: a cycle replaces the cheapest one that is
+/// kept when it costs more; of two that cost the same the first one stays. One thread offers (and
+/// clears), others read at any time.
 class WorstCycles
 {
 public:

@@ -26,12 +26,13 @@ struct IniItem
     int errorColumn = 0;
 };
 
-/// Cuts an INI text into sections and entries and says where each stands; knows nothing of what they mean.
+/// Cuts an INI text into sections and entries and says where each stands; knows nothing of what
+/// they mean.
 ///
-/// Strict: UTF-8 (a byte order mark is skipped), lines ended by LF or CRLF and of at most MaximumLine bytes, no control
-/// characters. Comments begin with `;` or `#` at the start of a line, or with ` ;` behind a value. A value that begins
-/// with `"` ends with `"`; inside, \n \r \t \" and \\ are line feed, carriage return, tab, quotation mark and
-/// backslash.
+/// Strict: UTF-8 (a byte order mark is skipped), lines ended by LF or CRLF and of at most
+/// MaximumLine bytes, no control characters. Comments begin with `;` or `#` at the start of a line,
+/// or with ` ;` behind a value. A value that begins with `"` ends with `"`; inside, \n \r \t \" and
+/// \\ are line feed, carriage return, tab, quotation mark and backslash.
 class IniParser
 {
 public:
@@ -39,11 +40,12 @@ public:
 
     explicit IniParser(const QByteArray &text);
 
-    /// The next line that is neither blank nor a comment; kind End behind the last. A text that is no text at all (zero
-    /// bytes, UTF-16) ends with its first error.
+    /// The next line that is neither blank nor a comment; kind End behind the last. A text that is
+    /// no text at all (zero bytes, UTF-16) ends with its first error.
     IniItem next();
 
-    /// The text of a value that next() reads back as \a value, which has no control characters but \n, \r and \t.
+    /// The text of a value that next() reads back as \a value, which has no control characters but
+    /// \n, \r and \t.
     static QString valueText(const QString &value);
 
 private:

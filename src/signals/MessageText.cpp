@@ -13,8 +13,8 @@ namespace {
 constexpr int longestQuotation = 60;
 constexpr int longestComparedName = 80;
 
-// Letters to insert, remove, replace or swap with their neighbour (optimal string alignment); more than `limit`
-// (any such number) when there are more. Both names are in lower case.
+// Letters to insert, remove, replace or swap with their neighbour (optimal string alignment); more
+// than `limit` (any such number) when there are more. Both names are in lower case.
 int editDistance(const QString &a, const QString &b, int limit)
 {
     if (qAbs(a.size() - b.size()) > limit || qMax(a.size(), b.size()) >= longestComparedName)

@@ -51,7 +51,8 @@ public:
         QPlcSignalType type;
     };
 
-    /// Whether a byte for the quality of each value follows behind all values, in the order of the fields.
+    /// Whether a byte for the quality of each value follows behind all values, in the order of the
+    /// fields.
     enum Qualities : quint8 { WithoutQualities, WithQualities };
 
     PayloadLayout() = default;
@@ -64,12 +65,14 @@ public:
     bool hasQualities() const { return m_size > m_valueSize; }
     /// Bytes of the values alone; there the qualities begin.
     quint32 valueSize() const { return m_valueSize; }
-    /// FNV-1a-64 of "name:type@offset\n" of all fields in order, and of "qualities@offset\n" where they follow.
+    /// FNV-1a-64 of "name:type@offset\n" of all fields in order, and of "qualities@offset\n" where
+    /// they follow.
     quint64 hash() const { return m_hash; }
 
-    /// Borders of the parts into which the payload is split so that no part is longer than \a maximum bytes and no
-    /// value is torn (one that is longer itself is a part of its own; qualities may be parted anywhere): part i is [borders[i], borders[i+1]). An empty
-    /// payload is one empty part.
+    /// Borders of the parts into which the payload is split so that no part is longer than \a
+    /// maximum bytes and no value is torn (one that is longer itself is a part of its own;
+    /// qualities may be parted anywhere): part i is [borders[i], borders[i+1]). An empty payload is
+    /// one empty part.
     std::vector<quint32> partBorders(quint32 maximum) const;
 
 private:

@@ -17,7 +17,8 @@ struct ValueFault
 /// "12 is above its maximum 10", "nan is not a finite number"
 QString faultText(const QPlcSignalDefinition &signal, const ValueFault &fault);
 
-/// What the signal table allows the values of a payload to be, as flat lists: finite, not below `min`, not above `max`. Every element of an array counts.
+/// What the signal table allows the values of a payload to be, as flat lists: finite, not below
+/// `min`, not above `max`. Every element of an array counts.
 class PayloadRules
 {
 public:

@@ -19,7 +19,8 @@ std::size_t paddedSize(quint32 size)
     return (std::size_t(size) / alignment + 1) * alignment;
 }
 
-// A step of the digest: for a given `state` each `word` gives another result, and the other way round.
+// A step of the digest: for a given `state` each `word` gives another result, and the other way
+// round.
 quint64 mixed(quint64 state, quint64 word) noexcept
 {
     state = (state ^ word) * 0x9e3779b97f4a7c15u;
@@ -115,7 +116,8 @@ std::vector<CopyRun> ProcessImage::scatterRuns(const PayloadLayout &layout, cons
 
 quint64 ProcessImage::digest(quint64 digest) const noexcept
 {
-    // Four independent lanes keep the multiplier busy. The zeros behind the last value are read with it.
+    // Four independent lanes keep the multiplier busy. The zeros behind the last value are read
+    // with it.
     constexpr quint32 lanes = 4;
     std::array<quint64, lanes> states = {1, 2, 3, 4};
     for (quint32 position = 0; position < m_size; position += lanes * 8) {

@@ -9,12 +9,13 @@
 
 namespace qplc {
 
-/// All values of a signal table in one block of memory, 64-byte aligned, packed in table order at fixed offsets; behind them, aligned too, the quality of
-/// each value (a byte of QPlcQuality), in table order.
+/// All values of a signal table in one block of memory, 64-byte aligned, packed in table order at
+/// fixed offsets; behind them, aligned too, the quality of each value (a byte of QPlcQuality), in
+/// table order.
 ///
-/// Frames are cut from it and pasted into it by copy runs; neighbours in the table that are neighbours in a frame are
-/// one run, so a table that lists the signals by writer makes each frame one copy. No thread rule of its own: one
-/// thread at a time.
+/// Frames are cut from it and pasted into it by copy runs; neighbours in the table that are
+/// neighbours in a frame are one run, so a table that lists the signals by writer makes each frame
+/// one copy. No thread rule of its own: one thread at a time.
 class ProcessImage
 {
 public:
@@ -46,15 +47,18 @@ public:
     /// Gives every signal its initial value, which is Invalid.
     void reset();
 
-    /// Runs that cut a frame of \a layout out of this image, with qualities where it has them; \a layout is made from the table of the image.
+    /// Runs that cut a frame of \a layout out of this image, with qualities where it has them; \a
+    /// layout is made from the table of the image.
     std::vector<CopyRun> gatherRuns(const PayloadLayout &layout) const;
-    /// As above, values and qualities of those fields only that are \a wanted; a field behind the end of \a wanted is not.
+    /// As above, values and qualities of those fields only that are \a wanted; a field behind the
+    /// end of \a wanted is not.
     std::vector<CopyRun> gatherRuns(const PayloadLayout &layout, const std::vector<bool> &wanted) const;
-    /// Runs that paste the values of a frame of \a layout into this image, but for the signals that are \a held (by index; those behind its end are not).
+    /// Runs that paste the values of a frame of \a layout into this image, but for the signals that
+    /// are \a held (by index; those behind its end are not).
     std::vector<CopyRun> scatterRuns(const PayloadLayout &layout, const std::vector<bool> &held = {}) const;
 
-    /// Folds the bytes of all values into \a digest: an order-dependent 64-bit hash, equal for equal images on all
-    /// machines.
+    /// Folds the bytes of all values into \a digest: an order-dependent 64-bit hash, equal for
+    /// equal images on all machines.
     quint64 digest(quint64 digest) const noexcept;
 
 private:

@@ -12,7 +12,8 @@ struct ProcessTable
     QString lastErrorString;
 };
 
-// Made at the first use and never destroyed: nodes in static storage may ask for it until the very end.
+// Made at the first use and never destroyed: nodes in static storage may ask for it until the very
+// end.
 ProcessTable &processTable()
 {
     static ProcessTable *const table = new ProcessTable;

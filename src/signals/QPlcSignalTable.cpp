@@ -21,8 +21,8 @@ QPlcSignalTable failed(const QString &fileName, const QString &message, QVector<
     return QPlcSignalTable();
 }
 
-// The definition as the table keeps it: values in the types of the signal where they can be converted, and an initial
-// value.
+// The definition as the table keeps it: values in the types of the signal where they can be
+// converted, and an initial value.
 QPlcSignalDefinition completed(QPlcSignalDefinition signal)
 {
     const auto convert = [](QPlcValue *value, QPlcSignalType type) {

@@ -3,8 +3,8 @@
 
 namespace qplc {
 
-/// Position of the first byte that is not part of well-formed UTF-8 (RFC 3629: shortest form, no surrogates, at most
-/// U+10FFFF); -1 when there is none.
+/// Position of the first byte that is not part of well-formed UTF-8 (RFC 3629: shortest form, no
+/// surrogates, at most U+10FFFF); -1 when there is none.
 int firstInvalidUtf8(const char *bytes, int size);
 
 /// Number of characters that begin in \a bytes.

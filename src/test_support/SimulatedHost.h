@@ -17,7 +17,7 @@ class Fiber;
 /// A computer of the simulator with one program on it: a master, a node or a tool.
 ///
 /// \code
-/// SimulatedHost host(simulator, QStringLiteral("winch"), QHostAddress(QStringLiteral("10.0.0.2")));
+/// SimulatedHost host(simulator, "winch", QHostAddress("10.0.0.2"));
 /// host.start([] { return std::make_shared<Winch>(); });
 /// host.kill();   // its objects end, and nobody on the network hears of it but through its kernel
 /// host.start([] { return std::make_shared<Winch>(); });

@@ -11,7 +11,8 @@
 
 namespace tools {
 
-/// A tool at the control channel of a master that waits for each answer. Takes no part in the cycle.
+/// A tool at the control channel of a master that waits for each answer. Takes no part in the
+/// cycle.
 class BlockingClient : public QObject
 {
     Q_OBJECT

@@ -9,7 +9,8 @@
 
 namespace tools {
 
-/// What a command gets: the options, its arguments, and a client that is not connected yet. A command checks what it was given before it connects.
+/// What a command gets: the options, its arguments, and a client that is not connected yet. A
+/// command checks what it was given before it connects.
 struct CommandCall
 {
     QPlcCoreApplication &application;
@@ -28,8 +29,8 @@ struct CommandCall
     {
         return tell(client.ask(request, answer));
     }
-    /// As ask(), for something that an older master may not know: its refusal becomes a sentence that says so, and so
-    /// does an answer of another kind.
+    /// As ask(), for something that an older master may not know: its refusal becomes a sentence
+    /// that says so, and so does an answer of another kind.
     template<typename Request>
     bool askFor(const Request &request, typename Request::Answer *answer) const
     {
@@ -42,7 +43,8 @@ struct CommandCall
     /// From now on SIGINT and SIGTERM end the event loop in an orderly way.
     /// \return what becomes true then, for those that come before the loop has begun
     std::shared_ptr<const bool> quitOnSignals() const;
-    /// A number given as \a option, in \a minimum ... \a maximum; \a result stays when the option is not there. \return false, with the message out
+    /// A number given as \a option, in \a minimum ... \a maximum; \a result stays when the option
+    /// is not there. \return false, with the message out
     bool readNumber(const char *option, double minimum, double maximum, double *result) const;
     bool readInteger(const char *option, qint64 minimum, qint64 maximum, qint64 *result) const;
 };

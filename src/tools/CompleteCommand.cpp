@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// complete: how a command line may go on, for the completion of a shell. Never fails and never complains: the shell shows what is printed.
+// complete: how a command line may go on, for the completion of a shell. Never fails and never
+// complains: the shell shows what is printed.
 #include "Commands.h"
 #include "TerminalText.h"
 
@@ -71,7 +72,8 @@ QStringList namesOfCommands()
     return names;
 }
 
-/// Names of the signals of the live master; none when there is no master. \param onlyFree  those without a writer
+/// Names of the signals of the live master; none when there is no master. \param onlyFree those
+/// without a writer
 QStringList signalNames(const QString &address, bool onlyFree)
 {
     const QPlcUnderlyingProtocol master = QPlcUnderlyingProtocol::fromString(address, QPlcUnderlyingProtocol::Tcp);

@@ -64,7 +64,8 @@ private:
     quint64 m_newest = 0;
 };
 
-/// Prints the events that the master still has. \return false, with the message out, when the master does not answer
+/// Prints the events that the master still has. \return false, with the message out, when the
+/// master does not answer
 bool printBacklog(const CommandCall &call, EventPrinter *printer)
 {
     constexpr int mostAnswers = 100;  // a master keeps 1000 events, and sends 200 in an answer

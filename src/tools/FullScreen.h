@@ -9,7 +9,8 @@
 
 namespace tools {
 
-/// The whole terminal for one program: its alternate screen, without a cursor, keys one by one. The terminal is given back as it was when the object goes.
+/// The whole terminal for one program: its alternate screen, without a cursor, keys one by one. The
+/// terminal is given back as it was when the object goes.
 class FullScreen : public QObject
 {
     Q_OBJECT

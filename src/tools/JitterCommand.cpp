@@ -51,7 +51,8 @@ QVector<Distribution> distributionsOf(const messages::Statistics &statistics)
     return all;
 }
 
-/// What the columns show: of slack the little that was left is of interest, of all else the most that it took.
+/// What the columns show: of slack the little that was left is of interest, of all else the most
+/// that it took.
 std::array<double, 5> figuresOf(const QPlcDistribution &of, bool isSlack)
 {
     if (isSlack)

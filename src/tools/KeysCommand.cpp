@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// keys: makes, shows and revokes pre-shared keys. Needs no master. Keys themselves are never printed.
+// keys: makes, shows and revokes pre-shared keys. Needs no master. Keys themselves are never
+// printed.
 #include "Commands.h"
 #include "TerminalText.h"
 #include "node/security/Keyring.h"

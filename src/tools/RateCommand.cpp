@@ -102,7 +102,8 @@ bool listen(CycleEar &ear, double seconds, RateStatistics *rate)
             rate->add(arrival);
     };
     QObject::connect(&drain, &QTimer::timeout, takeAll);
-    // Queued: the node says goodbye when the event loop ends, too, and who ends a loop that has ended ends all later ones.
+    // Queued: the node says goodbye when the event loop ends, too, and who ends a loop that has
+    // ended ends all later ones.
     QObject::connect(
         &ear, &QPlcSlaveNode::disconnectedFromMaster, &drain,
         [] { QCoreApplication::exit(QPlcCoreApplication::Failure); }, Qt::QueuedConnection);

@@ -13,11 +13,13 @@ struct Arrival
     qint64 time;  // [ns]
 };
 
-/// What is to be said of a row of arrivals: rate, intervals between cycles that follow each other, and the cycles in between that never came.
+/// What is to be said of a row of arrivals: rate, intervals between cycles that follow each other,
+/// and the cycles in between that never came.
 class RateStatistics
 {
 public:
-    /// A cycle that is not newer than the last one begins everything anew: the plant was started again.
+    /// A cycle that is not newer than the last one begins everything anew: the plant was started
+    /// again.
     void add(const Arrival &arrival);
 
     quint64 cycles() const { return m_cycles; }

@@ -23,7 +23,8 @@ struct Settings
     messages::SetSignals message;
 };
 
-/// Reads "SIGNAL VALUE SIGNAL VALUE ...". \return false, with the message out, when a value cannot be meant
+/// Reads "SIGNAL VALUE SIGNAL VALUE ...". \return false, with the message out, when a value cannot
+/// be meant
 bool readValues(const CommandCall &call, const QPlcSignalTable &table, Settings *settings)
 {
     for (int i = 0; i < call.arguments.size(); i += 2) {

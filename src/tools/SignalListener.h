@@ -7,8 +7,8 @@
 
 namespace tools {
 
-/// Joins the plant as a listener: hears the signals of every cycle, and asks the master now and then for what a cycle
-/// does not tell.
+/// Joins the plant as a listener: hears the signals of every cycle, and asks the master now and
+/// then for what a cycle does not tell.
 class SignalListener : public QObject
 {
     Q_OBJECT

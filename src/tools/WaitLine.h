@@ -5,7 +5,8 @@
 
 namespace tools {
 
-/// A line on the standard error that says how far a command is while a person waits for it. Each text takes the place of the one before; at the end the line is gone. Shows nothing where there
+/// A line on the standard error that says how far a command is while a person waits for it. Each
+/// text takes the place of the one before; at the end the line is gone. Shows nothing where there
 /// is no terminal.
 class WaitLine
 {

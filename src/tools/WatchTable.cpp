@@ -95,8 +95,8 @@ void WatchTable::forgetExtremes()
         row.hasExtremes = false;
 }
 
-/// The name is given what it needs where the line is wide enough; a value may be cut, being a text then. Where the line is
-/// too narrow for names that can be read, there are no extremes.
+/// The name is given what it needs where the line is wide enough; a value may be cut, being a text
+/// then. Where the line is too narrow for names that can be read, there are no extremes.
 WatchTable::Widths WatchTable::widths(int first, int count, int width) const
 {
     Widths widths{6, 13, 4, true};

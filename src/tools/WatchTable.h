@@ -5,7 +5,8 @@
 
 namespace tools {
 
-/// The table of watch: a row for each element of each signal, with its value, the extremes seen, and when it changed last, or its quality where that is not good.
+/// The table of watch: a row for each element of each signal, with its value, the extremes seen,
+/// and when it changed last, or its quality where that is not good.
 class WatchTable
 {
 public:
@@ -17,7 +18,8 @@ public:
     /// The extremes begin with the next values.
     void forgetExtremes();
     int rowCount() const { return m_rows.size(); }
-    /// Title and rows, from row \a first on, as many as fit. \param width, height  of the place for it
+    /// Title and rows, from row \a first on, as many as fit. \param width, height of the place for
+    /// it
     QStringList lines(int first, int width, int height, double now) const;
 
 private:

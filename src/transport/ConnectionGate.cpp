@@ -8,7 +8,8 @@ namespace qplc {
 
 namespace {
 
-/// What counts as one address: in IPv6 a whole network, whose addresses a single computer can use one after the other.
+/// What counts as one address: in IPv6 a whole network, whose addresses a single computer can use
+/// one after the other.
 QHostAddress originOf(const QHostAddress &address)
 {
     bool isV4 = false;

@@ -11,9 +11,11 @@
 
 namespace qplc {
 
-/// How many may come in to a server, how fast, and how long they may take to say who they are. A stranger is somebody who has not; memory for him is bounded by this class alone.
+/// How many may come in to a server, how fast, and how long they may take to say who they are. A
+/// stranger is somebody who has not; memory for him is bounded by this class alone.
 ///
-/// Looks at no clock: times are ns on any steady clock. Who comes from a loopback address is a user of this machine: no limit of its own for the address, no rate.
+/// Looks at no clock: times are ns on any steady clock. Who comes from a loopback address is a user
+/// of this machine: no limit of its own for the address, no rate.
 class ConnectionGate
 {
 public:
@@ -39,11 +41,13 @@ public:
 
     /// Whether the next connection may be taken out of the queue of the system.
     bool hasRoom() const { return m_strangers < m_limits.strangers; }
-    /// Takes somebody in as a stranger. \return nothing, with the reason in \a refusal, when there is no place: he is to be closed at once
+    /// Takes somebody in as a stranger. \return nothing, with the reason in \a refusal, when there
+    /// is no place: he is to be closed at once
     std::optional<Ticket> admit(const QHostAddress &address, qint64 now, Refusal *refusal);
     /// The stranger has done a step and gets time for the next one.
     void renew(Ticket ticket, qint64 now);
-    /// The stranger has proven to be \a identity. \return false when there are too many of it: he is to be closed
+    /// The stranger has proven to be \a identity. \return false when there are too many of it: he
+    /// is to be closed
     bool prove(Ticket ticket, const QString &identity);
     /// The stranger has said who he is.
     void know(Ticket ticket);

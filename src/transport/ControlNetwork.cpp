@@ -15,7 +15,8 @@ namespace {
 
 constexpr int Queue = 512;  // of who has not been taken yet: all nodes of a plant may come back at once
 
-/// QTcpServer itself would take every connection, and would spin when the process has no descriptor left.
+/// QTcpServer itself would take every connection, and would spin when the process has no descriptor
+/// left.
 class KernelPort final : public ControlPort
 {
 public:

@@ -22,7 +22,8 @@ public:
     virtual int descriptor() const = 0;
     virtual QHostAddress address() const = 0;
     virtual quint16 number() const = 0;
-    /// The next connection, non-blocking; the caller owns it. \return -1, with errno set, when there is none
+    /// The next connection, non-blocking; the caller owns it. \return -1, with errno set, when
+    /// there is none
     virtual int accept() = 0;
 };
 
@@ -37,7 +38,8 @@ public:
 
     /// A socket that is not connected; it belongs to \a parent.
     virtual QTcpSocket *makeSocket(QObject *parent) = 0;
-    /// Null, with the reason in \a error and \a text, when \a address cannot be listened at. \param port  0: any
+    /// Null, with the reason in \a error and \a text, when \a address cannot be listened at. \param
+    /// port 0: any
     virtual std::unique_ptr<ControlPort> listen(const QHostAddress &address, quint16 port,
                                                 QAbstractSocket::SocketError *error, QString *text)
         = 0;

@@ -13,9 +13,11 @@
 
 namespace qplc {
 
-/// The master's end of the cyclic channels of all nodes: sends many frames and takes many answers with few system calls.
+/// The master's end of the cyclic channels of all nodes: sends many frames and takes many answers
+/// with few system calls.
 ///
-/// open() by the owner; everything else by the cycle thread (or by nobody while it runs). Allocation-free after construction.
+/// open() by the owner; everything else by the cycle thread (or by nobody while it runs).
+/// Allocation-free after construction.
 class CyclicHub
 {
 public:
@@ -27,7 +29,8 @@ public:
     CyclicHub(const CyclicHub &) = delete;
     CyclicHub &operator=(const CyclicHub &) = delete;
 
-    /// Opens all transports for a master that listens at \a address. \return false, with the reason in \a error
+    /// Opens all transports for a master that listens at \a address. \return false, with the reason
+    /// in \a error
     bool open(const SocketAddress &address, QString *error);
     void close();
     /// Adds a way on which frames travel. By the owner, before open().
@@ -42,35 +45,42 @@ public:
         return found;
     }
 
-    /// From now on frames of peers are treated like those on a bad network, or no longer. By the owner, while there are no peers.
+    /// From now on frames of peers are treated like those on a bad network, or no longer. By the
+    /// owner, while there are no peers.
     /// \param time  instead of the clock of the machine; for tests
     void setFaults(const std::optional<FaultPlan> &plan, TimeSource &time = TimeSource::monotonic());
-    /// Makes \a peer meet these faults, if there are any. By its owner, before attach(). \param stream  tells peers apart
+    /// Makes \a peer meet these faults, if there are any. By its owner, before attach(). \param
+    /// stream tells peers apart
     void exposeToFaults(HubPeer &peer, std::uint64_t stream) const;
 
     void attach(HubPeer *peer) noexcept;
     void detach(HubPeer *peer) noexcept;
 
-    /// Sends \a frame, or keeps the pointer until flush() for one common system call: the bytes have to stay.
+    /// Sends \a frame, or keeps the pointer until flush() for one common system call: the bytes
+    /// have to stay.
     /// \return false when a peer did not take the frame; it may be offered again
     bool send(HubPeer *peer, const char *frame, std::size_t size) noexcept;
     /// Goes on with a frame that a stream has taken and not sent as a whole.
     void sendRest(HubPeer *peer) noexcept { transportOf(*peer).sendRest(peer); }
     void flush() noexcept;
 
-    /// Waits until frames are there, at most \a timeout [ns] (0: just looks); a wait of 20 ms or more may end before.
-    /// \param alarm  a descriptor that ends the wait when it becomes readable, instead of the timeout; -1: none
+    /// Waits until frames are there, at most \a timeout [ns] (0: just looks); a wait of 20 ms or
+    /// more may end before.
+    /// \param alarm a descriptor that ends the wait when it becomes readable, instead of the
+    ///         timeout; -1: none
     /// \return whether frames can be taken by next()
     bool wait(std::int64_t timeout, int alarm = -1) noexcept;
-    /// The next frame of those that are there; it stays valid until the next call. \return false when there is none any more
+    /// The next frame of those that are there; it stays valid until the next call. \return false
+    /// when there is none any more
     bool next(HubFrame *frame) noexcept;
 
     /// Frames whose sender is no peer.
     std::uint64_t strangers() const noexcept { return m_arrivals.strangers; }
-    /// How often frames were left to the next wait(), as there were more than HubTransport::FramesPerWait.
+    /// How often frames were left to the next wait(), as there were more than
+    /// HubTransport::FramesPerWait.
     std::uint64_t floods() const noexcept { return m_arrivals.floods; }
-    /// Frames since open() that the kernel had no room for, as nobody read those before them in time.
-    /// Thread of the owner.
+    /// Frames since open() that the kernel had no room for, as nobody read those before them in
+    /// time. Thread of the owner.
     std::uint64_t unread() const;
 
 private:

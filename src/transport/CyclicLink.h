@@ -7,7 +7,8 @@ namespace qplc {
 
 /// A node's end of its cyclic channel: whole frames to and from the master.
 ///
-/// Made by the thread that owns the node, then used by its cycle thread alone. Allocation-free once made.
+/// Made by the thread that owns the node, then used by its cycle thread alone. Allocation-free once
+/// made.
 class CyclicLink
 {
 public:
@@ -25,7 +26,8 @@ public:
     virtual Status receive(const char **frame, std::size_t *size) noexcept = 0;
     /// As receive(), without waiting.
     virtual Status poll(const char **frame, std::size_t *size) noexcept = 0;
-    /// \return false when the frame could not be handed to the kernel (it is lost, as on any network)
+    /// \return false when the frame could not be handed to the kernel (it is lost, as on any
+    ///         network)
     virtual bool send(const char *frame, std::size_t size) noexcept = 0;
 
     /// To be called behind the last frame of an answer.

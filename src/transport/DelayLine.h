@@ -7,7 +7,8 @@
 
 namespace qplc {
 
-/// Keeps copies of frames until they are due. Allocation-free after construction; used by one thread.
+/// Keeps copies of frames until they are due. Allocation-free after construction; used by one
+/// thread.
 class DelayLine
 {
 public:
@@ -22,10 +23,12 @@ public:
     /// \param capacity  frames  \param largestFrame  [byte]
     DelayLine(std::size_t capacity, std::size_t largestFrame);
 
-    /// Keeps a copy until \a due [ns]. Frames that are due at the same time come in the order in which they were put.
+    /// Keeps a copy until \a due [ns]. Frames that are due at the same time come in the order in
+    /// which they were put.
     /// \return the bytes of the copy; null when there is no room, or the frame is too large
     char *put(std::int64_t due, void *owner, const char *frame, std::size_t size) noexcept;
-    /// The oldest frame that is due at \a now; it stays valid until the next call. \return false when there is none
+    /// The oldest frame that is due at \a now; it stays valid until the next call. \return false
+    /// when there is none
     bool take(std::int64_t now, Frame *frame) noexcept;
     /// When the next frame is due [ns]; Never: there is none.
     std::int64_t nextDue() const noexcept { return m_waiting.empty() ? Never : m_waiting.front().due; }

@@ -10,8 +10,9 @@ namespace qplc {
 
 /// Decides what happens to each frame of one stream in one direction, and counts it.
 ///
-/// A decision depends on the seed, the stream, the number of the frame and (for a cut) the time alone: the same run gives the same faults again.
-/// Used by one thread; the counters may be read by any.
+/// A decision depends on the seed, the stream, the number of the frame and (for a cut) the time
+/// alone: the same run gives the same faults again. Used by one thread; the counters may be read by
+/// any.
 class FaultInjector
 {
 public:

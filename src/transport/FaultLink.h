@@ -9,7 +9,8 @@
 
 namespace qplc {
 
-/// A link that treats frames like a bad network, as a FaultPlan says. A node without a plan has none of it: its link is the bare one.
+/// A link that treats frames like a bad network, as a FaultPlan says. A node without a plan has
+/// none of it: its link is the bare one.
 ///
 /// Frames that are under way are looked for each Look: delays are longer than said by up to that.
 class FaultLink final : public CyclicLink

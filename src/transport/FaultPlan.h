@@ -8,14 +8,20 @@
 
 namespace qplc {
 
-/// What a network does to frames, for tests: which of them get lost, come twice, late, out of order, or with wrong bits. A value type.
+/// What a network does to frames, for tests: which of them get lost, come twice, late, out of
+/// order, or with wrong bits. A value type.
 ///
-/// As text: words `key=value` with commas between them, for example `loss=5%,delay=2ms,jitter=500us,seed=7`.
+/// As text: words `key=value` with commas between them, for example
+/// `loss=5%,delay=2ms,jitter=500us,seed=7`.
 ///   loss, duplicate, reorder, corrupt   share of the frames, 0% ... 100%
-///   delay, jitter                       0 ... 10s (ns, us, ms, s); a frame is late by delay, and by up to jitter more
-///   cut=BEGIN[+LENGTH[/PERIOD]]         nothing passes from BEGIN after the first frame on, for LENGTH (else for good), again each PERIOD
-///   seed                                0 ... 2^64 - 1, 1 unless said: the same seed gives the same faults to the same frames
-/// With -sent or -received behind its name (loss-sent=5%) a word holds for this direction, as the program sees it; without it for both.
+///   delay, jitter                       0 ... 10s (ns, us, ms, s); a frame is late by delay, and by up
+///                                       to jitter more
+///   cut=BEGIN[+LENGTH[/PERIOD]]         nothing passes from BEGIN after the first frame on, for
+///                                       LENGTH (else for good), again each PERIOD
+///   seed                                0 ... 2^64 - 1, 1 unless said: the same seed gives the
+///                                       same faults to the same frames
+/// With -sent or -received behind its name (loss-sent=5%) a word holds for this direction, as the
+/// program sees it; without it for both.
 struct FaultPlan
 {
     struct Direction

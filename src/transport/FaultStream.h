@@ -6,7 +6,8 @@
 
 namespace qplc {
 
-/// One direction of one stream of frames, with what its FaultInjector decides carried out. Allocation-free after construction; used by one thread.
+/// One direction of one stream of frames, with what its FaultInjector decides carried out.
+/// Allocation-free after construction; used by one thread.
 class FaultStream
 {
 public:
@@ -14,7 +15,8 @@ public:
 
     FaultStream(const FaultPlan::Direction &plan, std::uint64_t seed, std::uint64_t stream);
 
-    /// Whether \a frame goes on as it is, at once. Else it is gone, or comes out of \a line (for \a owner) when it is due, as all copies do.
+    /// Whether \a frame goes on as it is, at once. Else it is gone, or comes out of \a line (for \a
+    /// owner) when it is due, as all copies do.
     bool passes(std::int64_t now, const char *frame, std::size_t size, DelayLine &line, void *owner) noexcept;
     const FaultInjector &injector() const { return m_injector; }
 

@@ -18,7 +18,8 @@ struct PeerFaults
     FaultStream received;
 };
 
-/// The frames of a CyclicHub that a FaultPlan keeps under way. Made by the owner of the hub, used by its cycle thread.
+/// The frames of a CyclicHub that a FaultPlan keeps under way. Made by the owner of the hub, used
+/// by its cycle thread.
 class HubFaults
 {
 public:
@@ -27,7 +28,8 @@ public:
     const FaultPlan &plan() const { return m_plan; }
     std::int64_t now() noexcept { return m_time.now(); }
 
-    /// As FaultStream::passes(), for what the hub sends to the owner of \a faults, and for what comes from it.
+    /// As FaultStream::passes(), for what the hub sends to the owner of \a faults, and for what
+    /// comes from it.
     bool sends(PeerFaults &faults, void *peer, const char *frame, std::size_t size) noexcept
     {
         return faults.sent.passes(m_time.now(), frame, size, m_sending, peer);

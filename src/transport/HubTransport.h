@@ -62,18 +62,20 @@ struct HubArrivals
     std::uint64_t strangers = 0;  // frames whose sender is no peer
 };
 
-/// One way on which frames travel between a master and its nodes. A CyclicHub has one object of each registered class.
+/// One way on which frames travel between a master and its nodes. A CyclicHub has one object of
+/// each registered class.
 ///
-/// open() ... detach() are called by the owner of the hub, the others by its cycle thread: these allocate nothing. A wait goes
-/// like this: waitAlone(), or else beginWait() of each transport, one poll() of all descriptors, endWait() of each; then next()
-/// until there is nothing left.
+/// open() ... detach() are called by the owner of the hub, the others by its cycle thread: these
+/// allocate nothing. A wait goes like this: waitAlone(), or else beginWait() of each transport, one
+/// poll() of all descriptors, endWait() of each; then next() until there is nothing left.
 class HubTransport
 {
 public:
     /// Most peers of a hub.
     static constexpr std::size_t MaximumPeers = 1024;
-    /// Most frames of a peer, or of a socket, that next() hands out after a wait, up to a batch more: a flood cannot keep the
-    /// caller from its other work. The next wait goes on with the rest.
+    /// Most frames of a peer, or of a socket, that next() hands out after a wait, up to a batch
+    /// more: a flood cannot keep the caller from its other work. The next wait goes on with the
+    /// rest.
     static constexpr std::size_t FramesPerWait = 256;
 
     HubTransport();
@@ -96,13 +98,15 @@ public:
     virtual void addDescriptors(std::vector<pollfd> *descriptors) const = 0;
     virtual std::size_t descriptorCount() const noexcept { return 1; }
 
-    /// Sends \a frame, or keeps the pointer until flush(). \return false when it was not taken; it may be offered again
+    /// Sends \a frame, or keeps the pointer until flush(). \return false when it was not taken; it
+    /// may be offered again
     virtual bool send(HubPeer *peer, const char *frame, std::size_t size) noexcept = 0;
     /// Goes on with a frame that was taken and not sent as a whole.
     virtual void sendRest(HubPeer * /*peer*/) noexcept {}
     virtual void flush() noexcept {}
 
-    /// Waits at most \a timeout [ns] in a cheaper way than poll(). Called when all peers are those of this transport.
+    /// Waits at most \a timeout [ns] in a cheaper way than poll(). Called when all peers are those
+    /// of this transport.
     /// \return false when this transport has none: \a arrived is not set
     virtual bool waitAlone(std::int64_t /*timeout*/, bool * /*arrived*/) noexcept { return false; }
     /// \return whether the hub may sleep: nothing is there yet, and what comes wakes it
@@ -110,10 +114,12 @@ public:
     /// \param polled  the descriptors of addDescriptors() as poll() has left them
     /// \return whether there may be frames for next()
     virtual bool endWait(pollfd *polled) noexcept = 0;
-    /// Hands out the next frame that is there; it stays valid until the next call. \return false when there is none
+    /// Hands out the next frame that is there; it stays valid until the next call. \return false
+    /// when there is none
     virtual bool next(HubFrame *frame) noexcept = 0;
 
-    /// Frames since open() that the kernel had no room for, as nobody read those before them in time.
+    /// Frames since open() that the kernel had no room for, as nobody read those before them in
+    /// time.
     virtual std::uint64_t unread() const { return 0; }
 
 protected:

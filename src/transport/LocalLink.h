@@ -24,8 +24,8 @@ struct LocalPaths
 class LocalLink final : public CyclicLink
 {
 public:
-    /// Opens only sealed memory and a pipe that belong to \a owner, the user of the master: see PeerFile.
-    /// Null, with the reason in \a error, when they cannot be opened.
+    /// Opens only sealed memory and a pipe that belong to \a owner, the user of the master: see
+    /// PeerFile. Null, with the reason in \a error, when they cannot be opened.
     static std::unique_ptr<CyclicLink> open(const LocalPaths &paths, uid_t owner, QString *error);
 
     Status receive(const char **frame, std::size_t *size) noexcept override;

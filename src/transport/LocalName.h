@@ -5,7 +5,8 @@
 
 namespace qplc {
 
-/// A name for a port of this machine, kept as a file in the run-time folder of the user. While an object holds a name, portOf() finds it.
+/// A name for a port of this machine, kept as a file in the run-time folder of the user. While an
+/// object holds a name, portOf() finds it.
 class LocalName
 {
 public:
@@ -14,7 +15,8 @@ public:
     LocalName(const LocalName &) = delete;
     LocalName &operator=(const LocalName &) = delete;
 
-    /// Publishes \a port under \a name (letters, digits, '.', '-', '_'); one that a dead master has left is taken over.
+    /// Publishes \a port under \a name (letters, digits, '.', '-', '_'); one that a dead master has
+    /// left is taken over.
     /// \return false, with the reason in \a error
     bool hold(const QString &name, quint16 port, QString *error);
     void release();

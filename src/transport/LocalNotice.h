@@ -6,8 +6,9 @@
 
 namespace qplc {
 
-/// Some bytes that all programs of this user on this machine can read while the program lives that put them up: a file in a folder of the user, which is
-/// locked. The system takes the lock off when the program ends, however it ends; so a notice without a lock is one of the dead.
+/// Some bytes that all programs of this user on this machine can read while the program lives that
+/// put them up: a file in a folder of the user, which is locked. The system takes the lock off when
+/// the program ends, however it ends; so a notice without a lock is one of the dead.
 class LocalNotice
 {
 public:
@@ -19,7 +20,8 @@ public:
     LocalNotice(const LocalNotice &) = delete;
     LocalNotice &operator=(const LocalNotice &) = delete;
 
-    /// Puts \a content up, in place of what was up before, and tidies up after the dead. \return false when there is no folder for it
+    /// Puts \a content up, in place of what was up before, and tidies up after the dead. \return
+    /// false when there is no folder for it
     bool post(const QByteArray &content);
     void withdraw();
 

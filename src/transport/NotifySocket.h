@@ -6,11 +6,13 @@
 
 namespace qplc {
 
-/// Where a service manager hears how its service is: the datagram socket that systemd and others name in $NOTIFY_SOCKET. A datagram is a text of lines like READY=1.
+/// Where a service manager hears how its service is: the datagram socket that systemd and others
+/// name in $NOTIFY_SOCKET. A datagram is a text of lines like READY=1.
 class NotifySocket
 {
 public:
-    /// \param address  a path, or a name without a file behind '@'; empty: nobody listens, and every send() succeeds
+    /// \param address a path, or a name without a file behind '@'; empty: nobody listens, and every
+    ///         send() succeeds
     explicit NotifySocket(const QByteArray &address);
     ~NotifySocket();
     NotifySocket(const NotifySocket &) = delete;

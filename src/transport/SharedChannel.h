@@ -10,7 +10,8 @@
 
 namespace qplc {
 
-/// Memory that processes of one machine share. The kernel frees it with the last process that uses it: nothing is left behind, whoever crashes.
+/// Memory that processes of one machine share. The kernel frees it with the last process that uses
+/// it: nothing is left behind, whoever crashes.
 class SharedMemory
 {
 public:
@@ -21,10 +22,12 @@ public:
 
     /// New memory of \a size bytes, all 0. \return false, with the reason in \a error
     bool create(std::size_t size, QString *error);
-    /// The memory that another process has made and calls \a path: only if it is sealed and belongs to \a owner, see PeerFile.
+    /// The memory that another process has made and calls \a path: only if it is sealed and belongs
+    /// to \a owner, see PeerFile.
     /// \param what  name of the memory in the reason \return false, with the reason in \a error
     bool open(const QString &path, const QString &what, std::size_t size, uid_t owner, QString *error);
-    /// What other processes of the same user find this memory under, while it exists here: "/proc/4711/fd/9".
+    /// What other processes of the same user find this memory under, while it exists here:
+    /// "/proc/4711/fd/9".
     QString path() const;
     void *data() const { return m_data; }
 
@@ -35,7 +38,8 @@ private:
     void *m_data = nullptr;
 };
 
-/// A queue of frames from one process to one other. Trusts no number that the other process has written: at worst frames are lost.
+/// A queue of frames from one process to one other. Trusts no number that the other process has
+/// written: at worst frames are lost.
 class SharedRing
 {
 public:
@@ -45,7 +49,8 @@ public:
     bool push(const char *frame, std::size_t size) noexcept;
     /// Wakes the consumer if it sleeps. Producer only, after one or several push().
     void wake() noexcept;
-    /// Copies the oldest frame into \a frame. \return its size, 0 when there is none. Consumer only.
+    /// Copies the oldest frame into \a frame. \return its size, 0 when there is none. Consumer
+    /// only.
     std::size_t pop(char *frame, std::size_t capacity) noexcept;
     /// Waits for a frame, or until a signal interrupts it. Consumer only.
     void wait() noexcept;
@@ -67,7 +72,8 @@ struct SharedChannel
     SharedRing outputs;  // node -> master
 };
 
-/// How nodes wake their master: it says how many answers it waits for, and only the last of them wakes it.
+/// How nodes wake their master: it says how many answers it waits for, and only the last of them
+/// wakes it.
 class Doorbell
 {
 public:

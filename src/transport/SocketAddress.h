@@ -22,7 +22,8 @@ struct SocketAddress
     sockaddr *data() { return reinterpret_cast<sockaddr *>(&storage); }
     int family() const { return storage.ss_family; }
     quint16 port() const;
-    /// Equal for equal addresses; what peers are looked up by. An IPv4 address mapped into IPv6 counts as the IPv4 address.
+    /// Equal for equal addresses; what peers are looked up by. An IPv4 address mapped into IPv6
+    /// counts as the IPv4 address.
     quint64 key() const;
     QString toString() const;
 };

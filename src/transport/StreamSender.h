@@ -6,14 +6,16 @@
 
 namespace qplc {
 
-/// Sends whole frames into a stream. A frame that has begun is always finished before the next one, whatever the kernel takes at a time: else the
-/// receiver could not tell any more where a frame begins. Allocation-free after construction.
+/// Sends whole frames into a stream. A frame that has begun is always finished before the next one,
+/// whatever the kernel takes at a time: else the receiver could not tell any more where a frame
+/// begins. Allocation-free after construction.
 class StreamSender
 {
 public:
     explicit StreamSender(std::size_t largestFrame);
 
-    /// \param flags  MSG_DONTWAIT: never waits; 0: at most the time-out of the socket, or until a signal comes
+    /// \param flags MSG_DONTWAIT: never waits; 0: at most the time-out of the socket, or until a
+    ///         signal comes
     /// \return false when the frame was left out, because the kernel takes nothing at present
     bool send(int descriptor, const char *frame, std::size_t size, int flags) noexcept;
     /// Goes on with the frame that has begun. \return false when some of it is still to be sent

@@ -7,7 +7,8 @@
 
 namespace qplc {
 
-/// Allows something so many times a second on the long run, and some times more after a pause. Looks at no clock: times are ns on any steady clock.
+/// Allows something so many times a second on the long run, and some times more after a pause.
+/// Looks at no clock: times are ns on any steady clock.
 class TokenBucket
 {
 public:

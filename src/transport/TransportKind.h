@@ -52,8 +52,8 @@ struct ChannelError
 
 /// One way on which cyclic frames travel, for both ends: a row of the TransportRegistry.
 ///
-/// One row serves all masters and nodes: what a master has opened belongs to the HubTransport in its
-/// hub, what a node has opened to its link. docs/howto/add-a-transport.md shows a whole one.
+/// One row serves all masters and nodes: what a master has opened belongs to the HubTransport in
+/// its hub, what a node has opened to its link. docs/howto/add-a-transport.md shows a whole one.
 class TransportKind
 {
 public:
@@ -71,7 +71,8 @@ public:
     /// Whether the inputs of many nodes travel in one frame.
     virtual bool hasGroup() const { return false; }
 
-    /// Whether its frames travel on the machine; else between hosts of a simulator (Host::current()).
+    /// Whether its frames travel on the machine; else between hosts of a simulator
+    /// (Host::current()).
     virtual bool isOfMachine() const { return true; }
     /// Whether Host::current() has it.
     bool isAtHand() const;
@@ -96,8 +97,8 @@ public:
     /// \return whether a node may use it; else the reason is in \a error. Its signals have not been
     /// looked at yet
     virtual bool admits(const CyclicHub &hub, const Newcomer &node, ChannelError *error) const = 0;
-    /// The peer of an admitted node. Fields that the node needs are added to \a answer, its Registered.
-    /// Not called where nodes have streams.
+    /// The peer of an admitted node. Fields that the node needs are added to \a answer, its
+    /// Registered. Not called where nodes have streams.
     /// \return null, with the reason in \a error, when there is none
     virtual std::unique_ptr<HubPeer> makePeer(const CyclicHub &hub, const Newcomer &node, QJsonObject *answer,
                                               ChannelError *error) const;
@@ -109,8 +110,8 @@ public:
 
     // ---- the node; its thread ----
 
-    /// Begins a link before the node registers. Fields that the master needs are added to \a request,
-    /// its Register.
+    /// Begins a link before the node registers. Fields that the master needs are added to \a
+    /// request, its Register.
     /// \return false, with the reason in \a error; \a link may stay null
     virtual bool beginLink(const ControlEnds &ends, QJsonObject *request, std::unique_ptr<CyclicLink> *link,
                            QString *error) const;

@@ -16,8 +16,8 @@ class TransportRegistry
 public:
     static TransportRegistry &instance();
 
-    /// From now on masters and nodes know \a kind, until the program ends. To be called before there
-    /// are masters, nodes, and other threads.
+    /// From now on masters and nodes know \a kind, until the program ends. To be called before
+    /// there are masters, nodes, and other threads.
     /// \return false, with the reason in \a error, when the name is taken or no name
     bool add(std::unique_ptr<const TransportKind> kind, QString *error);
 

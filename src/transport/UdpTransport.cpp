@@ -15,8 +15,8 @@ namespace qplc {
 
 namespace {
 
-// The kernel rounds the time limit of a receiving socket up to whole ticks of its clock, of up to 10 ms: too coarse for the
-// end of a cycle, good enough for long waits.
+// The kernel rounds the time limit of a receiving socket up to whole ticks of its clock, of up to
+// 10 ms: too coarse for the end of a cycle, good enough for long waits.
 constexpr std::int64_t CoarseWait = 4'000'000;  // [ns]
 constexpr std::int64_t LongWait = 20'000'000;   // [ns]
 
@@ -248,7 +248,8 @@ int UdpTransport::receive(int flags) noexcept
     return count;
 }
 
-/// Takes the next datagrams from the kernel. \return false when there are none, or none in this turn
+/// Takes the next datagrams from the kernel. \return false when there are none, or none in this
+/// turn
 bool UdpTransport::readMore() noexcept
 {
     if (!m_hasMore)

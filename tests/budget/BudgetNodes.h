@@ -13,7 +13,9 @@ struct BudgetRun
     quint64 cycles = 1000;
     int periodUs = 0;  // 0: lockstep
     QString
-        plant;  // a cost that the check has to find: allocation, lock, page-fault, system-call, instructions; empty: none
+        // a cost that the check has to find: allocation, lock, page-fault, system-call,
+        // instructions; empty: none
+        plant;
 
     static constexpr int Inputs = 3;  // Real32, master -> slave
     static constexpr int Outputs = 32;
@@ -41,7 +43,8 @@ private:
     volatile quint64 m_sink = 0;
 };
 
-/// Lives in the process of the master: writes new inputs for all slaves in each cycle, and watches what the cycle thread of the master costs.
+/// Lives in the process of the master: writes new inputs for all slaves in each cycle, and watches
+/// what the cycle thread of the master costs.
 class BudgetProbe : public QPlcCompactSlaveNode
 {
 public:

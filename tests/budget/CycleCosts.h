@@ -7,7 +7,8 @@
 
 #include <QtCore/QJsonObject>
 
-/// What the cycle thread on which a node runs has cost between the end of the warm-up and the last cycles.
+/// What the cycle thread on which a node runs has cost between the end of the warm-up and the last
+/// cycles.
 ///
 /// take() in each cycle; everything else when the cycles are over.
 class CycleCosts

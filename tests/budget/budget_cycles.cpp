@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// budget_cycles: a master, or a slave, of a fixed number of cycles, so that two lengths differ by nothing but cycles. budget.py starts it.
+// budget_cycles: a master, or a slave, of a fixed number of cycles, so that two lengths differ by
+// nothing but cycles. budget.py starts it.
 #include "BudgetNodes.h"
 
 #include <QtCore/QEventLoop>

@@ -3,7 +3,8 @@
 
 #include <QtCore/QTemporaryDir>
 
-/// While it lives, masters leave their notices in a folder of this test alone, and nobody else's are seen.
+/// While it lives, masters leave their notices in a folder of this test alone, and nobody else's
+/// are seen.
 class RuntimeFolder
 {
 public:

@@ -39,7 +39,8 @@ std::atomic<std::uint64_t> watchedLocks{0};
 }  // namespace
 
 #ifndef QTPLC_SANITIZED
-// These stand before glibc's and call them by the names that glibc gives them; operator new comes here, too.
+// These stand before glibc's and call them by the names that glibc gives them; operator new comes
+// here, too.
 // NOLINTBEGIN(bugprone-reserved-identifier,cert-dcl37-c,cert-dcl51-cpp,readability-inconsistent-*)
 extern "C" {
 void *__libc_malloc(std::size_t size);

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-/// What a thread has cost that a cycle must not: allocations and locked mutexes. The functions of the C library are replaced for the whole
-/// program, so everything below C++ and Qt is seen, too.
+/// What a thread has cost that a cycle must not: allocations and locked mutexes. The functions of
+/// the C library are replaced for the whole program, so everything below C++ and Qt is seen, too.
 struct ThreadCosts
 {
     std::uint64_t allocations = 0;  // malloc() and its like
@@ -16,7 +16,8 @@ struct ThreadCosts
     /// Of the calling thread, since it began.
     static ThreadCosts ofThisThread();
 
-    /// From now on the calling thread counts for ofWatchedThreads(); a second call of a thread does nothing.
+    /// From now on the calling thread counts for ofWatchedThreads(); a second call of a thread does
+    /// nothing.
     static void watchThisThread();
     /// Of all watched threads, since each was watched: allocations and locks only.
     static ThreadCosts ofWatchedThreads();

@@ -31,7 +31,8 @@ public:
         skip(size);
         return value;
     }
-    /// The next \a size bytes, or what there is, in memory of their own: a look behind them is seen by the sanitizer.
+    /// The next \a size bytes, or what there is, in memory of their own: a look behind them is seen
+    /// by the sanitizer.
     QByteArray bytes(std::size_t size)
     {
         size = std::min(size, m_left);

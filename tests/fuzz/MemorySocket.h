@@ -9,7 +9,8 @@
 
 namespace fuzz {
 
-/// A connection without a network: what is to be received is given by the test, and what is sent is forgotten.
+/// A connection without a network: what is to be received is given by the test, and what is sent is
+/// forgotten.
 class MemorySocket : public QTcpSocket
 {
 public:

@@ -125,7 +125,8 @@ void decodeStream(const Channel &channel, QByteArray stream)
 
 }  // namespace
 
-// Input: a channel (kind and whether it is sealed, session, node, layout hash, first cycle, parts and their lengths), then frames: whether to give it a right checksum or seal, length, bytes.
+// Input: a channel (kind and whether it is sealed, session, node, layout hash, first cycle, parts
+// and their lengths), then frames: whether to give it a right checksum or seal, length, bytes.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size)
 {
     fuzz::Input input(data, size);

@@ -14,7 +14,8 @@
 
 namespace {
 
-// The inner side of a master and the door of its server, which they keep to themselves: an explicit instantiation may name what is private.
+// The inner side of a master and the door of its server, which they keep to themselves: an explicit
+// instantiation may name what is private.
 std::unique_ptr<QPlcMasterNodePrivate> &insideOf(QPlcMasterNode &master);
 qplc::MasterDoor &doorOf(qplc::MasterServer &server);
 template<std::unique_ptr<QPlcMasterNodePrivate> QPlcMasterNode::*Inside, qplc::MasterDoor qplc::MasterServer::*Door>
@@ -138,7 +139,8 @@ private:
         arrive(who, frame + kindAndBody);
     }
 
-    /// A cyclic frame of a node: flags, cycle, info, payload as far as it is given. Outside of the real-time phase, where the cycle thread takes them.
+    /// A cyclic frame of a node: flags, cycle, info, payload as far as it is given. Outside of the
+    /// real-time phase, where the cycle thread takes them.
     void answer(std::size_t who, const QByteArray &bytes)
     {
         const auto &nodes = m_inside.parts->registry.nodes();
@@ -164,7 +166,8 @@ private:
             qplc::copyRuns(slot.outputs.runs, slot.decoder.payload(), m_inside.parts->cycle.image().data());
     }
 
-    /// The cyclic TCP connection of a node that waits for it, with the token that no chance would find.
+    /// The cyclic TCP connection of a node that waits for it, with the token that no chance would
+    /// find.
     void attach()
     {
         for (const std::unique_ptr<qplc::MasterConnection> &connection : m_inside.parts->server.connections()) {

@@ -13,7 +13,8 @@ using namespace qplc;
 
 namespace {
 
-/// Why there is no OpenGL: switched off by ourselves, unless who runs this test has seen to it and says which reason is to be told.
+/// Why there is no OpenGL: switched off by ourselves, unless who runs this test has seen to it and
+/// says which reason is to be told.
 QString expectedReason()
 {
     return qEnvironmentVariable("QTPLC_EXPECTED_REASON", QStringLiteral("QTPLC_OPENGL"));

@@ -179,7 +179,8 @@ void tst_QPlcView3D::aBodyIsSeenWhereItsSignalsSay()
     const int flat = countPixels(image, QRect(place - QPoint(60, 60), place + QPoint(60, 60)), isMagenta);
     QVERIFY2(flat > 200, qPrintable(QString::number(flat)));
     QCOMPARE(countPixels(image, image.rect(), isMagenta), flat);
-    // It turns by 55 deg about y. The eye sees the place 15.5 deg from above: cos(55 + 15.5) / cos(15.5) = 0.35 is left.
+    // It turns by 55 deg about y. The eye sees the place 15.5 deg from above: cos(55 + 15.5) /
+    // cos(15.5) = 0.35 is left.
     QJsonObject turned = view.settings();
     turned.insert(QStringLiteral("orientation"), QStringLiteral("bodyPositionOrientation"));
     view.applySettings(turned);

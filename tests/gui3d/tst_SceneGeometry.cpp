@@ -202,7 +202,8 @@ void tst_SceneGeometry::aLineIsFourVerticesWithItsSides()
     QCOMPARE(v[0].position[0], 1.0f);
     QCOMPARE(v[0].otherEnd[2], 6.0f);
     QCOMPARE(v[3].position[0], 4.0f);
-    // Along the line the sides are the same at both ends, so that the edge of the strip is the edge of the line.
+    // Along the line the sides are the same at both ends, so that the edge of the strip is the edge
+    // of the line.
     QCOMPARE(v[0].side[0], v[2].side[0]);
     QCOMPARE(v[1].side[0], v[3].side[0]);
     QCOMPARE(v[0].side[1], -v[2].side[1]);

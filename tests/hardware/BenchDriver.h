@@ -12,7 +12,8 @@
 #include <stdexcept>
 #include <thread>
 
-/// The device behind a BenchDriver, as the test holds it: it can be unplugged, break, and be silent.
+/// The device behind a BenchDriver, as the test holds it: it can be unplugged, break, and be
+/// silent.
 struct BenchDevice
 {
     std::atomic<bool> isPlugged{true};

@@ -12,7 +12,8 @@
 #include <cmath>
 #include <limits>
 
-/// One driver on a bench, without a node: configured by text, called step by step, on a clock that the test sets.
+/// One driver on a bench, without a node: configured by text, called step by step, on a clock that
+/// the test sets.
 ///
 /// ```cpp
 /// DriverBench bench("gpio", "device = fake:board\ninput.button = 3\n");
@@ -67,7 +68,8 @@ public:
     {
         m_runner.setValue(m_writeNames.indexOf(channel), value, isSafe);
     }
-    /// Writes and reads once, as a cycle or the thread of the driver would. \return false when the device was lost: errorString()
+    /// Writes and reads once, as a cycle or the thread of the driver would. \return false when the
+    /// device was lost: errorString()
     bool exchange()
     {
         m_runner.write(m_now);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A button at a hardware node stops the plant, and so does its torn wire where it is wired as our pages say.
+// A button at a hardware node stops the plant, and so does its torn wire where it is wired as our
+// pages say.
 #include "DriverBench.h"
 #include "FakeDevices.h"
 #include "WinchBench.h"
@@ -55,7 +56,8 @@ struct PlayedBoard
     qplc::FakeMemory memory;
 };
 
-/// The speed is the button. Its values are fresh for longer than a busy machine lets its thread wait.
+/// The speed is the button. Its values are fresh for longer than a busy machine lets its thread
+/// wait.
 QByteArray buttonWiring()
 {
     QByteArray text = wiring;

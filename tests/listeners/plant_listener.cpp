@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// plant_listener: a listener (or, with --worker, a node that is waited for) in a process of its own. At its end it prints what it has heard.
+// plant_listener: a listener (or, with --worker, a node that is waited for) in a process of its
+// own. At its end it prints what it has heard.
 #include "ListenerPlant.h"
 
 #include <QtCore/QDateTime>

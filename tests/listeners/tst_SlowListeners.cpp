@@ -7,7 +7,8 @@
 
 #include <csignal>
 
-// Nobody waits for a listener, and nothing is kept for one: neither in another process that was stopped, nor in this one behind a thread that hangs.
+// Nobody waits for a listener, and nothing is kept for one: neither in another process that was
+// stopped, nor in this one behind a thread that hangs.
 class tst_SlowListeners : public QObject
 {
     Q_OBJECT
@@ -35,7 +36,8 @@ double residentMemory()
     return file.open(QIODevice::ReadOnly) ? 4.0 * file.readAll().split(' ').at(1).toDouble() : 0.0;
 }
 
-/// Whether the process has not grown since it had \a before. Not judged under a sanitizer, which keeps for a while what was freed.
+/// Whether the process has not grown since it had \a before. Not judged under a sanitizer, which
+/// keeps for a while what was freed.
 bool hasKept(double before)
 {
     return !ThreadCosts::areCounted() || residentMemory() - before < MostMemory;
@@ -79,7 +81,8 @@ bool suspend(Program &program)
     });
 }
 
-/// Cycles since the start that had at least 0.1 ms left at their end: who waits in vain for an answer has nothing left.
+/// Cycles since the start that had at least 0.1 ms left at their end: who waits in vain for an
+/// answer has nothing left.
 quint64 cyclesWithTimeLeft(const Master &master)
 {
     quint64 count = 0;
@@ -100,7 +103,8 @@ struct Counts
     quint64 withTimeLeft;
 };
 
-/// Cycles go on, many of them (also on a machine that is very busy) have time left, and nobody but the worker was ever late.
+/// Cycles go on, many of them (also on a machine that is very busy) have time left, and nobody but
+/// the worker was ever late.
 void checkCycles(const Master &master, const Counts &countsBefore)
 {
     const QPlcMasterStatistics &before = countsBefore.statistics;

@@ -8,7 +8,8 @@
 
 #include <functional>
 
-/// The table of most node tests. Values are held for long: a computer that is busy with other tests makes no signal safe.
+/// The table of most node tests. Values are held for long: a computer that is busy with other tests
+/// makes no signal safe.
 inline QPlcSignalTable testTable()
 {
     QVector<QPlcParseError> errors;
@@ -66,7 +67,8 @@ inline QPlcSignalList valueOf(const char *name, const QPlcValue &value)
     return list;
 }
 
-/// A master on a free loopback port with the table of the tests, as strict as a plant; tst_Profiles has the other profile.
+/// A master on a free loopback port with the table of the tests, as strict as a plant; tst_Profiles
+/// has the other profile.
 class TestMaster : public QPlcMasterNode
 {
     Q_OBJECT
@@ -98,7 +100,8 @@ public:
     {
         return QTest::qWaitFor([&] { return statistics().cycles >= cycles; }, 10000);
     }
-    /// A short phase may be over before anybody looks: after startRealTime() wait for Off, not for RealTime and then for Off.
+    /// A short phase may be over before anybody looks: after startRealTime() wait for Off, not for
+    /// RealTime and then for Off.
     bool waitForState(State wanted)
     {
         return QTest::qWaitFor([&] { return state() == wanted; }, 10000);

@@ -97,7 +97,8 @@ private:
     std::vector<std::unique_ptr<QPlcOutput<double>>> m_outputs;
 };
 
-/// The same without any master: a cycle is evaluated by following each value to those that it is made of.
+/// The same without any master: a cycle is evaluated by following each value to those that it is
+/// made of.
 class RandomEvaluation
 {
 public:

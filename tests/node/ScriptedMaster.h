@@ -13,7 +13,8 @@
 
 #include <unistd.h>
 
-/// A master that speaks the protocol as the test tells it, message by message and frame by frame, to one real node.
+/// A master that speaks the protocol as the test tells it, message by message and frame by frame,
+/// to one real node.
 class ScriptedMaster : public QObject
 {
     Q_OBJECT

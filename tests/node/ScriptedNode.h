@@ -23,7 +23,8 @@ inline QVector<QPlcSignalIndex> indicesOf(const QPlcSignalTable &table, const QS
     return indices;
 }
 
-/// A node that speaks the protocol as the test tells it, message by message and frame by frame, against a real master.
+/// A node that speaks the protocol as the test tells it, message by message and frame by frame,
+/// against a real master.
 class ScriptedNode : public QObject
 {
     Q_OBJECT

@@ -70,7 +70,7 @@ public:
                         "-subj", "/CN=" + name, "-keyout", name + ".key", "-out", name + ".pem"})
             && protect(name);
     }
-    /// A certificate of \a authority: NAME.pem and NAME.key. \param days  -1: it has ended yesterday
+    /// A certificate of \a authority: NAME.pem and NAME.key. \param days -1: it ended yesterday
     bool makeCertificate(const QString &name, const QString &authority, const QString &file = QString(),
                          int days = 2) const
     {

@@ -6,7 +6,8 @@
 #include "node/session/StartSequence.h"
 #include "node/session/StopSequence.h"
 
-/// A session that writes down what it is asked and told, and answers as the test says: without a network or a node.
+/// A session that writes down what it is asked and told, and answers as the test says: without a
+/// network or a node.
 class ScriptedSession final : public qplc::NodeSession
 {
 public:
@@ -150,7 +151,8 @@ private:
     QStringList &m_log;
 };
 
-/// The sequences of a master with scripted nodes, cycles and time, in one thread and without an event loop.
+/// The sequences of a master with scripted nodes, cycles and time, in one thread and without an
+/// event loop.
 struct SequenceBench
 {
     QStringList log;

@@ -6,7 +6,8 @@
 
 #include <functional>
 
-/// What this process gives to the network, and what it seals: the functions of the C library and of libsodium that send and seal are replaced for the whole program.
+/// What this process gives to the network, and what it seals: the functions of the C library and of
+/// libsodium that send and seal are replaced for the whole program.
 namespace wire {
 
 /// A cyclic frame as it was given to the kernel.
@@ -23,7 +24,8 @@ void listen();
 QVector<Sent> heard();
 /// Those for which \a isWanted holds.
 QVector<Sent> heard(const std::function<bool(const Sent &)> &isWanted);
-/// Sends \a bytes the way that \a before went: from the same address to the same one, as somebody who forges addresses would.
+/// Sends \a bytes the way that \a before went: from the same address to the same one, as somebody
+/// who forges addresses would.
 void forge(const Sent &before, const QByteArray &bytes);
 
 /// What became of the nonces since resetSeals().

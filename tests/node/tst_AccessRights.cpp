@@ -50,7 +50,8 @@ private:
         peer.role = role;
         return peer;
     }
-    /// Whether a person who reads the manual would expect \a role to be allowed to send \a kind. Written apart from the table.
+    /// Whether a person who reads the manual would expect \a role to be allowed to send \a kind.
+    /// Written apart from the table.
     static bool isMeantTo(Role role, const QString &kind)
     {
         static const QStringList looking{"GetState",    "GetSignals", "GetStatistics",
@@ -124,7 +125,8 @@ void tst_AccessRights::aMasterKeepsToTheTable_data()
     everyRoleAndKind();
 }
 
-/// A client without any fields: what it may not do is denied, whatever else would be wrong; what it may is answered with something else.
+/// A client without any fields: what it may not do is denied, whatever else would be wrong; what it
+/// may is answered with something else.
 void tst_AccessRights::aMasterKeepsToTheTable()
 {
     QFETCH(int, role);

@@ -51,7 +51,8 @@ struct Misses
     int longestRun = 0;
 };
 
-/// What becomes of \a cycles cycles: those without an answer, as the request or the answer was lost.
+/// What becomes of \a cycles cycles: those without an answer, as the request or the answer was
+/// lost.
 Misses missesOf(std::uint64_t seed, int cycles)
 {
     qplc::FaultPlan::Direction plan;

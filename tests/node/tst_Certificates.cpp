@@ -3,7 +3,8 @@
 
 #include <QtTest/QtTest>
 
-// Nodes and tools at a master with certificates, over TLS on loopback. All of them are made by openssl here.
+// Nodes and tools at a master with certificates, over TLS on loopback. All of them are made by
+// openssl here.
 class tst_Certificates : public QObject
 {
     Q_OBJECT

@@ -17,7 +17,8 @@ std::atomic<std::int64_t> wallClockOffset{0};  // [s]
 
 }  // namespace
 
-// Comes before that of the C library for this program and the libraries that it uses: the wall clock is the test's to set.
+// Comes before that of the C library for this program and the libraries that it uses: the wall
+// clock is the test's to set.
 extern "C" int clock_gettime(clockid_t clock, timespec *time)
 {
     const long result = ::syscall(SYS_clock_gettime, clock, time);

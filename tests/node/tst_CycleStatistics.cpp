@@ -18,7 +18,8 @@ namespace {
 constexpr std::int64_t Period = 10'000'000;  // [ns]
 constexpr std::int64_t Second = 1'000'000'000;
 
-/// Cycles of a master on a fake clock with one node in its process, which takes as long as it is told.
+/// Cycles of a master on a fake clock with one node in its process, which takes as long as it is
+/// told.
 class FakePlant : public QPlcCompactSlaveNode
 {
 public:

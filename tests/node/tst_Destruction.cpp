@@ -36,7 +36,8 @@ private:
         for (const char *kind : {"local", "udp", "tcp"})
             QTest::newRow(kind) << kind;
     }
-    /// Destroys a node that computes in a plant as fast as it can be. \return the warnings of it; none: it could not fly, or the master keeps it
+    /// Destroys a node that computes in a plant as fast as it can be. \return the warnings of it;
+    /// none: it could not fly, or the master keeps it
     static std::optional<QStringList> warningsOfDestroying(std::unique_ptr<QPlcSlaveNode> node, const QString &kind);
 };
 

@@ -195,7 +195,8 @@ void tst_Events::silentPolicyLeavesNoEvent_data()
     QTest::newRow("wait, error") << "ErrorWait" << false;
 }
 
-/// In a simulation, as the thesis has it: a late node of a silent policy is counted, and that is all. No event of any kind, and no signal.
+/// In a simulation, as the thesis has it: a late node of a silent policy is counted, and that is
+/// all. No event of any kind, and no signal.
 void tst_Events::silentPolicyLeavesNoEvent()
 {
     QFETCH(QString, policy);
@@ -313,7 +314,8 @@ void tst_Events::skippedCyclesAreTold()
              qPrintable(texts.at(0)));
 }
 
-/// As when the event loop hangs: nobody takes what the cycles have to tell, which is far more than there is room for.
+/// As when the event loop hangs: nobody takes what the cycles have to tell, which is far more than
+/// there is room for.
 void tst_Events::newsThatNobodyTakesHoldNoCycle()
 {
     constexpr quint64 cycles = 10'000;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A master on this machine that names other things than its own memory and pipe, to let a node write into them.
+// A master on this machine that names other things than its own memory and pipe, to let a node
+// write into them.
 #include "ScriptedMaster.h"
 #include "protocol/ControlFrame.h"
 #include "transport/SharedChannel.h"
@@ -59,7 +60,8 @@ struct HonestFiles
     bool isThere = false;
 };
 
-/// A file of this user that no other user may read. It has the size of the memory for which it is given out.
+/// A file of this user that no other user may read. It has the size of the memory for which it is
+/// given out.
 class SecretFile
 {
 public:
@@ -126,7 +128,8 @@ QString hostilePath(const QString &thing, const SecretFile &secret, const Shared
     return {};
 }
 
-/// A process of another user that plays a master at \a listener, step by step: it sends \a hello, and then what \a registered makes.
+/// A process of another user that plays a master at \a listener, step by step: it sends \a hello,
+/// and then what \a registered makes.
 class MasterOfAnotherUser
 {
 public:

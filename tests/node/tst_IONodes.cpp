@@ -7,7 +7,8 @@
 #include <atomic>
 #include <thread>
 
-// Nodes whose outputs come from outside and whose inputs are read elsewhere: between phases, across threads, and when what they want changes.
+// Nodes whose outputs come from outside and whose inputs are read elsewhere: between phases, across
+// threads, and when what they want changes.
 class tst_IONodes : public QObject
 {
     Q_OBJECT
@@ -66,7 +67,8 @@ public:
     }
     QPlcSlaveNode::State state()
     {
-        // The master of these tests lives in this thread and must go on meanwhile: never wait without its event loop.
+        // The master of these tests lives in this thread and must go on meanwhile: never wait
+        // without its event loop.
         const auto answer = std::make_shared<std::atomic<int>>(-1);
         QMetaObject::invokeMethod(
             node, [this, answer] { *answer = node->state(); }, Qt::QueuedConnection);
@@ -246,7 +248,8 @@ void tst_IONodes::realTimedOutTellsThatThereAreNewInputs_data()
         QTest::newRow(kind) << kind;
 }
 
-/// As the thesis has it: the signal tells that the buffer holds something, and the buffer is emptied then.
+/// As the thesis has it: the signal tells that the buffer holds something, and the buffer is
+/// emptied then.
 void tst_IONodes::realTimedOutTellsThatThereAreNewInputs()
 {
     constexpr int cycles = 200;

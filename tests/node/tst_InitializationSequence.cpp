@@ -4,7 +4,8 @@
 
 #include <QtTest/QtTest>
 
-// Figure 4.16 of the thesis: the initial outputs of all nodes become the initial inputs of all nodes.
+// Figure 4.16 of the thesis: the initial outputs of all nodes become the initial inputs of all
+// nodes.
 class tst_InitializationSequence : public QObject
 {
     Q_OBJECT

@@ -5,7 +5,8 @@
 #include <QtCore/QRegularExpression>
 #include <QtTest/QtTest>
 
-// A node that is late in every cycle does not flood the log: a line at once, then one a second that tells how many there were.
+// A node that is late in every cycle does not flood the log: a line at once, then one a second that
+// tells how many there were.
 class tst_LateAnswerLog : public QObject
 {
     Q_OBJECT

@@ -3,7 +3,8 @@
 
 #include <QtTest/QtTest>
 
-// Initialization and start wait for no listener: it goes through both at its own pace, and joins when it has come so far.
+// Initialization and start wait for no listener: it goes through both at its own pace, and joins
+// when it has come so far.
 class tst_ListenerSequence : public QObject
 {
     Q_OBJECT

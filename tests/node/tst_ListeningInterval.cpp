@@ -10,7 +10,8 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-// A listener that wants only one of so many cycles: it hears the first one of each turn, and nothing of it is a loss.
+// A listener that wants only one of so many cycles: it hears the first one of each turn, and
+// nothing of it is a loss.
 class tst_ListeningInterval : public QObject
 {
     Q_OBJECT

@@ -8,7 +8,8 @@
 #include <netinet/tcp.h>
 #include <sys/socket.h>
 
-// The other end is gone without a word, as when its board has no power. That it is noticed on a real wire is shown by tests/netns.
+// The other end is gone without a word, as when its board has no power. That it is noticed on a
+// real wire is shown by tests/netns.
 class tst_LostConnections : public QObject
 {
     Q_OBJECT

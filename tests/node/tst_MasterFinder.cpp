@@ -12,7 +12,8 @@ using qplc::Beacon;
 using qplc::FoundMaster;
 using qplc::MasterFinder;
 
-/// Masters are found without an address: on this machine by their notices, on networks by their beacons.
+/// Masters are found without an address: on this machine by their notices, on networks by their
+/// beacons.
 class tst_MasterFinder : public QObject
 {
     Q_OBJECT

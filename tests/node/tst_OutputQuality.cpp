@@ -19,7 +19,8 @@ QPlcSignalTable sensorTable()
     return table;
 }
 
-/// Measures "angle", which is the number of the cycle, as well as the test wants; its "force" is always good.
+/// Measures "angle", which is the number of the cycle, as well as the test wants; its "force" is
+/// always good.
 class Sensor : public QPlcCompactSlaveNode
 {
 public:

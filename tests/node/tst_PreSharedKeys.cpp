@@ -293,7 +293,8 @@ void tst_PreSharedKeys::theOtherNodeIsNoMaster()
     QVERIFY(!node.isSecured());
 }
 
-/// Not even at the debug level that shows every message: neither those of the file, nor those for frames.
+/// Not even at the debug level that shows every message: neither those of the file, nor those for
+/// frames.
 void tst_PreSharedKeys::noKeyIsEverLogged()
 {
     QLoggingCategory::setFilterRules("qtplc.*.debug=true");

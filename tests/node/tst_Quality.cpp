@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The qualities of signals from their writer to the code of their reader: with real nodes, and with scripted ones that break the rules.
+// The qualities of signals from their writer to the code of their reader: with real nodes, and with
+// scripted ones that break the rules.
 #include "NodeFixtures.h"
 #include "ScriptedNode.h"
 
@@ -191,7 +192,8 @@ void tst_Quality::aWriterThatIsLostIsHeldAndThenSafe_data()
     }
 }
 
-/// In lockstep the master waits for the writer until it is gone: the actuator's own record has each step of the way.
+/// In lockstep the master waits for the writer until it is gone: the actuator's own record has each
+/// step of the way.
 void tst_Quality::aWriterThatIsLostIsHeldAndThenSafe()
 {
     QFETCH(QString, cyclic);

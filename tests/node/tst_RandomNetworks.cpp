@@ -7,8 +7,9 @@
 
 #include <cstring>
 
-// Random networks with same-cycle inputs and two-phase nodes: whatever the stages and the transport, the master computes what the definition says, bit for
-// bit; and a node is refused when, and only when, it closes a loop.
+// Random networks with same-cycle inputs and two-phase nodes: whatever the stages and the
+// transport, the master computes what the definition says, bit for bit; and a node is refused when,
+// and only when, it closes a loop.
 class tst_RandomNetworks : public QObject
 {
     Q_OBJECT

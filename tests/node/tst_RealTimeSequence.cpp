@@ -4,7 +4,8 @@
 
 #include <QtTest/QtTest>
 
-// Figure 4.15 of the thesis: one cycle. New values go to every node, every node computes once and answers.
+// Figure 4.15 of the thesis: one cycle. New values go to every node, every node computes once and
+// answers.
 class tst_RealTimeSequence : public QObject
 {
     Q_OBJECT
@@ -222,7 +223,8 @@ void tst_RealTimeSequence::valuesOfSeveralPartsTravel_data()
 
 void tst_RealTimeSequence::valuesOfSeveralPartsTravel()
 {
-    // Twelve signals of 1000 bytes in each direction: twelve frames a cycle, since two of them do not fit into one.
+    // Twelve signals of 1000 bytes in each direction: twelve frames a cycle, since two of them do
+    // not fit into one.
     class Big : public QPlcCompactSlaveNode
     {
     public:

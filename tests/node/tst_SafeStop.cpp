@@ -36,7 +36,8 @@ private:
 
 }  // namespace
 
-// The safe stop of a master: what it tells its nodes, how it is left, and what arming has to do with it.
+// The safe stop of a master: what it tells its nodes, how it is left, and what arming has to do
+// with it.
 class tst_SafeStop : public QObject
 {
     Q_OBJECT

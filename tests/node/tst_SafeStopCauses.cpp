@@ -66,7 +66,8 @@ void tst_SafeStopCauses::aCriticalNodeThatLeavesStopsThePlantAndHasToBeBack()
     winch.disconnectFromMaster();
 }
 
-/// Somebody with its name is not enough: a listener does none of its work, and neither does who has no cyclic channel yet.
+/// Somebody with its name is not enough: a listener does none of its work, and neither does who has
+/// no cyclic channel yet.
 void tst_SafeStopCauses::onlyANodeThatTakesPartIsBack()
 {
     TestMaster master(QPlcClock::realTime());

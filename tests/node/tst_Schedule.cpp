@@ -9,7 +9,8 @@ using namespace qplc;
 
 Q_DECLARE_METATYPE(std::vector<qplc::Schedule::Node>)
 
-// Stages by direct feed-through, compared with what follows from their definition, and loops compared with reachability (Floyd and Warshall).
+// Stages by direct feed-through, compared with what follows from their definition, and loops
+// compared with reachability (Floyd and Warshall).
 class tst_Schedule : public QObject
 {
     Q_OBJECT

@@ -7,7 +7,8 @@
 
 #include <random>
 
-// Cycles over a network on which others listen, change, repeat and forge: a real master and real nodes with pre-shared keys on loopback.
+// Cycles over a network on which others listen, change, repeat and forge: a real master and real
+// nodes with pre-shared keys on loopback.
 class tst_SealedCycles : public QObject
 {
     Q_OBJECT
@@ -192,7 +193,8 @@ void tst_SealedCycles::noNonceServesTwoFrames()
 
 // ---- a master that does not seal ----
 
-/// Greets \a node over TLS as its master. \return what the master says to its registration, without `seal`
+/// Greets \a node over TLS as its master. \return what the master says to its registration, without
+/// `seal`
 static QJsonObject greetSecured(ScriptedMaster &master, const SecurityFiles &files, QPlcSlaveNode &node)
 {
     master.setSecurity(QPlcSecurity::preSharedKeys(files.write(

@@ -5,7 +5,8 @@ using qplc::MasterEvent;
 using qplc::NodeSession;
 using Answers = NodeSession::Answers;
 
-// The sequences of a master with scripted sessions: who is asked what, in which order, and how each of them can end.
+// The sequences of a master with scripted sessions: who is asked what, in which order, and how each
+// of them can end.
 class tst_Sequences : public QObject
 {
     Q_OBJECT

@@ -29,7 +29,8 @@ public:
 
 }  // namespace
 
-// What a service manager is told of a node or a master, and when its watchdog is fed. Looks are taken by hand: a minute is far away.
+// What a service manager is told of a node or a master, and when its watchdog is fed. Looks are
+// taken by hand: a minute is far away.
 class tst_ServiceNotifier : public QObject
 {
     Q_OBJECT

@@ -448,7 +448,8 @@ void tst_SignalGuard::beforeAFrameTheLastGoodInputsStay()
     QVERIFY(master.isWhole);
 }
 
-/// Any history of answers that are good, bad, late or missing against the rule in one line: the quality of a signal is the age of its newest good value.
+/// Any history of answers that are good, bad, late or missing against the rule in one line: the
+/// quality of a signal is the age of its newest good value.
 void tst_SignalGuard::everyHistoryEndsAsTheRulesSay()
 {
     std::mt19937 random(20261122);

@@ -3,7 +3,8 @@
 
 #include <QtTest/QtTest>
 
-// The face of a node that works with lists, those whose outputs come from outside, and those that keep every cycle for a slower reader.
+// The face of a node that works with lists, those whose outputs come from outside, and those that
+// keep every cycle for a slower reader.
 class tst_SignalListNodes : public QObject
 {
     Q_OBJECT

@@ -95,7 +95,8 @@ private:
             == QPlcMessage::Done;
     }
     double number(const QString &name) const { return m_master->signalValue(name).toReal(); }
-    /// Reads \a name until it is \a last. \return the largest change between two cycles that follow each other
+    /// Reads \a name until it is \a last. \return the largest change between two cycles that follow
+    /// each other
     double largestChange(const QString &name, double last);
 
     QScopedPointer<TestMaster> m_master;

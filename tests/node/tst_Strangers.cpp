@@ -11,7 +11,8 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-// What anybody who reaches the port may try, with real sockets: a master with security and one without bear it, and go on.
+// What anybody who reaches the port may try, with real sockets: a master with security and one
+// without bear it, and go on.
 class tst_Strangers : public QObject
 {
     Q_OBJECT
@@ -151,7 +152,8 @@ void tst_Strangers::whoSpeaksSlowlyIsShownOut()
     QVERIFY(lets("Counter"));
 }
 
-/// A crowd that says nothing fills the room for strangers; the next one waits in the queue of the system until they are shown out.
+/// A crowd that says nothing fills the room for strangers; the next one waits in the queue of the
+/// system until they are shown out.
 void tst_Strangers::whoStaysSilentKeepsNobodyOut()
 {
     std::vector<int> crowd;

@@ -268,7 +268,8 @@ void tst_Transports::theNetworkIsClosedUnlessSaidLoudly()
     TestMaster master;
     QVERIFY(master.listen(QHostAddress::Any));
     QCOMPARE(log.matching("listening on 127.0.0.1 only").size(), 1);
-    // Another address of this machine, which each machine has, with or without a network: who listens on all of them answers there, too.
+    // Another address of this machine, which each machine has, with or without a network: who
+    // listens on all of them answers there, too.
     QTcpSocket socket;
     socket.connectToHost(QHostAddress(QStringLiteral("127.0.0.2")), master.serverPort());
     QTRY_COMPARE(socket.error(), QAbstractSocket::ConnectionRefusedError);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A plant of processes that is killed and stopped by its test: what happens to each of them stands on its standard output, a line each.
+// A plant of processes that is killed and stopped by its test: what happens to each of them stands
+// on its standard output, a line each.
 //
 //   safe_plant master PORT NODES      starts as soon as NODES nodes are there (0: never)
 //   safe_plant node NAME PORT WATCHDOG_MS critical|plain

@@ -6,7 +6,8 @@
 #include <csignal>
 #include <memory>
 
-// A master and two nodes as processes of their own: what becomes of the others when one of them is killed, stopped or told to end.
+// A master and two nodes as processes of their own: what becomes of the others when one of them is
+// killed, stopped or told to end.
 class tst_SafeProcesses : public QObject
 {
     Q_OBJECT
@@ -55,7 +56,8 @@ private:
         b = node("B", watchdog, "plain");
         return a->waitForOutput("runs") && b->waitForOutput("runs");
     }
-    /// Time from its last step to its safe state, by its own record [ms]; -1: it was not made safe for this reason.
+    /// Time from its last step to its safe state, by its own record [ms]; -1: it was not made safe
+    /// for this reason.
     static double safeAfter(Program &program, const char *reason)
     {
         const QString begin = QStringLiteral("safe %1 after ").arg(QLatin1String(reason));

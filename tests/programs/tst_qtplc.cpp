@@ -9,7 +9,8 @@
 
 #include <csignal>
 
-/// qtplc as a person uses it: against a master with a model and an autopilot, and against what is none.
+/// qtplc as a person uses it: against a master with a model and an autopilot, and against what is
+/// none.
 class tst_qtplc : public QObject
 {
     Q_OBJECT
@@ -279,7 +280,8 @@ void tst_qtplc::startEndsAfterItsCycles()
     QTRY_VERIFY_WITH_TIMEOUT(
         (state = qtplc(QStringLiteral("state")).output).startsWith(QLatin1String("state     Off\n")),
         Program::patience);
-    // Number 4, or one before it when a machine that is busy with other things made the master skip the last ones.
+    // Number 4, or one before it when a machine that is busy with other things made the master skip
+    // the last ones.
     QVERIFY2(QRegularExpression(QStringLiteral("^cycle     [0-4] "), QRegularExpression::MultilineOption)
                  .match(state)
                  .hasMatch(),
@@ -389,7 +391,8 @@ void tst_qtplc::echoPrintsLinesAtItsRate()
         QVERIFY(time > last);
         last = time;
     }
-    // Five pauses of 50 ms of the real clock: no fewer cycles than that, however loaded the machine is.
+    // Five pauses of 50 ms of the real clock: no fewer cycles than that, however loaded the machine
+    // is.
     QVERIFY(last - lines.at(1).section(QLatin1Char('\t'), 0, 0).toDouble() > 0.15);
     for (const char *option : {"--rate 0", "--rate fast", "--count 0", "--count -1"})
         QCOMPARE(qtplc(QStringLiteral("echo power %1").arg(QLatin1String(option))).exitCode, 2);

@@ -436,7 +436,8 @@ void tst_qtplc_values::hzMeasuresTheCycle()
     QVERIFY2(cycles > 5, qPrintable(outcome.output));
     QCOMPARE(outcome.exitCode, lost > 0 ? 1 : 0);
     QVERIFY(rate.value("interval")["count"].toDouble() <= cycles - 1);
-    // All cycles between the first and the last one took their 10 ms, however loaded the machine is.
+    // All cycles between the first and the last one took their 10 ms, however loaded the machine
+    // is.
     QVERIFY(qAbs(rate.value("duration").toDouble() - (cycles - 1 + lost) * 0.010) < 0.1);
     const Outcome text = m_plant.qtplc("hz --for 0.2");
     for (const char *line :

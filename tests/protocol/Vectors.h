@@ -12,7 +12,8 @@
 #include <random>
 #include <vector>
 
-/// The byte vectors of docs/protocol, which were made by another implementation. Tests read them and never write them.
+/// The byte vectors of docs/protocol, which were made by another implementation. Tests read them
+/// and never write them.
 namespace vectors {
 
 inline QByteArray document(const QString &path)

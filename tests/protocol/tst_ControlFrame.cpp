@@ -281,7 +281,8 @@ void tst_ControlFrame::randomBytesNeverCrash()
 {
     std::mt19937 random(3);
     for (int round = 0; round < 20000; ++round) {
-        // Half of the rounds are random JSON behind a right length, made of the characters that matter.
+        // Half of the rounds are random JSON behind a right length, made of the characters that
+        // matter.
         QByteArray bytes = vectors::randomBytes(random, int(random() % 60));
         if (round % 2 != 0) {
             for (char &byte : bytes)

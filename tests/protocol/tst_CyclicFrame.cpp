@@ -260,7 +260,8 @@ void tst_CyclicFrame::randomBytesAreNeverTaken()
     const QByteArray good
         = vectors::encode(FrameEncoder(FrameKind::Inputs, seed, {0, 16, 40}), 1, FrameHeader(), QByteArray(40, 'x'));
     for (int round = 0; round < 50000; ++round) {
-        // Every second one begins as a good frame does, and has its length: it passes the first checks.
+        // Every second one begins as a good frame does, and has its length: it passes the first
+        // checks.
         const int begin = round % 2 == 0 ? 0 : int(random() % 13);
         const int size = round % 2 == 0 ? int(random() % 64) : good.size();
         const QByteArray frame = good.left(begin) + vectors::randomBytes(random, size - begin);

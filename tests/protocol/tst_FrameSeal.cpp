@@ -10,7 +10,8 @@
 
 using namespace qplc;
 
-// What sealed frames are worth; their bytes are tested with those of the other frames in tst_CyclicFrame.
+// What sealed frames are worth; their bytes are tested with those of the other frames in
+// tst_CyclicFrame.
 class tst_FrameSeal : public QObject
 {
     Q_OBJECT

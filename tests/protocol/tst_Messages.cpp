@@ -37,7 +37,8 @@ void forEach(List<Messages...>, Visit &&visit)
     (visit(Messages()), ...);
 }
 
-/// Whether all of \a expected is in \a written, which may have more: the defaults of fields that were missing.
+/// Whether all of \a expected is in \a written, which may have more: the defaults of fields that
+/// were missing.
 bool isWithin(const QJsonValue &expected, const QJsonValue &written)
 {
     if (expected.isArray()) {

@@ -5,7 +5,8 @@
 #include <QtCore/QMetaEnum>
 #include <QtTest/QtTest>
 
-// docs/protocol.md is what clients in other languages are written from: it must not drift from the code.
+// docs/protocol.md is what clients in other languages are written from: it must not drift from the
+// code.
 class tst_ProtocolDocument : public QObject
 {
     Q_OBJECT

@@ -7,7 +7,8 @@
 #include <cstdint>
 #include <utility>
 
-/// A clock that a test moves: a sleep ends at its deadline, later by `overshoot`, or before it when it is interrupted.
+/// A clock that a test moves: a sleep ends at its deadline, later by `overshoot`, or before it when
+/// it is interrupted.
 class FakeTime : public qplc::TimeSource
 {
 public:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Starts one cycle thread with the options of the command line, prints a line for each setting and what the thread
-// itself saw, and ends. Runs as a process of its own under chrt, without rights, or to its death.
+// Starts one cycle thread with the options of the command line, prints a line for each setting and
+// what the thread itself saw, and ends. Runs as a process of its own under chrt, without rights, or
+// to its death.
 #include "realtime/CycleThread.h"
 #include "realtime/RealTimeSetup.h"
 

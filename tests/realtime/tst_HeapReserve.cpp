@@ -20,7 +20,8 @@ namespace {
 constexpr std::size_t KiB = 1024;
 constexpr std::size_t MiB = KiB * KiB;
 
-/// [kB] of this process in memory, counted page by page; 0 where the kernel does not tell. Takes nothing from the heap.
+/// [kB] of this process in memory, counted page by page; 0 where the kernel does not tell. Takes
+/// nothing from the heap.
 long residentMemory()
 {
     char text[4096] = {};
@@ -38,7 +39,8 @@ std::size_t heapSize()
     return std::size_t(::mallinfo2().arena);
 }
 
-/// Blocks of \a sizes are taken, written to their last byte and given back, which is done \a times times.
+/// Blocks of \a sizes are taken, written to their last byte and given back, which is done \a times
+/// times.
 template<std::size_t N>
 void useHeap(const std::array<std::size_t, N> &sizes, int times)
 {

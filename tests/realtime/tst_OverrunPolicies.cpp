@@ -32,7 +32,8 @@ struct LateClock
     CycleClock clock;
 };
 
-/// The definition of the policies in whole numbers, cycle by cycle, without the arithmetic of the clock: a list of the cycles that are due is worked off.
+/// The definition of the policies in whole numbers, cycle by cycle, without the arithmetic of the
+/// clock: a list of the cycles that are due is worked off.
 class Reference
 {
 public:
@@ -42,7 +43,8 @@ public:
     {
     }
 
-    /// The tick that follows when the clock stands at \a now, which is not before the cycle that is due next.
+    /// The tick that follows when the clock stands at \a now, which is not before the cycle that is
+    /// due next.
     Tick tick(std::int64_t now)
     {
         Tick tick;

@@ -12,7 +12,8 @@ using qplc::SnapshotBuffer;
 
 namespace {
 
-/// What publication \a stamp holds: each byte tells by its place and the stamp whether it belongs here.
+/// What publication \a stamp holds: each byte tells by its place and the stamp whether it belongs
+/// here.
 void fill(std::vector<unsigned char> &bytes, std::uint64_t stamp)
 {
     for (std::size_t i = 0; i < bytes.size(); ++i)

@@ -110,8 +110,8 @@ void tst_WakeUp::lackOfDescriptorsIsTold()
     QVERIFY(!wakeUp.consume());
 }
 
-// Each round both sides do their two steps at the same instant: the case in which a plain store or load would be
-// overtaken and the value be left lying without a wake-up.
+// Each round both sides do their two steps at the same instant: the case in which a plain store or
+// load would be overtaken and the value be left lying without a wake-up.
 void tst_WakeUp::valueIsSeenOrWakesUpWhenBothSidesMeet()
 {
     constexpr int rounds = 100'000;

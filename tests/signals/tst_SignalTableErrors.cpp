@@ -203,7 +203,8 @@ void tst_SignalTableErrors::errorTextLeavesOutWhatIsNotKnown()
     QCOMPARE(QPlcParseError::toString(QVector<QPlcParseError>()), QString());
 }
 
-// Random pieces of tables and garbage: never a crash, and what is read can be written and read again.
+// Random pieces of tables and garbage: never a crash, and what is read can be written and read
+// again.
 void tst_SignalTableErrors::noBytesMakeATableThatCannotBeWritten()
 {
     const QByteArray pieces[] = {"[a]\n",

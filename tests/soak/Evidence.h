@@ -55,9 +55,11 @@ struct Evidence
     Stalls stalls;
     std::vector<DoneFault> faults;
 
-    /// Reads all histories of a folder. \return false when one of them does not read: \a error has the sentence
+    /// Reads all histories of a folder. \return false when one of them does not read: \a error has
+    /// the sentence
     static bool read(const QString &folder, const Profile &profile, Evidence *evidence, QString *error);
-    /// Puts all records in the order of their times, and derives stalls and faults from the history of the runner. \pre all histories are there
+    /// Puts all records in the order of their times, and derives stalls and faults from the history
+    /// of the runner. \pre all histories are there
     void complete();
 
     /// The master that ran at \a time; null: none.
@@ -67,7 +69,8 @@ struct Evidence
     bool isExplained(qint64 time, int node) const;
 };
 
-/// The first record of \a history at \a time or later. \pre its records are in order, as complete() leaves them
+/// The first record of \a history at \a time or later. \pre its records are in order, as complete()
+/// leaves them
 std::vector<Record>::const_iterator firstFrom(const History &history, qint64 time);
 /// Of \a history, the records of one kind between two times.
 std::vector<const Record *> recordsOf(const History &history, Record::Kind kind, int subject, qint64 begin, qint64 end);

@@ -3,7 +3,8 @@
 
 #include "Gates.h"
 
-/// Histories of a plant of three nodes that runs as it should, for tests that spoil them. Period 10 ms, hold 3; the operator starts at 1 s, cycle k is at 2 s + k x 10 ms.
+/// Histories of a plant of three nodes that runs as it should, for tests that spoil them. Period 10
+/// ms, hold 3; the operator starts at 1 s, cycle k is at 2 s + k x 10 ms.
 class HandMade
 {
 public:

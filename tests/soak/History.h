@@ -8,7 +8,8 @@
 
 namespace soak {
 
-/// What one process has seen and done, in a file that it alone appends to. A process that is killed loses nothing that append() has returned from.
+/// What one process has seen and done, in a file that it alone appends to. A process that is killed
+/// loses nothing that append() has returned from.
 struct Record
 {
     enum Kind : quint16 {
@@ -69,7 +70,8 @@ struct Record
     };
     /// Connections of strangers, and messages of who may not send them.
     enum AttemptNumber { Made, Ended, Commands, Denials };
-    /// [byte] of the heap that the program has taken and not given back, that the heap has from the system, and that are free at its end.
+    /// [byte] of the heap that the program has taken and not given back, that the heap has from the
+    /// system, and that are free at its end.
     enum HeapNumber { HeapInUse, HeapTaken, HeapTop };
     enum NodeNumber { NodePhase, Answers, NodeLate, AnswersLost, Duplicated, Reordered, Rejected, Resent };
     /// Wanted: the phase ended. Ordered: the master stops safely.
@@ -98,7 +100,8 @@ public:
     std::vector<Record> records;
     bool isTorn = false;  // its last record was cut
 
-    /// \return false when there is no such file, or a record in it is not what was written: \a error has the sentence
+    /// \return false when there is no such file, or a record in it is not what was written: \a
+    ///         error has the sentence
     static bool read(const QString &fileName, History *history, QString *error);
 };
 

@@ -12,8 +12,10 @@
 
 namespace soak {
 
-/// Tries all the time to do what it may not, while the event loop runs: strangers send garbage and commands without TLS, somebody has the name of the operator and a wrong key, and an
-/// observer with a right key sends the commands of an operator. What was tried, and what of it was refused, is written down.
+/// Tries all the time to do what it may not, while the event loop runs: strangers send garbage and
+/// commands without TLS, somebody has the name of the operator and a wrong key, and an observer
+/// with a right key sends the commands of an operator. What was tried, and what of it was refused,
+/// is written down.
 class Intruder : public QObject
 {
     Q_OBJECT

@@ -35,7 +35,8 @@ qint64 refusedIn(const Evidence &evidence, qint64 begin)
     return sum;
 }
 
-/// Attempts of nodes to come in that may have failed: on a busy machine a handshake takes longer than a stranger's may.
+/// Attempts of nodes to come in that may have failed: on a busy machine a handshake takes longer
+/// than a stranger's may.
 qint64 failuresOfNodes(const Evidence &evidence, qint64 begin)
 {
     qint64 sum = 0;
@@ -82,7 +83,8 @@ Gate attemptsAreRefused(const Evidence &evidence)
     if (!last)
         return gate;
     const qint64 begin = first->time - longestAttempt;
-    // Who is not let in is a failed handshake; garbage that looks like the cyclic connection of a node gets one step further.
+    // Who is not let in is a failed handshake; garbage that looks like the cyclic connection of a
+    // node gets one step further.
     const qint64 told = counted(evidence, begin, Record::FailedHandshakes) + refusedIn(evidence, begin);
     compare(last->numbers[Record::Made], last->numbers[Record::Ended], told, failuresOfNodes(evidence, begin), &gate);
     return gate;

@@ -23,7 +23,8 @@ constexpr Counted counters[] = {{FaultKind::LoseFrames, FaultInjector::Lost, Rec
                                 {FaultKind::ReorderFrames, FaultInjector::Reordered, Record::Reordered},
                                 {FaultKind::CorruptFrames, FaultInjector::Corrupted, Record::Rejected}};
 
-/// The same decisions again: how often a link has done something to the first \a frames that it sent.
+/// The same decisions again: how often a link has done something to the first \a frames that it
+/// sent.
 quint64 doneTo(const DoneFault &fault, const Counted &what, qint64 frames)
 {
     QString error;
@@ -58,7 +59,8 @@ const History *lifeOf(const Evidence &evidence, const DoneFault &fault)
     return nullptr;
 }
 
-/// When the next life of the same node began, which the master counts from zero; \a otherwise when there was none.
+/// When the next life of the same node began, which the master counts from zero; \a otherwise when
+/// there was none.
 qint64 nextLifeOf(const Evidence &evidence, const History &life, qint64 otherwise)
 {
     qint64 begin = otherwise;
@@ -71,7 +73,8 @@ qint64 nextLifeOf(const Evidence &evidence, const History &life, qint64 otherwis
     return begin;
 }
 
-/// The last counters of the node before its life ended; null when they are those of several phases or registrations, or none.
+/// The last counters of the node before its life ended; null when they are those of several phases
+/// or registrations, or none.
 const Record *countersOf(const Evidence &evidence, const DoneFault &fault, const History &life)
 {
     const History *master = evidence.masterAt(fault.begin);

@@ -129,7 +129,8 @@ std::vector<Fault> planOf(const Profile &profile, int count, quint64 seed)
     for (const int weight : profile.weights)
         allWeights += weight;
     std::vector<Fault> plan;
-    // Number i of the kinds in their order of weights: what is drawn is the order alone, so that every run has all kinds.
+    // Number i of the kinds in their order of weights: what is drawn is the order alone, so that
+    // every run has all kinds.
     for (int i = 0; i < count && allWeights > 0; ++i) {
         int place = int(qint64(i) * allWeights / count);
         int kind = 0;

@@ -21,7 +21,9 @@ enum class FaultKind : quint8 {
     GarbageToNodes,    ///< from strangers to the UDP ports of the nodes
     StoppedReader,     ///< a tool that asks and asks, and takes no answer
     ConnectFlood,      ///< connections that say nothing
-    LoseFrames,  ///< from here on: a node whose link does this to its frames, for a while; not of a stream, which knows no such faults
+    /// from here on: a node whose link does this to its frames, for a while; not of a stream, which
+    /// knows no such faults
+    LoseFrames,
     DuplicateFrames,
     ReorderFrames,
     CorruptFrames,
@@ -96,7 +98,8 @@ struct Fault
     QString toString() const;
 };
 
-/// What a node is told of the faults of its link: docs/faults.md. What is counted is done to the frames that it sends.
+/// What a node is told of the faults of its link: docs/faults.md. What is counted is done to the
+/// frames that it sends.
 QString linkFaultsOf(FaultKind kind, quint64 seed);
 
 /// What a soak is.
@@ -122,7 +125,8 @@ struct Profile
     static QStringList names();
 };
 
-/// The faults of a run, in order: the same for the same profile, number and seed. Kinds come as often as their weights say, up to one.
+/// The faults of a run, in order: the same for the same profile, number and seed. Kinds come as
+/// often as their weights say, up to one.
 std::vector<Fault> planOf(const Profile &profile, int count, quint64 seed);
 
 }  // namespace soak

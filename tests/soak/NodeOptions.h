@@ -16,7 +16,8 @@ struct NodeOptions
 
 void addShapeOptions(QPlcCoreApplication &application);
 void addNodeOptions(QPlcCoreApplication &application);
-/// Reads --nodes, --signal-count, --hold, --life and opens the history. \return false, with the message out, when one of them cannot be meant
+/// Reads --nodes, --signal-count, --hold, --life and opens the history. \return false, with the
+/// message out, when one of them cannot be meant
 bool readShapeOptions(QPlcCoreApplication &application, NodeOptions *options, HistoryFile *history);
 /// The same, and --node.
 bool readNodeOptions(QPlcCoreApplication &application, NodeOptions *options, HistoryFile *history);

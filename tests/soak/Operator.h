@@ -8,7 +8,8 @@
 
 namespace soak {
 
-/// The person at the plant: looks at the state of the master, and brings the plant back to motion after a fault. Every command is written down.
+/// The person at the plant: looks at the state of the master, and brings the plant back to motion
+/// after a fault. Every command is written down.
 class Operator
 {
 public:
@@ -16,13 +17,16 @@ public:
 
     /// From now on the master is here; an earlier one is gone.
     void useMaster(const QPlcUnderlyingProtocol &master);
-    /// Does what there is to do until the whole plant runs. \return false when it does not within \a patience [ms]: errorString() says what is missing
+    /// Does what there is to do until the whole plant runs. \return false when it does not within
+    /// \a patience [ms]: errorString() says what is missing
     bool bringToRealTime(int patience);
     /// Whether the whole plant runs. Does nothing about it.
     bool isRunning();
-    /// From now on the whole plant runs only with a node \a node that has registered anew. To be called before its process ends.
+    /// From now on the whole plant runs only with a node \a node that has registered anew. To be
+    /// called before its process ends.
     void expectAnother(int node);
-    /// Waits until this many nodes have registered. \return false when they have not within \a patience [ms]
+    /// Waits until this many nodes have registered. \return false when they have not within \a
+    /// patience [ms]
     bool waitForNodes(int count, int patience);
     bool stop();
     /// "127.0.0.1:40312" of the nodes that have datagrams.

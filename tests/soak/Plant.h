@@ -27,7 +27,8 @@ public:
     virtual bool startMaster(QString *error) = 0;
     virtual void killMaster() = 0;
     virtual QPlcUnderlyingProtocol master() const = 0;
-    /// Starts a node; its life before is killed. \param linkFaults  as linkFaultsOf() says; empty: none
+    /// Starts a node; its life before is killed. \param linkFaults as linkFaultsOf() says; empty:
+    /// none
     virtual void startNode(int node, const QString &linkFaults) = 0;
     /// SIGSTOP or SIGCONT. \param node  or TheMaster
     virtual void setStopped(int node, bool stopped) = 0;

@@ -12,7 +12,9 @@ namespace {
 
 constexpr qint64 LongestRecovery = 2'000'000'000;  // [ns]
 constexpr qint64 LongestSilence
-    = 11'000'000'000;  // [ns] more: until connections are given up of which no kernel tells, and the longest pause before the next attempt
+    // [ns] more: until connections are given up of which no kernel tells, and the longest pause
+    // before the next attempt
+    = 11'000'000'000;
 constexpr qint64 Settled = 250'000'000;  // [ns] after a fault, what it did has been counted
 
 QString nameOf(const DoneFault &fault)
@@ -47,7 +49,8 @@ std::map<quint64, Phase> phasesOf(const History &master)
     return phases;
 }
 
-/// Whether the master was stopped on purpose when it wrote this: then it did so as long after its cycle as it was stopped.
+/// Whether the master was stopped on purpose when it wrote this: then it did so as long after its
+/// cycle as it was stopped.
 bool wasStopped(const Evidence &evidence, const Record &cycle)
 {
     return std::any_of(evidence.faults.begin(), evidence.faults.end(), [&](const DoneFault &fault) {
@@ -156,14 +159,16 @@ qint64 waitedBetween(const History &master, const Record &event, qint64 begin)
     return 0;
 }
 
-/// Whether the plant may have gone safe for a stall of the machine just before a fault: what is not there cannot be hit.
+/// Whether the plant may have gone safe for a stall of the machine just before a fault: what is not
+/// there cannot be hit.
 bool fellBefore(const Evidence &evidence, const DoneFault &fault)
 {
     constexpr qint64 before = 500'000'000;  // [ns]
     return evidence.stalls.within(fault.begin - before, fault.end) >= evidence.period;
 }
 
-/// The time of the last step before the link of a node was cut. The life before that with the link had a good one.
+/// The time of the last step before the link of a node was cut. The life before that with the link
+/// had a good one.
 qint64 cutOf(const Evidence &evidence, const DoneFault &fault)
 {
     const Record *last = nullptr;
@@ -299,8 +304,8 @@ qint64 beginOfPhase(const History &master, qint64 time)
     return begin;
 }
 
-/// By how much a counter of the master has grown from the last look before a fault to the first one after it, or since its phase began, when nobody has looked since; -1 when nobody can
-/// tell.
+/// By how much a counter of the master has grown from the last look before a fault to the first one
+/// after it, or since its phase began, when nobody has looked since; -1 when nobody can tell.
 qint64 growth(const Evidence &evidence, const DoneFault &fault, Record::MasterNumber number)
 {
     const History *master = evidence.masterAt(fault.begin);

@@ -8,7 +8,8 @@
 
 namespace soak {
 
-/// A thread on each processor that wakes up regularly and does nothing: when it is late, the machine stood still, whatever the plant did.
+/// A thread on each processor that wakes up regularly and does nothing: when it is late, the
+/// machine stood still, whatever the plant did.
 class ReferenceClock
 {
 public:

@@ -128,7 +128,8 @@ Gate nothingLeaks(const Evidence &evidence)
         const auto oldest = std::find_if(process->cbegin(), process->cend(), isOld);
         if (process->cend() - oldest < 2)
             continue;
-        // A connection that was just being made again may be seen in one look. What leaks is in all that follow.
+        // A connection that was just being made again may be seen in one look. What leaks is in all
+        // that follow.
         const auto looks = std::min<std::ptrdiff_t>(Looks, (process->cend() - oldest) / 2);
         ++gate.looked;
         for (const auto &[number, what] :

@@ -12,7 +12,8 @@ double milliseconds(qint64 time)
     return double(time) * 1e-6;
 }
 
-/// Whether the node itself was stopped by a fault at some time from \a begin to \a end, or just after.
+/// Whether the node itself was stopped by a fault at some time from \a begin to \a end, or just
+/// after.
 bool wasStopped(const Evidence &evidence, int node, qint64 begin, qint64 end)
 {
     for (const DoneFault &fault : evidence.faults) {
@@ -22,7 +23,8 @@ bool wasStopped(const Evidence &evidence, int node, qint64 begin, qint64 end)
     return false;
 }
 
-/// What a node does when nothing more comes: from the last step of a phase to what is recorded next.
+/// What a node does when nothing more comes: from the last step of a phase to what is recorded
+/// next.
 void lookAtSilence(const Evidence &evidence, const History &history, const Record &step, const Record &next, Gate *gate)
 {
     // A quarter of a period is what the reference clock bears without a word.
@@ -48,7 +50,8 @@ void lookAtSilence(const Evidence &evidence, const History &history, const Recor
                        .arg(milliseconds(limit)));
 }
 
-/// Whether a node went safe by itself, or left its master, not long before: then that is what has to have a cause.
+/// Whether a node went safe by itself, or left its master, not long before: then that is what has
+/// to have a cause.
 bool wasAloneBefore(const Evidence &evidence, int node, qint64 time)
 {
     constexpr qint64 longestEcho = 2'000'000'000;  // [ns] until a busy master has heard of it

@@ -9,8 +9,8 @@
 
 namespace soak {
 
-/// A node of the soak's plant. It writes its group, moves a drive as its neighbour says, and keeps a
-/// history of both.
+/// A node of the soak's plant. It writes its group, moves a drive as its neighbour says, and keeps
+/// a history of both.
 class SoakNode : public QPlcCompactSlaveNode
 {
 public:

@@ -8,8 +8,10 @@
 
 /// A plant in which every wrong, mixed or old value can be proven.
 ///
-/// Its nodes stand in a ring: node i reads all that node i - 1 writes. What a node writes is a group: who wrote it (node, life), a counter, a drive (what the reader moves), values that follow from
-/// these, and a check over all of them. A life is one process of a node: one that is started again has a new, higher number.
+/// Its nodes stand in a ring: node i reads all that node i - 1 writes. What a node writes is a
+/// group: who wrote it (node, life), a counter, a drive (what the reader moves), values that follow
+/// from these, and a check over all of them. A life is one process of a node: one that is started
+/// again has a new, higher number.
 namespace soak {
 
 struct PlantShape

@@ -24,7 +24,9 @@ struct SoakReport
     enum Verdict {
         Passed,
         Failed,
-        Unjudged  ///< values, commands and attempts passed; a gate of time did not, on a machine that stood still for too long
+        /// values, commands and attempts passed; a gate of time did not, on a machine that stood
+        /// still for too long
+        Unjudged
     };
     Verdict verdict() const;
     bool passed() const { return verdict() == Passed; }

@@ -37,17 +37,20 @@ public:
     Strangers(const Strangers &) = delete;
     Strangers &operator=(const Strangers &) = delete;
 
-    /// Datagrams of random bytes, from a port of its own, so slowly that the system drops none of them. \return how many were sent
+    /// Datagrams of random bytes, from a port of its own, so slowly that the system drops none of
+    /// them. \return how many were sent
     int sendDatagrams(quint16 port, int count);
     /// Connections that send bytes which are no message. \return how many could be made
     int sendGarbage(quint16 port, int count);
-    /// Connections that greet without TLS, and tell the master to start, to stop, to arm or to set a signal. \return how many could be made
+    /// Connections that greet without TLS, and tell the master to start, to stop, to arm or to set
+    /// a signal. \return how many could be made
     int sendCommands(quint16 port, int count);
     /// Closes the connections that the master has ended. \return how many these were
     int leaveEnded();
     /// Connections that say nothing, and stay until leave(). \return how many could be made
     int connectOnly(quint16 port, int count);
-    /// A tool that greets, asks \a count times for much, and reads nothing; it stays until leave(). \return requests that the master's system took
+    /// A tool that greets, asks \a count times for much, and reads nothing; it stays until leave().
+    /// \return requests that the master's system took
     int askWithoutReading(quint16 port, int count);
     /// Closes all connections.
     void leave();

@@ -16,7 +16,8 @@ int writerRead(const Evidence &evidence, int node)
     return (node + evidence.shape.nodes - 1) % evidence.shape.nodes;
 }
 
-/// All values 0, the drive too, or safe: what is seen when nobody has written, or when all went safe.
+/// All values 0, the drive too, or safe: what is seen when nobody has written, or when all went
+/// safe.
 bool isNothing(const Evidence &evidence, int writer, const Record &step)
 {
     const Stamp seen = seenIn(step);

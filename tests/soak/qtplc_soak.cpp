@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// qtplc_soak: treats a plant of real processes badly, judges it by what its processes have written down, and reports.
+// qtplc_soak: treats a plant of real processes badly, judges it by what its processes have written
+// down, and reports.
 #include "PlantProcesses.h"
 #include "SoakReport.h"
 #include "SoakRun.h"

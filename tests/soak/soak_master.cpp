@@ -7,7 +7,8 @@
 
 namespace {
 
-/// What the heap has lent, for a leak that does not show in resident memory as long as the heap has a reserve.
+/// What the heap has lent, for a leak that does not show in resident memory as long as the heap has
+/// a reserve.
 void weigh(soak::HistoryWriter &history, quint64 cycle)
 {
 #if defined(__GLIBC__) && __GLIBC_PREREQ(2, 33)

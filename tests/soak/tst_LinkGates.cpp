@@ -30,7 +30,8 @@ private:
     static constexpr int Frames = 80;
     static constexpr quint64 Seed = 11;
 
-    /// Node 2 runs with a bad link; the master counts at the end of cycle 80, long after the last frame.
+    /// Node 2 runs with a bad link; the master counts at the end of cycle 80, long after the last
+    /// frame.
     static HandMade badLink(FaultKind kind, Record::NodeNumber number, quint64 counted)
     {
         HandMade plant(Frames);
@@ -109,7 +110,8 @@ void tst_LinkGates::cyclesThatTheNodeMissedMayBeAmongTheLost()
 
 void tst_LinkGates::framesUnderWayMayBeCountedOrNot()
 {
-    // Between the reading of the counters and three cycles before it lies a duplicate: both numbers are right.
+    // Between the reading of the counters and three cycles before it lies a duplicate: both numbers
+    // are right.
     const auto of = [](int frames) { return done(FaultKind::DuplicateFrames, FaultInjector::Duplicated, frames); };
     int frames = 10;
     while (of(frames + 3) == of(frames))

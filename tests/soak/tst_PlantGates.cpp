@@ -64,7 +64,8 @@ HandMade withStrangers(quint64 counted)
     return plant;
 }
 
-/// The master is looked at each tenth of a minute, sixty times, and uses \a growth [kB] more in ten minutes; what it has in use of its heap stays. The last four looks see what is said here.
+/// The master is looked at each tenth of a minute, sixty times, and uses \a growth [kB] more in ten
+/// minutes; what it has in use of its heap stays. The last four looks see what is said here.
 HandMade withUsage(quint64 descriptors, quint64 threads, quint64 growth = 0, quint32 lastLife = 1)
 {
     HandMade plant;
@@ -194,7 +195,8 @@ void tst_PlantGates::aProcessThatEndsSlowlyIsToldInTimeAfterItsEnd()
 
 void tst_PlantGates::aCutIsOneOfTheLifeThatHasIt()
 {
-    // The life before it computes once more after the fault has begun, and the next one begins 150 ms later.
+    // The life before it computes once more after the fault has begun, and the next one begins 150
+    // ms later.
     HandMade plant(100);
     HandMade::removeCycles(plant.node(1), 41, 99);
     plant.addLife(1, 2, HandMade::at(50));
@@ -346,7 +348,8 @@ Gate judgeMemory(HandMade plant, bool isLong = true)
     return plant.judge([&](const soak::Evidence &evidence) { return soak::memoryStays(evidence, profile); });
 }
 
-/// Resident memory stays. \param more  [kB] that more of the heap is in use at a look, by its number
+/// Resident memory stays.
+/// \param more  [kB] of the heap that are in use in addition at a look, by its number
 template<typename More>
 HandMade withHeap(More more)
 {

@@ -41,7 +41,8 @@ namespace {
 
 constexpr qint64 ms = HandMade::Millisecond;
 
-/// Node 1 gets nothing from cycle 50 on, and says at \a safeAt that it is safe (0: never); then the master is back.
+/// Node 1 gets nothing from cycle 50 on, and says at \a safeAt that it is safe (0: never); then the
+/// master is back.
 HandMade silence(qint64 safeAt)
 {
     HandMade plant;
@@ -55,7 +56,8 @@ HandMade silence(qint64 safeAt)
     return plant;
 }
 
-/// All nodes tell the quality of their drive; from cycle 50 on node 0 is silent, and node 1 goes safe after \a held cycles.
+/// All nodes tell the quality of their drive; from cycle 50 on node 0 is silent, and node 1 goes
+/// safe after \a held cycles.
 HandMade silentWriter(int held)
 {
     HandMade plant;

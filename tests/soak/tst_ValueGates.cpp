@@ -6,7 +6,8 @@
 using soak::Gate;
 using soak::Record;
 
-// A checker that cannot fail proves nothing: each gate is seen with a good history, and failing with one that is spoilt in one place.
+// A checker that cannot fail proves nothing: each gate is seen with a good history, and failing
+// with one that is spoilt in one place.
 class tst_ValueGates : public QObject
 {
     Q_OBJECT

@@ -206,7 +206,8 @@ void tst_SafetyGuard::theFirstReasonIsToldOnce()
     QCOMPARE(taken(reports).size(), 1);
 }
 
-/// A large plant in which everything goes wrong at once has more to tell than anybody has taken meanwhile.
+/// A large plant in which everything goes wrong at once has more to tell than anybody has taken
+/// meanwhile.
 void tst_SafetyGuard::aReasonIsNeverLostAmongNews()
 {
     CycleReports reports(false);

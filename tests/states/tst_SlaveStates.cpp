@@ -39,7 +39,8 @@ void tst_SlaveStates::everyPairIsAsItShouldBe_data()
     // The next state by its letters; '.' stays, '-' ignored, 'x' refused.
     QTest::addColumn<int>("event");
     QTest::addColumn<QString>("outcomes");
-    // Disconnected, Connecting, Registering, Rejected, Registered, Initializing, Ready, RealTime, SafeStop, Fault
+    // Disconnected, Connecting, Registering, Rejected, Registered, Initializing, Ready, RealTime,
+    // SafeStop, Fault
     const auto row = [](E event, const char *outcomes) { QTest::newRow(nameOf(event)) << int(event) << outcomes; };
     row(E::Connect, "Co x x Co x x x x Co Co");
     row(E::Retry, "Co - - Co - - - - Co Co");
@@ -103,7 +104,8 @@ void tst_SlaveStates::aSafeNodeIsNeverBackByItself()
     forAll([](S state, E event, const SlaveStateTable::Cell &cell) {
         if (state == S::SafeStop || state == S::Fault)
             QVERIFY2(cell.next != S::RealTime && cell.next != S::Ready, nameOf(event));
-        // No end of a phase without the safe state: whatever leads out of it closes the connection, ends the cycles, or is said by cycles that are safe already.
+        // No end of a phase without the safe state: whatever leads out of it closes the connection,
+        // ends the cycles, or is said by cycles that are safe already.
         if (state == S::RealTime && cell.next != S::RealTime)
             QVERIFY2(cell.action == SlaveAction::CloseConnection || cell.action == SlaveAction::CloseAndRetry
                          || cell.action == SlaveAction::EndCycles || event == E::ToldSafeStop || event == E::CodeFailed,

@@ -25,12 +25,14 @@ struct SimulatedRun
     SoakReport report;
     quint64 digest = 0;  // of all that has travelled on the network
 
-    /// The first gate that failed, with an example, or why the run ended early. Empty: all gates hold.
+    /// The first gate that failed, with an example, or why the run ended early. Empty: all gates
+    /// hold.
     QString violation() const;
 };
 SimulatedRun run(const Scenario &scenario, int seconds, quint64 seed, const std::vector<Fault> &plan);
 
-/// The shortest plan that still fails of those that leave faults of \a plan out one after the other.
+/// The shortest plan that still fails of those that leave faults of \a plan out one after the
+/// other.
 std::vector<Fault> shrunk(std::vector<Fault> plan, const std::function<bool(const std::vector<Fault> &)> &fails);
 
 }  // namespace soak

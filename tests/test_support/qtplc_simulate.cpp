@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// qtplc_simulate: the soak in virtual time. Treats a simulated plant as a seed says, and judges it by the gates of
-// the soak.
+// qtplc_simulate: the soak in virtual time. Treats a simulated plant as a seed says, and judges it
+// by the gates of the soak.
 #include "Scenario.h"
 
 #include <QtCore/QCommandLineParser>

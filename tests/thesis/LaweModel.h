@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A kite on a tether in the manner of a model that was exported as C: globals for inputs and outputs, two functions.
+// A kite on a tether in the manner of a model that was exported as C: globals for inputs and
+// outputs, two functions.
 #pragma once
 
 typedef double real_T;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The same model with the calls of listing 4.16 of the thesis: signals like variables. usage: compact_model [PORT]; without it 50000
+// The same model with the calls of listing 4.16 of the thesis: signals like variables. usage:
+// compact_model [PORT]; without it 50000
 #include <QtPlc>
 
 #include "LaweModel.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A master with the calls of listing 4.12 of the thesis. usage: master [PORT]; without it 50000, 0: a free one
+// A master with the calls of listing 4.12 of the thesis. usage: master [PORT]; without it 50000, 0:
+// a free one
 #include <QtPlc>
 
 int main(int argc, char **argv)

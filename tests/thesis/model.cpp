@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A model with the calls of listing 4.14 of the thesis: lists of values. usage: model [PORT]; without it 50000
+// A model with the calls of listing 4.14 of the thesis: lists of values. usage: model [PORT];
+// without it 50000
 #include <QtPlc>
 
 #include "LaweModel.h"

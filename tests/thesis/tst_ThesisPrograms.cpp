@@ -62,8 +62,8 @@ LaweModel_Outputs kiteAfter(int steps)
 
 }  // namespace
 
-/// Programs with the calls of the thesis's listings: a master (4.12) with a model (4.14) or a compact model (4.16), told by
-/// a tool, ended by their ids.
+/// Programs with the calls of the thesis's listings: a master (4.12) with a model (4.14) or a
+/// compact model (4.16), told by a tool, ended by their ids.
 class tst_ThesisPrograms : public QObject
 {
     Q_OBJECT
@@ -309,7 +309,8 @@ void tst_ThesisPrograms::silentPartnersAreReported()
     QTRY_VERIFY_WITH_TIMEOUT(tetherLength() > after, Program::patience);
     QCOMPARE(m_model->errors().count(QStringLiteral("registered")), 1);
 
-    // ErrorZeroOrderHold: the master reports a late model and goes on with its last values, however long.
+    // ErrorZeroOrderHold: the master reports a late model and goes on with its last values, however
+    // long.
     m_model->sendSignal(SIGSTOP);
     QVERIFY2(m_master->waitForErrors(QStringLiteral("was late in cycle")), qPrintable(m_master->errors()));
     int late = lateAnswers();
@@ -333,7 +334,8 @@ static void halt(Program &program)
     program.sendSignal(SIGCONT);
 }
 
-/// Whether no signal of the flight has fallen back since \a tetherLength, which becomes that of now.
+/// Whether no signal of the flight has fallen back since \a tetherLength, which becomes that of
+/// now.
 bool tst_ThesisPrograms::isFlying(double *tetherLength)
 {
     const Values now = values();
@@ -356,8 +358,9 @@ void tst_ThesisPrograms::stopsOfFortyMillisecondsHarmNothing_data()
     addModels();
 }
 
-/// Every second the model and then the master stand still for 40 ms: the watchdog of 15 ms informs, and the flight goes on
-/// where it was. THESIS_SECONDS is the time [s], THESIS_LOAD the number of programs that only compute beside it.
+/// Every second the model and then the master stand still for 40 ms: the watchdog of 15 ms informs,
+/// and the flight goes on where it was. THESIS_SECONDS is the time [s], THESIS_LOAD the number of
+/// programs that only compute beside it.
 void tst_ThesisPrograms::stopsOfFortyMillisecondsHarmNothing()
 {
     QFETCH(QString, program);

@@ -15,8 +15,8 @@
 #include <unistd.h>
 #include <utility>
 
-/// Frames of the transport tests: one byte 'F', one byte with the length of the whole, then anything. Transports know no other frames than those that a
-/// cutter shows them.
+/// Frames of the transport tests: one byte 'F', one byte with the length of the whole, then
+/// anything. Transports know no other frames than those that a cutter shows them.
 inline std::size_t toyFrameSize(const void *, const char *header)
 {
     return header[0] == 'F' ? std::size_t(static_cast<unsigned char>(header[1])) : 0;

@@ -25,7 +25,8 @@ int interruptions = 0;  // so many calls of sendmmsg() end with EINTR
 
 }  // namespace
 
-/// In the place of the one of the C library: a signal that comes at the right time cannot be sent from a test.
+/// In the place of the one of the C library: a signal that comes at the right time cannot be sent
+/// from a test.
 extern "C" int sendmmsg(int descriptor, mmsghdr *messages, unsigned count, int flags)
 {
     if (interruptions > 0) {

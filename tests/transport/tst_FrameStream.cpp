@@ -120,7 +120,8 @@ void tst_FrameStream::aFullSocketTearsNoFrame()
 
 void tst_FrameStream::aBlockingSenderTearsNoFrameEither()
 {
-    // A stream whose kernel takes a few bytes at a time: over TCP with small buffers, in both directions of time-out.
+    // A stream whose kernel takes a few bytes at a time: over TCP with small buffers, in both
+    // directions of time-out.
     StreamPair pair;
     shrink(pair);
     timeval time{0, 1000};

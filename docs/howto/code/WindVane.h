@@ -11,7 +11,8 @@
 #include <termios.h>
 #include <unistd.h>
 
-/// A wind vane on a serial line: it says its angle in degrees ten times a second, a number and a line feed.
+/// A wind vane on a serial line: it says its angle in degrees ten times a second, a number and a
+/// line feed.
 class WindVane : public QPlcDriver
 {
 public:
@@ -53,7 +54,8 @@ private:
         m_line = -1;
     }
 
-    // Its own thread calls it: it may wait for the device, though not for long, because close() waits for it.
+    // Its own thread calls it: it may wait for the device, though not for long, because close()
+    // waits for it.
     bool read() override
     {
         pollfd line = {m_line, POLLIN, 0};

@@ -14,7 +14,8 @@ class AutopilotNode : public QPlcCompactSlaveNode
 {
     Q_OBJECT
 public:
-    /// \param extraDeadTime  cycles by which the commands are delayed on top of those that the links cost
+    /// \param extraDeadTime cycles by which the commands are delayed on top of those that the links
+    ///         cost
     explicit AutopilotNode(const AutopilotGains &gains, int extraDeadTime = 0);
 
 private:

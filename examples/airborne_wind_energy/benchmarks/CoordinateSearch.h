@@ -15,8 +15,9 @@ struct Coordinate
 
 /// Climbs a function of many numbers that has no derivative: the compass search.
 ///
-/// A round tries each coordinate in turn: one step up, and if the value is not greater there, one step down. After a
-/// round without a gain all steps are halved. Nothing is random: the same function gives the same result.
+/// A round tries each coordinate in turn: one step up, and if the value is not greater there, one
+/// step down. After a round without a gain all steps are halved. Nothing is random: the same
+/// function gives the same result.
 class CoordinateSearch
 {
 public:
@@ -27,7 +28,8 @@ public:
     /// \param leastGain  smaller gains are not worth a move, >= 0
     CoordinateSearch(Function function, std::vector<Coordinate> coordinates, double leastGain = 0.0);
 
-    /// \param start  as many numbers as there are coordinates; its value may be -infinity \param halvings  rounds without a
+    /// \param start as many numbers as there are coordinates; its value may be -infinity \param
+    ///         halvings rounds without a
     /// gain after which it ends, > 0
     /// \return the best point that was seen; \a start when none was better
     Point climb(const Point &start, int halvings);

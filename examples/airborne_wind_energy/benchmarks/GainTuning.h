@@ -10,8 +10,9 @@
 
 namespace awe {
 
-/// What a set of gains is worth: flights of half an hour in calm and turbulent wind, and in strong wind without and with a
-/// force limit. Gains for one wind alone are poor in others, down to half the power at 11 m/s.
+/// What a set of gains is worth: flights of half an hour in calm and turbulent wind, and in strong
+/// wind without and with a force limit. Gains for one wind alone are poor in others, down to half
+/// the power at 11 m/s.
 struct GainScore
 {
     double calmEta = 0.0;
@@ -30,15 +31,16 @@ struct GainScore
     double value() const;
 };
 
-/// Turbulence seeds 1...8 are tuned with, 9...24 tell whether the gains are good or only fit those flights.
+/// Turbulence seeds 1...8 are tuned with, 9...24 tell whether the gains are good or only fit those
+/// flights.
 enum class TuningSeeds { Tuned, Fresh };
 
 /// Flies a set of gains. \pre gains.validate() is empty
 GainScore scoreOf(const AutopilotGains &gains, int deadTime, TuningSeeds seeds = TuningSeeds::Tuned,
                   double duration = 1800.0);
 
-/// A gain that is tuned: laws of the autopilot. Heights that it keeps, limits of winch and wing, and what guards the force
-/// limit are not.
+/// A gain that is tuned: laws of the autopilot. Heights that it keeps, limits of winch and wing,
+/// and what guards the force limit are not.
 struct TunableGain
 {
     const char *name;
@@ -50,7 +52,8 @@ struct TunableGain
     static AutopilotGains write(AutopilotGains gains, const CoordinateSearch::Point &point);
 };
 
-/// Where a search starts: the laws of the safe gains at the heights of the tuned ones, and what these heights ask for.
+/// Where a search starts: the laws of the safe gains at the heights of the tuned ones, and what
+/// these heights ask for.
 AutopilotGains startOfTuning();
 
 }  // namespace awe

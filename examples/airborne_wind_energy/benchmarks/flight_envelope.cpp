@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Flies the wing in calm and turbulent air, weak and strong wind, with dead time and with a force limit, half an hour
-// each, and compares what comes out with what is to be reached.
+// Flies the wing in calm and turbulent air, weak and strong wind, with dead time and with a force
+// limit, half an hour each, and compares what comes out with what is to be reached.
 
 #include "ClosedLoopFlight.h"
 
@@ -127,8 +127,8 @@ private:
         expect("4...12 m/s: crashes", Bound::AtMost, 0.0, worst.crashes);
     }
 
-    // Up to 9 m/s the limit hardly acts. Above it sets the power: at 12 m/s no flight with 4 kN and 10 m/s reel-in can
-    // pass eta = 0.55 even without losses (see PowerController.h).
+    // Up to 9 m/s the limit hardly acts. Above it sets the power: at 12 m/s no flight with 4 kN and
+    // 10 m/s reel-in can pass eta = 0.55 even without losses (see PowerController.h).
     void forceLimit()
     {
         constexpr double limit = 4000.0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Searches gains of the autopilot that take out more power with a given dead time, and says what they are worth: in the
-// flights they were found with, in others, and with the dead time of the default links. This is where the tuned gains are from.
+// Searches gains of the autopilot that take out more power with a given dead time, and says what
+// they are worth: in the flights they were found with, in others, and with the dead time of the
+// default links. This is where the tuned gains are from.
 
 #include "GainTuning.h"
 

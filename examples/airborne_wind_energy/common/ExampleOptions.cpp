@@ -3,7 +3,8 @@
 
 #include <limits>
 
-// Resources of a static library are found only by programs that ask for them, outside of any namespace.
+// Resources of a static library are found only by programs that ask for them, outside of any
+// namespace.
 static void loadSignals()
 {
     Q_INIT_RESOURCE(signals);

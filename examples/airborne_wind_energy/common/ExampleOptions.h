@@ -25,7 +25,8 @@ struct AutopilotSettings
     int extraDeadTime = 0;  // cycles on top of linkDeadTime()
 };
 
-/// Cycles from sensor to actuator that the links alone cost: one from the model to the autopilot, one back; none with --same-cycle.
+/// Cycles from sensor to actuator that the links alone cost: one from the model to the autopilot,
+/// one back; none with --same-cycle.
 int linkDeadTime(bool sameCycle);
 
 /// The table of the example, compiled into the programs.
@@ -38,7 +39,8 @@ QHostAddress defaultMulticastGroup();
 bool readVector(QPlcCoreApplication &application, const QString &option, Eigen::Vector3d *vector);
 
 void addModelOptions(QPlcCoreApplication &application);
-/// What the options say wins over \a kite. \return false, with the message out, when an option has no valid value
+/// What the options say wins over \a kite. \return false, with the message out, when an option has
+/// no valid value
 bool readModelOptions(QPlcCoreApplication &application, const KiteConfiguration &kite, ModelSettings *settings);
 /// --plant and --winch: what of the plant is hardware, and the data of the model.
 void addPlantOptions(QPlcCoreApplication &application);
@@ -48,7 +50,8 @@ void addAutopilotOptions(QPlcCoreApplication &application);
 /// \pre the application has an option --same-cycle
 bool readAutopilotOptions(QPlcCoreApplication &application, AutopilotSettings *settings);
 
-/// Those of the plant, model and autopilot options that were given, to be handed on to another program.
+/// Those of the plant, model and autopilot options that were given, to be handed on to another
+/// program.
 QStringList givenPlantOptions(const QPlcCoreApplication &application);
 QStringList givenModelOptions(const QPlcCoreApplication &application);
 QStringList givenAutopilotOptions(const QPlcCoreApplication &application);

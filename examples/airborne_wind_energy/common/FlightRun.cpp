@@ -209,7 +209,8 @@ void FlightRun::startIfComplete()
     }
 }
 
-/// Without autopilot the master itself writes the controls. \return false when it refused one; it has said why
+/// Without autopilot the master itself writes the controls. \return false when it refused one; it
+/// has said why
 bool FlightRun::setControls()
 {
     if (!m_settings.controls)

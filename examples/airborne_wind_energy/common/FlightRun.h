@@ -26,13 +26,15 @@ struct RunSettings
     double nominalWindSpeed = 0.0;  // [m/s]
     bool watch = false;             // a live picture instead of a progress line
     PlantConfiguration plant;
-    /// Without autopilot: pitch and yaw speed [deg/s] and tether speed [m/s], the same during the whole flight.
+    /// Without autopilot: pitch and yaw speed [deg/s] and tether speed [m/s], the same during the
+    /// whole flight.
     std::optional<Eigen::Vector3d> controls;
     QStringList awaitedNodes;  // the flight begins as soon as all of them have registered
     bool stay = false;         // the program does not end with that flight: people stop and start as they like
 };
 
-/// The clock of a program that is started without --lockstep, --real-time, --scale and --watch; --help tells it.
+/// The clock of a program that is started without --lockstep, --real-time, --scale and --watch;
+/// --help tells it.
 enum class DefaultClock {
     Lockstep,
     LockstepWithStartWith,  // real time without --start-with
@@ -46,7 +48,8 @@ bool readRunOptions(QPlcCoreApplication &application, RunSettings *settings);
 /// Those of the run options that were given, to be handed on to another program.
 QStringList givenRunOptions(const QPlcCoreApplication &application);
 
-/// The node between the plant and a winch drive. Hardware may come and go: without it the signals of the winch have their safe values, and the flight goes on.
+/// The node between the plant and a winch drive. Hardware may come and go: without it the signals
+/// of the winch have their safe values, and the flight goes on.
 QString winchNode();
 
 /// One flight of a master from the registration of its nodes to the report.
@@ -54,7 +57,8 @@ class FlightRun : public QObject
 {
     Q_OBJECT
 public:
-    /// Sets \a master up: period, clock, own signals, and a FlightObserver. \param master outlives this object
+    /// Sets \a master up: period, clock, own signals, and a FlightObserver. \param master outlives
+    /// this object
     FlightRun(QPlcMasterNode &master, const RunSettings &settings);
     ~FlightRun() override;
 
@@ -75,7 +79,8 @@ Q_SIGNALS:
 private:
     bool addWinchObserver();
     void nodeIsLost(const QString &name, const QString &reason);
-    /// Ends the flight when one of its nodes gives NaN or infinity: a simulation holds the last number for ever.
+    /// Ends the flight when one of its nodes gives NaN or infinity: a simulation holds the last
+    /// number for ever.
     void requireNumbers();
     void startIfComplete();
     void start();

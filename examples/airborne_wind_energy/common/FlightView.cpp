@@ -107,7 +107,8 @@ void FlightView::drawTitle(TerminalCanvas &canvas) const
         canvas.put(text.size() + 3, 0, QStringLiteral("CRASHED"), Style::Alarm);
 }
 
-/// Elevation 0 ... 90 deg over `height` rows, azimuth -60 ... 60 deg from downwind over the rest of the width; beyond it the kite stands at the border.
+/// Elevation 0 ... 90 deg over `height` rows, azimuth -60 ... 60 deg from downwind over the rest of
+/// the width; beyond it the kite stands at the border.
 void FlightView::drawWindow(TerminalCanvas &canvas, int top, int height) const
 {
     const int width = canvas.columns() - axisWidth - 1;
@@ -160,7 +161,8 @@ void FlightView::drawTrail(TerminalCanvas &canvas, int top, int height) const
     }
 }
 
-/// The power of the last minute, from the right to the left. \param height  rows, the last one is the label
+/// The power of the last minute, from the right to the left. \param height rows, the last one is
+/// the label
 void FlightView::drawPlot(TerminalCanvas &canvas, int top, int height) const
 {
     constexpr double kilowatt = 1e3;

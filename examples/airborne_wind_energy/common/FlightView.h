@@ -29,8 +29,10 @@ struct FlightMoment
 /// One line that says where the flight stands. \param duration  planned [s], 0: open end
 QString progressLine(const FlightMoment &moment, double duration);
 
-/// The flight as a picture of characters and Braille dots: the wind window as seen from the winch, azimuth across and elevation up, with the kite and the trail behind
-/// it, then a plot of the power, and the figures below. Knows no terminal: it makes lines, with ANSI colours if they are wanted.
+/// The flight as a picture of characters and Braille dots: the wind window as seen from the winch,
+/// azimuth across and elevation up, with the kite and the trail behind it, then a plot of the
+/// power, and the figures below. Knows no terminal: it makes lines, with ANSI colours if they are
+/// wanted.
 class FlightView
 {
 public:

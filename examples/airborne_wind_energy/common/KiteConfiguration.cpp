@@ -14,7 +14,8 @@ namespace {
 
 constexpr double mostSeed = 9007199254740992.0;  // 2^53: every integer up to it is a double
 
-/// One key of the section: how its text becomes a value. The function returns empty, or what to use.
+/// One key of the section: how its text becomes a value. The function returns empty, or what to
+/// use.
 struct KiteKey
 {
     QString name;

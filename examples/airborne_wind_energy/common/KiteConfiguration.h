@@ -12,7 +12,8 @@
 
 namespace awe {
 
-/// The kite that the model computes, its tether, its wind and its start: section [kite] of the file of --plant. The values here hold without a file.
+/// The kite that the model computes, its tether, its wind and its start: section [kite] of the file
+/// of --plant. The values here hold without a file.
 struct KiteConfiguration
 {
     static constexpr double derived = std::numeric_limits<double>::quiet_NaN();

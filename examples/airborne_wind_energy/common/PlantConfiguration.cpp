@@ -6,7 +6,8 @@
 #include <QtCore/QFileInfo>
 #include <QtCore/QSet>
 
-// Resources of a static library are found only by programs that ask for them, outside of any namespace.
+// Resources of a static library are found only by programs that ask for them, outside of any
+// namespace.
 static void loadHardware()
 {
     Q_INIT_RESOURCE(hardware);
@@ -21,7 +22,8 @@ const QString kiteSection = QStringLiteral("kite");
 constexpr int largestFile = 1 << 20;  // [byte]
 constexpr int longestLine = 1000;     // [characters] without its comment
 
-/// All of \a file, which may be a pipe: it tells neither its size nor its end beforehand. One byte more than the largest file at most.
+/// All of \a file, which may be a pipe: it tells neither its size nor its end beforehand. One byte
+/// more than the largest file at most.
 QByteArray contentOf(QFile &file)
 {
     QByteArray content;

@@ -12,7 +12,8 @@ enum class WinchKind {
     Drive   ///< hardware behind the node Winch, which tells what it really does
 };
 
-/// What of the plant is a model, and what is hardware, and the data of the model. hardware/plant.ini lists all keys; it also holds without a file.
+/// What of the plant is a model, and what is hardware, and the data of the model.
+/// hardware/plant.ini lists all keys; it also holds without a file.
 struct PlantConfiguration
 {
     WinchKind winch = WinchKind::Ideal;
@@ -24,8 +25,8 @@ struct PlantConfiguration
 
     /// The one that is compiled into the programs.
     static QString builtInFile();
-    /// Reads the file \a fileName. Relative names in it begin at its folder. A section that it leaves out is that of the
-    /// built-in file.
+    /// Reads the file \a fileName. Relative names in it begin at its folder. A section that it
+    /// leaves out is that of the built-in file.
     /// \return false, with file, line, value and remedy in \a error
     static bool read(const QString &fileName, PlantConfiguration *configuration, QString *error);
 };

@@ -7,9 +7,11 @@
 
 namespace awe {
 
-/// A picture of characters and Braille dots, with a colour each. What is put beyond its borders is not there.
+/// A picture of characters and Braille dots, with a colour each. What is put beyond its borders is
+/// not there.
 ///
-/// A character has two by four dots: dot (2 x, 4 y) is the upper left one of column x and row y. A text hides the dots below it.
+/// A character has two by four dots: dot (2 x, 4 y) is the upper left one of column x and row y. A
+/// text hides the dots below it.
 class TerminalCanvas
 {
 public:

@@ -9,7 +9,8 @@
 
 namespace awe {
 
-/// Watches the winch drive of a flight from its signals: a node without outputs in the process of the master.
+/// Watches the winch drive of a flight from its signals: a node without outputs in the process of
+/// the master.
 class WinchObserver : public QPlcCompactSlaveNode
 {
     Q_OBJECT

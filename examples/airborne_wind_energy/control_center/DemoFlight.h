@@ -9,7 +9,8 @@
 
 namespace awe {
 
-/// The demo in the window: the button of the start page, the connection, and what has to be said of it.
+/// The demo in the window: the button of the start page, the connection, and what has to be said of
+/// it.
 class DemoFlight : public QObject
 {
     Q_OBJECT

@@ -11,10 +11,12 @@
 
 namespace awe {
 
-/// The kite of the demo: awe_master, awe_model and awe_autopilot as ordinary processes beside this program, on a free port of this machine. It takes off by itself.
+/// The kite of the demo: awe_master, awe_model and awe_autopilot as ordinary processes beside this
+/// program, on a free port of this machine. It takes off by itself.
 ///
-/// Nothing is waited for, and nothing is left behind: the programs end with this object, and with this program however it ends. When one of them ends without being asked to, the
-/// others stay as they are, so that people see what is left of the plant, until restart().
+/// Nothing is waited for, and nothing is left behind: the programs end with this object, and with
+/// this program however it ends. When one of them ends without being asked to, the others stay as
+/// they are, so that people see what is left of the plant, until restart().
 ///
 /// Threads: that of the window.
 class DemoPlant : public QObject
@@ -25,15 +27,18 @@ public:
     explicit DemoPlant(const QString &folder = QString(), QObject *parent = nullptr);
     ~DemoPlant() override;
 
-    /// Starts the programs, anew if one of them has ended; while they run, listening() comes at once. failed() when one of them is not there.
+    /// Starts the programs, anew if one of them has ended; while they run, listening() comes at
+    /// once. failed() when one of them is not there.
     void start();
-    /// Ends what runs and starts all of it again, on the same port: windows find it again by themselves.
+    /// Ends what runs and starts all of it again, on the same port: windows find it again by
+    /// themselves.
     void restart();
 
     bool isRunning() const { return !m_programs.empty(); }
     /// Of the master, "127.0.0.1:41234"; empty before it listens.
     QString address() const;
-    /// What a person would type in a shell for the programs that run, a line for each of them; empty when none does.
+    /// What a person would type in a shell for the programs that run, a line for each of them;
+    /// empty when none does.
     QString commands() const;
 
 Q_SIGNALS:

@@ -11,7 +11,8 @@ namespace awe {
 
 namespace {
 
-/// What the screen shows, with views that draw by OpenGL; of what it does not show, or keeps to itself (Wayland), what the widgets draw.
+/// What the screen shows, with views that draw by OpenGL; of what it does not show, or keeps to
+/// itself (Wayland), what the widgets draw.
 QImage pictureOf(QWidget *window)
 {
     QScreen *screen = window->screen();

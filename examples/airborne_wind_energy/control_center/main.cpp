@@ -15,7 +15,8 @@
 
 namespace {
 
-/// \return false, with the message out, when there is no screen to open a window on, which is needed for all but texts
+/// \return false, with the message out, when there is no screen to open a window on, which is
+///         needed for all but texts
 bool hasScreen(int argc, char **argv)
 {
     for (const char *variable : {"DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM"}) {
@@ -40,7 +41,8 @@ QByteArray builtInLayout(const QString &name)
     return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
 }
 
-/// Layouts, plants and look of the window. \return false, with the message out, when a layout or tab is not there
+/// Layouts, plants and look of the window. \return false, with the message out, when a layout or
+/// tab is not there
 bool prepare(QPlcGuiApplication &application, QPlcControlCenter &window, const awe::ControlCenterSettings &settings)
 {
     QString error;

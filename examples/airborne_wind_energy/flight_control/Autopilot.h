@@ -11,7 +11,8 @@
 
 namespace awe {
 
-/// Flies pumping cycles without hands: three nested controllers (thesis, figure 2.8) and the filters between them.
+/// Flies pumping cycles without hands: three nested controllers (thesis, figure 2.8) and the
+/// filters between them.
 ///
 ///     sensors --> [filters] --> +-------+ course, pitch +--------+ gamma_ref +-------------+ --> yawSpeed
 ///                               | power |-------------->| course |---------->| orientation | --> pitchSpeed
@@ -25,9 +26,9 @@ namespace awe {
 ///     Autopilot autopilot(AutopilotGains::safe());           // validate() was empty
 ///     const AutopilotOutputs u = autopilot.step(measured);   // once per gains().step
 ///
-/// Where nothing is measured yet (position zero) or a measurement is not finite, the commands are zero speeds, and that
-/// cycle is not remembered. step() takes no memory, never fails, and depends on nothing but the measurements since
-/// reset(). One thread at a time.
+/// Where nothing is measured yet (position zero) or a measurement is not finite, the commands are
+/// zero speeds, and that cycle is not remembered. step() takes no memory, never fails, and depends
+/// on nothing but the measurements since reset(). One thread at a time.
 class Autopilot
 {
 public:

@@ -6,8 +6,8 @@
 
 namespace awe {
 
-/// Everything that can be set on the autopilot. The values here are the safe set; see tuned(). Set forceLimit for a
-/// winch that bears less. Angles in degrees, as the signals have them.
+/// Everything that can be set on the autopilot. The values here are the safe set; see tuned(). Set
+/// forceLimit for a winch that bears less. Angles in degrees, as the signals have them.
 struct AutopilotGains
 {
     double step = 0.010;  // control period [s]
@@ -91,11 +91,12 @@ struct AutopilotGains
 
     static AutopilotGains safe() { return {}; }
 
-    /// More power, less height: the lower edge of the eight at 18 m instead of 30 m. For every dead time; docs/figures.md
-    /// says how they were found.
+    /// More power, less height: the lower edge of the eight at 18 m instead of 30 m. For every dead
+    /// time; docs/figures.md says how they were found.
     static AutopilotGains tuned();
 
-    /// \return empty when all is well, otherwise one sentence with the gain, its value and the remedy
+    /// \return empty when all is well, otherwise one sentence with the gain, its value and the
+    ///         remedy
     std::string validate() const;
 };
 

@@ -116,7 +116,8 @@ PlantInputs ClosedLoopFlight::inputs() const
     return {m_commands.pitchSpeed, m_commands.yawSpeed, m_commands.tetherSpeed, m_wind.velocity()};
 }
 
-// Without dead time the answer to the outputs of this cycle acts in this one, otherwise in the next at the earliest.
+// Without dead time the answer to the outputs of this cycle acts in this one, otherwise in the next
+// at the earliest.
 void ClosedLoopFlight::step()
 {
     const bool answersAtOnce = m_parameters.deadTime == 0;

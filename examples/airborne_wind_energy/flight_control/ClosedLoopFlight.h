@@ -30,18 +30,21 @@ struct ClosedLoopParameters
     static constexpr int largestDeadTime = 63;
     static PlantParameters groundedPlant();
 
-    /// \return empty when all is well, otherwise one sentence with the parameter, its value and the remedy
+    /// \return empty when all is well, otherwise one sentence with the parameter, its value and the
+    ///         remedy
     std::string validate() const;
 };
 
-/// Plant, wind, autopilot and statistics in one loop, as the distributed system flies them, without a network.
+/// Plant, wind, autopilot and statistics in one loop, as the distributed system flies them, without
+/// a network.
 ///
 ///     wind --> plant --> outputs --> [deadTime cycles] --> autopilot --> inputs of the same cycle
 ///
-/// In the distributed system the outputs of cycle k reach the autopilot in k + 1 and its answer the plant in k + 2:
-/// dead time 2. Until the first answer the inputs are zero. With same-cycle inputs the answer to the outputs of cycle k
-/// moves the plant in k: dead time 0. The outputs then come before the inputs, and what depends on both (power, and the
-/// tether force with damping) is shown with the inputs of cycle k - 1. step() takes no memory. One thread at a time.
+/// In the distributed system the outputs of cycle k reach the autopilot in k + 1 and its answer the
+/// plant in k + 2: dead time 2. Until the first answer the inputs are zero. With same-cycle inputs
+/// the answer to the outputs of cycle k moves the plant in k: dead time 0. The outputs then come
+/// before the inputs, and what depends on both (power, and the tether force with damping) is shown
+/// with the inputs of cycle k - 1. step() takes no memory. One thread at a time.
 class ClosedLoopFlight
 {
 public:

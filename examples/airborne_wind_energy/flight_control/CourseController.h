@@ -6,7 +6,8 @@
 
 namespace awe {
 
-/// Middle loop: leads the wing along a lying figure eight, or to the zenith side of the wind, by its yaw angle.
+/// Middle loop: leads the wing along a lying figure eight, or to the zenith side of the wind, by
+/// its yaw angle.
 ///
 ///     path point --> [bearing] -- chi_ref --> [ground guard] --+--------------------> (+) --> [sat 150] --> psi_ref
 ///         ^                                                    v                       ^
@@ -38,7 +39,8 @@ public:
     /// \return gamma_ref [deg]
     double figureEight(const FlightGeometry &geometry, double flightSpeed, double yawSpeedLimit);
 
-    /// Flies towards the zenith above the wind direction, or, with the nose down, holds that direction by banking.
+    /// Flies towards the zenith above the wind direction, or, with the nose down, holds that
+    /// direction by banking.
     /// \return gamma_ref [deg]
     double zenith(const FlightGeometry &geometry) const;
 

@@ -9,7 +9,8 @@ namespace awe {
 ///
 ///     elevation = atan2(z, hypot(x, y)),  azimuth phi = atan2(y, x) - wind azimuth, wrapped
 ///     v_u = v . e_u (towards the zenith),  v_a = v . e_a (to larger azimuth)
-///     course chi = atan2(v_a, v_u),  heading psi = -gamma_c;  both 0 towards the zenith, > 0 to larger azimuth
+///     course chi = atan2(v_a, v_u), heading psi = -gamma_c; both 0 towards the zenith, > 0 to
+///     larger azimuth
 struct FlightGeometry
 {
     double distance = 0.0;         // R [m]
@@ -26,7 +27,8 @@ struct FlightGeometry
     /// \param windAzimuth  azimuth the wind blows to [rad]
     static FlightGeometry from(const FlightMeasurements &measurements, double windAzimuth);
 
-    /// chi [deg]; the heading when the wing is slower than \a slowestSpeed [m/s], where chi says nothing
+    /// chi [deg]; the heading when the wing is slower than \a slowestSpeed [m/s], where chi says
+    /// nothing
     double course(double slowestSpeed) const;
 };
 

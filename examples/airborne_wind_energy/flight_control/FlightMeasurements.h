@@ -5,7 +5,8 @@
 
 namespace awe {
 
-/// What the sensors tell the autopilot in one cycle. Earth frame: x east, y north, z up, origin at the ground station.
+/// What the sensors tell the autopilot in one cycle. Earth frame: x east, y north, z up, origin at
+/// the ground station.
 struct FlightMeasurements
 {
     Eigen::Vector3d position = Eigen::Vector3d::Zero();  // r [3] [m]; zero: nothing measured yet

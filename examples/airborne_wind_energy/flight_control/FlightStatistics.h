@@ -11,7 +11,8 @@ namespace awe {
 
 struct PlantParameters;
 
-/// What FlightStatistics sees of one cycle: signals only, so it also works where the plant is another computer.
+/// What FlightStatistics sees of one cycle: signals only, so it also works where the plant is
+/// another computer.
 struct FlightSample
 {
     Eigen::Vector3d position = Eigen::Vector3d::Zero();      // r [3] [m], z up
@@ -37,12 +38,13 @@ struct FlightStatisticsParameters
     /// Density, area and coefficient of the wing of \a plant.
     static FlightStatisticsParameters of(const PlantParameters &plant);
 
-    /// \return empty when all is well, otherwise one sentence with the parameter, its value and the remedy
+    /// \return empty when all is well, otherwise one sentence with the parameter, its value and the
+    ///         remedy
     std::string validate() const;
 };
 
-/// The figures of a flight. "Window" means: everything, or everything after the warm-up when the flight was longer than
-/// shortestFlight.
+/// The figures of a flight. "Window" means: everything, or everything after the warm-up when the
+/// flight was longer than shortestFlight.
 struct FlightReport
 {
     std::int64_t cycles = 0;           // control cycles = samples, all
@@ -69,7 +71,8 @@ struct FlightReport
 ///
 ///     eta = mean(P) / (2/27 rho A v_w^3 c_AWE)        1 is the limit of Loyd without reeling in, 3091 W at 5.83 m/s
 ///
-/// Reeling out and in are told by the sign of the tether speed, pumping cycles and recoveries by the phase.
+/// Reeling out and in are told by the sign of the tether speed, pumping cycles and recoveries by
+/// the phase.
 class FlightStatistics
 {
 public:

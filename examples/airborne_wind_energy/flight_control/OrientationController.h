@@ -36,8 +36,9 @@ struct PitchReference
 ///                  and at most PitchReference::fastestUp, which the force limit sets
 ///     beta_ref   = given, or sat(beta_c + alpha_ref - alpha, -110, beta_out) to hold an angle of attack
 ///
-/// Because the yaw difference is not wrapped, the nose always turns through the zenith side and never through the
-/// ground side, even where that way is shorter: a wing that turns through the nadir in a lull does not come back.
+/// Because the yaw difference is not wrapped, the nose always turns through the zenith side and
+/// never through the ground side, even where that way is shorter: a wing that turns through the
+/// nadir in a lull does not come back.
 class OrientationController
 {
 public:

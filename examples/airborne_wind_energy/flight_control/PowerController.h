@@ -28,24 +28,27 @@ namespace awe {
 ///     Launch           course zenith, beta_ref = 9 deg,  v_t = 0
 ///     Retract          course zenith, beta_ref = 9 deg,  v_t = 0.3 kappa sqrt(F_f / C)
 ///     ReelIn           course zenith, alpha_ref = sat(-4 + 0.5 (el_in - el) - 1.7 v_u, -20, 15),
-///                      v_t = sat(-v_in (1 - F_f / F_0), -v_in, 3),  v_in = min(10, 1.3 v_w),  F_0 = 0.3 C v_w^2 / 9
+///                      v_t = sat(-v_in (1 - F_f / F_0), -v_in, 3), v_in = min(10, 1.3 v_w), F_0 =
+///                      0.3 C v_w^2 / 9
 ///     Recover          course zenith, alpha_ref = 13 deg,  v_t = -sat(0.5 (35 - z), 0, 8) while l_t > 50 m
 ///
-/// The reel-out law needs no wind sensor: the best force is F = C / 4 (v_w - v_t)^2 with C = 2 rho A c_AWE, so
-/// v_t = sqrt(F / C) is a third of the wind speed (Loyd's optimum); kappa = 0.75 is better over the whole cycle because
-/// it makes reeling in a smaller share. The same relation turned round estimates the wind speed for the reel-in:
-/// v_w = 1.2 mean(v_t + 2 sqrt(F_f / C)) over the last reel-out; 1.2 stands for the cosine losses of the eight.
+/// The reel-out law needs no wind sensor: the best force is F = C / 4 (v_w - v_t)^2 with C = 2 rho
+/// A c_AWE, so v_t = sqrt(F / C) is a third of the wind speed (Loyd's optimum); kappa = 0.75 is
+/// better over the whole cycle because it makes reeling in a smaller share. The same relation
+/// turned round estimates the wind speed for the reel-in: v_w = 1.2 mean(v_t + 2 sqrt(F_f / C))
+/// over the last reel-out; 1.2 stands for the cosine losses of the eight.
 ///
-/// The tether speed changes by 5 m/s^2 at most. With an upper force limit F_max two more laws act in every phase:
+/// The tether speed changes by 5 m/s^2 at most. With an upper force limit F_max two more laws act
+/// in every phase:
 ///
 ///     winch   v_t = max(law, v_t(k-1) + 0.02 h (F - 0.95 F_max) + 0.003 (F - F(k-1)))        gives way, at most 10 m/s
 ///     pitch   pitchSpeed <= 0.04 (F_max - F_x),  F_x = F + (F - F_f)        F_x: the force a quarter of a second ahead
 ///
-/// The winch keeps the mean, the pitch stops the nose from coming up too fast after the reel-in and takes lift away
-/// where the winch is not quick enough. Measured: 4...12 m/s without turbulence, limit 4 kN, peaks below 4.0 kN.
-/// A limit costs power: with F_max the reel-out speed is v_w - 2 sqrt(F_max / C) and the mean of a cycle stays below
-/// F_max / (1 / v_out + 1 / v_in), whatever the flight; at 12 m/s, 4 kN and 10 m/s reel-in that is eta = 0.55 before
-/// any loss.
+/// The winch keeps the mean, the pitch stops the nose from coming up too fast after the reel-in and
+/// takes lift away where the winch is not quick enough. Measured: 4...12 m/s without turbulence,
+/// limit 4 kN, peaks below 4.0 kN. A limit costs power: with F_max the reel-out speed is v_w - 2
+/// sqrt(F_max / C) and the mean of a cycle stays below F_max / (1 / v_out + 1 / v_in), whatever the
+/// flight; at 12 m/s, 4 kN and 10 m/s reel-in that is eta = 0.55 before any loss.
 class PowerController
 {
 public:

@@ -91,7 +91,8 @@ bool isAddressOfThisComputer(const QHostAddress &address)
                        [&](const QHostAddress &one) { return withoutInterface(one) == withoutInterface(address); });
 }
 
-/// \return false, with the message out, if the options name an invalid address, or open the plant to the network without security
+/// \return false, with the message out, if the options name an invalid address, or open the plant
+///         to the network without security
 bool readAddresses(QPlcCoreApplication &application, MasterSettings *settings)
 {
     const QString listen = application.value(QStringLiteral("listen"));

@@ -10,9 +10,10 @@ namespace awe {
 
 /// The plant in its wind: what the model nodes compute, one way for both of them.
 ///
-/// The outputs of a cycle belong to the state at its begin; then the state moves one step on. Power and, with damping, tether force also depend on the inputs
-/// (direct feed-through): step() shows them with the inputs that came in, outputs() and update() with those of the step before.
-/// A simulation that diverges throws: its node then has failed, and says why.
+/// The outputs of a cycle belong to the state at its begin; then the state moves one step on. Power
+/// and, with damping, tether force also depend on the inputs (direct feed-through): step() shows
+/// them with the inputs that came in, outputs() and update() with those of the step before. A
+/// simulation that diverges throws: its node then has failed, and says why.
 class KiteSimulation
 {
 public:
@@ -34,7 +35,8 @@ public:
         return outputs();
     }
 
-    /// One step of 10 ms. \param pitchSpeed [deg/s] \param yawSpeed [deg/s] \param tetherSpeed [m/s], > 0 reels out
+    /// One step of 10 ms. \param pitchSpeed [deg/s] \param yawSpeed [deg/s] \param tetherSpeed
+    /// [m/s], > 0 reels out
     PlantOutputs step(double pitchSpeed, double yawSpeed, double tetherSpeed)
     {
         m_inputs = {pitchSpeed, yawSpeed, tetherSpeed, m_wind.velocity()};

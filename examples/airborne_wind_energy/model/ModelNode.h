@@ -8,8 +8,8 @@
 
 namespace awe {
 
-/// The plant as a node, written with lists of values: the way of QPlcSlaveNode. CompactModelNode does the same with
-/// ports. Both may be two-phase: setTwoPhase().
+/// The plant as a node, written with lists of values: the way of QPlcSlaveNode. CompactModelNode
+/// does the same with ports. Both may be two-phase: setTwoPhase().
 class ModelNode : public QPlcSlaveNode
 {
     Q_OBJECT

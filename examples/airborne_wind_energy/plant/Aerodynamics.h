@@ -23,7 +23,8 @@ enum class AngleOfAttackRange {
 ///     c_AWE = (c_d^2 + c_l^2)^(3/2) / c_d^2                (thesis, equation 4.7; largest value 17.5427 at 21.977 deg)
 ///     F_ae  = 1/2 rho A |v_r|^2 (c_d dir(v_r) + c_l dir(v_r x y_b))                          (thesis, equation 4.4)
 ///
-/// The drag factor multiplies the drag coefficient after c_AWE was computed, so c_AWE always belongs to the plain wing.
+/// The drag factor multiplies the drag coefficient after c_AWE was computed, so c_AWE always
+/// belongs to the plain wing.
 class Aerodynamics
 {
 public:
@@ -42,7 +43,8 @@ public:
         Eigen::Vector3d force = Eigen::Vector3d::Zero();  // F_ae [N], same frame as the arguments
     };
 
-    /// \param dragFactor  multiplies c_d, > 0; 0.2 makes the wing about five times faster at the same angle of attack
+    /// \param dragFactor multiplies c_d, > 0; 0.2 makes the wing about five times faster at the
+    ///         same angle of attack
     explicit Aerodynamics(double dragFactor = 1.0, AngleOfAttackRange range = AngleOfAttackRange::Folded);
 
     /// \param angleOfAttack  alpha [deg], -180...180; the end values hold outside

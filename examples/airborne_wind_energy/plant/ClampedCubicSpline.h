@@ -6,15 +6,16 @@
 
 namespace awe {
 
-/// Piecewise cubic curve through N anchors, twice continuously differentiable, with zero slope at both ends.
+/// Piecewise cubic curve through N anchors, twice continuously differentiable, with zero slope at
+/// both ends.
 ///
 /// Piece i holds for x(i) <= x <= x(i+1), the first match counts:
 ///
 ///     y = a (x - x(i))^3 + b (x - x(i))^2 + c (x - x(i)) + y(i)
 ///
-/// The slopes c at the inner anchors solve the usual tridiagonal system (equal second derivative left and right);
-/// it is solved once, by elimination, when the object is made. Outside the anchors the end value is returned.
-/// Evaluation takes no memory and may run in the control cycle.
+/// The slopes c at the inner anchors solve the usual tridiagonal system (equal second derivative
+/// left and right); it is solved once, by elimination, when the object is made. Outside the anchors
+/// the end value is returned. Evaluation takes no memory and may run in the control cycle.
 template<std::size_t N>
 class ClampedCubicSpline
 {

@@ -6,10 +6,12 @@
 
 namespace awe {
 
-/// Independent numbers of the standard normal distribution, the same ones for the same seed with every compiler.
+/// Independent numbers of the standard normal distribution, the same ones for the same seed with
+/// every compiler.
 ///
-/// std::mt19937_64 is fixed by the C++ standard to the last bit, std::normal_distribution is not; so the numbers come
-/// from the polar method of Marsaglia on the upper 53 bits of the engine. next() takes no memory.
+/// std::mt19937_64 is fixed by the C++ standard to the last bit, std::normal_distribution is not;
+/// so the numbers come from the polar method of Marsaglia on the upper 53 bits of the engine.
+/// next() takes no memory.
 class GaussianSource
 {
 public:

@@ -9,7 +9,8 @@
 
 namespace awe {
 
-/// A lift airborne wind energy plant: a point mass with wing aerodynamics on a massless spring tether.
+/// A lift airborne wind energy plant: a point mass with wing aerodynamics on a massless spring
+/// tether.
 ///
 ///     pitchSpeed --> [1/s] -- beta_c ---> +--------------+
 ///     yawSpeed ----> [1/s] -- gamma_c --> | aerodynamics | -- F_ae --+
@@ -19,10 +20,11 @@ namespace awe {
 ///     tetherSpeed --> [1/s] -- l_t -----> |    tether    | -- F_t ---+
 ///                                   r --> +--------------+
 ///
-/// Frames. Earth: x east, y north, z up. At the wing: e_r away from the ground station, e_u along the sphere to the
-/// zenith, e_a to larger azimuth. Body: x_b to the tail, y_b along the span, z_b out of the top side; it is the earth
-/// frame turned by Rz(azimuth) Ry(90 deg - elevation) Rz(gamma_c) Ry(beta_c) (thesis, equation 4.2). With
-/// beta_c = gamma_c = 0 the nose looks to the zenith and the bottom to the ground station.
+/// Frames. Earth: x east, y north, z up. At the wing: e_r away from the ground station, e_u along
+/// the sphere to the zenith, e_a to larger azimuth. Body: x_b to the tail, y_b along the span, z_b
+/// out of the top side; it is the earth frame turned by Rz(azimuth) Ry(90 deg - elevation)
+/// Rz(gamma_c) Ry(beta_c) (thesis, equation 4.2). With beta_c = gamma_c = 0 the nose looks to the
+/// zenith and the bottom to the ground station.
 ///
 ///     R = |r|,  v_r = w - v,  alpha = asin(v_r . z_b / |v_r|)                       (thesis, equations 4.5 and 4.6)
 ///     F_ae as in Aerodynamics,  F_g = (0, 0, -m g)                                     (equations 4.4 and 4.1)

@@ -7,7 +7,8 @@
 
 namespace awe {
 
-/// Everything the plant tells about one instant. Vectors are in the earth frame: x east, y north, z up.
+/// Everything the plant tells about one instant. Vectors are in the earth frame: x east, y north, z
+/// up.
 struct PlantOutputs
 {
     PlantInputs inputs;                                                 // the inputs the forces belong to

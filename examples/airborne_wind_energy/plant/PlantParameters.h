@@ -14,8 +14,9 @@ enum class GroundContact {
     Hold     ///< the wing stays where it came down; no force acts and no power flows any more
 };
 
-/// Constants of the plant and where it starts. The values here are those of the thesis; its text leaves the initial
-/// state open, so the wing starts at rest, 100 m from the ground station, 30 deg high, downwind of the wind (5, 3, 0).
+/// Constants of the plant and where it starts. The values here are those of the thesis; its text
+/// leaves the initial state open, so the wing starts at rest, 100 m from the ground station, 30 deg
+/// high, downwind of the wind (5, 3, 0).
 struct PlantParameters
 {
     double mass = 5.0;                // m [kg]
@@ -31,7 +32,8 @@ struct PlantParameters
     GroundContact groundContact = GroundContact::Ignore;
     PlantState initialState = defaultInitialState();
 
-    /// Calls visit(name, value, smallest, largest, unit) for each constant of \a parameters that a file may set.
+    /// Calls visit(name, value, smallest, largest, unit) for each constant of \a parameters that a
+    /// file may set.
     template<typename Parameters, typename Visitor>
     static void visitConstants(Parameters &parameters, Visitor visit)
     {
@@ -53,7 +55,8 @@ struct PlantParameters
     /// \param distance   from the ground station [m], > 0
     static PlantState stateAtRest(double elevation, double azimuth, double distance);
 
-    /// \return empty when all is well, otherwise one sentence with the parameter, its value and the remedy
+    /// \return empty when all is well, otherwise one sentence with the parameter, its value and the
+    ///         remedy
     std::string validate() const;
 };
 

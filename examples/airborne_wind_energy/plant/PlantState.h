@@ -5,7 +5,8 @@
 
 namespace awe {
 
-/// State of the plant. Earth frame: x east, y north, z up, origin where the tether leaves the ground.
+/// State of the plant. Earth frame: x east, y north, z up, origin where the tether leaves the
+/// ground.
 struct PlantState
 {
     Eigen::Vector3d position = Eigen::Vector3d::Zero();  // r [3] [m]

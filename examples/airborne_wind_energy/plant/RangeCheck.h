@@ -9,7 +9,8 @@ namespace awe {
 class RangeCheck
 {
 public:
-    /// smallest <= value <= largest, otherwise the message is set, unless an earlier one is there. NaN never passes.
+    /// smallest <= value <= largest, otherwise the message is set, unless an earlier one is there.
+    /// NaN never passes.
     /// \param unit  empty for a pure number
     void within(const char *name, double value, double smallest, double largest, const char *unit);
 

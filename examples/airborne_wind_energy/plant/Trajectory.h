@@ -11,7 +11,8 @@
 
 namespace awe {
 
-/// A flight as a table: one row per step, row k holds the inputs from t(k) to t(k+1) and the outputs at t(k).
+/// A flight as a table: one row per step, row k holds the inputs from t(k) to t(k+1) and the
+/// outputs at t(k).
 ///
 /// File format, lines of text (CSV):
 ///
@@ -22,8 +23,9 @@ namespace awe {
 ///     t,bodyControlPitchSpeed,...,energy                      the 36 names of columnNames(), in this order
 ///     0,0,0,0,43.9888...                                      T / step + 1 rows of 36 numbers
 ///
-/// Reading is strict: everything above must be there and every number must be finite. Numbers are written with 17
-/// significant digits, which is enough to get the same double back. Files do not depend on the locale.
+/// Reading is strict: everything above must be there and every number must be finite. Numbers are
+/// written with 17 significant digits, which is enough to get the same double back. Files do not
+/// depend on the locale.
 class Trajectory
 {
 public:
@@ -49,7 +51,8 @@ public:
     std::string read(std::istream &stream, const std::string &name);
 
     /// Writes a file: first completely to a temporary one beside it, which then takes the name.
-    /// \return empty when all is well, otherwise one sentence; an older file of that name is then untouched
+    /// \return empty when all is well, otherwise one sentence; an older file of that name is then
+    ///         untouched
     std::string save(const std::string &path) const;
 
     void write(std::ostream &stream) const;
@@ -61,7 +64,8 @@ public:
     const PlantState &initialState() const { return m_initialState; }
     const std::vector<Row> &rows() const { return m_rows; }
 
-    /// The plant of the thesis, started in initialState() and driven by the inputs and the wind of every row.
+    /// The plant of the thesis, started in initialState() and driven by the inputs and the wind of
+    /// every row.
     /// \return the same header with the rows the plant gives
     Trajectory replayed() const;
 

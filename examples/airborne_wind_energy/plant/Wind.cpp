@@ -9,7 +9,8 @@ namespace awe {
 
 namespace {
 
-// Columns: along the mean wind, across it (level), upwards. A vertical mean wind has no "across": x stands for it.
+// Columns: along the mean wind, across it (level), upwards. A vertical mean wind has no "across": x
+// stands for it.
 Eigen::Matrix3d windFrame(const Eigen::Vector3d &meanVelocity)
 {
     const Eigen::Vector3d along = meanVelocity.normalized();
@@ -56,7 +57,8 @@ void Wind::step()
     ++m_steps;
     if (m_isTurbulent) {
         const double along = m_gaussian.next(), across = m_gaussian.next(), upwards = m_gaussian.next();
-        // Column by column: Eigen's product of a matrix and a vector fuses multiplication and addition where a processor can, and rounds once less there.
+        // Column by column: Eigen's product of a matrix and a vector fuses multiplication and
+        // addition where a processor can, and rounds once less there.
         const Eigen::Vector3d excitation
             = m_excitation.col(0) * along + m_excitation.col(1) * across + m_excitation.col(2) * upwards;
         m_turbulence = m_memory * m_turbulence + excitation;

@@ -15,14 +15,15 @@ namespace awe {
 ///     w(t) = w_mean (1 + A/2 (1 - cos(2 pi (t - t0) / D)))  for t0 < t < t0 + D,  w_mean otherwise      1-cos gust
 ///          + n(t)                                                                                        turbulence
 ///
-/// The turbulence n has three independent parts: along the mean wind, across it (level), and upwards. Each is an
-/// Ornstein-Uhlenbeck process, n' = -n |w_mean| / L + white noise, of the standard deviation
-/// sigma = TI |w_mean| turbulenceRatio, advanced by its exact solution
+/// The turbulence n has three independent parts: along the mean wind, across it (level), and
+/// upwards. Each is an Ornstein-Uhlenbeck process, n' = -n |w_mean| / L + white noise, of the
+/// standard deviation sigma = TI |w_mean| turbulenceRatio, advanced by its exact solution
 ///
 ///     n(k+1) = a n(k) + sigma sqrt(1 - a^2) g(k),  a = exp(-h |w_mean| / L),  g standard normal
 ///
-/// so its statistics do not depend on the step. It starts at zero and is fully grown after a few L / |w_mean|.
-/// The same parameters give the same wind, bit for bit. step() takes no memory. One thread at a time.
+/// so its statistics do not depend on the step. It starts at zero and is fully grown after a few L
+/// / |w_mean|. The same parameters give the same wind, bit for bit. step() takes no memory. One
+/// thread at a time.
 class Wind
 {
 public:

@@ -21,7 +21,8 @@ struct WindParameters
     double gustDuration = 6.0;                                         // [s]
     double step = 0.010;                                               // time between two values [s]
 
-    /// Calls visit(name, value, smallest, largest, unit) for each constant of \a parameters that a file may set.
+    /// Calls visit(name, value, smallest, largest, unit) for each constant of \a parameters that a
+    /// file may set.
     template<typename Parameters, typename Visitor>
     static void visitConstants(Parameters &parameters, Visitor visit)
     {
@@ -32,7 +33,8 @@ struct WindParameters
         visit("gustDuration", parameters.gustDuration, 1e-3, 1e6, "s");
     }
 
-    /// \return empty when all is well, otherwise one sentence with the parameter, its value and the remedy
+    /// \return empty when all is well, otherwise one sentence with the parameter, its value and the
+    ///         remedy
     std::string validate() const;
 };
 

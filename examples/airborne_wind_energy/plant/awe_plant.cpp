@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Replays a recorded flight: the plant starts in the state of the file, gets its inputs and its wind, and writes what
-// it does into a second file of the same form.
+// Replays a recorded flight: the plant starts in the state of the file, gets its inputs and its
+// wind, and writes what it does into a second file of the same form.
 
 #include "Trajectory.h"
 

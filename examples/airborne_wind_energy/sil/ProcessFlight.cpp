@@ -80,7 +80,8 @@ bool ProcessFlight::startWinch()
         || m_processes.start(hardwareProgram, {accessible(m_arguments.hardware), m_address}, errorsOfNodes());
 }
 
-/// Devices that are played lie in a folder: that of the user, or else of this flight. The contact of the emergency stop is closed: low.
+/// Devices that are played lie in a folder: that of the user, or else of this flight. The contact
+/// of the emergency stop is closed: low.
 void ProcessFlight::plugInDevices() const
 {
     constexpr int lines = 32;
@@ -105,7 +106,8 @@ QString ProcessFlight::accessible(const QString &fileName)
     return m_directory.filePath(QFileInfo(fileName).fileName());
 }
 
-/// Hardware may come and go. The node is started again, as the system of a real plant would do; a drive that has ended stays where it is.
+/// Hardware may come and go. The node is started again, as the system of a real plant would do; a
+/// drive that has ended stays where it is.
 void ProcessFlight::hardwareEnded(const QString &program, int exitCode)
 {
     if (exitCode == QPlcCoreApplication::UsageError)
@@ -126,7 +128,8 @@ void ProcessFlight::ended(const QString &program, int exitCode)
     if (program == hardwareProgram || program == driveProgram)
         return hardwareEnded(program, exitCode);
     if (program != QLatin1String("awe_master")) {
-        // The master notices a lost node by itself and ends with a report; a node that it has never seen leaves it waiting.
+        // The master notices a lost node by itself and ends with a report; a node that it has never
+        // seen leaves it waiting.
         if (exitCode == QPlcCoreApplication::UsageError)
             Q_EMIT finished(exitCode);
         else

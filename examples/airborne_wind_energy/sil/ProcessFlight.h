@@ -21,7 +21,8 @@ struct ProcessArguments
     bool watch = false;  // the master draws on the terminal
 };
 
-/// The flight with master, model and autopilot as processes of their own; with a winch drive also the node Winch, and the drive where it is simulated.
+/// The flight with master, model and autopilot as processes of their own; with a winch drive also
+/// the node Winch, and the drive where it is simulated.
 class ProcessFlight : public QObject
 {
     Q_OBJECT

@@ -20,9 +20,11 @@ public:
 
     ~ProcessGroup() override;
 
-    /// Starts a program that lies beside this one. \return null when it could not be started; the message is out then
+    /// Starts a program that lies beside this one. \return null when it could not be started; the
+    /// message is out then
     ChildProcess *start(const QString &program, const QStringList &arguments, Errors errors = ShowErrors);
-    /// Asks the programs to end, in the order of their start, and makes those end that do not within \a milliseconds.
+    /// Asks the programs to end, in the order of their start, and makes those end that do not
+    /// within \a milliseconds.
     void end(int milliseconds);
 
 Q_SIGNALS:

@@ -73,7 +73,8 @@ bool canTransport(QPlcCoreApplication &application, const Settings &settings)
     return error.isEmpty();
 }
 
-/// A drive is hardware, or a program that behaves like it: it does not wait for a simulation. \return false, with the message out, when it is to
+/// A drive is hardware, or a program that behaves like it: it does not wait for a simulation.
+/// \return false, with the message out, when it is to
 bool readPlant(QPlcCoreApplication &application, Settings *settings)
 {
     awe::RunSettings &run = settings->run;
@@ -183,7 +184,8 @@ int flyInProcesses(QPlcCoreApplication &application, const Settings &settings)
         + QStringList{QStringLiteral("--mean-wind=%1").arg(settings.run.nominalWindSpeed, 0, 'g', 17)};
     if (!application.isSet(QStringLiteral("duration")))
         arguments.master << QStringLiteral("--duration=%1").arg(settings.run.duration);
-    // In lockstep the programs take turns: on one processor they wake each other without waking a processor first.
+    // In lockstep the programs take turns: on one processor they wake each other without waking a
+    // processor first.
     const QStringList processor = settings.run.clock.isLockstep()
         ? QStringList{QStringLiteral("--cpu=%1").arg(::sched_getcpu())}
         : QStringList();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Flies in lockstep and prints every value of every cycle, bit by bit: a line "CYCLE SIGNAL BYTES VALUE" each. scripts/test-arm64 compares what two processors print.
+// Flies in lockstep and prints every value of every cycle, bit by bit: a line "CYCLE SIGNAL BYTES
+// VALUE" each. scripts/test-arm64 compares what two processors print.
 //
 //   awe_flight_values --duration SECONDS [--turbulence ...]
 #include "AutopilotNode.h"

@@ -165,7 +165,8 @@ void tst_CourseController::figureEightIsMirroredByTheMirroredWing()
     FlightGeometry g = at(30.0, 14.0), mirrored = at(-30.0, 14.0);
     g.heading = 20.0;
     mirrored.heading = -20.0;
-    // Both carrots still stand in the middle, the only point the eight has in common with its mirror image.
+    // Both carrots still stand in the middle, the only point the eight has in common with its
+    // mirror image.
     COMPARE_NEAR(left.figureEight(g, 12.0, 90.0), -right.figureEight(mirrored, 12.0, 90.0), 1e-12);
 }
 

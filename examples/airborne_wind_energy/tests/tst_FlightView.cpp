@@ -18,7 +18,8 @@ namespace {
 
 constexpr double radiansPerDegree = 3.14159265358979323846 / 180.0;
 
-/// A moment in a wind to the east. \param azimuth from downwind, > 0 to the left [deg] \param elevation [deg]
+/// A moment in a wind to the east. \param azimuth from downwind, > 0 to the left [deg] \param
+/// elevation [deg]
 FlightMoment momentAt(double time, double azimuth, double elevation)
 {
     const double a = azimuth * radiansPerDegree, e = elevation * radiansPerDegree;

@@ -229,7 +229,8 @@ void tst_KitePlant::runge_KuttaIsOfOrderFourWhereSmooth()
 
 void tst_KitePlant::quasiSteadyFlightGivesThePublishedPower()
 {
-    // No gravity, wind along x, flying level through the axis of the wind: F and P of Loyd's quasi-steady solution.
+    // No gravity, wind along x, flying level through the axis of the wind: F and P of Loyd's
+    // quasi-steady solution.
     PlantParameters parameters;
     parameters.gravity = 0.0;
     parameters.initialState = PlantParameters::stateAtRest(0.0, 0.0, 1e6);  // so far out that the sphere is a plane

@@ -39,7 +39,8 @@ void tst_OrientationController::yawLimitGrowsWithTheFlightSpeed()
 
 void tst_OrientationController::yawNeverTurnsThroughTheNadir()
 {
-    // From 140 to -140 deg the way through 180 deg (the ground side) is 80 deg, through 0 (the zenith) 280 deg.
+    // From 140 to -140 deg the way through 180 deg (the ground side) is 80 deg, through 0 (the
+    // zenith) 280 deg.
     QVERIFY(m_controller.yawSpeed(-140.0, 140.0, 12.0) < 0.0);
     QVERIFY(m_controller.yawSpeed(140.0, -140.0, 12.0) > 0.0);
     QVERIFY(m_controller.yawSpeed(140.0, 220.0, 12.0) > 0.0);  // 220 deg is -140 deg

@@ -67,7 +67,8 @@ void tst_PlantConfiguration::oneWordMakesItADrive()
     QCOMPARE(plant.winchHardware, m_folder.filePath(QStringLiteral("winch.ini")));
 }
 
-/// One line of the built-in file that shows a key of [kite]: ";mass = 5    ; kg, from 0.001 to 1e+06".
+/// One line of the built-in file that shows a key of [kite]:
+/// ";mass = 5    ; kg, from 0.001 to 1e+06".
 struct ShownKey
 {
     QString name, value, text;

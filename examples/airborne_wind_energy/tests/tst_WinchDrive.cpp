@@ -141,7 +141,8 @@ void tst_WinchDrive::speedRisesAlongTheRampWithoutOvershoot()
     QVERIFY2(greatest < 104.0, qPrintable(QString::number(greatest)));
 }
 
-/// 1 kN more in one step, which no tether does, moves the machine by less than 5 rad/s (0.15 m/s), and that is over soon.
+/// 1 kN more in one step, which no tether does, moves the machine by less than 5 rad/s (0.15 m/s),
+/// and that is over soon.
 void tst_WinchDrive::loadStepIsHeldWithinAStatedError()
 {
     WinchDrive drive;

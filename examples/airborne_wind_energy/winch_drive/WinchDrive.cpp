@@ -115,8 +115,10 @@ double WinchDrive::wantedCurrent()
 
 // ---- mechanics ----
 
-/// Dry friction and brake, at the machine [N m]: against the motion, at most as much as stops it, never so that they would push.
-/// \param freeSpeed  at the end of the step without them [rad/s] \param effectiveInertia  what a torque meets in this step [kg m^2/s]
+/// Dry friction and brake, at the machine [N m]: against the motion, at most as much as stops it,
+/// never so that they would push.
+/// \param freeSpeed at the end of the step without them [rad/s] \param effectiveInertia what a
+///         torque meets in this step [kg m^2/s]
 double WinchDrive::frictionTorque(double freeSpeed, double effectiveInertia) const
 {
     const double largest = m_parameters.dryFriction + (isBrakeClosed() ? m_parameters.brakeTorque : 0.0);

@@ -47,21 +47,28 @@ struct WinchEnergies
     double brake = 0.0;       // heat in the brake
 };
 
-/// The winch: a drum behind a gear, a permanent-magnet machine with current loop and speed controller, a brake, and the states of a drive.
+/// The winch: a drum behind a gear, a permanent-magnet machine with current loop and speed
+/// controller, a brake, and the states of a drive.
 ///
-///     setpoint --> [ramp] --> (+) --> [PI, limit] --> [1 / (1 + s T_i)] -- i --> [k_t] --> (+) --> [1 / (s J)] --+-- speed --> [1/s] -- position
-///                              ^ -                                                       + ^ ^ -                  |
-///                              |                        tether force --> [x r/n] ----------+ +-- friction, brake  |
-///                              +----------------------------------------------------------------------------------+
+///     setpoint --> [ramp] --> (+) --> [PI, limit] --> [1 / (1 + s T_i)] -- i --> [k_t] --> (+) --+
+///                              ^ -                                                       + ^ ^ - |
+///                              |                  tether force --> [x r/n] ----------------+ |   |
+///                              |                  friction, brake ---------------------------+   |
+///                              |                                                                 |
+///                              +------ speed --+------------------------------- [1 / (s J)] <----+
+///                                              +--> [1/s] --> position
 ///
 ///     J w' = k_t i + F r/n - b w - (dry friction and brake, against the motion)
 ///     P_electrical = - k_t i w - 3/2 R i^2 - P_converter                      > 0 while it generates
 ///
-/// This is the main electrical machine of the thesis (figure 2.8 and the text below it): its current is tied to its torque and so to the tether force, its speed is measured and
-/// controlled, its position tells the tether length.
+/// This is the main electrical machine of the thesis (figure 2.8 and the text below it): its
+/// current is tied to its torque and so to the tether force, its speed is measured and controlled,
+/// its position tells the tether length.
 ///
-/// A step uses the mean speed of its begin and its end for every power. So the work of all torques is exactly what the kinetic energy has gained, and the balance of WinchEnergies
-/// holds to rounding. Dry friction takes energy or nothing. step() takes no memory and never fails. One thread at a time.
+/// A step uses the mean speed of its begin and its end for every power. So the work of all torques
+/// is exactly what the kinetic energy has gained, and the balance of WinchEnergies holds to
+/// rounding. Dry friction takes energy or nothing. step() takes no memory and never fails. One
+/// thread at a time.
 class WinchDrive
 {
 public:

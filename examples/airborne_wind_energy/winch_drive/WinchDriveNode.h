@@ -7,7 +7,8 @@
 
 namespace awe {
 
-/// The controller of the drive as a node of a plant of its own, which is the drive: its other node is the bus.
+/// The controller of the drive as a node of a plant of its own, which is the drive: its other node
+/// is the bus.
 class WinchDriveNode : public QPlcCompactSlaveNode
 {
     Q_OBJECT

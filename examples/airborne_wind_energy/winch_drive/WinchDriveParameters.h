@@ -7,8 +7,9 @@ namespace awe {
 
 /// Constants of the winch with its drive. "At the machine" means: on the fast side of the gear.
 ///
-/// The values are our own choice, of the size that servo machines of 15 ... 20 kW have; they are of no certain product. They fit the kite of this example: 1.6 kN at 1.9 m/s in the mean,
-/// peaks of some kN (thesis, sections 2.1.4 and 4.2), reeling in at 4 m/s and more.
+/// The values are our own choice, of the size that servo machines of 15 ... 20 kW have; they are of
+/// no certain product. They fit the kite of this example: 1.6 kN at 1.9 m/s in the mean, peaks of
+/// some kN (thesis, sections 2.1.4 and 4.2), reeling in at 4 m/s and more.
 struct WinchDriveParameters
 {
     // Drum and gear
@@ -43,7 +44,8 @@ struct WinchDriveParameters
     /// Tether that one radian of the machine reels out [m/rad]
     double leverage() const { return drumRadius / gearRatio; }
 
-    /// \return empty when all is well, otherwise one sentence with the parameter, its value and the remedy
+    /// \return empty when all is well, otherwise one sentence with the parameter, its value and the
+    ///         remedy
     std::string validate() const;
 };
 

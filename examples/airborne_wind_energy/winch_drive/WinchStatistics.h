@@ -29,7 +29,9 @@ struct WinchReport
     double largestSpeedError = 0.0;  // while it was enabled [m/s]
     double largestCurrent = 0.0;     // [A]
     double positionError
-        = 0.0;  // tether reeled out by the drive minus that of the plant, between first and last sample with a drive [m]
+        // tether reeled out by the drive minus that of the plant, between first and last sample
+        // with a drive [m]
+        = 0.0;
     double timeDisabled = 0.0;  // without a drive that follows, after it was enabled first [s]
     int interruptions = 0;      // how often that began
 };

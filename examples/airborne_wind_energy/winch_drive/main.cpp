@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The winch drive at the other end of the CAN bus: no node of the plant, but a plant of its own with a cycle of 1 ms, whose nodes are the bus and the controller.
+// The winch drive at the other end of the CAN bus: no node of the plant, but a plant of its own
+// with a cycle of 1 ms, whose nodes are the bus and the controller.
 #include "WinchDriveNode.h"
 
 #include <QtPlcHardware>

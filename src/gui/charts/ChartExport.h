@@ -14,7 +14,8 @@ class QLabel;
 
 namespace qplc {
 
-/// Brings what a chart shows into files and the clipboard, asks for names, and tells in a line at the lower edge of the panel how it went. Nothing waits for it.
+/// Brings what a chart shows into files and the clipboard, asks for names, and tells in a line at
+/// the lower edge of the panel how it went. Nothing waits for it.
 class ChartExport : public QObject
 {
     Q_OBJECT
@@ -25,7 +26,8 @@ public:
     /// \param panel  in which it tells  \param picture  of what is seen at the moment
     ChartExport(QWidget *panel, Picture picture);
 
-    /// Gives the panel the actions that save and copy a table, "saveTable" and "copyTable". \param table  of the moment at which one of them is chosen
+    /// Gives the panel the actions that save and copy a table, "saveTable" and "copyTable". \param
+    /// table of the moment at which one of them is chosen
     void addTableActions(const std::function<Table()> &table);
     /// The same for the picture, "savePicture" and "copyPicture".
     void addPictureActions();

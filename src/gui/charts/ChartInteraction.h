@@ -15,8 +15,9 @@ class QWheelEvent;
 
 namespace qplc {
 
-/// What a mouse and two fingers do over a chart, the same in all of them: dragging with Shift or the right button is a box, other dragging is up to the chart; a double click wants all, the right button alone a menu. Escape ends what is dragged.
-/// All places are in pixels of the canvas.
+/// What a mouse and two fingers do over a chart, the same in all of them: dragging with Shift or
+/// the right button is a box, other dragging is up to the chart; a double click wants all, the
+/// right button alone a menu. Escape ends what is dragged. All places are in pixels of the canvas.
 class ChartInteraction : public QObject
 {
     Q_OBJECT

@@ -8,7 +8,8 @@ class QwtPlot;
 
 namespace qplc {
 
-/// Pictures of a chart, drawn anew at any size: as pixels for screens of high density, or as vectors.
+/// Pictures of a chart, drawn anew at any size: as pixels for screens of high density, or as
+/// vectors.
 class ChartPicture
 {
 public:
@@ -19,7 +20,8 @@ public:
     virtual ~ChartPicture();
 
     QImage image() const;
-    /// By the ending of the name: ".svg" and ".pdf" for vectors, else PNG. \return a sentence when it failed
+    /// By the ending of the name: ".svg" and ".pdf" for vectors, else PNG. \return a sentence when
+    /// it failed
     QString save(const QString &fileName) const;
 
 protected:

@@ -8,9 +8,12 @@ class QwtPlot;
 
 namespace qplc {
 
-/// The area of a chart that shows curves. Keeps the last picture, so that cursors move over it without drawing the curves again.
+/// The area of a chart that shows curves. Keeps the last picture, so that cursors move over it
+/// without drawing the curves again.
 ///
-/// The picture covers every device pixel, at any scale factor. The area does not claim to be opaque: at 150 %, edges lie between pixels, and Qt would leave there what was on the screen before.
+/// The picture covers every device pixel, at any scale factor. The area does not claim to be
+/// opaque: at 150 %, edges lie between pixels, and Qt would leave there what was on the screen
+/// before.
 class ChartSurface : public QWidget
 {
     Q_OBJECT

@@ -30,9 +30,11 @@ struct EventFileSettings
     static EventFileSettings fromJson(const QJsonObject &object);
 };
 
-/// Writes a table for each event into a folder, one after another between events of the window: "event_2026-11-22_12-35-37.123_power.csv".
+/// Writes a table for each event into a folder, one after another between events of the window:
+/// "event_2026-11-22_12-35-37.123_power.csv".
 ///
-/// It overwrites and deletes nothing: when the folder has as many files of events as it may have, it says so, and saves no more until begin().
+/// It overwrites and deletes nothing: when the folder has as many files of events as it may have,
+/// it says so, and saves no more until begin().
 class EventFiles : public QObject
 {
     Q_OBJECT
@@ -43,7 +45,8 @@ public:
 
     /// From here on events are saved so; what went wrong before is told again.
     void begin(const EventFileSettings &settings);
-    /// Writes \a table, whose stores have to live until it is done: else cancel() first. \param event  time of it [ns since 1970] \param signal  that the event is of
+    /// Writes \a table, whose stores have to live until it is done: else cancel() first. \param
+    /// event time of it [ns since 1970] \param signal that the event is of
     void save(QPlcPast::Time event, const QString &signal, const TableExport &table);
     /// Gives up what is not written yet.
     void cancel(const QString &reason);

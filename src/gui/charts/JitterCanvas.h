@@ -16,7 +16,8 @@ namespace qplc {
 class JitterCurve;
 class JitterFigures;
 
-/// Histograms over a logarithmic axis of time [us], with logarithmic counts: one late cycle of a million is seen as well as the bulk.
+/// Histograms over a logarithmic axis of time [us], with logarithmic counts: one late cycle of a
+/// million is seen as well as the bulk.
 class JitterCanvas : public QwtPlot
 {
     Q_OBJECT

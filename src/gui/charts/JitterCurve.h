@@ -28,7 +28,8 @@ private:
     QColor m_color = Qt::black;
 };
 
-/// Lines and texts at the median, the 99th percentile and the largest value of a distribution, above all bars.
+/// Lines and texts at the median, the 99th percentile and the largest value of a distribution,
+/// above all bars.
 class JitterFigures : public QwtPlotItem
 {
 public:

@@ -5,14 +5,16 @@
 
 namespace qplc {
 
-/// The settings of a jitter histogram, as the toothed wheel shows them. What is changed is told at once.
+/// The settings of a jitter histogram, as the toothed wheel shows them. What is changed is told at
+/// once.
 class JitterEditor : public QWidget
 {
     Q_OBJECT
 public:
     /// \param keys  of all that can be shown (JitterDistribution::key())
     JitterEditor(const QStringList &keys, const QStringList &shown, bool isLast, QWidget *parent = nullptr);
-    /// Offers a choice of plants above all else. \param plant  of these; empty: the first one, whichever it is
+    /// Offers a choice of plants above all else. \param plant of these; empty: the first one,
+    /// whichever it is
     void addPlants(const QStringList &plants, const QString &plant);
 
 Q_SIGNALS:

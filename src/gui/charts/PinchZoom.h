@@ -9,7 +9,8 @@ class QWidget;
 
 namespace qplc {
 
-/// Two fingers on the canvas of a chart: how far they have gone apart, and where to. The first one is a mouse for Qt, whose drag is to be given up at began().
+/// Two fingers on the canvas of a chart: how far they have gone apart, and where to. The first one
+/// is a mouse for Qt, whose drag is to be given up at began().
 class PinchZoom : public QObject
 {
     Q_OBJECT
@@ -18,7 +19,8 @@ public:
 
 Q_SIGNALS:
     void began();
-    /// Since the last time. \param factor  < 1: shows less \param about  between the fingers [px] \param by  that this place has moved [px]
+    /// Since the last time. \param factor < 1: shows less \param about between the fingers [px]
+    /// \param by that this place has moved [px]
     void zoomed(double factor, const QPointF &about, const QPointF &by);
     void ended();
 

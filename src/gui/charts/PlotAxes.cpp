@@ -8,7 +8,8 @@ PlotAxes::PlotAxes()
 {
 }
 
-/// The one that has the unit; else the first one of the side while it is free; -1: a new one is needed.
+/// The one that has the unit; else the first one of the side while it is free; -1: a new one is
+/// needed.
 int PlotAxes::axisOf(Side side, const QString &unit) const
 {
     for (int axis = 0; axis < m_axes.size(); ++axis) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a person can do with the y axes of a time plot: zoom, pan, choose, and draw lines across them.
+// What a person can do with the y axes of a time plot: zoom, pan, choose, and draw lines across
+// them.
 #include "QPlcTimePlotPrivate.h"
 
 #include <algorithm>
@@ -48,7 +49,8 @@ void QPlcTimePlot::Private::panValues(Axis axis, double by)
     schedule();
 }
 
-/// Ends of a y axis, also of one that is not drawn yet: steps of a mouse come more often than pictures.
+/// Ends of a y axis, also of one that is not drawn yet: steps of a mouse come more often than
+/// pictures.
 std::pair<double, double> QPlcTimePlot::Private::valuesOf(Axis axis) const
 {
     const ValueAxis &values = axes[std::size_t(axis)];
@@ -97,7 +99,8 @@ bool QPlcTimePlot::Private::addToRightAxis(const QStringList &references)
     return true;
 }
 
-/// Where signals are dropped that are to have an axis at the right [px of the panel]; null: where there is nothing else, they have the left one.
+/// Where signals are dropped that are to have an axis at the right [px of the panel]; null: where
+/// there is nothing else, they have the left one.
 QRect QPlcTimePlot::Private::rightAxisArea() const
 {
     if (curves.isEmpty())

@@ -24,7 +24,8 @@ class ValueScaleDraw;
 
 /// Axes and grid of a time plot. Knows times and pixels, but no signals.
 ///
-/// The x axis is in seconds after origin(), the begin of the day: so that fractions of microseconds are told apart.
+/// The x axis is in seconds after origin(), the begin of the day: so that fractions of microseconds
+/// are told apart.
 class PlotCanvas : public QwtPlot
 {
     Q_OBJECT
@@ -47,7 +48,8 @@ public:
 
     void setTheme(const QPlcTheme &theme);
     void setGridVisible(bool isVisible) { m_grid.setVisible(isVisible); }
-    /// As the signal table has it; the axis shows it with the prefix that fits its values. \param colors  of the curves of the axis; empty: it is the only one, whose colour says nothing
+    /// As the signal table has it; the axis shows it with the prefix that fits its values. \param
+    /// colors of the curves of the axis; empty: it is the only one, whose colour says nothing
     void setUnit(Axis axis, const QString &unit, const QVector<QColor> &colors = {});
     /// Without numbers an axis keeps its room, so that canvases stay aligned.
     void setNumbersVisible(Axis axis, bool areVisible);
@@ -62,7 +64,8 @@ public:
 
     /// Device pixels that the canvas is wide, >= 1.
     int deviceWidth() const;
-    /// What the time axis shows from the next replot() on. \param reference  0 of labels in seconds \param event  0 of labels around it, if there is one
+    /// What the time axis shows from the next replot() on. \param reference 0 of labels in seconds
+    /// \param event 0 of labels around it, if there is one
     void setTime(const TimeColumns &columns, PlotSettings::Labels labels, Time reference,
                  std::optional<Time> event = std::nullopt);
     enum Ticks { AnyTicks, WholeTicks };

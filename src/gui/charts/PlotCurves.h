@@ -46,7 +46,8 @@ struct PlotCurve
     CursorStatistics::Scaling scaling() const { return {settings.gain, settings.offset, source.isStepped}; }
     /// At \a time, the newest one without; NaN: none.
     double value(std::optional<QPlcPast::Time> time) const;
-    /// What legends and tables have beside its name: for bands, the colour of the state that has \a value.
+    /// What legends and tables have beside its name: for bands, the colour of the state that has \a
+    /// value.
     QColor swatchColor(double value) const;
     /// Of the value at \a time; without, the worst one of the last moments.
     QPlcQuality::Kind mark(std::optional<QPlcPast::Time> time) const;
@@ -92,7 +93,8 @@ public:
     QPlcValueNames names(int axis) const;
     /// Smallest and largest value of all seen curves of an axis, and of its lines.
     QPlcPast::Range range(int axis, double begin, double end) const;
-    /// Of the newest row of the plants whose signals are seen; 0: there is none. A derived signal may still lack it.
+    /// Of the newest row of the plants whose signals are seen; 0: there is none. A derived signal
+    /// may still lack it.
     QPlcPast::Time newestTime() const;
     /// Times of the first and the last row; false: there are none.
     bool timeRange(QPlcPast::Time *begin, QPlcPast::Time *end) const;

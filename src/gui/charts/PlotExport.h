@@ -12,7 +12,8 @@
 
 namespace qplc {
 
-/// Writes a table into a file or the clipboard, a piece between events, so that the window goes on; one table at a time.
+/// Writes a table into a file or the clipboard, a piece between events, so that the window goes on;
+/// one table at a time.
 ///
 /// A file is there when all of it is written, and as it was before when something fails.
 class PlotExport : public QObject
@@ -21,7 +22,8 @@ class PlotExport : public QObject
 public:
     explicit PlotExport(QObject *parent);
 
-    /// Begins; another one that has not finished is given up. The stores have to live until finished() or failed(): else cancel() first.
+    /// Begins; another one that has not finished is given up. The stores have to live until
+    /// finished() or failed(): else cancel() first.
     void save(const TableExport &table, const QString &fileName);
     void copy(const TableExport &table);
     bool isBusy() const { return m_table != nullptr; }

@@ -8,7 +8,8 @@ namespace qplc {
 
 /// Turns what a mouse does over a plot into wishes, in pixels of its canvas and in times.
 ///
-/// The wheel zooms about the mouse, with Ctrl or over a y axis the values; dragging pans, over a y axis the values; cursors are dragged. Two fingers zoom and pan the time.
+/// The wheel zooms about the mouse, with Ctrl or over a y axis the values; dragging pans, over a y
+/// axis the values; cursors are dragged. Two fingers zoom and pan the time.
 class PlotInteraction : public ChartInteraction
 {
     Q_OBJECT

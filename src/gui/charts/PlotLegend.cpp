@@ -114,7 +114,8 @@ void PlotLegend::show(const PlotCurves &curves, std::optional<QPlcPast::Time> ti
     update();
 }
 
-/// Names of states as they are; whole numbers without decimals; others with a prefix that stays while it is good enough.
+/// Names of states as they are; whole numbers without decimals; others with a prefix that stays
+/// while it is good enough.
 void PlotLegend::fillValue(const PlotCurves &curves, int place, std::optional<QPlcPast::Time> time, Entry *entry)
 {
     const PlotCurve &curve = curves.at(place);
@@ -272,7 +273,8 @@ void PlotLegend::paintSwatch(QPainter *painter, const QRect &box, const Entry &e
     }
 }
 
-/// Name, value and unit, left to right. A name can be elided, a value cannot: the name gets what is left.
+/// Name, value and unit, left to right. A name can be elided, a value cannot: the name gets what is
+/// left.
 PlotLegend::Parts PlotLegend::partsOf(const QRect &rect) const
 {
     const int room = std::max(0, rect.width() - swatch - 3 * spacing - m_unitWidth);

@@ -8,11 +8,14 @@
 
 namespace qplc {
 
-/// The curves of a plot in a small table: colour, name, value and unit, in as many columns as there is room for.
+/// The curves of a plot in a small table: colour, name, value and unit, in as many columns as there
+/// is room for.
 ///
-/// Where there is little room, names are elided and values stay. Values have so many digits always, and units the prefix that fits.
+/// Where there is little room, names are elided and values stay. Values have so many digits always,
+/// and units the prefix that fits.
 ///
-/// A click hides a curve or shows it again, and makes it the selected one. Values that are not true any more are grey, with their age; what is missing says so.
+/// A click hides a curve or shows it again, and makes it the selected one. Values that are not true
+/// any more are grey, with their age; what is missing says so.
 class PlotLegend : public QWidget
 {
     Q_OBJECT

@@ -101,7 +101,8 @@ void PlotOverlay::paintBetween(QPainter *painter) const
     painter->fillRect(QRect(left, 0, right - left, height()), faint(m_theme.accent, shadeOpacity));
 }
 
-/// A line at the event with an arrow at its top, and one at each level with an arrow at the left edge, which stays at the nearer end when the level is not seen.
+/// A line at the event with an arrow at its top, and one at each level with an arrow at the left
+/// edge, which stays at the nearer end when the level is not seen.
 void PlotOverlay::paintTrigger(QPainter *painter) const
 {
     const auto paintArrow = [painter](QPoint tip, QPoint along, QPoint across, const QColor &color) {

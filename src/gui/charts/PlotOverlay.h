@@ -10,7 +10,8 @@
 
 namespace qplc {
 
-/// What moves over the curves of a plot without drawing them again: cursors, the line below the mouse, the box of a zoom, and a hint where there is nothing to see.
+/// What moves over the curves of a plot without drawing them again: cursors, the line below the
+/// mouse, the box of a zoom, and a hint where there is nothing to see.
 class PlotOverlay : public QWidget
 {
     Q_OBJECT

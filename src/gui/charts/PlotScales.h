@@ -10,11 +10,14 @@
 
 namespace qplc {
 
-/// An axis of values from \a minimum to \a maximum with ticks at round numbers: as many labels as have room, three where they do not touch, and two at least, whatever the range and the room.
-/// \param room  along the axis [px] \param label  that a label takes of it [px] \param step  between ticks at least; 1 for whole numbers
+/// An axis of values from \a minimum to \a maximum with ticks at round numbers: as many labels as
+/// have room, three where they do not touch, and two at least, whatever the range and the room.
+/// \param room along the axis [px] \param label that a label takes of it [px] \param step between
+///         ticks at least; 1 for whole numbers
 QwtScaleDiv valueScale(double minimum, double maximum, double room, double label, double step = 0.0);
 
-/// Labels of an axis of values: as many digits as the step needs, and room that does not depend on them, so that canvases neither jump nor differ from plot to plot.
+/// Labels of an axis of values: as many digits as the step needs, and room that does not depend on
+/// them, so that canvases neither jump nor differ from plot to plot.
 class ValueScaleDraw : public QwtScaleDraw
 {
 public:
@@ -33,7 +36,8 @@ private:
     QPlcValueNames m_names;
 };
 
-/// Labels of a time axis. What would reach over the edge is left out, for the canvas would become narrower.
+/// Labels of a time axis. What would reach over the edge is left out, for the canvas would become
+/// narrower.
 class TimeScaleDraw : public QwtScaleDraw
 {
 public:

@@ -28,7 +28,8 @@ struct PlotCurveSettings
     QJsonObject others;    // keys that nobody knows
 
     bool isScaled() const { return gain != 1.0 || offset != 0.0; }
-    /// The name; without one what is drawn: "kite.elevation", "0.001*tetherForce+5", "mean(power, 5)", "2*(a + b)".
+    /// The name; without one what is drawn: "kite.elevation", "0.001*tetherForce+5", "mean(power,
+    /// 5)", "2*(a + b)".
     QString text() const;
 
     static PlotCurveSettings fromJson(const QJsonObject &json);
@@ -48,12 +49,16 @@ struct PlotRangeSettings
 
 /// What makes a time plot what it is, and its JSON. A value type.
 ///
-/// What has its default is not written, and what is not there has its default: settings that were written are read as the same, byte by byte.
+/// What has its default is not written, and what is not there has its default: settings that were
+/// written are read as the same, byte by byte.
 ///
 /// ```json
-/// {"curves": [{"signal": "kite.elevation", "name": "Elevation", "gain": 2, "offset": -1, "color": "#d55e00", "axis": "right", "visible": false, "bands": true}],
-///  "left": {"minimum": 0, "maximum": 90, "lines": [60, 75]}, "right": {}, "axes": {"N": {"minimum": 0}}, "time": "own", "span": 10, "labels": "seconds", "grid": false, "limits": true,
-///  "legend": false, "statistics": false, "trigger": {"on": true, "signal": "kite.elevation", "level": 30, "mode": "normal"}}
+/// {"curves": [{"signal": "kite.elevation", "name": "Elevation", "gain": 2, "offset": -1,
+///              "color": "#d55e00", "axis": "right", "visible": false, "bands": true}],
+///  "left": {"minimum": 0, "maximum": 90, "lines": [60, 75]}, "right": {},
+///  "axes": {"N": {"minimum": 0}}, "time": "own", "span": 10, "labels": "seconds", "grid": false,
+///  "limits": true, "legend": false, "statistics": false,
+///  "trigger": {"on": true, "signal": "kite.elevation", "level": 30, "mode": "normal"}}
 /// ```
 struct PlotSettings
 {

@@ -183,7 +183,8 @@ void PlotSettingsEditor::paintColor(QToolButton *button, int place) const
     button->setIcon(colorIcon(own.isValid() ? own : m_theme.curve(place), devicePixelRatioF()));
 }
 
-/// A menu of the colours of the theme, and a line for any other one: a dialog would close the popup that the editor is in.
+/// A menu of the colours of the theme, and a line for any other one: a dialog would close the popup
+/// that the editor is in.
 QToolButton *PlotSettingsEditor::makeColorButton(int place)
 {
     auto *button = new QToolButton(m_curves);

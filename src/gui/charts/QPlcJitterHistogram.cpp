@@ -244,7 +244,8 @@ void QPlcJitterHistogram::Private::draw()
     caption->setText(captionText(shown, isStale));
 }
 
-/// One line of what has room, the most important last; the names of several histograms may take more lines.
+/// One line of what has room, the most important last; the names of several histograms may take
+/// more lines.
 QString QPlcJitterHistogram::Private::captionText(const QVector<JitterDistribution> &shown, bool isStale) const
 {
     QStringList parts;

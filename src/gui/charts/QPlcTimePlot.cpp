@@ -199,7 +199,8 @@ void QPlcTimePlot::Private::edit(const PlotSettings &wanted)
     Q_EMIT q->settingsEdited();
 }
 
-/// The signal itself; of an array all elements; of what cannot be drawn nothing. What is not there now may be something later.
+/// The signal itself; of an array all elements; of what cannot be drawn nothing. What is not there
+/// now may be something later.
 QStringList QPlcTimePlot::Private::elementsOf(const QString &name) const
 {
     const QPlcPanelContext::Signal signal = context()->signal(name);

@@ -61,7 +61,8 @@ public:
         const bool hasOwn = settings.hasTrigger() ? !triggerBar->isLinked() : settings.hasOwnTime;
         return hasOwn ? &ownTime : shared();
     }
-    /// Where it ends when it is live: with the newest values of the plants that it shows, as each has a clock of its own.
+    /// Where it ends when it is live: with the newest values of the plants that it shows, as each
+    /// has a clock of its own.
     Time newest();
     void draw() override;
     qplc::TimeColumns columns();

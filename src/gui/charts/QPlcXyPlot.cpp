@@ -141,7 +141,8 @@ const QPlcPast *QPlcXyPlot::Private::stale() const
     return found != canvas->curves().end() ? &(*found)->x() : nullptr;
 }
 
-/// The end of the time that is seen: live, that of the newest values of the plants that are drawn, as each has a clock of its own.
+/// The end of the time that is seen: live, that of the newest values of the plants that are drawn,
+/// as each has a clock of its own.
 QPlcPast::Time QPlcXyPlot::Private::seenEnd() const
 {
     QPlcPast::Time newest = 0;

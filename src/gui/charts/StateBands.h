@@ -12,9 +12,12 @@
 
 namespace qplc {
 
-/// A channel of states as a strip of a plot: a coloured piece for each time in which a value held, with its name. Behind curves; on no y axis.
+/// A channel of states as a strip of a plot: a coloured piece for each time in which a value held,
+/// with its name. Behind curves; on no y axis.
 ///
-/// Where values cannot be trusted, the lower edge is paler: the state goes on. The x axis is in seconds after the origin, as that of StoreCurve. Values that held for less than a column of pixels are lines across the strip.
+/// Where values cannot be trusted, the lower edge is paler: the state goes on. The x axis is in
+/// seconds after the origin, as that of StoreCurve. Values that held for less than a column of
+/// pixels are lines across the strip.
 class StateBands : public QwtPlotItem
 {
 public:
@@ -23,13 +26,15 @@ public:
         AllHeight     // of the canvas, shared
     };
 
-    /// \param rows  have to live as long as they are drawn \param names  of the values; without, numbers are shown
+    /// \param rows have to live as long as they are drawn \param names of the values; without,
+    ///         numbers are shown
     StateBands(const PastRows &rows, const QPlcValueNames &names, const QPlcTheme &theme);
 
     void setFont(const QFont &font) { m_font = font; }
     /// The time that is 0 on the x axis [ns].
     void setOrigin(QPlcPast::Time origin) { m_origin = origin; }
-    /// \param place  0 ... count - 1; at the bottom from below, else from above. Of several, each one says its title
+    /// \param place 0 ... count - 1; at the bottom from below, else from above. Of several, each
+    ///         one says its title
     void setPlace(int place, int count, Room room);
 
     /// The colour of a state, here and in legends. \pre not NaN

@@ -15,7 +15,8 @@ class QToolButton;
 
 namespace qplc {
 
-/// What happens between cursors A and B: one line with times, and a table with a line for each curve, which can be folded away.
+/// What happens between cursors A and B: one line with times, and a table with a line for each
+/// curve, which can be folded away.
 ///
 /// Long ranges are looked at a piece at a time; numbers that are not complete have "…".
 class StatisticsView : public QWidget

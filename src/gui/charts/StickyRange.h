@@ -5,7 +5,8 @@
 
 namespace qplc {
 
-/// The range of an axis that follows what is seen, calmly: it grows at once, and shrinks only when much less has been enough for a while. Ends are round numbers with a little room.
+/// The range of an axis that follows what is seen, calmly: it grows at once, and shrinks only when
+/// much less has been enough for a while. Ends are round numbers with a little room.
 ///
 /// Knows no clock: it is told the time.
 class StickyRange
@@ -18,7 +19,8 @@ public:
 
     double minimum() const { return m_minimum; }
     double maximum() const { return m_maximum; }
-    /// Takes what is seen; NaN: nothing, and nothing changes. \return whether the range is another one
+    /// Takes what is seen; NaN: nothing, and nothing changes. \return whether the range is another
+    /// one
     bool fit(double minimum, double maximum, Time now);
     /// What is seen next is taken as it is.
     void reset() { m_isFresh = true; }

@@ -8,9 +8,11 @@
 
 namespace qplc {
 
-/// Where a time axis has ticks, and what is written there: times of the day, or seconds before or after a reference.
+/// Where a time axis has ticks, and what is written there: times of the day, or seconds before or
+/// after a reference.
 ///
-/// The reference is the live edge today; another one, the moment of a trigger, makes a view of what happened around it.
+/// The reference is the live edge today; another one, the moment of a trigger, makes a view of what
+/// happened around it.
 class TimeTicks
 {
 public:
@@ -20,7 +22,8 @@ public:
     TimeTicks(Time begin, Time end, int widest);
     /// The same with ticks at whole steps from \a reference, which is written as 0.
     TimeTicks(Time begin, Time end, int widest, Time reference);
-    /// The same with units, ms below 10 s between ticks: for times around an event, "-200 ms", "0", "200 ms".
+    /// The same with units, ms below 10 s between ticks: for times around an event, "-200 ms", "0",
+    /// "200 ms".
     static TimeTicks aroundEvent(Time begin, Time end, int widest, Time event);
 
     const QVector<Time> &major() const { return m_major; }
@@ -30,7 +33,8 @@ public:
     /// "12:03:15", "12:03", "12:03:15.25", "-2.5".
     QString label(Time time) const;
 
-    /// A time of the day with what is needed to tell times apart that are \a resolution [ns] from each other: "12:03:15.250".
+    /// A time of the day with what is needed to tell times apart that are \a resolution [ns] from
+    /// each other: "12:03:15.250".
     static QString clockText(Time time, Time resolution);
 
 private:

@@ -36,7 +36,8 @@ class NumberBox;
 /// m_triggerBar->setSignals(names of the curves);  // whenever they change; what is chosen stays
 /// m_triggerBar->applySettings(settings.value("trigger").toObject());
 /// connect(m_triggerBar, &TriggerBar::settingsEdited, this, &QPlcTimePlot::settingsEdited);
-/// connect(m_triggerBar, &TriggerBar::triggered, this, ...);  // to draw a mark at bar->trigger().shownEvent() and a line at its level
+/// // To draw a mark at bar->trigger().shownEvent() and a line at its level:
+/// connect(m_triggerBar, &TriggerBar::triggered, this, ...);
 /// ```
 ///
 /// It works while it is shown, also on a tab that is not seen: what a single event has brought is

@@ -183,7 +183,8 @@ XyCanvas::Span XyCanvas::dataSpan(bool isOfX) const
     return span;
 }
 
-/// Axes grow at once and shrink only when there is much room, so that they stand still most of the time.
+/// Axes grow at once and shrink only when there is much room, so that they stand still most of the
+/// time.
 XyCanvas::Span XyCanvas::fitted(Span shown, Span data)
 {
     constexpr double margin = 0.08;     // of the data, at each end

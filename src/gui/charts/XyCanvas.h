@@ -31,14 +31,16 @@ public:
     explicit XyCanvas(QWidget *parent = nullptr);
     ~XyCanvas() override;
 
-    /// Shows these instead. Colours not given are those of the theme. The caller owns nothing of them any more.
+    /// Shows these instead. Colours not given are those of the theme. The caller owns nothing of
+    /// them any more.
     void setCurves(std::vector<std::unique_ptr<XyCurve>> curves, const std::vector<QColor> &colors);
     const std::vector<std::unique_ptr<XyCurve>> &curves() const { return m_curves; }
     void setTheme(const QPlcTheme &theme);
     void setAspect(Aspect aspect);
     /// Titles and colours of the curves as rich text; empty for less than two.
     QString legend() const;
-    /// About a place that stays where it is [px of the canvas]. \param xFactor, yFactor  < 1: shows less
+    /// About a place that stays where it is [px of the canvas]. \param xFactor, yFactor < 1: shows
+    /// less
     void zoom(double xFactor, double yFactor, QPointF about);
     void pan(QPointF by);
     void zoomTo(const QRectF &box);
@@ -48,7 +50,8 @@ public:
     void release();
     /// What is at a place of the canvas [px].
     QPointF valueAt(QPointF place) const;
-    /// Draws what was at a moment, if the picture is another one than before. \return whether it was drawn
+    /// Draws what was at a moment, if the picture is another one than before. \return whether it
+    /// was drawn
     bool show(const Moment &moment);
 
 protected:

@@ -8,8 +8,9 @@ class QRubberBand;
 
 namespace qplc {
 
-/// What a mouse and two fingers do over an XY plot, beside what they do over all charts: the wheel zooms about the mouse, over an axis only its values, with Ctrl those of y; dragging pans, over an axis only its
-/// values; a box is zoomed into.
+/// What a mouse and two fingers do over an XY plot, beside what they do over all charts: the wheel
+/// zooms about the mouse, over an axis only its values, with Ctrl those of y; dragging pans, over
+/// an axis only its values; a box is zoomed into.
 class XyInteraction : public ChartInteraction
 {
     Q_OBJECT

@@ -84,7 +84,8 @@ QString QPlcXyPlot::Private::pointerText() const
     return tr("x %1   y %2").arg(textOf(first.x(), at.x()), textOf(first.y(), at.y()));
 }
 
-/// The rows of the time that is seen at the moment of the wish; what several curves have in common is one column.
+/// The rows of the time that is seen at the moment of the wish; what several curves have in common
+/// is one column.
 ChartExport::Table QPlcXyPlot::Private::table() const
 {
     const QPlcPast::Time end = seenEnd();

@@ -10,7 +10,8 @@ class QVBoxLayout;
 
 namespace qplc {
 
-/// The settings of an XY plot, as the toothed wheel shows them: a line with x and y for each curve, and what the axes do. What is changed is told at once.
+/// The settings of an XY plot, as the toothed wheel shows them: a line with x and y for each curve,
+/// and what the axes do. What is changed is told at once.
 class XyPlotEditor : public SettingsEditor
 {
     Q_OBJECT

@@ -11,7 +11,8 @@ void AlarmState::setLimits(const AlarmLimits &limits)
     m_limits = limits;
 }
 
-/// How far a value is beyond the limits of one side; a level that holds has the limit nearer to normal.
+/// How far a value is beyond the limits of one side; a level that holds has the limit nearer to
+/// normal.
 AlarmState::Level AlarmState::levelOf(double value, Side side) const
 {
     const double sign = side == High ? 1.0 : -1.0;

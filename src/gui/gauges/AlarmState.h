@@ -23,7 +23,8 @@ struct AlarmLimits
     friend bool operator!=(const AlarmLimits &a, const AlarmLimits &b) { return !(a == b); }
 };
 
-/// Whether a value that goes on changing is normal, with hysteresis: a value that trembles about a limit does not make its colour flicker.
+/// Whether a value that goes on changing is normal, with hysteresis: a value that trembles about a
+/// limit does not make its colour flicker.
 class AlarmState
 {
 public:

@@ -60,7 +60,8 @@ void GaugeEditor::addNumbers(QFormLayout *form, const QPlcSignalDefinition &defi
     const auto ofTable = [](const QPlcValue &limit, const QString &otherwise) {
         return limit.isValid() ? tr("%1 (of the table)").arg(limit.toString()) : otherwise;
     };
-    // What a person types is in the unit of the table, and says so: a prefix would make 4 out of 4000 while it is typed.
+    // What a person types is in the unit of the table, and says so: a prefix would make 4 out of
+    // 4000 while it is typed.
     const QString unit = SiPrefix::unitText(definition.unit);
     const auto named
         = [&unit](const QString &label) { return unit.isEmpty() ? label : QStringLiteral("%1 [%2]").arg(label, unit); };

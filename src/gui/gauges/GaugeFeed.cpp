@@ -300,7 +300,8 @@ void GaugeFeed::showValue(GaugePicture *picture, const QPlcValue &value, bool ha
     showTexts(picture, value, hasNewTexts);
 }
 
-/// Of a scale or a range the prefix is always that of its larger end. A number without one has the prefix of its size.
+/// Of a scale or a range the prefix is always that of its larger end. A number without one has the
+/// prefix of its size.
 void GaugeFeed::choosePrefix(GaugePicture *picture, bool hasNewTexts)
 {
     picture->prefix = SiPrefix(m_definition.unit);
@@ -361,7 +362,8 @@ bool GaugeFeed::hasOpenEnd() const
     return (isOpenBelow || isOpenAbove) && !isBoolean() && m_definition.valueNames.isEmpty();
 }
 
-/// As wide as a number of an open scale becomes before it gets an exponent, or another prefix: its letters keep their size while it grows.
+/// As wide as a number of an open scale becomes before it gets an exponent, or another prefix: its
+/// letters keep their size while it grows.
 QString GaugeFeed::openEndText() const
 {
     QString text = SiPrefix::isTakenBy(m_definition.unit) ? QStringLiteral("000.00") : QStringLiteral("0000000");

@@ -15,9 +15,12 @@
 
 namespace qplc {
 
-/// Makes the picture of a gauge out of a signal, or of something calculated of signals: of a plant of the window, at the time that the window shows, or of the values that a program gives.
+/// Makes the picture of a gauge out of a signal, or of something calculated of signals: of a plant
+/// of the window, at the time that the window shows, or of the values that a program gives.
 ///
-/// Pointers move with every update, texts ten times a second. Nothing is done between setActive(false) and setActive(true); smallest and largest values lose nothing meanwhile, as they come from the store.
+/// Pointers move with every update, texts ten times a second. Nothing is done between
+/// setActive(false) and setActive(true); smallest and largest values lose nothing meanwhile, as
+/// they come from the store.
 class GaugeFeed : public QObject
 {
     Q_OBJECT

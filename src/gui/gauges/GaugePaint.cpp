@@ -63,7 +63,8 @@ double paintValue(QPainter *painter, const QRectF &place, const GaugePicture &pi
     const QString widest = wider(picture.widest, text, painter->font());
     const QString sizing = wider(widest, picture.sizing, painter->font());
     const QString unit = picture.prefix.unit().isEmpty() ? QString() : QStringLiteral(" ") + picture.prefix.unit();
-    // The unit is half as large as the figures. A sign hangs at their left: what has none stands in the middle.
+    // The unit is half as large as the figures. A sign hangs at their left: what has none stands in
+    // the middle.
     const bool hasSign = widest.startsWith(minusSign);
     const QString digits = hasSign ? widest.mid(1) : widest;
     const int unitSize = std::max(unit.size(), picture.widestUnit.isEmpty() ? 0 : picture.widestUnit.size() + 1);
@@ -119,7 +120,8 @@ void paintName(QPainter *painter, const QRectF &place, const GaugePicture &pictu
     painter->drawText(place, side | Qt::AlignVCenter, name);
 }
 
-/// One line below: name at the left, what is not normal at the right. \return what is left for the gauge
+/// One line below: name at the left, what is not normal at the right. \return what is left for the
+/// gauge
 QRectF paintLine(QPainter *painter, const QRectF &place, const GaugePicture &picture, const QPlcTheme &theme)
 {
     const QFontMetricsF metrics(painter->font());
@@ -138,7 +140,8 @@ QRectF paintLine(QPainter *painter, const QRectF &place, const GaugePicture &pic
     return place.adjusted(0.0, 0.0, 0.0, -metrics.height() - 2.0);
 }
 
-/// Where one line is too short for both: the name above, and below what is not normal. The space for it is always there, so that nothing jumps.
+/// Where one line is too short for both: the name above, and below what is not normal. The space
+/// for it is always there, so that nothing jumps.
 QRectF paintTwoLines(QPainter *painter, const QRectF &place, const GaugePicture &picture, const QPlcTheme &theme)
 {
     const double height = QFontMetricsF(painter->font()).height();

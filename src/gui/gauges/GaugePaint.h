@@ -8,7 +8,8 @@
 
 namespace qplc {
 
-/// Draws a gauge: its name, unless a title says it, and its status in a line below, and its style above it.
+/// Draws a gauge: its name, unless a title says it, and its status in a line below, and its style
+/// above it.
 void paintGauge(QPainter *painter, const QRectF &place, const GaugePicture &picture, const QPlcTheme &theme);
 
 // Parts of it, one for each style.
@@ -25,7 +26,8 @@ QColor pointerColor(const GaugePicture &picture, const QPlcTheme &theme);
 QColor textColor(const GaugePicture &picture, const QPlcTheme &theme);
 /// \a font in the largest size in which \a text fits into \a size.
 QFont fittingFont(const QFont &font, const QString &text, const QSizeF &size, double largest = 200.0);
-/// A value with its unit, right-aligned in as much space as the widest one takes: digits stay where they are. \param side  Qt::AlignHCenter or Qt::AlignRight, of that space
+/// A value with its unit, right-aligned in as much space as the widest one takes: digits stay where
+/// they are. \param side Qt::AlignHCenter or Qt::AlignRight, of that space
 /// \return the left edge of that space
 double paintValue(QPainter *painter, const QRectF &place, const GaugePicture &picture, const QString &text,
                   const QColor &color, Qt::AlignmentFlag side = Qt::AlignHCenter);

@@ -112,7 +112,8 @@ Bar standingBar(const QRectF &place, double scale, double value)
     return {QRectF(left, place.top() + value + 4.0, thickness, place.height() - value - 8.0), false};
 }
 
-/// The number is what is read first: as large as there is space, at the right end of a bar that lies.
+/// The number is what is read first: as large as there is space, at the right end of a bar that
+/// lies.
 void paintBarValue(QPainter *painter, const QRectF &place, const GaugePicture &picture, const QPlcTheme &theme,
                    bool isLying)
 {

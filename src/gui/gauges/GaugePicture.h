@@ -51,7 +51,8 @@ struct GaugePicture
     QString spoken() const;
 };
 
-/// Whether nobody could tell them apart: pointers that differ by less than a pixel are the same, and numbers that are texts only do not count.
+/// Whether nobody could tell them apart: pointers that differ by less than a pixel are the same,
+/// and numbers that are texts only do not count.
 bool looksLike(const GaugePicture &a, const GaugePicture &b);
 
 /// In front of a negative number.

@@ -19,7 +19,8 @@ struct GaugeScale
     QVector<double> ticks(int most) const;
     /// So many digits that a thousandth of the scale is seen; 0 ... 6.
     int decimals() const;
-    /// Grows to the next round number (1, 2, 5 x 10^n), to both sides of 0 where there are negative values, and never shrinks. \return whether it has grown
+    /// Grows to the next round number (1, 2, 5 x 10^n), to both sides of 0 where there are negative
+    /// values, and never shrinks. \return whether it has grown
     bool extendTo(double value);
 
     friend bool operator==(const GaugeScale &a, const GaugeScale &b)
@@ -29,7 +30,8 @@ struct GaugeScale
     friend bool operator!=(const GaugeScale &a, const GaugeScale &b) { return !(a == b); }
 };
 
-/// A number of a gauge: so many decimals, but no more than five digits in all unless there are more before the point, a real minus, "NaN" and "∞" as such; powers of ten beyond 10^7.
+/// A number of a gauge: so many decimals, but no more than five digits in all unless there are more
+/// before the point, a real minus, "NaN" and "∞" as such; powers of ten beyond 10^7.
 QString gaugeNumber(double value, int decimals);
 
 }  // namespace qplc

@@ -5,11 +5,13 @@
 
 namespace qplc {
 
-/// Where in a panel something is dropped, or in no panel but a new tab. Area: a SignalDropArea of the panel.
+/// Where in a panel something is dropped, or in no panel but a new tab. Area: a SignalDropArea of
+/// the panel.
 enum class DropZone { Left, Right, Above, Below, Center, NewTab, Area };
 enum class DropCenter { IsAZone, BelongsToTheNearestEdge };
 
-/// The zone of \a area at \a position, which may be outside. The center has the middle half of width and height.
+/// The zone of \a area at \a position, which may be outside. The center has the middle half of
+/// width and height.
 DropZone dropZoneAt(const QRect &area, const QPoint &position, DropCenter center);
 /// What would be filled by what is dropped there.
 QRect dropZoneRect(const QRect &area, DropZone zone);

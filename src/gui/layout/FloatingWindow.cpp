@@ -59,7 +59,8 @@ void FloatingWindow::showWindow(const LayoutWindow &window)
     m_isFollowing = false;
 }
 
-/// The keys of an action go with the windows of its widgets; those that come to the main window later are to be had, too.
+/// The keys of an action go with the windows of its widgets; those that come to the main window
+/// later are to be had, too.
 bool FloatingWindow::event(QEvent *event)
 {
     if (event->type() == QEvent::WindowActivate)

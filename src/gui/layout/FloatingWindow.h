@@ -9,7 +9,8 @@ namespace qplc {
 
 class PageView;
 
-/// A top-level window with panels. Closing it closes its panels, as one step that can be undone. Keys of the main window run the same commands here.
+/// A top-level window with panels. Closing it closes its panels, as one step that can be undone.
+/// Keys of the main window run the same commands here.
 class FloatingWindow : public QWidget
 {
     Q_OBJECT

@@ -5,7 +5,8 @@
 
 namespace qplc {
 
-/// A line over a name, in which it is changed: Enter or a click elsewhere takes it, Escape does not, nor does a layout that moves or hides it. It deletes itself.
+/// A line over a name, in which it is changed: Enter or a click elsewhere takes it, Escape does
+/// not, nor does a layout that moves or hides it. It deletes itself.
 class InlineEdit : public QLineEdit
 {
     Q_OBJECT

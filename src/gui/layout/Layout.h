@@ -39,8 +39,9 @@ struct LayoutWindow : LayoutPage
 
 /// The arrangement of panels in tabs, splits and floating windows: a plain value.
 ///
-/// An edit changes the value and returns true, or, where its precondition (the things that it names exist, texts are not empty) fails, returns false and has changed nothing.
-/// After each edit invariantError() is empty. There is at least one tab.
+/// An edit changes the value and returns true, or, where its precondition (the things that it names
+/// exist, texts are not empty) fails, returns false and has changed nothing. After each edit
+/// invariantError() is empty. There is at least one tab.
 ///
 /// Threads: as any value.
 class Layout
@@ -67,7 +68,8 @@ public:
     /// Whether there are as many panels as there may be.
     bool isFull() const { return panels().size() >= MostPanels; }
 
-    /// Adds a panel of this type, and shows it. \return its id; empty when there is no such target, or isFull()
+    /// Adds a panel of this type, and shows it. \return its id; empty when there is no such target,
+    /// or isFull()
     QString addPanel(const QString &type, const QJsonObject &settings, const LayoutTarget &target);
     /// Adds a copy of a panel beside it.
     QString duplicatePanel(const QString &panelId, LayoutSide side);
@@ -84,7 +86,8 @@ public:
     bool setPanelTitle(const QString &panelId, const QString &title);
     /// \param shares  one for each child of the split, > 0, scaled to LayoutNode::WholeShare
     bool setShares(const LayoutSpan &split, const QVector<int> &shares);
-    /// Gives a panel more or less of the next split of this orientation around it; the others share the rest in proportion.
+    /// Gives a panel more or less of the next split of this orientation around it; the others share
+    /// the rest in proportion.
     /// \param change  in parts of LayoutNode::WholeShare; nothing gets smaller than a twentieth
     bool growPanel(const QString &panelId, Qt::Orientation orientation, int change);
 

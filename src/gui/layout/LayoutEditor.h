@@ -10,10 +10,13 @@
 
 namespace qplc {
 
-/// The layout of a window, and what a person did to it: every edit is a step that undoes and redoes, with a text for the menu ("move of 'Time plot'").
+/// The layout of a window, and what a person did to it: every edit is a step that undoes and
+/// redoes, with a text for the menu ("move of 'Time plot'").
 ///
-/// Edits have the preconditions of Layout; those that fail, or change nothing, are no steps. Successive resizes of one split, moves of one tab and settings of one panel are one step.
-/// What is looked at (the current tab, the place of windows) is no step; undoing brings the tab to the front where something happens, and leaves windows where they are.
+/// Edits have the preconditions of Layout; those that fail, or change nothing, are no steps.
+/// Successive resizes of one split, moves of one tab and settings of one panel are one step. What
+/// is looked at (the current tab, the place of windows) is no step; undoing brings the tab to the
+/// front where something happens, and leaves windows where they are.
 ///
 /// Threads: that of the window.
 class LayoutEditor : public QObject
@@ -26,12 +29,14 @@ public:
     const Layout &layout() const { return m_layout; }
     /// Takes another layout, say of a file; there is nothing to undo then.
     void setLayout(const Layout &layout);
-    /// Takes another layout as one step that can be undone: \a text for the menu, such as "reset of the layout".
+    /// Takes another layout as one step that can be undone: \a text for the menu, such as "reset of
+    /// the layout".
     bool replace(const Layout &layout, const QString &text);
     /// What was done and what comes are never one step.
     void separateSteps() { ++m_series; }
     QUndoStack *undoStack() { return &m_stack; }
-    /// What people call a panel, on its title bar, on the window that it floats in, and where steps are undone: what \a titles says, else LayoutPanel::title().
+    /// What people call a panel, on its title bar, on the window that it floats in, and where steps
+    /// are undone: what \a titles says, else LayoutPanel::title().
     QString titleOf(const QString &panelId) const;
     /// Says what is in a panel; empty: it does not know.
     void setTitles(const std::function<QString(const QString &panelId)> &titles) { m_titles = titles; }

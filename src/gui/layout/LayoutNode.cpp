@@ -16,7 +16,8 @@ QString LayoutPanel::title() const
 QVector<int> layoutShares(const QVector<double> &weights)
 {
     const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
-    // One is given to each beforehand, and the rest in proportion; what rounding left goes to the largest remainders.
+    // One is given to each beforehand, and the rest in proportion; what rounding left goes to the
+    // largest remainders.
     QVector<int> shares(weights.size());
     QVector<double> remainders(weights.size());
     for (int i = 0; i < weights.size(); ++i) {
@@ -109,7 +110,8 @@ void giveShare(LayoutNode *split, const QString &panelId, int share)
     split->setShares(shares);
 }
 
-/// Children of a split with what an edit left: those that are nothing are gone, those of the same orientation are replaced by their children.
+/// Children of a split with what an edit left: those that are nothing are gone, those of the same
+/// orientation are replaced by their children.
 std::vector<LayoutNode> mergedChildren(LayoutNode *split, QVector<double> *weights)
 {
     std::vector<LayoutNode> merged;

@@ -26,8 +26,9 @@ struct LayoutPanel
 /// Where something comes to stand beside something else.
 enum class LayoutSide { Left, Right, Above, Below };
 
-/// The node of a tree that contains a first and a last panel and nothing around them: that panel when both are the same, else the lowest split that has both.
-/// It names a split without an id, and still means the same when its panels have new neighbours.
+/// The node of a tree that contains a first and a last panel and nothing around them: that panel
+/// when both are the same, else the lowest split that has both. It names a split without an id, and
+/// still means the same when its panels have new neighbours.
 struct LayoutSpan
 {
     QString first;
@@ -58,19 +59,22 @@ struct LayoutNode
     /// From left to right and from above to below.
     void appendPanels(std::vector<const LayoutPanel *> *panels) const;
 
-    /// Puts a panel beside the node \a span. \param wantedShare  of the split that then holds both; none: \a part of what the node had
+    /// Puts a panel beside the node \a span. \param wantedShare of the split that then holds both;
+    /// none: \a part of what the node had
     /// \return false when there is no such node; then nothing has changed
     bool insert(const LayoutPanel &newPanel, const LayoutSpan &span, LayoutSide side, std::optional<int> wantedShare,
                 int part = WholeShare / 2);
     /// Makes the children have these shares, scaled to WholeShare. \pre one for each child, > 0
     void setShares(const QVector<int> &shares);
     QVector<int> shares() const;
-    /// Mends what an edit or a file left: merges splits, removes those with one child or none, scales shares.
+    /// Mends what an edit or a file left: merges splits, removes those with one child or none,
+    /// scales shares.
     /// \return false when nothing is left. Only a leaf without id counts as nothing.
     bool normalize();
 };
 
-/// Whole numbers > 0 in the proportion of \a weights that add up to LayoutNode::WholeShare. \pre 1 ... 1000 weights, finite and > 0
+/// Whole numbers > 0 in the proportion of \a weights that add up to LayoutNode::WholeShare. \pre 1
+/// ... 1000 weights, finite and > 0
 QVector<int> layoutShares(const QVector<double> &weights);
 
 bool operator==(const LayoutPanel &a, const LayoutPanel &b);
@@ -79,7 +83,8 @@ inline bool operator!=(const LayoutNode &a, const LayoutNode &b)
 {
     return !(a == b);
 }
-/// Whether both have the same panels and splits in the same order, whatever their shares and settings.
+/// Whether both have the same panels and splits in the same order, whatever their shares and
+/// settings.
 bool hasSameStructure(const LayoutNode &a, const LayoutNode &b);
 
 }  // namespace qplc

@@ -13,7 +13,8 @@ namespace qplc {
 
 namespace {
 
-// The time of a window to arrange splits grows with the third power of their depth: 0.3 s for 50, a minute for 400.
+// The time of a window to arrange splits grows with the third power of their depth: 0.3 s for 50, a
+// minute for 400.
 constexpr int deepest = 50;
 
 QJsonObject without(QJsonObject json, std::initializer_list<const char *> keys)

@@ -9,7 +9,8 @@
 
 namespace qplc {
 
-/// Makes a layout of JSON, and keeps the first thing that is wrong: its place ("tabs[0].tree.children[1].share") and a sentence.
+/// Makes a layout of JSON, and keeps the first thing that is wrong: its place
+/// ("tabs[0].tree.children[1].share") and a sentence.
 class LayoutReader
 {
     Q_DECLARE_TR_FUNCTIONS(qplc::LayoutReader)

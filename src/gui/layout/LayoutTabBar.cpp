@@ -85,7 +85,8 @@ void LayoutTabBar::takeMove(int from, int to)
 {
     if (m_isFollowing)
         return;
-    // While a tab is dragged over another one, QTabBar says that the other one moves: the dragged one is the current one.
+    // While a tab is dragged over another one, QTabBar says that the other one moves: the dragged
+    // one is the current one.
     const bool isOther = qAbs(from - to) == 1 && currentIndex() == from;
     const int moved = isOther ? from : to;
     m_editor->moveTab(tabId(moved), moved);

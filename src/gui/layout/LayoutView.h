@@ -21,7 +21,8 @@ class LayoutTabBar;
 class PageView;
 class PanelFrame;
 
-/// Shows the layout of an editor: tabs, splitters, panels, and floating windows. It holds no truth of its own: what a person does becomes edits, and what is shown follows the layout.
+/// Shows the layout of an editor: tabs, splitters, panels, and floating windows. It holds no truth
+/// of its own: what a person does becomes edits, and what is shown follows the layout.
 ///
 /// A widget lives as long as a panel with its id and type is in the layout, wherever it is moved.
 ///
@@ -34,7 +35,8 @@ public:
     explicit LayoutView(LayoutEditor *editor, QWidget *parent = nullptr);
     ~LayoutView() override;
 
-    /// What can be shown. Placeholders whose factory comes are replaced. \param factories  owned by others, outlive the view
+    /// What can be shown. Placeholders whose factory comes are replaced. \param factories owned by
+    /// others, outlive the view
     void setFactories(const QList<QPlcWidgetFactory *> &factories);
     LayoutEditor *editor() const { return m_editor; }
     /// Null when there is none; a placeholder has no widget.
@@ -42,17 +44,20 @@ public:
     QPlcWidget *widget(const QString &panelId) const;
     LayoutTabBar *tabBar() const { return m_tabBar; }
     QList<FloatingWindow *> floatingWindows() const { return m_windows.values(); }
-    /// Adds a panel to the current tab, where it fits (fittingPlace()). \return its id; empty when the layout is full
+    /// Adds a panel to the current tab, where it fits (fittingPlace()). \return its id; empty when
+    /// the layout is full
     QString addPanel(const QString &type, const QJsonObject &settings = {});
 
 Q_SIGNALS:
-    /// A person wants to add something: the button beside the tabs, or that of an empty tab, was clicked.
+    /// A person wants to add something: the button beside the tabs, or that of an empty tab, was
+    /// clicked.
     void addRequested();
     /// A widget has been made for a panel.
     void widgetAdded(const QString &panelId, QPlcWidget *widget);
     /// The widget is deleted when control returns to the event loop.
     void widgetRemoved(const QString &panelId, QPlcWidget *widget);
-    /// Signals (mime type signalsMimeType()) were dropped. \a panelId is empty, for the current tab (\a zone is the center) and for a new one.
+    /// Signals (mime type signalsMimeType()) were dropped. \a panelId is empty, for the current tab
+    /// (\a zone is the center) and for a new one.
     void signalsDropped(const QString &panelId, qplc::DropZone zone, const QMimeData *data);
 
 private:

@@ -7,7 +7,8 @@
 
 namespace qplc {
 
-/// \a geometry moved and made smaller so that a person sees all of it in \a room, the part of a screen that windows may use.
+/// \a geometry moved and made smaller so that a person sees all of it in \a room, the part of a
+/// screen that windows may use.
 inline QRect onScreen(const QRect &geometry, const QRect &room)
 {
     QRect moved(geometry.topLeft(), geometry.size().boundedTo(room.size()));

@@ -13,7 +13,8 @@ class EmptyPage;
 class PanelFrame;
 class ShareSplitter;
 
-/// The tree of a tab or a floating window on the screen: splitters, made anew when the structure changes, around frames that belong to others.
+/// The tree of a tab or a floating window on the screen: splitters, made anew when the structure
+/// changes, around frames that belong to others.
 class PageView : public QWidget
 {
     Q_OBJECT
@@ -22,7 +23,8 @@ public:
 
     explicit PageView(QWidget *parent = nullptr);
 
-    /// Takes the frames of the page, wherever they are. What held them before stays until dropOldSplitters().
+    /// Takes the frames of the page, wherever they are. What held them before stays until
+    /// dropOldSplitters().
     void showPage(const LayoutPage &page, const FrameOf &frameOf);
     /// Deletes former splitters, from which all frames must have been taken.
     void dropOldSplitters();

@@ -14,7 +14,8 @@ class DropOverlay;
 class LayoutView;
 class PanelFrame;
 
-/// A panel that is dragged by its title bar: shows where it would go, and moves it there in the end. It needs no event loop of its own.
+/// A panel that is dragged by its title bar: shows where it would go, and moves it there in the
+/// end. It needs no event loop of its own.
 class PanelDrag : public QObject
 {
     Q_OBJECT
@@ -27,7 +28,8 @@ public:
     void cancel();
 
 private:
-    /// Where a panel would go, and the part of a widget that says so; no widget: into a window of its own.
+    /// Where a panel would go, and the part of a widget that says so; no widget: into a window of
+    /// its own.
     struct Place
     {
         QWidget *widget = nullptr;

@@ -271,7 +271,8 @@ void PanelFrame::dropEvent(QDropEvent *event)
     Q_EMIT signalsDropped(zone, event->mimeData());
 }
 
-/// The line is what the parts of the panel leave free. A line drawn with a pen would be cut by them where it does not meet the pixels of the screen.
+/// The line is what the parts of the panel leave free. A line drawn with a pen would be cut by them
+/// where it does not meet the pixels of the screen.
 void PanelFrame::paintEvent(QPaintEvent * /*event*/)
 {
     QPainter painter(this);

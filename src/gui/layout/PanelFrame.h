@@ -19,15 +19,19 @@ namespace qplc {
 class PanelTitleBar;
 class SignalDropArea;
 
-/// A panel on the screen: title bar, and below it the widget, or a placeholder where nobody can make it.
+/// A panel on the screen: title bar, and below it the widget, or a placeholder where nobody can
+/// make it.
 ///
-/// What a person does here becomes edits; what the layout says comes by showPanel(). It draws its line itself: styles leave out the right and the lower one at scale factors between whole numbers.
+/// What a person does here becomes edits; what the layout says comes by showPanel(). It draws its
+/// line itself: styles leave out the right and the lower one at scale factors between whole
+/// numbers.
 class PanelFrame : public QWidget
 {
     Q_OBJECT
 public:
     /// \param editor     outlives the frame
-    /// \param factories  of all types; the widget is made by the one with the name of the panel's type
+    /// \param factories of all types; the widget is made by the one with the name of the panel's
+    ///         type
     PanelFrame(LayoutEditor *editor, const LayoutPanel &panel, const QList<QPlcWidgetFactory *> &factories,
                QWidget *parent);
 
@@ -48,10 +52,12 @@ public:
     QAction *maximizeAction() const { return m_maximize; }
     QAction *closeAction() const { return m_close; }
     QAction *renameAction() const { return m_rename; }
-    /// Makes the menu that is in the menu of the panel and opens by a click on the badge of its title, as a child of the widget that it gets; null: there is none now.
+    /// Makes the menu that is in the menu of the panel and opens by a click on the badge of its
+    /// title, as a child of the widget that it gets; null: there is none now.
     using MakeMenu = std::function<QMenu *(QWidget *parent)>;
     void setPlantMenu(const MakeMenu &make) { m_makePlantMenu = make; }
-    /// All that can be done with the panel: what its widget can, then where it stands. The caller owns it.
+    /// All that can be done with the panel: what its widget can, then where it stands. The caller
+    /// owns it.
     QMenu *createMenu();
 
 Q_SIGNALS:

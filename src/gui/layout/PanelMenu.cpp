@@ -31,7 +31,8 @@ void PanelFrame::addOwnActions(QMenu *menu)
     menu->addSeparator();
 }
 
-/// A widget with a context menu of its own finds that of the panel as an action "panelMenu" among its children. It is no action of the widget: all that is in it has its keys.
+/// A widget with a context menu of its own finds that of the panel as an action "panelMenu" among
+/// its children. It is no action of the widget: all that is in it has its keys.
 void PanelFrame::offerMenuToWidget()
 {
     auto *menu = new QMenu(m_widget);

@@ -10,7 +10,8 @@ class QPainter;
 
 namespace qplc {
 
-/// The slim line above a panel: its title, and buttons for actions. It is dragged with the mouse, renamed in place, and takes the keyboard.
+/// The slim line above a panel: its title, and buttons for actions. It is dragged with the mouse,
+/// renamed in place, and takes the keyboard.
 class PanelTitleBar : public QWidget
 {
     Q_OBJECT
@@ -38,7 +39,8 @@ public:
     void setBadge(const Badge &badge);
     /// Where the badge is drawn; empty without one.
     QRect badgeRect() const;
-    /// When a button is there: what can also be done by a double click, keys and the context menu gives its place to the title of a narrow panel.
+    /// When a button is there: what can also be done by a double click, keys and the context menu
+    /// gives its place to the title of a narrow panel.
     enum Presence { Always, WhereThereIsRoom };
     /// A button at the right that shows and triggers \a action.
     QToolButton *addButton(QAction *action, Presence presence = Always);

@@ -30,7 +30,8 @@ QVector<int> ShareSplitter::sharesOfSizes() const
 
 void ShareSplitter::apply()
 {
-    // Sizes that a hand has just made are right to the pixel: they are not made again from rounded shares.
+    // Sizes that a hand has just made are right to the pixel: they are not made again from rounded
+    // shares.
     if (m_shares.size() != count() || (m_isApplied && sharesOfSizes() == m_shares))
         return;
     setSizes(QList<int>(m_shares.begin(), m_shares.end()));

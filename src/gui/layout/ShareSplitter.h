@@ -7,7 +7,8 @@
 
 namespace qplc {
 
-/// A splitter that is told and tells the shares of its parts; QSplitter itself keeps them whatever its size.
+/// A splitter that is told and tells the shares of its parts; QSplitter itself keeps them whatever
+/// its size.
 class ShareSplitter : public QSplitter
 {
     Q_OBJECT

@@ -13,7 +13,8 @@ namespace qplc {
 class LayoutEditor;
 class LayoutTabBar;
 
-/// Takes signals that are dragged over tabs: a tab comes to the front, so that they can be dropped on one of its panels, or on the tab; the button behind the tabs is a new one.
+/// Takes signals that are dragged over tabs: a tab comes to the front, so that they can be dropped
+/// on one of its panels, or on the tab; the button behind the tabs is a new one.
 class TabDrop : public QObject
 {
     Q_OBJECT

@@ -11,9 +11,12 @@
 
 namespace qplc {
 
-/// What happened, newest last, at most 10 000 events: the oldest ones go. What is not information asks to be acknowledged; what lasts (PlantEvent::Begins) is active until it ends, acknowledged or not.
+/// What happened, newest last, at most 10 000 events: the oldest ones go. What is not information
+/// asks to be acknowledged; what lasts (PlantEvent::Begins) is active until it ends, acknowledged
+/// or not.
 ///
-/// Alarms of one plant that follow each other within BurstPause are a burst: the first of them, which the others may come from, says so.
+/// Alarms of one plant that follow each other within BurstPause are a burst: the first of them,
+/// which the others may come from, says so.
 class EventLogModel : public QAbstractTableModel
 {
     Q_OBJECT
@@ -78,7 +81,8 @@ private:
     int m_unacknowledged = 0;
 };
 
-/// Of an EventLogModel what is severe enough, active or not acknowledged if wanted, and has all words of a search in source or text; in the order of time, whenever it was told.
+/// Of an EventLogModel what is severe enough, active or not acknowledged if wanted, and has all
+/// words of a search in source or text; in the order of time, whenever it was told.
 class EventFilterModel : public QSortFilterProxyModel
 {
     Q_OBJECT

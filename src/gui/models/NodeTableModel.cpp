@@ -90,7 +90,8 @@ QString NodeTableModel::nameOf(const Row &row) const
     return m_plants->size() > 1 ? row.plant->name() + QLatin1Char('/') + row.node.info.name : row.node.info.name;
 }
 
-/// Whoever is missed keeps his row: nodes of a master that is lost, and nodes that have left in the middle of the work.
+/// Whoever is missed keeps his row: nodes of a master that is lost, and nodes that have left in the
+/// middle of the work.
 void NodeTableModel::appendLost(Plant *plant, QVector<Row> *rows) const
 {
     NodeStatus lost;
@@ -124,7 +125,8 @@ QVector<NodeTableModel::Row> NodeTableModel::rowsOf(Plant *plant) const
     return rows;
 }
 
-/// Late now is a warning, answers as cycles; when time stands still because of it, or nothing moves until somebody resets it, an error.
+/// Late now is a warning, answers as cycles; when time stands still because of it, or nothing moves
+/// until somebody resets it, an error.
 NodeTableModel::HealthLevel NodeTableModel::healthOf(const Row &row)
 {
     if (!row.isThere || !row.plant->isConnected() || row.plant->status().master.state == messages::MasterState::Unknown)

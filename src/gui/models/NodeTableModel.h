@@ -7,7 +7,8 @@
 
 namespace qplc {
 
-/// Masters and nodes of all plants with their durations and counters. Durations are those of the last 10 s, the largest ones those since the start of the phase.
+/// Masters and nodes of all plants with their durations and counters. Durations are those of the
+/// last 10 s, the largest ones those since the start of the phase.
 class NodeTableModel : public QAbstractTableModel
 {
     Q_OBJECT

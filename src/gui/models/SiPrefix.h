@@ -7,9 +7,13 @@ namespace qplc {
 
 /// The prefix with which values of a unit are written: "13.90 µs", "1.008 MJ". A value type.
 ///
-/// - Units that take prefixes are s, m, N, Nm, J, W, Wh, V, A, VA, Hz, Pa, Ohm, F, H and C, also those that have one already ("kN", "us"). All others are written as they are: deg, %, rad, m/s, kg, 1.
-/// - From 0.1 up to 10 000 a value has the unit of the signal table. Above and below it gets the prefix with which it is from 1 up to 1000.
-/// - What is shown again and again keeps its prefix while the value is from 0.1 up to 10 000 with it (kept()), so that the unit does not jump.
+/// - Units that take prefixes are s, m, N, Nm, J, W, Wh, V, A, VA, Hz, Pa, Ohm, F, H and C, also
+///   those that have one already ("kN", "us"). All others are written as they are: deg, %, rad,
+///   m/s, kg, 1.
+/// - From 0.1 up to 10 000 a value has the unit of the signal table. Above and below it gets the
+///   prefix with which it is from 1 up to 1000.
+/// - What is shown again and again keeps its prefix while the value is from 0.1 up to 10 000 with
+///   it (kept()), so that the unit does not jump.
 class SiPrefix
 {
 public:
@@ -44,7 +48,8 @@ private:
     double m_factor = 1.0;
 };
 
-/// A number of so many significant digits, also when the last ones are 0, so that numbers do not become narrower now and then: "1.200". Below 1 it has as many decimals as from 1 to 10.
+/// A number of so many significant digits, also when the last ones are 0, so that numbers do not
+/// become narrower now and then: "1.200". Below 1 it has as many decimals as from 1 to 10.
 /// Exponents where there is no other way, "–" for NaN.
 QString steadyNumberText(double value, int digits);
 

@@ -6,7 +6,8 @@
 
 namespace qplc {
 
-/// Of a SignalTreeModel or a ValueTableModel what fits a search: all words have to occur, in any order and case, in name, unit, description, node or plant of a signal.
+/// Of a SignalTreeModel or a ValueTableModel what fits a search: all words have to occur, in any
+/// order and case, in name, unit, description, node or plant of a signal.
 class SignalFilterModel : public QSortFilterProxyModel
 {
     Q_OBJECT

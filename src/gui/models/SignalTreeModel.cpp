@@ -101,7 +101,8 @@ void SignalTreeModel::rebuild(Plant *plant)
         insertSignal(item, makeSignal(plant, QPlcSignalIndex(signal)), plant->writer(QPlcSignalIndex(signal)));
 }
 
-/// Moves those signals that are written by another node now; all others stay, with what is selected and unfolded.
+/// Moves those signals that are written by another node now; all others stay, with what is selected
+/// and unfolded.
 void SignalTreeModel::regroup(Plant *plant)
 {
     Item *plantItem = itemOf(plant);

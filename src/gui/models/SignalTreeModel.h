@@ -15,8 +15,9 @@ namespace qplc {
 
 /// All signals of all plants: plant, node that writes it, signal, elements.
 ///
-/// Values are renewed at most 10 times a second, and only those that somebody has looked at since the last time: a view asks for what it paints. So hidden rows and hidden views
-/// cost nothing, whatever stands between view and model.
+/// Values are renewed at most 10 times a second, and only those that somebody has looked at since
+/// the last time: a view asks for what it paints. So hidden rows and hidden views cost nothing,
+/// whatever stands between view and model.
 class SignalTreeModel : public QAbstractItemModel
 {
     Q_OBJECT

@@ -7,13 +7,15 @@ namespace qplc {
 
 /// The prefix of a value that is written again and again and has no known range. A value type.
 ///
-/// It becomes larger at once when the value needs it, and smaller after the value has been too small for it in Patience texts in a row. A value that passes zero keeps its prefix.
+/// It becomes larger at once when the value needs it, and smaller after the value has been too
+/// small for it in Patience texts in a row. A value that passes zero keeps its prefix.
 class SteadyPrefix
 {
 public:
     static constexpr int Patience = 20;  // texts: 2 s of those that are renewed ten times a second
 
-    /// Call it once for each text. \param size  of the value, or of the largest one that gets the same prefix [unit]; NaN changes nothing
+    /// Call it once for each text. \param size of the value, or of the largest one that gets the
+    /// same prefix [unit]; NaN changes nothing
     const SiPrefix &next(const QString &unit, double size);
     const SiPrefix &current() const { return m_prefix; }
 

@@ -15,11 +15,13 @@ std::unique_ptr<QMimeData> mimeDataOf(const QVector<SignalReference> &references
 /// Empty when there are none; what is no reference is left out.
 QVector<SignalReference> referencesIn(const QMimeData *mimeData);
 
-/// A value as tables show it: 7 digits for Real32, 10 for Real64, elements in brackets, times as local time of the day; empty before the first.
+/// A value as tables show it: 7 digits for Real32, 10 for Real64, elements in brackets, times as
+/// local time of the day; empty before the first.
 QString valueText(const QPlcValue &value);
 /// The same with the names of values where \a definition has some: "ReelIn", "[Off, ReelIn]".
 QString valueText(const QPlcValue &value, const QPlcSignalDefinition &definition);
-/// The same in as little space as a tree has: numbers of at most nine characters, 6 digits or as many as fit, elements of 3, times to a tenth of a second; whole digits are never left out.
+/// The same in as little space as a tree has: numbers of at most nine characters, 6 digits or as
+/// many as fit, elements of 3, times to a tenth of a second; whole digits are never left out.
 QString shortValueText(const QPlcValue &value);
 QString shortValueText(const QPlcValue &value, const QPlcSignalDefinition &definition);
 /// A number with so many significant digits, "–" when it is not there.
@@ -32,11 +34,13 @@ QString ageText(double seconds);
 QString durationText(double nanoseconds);
 /// "good", "at rest", "stale", "no value".
 QString qualityText(Plant::Quality quality);
-/// What stands in the way of trust in the newest value of a signal: the plant, or else its own quality.
+/// What stands in the way of trust in the newest value of a signal: the plant, or else its own
+/// quality.
 QString qualityText(const PlantList::Signal &signal);
 /// Whether the newest value of a signal is of now, or of the plant at rest, and usable.
 bool isTrusted(const PlantList::Signal &signal);
-/// The state of a plant in a word or two: that of its master, see stateText(), or "lost", "connecting", "not there"; Plant::stateText() says why.
+/// The state of a plant in a word or two: that of its master, see stateText(), or "lost",
+/// "connecting", "not there"; Plant::stateText() says why.
 QString stateWord(const Plant &plant);
 /// What Qt::ForegroundRole gives: grey for what is not to be trusted, else nothing.
 QVariant foregroundOf(bool isTrusted);

@@ -10,9 +10,11 @@
 
 namespace qplc {
 
-/// Chosen signals with value, smallest and largest value, quality, age and rate. What is not there now stays as a placeholder and comes to life with its signal.
+/// Chosen signals with value, smallest and largest value, quality, age and rate. What is not there
+/// now stays as a placeholder and comes to life with its signal.
 ///
-/// Smallest and largest values are those of every cycle since reset(), of numbers with one element; the cells are renewed 10 times a second.
+/// Smallest and largest values are those of every cycle since reset(), of numbers with one element;
+/// the cells are renewed 10 times a second.
 class ValueTableModel : public QAbstractTableModel
 {
     Q_OBJECT

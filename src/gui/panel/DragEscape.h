@@ -8,8 +8,8 @@ class QWidget;
 
 namespace qplc {
 
-/// Escape ends what a person drags on a widget, wherever the keyboard is: from then on the widget hears no movement
-/// until the mouse button is up. The press of the key reaches nothing else.
+/// Escape ends what a person drags on a widget, wherever the keyboard is: from then on the widget
+/// hears no movement until the mouse button is up. The press of the key reaches nothing else.
 class DragEscape : public QObject
 {
     Q_OBJECT

@@ -8,7 +8,8 @@
 
 namespace qplc {
 
-/// A font whose digits all have one width, so that figures do not dance: \a font itself, or else the one for code in its size.
+/// A font whose digits all have one width, so that figures do not dance: \a font itself, or else
+/// the one for code in its size.
 inline QFont figureFont(const QFont &font)
 {
     const QFontMetricsF metrics(font);

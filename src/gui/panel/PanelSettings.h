@@ -8,7 +8,8 @@
 
 namespace qplc {
 
-/// The settings of a panel as its layout has them: what nobody changes goes back to the file byte for byte, and what a person sets back to its default leaves it. A value type.
+/// The settings of a panel as its layout has them: what nobody changes goes back to the file byte
+/// for byte, and what a person sets back to its default leaves it. A value type.
 class PanelSettings
 {
 public:
@@ -19,7 +20,8 @@ public:
             m_keys << QLatin1String(key);
     }
 
-    /// Takes over all keys that the panel knows; those that are missing have their defaults from here on.
+    /// Takes over all keys that the panel knows; those that are missing have their defaults from
+    /// here on.
     /// \return the others
     QJsonObject take(QJsonObject settings)
     {

@@ -60,8 +60,8 @@ QPlcQuality qualityOf(QPlcQuality::Kind kind)
     return kind == QPlcQuality::Held ? QPlcQuality::held(1) : QPlcQuality(kind);
 }
 
-/// Where no cycles come, a formula is calculated of the newest values that the signals have; one with a past keeps the
-/// result of the last cycle.
+/// Where no cycles come, a formula is calculated of the newest values that the signals have; one
+/// with a past keeps the result of the last cycle.
 QPlcValue newestValue(const CurveSource &formula)
 {
     const qplc::Plant &plant = *formula.plant;

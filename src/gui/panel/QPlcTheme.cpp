@@ -7,7 +7,8 @@ namespace {
 
 using Curves = std::array<QRgb, 8>;
 
-// Hues after Okabe and Ito, "Color Universal Design", 2008; lighter or darker as the background asks for contrast.
+// Hues after Okabe and Ito, "Color Universal Design", 2008; lighter or darker as the background
+// asks for contrast.
 constexpr Curves curvesOnWhite
     = {0xff0072b2, 0xffd55e00, 0xff007a5a, 0xffb5548f, 0xff9a6b00, 0xff3a8fc4, 0xff5c5c5c, 0xff8c1c13};
 constexpr Curves curvesOnBlack

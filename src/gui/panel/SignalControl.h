@@ -10,7 +10,8 @@ class QPlcPanelContext;
 
 namespace qplc {
 
-/// Who writes some signals, and how this window gets and gives back control of them: all at once, by leases.
+/// Who writes some signals, and how this window gets and gives back control of them: all at once,
+/// by leases.
 ///
 /// Looks up its signals again by itself when plants, tables, writers or leases change.
 class SignalControl : public QObject
@@ -32,7 +33,8 @@ public:
 
     using QObject::QObject;
 
-    /// Knows the plants of a panel, and the one to which it is pinned. \param context  outlives this
+    /// Knows the plants of a panel, and the one to which it is pinned.
+    /// \param context outlives this
     void setContext(QPlcPanelContext *context);
     /// \param plants  null: none
     void setPlants(PlantList *plants);
@@ -63,7 +65,8 @@ public:
         Neutral
     };
     void setBeginning(Beginning beginning) { m_beginning = beginning; }
-    /// The neutral values of the signals, for people: "tetherSpeed 1 m/s", "all 0"; empty where there are no signals
+    /// The neutral values of the signals, for people: "tetherSpeed 1 m/s", "all 0"; empty where
+    /// there are no signals
     QString neutralText() const;
 
     /// Takes all of the signals. From others only with \a takeOver.
@@ -73,7 +76,8 @@ public:
     void follow(Plant *plant, int command) { m_commands.append({plant, command}); }
 
 Q_SIGNALS:
-    /// The signals are those of another plant in a moment: what was begun ends now, in the plant in which it was begun.
+    /// The signals are those of another plant in a moment: what was begun ends now, in the plant in
+    /// which it was begun.
     void leaving();
     /// The signals are other ones, or stand for something else.
     void signalsChanged();
@@ -81,7 +85,8 @@ Q_SIGNALS:
     void changed();
     /// A plant has new values.
     void updated();
-    /// The master has refused a command of this object, or one that it follows. \param sentence  why
+    /// The master has refused a command of this object, or one that it follows.
+    /// \param sentence why
     void failed(const QString &sentence);
 
 private:
@@ -108,7 +113,8 @@ private:
 
 /// The value where \a signal goes when nobody steers it, as its type; of an element the element.
 QPlcValue neutralValue(const PlantList::Signal &signal);
-/// The whole value of \a signal in which the element that it stands for, or all, is \a number. Invalid: it is no number, or the value of the others is not known yet.
+/// The whole value of \a signal in which the element that it stands for, or all, is \a number.
+/// Invalid: it is no number, or the value of the others is not known yet.
 QPlcValue wholeValue(const PlantList::Signal &signal, double number);
 /// \param others  the value of the other elements
 QPlcValue wholeValue(const PlantList::Signal &signal, double number, const QPlcValue &others);

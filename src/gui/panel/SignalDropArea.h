@@ -9,12 +9,14 @@
 
 namespace qplc {
 
-/// A part of a panel in which dropped signals mean something else than in the rest of it: the right axis of a plot. A child of the widget of the panel.
+/// A part of a panel in which dropped signals mean something else than in the rest of it: the right
+/// axis of a plot. A child of the widget of the panel.
 class SignalDropArea : public QObject
 {
     Q_OBJECT
 public:
-    /// \param area  [px of the widget]; null: there is none now \param add  takes signals; false: it has no use for any
+    /// \param area [px of the widget]; null: there is none now \param add takes signals; false: it
+    ///         has no use for any
     SignalDropArea(const QString &text, std::function<QRect()> area, std::function<bool(const QStringList &)> add,
                    QObject *widget)
         : QObject(widget)

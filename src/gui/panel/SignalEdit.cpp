@@ -66,7 +66,8 @@ void SignalEdit::keyPressEvent(QKeyEvent *event)
         event->accept();  // of no use to who is behind
 }
 
-/// What is written when it is a formula, the name of a signal, or like none; else the first name like it.
+/// What is written when it is a formula, the name of a signal, or like none; else the first name
+/// like it.
 QString SignalEdit::meant() const
 {
     const QString written = text().trimmed();

@@ -9,7 +9,8 @@ namespace qplc {
 
 class PlantList;
 
-/// A line for the name of a signal, which offers all signals that have what was typed somewhere in their names.
+/// A line for the name of a signal, which offers all signals that have what was typed somewhere in
+/// their names.
 class SignalEdit : public QLineEdit
 {
     Q_OBJECT
@@ -25,7 +26,8 @@ public:
     static QStringList names(const PlantList &plants, Offer offer);
 
 Q_SIGNALS:
-    /// Enter was pressed, or a name was chosen from the list: it is the text of the line now, and not empty. What is typed means the first name like it when it is none itself.
+    /// Enter was pressed, or a name was chosen from the list: it is the text of the line now, and
+    /// not empty. What is typed means the first name like it when it is none itself.
     void chosen(const QString &text);
     /// Esc was pressed.
     void left();

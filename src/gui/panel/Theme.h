@@ -7,7 +7,8 @@
 
 namespace qplc {
 
-/// The look of a window: which one it is, and what only the window itself needs of it. A value type.
+/// The look of a window: which one it is, and what only the window itself needs of it. A value
+/// type.
 struct Theme : QPlcTheme
 {
     enum Name {
@@ -25,7 +26,8 @@ struct Theme : QPlcTheme
     /// System when \a text is none of them.
     static Name nameOf(const QString &text);
 
-    /// The colour that says which plant a panel or the bar shows, behind text of the colour of the window. \param number  Plant::number()
+    /// The colour that says which plant a panel or the bar shows, behind text of the colour of the
+    /// window. \param number Plant::number()
     QColor plant(int number) const { return curve(number); }
 };
 

@@ -7,8 +7,9 @@
 
 namespace qplc {
 
-/// Sends values that change quickly to one plant: one command is under way, behind it the newest values wait. What lay between is left out, the last one never: a slow network
-/// makes no queue of old values.
+/// Sends values that change quickly to one plant: one command is under way, behind it the newest
+/// values wait. What lay between is left out, the last one never: a slow network makes no queue of
+/// old values.
 class ValueStream : public QObject
 {
     Q_OBJECT

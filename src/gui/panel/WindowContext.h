@@ -10,7 +10,8 @@
 
 namespace qplc {
 
-/// What all panels of a window share: plants, events, time, and colours. QPlcWidget::windowContext() gives it to a panel of QtPLC.
+/// What all panels of a window share: plants, events, time, and colours.
+/// QPlcWidget::windowContext() gives it to a panel of QtPLC.
 ///
 /// Threads: that of the window.
 class WindowContext : public QObject
@@ -24,7 +25,8 @@ public:
     EventLogModel *events() { return &m_events; }
     CurveSources *curveSources() { return &m_curveSources; }
     TimeView *timeView() { return &m_timeView; }
-    /// Names of the plants of signals and formulas, each once. \param pin  the plant of those without one; empty: the selected one
+    /// Names of the plants of signals and formulas, each once. \param pin the plant of those
+    /// without one; empty: the selected one
     QStringList plantsOf(const QStringList &expressions, const QString &pin) const;
     const Theme &theme() const { return m_theme; }
     void setTheme(const Theme &theme);

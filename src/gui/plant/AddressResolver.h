@@ -7,7 +7,8 @@
 
 namespace qplc {
 
-/// Finds out where a master is without ever waiting: names of hosts are looked up in the background.
+/// Finds out where a master is without ever waiting: names of hosts are looked up in the
+/// background.
 class AddressResolver : public QObject
 {
     Q_OBJECT
@@ -15,7 +16,8 @@ public:
     using QObject::QObject;
     ~AddressResolver() override;
 
-    /// Begins with an address as QPlcUnderlyingProtocol::fromString() reads it; resolved() or failed() follows, may be at once. A question before it is forgotten.
+    /// Begins with an address as QPlcUnderlyingProtocol::fromString() reads it; resolved() or
+    /// failed() follows, may be at once. A question before it is forgotten.
     void resolve(const QString &address);
     void cancel();
 

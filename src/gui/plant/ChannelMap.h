@@ -7,8 +7,9 @@
 
 namespace qplc {
 
-/// Where the signals of a table lie: in the payload of a listener that reads all of them in the order of the table, and in the channels of a SignalStore, one for each element of each
-/// numeric signal. A value type.
+/// Where the signals of a table lie: in the payload of a listener that reads all of them in the
+/// order of the table, and in the channels of a SignalStore, one for each element of each numeric
+/// signal. A value type.
 class ChannelMap
 {
 public:

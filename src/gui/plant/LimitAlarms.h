@@ -10,7 +10,8 @@
 
 namespace qplc {
 
-/// Tells when signals of plants that a program feeds leave the limits of their tables, and when they are back: alarms of the event log. A master refuses such values, and tells that itself.
+/// Tells when signals of plants that a program feeds leave the limits of their tables, and when
+/// they are back: alarms of the event log. A master refuses such values, and tells that itself.
 ///
 /// Threads: that of the window.
 class LimitAlarms : public QObject

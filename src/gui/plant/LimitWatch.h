@@ -8,9 +8,11 @@
 
 namespace qplc {
 
-/// Finds when signals leave their limits of the table, and when they are back: of every row, also between two looks.
+/// Finds when signals leave their limits of the table, and when they are back: of every row, also
+/// between two looks.
 ///
-/// A signal is back when all its values have been within the limits for a second, so that one that trembles about its limit is one violation. Knows no clock: times are those of rows.
+/// A signal is back when all its values have been within the limits for a second, so that one that
+/// trembles about its limit is one violation. Knows no clock: times are those of rows.
 class LimitWatch
 {
 public:
@@ -28,7 +30,8 @@ public:
         double farthest;  // the value that is, or was, farthest outside
     };
 
-    /// Begins anew: nothing is outside, and rows of before do not count. \param store  with the channels of \a channels; null: none
+    /// Begins anew: nothing is outside, and rows of before do not count. \param store with the
+    /// channels of \a channels; null: none
     void setTable(const QPlcSignalTable &table, const ChannelMap &channels, const SignalStore *store);
     /// Looks at the rows that are new. The same store as before.
     std::vector<Change> take(const SignalStore &store);

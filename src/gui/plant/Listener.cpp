@@ -10,7 +10,8 @@ namespace qplc {
 
 namespace {
 
-/// Reads all signals of its own table, whatever the table of the process is: a window may show several masters.
+/// Reads all signals of its own table, whatever the table of the process is: a window may show
+/// several masters.
 class ListeningNode : public QPlcIOBufferSlaveNode
 {
 public:

@@ -10,8 +10,8 @@ namespace qplc {
 
 namespace {
 
-/// A master keeps 1000 events and sends 200 in an answer: one that says again and again that there are more is not
-/// listened to for ever, since other events wait for the end.
+/// A master keeps 1000 events and sends 200 in an answer: one that says again and again that there
+/// are more is not listened to for ever, since other events wait for the end.
 constexpr int mostAnswers = 100;
 
 PlantEvent::Severity severityOf(const QString &name)

@@ -9,15 +9,16 @@
 
 namespace qplc {
 
-/// The events that a master tells: those that it still has are fetched after connecting, and then they come by themselves. Each one is told once, in order, also over
-/// lost connections.
+/// The events that a master tells: those that it still has are fetched after connecting, and then
+/// they come by themselves. Each one is told once, in order, also over lost connections.
 class MasterJournal : public QObject
 {
     Q_OBJECT
 public:
     explicit MasterJournal(ControlClient &control, QObject *parent = nullptr);
 
-    /// A connection begins. \param session  of the master  \param hasFeature  whether it tells events
+    /// A connection begins. \param session of the master
+    /// \param hasFeature whether it tells events
     void begin(quint64 session, bool hasFeature);
     void end();
     /// Whether the master tells what happens to it: nobody else should.

@@ -15,9 +15,11 @@ namespace qplc {
 
 class PlantFeed;
 
-/// One plant as a window sees it: its signals with values and age, its state and the next thing to do, its nodes, and its commands.
+/// One plant as a window sees it: its signals with values and age, its state and the next thing to
+/// do, its nodes, and its commands.
 ///
-/// Never blocks and never gives up: open() once, and the plant comes and goes as it likes. Everything happens in the thread of the window; cycles arrive in a thread of their own.
+/// Never blocks and never gives up: open() once, and the plant comes and goes as it likes.
+/// Everything happens in the thread of the window; cycles arrive in a thread of their own.
 class Plant : public QObject
 {
     Q_OBJECT
@@ -40,7 +42,8 @@ public:
     ~Plant() override;
 
     QString name() const { return m_name; }
-    /// 0, 1, ...: by which its colour is chosen (Theme::plant()); of no other plant of the window, and the same as long as the plant is there.
+    /// 0, 1, ...: by which its colour is chosen (Theme::plant()); of no other plant of the window,
+    /// and the same as long as the plant is there.
     int number() const { return m_number; }
     void setNumber(int number) { m_number = number; }
     QString address() const { return m_connection.address(); }
@@ -56,19 +59,22 @@ public:
     PlantConnection::State connectionState() const;
     /// Time until the next attempt to connect [s]; -1 when none waits.
     double nextAttempt() const { return m_connection.nextAttempt(); }
-    /// Why this window cannot work with a master that is there: "versions differ: ..."; empty: it can, or there is none.
+    /// Why this window cannot work with a master that is there: "versions differ: ..."; empty: it
+    /// can, or there is none.
     QString refusal() const { return m_refusal; }
     bool isConnected() const { return connectionState() == PlantConnection::Connected; }
     /// Whether the master listens to a network, and asks nobody who he is.
     bool isInsecure() const { return m_isInsecure; }
-    /// Who this window is for a master with security: the proven identity and its role. Empty without security.
+    /// Who this window is for a master with security: the proven identity and its role. Empty
+    /// without security.
     QString identity() const { return m_identity; }
     QString role() const { return m_role; }
     /// What the master tells of this window, which is a node that listens; null: nothing yet.
     const NodeStatus *ownNode() const { return m_status.node(m_connection.nodeName()); }
     /// One line for people: "Real time", "Disconnected: Connection refused".
     QString stateText() const;
-    /// The one thing that comes next: Start when the master is off (Initialize, Arm and Start, where it wants starts to be armed), Stop while it runs, Reset when a fault is latched.
+    /// The one thing that comes next: Start when the master is off (Initialize, Arm and Start,
+    /// where it wants starts to be armed), Stop while it runs, Reset when a fault is latched.
     Action nextAction() const;
     static QString actionText(Action action);
     const PlantStatus &status() const { return m_status; }
@@ -88,7 +94,8 @@ public:
     Quality quality() const;
     /// Time since the values were true [s]; -1 before the first.
     double age() const;
-    /// Wants the values at most so many times a second, for slow links; 0: in each cycle, as at the begin. What happens in between is not seen.
+    /// Wants the values at most so many times a second, for slow links; 0: in each cycle, as at the
+    /// begin. What happens in between is not seen.
     void setRate(double timesPerSecond) { m_connection.setRate(timesPerSecond); }
     /// Cycles for each row of values.
     int every() const { return m_connection.every(); }
@@ -111,20 +118,24 @@ public:
     /// \param how  what the person did, for people: "Esc Esc"
     int stop(const QString &how = QString());
     int perform(Action action);
-    /// Sets signals that no node writes, all or none. \param duration  0 for good; else the values from before come back after it
+    /// Sets signals that no node writes, all or none. \param duration 0 for good; else the values
+    /// from before come back after it
     int setValues(const QHash<QString, QPlcValue> &values,
                   std::chrono::nanoseconds duration = std::chrono::nanoseconds(0));
     enum TakeOver { OnlyFree, AlsoFromOthers };
-    /// Takes signals over for this window, all or none: from then on they have the values of setValues(), whatever the nodes answer that write them. The window holds them until
-    /// releaseLease(), or until it is lost: then they go to their neutral values. \param values  to begin with; may be fewer
+    /// Takes signals over for this window, all or none: from then on they have the values of
+    /// setValues(), whatever the nodes answer that write them. The window holds them until
+    /// releaseLease(), or until it is lost: then they go to their neutral values. \param values to
+    /// begin with; may be fewer
     int takeLease(const QStringList &signalNames, const QHash<QString, QPlcValue> &values = {},
                   TakeOver takeOver = OnlyFree);
     /// Gives signals back to the nodes that write them; also those of a lost holder.
     int releaseLease(const QStringList &signalNames);
 
-    /// Asks for more than the plant does by itself: GetStatistics with histograms, ... \a handler gets a
-    /// ControlClient::Reply, if the connection lasts so long.
-    /// \return false: nothing was asked, as there is no connection, or a command waits for its answer
+    /// Asks for more than the plant does by itself: GetStatistics with histograms, ... \a handler
+    /// gets a ControlClient::Reply, if the connection lasts so long.
+    /// \return false: nothing was asked, as there is no connection, or a command waits for its
+    ///         answer
     template<typename Question, typename Handler, typename = typename Question::Answer>
     bool ask(const Question &question, const Handler &handler)
     {
@@ -143,7 +154,8 @@ Q_SIGNALS:
     void stateChanged();
     /// Nodes or their figures.
     void statusChanged();
-    /// Another table: indices mean something else from here on. Never twice for the same table, also over reconnections.
+    /// Another table: indices mean something else from here on. Never twice for the same table,
+    /// also over reconnections.
     void tableChanged();
     void writersChanged();
     /// Somebody has taken, given back or lost a signal. Values of leases() are new ones.

@@ -9,7 +9,8 @@
 
 namespace qplc {
 
-/// Where a master is, and how a window proves there who it is, as people write it and windows remember it. A value type.
+/// Where a master is, and how a window proves there who it is, as people write it and windows
+/// remember it. A value type.
 ///
 /// ```
 /// winch1:50000                                        as the whole program (--security)

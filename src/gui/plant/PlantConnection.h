@@ -10,7 +10,8 @@
 
 namespace qplc {
 
-/// The connection of a window to one master: tries for ever, and brings the listener back whenever it is lost.
+/// The connection of a window to one master: tries for ever, and brings the listener back whenever
+/// it is lost.
 class PlantConnection : public QObject
 {
     Q_OBJECT
@@ -19,7 +20,8 @@ public:
     Q_ENUM(State)
 
     /// \param address  as PlantAddress::fromString() reads it
-    /// \param nodeName  under which the master knows the listener; empty: "<person>-<pid>", where the person is PlantLeases::whoever()
+    /// \param nodeName under which the master knows the listener; empty: "<person>-<pid>", where
+    ///         the person is PlantLeases::whoever()
     PlantConnection(const QString &address, const QString &nodeName, QObject *parent = nullptr);
     ~PlantConnection() override;
 
@@ -31,9 +33,11 @@ public:
     bool isOpen() const { return m_isOpen; }
 
     State state() const { return m_state; }
-    /// Wants at most so many frames a second; 0: one for each cycle, as at the begin. The listener registers again when that makes a difference.
+    /// Wants at most so many frames a second; 0: one for each cycle, as at the begin. The listener
+    /// registers again when that makes a difference.
     void setRate(double framesPerSecond);
-    /// Tells the time between two cycles on the clock of people [ns], where it is another one than the master said first.
+    /// Tells the time between two cycles on the clock of people [ns], where it is another one than
+    /// the master said first.
     void setPeriod(qint64 period);
     /// Cycles for each frame that is wanted.
     int every() const { return m_every; }

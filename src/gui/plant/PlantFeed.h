@@ -13,9 +13,11 @@ namespace qplc {
 
 class Plant;
 
-/// What a plant lives from that somebody else connects: a program tells its state and values, and gets its commands.
+/// What a plant lives from that somebody else connects: a program tells its state and values, and
+/// gets its commands.
 ///
-/// Nobody says when its cycles were, so rows follow the wall clock: a period is found that keeps them evenly spaced and never far from it.
+/// Nobody says when its cycles were, so rows follow the wall clock: a period is found that keeps
+/// them evenly spaced and never far from it.
 ///
 /// Threads: that of the window.
 class PlantFeed : public QObject
@@ -34,7 +36,8 @@ public:
     void initialize(const QPlcSignalList &values);
     void started();
     void stopped();
-    /// The values of cycles that follow each other, oldest first. \param wallTime  of the last one [ns since 1970]
+    /// The values of cycles that follow each other, oldest first. \param wallTime of the last one
+    /// [ns since 1970]
     void take(const QList<QPlcSignalList> &cycles, PlantValues::Time wallTime);
 
 Q_SIGNALS:

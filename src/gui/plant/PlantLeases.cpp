@@ -38,8 +38,9 @@ PlantLeases::PlantLeases(ControlClient &control, QObject *parent)
 void PlantLeases::begin(bool hasFeature)
 {
     m_hasFeature = hasFeature;
-    // Lists tell names, and a person may have two windows, or a connection that the master has not missed yet. So each connection has a timeout of its own: it differs by
-    // less than a millisecond.
+    // Lists tell names, and a person may have two windows, or a connection that the master has not
+    // missed yet. So each connection has a timeout of its own: it differs by less than a
+    // millisecond.
     m_timeout
         = std::chrono::milliseconds(Timeout) + std::chrono::nanoseconds(QRandomGenerator::global()->bounded(1'000'000));
     if (hasFeature)

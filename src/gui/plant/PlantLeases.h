@@ -11,9 +11,11 @@
 
 namespace qplc {
 
-/// The leases of one plant: what its master tells of them, and the sign of life while this window holds one.
+/// The leases of one plant: what its master tells of them, and the sign of life while this window
+/// holds one.
 ///
-/// A window that hangs says nothing, and loses its leases after Timeout; one that is busy for a second keeps them.
+/// A window that hangs says nothing, and loses its leases after Timeout; one that is busy for a
+/// second keeps them.
 class PlantLeases : public QObject
 {
     Q_OBJECT

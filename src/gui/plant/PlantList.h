@@ -9,7 +9,8 @@
 
 namespace qplc {
 
-/// All plants of a window, one of which is selected: its bar and all names without a plant mean that one. None of them waits for another one.
+/// All plants of a window, one of which is selected: its bar and all names without a plant mean
+/// that one. None of them waits for another one.
 class PlantList : public QObject
 {
     Q_OBJECT
@@ -27,19 +28,22 @@ public:
         QPlcValue value() const;
         /// What the master says of it; Plant::quality() says whether that is of now.
         QPlcQuality quality() const { return plant->values().quality(index); }
-        /// The channel in the store of the plant: of the element, or of the only one; ChannelMap::NoChannel for texts, times and whole arrays.
+        /// The channel in the store of the plant: of the element, or of the only one;
+        /// ChannelMap::NoChannel for texts, times and whole arrays.
         int channel() const;
     };
 
     explicit PlantList(QObject *parent = nullptr);
     ~PlantList() override;
 
-    /// Adds a plant and connects it for ever. \param name  made unique with a number when it is taken
+    /// Adds a plant and connects it for ever. \param name made unique with a number when it is
+    /// taken
     Plant *add(const QString &address, const QString &name = QString(), const QString &nodeName = QString());
     /// Adds a plant that a program feeds (Plant::feed()).
     Plant *addFed(const QString &name);
     void remove(Plant *plant);
-    /// Calls \a follow with each plant: with those that are there now, and with those that come, as long as \a receiver lives.
+    /// Calls \a follow with each plant: with those that are there now, and with those that come, as
+    /// long as \a receiver lives.
     template<typename Receiver>
     void forEach(Receiver *receiver, void (Receiver::*follow)(Plant *))
     {
@@ -57,12 +61,14 @@ public:
     Plant *find(const QString &name) const;
     QStringList names() const;
 
-    /// Null while there is no plant. The first one is selected by itself; the one that follows a selected plant that is removed is the first that is left.
+    /// Null while there is no plant. The first one is selected by itself; the one that follows a
+    /// selected plant that is removed is the first that is left.
     Plant *selected() const { return m_selected; }
     /// Does nothing for a plant of another list.
     void select(Plant *plant);
 
-    /// The plant of \a reference; for a reference without one \a pin, or the selected plant. Null when there is none of this name.
+    /// The plant of \a reference; for a reference without one \a pin, or the selected plant. Null
+    /// when there is none of this name.
     Plant *plantOf(const SignalReference &reference, const QString &pin = QString()) const;
     /// False when its plant has no such signal or element now. \param pin  as in plantOf()
     Signal resolve(const SignalReference &reference, const QString &pin = QString()) const;
@@ -73,7 +79,8 @@ Q_SIGNALS:
     void added(qplc::Plant *plant);
     /// The plant is no more in the list, and ends after this.
     void removed(qplc::Plant *plant);
-    /// References without a plant mean another plant in a moment: the last time to end what was begun in the present one.
+    /// References without a plant mean another plant in a moment: the last time to end what was
+    /// begun in the present one.
     void aboutToSelect();
     /// Another plant is selected, after signalsChanged(), or none is left.
     void selectionChanged();

@@ -19,7 +19,8 @@ struct NodeStatus
     bool isLatched() const { return messages::isLatched(messages::stateNamed(info.state)); }
 };
 
-/// A master and its nodes, put together of its answers State, Statistics and Schedule. A value type.
+/// A master and its nodes, put together of its answers State, Statistics and Schedule. A value
+/// type.
 ///
 /// What people are to read is fit to be shown: see printable().
 struct PlantStatus

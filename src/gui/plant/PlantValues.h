@@ -14,10 +14,12 @@
 
 namespace qplc {
 
-/// Values of one plant: the newest of all signals, the batch since the last view, and the past in a SignalStore.
+/// Values of one plant: the newest of all signals, the batch since the last view, and the past in a
+/// SignalStore.
 ///
-/// Row times are [ns] since 1970: the wall clock at the first row of a phase, and from there on whole periods. A phase whose time ran ahead of the wall clock (Lockstep)
-/// pushes the begin of the next one. Knows no clock and no connection: it is told the time.
+/// Row times are [ns] since 1970: the wall clock at the first row of a phase, and from there on
+/// whole periods. A phase whose time ran ahead of the wall clock (Lockstep) pushes the begin of the
+/// next one. Knows no clock and no connection: it is told the time.
 class PlantValues
 {
 public:
@@ -34,7 +36,8 @@ public:
     void setTable(const QPlcSignalTable &table, Time period) { setTable(table, period, Budget()); }
     const QPlcSignalTable &table() const { return m_table; }
     const ChannelMap &channels() const { return m_channels; }
-    /// Null before the first table. Another one from setTable() on, and from a frame on whose period is much shorter.
+    /// Null before the first table. Another one from setTable() on, and from a frame on whose
+    /// period is much shorter.
     SignalStore *store() const { return m_store.get(); }
     std::shared_ptr<const SignalStore> sharedStore() const { return m_store; }
 
@@ -42,8 +45,11 @@ public:
     void beginBatch();
     /// Takes the values of one cycle. \param wallTime  now, since 1970
     void takeFrame(const QPlcIOBufferSlaveNode::Frame &frame, Time wallTime);
-    /// Takes the values of one cycle whose time somebody else knows. \param payload  as ChannelMap says  \param time  after that of the row before
-    /// \param qualities  a byte for each signal; null: nobody told them, and all are good. In the store a value that is not good has the kind of its quality as mark, and an invalid one is a gap.
+    /// Takes the values of one cycle whose time somebody else knows. \param payload as ChannelMap
+    /// says \param time after that of the row before
+    /// \param qualities a byte for each signal; null: nobody told them, and all are good. In the
+    ///         store a value that is not good has the kind of its quality as mark, and an invalid
+    ///         one is a gap.
     void takeRow(const char *payload, Time time, const char *qualities = nullptr);
     /// Takes a value that came outside of a cycle. Nothing becomes of one that does not fit.
     void takeValue(QPlcSignalIndex signal, const QPlcValue &value, QPlcQuality quality = QPlcQuality::Good);
@@ -53,9 +59,11 @@ public:
     bool hasValues() const { return m_hasValues; }
     /// The newest value; invalid before the first, or when there is no such signal.
     QPlcValue value(QPlcSignalIndex signal) const;
-    /// How far the newest value can be trusted; invalid before the first, or when there is no such signal.
+    /// How far the newest value can be trusted; invalid before the first, or when there is no such
+    /// signal.
     QPlcQuality quality(QPlcSignalIndex signal) const;
-    /// The newest values, one for each channel of the store, also those that came outside of a cycle.
+    /// The newest values, one for each channel of the store, also those that came outside of a
+    /// cycle.
     std::vector<float> newestChannels() const;
     /// The values of \a signalIndices in each cycle of the last batch, oldest first.
     QList<QPlcSignalList> batch(const QVector<QPlcSignalIndex> &signalIndices) const;

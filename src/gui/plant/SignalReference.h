@@ -6,7 +6,8 @@
 
 namespace qplc {
 
-/// A signal, or one element of it, as layouts and people write it: `signal`, `signal[2]`, `plant/signal`, `plant/signal[2]`. A value type.
+/// A signal, or one element of it, as layouts and people write it: `signal`, `signal[2]`,
+/// `plant/signal`, `plant/signal[2]`. A value type.
 ///
 /// It names something that need not be there: PlantList::resolve() finds it.
 struct SignalReference

@@ -7,10 +7,13 @@
 
 namespace qplc {
 
-/// What a curve does between two times: straight from the rows of the store, some of them at each update, so that ten minutes at a kilohertz never hold up a window.
+/// What a curve does between two times: straight from the rows of the store, some of them at each
+/// update, so that ten minutes at a kilohertz never hold up a window.
 ///
-/// Counts the rows at or after the earlier and at or before the later time; NaN counts as nothing. Mean, rms and sigma are those of the rows, each with the same weight; sigma divides by their number,
-/// so rms^2 = mean^2 + sigma^2. The integral goes from row to row, straight (trapezoids) or stepped, never over a gap.
+/// Counts the rows at or after the earlier and at or before the later time; NaN counts as nothing.
+/// Mean, rms and sigma are those of the rows, each with the same weight; sigma divides by their
+/// number, so rms^2 = mean^2 + sigma^2. The integral goes from row to row, straight (trapezoids) or
+/// stepped, never over a gap.
 ///
 /// ```cpp
 /// statistics.set(&store, channel, scaling, a, b);  // costs nothing when nothing is new
@@ -44,7 +47,8 @@ public:
         double integral;  // [unit s]
     };
 
-    /// What is to be looked at, in any order of times. Begins anew when it is something else; rows that have come in between are looked at too, and those that have gone since stay counted.
+    /// What is to be looked at, in any order of times. Begins anew when it is something else; rows
+    /// that have come in between are looked at too, and those that have gone since stay counted.
     void set(const SignalStore *store, int channel, const Scaling &scaling, Time first, Time second);
     /// Forgets everything, also the store.
     void reset() { *this = CursorStatistics(); }

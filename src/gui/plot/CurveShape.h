@@ -10,7 +10,8 @@ namespace qplc {
 
 /// What of a channel is seen in a view, left to right: few points, whatever the number of rows.
 ///
-/// With two rows for a column of pixels or more, a point is a column with all that happened in it; with fewer, a point is a row. The last row before the view and the first one behind it are there
+/// With two rows for a column of pixels or more, a point is a column with all that happened in it;
+/// with fewer, a point is a row. The last row before the view and the first one behind it are there
 /// too, so that lines lead out of it.
 class CurveShape
 {

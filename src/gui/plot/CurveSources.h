@@ -13,7 +13,8 @@ class DerivedSignals;
 
 /// Where a curve comes from: a channel of a store, with what is known of it. A value type.
 ///
-/// The store of a derived signal lives as long as a CurveSource of it: keep the CurveSource as long as its store is drawn.
+/// The store of a derived signal lives as long as a CurveSource of it: keep the CurveSource as long
+/// as its store is drawn.
 struct CurveSource
 {
     Plant *plant = nullptr;
@@ -33,9 +34,13 @@ struct CurveSource
     static QString textOf(const QString &expression);
 };
 
-/// Finds what an expression means at the moment: a signal, "kite.elevation", "east/kite.position[2]", or, behind "=", something calculated of signals (Formula): "= mean(power, 5)".
+/// Finds what an expression means at the moment: a signal, "kite.elevation",
+/// "east/kite.position[2]", or, behind "=", something calculated of signals (Formula): "=
+/// mean(power, 5)".
 ///
-/// Derived signals have the same rows as the store of their plant. When one is made, its past is there within some turns of the event loop; then it is updated when its plant is, before plots draw.
+/// Derived signals have the same rows as the store of their plant. When one is made, its past is
+/// there within some turns of the event loop; then it is updated when its plant is, before plots
+/// draw.
 ///
 /// Threads: that of the window.
 class CurveSources : public QObject
@@ -45,7 +50,8 @@ public:
     explicit CurveSources(PlantList *plants, QObject *parent = nullptr);
     ~CurveSources() override;
 
-    /// What is found is right until changed(), and must not be kept longer: stores come and go with tables.
+    /// What is found is right until changed(), and must not be kept longer: stores come and go with
+    /// tables.
     /// \param pin  the plant that signals without a plant are of; empty: the selected one
     CurveSource find(const QString &expression, const QString &pin = QString()) const;
 

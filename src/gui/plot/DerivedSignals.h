@@ -11,7 +11,8 @@
 
 namespace qplc {
 
-/// The derived signals of a window that somebody looks at, each once: made when they are wanted, filled with the past in slices that do not hold the window up, then with each new row.
+/// The derived signals of a window that somebody looks at, each once: made when they are wanted,
+/// filled with the past in slices that do not hold the window up, then with each new row.
 ///
 /// A derived signal lives as long as somebody holds it. Threads: that of the window.
 class DerivedSignals : public QObject
@@ -30,9 +31,11 @@ public:
         QString unit;
         QString error;
     };
-    /// Finds or makes what \a text, a formula, means at the moment. \param pin  the plant that signals without a plant are of; empty: the selected one
+    /// Finds or makes what \a text, a formula, means at the moment. \param pin the plant that
+    /// signals without a plant are of; empty: the selected one
     Result find(const QString &text, const QString &pin = QString());
-    /// Stores or tables of plants are others: what is found next is made anew. What is held stays as it is.
+    /// Stores or tables of plants are others: what is found next is made anew. What is held stays
+    /// as it is.
     void forget(const Plant *plant);
     void forgetStale();
     /// How many are alive.

@@ -11,7 +11,8 @@ namespace qplc {
 
 /// Calculates a formula row after row.
 ///
-/// NaN in, NaN out. After a NaN derivative and low-pass begin anew; the integral goes on without the time that is missing; the mean is that of the other rows.
+/// NaN in, NaN out. After a NaN derivative and low-pass begin anew; the integral goes on without
+/// the time that is missing; the mean is that of the other rows.
 class FormulaCalculator
 {
 public:
@@ -34,7 +35,8 @@ public:
     /// Those of muParser.
     static const QStringList &functions();
 
-    /// There is a gap before the next row: of cycles that were lost (at most 0.5 s), which is as a NaN, or what follows does not continue what was, and everything with a past begins anew.
+    /// There is a gap before the next row: of cycles that were lost (at most 0.5 s), which is as a
+    /// NaN, or what follows does not continue what was, and everything with a past begins anew.
     void interrupt();
     /// The result of the next row. \param time  after that of the row before
     /// \param operands  one for each operand of the formula

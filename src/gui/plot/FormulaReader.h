@@ -5,7 +5,8 @@
 
 namespace qplc {
 
-/// Takes the text of a formula apart: signals become operands, functions with a past become parts, the rest is for muParser.
+/// Takes the text of a formula apart: signals become operands, functions with a past become parts,
+/// the rest is for muParser.
 class FormulaReader
 {
 public:

@@ -91,7 +91,8 @@ double PastFilter::mean(Row row)
     return m_sum / double(m_window.size());
 }
 
-/// Forgets rows up to \a time. Now and then the sum is made anew, lest the errors of all sums and differences add up.
+/// Forgets rows up to \a time. Now and then the sum is made anew, lest the errors of all sums and
+/// differences add up.
 void PastFilter::forgetBefore(Time time)
 {
     while (!m_window.empty() && m_window.front().time <= time) {

@@ -16,7 +16,8 @@ public:
 
     PastFilter(Formula::Function function, double seconds);
 
-    /// The next row comes after an interruption. One of at most longestLoss is as a NaN: cycles were lost. After a longer one everything begins anew.
+    /// The next row comes after an interruption. One of at most longestLoss is as a NaN: cycles
+    /// were lost. After a longer one everything begins anew.
     void interrupt() { m_isInterrupted = true; }
     static constexpr Time longestLoss = 500'000'000;
     /// \param time  after that of the row before

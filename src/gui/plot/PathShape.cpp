@@ -52,7 +52,8 @@ void PathShape::add(QPointF point)
     m_hasPending = true;
 }
 
-/// Whether the line from the anchor to a point leads by all points since the anchor. \param direction  [rad] from the reference
+/// Whether the line from the anchor to a point leads by all points since the anchor. \param
+/// direction [rad] from the reference
 bool PathShape::isOnTheWay(QPointF point, double *direction, double *distance) const
 {
     const QPointF way = point - m_anchor;

@@ -7,10 +7,13 @@
 
 namespace qplc {
 
-/// A path as few points that look the same: points that lie on the way from one kept point to the next are left out.
+/// A path as few points that look the same: points that lie on the way from one kept point to the
+/// next are left out.
 ///
-/// What is left out is at most `tolerance` pixels beside the line that is drawn, and at most as much beyond its ends: ways there and back, spikes, loops and gaps stay. So there are as many points as the
-/// path has bends in the picture, whatever the number of rows. It is the search of a common direction of all points since the last kept one (a "cone" or "sleeve"), in one pass.
+/// What is left out is at most `tolerance` pixels beside the line that is drawn, and at most as
+/// much beyond its ends: ways there and back, spikes, loops and gaps stay. So there are as many
+/// points as the path has bends in the picture, whatever the number of rows. It is the search of a
+/// common direction of all points since the last kept one (a "cone" or "sleeve"), in one pass.
 class PathShape
 {
 public:

@@ -50,7 +50,8 @@ void PixelSpans::include(int top, int bottom)
 
 void PixelSpans::lineTo(int fromX, int fromY, int x, int y)
 {
-    // Columns that are not seen, not even by the thickness of the line: what is beyond them is left out.
+    // Columns that are not seen, not even by the thickness of the line: what is beyond them is left
+    // out.
     const int unseenLeft = m_clip.left() - m_behind - 1;
     const int unseenRight = m_clip.right() + m_before + 1;
     if (fromX >= unseenRight)
@@ -131,7 +132,8 @@ void PixelSpans::emitBetweenDashes(int x, Span span)
     emitSpan(x, {std::max(lastTop, seen.top), seen.bottom});
 }
 
-/// Columns that have many rows in common get them as one rectangle: painters fill rows quicker than columns.
+/// Columns that have many rows in common get them as one rectangle: painters fill rows quicker than
+/// columns.
 void PixelSpans::emitBlock(int left, int right)
 {
     std::array<Span, blockWidth> spans{};

@@ -8,13 +8,16 @@
 
 namespace qplc {
 
-/// Turns a curve into filled rectangles of device pixels: one vertical span for each column, all of a line touching each other; equal neighbours are one rectangle.
+/// Turns a curve into filled rectangles of device pixels: one vertical span for each column, all of
+/// a line touching each other; equal neighbours are one rectangle.
 ///
-/// Rectangles are what a raster painter fills fastest, and thick lines cost as little as thin ones: each span grows by the thickness, so no pixel is filled twice.
+/// Rectangles are what a raster painter fills fastest, and thick lines cost as little as thin ones:
+/// each span grows by the thickness, so no pixel is filled twice.
 class PixelSpans
 {
 public:
-    /// What of a line is drawn: \a on columns, then \a off columns not, and so on, beginning at column \a first.
+    /// What of a line is drawn: \a on columns, then \a off columns not, and so on, beginning at
+    /// column \a first.
     struct Dashes
     {
         int on = 0;  // [px]; 0: all of it
@@ -25,15 +28,19 @@ public:
     /// Begins a new curve. \param clip  what is seen [px]
     /// \param thickness  of the line [px], >= 1
     void begin(const QRect &clip, int thickness);
-    /// The same as dashes. What goes up and down between two dashes is drawn as dashes on top of each other, from end to end, so that no peak is lost; a line shorter than a dash and a pause is whole.
+    /// The same as dashes. What goes up and down between two dashes is drawn as dashes on top of
+    /// each other, from end to end, so that no peak is lost; a line shorter than a dash and a pause
+    /// is whole.
     void begin(const QRect &clip, int thickness, const Dashes &dashes);
     /// Begins a line at column \a x, with all pixels of it from \a top to \a bottom.
     void moveTo(int x, int top, int bottom);
-    /// Goes straight from (\a fromX, \a fromY), which belongs to the line, to (\a x, \a y), which does from now on. \pre fromX <= x
+    /// Goes straight from (\a fromX, \a fromY), which belongs to the line, to (\a x, \a y), which
+    /// does from now on. \pre fromX <= x
     void lineTo(int fromX, int fromY, int x, int y);
     /// Adds pixels to the last column of the line.
     void include(int top, int bottom);
-    /// Ends the line, if there is one. A line of one pixel becomes a dot of three by three, unless it touches the line before or the one that begins next: a gap too short to be seen is none.
+    /// Ends the line, if there is one. A line of one pixel becomes a dot of three by three, unless
+    /// it touches the line before or the one that begins next: a gap too short to be seen is none.
     void endLine();
 
     const std::vector<QRect> &rectangles() const { return m_rectangles; }

@@ -9,9 +9,11 @@
 
 namespace qplc {
 
-/// Answers whether a time plot would look different from when it was drawn last: only then is it worth drawing.
+/// Answers whether a time plot would look different from when it was drawn last: only then is it
+/// worth drawing.
 ///
-/// Data come and go with each cycle, but a picture changes only when a column of pixels is complete, the view or a cursor has moved by a pixel, or settings are others.
+/// Data come and go with each cycle, but a picture changes only when a column of pixels is
+/// complete, the view or a cursor has moved by a pixel, or settings are others.
 ///
 /// ```cpp
 /// if (m_redraw.isDue({columns, oldest, newest, cursorA, cursorB, m_settingsVersion}))
@@ -43,7 +45,8 @@ public:
         }
     };
 
-    /// Whether \a next differs from the picture that was due last, which it then becomes. The first picture is always due.
+    /// Whether \a next differs from the picture that was due last, which it then becomes. The first
+    /// picture is always due.
     bool isDue(const Picture &next)
     {
         const bool isSame = m_hasPicture && next.columns == m_last.columns && isEmpty(next) == isEmpty(m_last)

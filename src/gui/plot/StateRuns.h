@@ -5,7 +5,8 @@
 
 namespace qplc {
 
-/// The states of a channel as pieces of a view, left to right: where which value held, and, apart from that, where it could not be trusted.
+/// The states of a channel as pieces of a view, left to right: where which value held, and, apart
+/// from that, where it could not be trusted.
 class StateRuns
 {
 public:

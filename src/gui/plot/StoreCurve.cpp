@@ -31,7 +31,8 @@ bool isVector(QPaintEngine::Type type)
     return type == QPaintEngine::SVG || type == QPaintEngine::Pdf || type == QPaintEngine::Picture;
 }
 
-/// From the pixels of a painter to those of its device; when the painter is turned, its own pixels have to do.
+/// From the pixels of a painter to those of its device; when the painter is turned, its own pixels
+/// have to do.
 QTransform pixelsOf(const QPainter &painter)
 {
     const QTransform device = painter.deviceTransform();
@@ -209,7 +210,8 @@ PixelSpans::Dashes StoreCurve::dashes(const PixelScale &scale, const TimeColumns
     return {on, off, scale.left() - int(columns.first() % (on + off))};
 }
 
-/// Where a line is a line, and where a painter's lines look better and are not too slow. Its dashes would begin anew at the edge of each picture.
+/// Where a line is a line, and where a painter's lines look better and are not too slow. Its dashes
+/// would begin anew at the edge of each picture.
 bool StoreCurve::isDrawnAsLine(const QPainter &painter) const
 {
     if (m_shape.isDense())

@@ -15,8 +15,11 @@ namespace qplc {
 
 /// A channel of a SignalStore as a curve of a plot.
 ///
-/// The x axis is in seconds after origin(), the y axis in units of gain * value + offset. Each column of device pixels shows all that happened in it, so that no spike is lost; NaN and interruptions
-/// are gaps; values with a mark are drawn paler and thinner. What is drawn costs as much as the plot is wide, whatever the number of rows. With RenderAntialiased, curves of few rows are drawn smoothly; in vector pictures they are lines.
+/// The x axis is in seconds after origin(), the y axis in units of gain * value + offset. Each
+/// column of device pixels shows all that happened in it, so that no spike is lost; NaN and
+/// interruptions are gaps; values with a mark are drawn paler and thinner. What is drawn costs as
+/// much as the plot is wide, whatever the number of rows. With RenderAntialiased, curves of few
+/// rows are drawn smoothly; in vector pictures they are lines.
 class StoreCurve : public QwtPlotItem
 {
 public:
@@ -48,7 +51,8 @@ public:
     Style style() const { return m_style; }
     void setStyle(Style style);
 
-    /// Smallest and largest value that is shown from \a begin to \a end of the x axis, with gain and offset.
+    /// Smallest and largest value that is shown from \a begin to \a end of the x axis, with gain
+    /// and offset.
     SignalStore::Range valueRange(double begin, double end) const;
     /// Columns of device pixels of an x axis. \param scale  device pixels of a pixel
     TimeColumns columns(const QwtScaleMap &xMap, double scale = 1.0) const;

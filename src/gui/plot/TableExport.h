@@ -11,10 +11,12 @@
 
 namespace qplc {
 
-/// Rows of curves as text, a piece at a time: CSV after RFC 4180, or tabs for spreadsheets and clipboards. Numbers are those of the C locale, with as many digits as 32 bits hold.
+/// Rows of curves as text, a piece at a time: CSV after RFC 4180, or tabs for spreadsheets and
+/// clipboards. Numbers are those of the C locale, with as many digits as 32 bits hold.
 ///
-/// Each row has the moment (UTC, ISO 8601), the seconds since the first row, and a value for each column, nothing where there is none. Columns of several stores are one table: each time of any of them
-/// is a row.
+/// Each row has the moment (UTC, ISO 8601), the seconds since the first row, and a value for each
+/// column, nothing where there is none. Columns of several stores are one table: each time of any
+/// of them is a row.
 class TableExport
 {
 public:

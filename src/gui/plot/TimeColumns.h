@@ -8,17 +8,20 @@ namespace qplc {
 
 /// The columns of pixels of a time axis.
 ///
-/// Columns are numbered for ever: number c is the time from c to c + 1 times the width of a column, counted from time 0 and not from the edge of the view. So what falls into one column
-/// stays together while the view moves, and a curve moves as a whole, by whole pixels.
+/// Columns are numbered for ever: number c is the time from c to c + 1 times the width of a column,
+/// counted from time 0 and not from the edge of the view. So what falls into one column stays
+/// together while the view moves, and a curve moves as a whole, by whole pixels.
 ///
-/// Below 16 us for a column, widths are no longer whole nanoseconds, and columns are counted from the begin of the view: nothing that moves so fast can be followed.
+/// Below 16 us for a column, widths are no longer whole nanoseconds, and columns are counted from
+/// the begin of the view: nothing that moves so fast can be followed.
 class TimeColumns
 {
 public:
     using Time = std::int64_t;  // [ns]
 
     TimeColumns() = default;
-    /// Columns of a view. \param begin, end  [ns], begin < end; the left edge of the view is at most half a column away from that of column first()
+    /// Columns of a view. \param begin, end [ns], begin < end; the left edge of the view is at most
+    /// half a column away from that of column first()
     /// \param count  device pixels, >= 1
     TimeColumns(Time begin, Time end, int count)
         : m_count(count)
@@ -32,7 +35,8 @@ public:
         m_first = columnOf(begin + span / count / 2);
     }
 
-    /// Columns of a view of \a span [ns] whose last column is the one of \a newest: they change when a new column begins, and only then.
+    /// Columns of a view of \a span [ns] whose last column is the one of \a newest: they change
+    /// when a new column begins, and only then.
     static TimeColumns upTo(Time newest, Time span, int count)
     {
         TimeColumns columns(newest - span, newest, count);
@@ -51,7 +55,8 @@ public:
     {
         return m_origin - floorOfQuotient(-column * m_width, Time(1) << m_shift);
     }
-    /// The column at the left edge of the view; those of the view are first() ... first() + count() - 1.
+    /// The column at the left edge of the view; those of the view are first() ... first() + count()
+    /// - 1.
     std::int64_t first() const { return m_first; }
     int count() const { return m_count; }
     std::int64_t end() const { return m_first + m_count; }

@@ -11,7 +11,8 @@
 
 namespace qplc {
 
-/// Finds events in a channel as an oscilloscope does, and the piece of time to show for them: [event - pre, event + post].
+/// Finds events in a channel as an oscilloscope does, and the piece of time to show for them:
+/// [event - pre, event + post].
 ///
 /// ```cpp
 /// m_trigger.setSettings(settings);
@@ -22,8 +23,9 @@ namespace qplc {
 ///     timeView->show(view->begin, view->end);
 /// ```
 ///
-/// An event is where the line through the rows meets the level. None is seen across interruptions and NaN. All events are counted but those within the hold-off after one; the view
-/// stays with the event that it shows until all of it has come.
+/// An event is where the line through the rows meets the level. None is seen across interruptions
+/// and NaN. All events are counted but those within the hold-off after one; the view stays with the
+/// event that it shows until all of it has come.
 class Trigger
 {
 public:
@@ -87,7 +89,8 @@ public:
     /// Forgets events and view, and waits for the next event among rows that come from now on.
     void arm();
 
-    /// Looks at the rows that are new since the last call. The store may change only together with arm().
+    /// Looks at the rows that are new since the last call. The store may change only together with
+    /// arm().
     /// \return whether there were events, or state() is another one
     bool take(const SignalStore &store, int channel);
 
@@ -98,7 +101,8 @@ public:
     const std::vector<Time> &events() const { return m_events; }
     /// The time of the event that is shown.
     std::optional<Time> shownEvent() const { return m_shown; }
-    /// What to show; nothing: what is live (FreeRunning), or what was there before (Armed, before the first event).
+    /// What to show; nothing: what is live (FreeRunning), or what was there before (Armed, before
+    /// the first event).
     std::optional<View> view() const;
 
 private:

@@ -13,9 +13,11 @@
 
 namespace qplc {
 
-/// Two channels as a path, one over the other, for a piece of time; and the values of one moment as a dot.
+/// Two channels as a path, one over the other, for a piece of time; and the values of one moment as
+/// a dot.
 ///
-/// Pairs are rows of the same time of two channels of a plant. Interruptions are gaps, and rows of which one value is NaN or stands in for that of a lost writer.
+/// Pairs are rows of the same time of two channels of a plant. Interruptions are gaps, and rows of
+/// which one value is NaN or stands in for that of a lost writer.
 class XyCurve : public QwtPlotItem
 {
 public:

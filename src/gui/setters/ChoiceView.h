@@ -7,7 +7,8 @@ class QComboBox;
 
 namespace qplc {
 
-/// A list of the names that the values of a signal have in its table: what is chosen is sent once, as its number. Keys open the list, so that nothing is sent on the way.
+/// A list of the names that the values of a signal have in its table: what is chosen is sent once,
+/// as its number. Keys open the list, so that nothing is sent on the way.
 class ChoiceView : public SetterView
 {
     Q_OBJECT

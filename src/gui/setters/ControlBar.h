@@ -14,7 +14,8 @@ namespace qplc {
 
 class ElidedLabel;
 
-/// Who has control of some signals, in a line, with the buttons to take it and to give it back. To take it from another person is asked here, in the line itself.
+/// Who has control of some signals, in a line, with the buttons to take it and to give it back. To
+/// take it from another person is asked here, in the line itself.
 class ControlBar : public QWidget
 {
     Q_OBJECT

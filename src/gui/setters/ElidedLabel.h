@@ -5,7 +5,8 @@
 
 namespace qplc {
 
-/// One line of text, or as many as it may have, that ends with an ellipsis where there is no room for it; all of it is in the tool tip then.
+/// One line of text, or as many as it may have, that ends with an ellipsis where there is no room
+/// for it; all of it is in the tool tip then.
 class ElidedLabel : public QLabel
 {
     Q_OBJECT

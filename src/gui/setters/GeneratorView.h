@@ -14,7 +14,8 @@ namespace qplc {
 
 class NumberBox;
 
-/// A test signal: steps, ramps or a sine, a new value every 20 ms. Stops with neutral when it is hidden, when the phase of the plant ends, and when control is lost.
+/// A test signal: steps, ramps or a sine, a new value every 20 ms. Stops with neutral when it is
+/// hidden, when the phase of the plant ends, and when control is lost.
 class GeneratorView : public SetterView
 {
     Q_OBJECT

@@ -10,7 +10,8 @@ namespace qplc {
 
 /// The keys that a person holds. What a keyboard repeats by itself is no press and no release.
 ///
-/// What a key means changes while it is held: the 4 of the keypad is Left or 4, as Shift is. So a key is known by its place on the keyboard, and released as what it was pressed as.
+/// What a key means changes while it is held: the 4 of the keypad is Left or 4, as Shift is. So a
+/// key is known by its place on the keyboard, and released as what it was pressed as.
 class HeldKeys
 {
 public:

@@ -99,7 +99,8 @@ QVector<KeyMapView::Row> KeyMapView::rows() const
     return rows;
 }
 
-/// Of a row, so that its value and what its keys do are read alike: that of its limits, else that of the largest value of its keys and axes.
+/// Of a row, so that its value and what its keys do are read alike: that of its limits, else that
+/// of the largest value of its keys and axes.
 SiPrefix KeyMapView::prefixOf(const SignalReference &reference, const PlantList::Signal &signal) const
 {
     if (!signal)

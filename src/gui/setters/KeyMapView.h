@@ -11,7 +11,8 @@ namespace qplc {
 
 class ManualControl;
 
-/// The keys and axes of a manual control as on a keyboard: a row for each signal, with its actual value, its keys, which light up while they are held, and what they do.
+/// The keys and axes of a manual control as on a keyboard: a row for each signal, with its actual
+/// value, its keys, which light up while they are held, and what they do.
 class KeyMapView : public QWidget
 {
     Q_OBJECT

@@ -8,7 +8,8 @@ class QwtKnob;
 
 namespace qplc {
 
-/// A value that is turned: sent once when the mouse lets go, or, when wheel or keys have turned it, by Enter. Esc takes the turning back; nothing is overwritten meanwhile.
+/// A value that is turned: sent once when the mouse lets go, or, when wheel or keys have turned it,
+/// by Enter. Esc takes the turning back; nothing is overwritten meanwhile.
 class KnobView : public SetterView
 {
     Q_OBJECT

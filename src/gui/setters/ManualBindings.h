@@ -40,7 +40,8 @@ struct AxisBinding
 ///
 /// ```json
 /// {"keys": [{"key": "Left", "signal": "bodyControlYawSpeed", "value": -40}],
-///  "axes": [{"axis": "LeftX", "signal": "bodyControlYawSpeed", "value": 90, "deadZone": 0.1, "expo": 0.3}]}
+///  "axes": [{"axis": "LeftX", "signal": "bodyControlYawSpeed", "value": 90, "deadZone": 0.1,
+///            "expo": 0.3}]}
 /// ```
 struct ManualBindings
 {

@@ -140,7 +140,8 @@ bool ManualControl::isMine(const PlantList::Signal &signal)
     return lease && lease->isMine;
 }
 
-/// The value of the whole signal: all elements that are steered here as they are wanted now, as what the plant has may be older than what was sent; the others as the plant has them.
+/// The value of the whole signal: all elements that are steered here as they are wanted now, as
+/// what the plant has may be older than what was sent; the others as the plant has them.
 QPlcValue ManualControl::wholeOf(const PlantList::Signal &signal) const
 {
     QPlcValue whole = signal.plant->value(signal.index);

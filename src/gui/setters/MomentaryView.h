@@ -7,7 +7,8 @@ class QPushButton;
 
 namespace qplc {
 
-/// A value (`pressed`; the maximum, or 1, unless set) as long as a button is held, by mouse or space bar; neutral when it is released, hidden, loses the focus, or may not write any more.
+/// A value (`pressed`; the maximum, or 1, unless set) as long as a button is held, by mouse or
+/// space bar; neutral when it is released, hidden, loses the focus, or may not write any more.
 class MomentaryView : public SetterView
 {
     Q_OBJECT

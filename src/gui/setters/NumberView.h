@@ -9,7 +9,10 @@ class QToolButton;
 
 namespace qplc {
 
-/// A value that is typed: Enter sends it once, Esc takes the typing back, and nothing is overwritten while it is edited. Keys and buttons step by 1 % and 10 % of the range. The number is in the unit of the signal table, without a prefix: one that changed while it is typed would make 4 kN out of 4 N.
+/// A value that is typed: Enter sends it once, Esc takes the typing back, and nothing is
+/// overwritten while it is edited. Keys and buttons step by 1 % and 10 % of the range. The number
+/// is in the unit of the signal table, without a prefix: one that changed while it is typed would
+/// make 4 kN out of 4 N.
 class NumberView : public SetterView
 {
     Q_OBJECT

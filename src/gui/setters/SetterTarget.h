@@ -32,7 +32,8 @@ public:
     bool isNumber() const;
     /// Of the table, as people read it: what is typed has it.
     QString unit() const;
-    /// A number to read, with its unit: "15.00 kN". The prefix is that of the range; without one, that of the actual values.
+    /// A number to read, with its unit: "15.00 kN". The prefix is that of the range; without one,
+    /// that of the actual values.
     QString reading(double number, int digits) const;
     /// Call it for each text of an actual value.
     void renewPrefix();
@@ -40,7 +41,8 @@ public:
     std::optional<double> maximum() const;
     /// Of the range 1 %; without one of the size of \a value, at least of 1.
     double smallStep(double value) const;
-    /// As near to \a value as the limits allow. \param message  what was wrong with it, else untouched
+    /// As near to \a value as the limits allow. \param message what was wrong with it, else
+    /// untouched
     double clamped(double value, QString *message = nullptr) const;
 
     QPlcValue actual() const { return signal().value(); }
@@ -55,7 +57,8 @@ public:
     /// Sends the newest of values that change quickly.
     void stream(double number);
 
-    /// Begins to write for a while. A signal that nobody writes is held meanwhile, so that it goes to neutral when this window is lost. \return false: this window may not write
+    /// Begins to write for a while. A signal that nobody writes is held meanwhile, so that it goes
+    /// to neutral when this window is lost. \return false: this window may not write
     bool beginAction(double number);
     /// Ends that: neutral, as the last that is sent.
     void endAction();

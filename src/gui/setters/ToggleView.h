@@ -7,7 +7,8 @@ namespace qplc {
 
 class SwitchButton;
 
-/// Two values: on (`on`, 1 unless set) and off (neutral). A click sends once; the switch shows what the plant has.
+/// Two values: on (`on`, 1 unless set) and off (neutral). A click sends once; the switch shows what
+/// the plant has.
 class ToggleView : public SetterView
 {
     Q_OBJECT

@@ -6,9 +6,11 @@
 
 namespace qplc {
 
-/// Which rows of a channel are not like the others: stretches of rows with a mark, a small number above 0.
+/// Which rows of a channel are not like the others: stretches of rows with a mark, a small number
+/// above 0.
 ///
-/// Rows without a mark cost nothing. At most \a MostStretches are kept: before them, what lies between two marked stretches counts as marked, so that a mark is never lost. One thread.
+/// Rows without a mark cost nothing. At most \a MostStretches are kept: before them, what lies
+/// between two marked stretches counts as marked, so that a mark is never lost. One thread.
 class RowMarks
 {
 public:

@@ -10,13 +10,18 @@
 
 namespace qplc {
 
-/// The past of many channels with common times, in constant memory: a ring of rows, a row being one time and one value for each channel.
+/// The past of many channels with common times, in constant memory: a ring of rows, a row being one
+/// time and one value for each channel.
 ///
-/// Rows are numbered from 0 on for ever; those of firstRow() ... endRow() - 1 are kept. A value is a 32-bit real, NaN where there was none: curves are interrupted there, as they are at a row
-/// that begins after a gap. For each 32, 512, ... rows, counted from row 0 and so never shifting, smallest and largest value are kept, so that a range of a million rows
-/// costs as much as one of a thousand. Single values can have a mark that says in which way they are not like others: the kind of their quality (QPlcQuality).
+/// Rows are numbered from 0 on for ever; those of firstRow() ... endRow() - 1 are kept. A value is
+/// a 32-bit real, NaN where there was none: curves are interrupted there, as they are at a row that
+/// begins after a gap. For each 32, 512, ... rows, counted from row 0 and so never shifting,
+/// smallest and largest value are kept, so that a range of a million rows costs as much as one of a
+/// thousand. Single values can have a mark that says in which way they are not like others: the
+/// kind of their quality (QPlcQuality).
 ///
-/// Memory: 4.3 bytes for each value, 9 bytes for each row, all of it taken at the begin; up to 8 KiB more for a channel with marks. One thread.
+/// Memory: 4.3 bytes for each value, 9 bytes for each row, all of it taken at the begin; up to 8
+/// KiB more for a channel with marks. One thread.
 class SignalStore
 {
 public:
@@ -41,7 +46,8 @@ public:
     /// What rows, values and their bins take [bytes], whether there are rows or not.
     std::size_t memory() const;
 
-    /// Adds a row. \param time  after that of the row before, else the row is not taken; a clock that begins again needs clear()
+    /// Adds a row. \param time after that of the row before, else the row is not taken; a clock
+    /// that begins again needs clear()
     /// \param values  one for each channel
     /// \return whether it was taken
     bool append(Time time, const float *values);
@@ -59,10 +65,12 @@ public:
     Time time(Row row) const { return m_times[slot(row)]; }
     /// Whether the row begins after an interruption: no line leads to it.
     bool beginsAnew(Row row) const;
-    /// The first row of \a begin ... \a end - 1 that begins after an interruption; \a end when there is none.
+    /// The first row of \a begin ... \a end - 1 that begins after an interruption; \a end when
+    /// there is none.
     Row nextBeginAnew(Row begin, Row end) const;
     float value(int channel, Row row) const { return m_values[std::size_t(channel) * m_rows + slot(row)]; }
-    /// The value that the writer of the signal gave; NaN where another one stands in for it, as a mark of QPlcQuality::Safe or above says.
+    /// The value that the writer of the signal gave; NaN where another one stands in for it, as a
+    /// mark of QPlcQuality::Safe or above says.
     float writtenValue(int channel, Row row) const;
     /// The first row at or after \a time; endRow() when there is none.
     Row rowAt(Time time) const;
@@ -77,14 +85,17 @@ public:
     std::optional<Row> newestRow() const { return isEmpty() ? std::nullopt : std::optional<Row>(m_end - 1); }
     /// Of the newest row; 0: there is none.
     Time newestTime() const { return isEmpty() ? 0 : time(m_end - 1); }
-    /// The row whose values are those of \a time: the last one up to it, until the next row comes. Not across an interruption: the last row before one holds for a period. The newest row holds for as long as values
-    /// of a running plant may be old: three periods, at least half a second.
+    /// The row whose values are those of \a time: the last one up to it, until the next row comes.
+    /// Not across an interruption: the last row before one holds for a period. The newest row holds
+    /// for as long as values of a running plant may be old: three periods, at least half a second.
     std::optional<Row> rowHoldingAt(Time time) const;
     /// Smallest and largest value of rows \a begin ... \a end - 1; NaN counts as nothing.
     Range range(int channel, Row begin, Row end) const;
-    /// A range that begins or ends about \a row is wanted soon: what it needs comes from memory meanwhile.
+    /// A range that begins or ends about \a row is wanted soon: what it needs comes from memory
+    /// meanwhile.
     void prefetch(int channel, Row row) const;
-    /// The greatest mark of rows \a begin ... \a end - 1; 0: there is none. May be above 0 for rows between very many marked ones.
+    /// The greatest mark of rows \a begin ... \a end - 1; 0: there is none. May be above 0 for rows
+    /// between very many marked ones.
     Mark greatestMark(int channel, Row begin, Row end) const
     {
         const RowMarks &marks = m_marks[std::size_t(channel)];
@@ -92,7 +103,9 @@ public:
     }
 
 private:
-    /// Smallest and largest values of as many rows, of all channels. A bin is written when its last row is there, and overwritten after its first row has gone: each bin whose rows are all kept is right.
+    /// Smallest and largest values of as many rows, of all channels. A bin is written when its last
+    /// row is there, and overwritten after its first row has gone: each bin whose rows are all kept
+    /// is right.
     struct Level
     {
         std::size_t slots;        // bins of a channel

@@ -9,8 +9,10 @@ namespace qplc {
 
 class PanelSettings;
 
-/// Remembers what is unfolded in a tree by the names on the way to it ("kite/Model/bodyPosition_earth"), so that it is so again when rows come back, and in another session. The two upper levels
-/// are unfolded unless somebody folds them. Settings `collapsed` and `expanded`.
+/// Remembers what is unfolded in a tree by the names on the way to it
+/// ("kite/Model/bodyPosition_earth"), so that it is so again when rows come back, and in another
+/// session. The two upper levels are unfolded unless somebody folds them. Settings `collapsed` and
+/// `expanded`.
 class ExpansionMemory : public QObject
 {
     Q_OBJECT

@@ -14,8 +14,9 @@ namespace qplc {
 
 class PanelSettings;
 
-/// The table or tree of a panel: rows of one height, columns that do not jump and are chosen in the menu of the header, sorting by a click, and all that kept as settings `columns`, `sort`
-/// and `descending`.
+/// The table or tree of a panel: rows of one height, columns that do not jump and are chosen in the
+/// menu of the header, sorting by a click, and all that kept as settings `columns`, `sort` and
+/// `descending`.
 class PanelTable : public QTreeView
 {
     Q_OBJECT
@@ -34,11 +35,13 @@ public:
     void setContext(QPlcPanelContext *context);
     /// \param columns  one for each column of the model, which is set before
     void setColumns(const QVector<Column> &columns);
-    /// This column takes the space that the others leave, and is always there. \param characters  at least so much
+    /// This column takes the space that the others leave, and is always there. \param characters at
+    /// least so much
     void setStretchedColumn(int column, int characters);
     /// Names that are too long lose their middle: many differ at their ends.
     void setNameColumn(int column);
-    /// These columns get wider when a text or the title is wider than all before; for tables of few rows.
+    /// These columns get wider when a text or the title is wider than all before; for tables of few
+    /// rows.
     void setGrowing(const QVector<int> &columns);
     /// Shows and sorts as settings say.
     void applySettings(const PanelSettings &settings);
@@ -46,7 +49,8 @@ public:
     void writeSettings(PanelSettings *settings) const;
     /// Shows and hides a column each; the stretched one stays.
     QMenu *createColumnMenu(QWidget *parent);
-    /// Selected rows, or all when there are none, with the shown columns and their titles, separated by tabs.
+    /// Selected rows, or all when there are none, with the shown columns and their titles,
+    /// separated by tabs.
     QString toTabSeparated() const;
 
 protected:

@@ -136,7 +136,8 @@ void QPlcSignalTree::updateActions()
     Q_EMIT selectionChanged();
 }
 
-/// All that is done with signals: as other panels, where the window puts them, and with the tree itself.
+/// All that is done with signals: as other panels, where the window puts them, and with the tree
+/// itself.
 void QPlcSignalTree::openMenu(const QPoint &place)
 {
     updateActions();

@@ -6,7 +6,8 @@
 
 namespace qplc {
 
-/// Escape in a search line with a text removes the text and goes to the rows. Without a text the key stays free for others.
+/// Escape in a search line with a text removes the text and goes to the rows. Without a text the
+/// key stays free for others.
 inline void leaveByEscape(QLineEdit *search, QWidget *rows)
 {
     auto *leave = new QAction(search);

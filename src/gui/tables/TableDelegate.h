@@ -8,7 +8,8 @@
 
 namespace qplc {
 
-/// Draws cells of tables: figures of one width where they stand at the right, and before some words a sign whose form and colour say how things are.
+/// Draws cells of tables: figures of one width where they stand at the right, and before some words
+/// a sign whose form and colour say how things are.
 class TableDelegate : public QStyledItemDelegate
 {
     Q_OBJECT

@@ -9,7 +9,8 @@ class QPlcPanelContext;
 
 namespace qplc {
 
-/// A line that is there while values are not those of now, and says why: the window shows another time, or a plant gives none any more.
+/// A line that is there while values are not those of now, and says why: the window shows another
+/// time, or a plant gives none any more.
 class TimeStrip : public QLabel
 {
     Q_OBJECT

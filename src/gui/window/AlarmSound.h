@@ -9,7 +9,8 @@
 
 namespace qplc {
 
-/// Lets errors be heard when they happen, once in 5 s at most: who looks elsewhere looks up. What happened before the window came is quiet.
+/// Lets errors be heard when they happen, once in 5 s at most: who looks elsewhere looks up. What
+/// happened before the window came is quiet.
 class AlarmSound : public QObject
 {
     Q_OBJECT

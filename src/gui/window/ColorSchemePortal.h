@@ -9,8 +9,10 @@ class QDBusVariant;
 
 namespace qplc {
 
-/// What the desktop says about light and dark through its settings portal (D-Bus, org.freedesktop.portal.Settings, key color-scheme of org.freedesktop.appearance), now and when it changes.
-/// It says nothing where there is no portal or no session bus. Part of libraries that are built where Qt has its module for D-Bus.
+/// What the desktop says about light and dark through its settings portal (D-Bus,
+/// org.freedesktop.portal.Settings, key color-scheme of org.freedesktop.appearance), now and when
+/// it changes. It says nothing where there is no portal or no session bus. Part of libraries that
+/// are built where Qt has its module for D-Bus.
 class ColorSchemePortal : public QObject
 {
     Q_OBJECT

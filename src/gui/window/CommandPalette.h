@@ -21,7 +21,8 @@ struct PaletteItem
     std::function<void()> run;
 };
 
-/// Everything that the window can do, found by typing some of its letters; Enter does it, Escape closes.
+/// Everything that the window can do, found by typing some of its letters; Enter does it, Escape
+/// closes.
 class CommandPalette : public QFrame
 {
     Q_OBJECT

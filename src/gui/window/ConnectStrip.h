@@ -15,7 +15,8 @@ namespace qplc {
 class BarButton;
 class FoundMasters;
 
-/// Asks for the address of a master, over the panels and without stopping anything. Escape closes it.
+/// Asks for the address of a master, over the panels and without stopping anything. Escape closes
+/// it.
 class ConnectStrip : public QWidget
 {
     Q_OBJECT

@@ -14,7 +14,8 @@ namespace qplc {
 
 class LayoutShelf;
 
-/// All commands of the window: its menus are made of them, the palette of commands finds them, and the list of keys shows them.
+/// All commands of the window: its menus are made of them, the palette of commands finds them, and
+/// the list of keys shows them.
 class ControlCenterActions : public QObject
 {
     Q_OBJECT

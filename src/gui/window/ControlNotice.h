@@ -6,8 +6,9 @@
 
 namespace qplc {
 
-/// Says in the bar above everything what this window controls by hand, what others do, and what is lost; with a button that gives it back. Its place is kept while there is
-/// nothing to say, so that nothing moves below the mouse of somebody who takes control.
+/// Says in the bar above everything what this window controls by hand, what others do, and what is
+/// lost; with a button that gives it back. Its place is kept while there is nothing to say, so that
+/// nothing moves below the mouse of somebody who takes control.
 class ControlNotice : public QWidget
 {
     Q_OBJECT

@@ -8,7 +8,8 @@
 
 namespace qplc {
 
-/// Who has taken over which signals of the plants of a window: one fact for each holder. A value type.
+/// Who has taken over which signals of the plants of a window: one fact for each holder. A value
+/// type.
 struct ControlFact
 {
     enum Kind {
@@ -28,11 +29,13 @@ struct ControlFact
     /// What a person can do.
     QString remedy() const;
 
-    /// Mine first, then the lost ones, then those of others; in each of them in the order of plants and tables.
+    /// Mine first, then the lost ones, then those of others; in each of them in the order of plants
+    /// and tables.
     static QVector<ControlFact> of(const PlantList &plants);
 };
 
-/// Gives back all that this window holds; where that is nothing, all that is lost, so that its nodes write it again.
+/// Gives back all that this window holds; where that is nothing, all that is lost, so that its
+/// nodes write it again.
 void giveBackControl(const PlantList &plants);
 
 }  // namespace qplc

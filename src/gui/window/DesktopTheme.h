@@ -10,8 +10,9 @@
 
 namespace qplc {
 
-/// The theme of the desktop, light or dark, as it is now: its settings portal tells it where there is one, else its palette. One for all windows of the program, which give their own palettes
-/// to the application.
+/// The theme of the desktop, light or dark, as it is now: its settings portal tells it where there
+/// is one, else its palette. One for all windows of the program, which give their own palettes to
+/// the application.
 ///
 /// Threads: that of the windows.
 class DesktopTheme : public QObject
@@ -22,7 +23,8 @@ public:
     static DesktopTheme *instance();
 
     const Theme &theme() const { return m_theme; }
-    /// What windows use in place of QApplication::setPalette(): a palette that anybody else gives the application is one of the desktop.
+    /// What windows use in place of QApplication::setPalette(): a palette that anybody else gives
+    /// the application is one of the desktop.
     void givePalette(const QPalette &palette);
 
 Q_SIGNALS:

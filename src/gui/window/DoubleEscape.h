@@ -16,8 +16,9 @@ namespace qplc {
 /// A press counts only if nothing uses it. It does not count, and is no first press either, if
 /// - a widget, a shortcut or a dialog accepts the key: it closes a menu, cancels an edit, ...;
 /// - it hides, closes or changes the state of a window or widget, or moves the focus;
-/// - it is the first one since a mouse button went down that is still held: it ends what the person drags.
-///   A person who holds a slider in a fright and presses Escape again and again stops the plant;
+/// - it is the first one since a mouse button went down that is still held: it ends what the person
+///   drags. A person who holds a slider in a fright and presses Escape again and again stops the
+///   plant;
 /// - the person was typing into a field and has not pressed Enter since: the press ends the edit.
 ///
 /// Several objects see one press. The time at which it was made tells presses apart. A press that a

@@ -7,7 +7,8 @@
 
 namespace qplc {
 
-/// The newest event that asks to be acknowledged, and how many there are; at the right the newest start or stop. A click opens the log.
+/// The newest event that asks to be acknowledged, and how many there are; at the right the newest
+/// start or stop. A click opens the log.
 class EventLine : public BarButton
 {
     Q_OBJECT

@@ -7,7 +7,8 @@
 
 namespace qplc {
 
-/// Says across the whole window that plants meet faults on purpose. It is there as long as they do, and nobody can close it.
+/// Says across the whole window that plants meet faults on purpose. It is there as long as they do,
+/// and nobody can close it.
 class FaultBanner : public QWidget
 {
     Q_OBJECT

@@ -7,7 +7,8 @@
 
 namespace qplc {
 
-/// A bar that cannot be moved, hidden or chosen away, with a line of the theme at its edges: those of styles shine in dark themes.
+/// A bar that cannot be moved, hidden or chosen away, with a line of the theme at its edges: those
+/// of styles shine in dark themes.
 class FlatToolBar : public QToolBar
 {
     Q_OBJECT

@@ -11,7 +11,8 @@ namespace qplc {
 
 class BarButton;
 
-/// Masters that were found, each as a button that leads there. A button stays the same while its master is there, so that keys and mouse do not lose it.
+/// Masters that were found, each as a button that leads there. A button stays the same while its
+/// master is there, so that keys and mouse do not lose it.
 class FoundMasters : public QWidget
 {
     Q_OBJECT

@@ -9,7 +9,8 @@
 
 namespace qplc {
 
-/// A line over the panels that says one thing until it is closed; hidden while it has nothing to say.
+/// A line over the panels that says one thing until it is closed; hidden while it has nothing to
+/// say.
 class HintLine : public NoticeLine
 {
     Q_OBJECT

@@ -5,7 +5,8 @@
 
 namespace qplc {
 
-/// A line over the panels for as long as the window is connected to a master that listens to a network without security. It cannot be closed.
+/// A line over the panels for as long as the window is connected to a master that listens to a
+/// network without security. It cannot be closed.
 class InsecureNotice : public NoticeLine
 {
     Q_OBJECT

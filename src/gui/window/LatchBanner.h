@@ -10,8 +10,9 @@ class QLabel;
 
 namespace qplc {
 
-/// A red line over everything while the master of a plant has stopped safely, or cannot run: why, what has to be done first, and a button that resets it. Hidden otherwise.
-/// With several plants it is about the first of them that has to be reset.
+/// A red line over everything while the master of a plant has stopped safely, or cannot run: why,
+/// what has to be done first, and a button that resets it. Hidden otherwise. With several plants it
+/// is about the first of them that has to be reset.
 class LatchBanner : public QWidget
 {
     Q_OBJECT

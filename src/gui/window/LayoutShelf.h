@@ -5,7 +5,8 @@
 
 namespace qplc {
 
-/// The layouts that come with a program, and how they, and those of files, get into an editor: as steps that can be undone.
+/// The layouts that come with a program, and how they, and those of files, get into an editor: as
+/// steps that can be undone.
 class LayoutShelf
 {
 public:

@@ -11,7 +11,8 @@ class QWidget;
 
 namespace qplc {
 
-/// A finger that stays on a widget for 0.6 s opens its context menu. Mice have a button for that, and are left alone. For all windows of the application.
+/// A finger that stays on a widget for 0.6 s opens its context menu. Mice have a button for that,
+/// and are left alone. For all windows of the application.
 class LongPress : public QObject
 {
     Q_OBJECT

@@ -10,7 +10,8 @@ class QLabel;
 
 namespace qplc {
 
-/// A line over the panels with a sentence, in the colour of a warning; hidden while it has nothing to say.
+/// A line over the panels with a sentence, in the colour of a warning; hidden while it has nothing
+/// to say.
 class NoticeLine : public QWidget
 {
     Q_OBJECT

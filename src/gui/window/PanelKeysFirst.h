@@ -5,8 +5,9 @@
 
 namespace qplc {
 
-/// Of several actions with the same keys, that of the innermost widget around the focus runs: of a panel before that of the tabs, and both before that of the window. Qt alone would run none of them.
-/// Only what works everywhere (STOP) gives way to nobody.
+/// Of several actions with the same keys, that of the innermost widget around the focus runs: of a
+/// panel before that of the tabs, and both before that of the window. Qt alone would run none of
+/// them. Only what works everywhere (STOP) gives way to nobody.
 class PanelKeysFirst : public QObject
 {
     Q_OBJECT

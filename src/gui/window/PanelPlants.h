@@ -13,7 +13,8 @@ namespace qplc {
 
 class PanelFrame;
 
-/// Says above each panel of which plants it is, by name and colour, as long as the window has several; and lets a person pin it to one.
+/// Says above each panel of which plants it is, by name and colour, as long as the window has
+/// several; and lets a person pin it to one.
 class PanelPlants : public QObject
 {
     Q_OBJECT

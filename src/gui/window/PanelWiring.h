@@ -9,7 +9,8 @@
 
 namespace qplc {
 
-/// Gives all panels of a window their context and, to those that want them, values of their plant, if that has the signal table of the process; and collects what they write.
+/// Gives all panels of a window their context and, to those that want them, values of their plant,
+/// if that has the signal table of the process; and collects what they write.
 class PanelWiring : public QObject
 {
     Q_OBJECT

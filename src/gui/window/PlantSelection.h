@@ -7,7 +7,8 @@
 
 namespace qplc {
 
-/// What the bar of a window, its commands and STOP mean: the selected plant (PlantList::selected()), and whether it is initialized.
+/// What the bar of a window, its commands and STOP mean: the selected plant
+/// (PlantList::selected()), and whether it is initialized.
 class PlantSelection : public QObject
 {
     Q_OBJECT
@@ -20,15 +21,17 @@ public:
     Plant *plant() const { return m_plants->selected(); }
     void select(Plant *plant) { m_plants->select(plant); }
     void selectNext();
-    /// What STOP means: the plants of which this window has taken over signals; without any the selected plant. Empty: there is no plant.
-    /// A plant that a person controlled when its master was lost is what STOP means until the master is back, or the
-    /// person controls or selects another plant: a stop that cannot arrive must not arrive in a plant that was not meant.
+    /// What STOP means: the plants of which this window has taken over signals; without any the
+    /// selected plant. Empty: there is no plant. A plant that a person controlled when its master
+    /// was lost is what STOP means until the master is back, or the person controls or selects
+    /// another plant: a stop that cannot arrive must not arrive in a plant that was not meant.
     QVector<Plant *> plantsToStop() const;
     /// Whether the master of the selected plant has initialized all nodes, and runs no cycles yet.
     bool isInitialized() const { return m_initialized.contains(plant()); }
 
 Q_SIGNALS:
-    /// Another plant, another number of plants, anything of the state of the selected one, or what STOP means.
+    /// Another plant, another number of plants, anything of the state of the selected one, or what
+    /// STOP means.
     void changed();
     void commandFailed(const QString &sentence);
 

@@ -16,7 +16,8 @@ namespace {
 constexpr int refreshPause = 250;  // [ms] of ages and of what is left until the next attempt
 constexpr int textLeft = 28;       // [px]
 
-/// "Profile Simulation: no real devices, and the master listens on this computer only"; empty before the master has told it.
+/// "Profile Simulation: no real devices, and the master listens on this computer only"; empty
+/// before the master has told it.
 QString profileText(const Plant *plant)
 {
     if (!plant || !plant->isConnected() || plant->status().master.profile.isEmpty())

@@ -11,7 +11,8 @@
 
 namespace qplc {
 
-/// Shows the selected plant: dot, name and condition, and its figures below; a click lists all plants and what is done with them.
+/// Shows the selected plant: dot, name and condition, and its figures below; a click lists all
+/// plants and what is done with them.
 class PlantSelector : public QAbstractButton
 {
     Q_OBJECT

@@ -12,7 +12,8 @@ enum class Tone { Calm, Good, Warning, Alarm };
 
 QColor colorOf(const Theme &theme, Tone tone);
 
-/// The link of this window to its master: "link 164 µs, 2 lost". \param roundTrip  [ns] \param lost  frames of this phase
+/// The link of this window to its master: "link 164 µs, 2 lost". \param roundTrip [ns] \param lost
+/// frames of this phase
 QString linkText(double roundTrip, quint64 lost);
 
 /// A plant in two lines for people.

@@ -5,7 +5,8 @@
 
 namespace qplc {
 
-/// Addresses of masters that a person connected to, newest first, at most eight; kept in the QSettings of the application.
+/// Addresses of masters that a person connected to, newest first, at most eight; kept in the
+/// QSettings of the application.
 class RecentMasters
 {
 public:

@@ -20,7 +20,8 @@ SignalDock::SignalDock(WindowContext *context, QWidget *parent)
     setTitleBarWidget(createTitle());
 }
 
-/// With the buttons of panels, in place of those of the style, which are hardly seen in dark themes.
+/// With the buttons of panels, in place of those of the style, which are hardly seen in dark
+/// themes.
 QWidget *SignalDock::createTitle()
 {
     auto *title = new QWidget(this);

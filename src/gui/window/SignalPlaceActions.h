@@ -14,9 +14,11 @@ namespace qplc {
 class LayoutView;
 class SignalPlacer;
 
-/// What a mouse does by dragging signals of a tree, as actions of the tree: into the current panel, to a side of it, into a new tab.
+/// What a mouse does by dragging signals of a tree, as actions of the tree: into the current panel,
+/// to a side of it, into a new tab.
 ///
-/// The current panel is the one that had the keyboard last, else the first one of the tab; the actions say its name.
+/// The current panel is the one that had the keyboard last, else the first one of the tab; the
+/// actions say its name.
 class SignalPlaceActions : public QObject
 {
     Q_OBJECT

@@ -7,7 +7,8 @@ class QPlcWidgetFactory;
 
 namespace qplc {
 
-/// The factories of all panels that come with QtPlc::Gui, in the order of menus; made and registered once in a program.
+/// The factories of all panels that come with QtPlc::Gui, in the order of menus; made and
+/// registered once in a program.
 QList<QPlcWidgetFactory *> standardWidgets();
 
 }  // namespace qplc

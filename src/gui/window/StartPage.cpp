@@ -42,7 +42,8 @@ StartPage::StartPage(WindowContext *context, QWidget *parent)
     m_ways->setSpacing(10);
     m_ways->addLayout(m_actions);
     m_recent->setSpacing(2);
-    // What is found and remembered has the room below for itself: as it grows, nothing above moves under the mouse.
+    // What is found and remembered has the room below for itself: as it grows, nothing above moves
+    // under the mouse.
     auto *page = new QVBoxLayout(this);
     page->addStretch(2);
     page->addWidget(makeHead(), 0, Qt::AlignHCenter);

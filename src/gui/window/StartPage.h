@@ -15,7 +15,8 @@ namespace qplc {
 class FoundMasters;
 class StartButton;
 
-/// What a window without a plant shows: a few big things to begin with, which masters there are, and where one was before.
+/// What a window without a plant shows: a few big things to begin with, which masters there are,
+/// and where one was before.
 class StartPage : public QWidget
 {
     Q_OBJECT
@@ -23,9 +24,11 @@ public:
     /// \param context  outlives the page
     explicit StartPage(WindowContext *context, QWidget *parent = nullptr);
 
-    /// A big button; those that come later stand before the last one. \param action  owned by others; text, icon, and toolTip as a sentence below the text
+    /// A big button; those that come later stand before the last one. \param action owned by
+    /// others; text, icon, and toolTip as a sentence below the text
     void addAction(QAction *action);
-    /// The big button below all others, which leads back to the panels; hidden until showWayBack(). \param action  owned by others
+    /// The big button below all others, which leads back to the panels; hidden until showWayBack().
+    /// \param action owned by others
     void setWayBack(QAction *action);
     void showWayBack(bool isShown);
     /// Addresses, newest first.

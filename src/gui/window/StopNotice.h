@@ -5,8 +5,9 @@
 
 namespace qplc {
 
-/// A line over the panels: which person stopped a plant, how, when, and how to start again. It stays until the
-/// next start, and it cannot be closed: a plant that stands still has a reason that people can read.
+/// A line over the panels: which person stopped a plant, how, when, and how to start again. It
+/// stays until the next start, and it cannot be closed: a plant that stands still has a reason that
+/// people can read.
 class StopNotice : public NoticeLine
 {
     Q_OBJECT

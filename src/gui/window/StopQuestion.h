@@ -7,7 +7,8 @@
 
 namespace qplc {
 
-/// Asks which plants STOP means while a person controls several: all of them, or one. To ask again is the answer "all". Hidden while nothing is asked.
+/// Asks which plants STOP means while a person controls several: all of them, or one. To ask again
+/// is the answer "all". Hidden while nothing is asked.
 class StopQuestion : public NoticeLine
 {
     Q_OBJECT

@@ -5,7 +5,8 @@
 
 namespace qplc {
 
-/// The time that all panels show, and the span of the plots: frozen and how far behind, or live, as long as there are new values.
+/// The time that all panels show, and the span of the plots: frozen and how far behind, or live, as
+/// long as there are new values.
 class TimeBar : public QWidget
 {
     Q_OBJECT
@@ -24,7 +25,8 @@ public:
     void stepSpan(int by);
 
 private:
-    /// What is shown at the left. Texts of one kind differ in their numbers only, and have the same width.
+    /// What is shown at the left. Texts of one kind differ in their numbers only, and have the same
+    /// width.
     struct State
     {
         enum Kind { Live, Partly, Missing, AtRest, Empty, Frozen } kind;

@@ -9,7 +9,8 @@
 
 namespace qplc {
 
-/// What is always there, above everything: the selected plant, where its master is, the one next thing to do, who controls by hand, and STOP. It cannot be moved or hidden.
+/// What is always there, above everything: the selected plant, where its master is, the one next
+/// thing to do, who controls by hand, and STOP. It cannot be moved or hidden.
 class TopBar : public FlatToolBar
 {
     Q_OBJECT
@@ -38,7 +39,8 @@ private:
     BarButton *m_stop;
 };
 
-/// The plants that STOP means, by name; with a question mark where there are several and the window will ask.
+/// The plants that STOP means, by name; with a question mark where there are several and the window
+/// will ask.
 QString stopText(const PlantSelection &selection);
 
 }  // namespace qplc

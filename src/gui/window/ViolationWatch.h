@@ -7,7 +7,8 @@
 
 namespace qplc {
 
-/// Violations of real time of a plant: cycles that began too late and answers that came too late, since the phase began and in the last 10 s. A value type.
+/// Violations of real time of a plant: cycles that began too late and answers that came too late,
+/// since the phase began and in the last 10 s. A value type.
 class ViolationWatch
 {
 public:
@@ -16,12 +17,14 @@ public:
     /// Since the phase began.
     static quint64 totalOf(const PlantStatus &status);
 
-    /// What there was before the first call is not of the last 10 s. \param now  [ms] of any clock that only goes on
+    /// What there was before the first call is not of the last 10 s. \param now [ms] of any clock
+    /// that only goes on
     void take(quint64 total, qint64 now);
     quint64 total() const { return m_steps.isEmpty() ? 0 : m_steps.last().total; }
     /// In the last 10 s.
     quint64 recent() const { return m_steps.isEmpty() ? 0 : m_steps.last().total - m_steps.first().total; }
-    /// "2 violations in 10 s" while they grow; else what was since the phase began: "17 violations".
+    /// "2 violations in 10 s" while they grow; else what was since the phase began: "17
+    /// violations".
     QString text() const;
 
 private:

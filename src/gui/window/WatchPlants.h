@@ -5,8 +5,8 @@
 
 namespace qplc {
 
-/// Calls \a follow now, whenever a plant comes or goes, and with each of \a changes of any plant, as long as \a receiver
-/// lives.
+/// Calls \a follow now, whenever a plant comes or goes, and with each of \a changes of any plant,
+/// as long as \a receiver lives.
 template<typename Receiver, typename... Changes>
 void watchPlants(PlantList *plants, Receiver *receiver, void (Receiver::*follow)(), Changes... changes)
 {

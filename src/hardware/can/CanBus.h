@@ -10,14 +10,16 @@
 
 namespace qplc {
 
-/// A participant of a CAN bus. Which bus, and by whom it is reached, is said by the text of the device:
+/// A participant of a CAN bus. Which bus, and by whom it is reached, is said by the text of the
+/// device:
 ///
 ///   can0                     interface of the kernel (SocketCAN)
 ///   qtcan:PLUGIN:INTERFACE   plugin of Qt Serial Bus
-///   fake:NAME                a bus of this computer alone, without kernel and hardware, for tests and for devices that are programs
+///   fake:NAME                a bus of this computer alone, without kernel and
+///                            hardware, for tests and for devices that are programs
 ///
-/// receive() and send() neither wait nor take memory. Frames of one sender arrive in the order in which they were sent; a participant does not hear itself.
-/// Threads: one at a time.
+/// receive() and send() neither wait nor take memory. Frames of one sender arrive in the order in
+/// which they were sent; a participant does not hear itself. Threads: one at a time.
 class CanBus
 {
 public:
@@ -62,9 +64,11 @@ public:
     bool open(const Options &options);
     virtual void close() = 0;
 
-    /// Takes what has come in, the oldest first, error frames of the own controller among them. \return number of frames; -1 when the bus is lost: errorNumber()
+    /// Takes what has come in, the oldest first, error frames of the own controller among them.
+    /// \return number of frames; -1 when the bus is lost: errorNumber()
     int receive(CanFrame *frames, int capacity) noexcept;
-    /// Gives frames to the bus, in this order. \return how many it has taken, the others are not sent; -1 when the bus is lost: errorNumber()
+    /// Gives frames to the bus, in this order. \return how many it has taken, the others are not
+    /// sent; -1 when the bus is lost: errorNumber()
     int send(const CanFrame *frames, int count) noexcept;
 
     /// For poll(): readable when there is something to receive; -1: the bus has none.

@@ -274,7 +274,8 @@ bool CanDriver::write()
     return true;
 }
 
-// Frames that the bus had taken were not sent, and nobody knows which: changes are sent again, the others are anyway.
+// Frames that the bus had taken were not sent, and nobody knows which: changes are sent again, the
+// others are anyway.
 void CanDriver::repeatFailed() noexcept
 {
     if (m_bus->counters().failed == m_failed)

@@ -20,23 +20,31 @@ namespace qplc {
 /// [drive]
 /// driver = can
 /// device = can0                         ; or qtcan:PLUGIN:INTERFACE, or fake:NAME (CanBus)
-/// bitrate = 500000                      ; [bit/s] of qtcan only; data-bitrate: of the data of CAN FD
+/// bitrate = 500000                      ; [bit/s] of qtcan only; data-bitrate: data of CAN FD
 /// dbc = winch_drive.dbc                 ; what the messages carry (DbcFile), and/or, without DBC:
-/// frame.Wind = 0x321, 8 bytes, every 100 ms          ; id, size; more: extended, fd, no bit rate switch
-/// signal.Wind.Speed = 0|16@1- (0.01,0)               ; start|length@order sign (factor,offset) as in DBC; @1f is a float; before it M or m3 of a multiplexed one
-/// send.DriveCommand = every 10 ms, on change         ; or: every cycle, on request (remote frame); some of them with commas between
+/// ; id, size; more: extended, fd, no bit rate switch
+/// frame.Wind = 0x321, 8 bytes, every 100 ms
+/// ; start|length@order sign (factor,offset) as in DBC; @1f is a float; before it M or m3 of a
+/// ; multiplexed one
+/// signal.Wind.Speed = 0|16@1- (0.01,0)
+/// ; or: every cycle, on request (remote frame); some of them with commas between
+/// send.DriveCommand = every 10 ms, on change
 /// timeout.DriveStatus = 50 ms
 /// log = drive.log                       ; everything on the bus, in the format of candump -L
 /// ```
 ///
-/// Read channels: MESSAGE.SIGNAL, MESSAGE.@age [s] and MESSAGE.@count of the frames received, and of the bus @state (0 active, 1 warning, 2 passive, 3 bus-off), @received,
-/// @sent, @lost, @unsent, @errors, @busOffs, @saturated, @tooShort and @logDropped. Write channels: MESSAGE.SIGNAL; a message is sent when all of its wired
-/// signals have a value, the others have their start value (GenSigStartValue), else 0.
+/// Read channels: MESSAGE.SIGNAL, MESSAGE.@age [s] and MESSAGE.@count of the frames received, and
+/// of the bus @state (0 active, 1 warning, 2 passive, 3 bus-off), @received,
+/// @sent, @lost, @unsent, @errors, @busOffs, @saturated, @tooShort and @logDropped. Write channels:
+/// MESSAGE.SIGNAL; a message is sent when all of its wired signals have a value, the others have
+/// their start value (GenSigStartValue), else 0.
 ///
-/// A message is sent with its GenMsgCycleTime, else in every cycle, unless send.MESSAGE says something else; safe values at once. It is fresh for three times its cycle
-/// time, else for the timeout of the driver, unless timeout.MESSAGE says something else.
+/// A message is sent with its GenMsgCycleTime, else in every cycle, unless send.MESSAGE says
+/// something else; safe values at once. It is fresh for three times its cycle time, else for the
+/// timeout of the driver, unless timeout.MESSAGE says something else.
 ///
-/// When the controller is bus-off, the driver waits a second for its restart (restart-ms of the interface), and then opens the bus again and again.
+/// When the controller is bus-off, the driver waits a second for its restart (restart-ms of the
+/// interface), and then opens the bus again and again.
 class CanDriver : public QPlcDriver
 {
 public:

@@ -30,7 +30,8 @@ struct CanFrame
     qint64 time = 0;  ///< when it came in, CLOCK_MONOTONIC [ns]
 
     bool has(Flag flag) const { return (flags & flag) != 0; }
-    /// The same for all frames of a message, whether they carry it or ask for it: id and kind of id.
+    /// The same for all frames of a message, whether they carry it or ask for it: id and kind of
+    /// id.
     quint32 key() const { return keyOf(id, has(Extended)); }
     static constexpr quint32 keyOf(quint32 id, bool isExtended) { return id | (isExtended ? 0x80000000U : 0U); }
 

@@ -11,7 +11,8 @@
 
 namespace qplc {
 
-/// Writes frames into a file, in the format of CanLog, by a thread of its own. What it cannot take in time, or cannot write, is left out and counted; without an open file that is everything.
+/// Writes frames into a file, in the format of CanLog, by a thread of its own. What it cannot take
+/// in time, or cannot write, is left out and counted; without an open file that is everything.
 class CanLogWriter
 {
 public:
@@ -20,7 +21,8 @@ public:
     CanLogWriter(const CanLogWriter &) = delete;
     CanLogWriter &operator=(const CanLogWriter &) = delete;
 
-    /// Goes on at the end of the file. \param interface  is named in each line \return false, with the reason in \a error
+    /// Goes on at the end of the file. \param interface is named in each line \return false, with
+    /// the reason in \a error
     bool open(const QString &fileName, const QString &interface, QString *error);
     /// Writes what is left.
     void close();

@@ -19,7 +19,8 @@ public:
     const CanMessage &message() const { return m_message; }
     quint32 key() const { return m_key; }
 
-    /// The channel of a signal, of @age or of @count; made when it is asked for the first time. \return null when the message has none of this name
+    /// The channel of a signal, of @age or of @count; made when it is asked for the first time.
+    /// \return null when the message has none of this name
     QPlcReadChannel *channel(const QString &name);
 
     /// A frame of the message has come in; one that is too short is counted and left alone.

@@ -118,7 +118,8 @@ bool CanSender::isSelected(const Page &page) const noexcept
 bool CanSender::isDue(qint64 now) noexcept
 {
     const CanSendRule &rule = m_message.rule;
-    // A cycle that begins a bit early is the right one, else a period of ten cycles would now and then be eleven.
+    // A cycle that begins a bit early is the right one, else a period of ten cycles would now and
+    // then be eleven.
     const qint64 tolerance = std::min((now - m_now) / 2, m_period / 2);
     const bool isTime = m_period > 0 && now + tolerance >= m_next;
     if (isTime)

@@ -12,8 +12,9 @@ namespace qplc {
 
 /// A message that is sent: makes frames of the values of its channels when it is time.
 ///
-/// A multiplexed message has a page for each value of the multiplexor that a wired signal belongs to. All of them are sent, one after the other, unless the multiplexor itself is wired:
-/// then its value says which one.
+/// A multiplexed message has a page for each value of the multiplexor that a wired signal belongs
+/// to. All of them are sent, one after the other, unless the multiplexor itself is wired: then its
+/// value says which one.
 class CanSender
 {
 public:
@@ -23,10 +24,12 @@ public:
     /// Of the frames that carry it.
     quint32 key() const { return m_key; }
 
-    /// The channel of a signal; made when it is asked for the first time. \return null when the message has none of this name
+    /// The channel of a signal; made when it is asked for the first time. \return null when the
+    /// message has none of this name
     QPlcWriteChannel *channel(const QString &name);
 
-    /// Before the cycles: memory is taken here. Frames that it sends at a time are at most mostFrames().
+    /// Before the cycles: memory is taken here. Frames that it sends at a time are at most
+    /// mostFrames().
     void prepare();
     int mostFrames() const { return int(m_pages.size()); }
     /// The bus was opened: everything is to be sent anew.
@@ -36,7 +39,8 @@ public:
     void request() noexcept { m_isRequested = m_isRequested || m_message.rule.onRequest; }
     /// Puts the frames that are to be sent at \a now [ns] to \a frames. \return how many
     int collect(qint64 now, CanFrame *frames) noexcept;
-    /// After collect(): whether the bus has taken the frames. Those that it has not taken are due at once again.
+    /// After collect(): whether the bus has taken the frames. Those that it has not taken are due
+    /// at once again.
     void sent(bool isTaken) noexcept;
     /// What is sent on change is due again.
     void repeatChange() noexcept { m_isPending = m_isPending || m_message.rule.onChange; }

@@ -29,10 +29,11 @@ struct DbcMessage
 
 /// What a DBC file says of the messages of a CAN bus.
 ///
-/// Read are messages (BO_), signals (SG_) with one multiplexor, floats (SIG_VALTYPE_), names of values (VAL_), and of the attributes (BA_, BA_DEF_DEF_) GenMsgCycleTime,
-/// GenSigStartValue, VFrameFormat and CANFD_BRS. Everything else is skipped. A message with more than one multiplexor (extended multiplexing) or a size that no frame has is
-/// kept with the reason why it cannot be used, so that a large file can be used for its other messages.
-/// The text is UTF-8, else Latin-1.
+/// Read are messages (BO_), signals (SG_) with one multiplexor, floats (SIG_VALTYPE_), names of
+/// values (VAL_), and of the attributes (BA_, BA_DEF_DEF_) GenMsgCycleTime, GenSigStartValue,
+/// VFrameFormat and CANFD_BRS. Everything else is skipped. A message with more than one multiplexor
+/// (extended multiplexing) or a size that no frame has is kept with the reason why it cannot be
+/// used, so that a large file can be used for its other messages. The text is UTF-8, else Latin-1.
 class DbcFile
 {
 public:
@@ -45,10 +46,12 @@ public:
     static DbcFile fromText(const QByteArray &text, const QString &fileName, QVector<QPlcParseError> *errors);
     /// As above; a file that cannot be read is an error of line 0.
     static DbcFile fromFile(const QString &fileName, QVector<QPlcParseError> *errors);
-    /// The part of a line SG_ behind its name: `m3 8|16@1- (0.1,0) [0|100] "rpm"`, of which only `8|16@1-` is needed. `@1f` and `@0f` are floats.
+    /// The part of a line SG_ behind its name: `m3 8|16@1- (0.1,0) [0|100] "rpm"`, of which only
+    /// `8|16@1-` is needed. `@1f` and `@0f` are floats.
     /// \return false, with what is wrong in \a error
     static bool readSignal(const QString &text, DbcSignal *signal, QString *error);
-    /// Checks what holds between the parts of a message and the message. \return what is wrong, empty when nothing is
+    /// Checks what holds between the parts of a message and the message. \return what is wrong,
+    /// empty when nothing is
     static QString problemOf(const DbcMessage &message, const DbcSignal &signal);
 
     bool isEmpty() const { return m_messages.isEmpty(); }

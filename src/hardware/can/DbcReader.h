@@ -10,7 +10,8 @@
 namespace qplc {
 
 /// Takes the words of a DBC file one after the other and tells where one is not what is expected.
-/// After the first thing that is wrong all functions that expect something return false until resume().
+/// After the first thing that is wrong all functions that expect something return false until
+/// resume().
 class DbcReader
 {
 public:
@@ -29,7 +30,8 @@ public:
     bool expectNumber(double *number, const char *what);
     bool expectInteger(qint64 *number, qint64 minimum, qint64 maximum, const char *what);
     bool expectUnsigned(quint64 *number, const char *what);
-    /// What stands behind the name of a signal and its role: start|length@order sign (factor,offset) [minimum|maximum] "unit"; the rest behind `sign` may be missing.
+    /// What stands behind the name of a signal and its role: start|length@order sign
+    /// (factor,offset) [minimum|maximum] "unit"; the rest behind `sign` may be missing.
     bool expectPlace(DbcSignal *signal);
     /// M or m3, if that is next. \param isExtended  true for m3M
     bool expectRole(DbcSignal *signal, bool *isExtended);

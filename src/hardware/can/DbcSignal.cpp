@@ -15,7 +15,8 @@ constexpr quint64 lowBits(int count)
     return count >= 64 ? ~quint64(0) : (quint64(1) << count) - 1;
 }
 
-// Place of the most significant bit of a Motorola value, when bits are counted in the order of the bus: bit 7 of byte 0 is the first.
+// Place of the most significant bit of a Motorola value, when bits are counted in the order of the
+// bus: bit 7 of byte 0 is the first.
 constexpr int busOrder(int bit)
 {
     return bit / 8 * 8 + 7 - bit % 8;

@@ -6,11 +6,13 @@
 
 namespace qplc {
 
-/// Where a value lies in a CAN frame and what it means, as the line SG_ of a DBC file says it: bits <-> raw integer <-> physical value.
+/// Where a value lies in a CAN frame and what it means, as the line SG_ of a DBC file says it: bits
+/// <-> raw integer <-> physical value.
 ///
 /// The physical value is raw * factor + offset, [unit]. A float is its bits as they are.
-/// Bits are numbered as DBC does: bit 0 is the least significant one of byte 0, bit 8 that of byte 1. start() is the least significant bit of an Intel value and the most
-/// significant bit of a Motorola one.
+/// Bits are numbered as DBC does: bit 0 is the least significant one of byte 0, bit 8 that of byte
+/// 1. start() is the least significant bit of an Intel value and the most significant bit of a
+///    Motorola one.
 struct DbcSignal
 {
     enum ByteOrder : quint8 { Intel, Motorola };

@@ -12,11 +12,15 @@
 
 namespace qplc {
 
-/// A CAN bus of this computer that needs neither kernel support nor hardware. Participants may be in several programs of one user.
+/// A CAN bus of this computer that needs neither kernel support nor hardware. Participants may be
+/// in several programs of one user.
 ///
-/// Each participant has a place, with a number, in a folder of the bus, and a Unix datagram socket of that number. A frame goes to all others at once; frames of one sender
-/// arrive in order. A datagram holds the frames of one call of send(). What does not fit into the socket of a receiver waits at its sender, up to Backlog frames; what does not fit there
-/// either is lost, and counted by the receiver. Frames are stamped when they are sent. A participant that was killed leaves its place to the next one.
+/// Each participant has a place, with a number, in a folder of the bus, and a Unix datagram socket
+/// of that number. A frame goes to all others at once; frames of one sender arrive in order. A
+/// datagram holds the frames of one call of send(). What does not fit into the socket of a receiver
+/// waits at its sender, up to Backlog frames; what does not fit there either is lost, and counted
+/// by the receiver. Frames are stamped when they are sent. A participant that was killed leaves its
+/// place to the next one.
 ///
 /// The folder of the bus is can-NAME among the fake devices (FakeMemory::folder()).
 class FakeCanBus : public CanBus
@@ -30,9 +34,11 @@ public:
     ~FakeCanBus() override;
 
     static bool isName(const QString &name);
-    /// Takes the adapters of all participants away, or gives them back: for tests. \return false when the folder cannot be used
+    /// Takes the adapters of all participants away, or gives them back: for tests. \return false
+    /// when the folder cannot be used
     static bool setPlugged(const QString &name, bool isPlugged);
-    /// Lets the bus take no frame any more, as one that nobody acknowledges, or take them again: for tests. \return false when the folder cannot be used
+    /// Lets the bus take no frame any more, as one that nobody acknowledges, or take them again:
+    /// for tests. \return false when the folder cannot be used
     static bool setFull(const QString &name, bool isFull);
     /// Of the bus.
     QString folder() const;

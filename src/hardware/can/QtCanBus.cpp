@@ -264,7 +264,8 @@ void QtCanBus::runLoop(QCanBusDevice *device)
     letGo(device);
 }
 
-// What was given to the device last, safe values perhaps, has to leave it; some plugins need the event loop for that, and for their end.
+// What was given to the device last, safe values perhaps, has to leave it; some plugins need the
+// event loop for that, and for their end.
 void QtCanBus::letGo(QCanBusDevice *device)
 {
     runQtCanLoop(qtCanFarewell, [this, device] {

@@ -15,10 +15,12 @@ namespace qplc {
 
 /// A CAN bus behind a plugin of Qt Serial Bus: adapters that the kernel has no driver for.
 ///
-/// The plugin needs an event loop and takes memory: it has a thread of its own, and frames go through rings. They are stamped when the plugin hands them over, which may be
-/// later than they came in, by some milliseconds.
+/// The plugin needs an event loop and takes memory: it has a thread of its own, and frames go
+/// through rings. They are stamped when the plugin hands them over, which may be later than they
+/// came in, by some milliseconds.
 ///
-/// A plugin does not say whether an error passes (a queue is full) or stays (the adapter is gone). The bus is lost when there were only errors for a second, with no frame in between that was
+/// A plugin does not say whether an error passes (a queue is full) or stays (the adapter is gone).
+/// The bus is lost when there were only errors for a second, with no frame in between that was
 /// written or received.
 class QtCanBus : public CanBus
 {

@@ -206,7 +206,8 @@ bool SocketCanBus::bindSocket()
         || failWith(QStringLiteral("cannot be used"), QStringLiteral("'ip link' lists the interfaces that there are"));
 }
 
-/// Who is not run between two clocks takes their difference for that of the clocks: the closest of a few looks counts.
+/// Who is not run between two clocks takes their difference for that of the clocks: the closest of
+/// a few looks counts.
 void SocketCanBus::lookAtClocks() noexcept
 {
     constexpr int most = 4;
@@ -307,7 +308,8 @@ int SocketCanBus::writeFrames(const CanFrame *frames, int count) noexcept
         if (given < 0)
             return isCanQueueFull(errno) || sent > 0 ? sent : lose(errno);
         sent += given;
-        // A short count says that the next frame met an error; the next call of sendmmsg() tells which.
+        // A short count says that the next frame met an error; the next call of sendmmsg() tells
+        // which.
     }
     return sent;
 }

@@ -5,10 +5,12 @@
 
 namespace qplc {
 
-/// Converts the stamps that the kernel gives to frames, which are of the wall clock, to the monotonic clock, also when the wall clock has been set meanwhile.
+/// Converts the stamps that the kernel gives to frames, which are of the wall clock, to the
+/// monotonic clock, also when the wall clock has been set meanwhile.
 ///
-/// A frame has come in after the queue was empty and before it was taken. Where the difference between the clocks of now leads out of that time, the wall clock was set in between, and
-/// the difference of before is tried.
+/// A frame has come in after the queue was empty and before it was taken. Where the difference
+/// between the clocks of now leads out of that time, the wall clock was set in between, and the
+/// difference of before is tried.
 class WallTimeConverter
 {
 public:

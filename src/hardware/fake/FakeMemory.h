@@ -8,10 +8,13 @@
 
 namespace qplc {
 
-/// Plays a device that is not there: a file of some bytes which the driver and whoever plays the device (a test, a model, a person) share.
+/// Plays a device that is not there: a file of some bytes which the driver and whoever plays the
+/// device (a test, a model, a person) share.
 ///
-/// `device = fake:NAME` of a driver is the file NAME in folder(). Where there is no such file, there is no such device: a file that is made is a device that is plugged in,
-/// one that is removed was unplugged. What the bytes mean, is said by each driver. Whoever plays the device may also read and write the file, without this class.
+/// `device = fake:NAME` of a driver is the file NAME in folder(). Where there is no such file,
+/// there is no such device: a file that is made is a device that is plugged in, one that is removed
+/// was unplugged. What the bytes mean, is said by each driver. Whoever plays the device may also
+/// read and write the file, without this class.
 class FakeMemory
 {
 public:
@@ -20,9 +23,11 @@ public:
     FakeMemory(const FakeMemory &) = delete;
     FakeMemory &operator=(const FakeMemory &) = delete;
 
-    /// Of the fake devices: the environment variable QTPLC_FAKE_DEVICES, else qtplc-devices in the folder of the user's session.
+    /// Of the fake devices: the environment variable QTPLC_FAKE_DEVICES, else qtplc-devices in the
+    /// folder of the user's session.
     static QString folder();
-    /// If it is not there. \return false when it cannot be made, or is not of this user alone; errno tells why
+    /// If it is not there. \return false when it cannot be made, or is not of this user alone;
+    /// errno tells why
     static bool makeFolder();
     /// Whether \a device is "fake:NAME".
     static bool isFake(const QString &device);
@@ -31,9 +36,11 @@ public:
     /// What a driver says when \a device is not there.
     static QString missingText(const QString &device);
 
-    /// Plugs the device in: \a size bytes, all 0. A file that is there is replaced, and so unplugged. \return false, with the reason in \a error
+    /// Plugs the device in: \a size bytes, all 0. A file that is there is replaced, and so
+    /// unplugged. \return false, with the reason in \a error
     bool create(const QString &device, std::size_t size, QString *error);
-    /// Takes the device as it is. \param size  that it must have; 0: any \return false, with the reason and the remedy in \a error
+    /// Takes the device as it is. \param size that it must have; 0: any \return false, with the
+    /// reason and the remedy in \a error
     bool open(const QString &device, std::size_t size, QString *error);
     void close();
     /// Unplugs the device.

@@ -5,7 +5,8 @@
 
 namespace qplc {
 
-/// Takes the bounces out of an input: a level counts when it has stayed for a period, from its first instant on. Knows no clock.
+/// Takes the bounces out of an input: a level counts when it has stayed for a period, from its
+/// first instant on. Knows no clock.
 class Debouncer
 {
 public:
@@ -18,7 +19,8 @@ public:
     /// Forgets everything; the next level counts at once, and is no edge.
     void reset() { m_isKnown = false; }
 
-    /// The input had this level at \a time [ns]. A time before that of the last call counts as that.
+    /// The input had this level at \a time [ns]. A time before that of the last call counts as
+    /// that.
     /// \return whether isOn() has changed: look at edgeTime()
     bool feed(bool isOn, qint64 time)
     {

@@ -6,7 +6,8 @@
 
 namespace qplc {
 
-/// A chip that is played: see FakeMemory. It has as many lines as the file has bytes; a byte is a line, with electrical levels (active-low has been applied).
+/// A chip that is played: see FakeMemory. It has as many lines as the file has bytes; a byte is a
+/// line, with electrical levels (active-low has been applied).
 class FakeGpioChip : public GpioChip
 {
 public:

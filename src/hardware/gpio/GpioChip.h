@@ -7,7 +7,8 @@
 
 namespace qplc {
 
-/// A GPIO chip: that of the kernel, by libgpiod 1.6 or 2 (whichever was there when this was built), or a fake one. Lines live no longer than their chip.
+/// A GPIO chip: that of the kernel, by libgpiod 1.6 or 2 (whichever was there when this was built),
+/// or a fake one. Lines live no longer than their chip.
 class GpioChip
 {
 public:
@@ -16,11 +17,13 @@ public:
     GpioChip(const GpioChip &) = delete;
     GpioChip &operator=(const GpioChip &) = delete;
 
-    /// \param device  name ("gpiochip0"), path ("/dev/gpiochip0") or label ("pinctrl-bcm2711") of a chip, or "fake:NAME"
+    /// \param device name ("gpiochip0"), path ("/dev/gpiochip0") or label ("pinctrl-bcm2711") of a
+    ///         chip, or "fake:NAME"
     /// \return null, with the reason and the remedy in \a error
     static std::unique_ptr<GpioChip> open(const QString &device, QString *error);
 
-    /// Whether a line exists and nobody has it. \return false, with the reason and the remedy in \a error
+    /// Whether a line exists and nobody has it. \return false, with the reason and the remedy in \a
+    /// error
     virtual bool isFree(const QString &line, QString *error) = 0;
     /// Takes a line. \return null, with the reason and the remedy in \a error
     virtual std::unique_ptr<GpioLine> request(const GpioLineRequest &request, QString *error) = 0;

@@ -103,7 +103,8 @@ bool GpioDriver::openInput(Input *input)
     return input->line || fail(error);
 }
 
-// A line is only looked at until write() knows its value: to drive it before would be a jump at the device.
+// A line is only looked at until write() knows its value: to drive it before would be a jump at the
+// device.
 bool GpioDriver::openOutput(Output *output)
 {
     QString error;
@@ -152,7 +153,8 @@ bool GpioDriver::read(Input *input)
             break;
         taken += count;
     }
-    // The level tells the truth also when the kernel has lost edges, and it ends the time of debouncing.
+    // The level tells the truth also when the kernel has lost edges, and it ends the time of
+    // debouncing.
     const int value = input->line->value();
     if (value < 0)
         return false;

@@ -26,7 +26,8 @@ struct GpioEdge
     qint64 time = 0;    // on the monotonic clock [ns]
 };
 
-/// A line of a GPIO chip that belongs to us; it is let go by the destructor. On and off are as the request says (active-low).
+/// A line of a GPIO chip that belongs to us; it is let go by the destructor. On and off are as the
+/// request says (active-low).
 ///
 /// No function waits or takes memory. They return false or -1, with errno, when the chip is gone.
 class GpioLine
@@ -40,7 +41,8 @@ public:
     /// \return 1 when the line is on, 0 when it is off, -1
     virtual int value() noexcept = 0;
     virtual bool setValue(bool isOn) noexcept = 0;
-    /// Edges since the last call, oldest first. \return how many, at most \a most; 0: there are no more; -1
+    /// Edges since the last call, oldest first. \return how many, at most \a most; 0: there are no
+    /// more; -1
     virtual int takeEdges(GpioEdge *edges, int most) noexcept = 0;
 };
 

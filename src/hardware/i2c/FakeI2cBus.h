@@ -6,8 +6,9 @@
 
 namespace qplc {
 
-/// A device on a bus that is played: see FakeMemory. The file has a byte for each of the 128 addresses, 1 where a device answers; behind them the 256 registers of address 0,
-/// those of address 1, and so on.
+/// A device on a bus that is played: see FakeMemory. The file has a byte for each of the 128
+/// addresses, 1 where a device answers; behind them the 256 registers of address 0, those of
+/// address 1, and so on.
 class FakeI2cBus : public I2cBus
 {
 public:

@@ -7,9 +7,11 @@
 
 namespace qplc {
 
-/// One device on an I2C bus, seen as numbered registers of a byte each: `/dev/i2c-N`, or a fake one.
+/// One device on an I2C bus, seen as numbered registers of a byte each: `/dev/i2c-N`, or a fake
+/// one.
 ///
-/// read() and write() wait for the bus; they return false, with errno, when the device does not answer (ENXIO, EREMOTEIO, EIO, ETIMEDOUT) or the bus is gone (ENODEV).
+/// read() and write() wait for the bus; they return false, with errno, when the device does not
+/// answer (ENXIO, EREMOTEIO, EIO, ETIMEDOUT) or the bus is gone (ENODEV).
 class I2cBus
 {
 public:
@@ -32,7 +34,8 @@ public:
 
 /// "0x68"
 QString i2cAddressText(int address);
-/// What to do when a device on a bus does not answer, for QPlcDriver::remedy(). Empty for errors that are no errors of the bus.
+/// What to do when a device on a bus does not answer, for QPlcDriver::remedy(). Empty for errors
+/// that are no errors of the bus.
 QString i2cRemedy(int errorNumber);
 
 }  // namespace qplc

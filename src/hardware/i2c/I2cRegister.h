@@ -5,7 +5,8 @@
 
 namespace qplc {
 
-/// A number in the registers of a device, as a configuration says it: `0x3b, int16 big-endian, factor 0.001, offset 0, write`.
+/// A number in the registers of a device, as a configuration says it:
+/// `0x3b, int16 big-endian, factor 0.001, offset 0, write`.
 struct I2cRegister
 {
     enum Type : quint8 {

@@ -12,7 +12,8 @@
 
 namespace qplc {
 
-/// Kind `i2c-registers`: any I2C device, its registers named by the configuration. See docs/hardware/i2c.md.
+/// Kind `i2c-registers`: any I2C device, its registers named by the configuration. See
+/// docs/hardware/i2c.md.
 class I2cRegistersDriver : public QPlcDriver
 {
 public:

@@ -77,7 +77,8 @@ bool KernelI2cBus::call(bool isRead, quint8 reg, quint32 size, void *data) noexc
     return ::ioctl(m_descriptor, I2C_SMBUS, &arguments) >= 0;
 }
 
-// Blocks come in one transfer, so that bytes of one measurement stay together; an adapter that cannot do them gives words, then single bytes.
+// Blocks come in one transfer, so that bytes of one measurement stay together; an adapter that
+// cannot do them gives words, then single bytes.
 bool KernelI2cBus::read(quint8 first, quint8 *bytes, int count) noexcept
 {
     for (int done = 0; done < count;) {

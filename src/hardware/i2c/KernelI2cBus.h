@@ -5,7 +5,8 @@
 
 namespace qplc {
 
-/// A device on a bus of the kernel, by its i2c-dev. All calls are SMBus calls, which every adapter has, also those without plain I2C transfers.
+/// A device on a bus of the kernel, by its i2c-dev. All calls are SMBus calls, which every adapter
+/// has, also those without plain I2C transfers.
 class KernelI2cBus : public I2cBus
 {
 public:

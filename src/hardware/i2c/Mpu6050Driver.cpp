@@ -71,7 +71,8 @@ void Mpu6050Driver::configure(QPlcDriverSettings &settings)
 
 void Mpu6050Driver::setUpRates(QPlcDriverSettings &settings)
 {
-    // The index is that of the register, where 0 switches the filter off; its clock is 1 kHz with a filter.
+    // The index is that of the register, where 0 switches the filter off; its clock is 1 kHz with a
+    // filter.
     const QStringList bandwidths{QStringLiteral("188 Hz"), QStringLiteral("98 Hz"), QStringLiteral("42 Hz"),
                                  QStringLiteral("20 Hz"),  QStringLiteral("10 Hz"), QStringLiteral("5 Hz")};
     m_filter = quint8(1 + settings.choice(QStringLiteral("bandwidth"), bandwidths, 2));

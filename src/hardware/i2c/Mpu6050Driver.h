@@ -9,7 +9,8 @@
 
 namespace qplc {
 
-/// Kind `mpu6050`: the inertial sensor MPU-6050 and its like: MPU-9150, which has one inside, MPU-6500, and MPU-9250 and 9255, which have that one. See docs/hardware/i2c.md.
+/// Kind `mpu6050`: the inertial sensor MPU-6050 and its like: MPU-9150, which has one inside,
+/// MPU-6500, and MPU-9250 and 9255, which have that one. See docs/hardware/i2c.md.
 ///
 /// Axes are those that are printed on the chip.
 class Mpu6050Driver : public QPlcDriver

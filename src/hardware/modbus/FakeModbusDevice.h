@@ -11,8 +11,9 @@
 
 namespace qplc {
 
-/// A device of this process, `device = fake:NAME`: all bits and registers of all units are there, are 0 at first, and keep what is written. For tests, and for trying a configuration
-/// without the device. Threads: any.
+/// A device of this process, `device = fake:NAME`: all bits and registers of all units are there,
+/// are 0 at first, and keep what is written. For tests, and for trying a configuration without the
+/// device. Threads: any.
 class FakeModbusDevice
 {
 public:
@@ -25,7 +26,8 @@ public:
 
     /// A device that is not there refuses to be opened, and answers no request.
     void setPresent(bool isPresent);
-    /// From here on the device answers requests that touch this place with an exception; None: it no longer does.
+    /// From here on the device answers requests that touch this place with an exception; None: it
+    /// no longer does.
     void answerWith(ModbusException exception, ModbusRegister::Space space, quint16 address);
     /// All requests since the last call.
     std::vector<ModbusRequest> takeReads();

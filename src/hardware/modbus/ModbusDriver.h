@@ -11,7 +11,8 @@
 
 namespace qplc {
 
-/// Bits and registers of the units behind one connection or one serial line, named by the configuration: docs/hardware/modbus.md.
+/// Bits and registers of the units behind one connection or one serial line, named by the
+/// configuration: docs/hardware/modbus.md.
 class ModbusDriver final : public QPlcDriver
 {
 public:

@@ -21,7 +21,8 @@ struct ModbusRequest
     static constexpr int MostRegistersWritten = 123;
 };
 
-/// The answer of a device that does not do what it is asked for. The numbers are those of the protocol.
+/// The answer of a device that does not do what it is asked for. The numbers are those of the
+/// protocol.
 enum class ModbusException : quint8 {
     None = 0,
     UnknownFunction = 1,

@@ -14,7 +14,8 @@ struct ModbusBlock
     std::vector<std::size_t> members;  // indices of registers
 };
 
-/// The fewest requests that read these registers. \param gap  how many bits or registers that nobody wants may be read between two that are wanted
+/// The fewest requests that read these registers. \param gap how many bits or registers that nobody
+/// wants may be read between two that are wanted
 std::vector<ModbusBlock> planToRead(const std::vector<ModbusRegister> &registers, int gap);
 /// The fewest requests that write these registers, and nothing else. \pre none of them overlap
 std::vector<ModbusBlock> planToWrite(const std::vector<ModbusRegister> &registers);

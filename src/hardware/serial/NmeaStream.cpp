@@ -13,7 +13,8 @@ bool NmeaStream::feed(char byte)
         ++m_refused;
         m_line.clear();
     }
-    // One byte more than is allowed is kept, so that the end of the line sees it; without a begin the line is nothing.
+    // One byte more than is allowed is kept, so that the end of the line sees it; without a begin
+    // the line is nothing.
     if ((begins || !m_line.isEmpty()) && m_line.size() <= NmeaSentence::MaximumLength)
         m_line.append(byte);
     return false;

@@ -5,7 +5,8 @@
 
 namespace qplc {
 
-/// Finds the sentences of NMEA 0183 in what comes from a serial line, in whatever pieces it comes. What is no sentence is counted and thrown away.
+/// Finds the sentences of NMEA 0183 in what comes from a serial line, in whatever pieces it comes.
+/// What is no sentence is counted and thrown away.
 class NmeaStream
 {
 public:

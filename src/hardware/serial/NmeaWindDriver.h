@@ -9,7 +9,8 @@
 
 namespace qplc {
 
-/// Kind `nmea-wind`: a wind sensor or weather station that speaks NMEA 0183 over a serial line. See docs/hardware/serial.md.
+/// Kind `nmea-wind`: a wind sensor or weather station that speaks NMEA 0183 over a serial line. See
+/// docs/hardware/serial.md.
 class NmeaWindDriver : public QPlcDriver
 {
 public:

@@ -21,9 +21,11 @@ struct SerialSettings
     QString toString() const;
 };
 
-/// A serial line: bytes in and out, without waiting. It belongs to this program alone as long as it is open.
+/// A serial line: bytes in and out, without waiting. It belongs to this program alone as long as it
+/// is open.
 ///
-/// `/dev/ttyUSB0`, a pseudo-terminal, or `fake:NAME`: the name NAME in FakeMemory::folder(), a symbolic link to a pseudo-terminal as a rule.
+/// `/dev/ttyUSB0`, a pseudo-terminal, or `fake:NAME`: the name NAME in FakeMemory::folder(), a
+/// symbolic link to a pseudo-terminal as a rule.
 class SerialLine
 {
 public:
@@ -32,12 +34,14 @@ public:
     SerialLine(const SerialLine &) = delete;
     SerialLine &operator=(const SerialLine &) = delete;
 
-    /// Bytes that have come before are thrown away. \return false, with the reason and the remedy in \a error
+    /// Bytes that have come before are thrown away. \return false, with the reason and the remedy
+    /// in \a error
     bool open(const QString &device, const SerialSettings &settings, QString *error);
     void close();
     bool isOpen() const { return m_descriptor >= 0; }
 
-    /// \return how many bytes have come, at most \a size; 0: none; -1, with errno, when the line is gone (ENODEV: unplugged)
+    /// \return how many bytes have come, at most \a size; 0: none; -1, with errno, when the line is
+    ///         gone (ENODEV: unplugged)
     int read(char *bytes, int size) noexcept;
     /// \return how many bytes were taken; -1, with errno, when the line is gone
     int write(const char *bytes, int size) noexcept;
@@ -45,7 +49,8 @@ public:
     /// Rates that the kernel knows [bit/s].
     static bool isKnownRate(int baud);
     static QString knownRates();
-    /// What to do when a line is gone, for QPlcDriver::remedy(). Empty for errors that are no errors of a line.
+    /// What to do when a line is gone, for QPlcDriver::remedy(). Empty for errors that are no
+    /// errors of a line.
     static QString remedy(int errorNumber);
 
 private:

@@ -6,8 +6,9 @@
 
 namespace qplc {
 
-/// A converter that is played: see FakeMemory. The first byte of the file is 1 while the chip has power; from byte 2 on the file has the counts of the 8 inputs, 0 ... 4095,
-/// 2 bytes each, the low one first.
+/// A converter that is played: see FakeMemory. The first byte of the file is 1 while the chip has
+/// power; from byte 2 on the file has the counts of the 8 inputs, 0 ... 4095, 2 bytes each, the low
+/// one first.
 ///
 /// It answers bit by bit as the chip does, so that a wrong question gets the wrong answer.
 class FakeMcp3208 : public SpiBus

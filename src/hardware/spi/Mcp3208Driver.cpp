@@ -56,7 +56,8 @@ bool Mcp3208Driver::convert(bool isSingle, int input, QPlcReadChannel *channel)
 {
     if (!channel->isWired())
         return true;
-    // Start bit, single-ended, 3 bits of the input; placed so that the result ends with the third byte.
+    // Start bit, single-ended, 3 bits of the input; placed so that the result ends with the third
+    // byte.
     const quint8 question[] = {quint8(0x04 | (isSingle ? 0x02 : 0) | input >> 2), quint8((input & 3) << 6), 0};
     quint8 answer[sizeof question] = {};
     if (!m_bus->transfer(question, answer, sizeof question))

@@ -9,7 +9,8 @@
 
 namespace qplc {
 
-/// Kind `mcp3208`: converter MCP3208, 8 voltages with 12 bits, alone or as differences of neighbours. See docs/hardware/spi.md.
+/// Kind `mcp3208`: converter MCP3208, 8 voltages with 12 bits, alone or as differences of
+/// neighbours. See docs/hardware/spi.md.
 class Mcp3208Driver : public QPlcDriver
 {
 public:

@@ -26,7 +26,8 @@ public:
     /// A device of the kernel. \return null, with the reason and the remedy in \a error
     static std::unique_ptr<SpiBus> open(const QString &device, const SpiSettings &settings, QString *error);
 
-    /// Sends \a count bytes and receives as many at the same time, all with one chip select. Waits for the bus. \return false, with errno
+    /// Sends \a count bytes and receives as many at the same time, all with one chip select. Waits
+    /// for the bus. \return false, with errno
     virtual bool transfer(const quint8 *sent, quint8 *received, int count) noexcept = 0;
 };
 

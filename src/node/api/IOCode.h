@@ -11,7 +11,8 @@
 #include <mutex>
 #include <vector>
 
-/// The code of a node whose values come from outside: takes the newest outputs, and publishes the inputs.
+/// The code of a node whose values come from outside: takes the newest outputs, and publishes the
+/// inputs.
 class QPlcIOSlaveNode::Code : public qplc::IndexListCode
 {
 public:

@@ -9,9 +9,11 @@ class QPlcSlaveNodePrivate;
 
 namespace qplc {
 
-/// A node in the process of its master: without messages and frames, so each request is answered at once.
+/// A node in the process of its master: without messages and frames, so each request is answered at
+/// once.
 ///
-/// The program may remove the node whenever it hears of a new state; the node is left alone from then on.
+/// The program may remove the node whenever it hears of a new state; the node is left alone from
+/// then on.
 class LocalNode final : public NodeSession
 {
 public:

@@ -22,8 +22,8 @@ QString wordOf(const QString &given)
 
 }  // namespace
 
-/// Carries out one message of a connection. A kind of messages::Requests without a function here does
-/// not compile.
+/// Carries out one message of a connection. A kind of messages::Requests without a function here
+/// does not compile.
 class QPlcMasterNodePrivate::Requests
 {
 public:

@@ -48,8 +48,8 @@ public:
     void stopped() override { m_node.stopped(); }
 
 private:
-    /// What is done with the ports of one direction in each cycle: bytes that are copied as they are, and values that
-    /// are converted.
+    /// What is done with the ports of one direction in each cycle: bytes that are copied as they
+    /// are, and values that are converted.
     struct Plan
     {
         struct Copy

@@ -15,14 +15,15 @@
 
 #include <QtCore/QTimer>
 
-/// Wires the parts of a master: carries out what the table of states says, and takes in what programs and clients ask.
-/// docs/design/sequences.md says who does what.
+/// Wires the parts of a master: carries out what the table of states says, and takes in what
+/// programs and clients ask. docs/design/sequences.md says who does what.
 class QPlcMasterNodePrivate final : private qplc::MasterControl
 {
 public:
     explicit QPlcMasterNodePrivate(QPlcMasterNode *master);
 
-    /// Fixes the signal table and makes everything that depends on it. \return false when there is no table
+    /// Fixes the signal table and makes everything that depends on it. \return false when there is
+    /// no table
     bool prepare();
     bool startServer(const QPlcUnderlyingProtocol &protocol);
     bool addLocalNode(QPlcSlaveNode *node);

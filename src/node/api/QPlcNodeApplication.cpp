@@ -131,7 +131,8 @@ int QPlcNodeApplication::run(QPlcSlaveNode &node)
     service.setReady();    // one that stays does its work already when it waits for its master
     if (!stays) {
         connect(&node, &QPlcSlaveNode::disconnectedFromMaster, this, [this, &node] {
-            // When the master was lost, and did not just end, the error follows, and the node connects again.
+            // When the master was lost, and did not just end, the error follows, and the node
+            // connects again.
             QMetaObject::invokeMethod(
                 this,
                 [&node] {

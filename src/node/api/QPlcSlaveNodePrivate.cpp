@@ -70,7 +70,8 @@ QPlcSlaveNodePrivate::QPlcSlaveNodePrivate(QPlcSlaveNode *node, const QString &n
         masterLost(QPlcAbstractSocket::NoError,
                    QStringLiteral("no answer within %1 s").arg(m_patience.interval() / 1000));
     });
-    // A program that ends says goodbye in time: its node reaches its safe state before its destructor runs.
+    // A program that ends says goodbye in time: its node reaches its safe state before its
+    // destructor runs.
     if (QCoreApplication *application = QCoreApplication::instance())
         QObject::connect(application, &QCoreApplication::aboutToQuit, q, [this] {
             if (!localMaster)  // else its master ends, too
@@ -175,7 +176,8 @@ void QPlcSlaveNodePrivate::closeConnection(QPlcSlaveNode::SafeStateReason reason
     cycle.reset();
 }
 
-/// The reports of the cycle, which tell of the watchdog, are being read: the cycle ends behind them.
+/// The reports of the cycle, which tell of the watchdog, are being read: the cycle ends behind
+/// them.
 void QPlcSlaveNodePrivate::closeAfterWatchdog()
 {
     const auto close = [this, phase = m_phase] {
@@ -229,7 +231,8 @@ void QPlcSlaveNodePrivate::giveUp(QPlcSlaveNode::Error newError, const QString &
 
 // ---- messages ----
 
-/// Whether a master may send \a message now. Anything else would call the code of the node before it is bound, or on two threads at a time.
+/// Whether a master may send \a message now. Anything else would call the code of the node before
+/// it is bound, or on two threads at a time.
 bool QPlcSlaveNodePrivate::isExpected(const Message &message) const
 {
     const std::optional<SlaveEvent> event = eventOf(message);

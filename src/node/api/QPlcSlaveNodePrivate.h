@@ -30,7 +30,8 @@ public:
 
     void connectToMaster(const QPlcUnderlyingProtocol &master);
     void disconnectFromMaster();
-    /// The class of the user is being destroyed, and no part of ours yet: cycles that still run end here, with a warning, and call nothing of it any more.
+    /// The class of the user is being destroyed, and no part of ours yet: cycles that still run end
+    /// here, with a warning, and call nothing of it any more.
     void endBeforeDestruction();
 
     /// As SlaveCycle::cycleInProgress(). \threadsafe yes, while it is registered
@@ -44,7 +45,8 @@ public:
     using Told = std::variant<std::monostate, qplc::messages::MasterHello, qplc::messages::Registered,
                               qplc::messages::SendYourInitialOutputStates, qplc::messages::InitializeWithValues,
                               qplc::messages::RealTimeStarted>;
-    /// Something has happened: the node goes to the next state as qplc::slaveStates() says, and does what belongs to it.
+    /// Something has happened: the node goes to the next state as qplc::slaveStates() says, and
+    /// does what belongs to it.
     /// \return whether the present state accepts \a event
     bool apply(qplc::SlaveEvent event, const Told &told = {});
     /// The safe state, in the thread of the node, while no cycle runs.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The phases of QPlcSlaveNodePrivate: initialization, cycles and their reports, and what the profile of the plant says about them.
+// The phases of QPlcSlaveNodePrivate: initialization, cycles and their reports, and what the
+// profile of the plant says about them.
 #include "QPlcSlaveNodePrivate.h"
 #include "node/Logging.h"
 #include "node/cycle/FrameLog.h"
@@ -45,7 +46,8 @@ QString phaseError(const messages::RealTimeStarted &start)
     return {};
 }
 
-/// Where the inputs lie in datagrams for many nodes; what is out of place is refused by its size of 0, and no frame will fit.
+/// Where the inputs lie in datagrams for many nodes; what is out of place is refused by its size of
+/// 0, and no frame will fit.
 qplc::SlaveCycle::Group groupOf(const std::optional<messages::GroupPlace> &place, const qplc::PayloadLayout &inputs)
 {
     if (!place || place->offset < 2 || place->size > int(qplc::MaximumCyclicPayload)
@@ -56,7 +58,8 @@ qplc::SlaveCycle::Group groupOf(const std::optional<messages::GroupPlace> &place
 
 }  // namespace
 
-/// The code of the derived class threw: the master is told, and the node waits in its safe state for the next initialization.
+/// The code of the derived class threw: the master is told, and the node waits in its safe state
+/// for the next initialization.
 void QPlcSlaveNodePrivate::codeFailed(const QString &text)
 {
     if (control)
@@ -66,7 +69,8 @@ void QPlcSlaveNodePrivate::codeFailed(const QString &text)
     setError(QPlcSlaveNode::UserCodeError, QStringLiteral("node '%1': %2").arg(name, text));
 }
 
-/// Whether the node has been in the phase that \a request names, and has lost nothing but the connection.
+/// Whether the node has been in the phase that \a request names, and has lost nothing but the
+/// connection.
 bool QPlcSlaveNodePrivate::canGoOn(const messages::SendYourInitialOutputStates &request) const
 {
     return request.phase && m_lastPhase == PhaseName{m_session, *request.phase};

@@ -24,7 +24,8 @@ bool QPlcSlaveNodePrivate::isOrdered() const
     }
 }
 
-/// Extensions that this node uses. A master that does not know `hardware` is as strict as a plant anyway.
+/// Extensions that this node uses. A master that does not know `hardware` is as strict as a plant
+/// anyway.
 QStringList QPlcSlaveNodePrivate::features() const
 {
     QStringList needed;

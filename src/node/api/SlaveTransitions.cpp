@@ -72,7 +72,8 @@ void QPlcSlaveNodePrivate::enter(QPlcSlaveNode::State newState)
     Q_EMIT q->stateChanged(newState);
 }
 
-/// What has to be done before the next state is there. \return false when it failed and has led to another state
+/// What has to be done before the next state is there. \return false when it failed and has led to
+/// another state
 bool QPlcSlaveNodePrivate::prepareFor(SlaveAction action, SlaveEvent event, const Told &told)
 {
     switch (action) {

@@ -56,9 +56,11 @@ struct TappedFrame
     std::array<char, Capacity> bytes;
 };
 
-/// How a cycle thread tells the thread of its owner what happened: rings, and a descriptor that becomes readable when there is something in them.
-/// The cycle thread posts and never waits; a full ring counts what it could not take. News of which there may be thousands at once (each late answer, each signal that goes safe) leave
-/// room for what changes the state of a node, and this for what is said once in a phase: that the master stops safely or has ended is never lost.
+/// How a cycle thread tells the thread of its owner what happened: rings, and a descriptor that
+/// becomes readable when there is something in them. The cycle thread posts and never waits; a full
+/// ring counts what it could not take. News of which there may be thousands at once (each late
+/// answer, each signal that goes safe) leave room for what changes the state of a node, and this
+/// for what is said once in a phase: that the master stops safely or has ended is never lost.
 class CycleReports
 {
 public:

@@ -10,7 +10,8 @@
 
 namespace qplc {
 
-/// What a master measures of its cycles. The cycle thread records, others read at any time. docs/design/statistics.md defines the figures.
+/// What a master measures of its cycles. The cycle thread records, others read at any time.
+/// docs/design/statistics.md defines the figures.
 ///
 /// In lockstep only cycles and what the hub counts are counted; all times given are 0.
 class CycleStatistics
@@ -22,7 +23,8 @@ public:
 
     // ---- cycle thread; times in ns on the clock ----
     void begin(const CycleClock::Tick &tick, std::int64_t period) noexcept;
-    /// Gives the time since the end of the stage before to \a stage, which may occur more than once in a cycle.
+    /// Gives the time since the end of the stage before to \a stage, which may occur more than once
+    /// in a cycle.
     void stageEnded(CycleStage stage, std::int64_t now) noexcept
     {
         m_record.stages[std::size_t(stage)] += now - m_stageBegin;
@@ -46,7 +48,8 @@ public:
         m_floods.set(floods - m_floodsBefore);
     }
     void end(std::int64_t now) noexcept;
-    /// Makes the durations that were measured visible to readers; they wait for it for 0.1 s at most.
+    /// Makes the durations that were measured visible to readers; they wait for it for 0.1 s at
+    /// most.
     void fold() noexcept { m_durations.fold(); }
 
     /// Nominal end of the cycle in progress.

@@ -5,7 +5,8 @@
 
 namespace qplc {
 
-/// How many of the cycles a listener hears: the first one of each turn. Turns are equally long, and the first one begins with cycle 0 of the phase. A value type.
+/// How many of the cycles a listener hears: the first one of each turn. Turns are equally long, and
+/// the first one begins with cycle 0 of the phase. A value type.
 class ListeningInterval
 {
 public:

@@ -73,7 +73,8 @@ void MasterCycle::stop()
     freeRetired();
 }
 
-/// Cycles are counted from 0 again: what has its initial value now is as if it were of the cycle before.
+/// Cycles are counted from 0 again: what has its initial value now is as if it were of the cycle
+/// before.
 void MasterCycle::startGuard()
 {
     for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes)
@@ -277,7 +278,8 @@ void MasterCycle::adoptPending() noexcept
     }
 }
 
-/// A value may have been set because of a roster that came before it: a roster is always adopted before the values that follow it.
+/// A value may have been set because of a roster that came before it: a roster is always adopted
+/// before the values that follow it.
 void MasterCycle::takeCommands() noexcept
 {
     adoptPending();
@@ -414,7 +416,8 @@ void MasterCycle::finish() noexcept
     foldStatistics();
 }
 
-/// Of one node in each cycle, in turn, and then of the master itself: all at once would make a cycle long.
+/// Of one node in each cycle, in turn, and then of the master itself: all at once would make a
+/// cycle long.
 void MasterCycle::foldStatistics() noexcept
 {
     const std::size_t turn = std::size_t(m_number) % (m_roster->nodes.size() + 1);

@@ -31,7 +31,8 @@ struct SignalSetting
     QPlcQuality quality = QPlcQuality::Good;
 };
 
-/// The cycle of a master: keeps time and the process image, and lets a NodeExchange ask the nodes. Owns the thread on which that happens.
+/// The cycle of a master: keeps time and the process image, and lets a NodeExchange ask the nodes.
+/// Owns the thread on which that happens.
 ///
 /// Everything is called by the thread of the master; what is marked so also while cycles run.
 class MasterCycle : private SignalGuard::Observer
@@ -64,10 +65,12 @@ public:
 
     /// \return false when no thread could be made; errorString() says why
     bool start(const Phase &phase);
-    /// Waits until the cycle in progress has ended. The hub then holds the nodes of the last roster.
+    /// Waits until the cycle in progress has ended. The hub then holds the nodes of the last
+    /// roster.
     void stop();
     bool isRunning() const { return m_thread.isRunning(); }
-    /// Lets the cycles be safe from the next one on: nodes are told their safe values and compute nothing, until stop().
+    /// Lets the cycles be safe from the next one on: nodes are told their safe values and compute
+    /// nothing, until stop().
     void makeSafe() { m_guard.request(); }
     bool isSafe() const { return m_guard.isTripped(); }
     QString errorString() const { return m_thread.errorString(); }
@@ -75,11 +78,15 @@ public:
     std::int64_t period() const { return m_clock ? m_clock->period() : 0; }
     const QVector<QPlcRealTimeSetting> &realTimeSettings() const { return m_thread.settings(); }
 
-    /// Gives the nodes of the cycles from the next one on; also while cycles run, but then the nodes of this process stay the same.
+    /// Gives the nodes of the cycles from the next one on; also while cycles run, but then the
+    /// nodes of this process stay the same.
     void setRoster(const Roster &roster);
-    /// Sets signals between two cycles; also while cycles run: then signals with a slope move to these values, and safe ones have them at once. \return false, and none is set, when too many are under way
+    /// Sets signals between two cycles; also while cycles run: then signals with a slope move to
+    /// these values, and safe ones have them at once. \return false, and none is set, when too many
+    /// are under way
     bool setValues(const std::vector<SignalSetting> &settings);
-    /// Keeps each of \a indices where its slope has brought it by now. \return false, and all go on, when too many are under way
+    /// Keeps each of \a indices where its slope has brought it by now. \return false, and all go
+    /// on, when too many are under way
     bool endWays(const std::vector<QPlcSignalIndex> &indices);
     /// Whether a value that is set moves \a signal with a slope.
     bool hasSlope(QPlcSignalIndex signal) const { return m_slopes.isLimited(signal); }
@@ -88,16 +95,20 @@ public:
     const QPlcSignalTable &table() const { return m_image.table(); }
     /// Where a signal lies in values() [byte].
     quint32 offset(QPlcSignalIndex signal) const { return m_image.offset(signal); }
-    /// The newest values of all signals with their qualities, of one cycle, as they lie in the process image; also while cycles run.
+    /// The newest values of all signals with their qualities, of one cycle, as they lie in the
+    /// process image; also while cycles run.
     std::vector<char> values() const;
     /// Where the quality of a signal lies in values() [byte].
     quint32 qualityOffset(QPlcSignalIndex signal) const { return m_image.qualityOffset(signal); }
-    /// An initialization begins: what nodes have written before counts for nothing. \pre not running
+    /// An initialization begins: what nodes have written before counts for nothing. \pre not
+    /// running
     /// \param usualHold  [cycles] of signals without `hold`
     void forgetOutputs(std::int64_t usualHold);
-    /// Takes the initial outputs of a node, which have been checked, but for the signals that are \a held. \pre not running
+    /// Takes the initial outputs of a node, which have been checked, but for the signals that are
+    /// \a held. \pre not running
     void takeInitialOutputs(NodeSlot &slot, const char *outputs, const std::vector<bool> &held);
-    /// The initial outputs of all nodes of \a roster have been taken: what has no value by now is Safe, or Invalid as ever. \pre not running
+    /// The initial outputs of all nodes of \a roster have been taken: what has no value by now is
+    /// Safe, or Invalid as ever. \pre not running
     void initialOutputsTaken(Roster roster);
     /// Counters of the values that were not taken; also while cycles run.
     const SignalGuard &signalGuard() const { return m_signalGuard; }

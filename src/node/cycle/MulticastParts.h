@@ -11,9 +11,11 @@ namespace qplc {
 
 struct NodeSlot;
 
-/// One frame that carries the inputs of several nodes: u16 number of the part, then the input payload of each of them.
+/// One frame that carries the inputs of several nodes: u16 number of the part, then the input
+/// payload of each of them.
 ///
-/// Made by the thread of the master before its nodes are asked for the first time; from then on the cycle thread's.
+/// Made by the thread of the master before its nodes are asked for the first time; from then on the
+/// cycle thread's.
 struct MulticastPart
 {
     std::uint16_t number = 0;
@@ -29,8 +31,8 @@ struct MulticastPart
     void send(CyclicHub &hub, const FrameHeader &header) noexcept;
 };
 
-/// Puts the nodes of transports with groups into parts. A part never changes once its nodes know it: who joins while others run gets a part of its own, who leaves
-/// leaves a gap.
+/// Puts the nodes of transports with groups into parts. A part never changes once its nodes know
+/// it: who joins while others run gets a part of its own, who leaves leaves a gap.
 class MulticastParts
 {
 public:

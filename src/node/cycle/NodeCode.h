@@ -25,13 +25,15 @@ struct NodeTraits
     bool hardware = false;       // drives real devices
 };
 
-/// What a node program is to NodeRuntime: the signals that it declares, and functions that work on the bytes of frames.
+/// What a node program is to NodeRuntime: the signals that it declares, and functions that work on
+/// the bytes of frames.
 ///
-/// A kind of node (lists, ports, values from outside) is an implementation of it; the program is called from there.
-/// NodeRuntime says when, and catches what is thrown. Frames hold values one behind the other, as the layouts of bind()
-/// say, and then their qualities.
+/// A kind of node (lists, ports, values from outside) is an implementation of it; the program is
+/// called from there. NodeRuntime says when, and catches what is thrown. Frames hold values one
+/// behind the other, as the layouts of bind() say, and then their qualities.
 ///
-/// Threads: step() and makeSafe() on the cycle thread; everything else in the thread of the node, while no cycle runs.
+/// Threads: step() and makeSafe() on the cycle thread; everything else in the thread of the node,
+/// while no cycle runs.
 class NodeCode
 {
 public:
@@ -51,7 +53,8 @@ public:
     virtual bool declaresSameCycle() = 0;
     /// Looks its signals up in \a table. \return false, with all that does not fit in \a error
     virtual bool declare(const QPlcSignalTable &table, Declaration *declaration, QString *error) = 0;
-    /// Frames will have these layouts, in the order of the declaration; NodeRuntime may add outputs behind.
+    /// Frames will have these layouts, in the order of the declaration; NodeRuntime may add outputs
+    /// behind.
     virtual void bind(const QPlcSignalTable &table, const PayloadLayout &inputs, const PayloadLayout &outputs) = 0;
     /// Brings the program into its initial state. \a outputs holds the initial values of the table.
     virtual void reset(char *outputs) = 0;

@@ -175,7 +175,8 @@ void NodeExchange::sendParts(NodeSlot &slot) noexcept
     }
 }
 
-/// Goes on with requests that a stream did not take as a whole. \return whether some of them are still not sent
+/// Goes on with requests that a stream did not take as a whole. \return whether some of them are
+/// still not sent
 bool NodeExchange::continueRequests() noexcept
 {
     bool unsent = false;
@@ -224,14 +225,16 @@ void NodeExchange::stepLocalNodes(const Stage &stage) noexcept
 
 // ---- answers ----
 
-/// End of the time for \a stage [ns]: the stages share the period equally, and what one of them does not need is left to the next ones.
+/// End of the time for \a stage [ns]: the stages share the period equally, and what one of them
+/// does not need is left to the next ones.
 std::int64_t NodeExchange::deadline(std::size_t stage) const noexcept
 {
     const auto stages = std::int64_t(m_roster->stages.size());
     return m_cycle.deadline - m_grid->period() * (stages - std::int64_t(stage + 1)) / stages;
 }
 
-/// At the end of the cycle all answers are of interest, except those of listeners: they are taken when they are there.
+/// At the end of the cycle all answers are of interest, except those of listeners: they are taken
+/// when they are there.
 void NodeExchange::awaitEveryone() noexcept
 {
     for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes)
@@ -247,7 +250,8 @@ bool NodeExchange::anyMissing(bool onlyWaiting) const noexcept
     return false;
 }
 
-/// Waits for the answers that later stages read, after the last stage for all. \return false when stop was asked for meanwhile
+/// Waits for the answers that later stages read, after the last stage for all. \return false when
+/// stop was asked for meanwhile
 bool NodeExchange::collectAnswers(std::size_t stage) noexcept
 {
     const bool isLast = stage + 1 == m_roster->stages.size();
@@ -291,7 +295,8 @@ void NodeExchange::reportLateNodes() noexcept
     }
 }
 
-/// The first one of those that time stands still for whose policy is to report it; 0: all of them are silent.
+/// The first one of those that time stands still for whose policy is to report it; 0: all of them
+/// are silent.
 std::uint16_t NodeExchange::nodeToReport() const noexcept
 {
     for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
@@ -383,7 +388,8 @@ void NodeExchange::takeAnswer(NodeSlot &slot, const char *frame, std::size_t siz
         slot.statistics.rejected.add();
         return;
     }
-    // An answer to an older cycle is late and counted as such, but still newer than what the image holds.
+    // An answer to an older cycle is late and counted as such, but still newer than what the image
+    // holds.
     const bool current = slot.decoder.cycle() == m_cycleZero + m_cycle.number;
     if (current && !slot.answered && !slot.late)
         m_guard.answeredInTime(slot);
@@ -408,7 +414,8 @@ void NodeExchange::takeAnswer(NodeSlot &slot, const char *frame, std::size_t siz
         take(slot, slot.decoder.payload(), std::int64_t(slot.decoder.cycle() - m_cycleZero) + (slot.twoPhase ? 1 : 0));
 }
 
-/// Local nodes saw the image as it was when their stage began, whatever their order: their outputs come in only now.
+/// Local nodes saw the image as it was when their stage began, whatever their order: their outputs
+/// come in only now.
 void NodeExchange::pasteLocalNodes(const Stage &stage) noexcept
 {
     for (const Roster::Turn &turn : stage) {

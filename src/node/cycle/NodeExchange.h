@@ -13,11 +13,14 @@
 
 namespace qplc {
 
-/// What a master and its nodes say to each other in a cycle: inputs out of the process image, stage by stage, and answers into it.
+/// What a master and its nodes say to each other in a cycle: inputs out of the process image, stage
+/// by stage, and answers into it.
 ///
-/// The inputs of all nodes are cut from the image as the last cycle left it, before anything is pasted; same-cycle inputs are cut again when the stage of their
-/// node begins. A stage begins when those nodes of the stages before it have answered whose outputs are read in this cycle; for all others the master waits
-/// at the end only. What they answer passes the SignalGuard of the image: same-cycle inputs see guarded values, too.
+/// The inputs of all nodes are cut from the image as the last cycle left it, before anything is
+/// pasted; same-cycle inputs are cut again when the stage of their node begins. A stage begins when
+/// those nodes of the stages before it have answered whose outputs are read in this cycle; for all
+/// others the master waits at the end only. What they answer passes the SignalGuard of the image:
+/// same-cycle inputs see guarded values, too.
 ///
 /// Used by the cycle thread.
 class NodeExchange

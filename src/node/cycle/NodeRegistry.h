@@ -37,8 +37,10 @@ struct NodeDeclaration : NodeTraits
 /// Why a node is not admitted.
 struct Refusal
 {
-    QString
-        error;  ///< "UnknownSignal", "TypeMismatch", "UnitMismatch", "SignalHasWriter", "WriterNotNamed", "NameInUse", "TooManyNodes", "AlgebraicLoop", "LeaseHeld", "ProfileMismatch", "MalformedMessage", "WrongState"
+    /// "UnknownSignal", "TypeMismatch", "UnitMismatch", "SignalHasWriter", "WriterNotNamed",
+    /// "NameInUse", "TooManyNodes", "AlgebraicLoop", "LeaseHeld", "ProfileMismatch",
+    /// "MalformedMessage", "WrongState"
+    QString error;
     QString text;  ///< a sentence with names and remedy
 };
 
@@ -52,7 +54,8 @@ public:
 
     explicit NodeRegistry(const QPlcSignalTable &table);
 
-    /// Checks \a declaration against the table and the other nodes. \return null, with the reason in \a refusal, when the node cannot join
+    /// Checks \a declaration against the table and the other nodes. \return null, with the reason
+    /// in \a refusal, when the node cannot join
     std::shared_ptr<NodeSlot> admit(const NodeDeclaration &declaration, Refusal *refusal);
     void remove(const std::shared_ptr<NodeSlot> &slot);
     const std::vector<std::shared_ptr<NodeSlot>> &nodes() const { return m_nodes; }
@@ -65,7 +68,8 @@ public:
     QString writer(QPlcSignalIndex signal) const { return m_writers.at(signal).join(QStringLiteral(" > ")); }
 
 private:
-    /// Indices of the declared signals. \return false with the refusal of the first that does not fit
+    /// Indices of the declared signals. \return false with the refusal of the first that does not
+    /// fit
     bool resolve(const QString &node, const std::vector<messages::DeclaredSignal> &declared,
                  QVector<QPlcSignalIndex> *indices, Refusal *refusal) const;
     /// Whether \a slot would close a loop of same-cycle inputs, with the path in \a refusal.

@@ -122,7 +122,8 @@ void NodeRuntime::restartGuard()
     m_refusedInputs.set(0);
 }
 
-/// The master guards its image; a frame may still be that of another table, or a fault that nobody thought of. What moves things looks for itself.
+/// The master guards its image; a frame may still be that of another table, or a fault that nobody
+/// thought of. What moves things looks for itself.
 const char *NodeRuntime::guardedInputs(const char *payload, std::int64_t cycle) noexcept
 {
     m_guard->take(m_inputFrame, m_master, payload, cycle, cycle);
@@ -269,7 +270,8 @@ void NodeRuntime::writeWorkload(std::int64_t duration)
         QSplitPrimitive<double>(seconds).toBytes(m_scratch.data() + m_workload->offset);
 }
 
-/// Keeps the first text of a phase: its owner reads it while cycles go on, and what follows is an echo.
+/// Keeps the first text of a phase: its owner reads it while cycles go on, and what follows is an
+/// echo.
 void NodeRuntime::setFault(const char *text) noexcept
 {
     if (m_faultText[0] == '\0')

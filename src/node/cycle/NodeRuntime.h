@@ -16,10 +16,11 @@
 
 namespace qplc {
 
-/// A node without its link: what its declared signals are, and its code called with the bytes of frames.
+/// A node without its link: what its declared signals are, and its code called with the bytes of
+/// frames.
 ///
-/// Used by a slave (over a CyclicLink) and by a master (for a local node) alike. bind(), reset() and initialize() in the thread of the node, step() on
-/// a cycle thread, never at the same time.
+/// Used by a slave (over a CyclicLink) and by a master (for a local node) alike. bind(), reset()
+/// and initialize() in the thread of the node, step() on a cycle thread, never at the same time.
 class NodeRuntime : private SignalGuard::Observer
 {
 public:
@@ -32,7 +33,8 @@ public:
     /// Whether the master sends qualities to who asks for them. Takes effect with bind().
     void setQualityOffered(bool offered) { m_qualityOffered = offered; }
 
-    /// Looks all declared signals up in \a table. \return false with a message that names every mismatch
+    /// Looks all declared signals up in \a table. \return false with a message that names every
+    /// mismatch
     bool bind(const QPlcSignalTable &table, QString *error);
     const QPlcSignalTable &table() const { return m_table; }
     /// As the frames of the master have them.
@@ -41,19 +43,25 @@ public:
     /// Whether the node wants the value of the cycle at hand, for each field of inputLayout().
     const std::vector<bool> &sameCycle() const { return m_sameCycle; }
 
-    /// Brings the node into its initial state: outputs() holds its initial outputs. \return false when its code threw
+    /// Brings the node into its initial state: outputs() holds its initial outputs. \return false
+    /// when its code threw
     bool reset(QString *error);
     bool initialize(const char *inputs, QString *error);
-    /// Instead of reset(): outputs() are those of the last step again, and the code of the node hears nothing of it.
-    /// \pre the node has taken part in a phase since bind(), or the same signals were bound before, and its code has not failed
+    /// Instead of reset(): outputs() are those of the last step again, and the code of the node
+    /// hears nothing of it.
+    /// \pre the node has taken part in a phase since bind(), or the same signals were bound before,
+    ///         and its code has not failed
     void goOn() { m_outputs = m_scratch; }
-    /// Instead of initialize(): takes the inputs; the code of the node hears of them with its next step.
+    /// Instead of initialize(): takes the inputs; the code of the node hears of them with its next
+    /// step.
     void takeInputs(const char *inputs);
     /// Whether the code of the node has thrown in this phase.
     bool hasFailed() const { return m_hasFailed; }
-    /// The inputs of the node as it sees them: guarded, and with qualities behind them if it wants them.
+    /// The inputs of the node as it sees them: guarded, and with qualities behind them if it wants
+    /// them.
     const char *inputs() const { return m_inputs.data(); }
-    /// Values of inputs that were not taken since initialize(): not finite, or outside of the limits of the table. \threadsafe yes
+    /// Values of inputs that were not taken since initialize(): not finite, or outside of the
+    /// limits of the table. \threadsafe yes
     std::uint64_t refusedInputs() const { return m_refusedInputs; }
     /// Tells the node that the phase has ended.
     void stopped();
@@ -62,18 +70,23 @@ public:
     /// \param usualHold  [cycles] of inputs without `hold`
     void beginPhase(bool isLockstep, TimeSource &time = TimeSource::monotonic(),
                     std::int64_t usualHold = SignalGuard::UsualHold);
-    /// Brings the node into its safe state, once in a phase: outputs() have their safe values, safeState() is called, and step() computes nothing any more
-    /// (but for a listener, which goes on watching). On the thread of step(), or that of the node while no cycle runs.
+    /// Brings the node into its safe state, once in a phase: outputs() have their safe values,
+    /// safeState() is called, and step() computes nothing any more (but for a listener, which goes
+    /// on watching). On the thread of step(), or that of the node while no cycle runs.
     void makeSafe(QPlcSlaveNode::SafeStateReason reason) noexcept;
     bool isSafe() const { return m_isSafe; }
-    /// The master shall stop safely: it is told with the outputs of the next cycle. Until the next phase. \threadsafe yes
+    /// The master shall stop safely: it is told with the outputs of the next cycle. Until the next
+    /// phase. \threadsafe yes
     void requestSafeStop() { m_wantsSafeStop.store(true, std::memory_order_relaxed); }
     bool wantsSafeStop() const { return m_wantsSafeStop.load(std::memory_order_relaxed); }
-    /// The class of the user is about to be destroyed: makeSafe() and stopped() call nothing of it any more, until bind(). \threadsafe yes
+    /// The class of the user is about to be destroyed: makeSafe() and stopped() call nothing of it
+    /// any more, until bind(). \threadsafe yes
     void leaveCodeAlone() { m_isCodeGone.store(true, std::memory_order_relaxed); }
-    /// One cycle. \return false when the code of the node threw, now or before in this phase: it is in its safe state then
+    /// One cycle. \return false when the code of the node threw, now or before in this phase: it is
+    /// in its safe state then
     bool step(const QPlcCycle &cycle, const char *inputs) noexcept;
-    /// Wakes up a reader in the thread of the node after each step, from the first call on. It is made then; call it there.
+    /// Wakes up a reader in the thread of the node after each step, from the first call on. It is
+    /// made then; call it there.
     WakeUp &stepWakeUp();
     const char *outputs() const { return m_outputs.data(); }
     /// Duration of the last step, the code of the node alone [ns].
@@ -86,7 +99,8 @@ public:
 
     /// The values of \a frame as a list, under the indices of the table of the node.
     static QPlcSignalList toList(const PayloadLayout &layout, const char *frame);
-    /// Writes the values of \a list into \a frame. \throws std::runtime_error when one of them does not fit
+    /// Writes the values of \a list into \a frame. \throws std::runtime_error when one of them does
+    /// not fit
     static void fromList(const QPlcSignalList &list, const QPlcSignalTable &table, const PayloadLayout &layout,
                          char *frame);
 

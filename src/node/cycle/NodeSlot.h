@@ -18,9 +18,11 @@
 
 namespace qplc {
 
-/// One registered node as the cycle of the master sees it: how its frames are cut from the process image and pasted back.
+/// One registered node as the cycle of the master sees it: how its frames are cut from the process
+/// image and pasted back.
 ///
-/// Made by the thread of the master; from adoption on the cycle thread's, except for what is atomic.
+/// Made by the thread of the master; from adoption on the cycle thread's, except for what is
+/// atomic.
 struct NodeSlot
 {
     // ---- constant after registration ----
@@ -91,7 +93,8 @@ struct NodeSlot
 
     /// The cycle to which the initial outputs belong when the next one is \a next.
     std::int64_t initialCycle(std::int64_t next) const { return twoPhase ? next : next - 1; }
-    /// Whether it is asked in this cycle: in the first one of each turn that takes place. Once a cycle.
+    /// Whether it is asked in this cycle: in the first one of each turn that takes place. Once a
+    /// cycle.
     bool takesTurn(std::uint64_t cycle) noexcept
     {
         const std::uint64_t turn = interval.turn(cycle);
@@ -100,7 +103,8 @@ struct NodeSlot
         nextTurn = turn + 1;
         return true;
     }
-    /// Sets everything that follows from the layouts. \param session  of the master, for remote nodes
+    /// Sets everything that follows from the layouts. \param session of the master, for remote
+    /// nodes
     /// \param keys  to seal its frames with, for this registration alone; null: they are not sealed
     void prepare(const ProcessImage &image, quint64 session, const SealKeys *keys = nullptr);
     FrameCutter outputCutter() const;

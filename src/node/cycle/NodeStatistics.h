@@ -9,7 +9,8 @@
 
 namespace qplc {
 
-/// What the cycle of a master measures of one node. The cycle thread records, others read at any time. 80 KiB.
+/// What the cycle of a master measures of one node. The cycle thread records, others read at any
+/// time. 80 KiB.
 class NodeStatistics
 {
 public:
@@ -17,7 +18,8 @@ public:
     void clear() noexcept;
     QPlcNodeStatistics read(std::int64_t now, QPlcDistribution::Detail detail) const;
 
-    // ---- cycle thread; all times in ns on the clock, all 0 in lockstep, where nothing but counters is kept ----
+    // ---- cycle thread ----
+    // All times are in ns on the clock; all are 0 in lockstep, where only counters are kept.
     /// A request of \a cycle goes out: \a begin of the sending, \a deadline of the answer.
     void asked(std::uint64_t cycle, std::int64_t begin, std::int64_t deadline) noexcept;
     /// A new answer to \a cycle was there at \a arrival.

@@ -13,7 +13,8 @@ namespace qplc {
 
 class NodeRegistry;
 
-/// All nodes of a cycle and the order in which they are asked; never changed, but replaced as a whole.
+/// All nodes of a cycle and the order in which they are asked; never changed, but replaced as a
+/// whole.
 struct Roster
 {
     /// A node in its stage.
@@ -24,7 +25,8 @@ struct Roster
     };
 
     std::vector<std::shared_ptr<NodeSlot>> nodes;
-    /// By index: signals that keep the value that they have been given, whatever their writer answers; empty: none.
+    /// By index: signals that keep the value that they have been given, whatever their writer
+    /// answers; empty: none.
     std::vector<bool> held{};
     /// By index: signals that have their safe value while the master stops safely.
     std::vector<bool> safe{};

@@ -8,12 +8,15 @@
 
 namespace qplc {
 
-// Which values are in force where nobody's are believed: for a safe stop of the master, and for the outputs of a node in its safe state. Both are QPlcSignalDefinition::safeValue(), and their quality is Safe.
+// Which values are in force where nobody's are believed: for a safe stop of the master, and for the
+// outputs of a node in its safe state. Both are QPlcSignalDefinition::safeValue(), and their
+// quality is Safe.
 
 /// The safe values of \a layout as a frame has them, with their qualities where it has these.
 std::vector<char> safeFrame(const QPlcSignalTable &table, const PayloadLayout &layout);
 
-/// The safe values of some signals, ready to be copied over a process image: without an allocation, as few copies as can be.
+/// The safe values of some signals, ready to be copied over a process image: without an allocation,
+/// as few copies as can be.
 class SafeImage
 {
 public:

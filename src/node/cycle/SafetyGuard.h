@@ -9,7 +9,8 @@
 
 namespace qplc {
 
-/// Watches the limits of a phase and decides when a master has to stop safely. Once tripped it stays so until the next phase.
+/// Watches the limits of a phase and decides when a master has to stop safely. Once tripped it
+/// stays so until the next phase.
 ///
 /// Looks at no clock. Used by the cycle thread; request() and isTripped() from anywhere.
 class SafetyGuard
@@ -22,7 +23,8 @@ public:
         std::int64_t longestWait = 0;  // for late nodes
         int overruns = 0;              // in a row
     };
-    /// What a late answer of a critical node adds to its bucket, and where the bucket is full; one in time takes 1 off.
+    /// What a late answer of a critical node adds to its bucket, and where the bucket is full; one
+    /// in time takes 1 off.
     static constexpr int LateCosts = 2;
     static constexpr int BucketLimit = 10;
 

@@ -41,7 +41,8 @@ void Schedule::findDependents(const std::vector<Node> &nodes)
     }
 }
 
-/// Takes nodes away that depend on nobody, as long as there are some (Kahn's algorithm). \return how many; the others are in, or behind, a loop
+/// Takes nodes away that depend on nobody, as long as there are some (Kahn's algorithm). \return
+/// how many; the others are in, or behind, a loop
 std::size_t Schedule::placeInStages()
 {
     std::vector<std::size_t> open(m_dependents.size());  // dependencies not placed yet

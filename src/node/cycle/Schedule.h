@@ -9,11 +9,13 @@
 
 namespace qplc {
 
-/// The order of nodes within a cycle by direct feed-through. Pure arithmetic on what the nodes declare.
+/// The order of nodes within a cycle by direct feed-through. Pure arithmetic on what the nodes
+/// declare.
 ///
-/// Node B depends on node A when B reads a signal of A in the same cycle and A is not two-phase: the outputs of a two-phase node are there before the cycle
-/// begins, and nobody has to wait for them. A node is in the stage behind those that it depends on, so there are as few stages as can be; when nodes depend on
-/// each other in a ring, there is no order: an algebraic loop.
+/// Node B depends on node A when B reads a signal of A in the same cycle and A is not two-phase:
+/// the outputs of a two-phase node are there before the cycle begins, and nobody has to wait for
+/// them. A node is in the stage behind those that it depends on, so there are as few stages as can
+/// be; when nodes depend on each other in a ring, there is no order: an algebraic loop.
 class Schedule
 {
 public:
@@ -39,8 +41,9 @@ public:
     explicit Schedule(const std::vector<Node> &nodes);
 
     bool isValid() const { return m_loop.empty(); }
-    /// The way around an algebraic loop: each node writes the input of the next one, the last one that of the first. Empty: there is none. When the last node
-    /// closes one, it begins with that node, and none through it is shorter.
+    /// The way around an algebraic loop: each node writes the input of the next one, the last one
+    /// that of the first. Empty: there is none. When the last node closes one, it begins with that
+    /// node, and none through it is shorter.
     const std::vector<Hop> &loop() const { return m_loop; }
 
     // \pre isValid()

@@ -12,13 +12,16 @@
 
 namespace qplc {
 
-/// Stands before an image and lets no bad value in: what is not finite or outside of the limits of the table is counted and not taken, and a signal without a
-/// good value is Held, and after `hold` cycles Safe.
+/// Stands before an image and lets no bad value in: what is not finite or outside of the limits of
+/// the table is counted and not taken, and a signal without a good value is Held, and after `hold`
+/// cycles Safe.
 ///
-/// The master has one before its process image, every node one before its inputs: same rules, same class. A signal is named by its place: its index in the
-/// process image, or the number of the field in the frame of a node. Cycles are counted in the phase; times are looked at nowhere.
+/// The master has one before its process image, every node one before its inputs: same rules, same
+/// class. A signal is named by its place: its index in the process image, or the number of the
+/// field in the frame of a node. Cycles are counted in the phase; times are looked at nowhere.
 ///
-/// take(), miss(), settle() allocate nothing and cost nothing per signal as long as all is well. One thread at a time; counters may be read by any.
+/// take(), miss(), settle() allocate nothing and cost nothing per signal as long as all is well.
+/// One thread at a time; counters may be read by any.
 class SignalGuard
 {
 public:
@@ -78,7 +81,8 @@ public:
             return worst == 0 && rules.allow(payload);
         }
     };
-    /// What is known of a writer. As long as it is whole, all its signals are Good and of the cycle `taken`; else each signal has an age of its own.
+    /// What is known of a writer. As long as it is whole, all its signals are Good and of the cycle
+    /// `taken`; else each signal has an age of its own.
     struct Writer
     {
         std::uint16_t id = 0;
@@ -94,7 +98,8 @@ public:
         void resize(const PayloadLayout &layout);
         void forget();
     };
-    /// A signal with several writers: the first candidate whose newest value is good and fresh is the source.
+    /// A signal with several writers: the first candidate whose newest value is good and fresh is
+    /// the source.
     struct Contest
     {
         struct Candidate
@@ -112,21 +117,25 @@ public:
 
     /// Before a process image, which outlives this object.
     SignalGuard(ProcessImage &image, Observer *observer);
-    /// Before values in the order of a payload, which begin as the initial values, or, where these are not finite, as the safe ones.
-    /// \param values  layout.valueSize() bytes, \param qualities  a byte for each field; both outlive this object
+    /// Before values in the order of a payload, which begin as the initial values, or, where these
+    /// are not finite, as the safe ones.
+    /// \param values layout.valueSize() bytes, \param qualities a byte for each field; both outlive
+    ///         this object
     SignalGuard(const QPlcSignalTable &table, const PayloadLayout &layout, char *values, char *qualities,
                 Observer *observer);
 
     /// Signals without `hold` in the table are held for \a cycles. Between phases.
     void setUsualHold(std::int64_t cycles) noexcept;
 
-    /// The frame of a writer of the process image, but for the signals that are \a held (by index; those behind its end are not).
+    /// The frame of a writer of the process image, but for the signals that are \a held (by index;
+    /// those behind its end are not).
     static Frame frameFor(const ProcessImage &image, const PayloadLayout &layout, const std::vector<bool> &held = {});
     /// The frame of all values of a payload.
     static Frame frameFor(const QPlcSignalTable &table, const PayloadLayout &layout);
 
-    /// Takes the values of \a cycle out of \a payload; \a now is the cycle at hand: older values are Held, and not taken when they are too old. A value that its
-    /// writer calls Held is that much older, one that it calls Safe or Invalid is none.
+    /// Takes the values of \a cycle out of \a payload; \a now is the cycle at hand: older values
+    /// are Held, and not taken when they are too old. A value that its writer calls Held is that
+    /// much older, one that it calls Safe or Invalid is none.
     void take(const Frame &frame, Writer &writer, const char *payload, std::int64_t cycle, std::int64_t now) noexcept
     {
         if (writer.isWhole && cycle >= now && frame.isGood(payload)) {
@@ -144,11 +153,13 @@ public:
     }
     /// \a writer is gone: its signals grow old.
     void leave(const Frame &frame, Writer &writer) noexcept;
-    /// Signals whose writer is gone are as old as they are in the cycle \a now, for who reads them in it; those of others may still get a value.
+    /// Signals whose writer is gone are as old as they are in the cycle \a now, for who reads them
+    /// in it; those of others may still get a value.
     void ageAbandoned(std::int64_t now) noexcept;
     /// Nobody writes the signal any more, and nobody who did is among the writers.
     void abandon(Place place) noexcept;
-    /// Other signals of \a writer than before are held: \a frame is new. \param last  the newest cycle that has ended
+    /// Other signals of \a writer than before are held: \a frame is new. \param last the newest
+    /// cycle that has ended
     void resume(const Frame &frame, Writer &writer, std::int64_t last) noexcept;
     /// Takes down what \a writer says of contested signals.
     void claim(const Frame &frame, const Writer &writer, Claims &claims, const char *payload,
@@ -162,7 +173,8 @@ public:
     void set(Place place, QPlcQuality quality) noexcept;
     /// The signal keeps the value that it has.
     void keep(Place place) noexcept;
-    /// Cycles are counted anew: what has no new value by the next settle() is Safe, unless it was given from outside.
+    /// Cycles are counted anew: what has no new value by the next settle() is Safe, unless it was
+    /// given from outside.
     void forget() noexcept;
 
     /// Values that were not taken because they were NaN or infinite. \threadsafe yes

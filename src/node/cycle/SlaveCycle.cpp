@@ -206,8 +206,9 @@ void SlaveCycle::take(const char *frame, std::size_t size) noexcept
         m_statistics.answered(m_watchdog.lastHeard(), m_runtime.executionTime(), monotonicNow());
 }
 
-/// After a pause requests may have queued up; only the newest is worth an answer. Costs a system call only after a pause.
-/// Ends also where frames that are no use never end: run() goes on with the rest.
+/// After a pause requests may have queued up; only the newest is worth an answer. Costs a system
+/// call only after a pause. Ends also where frames that are no use never end: run() goes on with
+/// the rest.
 void SlaveCycle::skipToNewest() noexcept
 {
     const std::int64_t now = monotonicNow();
@@ -258,7 +259,8 @@ void SlaveCycle::compute() noexcept
     sendAnswer();
 }
 
-/// Whether the last good frame asks again for the cycle that was computed last; of several parts only the first one counts.
+/// Whether the last good frame asks again for the cycle that was computed last; of several parts
+/// only the first one counts.
 bool SlaveCycle::isRepeatedRequest() const noexcept
 {
     const FrameHeader &request = m_decoder.received();
@@ -324,7 +326,8 @@ void SlaveCycle::checkWatchdog() noexcept
     m_reports.post({CycleEvent::WatchdogTimedOut, m_identity.node, 0, m_lastCycle - m_phase.cycleZero});
 }
 
-/// The wait for frames ends when the watchdog wants to be looked at. Not in each cycle: a timer that is set costs a system call.
+/// The wait for frames ends when the watchdog wants to be looked at. Not in each cycle: a timer
+/// that is set costs a system call.
 void SlaveCycle::setAlarm() noexcept
 {
     constexpr std::int64_t again = 1'000'000;  // [ns] in case that nothing waits just then

@@ -7,7 +7,8 @@
 
 namespace qplc {
 
-/// What a slave measures of its cycles. The cycle thread records, others read at any time. In lockstep nothing is called but restart().
+/// What a slave measures of its cycles. The cycle thread records, others read at any time. In
+/// lockstep nothing is called but restart().
 class SlaveStatistics
 {
 public:
@@ -19,7 +20,8 @@ public:
     /// A frame that is to be computed was there at \a arrival, and answered at \a end.
     void answered(std::int64_t arrival, std::int64_t executionTime, std::int64_t end) noexcept;
 
-    /// Makes what was measured visible to readers; they wait for it for 0.1 s at most while frames come.
+    /// Makes what was measured visible to readers; they wait for it for 0.1 s at most while frames
+    /// come.
     void fold() noexcept { m_durations.fold(); }
 
     // ---- any thread ----

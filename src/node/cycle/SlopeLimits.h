@@ -7,8 +7,9 @@
 
 namespace qplc {
 
-/// Moves signals of a process image towards the values that were set from outside, in each element by at most the
-/// `slope` of the table in a second. Takes its memory at the begin; a table without slopes costs nothing.
+/// Moves signals of a process image towards the values that were set from outside, in each element
+/// by at most the `slope` of the table in a second. Takes its memory at the begin; a table without
+/// slopes costs nothing.
 ///
 /// One thread at a time.
 class SlopeLimits

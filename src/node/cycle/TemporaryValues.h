@@ -9,8 +9,8 @@
 
 namespace qplc {
 
-/// Values that signals have for a while only, in layers: when the upper layer of a signal ends, the value below it comes back.
-/// Bookkeeping only: looks at no clock, sets no signal.
+/// Values that signals have for a while only, in layers: when the upper layer of a signal ends, the
+/// value below it comes back. Bookkeeping only: looks at no clock, sets no signal.
 class TemporaryValues
 {
 public:

@@ -7,8 +7,9 @@ namespace qplc {
 
 /// Barks when nothing was heard for a time.
 ///
-/// Hearing is cheap: it sets no timer. Its owner looks when the alarm rings, and sets the next one: while there is something to hear once in that time, and when there is
-/// not at the very instant at which the time is over.
+/// Hearing is cheap: it sets no timer. Its owner looks when the alarm rings, and sets the next one:
+/// while there is something to hear once in that time, and when there is not at the very instant at
+/// which the time is over.
 ///
 /// Looks at no clock; used by one thread.
 class Watchdog

@@ -44,7 +44,8 @@ private:
     quint8 m_bits = 0;
 };
 
-/// Who may send a message of \a kind to a master. Nobody: a master sends it, or this version does not know it.
+/// Who may send a message of \a kind to a master. Nobody: a master sends it, or this version does
+/// not know it.
 ///
 /// What a message writes is checked signal by signal besides: see refusalOf().
 constexpr Roles whoMaySend(QPlcMessage::Kind kind)
@@ -56,7 +57,8 @@ constexpr Roles whoMaySend(QPlcMessage::Kind kind)
     return {};
 }
 
-/// Whether a message of \a kind does something to the plant, and is written down: what not everybody may do, Stop and SafeStop.
+/// Whether a message of \a kind does something to the plant, and is written down: what not
+/// everybody may do, Stop and SafeStop.
 constexpr bool isCommand(QPlcMessage::Kind kind)
 {
     const Roles roles = whoMaySend(kind);
@@ -77,15 +79,17 @@ struct Peer
     QStringList writes;  // otherwise: names and patterns (*, ?, [...]) of signals
 };
 
-/// How somebody is shown to people: as what was proven, with what it calls itself behind it; without security nothing else is known.
+/// How somebody is shown to people: as what was proven, with what it calls itself behind it;
+/// without security nothing else is known.
 QString shownName(const Peer &peer, const QString &called);
 
 /// Signals that \a message would write, as it names them; none of a message that cannot be read.
 QStringList signalsWrittenBy(const QPlcMessage &message);
 /// Whether \a peer may write \a signal.
 bool mayWrite(const Peer &peer, const QString &signal);
-/// Why \a peer may not send \a message: "Denied: role Observer may not send StartRealTime"; empty: it may. Looks at the kind, and at the signals that the message writes.
-/// What only masters send, and what cannot be read, is left to those who answer that it makes no sense.
+/// Why \a peer may not send \a message: "Denied: role Observer may not send StartRealTime"; empty:
+/// it may. Looks at the kind, and at the signals that the message writes. What only masters send,
+/// and what cannot be read, is left to those who answer that it makes no sense.
 QString refusalOf(const Peer &peer, const QPlcMessage &message);
 
 }  // namespace qplc

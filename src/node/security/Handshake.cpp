@@ -27,7 +27,8 @@ QByteArray rejection(const QString &error, const QString &text)
 
 enum class Language : quint8 { NotYetKnown, Tls, Plain };
 
-/// A ClientHello begins with 16 03, has the length in bytes 3 and 4, and then 01, where the body of a control message begins with '{'.
+/// A ClientHello begins with 16 03, has the length in bytes 3 and 4, and then 01, where the body of
+/// a control message begins with '{'.
 Language languageOf(const QByteArray &begin)
 {
     const QByteArray tls = QByteArrayLiteral("\x16\x03");
@@ -99,7 +100,8 @@ void Handshake::look()
     }
     if (m_tls && begin.size() <= kindOffset)
         return;
-    // The cyclic connection of a node carries no TLS: its token came over the control connection, and its frames are sealed.
+    // The cyclic connection of a node carries no TLS: its token came over the control connection,
+    // and its frames are sealed.
     m_peer.isCyclicOnly = m_tls && quint8(begin.at(kindOffset)) == QPlcMessage::AttachCyclicChannel;
     if (m_tls && !m_peer.isCyclicOnly)
         refusePlain();
@@ -220,7 +222,8 @@ void Handshake::turnAway(const QString &reason)
     m_tls->disconnectFromHost();
 }
 
-/// QSslSocket closes the connection without the alert that OpenSSL has prepared: the other end is told here.
+/// QSslSocket closes the connection without the alert that OpenSSL has prepared: the other end is
+/// told here.
 void Handshake::tlsFailed()
 {
     TlsAlert::Description description = TlsAlert::HandshakeFailure;

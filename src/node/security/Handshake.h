@@ -13,7 +13,8 @@ QT_END_NAMESPACE
 
 namespace qplc {
 
-/// An accepted connection until it is known what it speaks, and who is there. Answers in the language of the other end when the two do not fit.
+/// An accepted connection until it is known what it speaks, and who is there. Answers in the
+/// language of the other end when the two do not fit.
 class Handshake : public QObject
 {
     Q_OBJECT
@@ -29,7 +30,8 @@ public:
     const Peer &peer() const { return m_peer; }
     /// The connection, after succeeded(). \return to be owned by the caller
     QTcpSocket *takeSocket();
-    /// There is no room for who is there, after succeeded() with TLS: it is told so, and the connection is closing.
+    /// There is no room for who is there, after succeeded() with TLS: it is told so, and the
+    /// connection is closing.
     void turnAway(const QString &reason);
     /// Why it takes so long.
     QString stage() const;
@@ -37,7 +39,8 @@ public:
 Q_SIGNALS:
     /// peer() is who is there, on an encrypted connection or, without security, on a plain one.
     void succeeded();
-    /// The other end was told so as far as it understands, and the connection is closing. \param reason  empty: it has gone without a word
+    /// The other end was told so as far as it understands, and the connection is closing. \param
+    /// reason empty: it has gone without a word
     void failed(const QString &reason);
 
 private:

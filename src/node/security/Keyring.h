@@ -37,7 +37,8 @@ public:
     /// null: there is none of this name
     const Entry *find(const QString &identity) const;
 
-    /// Whether \a identity can be one: 1 ... 64 letters, digits, '.', '-', '_', the first one a letter or digit.
+    /// Whether \a identity can be one: 1 ... 64 letters, digits, '.', '-', '_', the first one a
+    /// letter or digit.
     static bool isIdentity(const QString &identity);
 
 private:

@@ -23,7 +23,8 @@ struct RightsSection
     int line = 0;
     QMap<QString, Value> values;
 
-    /// Cuts \a text into sections; each of them may have the entries \a keys, and no other. \return false, with file, line, column and remedy in \a error
+    /// Cuts \a text into sections; each of them may have the entries \a keys, and no other. \return
+    /// false, with file, line, column and remedy in \a error
     static bool parse(const QByteArray &text, const QString &fileName, const QStringList &keys,
                       QVector<RightsSection> *sections, QString *error);
 

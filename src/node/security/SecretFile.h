@@ -6,7 +6,8 @@
 
 namespace qplc {
 
-/// A file that only its owner may read, like one with keys, or that only its owner may change, like one with rights or certificates.
+/// A file that only its owner may read, like one with keys, or that only its owner may change, like
+/// one with rights or certificates.
 class SecretFile
 {
 public:
@@ -14,7 +15,8 @@ public:
 
     enum Need : quint8 { Secret, Trusted };
 
-    /// Reads a file of this user (or root's) that nobody else may read or change (Secret), or change (Trusted).
+    /// Reads a file of this user (or root's) that nobody else may read or change (Secret), or
+    /// change (Trusted).
     /// \return false, with file and remedy in \a error, when it is not such a file
     static bool read(const QString &fileName, Need need, QByteArray *content, QString *error);
     /// Writes the file as a whole, or leaves it as it was; its mode becomes 0600.

@@ -10,7 +10,8 @@
 
 namespace qplc {
 
-/// What TLS needs of a QPlcSecurity, as its files say it now: docs/design/security.md has the reasons for each choice.
+/// What TLS needs of a QPlcSecurity, as its files say it now: docs/design/security.md has the
+/// reasons for each choice.
 struct TlsSettings
 {
     QSslConfiguration configuration;
@@ -25,7 +26,8 @@ struct TlsSettings
     /// All that a master knows by its files.
     QStringList identities() const { return keys.entries().keys() + access.identities(); }
 
-    /// Whether a suite has forward secrecy and authenticated encryption. \param mode  that of the security
+    /// Whether a suite has forward secrecy and authenticated encryption. \param mode that of the
+    /// security
     static bool isAcceptable(const QSslCipher &cipher, QPlcSecurity::Mode mode);
 };
 

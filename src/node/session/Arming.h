@@ -5,7 +5,8 @@
 
 namespace qplc {
 
-/// The permission of one start: a token that is valid for a while and can be used once. Looks at no clock.
+/// The permission of one start: a token that is valid for a while and can be used once. Looks at no
+/// clock.
 class Arming
 {
 public:
@@ -21,7 +22,8 @@ public:
     bool isArmed(std::int64_t now) const { return m_token != 0 && now < m_deadline; }
     /// Whether \a token permits a start now.
     bool permits(std::uint64_t token, std::int64_t now) const { return isArmed(now) && token == m_token; }
-    /// Whether a program or person who shows \a token may start now. \param isRequired  else 0 is good enough
+    /// Whether a program or person who shows \a token may start now. \param isRequired else 0 is
+    /// good enough
     bool permitsStart(std::uint64_t token, std::int64_t now, bool isRequired) const
     {
         return permits(token, now) || (!isRequired && token == 0);

@@ -8,8 +8,8 @@
 
 namespace qplc {
 
-/// Pauses between attempts to connect: 0.1 s at first, then twice as long each time up to 5 s, all of them +-20 %, so that many nodes that have lost one master do not
-/// come back all at once.
+/// Pauses between attempts to connect: 0.1 s at first, then twice as long each time up to 5 s, all
+/// of them +-20 %, so that many nodes that have lost one master do not come back all at once.
 class BackOff
 {
 public:
@@ -19,8 +19,9 @@ public:
     static constexpr std::chrono::milliseconds ShortestPatience{2000};
     static constexpr std::chrono::milliseconds LongestPatience{16000};
 
-    /// How long the next attempt may take: 2 s at first, then twice as long each time up to 16 s. A master that hundreds ask at once answers late, and who gives up stands at the end of
-    /// its queue again.
+    /// How long the next attempt may take: 2 s at first, then twice as long each time up to 16 s. A
+    /// master that hundreds ask at once answers late, and who gives up stands at the end of its
+    /// queue again.
     std::chrono::milliseconds patience() const { return std::clamp(10 * m_pause, ShortestPatience, LongestPatience); }
     /// An attempt has succeeded: the next pause is the shortest again.
     void reset() { m_pause = Shortest; }

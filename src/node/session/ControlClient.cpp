@@ -173,8 +173,8 @@ bool ControlClient::isAnswer(QPlcMessage::Kind kind)
     return kind == QPlcMessage::Failed || answersOneOf(messages::Requests(), kind);
 }
 
-/// The request that this kind answers. While a command waits for nodes the master answers questions at once, so the
-/// order alone does not tell. The oldest request gets an answer that fits none.
+/// The request that this kind answers. While a command waits for nodes the master answers questions
+/// at once, so the order alone does not tell. The oldest request gets an answer that fits none.
 int ControlClient::pendingFor(QPlcMessage::Kind answer) const
 {
     const bool isRefusal = answer == QPlcMessage::Failed || answer == QPlcMessage::Rejected;

@@ -27,7 +27,8 @@ struct AnswerTo<Request, std::void_t<typename Request::Answer>>
     using Type = typename Request::Answer;
 };
 
-/// The client side of the control channel (docs/protocol.md, section 5). It never waits: answers go to functions.
+/// The client side of the control channel (docs/protocol.md, section 5). It never waits: answers go
+/// to functions.
 ///
 /// \code
 /// ControlClient client({"qtplc", messages::Part::Tool, {"events"}});
@@ -42,8 +43,8 @@ struct AnswerTo<Request, std::void_t<typename Request::Answer>>
 /// client.connectToMaster(address);
 /// \endcode
 ///
-/// Commands go out one after another, so that each gets its own answer; questions, Stop and SafeStop do not wait for
-/// them. The connection ends when an answer does not come in time.
+/// Commands go out one after another, so that each gets its own answer; questions, Stop and
+/// SafeStop do not wait for them. The connection ends when an answer does not come in time.
 /// \threadsafe no: use it in the thread that made it
 class ControlClient : public QObject
 {
@@ -75,9 +76,11 @@ public:
 
     /// Offers a feature of the protocol. Takes effect with connectToMaster().
     void offer(const QString &feature) { m_caller.features.append(feature); }
-    /// Without a call: as the process does (QPlcSecurity::current()). Takes effect with connectToMaster().
+    /// Without a call: as the process does (QPlcSecurity::current()). Takes effect with
+    /// connectToMaster().
     void setSecurity(const QPlcSecurity &security) { m_security = security; }
-    /// Longest wait for the greeting and for answers to questions; for commands, which may wait for nodes.
+    /// Longest wait for the greeting and for answers to questions; for commands, which may wait for
+    /// nodes.
     void setAnswerTimes(std::chrono::milliseconds questions, std::chrono::milliseconds commands);
 
     /// Begins to connect; greeted() or lost() follows. Ends the connection that there is.
@@ -86,14 +89,16 @@ public:
     void close();
 
     bool isGreeted() const { return m_isGreeted; }
-    /// The greeting of the master: its session, table, state, the features of both, our identity and role.
+    /// The greeting of the master: its session, table, state, the features of both, our identity
+    /// and role.
     const messages::MasterHello &master() const { return m_master; }
     /// The last Rejected of the master.
     const messages::Rejected &rejection() const { return m_rejection; }
     /// Whether a command waits for its answer.
     bool isBusy() const;
 
-    /// Sends \a request. \a handler gets the answer, or why there is none: `error` is Lost when the connection ended.
+    /// Sends \a request. \a handler gets the answer, or why there is none: `error` is Lost when the
+    /// connection ended.
     template<typename Request, typename Handler>
     void request(const Request &request, Handler &&handler)
     {
@@ -109,8 +114,8 @@ public:
 Q_SIGNALS:
     void greeted();
     /// The connection ended, or could not be made.
-    /// \param reason  half a sentence; of Rejected the text of the master, of NoGreeting the kind that came, of
-    ///                OtherVersion the version of the master
+    /// \param reason half a sentence; of Rejected the text of the master, of NoGreeting the kind
+    ///         that came, of OtherVersion the version of the master
     void lost(qplc::ControlClient::Loss loss, const QString &reason);
     /// Unasked, with the feature "leases".
     void leasesChanged(const qplc::messages::LeasesChanged &leases);

@@ -8,7 +8,8 @@
 
 namespace qplc {
 
-/// Nodes that have left a master and of whom the cycle may still report something: the last ones only, however many come and go.
+/// Nodes that have left a master and of whom the cycle may still report something: the last ones
+/// only, however many come and go.
 class GoneNodes
 {
 public:

@@ -6,7 +6,8 @@
 
 namespace qplc {
 
-/// The initialization of all nodes: collects their initial outputs, then gives each node its inputs out of them.
+/// The initialization of all nodes: collects their initial outputs, then gives each node its inputs
+/// out of them.
 class InitializeSequence : public QObject
 {
     Q_OBJECT

@@ -47,7 +47,8 @@ bool JoinSequence::takeOutputs(NodeSession &node, const QByteArray &outputs)
     return fault.isEmpty();
 }
 
-/// A node that was in this phase before is there again: as the same process, or as one that was started anew.
+/// A node that was in this phase before is there again: as the same process, or as one that was
+/// started anew.
 void JoinSequence::tellReturn(const NodeSession &node, bool goesOn)
 {
     if (!m_cycles.isRunning() || node.isListener() || !m_cycles.hasLeft(node.name()))

@@ -7,8 +7,8 @@
 
 namespace qplc {
 
-/// Nodes that nobody waits for: listeners, and nodes that join while others run. Each of them goes through
-/// initialization and start at its own pace, as far as the others have come.
+/// Nodes that nobody waits for: listeners, and nodes that join while others run. Each of them goes
+/// through initialization and start at its own pace, as far as the others have come.
 class JoinSequence
 {
 public:

@@ -12,8 +12,8 @@
 
 namespace qplc {
 
-/// Who has taken over which signal: at most one holder for each, who must be heard of before a deadline.
-/// Bookkeeping only: looks at no clock, sets no signal. Times are ns on any steady clock.
+/// Who has taken over which signal: at most one holder for each, who must be heard of before a
+/// deadline. Bookkeeping only: looks at no clock, sets no signal. Times are ns on any steady clock.
 class Leases
 {
 public:

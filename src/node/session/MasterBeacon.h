@@ -9,7 +9,8 @@
 
 namespace qplc {
 
-/// Tells where a master is: to programs of this machine and user by a notice, and, if wanted, to the network by a datagram every 2 s. One way: nobody is listened to.
+/// Tells where a master is: to programs of this machine and user by a notice, and, if wanted, to
+/// the network by a datagram every 2 s. One way: nobody is listened to.
 class MasterBeacon
 {
 public:
@@ -17,7 +18,8 @@ public:
 
     MasterBeacon();
 
-    /// \param address  that the master listens on. Beacons go to the networks of this address: all for Any, none beyond this machine for a loopback
+    /// \param address that the master listens on. Beacons go to the networks of this address: all
+    ///         for Any, none beyond this machine for a loopback
     void begin(const QHostAddress &address, const Beacon &beacon, bool isForNetwork);
     void end();
 

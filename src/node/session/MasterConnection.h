@@ -14,7 +14,8 @@
 
 namespace qplc {
 
-/// Somebody on the control channel of a master: a node, a tool, or a connection that has not said yet what it is.
+/// Somebody on the control channel of a master: a node, a tool, or a connection that has not said
+/// yet what it is.
 struct MasterConnection
 {
     /// How far somebody has come.
@@ -48,7 +49,8 @@ struct MasterConnection
     bool isSecured() const { return peer.isSecured && socket->isSecured(); }
     QString shownName() const { return qplc::shownName(peer, name); }
     bool isNode() const { return slot != nullptr; }
-    /// Whether a message of \a kind is the answer that the master waits for: there are as many of them as the master wants.
+    /// Whether a message of \a kind is the answer that the master waits for: there are as many of
+    /// them as the master wants.
     bool owes(QPlcMessage::Kind kind) const { return session && session->owes(kind); }
     /// Sends a struct of protocol/messages. \return false when it is too long
     template<typename Message>

@@ -12,7 +12,8 @@ class MasterControl
 {
 public:
     virtual QPlcMasterNode::State state() const = 0;
-    /// Something has happened: the master goes to the next state as masterStates() says, and does what belongs to it.
+    /// Something has happened: the master goes to the next state as masterStates() says, and does
+    /// what belongs to it.
     /// \param reason  for people; empty: none
     /// \return false when the present state refuses \a event; an error says why
     virtual bool apply(MasterEvent event, const QString &reason = QString()) = 0;

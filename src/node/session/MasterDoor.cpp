@@ -148,7 +148,8 @@ void MasterDoor::sweep()
         forget(ticket);
         Q_EMIT refused(QString(), from, reason);
     };
-    // Not at once: when this thread was busy with something else, what they have said waits to be read.
+    // Not at once: when this thread was busy with something else, what they have said waits to be
+    // read.
     for (ConnectionGate::Ticket ticket : m_gate.overdue(monotonicNow()))
         QTimer::singleShot(sweepInterval / 2, this, [showOut, ticket] { showOut(ticket); });
     goOn();

@@ -12,7 +12,8 @@
 
 namespace qplc {
 
-/// The entrance of a master: takes connections in as far as there is room, finds out who comes, and shows out who takes too long. What comes through is ready for messages.
+/// The entrance of a master: takes connections in as far as there is room, finds out who comes, and
+/// shows out who takes too long. What comes through is ready for messages.
 class MasterDoor : public QObject
 {
     Q_OBJECT
@@ -35,7 +36,8 @@ public:
     /// Who has greeted is no stranger any more.
     void know(ConnectionGate::Ticket ticket);
     void leave(ConnectionGate::Ticket ticket);
-    /// Connections that were closed because there was no room, at the time, for them or for their identity.
+    /// Connections that were closed because there was no room, at the time, for them or for their
+    /// identity.
     quint64 turnedAway() const { return m_turnedAway + m_listener.withoutDescriptor(); }
     /// Connections whose handshake has failed, or took too long.
     quint64 failedHandshakes() const { return m_failedHandshakes; }

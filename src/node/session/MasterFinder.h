@@ -13,7 +13,8 @@ class QUdpSocket;
 
 namespace qplc {
 
-/// A master that somebody could connect to. What comes from a network is said by whoever wants to: it is to be shown, and not to be trusted.
+/// A master that somebody could connect to. What comes from a network is said by whoever wants to:
+/// it is to be shown, and not to be trusted.
 struct FoundMaster
 {
     QString address;  // "192.168.1.5:50000"
@@ -29,8 +30,9 @@ struct FoundMaster
     }
 };
 
-/// Looks for masters: on this machine by their notices, and on the networks by their beacons. Sends nothing. It looks four times a second, at a bounded number of datagrams:
-/// a flood of them costs no more.
+/// Looks for masters: on this machine by their notices, and on the networks by their beacons. Sends
+/// nothing. It looks four times a second, at a bounded number of datagrams: a flood of them costs
+/// no more.
 class MasterFinder : public QObject
 {
     Q_OBJECT

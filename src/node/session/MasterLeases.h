@@ -15,7 +15,8 @@
 
 namespace qplc {
 
-/// The leases of a master: carries out TakeLease and ReleaseLease, and brings the signals of a lost holder to their neutral values.
+/// The leases of a master: carries out TakeLease and ReleaseLease, and brings the signals of a lost
+/// holder to their neutral values.
 ///
 /// Holders are known by the object of their connection. Threads: that of the master.
 class MasterLeases : public QObject
@@ -27,7 +28,8 @@ public:
     /// \param leases  the books, which others read
     MasterLeases(Leases &leases, NodeRegistry &registry, MasterCycle &cycle, MasterSettings &settings);
 
-    /// Carries out TakeLease: takes all signals of \a request or none. \return false, with the reason in \a refusal
+    /// Carries out TakeLease: takes all signals of \a request or none. \return false, with the
+    /// reason in \a refusal
     bool take(const MasterConnection &asker, const messages::TakeLease &request, Refusal *refusal);
     /// Carries out ReleaseLease.
     bool release(const MasterConnection &asker, const messages::ReleaseLease &request, Refusal *refusal);
@@ -39,7 +41,8 @@ public:
     std::vector<messages::LeaseEntry> entries() const;
 
 Q_SIGNALS:
-    /// From the next cycle on, other signals than before are to keep the values that they are given. Comes before those values.
+    /// From the next cycle on, other signals than before are to keep the values that they are
+    /// given. Comes before those values.
     void heldSignalsChanged();
     /// Who holds what has changed. \param text  what happened, for people
     void changed(qplc::JournalEvent::Severity severity, const QString &text);

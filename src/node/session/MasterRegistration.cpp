@@ -33,7 +33,8 @@ std::optional<SealKeys> newSealKeys(const MasterConnection &connection)
     return SealKeys::random();
 }
 
-/// Extensions that are in use: those that the other side names in its Hello, and that are known here.
+/// Extensions that are in use: those that the other side names in its Hello, and that are known
+/// here.
 QStringList commonFeatures(const messages::ClientHello &greeting)
 {
     QStringList common;

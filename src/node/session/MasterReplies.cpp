@@ -12,7 +12,8 @@ namespace qplc {
 
 namespace {
 
-/// All of \a names are looked at before an answer is made: a short question that names one signal again and again would have an endless one.
+/// All of \a names are looked at before an answer is made: a short question that names one signal
+/// again and again would have an endless one.
 bool readNames(const QPlcSignalTable &table, const QStringList &names, std::vector<QPlcSignalIndex> *wanted,
                Refusal *refusal)
 {

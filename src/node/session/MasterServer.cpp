@@ -150,7 +150,8 @@ void MasterServer::enter(QPlcSlaveSocket *socket, const Peer &peer, ConnectionGa
         if (error == QPlcAbstractSocket::ProtocolError)
             receiveGarbage(connection);
     });
-    // Not at once: a message that cannot be sent ends the connection, and who sends to many of them walks over m_connections.
+    // Not at once: a message that cannot be sent ends the connection, and who sends to many of them
+    // walks over m_connections.
     const QPointer<QPlcSlaveSocket> guarded(socket);
     connect(
         socket, &QPlcAbstractSocket::disconnected, this, [this, guarded] { dropClosed(guarded); },
@@ -224,7 +225,8 @@ void MasterServer::reject(MasterConnection *connection, const QString &error, co
     drop(connection, text);
 }
 
-/// A request is refused, and the connection stays; not so before the greeting, and of a node that is none.
+/// A request is refused, and the connection stays; not so before the greeting, and of a node that
+/// is none.
 void MasterServer::deny(MasterConnection *connection, const QString &reason, bool isRegistration)
 {
     ++m_deniedMessages;
@@ -235,7 +237,8 @@ void MasterServer::deny(MasterConnection *connection, const QString &reason, boo
         connection->fail(QStringLiteral("Denied"), reason);
 }
 
-/// Whether somebody asks faster than is good for the others; then the connection has ended. Who does not read the answers is not listened to by the socket.
+/// Whether somebody asks faster than is good for the others; then the connection has ended. Who
+/// does not read the answers is not listened to by the socket.
 bool MasterServer::isTooMuch(MasterConnection *connection, const Message &message)
 {
     if (connection->owes(message.kind()) || connection->messages.take(monotonicNow()))

@@ -15,13 +15,16 @@
 
 namespace qplc {
 
-/// Who comes and goes at a master: accepts connections, greets, registers nodes and attaches their cyclic channels.
+/// Who comes and goes at a master: accepts connections, greets, registers nodes and attaches their
+/// cyclic channels.
 class MasterServer : public QObject
 {
     Q_OBJECT
 public:
-    /// \param master  what greetings need to know of the master: its Hello without what depends on the client
-    /// \param objection  why the master does not take a node now that the registry would take; no error: it takes it
+    /// \param master what greetings need to know of the master: its Hello without what depends on
+    ///         the client
+    /// \param objection why the master does not take a node now that the registry would take; no
+    ///         error: it takes it
     MasterServer(NodeRegistry &registry, const ProcessImage &image, CyclicHub &hub, quint64 session,
                  std::function<messages::MasterHello()> hello,
                  std::function<Refusal(const NodeDeclaration &)> objection, QObject *parent);

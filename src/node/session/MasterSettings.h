@@ -17,7 +17,8 @@ namespace qplc {
 /// Why a signal cannot be set or taken: \a lease says who has it.
 Refusal leaseRefusal(const QString &signal, const Leases::Lease &lease);
 
-/// Values from outside, for signals that no node writes, or that the asker holds by a lease: checks them, sets them, and brings the former ones back where they were set for a while only.
+/// Values from outside, for signals that no node writes, or that the asker holds by a lease: checks
+/// them, sets them, and brings the former ones back where they were set for a while only.
 ///
 /// Threads: that of the master.
 class MasterSettings : public QObject
@@ -32,13 +33,15 @@ public:
     bool setSignals(const QObject *owner, const messages::SetSignals &wish, Refusal *refusal);
     /// Sets one signal. \return false, with the reason in \a refusal
     bool setSignal(const QString &name, const QPlcValue &value, Refusal *refusal);
-    /// To be called when a node has registered, or a lease was released: what a node writes is its own, nothing comes back over it.
+    /// To be called when a node has registered, or a lease was released: what a node writes is its
+    /// own, nothing comes back over it.
     void leaveToWriters();
 
     // ---- for leases: without a look at who may set ----
     /// Reads and checks a value. \return false, with the reason in \a refusal
     bool readValue(QPlcSignalIndex signal, const QString &text, SignalSetting *setting, Refusal *refusal) const;
-    /// Sets values for good. \return false, and none is set, when the cycle has no room for them now
+    /// Sets values for good. \return false, and none is set, when the cycle has no room for them
+    /// now
     bool setLeased(const std::vector<SignalSetting> &settings, Refusal *refusal);
     /// What was set before moves \a indices no further. \pre the cycle has room for them
     void endWays(const std::vector<QPlcSignalIndex> &indices);

@@ -10,10 +10,11 @@
 
 namespace qplc {
 
-/// One node as the sequences of a master see it, from the moment it can be initialized until it leaves.
+/// One node as the sequences of a master see it, from the moment it can be initialized until it
+/// leaves.
 ///
-/// The master asks for one thing after the other. A node over a network answers later, by a message. A
-/// node in the process of the master answers at once. Both are asked in the same way.
+/// The master asks for one thing after the other. A node over a network answers later, by a
+/// message. A node in the process of the master answers at once. Both are asked in the same way.
 ///
 /// Thread of the master. A program may remove its node whenever it hears of a new state: sequences
 /// hold shared pointers, and a session that has left does nothing.
@@ -61,7 +62,8 @@ public:
 
     // ---- requests; no answer: it comes later ----
     /// Asks for the initial outputs.
-    /// \param phase  number of cycle 0 of a phase that is under way: a node that took part in it may go on
+    /// \param phase number of cycle 0 of a phase that is under way: a node that took part in it may
+    ///         go on
     virtual std::optional<Answer> askOutputs(std::optional<quint64> phase) = 0;
     virtual std::optional<Answer> giveInputs(const QByteArray &values) = 0;
     /// Tells it to be ready for the cycles of a phase.

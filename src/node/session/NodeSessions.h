@@ -7,8 +7,8 @@
 
 namespace qplc {
 
-/// The sessions of all nodes that can be initialized, in the order in which they are asked: those that
-/// answer later come first, and compute while the others are asked.
+/// The sessions of all nodes that can be initialized, in the order in which they are asked: those
+/// that answer later come first, and compute while the others are asked.
 ///
 /// The lists are copies: nodes may leave while somebody walks over one.
 class NodeSessions

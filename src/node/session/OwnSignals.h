@@ -16,7 +16,8 @@ public:
 
     OwnSignals(NodeRegistry &registry, const QPlcSignalTable &table, const Leases &leases, MasterSettings &settings);
 
-    /// Claims a signal in the place of the one that has \a role now. \return why it cannot; empty: done
+    /// Claims a signal in the place of the one that has \a role now. \return why it cannot; empty:
+    /// done
     QString claim(Role role, const QString &name);
     /// QPlcInvalidSignalIndex: there is none.
     QPlcSignalIndex index(Role role) const { return m_signals[role]; }

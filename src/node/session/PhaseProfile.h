@@ -23,8 +23,8 @@ public:
     const ProfileDefaults &defaults() const { return ProfileDefaults::of(m_fixed.value); }
     /// The one that a phase would get now.
     ChosenProfile choice() const { return chooseProfile(m_facts()); }
-    /// Why \a node cannot come into a phase with this profile: real devices take no part where late and lost values are
-    /// forgiven. No error: it can.
+    /// Why \a node cannot come into a phase with this profile: real devices take no part where late
+    /// and lost values are forgiven. No error: it can.
     Refusal objectionTo(const NodeDeclaration &node) const;
 
 private:

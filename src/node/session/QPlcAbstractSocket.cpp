@@ -224,7 +224,8 @@ void QPlcAbstractSocket::readError()
 void QPlcAbstractSocket::readMessages()
 {
     if (d->isSending) {
-        // TLS reads when it writes. Messages that came between two sends of somebody who walks over connections would surprise him, and answers to answers would fill the stack.
+        // TLS reads when it writes. Messages that came between two sends of somebody who walks over
+        // connections would surprise him, and answers to answers would fill the stack.
         QMetaObject::invokeMethod(this, &QPlcAbstractSocket::readMessages, Qt::QueuedConnection);
         return;
     }

@@ -10,8 +10,8 @@
 
 namespace qplc {
 
-/// The cycles of a real-time phase from their start to their end, and what a master does meanwhile: rosters, statistics
-/// as signals, overruns in the journal.
+/// The cycles of a real-time phase from their start to their end, and what a master does meanwhile:
+/// rosters, statistics as signals, overruns in the journal.
 class RealTimePhase final : public PhaseCycles
 {
 public:
@@ -32,7 +32,8 @@ public:
     bool takeEnd();
 
     void nodeLeft(const NodeSession *node, const NodeSlot &slot);
-    /// Of a node that is there, or was in this phase: what the cycle reports names it by its number.
+    /// Of a node that is there, or was in this phase: what the cycle reports names it by its
+    /// number.
     QString nodeName(quint16 id) const;
     bool wasListener(quint16 id) const;
     /// " in cycle 12"; empty: no cycle runs.

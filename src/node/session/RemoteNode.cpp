@@ -36,7 +36,8 @@ std::optional<NodeSession::Answer> RemoteNode::start(const messages::RealTimeSta
     return std::nullopt;
 }
 
-/// A client is told of an initialization that has ended whether it is a node or not: MasterControl::announce().
+/// A client is told of an initialization that has ended whether it is a node or not:
+/// MasterControl::announce().
 void RemoteNode::cancel(const QString &reason, bool isStarting)
 {
     if (isStarting)

@@ -18,8 +18,9 @@ void RosterMaker::abandon(const NodeSlot &slot)
         m_abandoned.insert(field.signal);
 }
 
-/// Signals that are to be safe when the master stops safely: what nodes write, or have written in this phase, what is
-/// taken over, and whatever else has a value for it in the table. Not what the master writes itself.
+/// Signals that are to be safe when the master stops safely: what nodes write, or have written in
+/// this phase, what is taken over, and whatever else has a value for it in the table. Not what the
+/// master writes itself.
 std::vector<bool> RosterMaker::safeSignals(const Roster &roster)
 {
     m_written.resize(std::size_t(m_table.size()));

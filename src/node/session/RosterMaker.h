@@ -10,7 +10,8 @@
 
 namespace qplc {
 
-/// Makes the rosters of a phase: who takes part in its cycles, and what becomes of signals whose writer does not.
+/// Makes the rosters of a phase: who takes part in its cycles, and what becomes of signals whose
+/// writer does not.
 class RosterMaker
 {
 public:

@@ -40,8 +40,9 @@ private:
     std::function<void()> m_timedOut;
 };
 
-/// The step at hand of the sequences that all nodes go through together: every node that is waited for owes one answer,
-/// and the next step begins when all have given it. There is one such sequence at a time.
+/// The step at hand of the sequences that all nodes go through together: every node that is waited
+/// for owes one answer, and the next step begins when all have given it. There is one such sequence
+/// at a time.
 class SequenceStep
 {
 public:
@@ -55,7 +56,8 @@ public:
     quint64 begin(Kind kind, const NodeSessions::List &nodes, std::function<void(const QString &)> timedOut);
     Kind kind() const { return m_kind; }
     bool isUnderWay() const { return m_kind != None; }
-    /// Whether this step has neither ended nor been followed by another one: who calls code of a program asks it then.
+    /// Whether this step has neither ended nor been followed by another one: who calls code of a
+    /// program asks it then.
     bool isStill(quint64 number) const { return isUnderWay() && m_number == number; }
     quint64 number() const { return m_number; }
 

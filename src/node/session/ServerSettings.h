@@ -23,7 +23,8 @@ struct ServerSettings
     std::optional<bool> armingWanted;  // else: with security
 
     bool isArmingRequired() const { return armingWanted.value_or(!security.isNone()); }
-    /// Where to listen instead of \a wanted: nothing but security, or a loud option, opens a plant to the network.
+    /// Where to listen instead of \a wanted: nothing but security, or a loud option, opens a plant
+    /// to the network.
     QHostAddress allowedAddress(const QHostAddress &wanted) const;
     /// Of a server that listens at \a address, as Hello tells it: "none", "psk", "insecure".
     QString securityName(const QHostAddress &address) const;

@@ -8,7 +8,8 @@
 
 namespace qplc {
 
-/// What nodes are told when a phase begins for them, and their places in frames that go to several nodes.
+/// What nodes are told when a phase begins for them, and their places in frames that go to several
+/// nodes.
 class StartMessages
 {
 public:

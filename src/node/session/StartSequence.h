@@ -6,7 +6,8 @@
 
 namespace qplc {
 
-/// The start of all nodes that are initialized: waits until each of them is ready, then starts the cycles.
+/// The start of all nodes that are initialized: waits until each of them is ready, then starts the
+/// cycles.
 class StartSequence : public QObject
 {
     Q_OBJECT

@@ -11,8 +11,9 @@
 
 namespace qplc {
 
-/// Tells those who offer the features "leases" and "events" what is new, some of it together. For a connection that takes nothing in, nothing is kept: it gets
-/// the newest leases and those events that are still there when it is ready again.
+/// Tells those who offer the features "leases" and "events" what is new, some of it together. For a
+/// connection that takes nothing in, nothing is kept: it gets the newest leases and those events
+/// that are still there when it is ready again.
 class ViewerPushes : public QObject
 {
 public:

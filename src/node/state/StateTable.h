@@ -33,9 +33,11 @@ struct StateRule
     bool stays = false;  ///< accepted, and the state remains what it is
 };
 
-/// Every state x every event: the table that drives the code, that its test walks through and that its page is made of.
+/// Every state x every event: the table that drives the code, that its test walks through and that
+/// its page is made of.
 ///
-/// Made of rules at compile time. Rules are complete when each pair has exactly one; check it with a static_assert(isComplete()).
+/// Made of rules at compile time. Rules are complete when each pair has exactly one; check it with
+/// a static_assert(isComplete()).
 template<typename State, typename Event, typename Action, std::size_t States, std::size_t Events>
 class StateTable
 {
@@ -81,7 +83,8 @@ private:
     std::array<std::uint8_t, States * Events> m_rules{};
 };
 
-/// How rules are written: `on(Event::Stop, in(State::Off, State::Ready), go(State::Off, Action::Forget))`.
+/// How rules are written:
+/// `on(Event::Stop, in(State::Off, State::Ready), go(State::Off, Action::Forget))`.
 template<typename State, typename Event, typename Action>
 struct StateRules
 {

@@ -5,8 +5,9 @@
 
 namespace qplc {
 
-/// A state, or a clock, of the protocol as people read it: "RealTime" is "Real time", "SafeStop" "Safe stop", "WaitingForLateSlaves" "Waiting for late nodes".
-/// JSON, the protocol and code keep the names.
+/// A state, or a clock, of the protocol as people read it: "RealTime" is "Real time", "SafeStop"
+/// "Safe stop", "WaitingForLateSlaves" "Waiting for late nodes". JSON, the protocol and code keep
+/// the names.
 QString stateText(const QString &name);
 /// "Unknown" for a state of a newer master.
 QString stateText(messages::MasterState state);

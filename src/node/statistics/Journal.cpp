@@ -17,8 +17,9 @@ QString waiting()
     return QStringLiteral("waiting");
 }
 
-/// What is abnormal is seen by default, and so is who comes and takes over; the rest is for those who look for it. So are overruns that end nothing: on an ordinary
-/// system they come with every breath of another program, and the statistics count them.
+/// What is abnormal is seen by default, and so is who comes and takes over; the rest is for those
+/// who look for it. So are overruns that end nothing: on an ordinary system they come with every
+/// breath of another program, and the statistics count them.
 void log(const JournalEvent &event)
 {
     if (event.kind == JournalEvent::Security && event.severity == JournalEvent::Info)

@@ -14,7 +14,8 @@
 
 namespace qplc {
 
-/// What happens at a master, for people: the one place that makes a line of the log and an event for viewers out of it.
+/// What happens at a master, for people: the one place that makes a line of the log and an event
+/// for viewers out of it.
 ///
 /// Threads: that of the master.
 class Journal : public QObject
@@ -27,7 +28,8 @@ public:
 
     /// \param source  name of a node, or of the master
     void tell(JournalEvent::Severity severity, JournalEvent::Kind kind, const QString &source, const QString &text);
-    /// Tells that something abnormal begins, and lasts until it is cleared; its duration counts from the first time on.
+    /// Tells that something abnormal begins, and lasts until it is cleared; its duration counts
+    /// from the first time on.
     /// \param alarm  what: "node Winch"
     void raise(const QString &alarm, JournalEvent::Severity severity, JournalEvent::Kind kind, const QString &source,
                const QString &text);
@@ -45,9 +47,11 @@ public:
     void sourceChanged(const QString &signal, const QString &from, const QString &to);
     /// A message without the right to it. \param identity  proven; empty: nobody's
     void denied(const QString &identity, const QString &text);
-    /// Somebody with a right to it has commanded \a what. \param from  where from, and what else differs from time to time
+    /// Somebody with a right to it has commanded \a what. \param from where from, and what else
+    /// differs from time to time
     void commanded(const QString &identity, const QString &what, const QString &from);
-    /// Somebody whose greeting or registration was refused; anybody can be, again and again. \param name  as he calls himself
+    /// Somebody whose greeting or registration was refused; anybody can be, again and again. \param
+    /// name as he calls himself
     void refused(const QString &name, const QString &address, const QString &reason);
     /// Somebody who was not let in.
     void strangerRefused(const QString &address, const QString &reason);

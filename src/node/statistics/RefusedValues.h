@@ -14,9 +14,11 @@ namespace qplc {
 
 class Journal;
 
-/// Signals of which the master refuses values: an alarm for each, from the first refused value until none has been refused for a second. However often that is, the journal gets two lines.
+/// Signals of which the master refuses values: an alarm for each, from the first refused value
+/// until none has been refused for a second. However often that is, the journal gets two lines.
 ///
-/// Threads: that of the master. What the cycle thread counts is looked at a few times a second, while there is an alarm.
+/// Threads: that of the master. What the cycle thread counts is looked at a few times a second,
+/// while there is an alarm.
 class RefusedValues : public QObject
 {
 public:

@@ -8,15 +8,17 @@
 
 namespace qplc {
 
-/// Keeps what happens again and again from flooding a log: the first report of a thing is told at once, further ones at most once a second, together, with their number.
-/// Looks at no clock. Times are ns on any steady clock.
+/// Keeps what happens again and again from flooding a log: the first report of a thing is told at
+/// once, further ones at most once a second, together, with their number. Looks at no clock. Times
+/// are ns on any steady clock.
 class ReportLimiter
 {
 public:
     static constexpr std::int64_t Pause = 1'000'000'000;  // [ns]
 
     /// \param thing  what has happened; reports of one thing are told together
-    /// \param event  the text of which begins with \a begin; of reports that are told together the begin of the first and the rest of the last are told
+    /// \param event the text of which begins with \a begin; of reports that are told together the
+    ///         begin of the first and the rest of the last are told
     /// \return what is to be told now
     std::optional<JournalEvent> report(const QString &thing, const QString &begin, const JournalEvent &event,
                                        std::int64_t now);

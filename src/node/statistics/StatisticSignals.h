@@ -11,7 +11,8 @@
 
 namespace qplc {
 
-/// Writes figures of the statistics into signals. Thread of the master: percentiles cost too much for the cycle thread, which only gets the values.
+/// Writes figures of the statistics into signals. Thread of the master: percentiles cost too much
+/// for the cycle thread, which only gets the values.
 class StatisticSignals
 {
 public:
@@ -22,8 +23,8 @@ public:
 
     /// Sets all of them to 0. \pre no cycle runs
     void reset(MasterCycle *cycle);
-    /// Updates them twice a second from now on, but for lockstep, where nothing may depend on the machine.
-    /// Both outlive the phase.
+    /// Updates them twice a second from now on, but for lockstep, where nothing may depend on the
+    /// machine. Both outlive the phase.
     void start(MasterCycle *cycle, const NodeRegistry *registry, bool lockstep);
     /// Updates them for the last time. \pre no cycle runs any more
     void stop();

@@ -8,7 +8,8 @@
 
 namespace qplc {
 
-/// The statistics of a master and of all nodes whose cyclic channel is there; also while cycles run.
+/// The statistics of a master and of all nodes whose cyclic channel is there; also while cycles
+/// run.
 QPlcCycleStatistics statisticsOf(const MasterCycle &cycle, const NodeRegistry &registry,
                                  QPlcDistribution::Detail detail);
 /// What a master answers to GetStatistics.

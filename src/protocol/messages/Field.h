@@ -55,7 +55,8 @@ constexpr Group<Fields...> group(const char *name, Fields... fields)
     return {name, std::make_tuple(fields...)};
 }
 
-/// The fields of \a Struct: its own `fields`, unless this is specialised for a struct that knows nothing of messages.
+/// The fields of \a Struct: its own `fields`, unless this is specialised for a struct that knows
+/// nothing of messages.
 template<typename Struct>
 struct Description
 {
@@ -149,7 +150,8 @@ bool read(const QJsonObject &object, const Field<Owner, Value> &field, Struct *v
     Value member{};
     const QJsonValue json = object.value(QLatin1String(field.name));
     if (!Wire<Value>::fromJson(json, &member)) {
-        // What is not needed and cannot be used is as if it were not there: a Stop with a bad field stops.
+        // What is not needed and cannot be used is as if it were not there: a Stop with a bad field
+        // stops.
         const bool isNeeded
             = field.presence == Presence::Required || (field.presence == Presence::Checked && !json.isUndefined());
         if (isNeeded)
@@ -180,7 +182,8 @@ bool read(const QJsonObject &object, const Group<Fields...> &group, Struct *valu
 }
 
 /// Reads all fields of \a Struct. Fields that it does not know are ignored.
-/// \return false when a field that is needed cannot be used: \a error says which one, and \a value is not to be used
+/// \return false when a field that is needed cannot be used: \a error says which one, and \a value
+///         is not to be used
 template<typename Struct>
 bool fromObject(const QJsonObject &object, Struct *value, QString *error)
 {

@@ -10,7 +10,8 @@ namespace qplc::messages {
 
 constexpr int protocolVersion = 1;
 
-/// Extensions, by which both sides of a connection say what they know: docs/protocol.md, section 11.
+/// Extensions, by which both sides of a connection say what they know: docs/protocol.md, section
+/// 11.
 namespace feature {
 constexpr QLatin1String sameCycle = word("sameCycle");
 constexpr QLatin1String leases = word("leases");

@@ -64,7 +64,8 @@ struct Description<QPlcWorstCycle>
                           field("slack", &W::slack), field("stages", &W::stages));
 };
 
-/// The names of the counters of \a Statistics. They go by their names: another version may have more of them.
+/// The names of the counters of \a Statistics. They go by their names: another version may have
+/// more of them.
 template<typename Statistics>
 struct Counters;
 

@@ -18,7 +18,8 @@
 
 namespace qplc::messages {
 
-/// A 64-bit number that travels as a text of 16 hexadecimal digits: JSON numbers are doubles and hold 53 bits.
+/// A 64-bit number that travels as a text of 16 hexadecimal digits: JSON numbers are doubles and
+/// hold 53 bits.
 struct Hex64
 {
     quint64 number = 0;
@@ -62,7 +63,8 @@ struct WireOfStruct;
 
 /// How a value of type \a T travels: section 3 of docs/protocol.md has the names.
 ///
-/// `fromJson()` returns false, and leaves the value alone, where the JSON is of another type, or there is none.
+/// `fromJson()` returns false, and leaves the value alone, where the JSON is of another type, or
+/// there is none.
 template<typename T, typename = void>
 struct Wire : WireOfStruct<T>
 {

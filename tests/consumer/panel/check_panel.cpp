@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// check_panel [PICTURES]: the panel of docs/howto/write-a-panel.md in a window with a plant, all of it by the public API.
-// Says what is wrong, and keeps a picture in each theme in the folder PICTURES.
+// check_panel [PICTURES]: the panel of docs/howto/write-a-panel.md in a window with a plant, all of
+// it by the public API. Says what is wrong, and keeps a picture in each theme in the folder
+// PICTURES.
 #include "TwoCurves.h"
 
 #include <QtCore/QElapsedTimer>
@@ -75,9 +76,9 @@ TwoCurves *panelOf(QPlcControlCenter &window)
 /// A layout with the panel is opened before the window knows its kind, and loses nothing.
 bool opensEarly(QPlcControlCenter &window)
 {
-    const QByteArray layout
-        = R"({"format": "QtPLC layout", "version": 1, "currentTab": "tab1", "tabs": [{"id": "tab1", "name": "Mine", "tree":
-        {"id": "panel1", "type": "Two curves", "settings": {"signals": ["wave", "power"], "later": 7}}}], "windows": []})";
+    const QByteArray layout = R"({"format": "QtPLC layout", "version": 1, "currentTab": "tab1", "windows": [],
+              "tabs": [{"id": "tab1", "name": "Mine", "tree": {"id": "panel1", "type": "Two curves",
+              "settings": {"signals": ["wave", "power"], "later": 7}}}]})";
     QString error;
     if (!window.addLayout(QStringLiteral("Mine"), layout, &error) || !window.showLayout(QStringLiteral("Mine")))
         return fail(qPrintable(error));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Charts paint every pixel of theirs, also the last column and row, at scale factors between whole numbers.
-// This program runs once for each scale factor: see CMakeLists.txt.
+// Charts paint every pixel of theirs, also the last column and row, at scale factors between whole
+// numbers. This program runs once for each scale factor: see CMakeLists.txt.
 #include "FedPlotWindow.h"
 #include "PanelFixtures.h"
 #include "QPlcJitterHistogram.h"
@@ -108,7 +108,8 @@ void tst_ChartEdges::histogramsPaintAllPixels()
     checkSizes(&canvas);
 }
 
-/// Qt paints nothing beneath an opaque area: pixels that it meets only in part would keep what the screen showed before.
+/// Qt paints nothing beneath an opaque area: pixels that it meets only in part would keep what the
+/// screen showed before.
 void tst_ChartEdges::theAreaOfTheCurvesIsNotOpaque()
 {
     FedPlotWindow window("{}");

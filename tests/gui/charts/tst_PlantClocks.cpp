@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Plants of one window whose clocks differ: in lockstep, rows run far ahead of those of a plant in real time.
+// Plants of one window whose clocks differ: in lockstep, rows run far ahead of those of a plant in
+// real time.
 #include "NodeFixtures.h"
 #include "QPlcTimePlot.h"
 #include "QPlcXyPlot.h"
@@ -26,7 +27,8 @@ constexpr Time s = 1'000'000'000;
 constexpr Time now = 1'700'000'000 * s;
 constexpr Time ahead = 3600 * s;
 
-/// The plants "kite" of now and "simulation" of an hour later; values have only just come from the kite.
+/// The plants "kite" of now and "simulation" of an hour later; values have only just come from the
+/// kite.
 class TwoClocks
 {
 public:

@@ -209,8 +209,8 @@ void tst_PlotAxes::aSignalIsDroppedOnTheRightAxis()
 
 void tst_PlotAxes::aRangeOfAFurtherAxisIsKept()
 {
-    const QByteArray text(
-        R"({"axes":{"W":{"lines":[5],"maximum":10,"minimum":0}},"curves":[{"signal":"speed"},{"signal":"force"},{"signal":"power"}]})");
+    const QByteArray text(R"({"axes":{"W":{"lines":[5],"maximum":10,"minimum":0}},)"
+                          R"("curves":[{"signal":"speed"},{"signal":"force"},{"signal":"power"}]})");
     FedPlotWindow window(text);
     QCOMPARE(window.settings(), text);
     QVERIFY(window.show());
@@ -221,8 +221,8 @@ void tst_PlotAxes::aRangeOfAFurtherAxisIsKept()
 
 void tst_PlotAxes::furtherAxesLeaveTheCurvesRoom()
 {
-    FedPlotWindow window(
-        R"({"curves":[{"signal":"speed"},{"signal":"force"},{"signal":"power"},{"signal":"angle"},{"signal":"mode"}]})");
+    FedPlotWindow window(R"({"curves":[{"signal":"speed"},{"signal":"force"},{"signal":"power"},)"
+                         R"({"signal":"angle"},{"signal":"mode"}]})");
     QVERIFY(window.show());
     for (const int width : {1200, 600, 400, 250}) {
         window.plot->resize(width, 300);

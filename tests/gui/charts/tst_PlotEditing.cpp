@@ -63,8 +63,8 @@ private Q_SLOTS:
 void tst_PlotEditing::settingsGiveBackWhatWasApplied()
 {
     PlotWindow window;
-    const QByteArray text
-        = R"({"curves":[{"color":"#112233","signal":"count"},{"signal":"gone.away","tool":"x"}],"limits":true,"other":[1],"title":"Force"})";
+    const QByteArray text = R"({"curves":[{"color":"#112233","signal":"count"},{"signal":"gone.away","tool":"x"}],)"
+                            R"("limits":true,"other":[1],"title":"Force"})";
     window.apply(text);
     QCOMPARE(window.settings(), text);
     QCOMPARE(window.plot->title(), QStringLiteral("Force"));

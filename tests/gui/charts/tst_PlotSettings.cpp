@@ -40,10 +40,12 @@ void tst_PlotSettings::whatIsWrittenIsReadAsTheSame_data()
     QTest::newRow("a curve") << QByteArray(R"({"curves":[{"signal":"kite.elevation"}]})");
     QTest::newRow("a formula") << QByteArray(R"({"curves":[{"signal":"= derivative(tetherForce) / 2"}]})");
     QTest::newRow("all of a curve") << QByteArray(
-        R"({"axes":{"N":{"minimum":1}},"curves":[{"axis":"right","color":"#d55e00","gain":0.5,"offset":-2,"signal":"a","visible":false},{"axis":"left","signal":"b"}]})");
+        R"({"axes":{"N":{"minimum":1}},"curves":[{"axis":"right","color":"#d55e00","gain":0.5,)"
+        R"("offset":-2,"signal":"a","visible":false},{"axis":"left","signal":"b"}]})");
     QTest::newRow("what nobody knows of a curve") << QByteArray(R"({"curves":[{"signal":"a","width":3}]})");
     QTest::newRow("all of the plot") << QByteArray(
-        R"({"grid":false,"labels":"seconds","left":{"lines":[60,75.5],"maximum":90,"minimum":0},"legend":false,"limits":true,)"
+        R"({"grid":false,"labels":"seconds","left":{"lines":[60,75.5],"maximum":90,"minimum":0},)"
+        R"("legend":false,"limits":true,)"
         R"("right":{"minimum":-1.5},"span":10,"statistics":false,"time":"own"})");
 }
 

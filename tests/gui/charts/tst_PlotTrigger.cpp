@@ -19,7 +19,8 @@ constexpr Time s = 1'000'000'000;
 
 QByteArray triggered(const QByteArray &more)
 {
-    return R"json({"curves":[{"signal":"= sin(count/5)","gain":2,"offset":1}],"span":1,"trigger":{"on":true,"pre":0.25,"signal":"= sin(count/5)")json"
+    return R"json({"curves":[{"signal":"= sin(count/5)","gain":2,"offset":1}],"span":1,"trigger":{"on":true,)json"
+           R"json("pre":0.25,"signal":"= sin(count/5)")json"
         + more + "}}";
 }
 
@@ -64,8 +65,8 @@ void tst_PlotTrigger::theKeyTurnsItOnAndOff()
 
 void tst_PlotTrigger::settingsComeBackByteByByte()
 {
-    const QByteArray all
-        = R"({"curves":[{"name":"n","signal":"count"}],"trigger":{"color":"red","holdOff":2,"kind":"falling","level":3,"linked":true,"on":true,"signal":"sum"}})";
+    const QByteArray all = R"({"curves":[{"name":"n","signal":"count"}],"trigger":{"color":"red","holdOff":2,)"
+                           R"("kind":"falling","level":3,"linked":true,"on":true,"signal":"sum"}})";
     PlotWindow window(all);
     QCOMPARE(window.settings(), all);
     Q_EMIT window.part<TriggerBar>()->settingsEdited();  // what it has is taken

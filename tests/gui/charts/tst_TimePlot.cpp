@@ -41,7 +41,8 @@ void drag(QWidget *widget, QPoint from, QPoint to, Qt::MouseButton button = Qt::
     send(QEvent::MouseButtonRelease, to, button, Qt::NoButton);
 }
 
-/// The newest time between two rows that follow each other: a busy machine leaves cycles out, and there are no values in gaps.
+/// The newest time between two rows that follow each other: a busy machine leaves cycles out, and
+/// there are no values in gaps.
 Time timeWithValue(PlotWindow &window)
 {
     const SignalStore &store = *window.context.plants()->at(0)->store();
@@ -196,8 +197,8 @@ void tst_TimePlot::controlAndTheWheelZoomTheValues()
 
 void tst_TimePlot::theWheelOverAnAxisZoomsItsValues()
 {
-    PlotWindow window(
-        R"({"curves":[{"signal":"count"},{"signal":"count","axis":"right"}],"left":{"minimum":0,"maximum":100},"right":{"minimum":0,"maximum":10}})");
+    PlotWindow window(R"({"curves":[{"signal":"count"},{"signal":"count","axis":"right"}],"left":{"minimum":0,)"
+                      R"("maximum":100},"right":{"minimum":0,"maximum":10}})");
     QVERIFY(window.run(0.1));
     QWidget *axis = window.canvas()->axisWidget(QwtPlot::yRight);
     const auto high = [&](PlotCanvas::Axis which) { return window.canvas()->valueAt(which, 0.0); };

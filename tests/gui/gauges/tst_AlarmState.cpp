@@ -15,7 +15,8 @@ AlarmLimits limitsOfAll()
     return {-20.0, -10.0, 10.0, 20.0, 2.0};
 }
 
-/// The levels of values one after another: "-" normal, "w" and "W" warning low and high, "a" and "A" alarm.
+/// The levels of values one after another: "-" normal, "w" and "W" warning low and high, "a" and
+/// "A" alarm.
 QString levelsOf(const AlarmLimits &limits, const QVector<double> &values)
 {
     AlarmState state;

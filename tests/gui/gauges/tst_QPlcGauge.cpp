@@ -111,7 +111,8 @@ void tst_QPlcGauge::settingsComeBackByteForByte_data()
     QTest::newRow("nothing") << QByteArray("{}");
     QTest::newRow("a default, written out") << QByteArray(R"({"signal":"level","style":"dial"})");
     QTest::newRow("all") << QByteArray(
-        R"({"alarmHigh":9,"alarmLow":1,"extremes":true,"hysteresis":0.5,"maximum":10,"minimum":0,"signal":"a/b[2]","style":"led","title":"T","warningHigh":8,"warningLow":2})");
+        R"({"alarmHigh":9,"alarmLow":1,"extremes":true,"hysteresis":0.5,"maximum":10,"minimum":0,)"
+        R"("signal":"a/b[2]","style":"led","title":"T","warningHigh":8,"warningLow":2})");
     QTest::newRow("of a later version") << QByteArray(R"({"needle":{"width":3},"signal":"level","style":"wheel"})");
     QTest::newRow("nonsense") << QByteArray(R"({"maximum":"high","signal":7})");
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A window with panels that show nothing real, to look at: layout_demo [--dark] [--scene NAME] [--screenshot FILE.png]
+// A window with panels that show nothing real, to look at: layout_demo [--dark] [--scene NAME]
+// [--screenshot FILE.png]
 #include "DummyPanels.h"
 #include "LayoutFixtures.h"
 #include "gui/layout/DropZone.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Panels have a line along each of their four edges, and paint every pixel of theirs, at all scale factors.
-// This program runs once for each scale factor: see CMakeLists.txt.
+// Panels have a line along each of their four edges, and paint every pixel of theirs, at all scale
+// factors. This program runs once for each scale factor: see CMakeLists.txt.
 #include "ViewFixtures.h"
 
 #include <QtGui/QPainter>
@@ -37,7 +37,8 @@ QRect wholePixels(const QRectF &place)
     return {first, end - QPoint(1, 1)};
 }
 
-/// The most pixels of a colour in one line along an edge of a place, of the lines that its frame can be in.
+/// The most pixels of a colour in one line along an edge of a place, of the lines that its frame
+/// can be in.
 int lineAlong(const QImage &picture, const QRectF &place, Qt::Edge edge, const QColor &color)
 {
     const QRect whole = wholePixels(place);

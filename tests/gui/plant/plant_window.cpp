@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// plant_window ADDRESS [SIGNAL VALUE]: a window without a face. Hears the plant of the address, takes control of the signal, if there is one, and prints ten times a second what it has,
-// "rows gaps largestBatch". Ends with its standard input.
+// plant_window ADDRESS [SIGNAL VALUE]: a window without a face. Hears the plant of the address,
+// takes control of the signal, if there is one, and prints ten times a second what it has, "rows
+// gaps largestBatch". Ends with its standard input.
 #include "gui/plant/Plant.h"
 
 #include <QtCore/QCoreApplication>

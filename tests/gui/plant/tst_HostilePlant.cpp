@@ -12,7 +12,8 @@ using namespace qplc;
 
 namespace {
 
-/// A master that greets as it should, and answers each request as the test says; Invalid: not at all.
+/// A master that greets as it should, and answers each request as the test says; Invalid: not at
+/// all.
 class AnsweringMaster : public QObject
 {
 public:

@@ -130,7 +130,8 @@ void tst_PlantLeases::aWindowThatHangsLosesItsLease()
 {
     FlyingMaster master;
     QVERIFY(master.startRealTime());
-    // The window hears nothing and says nothing, while its connection is there: as if its thread hung.
+    // The window hears nothing and says nothing, while its connection is there: as if its thread
+    // hung.
     QThread thread;
     QObject window;
     window.moveToThread(&thread);

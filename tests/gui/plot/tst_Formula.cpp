@@ -313,7 +313,8 @@ void tst_Formula::interruptionsBeginEverythingAnew()
     }
 }
 
-/// An integral that began at 0 after each lost cycle would be none on a computer that loses one now and then.
+/// An integral that began at 0 after each lost cycle would be none on a computer that loses one now
+/// and then.
 void tst_Formula::cyclesThatWereLostAreAsNaN()
 {
     constexpr FormulaCalculator::Time ms = 1'000'000;

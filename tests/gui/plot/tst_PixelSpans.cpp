@@ -27,7 +27,8 @@ std::vector<int> pixelsOf(const PixelSpans &spans)
     return pixels;
 }
 
-/// The rows from \a top to \a bottom that are filled in a column, as one number for comparisons; -1 when they are not one piece.
+/// The rows from \a top to \a bottom that are filled in a column, as one number for comparisons; -1
+/// when they are not one piece.
 QPoint columnOf(const std::vector<int> &pixels, int x)
 {
     int top = -1;

@@ -300,7 +300,8 @@ void tst_ManualControl::anElementIsWrittenIntoItsArray()
     QTRY_COMPARE(master.signalValue(QStringLiteral("vector")), QPlcValue({1.0, 7.0, 3.0}));
 }
 
-/// What the plant has of one of them is older than what was sent of it, when both move within the time that a command takes.
+/// What the plant has of one of them is older than what was sent of it, when both move within the
+/// time that a command takes.
 void tst_ManualControl::elementsOfAnArrayAreSteeredTogether()
 {
     FlyingMaster master;

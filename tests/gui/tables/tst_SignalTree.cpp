@@ -72,8 +72,8 @@ private Q_SLOTS:
 
 void tst_SignalTree::settingsComeBackByteForByte()
 {
-    const QByteArray json
-        = R"({"collapsed":["kite"],"columns":["name","age"],"expanded":["kite/x/vector"],"later":1,"search":"count","title":"T"})";
+    const QByteArray json = R"({"collapsed":["kite"],"columns":["name","age"],"expanded":["kite/x/vector"],"later":1,)"
+                            R"("search":"count","title":"T"})";
     QPlcSignalTree tree;
     tree.applySettings(QJsonDocument::fromJson(json).object());
     QCOMPARE(QJsonDocument(tree.settings()).toJson(QJsonDocument::Compact), json);

@@ -125,7 +125,8 @@ private Q_SLOTS:
 void tst_Tables::settingsComeBackByteForByte()
 {
     verifySettings<QPlcValueTable>(
-        R"({"columns":["signal","rate"],"descending":true,"later":1,"search":"count","signals":["count","north/sum","nowhere[2]"],"sort":"value","title":"T"})");
+        R"({"columns":["signal","rate"],"descending":true,"later":1,"search":"count","signals":["count",)"
+        R"("north/sum","nowhere[2]"],"sort":"value","title":"T"})");
     verifySettings<QPlcNodeTable>(R"({"columns":["rejected","node"],"later":1,"sort":"late","title":"T"})");
     verifySettings<QPlcEventLog>(
         R"({"columns":["event"],"later":1,"search":"a b","severity":"warning","title":"T","unacknowledged":true})");

@@ -12,7 +12,8 @@
 #include <array>
 #include <memory>
 
-/// Stands between a window and a master, passes all bytes on, and keeps the commands that go to the master.
+/// Stands between a window and a master, passes all bytes on, and keeps the commands that go to the
+/// master.
 class CommandTap : public QObject
 {
 public:

@@ -13,7 +13,8 @@
 #include <QtCore/QJsonArray>
 #include <QtWidgets/QMenu>
 
-/// Two masters that run, "north" and "south", with the same signals; a window that is connected to both; and between them what hears the commands that the window sends to each.
+/// Two masters that run, "north" and "south", with the same signals; a window that is connected to
+/// both; and between them what hears the commands that the window sends to each.
 struct TwoPlants : WindowFixture
 {
     TwoPlants()

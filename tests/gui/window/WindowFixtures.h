@@ -32,7 +32,8 @@ private:
 
 constexpr int patience = 20000;  // [ms]
 
-/// A window of a laptop on the screen. On a screen (qtplc_add_screen_test) a picture of what was seen last is kept, under the name of the test.
+/// A window of a laptop on the screen. On a screen (qtplc_add_screen_test) a picture of what was
+/// seen last is kept, under the name of the test.
 struct WindowFixture
 {
     WindowFixture()

@@ -6,7 +6,8 @@
 #include <QtWidgets/QLabel>
 #include <QtWidgets/QWidget>
 
-/// A window as it can be compared from one version to the next: not its pixels, but what is seen where.
+/// A window as it can be compared from one version to the next: not its pixels, but what is seen
+/// where.
 class WindowStructure
 {
 public:
@@ -29,7 +30,8 @@ public:
 
     bool shows(const QString &pattern) const { return !texts().filter(QRegularExpression(pattern)).isEmpty(); }
 
-    /// Visible buttons of this kind that are not within the window, or are smaller than their text needs: nothing is expected.
+    /// Visible buttons of this kind that are not within the window, or are smaller than their text
+    /// needs: nothing is expected.
     template<typename Button>
     QStringList cutButtons() const
     {

@@ -36,7 +36,8 @@ bool isPopupOpen()
     return QApplication::activePopupWidget() != nullptr;
 }
 
-/// The window that has the keyboard. The window system of these tests leaves it with windows that are closed.
+/// The window that has the keyboard. The window system of these tests leaves it with windows that
+/// are closed.
 QWindow *keyboardWindow()
 {
     if (const QWidget *popup = QApplication::activePopupWidget())

@@ -49,7 +49,8 @@ struct PanelFixture : WindowFixture
         panel = view->widget(id);
         isReady = QTest::qWaitFor([this] { return plant()->hasLeases() && plant()->table().size() > 0; }, patience);
     }
-    /// Gives the keyboard to the panel as a person without a mouse does: its title, and what can be done there. \return whether it came further than to the title
+    /// Gives the keyboard to the panel as a person without a mouse does: its title, and what can be
+    /// done there. \return whether it came further than to the title
     bool enterPanel()
     {
         enterTitle();
@@ -122,7 +123,8 @@ QString keyError(PanelFixture &fixture, QAction *action)
     return {};
 }
 
-/// A button that only a mouse reaches: neither Tab nor keys, which its tool tip tells at the end, nor an action of the same text.
+/// A button that only a mouse reaches: neither Tab nor keys, which its tool tip tells at the end,
+/// nor an action of the same text.
 bool isForTheMouseOnly(const QAbstractButton *button, const QSet<QString> &actions)
 {
     const auto *tool = qobject_cast<const QToolButton *>(button);

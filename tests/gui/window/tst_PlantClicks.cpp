@@ -13,7 +13,8 @@ const QString echo = QStringLiteral("echo");
 const QString setpoint = QStringLiteral("setpoint");
 constexpr int stepsOfSession = 25;
 
-/// A person who does anything at all with a window of two plants. After each deed it is known which plants the window named where it was done.
+/// A person who does anything at all with a window of two plants. After each deed it is known which
+/// plants the window named where it was done.
 class Person
 {
 public:

@@ -10,7 +10,8 @@
 
 using namespace qplc;
 
-/// A panel of the program, as the keyboard controller of the thesis: it writes "setpoint" and looks at "count".
+/// A panel of the program, as the keyboard controller of the thesis: it writes "setpoint" and looks
+/// at "count".
 class Operator : public QPlcWidget
 {
     Q_OBJECT

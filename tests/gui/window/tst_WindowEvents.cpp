@@ -112,7 +112,8 @@ void tst_WindowEvents::aPersonHasOneNameInEventsAndLeases()
     const EventLogModel &events = *fixture.window.context()->events();
     const QString set = QStringLiteral("'%1' has set setpoint").arg(name);
     QTRY_COMPARE_WITH_TIMEOUT(textsOf(events).filter(set).size(), 1, patience);
-    // The window is a node, too: nodes have names of their own, which begin with that of the person.
+    // The window is a node, too: nodes have names of their own, which begin with that of the
+    // person.
     QVERIFY2(!textsOf(events).filter(QStringLiteral("node %1-").arg(name)).isEmpty(),
              qPrintable(textsOf(events).join('\n')));
     QVERIFY(textsOf(events).filter(QStringLiteral("ControlCenter")).isEmpty());

@@ -20,7 +20,8 @@ void write(const QString &fileName, const QByteArray &text)
 
 }  // namespace
 
-/// What the window keeps, and what it says of itself: settings, layouts that are saved, documents, version and licences.
+/// What the window keeps, and what it says of itself: settings, layouts that are saved, documents,
+/// version and licences.
 class tst_WindowMemory : public QObject
 {
     Q_OBJECT

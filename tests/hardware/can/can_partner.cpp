@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// can_partner DEVICE: sends each data frame back with the next id, until it gets the id 0x7FF. Says "ready" when it is on the bus.
+// can_partner DEVICE: sends each data frame back with the next id, until it gets the id 0x7FF. Says
+// "ready" when it is on the bus.
 #include "hardware/can/CanBus.h"
 
 #include <array>

@@ -58,7 +58,8 @@ bool hasQtSerialBus()
 
 const QString testBus = QStringLiteral("fake:test");
 
-// What has come in when it is `count` frames, or after some seconds: a bus of the kernel needs a moment.
+// What has come in when it is `count` frames, or after some seconds: a bus of the kernel needs a
+// moment.
 std::vector<CanFrame> receive(CanBus &bus, std::size_t count)
 {
     std::vector<CanFrame> frames;
@@ -71,7 +72,8 @@ std::vector<CanFrame> receive(CanBus &bus, std::size_t count)
     return frames;
 }
 
-// Buses that have to behave alike: a fake one, and an interface of the kernel, if QTPLC_TEST_CAN names one.
+// Buses that have to behave alike: a fake one, and an interface of the kernel, if QTPLC_TEST_CAN
+// names one.
 void addBuses()
 {
     QTest::addColumn<QString>("device");
@@ -421,12 +423,14 @@ void tst_CanBus::virtualPluginCarriesFrames()
 {
     if (!hasQtSerialBus())
         QSKIP("this build has no Qt Serial Bus (libqt5serialbus5-dev)");
-    // Its usual port is one that the kernel gives away to clients, too, and keeps for a minute after their end.
+    // Its usual port is one that the kernel gives away to clients, too, and keeps for a minute
+    // after their end.
     const int port = 20000 + int(QCoreApplication::applicationPid() % 10000);
     const QString device = QStringLiteral("qtcan:virtualcan:tcp://127.0.0.1:%1/can0").arg(port);
     const auto a = join(device);  // its thread has the server of the plugin
     const auto b = join(device);
-    // The plugin calls b connected before its server has heard of b: what is sent until then is not for b.
+    // The plugin calls b connected before its server has heard of b: what is sent until then is not
+    // for b.
     const CanFrame probe = frameOf(CanFrame::StandardIds);
     bool isHeard = false;
     QTRY_VERIFY_WITH_TIMEOUT((a->send(&probe, 1), isHeard = isHeard || !receiveAll(*b).empty()), 10000);

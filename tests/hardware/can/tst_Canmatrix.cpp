@@ -210,7 +210,8 @@ void tst_Canmatrix::rawValuesAreTheSame()
     QCOMPARE(count, m_values);
 }
 
-// canmatrix computes with 28 decimal digits and rounds once; we round a factor, a product and a sum.
+// canmatrix computes with 28 decimal digits and rounds once; we round a factor, a product and a
+// sum.
 void tst_Canmatrix::physicalValuesAreTheSame()
 {
     constexpr double rounding = 3 * std::numeric_limits<double>::epsilon();

@@ -7,8 +7,9 @@
 
 #include <QtCore/QProcess>
 
-/// A drive at a CAN bus that sends its speed again and again, and takes a set point. At a fake bus, or at an interface of the kernel: QTPLC_TEST_CAN=vcan0. Only root can
-/// unplug that (it sets the interface down).
+/// A drive at a CAN bus that sends its speed again and again, and takes a set point. At a fake bus,
+/// or at an interface of the kernel: QTPLC_TEST_CAN=vcan0. Only root can unplug that (it sets the
+/// interface down).
 class CanDriveDevice : public TestDevice
 {
 public:

@@ -44,7 +44,8 @@ private:
     qplc::FakeMemory m_memory;
 };
 
-/// A chip of the module gpio-sim of the kernel: QTPLC_TEST_GPIO=CHIP:FOLDER:INPUT:OUTPUT, with its folder in sysfs, which has sim_gpioN/pull and sim_gpioN/value:
+/// A chip of the module gpio-sim of the kernel: QTPLC_TEST_GPIO=CHIP:FOLDER:INPUT:OUTPUT, with its
+/// folder in sysfs, which has sim_gpioN/pull and sim_gpioN/value:
 /// `gpiochip0:/sys/devices/platform/gpio-sim.0/gpiochip0:2:5`
 class SimulatedGpioDevice : public TestDevice
 {

@@ -8,7 +8,8 @@
 class I2cTestRegisters
 {
 public:
-    /// \param parts  bus and address of a device of the module i2c-stub of the kernel; none: a fake bus
+    /// \param parts bus and address of a device of the module i2c-stub of the kernel; none: a fake
+    ///         bus
     explicit I2cTestRegisters(const QStringList &parts)
         : m_bus(parts.value(0, QStringLiteral("fake:bus")))
         , m_address(parts.value(1, QStringLiteral("0x68")).toInt(nullptr, 0))
@@ -155,7 +156,8 @@ private:
     bool m_isTalking = false;
 };
 
-/// QTPLC_TEST_I2C=BUS:ADDRESS names a device of the module i2c-stub (chip_addr=ADDRESS): "/dev/i2c-0:0x68". Its registers are written: nothing else may be there.
+/// QTPLC_TEST_I2C=BUS:ADDRESS names a device of the module i2c-stub (chip_addr=ADDRESS):
+/// "/dev/i2c-0:0x68". Its registers are written: nothing else may be there.
 inline void addI2cDevices(TestDevices *devices)
 {
     QMap<QString, QStringList> rows{{QStringLiteral("fake"), {}}};

@@ -6,7 +6,8 @@
 #include "hardware/serial/SerialLine.h"
 #include "serial/PseudoTerminal.h"
 
-/// A wind sensor that talks as often as it may. At a pseudo-terminal, or at the other end of a real line: QTPLC_TEST_SERIAL=NEAR:FAR, two ports that are tied together
+/// A wind sensor that talks as often as it may. At a pseudo-terminal, or at the other end of a real
+/// line: QTPLC_TEST_SERIAL=NEAR:FAR, two ports that are tied together
 /// ("/dev/ttyUSB0:/dev/ttyUSB1").
 class WindSensorDevice : public TestDevice
 {

@@ -45,8 +45,10 @@ private:
     qplc::FakeMemory m_memory;
 };
 
-/// An SPI bus of the kernel whose chip answers what a file says, numbers of bytes with commas between them: QTPLC_TEST_SPI=DEVICE:FILE,
-/// `/dev/spidev0.0:/sys/module/spi_loop/parameters/answer` with the module of tests/vm. What the driver asks is not looked at.
+/// An SPI bus of the kernel whose chip answers what a file says, numbers of bytes with commas
+/// between them: QTPLC_TEST_SPI=DEVICE:FILE,
+/// `/dev/spidev0.0:/sys/module/spi_loop/parameters/answer` with the module of tests/vm. What the
+/// driver asks is not looked at.
 class AnsweringSpiDevice : public TestDevice
 {
 public:

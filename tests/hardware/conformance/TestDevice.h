@@ -10,9 +10,11 @@
 #include <memory>
 #include <optional>
 
-/// A device as the conformance test of the drivers holds it: what is at the other end of its wires, and its plug.
+/// A device as the conformance test of the drivers holds it: what is at the other end of its wires,
+/// and its plug.
 ///
-/// Each driver has one that is fake, and one that is real, if the computer has the device: an environment variable names it then (see addRealDevices of each kind).
+/// Each driver has one that is fake, and one that is real, if the computer has the device: an
+/// environment variable names it then (see addRealDevices of each kind).
 class TestDevice
 {
 public:
@@ -40,7 +42,8 @@ public:
     /// \return false when that cannot be done with this device; isPluggable() is false then, too
     virtual bool unplug() { return false; }
     virtual bool isPluggable() const { return true; }
-    /// It is there and has nothing to say, until it is plugged in anew. \return false when that cannot be; isEverSilent() is false then, too
+    /// It is there and has nothing to say, until it is plugged in anew. \return false when that
+    /// cannot be; isEverSilent() is false then, too
     virtual bool fallSilent() { return false; }
     virtual bool isEverSilent() const { return true; }
     /// Called again and again: the device does what it does by itself.

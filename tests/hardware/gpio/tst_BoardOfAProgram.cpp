@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The program of hardware nodes as a process, with a board that this test plays, at a master that this test runs.
+// The program of hardware nodes as a process, with a board that this test plays, at a master that
+// this test runs.
 #include "../FakeDevices.h"
 #include "NodeFixtures.h"
 #include "hardware/gpio/FakeGpioChip.h"

@@ -78,7 +78,8 @@ void tst_Debouncer::aGlitchIsNoEdge()
     QVERIFY(input.isOn());
 }
 
-// Edges of a cycle come together, with their times: a press that is over was a press if it was long enough.
+// Edges of a cycle come together, with their times: a press that is over was a press if it was long
+// enough.
 void tst_Debouncer::twoQuickPressesAreBothSeen()
 {
     Debouncer input(5);

@@ -19,7 +19,8 @@
 #include <utility>
 #include <vector>
 
-/// A Modbus device as a thread: a server of libmodbus with 200 bits and registers of each kind, on a free TCP port of loopback or on one end of a pseudo terminal.
+/// A Modbus device as a thread: a server of libmodbus with 200 bits and registers of each kind, on
+/// a free TCP port of loopback or on one end of a pseudo terminal.
 class ModbusServer
 {
 public:

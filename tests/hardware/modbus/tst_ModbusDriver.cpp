@@ -11,7 +11,8 @@ using qplc::ModbusRequest;
 using namespace std::chrono_literals;
 using Words = std::vector<quint16>;
 
-// The driver with a device of this process: what it asks for, what it makes of the answers, what it says.
+// The driver with a device of this process: what it asks for, what it makes of the answers, what it
+// says.
 class tst_ModbusDriver : public QObject
 {
     Q_OBJECT

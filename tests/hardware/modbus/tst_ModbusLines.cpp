@@ -6,7 +6,8 @@
 
 #include <sys/file.h>
 
-// The driver with a server of libmodbus, over TCP on loopback and over a serial line (a pseudo terminal).
+// The driver with a server of libmodbus, over TCP on loopback and over a serial line (a pseudo
+// terminal).
 class tst_ModbusLines : public QObject
 {
     Q_OBJECT

@@ -47,7 +47,8 @@ private Q_SLOTS:
     void aMissingDeviceIsNamedWithTheRemedy();
 };
 
-// As its data sheet draws it: 5 zeros, start, single-ended, 3 bits of the input, one clock of sampling, a zero, 12 bits.
+// As its data sheet draws it: 5 zeros, start, single-ended, 3 bits of the input, one clock of
+// sampling, a zero, 12 bits.
 void tst_Mcp3208::questionsAndAnswersAreThoseOfTheChip()
 {
     Converter converter;

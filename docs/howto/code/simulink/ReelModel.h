@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A header in the form that Embedded Coder exports as "reusable function": all data of the model are behind one structure.
+// A header in the form that Embedded Coder exports as "reusable function": all data of the model
+// are behind one structure.
 #ifndef RTW_HEADER_ReelModel_h_
 #define RTW_HEADER_ReelModel_h_
 

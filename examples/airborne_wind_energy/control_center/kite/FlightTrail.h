@@ -9,9 +9,11 @@
 
 namespace awe {
 
-/// The way of a point through space in a span of time, with few points, whatever the number of cycles.
+/// The way of a point through space in a span of time, with few points, whatever the number of
+/// cycles.
 ///
-/// A time without a position interrupts it: no number, or a value that stands in for that of the writer.
+/// A time without a position interrupts it: no number, or a value that stands in for that of the
+/// writer.
 class FlightTrail
 {
 public:
@@ -31,7 +33,8 @@ public:
 
     static constexpr int mostPoints = 1200;
 
-    /// \param x, y, z, value  the past of the coordinates and of what colours, of the same span of time and the same plant
+    /// \param x, y, z, value the past of the coordinates and of what colours, of the same span of
+    /// time and the same plant
     void read(const Samples &x, const Samples &y, const Samples &z, const Samples &value);
     void clear() { m_points.clear(); }
     const std::vector<Point> &points() const { return m_points; }

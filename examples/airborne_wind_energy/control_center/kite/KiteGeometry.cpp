@@ -95,7 +95,8 @@ QVector3D tetherPoint(const QVector3D &kite, float length, int index, int count)
 {
     const float s = float(index) / float(count - 1);
     const float distance = kite.length();
-    // A flat parabola over the chord d with sag f is d + 8/3 f^2/d long; a sag of 1.5 % of the distance is the weight of a taut tether.
+    // A flat parabola over the chord d with sag f is d + 8/3 f^2/d long; a sag of 1.5 % of the
+    // distance is the weight of a taut tether.
     const float slack = std::max(0.0f, length - distance);
     const float sag = std::max(0.015f * distance, std::sqrt(0.375f * slack * distance));
     return s * kite - QVector3D(0, 0, 4.0f * sag * s * (1.0f - s));

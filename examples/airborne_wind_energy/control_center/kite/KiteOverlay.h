@@ -9,7 +9,8 @@ namespace awe {
 
 // What stands beside the picture of a kite: small, in the corners.
 
-/// A bar of colours with its ends below and what it shows above. \param topLeft  where it begins [px]
+/// A bar of colours with its ends below and what it shows above. \param topLeft where it begins
+/// [px]
 void drawColorBar(QPainter *painter, const QPointF &topLeft, const ColorScale &scale, const QString &title,
                   const QPlcTheme &theme);
 /// Lines at the right edge, below each other: azimuth, elevation, distance.

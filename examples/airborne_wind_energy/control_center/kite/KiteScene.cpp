@@ -112,7 +112,8 @@ void drawTether(QPlcScene3D *scene, const KiteState &kite, const QVector3D &brid
     if (!scene->position)
         return;
     const QVector3D end = bridlePoint(*scene, bridle);
-    // A body that is drawn larger than it is has its bridle nearer: the tether hangs no more for that.
+    // A body that is drawn larger than it is has its bridle nearer: the tether hangs no more for
+    // that.
     const float slack = float(kite.tetherLength.value_or(0.0)) - scene->position->length();
     const float length = end.length() + std::max(0.0f, slack);
     for (int i = 1; i < tetherPoints; ++i) {

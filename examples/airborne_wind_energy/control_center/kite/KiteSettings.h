@@ -8,7 +8,8 @@
 
 namespace awe {
 
-/// Which signals are a kite, and how its path is drawn. A value type; the defaults are those of the example's signal table.
+/// Which signals are a kite, and how its path is drawn. A value type; the defaults are those of the
+/// example's signal table.
 struct KiteSettings
 {
     QString position = QStringLiteral("bodyPosition_earth");                  // [m], three elements
@@ -23,7 +24,8 @@ struct KiteSettings
     std::optional<double> minimum;                                            // of the colours; none: as what is seen
     std::optional<double> maximum;
 
-    /// What is missing, or of another kind, has its default. \param rest  takes what was no key of this
+    /// What is missing, or of another kind, has its default. \param rest takes what was no key of
+    /// this
     static KiteSettings fromJson(const QJsonObject &json, QJsonObject *rest);
     /// All that differs from the defaults.
     QJsonObject toJson() const;

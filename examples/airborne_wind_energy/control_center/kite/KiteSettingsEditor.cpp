@@ -26,7 +26,8 @@ KiteSettingsEditor::KiteSettingsEditor(const KiteSettings &settings, QWidget *pa
 
 KiteSettingsEditor::~KiteSettingsEditor()
 {
-    // A line that has the focus loses it only when the settings are no more: it must not write them then.
+    // A line that has the focus loses it only when the settings are no more: it must not write them
+    // then.
     for (QLineEdit *line : findChildren<QLineEdit *>())
         line->disconnect(this);
 }

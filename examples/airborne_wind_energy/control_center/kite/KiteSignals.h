@@ -9,7 +9,8 @@
 
 namespace awe {
 
-/// A kite at one time, as far as it is known: a value that stands in for that of a lost writer is none.
+/// A kite at one time, as far as it is known: a value that stands in for that of a lost writer is
+/// none.
 struct KiteState
 {
     std::optional<QVector3D> position;               // [m], earth
@@ -30,7 +31,8 @@ struct KiteState
     float downwind() const { return wind ? downwindAzimuth(*wind) : 0.0f; }
 };
 
-/// Finds the signals of a kite in the plants of a window, and tells when there is something new to draw.
+/// Finds the signals of a kite in the plants of a window, and tells when there is something new to
+/// draw.
 ///
 /// Threads: that of the window.
 class KiteSignals : public QObject
@@ -48,9 +50,11 @@ public:
     QString problem() const;
     /// Now, or at the time that the window shows.
     KiteState state() const;
-    /// Another signal with three elements at the same time; nothing when there is none, or no value.
+    /// Another signal with three elements at the same time; nothing when there is none, or no
+    /// value.
     std::optional<QVector3D> vectorOf(const QString &reference) const;
-    /// The path up to the time that the window shows. \return false: there is none, and \a trail is empty
+    /// The path up to the time that the window shows. \return false: there is none, and \a trail is
+    /// empty
     bool readTrail(FlightTrail *trail) const;
     /// The scale of the settings; what they leave open is taken from the path.
     ColorScale colorScale(const FlightTrail &trail) const;

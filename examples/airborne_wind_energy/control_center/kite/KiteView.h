@@ -6,13 +6,14 @@
 
 namespace awe {
 
-/// A kite in space: its model and tether, the small earth on which it flies, axes of earth, wind and body, the path
-/// of the last seconds coloured by a signal, the relative wind in blue and the aerodynamic force in red.
+/// A kite in space: its model and tether, the small earth on which it flies, axes of earth, wind
+/// and body, the path of the last seconds coloured by a signal, the relative wind in blue and the
+/// aerodynamic force in red.
 ///
 /// The camera `chase` follows the course of the kite. Without OpenGL the wind window is shown.
 ///
-/// Settings are those of QPlcView3D and of the wind window, and `smallEarth`, `vectors` and `tether`, which are true
-/// by default. There is no `orientation`.
+/// Settings are those of QPlcView3D and of the wind window, and `smallEarth`, `vectors` and
+/// `tether`, which are true by default. There is no `orientation`.
 ///
 /// Threads: the thread of the window.
 class KiteView : public QPlcView3D

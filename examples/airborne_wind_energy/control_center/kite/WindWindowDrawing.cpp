@@ -188,7 +188,8 @@ void WindWindowDrawing::drawKite(const KiteState &state)
 
 void WindWindowDrawing::drawCorners(const KiteState &state, const ColorScale &scale, const QString &colorTitle)
 {
-    // The corners above the half circle are free; in narrow panels there is room for one of them only.
+    // The corners above the half circle are free; in narrow panels there is room for one of them
+    // only.
     const QRectF area = QRectF(QPointF(), m_size).adjusted(margin, 0.5 * margin, -margin, 0);
     if (!colorTitle.isEmpty())
         drawColorBar(m_painter, area.topLeft(), scale, colorTitle, m_theme);

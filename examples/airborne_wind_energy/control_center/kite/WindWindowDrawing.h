@@ -8,7 +8,8 @@
 
 namespace awe {
 
-/// Where the half circle of the wind window lies in a rectangle, and how degrees become pixels. A value type.
+/// Where the half circle of the wind window lies in a rectangle, and how degrees become pixels. A
+/// value type.
 class WindWindowFrame
 {
 public:

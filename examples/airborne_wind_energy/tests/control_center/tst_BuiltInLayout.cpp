@@ -151,7 +151,8 @@ void tst_BuiltInLayout::everySignalIsInTheTable()
     }
 }
 
-/// A quarter of an hour with the turbulence of the demo. A dial that is used to less than the half is no better than one that ends too early.
+/// A quarter of an hour with the turbulence of the demo. A dial that is used to less than the half
+/// is no better than one that ends too early.
 void tst_BuiltInLayout::theDialsHoldTheFlightOfTheDemo()
 {
     QVector<Dial> dials = dialsOfTheLayout();
@@ -179,7 +180,8 @@ void tst_BuiltInLayout::theDialsHoldTheFlightOfTheDemo()
     }
 }
 
-/// One panel of keys, four gauges, two plots, and four views of the kite: two of them with the path of the last three minutes, the largest with that of the last 10 s.
+/// One panel of keys, four gauges, two plots, and four views of the kite: two of them with the path
+/// of the last three minutes, the largest with that of the last 10 s.
 void tst_BuiltInLayout::theFourViewsShowTheKiteAsItIsSaidInTheManual()
 {
     QPlcControlCenter window;

@@ -39,7 +39,8 @@ QRect placeIn(const QWidget &window, const QWidget &part)
     return {part.mapTo(&window, QPoint(0, 0)), part.size()};
 }
 
-/// Panels that are not wholly within the window, too small to be read, or on one another: none is expected.
+/// Panels that are not wholly within the window, too small to be read, or on one another: none is
+/// expected.
 QStringList misplaced(const QWidget &window, const QList<QWidget *> &panels)
 {
     QStringList names;
@@ -68,7 +69,8 @@ QStringList cutTexts(const QWidget &window)
     return texts;
 }
 
-/// How many columns of the picture have the colour within a place: a curve has most of those over which it goes.
+/// How many columns of the picture have the colour within a place: a curve has most of those over
+/// which it goes.
 int columnsOf(const QImage &image, const QRect &place, const QColor &color)
 {
     int columns = 0;
@@ -96,7 +98,8 @@ int coloursOf(const QImage &image, const QRect &place)
 
 }  // namespace
 
-/// What the layouts of the example show of a flight, compared in structure: what is where, how large, with which texts and curves.
+/// What the layouts of the example show of a flight, compared in structure: what is where, how
+/// large, with which texts and curves.
 class tst_LayoutPictures : public QObject
 {
     Q_OBJECT

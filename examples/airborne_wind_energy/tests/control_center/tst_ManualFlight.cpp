@@ -138,7 +138,8 @@ void tst_ManualFlight::leftTurnsTheKiteToTheLeftAndTheAutopilotFliesOn()
     KiteWitness kite;
     QVERIFY(kite.join(demo.address()));
 
-    // It flies eights: up and to the right is a good moment, since the way to the left goes over the top.
+    // It flies eights: up and to the right is a good moment, since the way to the left goes over
+    // the top.
     QTRY_VERIFY_WITH_TIMEOUT(kite.cycles() > 100 && kite.course() < -20.0 && kite.course() > -80.0, Program::patience);
     QVERIFY(click(*panel, QStringLiteral("Take control")));
     QTRY_VERIFY_WITH_TIMEOUT(visibleButton(*panel, QStringLiteral("Give back")), Program::patience);

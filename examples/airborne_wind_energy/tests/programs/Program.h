@@ -4,19 +4,23 @@
 #include <QtCore/QProcess>
 #include <QtCore/QString>
 
-/// A program under test. It is killed by its process id when the object goes, and waited for: no test leaves one behind.
+/// A program under test. It is killed by its process id when the object goes, and waited for: no
+/// test leaves one behind.
 class Program : public QProcess
 {
     Q_OBJECT
 public:
-    /// Starts the program of this path. \param terminal  descriptor that becomes its standard error; -1: a pipe
+    /// Starts the program of this path. \param terminal descriptor that becomes its standard error;
+    /// -1: a pipe
     explicit Program(const QString &path, const QStringList &arguments, int terminal = -1);
     ~Program() override;
 
-    /// Waits until its standard output, or error, holds \a text. \return false when it did not come, or the program ended
+    /// Waits until its standard output, or error, holds \a text. \return false when it did not
+    /// come, or the program ended
     bool waitForOutput(const QString &text) { return waitFor(m_output, text); }
     bool waitForErrors(const QString &text) { return waitFor(m_errors, text); }
-    /// Waits for its end. \return the exit code; -1 when it crashed or was killed, -2 when it goes on
+    /// Waits for its end. \return the exit code; -1 when it crashed or was killed, -2 when it goes
+    /// on
     int waitForEnd(int milliseconds = patience);
     void sendSignal(int number);
 

@@ -8,7 +8,8 @@
 
 #include <atomic>
 
-/// A node that joins a flight, and sees that it goes on. Threads: step() in that of the cycle, all else in that of the test.
+/// A node that joins a flight, and sees that it goes on. Threads: step() in that of the cycle, all
+/// else in that of the test.
 class Witness : public QPlcCompactSlaveNode
 {
     Q_OBJECT

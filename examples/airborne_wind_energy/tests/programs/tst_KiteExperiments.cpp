@@ -11,7 +11,8 @@
 #include <QtCore/QTemporaryDir>
 #include <QtTest/QtTest>
 
-/// Every command of the page with the experiments prints what the page shows, and the page's claims follow from these numbers.
+/// Every command of the page with the experiments prints what the page shows, and the page's claims
+/// follow from these numbers.
 class tst_KiteExperiments : public QObject
 {
     Q_OBJECT
@@ -35,7 +36,8 @@ private:
         QString command;
         QStringList lines;
     };
-    /// The number behind \a label in the lines that the page shows of the command with \a plant; \a column: from 0.
+    /// The number behind \a label in the lines that the page shows of the command with \a plant; \a
+    /// column: from 0.
     double shown(const QString &plant, const QString &label, int column = 0) const;
     QStringList arguments(const QString &command) const;
     static Outcome fly(const QStringList &arguments);

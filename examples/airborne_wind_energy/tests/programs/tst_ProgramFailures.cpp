@@ -37,7 +37,8 @@ private:
 
 }  // namespace
 
-/// Programs that meet what they cannot work with: another program, another table, a node that fails.
+/// Programs that meet what they cannot work with: another program, another table, a node that
+/// fails.
 class tst_ProgramFailures : public QObject
 {
     Q_OBJECT
@@ -62,7 +63,8 @@ private Q_SLOTS:
 
 private:
     static QString path(const char *program) { return QStringLiteral(AWE_PROGRAMS "/") + QString::fromLatin1(program); }
-    /// Waits for the first line of a master. \return "--master=127.0.0.1:PORT"; empty when it does not come
+    /// Waits for the first line of a master. \return "--master=127.0.0.1:PORT"; empty when it does
+    /// not come
     static QString address(Program &master);
     /// A table made of the built-in one. \return its file name
     QString table(const char *name, const QByteArray &from, const QByteArray &to);

@@ -5,7 +5,8 @@
 #include <QtCore/QTemporaryDir>
 #include <QtTest/QtTest>
 
-/// What all programs of the example say before they begin: help, version, and one clear sentence about each thing that cannot be meant.
+/// What all programs of the example say before they begin: help, version, and one clear sentence
+/// about each thing that cannot be meant.
 class tst_ProgramOptions : public QObject
 {
     Q_OBJECT

@@ -11,7 +11,8 @@
 
 namespace {
 
-/// A node that joins a flight, and looks at one value of the model and one of the autopilot. Threads: step() in that of the cycle, all else in that of the test.
+/// A node that joins a flight, and looks at one value of the model and one of the autopilot.
+/// Threads: step() in that of the cycle, all else in that of the test.
 class ValueWitness : public QPlcCompactSlaveNode
 {
     Q_OBJECT
@@ -51,7 +52,8 @@ private:
 
 }  // namespace
 
-/// awe_sil --processes: however it ends, none of its programs is left behind, and who started it learns what happened.
+/// awe_sil --processes: however it ends, none of its programs is left behind, and who started it
+/// learns what happened.
 class tst_SilProcesses : public QObject
 {
     Q_OBJECT
@@ -64,7 +66,8 @@ private Q_SLOTS:
     void nodeThatStandsInADebuggerEndsNothing();
 
 private:
-    /// Waits until all three programs run. \return their process ids: master, model, autopilot; empty when they do not come
+    /// Waits until all three programs run. \return their process ids: master, model, autopilot;
+    /// empty when they do not come
     static QList<qint64> waitForPrograms(Program &program);
 };
 
@@ -152,7 +155,8 @@ void tst_SilProcesses::nodeThatStandsInADebuggerEndsNothing_data()
     QTest::newRow("autopilot") << 2;
 }
 
-/// Two seconds at a breakpoint, in real time: all others see the last values, and the node goes on where it was.
+/// Two seconds at a breakpoint, in real time: all others see the last values, and the node goes on
+/// where it was.
 void tst_SilProcesses::nodeThatStandsInADebuggerEndsNothing()
 {
     QFETCH(int, place);

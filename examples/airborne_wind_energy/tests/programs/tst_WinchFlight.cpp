@@ -77,7 +77,8 @@ private Q_SLOTS:
 
 private:
     static QString path(const char *program) { return QStringLiteral(AWE_PROGRAMS "/") + QString::fromLatin1(program); }
-    /// The files of the example in a folder of this test, with a drive. \param simulated  whether awe_sil starts the drive \return the file of the plant
+    /// The files of the example in a folder of this test, with a drive. \param simulated whether
+    /// awe_sil starts the drive \return the file of the plant
     QString plant(bool simulated);
     QStringList flightWithRealDrive() { return {"--plant", plant(false), "--duration=0", "--report", reportFile()}; }
     QString reportFile() const { return m_folder->filePath(QStringLiteral("report.json")); }

@@ -56,7 +56,8 @@ private:
 
 }  // namespace
 
-/// awe_sil from outside: the same flight each time, whatever carries it, and a report of what was flown however it ends.
+/// awe_sil from outside: the same flight each time, whatever carries it, and a report of what was
+/// flown however it ends.
 class tst_awe_sil : public QObject
 {
     Q_OBJECT
@@ -82,7 +83,8 @@ private Q_SLOTS:
 
 private:
     static void addTransports();
-    /// Waits until the terminal shows \a text. \return false when it does not, or the program has ended
+    /// Waits until the terminal shows \a text. \return false when it does not, or the program has
+    /// ended
     static bool waitForText(Terminal &terminal, const Program &program, const char *text);
     /// Waits for the end of a program that writes to the terminal. \return the exit code
     static int waitForEnd(Terminal &terminal, Program &program);
@@ -212,7 +214,8 @@ void tst_awe_sil::sameCycleFlightIsTheSameWhateverCarriesIt()
     QVERIFY(flight.value(QStringLiteral("image_digest")) != m_flight.value(QStringLiteral("image_digest")));
 }
 
-/// Plant and autopilot in one loop, without QtPLC, with the rounding of the signals: the same figures to the last bit.
+/// Plant and autopilot in one loop, without QtPLC, with the rounding of the signals: the same
+/// figures to the last bit.
 void tst_awe_sil::sameCycleFlightIsThatOfOneLoop()
 {
     awe::ClosedLoopParameters parameters;
@@ -298,7 +301,8 @@ void tst_awe_sil::clockSetsThePace()
     QFETCH(double, simulated);
     QFETCH(double, wall);
     const QJsonObject flight = fly(options);
-    // On a machine that does something else the start is seen late, and the last cycles may be skipped.
+    // On a machine that does something else the start is seen late, and the last cycles may be
+    // skipped.
     const double flown = flight.value(QStringLiteral("simulated_s")).toDouble();
     const double measured = flight.value(QStringLiteral("wall_s")).toDouble();
     QVERIFY2(flown > simulated * 0.9 && flown < simulated * 1.2, qPrintable(QString::number(flown)));
