@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ScriptedMaster.h"
 #include "ScriptedNode.h"
+#include "VirtualPlant.h"
 #include "signals/Fnv1a.h"
 #include "transport/FaultInjector.h"
 
@@ -86,39 +87,6 @@ quint64 cleanDigest(quint64 cycles)
     EchoNode echo;
     return master.addLocalNode(&echo) && master.addLocalNode(&counter) ? digestAfter(master, cycles) : 0;
 }
-
-/// Master in real time with a node of its own that counts, and Echo on a bad network.
-struct Plant
-{
-    explicit Plant(const char *plan, std::chrono::milliseconds period = 5ms)
-        : master(QPlcClock::realTime())
-    {
-        master.setInterval(period);
-        counter.onStep = [this](const QPlcCycle &) { ++steps; };
-        echo.onStep = [this](const QPlcCycle &cycle) {
-            isInOrder = isInOrder && (echoSteps == 0 || cycle.number() > newest);
-            newest = cycle.number();
-            ++echoSteps;
-        };
-        isThere = echo.setFaultPlan(QString::fromLatin1(plan)) && master.addLocalNode(&counter) && master.listen()
-            && echo.connectToMasterAndWaitForConnected(master.protocol("udp"));
-    }
-    ~Plant()
-    {
-        master.stop();
-        echo.disconnectFromMaster();  // no step is under way when the node goes
-    }
-    bool start() { return isThere && master.startRealTime() && master.waitForCycles(1); }
-    QPlcNodeInfo info() const { return master.nodes().last(); }
-    std::atomic<quint64> newest{0};
-    std::atomic<int> steps{0};
-    std::atomic<int> echoSteps{0};
-    std::atomic<bool> isInOrder{true};
-    TestMaster master;
-    CounterNode counter;
-    EchoNode echo;
-    bool isThere = false;
-};
 
 }  // namespace
 
@@ -239,42 +207,42 @@ void tst_BadNetwork::tenPercentLossMissesWhatChanceSays()
     }
 }
 
-/// The losses are those that the seed says, cycle by cycle; a busy machine may add some.
+/// The losses are those that the seed says, cycle by cycle.
 void tst_BadNetwork::aPlantGoesOnWithTenPercentLoss()
 {
-    constexpr int cycles = 400;
-    Plant plant("loss=10%,seed=7");
-    plant.master.setCycleLimit(cycles);
-    QVERIFY(plant.start());
-    QVERIFY(QTest::qWaitFor([&] { return plant.master.state() == QPlcMasterNode::Off; }, 20000));
-    const Misses expected = missesOf(7, int(plant.master.statistics().cycles));
-    QVERIFY(expected.missed > 0);
-    QVERIFY2(plant.info().lateAnswers >= quint64(expected.missed),
-             qPrintable(QStringLiteral("%1 late, %2 lost").arg(plant.info().lateAnswers).arg(expected.missed)));
-    QCOMPARE(quint64(plant.steps), plant.master.statistics().cycles);  // the other node never waited
-    QVERIFY(plant.isInOrder);
-    QVERIFY(plant.echoSteps > 0);
+    QPlcSimulator::run(1, [](QPlcSimulator &simulator) {
+        constexpr int cycles = 10'000;
+        VirtualPlant plant(simulator, "loss=10%,seed=7", 5ms);
+        plant.master->setCycleLimit(cycles);
+        QVERIFY(plant.start());
+        QVERIFY(plant.waitFor([&] { return plant.master->state() == QPlcMasterNode::Off; }));
+        QCOMPARE(plant.master->statistics().cycles, quint64(cycles));
+        QCOMPARE(plant.info().lateAnswers, quint64(missesOf(7, cycles).missed));
+        QCOMPARE(plant.steps, quint64(cycles));  // the other node never waited
+        QVERIFY(plant.isInOrder);
+        QVERIFY(plant.echoSteps > quint64(cycles) * 8 / 10);
+    });
 }
 
 void tst_BadNetwork::copiesAndMixedOrderAreNeverAppliedTwiceOrBackwards()
 {
-    Plant plant("duplicate=30%,reorder=30%,jitter=12ms,seed=5");
-    double newest = 0.5;  // the initial output
-    int backwards = 0;
-    QVERIFY(plant.start());
-    QVERIFY(QTest::qWaitFor(
-        [&] {
-            const double echo = plant.master.signalValue("echo").toReal();
+    QPlcSimulator::run(1, [](QPlcSimulator &simulator) {
+        VirtualPlant plant(simulator, "duplicate=30%,reorder=30%,jitter=12ms,seed=5", 5ms);
+        double newest = 0.5;  // the initial output
+        int backwards = 0;
+        QVERIFY(plant.start());
+        QVERIFY(plant.waitFor([&] {
+            const double echo = plant.master->signalValue("echo").toReal();
             backwards += newest >= 1.0 && echo < newest ? 1 : 0;
             newest = echo;
-            return plant.echoSteps > 150;
-        },
-        20000));
-    plant.master.stop();
-    QCOMPARE(backwards, 0);
-    QVERIFY(plant.isInOrder);
-    QVERIFY(plant.echo.counters().duplicated > 0 && plant.echo.counters().outdated > 0);
-    QVERIFY(plant.info().duplicates > 0);
+            return plant.echoSteps > 5000;
+        }));
+        plant.stop();
+        QCOMPARE(backwards, 0);
+        QVERIFY(plant.isInOrder);
+        QVERIFY(plant.echo->counters().duplicated > 0 && plant.echo->counters().outdated > 0);
+        QVERIFY(plant.info().duplicates > 0);
+    });
 }
 
 void tst_BadNetwork::aCutLinkComesBack_data()
@@ -291,40 +259,43 @@ void tst_BadNetwork::aCutLinkComesBack()
 {
     QFETCH(QString, plan);
     QFETCH(bool, barks);
-    Plant plant(plan.toLatin1().constData());
-    plant.echo.activateWatchdog(25ms);
-    QSignalSpy barked(&plant.echo, &QPlcSlaveNode::watchdogTimedOut);
-    QVERIFY(plant.start());
-    // Late in a row: the cut; then punctual again.
-    QVERIFY(QTest::qWaitFor([&] { return plant.info().lateAnswers >= 8; }, 10000));
-    if (barks)
-        QTRY_VERIFY(barked.size() > 0);
-    const int during = plant.echoSteps;
-    const auto answers = [&] { return plant.master.cycleStatistics().nodes.last().answers; };
-    QTRY_VERIFY(plant.echoSteps > during + 50);
-    const quint64 before = answers();
-    QTRY_VERIFY(answers() > before + 20);
-    QCOMPARE(plant.master.state(), QPlcMasterNode::RealTime);
-    plant.master.stop();
-    QVERIFY(plant.isInOrder);
-    QCOMPARE(quint64(plant.steps), plant.master.statistics().cycles);
+    QPlcSimulator::run(1, [&](QPlcSimulator &simulator) {
+        VirtualPlant plant(simulator, plan.toLatin1().constData(), 5ms);
+        plant.echo->activateWatchdog(25ms);
+        QSignalSpy barked(plant.echo, &QPlcSlaveNode::watchdogTimedOut);
+        QVERIFY(plant.start());
+        // Late in a row: the cut; then punctual again.
+        QVERIFY(plant.waitFor([&] { return plant.info().lateAnswers >= 8 || barked.size() > 0; }));
+        const quint64 during = plant.echoSteps;
+        const auto answers = [&] { return plant.master->cycleStatistics().nodes.last().answers; };
+        QVERIFY(plant.waitFor([&] { return plant.echoSteps > during + 150; }));
+        QCOMPARE(barked.size() > 0, barks);
+        const quint64 before = answers();
+        QVERIFY(plant.waitFor([&] { return answers() > before + 20; }));
+        QCOMPARE(plant.master->state(), QPlcMasterNode::RealTime);
+        plant.stop();
+        QVERIFY(plant.isInOrder);
+        QCOMPARE(plant.steps, plant.master->statistics().cycles);
+    });
 }
 
 /// The control connection never tells: only the cycles do.
 void tst_BadNetwork::aHalfOpenLinkIsNoticedByTheWatchdogAndDelaysNobody()
 {
-    Plant plant("cut-received=100ms");
-    plant.echo.activateWatchdog(25ms);
-    QSignalSpy barked(&plant.echo, &QPlcSlaveNode::watchdogTimedOut);
-    QSignalSpy safe(&plant.echo, &QPlcSlaveNode::safeStateEntered);
-    QVERIFY(plant.start());
-    QTRY_VERIFY(barked.size() > 0);
-    QTRY_VERIFY(safe.size() > 0);  // without a word of the master
-    const int steps = plant.steps;
-    QTRY_VERIFY(plant.steps > steps + 50);
-    QCOMPARE(plant.master.state(), QPlcMasterNode::RealTime);
-    plant.master.stop();
-    QCOMPARE(quint64(plant.steps), plant.master.statistics().cycles);
+    QPlcSimulator::run(1, [](QPlcSimulator &simulator) {
+        VirtualPlant plant(simulator, "cut-received=100ms", 5ms);
+        plant.echo->activateWatchdog(25ms);
+        QSignalSpy barked(plant.echo, &QPlcSlaveNode::watchdogTimedOut);
+        QSignalSpy safe(plant.echo, &QPlcSlaveNode::safeStateEntered);
+        QVERIFY(plant.start());
+        QVERIFY(plant.waitFor([&] { return barked.size() > 0; }));
+        QVERIFY(plant.waitFor([&] { return safe.size() > 0; }));  // without a word of the master
+        const quint64 steps = plant.steps;
+        QVERIFY(plant.waitFor([&] { return plant.steps > steps + 50; }));
+        QCOMPARE(plant.master->state(), QPlcMasterNode::RealTime);
+        plant.stop();
+        QCOMPARE(plant.steps, plant.master->statistics().cycles);
+    });
 }
 
 void tst_BadNetwork::aFloodOfStrangersChangesNoResult()
