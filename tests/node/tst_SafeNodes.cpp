@@ -158,6 +158,7 @@ void tst_SafeNodes::withoutAWishItStaysWhereItIs()
     QSignalSpy gone(&winch, &QPlcSlaveNode::disconnectedFromMaster);
     QVERIFY(master.admit(winch, master.tcp()));
     QVERIFY(master.start());
+    master.request(0);
     QTRY_COMPARE(gone.size(), 1);
     QCOMPARE(master.next(300).kind(), QPlcMessage::Invalid);
     QCOMPARE(winch.state(), QPlcSlaveNode::SafeStop);

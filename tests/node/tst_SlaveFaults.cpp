@@ -22,6 +22,7 @@ private Q_SLOTS:
     void init() { QPlcSignalIndexTable::setCurrent({}); }
     void corruptedFramesDoNotCalmTheWatchdog();
     void theWatchdogBarksAtItsDeadlineAndNotAPeriodLater();
+    void theWatchdogWaitsForTheFirstFrameOfAStartThatOthersDelay();
     void watchdogSleepsInLockstepAndOutsideOfAPhase();
     void afterAPauseOnlyTheNewestIsComputed();
     void aFloodAfterAPauseHoldsNobody();
@@ -45,6 +46,8 @@ void tst_SlaveFaults::corruptedFramesDoNotCalmTheWatchdog()
     QSignalSpy barked(&node, &QPlcSlaveNode::watchdogTimedOut);
     QVERIFY(master.admit(node, master.udp()));
     QVERIFY(master.start());
+    master.request(0);
+    QVERIFY(master.waitForAnswers(1));
     QTimer noise;
     connect(&noise, &QTimer::timeout, this, [&] { master.sendFrame("noise"); });
     noise.start(1);
@@ -92,6 +95,21 @@ void tst_SlaveFaults::theWatchdogBarksAtItsDeadlineAndNotAPeriodLater()
         node.disconnectFromMaster();
     }
     QVERIFY2(best < 10'000'000, qPrintable(QStringLiteral("%1 ms late").arg(double(best) * 1e-6)));
+}
+
+void tst_SlaveFaults::theWatchdogWaitsForTheFirstFrameOfAStartThatOthersDelay()
+{
+    ScriptedMaster master;
+    CounterNode node;
+    node.activateWatchdog(30ms);
+    QSignalSpy barked(&node, &QPlcSlaveNode::watchdogTimedOut);
+    QVERIFY(master.admit(node, master.udp()));
+    QVERIFY(master.start());
+    QTest::qWait(120);  // another node is not ready yet
+    QCOMPARE(barked.size(), 0);
+    master.request(0);
+    QTRY_COMPARE(barked.size(), 1);
+    node.disconnectFromMaster();
 }
 
 void tst_SlaveFaults::watchdogSleepsInLockstepAndOutsideOfAPhase()

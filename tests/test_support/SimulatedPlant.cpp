@@ -255,7 +255,7 @@ void SimulatedPlant::worsen(const Fault &fault)
         m_simulator.network().usual = road;
     } else {
         const SimulatedHost &node = *m_nodes[std::size_t(fault.node)].host;
-        road.delay = m_profile.periodUs * 1000;
+        road.delay = 3 * m_profile.periodUs * 1000;
         m_simulator.network().setRoad(*m_master.host, node, road);
         m_simulator.network().setRoad(node, *m_master.host, road);
     }

@@ -11,6 +11,8 @@ namespace qplc {
 
 namespace {
 
+// [ns] A master sends the first frame when its slowest node is ready: until then a short watchdog has to wait.
+constexpr std::int64_t LongestStart = 10'000'000'000;
 constexpr int UselessFrames = 256;  // that are read before a computation at most: a flood keeps no node from its work
 
 void count(std::atomic<quint64> &counter, quint64 n = 1) noexcept
@@ -78,7 +80,7 @@ bool SlaveCycle::start(const Phase &phase)
     m_statistics.restart(phase.clock.isLockstep() ? 0 : lasting(phase.period));
     m_computedAny = m_faulted = false;
     m_lastCycle = phase.firstCycle;
-    m_watchdog.start(phase.clock.isLockstep() ? 0 : lasting(phase.watchdog), monotonicNow());
+    m_watchdog.start(watchdogTime() == 0 ? 0 : std::max(watchdogTime(), LongestStart), monotonicNow());
     m_stop = m_ended = false;
     if (m_thread.start(m_runtime.traits().name, phase.realTimeOptions, [this] { run(); }))
         return true;
@@ -214,7 +216,12 @@ void SlaveCycle::skipToNewest() noexcept
     const std::int64_t now = monotonicNow();
     const bool paused
         = simulated(now - m_watchdog.lastHeard()) > 2 * m_phase.interval.cycles() * m_phase.period.count();
-    m_watchdog.hear(now);
+    if (m_computedAny) {
+        m_watchdog.hear(now);
+    } else {
+        m_watchdog.start(watchdogTime(), now);
+        setAlarm();
+    }
     if (!paused)
         return;
     const char *frame = nullptr;
@@ -308,6 +315,12 @@ std::int64_t SlaveCycle::simulated(std::int64_t time) const noexcept
 std::int64_t SlaveCycle::lasting(std::chrono::nanoseconds simulated) const noexcept
 {
     return std::int64_t(double(simulated.count()) / m_phase.clock.scale());
+}
+
+/// What the watchdog waits for between two frames [ns]; 0: for ever.
+std::int64_t SlaveCycle::watchdogTime() const noexcept
+{
+    return m_phase.clock.isLockstep() ? 0 : lasting(m_phase.watchdog);
 }
 
 void SlaveCycle::checkWatchdog() noexcept

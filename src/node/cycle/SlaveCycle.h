@@ -90,6 +90,7 @@ private:
     void encodeAnswer() noexcept;
     void sendAnswer() noexcept;
     void makeSafe(QPlcSlaveNode::SafeStateReason reason, const CycleEvent &event) noexcept;
+    std::int64_t watchdogTime() const noexcept;
     void checkWatchdog() noexcept;
     void setAlarm() noexcept;
     std::int64_t simulated(std::int64_t time) const noexcept;
