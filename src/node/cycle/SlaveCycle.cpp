@@ -11,7 +11,8 @@ namespace qplc {
 
 namespace {
 
-// [ns] A master sends the first frame when its slowest node is ready: until then a short watchdog has to wait.
+// [ns] A master sends the first frame when its slowest node is ready: until then a short watchdog
+// has to wait.
 constexpr std::int64_t LongestStart = 10'000'000'000;
 constexpr int UselessFrames = 256;  // that are read before a computation at most: a flood keeps no node from its work
 
