@@ -3,6 +3,7 @@
 
 #include "SimulatedHost.h"
 #include "SimulatedSocket.h"
+#include "SimulatedTls.h"
 #include "transport/LossWatch.h"
 
 #include <algorithm>
@@ -80,6 +81,7 @@ public:
     {
     }
     QTcpSocket *makeSocket(QObject *parent) override { return new SimulatedSocket(m_host, parent); }
+    Tls *makeTls(QObject *parent) override { return new SimulatedTls(m_host, parent); }
     std::unique_ptr<ControlPort> listen(const QHostAddress &address, quint16 port, QAbstractSocket::SocketError *error,
                                         QString *text) override
     {

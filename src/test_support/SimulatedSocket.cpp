@@ -73,7 +73,10 @@ void SimulatedSocket::beRefused()
 
 void SimulatedSocket::beReadable()
 {
-    Q_EMIT readyRead();
+    if (const std::function<void()> reader = m_reader)  // it may be replaced meanwhile
+        reader();
+    else
+        Q_EMIT readyRead();
 }
 
 void SimulatedSocket::beDrained(qint64 bytes)

@@ -5,6 +5,8 @@
 
 #include <QtNetwork/QTcpSocket>
 
+#include <functional>
+
 namespace qplc {
 
 /// A QTcpSocket whose bytes travel on the ControlWire. What needs a kernel (descriptors, options,
@@ -33,6 +35,12 @@ public:
     void beClosed();
     void beGivenUp();
 
+    // ---- from SimulatedTls ----
+
+    /// Gets what arrives instead of the readers of the socket. Null: they get it.
+    void setReader(const std::function<void()> &reader) { m_reader = reader; }
+    void fail(SocketError error, const QString &text);
+
 protected:
     qint64 readData(char *bytes, qint64 most) override;
     qint64 writeData(const char *bytes, qint64 size) override;
@@ -41,11 +49,11 @@ private:
     void open(const std::shared_ptr<ControlEnd> &end);
     void leave();
     void endConnection();
-    void fail(SocketError error, const QString &text);
 
     SimulatedHost &m_host;
     std::shared_ptr<ControlEnd> m_end;  // null: not connected
-    QByteArray m_rest;                  // that came before the end of the connection and has not been read
+    std::function<void()> m_reader;
+    QByteArray m_rest;  // that came before the end of the connection and has not been read
 };
 
 }  // namespace qplc

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ControlNetwork.h"
 
+#include "OpenSslTls.h"
 #include "SocketAddress.h"
 #include "realtime/Host.h"
 
@@ -43,6 +44,7 @@ class KernelNetwork final : public ControlNetwork
 {
 public:
     QTcpSocket *makeSocket(QObject *parent) override { return new QTcpSocket(parent); }
+    Tls *makeTls(QObject *parent) override { return new OpenSslTls(parent); }
     std::unique_ptr<ControlPort> listen(const QHostAddress &address, quint16 number,
                                         QAbstractSocket::SocketError *error, QString *text) override
     {

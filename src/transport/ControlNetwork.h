@@ -9,6 +9,8 @@
 
 namespace qplc {
 
+class Tls;
+
 /// A port that listens for control connections.
 class ControlPort
 {
@@ -38,6 +40,8 @@ public:
 
     /// A socket that is not connected; it belongs to \a parent.
     virtual QTcpSocket *makeSocket(QObject *parent) = 0;
+    /// As makeSocket(), for a connection with TLS; the socket owns the result.
+    virtual Tls *makeTls(QObject *parent) = 0;
     /// Null, with the reason in \a error and \a text, when \a address cannot be listened at. \param
     /// port 0: any
     virtual std::unique_ptr<ControlPort> listen(const QHostAddress &address, quint16 port,

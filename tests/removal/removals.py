@@ -339,7 +339,7 @@ REMOVALS = [
             "    if (!entry) {", "    if (!entry)\n        entry = &m_settings.keys.entries().first();\n    if (!entry) {",
             "tst_PreSharedKeys", "anUnknownIdentityIsRefusedOnBothEnds"),
     Removal("certificate that is not accepted", "src/node/security/Handshake.cpp",
-            "if (!m_certificateError.isEmpty() || m_tls->peerCertificate().isNull())", "if (m_tls->peerCertificate().isNull())",
+            "if (!m_tls->certificateError().isEmpty())", "if (m_tls->certificateName().isNull())",
             "tst_Certificates", "aWrongCertificateIsRefusedOnBothEnds"),
     Removal("message without the right to it", "src/node/session/MasterServer.cpp",
             "    if (!refusal.isEmpty()) {", "    if (refusal == QLatin1String(\"-\")) {",

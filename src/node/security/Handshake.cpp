@@ -5,13 +5,10 @@
 #include "protocol/ControlFrame.h"
 #include "protocol/messages/MessageTable.h"
 #include "transport/ControlNetwork.h"
+#include "transport/Tls.h"
 
 #include <QtNetwork/QHostAddress>
-#include <QtNetwork/QSslCertificate>
-#include <QtNetwork/QSslCipher>
-#include <QtNetwork/QSslPreSharedKeyAuthenticator>
-
-#include <sys/socket.h>
+#include <QtNetwork/QTcpSocket>
 
 namespace qplc {
 
@@ -51,10 +48,9 @@ Handshake::Handshake(int descriptor, const QPlcSecurity &security, QObject *pare
     : QObject(parent)
     , m_security(security)
 {
-    if (security.isNone())
-        m_socket = ControlNetwork::current().makeSocket(this);
-    else
-        m_socket = m_tls = new QSslSocket(this);
+    if (!security.isNone())
+        m_tls = ControlNetwork::current().makeTls(this);
+    m_socket = m_tls ? m_tls->socket() : ControlNetwork::current().makeSocket(this);
     m_socket->setReadBufferSize(64 * 1024);
     m_socket->setSocketDescriptor(descriptor);
     m_address = QStringLiteral("%1:%2").arg(m_socket->peerAddress().toString()).arg(m_socket->peerPort());
@@ -148,41 +144,33 @@ void Handshake::beginTls()
         fail(error);
         return;
     }
-    connect(m_tls, &QSslSocket::preSharedKeyAuthenticationRequired, this, &Handshake::giveKey);
-    connect(m_tls, &QSslSocket::encrypted, this, &Handshake::encrypted);
-    connect(m_tls, QOverload<const QList<QSslError> &>::of(&QSslSocket::sslErrors), this,
-            [this](const QList<QSslError> &errors) {
-                m_certificateError = errors.constFirst().errorString();
-                m_tls->ignoreSslErrors();  // until the other end can be told, in encrypted(), which lets nobody in
-            });
-    connect(m_tls, &QSslSocket::errorOccurred, this, &Handshake::tlsFailed);
-    m_tls->setSslConfiguration(m_settings.configuration);
-    m_tls->startServerEncryption();
+    connect(m_tls, &Tls::encrypted, this, &Handshake::encrypted);
+    connect(m_socket, &QTcpSocket::errorOccurred, this, &Handshake::tlsFailed);
+    m_tls->accept({m_settings.configuration, {}, [this](const QString &identity) { return keyOf(identity); }, {}});
 }
 
-void Handshake::giveKey(QSslPreSharedKeyAuthenticator *authenticator)
+QByteArray Handshake::keyOf(const QString &identity)
 {
-    const QString identity = QString::fromUtf8(authenticator->identity());
     const Keyring::Entry *entry = m_settings.keys.find(identity);
     if (!entry) {
         m_unknownIdentity = identity;
-        return;  // without a key the handshake fails
+        return {};
     }
     m_peer.identity = identity;
     m_peer.role = entry->role;
-    authenticator->setPreSharedKey(entry->key);
+    return entry->key;
 }
 
 bool Handshake::identify(QString *reason)
 {
-    if (!TlsSettings::isAcceptable(m_tls->sessionCipher(), m_security.mode())) {
-        *reason = QStringLiteral("the suite %1 is not used here").arg(m_tls->sessionCipher().name());
+    if (!TlsSettings::isAcceptable(m_tls->suite(), m_security.mode())) {
+        *reason = QStringLiteral("the suite %1 is not used here").arg(m_tls->suite().name());
         return false;
     }
     if (m_security.mode() == QPlcSecurity::Certificates) {
-        m_peer.identity = m_tls->peerCertificate().subjectInfo(QSslCertificate::CommonName).value(0);
-        if (!m_certificateError.isEmpty() || m_tls->peerCertificate().isNull()) {
-            *reason = QStringLiteral("its certificate is refused: %1").arg(m_certificateError);
+        m_peer.identity = m_tls->certificateName();
+        if (!m_tls->certificateError().isEmpty()) {
+            *reason = QStringLiteral("its certificate is refused: %1").arg(m_tls->certificateError());
             return false;
         }
     }
@@ -210,20 +198,19 @@ void Handshake::encrypted()
         Q_EMIT succeeded();
         return;
     }
-    m_tls->write(rejection(QStringLiteral("Denied"), reason));
+    m_socket->write(rejection(QStringLiteral("Denied"), reason));
     fail(reason);
 }
 
 void Handshake::turnAway(const QString &reason)
 {
     m_socket->disconnect(this);
-    m_tls->write(rejection(QStringLiteral("TooMuch"), reason));
-    m_tls->flush();
-    m_tls->disconnectFromHost();
+    m_socket->write(rejection(QStringLiteral("TooMuch"), reason));
+    m_socket->flush();
+    m_socket->disconnectFromHost();
 }
 
-/// QSslSocket closes the connection without the alert that OpenSSL has prepared: the other end is
-/// told here.
+/// Tells the other end why, which TLS itself does not.
 void Handshake::tlsFailed()
 {
     TlsAlert::Description description = TlsAlert::HandshakeFailure;
@@ -239,9 +226,7 @@ void Handshake::tlsFailed()
         description = TlsAlert::BadRecordMac;
         reason = QStringLiteral("wrong key of identity '%1' (%2)").arg(m_peer.identity, m_socket->errorString());
     }
-    const QByteArray bytes = alert(description);
-    ::send(int(m_socket->socketDescriptor()), bytes.constData(), std::size_t(bytes.size()),
-           MSG_NOSIGNAL | MSG_DONTWAIT);
+    m_tls->sendAlert(alert(description));
     fail(reason);
 }
 

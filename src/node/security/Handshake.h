@@ -13,6 +13,8 @@ QT_END_NAMESPACE
 
 namespace qplc {
 
+class Tls;
+
 /// An accepted connection until it is known what it speaks, and who is there. Answers in the
 /// language of the other end when the two do not fit.
 class Handshake : public QObject
@@ -48,7 +50,7 @@ private:
     void refusePlain();
     void refuseTls();
     void beginTls();
-    void giveKey(QSslPreSharedKeyAuthenticator *authenticator);
+    QByteArray keyOf(const QString &identity);
     void encrypted();
     bool identify(QString *reason);
     void fail(const QString &reason);
@@ -56,12 +58,11 @@ private:
 
     const QPlcSecurity m_security;
     QTcpSocket *m_socket;
-    QSslSocket *m_tls = nullptr;  // the same; null without security
+    Tls *m_tls = nullptr;  // of the socket; null without security
     QString m_address;
     TlsSettings m_settings;
     Peer m_peer;
     QString m_unknownIdentity;
-    QString m_certificateError;
     bool m_isTls = false;
     bool m_isOver = false;
 };

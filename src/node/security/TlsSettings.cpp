@@ -2,11 +2,13 @@
 #include "TlsSettings.h"
 
 #include "SecretFile.h"
+#include "transport/Tls.h"
 
 #include <QtCore/QRegularExpression>
 #include <QtNetwork/QSslCertificate>
 #include <QtNetwork/QSslCipher>
 #include <QtNetwork/QSslKey>
+#include <QtNetwork/QTcpSocket>
 
 #include <algorithm>
 
@@ -138,12 +140,11 @@ int receivedAlert(const QString &errorString)
     return reason >= firstAlert && reason < firstAlert + 256 ? reason - firstAlert : 0;
 }
 
-QString nodeHandshakeError(const QSslSocket &socket, const QPlcSecurity &security, const QString &identity)
+QString nodeHandshakeError(const Tls &tls, const QPlcSecurity &security, const QString &identity)
 {
-    const QList<QSslError> errors = socket.sslHandshakeErrors();
-    if (!errors.isEmpty())
-        return QStringLiteral("the certificate of the master is refused: %1").arg(errors.constFirst().errorString());
-    switch (receivedAlert(socket.errorString())) {
+    if (!tls.certificateError().isEmpty())
+        return QStringLiteral("the certificate of the master is refused: %1").arg(tls.certificateError());
+    switch (receivedAlert(tls.socket()->errorString())) {
     case TlsAlert::UnknownPskIdentity:
         return QStringLiteral("the master does not know identity '%1'; add it there by qtplc keys new").arg(identity);
     case TlsAlert::BadRecordMac:
@@ -160,7 +161,7 @@ QString nodeHandshakeError(const QSslSocket &socket, const QPlcSecurity &securit
     case TlsAlert::InternalError:
         return QStringLiteral("the master cannot read its keys; its log says why");
     default:
-        return socket.errorString();
+        return tls.socket()->errorString();
     }
 }
 

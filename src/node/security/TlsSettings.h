@@ -10,6 +10,8 @@
 
 namespace qplc {
 
+class Tls;
+
 /// What TLS needs of a QPlcSecurity, as its files say it now: docs/design/security.md has the
 /// reasons for each choice.
 struct TlsSettings
@@ -46,6 +48,6 @@ struct TlsAlert
 };
 
 /// Why a handshake of a node or tool with its master failed, with the remedy.
-QString nodeHandshakeError(const QSslSocket &socket, const QPlcSecurity &security, const QString &identity);
+QString nodeHandshakeError(const Tls &tls, const QPlcSecurity &security, const QString &identity);
 
 }  // namespace qplc

@@ -4,16 +4,17 @@
 #include "node/Logging.h"
 #include "protocol/ControlFrame.h"
 #include "transport/LossWatch.h"
+#include "transport/Tls.h"
 
 #include <QtCore/QPointer>
-#include <QtNetwork/QSslSocket>
+#include <QtNetwork/QTcpSocket>
 
 #include <fcntl.h>
 
 struct QPlcAbstractSocket::Private
 {
     QTcpSocket *socket = nullptr;
-    QSslSocket *tls = nullptr;  // the same, when it is or will be encrypted, or comes from a master with security
+    qplc::Tls *tls = nullptr;  // of the socket, when it is or will be encrypted, or comes from a master with security
     qplc::ControlFrameReader reader;
     bool isSending = false;
     bool isPaused = false;  // the other end takes nothing in
@@ -76,7 +77,7 @@ void QPlcAbstractSocket::setSocket(QTcpSocket *socket)
         d->socket->deleteLater();
     }
     d->socket = socket;
-    d->tls = qobject_cast<QSslSocket *>(socket);
+    d->tls = qplc::Tls::of(socket);
     d->reader = qplc::ControlFrameReader();
     socket->setParent(this);
     setControlOptions(socket);
@@ -85,7 +86,7 @@ void QPlcAbstractSocket::setSocket(QTcpSocket *socket)
         Q_EMIT connected();
     };
     if (d->tls)
-        connect(d->tls, &QSslSocket::encrypted, this, nowConnected);
+        connect(d->tls, &qplc::Tls::encrypted, this, nowConnected);
     else
         connect(socket, &QTcpSocket::connected, this, nowConnected);
     connect(socket, &QTcpSocket::disconnected, this, &QPlcAbstractSocket::disconnected);
@@ -110,8 +111,7 @@ QTcpSocket *QPlcAbstractSocket::socket() const
 
 bool QPlcAbstractSocket::isConnected() const
 {
-    const bool isHandshaking = d->tls && d->tls->mode() != QSslSocket::UnencryptedMode && !d->tls->isEncrypted();
-    return d->socket->state() == QAbstractSocket::ConnectedState && !isHandshaking;
+    return d->socket->state() == QAbstractSocket::ConnectedState && !(d->tls && d->tls->isHandshaking());
 }
 
 bool QPlcAbstractSocket::isSecured() const

@@ -3,10 +3,10 @@
 
 #include "node/security/TlsSettings.h"
 #include "transport/ControlNetwork.h"
+#include "transport/Tls.h"
 
 #include <QtCore/QTimer>
-#include <QtNetwork/QSslCipher>
-#include <QtNetwork/QSslPreSharedKeyAuthenticator>
+#include <QtNetwork/QTcpSocket>
 
 #include <optional>
 
@@ -21,7 +21,7 @@ struct QPlcMasterSocket::Private
     std::optional<QPlcSecurity> ownSecurity;
     QPlcSecurity security;  // of the present connection
     qplc::TlsSettings settings;
-    QSslSocket *tls = nullptr;  // of the present connection; null without security
+    qplc::Tls *tls = nullptr;  // of the present connection; null without security
     bool hasBeenEncrypted = false;
     QTimer timer;
 };
@@ -71,30 +71,29 @@ void QPlcMasterSocket::connectSecurely(const QPlcUnderlyingProtocol &master)
             this, [this, error] { setError(SecurityError, error); }, Qt::QueuedConnection);
         return;
     }
-    d->tls = new QSslSocket;
-    d->tls->setSslConfiguration(d->settings.configuration);
+    d->tls = qplc::ControlNetwork::current().makeTls(nullptr);
     // Before the base class tells that the connection is there.
-    connect(d->tls, &QSslSocket::encrypted, this, [this] {
+    connect(d->tls, &qplc::Tls::encrypted, this, [this] {
         d->timer.stop();
         d->hasBeenEncrypted = true;
-        if (!qplc::TlsSettings::isAcceptable(d->tls->sessionCipher(), d->security.mode()))
+        if (!qplc::TlsSettings::isAcceptable(d->tls->suite(), d->security.mode()))
             abort();  // cannot be: no other suite was offered
     });
-    connect(d->tls, &QSslSocket::preSharedKeyAuthenticationRequired, this,
-            [this](QSslPreSharedKeyAuthenticator *authenticator) {
-                authenticator->setIdentity(d->settings.identity.toUtf8());
-                authenticator->setPreSharedKey(d->settings.keys.find(d->settings.identity)->key);
-            });
-    setSocket(d->tls);
+    setSocket(d->tls->socket());
     d->timer.start();
-    d->tls->connectToHostEncrypted(master.address().toString(), master.port(), d->security.masterIdentity());
+    const auto keyOf = [keys = d->settings.keys](const QString &identity) {
+        const qplc::Keyring::Entry *entry = keys.find(identity);
+        return entry ? entry->key : QByteArray();
+    };
+    d->tls->connectTo(master.address(), master.port(),
+                      {d->settings.configuration, d->settings.identity, keyOf, d->security.masterIdentity()});
 }
 
 QString QPlcMasterSocket::securityErrorText() const
 {
+    const QAbstractSocket::SocketError error = socket()->error();
     const bool isOfTls = d->tls
-        && (d->tls->error() == QAbstractSocket::SslHandshakeFailedError
-            || d->tls->error() == QAbstractSocket::SslInternalError
-            || (!d->hasBeenEncrypted && d->tls->error() == QAbstractSocket::RemoteHostClosedError));
+        && (error == QAbstractSocket::SslHandshakeFailedError || error == QAbstractSocket::SslInternalError
+            || (!d->hasBeenEncrypted && error == QAbstractSocket::RemoteHostClosedError));
     return isOfTls ? qplc::nodeHandshakeError(*d->tls, d->security, d->settings.identity) : QString();
 }
