@@ -5,28 +5,73 @@
 #include "SimulatedHost.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace qplc {
+
+namespace {
+
+// Of those that a kernel gives away.
+constexpr quint16 FirstPort = 40000;
+constexpr std::uint64_t Ports = 8;
+
+}  // namespace
 
 FrameWire::FrameWire(Simulator &simulator)
     : m_simulator(simulator)
 {
 }
 
-void FrameWire::send(FrameEnd &from, quint64 to, const char *bytes, std::size_t size)
+FrameWire::~FrameWire() = default;
+
+quint16 FrameWire::freePort(const SimulatedHost &host)
 {
-    const auto end = m_ends.find(to);
-    if (end == m_ends.end() || from.host().isMute())
-        return;
-    const SimulatedRoad &road = m_simulator.network().road(from.host(), end->second->host());
-    if (road.isCut || (road.loss > 0 && m_simulator.fate().fraction() < road.loss))
-        return;
-    sendOnce(from, *end->second, bytes, size);
-    if (road.duplication > 0 && m_simulator.fate().fraction() < road.duplication)
-        sendOnce(from, *end->second, bytes, size);
+    const auto isTaken = [&](quint16 port) {
+        const auto found = m_ports.find(SocketAddress(host.address(), port).key());
+        return found != m_ports.end() && found->second->end;
+    };
+    auto port = quint16(FirstPort + m_simulator.fate().below(Ports));
+    while (isTaken(port))
+        ++port;
+    return port;
 }
 
-void FrameWire::sendOnce(FrameEnd &from, const FrameEnd &to, const char *bytes, std::size_t size)
+void FrameWire::removePorts(const SimulatedHost &host)
+{
+    for (auto port = m_ports.begin(); port != m_ports.end();)
+        port = &port->second->host() == &host ? m_ports.erase(port) : std::next(port);
+}
+
+void FrameWire::send(FrameEnd &from, quint64 to, const char *bytes, std::size_t size)
+{
+    const auto found = m_ports.find(to);
+    if (found == m_ports.end() || from.host().isMute())
+        return;
+    const FramePort &port = *found->second;
+    const SimulatedRoad &road = m_simulator.network().road(from.host(), port.host());
+    SeededRandom &fate = m_simulator.fate();
+    if (road.isCut || (road.loss > 0 && fate.fraction() < road.loss))
+        return;
+    carry(from, port, arrival(from, port, road), bytes, size);
+    if (road.duplication > 0 && fate.fraction() < road.duplication)
+        carry(from, port, arrival(from, port, road), bytes, size);
+    if (road.echo > 0 && fate.fraction() < road.echo)
+        carry(from, port, m_simulator.now() + std::int64_t(fate.below(std::uint64_t(road.echoTime))), bytes, size);
+}
+
+std::int64_t FrameWire::arrival(FrameEnd &from, const FramePort &to, const SimulatedRoad &road)
+{
+    const std::int64_t arrival
+        = m_simulator.now() + road.delay + std::int64_t(m_simulator.fate().below(std::uint64_t(road.jitter)));
+    if (road.reordering > 0 && m_simulator.fate().fraction() < road.reordering)
+        return arrival + std::int64_t(m_simulator.fate().below(std::uint64_t(road.lateness)));
+    std::int64_t &last = from.m_arrivals[&to];
+    last = std::max(arrival, last);
+    return last;
+}
+
+void FrameWire::carry(const FrameEnd &from, const FramePort &to, std::int64_t arrival, const char *bytes,
+                      std::size_t size)
 {
     if (m_free.empty()) {
         m_free.push_back(m_frames.size());
@@ -36,39 +81,50 @@ void FrameWire::sendOnce(FrameEnd &from, const FrameEnd &to, const char *bytes, 
     m_free.pop_back();
     m_frames[number]->from = from.key();
     m_frames[number]->bytes.assign(bytes, bytes + size);
-    const SimulatedRoad &road = m_simulator.network().road(from.host(), to.host());
-    std::int64_t arrival
-        = m_simulator.now() + road.delay + std::int64_t(m_simulator.fate().below(std::uint64_t(road.jitter)));
-    std::int64_t &last = from.m_arrivals[to.key()];
-    if (road.reordering > 0 && m_simulator.fate().fraction() < road.reordering)
-        arrival += std::int64_t(m_simulator.fate().below(std::uint64_t(road.lateness)));
-    else
-        last = arrival = std::max(arrival, last);
     m_simulator.schedule(to, arrival, 0, number);
 }
 
 std::vector<const FrameEnd *> FrameWire::ends() const
 {
     std::vector<const FrameEnd *> all;
-    for (const auto &[key, end] : m_ends)
-        all.push_back(end);
+    for (const auto &[key, port] : m_ports) {
+        if (port->end)
+            all.push_back(port->end);
+    }
     std::sort(all.begin(), all.end(), [](const FrameEnd *a, const FrameEnd *b) { return a->key() < b->key(); });
     return all;
 }
 
-FrameEnd::FrameEnd(SimulatedHost &host, quint16 port)
+FramePort::FramePort(SimulatedHost &host, FrameWire &wire)
     : SimulatedTarget(host.simulator(), &host)
+    , m_wire(wire)
+{
+}
+
+void FramePort::happen(std::uint32_t, std::uint64_t number)
+{
+    if (end)
+        end->arrived(number);
+    else
+        m_wire.release(number);
+}
+
+FrameEnd::FrameEnd(SimulatedHost &host, quint16 port)
+    : m_host(host)
     , m_wire(host.simulator().frameWire())
     , m_key(SocketAddress(host.address(), port).key())
 {
-    m_wire.m_ends[m_key] = this;
+    std::unique_ptr<FramePort> &own = m_wire.m_ports[m_key];
+    if (!own)
+        own = std::make_unique<FramePort>(host, m_wire);
+    own->end = this;
 }
 
 FrameEnd::~FrameEnd()
 {
-    const auto own = m_wire.m_ends.find(m_key);
-    if (own != m_wire.m_ends.end() && own->second == this)
-        m_wire.m_ends.erase(own);
+    const auto own = m_wire.m_ports.find(m_key);
+    if (own != m_wire.m_ports.end() && own->second->end == this)
+        own->second->end = nullptr;
     for (const std::size_t number : m_unread)
         m_wire.release(number);
     if (m_taken != None)
@@ -89,7 +145,7 @@ const SimulatedFrame *FrameEnd::take()
 
 void FrameEnd::wait(std::int64_t deadline) noexcept
 {
-    Fiber *fiber = m_host->runningFiber();
+    Fiber *fiber = m_host.runningFiber();
     if (!fiber || !m_unread.empty())
         return;
     m_waiting = fiber;
@@ -97,12 +153,13 @@ void FrameEnd::wait(std::int64_t deadline) noexcept
     m_waiting = nullptr;
 }
 
-void FrameEnd::happen(std::uint32_t, std::uint64_t number)
+void FrameEnd::arrived(std::size_t number)
 {
     const SimulatedFrame &frame = m_wire.frame(number);
-    m_simulator.trace(std::uint64_t(m_simulator.now()));
-    m_simulator.trace(frame.from ^ m_key << 1);
-    m_simulator.trace(frame.bytes.data(), frame.bytes.size());
+    Simulator &simulator = m_host.simulator();
+    simulator.trace(std::uint64_t(simulator.now()));
+    simulator.trace(frame.from ^ m_key << 1);
+    simulator.trace(frame.bytes.data(), frame.bytes.size());
     if (m_unread.size() >= MostUnread) {
         m_wire.release(number);
         ++m_dropped;

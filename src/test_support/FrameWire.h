@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "SimulatedNetwork.h"
 #include "Simulator.h"
 #include "transport/SocketAddress.h"
 
 #include <cstddef>
 #include <deque>
+#include <memory>
 #include <unordered_map>
 #include <vector>
 
@@ -13,6 +15,7 @@ namespace qplc {
 
 class Fiber;
 class FrameEnd;
+class FramePort;
 
 /// A frame on its way.
 struct SimulatedFrame
@@ -26,6 +29,13 @@ class FrameWire
 {
 public:
     explicit FrameWire(Simulator &simulator);
+    ~FrameWire();
+
+    /// A port of \a host that nobody has. A kernel may give one again that was closed just before;
+    /// this one has so few that it often does.
+    quint16 freePort(const SimulatedHost &host);
+    /// \a host is gone.
+    void removePorts(const SimulatedHost &host);
 
     void send(FrameEnd &from, quint64 to, const char *bytes, std::size_t size);
     /// All ports that are open, in the order of their keys.
@@ -35,17 +45,35 @@ public:
 
 private:
     friend class FrameEnd;
-    void sendOnce(FrameEnd &from, const FrameEnd &to, const char *bytes, std::size_t size);
+    /// When what is sent now arrives [ns of the simulator].
+    std::int64_t arrival(FrameEnd &from, const FramePort &to, const SimulatedRoad &road);
+    void carry(const FrameEnd &from, const FramePort &to, std::int64_t arrival, const char *bytes, std::size_t size);
 
     Simulator &m_simulator;
-    std::unordered_map<quint64, FrameEnd *> m_ends;
+    std::unordered_map<quint64, std::unique_ptr<FramePort>> m_ports;
     std::vector<std::unique_ptr<SimulatedFrame>> m_frames;
     std::vector<std::size_t> m_free;
 };
 
-/// A port of a host for frames, with the memory that its kernel has for those that nobody has read
-/// yet.
-class FrameEnd final : public SimulatedTarget
+/// A port of a host. What arrives is for the end that is open then, whoever had the port when it
+/// was sent.
+class FramePort final : public SimulatedTarget
+{
+public:
+    FramePort(SimulatedHost &host, FrameWire &wire);
+
+    SimulatedHost &host() const noexcept { return *m_host; }
+    void happen(std::uint32_t what, std::uint64_t data) override;
+    bool isOfProgram(std::uint32_t) const override { return false; }
+
+    FrameEnd *end = nullptr;  // null: closed
+
+private:
+    FrameWire &m_wire;
+};
+
+/// An open port, with the memory that the kernel has for frames that nobody has read yet.
+class FrameEnd
 {
     friend class FrameWire;
 
@@ -53,10 +81,12 @@ public:
     static constexpr std::size_t MostUnread = 256;  // frames
 
     FrameEnd(SimulatedHost &host, quint16 port);
-    ~FrameEnd() override;
+    ~FrameEnd();
+    FrameEnd(const FrameEnd &) = delete;
+    FrameEnd &operator=(const FrameEnd &) = delete;
 
     quint64 key() const noexcept { return m_key; }
-    SimulatedHost &host() const noexcept { return *m_host; }
+    SimulatedHost &host() const noexcept { return m_host; }
     bool isEmpty() const noexcept { return m_unread.empty(); }
     /// The next frame, valid until the next call. Null: there is none.
     const SimulatedFrame *take();
@@ -67,16 +97,16 @@ public:
     /// Frames for which there was no memory.
     std::uint64_t unread() const noexcept { return m_dropped; }
 
-    void happen(std::uint32_t what, std::uint64_t data) override;
-    bool isOfProgram(std::uint32_t) const override { return false; }
+    void arrived(std::size_t number);
 
 private:
     static constexpr std::size_t None = SIZE_MAX;
 
+    SimulatedHost &m_host;
     FrameWire &m_wire;
     const quint64 m_key;
     std::deque<std::size_t> m_unread;
-    std::unordered_map<quint64, std::int64_t> m_arrivals;  // of the last frame to each other end [ns]
+    std::unordered_map<const FramePort *, std::int64_t> m_arrivals;  // of the last frame to each port [ns]
     std::size_t m_taken = None;
     Fiber *m_waiting = nullptr;
     std::uint64_t m_dropped = 0;

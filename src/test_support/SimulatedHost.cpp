@@ -3,6 +3,7 @@
 
 #include "ControlWire.h"
 #include "Fiber.h"
+#include "FrameWire.h"
 #include "signals/Fnv1a.h"
 
 #include <QtCore/QCoreApplication>
@@ -45,6 +46,7 @@ SimulatedHost::SimulatedHost(Simulator &simulator, const QString &name, const QH
 SimulatedHost::~SimulatedHost()
 {
     kill(End::Power);
+    m_simulator.frameWire().removePorts(*this);
 }
 
 void SimulatedHost::start(const std::function<std::shared_ptr<void>()> &program)

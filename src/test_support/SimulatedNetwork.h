@@ -18,6 +18,8 @@ struct SimulatedRoad
     double duplication = 0;         // of frames, 0 ... 1
     double reordering = 0;          // of frames, 0 ... 1, that are late by up to \a lateness: others overtake them
     std::int64_t lateness = 0;      // [ns]
+    double echo = 0;                // of frames, 0 ... 1, of which a copy arrives up to \a echoTime later
+    std::int64_t echoTime = 0;      // [ns]
     bool isCut = false;             // nothing arrives, and nobody hears of it
 };
 

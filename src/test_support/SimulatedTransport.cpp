@@ -169,7 +169,8 @@ std::unique_ptr<HubPeer> SimulatedTransport::makePeer(const CyclicHub &, const N
 bool SimulatedTransport::beginLink(const ControlEnds &ends, QJsonObject *request, std::unique_ptr<CyclicLink> *link,
                                    QString *) const
 {
-    const quint16 port = ownHost().newPort();
+    SimulatedHost &host = ownHost();
+    const quint16 port = host.simulator().frameWire().freePort(host);
     request->insert(portField, int(port));
     *link = std::make_unique<Link>(port, ends.master.key());
     return true;

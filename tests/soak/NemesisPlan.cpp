@@ -39,6 +39,7 @@ int amountOf(FaultKind kind)
     case FaultKind::LoseOnRoads:
     case FaultKind::DisorderOnRoads:
     case FaultKind::SlowListener:
+    case FaultKind::EchoOnRoads:
         return 700;
     default:
         return 1;

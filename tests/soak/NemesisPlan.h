@@ -37,9 +37,10 @@ enum class FaultKind : quint8 {
     DisorderOnRoads,  ///< frames are doubled, and overtake each other
     StepWallClock,    ///< of a node, an hour back
     StepMasterClock,
-    SlowListener  ///< a tool that asks for much, and reads a little at a time
+    SlowListener,  ///< a tool that asks for much, and reads a little at a time
+    EchoOnRoads    ///< of all nodes: now and then a copy of a frame arrives seconds later
 };
-constexpr int FaultKinds = int(FaultKind::SlowListener) + 1;
+constexpr int FaultKinds = int(FaultKind::EchoOnRoads) + 1;
 constexpr std::array<const char *, FaultKinds> FaultNames{"kill a node",
                                                           "stop a node",
                                                           "kill the master",
@@ -63,7 +64,8 @@ constexpr std::array<const char *, FaultKinds> FaultNames{"kill a node",
                                                           "disorder on all roads",
                                                           "step a clock",
                                                           "step the clock of the master",
-                                                          "slow listener"};
+                                                          "slow listener",
+                                                          "echo on all roads"};
 
 constexpr bool isLinkFault(FaultKind kind)
 {

@@ -63,6 +63,8 @@ const std::vector<Scenario> &Scenario::all()
     static const Weights tools{{F::StoppedReader, 2},  {F::SlowListener, 2},     {F::ConnectFlood, 1},
                                {F::GarbageControl, 1}, {F::GarbageDatagrams, 1}, {F::GarbageToNodes, 1},
                                {F::KillNode, 1}};
+    static const Weights restarts{{F::KillMaster, 3}, {F::PowerMaster, 2}, {F::KillNode, 2},
+                                  {F::PowerNode, 1},  {F::StopMaster, 1},  {F::EchoOnRoads, 4}};
     static const auto everything = [] {
         Weights weights = soakWeights();
         for (const Weights *more : {&programs, &roads, &tools})
@@ -74,7 +76,8 @@ const std::vector<Scenario> &Scenario::all()
         scenario("programs", "kills, restarts, power failures, stopped programs, clocks that step", programs),
         scenario("roads", "cuts, half-open connections, delays, losses, duplicates, disorder", roads),
         scenario("tools", "readers that are slow or stop, strangers, floods", tools),
-        scenario("all", "all of these, one after the other", everything),
+        scenario("restarts", "masters and nodes come back while frames of their former lives are on the way", restarts),
+        scenario("all", "those of soak, programs, roads and tools, one after the other", everything),
         scenario(
             "storm", "all of programs and roads, while the plant has not recovered from the last",
             [] {

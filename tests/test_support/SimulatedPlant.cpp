@@ -253,6 +253,10 @@ void SimulatedPlant::worsen(const Fault &fault)
         road.duplication = road.reordering = 0.3;
         road.lateness = 3 * m_profile.periodUs * 1000;
         m_simulator.network().usual = road;
+    } else if (fault.kind == FaultKind::EchoOnRoads) {
+        road.echo = 0.2;
+        road.echoTime = 3 * Second;
+        m_simulator.network().usual = road;
     } else {
         const SimulatedHost &node = *m_nodes[std::size_t(fault.node)].host;
         road.delay = 3 * m_profile.periodUs * 1000;
@@ -278,7 +282,7 @@ void SimulatedPlant::stepClock(SimulatedHost &host)
 int SimulatedPlant::sendDatagrams(const Fault &fault, bool toNodes)
 {
     StrangerWords words(fault.seed);
-    qplc::FrameEnd end(m_strangerHost, m_strangerHost.newPort());
+    qplc::FrameEnd end(m_strangerHost, m_simulator.frameWire().freePort(m_strangerHost));
     std::vector<quint64> places;
     for (const qplc::FrameEnd *place : m_simulator.frameWire().ends()) {
         if (place != &end && (&place->host() == m_master.host.get()) != toNodes)

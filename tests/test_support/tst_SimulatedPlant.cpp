@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "test_support/FrameWire.h"
 #include "test_support/SimulatedHost.h"
 #include "test_support/SimulatedTransport.h"
 
@@ -179,6 +180,7 @@ private Q_SLOTS:
     void halfOpenConnectionIsGivenUp();
     void stoppedProgramGoesOn();
     void lostAndDoubledFramesAreBorne();
+    void echoReachesTheNextOwnerOfAPort();
     void cutRoadHeals();
     void driftingClockIsBorne();
     void cyclesThatAreStoppedAtOnceHaveRun();
@@ -323,6 +325,28 @@ void tst_SimulatedPlant::lostAndDoubledFramesAreBorne()
     });
     QVERIFY(counters.cycles > 800);
     QVERIFY(counters.duplicated > 10);
+}
+
+void tst_SimulatedPlant::echoReachesTheNextOwnerOfAPort()
+{
+    Simulator::run(1, [](Simulator &simulator) {
+        simulator.network().usual.echo = 1.0;
+        simulator.network().usual.echoTime = Second;
+        SimulatedHost here(simulator, QStringLiteral("Here"), QHostAddress(0x7F000101));
+        SimulatedHost there(simulator, QStringLiteral("There"), QHostAddress(0x7F000102));
+        FrameEnd sender(here, MasterPort);
+        auto former = std::make_unique<FrameEnd>(there, MasterPort);
+        sender.send(former->key(), "old", 3);
+        simulator.runFor(1'000'000);
+        QVERIFY(former->take());
+        QVERIFY(!former->take());
+        former.reset();
+        FrameEnd next(there, MasterPort);
+        simulator.runFor(Second);
+        const SimulatedFrame *echo = next.take();
+        QVERIFY(echo);
+        QCOMPARE(QByteArray(echo->bytes.data(), int(echo->bytes.size())), QByteArray("old"));
+    });
 }
 
 void tst_SimulatedPlant::cutRoadHeals()
