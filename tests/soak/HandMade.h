@@ -93,9 +93,9 @@ public:
               });
         return *found;
     }
-    void setState(soak::Record::MasterState state, qint64 time)
+    void setState(soak::Record::MasterState state, qint64 time, quint64 cycle = 0)
     {
-        add(master(), soak::Record::State, -1, time, {quint64(state)});
+        add(master(), soak::Record::State, -1, time, {quint64(state)}, cycle);
     }
     void addCounters(quint64 cycles, quint64 skipped, quint64 strangers = 0, qint64 time = 0)
     {

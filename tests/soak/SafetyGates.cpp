@@ -129,57 +129,14 @@ Gate nodesAloneBecomeSafe(const Evidence &evidence)
     return gate;
 }
 
-Gate nothingMovesByItself(const Evidence &evidence)
-{
-    Gate gate("nothing moves by itself");
-    for (const History &history : evidence.nodes) {
-        const Record *safe = nullptr;
-        for (const Record &record : history.records) {
-            if (record.kind == Record::Safe) {
-                safe = &record;
-                if (fromBits(record.numbers[Record::SafeDriveBits]) != SafeDrive)
-                    gate.fail(QStringLiteral("%1: its safe state has a drive of %2")
-                                  .arg(history.name)
-                                  .arg(fromBits(record.numbers[Record::SafeDriveBits])));
-            }
-            if (record.kind == Record::Phase)
-                safe = nullptr;
-            if (record.kind != Record::Step)
-                continue;
-            ++gate.looked;
-            if (safe && fromBits(record.numbers[Record::Drive]) != SafeDrive)
-                gate.fail(QStringLiteral("%1 moves in cycle %2, %3 ms after it went safe")
-                              .arg(history.name)
-                              .arg(record.cycle)
-                              .arg(milliseconds(record.time - safe->time)));
-        }
-    }
-    for (const History &master : evidence.masters) {
-        // A command that is later than this allows the next entry.
-        qint64 allowed = master.records.empty() ? 0 : master.records.front().time;
-        quint64 state = Record::Off;
-        for (const Record &record : master.records) {
-            if (record.kind != Record::State)
-                continue;
-            const bool begins = record.numbers[0] == Record::RealTime && state != Record::WaitingForLateSlaves;
-            state = record.numbers[0];
-            if (!begins)
-                continue;
-            ++gate.looked;
-            if (recordsOf(evidence.runner, Record::Command, -1, allowed, record.time).empty())
-                gate.fail(QStringLiteral("%1 goes to RealTime, and nobody has told it to").arg(master.name));
-            allowed = record.time;
-        }
-    }
-    return gate;
-}
-
 namespace {
 
 /// A time in which a master was in SafeStop.
 struct SafeSpan
 {
+    const History *master;
     qint64 begin, end;
+    quint64 cycle;  // that ran when it began, at the latest: frames of all later ones say so
 };
 
 /// In order, of all masters.
@@ -195,13 +152,82 @@ std::vector<SafeSpan> safeSpans(const Evidence &evidence)
                 spans.back().end = record.time;
             isSafe = record.numbers[0] == Record::SafeStop;
             if (isSafe)
-                spans.push_back({record.time, master.records.back().time});
+                spans.push_back({&master, record.time, master.records.back().time, record.cycle + 1});
         }
     }
     return spans;
 }
 
+void lookAtSafeNodes(const History &history, Gate *gate)
+{
+    const Record *safe = nullptr;
+    for (const Record &record : history.records) {
+        if (record.kind == Record::Safe) {
+            safe = &record;
+            if (fromBits(record.numbers[Record::SafeDriveBits]) != SafeDrive)
+                gate->fail(QStringLiteral("%1: its safe state has a drive of %2")
+                               .arg(history.name)
+                               .arg(fromBits(record.numbers[Record::SafeDriveBits])));
+        }
+        if (record.kind == Record::Phase)
+            safe = nullptr;
+        if (record.kind != Record::Step)
+            continue;
+        ++gate->looked;
+        if (safe)
+            gate->fail(QStringLiteral("%1 computes cycle %2, %3 ms after it went safe")
+                           .arg(history.name)
+                           .arg(record.cycle)
+                           .arg(milliseconds(record.time - safe->time)));
+    }
+}
+
+void lookAtSafeStop(const Evidence &evidence, const SafeSpan &span, Gate *gate)
+{
+    for (const History &history : evidence.nodes) {
+        for (const Record *step : recordsOf(history, Record::Step, history.node, span.begin, span.end)) {
+            if (step->cycle > span.cycle)
+                gate->fail(QStringLiteral("%1 computes cycle %2, and %3 has been in SafeStop since cycle %4")
+                               .arg(history.name)
+                               .arg(step->cycle)
+                               .arg(span.master->name)
+                               .arg(span.cycle));
+        }
+    }
+}
+
+void lookAtCommands(const Evidence &evidence, const History &master, Gate *gate)
+{
+    // A command that is later than this allows the next entry.
+    qint64 allowed = master.records.empty() ? 0 : master.records.front().time;
+    quint64 state = Record::Off;
+    for (const Record &record : master.records) {
+        if (record.kind != Record::State)
+            continue;
+        const bool begins = record.numbers[0] == Record::RealTime && state != Record::WaitingForLateSlaves;
+        state = record.numbers[0];
+        if (!begins)
+            continue;
+        ++gate->looked;
+        if (recordsOf(evidence.runner, Record::Command, -1, allowed, record.time).empty())
+            gate->fail(QStringLiteral("%1 goes to RealTime, and nobody has told it to").arg(master.name));
+        allowed = record.time;
+    }
+}
+
 }  // namespace
+
+Gate nothingMovesByItself(const Evidence &evidence)
+{
+    Gate gate("nothing moves by itself");
+    for (const History &history : evidence.nodes)
+        lookAtSafeNodes(history, &gate);
+    for (const SafeSpan &span : safeSpans(evidence))
+        lookAtSafeStop(evidence, span, &gate);
+    for (const History &master : evidence.masters)
+        lookAtCommands(evidence, master, &gate);
+    return gate;
+}
 
 Gate safeStopsAreTold(const Evidence &evidence)
 {

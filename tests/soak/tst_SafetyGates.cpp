@@ -23,6 +23,8 @@ private Q_SLOTS:
     void aNodeThatWaitedForAProcessorIsExcused();
     void aStoppedNodeCannotGoSafe();
     void aNodeThatMovesAfterASafeStateIsFound();
+    void aSafeNodeThatComputesWithASafeDriveIsFound();
+    void aNodeThatComputesInASafeStopIsFound();
     void aSafeStateThatIsNotSafeIsFound();
     void aNewPhaseEndsASafeState();
     void aMasterThatStartsByItselfIsFound();
@@ -166,6 +168,25 @@ void tst_SafetyGates::aNodeThatMovesAfterASafeStateIsFound()
 {
     HandMade plant = silence(HandMade::at(49) + 40 * ms);
     QCOMPARE(plant.judge(&soak::nothingMovesByItself).failed, qint64(20));
+}
+
+void tst_SafetyGates::aSafeNodeThatComputesWithASafeDriveIsFound()
+{
+    HandMade plant = silence(HandMade::at(49) + 40 * ms);
+    for (quint64 cycle = 80; cycle < 100; ++cycle)
+        plant.step(1, cycle).numbers[Record::Drive] = soak::bitsOf(soak::SafeDrive);
+    QCOMPARE(plant.judge(&soak::nothingMovesByItself).failed, qint64(20));
+}
+
+void tst_SafetyGates::aNodeThatComputesInASafeStopIsFound()
+{
+    HandMade plant;
+    plant.setState(Record::SafeStop, HandMade::at(50), 49);
+    for (int node = 0; node < 3; ++node)
+        HandMade::removeCycles(plant.node(node), node == 1 ? 52 : 51, 99);
+    const Gate gate = plant.judge(&soak::nothingMovesByItself);  // cycle 50 had begun
+    QCOMPARE(gate.failed, qint64(1));
+    QVERIFY2(gate.examples.first().contains("Node1-life1 computes cycle 51"), textOf(gate));
 }
 
 void tst_SafetyGates::aSafeStateThatIsNotSafeIsFound()
