@@ -53,7 +53,7 @@ public:
 
     /// Makes a host without a program.
     /// \param simulator  outlives the host
-    /// \param name  of the host; its random numbers follow from the seed and the name
+    /// \param name  of the host; its random numbers follow from the seed, the name and the address
     /// \pre the simulator has fewer than 200 hosts
     QPlcSimulatedHost(QPlcSimulator &simulator, const QString &name);
     /// Kills the program, as if power were lost.

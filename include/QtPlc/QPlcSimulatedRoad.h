@@ -18,6 +18,8 @@
 /// Frames of one sender keep their order, unless \a reordering changes it. A control connection
 /// loses nothing and keeps its order, like TCP: lost data are sent again and arrive later.
 ///
+/// Times are 0 to 1 h. A simulator ends the program if a value is out of its range.
+///
 /// \threadsafe a value type: use it in the thread of the simulator
 ///
 /// \ingroup test

@@ -6,6 +6,7 @@
 #include "DriverRunner.h"
 #include "HardwareConfiguration.h"
 #include "HardwareLogging.h"
+#include "realtime/Host.h"
 #include "realtime/TimeSource.h"
 #include "signals/MessageText.h"
 
@@ -416,6 +417,9 @@ void QPlcHardwareNode::Private::give(const std::vector<GivenValue> &values, bool
 
 void QPlcHardwareNode::reset()
 {
+    if (&qplc::Host::current() != &qplc::Host::machine())
+        throw std::runtime_error(
+            "a simulated computer has no devices; test the code of this node with a node of your own");
     m_hardware->isSafe = false;
     m_hardware->setSafeValues(true);
     m_hardware->leaveAll();

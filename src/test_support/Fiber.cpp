@@ -9,7 +9,7 @@ namespace qplc {
 
 namespace {
 
-constexpr std::size_t StackSize = std::size_t(256) * 1024;  // [byte]
+constexpr std::size_t StackSize = std::size_t(1024) * 1024;  // [byte] the kernel gives pages when they are used
 
 }  // namespace
 

@@ -7,8 +7,23 @@
 
 namespace {
 
+constexpr double longestTime = 3600e9;  // [ns]
+
+/// Ends a test whose road cannot exist.
+void needs(const char *what, double value, double most)
+{
+    if (!(value >= 0.0 && value <= most))
+        qFatal("QPlcSimulatedRoad: %s is %g; use 0 to %g", what, value, most);
+}
+
 qplc::SimulatedRoad inside(const QPlcSimulatedRoad &road)
 {
+    needs("loss", road.loss, 1.0);
+    needs("duplication", road.duplication, 1.0);
+    needs("reordering", road.reordering, 1.0);
+    needs("delay [ns]", double(road.delay.count()), longestTime);
+    needs("jitter [ns]", double(road.jitter.count()), longestTime);
+    needs("lateness [ns]", double(road.lateness.count()), longestTime);
     qplc::SimulatedRoad made;
     made.delay = road.delay.count();
     made.jitter = road.jitter.count();

@@ -38,7 +38,7 @@ SimulatedHost::SimulatedHost(Simulator &simulator, const QString &name, const QH
     : m_simulator(simulator)
     , m_name(name)
     , m_address(address)
-    , m_random(simulator.seed() ^ fnv1a64(name.toUtf8()))
+    , m_random(simulator.seed() ^ fnv1a64(name.toUtf8() + address.toString().toUtf8()))
     , m_network(simulator.controlWire().networkOf(*this))
 {
 }

@@ -64,6 +64,7 @@ FORBIDDEN = {
     "src/protocol": [(SOCKETS, "a socket"), (EVENT_LOOP, "the event loop of Qt"), (OTHER_CLOCKS, "a clock")],
     "src/transport": [(OTHER_CLOCKS, "a clock other than qplc::TimeSource")],
     "src/node": [(OTHER_CLOCKS, "a clock other than qplc::TimeSource")],
+    "src/node/cycle": [(EVENT_LOOP, "the event loop of Qt")],
     "src/hardware": [(OTHER_CLOCKS, "a clock other than qplc::TimeSource")],
     "src/tools": [(OTHER_CLOCKS, "a clock other than qplc::TimeSource")],
     "examples/airborne_wind_energy/plant": [(QT, "Qt")],
@@ -71,7 +72,6 @@ FORBIDDEN = {
 }
 # Lines of a function, from its name to its last brace: at most, and for 99 of 100.
 MOST_LINES, USUAL_LINES = 80, 40
-# A table of data may be longer: rows of a test, or one constant that is returned.
 # Fields of control messages have their names in src/protocol/messages alone. Elsewhere nobody reads a QPlcMessage by
 # names, or makes one with fields: messages come and go as structs.
 NAME = r"(?:QStringLiteral|QLatin1String)\("
@@ -96,7 +96,7 @@ KNOWS_WINDOW = {"gui/tables/QPlcValueTable.cpp"}
 # Clocks, random numbers, wake-ups, threads and sockets come from the Host (docs/design/simulation.md), so that a
 # simulator can give others. QTimer and QSocketNotifier belong to the event dispatcher, which a simulator has, too.
 OF_KERNEL = (r"\b(clock_gettime|clock_nanosleep|timerfd_\w+|timer_create|pthread_\w+|QRandomGenerator|createUuid|"
-             r"QDeadlineTimer|QElapsedTimer|QThread|sleep_for|sleep_until|std::thread|QUdpSocket|QTcpServer)\b|\beventfd\([^)]|(?<!\w)::p?poll\(|new Q(Tcp|Ssl)Socket")
+             r"QDeadlineTimer|QElapsedTimer|mt19937(?:_64)?|random_device|condition_variable|QThread|sleep_for|sleep_until|std::thread|QUdpSocket|QTcpServer)\b|\beventfd\([^)]|(?<!\w)::p?poll\(|new Q(Tcp|Ssl)Socket")
 HOSTED = ("signals", "realtime", "protocol", "transport", "node")
 # The machine as a Host, what measures or sets up the machine itself, and transports of the kernel. The last ones belong
 # to a Host one day: the beacon, names of a machine. A list that only shrinks.
@@ -107,6 +107,7 @@ OF_MACHINE = {
     "transport/LoopbackProbe.cpp", "transport/UdpTransport.cpp", "transport/OpenSslTls.cpp",
     "node/session/MasterBeacon.cpp", "node/session/MasterFinder.cpp", "node/session/MasterFinder.h",
 }
+# A table of data may be longer: rows of a test, or one constant that is returned.
 TABLE = r"_data\(\)$|^\s*static const\b"
 # Columns. A text behind #error cannot be wrapped. A formula or a drawing, three spaces behind its ///, may take those of code.
 CODE_COLUMNS, COMMENT_COLUMNS = 120, 100

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <functional>
 #include <mutex>
 #include <set>
 #include <sys/socket.h>
@@ -45,15 +46,23 @@ private:
 class PairPeer final : public qplc::HubPeer
 {
 public:
-    explicit PairPeer(int socket)
+    PairPeer(int socket, const std::function<void()> &withdraw)
         : descriptor(socket)
+        , m_withdraw(withdraw)
     {
     }
-    ~PairPeer() override { ::close(descriptor); }
+    ~PairPeer() override
+    {
+        m_withdraw();
+        ::close(descriptor);
+    }
     bool isClosed() const override { return closed; }
 
     const int descriptor;
     bool closed = false;
+
+private:
+    const std::function<void()> m_withdraw;  // what the node has not taken
 };
 
 /// All such nodes of one master.
@@ -142,7 +151,7 @@ public:
         qplc::messages::addFields(Answer{ends[1]}, answer);
         const std::lock_guard<std::mutex> lock(m_mutex);
         m_offered.insert(ends[1]);
-        return std::make_unique<PairPeer>(ends[0]);
+        return std::make_unique<PairPeer>(ends[0], [this, end = ends[1]] { withdraw(end); });
     }
     bool finishLink(const qplc::ControlEnds & /*ends*/, const QJsonObject &answer,
                     std::unique_ptr<qplc::CyclicLink> *link, QString *error) const override
@@ -158,6 +167,12 @@ public:
     }
 
 private:
+    void withdraw(int end) const
+    {
+        const std::lock_guard<std::mutex> lock(m_mutex);
+        if (m_offered.erase(end) > 0)
+            ::close(end);
+    }
     /// What the master adds to Registered.
     struct Answer
     {
