@@ -19,6 +19,9 @@ private Q_SLOTS:
     void aRefusalComesInItsPlace();
     void aQuestionIsAnsweredWhileACommandWaits();
     void commandsWaitForEachOtherAndStopForNone();
+    void stopAnswersTellWhatBecameOfTheSequence_data();
+    void stopAnswersTellWhatBecameOfTheSequence();
+    void stopIsDoneAtOnceBehindACommandThatIsNoSequence();
     void aPermitIsACommandToo();
     void aCommandThatIsTooLongHoldsNoOther();
     void anAnswerOfAnotherKindFails();
@@ -154,6 +157,52 @@ void tst_ControlClient::commandsWaitForEachOtherAndStopForNone()
     QCOMPARE(m_master->next().kind(), QPlcMessage::StartRealTime);
     m_master->send(QPlcMessage::Done);
     QTRY_COMPARE(m_notes, (QStringList{"first", "Done", "Done"}));
+}
+
+void tst_ControlClient::stopAnswersTellWhatBecameOfTheSequence_data()
+{
+    QTest::addColumn<QStringList>("answers");
+    QTest::addColumn<QString>("sequence");
+    QTest::newRow("stopped, told first") << QStringList{"Failed", "Done", "Done"} << "stopped";
+    QTest::newRow("stopped, told in between") << QStringList{"Done", "Failed", "Done"} << "stopped";
+    QTest::newRow("stopped, told last") << QStringList{"Done", "Done", "Failed"} << "stopped";
+    QTest::newRow("done before the stop came") << QStringList{"Done", "Done", "Done"} << "Done";
+}
+
+void tst_ControlClient::stopAnswersTellWhatBecameOfTheSequence()
+{
+    QFETCH(QStringList, answers);
+    QFETCH(QString, sequence);
+    QVERIFY(greet());
+    QMap<QString, QString> outcomes;
+    const auto noteAs = [&](const QString &name) {
+        return [&outcomes, name](const std::variant<messages::Done, messages::Failed> &reply) {
+            const auto *failed = std::get_if<messages::Failed>(&reply);
+            outcomes.insert(name, failed ? failed->error : QString("Done"));
+        };
+    };
+    m_client->request(messages::InitializeAllStates(), noteAs("sequence"));
+    m_client->request(messages::Stop(), noteAs("stop"));
+    m_client->request(messages::SafeStop(), noteAs("safe stop"));
+    for (const QString &answer : answers)
+        m_master->send(answer == "Done" ? QPlcMessage::Done : QPlcMessage::Failed, {{"error", "stopped"}});
+    QTRY_COMPARE(outcomes.size(), 3);
+    QCOMPARE(outcomes.value("sequence"), sequence);
+    QCOMPARE(outcomes.value("stop"), QString("Done"));
+    QCOMPARE(outcomes.value("safe stop"), QString("Done"));
+    QVERIFY(!m_client->isBusy());
+}
+
+void tst_ControlClient::stopIsDoneAtOnceBehindACommandThatIsNoSequence()
+{
+    QVERIFY(greet());
+    note(messages::Reset());
+    note(messages::GetState());
+    note(messages::Stop());
+    m_master->send(QPlcMessage::Done);
+    QTRY_COMPARE(m_notes, QStringList{"Done"});
+    m_master->send(QPlcMessage::Done);
+    QTRY_COMPARE(m_notes, (QStringList{"Done", "Done"}));
 }
 
 void tst_ControlClient::aPermitIsACommandToo()

@@ -98,6 +98,7 @@ void ControlClient::close()
     const QList<Pending> unanswered = m_sent + m_waiting;
     m_sent.clear();
     m_waiting.clear();
+    m_keptDones = 0;
     for (const Pending &pending : unanswered)
         pending.handler(QPlcMessage());
 }
@@ -173,20 +174,43 @@ bool ControlClient::isAnswer(QPlcMessage::Kind kind)
     return kind == QPlcMessage::Failed || answersOneOf(messages::Requests(), kind);
 }
 
-/// The request that this kind answers. While a command waits for nodes the master answers questions
-/// at once, so the order alone does not tell. The oldest request gets an answer that fits none.
+/// The request that this kind answers. The master answers questions while a command waits for
+/// nodes, so the order alone does not tell. An answer that fits no request goes to the oldest.
 int ControlClient::pendingFor(QPlcMessage::Kind answer) const
 {
     const bool isRefusal = answer == QPlcMessage::Failed || answer == QPlcMessage::Rejected;
     const auto fits = [&](const Pending &pending) {
-        return isRefusal ? pending.message.kind() != QPlcMessage::GetState  // which is never refused
-                         : pending.answer == answer;
+        const bool isNeverRefused = pending.message.kind() == QPlcMessage::GetState || pending.isUrgent();
+        return isRefusal ? !isNeverRefused : pending.answer == answer;
     };
     const auto found = std::find_if(m_sent.begin(), m_sent.end(), fits);
     return found == m_sent.end() ? 0 : int(found - m_sent.begin());
 }
 
+/// Whether the outcome of a sequence is still unknown after so many `Done`, which do not name
+/// their requests: the master may answer a Stop before the sequence that it ends.
+bool ControlClient::isSequenceOpenAfter(int dones) const
+{
+    const auto isSequence = [](const Pending &pending) { return pending.isSequence(); };
+    const auto waitsForDone = [](const Pending &pending) { return pending.answer == QPlcMessage::Done; };
+    return std::any_of(m_sent.begin(), m_sent.end(), isSequence)
+        && std::count_if(m_sent.begin(), m_sent.end(), waitsForDone) > dones;
+}
+
 void ControlClient::answer(const QPlcMessage &message)
+{
+    if (message.kind() == QPlcMessage::Done && isSequenceOpenAfter(m_keptDones + 1)) {
+        ++m_keptDones;
+        return;
+    }
+    deliver(message);
+    while (m_keptDones > 0 && !isSequenceOpenAfter(m_keptDones)) {
+        --m_keptDones;
+        deliver(QPlcMessage(QPlcMessage::Done));
+    }
+}
+
+void ControlClient::deliver(const QPlcMessage &message)
 {
     if (m_sent.isEmpty())
         return;  // unasked: nobody waits for it

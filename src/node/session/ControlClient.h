@@ -136,6 +136,10 @@ private:
 
         bool isCommand() const { return answer == QPlcMessage::Done || message.kind() == QPlcMessage::Arm; }
         bool isUrgent() const { return message.kind() == QPlcMessage::Stop || message.kind() == QPlcMessage::SafeStop; }
+        bool isSequence() const
+        {
+            return message.kind() == QPlcMessage::InitializeAllStates || message.kind() == QPlcMessage::StartRealTime;
+        }
     };
 
     template<typename Answer>
@@ -153,6 +157,8 @@ private:
     void receiveRejection(const QPlcMessage &message);
     void receiveEvents(const QPlcMessage &message);
     void answer(const QPlcMessage &message);
+    void deliver(const QPlcMessage &message);
+    bool isSequenceOpenAfter(int dones) const;
     static bool isAnswer(QPlcMessage::Kind kind);
     int pendingFor(QPlcMessage::Kind answer) const;
     void sendNow(Pending pending);
@@ -172,6 +178,7 @@ private:
     messages::MasterHello m_master;
     messages::Rejected m_rejection;
     QList<Pending> m_sent;
+    int m_keptDones = 0;       // that came while they could answer a sequence or a Stop
     QList<Pending> m_waiting;  // commands
 };
 
