@@ -99,8 +99,11 @@ int showEvents(const CommandCall &call)
     EventPrinter printer(call.isJson());
     if (isFollowing) {
         call.client.control().offer(messages::feature::events);
-        QObject::connect(&call.client.control(), &qplc::ControlClient::eventsHappened, &call.application,
-                         [&printer](const messages::Events &events) { printer.print(events.events); });
+        QObject::connect(&call.client.control(), &qplc::ControlClient::unasked, &call.application,
+                         [&printer](const QPlcMessage &message) {
+                             if (const auto events = messages::readAs<messages::Events>(message))
+                                 printer.print(events->events);
+                         });
     }
     if (!call.connect() || !printBacklog(call, &printer))
         return call.exitCode();

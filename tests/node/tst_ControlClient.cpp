@@ -15,6 +15,10 @@ class tst_ControlClient : public QObject
 private Q_SLOTS:
     void init();
     void greetsAndKnowsTheMaster();
+    void theCallerIsAskedWhenTheConnectionIsThere();
+    void aNodeWaitsForItsGreetingBehindOtherMessages();
+    void whatIsToldWaitsForNoAnswer();
+    void theLossNamesTheErrorOfTheSocket();
     void anAnswerComesAsAStruct();
     void aRefusalComesInItsPlace();
     void aQuestionIsAnsweredWhileACommandWaits();
@@ -27,7 +31,7 @@ private Q_SLOTS:
     void anAnswerOfAnotherKindFails();
     void whatAnswersNothingIsIgnored_data();
     void whatAnswersNothingIsIgnored();
-    void unaskedMessagesComeAsStructs();
+    void unaskedMessagesAnswerNoRequest();
     void anotherVersionIsLost();
     void aRejectedGreetingIsLostWithItsWords();
     void anotherFirstMessageIsNoGreeting();
@@ -98,6 +102,57 @@ void tst_ControlClient::greetsAndKnowsTheMaster()
     QCOMPARE(m_client->master().identity, QString("anna"));
     QCOMPARE(m_client->master().state, messages::MasterState::SafeStop);
     QCOMPARE(m_client->master().table.toUtf8(), m_master->table.toIni());
+}
+
+void tst_ControlClient::theCallerIsAskedWhenTheConnectionIsThere()
+{
+    connect(m_client.data(), &ControlClient::connected, this, [this] {
+        m_client->setCaller({"pump", messages::Part::Node, {}, "the uuid", messages::Hex64(7)});
+    });
+    m_client->connectToMaster(m_master->tcp());
+    const QPlcMessage hello = m_master->next();
+    QCOMPARE(hello.text("name"), QString("pump"));
+    QCOMPARE(hello.text("role"), QString("node"));
+    QCOMPARE(hello.text("uuid"), QString("the uuid"));
+    QCOMPARE(hello.text("tableHash"), QString("0000000000000007"));
+}
+
+void tst_ControlClient::aNodeWaitsForItsGreetingBehindOtherMessages()
+{
+    m_client.reset(new ControlClient({"pump", messages::Part::Node, {}}));
+    QSignalSpy unasked(m_client.data(), &ControlClient::unasked);
+    QSignalSpy lost(m_client.data(), &ControlClient::lost);
+    m_client->connectToMaster(m_master->tcp());
+    QCOMPARE(m_master->next().kind(), QPlcMessage::Hello);
+    m_master->send(QPlcMessage::RealTimeStopped);
+    m_master->send(QPlcMessage::Hello, m_master->helloFields());
+    QTRY_VERIFY(m_client->isGreeted());
+    QCOMPARE(unasked.size(), 1);
+    QCOMPARE(lost.size(), 0);
+}
+
+void tst_ControlClient::whatIsToldWaitsForNoAnswer()
+{
+    QVERIFY(greet());
+    QStringList unasked;
+    connect(m_client.data(), &ControlClient::unasked, this,
+            [&](const QPlcMessage &message) { unasked << message.kindName(); });
+    m_client->tell(messages::toMessage(messages::InitializeAllStates()));
+    QVERIFY(!m_client->isBusy());
+    QCOMPARE(m_master->next().kind(), QPlcMessage::InitializeAllStates);
+    m_master->send(QPlcMessage::Done);
+    QTRY_COMPARE(unasked, QStringList{"Done"});
+}
+
+void tst_ControlClient::theLossNamesTheErrorOfTheSocket()
+{
+    QVERIFY(greet());
+    QVERIFY(m_client->connection());
+    m_master->control->close();
+    QVERIFY(isLost());
+    QCOMPARE(m_losses.at(0).first, ControlClient::Loss::Gone);
+    QCOMPARE(m_client->socketError(), QPlcAbstractSocket::ConnectionLostError);
+    QVERIFY(!m_client->connection());
 }
 
 void tst_ControlClient::anAnswerComesAsAStruct()
@@ -264,23 +319,19 @@ void tst_ControlClient::anAnswerOfAnotherKindFails()
     QTRY_COMPARE(m_notes, QStringList{"MalformedMessage"});
 }
 
-void tst_ControlClient::unaskedMessagesComeAsStructs()
+void tst_ControlClient::unaskedMessagesAnswerNoRequest()
 {
     QVERIFY(greet());
     QStringList told;
-    connect(m_client.data(), &ControlClient::leasesChanged, this,
-            [&](const messages::LeasesChanged &leases) { told << leases.leases.at(0).signal; });
-    connect(m_client.data(), &ControlClient::eventsHappened, this,
-            [&](const messages::Events &events) { told << events.events.at(0).text; });
-    connect(m_client.data(), &ControlClient::statesInitialized, this,
-            [&](const messages::StatesInitialized &outcome) { told << outcome.text; });
+    connect(m_client.data(), &ControlClient::unasked, this,
+            [&](const QPlcMessage &message) { told << message.kindName(); });
     note(messages::GetEvents{7});
     QCOMPARE(m_master->next().fields(), (QJsonObject{{"since", 7}}));
     m_master->send(QPlcMessage::LeasesChanged, {{"leases", QJsonArray{QJsonObject{{"signal", "sum"}}}}});
     const QJsonArray events{QJsonObject{{"sequence", 8}, {"text", "hot"}}};
     m_master->send(QPlcMessage::Events, {{"events", events}});
     m_master->send(QPlcMessage::StatesInitialized, {{"ok", false}, {"text", "too late"}});
-    QTRY_COMPARE(told, (QStringList{"sum", "hot", "too late"}));
+    QTRY_COMPARE(told, (QStringList{"LeasesChanged", "Events", "StatesInitialized"}));
     QVERIFY(m_notes.isEmpty());
     m_master->send(QPlcMessage::Events, {{"events", events}, {"more", false}});
     QTRY_COMPARE(m_notes, QStringList{"Events"});
@@ -324,7 +375,7 @@ void tst_ControlClient::aMasterThatEndsIsLostAndItsRequestsFail()
     QCOMPARE(m_master->next().kind(), QPlcMessage::Reset);
     m_master->send(QPlcMessage::MasterEnds);
     QVERIFY(isLost());
-    QCOMPARE(m_losses.at(0), qMakePair(ControlClient::Loss::Gone, QString("the master has ended")));
+    QCOMPARE(m_losses.at(0), qMakePair(ControlClient::Loss::MasterEnded, QString("the master has ended")));
     QCOMPARE(m_notes, (QStringList{"Lost", "Lost"}));
 }
 

@@ -66,7 +66,7 @@ Plant::Plant(const QString &address, const QString &name, const QString &nodeNam
     connect(&m_connection, &PlantConnection::stateChanged, this, &Plant::stateChanged);
     connect(&m_connection, &PlantConnection::listenerFailed, this,
             [this](const QString &sentence) { tell(PlantEvent::Error, sentence); });
-    listenToMaster();
+    connect(&m_connection.control(), &ControlClient::unasked, this, &Plant::handleUnasked);
     connect(&m_leases, &PlantLeases::changed, this, &Plant::leasesChanged);
     connect(&m_journal, &MasterJournal::fetched, this, &Plant::tellWaiting);
     connect(&m_journal, &MasterJournal::happened, this, [this](PlantEvent event) {
@@ -121,21 +121,18 @@ void Plant::tellWaiting()
         Q_EMIT eventOccurred(event);
 }
 
-/// To what the master says without being asked.
-void Plant::listenToMaster()
+void Plant::handleUnasked(const QPlcMessage &message)
 {
-    const ControlClient *control = &m_connection.control();
-    connect(control, &ControlClient::statesInitialized, this, [this](const messages::StatesInitialized &outcome) {
+    if (const auto outcome = messages::readAs<messages::StatesInitialized>(message)) {
         refresh();
-        if (outcome.ok)
+        if (outcome->ok)
             Q_EMIT initialized();
-    });
-    connect(control, &ControlClient::leasesChanged, this,
-            [this](const messages::LeasesChanged &leases) { m_leases.take(leases.leases); });
-    connect(control, &ControlClient::eventsHappened, this, [this](const messages::Events &events) {
-        m_journal.take(events);
+    } else if (const auto leases = messages::readAs<messages::LeasesChanged>(message)) {
+        m_leases.take(leases->leases);
+    } else if (const auto events = messages::readAs<messages::Events>(message)) {
+        m_journal.take(*events);
         refresh();  // what has happened may have changed the state
-    });
+    }
 }
 
 // ---- connection ----

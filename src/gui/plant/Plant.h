@@ -194,7 +194,7 @@ private:
     void callLater(Task task);
     void nodesChanged(const QStringList &before, const QStringList &now);
     QString sourceOf(const QString &node) const;
-    void listenToMaster();
+    void handleUnasked(const QPlcMessage &message);
     void tell(PlantEvent::Severity severity, const QString &text, const QString &node = QString());
     void tell(const PlantEvent &event);
     enum EventKind { IsOther, IsStateChange };

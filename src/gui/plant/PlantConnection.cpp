@@ -35,6 +35,7 @@ QString sentenceOf(ControlClient::Loss loss, const QString &reason, const messag
     const QString shown = printable(reason);
     switch (loss) {
     case ControlClient::Loss::Gone:
+    case ControlClient::Loss::MasterEnded:
         break;
     case ControlClient::Loss::NoGreeting:
         return QStringLiteral("it answers with %1 instead of a greeting; is it a QtPLC master?").arg(shown);

@@ -229,12 +229,12 @@ void QPlcSlaveNode::activateWorkloadMeasurement(const QString &signalName)
 
 void QPlcSlaveNode::setSecurity(const QPlcSecurity &security)
 {
-    d->security = security;
+    d->control.setSecurity(security);
 }
 
 bool QPlcSlaveNode::isSecured() const
 {
-    return d->control && d->control->isSecured();
+    return d->control.connection() && d->control.connection()->isSecured();
 }
 
 void QPlcSlaveNode::activateWatchdog(std::chrono::nanoseconds time)
@@ -349,8 +349,7 @@ void QPlcSlaveNode::disconnectFromMaster()
 
 void QPlcSlaveNode::sendMessageToMaster(const QPlcMessage &message)
 {
-    if (d->control)
-        d->control->sendMessage(message);
+    d->control.tell(message);
 }
 
 QPlcSignalList QPlcSlaveNode::realTimeout(const QPlcSignalList &)

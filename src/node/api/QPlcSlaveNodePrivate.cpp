@@ -26,16 +26,10 @@ bool hasCycles(QPlcMasterNode::State state)
 std::optional<SlaveEvent> eventOf(const Message &message)
 {
     switch (message.kind()) {
-    case Message::Hello:
-        return SlaveEvent::HelloCame;
     case Message::Registered:
         return SlaveEvent::Accepted;
     case Message::CyclicChannelAttached:
         return SlaveEvent::ChannelAttached;
-    case Message::Rejected:
-        return SlaveEvent::Refused;
-    case Message::MasterEnds:
-        return SlaveEvent::MasterEnded;
     case Message::SendYourInitialOutputStates:
         return SlaveEvent::OutputsWanted;
     case Message::InitializeWithValues:
@@ -57,6 +51,7 @@ QPlcSlaveNodePrivate::QPlcSlaveNodePrivate(QPlcSlaveNode *node, const QString &n
     : q(node)
     , code(std::move(nodeCode))
     , runtime(*code, *this)
+    , control({}, q)
     , m_retryTimer(q)
     , m_patience(q)
     , m_uuid(qplc::newUuid())
@@ -70,6 +65,13 @@ QPlcSlaveNodePrivate::QPlcSlaveNodePrivate(QPlcSlaveNode *node, const QString &n
         masterLost(QPlcAbstractSocket::NoError,
                    QStringLiteral("no answer within %1 s").arg(m_patience.interval() / 1000));
     });
+    using qplc::ControlClient;
+    control.setAnswerTimes({}, {});  // an attempt has its own patience
+    QObject::connect(&control, &ControlClient::connected, q, [this] { apply(SlaveEvent::Connected); });
+    QObject::connect(&control, &ControlClient::greeted, q, [this] { apply(SlaveEvent::HelloCame); });
+    QObject::connect(&control, &ControlClient::unasked, q, [this](const Message &message) { handle(message); });
+    QObject::connect(&control, &ControlClient::lost, q,
+                     [this](ControlClient::Loss loss, const QString &reason) { controlLost(loss, reason); });
     // A program that ends says goodbye in time: its node reaches its safe state before its
     // destructor runs.
     if (QCoreApplication *application = QCoreApplication::instance())
@@ -109,27 +111,9 @@ void QPlcSlaveNodePrivate::connectToMaster(const QPlcUnderlyingProtocol &newMast
 
 void QPlcSlaveNodePrivate::openConnection()
 {
-    m_session = 0;
     if (m_wasRegistered || reconnectPolicy == QPlcSlaveNode::ReconnectAlways)
         m_patience.start(m_backOff.patience());
-    control = new QPlcMasterSocket(q);
-    if (security)
-        control->setSecurity(*security);
-    QObject::connect(control, &QPlcAbstractSocket::connected, q, [this] { apply(SlaveEvent::Connected); });
-    QObject::connect(control, &QPlcAbstractSocket::messageReceived, q,
-                     [this](const Message &message) { receive(message); });
-    // Not at once: a message that cannot be sent ends the connection, and who sends has more to do.
-    const auto controlLost = [this, socket = control](QPlcAbstractSocket::Error socketError) {
-        if (socket == control)  // else given up meanwhile
-            masterLost(socketError,
-                       socketError == QPlcAbstractSocket::NoError ? QStringLiteral("the connection was closed")
-                                                                  : socket->errorString());
-    };
-    QObject::connect(control, &QPlcAbstractSocket::errorOccurred, q, controlLost, Qt::QueuedConnection);
-    QObject::connect(
-        control, &QPlcAbstractSocket::disconnected, q, [controlLost] { controlLost(QPlcAbstractSocket::NoError); },
-        Qt::QueuedConnection);
-    control->connectToMaster(master);
+    control.connectToMaster(master);
 }
 
 void QPlcSlaveNodePrivate::disconnectFromMaster()
@@ -160,13 +144,12 @@ void QPlcSlaveNodePrivate::endBeforeDestruction()
 void QPlcSlaveNodePrivate::closeConnection(QPlcSlaveNode::SafeStateReason reason)
 {
     endPhase(reason);
-    for (QPlcMasterSocket **socket : {&control, &m_cyclicSocket}) {
-        if (!*socket)
-            continue;
-        (*socket)->disconnect(q);
-        (*socket)->close();
-        (*socket)->deleteLater();
-        *socket = nullptr;
+    control.close();
+    if (m_cyclicSocket) {
+        m_cyclicSocket->disconnect(q);
+        m_cyclicSocket->close();
+        m_cyclicSocket->deleteLater();
+        m_cyclicSocket = nullptr;
     }
     m_patience.stop();
     m_link.reset();
@@ -202,6 +185,32 @@ void QPlcSlaveNodePrivate::retryLater(SlaveEvent event)
         return;
     const double chance = qplc::randomFraction();
     m_retryTimer.start(event == SlaveEvent::Refused ? m_backOff.afterRefusal(chance) : m_backOff.next(chance));
+}
+
+void QPlcSlaveNodePrivate::controlLost(qplc::ControlClient::Loss loss, const QString &reason)
+{
+    using Loss = qplc::ControlClient::Loss;
+    switch (loss) {
+    case Loss::Gone:
+    case Loss::NoGreeting:
+        masterLost(control.socketError(), reason);
+        break;
+    case Loss::MasterEnded:
+        qCInfo(lcSlave).noquote() << "node" << name << "- the master has ended";
+        apply(SlaveEvent::MasterEnded);
+        break;
+    case Loss::Rejected:
+        giveUp(QPlcSlaveNode::RegistrationError,
+               QStringLiteral("the master at %1 refuses node '%2': %3")
+                   .arg(master.toString(), name, qplc::printable(reason)));
+        break;
+    case Loss::OtherVersion:
+        giveUp(QPlcSlaveNode::ProtocolError,
+               QStringLiteral("the master at %1 speaks protocol version %2, node '%3' version %4; update the older one")
+                   .arg(master.toString(), reason, name)
+                   .arg(messages::protocolVersion));
+        break;
+    }
 }
 
 void QPlcSlaveNodePrivate::masterLost(QPlcAbstractSocket::Error socketError, const QString &text)
@@ -240,9 +249,9 @@ bool QPlcSlaveNodePrivate::isExpected(const Message &message) const
         return false;
     switch (message.kind()) {  // steps of the registration
     case Message::Hello:
-        return m_session == 0;
+        return false;  // a second one
     case Message::Registered:
-        return m_session != 0 && !cycle;
+        return control.isGreeted() && !cycle;
     case Message::CyclicChannelAttached:
         return cycle && !m_transport->hasStreams();
     default:
@@ -261,20 +270,8 @@ public:
     }
 
     // ---- registration ----
-    void operator()(const messages::MasterHello &hello) const { d.apply(SlaveEvent::HelloCame, hello); }
     void operator()(const messages::Registered &registered) const { d.apply(SlaveEvent::Accepted, registered); }
     void operator()(const messages::CyclicChannelAttached &) const { d.apply(SlaveEvent::ChannelAttached); }
-    void operator()(const messages::Rejected &rejected) const
-    {
-        d.giveUp(QPlcSlaveNode::RegistrationError,
-                 QStringLiteral("the master at %1 refuses node '%2': %3")
-                     .arg(d.master.toString(), d.name, qplc::printable(rejected.text)));
-    }
-    void operator()(const messages::MasterEnds &) const
-    {
-        qCInfo(lcSlave).noquote() << "node" << d.name << "- the master has ended";
-        d.apply(SlaveEvent::MasterEnded);
-    }
 
     // ---- phases ----
     void operator()(const messages::SendYourInitialOutputStates &request) const
@@ -300,7 +297,7 @@ private:
     QPlcSlaveNodePrivate &d;
 };
 
-void QPlcSlaveNodePrivate::receive(const Message &message)
+void QPlcSlaveNodePrivate::handle(const Message &message)
 {
     if (state == QPlcSlaveNode::Registering && m_cyclicSocket
         && message.kind() == Message::SendYourInitialOutputStates) {

@@ -2,11 +2,11 @@
 #pragma once
 
 #include "QPlcMasterNode.h"
-#include "QPlcMasterSocket.h"
 #include "QPlcSlaveNode.h"
 #include "node/cycle/NodeRuntime.h"
 #include "node/cycle/SlaveCycle.h"
 #include "node/session/BackOff.h"
+#include "node/session/ControlClient.h"
 #include "node/state/SlaveStates.h"
 #include "node/statistics/ReportLimiter.h"
 #include "protocol/messages/MessageTable.h"
@@ -42,9 +42,8 @@ public:
     void tellInitialized();
 
     /// What a master tells with an event, for the function that belongs to it.
-    using Told = std::variant<std::monostate, qplc::messages::MasterHello, qplc::messages::Registered,
-                              qplc::messages::SendYourInitialOutputStates, qplc::messages::InitializeWithValues,
-                              qplc::messages::RealTimeStarted>;
+    using Told = std::variant<std::monostate, qplc::messages::Registered, qplc::messages::SendYourInitialOutputStates,
+                              qplc::messages::InitializeWithValues, qplc::messages::RealTimeStarted>;
     /// Something has happened: the node goes to the next state as qplc::slaveStates() says, and
     /// does what belongs to it.
     /// \return whether the present state accepts \a event
@@ -67,7 +66,6 @@ public:
     QPlcProfile::Value phaseProfile
         = QPlcProfile::Automatic;  // of the phase at hand or the last one; Automatic: there was none
     std::chrono::nanoseconds watchdogOfPhase{0};
-    std::optional<QPlcSecurity> security;  // else that of the process
     const std::unique_ptr<qplc::NodeCode> code;
     qplc::NodeRuntime runtime;
     QPlcSlaveNode::State state = QPlcSlaveNode::Disconnected;
@@ -76,7 +74,7 @@ public:
     std::unique_ptr<qplc::SlaveCycle> cycle;
     QPlcUnderlyingProtocol master;
     QPointer<QPlcMasterNode> localMaster;  // in whose process the node runs
-    QPlcMasterSocket *control = nullptr;
+    qplc::ControlClient control;           // child of the node, as the timers
 
 private:
     void enter(QPlcSlaveNode::State newState);
@@ -91,20 +89,20 @@ private:
     void codeFailed(const QString &text);
     class FromMaster;
     bool isExpected(const QPlcMessage &message) const;
-    void receive(const QPlcMessage &message);
+    void handle(const QPlcMessage &message);
     void refuseUnreadable(const QPlcMessage &message, const QString &reason);
     template<typename Message>
     void send(const Message &message)
     {
-        control->sendMessage(qplc::messages::toMessage(message));
+        control.tell(qplc::messages::toMessage(message));
     }
     bool isOrdered() const;
     QStringList features() const;
     void greet();
-    void receiveHello(const qplc::messages::MasterHello &hello);
-    bool chooseTable(const qplc::messages::MasterHello &hello, QPlcSignalTable *table);
+    void proceedAfterHello();
+    bool chooseTable(QPlcSignalTable *table);
     void registerAtMaster();
-    void receiveRegistered(const qplc::messages::Registered &registered);
+    void proceedAfterRegistered(const qplc::messages::Registered &registered);
     qplc::ControlEnds controlEnds() const;
     bool beginLink(qplc::messages::Register *request);
     bool finishLink(const qplc::messages::Registered &registered);
@@ -118,6 +116,7 @@ private:
     bool initializeWith(const qplc::messages::InitializeWithValues &initial);
     bool startCycles(const qplc::messages::RealTimeStarted &start);
     bool refusePhase(QPlcSlaveNode::Error reason, const QString &text);
+    void controlLost(qplc::ControlClient::Loss loss, const QString &reason);
     void masterLost(QPlcAbstractSocket::Error socketError, const QString &text);
     void giveUp(QPlcSlaveNode::Error newError, const QString &text);
     void takeReports();
@@ -153,5 +152,4 @@ private:
     qplc::ReportLimiter m_watchdogReports;
     bool m_isSafeTold = false;  // in this phase
     QString m_uuid;
-    quint64 m_session = 0;
 };

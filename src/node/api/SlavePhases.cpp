@@ -62,8 +62,7 @@ qplc::SlaveCycle::Group groupOf(const std::optional<messages::GroupPlace> &place
 /// for the next initialization.
 void QPlcSlaveNodePrivate::codeFailed(const QString &text)
 {
-    if (control)
-        send(messages::NodeFault{text});
+    send(messages::NodeFault{text});
     makeSafe(QPlcSlaveNode::CodeFailed);
     apply(SlaveEvent::CodeFailed);
     setError(QPlcSlaveNode::UserCodeError, QStringLiteral("node '%1': %2").arg(name, text));
@@ -73,7 +72,7 @@ void QPlcSlaveNodePrivate::codeFailed(const QString &text)
 /// connection.
 bool QPlcSlaveNodePrivate::canGoOn(const messages::SendYourInitialOutputStates &request) const
 {
-    return request.phase && m_lastPhase == PhaseName{m_session, *request.phase};
+    return request.phase && m_lastPhase == PhaseName{control.master().session, *request.phase};
 }
 
 void QPlcSlaveNodePrivate::sendInitialOutputs(const messages::SendYourInitialOutputStates &request)
@@ -153,7 +152,7 @@ bool QPlcSlaveNodePrivate::startCycles(const messages::RealTimeStarted &start)
     }
     m_inPhase = true;
     m_goesOn = false;
-    m_lastPhase = PhaseName{m_session, phase.cycleZero};
+    m_lastPhase = PhaseName{control.master().session, phase.cycleZero};
     ++m_phase;
     return true;
 }

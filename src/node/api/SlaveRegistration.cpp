@@ -42,20 +42,20 @@ QStringList QPlcSlaveNodePrivate::features() const
 
 void QPlcSlaveNodePrivate::greet()
 {
-    messages::ClientHello hello{messages::protocolVersion, name, m_uuid, messages::Part::Node, {}, features()};
+    qplc::ControlClient::Caller caller{name, messages::Part::Node, features(), m_uuid, {}};
     const QPlcSignalTable table = q->signalTable();
     if (!table.isEmpty())
-        hello.tableHash = table.hash();
-    send(hello);
+        caller.tableHash = table.hash();
+    control.setCaller(caller);
 }
 
-bool QPlcSlaveNodePrivate::chooseTable(const messages::MasterHello &hello, QPlcSignalTable *table)
+bool QPlcSlaveNodePrivate::chooseTable(QPlcSignalTable *table)
 {
     *table = q->signalTable();
     if (!table->isEmpty())
         return true;
     QVector<QPlcParseError> errors;
-    *table = QPlcSignalTable::fromMaster(hello.table.toUtf8(), &errors);
+    *table = QPlcSignalTable::fromMaster(control.master().table.toUtf8(), &errors);
     if (table->isEmpty()) {
         giveUp(QPlcSlaveNode::ProtocolError, QPlcParseError::toString(errors));
         return false;
@@ -64,18 +64,9 @@ bool QPlcSlaveNodePrivate::chooseTable(const messages::MasterHello &hello, QPlcS
     return true;
 }
 
-void QPlcSlaveNodePrivate::receiveHello(const messages::MasterHello &hello)
+void QPlcSlaveNodePrivate::proceedAfterHello()
 {
-    if (hello.protocol != messages::protocolVersion) {
-        giveUp(QPlcSlaveNode::ProtocolError,
-               QStringLiteral("the master at %1 speaks protocol version %2, node '%3' version %4; update the older one")
-                   .arg(master.toString())
-                   .arg(hello.protocol)
-                   .arg(name)
-                   .arg(messages::protocolVersion));
-        return;
-    }
-    m_session = hello.session;
+    const messages::MasterHello &hello = control.master();
     if (!hello.faults.isEmpty())
         qCWarning(lcSlave).noquote() << "the master at" << master.toString()
                                      << "injects faults on purpose:" << qplc::printable(hello.faults);
@@ -94,7 +85,7 @@ void QPlcSlaveNodePrivate::receiveHello(const messages::MasterHello &hello)
     runtime.setQualityOffered(hello.features.contains(feature::quality));
     QPlcSignalTable table;
     QString text;
-    if (!chooseTable(hello, &table))
+    if (!chooseTable(&table))
         return;
     if (!runtime.bind(table, &text)) {
         giveUp(QPlcSlaveNode::SignalError, text);
@@ -105,8 +96,9 @@ void QPlcSlaveNodePrivate::receiveHello(const messages::MasterHello &hello)
 
 qplc::ControlEnds QPlcSlaveNodePrivate::controlEnds() const
 {
-    return {qplc::SocketAddress(control->localAddress(), control->localPort()),
-            qplc::SocketAddress(control->peerAddress(), control->peerPort()), master.toString()};
+    const QPlcAbstractSocket &ends = *control.connection();
+    return {qplc::SocketAddress(ends.localAddress(), ends.localPort()),
+            qplc::SocketAddress(ends.peerAddress(), ends.peerPort()), master.toString()};
 }
 
 bool QPlcSlaveNodePrivate::beginLink(messages::Register *request)
@@ -128,7 +120,7 @@ void QPlcSlaveNodePrivate::registerAtMaster()
         send(request);
 }
 
-void QPlcSlaveNodePrivate::receiveRegistered(const messages::Registered &registered)
+void QPlcSlaveNodePrivate::proceedAfterRegistered(const messages::Registered &registered)
 {
     if (registered.inputsHash != runtime.inputLayout().hash()
         || registered.outputsHash != runtime.outputLayout().hash()) {
@@ -137,7 +129,7 @@ void QPlcSlaveNodePrivate::receiveRegistered(const messages::Registered &registe
         return;
     }
     std::optional<qplc::SealKeys> keys;
-    if (control->isSecured() && m_transport->isSealed()) {
+    if (control.connection()->isSecured() && m_transport->isSealed()) {
         keys = registered.seal ? qplc::sealKeys(*registered.seal) : std::nullopt;
         if (!keys) {
             giveUp(QPlcSlaveNode::ProtocolError,
@@ -146,7 +138,7 @@ void QPlcSlaveNodePrivate::receiveRegistered(const messages::Registered &registe
             return;
         }
     }
-    const qplc::SlaveCycle::Identity identity{m_session, registered.node, keys};
+    const qplc::SlaveCycle::Identity identity{control.master().session, registered.node, keys};
     cycle = std::make_unique<qplc::SlaveCycle>(runtime, identity, lcCyclic().isDebugEnabled());
     m_reportNotifier = std::make_unique<QSocketNotifier>(cycle->reports().descriptor(), QSocketNotifier::Read);
     QObject::connect(m_reportNotifier.get(), &QSocketNotifier::activated, q, [this] { takeReports(); });
@@ -212,5 +204,5 @@ void QPlcSlaveNodePrivate::tellRegistered()
     hasChannel = true;
     Q_EMIT q->connectedToMaster();
     if (const auto request = std::exchange(m_outputsAwaited, std::nullopt))
-        receive(*request);
+        handle(*request);
 }

@@ -112,10 +112,10 @@ void QPlcSlaveNodePrivate::carryOut(SlaveAction action, const Told &told)
         greet();
         break;
     case SlaveAction::Proceed:
-        if (const auto *hello = std::get_if<messages::MasterHello>(&told))
-            receiveHello(*hello);
+        if (const auto *registered = std::get_if<messages::Registered>(&told))
+            proceedAfterRegistered(*registered);
         else
-            receiveRegistered(std::get<messages::Registered>(told));
+            proceedAfterHello();
         break;
     case SlaveAction::TellRegistered:
         tellRegistered();

@@ -4,17 +4,13 @@
 #include "realtime/Host.h"
 #include "realtime/TimeSource.h"
 
+#include <QtCore/QPointer>
+
 #include <algorithm>
 
 namespace qplc {
 
 namespace {
-
-/// On the clock of monotonicNow() [ns].
-std::int64_t after(std::chrono::milliseconds duration)
-{
-    return monotonicNow() + std::chrono::nanoseconds(duration).count();
-}
 
 template<typename... Requests>
 bool answersOneOf(messages::List<Requests...>, QPlcMessage::Kind kind)
@@ -36,6 +32,7 @@ QPlcMessage::Kind answerTo(messages::List<Requests...>, QPlcMessage::Kind kind)
 ControlClient::ControlClient(const Caller &caller, QObject *parent)
     : QObject(parent)
     , m_caller(caller)
+    , m_timer(this)
 {
     m_timer.setSingleShot(true);
     connect(&m_timer, &QTimer::timeout, this, &ControlClient::checkDeadlines);
@@ -60,27 +57,38 @@ void ControlClient::connectToMaster(const QPlcUnderlyingProtocol &master)
     close();
     m_master = {};
     m_rejection = {};
+    m_socketError = QPlcAbstractSocket::NoError;
     m_socket = new QPlcMasterSocket(this);
     if (m_security)
         m_socket->setSecurity(*m_security);
     connect(m_socket, &QPlcAbstractSocket::connected, this, &ControlClient::greet);
     connect(m_socket, &QPlcAbstractSocket::messageReceived, this, &ControlClient::receive);
-    connect(m_socket, &QPlcAbstractSocket::errorOccurred, this, [this] { end(Loss::Gone, m_socket->errorString()); });
-    connect(m_socket, &QPlcAbstractSocket::disconnected, this,
-            [this] { end(Loss::Gone, QStringLiteral("the connection was closed")); });
-    m_greetingDeadline = after(m_questionTime);
+    // Not at once: a message that cannot be sent ends the connection, and who sends has more to do.
+    const auto gone = [this, socket = m_socket](QPlcAbstractSocket::Error error) {
+        if (socket != m_socket)
+            return;  // closed meanwhile, or an error and its end
+        m_socketError = error;
+        end(Loss::Gone,
+            error == QPlcAbstractSocket::NoError ? QStringLiteral("the connection was closed") : socket->errorString());
+    };
+    connect(m_socket, &QPlcAbstractSocket::errorOccurred, this, gone, Qt::QueuedConnection);
+    connect(
+        m_socket, &QPlcAbstractSocket::disconnected, this, [gone] { gone(QPlcAbstractSocket::NoError); },
+        Qt::QueuedConnection);
+    m_greetingDeadline = deadlineAfter(m_questionTime);
     watchDeadlines();
     m_socket->connectToMaster(master);
 }
 
 void ControlClient::greet()
 {
-    messages::ClientHello hello;
-    hello.protocol = messages::protocolVersion;
-    hello.name = m_caller.name;
-    hello.uuid = newUuid();
-    hello.role = m_caller.role;
-    hello.features = m_caller.features;
+    QPlcMasterSocket *socket = m_socket;
+    Q_EMIT connected();
+    if (socket != m_socket)
+        return;  // closed by who heard of it
+    const QString uuid = m_caller.uuid.isEmpty() ? newUuid() : m_caller.uuid;
+    const messages::ClientHello hello{messages::protocolVersion, m_caller.name,    uuid, m_caller.role,
+                                      m_caller.tableHash,        m_caller.features};
     m_socket->sendMessage(messages::toMessage(hello));
 }
 
@@ -91,7 +99,7 @@ void ControlClient::close()
     m_timer.stop();
     if (m_socket) {
         m_socket->disconnect(this);
-        m_socket->abort();
+        m_socket->close();
         m_socket->deleteLater();
         m_socket = nullptr;
     }
@@ -106,7 +114,7 @@ void ControlClient::close()
 void ControlClient::end(Loss loss, const QString &reason)
 {
     if (!m_socket)
-        return;  // an error and its end
+        return;  // closed by who got the last answer
     close();
     Q_EMIT lost(loss, reason);
 }
@@ -115,63 +123,51 @@ void ControlClient::end(Loss loss, const QString &reason)
 
 void ControlClient::receive(const QPlcMessage &message)
 {
-    if (message.kind() == QPlcMessage::MasterEnds) {
-        end(Loss::Gone, QStringLiteral("the master has ended"));
-    } else if (message.kind() == QPlcMessage::Rejected) {
-        receiveRejection(message);
-    } else if (!m_isGreeted) {
-        receiveGreeting(message);
-    } else if (message.kind() == QPlcMessage::Events) {
-        receiveEvents(message);
-    } else if (message.kind() == QPlcMessage::LeasesChanged) {
-        if (const auto leases = messages::readAs<messages::LeasesChanged>(message))
-            Q_EMIT leasesChanged(*leases);
-    } else if (message.kind() == QPlcMessage::StatesInitialized) {
-        if (const auto outcome = messages::readAs<messages::StatesInitialized>(message))
-            Q_EMIT statesInitialized(*outcome);
-    } else if (isAnswer(message.kind())) {
+    const auto hello = m_isGreeted ? std::nullopt : messages::readAs<messages::MasterHello>(message);
+    if (hello)
+        receiveGreeting(*hello);
+    else if (const auto rejection = messages::readAs<messages::Rejected>(message))
+        receiveRejection(*rejection);
+    else if (message.kind() == QPlcMessage::MasterEnds)
+        end(Loss::MasterEnded, QStringLiteral("the master has ended"));
+    else if (!m_isGreeted && m_caller.role == messages::Part::Tool)
+        end(Loss::NoGreeting, message.kindName());
+    else if (isAnswer(message))
         answer(message);
-    }
+    else
+        Q_EMIT unasked(message);
 }
 
-void ControlClient::receiveGreeting(const QPlcMessage &message)
+void ControlClient::receiveGreeting(const messages::MasterHello &hello)
 {
-    const auto hello = messages::readAs<messages::MasterHello>(message);
-    if (!hello) {
-        end(Loss::NoGreeting, message.kindName());
-    } else if (hello->protocol != messages::protocolVersion) {
-        end(Loss::OtherVersion, QString::number(hello->protocol));
-    } else {
-        m_master = *hello;
-        m_isGreeted = true;
-        m_greetingDeadline = Never;
-        watchDeadlines();
-        Q_EMIT greeted();
+    if (hello.protocol != messages::protocolVersion) {
+        end(Loss::OtherVersion, QString::number(hello.protocol));
+        return;
     }
+    m_master = hello;
+    m_isGreeted = true;
+    m_greetingDeadline = Never;
+    watchDeadlines();
+    Q_EMIT greeted();
 }
 
 /// The master closes the connection after it: the request that it refuses is told so first.
-void ControlClient::receiveRejection(const QPlcMessage &message)
+void ControlClient::receiveRejection(const messages::Rejected &rejection)
 {
-    m_rejection = messages::readAs<messages::Rejected>(message).value_or(messages::Rejected());
-    if (m_isGreeted && !m_sent.isEmpty())
-        answer(message);
-    end(Loss::Rejected, m_rejection.text);
+    m_rejection = rejection;
+    const QPointer<ControlClient> self(this);  // who gets an answer may delete us
+    if (!m_sent.isEmpty())
+        answer(messages::toMessage(rejection));
+    if (self)
+        end(Loss::Rejected, m_rejection.text);
 }
 
-void ControlClient::receiveEvents(const QPlcMessage &message)
+/// Whether a request waits for such a message. Events come unasked, too: then without `more`.
+bool ControlClient::isAnswer(const QPlcMessage &message) const
 {
     const auto events = messages::readAs<messages::Events>(message);
-    if (!events || events->more)
-        answer(message);
-    else
-        Q_EMIT eventsHappened(*events);
-}
-
-/// Whether some request is answered with this kind. Others come unasked, or of a newer master.
-bool ControlClient::isAnswer(QPlcMessage::Kind kind)
-{
-    return kind == QPlcMessage::Failed || answersOneOf(messages::Requests(), kind);
+    return !m_sent.isEmpty() && !(events && !events->more)
+        && (message.kind() == QPlcMessage::Failed || answersOneOf(messages::Requests(), message.kind()));
 }
 
 /// The request that this kind answers. The master answers questions while a command waits for
@@ -203,8 +199,9 @@ void ControlClient::answer(const QPlcMessage &message)
         ++m_keptDones;
         return;
     }
+    const QPointer<ControlClient> self(this);
     deliver(message);
-    while (m_keptDones > 0 && !isSequenceOpenAfter(m_keptDones)) {
+    while (self && m_keptDones > 0 && !isSequenceOpenAfter(m_keptDones)) {
         --m_keptDones;
         deliver(QPlcMessage(QPlcMessage::Done));
     }
@@ -212,8 +209,6 @@ void ControlClient::answer(const QPlcMessage &message)
 
 void ControlClient::deliver(const QPlcMessage &message)
 {
-    if (m_sent.isEmpty())
-        return;  // unasked: nobody waits for it
     const RawHandler handler = m_sent.takeAt(pendingFor(message.kind())).handler;
     sendNextCommands();
     watchDeadlines();
@@ -250,6 +245,12 @@ void ControlClient::send(const QPlcMessage &message, const RawHandler &handler)
         sendNow(pending);
 }
 
+void ControlClient::tell(const QPlcMessage &message)
+{
+    if (m_socket)
+        m_socket->sendMessage(message);
+}
+
 void ControlClient::sendNow(Pending pending)
 {
     if (!m_socket->sendMessage(pending.message)) {
@@ -258,7 +259,7 @@ void ControlClient::sendNow(Pending pending)
         pending.handler(messages::toMessage(tooLong));
         return;
     }
-    pending.deadline = after(pending.isCommand() ? m_commandTime : m_questionTime);
+    pending.deadline = deadlineAfter(pending.isCommand() ? m_commandTime : m_questionTime);
     m_sent.append(pending);
     watchDeadlines();
 }
@@ -270,6 +271,12 @@ void ControlClient::sendNextCommands()
 }
 
 // ---- time ----
+
+/// On the clock of monotonicNow() [ns].
+std::int64_t ControlClient::deadlineAfter(std::chrono::milliseconds duration)
+{
+    return duration.count() > 0 ? monotonicNow() + std::chrono::nanoseconds(duration).count() : Never;
+}
 
 void ControlClient::watchDeadlines()
 {

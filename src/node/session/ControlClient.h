@@ -56,12 +56,15 @@ public:
         QString name;
         messages::Part role = messages::Part::Tool;
         QStringList features;
+        QString uuid{};                              // empty: a new one for each connection
+        std::optional<messages::Hex64> tableHash{};  // of the table that it has
     };
     /// Why there is no connection any more.
     enum class Loss : quint8 {
-        Gone,        ///< nobody answers, or the connection ended
-        Rejected,    ///< the master said no: rejection() has its words
-        NoGreeting,  ///< the first message was another one: the other end is no master
+        Gone,         ///< nobody answers, or the connection ended: socketError() has the kind
+        MasterEnded,  ///< the master has said so
+        Rejected,     ///< the master said no: rejection() has its words
+        NoGreeting,   ///< the first message was another one: the other end is no master. Tools only
         OtherVersion
     };
     Q_ENUM(Loss)
@@ -74,13 +77,15 @@ public:
     explicit ControlClient(const Caller &caller, QObject *parent = nullptr);
     ~ControlClient() override;
 
-    /// Offers a feature of the protocol. Takes effect with connectToMaster().
+    /// Changes who greets. Takes effect with the next greeting: in connected() at the latest.
+    void setCaller(const Caller &caller) { m_caller = caller; }
+    /// Offers a feature of the protocol. As setCaller().
     void offer(const QString &feature) { m_caller.features.append(feature); }
     /// Without a call: as the process does (QPlcSecurity::current()). Takes effect with
     /// connectToMaster().
     void setSecurity(const QPlcSecurity &security) { m_security = security; }
     /// Longest wait for the greeting and for answers to questions; for commands, which may wait for
-    /// nodes.
+    /// nodes. 0: without an end.
     void setAnswerTimes(std::chrono::milliseconds questions, std::chrono::milliseconds commands);
 
     /// Begins to connect; greeted() or lost() follows. Ends the connection that there is.
@@ -94,6 +99,10 @@ public:
     const messages::MasterHello &master() const { return m_master; }
     /// The last Rejected of the master.
     const messages::Rejected &rejection() const { return m_rejection; }
+    /// What ended the last connection; NoError: none of its errors.
+    QPlcAbstractSocket::Error socketError() const { return m_socketError; }
+    /// The connection, for its addresses and its security; null: there is none.
+    const QPlcAbstractSocket *connection() const { return m_socket; }
     /// Whether a command waits for its answer.
     bool isBusy() const;
 
@@ -108,21 +117,21 @@ public:
     }
     /// As request(), for a message that is passed on as it is.
     void send(const QPlcMessage &message, const RawHandler &handler);
+    /// Sends \a message, greeted or not, and waits for nothing: an answer comes as unasked().
+    void tell(const QPlcMessage &message);
     /// Why \a message is not the answer that was wanted. \param error  what could not be read of it
     static messages::Failed failureOf(const QPlcMessage &message, const QString &error = QString());
 
 Q_SIGNALS:
+    /// The greeting is about to be sent.
+    void connected();
     void greeted();
-    /// The connection ended, or could not be made.
-    /// \param reason half a sentence; of Rejected the text of the master, of NoGreeting the kind
-    ///         that came, of OtherVersion the version of the master
+    /// The connection ended, or could not be made. Never while a message is being sent.
+    /// \param reason  half a sentence; of Rejected the text of the master, of NoGreeting the kind
+    ///                that came, of OtherVersion the version of the master
     void lost(qplc::ControlClient::Loss loss, const QString &reason);
-    /// Unasked, with the feature "leases".
-    void leasesChanged(const qplc::messages::LeasesChanged &leases);
-    /// Unasked, with the feature "events".
-    void eventsHappened(const qplc::messages::Events &events);
-    /// All nodes have their initial values, or not.
-    void statesInitialized(const qplc::messages::StatesInitialized &outcome);
+    /// A message that answers no request, neither begins nor ends the connection.
+    void unasked(const QPlcMessage &message);
 
 private:
     static constexpr std::int64_t Never = INT64_MAX;
@@ -153,18 +162,18 @@ private:
 
     void greet();
     void receive(const QPlcMessage &message);
-    void receiveGreeting(const QPlcMessage &message);
-    void receiveRejection(const QPlcMessage &message);
-    void receiveEvents(const QPlcMessage &message);
+    void receiveGreeting(const messages::MasterHello &hello);
+    void receiveRejection(const messages::Rejected &rejection);
     void answer(const QPlcMessage &message);
     void deliver(const QPlcMessage &message);
     bool isSequenceOpenAfter(int dones) const;
-    static bool isAnswer(QPlcMessage::Kind kind);
+    bool isAnswer(const QPlcMessage &message) const;
     int pendingFor(QPlcMessage::Kind answer) const;
     void sendNow(Pending pending);
     void sendNextCommands();
     void watchDeadlines();
     void checkDeadlines();
+    static std::int64_t deadlineAfter(std::chrono::milliseconds duration);
     void end(Loss loss, const QString &reason);
 
     Caller m_caller;
@@ -177,6 +186,7 @@ private:
     bool m_isGreeted = false;
     messages::MasterHello m_master;
     messages::Rejected m_rejection;
+    QPlcAbstractSocket::Error m_socketError = QPlcAbstractSocket::NoError;
     QList<Pending> m_sent;
     int m_keptDones = 0;       // that came while they could answer a sequence or a Stop
     QList<Pending> m_waiting;  // commands

@@ -107,13 +107,15 @@ using Requests = List<InitializeAllStates, ReceiveMyInitialOutputStates, Initial
                       GetSchedule, TakeLease, ReleaseLease, GetLeases, GetEvents>;
 /// What a node or tool sends to its master.
 using FromClient = JoinedLists<Openings, Requests>::Type;
+/// How a master begins and ends a connection.
+using Greetings = List<MasterHello, Rejected, MasterEnds>;
 /// By what a master leads a node through its registration and its phases.
-using ToNode = List<MasterHello, Registered, Rejected, CyclicChannelAttached, MasterEnds, SendYourInitialOutputStates,
-                    InitializeWithValues, RealTimeStarted, RealTimeStopped, StatesInitialized>;
+using ToNode = List<Registered, CyclicChannelAttached, SendYourInitialOutputStates, InitializeWithValues,
+                    RealTimeStarted, RealTimeStopped, StatesInitialized>;
 /// What a master answers, and tells who wants to know.
 using Replies = List<Armed, State, Signals, Done, Failed, Statistics, Schedule, Leases, LeasesChanged, Events>;
 /// What a master sends to a node or tool.
-using FromMaster = JoinedLists<ToNode, Replies>::Type;
+using FromMaster = JoinedLists<Greetings, JoinedLists<ToNode, Replies>::Type>::Type;
 
 static_assert(isEveryKind([](QPlcMessage::Kind kind) {
                   return FromClient::contains(kind) || FromMaster::contains(kind);
