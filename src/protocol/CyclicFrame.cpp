@@ -190,7 +190,7 @@ FrameStatus FrameDecoder::accept(const FrameHeader &header, const char *payload,
         return m_anyComplete && header.cycle == m_cycle ? FrameStatus::Duplicate : FrameStatus::Old;
     if (ahead > 0 || !m_any)
         beginCycle(header.cycle);
-    return takePart(partOf(header), payload);
+    return addPart(partOf(header), payload);
 }
 
 void FrameDecoder::beginCycle(std::uint64_t cycle) noexcept
@@ -201,7 +201,7 @@ void FrameDecoder::beginCycle(std::uint64_t cycle) noexcept
     std::fill(m_partsSeen.begin(), m_partsSeen.end(), 0);
 }
 
-FrameStatus FrameDecoder::takePart(std::size_t part, const char *payload) noexcept
+FrameStatus FrameDecoder::addPart(std::size_t part, const char *payload) noexcept
 {
     std::uint64_t &seen = m_partsSeen[part / PartsPerWord];
     const std::uint64_t bit = std::uint64_t(1) << (part % PartsPerWord);

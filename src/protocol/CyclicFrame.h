@@ -164,7 +164,7 @@ private:
     bool isOfThisKind(const char *header) const noexcept;
     FrameStatus accept(const FrameHeader &header, const char *payload, std::uint64_t end) noexcept;
     void beginCycle(std::uint64_t cycle) noexcept;
-    FrameStatus takePart(std::size_t part, const char *payload) noexcept;
+    FrameStatus addPart(std::size_t part, const char *payload) noexcept;
 
     FrameKind m_kind = FrameKind::Inputs;
     std::uint16_t m_session = 0;

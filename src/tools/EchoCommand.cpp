@@ -142,8 +142,8 @@ int printLines(const CommandCall &call, const QPlcSignalTable &table, const QStr
     if (!call.ask(qplc::messages::GetState(), &state) || !call.ask(listener.question(), &values))
         return call.exitCode();
     const auto endIsWanted = call.quitOnSignals();
-    listener.takeState(state);
-    listener.takeValues(values);
+    listener.handleState(state);
+    listener.handleValues(values);
     if (echo.isComplete())
         return QPlcCoreApplication::Success;
     const bool hasJoined = listener.join();

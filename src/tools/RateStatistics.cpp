@@ -12,7 +12,7 @@ void RateStatistics::add(const Arrival &arrival)
     if (m_cycles++ == 0) {
         m_first = arrival;
     } else if (arrival.cycle == m_last.cycle + 1) {
-        takeInterval(double(arrival.time - m_last.time));
+        addInterval(double(arrival.time - m_last.time));
     } else {
         m_lost += arrival.cycle - m_last.cycle - 1;
         if (m_gaps.size() == mostGaps)
@@ -24,7 +24,7 @@ void RateStatistics::add(const Arrival &arrival)
 }
 
 /// Mean and squares grow step by step: the difference of large sums would lose its digits.
-void RateStatistics::takeInterval(double interval)
+void RateStatistics::addInterval(double interval)
 {
     m_minimum = m_intervals == 0 ? interval : std::fmin(m_minimum, interval);
     m_maximum = std::fmax(m_maximum, interval);

@@ -41,7 +41,7 @@ public:
     static constexpr int mostGaps = 20;
 
 private:
-    void takeInterval(double interval);
+    void addInterval(double interval);
 
     struct Gap
     {

@@ -61,7 +61,7 @@ QJsonObject SignalListener::toJson(const QVector<QPlcValue> &values) const
     return object;
 }
 
-void SignalListener::takeState(const messages::State &state)
+void SignalListener::handleState(const messages::State &state)
 {
     m_period = double(state.period.count()) * 1e-9;
     m_state = state.state;
@@ -70,7 +70,7 @@ void SignalListener::takeState(const messages::State &state)
         askForValues();
 }
 
-void SignalListener::takeValues(const messages::Signals &answer)
+void SignalListener::handleValues(const messages::Signals &answer)
 {
     if (m_isRunning || int(answer.signals.size()) < m_definitions.size())
         return;
@@ -107,12 +107,12 @@ void SignalListener::ask(const Request &request, void (SignalListener::*take)(co
 
 void SignalListener::askForState()
 {
-    ask(messages::GetState(), &SignalListener::takeState);
+    ask(messages::GetState(), &SignalListener::handleState);
 }
 
 void SignalListener::askForValues()
 {
-    ask(question(), &SignalListener::takeValues);
+    ask(question(), &SignalListener::handleValues);
 }
 
 void SignalListener::takeCycles()

@@ -32,9 +32,9 @@ public:
     const QVector<QPlcSignalDefinition> &definitions() const { return m_definitions; }
     /// Names and values of one sample, as JSON.
     QJsonObject toJson(const QVector<QPlcValue> &values) const;
-    void takeState(const qplc::messages::State &state);
-    void takeValues(const qplc::messages::Signals &answer);
-    /// The question that takeValues() has the answer of.
+    void handleState(const qplc::messages::State &state);
+    void handleValues(const qplc::messages::Signals &answer);
+    /// The question that handleValues() has the answer of.
     qplc::messages::GetSignals question() const { return {m_names}; }
     /// Registers and listens from now on. \return false, with the message out
     bool join();

@@ -31,10 +31,10 @@ StreamLink::StreamLink(int descriptor, const FrameCutter &cutter, std::size_t la
 
 CyclicLink::Status StreamLink::poll(const char **frame, std::size_t *size) noexcept
 {
-    return take(frame, size, MSG_DONTWAIT);
+    return read(frame, size, MSG_DONTWAIT);
 }
 
-CyclicLink::Status StreamLink::take(const char **frame, std::size_t *size, int flags) noexcept
+CyclicLink::Status StreamLink::read(const char **frame, std::size_t *size, int flags) noexcept
 {
     for (;;) {
         switch (m_buffer.next(m_cutter, frame, size)) {

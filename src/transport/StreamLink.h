@@ -16,7 +16,7 @@ public:
     /// Takes over the connected TCP socket \a descriptor.
     static std::unique_ptr<CyclicLink> make(int descriptor, const FrameCutter &cutter, std::size_t largestFrame);
 
-    Status receive(const char **frame, std::size_t *size) noexcept override { return take(frame, size, 0); }
+    Status receive(const char **frame, std::size_t *size) noexcept override { return read(frame, size, 0); }
     Status poll(const char **frame, std::size_t *size) noexcept override;
     bool send(const char *frame, std::size_t size) noexcept override
     {
@@ -25,7 +25,7 @@ public:
 
 private:
     StreamLink(int descriptor, const FrameCutter &cutter, std::size_t largestFrame);
-    Status take(const char **frame, std::size_t *size, int flags) noexcept;
+    Status read(const char **frame, std::size_t *size, int flags) noexcept;
 
     FrameCutter m_cutter;
     FrameBuffer m_buffer;

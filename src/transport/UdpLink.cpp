@@ -32,7 +32,7 @@ bool UdpLink::connectTo(const SocketAddress &master, quint16 *localPort, QString
 
 CyclicLink::Status UdpLink::poll(const char **frame, std::size_t *size) noexcept
 {
-    return take(frame, size, MSG_DONTWAIT);
+    return read(frame, size, MSG_DONTWAIT);
 }
 
 bool UdpLink::send(const char *frame, std::size_t size) noexcept
@@ -40,7 +40,7 @@ bool UdpLink::send(const char *frame, std::size_t size) noexcept
     return ::send(m_descriptor, frame, size, MSG_DONTWAIT | MSG_NOSIGNAL) == ssize_t(size);
 }
 
-CyclicLink::Status UdpLink::take(const char **frame, std::size_t *size, int flags) noexcept
+CyclicLink::Status UdpLink::read(const char **frame, std::size_t *size, int flags) noexcept
 {
     const ssize_t count = ::recv(m_source, m_buffer.data(), m_buffer.size(), flags);
     if (count < 0) {

@@ -16,7 +16,7 @@ public:
     /// Null, with the reason in \a error, when there is no socket to be had.
     static std::unique_ptr<CyclicLink> open(const SocketAddress &master, quint16 *localPort, QString *error);
 
-    Status receive(const char **frame, std::size_t *size) noexcept override { return take(frame, size, 0); }
+    Status receive(const char **frame, std::size_t *size) noexcept override { return read(frame, size, 0); }
     Status poll(const char **frame, std::size_t *size) noexcept override;
     bool send(const char *frame, std::size_t size) noexcept override;
 
@@ -34,7 +34,7 @@ protected:
 private:
     static constexpr std::size_t LargestDatagram = 2048;  // longer than every frame: what is cut off here is none
 
-    Status take(const char **frame, std::size_t *size, int flags) noexcept;
+    Status read(const char **frame, std::size_t *size, int flags) noexcept;
 
     std::array<char, LargestDatagram> m_buffer;
 };

@@ -46,7 +46,7 @@ private:
     static void hear(MasterFinder &finder, const Beacon &beacon, const char *sender = "192.0.2.77")
     {
         const QByteArray bytes = beacon.encoded();
-        finder.take(bytes.constData(), bytes.size(), QHostAddress(QLatin1String(sender)));
+        finder.handle(bytes.constData(), bytes.size(), QHostAddress(QLatin1String(sender)));
     }
     static QString addressOf(const QPlcMasterNode &master)
     {
@@ -176,8 +176,8 @@ void tst_MasterFinder::garbageIsNothing()
     const QByteArray good = Beacon{50000, false, 1, QStringLiteral("kite")}.encoded();
     for (const QByteArray &bytes : {QByteArray(), QByteArray("x"), QByteArray(1000, '\xff'), good.chopped(1),
                                     good + good, QByteArray("QPLB"), "QPLC" + good.mid(4)})
-        finder.take(bytes.constData(), bytes.size(), QHostAddress(QStringLiteral("192.0.2.77")));
-    finder.take(good.constData(), good.size(), QHostAddress(QStringLiteral("fe80::1")));  // beacons travel over IPv4
+        finder.handle(bytes.constData(), bytes.size(), QHostAddress(QStringLiteral("192.0.2.77")));
+    finder.handle(good.constData(), good.size(), QHostAddress(QStringLiteral("fe80::1")));  // beacons travel over IPv4
     finder.look();
     QVERIFY(finder.masters().isEmpty());
     QCOMPARE(changed.count(), 0);

@@ -52,16 +52,16 @@ void tst_Sequences::nodesGetTheirInputsWhenAllHaveGivenTheirOutputs()
     QSignalSpy done(&bench.initialization, &qplc::InitializeSequence::done);
     bench.initialization.begin();
     QCOMPARE(bench.takeLog(), QStringList({"Winch askOutputs", "Kite askOutputs"}));
-    bench.initialization.takeAnswer(*winch, bench.bytes("sum", 3.0));
+    bench.initialization.handleAnswer(*winch, bench.bytes("sum", 3.0));
     QCOMPARE(bench.takeLog(), QStringList());
-    bench.initialization.takeAnswer(*kite, bench.bytes("echo", 4.0));
+    bench.initialization.handleAnswer(*kite, bench.bytes("echo", 4.0));
     QCOMPARE(bench.takeLog(), QStringList({"Winch giveInputs", "Kite giveInputs"}));
     QCOMPARE(winch->lastInputs, bench.bytes("echo", 4.0));
     QCOMPARE(kite->lastInputs, bench.bytes("sum", 3.0));
-    bench.initialization.takeAnswer(*kite, {});
+    bench.initialization.handleAnswer(*kite, {});
     QVERIFY(bench.timer.isRunning());
     QCOMPARE(done.size(), 0);
-    bench.initialization.takeAnswer(*winch, {});
+    bench.initialization.handleAnswer(*winch, {});
     QCOMPARE(bench.takeLog(), QStringList("all: initialized"));
     QCOMPARE(told.size(), 1);
     QCOMPARE(done.size(), 1);
@@ -76,9 +76,9 @@ void tst_Sequences::nodesThatAnswerAtOnceAreAskedLast()
     const auto remote = bench.add("Remote", Answers::Later, "echo");
     bench.initialization.begin();
     QCOMPARE(bench.takeLog(), QStringList({"Remote askOutputs", "Local askOutputs"}));
-    bench.initialization.takeAnswer(*remote, remote->outputs);
+    bench.initialization.handleAnswer(*remote, remote->outputs);
     QCOMPARE(bench.takeLog(), QStringList({"Remote giveInputs", "Local giveInputs"}));
-    bench.initialization.takeAnswer(*remote, {});
+    bench.initialization.handleAnswer(*remote, {});
     QCOMPARE(bench.takeLog(), QStringList("all: initialized"));
 }
 
@@ -89,7 +89,7 @@ void tst_Sequences::aNodeWithoutAnAnswerIsNamed()
     bench.add("Kite", Answers::Later, "echo");
     bench.add("Tower", Answers::Later, "setpoint");
     bench.initialization.begin();
-    bench.initialization.takeAnswer(*winch, winch->outputs);
+    bench.initialization.handleAnswer(*winch, winch->outputs);
     bench.takeLog();
     bench.timer.elapse();
     QCOMPARE(bench.takeLog(),
@@ -103,7 +103,7 @@ void tst_Sequences::outputsOfTheWrongSizeDropTheirNode()
     const auto winch = bench.add("Winch", Answers::Later, "sum");
     bench.initialization.begin();
     bench.takeLog();
-    bench.initialization.takeAnswer(*winch, QByteArray(3, 0));
+    bench.initialization.handleAnswer(*winch, QByteArray(3, 0));
     QCOMPARE(bench.takeLog(), QStringList("Winch drop: it sent 3 bytes of initial outputs instead of 8"));
     QVERIFY(bench.step.isUnderWay());
 }
@@ -114,7 +114,7 @@ void tst_Sequences::outputsThatAreNotFiniteEndTheInitialization()
     const auto winch = bench.add("Winch", Answers::Later, "sum");
     bench.initialization.begin();
     bench.takeLog();
-    bench.initialization.takeAnswer(*winch, bench.bytes("sum", qQNaN()));
+    bench.initialization.handleAnswer(*winch, bench.bytes("sum", qQNaN()));
     QCOMPARE(bench.log.size(), 1);
     QVERIFY2(bench.log.first().startsWith("master SequenceFailed: node 'Winch': the initial value of signal 'sum': "),
              qPrintable(bench.log.first()));
@@ -199,7 +199,7 @@ void tst_Sequences::cyclesStartWhenAllNodesAreReady()
     QCOMPARE(quint64(remote->lastStart.cycleZero), quint64(1000));
     QCOMPARE(quint64(remote->lastStart.firstCycle), quint64(1000));
     QVERIFY(!bench.cycles.running);
-    bench.starting.takeAnswer(*remote);
+    bench.starting.handleAnswer(*remote);
     QCOMPARE(
         bench.takeLog(),
         QStringList({"master CyclesStarted", "Remote cyclesStarted Simulation", "Local cyclesStarted Simulation"}));
@@ -247,7 +247,7 @@ void tst_Sequences::aNodeThatCameDuringTheStartJoinsAfterwards()
     bench.starting.begin();
     const auto late = bench.add("Late", Answers::Later, "sum");
     bench.takeLog();
-    bench.starting.takeAnswer(*remote);
+    bench.starting.handleAnswer(*remote);
     QCOMPARE(bench.takeLog(),
              QStringList({"master CyclesStarted", "Remote cyclesStarted Simulation", "Late askOutputs"}));
     QCOMPARE(late->stage(), NodeSession::GivingOutputs);
@@ -263,7 +263,7 @@ void tst_Sequences::nobodyJoinsAPhaseThatHasEnded()
         bench.stopping.stop("enough");
     });
     bench.starting.begin();
-    bench.starting.takeAnswer(*remote);
+    bench.starting.handleAnswer(*remote);
     QCOMPARE(bench.takeLog().last(), QString("Remote stop: enough"));
     QCOMPARE(remote->stage(), NodeSession::Idle);
 }
@@ -275,14 +275,14 @@ void tst_Sequences::aListenerWaitsForNobodyAndNobodyForIt()
     const auto viewer = bench.add("Viewer", Answers::Later, "", "sum", true);
     bench.initialization.begin();
     QCOMPARE(bench.takeLog(), QStringList({"Viewer askOutputs", "Winch askOutputs"}));
-    bench.joining.takeAnswer(*viewer, {}, false);
+    bench.joining.handleAnswer(*viewer, {}, false);
     QCOMPARE(bench.takeLog(), QStringList());  // its inputs are not there yet
-    bench.initialization.takeAnswer(*winch, bench.bytes("sum", 5.0));
+    bench.initialization.handleAnswer(*winch, bench.bytes("sum", 5.0));
     QCOMPARE(bench.takeLog(), QStringList({"Viewer giveInputs", "Winch giveInputs"}));
     QCOMPARE(viewer->lastInputs, bench.bytes("sum", 5.0));
-    bench.initialization.takeAnswer(*winch, {});
+    bench.initialization.handleAnswer(*winch, {});
     QCOMPARE(bench.takeLog(), QStringList("all: initialized"));
-    bench.joining.takeAnswer(*viewer, {}, false);
+    bench.joining.handleAnswer(*viewer, {}, false);
     QCOMPARE(bench.takeLog(), QStringList());  // there is no start yet
     QCOMPARE(viewer->stage(), NodeSession::Initialized);
 }
@@ -298,12 +298,12 @@ void tst_Sequences::aListenerIsStartedWithTheOthers()
     slow->setStage(NodeSession::Initializing);
     bench.starting.begin();
     QCOMPARE(bench.takeLog(), QStringList({"Winch start", "Viewer start"}));
-    bench.joining.takeAnswer(*slow, {}, false);
+    bench.joining.handleAnswer(*slow, {}, false);
     QCOMPARE(bench.takeLog(), QStringList("Slow start"));
-    bench.starting.takeAnswer(*winch);
+    bench.starting.handleAnswer(*winch);
     QVERIFY(bench.cycles.running);
     QCOMPARE(bench.cycles.rosters, 0);
-    bench.joining.takeAnswer(*viewer, {}, false);
+    bench.joining.handleAnswer(*viewer, {}, false);
     QCOMPARE(bench.cycles.rosters, 1);
     QCOMPARE(viewer->stage(), NodeSession::Running);
 }
@@ -315,13 +315,13 @@ void tst_Sequences::aNodeJoinsAtItsOwnPace()
     bench.cycles.newest = 50;
     const auto winch = bench.add("Winch", Answers::Later, "sum", "echo");
     bench.joining.begin(*winch);
-    bench.joining.takeAnswer(*winch, bench.bytes("sum", 2.0), false);
-    bench.joining.takeAnswer(*winch, {}, false);
+    bench.joining.handleAnswer(*winch, bench.bytes("sum", 2.0), false);
+    bench.joining.handleAnswer(*winch, {}, false);
     QCOMPARE(bench.takeLog(), QStringList({"Winch askOutputs", "Winch giveInputs", "Winch start"}));
     QCOMPARE(quint64(winch->lastStart.firstCycle), quint64(1050));
     QCOMPARE(winch->slot()->initialOutputs.size(), std::size_t(8));
     QCOMPARE(bench.cycles.rosters, 0);
-    bench.joining.takeAnswer(*winch, {}, false);
+    bench.joining.handleAnswer(*winch, {}, false);
     QCOMPARE(bench.cycles.rosters, 1);
 }
 
@@ -348,8 +348,8 @@ void tst_Sequences::aNodeThatComesBackMayGoOnInASimulation()
     bench.joining.begin(*kite);
     QCOMPARE(winch->lastPhase.has_value(), isAsked);
     QCOMPARE(winch->lastPhase.value_or(0), isAsked ? quint64(1000) : quint64(0));
-    bench.joining.takeAnswer(*winch, winch->outputs, true);
-    bench.joining.takeAnswer(*kite, kite->outputs, false);
+    bench.joining.handleAnswer(*winch, winch->outputs, true);
+    bench.joining.handleAnswer(*kite, kite->outputs, false);
     QVERIFY(bench.hasEvent("node Winch goes on where it was"));
     QVERIFY(bench.hasEvent("node Kite begins again at its initial state"));
 }
@@ -360,7 +360,7 @@ void tst_Sequences::wrongOutputsOfAJoinerDropIt()
     bench.cycles.running = true;
     const auto winch = bench.add("Winch", Answers::Later, "sum");
     bench.joining.begin(*winch);
-    bench.joining.takeAnswer(*winch, bench.bytes("sum", qInf()), false);
+    bench.joining.handleAnswer(*winch, bench.bytes("sum", qInf()), false);
     QVERIFY2(bench.log.last().startsWith("Winch drop: the initial value of signal 'sum': "),
              qPrintable(bench.log.last()));
     QCOMPARE(winch->stage(), NodeSession::GivingOutputs);

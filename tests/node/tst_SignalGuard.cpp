@@ -53,11 +53,11 @@ struct Plant : SignalGuard::Observer
     {
         QByteArray payload
             = QPlcValue(force).toBytes() + QPlcValue(speed).toBytes() + QPlcValue({0.0F, element, 0.0F}).toBytes();
-        guard.take(frameA, a, payload.constData(), cycle, now);
+        guard.store(frameA, a, payload.constData(), cycle, now);
     }
     void answerB(std::int64_t cycle, std::int64_t now, quint8 mode)
     {
-        guard.take(frameB, b, reinterpret_cast<const char *>(&mode), cycle, now);
+        guard.store(frameB, b, reinterpret_cast<const char *>(&mode), cycle, now);
     }
     /// The end of a cycle as the master makes it.
     void end(std::int64_t now)
@@ -433,7 +433,7 @@ void tst_SignalGuard::beforeAFrameTheLastGoodInputsStay()
     };
     const auto give = [&](std::int64_t cycle, qint16 y, double x) {
         const QByteArray payload = QPlcValue(y).toBytes() + QPlcValue(x).toBytes();
-        guard.take(frame, master, payload.constData(), cycle, cycle);
+        guard.store(frame, master, payload.constData(), cycle, cycle);
         guard.settle(cycle);
     };
     QCOMPARE(state(), QString("0 invalid, 0 invalid"));  // NaN is no value for a node

@@ -22,15 +22,15 @@ public:
         : CyclicLink(descriptor)  // closes it
     {
     }
-    Status receive(const char **frame, std::size_t *size) noexcept override { return take(frame, size, 0); }
-    Status poll(const char **frame, std::size_t *size) noexcept override { return take(frame, size, MSG_DONTWAIT); }
+    Status receive(const char **frame, std::size_t *size) noexcept override { return read(frame, size, 0); }
+    Status poll(const char **frame, std::size_t *size) noexcept override { return read(frame, size, MSG_DONTWAIT); }
     bool send(const char *frame, std::size_t size) noexcept override
     {
         return ::send(m_descriptor, frame, size, MSG_DONTWAIT | MSG_NOSIGNAL) == ssize_t(size);
     }
 
 private:
-    Status take(const char **frame, std::size_t *size, int flags) noexcept
+    Status read(const char **frame, std::size_t *size, int flags) noexcept
     {
         const ssize_t count = ::recv(m_descriptor, m_frame.data(), m_frame.size(), flags);
         if (count < 0 && isTransient(errno))

@@ -69,12 +69,12 @@ private:
             return fail("read from the vane", size < 0 ? errno : EIO);
         m_text.append(bytes, int(size));
         for (int end = 0; (end = m_text.indexOf('\n')) >= 0; m_text.remove(0, end + 1))
-            take(m_text.left(end));
+            handle(m_text.left(end));
         m_text.truncate(64);  // a line without an end is nonsense
         return true;
     }
 
-    void take(const QByteArray &line)
+    void handle(const QByteArray &line)
     {
         bool isNumber = false;
         const double angle = line.trimmed().toDouble(&isNumber);

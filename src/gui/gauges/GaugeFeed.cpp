@@ -173,7 +173,7 @@ AlarmLimits GaugeFeed::limits() const
 
 // ---- values ----
 
-void GaugeFeed::take(const QList<QPlcSignalList> &batch, QPlcSignalIndex index)
+void GaugeFeed::add(const QList<QPlcSignalList> &batch, QPlcSignalIndex index)
 {
     for (const QPlcSignalList &values : batch) {
         const QPlcValue value = values.value(index);

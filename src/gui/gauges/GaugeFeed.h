@@ -33,7 +33,7 @@ public:
     void setNameShown(bool isShown);
     void setActive(bool isActive);
     /// The values of a program, where there is no window. \param index  in the table of the process
-    void take(const QList<QPlcSignalList> &batch, QPlcSignalIndex index);
+    void add(const QList<QPlcSignalList> &batch, QPlcSignalIndex index);
     /// Smallest and largest values begin anew.
     void reset();
 

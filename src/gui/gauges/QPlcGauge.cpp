@@ -123,7 +123,7 @@ void QPlcGauge::contextChanged()
 void QPlcGauge::realTimeout(const QList<QPlcSignalList> &signalValues)
 {
     if (!d->isInWindow && !inputSignalIndices().isEmpty())
-        d->feed.take(signalValues, inputSignalIndices().at(0));
+        d->feed.add(signalValues, inputSignalIndices().at(0));
 }
 
 QSize QPlcGauge::sizeHint() const

@@ -26,7 +26,7 @@ void LimitAlarms::follow(Plant *plant)
         return;
     begin(plant);
     connect(plant, &Plant::storeChanged, this, [this, plant] { begin(plant); });
-    connect(plant, &Plant::updated, this, [this, plant] { take(plant); });
+    connect(plant, &Plant::updated, this, [this, plant] { check(plant); });
     connect(plant, &QObject::destroyed, this, [this, plant] { m_plants.erase(plant); });
 }
 
@@ -47,12 +47,12 @@ void LimitAlarms::begin(Plant *plant)
     watched.watch.setTable(plant->table(), plant->values().channels(), plant->store());
 }
 
-void LimitAlarms::take(Plant *plant)
+void LimitAlarms::check(Plant *plant)
 {
     if (!plant->store())
         return;
     Watched &watched = m_plants[plant];
-    for (const LimitWatch::Change &change : watched.watch.take(*plant->store())) {
+    for (const LimitWatch::Change &change : watched.watch.check(*plant->store())) {
         const PlantEvent event = eventOf(*plant, change);
         if (change.isOutside)
             watched.alarms.insert(event.alarm);

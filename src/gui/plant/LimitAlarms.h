@@ -26,7 +26,7 @@ Q_SIGNALS:
 private:
     void follow(Plant *plant);
     void begin(Plant *plant);
-    void take(Plant *plant);
+    void check(Plant *plant);
     static PlantEvent eventOf(const Plant &plant, const LimitWatch::Change &change);
 
     struct Watched

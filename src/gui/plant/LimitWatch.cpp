@@ -35,7 +35,7 @@ void LimitWatch::setTable(const QPlcSignalTable &table, const ChannelMap &channe
     }
 }
 
-std::vector<LimitWatch::Change> LimitWatch::take(const SignalStore &store)
+std::vector<LimitWatch::Change> LimitWatch::check(const SignalStore &store)
 {
     std::vector<Change> changes;
     const SignalStore::Row begin = std::max(m_next, store.firstRow());

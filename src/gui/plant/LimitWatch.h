@@ -34,7 +34,7 @@ public:
     /// channels of \a channels; null: none
     void setTable(const QPlcSignalTable &table, const ChannelMap &channels, const SignalStore *store);
     /// Looks at the rows that are new. The same store as before.
-    std::vector<Change> take(const SignalStore &store);
+    std::vector<Change> check(const SignalStore &store);
 
 private:
     struct Watched

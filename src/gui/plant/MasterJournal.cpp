@@ -58,10 +58,10 @@ void MasterJournal::fetch()
 {
     m_isFetching = true;
     m_control.request(messages::GetEvents{m_newest},
-                      [this](const ControlClient::Reply<messages::GetEvents> &reply) { takeFetched(reply); });
+                      [this](const ControlClient::Reply<messages::GetEvents> &reply) { handleFetched(reply); });
 }
 
-void MasterJournal::takeFetched(const ControlClient::Reply<messages::GetEvents> &reply)
+void MasterJournal::handleFetched(const ControlClient::Reply<messages::GetEvents> &reply)
 {
     if (!m_isFetching)
         return;  // of a connection that is gone
@@ -87,7 +87,7 @@ void MasterJournal::endFetching()
     Q_EMIT fetched();
 }
 
-void MasterJournal::take(const messages::Events &pushed)
+void MasterJournal::handle(const messages::Events &pushed)
 {
     if (!m_hasFeature)
         return;

@@ -27,7 +27,7 @@ public:
     bool isFetching() const { return m_isFetching; }
 
     /// Events that came by themselves.
-    void take(const messages::Events &pushed);
+    void handle(const messages::Events &pushed);
 
 Q_SIGNALS:
     /// Its source is the name of a node, empty for the master itself.
@@ -37,7 +37,7 @@ Q_SIGNALS:
 
 private:
     void fetch();
-    void takeFetched(const ControlClient::Reply<messages::GetEvents> &reply);
+    void handleFetched(const ControlClient::Reply<messages::GetEvents> &reply);
     void endFetching();
     void tellNew(const messages::Events &events);
     void tell(messages::EventEntry event);

@@ -128,9 +128,9 @@ void Plant::handleUnasked(const QPlcMessage &message)
         if (outcome->ok)
             Q_EMIT initialized();
     } else if (const auto leases = messages::readAs<messages::LeasesChanged>(message)) {
-        m_leases.take(leases->leases);
+        m_leases.handle(leases->leases);
     } else if (const auto events = messages::readAs<messages::Events>(message)) {
-        m_journal.take(*events);
+        m_journal.handle(*events);
         refresh();  // what has happened may have changed the state
     }
 }
@@ -272,7 +272,7 @@ void Plant::takeFrames()
     m_values.beginBatch();
     const PlantValues::Time now = wallTime();
     const int taken = m_connection.listener().takeFrames(
-        [&](const QPlcIOBufferSlaveNode::Frame &frame) { m_values.takeFrame(frame, now); });
+        [&](const QPlcIOBufferSlaveNode::Frame &frame) { m_values.storeFrame(frame, now); });
     if (taken > 0)
         m_sinceValues.start();
     measureRate();
@@ -356,7 +356,7 @@ void Plant::poll()
     if (m_connection.control().isBusy())
         return;
     if (m_polls % statisticsEvery == 0)
-        askFor(messages::GetStatistics(), &Plant::takeStatistics);
+        askFor(messages::GetStatistics(), &Plant::handleStatistics);
     if (!m_status.isRunning() && m_polls > 0)
         askSignals();
     ++m_polls;
@@ -364,7 +364,7 @@ void Plant::poll()
 
 void Plant::askState()
 {
-    askFor(messages::GetState(), &Plant::takeState);
+    askFor(messages::GetState(), &Plant::handleState);
 }
 
 void Plant::askSignals()
@@ -373,7 +373,7 @@ void Plant::askSignals()
         return;  // the next poll asks again
     const QVector<QStringList> groups = groupsOfNames(table());
     for (const QStringList &names : groups)
-        askFor(messages::GetSignals{names}, &Plant::takeSignals);
+        askFor(messages::GetSignals{names}, &Plant::handleSignals);
 }
 
 QStringList Plant::nodeNames() const
@@ -384,12 +384,12 @@ QStringList Plant::nodeNames() const
     return names;
 }
 
-void Plant::takeState(const messages::State &answer)
+void Plant::handleState(const messages::State &answer)
 {
     const messages::MasterState stateBefore = m_status.master.state;
     const bool wasArmed = m_status.master.armed;
     const QStringList nodesBefore = nodeNames();
-    m_status.takeState(answer);
+    m_status.handleState(answer);
     const messages::State &master = m_status.master;
     if (!master.armed && wasArmed)
         m_token.reset();
@@ -420,18 +420,18 @@ void Plant::nodesChanged(const QStringList &before, const QStringList &now)
     }
     askSignals();
     if (!m_connection.control().isBusy())
-        askFor(messages::GetSchedule(), &Plant::takeSchedule);
+        askFor(messages::GetSchedule(), &Plant::handleSchedule);
 }
 
-void Plant::takeSchedule(const messages::Schedule &answer)
+void Plant::handleSchedule(const messages::Schedule &answer)
 {
-    m_status.takeSchedule(answer);
+    m_status.handleSchedule(answer);
 }
 
-void Plant::takeStatistics(const messages::Statistics &answer)
+void Plant::handleStatistics(const messages::Statistics &answer)
 {
     const PlantStatus before = m_status;
-    m_status.takeStatistics(answer);
+    m_status.handleStatistics(answer);
     const quint64 overruns = m_status.statistics.overruns;
     if (before.isCounted && overruns > before.statistics.overruns)
         tellOfMaster(PlantEvent::Warning,
@@ -452,7 +452,7 @@ void Plant::takeStatistics(const messages::Statistics &answer)
     Q_EMIT statusChanged();
 }
 
-void Plant::takeSignals(const messages::Signals &answer)
+void Plant::handleSignals(const messages::Signals &answer)
 {
     const QVector<QString> writersBefore = m_writers;
     const bool isAtRest = !m_status.isRunning();
@@ -462,8 +462,8 @@ void Plant::takeSignals(const messages::Signals &answer)
             continue;
         m_writers[signal] = printable(entry.writer);
         if (isAtRest)
-            m_values.takeValue(signal, QPlcValue::fromString(table().at(signal).type, entry.value),
-                               QPlcQuality::fromByte(entry.quality));
+            m_values.storeValue(signal, QPlcValue::fromString(table().at(signal).type, entry.value),
+                                QPlcQuality::fromByte(entry.quality));
     }
     if (isAtRest) {
         m_sinceValues.start();

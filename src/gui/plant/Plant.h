@@ -181,10 +181,10 @@ private:
     void poll();
     void askState();
     void askSignals();
-    void takeState(const messages::State &answer);
-    void takeStatistics(const messages::Statistics &answer);
-    void takeSignals(const messages::Signals &answer);
-    void takeSchedule(const messages::Schedule &answer);
+    void handleState(const messages::State &answer);
+    void handleStatistics(const messages::Statistics &answer);
+    void handleSignals(const messages::Signals &answer);
+    void handleSchedule(const messages::Schedule &answer);
     template<typename Question, typename Answer>
     void askFor(const Question &question, void (Plant::*take)(const Answer &));
     template<typename Request>

@@ -99,7 +99,7 @@ void PlantFeed::initialize(const QPlcSignalList &values)
     setState(messages::MasterState::Ready);
     put(values);
     for (const QPlcSignalList::Entry &entry : values)
-        m_plant->m_values.takeValue(entry.index, entry.value);
+        m_plant->m_values.storeValue(entry.index, entry.value);
     m_plant->m_sinceValues.start();
     Q_EMIT m_plant->updated();
 }
@@ -162,7 +162,7 @@ double PlantFeed::step(int cycles, Time wallTime)
     return std::max(m_period - 0.1 * ahead / cycles, 0.5 * m_period);
 }
 
-void PlantFeed::take(const QList<QPlcSignalList> &cycles, Time wallTime)
+void PlantFeed::add(const QList<QPlcSignalList> &cycles, Time wallTime)
 {
     PlantValues &values = m_plant->m_values;
     if (!m_isConnected || !values.store() || cycles.isEmpty())
@@ -174,7 +174,7 @@ void PlantFeed::take(const QList<QPlcSignalList> &cycles, Time wallTime)
     for (const QPlcSignalList &cycle : cycles) {
         put(cycle);
         m_lastTime += between;
-        values.takeRow(m_payload.data(), m_lastTime);
+        values.storeRow(m_payload.data(), m_lastTime);
     }
     m_plant->m_sinceValues.start();
     m_plant->measureRate();

@@ -38,7 +38,7 @@ public:
     void stopped();
     /// The values of cycles that follow each other, oldest first. \param wallTime of the last one
     /// [ns since 1970]
-    void take(const QList<QPlcSignalList> &cycles, PlantValues::Time wallTime);
+    void add(const QList<QPlcSignalList> &cycles, PlantValues::Time wallTime);
 
 Q_SIGNALS:
     /// A command of a person.

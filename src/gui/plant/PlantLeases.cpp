@@ -46,7 +46,7 @@ void PlantLeases::begin(bool hasFeature)
     if (hasFeature)
         m_control.request(messages::GetLeases(), [this](const ControlClient::Reply<messages::GetLeases> &reply) {
             if (const auto *leases = std::get_if<messages::Leases>(&reply))
-                take(leases->leases);
+                handle(leases->leases);
         });
 }
 
@@ -72,7 +72,7 @@ std::optional<LeaseStatus> PlantLeases::find(const QString &signal) const
     return found == m_leases.end() ? std::nullopt : std::make_optional(*found);
 }
 
-void PlantLeases::take(const std::vector<messages::LeaseEntry> &entries)
+void PlantLeases::handle(const std::vector<messages::LeaseEntry> &entries)
 {
     QVector<LeaseStatus> leases;
     for (const messages::LeaseEntry &entry : entries) {

@@ -40,7 +40,7 @@ public:
     /// A request for signals, by which the lease is known to be of this window.
     messages::TakeLease wish(const QStringList &signalNames) const;
     /// All leases, as the master tells them.
-    void take(const std::vector<messages::LeaseEntry> &entries);
+    void handle(const std::vector<messages::LeaseEntry> &entries);
 
 Q_SIGNALS:
     void changed();

@@ -26,7 +26,7 @@ const NodeStatus *PlantStatus::node(const QString &name) const
     return found == nodes.end() ? nullptr : &*found;
 }
 
-void PlantStatus::takeState(const messages::State &answer)
+void PlantStatus::handleState(const messages::State &answer)
 {
     const bool wasRunning = isRunning();
     master = fitToBeShown(answer);
@@ -54,7 +54,7 @@ void PlantStatus::missNodes(const QVector<NodeStatus> &before)
                gone.end());
 }
 
-void PlantStatus::takeStatistics(const messages::Statistics &answer)
+void PlantStatus::handleStatistics(const messages::Statistics &answer)
 {
     const quint64 overrunsBefore = statistics.overruns;
     statistics = messages::statisticsOf(answer.master);
@@ -72,7 +72,7 @@ void PlantStatus::takeStatistics(const messages::Statistics &answer)
     isCounted = true;
 }
 
-void PlantStatus::takeSchedule(const messages::Schedule &answer)
+void PlantStatus::handleSchedule(const messages::Schedule &answer)
 {
     schedule = fitToBeShown(answer);
 }

@@ -40,9 +40,9 @@ struct PlantStatus
     const NodeStatus *node(const QString &name) const;
 
     /// Figures of nodes that were there before stay.
-    void takeState(const messages::State &answer);
-    void takeStatistics(const messages::Statistics &answer);
-    void takeSchedule(const messages::Schedule &answer);
+    void handleState(const messages::State &answer);
+    void handleStatistics(const messages::Statistics &answer);
+    void handleSchedule(const messages::Schedule &answer);
 
 private:
     void missNodes(const QVector<NodeStatus> &before);

@@ -68,7 +68,7 @@ void PlantValues::beginPhase(const QPlcIOBufferSlaveNode::Frame &frame, Time wal
     interrupt();
 }
 
-void PlantValues::takeFrame(const QPlcIOBufferSlaveNode::Frame &frame, Time wallTime)
+void PlantValues::storeFrame(const QPlcIOBufferSlaveNode::Frame &frame, Time wallTime)
 {
     if (!m_store || frame.size != m_channels.payloadSize())
         return;  // of another table
@@ -80,17 +80,17 @@ void PlantValues::takeFrame(const QPlcIOBufferSlaveNode::Frame &frame, Time wall
     }
     m_isContinued = true;
     m_lastCycle = frame.cycle;
-    takeRow(frame.inputs, m_phaseStart + Time(frame.cycle) * m_period, frame.qualities);
+    storeRow(frame.inputs, m_phaseStart + Time(frame.cycle) * m_period, frame.qualities);
 }
 
-void PlantValues::takeRow(const char *payload, Time time, const char *qualities)
+void PlantValues::storeRow(const char *payload, Time time, const char *qualities)
 {
     const int size = m_channels.payloadSize();
     m_lastTime = time;
     m_channels.toFloats(payload, m_row.data());
     m_doubts.clear();
     if (qualities)
-        takeQualities(qualities);
+        storeQualities(qualities);
     if (m_store->append(time, m_row.data())) {
         for (const Doubt &doubt : m_doubts)
             m_store->mark(doubt.channel, doubt.kind);
@@ -103,7 +103,7 @@ void PlantValues::takeRow(const char *payload, Time time, const char *qualities)
 }
 
 /// Finds the values of the row that are not good. One that nobody has written is none for a curve.
-void PlantValues::takeQualities(const char *qualities)
+void PlantValues::storeQualities(const char *qualities)
 {
     const auto isDoubtful = [](char quality) { return !QPlcQuality::fromByte(quint8(quality)).isGood(); };
     std::copy_n(qualities, m_qualities.size(), m_qualities.begin());
@@ -121,7 +121,7 @@ void PlantValues::takeQualities(const char *qualities)
     }
 }
 
-void PlantValues::takeValue(QPlcSignalIndex signal, const QPlcValue &value, QPlcQuality quality)
+void PlantValues::storeValue(QPlcSignalIndex signal, const QPlcValue &value, QPlcQuality quality)
 {
     if (signal >= m_table.size() || value.type() != m_table.at(signal).type)
         return;

@@ -44,15 +44,15 @@ public:
     /// Forgets the last batch.
     void beginBatch();
     /// Takes the values of one cycle. \param wallTime  now, since 1970
-    void takeFrame(const QPlcIOBufferSlaveNode::Frame &frame, Time wallTime);
+    void storeFrame(const QPlcIOBufferSlaveNode::Frame &frame, Time wallTime);
     /// Takes the values of one cycle whose time somebody else knows. \param payload as ChannelMap
     /// says \param time after that of the row before
     /// \param qualities a byte for each signal; null: nobody told them, and all are good. In the
     ///         store a value that is not good has the kind of its quality as mark, and an invalid
     ///         one is a gap.
-    void takeRow(const char *payload, Time time, const char *qualities = nullptr);
+    void storeRow(const char *payload, Time time, const char *qualities = nullptr);
     /// Takes a value that came outside of a cycle. Nothing becomes of one that does not fit.
-    void takeValue(QPlcSignalIndex signal, const QPlcValue &value, QPlcQuality quality = QPlcQuality::Good);
+    void storeValue(QPlcSignalIndex signal, const QPlcValue &value, QPlcQuality quality = QPlcQuality::Good);
     /// What comes next does not continue what is there.
     void interrupt();
 
@@ -82,7 +82,7 @@ private:
         QPlcQuality::Kind kind;
     };
 
-    void takeQualities(const char *qualities);
+    void storeQualities(const char *qualities);
     QPlcValue valueIn(const char *payload, QPlcSignalIndex signal) const;
     int wantedRows() const;
     void makeStore();

@@ -28,20 +28,20 @@ ColorSchemePortal::ColorSchemePortal(QObject *parent)
     if (!bus.isConnected())
         return;
     bus.connect(service, path, settings, QStringLiteral("SettingChanged"), this,
-                SLOT(takeChange(QString, QString, QDBusVariant)));
+                SLOT(handleChange(QString, QString, QDBusVariant)));
     QDBusMessage question = QDBusMessage::createMethodCall(service, path, settings, QStringLiteral("Read"));
     question << appearance << colorScheme;
     connect(new QDBusPendingCallWatcher(bus.asyncCall(question), this), &QDBusPendingCallWatcher::finished, this,
-            &ColorSchemePortal::takeAnswer);
+            &ColorSchemePortal::handleAnswer);
 }
 
-void ColorSchemePortal::takeChange(const QString &group, const QString &key, const QDBusVariant &value)
+void ColorSchemePortal::handleChange(const QString &group, const QString &key, const QDBusVariant &value)
 {
     if (group == appearance && key == colorScheme)
         Q_EMIT told(schemeOf(value.variant()));
 }
 
-void ColorSchemePortal::takeAnswer(QDBusPendingCallWatcher *answer)
+void ColorSchemePortal::handleAnswer(QDBusPendingCallWatcher *answer)
 {
     answer->deleteLater();
     const QDBusPendingReply<QDBusVariant> reply = *answer;

@@ -29,8 +29,8 @@ Q_SIGNALS:
     void told(qplc::ColorSchemePortal::Scheme scheme);
 
 private Q_SLOTS:
-    void takeChange(const QString &group, const QString &key, const QDBusVariant &value);
-    void takeAnswer(QDBusPendingCallWatcher *answer);
+    void handleChange(const QString &group, const QString &key, const QDBusVariant &value);
+    void handleAnswer(QDBusPendingCallWatcher *answer);
 };
 
 }  // namespace qplc

@@ -194,7 +194,7 @@ void QPlcControlCenter::realTimeout(const QList<QPlcSignalList> &signalValues)
 {
     constexpr PlantValues::Time nanosecondsPerMillisecond = 1'000'000;
     if (Plant *plant = d->wiredPlant())
-        plant->feed()->take(signalValues, QDateTime::currentMSecsSinceEpoch() * nanosecondsPerMillisecond);
+        plant->feed()->add(signalValues, QDateTime::currentMSecsSinceEpoch() * nanosecondsPerMillisecond);
 }
 
 void QPlcControlCenter::connectedToMaster()

@@ -36,10 +36,10 @@ public:
     // ---- of nodes ----
     void operator()(const messages::ReceiveMyInitialOutputStates &answer) const
     {
-        takeAnswer(answer.kind, answer.values, answer.goesOn);
+        handleAnswer(answer.kind, answer.values, answer.goesOn);
     }
-    void operator()(const messages::Initialized &answer) const { takeAnswer(answer.kind); }
-    void operator()(const messages::RealTimeReady &answer) const { takeAnswer(answer.kind); }
+    void operator()(const messages::Initialized &answer) const { handleAnswer(answer.kind); }
+    void operator()(const messages::RealTimeReady &answer) const { handleAnswer(answer.kind); }
     void operator()(const messages::NodeFault &fault) const
     {
         if (!isOfNode(fault.kind))
@@ -154,12 +154,12 @@ private:
                                QStringLiteral("%1 is for registered nodes only").arg(Message(kind).kindName()));
         return m_connection->isNode();
     }
-    void takeAnswer(Message::Kind kind, const QByteArray &outputs = {}, bool goesOn = false) const
+    void handleAnswer(Message::Kind kind, const QByteArray &outputs = {}, bool goesOn = false) const
     {
         if (!isOfNode(kind))
             return;
         if (m_connection->owes(kind))
-            takeOwed(outputs, goesOn);
+            handleOwed(outputs, goesOn);
         else if (m_connection->slot->listener)
             qCDebug(lcMaster).noquote() << "node" << m_connection->name << "gives the answer"
                                         << Message(kind).kindName() << "to a sequence that has ended";
@@ -167,15 +167,15 @@ private:
             m_connection->fail(QStringLiteral("WrongState"),
                                QStringLiteral("%1 was not asked for").arg(Message(kind).kindName()));
     }
-    void takeOwed(const QByteArray &outputs, bool goesOn) const
+    void handleOwed(const QByteArray &outputs, bool goesOn) const
     {
         const std::shared_ptr<qplc::NodeSession> node = m_connection->session;  // it may be dropped for its answer
         if (d.parts->phase.isRunning() || !node->isAwaited())
-            d.parts->joining.takeAnswer(*node, outputs, goesOn);
+            d.parts->joining.handleAnswer(*node, outputs, goesOn);
         else if (node->stage() == qplc::NodeSession::Starting)
-            d.parts->starting.takeAnswer(*node);
+            d.parts->starting.handleAnswer(*node);
         else
-            d.parts->initialization.takeAnswer(*node, outputs);
+            d.parts->initialization.handleAnswer(*node, outputs);
     }
     /// Answers what was refused or is done; else the asker waits for the end of the sequence.
     void finish(bool isAccepted) const

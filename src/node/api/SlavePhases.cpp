@@ -102,7 +102,7 @@ bool QPlcSlaveNodePrivate::initializeWith(const messages::InitializeWithValues &
     }
     QString text;
     if (m_goesOn) {
-        runtime.takeInputs(values.constData());
+        runtime.storeInputs(values.constData());
     } else if (!runtime.initialize(values.constData(), &text)) {
         codeFailed(text);
         return false;

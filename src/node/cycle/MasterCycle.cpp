@@ -87,13 +87,13 @@ void MasterCycle::startGuard()
     m_signalGuard.clearCounters();
 }
 
-void MasterCycle::takeInitialOutputs(NodeSlot &slot, const char *outputs, const std::vector<bool> &held)
+void MasterCycle::storeInitialOutputs(NodeSlot &slot, const char *outputs, const std::vector<bool> &held)
 {
     const std::int64_t cycle = slot.initialCycle(0);
     const SignalGuard::Frame frame = SignalGuard::frameFor(m_image, slot.outputLayout, held);
     slot.claims.forget();  // what it said in another phase
     slot.written.isWhole = false;
-    m_signalGuard.take(frame, slot.written, outputs, cycle, cycle);
+    m_signalGuard.store(frame, slot.written, outputs, cycle, cycle);
     m_signalGuard.claim(frame, slot.written, slot.claims, outputs, cycle);
 }
 
@@ -285,13 +285,13 @@ void MasterCycle::takeCommands() noexcept
     adoptPending();
     while (const SetCommand *command = m_setCommands.front()) {
         adoptPending();
-        takeCommand(*command);
+        carryOut(*command);
         m_setCommands.pop();
         m_setsTaken.store(m_setsTaken.load(std::memory_order_relaxed) + 1, std::memory_order_release);
     }
 }
 
-void MasterCycle::takeCommand(const SetCommand &command) noexcept
+void MasterCycle::carryOut(const SetCommand &command) noexcept
 {
     if (command.isEndOfWay) {
         m_slopes.leave(command.signal);
@@ -363,7 +363,7 @@ void MasterCycle::join(NodeSlot &slot, std::int64_t last) noexcept
     const std::int64_t cycle = slot.initialCycle(last + 1);
     m_signalGuard.resume(*slot.paste, slot.written, last);
     if (!slot.initialOutputs.empty()) {
-        m_signalGuard.take(*slot.paste, slot.written, slot.initialOutputs.data(), cycle, cycle);
+        m_signalGuard.store(*slot.paste, slot.written, slot.initialOutputs.data(), cycle, cycle);
         m_signalGuard.claim(*slot.paste, slot.written, slot.claims, slot.initialOutputs.data(), cycle);
     }
     slot.expectFrom(m_cycleZero + m_number);

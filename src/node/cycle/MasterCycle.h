@@ -106,7 +106,7 @@ public:
     void forgetOutputs(std::int64_t usualHold);
     /// Takes the initial outputs of a node, which have been checked, but for the signals that are
     /// \a held. \pre not running
-    void takeInitialOutputs(NodeSlot &slot, const char *outputs, const std::vector<bool> &held);
+    void storeInitialOutputs(NodeSlot &slot, const char *outputs, const std::vector<bool> &held);
     /// The initial outputs of all nodes of \a roster have been taken: what has no value by now is
     /// Safe, or Invalid as ever. \pre not running
     void initialOutputsTaken(Roster roster);
@@ -139,7 +139,7 @@ private:
     }
     void pause() noexcept;
     void takeCommands() noexcept;
-    void takeCommand(const SetCommand &command) noexcept;
+    void carryOut(const SetCommand &command) noexcept;
     void leaveSlopesToWriters() noexcept;
     void adoptPending() noexcept;
     void adopt(Roster *roster, std::int64_t last) noexcept;

@@ -95,7 +95,7 @@ void NodeExchange::pasteKnownOutputs() noexcept
             continue;
         }
         if (slot->pending)
-            take(*slot, slot->local ? slot->local->outputs() : slot->decoder.payload(), guardCycle());
+            store(*slot, slot->local ? slot->local->outputs() : slot->decoder.payload(), guardCycle());
         else
             noteMissing(*slot);
         slot->pending = false;
@@ -345,7 +345,7 @@ void NodeExchange::receive(std::int64_t timeout, int alarm) noexcept
         return;
     HubFrame incoming;
     while (m_hub.next(&incoming))
-        takeAnswer(*static_cast<NodeSlot *>(incoming.peer->owner), incoming.bytes, incoming.size);
+        handleAnswer(*static_cast<NodeSlot *>(incoming.peer->owner), incoming.bytes, incoming.size);
     m_statistics.setArrivals(m_hub.strangers(), m_hub.floods());
     for (const std::shared_ptr<NodeSlot> &slot : m_roster->nodes) {
         if (slot->peer && slot->peer->isClosed() && !slot->lost.exchange(true))
@@ -365,7 +365,7 @@ bool NodeExchange::waitForFrames(std::int64_t timeout, int alarm) noexcept
     return m_hub.wait(timeout - m_spin, alarm);
 }
 
-void NodeExchange::takeAnswer(NodeSlot &slot, const char *frame, std::size_t size) noexcept
+void NodeExchange::handleAnswer(NodeSlot &slot, const char *frame, std::size_t size) noexcept
 {
     m_reports.tap(TappedFrame::Received, slot.id, frame, size);
     switch (slot.decoder.decode(frame, size, slot.firstUnasked)) {
@@ -411,7 +411,7 @@ void NodeExchange::takeAnswer(NodeSlot &slot, const char *frame, std::size_t siz
     if (slot.twoPhase && current)
         slot.pending = true;  // the outputs of the next cycle
     else
-        take(slot, slot.decoder.payload(), std::int64_t(slot.decoder.cycle() - m_cycleZero) + (slot.twoPhase ? 1 : 0));
+        store(slot, slot.decoder.payload(), std::int64_t(slot.decoder.cycle() - m_cycleZero) + (slot.twoPhase ? 1 : 0));
 }
 
 /// Local nodes saw the image as it was when their stage began, whatever their order: their outputs
@@ -425,17 +425,17 @@ void NodeExchange::pasteLocalNodes(const Stage &stage) noexcept
         if (slot.twoPhase)
             slot.pending = true;
         else
-            take(slot, slot.local->outputs(), guardCycle());
+            store(slot, slot.local->outputs(), guardCycle());
     }
 }
 
 // ---- values ----
 
 /// \param cycle  to which the values belong; a listener is never late
-void NodeExchange::take(NodeSlot &slot, const char *outputs, std::int64_t cycle) noexcept
+void NodeExchange::store(NodeSlot &slot, const char *outputs, std::int64_t cycle) noexcept
 {
     const std::int64_t written = slot.listener ? guardCycle() : cycle;
-    m_signalGuard.take(*slot.paste, slot.written, outputs, written, guardCycle());
+    m_signalGuard.store(*slot.paste, slot.written, outputs, written, guardCycle());
     m_signalGuard.claim(*slot.paste, slot.written, slot.claims, outputs, written);
 }
 

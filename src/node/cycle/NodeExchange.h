@@ -65,8 +65,8 @@ private:
     std::uint16_t nodeToReport() const noexcept;
     void receive(std::int64_t timeout, int alarm = -1) noexcept;
     bool waitForFrames(std::int64_t timeout, int alarm) noexcept;
-    void takeAnswer(NodeSlot &slot, const char *frame, std::size_t size) noexcept;
-    void take(NodeSlot &slot, const char *outputs, std::int64_t cycle) noexcept;
+    void handleAnswer(NodeSlot &slot, const char *frame, std::size_t size) noexcept;
+    void store(NodeSlot &slot, const char *outputs, std::int64_t cycle) noexcept;
     void noteMissing(NodeSlot &slot) noexcept;
     void decideContests() noexcept;
     void endStage(const Stage &stage) noexcept;

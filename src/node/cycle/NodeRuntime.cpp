@@ -126,7 +126,7 @@ void NodeRuntime::restartGuard()
 /// thought of. What moves things looks for itself.
 const char *NodeRuntime::guardedInputs(const char *payload, std::int64_t cycle) noexcept
 {
-    m_guard->take(m_inputFrame, m_master, payload, cycle, cycle);
+    m_guard->store(m_inputFrame, m_master, payload, cycle, cycle);
     m_guard->settle(cycle);
     if (!m_seenLayout.hasQualities())
         return m_inputs.data();
@@ -169,11 +169,11 @@ bool NodeRuntime::reset(QString *error)
 
 bool NodeRuntime::initialize(const char *inputs, QString *error)
 {
-    takeInputs(inputs);
+    storeInputs(inputs);
     return guarded("initialize()", error, [&] { m_code.initialize(m_inputs.data()); });
 }
 
-void NodeRuntime::takeInputs(const char *inputs)
+void NodeRuntime::storeInputs(const char *inputs)
 {
     restartGuard();
     guardedInputs(inputs, -1);

@@ -54,7 +54,7 @@ public:
     void goOn() { m_outputs = m_scratch; }
     /// Instead of initialize(): takes the inputs; the code of the node hears of them with its next
     /// step.
-    void takeInputs(const char *inputs);
+    void storeInputs(const char *inputs);
     /// Whether the code of the node has thrown in this phase.
     bool hasFailed() const { return m_hasFailed; }
     /// The inputs of the node as it sees them: guarded, and with qualities behind them if it wants

@@ -95,8 +95,8 @@ SignalGuard::Frame SignalGuard::frameFor(const QPlcSignalTable &table, const Pay
 
 // ---- taking ----
 
-void SignalGuard::takeOneByOne(const Frame &frame, Writer &writer, const char *payload, std::int64_t cycle,
-                               std::int64_t now) noexcept
+void SignalGuard::storeOneByOne(const Frame &frame, Writer &writer, const char *payload, std::int64_t cycle,
+                                std::int64_t now) noexcept
 {
     partWays(frame, writer);
     bool isWhole = cycle >= now;

@@ -20,7 +20,7 @@ namespace qplc {
 /// class. A signal is named by its place: its index in the process image, or the number of the
 /// field in the frame of a node. Cycles are counted in the phase; times are looked at nowhere.
 ///
-/// take(), miss(), settle() allocate nothing and cost nothing per signal as long as all is well.
+/// store(), miss(), settle() allocate nothing and cost nothing per signal as long as all is well.
 /// One thread at a time; counters may be read by any.
 class SignalGuard
 {
@@ -136,13 +136,13 @@ public:
     /// Takes the values of \a cycle out of \a payload; \a now is the cycle at hand: older values
     /// are Held, and not taken when they are too old. A value that its writer calls Held is that
     /// much older, one that it calls Safe or Invalid is none.
-    void take(const Frame &frame, Writer &writer, const char *payload, std::int64_t cycle, std::int64_t now) noexcept
+    void store(const Frame &frame, Writer &writer, const char *payload, std::int64_t cycle, std::int64_t now) noexcept
     {
         if (writer.isWhole && cycle >= now && frame.isGood(payload)) {
             copyRuns(frame.runs, payload, m_values);
             writer.taken = cycle;
         } else {
-            takeOneByOne(frame, writer, payload, cycle, now);
+            storeOneByOne(frame, writer, payload, cycle, now);
         }
     }
     /// \a writer has no more to say to the cycle \a now: what it has not written in it grows old.
@@ -202,8 +202,8 @@ private:
     };
 
     void add(const QPlcSignalDefinition &definition, quint32 offset);
-    void takeOneByOne(const Frame &frame, Writer &writer, const char *payload, std::int64_t cycle,
-                      std::int64_t now) noexcept;
+    void storeOneByOne(const Frame &frame, Writer &writer, const char *payload, std::int64_t cycle,
+                       std::int64_t now) noexcept;
     void setSource(Place place, std::uint16_t writer) noexcept;
     void put(Place place, const char *value, std::int64_t cycle, std::int64_t now) noexcept;
     void refuse(std::uint16_t writer, Place place, const ValueFault &fault, bool isFirst) noexcept;

@@ -128,7 +128,7 @@ void SlaveCycle::run() noexcept
     while (open && !m_stop.load(std::memory_order_relaxed)) {
         switch (receive(&frame, &size)) {
         case CyclicLink::Received:
-            take(frame, size);
+            handle(frame, size);
             break;
         case CyclicLink::Nothing:
             checkWatchdog();
@@ -193,7 +193,7 @@ bool SlaveCycle::isForOthers(const char *frame, std::size_t size) const noexcept
         && loadLittle<std::uint16_t>(frame + CyclicHeaderSize) != m_phase.group.part;
 }
 
-void SlaveCycle::take(const char *frame, std::size_t size) noexcept
+void SlaveCycle::handle(const char *frame, std::size_t size) noexcept
 {
     const FrameStatus status = decode(frame, size);
     if (status == FrameStatus::Duplicate && m_computedAny && isRepeatedRequest())

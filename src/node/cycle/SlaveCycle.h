@@ -82,7 +82,7 @@ private:
     FrameDecoder ownDecoder() const;
     bool isForOthers(const char *frame, std::size_t size) const noexcept;
     CyclicLink::Status receive(const char **frame, std::size_t *size) noexcept;
-    void take(const char *frame, std::size_t size) noexcept;
+    void handle(const char *frame, std::size_t size) noexcept;
     FrameStatus decode(const char *frame, std::size_t size) noexcept;
     void skipToNewest() noexcept;
     void compute() noexcept;

@@ -41,9 +41,9 @@ bool InitialValues::hasSize(NodeSession &node, const QByteArray &outputs) const
     return false;
 }
 
-void InitialValues::take(NodeSlot &slot, const QByteArray &outputs)
+void InitialValues::store(NodeSlot &slot, const QByteArray &outputs)
 {
-    m_cycle.takeInitialOutputs(slot, outputs.constData(), m_leases.mask());
+    m_cycle.storeInitialOutputs(slot, outputs.constData(), m_leases.mask());
 }
 
 void InitialValues::allTaken()

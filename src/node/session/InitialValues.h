@@ -23,7 +23,7 @@ public:
     /// Whether \a outputs have the size that \a node has registered with; else it is dropped.
     bool hasSize(NodeSession &node, const QByteArray &outputs) const;
     /// Takes checked outputs, but for signals that somebody holds. \pre no cycle runs
-    void take(NodeSlot &slot, const QByteArray &outputs);
+    void store(NodeSlot &slot, const QByteArray &outputs);
     /// The outputs of all nodes have been taken. \pre no cycle runs
     void allTaken();
     /// The inputs of a node, with the newest values; also while cycles run.

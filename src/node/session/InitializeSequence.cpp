@@ -30,20 +30,20 @@ void InitializeSequence::begin()
         m_join.begin(*listener);
     for (const auto &node : nodes) {
         const std::optional<NodeSession::Answer> answer = node->askOutputs(std::nullopt);
-        if (!m_step.isStill(step) || (answer && !take(*node, *answer)))
+        if (!m_step.isStill(step) || (answer && !accept(*node, *answer)))
             return;
     }
     advance();
 }
 
 /// Takes the answer to the step at hand. \return false when it ends the sequence
-bool InitializeSequence::take(NodeSession &node, const NodeSession::Answer &answer)
+bool InitializeSequence::accept(NodeSession &node, const NodeSession::Answer &answer)
 {
     QString fault = answer.fault;
     if (fault.isEmpty() && m_step.kind() == SequenceStep::CollectOutputs) {
         fault = m_values.faultOf(*node.slot(), answer.outputs);
         if (fault.isEmpty())
-            m_values.take(*node.slot(), answer.outputs);
+            m_values.store(*node.slot(), answer.outputs);
     }
     if (!fault.isEmpty()) {
         m_master.apply(MasterEvent::SequenceFailed, QStringLiteral("node '%1': %2").arg(node.name(), fault));
@@ -53,14 +53,14 @@ bool InitializeSequence::take(NodeSession &node, const NodeSession::Answer &answ
     return true;
 }
 
-void InitializeSequence::takeAnswer(NodeSession &node, const QByteArray &outputs)
+void InitializeSequence::handleAnswer(NodeSession &node, const QByteArray &outputs)
 {
     if (m_step.kind() == SequenceStep::CollectOutputs) {
         if (!m_values.hasSize(node, outputs))
             return;
         node.slot()->initialOutputs.assign(outputs.begin(), outputs.end());
     }
-    if (take(node, {QString(), outputs}))
+    if (accept(node, {QString(), outputs}))
         advance();
 }
 
@@ -83,7 +83,7 @@ void InitializeSequence::distributeInputs()
         m_join.goOn(*listener);
     for (const auto &node : nodes) {
         const std::optional<NodeSession::Answer> answer = node->giveInputs(m_values.inputsOf(*node->slot()));
-        if (!m_step.isStill(step) || (answer && !take(*node, *answer)))
+        if (!m_step.isStill(step) || (answer && !accept(*node, *answer)))
             return;
     }
     advance();

@@ -17,7 +17,7 @@ public:
 
     void begin();
     /// The answer that \a node owes.
-    void takeAnswer(NodeSession &node, const QByteArray &outputs);
+    void handleAnswer(NodeSession &node, const QByteArray &outputs);
     /// Goes on when nobody owes an answer any more.
     void advance();
 
@@ -28,7 +28,7 @@ Q_SIGNALS:
     void done();
 
 private:
-    bool take(NodeSession &node, const NodeSession::Answer &answer);
+    bool accept(NodeSession &node, const NodeSession::Answer &answer);
     void distributeInputs();
     quint64 beginStep(SequenceStep::Kind kind, const NodeSessions::List &nodes);
     void end();

@@ -22,10 +22,10 @@ void JoinSequence::begin(NodeSession &node)
     node.askOutputs(mayGoOn ? std::optional<quint64>(m_cycles.cycleZero()) : std::nullopt);
 }
 
-void JoinSequence::takeAnswer(NodeSession &node, const QByteArray &outputs, bool goesOn)
+void JoinSequence::handleAnswer(NodeSession &node, const QByteArray &outputs, bool goesOn)
 {
     if (node.stage() == NodeSession::GivingOutputs) {
-        if (!takeOutputs(node, outputs))
+        if (!storeOutputs(node, outputs))
             return;
         tellReturn(node, goesOn);
     }
@@ -33,7 +33,7 @@ void JoinSequence::takeAnswer(NodeSession &node, const QByteArray &outputs, bool
     goOn(node);
 }
 
-bool JoinSequence::takeOutputs(NodeSession &node, const QByteArray &outputs)
+bool JoinSequence::storeOutputs(NodeSession &node, const QByteArray &outputs)
 {
     if (!m_values.hasSize(node, outputs))
         return false;
@@ -43,7 +43,7 @@ bool JoinSequence::takeOutputs(NodeSession &node, const QByteArray &outputs)
     if (!fault.isEmpty())
         node.drop(fault);
     else if (!m_cycles.isRunning())
-        m_values.take(slot, outputs);
+        m_values.store(slot, outputs);
     return fault.isEmpty();
 }
 

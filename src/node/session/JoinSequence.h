@@ -19,12 +19,12 @@ public:
     void begin(NodeSession &node);
     /// The answer that \a node owes.
     /// \param goesOn  the outputs are those of its last step in this phase
-    void takeAnswer(NodeSession &node, const QByteArray &outputs, bool goesOn);
+    void handleAnswer(NodeSession &node, const QByteArray &outputs, bool goesOn);
     /// Asks \a node for what comes next, if the others have come so far.
     void goOn(NodeSession &node);
 
 private:
-    bool takeOutputs(NodeSession &node, const QByteArray &outputs);
+    bool storeOutputs(NodeSession &node, const QByteArray &outputs);
     void tellReturn(const NodeSession &node, bool goesOn);
 
     const SequenceStep &m_step;

@@ -117,11 +117,11 @@ void MasterFinder::readDatagrams()
     QHostAddress sender;
     for (int left = DatagramsAtOnce; left > 0 && m_socket->hasPendingDatagrams(); --left) {
         const qint64 size = m_socket->readDatagram(bytes, sizeof bytes, &sender);
-        take(bytes, int(size), sender);
+        handle(bytes, int(size), sender);
     }
 }
 
-void MasterFinder::take(const char *bytes, int size, const QHostAddress &sender)
+void MasterFinder::handle(const char *bytes, int size, const QHostAddress &sender)
 {
     const auto beacon = Beacon::decode(bytes, size);
     if (!beacon || sender.protocol() != QAbstractSocket::IPv4Protocol)

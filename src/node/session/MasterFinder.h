@@ -54,7 +54,7 @@ public:
     /// What the timer does.
     void look();
     /// One datagram, as if it had come over the network.
-    void take(const char *bytes, int size, const QHostAddress &sender);
+    void handle(const char *bytes, int size, const QHostAddress &sender);
 
 Q_SIGNALS:
     /// masters() are others than before.

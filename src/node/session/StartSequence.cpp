@@ -46,7 +46,7 @@ void StartSequence::begin()
     advance();
 }
 
-void StartSequence::takeAnswer(NodeSession &node)
+void StartSequence::handleAnswer(NodeSession &node)
 {
     m_step.answered(node);
     advance();

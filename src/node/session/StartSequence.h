@@ -17,7 +17,7 @@ public:
 
     void begin();
     /// The answer that \a node owes: it is ready.
-    void takeAnswer(NodeSession &node);
+    void handleAnswer(NodeSession &node);
     /// Goes on when nobody owes an answer any more.
     void advance();
 

@@ -57,7 +57,7 @@ public:
     void take(const QPlcSignalList &values)
     {
         now += 10 * millisecond;
-        plant->feed()->take({values}, now);
+        plant->feed()->add({values}, now);
     }
     void apply(const QByteArray &settings) { plot->applySettings(QJsonDocument::fromJson(settings).object()); }
     QByteArray settings() const { return QJsonDocument(plot->settings()).toJson(QJsonDocument::Compact); }

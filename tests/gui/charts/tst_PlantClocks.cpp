@@ -52,7 +52,7 @@ public:
     static void take(Plant *plant, Time last)
     {
         for (int i = 0; i < 200; ++i)
-            plant->feed()->take({valueOf("count", QPlcValue(i))}, last - (199 - i) * s / 100);
+            plant->feed()->add({valueOf("count", QPlcValue(i))}, last - (199 - i) * s / 100);
     }
 
     WindowContext context;

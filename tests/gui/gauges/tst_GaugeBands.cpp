@@ -41,7 +41,7 @@ void tst_GaugeBands::bandsSaySoWithHysteresis()
     const auto status = [&](float value) {
         QPlcSignalList list;
         list.insert(index, value);
-        feed.take({list}, index);
+        feed.add({list}, index);
         return feed.picture().status;
     };
     QCOMPARE(feed.picture().bands.size(), 3);

@@ -40,14 +40,14 @@ public:
         all.take(settings);
         m_feed.setSettings(GaugeSettings::from(all));
     }
-    void take(double value)
+    void add(double value)
     {
         const QPlcSignalIndex index = QPlcSignalIndexTable::index(m_signal);
         const bool isWhole = m_signal == QLatin1String("counter");
         QPlcSignalList list;
         list.insert(index, isWhole ? QPlcValue(qint32(value)) : QPlcValue(float(value)));
         m_feed.setActive(false);
-        m_feed.take({list}, index);
+        m_feed.add({list}, index);
         m_feed.setActive(true);
     }
     const GaugePicture &picture() const { return m_feed.picture(); }
@@ -73,7 +73,7 @@ void tst_GaugePrefix::aRangeHasAPrefixThatStays()
 {
     FreeFeed feed({{"signal", "energy"}, {"extremes", true}});
     for (const auto &[value, text] : {std::pair(101108.0f, "101.1"), {500.0f, "0.5"}, {0.0f, "0.0"}, {2.0f, "0.0"}}) {
-        feed.take(value);
+        feed.add(value);
         QCOMPARE(feed.text(), QString::fromLatin1(text));
         QCOMPARE(feed.picture().prefix.unit(), QStringLiteral("kJ"));
     }
@@ -89,7 +89,7 @@ void tst_GaugePrefix::aNumberWithoutRangeHasThePrefixOfItsSize()
     for (const char *signal : {"work", "counter"}) {
         FreeFeed feed({{"signal", signal}, {"style", "number"}});
         const auto shown = [&](double value) {
-            feed.take(value);
+            feed.add(value);
             return feed.text() + QLatin1Char(' ') + feed.picture().prefix.unit();
         };
         QCOMPARE(shown(101108.0), QStringLiteral("101.1 kJ"));
@@ -101,12 +101,12 @@ void tst_GaugePrefix::aNumberWithoutRangeHasThePrefixOfItsSize()
         QCOMPARE(shown(0.0), QStringLiteral("0.000 MJ"));
     }
     FreeFeed number({{"signal", "counter"}, {"style", "number"}});
-    number.take(8000);
+    number.add(8000);
     QCOMPARE(number.text(), QStringLiteral("8000"));  // whole while it has no prefix
     FreeFeed dial({{"signal", "work"}});
-    dial.take(101108.0);
+    dial.add(101108.0);
     QCOMPARE(dial.picture().prefix.unit(), QStringLiteral("kJ"));
-    dial.take(1.0);
+    dial.add(1.0);
     QCOMPARE(dial.picture().prefix.unit(), QStringLiteral("kJ"));  // as its scale
 }
 

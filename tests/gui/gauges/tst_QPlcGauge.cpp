@@ -190,7 +190,7 @@ void tst_QPlcGauge::whatIsBeyondTheTableSaysSo()
     const auto take = [&](float value) {
         QPlcSignalList list;
         list.insert(index, value);
-        feed.take({list}, index);
+        feed.add({list}, index);
     };
     take(100.5f);
     QCOMPARE(feed.picture().level, AlarmState::Alarm);
@@ -290,12 +290,12 @@ void tst_QPlcGauge::extremesAreThoseSinceReset()
         batch << QPlcSignalList();
         batch.last().insert(index, value);
     }
-    feed.take(batch, index);
+    feed.add(batch, index);
     QCOMPARE(feed.picture().values.first().minimum, std::optional<double>(10.0));
     QCOMPARE(feed.picture().values.first().maximum, std::optional<double>(70.0));
     feed.reset();
     QVERIFY(!feed.picture().values.first().minimum);
-    feed.take({batch.first()}, index);
+    feed.add({batch.first()}, index);
     QCOMPARE(feed.picture().values.first().maximum, std::optional<double>(30.0));
 }
 

@@ -162,15 +162,15 @@ void tst_PlantModels::aPhaseThatBeginsMissesNobody()
     };
     using messages::MasterState;
     PlantStatus status;
-    status.takeState(state(MasterState::RealTime, {"Model", "Autopilot", "Window1"}));
+    status.handleState(state(MasterState::RealTime, {"Model", "Autopilot", "Window1"}));
     QCOMPARE(status.gone, QStringList());
-    status.takeState(state(MasterState::RealTime, {"Autopilot"}));
+    status.handleState(state(MasterState::RealTime, {"Autopilot"}));
     QCOMPARE(status.gone, QStringList{"Model"});
-    status.takeState(state(MasterState::Off, {}));
+    status.handleState(state(MasterState::Off, {}));
     QCOMPARE(status.gone, (QStringList{"Model", "Autopilot"}));
-    status.takeState(state(MasterState::Off, {"Model"}));
+    status.handleState(state(MasterState::Off, {"Model"}));
     QCOMPARE(status.gone, QStringList{"Autopilot"});
-    status.takeState(state(MasterState::RealTime, {"Model"}));
+    status.handleState(state(MasterState::RealTime, {"Model"}));
     QCOMPARE(status.gone, QStringList());
 }
 

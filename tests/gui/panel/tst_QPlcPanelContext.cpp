@@ -55,7 +55,7 @@ public:
             values.insert(QStringLiteral("setpoint"), QPlcValue(1.25));
             values.insert(QStringLiteral("vector"), QPlcValue(std::array<double, 3>{1.0, 2.0, 3.0}));
             now += period;
-            plant->feed()->take({values}, now);
+            plant->feed()->add({values}, now);
         }
     }
     Context &context() { return *panel.context(); }

@@ -34,7 +34,7 @@ public:
     QStringList told()
     {
         QStringList texts;
-        for (const LimitWatch::Change &change : m_watch.take(store)) {
+        for (const LimitWatch::Change &change : m_watch.check(store)) {
             const QString name = QStringLiteral("%1[%2]").arg(m_table.at(change.signal).name).arg(change.element);
             texts << (change.isOutside ? QStringLiteral("+%1 %2").arg(name).arg(change.farthest)
                                        : QStringLiteral("-%1 %2 after %3")
@@ -141,11 +141,11 @@ void tst_LimitWatch::rowsOfBeforeDoNotCount()
     store.append(1, outside);
     LimitWatch watch;
     watch.setTable(table, channels, &store);
-    QVERIFY(watch.take(store).empty());
+    QVERIFY(watch.check(store).empty());
     store.append(2, outside);
-    QCOMPARE(int(watch.take(store).size()), 1);
+    QCOMPARE(int(watch.check(store).size()), 1);
     watch.setTable(table, channels, nullptr);
-    QVERIFY(watch.take(SignalStore(4, 100)).empty());
+    QVERIFY(watch.check(SignalStore(4, 100)).empty());
 }
 
 void tst_LimitWatch::anAlarmOfAPlantIsActiveWhileItLasts()
@@ -161,7 +161,7 @@ void tst_LimitWatch::anAlarmOfAPlantIsActiveWhileItLasts()
     LimitWatch::Time now = 1'700'000'000'000 * millisecond;
     const auto feed = [&](double speed) {
         now += 100 * millisecond;
-        plant->feed()->take({valueOf("speed", QPlcValue(float(speed)))}, now);
+        plant->feed()->add({valueOf("speed", QPlcValue(float(speed)))}, now);
     };
     feed(1.0);
     QVERIFY(events.isEmpty());

@@ -42,7 +42,7 @@ QByteArray payload(int n)
 void give(PlantValues *values, quint64 cycle, quint64 phase, qint64 now, qint64 period = 10 * ms, int every = 1)
 {
     const QByteArray bytes = payload(int(cycle));
-    values->takeFrame({cycle, phase, std::chrono::nanoseconds(period), bytes.constData(), bytes.size(), every}, now);
+    values->storeFrame({cycle, phase, std::chrono::nanoseconds(period), bytes.constData(), bytes.size(), every}, now);
 }
 
 }  // namespace
@@ -145,7 +145,7 @@ void tst_PlantValues::whatNobodyHasWrittenIsNoValueOfACurve()
     for (const int invalid : {0, 2, 5})
         qualities[invalid] = char(QPlcQuality(QPlcQuality::Invalid).toByte());
     qualities[6] = char(QPlcQuality(QPlcQuality::Safe).toByte());
-    values.takeFrame(
+    values.storeFrame(
         {0, 1, std::chrono::nanoseconds(10 * ms), bytes.constData(), bytes.size(), 1, qualities.constData()}, wall);
     const auto isGap = [&](int signal, int element = 0) {
         const int channel = values.channels().channel(QPlcSignalIndex(signal), element);
@@ -256,9 +256,9 @@ void tst_PlantValues::framesOfAnotherTableAreNotTaken()
 {
     PlantValues values;
     const char frame[4] = {};
-    values.takeFrame({0, 1, std::chrono::nanoseconds(ms), frame, 4}, wall);  // before the table
+    values.storeFrame({0, 1, std::chrono::nanoseconds(ms), frame, 4}, wall);  // before the table
     values.setTable(table(), 10 * ms);
-    values.takeFrame({0, 1, std::chrono::nanoseconds(ms), frame, 4}, wall);
+    values.storeFrame({0, 1, std::chrono::nanoseconds(ms), frame, 4}, wall);
     QCOMPARE(values.rows(), quint64(0));
     QVERIFY(values.store()->isEmpty());
 }
@@ -312,11 +312,11 @@ void tst_PlantValues::aBatchHoldsTheCyclesSinceTheLastOne()
 void tst_PlantValues::valuesAtRestReplaceTheNewest()
 {
     PlantValues values;
-    values.takeValue(4, QPlcValue(1.5F));  // before the table
+    values.storeValue(4, QPlcValue(1.5F));  // before the table
     values.setTable(table(), 10 * ms);
-    values.takeValue(4, QPlcValue(1.5F));
-    values.takeValue(4, QPlcValue(2.5));  // no Real32
-    values.takeValue(1000, QPlcValue(2.5F));
+    values.storeValue(4, QPlcValue(1.5F));
+    values.storeValue(4, QPlcValue(2.5));  // no Real32
+    values.storeValue(1000, QPlcValue(2.5F));
     QCOMPARE(values.value(4).toReal(), 1.5);
     QVERIFY(values.store()->isEmpty());
 }
@@ -385,13 +385,13 @@ void tst_PlantValues::overrunsAreNewUntilTheNextStatistics()
         return answer;
     };
     PlantStatus status;
-    status.takeStatistics(statistics(3));
+    status.handleStatistics(statistics(3));
     QVERIFY(!status.isOverrunning);  // they were before anybody looked
-    status.takeStatistics(statistics(4));
+    status.handleStatistics(statistics(4));
     QVERIFY(status.isOverrunning);
-    status.takeStatistics(statistics(4));
+    status.handleStatistics(statistics(4));
     QVERIFY(!status.isOverrunning);
-    status.takeStatistics(statistics(0));  // a new phase
+    status.handleStatistics(statistics(0));  // a new phase
     QVERIFY(!status.isOverrunning);
 }
 
@@ -411,42 +411,42 @@ void tst_PlantValues::aStatusKeepsTheFiguresOfItsNodes()
                          QJsonObject{{"name", "Stranger"}}}}});
     };
     PlantStatus status;
-    status.takeState(state);
+    status.handleState(state);
     QVERIFY(status.isRunning());
     QCOMPARE(quint64(status.master.cycle), quint64(255));
-    status.takeStatistics(statistics(3));
+    status.handleStatistics(statistics(3));
     QCOMPARE(status.statistics.lateness.last10s.p99, qint64(2000));
     QCOMPARE(status.nodes.size(), 1);
     QVERIFY(status.isCounted);
     QVERIFY(!status.node("Winch")->isLate);  // it was late before anybody looked
-    status.takeState(state);
+    status.handleState(state);
     QCOMPARE(status.node("Winch")->statistics.execution.sinceStart.maximum, qint64(3000));
     QCOMPARE(status.node("Winch")->statistics.late, quint64(3));
-    status.takeStatistics(statistics(4));
+    status.handleStatistics(statistics(4));
     QVERIFY(status.node("Winch")->isLate);
-    status.takeStatistics(statistics(4));
+    status.handleStatistics(statistics(4));
     QVERIFY(!status.node("Winch")->isLate);
-    status.takeStatistics(statistics(0));  // a new phase
+    status.handleStatistics(statistics(0));  // a new phase
     QVERIFY(!status.node("Winch")->isLate);
-    status.takeState(messages::State());
+    status.handleState(messages::State());
     QVERIFY(status.nodes.isEmpty() && !status.node("Winch"));
 }
 
 void tst_PlantValues::nonsenseOfAMasterIsAnEmptyStatus()
 {
     PlantStatus status;
-    status.takeState(answerOf<messages::State>({{"state", 7}, {"nodes", "many"}, {"period", "long"}}));
-    status.takeState(answerOf<messages::State>(
+    status.handleState(answerOf<messages::State>({{"state", 7}, {"nodes", "many"}, {"period", "long"}}));
+    status.handleState(answerOf<messages::State>(
         {{"state", "a\x1b[31m"}, {"nodes", QJsonArray{1, "x", QJsonObject{{"name", QJsonArray()}}}}}));
     QVERIFY(status.nodes.isEmpty());
     QVERIFY(!status.isRunning());
     QCOMPARE(status.master.state, messages::MasterState::Unknown);
-    status.takeState(answerOf<messages::State>({{"nodes", QJsonArray{QJsonObject{{"name", "Winch"}}}}}));
-    status.takeStatistics(answerOf<messages::Statistics>(
+    status.handleState(answerOf<messages::State>({{"nodes", QJsonArray{QJsonObject{{"name", "Winch"}}}}}));
+    status.handleStatistics(answerOf<messages::Statistics>(
         {{"nodes", QJsonArray{QJsonObject{{"name", "Winch"}, {"counters", QJsonObject{{"late", -1e300}}}}}},
          {"master", 1}}));
     QCOMPARE(status.node("Winch")->statistics.late, quint64(0));
-    status.takeSchedule(
+    status.handleSchedule(
         answerOf<messages::Schedule>({{"stages", QJsonArray{1, QJsonArray{2}}}, {"links", QJsonArray{3}}}));
     QVERIFY(status.schedule.stages.isEmpty() && status.schedule.links.isEmpty());
 }
@@ -462,17 +462,17 @@ void tst_PlantValues::whatPeopleReadCommandsNoTerminal()
     state.nodes.first().name = escape;
     state.nodes.first().faultPlan = escape;
     PlantStatus status;
-    status.takeState(state);
+    status.handleState(state);
     QCOMPARE(status.master.reason, shown);
     QCOMPARE(status.master.stopped->whoever, shown);
     QCOMPARE(status.nodes.at(0).info.faultPlan, shown);
     messages::Statistics statistics;
     statistics.nodes.push_back({escape, {}, {}, {}, {{"late", 7.0}}});
-    status.takeStatistics(statistics);
+    status.handleStatistics(statistics);
     QCOMPARE(status.node(shown)->statistics.late, quint64(7));
     messages::Schedule schedule;
     schedule.stages = {{{escape, QPlcSchedule::Update}}};
-    status.takeSchedule(schedule);
+    status.handleSchedule(schedule);
     QCOMPARE(status.schedule.stages.at(0).at(0).node, shown);
 }
 

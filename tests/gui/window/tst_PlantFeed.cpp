@@ -138,7 +138,7 @@ void tst_PlantFeed::nothingIsTakenWithoutAConnection()
 {
     PlantList plants;
     Plant *plant = plants.addFed(QStringLiteral("fed"));
-    plant->feed()->take(cycles(0, 3), begin);
+    plant->feed()->add(cycles(0, 3), begin);
     plant->feed()->initialize({});
     plant->feed()->started();
     plant->feed()->stopped();
