@@ -55,7 +55,8 @@ class QPlcMasterNodePrivate;
 /// fails, or is late too often. docs/design/states.md has all states.
 ///
 /// Errors: a function that fails returns false and changes nothing; error() and errorString() have
-/// the reason, and errorOccurred() is emitted.
+/// the reason, and errorOccurred() is emitted. A function that returns true sets error() back to
+/// NoError.
 ///
 /// \threadsafe no: the object lives in the thread that made it and needs its event loop. Cycles run
 ///     on a thread of their own; neither thread waits for the other
@@ -83,10 +84,10 @@ public:
 
     /// Kinds of errors.
     enum Error {
-        NoError,  ///< nothing has failed since the last initialization or start
+        NoError,  ///< nothing has failed since the last function that returned true
         /// A signal does not exist, has the wrong type, or has another writer.
         SignalError,
-        IntervalError,  ///< period, clock or overrun policy out of range
+        IntervalError,  ///< period, clock, overrun policy or limit out of range
         /// The port cannot be used, or a file of the security settings is wrong.
         ServerError,
         NodeError,  ///< a node was refused, was lost, or has failed
@@ -171,8 +172,9 @@ public:
     void setCycleLimit(quint64 cycles);
     /// Sets the longest wait for each answer of a node during initialization and start, in each
     /// profile.
-    /// \param time  1 ms or longer; default 2 s
-    void setInitializationTimeout(std::chrono::milliseconds time);
+    /// \param time  1 ms to 24 h; default 2 s
+    /// \return false when \a time is out of range (IntervalError)
+    bool setInitializationTimeout(std::chrono::milliseconds time);
 
     /// Sets how strict the plant is where table, nodes and options do not say anything: see
     /// QPlcProfile. Takes effect at the next initialization or start.
@@ -188,17 +190,20 @@ public:
     /// Sets the longest time in the state WaitingForLateSlaves before the plant stops safely. By
     /// default the profile decides: forever or 5 s. Takes effect at the next start. Lockstep waits
     /// forever.
-    /// \param time  on the clock of the master; 0: forever
-    void setLongestWait(std::chrono::nanoseconds time);
+    /// \param time  up to 24 h on the clock of the master; 0: forever
+    /// \return false when \a time is out of range (IntervalError)
+    bool setLongestWait(std::chrono::nanoseconds time);
     /// Sets by how much a cycle may begin late before the plant stops safely, for example because
     /// the computer slept. By default the profile decides: any time or 1 s. Takes effect at the
     /// next start. Lockstep has no such limit.
-    /// \param time  on the clock of the master; 0: any
-    void setGapLimit(std::chrono::nanoseconds time);
+    /// \param time  up to 24 h on the clock of the master; 0: any
+    /// \return false when \a time is out of range (IntervalError)
+    bool setGapLimit(std::chrono::nanoseconds time);
     /// Sets the number of successive overruns that is allowed: one more, and the plant stops
     /// safely. Takes effect at the next start.
-    /// \param overruns  0: any number (default)
-    void setOverrunLimit(int overruns);
+    /// \param overruns  1 to 1 000 000; 0: any number (default)
+    /// \return false when \a overruns is out of range (IntervalError)
+    bool setOverrunLimit(int overruns);
     /// Sets whether a start takes two steps: arm() in the state Ready, then the start within 5 s.
     /// This holds for all persons and programs. By default it is required with security
     /// (setSecurity()).
@@ -257,8 +262,9 @@ public:
     QPlcSecurity security() const;
     /// Sets how many control and cyclic connections may exist at a time; further ones are closed at
     /// once. Takes effect with startServer().
-    /// \param connections  default 320, which is enough for 254 nodes
-    void setMaximumConnections(int connections);
+    /// \param connections  1 to 65 535; default 320, which is enough for 254 nodes
+    /// \return false when \a connections is out of range (IntervalError)
+    bool setMaximumConnections(int connections);
     /// Registers a node of this process. The cycle thread of the master calls it.
     /// \param node  owned by the caller, not null. A node that is destroyed leaves the master;
     ///     while cycles run, call removeLocalNode() before
@@ -290,7 +296,8 @@ public:
     QString causeThatRemains() const;
     /// Returns true if arm() was called less than 5 s ago and no start has followed.
     bool isArmed() const;
-    /// Returns the kind of the last error.
+    /// Returns the kind of the last error: why a function has returned false, or what has failed
+    /// since. A function that returns true sets it back to NoError.
     Error error() const;
     /// Returns the last error as a sentence with the remedy; empty: there was none.
     QString errorString() const;

@@ -271,10 +271,15 @@ public:
     ///
     /// While a master waits for a late node, it sends no frames to the others: where nodes have a
     /// Wait policy, use a time longer than QPlcMasterNode::setLongestWait().
-    /// \param time  on the clock of the master; 0: no watchdog
-    void activateWatchdog(std::chrono::nanoseconds time);
+    /// \param time  up to 24 h on the clock of the master; 0: no watchdog
+    /// \return false when \a time is out of range: error() is then OptionError, and nothing has
+    ///     changed
+    bool activateWatchdog(std::chrono::nanoseconds time);
     /// Sets the watchdog time in seconds, as above.
-    void activateWatchdog(double seconds) { activateWatchdog(std::chrono::nanoseconds(qRound64(seconds * 1e9))); }
+    bool activateWatchdog(double seconds)
+    {
+        return activateWatchdog(std::chrono::nanoseconds(qRound64(seconds * 1e9)));
+    }
     /// Returns the watchdog time of this phase or the last one; before the first phase the one that
     /// was set. 0: no watchdog.
     std::chrono::nanoseconds watchdog() const;

@@ -25,6 +25,9 @@ private Q_SLOTS:
     void anythingThatIsNoRequestOfThisRoleFails();
     void aWrongTokenAttachesNothing();
     void masterSignalsAreChecked();
+    void limitsOfAMasterHaveRanges();
+    void aFunctionThatSucceedsSetsTheErrorBack();
+    void aWatchdogTimeHasARange();
 
 private:
     QScopedPointer<TestMaster> m_master;
@@ -298,6 +301,84 @@ void tst_Refusals::masterSignalsAreChecked()
     QVERIFY(master.setInterval(0.010));
     QVERIFY(!master.setClock(QPlcClock::scaled(0.0)));
     QVERIFY(!master.setClock(QPlcClock::scaled(1001.0)));
+}
+
+void tst_Refusals::limitsOfAMasterHaveRanges()
+{
+    using namespace std::chrono_literals;
+    TestMaster master;
+    const auto isRefused = [&](bool isSet, const char *text) {
+        const bool isIt
+            = !isSet && master.error() == QPlcMasterNode::IntervalError && master.errorString() == QLatin1String(text);
+        if (!isIt)
+            qInfo("%s", qPrintable(master.errorString()));
+        return isIt;
+    };
+    QVERIFY(isRefused(master.setInitializationTimeout(0ms),
+                      "an initialization timeout of 0 s is out of range; use 0.001 ... 86400 s"));
+    QVERIFY(isRefused(master.setInitializationTimeout(24h + 1ms),
+                      "an initialization timeout of 86400 s is out of range; use 0.001 ... 86400 s"));
+    QVERIFY(isRefused(master.setLongestWait(-1ms), "a longest wait of -0.001 s is out of range; use 0 ... 86400 s"));
+    QVERIFY(isRefused(master.setGapLimit(25h), "a gap limit of 90000 s is out of range; use 0 ... 86400 s"));
+    QVERIFY(isRefused(master.setOverrunLimit(-1), "a limit of -1 overruns is out of range; use 0 ... 1000000"));
+    QVERIFY(
+        isRefused(master.setOverrunLimit(1'000'001), "a limit of 1000001 overruns is out of range; use 0 ... 1000000"));
+    QVERIFY(isRefused(master.setMaximumConnections(0), "a limit of 0 connections is out of range; use 1 ... 65535"));
+    QVERIFY(isRefused(master.setMaximumConnections(65'536),
+                      "a limit of 65536 connections is out of range; use 1 ... 65535"));
+    QVERIFY(master.setInitializationTimeout(1ms));
+    QVERIFY(master.setInitializationTimeout(24h));
+    QVERIFY(master.setLongestWait(0ns));
+    QVERIFY(master.setLongestWait(24h));
+    QVERIFY(master.setGapLimit(0ns));
+    QVERIFY(master.setOverrunLimit(0));
+    QVERIFY(master.setOverrunLimit(1'000'000));
+    QVERIFY(master.setMaximumConnections(1));
+    QVERIFY(master.setMaximumConnections(65'535));
+}
+
+void tst_Refusals::aFunctionThatSucceedsSetsTheErrorBack()
+{
+    TestMaster master;
+    CounterNode node;
+    const QVector<std::function<bool()>> functions{
+        [&] { return master.setSignalTable(testTable()); },
+        [&] { return master.setInterval(0.010); },
+        [&] { return master.setClock(QPlcClock::lockstep()); },
+        [&] { return master.setOverrunPolicy(QPlcOverrunPolicy::skipToGrid()); },
+        [&] { return master.setOverrunLimit(3); },
+        [&] { return master.setFaultPlan(QString()); },
+        [&] { return master.activateJitterMeasurement("jitter"); },
+        [&] { return master.setSignalValue("setpoint", QPlcValue(1.0)); },
+        [&] { return master.addLocalNode(&node); },
+        [&] { return master.listen(); },
+        [&] { return master.initializeAllStates(); },
+        [&] { return master.arm(); },
+        [&] { return master.startRealTime(); },
+        [&] { return master.reset(); },
+    };
+    for (int i = 0; i < functions.size(); ++i) {
+        QVERIFY(!master.setInterval(0.0));
+        if (i == functions.size() - 1)
+            master.safeStop();
+        QVERIFY2(functions.at(i)(), qPrintable(QStringLiteral("%1: %2").arg(i).arg(master.errorString())));
+        QVERIFY2(master.error() == QPlcMasterNode::NoError && master.errorString().isEmpty(),
+                 qPrintable(QStringLiteral("%1: %2").arg(i).arg(master.errorString())));
+    }
+}
+
+void tst_Refusals::aWatchdogTimeHasARange()
+{
+    using namespace std::chrono_literals;
+    CounterNode node;
+    QVERIFY(node.activateWatchdog(24h));
+    QTest::ignoreMessage(QtWarningMsg,
+                         "node 'Counter': a watchdog time of -0.5 s is out of range; use 0 (none) ... 86400 s");
+    QVERIFY(!node.activateWatchdog(-0.5));
+    QCOMPARE(node.error(), QPlcSlaveNode::OptionError);
+    QVERIFY(!node.activateWatchdog(24h + 1s));
+    QCOMPARE(node.watchdog(), std::chrono::nanoseconds(24h));
+    QVERIFY(node.activateWatchdog(0s));
 }
 
 QTEST_GUILESS_MAIN(tst_Refusals)

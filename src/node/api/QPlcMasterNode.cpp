@@ -12,10 +12,39 @@ using namespace std::chrono_literals;
 
 namespace {
 
+constexpr int mostOverruns = 1'000'000;
+constexpr int mostConnections = 65'535;
+constexpr std::chrono::hours longestTime{24};
+
 /// \param fault  why a signal could not be claimed; empty: it was
 bool isClaimed(QPlcMasterNodePrivate &master, const QString &fault)
 {
-    return fault.isEmpty() || master.setError(QPlcMasterNode::SignalError, fault);
+    return fault.isEmpty() ? master.succeed() : master.setError(QPlcMasterNode::SignalError, fault);
+}
+
+/// Whether \a time may be a limit; if not, tells what may.
+/// \param limit  "an initialization timeout"
+bool isLimit(QPlcMasterNodePrivate &master, std::chrono::nanoseconds time, std::chrono::nanoseconds shortest,
+             const QString &limit)
+{
+    if (time >= shortest && time <= longestTime)
+        return master.succeed();
+    return master.setError(QPlcMasterNode::IntervalError,
+                           QStringLiteral("%1 of %2 s is out of range; use %3 ... 86400 s")
+                               .arg(limit)
+                               .arg(double(time.count()) * 1e-9)
+                               .arg(double(shortest.count()) * 1e-9));
+}
+
+/// Whether \a number may be a limit; if not, tells what may.
+/// \param limit  "a limit of %1 overruns"
+bool isLimit(QPlcMasterNodePrivate &master, int number, int smallest, int largest, const QString &limit)
+{
+    if (number >= smallest && number <= largest)
+        return master.succeed();
+    return master.setError(
+        QPlcMasterNode::IntervalError,
+        QStringLiteral("%1 is out of range; use %2 ... %3").arg(limit.arg(number)).arg(smallest).arg(largest));
 }
 
 }  // namespace
@@ -41,7 +70,7 @@ bool QPlcMasterNode::setSignalTable(const QPlcSignalTable &table)
         return d->setError(StateError,
                            QStringLiteral("the signal table can only be set before signals, nodes and servers"));
     d->table = table;
-    return true;
+    return d->succeed();
 }
 
 QPlcSignalTable QPlcMasterNode::signalTable() const
@@ -80,7 +109,7 @@ bool QPlcMasterNode::setInterval(std::chrono::nanoseconds period)
                            QStringLiteral("a period of %1 s is out of range; use 0.00001 ... 10 s")
                                .arg(double(period.count()) * 1e-9));
     d->phaseSettings.interval = period;
-    return true;
+    return d->succeed();
 }
 
 std::chrono::nanoseconds QPlcMasterNode::interval() const
@@ -96,7 +125,7 @@ bool QPlcMasterNode::setClock(QPlcClock clock)
             QStringLiteral("a clock of %1 times real time is out of range; use 0.001 ... 1000, or lockstep")
                 .arg(clock.scale()));
     d->phaseSettings.clock = clock;
-    return true;
+    return d->succeed();
 }
 
 QPlcClock QPlcMasterNode::clock() const
@@ -117,7 +146,7 @@ bool QPlcMasterNode::setOverrunPolicy(QPlcOverrunPolicy policy)
                                .arg(policy.catchUpCycles())
                                .arg(QPlcOverrunPolicy::MaximumCatchUp));
     d->phaseSettings.overrunPolicy = policy;
-    return true;
+    return d->succeed();
 }
 
 QPlcOverrunPolicy QPlcMasterNode::overrunPolicy() const
@@ -130,9 +159,12 @@ void QPlcMasterNode::setCycleLimit(quint64 cycles)
     d->phaseSettings.cycleLimit = cycles;
 }
 
-void QPlcMasterNode::setInitializationTimeout(std::chrono::milliseconds time)
+bool QPlcMasterNode::setInitializationTimeout(std::chrono::milliseconds time)
 {
-    d->stepTimer.setLength(time);
+    const bool isGood = isLimit(*d, time, 1ms, QStringLiteral("an initialization timeout"));
+    if (isGood)
+        d->stepTimer.setLength(time);
+    return isGood;
 }
 
 void QPlcMasterNode::setProfile(QPlcProfile::Value profile)
@@ -150,19 +182,28 @@ QString QPlcMasterNode::profileReason() const
     return d->profile().reason;
 }
 
-void QPlcMasterNode::setLongestWait(std::chrono::nanoseconds time)
+bool QPlcMasterNode::setLongestWait(std::chrono::nanoseconds time)
 {
-    d->phaseSettings.longestWait = time;
+    const bool isGood = isLimit(*d, time, 0ns, QStringLiteral("a longest wait"));
+    if (isGood)
+        d->phaseSettings.longestWait = time;
+    return isGood;
 }
 
-void QPlcMasterNode::setGapLimit(std::chrono::nanoseconds time)
+bool QPlcMasterNode::setGapLimit(std::chrono::nanoseconds time)
 {
-    d->phaseSettings.gapLimit = time;
+    const bool isGood = isLimit(*d, time, 0ns, QStringLiteral("a gap limit"));
+    if (isGood)
+        d->phaseSettings.gapLimit = time;
+    return isGood;
 }
 
-void QPlcMasterNode::setOverrunLimit(int overruns)
+bool QPlcMasterNode::setOverrunLimit(int overruns)
 {
-    d->phaseSettings.overrunLimit = overruns;
+    const bool isGood = isLimit(*d, overruns, 0, mostOverruns, QStringLiteral("a limit of %1 overruns"));
+    if (isGood)
+        d->phaseSettings.overrunLimit = overruns;
+    return isGood;
 }
 
 void QPlcMasterNode::setArmingRequired(bool required)
@@ -222,7 +263,7 @@ bool QPlcMasterNode::setFaultPlan(const QString &plan)
     if (serverPort() != 0)
         return d->setError(StateError, QStringLiteral("a fault plan is set before the server starts: stop it first"));
     d->serverSettings.faultPlan = plan;
-    return true;
+    return d->succeed();
 }
 
 QString QPlcMasterNode::faultPlan() const
@@ -240,9 +281,12 @@ QPlcSecurity QPlcMasterNode::security() const
     return d->serverSettings.security;
 }
 
-void QPlcMasterNode::setMaximumConnections(int connections)
+bool QPlcMasterNode::setMaximumConnections(int connections)
 {
-    d->serverSettings.maximumConnections = connections;
+    const bool isGood = isLimit(*d, connections, 1, mostConnections, QStringLiteral("a limit of %1 connections"));
+    if (isGood)
+        d->serverSettings.maximumConnections = connections;
+    return isGood;
 }
 
 bool QPlcMasterNode::addLocalNode(QPlcSlaveNode *node)
@@ -358,7 +402,7 @@ bool QPlcMasterNode::setSignalValue(const QString &signalName, const QPlcValue &
         return false;
     qplc::Refusal refusal;
     if (d->parts->settings.setSignal(signalName, value, &refusal))
-        return true;
+        return d->succeed();
     return d->setError(refusal.error == QLatin1String("WrongState") ? StateError : SignalError, refusal.text);
 }
 

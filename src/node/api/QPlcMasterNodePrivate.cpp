@@ -166,6 +166,13 @@ bool QPlcMasterNodePrivate::setError(QPlcMasterNode::Error newError, const QStri
     return false;
 }
 
+bool QPlcMasterNodePrivate::succeed()
+{
+    error = QPlcMasterNode::NoError;
+    errorString.clear();
+    return true;
+}
+
 // ---- set-up ----
 
 bool QPlcMasterNodePrivate::prepare()
@@ -220,7 +227,7 @@ bool QPlcMasterNodePrivate::startServer(const QPlcUnderlyingProtocol &protocol)
                  serverSettings.hasBeacon);
     qCInfo(lcMaster).noquote() << "listening on" << address.toString() << "port" << server.port() << "security"
                                << serverSettings.security.modeName();
-    return true;
+    return succeed();
 }
 
 // ---- nodes ----
@@ -245,7 +252,7 @@ bool QPlcMasterNodePrivate::addLocalNode(QPlcSlaveNode *node)
     parts->nodes.add(local);
     local->join(q);
     Q_EMIT q->nodeRegistered(slot->name);
-    return true;
+    return succeed();
 }
 
 void QPlcMasterNodePrivate::removeLocalNode(QPlcSlaveNode *node)
@@ -327,7 +334,7 @@ void QPlcMasterNodePrivate::answerRequester(bool done, const QString &text)
 
 bool QPlcMasterNodePrivate::initializeAllStates()
 {
-    return prepare() && apply(Event::Initialize) && error == QPlcMasterNode::NoError;
+    return prepare() && succeed() && apply(Event::Initialize) && error == QPlcMasterNode::NoError;
 }
 
 bool QPlcMasterNodePrivate::startRealTime(quint64 cycles, quint64 token)
@@ -337,6 +344,7 @@ bool QPlcMasterNodePrivate::startRealTime(quint64 cycles, quint64 token)
     const QString optionError = phaseSettings.realTimeOptions.errorString();
     if (!optionError.isEmpty())
         return setError(QPlcMasterNode::RealTimeError, optionError);
+    succeed();
     const quint64 cyclesOfThisPhase = std::exchange(phaseSettings.cyclesWanted, cycles);
     if (apply(arming.permitsStart(token, qplc::monotonicNow(), serverSettings.isArmingRequired())
                   ? Event::Start
@@ -348,13 +356,13 @@ bool QPlcMasterNodePrivate::startRealTime(quint64 cycles, quint64 token)
 
 bool QPlcMasterNodePrivate::arm()
 {
-    return prepare() && apply(Event::Arm);
+    return prepare() && apply(Event::Arm) && succeed();
 }
 
 bool QPlcMasterNodePrivate::reset()
 {
     const bool isTooEarly = parts && !parts->faults.remainingCause().isEmpty();
-    return apply(isTooEarly ? Event::ResetTooEarly : Event::Reset, QStringLiteral("reset"));
+    return apply(isTooEarly ? Event::ResetTooEarly : Event::Reset, QStringLiteral("reset")) && succeed();
 }
 
 void QPlcMasterNodePrivate::stop(const QString &reason)
@@ -431,13 +439,10 @@ void QPlcMasterNodePrivate::carryOut(Action action, const QString &reason)
     case Action::CollectOutputs:
     case Action::CollectThenStart:
         m_startAfterwards = action == Action::CollectThenStart;
-        error = QPlcMasterNode::NoError;
-        errorString.clear();
         parts->initialization.begin();
         break;
     case Action::StartNodes:
-        error = QPlcMasterNode::NoError;
-        errorString.clear();
+        succeed();
         parts->starting.begin();
         break;
     case Action::IssueToken:

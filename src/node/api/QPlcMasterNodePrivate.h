@@ -40,6 +40,8 @@ public:
     qplc::ChosenProfile profile() const;
 
     bool apply(qplc::MasterEvent event, const QString &reason = QString()) override;
+    /// Forgets the last error. \return true
+    bool succeed();
     /// \return false
     bool setError(QPlcMasterNode::Error newError, const QString &text);
     bool setError(QPlcMasterNode::Error newError, const QString &text, const QString &source,

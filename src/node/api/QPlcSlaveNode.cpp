@@ -237,9 +237,18 @@ bool QPlcSlaveNode::isSecured() const
     return d->control.connection() && d->control.connection()->isSecured();
 }
 
-void QPlcSlaveNode::activateWatchdog(std::chrono::nanoseconds time)
+bool QPlcSlaveNode::activateWatchdog(std::chrono::nanoseconds time)
 {
+    constexpr std::chrono::hours longest{24};
+    if (time < std::chrono::nanoseconds(0) || time > longest) {
+        d->setError(OptionError,
+                    QStringLiteral("node '%1': a watchdog time of %2 s is out of range; use 0 (none) ... 86400 s")
+                        .arg(d->name)
+                        .arg(double(time.count()) * 1e-9));
+        return false;
+    }
     setDefaultWatchdog(time, 0);
+    return true;
 }
 
 void QPlcSlaveNode::setDefaultWatchdog(std::chrono::nanoseconds time, int periods)
