@@ -99,7 +99,8 @@ void readQuotedValue(const QByteArray &line, int begin, IniItem *item)
         if (character == '\\') {
             character = position + 1 < line.size() ? escapedCharacter(line.at(position + 1)) : '\0';
             if (character == '\0') {
-                setError(item, line, position, QStringLiteral("'\\' stands before none of n r t \" \\; write '\\\\'"));
+                setError(item, line, position,
+                         QStringLiteral("'\\' must stand before n, r, t, \" or \\; write '\\\\'"));
                 return;
             }
             ++position;
@@ -107,7 +108,7 @@ void readQuotedValue(const QByteArray &line, int begin, IniItem *item)
         value.append(character);
     }
     if (position == line.size()) {
-        setError(item, line, begin, QStringLiteral("the quotation has no end; close it with '\"'"));
+        setError(item, line, begin, QStringLiteral("the quotation is not closed; end it with '\"'"));
         return;
     }
     item->value = QString::fromUtf8(value);
@@ -211,7 +212,7 @@ bool IniParser::refuseBytes(const QByteArray &line, IniItem *item)
         m_position = m_text.size();
         setError(item, line, isUtf16 ? 0 : zero,
                  isUtf16 ? QStringLiteral("the file is UTF-16; save it as UTF-8")
-                         : QStringLiteral("byte 0x00: this is no text; give a signal table in UTF-8"));
+                         : QStringLiteral("byte 0x00: this is not text; give a signal table in UTF-8"));
         return true;
     }
     if (line.size() > MaximumLine) {

@@ -114,7 +114,7 @@ QPlcSignalType typeWithSize(const QString &name, int bracket, QString *error)
     const int count = name.endsWith(closing) ? sizeFromText(name.mid(bracket + 1, name.size() - bracket - 2)) : 0;
     const QPlcSignalType type = count > 0 ? QPlcSignalType(element.scalar(), count) : QPlcSignalType();
     if (count == 0)
-        *error = QStringLiteral("type %1: the size is no whole number of at least 1; write, for example, '%2'")
+        *error = QStringLiteral("type %1: the size must be a whole number of at least 1; write, for example, '%2'")
                      .arg(qplc::quoted(name),
                           element.isString() ? QStringLiteral("String(64)") : base + QStringLiteral("[3]"));
     else if (!type.isValid())

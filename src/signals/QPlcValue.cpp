@@ -137,7 +137,7 @@ QString readReal(const QString &text, QPlcSignalType type, T *result)
     double value = 0.0;
     bool tooLarge = false;
     if (!qplc::realFromText(text, &value, &tooLarge))
-        return QStringLiteral("%1 is no number; write one like -1.5, 2e-3, nan or inf").arg(quoted(text));
+        return QStringLiteral("%1 is not a number; write one like -1.5, 2e-3, nan or inf").arg(quoted(text));
     if (tooLarge || (std::is_same_v<T, float> && !isFloat(value)))
         return QStringLiteral("%1 is too large for %2; write a number of at most %3")
             .arg(quoted(text), type.name(), qplc::realText(std::numeric_limits<T>::max()));
@@ -153,7 +153,7 @@ QString readInteger(const QString &text, QPlcSignalType type, T *result)
         return QString();
     }
     if (!qplc::isIntegerText(text))
-        return QStringLiteral("%1 is no integer; write a whole number in %2").arg(quoted(text), rangeText<T>());
+        return QStringLiteral("%1 is not an integer; write a whole number in %2").arg(quoted(text), rangeText<T>());
     bool ok = false;
     if constexpr (std::is_signed_v<T>) {
         const qint64 value = text.toLongLong(&ok);
@@ -175,7 +175,7 @@ QString readElement(const QString &text, QPlcSignalType type, char *bytes, int e
     if (type.isDateTime()) {
         qint64 time = 0;
         if (!qplc::timeFromText(text, &time))
-            return QStringLiteral("%1 is no time; write UTC between 1677-09-21 and 2262-04-11 as in "
+            return QStringLiteral("%1 is not a time; write UTC between 1677-09-21 and 2262-04-11 as in "
                                   "2026-01-31T12:00:00.123456789Z")
                 .arg(quoted(text));
         setElementAt(bytes, element, time);

@@ -33,7 +33,7 @@ QString complaintAboutName(const QString &name)
             .arg(name.size())
             .arg(longestName);
     if (name.contains(QLatin1Char(':')))
-        return QStringLiteral("':' is no part of a name as in %1; write ',' between two names").arg(quoted(name));
+        return QStringLiteral("a name cannot contain ':' as in %1; write ',' between two names").arg(quoted(name));
     if (isNumber(name))
         return QStringLiteral("the name %1 is a number; give it a letter").arg(quoted(name));
     return {};
@@ -57,13 +57,13 @@ QString QPlcValueNames::add(const QString &text)
 {
     const int colon = text.indexOf(QLatin1Char(':'));
     if (colon < 0)
-        return QStringLiteral("%1 is no value with a name; write them as '0: Off, 1: On'").arg(quoted(text.trimmed()));
+        return QStringLiteral("%1 does not name a value; write names as '0: Off, 1: On'").arg(quoted(text.trimmed()));
     const QString number = text.left(colon).trimmed();
     const QString name = text.mid(colon + 1).trimmed();
     bool isInteger = false;
     const qint64 value = number.toLongLong(&isInteger);
     if (!isInteger)
-        return QStringLiteral("%1 is no integer; only integers have names").arg(quoted(number));
+        return QStringLiteral("%1 is not an integer; only integers have names").arg(quoted(number));
     const QString complaint = complaintAboutName(name);
     if (!complaint.isEmpty())
         return complaint;

@@ -41,10 +41,11 @@ void checkName(const QString &name, Complaints *complaints)
     if (name.isEmpty())
         complaints->append({SignalKey::Name, QStringLiteral("the signal has no name; write it as [name]")});
     else if (!isName)
-        complaints->append({SignalKey::Name,
-                            QStringLiteral("%1 is no signal name; take a letter or '_', then letters a-z A-Z, digits, "
-                                           "'_' or '.'")
-                                .arg(quoted(name))});
+        complaints->append(
+            {SignalKey::Name,
+             QStringLiteral("%1 is not a valid signal name; use a letter or '_', then letters a-z A-Z, digits, "
+                            "'_' or '.'")
+                 .arg(quoted(name))});
     else if (name.size() > longestName)
         complaints->append({SignalKey::Name,
                             QStringLiteral("the signal name %1 has %2 characters; shorten it to at most %3")
@@ -81,14 +82,14 @@ void checkLimit(const QPlcSignalDefinition &signal, SignalKey key, const QPlcVal
         return;
     if (!signal.type.isNumeric())
         complaints->append({key,
-                            QStringLiteral("%1 has no order to be limited by %2; remove the limit")
+                            QStringLiteral("%1 cannot be limited by %2; remove the limit")
                                 .arg(signal.type.name(), quoted(limit.toString()))});
     else if (limit.type() != elementType(signal.type))
         complaints->append({key,
                             QStringLiteral("the limit %1 is %2; give one %3")
                                 .arg(limit.toString(), limit.type().name(), elementType(signal.type).name())});
     else if (std::isnan(limit.toReal()))
-        complaints->append({key, QStringLiteral("nan limits nothing; give a number, or remove the limit")});
+        complaints->append({key, QStringLiteral("nan is not a limit; give a number, or remove the limit")});
 }
 
 // \pre the limits are in order
@@ -118,7 +119,8 @@ void checkValues(const QPlcSignalDefinition &signal, Complaints *complaints)
         checkText(SignalKey::Safe, signal.safe.toString(), LineBreaks::Allowed, complaints);
     }
     if (signal.nanAllowed && !signal.type.isReal())
-        complaints->append({SignalKey::Nan, QStringLiteral("%1 knows no NaN; remove 'nan ='").arg(signal.type.name())});
+        complaints->append(
+            {SignalKey::Nan, QStringLiteral("%1 cannot be NaN; remove 'nan ='").arg(signal.type.name())});
     checkRange(signal, SignalKey::Initial, signal.initial, complaints);
     if (!signal.safe.isFinite())
         complaints->append(
@@ -169,7 +171,7 @@ void checkWriters(const QPlcSignalDefinition &signal, Complaints *complaints)
         if (!isName)
             complaints->append(
                 {SignalKey::Writer,
-                 QStringLiteral("%1 is no name of a node; write 1 ... %2 characters for each writer, and "
+                 QStringLiteral("%1 is not a valid node name; write 1 ... %2 characters for each writer, and "
                                 "'>' between two of them")
                      .arg(quoted(name))
                      .arg(longestNodeName)});
@@ -188,7 +190,7 @@ void checkSlope(const QPlcSignalDefinition &signal, Complaints *complaints)
                                 .arg(QPlcValue(signal.slope).toString())});
     else if (signal.slope > 0.0 && !signal.type.isReal())
         complaints->append({SignalKey::Slope,
-                            QStringLiteral("%1 has no values between two others; remove 'slope =', or use a real type")
+                            QStringLiteral("%1 cannot change gradually; remove 'slope =', or use a real type")
                                 .arg(signal.type.name())});
 }
 

@@ -195,7 +195,7 @@ void TableReader::readNan()
         return;
     source.isWrong = true;
     m_errors.add(source.line, source.valueColumn,
-                 QStringLiteral("%1 is nothing that 'nan' can be; write 'nan = %2', or remove the line")
+                 QStringLiteral("'nan' cannot be %1; write 'nan = %2', or remove the line")
                      .arg(quoted(source.value), nanAllowedText()));
 }
 

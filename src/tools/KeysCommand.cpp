@@ -154,7 +154,7 @@ int manageKeys(const CommandCall &call)
     const QString identity = call.arguments.value(1);
     if (!isList && !Keyring::isIdentity(identity))
         return call.application.usageError(
-            QStringLiteral("'%1' is no identity; use 1 ... %2 letters, digits, '.', '-', '_'")
+            QStringLiteral("'%1' is not a valid identity; use 1 ... %2 letters, digits, '.', '-', '_'")
                 .arg(printable(identity))
                 .arg(Keyring::LongestIdentity));
     KeyFile file{call.application.value(QStringLiteral("keys")), {}, {}};

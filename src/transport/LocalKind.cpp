@@ -54,7 +54,7 @@ bool LocalKind::readPlace(const QString &place, const QString & /*text*/, QHostA
     if (!isNumber)
         *port = LocalName::portOf(name, error);
     else if (*port == 0)
-        *error = QStringLiteral("'%1' is no port; use 1 ... 65535").arg(name);
+        *error = QStringLiteral("'%1' is not a valid port; use 1 ... 65535").arg(name);
     return *port != 0;
 }
 

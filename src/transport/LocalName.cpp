@@ -33,7 +33,8 @@ bool isName(const QString &name, QString *error)
     static const QRegularExpression allowed(QStringLiteral("^[A-Za-z0-9_-][A-Za-z0-9._-]*$"));
     if (allowed.match(name).hasMatch())
         return true;
-    *error = QStringLiteral("'%1' is no name of a local master; use letters, digits, '.', '-' and '_'").arg(name);
+    *error
+        = QStringLiteral("'%1' is not a valid name of a local master; use letters, digits, '.', '-' and '_'").arg(name);
     return false;
 }
 

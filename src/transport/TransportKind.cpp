@@ -57,14 +57,15 @@ bool TransportKind::readPlace(const QString &place, const QString &text, QHostAd
     QString host;
     QString portText;
     if (!split(place, &host, &portText)) {
-        *error
-            = QStringLiteral("'%1' is no address; write HOST:PORT, for example 127.0.0.1:%2").arg(text).arg(usualPort);
+        *error = QStringLiteral("'%1' is not a valid address; write HOST:PORT, for example 127.0.0.1:%2")
+                     .arg(text)
+                     .arg(usualPort);
         return false;
     }
     bool isNumber = true;
     const uint number = portText.isEmpty() ? usualPort : portText.toUInt(&isNumber);
     if (!isNumber || number == 0 || number > 65535) {
-        *error = QStringLiteral("'%1' is no port; use 1 ... 65535").arg(portText);
+        *error = QStringLiteral("'%1' is not a valid port; use 1 ... 65535").arg(portText);
         return false;
     }
     *port = quint16(number);
@@ -83,7 +84,7 @@ QString TransportKind::placeText(const QHostAddress &address, quint16 port) cons
 std::unique_ptr<HubPeer> TransportKind::makePeer(const CyclicHub &, const Newcomer &, QJsonObject *,
                                                  ChannelError *error) const
 {
-    *error = {QStringLiteral("NodeError"), QStringLiteral("'%1' makes no channel of its own").arg(name())};
+    *error = {QStringLiteral("NodeError"), QStringLiteral("'%1' cannot make a channel").arg(name())};
     return nullptr;
 }
 
@@ -106,7 +107,7 @@ bool TransportKind::finishLink(const ControlEnds &, const QJsonObject &, std::un
                                QString *error) const
 {
     if (!*link)
-        *error = QStringLiteral("'%1' makes no link").arg(name());
+        *error = QStringLiteral("'%1' cannot make a link").arg(name());
     return *link != nullptr;
 }
 

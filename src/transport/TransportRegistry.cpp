@@ -34,15 +34,15 @@ bool TransportRegistry::add(std::unique_ptr<const TransportKind> kind, QString *
         return (c >= QLatin1Char('a') && c <= QLatin1Char('z')) || c.isDigit() || c == QLatin1Char('-');
     };
     if (name.isEmpty() || !std::all_of(name.begin(), name.end(), isNameCharacter)) {
-        *error = QStringLiteral("'%1' is no name of a transport; use small letters, digits and '-'").arg(name);
+        *error = QStringLiteral("'%1' is not a valid name of a transport; use small letters, digits and '-'").arg(name);
         return false;
     }
     if (named(name)) {
-        *error = QStringLiteral("there is a transport '%1' already; use a name beside %2").arg(name, namesText());
+        *error = QStringLiteral("transport '%1' exists already; use another name than %2").arg(name, namesText());
         return false;
     }
     if (m_kinds.size() >= std::numeric_limits<quint8>::max()) {
-        *error = QStringLiteral("no more than %1 transports").arg(m_kinds.size());
+        *error = QStringLiteral("a program has at most %1 transports").arg(m_kinds.size());
         return false;
     }
     m_kinds.push_back(std::move(kind));

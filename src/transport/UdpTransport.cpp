@@ -102,7 +102,7 @@ bool UdpTransport::openGroup(const QHostAddress &address, const QHostAddress &gr
     if (group.isNull())
         return true;
     if (!group.isMulticast() || group.protocol() != QAbstractSocket::IPv4Protocol) {
-        *error = QStringLiteral("%1 is no multicast group of IPv4; use one of 239.0.0.0 ... 239.255.255.255")
+        *error = QStringLiteral("%1 is not an IPv4 multicast group; use one of 239.0.0.0 ... 239.255.255.255")
                      .arg(group.toString());
         return false;
     }
@@ -117,7 +117,7 @@ bool UdpTransport::openGroup(const QHostAddress &address, const QHostAddress &gr
         && ::setsockopt(m_socket, IPPROTO_IP, IP_MULTICAST_TTL, &hops, sizeof hops) == 0)
         return true;
     *error = m_isIpv6 ? QStringLiteral("multicast needs IPv4: listen on an IPv4 address")
-                      : QStringLiteral("no multicast by way of %1: %2").arg(address.toString(), systemErrorText());
+                      : QStringLiteral("cannot send multicast from %1: %2").arg(address.toString(), systemErrorText());
     return false;
 }
 

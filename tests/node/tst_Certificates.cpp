@@ -200,7 +200,8 @@ void tst_Certificates::filesThatCannotBeUsedAreNamed_data()
                            << "'a' has a section in line 1";
     QTest::newRow("unknown entry") << "access" << QByteArray("[a]\nrole = Node\nkey = b\n") << 0x6600
                                    << "unknown entry 'key'; use role, writes";
-    QTest::newRow("no identity") << "access" << QByteArray("[a b]\nrole = Node\n") << 0x6600 << "'a b' is no identity";
+    QTest::newRow("no identity") << "access" << QByteArray("[a b]\nrole = Node\n") << 0x6600
+                                 << "'a b' is not a valid identity";
     QTest::newRow("before all") << "access" << QByteArray("role = Node\n") << 0x6600 << "before the first [identity]";
     QTest::newRow("no access file") << "none" << QByteArray() << 0 << "needs a file with the roles";
 }

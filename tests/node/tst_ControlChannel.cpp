@@ -126,7 +126,7 @@ void tst_ControlChannel::getSignalsTakesNothingButNames()
     for (const QJsonValue &names : {QJsonValue(3), QJsonValue("sum"), QJsonValue(QJsonArray{"sum", 3})}) {
         const QPlcMessage failed = m_tool->ask(QPlcMessage::GetSignals, {{"names", names}});
         QCOMPARE(failed.text("error"), QString("MalformedMessage"));
-        QCOMPARE(failed.text("text"), QString("field 'names' is missing or no array"));
+        QCOMPARE(failed.text("text"), QString("field 'names' is missing or not of type array"));
     }
 }
 

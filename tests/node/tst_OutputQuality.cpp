@@ -247,9 +247,9 @@ void tst_OutputQuality::anOldMasterIsNoMasterForSuchANode()
     master.send(QPlcMessage::Hello, master.helloFields());
     QTRY_COMPARE(failed.size(), 1);
     QCOMPARE(sensor.error(), QPlcSlaveNode::RegistrationError);
-    QVERIFY2(
-        sensor.errorString().contains("knows no qualities of outputs, which node 'Sensor' needs; update the master"),
-        qPrintable(sensor.errorString()));
+    QVERIFY2(sensor.errorString().contains(
+                 "does not know qualities of outputs, which node 'Sensor' needs; update the master"),
+             qPrintable(sensor.errorString()));
     QCOMPARE(sensor.state(), QPlcSlaveNode::Rejected);
 }
 

@@ -234,7 +234,7 @@ void tst_SameCycle::anOldMasterIsNoMasterForOrderedNodes()
     master.send(QPlcMessage::Hello, master.helloFields());
     QTRY_COMPARE(failed.size(), 1);
     QCOMPARE(node.error(), QPlcSlaveNode::RegistrationError);
-    QVERIFY2(node.errorString().contains("knows no same-cycle inputs"), qPrintable(node.errorString()));
+    QVERIFY2(node.errorString().contains("does not know same-cycle inputs"), qPrintable(node.errorString()));
     QCOMPARE(node.state(), QPlcSlaveNode::Rejected);
 }
 

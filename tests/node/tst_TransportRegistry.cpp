@@ -176,15 +176,16 @@ void tst_TransportRegistry::aNameIsTakenOnce_data()
     QTest::addColumn<QString>("name");
     QTest::addColumn<QString>("expected");
     QTest::newRow("of the library") << "udp"
-                                    << "there is a transport 'udp' already; use a name beside tcp, udp, udp-multicast, "
+                                    << "transport 'udp' exists already; use another name than tcp, udp, udp-multicast, "
                                        "local or pair";
     QTest::newRow("of one that has joined") << "pair"
-                                            << "there is a transport 'pair' already; use a name beside tcp, udp, "
+                                            << "transport 'pair' exists already; use another name than tcp, udp, "
                                                "udp-multicast, local or pair";
     QTest::newRow("empty") << ""
-                           << "'' is no name of a transport; use small letters, digits and '-'";
-    QTest::newRow("none for addresses") << "my:bus"
-                                        << "'my:bus' is no name of a transport; use small letters, digits and '-'";
+                           << "'' is not a valid name of a transport; use small letters, digits and '-'";
+    QTest::newRow("none for addresses")
+        << "my:bus"
+        << "'my:bus' is not a valid name of a transport; use small letters, digits and '-'";
 }
 
 void tst_TransportRegistry::aNameIsTakenOnce()

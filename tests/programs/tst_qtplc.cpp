@@ -122,8 +122,8 @@ void tst_qtplc::badUseIsRefusedWithOneSentence_data()
     row("stop --rate 3", "stop has no option --rate");
     row("list --timeout 0", "--timeout 0");
     row("list --timeout soon", "--timeout soon");
-    row("list --master :", "--master: ':' is no address");
-    row("list --master 127.0.0.1:0", "'0' is no port");
+    row("list --master :", "--master: ':' is not a valid address");
+    row("list --master 127.0.0.1:0", "'0' is not a valid port");
 }
 
 void tst_qtplc::badUseIsRefusedWithOneSentence()
@@ -158,7 +158,7 @@ void tst_qtplc::whoIsNoMasterIsSaidSo_data()
     QTest::addColumn<QString>("message");
     QTest::newRow("nobody") << QByteArray() << QStringLiteral("Connection refused");
     QTest::newRow("another server") << QByteArray("HTTP/1.1 400 Bad Request\r\n\r\n")
-                                    << QStringLiteral("sent no QtPLC message");
+                                    << QStringLiteral("sent bytes that are not a QtPLC message");
     QTest::newRow("other message") << QByteArray("\x01\x00\x00\x00\x23", 5)
                                    << QStringLiteral("answers with Done instead of a greeting");
     const QByteArray hello = "\x01{\"protocol\":9}";
@@ -331,7 +331,7 @@ void tst_qtplc::setRefusesBadValues_data()
     QTest::addColumn<int>("exitCode");
     QTest::addColumn<QString>("message");
     QTest::newRow("no number") << QStringLiteral("set tetherSpeed fast") << 2
-                               << QStringLiteral("signal 'tetherSpeed': 'fast' is no number");
+                               << QStringLiteral("signal 'tetherSpeed': 'fast' is not a number");
     QTest::newRow("too many numbers") << QStringLiteral("set tetherSpeed 1,2") << 2
                                       << QStringLiteral("signal 'tetherSpeed': ");
     QTest::newRow("one good, one bad") << QStringLiteral("set tetherSpeed 1 power fast") << 2

@@ -50,7 +50,7 @@ private:
         requests << message;
         prepare(message);
         const QPlcMessage unknown(QPlcMessage::Failed,
-                                  {{"error", "MalformedMessage"}, {"text", "a master has no use for it"}});
+                                  {{"error", "MalformedMessage"}, {"text", "a master does not handle it"}});
         socket->sendMessage(answers.value(message.kind(), unknown));
     }
     QTcpServer m_server;

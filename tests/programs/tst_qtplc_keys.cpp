@@ -87,7 +87,7 @@ void tst_qtplc_keys::mistakesAreSentences_data()
     QTest::newRow("no action") << QStringList{"make"} << 2 << "keys make: use new, list or revoke";
     QTest::newRow("no identity") << QStringList{"new"} << 2 << "keys new needs an IDENTITY";
     QTest::newRow("too much") << QStringList{"list", "a"} << 2 << "keys list takes no IDENTITY";
-    QTest::newRow("bad identity") << QStringList{"new", "a b"} << 2 << "'a b' is no identity";
+    QTest::newRow("bad identity") << QStringList{"new", "a b"} << 2 << "'a b' is not a valid identity";
     QTest::newRow("bad role") << QStringList{"new", "a", "--role", "king"} << 2 << "--role 'king': use Observer";
     QTest::newRow("no file") << QStringList{"list"} << 1 << "cannot open";
     QTest::newRow("nobody to revoke") << QStringList{"revoke", "a"} << 1 << "cannot open";

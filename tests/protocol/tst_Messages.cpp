@@ -168,27 +168,28 @@ void tst_Messages::whatIsNeededAndCannotBeUsedIsNamed_data()
 {
     QTest::addColumn<QString>("error");
     QTest::addColumn<QString>("expected");
-    QTest::newRow("missing") << errorOf<SetSignals>({}) << "field 'values' is missing or no object";
-    QTest::newRow("another type") << errorOf<SetSignals>({{"values", 5}}) << "field 'values' is missing or no object";
-    QTest::newRow("a value of another type")
-        << errorOf<SetSignals>({{"values", QJsonObject{{"a", 1}}}}) << "field 'values' is missing or no object";
+    QTest::newRow("missing") << errorOf<SetSignals>({}) << "field 'values' is missing or not of type object";
+    QTest::newRow("another type") << errorOf<SetSignals>({{"values", 5}})
+                                  << "field 'values' is missing or not of type object";
+    QTest::newRow("a value of another type") << errorOf<SetSignals>({{"values", QJsonObject{{"a", 1}}}})
+                                             << "field 'values' is missing or not of type object";
     QTest::newRow("too small") << errorOf<SetSignals>({{"values", QJsonObject()}, {"duration", 0}})
                                << "field 'duration' is 0; it has to be 1 ... 1000000000000000";
     QTest::newRow("no whole number") << errorOf<SetSignals>({{"values", QJsonObject()}, {"duration", 1.5}})
-                                     << "field 'duration' is missing or no ns";
+                                     << "field 'duration' is missing or not of type ns";
     QTest::newRow("no base64") << errorOf<InitializeWithValues>({{"values", "%%%"}})
-                               << "field 'values' is missing or no base64";
+                               << "field 'values' is missing or not of type base64";
     QTest::newRow("no hex64") << errorOf<AttachCyclicChannel>({{"node", 1}, {"token", "0x12"}})
-                              << "field 'token' is missing or no hex64";
+                              << "field 'token' is missing or not of type hex64";
     QTest::newRow("beyond its type") << errorOf<AttachCyclicChannel>({{"node", 65536}, {"token", "0000000000000001"}})
-                                     << "field 'node' is missing or no number";
+                                     << "field 'node' is missing or not of type number";
     QTest::newRow("a word that is not known")
-        << errorOf<RealTimeStarted>({{"clock", "Sundial"}}) << "field 'clock' is missing or no text";
+        << errorOf<RealTimeStarted>({{"clock", "Sundial"}}) << "field 'clock' is missing or not of type text";
     QTest::newRow("half a seal") << errorOf<Registered>({{"node", 1},
                                                          {"inputsHash", "0000000000000001"},
                                                          {"outputsHash", "0000000000000001"},
                                                          {"seal", QJsonObject{{"inputs", "AAAA"}}}})
-                                 << "field 'seal' is missing or no object";
+                                 << "field 'seal' is missing or not of type object";
 }
 
 void tst_Messages::whatIsNeededAndCannotBeUsedIsNamed()

@@ -323,7 +323,7 @@ void tst_QPlcSignalTable::appendRefusesWhatATableCannotHold_data()
     using Signal = QPlcSignalDefinition;
     row("signal 'taken': there is one already", [](Signal &s) { s.name = QStringLiteral("taken"); });
     row("the signal has no name", [](Signal &s) { s.name.clear(); });
-    row("'1a' is no signal name", [](Signal &s) { s.name = QStringLiteral("1a"); });
+    row("'1a' is not a valid signal name", [](Signal &s) { s.name = QStringLiteral("1a"); });
     row("has 64 characters", [](Signal &s) { s.name = QString(64, QLatin1Char('x')); });
     row("the type is not valid", [](Signal &s) { s.type = QPlcSignalType(); });
     row("0x0a in 'm?s'", [](Signal &s) { s.unit = QStringLiteral("m\ns"); });
@@ -334,14 +334,14 @@ void tst_QPlcSignalTable::appendRefusesWhatATableCannotHold_data()
     row("the slope -2 is not a positive number", [](Signal &s) { s.slope = -2.0; });
     row("min 2 is greater than max 1", [](Signal &s) { s.minimum = 2, s.maximum = 1; });
     row("the limit kite is String(64)", [](Signal &s) { s.minimum = "kite"; });
-    row("nan limits nothing", [](Signal &s) { s.maximum = std::numeric_limits<double>::quiet_NaN(); });
+    row("nan is not a limit", [](Signal &s) { s.maximum = std::numeric_limits<double>::quiet_NaN(); });
     row("the initial value '0' is outside", [](Signal &s) { s.minimum = 2; });
     row("the safe value '3' is outside of min and max; give 'safe =' a value of at most 2",
         [](Signal &s) { s.maximum = 2, s.safe = 3; });
     row("the safe value 'inf' is not finite", [](Signal &s) { s.safe = std::numeric_limits<float>::infinity(); });
     row("'kite' is a String(64); give a value of the type Real32", [](Signal &s) { s.initial = "kite"; });
     row("'1, 2' is a Int32[2]; give a value of the type Real32", [](Signal &s) { s.safe = QPlcValue({1, 2}); });
-    row("String(64) has no order to be limited by 'a'", [](Signal &s) {
+    row("String(64) cannot be limited by 'a'", [](Signal &s) {
         s.type = QPlcSignalType::String;
         s.minimum = "a";
     });

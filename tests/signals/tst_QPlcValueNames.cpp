@@ -63,14 +63,14 @@ void tst_QPlcValueNames::wrongTextIsRefusedWithARemedy_data()
     const auto row = [](const char *name, const char *text, const char *error) {
         QTest::newRow(name) << QString::fromUtf8(text) << QString::fromUtf8(error);
     };
-    row("empty", "", "'' is no value with a name; write them as '0: Off, 1: On'");
-    row("no value", "0: Off, On", "'On' is no value with a name");
-    row("comma at the end", "0: Off,", "'' is no value with a name");
-    row("fraction", "0.5: Half", "'0.5' is no integer; only integers have names");
-    row("words", "true: Yes", "'true' is no integer");
-    row("too large", "9223372036854775808: Most", "'9223372036854775808' is no integer");
+    row("empty", "", "'' does not name a value; write names as '0: Off, 1: On'");
+    row("no value", "0: Off, On", "'On' does not name a value");
+    row("comma at the end", "0: Off,", "'' does not name a value");
+    row("fraction", "0.5: Half", "'0.5' is not an integer; only integers have names");
+    row("words", "true: Yes", "'true' is not an integer");
+    row("too large", "9223372036854775808: Most", "'9223372036854775808' is not an integer");
     row("no name", "0: , 1: On", "the name '' has 0 characters; give it 1 ... 63");
-    row("two colons", "0: Off 1: On", "':' is no part of a name as in 'Off 1: On'; write ','");
+    row("two colons", "0: Off 1: On", "a name cannot contain ':' as in 'Off 1: On'; write ','");
     row("number as name", "0: 1", "the name '1' is a number; give it a letter");
     row("value twice", "0: Off, 0: On", "the value 0 has two names, 'Off' and 'On'; remove one");
     row("name twice", "0: Off, 1: Off", "the name 'Off' stands for 0 and for 1; rename one");

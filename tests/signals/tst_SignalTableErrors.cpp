@@ -62,15 +62,15 @@ void tst_SignalTableErrors::badTextIsRefusedWithPlaceAndRemedy_data()
     row("stray characters", "[a] b ; c\ntype = Real\n", "t.ini:1:5: stray characters 'b ; c' behind ']'");
     row("two brackets", "[a]]\ntype = Real\n", "t.ini:1:4: stray characters ']'");
     row("no name", "[]\ntype = Real\n", "t.ini:1:2: the signal has no name");
-    row("name with blanks", "[ a ]\ntype = Real\n", "t.ini:1:2: ' a ' is no signal name");
-    row("name with a digit first", "[1a]\ntype = Real\n", "t.ini:1:2: '1a' is no signal name");
-    row("name with a slash", "[a/b]\ntype = Real\n", "t.ini:1:2: 'a/b' is no signal name");
-    row("name with an umlaut", "[H\xC3\xB6he]\ntype = Real\n", "t.ini:1:2: 'Höhe' is no signal name");
+    row("name with blanks", "[ a ]\ntype = Real\n", "t.ini:1:2: ' a ' is not a valid signal name");
+    row("name with a digit first", "[1a]\ntype = Real\n", "t.ini:1:2: '1a' is not a valid signal name");
+    row("name with a slash", "[a/b]\ntype = Real\n", "t.ini:1:2: 'a/b' is not a valid signal name");
+    row("name with an umlaut", "[H\xC3\xB6he]\ntype = Real\n", "t.ini:1:2: 'Höhe' is not a valid signal name");
     row("name of 64", '[' + QByteArray(64, 'x') + "]\ntype = Real\n", "t.ini:1:2: the signal name 'xxx");
-    row("bad min", real + "min = 1x\n", "t.ini:3:7: '1x' is no number");
-    row("empty max", real + "max =\n", "t.ini:3:6: '' is no number");
+    row("bad min", real + "min = 1x\n", "t.ini:3:7: '1x' is not a number");
+    row("empty max", real + "max =\n", "t.ini:3:6: '' is not a number");
     row("decimal comma", real + "max = 1,5\n", "t.ini:3:7: '1,5' holds 2 values, Real32 needs one; the decimal point");
-    row("nan as limit", real + "max = nan\n", "t.ini:3:7: nan limits nothing");
+    row("nan as limit", real + "max = nan\n", "t.ini:3:7: nan is not a limit");
     row("min above max", real + "min = 2\nmax = 1\ninitial = 1\n", "t.ini:4:7: min 2 is greater than max 1; swap them");
     row("initial below min", real + "min = 1\ninitial = 0.5\n",
         "t.ini:4:11: the initial value '0.5' is outside of min and max; give 'initial =' a value of at least 1");
@@ -81,36 +81,37 @@ void tst_SignalTableErrors::badTextIsRefusedWithPlaceAndRemedy_data()
     row("safe not finite", real + "safe = nan\n", "t.ini:3:8: the safe value 'nan' is not finite");
     row("unsigned limits", "[a]\ntype = UInt64\nmax = 18446744073709551614\nsafe = 18446744073709551615\n",
         "t.ini:4:8: the safe value '18446744073709551615' is outside");
-    row("initial of another type", "[a]\ntype = Int8\ninitial = 1.5\n", "t.ini:3:11: '1.5' is no integer");
+    row("initial of another type", "[a]\ntype = Int8\ninitial = 1.5\n", "t.ini:3:11: '1.5' is not an integer");
     row("initial of another size", "[a]\ntype = RealTriple\ninitial = 1, 2\n", "t.ini:3:11: '1, 2' holds 2 values");
     row("text too long", "[a]\ntype = String(3)\ninitial = kite\n",
         "t.ini:3:11: 'kite' has 4 bytes of UTF-8, String(3)");
-    row("min of a text", "[a]\ntype = String\nmin = a\n", "t.ini:3:7: String(64) has no order");
-    row("min of a time", "[a]\ntype = DateTime\nmin = 2026-01-31T12:00:00Z\n", "t.ini:3:7: DateTime has no order");
+    row("min of a text", "[a]\ntype = String\nmin = a\n", "t.ini:3:7: String(64) cannot be limited by");
+    row("min of a time", "[a]\ntype = DateTime\nmin = 2026-01-31T12:00:00Z\n",
+        "t.ini:3:7: DateTime cannot be limited by");
     row("negative hold", real + "hold = -1\n", "t.ini:3:8: a value cannot be held for -1 cycles");
-    row("hold in seconds", real + "hold = 0.1 s\n", "t.ini:3:8: '0.1 s' is no integer");
-    row("empty writer", real + "writer =\n", "t.ini:3:9: '' is no name of a node; write 1 ... 64 characters");
-    row("writer missing", real + "writer = A > > B\n", "t.ini:3:10: '' is no name of a node");
+    row("hold in seconds", real + "hold = 0.1 s\n", "t.ini:3:8: '0.1 s' is not an integer");
+    row("empty writer", real + "writer =\n", "t.ini:3:9: '' is not a valid node name; write 1 ... 64 characters");
+    row("writer missing", real + "writer = A > > B\n", "t.ini:3:10: '' is not a valid node name");
     row("writer twice", real + "writer = A > B > A\n",
         "t.ini:3:10: the node 'A' is named twice; name each writer once");
     row("long writer", real + "writer = " + QByteArray(65, 'x') + '\n', "t.ini:3:10: 'xxx");
-    row("nan forbidden", real + "nan = no\n", "t.ini:3:7: 'no' is nothing that 'nan' can be; write 'nan = allowed'");
-    row("nan of an integer", "[a]\ntype = Int\nnan = allowed\n", "t.ini:3:7: Int32 knows no NaN; remove 'nan ='");
+    row("nan forbidden", real + "nan = no\n", "t.ini:3:7: 'nan' cannot be 'no'; write 'nan = allowed'");
+    row("nan of an integer", "[a]\ntype = Int\nnan = allowed\n", "t.ini:3:7: Int32 cannot be NaN; remove 'nan ='");
     row("slope without its unit", real + "slope = 5\n",
         "t.ini:3:9: '5' is not a slope; write a positive number, as in 'slope = 5 per second'");
     row("slope of zero", real + "slope = 0 per second\n", "t.ini:3:9: '0 per second' is not a slope");
     row("negative slope", real + "slope = -1 per second\n", "t.ini:3:9: '-1 per second' is not a slope");
     row("endless slope", real + "slope = inf per second\n", "t.ini:3:9: 'inf per second' is not a slope");
     row("slope of an integer", "[a]\ntype = Int\nslope = 5 per second\n",
-        "t.ini:3:9: Int32 has no values between two others; remove 'slope ='");
-    row("open quotation", real + "unit = \"m\n", "t.ini:3:8: the quotation has no end");
+        "t.ini:3:9: Int32 cannot change gradually; remove 'slope ='");
+    row("open quotation", real + "unit = \"m\n", "t.ini:3:8: the quotation is not closed");
     row("behind quotation", real + "unit = \"m\" s\n", "t.ini:3:12: stray characters 's' behind the quotation");
-    row("wrong escape", real + "unit = \"\\m\"\n", "t.ini:3:9: '\\' stands before none of");
+    row("wrong escape", real + "unit = \"\\m\"\n", "t.ini:3:9: '\\' must stand before n, r, t");
     row("line break in unit", real + "unit = \"\\n\"\n", "t.ini:3:8: control character 0x0a");
     row("Latin-1", real + "unit = \xB0\n", "t.ini:3:8: byte 0xB0 is not UTF-8; save the file as UTF-8");
     row("Latin-1 comment", "; H\xF6he\n" + real, "t.ini:1:4: byte 0xF6 is not UTF-8");
     row("UTF-16", QByteArray("\xFF\xFE[\0a\0", 6), "t.ini:1:1: the file is UTF-16; save it as UTF-8");
-    row("zero byte", real + QByteArray("[b\0]\n", 5), "t.ini:3:3: byte 0x00: this is no text");
+    row("zero byte", real + QByteArray("[b\0]\n", 5), "t.ini:3:3: byte 0x00: this is not text");
     row("control character", real + "unit = \x1B\n", "t.ini:3:8: control character 0x1B");
     row("carriage returns alone", "[a]\rtype = Real\r", "t.ini:1:4: a carriage return without line feed");
     row("long line", real + "; " + QByteArray(4095, 'x') + '\n',
@@ -124,7 +125,7 @@ void tst_SignalTableErrors::badTextIsRefusedWithPlaceAndRemedy_data()
         QByteArray("\x7F"
                    "ELF\x02\x01\x01\0\0\0",
                    10),
-        "t.ini:1:8: byte 0x00: this is no text");
+        "t.ini:1:8: byte 0x00: this is not text");
 }
 
 void tst_SignalTableErrors::badTextIsRefusedWithPlaceAndRemedy()

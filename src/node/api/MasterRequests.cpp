@@ -220,7 +220,7 @@ void QPlcMasterNodePrivate::receive(Connection *connection, const Message &messa
         break;
     case messages::Dispatch::Unknown:
         connection->fail(QStringLiteral("MalformedMessage"),
-                         QStringLiteral("a master has no use for %1").arg(message.kindName()));
+                         QStringLiteral("a master does not handle %1").arg(message.kindName()));
         break;
     }
 }

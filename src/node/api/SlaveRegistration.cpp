@@ -73,10 +73,11 @@ void QPlcSlaveNodePrivate::proceedAfterHello()
     const auto lacks = [&](bool needed, QLatin1String extension, const QString &what) {
         if (!needed || hello.features.contains(extension))
             return false;
-        giveUp(QPlcSlaveNode::RegistrationError,
-               QStringLiteral("the master at %1 knows no %2, which node '%3' needs; update the master, or do without "
-                              "them")
-                   .arg(master.toString(), what, name));
+        giveUp(
+            QPlcSlaveNode::RegistrationError,
+            QStringLiteral("the master at %1 does not know %2, which node '%3' needs; update the master, or do without "
+                           "them")
+                .arg(master.toString(), what, name));
         return true;
     };
     if (lacks(isOrdered(), feature::sameCycle, QStringLiteral("same-cycle inputs and two-phase nodes"))

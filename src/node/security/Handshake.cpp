@@ -109,7 +109,7 @@ void Handshake::refuseTls()
 {
     m_socket->readAll();  // what is left unread would make a reset out of the end of the connection
     m_socket->write(alert(TlsAlert::ProtocolVersion));  // as no handshake of QtPLC would end
-    fail(QStringLiteral("it speaks TLS, and this master is not secured"));
+    fail(QStringLiteral("it speaks TLS, but this master is not secured"));
 }
 
 void Handshake::refusePlain()
@@ -118,7 +118,7 @@ void Handshake::refusePlain()
     const QString text
         = QStringLiteral("this master is secured; connect with --security %1").arg(m_security.modeName());
     m_socket->write(rejection(QStringLiteral("SecurityNeeded"), text));
-    fail(QStringLiteral("it speaks no TLS, and this master is secured"));
+    fail(QStringLiteral("it does not speak TLS, but this master is secured"));
 }
 
 void Handshake::fail(const QString &reason)

@@ -21,7 +21,7 @@ QString complaint(const IniItem &item, const QStringList &keys, const QVector<Ri
         return QStringLiteral("this line cannot be read; use [identity] or name = value, in UTF-8");  // it may be a key
     if (item.kind == IniItem::Section) {
         if (!Keyring::isIdentity(item.name))
-            return QStringLiteral("'%1' is no identity; use 1 ... %2 letters, digits, '.', '-', '_'")
+            return QStringLiteral("'%1' is not a valid identity; use 1 ... %2 letters, digits, '.', '-', '_'")
                 .arg(item.name)
                 .arg(Keyring::LongestIdentity);
         for (const RightsSection &section : sections) {

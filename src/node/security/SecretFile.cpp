@@ -19,7 +19,7 @@ QString weakness(const QString &fileName, SecretFile::Need need, const struct st
 {
     const QString mode = QStringLiteral("%1").arg(uint(status.st_mode & 07777U), 4, 8, QLatin1Char('0'));
     if (!S_ISREG(status.st_mode))
-        return QStringLiteral("%1 is no file").arg(fileName);
+        return QStringLiteral("%1 is not a file").arg(fileName);
     if (need == SecretFile::Secret && (status.st_mode & (S_IRWXG | S_IRWXO)) != 0)
         return QStringLiteral("%1 has the mode %2, others than its owner can get at the keys in it; use chmod 600 %1")
             .arg(fileName, mode);

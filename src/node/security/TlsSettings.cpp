@@ -156,7 +156,8 @@ QString nodeHandshakeError(const Tls &tls, const QPlcSecurity &security, const Q
             .arg(security.modeName());
     case TlsAlert::HandshakeFailure:
     case TlsAlert::InsufficientSecurity:
-        return QStringLiteral("the master knows no security of the kind '%1'; use the kind that it was started with")
+        return QStringLiteral(
+                   "the master does not offer security of the kind '%1'; use the kind that it was started with")
             .arg(security.modeName());
     case TlsAlert::InternalError:
         return QStringLiteral("the master cannot read its keys; its log says why");

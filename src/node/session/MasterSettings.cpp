@@ -150,7 +150,7 @@ bool MasterSettings::checkValue(QPlcSignalIndex signal, const QPlcValue &value, 
     *setting = {signal, value.convertedTo(definition.type)};
     if (!setting->value.isValid() || !setting->value.isFinite()) {
         *refusal = {QStringLiteral("InvalidValue"),
-                    QStringLiteral("%1 is no value for signal '%2' of type %3")
+                    QStringLiteral("%1 does not fit signal '%2' of type %3")
                         .arg(value.toString(), definition.name, definition.type.name())};
         return false;
     }

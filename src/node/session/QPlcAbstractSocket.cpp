@@ -244,7 +244,8 @@ void QPlcAbstractSocket::readMessages()
     }
     if (!self || d->reader.error() == qplc::ControlFrameReader::NoError)
         return;
-    setError(ProtocolError, QStringLiteral("%1 sent no QtPLC message: %2").arg(peerName(), d->reader.errorString()));
+    setError(ProtocolError,
+             QStringLiteral("%1 sent bytes that are not a QtPLC message: %2").arg(peerName(), d->reader.errorString()));
     if (self)
         abort();
 }

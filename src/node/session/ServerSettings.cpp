@@ -12,11 +12,11 @@ QHostAddress ServerSettings::allowedAddress(const QHostAddress &wanted) const
         return wanted;
     if (insecureNetworkAllowed) {
         qCWarning(lcMaster).noquote() << "listening on" << wanted.toString()
-                                      << "WITHOUT SECURITY: anybody on the network can read and command the plant";
+                                      << "WITHOUT SECURITY: everybody on the network can read and command the plant";
         return wanted;
     }
     qCWarning(lcMaster).noquote() << "listening on 127.0.0.1 only instead of" << wanted.toString()
-                                  << "- anybody on the network could read and command the plant; use setSecurity() "
+                                  << "- everybody on the network could read and command the plant; use setSecurity() "
                                      "(--security psk), or open it by setInsecureNetworkAllowed(true)";
     return QHostAddress::LocalHost;
 }

@@ -141,7 +141,7 @@ QJsonObject toObject(const Struct &value)
 
 /// "field 'every' is 0; it has to be 1 ... 1000000"
 QString outOfRangeText(const char *name, double number, Range range);
-/// "field 'values' is missing or no base64"
+/// "field 'values' is missing or not of type base64"
 QString unusableText(const char *name, const char *type);
 
 template<typename Struct, typename Owner, typename Value>

@@ -89,7 +89,7 @@ QString outOfRangeText(const char *name, double number, Range range)
 
 QString unusableText(const char *name, const char *type)
 {
-    return QStringLiteral("field '%1' is missing or no %2").arg(QLatin1String(name), QLatin1String(type));
+    return QStringLiteral("field '%1' is missing or not of type %2").arg(QLatin1String(name), QLatin1String(type));
 }
 
 }  // namespace qplc::messages

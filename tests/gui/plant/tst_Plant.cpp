@@ -298,7 +298,7 @@ void tst_Plant::aPortThatSaysNothingIsGivenUpAndTriedAgain()
     });
     channel.connectToMaster(QPlcUnderlyingProtocol::tcp(QHostAddress::LocalHost, silent.serverPort()));
     QTRY_COMPARE(lost.size(), 3);
-    QVERIFY(lost.last().at(1).toString().contains(QStringLiteral("no QtPLC message")));
+    QVERIFY(lost.last().at(1).toString().contains(QStringLiteral("not a QtPLC message")));
 }
 
 void tst_Plant::aNodeNameInUseIsAnEventAndNoEnd()

@@ -110,10 +110,10 @@ void tst_ProgramOptions::badOptionsAreRefusedWithOneSentence_data()
         row(program, "--enable-fault-injection --faults loss=5%,lose=1%", "--faults 'lose=1%': use loss, duplicate,");
     }
     for (const char *node : {"awe_model", "awe_compact_model", "awe_autopilot"}) {
-        row(node, "--master :", "':' is no address");
-        row(node, "--master 127.0.0.1:0", "'0' is no port");
-        row(node, "--master 127.0.0.1:65536", "'65536' is no port");
-        row(node, "--master 127.0.0.1:port", "'port' is no port");
+        row(node, "--master :", "':' is not a valid address");
+        row(node, "--master 127.0.0.1:0", "'0' is not a valid port");
+        row(node, "--master 127.0.0.1:65536", "'65536' is not a valid port");
+        row(node, "--master 127.0.0.1:port", "'port' is not a valid port");
         row(node, "--master 127.0.0.1:1", "cannot reach a master at tcp://127.0.0.1:1");
         row(node, "--master udp://127.0.0.1:1", "cannot reach a master at udp://127.0.0.1:1");
         row(node, "--watchdog -1", "--watchdog -1: use a number of 0 ...");
