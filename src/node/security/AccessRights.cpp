@@ -16,8 +16,8 @@ namespace {
 /// Messages that write signals, or take or release the right to do so.
 using WritingMessages
     = messages::List<messages::Register, messages::SetSignals, messages::TakeLease, messages::ReleaseLease>;
-/// All others of nodes and tools. A message in neither list does not compile: it would write signals
-/// without a right to them.
+/// All others of nodes and tools. A message in neither list does not compile: it would write
+/// signals without a right to them.
 using OtherMessages
     = messages::List<messages::ClientHello, messages::AttachCyclicChannel, messages::InitializeAllStates,
                      messages::ReceiveMyInitialOutputStates, messages::Initialized, messages::StartRealTime,
