@@ -155,11 +155,16 @@ private:
 /// event loop.
 struct SequenceBench
 {
+    explicit SequenceBench(QPlcSignalTable signalTable = testTable())
+        : table(std::move(signalTable))
+    {
+    }
+
     QStringList log;
-    QPlcSignalTable table = testTable();
+    QPlcSignalTable table;
     qplc::CyclicHub hub;
     qplc::NodeRegistry registry{table};
-    qplc::MasterCycle image{table, hub, false};  // never started
+    qplc::MasterCycle image{table, hub, false};  // started by a RealTimePhase only
     qplc::Leases leases;
     qplc::StatisticSignals statistics;
     qplc::Journal journal;
