@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Mutates a small program and runs it: each kind of mutation, and what is left out.
+"""Mutates a small program and runs it: each kind of mutation, and what is left out. Then judges mutants with a program of tests.
 
 usage: mutation.py FOLDER_OF_SCRIPTS
 """
@@ -9,6 +9,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 from pathlib import Path
 
 SAMPLE = """#include <cstdio>
@@ -116,13 +117,106 @@ class Mutation(unittest.TestCase):
 
     def test_a_survivor_is_shown_with_its_tests(self):
         site = self.site("comparison", "a < 3", "a <= 3")
-        text = mutate.table([site], {str(site.number): {"killer": None, "how": "survived", "tests": ["tst_Small"]}})
+        text = mutate.table([site], {site.identity: {"killer": "", "how": "survived", "tests": ["tst_Small"], "unsteady": [], "cpu": 1.0}})
         self.assertIn("sample.cpp:9: comparison", text)
         self.assertIn("reached by: tst_Small", text)
         self.assertIn("1 of 1 mutants survived", text)
+
+    def test_the_same_sites_are_drawn_when_other_code_changes(self):
+        drawn = mutate.drawn(self.sites, 1, 5)
+        self.assertEqual(len(drawn), 5)
+        self.assertNotEqual([s.identity for s in drawn], [s.identity for s in mutate.drawn(self.sites, 2, 5)])
+        (self.folder / "sample.cpp").write_text("int before(int a)\n{\n    return a + 1;\n}\n" + SAMPLE)
+        later = mutate.drawn(mutate.find_sites(self.folder, ["sample.cpp"]), 1, 5)
+        self.assertGreaterEqual(len({s.identity for s in drawn} & {s.identity for s in later}), 4)  # the new one may be among them
+
+
+# A program that looks like Qt Test from outside. It notes each function that it runs.
+PROGRAM = """#!/bin/sh
+[ "$1" = -functions ] && { printf 'fine()\\nbroken()\\nstuck()\\nunsteady()\\nendless()\\nbusy()\\n'; exit; }
+for function in "$@"; do
+    echo $function >> ran
+    case $function in
+    broken) echo "FAIL!  : tst_Sample::broken() Compared values are not the same"; continue ;;
+    stuck) echo "FAIL!  : tst_Sample::stuck() Compared values are not the same"; sleep 100 ;;
+    unsteady) [ -f again ] || { touch again; echo "FAIL!  : tst_Sample::unsteady(row) 'late'"; exit 1; } ;;
+    endless) sleep 100 ;;
+    busy) while :; do :; done ;;
+    esac
+    echo "PASS   : tst_Sample::$function()"
+done
+"""
+
+
+class Tests(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
+        path = self.folder / "tst_Sample"
+        path.write_text(PROGRAM)
+        path.chmod(0o755)
+        self.program = tests.Program("tst_Sample", path, "tst_Sample")
+
+    def judged(self, *names, seconds=0.0, cpu=0.0):
+        functions = [tests.Function(self.program, name, seconds, cpu, b"\1") for name in names]
+        verdict = tests.Verdict()
+        tests.Batch(functions).judge(verdict)
+        return verdict
+
+    def ran(self):
+        return (self.folder / "ran").read_text().split()
+
+    def test_functions_are_listed(self):
+        self.assertEqual(self.program.functions(), ["fine", "broken", "stuck", "unsteady", "endless", "busy"])
+
+    def test_what_passes_kills_nothing(self):
+        self.assertEqual(self.judged("fine").killer, "")
+
+    def test_the_first_failure_ends_the_program_and_is_repeated(self):
+        verdict = self.judged("fine", "stuck", "endless")
+        self.assertEqual((verdict.killer, verdict.how), ("tst_Sample stuck", "failed"))
+        self.assertEqual(self.ran(), ["fine", "stuck", "stuck"])
+
+    def test_what_passes_behind_the_first_failure_excuses_nothing(self):
+        self.assertEqual(self.judged("broken", "fine").killer, "tst_Sample broken")
+
+    def test_what_fails_once_kills_nothing_and_the_others_go_on(self):
+        verdict = self.judged("unsteady", "fine")
+        self.assertEqual((verdict.killer, verdict.unsteady), ("", ["tst_Sample unsteady"]))
+        self.assertEqual(self.ran(), ["unsteady", "unsteady", "fine"])
+        self.assertEqual(self.judged("unsteady", "broken").killer, "tst_Sample broken")
+
+    def test_a_time_out_kills(self):
+        with unittest.mock.patch.object(tests, "LONGEST_ADDED", 0.2):
+            verdict = self.judged("fine", "endless")
+        self.assertEqual((verdict.killer, verdict.how), ("tst_Sample fine", "time-out"))
+
+    def test_a_loop_ends_when_its_processor_time_is_over(self):
+        with unittest.mock.patch.object(tests, "CPU_ADDED", 0):
+            verdict = self.judged("busy", seconds=5.0)
+        self.assertEqual((verdict.killer, verdict.how), ("tst_Sample busy", "failed"))
+
+    def test_what_reaches_few_places_runs_first_and_what_has_killed_too(self):
+        other = tests.Program("tst_Other", self.program.path, "tst_Other")
+        narrow = tests.Function(self.program, "fine", 0.05, 0.0, bytes(1000) + b"\1" * 10)
+        wide = tests.Function(other, "fine", 0.05, 0.0, b"\1" * 1000)
+        self.assertEqual([b.program.name for b in tests.batches([wide, narrow])], ["tst_Sample", "tst_Other"])
+        wide.tried = wide.killed = 100
+        self.assertEqual([b.program.name for b in tests.batches([wide, narrow])], ["tst_Other", "tst_Sample"])
+
+    def test_a_program_runs_once_at_a_time(self):
+        one = tests.Batch([tests.Function(self.program, "fine", 0.0, 0.0, b"")])
+        two = tests.Batch([tests.Function(tests.Program("tst_Other", self.program.path, "tst_Other"), "fine", 0.0, 0.0, b"")])
+        locks = tests.Locks()
+        self.assertIs(locks.take_first([one, two]), one)
+        self.assertIs(locks.take_first([one, two]), two)
+        locks.give_back(one)
+        self.assertIs(locks.take_first([two, one]), one)
 
 
 if __name__ == "__main__":
     sys.path.insert(0, str(Path(sys.argv.pop(1)) / "lib"))
     import mutate
+    import mutation_tests as tests
     unittest.main()
