@@ -104,8 +104,6 @@ void LocalTransport::flush() noexcept
 
 bool LocalTransport::waitAlone(std::int64_t timeout, bool *arrived) noexcept
 {
-    if (m_peers.empty())
-        return false;
     if (timeout > 0 && !m_isFlooded)
         doorbell()->sleep(timeout);
     *arrived = look();
@@ -114,8 +112,6 @@ bool LocalTransport::waitAlone(std::int64_t timeout, bool *arrived) noexcept
 
 bool LocalTransport::beginWait(bool isToSleep) noexcept
 {
-    if (m_peers.empty())
-        return true;
     return !m_isFlooded && (!isToSleep || doorbell()->beginPoll());
 }
 
@@ -125,7 +121,7 @@ bool LocalTransport::endWait(pollfd *polled) noexcept
         char rings[64];
         while (::read(m_pipe[0], rings, sizeof rings) == ssize_t(sizeof rings)) {}
     }
-    return !m_peers.empty() && look();
+    return look();
 }
 
 /// Begins a turn of looking at all peers. \return whether there may be frames

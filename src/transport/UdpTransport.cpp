@@ -72,7 +72,6 @@ std::unique_ptr<HubPeer> UdpTransport::peer(const SocketAddress &address)
 
 bool UdpTransport::open(const SocketAddress &address, QString *error)
 {
-    close();
     m_socket = ::socket(address.family(), SOCK_DGRAM | SOCK_CLOEXEC, 0);
     const timeval longestReceive{0, suseconds_t(CoarseWait / 1000)};
     ::setsockopt(m_socket, SOL_SOCKET, SO_RCVTIMEO, &longestReceive, sizeof longestReceive);

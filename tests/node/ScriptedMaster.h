@@ -70,6 +70,11 @@ public:
         (void)QTest::qWaitFor([this] { return m_taken < messages.size(); }, timeout);
         return m_taken < messages.size() ? messages.at(m_taken++) : QPlcMessage();
     }
+    void forgetMessages()
+    {
+        messages.clear();
+        m_taken = 0;
+    }
     QJsonObject helloFields() const
     {
         return {{QStringLiteral("protocol"), 1},

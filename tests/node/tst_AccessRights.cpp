@@ -118,6 +118,8 @@ void tst_AccessRights::eachRoleMaySendWhatItIsMeantTo()
     const QString name = QPlcMessage::kindName(message);
     QCOMPARE(qplc::whoMaySend(message).contains(Role(role)), isMeantTo(Role(role), name));
     QCOMPARE(qplc::whoMaySend(message).isEmpty(), isOfMasters(name));
+    if (isOfMasters(name))
+        QCOMPARE(qplc::refusalOf(peerOf(Role(role)), QPlcMessage(message)), QString());  // it means nothing
 }
 
 void tst_AccessRights::aMasterKeepsToTheTable_data()

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ScriptedNode.h"
 #include "ThreadCosts.h"
+#include "transport/CyclicHub.h"
+#include "transport/StreamTransport.h"
+#include "transport/UdpTransport.h"
 
 #include <QtTest/QtTest>
 
@@ -21,6 +24,7 @@ private Q_SLOTS:
     void stagesAndTwoPhaseNodes_data();
     void stagesAndTwoPhaseNodes();
     void buffersAndIoNodes();
+    void peersComeAndGo();
 };
 
 namespace {
@@ -255,6 +259,25 @@ void tst_Allocations::buffersAndIoNodes()
     QVERIFY(master.addLocalNode(&viewer));
     checkCosts(master, 10'000);
     QPlcSignalIndexTable::setCurrent({});
+}
+
+/// Nodes join and leave between two cycles, on the thread of the cycles.
+void tst_Allocations::peersComeAndGo()
+{
+    constexpr int count = 100;
+    const qplc::SocketAddress address(QHostAddress(QHostAddress::LocalHost), 1);
+    std::vector<std::unique_ptr<qplc::HubPeer>> peers;
+    for (int i = 0; i < count; ++i) {
+        peers.push_back(qplc::UdpTransport::peer(address));
+        peers.push_back(qplc::StreamTransport::peer(-1, qplc::FrameCutter(), 1000));
+    }
+    qplc::CyclicHub hub;
+    const ThreadCosts before = ThreadCosts::ofThisThread();
+    for (const auto &peer : peers)
+        hub.attach(peer.get());
+    for (const auto &peer : peers)
+        hub.detach(peer.get());
+    QCOMPARE((ThreadCosts::ofThisThread() - before).allocations, std::uint64_t(0));
 }
 
 QTEST_GUILESS_MAIN(tst_Allocations)

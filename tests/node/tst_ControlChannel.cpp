@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ScriptedNode.h"
 
+#include <QtNetwork/QSslSocket>
+#include <QtNetwork/QTcpServer>
 #include <QtTest/QtTest>
 
 // What a tool may ask, and set.
@@ -22,6 +24,7 @@ private Q_SLOTS:
     void answersComeInTheOrderOfTheRequests();
     void aSequenceIsAnsweredWhenItIsOverAndAllElseAtOnce();
     void unknownFieldsAreIgnored();
+    void aTlsSocketIsNotSecuredBeforeItsHandshake();
 
 private:
     bool start()
@@ -292,6 +295,19 @@ void tst_ControlChannel::unknownFieldsAreIgnored()
     QCOMPARE(m_tool->ask(QPlcMessage::GetState, {{"colour", "blue"}, {"nested", QJsonObject{{"a", QJsonArray{1, 2}}}}})
                  .kind(),
              QPlcMessage::State);
+}
+
+/// The cyclic connection of a node comes to a secured master without TLS.
+void tst_ControlChannel::aTlsSocketIsNotSecuredBeforeItsHandshake()
+{
+    QTcpServer server;
+    QVERIFY(server.listen(QHostAddress::LocalHost));
+    auto *plain = new QSslSocket;
+    plain->connectToHost(QHostAddress(QHostAddress::LocalHost), server.serverPort());
+    QVERIFY(plain->waitForConnected());
+    const QPlcSlaveSocket socket(plain);
+    QVERIFY(socket.isConnected());
+    QVERIFY(!socket.isSecured());
 }
 
 QTEST_GUILESS_MAIN(tst_ControlChannel)

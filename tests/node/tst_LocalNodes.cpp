@@ -25,6 +25,7 @@ private Q_SLOTS:
     void aNodeMayBeRemovedByWhatItHears();
     void theProgramMayStopAStartByWhatItHears_data();
     void theProgramMayStopAStartByWhatItHears();
+    void aCriticalNodeMayLeaveAfterAStartThatFailed();
     void aNodeThatEndsBeforeItsMasterLeavesIt_data();
     void aNodeThatEndsBeforeItsMasterLeavesIt();
 };
@@ -272,6 +273,26 @@ void tst_LocalNodes::theProgramMayStopAStartByWhatItHears()
     QCOMPARE(master.state(), QPlcMasterNode::Off);
     QCOMPARE(counter.state(), QPlcSlaveNode::Registered);
     QCOMPARE(started.size(), 0);
+}
+
+void tst_LocalNodes::aCriticalNodeMayLeaveAfterAStartThatFailed()
+{
+    LogCapture log;
+    TestMaster master;
+    CounterNode counter;
+    counter.setCritical(true);
+    ScriptedNode other;
+    QVERIFY(master.listen() && master.addLocalNode(&counter) && other.registerAt(master.serverPort()));
+    QVERIFY(master.initializeAllStates() && master.waitForState(QPlcMasterNode::Ready));
+    other.playsAlong = false;
+    QVERIFY(master.startRealTime());  // the node here is ready at once, the other one never
+    QVERIFY(other.waitForMessage(QPlcMessage::RealTimeStarted));
+    other.control.abort();
+    QVERIFY(master.waitForState(QPlcMasterNode::Off));
+    const QSignalSpy errors(&master, &QPlcMasterNode::errorOccurred);
+    master.removeLocalNode(&counter);
+    QCOMPARE(errors.size(), 0);
+    QCOMPARE(master.state(), QPlcMasterNode::Off);
 }
 
 void tst_LocalNodes::aNodeThatEndsBeforeItsMasterLeavesIt_data()

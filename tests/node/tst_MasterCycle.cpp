@@ -17,6 +17,9 @@ class tst_MasterCycle : public QObject
 
 private Q_SLOTS:
     void lockstepSendsTheRestWhenAFullStreamTakesItAgain();
+    void anAbandonedSignalIsSafeWhenItsHoldIsOver();
+    void theHubForgetsTheNodesOfACycleThatIsGone();
+    void aNodeThatHasLeftIsFreedAtOnceWhileNoCycleRuns();
 };
 
 void tst_MasterCycle::lockstepSendsTheRestWhenAFullStreamTakesItAgain()
@@ -79,6 +82,62 @@ void tst_MasterCycle::lockstepSendsTheRestWhenAFullStreamTakesItAgain()
     QCOMPARE(cycle.value(0).toInt(), 77);
     cycle.setRoster({});
     ::close(ends[1]);
+}
+
+/// Its writer gave the initial value, and left before it took part in the cycles.
+void tst_MasterCycle::anAbandonedSignalIsSafeWhenItsHoldIsOver()
+{
+    const QPlcSignalTable table = QPlcSignalTable::fromIni("[speed]\ntype = Real64\nhold = 2\nsafe = 1.5\n");
+    CyclicHub hub;
+    MasterCycle cycle(table, hub, false);
+    NodeSlot writer;
+    writer.outputLayout = PayloadLayout(table, {0});
+    writer.prepare(cycle.image(), 5);
+    cycle.forgetOutputs(3);
+    cycle.storeInitialOutputs(writer, QPlcValue(9.0).toBytes().constData(), {});
+    MasterCycle::Phase phase;
+    phase.period = std::chrono::milliseconds(1);
+    QVERIFY(cycle.start(phase));
+    QTRY_VERIFY(cycle.statistics().cycles >= 5);
+    QCOMPARE(cycle.value(0).toReal(), 9.0);  // it may still come
+    Roster roster;
+    roster.abandoned = {0};
+    cycle.setRoster(roster);
+    QTRY_COMPARE(cycle.value(0).toReal(), 1.5);
+    cycle.stop();
+    cycle.setRoster({});
+}
+
+void tst_MasterCycle::theHubForgetsTheNodesOfACycleThatIsGone()
+{
+    const QPlcSignalTable table = QPlcSignalTable::fromIni("[speed]\ntype = Real64\n");
+    CyclicHub hub;
+    const auto slot = std::make_shared<NodeSlot>();
+    {
+        MasterCycle cycle(table, hub, false);
+        slot->outputLayout = PayloadLayout(table, {0});
+        slot->prepare(cycle.image(), 5);
+        slot->peer = StreamTransport::peer(-1, slot->outputCutter(), MaximumCyclicFrame);
+        slot->peer->owner = slot.get();
+        cycle.setRoster({{slot}});
+        QCOMPARE(hub.find<StreamTransport>()->peerCount(), std::size_t(1));
+    }
+    QCOMPARE(hub.find<StreamTransport>()->peerCount(), std::size_t(0));
+}
+
+/// With its peer: the other end of a connection sees that it is closed.
+void tst_MasterCycle::aNodeThatHasLeftIsFreedAtOnceWhileNoCycleRuns()
+{
+    const QPlcSignalTable table = QPlcSignalTable::fromIni("[speed]\ntype = Real64\n");
+    CyclicHub hub;
+    MasterCycle cycle(table, hub, false);
+    const auto slot = std::make_shared<NodeSlot>();
+    slot->outputLayout = PayloadLayout(table, {0});
+    slot->prepare(cycle.image(), 5);
+    cycle.setRoster({{slot}});
+    QVERIFY(slot.use_count() > 1);
+    cycle.setRoster({});
+    QCOMPARE(slot.use_count(), 1L);
 }
 
 QTEST_GUILESS_MAIN(tst_MasterCycle)

@@ -24,6 +24,7 @@ private Q_SLOTS:
     void aMasterOfThisMachineIsFoundAndMissed();
     void theNameOfAMasterIsShown();
     void mastersAreHeardOverTheNetworkAndOneGoesAway();
+    void theFirstBeaconIsSentAtOnce();
     void withoutTheWishNothingIsSent();
     void aMasterThatIsBothHereAndHeardIsShownOnce();
     void beaconsGoAfterSixSecondsOfSilence();
@@ -120,6 +121,29 @@ void tst_MasterFinder::mastersAreHeardOverTheNetworkAndOneGoesAway()
     one.stopServer();
     QTRY_VERIFY_WITH_TIMEOUT(!find(finder.masters(), gone), patience);
     QVERIFY(finds(finder, other));
+}
+
+void tst_MasterFinder::theFirstBeaconIsSentAtOnce()
+{
+    QUdpSocket ear;
+    QVERIFY(
+        ear.bind(QHostAddress::AnyIPv4, Beacon::GroupPort, QUdpSocket::ShareAddress | QUdpSocket::ReuseAddressHint));
+    for (const QNetworkInterface &network : QNetworkInterface::allInterfaces()) {
+        if (network.flags().testFlag(QNetworkInterface::IsLoopBack))
+            QVERIFY(ear.joinMulticastGroup(QHostAddress(QLatin1String(Beacon::Group)), network));
+    }
+    Beacon content;
+    content.port = 12345;
+    content.name = QStringLiteral("the first one");
+    qplc::MasterBeacon beacon;
+    beacon.begin(QHostAddress::LocalHost, content, true);
+    bool isHeard = false;
+    while (ear.hasPendingDatagrams()) {
+        QByteArray bytes(int(ear.pendingDatagramSize()), '\0');
+        ear.readDatagram(bytes.data(), bytes.size());
+        isHeard = isHeard || bytes == content.encoded();
+    }
+    QVERIFY(isHeard);
 }
 
 void tst_MasterFinder::withoutTheWishNothingIsSent()

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "NodeFixtures.h"
+#include "ScriptedMaster.h"
 #include "node/api/QPlcSlaveNodePrivate.h"
 #include "node/cycle/SlaveCycle.h"
 
+#include <QtCore/QDir>
 #include <QtCore/QElapsedTimer>
 #include <QtTest/QtTest>
 
@@ -22,6 +23,9 @@ private Q_SLOTS:
     void noGroupIsSaid();
     void datagramsOfOthersAreNoCycles();
     void datagramsForOthersDoNotCalmTheWatchdog();
+    void inputsLieInsideOfTheDatagram_data();
+    void inputsLieInsideOfTheDatagram();
+    void aNodeThatLeavesKeepsNothingOpen();
 
 private:
     static QPlcUnderlyingProtocol protocol(const QPlcMasterNode &master)
@@ -237,6 +241,64 @@ void tst_Multicast::datagramsForOthersDoNotCalmTheWatchdog()
     QTRY_COMPARE(cycle.counters().watchdog, quint64(1));
     cycle.stop();
     QCOMPARE(cycle.counters().rejected + cycle.counters().cycles, quint64(0));
+}
+
+void tst_Multicast::inputsLieInsideOfTheDatagram_data()
+{
+    QTest::addColumn<int>("offset");
+    QTest::addColumn<int>("size");
+    QTest::addColumn<bool>("isGood");
+    QTest::newRow("behind the number of the part") << 2 << 26 << true;
+    QTest::newRow("at the end") << 16 << 40 << true;
+    QTest::newRow("in the number of the part") << 1 << 26 << false;
+    QTest::newRow("before the datagram") << -8 << 26 << false;
+    QTest::newRow("beyond the end") << 17 << 40 << false;
+}
+
+void tst_Multicast::inputsLieInsideOfTheDatagram()
+{
+    QFETCH(int, offset);
+    QFETCH(int, size);
+    QFETCH(bool, isGood);
+    constexpr quint64 hash = 5;
+    ScriptedMaster master(manySignals(1));
+    Summer node(0);
+    QVERIFY(master.admit(node, master.udp()));
+    QJsonObject fields = master.startFields("Lockstep");
+    fields.insert("group",
+                  QJsonObject{{"part", 0}, {"offset", offset}, {"size", size}, {"hash", QPlcMessage::fromHex64(hash)}});
+    QVERIFY(master.startWith(fields));
+    const qplc::FrameEncoder encoder(qplc::FrameKind::GroupInputs, {ScriptedMaster::Session, 0, hash},
+                                     {0, std::uint32_t(size)});
+    qplc::FrameHeader header;
+    header.cycle = master.first;
+    QByteArray frame(int(encoder.partSize(0)), '\0');
+    encoder.encode(0, header, QByteArray(size, '\0').constData(), frame.data());
+    master.sendFrame(frame);
+    QTRY_COMPARE(node.counters().cycles + node.counters().rejected, quint64(1));
+    QCOMPARE(node.counters().cycles, quint64(isGood ? 1 : 0));
+}
+
+void tst_Multicast::aNodeThatLeavesKeepsNothingOpen()
+{
+    const auto openDescriptors
+        = [] { return QDir("/proc/self/fd").entryList(QDir::AllEntries | QDir::System | QDir::NoDotAndDotDot).size(); };
+    TestMaster master(QPlcClock::lockstep(), manySignals(1));
+    master.setMulticastGroup(group);
+    QVERIFY(master.listen());
+    int before = 0;
+    for (int turn = 0; turn < 3; ++turn) {
+        Summer node(0);
+        QVERIFY(node.connectToMasterAndWaitForConnected(protocol(master)));
+        QVERIFY(master.startRealTime());
+        QVERIFY(master.waitForCycles(5));
+        master.stop();
+        node.disconnectFromMaster();
+        QTRY_VERIFY(master.nodes().isEmpty());
+        if (turn == 0)
+            before = openDescriptors();  // what is opened once is open by now
+    }
+    QTRY_COMPARE(openDescriptors(), before);
 }
 
 QTEST_GUILESS_MAIN(tst_Multicast)

@@ -89,6 +89,7 @@ private Q_SLOTS:
     void whatCannotBeUsedIsToldAndEndsTheProgram();
     void optionsSetUpTheNode();
     void withoutOptionsTheNodeStaysAsItIs();
+    void aSecuredNodeNeedsItsKeysOnly();
     void withoutAMasterItEndsAtOnce();
     void itEndsWithItsMaster();
     void itStaysWithoutItsMaster();
@@ -197,6 +198,22 @@ void tst_NodeApplication::withoutOptionsTheNodeStaysAsItIs()
     QVERIFY(!node.isSameCycle());
     QCOMPARE(node.faultPlan(), QString());
     QVERIFY(!node.realTimeOptions().lockMemory);
+}
+
+void tst_NodeApplication::aSecuredNodeNeedsItsKeysOnly()
+{
+    LogCapture log;
+    QTemporaryDir folder;
+    QFile file(folder.filePath("keys.ini"));
+    QVERIFY(file.open(QIODevice::WriteOnly)
+            && file.write("[Counter]\nrole = Node\nkey = " + QByteArray(64, 'a') + "\n") > 0);
+    file.close();
+    QVERIFY(file.setPermissions(QFile::ReadOwner | QFile::WriteOwner));
+    Program program({"--master", "tcp://127.0.0.1:1", "--security", "psk", "--keys", file.fileName()});
+    CounterNode node;
+    (void)program.run(node);
+    QCOMPARE(node.error(), QPlcSlaveNode::ConnectionError);  // it has begun to connect
+    QPlcSecurity::setCurrent({});
 }
 
 void tst_NodeApplication::withoutAMasterItEndsAtOnce()

@@ -47,6 +47,7 @@ private Q_SLOTS:
     void answersThatNeverComeAreLostWhenANewerOneIsThere();
     void cyclesThatWereSkippedAreNotLost();
     void answerToAForgottenRequestIsNotLost();
+    void clearForgetsWhatWasAsked();
     void seededLossesAreCountedExactly();
     void lockstepCountsAndMeasuresNothing();
     void localStepHasNoRoundTrip();
@@ -111,6 +112,17 @@ void tst_NodeStatistics::answerToAForgottenRequestIsNotLost()
     answer(99, 10);
     QCOMPARE(read().lost, quint64(98));
     QCOMPARE(read().roundTrip.sinceStart.count, quint64(1));
+}
+
+void tst_NodeStatistics::clearForgetsWhatWasAsked()
+{
+    ask(5);
+    m_node->clear();
+    answer(5, 400'000);  // of the phase before
+    const QPlcNodeStatistics found = read();
+    QCOMPARE(found.answers, quint64(1));
+    QCOMPARE(found.roundTrip.sinceStart.count, quint64(0));
+    QCOMPARE(found.lost, quint64(0));
 }
 
 void tst_NodeStatistics::seededLossesAreCountedExactly()

@@ -54,6 +54,7 @@ private Q_SLOTS:
     void aWatchdogMakesSafeInAPlantWithoutBeingAskedFor();
     void whatIsNoProfileOfAPhaseIsTakenForAPlant();
     void settingsOfANodeWinOverTheProfile();
+    void aMasterThatListensOnANetworkIsAPlant();
     void aListenerHasNoWatchdogByDefault();
     void aProcessThatStaysAliveKeepsItsState_data();
     void aProcessThatStaysAliveKeepsItsState();
@@ -275,6 +276,19 @@ void tst_Profiles::settingsOfANodeWinOverTheProfile()
     QVERIFY(strict.admit(calm, strict.udp()));
     QVERIFY(start(strict, "Plant"));
     QCOMPARE(calm.watchdog(), std::chrono::nanoseconds(0));
+}
+
+void tst_Profiles::aMasterThatListensOnANetworkIsAPlant()
+{
+    ProfiledMaster master(Profile::Automatic);
+    master.setClock(QPlcClock::realTime());
+    QVERIFY(master.listen());
+    QCOMPARE(master.profile(), Profile::Simulation);
+    master.stopServer();
+    master.setInsecureNetworkAllowed(true);
+    QVERIFY(master.listen(QHostAddress::AnyIPv4));
+    QCOMPARE(master.profile(), Profile::Plant);
+    QVERIFY2(master.profileReason().contains("0.0.0.0"), qPrintable(master.profileReason()));
 }
 
 void tst_Profiles::aListenerHasNoWatchdogByDefault()

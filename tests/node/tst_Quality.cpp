@@ -352,6 +352,10 @@ void tst_Quality::theNodeItselfDoesNotBelieveAMasterThatIsMad()
     QVERIFY(master.waitForState(QPlcMasterNode::Off));
     QCOMPARE(actuator.record, (QStringList{"0.5 good", "1 good", "1 good", "1 good", "1 held 1", "1 good", "1 good"}));
     QCOMPARE(actuator.counters().refused, quint64(1));
+    source.idea = [](quint64) { return 1.0; };
+    QVERIFY(master.startRealTime());  // each phase counts its own
+    QVERIFY(master.waitForState(QPlcMasterNode::Off));
+    QCOMPARE(actuator.counters().refused, quint64(0));
     source.disconnectFromMaster();
     actuator.disconnectFromMaster();
 }

@@ -13,6 +13,7 @@ class tst_RealTimePhase : public QObject
 
 private Q_SLOTS:
     void itRunsFromItsStartToItsEnd();
+    void theEndComesBetweenTwoCycles();
     void theEndIsTakenOnce();
     void aNodeThatHasLeftKeepsItsNameInThePhase();
     void theNextPhaseForgetsWhoHasLeft();
@@ -21,6 +22,7 @@ private Q_SLOTS:
     void theWishedNumberOfCyclesGoesBeforeTheLimit_data();
     void theWishedNumberOfCyclesGoesBeforeTheLimit();
     void ownSignalsHaveValuesInEachCycle();
+    void anOwnSignalIsGoodWhateverItWasBefore();
     void alarmsOfBeforeAreOver();
 };
 
@@ -37,6 +39,15 @@ void tst_RealTimePhase::itRunsFromItsStartToItsEnd()
     QVERIFY(!bench.phase.isRunning());
     QVERIFY(!bench.image.isRunning());
     QCOMPARE(bench.phase.cycleText(), QString());
+}
+
+void tst_RealTimePhase::theEndComesBetweenTwoCycles()
+{
+    PhaseBench bench;  // the second cycle is far away
+    QVERIFY(bench.start());
+    QTRY_COMPARE(bench.image.statistics().cycles, quint64(1));
+    bench.phase.end();
+    QCOMPARE(bench.image.statistics().cycles, quint64(1));
 }
 
 void tst_RealTimePhase::theEndIsTakenOnce()
@@ -142,7 +153,6 @@ void tst_RealTimePhase::ownSignalsHaveValuesInEachCycle()
     QCOMPARE(bench.own.claim(qplc::OwnSignals::Time, "time"), QString());
     QCOMPARE(bench.own.claim(qplc::OwnSignals::Jitter, "jitter"), QString());
     QCOMPARE(bench.own.claim(qplc::OwnSignals::Workload, "masterWorkload"), QString());
-    bench.settings.cycleLimit = 2;
     bench.settings.interval = std::chrono::milliseconds(1);
     const std::vector<char> before = bench.image.values();
     const auto hasChanged = [&](const char *signal) {
@@ -159,6 +169,17 @@ void tst_RealTimePhase::ownSignalsHaveValuesInEachCycle()
     QVERIFY(hasChanged("jitter"));
     QVERIFY(hasChanged("masterWorkload"));
     QVERIFY(!hasChanged("workload"));
+}
+
+void tst_RealTimePhase::anOwnSignalIsGoodWhateverItWasBefore()
+{
+    PhaseBench bench;
+    const QPlcSignalIndex jitter = bench.index("jitter");
+    QVERIFY(bench.image.setValues({{jitter, QPlcValue(float(0.0)), QPlcQuality::Safe}}));  // by a node that has left
+    QCOMPARE(bench.own.claim(qplc::OwnSignals::Jitter, "jitter"), QString());
+    QVERIFY(bench.start());
+    bench.phase.end();
+    QCOMPARE(bench.image.image().quality(jitter), QPlcQuality(QPlcQuality::Good));
 }
 
 void tst_RealTimePhase::alarmsOfBeforeAreOver()

@@ -23,6 +23,7 @@ private Q_SLOTS:
     void slaveWaitsNoLongerThanItsTimeout();
     void slaveWithAWrongDeclarationDoesNotRegister();
     void slaveIgnoresMessagesOutOfTurn();
+    void slaveSendsMessagesOfItsProgram();
     void namesAndWritersAreFreeAfterALeave();
     void aNodeThatComesBackTakesItsOwnPlace();
 };
@@ -248,6 +249,16 @@ void tst_RegisterSequence::slaveWithAWrongDeclarationDoesNotRegister()
     QVERIFY2(node.errorString().contains("'count'"), qPrintable(node.errorString()));  // and the second mismatch
     QCOMPARE(master.messages.size(), 1);
     QPlcSignalIndexTable::setCurrent({});
+}
+
+void tst_RegisterSequence::slaveSendsMessagesOfItsProgram()
+{
+    ScriptedMaster master;
+    CounterNode node;
+    node.sendMessageToMaster(QPlcMessage(QPlcMessage::GetStatistics));  // it has none
+    QVERIFY(master.admit(node, master.udp()));
+    node.sendMessageToMaster(QPlcMessage(QPlcMessage::GetSchedule));
+    QCOMPARE(master.next().kind(), QPlcMessage::GetSchedule);
 }
 
 void tst_RegisterSequence::slaveIgnoresMessagesOutOfTurn()

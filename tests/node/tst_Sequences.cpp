@@ -27,6 +27,7 @@ private Q_SLOTS:
     void cyclesStartWhenAllNodesAreReady();
     void withoutAThreadTheStartEnds();
     void nobodyHearsOfCyclesThatHaveEnded();
+    void nobodyHearsTwiceOfCyclesThatWereStartedAnew();
     void aNodeThatCameDuringTheStartJoinsAfterwards();
     void nobodyJoinsAPhaseThatHasEnded();
     // join
@@ -35,6 +36,7 @@ private Q_SLOTS:
     void aNodeJoinsAtItsOwnPace();
     void aNodeThatComesBackMayGoOnInASimulation_data();
     void aNodeThatComesBackMayGoOnInASimulation();
+    void aNodeThatJoinsAgainHasNotFailed();
     void wrongOutputsOfAJoinerDropIt();
     // stop
     void theEndOfASequenceIsTold_data();
@@ -239,6 +241,26 @@ void tst_Sequences::nobodyHearsOfCyclesThatHaveEnded()
     QCOMPARE(started.size(), 0);
 }
 
+void tst_Sequences::nobodyHearsTwiceOfCyclesThatWereStartedAnew()
+{
+    SequenceBench bench;
+    const auto winch = bench.add("Winch", Answers::AtOnce, "sum");
+    winch->setStage(NodeSession::Initialized);
+    QSignalSpy started(&bench.starting, &qplc::StartSequence::realTimeHasStarted);
+    bool isFirst = true;
+    bench.master.heard = [&](MasterEvent event) {
+        if (event != MasterEvent::CyclesStarted || !std::exchange(isFirst, false))
+            return;
+        winch->setStage(NodeSession::Initialized);  // the program has stopped the phase, and starts the next one
+        bench.starting.begin();
+    };
+    bench.starting.begin();
+    QCOMPARE(bench.takeLog(),
+             QStringList({"Winch start", "master CyclesStarted", "Winch start", "master CyclesStarted",
+                          "Winch cyclesStarted Simulation"}));
+    QCOMPARE(started.size(), 1);
+}
+
 void tst_Sequences::aNodeThatCameDuringTheStartJoinsAfterwards()
 {
     SequenceBench bench;
@@ -352,6 +374,15 @@ void tst_Sequences::aNodeThatComesBackMayGoOnInASimulation()
     bench.joining.handleAnswer(*kite, kite->outputs, false);
     QVERIFY(bench.hasEvent("node Winch goes on where it was"));
     QVERIFY(bench.hasEvent("node Kite begins again at its initial state"));
+}
+
+void tst_Sequences::aNodeThatJoinsAgainHasNotFailed()
+{
+    SequenceBench bench;
+    const auto winch = bench.add("Winch", Answers::Later, "sum");
+    winch->setFailed(true);
+    bench.joining.begin(*winch);
+    QVERIFY(!winch->hasFailed());
 }
 
 void tst_Sequences::wrongOutputsOfAJoinerDropIt()

@@ -3,6 +3,8 @@
 
 #include <QtTest/QtTest>
 
+#include <optional>
+
 // The face of a node that works with lists, those whose outputs come from outside, and those that
 // keep every cycle for a slower reader.
 class tst_SignalListNodes : public QObject
@@ -14,6 +16,7 @@ private Q_SLOTS:
     void cleanup() { QPlcSignalIndexTable::setCurrent({}); }
     void listsCarryValuesInAndOut_data();
     void listsCarryValuesInAndOut();
+    void eachValueOfAListGoesToItsSignal();
     void indicesOfAnotherTableAreRefused();
     void unknownNamesAreRefusedInOneMessage();
     void outputsOfAnIoNodeAreSetWheneverOneLikes();
@@ -41,6 +44,7 @@ public:
     QVector<quint64> cycles;
     QPlcSignalList initial;
     bool wasStopped = false;
+    std::optional<int> givenCount;
 
 protected:
     QPlcSignalIndexList declareInputSignals() override
@@ -69,6 +73,8 @@ protected:
         cycles << cycle().number();
         QPlcSignalList outputs;
         outputs.insert(m_echo, 2.0 * inputs.value(m_setpoint).toReal() + inputs.value(m_vector).toReal(2));
+        if (givenCount)
+            outputs.insert(m_count, *givenCount);
         return outputs;
     }
     void stopped() override { wasStopped = true; }
@@ -112,6 +118,20 @@ void tst_SignalListNodes::listsCarryValuesInAndOut()
     QTRY_VERIFY(node.wasStopped);
     QCOMPARE(node.cycles, (QVector<quint64>{0, 1, 2, 3, 4}));
     node.disconnectFromMaster();
+}
+
+void tst_SignalListNodes::eachValueOfAListGoesToItsSignal()
+{
+    TestMaster master;
+    Doubler node;
+    node.givenCount = 42;
+    QVERIFY(master.addLocalNode(&node));
+    QVERIFY(master.setSignalValue("setpoint", 4.0));
+    master.setCycleLimit(2);
+    QVERIFY(master.startRealTime());
+    QVERIFY(master.waitForState(QPlcMasterNode::Off));
+    QCOMPARE(master.signalValue("echo").toReal(), 8.0);
+    QCOMPARE(master.signalValue("count").toInt(), 42);
 }
 
 void tst_SignalListNodes::indicesOfAnotherTableAreRefused()

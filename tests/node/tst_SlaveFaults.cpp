@@ -29,6 +29,8 @@ private Q_SLOTS:
     void requestsOfManyPartsAreNoFlood();
     void lockstepLeavesNothingOut();
     void aStepThatThrowsGivesSafeValuesAndAFault();
+    void whoGoesOnHasTheOutputsOfItsLastStep();
+    void whoGoesOnTellsTheOutputsOfItsLastStep();
     void aStepThatThrowsStopsThePlant_data();
     void aStepThatThrowsStopsThePlant();
     void outputsThatAreNotFiniteAreHeldAndStopNothing_data();
@@ -342,6 +344,48 @@ void addPlaces()
 
 }  // namespace
 
+/// After its connection was lost: the signals are bound anew, and the code hears nothing of it.
+void tst_SlaveFaults::whoGoesOnHasTheOutputsOfItsLastStep()
+{
+    CounterNode counter;
+    qplc::NodeRuntime &runtime = QPlcSlaveNodePrivate::of(counter).runtime;
+    QString error;
+    const QByteArray inputs = QPlcValue(2.5).toBytes();  // echo
+    QVERIFY2(runtime.bind(testTable(), &error), qPrintable(error));
+    QVERIFY(runtime.reset(&error) && runtime.initialize(inputs.constData(), &error));
+    runtime.beginPhase(true);
+    for (quint64 cycle = 0; cycle < 3; ++cycle)
+        QVERIFY(runtime.step(QPlcCycle(cycle, std::chrono::milliseconds(10)), inputs.constData()));
+    const QByteArray last(runtime.outputs(), int(runtime.outputLayout().size()));
+    QVERIFY2(runtime.bind(testTable(), &error), qPrintable(error));
+    runtime.goOn();
+    QCOMPARE(QByteArray(runtime.outputs(), int(runtime.outputLayout().size())), last);
+    QCOMPARE(counter.resets, 1);
+}
+
+void tst_SlaveFaults::whoGoesOnTellsTheOutputsOfItsLastStep()
+{
+    ScriptedMaster master;
+    CounterNode counter;
+    QVERIFY(master.beginWith(counter));
+    for (quint64 cycle = 0; cycle < 3; ++cycle) {
+        master.request(cycle);
+        QVERIFY(master.waitForAnswers(int(cycle) + 1));
+    }
+    const QByteArray last = master.answers.last().payload;
+    const int resets = counter.resets;
+    counter.disconnectFromMaster();
+    master.control = nullptr;
+    master.forgetMessages();
+    QVERIFY(master.admit(counter, master.udp()));
+    master.send(QPlcMessage::SendYourInitialOutputStates, {{"phase", QPlcMessage::fromHex64(master.first)}});
+    const QPlcMessage answer = master.next();
+    QCOMPARE(answer.kind(), QPlcMessage::ReceiveMyInitialOutputStates);
+    QVERIFY(answer.fields().value("goesOn").toBool());
+    QCOMPARE(answer.fields().value("values").toString(), QPlcMessage::fromBytes(last));
+    QCOMPARE(counter.resets, resets);
+}
+
 void tst_SlaveFaults::aStepThatThrowsStopsThePlant_data()
 {
     addPlaces();
@@ -367,6 +411,7 @@ void tst_SlaveFaults::aStepThatThrowsStopsThePlant()
     QCOMPARE(master.error(), QPlcMasterNode::NodeError);
     QVERIFY2(master.errorString().contains("'Thrower'"), qPrintable(master.errorString()));
     QTRY_COMPARE(thrower.stops, 1);
+    QTRY_COMPARE(thrower.state(), QPlcSlaveNode::Fault);
     thrower.onStep = {};
     QVERIFY(master.startRealTime());  // and it can be started again
     QVERIFY(master.waitForCycles(10));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "NodeFixtures.h"
 #include "ScriptedNode.h"
+#include "node/cycle/SlopeLimits.h"
 
 #include <QtTest/QtTest>
 
@@ -20,6 +21,7 @@ QPlcSignalTable slopeTable()
 [speed]
 type = Real64
 slope = 5 per second
+hold = 1000
 [drive]
 type = Real64
 slope = 5 per second
@@ -30,6 +32,9 @@ type = Real32[3]
 slope = 5 per second
 [free]
 type = Real64
+[far]
+type = Real64
+slope = 5 per second
 )");
 }
 
@@ -78,10 +83,15 @@ private Q_SLOTS:
     void aNewValueTurnsTheSignalWhereItIs();
     void aLostLeaseMovesToTheNeutralValue();
     void whoTakesOverALostSignalKeepsItWhereItIs();
+    void aSignalMovesToTheValueWithWhichItIsTaken();
     void whoHoldsASignalAndTakesItAgainTurnsNothing();
     void aReleasedSignalIsItsWritersAtOnce();
+    void aWriterThatJoinsEndsTheWayOfItsSignal();
     void aSafeStopDoesNotWait();
     void withoutCyclesAValueIsThereAtOnce();
+    void aWayEndsWithItsPhase();
+    void thereIsNoWayFromInfinity();
+    void theNeighbourOfAMovingSignalStays();
 
 private:
     bool set(const QString &name, const QString &value)
@@ -222,6 +232,19 @@ void tst_Slopes::whoTakesOverALostSignalKeepsItWhereItIs()
     m_master->stop();
 }
 
+void tst_Slopes::aSignalMovesToTheValueWithWhichItIsTaken()
+{
+    QTRY_COMPARE(number("drive"), 2.0);
+    QCOMPARE(
+        m_tool
+            ->ask(QPlcMessage::TakeLease,
+                  {{"signals", QJsonArray{"drive"}}, {"values", QJsonObject{{"drive", "2.5"}}}, {"timeout", 3.6e12}})
+            .kind(),
+        QPlcMessage::Done);
+    QTRY_COMPARE(number("drive"), 2.5);
+    m_master->stop();
+}
+
 void tst_Slopes::whoHoldsASignalAndTakesItAgainTurnsNothing()
 {
     QVERIFY(take("drive"));
@@ -242,6 +265,25 @@ void tst_Slopes::aReleasedSignalIsItsWritersAtOnce()
         QVERIFY(m_master->waitForCycles(m_master->statistics().cycles + 1));
         QCOMPARE(number("drive"), 2.0);
     }
+    m_master->stop();
+}
+
+void tst_Slopes::aWriterThatJoinsEndsTheWayOfItsSignal()
+{
+    QVERIFY(set("speed", "1000"));
+    ScriptedNode writer("Writer");
+    writer.table = slopeTable();
+    writer.inputs.clear();
+    writer.outputs = QStringList{"speed"};
+    writer.initialValues = QPlcValue(-7.0).toBytes();
+    writer.answerAll();
+    QVERIFY(writer.registerAt(m_master->serverPort()));
+    QTRY_COMPARE(number("speed"), -7.0);
+    QVERIFY(m_master->waitForCycles(m_master->statistics().cycles + 5));
+    m_recorder->take();
+    QVERIFY(m_master->waitForCycles(m_master->statistics().cycles + 20));
+    for (const double value : m_recorder->take())
+        QCOMPARE(value, -7.0);  // no cycle reads what the way would have been
     m_master->stop();
 }
 
@@ -277,6 +319,46 @@ void tst_Slopes::withoutCyclesAValueIsThereAtOnce()
     QCOMPARE(number("speed"), 9.0);  // as if no cycle had run
     QVERIFY(set("speed", "-3"));
     QCOMPARE(number("speed"), -3.0);
+}
+
+void tst_Slopes::aWayEndsWithItsPhase()
+{
+    QVERIFY(set("speed", "9"));
+    QTRY_VERIFY(number("speed") > 0.0);
+    m_master->stop();
+    QVERIFY(set("speed", "-3"));
+    QVERIFY(m_master->startRealTime());
+    QVERIFY(m_master->waitForCycles(5));
+    QCOMPARE(number("speed"), -3.0);  // and not where the way of before led
+    m_master->stop();
+}
+
+void tst_Slopes::thereIsNoWayFromInfinity()
+{
+    const QPlcSignalTable table = slopeTable();
+    qplc::ProcessImage image(table);
+    qplc::SlopeLimits slopes(image);
+    const QPlcSignalIndex far = table.indexOf(QString("far"));
+    image.setValue(far, QPlcValue(std::numeric_limits<double>::infinity()));
+    slopes.aim(far, QPlcValue(2.0).toBytes().constData());
+    slopes.advance(0.001);
+    QCOMPARE(image.value(far).toReal(), 2.0);
+    QVERIFY(!slopes.isMoving());
+}
+
+void tst_Slopes::theNeighbourOfAMovingSignalStays()
+{
+    const QPlcSignalTable table = slopeTable();
+    qplc::ProcessImage image(table);
+    qplc::SlopeLimits slopes(image);
+    const QPlcSignalIndex speed = table.indexOf(QString("speed"));
+    const QPlcSignalIndex drive = table.indexOf(QString("drive"));
+    QCOMPARE(image.offset(drive), quint32(image.offset(speed) + sizeof(double)));
+    image.setValue(drive, QPlcValue(7.0));
+    slopes.aim(speed, QPlcValue(1.0).toBytes().constData());
+    slopes.advance(0.1);
+    QCOMPARE(image.value(speed).toReal(), 0.5);
+    QCOMPARE(image.value(drive).toReal(), 7.0);
 }
 
 QTEST_GUILESS_MAIN(tst_Slopes)

@@ -19,6 +19,7 @@ private Q_SLOTS:
     void aNodeThatIsNotReadyInTimeEndsTheStart();
     void stopDuringTheInitializationEndsIt();
     void stopIsAllowedInEveryState();
+    void theStateTellsWhoHasStopped();
     void slaveStartsAndStopsStepByStep();
     void aSecondStartIsRefused();
     void cyclesAreCheckedAndKept_data();
@@ -178,6 +179,25 @@ void tst_StartAndStopSequence::stopIsAllowedInEveryState()
     QCOMPARE(tool.ask(QPlcMessage::Stop).kind(), QPlcMessage::Done);
     QCOMPARE(tool.ask(QPlcMessage::Stop).kind(), QPlcMessage::Done);
     QCOMPARE(stopped.size(), 1);
+}
+
+void tst_StartAndStopSequence::theStateTellsWhoHasStopped()
+{
+    TestMaster master;
+    QVERIFY(master.listen());
+    ScriptedTool anna("Anna");
+    ScriptedTool bert("Bert");
+    QVERIFY(anna.greetAt(master.serverPort()) && bert.greetAt(master.serverPort()));
+    QVERIFY(!anna.ask(QPlcMessage::GetState).fields().contains("stopped"));
+    QVERIFY(master.startRealTime());
+    QVERIFY(anna.waitForMessage(QPlcMessage::StatesInitialized) && bert.waitForMessage(QPlcMessage::StatesInitialized));
+    QCOMPARE(anna.answerTo(QPlcMessage::Stop).kind(), QPlcMessage::Done);
+    const QJsonObject hers = anna.ask(QPlcMessage::GetState).fields().value("stopped").toObject();
+    QCOMPARE(hers.value("whoever").toString(), QString("Anna"));
+    QVERIFY(hers.value("yours").toBool());
+    const QJsonObject others = bert.answerTo(QPlcMessage::GetState).fields().value("stopped").toObject();
+    QCOMPARE(others.value("whoever").toString(), QString("Anna"));
+    QVERIFY(!others.value("yours").toBool());
 }
 
 void tst_StartAndStopSequence::slaveStartsAndStopsStepByStep()

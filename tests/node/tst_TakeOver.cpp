@@ -23,6 +23,7 @@ private Q_SLOTS:
     void lostLeaseIsReleasedByAnyoneOrTakenAgain();
     void lostLeaseSurvivesStopAndStart();
     void valuesForAWhileDoNotComeBackOverALease();
+    void aThousandSignalsAreTakenAtMost();
     void badRequestsTakeNothing_data();
     void badRequestsTakeNothing();
     void releaseOfWhatAnotherOneHoldsIsRefused();
@@ -286,6 +287,28 @@ void tst_TakeOver::valuesForAWhileDoNotComeBackOverALease()
     QTRY_COMPARE(value("setpoint"), QString("0"));
     QTest::qWait(20);
     QCOMPARE(value("setpoint"), QString("0"));
+}
+
+void tst_TakeOver::aThousandSignalsAreTakenAtMost()
+{
+    constexpr int most = 1000;
+    QByteArray ini;
+    QStringList names;
+    for (int i = 0; i <= most; ++i) {
+        names << QStringLiteral("s%1").arg(i);
+        ini += "[" + names.last().toLatin1() + "]\ntype = Bool\n";
+    }
+    TestMaster master(QPlcClock::realTime(), QPlcSignalTable::fromIni(ini));
+    QVERIFY(master.listen());
+    ScriptedTool tool("Carl");
+    QVERIFY(tool.greetAt(master.serverPort()));
+    QCOMPARE(take(tool, names).text("error"), QString("WrongState"));
+    QVERIFY(master.leases().isEmpty());
+    const QString last = names.takeLast();
+    QCOMPARE(take(tool, names).kind(), QPlcMessage::Done);
+    QCOMPARE(master.leases().size(), most);
+    QCOMPARE(take(tool, {last}).text("error"), QString("WrongState"));
+    QCOMPARE(take(tool, {names.first()}).kind(), QPlcMessage::Done);  // again
 }
 
 void tst_TakeOver::badRequestsTakeNothing_data()

@@ -56,6 +56,7 @@ private Q_SLOTS:
     void aClosedPeerIsClosed();
     void aPeerThatDoesNotReadBlocksNobody();
     void waitEndsInTime();
+    void aHubThatWasNeverOpenWaitsInVain();
     void anAlarmEndsTheWaitAndIsNoFrame();
     void aRefusedDatagramIsCountedAndTheOthersGo();
     void anInterruptedCallIsMadeAgain();
@@ -402,6 +403,14 @@ void tst_CyclicHub::waitEndsInTime()
     QVERIFY(!hub.wait(2'000'000));
     HubFrame incoming;
     QVERIFY(!hub.next(&incoming));
+}
+
+void tst_CyclicHub::aHubThatWasNeverOpenWaitsInVain()
+{
+    CyclicHub hub;
+    QVERIFY(!hub.wait(1'000'000));
+    HubFrame frame;
+    QVERIFY(!hub.next(&frame));
 }
 
 void tst_CyclicHub::anAlarmEndsTheWaitAndIsNoFrame()

@@ -40,11 +40,13 @@ private Q_SLOTS:
     void memoryCannotBeMadeSmaller();
     void framesComeInOrderAroundTheEnd();
     void aFullRingRefuses();
+    void aFrameWithoutBytesIsSkipped();
     void nonsenseInTheRingIsSkipped_data();
     void nonsenseInTheRingIsSkipped();
     void aMillionFramesBetweenTwoThreads();
     void theLastAnswerWakes();
     void aSleeperInPollIsWokenThroughThePipe();
+    void aLinkSleepsUntilItsRequestComes();
     void hubAndLinksExchangeFrames();
     void localAndOtherPeersAreServedTogether();
     void aNodeThatSleepsForEverBlocksNobody();
@@ -179,6 +181,15 @@ void tst_SharedChannel::aFullRingRefuses()
     QVERIFY(!ring->push("x", 1));
 }
 
+void tst_SharedChannel::aFrameWithoutBytesIsSkipped()
+{
+    const auto ring = std::make_unique<SharedRing>();
+    QVERIFY(ring->push("", 0));
+    QCOMPARE(pop(*ring), QByteArray());
+    QVERIFY(ring->push("good", 4));
+    QCOMPARE(pop(*ring), QByteArray("good"));
+}
+
 void tst_SharedChannel::nonsenseInTheRingIsSkipped_data()
 {
     QTest::addColumn<quint32>("length");
@@ -279,6 +290,19 @@ void tst_SharedChannel::aSleeperInPollIsWokenThroughThePipe()
     QCOMPARE(::poll(&polled, 1, 0), 0);
     ::close(pipe[0]);
     ::close(pipe[1]);
+}
+
+void tst_SharedChannel::aLinkSleepsUntilItsRequestComes()
+{
+    LocalPlant plant(1);
+    QVERIFY(plant.ok);
+    std::thread master([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        plant.ask("request");
+    });
+    const QByteArray request = receive(*plant.links[0]);
+    master.join();
+    QCOMPARE(request, QByteArray("request"));
 }
 
 void tst_SharedChannel::hubAndLinksExchangeFrames()

@@ -46,8 +46,7 @@ public:
                               qplc::messages::InitializeWithValues, qplc::messages::RealTimeStarted>;
     /// Something has happened: the node goes to the next state as qplc::slaveStates() says, and
     /// does what belongs to it.
-    /// \return whether the present state accepts \a event
-    bool apply(qplc::SlaveEvent event, const Told &told = {});
+    void apply(qplc::SlaveEvent event, const Told &told = {});
     /// The safe state, in the thread of the node, while no cycle runs.
     void makeSafe(QPlcSlaveNode::SafeStateReason reason);
     /// Emits safeStateEntered(), once in a phase.

@@ -36,19 +36,19 @@ bool endsPhase(SlaveEvent event)
 
 }  // namespace
 
-bool QPlcSlaveNodePrivate::apply(SlaveEvent event, const Told &told)
+void QPlcSlaveNodePrivate::apply(SlaveEvent event, const Told &told)
 {
     if (endsPhase(event))
         haltCycles();
     const auto &cell = qplc::slaveStates().at(state, event);
     if (cell.verdict != qplc::Verdict::Accepted)
-        return false;
+        return;
     const bool wasInPhase = m_inPhase;
     const bool hadChannel = hasChannel;
     if (event == SlaveEvent::PhaseStarted)
         m_isSafeTold = false;
     if (!localMaster && !prepareFor(cell.action, event, told))
-        return true;
+        return;
     enter(cell.next);
     if (wasInPhase && !m_inPhase)
         Q_EMIT q->realTimeHasStopped();
@@ -60,7 +60,6 @@ bool QPlcSlaveNodePrivate::apply(SlaveEvent event, const Told &told)
         Q_EMIT q->disconnectedFromMaster();
     if (!localMaster && state == cell.next)
         carryOut(cell.action, told);
-    return true;
 }
 
 void QPlcSlaveNodePrivate::enter(QPlcSlaveNode::State newState)

@@ -16,7 +16,7 @@ SafeImage::SafeImage(const ProcessImage &image, const std::vector<bool> &wanted)
     : m_bytes(image.totalSize())
 {
     const QPlcSignalTable &table = image.table();
-    for (QPlcSignalIndex signal = 0; signal < table.size() && signal < wanted.size(); ++signal) {
+    for (QPlcSignalIndex signal = 0; signal < wanted.size(); ++signal) {
         if (!wanted[signal])
             continue;
         const quint32 offset = image.offset(signal);
@@ -24,7 +24,7 @@ SafeImage::SafeImage(const ProcessImage &image, const std::vector<bool> &wanted)
         table.at(signal).safeValue().toBytes(m_bytes.data() + offset);
         add(offset, size);
     }
-    for (QPlcSignalIndex signal = 0; signal < table.size() && signal < wanted.size(); ++signal) {
+    for (QPlcSignalIndex signal = 0; signal < wanted.size(); ++signal) {
         if (!wanted[signal])
             continue;
         m_bytes[image.qualityOffset(signal)] = char(QPlcQuality(QPlcQuality::Safe).toByte());

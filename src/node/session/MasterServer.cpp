@@ -231,7 +231,7 @@ void MasterServer::deny(MasterConnection *connection, const QString &reason, boo
 {
     ++m_deniedMessages;
     Q_EMIT denied(connection, reason);
-    if (connection->stage == MasterConnection::Silent || connection->peer.isCyclicOnly || isRegistration)
+    if (connection->stage == MasterConnection::Silent || isRegistration)
         reject(connection, QStringLiteral("Denied"), reason);
     else
         connection->fail(QStringLiteral("Denied"), reason);

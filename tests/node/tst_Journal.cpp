@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "node/cycle/CycleStatistics.h"
+#include "node/statistics/Journal.h"
+
+#include <QtTest/QtTest>
+
+using qplc::Journal;
+using qplc::JournalEvent;
+
+// What a master writes down, without a master.
+class tst_Journal : public QObject
+{
+    Q_OBJECT
+
+private Q_SLOTS:
+    void aStateThatPassesIsTold();
+    void manyStatesThatPassAreToldTogether();
+    void whoIsRefusedAgainAndAgainIsToldOneByOneAtFirst();
+    void strangersAreToldTogether();
+    void eachReportOfOverrunsHasItsOwnNumbers();
+    void alarmsAreToldOnceAndCleared();
+
+private:
+    static QStringList texts(const Journal &journal)
+    {
+        QStringList texts;
+        for (const JournalEvent &event : journal.events().after(0, 1000))
+            texts << event.text;
+        return texts;
+    }
+};
+
+void tst_Journal::aStateThatPassesIsTold()
+{
+    Journal journal;
+    journal.stateChanged("Waiting", true);
+    QCOMPARE(texts(journal), QStringList{"state Waiting"});
+}
+
+void tst_Journal::manyStatesThatPassAreToldTogether()
+{
+    Journal journal;
+    for (int i = 0; i < 10; ++i)
+        journal.stateChanged(i % 2 == 0 ? "Waiting" : "RealTime", true);
+    QCOMPARE(texts(journal).size(), 1);
+    journal.stateChanged("Off", false);  // what is not told yet would be wrong behind it
+    QCOMPARE(texts(journal).size(), 3);
+    QCOMPARE(texts(journal).last(), QString("state Off"));
+}
+
+void tst_Journal::whoIsRefusedAgainAndAgainIsToldOneByOneAtFirst()
+{
+    Journal journal;
+    for (int i = 0; i < 16; ++i)
+        journal.refused("Winch", "192.0.2.1", "no such signal");
+    QCOMPARE(texts(journal).size(), 16);
+    journal.refused("Winch", "192.0.2.1", "no such signal");  // the first of those that are told together
+    for (int i = 0; i < 100; ++i)
+        journal.refused("Winch", "192.0.2.1", "no such signal");
+    QCOMPARE(texts(journal).size(), 17);
+}
+
+void tst_Journal::strangersAreToldTogether()
+{
+    Journal journal;
+    for (int i = 0; i < 100; ++i)
+        journal.strangerRefused("192.0.2.1", "too many connections");
+    QCOMPARE(texts(journal), QStringList{"refused 192.0.2.1: too many connections"});
+}
+
+void tst_Journal::eachReportOfOverrunsHasItsOwnNumbers()
+{
+    constexpr std::int64_t period = 1'000'000;
+    const auto text = [](int skipped) {
+        return QStringLiteral("cycles that began a period or more late since the last report: 1; left out: %1")
+            .arg(skipped);
+    };
+    qplc::CycleStatistics statistics;
+    const auto skip = [&](std::uint64_t cycles) {
+        qplc::CycleClock::Tick tick;
+        tick.overrun = true;
+        tick.skipped = cycles;
+        statistics.begin(tick, period);
+    };
+    Journal journal;
+    journal.watchOverruns(&statistics);
+    skip(3);
+    QTRY_COMPARE(texts(journal), QStringList{text(3)});
+    skip(2);
+    journal.watchOverruns(nullptr);  // the cycles have ended
+    QCOMPARE(texts(journal), QStringList({text(3), text(2)}));
+}
+
+void tst_Journal::alarmsAreToldOnceAndCleared()
+{
+    Journal journal;
+    journal.clear("node Winch", "node Winch is back");  // it was not raised
+    QCOMPARE(texts(journal), QStringList());
+    for (int i = 0; i < 3; ++i)
+        journal.raise("node Winch", JournalEvent::Error, JournalEvent::Node, "Winch", "node Winch is gone");
+    journal.clear("node Winch", "node Winch is back");
+    const std::vector<JournalEvent> all = journal.events().after(0, 10);
+    QCOMPARE(all.front().alarm, QString("node Winch"));
+    QVERIFY(all.front().isActive && !all.back().isActive);
+    QVERIFY2(all.back().text.startsWith("node Winch is back, after "), qPrintable(all.back().text));
+}
+
+QTEST_GUILESS_MAIN(tst_Journal)
+#include "tst_Journal.moc"
