@@ -10,6 +10,7 @@ class tst_RegisterSequence : public QObject
     Q_OBJECT
 
 private Q_SLOTS:
+    void slaveReportsThatNobodyListens();  // first: no socket has registered the types of signals yet
     void masterAnswersANodeStepByStep();
     void masterAttachesATcpChannelByItsToken();
     void masterSendsItsTableOnlyWhenItDiffers();
@@ -19,7 +20,6 @@ private Q_SLOTS:
     void slaveGoesOnOnlyWithEqualLayouts();
     void slaveRefusesAnotherProtocolVersion();
     void slaveReportsARejection();
-    void slaveReportsThatNobodyListens();
     void slaveWaitsNoLongerThanItsTimeout();
     void slaveWithAWrongDeclarationDoesNotRegister();
     void slaveIgnoresMessagesOutOfTurn();

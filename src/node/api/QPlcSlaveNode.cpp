@@ -70,6 +70,7 @@ QPlcSlaveNode::QPlcSlaveNode(const QString &name, RealTimeViolationPolicy policy
     qRegisterMetaType<QPlcSignalList>("QPlcSignalList");
     qRegisterMetaType<QPlcUnderlyingProtocol>("QPlcUnderlyingProtocol");
     qRegisterMetaType<QPlcMessage>("QPlcMessage");
+    qRegisterMetaType<QPlcAbstractSocket::Error>("QPlcAbstractSocket::Error");
 }
 
 QPlcSlaveNode::~QPlcSlaveNode()
