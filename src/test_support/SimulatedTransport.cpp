@@ -3,6 +3,7 @@
 
 #include "Fiber.h"
 #include "FrameWire.h"
+#include "protocol/messages/Vocabulary.h"
 #include "transport/TransportRegistry.h"
 
 #include <algorithm>
@@ -155,7 +156,8 @@ bool SimulatedTransport::admits(const CyclicHub &, const Newcomer &node, Channel
     const int port = node.request.value(portField).toInt();
     if (port >= 1 && port <= 65535)
         return true;
-    *error = {QStringLiteral("MalformedMessage"), QStringLiteral("simulated port %1 is out of 1 ... 65535").arg(port)};
+    *error
+        = {messages::errorWord::malformedMessage, QStringLiteral("simulated port %1 is out of 1 ... 65535").arg(port)};
     return false;
 }
 

@@ -2,6 +2,7 @@
 #include "BlockingClient.h"
 
 #include "TerminalText.h"
+#include "protocol/messages/Vocabulary.h"
 
 #include <QtCore/QEventLoop>
 
@@ -88,7 +89,7 @@ bool BlockingClient::exchange(const QPlcMessage &request)
 /// An older master says so of a kind that it does not know.
 bool BlockingClient::isUnknownKind() const
 {
-    return m_error == Refused && m_refusal == QLatin1String("MalformedMessage");
+    return m_error == Refused && m_refusal == qplc::messages::errorWord::malformedMessage;
 }
 
 bool BlockingClient::setUnknown(QPlcMessage::Kind request)

@@ -6,6 +6,7 @@
 #include "PeerUser.h"
 #include "TransportKind.h"
 #include "protocol/messages/Field.h"
+#include "protocol/messages/Vocabulary.h"
 
 namespace qplc {
 
@@ -62,7 +63,7 @@ bool LocalKind::admits(const CyclicHub &, const Newcomer &node, ChannelError *er
 {
     if (node.address.isLoopback())
         return true;
-    *error = {QStringLiteral("MalformedMessage"),
+    *error = {messages::errorWord::malformedMessage,
               QStringLiteral("a local node runs on the machine of its master; use udp")};
     return false;
 }
@@ -72,7 +73,7 @@ std::unique_ptr<HubPeer> LocalKind::makePeer(const CyclicHub &hub, const Newcome
 {
     auto memory = std::make_unique<SharedMemory>();
     if (!memory->create(sizeof(SharedChannel), &error->text)) {
-        error->word = QStringLiteral("NodeError");
+        error->word = messages::errorWord::nodeError;
         return nullptr;
     }
     const LocalTransport::Paths paths = hub.find<LocalTransport>()->paths();

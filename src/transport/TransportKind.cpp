@@ -2,6 +2,7 @@
 #include "TransportKind.h"
 
 #include "QPlcUnderlyingProtocol.h"
+#include "protocol/messages/Vocabulary.h"
 #include "realtime/Host.h"
 
 #include <QtNetwork/QHostInfo>
@@ -84,7 +85,7 @@ QString TransportKind::placeText(const QHostAddress &address, quint16 port) cons
 std::unique_ptr<HubPeer> TransportKind::makePeer(const CyclicHub &, const Newcomer &, QJsonObject *,
                                                  ChannelError *error) const
 {
-    *error = {QStringLiteral("NodeError"), QStringLiteral("'%1' cannot make a channel").arg(name())};
+    *error = {messages::errorWord::nodeError, QStringLiteral("'%1' cannot make a channel").arg(name())};
     return nullptr;
 }
 

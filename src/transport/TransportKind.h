@@ -46,7 +46,7 @@ struct ControlEnds
 /// Why there can be no cyclic channel.
 struct ChannelError
 {
-    QString word;  // as in a message Rejected: "MalformedMessage", "WrongState"
+    QString word;  // one of messages::errorWord
     QString text;  // a sentence with the remedy
 };
 

@@ -3,6 +3,7 @@
 
 #include "UdpLink.h"
 #include "UdpTransport.h"
+#include "protocol/messages/Vocabulary.h"
 
 namespace qplc {
 
@@ -21,7 +22,7 @@ bool UdpKind::admits(const CyclicHub &, const Newcomer &node, ChannelError *erro
     const int port = messages::fieldsOf<Request>(node.request).udpPort;
     const bool isPort = port >= 1 && port <= 65535;
     if (!isPort)
-        *error = {QStringLiteral("MalformedMessage"), QStringLiteral("UDP port %1 is out of 1 ... 65535").arg(port)};
+        *error = {messages::errorWord::malformedMessage, QStringLiteral("UDP port %1 is out of 1 ... 65535").arg(port)};
     return isPort;
 }
 

@@ -3,6 +3,7 @@
 #include "UdpKind.h"
 #include "UdpLink.h"
 #include "UdpTransport.h"
+#include "protocol/messages/Vocabulary.h"
 
 #include <netinet/in.h>
 #include <sys/socket.h>
@@ -116,7 +117,7 @@ bool UdpMulticastKind::admits(const CyclicHub &hub, const Newcomer &node, Channe
         text = QStringLiteral("node '%1' wants one of %2 cycles: it is asked alone; use udp")
                    .arg(node.name)
                    .arg(node.every);
-    *error = {QStringLiteral("WrongState"), text};
+    *error = {messages::errorWord::wrongState, text};
     return text.isEmpty();
 }
 

@@ -37,6 +37,7 @@ private Q_SLOTS:
     void anotherFirstMessageIsNoGreeting();
     void aMasterThatEndsIsLostAndItsRequestsFail();
     void aMasterThatDoesNotAnswerIsLost();
+    void commandWithoutAnswerEndsAfterItsOwnTime();
     void closeFailsRequestsAndTellsNoLoss();
     void aRequestWithoutAConnectionFails();
 
@@ -389,6 +390,15 @@ void tst_ControlClient::aMasterThatDoesNotAnswerIsLost()
     QCOMPARE(m_notes, QStringList{"Lost"});
     m_client->connectToMaster(m_master->tcp());  // which does not greet
     QTRY_COMPARE(m_losses.size(), 2);
+}
+
+void tst_ControlClient::commandWithoutAnswerEndsAfterItsOwnTime()
+{
+    QVERIFY(greet());
+    m_client->setAnswerTimes(std::chrono::hours(1), std::chrono::milliseconds(70));
+    note(messages::Reset());
+    QVERIFY(isLost());
+    QCOMPARE(m_losses.at(0), qMakePair(ControlClient::Loss::Gone, QString("no answer within 0.07 s")));
 }
 
 void tst_ControlClient::closeFailsRequestsAndTellsNoLoss()

@@ -25,6 +25,8 @@ private Q_SLOTS:
     void aNodeThatLeavesIsNotWaitedFor();
     // start
     void cyclesStartWhenAllNodesAreReady();
+    void faultOfANodeEndsTheStart();
+    void nodeMayEndTheStartWhileTheOthersAreAsked();
     void withoutAThreadTheStartEnds();
     void nobodyHearsOfCyclesThatHaveEnded();
     void nobodyHearsTwiceOfCyclesThatWereStartedAnew();
@@ -208,6 +210,34 @@ void tst_Sequences::cyclesStartWhenAllNodesAreReady()
     QVERIFY(bench.cycles.running && !bench.step.isUnderWay() && !bench.timer.isRunning());
     QCOMPARE(started.size(), 1);
     QCOMPARE(remote->stage(), NodeSession::Running);
+}
+
+void tst_Sequences::faultOfANodeEndsTheStart()
+{
+    SequenceBench bench;
+    const auto winch = bench.add("Winch", Answers::AtOnce, "sum");
+    winch->setStage(NodeSession::Initialized);
+    winch->fault = QStringLiteral("no paper in the printer");
+    bench.add("Kite", Answers::AtOnce, "echo")->setStage(NodeSession::Initialized);
+    bench.starting.begin();
+    QCOMPARE(bench.takeLog(),
+             QStringList({"Winch start", "master SequenceFailed: node 'Winch': no paper in the printer"}));
+    QVERIFY(!bench.cycles.running);
+}
+
+void tst_Sequences::nodeMayEndTheStartWhileTheOthersAreAsked()
+{
+    SequenceBench bench;
+    const auto winch = bench.add("Winch", Answers::AtOnce, "sum");
+    winch->setStage(NodeSession::Initialized);
+    bench.add("Kite", Answers::AtOnce, "echo")->setStage(NodeSession::Initialized);
+    winch->heard = [&](const QString &what) {
+        if (what == "start")
+            bench.stopping.cancel("the program has removed it");
+    };
+    bench.starting.begin();
+    QVERIFY(!bench.log.contains("Kite start"));
+    QVERIFY(!bench.cycles.running && !bench.step.isUnderWay());
 }
 
 void tst_Sequences::withoutAThreadTheStartEnds()

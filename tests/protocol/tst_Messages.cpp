@@ -107,6 +107,7 @@ private Q_SLOTS:
     void everyVectorComesBackAsItWas_data();
     void everyVectorComesBackAsItWas();
     void theDocumentNamesEveryField();
+    void documentListsEveryErrorWord();
     void whatIsNeededAndCannotBeUsedIsNamed_data();
     void whatIsNeededAndCannotBeUsedIsNamed();
     void aStopWithABadFieldStops();
@@ -162,6 +163,22 @@ void tst_Messages::theDocumentNamesEveryField()
     forEach(FromClient(), check);
     forEach(FromMaster(), check);
     QVERIFY(count > 80);
+}
+
+void tst_Messages::documentListsEveryErrorWord()
+{
+    QStringList words;
+    for (const QLatin1String &word : errorWord::all)
+        words << word;
+    const QString codes = fieldsOfTheDocument().section("### 5.5", 1).section("### 5.6", 0, 0);
+    QStringList documented;
+    QRegularExpressionMatchIterator rows
+        = QRegularExpression("^\\| (`[^|]*) \\|", QRegularExpression::MultilineOption).globalMatch(codes);
+    while (rows.hasNext())
+        documented << rows.next().captured(1).remove('`').split(", ");
+    words.sort();
+    documented.sort();
+    QCOMPARE(documented, words);
 }
 
 void tst_Messages::whatIsNeededAndCannotBeUsedIsNamed_data()

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "protocol/messages/Field.h"
+#include "protocol/messages/Vocabulary.h"
 #include "transport/TransportKind.h"
 
 #include <algorithm>
@@ -137,7 +138,7 @@ public:
     {
         if (node.address.isLoopback())
             return true;
-        *error = {QStringLiteral("WrongState"), QStringLiteral("'pair' is for nodes of one process; use udp")};
+        *error = {qplc::messages::errorWord::wrongState, QStringLiteral("'pair' is for nodes of one process; use udp")};
         return false;
     }
     std::unique_ptr<qplc::HubPeer> makePeer(const qplc::CyclicHub & /*hub*/, const qplc::Newcomer & /*node*/,
@@ -145,7 +146,8 @@ public:
     {
         int ends[2];
         if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) {
-            *error = {QStringLiteral("NodeError"), QStringLiteral("no sockets: %1").arg(qplc::systemErrorText())};
+            *error
+                = {qplc::messages::errorWord::nodeError, QStringLiteral("no sockets: %1").arg(qplc::systemErrorText())};
             return nullptr;
         }
         qplc::messages::addFields(Answer{ends[1]}, answer);

@@ -4,6 +4,7 @@
 #include "PlantLeases.h"
 #include "node/Logging.h"
 #include "node/cycle/ListeningInterval.h"
+#include "protocol/messages/Vocabulary.h"
 
 #include <QtCore/QCoreApplication>
 
@@ -40,7 +41,7 @@ QString sentenceOf(ControlClient::Loss loss, const QString &reason, const messag
     case ControlClient::Loss::NoGreeting:
         return QStringLiteral("it answers with %1 instead of a greeting; is it a QtPLC master?").arg(shown);
     case ControlClient::Loss::Rejected:
-        return (rejection.error == QLatin1String("VersionMismatch")
+        return (rejection.error == messages::errorWord::versionMismatch
                     ? QStringLiteral("versions differ: %1; update the older one")
                     : QStringLiteral("the master refuses: %1"))
             .arg(shown);

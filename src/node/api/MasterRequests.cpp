@@ -87,7 +87,7 @@ public:
         if (d.arm())
             m_connection->send(messages::Armed{d.arming.token(), std::chrono::nanoseconds(qplc::Arming::ValidFor)});
         else
-            m_connection->fail(QStringLiteral("WrongState"), d.errorString);
+            m_connection->fail(qplc::messages::errorWord::wrongState, d.errorString);
     }
 
     // ---- values from outside ----
@@ -150,7 +150,7 @@ private:
     bool isOfNode(Message::Kind kind) const
     {
         if (!m_connection->isNode())
-            m_connection->fail(QStringLiteral("MalformedMessage"),
+            m_connection->fail(qplc::messages::errorWord::malformedMessage,
                                QStringLiteral("%1 is for registered nodes only").arg(Message(kind).kindName()));
         return m_connection->isNode();
     }
@@ -164,7 +164,7 @@ private:
             qCDebug(lcMaster).noquote() << "node" << m_connection->name << "gives the answer"
                                         << Message(kind).kindName() << "to a sequence that has ended";
         else
-            m_connection->fail(QStringLiteral("WrongState"),
+            m_connection->fail(qplc::messages::errorWord::wrongState,
                                QStringLiteral("%1 was not asked for").arg(Message(kind).kindName()));
     }
     void handleOwed(const QByteArray &outputs, bool goesOn) const
@@ -181,7 +181,7 @@ private:
     void finish(bool isAccepted) const
     {
         if (!isAccepted)
-            m_connection->fail(QStringLiteral("WrongState"), d.errorString);
+            m_connection->fail(qplc::messages::errorWord::wrongState, d.errorString);
         else if (d.parts->step.isUnderWay())
             d.m_requester = m_connection->socket;
         else
@@ -198,7 +198,7 @@ private:
     void answer(const Answer &answer, const QString &tooLong) const
     {
         if (!m_connection->send(answer))
-            m_connection->fail(QStringLiteral("TooLong"), tooLong);
+            m_connection->fail(qplc::messages::errorWord::tooLong, tooLong);
     }
 
     QPlcMasterNodePrivate &d;
@@ -216,10 +216,10 @@ void QPlcMasterNodePrivate::receive(Connection *connection, const Message &messa
         if (connection->owes(message.kind()))
             parts->server.drop(connection, fault);  // nobody waits for an answer that will not come
         else
-            connection->fail(QStringLiteral("MalformedMessage"), fault);
+            connection->fail(qplc::messages::errorWord::malformedMessage, fault);
         break;
     case messages::Dispatch::Unknown:
-        connection->fail(QStringLiteral("MalformedMessage"),
+        connection->fail(qplc::messages::errorWord::malformedMessage,
                          QStringLiteral("a master does not handle %1").arg(message.kindName()));
         break;
     }

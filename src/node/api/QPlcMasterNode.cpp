@@ -6,6 +6,7 @@
 #include "node/cycle/PeriodRange.h"
 #include "node/session/MasterReplies.h"
 #include "node/statistics/StatisticsReply.h"
+#include "protocol/messages/Vocabulary.h"
 #include "realtime/TimeSource.h"
 
 using namespace std::chrono_literals;
@@ -403,7 +404,7 @@ bool QPlcMasterNode::setSignalValue(const QString &signalName, const QPlcValue &
     qplc::Refusal refusal;
     if (d->parts->settings.setSignal(signalName, value, &refusal))
         return d->succeed();
-    return d->setError(refusal.error == QLatin1String("WrongState") ? StateError : SignalError, refusal.text);
+    return d->setError(refusal.error == qplc::messages::errorWord::wrongState ? StateError : SignalError, refusal.text);
 }
 
 bool QPlcMasterNode::initializeAllStates()

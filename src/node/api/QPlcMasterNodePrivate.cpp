@@ -8,6 +8,7 @@
 #include "node/session/MasterReplies.h"
 #include "node/session/RemoteNode.h"
 #include "node/state/StateText.h"
+#include "protocol/messages/Vocabulary.h"
 #include "realtime/Host.h"
 #include "realtime/TimeSource.h"
 
@@ -326,7 +327,7 @@ void QPlcMasterNodePrivate::answerRequester(bool done, const QString &text)
     if (m_requester)
         m_requester->sendMessage(
             done ? qplc::messages::toMessage(qplc::messages::Done())
-                 : qplc::messages::toMessage(qplc::messages::Failed{QStringLiteral("NodeError"), text}));
+                 : qplc::messages::toMessage(qplc::messages::Failed{qplc::messages::errorWord::nodeError, text}));
     m_requester.clear();
 }
 
@@ -447,8 +448,9 @@ void QPlcMasterNodePrivate::carryOut(Action action, const QString &reason)
         break;
     case Action::IssueToken:
         arming.arm(qplc::Host::current().random() | 1, qplc::monotonicNow());
-        journal.tell(JournalEvent::Warning, JournalEvent::State, NodeRegistry::masterName(),
-                     QStringLiteral("armed: one start is permitted within 5 s"));
+        journal.tell(
+            JournalEvent::Warning, JournalEvent::State, NodeRegistry::masterName(),
+            QStringLiteral("armed: one start is permitted within %1 s").arg(qplc::Arming::ValidFor / 1'000'000'000));
         break;
     case Action::EndSequence:
         parts->stopping.cancel(reason);

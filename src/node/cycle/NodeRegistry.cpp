@@ -3,6 +3,7 @@
 
 #include "Roster.h"
 #include "node/Logging.h"
+#include "protocol/messages/Vocabulary.h"
 
 #include <QtCore/QMetaEnum>
 #include <QtCore/QSet>
@@ -93,27 +94,27 @@ bool NodeRegistry::resolve(const QString &node, const std::vector<messages::Decl
     for (const messages::DeclaredSignal &signal : declared) {
         const QPlcSignalIndex index = m_table.indexOf(signal.name);
         if (index == QPlcInvalidSignalIndex) {
-            *refusal = {QStringLiteral("UnknownSignal"),
+            *refusal = {messages::errorWord::unknownSignal,
                         QStringLiteral("node '%1': %2").arg(node, m_table.unknownSignalText(signal.name))};
             return false;
         }
         const QPlcSignalDefinition &definition = m_table.at(index);
         if (definition.type.name() != signal.type) {
-            *refusal = {QStringLiteral("TypeMismatch"),
+            *refusal = {messages::errorWord::typeMismatch,
                         QStringLiteral(
                             "signal '%1' is %2 in the table of the master, %3 in that of node '%4'; use the same table")
                             .arg(signal.name, definition.type.name(), signal.type, node)};
             return false;
         }
         if (definition.unit != signal.unit) {
-            *refusal = {QStringLiteral("UnitMismatch"),
+            *refusal = {messages::errorWord::unitMismatch,
                         QStringLiteral("signal '%1' is in '%2' in the table of the master, in '%3' in that of node "
                                        "'%4'; use the same table")
                             .arg(signal.name, definition.unit, signal.unit, node)};
             return false;
         }
         if (seen.contains(index)) {
-            *refusal = {QStringLiteral("MalformedMessage"),
+            *refusal = {messages::errorWord::malformedMessage,
                         QStringLiteral("node '%1' declares signal '%2' twice; declare it once").arg(node, signal.name)};
             return false;
         }
@@ -127,13 +128,13 @@ std::shared_ptr<NodeSlot> NodeRegistry::admit(const NodeDeclaration &declaration
 {
     const auto sameName = [&](const std::shared_ptr<NodeSlot> &slot) { return slot->name == declaration.name; };
     if (declaration.name == masterName() || std::any_of(m_nodes.begin(), m_nodes.end(), sameName)) {
-        *refusal = {QStringLiteral("NameInUse"),
+        *refusal = {messages::errorWord::nameInUse,
                     QStringLiteral("there is a node '%1' already; give this one another name, or stop the other one")
                         .arg(declaration.name)};
         return nullptr;
     }
     if (m_nodes.size() >= MaximumNodes) {
-        *refusal = {QStringLiteral("TooManyNodes"),
+        *refusal = {messages::errorWord::tooManyNodes,
                     QStringLiteral("node '%1' would be number %2; a master serves at most %3")
                         .arg(declaration.name)
                         .arg(m_nodes.size() + 1)
@@ -142,7 +143,7 @@ std::shared_ptr<NodeSlot> NodeRegistry::admit(const NodeDeclaration &declaration
     }
     if (!declaration.interval.isEveryCycle() && !(declaration.listener && declaration.outputs.empty())) {
         *refusal
-            = {QStringLiteral("MalformedMessage"),
+            = {messages::errorWord::malformedMessage,
                QStringLiteral("node '%1' wants one of %2 cycles: that is for listeners without outputs; let it take "
                               "every cycle, or declare it a listener and its outputs elsewhere")
                    .arg(declaration.name)
@@ -187,12 +188,12 @@ bool NodeRegistry::mayWrite(const QString &name, QPlcSignalIndex signal, Refusal
     const QStringList &present = m_writers.at(signal);
     if (!definition.writers.isEmpty() && !definition.writers.contains(name))
         *refusal
-            = {QStringLiteral("WriterNotNamed"),
+            = {messages::errorWord::writerNotNamed,
                QStringLiteral("signal '%1' cannot be written by node '%2': the table of the master has 'writer = %3'; "
                               "name the node there, or give it one of these names")
                    .arg(definition.name, name, definition.writers.join(QStringLiteral(" > ")))};
     else if (!present.isEmpty() && (definition.writers.size() < 2 || present.contains(masterName())))
-        *refusal = {QStringLiteral("SignalHasWriter"),
+        *refusal = {messages::errorWord::signalHasWriter,
                     QStringLiteral("signal '%1' cannot be written by node '%2': node '%3' writes it; a signal has one "
                                    "writer, unless 'writer =' of the table names several")
                         .arg(definition.name, name, present.first())};
@@ -216,7 +217,7 @@ bool NodeRegistry::closesLoop(const std::shared_ptr<NodeSlot> &slot, Refusal *re
         return false;
     const QString loop = loopText(schedule, nodes, m_table);
     *refusal
-        = {QStringLiteral("AlgebraicLoop"),
+        = {messages::errorWord::algebraicLoop,
            QStringLiteral("node '%1' closes an algebraic loop: %2; make one of these inputs not same-cycle, or one "
                           "of these nodes two-phase")
                .arg(slot->name, loop)};

@@ -37,11 +37,8 @@ struct NodeDeclaration : NodeTraits
 /// Why a node is not admitted.
 struct Refusal
 {
-    /// "UnknownSignal", "TypeMismatch", "UnitMismatch", "SignalHasWriter", "WriterNotNamed",
-    /// "NameInUse", "TooManyNodes", "AlgebraicLoop", "LeaseHeld", "ProfileMismatch",
-    /// "MalformedMessage", "WrongState"
-    QString error;
-    QString text;  ///< a sentence with names and remedy
+    QString error;  ///< one of messages::errorWord
+    QString text;   ///< a sentence with names and remedy
 };
 
 /// Who is there, and who writes which signal: one writer for each.

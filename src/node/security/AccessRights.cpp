@@ -7,41 +7,12 @@
 #include <QtCore/QRegularExpression>
 
 #include <algorithm>
-#include <limits>
 
 namespace qplc {
 
 namespace {
 
-/// Messages that write signals, or take or release the right to do so.
-using WritingMessages
-    = messages::List<messages::Register, messages::SetSignals, messages::TakeLease, messages::ReleaseLease>;
-/// All others of nodes and tools. A message in neither list does not compile: it would write
-/// signals without a right to them.
-using OtherMessages
-    = messages::List<messages::ClientHello, messages::AttachCyclicChannel, messages::InitializeAllStates,
-                     messages::ReceiveMyInitialOutputStates, messages::Initialized, messages::StartRealTime,
-                     messages::RealTimeReady, messages::Stop, messages::SafeStop, messages::Reset, messages::Arm,
-                     messages::GetState, messages::GetSignals, messages::NodeFault, messages::GetStatistics,
-                     messages::GetSchedule, messages::GetLeases, messages::GetEvents>;
-
-constexpr bool isDecided(int number)
-{
-    const auto kind = QPlcMessage::Kind(number);
-    return messages::FromClient::contains(kind) == (WritingMessages::contains(kind) != OtherMessages::contains(kind));
-}
-
-constexpr bool areAllDecided()
-{
-    for (int number = 0; number <= std::numeric_limits<quint8>::max(); ++number) {
-        if (!isDecided(number))
-            return false;
-    }
-    return true;
-}
-static_assert(areAllDecided());
-
-/// Collects the names of signals.
+/// Collects the names of the signals that a message writes.
 struct WrittenSignals
 {
     QStringList names;
@@ -118,7 +89,7 @@ QStringList signalsWrittenBy(const QPlcMessage &message)
 {
     WrittenSignals written;
     QString ignored;
-    messages::dispatch(WritingMessages(), message, written, &ignored);
+    messages::dispatch(messages::WriteSignals(), message, written, &ignored);
     return written.names;
 }
 

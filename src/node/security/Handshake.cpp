@@ -117,7 +117,7 @@ void Handshake::refusePlain()
     m_socket->readAll();
     const QString text
         = QStringLiteral("this master is secured; connect with --security %1").arg(m_security.modeName());
-    m_socket->write(rejection(QStringLiteral("SecurityNeeded"), text));
+    m_socket->write(rejection(messages::errorWord::securityNeeded, text));
     fail(QStringLiteral("it does not speak TLS, but this master is secured"));
 }
 
@@ -198,14 +198,14 @@ void Handshake::encrypted()
         Q_EMIT succeeded();
         return;
     }
-    m_socket->write(rejection(QStringLiteral("Denied"), reason));
+    m_socket->write(rejection(messages::errorWord::denied, reason));
     fail(reason);
 }
 
 void Handshake::turnAway(const QString &reason)
 {
     m_socket->disconnect(this);
-    m_socket->write(rejection(QStringLiteral("TooMuch"), reason));
+    m_socket->write(rejection(messages::errorWord::tooMuch, reason));
     m_socket->flush();
     m_socket->disconnectFromHost();
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ControlClient.h"
 
+#include "protocol/messages/Vocabulary.h"
 #include "realtime/Host.h"
 #include "realtime/TimeSource.h"
 
@@ -218,12 +219,12 @@ void ControlClient::deliver(const QPlcMessage &message)
 messages::Failed ControlClient::failureOf(const QPlcMessage &message, const QString &error)
 {
     if (message.kind() == QPlcMessage::Invalid)
-        return {QStringLiteral("Lost"), QStringLiteral("the master was lost before it answered")};
+        return {messages::errorWord::lost, QStringLiteral("the master was lost before it answered")};
     if (const auto failed = messages::readAs<messages::Failed>(message))
         return *failed;
     if (const auto rejected = messages::readAs<messages::Rejected>(message))
         return {rejected->error, rejected->text};
-    return {QStringLiteral("MalformedMessage"),
+    return {messages::errorWord::malformedMessage,
             error.isEmpty() ? QStringLiteral("the master answers with %1").arg(message.kindName()) : error};
 }
 
@@ -254,12 +255,13 @@ void ControlClient::tell(const QPlcMessage &message)
 void ControlClient::sendNow(Pending pending)
 {
     if (!m_socket->sendMessage(pending.message)) {
-        const messages::Failed tooLong{QStringLiteral("MalformedMessage"),
+        const messages::Failed tooLong{messages::errorWord::malformedMessage,
                                        QStringLiteral("the message is too long to be sent")};
         pending.handler(messages::toMessage(tooLong));
         return;
     }
-    pending.deadline = deadlineAfter(pending.isCommand() ? m_commandTime : m_questionTime);
+    pending.patience = pending.isCommand() ? m_commandTime : m_questionTime;
+    pending.deadline = deadlineAfter(pending.patience);
     m_sent.append(pending);
     watchDeadlines();
 }
@@ -292,10 +294,13 @@ void ControlClient::watchDeadlines()
 void ControlClient::checkDeadlines()
 {
     const auto isLate = [](const Pending &pending) { return pending.deadline <= monotonicNow(); };
-    if (m_greetingDeadline <= monotonicNow() || std::any_of(m_sent.begin(), m_sent.end(), isLate))
-        end(Loss::Gone, QStringLiteral("no answer within %1 s").arg(double(m_questionTime.count()) * 1e-3));
-    else
+    const auto late = std::find_if(m_sent.begin(), m_sent.end(), isLate);
+    if (m_greetingDeadline > monotonicNow() && late == m_sent.end()) {
         watchDeadlines();
+        return;
+    }
+    const std::chrono::milliseconds patience = late == m_sent.end() ? m_questionTime : late->patience;
+    end(Loss::Gone, QStringLiteral("no answer within %1 s").arg(double(patience.count()) * 1e-3));
 }
 
 }  // namespace qplc

@@ -142,6 +142,7 @@ private:
         QPlcMessage::Kind answer = QPlcMessage::Invalid;
         RawHandler handler;
         std::int64_t deadline = Never;  // [ns] of monotonicNow()
+        std::chrono::milliseconds patience{0};
 
         bool isCommand() const { return answer == QPlcMessage::Done || message.kind() == QPlcMessage::Arm; }
         bool isUrgent() const { return message.kind() == QPlcMessage::Stop || message.kind() == QPlcMessage::SafeStop; }

@@ -2,6 +2,7 @@
 #include "MasterLeases.h"
 
 #include "node/Logging.h"
+#include "protocol/messages/Vocabulary.h"
 #include "realtime/TimeSource.h"
 
 #include <algorithm>
@@ -14,7 +15,7 @@ constexpr int longestName = 64;  // [characters] as of nodes
 
 Refusal malformed(const QString &text)
 {
-    return {QStringLiteral("MalformedMessage"), text};
+    return {messages::errorWord::malformedMessage, text};
 }
 
 bool readName(const QString &given, QString *name, Refusal *refusal)
@@ -51,7 +52,7 @@ bool MasterLeases::take(const MasterConnection &asker, const messages::TakeLease
         return false;
     const Leases::Signals kept = keptSignals(holder, wish);
     if (!m_cycle.hasRoomFor(wish.settings.size() + kept.size())) {
-        *refusal = {QStringLiteral("WrongState"),
+        *refusal = {messages::errorWord::wrongState,
                     QStringLiteral("%1 values are too many between two cycles; take fewer signals at a time")
                         .arg(wish.settings.size() + kept.size())};
         return false;
@@ -96,7 +97,7 @@ bool MasterLeases::readSignals(const QStringList &names, Leases::Signals *indice
     for (const QString &name : names) {
         const QPlcSignalIndex index = m_table.indexOf(name);
         if (index == QPlcInvalidSignalIndex) {
-            *refusal = {QStringLiteral("UnknownSignal"), m_table.unknownSignalText(printable(name))};
+            *refusal = {messages::errorWord::unknownSignal, m_table.unknownSignalText(printable(name))};
             return false;
         }
         if (std::find(indices->begin(), indices->end(), index) == indices->end())
@@ -127,13 +128,13 @@ bool MasterLeases::mayTake(const QObject *holder, const Leases::Signals &indices
         count += m_leases.find(signal) ? 0 : 1;
         if (m_registry.writer(signal) == NodeRegistry::masterName())
             *refusal
-                = {QStringLiteral("SignalHasWriter"),
+                = {messages::errorWord::signalHasWriter,
                    QStringLiteral("signal '%1' is written by the master itself and cannot be taken over").arg(name)};
         else if (!takeOver && m_leases.isHeldByOther(signal, holder))
             *refusal = leaseRefusal(name, *m_leases.find(signal));
         else if (count > MaximumLeases)
             *refusal = {
-                QStringLiteral("WrongState"),
+                messages::errorWord::wrongState,
                 QStringLiteral("more than %1 signals cannot be taken over at a time; release some").arg(MaximumLeases)};
     }
     return refusal->error.isEmpty();

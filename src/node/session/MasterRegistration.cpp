@@ -4,6 +4,7 @@
 #include "node/Logging.h"
 #include "node/security/SealFields.h"
 #include "protocol/ControlFrame.h"
+#include "protocol/messages/Vocabulary.h"
 #include "realtime/Host.h"
 #include "signals/Fnv1a.h"
 #include "transport/TransportRegistry.h"
@@ -50,13 +51,13 @@ QStringList commonFeatures(const messages::ClientHello &greeting)
 void MasterServer::open(MasterConnection *connection, const messages::ClientHello &greeting)
 {
     if (connection->stage != MasterConnection::Silent) {
-        reject(connection, QStringLiteral("WrongState"), QStringLiteral("'%1' greets twice").arg(connection->name));
+        reject(connection, messages::errorWord::wrongState, QStringLiteral("'%1' greets twice").arg(connection->name));
         return;
     }
     connection->name = nameOf(greeting.name);
     connection->uuid = greeting.uuid.left(LongestUuid);
     if (greeting.protocol != messages::protocolVersion) {
-        reject(connection, QStringLiteral("VersionMismatch"),
+        reject(connection, messages::errorWord::versionMismatch,
                QStringLiteral("protocol version %1 of '%2' is not spoken here; this master speaks version %3")
                    .arg(greeting.protocol)
                    .arg(connection->name)
@@ -79,7 +80,7 @@ void MasterServer::open(MasterConnection *connection, const messages::ClientHell
     connection->isHardware = hello.features.contains(messages::feature::hardware);
     Q_EMIT greeted(connection);
     if (!connection->send(hello))
-        reject(connection, QStringLiteral("TooLong"),
+        reject(connection, messages::errorWord::tooLong,
                QStringLiteral("the signal table is too long to be sent; give '%1' the same table as the master")
                    .arg(connection->name));
 }
@@ -87,7 +88,7 @@ void MasterServer::open(MasterConnection *connection, const messages::ClientHell
 void MasterServer::open(MasterConnection *connection, const messages::Register &registration)
 {
     if (connection->isNode()) {
-        reject(connection, QStringLiteral("WrongState"),
+        reject(connection, messages::errorWord::wrongState,
                QStringLiteral("node '%1' registers twice").arg(connection->name));
         return;
     }
@@ -97,7 +98,7 @@ void MasterServer::open(MasterConnection *connection, const messages::Register &
     connection->cyclicKind = registration.cyclic;
     connection->transport = TransportRegistry::instance().named(connection->cyclicKind);
     if (!NodeDeclaration::fromMessage(registration, &declaration, &error))
-        refusal = {QStringLiteral("MalformedMessage"), error};
+        refusal = {messages::errorWord::malformedMessage, error};
     else if (Refusal channel = channelRefusal(*connection, newcomer(*connection, declaration, registration));
              !channel.error.isEmpty())
         refusal = channel;
@@ -116,7 +117,7 @@ void MasterServer::open(MasterConnection *connection, const messages::Register &
     connection->name = declaration.name;
     if (connection->transport->hasGroup() && connection->slot->inputLayout.size() > MulticastParts::MaximumInputs) {
         reject(
-            connection, QStringLiteral("TooLong"),
+            connection, messages::errorWord::tooLong,
             QStringLiteral("node '%1' has %2 bytes of inputs, more than the %3 of a datagram for many nodes; use udp")
                 .arg(declaration.name)
                 .arg(connection->slot->inputLayout.size())
@@ -166,7 +167,7 @@ Newcomer MasterServer::newcomer(const MasterConnection &connection, const NodeDe
 Refusal MasterServer::channelRefusal(const MasterConnection &connection, const Newcomer &newcomer) const
 {
     if (!connection.transport)
-        return {QStringLiteral("MalformedMessage"),
+        return {messages::errorWord::malformedMessage,
                 QStringLiteral("unknown cyclic channel '%1'; use %2")
                     .arg(connection.cyclicKind, TransportRegistry::instance().namesText())};
     ChannelError error;
@@ -181,7 +182,7 @@ void MasterServer::dropUnattached(const MasterConnection *connection)
     QTimer::singleShot(LongestAttaching, connection->socket, [this, socket = connection->socket] {
         MasterConnection *late = connectionOf(socket);
         if (late && late->stage == MasterConnection::Attaching)
-            reject(late, QStringLiteral("TimedOut"),
+            reject(late, messages::errorWord::timedOut,
                    QStringLiteral("node '%1' has not attached its cyclic connection in time").arg(late->name));
     });
 }
@@ -206,7 +207,7 @@ void MasterServer::open(MasterConnection *connection, const messages::AttachCycl
     };
     const auto found = std::find_if(m_connections.begin(), m_connections.end(), isNode);
     if (connection->stage != MasterConnection::Silent || found == m_connections.end()) {
-        reject(connection, QStringLiteral("WrongState"),
+        reject(connection, messages::errorWord::wrongState,
                QStringLiteral("no node %1 with this token waits for its cyclic connection").arg(wish.node));
         return;
     }

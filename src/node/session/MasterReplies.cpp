@@ -3,6 +3,7 @@
 
 #include "node/state/MasterStates.h"
 #include "node/state/SlaveStates.h"
+#include "protocol/messages/Vocabulary.h"
 
 #include <QtCore/QMetaEnum>
 
@@ -18,7 +19,7 @@ bool readNames(const QPlcSignalTable &table, const QStringList &names, std::vect
                Refusal *refusal)
 {
     if (names.size() > table.size()) {
-        *refusal = {QStringLiteral("MalformedMessage"),
+        *refusal = {messages::errorWord::malformedMessage,
                     QStringLiteral("%1 names are wanted, and the table has %2 signals; name each signal once")
                         .arg(names.size())
                         .arg(table.size())};
@@ -28,9 +29,9 @@ bool readNames(const QPlcSignalTable &table, const QStringList &names, std::vect
     for (const QString &name : names) {
         const QPlcSignalIndex index = table.indexOf(name);
         if (index == QPlcInvalidSignalIndex)
-            *refusal = {QStringLiteral("UnknownSignal"), table.unknownSignalText(name)};
+            *refusal = {messages::errorWord::unknownSignal, table.unknownSignalText(name)};
         else if (isWanted[index])
-            *refusal = {QStringLiteral("MalformedMessage"),
+            *refusal = {messages::errorWord::malformedMessage,
                         QStringLiteral("'%1' is named twice; name each signal once").arg(name)};
         if (!refusal->error.isEmpty())
             return false;

@@ -3,6 +3,7 @@
 
 #include "node/Logging.h"
 #include "protocol/ControlFrame.h"
+#include "protocol/messages/Vocabulary.h"
 #include "realtime/TimeSource.h"
 #include "transport/TransportRegistry.h"
 
@@ -166,7 +167,7 @@ void MasterServer::dropSlow(ConnectionGate::Ticket ticket)
         = [ticket](const std::unique_ptr<MasterConnection> &connection) { return connection->ticket == ticket; };
     const auto found = std::find_if(m_connections.begin(), m_connections.end(), isIt);
     if (found != m_connections.end())
-        reject(found->get(), QStringLiteral("TimedOut"), QStringLiteral("it has not greeted in time"));
+        reject(found->get(), messages::errorWord::timedOut, QStringLiteral("it has not greeted in time"));
 }
 
 MasterConnection *MasterServer::connectionOf(const QPlcSlaveSocket *socket) const
@@ -232,9 +233,9 @@ void MasterServer::deny(MasterConnection *connection, const QString &reason, boo
     ++m_deniedMessages;
     Q_EMIT denied(connection, reason);
     if (connection->stage == MasterConnection::Silent || isRegistration)
-        reject(connection, QStringLiteral("Denied"), reason);
+        reject(connection, messages::errorWord::denied, reason);
     else
-        connection->fail(QStringLiteral("Denied"), reason);
+        connection->fail(messages::errorWord::denied, reason);
 }
 
 /// Whether somebody asks faster than is good for the others; then the connection has ended. Who
@@ -244,7 +245,7 @@ bool MasterServer::isTooMuch(MasterConnection *connection, const Message &messag
     if (connection->owes(message.kind()) || connection->messages.take(monotonicNow()))
         return false;
     ++m_deniedMessages;
-    reject(connection, QStringLiteral("TooMuch"),
+    reject(connection, messages::errorWord::tooMuch,
            QStringLiteral("'%1' sends too many messages; send at most 1000 in a second").arg(connection->shownName()));
     return true;
 }
@@ -263,7 +264,7 @@ void MasterServer::receive(MasterConnection *connection, const Message &message)
         Q_EMIT commanded(connection, message);
     const bool begins = message.kind() == Message::Hello || message.kind() == Message::AttachCyclicChannel;
     if (connection->stage == MasterConnection::Silent && !begins) {
-        reject(connection, QStringLiteral("WrongState"),
+        reject(connection, messages::errorWord::wrongState,
                QStringLiteral("%1 before Hello; greet first").arg(message.kindName()));
         return;
     }
@@ -273,7 +274,7 @@ void MasterServer::receive(MasterConnection *connection, const Message &message)
     case messages::Dispatch::Delivered:
         break;
     case messages::Dispatch::Malformed:
-        reject(connection, QStringLiteral("MalformedMessage"), fault);
+        reject(connection, messages::errorWord::malformedMessage, fault);
         break;
     case messages::Dispatch::Unknown:
         Q_EMIT received(connection, message);
@@ -283,7 +284,7 @@ void MasterServer::receive(MasterConnection *connection, const Message &message)
 
 void MasterServer::receiveGarbage(MasterConnection *connection)
 {
-    reject(connection, QStringLiteral("MalformedMessage"), connection->socket->errorString());
+    reject(connection, messages::errorWord::malformedMessage, connection->socket->errorString());
 }
 
 }  // namespace qplc

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "MasterSettings.h"
 
+#include "protocol/messages/Vocabulary.h"
 #include "realtime/TimeSource.h"
 
 #include <algorithm>
@@ -15,7 +16,7 @@ constexpr int retryPause = 5;  // [ms] when the cycle had no room
 
 Refusal leaseRefusal(const QString &signal, const Leases::Lease &lease)
 {
-    return {QStringLiteral("LeaseHeld"),
+    return {messages::errorWord::leaseHeld,
             lease.isLost()
                 ? QStringLiteral("signal '%1' was taken over by '%2', who is lost; take or release the lease first")
                       .arg(signal, lease.name)
@@ -133,11 +134,11 @@ bool MasterSettings::isSettable(const QObject *owner, const QString &name, QPlcS
     *signal = m_table.indexOf(name);
     const Leases::Lease *lease = m_leases.find(*signal);
     if (*signal == QPlcInvalidSignalIndex)
-        *refusal = {QStringLiteral("UnknownSignal"), m_table.unknownSignalText(name)};
+        *refusal = {messages::errorWord::unknownSignal, m_table.unknownSignalText(name)};
     else if (lease && !m_leases.isHeldBy(*signal, owner))
         *refusal = leaseRefusal(name, *lease);
     else if (!lease && !m_registry.writer(*signal).isEmpty())
-        *refusal = {QStringLiteral("SignalHasWriter"),
+        *refusal = {messages::errorWord::signalHasWriter,
                     QStringLiteral("signal '%1' is written by '%2'; stop that node to set it from outside")
                         .arg(name, m_registry.writer(*signal))};
     return refusal->error.isEmpty();
@@ -149,13 +150,13 @@ bool MasterSettings::checkValue(QPlcSignalIndex signal, const QPlcValue &value, 
     const QPlcSignalDefinition &definition = m_table.at(signal);
     *setting = {signal, value.convertedTo(definition.type)};
     if (!setting->value.isValid() || !setting->value.isFinite()) {
-        *refusal = {QStringLiteral("InvalidValue"),
+        *refusal = {messages::errorWord::invalidValue,
                     QStringLiteral("%1 does not fit signal '%2' of type %3")
                         .arg(value.toString(), definition.name, definition.type.name())};
         return false;
     }
     if (!definition.isInRange(setting->value)) {
-        *refusal = {QStringLiteral("InvalidValue"),
+        *refusal = {messages::errorWord::invalidValue,
                     QStringLiteral("%1 is out of range for signal '%2'; use %3 %4")
                         .arg(value.toString(), definition.name, definition.rangeText(), definition.unit)
                         .trimmed()};
@@ -183,7 +184,8 @@ bool MasterSettings::readValue(QPlcSignalIndex signal, const QString &text, Sign
     const QPlcValue value = QPlcValue::fromString(m_table.at(signal).type, text, &error);
     if (error.isEmpty())
         return checkValue(signal, value, setting, refusal);
-    *refusal = {QStringLiteral("InvalidValue"), QStringLiteral("signal '%1': %2").arg(m_table.at(signal).name, error)};
+    *refusal
+        = {messages::errorWord::invalidValue, QStringLiteral("signal '%1': %2").arg(m_table.at(signal).name, error)};
     return false;
 }
 
@@ -192,7 +194,7 @@ bool MasterSettings::readValue(QPlcSignalIndex signal, const QString &text, Sign
 bool MasterSettings::give(const std::vector<SignalSetting> &settings, Refusal *refusal)
 {
     if (!m_cycle.setValues(settings)) {
-        *refusal = {QStringLiteral("WrongState"),
+        *refusal = {messages::errorWord::wrongState,
                     QStringLiteral("%1 changes are too many between two cycles; send them in smaller groups")
                         .arg(settings.size())};
         return false;

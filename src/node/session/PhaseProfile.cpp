@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "PhaseProfile.h"
+#include "protocol/messages/Vocabulary.h"
 
 namespace qplc {
 
@@ -23,7 +24,7 @@ Refusal PhaseProfile::objectionTo(const NodeDeclaration &node) const
 {
     if (!node.hardware || m_fixed.value != QPlcProfile::Simulation)
         return {};
-    return {QStringLiteral("ProfileMismatch"),
+    return {messages::errorWord::profileMismatch,
             QStringLiteral("node '%1' drives real devices, and the phase at hand has the profile Simulation (%2); stop "
                            "it and start again with this node")
                 .arg(node.name, m_fixed.reason)};

@@ -88,11 +88,11 @@ QString SequenceStep::timeOutText() const
         if (node->stage() < owed())
             names << QStringLiteral("'%1'").arg(node->name());
     }
-    const QString what = m_kind == Start ? QStringLiteral("RealTimeStarted")
-        : m_kind == CollectOutputs       ? QStringLiteral("SendYourInitialOutputStates")
-                                         : QStringLiteral("InitializeWithValues");
+    const QPlcMessage::Kind what = m_kind == Start ? QPlcMessage::RealTimeStarted
+        : m_kind == CollectOutputs                 ? QPlcMessage::SendYourInitialOutputStates
+                                                   : QPlcMessage::InitializeWithValues;
     return QStringLiteral("no answer to %1 within %2 ms from node %3; is it busy, or stopped?")
-        .arg(what)
+        .arg(QPlcMessage::kindName(what))
         .arg(m_timer.length().count())
         .arg(names.join(QStringLiteral(", ")));
 }

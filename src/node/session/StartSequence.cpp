@@ -39,8 +39,17 @@ void StartSequence::begin()
     told.insert(told.end(), listeners.begin(), listeners.end());
     m_starts.restart();
     m_starts.place(told);
+    const quint64 step = m_step.number();
     for (const auto &node : told) {
-        if (node->start(m_starts.messageTo(*node)))
+        const std::optional<NodeSession::Answer> answer = node->start(m_starts.messageTo(*node));
+        if (!m_step.isStill(step))
+            return;
+        if (answer && !answer->fault.isEmpty()) {
+            m_master.apply(MasterEvent::SequenceFailed,
+                           QStringLiteral("node '%1': %2").arg(node->name(), answer->fault));
+            return;
+        }
+        if (answer)
             m_step.answered(*node);
     }
     advance();

@@ -135,6 +135,19 @@ static_assert(isEveryKind([](QPlcMessage::Kind kind) {
               }),
               "a message of FromClient is in neither of EverybodyMaySend and OperatorsMaySend, or in both");
 
+/// What writes signals, or takes or releases the right to: needs a right to each of them.
+using WriteSignals = List<Register, SetSignals, TakeLease, ReleaseLease>;
+/// All others of FromClient.
+using WriteNoSignals = List<ClientHello, AttachCyclicChannel, InitializeAllStates, ReceiveMyInitialOutputStates,
+                            Initialized, StartRealTime, RealTimeReady, Stop, SafeStop, Reset, Arm, GetState, GetSignals,
+                            NodeFault, GetStatistics, GetSchedule, GetLeases, GetEvents>;
+
+static_assert(isEveryKind([](QPlcMessage::Kind kind) {
+                  const bool isListed = WriteSignals::contains(kind) != WriteNoSignals::contains(kind);
+                  return isListed ? FromClient::contains(kind) : FromMaster::contains(kind);
+              }),
+              "a message of FromClient is in neither of WriteSignals and WriteNoSignals, or in both");
+
 template<typename Message>
 QPlcMessage toMessage(const Message &message)
 {

@@ -18,6 +18,36 @@ constexpr QLatin1String word(const char (&text)[Size])
 /// How a master calls itself where nodes go by their names.
 constexpr QLatin1String masterName = word("Master");
 
+/// Why a master refuses: `error` of Rejected and Failed.
+namespace errorWord {
+constexpr QLatin1String versionMismatch = word("VersionMismatch");
+constexpr QLatin1String nameInUse = word("NameInUse");
+constexpr QLatin1String unknownSignal = word("UnknownSignal");
+constexpr QLatin1String typeMismatch = word("TypeMismatch");
+constexpr QLatin1String unitMismatch = word("UnitMismatch");
+constexpr QLatin1String signalHasWriter = word("SignalHasWriter");
+constexpr QLatin1String writerNotNamed = word("WriterNotNamed");
+constexpr QLatin1String leaseHeld = word("LeaseHeld");
+constexpr QLatin1String profileMismatch = word("ProfileMismatch");
+constexpr QLatin1String tooManyNodes = word("TooManyNodes");
+constexpr QLatin1String algebraicLoop = word("AlgebraicLoop");
+constexpr QLatin1String wrongState = word("WrongState");
+constexpr QLatin1String malformedMessage = word("MalformedMessage");
+constexpr QLatin1String invalidValue = word("InvalidValue");
+constexpr QLatin1String nodeError = word("NodeError");
+constexpr QLatin1String tooLong = word("TooLong");
+constexpr QLatin1String securityNeeded = word("SecurityNeeded");
+constexpr QLatin1String denied = word("Denied");
+constexpr QLatin1String timedOut = word("TimedOut");
+constexpr QLatin1String tooMuch = word("TooMuch");
+constexpr QLatin1String all[]
+    = {versionMismatch, nameInUse,       unknownSignal,  typeMismatch,  unitMismatch, signalHasWriter,  writerNotNamed,
+       leaseHeld,       profileMismatch, tooManyNodes,   algebraicLoop, wrongState,   malformedMessage, invalidValue,
+       nodeError,       tooLong,         securityNeeded, denied,        timedOut,     tooMuch};
+/// Of a client itself: the connection ended before there was an answer. Never sent.
+constexpr QLatin1String lost = word("Lost");
+}  // namespace errorWord
+
 /// What a master does. docs/design/states.md has all events of each state.
 enum class MasterState : quint8 {
     Unknown,  ///< a word of a newer master
