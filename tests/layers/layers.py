@@ -4,6 +4,7 @@
 
 usage: layers.py SOURCE_FOLDER
 """
+import functools
 import re
 import sys
 from pathlib import Path
@@ -53,6 +54,8 @@ HEADER_ONLY = {
     "QPlcRealTimeSetting": "realtime", "QPlcSignalDefinition": "signals", "QPlcSimulatedRoad": "test_support", "QPlcSlaveStatistics": "node", "QPlcStatisticFigure": "node", "QPlcWidgetFactoryOf": "gui", "QPlcWorstCycle": "all",
     "QSplitPrimitive": "signals",
 }
+INCLUDE = r'^\s*#\s*include\s+"([^"]+)"'
+PRIVATE_INCLUDE = r'^\s*#\s*include\s+"((?:gui|gui3d|node|signals|protocol)/[^"]+)"'
 SOCKETS = r"<QtNetwork/|<sys/socket\.h>|<netinet/|<arpa/inet\.h>|Q(Tcp|Udp|Abstract)Socket\b"
 EVENT_LOOP = r"\bQ(Object|Thread|Timer|EventLoop|SocketNotifier)\b|\bQ_OBJECT\b"
 OTHER_CLOCKS = r"\b(steady_clock|system_clock|high_resolution_clock|clock_gettime|gettimeofday|QElapsedTimer)\b|\bcurrent(DateTime\w*|MSecs\w*|Secs\w*)\s*\("
@@ -119,16 +122,67 @@ def files(folder):
     return sorted(p for p in folder.rglob("*") if p.is_file() and (p.suffix in (".h", ".cpp") or p.parent.name == "QtPlc"))
 
 
-def code(path):
+# A test looks at the same texts again and again.
+@functools.lru_cache(maxsize=None)
+def code_of(text):
     """The lines of a file without comments, numbered from 1."""
-    text = re.sub(r"/\*.*?\*/", lambda match: "\n" * match[0].count("\n"), path.read_text(), flags=re.S)
+    text = re.sub(r"/\*.*?\*/", lambda match: "\n" * match[0].count("\n"), text, flags=re.S)
     return list(enumerate((re.sub(r"//.*", "", line) for line in text.split("\n")), 1))
+
+
+@functools.lru_cache(maxsize=None)
+def long_lines(text):
+    """Number and length of each line that is too long."""
+    found = []
+    for number, line in enumerate(text.split("\n"), 1):
+        most = COMMENT_COLUMNS if re.match(r"\s*//(?!/<? {3})", line) else CODE_COLUMNS
+        if len(line) > most and not line.startswith("#error"):
+            found.append((number, len(line)))
+    return found
+
+
+@functools.lru_cache(maxsize=None)
+def functions_of(text):
+    """The functions of a file: line of the name, number of lines, whether it is a table. The format of the code is relied on."""
+    found = []
+    lines = text.split("\n")
+    for brace, line in enumerate(lines):
+        if line.strip() != "{":
+            continue
+        margin, first = line[:-1], brace - 1
+        while first > 0 and lines[first].startswith(margin) and re.match(r"[ :,]", lines[first][len(margin):]):
+            first -= 1
+        head = " ".join(part.strip() for part in lines[first:brace])
+        if "(" not in head or re.match(r"(template<.*> )?(class|struct|union|enum|namespace|extern|if|for|while|switch|do|//)\b", head):
+            continue
+        last = next((at for at in range(brace, len(lines)) if lines[at].startswith(margin + "}")), len(lines))
+        found.append((first + 1, last - first + 1, bool(re.search(TABLE, head) or re.search(TABLE, lines[brace + 1]))))
+    return found
+
+
+@functools.lru_cache(maxsize=None)
+def lines_with(text, pattern):
+    """Number and text of each line of the code that the pattern fits."""
+    pattern = re.compile(pattern)
+    return [(number, line) for number, line in code_of(text) if pattern.search(line)]
+
+
+@functools.lru_cache(maxsize=None)
+def first_with(text, pattern):
+    """Number and text of the line where the first piece of code begins that the pattern fits; it may go over lines."""
+    lines = [line for _, line in code_of(text)]
+    found = pattern.search("\n".join(lines))
+    if not found:
+        return None
+    number = found.string.count("\n", 0, found.start())
+    return number + 1, lines[number].strip()
 
 
 class Check:
     def __init__(self, root):
-        self.root, self.errors = root, []
-        self.source, self.public = root / "src", root / "include/QtPlc"
+        self.root, self.errors = root.resolve(), []
+        self.source, self.public = self.root / "src", self.root / "include/QtPlc"
+        self.homes = {p.stem: p.relative_to(self.source).parts[0] for p in self.source.rglob("*.cpp")}
 
     def error(self, path, line, text):
         self.errors.append(f"{path.relative_to(self.root)}:{line}: {text}")
@@ -136,8 +190,7 @@ class Check:
     def room(self, path):
         if path.parent != self.public:
             return self.room_of_source(path) if self.source in path.parents else None
-        homes = [p.relative_to(self.source).parts[0] for p in self.source.glob(f"*/**/{path.stem}.cpp")]
-        return homes[0] if homes else HEADER_ONLY.get(path.stem)
+        return self.homes.get(path.stem) or HEADER_ONLY.get(path.stem)
 
     def room_of_source(self, path):
         """The folder, with its room where the folder has rooms with arrows of their own."""
@@ -151,10 +204,10 @@ class Check:
             if room not in ARROWS and room != "all":
                 self.error(path, 1, f"belongs to no room (found: {room}): name it in tests/layers/layers.py")
                 continue
-            for number, line in code(path):
-                match = re.match(r'\s*#\s*include\s+"([^"]+)"', line)
-                target = match and next((f for f in (d / match[1] for d in (path.parent, self.source, self.public)) if f.is_file()), None)
-                if not match or target is None:
+            for number, line in lines_with(path.read_text(), INCLUDE):
+                match = re.match(INCLUDE, line)
+                target = next((f for f in (d / match[1] for d in (path.parent, self.source, self.public)) if f.is_file()), None)
+                if target is None:
                     continue
                 other = self.room(target.resolve())
                 if other is None and target.suffix == "":
@@ -167,45 +220,42 @@ class Check:
         for folder, rules in FORBIDDEN.items():
             of_room = [p for p in files(self.public) if folder == f"src/{self.room(p)}"]
             for path in files(self.root / folder) + of_room:
-                for number, line in code(path):
-                    for pattern, what in rules:
-                        if re.search(pattern, line):
-                            self.error(path, number, f"{folder} may not know {what}: {line.strip()}")
+                for pattern, what in rules:
+                    for number, line in lines_with(path.read_text(), pattern):
+                        self.error(path, number, f"{folder} may not know {what}: {line.strip()}")
 
     def fields(self):
         for path in files(self.source):
             room = self.room(path)
             if str(room).startswith("protocol"):
                 continue
-            text = "\n".join(line for _, line in code(path))
+            text = path.read_text()
             foreign = READS_JSON if room == "tools" else None if room in HAS_JSON else JSON
-            found = BY_NAME.search(text) or (foreign and foreign.search(text))
+            found = first_with(text, BY_NAME) or (foreign and first_with(text, foreign))
             if found:
-                number = text.count("\n", 0, found.start())
-                line = text.split("\n")[number].strip()
-                self.error(path, number + 1, f"fields have their names in src/protocol/messages: {line}")
+                number, line = found
+                self.error(path, number, f"fields have their names in src/protocol/messages: {line}")
 
     def panels(self):
         folders = [self.source / "gui" / room for room in PANEL_ROOMS] + [self.source / "gui3d"]
         for path in [path for folder in folders for path in files(folder)]:
             name = str(path.relative_to(self.source))
-            found = [(number, line) for number, line in code(path) if WINDOW.search(line)]
+            found = lines_with(path.read_text(), WINDOW)
             if not found and name in KNOWS_WINDOW:
                 self.error(path, 1, "knows nothing private of the window any more: take it out of KNOWS_WINDOW")
             elif found and name not in KNOWS_WINDOW:
                 number, line = found[0]
                 self.error(path, number, f"a panel knows the window by QPlcPanelContext alone: {line.strip()}")
         for path in files(self.root / "examples"):
-            for number, line in code(path):
-                match = re.match(r'\s*#\s*include\s+"((?:gui|gui3d|node|signals|protocol)/[^"]+)"', line)
-                if match:
-                    self.error(path, number, f"an example knows the public headers alone, not {match[1]}")
+            for number, line in lines_with(path.read_text(), PRIVATE_INCLUDE):
+                header = re.match(PRIVATE_INCLUDE, line)[1]
+                self.error(path, number, f"an example knows the public headers alone, not {header}")
 
     def kernel(self):
         for path in (p for room in HOSTED for p in files(self.source / room)):
             name = str(path.relative_to(self.source))
-            found = [(number, line) for number, line in code(path)
-                     if re.search(OF_KERNEL, line) and not re.match(r"\s*#\s*include", line)]
+            found = [(number, line) for number, line in lines_with(path.read_text(), OF_KERNEL)
+                     if not re.match(r"\s*#\s*include", line)]
             if not found and name in OF_MACHINE:
                 self.error(path, 1, "asks nothing of the machine any more: take it out of OF_MACHINE")
             elif found and name not in OF_MACHINE:
@@ -233,25 +283,8 @@ class Check:
 
     def columns(self):
         for path in (path for folder in SOURCES for path in files(self.root / folder)):
-            for number, line in enumerate(path.read_text().split("\n"), 1):
-                most = COMMENT_COLUMNS if re.match(r"\s*//(?!/<? {3})", line) else CODE_COLUMNS
-                if len(line) > most and not line.startswith("#error"):
-                    self.error(path, number, f"{len(line)} columns: wrap comments at {COMMENT_COLUMNS} and code at {CODE_COLUMNS}")
-
-    def functions(self, path):
-        """The functions of a file: line of the name, number of lines, whether it is a table. The format of the code is relied on."""
-        lines = path.read_text().split("\n")
-        for brace, line in enumerate(lines):
-            if line.strip() != "{":
-                continue
-            margin, first = line[:-1], brace - 1
-            while first > 0 and lines[first].startswith(margin) and re.match(r"[ :,]", lines[first][len(margin):]):
-                first -= 1
-            head = " ".join(part.strip() for part in lines[first:brace])
-            if "(" not in head or re.match(r"(template<.*> )?(class|struct|union|enum|namespace|extern|if|for|while|switch|do|//)\b", head):
-                continue
-            last = next((at for at in range(brace, len(lines)) if lines[at].startswith(margin + "}")), len(lines))
-            yield first + 1, last - first + 1, bool(re.search(TABLE, head) or re.search(TABLE, lines[brace + 1]))
+            for number, length in long_lines(path.read_text()):
+                self.error(path, number, f"{length} columns: wrap comments at {COMMENT_COLUMNS} and code at {CODE_COLUMNS}")
 
     def lengths_and_licences(self):
         lengths = []
@@ -259,7 +292,7 @@ class Check:
             for path in files(self.root / folder):
                 if "SPDX-License-Identifier: Apache-2.0" not in path.read_text().split("\n")[0]:
                     self.error(path, 1, "does not begin with // SPDX-License-Identifier: Apache-2.0")
-                for line, length, is_table in self.functions(path):
+                for line, length, is_table in functions_of(path.read_text()):
                     if length > MOST_LINES and not is_table:
                         self.error(path, line, f"a function of {length} lines, more than {MOST_LINES}: split it")
                     if folder in ("include", "src"):
@@ -270,8 +303,8 @@ class Check:
             self.error(path, line, f"one function of a hundred has {usual} lines or more, more than {USUAL_LINES}: split the longest")
 
 
-def main():
-    check = Check(Path(sys.argv[1]).resolve())
+def errors_of(root):
+    check = Check(root)
     check.arrows()
     check.words()
     check.fields()
@@ -280,8 +313,13 @@ def main():
     check.public_headers()
     check.columns()
     check.lengths_and_licences()
-    print("\n".join(check.errors) or "the layers are in order")
-    return 1 if check.errors else 0
+    return check.errors
+
+
+def main():
+    errors = errors_of(Path(sys.argv[1]))
+    print("\n".join(errors) or "the layers are in order")
+    return 1 if errors else 0
 
 
 if __name__ == "__main__":
