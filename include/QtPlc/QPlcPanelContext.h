@@ -81,6 +81,8 @@ public:
         QString writer;       ///< node that writes the signal; empty: no node does
         /// The value is usable, and it is the newest one or the one of the wanted time.
         bool isCurrent = false;
+        /// Time since the value was valid [s]; -1: there is none, or it is a value of the past.
+        double age = -1.0;
         /// What is special about the value, for people: "stale, 3 s", "at rest", "held 2 cycles",
         /// "at 12:03:04.500"; empty: it is a usable value of now.
         QString note;
@@ -111,7 +113,8 @@ public:
         QColor color;  ///< colour that marks it in this window
         /// Its master answers; false at once when the connection is lost.
         bool isConnected = false;
-        bool isLive = false;  ///< its cycles arrive
+        bool isLive = false;     ///< its cycles arrive
+        bool isRunning = false;  ///< its master is in real time
         /// Its values are stale, because it is lost or its cycles do not arrive.
         bool isStale = false;
         QString state;      ///< "Real time", "lost"
@@ -119,7 +122,9 @@ public:
         /// Clock of its master: "RealTime", "Scaled(2)", "Lockstep"; empty: not known.
         QString clock;
         double age = -1.0;  ///< age of its values [s]; -1: it has none
-        Time newest = 0;    ///< time of its newest value [ns]; 0: it has none
+        /// Rows of values per second that arrive, over the last 2 s [Hz].
+        double rate = 0.0;
+        Time newest = 0;  ///< time of its newest value [ns]; 0: it has none
     };
     /// Severity of an entry of the event log.
     enum Severity {

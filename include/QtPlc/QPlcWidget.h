@@ -126,9 +126,6 @@ public:
     /// Returns the window as this panel sees it: signals, their history, time, theme. Never null;
     /// the panel owns it. Outside of a window it knows no plant.
     QPlcPanelContext *context() const;
-    /// Returns what all panels of a window share; null outside of a window. Only for panels of
-    /// QtPLC.
-    qplc::WindowContext *windowContext() const;
     /// Connects the panel with a window and calls contextChanged(). The window calls it once,
     /// before or after applySettings().
     void setContext(qplc::WindowContext *context);

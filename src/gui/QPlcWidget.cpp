@@ -38,7 +38,6 @@ struct QPlcWidget::Private
     QPlcSignalIndexList inputs;
     QPlcSignalIndexList outputs;
     QPlcSignalList initialOutputs;
-    qplc::WindowContext *window = nullptr;
     std::unique_ptr<QPlcPanelContext> context;
     QSet<QString> ownKeys;  // of setting() and setSetting()
 };
@@ -183,14 +182,8 @@ QPlcPanelContext *QPlcWidget::context() const
     return d->context.get();
 }
 
-qplc::WindowContext *QPlcWidget::windowContext() const
-{
-    return d->window;
-}
-
 void QPlcWidget::setContext(qplc::WindowContext *context)
 {
-    d->window = context;
     d->context->setWindow(context);
     contextChanged();
 }

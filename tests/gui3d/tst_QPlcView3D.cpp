@@ -224,7 +224,7 @@ void tst_QPlcView3D::aFrozenWindowNeedsNoPictures()
 {
     ShownView shown({}, false);
     const SignalStore *store = shown.plant.context.plants()->at(0)->store();
-    TimeView *time = shown.plant.context.timeView();
+    QPlcTimeAxis *time = shown.plant.context.timeAxis();
     time->setNewest(store->time(store->endRow() - 1));
     time->show(store->time(store->firstRow()), store->time(store->firstRow() + 10));
     QVERIFY(shown.waitForPictures(1));

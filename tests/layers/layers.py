@@ -91,11 +91,9 @@ HAS_JSON = {
 }
 JSON = re.compile(r"\bQJson\w+")
 READS_JSON = re.compile(r"\.to(?:Object|Array)\(\)|QJsonDocument::fromJson\(")
-# Panels know the window by QPlcPanelContext alone. Files of panels that still know what is private to the window: a list
-# that only shrinks.
+# Panels know the window by QPlcPanelContext alone.
 WINDOW = re.compile(r'[wW]indowContext\b|"gui/(?:window|layout)/')
 PANEL_ROOMS = ("charts", "gauges", "setters", "tables")
-KNOWS_WINDOW = {"gui/tables/QPlcValueTable.cpp"}
 # Clocks, random numbers, wake-ups, threads and sockets come from the Host (docs/design/simulation.md), so that a
 # simulator can give others. QTimer and QSocketNotifier belong to the event dispatcher, which a simulator has, too.
 OF_KERNEL = (r"\b(clock_gettime|clock_nanosleep|timerfd_\w+|timer_create|pthread_\w+|QRandomGenerator|createUuid|"
@@ -239,12 +237,7 @@ class Check:
     def panels(self):
         folders = [self.source / "gui" / room for room in PANEL_ROOMS] + [self.source / "gui3d"]
         for path in [path for folder in folders for path in files(folder)]:
-            name = str(path.relative_to(self.source))
-            found = lines_with(path.read_text(), WINDOW)
-            if not found and name in KNOWS_WINDOW:
-                self.error(path, 1, "knows nothing private of the window any more: take it out of KNOWS_WINDOW")
-            elif found and name not in KNOWS_WINDOW:
-                number, line = found[0]
+            for number, line in lines_with(path.read_text(), WINDOW):
                 self.error(path, number, f"a panel knows the window by QPlcPanelContext alone: {line.strip()}")
         for path in files(self.root / "examples"):
             for number, line in lines_with(path.read_text(), PRIVATE_INCLUDE):

@@ -124,10 +124,6 @@ class Faults(unittest.TestCase):
         self.plant("src/gui3d/View3DEditor.cpp", '#include "gui/panel/WindowContext.h"\n')
         self.assert_named("src/gui3d/View3DEditor.cpp:", "a panel knows the window by QPlcPanelContext alone")
 
-    def test_a_panel_that_knows_the_window_no_more_leaves_the_list(self):
-        self.replace("src/gui/tables/QPlcValueTable.cpp", "// SPDX-License-Identifier: Apache-2.0\n")
-        self.assert_named("src/gui/tables/QPlcValueTable.cpp:", "take it out of KNOWS_WINDOW")
-
     def test_an_example_knows_public_headers_alone(self):
         self.plant("examples/airborne_wind_energy/plant/Wind.h", '#include "gui/plant/Plant.h"\n')
         self.assert_named("examples/airborne_wind_energy/plant/Wind.h:", "an example knows the public headers alone")

@@ -2,13 +2,10 @@
 #include "SignalFilterModel.h"
 
 #include "SignalTreeModel.h"
-#include "ValueTableModel.h"
 
 #include <algorithm>
 
 namespace qplc {
-
-static_assert(int(SignalTreeModel::SearchRole) == int(ValueTableModel::SearchRole), "one search for both");
 
 SignalFilterModel::SignalFilterModel(QObject *parent)
     : QSortFilterProxyModel(parent)

@@ -100,6 +100,16 @@ QString doubtText(QPlcQuality quality)
     return {};
 }
 
+/// A held value was valid before it was held; -1: it has never been, or is unusable.
+double ageOf(const qplc::Plant &plant, QPlcQuality quality)
+{
+    const double age = plant.age();
+    if (plant.quality() != qplc::Plant::Good)
+        return age;
+    return age < 0.0 || !quality.isUsable() ? -1.0
+                                            : age + quality.heldCycles() * double(plant.values().period()) * 1e-9;
+}
+
 QString noteOf(const qplc::Plant &plant, QPlcQuality quality, bool isOfLastCycle)
 {
     switch (plant.quality()) {
@@ -229,6 +239,8 @@ QPlcPanelContext::Signal QPlcPanelContext::Private::formula(const QString &expre
     const bool isAtRest = !time && found.plant->quality() == qplc::Plant::AtRest;
     signal.isCurrent = signal.value.isValid() && (isAtRest || signal.quality.isUsable())
         && (time || found.plant->quality() != qplc::Plant::Stale);
+    if (!time && signal.value.isValid())
+        signal.age = ageOf(*found.plant, signal.quality);
     const bool isOfLastCycle = found.derived && found.derived->hasPast();
     signal.note = time            ? timeText(signal.value, *time)
         : !signal.value.isValid() ? tr("no value yet")
@@ -261,6 +273,7 @@ QPlcPanelContext::Signal QPlcPanelContext::Private::signal(const QString &expres
         signal.value = found.value();
         signal.quality = found.quality();
         signal.isCurrent = isTrusted(found);
+        signal.age = ageOf(*found.plant, signal.quality);
         signal.note = noteOf(*found.plant, signal.quality, false);
         return signal;
     }
@@ -306,7 +319,7 @@ void QPlcPanelContext::setWindow(WindowContext *window)
     if (d->window) {
         d->window->disconnect(d.get());
         d->window->plants()->disconnect(d.get());
-        d->window->timeView()->disconnect(d.get());
+        d->window->timeAxis()->disconnect(d.get());
         d->window->curveSources()->disconnect(d.get());
         d->window->events()->disconnect(d.get());
     }
@@ -328,7 +341,7 @@ void QPlcPanelContext::setWindow(WindowContext *window)
         Q_EMIT themeChanged();
         own->touch();
     });
-    own->followTime(window->timeView());
+    own->followTime(window->timeAxis());
     connect(window->events(), &EventLogModel::unacknowledgedChanged, own,
             [this] { Q_EMIT unacknowledgedEventsChanged(); });
     Q_EMIT themeChanged();
@@ -410,7 +423,7 @@ QStringList QPlcPanelContext::signalNames() const
 
 QPlcTimeAxis *QPlcPanelContext::timeAxis() const
 {
-    return d->window ? d->window->timeView() : &d->ownTime;
+    return d->window ? d->window->timeAxis() : &d->ownTime;
 }
 
 bool QPlcPanelContext::isLive() const
@@ -487,11 +500,13 @@ QPlcPanelContext::Plant QPlcPanelContext::plant(const QString &name) const
     plant.color = d->window->theme().plant(found->number());
     plant.isConnected = found->isConnected();
     plant.isLive = found->quality() == qplc::Plant::Good;
+    plant.isRunning = found->status().isRunning();
     plant.isStale = found->quality() == qplc::Plant::Stale;
     plant.state = stateWord(*found);
     plant.stateText = found->stateText();
     plant.clock = QLatin1String(messages::nameOf(found->status().master.clock));
     plant.age = found->age();
+    plant.rate = found->updateRate();
     plant.newest = found->newestTime();
     return plant;
 }

@@ -58,10 +58,10 @@ void WindowContext::follow(Plant *plant)
 /// Of the plants that are there: the one that was ahead may have gone, or begun anew.
 void WindowContext::renewNewest()
 {
-    TimeView::Time newest = 0;
+    QPlcTimeAxis::Time newest = 0;
     for (int place = 0; place < m_plants.size(); ++place)
-        newest = std::max<TimeView::Time>(newest, m_plants.at(place)->newestTime());
-    m_timeView.setNewest(newest);
+        newest = std::max<QPlcTimeAxis::Time>(newest, m_plants.at(place)->newestTime());
+    m_timeAxis.setNewest(newest);
     Q_EMIT valuesChanged();
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "QPlcTimeAxis.h"
 #include "Theme.h"
-#include "TimeView.h"
 #include "gui/models/EventLogModel.h"
 #include "gui/plant/LimitAlarms.h"
 #include "gui/plant/PlantList.h"
@@ -10,8 +10,8 @@
 
 namespace qplc {
 
-/// What all panels of a window share: plants, events, time, and colours.
-/// QPlcWidget::windowContext() gives it to a panel of QtPLC.
+/// What all panels of a window share: plants, events, time, and colours. Panels see it through
+/// QPlcPanelContext.
 ///
 /// Threads: that of the window.
 class WindowContext : public QObject
@@ -24,7 +24,7 @@ public:
     PlantList *plants() { return &m_plants; }
     EventLogModel *events() { return &m_events; }
     CurveSources *curveSources() { return &m_curveSources; }
-    TimeView *timeView() { return &m_timeView; }
+    QPlcTimeAxis *timeAxis() { return &m_timeAxis; }
     /// Names of the plants of signals and formulas, each once. \param pin the plant of those
     /// without one; empty: the selected one
     QStringList plantsOf(const QStringList &expressions, const QString &pin) const;
@@ -33,7 +33,7 @@ public:
 
 Q_SIGNALS:
     void themeChanged();
-    /// There are new values, or old ones are gone; timeView() knows the newest time.
+    /// There are new values, or old ones are gone; timeAxis() knows the newest time.
     void valuesChanged();
 
 private:
@@ -44,7 +44,7 @@ private:
     LimitAlarms m_limitAlarms{&m_plants};
     EventLogModel m_events;
     CurveSources m_curveSources{&m_plants};
-    TimeView m_timeView;
+    QPlcTimeAxis m_timeAxis;
     Theme m_theme = Theme::byName(Theme::System);
 };
 

@@ -20,7 +20,7 @@ namespace qplc {
 /// ...
 /// m_trigger.take(*source.store, source.channel);     // after each update of the plant
 /// if (const auto view = m_trigger.view())
-///     timeView->show(view->begin, view->end);
+///     timeAxis->show(view->begin, view->end);
 /// ```
 ///
 /// An event is where the line through the rows meets the level. None is seen across interruptions

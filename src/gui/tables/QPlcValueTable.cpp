@@ -3,13 +3,11 @@
 
 #include "PanelTable.h"
 #include "QPlcPanelContext.h"
-#include "QPlcTimeAxis.h"
 #include "TimeStrip.h"
+#include "ValueTableModel.h"
 #include "gui/models/SignalFilterModel.h"
-#include "gui/models/ValueTableModel.h"
 #include "gui/panel/PanelSettings.h"
 #include "gui/panel/SignalEdit.h"
-#include "gui/panel/WindowContext.h"
 
 #include <QtCore/QTimer>
 #include <QtGui/QClipboard>
@@ -293,9 +291,7 @@ void QPlcValueTable::takeSignals()
 
 void QPlcValueTable::contextChanged()
 {
-    d->model = new ValueTableModel(windowContext()->plants(), this);
-    d->model->setPin(pinnedPlant());
-    connect(this, &QPlcWidget::pinnedPlantChanged, d->model, [this] { d->model->setPin(pinnedPlant()); });
+    d->model = new ValueTableModel(context(), this);
     d->sorted->setSourceModel(d->model);
     d->table->setContext(context());
     d->table->setColumns(valueColumns);
@@ -314,9 +310,6 @@ void QPlcValueTable::contextChanged()
         },
         Qt::QueuedConnection);
     d->strip->setContext(context());
-    const auto showTime = [this] { d->model->setDisplayTime(context()->shownTime()); };
-    connect(context()->timeAxis(), &QPlcTimeAxis::displayTimeChanged, d->model, showTime);
-    showTime();
     addAction(d->table->createColumnMenu(this)->menuAction());
 }
 

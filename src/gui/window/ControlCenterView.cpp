@@ -62,8 +62,8 @@ void QPlcControlCenter::Private::connectViewActions()
 {
     connect(actions->palette, &QAction::triggered, q, [this] { openPalette(); });
     connect(actions->search, &QAction::triggered, dock, &SignalDock::startSearch);
-    connect(actions->goLive, &QAction::triggered, context.timeView(), &TimeView::goLive);
-    connect(actions->freeze, &QAction::triggered, context.timeView(), &TimeView::freeze);
+    connect(actions->goLive, &QAction::triggered, context.timeAxis(), &QPlcTimeAxis::goLive);
+    connect(actions->freeze, &QAction::triggered, context.timeAxis(), &QPlcTimeAxis::freeze);
     connect(actions->shorterSpan, &QAction::triggered, timeBar, [this] { timeBar->stepSpan(-1); });
     connect(actions->longerSpan, &QAction::triggered, timeBar, [this] { timeBar->stepSpan(1); });
     for (const ControlCenterActions::Rate &each : qAsConst(actions->rates))

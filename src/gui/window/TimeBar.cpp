@@ -14,13 +14,13 @@ namespace qplc {
 
 namespace {
 
-constexpr TimeView::Time second = SignalStore::Second;
-constexpr TimeView::Time spans[] = {second,      2 * second,  5 * second,   10 * second,  20 * second,
-                                    30 * second, 60 * second, 120 * second, 300 * second, 600 * second};
+constexpr QPlcTimeAxis::Time second = SignalStore::Second;
+constexpr QPlcTimeAxis::Time spans[] = {second,      2 * second,  5 * second,   10 * second,  20 * second,
+                                        30 * second, 60 * second, 120 * second, 300 * second, 600 * second};
 
 }  // namespace
 
-QString spanText(TimeView::Time span)
+QString spanText(QPlcTimeAxis::Time span)
 {
     const double seconds = double(span) * 1e-9;
     if (seconds < 0.1)
@@ -46,7 +46,7 @@ TimeBar::TimeBar(WindowContext *context, QWidget *parent)
     m_span->setToolTip(tr("Span of time axes (Ctrl+[, Ctrl+])"));
     connect(m_state, &QAbstractButton::clicked, this, &TimeBar::toggle);
     connect(m_span, &QAbstractButton::clicked, this, &TimeBar::openSpanMenu);
-    connect(context->timeView(), &TimeView::viewChanged, this, &TimeBar::follow);
+    connect(context->timeAxis(), &QPlcTimeAxis::viewChanged, this, &TimeBar::follow);
     connect(context, &WindowContext::themeChanged, this, [this] {
         m_shown.clear();
         follow();
@@ -59,7 +59,7 @@ TimeBar::TimeBar(WindowContext *context, QWidget *parent)
 
 TimeBar::State TimeBar::stateNow() const
 {
-    const TimeView *view = m_context->timeView();
+    const QPlcTimeAxis *view = m_context->timeAxis();
     if (view->isLive())
         return liveState();
     return {State::Frozen,
@@ -99,7 +99,7 @@ TimeBar::State TimeBar::liveState() const
 void TimeBar::follow()
 {
     const State state = stateNow();
-    const QString span = spanText(m_context->timeView()->span());
+    const QString span = spanText(m_context->timeAxis()->span());
     if (state.text + span == m_shown)
         return;
     m_shown = state.text + span;
@@ -126,7 +126,7 @@ void TimeBar::show(const State &state)
 
 void TimeBar::toggle()
 {
-    TimeView *view = m_context->timeView();
+    QPlcTimeAxis *view = m_context->timeAxis();
     if (view->isLive())
         view->freeze();
     else
@@ -135,7 +135,7 @@ void TimeBar::toggle()
 
 void TimeBar::stepSpan(int by)
 {
-    TimeView *view = m_context->timeView();
+    QPlcTimeAxis *view = m_context->timeAxis();
     if (by > 0) {
         const auto *longer = std::upper_bound(std::begin(spans), std::end(spans), view->span());
         view->setSpan(longer != std::end(spans) ? *longer : view->span());
@@ -149,10 +149,10 @@ void TimeBar::openSpanMenu()
 {
     auto *menu = new QMenu(this);
     menu->setAttribute(Qt::WA_DeleteOnClose);
-    for (const TimeView::Time span : spans) {
-        QAction *action = menu->addAction(spanText(span), this, [this, span] { m_context->timeView()->setSpan(span); });
+    for (const QPlcTimeAxis::Time span : spans) {
+        QAction *action = menu->addAction(spanText(span), this, [this, span] { m_context->timeAxis()->setSpan(span); });
         action->setCheckable(true);
-        action->setChecked(span == m_context->timeView()->span());
+        action->setChecked(span == m_context->timeAxis()->span());
     }
     menu->popup(m_span->mapToGlobal(QPoint(0, -menu->sizeHint().height())));
 }

@@ -46,6 +46,6 @@ private:
 };
 
 /// "30 s", "5 min", "0.2 ms".
-QString spanText(TimeView::Time span);
+QString spanText(QPlcTimeAxis::Time span);
 
 }  // namespace qplc

@@ -49,7 +49,7 @@ public:
             values.insert(QStringLiteral("angle"), QPlcValue(0.25F * float(i)));
             take(values);
         }
-        context.timeView()->setSpan(2900 * millisecond);
+        context.timeAxis()->setSpan(2900 * millisecond);
         apply(settings);
     }
     ~FedPlotWindow() { delete plot; }

@@ -47,7 +47,7 @@ public:
         return double(store->time(store->endRow() - 1) - store->time(store->firstRow())) * 1e-9;
     }
     /// Freezes the view, and waits until the plot has it: a busy machine draws later.
-    bool show(qplc::TimeView::Time begin, qplc::TimeView::Time end)
+    bool show(QPlcTimeAxis::Time begin, QPlcTimeAxis::Time end)
     {
         time()->show(begin, end);
         return isDrawn();
@@ -61,7 +61,7 @@ public:
                 && std::abs(canvas()->end() - time()->end()) <= column;
         });
     }
-    qplc::TimeView *time() { return context.timeView(); }
+    QPlcTimeAxis *time() { return context.timeAxis(); }
     template<typename Part>
     Part *part() const
     {

@@ -19,7 +19,7 @@
 #include <cstdlib>
 
 using namespace qplc;
-using Time = TimeView::Time;
+using Time = QPlcTimeAxis::Time;
 
 namespace {
 
@@ -38,7 +38,7 @@ public:
     {
     }
 
-    TimeView *time() { return context.timeView(); }
+    QPlcTimeAxis *time() { return context.timeAxis(); }
     template<typename Panel>
     bool show(Panel *panel, const char *settings)
     {

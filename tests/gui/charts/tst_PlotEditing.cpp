@@ -207,7 +207,7 @@ void tst_PlotEditing::plusAddsOnlyToAnEmptyPlot()
     QTest::keyClick(window.part<SignalEdit>(), Qt::Key_Escape);
     QTRY_VERIFY(!window.part<SignalEdit>());
     window.plot->addSignals({"count"});
-    const TimeView::Time span = window.time()->span();
+    const QPlcTimeAxis::Time span = window.time()->span();
     window.trigger("zoomIn");
     QVERIFY(!window.part<SignalEdit>());
     QVERIFY(window.time()->span() < span);
@@ -302,8 +302,8 @@ void tst_PlotEditing::whatIsBetweenTheCursorsGoesIntoTheClipboard()
     const CurveSource source = window.context.curveSources()->find(QStringLiteral("count"));
     const SignalStore &store = *source.store;
     const SignalStore::Row last = store.endRow() - 1;
-    window.time()->setCursor(TimeView::B, store.time(last - 20));  // in any order
-    window.time()->setCursor(TimeView::A, store.time(last - 10));
+    window.time()->setCursor(QPlcTimeAxis::B, store.time(last - 20));  // in any order
+    window.time()->setCursor(QPlcTimeAxis::A, store.time(last - 10));
     QGuiApplication::clipboard()->clear();
     window.trigger("copyBetween");
     QTRY_VERIFY(!QGuiApplication::clipboard()->text().isEmpty());

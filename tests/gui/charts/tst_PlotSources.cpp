@@ -8,7 +8,7 @@
 #include <QtGui/QGuiApplication>
 
 using namespace qplc;
-using Time = TimeView::Time;
+using Time = QPlcTimeAxis::Time;
 
 namespace {
 

@@ -11,7 +11,7 @@
 #include <qwt_scale_draw.h>
 
 using namespace qplc;
-using Time = TimeView::Time;
+using Time = QPlcTimeAxis::Time;
 
 namespace {
 

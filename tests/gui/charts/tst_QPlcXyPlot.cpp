@@ -442,7 +442,7 @@ void tst_QPlcXyPlot::theTimeThatIsSeenIsExported()
     plot.show();
     Plant *plant = context.plants()->add(master.address());
     QTRY_VERIFY(plant->values().rows() > 20);
-    context.timeView()->show(context.timeView()->newest() - 100'000'000, context.timeView()->newest());
+    context.timeAxis()->show(context.timeAxis()->newest() - 100'000'000, context.timeAxis()->newest());
     QGuiApplication::clipboard()->clear();
     plot.findChild<QAction *>(QStringLiteral("copyTable"))->trigger();
     QTRY_VERIFY(!QGuiApplication::clipboard()->text().isEmpty());

@@ -57,9 +57,9 @@ void tst_StatesInPlots::cursorsSayNames()
 {
     FedPlotWindow window(R"({"curves":[{"signal":"phase"}]})");
     QVERIFY(window.show());
-    const TimeView::Time newest = window.context.timeView()->newest();
-    window.context.timeView()->setCursor(TimeView::A, newest - 1500 * millisecond);
-    window.context.timeView()->setCursor(TimeView::B, newest - 2500 * millisecond);
+    const QPlcTimeAxis::Time newest = window.context.timeAxis()->newest();
+    window.context.timeAxis()->setCursor(QPlcTimeAxis::A, newest - 1500 * millisecond);
+    window.context.timeAxis()->setCursor(QPlcTimeAxis::B, newest - 2500 * millisecond);
     const auto *table = window.plot->findChild<StatisticsView *>()->findChild<QTableWidget *>();
     const auto text = [table](int column) {
         return table->rowCount() > 0 && table->item(0, column) ? table->item(0, column)->text() : QString();
@@ -136,7 +136,7 @@ void tst_StatesInPlots::aStateThatIsHeldStaysOneBand()
         if (i < 50)
             window.plant->store()->mark(channel, QPlcQuality::Held);
     }
-    window.context.timeView()->setSpan(2800 * millisecond);                // draws again
+    window.context.timeAxis()->setSpan(2800 * millisecond);                // draws again
     QTRY_VERIFY(window.colorAt(0.75, 0.98) != window.colorAt(0.75, 0.5));  // a pale edge
     QCOMPARE(window.colorAt(0.75, 0.3), window.colorAt(0.95, 0.3));
     QCOMPARE(window.colorAt(0.95, 0.98), window.colorAt(0.95, 0.3));
@@ -148,7 +148,7 @@ void tst_StatesInPlots::theLegendHasTheColourOfTheBand()
     QVERIFY(window.show());
     const auto swatch = [&] { return window.legend()->entries().at(1).color; };
     QTRY_COMPARE(swatch(), window.colorAt(0.97, 0.98));
-    window.context.timeView()->setPointer(window.canvas()->timeAt(0.2 * window.canvas()->canvas()->width()));
+    window.context.timeAxis()->setPointer(window.canvas()->timeAt(0.2 * window.canvas()->canvas()->width()));
     QTRY_COMPARE(swatch(), window.colorAt(0.1, 0.98));
 }
 

@@ -9,7 +9,7 @@
 #include <qwt_scale_widget.h>
 
 using namespace qplc;
-using Time = TimeView::Time;
+using Time = QPlcTimeAxis::Time;
 
 namespace {
 
@@ -309,7 +309,7 @@ void tst_TimePlot::cursorsAreDragged()
     drag(window.canvas()->canvas(), {from + 2, 40}, {from + 50, 40});
     QTRY_VERIFY(std::abs(*picture.cursorB - from - 50) <= 4);
     const SignalStore &store = *window.context.plants()->at(0)->store();
-    const Time b = *window.time()->cursor(TimeView::B);
+    const Time b = *window.time()->cursor(QPlcTimeAxis::B);
     QCOMPARE(store.time(store.rowAt(b)), b);  // it has gone to a row
     QVERIFY(!window.time()->isLive());
     QTRY_VERIFY(window.part<StatisticsView>()->isVisible());

@@ -130,7 +130,7 @@ void tst_TriggerBar::anEventMovesTheViewOfTheWindow()
     RunningMaster master;
     QVERIFY(master.startRealTime());
     WindowContext context;
-    context.timeView()->setSpan(1'000'000'000);
+    context.timeAxis()->setSpan(1'000'000'000);
     PanelOf panel(&context);
     TriggerBar bar(panel.context());
     bar.setSignals({"= count % 2", "count"});
@@ -138,10 +138,10 @@ void tst_TriggerBar::anEventMovesTheViewOfTheWindow()
     bar.show();
     context.plants()->add(master.address());
     QTRY_VERIFY(bar.trigger().count() > 0);
-    QVERIFY(!context.timeView()->isLive());
+    QVERIFY(!context.timeAxis()->isLive());
     const Trigger::Time event = *bar.trigger().shownEvent();
-    QCOMPARE(context.timeView()->begin(), event - 250'000'000);
-    QCOMPARE(context.timeView()->span(), TimeView::Time(1'000'000'000));
+    QCOMPARE(context.timeAxis()->begin(), event - 250'000'000);
+    QCOMPARE(context.timeAxis()->span(), QPlcTimeAxis::Time(1'000'000'000));
     QTRY_VERIFY(*bar.trigger().shownEvent() > event);
 }
 
@@ -156,11 +156,11 @@ void tst_TriggerBar::aHiddenBarRests()
     Plant *plant = context.plants()->add(master.address());
     QTRY_VERIFY(plant->values().rows() > 50);
     QCOMPARE(bar.trigger().count(), std::uint64_t(0));
-    QVERIFY(context.timeView()->isLive());
+    QVERIFY(context.timeAxis()->isLive());
     bar.show();
-    QTRY_VERIFY(!context.timeView()->isLive());
+    QTRY_VERIFY(!context.timeAxis()->isLive());
     bar.hide();
-    QVERIFY(context.timeView()->isLive());
+    QVERIFY(context.timeAxis()->isLive());
 }
 
 void tst_TriggerBar::withoutASignalItSaysSo()

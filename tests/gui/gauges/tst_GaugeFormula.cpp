@@ -113,15 +113,15 @@ void tst_GaugeFormula::aFormulaShowsThePast()
     QTRY_VERIFY(bench.shown() > 60.0);
     const SignalStore::Row row = bench.plant->store()->firstRow() + 10;
     const SignalStore::Time time = bench.plant->store()->time(row);
-    bench.context.timeView()->show(time - 1'000'000'000, time);
+    bench.context.timeAxis()->show(time - 1'000'000'000, time);
     QTRY_COMPARE(bench.shown(), 3.0 * bench.count(row));
     QVERIFY(bench.feed.picture().status.startsWith(QStringLiteral("at ")));
     QVERIFY(bench.feed.picture().isTrusted);
-    bench.context.timeView()->show(1'000'000'000, 2'000'000'000);
+    bench.context.timeAxis()->show(1'000'000'000, 2'000'000'000);
     QTRY_VERIFY(bench.feed.picture().status.startsWith(QStringLiteral("no value at ")));
     QVERIFY(!bench.feed.picture().isTrusted);
     // What is new gets its past also while time stands still.
-    bench.context.timeView()->show(time - 1'000'000'000, time);
+    bench.context.timeAxis()->show(time - 1'000'000'000, time);
     bench.feed.setSettings(settingsOf({{"signal", "= 5*count"}}));
     QTRY_COMPARE(bench.shown(), 5.0 * bench.count(row));
 }

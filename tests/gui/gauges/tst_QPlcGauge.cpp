@@ -266,15 +266,15 @@ void tst_QPlcGauge::thePastIsShownWithItsTime()
     const SignalStore::Row row = plant->store()->firstRow() + 10;
     const int channel = plant->values().channels().channel(plant->table().indexOf(QStringLiteral("count")));
     const auto expected = qint64(plant->store()->value(channel, row));
-    context.timeView()->show(plant->store()->time(row) - 1'000'000'000, plant->store()->time(row));
+    context.timeAxis()->show(plant->store()->time(row) - 1'000'000'000, plant->store()->time(row));
     QTRY_COMPARE(feed.picture().values.first().text, QString::number(expected));
     QVERIFY(feed.picture().status.startsWith(QStringLiteral("at ")));
     QVERIFY(feed.picture().isTrusted);
-    context.timeView()->show(1'000'000'000, 2'000'000'000);
+    context.timeAxis()->show(1'000'000'000, 2'000'000'000);
     QTRY_COMPARE(feed.picture().values.first().text, QStringLiteral("–"));
     QVERIFY(feed.picture().status.startsWith(QStringLiteral("no value at ")));
     QVERIFY(!feed.picture().isTrusted);
-    context.timeView()->goLive();
+    context.timeAxis()->goLive();
     QTRY_VERIFY(feed.picture().status.isEmpty());
 }
 

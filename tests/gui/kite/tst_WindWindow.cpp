@@ -181,8 +181,8 @@ void tst_WindWindow::thePastIsShownWhenTheWindowShowsThePast()
     KiteSignals kite;
     kite.setContext(panel.context());
     const SignalStore::Row row = store->firstRow() + 50;
-    plant.context.timeView()->setNewest(store->time(store->endRow() - 1));
-    plant.context.timeView()->show(store->time(row) - 1'000'000'000, store->time(row));
+    plant.context.timeAxis()->setNewest(store->time(store->endRow() - 1));
+    plant.context.timeAxis()->show(store->time(row) - 1'000'000'000, store->time(row));
     const int channel = plant.context.plants()->at(0)->values().channels().channel(0, 0);
     QCOMPARE(kite.state().position->x(), store->value(channel, row));
     QVERIFY(kite.state().pastTime.has_value());
@@ -191,7 +191,7 @@ void tst_WindWindow::thePastIsShownWhenTheWindowShowsThePast()
     QVERIFY(kite.readTrail(&trail));
     QCOMPARE(trail.points().back().position.x(), store->value(channel, row));
     // Before all values nothing is known.
-    plant.context.timeView()->show(0, 1'000'000'000);
+    plant.context.timeAxis()->show(0, 1'000'000'000);
     QVERIFY(!kite.state().position);
 }
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "PlantFixtures.h"
+#include "QPlcWidget.h"
 #include "gui/models/SignalFilterModel.h"
 #include "gui/models/SignalTreeModel.h"
-#include "gui/models/ValueTableModel.h"
+#include "gui/panel/WindowContext.h"
+#include "gui/tables/ValueTableModel.h"
 
 #include <QtTest/QAbstractItemModelTester>
 #include <QtWidgets/QTreeView>
@@ -34,6 +36,13 @@ QString cell(const QAbstractItemModel &model, int row, int column)
 {
     return model.index(row, column).data().toString();
 }
+
+struct PanelInWindow
+{
+    PanelInWindow() { panel.setContext(&window); }
+    WindowContext window;
+    QPlcWidget panel;
+};
 
 }  // namespace
 
@@ -229,8 +238,9 @@ void tst_SignalModels::everyWordOfASearchMustOccur()
 void tst_SignalModels::chosenSignalsShowRangeQualityAndRate()
 {
     RunningMaster master;
-    PlantList plants;
-    ValueTableModel table(&plants);
+    PanelInWindow bench;
+    PlantList &plants = *bench.window.plants();
+    ValueTableModel table(bench.panel.context());
     const QAbstractItemModelTester tester(&table, fatal);
     table.setReferences({reference("count"), reference("setpoint"), reference("time"), reference("vector")});
     Plant *plant = plants.add(master.address());
@@ -266,8 +276,9 @@ void tst_SignalModels::chosenSignalsShowRangeQualityAndRate()
 void tst_SignalModels::placeholdersComeToLifeWithTheirSignal()
 {
     RunningMaster master;
-    PlantList plants;
-    ValueTableModel table(&plants);
+    PanelInWindow bench;
+    PlantList &plants = *bench.window.plants();
+    ValueTableModel table(bench.panel.context());
     const QAbstractItemModelTester tester(&table, fatal);
     table.setReferences({reference("kite/count"), reference("kite/nowhere")});
     QCOMPARE(cell(table, 0, ValueTableModel::QualityColumn), QStringLiteral("not there"));
@@ -280,8 +291,9 @@ void tst_SignalModels::placeholdersComeToLifeWithTheirSignal()
 
 void tst_SignalModels::signalsAreDroppedIntoTheTableOnce()
 {
-    PlantList plants;
-    ValueTableModel table(&plants);
+    PanelInWindow bench;
+    PlantList &plants = *bench.window.plants();
+    ValueTableModel table(bench.panel.context());
     const QAbstractItemModelTester tester(&table, fatal);
     const auto drop = [&](const QVector<SignalReference> &references, int row) {
         return table.dropMimeData(mimeDataOf(references).get(), Qt::CopyAction, row, 0, {});

@@ -289,7 +289,7 @@ void tst_QPlcPanelContext::aPastOutlivesItsPlant()
 void tst_QPlcPanelContext::aPanelMovesTheTimeAxisOfItsWindow()
 {
     FedPanel fed;
-    QCOMPARE(fed.context().timeAxis(), fed.window.timeView());
+    QCOMPARE(fed.context().timeAxis(), fed.window.timeAxis());
     fed.context().timeAxis()->pan(-20 * period);
     QVERIFY(!fed.context().isLive());
     QCOMPARE(fed.context().end(), fed.now - 20 * period);
@@ -392,7 +392,7 @@ void tst_QPlcPanelContext::aLivePanelEndsWithItsOwnPlant()
     QCOMPARE(fed.context().end(), newest);
     fed.panel.shown = QStringList{QStringLiteral("simulation/count")};
     QCOMPARE(fed.context().end(), ahead->newestTime());
-    QCOMPARE(fed.context().end() - fed.context().begin(), fed.window.timeView()->span());
+    QCOMPARE(fed.context().end() - fed.context().begin(), fed.window.timeAxis()->span());
 }
 
 void tst_QPlcPanelContext::cursorsAreThoseOfTheWindow()
@@ -401,9 +401,9 @@ void tst_QPlcPanelContext::cursorsAreThoseOfTheWindow()
     fed.context().setCursor(Context::CursorB, start + 5);
     QVERIFY(!fed.context().cursor(Context::CursorA));
     QCOMPARE(*fed.context().cursor(Context::CursorB), start + 5);
-    QCOMPARE(*fed.window.timeView()->cursor(qplc::TimeView::B), start + 5);
+    QCOMPARE(*fed.window.timeAxis()->cursor(QPlcTimeAxis::B), start + 5);
     fed.context().setPointer(start + 7);
-    QCOMPARE(*fed.window.timeView()->pointer(), start + 7);
+    QCOMPARE(*fed.window.timeAxis()->pointer(), start + 7);
     fed.context().setPointer(std::nullopt);
     QVERIFY(!fed.context().pointer());
 }

@@ -212,9 +212,9 @@ void tst_SignalTree::frozenPlotsShowThePastInTheTree()
     const SignalStore::Row row = plant->store()->firstRow() + 5;
     const int channel = plant->values().channels().channel(plant->table().indexOf(QStringLiteral("count")));
     const QString expected = QString::number(int(plant->store()->value(channel, row)));
-    bench.context.timeView()->show(plant->store()->time(row) - 1'000'000'000, plant->store()->time(row));
+    bench.context.timeAxis()->show(plant->store()->time(row) - 1'000'000'000, plant->store()->time(row));
     QCOMPARE(bench.find("count").siblingAtColumn(SignalTreeModel::Value).data().toString(), expected);
-    bench.context.timeView()->goLive();
+    bench.context.timeAxis()->goLive();
     QVERIFY(bench.find("count").siblingAtColumn(SignalTreeModel::Value).data().toString() != expected);
 }
 

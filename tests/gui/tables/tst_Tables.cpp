@@ -4,9 +4,9 @@
 #include "QPlcNodeTable.h"
 #include "QPlcValueTable.h"
 #include "gui/models/NodeTableModel.h"
-#include "gui/models/ValueTableModel.h"
 #include "gui/panel/WindowContext.h"
 #include "gui/tables/TableDelegate.h"
+#include "gui/tables/ValueTableModel.h"
 
 #include <QtCore/QJsonArray>
 #include <QtCore/QJsonDocument>
@@ -233,14 +233,14 @@ void tst_Tables::valuesOfThePastSayTheirTime()
     const QString expected = QString::number(int(bench.plant->store()->value(channel, row)));
     auto *strip = bench.panel.findChildren<QLabel *>().first();
     QVERIFY(!strip->isVisible());
-    bench.context.timeView()->show(1, bench.plant->store()->time(row));
+    bench.context.timeAxis()->show(1, bench.plant->store()->time(row));
     QVERIFY(strip->isVisible());
     QVERIFY(strip->text().startsWith(QStringLiteral("Values at ")));
     QCOMPARE(bench.cell(0, ValueTableModel::Value), expected);
     QCOMPARE(bench.cell(0, ValueTableModel::QualityColumn), QStringLiteral("past"));
-    bench.context.timeView()->show(1, 1'000'000'000);
+    bench.context.timeAxis()->show(1, 1'000'000'000);
     QCOMPARE(bench.cell(0, ValueTableModel::QualityColumn), QStringLiteral("no value"));
-    bench.context.timeView()->goLive();
+    bench.context.timeAxis()->goLive();
     QVERIFY(!strip->isVisible());
     QCOMPARE(bench.cell(0, ValueTableModel::QualityColumn), QStringLiteral("good"));
 }
@@ -435,17 +435,17 @@ void tst_Tables::anEventLeadsToItsTime()
     const PlantEvent event = eventOf(PlantEvent::Warning, QStringLiteral("late"));
     context.events()->append(eventOf(PlantEvent::Information, QStringLiteral("begin")));
     context.events()->append(event);
-    context.timeView()->setNewest((event.time.toMSecsSinceEpoch() + 60'000) * 1'000'000);  // there are values of it
+    context.timeAxis()->setNewest((event.time.toMSecsSinceEpoch() + 60'000) * 1'000'000);  // there are values of it
     auto *view = log.findChild<QTreeView *>();
     log.applySettings({{"severity", "warning"}});
     view->setFocus();
     view->setCurrentIndex(view->model()->index(0, 0));
     QTest::keyClick(view, Qt::Key_Return);
-    const TimeView *time = context.timeView();
+    const QPlcTimeAxis *time = context.timeAxis();
     QVERIFY(!time->isLive());
     QCOMPARE(time->displayTime().value_or(0), event.time.toMSecsSinceEpoch() * 1'000'000);
     QCOMPARE((time->begin() + time->end()) / 2, event.time.toMSecsSinceEpoch() * 1'000'000);
-    context.timeView()->goLive();
+    context.timeAxis()->goLive();
     QVERIFY(!time->pointer());  // legends show what is now
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "PlantFixtures.h"
 #include "QPlcValueTable.h"
-#include "gui/models/ValueTableModel.h"
 #include "gui/panel/WindowContext.h"
+#include "gui/tables/ValueTableModel.h"
 
 #include <QtCore/QJsonArray>
 #include <QtWidgets/QAction>

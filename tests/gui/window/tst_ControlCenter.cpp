@@ -175,7 +175,7 @@ void tst_ControlCenter::barsCannotBeMovedHiddenOrCut()
 void tst_ControlCenter::freezingTellsHowFarBehindAndLComesBack()
 {
     WindowFixture fixture;
-    TimeView *view = fixture.window.context()->timeView();
+    QPlcTimeAxis *view = fixture.window.context()->timeAxis();
     auto *bar = fixture.part<TimeBar>();
     view->setNewest(100'000'000'000);
     fixture.press(Qt::Key_L, Qt::ControlModifier | Qt::ShiftModifier);
@@ -184,10 +184,10 @@ void tst_ControlCenter::freezingTellsHowFarBehindAndLComesBack()
     fixture.press(Qt::Key_L);
     QVERIFY(view->isLive());
     fixture.press(Qt::Key_BracketRight, Qt::ControlModifier);
-    QCOMPARE(view->span(), TimeView::Time(60'000'000'000));
+    QCOMPARE(view->span(), QPlcTimeAxis::Time(60'000'000'000));
     fixture.press(Qt::Key_BracketLeft, Qt::ControlModifier);
     fixture.press(Qt::Key_BracketLeft, Qt::ControlModifier);
-    QCOMPARE(view->span(), TimeView::Time(20'000'000'000));
+    QCOMPARE(view->span(), QPlcTimeAxis::Time(20'000'000'000));
     QTest::mouseClick(bar->stateButton(), Qt::LeftButton);
     QVERIFY(!view->isLive());
 }
@@ -206,7 +206,7 @@ void tst_ControlCenter::theBottomLineSaysLiveOnlyWhileThereAreNewValues()
     QTRY_VERIFY_WITH_TIMEOUT(says("Live"), patience);
     master.reset();
     QTRY_VERIFY_WITH_TIMEOUT(bar->stateText().contains(QLatin1String("No new values for ")), patience);
-    QVERIFY(fixture.window.context()->timeView()->isLive());
+    QVERIFY(fixture.window.context()->timeAxis()->isLive());
     fixture.window.connectToMaster(other->address(), QStringLiteral("south"));
     QVERIFY(other->startRealTime());
     QTRY_VERIFY_WITH_TIMEOUT(bar->stateText().contains(QLatin1String("No new values of north for ")), patience);
@@ -217,7 +217,7 @@ void tst_ControlCenter::theBottomLineSaysLiveOnlyWhileThereAreNewValues()
 void tst_ControlCenter::theBottomLineKeepsItsPlaceWhileNumbersCount()
 {
     WindowFixture fixture;
-    TimeView *view = fixture.window.context()->timeView();
+    QPlcTimeAxis *view = fixture.window.context()->timeAxis();
     auto *bar = fixture.part<TimeBar>();
     view->setNewest(100'000'000'000);
     view->freeze();

@@ -381,15 +381,15 @@ void tst_ControlCenterPanels::keysOfThePanelWithTheFocusComeFirst()
     own->setShortcutContext(Qt::WidgetWithChildrenShortcut);
     panel->addAction(own);
     QSignalSpy triggered(own, &QAction::triggered);
-    fixture.window.context()->timeView()->freeze();
+    fixture.window.context()->timeAxis()->freeze();
     panel->setFocus();
     fixture.press(Qt::Key_L);
     QCOMPARE(triggered.count(), 1);
-    QVERIFY(!fixture.window.context()->timeView()->isLive());
+    QVERIFY(!fixture.window.context()->timeAxis()->isLive());
     fixture.part<SignalDock>()->tree()->findChild<QTreeView *>()->setFocus();
     fixture.press(Qt::Key_L);
     QCOMPARE(triggered.count(), 1);
-    QVERIFY(fixture.window.context()->timeView()->isLive());
+    QVERIFY(fixture.window.context()->timeAxis()->isLive());
     view->editor()->closePanel(id);
 }
 

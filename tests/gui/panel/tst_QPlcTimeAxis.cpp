@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "gui/panel/TimeView.h"
+#include "QPlcTimeAxis.h"
 
 #include <QtTest/QtTest>
 
 using namespace qplc;
-using Time = TimeView::Time;
+using Time = QPlcTimeAxis::Time;
 
 namespace {
 constexpr Time s = 1'000'000'000;
 }
 
-class tst_TimeView : public QObject
+class tst_QPlcTimeAxis : public QObject
 {
     Q_OBJECT
 private Q_SLOTS:
@@ -31,17 +31,17 @@ private Q_SLOTS:
     void theNewestTimeGoesBackWhenValuesAreGone();
 
 private:
-    std::unique_ptr<TimeView> m_view;
+    std::unique_ptr<QPlcTimeAxis> m_view;
 };
 
-void tst_TimeView::init()
+void tst_QPlcTimeAxis::init()
 {
-    m_view = std::make_unique<TimeView>();
+    m_view = std::make_unique<QPlcTimeAxis>();
     m_view->setSpan(10 * s);
     m_view->setNewest(100 * s);
 }
 
-void tst_TimeView::aLiveViewEndsWithTheNewestValues()
+void tst_QPlcTimeAxis::aLiveViewEndsWithTheNewestValues()
 {
     QVERIFY(m_view->isLive());
     QCOMPARE(m_view->end(), 100 * s);
@@ -51,7 +51,7 @@ void tst_TimeView::aLiveViewEndsWithTheNewestValues()
     QCOMPARE(m_view->behind(), 0 * s);
 }
 
-void tst_TimeView::whoeverPansOrShowsOrJumpsFreezes()
+void tst_QPlcTimeAxis::whoeverPansOrShowsOrJumpsFreezes()
 {
     m_view->pan(-3 * s);
     QVERIFY(!m_view->isLive());
@@ -67,7 +67,7 @@ void tst_TimeView::whoeverPansOrShowsOrJumpsFreezes()
     QCOMPARE((m_view->begin() + m_view->end()) / 2, 50 * s);
 }
 
-void tst_TimeView::aFrozenViewStaysWhereItIsAndSaysHowFarBehindItIs()
+void tst_QPlcTimeAxis::aFrozenViewStaysWhereItIsAndSaysHowFarBehindItIs()
 {
     m_view->freeze();
     m_view->setNewest(112 * s);
@@ -75,7 +75,7 @@ void tst_TimeView::aFrozenViewStaysWhereItIsAndSaysHowFarBehindItIs()
     QCOMPARE(m_view->behind(), 12 * s);
 }
 
-void tst_TimeView::goingLiveComesBackToTheNewestValues()
+void tst_QPlcTimeAxis::goingLiveComesBackToTheNewestValues()
 {
     m_view->show(0, 5 * s);
     m_view->setNewest(120 * s);
@@ -84,14 +84,14 @@ void tst_TimeView::goingLiveComesBackToTheNewestValues()
     QCOMPARE(m_view->span(), 5 * s);
 }
 
-void tst_TimeView::zoomingAboutTheRightEdgeStaysLive()
+void tst_QPlcTimeAxis::zoomingAboutTheRightEdgeStaysLive()
 {
     m_view->zoom(0.5, m_view->end());
     QVERIFY(m_view->isLive());
     QCOMPARE(m_view->span(), 5 * s);
 }
 
-void tst_TimeView::zoomingKeepsTheTimeBelowTheMouse()
+void tst_QPlcTimeAxis::zoomingKeepsTheTimeBelowTheMouse()
 {
     m_view->zoom(0.5, 92 * s);
     QVERIFY(!m_view->isLive());
@@ -102,26 +102,26 @@ void tst_TimeView::zoomingKeepsTheTimeBelowTheMouse()
     QCOMPARE(m_view->end(), 100 * s);
 }
 
-void tst_TimeView::spansHaveLimits()
+void tst_QPlcTimeAxis::spansHaveLimits()
 {
     m_view->setSpan(-5);
-    QCOMPARE(m_view->span(), TimeView::shortestSpan);
+    QCOMPARE(m_view->span(), QPlcTimeAxis::shortestSpan);
     m_view->zoom(1e30, 0);
-    QCOMPARE(m_view->span(), TimeView::longestSpan);
+    QCOMPARE(m_view->span(), QPlcTimeAxis::longestSpan);
     m_view->zoom(std::numeric_limits<double>::quiet_NaN(), 0);
-    QVERIFY(m_view->span() >= TimeView::shortestSpan);
+    QVERIFY(m_view->span() >= QPlcTimeAxis::shortestSpan);
 }
 
-void tst_TimeView::liveNobodyHasToLookAtAnotherTime()
+void tst_QPlcTimeAxis::liveNobodyHasToLookAtAnotherTime()
 {
     m_view->setPointer(95 * s);
     QVERIFY(!m_view->displayTime());
 }
 
-void tst_TimeView::theDisplayedTimeOfAViewIntoTheFutureGoesOn()
+void tst_QPlcTimeAxis::theDisplayedTimeOfAViewIntoTheFutureGoesOn()
 {
     m_view->jumpTo(100 * s);
-    QSignalSpy changes(m_view.get(), &TimeView::displayTimeChanged);
+    QSignalSpy changes(m_view.get(), &QPlcTimeAxis::displayTimeChanged);
     m_view->setNewest(101 * s);
     QCOMPARE(*m_view->displayTime(), 101 * s);
     QCOMPARE(changes.count(), 1);
@@ -130,16 +130,16 @@ void tst_TimeView::theDisplayedTimeOfAViewIntoTheFutureGoesOn()
     QCOMPARE(changes.count(), 2);
 }
 
-void tst_TimeView::beforeTheFirstValuesAnyTimeCanBeLookedAt()
+void tst_QPlcTimeAxis::beforeTheFirstValuesAnyTimeCanBeLookedAt()
 {
     m_view->setNewest(0);
     m_view->show(40 * s, 50 * s);
     QCOMPARE(*m_view->displayTime(), 50 * s);
 }
 
-void tst_TimeView::frozenTheDisplayedTimeIsThatOfThePointerOrTheRightEdge()
+void tst_QPlcTimeAxis::frozenTheDisplayedTimeIsThatOfThePointerOrTheRightEdge()
 {
-    QSignalSpy changes(m_view.get(), &TimeView::displayTimeChanged);
+    QSignalSpy changes(m_view.get(), &QPlcTimeAxis::displayTimeChanged);
     m_view->freeze();
     QCOMPARE(*m_view->displayTime(), 100 * s);
     m_view->setPointer(95 * s);
@@ -152,11 +152,11 @@ void tst_TimeView::frozenTheDisplayedTimeIsThatOfThePointerOrTheRightEdge()
 }
 
 /// It is that of an event, say, which the view was at.
-void tst_TimeView::goingLiveForgetsThePointer()
+void tst_QPlcTimeAxis::goingLiveForgetsThePointer()
 {
     m_view->jumpTo(50 * s);
     m_view->setPointer(50 * s);
-    QSignalSpy pointers(m_view.get(), &TimeView::pointerChanged);
+    QSignalSpy pointers(m_view.get(), &QPlcTimeAxis::pointerChanged);
     m_view->goLive();
     QVERIFY(!m_view->pointer());
     QCOMPARE(pointers.count(), 1);
@@ -165,22 +165,22 @@ void tst_TimeView::goingLiveForgetsThePointer()
     QVERIFY(m_view->pointer());
 }
 
-void tst_TimeView::nothingIsToldTwice()
+void tst_QPlcTimeAxis::nothingIsToldTwice()
 {
-    QSignalSpy views(m_view.get(), &TimeView::viewChanged);
-    QSignalSpy cursors(m_view.get(), &TimeView::cursorsChanged);
+    QSignalSpy views(m_view.get(), &QPlcTimeAxis::viewChanged);
+    QSignalSpy cursors(m_view.get(), &QPlcTimeAxis::cursorsChanged);
     m_view->goLive();
     m_view->setSpan(10 * s);
     m_view->freeze();
     m_view->freeze();
     QCOMPARE(views.count(), 1);
-    m_view->setCursor(TimeView::A, 5 * s);
-    m_view->setCursor(TimeView::A, 5 * s);
-    m_view->setCursor(TimeView::B, std::nullopt);
+    m_view->setCursor(QPlcTimeAxis::A, 5 * s);
+    m_view->setCursor(QPlcTimeAxis::A, 5 * s);
+    m_view->setCursor(QPlcTimeAxis::B, std::nullopt);
     QCOMPARE(cursors.count(), 1);
 }
 
-void tst_TimeView::theNewestTimeGoesBackWhenValuesAreGone()
+void tst_QPlcTimeAxis::theNewestTimeGoesBackWhenValuesAreGone()
 {
     m_view->setNewest(50 * s);
     QCOMPARE(m_view->end(), 50 * s);
@@ -190,5 +190,5 @@ void tst_TimeView::theNewestTimeGoesBackWhenValuesAreGone()
     QCOMPARE(m_view->behind(), 0 * s);
 }
 
-QTEST_GUILESS_MAIN(tst_TimeView)
-#include "tst_TimeView.moc"
+QTEST_GUILESS_MAIN(tst_QPlcTimeAxis)
+#include "tst_QPlcTimeAxis.moc"

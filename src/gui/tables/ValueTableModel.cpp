@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ValueTableModel.h"
 
-#include "SiPrefix.h"
-#include "gui/plant/PastValue.h"
+#include "QPlcTimeAxis.h"
+#include "gui/models/SiPrefix.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace qplc {
 
@@ -20,40 +19,16 @@ QVariant alignmentOf(int column)
     return int(Qt::AlignVCenter | (isNumber ? Qt::AlignRight : Qt::AlignLeft));
 }
 
-/// Time since the newest value was true [s]; -1: it never was, or nobody knows.
-double ageOf(const PlantList::Signal &signal)
-{
-    const double age = signal.plant->age();
-    const QPlcQuality quality = signal.quality();
-    if (signal.plant->quality() != Plant::Good)
-        return age;
-    return age < 0.0 || !quality.isUsable()
-        ? -1.0
-        : age + quality.heldCycles() * double(signal.plant->values().period()) * 1e-9;
-}
-
-constexpr float noNumber = std::numeric_limits<float>::quiet_NaN();
-
 }  // namespace
 
-ValueTableModel::ValueTableModel(PlantList *plants, QObject *parent)
+ValueTableModel::ValueTableModel(QPlcPanelContext *context, QObject *parent)
     : QAbstractTableModel(parent)
-    , m_plants(plants)
+    , m_context(context)
 {
     m_timer.setInterval(RefreshPause);
     connect(&m_timer, &QTimer::timeout, this, &ValueTableModel::refresh);
-    connect(plants, &PlantList::signalsChanged, this, &ValueTableModel::resolve);
-    const auto watch = [this](Plant *plant) {  // rows of another store are numbered anew
-        connect(plant, &Plant::storeChanged, this, [this, plant] {
-            for (Row &row : m_rows) {
-                if (row.signal.plant == plant)
-                    row.seen = 0;
-            }
-        });
-    };
-    connect(plants, &PlantList::added, this, watch);
-    for (int i = 0; i < plants->size(); ++i)
-        watch(plants->at(i));
+    connect(context, &QPlcPanelContext::signalsChanged, this, &ValueTableModel::resolve);
+    connect(context->timeAxis(), &QPlcTimeAxis::displayTimeChanged, this, &ValueTableModel::refresh);
     m_timer.start();
 }
 
@@ -69,7 +44,10 @@ QVector<SignalReference> ValueTableModel::references() const
 
 ValueTableModel::Row ValueTableModel::makeRow(const SignalReference &reference) const
 {
-    Row row{reference, m_plants->resolve(reference, m_pin), noNumber, noNumber, 0, {}};
+    Row row;
+    row.reference = reference;
+    row.signal = m_context->shown(reference.toString());
+    row.past = m_context->past(reference.toString());
     forgetRange(&row);
     row.texts = textsOf(row);
     return row;
@@ -82,12 +60,6 @@ void ValueTableModel::setReferences(const QVector<SignalReference> &references)
     for (const SignalReference &reference : references)
         m_rows << makeRow(reference);
     endResetModel();
-}
-
-void ValueTableModel::setPin(const QString &plant)
-{
-    m_pin = plant;
-    resolve();
 }
 
 void ValueTableModel::add(const QVector<SignalReference> &references, int row)
@@ -121,22 +93,22 @@ bool ValueTableModel::removeRows(int row, int count, const QModelIndex &parent)
 void ValueTableModel::resolve()
 {
     for (Row &row : m_rows) {
-        const PlantList::Signal before = row.signal;
-        row.signal = m_plants->resolve(row.reference, m_pin);
-        if (row.signal.plant != before.plant || row.signal.index != before.index)
+        const QPlcPast before = row.past;
+        row.past = m_context->past(row.reference.toString());
+        if (!row.past || !before || row.past.plant != before.plant)
             forgetRange(&row);
+        else if (!row.past.sharesRows(before))
+            row.seen = 0;  // other rows have other numbers
     }
     refresh();
 }
 
 // ---- values ----
 
-void ValueTableModel::forgetRange(Row *row) const
+void ValueTableModel::forgetRange(Row *row)
 {
-    row->minimum = noNumber;
-    row->maximum = noNumber;
-    const SignalStore *store = row->signal ? row->signal.plant->store() : nullptr;
-    row->seen = store && !store->isEmpty() ? store->endRow() - 1 : 0;  // what is seen at the moment counts
+    row->range = QPlcPast::Range::empty();
+    row->seen = row->past && !row->past.isEmpty() ? row->past.endRow() - 1 : 0;  // what is seen at the moment counts
 }
 
 void ValueTableModel::reset()
@@ -148,38 +120,15 @@ void ValueTableModel::reset()
 
 void ValueTableModel::extendRange(Row *row)
 {
-    const int channel = row->signal.channel();
-    const SignalStore *store = row->signal ? row->signal.plant->store() : nullptr;
-    if (!store || channel == ChannelMap::NoChannel)
+    if (!row->past)
         return;
-    const SignalStore::Range range = store->range(channel, std::max(row->seen, store->firstRow()), store->endRow());
-    row->seen = store->endRow();
-    if (range.isEmpty())
-        return;
-    row->minimum = std::isnan(row->minimum) ? range.minimum : std::min(row->minimum, range.minimum);
-    row->maximum = std::isnan(row->maximum) ? range.maximum : std::max(row->maximum, range.maximum);
-}
-
-void ValueTableModel::setDisplayTime(std::optional<SignalStore::Time> time)
-{
-    if (time == m_displayTime)
-        return;
-    m_displayTime = time;
-    refresh();
-}
-
-QPlcValue ValueTableModel::shownValue(const Row &row) const
-{
-    return m_displayTime ? pastValue(row.signal, *m_displayTime) : row.signal.value();
+    row->range = row->range.united(row->past.range(std::max(row->seen, row->past.firstRow()), row->past.endRow()));
+    row->seen = row->past.endRow();
 }
 
 bool ValueTableModel::isTrusted(const Row &row) const
 {
-    if (!row.signal)
-        return false;
-    if (m_displayTime)
-        return shownValue(row).isValid();
-    return qplc::isTrusted(row.signal);
+    return m_context->shownTime() ? row.signal.value.isValid() : row.signal.isCurrent;
 }
 
 /// Nothing sorts before all numbers.
@@ -187,15 +136,37 @@ QVariant ValueTableModel::sortValue(const Row &row, int column) const
 {
     const auto number = [](double value) { return std::isnan(value) ? QVariant() : QVariant(value); };
     if (column == Minimum || column == Maximum)
-        return number(double(column == Minimum ? row.minimum : row.maximum));
+        return number(column == Minimum ? row.range.minimum : row.range.maximum);
     if (!row.signal)
         return column == Name || column == QualityColumn ? QVariant(row.texts.at(column)) : QVariant();
     if (column == Age)
-        return ageOf(row.signal);
+        return row.signal.age;
     if (column == Rate)
-        return row.signal.plant->updateRate();
-    const QPlcValue value = column == Value ? shownValue(row) : QPlcValue();
+        return m_context->plant(row.signal.plant).rate;
+    const QPlcValue value = column == Value ? row.signal.value : QPlcValue();
     return value.isValid() && value.type().isNumeric() ? number(value.toReal()) : QVariant(row.texts.at(column));
+}
+
+QString ValueTableModel::qualityText(const QPlcPanelContext::Signal &signal) const
+{
+    if (m_context->shownTime())
+        return signal.value.isValid() ? tr("past") : tr("no value");
+    const QPlcPanelContext::Plant plant = m_context->plant(signal.plant);
+    if (plant.age < 0.0)
+        return tr("no value");
+    if (!plant.isLive)  // at rest no value is of now
+        return plant.isStale ? tr("stale") : tr("at rest");
+    switch (signal.quality.kind()) {
+    case QPlcQuality::Good:
+        break;
+    case QPlcQuality::Held:
+        return tr("held %1").arg(signal.quality.heldCycles());
+    case QPlcQuality::Safe:
+        return tr("safe");
+    case QPlcQuality::Invalid:
+        return tr("not written");
+    }
+    return tr("good");
 }
 
 QStringList ValueTableModel::textsOf(const Row &row) const
@@ -203,36 +174,32 @@ QStringList ValueTableModel::textsOf(const Row &row) const
     const QString name = row.reference.toString();
     if (!row.signal)
         return {name, {}, {}, {}, {}, tr("not there"), {}, {}};
-    const Plant &plant = *row.signal.plant;
-    const bool isPast = m_displayTime.has_value();
-    const bool hasRange = row.signal.channel() != ChannelMap::NoChannel;
-    const QPlcValue value = shownValue(row);
-    const QPlcSignalDefinition &definition = row.signal.definition();
+    const QPlcValue &value = row.signal.value;
+    const QPlcSignalDefinition &definition = row.signal.definition;
     // One prefix for the line: that of its largest number.
     const bool isNumber = value.isValid() && value.type().isReal() && !value.type().isArray();
     double largest = isNumber ? std::abs(value.toReal()) : 0.0;
-    if (isNumber && hasRange && !std::isnan(row.minimum))
-        largest = std::max({largest, std::abs(double(row.minimum)), std::abs(double(row.maximum))});
+    if (isNumber && !row.range.isEmpty())
+        largest = std::max({largest, std::abs(row.range.minimum), std::abs(row.range.maximum)});
     const SiPrefix prefix = SiPrefix::fitting(definition.unit, largest);
-    const auto rangeText = [&](float end) { return hasRange ? numberText(prefix.shown(double(end))) : QString(); };
+    const auto rangeText = [&](double end) { return row.past ? numberText(prefix.shown(end)) : QString(); };
+    const double rate = m_context->plant(row.signal.plant).rate;
     return {name,
             prefix.factor() == 1.0 ? valueText(value, definition) : numberText(prefix.shown(value.toReal())),
             prefix.unit(),
-            rangeText(row.minimum),
-            rangeText(row.maximum),
-            !isPast              ? qualityText(row.signal)
-                : isTrusted(row) ? tr("past")
-                                 : tr("no value"),
-            isPast ? QString() : ageText(ageOf(row.signal)),
-            plant.updateRate() > 0.0 ? QStringLiteral("%1 Hz").arg(plant.updateRate(), 0, 'g', 3) : QString()};
+            rangeText(row.range.minimum),
+            rangeText(row.range.maximum),
+            qualityText(row.signal),
+            ageText(row.signal.age),
+            rate > 0.0 ? QStringLiteral("%1 Hz").arg(rate, 0, 'g', 3) : QString()};
 }
 
 void ValueTableModel::refresh()
 {
     for (int i = 0; i < m_rows.size(); ++i) {
         Row &row = m_rows[i];
-        if (row.signal)
-            extendRange(&row);
+        row.signal = m_context->shown(row.reference.toString());
+        extendRange(&row);
         const QStringList texts = textsOf(row);
         const bool isTrustedNow = isTrusted(row);
         if (texts == row.texts && isTrustedNow == row.isTrusted)
@@ -272,11 +239,9 @@ QVariant ValueTableModel::headerData(int section, Qt::Orientation orientation, i
 QString ValueTableModel::searchText(const Row &row)
 {
     QStringList texts{row.reference.toString()};
-    if (row.signal) {
-        const QPlcSignalDefinition &definition = row.signal.definition();
-        texts << definition.unit << definition.description << row.signal.plant->writer(row.signal.index)
-              << row.signal.plant->name();
-    }
+    if (row.signal)
+        texts << row.signal.definition.unit << row.signal.definition.description << row.signal.writer
+              << row.signal.plant;
     return texts.join(QLatin1Char('\n'));
 }
 
@@ -297,9 +262,7 @@ QVariant ValueTableModel::data(const QModelIndex &index, int role) const
     case Qt::TextAlignmentRole:
         return alignmentOf(index.column());
     case Qt::ToolTipRole:
-        return row.signal
-            ? row.signal.definition().description
-            : QStringLiteral("no plant of this window has a signal '%1' now").arg(row.reference.toString());
+        return row.signal ? row.signal.definition.description : row.signal.problem;
     default:
         return {};
     }

@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "ValueFormat.h"
-
-#include <QtCore/QAbstractTableModel>
-#include <QtCore/QTimer>
-
-#include <optional>
+#include "QPlcPanelContext.h"
+#include "gui/models/SignalTreeModel.h"
 
 namespace qplc {
 
-/// Chosen signals with value, smallest and largest value, quality, age and rate. What is not there
-/// now stays as a placeholder and comes to life with its signal.
+/// Chosen signals with value, smallest and largest value, quality, age and rate. A row whose signal
+/// is missing stays, and shows the signal as soon as it exists. If the window shows a time of the
+/// past, values are those of that time.
 ///
 /// Smallest and largest values are those of every cycle since reset(), of numbers with one element;
 /// the cells are renewed 10 times a second.
@@ -21,22 +18,19 @@ class ValueTableModel : public QAbstractTableModel
 public:
     enum Column { Name, Value, Unit, Minimum, Maximum, QualityColumn, Age, Rate, ColumnCount };
     enum Role {
-        SortRole = Qt::UserRole,  // numbers as numbers
-        SearchRole                // QString, as that of SignalTreeModel
+        SortRole = Qt::UserRole,                  // numbers as numbers
+        SearchRole = SignalTreeModel::SearchRole  // QString: one search for both
     };
 
-    explicit ValueTableModel(PlantList *plants, QObject *parent = nullptr);
+    /// \param context  of the panel; outlives the model
+    explicit ValueTableModel(QPlcPanelContext *context, QObject *parent = nullptr);
 
     QVector<SignalReference> references() const;
     void setReferences(const QVector<SignalReference> &references);
-    /// The plant that references without a plant mean; empty: the selected one.
-    void setPin(const QString &plant);
     /// Inserts those that are not there yet before \a row; -1: behind all.
     void add(const QVector<SignalReference> &references, int row = -1);
     /// Forgets smallest and largest values.
     void reset();
-    /// Shows values of the past; empty: those of now.
-    void setDisplayTime(std::optional<SignalStore::Time> time);
 
     int rowCount(const QModelIndex &parent = QModelIndex()) const override;
     int columnCount(const QModelIndex &parent = QModelIndex()) const override;
@@ -55,29 +49,27 @@ private:
     struct Row
     {
         SignalReference reference;
-        PlantList::Signal signal;
-        float minimum;
-        float maximum;
-        SignalStore::Row seen;  // rows of the store before it are in minimum and maximum
-        QStringList texts;      // what was shown last
+        QPlcPanelContext::Signal signal;  // with the value that the window shows
+        QPlcPast past;                    // none: not a number with one element
+        QPlcPast::Range range;
+        QPlcPast::Row seen = 0;  // rows of the past before it are in the range
+        QStringList texts;       // what was shown last
         bool isTrusted = false;
     };
 
     Row makeRow(const SignalReference &reference) const;
     void resolve();
-    void forgetRange(Row *row) const;
+    static void forgetRange(Row *row);
     void refresh();
     static void extendRange(Row *row);
     QStringList textsOf(const Row &row) const;
-    QPlcValue shownValue(const Row &row) const;
     bool isTrusted(const Row &row) const;
+    QString qualityText(const QPlcPanelContext::Signal &signal) const;
     static QString searchText(const Row &row);
     QVariant sortValue(const Row &row, int column) const;
 
-    PlantList *m_plants;
-    QString m_pin;
+    QPlcPanelContext *m_context;
     QVector<Row> m_rows;
-    std::optional<SignalStore::Time> m_displayTime;
     QTimer m_timer;
 };
 
