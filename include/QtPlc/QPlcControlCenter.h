@@ -165,9 +165,10 @@ public:
     /// it before connectedToMaster(). Without it the name is the address that a person has entered
     /// at 'Connect...', or "plant". A number is added if the name exists already.
     void setPlantName(const QString &name);
-    /// Tells the window that the table of the process has changed. Call it when the table was read
-    /// after the window was made. The window takes QPlcSignalIndexTable::current().
-    void setSignalIndexTable(const QPlcSignalIndexTable &table);
+    /// Takes the table of the process (QPlcSignalIndexTable::current()) as the table of the wired
+    /// node, and emits inputSignalIndicesChanged(). Call it when the program has read a table after
+    /// it made the window.
+    void signalIndexTableChanged();
     /// Returns all signals of the table of the process: the inputs of the wired node.
     QPlcSignalIndexList inputSignalIndices() const;
     /// Returns the signals that panels write: the outputs of the wired node.

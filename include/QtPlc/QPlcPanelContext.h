@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "QPlcDurationStatistics.h"
 #include "QPlcGuiGlobal.h"
 #include "QPlcPast.h"
 #include "QPlcQuality.h"
@@ -16,11 +17,11 @@
 
 class QAbstractItemModel;
 class QPlcMessage;
+class QPlcSignalControl;
 class QPlcTimeAxis;
 class QPlcWidget;
 
 namespace qplc {
-class SignalControl;
 class WindowContext;
 }  // namespace qplc
 
@@ -126,6 +127,13 @@ public:
         double rate = 0.0;
         Time newest = 0;  ///< time of its newest value [ns]; 0: it has none
     };
+    /// A duration that a master measures in each cycle.
+    struct Duration
+    {
+        QString owner;                      ///< "Master", or the name of a node
+        QString name;                       ///< "lateness" (only of the master), "execution", "roundTrip"
+        QPlcDurationStatistics statistics;  ///< how it was distributed
+    };
     /// Severity of an entry of the event log.
     enum Severity {
         Information,  ///< for people who look at the log
@@ -208,7 +216,15 @@ public:
     /// Stops a plant, as the button STOP does. Does nothing if there is no such plant.
     /// \param name  empty: the plant of references without a plant
     void stop(const QString &name = QString());
-    /// Asks a master for what is not a signal, for example with QPlcMessage::GetStatistics.
+    /// Asks a master for the durations of its cycles and its nodes, with histograms.
+    /// \param receiver  while it exists, \a answered may be called
+    /// \param answered  gets the durations, in the event loop
+    /// \param name  plant; empty: the plant of references without a plant
+    /// \return false if nothing was asked, because there is no connection or an earlier answer has
+    ///     not come yet
+    bool askDurations(QObject *receiver, const std::function<void(const QVector<Duration> &)> &answered,
+                      const QString &name = QString());
+    /// Asks a master for anything else that is not a signal.
     /// \param receiver  while it exists, \a answered may be called
     /// \param answered  gets the answer, in the event loop
     /// \param name  plant; empty: the plant of references without a plant
@@ -301,7 +317,7 @@ Q_SIGNALS:
 
 private:
     friend class QPlcWidget;
-    friend class qplc::SignalControl;
+    friend class QPlcSignalControl;
 
     explicit QPlcPanelContext(QPlcWidget *panel);
     void setWindow(qplc::WindowContext *window);

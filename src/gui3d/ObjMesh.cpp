@@ -29,7 +29,7 @@ public:
             }
         }
         if (m_mesh.isEmpty())
-            *error = QPlcView3D::tr("there is no face and no line in it");
+            *error = QPlcView3D::tr("it has neither faces nor lines");
         return m_mesh;
     }
 
@@ -68,7 +68,7 @@ private:
             bool isNumber = false;
             (*vector)[i] = words.value(first + i).toFloat(&isNumber);
             if (!isNumber || !std::isfinite((*vector)[i]))
-                return fail(QPlcView3D::tr("'%1' is no number").arg(QString::fromLatin1(words.value(first + i))));
+                return fail(QPlcView3D::tr("'%1' is not a number").arg(QString::fromLatin1(words.value(first + i))));
         }
         return true;
     }

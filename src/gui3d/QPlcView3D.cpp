@@ -200,7 +200,7 @@ QString QPlcView3D::problem() const
     const QPlcPanelContext::Signal position = context()->signal(d->settings.position);
     if (d->settings.position.isEmpty() || (position && position.definition.type.count() >= 3))
         return {};
-    return position ? tr("%1 is no position: a signal with three elements is needed.").arg(d->settings.position)
+    return position ? tr("%1 is not a position: choose a signal with three elements.").arg(d->settings.position)
                     : position.problem;
 }
 

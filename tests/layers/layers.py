@@ -33,7 +33,7 @@ ARROWS = {
     "gui/models": {"signals", "node", "node/state", "gui", "gui/plant", "gui/models"},
     "gui/panel": {"signals", "node", "gui", "gui/plant", "gui/plot", "gui/models", "gui/panel"},
     # Panels do not know each other.
-    "gui/charts": {"signals", "protocol", "protocol/messages", "node", "gui", "gui/plot", "gui/models", "gui/panel", "gui/charts"},
+    "gui/charts": {"signals", "node", "gui", "gui/plot", "gui/models", "gui/panel", "gui/charts"},
     "gui/gauges": {"signals", "node", "gui", "gui/plant", "gui/plot", "gui/models", "gui/panel", "gui/gauges"},
     "gui/setters": {"signals", "node", "gui", "gui/plant", "gui/models", "gui/panel", "gui/setters"},
     "gui/tables": {"signals", "node", "gui", "gui/models", "gui/panel", "gui/tables"},

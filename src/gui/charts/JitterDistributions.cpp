@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "JitterDistributions.h"
 
-#include "node/Logging.h"
-#include "protocol/messages/Vocabulary.h"
-
 #include <QtCore/QCoreApplication>
 
 #include <algorithm>
@@ -62,24 +59,14 @@ QString JitterDistribution::titleOf(const QString &key)
     return QStringLiteral("%1 %2").arg(key.left(point), quantityText(key.mid(point + 1)));
 }
 
-QVector<JitterDistribution> jitterDistributions(const messages::Statistics &statistics,
+QVector<JitterDistribution> jitterDistributions(const QVector<QPlcPanelContext::Duration> &durations,
                                                 QPlcDistribution QPlcDurationStatistics::*window)
 {
     QVector<JitterDistribution> all;
-    const auto append
-        = [&](const QString &who, const char *quantity, const std::optional<QPlcDurationStatistics> &duration) {
-              if (!duration)
-                  return;
-              const QPlcDistribution &of = (*duration).*window;
-              all.append({printable(who), QString::fromLatin1(quantity), double(of.count), atLeastZero(of.p50),
-                          atLeastZero(of.p99), atLeastZero(of.maximum), binsOf(of.bins)});
-          };
-    append(messages::masterName, "lateness", statistics.master.lateness);
-    append(messages::masterName, "execution", statistics.master.execution);
-    append(messages::masterName, "roundTrip", statistics.master.roundTrip);
-    for (const messages::NodeMeasures &node : statistics.nodes) {
-        append(node.name, "execution", node.execution);
-        append(node.name, "roundTrip", node.roundTrip);
+    for (const QPlcPanelContext::Duration &duration : durations) {
+        const QPlcDistribution &of = duration.statistics.*window;
+        all.append({duration.owner, duration.name, double(of.count), atLeastZero(of.p50), atLeastZero(of.p99),
+                    atLeastZero(of.maximum), binsOf(of.bins)});
     }
     return all;
 }

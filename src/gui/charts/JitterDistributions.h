@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "protocol/messages/Statistics.h"
-
-#include <QtCore/QString>
-#include <QtCore/QVector>
+#include "QPlcPanelContext.h"
 
 namespace qplc {
 
@@ -34,9 +31,9 @@ struct JitterDistribution
     static QString titleOf(const QString &key);
 };
 
-/// All distributions of an answer that was asked for with histograms.
+/// The distributions of all durations.
 /// \param window  &QPlcDurationStatistics::sinceStart or &QPlcDurationStatistics::last10s
-QVector<JitterDistribution> jitterDistributions(const messages::Statistics &statistics,
+QVector<JitterDistribution> jitterDistributions(const QVector<QPlcPanelContext::Duration> &durations,
                                                 QPlcDistribution QPlcDurationStatistics::*window);
 
 }  // namespace qplc

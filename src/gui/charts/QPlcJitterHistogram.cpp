@@ -6,10 +6,8 @@
 #include "ChartPanel.h"
 #include "JitterCanvas.h"
 #include "JitterEditor.h"
-#include "QPlcMessage.h"
 #include "gui/models/ValueFormat.h"
 #include "gui/panel/PanelSettings.h"
-#include "protocol/messages/MessageTable.h"
 
 #include <QtCore/QElapsedTimer>
 #include <QtCore/QJsonArray>
@@ -48,10 +46,9 @@ public:
     void resized() override { draw(); }
     void setPlant(const QString &name);
     void ask();
-    void take(const QPlcMessage &answer);
     QVector<JitterDistribution> distributions(QPlcDistribution QPlcDurationStatistics::*window) const
     {
-        return statistics ? jitterDistributions(*statistics, window) : QVector<JitterDistribution>();
+        return jitterDistributions(durations, window);
     }
     void draw() override;
     QString problem(const QVector<JitterDistribution> &shown) const;
@@ -68,8 +65,8 @@ public:
     QAction *last = nullptr;
     QMap<QString, QAction *> masterActions;  // by key
     PanelSettings settings{showKey, windowKey};
-    std::optional<messages::Statistics> statistics;
-    QString asked;  // the plant whose statistics these are
+    QVector<QPlcPanelContext::Duration> durations;
+    QString asked;  // the plant whose durations these are
     QElapsedTimer sinceAnswer;
 };
 
@@ -175,25 +172,17 @@ void QPlcJitterHistogram::Private::ask()
         return;
     const QString name = context()->plant().name;
     if (asked != name) {
-        statistics.reset();
+        durations.clear();
         sinceAnswer.invalidate();
     }
     asked = name;
-    context()->ask(messages::toMessage(messages::GetStatistics{true}), receiver(),
-                   [this, name](const QPlcMessage &answer) {
-                       if (name == asked)
-                           take(answer);
-                   });
-}
-
-void QPlcJitterHistogram::Private::take(const QPlcMessage &answer)
-{
-    const auto received = messages::readAs<messages::Statistics>(answer);
-    if (!received)
-        return;
-    statistics = received;
-    sinceAnswer.start();
-    draw();
+    context()->askDurations(receiver(), [this, name](const QVector<QPlcPanelContext::Duration> &answer) {
+        if (name != asked)
+            return;
+        durations = answer;
+        sinceAnswer.start();
+        draw();
+    });
 }
 
 /// What keeps the histogram from being drawn; empty: nothing.
@@ -213,9 +202,9 @@ QString QPlcJitterHistogram::Private::problem(const QVector<JitterDistribution> 
         return of.stateText;
     if (of.clock.startsWith(QLatin1String("Lockstep"), Qt::CaseInsensitive))
         return tr("In lockstep no clock is read: there is nothing to measure.");
-    if (statistics && shown.size() < shownKeys().size() && !shown.isEmpty())
+    if (sinceAnswer.isValid() && shown.size() < shownKeys().size() && !shown.isEmpty())
         return tr("No values yet.");
-    return !statistics || !shown.isEmpty()
+    return !sinceAnswer.isValid() || !shown.isEmpty()
         ? tr("No cycles yet. Start the plant to measure its punctuality.")
         : tr("There are no figures of %1 at the moment.").arg(shownKeys().join(QStringLiteral(", ")));
 }

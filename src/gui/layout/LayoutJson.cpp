@@ -122,7 +122,7 @@ QPlcParseError syntaxError(const QByteArray &text, const QJsonParseError &json)
     QPlcParseError error;
     error.line = before.count('\n') + 1;
     error.column = QString::fromUtf8(before.mid(before.lastIndexOf('\n') + 1)).size() + 1;
-    error.message = WindowText::tr("this is no JSON (%1): correct it, or choose another file").arg(json.errorString());
+    error.message = WindowText::tr("this is not JSON (%1): correct it, or choose another file").arg(json.errorString());
     return error;
 }
 
@@ -163,7 +163,7 @@ std::optional<Layout> readLayoutFile(const QString &fileName, QPlcParseError *er
     } else {
         const QByteArray text = file.read(LargestFile + 1);
         if (text.size() > LargestFile)
-            inFile.message = WindowText::tr("a file of more than 16 MiB is no layout: choose another file");
+            inFile.message = WindowText::tr("a layout has at most 16 MiB: choose another file");
         else
             layout = layoutFromJson(text, &inFile);
     }

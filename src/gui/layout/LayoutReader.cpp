@@ -100,7 +100,7 @@ void LayoutReader::readRoot(const QJsonObject &root)
 {
     if (root.value(QStringLiteral("format")).toString() != QLatin1String("QtPLC layout"))
         return fail(QStringLiteral("format"),
-                    tr("must be \"QtPLC layout\", and %1: this is no layout, choose another file")
+                    tr("must be \"QtPLC layout\", and %1: this is not a layout; choose another file")
                         .arg(shown(root.value(QStringLiteral("format")))));
     const int version = number(root, QStringLiteral("version"), QString());
     if (version > LayoutVersion)
@@ -127,7 +127,7 @@ void LayoutReader::readRoot(const QJsonObject &root)
     }
     m_layout.m_currentTab = text(root, QStringLiteral("currentTab"), QString());
     if (!hasError() && !m_layout.tab(m_layout.m_currentTab))
-        fail(QStringLiteral("currentTab"), tr("names no tab: \"%1\"").arg(m_layout.m_currentTab));
+        fail(QStringLiteral("currentTab"), tr("is not the id of a tab: \"%1\"").arg(m_layout.m_currentTab));
     m_layout.m_otherKeys = without(root, {"format", "version", "tabs", "windows", "currentTab"});
 }
 

@@ -389,7 +389,7 @@ QVariant SignalTreeModel::toolTip(const Item *item) const
     if (!value.isEmpty())
         lines << value + QLatin1Char(' ') + definition.unit;
     const QString writer = item->plant->writer(item->signal);
-    lines << (writer.isEmpty() ? tr("written by nobody") : tr("written by %1").arg(writer));
+    lines << (writer.isEmpty() ? tr("written by no node") : tr("written by %1").arg(writer));
     lines << qualityText(item->plant->quality());
     return lines.join(QLatin1Char('\n'));
 }

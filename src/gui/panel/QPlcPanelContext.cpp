@@ -14,6 +14,7 @@
 #include "gui/plot/DerivedSignal.h"
 #include "gui/plot/Formula.h"
 #include "gui/plot/PastRows.h"
+#include "signals/MessageText.h"
 
 #include <QtCore/QDateTime>
 #include <QtCore/QEvent>
@@ -93,7 +94,7 @@ QString doubtText(QPlcQuality quality)
     case QPlcQuality::Safe:
         return QPlcPanelContext::tr("safe value");
     case QPlcQuality::Invalid:
-        return QPlcPanelContext::tr("nobody has written it");
+        return QPlcPanelContext::tr("not written yet");
     case QPlcQuality::Good:
         break;
     }
@@ -123,6 +124,24 @@ QString noteOf(const qplc::Plant &plant, QPlcQuality quality, bool isOfLastCycle
         break;
     }
     return doubtText(quality);
+}
+
+QVector<QPlcPanelContext::Duration> durationsOf(const messages::Statistics &statistics)
+{
+    QVector<QPlcPanelContext::Duration> all;
+    const auto append
+        = [&](const QString &owner, const char *name, const std::optional<QPlcDurationStatistics> &duration) {
+              if (duration)
+                  all.append({printable(owner), QString::fromLatin1(name), *duration});
+          };
+    append(messages::masterName, "lateness", statistics.master.lateness);
+    append(messages::masterName, "execution", statistics.master.execution);
+    append(messages::masterName, "roundTrip", statistics.master.roundTrip);
+    for (const messages::NodeMeasures &node : statistics.nodes) {
+        append(node.name, "execution", node.execution);
+        append(node.name, "roundTrip", node.roundTrip);
+    }
+    return all;
 }
 
 }  // namespace
@@ -515,6 +534,19 @@ void QPlcPanelContext::stop(const QString &name)
 {
     if (qplc::Plant *found = d->plant(name))
         found->stop(d->panel->title());
+}
+
+bool QPlcPanelContext::askDurations(QObject *receiver, const std::function<void(const QVector<Duration> &)> &answered,
+                                    const QString &name)
+{
+    using Reply = ControlClient::Reply<messages::GetStatistics>;
+    qplc::Plant *found = d->plant(name);
+    const auto pass = [guard = QPointer<QObject>(receiver), answered](const Reply &reply) {
+        const auto *statistics = std::get_if<messages::Statistics>(&reply);
+        if (guard && statistics)
+            answered(durationsOf(*statistics));
+    };
+    return found && found->ask(messages::GetStatistics{true}, pass);
 }
 
 bool QPlcPanelContext::ask(const QPlcMessage &question, QObject *receiver,

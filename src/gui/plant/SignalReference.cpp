@@ -15,7 +15,8 @@ SignalReference SignalReference::fromString(const QString &text, QString *error)
         error->clear();
     if (!match.hasMatch()) {
         if (error)
-            *error = QStringLiteral("'%1' names no signal; write signal, signal[2] or plant/signal").arg(text);
+            *error
+                = QStringLiteral("'%1' is not the name of a signal; write signal, signal[2] or plant/signal").arg(text);
         return {};
     }
     SignalReference reference;

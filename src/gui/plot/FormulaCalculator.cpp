@@ -51,7 +51,7 @@ QString sentenceOf(const mu::ParserError &error)
     case mu::ecMISPLACED_COLON:
         return QStringLiteral("':' stands without a '?'");
     default:
-        return QStringLiteral("this is no formula");
+        return QStringLiteral("this is not a formula");
     }
 }
 

@@ -9,6 +9,9 @@ class SignalStore;
 struct CurveSource;
 
 /// The rows of a past for what draws them. They live as long as the past.
+///
+/// QPlcPast reads the same rows, for panels of users. What draws curves here is older than it, and
+/// works on any SignalStore, also one without a window: benchmarks and tests fill their own.
 struct PastRows
 {
     const SignalStore *store = nullptr;  // null: there are none

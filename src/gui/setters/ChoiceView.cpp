@@ -62,13 +62,13 @@ void ChoiceView::refresh()
         Q_EMIT said(
             tr("The values of '%1' have no names: give it 'values = 0: Off, 1: On' in the table, or this setter "
                "another style")
-                .arg(target().reference().toString()));
+                .arg(target().reference()));
     showActual();
 }
 
 void ChoiceView::fill()
 {
-    const QPlcValueNames names = target().signal() ? target().signal().definition().valueNames : QPlcValueNames();
+    const QPlcValueNames names = target().signal() ? target().signal().definition.valueNames : QPlcValueNames();
     if (names == m_names && target().minimum() == m_minimum && target().maximum() == m_maximum)
         return;
     m_names = names;

@@ -2,6 +2,7 @@
 #include "ControlBar.h"
 
 #include "ElidedLabel.h"
+#include "QPlcSignalControl.h"
 #include "QPlcTheme.h"
 
 #include <QtCore/QTimer>
@@ -14,21 +15,21 @@ namespace qplc {
 namespace {
 
 /// Who it is, in a word or two.
-QString headline(const SignalControl &control)
+QString headline(const QPlcSignalControl &control)
 {
     switch (control.state()) {
-    case SignalControl::Mine:
+    case QPlcSignalControl::Mine:
         return ControlBar::tr("You");
-    case SignalControl::Free:
+    case QPlcSignalControl::Free:
         return ControlBar::tr("Nobody");
-    case SignalControl::Lost:
+    case QPlcSignalControl::Lost:
         return ControlBar::tr("Lost");
-    case SignalControl::Offline:
-    case SignalControl::Missing:
+    case QPlcSignalControl::Offline:
+    case QPlcSignalControl::Missing:
         return ControlBar::tr("No plant");
-    case SignalControl::Written:
-    case SignalControl::Other:
-    case SignalControl::Unwritable:
+    case QPlcSignalControl::Written:
+    case QPlcSignalControl::Other:
+    case QPlcSignalControl::Unwritable:
         break;
     }
     return control.who();
@@ -36,7 +37,7 @@ QString headline(const SignalControl &control)
 
 }  // namespace
 
-ControlBar::ControlBar(SignalControl *control, Size size, QWidget *parent)
+ControlBar::ControlBar(QPlcSignalControl *control, Size size, QWidget *parent)
     : QWidget(parent)
     , m_control(control)
     , m_size(size)
@@ -65,9 +66,8 @@ ControlBar::ControlBar(SignalControl *control, Size size, QWidget *parent)
     makeActions();
     for (QAction *action : {m_take, m_giveBack, m_takeOver, m_leave})
         addButton(action);
-    connect(control, &SignalControl::changed, this, [this] { ask(false); });
-    connect(control, &SignalControl::signalsChanged, this, [this] { ask(false); });
-    connect(control, &SignalControl::failed, this, &ControlBar::say);
+    connect(control, &QPlcSignalControl::changed, this, [this] { ask(false); });
+    connect(control, &QPlcSignalControl::failed, this, &ControlBar::say);
     refresh();
 }
 
@@ -88,7 +88,7 @@ void ControlBar::makeActions()
     });
     connect(m_takeOver, &QAction::triggered, this, [this] {
         ask(false);
-        m_control->take(Plant::AlsoFromOthers);
+        m_control->take(QPlcSignalControl::AlsoFromOthers);
         Q_EMIT handled();
     });
     connect(m_leave, &QAction::triggered, this, [this] {
@@ -111,7 +111,7 @@ QToolButton *ControlBar::addButton(QAction *action)
 void ControlBar::take()
 {
     say({});
-    if (m_control->state() == SignalControl::Other) {
+    if (m_control->state() == QPlcSignalControl::Other) {
         ask(true);
         return;
     }
@@ -151,10 +151,10 @@ void ControlBar::setTheme(const QPlcTheme &theme)
 QColor ControlBar::color() const
 {
     switch (m_control->state()) {
-    case SignalControl::Mine:
-    case SignalControl::Other:
+    case QPlcSignalControl::Mine:
+    case QPlcSignalControl::Other:
         return m_held;
-    case SignalControl::Lost:
+    case QPlcSignalControl::Lost:
         return m_alarm;
     default:
         return m_size == Large ? m_plain : m_muted;
@@ -163,7 +163,7 @@ QColor ControlBar::color() const
 
 void ControlBar::refresh()
 {
-    const bool isFreeSetter = m_size == Small && m_control->state() == SignalControl::Free;
+    const bool isFreeSetter = m_size == Small && m_control->state() == QPlcSignalControl::Free;
     m_take->setVisible(!m_isAsking && !isFreeSetter && m_control->mayTake());
     m_giveBack->setVisible(!m_isAsking && m_control->mayGiveBack());
     m_takeOver->setVisible(m_isAsking);

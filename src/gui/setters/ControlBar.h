@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "gui/panel/SignalControl.h"
-
 #include <QtWidgets/QWidget>
 
 class QAction;
 class QToolButton;
+class QPlcSignalControl;
 
 struct QPlcTheme;
 
@@ -23,7 +22,7 @@ public:
     enum Size { Small, Large };
 
     /// \param control  outlives the bar
-    ControlBar(SignalControl *control, Size size, QWidget *parent);
+    ControlBar(QPlcSignalControl *control, Size size, QWidget *parent);
 
     QAction *takeAction() const { return m_take; }
     QAction *giveBackAction() const { return m_giveBack; }
@@ -43,7 +42,7 @@ private:
     void refresh();
     QColor color() const;
 
-    SignalControl *m_control;
+    QPlcSignalControl *m_control;
     Size m_size;
     ElidedLabel *m_headline = nullptr;
     ElidedLabel *m_text;

@@ -90,7 +90,7 @@ bool Gamepad::isConnected() const
 
 QString Gamepad::absence() const
 {
-    return tr("This program knows no gamepads.");
+    return tr("This program was built without support for gamepads.");
 }
 
 }  // namespace qplc

@@ -28,8 +28,8 @@ GeneratorView::GeneratorView(SetterTarget *target, QWidget *parent)
     m_timer.setInterval(StepTime);
     connect(&m_timer, &QTimer::timeout, this, &GeneratorView::step);
     connect(m_start, &QPushButton::clicked, this, &GeneratorView::toggle);
-    connect(target, &SetterTarget::actionLost, this, [this] { stop(tr("Stopped: control was lost")); });
-    connect(target, &SetterTarget::failed, this, [this](const QString &sentence) {
+    connect(&target->control(), &QPlcSignalControl::holdLost, this, [this] { stop(tr("Stopped: control was lost")); });
+    connect(&target->control(), &QPlcSignalControl::failed, this, [this](const QString &sentence) {
         if (isRunning())
             stop(sentence);
     });
@@ -130,7 +130,7 @@ void GeneratorView::stop(const QString &why)
 
 bool GeneratorView::isPlantRunning() const
 {
-    return target().signal() && target().signal().plant->status().isRunning();
+    return target().plant().isRunning;
 }
 
 void GeneratorView::step()
@@ -147,7 +147,7 @@ void GeneratorView::step()
 void GeneratorView::hideEvent(QHideEvent *event)
 {
     SetterView::hideEvent(event);
-    stop(tr("Stopped: nobody saw it"));
+    stop(tr("Stopped: the panel is not visible"));
 }
 
 QJsonObject GeneratorView::settings() const

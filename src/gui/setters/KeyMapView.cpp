@@ -81,18 +81,17 @@ QVector<KeyMapView::Row> KeyMapView::rows() const
 {
     QVector<Row> rows;
     const QVector<SignalReference> references = m_control->bindings().signalReferences();
-    for (int i = 0; i < references.size(); ++i) {
-        const SignalReference &reference = references.at(i);
-        const PlantList::Signal signal = m_control->control().resolved().value(i);
+    for (const SignalReference &reference : references) {
+        const QPlcPanelContext::Signal signal = m_control->context()->signal(reference.toString());
         const SiPrefix prefix = prefixOf(reference, signal);
         Row row{reference.toString(), tr("not there"), true, capsOf(reference, prefix)};
         if (signal) {
-            row.actual = QStringLiteral("%1 %2")
-                             .arg(numberText(prefix.shown(signal.value().toReal()), 3), prefix.unit())
-                             .trimmed();
-            row.isStale = signal.plant->quality() == Plant::Stale || signal.plant->quality() == Plant::NoValue;
+            row.actual
+                = QStringLiteral("%1 %2").arg(numberText(prefix.shown(signal.number()), 3), prefix.unit()).trimmed();
+            const QPlcPanelContext::Plant plant = m_control->context()->plant(signal.plant);
+            row.isStale = plant.isStale || plant.age < 0.0;
             if (row.isStale)
-                row.actual = tr("%1, %2 old").arg(row.actual, ageText(signal.plant->age()));
+                row.actual = tr("%1, %2 old").arg(row.actual, ageText(plant.age));
         }
         rows.append(row);
     }
@@ -101,11 +100,11 @@ QVector<KeyMapView::Row> KeyMapView::rows() const
 
 /// Of a row, so that its value and what its keys do are read alike: that of its limits, else that
 /// of the largest value of its keys and axes.
-SiPrefix KeyMapView::prefixOf(const SignalReference &reference, const PlantList::Signal &signal) const
+SiPrefix KeyMapView::prefixOf(const SignalReference &reference, const QPlcPanelContext::Signal &signal) const
 {
     if (!signal)
         return {};
-    const QPlcSignalDefinition &definition = signal.definition();
+    const QPlcSignalDefinition &definition = signal.definition;
     const std::optional<double> minimum = limitOf(definition.minimum);
     const std::optional<double> maximum = limitOf(definition.maximum);
     if (minimum && maximum)

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "QPlcTheme.h"
+#include "QPlcPanelContext.h"
 #include "gui/models/SiPrefix.h"
-#include "gui/plant/PlantList.h"
+#include "gui/plant/SignalReference.h"
 
 #include <QtWidgets/QWidget>
 
@@ -48,7 +48,7 @@ private:
         QVector<Cap> caps;
     };
     QVector<Row> rows() const;
-    SiPrefix prefixOf(const SignalReference &reference, const PlantList::Signal &signal) const;
+    SiPrefix prefixOf(const SignalReference &reference, const QPlcPanelContext::Signal &signal) const;
     QVector<Cap> capsOf(const SignalReference &reference, const SiPrefix &prefix) const;
     QFont smallFont() const;
     int capSize() const;

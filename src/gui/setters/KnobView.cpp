@@ -71,8 +71,8 @@ void KnobView::refresh()
     takeRange();
     m_knob->setEnabled(mayWrite && hasRange() && target().isNumber());
     if (target().signal() && !hasRange())
-        Q_EMIT said(tr("'%1' has no limits in the table: give the knob some in its settings")
-                        .arg(target().reference().toString()));
+        Q_EMIT said(
+            tr("'%1' has no limits in the table: give the knob some in its settings").arg(target().reference()));
     showActual();
 }
 
@@ -81,7 +81,7 @@ void KnobView::takeRange()
     if (!hasRange() || (m_knob->lowerBound() == *target().minimum() && m_knob->upperBound() == *target().maximum()))
         return;
     const double range = *target().maximum() - *target().minimum();
-    const bool isReal = target().signal() && target().signal().definition().type.isReal();
+    const bool isReal = target().signal() && target().signal().definition.type.isReal();
     m_isShowing = true;
     m_knob->setScale(*target().minimum(), *target().maximum());
     m_knob->setToolTip(QStringLiteral("%1 … %2").arg(target().reading(*target().minimum(), digits),

@@ -2,21 +2,19 @@
 #include "ManualControl.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace qplc {
 
-ManualControl::ManualControl(QObject *parent)
+ManualControl::ManualControl(QPlcPanelContext *context, QObject *parent)
     : QObject(parent)
+    , m_context(context)
+    , m_control(context)
 {
-    m_control.setBeginning(SignalControl::Neutral);  // a key that is not held means neutral
-    connect(&m_control, &SignalControl::changed, this, &ManualControl::controlChanged);
-    connect(&m_control, &SignalControl::leaving, this, [this] {
-        letGo();
-        for (const auto &stream : m_streams)
-            stream.second->flush();  // neutral, for the plant that is left
-    });
-    connect(&m_control, &SignalControl::signalsChanged, this, [this] {
-        m_streams.clear();  // some of their plants may be gone
+    m_control.setKeepsControl(true);  // a panel that is closed or set up anew does not stop what a person steers
+    m_control.setBeginning(QPlcSignalControl::Neutral);  // a key that is not held means neutral
+    connect(&m_control, &QPlcSignalControl::changed, this, &ManualControl::controlChanged);
+    connect(&m_control, &QPlcSignalControl::leaving, this, [this] {
         letGo();
         m_sent.clear();
     });
@@ -25,8 +23,13 @@ ManualControl::ManualControl(QObject *parent)
 void ManualControl::setBindings(const ManualBindings &bindings)
 {
     letGo();  // neutral, while it is known of what
+    m_sent.clear();
     m_bindings = bindings;
-    m_control.setSignals(bindings.signalReferences());
+    QStringList names;
+    const QVector<SignalReference> references = bindings.signalReferences();
+    for (const SignalReference &reference : references)
+        names << reference.toString();
+    m_control.setSignals(names);
     Q_EMIT moved();
 }
 
@@ -89,15 +92,15 @@ void ManualControl::controlChanged()
     if (isFlying() == m_wasFlying)
         return;
     m_wasFlying = isFlying();
-    if (isFlying())
-        m_sent.clear();
-    else
-        letGo();  // also of what this window still holds, if somebody has taken only some of it
+    if (!isFlying()) {
+        letGo();
+        m_control.setNeutral();  // what this window still holds, if another person has taken only some of it
+    }
+    m_sent.clear();
 }
 
 double ManualControl::wanted(const SignalReference &reference) const
 {
-    const PlantList::Signal signal = m_control.resolved().value(m_control.references().indexOf(reference));
     double sum = 0.0;
     bool isMoved = false;
     for (const KeyBinding &binding : m_bindings.keys) {
@@ -111,68 +114,33 @@ double ManualControl::wanted(const SignalReference &reference) const
         sum += share * binding.value;
         isMoved = isMoved || share != 0.0;
     }
+    const QPlcPanelContext::Signal signal = m_context->signal(reference.toString());
     if (!signal)
         return sum;
     if (!isMoved)
-        return neutralValue(signal).toReal();
-    const QPlcSignalDefinition &definition = signal.definition();
+        return m_control.neutral(reference.toString());
+    const QPlcSignalDefinition &definition = signal.definition;
     if (definition.minimum.isValid())
         sum = std::max(sum, definition.minimum.toReal());
     return definition.maximum.isValid() ? std::min(sum, definition.maximum.toReal()) : sum;
 }
 
-ValueStream &ManualControl::streamTo(Plant *plant)
-{
-    std::unique_ptr<ValueStream> &stream = m_streams[plant];
-    if (!stream) {
-        stream = std::make_unique<ValueStream>();
-        stream->setPlant(plant);
-        connect(stream.get(), &ValueStream::failed, &m_control, &SignalControl::failed);
-    }
-    return *stream;
-}
-
-bool ManualControl::isMine(const PlantList::Signal &signal)
-{
-    if (!signal || !signal.plant->isConnected())
-        return false;
-    const std::optional<LeaseStatus> lease = signal.plant->lease(signal.definition().name);
-    return lease && lease->isMine;
-}
-
-/// The value of the whole signal: all elements that are steered here as they are wanted now, as
-/// what the plant has may be older than what was sent; the others as the plant has them.
-QPlcValue ManualControl::wholeOf(const PlantList::Signal &signal) const
-{
-    QPlcValue whole = signal.plant->value(signal.index);
-    for (int i = 0; i < m_control.resolved().size(); ++i) {
-        const PlantList::Signal &other = m_control.resolved().at(i);
-        if (other.plant != signal.plant || other.index != signal.index)
-            continue;
-        const QPlcValue with = wholeValue(other, wanted(m_control.references().at(i)), whole);
-        if (with.isValid())
-            whole = with;
-    }
-    return whole;
-}
-
+/// All signals at once: the plant may not show yet what was sent of other elements of an array.
 void ManualControl::write()
 {
-    std::map<Plant *, ValueStream::Values> values;
-    for (int i = 0; i < m_control.resolved().size(); ++i) {
-        const PlantList::Signal &signal = m_control.resolved().at(i);
-        if (!isMine(signal))
+    QHash<QString, double> values;
+    bool isNew = false;
+    const QVector<SignalReference> references = m_bindings.signalReferences();
+    for (const SignalReference &reference : references) {
+        const QString name = reference.toString();
+        const double neutral = m_control.neutral(name);
+        if (std::isnan(neutral))  // not a number
             continue;
-        const QString name = m_control.references().at(i).toString();
-        const double number = wanted(m_control.references().at(i));
-        const QPlcValue value = wholeOf(signal);
-        if (m_sent.value(name, neutralValue(signal).toReal()) == number || !value.isValid())
-            continue;
-        m_sent[name] = number;
-        values[signal.plant].insert(signal.definition().name, value);
+        values.insert(name, wanted(reference));
+        isNew = isNew || m_sent.value(name, neutral) != values.value(name);
     }
-    for (const auto &of : values)
-        streamTo(of.first).send(of.second);
+    if (isNew && isFlying() && m_control.set(values))
+        m_sent = values;
     Q_EMIT moved();
 }
 

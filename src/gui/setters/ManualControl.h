@@ -3,11 +3,10 @@
 
 #include "HeldKeys.h"
 #include "ManualBindings.h"
-#include "gui/panel/SignalControl.h"
-#include "gui/panel/ValueStream.h"
+#include "QPlcPanelContext.h"
+#include "QPlcSignalControl.h"
 
 #include <map>
-#include <memory>
 
 namespace qplc {
 
@@ -21,15 +20,15 @@ class ManualControl : public QObject
 {
     Q_OBJECT
 public:
-    explicit ManualControl(QObject *parent = nullptr);
+    /// \param context  of the panel; outlives this
+    explicit ManualControl(QPlcPanelContext *context, QObject *parent = nullptr);
 
-    void setContext(QPlcPanelContext *context) { m_control.setContext(context); }
-    void setPlants(PlantList *plants) { m_control.setPlants(plants); }
     void setBindings(const ManualBindings &bindings);
     const ManualBindings &bindings() const { return m_bindings; }
-    SignalControl &control() { return m_control; }
-    const SignalControl &control() const { return m_control; }
-    bool isFlying() const { return m_control.state() == SignalControl::Mine; }
+    QPlcSignalControl &control() { return m_control; }
+    const QPlcSignalControl &control() const { return m_control; }
+    QPlcPanelContext *context() const { return m_context; }
+    bool isFlying() const { return m_control.state() == QPlcSignalControl::Mine; }
 
     /// Counts while this window has control. \return whether the key is one of the bindings
     /// \param place  as for HeldKeys
@@ -59,18 +58,15 @@ Q_SIGNALS:
 private:
     void controlChanged();
     void write();
-    static bool isMine(const PlantList::Signal &signal);
-    QPlcValue wholeOf(const PlantList::Signal &signal) const;
-    ValueStream &streamTo(Plant *plant);
 
+    QPlcPanelContext *m_context;
     ManualBindings m_bindings;
-    SignalControl m_control;
+    QPlcSignalControl m_control;
     HeldKeys m_keys;
     std::map<QString, double> m_deflections;
     bool m_isArmed = false;
     bool m_wasFlying = false;
     QHash<QString, double> m_sent;  // by reference
-    std::map<Plant *, std::unique_ptr<ValueStream>> m_streams;
 };
 
 }  // namespace qplc

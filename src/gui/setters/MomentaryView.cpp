@@ -21,7 +21,7 @@ MomentaryView::MomentaryView(SetterTarget *target, QWidget *parent)
     setFocusProxy(m_button);
     connect(m_button, &QPushButton::pressed, this, &MomentaryView::press);
     connect(m_button, &QPushButton::released, this, &MomentaryView::release);
-    connect(target, &SetterTarget::actionLost, this, [this] {
+    connect(&target->control(), &QPlcSignalControl::holdLost, this, [this] {
         m_button->setDown(false);
         Q_EMIT said(tr("Control was lost while the button was held"));
     });
@@ -42,7 +42,7 @@ double MomentaryView::pressedValue() const
 void MomentaryView::refresh()
 {
     m_button->setEnabled((target().control().mayWrite() && target().isNumber()) || m_button->isDown());
-    const QString unit = target().signal() ? target().signal().definition().unit : QString();
+    const QString unit = target().signal() ? target().signal().definition.unit : QString();
     const SiPrefix prefix = SiPrefix::fitting(unit, pressedValue());
     m_button->setText(tr("Hold: %1 %2").arg(numberText(prefix.shown(pressedValue())), prefix.unit()).trimmed());
 }

@@ -115,7 +115,7 @@ void NumberView::apply()
         return;
     }
     QString error;
-    const QPlcValue value = QPlcValue::fromString(target().signal().definition().type, text, &error);
+    const QPlcValue value = QPlcValue::fromString(target().signal().definition.type, text, &error);
     if (!value.isValid()) {
         Q_EMIT said(error);
         return;
@@ -128,17 +128,17 @@ void NumberView::apply()
 void NumberView::applyNumber(const QString &text)
 {
     QString error;
-    const std::optional<qint64> named = target().signal().definition().valueNames.valueOf(text);
+    const std::optional<qint64> named = target().signal().definition.valueNames.valueOf(text);
     const QPlcValue typed = named ? QPlcValue(double(*named))
                                   : QPlcValue::fromString(QPlcSignalType(QPlcSignalType::Real64), text, &error);
     if (!typed.isValid() || !typed.isFinite()) {
-        Q_EMIT said(error.isEmpty() ? tr("'%1' is no number").arg(text) : error);
+        Q_EMIT said(error.isEmpty() ? tr("'%1' is not a number").arg(text) : error);
         return;
     }
     QString message;
     const double number = target().clamped(typed.toReal(), &message);
     if (!target().sendOnce(number)) {
-        Q_EMIT said(tr("'%1' is no value of this signal").arg(text));
+        Q_EMIT said(tr("'%1' is not a value of this signal").arg(text));
         return;
     }
     m_sent = numberText(number);

@@ -45,6 +45,7 @@ struct QPlcKeyboardControl::Private
 
 QPlcKeyboardControl::Private::Private(QPlcKeyboardControl *panel)
     : q(panel)
+    , control(panel->context())
     , bar(new ControlBar(&control.control(), ControlBar::Large, panel))
     , keys(new KeyMapView(&control, panel))
     , hintLabel(new ElidedLabel(panel))
@@ -59,13 +60,12 @@ QPlcKeyboardControl::Private::Private(QPlcKeyboardControl *panel)
         if (isOutdated)
             showValues();
     });
-    connect(&control.control(), &SignalControl::updated, panel, [this] {
+    connect(q->context(), &QPlcPanelContext::valuesChanged, panel, [this] {
         isOutdated = true;
         if (!pause.isActive())
             showValues();
     });
-    connect(&control.control(), &SignalControl::changed, panel, [this] { showState(); });
-    connect(&control.control(), &SignalControl::signalsChanged, panel, [this] { showState(); });
+    connect(&control.control(), &QPlcSignalControl::changed, panel, [this] { showState(); });
     connect(&control, &ManualControl::moved, panel, [this] { showState(); });
     connect(bar, &ControlBar::handled, panel, [this] { q->setFocus(Qt::OtherFocusReason); });
 }
@@ -183,9 +183,6 @@ QPlcKeyboardControl::QPlcKeyboardControl(QWidget *parent)
 QPlcKeyboardControl::~QPlcKeyboardControl()
 {
     d->control.letGo();
-    disconnect(&d->control, nullptr, this, nullptr);
-    disconnect(&d->control.control(), nullptr, this, nullptr);
-    disconnect(&d->control.control(), nullptr, d->bar, nullptr);
     delete d->keys;  // looks at what ends with this object
 }
 
@@ -227,7 +224,6 @@ void QPlcKeyboardControl::contextChanged()
     d->isInWindow = true;
     connect(context(), &QPlcPanelContext::themeChanged, this, [this] { d->showTheme(); });
     d->showTheme();
-    d->control.setContext(context());
 }
 
 namespace {
@@ -304,11 +300,11 @@ void QPlcKeyboardControl::paintEvent(QPaintEvent *)
     QPainter painter(this);
     const QPlcTheme theme = context()->theme();
     painter.fillRect(rect(), theme.surface);
-    const SignalControl::State state = d->control.control().state();
-    const bool isHeld = state == SignalControl::Mine || state == SignalControl::Other;
-    if (!isHeld && state != SignalControl::Lost && !hasFocus())
+    const QPlcSignalControl::State state = d->control.control().state();
+    const bool isHeld = state == QPlcSignalControl::Mine || state == QPlcSignalControl::Other;
+    if (!isHeld && state != QPlcSignalControl::Lost && !hasFocus())
         return;
-    const QColor color = isHeld ? theme.held : state == SignalControl::Lost ? theme.alarm : theme.accent;
+    const QColor color = isHeld ? theme.held : state == QPlcSignalControl::Lost ? theme.alarm : theme.accent;
     painter.setPen(QPen(color, isHeld && hasFocus() ? 6.0 : isHeld ? 4.0 : 2.0));
     painter.drawRect(rect());
 }

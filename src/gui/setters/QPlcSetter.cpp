@@ -49,6 +49,7 @@ struct QPlcSetter::Private
 
 QPlcSetter::Private::Private(QPlcSetter *setter)
     : q(setter)
+    , target(setter->context())
     , name(new ElidedLabel(setter))
     , actual(new ElidedLabel(setter))
     , message(new ElidedLabel(setter))
@@ -82,8 +83,7 @@ QPlcSetter::Private::Private(QPlcSetter *setter)
             showActual();
     });
     connect(&target, &SetterTarget::changed, setter, [this] { showState(); });
-    connect(&target, &SetterTarget::leaving, setter, [this] { renewView(); });
-    connect(&target, &SetterTarget::failed, setter, [this](const QString &sentence) { bar->say(sentence); });
+    connect(&target.control(), &QPlcSignalControl::leaving, setter, [this] { renewView(); });
 }
 
 void QPlcSetter::Private::makeView()
@@ -131,7 +131,7 @@ void QPlcSetter::Private::apply(const SetterSettings &wanted)
     if (isOtherStyle || isOtherSignal)
         makeView();  // whatever the old one does ends with the signal that it was done to
     if (isOtherSignal)
-        target.setSignal(settings.signal);
+        target.setSignal(settings.signal.toString());
     target.setLimits(settings.minimum, settings.maximum);
     view->applySettings(settings.toJson());
     showState();
@@ -142,7 +142,7 @@ void QPlcSetter::Private::showState()
     const SignalReference reference = settings.signal;
     name->showText(reference.isValid() ? reference.toString() : tr("Setter"));
     if (target.signal())
-        name->setToolTip(target.signal().definition().description);
+        name->setToolTip(target.signal().definition.description);
     if (view)
         view->refresh();
     showActual();
@@ -155,12 +155,12 @@ QString QPlcSetter::Private::actualText() const
         return {};
     const double number = target.actualNumber();
     const auto whole = [this] {
-        const QString value = valueText(target.actual(), target.signal().definition());
+        const QString value = valueText(target.actual(), target.signal().definition);
         return QStringLiteral("%1 %2").arg(value, target.unit()).trimmed();
     };
-    const Plant *plant = target.signal().plant;
+    const QPlcPanelContext::Plant plant = target.plant();
     const QString text = target.isNumber() ? target.reading(number, digitsOfActual) : whole();
-    return plant->quality() == Plant::Stale ? tr("%1, %2 old").arg(text, ageText(plant->age())) : text;
+    return plant.isStale ? tr("%1, %2 old").arg(text, ageText(plant.age)) : text;
 }
 
 void QPlcSetter::Private::showActual()
@@ -172,7 +172,7 @@ void QPlcSetter::Private::showActual()
     target.renewPrefix();
     actual->showText(actualText());
     if (isInWindow) {
-        const bool isStale = target.signal() && target.signal().plant->quality() == Plant::Stale;
+        const bool isStale = target.signal() && target.plant().isStale;
         const QPlcTheme theme = q->context()->theme();
         actual->setColor(isStale ? theme.stale : theme.text);
     }
@@ -198,8 +198,7 @@ QPlcSetter::QPlcSetter(QWidget *parent)
     // An age grows also when nothing comes.
     auto *ages = new QTimer(this);
     connect(ages, &QTimer::timeout, this, [this] {
-        const PlantList::Signal signal = d->target.signal();
-        if (signal && signal.plant->quality() == Plant::Stale)
+        if (d->target.signal() && d->target.plant().isStale)
             d->showActual();
     });
     ages->start(500);
@@ -208,8 +207,6 @@ QPlcSetter::QPlcSetter(QWidget *parent)
 QPlcSetter::~QPlcSetter()
 {
     delete d->view;  // ends what it does, while there is something to send it with
-    disconnect(&d->target, nullptr, this, nullptr);
-    disconnect(&d->target.control(), nullptr, d->bar, nullptr);
 }
 
 QJsonObject QPlcSetter::settings() const
@@ -262,7 +259,6 @@ void QPlcSetter::contextChanged()
     d->isInWindow = true;
     connect(context(), &QPlcPanelContext::themeChanged, this, [this] { d->showTheme(); });
     d->showTheme();
-    d->target.setContext(context());
 }
 
 void QPlcSetter::showEvent(QShowEvent *event)
@@ -274,14 +270,15 @@ void QPlcSetter::showEvent(QShowEvent *event)
 void QPlcSetter::paintEvent(QPaintEvent *)
 {
     QPainter painter(this);
-    const SignalControl::State state = d->target.control().state();
-    const bool isHeld = state == SignalControl::Mine || state == SignalControl::Other || state == SignalControl::Lost;
+    const QPlcSignalControl::State state = d->target.control().state();
+    const bool isHeld
+        = state == QPlcSignalControl::Mine || state == QPlcSignalControl::Other || state == QPlcSignalControl::Lost;
     if (!d->isInWindow)
         return;
     const QPlcTheme theme = context()->theme();
     painter.fillRect(rect(), theme.surface);
     if (!isHeld)
         return;
-    painter.setPen(QPen(state == SignalControl::Lost ? theme.alarm : theme.held, 4.0));
+    painter.setPen(QPen(state == QPlcSignalControl::Lost ? theme.alarm : theme.held, 4.0));
     painter.drawRect(rect());  // of which 2 px are inside
 }

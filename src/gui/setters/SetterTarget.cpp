@@ -6,27 +6,29 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace qplc {
 
-SetterTarget::SetterTarget(QObject *parent)
+SetterTarget::SetterTarget(QPlcPanelContext *context, QObject *parent)
     : QObject(parent)
+    , m_context(context)
+    , m_control(context)
 {
-    connect(&m_control, &SignalControl::signalsChanged, this, [this] {
-        m_stream.setPlant(signal().plant);
+    m_control.setKeepsControl(true);  // a panel that is closed or set up anew does not stop what a person steers
+    connect(&m_control, &QPlcSignalControl::changed, this, [this] {
+        look();
         Q_EMIT changed();
     });
-    connect(&m_control, &SignalControl::leaving, this, &SetterTarget::leave);
-    connect(&m_control, &SignalControl::changed, this, &SetterTarget::check);
-    connect(&m_control, &SignalControl::updated, this, &SetterTarget::updated);
-    connect(&m_control, &SignalControl::failed, this, &SetterTarget::failed);
-    connect(&m_stream, &ValueStream::failed, this, &SetterTarget::failed);
+    connect(context, &QPlcPanelContext::valuesChanged, this, [this] {
+        look();
+        Q_EMIT updated();
+    });
 }
 
-void SetterTarget::setSignal(const SignalReference &reference)
+void SetterTarget::setSignal(const QString &reference)
 {
-    endAction();
-    m_control.setSignals(reference.isValid() ? QVector<SignalReference>{reference} : QVector<SignalReference>());
+    m_control.setSignals(reference.isEmpty() ? QStringList() : QStringList(reference));
 }
 
 void SetterTarget::setLimits(std::optional<double> minimum, std::optional<double> maximum)
@@ -36,48 +38,22 @@ void SetterTarget::setLimits(std::optional<double> minimum, std::optional<double
     Q_EMIT changed();
 }
 
-/// What was done to one plant never goes on in another one.
-void SetterTarget::leave()
-{
-    m_stream.flush();
-    if (m_isActing) {
-        endAction();
-        Q_EMIT actionLost();
-    }
-    Q_EMIT leaving();
-}
-
-/// Who has control has changed: what acts must not go on for another one.
-void SetterTarget::check()
-{
-    const bool isStillMine
-        = m_control.state() == SignalControl::Mine || (m_control.state() == SignalControl::Free && m_isActing);
-    if (m_isActing && !isStillMine) {
-        m_isActing = false;
-        m_holdsForAction = false;
-        m_stream.clear();
-        Q_EMIT actionLost();
-    }
-    Q_EMIT changed();
-}
-
 bool SetterTarget::isNumber() const
 {
-    const PlantList::Signal target = signal();
-    return target && target.definition().type.isNumeric()
-        && (target.element != SignalReference::Whole || !target.definition().type.isArray());
+    const QPlcSignalType type = m_signal.definition.type;
+    return m_signal && type.isNumeric() && (m_signal.element >= 0 || !type.isArray());
 }
 
 QString SetterTarget::unit() const
 {
-    return signal() ? SiPrefix::unitText(signal().definition().unit) : QString();
+    return m_signal ? SiPrefix::unitText(m_signal.definition.unit) : QString();
 }
 
 QString SetterTarget::reading(double number, int digits) const
 {
-    if (!signal())
+    if (!m_signal)
         return numberText(number, digits);
-    const QPlcSignalDefinition &definition = signal().definition();
+    const QPlcSignalDefinition &definition = m_signal.definition;
     SiPrefix prefix(definition.unit);
     if (minimum() && maximum())
         prefix = SiPrefix::fitting(definition.unit, std::max(std::abs(*minimum()), std::abs(*maximum())));
@@ -92,26 +68,26 @@ QString SetterTarget::reading(double number, int digits) const
 
 void SetterTarget::renewPrefix()
 {
-    if (signal())
-        m_prefix.next(signal().definition().unit, actualNumber());
+    if (m_signal)
+        m_prefix.next(m_signal.definition.unit, actualNumber());
 }
 
 std::optional<double> SetterTarget::minimum() const
 {
-    std::optional<double> limit = signal() ? limitOf(signal().definition().minimum) : std::nullopt;
+    std::optional<double> limit = m_signal ? limitOf(m_signal.definition.minimum) : std::nullopt;
     if (m_minimum)
         limit = std::max(limit.value_or(*m_minimum), *m_minimum);
-    else if (!limit && signal() && signal().definition().typeName == QLatin1String("Bool"))
+    else if (!limit && m_signal && m_signal.definition.typeName == QLatin1String("Bool"))
         limit = 0.0;
     return limit;
 }
 
 std::optional<double> SetterTarget::maximum() const
 {
-    std::optional<double> limit = signal() ? limitOf(signal().definition().maximum) : std::nullopt;
+    std::optional<double> limit = m_signal ? limitOf(m_signal.definition.maximum) : std::nullopt;
     if (m_maximum)
         limit = std::min(limit.value_or(*m_maximum), *m_maximum);
-    else if (!limit && signal() && signal().definition().typeName == QLatin1String("Bool"))
+    else if (!limit && m_signal && m_signal.definition.typeName == QLatin1String("Bool"))
         limit = 1.0;
     return limit;
 }
@@ -120,7 +96,7 @@ double SetterTarget::smallStep(double value) const
 {
     const double size = minimum() && maximum() ? *maximum() - *minimum() : std::max(std::abs(value), 1.0);
     const double step = size / 100.0;
-    return signal() && signal().definition().type.isReal() ? step : std::max(1.0, std::round(step));
+    return m_signal && m_signal.definition.type.isReal() ? step : std::max(1.0, std::round(step));
 }
 
 double SetterTarget::clamped(double value, QString *message) const
@@ -139,64 +115,12 @@ double SetterTarget::clamped(double value, QString *message) const
 
 double SetterTarget::actualNumber() const
 {
-    const QPlcValue value = isNumber() ? actual() : QPlcValue();
-    return value.isValid() ? value.toReal() : std::numeric_limits<double>::quiet_NaN();
+    return isNumber() ? m_signal.number() : std::numeric_limits<double>::quiet_NaN();
 }
 
 double SetterTarget::neutral() const
 {
-    return isNumber() ? neutralValue(signal()).toReal() : 0.0;
-}
-
-void SetterTarget::sendOnce(const QPlcValue &value)
-{
-    if (!m_control.mayWrite() || !value.isValid())
-        return;
-    Plant *plant = signal().plant;
-    m_control.follow(plant, plant->setValues({{name(), value}}));
-}
-
-bool SetterTarget::sendOnce(double number)
-{
-    const QPlcValue value = m_control.mayWrite() ? wholeValue(signal(), clamped(number)) : QPlcValue();
-    sendOnce(value);
-    return value.isValid();
-}
-
-void SetterTarget::stream(double number)
-{
-    if (!m_control.mayWrite())
-        return;
-    const QPlcValue value = wholeValue(signal(), clamped(number));
-    if (value.isValid())
-        m_stream.send({{name(), value}});
-}
-
-bool SetterTarget::beginAction(double number)
-{
-    if (!m_control.mayWrite() || !isNumber())
-        return false;
-    Plant *plant = signal().plant;
-    m_isActing = true;
-    m_holdsForAction = m_control.state() == SignalControl::Free && plant->hasLeases();
-    const QPlcValue value = wholeValue(signal(), clamped(number));
-    if (m_holdsForAction)
-        m_control.follow(plant, plant->takeLease({name()}, {{name(), value}}));
-    else
-        stream(number);
-    return true;
-}
-
-void SetterTarget::endAction()
-{
-    if (!m_isActing)
-        return;
-    m_isActing = false;
-    m_stream.clear();  // what is under way comes before neutral
-    sendOnce(wholeValue(signal(), neutral()));
-    if (m_holdsForAction)
-        signal().plant->releaseLease({name()});
-    m_holdsForAction = false;
+    return isNumber() ? m_control.neutral(reference()) : 0.0;
 }
 
 }  // namespace qplc

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "QPlcPanelContext.h"
+#include "QPlcSignalControl.h"
 #include "gui/models/SteadyPrefix.h"
-#include "gui/panel/SignalControl.h"
-#include "gui/panel/ValueStream.h"
 
-#include <limits>
 #include <optional>
 
 namespace qplc {
@@ -15,20 +14,21 @@ class SetterTarget : public QObject
 {
     Q_OBJECT
 public:
-    explicit SetterTarget(QObject *parent = nullptr);
+    /// \param context  of the panel; outlives this
+    explicit SetterTarget(QPlcPanelContext *context, QObject *parent = nullptr);
 
-    void setContext(QPlcPanelContext *context) { m_control.setContext(context); }
-    void setPlants(PlantList *plants) { m_control.setPlants(plants); }
-    /// \param reference  invalid: none
-    void setSignal(const SignalReference &reference);
-    SignalReference reference() const { return m_control.references().value(0); }
+    /// \param reference  empty: none
+    void setSignal(const QString &reference);
+    QString reference() const { return m_control.signalNames().value(0); }
     /// Limits of this setter, within those of the table; empty: those of the table.
     void setLimits(std::optional<double> minimum, std::optional<double> maximum);
-    SignalControl &control() { return m_control; }
-    const SignalControl &control() const { return m_control; }
+    QPlcSignalControl &control() { return m_control; }
+    const QPlcSignalControl &control() const { return m_control; }
 
     /// What is written; false: it is not there.
-    PlantList::Signal signal() const { return m_control.resolved().value(0); }
+    const QPlcPanelContext::Signal &signal() const { return m_signal; }
+    /// The plant of the signal.
+    QPlcPanelContext::Plant plant() const { return m_context->plant(m_signal.plant); }
     bool isNumber() const;
     /// Of the table, as people read it: what is typed has it.
     QString unit() const;
@@ -45,48 +45,39 @@ public:
     /// untouched
     double clamped(double value, QString *message = nullptr) const;
 
-    QPlcValue actual() const { return signal().value(); }
+    QPlcValue actual() const { return m_signal.value; }
     /// NaN: it is none, or not known yet.
     double actualNumber() const;
     double neutral() const;
 
-    /// Sends one value, each time it is called.
-    void sendOnce(const QPlcValue &value);
-    /// \return false: it is no value of the type of the signal
-    bool sendOnce(double number);
+    /// Sends one value, each time it is called. \return false: it is no value of the type of the
+    /// signal
+    bool sendOnce(const QPlcValue &value) { return m_control.send(reference(), value); }
+    bool sendOnce(double number) { return sendOnce(QPlcValue(clamped(number))); }
     /// Sends the newest of values that change quickly.
-    void stream(double number);
+    void stream(double number) { m_control.set(reference(), clamped(number)); }
 
-    /// Begins to write for a while. A signal that nobody writes is held meanwhile, so that it goes
-    /// to neutral when this window is lost. \return false: this window may not write
-    bool beginAction(double number);
+    /// Begins to write for a while. \return false: this window may not write
+    bool beginAction(double number) { return isNumber() && m_control.hold(reference(), clamped(number)); }
     /// Ends that: neutral, as the last that is sent.
-    void endAction();
-    bool isActing() const { return m_isActing; }
+    void endAction() { m_control.letGo(); }
+    bool isActing() const { return m_control.isHolding(); }
 
 Q_SIGNALS:
     /// Signal, limits, who writes, or whether the plant is there.
     void changed();
     /// There may be a new actual value.
     void updated();
-    /// This window cannot write any more, and acted.
-    void actionLost();
-    /// The signal is that of another plant in a moment; what was begun has ended.
-    void leaving();
-    void failed(const QString &sentence);
 
 private:
-    void check();
-    void leave();
-    QString name() const { return signal().definition().name; }
+    void look() { m_signal = m_context->signal(reference()); }
 
-    SignalControl m_control;
-    ValueStream m_stream;
+    QPlcPanelContext *m_context;
+    QPlcSignalControl m_control;
+    QPlcPanelContext::Signal m_signal;
     SteadyPrefix m_prefix;  // of actual values
     std::optional<double> m_minimum;
     std::optional<double> m_maximum;
-    bool m_isActing = false;
-    bool m_holdsForAction = false;
 };
 
 }  // namespace qplc

@@ -83,8 +83,8 @@ void SliderView::refresh()
                                             fontMetrics().horizontalAdvance(readingAt(0)),
                                             fontMetrics().horizontalAdvance(readingAt(positions))}));
     if (target().signal() && !hasRange())
-        Q_EMIT said(tr("'%1' has no limits in the table: give the slider some in its settings")
-                        .arg(target().reference().toString()));
+        Q_EMIT said(
+            tr("'%1' has no limits in the table: give the slider some in its settings").arg(target().reference()));
     showActual();
 }
 

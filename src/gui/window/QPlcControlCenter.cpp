@@ -164,7 +164,7 @@ void QPlcControlCenter::setPlantName(const QString &name)
     d->wiredName = name;
 }
 
-void QPlcControlCenter::setSignalIndexTable(const QPlcSignalIndexTable & /*table*/)
+void QPlcControlCenter::signalIndexTableChanged()
 {
     if (Plant *plant = d->wiredPlant(); plant && plant->isConnected())
         plant->feed()->connected(QPlcSignalIndexTable::current());

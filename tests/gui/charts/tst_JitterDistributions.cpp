@@ -1,28 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gui/charts/JitterDistributions.h"
+#include "protocol/messages/Statistics.h"
 
 #include <QtTest/QtTest>
 
-#include <QtCore/QJsonArray>
 #include <QtCore/QJsonDocument>
 
 using namespace qplc;
 
 namespace {
 
-QVector<JitterDistribution> distributionsOf(const char *json,
-                                            QPlcDistribution QPlcDurationStatistics::*window
-                                            = &QPlcDurationStatistics::sinceStart)
-{
-    const QJsonObject fields = QJsonDocument::fromJson(json).object();
-    return jitterDistributions(messages::fieldsOf<messages::Statistics>(fields), window);
-}
-
 /// Those of the lateness of a master with these bins.
 QVector<JitterDistribution::Bin> binsOf(const QByteArray &bins)
 {
     const QByteArray json = R"({"master":{"lateness":{"sinceStart":{"count":1,"bins":)" + bins + "}}}}";
-    return distributionsOf(json.constData()).first().bins;
+    const auto read = messages::fieldsOf<messages::Statistics>(QJsonDocument::fromJson(json).object());
+    return jitterDistributions({{QString(), QString(), *read.master.lateness}}, &QPlcDurationStatistics::sinceStart)
+        .first()
+        .bins;
 }
 
 }  // namespace
@@ -32,7 +27,7 @@ class tst_JitterDistributions : public QObject
     Q_OBJECT
 private Q_SLOTS:
     void nothingGivesNothing();
-    void masterAndNodesAreFound();
+    void figuresAreThoseOfTheWindow();
     void binsOfBothKindsAreThoseOfAnEighthOfAnOctave();
     void smallAndLargestBordersHaveTheirBins();
     void countsAreKept();
@@ -42,26 +37,25 @@ private Q_SLOTS:
 
 void tst_JitterDistributions::nothingGivesNothing()
 {
-    QVERIFY(distributionsOf("{}").isEmpty());
-    QVERIFY(distributionsOf(R"({"master": 3, "nodes": "many"})").isEmpty());
-    QVERIFY(distributionsOf(R"({"master": {"lateness": {}}})").first().bins.isEmpty());
+    QVERIFY(jitterDistributions({}, &QPlcDurationStatistics::sinceStart).isEmpty());
+    QVERIFY(jitterDistributions({{}}, &QPlcDurationStatistics::sinceStart).first().bins.isEmpty());
 }
 
-void tst_JitterDistributions::masterAndNodesAreFound()
+void tst_JitterDistributions::figuresAreThoseOfTheWindow()
 {
-    const char *json = R"({"master": {"lateness": {"sinceStart": {"count": 5, "p50": 100, "p99": 200, "maximum": 300},
-                                                   "last10s": {"count": 2}}, "slack": {}},
-                           "nodes": [{"name": "Kite", "execution": {}, "roundTrip": {}}]})";
-    const QVector<JitterDistribution> all = distributionsOf(json);
-    QStringList keys;
-    for (const JitterDistribution &each : all)
-        keys << each.key();
-    QCOMPARE(keys, (QStringList{"Master.lateness", "Kite.execution", "Kite.roundTrip"}));
-    QCOMPARE(all.first().count, 5.0);
-    QCOMPARE(all.first().p50, 100.0);
-    QCOMPARE(all.first().p99, 200.0);
-    QCOMPARE(all.first().maximum, 300.0);
-    QCOMPARE(distributionsOf(json, &QPlcDurationStatistics::last10s).first().count, 2.0);
+    QPlcPanelContext::Duration duration{QStringLiteral("Kite"), QStringLiteral("execution"), {}};
+    duration.statistics.sinceStart.count = 5;
+    duration.statistics.sinceStart.p50 = 100;
+    duration.statistics.sinceStart.p99 = 200;
+    duration.statistics.sinceStart.maximum = 300;
+    duration.statistics.last10s.count = 2;
+    const JitterDistribution found = jitterDistributions({duration}, &QPlcDurationStatistics::sinceStart).first();
+    QCOMPARE(found.key(), QStringLiteral("Kite.execution"));
+    QCOMPARE(found.count, 5.0);
+    QCOMPARE(found.p50, 100.0);
+    QCOMPARE(found.p99, 200.0);
+    QCOMPARE(found.maximum, 300.0);
+    QCOMPARE(jitterDistributions({duration}, &QPlcDurationStatistics::last10s).first().count, 2.0);
 }
 
 void tst_JitterDistributions::binsOfBothKindsAreThoseOfAnEighthOfAnOctave()

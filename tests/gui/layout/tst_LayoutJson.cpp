@@ -161,10 +161,10 @@ void tst_LayoutJson::badTextIsRefusedWithPlaceAndRemedy_data()
     const auto row = [](const char *name, const QByteArray &text, const char *expected) {
         QTest::newRow(name) << text << QString::fromUtf8(expected);
     };
-    row("empty", "", "1:1: this is no JSON");
-    row("cut", WithOtherKeys.left(60), "this is no JSON");
-    row("syntax", with(WithOtherKeys, "\"currentTab\":", "\"currentTab\""), "2:19: this is no JSON");
-    row("array", "[]", "format must be \"QtPLC layout\", and is missing: this is no layout, choose another file");
+    row("empty", "", "1:1: this is not JSON");
+    row("cut", WithOtherKeys.left(60), "this is not JSON");
+    row("syntax", with(WithOtherKeys, "\"currentTab\":", "\"currentTab\""), "2:19: this is not JSON");
+    row("array", "[]", "format must be \"QtPLC layout\", and is missing: this is not a layout; choose another file");
     row("other format", with(WithOtherKeys, "QtPLC layout", "something"), "and is \"something\"");
     row("newer", with(WithOtherKeys, "\"version\": 1", "\"version\": 2"),
         "version is 2, and this program reads versions up to 1: open it with a newer program");
@@ -176,7 +176,8 @@ void tst_LayoutJson::badTextIsRefusedWithPlaceAndRemedy_data()
         "tabs must have at least one tab");
     row("tab is a text", R"({"format": "QtPLC layout", "version": 1, "tabs": ["a"], "windows": [], "currentTab": "a"})",
         "tabs[0] must be an object, and is \"a\"");
-    row("unknown current tab", with(WithOtherKeys, "\"tab1\"", "\"tab7\""), "currentTab names no tab: \"tab7\"");
+    row("unknown current tab", with(WithOtherKeys, "\"tab1\"", "\"tab7\""),
+        "currentTab is not the id of a tab: \"tab7\"");
     row("no name", with(WithOtherKeys, "\"name\": \"Fly\"", "\"name\": \"\""),
         "tabs[0].name must be a text that is not empty");
     row("share of nothing", with(WithOtherKeys, "0.25", "0"),
@@ -220,7 +221,7 @@ void tst_LayoutJson::badTextIsRefusedWithPlaceAndRemedy_data()
         R"({"format": "QtPLC layout", "version": 1, "windows": [], "currentTab": "a", "tabs": [)"
             + many(501, R"({"id": "a", "name": "A"})").join(',') + "]}",
         "a layout has at most 500 tabs, and this one has 501");
-    row("deep", QByteArray(100000, '['), "this is no JSON");
+    row("deep", QByteArray(100000, '['), "this is not JSON");
 }
 
 void tst_LayoutJson::badTextIsRefusedWithPlaceAndRemedy()

@@ -292,7 +292,6 @@ void tst_SignalModels::placeholdersComeToLifeWithTheirSignal()
 void tst_SignalModels::signalsAreDroppedIntoTheTableOnce()
 {
     PanelInWindow bench;
-    PlantList &plants = *bench.window.plants();
     ValueTableModel table(bench.panel.context());
     const QAbstractItemModelTester tester(&table, fatal);
     const auto drop = [&](const QVector<SignalReference> &references, int row) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "NodeFixtures.h"
+#include "PlantFixtures.h"
 #include "QPlcPanelContext.h"
 #include "QPlcTimeAxis.h"
 #include "QPlcWidget.h"
@@ -90,6 +90,7 @@ private Q_SLOTS:
     void thePastOfAFormulaFollowsItsPlant();
     void aPastOutlivesItsPlant();
     void aPanelMovesTheTimeAxisOfItsWindow();
+    void aPanelAsksForTheDurationsOfAMaster();
     void aPanelWritesIntoTheEventLog();
     void aPanelAcknowledgesEvents();
     void tablesOfAPanelAreModels();
@@ -296,6 +297,30 @@ void tst_QPlcPanelContext::aPanelMovesTheTimeAxisOfItsWindow()
     Panel alone;
     alone.context()->showRange(start, start + 10);
     QCOMPARE(alone.context()->timeAxis()->begin(), start + 10 - QPlcTimeAxis::shortestSpan);
+}
+
+void tst_QPlcPanelContext::aPanelAsksForTheDurationsOfAMaster()
+{
+    RunningMaster master;
+    QVERIFY(master.startRealTime());
+    WindowContext window;
+    Panel panel;
+    panel.setContext(&window);
+    QStringList found;
+    const auto take = [&](const QVector<Context::Duration> &durations) {
+        found.clear();
+        for (const Context::Duration &each : durations) {
+            if (each.statistics.sinceStart.count > 0 && !each.statistics.sinceStart.bins.isEmpty())
+                found << each.owner + QLatin1Char('.') + each.name;
+        }
+    };
+    QVERIFY(!panel.context()->askDurations(&panel, take));  // there is no plant
+    window.plants()->add(master.address(), QStringLiteral("kite"), QStringLiteral("Window"));
+    const auto isAnswered = [&](const char *key) {
+        panel.context()->askDurations(&panel, take, QStringLiteral("kite"));
+        return found.contains(QLatin1String(key));
+    };
+    QTRY_VERIFY(isAnswered("Master.lateness") && isAnswered("Master.execution") && isAnswered("Counter.execution"));
 }
 
 void tst_QPlcPanelContext::aPanelWritesIntoTheEventLog()

@@ -3,7 +3,6 @@
 
 #include <QtTest/QtTest>
 
-using namespace qplc;
 using Time = QPlcTimeAxis::Time;
 
 namespace {

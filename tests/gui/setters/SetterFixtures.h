@@ -19,6 +19,7 @@ public:
         , done(plant, &qplc::Plant::commandDone)
         , failed(plant, &qplc::Plant::commandFailed)
     {
+        panel.setContext(&context);
     }
     bool isReady()
     {
@@ -30,6 +31,7 @@ public:
     qplc::Plant *plant;
     QSignalSpy done;
     QSignalSpy failed;
+    QPlcWidget panel;  // for what needs one
 };
 
 /// Shows a panel as a window does.

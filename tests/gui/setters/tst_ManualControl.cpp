@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SetterFixtures.h"
+#include "gui/panel/ValueStream.h"
 #include "gui/setters/ManualControl.h"
 #include "gui/setters/SetterTarget.h"
 #include "gui/setters/Waveform.h"
@@ -33,8 +34,8 @@ struct Pilot
 {
     explicit Pilot(const FlyingMaster &master)
         : window(master.address())
+        , control(window.panel.context())
     {
-        control.setPlants(window.context.plants());
         control.setBindings(bindings());
     }
     bool isReady()
@@ -165,7 +166,7 @@ void tst_ManualControl::heldKeysAreValuesAndReleasedOnesNeutral()
     Pilot pilot(master);
     ManualControl &control = pilot.control;
     QVERIFY(pilot.isReady());
-    QTRY_COMPARE(control.control().state(), SignalControl::Written);
+    QTRY_COMPARE(control.control().state(), QPlcSignalControl::Written);
     QTRY_VERIFY(master.valueOf(echo.signal) > 10.0);
     control.control().take();
     QTRY_VERIFY(control.isFlying());
@@ -227,9 +228,8 @@ void tst_ManualControl::withoutControlNothingIsWritten()
 {
     FlyingMaster master;
     TestWindow window(master.address());
-    ManualControl control;
-    control.press(Qt::Key_Left, false);  // nothing is bound, and there is no plant
-    control.setPlants(window.context.plants());
+    ManualControl control(window.panel.context());
+    control.press(Qt::Key_Left, false);  // nothing is bound
     control.setBindings(bindings());
     QVERIFY(window.isReady());
     control.press(Qt::Key_W, false);
@@ -265,7 +265,7 @@ void tst_ManualControl::whoLosesSomeSignalsLetsGoOfAll()
     other.plant->takeLease({setpoint.signal}, {}, Plant::AlsoFromOthers);
     QTRY_COMPARE(master.valueOf(echo.signal), 0.0);
     QVERIFY(pilot.window.isMine(echo.signal));  // still held, by nobody's finger
-    QCOMPARE(control.control().state(), SignalControl::Other);
+    QCOMPARE(control.control().state(), QPlcSignalControl::Other);
 }
 
 void tst_ManualControl::afterAReconnectionControlMayBeTakenAgain()
@@ -273,11 +273,10 @@ void tst_ManualControl::afterAReconnectionControlMayBeTakenAgain()
     FlyingMaster master;
     TestWindow window(master.address());
     QVERIFY(window.isReady());
-    SignalControl control;
-    control.setPlants(window.context.plants());
+    QPlcSignalControl control(window.panel.context());
     QString told;  // what a panel shows, which looks when it is told
-    connect(&control, &SignalControl::changed, &control, [&] { told = control.text(); });
-    control.setSignals({echo});
+    connect(&control, &QPlcSignalControl::changed, &control, [&] { told = control.text(); });
+    control.setSignals({echo.signal});
     QCOMPARE(told, QStringLiteral("Echo writes this"));
     window.plant->close();
     QVERIFY(told.startsWith(QLatin1String("Disconnected")));
@@ -291,9 +290,8 @@ void tst_ManualControl::anElementIsWrittenIntoItsArray()
     FlyingMaster master;
     QVERIFY(master.setSignalValue(QStringLiteral("vector"), QPlcValue({1.0, 2.0, 3.0})));
     TestWindow window(master.address());
-    SetterTarget target;
-    target.setPlants(window.context.plants());
-    target.setSignal(SignalReference::fromString(QStringLiteral("vector[1]")));
+    SetterTarget target(window.panel.context());
+    target.setSignal(QStringLiteral("vector[1]"));
     QVERIFY(window.isReady());
     QTRY_COMPARE(target.actualNumber(), 2.0);
     target.sendOnce(7.0);

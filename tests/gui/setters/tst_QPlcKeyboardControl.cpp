@@ -352,7 +352,7 @@ void tst_QPlcKeyboardControl::withoutPlantOrKeysThePanelIsCalm()
     QVERIFY(showPanel(&panel, &context, {}));
     QVERIFY(labelsOf(&panel).contains(QStringLiteral("No keys yet")));
     panel.applySettings(keySettings());
-    QVERIFY(labelsOf(&panel).contains(QStringLiteral("There is no signal 'echo' now")));
+    QVERIFY(labelsOf(&panel).contains(QStringLiteral("There is no signal 'echo' at the moment")));
     QTest::keyClick(&panel, Qt::Key_Left);
     QVERIFY(!panel.grab().isNull());
 }

@@ -449,7 +449,7 @@ void tst_QPlcSetter::aRefusalIsShown()
     field->selectAll();
     QTest::keyClicks(field, QStringLiteral("1e30"));  // no integer
     QTest::keyClick(field, Qt::Key_Return);
-    QVERIFY(labelsOf(&setter).contains(QStringLiteral("is no value of this signal")));
+    QVERIFY(labelsOf(&setter).contains(QStringLiteral("is not a value of this signal")));
     field->selectAll();
     TestWindow other(master.address(), QStringLiteral("Other"));
     QVERIFY(other.isReady());
@@ -489,7 +489,7 @@ void tst_QPlcSetter::withoutPlantOrSignalThePanelIsCalm()
         QVERIFY(showPanel(&setter, &context, {{"style", style}}));
         QVERIFY(labelsOf(&setter).contains(QStringLiteral("No signal yet")));
         setter.applySettings(settingsOf(echo, QString(style)));
-        QVERIFY(labelsOf(&setter).contains(QStringLiteral("There is no signal 'echo' now")));
+        QVERIFY(labelsOf(&setter).contains(QStringLiteral("There is no signal 'echo' at the moment")));
         QTest::keyClick(setter.focusProxy(), Qt::Key_Space);
         QTest::keyClick(setter.focusProxy(), Qt::Key_Return);
     }

@@ -48,6 +48,14 @@ private Q_SLOTS:
     void aMissingSignalIsNamed();
     void nothingIsSetInALostPlant();
     void anElementKeepsTheOthers();
+    void elementsAreSetTogether();
+    void textsAndArraysAreSent();
+    void eachSentValueReachesTheMaster();
+    void controlMayBeginAtNeutral();
+    void whatIsHeldGoesToNeutral();
+    void whoTakesASignalEndsItsHold();
+    void neutralIsSetWhereTheOthersAreLost();
+    void controlMayOutliveItsPanel();
 };
 
 void tst_QPlcSignalControl::aFreeSignalIsSetWithinItsLimits()
@@ -139,6 +147,125 @@ void tst_QPlcSignalControl::anElementKeepsTheOthers()
     QTRY_VERIFY(bench.control->set(QStringLiteral("vector[1]"), 6.0));  // when the other elements are known
     QTRY_COMPARE(bench.master.signalValue(QStringLiteral("vector")).toReal(1), 6.0);
     QCOMPARE(bench.master.signalValue(QStringLiteral("vector")).toReal(0), 0.0);
+}
+
+void tst_QPlcSignalControl::elementsAreSetTogether()
+{
+    const auto element = [](int place) { return QStringLiteral("vector[%1]").arg(place); };
+    Bench bench({element(0), element(2)});
+    QTRY_VERIFY(bench.control->set({{element(0), 1.0}, {element(2), 3.0}}));  // when the other one is known
+    QTRY_COMPARE(bench.master.signalValue(QStringLiteral("vector")), QPlcValue({1.0, 0.0, 3.0}));
+    QVERIFY(!bench.control->set({{element(0), 5.0}, {echo, 1.0}}));  // all or none
+    QVERIFY(bench.control->set({{element(0), 7.0}, {element(2), 8.0}}));
+    QTRY_COMPARE(bench.master.signalValue(QStringLiteral("vector")), QPlcValue({7.0, 0.0, 8.0}));
+}
+
+void tst_QPlcSignalControl::textsAndArraysAreSent()
+{
+    const QString vector = QStringLiteral("vector");
+    Bench bench({vector, setpoint});
+    QTRY_COMPARE(bench.control->state(), Control::Free);
+    QVERIFY(bench.control->send(vector, QPlcValue({4.0, 5.0, 6.0})));
+    QTRY_COMPARE(bench.master.signalValue(vector), QPlcValue({4.0, 5.0, 6.0}));
+    QVERIFY(bench.control->send(setpoint, QPlcValue(99)));
+    QTRY_COMPARE(bench.master.valueOf(setpoint), 10.0);
+    QVERIFY(!bench.control->send(setpoint, QPlcValue("fast")));
+    QVERIFY(bench.control->send(vector, QPlcValue(1.0)));
+    QTRY_COMPARE(bench.master.signalValue(vector), QPlcValue({1.0, 1.0, 1.0}));
+    QVERIFY(!bench.control->send(echo, QPlcValue(1.0)));
+    QVERIFY(!bench.control->send(setpoint, QPlcValue()));
+}
+
+void tst_QPlcSignalControl::eachSentValueReachesTheMaster()
+{
+    Bench bench({setpoint});
+    QTRY_COMPARE(bench.control->state(), Control::Free);
+    for (int i = 1; i <= 5; ++i)
+        QVERIFY(bench.control->send(setpoint, QPlcValue(double(i))));
+    QTRY_COMPARE(bench.window.done.size(), 5);
+    QTRY_COMPARE(bench.master.valueOf(setpoint), 5.0);
+    QVERIFY(bench.control->set(setpoint, 6.0));
+    QVERIFY(bench.control->set(setpoint, 7.0));              // waits
+    QVERIFY(bench.control->send(setpoint, QPlcValue(8.0)));  // behind it
+    QTRY_COMPARE(bench.window.done.size(), 8);
+    QTRY_COMPARE(bench.master.valueOf(setpoint), 8.0);
+}
+
+void tst_QPlcSignalControl::controlMayBeginAtNeutral()
+{
+    Bench bench({echo});
+    QTRY_VERIFY(bench.control->mayTake());
+    QTRY_VERIFY(bench.master.valueOf(echo) > 10.0);
+    bench.control->setBeginning(Control::Neutral);
+    bench.control->take();
+    QTRY_COMPARE(bench.control->state(), Control::Mine);
+    QTRY_COMPARE(bench.master.valueOf(echo), 0.0);
+    QVERIFY(bench.control->neutralText().startsWith(QStringLiteral("echo 0")));
+    QCOMPARE(bench.control->plantNames(), QString());
+}
+
+void tst_QPlcSignalControl::whatIsHeldGoesToNeutral()
+{
+    Bench bench({setpoint});
+    QTRY_COMPARE(bench.control->state(), Control::Free);
+    QTRY_VERIFY(bench.window.plant->hasLeases());
+    QVERIFY(bench.control->hold(setpoint, 4.0));
+    QVERIFY(bench.control->isHolding());
+    QTRY_VERIFY(bench.window.isMine(setpoint));
+    QTRY_COMPARE(bench.master.valueOf(setpoint), 4.0);
+    QVERIFY(bench.control->hold(setpoint, 5.0));
+    QTRY_COMPARE(bench.master.valueOf(setpoint), 5.0);
+    bench.control->letGo();
+    QVERIFY(!bench.control->isHolding());
+    QTRY_COMPARE(bench.master.valueOf(setpoint), 0.0);
+    QTRY_VERIFY(!bench.window.isMine(setpoint));
+    QVERIFY(!bench.control->hold(echo, 1.0));
+}
+
+void tst_QPlcSignalControl::whoTakesASignalEndsItsHold()
+{
+    Bench bench({setpoint});
+    TestWindow other(bench.master.address(), QStringLiteral("Other window"));
+    QVERIFY(other.isReady());
+    QTRY_COMPARE(bench.control->state(), Control::Free);
+    const QSignalSpy lost(bench.control.get(), &Control::holdLost);
+    QVERIFY(bench.control->hold(setpoint, 4.0));
+    QTRY_VERIFY(bench.window.isMine(setpoint));
+    other.plant->takeLease({setpoint}, {{setpoint, 2.0}}, qplc::Plant::AlsoFromOthers);
+    QTRY_COMPARE(lost.size(), 1);
+    QVERIFY(!bench.control->isHolding());
+    bench.control->letGo();
+    QTRY_COMPARE(bench.master.valueOf(setpoint), 2.0);
+}
+
+void tst_QPlcSignalControl::neutralIsSetWhereTheOthersAreLost()
+{
+    Bench bench({echo, setpoint});
+    TestWindow other(bench.master.address(), QStringLiteral("Other window"));
+    QVERIFY(other.isReady());
+    QTRY_VERIFY(bench.control->mayTake());
+    bench.control->take();
+    QTRY_COMPARE(bench.control->state(), Control::Mine);
+    QVERIFY(bench.control->set({{echo, -3.0}, {setpoint, 2.0}}));
+    QTRY_COMPARE(bench.master.valueOf(setpoint), 2.0);
+    other.plant->takeLease({setpoint}, {}, qplc::Plant::AlsoFromOthers);
+    QTRY_COMPARE(bench.control->state(), Control::Other);
+    bench.control->setNeutral();
+    QTRY_COMPARE(bench.master.valueOf(echo), 0.0);
+    QCOMPARE(bench.master.valueOf(setpoint), 2.0);  // is the other person's
+}
+
+void tst_QPlcSignalControl::controlMayOutliveItsPanel()
+{
+    Bench bench({echo});
+    QTRY_VERIFY(bench.control->mayTake());
+    bench.control->setKeepsControl(true);
+    bench.control->take();
+    QTRY_COMPARE(bench.control->state(), Control::Mine);
+    QVERIFY(bench.control->set(echo, -7.0));
+    bench.control.reset();
+    QTRY_COMPARE(bench.master.valueOf(echo), -7.0);
+    QVERIFY(bench.window.isMine(echo));
 }
 
 QTEST_MAIN(tst_QPlcSignalControl)

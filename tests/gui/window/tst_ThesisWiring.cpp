@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "NodeFixtures.h"
+#include "gui/panel/WindowContext.h"
 #include "gui/window/ConnectStrip.h"
 #include "gui/window/StateStepper.h"
 
@@ -146,6 +147,7 @@ private Q_SLOTS:
     void theWiringOfTheThesisFlies();
     void aRefusedConnectionIsSeenInTheWindow();
     void aWiredPlantHasTheNameThatItsProgramSays();
+    void aTableThatIsReadLaterIsThatOfTheWiredPlant();
 };
 
 void tst_ThesisWiring::theWiringOfTheThesisFlies()
@@ -235,6 +237,22 @@ void tst_ThesisWiring::aWiredPlantHasTheNameThatItsProgramSays()
     window.connectedToMaster();
     window.connectedToMaster();
     QCOMPARE(window.plants(), QStringList{QStringLiteral("winch")});
+}
+
+void tst_ThesisWiring::aTableThatIsReadLaterIsThatOfTheWiredPlant()
+{
+    QPlcSignalIndexTable::setCurrent(testTable());
+    QPlcControlCenter window;
+    window.connectedToMaster();
+    const Plant *plant = window.context()->plants()->selected();
+    QVERIFY(plant->table().contains(QStringLiteral("count")));
+    const QSignalSpy changed(&window, &QPlcControlCenter::inputSignalIndicesChanged);
+    QPlcSignalIndexTable::setCurrent(QPlcSignalTable::fromIni("[speed]\ntype = Real64\n"));
+    window.signalIndexTableChanged();
+    QCOMPARE(changed.size(), 1);
+    QCOMPARE(window.inputSignalIndices().size(), 1);
+    QVERIFY(plant->table().contains(QStringLiteral("speed")));
+    QPlcSignalIndexTable::setCurrent(testTable());
 }
 
 int main(int argc, char **argv)

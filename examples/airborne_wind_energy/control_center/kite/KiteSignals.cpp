@@ -66,7 +66,7 @@ QString KiteSignals::problem() const
     if (!position)
         return tr("There is no signal %1 at the moment: choose another one in the settings.").arg(m_settings.position);
     if (!isVector(position))
-        return tr("%1 is no position: a signal with three elements is needed.").arg(m_settings.position);
+        return tr("%1 is not a position: choose a signal with three elements.").arg(m_settings.position);
     if (!m_context->shownTime() && position.quality.kind() == QPlcQuality::Invalid)
         return tr("Waiting for the first values of %1.").arg(m_settings.position);
     return {};
