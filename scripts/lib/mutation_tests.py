@@ -129,7 +129,8 @@ class Batch:
         return self.program.run([f.name for f in functions], seconds, cpu, **variables)
 
     def judge(self, verdict, **variables):
-        """Adds to the verdict. What fails twice kills; a function that fails once is unsteady, and the others go on."""
+        """Adds to the verdict. What fails twice kills, if it passes without the mutant now;
+        else it is unsteady, and the others go on."""
         rest = self.functions
         while rest and not verdict.killer:
             outcome = self.run(rest, **variables)
@@ -139,9 +140,10 @@ class Batch:
             names = [f.name for f in rest]
             known = outcome.failed in names  # others may have passed behind it, before the program was ended
             first = names.index(outcome.failed) if known else max((names.index(name) for name in outcome.passed if name in names), default=0)
-            again = self.run(rest[first:first + 1] if known else rest[first:], **variables)
+            suspects = rest[first:first + 1] if known else rest[first:]
+            again = self.run(suspects, **variables)
             verdict.cpu += again.cpu
-            if again.how != "passed":
+            if again.how != "passed" and self.run(suspects, QTPLC_MUTANT="0").how == "passed":
                 verdict.killer, verdict.how = f"{self.program.name} {again.failed or outcome.failed or names[first]}", again.how
             else:
                 verdict.unsteady.append(f"{self.program.name} {names[first]}")

@@ -136,11 +136,13 @@ PROGRAM = """#!/bin/sh
 [ "$1" = -functions ] && { printf 'fine()\\nbroken()\\nstuck()\\nunsteady()\\nendless()\\nbusy()\\n'; exit; }
 for function in "$@"; do
     echo $function >> ran
+    [ "$QTPLC_MUTANT" = 0 ] && [ $function != busyMachine ] && { echo "PASS   : tst_Sample::$function()"; continue; }
     case $function in
     broken) echo "FAIL!  : tst_Sample::broken() Compared values are not the same"; continue ;;
     stuck) echo "FAIL!  : tst_Sample::stuck() Compared values are not the same"; sleep 100 ;;
     unsteady) [ -f again ] || { touch again; echo "FAIL!  : tst_Sample::unsteady(row) 'late'"; exit 1; } ;;
     endless) sleep 100 ;;
+    busyMachine) echo "FAIL!  : tst_Sample::busyMachine() 'in time'"; exit 1 ;;
     busy) while :; do :; done ;;
     esac
     echo "PASS   : tst_Sample::$function()"
@@ -161,7 +163,7 @@ class Tests(unittest.TestCase):
     def judged(self, *names, seconds=0.0, cpu=0.0):
         functions = [tests.Function(self.program, name, seconds, cpu, b"\1") for name in names]
         verdict = tests.Verdict()
-        tests.Batch(functions).judge(verdict)
+        tests.Batch(functions).judge(verdict, QTPLC_MUTANT="1")
         return verdict
 
     def ran(self):
@@ -176,7 +178,11 @@ class Tests(unittest.TestCase):
     def test_the_first_failure_ends_the_program_and_is_repeated(self):
         verdict = self.judged("fine", "stuck", "endless")
         self.assertEqual((verdict.killer, verdict.how), ("tst_Sample stuck", "failed"))
-        self.assertEqual(self.ran(), ["fine", "stuck", "stuck"])
+        self.assertEqual(self.ran(), ["fine", "stuck", "stuck", "stuck"])  # with the mutant, again, and without it
+
+    def test_what_fails_without_the_mutant_too_kills_nothing(self):
+        verdict = self.judged("busyMachine", "fine")
+        self.assertEqual((verdict.killer, verdict.unsteady), ("", ["tst_Sample busyMachine"]))
 
     def test_what_passes_behind_the_first_failure_excuses_nothing(self):
         self.assertEqual(self.judged("broken", "fine").killer, "tst_Sample broken")
