@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "protocol/ControlFrame.h"
+#include "protocol/JsonNames.h"
 
 #include "Vectors.h"
 
@@ -29,6 +30,7 @@ private Q_SLOTS:
     void sendsNothingThatNoReceiverTakes();
     void handsOutTheRestOfTheStream();
     void manyMessagesInOnePieceAreFast();
+    void doubledNamesAreFoundWhateverIsBetween();
     void flippedBitsNeverCrash();
     void randomBytesNeverCrash();
 };
@@ -262,6 +264,15 @@ void tst_ControlFrame::manyMessagesInOnePieceAreFast()
     ControlFrameReader reader;
     reader.append(rawFrame(QPlcMessage::Stop, QByteArray()).repeated(count));
     QCOMPARE(takeAll(reader).size(), count);
+}
+
+void tst_ControlFrame::doubledNamesAreFoundWhateverIsBetween()
+{
+    for (const char *space : {"", " ", "\t", "\n", "\r", " \n\t\r "}) {
+        const QByteArray name = QByteArray("\"a\"") + space + ":" + space + "1";
+        QCOMPARE(qplc::doubledJsonName("{" + name + "," + space + name + "}"), std::make_optional(QString("a")));
+        QCOMPARE(qplc::doubledJsonName("{" + name + "}"), std::nullopt);
+    }
 }
 
 void tst_ControlFrame::flippedBitsNeverCrash()
