@@ -74,7 +74,7 @@ void tst_PlantFeed::valuesArriveWithThoseThatAreLeftOut()
 {
     FedPlant fed;
     fed.feed().started();
-    fed.feed().take(cycles(5, 3), begin);
+    fed.feed().add(cycles(5, 3), begin);
     const PlantList::Signal count = fed.plants.resolve(SignalReference::fromString(QStringLiteral("count")));
     const SignalStore *store = fed.plant->store();
     QCOMPARE(store->endRow() - store->firstRow(), SignalStore::Row(3));
@@ -107,7 +107,7 @@ void tst_PlantFeed::rowsFollowTheWallClock()
         const double wall = batch * pause + double(random >> 24) / 64.0;  // 0 ... 4 ms late
         const int due = int(wall / period);
         if (due > taken)
-            fed.feed().take(cycles(taken, due - taken), begin + PlantValues::Time(wall * millisecond));
+            fed.feed().add(cycles(taken, due - taken), begin + PlantValues::Time(wall * millisecond));
         taken = due;
     }
     const SignalStore *store = fed.plant->store();
@@ -125,9 +125,9 @@ void tst_PlantFeed::aPauseInterruptsTheCurves()
 {
     FedPlant fed;
     fed.feed().started();
-    fed.feed().take(cycles(0, 2), begin);
-    fed.feed().take(cycles(2, 2), begin + 20 * millisecond);
-    fed.feed().take(cycles(4, 2), begin + 3000 * millisecond);
+    fed.feed().add(cycles(0, 2), begin);
+    fed.feed().add(cycles(2, 2), begin + 20 * millisecond);
+    fed.feed().add(cycles(4, 2), begin + 3000 * millisecond);
     const SignalStore *store = fed.plant->store();
     QVERIFY(!store->beginsAnew(2));
     QVERIFY(store->beginsAnew(4));
@@ -168,11 +168,11 @@ void tst_PlantFeed::theStoreStaysOverLostConnections()
 {
     FedPlant fed;
     fed.feed().started();
-    fed.feed().take(cycles(0, 2), begin);
+    fed.feed().add(cycles(0, 2), begin);
     const SignalStore *store = fed.plant->store();
     fed.feed().disconnected();
     fed.feed().connected(testTable());
-    fed.feed().take(cycles(2, 2), begin + 100 * millisecond);
+    fed.feed().add(cycles(2, 2), begin + 100 * millisecond);
     QCOMPARE(fed.plant->store(), store);
     QCOMPARE(int(store->endRow()), 4);
     QVERIFY(store->beginsAnew(2));
